@@ -1,0 +1,115 @@
+//! The command line: flags and subcommands.
+
+use std::path::PathBuf;
+
+use clap::{Args, Parser, Subcommand};
+
+/// Turns measured optical constants into Fresnel reflectance functions that a shader can afford.
+///
+/// Without a subcommand it generates: shaders for every target, method and material asked for.
+#[derive(Debug, Parser)]
+#[command(
+    name = "fresnel-gen",
+    version,
+    args_conflicts_with_subcommands = true,
+    after_help = "Examples:\n  fresnel-gen --target gles\n  fresnel-gen --material gold_thesis --method conductor_exact --target hlsl -o -\n  fresnel-gen --material my_metal.toml --target wgsl --out-dir shaders\n  fresnel-gen --check\n\nExit codes: 0 done; 1 findings (--check found a difference); 2 usage or input error; 3 something is missing on this machine."
+)]
+pub struct Cli {
+    /// What to do; generation where nothing is named.
+    #[command(subcommand)]
+    pub command: Option<Command>,
+    /// The flags of generation.
+    #[command(flatten)]
+    pub generate: Generate,
+}
+
+/// The subcommands.
+#[derive(Debug, Subcommand)]
+pub enum Command {
+    /// List the methods, or show one with formula, source, domain and promised errors
+    Methods(Listing),
+    /// List the materials, or show one with its data and source
+    Materials(Listing),
+    /// List the targets, or show one with its validators
+    Targets(Listing),
+    /// Compute the thesis's tables, figures and claims anew, and print both side by side
+    Reproduce(Reproduce),
+}
+
+/// The flags of generation.
+#[derive(Args, Debug)]
+pub struct Generate {
+    /// Output language: wgsl, gles, hlsl, spirv, msl, glsl, or all (the first four)
+    #[arg(long, value_delimiter = ',', value_name = "NAME")]
+    pub target: Vec<String>,
+    /// Method; see `fresnel-gen methods` [default: all]
+    #[arg(long, value_delimiter = ',', value_name = "NAME")]
+    pub method: Vec<String>,
+    /// Material to specialise to: a name, the path of a material file, all or none [default: the thesis's four]
+    #[arg(long, value_delimiter = ',', value_name = "NAME")]
+    pub material: Vec<String>,
+    /// What the light comes from: a transparent material's name or file [default: air]
+    #[arg(long, value_name = "NAME")]
+    pub medium: Option<String>,
+    /// Goes before every function's name
+    #[arg(long, value_name = "TEXT", default_value = "fresnel_")]
+    pub prefix: String,
+    /// Degrees at which the corrected Schlick meets the exact law [default: 81.37, cos 0.15]
+    #[arg(long, value_name = "DEGREES", allow_negative_numbers = true)]
+    pub matching_angle: Option<f64>,
+    /// Folder for the generated tree
+    #[arg(long, value_name = "DIR", default_value = "shaders-generated")]
+    pub out_dir: PathBuf,
+    /// Write the functions asked for into this one file, or `-` for stdout; one target [default: wgsl]
+    #[arg(short = 'o', value_name = "FILE", conflicts_with_all = ["check", "list", "out_dir"])]
+    pub output: Option<PathBuf>,
+    /// Write nothing: compare with the folder, print a diff, exit 1 where it differs
+    #[arg(long, conflicts_with_all = ["list", "depfile"])]
+    pub check: bool,
+    /// Write the run's outputs and inputs as a Makefile rule
+    #[arg(long, value_name = "FILE")]
+    pub depfile: Option<PathBuf>,
+    /// Print the names of the files that would be written, and write nothing
+    #[arg(long)]
+    pub list: bool,
+    /// No summary on success
+    #[arg(long, short)]
+    pub quiet: bool,
+}
+
+/// The flags of `methods`, `materials` and `targets`.
+#[derive(Args, Debug)]
+pub struct Listing {
+    /// `list`, or `show NAME`
+    #[command(subcommand)]
+    pub what: Option<ListingCommand>,
+    /// Write the report as JSON to this file, or `-` for stdout
+    #[arg(long, value_name = "FILE", global = true)]
+    pub json: Option<PathBuf>,
+}
+
+/// What a listing does.
+#[derive(Debug, Subcommand)]
+pub enum ListingCommand {
+    /// Name, summary and source of each
+    List,
+    /// All that is known of one
+    Show {
+        /// Its name; for materials also the path of a material file
+        name: String,
+    },
+}
+
+/// The flags of `reproduce`.
+#[derive(Args, Debug)]
+#[command(after_help = "Example:\n  fresnel-gen reproduce table2 --json -")]
+pub struct Reproduce {
+    /// Only this: table1, table2, table3, table7, claims or figures [default: all]
+    pub table: Option<String>,
+    /// Folder for the figures
+    #[arg(long, value_name = "DIR", default_value = "reproduced")]
+    pub out_dir: PathBuf,
+    /// Write the report as JSON to this file, or `-` for stdout
+    #[arg(long, value_name = "FILE")]
+    pub json: Option<PathBuf>,
+}

@@ -1,0 +1,75 @@
+//! An artifact: one output file in memory, and the rules that its path obeys.
+
+use std::collections::BTreeSet;
+
+use serde_json::Value;
+use sha2::{Digest, Sha256};
+
+use super::error::Error;
+use super::manifest;
+
+/// One output file, and what the manifest says about it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Artifact {
+    /// Where it goes: relative to the output folder, parts separated by `/`.
+    pub path: String,
+    /// The file's content.
+    pub bytes: Vec<u8>,
+    /// The target that it is written for.
+    pub target: String,
+    /// The method of a library file.
+    pub method: Option<String>,
+    /// The material of a specialised file.
+    pub material: Option<String>,
+    /// Functions, parameters, errors: an object that goes into the manifest as it is.
+    pub detail: Value,
+}
+
+/// Refuses paths that leave the output folder, meet each other, or take the manifest's place.
+pub fn check_paths(artifacts: &[Artifact]) -> Result<(), Error> {
+    let mut seen = BTreeSet::new();
+    for artifact in artifacts {
+        let path = artifact.path.as_str();
+        check_path(path).map_err(|reason| fault(path, reason))?;
+        if path == manifest::FILE {
+            return Err(fault(path, "it is the manifest's own name"));
+        }
+        if !seen.insert(path) {
+            return Err(fault(path, "two artifacts have it"));
+        }
+    }
+    match seen.iter().find(|path| is_folder_of_another(path, &seen)) {
+        Some(path) => Err(fault(path, "another artifact needs it as a folder")),
+        None => Ok(()),
+    }
+}
+
+/// Is this a path that stays inside its folder, on every system?
+pub fn check_path(path: &str) -> Result<(), &'static str> {
+    if path.contains(|c: char| c == '\\' || c == ':' || c.is_control()) {
+        return Err("`\\`, `:` and control characters are not allowed");
+    }
+    if path.split('/').any(|part| matches!(part, "" | "." | "..")) {
+        return Err("it must be relative, without empty parts, `.` and `..`");
+    }
+    Ok(())
+}
+
+/// The SHA-256 of these bytes in hexadecimal digits.
+pub fn sha256(bytes: &[u8]) -> String {
+    let digest = Sha256::digest(bytes);
+    digest.iter().map(|byte| format!("{byte:02x}")).collect()
+}
+
+fn is_folder_of_another(path: &str, all: &BTreeSet<&str>) -> bool {
+    let inside = format!("{path}/");
+    let next = all.range(inside.as_str()..).next();
+    next.is_some_and(|next| next.starts_with(&inside))
+}
+
+fn fault(path: &str, reason: &str) -> Error {
+    Error::Path {
+        path: path.to_string(),
+        reason: reason.to_string(),
+    }
+}

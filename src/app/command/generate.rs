@@ -1,0 +1,158 @@
+//! `fresnel-gen` without a subcommand: generate, check, list.
+
+use std::path::{Path, PathBuf};
+
+use crate::app::args::Generate;
+use crate::app::error::Error;
+use crate::app::generate::{Generated, Kept, generate_beside, generate_single};
+use crate::app::manifest::{self, Manifest};
+use crate::app::request::Request;
+use crate::app::source::{materials, source};
+use crate::app::tree::{Plan, plan};
+use crate::app::write::{write, write_file};
+use crate::app::{check, depfile, folder};
+
+use super::Output;
+
+/// Generates.
+pub fn run(flags: &Generate) -> Result<Output, Error> {
+    let request = request(flags)?;
+    if let Some(file) = &flags.output {
+        return single(flags, &request, file);
+    }
+    let out_dir = if flags.out_dir.as_os_str().is_empty() {
+        Path::new(".")
+    } else {
+        &flags.out_dir
+    };
+    let generated = generate_beside(&request, &kept(out_dir)?)?;
+    if flags.list {
+        let names: Vec<String> = generated
+            .artifacts
+            .iter()
+            .map(|artifact| artifact.path.clone() + "\n")
+            .collect();
+        return Ok(Output {
+            stdout: names.concat().into_bytes(),
+            ..Output::default()
+        });
+    }
+    let plan = plan(
+        out_dir,
+        &generated.artifacts,
+        &generated.scope,
+        &generated.provenance,
+    )?;
+    if flags.check {
+        return Ok(checked(flags, &plan));
+    }
+    written(flags, &generated, &plan, out_dir)
+}
+
+fn request(flags: &Generate) -> Result<Request, Error> {
+    Ok(Request {
+        targets: flags.target.clone(),
+        methods: flags.method.clone(),
+        materials: materials(&flags.material)?,
+        medium: flags.medium.as_deref().map(source).transpose()?,
+        prefix: flags.prefix.clone(),
+        matching_angle: flags.matching_angle,
+    })
+}
+
+fn single(flags: &Generate, request: &Request, file: &Path) -> Result<Output, Error> {
+    let bytes = generate_single(request)?;
+    let mut output = Output::default();
+    if file == Path::new("-") {
+        output.stdout = bytes;
+    } else {
+        write_file(file, &bytes)?;
+    }
+    write_depfile(flags, &[file.display().to_string()])?;
+    Ok(output)
+}
+
+fn checked(flags: &Generate, plan: &Plan) -> Output {
+    let (text, drift) = check::report(plan);
+    let mut output = Output {
+        stdout: text.into_bytes(),
+        code: u8::from(drift),
+        ..Output::default()
+    };
+    if drift && !flags.quiet {
+        output.remarks.push(
+            "the folder differs from what this run would write; run without --check to write it"
+                .into(),
+        );
+    }
+    output
+}
+
+fn written(
+    flags: &Generate,
+    generated: &Generated,
+    plan: &Plan,
+    out_dir: &Path,
+) -> Result<Output, Error> {
+    let counts = write(plan)?;
+    let outputs: Vec<String> = generated
+        .artifacts
+        .iter()
+        .map(|artifact| out_dir.join(&artifact.path).display().to_string())
+        .collect();
+    write_depfile(flags, &outputs)?;
+    let mut output = Output::default();
+    for path in &plan.foreign {
+        output
+            .remarks
+            .push(format!("left alone: {path} was not written by fresnel-gen"));
+    }
+    if !flags.quiet {
+        let folder = out_dir.display();
+        output.remarks.push(format!(
+            "{folder}: {} written, {} unchanged, {} removed",
+            counts.written, counts.unchanged, counts.removed
+        ));
+    }
+    Ok(output)
+}
+
+fn write_depfile(flags: &Generate, outputs: &[String]) -> Result<(), Error> {
+    let Some(file) = &flags.depfile else {
+        return Ok(());
+    };
+    let named = flags.material.iter().chain(&flags.medium);
+    let inputs: Vec<String> = named
+        .filter(|name| crate::app::source::is_path(name))
+        .cloned()
+        .collect();
+    write_file(file, depfile::depfile(outputs, &inputs).as_bytes())?;
+    Ok(())
+}
+
+/// The methods that the folder's material files hold, by its manifest.
+fn kept(out_dir: &Path) -> Result<Kept, Error> {
+    let path: PathBuf = out_dir.join(manifest::FILE);
+    let Some(text) = folder::read(&path)? else {
+        return Ok(Kept::new());
+    };
+    let mut kept = Kept::new();
+    for entry in Manifest::parse(&path, &text)?.files {
+        let Some(material) = entry.material else {
+            continue;
+        };
+        let functions = entry
+            .detail
+            .get("functions")
+            .and_then(|value| value.as_array())
+            .cloned()
+            .unwrap_or_default();
+        let methods = functions
+            .iter()
+            .filter_map(|function| Some(function.get("method")?.as_str()?.to_owned()));
+        kept.entry((entry.target, material))
+            .or_default()
+            .extend(methods);
+    }
+    Ok(kept)
+}

@@ -1,0 +1,58 @@
+//! The commands: from parsed flags to what a run prints and how it ends. Printing itself is `main.rs`'s.
+
+mod generate;
+mod listing;
+mod reproduce;
+
+use std::path::Path;
+
+use super::args::{Cli, Command};
+use super::error::Error;
+use super::write::write_file;
+
+/// What a run leaves: text for stdout, remarks for stderr, the exit code.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Output {
+    /// For stdout.
+    pub stdout: Vec<u8>,
+    /// For stderr, a line each.
+    pub remarks: Vec<String>,
+    /// 0 done, 1 findings.
+    pub code: u8,
+}
+
+/// Long work says how far it is: done, of how many, what.
+pub type Progress<'a> = &'a mut dyn FnMut(u64, u64, &str);
+
+/// Runs what the command line asks for.
+pub fn run(cli: &Cli, progress: Progress) -> Result<Output, Error> {
+    match &cli.command {
+        None => generate::run(&cli.generate),
+        Some(Command::Methods(listing)) => listing::methods(listing),
+        Some(Command::Materials(listing)) => listing::materials(listing),
+        Some(Command::Targets(listing)) => listing::targets(listing),
+        Some(Command::Reproduce(flags)) => reproduce::run(flags, progress),
+    }
+}
+
+/// A report as text, or as JSON where that was asked for. JSON on stdout stands there alone.
+fn report(text: String, json: &serde_json::Value, file: Option<&Path>) -> Result<Output, Error> {
+    let Some(file) = file else {
+        return Ok(Output {
+            stdout: text.into_bytes(),
+            ..Output::default()
+        });
+    };
+    let json = serde_json::to_string_pretty(json).expect("a report has only text keys") + "\n";
+    if file == Path::new("-") {
+        return Ok(Output {
+            stdout: json.into_bytes(),
+            ..Output::default()
+        });
+    }
+    write_file(file, json.as_bytes())?;
+    Ok(Output {
+        stdout: text.into_bytes(),
+        ..Output::default()
+    })
+}

@@ -1,0 +1,124 @@
+//! What can go wrong between the artifacts and the disk: each error names the path, the fault and the way out.
+
+use std::io;
+use std::path::PathBuf;
+
+use thiserror::Error;
+
+use crate::{emit, materials};
+
+/// A fault of the output folder, or of what was to be put there.
+#[derive(Debug, Error)]
+pub enum Error {
+    /// A name that does not exist.
+    #[error("there is no {kind} `{name}`{}; there are {all}", offered(nearest))]
+    Unknown {
+        /// What was named: `method`, `material`, `target`.
+        kind: &'static str,
+        /// The name.
+        name: String,
+        /// The nearest right names.
+        nearest: Vec<String>,
+        /// All of them.
+        all: String,
+    },
+    /// A request that contradicts itself or cannot be met.
+    #[error("{what}")]
+    Usage {
+        /// What was wrong, and what is allowed.
+        what: String,
+    },
+    /// A file that the user named cannot be read.
+    #[error("cannot read {}: {source}", path.display())]
+    Input {
+        /// The file.
+        path: PathBuf,
+        /// The system's reason.
+        source: io::Error,
+    },
+    /// A material file with a fault.
+    #[error(transparent)]
+    Material(#[from] materials::Fault),
+    /// Emission refused.
+    #[error(transparent)]
+    Emit(#[from] emit::Error),
+    /// An artifact's path cannot be used.
+    #[error("the output path `{path}` cannot be used: {reason}")]
+    Path {
+        /// The path, relative to the output folder.
+        path: String,
+        /// The rule that it breaks.
+        reason: String,
+    },
+    /// `manifest.json` is not JSON, or not our manifest.
+    #[error(
+        "{}:{line}:{column}: {reason}; nothing was written. Restore the file, or delete it and run again, or choose another --out-dir", path.display()
+    )]
+    Manifest {
+        /// The manifest.
+        path: PathBuf,
+        /// The line of the fault, from 1.
+        line: usize,
+        /// The column of the fault, from 1.
+        column: usize,
+        /// What was found and what was expected.
+        reason: String,
+    },
+    /// A file or folder is there and cannot be read.
+    #[error("cannot read {}: {source}; nothing was written. Check its permissions and that each folder above it is a folder", path.display())]
+    Read {
+        /// The file or folder.
+        path: PathBuf,
+        /// The system's reason.
+        source: io::Error,
+    },
+    /// A folder, pipe or device stands where a file is to be written.
+    #[error("{} is not a file; nothing was written. Move it away or choose another output", path.display())]
+    NotAFile {
+        /// What stands there.
+        path: PathBuf,
+    },
+    /// A file could not be prepared: no old file was touched.
+    #[error("cannot write {}: {source}; no file was changed. Check permissions and free space, then run again", path.display())]
+    Stage {
+        /// The file that was to be written.
+        path: PathBuf,
+        /// The system's reason.
+        source: io::Error,
+    },
+    /// All files were prepared, but one could not be put in place.
+    #[error("cannot replace {}: {source}; {replaced} of {pending} files are new, the others are as before. Close whatever holds the file and run again", path.display())]
+    Replace {
+        /// The file that was to be replaced.
+        path: PathBuf,
+        /// The system's reason.
+        source: io::Error,
+        /// How many files were replaced before this one.
+        replaced: usize,
+        /// How many files were to be replaced.
+        pending: usize,
+    },
+    /// All files were written, but an orphan could not be removed.
+    #[error("cannot remove {}, which is no longer generated: {source}; all other files are written. Remove it by hand", path.display())]
+    Remove {
+        /// The orphan.
+        path: PathBuf,
+        /// The system's reason.
+        source: io::Error,
+    },
+}
+
+fn offered(nearest: &[String]) -> String {
+    if nearest.is_empty() {
+        String::new()
+    } else {
+        format!(" (did you mean {}?)", nearest.join(" or "))
+    }
+}
+
+impl Error {
+    /// The exit code of the program: all of these are faults of the input.
+    pub fn exit_code(&self) -> u8 {
+        2
+    }
+}

@@ -1,0 +1,27 @@
+//! The program without its terminal: a request becomes artifacts, artifacts meet an output folder.
+//!
+//! The way through: [`Request`] → [`generate()`] → artifacts → [`tree::plan`] → [`check::report`] or [`write::write`].
+//! Only [`tree`], [`folder`] and [`write`](mod@write) touch the disk, and only [`write`](mod@write) changes it.
+
+#[cfg(feature = "cli")]
+pub mod args;
+pub mod artifact;
+pub mod check;
+#[cfg(feature = "cli")]
+pub mod command;
+pub mod depfile;
+pub mod error;
+pub mod folder;
+pub mod generate;
+pub mod manifest;
+pub mod names;
+pub mod request;
+pub mod scope;
+pub mod source;
+pub mod tree;
+pub mod write;
+
+pub use artifact::Artifact;
+pub use error::Error;
+pub use generate::{Generated, generate};
+pub use request::{Materials, Request, Source};

@@ -1,0 +1,30 @@
+//! Names that are not there: what is, and which of it comes nearest.
+
+use super::error::Error;
+
+/// How alike two names must be (Jaro-Winkler, 0 to 1) before one is offered for the other.
+const ALIKE: f64 = 0.7;
+/// How many are offered at most.
+const OFFERED: usize = 3;
+
+/// The error for a name that does not exist.
+pub fn unknown(kind: &'static str, name: &str, all: &[&str]) -> Error {
+    Error::Unknown {
+        kind,
+        name: name.to_owned(),
+        nearest: nearest(name, all),
+        all: all.join(", "),
+    }
+}
+
+/// The names most like this one, best first.
+pub fn nearest(name: &str, all: &[&str]) -> Vec<String> {
+    let score = |other: &str| strsim::jaro_winkler(&name.to_lowercase(), other);
+    let mut alike: Vec<&str> = all
+        .iter()
+        .copied()
+        .filter(|other| score(other) >= ALIKE)
+        .collect();
+    alike.sort_by(|a, b| score(b).total_cmp(&score(a)));
+    alike.into_iter().take(OFFERED).map(str::to_owned).collect()
+}

@@ -1,0 +1,263 @@
+//! The request: what a run is asked for, with names resolved. The input of the pure library.
+
+use crate::emit::{Naming, Subject};
+use crate::fit::Derivation;
+use crate::materials::{self, Channels, Material, THESIS_NM};
+use crate::methods::{self, Method};
+use crate::targets::{self, Target};
+
+use super::error::Error;
+use super::names::unknown;
+
+/// What to generate. `Request::default()` is what the program does without flags.
+#[derive(Clone, Debug)]
+pub struct Request {
+    /// Names of targets; `all` is those that are written by default. Empty: the same.
+    pub targets: Vec<String>,
+    /// Names of methods, or `all`. Empty: all, and materials get their usual three.
+    pub methods: Vec<String>,
+    /// Which materials functions are specialised to.
+    pub materials: Materials,
+    /// The medium that the light comes from; air where there is none.
+    pub medium: Option<Source>,
+    /// Goes before every function's name.
+    pub prefix: String,
+    /// Degrees at which λ of the corrected method is matched, between 0 and 90; the thesis's 81.37 where not given.
+    pub matching_angle: Option<f64>,
+}
+
+impl Default for Request {
+    fn default() -> Request {
+        Request {
+            targets: Vec::new(),
+            methods: Vec::new(),
+            materials: Materials::Default,
+            medium: None,
+            prefix: Naming::default().prefix,
+            matching_angle: None,
+        }
+    }
+}
+
+/// The choice of materials.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Materials {
+    /// The four of the thesis.
+    Default,
+    /// None: the library only.
+    None,
+    /// The whole catalogue.
+    All,
+    /// These.
+    These(Vec<Source>),
+}
+
+/// Where a material comes from.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Source {
+    /// The catalogue.
+    Named(String),
+    /// A user's file, already read.
+    File {
+        /// Its name, for messages and for the command in headers.
+        file: String,
+        /// Its text.
+        text: String,
+    },
+}
+
+/// The materials of a run without `--material`.
+pub const DEFAULT_MATERIALS: [&str; 4] = [
+    "diamond_thesis",
+    "gold_thesis",
+    "platinum_thesis",
+    "water_thesis",
+];
+
+/// A source read: the material, and what it was read from.
+#[derive(Clone, Debug)]
+pub struct Loaded {
+    /// The record.
+    pub material: Material,
+    /// What a user types to name it again.
+    pub argument: String,
+    /// Its file's text.
+    pub text: String,
+}
+
+impl Request {
+    /// The targets, sorted, each once.
+    pub fn resolved_targets(&self) -> Result<Vec<&'static Target>, Error> {
+        let by_default = || {
+            targets::ALL
+                .iter()
+                .filter(|target| target.by_default)
+                .copied()
+        };
+        let all: Vec<&str> = targets::ALL
+            .iter()
+            .map(|target| target.name)
+            .chain(["all"])
+            .collect();
+        let mut chosen: Vec<&Target> = Vec::new();
+        for name in &self.targets {
+            match targets::find(name) {
+                Some(target) => chosen.push(target),
+                None if name == "all" => chosen.extend(by_default()),
+                None => return Err(unknown("target", name, &all)),
+            }
+        }
+        if self.targets.is_empty() {
+            chosen.extend(by_default());
+        }
+        chosen.sort_by_key(|target| target.name);
+        chosen.dedup_by_key(|target| target.name);
+        Ok(chosen)
+    }
+
+    /// The methods asked for by name, sorted, each once; nothing where all are meant.
+    pub fn resolved_methods(&self) -> Result<Option<Vec<&'static Method>>, Error> {
+        let all: Vec<&str> = methods::ALL
+            .iter()
+            .map(|method| method.name)
+            .chain(["all"])
+            .collect();
+        let mut chosen: Vec<&Method> = Vec::new();
+        for name in self.methods.iter().filter(|name| *name != "all") {
+            chosen.push(methods::find(name).ok_or_else(|| unknown("method", name, &all))?);
+        }
+        chosen.sort_by_key(|method| method.name);
+        chosen.dedup_by_key(|method| method.name);
+        Ok(
+            (!self.methods.is_empty() && !self.methods.iter().any(|name| name == "all"))
+                .then_some(chosen),
+        )
+    }
+
+    /// The materials read, and each in the medium.
+    pub fn subjects(&self) -> Result<Vec<(Subject, String)>, Error> {
+        let medium = self.medium.as_ref().map(load).transpose()?;
+        let sources: Vec<Source> = match &self.materials {
+            Materials::Default => DEFAULT_MATERIALS
+                .iter()
+                .map(|name| Source::Named((*name).to_owned()))
+                .collect(),
+            Materials::None => Vec::new(),
+            Materials::All => materials::names()
+                .into_iter()
+                .map(|name| Source::Named(name.to_owned()))
+                .collect(),
+            Materials::These(sources) => sources.clone(),
+        };
+        let mut subjects = sources
+            .iter()
+            .map(|source| {
+                let loaded = load(source)?;
+                let text = loaded.text.clone();
+                Ok((self.subject(loaded, medium.as_ref())?, text))
+            })
+            .collect::<Result<Vec<_>, Error>>()?;
+        subjects.sort_by(|(a, _), (b, _)| a.name.cmp(&b.name));
+        if let Some(pair) = subjects
+            .windows(2)
+            .find(|pair| pair[0].0.name == pair[1].0.name && pair[0].1 != pair[1].1)
+        {
+            let name = &pair[0].0.name;
+            return Err(Error::Usage {
+                what: format!("two different materials are named `{name}`; rename one in its file"),
+            });
+        }
+        subjects.dedup_by(|(a, _), (b, _)| a.name == b.name);
+        Ok(subjects)
+    }
+
+    /// How functions are named.
+    pub fn naming(&self) -> Naming {
+        Naming {
+            prefix: self.prefix.clone(),
+        }
+    }
+
+    fn derivation(&self) -> Result<Derivation, Error> {
+        match self.matching_angle {
+            None => Ok(Derivation::default()),
+            Some(degrees) if degrees > 0.0 && degrees < 90.0 => Ok(Derivation {
+                matching_cos: libm::cos(degrees.to_radians()),
+            }),
+            Some(degrees) => Err(Error::Usage {
+                what: format!(
+                    "--matching-angle is {degrees}; it must lie between 0 and 90 degrees"
+                ),
+            }),
+        }
+    }
+
+    fn subject(&self, loaded: Loaded, medium: Option<&Loaded>) -> Result<Subject, Error> {
+        let own = channels(&loaded.material)?;
+        let (name, channels) = match medium {
+            None => (loaded.material.name.clone(), own),
+            Some(medium) => {
+                let around = channels_of_medium(&medium.material)?;
+                (
+                    format!("{}_in_{}", loaded.material.name, medium.material.name),
+                    own.relative_to(&around),
+                )
+            }
+        };
+        Ok(Subject {
+            name,
+            argument: loaded.argument,
+            material: loaded.material,
+            medium: medium.map(|medium| medium.material.clone()),
+            wavelengths_nm: THESIS_NM,
+            channels,
+            derivation: self.derivation()?,
+        })
+    }
+}
+
+fn channels(material: &Material) -> Result<Channels, Error> {
+    material
+        .channels(THESIS_NM)
+        .map_err(|what| Error::Usage { what })
+}
+
+fn channels_of_medium(medium: &Material) -> Result<Channels, Error> {
+    let channels = channels(medium)?;
+    if channels.is_transparent() {
+        return Ok(channels);
+    }
+    let what = format!(
+        "the medium `{}` absorbs (k > 0); a medium must be transparent",
+        medium.name
+    );
+    Err(Error::Usage { what })
+}
+
+/// Reads a material from the catalogue, or from a text at hand.
+pub fn load(source: &Source) -> Result<Loaded, Error> {
+    match source {
+        Source::Named(name) => {
+            let found = materials::find(name).zip(materials::source(name));
+            let all: Vec<&str> = materials::names()
+                .into_iter()
+                .chain(["all", "none"])
+                .collect();
+            let (material, text) = found.ok_or_else(|| unknown("material", name, &all))?;
+            Ok(Loaded {
+                material: material?,
+                argument: name.clone(),
+                text: text.to_owned(),
+            })
+        }
+        Source::File { file, text } => {
+            let material = Material::parse(file, text)?;
+            let argument = file.rsplit(['/', '\\']).next().unwrap_or(file).to_owned();
+            Ok(Loaded {
+                material,
+                argument,
+                text: text.clone(),
+            })
+        }
+    }
+}

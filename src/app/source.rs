@@ -1,0 +1,73 @@
+//! Reading what a user names: a material of the catalogue, or a file.
+
+use std::fs;
+use std::io;
+use std::path::Path;
+
+use crate::materials::{self, Fault};
+
+use super::error::Error;
+use super::request::{Materials, Source};
+
+/// A material file has at most this many bytes: 10⁶ rows fit.
+const LARGEST: u64 = 64 << 20;
+
+/// The choice that `--material` makes.
+pub fn materials(names: &[String]) -> Result<Materials, Error> {
+    match names {
+        [] => Ok(Materials::Default),
+        [one] if one == "all" => Ok(Materials::All),
+        [one] if one == "none" => Ok(Materials::None),
+        many => Ok(Materials::These(
+            many.iter()
+                .map(|name| source(name))
+                .collect::<Result<_, _>>()?,
+        )),
+    }
+}
+
+/// A name of the catalogue, or a file read.
+pub fn source(name: &str) -> Result<Source, Error> {
+    if materials::source(name).is_some() || !is_path(name) {
+        return Ok(Source::Named(name.to_owned()));
+    }
+    Ok(Source::File {
+        file: name.to_owned(),
+        text: read(name)?,
+    })
+}
+
+/// Whether a name means a file: names of the catalogue have neither dots nor slashes.
+pub fn is_path(name: &str) -> bool {
+    name.contains(['.', '/', '\\'])
+}
+
+fn read(name: &str) -> Result<String, Error> {
+    let path = Path::new(name);
+    let fail = |source: io::Error| Error::Input {
+        path: path.to_owned(),
+        source,
+    };
+    let about = fs::metadata(path).map_err(fail)?;
+    if !about.is_file() {
+        return Err(fail(io::Error::other("it is not an ordinary file")));
+    }
+    if about.len() > LARGEST {
+        return Err(fail(io::Error::other(format!(
+            "it has {} bytes; at most {LARGEST} are read",
+            about.len()
+        ))));
+    }
+    let bytes = fs::read(path).map_err(fail)?;
+    String::from_utf8(bytes).map_err(|error| {
+        let good = &error.as_bytes()[..error.utf8_error().valid_up_to()];
+        let line = good.iter().filter(|byte| **byte == b'\n').count() + 1;
+        let column = good.iter().rev().take_while(|byte| **byte != b'\n').count() + 1;
+        Error::Material(Fault {
+            file: name.to_owned(),
+            line,
+            column,
+            what: "the file is not UTF-8 text".to_owned(),
+        })
+    })
+}

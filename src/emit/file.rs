@@ -1,0 +1,173 @@
+//! Files: which functions stand together, under which name, with which details for the manifest.
+
+use serde_json::{Value, json};
+
+use crate::fit::Measured;
+use crate::methods::Method;
+use crate::targets::{Finish, Page, Target};
+
+use super::error::Error;
+use super::function::{Emitted, Subject};
+use super::page::{Request, comments, entry_point, guard, render};
+use super::{header, print};
+
+/// A file of one target, in memory.
+#[derive(Clone, Debug, PartialEq)]
+pub struct File {
+    /// Below the target's folder, with `/`.
+    pub name: String,
+    /// Its bytes.
+    pub bytes: Vec<u8>,
+    /// What the manifest says of it.
+    pub detail: Value,
+}
+
+/// The library files of a method: one, or one for each page of a target that writes modules.
+pub fn library(
+    target: &'static Target,
+    method: &'static Method,
+    functions: &[Emitted],
+    command: &str,
+) -> Result<Vec<File>, Error> {
+    check_names(target, functions)?;
+    let head = comments(target, &header::library(method, functions, command));
+    let modules = target.finish == Finish::Spirv;
+    let plain: Vec<(Vec<String>, Emitted)> = functions
+        .iter()
+        .filter(|f| !modules || f.form != "scalar")
+        .map(|f| (Vec::new(), f.clone()))
+        .collect();
+    let stem = functions[0].name.clone();
+    target
+        .pages
+        .iter()
+        .map(|page| file(target, page, &stem, &stem, &head, &plain, command))
+        .collect()
+}
+
+/// The files of a material: its functions together.
+pub fn material(
+    target: &'static Target,
+    subject: &Subject,
+    functions: &[Emitted],
+    command: &str,
+) -> Result<Vec<File>, Error> {
+    check_names(target, functions)?;
+    let head = comments(target, &header::material(subject, command));
+    let documented: Vec<(Vec<String>, Emitted)> = functions
+        .iter()
+        .map(|f| (comments(target, &header::specialised(f)), f.clone()))
+        .collect();
+    let stem = format!("materials/{}", subject.name);
+    let unique = format!("{}_material", functions[0].name);
+    target
+        .pages
+        .iter()
+        .map(|page| file(target, page, &stem, &unique, &head, &documented, command))
+        .collect()
+}
+
+/// One function with a short head, to be pasted: no guard, no includes.
+pub fn single(
+    target: &'static Target,
+    emitted: &Emitted,
+    subject: Option<&Subject>,
+    command: &str,
+) -> Result<Vec<u8>, Error> {
+    check_names(target, std::slice::from_ref(emitted))?;
+    let head = comments(target, &header::brief(emitted, subject, command));
+    let functions = [(Vec::new(), emitted.clone())];
+    let request = Request {
+        target,
+        page: &target.pages[0],
+        header: &head,
+        guard: "",
+        functions: &functions,
+        file: &emitted.name,
+    };
+    render(&request)
+}
+
+fn file(
+    target: &'static Target,
+    page: &'static Page,
+    stem: &str,
+    unique: &str,
+    head: &[String],
+    functions: &[(Vec<String>, Emitted)],
+    command: &str,
+) -> Result<File, Error> {
+    let name = format!("{stem}{}.{}", page.suffix, target.extension);
+    let guard = guard(target, unique);
+    let bytes = render(&Request {
+        target,
+        page,
+        header: head,
+        guard: &guard,
+        functions,
+        file: &name,
+    })?;
+    let details: Vec<Value> = functions
+        .iter()
+        .enumerate()
+        .map(|(i, (_, f))| detail(target, i, f))
+        .collect();
+    Ok(File {
+        name,
+        bytes,
+        detail: json!({ "command": command, "functions": details }),
+    })
+}
+
+/// What the manifest says of a function.
+fn detail(target: &Target, index: usize, emitted: &Emitted) -> Value {
+    let mut value = json!({
+        "name": emitted.name,
+        "method": emitted.method.name,
+        "form": emitted.form,
+        "signature": print::head(&emitted.function, &emitted.name, &target.spelling),
+        "operations": emitted.function.work(),
+        "code_error": match &emitted.code_ulp {
+            Measured::Yes(ulp) => json!({ "max_ulp": ulp }),
+            Measured::No(reason) => json!({ "max_ulp": null, "reason": reason }),
+        },
+        "licence": "CC0-1.0",
+    });
+    if let Some(error) = &emitted.model_error {
+        value["model_error"] = json!(error);
+    }
+    if target.finish == Finish::Spirv {
+        value["entry_point"] = json!(entry_point(index, emitted));
+        value["uniforms"] = uniforms(emitted);
+    }
+    value
+}
+
+/// The uniform block of a module: name, type and offset in bytes of each run-time argument, by WGSL's layout, which
+/// is std140's for these types.
+fn uniforms(emitted: &Emitted) -> Value {
+    let mut end = 0usize;
+    let rows = emitted.function.params.iter().skip(1).map(|param| {
+        let (size, align, ty) = if param.ty.channels() == 3 {
+            (12, 16, "vec3")
+        } else {
+            (4, 4, "float")
+        };
+        let offset = end.next_multiple_of(align);
+        end = offset + size;
+        json!({ "name": param.name, "type": ty, "offset": offset })
+    });
+    Value::Array(rows.collect())
+}
+
+fn check_names(target: &Target, functions: &[Emitted]) -> Result<(), Error> {
+    for emitted in functions {
+        let fault = crate::ir::identifier_fault(&emitted.name)
+            .map(|why| format!("`{}` is no name: {why}", emitted.name))
+            .or_else(|| target.name_fault(&emitted.name));
+        if let Some(what) = fault {
+            return Err(Error::Name { what });
+        }
+    }
+    Ok(())
+}

@@ -1,0 +1,139 @@
+//! A function ready to be printed: its name, its graph, and what is known of its errors.
+
+use crate::fit::{Derivation, Measured, ModelError, model_error, values};
+use crate::ir::Checked;
+use crate::materials::{Channels, Kind, Material};
+use crate::methods::{Class, Method};
+
+use super::bounds::Bounds;
+use super::error::Error;
+
+/// How functions are named.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Naming {
+    /// Goes before every function's name.
+    pub prefix: String,
+}
+
+impl Default for Naming {
+    fn default() -> Naming {
+        Naming {
+            prefix: "fresnel_".to_owned(),
+        }
+    }
+}
+
+/// A function with all that its page says about it.
+#[derive(Clone, Debug)]
+pub struct Emitted {
+    /// Its name in the language.
+    pub name: String,
+    /// Its method.
+    pub method: &'static Method,
+    /// `library`, `scalar` or `specialised`.
+    pub form: &'static str,
+    /// The graph.
+    pub function: Checked,
+    /// Method against exact law, for a specialised function.
+    pub model_error: Option<ModelError>,
+    /// f32 against f64, in ulp.
+    pub code_ulp: Measured<f64>,
+}
+
+/// A material in its medium, as functions are specialised to it.
+#[derive(Clone, Debug)]
+pub struct Subject {
+    /// The material's name, with `_in_` and the medium's where there is one.
+    pub name: String,
+    /// What a user types to get it again: a name, or a file's name.
+    pub argument: String,
+    /// The record.
+    pub material: Material,
+    /// The medium's record, where it is not air.
+    pub medium: Option<Material>,
+    /// The wavelengths of red, green and blue.
+    pub wavelengths_nm: [f64; 3],
+    /// The relative index per channel.
+    pub channels: Channels,
+    /// How inputs are derived from it.
+    pub derivation: Derivation,
+}
+
+impl Subject {
+    /// The exact method of its class.
+    pub fn exact_method(&self) -> &'static str {
+        let glass = self.material.kind == Kind::Dielectric && self.channels.is_transparent();
+        if glass {
+            "dielectric_exact"
+        } else {
+            "conductor_exact"
+        }
+    }
+
+    /// The methods that its file holds unless others are asked for: the exact one first.
+    pub fn default_methods(&self) -> [&'static str; 3] {
+        [self.exact_method(), "schlick_rescaled", "schlick_corrected"]
+    }
+}
+
+/// The functions of a method's library file.
+pub fn library_functions(method: &'static Method, naming: &Naming) -> Result<Vec<Emitted>, Error> {
+    let forms: &[(bool, &str, &'static str)] =
+        &[(false, "", "library"), (true, "_scalar", "scalar")];
+    let wanted = forms
+        .iter()
+        .take(if method.has_scalar_form() { 2 } else { 1 });
+    wanted
+        .map(|(scalar, suffix, form)| {
+            let function = method.function(*scalar).map_err(|fault| Error::Generated {
+                file: method.name.to_owned(),
+                what: fault.to_string(),
+            })?;
+            Ok(Emitted {
+                name: format!("{}{}{suffix}", naming.prefix, method.name),
+                method,
+                form,
+                function,
+                model_error: None,
+                code_ulp: Measured::Yes(method.claims.code_ulp),
+            })
+        })
+        .collect()
+}
+
+/// A method specialised to a material.
+pub fn specialised_function(
+    method: &'static Method,
+    subject: &Subject,
+    naming: &Naming,
+    bounds: &Bounds,
+) -> Result<Emitted, Error> {
+    let refused = |what: String| Error::Specialise {
+        method: method.name.to_owned(),
+        material: subject.name.clone(),
+        what,
+    };
+    if method.class == Class::Dielectric && !subject.channels.is_transparent() {
+        return Err(refused(
+            "it describes dielectrics only, and this absorbs (k > 0)".to_owned(),
+        ));
+    }
+    let constants = values(method, &subject.channels, &subject.derivation);
+    let function = method
+        .specialise(&constants)
+        .map_err(|fault| refused(fault.to_string()))?;
+    let own = method.name == subject.exact_method();
+    let suffix = if own {
+        String::new()
+    } else {
+        format!("_{}", method.name)
+    };
+    Ok(Emitted {
+        name: format!("{}{}{suffix}", naming.prefix, subject.name),
+        method,
+        form: "specialised",
+        model_error: Some(model_error(&function, &subject.channels)),
+        code_ulp: bounds.of(&function),
+        function,
+    })
+}

@@ -1,0 +1,21 @@
+//! Emission: method × target × material → the bytes of files. Pure: nothing here touches the disk.
+//!
+//! The graph is printed by one printer ([`print`]) from the target's table, a Tera template puts the page around it,
+//! and SPIR-V is lowered from WGSL by naga. Library files hold functions only.
+
+mod bounds;
+mod error;
+mod file;
+mod function;
+mod header;
+mod page;
+mod print;
+mod wgsl;
+
+pub use bounds::{Bounds, fingerprint};
+pub use error::Error;
+pub use file::{File, library, material, single};
+pub use function::{Emitted, Naming, Subject, library_functions, specialised_function};
+
+/// The version of naga that lowers SPIR-V, pinned in Cargo.toml: another one gives other bytes.
+pub const NAGA_VERSION: &str = "30.0.1";

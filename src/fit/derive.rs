@@ -1,0 +1,118 @@
+//! What a method's inputs are for a material: each derived from n and k per channel, by the input's name.
+
+use std::collections::BTreeMap;
+
+use crate::materials::Channels;
+use crate::methods::{Method, Values};
+use crate::optics;
+
+use super::lambda::{THESIS_MATCHING_COS, lambda};
+
+/// The choices that a derivation leaves open.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Derivation {
+    /// cos θ at which λ of the corrected method meets the exact law.
+    pub matching_cos: f64,
+}
+
+impl Default for Derivation {
+    fn default() -> Derivation {
+        Derivation {
+            matching_cos: THESIS_MATCHING_COS,
+        }
+    }
+}
+
+/// cos θ of the second colour of F82 and its relatives: 1/7, where c (1-c)⁶ has its maximum.
+const COS_82: f64 = 1.0 / 7.0;
+/// cos θ at which the empirical term meets the exact law: 60 degrees.
+const COS_60: f64 = 0.5;
+
+/// The values of all inputs of a method. A λ that does not exist is 0, which drops the term.
+pub fn values(method: &Method, channels: &Channels, derivation: &Derivation) -> Values {
+    let value = |name: &str| value(name, channels, derivation);
+    method
+        .inputs
+        .iter()
+        .map(|input| (input.name.to_owned(), value(input.name)))
+        .collect::<BTreeMap<_, _>>()
+}
+
+fn value(name: &str, channels: &Channels, derivation: &Derivation) -> [f64; 3] {
+    let each = |f: &dyn Fn(f64, f64) -> f64| [0, 1, 2].map(|i| f(channels.n[i], channels.k[i]));
+    match name {
+        "eta" | "n" => channels.n,
+        "k" => channels.k,
+        "f0" | "reflectivity" => each(&f0),
+        "f90" => [1.0; 3],
+        "f82" => each(&|n, k| exact(n, k, COS_82)),
+        "tint" => each(&|n, k| exact(n, k, COS_82) / schlick(f0(n, k), COS_82)),
+        "edge_tint" => each(&edge_tint),
+        "bias" => [mean(each(&f0)); 3],
+        "scale" => [1.0 - mean(each(&f0)); 3],
+        "power" => [power(mean(each(&f0)), mean(each(&|n, k| exact(n, k, COS_60)))); 3],
+        "exponent" => [5.0; 3],
+        "lambda" => each(&|n, k| lambda(n, k, derivation.matching_cos).unwrap_or(0.0)),
+        _ => unreachable!("every input of the vocabulary has its derivation; a test asks for all"),
+    }
+}
+
+fn f0(n: f64, k: f64) -> f64 {
+    optics::normal_incidence(n, k)
+}
+
+fn exact(n: f64, k: f64, cos_theta: f64) -> f64 {
+    optics::conductor(n, k, cos_theta).unpolarised()
+}
+
+fn schlick(f0: f64, cos_theta: f64) -> f64 {
+    f0 + (1.0 - f0) * (1.0 - cos_theta).powi(5)
+}
+
+fn mean(channels: [f64; 3]) -> f64 {
+    channels.iter().sum::<f64>() / 3.0
+}
+
+/// Gulbrandsen's g: where n lies between the most (0) and the least (1) that F0 allows.
+fn edge_tint(n: f64, k: f64) -> f64 {
+    let r = f0(n, k);
+    let (most, least) = ((1.0 + r.sqrt()) / (1.0 - r.sqrt()), (1.0 - r) / (1.0 + r));
+    if most == least {
+        0.0
+    } else {
+        ((most - n) / (most - least)).clamp(0.0, 1.0)
+    }
+}
+
+/// The power with which bias + (1 - bias) (1-c)^power meets `target` at 60 degrees; Schlick's 5 where none does.
+fn power(bias: f64, target: f64) -> f64 {
+    let share = (target - bias) / (1.0 - bias);
+    if share > 0.0 && share < 1.0 {
+        libm::log2(share) / libm::log2(1.0 - COS_60)
+    } else {
+        5.0
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::methods::ALL;
+
+    #[test]
+    fn every_input_of_every_method_has_a_derivation() {
+        let channels = Channels {
+            n: [0.23, 0.57, 1.39],
+            k: [3.94, 2.18, 1.72],
+        };
+        for method in ALL {
+            let values = values(method, &channels, &Derivation::default());
+            assert_eq!(values.len(), method.inputs.len());
+            assert!(
+                values.values().flatten().all(|value| value.is_finite()),
+                "{}: {values:?}",
+                method.name
+            );
+        }
+    }
+}

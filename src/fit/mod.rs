@@ -1,0 +1,14 @@
+//! Fits: what a method needs to know of a material, and how wrong it then is.
+//!
+//! Derived inputs (F0, F82, the artist's pair, λ of the corrected method), and the model error of a method against the
+//! exact law. Minimax fits and the search for shapes have their place here.
+
+mod derive;
+mod lambda;
+mod measured;
+mod model_error;
+
+pub use derive::{Derivation, values};
+pub use lambda::{THESIS_MATCHING_COS, lambda};
+pub use measured::Measured;
+pub use model_error::{ModelError, model_error, thesis_error, truth};

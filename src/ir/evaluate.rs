@@ -1,0 +1,172 @@
+//! Evaluation of a function in any kind of number, node by node over whole columns of inputs.
+
+use crate::num::{Num, Truth};
+
+use super::graph::{Function, Node};
+use super::op::{Op, Payload};
+
+/// A number for each point: the same for all, or one each.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Column<T> {
+    /// The same at every point.
+    Same(T),
+    /// One for each point.
+    Each(Vec<T>),
+}
+
+/// What a node gives, over all points.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Value<N> {
+    /// One number a point.
+    Scalar(Column<N>),
+    /// Three numbers a point.
+    Rgb([Column<N>; 3]),
+    /// One answer a point.
+    Bool(Column<Truth>),
+}
+
+impl<T: Copy> Column<T> {
+    /// The value at a point.
+    pub fn at(&self, point: usize) -> T {
+        match self {
+            Column::Same(value) => *value,
+            Column::Each(values) => values[point],
+        }
+    }
+
+    /// Whether this holds at every point.
+    pub fn all(&self, holds: impl Fn(T) -> bool) -> bool {
+        match self {
+            Column::Same(value) => holds(*value),
+            Column::Each(values) => values.iter().all(|value| holds(*value)),
+        }
+    }
+
+    /// Whether this holds at every point for this and another column.
+    pub fn all_with(&self, other: &Column<T>, holds: impl Fn(T, T) -> bool) -> bool {
+        self.zip(other, holds).all(|answer| answer)
+    }
+
+    fn map<U>(&self, f: impl Fn(T) -> U) -> Column<U> {
+        match self {
+            Column::Same(value) => Column::Same(f(*value)),
+            Column::Each(values) => Column::Each(values.iter().map(|v| f(*v)).collect()),
+        }
+    }
+
+    fn zip<U: Copy, V>(&self, other: &Column<U>, f: impl Fn(T, U) -> V) -> Column<V> {
+        match (self, other) {
+            (_, Column::Same(b)) => self.map(|a| f(a, *b)),
+            (Column::Same(a), _) => other.map(|b| f(*a, b)),
+            (Column::Each(a), Column::Each(b)) => {
+                Column::Each(a.iter().zip(b).map(|(a, b)| f(*a, *b)).collect())
+            }
+        }
+    }
+}
+
+impl<N: Num> Value<N> {
+    /// The same scalar at every point.
+    pub fn scalar(value: f64) -> Value<N> {
+        Value::Scalar(Column::Same(N::from_f64(value)))
+    }
+
+    /// The same colour at every point.
+    pub fn rgb(value: [f64; 3]) -> Value<N> {
+        Value::Rgb(value.map(|channel| Column::Same(N::from_f64(channel))))
+    }
+
+    /// A scalar for each point.
+    pub fn each(values: Vec<N>) -> Value<N> {
+        Value::Scalar(Column::Each(values))
+    }
+
+    /// One channel; a scalar is the same in all three.
+    pub fn channel(&self, index: usize) -> &Column<N> {
+        match self {
+            Value::Scalar(column) => column,
+            Value::Rgb(columns) => &columns[index],
+            Value::Bool(_) => {
+                unreachable!("a checked function gives no Bool where a number is wanted")
+            }
+        }
+    }
+
+    /// The three channels at a point.
+    pub fn at(&self, point: usize) -> [N; 3] {
+        [0, 1, 2].map(|index| self.channel(index).at(point))
+    }
+
+    fn map(&self, f: impl Fn(N) -> N) -> Value<N> {
+        match self {
+            Value::Rgb(columns) => Value::Rgb([0, 1, 2].map(|i| columns[i].map(&f))),
+            _ => Value::Scalar(self.channel(0).map(f)),
+        }
+    }
+
+    fn zip(&self, other: &Value<N>, f: impl Fn(N, N) -> N) -> Value<N> {
+        if let (Value::Scalar(a), Value::Scalar(b)) = (self, other) {
+            return Value::Scalar(a.zip(b, f));
+        }
+        Value::Rgb([0, 1, 2].map(|i| self.channel(i).zip(other.channel(i), &f)))
+    }
+
+    fn choose(&self, yes: &Value<N>, no: &Value<N>) -> Value<N> {
+        let Value::Bool(condition) = self else {
+            unreachable!("a checked select starts with a Bool")
+        };
+        let pairs = yes.channel(0).zip(no.channel(0), |yes, no| (yes, no));
+        Value::Scalar(condition.zip(&pairs, |truth, (yes, no)| match truth {
+            Truth::Yes => yes,
+            Truth::No => no,
+            Truth::Either => yes.either(no),
+        }))
+    }
+}
+
+/// Evaluates a function for these arguments, in the order of its parameters.
+pub fn evaluate<N: Num>(function: &Function, arguments: &[Value<N>]) -> Value<N> {
+    let mut values = evaluate_nodes(function, arguments);
+    values.swap_remove(function.result)
+}
+
+/// The values of all nodes, for whoever wants to know more than the result.
+pub fn evaluate_nodes<N: Num>(function: &Function, arguments: &[Value<N>]) -> Vec<Value<N>> {
+    let mut values: Vec<Value<N>> = Vec::with_capacity(function.nodes.len());
+    for node in &function.nodes {
+        let value = apply(node, &values, arguments);
+        values.push(value);
+    }
+    values
+}
+
+/// What each operation does.
+pub(super) fn apply<N: Num>(node: &Node, values: &[Value<N>], arguments: &[Value<N>]) -> Value<N> {
+    let arg = |i: usize| &values[node.args[i]];
+    match (node.op, node.payload) {
+        (Op::Number, Payload::Number(value)) => Value::scalar(value),
+        (Op::Param, Payload::Index(index)) => arguments[index].clone(),
+        (Op::Channel, Payload::Index(index)) => Value::Scalar(arg(0).channel(index).clone()),
+        (Op::Splat, _) => Value::Rgb([0, 1, 2].map(|_| arg(0).channel(0).clone())),
+        (Op::Compose, _) => Value::Rgb([0, 1, 2].map(|i| arg(i).channel(0).clone())),
+        (Op::Add, _) => arg(0).zip(arg(1), |a, b| a + b),
+        (Op::Sub, _) => arg(0).zip(arg(1), |a, b| a - b),
+        (Op::Mul, _) if node.args[0] == node.args[1] => arg(0).map(N::squared),
+        (Op::Mul, _) => arg(0).zip(arg(1), |a, b| a * b),
+        (Op::Div, _) => arg(0).zip(arg(1), |a, b| a / b),
+        (Op::Neg, _) => arg(0).map(|a| -a),
+        (Op::Abs, _) => arg(0).map(N::abs),
+        (Op::Min, _) => arg(0).zip(arg(1), N::min),
+        (Op::Max, _) => arg(0).zip(arg(1), N::max),
+        (Op::Saturate, _) => arg(0).map(N::saturate),
+        (Op::Sqrt, _) => arg(0).map(N::sqrt),
+        (Op::InverseSqrt, _) => arg(0).map(N::inverse_sqrt),
+        (Op::Exp2, _) => arg(0).map(N::exp2),
+        (Op::Log2, _) => arg(0).map(N::log2),
+        (Op::Less, _) => Value::Bool(arg(0).channel(0).zip(arg(1).channel(0), N::less)),
+        (Op::Select, _) => arg(0).choose(arg(1), arg(2)),
+        (Op::Number | Op::Param | Op::Channel, _) => {
+            unreachable!("a checked node carries its payload")
+        }
+    }
+}

@@ -1,0 +1,35 @@
+//! The intermediate representation: a pure dataflow graph, small enough to be printed in any shading language.
+//!
+//! # Rules of evaluation
+//! 1. A [`Function`] is a list of [`Node`]s; a node's arguments stand before it. There is no control flow, no
+//!    loop, no array, no memory and no call: every node is evaluated once, in order, for every input.
+//! 2. Values are a `Scalar`, an `Rgb` (three channels that never mix, except by `channel` and `compose`) or a
+//!    `Bool`. `add`, `sub`, `mul` and `div` accept a scalar beside a colour and apply it to each channel;
+//!    all other operations want alike types.
+//! 3. A choice is a scalar `select`: both sides are evaluated, one is taken. It is never a mix, because a mix
+//!    with 0 turns infinity into NaN.
+//! 4. A comparison with a NaN is false; `min` and `max` with a NaN give the other operand; `saturate` of a NaN
+//!    gives 0. Targets may promise less, so no formula may rely on this.
+//! 5. Numbers are f64 in the graph. Each evaluation rounds them to its own precision first, and then rounds
+//!    after every operation.
+//! 6. Integer powers are written as multiplications. A real power is `exp2(p * log2(max(x, 2^-126)))`
+//!    ([`Expr::power`]), never `pow`.
+//! 7. A labelled node becomes a named variable with its reason as a comment, in every language.
+//!
+//! The room knows no method, no target and no material.
+
+mod build;
+mod check;
+mod evaluate;
+mod fold;
+mod graph;
+mod op;
+mod text;
+
+pub use build::{Builder, Expr};
+pub use check::{Checked, Fault, RULES, check, identifier_fault};
+pub use evaluate::{Column, Value, evaluate, evaluate_nodes};
+pub use fold::{fold, specialise};
+pub use graph::{Function, Label, Node, NodeId, Param, Ty};
+pub use op::{OPS, Op, OpInfo, Payload, Signature};
+pub use text::{ParseError, parse, print};

@@ -1,0 +1,199 @@
+//! The operations, one table: name, signature, meaning, work. All code reads this table except evaluation and
+//! spelling, which say what an operation does and how a language writes it.
+
+use super::graph::Ty;
+
+/// An operation. Its row in [`OPS`] says the rest.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+#[allow(missing_docs)] // each is documented by its row in the table
+pub enum Op {
+    Number,
+    Param,
+    Splat,
+    Compose,
+    Channel,
+    Add,
+    Sub,
+    Mul,
+    Div,
+    Neg,
+    Abs,
+    Min,
+    Max,
+    Saturate,
+    Sqrt,
+    InverseSqrt,
+    Exp2,
+    Log2,
+    Less,
+    Select,
+}
+
+/// What a node carries beside its arguments.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Payload {
+    /// Nothing.
+    None,
+    /// The value of a `number`.
+    Number(f64),
+    /// Which parameter (`param`) or which channel (`channel`, 0 to 2).
+    Index(usize),
+}
+
+/// Which argument types an operation takes, and what it gives.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Signature {
+    /// `() -> scalar`, with a number as payload.
+    Number,
+    /// `() -> the parameter's type`, with an index as payload.
+    Param,
+    /// `(scalar) -> rgb`
+    Splat,
+    /// `(scalar, scalar, scalar) -> rgb`
+    Compose,
+    /// `(rgb) -> scalar`, with a channel as payload.
+    Channel,
+    /// `(T) -> T`, T scalar or rgb.
+    Unary,
+    /// `(T, T) -> T`, T scalar or rgb.
+    Alike,
+    /// `(scalar or rgb, scalar or rgb) -> rgb` if either is rgb, else scalar.
+    Mixed,
+    /// `(scalar, scalar) -> bool`
+    Compare,
+    /// `(bool, scalar, scalar) -> scalar`
+    Choose,
+}
+
+impl Signature {
+    /// How many arguments.
+    pub fn arity(self) -> usize {
+        match self {
+            Signature::Number | Signature::Param => 0,
+            Signature::Splat | Signature::Channel | Signature::Unary => 1,
+            Signature::Alike | Signature::Mixed | Signature::Compare => 2,
+            Signature::Compose | Signature::Choose => 3,
+        }
+    }
+
+    /// The result type for these argument types, or nothing where they do not fit. A parameter's type is not
+    /// known here and comes back as a scalar.
+    pub fn result(self, arguments: &[Ty]) -> Option<Ty> {
+        use Ty::{Bool, Rgb, Scalar};
+        match (self, arguments) {
+            (Signature::Number | Signature::Param, []) => Some(Scalar),
+            (Signature::Splat, [Scalar]) => Some(Rgb),
+            (Signature::Compose, [Scalar, Scalar, Scalar]) => Some(Rgb),
+            (Signature::Channel, [Rgb]) => Some(Scalar),
+            (Signature::Unary, [t @ (Scalar | Rgb)]) => Some(*t),
+            (Signature::Alike, [a @ (Scalar | Rgb), b]) if a == b => Some(*a),
+            (Signature::Mixed, [Scalar, Scalar]) => Some(Scalar),
+            (Signature::Mixed, [Scalar | Rgb, Scalar | Rgb]) => Some(Rgb),
+            (Signature::Compare, [Scalar, Scalar]) => Some(Bool),
+            (Signature::Choose, [Bool, Scalar, Scalar]) => Some(Scalar),
+            _ => None,
+        }
+    }
+}
+
+/// A row of the operation table.
+#[derive(Clone, Copy, Debug)]
+pub struct OpInfo {
+    /// The operation.
+    pub op: Op,
+    /// Its name in the text form.
+    pub name: &'static str,
+    /// Its types.
+    pub signature: Signature,
+    /// Scalar operations that one channel costs: 0 for what only names or moves a value.
+    pub work: usize,
+    /// What it computes.
+    pub meaning: &'static str,
+}
+
+const fn row(
+    op: Op,
+    name: &'static str,
+    signature: Signature,
+    work: usize,
+    meaning: &'static str,
+) -> OpInfo {
+    OpInfo {
+        op,
+        name,
+        signature,
+        work,
+        meaning,
+    }
+}
+
+/// Every operation, in the order of [`Op`].
+#[rustfmt::skip]
+pub static OPS: [OpInfo; 20] = [
+    row(Op::Number,      "number",       Signature::Number,  0, "a constant"),
+    row(Op::Param,       "param",        Signature::Param,   0, "an argument of the function"),
+    row(Op::Splat,       "splat",        Signature::Splat,   0, "the same scalar in each channel"),
+    row(Op::Compose,     "compose",      Signature::Compose, 0, "a colour from three scalars"),
+    row(Op::Channel,     "channel",      Signature::Channel, 0, "one channel of a colour"),
+    row(Op::Add,         "add",          Signature::Mixed,   1, "a + b"),
+    row(Op::Sub,         "sub",          Signature::Mixed,   1, "a - b"),
+    row(Op::Mul,         "mul",          Signature::Mixed,   1, "a b"),
+    row(Op::Div,         "div",          Signature::Mixed,   1, "a / b"),
+    row(Op::Neg,         "neg",          Signature::Unary,   1, "-a"),
+    row(Op::Abs,         "abs",          Signature::Unary,   1, "|a|"),
+    row(Op::Min,         "min",          Signature::Alike,   1, "the smaller"),
+    row(Op::Max,         "max",          Signature::Alike,   1, "the larger"),
+    row(Op::Saturate,    "saturate",     Signature::Unary,   1, "a limited to [0, 1]"),
+    row(Op::Sqrt,        "sqrt",         Signature::Unary,   1, "the square root"),
+    row(Op::InverseSqrt, "inverse_sqrt", Signature::Unary,   1, "1 / the square root"),
+    row(Op::Exp2,        "exp2",         Signature::Unary,   1, "2 to the power a"),
+    row(Op::Log2,        "log2",         Signature::Unary,   1, "the logarithm to base 2"),
+    row(Op::Less,        "less",         Signature::Compare, 1, "a < b"),
+    row(Op::Select,      "select",       Signature::Choose,  1, "b where a holds, else c"),
+];
+
+impl Op {
+    /// The row of this operation.
+    pub fn info(self) -> &'static OpInfo {
+        &OPS[self as usize]
+    }
+
+    /// The operation of this name.
+    pub fn from_name(name: &str) -> Option<Op> {
+        OPS.iter().find(|row| row.name == name).map(|row| row.op)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn rows_stand_in_the_order_of_the_operations() {
+        for (index, row) in OPS.iter().enumerate() {
+            assert_eq!(row.op as usize, index, "{}", row.name);
+            assert_eq!(Op::from_name(row.name), Some(row.op));
+        }
+    }
+
+    #[test]
+    fn signatures_accept_their_types_and_no_others() {
+        use Ty::{Bool, Rgb, Scalar};
+        assert_eq!(Signature::Mixed.result(&[Scalar, Rgb]), Some(Rgb));
+        assert_eq!(Signature::Mixed.result(&[Bool, Rgb]), None);
+        assert_eq!(Signature::Alike.result(&[Scalar, Rgb]), None);
+        assert_eq!(
+            Signature::Choose.result(&[Bool, Rgb, Rgb]),
+            None,
+            "a choice is scalar"
+        );
+        for row in &OPS {
+            assert_eq!(
+                row.signature.result(&vec![Bool; row.signature.arity() + 1]),
+                None,
+                "{}",
+                row.name
+            );
+        }
+    }
+}

@@ -1,0 +1,238 @@
+//! The text form of a function: one step a line, `name = operation arguments # why`. It prints and parses, so
+//! that a test is a readable file and a bug report a paste.
+//!
+//! ```text
+//! fn schlick(cos_theta: scalar, f0: rgb) -> rgb
+//!   c = saturate cos_theta # clamped first
+//!   %0 = sub 1 c
+//!   ...
+//!   return f
+//! ```
+//! An argument is a number, the name of a parameter or step, or the `%i` of a step without a name.
+
+use std::collections::BTreeMap;
+use std::fmt::Write;
+
+use super::graph::{Function, Label, Node, NodeId, Param, Ty};
+use super::op::{Op, Payload, Signature};
+
+/// A line that does not parse.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("line {line}: {what}")]
+pub struct ParseError {
+    /// The line, from 1.
+    pub line: usize,
+    /// What was wrong, and what is allowed.
+    pub what: String,
+}
+
+/// Prints a function.
+pub fn print(function: &Function) -> String {
+    let params: Vec<String> = function
+        .params
+        .iter()
+        .map(|p| format!("{}: {}", p.name, p.ty.name()))
+        .collect();
+    let mut out = format!(
+        "fn {}({}) -> {}\n",
+        function.name,
+        params.join(", "),
+        function.ty().name()
+    );
+    let names = names(function);
+    for (id, node) in function
+        .nodes
+        .iter()
+        .enumerate()
+        .filter(|(_, node)| !node.is_leaf())
+    {
+        let mut words = vec![node.op.info().name.to_owned()];
+        if let Payload::Index(index) = node.payload {
+            words.push(index.to_string());
+        }
+        words.extend(node.args.iter().map(|a| names[*a].clone()));
+        let why = node.label.as_ref().map_or("", |label| &label.why);
+        let comment = if why.is_empty() {
+            String::new()
+        } else {
+            format!(" # {why}")
+        };
+        let _ = writeln!(out, "  {} = {}{comment}", names[id], words.join(" "));
+    }
+    let _ = writeln!(out, "  return {}", names[function.result]);
+    out
+}
+
+fn names(function: &Function) -> Vec<String> {
+    let mut unnamed = 0;
+    let mut name = |node: &Node| match (&node.label, node.payload, node.is_leaf()) {
+        (_, Payload::Number(value), _) => format!("{value:?}").trim_end_matches(".0").to_owned(),
+        (_, Payload::Index(index), true) => function.params[index].name.clone(),
+        (Some(label), _, _) => label.name.clone(),
+        (None, _, _) => {
+            unnamed += 1;
+            format!("%{}", unnamed - 1)
+        }
+    };
+    function.nodes.iter().map(&mut name).collect()
+}
+
+/// Parses a function. Types are derived; [`super::check`] looks at the rest.
+pub fn parse(text: &str) -> Result<Function, ParseError> {
+    let mut lines = text
+        .lines()
+        .enumerate()
+        .map(|(i, line)| (i + 1, line))
+        .filter(|(_, line)| !line.trim().is_empty());
+    let (line, head) = lines
+        .next()
+        .ok_or_else(|| fault(1, "an empty text; expected `fn name(...) -> type`"))?;
+    let (name, params) = parse_head(line, head)?;
+    let mut parser = Parser {
+        known: BTreeMap::new(),
+        nodes: Vec::new(),
+        params,
+    };
+    for (line, text) in lines {
+        if let Some(result) = text.trim().strip_prefix("return ") {
+            let result = parser.argument(line, result.trim())?;
+            return Ok(Function {
+                name,
+                params: parser.params,
+                nodes: parser.nodes,
+                result,
+            }
+            .compact());
+        }
+        parser.step(line, text)?;
+    }
+    Err(fault(
+        text.lines().count(),
+        "the text ends without `return`",
+    ))
+}
+
+fn fault(line: usize, what: impl Into<String>) -> ParseError {
+    ParseError {
+        line,
+        what: what.into(),
+    }
+}
+
+fn parse_head(line: usize, head: &str) -> Result<(String, Vec<Param>), ParseError> {
+    let wrong = || {
+        fault(
+            line,
+            format!("`{head}`; expected `fn name(argument: scalar, argument: rgb) -> type`"),
+        )
+    };
+    let (name, rest) = head
+        .strip_prefix("fn ")
+        .and_then(|h| h.split_once('('))
+        .ok_or_else(wrong)?;
+    let (inside, _) = rest.split_once(')').ok_or_else(wrong)?;
+    let param = |text: &str| {
+        let (name, ty) = text.split_once(':').ok_or_else(wrong)?;
+        let ty = [Ty::Scalar, Ty::Rgb]
+            .into_iter()
+            .find(|t| t.name() == ty.trim())
+            .ok_or_else(wrong)?;
+        Ok(Param {
+            name: name.trim().to_owned(),
+            ty,
+        })
+    };
+    let params = inside
+        .split(',')
+        .filter(|p| !p.trim().is_empty())
+        .map(param)
+        .collect::<Result<_, _>>()?;
+    Ok((name.trim().to_owned(), params))
+}
+
+struct Parser {
+    known: BTreeMap<String, NodeId>,
+    nodes: Vec<Node>,
+    params: Vec<Param>,
+}
+
+impl Parser {
+    fn step(&mut self, line: usize, text: &str) -> Result<(), ParseError> {
+        let (code, why) = text.split_once('#').unwrap_or((text, ""));
+        let (name, code) = code
+            .split_once('=')
+            .ok_or_else(|| fault(line, "expected `name = operation arguments`"))?;
+        let mut words = code.split_whitespace();
+        let op = words.next().and_then(Op::from_name).ok_or_else(|| {
+            let all: Vec<&str> = super::op::OPS.iter().map(|row| row.name).collect();
+            fault(
+                line,
+                format!("no such operation; there are {}", all.join(", ")),
+            )
+        })?;
+        let payload = match op.info().signature {
+            Signature::Channel => Payload::Index(channel(line, words.next())?),
+            _ => Payload::None,
+        };
+        let args = words
+            .map(|word| self.argument(line, word))
+            .collect::<Result<Vec<_>, _>>()?;
+        let types: Vec<Ty> = args.iter().map(|a| self.nodes[*a].ty).collect();
+        let ty = op.info().signature.result(&types);
+        let ty = ty.ok_or_else(|| {
+            fault(
+                line,
+                format!("`{}` does not take {types:?}", op.info().name),
+            )
+        })?;
+        let name = name.trim().to_owned();
+        let label = (!name.starts_with('%')).then(|| Label {
+            name: name.clone(),
+            why: why.trim().to_owned(),
+        });
+        self.nodes.push(Node {
+            op,
+            args,
+            payload,
+            ty,
+            label,
+        });
+        self.known.insert(name, self.nodes.len() - 1);
+        Ok(())
+    }
+
+    fn argument(&mut self, line: usize, word: &str) -> Result<NodeId, ParseError> {
+        if let Some(id) = self.known.get(word) {
+            return Ok(*id);
+        }
+        let param = self.params.iter().position(|param| param.name == word);
+        let (op, payload, ty) = match (param, word.parse::<f64>()) {
+            (Some(index), _) => (Op::Param, Payload::Index(index), self.params[index].ty),
+            (None, Ok(value)) if value.is_finite() => {
+                (Op::Number, Payload::Number(value), Ty::Scalar)
+            }
+            _ => {
+                return Err(fault(
+                    line,
+                    format!("`{word}` is no number, parameter or earlier step"),
+                ));
+            }
+        };
+        self.nodes.push(Node {
+            op,
+            args: Vec::new(),
+            payload,
+            ty,
+            label: None,
+        });
+        self.known.insert(word.to_owned(), self.nodes.len() - 1);
+        Ok(self.nodes.len() - 1)
+    }
+}
+
+fn channel(line: usize, word: Option<&str>) -> Result<usize, ParseError> {
+    let index = word
+        .and_then(|word| word.parse().ok())
+        .filter(|index| *index < 3);
+    index.ok_or_else(|| fault(line, "`channel` wants 0, 1 or 2 and a colour"))
+}

@@ -1,0 +1,20 @@
+//! fresnel-gen turns measured optical constants into Fresnel reflectance functions that a shader can afford.
+//!
+//! One description of each method ([`methods`]), an intermediate representation ([`ir`]) and a table per language
+//! ([`targets`]) give WGSL, GLSL ES 3.00, HLSL, SPIR-V, MSL and GLSL 450. The exact laws ([`optics`]) are written a
+//! second time without the IR, and all else is held against them.
+// The rooms. A room imports only rooms to its left; rooms between the same two `<` do not import each other.
+// num, cite < ir, optics < spectra < materials, methods, targets < fit < emit < lut < verify, cost < scene, effects < report < app
+
+pub mod app;
+pub mod cite;
+pub mod emit;
+pub mod fit;
+pub mod ir;
+pub mod materials;
+pub mod methods;
+pub mod num;
+pub mod optics;
+pub mod report;
+pub mod targets;
+pub mod verify;

@@ -1,0 +1,59 @@
+//! The program: parses the command line, runs it, prints. The only place that touches the terminal.
+#![allow(clippy::print_stdout, clippy::print_stderr)]
+
+use std::io::{self, IsTerminal, Write};
+use std::process::ExitCode;
+
+use clap::Parser;
+use fresnel_gen::app::args::Cli;
+use fresnel_gen::app::command;
+use indicatif::{ProgressBar, ProgressStyle};
+
+fn main() -> ExitCode {
+    let cli = Cli::parse();
+    let mut bar: Option<ProgressBar> = None;
+    let outcome = command::run(&cli, &mut |done, whole, what| {
+        show(&mut bar, done, whole, what)
+    });
+    if let Some(bar) = bar {
+        bar.finish_and_clear();
+    }
+    match outcome {
+        Ok(output) => {
+            output
+                .remarks
+                .iter()
+                .for_each(|remark| eprintln!("{remark}"));
+            ExitCode::from(printed(&output.stdout, output.code))
+        }
+        Err(error) => {
+            eprintln!("error: {error}");
+            ExitCode::from(error.exit_code())
+        }
+    }
+}
+
+/// Writes to stdout. A reader that has seen enough closes the pipe, and that is no error.
+fn printed(bytes: &[u8], code: u8) -> u8 {
+    let mut stdout = io::stdout().lock();
+    match stdout.write_all(bytes).and_then(|()| stdout.flush()) {
+        Err(error) if error.kind() != io::ErrorKind::BrokenPipe => {
+            eprintln!("error: cannot write to stdout: {error}");
+            2
+        }
+        _ => code,
+    }
+}
+
+/// A progress bar on a terminal, none in a pipe.
+fn show(bar: &mut Option<ProgressBar>, done: u64, whole: u64, what: &str) {
+    if !io::stderr().is_terminal() {
+        return;
+    }
+    let bar = bar.get_or_insert_with(|| {
+        let style = ProgressStyle::with_template("{msg:30} {wide_bar} {percent:>3} %");
+        ProgressBar::new(whole).with_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()))
+    });
+    bar.set_message(what.to_owned());
+    bar.set_position(done);
+}

@@ -1,0 +1,35 @@
+//! The catalogue: the files of `data/materials/`, embedded in the program and read when asked for.
+
+use include_dir::{Dir, include_dir};
+
+use super::file::{Fault, Material};
+
+static FILES: Dir = include_dir!("$CARGO_MANIFEST_DIR/data/materials");
+
+/// The names of all materials in the catalogue, sorted.
+pub fn names() -> Vec<&'static str> {
+    let mut names: Vec<&str> = FILES
+        .files()
+        .filter_map(|file| file.path().file_stem()?.to_str())
+        .collect();
+    names.sort_unstable();
+    names
+}
+
+/// The text of a material's file.
+pub fn source(name: &str) -> Option<&'static str> {
+    FILES.get_file(format!("{name}.toml"))?.contents_utf8()
+}
+
+/// The material of this name, if the catalogue has it.
+pub fn find(name: &str) -> Option<Result<Material, Fault>> {
+    Some(Material::parse(
+        &format!("data/materials/{name}.toml"),
+        source(name)?,
+    ))
+}
+
+/// All materials of the catalogue, by name.
+pub fn list() -> Result<Vec<Material>, Fault> {
+    names().into_iter().filter_map(find).collect()
+}

@@ -1,0 +1,12 @@
+//! Materials: named media with measured n(λ) and k(λ), their sources and licences.
+//!
+//! The catalogue lies in `data/materials/`, one file each, and is part of the binary. A user's own file has the same
+//! format ([`Material::parse`]). To add a material to the catalogue, add its file.
+
+mod catalogue;
+mod channels;
+mod file;
+
+pub use catalogue::{find, list, names, source};
+pub use channels::{Channels, THESIS_NM};
+pub use file::{Fault, Kind, Material, Sample};

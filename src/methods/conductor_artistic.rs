@@ -1,0 +1,89 @@
+//! `n = g (1-r)/(1+r) + (1-g) (1+√r)/(1-√r)`, `k² = (r (n+1)² - (n-1)²) / (1-r)`, then the exact law: reflectivity r
+//! and edge tint g in place of n and k.
+//!
+//! Source: Gulbrandsen, "Artist Friendly Metallic Fresnel", JCGT 3(4), 2014, <https://jcgt.org/published/0003/04/03/>.
+//! k² is computed as (n_max - n)(n - 1/n_max), which is the same number without its cancellation: with
+//! √r (n+1) ± (n-1) factored, (1-√r)(1+√r) = 1-r goes against the divisor.
+//! Domain: r in [0, 1), g in [0, 1]. r is limited to 0.999, because n_max is singular at 1: F0 above it is lowered by
+//! at most .001. Error: none where n and k give r and g; [`METHOD`]'s claims hold with both derived from n and k.
+
+use crate::cite::Citation;
+use crate::ir::Expr;
+
+use super::conductor_exact::conductor;
+use super::input::{Input, Inputs};
+use super::method::{Claim, Claims, Class, Contract, Forms, Method, Over};
+
+/// The record of this method.
+pub static METHOD: Method = Method {
+    name: "conductor_artistic",
+    summary: "the exact law for conductors from reflectivity and edge tint",
+    formula: &[
+        "n = g (1 - r) / (1 + r) + (1 - g) (1 + sqrt(r)) / (1 - sqrt(r)), k^2 = (r (n + 1)^2 - (n - 1)^2) / (1 - r)",
+        "r = min(reflectivity, 0.999), g = edge_tint; then conductor_exact(cos_theta, n, k)",
+    ],
+    source: Citation {
+        authors: "Gulbrandsen",
+        title: "Artist Friendly Metallic Fresnel",
+        place: "Journal of Computer Graphics Techniques 3(4), 64-72",
+        year: 2014,
+        link: "https://jcgt.org/published/0003/04/03/",
+    },
+    inputs: &[Input::REFLECTIVITY, Input::EDGE_TINT],
+    forms: Forms::Colour,
+    class: Class::Any,
+    domain: "both are clamped to [0, 1]; reflectivity above 0.999 counts as 0.999",
+    claims: Claims {
+        model: &[Claim {
+            over: Over::Metals,
+            max_abs: 0.5,
+        }],
+        code_ulp: 256.0,
+    },
+    contract: Contract::Kept,
+    build,
+    specialised: None,
+};
+
+fn build<'b>(x: &Inputs<'b>) -> Expr<'b> {
+    let r = x
+        .get(Input::REFLECTIVITY)
+        .at_least(0.0)
+        .at_most(0.999)
+        .named("facing", "n_max is singular at 1");
+    let g = x.get(Input::EDGE_TINT).saturate().named("edge", "");
+    let lack = (1.0 - r).named("lack", "");
+    let least = (lack / (1.0 + r)).named("n_min", "the least n that r allows");
+    let root = (1.0 + r.sqrt()).named("root", "");
+    let most = (root.squared() / lack).named("n_max", "the most, where k = 0");
+    let below = (g * (most - least)).named("below", "n_max - n");
+    let n = (most - below).named("n", "");
+    let k = (below * (n - 1.0 / most).at_least(0.0))
+        .sqrt()
+        .named("k", "k^2 = (n_max - n)(n - 1 / n_max)");
+    conductor(x.cosine(), n, k)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::limits::check;
+    use super::METHOD;
+
+    #[test]
+    fn it_meets_the_reflectivity_whatever_the_tint() {
+        for g in [0.0, 0.3, 1.0] {
+            check(&METHOD, 1.0, &[0.7, g], 0.7);
+            check(&METHOD, 0.0, &[0.7, g], 1.0);
+        }
+    }
+
+    #[test]
+    fn an_edge_tint_of_zero_is_a_dielectric() {
+        check(
+            &METHOD,
+            0.5,
+            &[0.04, 0.0],
+            crate::optics::dielectric(1.5, 0.5).unpolarised(),
+        );
+    }
+}

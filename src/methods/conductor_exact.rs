@@ -1,0 +1,110 @@
+//! `F = R_s x / (x + u s²)`, with `s² = 1-c²`, `τ = (n-1)(n+1)-k²`, `t = τ+c²`, `r = √(t²+4n²k²)`, `u = 2ac`,
+//! `x = r c²+s⁴`: the exact law for conductors, in a form that stays stable where k → 0 and at grazing.
+//!
+//! Source: the a, b form of Glassner, "Principles of Digital Image Synthesis", 1995,
+//! <https://www.realtimerendering.com/Principles_of_Digital_Image_Synthesis_v1.0.1.pdf>, rearranged so that no
+//! difference of nearly equal numbers is left: a² = ½(r+t) cancels where t < 0, so there a = nk / √(½(r-t));
+//! where t ≥ 0, R_s = ((a-c)²+b²) / ((a+c)²+b²) takes (a-c)² as T²/E with T = τ+b² = a²-c² and E = (a+c)².
+//! Merging R_s and R_p into one quotient gives F without adding the two.
+//! Domain: n > 0, k ≥ 0; k = 0 is the dielectric, past the critical angle exactly 1; n = 1, k = 0 gives 0.
+//! Error: none in the model; the code error is [`METHOD`]'s claim.
+
+use crate::ir::Expr;
+
+use super::conductor_textbook::GLASSNER_1995;
+use super::input::{Input, Inputs};
+use super::method::{Claim, Claims, Class, Contract, Forms, Method, Over};
+
+/// The record of this method.
+pub static METHOD: Method = Method {
+    name: "conductor_exact",
+    summary: "the exact law for conductors, stable at small k and at grazing",
+    formula: &[
+        "t = (n - 1)(n + 1) - k^2 + c^2, r = sqrt(t^2 + 4 n^2 k^2), a^2 = (r + t) / 2, u = 2 a c",
+        "R_s = (r + c^2 - u) / (r + c^2 + u), x = r c^2 + s^4, s^2 = 1 - c^2, F = R_s x / (x + u s^2)",
+    ],
+    source: GLASSNER_1995,
+    inputs: &[Input::N, Input::K],
+    forms: Forms::Colour,
+    class: Class::Any,
+    domain: "n > 0, k >= 0; k = 0 is the dielectric; n = 1 with k = 0 gives 0 at every angle",
+    claims: Claims {
+        model: &[
+            Claim {
+                over: Over::Dielectrics,
+                max_abs: 0.0,
+            },
+            Claim {
+                over: Over::Metals,
+                max_abs: 0.0,
+            },
+        ],
+        code_ulp: 16.0,
+    },
+    contract: Contract::Kept,
+    build,
+    specialised: None,
+};
+
+fn build<'b>(x: &Inputs<'b>) -> Expr<'b> {
+    conductor(x.cosine(), x.get(Input::N), x.get(Input::K))
+}
+
+/// The exact law, for methods that find n and k in their own way.
+pub(super) fn conductor<'b>(c: Expr<'b>, n: Expr<'b>, k: Expr<'b>) -> Expr<'b> {
+    let zero = c.builder().number(0.0);
+    let c2 = c.squared().named("c2", "");
+    let s2 = (1.0 - c2).named("s2", "sin^2 theta");
+    let tau = ((n - 1.0) * (n + 1.0) - k.squared()).named("tau", "n^2 - k^2 - 1");
+    let nk = (n * k).named("nk", "");
+    let t = (tau + c2).named("t", "n^2 - k^2 - sin^2 theta");
+    let r = (t.squared() + 4.0 * nk.squared())
+        .sqrt()
+        .named("r", "a^2 + b^2");
+
+    let larger = (0.5 * (r + t.abs()))
+        .sqrt()
+        .named("larger", "the larger of a and b");
+    let smaller = (nk / larger.at_least(1e-30)).named("smaller", "the other one, since a b = n k");
+    let a = t
+        .choose_below(zero, smaller, larger)
+        .named("a", "no cancellation on either side of t = 0");
+    let u = (2.0 * a * c).named("u", "");
+
+    let sum = (r + c2).named("sum", "");
+    let metal = ((sum - u) / (sum + u)).named("r_s_metal", "R_s where t < 0");
+    let b2 = smaller.squared().named("b2", "");
+    let gap = (tau + b2).named("gap", "a^2 - c^2");
+    let e = (gap + 2.0 * c * (a + c)).named("e", "(a + c)^2");
+    let glass = (gap * (gap / e.at_least(1e-37)) + b2) / (e + b2).at_least(1e-37);
+    let glass = glass.named(
+        "r_s_glass",
+        "R_s where t >= 0, (a - c)^2 taken as gap^2 / e",
+    );
+    let r_s = t.choose_below(zero, metal, glass).named("r_s", "");
+
+    let x = (r * c2 + s2.squared()).named("x", "");
+    r_s * (x / (x + u * s2).at_least(1e-37))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::limits::{check, value};
+    use super::METHOD;
+
+    #[test]
+    fn it_meets_normal_incidence_and_grazing() {
+        check(&METHOD, 1.0, &[0.23, 3.94], 16.1165 / 17.0365);
+        check(&METHOD, 0.0, &[0.23, 3.94], 1.0);
+        check(&METHOD, 1.0, &[1.5, 0.0], 0.04);
+        check(&METHOD, 0.0, &[1.0001, 1e-300], 1.0);
+    }
+
+    #[test]
+    fn without_absorption_it_is_the_dielectric() {
+        use super::super::dielectric_exact::METHOD as DIELECTRIC;
+        for (c, eta) in [(0.3, 1.5), (0.01, 2.4), (0.9, 0.7), (0.5, 0.7), (0.0, 1.0)] {
+            check(&METHOD, c, &[eta, 0.0], value(&DIELECTRIC, c, &[eta]));
+        }
+    }
+}

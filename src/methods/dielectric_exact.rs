@@ -1,0 +1,118 @@
+//! `F = ½ r_s² (1 + B²)`, with `τ = (η-1)(η+1)`, `g = √(τ + c²)`, `u = g + c`, `r_s = τ / u²`,
+//! `B = r_p / r_s = (c u - 1) / (c τ / u + 1)`: the exact law for dielectrics, in a form that is stable near η = 1.
+//!
+//! Source: Fresnel 1823 in the g-form of Cook and Torrance, "A Reflectance Model for Computer Graphics", 1982,
+//! <https://doi.org/10.1145/357290.357293>, rearranged: `(g-c)/(g+c) = τ/u²` has no cancellation, and
+//! `u² = τ + 2 c u` needs no square of a small number. τ must come from (η-1)(η+1), not η²-1.
+//! Domain: η > 0, on both sides of 1; past the critical angle exactly 1; η = 1 gives 0 at every angle, 90° too.
+//! Error: none in the model; the code error is [`METHOD`]'s claim. Close to the critical angle the law itself is
+//! ill-conditioned (a square root reaches 0 there), and the error follows its condition number.
+
+use crate::cite::Citation;
+use crate::ir::Expr;
+
+use super::input::{Input, Inputs};
+use super::method::{Claim, Claims, Class, Contract, Forms, Method, Over};
+
+/// Fresnel's law in the g-form.
+pub const COOK_TORRANCE_1982: Citation = Citation {
+    authors: "Cook, Torrance",
+    title: "A Reflectance Model for Computer Graphics",
+    place: "ACM Transactions on Graphics 1(1), 7-24",
+    year: 1982,
+    link: "https://doi.org/10.1145/357290.357293",
+};
+
+/// The record of this method.
+pub static METHOD: Method = Method {
+    name: "dielectric_exact",
+    summary: "the exact law for dielectrics, stable near eta = 1, total reflection included",
+    formula: &[
+        "t = (eta - 1)(eta + 1), g = sqrt(t + c^2), u = g + c, r_s = t / u^2",
+        "F = r_s^2 (1 + B^2) / 2, B = (c u - 1) / (c t / u + 1); 1 where t + c^2 < 0",
+    ],
+    source: COOK_TORRANCE_1982,
+    inputs: &[Input::ETA],
+    forms: Forms::ColourAndScalar,
+    class: Class::Dielectric,
+    domain: "eta > 0 on both sides of 1; past the critical angle exactly 1; eta = 1 gives 0 at every angle",
+    claims: Claims {
+        model: &[Claim {
+            over: Over::Dielectrics,
+            max_abs: 0.0,
+        }],
+        code_ulp: 16.0,
+    },
+    contract: Contract::Kept,
+    build,
+    specialised: None,
+};
+
+fn build<'b>(x: &Inputs<'b>) -> Expr<'b> {
+    let steps = steps(x);
+    let mean = 0.5 * steps.r_s.squared() * (1.0 + steps.ratio.squared());
+    steps.reflected(mean)
+}
+
+/// The steps that the polarised forms share.
+pub(super) struct Steps<'b> {
+    /// τ + c², negative past the critical angle.
+    g2: Expr<'b>,
+    /// The amplitude ratio of s-polarised light.
+    pub r_s: Expr<'b>,
+    /// r_p / r_s.
+    pub ratio: Expr<'b>,
+}
+
+impl<'b> Steps<'b> {
+    /// `reflectance`, but 1 past the critical angle, and never above 1.
+    pub fn reflected(&self, reflectance: Expr<'b>) -> Expr<'b> {
+        let builder = self.g2.builder();
+        let inside = reflectance
+            .at_most(1.0)
+            .named("f", "rounding near the critical angle must not exceed 1");
+        self.g2
+            .choose_below(builder.number(0.0), builder.number(1.0), inside)
+    }
+}
+
+/// From the cosine and eta to the amplitudes.
+pub(super) fn steps<'b>(x: &Inputs<'b>) -> Steps<'b> {
+    let (c, eta) = (x.cosine(), x.get(Input::ETA));
+    let tau = ((eta - 1.0) * (eta + 1.0)).named("tau", "eta^2 - 1 without its cancellation near 1");
+    let g2 = (tau + c.squared()).named("g2", "below 0 past the critical angle");
+    let u = (g2.at_least(0.0).sqrt() + c).named("u", "");
+    let r_s =
+        (tau / (tau + 2.0 * c * u).at_least(1e-37)).named("r_s", "(g - c) / (g + c), as tau / u^2");
+    let ratio = (c * u - 1.0) / (c * tau / u.at_least(1e-30) + 1.0);
+    Steps {
+        g2,
+        r_s,
+        ratio: ratio.named("r_ps", "r_p / r_s"),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::limits::check;
+    use super::METHOD;
+
+    #[test]
+    fn it_meets_normal_incidence_and_grazing() {
+        check(&METHOD, 1.0, &[1.5], 0.04);
+        check(&METHOD, 0.0, &[1.5], 1.0);
+        check(&METHOD, 1.0, &[1.0 / 1.5], 0.04);
+    }
+
+    #[test]
+    fn past_the_critical_angle_all_is_reflected() {
+        check(&METHOD, 0.7, &[0.7], 1.0);
+        check(&METHOD, 0.0, &[0.7], 1.0);
+    }
+
+    #[test]
+    fn an_interface_that_is_not_there_reflects_nothing() {
+        check(&METHOD, 0.0, &[1.0], 0.0);
+        check(&METHOD, 0.3, &[1.0], 0.0);
+    }
+}

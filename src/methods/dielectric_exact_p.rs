@@ -1,0 +1,58 @@
+//! `F_p = (r_s B)²`: the exact law for dielectrics and light polarised in the plane of incidence.
+//!
+//! Source: as in `dielectric_exact` (Cook and Torrance, 1982, <https://doi.org/10.1145/357290.357293>).
+//! Domain: η > 0, on both sides of 1; past the critical angle exactly 1; 0 at Brewster's angle (tan θ = η).
+//! Error: none in the model; at Brewster's zero only an absolute bound makes sense.
+
+use crate::ir::Expr;
+
+use super::dielectric_exact::{COOK_TORRANCE_1982, steps};
+use super::input::{Input, Inputs};
+use super::method::{Claims, Class, Contract, Forms, Method};
+
+/// The record of this method.
+pub static METHOD: Method = Method {
+    name: "dielectric_exact_p",
+    summary: "the exact law for dielectrics, p-polarised light",
+    formula: &[
+        "t = (eta - 1)(eta + 1), u = sqrt(t + c^2) + c, r_s = t / u^2",
+        "F = (r_s (c u - 1) / (c t / u + 1))^2; 1 where t + c^2 < 0",
+    ],
+    source: COOK_TORRANCE_1982,
+    inputs: &[Input::ETA],
+    forms: Forms::ColourAndScalar,
+    class: Class::Dielectric,
+    domain: "eta > 0 on both sides of 1; past the critical angle exactly 1; 0 at Brewster's angle",
+    claims: Claims {
+        model: &[],
+        code_ulp: 16.0,
+    },
+    contract: Contract::Kept,
+    build,
+    specialised: None,
+};
+
+fn build<'b>(x: &Inputs<'b>) -> Expr<'b> {
+    let steps = steps(x);
+    let r_p = (steps.r_s * steps.ratio).named("r_p", "");
+    steps.reflected(r_p.squared())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::limits::check;
+    use super::METHOD;
+
+    #[test]
+    fn brewsters_angle_reflects_nothing() {
+        let eta: f64 = 1.5;
+        check(&METHOD, 1.0 / (1.0 + eta * eta).sqrt(), &[eta], 0.0);
+    }
+
+    #[test]
+    fn it_meets_its_limits() {
+        check(&METHOD, 1.0, &[1.5], 0.04);
+        check(&METHOD, 0.0, &[1.5], 1.0);
+        check(&METHOD, 0.5, &[0.5], 1.0);
+    }
+}

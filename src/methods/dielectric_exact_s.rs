@@ -1,0 +1,50 @@
+//! `F_s = (τ / u²)²`: the exact law for dielectrics and light polarised across the plane of incidence.
+//!
+//! Source: as in `dielectric_exact` (Cook and Torrance, 1982, <https://doi.org/10.1145/357290.357293>).
+//! Domain: η > 0, on both sides of 1; past the critical angle exactly 1. Error: none in the model.
+
+use crate::ir::Expr;
+
+use super::dielectric_exact::{COOK_TORRANCE_1982, steps};
+use super::input::{Input, Inputs};
+use super::method::{Claims, Class, Contract, Forms, Method};
+
+/// The record of this method.
+pub static METHOD: Method = Method {
+    name: "dielectric_exact_s",
+    summary: "the exact law for dielectrics, s-polarised light",
+    formula: &[
+        "t = (eta - 1)(eta + 1), u = sqrt(t + c^2) + c, F = (t / u^2)^2; 1 where t + c^2 < 0",
+    ],
+    source: COOK_TORRANCE_1982,
+    inputs: &[Input::ETA],
+    forms: Forms::ColourAndScalar,
+    class: Class::Dielectric,
+    domain: "eta > 0 on both sides of 1; past the critical angle exactly 1; eta = 1 gives 0 at every angle",
+    claims: Claims {
+        model: &[],
+        code_ulp: 16.0,
+    },
+    contract: Contract::Kept,
+    build,
+    specialised: None,
+};
+
+fn build<'b>(x: &Inputs<'b>) -> Expr<'b> {
+    let steps = steps(x);
+    steps.reflected(steps.r_s.squared())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::limits::check;
+    use super::METHOD;
+
+    #[test]
+    fn it_meets_its_limits() {
+        check(&METHOD, 1.0, &[1.5], 0.04);
+        check(&METHOD, 0.0, &[1.5], 1.0);
+        check(&METHOD, 0.5, &[1.0], 0.0);
+        check(&METHOD, 0.5, &[0.5], 1.0);
+    }
+}

@@ -1,0 +1,66 @@
+//! `F = max(0, min(1, bias + scale (1 + I·N)^power))`: NVIDIA's empirical term, with I·N = -cos θ.
+//!
+//! Source: Fernando and Kilgard, "The Cg Tutorial", chapter 7, 2003,
+//! <https://developer.download.nvidia.com/CgTutorial/cg_tutorial_chapter07.html>; eq. 6 of the thesis.
+//! Domain: bias, scale in [0, 1], power > 0. It is not physical: the three numbers are tuned by hand, or derived
+//! from a material as bias = F0, scale = 1 - F0 and the power that meets the exact law at 60 degrees.
+//! Error: [`METHOD`]'s claims, with the parameters derived so.
+
+use crate::cite::Citation;
+use crate::ir::Expr;
+
+use super::input::{Input, Inputs};
+use super::method::{Claim, Claims, Class, Contract, Forms, Method, Over};
+
+/// The record of this method.
+pub static METHOD: Method = Method {
+    name: "empirical",
+    summary: "NVIDIA's bias, scale and power",
+    formula: &["F = max(0, min(1, bias + scale (1 - cos_theta)^power))"],
+    source: Citation {
+        authors: "Fernando, Kilgard",
+        title: "The Cg Tutorial, chapter 7",
+        place: "Addison-Wesley",
+        year: 2003,
+        link: "https://developer.download.nvidia.com/CgTutorial/cg_tutorial_chapter07.html",
+    },
+    inputs: &[Input::BIAS, Input::SCALE, Input::POWER],
+    forms: Forms::ColourAndScalar,
+    class: Class::Any,
+    domain: "bias and scale in [0, 1], power > 0; the three channels are alike",
+    claims: Claims {
+        model: &[
+            Claim {
+                over: Over::Dielectrics,
+                max_abs: 0.5,
+            },
+            Claim {
+                over: Over::Metals,
+                max_abs: 0.5,
+            },
+        ],
+        code_ulp: 256.0,
+    },
+    contract: Contract::Kept,
+    build,
+    specialised: None,
+};
+
+fn build<'b>(x: &Inputs<'b>) -> Expr<'b> {
+    let m = (1.0 - x.cosine()).named("m", "1 + I.N");
+    (x.get(Input::BIAS) + x.get(Input::SCALE) * m.power(x.get(Input::POWER))).saturate()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::limits::check;
+    use super::METHOD;
+
+    #[test]
+    fn it_meets_bias_and_bias_plus_scale() {
+        check(&METHOD, 1.0, &[0.1, 0.7, 5.0], 0.1);
+        check(&METHOD, 0.0, &[0.1, 0.7, 5.0], 0.8);
+        check(&METHOD, 0.5, &[0.0, 1.0, 2.0], 0.25);
+        check(&METHOD, 0.0, &[0.9, 0.7, 5.0], 1.0);
+    }
+}

@@ -1,0 +1,84 @@
+//! `F = F_S(c) - b c (1-c)⁶`, `b = F_S(1/7) (1 - tint) / (1/7 (6/7)⁶)`, F_S being Schlick's approximation: the
+//! reflectance at 81.79 degrees is `tint` times Schlick's.
+//!
+//! Source: Kutz, Hašan and Edmondson, "Novel aspects of the Adobe Standard Material", 2021,
+//! <https://helpx.adobe.com/content/dam/substance-3d/general-knowledge/asm/Adobe%20Standard%20Material%20-%20Technical%20Documentation%20-%20May2023.pdf>.
+//! With 7⁷/6⁶ for the quotient, b = (49/46656) (1 - tint) (7776 + 9031 F0), exactly.
+//! Domain: F0, tint ≥ 0. For tints below .52 the bare formula turns negative (to -.127), and above 1 it can exceed
+//! 1: the result is clamped to [0, max(1, F0)]. Error: [`METHOD`]'s claims.
+
+use crate::cite::Citation;
+use crate::ir::Expr;
+
+use super::hoffman_f82::{dip, limited};
+use super::input::{Input, Inputs};
+use super::method::{Claim, Claims, Class, Contract, Forms, Method, Over};
+use super::schlick::grazing_weight;
+
+/// The record of this method.
+pub static METHOD: Method = Method {
+    name: "f82_tint",
+    summary: "Schlick's approximation corrected to a tint at 81.79 degrees",
+    formula: &[
+        "F = F0 + (1 - F0) (1 - c)^5 - b c (1 - c)^6, clamped to [0, max(1, F0)]",
+        "b = (49 / 46656) (1 - tint) (7776 + 9031 F0)",
+    ],
+    source: Citation {
+        authors: "Kutz, Hasan, Edmondson",
+        title: "Novel aspects of the Adobe Standard Material",
+        place: "Adobe",
+        year: 2021,
+        link: "https://helpx.adobe.com/substance-3d-general/adobe-standard-material.html",
+    },
+    inputs: &[Input::F0, Input::TINT],
+    forms: Forms::Colour,
+    class: Class::Any,
+    domain: "f0 and tint >= 0; clamped to [0, max(1, f0)]",
+    claims: Claims {
+        model: &[
+            Claim {
+                over: Over::Dielectrics,
+                max_abs: 0.5,
+            },
+            Claim {
+                over: Over::Metals,
+                max_abs: 0.5,
+            },
+        ],
+        code_ulp: 16.0,
+    },
+    contract: Contract::Kept,
+    build,
+    specialised: None,
+};
+
+fn build<'b>(x: &Inputs<'b>) -> Expr<'b> {
+    let (c, f0, tint) = (x.cosine(), x.get(Input::F0), x.get(Input::TINT));
+    let b = (49.0 / 46656.0) * (1.0 - tint) * (7776.0 + 9031.0 * f0);
+    let m5 = grazing_weight(c).named("m5", "");
+    limited(f0 + (1.0 - f0) * m5 - b * dip(c, m5), f0)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::limits::{check, value};
+    use super::METHOD;
+
+    #[test]
+    fn it_meets_f0_the_tint_and_one() {
+        let c = 1.0 / 7.0;
+        check(&METHOD, 1.0, &[0.6, 0.8], 0.6);
+        check(&METHOD, 0.0, &[0.6, 0.8], 1.0);
+        check(
+            &METHOD,
+            c,
+            &[0.6, 0.8],
+            0.8 * value(&METHOD, c, &[0.6, 1.0]),
+        );
+    }
+
+    #[test]
+    fn where_the_bare_formula_turns_negative_it_gives_zero() {
+        check(&METHOD, 0.2, &[0.0, 0.0], 0.0);
+    }
+}

@@ -1,0 +1,87 @@
+//! `F = F_S(c) - b c (1-c)⁶`, `b = (F_S(1/7) - F82) / (1/7 (6/7)⁶)`, F_S being Schlick's approximation: the curve goes
+//! through F82 at 81.79 degrees, where the term c (1-c)⁶ has its maximum.
+//!
+//! Source: Hoffman, "Fresnel Equations Considered Harmful", MAM workshop, 2019,
+//! <https://renderwonk.com/publications/mam2019/>.
+//! 1 / (1/7 (6/7)⁶) = 7⁷/6⁶ and F_S(1/7) = F0 + (1 - F0) (6/7)⁵, both exact.
+//! Domain: F0, F82 ≥ 0; clamped to [0, max(1, F0)]. Error: [`METHOD`]'s claims.
+
+use crate::cite::Citation;
+use crate::ir::Expr;
+
+use super::input::{Input, Inputs};
+use super::method::{Claim, Claims, Class, Contract, Forms, Method, Over};
+use super::schlick::grazing_weight;
+
+/// 7⁷/6⁶, the reciprocal of the maximum of c (1-c)⁶.
+const PEAK: f64 = 823_543.0 / 46_656.0;
+/// (6/7)⁵, Schlick's weight at cos θ = 1/7.
+const WEIGHT_82: f64 = 7_776.0 / 16_807.0;
+
+/// The record of this method.
+pub static METHOD: Method = Method {
+    name: "hoffman_f82",
+    summary: "Schlick's approximation corrected to the reflectance at 81.79 degrees",
+    formula: &[
+        "F = F0 + (1 - F0) (1 - c)^5 - b c (1 - c)^6, clamped to [0, max(1, F0)]",
+        "b = (823543 / 46656) (F0 + (1 - F0) 7776 / 16807 - F82)",
+    ],
+    source: Citation {
+        authors: "Hoffman",
+        title: "Fresnel Equations Considered Harmful",
+        place: "Eurographics Workshop on Material Appearance Modeling",
+        year: 2019,
+        link: "https://renderwonk.com/publications/mam2019/",
+    },
+    inputs: &[Input::F0, Input::F82],
+    forms: Forms::Colour,
+    class: Class::Any,
+    domain: "f0 and f82 >= 0; clamped to [0, max(1, f0)]",
+    claims: Claims {
+        model: &[
+            Claim {
+                over: Over::Dielectrics,
+                max_abs: 0.5,
+            },
+            Claim {
+                over: Over::Metals,
+                max_abs: 0.5,
+            },
+        ],
+        code_ulp: 64.0,
+    },
+    contract: Contract::Kept,
+    build,
+    specialised: None,
+};
+
+fn build<'b>(x: &Inputs<'b>) -> Expr<'b> {
+    let (c, f0, f82) = (x.cosine(), x.get(Input::F0), x.get(Input::F82));
+    let rise = (1.0 - f0).named("rise", "");
+    let b = PEAK * (f0 + rise * WEIGHT_82 - f82);
+    let m5 = grazing_weight(c).named("m5", "");
+    limited(f0 + rise * m5 - b * dip(c, m5), f0)
+}
+
+/// `c (1-c)⁶`, from the fifth power that is there already.
+pub(super) fn dip<'b>(c: Expr<'b>, m5: Expr<'b>) -> Expr<'b> {
+    c * (m5 * (1.0 - c))
+}
+
+/// A result that may leave its range, limited to [0, max(1, F0)].
+pub(super) fn limited<'b>(f: Expr<'b>, f0: Expr<'b>) -> Expr<'b> {
+    f.at_least(0.0).min(f0.at_least(1.0))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::limits::check;
+    use super::METHOD;
+
+    #[test]
+    fn it_meets_f0_f82_and_one() {
+        check(&METHOD, 1.0, &[0.6, 0.7], 0.6);
+        check(&METHOD, 1.0 / 7.0, &[0.6, 0.7], 0.7);
+        check(&METHOD, 0.0, &[0.6, 0.7], 1.0);
+    }
+}

@@ -1,0 +1,144 @@
+//! The inputs of methods: one vocabulary with units and domain, in the order in which functions take them.
+
+use crate::ir::{Builder, Expr, Ty};
+
+/// An argument that a method takes after `cos_theta`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Input {
+    /// Its name in every language.
+    pub name: &'static str,
+    /// Scalar, or a value per channel.
+    pub ty: Ty,
+    /// What it is, and its unit.
+    pub meaning: &'static str,
+    /// Where it is meant to lie.
+    pub domain: &'static str,
+}
+
+const fn rgb(name: &'static str, meaning: &'static str, domain: &'static str) -> Input {
+    Input {
+        name,
+        ty: Ty::Rgb,
+        meaning,
+        domain,
+    }
+}
+
+const fn scalar(name: &'static str, meaning: &'static str, domain: &'static str) -> Input {
+    Input {
+        name,
+        ty: Ty::Scalar,
+        meaning,
+        domain,
+    }
+}
+
+#[allow(missing_docs)] // each says what it is
+impl Input {
+    pub const ETA: Input = rgb(
+        "eta",
+        "relative index of refraction, transmitted over incident (n_t / n_i)",
+        "eta > 0",
+    );
+    pub const N: Input = rgb(
+        "n",
+        "real part of the relative index of refraction",
+        "n > 0",
+    );
+    pub const K: Input = rgb(
+        "k",
+        "extinction coefficient, the imaginary part of the relative index",
+        "k >= 0",
+    );
+    pub const F0: Input = rgb(
+        "f0",
+        "reflectance at normal incidence, linear",
+        "f0 >= 0; above 1 is taken as it is",
+    );
+    pub const F90: Input = scalar("f90", "reflectance at 90 degrees", "0 <= f90 <= 1");
+    pub const F82: Input = rgb(
+        "f82",
+        "reflectance at cos_theta = 1/7 (81.79 degrees), linear",
+        "f82 >= 0",
+    );
+    pub const TINT: Input = rgb(
+        "tint",
+        "reflectance at 81.79 degrees over Schlick's value there",
+        "tint >= 0",
+    );
+    pub const REFLECTIVITY: Input = rgb(
+        "reflectivity",
+        "reflectance at normal incidence, linear",
+        "[0, 1)",
+    );
+    pub const EDGE_TINT: Input = rgb(
+        "edge_tint",
+        "1 for the least n that the reflectivity allows, 0 for the most",
+        "[0, 1]",
+    );
+    pub const BIAS: Input = scalar("bias", "reflectance at normal incidence", "[0, 1]");
+    pub const SCALE: Input = scalar("scale", "what grazing incidence adds", "[0, 1]");
+    pub const POWER: Input = scalar("power", "how late it is added", "power > 0");
+    pub const EXPONENT: Input = scalar(
+        "exponent",
+        "how late the curve rises to f90; 5 is Schlick's",
+        "exponent > 0",
+    );
+    pub const LAMBDA: Input = rgb(
+        "lambda",
+        "exponent of the correction; 0 or less where there is none",
+        "any",
+    );
+
+    /// Every input in the order of arguments.
+    #[rustfmt::skip]
+    pub const ORDER: [Input; 14] = [
+        Input::ETA, Input::N, Input::K, Input::F0, Input::F90, Input::F82, Input::TINT, Input::REFLECTIVITY,
+        Input::EDGE_TINT, Input::BIAS, Input::SCALE, Input::POWER, Input::EXPONENT, Input::LAMBDA,
+    ];
+}
+
+/// The input of this name.
+pub fn find_input(name: &str) -> Option<Input> {
+    Input::ORDER.into_iter().find(|input| input.name == name)
+}
+
+/// The arguments of a method while it is built.
+#[derive(Debug)]
+pub struct Inputs<'b> {
+    cos_theta: Expr<'b>,
+    given: Vec<(&'static str, Expr<'b>)>,
+}
+
+impl<'b> Inputs<'b> {
+    /// Declares `cos_theta` and these inputs as arguments. In the scalar form every input is a scalar.
+    pub fn declare(builder: &'b Builder, inputs: &[Input], scalar_form: bool) -> Inputs<'b> {
+        let cos_theta = builder.param("cos_theta", Ty::Scalar);
+        let ty = |input: &Input| if scalar_form { Ty::Scalar } else { input.ty };
+        let given = inputs
+            .iter()
+            .map(|input| (input.name, builder.param(input.name, ty(input))))
+            .collect();
+        Inputs { cos_theta, given }
+    }
+
+    /// `cos_theta` as it came. Only methods that are exempt from the contract use it so.
+    pub fn raw_cosine(&self) -> Expr<'b> {
+        self.cos_theta
+    }
+
+    /// `cos_theta` limited to [0, 1], so that 1 + 1 ulp never reaches a power.
+    pub fn cosine(&self) -> Expr<'b> {
+        self.cos_theta
+            .saturate()
+            .named("c", "1 + 1 ulp must not reach what follows")
+    }
+
+    /// An input that the method declared.
+    pub fn get(&self, input: Input) -> Expr<'b> {
+        let found = self.given.iter().find(|(name, _)| *name == input.name);
+        found
+            .expect("a method asks only for inputs that it declares; its first test would fail")
+            .1
+    }
+}

@@ -1,0 +1,132 @@
+//! What a method is: a plain record in a static table.
+
+use std::collections::BTreeMap;
+
+use crate::cite::Citation;
+use crate::ir::{Builder, Checked, Expr, Fault, Function, check, fold, specialise};
+
+use super::input::{Input, Inputs};
+
+/// A formula for reflectance.
+#[derive(Debug)]
+pub struct Method {
+    /// Its one name: file, `--method`, function after the prefix, row in every report.
+    pub name: &'static str,
+    /// One line.
+    pub summary: &'static str,
+    /// The formula, in ASCII, a line each.
+    pub formula: &'static [&'static str],
+    /// Who published it.
+    pub source: Citation,
+    /// What it takes after `cos_theta`, in the order of [`Input::ORDER`].
+    pub inputs: &'static [Input],
+    /// Which forms it has.
+    pub forms: Forms,
+    /// Which media it describes.
+    pub class: Class,
+    /// Where it holds, and what it does outside.
+    pub domain: &'static str,
+    /// What it promises.
+    pub claims: Claims,
+    /// Whether it keeps the function contract.
+    pub contract: Contract,
+    /// Builds the formula.
+    pub build: for<'b> fn(&Inputs<'b>) -> Expr<'b>,
+    /// Where a material's constants allow something better than folding them in: another method and its inputs,
+    /// from the values of this method's inputs.
+    pub specialised: Option<fn(&Values) -> (&'static Method, Values)>,
+}
+
+/// Values of inputs by name; a scalar input uses the first number.
+pub type Values = BTreeMap<String, [f64; 3]>;
+
+/// The forms that a method's library file holds.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Forms {
+    /// Three channels.
+    Colour,
+    /// Three channels, and one with the suffix `_scalar`.
+    ColourAndScalar,
+}
+
+/// The media that a method describes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Class {
+    /// k = 0.
+    Dielectric,
+    /// Any k.
+    Any,
+}
+
+/// Whether a method keeps the function contract.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Contract {
+    /// It does.
+    Kept,
+    /// It does not: it is kept for comparison. Says where it fails.
+    Exempt(&'static str),
+}
+
+/// What a method promises. Tests hold each figure in both directions: not exceeded, and not slack.
+#[derive(Clone, Copy, Debug)]
+pub struct Claims {
+    /// Model error: maximum absolute difference to the exact law, over stated sets of media and all angles.
+    pub model: &'static [Claim],
+    /// Code error: the most ulp by which unfused f32 differs from f64 at the same inputs, over [`Over`]'s sets
+    /// that the method covers; differences below 2^-22 do not count.
+    pub code_ulp: f64,
+}
+
+/// A promised model error.
+#[derive(Clone, Copy, Debug)]
+pub struct Claim {
+    /// Over which media.
+    pub over: Over,
+    /// The promise.
+    pub max_abs: f64,
+}
+
+/// The sets of media that claims are stated over.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Over {
+    /// Dielectrics, eta 1.3 to 2.5.
+    Dielectrics,
+    /// Metals, n 0.05 to 4.5 and k 1.5 to 8.
+    Metals,
+}
+
+impl Over {
+    /// The set in words.
+    pub fn text(self) -> &'static str {
+        match self {
+            Over::Dielectrics => "eta 1.3 to 2.5",
+            Over::Metals => "n 0.05 to 4.5, k 1.5 to 8",
+        }
+    }
+}
+
+impl Method {
+    /// The library function: three channels, or the scalar form, with run-time arguments.
+    pub fn function(&self, scalar_form: bool) -> Result<Checked, Fault> {
+        let builder = Builder::new();
+        let inputs = Inputs::declare(&builder, self.inputs, scalar_form);
+        let result = (self.build)(&inputs);
+        let shaped = if scalar_form { result } else { result.rgb() };
+        check(fold(&builder.finish(self.name, shaped)))
+    }
+
+    /// The function with these constants folded in; inputs that have no value stay arguments.
+    pub fn specialise(&self, values: &Values) -> Result<Checked, Fault> {
+        if let Some(better) = self.specialised {
+            let (method, values) = better(values);
+            return method.specialise(&values);
+        }
+        let library: Function = (*self.function(false)?).clone();
+        check(specialise(&library, values))
+    }
+
+    /// Whether the method has a scalar form.
+    pub fn has_scalar_form(&self) -> bool {
+        self.forms == Forms::ColourAndScalar
+    }
+}

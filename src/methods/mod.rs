@@ -1,0 +1,90 @@
+//! The methods, one file each: a formula for reflectance with its source, inputs, domain and promised errors.
+//!
+//! To add one, write its file: a `//!` header with formula and source, a `pub static METHOD: Method`, a `build`
+//! function and its limit tests. Then run the tests with `BLESS=1`: they rewrite the list below.
+//! The table lookup and fitted methods take their place here like all others, with their coefficients as inputs.
+//! The room knows no target.
+
+mod input;
+mod limits;
+mod method;
+
+pub use input::{Input, Inputs, find_input};
+pub use method::{Claim, Claims, Class, Contract, Forms, Method, Over, Values};
+
+// BEGIN methods (written by the test `tidy::lists_are_complete` with BLESS=1)
+mod conductor_artistic;
+mod conductor_exact;
+mod conductor_from_f0_f82;
+mod conductor_textbook;
+mod dielectric_exact;
+mod dielectric_exact_p;
+mod dielectric_exact_s;
+mod dielectric_textbook;
+mod empirical;
+mod f82_tint;
+mod hoffman_f82;
+mod schlick;
+mod schlick_corrected;
+mod schlick_f90;
+mod schlick_generalised;
+mod schlick_ior;
+mod schlick_rescaled;
+mod schlick_spherical_gaussian;
+
+/// Every method, by name.
+#[rustfmt::skip]
+pub static ALL: &[&Method] = &[
+    &conductor_artistic::METHOD,
+    &conductor_exact::METHOD,
+    &conductor_from_f0_f82::METHOD,
+    &conductor_textbook::METHOD,
+    &dielectric_exact::METHOD,
+    &dielectric_exact_p::METHOD,
+    &dielectric_exact_s::METHOD,
+    &dielectric_textbook::METHOD,
+    &empirical::METHOD,
+    &f82_tint::METHOD,
+    &hoffman_f82::METHOD,
+    &schlick::METHOD,
+    &schlick_corrected::METHOD,
+    &schlick_f90::METHOD,
+    &schlick_generalised::METHOD,
+    &schlick_ior::METHOD,
+    &schlick_rescaled::METHOD,
+    &schlick_spherical_gaussian::METHOD,
+];
+// END methods
+
+/// The method of this name.
+pub fn find(name: &str) -> Option<&'static Method> {
+    ALL.iter().find(|method| method.name == name).copied()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{ALL, Input};
+
+    #[test]
+    fn every_form_of_every_method_is_well_formed() {
+        for method in ALL {
+            for scalar_form in
+                [false, true]
+                    .into_iter()
+                    .take(if method.has_scalar_form() { 2 } else { 1 })
+            {
+                if let Err(fault) = method.function(scalar_form) {
+                    panic!("{fault}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn inputs_stand_in_the_order_of_the_contract() {
+        let place = |input: &Input| Input::ORDER.iter().position(|other| other == input);
+        for method in ALL {
+            assert!(method.inputs.is_sorted_by_key(place), "{}", method.name);
+        }
+    }
+}

@@ -1,0 +1,80 @@
+//! `F = F0 + (1 - F0) (1 - cos θ)⁵`: Schlick's approximation from the reflectance at normal incidence.
+//!
+//! Source: Schlick, "An Inexpensive BRDF Model for Physically-based Rendering", 1994, eq. 15,
+//! <https://doi.org/10.1111/1467-8659.1330233>; eq. 13 of the thesis.
+//! Domain: F0 ≥ 0; above 1 the result lies between 1 and F0. It rises monotonically, so it misses the dip that
+//! metals have near 80 degrees. Error: see [`METHOD`]'s claims.
+
+use crate::cite::Citation;
+use crate::ir::Expr;
+
+use super::input::{Input, Inputs};
+use super::method::{Claim, Claims, Class, Contract, Forms, Method, Over};
+
+/// Schlick 1994.
+pub const SCHLICK_1994: Citation = Citation {
+    authors: "Schlick",
+    title: "An Inexpensive BRDF Model for Physically-based Rendering",
+    place: "Computer Graphics Forum 13(3), 233-246",
+    year: 1994,
+    link: "https://doi.org/10.1111/1467-8659.1330233",
+};
+
+/// The record of this method.
+pub static METHOD: Method = Method {
+    name: "schlick",
+    summary: "Schlick's approximation from F0",
+    formula: &["F = F0 + (1 - F0) (1 - cos_theta)^5"],
+    source: SCHLICK_1994,
+    inputs: &[Input::F0],
+    forms: Forms::ColourAndScalar,
+    class: Class::Any,
+    domain: "f0 >= 0; above 1 the result lies between 1 and f0. Misses the minimum of metals near 80 degrees",
+    claims: Claims {
+        model: &[
+            Claim {
+                over: Over::Dielectrics,
+                max_abs: 0.5,
+            },
+            Claim {
+                over: Over::Metals,
+                max_abs: 0.5,
+            },
+        ],
+        code_ulp: 4.0,
+    },
+    contract: Contract::Kept,
+    build,
+    specialised: None,
+};
+
+fn build<'b>(x: &Inputs<'b>) -> Expr<'b> {
+    let f0 = x.get(Input::F0);
+    f0 + (1.0 - f0) * grazing_weight(x.cosine())
+}
+
+/// `(1 - c)⁵`: 0 at normal incidence, 1 at grazing. Three multiplications, no power.
+pub(super) fn grazing_weight(c: Expr<'_>) -> Expr<'_> {
+    let m = (1.0 - c).named("m", "0 at normal incidence, 1 at grazing");
+    let m2 = m.squared().named("m2", "");
+    m2 * m2 * m
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::limits::check;
+    use super::METHOD;
+
+    #[test]
+    fn it_meets_f0_and_one() {
+        check(&METHOD, 1.0, &[0.04], 0.04);
+        check(&METHOD, 0.0, &[0.04], 1.0);
+        check(&METHOD, 0.5, &[0.04], 0.04 + 0.96 / 32.0);
+    }
+
+    #[test]
+    fn a_colour_above_one_stays_between_one_and_itself() {
+        check(&METHOD, 1.0, &[1.05], 1.05);
+        check(&METHOD, -3.0, &[1.05], 1.0);
+    }
+}

@@ -1,0 +1,80 @@
+//! `F = ((n-1)² + 4n (1 - cos θ)⁵ + k²) / ((n+1)² + k²) - 2n cos θ (1 - cos θ)^λ`: the rescaled Schlick with a term
+//! that restores the minimum of metals.
+//!
+//! Source: Lazányi and Szirmay-Kalos, "Fresnel Term Approximations for Metals", WSCG, 2005,
+//! <https://hdl.handle.net/11025/11214>. The thesis prints it as eq. 15 without the factor cos θ, and so printed
+//! F(90°) = 1 - 2n would be negative.
+//! λ is computed per material and channel so that F meets the exact law at a matching angle (81.37 degrees,
+//! cos θ = 0.15). Where no λ does, as in gold's green, the term is dropped: λ ≤ 0 says so.
+//! Domain: n > 0, k ≥ 0; clamped to [0, 1]. Error: [`METHOD`]'s claims.
+
+use crate::ir::Expr;
+
+use super::input::{Input, Inputs};
+use super::method::{Claim, Claims, Class, Contract, Forms, Method, Over};
+use super::schlick_rescaled::{LAZANYI_2005, rescaled};
+
+/// The record of this method.
+pub static METHOD: Method = Method {
+    name: "schlick_corrected",
+    summary: "the rescaled Schlick with a term that restores the minimum of metals",
+    formula: &[
+        "F = ((n - 1)^2 + 4 n (1 - cos_theta)^5 + k^2) / ((n + 1)^2 + k^2)",
+        "    - 2 n cos_theta (1 - cos_theta)^lambda; without the last term where lambda <= 0",
+    ],
+    source: LAZANYI_2005,
+    inputs: &[Input::N, Input::K, Input::LAMBDA],
+    forms: Forms::Colour,
+    class: Class::Any,
+    domain: "n > 0, k >= 0; clamped to [0, 1]; lambda <= 0 drops the correction",
+    claims: Claims {
+        model: &[Claim {
+            over: Over::Metals,
+            max_abs: 0.5,
+        }],
+        code_ulp: 256.0,
+    },
+    contract: Contract::Kept,
+    build,
+    specialised: None,
+};
+
+fn build<'b>(x: &Inputs<'b>) -> Expr<'b> {
+    let (c, n, lambda) = (x.cosine(), x.get(Input::N), x.get(Input::LAMBDA));
+    let base = rescaled(c, n, x.get(Input::K)).named("base", "the rescaled Schlick");
+    let zero = c.builder().number(0.0);
+    let fall = (1.0 - c).rgb().power(lambda);
+    let dip = (2.0 * n * (c * fall)).named("dip", "what the minimum takes away");
+    let dip = zero
+        .choose_below(lambda, dip, zero)
+        .named("correction", "none where lambda <= 0");
+    (base - dip).saturate()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::limits::{check, value};
+    use super::METHOD;
+
+    #[test]
+    fn it_meets_normal_incidence_and_grazing() {
+        check(
+            &METHOD,
+            1.0,
+            &[2.49, 4.44, 7.0],
+            value(&METHOD, 1.0, &[2.49, 4.44, 0.0]),
+        );
+        check(&METHOD, 0.0, &[2.49, 4.44, 7.0], 1.0);
+    }
+
+    #[test]
+    fn without_lambda_it_is_the_rescaled_schlick() {
+        use super::super::schlick_rescaled::METHOD as RESCALED;
+        check(
+            &METHOD,
+            0.2,
+            &[0.57, 2.18, -1.0],
+            value(&RESCALED, 0.2, &[0.57, 2.18]),
+        );
+    }
+}

@@ -1,0 +1,65 @@
+//! `F = F0 + (F90 - F0) (1 - cos θ)⁵`: Schlick's approximation with the reflectance at 90 degrees as an input.
+//!
+//! Source: Lagarde and de Rousiers, "Moving Frostbite to Physically Based Rendering", SIGGRAPH course, 2014,
+//! <https://seblagarde.wordpress.com/2015/07/14/siggraph-2014-moving-frostbite-to-physically-based-rendering/>.
+//! Domain: F0 ≥ 0, F90 in [0, 1]; engines lower F90 for surfaces that are darker than any material, as occlusion.
+//! Error: that of `schlick` where F90 = 1.
+
+use crate::cite::Citation;
+use crate::ir::Expr;
+
+use super::input::{Input, Inputs};
+use super::method::{Claim, Claims, Class, Contract, Forms, Method, Over};
+use super::schlick::grazing_weight;
+
+/// The record of this method.
+pub static METHOD: Method = Method {
+    name: "schlick_f90",
+    summary: "Schlick's approximation between F0 and F90",
+    formula: &["F = F0 + (F90 - F0) (1 - cos_theta)^5"],
+    source: Citation {
+        authors: "Lagarde, de Rousiers",
+        title: "Moving Frostbite to Physically Based Rendering",
+        place: "SIGGRAPH course",
+        year: 2014,
+        link: "https://seblagarde.wordpress.com/2015/07/14/siggraph-2014-moving-frostbite-to-physically-based-rendering/",
+    },
+    inputs: &[Input::F0, Input::F90],
+    forms: Forms::ColourAndScalar,
+    class: Class::Any,
+    domain: "f0 >= 0, f90 in [0, 1]; the result lies between the two",
+    claims: Claims {
+        model: &[
+            Claim {
+                over: Over::Dielectrics,
+                max_abs: 0.5,
+            },
+            Claim {
+                over: Over::Metals,
+                max_abs: 0.5,
+            },
+        ],
+        code_ulp: 4.0,
+    },
+    contract: Contract::Kept,
+    build,
+    specialised: None,
+};
+
+fn build<'b>(x: &Inputs<'b>) -> Expr<'b> {
+    let f0 = x.get(Input::F0);
+    f0 + (x.get(Input::F90) - f0) * grazing_weight(x.cosine())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::limits::check;
+    use super::METHOD;
+
+    #[test]
+    fn it_meets_f0_and_f90() {
+        check(&METHOD, 1.0, &[0.04, 0.5], 0.04);
+        check(&METHOD, 0.0, &[0.04, 0.5], 0.5);
+        check(&METHOD, 2.0, &[1.1, 1.0], 1.1);
+    }
+}

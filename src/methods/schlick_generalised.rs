@@ -1,0 +1,65 @@
+//! `F = F0 + (F90 - F0) (1 - cos θ)^exponent`: Schlick's approximation with F90 and the exponent as inputs.
+//!
+//! Source: Hoffman, "Generalization of Adobe's Fresnel Model", 2023,
+//! <https://renderwonk.com/publications/gfm/> (its first two terms, as MaterialX names it).
+//! Domain: F0 ≥ 0, F90 in [0, 1], exponent > 0. Error: that of `schlick` at exponent 5 and F90 = 1; the real power
+//! goes through exp2 and log2, whose own error the code error holds.
+
+use crate::cite::Citation;
+use crate::ir::Expr;
+
+use super::input::{Input, Inputs};
+use super::method::{Claim, Claims, Class, Contract, Forms, Method, Over};
+
+/// The record of this method.
+pub static METHOD: Method = Method {
+    name: "schlick_generalised",
+    summary: "Schlick's approximation with F90 and any exponent",
+    formula: &["F = F0 + (F90 - F0) (1 - cos_theta)^exponent"],
+    source: Citation {
+        authors: "Hoffman",
+        title: "Generalization of Adobe's Fresnel Model",
+        place: "renderwonk.com",
+        year: 2023,
+        link: "https://renderwonk.com/publications/gfm/",
+    },
+    inputs: &[Input::F0, Input::F90, Input::EXPONENT],
+    forms: Forms::ColourAndScalar,
+    class: Class::Any,
+    domain: "f0 >= 0, f90 in [0, 1], exponent > 0; the result lies between f0 and f90",
+    claims: Claims {
+        model: &[
+            Claim {
+                over: Over::Dielectrics,
+                max_abs: 0.5,
+            },
+            Claim {
+                over: Over::Metals,
+                max_abs: 0.5,
+            },
+        ],
+        code_ulp: 256.0,
+    },
+    contract: Contract::Kept,
+    build,
+    specialised: None,
+};
+
+fn build<'b>(x: &Inputs<'b>) -> Expr<'b> {
+    let f0 = x.get(Input::F0);
+    let m = (1.0 - x.cosine()).named("m", "0 at normal incidence, 1 at grazing");
+    f0 + (x.get(Input::F90) - f0) * m.power(x.get(Input::EXPONENT))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::limits::check;
+    use super::METHOD;
+
+    #[test]
+    fn it_meets_f0_and_f90() {
+        check(&METHOD, 1.0, &[0.04, 0.5, 5.0], 0.04);
+        check(&METHOD, 0.0, &[0.04, 0.5, 5.0], 0.5);
+        check(&METHOD, 0.5, &[0.0, 1.0, 3.0], 0.125);
+    }
+}

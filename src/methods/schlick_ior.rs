@@ -1,0 +1,52 @@
+//! `F = ((n-1)² + 4n (1 - cos θ)⁵) / (n+1)²`: Schlick's approximation from the index of refraction.
+//!
+//! Source: Schlick, "An Inexpensive BRDF Model for Physically-based Rendering", 1994,
+//! <https://doi.org/10.1111/1467-8659.1330233>; eq. 7 of the thesis.
+//! Domain: η > 0. Below 1 it misses total reflection altogether. Error: [`METHOD`]'s claim; good for η 1.4 to 2.2.
+
+use crate::ir::Expr;
+
+use super::input::{Input, Inputs};
+use super::method::{Claim, Claims, Class, Contract, Forms, Method, Over};
+use super::schlick::{SCHLICK_1994, grazing_weight};
+
+/// The record of this method.
+pub static METHOD: Method = Method {
+    name: "schlick_ior",
+    summary: "Schlick's approximation from the index of refraction",
+    formula: &["F = ((eta - 1)^2 + 4 eta (1 - cos_theta)^5) / (eta + 1)^2"],
+    source: SCHLICK_1994,
+    inputs: &[Input::ETA],
+    forms: Forms::ColourAndScalar,
+    class: Class::Dielectric,
+    domain: "eta > 0; good for 1.4 to 2.2; below 1 it misses total reflection",
+    claims: Claims {
+        model: &[Claim {
+            over: Over::Dielectrics,
+            max_abs: 0.5,
+        }],
+        code_ulp: 8.0,
+    },
+    contract: Contract::Kept,
+    build,
+    specialised: None,
+};
+
+fn build<'b>(x: &Inputs<'b>) -> Expr<'b> {
+    let eta = x.get(Input::ETA);
+    let less = (eta - 1.0).named("eta_less", "");
+    let more = (eta + 1.0).named("eta_more", "");
+    ((less.squared() + 4.0 * eta * grazing_weight(x.cosine())) / more.squared()).saturate()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::limits::check;
+    use super::METHOD;
+
+    #[test]
+    fn it_meets_normal_incidence_and_grazing() {
+        check(&METHOD, 1.0, &[1.5], 0.04);
+        check(&METHOD, 0.0, &[1.5], 1.0);
+    }
+}

@@ -1,0 +1,74 @@
+//! `F = ((n-1)² + 4n (1 - cos θ)⁵ + k²) / ((n+1)² + k²)`: Schlick's approximation rescaled to n and k.
+//!
+//! Source: Lazányi and Szirmay-Kalos, "Fresnel Term Approximations for Metals", WSCG, 2005,
+//! <https://hdl.handle.net/11025/11214>; eq. 14 of the thesis.
+//! Domain: n > 0, k ≥ 0. It rises monotonically and so misses the minimum of metals. Error: [`METHOD`]'s claims.
+
+use crate::cite::Citation;
+use crate::ir::Expr;
+
+use super::input::{Input, Inputs};
+use super::method::{Claim, Claims, Class, Contract, Forms, Method, Over};
+use super::schlick::grazing_weight;
+
+/// Lazányi and Szirmay-Kalos 2005.
+pub const LAZANYI_2005: Citation = Citation {
+    authors: "Lazanyi, Szirmay-Kalos",
+    title: "Fresnel Term Approximations for Metals",
+    place: "WSCG Short Papers, 77-80",
+    year: 2005,
+    link: "https://hdl.handle.net/11025/11214",
+};
+
+/// The record of this method.
+pub static METHOD: Method = Method {
+    name: "schlick_rescaled",
+    summary: "Schlick's approximation rescaled to n and k",
+    formula: &["F = ((n - 1)^2 + 4 n (1 - cos_theta)^5 + k^2) / ((n + 1)^2 + k^2)"],
+    source: LAZANYI_2005,
+    inputs: &[Input::N, Input::K],
+    forms: Forms::Colour,
+    class: Class::Any,
+    domain: "n > 0, k >= 0; misses the minimum of metals",
+    claims: Claims {
+        model: &[
+            Claim {
+                over: Over::Dielectrics,
+                max_abs: 0.5,
+            },
+            Claim {
+                over: Over::Metals,
+                max_abs: 0.5,
+            },
+        ],
+        code_ulp: 8.0,
+    },
+    contract: Contract::Kept,
+    build,
+    specialised: None,
+};
+
+fn build<'b>(x: &Inputs<'b>) -> Expr<'b> {
+    rescaled(x.cosine(), x.get(Input::N), x.get(Input::K)).saturate()
+}
+
+/// Eq. 14.
+pub(super) fn rescaled<'b>(c: Expr<'b>, n: Expr<'b>, k: Expr<'b>) -> Expr<'b> {
+    let k2 = k.squared().named("k2", "");
+    let less = (n - 1.0).named("n_less", "");
+    let more = (n + 1.0).named("n_more", "");
+    (less.squared() + k2 + 4.0 * n * grazing_weight(c)) / (more.squared() + k2)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::limits::check;
+    use super::METHOD;
+
+    #[test]
+    fn it_meets_normal_incidence_and_grazing() {
+        check(&METHOD, 1.0, &[0.23, 3.94], 16.1165 / 17.0365);
+        check(&METHOD, 0.0, &[0.23, 3.94], 1.0);
+        check(&METHOD, 1.0, &[1.5, 0.0], 0.04);
+    }
+}

@@ -1,0 +1,64 @@
+//! `F = F0 + (1 - F0) 2^((-5.55473 cos θ - 6.98316) cos θ)`: Schlick's power as a spherical Gaussian.
+//!
+//! Source: Karis, "Real Shading in Unreal Engine 4", SIGGRAPH course, 2013,
+//! <https://blog.selfshadow.com/publications/s2013-shading-course/>, after Lagarde's fit.
+//! The two constants are as published; the weight they give is off by .0038 at 86.8 degrees and by 1.7e-4 at
+//! normal incidence, where F is not quite F0. Domain: F0 ≥ 0. Error: [`METHOD`]'s claims.
+
+use crate::cite::Citation;
+use crate::ir::Expr;
+
+use super::input::{Input, Inputs};
+use super::method::{Claim, Claims, Class, Contract, Forms, Method, Over};
+
+/// The record of this method.
+pub static METHOD: Method = Method {
+    name: "schlick_spherical_gaussian",
+    summary: "Schlick's power as a spherical Gaussian",
+    formula: &["F = F0 + (1 - F0) 2^((-5.55473 cos_theta - 6.98316) cos_theta)"],
+    source: Citation {
+        authors: "Karis",
+        title: "Real Shading in Unreal Engine 4",
+        place: "SIGGRAPH course",
+        year: 2013,
+        link: "https://blog.selfshadow.com/publications/s2013-shading-course/",
+    },
+    inputs: &[Input::F0],
+    forms: Forms::ColourAndScalar,
+    class: Class::Any,
+    domain: "f0 >= 0; at normal incidence the result is f0 + 1.7e-4 (1 - f0)",
+    claims: Claims {
+        model: &[
+            Claim {
+                over: Over::Dielectrics,
+                max_abs: 0.5,
+            },
+            Claim {
+                over: Over::Metals,
+                max_abs: 0.5,
+            },
+        ],
+        code_ulp: 16.0,
+    },
+    contract: Contract::Kept,
+    build,
+    specialised: None,
+};
+
+fn build<'b>(x: &Inputs<'b>) -> Expr<'b> {
+    let (c, f0) = (x.cosine(), x.get(Input::F0));
+    let weight = ((-5.55473 * c - 6.98316) * c).exp2();
+    f0 + (1.0 - f0) * weight
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::limits::check;
+    use super::METHOD;
+
+    #[test]
+    fn it_meets_one_at_grazing_and_nearly_f0_at_normal_incidence() {
+        check(&METHOD, 0.0, &[0.04], 1.0);
+        check(&METHOD, 1.0, &[0.0], f64::exp2(-5.55473 - 6.98316));
+    }
+}

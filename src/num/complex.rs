@@ -1,0 +1,177 @@
+//! [`Complex`]: complex numbers over any [`Num`].
+//!
+//! The modulus and the quotient are scaled (R. L. Smith, *Algorithm 116: Complex division*, Communications of the
+//! ACM 5(8), 1962, <https://doi.org/10.1145/368637.368661>), so that they neither overflow nor lose small parts.
+//! The product is the plain one: |z| up to 1e150.
+
+use super::{Num, Truth};
+use std::ops::{Add, Div, Mul, Neg, Sub};
+
+/// re + i·im
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Complex<N> {
+    /// The real part.
+    pub re: N,
+    /// The imaginary part.
+    pub im: N,
+}
+
+impl<N: Num> Complex<N> {
+    /// re + i·im
+    pub fn new(re: N, im: N) -> Self {
+        Complex { re, im }
+    }
+
+    /// A real number as a complex one.
+    pub fn real(re: N) -> Self {
+        Complex::new(re, N::from_f64(0.0))
+    }
+
+    /// |z|² = re² + im², for |z| from 1e-150 to 1e150.
+    pub fn norm_sqr(self) -> N {
+        self.re * self.re + self.im * self.im
+    }
+
+    /// |z|, without overflow or underflow of the squares.
+    pub fn modulus(self) -> N {
+        let large = self.re.abs().max(self.im.abs());
+        let small = self.re.abs().min(self.im.abs());
+        if large.to_f64() == 0.0 {
+            return large;
+        }
+        let ratio = small / large;
+        large * (N::from_f64(1.0) + ratio * ratio).sqrt()
+    }
+
+    /// The principal square root: re ≥ 0, and on the cut (z real and negative) im ≥ 0.
+    ///
+    /// The larger part is √((|z| + |re|)/2), where nothing cancels; the other is im divided by twice that.
+    pub fn sqrt(self) -> Self {
+        let half = N::from_f64(0.5);
+        let zero = N::from_f64(0.0);
+        let large = (half * (self.modulus() + self.re.abs())).sqrt();
+        if large.to_f64() == 0.0 {
+            return Complex::new(zero, zero);
+        }
+        let small = half * self.im / large;
+        match (negative(self.re), negative(self.im)) {
+            (false, _) => Complex::new(large, small),
+            (true, false) => Complex::new(small, large),
+            (true, true) => Complex::new(-small, -large),
+        }
+    }
+
+    /// The product with a real number.
+    pub fn scale(self, factor: N) -> Self {
+        Complex::new(self.re * factor, self.im * factor)
+    }
+}
+
+fn negative<N: Num>(x: N) -> bool {
+    x.less(N::from_f64(0.0)) == Truth::Yes
+}
+
+impl<N: Num> Add for Complex<N> {
+    type Output = Self;
+
+    fn add(self, other: Self) -> Self {
+        Complex::new(self.re + other.re, self.im + other.im)
+    }
+}
+
+impl<N: Num> Sub for Complex<N> {
+    type Output = Self;
+
+    fn sub(self, other: Self) -> Self {
+        Complex::new(self.re - other.re, self.im - other.im)
+    }
+}
+
+impl<N: Num> Mul for Complex<N> {
+    type Output = Self;
+
+    fn mul(self, other: Self) -> Self {
+        Complex::new(
+            self.re * other.re - self.im * other.im,
+            self.re * other.im + self.im * other.re,
+        )
+    }
+}
+
+impl<N: Num> Div for Complex<N> {
+    type Output = Self;
+
+    /// With |c| ≥ |d| and r = d/c: (a + ib)/(c + id) = (a + br + i(b − ar)) / (c + dr). Otherwise both are first
+    /// multiplied by −i, which exchanges the parts.
+    fn div(self, other: Self) -> Self {
+        if other.re.abs().less(other.im.abs()) == Truth::Yes {
+            return quarter_turned(self) / quarter_turned(other);
+        }
+        let ratio = other.im / other.re;
+        let scale = other.re + other.im * ratio;
+        Complex::new(
+            (self.re + self.im * ratio) / scale,
+            (self.im - self.re * ratio) / scale,
+        )
+    }
+}
+
+/// −i z
+fn quarter_turned<N: Num>(z: Complex<N>) -> Complex<N> {
+    Complex::new(z.im, -z.re)
+}
+
+impl<N: Num> Neg for Complex<N> {
+    type Output = Self;
+
+    fn neg(self) -> Self {
+        Complex::new(-self.re, -self.im)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::num::Dd;
+
+    #[track_caller]
+    fn check_near<N: Num>(got: Complex<N>, want: Complex<N>, tolerance: f64) {
+        let error = (got - want).modulus().to_f64() / want.modulus().to_f64();
+        assert!(error <= tolerance, "{got:?} is {error:e} from {want:?}");
+    }
+
+    fn check_parts<N: Num>(tolerance: f64) {
+        let parts = [-1e150, -3.0, -1e-8, 0.0, 2e-100, 0.7, 4.0, 1e149];
+        for (re, im) in parts.iter().flat_map(|&re| parts.map(|im| (re, im))) {
+            if re == 0.0 && im == 0.0 {
+                continue;
+            }
+            let z = Complex::new(N::from_f64(re), N::from_f64(im));
+            let root = z.sqrt();
+            check_near(root * root, z, tolerance);
+            assert!(root.re.to_f64() >= 0.0, "√{z:?} = {root:?}");
+            let w = Complex::new(N::from_f64(1.3), N::from_f64(-0.4));
+            check_near(z / w * w, z, tolerance);
+            check_near(w / z * z, w, tolerance);
+            check_near(
+                z / z.scale(N::from_f64(4.0)),
+                Complex::real(N::from_f64(0.25)),
+                tolerance,
+            );
+        }
+    }
+
+    #[test]
+    fn root_and_quotient_undo_the_product() {
+        check_parts::<f64>(1e-15);
+        check_parts::<Dd>(1e-30);
+    }
+
+    #[test]
+    fn root_on_the_cut_points_up() {
+        assert_eq!(Complex::new(-4.0, 0.0).sqrt(), Complex::new(0.0, 2.0));
+        assert_eq!(Complex::new(0.0, 0.0).sqrt(), Complex::new(0.0, 0.0));
+        assert_eq!(Complex::new(0.0, -8.0).sqrt(), Complex::new(2.0, -2.0));
+        assert_eq!(Complex::new(3.0, -4.0).modulus(), 5.0);
+    }
+}

@@ -1,0 +1,96 @@
+//! Numbers: the trait that a formula computes with, and the kinds of number that implement it.
+//!
+//! One formula, evaluated in several precisions, is how code error is measured: the same graph runs in
+//! [`Half`] (rounded after every operation), `f32`, `f64` and [`Dd`] (double-double), and in [`Interval`],
+//! which answers what a step can reach at all.
+
+mod complex;
+mod dd;
+mod half;
+mod interval;
+mod native;
+mod ulp;
+
+pub use complex::Complex;
+pub use dd::Dd;
+pub use half::Half;
+pub use interval::Interval;
+pub use ulp::{ulp_distance, ulp_of};
+
+use std::fmt::Debug;
+use std::ops::{Add, Div, Mul, Neg, Sub};
+
+/// The answer to a comparison. Intervals may overlap, and then it is open.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Truth {
+    /// Certainly not.
+    No,
+    /// Certainly.
+    Yes,
+    /// It depends on where inside the intervals the values lie.
+    Either,
+}
+
+impl From<bool> for Truth {
+    fn from(value: bool) -> Truth {
+        if value { Truth::Yes } else { Truth::No }
+    }
+}
+
+/// A number that a formula computes with.
+///
+/// Every operation rounds once, to the nearest representable value, except `exp2` and `log2`, and all of
+/// [`Dd`] and [`Interval`], whose errors each implementation states. A comparison with a NaN is
+/// [`Truth::No`]; `min` and `max` return the other operand when one is a NaN, as IEEE 754-2008 `minNum` does.
+pub trait Num:
+    Copy
+    + Debug
+    + 'static
+    + Add<Output = Self>
+    + Sub<Output = Self>
+    + Mul<Output = Self>
+    + Div<Output = Self>
+    + Neg<Output = Self>
+{
+    /// The name used in reports: `f16`, `f32`, `f64`, `double-double`, `interval`.
+    const NAME: &'static str;
+
+    /// The nearest value to `x`.
+    fn from_f64(x: f64) -> Self;
+    /// The nearest `f64` (for an interval, its midpoint).
+    fn to_f64(self) -> f64;
+    /// |x|
+    fn abs(self) -> Self;
+    /// The smaller of two.
+    fn min(self, other: Self) -> Self;
+    /// The larger of two.
+    fn max(self, other: Self) -> Self;
+    /// √x
+    fn sqrt(self) -> Self;
+    /// 2ˣ
+    fn exp2(self) -> Self;
+    /// log₂ x
+    fn log2(self) -> Self;
+    /// Whether `self < other`.
+    fn less(self, other: Self) -> Truth;
+
+    /// x²; an interval knows that both factors are the same.
+    fn squared(self) -> Self {
+        self * self
+    }
+
+    /// 1/√x
+    fn inverse_sqrt(self) -> Self {
+        Self::from_f64(1.0) / self.sqrt()
+    }
+
+    /// x limited to [0, 1]; a NaN becomes 0.
+    fn saturate(self) -> Self {
+        self.max(Self::from_f64(0.0)).min(Self::from_f64(1.0))
+    }
+
+    /// A value that covers both, for a choice that a comparison left open. Only intervals leave one open.
+    fn either(self, _other: Self) -> Self {
+        self
+    }
+}

@@ -1,0 +1,31 @@
+//! Optics: the exact laws of reflection, the truth that every generated formula is held against.
+//!
+//! Conventions: light arrives in a medium of index 1 (or any, when `n` and `k` are taken relative to it) at the
+//! plane surface of a medium m = n + ik, with k ≥ 0 absorbing. `cos_theta` is the cosine between the surface's
+//! normal and the direction of the light, in [0, 1]. `eta` is the relative index n_t/n_i; below 1 there is a
+//! critical angle, past which the reflectance is exactly 1. At 90 degrees every reflectance is exactly 1, except
+//! that an index-matched surface (n = 1, k = 0) reflects 0 at every angle, 90 degrees included.
+
+mod interface;
+mod inverse;
+
+pub use interface::{brewster_cos, conductor, critical_cos, dielectric, normal_incidence};
+pub use inverse::{EffectiveIndex, LARGEST_F0, index_from_f0_f82};
+
+use crate::num::Num;
+
+/// The reflected share of the power, for the two linear polarisations.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Reflectance<N> {
+    /// Electric field perpendicular to the plane of incidence (s, TE).
+    pub s: N,
+    /// Electric field in the plane of incidence (p, TM).
+    pub p: N,
+}
+
+impl<N: Num> Reflectance<N> {
+    /// The reflectance of unpolarised light: (s + p)/2.
+    pub fn unpolarised(self) -> N {
+        N::from_f64(0.5) * (self.s + self.p)
+    }
+}

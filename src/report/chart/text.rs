@@ -1,0 +1,190 @@
+//! Text in the chart: fonts, estimated widths, line breaks and escaping.
+
+/// The title of the chart.
+pub(super) const TITLE: Font = Font::new(17.0, 23.0, "600", "#17202b");
+/// The line beneath the title.
+pub(super) const SUBTITLE: Font = Font::new(12.0, 17.0, "400", "#556070");
+/// The names of the curves.
+pub(super) const LEGEND: Font = Font::new(12.5, 18.0, "400", "#17202b");
+/// The labels of the guide lines.
+pub(super) const MARK: Font = Font::new(11.5, 14.0, "400", "#3d4856");
+/// The labels of the axes.
+pub(super) const AXIS: Font = Font::new(12.5, 17.0, "400", "#17202b");
+/// The labels of the ticks.
+pub(super) const TICK: Font = Font::new(11.5, 16.0, "400", "#3d4856");
+/// The command at the foot.
+pub(super) const FOOT: Font = Font::new(10.5, 14.0, "400", "#67717f");
+
+/// A size, a line height, a weight and a colour of text.
+pub(super) struct Font {
+    size: f64,
+    /// The distance from one baseline to the next.
+    pub(super) leading: f64,
+    weight: &'static str,
+    fill: &'static str,
+}
+
+impl Font {
+    const fn new(size: f64, leading: f64, weight: &'static str, fill: &'static str) -> Font {
+        Font {
+            size,
+            leading,
+            weight,
+            fill,
+        }
+    }
+
+    /// The estimated width of a line; most fonts set it a little narrower.
+    pub(super) fn width(&self, line: &str) -> f64 {
+        let bold = if self.weight == "400" { 1.0 } else { 1.1 };
+        line.chars().map(advance).sum::<f64>() * self.size * bold
+    }
+
+    /// The estimated width of the widest line.
+    pub(super) fn widest(&self, lines: &[String]) -> f64 {
+        let widths = lines.iter().map(|line| self.width(line));
+        widths.fold(0.0, f64::max)
+    }
+
+    /// The height of a number of lines.
+    pub(super) fn height(&self, lines: &[String]) -> f64 {
+        self.leading * lines.len() as f64
+    }
+
+    /// Breaks text into lines no wider than `room`; blank text has no lines.
+    pub(super) fn wrap(&self, text: &str, room: f64) -> Vec<String> {
+        let mut lines: Vec<String> = Vec::new();
+        for word in text
+            .split_ascii_whitespace()
+            .flat_map(|word| self.cut(word, room))
+        {
+            match lines.last_mut() {
+                Some(line) if self.width(&format!("{line} {word}")) <= room => {
+                    line.push(' ');
+                    line.push_str(&word);
+                }
+                _ => lines.push(word),
+            }
+        }
+        lines
+    }
+
+    /// Cuts a word that alone is wider than `room`, such as a long path.
+    fn cut(&self, word: &str, room: f64) -> Vec<String> {
+        let mut pieces = vec![String::new()];
+        for letter in word.chars() {
+            let last = pieces.len() - 1;
+            if !pieces[last].is_empty() && self.width(&format!("{}{letter}", pieces[last])) > room {
+                pieces.push(letter.to_string());
+            } else {
+                pieces[last].push(letter);
+            }
+        }
+        pieces
+    }
+
+    /// Lines of text from `top` down; `anchor` says which part of each is at `x`.
+    pub(super) fn draw(&self, lines: &[String], x: f64, top: f64, anchor: &str) -> Vec<String> {
+        let baseline = top + (self.leading + 0.7 * self.size) / 2.0;
+        let place = |(row, line): (usize, &String)| {
+            let y = baseline + self.leading * row as f64;
+            self.element(line, &format!("x=\"{x:.2}\" y=\"{y:.2}\""), anchor)
+        };
+        lines.iter().enumerate().map(place).collect()
+    }
+
+    /// Lines of text that read upwards, centred on `y`, from `left` rightwards.
+    pub(super) fn draw_upwards(&self, lines: &[String], left: f64, y: f64) -> Vec<String> {
+        let baseline = left + (self.leading + 0.7 * self.size) / 2.0;
+        let place = |(row, line): (usize, &String)| {
+            let x = baseline + self.leading * row as f64;
+            let turn = format!("transform=\"translate({x:.2} {y:.2}) rotate(-90)\"");
+            self.element(line, &turn, "middle")
+        };
+        lines.iter().enumerate().map(place).collect()
+    }
+
+    fn element(&self, line: &str, place: &str, anchor: &str) -> String {
+        format!(
+            "<text {place} font-size=\"{}\" font-weight=\"{}\" fill=\"{}\" \
+             text-anchor=\"{anchor}\">{}</text>",
+            self.size,
+            self.weight,
+            self.fill,
+            escape(line)
+        )
+    }
+}
+
+/// Text that is safe inside an XML element or a quoted attribute.
+pub(super) fn escape(text: &str) -> String {
+    let mut safe = String::with_capacity(text.len());
+    for letter in text.chars() {
+        match letter {
+            '&' => safe.push_str("&amp;"),
+            '<' => safe.push_str("&lt;"),
+            '>' => safe.push_str("&gt;"),
+            '"' => safe.push_str("&quot;"),
+            '\'' => safe.push_str("&apos;"),
+            // XML 1.0 cannot carry these at all, not even as references.
+            '\u{FFFE}' | '\u{FFFF}' => safe.push('\u{FFFD}'),
+            other if other.is_control() => safe.push(' '),
+            other => safe.push(other),
+        }
+    }
+    safe
+}
+
+/// The width of a character as a part of the font size, after wide sans fonts.
+fn advance(letter: char) -> f64 {
+    match letter {
+        'i' | 'j' | 'l' | 'I' | ' ' | '.' | ',' | ':' | ';' | '\'' | '|' | '!' => 0.34,
+        'f' | 'r' | 't' | '(' | ')' | '[' | ']' | '/' | '-' | 'J' => 0.42,
+        'm' | 'w' | 'M' | 'W' | '@' | '%' | '—' | '…' => 0.98,
+        'A'..='Z' => 0.72,
+        '=' | '+' | '<' | '>' | '−' | '×' | '±' | '≈' | '≤' | '≥' => 0.84,
+        '\u{2E80}'.. => 1.0,
+        _ => 0.63,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn markup_and_forbidden_characters_are_escaped() {
+        let cases = [
+            ("plain ° text", "plain ° text"),
+            ("a < b & c > d", "a &lt; b &amp; c &gt; d"),
+            ("\"it's\"", "&quot;it&apos;s&quot;"),
+            ("&amp;", "&amp;amp;"),
+            ("a\r\nb\u{0}", "a  b "),
+            ("\u{FFFF}", "\u{FFFD}"),
+        ];
+        for (text, expected) in cases {
+            assert_eq!(escape(text), expected);
+        }
+    }
+
+    #[test]
+    fn lines_fit_the_room() {
+        let text = "one two  three\nfour https://example.org/a/long/path/without/any/break five";
+        let lines = LEGEND.wrap(text, 90.0);
+        assert!(lines.iter().all(|line| LEGEND.width(line) <= 90.0));
+        let joined: String = lines.concat().split_whitespace().collect();
+        assert_eq!(joined, text.split_whitespace().collect::<String>());
+    }
+
+    #[test]
+    fn short_text_is_one_line_and_blank_text_none() {
+        assert_eq!(LEGEND.wrap("a b", 90.0), ["a b"]);
+        assert!(LEGEND.wrap(" \n", 90.0).is_empty());
+        assert_eq!(LEGEND.wrap("at 9\u{A0}nm", 50.0), ["at", "9\u{A0}nm"]);
+    }
+
+    #[test]
+    fn a_room_too_narrow_for_a_letter_still_ends() {
+        assert_eq!(LEGEND.wrap("ab", 1.0), ["a", "b"]);
+    }
+}

@@ -1,0 +1,139 @@
+//! Round axis ticks and their labels.
+
+/// Ticks from `low` to `high` at a step of 1, 2 or 5 times a power of ten.
+///
+/// The step is the one that comes nearest to `about` intervals (from 1 to
+/// 100). A range that is empty, reversed or not finite has no ticks.
+pub fn ticks(low: f64, high: f64, about: usize) -> Vec<f64> {
+    let span = high - low;
+    // Beyond these bounds the powers of ten below would overflow.
+    if !(1e-200..1e200).contains(&span) {
+        return Vec::new();
+    }
+    let step = Step::nearest(span / about.clamp(1, 100) as f64);
+    let mut values = step.multiples(low, high);
+    // A span of a few rounding errors maps several multiples to one number.
+    values.dedup();
+    values
+}
+
+/// The fewest decimals, up to six, that show all the ticks exactly.
+pub(super) fn decimals(ticks: &[f64]) -> usize {
+    let exact = |places: &usize| ticks.iter().all(|tick| is_exact(*tick, *places));
+    (0..6).find(exact).unwrap_or(6)
+}
+
+/// A tick label, with a true minus sign.
+pub(super) fn label(value: f64, decimals: usize, unit: &str) -> String {
+    // Adding zero turns a negative zero into a plain one.
+    format!("{:.decimals$}{unit}", value + 0.0).replace('-', "−")
+}
+
+fn is_exact(value: f64, places: usize) -> bool {
+    let scaled = value * 10f64.powi(places as i32);
+    (scaled - scaled.round()).abs() <= 1e-9 * scaled.abs().max(1.0)
+}
+
+/// A step of `digit` times ten to the power `exponent`.
+struct Step {
+    digit: f64,
+    exponent: i32,
+}
+
+impl Step {
+    /// The round step nearest to `raw`, measured as a ratio.
+    fn nearest(raw: f64) -> Step {
+        let exponent = raw.log10().floor() as i32;
+        // The bounds are the geometric means of neighbouring digits.
+        let digit = match raw / 10f64.powi(exponent) {
+            lead if lead < 2f64.sqrt() => 1.0,
+            lead if lead < 10f64.sqrt() => 2.0,
+            lead if lead < 50f64.sqrt() => 5.0,
+            _ => 10.0,
+        };
+        Step { digit, exponent }
+    }
+
+    fn multiples(&self, low: f64, high: f64) -> Vec<f64> {
+        let step = self.times(1.0);
+        // The slack keeps an end that rounding moved just past a multiple.
+        let first = (low / step - 1e-9).ceil();
+        let last = (high / step + 1e-9).floor();
+        let count = (last - first).max(-1.0) as i64;
+        (0..=count)
+            .map(|index| self.times(first + index as f64))
+            .collect()
+    }
+
+    /// One rounding only, so that three steps of 0.1 are 0.3 and nothing else.
+    fn times(&self, count: f64) -> f64 {
+        let power = 10f64.powi(self.exponent.abs());
+        if self.exponent < 0 {
+            count * self.digit / power
+        } else {
+            count * self.digit * power
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn ticks_are_round() {
+        let cases: [(f64, f64, usize, &[f64]); 9] = [
+            (
+                0.0,
+                90.0,
+                9,
+                &[0., 10., 20., 30., 40., 50., 60., 70., 80., 90.],
+            ),
+            (0.0, 100.0, 5, &[0.0, 20.0, 40.0, 60.0, 80.0, 100.0]),
+            (0.0, 1.0, 4, &[0.0, 0.2, 0.4, 0.6, 0.8, 1.0]),
+            (0.3, 0.7, 4, &[0.3, 0.4, 0.5, 0.6, 0.7]),
+            (-1.0, 1.0, 4, &[-1.0, -0.5, 0.0, 0.5, 1.0]),
+            (88.3, 100.0, 2, &[90.0, 95.0, 100.0]),
+            (0.0, 1000.0, 1, &[0.0, 1000.0]),
+            (0.0, 0.003, 3, &[0.0, 0.001, 0.002, 0.003]),
+            (7.0, 9.0, 0, &[8.0]),
+        ];
+        for (low, high, about, expected) in cases {
+            assert_eq!(ticks(low, high, about), expected, "{low} to {high}");
+        }
+    }
+
+    #[test]
+    fn ranges_without_extent_have_no_ticks() {
+        let cases = [
+            (1.0, 1.0),
+            (2.0, 1.0),
+            (f64::NAN, 1.0),
+            (0.0, f64::INFINITY),
+            (f64::MIN, f64::MAX),
+            (0.0, 1e-310),
+        ];
+        for (low, high) in cases {
+            assert!(ticks(low, high, 5).is_empty(), "{low} to {high}");
+        }
+    }
+
+    #[test]
+    fn ticks_stay_in_range_and_apart() {
+        for (low, high) in [(0.1, 0.7), (-3e7, 9e9), (1e16, 1e16 + 4.0), (-2e-9, 1e-9)] {
+            let values = ticks(low, high, usize::MAX);
+            assert!(values.len() <= 160, "{low} to {high}");
+            assert!(values.iter().all(|value| (low..=high).contains(value)));
+            assert!(values.is_sorted_by(|before, after| before < after));
+        }
+    }
+
+    #[test]
+    fn labels_use_the_fewest_decimals() {
+        assert_eq!(decimals(&[0.0, 20.0]), 0);
+        assert_eq!(decimals(&[0.0, 0.1, 0.25]), 2);
+        assert_eq!(decimals(&[1.0 / 3.0]), 6);
+        assert_eq!(label(-2.5, 1, "%"), "−2.5%");
+        assert_eq!(label(-0.0, 0, "°"), "0°");
+    }
+}

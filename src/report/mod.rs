@@ -1,0 +1,4 @@
+//! Reports: what people look at.
+
+pub mod chart;
+pub mod table;

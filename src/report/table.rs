@@ -1,0 +1,41 @@
+//! Tables as plain text: columns padded, numbers to the right.
+
+/// A table with a head and a line under it.
+pub fn text(head: &[&str], rows: &[Vec<String>]) -> String {
+    let head: Vec<String> = head.iter().map(|cell| (*cell).to_owned()).collect();
+    let widths: Vec<usize> = (0..head.len())
+        .map(|column| {
+            let cells = rows
+                .iter()
+                .filter_map(|row| row.get(column))
+                .chain([&head[column]]);
+            cells.map(|cell| cell.chars().count()).max().unwrap_or(0)
+        })
+        .collect();
+    let rule: Vec<String> = widths.iter().map(|width| "-".repeat(*width)).collect();
+    let lines = [&head, &rule]
+        .into_iter()
+        .chain(rows)
+        .map(|row| line(row, &widths));
+    lines.collect::<Vec<_>>().concat()
+}
+
+fn line(cells: &[String], widths: &[usize]) -> String {
+    let padded: Vec<String> = cells
+        .iter()
+        .zip(widths)
+        .map(|(cell, width)| padded(cell, *width))
+        .collect();
+    padded.join("  ").trim_end().to_owned() + "\n"
+}
+
+fn padded(cell: &str, width: usize) -> String {
+    let space = " ".repeat(width.saturating_sub(cell.chars().count()));
+    let is_number = cell.starts_with(|c: char| c.is_ascii_digit() || c == '-')
+        && cell.trim_end_matches('%').trim().parse::<f64>().is_ok();
+    if is_number {
+        space + cell
+    } else {
+        cell.to_owned() + &space
+    }
+}

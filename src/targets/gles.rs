@@ -1,0 +1,34 @@
+//! GLSL ES 3.00, as OpenGL ES 3.0 and WebGL 2 take it.
+//!
+//! Everything is declared `highp`: the exact forms need it, and the default precision is the including shader's.
+
+use super::glsl;
+use super::spelling::Spelling;
+use super::target::{Finish, Page, Target, Validator};
+
+/// The record of this target.
+pub static TARGET: Target = Target {
+    name: "gles",
+    summary: "GLSL ES 3.00 for phones and WebGL 2",
+    source: "The OpenGL ES Shading Language 3.00, Khronos, https://registry.khronos.org/OpenGL/specs/es/3.0/GLSL_ES_Specification_3.00.pdf",
+    extension: "glsl",
+    by_default: true,
+    spelling: Spelling {
+        param: "highp {type} {name}",
+        local: "highp {type} {name} = {value};",
+        head: "highp {type} {name}({params})",
+        ..glsl::SPELLING
+    },
+    reserved: glsl::RESERVED,
+    reserved_prefixes: &["gl_"],
+    pages: &[Page {
+        suffix: "",
+        template: include_str!("../../templates/gles.tera"),
+    }],
+    finish: Finish::Text,
+    validators: &[Validator {
+        name: "glslang",
+        command: "glslangValidator -S frag FILE, after `#version 300 es` and before a main()",
+        get: "Debian package glslang-tools",
+    }],
+};

@@ -1,0 +1,76 @@
+//! HLSL, as FXC and DXC take it, under language versions 2018 and 2021 alike: no vector condition before `?`.
+
+use crate::ir::Op;
+
+use super::spelling::{Form, Spelling};
+use super::target::{Finish, Page, Target, Validator};
+
+/// The record of this target.
+pub static TARGET: Target = Target {
+    name: "hlsl",
+    summary: "HLSL 2018 and 2021 for Direct3D, Unity and Unreal",
+    source: "HLSL reference, Microsoft, https://learn.microsoft.com/windows/win32/direct3dhlsl/dx-graphics-hlsl-reference",
+    extension: "hlsl",
+    by_default: true,
+    spelling: Spelling {
+        comment: "//",
+        scalar: "float",
+        rgb: "float3",
+        param: "{type} {name}",
+        local: "{type} {name} = {value};",
+        head: "{type} {name}({params})",
+        suffix: "",
+        mixed_min_max: true,
+        guard: true,
+        differs: &[
+            (Op::Splat, Form::Postfix(".xxx")),
+            (Op::Compose, Form::Call("float3")),
+        ],
+    },
+    reserved: RESERVED,
+    reserved_prefixes: &["SV_"],
+    pages: &[Page {
+        suffix: "",
+        template: include_str!("../../templates/hlsl.tera"),
+    }],
+    finish: Finish::Text,
+    validators: &[
+        Validator {
+            name: "glslang",
+            command: "glslangValidator -D -V -S frag -e main FILE, before an entry point",
+            get: "Debian package glslang-tools",
+        },
+        Validator {
+            name: "dxc",
+            command: "dxc -T ps_6_0 -E main -HV 2018 (and 2021) FILE",
+            get: "https://github.com/microsoft/DirectXShaderCompiler",
+        },
+    ],
+};
+
+/// Keywords, reserved words and the intrinsic functions that a name would hide, from the reference's appendix.
+#[rustfmt::skip]
+const RESERVED: &[&str] = &[
+    "AppendStructuredBuffer", "asm", "asm_fragment", "BlendState", "bool", "break", "Buffer", "ByteAddressBuffer",
+    "case", "cbuffer", "centroid", "class", "column_major", "compile", "compile_fragment", "CompileShader", "const",
+    "continue", "ComputeShader", "ConsumeStructuredBuffer", "default", "DepthStencilState", "DepthStencilView",
+    "discard", "do", "double", "DomainShader", "dword", "else", "export", "extern", "false", "float", "for", "fxgroup",
+    "GeometryShader", "groupshared", "half", "Hullshader", "if", "in", "inline", "inout", "InputPatch", "int",
+    "interface", "line", "lineadj", "linear", "LineStream", "matrix", "min16float", "min10float", "min16int",
+    "min12int", "min16uint", "namespace", "nointerpolation", "noperspective", "NULL", "out", "OutputPatch",
+    "packoffset", "pass", "pixelfragment", "PixelShader", "point", "PointStream", "precise", "RasterizerState",
+    "RenderTargetView", "return", "register", "row_major", "RWBuffer", "RWByteAddressBuffer", "RWStructuredBuffer",
+    "RWTexture1D", "RWTexture2D", "RWTexture3D", "sample", "sampler", "SamplerState", "SamplerComparisonState",
+    "shared", "snorm", "stateblock", "stateblock_state", "static", "string", "struct", "switch", "StructuredBuffer",
+    "tbuffer", "technique", "technique10", "technique11", "texture", "Texture1D", "Texture2D", "Texture3D",
+    "TextureCube", "true", "typedef", "triangle", "triangleadj", "TriangleStream", "uint", "uniform", "unorm",
+    "unsigned", "vector", "vertexfragment", "VertexShader", "void", "volatile", "while", "auto", "catch", "char",
+    "const_cast", "delete", "dynamic_cast", "enum", "explicit", "friend", "goto", "long", "mutable", "new", "operator",
+    "private", "protected", "public", "reinterpret_cast", "short", "signed", "sizeof", "static_cast", "template",
+    "this", "throw", "try", "typename", "union", "using", "virtual", "float2", "float3", "float4", "real", "fixed",
+    "abs", "acos", "all", "any", "asin", "atan", "ceil", "clamp", "clip", "cos", "cosh", "cross", "ddx", "ddy",
+    "degrees", "determinant", "distance", "dot", "exp", "exp2", "floor", "fma", "fmod", "frac", "isfinite", "isinf",
+    "isnan", "length", "lerp", "lit", "log", "log10", "log2", "mad", "max", "min", "modf", "mul", "noise", "normalize",
+    "pow", "radians", "rcp", "reflect", "refract", "round", "rsqrt", "saturate", "select", "sign", "sin", "sincos",
+    "sinh", "smoothstep", "sqrt", "step", "tan", "tanh", "transpose", "trunc", "main",
+];

@@ -1,0 +1,69 @@
+//! The Metal Shading Language. Names of the standard library are written in full, so that an including file need not
+//! (and may) say `using namespace metal`.
+
+use crate::ir::Op;
+
+use super::spelling::{Form, Spelling};
+use super::target::{Finish, Page, Target, Validator};
+
+/// The record of this target.
+pub static TARGET: Target = Target {
+    name: "msl",
+    summary: "the Metal Shading Language, version 1.2 and later",
+    source: "Metal Shading Language Specification, Apple, https://developer.apple.com/metal/Metal-Shading-Language-Specification.pdf",
+    extension: "metal",
+    by_default: false,
+    spelling: Spelling {
+        comment: "//",
+        scalar: "float",
+        rgb: "metal::float3",
+        param: "{type} {name}",
+        local: "{type} {name} = {value};",
+        head: "inline {type} {name}({params})",
+        suffix: "f",
+        mixed_min_max: false,
+        guard: true,
+        differs: &[
+            (Op::Splat, Form::Call("metal::float3")),
+            (Op::Compose, Form::Call("metal::float3")),
+            (Op::Abs, Form::Call("metal::abs")),
+            (Op::Min, Form::Call("metal::min")),
+            (Op::Max, Form::Call("metal::max")),
+            (Op::Saturate, Form::Call("metal::saturate")),
+            (Op::Sqrt, Form::Call("metal::sqrt")),
+            (Op::InverseSqrt, Form::Call("metal::rsqrt")),
+            (Op::Exp2, Form::Call("metal::exp2")),
+            (Op::Log2, Form::Call("metal::log2")),
+        ],
+    },
+    reserved: RESERVED,
+    reserved_prefixes: &[],
+    pages: &[Page {
+        suffix: "",
+        template: include_str!("../../templates/msl.tera"),
+    }],
+    finish: Finish::Text,
+    validators: &[Validator {
+        name: "metal",
+        command: "xcrun -sdk macosx metal -std=macos-metal1.2 -c FILE",
+        get: "Xcode, on macOS only",
+    }],
+};
+
+/// C++14's keywords, Metal's own, and the library names that a file with `using namespace metal` would clash with.
+#[rustfmt::skip]
+const RESERVED: &[&str] = &[
+    "alignas", "alignof", "and", "and_eq", "asm", "auto", "bitand", "bitor", "bool", "break", "case", "catch", "char",
+    "char16_t", "char32_t", "class", "compl", "const", "constexpr", "const_cast", "continue", "decltype", "default",
+    "delete", "do", "double", "dynamic_cast", "else", "enum", "explicit", "export", "extern", "false", "float", "for",
+    "friend", "goto", "if", "inline", "int", "long", "mutable", "namespace", "new", "noexcept", "not", "not_eq",
+    "nullptr", "operator", "or", "or_eq", "private", "protected", "public", "register", "reinterpret_cast", "return",
+    "short", "signed", "sizeof", "static", "static_assert", "static_cast", "struct", "switch", "template", "this",
+    "thread", "thread_local", "throw", "true", "try", "typedef", "typeid", "typename", "union", "unsigned", "using",
+    "virtual", "void", "volatile", "wchar_t", "while", "xor", "xor_eq", "kernel", "vertex", "fragment", "device",
+    "constant", "threadgroup", "half", "half2", "half3", "half4", "float2", "float3", "float4", "uint", "sampler",
+    "texture", "texture2d", "metal", "main", "abs", "acos", "all", "any", "asin", "atan", "ceil", "clamp", "cos",
+    "cross", "distance", "dot", "exp", "exp2", "fabs", "floor", "fma", "fract", "isnan", "length", "log", "log2", "max",
+    "min", "mix", "normalize", "pow", "powr", "reflect", "refract", "round", "rsqrt", "saturate", "select", "sign",
+    "sin", "smoothstep", "sqrt", "step", "tan", "trunc",
+];

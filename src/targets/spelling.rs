@@ -1,0 +1,153 @@
+//! How languages spell operations. C's family agrees on most; a target's table says where it differs.
+
+use crate::ir::{Op, Ty};
+
+/// How an operation is written.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Form {
+    /// `a + b`, with its precedence; left-associative.
+    Infix(&'static str, u8),
+    /// `-a`
+    Prefix(&'static str),
+    /// `name(a, b)`
+    Call(&'static str),
+    /// `a` followed by this, as in `(1.0).xxx`.
+    Postfix(&'static str),
+    /// `name(a, 0.0, 1.0)`
+    CallUnit(&'static str),
+    /// `a.r`
+    Channel,
+    /// `condition ? yes : no`
+    Ternary,
+    /// `name(no, yes, condition)`
+    CallSelect(&'static str),
+    /// Not written as an operation: constants and arguments.
+    Leaf,
+}
+
+/// Precedences, from loose to tight.
+pub mod precedence {
+    /// `a ? b : c`
+    pub const TERNARY: u8 = 1;
+    /// `a < b`
+    pub const COMPARE: u8 = 2;
+    /// `a + b`
+    pub const SUM: u8 = 3;
+    /// `a * b`
+    pub const PRODUCT: u8 = 4;
+    /// `-a`
+    pub const PREFIX: u8 = 5;
+    /// `a.r`, `f(a)`, names, numbers
+    pub const TIGHT: u8 = 6;
+}
+
+/// A language's table. In patterns `{type}`, `{name}`, `{value}` and `{params}` stand for what they say.
+#[derive(Debug)]
+pub struct Spelling {
+    /// A line comment's start.
+    pub comment: &'static str,
+    /// The scalar type.
+    pub scalar: &'static str,
+    /// The colour type.
+    pub rgb: &'static str,
+    /// An argument.
+    pub param: &'static str,
+    /// A named step.
+    pub local: &'static str,
+    /// The head of a function, without its brace.
+    pub head: &'static str,
+    /// What follows a number.
+    pub suffix: &'static str,
+    /// Whether `max(colour, scalar)` is legal, so that a scalar need not be spread.
+    pub mixed_min_max: bool,
+    /// Whether the language has a preprocessor, and library files an include guard.
+    pub guard: bool,
+    /// Where the language differs from C's family.
+    pub differs: &'static [(Op, Form)],
+}
+
+impl Spelling {
+    /// How this language writes an operation.
+    pub fn form(&self, op: Op) -> Form {
+        let own = self.differs.iter().find(|(other, _)| *other == op);
+        own.map_or_else(|| c_family(op), |(_, form)| *form)
+    }
+
+    /// The name of a type.
+    pub fn ty(&self, ty: Ty) -> &'static str {
+        if ty == Ty::Rgb { self.rgb } else { self.scalar }
+    }
+
+    /// A number: the shortest digits that give back the same f32, always with a point.
+    pub fn number(&self, value: f64) -> String {
+        let digits = format!("{:?}", value as f32);
+        let digits = match digits.split_once('e') {
+            Some((mantissa, exponent)) if !mantissa.contains('.') => {
+                format!("{mantissa}.0e{exponent}")
+            }
+            _ => digits,
+        };
+        digits + self.suffix
+    }
+}
+
+/// How GLSL, HLSL and MSL agree to write an operation.
+fn c_family(op: Op) -> Form {
+    match op {
+        Op::Number | Op::Param => Form::Leaf,
+        Op::Splat | Op::Compose => Form::Call("vec3"),
+        Op::Channel => Form::Channel,
+        Op::Add => Form::Infix("+", precedence::SUM),
+        Op::Sub => Form::Infix("-", precedence::SUM),
+        Op::Mul => Form::Infix("*", precedence::PRODUCT),
+        Op::Div => Form::Infix("/", precedence::PRODUCT),
+        Op::Neg => Form::Prefix("-"),
+        Op::Abs => Form::Call("abs"),
+        Op::Min => Form::Call("min"),
+        Op::Max => Form::Call("max"),
+        Op::Saturate => Form::Call("saturate"),
+        Op::Sqrt => Form::Call("sqrt"),
+        Op::InverseSqrt => Form::Call("rsqrt"),
+        Op::Exp2 => Form::Call("exp2"),
+        Op::Log2 => Form::Call("log2"),
+        Op::Less => Form::Infix("<", precedence::COMPARE),
+        Op::Select => Form::Ternary,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::ALL;
+
+    #[test]
+    fn numbers_round_trip_and_have_a_point() {
+        let cases = [
+            0.0,
+            -0.0,
+            1.0,
+            1e-7,
+            1e16,
+            0.1,
+            1e-37,
+            f64::from(f32::MIN_POSITIVE),
+            16_777_217.0,
+            -5.55473,
+        ];
+        for target in ALL {
+            for value in cases {
+                let text = target.spelling.number(value);
+                let digits = text
+                    .strip_suffix(target.spelling.suffix)
+                    .expect("the suffix is there");
+                assert!(digits.contains('.'), "{}: {text}", target.name);
+                let back: f32 = digits.parse().expect("it parses");
+                assert_eq!(
+                    back.to_bits(),
+                    (value as f32).to_bits(),
+                    "{}: {text}",
+                    target.name
+                );
+            }
+        }
+    }
+}

@@ -1,0 +1,36 @@
+//! SPIR-V for Vulkan: ready modules, lowered by naga from WGSL.
+//!
+//! SPIR-V has no useful library form (a module without entry points needs the Linkage capability, which Vulkan
+//! forbids), so each method and material comes as two modules: a fragment shader that takes the normal and the view
+//! direction, and a compute shader that maps an array of cosines. The templates say their interfaces.
+
+use super::target::{Finish, Page, Target, Validator};
+use super::wgsl;
+
+/// The record of this target.
+pub static TARGET: Target = Target {
+    name: "spirv",
+    summary: "SPIR-V 1.3 modules for Vulkan 1.1: a fragment and a compute shader per method and material",
+    source: "SPIR-V Specification 1.3, Khronos, https://registry.khronos.org/SPIR-V/",
+    extension: "spv",
+    by_default: true,
+    spelling: wgsl::SPELLING,
+    reserved: naga::keywords::wgsl::RESERVED,
+    reserved_prefixes: &[],
+    pages: &[
+        Page {
+            suffix: ".frag",
+            template: include_str!("../../templates/spirv.frag.tera"),
+        },
+        Page {
+            suffix: ".comp",
+            template: include_str!("../../templates/spirv.comp.tera"),
+        },
+    ],
+    finish: Finish::Spirv,
+    validators: &[Validator {
+        name: "spirv-val",
+        command: "spirv-val --target-env vulkan1.1 FILE",
+        get: "Debian package spirv-tools",
+    }],
+};

@@ -1,0 +1,78 @@
+//! What a target is: a plain record in a static table.
+
+use super::spelling::Spelling;
+
+/// An output language.
+#[derive(Debug)]
+pub struct Target {
+    /// Its one name: `--target`, folder, row in reports.
+    pub name: &'static str,
+    /// One line.
+    pub summary: &'static str,
+    /// The specification, with a link.
+    pub source: &'static str,
+    /// Of its files, without the dot.
+    pub extension: &'static str,
+    /// Whether `--target all` and a run without `--target` write it.
+    pub by_default: bool,
+    /// How it writes names, types, numbers and operations.
+    pub spelling: Spelling,
+    /// Words that no name may be.
+    pub reserved: &'static [&'static str],
+    /// Beginnings that no name may have.
+    pub reserved_prefixes: &'static [&'static str],
+    /// The page around the functions; a binary target may have several.
+    pub pages: &'static [Page],
+    /// What becomes of the rendered page.
+    pub finish: Finish,
+    /// Compilers that are not ours and can judge it.
+    pub validators: &'static [Validator],
+}
+
+/// A kind of file that a target writes for each method or material.
+#[derive(Debug)]
+pub struct Page {
+    /// Goes between the name and the extension, with its dot: `.frag`, or nothing.
+    pub suffix: &'static str,
+    /// Its template, in Tera's language.
+    pub template: &'static str,
+}
+
+/// What becomes of a rendered page.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Finish {
+    /// It is the file.
+    Text,
+    /// It is the file, once naga has parsed and validated it.
+    ValidWgsl,
+    /// It is WGSL that naga lowers to a SPIR-V module.
+    Spirv,
+}
+
+/// An outside compiler.
+#[derive(Clone, Copy, Debug)]
+pub struct Validator {
+    /// Its name.
+    pub name: &'static str,
+    /// How it is called; `FILE` stands for the file.
+    pub command: &'static str,
+    /// Where to get it.
+    pub get: &'static str,
+}
+
+impl Target {
+    /// Why a name cannot be used in this language, if it cannot.
+    pub fn name_fault(&self, name: &str) -> Option<String> {
+        if self.reserved.contains(&name) {
+            return Some(format!("`{name}` is a reserved word of {}", self.name));
+        }
+        let prefix = self
+            .reserved_prefixes
+            .iter()
+            .find(|prefix| name.starts_with(**prefix))?;
+        Some(format!(
+            "names that begin with `{prefix}` are reserved in {}",
+            self.name
+        ))
+    }
+}

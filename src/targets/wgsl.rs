@@ -1,0 +1,54 @@
+//! WGSL, as WebGPU takes it.
+
+use crate::ir::Op;
+
+use super::spelling::{Form, Spelling};
+use super::target::{Finish, Page, Target, Validator};
+
+/// The record of this target.
+pub static TARGET: Target = Target {
+    name: "wgsl",
+    summary: "WGSL for WebGPU, wgpu and Bevy",
+    source: "WebGPU Shading Language, W3C, https://www.w3.org/TR/WGSL/",
+    extension: "wgsl",
+    by_default: true,
+    spelling: SPELLING,
+    reserved: naga::keywords::wgsl::RESERVED,
+    reserved_prefixes: &[],
+    pages: &[Page {
+        suffix: "",
+        template: include_str!("../../templates/wgsl.tera"),
+    }],
+    finish: Finish::ValidWgsl,
+    validators: &[
+        Validator {
+            name: "naga",
+            command: "in process",
+            get: "always there",
+        },
+        Validator {
+            name: "tint",
+            command: "tint FILE",
+            get: "part of Dawn, https://dawn.googlesource.com/dawn",
+        },
+    ],
+};
+
+/// Shared with the targets that go through WGSL.
+pub(super) const SPELLING: Spelling = Spelling {
+    comment: "//",
+    scalar: "f32",
+    rgb: "vec3<f32>",
+    param: "{name}: {type}",
+    local: "let {name} = {value};",
+    head: "fn {name}({params}) -> {type}",
+    suffix: "",
+    mixed_min_max: false,
+    guard: false,
+    differs: &[
+        (Op::Splat, Form::Call("vec3<f32>")),
+        (Op::Compose, Form::Call("vec3<f32>")),
+        (Op::InverseSqrt, Form::Call("inverseSqrt")),
+        (Op::Select, Form::CallSelect("select")),
+    ],
+};

@@ -1,0 +1,52 @@
+//! The cosines at which code is tried: edges, even in angle, even in cosine, logarithmic at both ends, and random from
+//! a constant seed.
+
+/// The seed of the random points.
+const SEED: u64 = 0x9E37_79B9_7F4A_7C15;
+
+/// About `count` cosines in [0, 1], sorted, each once.
+pub fn cosines(count: usize) -> Vec<f32> {
+    let share = count / 5;
+    let even = |i: usize| i as f64 / share as f64;
+    let mut points: Vec<f32> = edges();
+    points.extend((0..=share).map(|i| libm::cos(even(i) * std::f64::consts::FRAC_PI_2) as f32));
+    points.extend((0..=share).map(|i| even(i) as f32));
+    points.extend((0..=share).map(|i| libm::exp2(-30.0 * even(i)) as f32));
+    points.extend((0..=share).map(|i| (1.0 - libm::exp2(-24.0 * even(i))) as f32));
+    let mut random = Random(SEED);
+    points.extend((0..share).map(|_| random.unit() as f32));
+    points.retain(|c| (0.0..=1.0).contains(c));
+    points.sort_by(f32::total_cmp);
+    points.dedup();
+    points
+}
+
+/// 0, 1 and 1/7 with their ten neighbours, the smallest normal number, subnormals.
+fn edges() -> Vec<f32> {
+    let around = |x: f32| {
+        (-10..=10).map(move |step| f32::from_bits(x.to_bits().saturating_add_signed(step)))
+    };
+    [0.0, 1.0, 1.0 / 7.0, f32::MIN_POSITIVE, 1e-41]
+        .into_iter()
+        .flat_map(around)
+        .collect()
+}
+
+/// SplitMix64 (Steele, Lea, Flood, "Fast splittable pseudorandom number generators", OOPSLA, 2014,
+/// <https://doi.org/10.1145/2660193.2660195>): small, seeded, the same everywhere.
+pub(super) struct Random(pub u64);
+
+impl Random {
+    fn next(&mut self) -> u64 {
+        self.0 = self.0.wrapping_add(0x9E37_79B9_7F4A_7C15);
+        let mut z = self.0;
+        z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
+        z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
+        z ^ (z >> 31)
+    }
+
+    /// Even in [0, 1).
+    pub fn unit(&mut self) -> f64 {
+        (self.next() >> 11) as f64 / (1u64 << 53) as f64
+    }
+}
