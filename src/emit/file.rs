@@ -59,7 +59,7 @@ pub fn material(
         .map(|f| (comments(target, &header::specialised(f)), f.clone()))
         .collect();
     let stem = format!("materials/{}", subject.name);
-    let unique = format!("{}_material", functions[0].name);
+    let unique = format!("{}_material", subject.name);
     target
         .pages
         .iter()

@@ -5,6 +5,7 @@ use crate::fit::{Measured, ModelError};
 use crate::ir::Op;
 use crate::methods::{Contract, Method};
 
+use super::comment;
 use super::function::{Emitted, Subject};
 
 /// The mark that files are recognised by.
@@ -43,7 +44,7 @@ pub fn library(method: &Method, functions: &[Emitted], command: &str) -> Vec<Str
             .map(|f| format!("{}: {}", f.name, operations(f))),
     );
     lines.push(OUTPUT_LICENCE.to_owned());
-    clean(lines)
+    comment::lines(lines)
 }
 
 /// The head of a material's file.
@@ -51,7 +52,7 @@ pub fn material(subject: &Subject, command: &str) -> Vec<String> {
     let mut lines = start(command);
     lines.extend(about(subject));
     lines.push(OUTPUT_LICENCE.to_owned());
-    clean(lines)
+    comment::lines(lines)
 }
 
 /// What stands above one specialised function in a material's file.
@@ -65,7 +66,7 @@ pub fn specialised(emitted: &Emitted) -> Vec<String> {
     lines.extend(emitted.model_error.iter().map(model_line));
     lines.push(code_line(&emitted.code_ulp));
     lines.push(format!("Cost: {}", operations(emitted)));
-    clean(lines)
+    comment::lines(lines)
 }
 
 /// The short head of a function that is pasted.
@@ -78,7 +79,7 @@ pub fn brief(emitted: &Emitted, subject: Option<&Subject>, command: &str) -> Vec
     ];
     lines.extend(emitted.model_error.iter().map(model_line));
     lines.push(format!("{} CC0-1.0.", code_line(&emitted.code_ulp)));
-    clean(lines)
+    comment::lines(lines)
 }
 
 fn start(command: &str) -> Vec<String> {
@@ -150,56 +151,46 @@ fn model_line(error: &ModelError) -> String {
     )
 }
 
-fn code_line(bound: &Measured<f64>) -> String {
-    match bound {
-        Measured::Yes(ulp) => format!("Code error: at most {ulp} ulp or 2^-22 in f32 against f64."),
+fn code_line(measured: &Measured<f64>) -> String {
+    match measured {
+        Measured::Yes(ulp) => format!("Code error: {}.", bound(*ulp)),
         Measured::No(why) => format!("Code error: {why}."),
     }
 }
 
+/// A bound in ulp, beside the absolute one that holds near zeros.
+fn bound(ulp: f64) -> String {
+    let ulp = if ulp > 0.0 {
+        format!("{ulp} ulp or ")
+    } else {
+        String::new()
+    };
+    format!("at most {ulp}2^-22, unfused f32 against f64")
+}
+
 fn operations(emitted: &Emitted) -> String {
-    let function = &emitted.function;
+    let count = |ops: &[Op]| {
+        ops.iter()
+            .map(|op| emitted.function.count(*op))
+            .sum::<usize>()
+    };
     let counted = [
+        (count(&[Op::Sqrt, Op::InverseSqrt]), "root", "roots"),
+        (count(&[Op::Div]), "division", "divisions"),
         (
-            function.count(Op::Sqrt) + function.count(Op::InverseSqrt),
-            "roots",
-        ),
-        (function.count(Op::Div), "divisions"),
-        (
-            function.count(Op::Exp2) + function.count(Op::Log2),
-            "exp2 or log2",
+            count(&[Op::Exp2, Op::Log2]),
+            "exponential or logarithm",
+            "exponentials or logarithms",
         ),
     ];
-    let parts: Vec<String> = counted
-        .iter()
-        .filter(|(count, _)| *count > 0)
-        .map(|(count, what)| format!("{count} {what}"))
+    let named = counted.iter().filter(|(count, ..)| *count > 0);
+    let parts: Vec<String> = named
+        .map(|(count, one, many)| format!("{count} {}", if *count == 1 { one } else { many }))
         .collect();
     let among = if parts.is_empty() {
         String::new()
     } else {
         format!(", among them {}", parts.join(", "))
     };
-    format!("{} operations{among}", function.work())
-}
-
-/// Comments are ASCII, one line each, and do not end in a backslash, which would swallow the next line.
-fn clean(lines: Vec<String>) -> Vec<String> {
-    let legal = |c: char| {
-        if c == ' ' || c.is_ascii_graphic() {
-            c
-        } else {
-            '?'
-        }
-    };
-    lines
-        .into_iter()
-        .map(|line| {
-            line.chars()
-                .map(legal)
-                .collect::<String>()
-                .trim_end_matches(['\\', ' '])
-                .to_owned()
-        })
-        .collect()
+    format!("{} scalar operations{among}", emitted.function.work())
 }

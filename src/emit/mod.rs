@@ -4,6 +4,7 @@
 //! and SPIR-V is lowered from WGSL by naga. Library files hold functions only.
 
 mod bounds;
+mod comment;
 mod error;
 mod file;
 mod function;

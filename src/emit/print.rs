@@ -103,28 +103,32 @@ struct Printer<'a> {
 }
 
 impl Printer<'_> {
-    /// A statement around the expression of a node, broken over lines where it is a long colour.
+    /// A statement around the expression of a node; where it is too long, broken at its outermost operation.
     fn statement(&self, id: NodeId, around: impl Fn(&str) -> String) -> Vec<String> {
         let node = &self.function.nodes[id];
         let whole = around(&self.operation(node).text);
-        match (self.spelling.form(node.op), node.args.len()) {
-            (Form::Call(name), 2..) if whole.len() > WIDTH => {
-                let marked = around(&format!("{name}(\0)"));
-                let (before, after) = marked.split_once('\0').expect("the mark stands in it");
-                let mut lines = vec![before.to_owned()];
-                let last = node.args.len() - 1;
-                lines.extend(node.args.iter().enumerate().map(|(i, arg)| {
-                    format!(
-                        "    {}{}",
-                        self.expression(*arg).text,
-                        if i < last { "," } else { "" }
-                    )
-                }));
-                lines.push(after.to_owned());
-                lines
-            }
-            _ => vec![whole],
+        if whole.len() <= WIDTH {
+            return vec![whole];
         }
+        let broken = match self.spelling.form(node.op) {
+            Form::Call(name) => self.broken_call(name, node),
+            Form::Infix(sign, tightness) => {
+                let (left, sign, right) = self.sides(node, sign, tightness);
+                format!("{left} {sign}\n    {right}")
+            }
+            _ => return vec![whole],
+        };
+        around(&broken).lines().map(str::to_owned).collect()
+    }
+
+    /// A call with each argument on a line of its own.
+    fn broken_call(&self, name: &str, node: &Node) -> String {
+        let lines: Vec<String> = node
+            .args
+            .iter()
+            .map(|arg| format!("    {}", self.expression(*arg).text))
+            .collect();
+        format!("{name}(\n{}\n)", lines.join(",\n"))
     }
 
     /// A node where it is used: by its name, or written in place.
@@ -198,21 +202,26 @@ impl Printer<'_> {
         }
     }
 
-    /// `a + b`; a negative constant on the right of a sum changes the sign instead, which is the same number.
     fn infix(&self, node: &Node, sign: &str, tightness: u8) -> Text {
+        let (left, sign, right) = self.sides(node, sign, tightness);
+        Text {
+            text: format!("{left} {sign} {right}"),
+            tightness,
+        }
+    }
+
+    /// The parts of `a + b`; a negative constant on the right of a sum changes the sign instead, which is the same
+    /// number.
+    fn sides<'s>(&self, node: &Node, sign: &'s str, tightness: u8) -> (String, &'s str, String) {
         let left = self.expression(node.args[0]).at(tightness);
         let negative = match self.function.nodes[node.args[1]].payload {
             Payload::Number(value) if value < 0.0 => Some(self.spelling.number(-value)),
             _ => None,
         };
-        let (sign, right) = match (node.op, negative) {
-            (Op::Add, Some(positive)) => ("-", positive),
-            (Op::Sub, Some(positive)) => ("+", positive),
-            _ => (sign, self.expression(node.args[1]).at(tightness + 1)),
-        };
-        Text {
-            text: format!("{left} {sign} {right}"),
-            tightness,
+        match (node.op, negative) {
+            (Op::Add, Some(positive)) => (left, "-", positive),
+            (Op::Sub, Some(positive)) => (left, "+", positive),
+            _ => (left, sign, self.expression(node.args[1]).at(tightness + 1)),
         }
     }
 

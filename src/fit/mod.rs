@@ -7,8 +7,10 @@ mod derive;
 mod lambda;
 mod measured;
 mod model_error;
+mod over;
 
 pub use derive::{Derivation, values};
 pub use lambda::{THESIS_MATCHING_COS, lambda};
 pub use measured::Measured;
 pub use model_error::{ModelError, model_error, thesis_error, truth};
+pub use over::{media, model_error_over};

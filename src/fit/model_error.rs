@@ -21,7 +21,7 @@ pub struct ModelError {
 
 /// Angles between 0 and 90 degrees at which errors are taken. The curves are smooth: 2048 find a maximum to 1e-6 of
 /// its value.
-const ANGLES: usize = 2048;
+pub(super) const ANGLES: usize = 2048;
 
 /// The exact reflectance of each channel at a cosine.
 pub fn truth(channels: &Channels, cos_theta: f64) -> [f64; 3] {
@@ -32,21 +32,29 @@ pub fn truth(channels: &Channels, cos_theta: f64) -> [f64; 3] {
 pub fn model_error(function: &Checked, channels: &Channels) -> ModelError {
     let cosines: Vec<f64> = (0..=ANGLES).map(|i| cosine(i, ANGLES)).collect();
     let values = evaluate(function, &[Value::each(cosines.clone())]);
+    difference(&values, channels, &cosines)
+}
+
+/// Values at these cosines against the exact law.
+pub(super) fn difference(values: &Value<f64>, channels: &Channels, cosines: &[f64]) -> ModelError {
     let mut error = ModelError {
         max_abs: 0.0,
         mean_abs: 0.0,
         mean_rel: 0.0,
         worst_cos: 1.0,
     };
-    let points = cosines.len() as f64;
-    for (point, cos_theta) in cosines.into_iter().enumerate() {
-        let (got, want) = (values.at(point), truth(channels, cos_theta));
-        for (got, want) in got.into_iter().zip(want) {
+    let weight = 1.0 / (3.0 * cosines.len() as f64);
+    for (point, cos_theta) in cosines.iter().enumerate() {
+        for (got, want) in values
+            .at(point)
+            .into_iter()
+            .zip(truth(channels, *cos_theta))
+        {
             let difference = (got - want).abs();
-            error.mean_abs += difference / (3.0 * points);
-            error.mean_rel += difference / want.max(f64::MIN_POSITIVE) / (3.0 * points);
+            error.mean_abs += weight * difference;
+            error.mean_rel += weight * difference / want.max(f64::MIN_POSITIVE);
             if difference > error.max_abs || difference.is_nan() {
-                (error.max_abs, error.worst_cos) = (difference, cos_theta);
+                (error.max_abs, error.worst_cos) = (difference, *cos_theta);
             }
         }
     }
@@ -80,7 +88,7 @@ pub fn thesis_error(
 }
 
 /// cos of `part/whole` of a right angle, exactly 1 and 0 at the ends.
-fn cosine(part: usize, whole: usize) -> f64 {
+pub(super) fn cosine(part: usize, whole: usize) -> f64 {
     if part == whole {
         0.0
     } else {

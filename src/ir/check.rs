@@ -140,12 +140,16 @@ fn check_whole(function: &Function) -> Result<(), Broken> {
     let uses = function.uses();
     for (id, node) in function.nodes.iter().enumerate() {
         ensure(uses[id] > 0, 8, || format!("node {id}"))?;
-        let shared = uses[id] > 1 && node.ty != Ty::Bool && !is_name_only(function, node);
-        ensure(!shared || node.label.is_some(), 9, || {
-            format!("node {id} ({})", node.op.info().name)
-        })?;
+        let what = || format!("node {id} ({})", node.op.info().name);
+        ensure(!wants_name(function, id, uses[id]), 9, what)?;
     }
     Ok(())
+}
+
+/// Whether a node is used so often that it wants a name and has none.
+pub(super) fn wants_name(function: &Function, id: NodeId, uses: usize) -> bool {
+    let node = &function.nodes[id];
+    uses > 1 && node.label.is_none() && node.ty != Ty::Bool && !is_name_only(function, node)
 }
 
 /// Constants, arguments, their channels, and constant colours: nothing is computed there.

@@ -2,8 +2,9 @@
 //! and edge tint g in place of n and k.
 //!
 //! Source: Gulbrandsen, "Artist Friendly Metallic Fresnel", JCGT 3(4), 2014, <https://jcgt.org/published/0003/04/03/>.
-//! k² is computed as (n_max - n)(n - 1/n_max), which is the same number without its cancellation: with
-//! √r (n+1) ± (n-1) factored, (1-√r)(1+√r) = 1-r goes against the divisor.
+//! k² is computed as (n_max - n)(n - 1/n_max), which is the same number: with √r (n+1) ± (n-1) factored,
+//! (1-√r)(1+√r) = 1-r goes against the divisor. Both factors are sums of positive terms, g (n_max - n_min) and
+//! (1-g)(n_max - n_min) + 2√r / (n_max (1+r)), so that nothing cancels.
 //! Domain: r in [0, 1), g in [0, 1]. r is limited to 0.999, because n_max is singular at 1: F0 above it is lowered by
 //! at most .001. Error: none where n and k give r and g; [`METHOD`]'s claims hold with both derived from n and k.
 
@@ -36,9 +37,10 @@ pub static METHOD: Method = Method {
     claims: Claims {
         model: &[Claim {
             over: Over::Metals,
-            max_abs: 0.5,
+            max_abs: 0.0,
         }],
-        code_ulp: 256.0,
+        code_ulp: 4.3,
+        code_over: Over::Metals,
     },
     contract: Contract::Kept,
     build,
@@ -52,15 +54,19 @@ fn build<'b>(x: &Inputs<'b>) -> Expr<'b> {
         .at_most(0.999)
         .named("facing", "n_max is singular at 1");
     let g = x.get(Input::EDGE_TINT).saturate().named("edge", "");
+    let r_more = (1.0 + r).named("r_more", "");
     let lack = (1.0 - r).named("lack", "");
-    let least = (lack / (1.0 + r)).named("n_min", "the least n that r allows");
-    let root = (1.0 + r.sqrt()).named("root", "");
-    let most = (root.squared() / lack).named("n_max", "the most, where k = 0");
-    let below = (g * (most - least)).named("below", "n_max - n");
-    let n = (most - below).named("n", "");
-    let k = (below * (n - 1.0 / most).at_least(0.0))
+    let least = (lack / r_more).named("n_min", "the least n that r allows");
+    let root = r.sqrt().named("root", "");
+    let more = (1.0 + root).named("root_more", "");
+    let most = (more.squared() / lack).named("n_max", "the most, where k = 0");
+    let span = (most - least).named("span", "");
+    let above = ((1.0 - g) * span).named("above", "n - n_min");
+    let n = (least + above).named("n", "");
+    let gap = 2.0 * root / (most * r_more);
+    let k = (g * span * (above + gap))
         .sqrt()
-        .named("k", "k^2 = (n_max - n)(n - 1 / n_max)");
+        .named("k", "k^2 = (n_max - n)(n - 1 / n_max), in positive terms");
     conductor(x.cosine(), n, k)
 }
 

@@ -39,7 +39,8 @@ pub static METHOD: Method = Method {
                 max_abs: 0.0,
             },
         ],
-        code_ulp: 16.0,
+        code_ulp: 4.3,
+        code_over: Over::Wide,
     },
     contract: Contract::Kept,
     build,
@@ -76,11 +77,9 @@ pub(super) fn conductor<'b>(c: Expr<'b>, n: Expr<'b>, k: Expr<'b>) -> Expr<'b> {
     let b2 = smaller.squared().named("b2", "");
     let gap = (tau + b2).named("gap", "a^2 - c^2");
     let e = (gap + 2.0 * c * (a + c)).named("e", "(a + c)^2");
-    let glass = (gap * (gap / e.at_least(1e-37)) + b2) / (e + b2).at_least(1e-37);
-    let glass = glass.named(
-        "r_s_glass",
-        "R_s where t >= 0, (a - c)^2 taken as gap^2 / e",
-    );
+    let gap2 = (gap * (gap / e.at_least(1e-37))).named("gap2", "(a - c)^2, as gap^2 / e");
+    let glass = (gap2 + b2) / (e + b2).at_least(1e-37);
+    let glass = glass.named("r_s_glass", "R_s where t >= 0");
     let r_s = t.choose_below(zero, metal, glass).named("r_s", "");
 
     let x = (r * c2 + s2.squared()).named("x", "");

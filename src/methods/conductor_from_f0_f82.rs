@@ -45,14 +45,15 @@ pub static METHOD: Method = Method {
         model: &[
             Claim {
                 over: Over::Dielectrics,
-                max_abs: 0.5,
+                max_abs: 0.0000347,
             },
             Claim {
                 over: Over::Metals,
-                max_abs: 0.5,
+                max_abs: 0.000384,
             },
         ],
-        code_ulp: 1e4,
+        code_ulp: 5.2,
+        code_over: Over::Metals,
     },
     contract: Contract::Kept,
     build,
@@ -66,10 +67,11 @@ const SIN2: f64 = 48.0 / 49.0;
 struct Circle<'b> {
     root: Expr<'b>,
     inverse: Expr<'b>,
-    most: Expr<'b>,
     least: Expr<'b>,
     /// Coefficients of T in u, each a quadratic in √F0.
     curvature: [Expr<'b>; 3],
+    /// n_max - n_min.
+    span: Expr<'b>,
     u_scale: Expr<'b>,
 }
 
@@ -78,13 +80,15 @@ fn build<'b>(x: &Inputs<'b>) -> Expr<'b> {
     let m = (1.0 - x.get(Input::F82))
         .at_least(0.0)
         .named("m", "what the reflectance at 82 degrees lacks of 1");
-    let guess = aimed(&circle, m, ["u_guess", "curve_guess", "n_guess"], "");
-    let missed = deficit(&circle, guess).named("m_guess", "what it lacks with this n");
+    let guess = aimed(&circle, m, ["u_guess", "curve_guess", "n_guess_less"]);
+    let n_guess = (circle.least + guess).named("n_guess", "");
+    let missed = deficit(&circle, n_guess).named("m_guess", "what it lacks with this n");
     let aim = (2.0 * m - missed)
         .at_least(0.0)
         .named("aim", "as far on the other side");
-    let n = aimed(&circle, aim, ["u_aim", "curve_aim", "n"], "");
-    let k2 = (n - circle.least) * (circle.most - n);
+    let above = aimed(&circle, aim, ["u_aim", "curve_aim", "above"]);
+    let k2 = above * (circle.span - above);
+    let n = (circle.least + above).named("n", "");
     conductor(
         x.cosine(),
         n,
@@ -113,21 +117,21 @@ fn circle<'b>(f0: Expr<'b>) -> Circle<'b> {
     Circle {
         root,
         inverse,
-        most,
         least,
         curvature,
+        span: (most - least).named("span", ""),
         u_scale: (root * inverse).named("u_scale", ""),
     }
 }
 
-/// The n that lacks about `m`: n - n_min grows as m², with a fitted curvature.
-fn aimed<'b>(circle: &Circle<'b>, m: Expr<'b>, names: [&str; 3], why: &str) -> Expr<'b> {
+/// n - n_min for the n that lacks about `m`: it grows as m², with a fitted curvature.
+fn aimed<'b>(circle: &Circle<'b>, m: Expr<'b>, names: [&str; 3]) -> Expr<'b> {
     let u = (m * circle.u_scale).named(names[0], "");
     let [a, b, c] = circle.curvature;
     let curve = (a + u * (b + u * c)).at_least(1e-5).named(names[1], "");
-    (circle.least + u * (m * circle.root) / curve)
-        .min(circle.most)
-        .named(names[2], why)
+    (u * (m * circle.root) / curve)
+        .min(circle.span)
+        .named(names[2], "")
 }
 
 /// 1 - F at cos θ = 1/7 for an n on the circle, without k and without cancellation.

@@ -11,7 +11,7 @@ use crate::cite::Citation;
 use crate::ir::Expr;
 
 use super::input::{Input, Inputs};
-use super::method::{Claims, Class, Contract, Forms, Method};
+use super::method::{Claims, Class, Contract, Forms, Method, Over};
 
 /// Principles of Digital Image Synthesis.
 pub const GLASSNER_1995: Citation = Citation {
@@ -39,7 +39,8 @@ pub static METHOD: Method = Method {
     domain: "k > 0 and 0 < cos_theta <= 1",
     claims: Claims {
         model: &[],
-        code_ulp: 1e9,
+        code_ulp: 5300.0,
+        code_over: Over::Wide,
     },
     contract: Contract::Exempt(
         "NaN at exactly 90 degrees and for cos_theta above 1; up to 1e8 ulp near k = 0; no clamp",

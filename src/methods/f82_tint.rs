@@ -38,14 +38,15 @@ pub static METHOD: Method = Method {
         model: &[
             Claim {
                 over: Over::Dielectrics,
-                max_abs: 0.5,
+                max_abs: 0.0341,
             },
             Claim {
                 over: Over::Metals,
-                max_abs: 0.5,
+                max_abs: 0.0837,
             },
         ],
-        code_ulp: 16.0,
+        code_ulp: 4.3,
+        code_over: Over::Wide,
     },
     contract: Contract::Kept,
     build,
@@ -54,9 +55,11 @@ pub static METHOD: Method = Method {
 
 fn build<'b>(x: &Inputs<'b>) -> Expr<'b> {
     let (c, f0, tint) = (x.cosine(), x.get(Input::F0), x.get(Input::TINT));
-    let b = (49.0 / 46656.0) * (1.0 - tint) * (7776.0 + 9031.0 * f0);
-    let m5 = grazing_weight(c).named("m5", "");
-    limited(f0 + (1.0 - f0) * m5 - b * dip(c, m5), f0)
+    let b = ((49.0 / 46656.0) * (1.0 - tint) * (7776.0 + 9031.0 * f0))
+        .named("b", "the depth of the dip");
+    let m5 = grazing_weight(c);
+    let bare = (f0 + (1.0 - f0) * m5 - b * dip(c, m5)).named("bare", "Schlick less the dip");
+    limited(bare, f0)
 }
 
 #[cfg(test)]

@@ -41,14 +41,15 @@ pub static METHOD: Method = Method {
         model: &[
             Claim {
                 over: Over::Dielectrics,
-                max_abs: 0.5,
+                max_abs: 0.0341,
             },
             Claim {
                 over: Over::Metals,
-                max_abs: 0.5,
+                max_abs: 0.0837,
             },
         ],
-        code_ulp: 64.0,
+        code_ulp: 4.6,
+        code_over: Over::Wide,
     },
     contract: Contract::Kept,
     build,
@@ -58,9 +59,10 @@ pub static METHOD: Method = Method {
 fn build<'b>(x: &Inputs<'b>) -> Expr<'b> {
     let (c, f0, f82) = (x.cosine(), x.get(Input::F0), x.get(Input::F82));
     let rise = (1.0 - f0).named("rise", "");
-    let b = PEAK * (f0 + rise * WEIGHT_82 - f82);
-    let m5 = grazing_weight(c).named("m5", "");
-    limited(f0 + rise * m5 - b * dip(c, m5), f0)
+    let b = (PEAK * (f0 + rise * WEIGHT_82 - f82)).named("b", "the depth of the dip");
+    let m5 = grazing_weight(c);
+    let bare = (f0 + rise * m5 - b * dip(c, m5)).named("bare", "Schlick less the dip");
+    limited(bare, f0)
 }
 
 /// `c (1-c)⁶`, from the fifth power that is there already.

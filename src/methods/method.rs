@@ -72,9 +72,11 @@ pub enum Contract {
 pub struct Claims {
     /// Model error: maximum absolute difference to the exact law, over stated sets of media and all angles.
     pub model: &'static [Claim],
-    /// Code error: the most ulp by which unfused f32 differs from f64 at the same inputs, over [`Over`]'s sets
-    /// that the method covers; differences below 2^-22 do not count.
+    /// Code error: the most ulp by which unfused f32 differs from f64 at the same inputs, over these media and all
+    /// angles; differences within 2⁻²² do not count.
     pub code_ulp: f64,
+    /// The media that the code error is stated over.
+    pub code_over: Over,
 }
 
 /// A promised model error.
@@ -93,6 +95,8 @@ pub enum Over {
     Dielectrics,
     /// Metals, n 0.05 to 4.5 and k 1.5 to 8.
     Metals,
+    /// From nearly matched to far beyond any material: n 1.0001 to 12, k 0 to 13 (0 for dielectrics).
+    Wide,
 }
 
 impl Over {
@@ -101,6 +105,7 @@ impl Over {
         match self {
             Over::Dielectrics => "eta 1.3 to 2.5",
             Over::Metals => "n 0.05 to 4.5, k 1.5 to 8",
+            Over::Wide => "n 1.0001 to 12, k 0 to 13",
         }
     }
 }

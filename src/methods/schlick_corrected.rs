@@ -30,9 +30,10 @@ pub static METHOD: Method = Method {
     claims: Claims {
         model: &[Claim {
             over: Over::Metals,
-            max_abs: 0.5,
+            max_abs: 0.0872,
         }],
-        code_ulp: 256.0,
+        code_ulp: 13.0,
+        code_over: Over::Wide,
     },
     contract: Contract::Kept,
     build,
@@ -43,7 +44,10 @@ fn build<'b>(x: &Inputs<'b>) -> Expr<'b> {
     let (c, n, lambda) = (x.cosine(), x.get(Input::N), x.get(Input::LAMBDA));
     let base = rescaled(c, n, x.get(Input::K)).named("base", "the rescaled Schlick");
     let zero = c.builder().number(0.0);
-    let fall = (1.0 - c).rgb().power(lambda);
+    let fall = (1.0 - c)
+        .rgb()
+        .power(lambda)
+        .named("fall", "(1 - c)^lambda");
     let dip = (2.0 * n * (c * fall)).named("dip", "what the minimum takes away");
     let dip = zero
         .choose_below(lambda, dip, zero)

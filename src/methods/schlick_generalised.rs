@@ -31,14 +31,15 @@ pub static METHOD: Method = Method {
         model: &[
             Claim {
                 over: Over::Dielectrics,
-                max_abs: 0.5,
+                max_abs: 0.0841,
             },
             Claim {
                 over: Over::Metals,
-                max_abs: 0.5,
+                max_abs: 0.278,
             },
         ],
-        code_ulp: 256.0,
+        code_ulp: 4.1,
+        code_over: Over::Wide,
     },
     contract: Contract::Kept,
     build,

@@ -23,9 +23,10 @@ pub static METHOD: Method = Method {
     claims: Claims {
         model: &[Claim {
             over: Over::Dielectrics,
-            max_abs: 0.5,
+            max_abs: 0.0841,
         }],
-        code_ulp: 8.0,
+        code_ulp: 6.7,
+        code_over: Over::Wide,
     },
     contract: Contract::Kept,
     build,

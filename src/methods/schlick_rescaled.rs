@@ -34,14 +34,15 @@ pub static METHOD: Method = Method {
         model: &[
             Claim {
                 over: Over::Dielectrics,
-                max_abs: 0.5,
+                max_abs: 0.0841,
             },
             Claim {
                 over: Over::Metals,
-                max_abs: 0.5,
+                max_abs: 0.278,
             },
         ],
-        code_ulp: 8.0,
+        code_ulp: 6.7,
+        code_over: Over::Wide,
     },
     contract: Contract::Kept,
     build,

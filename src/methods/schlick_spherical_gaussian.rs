@@ -31,14 +31,15 @@ pub static METHOD: Method = Method {
         model: &[
             Claim {
                 over: Over::Dielectrics,
-                max_abs: 0.5,
+                max_abs: 0.0864,
             },
             Claim {
                 over: Over::Metals,
-                max_abs: 0.5,
+                max_abs: 0.279,
             },
         ],
-        code_ulp: 16.0,
+        code_ulp: 0.0,
+        code_over: Over::Wide,
     },
     contract: Contract::Kept,
     build,

@@ -3,13 +3,13 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::fit::{Derivation, values};
+use crate::fit::{Derivation, media, values};
 use crate::ir::{Checked, Ty, Value, evaluate};
 use crate::materials::Channels;
-use crate::methods::{Class, Contract, Method};
+use crate::methods::{Class, Contract, Input, Method};
 use crate::num::ulp_distance;
 
-use super::points::{Random, cosines};
+use super::points::cosines;
 
 /// How far the code is from what it means.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -57,9 +57,9 @@ pub fn code_error(function: &Checked, points: usize) -> CodeError {
     compare(function, &cosines(points), &[])
 }
 
-/// The code error of a method's library function: `media` random media of the sets that its claims are stated over,
-/// its inputs derived from them and rounded to f32, at about `points` cosines each.
-pub fn library_code_error(method: &Method, media: usize, points: usize) -> CodeError {
+/// The code error of a method's library function over the media that its claim names, each with its inputs rounded to
+/// f32, at about `points` cosines.
+pub fn library_code_error(method: &Method, points: usize) -> CodeError {
     let function = method
         .function(false)
         .expect("every method's function is well formed; a test builds all");
@@ -67,40 +67,27 @@ pub fn library_code_error(method: &Method, media: usize, points: usize) -> CodeE
         .into_iter()
         .filter(|c| in_domain(method, *c))
         .collect();
-    let mut random = Random(1);
-    let mut worst = CodeError::NONE;
-    for _ in 0..media {
-        let constants = values(method, &medium(method, &mut random), &Derivation::default());
-        let arguments: Vec<[f32; 3]> = method
-            .inputs
-            .iter()
-            .map(|i| constants[i.name].map(|v| v as f32))
-            .collect();
-        worst = worst.worst(compare(&function, &cosines, &arguments));
-    }
-    worst
+    let glass = method.class == Class::Dielectric;
+    let media = media(method.claims.code_over).into_iter();
+    media.fold(CodeError::NONE, |worst, channels| {
+        let channels = if glass {
+            Channels {
+                k: [0.0; 3],
+                ..channels
+            }
+        } else {
+            channels
+        };
+        let constants = values(method, &channels, &Derivation::default());
+        let single = |input: &Input| constants[input.name].map(|value| value as f32);
+        let arguments: Vec<[f32; 3]> = method.inputs.iter().map(single).collect();
+        worst.worst(compare(&function, &cosines, &arguments))
+    })
 }
 
 /// A textbook method promises nothing at exactly 90 degrees.
 fn in_domain(method: &Method, cos_theta: f32) -> bool {
     method.contract == Contract::Kept || cos_theta > 1e-6
-}
-
-/// Eta 1.0001 to 12, logarithmic in eta - 1; for methods that take absorption, k from 0 to 13 besides.
-fn medium(method: &Method, random: &mut Random) -> Channels {
-    let mut eta = || 1.0 + 1e-4 * libm::pow(1.1e5, random.unit());
-    let n = [eta(), eta(), eta()];
-    let mut k = || {
-        if method.class == Class::Dielectric {
-            0.0
-        } else {
-            13.0 * random.unit().powi(2)
-        }
-    };
-    Channels {
-        n,
-        k: [k(), k(), k()],
-    }
 }
 
 fn compare(function: &Checked, cosines: &[f32], arguments: &[[f32; 3]]) -> CodeError {

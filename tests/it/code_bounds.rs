@@ -1,0 +1,46 @@
+//! The recorded code bounds of the catalogue's specialised functions: measured again, each way.
+//! `data/code-bounds.csv` is keyed by what a function computes; `BLESS=1` rewrites it.
+
+use std::fmt::Write;
+use std::path::Path;
+
+use fresnel_gen::app::{Materials, Request};
+use fresnel_gen::emit::{Bounds, Naming, fingerprint, specialised_function};
+use fresnel_gen::methods::{self, Class, Contract};
+use fresnel_gen::verify::code_error;
+
+/// Cosines tried for each function.
+const POINTS: usize = 50_000;
+
+#[test]
+fn the_record_is_what_is_measured() {
+    let request = Request {
+        materials: Materials::All,
+        ..Request::default()
+    };
+    let mut record = String::from("fingerprint,material,method,max_ulp,max_abs,worst_cos\n");
+    for (subject, _) in request.subjects().expect("the catalogue is good") {
+        let transparent = subject.channels.is_transparent();
+        for method in methods::ALL
+            .iter()
+            .filter(|m| m.contract == Contract::Kept && (m.class == Class::Any || transparent))
+        {
+            let emitted =
+                specialised_function(method, &subject, &Naming::default(), &Bounds::default())
+                    .expect("every method specialises to the catalogue");
+            let error = code_error(&emitted.function, POINTS);
+            // Rounded up to tenths: a bound that a person can read, and no looser than that.
+            let ulp = (error.max_ulp * 10.0).ceil() / 10.0;
+            let mark = fingerprint(&emitted.function);
+            let _ = writeln!(
+                record,
+                "{mark},{},{},{ulp},{:e},{:e}",
+                subject.name, method.name, error.max_abs, error.worst_cos
+            );
+        }
+    }
+    super::bless::check(
+        &Path::new(env!("CARGO_MANIFEST_DIR")).join("data/code-bounds.csv"),
+        record.as_bytes(),
+    );
+}

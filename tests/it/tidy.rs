@@ -1,0 +1,388 @@
+//! Is the house in order? Headers, rooms, lists, lengths, names, tables in README. Compares; `BLESS=1` rewrites lists.
+
+use std::collections::BTreeMap;
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use fresnel_gen::{methods, targets};
+
+fn root() -> &'static Path {
+    Path::new(env!("CARGO_MANIFEST_DIR"))
+}
+
+/// All Rust files below a folder, with their text, sorted.
+fn sources(folder: &str) -> BTreeMap<PathBuf, String> {
+    fn visit(folder: &Path, found: &mut BTreeMap<PathBuf, String>) {
+        for entry in fs::read_dir(folder).expect("a folder of the repository") {
+            let path = entry.expect("readable").path();
+            if path.is_dir() {
+                visit(&path, found);
+            } else if path.extension().is_some_and(|extension| extension == "rs") {
+                found.insert(path.clone(), fs::read_to_string(&path).expect("UTF-8"));
+            }
+        }
+    }
+    let mut found = BTreeMap::new();
+    visit(&root().join(folder), &mut found);
+    found
+}
+
+fn before_tests(text: &str) -> &str {
+    text.split("\n#[cfg(test)]\nmod tests")
+        .next()
+        .unwrap_or(text)
+}
+
+#[test]
+fn every_file_says_what_it_holds() {
+    for folder in ["src", "tests", "benches"] {
+        for (path, text) in sources(folder) {
+            assert!(
+                text.starts_with("//! "),
+                "{} begins without a `//!` header",
+                path.display()
+            );
+        }
+    }
+}
+
+#[test]
+fn files_are_short_and_named_by_an_idea() {
+    for (path, text) in sources("src") {
+        let lines = before_tests(&text).lines().count();
+        assert!(
+            lines <= 400,
+            "{} has {lines} lines before its tests: make it a folder",
+            path.display()
+        );
+        let stem = path
+            .file_stem()
+            .and_then(|stem| stem.to_str())
+            .unwrap_or("");
+        for nothing in [
+            "util", "utils", "helper", "helpers", "common", "misc", "manager",
+        ] {
+            assert_ne!(stem, nothing, "{}: named after nothing", path.display());
+        }
+    }
+}
+
+/// The length of each function in lines, by a count of braces at the indentation of `fn`.
+fn function_lengths(text: &str) -> Vec<(String, usize)> {
+    let lines: Vec<&str> = before_tests(text).lines().collect();
+    let mut lengths = Vec::new();
+    for (start, line) in lines.iter().enumerate() {
+        let bare = line.trim_start();
+        let is_function = [
+            "fn ",
+            "pub fn ",
+            "pub(super) fn ",
+            "pub(crate) fn ",
+            "const fn ",
+            "pub const fn ",
+        ]
+        .iter()
+        .any(|head| bare.starts_with(head));
+        let indent = line.len() - bare.len();
+        let closes = |line: &&str| **line == format!("{}}}", " ".repeat(indent));
+        if is_function && !line.ends_with(';') {
+            let length = lines[start..]
+                .iter()
+                .position(|line| closes(&line))
+                .map_or(1, |end| end + 1);
+            lengths.push((bare.to_owned(), length));
+        }
+    }
+    lengths
+}
+
+#[test]
+fn functions_are_short() {
+    let mut lengths = Vec::new();
+    for (path, text) in sources("src") {
+        for (head, length) in function_lengths(&text) {
+            assert!(
+                length <= 60,
+                "{}: `{head}` has {length} lines",
+                path.display()
+            );
+            lengths.push(length);
+        }
+    }
+    lengths.sort_unstable();
+    let median = lengths[lengths.len() / 2];
+    assert!(median <= 10, "the median function has {median} lines");
+}
+
+/// The rooms in order, as `lib.rs` says: groups that do not import each other.
+fn rooms() -> Vec<Vec<String>> {
+    let text = fs::read_to_string(root().join("src/lib.rs")).expect("it is there");
+    let line = text
+        .lines()
+        .find(|line| line.starts_with("// num, cite <"))
+        .expect("the order of rooms stands in lib.rs");
+    let group = |group: &str| {
+        group
+            .split(',')
+            .map(|room| room.trim().to_owned())
+            .collect()
+    };
+    line.trim_start_matches("//")
+        .split('<')
+        .map(group)
+        .collect()
+}
+
+/// The rooms that a text imports: every `crate::room`, in groups over several lines too, comments left out.
+fn imports(text: &str, all: &[String]) -> Vec<String> {
+    let code: String = text
+        .lines()
+        .map(|line| line.split("//").next().unwrap_or(""))
+        .collect::<Vec<_>>()
+        .join(" ");
+    let mut found = Vec::new();
+    for rest in code.split("crate::").skip(1) {
+        let group = rest
+            .strip_prefix('{')
+            .and_then(|rest| rest.split('}').next());
+        let named = group.map_or_else(|| vec![rest], |group| group.split(',').collect());
+        for name in named {
+            let room: String = name
+                .trim()
+                .chars()
+                .take_while(|c| c.is_alphanumeric() || *c == '_')
+                .collect();
+            if all.contains(&room) {
+                found.push(room);
+            }
+        }
+    }
+    found
+}
+
+#[test]
+fn rooms_import_only_to_their_left() {
+    let rooms = rooms();
+    let all: Vec<String> = rooms.concat();
+    let rank = |room: &str| {
+        rooms
+            .iter()
+            .position(|group| group.iter().any(|other| other == room))
+    };
+    for (path, text) in sources("src") {
+        let inside = path
+            .strip_prefix(root().join("src"))
+            .expect("it lies there");
+        let room = inside
+            .components()
+            .next()
+            .expect("a path has parts")
+            .as_os_str()
+            .to_string_lossy();
+        let room = room.trim_end_matches(".rs").to_owned();
+        let Some(own) = rank(&room) else { continue };
+        for imported in imports(&text, &all) {
+            let other = rank(&imported).expect("it is a room");
+            assert!(
+                imported == room || other < own,
+                "{}: room `{room}` imports `{imported}`, which does not stand to its left",
+                path.display()
+            );
+        }
+    }
+}
+
+#[test]
+fn the_test_of_rooms_sees_groups_and_skips_comments() {
+    let all = ["emit".to_owned(), "num".to_owned()];
+    assert_eq!(
+        imports("use crate::{\n    num,\n    emit::File,\n};", &all),
+        ["num", "emit"]
+    );
+    assert_eq!(
+        imports("// use crate::emit\nlet x = crate::num::Dd;", &all),
+        ["num"]
+    );
+}
+
+#[test]
+fn the_truth_is_written_without_the_graph() {
+    for (path, text) in sources("src/optics") {
+        assert!(
+            !text.contains("crate::ir") && !text.contains("crate::methods"),
+            "{}",
+            path.display()
+        );
+    }
+}
+
+#[test]
+fn only_the_writer_and_the_program_touch_the_machine() {
+    let named = [
+        "main.rs",
+        "app/write.rs",
+        "app/folder.rs",
+        "app/source.rs",
+        "app/tree.rs",
+        "build.rs",
+    ];
+    for (path, text) in sources("src") {
+        let inside = path
+            .strip_prefix(root().join("src"))
+            .expect("it lies there")
+            .display()
+            .to_string();
+        if named.contains(&inside.as_str()) {
+            continue;
+        }
+        for touch in [
+            "std::fs",
+            "std::env",
+            "std::process",
+            "std::time",
+            "std::net",
+            "println!",
+            "eprintln!",
+        ] {
+            assert!(
+                !before_tests(&text).contains(touch),
+                "{inside} uses {touch}"
+            );
+        }
+    }
+}
+
+#[test]
+fn a_match_over_all_operations_stands_in_two_places() {
+    // The third place, lowering, is naga's: SPIR-V goes through WGSL.
+    let is_whole = |text: &str| {
+        ["Op::Exp2", "Op::Log2", "Op::InverseSqrt"]
+            .iter()
+            .all(|op| text.contains(&format!("{op} =>")) || text.contains(&format!("({op}, _) =>")))
+    };
+    let places: Vec<String> = sources("src")
+        .into_iter()
+        .filter(|(_, text)| is_whole(before_tests(text)))
+        .map(|(path, _)| {
+            path.file_name()
+                .expect("a file")
+                .to_string_lossy()
+                .into_owned()
+        })
+        .collect();
+    assert_eq!(places, ["evaluate.rs", "spelling.rs"]);
+}
+
+#[test]
+fn a_method_has_one_name_and_its_formula_first() {
+    for method in methods::ALL {
+        let path = root().join(format!("src/methods/{}.rs", method.name));
+        let text =
+            fs::read_to_string(&path).unwrap_or_else(|_| panic!("{} is missing", path.display()));
+        let header: String = text
+            .lines()
+            .take_while(|line| line.starts_with("//!"))
+            .collect();
+        assert!(
+            header.starts_with("//! `F")
+                || header.starts_with("//! `R")
+                || header.contains("exact law")
+                || header.starts_with("//! `n"),
+            "{}: the header begins with the formula",
+            method.name
+        );
+        assert!(
+            header.contains("http"),
+            "{}: the header has a link",
+            method.name
+        );
+        assert!(
+            header.contains("19") || header.contains("20"),
+            "{}: the header has a year",
+            method.name
+        );
+        assert!(
+            text.contains("#[cfg(test)]"),
+            "{}: it has limit tests",
+            method.name
+        );
+        assert!(
+            method.source.link.starts_with("https://"),
+            "{}",
+            method.name
+        );
+        assert!(
+            (1800..2100).contains(&method.source.year),
+            "{}",
+            method.name
+        );
+        assert!(
+            method
+                .formula
+                .iter()
+                .chain([&method.summary, &method.domain])
+                .all(|line| line.is_ascii()),
+            "{}",
+            method.name
+        );
+    }
+}
+
+#[test]
+fn lists_are_complete() {
+    check_list(
+        "methods",
+        &["mod", "input", "method", "limits"],
+        "METHOD",
+        "Method",
+        "method",
+    );
+    check_list(
+        "targets",
+        &["mod", "target", "spelling"],
+        "TARGET",
+        "Target",
+        "target",
+    );
+    assert_eq!(
+        targets::ALL.len(),
+        targets::ALL
+            .iter()
+            .map(|target| target.name)
+            .collect::<std::collections::BTreeSet<_>>()
+            .len()
+    );
+}
+
+/// The list in a room's `mod.rs`: written from the files of the folder, the rest of the file left as it is.
+fn check_list(room: &str, others: &[&str], item: &str, ty: &str, word: &str) {
+    let path = root().join(format!("src/{room}/mod.rs"));
+    let text = fs::read_to_string(&path).expect("it is there");
+    let mut names: Vec<String> = fs::read_dir(root().join(format!("src/{room}")))
+        .expect("it is there")
+        .filter_map(|entry| {
+            entry
+                .expect("readable")
+                .path()
+                .file_stem()?
+                .to_str()
+                .map(str::to_owned)
+        })
+        .filter(|name| !others.contains(&name.as_str()))
+        .collect();
+    names.sort();
+    let begin =
+        format!("// BEGIN {room} (written by the test `tidy::lists_are_complete` with BLESS=1)\n");
+    let end = format!("// END {room}\n");
+    let mods: String = names.iter().map(|name| format!("mod {name};\n")).collect();
+    let items: String = names
+        .iter()
+        .map(|name| format!("    &{name}::{item},\n"))
+        .collect();
+    let list = format!(
+        "{begin}{mods}\n/// Every {word}, by name.\n#[rustfmt::skip]\npub static ALL: &[&{ty}] = &[\n{items}];\n{end}"
+    );
+    let (before, rest) = text.split_once(&begin).expect("the list begins");
+    let (_, after) = rest.split_once(&end).expect("the list ends");
+    super::bless::check(&path, format!("{before}{list}{after}").as_bytes());
+}
