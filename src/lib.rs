@@ -18,3 +18,8 @@ pub mod optics;
 pub mod report;
 pub mod targets;
 pub mod verify;
+
+/// The README's Rust is compiled as a test.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+pub struct Readme;

@@ -59,7 +59,8 @@ pub fn material(
         .map(|f| (comments(target, &header::specialised(f)), f.clone()))
         .collect();
     let stem = format!("materials/{}", subject.name);
-    let unique = format!("{}_material", subject.name);
+    let prefix = functions[0].name.split(&subject.name).next().unwrap_or("");
+    let unique = format!("{prefix}{}_material", subject.name);
     target
         .pages
         .iter()

@@ -30,12 +30,18 @@ pub fn truth(channels: &Channels, cos_theta: f64) -> [f64; 3] {
 
 /// The model error of a function of `cos_theta` alone.
 pub fn model_error(function: &Checked, channels: &Channels) -> ModelError {
-    let cosines: Vec<f64> = (0..=ANGLES).map(|i| cosine(i, ANGLES)).collect();
+    let cosines = cosines(ANGLES);
     let values = evaluate(function, &[Value::each(cosines.clone())]);
     difference(&values, channels, &cosines)
 }
 
-/// Values at these cosines against the exact law.
+/// Both ends, and between them the middles of equal steps of angle, over which means are taken.
+pub(super) fn cosines(angles: usize) -> Vec<f64> {
+    let middles = (0..angles).map(|i| cosine(2 * i + 1, 2 * angles));
+    [1.0].into_iter().chain(middles).chain([0.0]).collect()
+}
+
+/// Values at these cosines, of which the first and the last are the ends, against the exact law.
 pub(super) fn difference(values: &Value<f64>, channels: &Channels, cosines: &[f64]) -> ModelError {
     let mut error = ModelError {
         max_abs: 0.0,
@@ -43,8 +49,13 @@ pub(super) fn difference(values: &Value<f64>, channels: &Channels, cosines: &[f6
         mean_rel: 0.0,
         worst_cos: 1.0,
     };
-    let weight = 1.0 / (3.0 * cosines.len() as f64);
+    let last = cosines.len() - 1;
     for (point, cos_theta) in cosines.iter().enumerate() {
+        let weight = if point == 0 || point == last {
+            0.0
+        } else {
+            1.0 / (3 * (last - 1)) as f64
+        };
         for (got, want) in values
             .at(point)
             .into_iter()
@@ -88,7 +99,7 @@ pub fn thesis_error(
 }
 
 /// cos of `part/whole` of a right angle, exactly 1 and 0 at the ends.
-pub(super) fn cosine(part: usize, whole: usize) -> f64 {
+fn cosine(part: usize, whole: usize) -> f64 {
     if part == whole {
         0.0
     } else {

@@ -5,7 +5,7 @@ use crate::materials::Channels;
 use crate::methods::{Method, Over};
 
 use super::derive::{Derivation, values};
-use super::model_error::{ANGLES, ModelError, cosine, difference};
+use super::model_error::{ANGLES, ModelError, cosines, difference};
 
 /// Of each set, as many values of eta; as many of n, and of k.
 const STEPS: usize = 24;
@@ -55,7 +55,7 @@ pub fn model_error_over(method: &Method, over: Over) -> ModelError {
     let function = method
         .function(false)
         .expect("every method's function is well formed; a test builds all");
-    let cosines: Vec<f64> = (0..=ANGLES / 4).map(|i| cosine(i, ANGLES / 4)).collect();
+    let cosines = cosines(ANGLES / 4);
     let media = media(over);
     let errors = media.iter().map(|channels| {
         let constants = values(method, channels, &Derivation::default());

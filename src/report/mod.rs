@@ -1,4 +1,5 @@
 //! Reports: what people look at.
 
 pub mod chart;
+pub mod markdown;
 pub mod table;

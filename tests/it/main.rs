@@ -7,5 +7,6 @@ mod code_bounds;
 mod golden;
 mod oracle;
 mod physics;
+mod readme;
 mod tidy;
 mod tree;

@@ -386,3 +386,37 @@ fn check_list(room: &str, others: &[&str], item: &str, ty: &str, word: &str) {
     let (_, after) = rest.split_once(&end).expect("the list ends");
     super::bless::check(&path, format!("{before}{list}{after}").as_bytes());
 }
+
+#[test]
+fn the_manifest_names_the_pinned_naga() {
+    let text = fs::read_to_string(root().join("Cargo.toml")).expect("it is there");
+    let pinned = format!(
+        "naga = {{ version = \"={}\"",
+        fresnel_gen::emit::NAGA_VERSION
+    );
+    assert!(
+        text.contains(&pinned),
+        "Cargo.toml pins another naga than the manifest names"
+    );
+}
+
+#[test]
+fn no_name_in_generated_code_is_a_reserved_word() {
+    for method in methods::ALL {
+        let function = method.function(false).expect("it is well formed");
+        let labels = function
+            .nodes
+            .iter()
+            .filter_map(|node| node.label.as_ref())
+            .map(|label| label.name.clone());
+        let names: Vec<String> = labels
+            .chain(function.params.iter().map(|param| param.name.clone()))
+            .collect();
+        for (name, target) in names
+            .iter()
+            .flat_map(|name| targets::ALL.iter().map(move |target| (name, target)))
+        {
+            assert_eq!(target.name_fault(name), None, "{}", method.name);
+        }
+    }
+}

@@ -1,0 +1,58 @@
+//! README's tables and example are what the program says today; `BLESS=1` rewrites them. Its Rust is compiled by rustdoc.
+
+use std::fs;
+use std::path::Path;
+
+use fresnel_gen::app::generate::generate_single;
+use fresnel_gen::app::request::DEFAULT_MATERIALS;
+use fresnel_gen::app::{Materials, Request, Source};
+use fresnel_gen::materials;
+use fresnel_gen::report::markdown::{errors_table, methods_table, targets_table};
+
+fn example() -> String {
+    let request = Request {
+        targets: vec!["hlsl".to_owned()],
+        methods: vec!["conductor_exact".to_owned()],
+        materials: Materials::These(vec![Source::Named("gold_thesis".to_owned())]),
+        ..Request::default()
+    };
+    let text = String::from_utf8(generate_single(&request).expect("it generates")).expect("text");
+    format!("```hlsl\n{text}```\n")
+}
+
+/// The text with what stands between two marks replaced.
+fn replaced(text: &str, name: &str, new: &str) -> String {
+    let begin = text
+        .find(&format!("<!-- BEGIN {name}"))
+        .unwrap_or_else(|| panic!("no BEGIN {name}"));
+    let start = begin + text[begin..].find('\n').expect("the mark ends its line") + 1;
+    let end = start
+        + text[start..]
+            .find(&format!("<!-- END {name}"))
+            .unwrap_or_else(|| panic!("no END {name}"));
+    format!("{}{new}{}", &text[..start], &text[end..])
+}
+
+#[test]
+fn tables_are_what_the_program_says() {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("README.md");
+    let thesis: Vec<_> = DEFAULT_MATERIALS
+        .iter()
+        .map(|name| {
+            materials::find(name)
+                .expect("it is there")
+                .expect("it is good")
+        })
+        .collect();
+    let mut text = fs::read_to_string(&path).expect("it is there");
+    let parts = [
+        ("example", example()),
+        ("targets", targets_table()),
+        ("methods", methods_table()),
+        ("errors", errors_table(&thesis)),
+    ];
+    for (name, new) in parts {
+        text = replaced(&text, name, &new);
+    }
+    super::bless::check(&path, text.as_bytes());
+}
