@@ -3,6 +3,8 @@
 //! One description of each method ([`methods`]), an intermediate representation ([`ir`]) and a table per language
 //! ([`targets`]) give WGSL, GLSL ES 3.00, HLSL, SPIR-V, MSL and GLSL 450. The exact laws ([`optics`]) are written a
 //! second time without the IR, and all else is held against them.
+#![cfg_attr(test, allow(clippy::print_stdout, clippy::unwrap_used))]
+
 // The rooms. A room imports only rooms to its left; rooms between the same two `<` do not import each other.
 // num, cite < ir, optics < spectra < materials, methods, targets < fit < emit < lut < verify, cost < scene, effects < report < app
 

@@ -25,21 +25,21 @@
 highp vec3 fresnel_conductor_from_f0_f82(highp float cos_theta, highp vec3 f0, highp vec3 f82) {
     highp vec3 f0_less = min(max(f0, 0.0), 0.999); // n_max is infinite at 1
     highp vec3 root = sqrt(f0_less);
-    highp vec3 inverse = 1.0 / (1.0 - f0_less);
+    highp vec3 reciprocal = 1.0 / (1.0 - f0_less);
     highp vec3 one_more = 1.0 + root;
-    highp vec3 n_max = one_more * one_more * inverse; // the dielectric with this F0
+    highp vec3 n_max = one_more * one_more * reciprocal; // the dielectric with this F0
     highp vec3 n_min = 1.0 / n_max;
     highp vec3 t_a = 0.022 + root * (0.1945 + root * -0.1102);
     highp vec3 t_b = -0.574 + root * (0.611 + root * 0.2284);
     highp vec3 t_c = 1.1373 + root * (-2.7968 + root * 1.5775);
     highp vec3 span = n_max - n_min;
-    highp vec3 u_scale = root * inverse;
+    highp vec3 u_scale = root * reciprocal;
     highp vec3 m = max(1.0 - f82, 0.0); // what the reflectance at 82 degrees lacks of 1
     highp vec3 u_guess = m * u_scale;
     highp vec3 curve_guess = max(t_a + u_guess * (t_b + u_guess * t_c), 1.0e-5);
     highp vec3 n_guess_less = min(u_guess * (m * root) / curve_guess, span);
     highp vec3 n_guess = n_min + n_guess_less;
-    highp vec3 q = (4.0 * inverse - 2.0) * n_guess - 0.020408163; // n^2 + k^2 + sin^2
+    highp vec3 q = (4.0 * reciprocal - 2.0) * n_guess - 0.020408163; // n^2 + k^2 + sin^2
     highp vec3 h = 1.9794866 * n_guess;
     highp vec3 r_guess = sqrt(max((q - h) * (q + h), 0.0)); // a^2 + b^2 there
     highp vec3 a_guess = n_guess * sqrt(max(1.0 - 1.9591837 / (r_guess + q), 0.0));

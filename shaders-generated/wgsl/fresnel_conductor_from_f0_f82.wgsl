@@ -22,21 +22,21 @@
 fn fresnel_conductor_from_f0_f82(cos_theta: f32, f0: vec3<f32>, f82: vec3<f32>) -> vec3<f32> {
     let f0_less = min(max(f0, vec3<f32>(0.0)), vec3<f32>(0.999)); // n_max is infinite at 1
     let root = sqrt(f0_less);
-    let inverse = 1.0 / (1.0 - f0_less);
+    let reciprocal = 1.0 / (1.0 - f0_less);
     let one_more = 1.0 + root;
-    let n_max = one_more * one_more * inverse; // the dielectric with this F0
+    let n_max = one_more * one_more * reciprocal; // the dielectric with this F0
     let n_min = 1.0 / n_max;
     let t_a = 0.022 + root * (0.1945 + root * -0.1102);
     let t_b = -0.574 + root * (0.611 + root * 0.2284);
     let t_c = 1.1373 + root * (-2.7968 + root * 1.5775);
     let span = n_max - n_min;
-    let u_scale = root * inverse;
+    let u_scale = root * reciprocal;
     let m = max(1.0 - f82, vec3<f32>(0.0)); // what the reflectance at 82 degrees lacks of 1
     let u_guess = m * u_scale;
     let curve_guess = max(t_a + u_guess * (t_b + u_guess * t_c), vec3<f32>(1.0e-5));
     let n_guess_less = min(u_guess * (m * root) / curve_guess, span);
     let n_guess = n_min + n_guess_less;
-    let q = (4.0 * inverse - 2.0) * n_guess - 0.020408163; // n^2 + k^2 + sin^2
+    let q = (4.0 * reciprocal - 2.0) * n_guess - 0.020408163; // n^2 + k^2 + sin^2
     let h = 1.9794866 * n_guess;
     let r_guess = sqrt(max((q - h) * (q + h), vec3<f32>(0.0))); // a^2 + b^2 there
     let a_guess = n_guess * sqrt(max(1.0 - 1.9591837 / (r_guess + q), vec3<f32>(0.0)));

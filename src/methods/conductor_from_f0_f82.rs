@@ -104,7 +104,7 @@ fn circle<'b>(f0: Expr<'b>) -> Circle<'b> {
         .at_most(0.999)
         .named("f0_less", "n_max is infinite at 1");
     let root = f0.sqrt().named("root", "");
-    let inverse = (1.0 / (1.0 - f0)).named("inverse", "");
+    let inverse = (1.0 / (1.0 - f0)).named("reciprocal", "");
     let one_more = (1.0 + root).named("one_more", "");
     let most = (one_more.squared() * inverse).named("n_max", "the dielectric with this F0");
     let least = (1.0 / most).named("n_min", "");

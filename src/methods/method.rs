@@ -34,8 +34,11 @@ pub struct Method {
     pub build: for<'b> fn(&Inputs<'b>) -> Expr<'b>,
     /// Where a material's constants allow something better than folding them in: another method and its inputs,
     /// from the values of this method's inputs.
-    pub specialised: Option<fn(&Values) -> (&'static Method, Values)>,
+    pub specialised: Option<Better>,
 }
+
+/// Another method, and the values of its inputs, that do a specialised method's work better.
+pub type Better = fn(&Values) -> (&'static Method, Values);
 
 /// Values of inputs by name; a scalar input uses the first number.
 pub type Values = BTreeMap<String, [f64; 3]>;

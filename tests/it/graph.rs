@@ -1,0 +1,192 @@
+//! The graph, over all methods: its text form, its checker, its meaning in every kind of number.
+
+use fresnel_gen::ir::{
+    Checked, Fault, Function, Label, Op, Payload, Ty, Value, check, evaluate, parse, print,
+};
+use fresnel_gen::methods;
+use fresnel_gen::num::{Dd, Half, Num};
+
+fn all_functions() -> Vec<Checked> {
+    let colour = methods::ALL
+        .iter()
+        .map(|method| method.function(false).expect("well formed"));
+    let scalar = methods::ALL
+        .iter()
+        .filter(|method| method.has_scalar_form());
+    colour
+        .chain(scalar.map(|method| method.function(true).expect("well formed")))
+        .collect()
+}
+
+#[test]
+fn the_text_form_prints_and_parses() {
+    for function in all_functions() {
+        let text = print(&function);
+        let read = parse(&text).unwrap_or_else(|error| panic!("{error}\n{text}"));
+        assert_eq!(print(&read), text);
+        assert_eq!(read, *function, "{text}");
+    }
+}
+
+#[test]
+fn a_text_that_is_wrong_names_its_line() {
+    let cases = [
+        ("", 1, "empty"),
+        ("fn f(x) -> scalar\n  return x", 1, "expected"),
+        (
+            "fn f(x: scalar) -> scalar\n  y = pow x x\n  return y",
+            2,
+            "no such operation",
+        ),
+        (
+            "fn f(x: scalar) -> scalar\n  y = add x\n  return y",
+            2,
+            "does not take",
+        ),
+        (
+            "fn f(x: scalar) -> scalar\n  y = add x z\n  return y",
+            2,
+            "`z` is no",
+        ),
+        (
+            "fn f(x: rgb) -> scalar\n  y = channel 3 x\n  return y",
+            2,
+            "0, 1 or 2",
+        ),
+        (
+            "fn f(x: scalar) -> scalar\n  y = add x 1",
+            2,
+            "without `return`",
+        ),
+    ];
+    for (text, line, says) in cases {
+        let error = parse(text).expect_err(text);
+        assert!(
+            error.line == line && error.what.contains(says),
+            "{text}: {error}"
+        );
+    }
+}
+
+fn mutated(change: impl Fn(&mut Function)) -> Fault {
+    let good = parse(
+        "fn f(x: scalar, y: rgb) -> rgb\n  a = add x 1\n  b = mul a y\n  c = div b a\n  return c",
+    )
+    .expect("good");
+    check(good.clone()).expect("it is well formed");
+    let mut bad = good;
+    change(&mut bad);
+    check(bad).expect_err("a broken rule")
+}
+
+fn place(function: &Function, op: Op) -> usize {
+    function
+        .nodes
+        .iter()
+        .position(|node| node.op == op)
+        .expect("it is there")
+}
+
+/// A way to break a function.
+type Change = fn(&mut Function);
+
+#[test]
+fn each_rule_of_the_checker_can_be_broken() {
+    let rules: [(usize, Change); 9] = [
+        (1, |f| {
+            let add = place(f, Op::Add);
+            f.nodes[add].args[0] = add + 1;
+        }),
+        (2, |f| {
+            let add = place(f, Op::Add);
+            f.nodes[add].op = Op::Select;
+        }),
+        (3, |f| {
+            let param = place(f, Op::Param);
+            f.nodes[param].payload = Payload::Index(7);
+        }),
+        (4, |f| {
+            let number = place(f, Op::Number);
+            f.nodes[number].payload = Payload::Number(f64::NAN);
+        }),
+        (5, |f| {
+            let add = place(f, Op::Add);
+            f.nodes[add].label = Some(Label {
+                name: "a__b".into(),
+                why: String::new(),
+            });
+        }),
+        (6, |f| {
+            let mul = place(f, Op::Mul);
+            f.nodes[mul].label = Some(Label {
+                name: "x".into(),
+                why: String::new(),
+            });
+        }),
+        (7, |f| {
+            f.params.push(fresnel_gen::ir::Param {
+                name: "z".into(),
+                ty: Ty::Bool,
+            })
+        }),
+        (8, |f| f.result = place(f, Op::Mul)),
+        (9, |f| {
+            let add = place(f, Op::Add);
+            f.nodes[add].label = None;
+        }),
+    ];
+    assert_eq!(rules.len(), fresnel_gen::ir::RULES.len());
+    for (rule, change) in rules {
+        assert_eq!(mutated(change).rule, rule, "{}", mutated(change));
+    }
+}
+
+/// A library function on one cosine, each input .4 (1.5 for indices) in all channels.
+fn run<N: Num>(function: &Checked, cos_theta: f64) -> f64 {
+    let value = |name: &str| {
+        if ["eta", "n"].contains(&name) {
+            1.5
+        } else {
+            0.4
+        }
+    };
+    let arguments = function
+        .params
+        .iter()
+        .map(|param| match (param.name.as_str(), param.ty) {
+            ("cos_theta", _) => Value::scalar(cos_theta),
+            (name, Ty::Rgb) => Value::rgb([value(name); 3]),
+            (name, _) => Value::scalar(value(name)),
+        });
+    evaluate::<N>(function, &arguments.collect::<Vec<_>>()).at(0)[0].to_f64()
+}
+
+#[test]
+fn every_kind_of_number_agrees_within_its_precision() {
+    for function in all_functions() {
+        for cos_theta in [0.25, 0.5, 0.75, 1.0] {
+            let truth = run::<Dd>(&function, cos_theta);
+            let close = |value: f64, tolerance: f64| (value - truth).abs() <= tolerance;
+            let name = &function.name;
+            assert!(
+                close(run::<f64>(&function, cos_theta), 1e-14),
+                "{name} in f64"
+            );
+            assert!(
+                close(run::<f32>(&function, cos_theta), 2e-6),
+                "{name} in f32"
+            );
+            // The thin end of f16: the two methods that solve for n lose most.
+            let half = if name == "conductor_from_f0_f82" {
+                0.1
+            } else {
+                0.02
+            };
+            assert!(
+                close(run::<Half>(&function, cos_theta), half),
+                "{name} in f16: {}",
+                run::<Half>(&function, cos_theta)
+            );
+        }
+    }
+}

@@ -1,0 +1,157 @@
+//! The text of every language, read again and run: a small interpreter of the C-like subset that functions are written
+//! in must give, bit for bit, what the graph gives in f32. It catches a wrong precedence, spelling or literal in any
+//! target without a compiler of that language.
+
+mod language;
+
+use fresnel_gen::app::{Materials, Request, generate};
+use fresnel_gen::ir::{Checked, Value, evaluate};
+use fresnel_gen::{emit, fit, methods, targets};
+use language::{Program, Term};
+
+const COSINES: [f32; 9] = [-0.5, 0.0, 1e-6, 0.1, 1.0 / 7.0, 0.5, 0.9, 1.0, 1.5];
+
+/// Three channels of each input that make both sides of every choice happen.
+fn arguments(name: &str) -> Vec<[f32; 3]> {
+    match name {
+        "eta" => vec![[1.5, 0.7, 2.4], [1.0, 1.0001, 0.3]],
+        "n" => vec![[0.23, 1.5, 1.39], [2.49, 1.0, 4.0]],
+        "k" => vec![[3.94, 0.0, 1.72], [0.1, 0.0, 1e-20]],
+        "lambda" => vec![[6.3, 0.0, 41.8]],
+        "f0" | "reflectivity" => vec![[0.95, 0.04, 1.05]],
+        "power" | "exponent" => vec![[4.4; 3]],
+        _ => vec![[0.3, 0.7, 1.2]],
+    }
+}
+
+#[track_caller]
+fn check(text: &str, name: &str, function: &Checked, inputs: &[[f32; 3]]) {
+    let program = Program::parse(text, name);
+    for cos_theta in COSINES {
+        let mut values = vec![Value::each(vec![cos_theta])];
+        let mut terms = vec![Term::Scalar(cos_theta)];
+        for (param, input) in function.params.iter().skip(1).zip(inputs) {
+            let wide = input.map(f64::from);
+            let is_colour = param.ty.channels() == 3;
+            values.push(if is_colour {
+                Value::rgb(wide)
+            } else {
+                Value::scalar(wide[0])
+            });
+            terms.push(if is_colour {
+                Term::Colour(*input)
+            } else {
+                Term::Scalar(input[0])
+            });
+        }
+        let want = evaluate::<f32>(function, &values).at(0);
+        let got = program.run(&terms).colour();
+        let same = got
+            .iter()
+            .zip(want)
+            .all(|(got, want)| got.to_bits() == want.to_bits() || got.is_nan() && want.is_nan());
+        assert!(
+            same,
+            "{name}({cos_theta}, {inputs:?}): the text gives {got:?}, the graph {want:?}\n{text}"
+        );
+    }
+}
+
+/// One of each input's choices, as many rows as the longest has.
+fn rows(function: &Checked) -> Vec<Vec<[f32; 3]>> {
+    let choices: Vec<Vec<[f32; 3]>> = function
+        .params
+        .iter()
+        .skip(1)
+        .map(|param| arguments(&param.name))
+        .collect();
+    let longest = choices.iter().map(Vec::len).max().unwrap_or(1);
+    (0..longest)
+        .map(|row| {
+            choices
+                .iter()
+                .map(|choice| choice[row % choice.len()])
+                .collect()
+        })
+        .collect()
+}
+
+fn text_targets() -> impl Iterator<Item = &'static &'static targets::Target> {
+    targets::ALL
+        .iter()
+        .filter(|target| target.finish != targets::Finish::Spirv)
+}
+
+#[test]
+fn every_library_function_reads_as_it_was_meant() {
+    for method in methods::ALL {
+        let functions =
+            emit::library_functions(method, &emit::Naming::default()).expect("well formed");
+        for target in text_targets() {
+            for file in emit::library(target, method, &functions, "").expect("it prints") {
+                let text = String::from_utf8(file.bytes).expect("text");
+                for emitted in &functions {
+                    for inputs in rows(&emitted.function) {
+                        check(&text, &emitted.name, &emitted.function, &inputs);
+                    }
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn every_specialised_function_reads_as_it_was_meant() {
+    let request = Request {
+        targets: vec!["all".into(), "msl".into(), "glsl".into()],
+        materials: Materials::All,
+        ..Request::default()
+    };
+    let artifacts = generate(&request)
+        .expect("the catalogue generates")
+        .artifacts;
+    for (subject, _) in request.subjects().expect("the catalogue is good") {
+        for name in subject.default_methods() {
+            let method = methods::find(name).expect("it is there");
+            let constants = fit::values(method, &subject.channels, &subject.derivation);
+            let function = method.specialise(&constants).expect("it specialises");
+            let suffix = if name == subject.exact_method() {
+                String::new()
+            } else {
+                format!("_{name}")
+            };
+            let own = |path: &str| {
+                path.contains(&format!("materials/{}.", subject.name)) && !path.ends_with(".spv")
+            };
+            for artifact in artifacts.iter().filter(|artifact| own(&artifact.path)) {
+                let text = String::from_utf8(artifact.bytes.clone()).expect("text");
+                check(
+                    &text,
+                    &format!("fresnel_{}{suffix}", subject.name),
+                    &function,
+                    &[],
+                );
+            }
+        }
+    }
+}
+
+#[test]
+#[should_panic(expected = "the text gives")]
+fn a_wrong_number_in_the_text_is_seen() {
+    let method = methods::find("schlick").expect("it is there");
+    let functions = emit::library_functions(method, &emit::Naming::default()).expect("well formed");
+    let target = targets::find("gles").expect("it is there");
+    let file = emit::library(target, method, &functions, "")
+        .expect("it prints")
+        .remove(0);
+    let text = String::from_utf8(file.bytes)
+        .expect("text")
+        .replace("m2 * m2 * m", "m2 * m2 * m2");
+    check(
+        &text,
+        "fresnel_schlick",
+        &functions[0].function,
+        &[[0.04; 3]],
+    );
+}
