@@ -27,10 +27,13 @@ pub struct Cli {
 #[derive(Debug, Subcommand)]
 pub enum Command {
     /// List the methods, or show one with formula, source, domain and promised errors
+    #[command(after_help = "Example:\n  fresnel-gen methods show schlick_corrected")]
     Methods(Listing),
     /// List the materials, or show one with its data and source
+    #[command(after_help = "Example:\n  fresnel-gen materials show gold_thesis --json -")]
     Materials(Listing),
     /// List the targets, or show one with its validators
+    #[command(after_help = "Example:\n  fresnel-gen targets show gles")]
     Targets(Listing),
     /// Compute the thesis's tables, figures and claims anew, and print both side by side
     Reproduce(Reproduce),

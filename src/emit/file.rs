@@ -127,6 +127,7 @@ fn detail(target: &Target, index: usize, emitted: &Emitted) -> Value {
         "method": emitted.method.name,
         "form": emitted.form,
         "signature": print::head(&emitted.function, &emitted.name, &target.spelling),
+        "parameters": parameters(emitted),
         "operations": emitted.function.work(),
         "code_error": match &emitted.code_ulp {
             Measured::Yes(ulp) => json!({ "max_ulp": ulp }),
@@ -142,6 +143,28 @@ fn detail(target: &Target, index: usize, emitted: &Emitted) -> Value {
         value["uniforms"] = uniforms(emitted);
     }
     value
+}
+
+/// A library function's run-time arguments with what they are; a specialised one's constants per channel, null where a
+/// channel has none (gold's green has no lambda).
+fn parameters(emitted: &Emitted) -> Value {
+    if emitted.constants.is_empty() {
+        let rows = emitted.method.inputs.iter();
+        return rows
+            .map(|i| json!({ "name": i.name, "meaning": i.meaning, "domain": i.domain }))
+            .collect();
+    }
+    let cell = |name: &str, value: f64| {
+        if name == "lambda" && value <= 0.0 {
+            Value::Null
+        } else {
+            json!(value)
+        }
+    };
+    let row = |(name, values): (&String, &[f64; 3])| {
+        (name.clone(), json!(values.map(|value| cell(name, value))))
+    };
+    Value::Object(emitted.constants.iter().map(row).collect())
 }
 
 /// The uniform block of a module: name, type and offset in bytes of each run-time argument, by WGSL's layout, which

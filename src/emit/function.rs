@@ -3,7 +3,7 @@
 use crate::fit::{Derivation, Measured, ModelError, model_error, values};
 use crate::ir::Checked;
 use crate::materials::{Channels, Kind, Material};
-use crate::methods::{Class, Method};
+use crate::methods::{Class, Method, Values};
 
 use super::bounds::Bounds;
 use super::error::Error;
@@ -34,6 +34,8 @@ pub struct Emitted {
     pub form: &'static str,
     /// The graph.
     pub function: Checked,
+    /// The values that were folded in, for a specialised function.
+    pub constants: Values,
     /// Method against exact law, for a specialised function.
     pub model_error: Option<ModelError>,
     /// f32 against f64, in ulp.
@@ -94,6 +96,7 @@ pub fn library_functions(method: &'static Method, naming: &Naming) -> Result<Vec
                 method,
                 form,
                 function,
+                constants: Values::new(),
                 model_error: None,
                 code_ulp: Measured::Yes(method.claims.code_ulp),
             })
@@ -134,6 +137,7 @@ pub fn specialised_function(
         form: "specialised",
         model_error: Some(model_error(&function, &subject.channels)),
         code_ulp: bounds.of(&function),
+        constants,
         function,
     })
 }

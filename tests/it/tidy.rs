@@ -88,7 +88,7 @@ fn function_lengths(text: &str) -> Vec<(String, usize)> {
         if is_function && !line.ends_with(';') {
             let length = lines[start..]
                 .iter()
-                .position(|line| closes(line))
+                .position(closes)
                 .map_or(1, |end| end + 1);
             lengths.push((bare.to_owned(), length));
         }
