@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-use crate::ir::{Checked, Column, Value, evaluate};
+use crate::ir::{Checked, Value, evaluate};
 use crate::materials::Channels;
 use crate::optics;
 
@@ -80,22 +80,42 @@ pub fn thesis_error(
     angles: usize,
     progress: &mut dyn FnMut(usize),
 ) -> [f64; 3] {
+    thesis_errors(&[function], channels, angles, progress)[0]
+}
+
+/// [`thesis_error`] of several functions for one material: the exact law, which costs the most, is computed once.
+pub fn thesis_errors(
+    functions: &[&Checked],
+    channels: &Channels,
+    angles: usize,
+    progress: &mut dyn FnMut(usize),
+) -> Vec<[f64; 3]> {
     const CHUNK: usize = 4096;
-    let mut sums = [0.0; 3];
+    let mut sums = vec![[0.0; 3]; functions.len()];
     for start in (0..angles).step_by(CHUNK) {
         let cosines: Vec<f64> = (start..(start + CHUNK).min(angles))
             .map(|i| cosine(2 * i + 1, 2 * angles))
             .collect();
-        let values = evaluate(function, &[Value::Scalar(Column::Each(cosines.clone()))]);
-        for (point, cos_theta) in cosines.iter().enumerate() {
-            let (got, want) = (values.at(point), truth(channels, *cos_theta));
-            for i in 0..3 {
-                sums[i] += (got[i] - want[i]).abs() / want[i];
-            }
+        let want: Vec<[f64; 3]> = cosines.iter().map(|c| truth(channels, *c)).collect();
+        let points = cosines.len();
+        let arguments = [Value::each(cosines)];
+        for (function, sums) in functions.iter().zip(&mut sums) {
+            add_differences(&evaluate(function, &arguments), &want, sums);
         }
-        progress(cosines.len());
+        progress(points);
     }
-    sums.map(|sum| sum / angles as f64)
+    let mean = |sums: [f64; 3]| sums.map(|sum| sum / angles as f64);
+    sums.into_iter().map(mean).collect()
+}
+
+/// Adds the relative differences, point by point.
+fn add_differences(got: &Value<f64>, want: &[[f64; 3]], sums: &mut [f64; 3]) {
+    for (i, sum) in sums.iter_mut().enumerate() {
+        let got = got.channel(i);
+        for (point, want) in want.iter().enumerate() {
+            *sum += (got.at(point) - want[i]).abs() / want[i];
+        }
+    }
 }
 
 /// cos of `part/whole` of a right angle, exactly 1 and 0 at the ends.

@@ -32,7 +32,11 @@ fn line(cells: &[String], widths: &[usize]) -> String {
 fn padded(cell: &str, width: usize) -> String {
     let space = " ".repeat(width.saturating_sub(cell.chars().count()));
     let is_number = cell.starts_with(|c: char| c.is_ascii_digit() || c == '-')
-        && cell.trim_end_matches('%').trim().parse::<f64>().is_ok();
+        && cell
+            .trim_end_matches(['%', '°'])
+            .trim()
+            .parse::<f64>()
+            .is_ok();
     if is_number {
         space + cell
     } else {

@@ -9,6 +9,7 @@ mod graph;
 mod oracle;
 mod physics;
 mod readme;
+mod reproduce;
 mod reread;
 mod tidy;
 mod tree;

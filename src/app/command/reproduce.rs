@@ -1,11 +1,80 @@
 //! `reproduce`: the thesis beside ours.
 
+use serde_json::{Value, json};
+
 use crate::app::args::Reproduce;
 use crate::app::error::Error;
+use crate::app::names::unknown;
+use crate::app::write::write_file;
+use crate::report::reproduce::{NOT_MEASURED, Part, Report, Row, reproduce, thesis};
 
-use super::{Output, Progress};
+use super::{Output, Progress, report};
 
 /// Reproduces.
-pub fn run(_flags: &Reproduce, _progress: Progress) -> Result<Output, Error> {
-    Ok(Output::default())
+pub fn run(flags: &Reproduce, progress: Progress) -> Result<Output, Error> {
+    let part = flags.table.as_deref().map(part).transpose()?;
+    let parts = part
+        .as_ref()
+        .map_or(Part::ALL.as_slice(), std::slice::from_ref);
+    let reproduced = reproduce(parts, thesis::ANGLES, progress);
+    let mut output = report(
+        reproduced.text(),
+        &json(&reproduced, part),
+        flags.json.as_deref(),
+    )?;
+    output.code = u8::from(reproduced.has_findings());
+    draw(flags, &reproduced, &mut output)?;
+    Ok(output)
+}
+
+/// A part by its name, or a table by its number alone.
+fn part(name: &str) -> Result<Part, Error> {
+    let plain = name.trim().to_lowercase().replace([' ', '-'], "");
+    let number = plain.strip_prefix("table").unwrap_or(&plain);
+    let found = Part::ALL
+        .into_iter()
+        .find(|part| part.name() == plain || part.name().strip_prefix("table") == Some(number));
+    if let Some(part) = found {
+        return Ok(part);
+    }
+    let all = Part::ALL.map(Part::name);
+    match NOT_MEASURED
+        .iter()
+        .find(|(tables, _)| !number.is_empty() && tables.split(' ').any(|word| word == number))
+    {
+        Some((tables, why)) => Err(Error::Usage {
+            what: format!(
+                "{tables} cannot be reproduced yet: {why}; there are {}",
+                all.join(", ")
+            ),
+        }),
+        None => Err(unknown("table", name, &all)),
+    }
+}
+
+fn json(reproduced: &Report, part: Option<Part>) -> Value {
+    let command = part.map_or("reproduce".to_owned(), |part| {
+        format!("reproduce {}", part.name())
+    });
+    json!({
+        "tool": "fresnel-gen", "command": command, "device": null,
+        "rows": reproduced.rows().map(Row::json).collect::<Vec<_>>(),
+    })
+}
+
+fn draw(flags: &Reproduce, reproduced: &Report, output: &mut Output) -> Result<(), Error> {
+    for drawing in &reproduced.drawings {
+        write_file(
+            &flags.out_dir.join(&drawing.file),
+            drawing.chart.svg().as_bytes(),
+        )?;
+    }
+    if !reproduced.drawings.is_empty() {
+        output.remarks.push(format!(
+            "{}: {} figures",
+            flags.out_dir.display(),
+            reproduced.drawings.len()
+        ));
+    }
+    Ok(())
 }

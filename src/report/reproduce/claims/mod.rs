@@ -1,0 +1,43 @@
+//! What the thesis asserts in its text, each tested by numbers.
+
+mod gold;
+mod instructions;
+mod minimum;
+mod schlick;
+mod speed;
+
+use super::Section;
+use super::meter::Meter;
+use super::row::{Figure, Row};
+
+/// How many angles the claims go through, for progress.
+pub fn work(angles: usize) -> usize {
+    schlick::work(angles)
+}
+
+/// All claims.
+pub fn section(angles: usize, meter: &mut Meter) -> Section {
+    let rows = [
+        schlick::rows(angles, meter),
+        minimum::rows(),
+        gold::rows(),
+        instructions::rows(),
+        speed::rows(),
+    ];
+    Section {
+        title: "Claims of the text".to_owned(),
+        rows: rows.concat(),
+    }
+}
+
+/// A claim in words, beside what was found.
+fn statement(name: &str, section: &str, thesis: &str, ours: String) -> Row {
+    Row::new("claims", name, section)
+        .thesis(Figure::Words(thesis.to_owned()))
+        .ours(Figure::Words(ours))
+}
+
+/// A figure behind a claim.
+fn measured(name: &str, column: &str, ours: Figure) -> Row {
+    Row::new("claims", name, column).ours(ours)
+}

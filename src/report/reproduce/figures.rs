@@ -1,0 +1,335 @@
+//! The reflectance curves of figures 6 and 9 to 16: the exact law and what approximates it.
+
+use crate::fit::{self, Derivation, lambda};
+use crate::report::chart::{Axis, Chart, Mark, Series, Style, ticks};
+
+use super::angle::{cosine, exact, lowest};
+use super::row::{Figure, Row};
+use super::{Section, specialised};
+
+/// Angles drawn: a point each quarter of a degree.
+const POINTS: u32 = 361;
+
+/// A figure of the thesis.
+struct Plan {
+    number: u32,
+    file: &'static str,
+    /// What the thesis's caption names.
+    subject: &'static str,
+    index: [f64; 2],
+    /// Methods, and what the legend calls them.
+    methods: &'static [(&'static str, &'static str)],
+    /// Lowest reflectance on the axis, in per cent.
+    low: f64,
+    marks: &'static [(f64, &'static str)],
+    /// Whether the minimum of the exact law is marked too.
+    shows_minimum: bool,
+    /// What a reader should know besides.
+    note: &'static str,
+}
+
+/// A figure drawn.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Drawing {
+    /// Its file's name.
+    pub file: String,
+    /// What it shows.
+    pub chart: Chart,
+}
+
+const SCHLICK: (&str, &str) = ("schlick_ior", "Schlick (eq. 7)");
+const RESCALED: (&str, &str) = ("schlick_rescaled", "rescaled Schlick (eq. 14)");
+const EXACT_ALONE: &str = "The thesis draws the exact law alone.";
+
+/// The nine. n and k are those of the captions and of Table 1; platinum's are those of 685 nm.
+const PLANS: [Plan; 9] = [
+    Plan {
+        number: 6,
+        file: "figure-06-water.svg",
+        subject: "water, n = 1.33",
+        index: [1.33, 0.0],
+        methods: &[SCHLICK],
+        low: 0.0,
+        marks: &[],
+        shows_minimum: false,
+        note: EXACT_ALONE,
+    },
+    Plan {
+        number: 9,
+        file: "figure-09-gold-685nm.svg",
+        subject: "gold at 685 nm, n = 0.23, k = 3.94",
+        index: [0.23, 3.94],
+        methods: &[RESCALED],
+        low: 92.0,
+        marks: &[(77.0, "77° in the text")],
+        shows_minimum: true,
+        note: EXACT_ALONE,
+    },
+    Plan {
+        number: 10,
+        file: "figure-10-gold-475nm.svg",
+        subject: "gold at 475 nm, n = 1.39, k = 1.72",
+        index: [1.39, 1.72],
+        methods: &[RESCALED],
+        low: 0.0,
+        marks: &[],
+        shows_minimum: false,
+        note: EXACT_ALONE,
+    },
+    Plan {
+        number: 11,
+        file: "figure-11-water-empirical.svg",
+        subject: "water, n = 1.33",
+        index: [1.33, 0.0],
+        methods: &[("empirical", "NVIDIA's empirical term (eq. 6)")],
+        low: 0.0,
+        marks: &[(60.0, "60°")],
+        shows_minimum: false,
+        note: "",
+    },
+    Plan {
+        number: 12,
+        file: "figure-12-hydrogen.svg",
+        subject: "hydrogen, n = 1.001",
+        index: [1.001, 0.0],
+        methods: &[SCHLICK],
+        low: 0.0,
+        marks: &[],
+        shows_minimum: false,
+        note: "",
+    },
+    Plan {
+        number: 13,
+        file: "figure-13-arsenic-trisulphide.svg",
+        subject: "arsenic trisulphide, n = 2.04",
+        index: [2.04, 0.0],
+        methods: &[SCHLICK],
+        low: 0.0,
+        marks: &[],
+        shows_minimum: false,
+        note: "",
+    },
+    Plan {
+        number: 14,
+        file: "figure-14-germanium.svg",
+        subject: "germanium, n = 4.01",
+        index: [4.01, 0.0],
+        methods: &[SCHLICK],
+        low: 0.0,
+        marks: &[],
+        shows_minimum: false,
+        note: "",
+    },
+    Plan {
+        number: 15,
+        file: "figure-15-platinum-schlick.svg",
+        subject: "platinum at 685 nm, n = 2.49, k = 4.44",
+        index: [2.49, 4.44],
+        methods: &[
+            ("schlick", "Schlick from F0 (eq. 13)"),
+            ("schlick_ior", "Schlick from n alone (eq. 7)"),
+        ],
+        low: 0.0,
+        marks: &[],
+        shows_minimum: false,
+        note: "",
+    },
+    Plan {
+        number: 16,
+        file: "figure-16-platinum-corrected.svg",
+        subject: "platinum at 685 nm, n = 2.49, k = 4.44",
+        index: [2.49, 4.44],
+        methods: &[
+            RESCALED,
+            ("schlick_corrected", "corrected Schlick (eq. 15)"),
+        ],
+        low: 50.0,
+        marks: &[(81.37, "81.37°: λ matched")],
+        shows_minimum: true,
+        note: "",
+    },
+];
+
+/// One curve of a figure.
+struct Curve {
+    name: &'static str,
+    /// Reflectance in per cent, angle by angle.
+    points: Vec<(f64, f64)>,
+}
+
+/// What is drawn, in numbers.
+pub fn section() -> Section {
+    Section {
+        title: format!("Figures: reflectance at {POINTS} angles, exact and approximate"),
+        rows: PLANS.iter().flat_map(Plan::rows).collect(),
+    }
+}
+
+/// The charts.
+pub fn drawings() -> Vec<Drawing> {
+    let drawing = |plan: &Plan| Drawing {
+        file: plan.file.to_owned(),
+        chart: plan.chart(),
+    };
+    PLANS.iter().map(drawing).collect()
+}
+
+impl Plan {
+    fn exact(&self) -> Curve {
+        let reflectance = |degrees| 100.0 * exact(self.index, degrees).unpolarised();
+        Curve {
+            name: "exact law",
+            points: degrees().map(|at| (at, reflectance(at))).collect(),
+        }
+    }
+
+    fn curves(&self) -> Vec<Curve> {
+        let channels = specialised::grey(self.index);
+        let curve = |(method, name): &(&str, &'static str)| {
+            let function = specialised::function(method, &channels, &Derivation::default());
+            let values = specialised::curve(&function, degrees().map(cosine).collect());
+            let percent = values.into_iter().map(|value| 100.0 * value);
+            Curve {
+                name,
+                points: degrees().zip(percent).collect(),
+            }
+        };
+        self.methods.iter().map(curve).collect()
+    }
+
+    fn rows(&self) -> Vec<Row> {
+        let exact = self.exact();
+        let pairs = self.curves().into_iter().zip(self.methods);
+        pairs
+            .flat_map(|(curve, (method, _))| self.row(&curve, &exact, method))
+            .collect()
+    }
+
+    fn row(&self, curve: &Curve, exact: &Curve, method: &str) -> [Row; 2] {
+        let (at, apart) = largest_difference(curve, exact);
+        let name = format!("figure {}, {method}", self.number);
+        [
+            ("largest difference", Figure::Number(apart / 100.0, 4, "")),
+            ("its angle", Figure::Number(at, 2, "°")),
+        ]
+        .map(|(column, ours)| {
+            let mut row = Row::new("figures", &name, column).ours(ours);
+            row.file = Some(self.file.to_owned());
+            row
+        })
+    }
+
+    fn chart(&self) -> Chart {
+        let (exact, curves) = (self.exact(), self.curves());
+        let subtitle = self.subtitle(&exact, &curves);
+        let mut drawn = vec![series(exact, Style::Exact)];
+        drawn.extend(
+            curves
+                .into_iter()
+                .enumerate()
+                .map(|(i, curve)| series(curve, Style::Approximate(i))),
+        );
+        Chart {
+            title: format!("Figure {}: {}", self.number, self.subject),
+            subtitle,
+            x: axis("angle of incidence", 0.0, 90.0, 9, "°"),
+            y: axis("unpolarised reflectance", self.low, 100.0, 5, "%"),
+            series: drawn,
+            marks: self.marks(),
+            foot: "fresnel-gen reproduce figures".to_owned(),
+        }
+    }
+
+    fn subtitle(&self, exact: &Curve, curves: &[Curve]) -> String {
+        let difference = |curve: &Curve| {
+            let (at, apart) = largest_difference(curve, exact);
+            format!("{} {apart:.2} percentage points at {at}°", curve.name)
+        };
+        let differences: Vec<String> = curves.iter().map(difference).collect();
+        let mut parts = vec![
+            format!("Reflectance computed at {POINTS} angles, a quarter of a degree apart."),
+            format!(
+                "Largest difference from the exact law: {}.",
+                differences.join("; ")
+            ),
+            self.derived(),
+            self.note.to_owned(),
+        ];
+        if self.low > 0.0 {
+            parts.push(format!("The axis starts at {} %.", self.low));
+        }
+        parts.retain(|part| !part.is_empty());
+        parts.join(" ")
+    }
+
+    /// What was derived from n and k, for methods that need more than these.
+    fn derived(&self) -> String {
+        let channels = specialised::grey(self.index);
+        let has = |name: &str| self.methods.iter().any(|(method, _)| *method == name);
+        if has("empirical") {
+            let values = fit::values(
+                specialised::method("empirical"),
+                &channels,
+                &Derivation::default(),
+            );
+            let [bias, scale, power] = ["bias", "scale", "power"].map(|name| values[name][0]);
+            return format!(
+                "Bias {bias:.4} is F0, scale {scale:.4} the rest, power {power:.3} meets the exact law at 60°."
+            );
+        }
+        let matching = Derivation::default().matching_cos;
+        match lambda(self.index[0], self.index[1], matching) {
+            Some(lambda) if has("schlick_corrected") => {
+                format!(
+                    "λ = {lambda:.3} meets the exact law at 81.37°, with the factor cos θ that eq. 15 lost in print."
+                )
+            }
+            _ => String::new(),
+        }
+    }
+
+    fn marks(&self) -> Vec<Mark> {
+        let fixed = self.marks.iter().map(|(at, label)| Mark {
+            at: *at,
+            label: (*label).to_owned(),
+        });
+        let (at, _) = lowest(|degrees| exact(self.index, degrees).unpolarised());
+        let minimum = Mark {
+            at,
+            label: format!("minimum {at:.2}°"),
+        };
+        fixed.chain(self.shows_minimum.then_some(minimum)).collect()
+    }
+}
+
+fn degrees() -> impl Iterator<Item = f64> {
+    (0..POINTS).map(|i| 90.0 * f64::from(i) / f64::from(POINTS - 1))
+}
+
+/// Where a curve is furthest from the exact law, and by how many percentage points.
+fn largest_difference(curve: &Curve, exact: &Curve) -> (f64, f64) {
+    let pairs = curve.points.iter().zip(&exact.points);
+    let differences = pairs.map(|((at, value), (_, exact))| (*at, (value - exact).abs()));
+    differences.fold(
+        (0.0, 0.0),
+        |most, one| if one.1 > most.1 { one } else { most },
+    )
+}
+
+fn series(curve: Curve, style: Style) -> Series {
+    Series {
+        name: curve.name.to_owned(),
+        style,
+        points: curve.points,
+    }
+}
+
+fn axis(label: &str, low: f64, high: f64, about: usize, unit: &'static str) -> Axis {
+    Axis {
+        label: label.to_owned(),
+        low,
+        high,
+        ticks: ticks(low, high, about),
+        unit,
+    }
+}

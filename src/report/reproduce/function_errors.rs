@@ -1,0 +1,174 @@
+//! Tables 2 and 3: mean relative error of the approximations, by the thesis's measure (section 5.2).
+
+use crate::fit::{Derivation, THESIS_MATCHING_COS, lambda, thesis_errors};
+use crate::materials::Channels;
+
+use super::metals::{GOLD, PLATINUM};
+use super::meter::Meter;
+use super::row::{Figure, Row, Verdict};
+use super::{Section, specialised, thesis};
+
+const METALS: &str = "table2_function_error_metals_percent";
+const DIELECTRICS: &str = "table3_function_error_dielectrics_percent";
+
+const MATCHED_AT_81: &str = "λ matched at cos θ = 0.15 (81.37°), the other end of the range that the text gives; \
+    this comes nearest to the printed figure. Eq. 15 lost its factor cos θ in print (as printed F(90°) = 1 - 2n, below \
+    0); it stands here as Lazányi and Szirmay-Kalos published it in 2005. Gold's green has no λ, and there the term is dropped";
+const MATCHED_AT_84: &str = "λ matched at 84.26°, as the text of section 3.2.4 says: further from the printed figure than 81.37°";
+const NO_LAMBDA: &str = "no λ meets the exact law at this angle, because it does not lie below the rescaled Schlick there";
+
+const UNROUNDED: &str = "with the indices that Table 1 rounds, refractiveindex.info's pages of Hagemann 1975 (gold) and \
+    Rakić 1998 (platinum)";
+/// Half a unit in the last printed digit, in per cent.
+const HALF_A_DIGIT: f64 = 0.005;
+/// How far past that a figure may be rounded to the other side: a fiftieth of a digit, less than the rounding of
+/// Table 1's indices does.
+const BORDERLINE: f64 = 0.0002;
+
+const AT_81: Derivation = Derivation {
+    matching_cos: THESIS_MATCHING_COS,
+};
+const AT_84: Derivation = Derivation {
+    matching_cos: thesis::TEXT_MATCHING_COS,
+};
+
+/// Table 2.
+pub fn metals(angles: usize, meter: &mut Meter) -> Section {
+    let rows = ["gold", "platinum"].into_iter();
+    Section {
+        title: format!(
+            "Table 2: function error for metals, mean over {angles} angles and three channels"
+        ),
+        rows: rows.flat_map(|name| metal(name, angles, meter)).collect(),
+    }
+}
+
+/// Table 3.
+pub fn dielectrics(angles: usize, meter: &mut Meter) -> Section {
+    let rows = ["water", "diamond"].into_iter();
+    Section {
+        title: format!(
+            "Table 3: function error for dielectrics, mean over {angles} angles and three channels"
+        ),
+        rows: rows.map(|name| dielectric(name, angles, meter)).collect(),
+    }
+}
+
+fn metal(name: &str, angles: usize, meter: &mut Meter) -> Vec<Row> {
+    let channels = specialised::channels(name);
+    let wanted = [
+        ("schlick_rescaled", AT_81),
+        ("schlick_corrected", AT_81),
+        ("schlick_corrected", AT_84),
+    ];
+    let errors = percent(name, &channels, &wanted, angles, meter);
+    let [rescaled, corrected] =
+        ["rescaled", "corrected"].map(|column| thesis::number(&[METALS, name, column]));
+    let mut rows = vec![
+        rescaled_row(name, rescaled, errors[0]),
+        explained(name, "corrected", corrected, errors[1], MATCHED_AT_81),
+        explained(
+            name,
+            "corrected, λ at 84.26°",
+            corrected,
+            errors[2],
+            MATCHED_AT_84,
+        ),
+    ];
+    rows.extend(unrounded(name, [rescaled, corrected], angles, meter));
+    rows.extend(lambdas(name, &channels, AT_81, "81.37°"));
+    rows.extend(lambdas(name, &channels, AT_84, "84.26°"));
+    rows
+}
+
+/// The rescaled Schlick must agree to the digit. Platinum's 5.3049 is excused for the 0.0001 that it lacks.
+fn rescaled_row(name: &str, thesis: f64, ours: f64) -> Row {
+    let row = must_agree("table2", name, "rescaled", thesis, ours);
+    let is_borderline =
+        row.verdict == Verdict::Differs && (thesis - ours).abs() < HALF_A_DIGIT + BORDERLINE;
+    if is_borderline {
+        let remark = format!(
+            "{ours:.4} with the indices as Table 1 prints them, {:.4} short of what rounds to the printed digit; the \
+             indices that Table 1 rounds do (below)",
+            thesis - HALF_A_DIGIT - ours
+        );
+        row.verdict(Verdict::Explained).remark(remark)
+    } else {
+        row
+    }
+}
+
+/// The same with the indices that Table 1 was rounded from.
+fn unrounded(name: &str, thesis: [f64; 2], angles: usize, meter: &mut Meter) -> [Row; 2] {
+    let metal = if name == "gold" { GOLD } else { PLATINUM };
+    let wanted = [("schlick_rescaled", AT_81), ("schlick_corrected", AT_81)];
+    let errors = percent(name, &metal.channels(), &wanted, angles, meter);
+    [0, 1].map(|i| {
+        let column = [
+            "rescaled, unrounded indices",
+            "corrected, unrounded indices",
+        ][i];
+        explained(name, column, thesis[i], errors[i], UNROUNDED)
+    })
+}
+
+fn dielectric(name: &str, angles: usize, meter: &mut Meter) -> Row {
+    let channels = specialised::channels(name);
+    let wanted = [("schlick_ior", Derivation::default())];
+    let errors = percent(name, &channels, &wanted, angles, meter);
+    let printed = thesis::number(&[DIELECTRICS, name, "schlick"]);
+    must_agree("table3", name, "schlick", printed, errors[0])
+}
+
+/// Errors of methods for one material, mean of the channels, in per cent.
+fn percent(
+    name: &str,
+    channels: &Channels,
+    wanted: &[(&str, Derivation)],
+    angles: usize,
+    meter: &mut Meter,
+) -> Vec<f64> {
+    let functions: Vec<_> = wanted
+        .iter()
+        .map(|(method, derivation)| specialised::function(method, channels, derivation))
+        .collect();
+    let functions: Vec<_> = functions.iter().collect();
+    let mut progress = |done| meter.add(done, &format!("function error of {name}"));
+    let errors = thesis_errors(&functions, channels, angles, &mut progress);
+    let mean = |error: [f64; 3]| 100.0 * error.iter().sum::<f64>() / 3.0;
+    errors.into_iter().map(mean).collect()
+}
+
+fn must_agree(table: &'static str, name: &str, column: &str, thesis: f64, ours: f64) -> Row {
+    Row::new(table, name, column)
+        .thesis(Figure::percent(thesis))
+        .ours(Figure::percent(ours))
+        .verdict(Verdict::of_digits(thesis, ours, 2))
+}
+
+fn explained(name: &str, column: &str, thesis: f64, ours: f64, reason: &str) -> Row {
+    let row = must_agree("table2", name, column, thesis, ours).remark(reason);
+    match row.verdict {
+        Verdict::Differs => row.verdict(Verdict::Explained),
+        _ => row,
+    }
+}
+
+fn lambdas(
+    name: &str,
+    channels: &Channels,
+    derivation: Derivation,
+    angle: &str,
+) -> impl Iterator<Item = Row> {
+    ["red", "green", "blue"]
+        .into_iter()
+        .enumerate()
+        .map(move |(i, channel)| {
+            let found = lambda(channels.n[i], channels.k[i], derivation.matching_cos);
+            let row = Row::new("table2", name, &format!("λ {channel} at {angle}"));
+            match found {
+                Some(value) => row.ours(Figure::Number(value, 4, "")),
+                None => row.ours(Figure::Missing(NO_LAMBDA)).remark(NO_LAMBDA),
+            }
+        })
+}

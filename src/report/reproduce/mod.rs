@@ -1,0 +1,159 @@
+//! The thesis that this program began with, computed anew: its figures beside ours, its curves, its claims.
+//!
+//! Source: Štetić-Kozić, "Poređenje metoda za računanje koeficijenata Frenelove refleksije u programima za senčenje",
+//! diploma thesis, University of Belgrade, 2014.
+//!
+//! Pure: no disk, no terminal. A part is a file: to add one, write it and give it an entry in [`Part`].
+
+mod angle;
+mod claims;
+mod figures;
+mod function_errors;
+mod indices;
+pub mod metals;
+mod meter;
+mod row;
+mod specialised;
+mod text;
+pub mod thesis;
+mod times;
+
+pub use figures::Drawing;
+pub use row::{Figure, Row, Verdict};
+
+use meter::Meter;
+
+/// What can be reproduced.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Part {
+    /// The indices of refraction.
+    Table1,
+    /// Function errors, metals.
+    Table2,
+    /// Function errors, dielectrics.
+    Table3,
+    /// Absolute times: the check of the table's head.
+    Table7,
+    /// What the text asserts.
+    Claims,
+    /// The reflectance curves.
+    Figures,
+}
+
+/// The thesis's tables that have no rows here, and why.
+pub const NOT_MEASURED: [(&str, &str); 3] = [
+    (
+        "tables 4 and 5",
+        "errors in pictures of a cube and a sculpture need a renderer",
+    ),
+    (
+        "table 6",
+        "relative times need a GPU, or the compiler of one",
+    ),
+    (
+        "table 8",
+        "the error of three wavelengths needs full-spectrum data",
+    ),
+];
+
+impl Part {
+    /// All parts in the order of the report.
+    pub const ALL: [Part; 6] = [
+        Part::Table1,
+        Part::Table2,
+        Part::Table3,
+        Part::Table7,
+        Part::Claims,
+        Part::Figures,
+    ];
+
+    /// The name on the command line and in every row.
+    pub fn name(self) -> &'static str {
+        match self {
+            Part::Table1 => "table1",
+            Part::Table2 => "table2",
+            Part::Table3 => "table3",
+            Part::Table7 => "table7",
+            Part::Claims => "claims",
+            Part::Figures => "figures",
+        }
+    }
+
+    /// How many angles it goes through, for progress.
+    fn work(self, angles: usize) -> usize {
+        match self {
+            Part::Table2 => 4 * angles,
+            Part::Table3 => 2 * angles,
+            Part::Claims => claims::work(angles),
+            Part::Table1 | Part::Table7 | Part::Figures => 0,
+        }
+    }
+
+    fn section(self, angles: usize, meter: &mut Meter) -> Section {
+        match self {
+            Part::Table1 => indices::section(),
+            Part::Table2 => function_errors::metals(angles, meter),
+            Part::Table3 => function_errors::dielectrics(angles, meter),
+            Part::Table7 => times::section(),
+            Part::Claims => claims::section(angles, meter),
+            Part::Figures => figures::section(),
+        }
+    }
+}
+
+/// A part reproduced.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Section {
+    /// What it is and how it is measured.
+    pub title: String,
+    /// The comparisons.
+    pub rows: Vec<Row>,
+}
+
+/// Parts reproduced.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Report {
+    /// In the order asked for.
+    pub sections: Vec<Section>,
+    /// The curves, where they were asked for.
+    pub drawings: Vec<Drawing>,
+}
+
+/// Reproduces parts; function errors are taken at `angles` angles ([`thesis::ANGLES`] in the thesis).
+/// `say` hears how far the work is: done, of how much, what.
+pub fn reproduce(parts: &[Part], angles: usize, say: &mut dyn FnMut(u64, u64, &str)) -> Report {
+    let whole = parts.iter().map(|part| part.work(angles)).sum();
+    let mut meter = Meter::new(whole, say);
+    let sections = parts
+        .iter()
+        .map(|part| part.section(angles, &mut meter))
+        .collect();
+    let drawings = if parts.contains(&Part::Figures) {
+        figures::drawings()
+    } else {
+        Vec::new()
+    };
+    Report { sections, drawings }
+}
+
+impl Report {
+    /// All rows, part by part.
+    pub fn rows(&self) -> impl Iterator<Item = &Row> {
+        self.sections.iter().flat_map(|section| &section.rows)
+    }
+
+    /// Whether a figure that must agree does not.
+    pub fn has_findings(&self) -> bool {
+        self.rows().any(|row| row.verdict == Verdict::Differs)
+    }
+
+    /// The report for a terminal. A report of all parts also says what is not among them.
+    pub fn text(&self) -> String {
+        let text = text::text(&self.sections);
+        if self.sections.len() == Part::ALL.len() {
+            text + "\n" + &text::not_measured()
+        } else {
+            text
+        }
+    }
+}

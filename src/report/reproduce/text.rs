@@ -1,0 +1,138 @@
+//! The report for a terminal: claims in words as paragraphs, then figures beside the thesis's, then figures that
+//! the thesis does not give, then notes.
+
+use super::row::{Figure, Row};
+use super::{NOT_MEASURED, Section};
+use crate::report::table;
+
+/// How wide a paragraph is.
+const WIDTH: usize = 110;
+
+/// All sections.
+pub fn text(sections: &[Section]) -> String {
+    let texts: Vec<String> = sections.iter().map(section).collect();
+    texts.join("\n")
+}
+
+/// The tables that have no section, and why.
+pub fn not_measured() -> String {
+    let reasons: Vec<String> = NOT_MEASURED
+        .iter()
+        .map(|(tables, why)| format!("{tables} ({why})"))
+        .collect();
+    wrapped(
+        &format!("Not measured yet: {}.", reasons.join("; ")),
+        "",
+        "  ",
+    )
+}
+
+/// Remarks, each once, numbered from 1.
+#[derive(Default)]
+struct Notes<'a>(Vec<&'a str>);
+
+fn section(section: &Section) -> String {
+    let mut notes = Notes::default();
+    let (statements, figures): (Vec<&Row>, Vec<&Row>) =
+        section.rows.iter().partition(|row| row.is_statement());
+    let (ours, both): (Vec<&Row>, Vec<&Row>) = figures
+        .into_iter()
+        .partition(|row| matches!(row.thesis, Figure::Missing(_)));
+    let mut text = wrapped(&section.title, "", "  ");
+    text.extend(statements.into_iter().map(statement));
+    text += &beside(&both, &mut notes);
+    text += &alone(&ours, &mut notes);
+    text + &notes.text()
+}
+
+fn statement(row: &Row) -> String {
+    let head = format!("\n{} ({}): {}\n", row.row, row.column, row.verdict.text());
+    let thesis = wrapped(&row.thesis.text(), "  thesis  ", "          ");
+    head + &thesis + &wrapped(&row.ours.text(), "  ours    ", "          ")
+}
+
+/// Figures that the thesis gives too.
+fn beside<'a>(rows: &[&'a Row], notes: &mut Notes<'a>) -> String {
+    if rows.is_empty() {
+        return String::new();
+    }
+    let cells = |row: &&'a Row| {
+        let verdict = row.verdict.text().to_owned() + &notes.mark(&row.remark);
+        vec![
+            row.row.clone(),
+            row.column.clone(),
+            row.thesis.text(),
+            row.ours.text(),
+            verdict,
+        ]
+    };
+    let rows: Vec<Vec<String>> = rows.iter().map(cells).collect();
+    "\n".to_owned() + &table::text(&["", "", "thesis", "ours", ""], &rows)
+}
+
+/// Figures of ours alone: a line a subject, and a new table where the columns change.
+fn alone<'a>(rows: &[&'a Row], notes: &mut Notes<'a>) -> String {
+    let lines: Vec<&[&'a Row]> = rows.chunk_by(|a, b| a.row == b.row).collect();
+    let columns = |line: &[&'a Row]| {
+        line.iter()
+            .map(|row| row.column.clone())
+            .collect::<Vec<_>>()
+    };
+    let mut text = String::new();
+    for lines in lines.chunk_by(|a, b| columns(a) == columns(b)) {
+        let head = columns(lines[0]);
+        let head: Vec<&str> = [""]
+            .into_iter()
+            .chain(head.iter().map(String::as_str))
+            .collect();
+        let cells = |line: &&[&'a Row]| {
+            let ours = line
+                .iter()
+                .map(|row| row.ours.text() + &notes.mark(&row.remark));
+            [line[0].row.clone()].into_iter().chain(ours).collect()
+        };
+        let rows: Vec<Vec<String>> = lines.iter().map(cells).collect();
+        text += "\n";
+        text += &table::text(&head, &rows);
+    }
+    text
+}
+
+impl<'a> Notes<'a> {
+    /// The mark that leads to a remark.
+    fn mark(&mut self, remark: &'a str) -> String {
+        if remark.is_empty() {
+            return String::new();
+        }
+        let place = self.0.iter().position(|note| *note == remark);
+        let place = place.unwrap_or_else(|| {
+            self.0.push(remark);
+            self.0.len() - 1
+        });
+        format!(" ({})", place + 1)
+    }
+
+    fn text(&self) -> String {
+        let lines = self.0.iter().enumerate();
+        lines
+            .map(|(i, note)| wrapped(note, &format!("  ({}) ", i + 1), "      "))
+            .collect()
+    }
+}
+
+/// Words in lines, the first after `first`, the others after `other`.
+fn wrapped(words: &str, first: &str, other: &str) -> String {
+    let mut lines = Vec::new();
+    let mut line = first.to_owned();
+    let mut words = words.split(' ');
+    line += words.next().unwrap_or_default();
+    for word in words {
+        if line.chars().count() + 1 + word.chars().count() > WIDTH {
+            lines.push(std::mem::replace(&mut line, other.to_owned() + word));
+        } else {
+            line = line + " " + word;
+        }
+    }
+    lines.push(line);
+    lines.join("\n") + "\n"
+}

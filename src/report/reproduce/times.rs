@@ -1,0 +1,74 @@
+//! Table 7: absolute times. Its head is misprinted; Table 6, the same runs in per cent, tells the right one.
+//!
+//! Each of Table 7's seven columns, over the first, must be one of Table 6's. Which one is not taken from anywhere:
+//! it is the column with the least largest deviation over the five devices.
+
+use super::row::{Figure, Row, Verdict};
+use super::{Section, thesis};
+
+const RELATIVE: &str = "table6_relative_time_percent";
+const ABSOLUTE: &str = "table7_absolute_ms";
+
+/// Table 7 over its first column, beside Table 6.
+pub fn section() -> Section {
+    let order = order();
+    let devices = thesis::devices(ABSOLUTE);
+    let worst = |places: &[usize]| {
+        let pairs = places.iter().enumerate();
+        let all = pairs.map(|(column, place)| deviation(column, *place));
+        all.fold(0.0, f64::max)
+    };
+    let printed: Vec<usize> = (0..order.len()).collect();
+    Section {
+        title: format!(
+            "Table 7: each device's times over dielectric_exact, against Table 6. Under the printed head they are up to \
+             {:.0} percentage points off; with the columns in the order below, up to {:.2}",
+            worst(&printed),
+            worst(&order)
+        ),
+        rows: devices
+            .into_iter()
+            .flat_map(|device| rows(device, &order))
+            .collect(),
+    }
+}
+
+/// For each column of Table 7 as it stands, the column of Table 6 that it is.
+pub fn order() -> Vec<usize> {
+    let columns = thesis::names(&[RELATIVE, "columns"]).len();
+    let nearest = |column| {
+        (0..columns).min_by(|a, b| deviation(column, *a).total_cmp(&deviation(column, *b)))
+    };
+    (0..columns).filter_map(nearest).collect()
+}
+
+/// Largest difference over the devices, in percentage points.
+fn deviation(column: usize, place: usize) -> f64 {
+    let devices = thesis::devices(ABSOLUTE).into_iter();
+    let differences = devices
+        .map(|device| (share(device, column) - thesis::numbers(&[RELATIVE, device])[place]).abs());
+    differences.fold(0.0, f64::max)
+}
+
+/// A time over the device's first one, in per cent.
+fn share(device: &str, column: usize) -> f64 {
+    let times = thesis::numbers(&[ABSOLUTE, device]);
+    100.0 * times[column] / times[0]
+}
+
+fn rows(device: &'static str, order: &[usize]) -> Vec<Row> {
+    let names = thesis::names(&[RELATIVE, "columns"]);
+    let printed = thesis::numbers(&[RELATIVE, device]);
+    let row = |(column, place): (usize, &usize)| {
+        let ours = share(device, column);
+        let row = Row::new("table7", device, names[*place])
+            .thesis(Figure::Number(printed[*place], 0, " %"))
+            .ours(Figure::Number(ours, 0, " %"))
+            .verdict(Verdict::of_digits(printed[*place], ours, 0));
+        if *place == column {
+            return row;
+        }
+        row.remark(format!("printed under the head of {}", names[column]))
+    };
+    order.iter().enumerate().map(row).collect()
+}

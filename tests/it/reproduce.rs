@@ -1,0 +1,333 @@
+//! The thesis computed anew: its figures, its curves, its claims, and the command that prints them.
+
+// The lints are for the library.
+#![allow(clippy::unwrap_used)]
+
+use std::path::Path;
+use std::sync::LazyLock;
+
+use clap::Parser;
+use fresnel_gen::app::Error;
+use fresnel_gen::app::args::Cli;
+use fresnel_gen::app::command::{self, Output};
+use fresnel_gen::report::reproduce::{
+    Figure, Part, Report, Row, Verdict, metals, reproduce, thesis,
+};
+
+/// The thesis's million angles: the figures must come out to its printed digit.
+static TABLES: LazyLock<Report> =
+    LazyLock::new(|| run(&[Part::Table2, Part::Table3], thesis::ANGLES));
+/// The claims stand or fall by far more than what a hundredth of the angles leaves open.
+static CLAIMS: LazyLock<Report> = LazyLock::new(|| run(&[Part::Claims], thesis::ANGLES / 100));
+
+fn run(parts: &[Part], angles: usize) -> Report {
+    reproduce(parts, angles, &mut |_, _, _| {})
+}
+
+#[track_caller]
+fn row<'a>(report: &'a Report, row: &str, column: &str) -> &'a Row {
+    let found = report
+        .rows()
+        .find(|one| one.row == row && one.column == column);
+    found.unwrap_or_else(|| panic!("no row `{row}`, column `{column}`"))
+}
+
+#[track_caller]
+fn check(report: &Report, name: &str, column: &str, ours: &str, verdict: Verdict) {
+    let row = row(report, name, column);
+    assert_eq!(
+        (row.ours.text().as_str(), row.verdict),
+        (ours, verdict),
+        "{name}, {column}"
+    );
+}
+
+#[test]
+fn function_errors_come_out_to_the_printed_digit() {
+    let tables = &TABLES;
+    check(tables, "gold", "rescaled", "0.98 %", Verdict::Agrees);
+    check(tables, "water", "schlick", "8.68 %", Verdict::Agrees);
+    check(tables, "diamond", "schlick", "3.80 %", Verdict::Agrees);
+    check(
+        tables,
+        "platinum",
+        "rescaled, unrounded indices",
+        "5.31 %",
+        Verdict::Agrees,
+    );
+    assert!(!tables.has_findings());
+}
+
+/// With the indices as Table 1 prints them, platinum's 5.3049 rounds to 5.30: the thesis has 5.31.
+#[test]
+fn platinum_rescaled_lacks_a_ten_thousandth() {
+    let platinum = row(&TABLES, "platinum", "rescaled");
+    let Figure::Number(ours, ..) = platinum.ours else {
+        panic!("{platinum:?}")
+    };
+    assert!((ours - 5.304_894).abs() < 1e-6, "{ours}");
+    assert_eq!(platinum.verdict, Verdict::Explained);
+    assert!(platinum.remark.contains("5.3049"));
+}
+
+#[test]
+fn the_corrected_method_comes_near_with_its_factor_and_one_angle() {
+    let tables = &TABLES;
+    check(tables, "gold", "corrected", "0.83 %", Verdict::Explained);
+    check(
+        tables,
+        "gold",
+        "corrected, λ at 84.26°",
+        "0.88 %",
+        Verdict::Explained,
+    );
+    check(
+        tables,
+        "gold",
+        "corrected, unrounded indices",
+        "0.82 %",
+        Verdict::Agrees,
+    );
+    check(
+        tables,
+        "platinum",
+        "corrected",
+        "2.07 %",
+        Verdict::Explained,
+    );
+    check(
+        tables,
+        "platinum",
+        "corrected, λ at 84.26°",
+        "2.65 %",
+        Verdict::Explained,
+    );
+    check(tables, "gold", "λ green at 81.37°", "none", Verdict::Open);
+    check(
+        tables,
+        "platinum",
+        "λ red at 81.37°",
+        "8.7809",
+        Verdict::Open,
+    );
+    let remark = &row(tables, "gold", "corrected").remark;
+    assert!(remark.contains("cos θ") && remark.contains("81.37°"));
+}
+
+#[test]
+fn table_1_is_what_our_files_hold() {
+    let report = run(&[Part::Table1], 0);
+    assert_eq!(report.rows().count(), 12);
+    assert!(report.rows().all(|row| row.verdict == Verdict::Agrees));
+}
+
+#[test]
+fn table_7_equals_table_6_once_its_head_is_right() {
+    let report = run(&[Part::Table7], 0);
+    assert_eq!(report.rows().count(), 35);
+    assert!(report.rows().all(|row| row.verdict == Verdict::Agrees));
+    let order: Vec<&str> = report
+        .rows()
+        .take(7)
+        .map(|row| row.column.as_str())
+        .collect();
+    let remark = include_str!("../../data/thesis-tables.json");
+    assert!(remark.contains(&format!("they read {}", order.join(", "))));
+    assert!(
+        report.sections[0]
+            .title
+            .contains("up to 242 percentage points off")
+    );
+    assert!(report.sections[0].title.contains("up to 0.50"));
+}
+
+#[test]
+fn claims_have_their_verdicts() {
+    let claims = &CLAIMS;
+    let statements = [
+        (
+            "Schlick by n",
+            Verdict::InPart,
+            "at most 0.058 inside, more at all other n",
+        ),
+        ("Schlick's two forms", Verdict::Holds, "by rounding only"),
+        ("Schlick for water", Verdict::Holds, "in 78.9 %"),
+        ("minimum of metals", Verdict::Fails, "1 of 17"),
+        (
+            "largest error on metals",
+            Verdict::Holds,
+            "12 of the same 17",
+        ),
+        ("Schlick's speed", Verdict::InPart, "8 of 10"),
+        ("the table's speed", Verdict::Holds, "2.0 to 3.7"),
+        ("the conductor's speed", Verdict::InPart, "31 to 57 %"),
+    ];
+    for (name, verdict, says) in statements {
+        let row = claims.rows().find(|row| row.row == name).unwrap();
+        assert_eq!(row.verdict, verdict, "{name}");
+        assert!(
+            row.ours.text().contains(says),
+            "{name}: {}",
+            row.ours.text()
+        );
+    }
+}
+
+#[test]
+fn claims_have_their_figures() {
+    let claims = &CLAIMS;
+    let one = "conductor against dielectric, one channel";
+    check(claims, one, "more operations", "106 %", Verdict::Holds);
+    check(claims, one, "more roots", "2", Verdict::Holds);
+    check(
+        claims,
+        "gold at 685 nm",
+        "angle of the minimum",
+        "72.59°",
+        Verdict::Fails,
+    );
+    check(
+        claims,
+        "gold at 685 nm",
+        "least reflectance",
+        "93.46 %",
+        Verdict::Holds,
+    );
+    check(
+        claims,
+        "gold at 475 nm",
+        "least reflectance",
+        "35.87 %",
+        Verdict::Fails,
+    );
+    check(
+        claims,
+        "thesis platinum, 685 nm",
+        "its angle",
+        "76.25°",
+        Verdict::Open,
+    );
+    check(
+        claims,
+        "Schlick, n = 1.4",
+        "mean relative error",
+        "8.25 %",
+        Verdict::Open,
+    );
+    check(
+        claims,
+        "Schlick, n = 4.01",
+        "largest difference",
+        "0.2015",
+        Verdict::Open,
+    );
+}
+
+#[test]
+fn metals_are_those_of_the_oracle() {
+    let oracle = include_str!("../reference/oracle.csv");
+    for metal in metals::OTHERS
+        .iter()
+        .chain([&metals::GOLD, &metals::PLATINUM])
+    {
+        for (i, nm) in [685, 535, 475].into_iter().enumerate() {
+            let start = format!("{},{nm},{},{},", metal.name, metal.n[i], metal.k[i]);
+            assert!(
+                oracle.lines().any(|line| line.starts_with(&start)),
+                "{start}"
+            );
+        }
+    }
+}
+
+#[test]
+fn figures_are_those_of_the_repository() {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("data/figures");
+    let drawings = run(&[Part::Figures], 0).drawings;
+    assert_eq!(drawings.len(), 9);
+    if std::env::var_os("BLESS").is_some() {
+        std::fs::create_dir_all(&folder).unwrap();
+        for drawing in &drawings {
+            std::fs::write(folder.join(&drawing.file), drawing.chart.svg()).unwrap();
+        }
+    }
+    for drawing in &drawings {
+        let held = std::fs::read_to_string(folder.join(&drawing.file)).unwrap_or_default();
+        assert!(
+            held == drawing.chart.svg(),
+            "data/figures/{} differs; BLESS=1 rewrites it",
+            drawing.file
+        );
+    }
+    assert_eq!(
+        std::fs::read_dir(&folder).unwrap().count(),
+        9,
+        "a file too many"
+    );
+}
+
+fn command(arguments: &[&str]) -> Result<Output, Error> {
+    let start = ["fresnel-gen", "reproduce"];
+    let cli = Cli::parse_from(start.iter().chain(arguments));
+    command::run(&cli, &mut |_, _, _| {})
+}
+
+#[test]
+fn json_stands_alone_and_has_its_shape() {
+    for name in ["table7", "7", "Table 7"] {
+        let output = command(&[name, "--json", "-"]).unwrap();
+        let json: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
+        assert_eq!(json["tool"], "fresnel-gen");
+        assert_eq!(json["command"], "reproduce table7");
+        assert!(json["device"].is_null());
+        let rows = json["rows"].as_array().unwrap();
+        assert_eq!(rows.len(), 35);
+        for key in [
+            "table", "row", "column", "thesis", "ours", "remark", "verdict",
+        ] {
+            assert!(rows.iter().all(|row| row.get(key).is_some()), "{key}");
+        }
+    }
+}
+
+#[test]
+fn a_missing_figure_is_null_with_a_reason() {
+    for row in TABLES.rows().chain(CLAIMS.rows()) {
+        let json = row.json();
+        let missing = json["thesis"].is_null() || json["ours"].is_null();
+        assert_eq!(missing, json.get("reason").is_some(), "{json}");
+    }
+}
+
+#[test]
+fn figures_go_where_they_are_told() {
+    let folder = tempfile::tempdir().unwrap();
+    let out_dir = folder.path().join("new");
+    let output = command(&[
+        "figures",
+        "--out-dir",
+        out_dir.to_str().unwrap(),
+        "--json",
+        "-",
+    ])
+    .unwrap();
+    let json: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
+    for row in json["rows"].as_array().unwrap() {
+        assert!(out_dir.join(row["file"].as_str().unwrap()).is_file());
+    }
+    assert_eq!(output.code, 0);
+    assert!(output.remarks[0].contains("9 figures"));
+}
+
+#[test]
+fn what_cannot_be_reproduced_is_said() {
+    let says = |name: &str| command(&[name]).unwrap_err().to_string();
+    assert!(
+        says("tabel2").contains("did you mean table2"),
+        "{}",
+        says("tabel2")
+    );
+    assert!(says("4").contains("need a renderer"));
+    assert!(says("table8").contains("full-spectrum data"));
+    assert!(says("").contains("there is no table"));
+}
