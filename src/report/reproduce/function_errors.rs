@@ -12,10 +12,12 @@ const METALS: &str = "table2_function_error_metals_percent";
 const DIELECTRICS: &str = "table3_function_error_dielectrics_percent";
 
 const MATCHED_AT_81: &str = "λ matched at cos θ = 0.15 (81.37°), the other end of the range that the text gives; \
-    this comes nearest to the printed figure. Eq. 15 lost its factor cos θ in print (as printed F(90°) = 1 - 2n, below \
-    0); it stands here as Lazányi and Szirmay-Kalos published it in 2005. Gold's green has no λ, and there the term is dropped";
+    this comes nearest to the printed figure. Eq. 15 lost its factor cos θ in print (as printed F(90°) = 1 - 2n, \
+    below 0); it stands here as Lazányi and Szirmay-Kalos published it in 2005. Gold's green has no λ, and there \
+    the term is dropped";
 const MATCHED_AT_84: &str = "λ matched at 84.26°, as the text of section 3.2.4 says: further from the printed figure than 81.37°";
-const NO_LAMBDA: &str = "no λ meets the exact law at this angle, because it does not lie below the rescaled Schlick there";
+const NO_LAMBDA: &str =
+    "there is no λ: the exact law does not lie below the rescaled Schlick at this angle";
 
 const UNROUNDED: &str = "with the indices that Table 1 rounds, refractiveindex.info's pages of Hagemann 1975 (gold) and \
     Rakić 1998 (platinum)";

@@ -53,7 +53,8 @@ fn at_475(index: [f64; 2]) -> Vec<Row> {
             .thesis(Figure::Number(20.0, 0, " %"))
             .verdict(Verdict::of((0.0..=A_LITTLE).contains(&above)))
             .remark(
-                "section 2.2: a little over 20 %. The unpolarised curve only rises; the p-polarised light alone falls below 20 %",
+                "section 2.2: a little over 20 %. The unpolarised curve only rises; \
+                 the p-polarised light alone falls below 20 %",
             ),
         measured(name, "angle of p's minimum", degrees(minimum_p)),
         measured(
