@@ -1,4 +1,7 @@
 //! The integration tests, one binary.
 
+#[cfg(feature = "cli")]
+mod cli;
+mod compilers;
 mod oracle;
 mod tree;
