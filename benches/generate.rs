@@ -1,1 +1,3 @@
+//! How long generation takes.
+
 fn main() {}

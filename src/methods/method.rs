@@ -34,8 +34,11 @@ pub struct Method {
     pub build: for<'b> fn(&Inputs<'b>) -> Expr<'b>,
     /// Where a material's constants allow something better than folding them in: another method and its inputs,
     /// from the values of this method's inputs.
-    pub specialised: Option<fn(&Values) -> (&'static Method, Values)>,
+    pub specialised: Option<Specialise>,
 }
+
+/// Another method and the values of its inputs, from the values of a method's own.
+pub type Specialise = fn(&Values) -> (&'static Method, Values);
 
 /// Values of inputs by name; a scalar input uses the first number.
 pub type Values = BTreeMap<String, [f64; 3]>;

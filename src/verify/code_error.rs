@@ -36,7 +36,8 @@ impl CodeError {
         let difference = (f64::from(got) - want).abs();
         self.max_abs = self.max_abs.max(difference);
         let ulp = ulp_distance(got, want);
-        if !(difference <= ABSOLUTE_FLOOR) && ulp > self.max_ulp {
+        let counts = difference > ABSOLUTE_FLOOR || difference.is_nan();
+        if counts && ulp > self.max_ulp {
             (self.max_ulp, self.worst_cos) = (ulp, f64::from(cos_theta));
         }
     }

@@ -4,6 +4,8 @@ use std::fs;
 use std::os::unix::fs::PermissionsExt;
 use std::process::Command;
 
+use crate::not_checked;
+
 use super::{OUT, PROGRAM, Place, Ran, contents};
 
 #[test]
@@ -138,9 +140,9 @@ fn read_only_mount(place: &Place) {
             );
         }
         Ok(ran) if ran.code == Some(0) => panic!("{ran:?}"),
-        other => eprintln!(
-            "not checked: a read-only folder, since root may not mount one here ({other:?})"
-        ),
+        other => not_checked(&format!(
+            "a read-only folder: root may not mount one here ({other:?})"
+        )),
     }
 }
 

@@ -1,8 +1,5 @@
 //! The real program in temporary folders: flags, exit codes, streams, files.
 
-// The lints are for the library; a test that could not check something says so on stderr.
-#![allow(clippy::unwrap_used, clippy::print_stderr)]
-
 mod bad_input;
 mod determinism;
 #[cfg(unix)]

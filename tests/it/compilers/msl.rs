@@ -5,6 +5,8 @@ use std::fs;
 
 use tempfile::TempDir;
 
+use crate::not_checked;
+
 use super::{Judgement, Tool, files, joined, library, text};
 
 const COMPILER: Tool = Tool {
@@ -33,11 +35,12 @@ TWO(max) TWO(min)
 
 #[test]
 fn msl_is_accepted_by_a_cpp_compiler() {
-    eprintln!("not checked: msl by Metal's own compiler (only on macOS)");
     if !COMPILER.is_here("the syntax of msl") {
         return;
     }
-    eprintln!("msl: a syntax check by a C++ compiler, not Metal's own");
+    not_checked(
+        "msl by Metal's own compiler, which is on macOS only; its syntax is, by a C++ compiler",
+    );
     let library = joined(&library("msl"));
     let mut units: Vec<String> = files("msl")
         .iter()
