@@ -53,72 +53,40 @@ fn all_and_none() {
     assert_eq!(materials("--method schlick"), 0);
 }
 
+/// Spoiled material files: what is replaced in a good one, by what, and what the program says of it.
+#[rustfmt::skip]
+const FAULTS: &[(&str, &str, &str)] = &[
+    ("licence = \"CC0-1.0\"\n", "", "my.toml:1:1: missing field `licence`"),
+    ("0.23", "-0.23", "my.toml:9:9: field `data`: n is -0.23; it must lie between"),
+    ("1.72", "-1.72", "my.toml:8:15: field `data`: k is -1.72"),
+    ("3.94", "nan", "my.toml:9:15: field `data`: k is NaN"),
+    ("1.39", "inf", "my.toml:8:9: field `data`: n is inf"),
+    ("685", "-685", "my.toml:9:4: field `data`: wavelength_nm is -685"),
+    ("685", "475", "my.toml:9:3: field `data`: 475 nm after 475 nm; wavelengths must ascend"),
+    ("1.39, ", "", "my.toml:8:"),
+    ("[475", "[\"475\"", "my.toml:8:4: "),
+    ("link", "lnik", "my.toml:6:1: unknown field `lnik`"),
+    ("link", "lnik", "did you mean `link`?"),
+    ("link", "name", "my.toml:6:1: "),
+    ("\"metal\"", "\"metall\"", "my.toml:3:9: "),
+    ("my_metal", "My Metal", "my.toml:1:8: field `name`"),
+    ("my_metal", "Gold", "my.toml:1:8: field `name`: `Gold` is no name: capital letters"),
+    ("my_metal", "../../etc", "my.toml:1:8: field `name`"),
+    ("An invented metal", " ", "my.toml:2:11: field `summary` is empty"),
+    ("  [475, 1.39, 1.72],\n  [685, 0.23, 3.94],\n", "", "my.toml:7:8: field `data` is empty"),
+    ("],\n]", "", "my.toml:"),
+    ("685", "600", "material `my_metal` is measured from 475 to 600 nm, and 685 nm is wanted"),
+    ("my_metal", "schlick", "has the name of a method's function"),
+    ("my_metal", "schlick_scalar", "has the name of a method's function"),
+    (MY_METAL, "", "my.toml:1:1: missing field `name`"),
+    (MY_METAL, "\0", "my.toml:1:"),
+    (MY_METAL, "{}", "my.toml:1:"),
+];
+
 #[test]
 fn a_fault_is_named_with_its_place_and_field() {
     let place = Place::new();
-    for (from, to, says) in [
-        (
-            "licence = \"CC0-1.0\"\n",
-            "",
-            "my.toml:1:1: missing field `licence`",
-        ),
-        (
-            "0.23",
-            "-0.23",
-            "my.toml:9:9: field `data`: n is -0.23; it must lie between",
-        ),
-        ("1.72", "-1.72", "my.toml:8:15: field `data`: k is -1.72"),
-        ("3.94", "nan", "my.toml:9:15: field `data`: k is NaN"),
-        ("1.39", "inf", "my.toml:8:9: field `data`: n is inf"),
-        (
-            "685",
-            "-685",
-            "my.toml:9:4: field `data`: wavelength_nm is -685",
-        ),
-        (
-            "685",
-            "475",
-            "my.toml:9:3: field `data`: 475 nm after 475 nm; wavelengths must ascend",
-        ),
-        ("1.39, ", "", "my.toml:8:"),
-        ("[475", "[\"475\"", "my.toml:8:4: "),
-        ("link", "lnik", "my.toml:6:1: unknown field `lnik`"),
-        ("link", "lnik", "did you mean `link`?"),
-        ("link", "name", "my.toml:6:1: "),
-        ("\"metal\"", "\"metall\"", "my.toml:3:9: "),
-        ("my_metal", "My Metal", "my.toml:1:8: field `name`"),
-        (
-            "my_metal",
-            "Gold",
-            "my.toml:1:8: field `name`: `Gold` is no name: capital letters",
-        ),
-        ("my_metal", "../../etc", "my.toml:1:8: field `name`"),
-        (
-            "An invented metal",
-            " ",
-            "my.toml:2:11: field `summary` is empty",
-        ),
-        (
-            "  [475, 1.39, 1.72],\n  [685, 0.23, 3.94],\n",
-            "",
-            "my.toml:7:8: field `data` is empty",
-        ),
-        ("],\n]", "", "my.toml:"),
-        (
-            "685",
-            "600",
-            "material `my_metal` is measured from 475 to 600 nm, and 685 nm is wanted",
-        ),
-        ("my_metal", "schlick", "has the name of a method's function"),
-        (
-            "my_metal",
-            "schlick_scalar",
-            "has the name of a method's function",
-        ),
-        (MY_METAL, "", "my.toml:1:1: missing field `name`"),
-        (MY_METAL, "\0", "my.toml:1:"),
-        (MY_METAL, "{}", "my.toml:1:"),
-    ] {
+    for (from, to, says) in FAULTS {
         assert!(MY_METAL.contains(from), "{from}");
         place.put("my.toml", MY_METAL.replacen(from, to, 1));
         place.refused("--material my.toml", &[says]);

@@ -3,7 +3,7 @@
 use fresnel_gen::app::Artifact;
 use tempfile::TempDir;
 
-use super::{Tool, accepted, files, joined, library, signatures, text};
+use super::{Tool, accepted, files, joined, signatures, text, tree};
 
 const GLSLANG: Tool = Tool {
     command: "glslangValidator",
@@ -73,7 +73,7 @@ fn broken_files_are_refused() {
     if !GLSLANG.is_here("that broken GLES, GLSL and HLSL is refused") {
         return;
     }
-    // What to spoil in a library file: (language, text, its replacement).
+    // What to spoil in the tree: (language, text, its replacement).
     let faults = [
         (&GLES, "sqrt(", "root("),
         (&GLES, "highp ", ""),
@@ -85,8 +85,8 @@ fn broken_files_are_refused() {
         (&HLSL, "#endif", ""),
     ];
     for (language, good, bad) in faults {
-        let calls = calls(library(language.target).into_iter());
-        let body = joined(&library(language.target)).repeat(2);
+        let calls = calls(tree(language.target).into_iter());
+        let body = joined(&tree(language.target)).repeat(2);
         // The last beginning declares no precision, which is what `highp` is for.
         let beginning = language.beginnings.last().unwrap();
         let judge = |body: &str| {
@@ -110,7 +110,7 @@ fn check(language: &Language) {
     accepted(&parts, |shaders| compile(language, shaders));
 }
 
-/// Each file included once and twice, and the whole library in one unit, after each beginning.
+/// Each file included once and twice, and the whole tree in one unit, after each beginning.
 fn shaders(language: &Language) -> Vec<(String, String)> {
     let mut shaders = Vec::new();
     let mut add = |name: &str, body: &str, calls: &str| {
@@ -128,10 +128,10 @@ fn shaders(language: &Language) -> Vec<(String, String)> {
             &calls,
         );
     }
-    let library = library(language.target);
-    let calls = calls(library.iter().copied());
-    add("the library", &joined(&library), &calls);
-    add("the library twice", &joined(&library).repeat(2), &calls);
+    let tree = tree(language.target);
+    let calls = calls(tree.iter().copied());
+    add("the tree", &joined(&tree), &calls);
+    add("the tree twice", &joined(&tree).repeat(2), &calls);
     shaders
 }
 

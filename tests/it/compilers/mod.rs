@@ -54,18 +54,19 @@ pub type Judgement = Result<String, String>;
 /// Everything that is to be compiled.
 static FILES: LazyLock<Vec<Artifact>> = LazyLock::new(all_files);
 
-/// The files of a target, library first.
+/// All files of a target.
 pub fn files(target: &str) -> Vec<&'static Artifact> {
     let files: Vec<_> = FILES.iter().filter(|file| file.target == target).collect();
     assert!(files.len() > methods::ALL.len(), "{target} has few files");
     files
 }
 
-/// The files of a target that hold one method each, under the usual names.
-pub fn library(target: &str) -> Vec<&'static Artifact> {
+/// The library and the materials of the tree without flags: names of these must not meet in one unit.
+pub fn tree(target: &str) -> Vec<&'static Artifact> {
+    let folder = format!("{target}/");
     let mut files = files(target);
-    files.retain(|file| file.method.is_some() && !file.path.contains(UNPREFIXED));
-    assert!(files.len() >= methods::ALL.len(), "{target} lacks methods");
+    files.retain(|file| file.path.starts_with(&folder));
+    assert_eq!(files.len(), methods::ALL.len() + DEFAULT_MATERIALS.len());
     files
 }
 
@@ -100,9 +101,6 @@ pub fn accepted<T: Sync>(items: &[T], judge: impl Fn(&T) -> Judgement + Sync) {
     assert!(complaints.is_empty(), "{}", complaints.join("\n"));
 }
 
-/// In the path of a library file whose functions have no prefix.
-const UNPREFIXED: &str = "unprefixed/";
-
 /// The tree without flags in all languages; each material with all methods that it can have, and in a medium; the
 /// library without a prefix, where names are most likely to meet a language's own.
 fn all_files() -> Vec<Artifact> {
@@ -129,7 +127,7 @@ fn all_files() -> Vec<Artifact> {
         prefix: String::new(),
         ..Request::default()
     };
-    files.extend(made(&unprefixed, UNPREFIXED));
+    files.extend(made(&unprefixed, "unprefixed/"));
     files
 }
 

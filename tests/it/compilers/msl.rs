@@ -7,7 +7,7 @@ use tempfile::TempDir;
 
 use crate::not_checked;
 
-use super::{Judgement, Tool, files, joined, library, text};
+use super::{Judgement, Tool, files, joined, text, tree};
 
 const COMPILER: Tool = Tool {
     command: "g++",
@@ -41,16 +41,16 @@ fn msl_is_accepted_by_a_cpp_compiler() {
     not_checked(
         "msl by Metal's own compiler, which is on macOS only; its syntax is, by a C++ compiler",
     );
-    let library = joined(&library("msl"));
+    let tree = joined(&tree("msl"));
     let mut units: Vec<String> = files("msl")
         .iter()
         .map(|file| text(file).repeat(2))
         .collect();
     // The names of the library are written in full, so that both kinds of including file are served.
     units.push(format!(
-        "#include <metal_stdlib>\nusing namespace metal;\n{library}"
+        "#include <metal_stdlib>\nusing namespace metal;\n{tree}"
     ));
-    units.push(library.repeat(2));
+    units.push(tree.repeat(2));
     judge(&units).unwrap();
 }
 
@@ -59,7 +59,7 @@ fn broken_msl_is_refused() {
     if !COMPILER.is_here("that broken msl is refused") {
         return;
     }
-    let good = joined(&library("msl"));
+    let good = joined(&tree("msl"));
     for (from, to) in [
         ("metal::sqrt", "sqrt"),
         ("metal::max(", "metal::max(1.0, "),

@@ -2,7 +2,7 @@
 
 use naga::valid::{Capabilities, ValidationFlags, Validator};
 
-use super::{Judgement, accepted, files, joined, library, text};
+use super::{Judgement, accepted, files, joined, text, tree};
 
 #[test]
 fn every_file_is_accepted() {
@@ -13,15 +13,12 @@ fn every_file_is_accepted() {
 
 #[test]
 fn library_and_materials_stand_in_one_module() {
-    let mut unit = library("wgsl");
-    let materials = files("wgsl").into_iter();
-    unit.extend(materials.filter(|file| file.path.starts_with("wgsl/materials/")));
-    judge(&joined(&unit)).unwrap();
+    judge(&joined(&tree("wgsl"))).unwrap();
 }
 
 #[test]
 fn broken_files_are_refused() {
-    let good = joined(&library("wgsl"));
+    let good = joined(&tree("wgsl"));
     judge(&good).unwrap();
     // A syntax error, a wrong type, an unknown function, a name used twice.
     for (from, to) in [
