@@ -92,7 +92,8 @@ pub fn generate_single(request: &Request) -> Result<Vec<u8>, Error> {
     if run.subjects.is_empty() {
         let methods = run.named.clone().unwrap_or_else(|| methods::ALL.to_vec());
         for method in methods {
-            for emitted in emit::library_functions(method, &run.naming)? {
+            let functions = emit::library_functions(method, &run.naming)?;
+            for emitted in emit::written_for(target, functions) {
                 let command = run.command(target, Some(&[method.name]), None) + " -o -";
                 pages.push(emit::single(target, &emitted, None, &command)?);
             }

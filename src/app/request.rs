@@ -204,6 +204,7 @@ impl Request {
                 )
             }
         };
+        check_not_a_method(&name)?;
         Ok(Subject {
             name,
             argument: loaded.argument,
@@ -214,6 +215,18 @@ impl Request {
             derivation: self.derivation()?,
         })
     }
+}
+
+/// The exact function of a material bears its name alone, where a method's function bears the method's.
+fn check_not_a_method(name: &str) -> Result<(), Error> {
+    let stem = name.strip_suffix("_scalar").unwrap_or(name);
+    if methods::find(stem).is_none() {
+        return Ok(());
+    }
+    let what = format!(
+        "the material `{name}` has the name of a method's function; choose another `name` in its file"
+    );
+    Err(Error::Usage { what })
 }
 
 fn channels(material: &Material) -> Result<Channels, Error> {

@@ -1,6 +1,6 @@
 //! The only writer. Every file is first staged beside its destination; only when all are staged
-//! are they renamed into place, the manifest last. Until the first rename a failure changes nothing,
-//! and a run killed at any moment leaves each file either old or new.
+//! are they renamed into place, orphans removed, and the manifest renamed last. Until the first rename a failure
+//! changes nothing. A run killed at any moment leaves each file either old or new, and running it again ends its work.
 //!
 //! Two runs at once in one folder are not provided for: the later manifest would lack the earlier entries.
 //! Nothing is forced to the disk's platter: after a power cut, run again.
@@ -13,6 +13,7 @@ use tempfile::TempPath;
 
 use super::error::Error;
 use super::folder::{self, TEMPORARY_PREFIX, TEMPORARY_SUFFIX};
+use super::manifest;
 use super::tree::{Plan, State};
 
 /// What a write did, in files, the manifest included.
@@ -32,10 +33,15 @@ pub fn write(plan: &Plan) -> Result<Written, Error> {
     let pending: Vec<(PathBuf, &[u8])> = pending
         .map(|file| (plan.out_dir.join(&file.path), file.new.as_slice()))
         .collect();
-    replace_all(stage_all(&pending)?)?;
-    for orphan in &plan.orphans {
-        remove(&plan.out_dir, orphan)?;
-    }
+    let mut staged = stage_all(&pending)?;
+    let manifest = plan.out_dir.join(manifest::FILE);
+    let manifest = staged.pop_if(|file| file.destination == manifest);
+    replace_all(staged, 0, pending.len())?;
+    // Before the manifest: of a run that is killed here, the old one still names the orphans, and the next run ends it.
+    let mut orphans = plan.orphans.iter();
+    let removed = orphans.try_for_each(|orphan| remove(&plan.out_dir, orphan));
+    replace_all(manifest, pending.len().saturating_sub(1), pending.len())?;
+    removed?;
     Ok(Written {
         written: pending.len(),
         removed: plan.orphans.len(),
@@ -66,7 +72,7 @@ struct Staged {
 }
 
 fn replace_one(path: PathBuf, bytes: &[u8]) -> Result<bool, Error> {
-    replace_all(stage_all(&[(path, bytes)])?)?;
+    replace_all(stage_all(&[(path, bytes)])?, 0, 1)?;
     Ok(true)
 }
 
@@ -140,9 +146,14 @@ fn create_folder(folder: &Path, created: &mut Vec<PathBuf>) -> io::Result<()> {
     Ok(())
 }
 
-fn replace_all(staged: Vec<Staged>) -> Result<(), Error> {
-    let pending = staged.len();
-    for (replaced, file) in staged.into_iter().enumerate() {
+/// Renames these into place; the numbers are for the message: how many were replaced before, how many there are in all.
+fn replace_all(
+    staged: impl IntoIterator<Item = Staged>,
+    before: usize,
+    pending: usize,
+) -> Result<(), Error> {
+    for (index, file) in staged.into_iter().enumerate() {
+        let replaced = before + index;
         let path = file.destination;
         if let Err(fault) = file.temporary.persist(&path) {
             return Err(Error::Replace {

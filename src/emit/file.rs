@@ -31,11 +31,8 @@ pub fn library(
 ) -> Result<Vec<File>, Error> {
     check_names(target, functions)?;
     let head = comments(target, &header::library(method, functions, command));
-    let modules = target.finish == Finish::Spirv;
-    let plain: Vec<(Vec<String>, Emitted)> = functions
-        .iter()
-        .filter(|f| !modules || f.form != "scalar")
-        .map(|f| (Vec::new(), f.clone()))
+    let plain: Vec<(Vec<String>, Emitted)> = written_for(target, functions.to_vec())
+        .map(|f| (Vec::new(), f))
         .collect();
     let stem = functions[0].name.clone();
     target
@@ -43,6 +40,14 @@ pub fn library(
         .iter()
         .map(|page| file(target, page, &stem, &stem, &head, &plain, command))
         .collect()
+}
+
+/// The functions of a method that a target writes: a module returns a colour, so that it has no scalar form.
+pub fn written_for(target: &Target, functions: Vec<Emitted>) -> impl Iterator<Item = Emitted> {
+    let modules = target.finish == Finish::Spirv;
+    functions
+        .into_iter()
+        .filter(move |function| !modules || function.form != "scalar")
 }
 
 /// The files of a material: its functions together.

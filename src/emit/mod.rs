@@ -15,7 +15,7 @@ mod wgsl;
 
 pub use bounds::{Bounds, fingerprint};
 pub use error::Error;
-pub use file::{File, library, material, single};
+pub use file::{File, library, material, single, written_for};
 pub use function::{Emitted, Naming, Subject, library_functions, specialised_function};
 
 /// The version of naga that lowers SPIR-V, pinned in Cargo.toml: another one gives other bytes.

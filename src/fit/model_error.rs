@@ -73,17 +73,8 @@ pub(super) fn difference(values: &Value<f64>, channels: &Channels, cosines: &[f6
 }
 
 /// The thesis's measure: mean relative difference per channel at `angles` angles, uniform from 0 to 90 degrees
-/// (middles of equal steps), `function` taking only `cos_theta`. `progress` hears how many angles are done.
-pub fn thesis_error(
-    function: &Checked,
-    channels: &Channels,
-    angles: usize,
-    progress: &mut dyn FnMut(usize),
-) -> [f64; 3] {
-    thesis_errors(&[function], channels, angles, progress)[0]
-}
-
-/// [`thesis_error`] of several functions for one material: the exact law, which costs the most, is computed once.
+/// (middles of equal steps), of several functions of `cos_theta` alone for one material: the exact law, which costs the
+/// most, is computed once. `progress` hears how many angles are done.
 pub fn thesis_errors(
     functions: &[&Checked],
     channels: &Channels,

@@ -128,7 +128,7 @@ impl Material {
     pub fn parse(file: &str, text: &str) -> Result<Material, Fault> {
         let at = |offset: usize, what: String| fault(file, text, offset, what);
         let raw: Raw = toml::from_str(text).map_err(|error| syntax_fault(file, text, &error))?;
-        if let Some(why) = identifier_fault(raw.name.get_ref()) {
+        if let Some(why) = name_fault(raw.name.get_ref()) {
             let what = format!("field `name`: `{}` is no name: {why}", raw.name.get_ref());
             return Err(at(raw.name.span().start, what));
         }
@@ -156,6 +156,12 @@ impl Material {
             samples,
         })
     }
+}
+
+/// File systems and include guards tell no capital from a small letter, so that `Gold` would meet `gold`.
+fn name_fault(name: &str) -> Option<&'static str> {
+    let capital = || name.contains(|c: char| c.is_ascii_uppercase());
+    identifier_fault(name).or_else(|| capital().then_some("capital letters are not allowed"))
 }
 
 fn samples(raw: &Raw, at: &impl Fn(usize, String) -> Fault) -> Result<Vec<Sample>, Fault> {
@@ -247,6 +253,7 @@ mod tests {
         check("link", "lnik", 6, "did you mean `link`?");
         check("\"metal\"", "\"metall\"", 3, "metal");
         check("\"m\"", "\"Gold 1\"", 1, "field `name`");
+        check("\"m\"", "\"Gold\"", 1, "capital letters");
         check("\"r\"", "\" \"", 5, "field `reference` is empty");
         check("1.4, ", "", 8, "");
         check(

@@ -1,8 +1,5 @@
 //! The output folder: what a run compares, writes, keeps and removes, and what is left when it fails or is killed.
 
-// The lints are for the library; a test that could not check something says so on stderr.
-#![allow(clippy::unwrap_used, clippy::print_stderr)]
-
 mod failures;
 mod killed;
 mod runs;

@@ -1,0 +1,125 @@
+//! Names that do not exist, and requests that cannot be met: exit 2, the nearest right name, nothing written.
+
+use super::Place;
+
+#[test]
+fn an_unknown_name_is_answered_with_the_nearest() {
+    let place = Place::new();
+    for (line, says) in [
+        (
+            "--target wgls",
+            "there is no target `wgls` (did you mean wgsl",
+        ),
+        (
+            "--target GLES",
+            "there is no target `GLES` (did you mean gles",
+        ),
+        (
+            "--target gles,hsls",
+            "there is no target `hsls` (did you mean hlsl",
+        ),
+        (
+            "--method shlick",
+            "there is no method `shlick` (did you mean schlick",
+        ),
+        (
+            "--method schlick --method exact_conductor",
+            "there are conductor_artistic, conductor_exact",
+        ),
+        (
+            "--material gold_thesi",
+            "there is no material `gold_thesi` (did you mean gold_thesis",
+        ),
+        (
+            "--material gold_thesis,watr_thesis",
+            "(did you mean water_thesis",
+        ),
+        (
+            "--medium water_tesis --material gold_thesis",
+            "(did you mean water_thesis",
+        ),
+        (
+            "--material zzz",
+            "there is no material `zzz`; there are diamond_thesis,",
+        ),
+        ("methods show shlick", "(did you mean schlick"),
+        ("materials show gold_tesis", "(did you mean gold_thesis"),
+        ("targets show glsles", "(did you mean glsl or gles"),
+        ("method", "'methods'"),
+        ("--targets gles", "'--target'"),
+    ] {
+        place.refused(line, &[says]);
+    }
+}
+
+#[test]
+fn an_empty_name_is_a_name_that_does_not_exist() {
+    let place = Place::new();
+    for (flag, says) in [
+        ("--target", "there is no target ``; there are gles, "),
+        ("--method", "there is no method ``"),
+        ("--material", "there is no material ``"),
+        ("--medium", "there is no material ``"),
+    ] {
+        place.refused_with(&[flag, ""], &[says]);
+    }
+}
+
+#[test]
+fn a_prefix_must_make_good_names_in_every_language() {
+    let place = Place::new();
+    for prefix in [
+        "1a", "a b", "a-b", "a__b", "a__", "_a", "__", "é", "gl_", "a\nb", "../", "a;", "*/",
+        "\u{202e}",
+    ] {
+        let says = ["--prefix", prefix.trim()];
+        place.refused_with(&["--prefix", prefix], &says[..1]);
+    }
+    for prefix in ["brdf_", "f", ""] {
+        place.run_with(&["--prefix", prefix, "--list"]).ends(0);
+    }
+}
+
+#[test]
+fn a_matching_angle_lies_between_0_and_90_degrees() {
+    let place = Place::new();
+    for angle in ["0", "90", "-1", "91", "nan", "inf", "1e400"] {
+        place.refused(
+            &format!("--matching-angle {angle} --target gles"),
+            &["between 0 and 90"],
+        );
+    }
+    place.refused("--matching-angle steep", &["--matching-angle"]);
+    let ran =
+        place.done("--matching-angle 84.26 --material gold_thesis --method schlick_corrected -o -");
+    assert!(ran.out.contains("--matching-angle 84.26"), "{ran:?}");
+}
+
+#[test]
+fn a_method_that_cannot_describe_the_material_is_refused() {
+    let place = Place::new();
+    let says = "method `dielectric_exact` cannot be specialised to `gold_thesis`";
+    place.refused("--method dielectric_exact --material gold_thesis", &[says]);
+    place.refused(
+        "--method dielectric_exact --material gold_thesis -o -",
+        &[says],
+    );
+}
+
+#[test]
+fn a_medium_must_be_transparent() {
+    let place = Place::new();
+    let says = "the medium `gold_thesis` absorbs (k > 0); a medium must be transparent";
+    place.refused("--medium gold_thesis", &[says]);
+    place.refused(
+        "--medium gold_thesis --material none --target wgsl -o - --material water_thesis",
+        &[],
+    );
+    place.done("--medium water_thesis --material gold_thesis,diamond_thesis --target wgsl");
+    let text = place.read("shaders-generated/wgsl/materials/gold_thesis_in_water_thesis.wgsl");
+    assert!(
+        text.contains("fn fresnel_gold_thesis_in_water_thesis("),
+        "{text}"
+    );
+    assert!(text.contains("--medium water_thesis"), "{text}");
+}

@@ -1,0 +1,173 @@
+//! Folders that cannot be written: exit 2, a reason, and everything as it was.
+
+use std::fs;
+use std::os::unix::fs::PermissionsExt;
+use std::process::Command;
+
+use crate::not_checked;
+
+use super::{OUT, PROGRAM, Place, Ran, contents};
+
+#[test]
+fn a_file_in_the_place_of_a_folder() {
+    let place = Place::new();
+    place.put(OUT, "mine\n");
+    place.refused(
+        "--target gles",
+        &["cannot read shaders-generated/manifest.json"],
+    );
+    place.refused(
+        "--target gles --out-dir shaders-generated/below",
+        &["cannot read"],
+    );
+    place.put("out/gles", "mine\n");
+    place.refused("--target gles --out-dir out", &["out/gles"]);
+    place.put("out/hlsl/fresnel_schlick.hlsl/file", "mine\n");
+    place.refused(
+        "--target hlsl --out-dir out",
+        &["fresnel_schlick.hlsl is not a file"],
+    );
+}
+
+#[test]
+fn a_manifest_that_is_not_ours() {
+    let place = Place::new();
+    place.done("--target gles");
+    let good = place.read("shaders-generated/manifest.json");
+    for (text, says) in [
+        ("", "manifest.json:1:0: "),
+        ("{}", "missing field `tool`"),
+        ("[1, 2]\n", "manifest.json:1:"),
+        (&good[..good.len() / 2], "manifest.json:"),
+        (
+            &good.replace("\"fresnel-gen\"", "\"other\""),
+            "manifest.json:2:",
+        ),
+        (
+            &good.replace("\"gles/fresnel_schlick.glsl\"", "\"../../mine\""),
+            "`file` is `../../mine`",
+        ),
+    ] {
+        place.put("shaders-generated/manifest.json", text);
+        place.refused("--target gles", &[says, "nothing was written"]);
+        place.refused("--target gles --check", &[says]);
+    }
+}
+
+/// A limit on the size of a file stands in for a full disk, and needs no rights.
+#[test]
+fn a_disk_that_fills_up_leaves_the_old_tree() {
+    let place = Place::new();
+    place.done("--target gles");
+    let before = place.files();
+    // The manifest is larger than 16 blocks, the shaders are not: all is staged before the fault.
+    let script =
+        format!("trap '' XFSZ; ulimit -f 16; exec '{PROGRAM}' --target gles,wgsl --prefix other_");
+    let run = Command::new("sh")
+        .args(["-c", &script])
+        .current_dir(place.path(""))
+        .output();
+    let ran = Ran::new(script, run.unwrap()).ends(2);
+    assert!(
+        ran.err
+            .contains("cannot write shaders-generated/manifest.json: File too large"),
+        "{ran:?}"
+    );
+    assert!(ran.err.contains("no file was changed"), "{ran:?}");
+    assert!(before == place.files(), "{ran:?} changed files");
+    assert!(!place.path("shaders-generated/wgsl").exists());
+}
+
+#[test]
+fn a_full_device() {
+    let place = Place::new();
+    place.refused(
+        "--method schlick --target gles -o /dev/full",
+        &["cannot write /dev/full: No space left"],
+    );
+    for line in ["--method schlick -o -", "--list", "methods --json -"] {
+        let full = fs::OpenOptions::new()
+            .write(true)
+            .open("/dev/full")
+            .unwrap();
+        let words: Vec<&str> = line.split(' ').collect();
+        let output = place.command(&words).stdout(full).output().unwrap();
+        let ran = Ran::new(line.to_string(), output).ends(2);
+        assert!(
+            ran.err.contains("cannot write to stdout: No space left"),
+            "{ran:?}"
+        );
+    }
+    place.done("--method schlick -o /dev/null");
+}
+
+#[test]
+fn a_folder_without_permission() {
+    let place = Place::new();
+    place.done("--target gles");
+    let probe = place.path("probe");
+    fs::create_dir(&probe).unwrap();
+    fs::set_permissions(&probe, fs::Permissions::from_mode(0o555)).unwrap();
+    if fs::write(probe.join("a"), "").is_ok() {
+        return read_only_mount(&place);
+    }
+    let folder = place.path("shaders-generated/gles");
+    fs::set_permissions(&folder, fs::Permissions::from_mode(0o555)).unwrap();
+    place.refused(
+        "--target gles --prefix other_",
+        &["Permission denied", "no file was changed"],
+    );
+    fs::set_permissions(&folder, fs::Permissions::from_mode(0o755)).unwrap();
+}
+
+/// Permissions do not stop root, and a mount does. It lives in a name space of its own and ends with the process.
+fn read_only_mount(place: &Place) {
+    let before = contents(&place.path(OUT));
+    let script = format!(
+        "mount --bind {OUT} {OUT} && mount -o remount,ro,bind {OUT} || exit 77; exec '{PROGRAM}' --target gles --prefix other_"
+    );
+    let run = Command::new("unshare")
+        .args(["--mount", "sh", "-c", &script])
+        .current_dir(place.path(""))
+        .output();
+    match run.map(|output| Ran::new(script, output)) {
+        Ok(ran) if ran.code == Some(2) => {
+            assert!(ran.err.contains("Read-only file system"), "{ran:?}");
+            assert!(ran.err.contains("no file was changed"), "{ran:?}");
+            assert!(
+                before == contents(&place.path(OUT)),
+                "{ran:?} changed files"
+            );
+        }
+        Ok(ran) if ran.code == Some(0) => panic!("{ran:?}"),
+        other => not_checked(&format!(
+            "a read-only folder: root may not mount one here ({other:?})"
+        )),
+    }
+}
+
+#[test]
+fn links_are_followed_to_files_and_never_removed_through() {
+    let place = Place::new();
+    place.done("--target gles --method schlick");
+    place.put("elsewhere/fresnel_schlick.glsl", "old\n");
+    let link = place.path("shaders-generated/gles/fresnel_schlick.glsl");
+    fs::remove_file(&link).unwrap();
+    std::os::unix::fs::symlink(place.path("elsewhere/fresnel_schlick.glsl"), &link).unwrap();
+    place.done("--target gles --method schlick");
+    assert_eq!(
+        place
+            .run("--target gles --method schlick --check")
+            .ends(0)
+            .out,
+        ""
+    );
+    place.done("-o single.wgsl --method schlick");
+    fs::remove_file(place.path("single.wgsl")).unwrap();
+    std::os::unix::fs::symlink(
+        place.path("elsewhere/single.wgsl"),
+        place.path("single.wgsl"),
+    )
+    .unwrap();
+    place.run("-o single.wgsl --method schlick").ends(0);
+}

@@ -1,0 +1,167 @@
+//! Compilers that are not ours accept every file of every target. What is not installed is named as not checked; where
+//! `CI` is set that is a failure.
+
+mod glslang;
+mod msl;
+mod spirv;
+mod wgsl;
+
+use std::ffi::OsStr;
+use std::process::Command;
+use std::sync::{LazyLock, Mutex};
+
+use fresnel_gen::app::request::DEFAULT_MATERIALS;
+use fresnel_gen::app::{Artifact, Materials, Request, Source, generate};
+use fresnel_gen::{methods, targets};
+
+use crate::not_checked;
+
+/// A compiler, and the Debian package that holds it.
+pub struct Tool {
+    pub command: &'static str,
+    pub package: &'static str,
+}
+
+impl Tool {
+    /// Whether it is there. Where it is not, the run says what stays unchecked.
+    #[track_caller]
+    pub fn is_here(&self, what: &str) -> bool {
+        let found = Command::new(self.command).arg("--version").output().is_ok();
+        if !found {
+            let (command, package) = (self.command, self.package);
+            let remark = format!("{what}: no {command} (Debian package {package})");
+            assert!(std::env::var_os("CI").is_none(), "not checked: {remark}");
+            not_checked(&remark);
+        }
+        found
+    }
+
+    /// What it prints, or all that it printed when it refused.
+    pub fn run<S: AsRef<OsStr>>(&self, arguments: impl IntoIterator<Item = S>) -> Judgement {
+        let output = Command::new(self.command).args(arguments).output().unwrap();
+        let text = |bytes: &[u8]| String::from_utf8_lossy(bytes).into_owned();
+        let stdout = text(&output.stdout);
+        if output.status.success() {
+            return Ok(stdout);
+        }
+        Err(format!("{stdout}{}", text(&output.stderr)))
+    }
+}
+
+/// What a compiler says of a file: its output, or its complaints.
+pub type Judgement = Result<String, String>;
+
+/// Everything that is to be compiled.
+static FILES: LazyLock<Vec<Artifact>> = LazyLock::new(all_files);
+
+/// All files of a target.
+pub fn files(target: &str) -> Vec<&'static Artifact> {
+    let files: Vec<_> = FILES.iter().filter(|file| file.target == target).collect();
+    assert!(files.len() > methods::ALL.len(), "{target} has few files");
+    files
+}
+
+/// The library and the materials of the tree without flags: names of these must not meet in one unit.
+pub fn tree(target: &str) -> Vec<&'static Artifact> {
+    let folder = format!("{target}/");
+    let mut files = files(target);
+    files.retain(|file| file.path.starts_with(&folder));
+    assert_eq!(files.len(), methods::ALL.len() + DEFAULT_MATERIALS.len());
+    files
+}
+
+pub fn text(file: &Artifact) -> &str {
+    std::str::from_utf8(&file.bytes).unwrap()
+}
+
+/// One unit of all these files.
+pub fn joined(files: &[&Artifact]) -> String {
+    files.iter().map(|file| text(file)).collect()
+}
+
+/// The signatures of a file's functions, as its manifest entry tells them.
+pub fn signatures(file: &Artifact) -> impl Iterator<Item = &str> {
+    let functions = file.detail["functions"].as_array().unwrap();
+    functions.iter().map(|f| f["signature"].as_str().unwrap())
+}
+
+/// Judges all of these on a few threads, and fails with every complaint.
+#[track_caller]
+pub fn accepted<T: Sync>(items: &[T], judge: impl Fn(&T) -> Judgement + Sync) {
+    let complaints = Mutex::new(Vec::new());
+    std::thread::scope(|scope| {
+        for part in items.chunks(items.len().div_ceil(4).max(1)) {
+            scope.spawn(|| {
+                let refused = part.iter().filter_map(|item| judge(item).err());
+                complaints.lock().unwrap().extend(refused);
+            });
+        }
+    });
+    let complaints = complaints.into_inner().unwrap();
+    assert!(complaints.is_empty(), "{}", complaints.join("\n"));
+}
+
+/// The tree without flags in all languages; each material with all methods that it can have, and in a medium; the
+/// library without a prefix, where names are most likely to meet a language's own.
+fn all_files() -> Vec<Artifact> {
+    let mut files = made(&Request::default(), "");
+    let named = |name: &str| Source::Named(name.to_string());
+    for material in DEFAULT_MATERIALS {
+        let request = Request {
+            materials: Materials::These(vec![named(material)]),
+            ..Request::default()
+        };
+        let every = Request {
+            methods: methods_of(&request),
+            ..request.clone()
+        };
+        files.extend(specialised(made(&every, "every/")));
+        let immersed = Request {
+            medium: Some(named("water_thesis")),
+            ..request
+        };
+        files.extend(specialised(made(&immersed, "immersed/")));
+    }
+    let unprefixed = Request {
+        materials: Materials::None,
+        prefix: String::new(),
+        ..Request::default()
+    };
+    files.extend(made(&unprefixed, "unprefixed/"));
+    files
+}
+
+/// What a request gives in all languages, its paths below a folder of this name.
+fn made(request: &Request, variant: &str) -> Vec<Artifact> {
+    let targets = targets::ALL.iter().map(|target| target.name.to_string());
+    let request = Request {
+        targets: targets.collect(),
+        ..request.clone()
+    };
+    let mut files = generate(&request).unwrap().artifacts;
+    for file in &mut files {
+        file.path.insert_str(0, variant);
+    }
+    files
+}
+
+/// Without the library, which the tree without flags holds already.
+fn specialised(files: Vec<Artifact>) -> impl Iterator<Item = Artifact> {
+    files.into_iter().filter(|file| file.material.is_some())
+}
+
+/// The methods that can be specialised to the material of a request: those that generation does not refuse.
+fn methods_of(request: &Request) -> Vec<String> {
+    let is_possible = |method: &String| {
+        let alone = Request {
+            targets: vec!["hlsl".to_string()],
+            methods: vec![method.clone()],
+            ..request.clone()
+        };
+        generate(&alone).is_ok()
+    };
+    let names = methods::ALL.iter().map(|method| method.name.to_string());
+    let possible: Vec<String> = names.filter(is_possible).collect();
+    assert!(possible.len() > 3, "{possible:?}");
+    possible
+}

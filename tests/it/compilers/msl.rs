@@ -1,0 +1,88 @@
+//! MSL's syntax and types, read by a C++ compiler with a small stand-in for Metal's library.
+//! This is not Metal's own compiler, which exists on macOS only, and the run says so.
+
+use std::fs;
+
+use tempfile::TempDir;
+
+use crate::not_checked;
+
+use super::{Judgement, Tool, files, joined, text, tree};
+
+const COMPILER: Tool = Tool {
+    command: "g++",
+    package: "g++",
+};
+
+/// As much of `metal_stdlib` as the files use. As in Metal, a scalar meets a vector in operators but not in functions.
+const STAND_IN: &str = "
+#pragma once
+namespace metal {
+struct float3 {
+    float r, g, b;
+    explicit float3(float);
+    float3(float, float, float);
+};
+float3 operator-(float3);
+#define OPERATOR(o) float3 operator o(float3, float3); float3 operator o(float3, float); float3 operator o(float, float3);
+OPERATOR(+) OPERATOR(-) OPERATOR(*) OPERATOR(/)
+#define ONE(f) float f(float); float3 f(float3);
+ONE(abs) ONE(exp2) ONE(log2) ONE(rsqrt) ONE(saturate) ONE(sqrt)
+#define TWO(f) float f(float, float); float3 f(float3, float3);
+TWO(max) TWO(min)
+}
+";
+
+#[test]
+fn msl_is_accepted_by_a_cpp_compiler() {
+    if !COMPILER.is_here("the syntax of msl") {
+        return;
+    }
+    not_checked(
+        "msl by Metal's own compiler, which is on macOS only; its syntax is, by a C++ compiler",
+    );
+    let tree = joined(&tree("msl"));
+    let mut units: Vec<String> = files("msl")
+        .iter()
+        .map(|file| text(file).repeat(2))
+        .collect();
+    // The names of the library are written in full, so that both kinds of including file are served.
+    units.push(format!(
+        "#include <metal_stdlib>\nusing namespace metal;\n{tree}"
+    ));
+    units.push(tree.repeat(2));
+    judge(&units).unwrap();
+}
+
+#[test]
+fn broken_msl_is_refused() {
+    if !COMPILER.is_here("that broken msl is refused") {
+        return;
+    }
+    let good = joined(&tree("msl"));
+    for (from, to) in [
+        ("metal::sqrt", "sqrt"),
+        ("metal::max(", "metal::max(1.0, "),
+        // Without its suffix a number is a double, which Metal does not have.
+        ("1.0f", "1.0"),
+        ("#ifndef", "#undef"),
+    ] {
+        assert!(good.contains(from), "{from}");
+        judge(&[good.replace(from, to).repeat(2)]).expect_err(to);
+    }
+}
+
+fn judge(units: &[String]) -> Judgement {
+    let folder = TempDir::new().unwrap();
+    let at = |name: &str| folder.path().join(name);
+    fs::write(at("metal_stdlib"), STAND_IN).unwrap();
+    let options = "-std=c++14 -fsyntax-only -Wall -Wconversion -Wdouble-promotion -Werror -I";
+    let mut arguments: Vec<_> = options.split(' ').map(Into::into).collect();
+    arguments.push(folder.path().to_owned());
+    for (index, unit) in units.iter().enumerate() {
+        let file = at(&format!("{index}.cpp"));
+        fs::write(&file, unit).unwrap();
+        arguments.push(file);
+    }
+    COMPILER.run(arguments)
+}
