@@ -55,6 +55,14 @@ fn function_errors_come_out_to_the_printed_digit() {
         "5.31 %",
         Verdict::Agrees,
     );
+    for (name, column, ours) in [
+        ("gold", "rescaled", "0.98 %"),
+        ("platinum", "rescaled", "5.31 %"),
+        ("diamond", "schlick", "3.80 %"),
+    ] {
+        let column = format!("{column}, in 32-bit floats");
+        check(tables, name, &column, ours, Verdict::Agrees);
+    }
     assert!(!tables.has_findings());
 }
 

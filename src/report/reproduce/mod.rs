@@ -13,6 +13,7 @@ mod indices;
 pub mod metals;
 mod meter;
 mod row;
+mod single;
 mod specialised;
 mod text;
 pub mod thesis;
