@@ -11,12 +11,13 @@
 //     https://www.realtimerendering.com/Principles_of_Digital_Image_Synthesis_v1.0.1.pdf
 // Domain: k > 0 and 0 < cos_theta <= 1
 // Kept for comparison, exempt from the contract of the others. It fails: NaN at exactly 90 degrees and for
-//     cos_theta above 1; up to 1e8 ulp near k = 0; no clamp
+//     cos_theta above 1; thousands of ulp where k is small; no clamp
 // Arguments:
 //   cos_theta: cosine between the normal and the direction to the light or viewer
-//   n: real part of the relative index of refraction; n > 0
-//   k: extinction coefficient, the imaginary part of the relative index; k >= 0
-// Code error: at most 5300 ulp or 2^-22, unfused f32 against f64.
+//   n: real part of the relative index of refraction
+//   k: extinction coefficient, the imaginary part of the relative index
+// Code error for n 1.0001 to 12 with k 0 to 13, and n 0.05 to 4.5 with k 1.5 to 8: at most 5500 ulp or 2^-22,
+//     unfused f32 against f64
 // fresnel_conductor_textbook: 99 scalar operations, among them 7 roots, 7 divisions
 // Licence of this file: CC0-1.0
 

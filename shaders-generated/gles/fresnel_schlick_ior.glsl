@@ -6,12 +6,12 @@
 //   F = ((eta - 1)^2 + 4 eta (1 - cos_theta)^5) / (eta + 1)^2
 // Source: Schlick, "An Inexpensive BRDF Model for Physically-based Rendering", Computer Graphics Forum 13(3),
 //     233-246, 1994. https://doi.org/10.1111/1467-8659.1330233
-// Domain: eta > 0; good for 1.4 to 2.2; below 1 it misses total reflection
+// Domain: eta >= 0.001; good for 1.4 to 2.2; below 1 it misses total reflection
 // Arguments:
 //   cos_theta: cosine between the normal and the direction to the light or viewer
-//   eta: relative index of refraction, transmitted over incident (n_t / n_i); eta > 0
-// Model error for eta 1.3 to 2.5: at most 0.0841
-// Code error: at most 6.7 ulp or 2^-22, unfused f32 against f64.
+//   eta: relative index of refraction, transmitted over incident (n_t / n_i)
+// Model error for eta 1.3 to 2.5: at most 0.0841, worst at 84.5 degrees
+// Code error for eta 1.0001 to 12: at most 6.7 ulp or 2^-22, unfused f32 against f64
 // fresnel_schlick_ior: 32 scalar operations, among them 3 divisions
 // fresnel_schlick_ior_scalar: 14 scalar operations, among them 1 division
 // Licence of this file: CC0-1.0

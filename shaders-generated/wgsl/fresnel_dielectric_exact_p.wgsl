@@ -7,11 +7,12 @@
 //   F = (r_s (c u - 1) / (c t / u + 1))^2; 1 where t + c^2 < 0
 // Source: Cook, Torrance, "A Reflectance Model for Computer Graphics", ACM Transactions on Graphics 1(1), 7-24,
 //     1982. https://doi.org/10.1145/357290.357293
-// Domain: eta > 0 on both sides of 1; past the critical angle exactly 1; 0 at Brewster's angle
+// Domain: eta >= 0.001, on both sides of 1; past the critical angle exactly 1; 0 at Brewster's angle
 // Arguments:
 //   cos_theta: cosine between the normal and the direction to the light or viewer
-//   eta: relative index of refraction, transmitted over incident (n_t / n_i); eta > 0
-// Code error: at most 8.4 ulp or 2^-22, unfused f32 against f64.
+//   eta: relative index of refraction, transmitted over incident (n_t / n_i)
+// Model error for eta 1.3 to 2.5: none, it is the exact law
+// Code error for eta 1.0001 to 12: at most 8.8 ulp or 2^-22, unfused f32 against f64
 // fresnel_dielectric_exact_p: 72 scalar operations, among them 3 roots, 9 divisions
 // fresnel_dielectric_exact_p_scalar: 26 scalar operations, among them 1 root, 3 divisions
 // Licence of this file: CC0-1.0

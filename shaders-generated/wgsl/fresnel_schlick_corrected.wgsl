@@ -7,14 +7,15 @@
 //       - 2 n cos_theta (1 - cos_theta)^lambda; without the last term where lambda <= 0
 // Source: Lazanyi, Szirmay-Kalos, "Fresnel Term Approximations for Metals", WSCG Short Papers, 77-80, 2005.
 //     https://hdl.handle.net/11025/11214
-// Domain: n > 0, k >= 0; clamped to [0, 1]; lambda <= 0 drops the correction
+// Domain: n >= 0.001, k >= 0; clamped to [0, 1]; lambda <= 0 drops the correction
 // Arguments:
 //   cos_theta: cosine between the normal and the direction to the light or viewer
-//   n: real part of the relative index of refraction; n > 0
-//   k: extinction coefficient, the imaginary part of the relative index; k >= 0
-//   lambda: exponent of the correction; 0 or less where there is none; any
-// Model error for n 0.05 to 4.5, k 1.5 to 8: at most 0.0872
-// Code error: at most 13 ulp or 2^-22, unfused f32 against f64.
+//   n: real part of the relative index of refraction
+//   k: extinction coefficient, the imaginary part of the relative index
+//   lambda: exponent of the correction; 0 or less where there is none
+// Model error for n 0.05 to 4.5, k 1.5 to 8: at most 0.0872, worst at 75.8 degrees
+// Code error for n 1.0001 to 12 with k 0 to 13, and n 0.05 to 4.5 with k 1.5 to 8: at most 15 ulp or 2^-22,
+//     unfused f32 against f64
 // fresnel_schlick_corrected: 67 scalar operations, among them 3 divisions, 4 exponentials or logarithms
 // Licence of this file: CC0-1.0
 

@@ -42,7 +42,7 @@ pub enum Command {
 /// The flags of generation.
 #[derive(Args, Debug)]
 pub struct Generate {
-    /// Output language: wgsl, gles, hlsl, spirv, msl, glsl, or all (the first four)
+    /// Output language, see `fresnel-gen targets`; all means those written by default [default: all]
     #[arg(long, value_delimiter = ',', value_name = "NAME")]
     pub target: Vec<String>,
     /// Method; see `fresnel-gen methods` [default: all]

@@ -1,6 +1,6 @@
 //! A function ready to be printed: its name, its graph, and what is known of its errors.
 
-use crate::fit::{Derivation, Measured, ModelError, model_error, values};
+use crate::fit::{Derivation, Measured, ModelError, Truth, model_error, values};
 use crate::ir::Checked;
 use crate::materials::{Channels, Kind, Material};
 use crate::methods::{Class, Method, Values};
@@ -135,7 +135,13 @@ pub fn specialised_function(
         name: format!("{}{}{suffix}", naming.prefix, subject.name),
         method,
         form: "specialised",
-        model_error: Some(model_error(&function, &subject.channels)),
+        model_error: Some(model_error(
+            &function,
+            &Truth {
+                channels: &subject.channels,
+                light: method.light,
+            },
+        )),
         code_ulp: bounds.of(&function),
         constants,
         function,

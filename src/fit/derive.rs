@@ -46,7 +46,7 @@ fn value(name: &str, channels: &Channels, derivation: &Derivation) -> [f64; 3] {
         "f0" | "reflectivity" => each(&f0),
         "f90" => [1.0; 3],
         "f82" => each(&|n, k| exact(n, k, COS_82)),
-        "tint" => each(&|n, k| exact(n, k, COS_82) / schlick(f0(n, k), COS_82)),
+        "tint" => each(&|n, k| exact(n, k, COS_82) / schlick_82(f0(n, k))),
         "edge_tint" => each(&edge_tint),
         "bias" => [mean(each(&f0)); 3],
         "scale" => [1.0 - mean(each(&f0)); 3],
@@ -65,8 +65,9 @@ fn exact(n: f64, k: f64, cos_theta: f64) -> f64 {
     optics::conductor(n, k, cos_theta).unpolarised()
 }
 
-fn schlick(f0: f64, cos_theta: f64) -> f64 {
-    f0 + (1.0 - f0) * (1.0 - cos_theta).powi(5)
+/// Schlick's value at cos θ = 1/7, where the weight is (6/7)⁵.
+fn schlick_82(f0: f64) -> f64 {
+    f0 + (1.0 - f0) * 7_776.0 / 16_807.0
 }
 
 fn mean(channels: [f64; 3]) -> f64 {

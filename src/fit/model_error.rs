@@ -4,6 +4,7 @@ use serde::Serialize;
 
 use crate::ir::{Checked, Value, evaluate};
 use crate::materials::Channels;
+use crate::methods::Light;
 use crate::optics;
 
 /// How wrong a method is for a material, whatever computes it.
@@ -23,16 +24,43 @@ pub struct ModelError {
 /// its value.
 pub(super) const ANGLES: usize = 2048;
 
-/// The exact reflectance of each channel at a cosine.
+/// What a method is held against: the exact law for these channels and this light.
+#[derive(Clone, Copy, Debug)]
+pub struct Truth<'a> {
+    /// The relative index per channel.
+    pub channels: &'a Channels,
+    /// Polarised or not.
+    pub light: Light,
+}
+
+impl Truth<'_> {
+    /// The exact reflectance of each channel at a cosine.
+    pub fn at(&self, cos_theta: f64) -> [f64; 3] {
+        [0, 1, 2].map(|i| {
+            let exact = optics::conductor(self.channels.n[i], self.channels.k[i], cos_theta);
+            match self.light {
+                Light::Unpolarised => exact.unpolarised(),
+                Light::S => exact.s,
+                Light::P => exact.p,
+            }
+        })
+    }
+}
+
+/// The exact reflectance of each channel at a cosine, unpolarised.
 pub fn truth(channels: &Channels, cos_theta: f64) -> [f64; 3] {
-    [0, 1, 2].map(|i| optics::conductor(channels.n[i], channels.k[i], cos_theta).unpolarised())
+    Truth {
+        channels,
+        light: Light::Unpolarised,
+    }
+    .at(cos_theta)
 }
 
 /// The model error of a function of `cos_theta` alone.
-pub fn model_error(function: &Checked, channels: &Channels) -> ModelError {
+pub fn model_error(function: &Checked, truth: &Truth) -> ModelError {
     let cosines = cosines(ANGLES);
     let values = evaluate(function, &[Value::each(cosines.clone())]);
-    difference(&values, channels, &cosines)
+    difference(&values, truth, &cosines)
 }
 
 /// Both ends, and between them the middles of equal steps of angle, over which means are taken.
@@ -42,7 +70,7 @@ pub(super) fn cosines(angles: usize) -> Vec<f64> {
 }
 
 /// Values at these cosines, of which the first and the last are the ends, against the exact law.
-pub(super) fn difference(values: &Value<f64>, channels: &Channels, cosines: &[f64]) -> ModelError {
+pub(super) fn difference(values: &Value<f64>, truth: &Truth, cosines: &[f64]) -> ModelError {
     let mut error = ModelError {
         max_abs: 0.0,
         mean_abs: 0.0,
@@ -56,11 +84,7 @@ pub(super) fn difference(values: &Value<f64>, channels: &Channels, cosines: &[f6
         } else {
             1.0 / (3 * (last - 1)) as f64
         };
-        for (got, want) in values
-            .at(point)
-            .into_iter()
-            .zip(truth(channels, *cos_theta))
-        {
+        for (got, want) in values.at(point).into_iter().zip(truth.at(*cos_theta)) {
             let difference = (got - want).abs();
             error.mean_abs += weight * difference;
             error.mean_rel += weight * difference / want.max(f64::MIN_POSITIVE);

@@ -116,10 +116,10 @@ const FIELDS: [&str; 8] = [
 ];
 
 /// A row's columns: name, least value, greatest value. 1 nm to 1 mm covers all of optics; no index measured
-/// there comes near 1e4.
+/// there comes near 1e4. Below n = 0.001 the exact forms lose their last digits in f32.
 const COLUMNS: [(&str, f64, f64); 3] = [
     ("wavelength_nm", 1.0, 1e6),
-    ("n", 1e-4, 1e4),
+    ("n", 1e-3, 1e4),
     ("k", 0.0, 1e4),
 ];
 

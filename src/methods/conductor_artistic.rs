@@ -13,7 +13,7 @@ use crate::ir::Expr;
 
 use super::conductor_exact::conductor;
 use super::input::{Input, Inputs};
-use super::method::{Claim, Claims, Class, Contract, Forms, Method, Over};
+use super::method::{Claim, Claims, Class, Contract, Forms, Light, Method, Over};
 
 /// The record of this method.
 pub static METHOD: Method = Method {
@@ -33,13 +33,15 @@ pub static METHOD: Method = Method {
     inputs: &[Input::REFLECTIVITY, Input::EDGE_TINT],
     forms: Forms::Colour,
     class: Class::Any,
+    light: Light::Unpolarised,
     domain: "both are clamped to [0, 1]; reflectivity above 0.999 counts as 0.999",
     claims: Claims {
         model: &[Claim {
             over: Over::Metals,
             max_abs: 0.0,
+            at_degrees: 0.0,
         }],
-        code_ulp: 4.3,
+        code_ulp: 5.1,
         code_over: Over::Metals,
     },
     contract: Contract::Kept,

@@ -6,14 +6,14 @@
 //! difference of nearly equal numbers is left: a² = ½(r+t) cancels where t < 0, so there a = nk / √(½(r-t));
 //! where t ≥ 0, R_s = ((a-c)²+b²) / ((a+c)²+b²) takes (a-c)² as T²/E with T = τ+b² = a²-c² and E = (a+c)².
 //! Merging R_s and R_p into one quotient gives F without adding the two.
-//! Domain: n > 0, k ≥ 0; k = 0 is the dielectric, past the critical angle exactly 1; n = 1, k = 0 gives 0.
+//! Domain: n ≥ 0.001, k ≥ 0; k = 0 is the dielectric, past the critical angle exactly 1; n = 1, k = 0 gives 0.
 //! Error: none in the model; the code error is [`METHOD`]'s claim.
 
 use crate::ir::Expr;
 
 use super::conductor_textbook::GLASSNER_1995;
 use super::input::{Input, Inputs};
-use super::method::{Claim, Claims, Class, Contract, Forms, Method, Over};
+use super::method::{Claim, Claims, Class, Contract, Forms, Light, Method, Over};
 
 /// The record of this method.
 pub static METHOD: Method = Method {
@@ -27,19 +27,22 @@ pub static METHOD: Method = Method {
     inputs: &[Input::N, Input::K],
     forms: Forms::Colour,
     class: Class::Any,
-    domain: "n > 0, k >= 0; k = 0 is the dielectric; n = 1 with k = 0 gives 0 at every angle",
+    light: Light::Unpolarised,
+    domain: "n >= 0.001, k >= 0; k = 0 is the dielectric; n = 1 with k = 0 gives 0 at every angle",
     claims: Claims {
         model: &[
             Claim {
                 over: Over::Dielectrics,
                 max_abs: 0.0,
+                at_degrees: 0.0,
             },
             Claim {
                 over: Over::Metals,
                 max_abs: 0.0,
+                at_degrees: 0.0,
             },
         ],
-        code_ulp: 4.3,
+        code_ulp: 5.3,
         code_over: Over::Wide,
     },
     contract: Contract::Kept,

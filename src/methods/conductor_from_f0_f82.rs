@@ -19,7 +19,7 @@ use crate::optics::index_from_f0_f82;
 
 use super::conductor_exact::{self, conductor};
 use super::input::{Input, Inputs};
-use super::method::{Claim, Claims, Class, Contract, Forms, Method, Over, Values};
+use super::method::{Claim, Claims, Class, Contract, Forms, Light, Method, Over, Values};
 
 /// The record of this method.
 pub static METHOD: Method = Method {
@@ -40,19 +40,22 @@ pub static METHOD: Method = Method {
     inputs: &[Input::F0, Input::F82],
     forms: Forms::Colour,
     class: Class::Any,
+    light: Light::Unpolarised,
     domain: "f0 counts as at most 0.999; an f82 that no n and k can give takes the nearest that one can",
     claims: Claims {
         model: &[
             Claim {
                 over: Over::Dielectrics,
                 max_abs: 0.0000347,
+                at_degrees: 82.2,
             },
             Claim {
                 over: Over::Metals,
                 max_abs: 0.000384,
+                at_degrees: 72.5,
             },
         ],
-        code_ulp: 5.2,
+        code_ulp: 8.6,
         code_over: Over::Metals,
     },
     contract: Contract::Kept,

@@ -4,14 +4,14 @@
 //!
 //! Source: Glassner, "Principles of Digital Image Synthesis", Morgan Kaufmann, 1995, <https://www.realtimerendering.com/Principles_of_Digital_Image_Synthesis_v1.0.1.pdf>;
 //! as printed in the thesis. Kept for comparison: no guard, no clamp.
-//! Domain: k > 0, 0 < cos θ ≤ 1. Error: none in the model, but the code loses up to 10⁸ ulp near k = 0, is NaN at
+//! Domain: k > 0, 0 < cos θ ≤ 1. Error: none in the model, but the code loses thousands of ulp where k is small, is NaN at
 //! exactly 90 degrees, where tan θ is infinite, and NaN for 1 + 1 ulp, where sin θ has no root.
 
 use crate::cite::Citation;
 use crate::ir::Expr;
 
 use super::input::{Input, Inputs};
-use super::method::{Claims, Class, Contract, Forms, Method, Over};
+use super::method::{Claims, Class, Contract, Forms, Light, Method, Over};
 
 /// Principles of Digital Image Synthesis.
 pub const GLASSNER_1995: Citation = Citation {
@@ -36,14 +36,15 @@ pub static METHOD: Method = Method {
     inputs: &[Input::N, Input::K],
     forms: Forms::Colour,
     class: Class::Any,
+    light: Light::Unpolarised,
     domain: "k > 0 and 0 < cos_theta <= 1",
     claims: Claims {
         model: &[],
-        code_ulp: 5300.0,
+        code_ulp: 5500.0,
         code_over: Over::Wide,
     },
     contract: Contract::Exempt(
-        "NaN at exactly 90 degrees and for cos_theta above 1; up to 1e8 ulp near k = 0; no clamp",
+        "NaN at exactly 90 degrees and for cos_theta above 1; thousands of ulp where k is small; no clamp",
     ),
     build,
     specialised: None,

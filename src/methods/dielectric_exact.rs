@@ -4,7 +4,7 @@
 //! Source: Fresnel 1823 in the g-form of Cook and Torrance, "A Reflectance Model for Computer Graphics", 1982,
 //! <https://doi.org/10.1145/357290.357293>, rearranged: `(g-c)/(g+c) = τ/u²` has no cancellation, and
 //! `u² = τ + 2 c u` needs no square of a small number. τ must come from (η-1)(η+1), not η²-1.
-//! Domain: η > 0, on both sides of 1; past the critical angle exactly 1; η = 1 gives 0 at every angle, 90° too.
+//! Domain: η ≥ 0.001, on both sides of 1; past the critical angle exactly 1; η = 1 gives 0 at every angle, 90° too.
 //! Error: none in the model; the code error is [`METHOD`]'s claim. Close to the critical angle the law itself is
 //! ill-conditioned (a square root reaches 0 there), and the error follows its condition number.
 
@@ -12,7 +12,7 @@ use crate::cite::Citation;
 use crate::ir::Expr;
 
 use super::input::{Input, Inputs};
-use super::method::{Claim, Claims, Class, Contract, Forms, Method, Over};
+use super::method::{Claim, Claims, Class, Contract, Forms, Light, Method, Over};
 
 /// Fresnel's law in the g-form.
 pub const COOK_TORRANCE_1982: Citation = Citation {
@@ -35,13 +35,15 @@ pub static METHOD: Method = Method {
     inputs: &[Input::ETA],
     forms: Forms::ColourAndScalar,
     class: Class::Dielectric,
-    domain: "eta > 0 on both sides of 1; past the critical angle exactly 1; eta = 1 gives 0 at every angle",
+    light: Light::Unpolarised,
+    domain: "eta >= 0.001, on both sides of 1; past the critical angle exactly 1; eta = 1 gives 0 at every angle",
     claims: Claims {
         model: &[Claim {
             over: Over::Dielectrics,
             max_abs: 0.0,
+            at_degrees: 0.0,
         }],
-        code_ulp: 4.4,
+        code_ulp: 5.1,
         code_over: Over::Wide,
     },
     contract: Contract::Kept,

@@ -1,14 +1,14 @@
 //! `F_p = (r_s B)²`: the exact law for dielectrics and light polarised in the plane of incidence.
 //!
 //! Source: as in `dielectric_exact` (Cook and Torrance, 1982, <https://doi.org/10.1145/357290.357293>).
-//! Domain: η > 0, on both sides of 1; past the critical angle exactly 1; 0 at Brewster's angle (tan θ = η).
+//! Domain: η ≥ 0.001, on both sides of 1; past the critical angle exactly 1; 0 at Brewster's angle (tan θ = η).
 //! Error: none in the model; at Brewster's zero only an absolute bound makes sense.
 
 use crate::ir::Expr;
 
 use super::dielectric_exact::{COOK_TORRANCE_1982, steps};
 use super::input::{Input, Inputs};
-use super::method::{Claims, Class, Contract, Forms, Method, Over};
+use super::method::{Claim, Claims, Class, Contract, Forms, Light, Method, Over};
 
 /// The record of this method.
 pub static METHOD: Method = Method {
@@ -22,10 +22,15 @@ pub static METHOD: Method = Method {
     inputs: &[Input::ETA],
     forms: Forms::ColourAndScalar,
     class: Class::Dielectric,
-    domain: "eta > 0 on both sides of 1; past the critical angle exactly 1; 0 at Brewster's angle",
+    light: Light::P,
+    domain: "eta >= 0.001, on both sides of 1; past the critical angle exactly 1; 0 at Brewster's angle",
     claims: Claims {
-        model: &[],
-        code_ulp: 8.4,
+        model: &[Claim {
+            over: Over::Dielectrics,
+            max_abs: 0.0,
+            at_degrees: 0.0,
+        }],
+        code_ulp: 8.8,
         code_over: Over::Wide,
     },
     contract: Contract::Kept,

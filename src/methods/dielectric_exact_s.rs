@@ -1,13 +1,13 @@
 //! `F_s = (τ / u²)²`: the exact law for dielectrics and light polarised across the plane of incidence.
 //!
 //! Source: as in `dielectric_exact` (Cook and Torrance, 1982, <https://doi.org/10.1145/357290.357293>).
-//! Domain: η > 0, on both sides of 1; past the critical angle exactly 1. Error: none in the model.
+//! Domain: η ≥ 0.001, on both sides of 1; past the critical angle exactly 1. Error: none in the model.
 
 use crate::ir::Expr;
 
 use super::dielectric_exact::{COOK_TORRANCE_1982, steps};
 use super::input::{Input, Inputs};
-use super::method::{Claims, Class, Contract, Forms, Method, Over};
+use super::method::{Claim, Claims, Class, Contract, Forms, Light, Method, Over};
 
 /// The record of this method.
 pub static METHOD: Method = Method {
@@ -20,9 +20,14 @@ pub static METHOD: Method = Method {
     inputs: &[Input::ETA],
     forms: Forms::ColourAndScalar,
     class: Class::Dielectric,
-    domain: "eta > 0 on both sides of 1; past the critical angle exactly 1; eta = 1 gives 0 at every angle",
+    light: Light::S,
+    domain: "eta >= 0.001, on both sides of 1; past the critical angle exactly 1; eta = 1 gives 0 at every angle",
     claims: Claims {
-        model: &[],
+        model: &[Claim {
+            over: Over::Dielectrics,
+            max_abs: 0.0,
+            at_degrees: 0.0,
+        }],
         code_ulp: 0.0,
         code_over: Over::Wide,
     },

@@ -2,7 +2,7 @@
 //!
 //! Source: Fernando and Kilgard, "The Cg Tutorial", chapter 7, 2003,
 //! <https://developer.download.nvidia.com/CgTutorial/cg_tutorial_chapter07.html>; eq. 6 of the thesis.
-//! Domain: bias, scale in [0, 1], power > 0. It is not physical: the three numbers are tuned by hand, or derived
+//! Domain: bias, scale in [0, 1], power ≥ 0.2 (below, 2^(-126 power) shows at normal incidence). It is not physical: the three numbers are tuned by hand, or derived
 //! from a material as bias = F0, scale = 1 - F0 and the power that meets the exact law at 60 degrees.
 //! Error: [`METHOD`]'s claims, with the parameters derived so.
 
@@ -10,7 +10,7 @@ use crate::cite::Citation;
 use crate::ir::Expr;
 
 use super::input::{Input, Inputs};
-use super::method::{Claim, Claims, Class, Contract, Forms, Method, Over};
+use super::method::{Claim, Claims, Class, Contract, Forms, Light, Method, Over};
 
 /// The record of this method.
 pub static METHOD: Method = Method {
@@ -27,19 +27,22 @@ pub static METHOD: Method = Method {
     inputs: &[Input::BIAS, Input::SCALE, Input::POWER],
     forms: Forms::ColourAndScalar,
     class: Class::Any,
-    domain: "bias and scale in [0, 1], power > 0; the three channels are alike",
+    light: Light::Unpolarised,
+    domain: "bias and scale in [0, 1], power >= 0.2; the three channels are alike",
     claims: Claims {
         model: &[
             Claim {
                 over: Over::Dielectrics,
                 max_abs: 0.113,
+                at_degrees: 83.6,
             },
             Claim {
                 over: Over::Metals,
                 max_abs: 0.42,
+                at_degrees: 0.0,
             },
         ],
-        code_ulp: 4.8,
+        code_ulp: 8.1,
         code_over: Over::Wide,
     },
     contract: Contract::Kept,

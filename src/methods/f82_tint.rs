@@ -2,7 +2,7 @@
 //! reflectance at 81.79 degrees is `tint` times Schlick's.
 //!
 //! Source: Kutz, Hašan and Edmondson, "Novel aspects of the Adobe Standard Material", 2021,
-//! <https://helpx.adobe.com/content/dam/substance-3d/general-knowledge/asm/Adobe%20Standard%20Material%20-%20Technical%20Documentation%20-%20May2023.pdf>.
+//! <https://helpx.adobe.com/substance-3d-general/adobe-standard-material.html>.
 //! With 7⁷/6⁶ for the quotient, b = (49/46656) (1 - tint) (7776 + 9031 F0), exactly.
 //! Domain: F0, tint ≥ 0. For tints below .52 the bare formula turns negative (to -.127), and above 1 it can exceed
 //! 1: the result is clamped to [0, max(1, F0)]. Error: [`METHOD`]'s claims.
@@ -12,7 +12,7 @@ use crate::ir::Expr;
 
 use super::hoffman_f82::{dip, limited};
 use super::input::{Input, Inputs};
-use super::method::{Claim, Claims, Class, Contract, Forms, Method, Over};
+use super::method::{Claim, Claims, Class, Contract, Forms, Light, Method, Over};
 use super::schlick::grazing_weight;
 
 /// The record of this method.
@@ -33,19 +33,22 @@ pub static METHOD: Method = Method {
     inputs: &[Input::F0, Input::TINT],
     forms: Forms::Colour,
     class: Class::Any,
+    light: Light::Unpolarised,
     domain: "f0 and tint >= 0; clamped to [0, max(1, f0)]",
     claims: Claims {
         model: &[
             Claim {
                 over: Over::Dielectrics,
                 max_abs: 0.0341,
+                at_degrees: 67.8,
             },
             Claim {
                 over: Over::Metals,
                 max_abs: 0.0837,
+                at_degrees: 87.3,
             },
         ],
-        code_ulp: 4.3,
+        code_ulp: 4.9,
         code_over: Over::Wide,
     },
     contract: Contract::Kept,

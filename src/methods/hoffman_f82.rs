@@ -10,7 +10,7 @@ use crate::cite::Citation;
 use crate::ir::Expr;
 
 use super::input::{Input, Inputs};
-use super::method::{Claim, Claims, Class, Contract, Forms, Method, Over};
+use super::method::{Claim, Claims, Class, Contract, Forms, Light, Method, Over};
 use super::schlick::grazing_weight;
 
 /// 7⁷/6⁶, the reciprocal of the maximum of c (1-c)⁶.
@@ -36,19 +36,22 @@ pub static METHOD: Method = Method {
     inputs: &[Input::F0, Input::F82],
     forms: Forms::Colour,
     class: Class::Any,
+    light: Light::Unpolarised,
     domain: "f0 and f82 >= 0; clamped to [0, max(1, f0)]",
     claims: Claims {
         model: &[
             Claim {
                 over: Over::Dielectrics,
                 max_abs: 0.0341,
+                at_degrees: 67.8,
             },
             Claim {
                 over: Over::Metals,
                 max_abs: 0.0837,
+                at_degrees: 87.3,
             },
         ],
-        code_ulp: 4.6,
+        code_ulp: 4.7,
         code_over: Over::Wide,
     },
     contract: Contract::Kept,

@@ -38,12 +38,12 @@ impl Input {
     pub const ETA: Input = rgb(
         "eta",
         "relative index of refraction, transmitted over incident (n_t / n_i)",
-        "eta > 0",
+        "eta >= 0.001",
     );
     pub const N: Input = rgb(
         "n",
         "real part of the relative index of refraction",
-        "n > 0",
+        "n >= 0.001",
     );
     pub const K: Input = rgb(
         "k",
@@ -78,11 +78,11 @@ impl Input {
     );
     pub const BIAS: Input = scalar("bias", "reflectance at normal incidence", "[0, 1]");
     pub const SCALE: Input = scalar("scale", "what grazing incidence adds", "[0, 1]");
-    pub const POWER: Input = scalar("power", "how late it is added", "power > 0");
+    pub const POWER: Input = scalar("power", "how late it is added", "power >= 0.2");
     pub const EXPONENT: Input = scalar(
         "exponent",
         "how late the curve rises to f90; 5 is Schlick's",
-        "exponent > 0",
+        "exponent >= 0.2",
     );
     pub const LAMBDA: Input = rgb(
         "lambda",

@@ -24,6 +24,8 @@ pub struct Method {
     pub forms: Forms,
     /// Which media it describes.
     pub class: Class,
+    /// Which light it describes.
+    pub light: Light,
     /// Where it holds, and what it does outside.
     pub domain: &'static str,
     /// What it promises.
@@ -61,6 +63,17 @@ pub enum Class {
     Any,
 }
 
+/// The light that a method describes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Light {
+    /// As from most lamps and the sun.
+    Unpolarised,
+    /// Electric field perpendicular to the plane of incidence.
+    S,
+    /// Electric field in the plane of incidence.
+    P,
+}
+
 /// Whether a method keeps the function contract.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Contract {
@@ -87,8 +100,10 @@ pub struct Claims {
 pub struct Claim {
     /// Over which media.
     pub over: Over,
-    /// The promise.
+    /// The promise; 0 where the method is the exact law.
     pub max_abs: f64,
+    /// The angle, in degrees, at which it is worst.
+    pub at_degrees: f64,
 }
 
 /// The sets of media that claims are stated over.
@@ -98,7 +113,7 @@ pub enum Over {
     Dielectrics,
     /// Metals, n 0.05 to 4.5 and k 1.5 to 8.
     Metals,
-    /// From nearly matched to far beyond any material: n 1.0001 to 12, k 0 to 13 (0 for dielectrics).
+    /// From nearly matched to far beyond any material, n 1.0001 to 12 and k 0 to 13 (0 for dielectrics), and metals.
     Wide,
 }
 
@@ -108,7 +123,7 @@ impl Over {
         match self {
             Over::Dielectrics => "eta 1.3 to 2.5",
             Over::Metals => "n 0.05 to 4.5, k 1.5 to 8",
-            Over::Wide => "n 1.0001 to 12, k 0 to 13",
+            Over::Wide => "n 1.0001 to 12 with k 0 to 13, and n 0.05 to 4.5 with k 1.5 to 8",
         }
     }
 }
@@ -125,12 +140,26 @@ impl Method {
 
     /// The function with these constants folded in; inputs that have no value stay arguments.
     pub fn specialise(&self, values: &Values) -> Result<Checked, Fault> {
-        if let Some(better) = self.specialised {
+        let complete = self
+            .inputs
+            .iter()
+            .all(|input| values.contains_key(input.name));
+        if let Some(better) = self.specialised.filter(|_| complete) {
             let (method, values) = better(values);
             return method.specialise(&values);
         }
         let library: Function = (*self.function(false)?).clone();
         check(specialise(&library, values))
+    }
+
+    /// The media that the code error is stated over, in words.
+    pub fn code_media(&self) -> &'static str {
+        let wide_glass = self.class == Class::Dielectric && self.claims.code_over == Over::Wide;
+        if wide_glass {
+            "eta 1.0001 to 12"
+        } else {
+            self.claims.code_over.text()
+        }
     }
 
     /// Whether the method has a scalar form.

@@ -10,7 +10,7 @@ mod limits;
 mod method;
 
 pub use input::{Input, Inputs, find_input};
-pub use method::{Better, Claim, Claims, Class, Contract, Forms, Method, Over, Values};
+pub use method::{Better, Claim, Claims, Class, Contract, Forms, Light, Method, Over, Values};
 
 // BEGIN methods (written by the test `tidy::lists_are_complete` with BLESS=1)
 mod conductor_artistic;

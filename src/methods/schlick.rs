@@ -1,6 +1,6 @@
 //! `F = F0 + (1 - F0) (1 - cos θ)⁵`: Schlick's approximation from the reflectance at normal incidence.
 //!
-//! Source: Schlick, "An Inexpensive BRDF Model for Physically-based Rendering", 1994, eq. 15,
+//! Source: Schlick, "An Inexpensive BRDF Model for Physically-based Rendering", 1994,
 //! <https://doi.org/10.1111/1467-8659.1330233>; eq. 13 of the thesis.
 //! Domain: F0 ≥ 0; above 1 the result lies between 1 and F0. It rises monotonically, so it misses the dip that
 //! metals have near 80 degrees. Error: see [`METHOD`]'s claims.
@@ -9,7 +9,7 @@ use crate::cite::Citation;
 use crate::ir::Expr;
 
 use super::input::{Input, Inputs};
-use super::method::{Claim, Claims, Class, Contract, Forms, Method, Over};
+use super::method::{Claim, Claims, Class, Contract, Forms, Light, Method, Over};
 
 /// Schlick 1994.
 pub const SCHLICK_1994: Citation = Citation {
@@ -29,19 +29,22 @@ pub static METHOD: Method = Method {
     inputs: &[Input::F0],
     forms: Forms::ColourAndScalar,
     class: Class::Any,
+    light: Light::Unpolarised,
     domain: "f0 >= 0; above 1 the result lies between 1 and f0. Misses the minimum of metals near 80 degrees",
     claims: Claims {
         model: &[
             Claim {
                 over: Over::Dielectrics,
                 max_abs: 0.0841,
+                at_degrees: 84.5,
             },
             Claim {
                 over: Over::Metals,
                 max_abs: 0.278,
+                at_degrees: 84.5,
             },
         ],
-        code_ulp: 4.4,
+        code_ulp: 4.6,
         code_over: Over::Wide,
     },
     contract: Contract::Kept,

@@ -2,16 +2,17 @@
 //! that restores the minimum of metals.
 //!
 //! Source: Lazányi and Szirmay-Kalos, "Fresnel Term Approximations for Metals", WSCG, 2005,
-//! <https://hdl.handle.net/11025/11214>. The thesis prints it as eq. 15 without the factor cos θ, and so printed
+//! <https://hdl.handle.net/11025/11214>, which subtracts a cos θ (1 - cos θ)^α with a and α free for each metal; a = 2n
+//! and a matched exponent λ are the choice of the thesis. It prints it as eq. 15 without the factor cos θ, and so printed
 //! F(90°) = 1 - 2n would be negative.
 //! λ is computed per material and channel so that F meets the exact law at a matching angle (81.37 degrees,
 //! cos θ = 0.15). Where no λ does, as in gold's green, the term is dropped: λ ≤ 0 says so.
-//! Domain: n > 0, k ≥ 0; clamped to [0, 1]. Error: [`METHOD`]'s claims.
+//! Domain: n ≥ 0.001, k ≥ 0; clamped to [0, 1]. Error: [`METHOD`]'s claims.
 
 use crate::ir::Expr;
 
 use super::input::{Input, Inputs};
-use super::method::{Claim, Claims, Class, Contract, Forms, Method, Over};
+use super::method::{Claim, Claims, Class, Contract, Forms, Light, Method, Over};
 use super::schlick_rescaled::{LAZANYI_2005, rescaled};
 
 /// The record of this method.
@@ -26,13 +27,15 @@ pub static METHOD: Method = Method {
     inputs: &[Input::N, Input::K, Input::LAMBDA],
     forms: Forms::Colour,
     class: Class::Any,
-    domain: "n > 0, k >= 0; clamped to [0, 1]; lambda <= 0 drops the correction",
+    light: Light::Unpolarised,
+    domain: "n >= 0.001, k >= 0; clamped to [0, 1]; lambda <= 0 drops the correction",
     claims: Claims {
         model: &[Claim {
             over: Over::Metals,
             max_abs: 0.0872,
+            at_degrees: 75.8,
         }],
-        code_ulp: 13.0,
+        code_ulp: 15.0,
         code_over: Over::Wide,
     },
     contract: Contract::Kept,

@@ -9,7 +9,7 @@ use crate::cite::Citation;
 use crate::ir::Expr;
 
 use super::input::{Input, Inputs};
-use super::method::{Claim, Claims, Class, Contract, Forms, Method, Over};
+use super::method::{Claim, Claims, Class, Contract, Forms, Light, Method, Over};
 use super::schlick::grazing_weight;
 
 /// The record of this method.
@@ -27,19 +27,22 @@ pub static METHOD: Method = Method {
     inputs: &[Input::F0, Input::F90],
     forms: Forms::ColourAndScalar,
     class: Class::Any,
+    light: Light::Unpolarised,
     domain: "f0 >= 0, f90 in [0, 1]; the result lies between the two",
     claims: Claims {
         model: &[
             Claim {
                 over: Over::Dielectrics,
                 max_abs: 0.0841,
+                at_degrees: 84.5,
             },
             Claim {
                 over: Over::Metals,
                 max_abs: 0.278,
+                at_degrees: 84.5,
             },
         ],
-        code_ulp: 4.4,
+        code_ulp: 4.6,
         code_over: Over::Wide,
     },
     contract: Contract::Kept,

@@ -2,14 +2,14 @@
 //!
 //! Source: Hoffman, "Generalization of Adobe's Fresnel Model", 2023,
 //! <https://renderwonk.com/publications/gfm/> (its first two terms, as MaterialX names it).
-//! Domain: F0 ≥ 0, F90 in [0, 1], exponent > 0. Error: that of `schlick` at exponent 5 and F90 = 1; the real power
+//! Domain: F0 ≥ 0, F90 in [0, 1], exponent ≥ 0.2 (below, 2^(-126 exponent) shows at normal incidence). Error: that of `schlick` at exponent 5 and F90 = 1; the real power
 //! goes through exp2 and log2, whose own error the code error holds.
 
 use crate::cite::Citation;
 use crate::ir::Expr;
 
 use super::input::{Input, Inputs};
-use super::method::{Claim, Claims, Class, Contract, Forms, Method, Over};
+use super::method::{Claim, Claims, Class, Contract, Forms, Light, Method, Over};
 
 /// The record of this method.
 pub static METHOD: Method = Method {
@@ -26,19 +26,22 @@ pub static METHOD: Method = Method {
     inputs: &[Input::F0, Input::F90, Input::EXPONENT],
     forms: Forms::ColourAndScalar,
     class: Class::Any,
-    domain: "f0 >= 0, f90 in [0, 1], exponent > 0; the result lies between f0 and f90",
+    light: Light::Unpolarised,
+    domain: "f0 >= 0, f90 in [0, 1], exponent >= 0.2; the result lies between f0 and f90",
     claims: Claims {
         model: &[
             Claim {
                 over: Over::Dielectrics,
                 max_abs: 0.0841,
+                at_degrees: 84.5,
             },
             Claim {
                 over: Over::Metals,
                 max_abs: 0.278,
+                at_degrees: 84.5,
             },
         ],
-        code_ulp: 4.1,
+        code_ulp: 4.6,
         code_over: Over::Wide,
     },
     contract: Contract::Kept,

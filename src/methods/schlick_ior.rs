@@ -2,12 +2,12 @@
 //!
 //! Source: Schlick, "An Inexpensive BRDF Model for Physically-based Rendering", 1994,
 //! <https://doi.org/10.1111/1467-8659.1330233>; eq. 7 of the thesis.
-//! Domain: η > 0. Below 1 it misses total reflection altogether. Error: [`METHOD`]'s claim; good for η 1.4 to 2.2.
+//! Domain: η ≥ 0.001. Below 1 it misses total reflection altogether. Error: [`METHOD`]'s claim; good for η 1.4 to 2.2.
 
 use crate::ir::Expr;
 
 use super::input::{Input, Inputs};
-use super::method::{Claim, Claims, Class, Contract, Forms, Method, Over};
+use super::method::{Claim, Claims, Class, Contract, Forms, Light, Method, Over};
 use super::schlick::{SCHLICK_1994, grazing_weight};
 
 /// The record of this method.
@@ -19,11 +19,13 @@ pub static METHOD: Method = Method {
     inputs: &[Input::ETA],
     forms: Forms::ColourAndScalar,
     class: Class::Dielectric,
-    domain: "eta > 0; good for 1.4 to 2.2; below 1 it misses total reflection",
+    light: Light::Unpolarised,
+    domain: "eta >= 0.001; good for 1.4 to 2.2; below 1 it misses total reflection",
     claims: Claims {
         model: &[Claim {
             over: Over::Dielectrics,
             max_abs: 0.0841,
+            at_degrees: 84.5,
         }],
         code_ulp: 6.7,
         code_over: Over::Wide,

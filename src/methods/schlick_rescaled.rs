@@ -2,13 +2,13 @@
 //!
 //! Source: Lazányi and Szirmay-Kalos, "Fresnel Term Approximations for Metals", WSCG, 2005,
 //! <https://hdl.handle.net/11025/11214>; eq. 14 of the thesis.
-//! Domain: n > 0, k ≥ 0. It rises monotonically and so misses the minimum of metals. Error: [`METHOD`]'s claims.
+//! Domain: n ≥ 0.001, k ≥ 0. It rises monotonically and so misses the minimum of metals. Error: [`METHOD`]'s claims.
 
 use crate::cite::Citation;
 use crate::ir::Expr;
 
 use super::input::{Input, Inputs};
-use super::method::{Claim, Claims, Class, Contract, Forms, Method, Over};
+use super::method::{Claim, Claims, Class, Contract, Forms, Light, Method, Over};
 use super::schlick::grazing_weight;
 
 /// Lazányi and Szirmay-Kalos 2005.
@@ -29,19 +29,22 @@ pub static METHOD: Method = Method {
     inputs: &[Input::N, Input::K],
     forms: Forms::Colour,
     class: Class::Any,
-    domain: "n > 0, k >= 0; misses the minimum of metals",
+    light: Light::Unpolarised,
+    domain: "n >= 0.001, k >= 0; misses the minimum of metals",
     claims: Claims {
         model: &[
             Claim {
                 over: Over::Dielectrics,
                 max_abs: 0.0841,
+                at_degrees: 84.5,
             },
             Claim {
                 over: Over::Metals,
                 max_abs: 0.278,
+                at_degrees: 84.5,
             },
         ],
-        code_ulp: 6.7,
+        code_ulp: 7.8,
         code_over: Over::Wide,
     },
     contract: Contract::Kept,

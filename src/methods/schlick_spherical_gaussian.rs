@@ -9,7 +9,7 @@ use crate::cite::Citation;
 use crate::ir::Expr;
 
 use super::input::{Input, Inputs};
-use super::method::{Claim, Claims, Class, Contract, Forms, Method, Over};
+use super::method::{Claim, Claims, Class, Contract, Forms, Light, Method, Over};
 
 /// The record of this method.
 pub static METHOD: Method = Method {
@@ -26,16 +26,19 @@ pub static METHOD: Method = Method {
     inputs: &[Input::F0],
     forms: Forms::ColourAndScalar,
     class: Class::Any,
+    light: Light::Unpolarised,
     domain: "f0 >= 0; at normal incidence the result is f0 + 1.7e-4 (1 - f0)",
     claims: Claims {
         model: &[
             Claim {
                 over: Over::Dielectrics,
                 max_abs: 0.0864,
+                at_degrees: 84.6,
             },
             Claim {
                 over: Over::Metals,
                 max_abs: 0.279,
+                at_degrees: 84.5,
             },
         ],
         code_ulp: 0.0,

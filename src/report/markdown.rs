@@ -1,6 +1,6 @@
 //! The tables of the README, written from the registries so that they cannot drift.
 
-use crate::fit::{Derivation, model_error, values};
+use crate::fit::{Derivation, Truth, model_error, values};
 use crate::materials::{Channels, Material, THESIS_NM};
 use crate::methods::{self, Class, Contract, Method};
 use crate::targets;
@@ -74,7 +74,12 @@ pub fn targets_table() -> String {
         ]
     });
     table(
-        &["target", "what it is", "written by default", "accepted by"],
+        &[
+            "target",
+            "what it is",
+            "written by default",
+            "compilers that can judge it",
+        ],
         rows,
     )
 }
@@ -95,9 +100,6 @@ fn error_cell(method: &'static Method, material: &Material) -> String {
     if method.class == Class::Dielectric && !channels.is_transparent() {
         return "dielectrics only".to_owned();
     }
-    if method.name.ends_with("_s") || method.name.ends_with("_p") {
-        return "polarised".to_owned();
-    }
     match specialised_error(method, &channels) {
         Some((max_abs, _)) if max_abs < 1e-9 => "exact".to_owned(),
         Some((max_abs, mean_rel)) => format!("{max_abs:.4} ({:.2} %)", 100.0 * mean_rel),
@@ -109,7 +111,13 @@ fn specialised_error(method: &Method, channels: &Channels) -> Option<(f64, f64)>
     let function = method
         .specialise(&values(method, channels, &Derivation::default()))
         .ok()?;
-    let error = model_error(&function, channels);
+    let error = model_error(
+        &function,
+        &Truth {
+            channels,
+            light: method.light,
+        },
+    );
     Some((error.max_abs, error.mean_rel))
 }
 

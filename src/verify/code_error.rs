@@ -25,6 +25,9 @@ pub struct CodeError {
 /// 2⁻²²: near a zero (Brewster's angle, the corrected method) ulp have no bound, and only this makes sense.
 pub const ABSOLUTE_FLOOR: f64 = 1.0 / 4_194_304.0;
 
+/// Steps of n and of k over which a library function is tried.
+const STEPS: usize = 72;
+
 impl CodeError {
     const NONE: CodeError = CodeError {
         max_ulp: 0.0,
@@ -69,7 +72,11 @@ pub fn library_code_error(method: &Method, points: usize) -> CodeError {
         .filter(|c| in_domain(method, *c))
         .collect();
     let glass = method.class == Class::Dielectric;
-    let media = media(method.claims.code_over).into_iter();
+    // Below 1 and without absorption there is a critical angle, where the law itself is ill-conditioned.
+    let fits = |channels: &Channels| !glass || channels.n.iter().all(|n| *n >= 1.0);
+    let media = media(method.claims.code_over, STEPS)
+        .into_iter()
+        .filter(fits);
     media.fold(CodeError::NONE, |worst, channels| {
         let channels = if glass {
             Channels {

@@ -8,6 +8,7 @@
 // Conditions: 25 degrees C; absorption left out, as in Table 1 of the thesis
 // Index at 685, 535, 475 nm for red, green, blue, relative to air:
 //   n = (1.331, 1.3336, 1.336), k = (0, 0, 0)
+// Argument: cos_theta, cosine between the normal and the direction to the light or viewer; clamped to [0, 1]
 // Licence of this file: CC0-1.0
 
 #ifndef FRESNEL_WATER_THESIS_MATERIAL_HLSL

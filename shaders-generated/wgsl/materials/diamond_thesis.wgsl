@@ -9,6 +9,7 @@
 // Conditions: room temperature; rounded to two digits in Table 1 of the thesis
 // Index at 685, 535, 475 nm for red, green, blue, relative to air:
 //   n = (2.41, 2.42, 2.43), k = (0, 0, 0)
+// Argument: cos_theta, cosine between the normal and the direction to the light or viewer; clamped to [0, 1]
 // Licence of this file: CC0-1.0
 
 // fresnel_diamond_thesis: the exact law for dielectrics, stable near eta = 1, total reflection included,

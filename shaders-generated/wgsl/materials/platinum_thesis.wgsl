@@ -9,6 +9,7 @@
 // Conditions: a model fit; rounded to two digits in Table 1 of the thesis
 // Index at 685, 535, 475 nm for red, green, blue, relative to air:
 //   n = (2.49, 2.04, 1.9), k = (4.44, 3.63, 3.28)
+// Argument: cos_theta, cosine between the normal and the direction to the light or viewer; clamped to [0, 1]
 // Licence of this file: CC0-1.0
 
 // fresnel_platinum_thesis: the exact law for conductors, stable at small k and at grazing, specialised

@@ -107,6 +107,7 @@ fn narrowed<'b>(builder: &'b Builder, arg: Expr<'b>) -> Expr<'b> {
 
 /// Constants that meet in a product: `(a + b x) c = ac + bc x` and `(b x) c = bc x`; a quotient by a constant
 /// is a product. One operation less each time, and only where the inner step serves nobody else.
+/// The terms of every such sum here have one sign: where `a + b x` cancelled, `ac + bc x` would cancel otherwise.
 pub fn merged<'b>(
     builder: &'b Builder,
     function: &Function,

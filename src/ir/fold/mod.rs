@@ -76,7 +76,7 @@ fn pass(function: &Function) -> Function {
         .collect();
     rebuild(function, &builder, &params, |id, node, args| {
         constant(&builder, node, args)
-            .or_else(|| decided(node, args, &ranges))
+            .or_else(|| decided(function, node, args, &ranges))
             .or_else(|| identity(&builder, node, args))
             .or_else(|| spread(&builder, node, args))
             .or_else(|| merged(&builder, function, &uses, id, args))

@@ -4,10 +4,10 @@ use crate::ir::build::Expr;
 use crate::ir::evaluate::{Column, Value, evaluate_nodes};
 use crate::ir::graph::{Function, Node, Ty};
 use crate::ir::op::Op;
-use crate::num::{Interval, Truth};
+use crate::num::Interval;
 
-/// A guard or a comparison is dropped only where the ranges are apart by this share of their size, so that
-/// rounding in f32 (6e-8) or f16 (5e-4) cannot bring the other side about.
+/// A guard or a comparison is dropped only where the ranges are apart by this share of the largest number in either,
+/// so that rounding, even of a difference whose terms nearly cancel, cannot bring the other side about in f32 (6e-8).
 const MARGIN: f64 = 1e-3;
 /// Into how many parts [0, 1] is cut to find ranges.
 const PIECES: usize = 64;
@@ -45,42 +45,56 @@ fn pieces() -> Vec<Interval> {
 }
 
 /// What the ranges decide: which side of a select, whether a guard acts, which sign an absolute value sees.
-pub fn decided<'b>(node: &Node, args: &[Expr<'b>], ranges: &[Value<Interval>]) -> Option<Expr<'b>> {
+pub fn decided<'b>(
+    function: &Function,
+    node: &Node,
+    args: &[Expr<'b>],
+    ranges: &[Value<Interval>],
+) -> Option<Expr<'b>> {
     let zero = Value::scalar(0.0);
-    let range = |i: usize| &ranges[node.args[i]];
+    let below = |a: usize, b: usize| apart(&ranges[node.args[a]], &ranges[node.args[b]]);
     match node.op {
-        Op::Select => match verdict(range(0)) {
-            Truth::Yes => Some(args[1]),
-            Truth::No => Some(args[2]),
-            Truth::Either => None,
-        },
-        Op::Max if apart(range(1), range(0)) => Some(args[0]),
-        Op::Max if apart(range(0), range(1)) => Some(args[1]),
-        Op::Min if apart(range(0), range(1)) => Some(args[0]),
-        Op::Min if apart(range(1), range(0)) => Some(args[1]),
-        Op::Abs if apart(range(0), &zero) => Some(-args[0]),
-        Op::Abs if apart(&zero, range(0)) => Some(args[0]),
+        Op::Select => chosen(&function.nodes[node.args[0]], args, ranges),
+        Op::Max if below(1, 0) => Some(args[0]),
+        Op::Max if below(0, 1) => Some(args[1]),
+        Op::Min if below(0, 1) => Some(args[0]),
+        Op::Min if below(1, 0) => Some(args[1]),
+        Op::Abs if apart(&ranges[node.args[0]], &zero) => Some(-args[0]),
+        Op::Abs if apart(&zero, &ranges[node.args[0]]) => Some(args[0]),
         _ => None,
     }
 }
 
-/// What a comparison answers in all pieces.
-fn verdict(range: &Value<Interval>) -> Truth {
-    let Value::Bool(answers) = range else {
-        return Truth::Either;
-    };
-    let first = answers.at(0);
-    if answers.all(|answer| answer == first) {
-        first
+/// The side of a select that a comparison always takes.
+fn chosen<'b>(less: &Node, args: &[Expr<'b>], ranges: &[Value<Interval>]) -> Option<Expr<'b>> {
+    let [a, b] = [0, 1].map(|i| &ranges[less.args[i]]);
+    if let (Some(a), Some(b)) = (constant(a), constant(b)) {
+        Some(if a < b { args[1] } else { args[2] })
+    } else if apart(a, b) {
+        Some(args[1])
+    } else if apart(b, a) {
+        Some(args[2])
     } else {
-        Truth::Either
+        None
+    }
+}
+
+/// The number that a scalar is in all pieces, exactly.
+fn constant(range: &Value<Interval>) -> Option<f64> {
+    match range {
+        Value::Scalar(Column::Same(range)) if range.lo() == range.hi() => Some(range.lo()),
+        _ => None,
     }
 }
 
 /// Whether `low` stays below `high` in every channel and piece, by more than rounding can bridge.
 fn apart(low: &Value<Interval>, high: &Value<Interval>) -> bool {
     let below = |low: Interval, high: Interval| {
-        low.hi() < high.lo() - MARGIN * low.hi().abs().max(high.lo().abs())
+        let ends = [low.lo(), low.hi(), high.lo(), high.hi()];
+        let size = ends
+            .into_iter()
+            .fold(0.0, |size: f64, end| size.max(end.abs()));
+        low.hi() < high.lo() - MARGIN * size
     };
     (0..3).all(|i| low.channel(i).all_with(high.channel(i), below))
 }

@@ -30,7 +30,7 @@ pub(super) fn label(value: f64, decimals: usize, unit: &str) -> String {
 }
 
 fn is_exact(value: f64, places: usize) -> bool {
-    let scaled = value * 10f64.powi(places as i32);
+    let scaled = value * libm::exp10(places as f64);
     (scaled - scaled.round()).abs() <= 1e-9 * scaled.abs().max(1.0)
 }
 
@@ -43,9 +43,9 @@ struct Step {
 impl Step {
     /// The round step nearest to `raw`, measured as a ratio.
     fn nearest(raw: f64) -> Step {
-        let exponent = raw.log10().floor() as i32;
+        let exponent = libm::log10(raw).floor() as i32;
         // The bounds are the geometric means of neighbouring digits.
-        let digit = match raw / 10f64.powi(exponent) {
+        let digit = match raw / libm::exp10(f64::from(exponent)) {
             lead if lead < 2f64.sqrt() => 1.0,
             lead if lead < 10f64.sqrt() => 2.0,
             lead if lead < 50f64.sqrt() => 5.0,
@@ -67,7 +67,7 @@ impl Step {
 
     /// One rounding only, so that three steps of 0.1 are 0.3 and nothing else.
     fn times(&self, count: f64) -> f64 {
-        let power = 10f64.powi(self.exponent.abs());
+        let power = libm::exp10(f64::from(self.exponent.abs()));
         if self.exponent < 0 {
             count * self.digit / power
         } else {
