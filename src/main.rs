@@ -1,5 +1,4 @@
 //! The program: parses the command line, runs it, prints. The only place that touches the terminal.
-#![allow(clippy::print_stdout, clippy::print_stderr)]
 
 use std::io::{self, IsTerminal, Write};
 use std::process::ExitCode;
@@ -27,10 +26,15 @@ fn main() -> ExitCode {
             ExitCode::from(printed(&output.stdout, output.code))
         }
         Err(error) => {
-            eprintln!("error: {error}");
+            say(&format!("error: {error}"));
             ExitCode::from(error.exit_code())
         }
     }
+}
+
+/// Says something on stderr. Where that is closed or full there is nobody to tell.
+fn say(line: &str) {
+    let _ = writeln!(io::stderr(), "{line}");
 }
 
 /// Writes to stdout. A reader that has seen enough closes the pipe, and that is no error.
@@ -38,7 +42,7 @@ fn printed(bytes: &[u8], code: u8) -> u8 {
     let mut stdout = io::stdout().lock();
     match stdout.write_all(bytes).and_then(|()| stdout.flush()) {
         Err(error) if error.kind() != io::ErrorKind::BrokenPipe => {
-            eprintln!("error: cannot write to stdout: {error}");
+            say(&format!("error: cannot write to stdout: {error}"));
             2
         }
         _ => code,

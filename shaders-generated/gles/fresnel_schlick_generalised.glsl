@@ -14,8 +14,8 @@
 //   exponent: how late the curve rises to f90; 5 is Schlick's
 // Model error for eta 1.3 to 2.5: at most 0.0841, worst at 84.5 degrees
 // Model error for n 0.05 to 4.5, k 1.5 to 8: at most 0.278, worst at 84.5 degrees
-// Code error for n 1.0001 to 12 with k 0 to 13, and n 0.05 to 4.5 with k 1.5 to 8: at most 4.6 ulp or 2^-22,
-//     unfused f32 against f64
+// Code error for n 1.0001 to 12 with k 0 to 13, and n 0.05 to 4.5 with k 1.5 to 8: at most 5 ulp or 2^-22, unfused
+//     f32 against f64
 // fresnel_schlick_generalised: 15 scalar operations, among them 2 exponentials or logarithms
 // fresnel_schlick_generalised_scalar: 9 scalar operations, among them 2 exponentials or logarithms
 // Licence of this file: CC0-1.0

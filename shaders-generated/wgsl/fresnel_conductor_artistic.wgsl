@@ -13,7 +13,7 @@
 //   reflectivity: reflectance at normal incidence, linear
 //   edge_tint: 1 for the least n that the reflectivity allows, 0 for the most
 // Model error for n 0.05 to 4.5, k 1.5 to 8: none, it is the exact law
-// Code error for n 0.05 to 4.5, k 1.5 to 8: at most 5.1 ulp or 2^-22, unfused f32 against f64
+// Code error for n 0.05 to 4.5, k 1.5 to 8: at most 9.5 ulp or 2^-22, unfused f32 against f64
 // fresnel_conductor_artistic: 206 scalar operations, among them 12 roots, 24 divisions
 // Licence of this file: CC0-1.0
 

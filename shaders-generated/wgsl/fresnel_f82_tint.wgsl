@@ -14,7 +14,7 @@
 //   tint: reflectance at 81.79 degrees over Schlick's value there
 // Model error for eta 1.3 to 2.5: at most 0.0341, worst at 67.8 degrees
 // Model error for n 0.05 to 4.5, k 1.5 to 8: at most 0.0837, worst at 87.3 degrees
-// Code error for n 1.0001 to 12 with k 0 to 13, and n 0.05 to 4.5 with k 1.5 to 8: at most 4.9 ulp or 2^-22,
+// Code error for n 1.0001 to 12 with k 0 to 13, and n 0.05 to 4.5 with k 1.5 to 8: at most 6.5 ulp or 2^-22,
 //     unfused f32 against f64
 // fresnel_f82_tint: 46 scalar operations
 // Licence of this file: CC0-1.0

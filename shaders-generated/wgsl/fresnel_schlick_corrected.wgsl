@@ -14,7 +14,7 @@
 //   k: extinction coefficient, the imaginary part of the relative index
 //   lambda: exponent of the correction; 0 or less where there is none
 // Model error for n 0.05 to 4.5, k 1.5 to 8: at most 0.0872, worst at 75.8 degrees
-// Code error for n 1.0001 to 12 with k 0 to 13, and n 0.05 to 4.5 with k 1.5 to 8: at most 15 ulp or 2^-22,
+// Code error for n 1.0001 to 12 with k 0 to 13, and n 0.05 to 4.5 with k 1.5 to 8: at most 15.5 ulp or 2^-22,
 //     unfused f32 against f64
 // fresnel_schlick_corrected: 67 scalar operations, among them 3 divisions, 4 exponentials or logarithms
 // Licence of this file: CC0-1.0

@@ -45,10 +45,10 @@ pub struct Generate {
     /// Output language, see `fresnel-gen targets`; all means those written by default [default: all]
     #[arg(long, value_delimiter = ',', value_name = "NAME")]
     pub target: Vec<String>,
-    /// Method; see `fresnel-gen methods` [default: all]
+    /// Method, see `fresnel-gen methods` [default: all; for materials the exact one and two Schlicks]
     #[arg(long, value_delimiter = ',', value_name = "NAME")]
     pub method: Vec<String>,
-    /// Material to specialise to: a name, the path of a material file, all or none [default: the thesis's four]
+    /// Material to specialise to: names, paths of material files, all; or none [default: the thesis's four]
     #[arg(long, value_delimiter = ',', value_name = "NAME")]
     pub material: Vec<String>,
     /// What the light comes from: a transparent material's name or file [default: air]
@@ -57,7 +57,7 @@ pub struct Generate {
     /// Goes before every function's name
     #[arg(long, value_name = "TEXT", default_value = "fresnel_")]
     pub prefix: String,
-    /// Degrees at which the corrected Schlick meets the exact law [default: 81.37, cos 0.15]
+    /// Degrees at which the corrected Schlick meets the exact law [default: that of cosine 0.15, 81.373]
     #[arg(long, value_name = "DEGREES", allow_negative_numbers = true)]
     pub matching_angle: Option<f64>,
     /// Folder for the generated tree

@@ -49,6 +49,12 @@ pub fn is_marked(path: &Path) -> bool {
     plain && first_bytes(path).is_ok_and(|head| holds_mark(&head))
 }
 
+/// Is this a plain file that begins as a SPIR-V module does?
+pub fn is_spirv(path: &Path) -> bool {
+    let plain = fs::symlink_metadata(path).is_ok_and(|found| found.is_file());
+    plain && first_bytes(path).is_ok_and(|head| head.starts_with(&[0x03, 0x02, 0x23, 0x07]))
+}
+
 /// Is this the name of a temporary file that a run left behind when it was killed?
 pub fn is_temporary(path: &str) -> bool {
     let name = path.rsplit('/').next().unwrap_or(path);

@@ -58,6 +58,7 @@ pub fn generate_beside(request: &Request, kept: &Kept) -> Result<Generated, Erro
         }
     }
     artifacts.sort_by(|a, b| a.path.cmp(&b.path));
+    check_functions(&artifacts)?;
     Ok(Generated {
         artifacts,
         scope: run.scope(),
@@ -201,11 +202,10 @@ impl<'r> Run<'r> {
             command += &format!(" --method {}", methods.join(","));
         }
         if let Some(subject) = subject {
-            command += &format!(" --material {}", subject.argument);
-            command += &subject
-                .medium
-                .as_ref()
-                .map_or(String::new(), |medium| format!(" --medium {}", medium.name));
+            command += &format!(" --material {}", quoted(&subject.argument));
+            if let Some((argument, _)) = &subject.medium {
+                command += &format!(" --medium {}", quoted(argument));
+            }
         }
         if self.naming != Naming::default() {
             command += &format!(" --prefix {}", self.request.prefix);
@@ -253,6 +253,45 @@ impl<'r> Run<'r> {
             naga: NAGA_VERSION.to_owned(),
             inputs: self.subjects.iter().map(input).collect(),
         }
+    }
+}
+
+/// Refuses two functions of one name in a target: a material called `gold_schlick` meets gold's `schlick` so.
+fn check_functions(artifacts: &[Artifact]) -> Result<(), Error> {
+    let mut seen: BTreeMap<(String, String), &str> = BTreeMap::new();
+    for artifact in artifacts {
+        let suffix = artifact
+            .path
+            .split_once('.')
+            .map_or("", |(_, suffix)| suffix);
+        for function in artifact.detail["functions"]
+            .as_array()
+            .into_iter()
+            .flatten()
+        {
+            let name = function["name"].as_str().unwrap_or("").to_owned();
+            if let Some(other) = seen.insert(
+                (format!("{}.{suffix}", artifact.target), name.clone()),
+                &artifact.path,
+            ) {
+                let what = format!(
+                    "`{name}` would stand in {other} and in {}; rename a material",
+                    artifact.path
+                );
+                return Err(Error::Usage { what });
+            }
+        }
+    }
+    Ok(())
+}
+
+/// A word of a shell's command line.
+fn quoted(word: &str) -> String {
+    let plain = |c: char| c.is_ascii_alphanumeric() || "_-.".contains(c);
+    if word.chars().all(plain) {
+        word.to_owned()
+    } else {
+        format!("'{}'", word.replace('\'', "'\\''"))
     }
 }
 

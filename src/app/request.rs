@@ -134,7 +134,7 @@ impl Request {
         )
     }
 
-    /// The materials read, and each in the medium.
+    /// The materials read, each in the medium, with the text of both files.
     pub fn subjects(&self) -> Result<Vec<(Subject, String)>, Error> {
         let medium = self.medium.as_ref().map(load).transpose()?;
         let sources: Vec<Source> = match &self.materials {
@@ -153,7 +153,8 @@ impl Request {
             .iter()
             .map(|source| {
                 let loaded = load(source)?;
-                let text = loaded.text.clone();
+                let around = medium.as_ref().map_or("", |medium| &medium.text);
+                let text = format!("{}{around}", loaded.text);
                 Ok((self.subject(loaded, medium.as_ref())?, text))
             })
             .collect::<Result<Vec<_>, Error>>()?;
@@ -209,7 +210,7 @@ impl Request {
             name,
             argument: loaded.argument,
             material: loaded.material,
-            medium: medium.map(|medium| medium.material.clone()),
+            medium: medium.map(|medium| (medium.argument.clone(), medium.material.clone())),
             wavelengths_nm: THESIS_NM,
             channels,
             derivation: self.derivation()?,
@@ -252,11 +253,8 @@ pub fn load(source: &Source) -> Result<Loaded, Error> {
     match source {
         Source::Named(name) => {
             let found = materials::find(name).zip(materials::source(name));
-            let all: Vec<&str> = materials::names()
-                .into_iter()
-                .chain(["all", "none"])
-                .collect();
-            let (material, text) = found.ok_or_else(|| unknown("material", name, &all))?;
+            let (material, text) =
+                found.ok_or_else(|| unknown("material", name, &materials::names()))?;
             Ok(Loaded {
                 material: material?,
                 argument: name.clone(),

@@ -12,18 +12,32 @@ use super::request::{Materials, Source};
 /// A material file has at most this many bytes: 10⁶ rows fit.
 const LARGEST: u64 = 64 << 20;
 
-/// The choice that `--material` makes.
+/// The choice that `--material` makes: names, files and `all` together, or `none` alone.
 pub fn materials(names: &[String]) -> Result<Materials, Error> {
-    match names {
-        [] => Ok(Materials::Default),
-        [one] if one == "all" => Ok(Materials::All),
-        [one] if one == "none" => Ok(Materials::None),
-        many => Ok(Materials::These(
-            many.iter()
-                .map(|name| source(name))
-                .collect::<Result<_, _>>()?,
-        )),
+    if names.is_empty() {
+        return Ok(Materials::Default);
     }
+    if names.iter().any(|name| name == "none") {
+        let what =
+            "`none` leaves all materials out, so that no other can be named beside it".to_owned();
+        return if names.len() == 1 {
+            Ok(Materials::None)
+        } else {
+            Err(Error::Usage { what })
+        };
+    }
+    let mut sources = Vec::new();
+    for name in names {
+        match name.as_str() {
+            "all" => sources.extend(
+                materials::names()
+                    .into_iter()
+                    .map(|name| Source::Named(name.to_owned())),
+            ),
+            _ => sources.push(source(name)?),
+        }
+    }
+    Ok(Materials::These(sources))
 }
 
 /// A name of the catalogue, or a file read.

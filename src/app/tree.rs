@@ -108,8 +108,6 @@ struct Known {
     listed: BTreeSet<String>,
     /// The folders in which all files should be ours: targets, and the first part of every path.
     folders: BTreeSet<String>,
-    /// The first part and the extension of every path.
-    extensions: BTreeSet<(String, String)>,
     /// The run removes orphans that no manifest lists.
     whole: bool,
     /// The folder holds a manifest of ours.
@@ -123,15 +121,11 @@ impl Known {
         let parts = || expected.union(&listed).filter_map(|path| first_part(path));
         let folders = parts().map(|(first, _)| first.to_string());
         let folders = folders.chain(scope.targets.iter().cloned()).collect();
-        let extensions = parts()
-            .filter_map(|(first, rest)| Some((first.to_string(), extension(rest)?.to_string())))
-            .collect();
         expected.insert(manifest::FILE.to_string());
         Known {
             expected,
             listed,
             folders,
-            extensions,
             whole: scope.whole,
             has_manifest: old.is_some(),
         }
@@ -148,14 +142,14 @@ impl Known {
         self.whole && in_target && !is_hidden(path)
     }
 
-    /// Has the file a name that only we give? SPIR-V has no comments, so it cannot bear the mark.
-    fn has_our_name(&self, path: &str) -> bool {
-        let Some((first, rest)) = first_part(path) else {
-            return false;
-        };
-        let ours = rest.starts_with("fresnel_") || rest.starts_with("materials/");
-        let extension = extension(rest).map(|found| (first.to_string(), found.to_string()));
-        self.has_manifest && ours && extension.is_some_and(|pair| self.extensions.contains(&pair))
+    /// Has a module a name that only we give? SPIR-V has no comments, so it cannot bear the mark.
+    fn is_our_module(&self, out_dir: &Path, path: &str) -> bool {
+        let rest = first_part(path).map_or("", |(_, rest)| rest);
+        let named = rest.starts_with("fresnel_") || rest.starts_with("materials/");
+        self.has_manifest
+            && named
+            && extension(rest) == Some("spv")
+            && folder::is_spirv(&out_dir.join(path))
     }
 }
 
@@ -199,7 +193,8 @@ fn strays(out_dir: &Path, known: &Known) -> Result<(Vec<String>, Vec<String>), E
         if known.is_recorded(&path) {
             orphans.push(path);
         } else if known.is_of_interest(&path) {
-            let ours = known.has_our_name(&path) || folder::is_marked(&out_dir.join(&path));
+            let ours =
+                known.is_our_module(out_dir, &path) || folder::is_marked(&out_dir.join(&path));
             (if ours { &mut orphans } else { &mut foreign }).push(path);
         }
     }

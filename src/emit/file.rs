@@ -142,6 +142,10 @@ fn detail(target: &Target, index: usize, emitted: &Emitted) -> Value {
     });
     if let Some(error) = &emitted.model_error {
         value["model_error"] = json!(error);
+        if error.mean_rel.is_none() {
+            value["model_error"]["reason"] =
+                json!("a channel reflects nothing, so that no relative error is defined");
+        }
     }
     if target.finish == Finish::Spirv {
         value["entry_point"] = json!(entry_point(index, emitted));

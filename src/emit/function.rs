@@ -51,8 +51,8 @@ pub struct Subject {
     pub argument: String,
     /// The record.
     pub material: Material,
-    /// The medium's record, where it is not air.
-    pub medium: Option<Material>,
+    /// What a user types to get the medium again, and its record, where it is not air.
+    pub medium: Option<(String, Material)>,
     /// The wavelengths of red, green and blue.
     pub wavelengths_nm: [f64; 3],
     /// The relative index per channel.

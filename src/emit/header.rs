@@ -20,11 +20,7 @@ pub fn library(method: &Method, functions: &[Emitted], command: &str) -> Vec<Str
     lines.extend(formula(method));
     lines.push(format!("Source: {}", method.source.line()));
     lines.push(format!("Domain: {}", method.domain));
-    if let Contract::Exempt(why) = method.contract {
-        lines.push(format!(
-            "Kept for comparison, exempt from the contract of the others. It fails: {why}"
-        ));
-    }
+    lines.extend(exemption(method));
     lines.push("Arguments:".to_owned());
     lines.push(
         "  cos_theta: cosine between the normal and the direction to the light or viewer"
@@ -62,6 +58,7 @@ pub fn specialised(emitted: &Emitted) -> Vec<String> {
     )];
     lines.extend(formula(emitted.method));
     lines.push(format!("Source: {}", emitted.method.source.line()));
+    lines.extend(exemption(emitted.method));
     lines.extend(emitted.model_error.iter().map(model_line));
     lines.push(code_line(&emitted.code_ulp));
     lines.push(format!("Cost: {}", operations(emitted)));
@@ -77,6 +74,7 @@ pub fn brief(emitted: &Emitted, subject: Option<&Subject>, command: &str) -> Vec
     ];
     lines.extend(formula(emitted.method));
     lines.push(format!("Source: {}", emitted.method.source.line()));
+    lines.extend(exemption(emitted.method));
     lines.push(format!("Cost: {}.", operations(emitted)));
     lines.extend(emitted.model_error.iter().map(model_line));
     lines.push(format!("{} CC0-1.0.", code_line(&emitted.code_ulp)));
@@ -92,6 +90,16 @@ fn start(command: &str) -> Vec<String> {
     ]
 }
 
+/// What a method that does not keep the contract says.
+fn exemption(method: &Method) -> Option<String> {
+    match method.contract {
+        Contract::Kept => None,
+        Contract::Exempt(why) => Some(format!(
+            "Kept for comparison, exempt from the contract of the others. It fails: {why}"
+        )),
+    }
+}
+
 fn formula(method: &Method) -> impl Iterator<Item = String> {
     method.formula.iter().map(|line| format!("  {line}"))
 }
@@ -102,7 +110,7 @@ fn about(subject: &Subject) -> Vec<String> {
     let medium = subject
         .medium
         .as_ref()
-        .map_or("air".to_owned(), |medium| medium.name.clone());
+        .map_or("air", |(_, medium)| &medium.name);
     let mut lines = vec![
         format!("{}: {}", subject.name, material.summary),
         format!(
@@ -141,14 +149,21 @@ fn claims(method: &Method) -> Vec<String> {
 }
 
 fn model_line(error: &ModelError) -> String {
+    let undefined = match error.undefined {
+        0 => String::new(),
+        _ => "; where it gives no number it is not counted".to_owned(),
+    };
     if error.max_abs < 1e-9 {
-        return "Model error: none, it is the exact law.".to_owned();
+        return format!("Model error: none, it is the exact law{undefined}.");
     }
+    // Rounded up: it says "at most".
+    let most = (error.max_abs * 1e5).ceil() / 1e5;
     let degrees = libm::acos(error.worst_cos).to_degrees();
-    let (max, rel) = (error.max_abs, 100.0 * error.mean_rel);
-    format!(
-        "Model error: at most {max:.5} (at {degrees:.2} degrees), {rel:.2} % in the mean over angles."
-    )
+    let mean = match error.mean_rel {
+        Some(mean) => format!("{:.2} % in the mean over angles", 100.0 * mean),
+        None => "no relative mean, as a channel reflects nothing".to_owned(),
+    };
+    format!("Model error: at most {most:.5} (at {degrees:.2} degrees), {mean}{undefined}.")
 }
 
 fn code_line(measured: &Measured<f64>) -> String {

@@ -29,8 +29,6 @@ struct FunctionView {
     name: String,
     /// The entry point of a module that calls it.
     entry: String,
-    is_colour: bool,
-    arguments: Vec<String>,
 }
 
 #[derive(Serialize)]
@@ -108,13 +106,6 @@ fn function(target: &Target, index: usize, doc: &[String], emitted: &Emitted) ->
         body: print::body(&emitted.function, &target.spelling),
         name: emitted.name.clone(),
         entry: entry_point(index, emitted),
-        is_colour: emitted.form != "scalar",
-        arguments: emitted
-            .function
-            .params
-            .iter()
-            .map(|param| param.name.clone())
-            .collect(),
     }
 }
 

@@ -13,4 +13,4 @@ pub use derive::{Derivation, values};
 pub use lambda::{THESIS_MATCHING_COS, lambda};
 pub use measured::Measured;
 pub use model_error::{ModelError, Truth, model_error, thesis_errors, truth};
-pub use over::{media, model_error_over};
+pub use over::model_error_over;

@@ -14,15 +14,23 @@ pub struct ModelError {
     pub max_abs: f64,
     /// Mean absolute difference, even in angle, mean of the channels.
     pub mean_abs: f64,
-    /// Mean relative difference, even in angle, mean of the channels, as the thesis measures.
-    pub mean_rel: f64,
+    /// Mean relative difference, even in angle, mean of the channels, as the thesis measures; none where a channel
+    /// reflects nothing and the method says otherwise.
+    pub mean_rel: Option<f64>,
     /// The cosine at which the largest difference stands.
     pub worst_cos: f64,
+    /// At how many of the angles the method gave no number; they are left out of the figures above.
+    pub undefined: usize,
 }
 
-/// Angles between 0 and 90 degrees at which errors are taken. The curves are smooth: 2048 find a maximum to 1e-6 of
-/// its value.
+/// Angles between 0 and 90 degrees over which means are taken.
 pub(super) const ANGLES: usize = 2048;
+/// Cosines close to grazing, besides: 2⁻ⁱᐟ⁴, where indices far from 1 have their largest errors.
+const GRAZING: usize = 120;
+/// How often the neighbourhood of the worst angle is searched again, and in how many steps: a maximum is found to 1e-9
+/// of its place, cusps at the critical angle included.
+const REFINEMENTS: usize = 6;
+const STEPS: usize = 32;
 
 /// What a method is held against: the exact law for these channels and this light.
 #[derive(Clone, Copy, Debug)]
@@ -58,42 +66,83 @@ pub fn truth(channels: &Channels, cos_theta: f64) -> [f64; 3] {
 
 /// The model error of a function of `cos_theta` alone.
 pub fn model_error(function: &Checked, truth: &Truth) -> ModelError {
-    let cosines = cosines(ANGLES);
-    let values = evaluate(function, &[Value::each(cosines.clone())]);
-    difference(&values, truth, &cosines)
+    let run = |cosines: &[f64]| {
+        difference(
+            &evaluate(function, &[Value::each(cosines.to_vec())]),
+            truth,
+            cosines,
+        )
+    };
+    let mut error = run(&cosines(ANGLES));
+    let mut reach = libm::acos(error.worst_cos).max(1e-3) / 8.0;
+    for _ in 0..REFINEMENTS {
+        let theta = libm::acos(error.worst_cos);
+        let near = |i: usize| theta + reach * (2.0 * i as f64 / STEPS as f64 - 1.0);
+        let inside = |theta: &f64| (0.0..std::f64::consts::FRAC_PI_2).contains(theta);
+        let close: Vec<f64> = (0..=STEPS)
+            .map(near)
+            .filter(inside)
+            .map(libm::cos)
+            .collect();
+        let again = run(&close);
+        if again.max_abs > error.max_abs {
+            (error.max_abs, error.worst_cos) = (again.max_abs, again.worst_cos);
+        }
+        reach /= STEPS as f64 / 4.0;
+    }
+    error
 }
 
-/// Both ends, and between them the middles of equal steps of angle, over which means are taken.
+/// The middles of equal steps of angle, over which means are taken, and after them both ends and grazing cosines.
 pub(super) fn cosines(angles: usize) -> Vec<f64> {
     let middles = (0..angles).map(|i| cosine(2 * i + 1, 2 * angles));
-    [1.0].into_iter().chain(middles).chain([0.0]).collect()
+    let grazing = (1..GRAZING).map(|i| libm::exp2(-(i as f64) / 4.0));
+    middles.chain([1.0, 0.0]).chain(grazing).collect()
 }
 
-/// Values at these cosines, of which the first and the last are the ends, against the exact law.
+/// Values at these cosines against the exact law; means are over the first [`ANGLES`], or all where there are fewer.
 pub(super) fn difference(values: &Value<f64>, truth: &Truth, cosines: &[f64]) -> ModelError {
     let mut error = ModelError {
         max_abs: 0.0,
         mean_abs: 0.0,
-        mean_rel: 0.0,
+        mean_rel: Some(0.0),
         worst_cos: 1.0,
+        undefined: 0,
     };
-    let last = cosines.len() - 1;
+    let counted = cosines.len().min(ANGLES);
     for (point, cos_theta) in cosines.iter().enumerate() {
-        let weight = if point == 0 || point == last {
-            0.0
+        let weight = if point < counted {
+            1.0 / (3 * counted) as f64
         } else {
-            1.0 / (3 * (last - 1)) as f64
+            0.0
         };
-        for (got, want) in values.at(point).into_iter().zip(truth.at(*cos_theta)) {
-            let difference = (got - want).abs();
-            error.mean_abs += weight * difference;
-            error.mean_rel += weight * difference / want.max(f64::MIN_POSITIVE);
-            if difference > error.max_abs || difference.is_nan() {
-                (error.max_abs, error.worst_cos) = (difference, *cos_theta);
-            }
+        let (got, want) = (values.at(point), truth.at(*cos_theta));
+        if got.iter().any(|got| got.is_nan()) {
+            error.undefined += 1;
+            continue;
+        }
+        for (got, want) in got.into_iter().zip(want) {
+            error.include(got, want, *cos_theta, weight);
         }
     }
     error
+}
+
+impl ModelError {
+    fn include(&mut self, got: f64, want: f64, cos_theta: f64, weight: f64) {
+        let difference = (got - want).abs();
+        self.mean_abs += weight * difference;
+        if difference > 0.0 {
+            let relative = Some(difference / want).filter(|relative| relative.is_finite());
+            self.mean_rel = self
+                .mean_rel
+                .zip(relative)
+                .map(|(mean, relative)| mean + weight * relative);
+        }
+        if difference > self.max_abs {
+            (self.max_abs, self.worst_cos) = (difference, cos_theta);
+        }
+    }
 }
 
 /// The thesis's measure: mean relative difference per channel at `angles` angles, uniform from 0 to 90 degrees

@@ -11,7 +11,7 @@ use super::model_error::{ANGLES, ModelError, Truth, cosines, difference};
 const STEPS: usize = 24;
 
 /// The media of a set in so many steps of n and of k, three to a `Channels`.
-pub fn media(over: Over, steps: usize) -> Vec<Channels> {
+fn media(over: Over, steps: usize) -> Vec<Channels> {
     let points: Vec<(f64, f64)> = match over {
         Over::Dielectrics => (0..=2 * steps)
             .map(|i| (between(1.3, 2.5, i, 2 * steps), 0.0))

@@ -101,7 +101,7 @@ struct Raw {
     link: Spanned<String>,
     #[serde(default)]
     conditions: String,
-    data: Spanned<Vec<Spanned<[Spanned<f64>; 3]>>>,
+    data: Spanned<Vec<Spanned<Vec<Spanned<f64>>>>>,
 }
 
 const FIELDS: [&str; 8] = [
@@ -158,10 +158,20 @@ impl Material {
     }
 }
 
-/// File systems and include guards tell no capital from a small letter, so that `Gold` would meet `gold`.
+/// Why a material cannot have this name: it becomes part of the names of functions and files.
 fn name_fault(name: &str) -> Option<&'static str> {
-    let capital = || name.contains(|c: char| c.is_ascii_uppercase());
-    identifier_fault(name).or_else(|| capital().then_some("capital letters are not allowed"))
+    const LONGEST: usize = 64;
+    if name.len() > LONGEST {
+        Some("it has more than 64 letters")
+    } else if ["aux", "con", "nul", "prn"].contains(&name)
+        || name.starts_with("com") && name.len() == 4
+    {
+        Some("Windows cannot have files of this name")
+    } else if name.chars().any(|c| c.is_ascii_uppercase()) {
+        Some("capital letters are not allowed: on some systems `Gold` and `gold` are one file")
+    } else {
+        identifier_fault(name)
+    }
 }
 
 fn samples(raw: &Raw, at: &impl Fn(usize, String) -> Fault) -> Result<Vec<Sample>, Fault> {
@@ -173,6 +183,13 @@ fn samples(raw: &Raw, at: &impl Fn(usize, String) -> Fault) -> Result<Vec<Sample
     }
     let mut samples: Vec<Sample> = Vec::with_capacity(raw.data.get_ref().len());
     for row in raw.data.get_ref() {
+        if row.get_ref().len() != COLUMNS.len() {
+            let what = format!(
+                "field `data`: a row of {} numbers; it wants [nm, n, k]",
+                row.get_ref().len()
+            );
+            return Err(at(row.span().start, what));
+        }
         for (value, (name, low, high)) in row.get_ref().iter().zip(COLUMNS) {
             let number = *value.get_ref();
             if !(low..=high).contains(&number) {
@@ -255,7 +272,9 @@ mod tests {
         check("\"m\"", "\"Gold 1\"", 1, "field `name`");
         check("\"m\"", "\"Gold\"", 1, "capital letters");
         check("\"r\"", "\" \"", 5, "field `reference` is empty");
-        check("1.4, ", "", 8, "");
+        check("1.4, ", "", 8, "a row of 2 numbers");
+        check("1.4, ", "1.4, 0, ", 8, "a row of 4 numbers");
+        check("\"m\"", "\"con\"", 1, "Windows");
         check(
             "[\n  [475, 1.4, 1.7],\n  [685, 0.2, 3.9],\n]",
             "[]",

@@ -41,7 +41,7 @@ pub static METHOD: Method = Method {
             max_abs: 0.0,
             at_degrees: 0.0,
         }],
-        code_ulp: 5.1,
+        code_ulp: 9.5,
         code_over: Over::Metals,
     },
     contract: Contract::Kept,

@@ -42,7 +42,7 @@ pub static METHOD: Method = Method {
                 at_degrees: 0.0,
             },
         ],
-        code_ulp: 5.3,
+        code_ulp: 7.0,
         code_over: Over::Wide,
     },
     contract: Contract::Kept,

@@ -55,7 +55,7 @@ pub static METHOD: Method = Method {
                 at_degrees: 72.5,
             },
         ],
-        code_ulp: 8.6,
+        code_ulp: 9.0,
         code_over: Over::Metals,
     },
     contract: Contract::Kept,

@@ -40,7 +40,7 @@ pub static METHOD: Method = Method {
     domain: "k > 0 and 0 < cos_theta <= 1",
     claims: Claims {
         model: &[],
-        code_ulp: 5500.0,
+        code_ulp: 6700.0,
         code_over: Over::Wide,
     },
     contract: Contract::Exempt(
@@ -58,18 +58,18 @@ fn build<'b>(x: &Inputs<'b>) -> Expr<'b> {
     let (n2, k2) = (n.squared().named("n2", ""), k.squared().named("k2", ""));
     let t = (n2 - k2 - sin2).named("t", "n^2 - k^2 - sin^2 theta");
     let root = (t.squared() + 4.0 * n2 * k2).sqrt().named("root", "");
-    let a2 = (0.5 * (root + t)).named("a2", "eq. 8");
-    let b2 = (0.5 * (root - t)).named("b2", "eq. 9");
+    let a2 = (0.5 * (root + t)).named("a2", "thesis, eq. 8");
+    let b2 = (0.5 * (root - t)).named("b2", "thesis, eq. 9");
     let a = a2.sqrt().named("a", "");
     let twice = (2.0 * a).named("twice_a", "");
     let sum = (a2 + b2).named("sum", "");
     let across = (twice * c).named("across", "");
-    let f_s = ((sum - across + c2) / (sum + across + c2)).named("f_s", "eq. 10");
+    let f_s = ((sum - across + c2) / (sum + across + c2)).named("f_s", "thesis, eq. 10");
     let sin_tan = (sin * (sin / c)).named("sin_tan", "sin theta tan theta");
     let along = (twice * sin_tan).named("along", "");
     let square = sin_tan.squared().named("square", "");
     let f_p = f_s * ((sum - along + square) / (sum + along + square));
-    0.5 * (f_s + f_p.named("f_p", "eq. 11"))
+    0.5 * (f_s + f_p.named("f_p", "thesis, eq. 11"))
 }
 
 #[cfg(test)]

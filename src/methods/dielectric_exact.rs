@@ -43,7 +43,7 @@ pub static METHOD: Method = Method {
             max_abs: 0.0,
             at_degrees: 0.0,
         }],
-        code_ulp: 5.1,
+        code_ulp: 6.5,
         code_over: Over::Wide,
     },
     contract: Contract::Kept,

@@ -30,7 +30,7 @@ pub static METHOD: Method = Method {
             max_abs: 0.0,
             at_degrees: 0.0,
         }],
-        code_ulp: 8.8,
+        code_ulp: 13.5,
         code_over: Over::Wide,
     },
     contract: Contract::Kept,

@@ -42,7 +42,7 @@ pub static METHOD: Method = Method {
             max_abs: 0.0,
             at_degrees: 0.0,
         }],
-        code_ulp: 7200.0,
+        code_ulp: 11000.0,
         code_over: Over::Wide,
     },
     contract: Contract::Exempt(
@@ -60,8 +60,8 @@ fn build<'b>(x: &Inputs<'b>) -> Expr<'b> {
         .named("root", "cosine of the refracted ray");
     let nr = (n * root).named("n_root", "");
     let nc = (n * c).named("n_cos", "");
-    let r_s = ((c - nr) / (c + nr)).named("r_s", "eq. 1");
-    let r_p = ((root - nc) / (root + nc)).named("r_p", "eq. 2");
+    let r_s = ((c - nr) / (c + nr)).named("r_s", "thesis, eq. 1");
+    let r_p = ((root - nc) / (root + nc)).named("r_p", "thesis, eq. 2");
     0.5 * (r_s.squared() + r_p.squared())
 }
 

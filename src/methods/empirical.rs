@@ -42,7 +42,7 @@ pub static METHOD: Method = Method {
                 at_degrees: 0.0,
             },
         ],
-        code_ulp: 8.1,
+        code_ulp: 9.0,
         code_over: Over::Wide,
     },
     contract: Contract::Kept,
@@ -51,7 +51,7 @@ pub static METHOD: Method = Method {
 };
 
 fn build<'b>(x: &Inputs<'b>) -> Expr<'b> {
-    let m = (1.0 - x.cosine()).named("m", "1 + I.N");
+    let m = (1.0 - x.cosine()).named("m", "1 + I.N, as I.N = -cos_theta");
     (x.get(Input::BIAS) + x.get(Input::SCALE) * m.power(x.get(Input::POWER))).saturate()
 }
 

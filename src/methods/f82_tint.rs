@@ -48,7 +48,7 @@ pub static METHOD: Method = Method {
                 at_degrees: 87.3,
             },
         ],
-        code_ulp: 4.9,
+        code_ulp: 6.5,
         code_over: Over::Wide,
     },
     contract: Contract::Kept,

@@ -51,7 +51,7 @@ pub static METHOD: Method = Method {
                 at_degrees: 87.3,
             },
         ],
-        code_ulp: 4.7,
+        code_ulp: 6.5,
         code_over: Over::Wide,
     },
     contract: Contract::Kept,

@@ -35,7 +35,7 @@ pub static METHOD: Method = Method {
             max_abs: 0.0872,
             at_degrees: 75.8,
         }],
-        code_ulp: 15.0,
+        code_ulp: 15.5,
         code_over: Over::Wide,
     },
     contract: Contract::Kept,

@@ -42,7 +42,7 @@ pub static METHOD: Method = Method {
                 at_degrees: 84.5,
             },
         ],
-        code_ulp: 4.6,
+        code_ulp: 6.0,
         code_over: Over::Wide,
     },
     contract: Contract::Kept,

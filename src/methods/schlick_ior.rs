@@ -27,7 +27,7 @@ pub static METHOD: Method = Method {
             max_abs: 0.0841,
             at_degrees: 84.5,
         }],
-        code_ulp: 6.7,
+        code_ulp: 10.5,
         code_over: Over::Wide,
     },
     contract: Contract::Kept,

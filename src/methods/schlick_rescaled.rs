@@ -44,7 +44,7 @@ pub static METHOD: Method = Method {
                 at_degrees: 84.5,
             },
         ],
-        code_ulp: 7.8,
+        code_ulp: 10.5,
         code_over: Over::Wide,
     },
     contract: Contract::Kept,

@@ -102,12 +102,13 @@ fn error_cell(method: &'static Method, material: &Material) -> String {
     }
     match specialised_error(method, &channels) {
         Some((max_abs, _)) if max_abs < 1e-9 => "exact".to_owned(),
-        Some((max_abs, mean_rel)) => format!("{max_abs:.4} ({:.2} %)", 100.0 * mean_rel),
+        Some((max_abs, Some(mean_rel))) => format!("{max_abs:.4} ({:.2} %)", 100.0 * mean_rel),
+        Some((max_abs, None)) => format!("{max_abs:.4}"),
         None => "not measured".to_owned(),
     }
 }
 
-fn specialised_error(method: &Method, channels: &Channels) -> Option<(f64, f64)> {
+fn specialised_error(method: &Method, channels: &Channels) -> Option<(f64, Option<f64>)> {
     let function = method
         .specialise(&values(method, channels, &Derivation::default()))
         .ok()?;

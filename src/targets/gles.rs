@@ -19,11 +19,11 @@ pub static TARGET: Target = Target {
         head: "highp {type} {name}({params})",
         ..glsl::SPELLING
     },
-    reserved: glsl::RESERVED,
+    reserved: &[glsl::RESERVED],
     reserved_prefixes: &["gl_"],
     pages: &[Page {
         suffix: "",
-        template: include_str!("../../templates/gles.tera"),
+        template: include_str!("../../templates/glsl.tera"),
     }],
     finish: Finish::Text,
     validators: &[Validator {

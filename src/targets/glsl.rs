@@ -13,7 +13,7 @@ pub static TARGET: Target = Target {
     extension: "glsl",
     by_default: false,
     spelling: SPELLING,
-    reserved: RESERVED,
+    reserved: &[RESERVED],
     reserved_prefixes: &["gl_"],
     pages: &[Page {
         suffix: "",
@@ -64,4 +64,5 @@ pub(super) const RESERVED: &[&str] = &[
     "log2", "sqrt", "inversesqrt", "abs", "sign", "floor", "trunc", "round", "ceil", "fract", "mod", "modf", "min",
     "max", "clamp", "mix", "step", "smoothstep", "isnan", "isinf", "fma", "length", "distance", "dot", "cross",
     "normalize", "reflect", "refract", "any", "all", "not", "texture", "transpose", "inverse", "determinant",
+    "sampler", "samplerShadow", "texture1D", "texture2D", "texture3D", "textureCube", "subpassInput",
 ];

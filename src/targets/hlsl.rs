@@ -27,7 +27,7 @@ pub static TARGET: Target = Target {
             (Op::Compose, Form::Call("float3")),
         ],
     },
-    reserved: RESERVED,
+    reserved: &[RESERVED],
     reserved_prefixes: &["SV_"],
     pages: &[Page {
         suffix: "",

@@ -36,7 +36,7 @@ pub static TARGET: Target = Target {
             (Op::Log2, Form::Call("metal::log2")),
         ],
     },
-    reserved: RESERVED,
+    reserved: &[RESERVED],
     reserved_prefixes: &[],
     pages: &[Page {
         suffix: "",

@@ -15,7 +15,11 @@ pub static TARGET: Target = Target {
     extension: "spv",
     by_default: true,
     spelling: wgsl::SPELLING,
-    reserved: naga::keywords::wgsl::RESERVED,
+    reserved: &[
+        naga::keywords::wgsl::RESERVED,
+        naga::keywords::wgsl::BUILTIN_IDENTIFIERS,
+        OWN,
+    ],
     reserved_prefixes: &[],
     pages: &[
         Page {
@@ -34,3 +38,14 @@ pub static TARGET: Target = Target {
         get: "Debian package spirv-tools",
     }],
 };
+
+/// What the templates name themselves.
+const OWN: &[&str] = &[
+    "main",
+    "normal",
+    "direction",
+    "cosines",
+    "reflectances",
+    "parameters",
+    "Parameters",
+];

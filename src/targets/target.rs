@@ -18,7 +18,7 @@ pub struct Target {
     /// How it writes names, types, numbers and operations.
     pub spelling: Spelling,
     /// Words that no name may be.
-    pub reserved: &'static [&'static str],
+    pub reserved: &'static [&'static [&'static str]],
     /// Beginnings that no name may have.
     pub reserved_prefixes: &'static [&'static str],
     /// The page around the functions; a binary target may have several.
@@ -63,7 +63,7 @@ pub struct Validator {
 impl Target {
     /// Why a name cannot be used in this language, if it cannot.
     pub fn name_fault(&self, name: &str) -> Option<String> {
-        if self.reserved.contains(&name) {
+        if self.reserved.iter().any(|words| words.contains(&name)) {
             return Some(format!("`{name}` is a reserved word of {}", self.name));
         }
         let prefix = self

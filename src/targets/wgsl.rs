@@ -13,7 +13,10 @@ pub static TARGET: Target = Target {
     extension: "wgsl",
     by_default: true,
     spelling: SPELLING,
-    reserved: naga::keywords::wgsl::RESERVED,
+    reserved: &[
+        naga::keywords::wgsl::RESERVED,
+        naga::keywords::wgsl::BUILTIN_IDENTIFIERS,
+    ],
     reserved_prefixes: &[],
     pages: &[Page {
         suffix: "",

@@ -3,13 +3,13 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::fit::{Derivation, media, values};
+use crate::fit::{Derivation, values};
 use crate::ir::{Checked, Ty, Value, evaluate};
 use crate::materials::Channels;
-use crate::methods::{Class, Contract, Input, Method};
+use crate::methods::{Class, Contract, Input, Method, Over};
 use crate::num::ulp_distance;
 
-use super::points::cosines;
+use super::points::{Random, cosines};
 
 /// How far the code is from what it means.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -25,8 +25,10 @@ pub struct CodeError {
 /// 2⁻²²: near a zero (Brewster's angle, the corrected method) ulp have no bound, and only this makes sense.
 pub const ABSOLUTE_FLOOR: f64 = 1.0 / 4_194_304.0;
 
-/// Steps of n and of k over which a library function is tried.
-const STEPS: usize = 72;
+/// The seed of the random media.
+const SEED: u64 = 1;
+/// The share of metals among the media of [`Over::Wide`].
+const METALS: f64 = 0.3;
 
 impl CodeError {
     const NONE: CodeError = CodeError {
@@ -61,36 +63,46 @@ pub fn code_error(function: &Checked, points: usize) -> CodeError {
     compare(function, &cosines(points), &[])
 }
 
-/// The code error of a method's library function over the media that its claim names, each with its inputs rounded to
-/// f32, at about `points` cosines.
-pub fn library_code_error(method: &Method, points: usize) -> CodeError {
+/// The code error of a method's library function over so many random media of those that its claim names, at about
+/// `points` cosines each.
+pub fn library_code_error(method: &Method, media: usize, points: usize) -> CodeError {
+    let inside = |c: &f32| in_domain(method, *c);
+    let cosines: Vec<f32> = cosines(points).into_iter().filter(inside).collect();
+    let mut random = Random(SEED);
+    (0..media / 3).fold(CodeError::NONE, |worst, _| {
+        let [a, b, c] = [0; 3].map(|_| medium(method, &mut random));
+        let channels = Channels {
+            n: [a.0, b.0, c.0],
+            k: [a.1, b.1, c.1],
+        };
+        worst.worst(library_code_error_at(method, &channels, &cosines))
+    })
+}
+
+/// The same for one triple of media, at these cosines. The method's inputs are derived and rounded to f32.
+pub fn library_code_error_at(method: &Method, channels: &Channels, cosines: &[f32]) -> CodeError {
     let function = method
         .function(false)
         .expect("every method's function is well formed; a test builds all");
-    let cosines: Vec<f32> = cosines(points)
-        .into_iter()
-        .filter(|c| in_domain(method, *c))
-        .collect();
+    let constants = values(method, channels, &Derivation::default());
+    let single = |input: &Input| constants[input.name].map(|value| value as f32);
+    let arguments: Vec<[f32; 3]> = method.inputs.iter().map(single).collect();
+    compare(&function, cosines, &arguments)
+}
+
+/// n and k of a random medium. Near n = 1 and near k = 0 there are more: that is where formulas break.
+fn medium(method: &Method, random: &mut Random) -> (f64, f64) {
     let glass = method.class == Class::Dielectric;
-    // Below 1 and without absorption there is a critical angle, where the law itself is ill-conditioned.
-    let fits = |channels: &Channels| !glass || channels.n.iter().all(|n| *n >= 1.0);
-    let media = media(method.claims.code_over, STEPS)
-        .into_iter()
-        .filter(fits);
-    media.fold(CodeError::NONE, |worst, channels| {
-        let channels = if glass {
-            Channels {
-                k: [0.0; 3],
-                ..channels
-            }
-        } else {
-            channels
-        };
-        let constants = values(method, &channels, &Derivation::default());
-        let single = |input: &Input| constants[input.name].map(|value| value as f32);
-        let arguments: Vec<[f32; 3]> = method.inputs.iter().map(single).collect();
-        worst.worst(compare(&function, &cosines, &arguments))
-    })
+    let metal = method.claims.code_over == Over::Metals || !glass && random.unit() < METALS;
+    let mut unit = || random.unit();
+    match (metal, glass) {
+        (true, _) => (0.05 * libm::pow(90.0, unit()), 1.5 + 6.5 * unit()),
+        (false, true) => (1.0 + 1e-4 * libm::pow(1.1e5, unit()), 0.0),
+        (false, false) => (
+            1.0 + 1e-4 * libm::pow(1.1e5, unit()),
+            13.0 * libm::pow((unit() - 0.1).max(0.0) / 0.9, 2.0),
+        ),
+    }
 }
 
 /// A textbook method promises nothing at exactly 90 degrees.

@@ -4,5 +4,7 @@
 mod code_error;
 mod points;
 
-pub use code_error::{ABSOLUTE_FLOOR, CodeError, code_error, library_code_error};
+pub use code_error::{
+    ABSOLUTE_FLOOR, CodeError, code_error, library_code_error, library_code_error_at,
+};
 pub use points::cosines;

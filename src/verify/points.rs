@@ -34,7 +34,7 @@ fn edges() -> Vec<f32> {
 
 /// SplitMix64 (Steele, Lea, Flood, "Fast splittable pseudorandom number generators", OOPSLA, 2014,
 /// <https://doi.org/10.1145/2660193.2660195>): small, seeded, the same everywhere.
-struct Random(u64);
+pub(super) struct Random(pub u64);
 
 impl Random {
     fn next(&mut self) -> u64 {
@@ -46,7 +46,7 @@ impl Random {
     }
 
     /// Even in [0, 1).
-    fn unit(&mut self) -> f64 {
+    pub fn unit(&mut self) -> f64 {
         (self.next() >> 11) as f64 / (1u64 << 53) as f64
     }
 }

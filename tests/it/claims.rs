@@ -2,11 +2,13 @@
 //! below nine tenths of it.
 
 use fresnel_gen::fit::model_error_over;
+use fresnel_gen::materials::Channels;
 use fresnel_gen::methods::{self, Contract};
-use fresnel_gen::verify::library_code_error;
+use fresnel_gen::verify::{library_code_error, library_code_error_at};
 
-/// Cosines at which a library function's code error is taken, for each of some 2000 media.
-const POINTS: usize = 1000;
+/// Random media over which a library function's code error is taken, and cosines for each.
+const MEDIA: usize = 6000;
+const POINTS: usize = 800;
 
 /// A model error below this is rounding: the method is exact.
 const EXACT: f64 = 1e-12;
@@ -39,18 +41,41 @@ fn model_errors_are_what_methods_promise() {
     }
 }
 
+/// The worst inputs found so far: media and a cosine for each method.
+fn worst_cases(method: &'static str) -> impl Iterator<Item = (Channels, f32)> {
+    let text = include_str!("../../data/worst-cases/library-code-error.csv");
+    text.lines().filter_map(move |line| {
+        let mut cells = line.strip_prefix(method)?.strip_prefix(',')?.split(',');
+        let mut number = || {
+            cells
+                .next()
+                .and_then(|cell| cell.parse::<f64>().ok())
+                .expect("three numbers a line")
+        };
+        let channels = Channels {
+            n: [number(); 3],
+            k: [number(); 3],
+        };
+        Some((channels, number() as f32))
+    })
+}
+
+/// The promises stand for the worst of a large search, kept in the file, rounded up.
 #[test]
 fn code_errors_are_what_methods_promise() {
     for method in methods::ALL {
-        let error = library_code_error(method, POINTS);
-        let (promised, measured) = (method.claims.code_ulp, error.max_ulp);
+        let searched = library_code_error(method, MEDIA, POINTS).max_ulp;
+        let known = worst_cases(method.name).map(|(channels, cos_theta)| {
+            library_code_error_at(method, &channels, &[cos_theta]).max_ulp
+        });
+        let (promised, measured) = (method.claims.code_ulp, known.fold(searched, f64::max));
         let what = format!(
-            "{}: measured {measured:.2} ulp at cos {:e}, promised {promised}",
-            method.name, error.worst_cos
+            "{}: measured {measured:.2} ulp, promised {promised}",
+            method.name
         );
         assert!(measured <= promised, "exceeded: {what}");
         assert!(
-            measured >= 0.9 * promised,
+            measured >= 0.8 * promised,
             "slack, lower the promise: {what}"
         );
         let kept = method.contract == Contract::Kept;

@@ -102,6 +102,11 @@ fn written(
         .collect();
     write_depfile(flags, &outputs)?;
     let mut output = Output::default();
+    for path in plan.orphans.iter().filter(|_| !flags.quiet) {
+        output
+            .remarks
+            .push(format!("removed: {path}, which is no longer generated"));
+    }
     for path in &plan.foreign {
         output
             .remarks

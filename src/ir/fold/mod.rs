@@ -97,16 +97,26 @@ fn rebuild<'b>(
             (Op::Param, Payload::Index(index)) => arguments[index],
             _ => rewrite(id, node, &args).unwrap_or_else(|| copy(builder, node, &args)),
         };
-        if let Some(label) = node
-            .label
-            .as_ref()
-            .filter(|_| !builder.node(expr.id()).is_leaf())
-        {
-            expr.named(&label.name, &label.why);
+        if let Some(label) = &node.label {
+            name(builder, expr, label);
         }
         exprs.push(expr);
     }
     builder.finish(&function.name, exprs[function.result])
+}
+
+/// Gives a step its name. Where the channels have become equal the name goes to the scalar that is left of them; a
+/// constant that is one number needs none.
+fn name(builder: &Builder, expr: Expr, label: &Label) {
+    let node = builder.node(expr.id());
+    let scalar = if node.op == Op::Splat {
+        builder.expr(node.args[0])
+    } else {
+        expr
+    };
+    if !builder.node(scalar.id()).is_leaf() {
+        scalar.named(&label.name, &label.why);
+    }
 }
 
 fn copy<'b>(builder: &'b Builder, node: &Node, args: &[Expr<'b>]) -> Expr<'b> {
