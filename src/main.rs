@@ -19,10 +19,7 @@ fn main() -> ExitCode {
     }
     match outcome {
         Ok(output) => {
-            output
-                .remarks
-                .iter()
-                .for_each(|remark| eprintln!("{remark}"));
+            output.remarks.iter().for_each(|remark| say(remark));
             ExitCode::from(printed(&output.stdout, output.code))
         }
         Err(error) => {

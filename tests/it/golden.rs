@@ -3,6 +3,7 @@
 use std::path::Path;
 
 use fresnel_gen::app::{Request, check, generate, tree, write};
+use fresnel_gen::methods;
 
 #[test]
 fn the_committed_tree_is_what_a_run_writes() {
@@ -61,6 +62,67 @@ fn generated_text_is_plain() {
                 .map(|line| line.split("//").next().unwrap_or(""))
                 .collect();
             assert!(!code.join("\n").contains(forbidden), "{path}: {forbidden}");
+        }
+    }
+}
+
+/// What each head must say, as the beginning of a comment line.
+#[test]
+fn heads_say_all_that_they_must() {
+    let artifacts = generate(&Request {
+        targets: all(),
+        ..Request::default()
+    })
+    .expect("it generates")
+    .artifacts;
+    for artifact in artifacts
+        .iter()
+        .filter(|artifact| !artifact.path.ends_with(".spv"))
+    {
+        let text = String::from_utf8_lossy(&artifact.bytes);
+        let says = |what: &str| {
+            text.lines()
+                .any(|line| line.trim_start_matches("//").trim_start().starts_with(what))
+        };
+        let mut wanted = vec![
+            "Regenerate: fresnel-gen --target ",
+            "Source: ",
+            "Code error",
+            "Licence of this file: ",
+        ];
+        let polarised_or_textbook = artifact.path.contains("conductor_textbook");
+        if !polarised_or_textbook {
+            wanted.push("Model error");
+        }
+        wanted.push(if artifact.method.is_some() {
+            "Domain: "
+        } else {
+            "Argument: cos_theta"
+        });
+        for what in wanted {
+            assert!(
+                says(what),
+                "{}: no line begins with `{what}`",
+                artifact.path
+            );
+        }
+        assert!(
+            text.contains("scalar operations"),
+            "{}: no cost",
+            artifact.path
+        );
+        let error = text.contains("it is the exact law") || text.contains(" degrees");
+        assert!(
+            error || polarised_or_textbook,
+            "{}: no angle of the worst error",
+            artifact.path
+        );
+        for formula in methods::find(artifact.method.as_deref().unwrap_or(""))
+            .map_or(&[][..], |method| method.formula)
+        {
+            let words: Vec<&str> = formula.split_whitespace().collect();
+            let all = words.iter().all(|word| text.contains(word));
+            assert!(all, "{}: the formula is not there", artifact.path);
         }
     }
 }

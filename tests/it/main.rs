@@ -15,6 +15,7 @@ mod physics;
 mod readme;
 mod reproduce;
 mod reread;
+mod specialise;
 mod tidy;
 mod tree;
 

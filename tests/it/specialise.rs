@@ -1,0 +1,100 @@
+//! The specialiser changes rounding and nothing else: a specialised function against the library function with the same
+//! values, over hard media, in f64 where rounding does not hide a wrong branch, and in f32 where it must stay small.
+
+use fresnel_gen::fit::{Derivation, values};
+use fresnel_gen::ir::{Value, evaluate};
+use fresnel_gen::materials::Channels;
+use fresnel_gen::methods::{self, Class, Contract, Method, Values};
+use fresnel_gen::num::Num;
+
+/// Channels on both sides of every branch, equal and unequal, matched, barely absorbing, far from any material.
+const MEDIA: [([f64; 3], [f64; 3]); 12] = [
+    ([0.23, 0.57, 1.39], [3.94, 2.18, 1.72]),
+    ([1.5, 1.5, 1.5], [0.0, 0.0, 0.0]),
+    ([1.331, 1.3336, 1.336], [0.0, 0.0, 0.0]),
+    ([0.7, 1.0, 1.3], [0.0, 0.0, 0.0]),
+    ([0.7, 0.7, 0.7], [0.0, 0.0, 0.0]),
+    ([4.1, 4.6, 5.2], [0.03, 0.3, 2.4]),
+    ([0.05, 0.13, 1.0], [3.0, 0.1, 1e-6]),
+    ([1.0, 1.0, 1.0], [1.0, 0.5, 4.0]),
+    ([1e-3, 1e3, 1.0], [1.0, 10.0, 1e3]),
+    ([2.0, 2.0, 2.0], [2.0, 2.0, 2.0]),
+    ([1.41, 1.42, 1.0001], [1.0, 1.004, 0.01]),
+    ([1.2, 0.9, 2.4], [1e-20, 1e-3, 1e-41]),
+];
+
+fn run<N: Num>(
+    method: &Method,
+    constants: &Values,
+    cosines: &[f64],
+    specialised: bool,
+) -> Vec<[f64; 3]> {
+    let cos_theta = Value::each(cosines.iter().map(|c| N::from_f64(*c)).collect());
+    let values = if specialised {
+        evaluate::<N>(
+            &method.specialise(constants).expect("it specialises"),
+            &[cos_theta],
+        )
+    } else {
+        let function = method.function(false).expect("it is well formed");
+        let inputs = method.inputs.iter().map(|input| {
+            let value = constants[input.name];
+            if input.ty.channels() == 3 {
+                Value::rgb(value)
+            } else {
+                Value::scalar(value[0])
+            }
+        });
+        evaluate::<N>(
+            &function,
+            &[cos_theta].into_iter().chain(inputs).collect::<Vec<_>>(),
+        )
+    };
+    (0..cosines.len())
+        .map(|point| values.at(point).map(N::to_f64))
+        .collect()
+}
+
+#[test]
+fn only_rounding_changes() {
+    let cosines: Vec<f64> = (0..=200)
+        .map(|i| f64::from(i) / 200.0)
+        .chain([1e-3, 1e-6, -1.0, 2.0])
+        .collect();
+    let kept = methods::ALL
+        .iter()
+        .filter(|method| method.contract == Contract::Kept && method.specialised.is_none());
+    for method in kept {
+        for (n, k) in MEDIA {
+            if method.class == Class::Dielectric && k != [0.0; 3] {
+                continue;
+            }
+            let constants = values(method, &Channels { n, k }, &Derivation::default());
+            let [library, special] =
+                [false, true].map(|special| run::<f64>(method, &constants, &cosines, special));
+            let single = run::<f32>(method, &constants, &cosines, true);
+            for (i, cos_theta) in cosines.iter().enumerate() {
+                for channel in 0..3 {
+                    let (want, got) = (library[i][channel], special[i][channel]);
+                    let what = format!(
+                        "{}({cos_theta}) for n {n:?}, k {k:?}, channel {channel}",
+                        method.name
+                    );
+                    assert!(
+                        (got - want).abs() < 1e-9,
+                        "{what}: {got} specialised, {want} in the library"
+                    );
+                    // Next to a critical angle the law itself is ill-conditioned.
+                    let critical = 1.0 - n[channel] * n[channel];
+                    let ill = n[channel] < 1.0 && (cos_theta * cos_theta - critical).abs() < 0.02;
+                    let tolerance = if ill { 1e-2 } else { 2e-5 };
+                    let single = single[i][channel];
+                    assert!(
+                        (single - want).abs() < tolerance,
+                        "{what}: {single} in f32, {want} in f64"
+                    );
+                }
+            }
+        }
+    }
+}
