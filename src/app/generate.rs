@@ -125,6 +125,7 @@ struct Run<'r> {
 impl<'r> Run<'r> {
     fn new(request: &'r Request) -> Result<Run<'r>, Error> {
         let named = request.resolved_methods()?;
+        request.derivation()?;
         let no_materials = named.is_some() && request.materials == Materials::Default;
         Ok(Run {
             request,

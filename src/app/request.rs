@@ -179,7 +179,8 @@ impl Request {
         }
     }
 
-    fn derivation(&self) -> Result<Derivation, Error> {
+    /// How inputs are derived from a material.
+    pub fn derivation(&self) -> Result<Derivation, Error> {
         match self.matching_angle {
             None => Ok(Derivation::default()),
             Some(degrees) if degrees > 0.0 && degrees < 90.0 => Ok(Derivation {

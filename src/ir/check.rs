@@ -4,7 +4,7 @@
 //! 1. arguments stand before the node that uses them;
 //! 2. the number and the types of arguments fit the operation's signature;
 //! 3. a node carries the payload that its operation wants, in range, and no other;
-//! 4. constants are finite;
+//! 4. constants are finite, in f32 too;
 //! 5. names are identifiers in every language: a letter, then letters, digits and single underscores, none last;
 //! 6. names of arguments and steps are unique in the function;
 //! 7. arguments and the result are numbers, not Bools;
@@ -22,7 +22,7 @@ pub const RULES: [&str; 9] = [
     "arguments stand before their use",
     "arguments fit the signature",
     "the payload fits the operation",
-    "constants are finite",
+    "constants are finite in f32",
     "names are identifiers in every language",
     "names are unique",
     "arguments and result are numbers",
@@ -102,7 +102,7 @@ fn check_payload(function: &Function, node: &Node) -> Result<Option<Ty>, Broken>
     let what = || format!("{:?}", node.payload);
     match (node.op.info().signature, node.payload) {
         (Signature::Number, Payload::Number(value)) => {
-            ensure(value.is_finite(), 4, what).map(|()| None)
+            ensure((value as f32).is_finite(), 4, what).map(|()| None)
         }
         (Signature::Param, Payload::Index(index)) => {
             ensure(index < function.params.len(), 3, what)?;

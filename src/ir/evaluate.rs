@@ -2,6 +2,7 @@
 
 use crate::num::{Num, Truth};
 
+use super::check::Checked;
 use super::graph::{Function, Node};
 use super::op::{Op, Payload};
 
@@ -125,13 +126,13 @@ impl<N: Num> Value<N> {
 }
 
 /// Evaluates a function for these arguments, in the order of its parameters.
-pub fn evaluate<N: Num>(function: &Function, arguments: &[Value<N>]) -> Value<N> {
+pub fn evaluate<N: Num>(function: &Checked, arguments: &[Value<N>]) -> Value<N> {
     let mut values = evaluate_nodes(function, arguments);
     values.swap_remove(function.result)
 }
 
 /// The values of all nodes, for whoever wants to know more than the result.
-pub fn evaluate_nodes<N: Num>(function: &Function, arguments: &[Value<N>]) -> Vec<Value<N>> {
+pub(super) fn evaluate_nodes<N: Num>(function: &Function, arguments: &[Value<N>]) -> Vec<Value<N>> {
     let mut values: Vec<Value<N>> = Vec::with_capacity(function.nodes.len());
     for node in &function.nodes {
         let value = apply(node, &values, arguments);

@@ -28,7 +28,7 @@ mod text;
 
 pub use build::{Builder, Expr};
 pub use check::{Checked, Fault, RULES, check, identifier_fault};
-pub use evaluate::{Column, Value, evaluate, evaluate_nodes};
+pub use evaluate::{Column, Value, evaluate};
 pub use fold::{fold, specialise};
 pub use graph::{Function, Label, Node, NodeId, Param, Ty};
 pub use op::{OPS, Op, OpInfo, Payload, Signature};

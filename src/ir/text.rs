@@ -87,7 +87,7 @@ pub fn parse(text: &str) -> Result<Function, ParseError> {
     let (line, head) = lines
         .next()
         .ok_or_else(|| fault(1, "an empty text; expected `fn name(...) -> type`"))?;
-    let (name, params) = parse_head(line, head)?;
+    let (name, params, ty) = parse_head(line, head)?;
     let mut parser = Parser {
         known: BTreeMap::new(),
         nodes: Vec::new(),
@@ -96,13 +96,21 @@ pub fn parse(text: &str) -> Result<Function, ParseError> {
     for (line, text) in lines {
         if let Some(result) = text.trim().strip_prefix("return ") {
             let result = parser.argument(line, result.trim())?;
-            return Ok(Function {
+            if parser.nodes[result].ty != ty {
+                let what = format!(
+                    "a {} is returned; the head says {}",
+                    parser.nodes[result].ty.name(),
+                    ty.name()
+                );
+                return Err(fault(line, what));
+            }
+            let whole = Function {
                 name,
                 params: parser.params,
                 nodes: parser.nodes,
                 result,
-            }
-            .compact());
+            };
+            return Ok(whole.compact());
         }
         parser.step(line, text)?;
     }
@@ -119,7 +127,7 @@ fn fault(line: usize, what: impl Into<String>) -> ParseError {
     }
 }
 
-fn parse_head(line: usize, head: &str) -> Result<(String, Vec<Param>), ParseError> {
+fn parse_head(line: usize, head: &str) -> Result<(String, Vec<Param>, Ty), ParseError> {
     let wrong = || {
         fault(
             line,
@@ -130,13 +138,15 @@ fn parse_head(line: usize, head: &str) -> Result<(String, Vec<Param>), ParseErro
         .strip_prefix("fn ")
         .and_then(|h| h.split_once('('))
         .ok_or_else(wrong)?;
-    let (inside, _) = rest.split_once(')').ok_or_else(wrong)?;
+    let (inside, returned) = rest.split_once(") -> ").ok_or_else(wrong)?;
+    let number = |name: &str| {
+        [Ty::Scalar, Ty::Rgb]
+            .into_iter()
+            .find(|t| t.name() == name.trim())
+    };
     let param = |text: &str| {
         let (name, ty) = text.split_once(':').ok_or_else(wrong)?;
-        let ty = [Ty::Scalar, Ty::Rgb]
-            .into_iter()
-            .find(|t| t.name() == ty.trim())
-            .ok_or_else(wrong)?;
+        let ty = number(ty).ok_or_else(wrong)?;
         Ok(Param {
             name: name.trim().to_owned(),
             ty,
@@ -147,7 +157,11 @@ fn parse_head(line: usize, head: &str) -> Result<(String, Vec<Param>), ParseErro
         .filter(|p| !p.trim().is_empty())
         .map(param)
         .collect::<Result<_, _>>()?;
-    Ok((name.trim().to_owned(), params))
+    Ok((
+        name.trim().to_owned(),
+        params,
+        number(returned).ok_or_else(wrong)?,
+    ))
 }
 
 struct Parser {

@@ -186,6 +186,20 @@ mod tests {
     }
 
     #[test]
+    fn its_stated_worst_is_its_worst() {
+        let (f0, f82) = (0.72, 0.994);
+        let index = crate::optics::index_from_f0_f82(f0, f82);
+        let error = |c: f64| {
+            let exact = crate::optics::conductor(index.n, index.k, c).unpolarised();
+            (value(&METHOD, c, &[f0, f82]) - exact).abs()
+        };
+        let worst = (0..=100)
+            .map(|i| error(f64::from(i) / 100.0))
+            .fold(0.0, f64::max);
+        assert!((0.0030..0.0038).contains(&worst), "{worst}");
+    }
+
+    #[test]
     fn a_pair_that_no_index_gives_takes_the_nearest() {
         check(&METHOD, 1.0, &[0.04, 0.0], 0.04);
         check(

@@ -83,6 +83,10 @@ impl Num for Half {
         Half::from_f32(self.to_f32().max(other.to_f32()))
     }
 
+    fn inverse_sqrt(self) -> Half {
+        Half::from_f32(1.0 / self.to_f32().sqrt())
+    }
+
     fn sqrt(self) -> Half {
         Half::from_f32(self.to_f32().sqrt())
     }

@@ -39,7 +39,7 @@ impl From<bool> for Truth {
 
 /// A number that a formula computes with.
 ///
-/// Every operation rounds once, to the nearest representable value, except `exp2` and `log2`, and all of
+/// Every operation rounds once, to the nearest representable value, except `inverse_sqrt` (twice), `exp2` and `log2`, and all of
 /// [`Dd`] and [`Interval`], whose errors each implementation states. A comparison with a NaN is
 /// [`Truth::No`]; `min` and `max` return the other operand when one is a NaN, as IEEE 754-2008 `minNum` does.
 pub trait Num:

@@ -54,6 +54,11 @@ fn a_text_that_is_wrong_names_its_line() {
             "0, 1 or 2",
         ),
         (
+            "fn f(x: rgb) -> scalar\n  y = add x 1\n  return y",
+            3,
+            "a rgb is returned",
+        ),
+        (
             "fn f(x: scalar) -> scalar\n  y = add x 1",
             2,
             "without `return`",

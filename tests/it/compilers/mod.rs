@@ -165,3 +165,27 @@ fn methods_of(request: &Request) -> Vec<String> {
     assert!(possible.len() > 3, "{possible:?}");
     possible
 }
+
+/// The validators that the tests of this module call. A target's others are named as not checked.
+const CALLED: [&str; 3] = ["naga", "glslang", "spirv-val"];
+
+#[test]
+fn validators_that_are_not_called_are_named() {
+    for target in targets::ALL {
+        assert!(
+            !target.validators.is_empty(),
+            "{} has no judge",
+            target.name
+        );
+        for validator in target
+            .validators
+            .iter()
+            .filter(|validator| !CALLED.contains(&validator.name))
+        {
+            not_checked(&format!(
+                "{} by {} ({})",
+                target.name, validator.name, validator.get
+            ));
+        }
+    }
+}

@@ -5,8 +5,6 @@ use std::fs;
 
 use tempfile::TempDir;
 
-use crate::not_checked;
-
 use super::{Judgement, Tool, files, joined, text, tree};
 
 const COMPILER: Tool = Tool {
@@ -38,9 +36,6 @@ fn msl_is_accepted_by_a_cpp_compiler() {
     if !COMPILER.is_here("the syntax of msl") {
         return;
     }
-    not_checked(
-        "msl by Metal's own compiler, which is on macOS only; its syntax is, by a C++ compiler",
-    );
     let tree = joined(&tree("msl"));
     let mut units: Vec<String> = files("msl")
         .iter()
