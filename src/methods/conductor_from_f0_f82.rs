@@ -7,8 +7,9 @@
 //! a guess n = n_min + u m √F0 / T(u, √F0), u = m √F0 / (1-F0), whose nine constants were fitted for the least final
 //! error, then one correction of the aim by what the guess missed, from the exact deficit with k eliminated.
 //! Domain: F0 is limited to [0, 0.999]; an F82 that no n and k can give takes the nearest that one can.
-//! Error of the fixed two steps against the exact n and k, measured over F0 .02 to .985: .0004 for metals
-//! (n .05-5, k 1-8, F0 above .3) and semiconductors, none for dielectrics, .0038 at the worst (F0 .72, F82 .994).
+//! Error of the fixed two steps against the exact n and k, scanned over F0 .02 to .985 and every F82 in reach: .00042 for
+//! metals (n .05-5, k 1-8, F0 above .3), .00037 for semiconductors (n 2-5.5, k below 3), none for dielectrics, .0058 at
+//! the worst (F0 .905, F82 .74, an index that no material has).
 //! Specialised to a material, n and k are solved in f64 and this error is gone.
 
 use std::collections::BTreeMap;
@@ -187,7 +188,7 @@ mod tests {
 
     #[test]
     fn its_stated_worst_is_its_worst() {
-        let (f0, f82) = (0.72, 0.994);
+        let (f0, f82) = (0.905, 0.74);
         let index = crate::optics::index_from_f0_f82(f0, f82);
         let error = |c: f64| {
             let exact = crate::optics::conductor(index.n, index.k, c).unpolarised();
@@ -196,7 +197,7 @@ mod tests {
         let worst = (0..=100)
             .map(|i| error(f64::from(i) / 100.0))
             .fold(0.0, f64::max);
-        assert!((0.0030..0.0038).contains(&worst), "{worst}");
+        assert!((0.0055..0.0060).contains(&worst), "{worst}");
     }
 
     #[test]
