@@ -16,6 +16,7 @@
 //   cos_theta: cosine between the normal and the direction to the light or viewer
 //   n: real part of the relative index of refraction
 //   k: extinction coefficient, the imaginary part of the relative index
+// Model error for n 0.05 to 4.5, k 1.5 to 8: none, it is the exact law
 // Code error for n 1.0001 to 12 with k 0 to 13, and n 0.05 to 4.5 with k 1.5 to 8: at most 6700 ulp or 2^-22,
 //     unfused f32 against f64
 // fresnel_conductor_textbook: 99 scalar operations, among them 7 roots, 7 divisions

@@ -11,7 +11,7 @@ use crate::cite::Citation;
 use crate::ir::Expr;
 
 use super::input::{Input, Inputs};
-use super::method::{Claims, Class, Contract, Forms, Light, Method, Over};
+use super::method::{Claim, Claims, Class, Contract, Forms, Light, Method, Over};
 
 /// Principles of Digital Image Synthesis.
 pub const GLASSNER_1995: Citation = Citation {
@@ -39,7 +39,11 @@ pub static METHOD: Method = Method {
     light: Light::Unpolarised,
     domain: "k > 0 and 0 < cos_theta <= 1",
     claims: Claims {
-        model: &[],
+        model: &[Claim {
+            over: Over::Metals,
+            max_abs: 0.0,
+            at_degrees: 0.0,
+        }],
         code_ulp: 6700.0,
         code_over: Over::Wide,
     },
