@@ -17,6 +17,11 @@ use super::Output;
 /// Generates.
 pub fn run(flags: &Generate) -> Result<Output, Error> {
     let request = request(flags)?;
+    if flags.depfile.as_deref() == Some(Path::new("-")) {
+        return Err(Error::Usage {
+            what: "--depfile takes a file; stdout is not one of its places".to_owned(),
+        });
+    }
     if let Some(file) = &flags.output {
         return single(flags, &request, file);
     }

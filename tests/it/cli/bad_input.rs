@@ -89,10 +89,22 @@ fn a_matching_angle_lies_between_0_and_90_degrees() {
             &["between 0 and 90"],
         );
     }
+    place.refused(
+        "--matching-angle 200 --method schlick",
+        &["between 0 and 90"],
+    );
     place.refused("--matching-angle steep", &["--matching-angle"]);
     let ran =
         place.done("--matching-angle 84.26 --material gold_thesis --method schlick_corrected -o -");
     assert!(ran.out.contains("--matching-angle 84.26"), "{ran:?}");
+}
+
+#[test]
+fn choices_that_exclude_each_other_are_refused() {
+    let place = Place::new();
+    place.refused("--material gold_thesis,none", &["no other can be named"]);
+    place.refused("--medium none", &["there is no material `none`"]);
+    place.refused("--target gles --depfile -", &["--depfile takes a file"]);
 }
 
 #[test]
