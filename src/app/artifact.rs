@@ -3,10 +3,11 @@
 use std::collections::BTreeSet;
 
 use serde_json::Value;
-use sha2::{Digest, Sha256};
 
 use super::error::Error;
 use super::manifest;
+
+pub use crate::emit::sha256;
 
 /// One output file, and what the manifest says about it.
 #[derive(Clone, Debug, PartialEq)]
@@ -53,12 +54,6 @@ pub fn check_path(path: &str) -> Result<(), &'static str> {
         return Err("it must be relative, without empty parts, `.` and `..`");
     }
     Ok(())
-}
-
-/// The SHA-256 of these bytes in hexadecimal digits.
-pub fn sha256(bytes: &[u8]) -> String {
-    let digest = Sha256::digest(bytes);
-    digest.iter().map(|byte| format!("{byte:02x}")).collect()
 }
 
 fn is_folder_of_another(path: &str, all: &BTreeSet<&str>) -> bool {

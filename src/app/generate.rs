@@ -36,8 +36,12 @@ pub fn generate(request: &Request) -> Result<Generated, Error> {
 pub fn generate_beside(request: &Request, kept: &Kept) -> Result<Generated, Error> {
     let run = Run::new(request)?;
     let mut artifacts = Vec::new();
+    let mut owners = Owners::default();
     for method in run.named.clone().unwrap_or_else(|| methods::ALL.to_vec()) {
         let functions = emit::library_functions(method, &run.naming)?;
+        for emitted in &functions {
+            owners.claim(&emitted.name, "the library")?;
+        }
         for target in &run.targets {
             let command = run.command(target, Some(&[method.name]), None);
             for file in emit::library(target, method, &functions, &command)? {
@@ -52,13 +56,15 @@ pub fn generate_beside(request: &Request, kept: &Kept) -> Result<Generated, Erro
             let functions = run.specialised(&methods, subject, &mut ready)?;
             let usual = methods == subject.default_methods();
             let command = run.command(target, (!usual).then_some(&methods), Some(subject));
-            for file in emit::material(target, subject, &functions, &command)? {
+            for file in emit::material(target, subject, &functions, &run.naming, &command)? {
                 artifacts.push(artifact(target, file, None, Some(&subject.name)));
             }
         }
+        for emitted in ready.values() {
+            owners.claim(&emitted.name, &format!("material {}", subject.name))?;
+        }
     }
     artifacts.sort_by(|a, b| a.path.cmp(&b.path));
-    check_functions(&artifacts)?;
     Ok(Generated {
         artifacts,
         scope: run.scope(),
@@ -257,33 +263,21 @@ impl<'r> Run<'r> {
     }
 }
 
-/// Refuses two functions of one name in a target: a material called `gold_schlick` meets gold's `schlick` so.
-fn check_functions(artifacts: &[Artifact]) -> Result<(), Error> {
-    let mut seen: BTreeMap<(String, String), &str> = BTreeMap::new();
-    for artifact in artifacts {
-        let suffix = artifact
-            .path
-            .split_once('.')
-            .map_or("", |(_, suffix)| suffix);
-        for function in artifact.detail["functions"]
-            .as_array()
-            .into_iter()
-            .flatten()
-        {
-            let name = function["name"].as_str().unwrap_or("").to_owned();
-            if let Some(other) = seen.insert(
-                (format!("{}.{suffix}", artifact.target), name.clone()),
-                &artifact.path,
-            ) {
-                let what = format!(
-                    "`{name}` would stand in {other} and in {}; rename a material",
-                    artifact.path
-                );
-                return Err(Error::Usage { what });
-            }
+/// Which part of the output holds a function, by its name.
+#[derive(Default)]
+struct Owners(BTreeMap<String, String>);
+
+impl Owners {
+    /// Refuses two functions of one name: a material called `gold_schlick` meets gold's `schlick` so.
+    fn claim(&mut self, name: &str, owner: &str) -> Result<(), Error> {
+        let other = self.0.insert(name.to_owned(), owner.to_owned());
+        match other.filter(|other| other != owner) {
+            None => Ok(()),
+            Some(other) => Err(Error::Usage {
+                what: format!("`{name}` would stand in {other} and in {owner}; rename a material"),
+            }),
         }
     }
-    Ok(())
 }
 
 /// A word of a shell's command line.

@@ -66,6 +66,15 @@ pub enum Source {
     },
 }
 
+impl Source {
+    /// All materials of the catalogue.
+    pub fn catalogue() -> impl Iterator<Item = Source> {
+        materials::names()
+            .into_iter()
+            .map(|name| Source::Named(name.to_owned()))
+    }
+}
+
 /// The materials of a run without `--material`.
 pub const DEFAULT_MATERIALS: [&str; 4] = [
     "diamond_thesis",
@@ -143,10 +152,7 @@ impl Request {
                 .map(|name| Source::Named((*name).to_owned()))
                 .collect(),
             Materials::None => Vec::new(),
-            Materials::All => materials::names()
-                .into_iter()
-                .map(|name| Source::Named(name.to_owned()))
-                .collect(),
+            Materials::All => Source::catalogue().collect(),
             Materials::These(sources) => sources.clone(),
         };
         let mut subjects = sources

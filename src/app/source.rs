@@ -29,11 +29,7 @@ pub fn materials(names: &[String]) -> Result<Materials, Error> {
     let mut sources = Vec::new();
     for name in names {
         match name.as_str() {
-            "all" => sources.extend(
-                materials::names()
-                    .into_iter()
-                    .map(|name| Source::Named(name.to_owned())),
-            ),
+            "all" => sources.extend(Source::catalogue()),
             _ => sources.push(source(name)?),
         }
     }

@@ -42,10 +42,11 @@ pub fn fingerprint(function: &Checked) -> String {
     let mut bare: Function = (**function).clone();
     bare.name = "f".to_owned();
     bare.nodes.iter_mut().for_each(|node| node.label = None);
-    let digest = Sha256::digest(print(&bare).as_bytes());
-    digest
-        .iter()
-        .take(8)
-        .map(|byte| format!("{byte:02x}"))
-        .collect()
+    sha256(print(&bare).as_bytes())[..16].to_owned()
+}
+
+/// The SHA-256 of these bytes in hexadecimal digits.
+pub fn sha256(bytes: &[u8]) -> String {
+    let digest = Sha256::digest(bytes);
+    digest.iter().map(|byte| format!("{byte:02x}")).collect()
 }

@@ -7,7 +7,7 @@ use crate::methods::Method;
 use crate::targets::{Finish, Page, Target};
 
 use super::error::Error;
-use super::function::{Emitted, Subject};
+use super::function::{Emitted, Naming, Subject};
 use super::page::{Request, comments, entry_point, guard, render};
 use super::{header, print};
 
@@ -55,6 +55,7 @@ pub fn material(
     target: &'static Target,
     subject: &Subject,
     functions: &[Emitted],
+    naming: &Naming,
     command: &str,
 ) -> Result<Vec<File>, Error> {
     check_names(target, functions)?;
@@ -64,8 +65,7 @@ pub fn material(
         .map(|f| (comments(target, &header::specialised(f)), f.clone()))
         .collect();
     let stem = format!("materials/{}", subject.name);
-    let prefix = functions[0].name.split(&subject.name).next().unwrap_or("");
-    let unique = format!("{prefix}{}_material", subject.name);
+    let unique = format!("{}{}_material", naming.prefix, subject.name);
     target
         .pages
         .iter()
@@ -138,7 +138,7 @@ fn detail(target: &Target, index: usize, emitted: &Emitted) -> Value {
             Measured::Yes(ulp) => json!({ "max_ulp": ulp }),
             Measured::No(reason) => json!({ "max_ulp": null, "reason": reason }),
         },
-        "licence": "CC0-1.0",
+        "licence": header::OUTPUT_LICENCE,
     });
     if let Some(error) = &emitted.model_error {
         value["model_error"] = json!(error);

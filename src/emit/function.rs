@@ -137,10 +137,7 @@ pub fn specialised_function(
         form: "specialised",
         model_error: Some(model_error(
             &function,
-            &Truth {
-                channels: &subject.channels,
-                light: method.light,
-            },
+            &Truth::of(method, &subject.channels),
         )),
         code_ulp: bounds.of(&function),
         constants,

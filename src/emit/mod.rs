@@ -13,11 +13,11 @@ mod page;
 mod print;
 mod wgsl;
 
-pub use bounds::{Bounds, fingerprint};
+pub use bounds::{Bounds, fingerprint, sha256};
 pub use error::Error;
 pub use file::{File, library, material, single, written_for};
 pub use function::{Emitted, Naming, Subject, library_functions, specialised_function};
-pub use header::MARK;
+pub use header::{MARK, promises};
 
 /// The version of naga that lowers SPIR-V, pinned in Cargo.toml: another one gives other bytes.
 pub const NAGA_VERSION: &str = "30.0.1";

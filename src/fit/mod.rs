@@ -12,5 +12,5 @@ mod over;
 pub use derive::{Derivation, values};
 pub use lambda::{THESIS_MATCHING_COS, lambda};
 pub use measured::Measured;
-pub use model_error::{ModelError, Truth, model_error, thesis_errors, truth};
+pub use model_error::{ModelError, Truth, model_error, thesis_errors};
 pub use over::model_error_over;

@@ -4,7 +4,7 @@ use serde::Serialize;
 
 use crate::ir::{Checked, Value, evaluate};
 use crate::materials::Channels;
-use crate::methods::Light;
+use crate::methods::{Light, Method};
 use crate::optics;
 
 /// How wrong a method is for a material, whatever computes it.
@@ -41,7 +41,15 @@ pub struct Truth<'a> {
     pub light: Light,
 }
 
-impl Truth<'_> {
+impl<'a> Truth<'a> {
+    /// What this method should give for these channels.
+    pub fn of(method: &Method, channels: &'a Channels) -> Truth<'a> {
+        Truth {
+            channels,
+            light: method.light,
+        }
+    }
+
     /// The exact reflectance of each channel at a cosine.
     pub fn at(&self, cos_theta: f64) -> [f64; 3] {
         [0, 1, 2].map(|i| {
@@ -53,15 +61,6 @@ impl Truth<'_> {
             }
         })
     }
-}
-
-/// The exact reflectance of each channel at a cosine, unpolarised.
-pub fn truth(channels: &Channels, cos_theta: f64) -> [f64; 3] {
-    Truth {
-        channels,
-        light: Light::Unpolarised,
-    }
-    .at(cos_theta)
 }
 
 /// The model error of a function of `cos_theta` alone.
@@ -155,12 +154,16 @@ pub fn thesis_errors(
     progress: &mut dyn FnMut(usize),
 ) -> Vec<[f64; 3]> {
     const CHUNK: usize = 4096;
+    let truth = Truth {
+        channels,
+        light: Light::Unpolarised,
+    };
     let mut sums = vec![[0.0; 3]; functions.len()];
     for start in (0..angles).step_by(CHUNK) {
         let cosines: Vec<f64> = (start..(start + CHUNK).min(angles))
             .map(|i| cosine(2 * i + 1, 2 * angles))
             .collect();
-        let want: Vec<[f64; 3]> = cosines.iter().map(|c| truth(channels, *c)).collect();
+        let want: Vec<[f64; 3]> = cosines.iter().map(|c| truth.at(*c)).collect();
         let points = cosines.len();
         let arguments = [Value::each(cosines)];
         for (function, sums) in functions.iter().zip(&mut sums) {

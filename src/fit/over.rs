@@ -10,58 +10,27 @@ use super::model_error::{ANGLES, ModelError, Truth, cosines, difference};
 /// Steps of eta, of n and of k, where model errors are taken over a set.
 const STEPS: usize = 24;
 
-/// The media of a set in so many steps of n and of k, three to a `Channels`.
-fn media(over: Over, steps: usize) -> Vec<Channels> {
+/// The media of a set, three to a `Channels`.
+fn media(over: Over) -> Vec<Channels> {
+    let share = |step: usize, steps: usize| step as f64 / steps as f64;
     let points: Vec<(f64, f64)> = match over {
-        Over::Dielectrics => (0..=2 * steps)
-            .map(|i| (between(1.3, 2.5, i, 2 * steps), 0.0))
+        Over::Dielectrics => (0..=2 * STEPS)
+            .map(|i| over.medium(share(i, 2 * STEPS), 0.0))
             .collect(),
-        Over::Metals => grid(steps)
-            .map(|(i, j)| (geometric(0.05, 4.5, i, steps), between(1.5, 8.0, j, steps)))
+        Over::Metals | Over::Wide => (0..=STEPS)
+            .flat_map(|i| (0..=STEPS).map(move |j| over.medium(share(i, STEPS), share(j, STEPS))))
             .collect(),
-        Over::Wide => {
-            let wide = |(i, j)| {
-                (
-                    1.0 + geometric(1e-4, 11.0, i, steps),
-                    squared(13.0, j, steps),
-                )
-            };
-            let mut all = channels(&grid(steps).map(wide).collect::<Vec<_>>());
-            all.extend(media(Over::Metals, STEPS));
-            return all;
-        }
     };
-    channels(&points)
+    points.chunks(3).map(channels).collect()
 }
 
-fn channels(points: &[(f64, f64)]) -> Vec<Channels> {
-    let three = |three: &[(f64, f64)]| {
-        let point = |i: usize| three[i.min(three.len() - 1)];
-        Channels {
-            n: [0, 1, 2].map(|i| point(i).0),
-            k: [0, 1, 2].map(|i| point(i).1),
-        }
-    };
-    points.chunks(3).map(three).collect()
-}
-
-fn grid(steps: usize) -> impl Iterator<Item = (usize, usize)> {
-    (0..=steps).flat_map(move |i| (0..=steps).map(move |j| (i, j)))
-}
-
-fn between(low: f64, high: f64, step: usize, steps: usize) -> f64 {
-    low + (high - low) * step as f64 / steps as f64
-}
-
-/// Even in the logarithm.
-fn geometric(low: f64, high: f64, step: usize, steps: usize) -> f64 {
-    low * libm::pow(high / low, step as f64 / steps as f64)
-}
-
-/// Denser near 0, where absorption begins to matter.
-fn squared(high: f64, step: usize, steps: usize) -> f64 {
-    let share = step as f64 / steps as f64;
-    high * share * share
+/// Three media, the last one again where there are fewer.
+fn channels(three: &[(f64, f64)]) -> Channels {
+    let point = |i: usize| three[i.min(three.len() - 1)];
+    Channels {
+        n: [0, 1, 2].map(|i| point(i).0),
+        k: [0, 1, 2].map(|i| point(i).1),
+    }
 }
 
 /// The model error of a method's library function over a set of media.
@@ -70,27 +39,14 @@ pub fn model_error_over(method: &Method, over: Over) -> ModelError {
         .function(false)
         .expect("every method's function is well formed; a test builds all");
     let cosines = cosines(ANGLES / 4);
-    let media = media(over, STEPS);
+    let media = media(over);
     let errors = media.iter().map(|channels| {
         let constants = values(method, channels, &Derivation::default());
-        let arguments = method.inputs.iter().map(|input| {
-            let value = constants[input.name];
-            if input.ty.channels() == 3 {
-                Value::rgb(value)
-            } else {
-                Value::scalar(value[0])
-            }
-        });
-        let all: Vec<Value<f64>> = [Value::each(cosines.clone())]
-            .into_iter()
-            .chain(arguments)
-            .collect();
+        let mut arguments = vec![Value::each(cosines.clone())];
+        arguments.extend(method.arguments(&constants));
         difference(
-            &evaluate(&function, &all),
-            &Truth {
-                channels,
-                light: method.light,
-            },
+            &evaluate(&function, &arguments),
+            &Truth::of(method, channels),
             &cosines,
         )
     });

@@ -3,7 +3,8 @@
 use std::collections::BTreeMap;
 
 use crate::cite::Citation;
-use crate::ir::{Builder, Checked, Expr, Fault, Function, check, fold, specialise};
+use crate::ir::{Builder, Checked, Expr, Fault, Function, Ty, Value, check, fold, specialise};
+use crate::num::Num;
 
 use super::input::{Input, Inputs};
 
@@ -118,6 +119,19 @@ pub enum Over {
 }
 
 impl Over {
+    /// A medium of the set, n and k, from two shares in [0, 1]. [`Over::Wide`] is dense where formulas break, near n = 1
+    /// and k = 0; its metals are those of [`Over::Metals`].
+    pub fn medium(self, n_share: f64, k_share: f64) -> (f64, f64) {
+        match self {
+            Over::Dielectrics => (1.3 + 1.2 * n_share, 0.0),
+            Over::Metals => (0.05 * libm::pow(90.0, n_share), 1.5 + 6.5 * k_share),
+            Over::Wide => (
+                1.0 + 1e-4 * libm::pow(1.1e5, n_share),
+                13.0 * k_share * k_share,
+            ),
+        }
+    }
+
     /// The set in words.
     pub fn text(self) -> &'static str {
         match self {
@@ -150,6 +164,15 @@ impl Method {
         }
         let library: Function = (*self.function(false)?).clone();
         check(specialise(&library, values))
+    }
+
+    /// These values as the library function takes them after `cos_theta`; an input without a value is a bug.
+    pub fn arguments<N: Num>(&self, values: &Values) -> Vec<Value<N>> {
+        let argument = |input: &Input| match input.ty {
+            Ty::Rgb => Value::rgb(values[input.name]),
+            _ => Value::scalar(values[input.name][0]),
+        };
+        self.inputs.iter().map(argument).collect()
     }
 
     /// The media that the code error is stated over, in words.

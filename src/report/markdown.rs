@@ -112,13 +112,7 @@ fn specialised_error(method: &Method, channels: &Channels) -> Option<(f64, Optio
     let function = method
         .specialise(&values(method, channels, &Derivation::default()))
         .ok()?;
-    let error = model_error(
-        &function,
-        &Truth {
-            channels,
-            light: method.light,
-        },
-    );
+    let error = model_error(&function, &Truth::of(method, channels));
     Some((error.max_abs, error.mean_rel))
 }
 

@@ -2,7 +2,7 @@
 
 use crate::ir::Op;
 
-use super::spelling::{Form, Spelling};
+use super::spelling::{C_FAMILY, Form, Spelling};
 use super::target::{Finish, Page, Target, Validator};
 
 /// The record of this target.
@@ -29,19 +29,11 @@ pub static TARGET: Target = Target {
 
 /// Shared with GLSL ES.
 pub(super) const SPELLING: Spelling = Spelling {
-    comment: "//",
-    scalar: "float",
-    rgb: "vec3",
-    param: "{type} {name}",
-    local: "{type} {name} = {value};",
-    head: "{type} {name}({params})",
-    suffix: "",
-    mixed_min_max: true,
-    guard: true,
     differs: &[
         (Op::Saturate, Form::CallUnit("clamp")),
         (Op::InverseSqrt, Form::Call("inversesqrt")),
     ],
+    ..C_FAMILY
 };
 
 /// Keywords and words kept for the future, from section 3.6 of GLSL 4.50 and 3.7 of GLSL ES 3.00, and the built-in

@@ -2,7 +2,7 @@
 
 use crate::ir::Op;
 
-use super::spelling::{Form, Spelling};
+use super::spelling::{C_FAMILY, Form, Spelling};
 use super::target::{Finish, Page, Target, Validator};
 
 /// The record of this target.
@@ -13,19 +13,12 @@ pub static TARGET: Target = Target {
     extension: "hlsl",
     by_default: true,
     spelling: Spelling {
-        comment: "//",
-        scalar: "float",
         rgb: "float3",
-        param: "{type} {name}",
-        local: "{type} {name} = {value};",
-        head: "{type} {name}({params})",
-        suffix: "",
-        mixed_min_max: true,
-        guard: true,
         differs: &[
             (Op::Splat, Form::Postfix(".xxx")),
             (Op::Compose, Form::Call("float3")),
         ],
+        ..C_FAMILY
     },
     reserved: &[RESERVED],
     reserved_prefixes: &["SV_"],

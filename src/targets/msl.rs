@@ -3,7 +3,7 @@
 
 use crate::ir::Op;
 
-use super::spelling::{Form, Spelling};
+use super::spelling::{C_FAMILY, Form, Spelling};
 use super::target::{Finish, Page, Target, Validator};
 
 /// The record of this target.
@@ -14,15 +14,10 @@ pub static TARGET: Target = Target {
     extension: "metal",
     by_default: false,
     spelling: Spelling {
-        comment: "//",
-        scalar: "float",
         rgb: "metal::float3",
-        param: "{type} {name}",
-        local: "{type} {name} = {value};",
         head: "inline {type} {name}({params})",
         suffix: "f",
         mixed_min_max: false,
-        guard: true,
         differs: &[
             (Op::Splat, Form::Call("metal::float3")),
             (Op::Compose, Form::Call("metal::float3")),
@@ -35,6 +30,7 @@ pub static TARGET: Target = Target {
             (Op::Exp2, Form::Call("metal::exp2")),
             (Op::Log2, Form::Call("metal::log2")),
         ],
+        ..C_FAMILY
     },
     reserved: &[RESERVED],
     reserved_prefixes: &[],

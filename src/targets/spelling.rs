@@ -66,6 +66,20 @@ pub struct Spelling {
     pub differs: &'static [(Op, Form)],
 }
 
+/// What GLSL, HLSL and MSL share; each says where it differs.
+pub(super) const C_FAMILY: Spelling = Spelling {
+    comment: "//",
+    scalar: "float",
+    rgb: "vec3",
+    param: "{type} {name}",
+    local: "{type} {name} = {value};",
+    head: "{type} {name}({params})",
+    suffix: "",
+    mixed_min_max: true,
+    guard: true,
+    differs: &[],
+};
+
 impl Spelling {
     /// How this language writes an operation.
     pub fn form(&self, op: Op) -> Form {

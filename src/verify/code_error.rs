@@ -29,6 +29,8 @@ pub const ABSOLUTE_FLOOR: f64 = 1.0 / 4_194_304.0;
 const SEED: u64 = 1;
 /// The share of metals among the media of [`Over::Wide`].
 const METALS: f64 = 0.3;
+/// The share of media without absorption among the rest.
+const CLEAR: f64 = 0.1;
 
 impl CodeError {
     const NONE: CodeError = CodeError {
@@ -90,19 +92,20 @@ pub fn library_code_error_at(method: &Method, channels: &Channels, cosines: &[f3
     compare(&function, cosines, &arguments)
 }
 
-/// n and k of a random medium. Near n = 1 and near k = 0 there are more: that is where formulas break.
+/// n and k of a random medium; of [`Over::Wide`]'s some are metals, and some absorb nothing.
 fn medium(method: &Method, random: &mut Random) -> (f64, f64) {
     let glass = method.class == Class::Dielectric;
-    let metal = method.claims.code_over == Over::Metals || !glass && random.unit() < METALS;
-    let mut unit = || random.unit();
-    match (metal, glass) {
-        (true, _) => (0.05 * libm::pow(90.0, unit()), 1.5 + 6.5 * unit()),
-        (false, true) => (1.0 + 1e-4 * libm::pow(1.1e5, unit()), 0.0),
-        (false, false) => (
-            1.0 + 1e-4 * libm::pow(1.1e5, unit()),
-            13.0 * libm::pow((unit() - 0.1).max(0.0) / 0.9, 2.0),
-        ),
+    let over = method.claims.code_over;
+    if over == Over::Metals || !glass && random.unit() < METALS {
+        return Over::Metals.medium(random.unit(), random.unit());
     }
+    let n_share = random.unit();
+    let k_share = if glass {
+        0.0
+    } else {
+        ((random.unit() - CLEAR) / (1.0 - CLEAR)).max(0.0)
+    };
+    over.medium(n_share, k_share)
 }
 
 /// A textbook method promises nothing at exactly 90 degrees.

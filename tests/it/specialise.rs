@@ -37,18 +37,9 @@ fn run<N: Num>(
         )
     } else {
         let function = method.function(false).expect("it is well formed");
-        let inputs = method.inputs.iter().map(|input| {
-            let value = constants[input.name];
-            if input.ty.channels() == 3 {
-                Value::rgb(value)
-            } else {
-                Value::scalar(value[0])
-            }
-        });
-        evaluate::<N>(
-            &function,
-            &[cos_theta].into_iter().chain(inputs).collect::<Vec<_>>(),
-        )
+        let mut arguments = vec![cos_theta];
+        arguments.extend(method.arguments(constants));
+        evaluate::<N>(&function, &arguments)
     };
     (0..cosines.len())
         .map(|point| values.at(point).map(N::to_f64))

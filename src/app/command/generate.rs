@@ -30,7 +30,13 @@ pub fn run(flags: &Generate) -> Result<Output, Error> {
     } else {
         &flags.out_dir
     };
-    let generated = generate_beside(&request, &kept(out_dir)?)?;
+    // Only a run that names methods adds to what a material's file holds.
+    let kept = if flags.method.is_empty() {
+        Kept::new()
+    } else {
+        kept(out_dir)?
+    };
+    let generated = generate_beside(&request, &kept)?;
     if flags.list {
         let names: Vec<String> = generated
             .artifacts

@@ -7,6 +7,7 @@ use crate::app::error::Error;
 use crate::app::names::unknown;
 use crate::app::request::load;
 use crate::app::source::source;
+use crate::emit;
 use crate::materials::{self, Material, Sample};
 use crate::methods::{self, Contract, Method};
 use crate::report::table;
@@ -104,17 +105,7 @@ fn method_text(method: &Method) -> String {
             .iter()
             .map(|i| format!("argument    {}: {}; {}", i.name, i.meaning, i.domain)),
     );
-    for claim in method.claims.model {
-        lines.push(format!(
-            "model error {} for {}",
-            claim.max_abs,
-            claim.over.text()
-        ));
-    }
-    lines.push(format!(
-        "code error  at most {} ulp or 2^-22 in f32 against f64",
-        method.claims.code_ulp
-    ));
+    lines.extend(emit::promises(method));
     if let Contract::Exempt(why) = method.contract {
         lines.push(format!("fails       {why}"));
     }

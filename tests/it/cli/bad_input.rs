@@ -108,6 +108,22 @@ fn choices_that_exclude_each_other_are_refused() {
 }
 
 #[test]
+fn two_functions_of_one_name_are_refused() {
+    let place = Place::new();
+    let gold = fresnel_gen::materials::source("gold_thesis").unwrap();
+    let name = "gold_thesis_schlick_rescaled";
+    std::fs::write(place.path("m.toml"), gold.replacen("gold_thesis", name, 1)).unwrap();
+    place.refused(
+        "--material gold_thesis,m.toml",
+        &[
+            "`fresnel_gold_thesis_schlick_rescaled` would stand in",
+            "rename a material",
+        ],
+    );
+    place.done("--material m.toml --target gles");
+}
+
+#[test]
 fn a_method_that_cannot_describe_the_material_is_refused() {
     let place = Place::new();
     let says = "method `dielectric_exact` cannot be specialised to `gold_thesis`";
