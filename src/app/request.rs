@@ -208,7 +208,7 @@ impl Request {
                 let around = channels_of_medium(&medium.material)?;
                 (
                     format!("{}_in_{}", loaded.material.name, medium.material.name),
-                    own.relative_to(&around),
+                    relative(own, around),
                 )
             }
         };
@@ -223,6 +223,14 @@ impl Request {
             derivation: self.derivation()?,
         })
     }
+}
+
+fn relative(own: Channels, around: Channels) -> Channels {
+    let index = |of: &Channels, i: usize| materials::Index {
+        n: of.n[i],
+        k: of.k[i],
+    };
+    Channels::of([0, 1, 2].map(|i| index(&own, i).relative_to(index(&around, i))))
 }
 
 /// The exact function of a material bears its name alone, where a method's function bears the method's.

@@ -2,7 +2,8 @@
 
 use include_dir::{Dir, include_dir};
 
-use super::file::{Fault, Material};
+use super::file::Fault;
+use super::material::Material;
 
 static FILES: Dir = include_dir!("$CARGO_MANIFEST_DIR/data/materials");
 

@@ -7,74 +7,31 @@
 //! licence = "CC0-1.0"               # of these numbers
 //! reference = "Author, Title, Journal, Year"
 //! link = "https://doi.org/..."
-//! conditions = "room temperature"   # may be left out
+//! # These may be left out:
+//! substance = "gold"                # what it is an alternative measurement of
+//! page = "main/Au/nk/Mine.yml"      # the page of refractiveindex.info that it was taken from
+//! conditions = "room temperature"
+//! note = "why, and what was done to the numbers"
+//! rgb_nm = [685, 535, 475]          # known at these wavelengths of red, green and blue only
 //! # wavelength in nm (ascending), n, k
 //! data = [
-//!   [475, 1.39, 1.72],
-//!   [535, 0.57, 2.18],
-//!   [685, 0.23, 3.94],
+//!   [380, 1.68, 1.94],
+//!   [780, 0.15, 4.74],
 //! ]
 //! ```
+//!
+//! In place of `data`, n and k can stand apart: `n = [[nm, n], …]`, or `n_formula = { number = 2, from_nm = 300,
+//! to_nm = 2500, coefficients = [0, 1.04, …] }` with the formulas of [`super::formula`], which take micrometres; and
+//! `k = [[nm, k], …]`, or nothing where k is 0.
 
 use serde::Deserialize;
 use toml::Spanned;
 
 use crate::ir::identifier_fault;
 
-/// A material as its file tells it.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Material {
-    /// Its one name.
-    pub name: String,
-    /// One line.
-    pub summary: String,
-    /// Metal, semiconductor or dielectric.
-    pub kind: Kind,
-    /// The licence of the numbers.
-    pub licence: String,
-    /// Who measured it.
-    pub reference: String,
-    /// Where to read about it.
-    pub link: String,
-    /// Temperature, film thickness and the like; may be empty.
-    pub conditions: String,
-    /// The measured points, by ascending wavelength.
-    pub samples: Vec<Sample>,
-}
-
-/// The class of a material.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub enum Kind {
-    /// It conducts, and k is large.
-    Metal,
-    /// In between.
-    Semiconductor,
-    /// It is transparent, k is 0 or nearly.
-    Dielectric,
-}
-
-impl Kind {
-    /// The name in files and reports.
-    pub fn name(self) -> &'static str {
-        match self {
-            Kind::Metal => "metal",
-            Kind::Semiconductor => "semiconductor",
-            Kind::Dielectric => "dielectric",
-        }
-    }
-}
-
-/// The index of refraction at one wavelength.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Sample {
-    /// Vacuum wavelength in nanometres.
-    pub nm: f64,
-    /// Real part.
-    pub n: f64,
-    /// Extinction coefficient.
-    pub k: f64,
-}
+use super::dispersion::{Curve, Point};
+use super::formula::{Formula, NUMBERS};
+use super::material::{Kind, Material};
 
 /// What is wrong with a material file, and where.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
@@ -90,6 +47,9 @@ pub struct Fault {
     pub what: String,
 }
 
+type Row = Spanned<Vec<Spanned<f64>>>;
+type Rows = Spanned<Vec<Row>>;
+
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 struct Raw {
@@ -99,67 +59,122 @@ struct Raw {
     licence: Spanned<String>,
     reference: Spanned<String>,
     link: Spanned<String>,
+    substance: Option<Spanned<String>>,
+    #[serde(default)]
+    page: String,
     #[serde(default)]
     conditions: String,
-    data: Spanned<Vec<Spanned<Vec<Spanned<f64>>>>>,
+    #[serde(default)]
+    note: String,
+    rgb_nm: Option<Spanned<[f64; 3]>>,
+    data: Option<Rows>,
+    n: Option<Rows>,
+    k: Option<Rows>,
+    n_formula: Option<Spanned<RawFormula>>,
 }
 
-const FIELDS: [&str; 8] = [
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct RawFormula {
+    number: u8,
+    from_nm: f64,
+    to_nm: f64,
+    coefficients: Vec<f64>,
+}
+
+const FIELDS: [&str; 15] = [
     "name",
     "summary",
     "class",
     "licence",
     "reference",
     "link",
+    "substance",
+    "page",
     "conditions",
+    "note",
+    "rgb_nm",
     "data",
+    "n",
+    "k",
+    "n_formula",
 ];
 
-/// A row's columns: name, least value, greatest value. 1 nm to 1 mm covers all of optics; no index measured
-/// there comes near 1e4. Below n = 0.001 the exact forms lose their last digits in f32.
-const COLUMNS: [(&str, f64, f64); 3] = [
-    ("wavelength_nm", 1.0, 1e6),
-    ("n", 1e-3, 1e4),
-    ("k", 0.0, 1e4),
-];
+/// What a number in a row is: name, least value, greatest value.
+type Column = (&'static str, f64, f64);
+/// 1 nm to 1 mm covers all of optics.
+const NM: Column = ("wavelength_nm", 1.0, 1e6);
+/// No index measured there comes near 1e4. Below 0.001 the exact forms lose their last digits in f32.
+const N: Column = ("n", 1e-3, 1e4);
+/// The same limit; a k below 0 would be gain.
+const K: Column = ("k", 0.0, 1e4);
+/// The longest formula of refractiveindex.info has 17.
+const MOST_COEFFICIENTS: usize = 64;
+
+/// Where in a text a fault stands: made once, so that every check is short.
+struct Place<'a> {
+    file: &'a str,
+    text: &'a str,
+}
 
 impl Material {
     /// Reads a material file. `file` is only for messages.
     pub fn parse(file: &str, text: &str) -> Result<Material, Fault> {
-        let at = |offset: usize, what: String| fault(file, text, offset, what);
-        let raw: Raw = toml::from_str(text).map_err(|error| syntax_fault(file, text, &error))?;
-        if let Some(why) = name_fault(raw.name.get_ref()) {
-            let what = format!("field `name`: `{}` is no name: {why}", raw.name.get_ref());
-            return Err(at(raw.name.span().start, what));
+        let place = Place { file, text };
+        let raw: Raw = toml::from_str(text).map_err(|error| place.syntax(&error))?;
+        check_name("name", &raw.name, &place)?;
+        if let Some(substance) = &raw.substance {
+            check_name("substance", substance, &place)?;
         }
-        let texts = [&raw.summary, &raw.licence, &raw.reference, &raw.link];
-        for (name, field) in ["summary", "licence", "reference", "link"]
-            .into_iter()
-            .zip(texts)
-        {
+        let texts = [
+            ("summary", &raw.summary),
+            ("licence", &raw.licence),
+            ("reference", &raw.reference),
+            ("link", &raw.link),
+        ];
+        for (name, field) in texts {
             if field.get_ref().trim().is_empty() {
-                return Err(at(
-                    field.span().start,
-                    format!("field `{name}` is empty; it wants text"),
-                ));
+                let what = format!("field `{name}` is empty; it wants text");
+                return Err(place.fault(field.span().start, what));
             }
         }
-        let samples = samples(&raw, &at)?;
+        let rgb_nm = raw
+            .rgb_nm
+            .as_ref()
+            .map(|rgb| place.three(rgb))
+            .transpose()?;
+        let (n, k) = curves(&raw, &place)?;
+        let name = raw.name.into_inner();
         Ok(Material {
-            name: raw.name.into_inner(),
+            substance: raw.substance.map_or(name.clone(), Spanned::into_inner),
+            name,
             summary: raw.summary.into_inner(),
             kind: raw.class,
             licence: raw.licence.into_inner(),
             reference: raw.reference.into_inner(),
             link: raw.link.into_inner(),
+            page: raw.page,
             conditions: raw.conditions,
-            samples,
+            note: raw.note,
+            rgb_nm,
+            n,
+            k,
         })
     }
 }
 
+fn check_name(field: &str, name: &Spanned<String>, place: &Place) -> Result<(), Fault> {
+    match name_fault(name.get_ref()) {
+        None => Ok(()),
+        Some(why) => {
+            let what = format!("field `{field}`: `{}` is no name: {why}", name.get_ref());
+            Err(place.fault(name.span().start, what))
+        }
+    }
+}
+
 /// Why a material cannot have this name: it becomes part of the names of functions and files.
-fn name_fault(name: &str) -> Option<&'static str> {
+pub fn name_fault(name: &str) -> Option<&'static str> {
     const LONGEST: usize = 64;
     if name.len() > LONGEST {
         Some("it has more than 64 letters")
@@ -174,67 +189,153 @@ fn name_fault(name: &str) -> Option<&'static str> {
     }
 }
 
-fn samples(raw: &Raw, at: &impl Fn(usize, String) -> Fault) -> Result<Vec<Sample>, Fault> {
-    if raw.data.get_ref().is_empty() {
-        return Err(at(
-            raw.data.span().start,
-            "field `data` is empty; it wants rows of [nm, n, k]".to_owned(),
-        ));
-    }
-    let mut samples: Vec<Sample> = Vec::with_capacity(raw.data.get_ref().len());
-    for row in raw.data.get_ref() {
-        if row.get_ref().len() != COLUMNS.len() {
-            let what = format!(
-                "field `data`: a row of {} numbers; it wants [nm, n, k]",
-                row.get_ref().len()
-            );
-            return Err(at(row.span().start, what));
+/// n and k: together in `data`, or apart.
+fn curves(raw: &Raw, place: &Place) -> Result<(Curve, Option<Curve>), Fault> {
+    let table = |rows: &Rows, field, column| {
+        Ok(Curve::Table(pick(
+            &place.rows(rows, field, &[NM, column])?,
+            1,
+        )))
+    };
+    match (&raw.data, &raw.n, &raw.n_formula) {
+        (Some(data), None, None) if raw.k.is_none() => {
+            let rows = place.rows(data, "data", &[NM, N, K])?;
+            Ok((
+                Curve::Table(pick(&rows, 1)),
+                Some(Curve::Table(pick(&rows, 2))),
+            ))
         }
-        for (value, (name, low, high)) in row.get_ref().iter().zip(COLUMNS) {
-            let number = *value.get_ref();
-            if !(low..=high).contains(&number) {
+        (None, n, formula) if n.is_some() != formula.is_some() => {
+            let n = match (n, formula) {
+                (Some(n), _) => table(n, "n", N)?,
+                (None, formula) => Curve::Formula(place.formula(formula.as_ref())?),
+            };
+            Ok((n, raw.k.as_ref().map(|k| table(k, "k", K)).transpose()?))
+        }
+        _ => {
+            let what = "the index is wanted once: `data` alone, or one of `n` and `n_formula`, with `k` where it absorbs";
+            Err(place.fault(0, what.to_owned()))
+        }
+    }
+}
+
+/// One column of checked rows, by wavelength.
+fn pick(rows: &[Vec<f64>], column: usize) -> Vec<Point> {
+    let point = |row: &Vec<f64>| Point {
+        nm: row[0],
+        value: row[column],
+    };
+    rows.iter().map(point).collect()
+}
+
+impl Place<'_> {
+    /// Rows of numbers inside their columns' limits, by ascending wavelength.
+    fn rows(&self, rows: &Rows, field: &str, columns: &[Column]) -> Result<Vec<Vec<f64>>, Fault> {
+        let wanted = columns
+            .iter()
+            .map(|(name, ..)| *name)
+            .collect::<Vec<_>>()
+            .join(", ");
+        if rows.get_ref().is_empty() {
+            let what = format!("field `{field}` is empty; it wants rows of [{wanted}]");
+            return Err(self.fault(rows.span().start, what));
+        }
+        let mut read: Vec<Vec<f64>> = Vec::with_capacity(rows.get_ref().len());
+        for row in rows.get_ref() {
+            let numbers = self.row(row, field, columns, &wanted)?;
+            if let Some(last) = read.last().filter(|last| last[0] >= numbers[0]) {
                 let what = format!(
-                    "field `data`: {name} is {number}; it must lie between {low} and {high}"
+                    "field `{field}`: {} nm after {} nm; wavelengths must ascend, each once",
+                    numbers[0], last[0]
                 );
-                return Err(at(value.span().start, what));
+                return Err(self.fault(row.span().start, what));
+            }
+            read.push(numbers);
+        }
+        Ok(read)
+    }
+
+    fn row(
+        &self,
+        row: &Row,
+        field: &str,
+        columns: &[Column],
+        wanted: &str,
+    ) -> Result<Vec<f64>, Fault> {
+        if row.get_ref().len() != columns.len() {
+            let found = row.get_ref().len();
+            let what = format!("field `{field}`: a row of {found} numbers; it wants [{wanted}]");
+            return Err(self.fault(row.span().start, what));
+        }
+        for (value, (name, low, high)) in row.get_ref().iter().zip(columns) {
+            let number = *value.get_ref();
+            if !(*low..=*high).contains(&number) {
+                let what = format!(
+                    "field `{field}`: {name} is {number}; it must lie between {low} and {high}"
+                );
+                return Err(self.fault(value.span().start, what));
             }
         }
-        let [nm, n, k] = [0, 1, 2].map(|i| *row.get_ref()[i].get_ref());
-        if let Some(last) = samples.last().filter(|last| last.nm >= nm) {
-            let what = format!(
-                "field `data`: {nm} nm after {} nm; wavelengths must ascend, each once",
-                last.nm
-            );
-            return Err(at(row.span().start, what));
+        Ok(row.get_ref().iter().map(|value| *value.get_ref()).collect())
+    }
+
+    /// A formula whose numbers are all there.
+    fn formula(&self, raw: Option<&Spanned<RawFormula>>) -> Result<Formula, Fault> {
+        let raw = raw.expect("`curves` has seen that there is a formula");
+        let fields = raw.get_ref();
+        let (_, low, high) = NM;
+        let what = if !NUMBERS.contains(&fields.number) {
+            format!("there is no formula {}; there are 1 to 9", fields.number)
+        } else if !(low <= fields.from_nm && fields.from_nm < fields.to_nm && fields.to_nm <= high)
+        {
+            format!("the range must ascend between {low} and {high} nm")
+        } else if fields.coefficients.len() > MOST_COEFFICIENTS
+            || fields.coefficients.iter().any(|c| !c.is_finite())
+        {
+            format!("the coefficients must be finite, and at most {MOST_COEFFICIENTS}")
+        } else {
+            return Ok(Formula {
+                number: fields.number,
+                coefficients: fields.coefficients.clone(),
+                from_nm: fields.from_nm,
+                to_nm: fields.to_nm,
+            });
+        };
+        Err(self.fault(raw.span().start, format!("field `n_formula`: {what}")))
+    }
+
+    /// Three wavelengths in their limits.
+    fn three(&self, rgb: &Spanned<[f64; 3]>) -> Result<[f64; 3], Fault> {
+        let (_, low, high) = NM;
+        if rgb.get_ref().iter().all(|nm| (low..=high).contains(nm)) {
+            return Ok(*rgb.get_ref());
         }
-        samples.push(Sample { nm, n, k });
+        let what = format!("field `rgb_nm`: wavelengths must lie between {low} and {high} nm");
+        Err(self.fault(rgb.span().start, what))
     }
-    Ok(samples)
-}
 
-fn syntax_fault(file: &str, text: &str, error: &toml::de::Error) -> Fault {
-    let mut what = error.message().trim().replace('\n', "; ");
-    if let Some(unknown) = what
-        .strip_prefix("unknown field `")
-        .and_then(|rest| rest.split('`').next())
-    {
-        let near = FIELDS.iter().max_by(|a, b| {
-            strsim::jaro_winkler(unknown, a).total_cmp(&strsim::jaro_winkler(unknown, b))
-        });
-        what += &near.map_or(String::new(), |near| format!("; did you mean `{near}`?"));
+    fn syntax(&self, error: &toml::de::Error) -> Fault {
+        let mut what = error.message().trim().replace('\n', "; ");
+        if let Some(unknown) = what
+            .strip_prefix("unknown field `")
+            .and_then(|rest| rest.split('`').next())
+        {
+            let near = FIELDS.iter().max_by(|a, b| {
+                strsim::jaro_winkler(unknown, a).total_cmp(&strsim::jaro_winkler(unknown, b))
+            });
+            what += &near.map_or(String::new(), |near| format!("; did you mean `{near}`?"));
+        }
+        self.fault(error.span().map_or(0, |span| span.start), what)
     }
-    fault(file, text, error.span().map_or(0, |span| span.start), what)
-}
 
-fn fault(file: &str, text: &str, offset: usize, what: String) -> Fault {
-    let before = text.get(..offset).unwrap_or("");
-    let line = before.matches('\n').count() + 1;
-    let column = before.rsplit('\n').next().unwrap_or("").chars().count() + 1;
-    Fault {
-        file: file.to_owned(),
-        line,
-        column,
-        what,
+    fn fault(&self, offset: usize, what: String) -> Fault {
+        let before = self.text.get(..offset).unwrap_or("");
+        Fault {
+            file: self.file.to_owned(),
+            line: before.matches('\n').count() + 1,
+            column: before.rsplit('\n').next().unwrap_or("").chars().count() + 1,
+            what,
+        }
     }
 }
 
@@ -254,8 +355,10 @@ mod tests {
     #[test]
     fn a_good_file_is_read() {
         let material = Material::parse("m.toml", GOOD).expect("it is good");
-        assert_eq!(material.samples.len(), 2);
+        assert_eq!(material.range_nm(), (475.0, 685.0));
         assert_eq!(material.kind, Kind::Metal);
+        assert_eq!(material.substance, "m");
+        assert_eq!(Material::parse("m.toml", &material.to_toml()), Ok(material));
     }
 
     #[test]
@@ -281,6 +384,52 @@ mod tests {
             7,
             "is empty",
         );
+    }
+
+    #[test]
+    fn n_and_k_can_stand_apart() {
+        let apart = GOOD.split("data").next().expect("a head").to_owned();
+        let glass = apart.clone()
+            + "n_formula = { number = 2, from_nm = 300, to_nm = 2500, coefficients = [0, 1.04, 0.006] }\nk = [[400, 1e-8]]\n";
+        let material = Material::parse("m.toml", &glass).expect("it is good");
+        assert_eq!(material.range_nm(), (400.0, 400.0));
+        assert_eq!(Material::parse("m.toml", &material.to_toml()), Ok(material));
+        let table = apart.clone() + "n = [[400, 1.5], [700, 1.4]]\n";
+        let material = Material::parse("m.toml", &table).expect("it is good");
+        assert_eq!(material.k, None);
+        assert_eq!(Material::parse("m.toml", &material.to_toml()), Ok(material));
+        for (more, says) in [
+            ("", "the index is wanted once"),
+            ("k = [[400, 1]]\n", "the index is wanted once"),
+            (
+                "data = [[400, 1, 1]]\nn = [[400, 1]]\n",
+                "the index is wanted once",
+            ),
+            (
+                "data = [[400, 1, 1]]\nk = [[400, 1]]\n",
+                "the index is wanted once",
+            ),
+            (
+                "n_formula = { number = 10, from_nm = 300, to_nm = 400, coefficients = [] }\n",
+                "no formula 10",
+            ),
+            (
+                "n_formula = { number = 1, from_nm = 400, to_nm = 300, coefficients = [] }\n",
+                "must ascend",
+            ),
+            (
+                "n_formula = { number = 1, from_nm = 300, to_nm = 400, coefficients = [nan] }\n",
+                "must be finite",
+            ),
+            ("n = [[400, 1]]\nrgb_nm = [0, 500, 600]\n", "`rgb_nm`"),
+            (
+                "n = [[400, 1]]\nsubstance = \"Gold\"\n",
+                "field `substance`",
+            ),
+        ] {
+            let fault = Material::parse("m.toml", &(apart.clone() + more)).expect_err("a fault");
+            assert!(fault.what.contains(says), "{fault}");
+        }
     }
 
     #[test]

@@ -5,8 +5,15 @@
 
 mod catalogue;
 mod channels;
+mod dispersion;
 mod file;
+mod formula;
+mod material;
+mod print;
 
 pub use catalogue::{find, list, names, source};
 pub use channels::{Channels, THESIS_NM};
-pub use file::{Fault, Kind, Material, Sample};
+pub use dispersion::{Curve, Extrapolate, Point};
+pub use file::{Fault, name_fault};
+pub use formula::Formula;
+pub use material::{Index, Kind, Material};

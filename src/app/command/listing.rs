@@ -8,7 +8,7 @@ use crate::app::names::unknown;
 use crate::app::request::load;
 use crate::app::source::source;
 use crate::emit;
-use crate::materials::{self, Material, Sample};
+use crate::materials::{self, Material};
 use crate::methods::{self, Contract, Method};
 use crate::report::table;
 use crate::targets::{self, Target};
@@ -134,11 +134,7 @@ fn material_text(material: &Material) -> String {
         format!("conditions  {}", material.conditions),
         String::new(),
     ];
-    let row = |s: &Sample| [s.nm, s.n, s.k].map(|value| value.to_string()).to_vec();
-    lines.push(table::text(
-        &["nm", "n", "k"],
-        &material.samples.iter().map(row).collect::<Vec<_>>(),
-    ));
+    lines.push(material.to_toml());
     lines.join("\n")
 }
 
@@ -147,7 +143,6 @@ fn material_json(material: &Material) -> Value {
         "name": material.name, "summary": material.summary, "class": material.kind.name(),
         "source": format!("{}. {}", material.reference, material.link), "licence": material.licence,
         "conditions": material.conditions,
-        "data": material.samples.iter().map(|s| json!([s.nm, s.n, s.k])).collect::<Vec<_>>(),
     })
 }
 

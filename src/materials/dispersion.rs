@@ -1,0 +1,126 @@
+//! How n and k depend on the wavelength: a table with straight lines between its points, or a formula.
+
+use super::formula::Formula;
+
+/// n(λ) or k(λ).
+#[derive(Clone, Debug, PartialEq)]
+pub enum Curve {
+    /// Measured points by ascending wavelength, each wavelength once, at least one; linear between them.
+    Table(Vec<Point>),
+    /// A fitted formula.
+    Formula(Formula),
+}
+
+/// A measured point.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Point {
+    /// Vacuum wavelength in nanometres.
+    pub nm: f64,
+    /// n or k there.
+    pub value: f64,
+}
+
+/// What is done beyond the measured range.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Extrapolate {
+    /// Nothing: it is refused.
+    #[default]
+    Refuse,
+    /// The value at the nearer end is held; whoever asks for it says so in every output.
+    Hold,
+}
+
+/// The ends of a range count as inside in spite of rounding: as a share of the wavelength.
+const END: f64 = 1e-9;
+
+impl Curve {
+    /// The shortest and the longest wavelength, in nanometres.
+    pub fn range_nm(&self) -> (f64, f64) {
+        match self {
+            Curve::Table(points) => (points[0].nm, points[points.len() - 1].nm),
+            Curve::Formula(formula) => (formula.from_nm, formula.to_nm),
+        }
+    }
+
+    /// Whether a wavelength was measured, or lies between measured ones.
+    pub fn covers(&self, nm: f64) -> bool {
+        let (from, to) = self.range_nm();
+        (from * (1.0 - END)..=to * (1.0 + END)).contains(&nm)
+    }
+
+    /// The value at a wavelength, or why there is none.
+    pub fn at(&self, nm: f64, beyond: Extrapolate) -> Result<f64, String> {
+        let (from, to) = self.range_nm();
+        if !self.covers(nm) && beyond == Extrapolate::Refuse {
+            return Err(format!(
+                "is known from {from} to {to} nm, and {nm} nm is wanted"
+            ));
+        }
+        // Not `clamp`, which panics where the range is empty: a file's range is checked, a value made in Rust is not.
+        let inside = nm.max(from).min(to);
+        match self {
+            Curve::Table(points) => Ok(between(points, inside)),
+            Curve::Formula(formula) => formula
+                .n(inside)
+                .map_err(|why| format!("has no value at {nm} nm: {why}")),
+        }
+    }
+}
+
+/// Linear between the points; `nm` lies inside the table.
+fn between(points: &[Point], nm: f64) -> f64 {
+    let after = points.partition_point(|point| point.nm < nm);
+    let Some(high) = points.get(after) else {
+        return points[points.len() - 1].value;
+    };
+    if high.nm == nm || after == 0 {
+        return high.value;
+    }
+    let low = points[after - 1];
+    let share = (nm - low.nm) / (high.nm - low.nm);
+    low.value + (high.value - low.value) * share
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn table() -> Curve {
+        let point = |(nm, value)| Point { nm, value };
+        Curve::Table([(400.0, 1.0), (500.0, 3.0)].map(point).to_vec())
+    }
+
+    #[test]
+    fn linear_between_points_and_exact_at_them() {
+        for (nm, value) in [(400.0, 1.0), (450.0, 2.0), (500.0, 3.0)] {
+            assert_eq!(table().at(nm, Extrapolate::Refuse), Ok(value));
+        }
+    }
+
+    #[test]
+    fn beyond_the_range_only_when_asked() {
+        let refused = table().at(399.0, Extrapolate::Refuse).expect_err("outside");
+        assert_eq!(refused, "is known from 400 to 500 nm, and 399 nm is wanted");
+        assert_eq!(table().at(399.0, Extrapolate::Hold), Ok(1.0));
+        assert_eq!(table().at(501.0, Extrapolate::Hold), Ok(3.0));
+        assert_eq!(table().at(500.000_000_1, Extrapolate::Refuse), Ok(3.0));
+        assert!(table().at(f64::NAN, Extrapolate::Refuse).is_err());
+    }
+
+    #[test]
+    fn one_point_is_a_range_of_its_own() {
+        let point = Point {
+            nm: 589.0,
+            value: 1.5,
+        };
+        assert_eq!(
+            Curve::Table(vec![point]).at(589.0, Extrapolate::Refuse),
+            Ok(1.5)
+        );
+        assert!(
+            Curve::Table(vec![point])
+                .at(590.0, Extrapolate::Refuse)
+                .is_err()
+        );
+    }
+}

@@ -1,0 +1,141 @@
+//! A material: its names and sources, and its index of refraction at any wavelength that was measured.
+
+use serde::Deserialize;
+
+use super::dispersion::{Curve, Extrapolate};
+
+/// A material as its file tells it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Material {
+    /// Its one name.
+    pub name: String,
+    /// One line.
+    pub summary: String,
+    /// Metal, semiconductor or dielectric.
+    pub kind: Kind,
+    /// What it is whoever measured it: alternatives share it, and the recommended one bears it as its name.
+    pub substance: String,
+    /// The licence of the numbers.
+    pub licence: String,
+    /// Who measured it.
+    pub reference: String,
+    /// Where to read about it.
+    pub link: String,
+    /// The page of refractiveindex.info that it was taken from; may be empty.
+    pub page: String,
+    /// Temperature, film thickness and the like; may be empty.
+    pub conditions: String,
+    /// What a user should know: why it is recommended, what was done to the numbers; may be empty.
+    pub note: String,
+    /// Red, green and blue where it is known at these wavelengths only, as in the thesis.
+    pub rgb_nm: Option<[f64; 3]>,
+    /// Refractive index by wavelength.
+    pub n: Curve,
+    /// Extinction coefficient by wavelength; 0 where there is none.
+    pub k: Option<Curve>,
+}
+
+/// The class of a material.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Kind {
+    /// It conducts, and k is large.
+    Metal,
+    /// In between.
+    Semiconductor,
+    /// It is transparent, k is 0 or nearly.
+    Dielectric,
+}
+
+impl Kind {
+    /// All classes.
+    pub const ALL: [Kind; 3] = [Kind::Metal, Kind::Semiconductor, Kind::Dielectric];
+
+    /// The name in files and reports.
+    pub fn name(self) -> &'static str {
+        match self {
+            Kind::Metal => "metal",
+            Kind::Semiconductor => "semiconductor",
+            Kind::Dielectric => "dielectric",
+        }
+    }
+}
+
+/// The index of refraction at one wavelength: n + ik.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Index {
+    /// Real part.
+    pub n: f64,
+    /// Extinction coefficient.
+    pub k: f64,
+}
+
+impl Index {
+    /// The index seen from a medium: the complex quotient. A medium that absorbs more than the material would leave a
+    /// k below 0, which no passive surface has; it is 0 then.
+    pub fn relative_to(self, medium: Index) -> Index {
+        let square = medium.n * medium.n + medium.k * medium.k;
+        Index {
+            n: (self.n * medium.n + self.k * medium.k) / square,
+            k: ((self.k * medium.n - self.n * medium.k) / square).max(0.0),
+        }
+    }
+}
+
+impl Material {
+    /// The index at a wavelength, or why there is none, with the material's name.
+    pub fn index(&self, nm: f64, beyond: Extrapolate) -> Result<Index, String> {
+        let value = |curve: &Curve, letter: &str| {
+            let named = |why: String| format!("material `{}`: {letter} {why}", self.name);
+            curve.at(nm, beyond).map_err(named)
+        };
+        let k = self.k.as_ref().map(|k| value(k, "k")).transpose()?;
+        Ok(Index {
+            n: value(&self.n, "n")?,
+            k: k.unwrap_or(0.0),
+        })
+    }
+
+    /// The wavelengths at which both n and k are known, in nanometres; the first is above the second where there is none.
+    pub fn range_nm(&self) -> (f64, f64) {
+        let (from, to) = self.n.range_nm();
+        match self.k.as_ref().map(Curve::range_nm) {
+            Some((k_from, k_to)) => (from.max(k_from), to.min(k_to)),
+            None => (from, to),
+        }
+    }
+
+    /// Whether n and k are known over a range of wavelengths.
+    pub fn covers(&self, from_nm: f64, to_nm: f64) -> bool {
+        let whole = |curve: &Curve| curve.covers(from_nm) && curve.covers(to_nm);
+        whole(&self.n) && self.k.as_ref().is_none_or(whole)
+    }
+
+    /// Whether it is the one to take of all measurements of its substance.
+    pub fn is_recommended(&self) -> bool {
+        self.name == self.substance
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn relative_index_is_the_complex_quotient() {
+        let gold = Index { n: 0.23, k: 3.94 };
+        let water = Index { n: 1.33, k: 0.0 };
+        assert_eq!(
+            gold.relative_to(water),
+            Index {
+                n: 0.23 * 1.33 / (1.33 * 1.33),
+                k: 3.94 * 1.33 / (1.33 * 1.33)
+            }
+        );
+        let murky = Index { n: 1.33, k: 1e-3 };
+        let glass = Index { n: 1.5, k: 0.0 };
+        assert_eq!(glass.relative_to(murky).k, 0.0);
+        let same = murky.relative_to(murky);
+        assert!((same.n - 1.0).abs() < 1e-15 && same.k == 0.0);
+    }
+}

@@ -1,0 +1,95 @@
+//! A material as the text of its file.
+
+use super::dispersion::{Curve, Point};
+use super::formula::Formula;
+use super::material::Material;
+
+impl Material {
+    /// The file's text: what [`Material::parse`] reads back as the same material.
+    pub fn to_toml(&self) -> String {
+        let mut lines = vec![
+            text("name", &self.name),
+            text("summary", &self.summary),
+            text("class", self.kind.name()),
+        ];
+        if !self.is_recommended() {
+            lines.push(text("substance", &self.substance));
+        }
+        lines.push(text("licence", &self.licence));
+        lines.push(text("reference", &self.reference));
+        lines.push(text("link", &self.link));
+        for (name, value) in [
+            ("page", &self.page),
+            ("conditions", &self.conditions),
+            ("note", &self.note),
+        ] {
+            if !value.is_empty() {
+                lines.push(text(name, value));
+            }
+        }
+        lines.extend(self.rgb_nm.map(|rgb| format!("rgb_nm = {}", list(&rgb))));
+        lines.extend(index(&self.n, self.k.as_ref()));
+        lines.join("\n") + "\n"
+    }
+}
+
+/// A field of text: TOML's basic strings escape as JSON's do, and beside that want DEL escaped.
+fn text(name: &str, value: &str) -> String {
+    let quoted = serde_json::Value::from(value).to_string();
+    format!("{name} = {}", quoted.replace('\u{7f}', "\\u007f"))
+}
+
+fn index(n: &Curve, k: Option<&Curve>) -> Vec<String> {
+    if let (Curve::Table(n), Some(Curve::Table(k))) = (n, k)
+        && n.len() == k.len()
+        && n.iter().zip(k).all(|(n, k)| n.nm == k.nm)
+    {
+        let row = |(n, k): (&Point, &Point)| vec![n.nm, n.value, k.value];
+        return rows("data", "n, k", n.iter().zip(k).map(row));
+    }
+    let mut lines = curve("n", n);
+    lines.extend(k.into_iter().flat_map(|k| curve("k", k)));
+    lines
+}
+
+fn curve(name: &str, curve: &Curve) -> Vec<String> {
+    match curve {
+        Curve::Table(points) => rows(name, name, points.iter().map(|p| vec![p.nm, p.value])),
+        Curve::Formula(formula) => vec![formula_line(name, formula)],
+    }
+}
+
+fn formula_line(name: &str, formula: &Formula) -> String {
+    format!(
+        "{name}_formula = {{ number = {}, from_nm = {}, to_nm = {}, coefficients = {} }}",
+        formula.number,
+        formula.from_nm,
+        formula.to_nm,
+        list(&formula.coefficients)
+    )
+}
+
+fn rows(name: &str, columns: &str, rows: impl Iterator<Item = Vec<f64>>) -> Vec<String> {
+    let mut lines = vec![
+        format!("# wavelength in nm, {columns}"),
+        format!("{name} = ["),
+    ];
+    lines.extend(rows.map(|row| format!("  {},", list(&row))));
+    lines.push("]".to_owned());
+    lines
+}
+
+/// Numbers in the fewest digits that give them back; very small ones with an exponent.
+fn list(values: &[f64]) -> String {
+    let number = |value: &f64| {
+        if *value != 0.0 && value.abs() < 1e-4 {
+            format!("{value:e}")
+        } else {
+            value.to_string()
+        }
+    };
+    format!(
+        "[{}]",
+        values.iter().map(number).collect::<Vec<_>>().join(", ")
+    )
+}
