@@ -4,6 +4,8 @@ use std::path::PathBuf;
 
 use clap::{Args, Parser, Subcommand};
 
+use super::sight::Words;
+
 /// Turns measured optical constants into Fresnel reflectance functions that a shader can afford.
 ///
 /// Without a subcommand it generates: shaders for every target, method and material asked for.
@@ -54,6 +56,12 @@ pub struct Generate {
     /// What the light comes from: a transparent material's name or file [default: air]
     #[arg(long, value_name = "NAME")]
     pub medium: Option<String>,
+    /// How the material is seen.
+    #[command(flatten)]
+    pub sight: SightFlags,
+    /// Colours outside the working space: keep, clip to [0, 1], or scale [default: clip]
+    #[arg(long, value_name = "NAME")]
+    pub gamut: Option<String>,
     /// Goes before every function's name
     #[arg(long, value_name = "TEXT", default_value = "fresnel_")]
     pub prefix: String,
@@ -78,6 +86,48 @@ pub struct Generate {
     /// No summary on success
     #[arg(long, short)]
     pub quiet: bool,
+}
+
+/// How materials are seen: the flags of every command that makes three channels of a spectrum.
+#[derive(Args, Clone, Debug, Default)]
+pub struct SightFlags {
+    /// Working space: srgb, p3, rec2020, acescg; all linear [default: srgb]
+    #[arg(long, value_name = "NAME")]
+    pub space: Option<String>,
+    /// The light: D65, E, A, F11, LED-B3, or a file of two columns, nm and power [default: D65]
+    #[arg(long, value_name = "NAME")]
+    pub illuminant: Option<String>,
+    /// The eye: cie1931 or cie2015 [default: cie1931]
+    #[arg(long, value_name = "NAME")]
+    pub observer: Option<String>,
+    /// How a mirror becomes (1, 1, 1): scale, by dividing by its colour, or bradford [default: scale]
+    #[arg(long, value_name = "NAME")]
+    pub adaptation: Option<String>,
+    /// Steps of the spectrum: 5nm or 1nm [default: 5nm]
+    #[arg(long, value_name = "STEP")]
+    pub step: Option<String>,
+    /// Red, green and blue at one wavelength each instead, in nm: the thesis has 685,535,475
+    #[arg(long, value_delimiter = ',', value_name = "R,G,B")]
+    pub wavelengths: Vec<f64>,
+    /// Beyond the measured range: refuse, or hold the last value [default: refuse]
+    #[arg(long, value_name = "HOW")]
+    pub extrapolate: Option<String>,
+}
+
+impl SightFlags {
+    /// What they say, in words.
+    pub fn words<'a>(&'a self, gamut: Option<&'a str>) -> Words<'a> {
+        Words {
+            space: self.space.as_deref(),
+            gamut,
+            illuminant: self.illuminant.as_deref(),
+            observer: self.observer.as_deref(),
+            adaptation: self.adaptation.as_deref(),
+            step: self.step.as_deref(),
+            wavelengths: &self.wavelengths,
+            extrapolate: self.extrapolate.as_deref(),
+        }
+    }
 }
 
 /// The flags of `methods`, `materials` and `targets`.

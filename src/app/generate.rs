@@ -9,8 +9,10 @@ use crate::targets::Target;
 use super::artifact::{Artifact, sha256};
 use super::error::Error;
 use super::manifest::{Input, Provenance};
+use super::names::quoted;
 use super::request::{Materials, Request};
 use super::scope::Scope;
+use super::sight;
 
 /// What a request comes to.
 #[derive(Clone, Debug)]
@@ -217,6 +219,9 @@ impl<'r> Run<'r> {
         if self.naming != Naming::default() {
             command += &format!(" --prefix {}", self.request.prefix);
         }
+        if subject.is_some() {
+            command += &sight::flags(&self.request.sight);
+        }
         if let (Some(_), Some(degrees)) = (subject, self.request.matching_angle) {
             command += &format!(" --matching-angle {degrees}");
         }
@@ -277,16 +282,6 @@ impl Owners {
                 what: format!("`{name}` would stand in {other} and in {owner}; rename a material"),
             }),
         }
-    }
-}
-
-/// A word of a shell's command line.
-fn quoted(word: &str) -> String {
-    let plain = |c: char| c.is_ascii_alphanumeric() || "_-.".contains(c);
-    if word.chars().all(plain) {
-        word.to_owned()
-    } else {
-        format!("'{}'", word.replace('\'', "'\\''"))
     }
 }
 

@@ -2,7 +2,7 @@
 
 use crate::emit::{Naming, Subject};
 use crate::fit::Derivation;
-use crate::materials::{self, Channels, Material, THESIS_NM};
+use crate::materials::{self, Kind, Material, Sight};
 use crate::methods::{self, Method};
 use crate::targets::{self, Target};
 
@@ -24,6 +24,8 @@ pub struct Request {
     pub prefix: String,
     /// Degrees at which λ of the corrected method is matched, between 0 and 90; the thesis's 81.37 where not given.
     pub matching_angle: Option<f64>,
+    /// How materials are seen: the whole spectrum in linear sRGB under D65, unless said otherwise.
+    pub sight: Sight,
 }
 
 impl Default for Request {
@@ -35,6 +37,7 @@ impl Default for Request {
             medium: None,
             prefix: Naming::default().prefix,
             matching_angle: None,
+            sight: Sight::default(),
         }
     }
 }
@@ -201,36 +204,20 @@ impl Request {
     }
 
     fn subject(&self, loaded: Loaded, medium: Option<&Loaded>) -> Result<Subject, Error> {
-        let own = channels(&loaded.material)?;
-        let (name, channels) = match medium {
-            None => (loaded.material.name.clone(), own),
-            Some(medium) => {
-                let around = channels_of_medium(&medium.material)?;
-                (
-                    format!("{}_in_{}", loaded.material.name, medium.material.name),
-                    relative(own, around),
-                )
-            }
-        };
-        check_not_a_method(&name)?;
-        Ok(Subject {
-            name,
-            argument: loaded.argument,
-            material: loaded.material,
-            medium: medium.map(|medium| (medium.argument.clone(), medium.material.clone())),
-            wavelengths_nm: THESIS_NM,
-            channels,
-            derivation: self.derivation()?,
-        })
+        if let Some(medium) = medium {
+            check_transparent(&medium.material)?;
+        }
+        let typed = |loaded: &Loaded| (loaded.argument.clone(), loaded.material.clone());
+        let subject = Subject::new(
+            typed(&loaded),
+            medium.map(typed),
+            &self.sight,
+            self.derivation()?,
+        )
+        .map_err(|what| Error::Usage { what })?;
+        check_not_a_method(&subject.name)?;
+        Ok(subject)
     }
-}
-
-fn relative(own: Channels, around: Channels) -> Channels {
-    let index = |of: &Channels, i: usize| materials::Index {
-        n: of.n[i],
-        k: of.k[i],
-    };
-    Channels::of([0, 1, 2].map(|i| index(&own, i).relative_to(index(&around, i))))
 }
 
 /// The exact function of a material bears its name alone, where a method's function bears the method's.
@@ -245,20 +232,15 @@ fn check_not_a_method(name: &str) -> Result<(), Error> {
     Err(Error::Usage { what })
 }
 
-fn channels(material: &Material) -> Result<Channels, Error> {
-    material
-        .channels(THESIS_NM)
-        .map_err(|what| Error::Usage { what })
-}
-
-fn channels_of_medium(medium: &Material) -> Result<Channels, Error> {
-    let channels = channels(medium)?;
-    if channels.is_transparent() {
-        return Ok(channels);
+/// A medium that absorbs has no incident wave of one amplitude, so that reflectance is not defined.
+fn check_transparent(medium: &Material) -> Result<(), Error> {
+    if medium.kind == Kind::Dielectric {
+        return Ok(());
     }
     let what = format!(
-        "the medium `{}` absorbs (k > 0); a medium must be transparent",
-        medium.name
+        "the medium `{}` is a {}; a medium must be transparent: a dielectric",
+        medium.name,
+        medium.kind.name()
     );
     Err(Error::Usage { what })
 }

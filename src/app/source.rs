@@ -52,7 +52,8 @@ pub fn is_path(name: &str) -> bool {
     name.contains(['.', '/', '\\'])
 }
 
-fn read(name: &str) -> Result<String, Error> {
+/// The text of a file that a user names.
+pub fn read(name: &str) -> Result<String, Error> {
     let path = Path::new(name);
     let fail = |source: io::Error| Error::Input {
         path: path.to_owned(),

@@ -10,10 +10,14 @@ mod file;
 mod formula;
 mod material;
 mod print;
+mod surface;
 
 pub use catalogue::{find, list, names, source};
 pub use channels::{Channels, THESIS_NM};
 pub use dispersion::{Curve, Extrapolate, Point};
-pub use file::{Fault, name_fault};
+pub use file::name_fault;
 pub use formula::Formula;
 pub use material::{Index, Kind, Material};
+pub use surface::{Sight, Surface};
+
+pub use crate::spectra::Fault;

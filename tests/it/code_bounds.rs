@@ -20,7 +20,7 @@ fn the_record_is_what_is_measured() {
     };
     let mut record = String::from("fingerprint,material,method,max_ulp,max_abs,worst_cos\n");
     for (subject, _) in request.subjects().expect("the catalogue is good") {
-        let transparent = subject.channels.is_transparent();
+        let transparent = subject.effective.channels.is_transparent();
         for method in methods::ALL
             .iter()
             .filter(|m| m.contract == Contract::Kept && (m.class == Class::Any || transparent))
