@@ -20,6 +20,7 @@ use serde::Deserialize;
 use toml::Spanned;
 
 use crate::ir::identifier_fault;
+pub use crate::spectra::Fault;
 
 /// A material as its file tells it.
 #[derive(Clone, Debug, PartialEq)]
@@ -74,20 +75,6 @@ pub struct Sample {
     pub n: f64,
     /// Extinction coefficient.
     pub k: f64,
-}
-
-/// What is wrong with a material file, and where.
-#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("{file}:{line}:{column}: {what}")]
-pub struct Fault {
-    /// The file, as the user named it.
-    pub file: String,
-    /// From 1.
-    pub line: usize,
-    /// From 1, in characters.
-    pub column: usize,
-    /// What was found, and what is allowed.
-    pub what: String,
 }
 
 #[derive(Deserialize)]
