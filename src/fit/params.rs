@@ -45,8 +45,7 @@ pub fn params(surface: Surface, kind: Kind) -> Params {
     }
 }
 
-/// The sodium line's successor, helium's yellow line d, and hydrogen's F and C, in nanometres: Abbe's lines, as glass
-/// catalogues have them.
+/// Helium's d line and hydrogen's F and C in nanometres, as glass catalogues have them (ISO 7944).
 const D_NM: f64 = 587.561_8;
 const F_NM: f64 = 486.132_7;
 const C_NM: f64 = 656.272_5;
