@@ -5,11 +5,16 @@
 
 mod catalogue;
 mod channels;
+mod csv;
+mod decimal;
 mod dispersion;
 mod file;
 mod formula;
 mod material;
+mod page;
 mod print;
+mod rows;
+mod trim;
 
 pub use catalogue::{find, list, names, source};
 pub use channels::{Channels, THESIS_NM};
@@ -17,3 +22,4 @@ pub use dispersion::{Curve, Extrapolate, Point};
 pub use file::{Fault, name_fault};
 pub use formula::Formula;
 pub use material::{Index, Kind, Material};
+pub use page::Page;
