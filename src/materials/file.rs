@@ -32,7 +32,7 @@ use crate::ir::identifier_fault;
 use super::dispersion::{Curve, Point};
 use super::formula::{Formula, NUMBERS};
 use super::material::{Kind, Material};
-use crate::spectra::Fault;
+pub use crate::spectra::Fault;
 
 type Row = Spanned<Vec<Spanned<f64>>>;
 type Rows = Spanned<Vec<Row>>;
@@ -96,7 +96,7 @@ const N: Column = ("n", 1e-3, 1e4);
 /// The same limit; a k below 0 would be gain.
 const K: Column = ("k", 0.0, 1e4);
 /// The longest formula of refractiveindex.info has 17.
-const MOST_COEFFICIENTS: usize = 64;
+pub const MOST_COEFFICIENTS: usize = 64;
 
 /// Where in a text a fault stands: made once, so that every check is short.
 struct Place<'a> {

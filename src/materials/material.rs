@@ -90,8 +90,16 @@ impl Material {
             curve.at(nm, beyond).map_err(named)
         };
         let k = self.k.as_ref().map(|k| value(k, "k")).transpose()?;
+        let n = value(&self.n, "n")?;
+        // A table can hold such rows: of a fit gone wrong, or of a metamaterial.
+        if n <= 0.0 {
+            let name = &self.name;
+            return Err(format!(
+                "material `{name}`: n is {n} at {nm} nm; it must be above 0"
+            ));
+        }
         Ok(Index {
-            n: value(&self.n, "n")?,
+            n,
             k: k.unwrap_or(0.0),
         })
     }

@@ -5,12 +5,17 @@
 
 mod catalogue;
 mod channels;
+mod csv;
+mod decimal;
 mod dispersion;
 mod file;
 mod formula;
 mod material;
+mod page;
 mod print;
+mod rows;
 mod surface;
+mod trim;
 
 pub use catalogue::{find, list, names, source};
 pub use channels::{Channels, THESIS_NM};
@@ -18,6 +23,7 @@ pub use dispersion::{Curve, Extrapolate, Point};
 pub use file::name_fault;
 pub use formula::Formula;
 pub use material::{Index, Kind, Material};
+pub use page::Page;
 pub use surface::{Sight, Surface};
 
 pub use crate::spectra::Fault;

@@ -1,0 +1,264 @@
+//! Tables as comma-separated values: what refractiveindex.info exports, and plain files. A header names the unit.
+//!
+//! ```csv
+//! wl,n
+//! 0.1879,1.28
+//!
+//! wl,k
+//! 0.1879,1.188
+//! ```
+//!
+//! `wl` is in micrometres, as the site exports it. Otherwise the first column is `wavelength_nm`, `wavelength_um`, `nm`
+//! or `um`, and after it come `n`, `k`, or `n,k`. A header begins a table; semicolons and tabs do for commas.
+
+use super::decimal::{Unit, clipped};
+use super::file::Fault;
+use super::page::{Page, check_text};
+use super::rows::{Columns, RowFault, Rows};
+
+const ALLOWED: &str =
+    "allowed are wavelength_nm, wavelength_um, nm, um or wl (um), and then n, k or n,k";
+
+impl Page {
+    /// Reads tables of n and k from comma-separated values. `file` is for messages, and for the page's own name.
+    pub fn parse_csv(file: &str, text: &str) -> Result<Page, Fault> {
+        check_text(file, text)?;
+        let mut page = Page {
+            file: file.to_owned(),
+            ..Page::default()
+        };
+        let mut table: Option<Table> = None;
+        for (at, line) in text.trim_start_matches('\u{feff}').lines().enumerate() {
+            let source = Line {
+                file,
+                number: at + 1,
+                text: line,
+            };
+            if line.trim().is_empty() || line.starts_with('#') {
+                continue;
+            }
+            match (header(line), &mut table) {
+                (Some(next), _) => {
+                    let last = table.replace(Table::new(next, at + 1));
+                    page.add_table(last)?;
+                }
+                (None, Some(table)) => {
+                    let row = table.rows.push(cells(line, table.separator));
+                    row.map_err(|fault| source.in_row(fault, table.separator))?;
+                }
+                (None, None) => return Err(source.no_header()),
+            }
+        }
+        let is_empty = table.is_none();
+        page.add_table(table)?;
+        if is_empty {
+            let what = format!("no table; a header begins one: {ALLOWED}");
+            return Err(Line {
+                file,
+                number: 1,
+                text,
+            }
+            .fault(0, what));
+        }
+        Ok(page)
+    }
+
+    fn add_table(&mut self, table: Option<Table>) -> Result<(), Fault> {
+        let Some(table) = table else { return Ok(()) };
+        if table.rows.is_empty() {
+            let line = Line {
+                file: &self.file,
+                number: table.line,
+                text: "",
+            };
+            return Err(line.fault(0, "the table of this header has no rows".to_owned()));
+        }
+        let mut remarks = Vec::new();
+        let (n, k) = table.rows.curves(&mut remarks);
+        self.add(n, k, remarks);
+        Ok(())
+    }
+}
+
+/// A table that is being read, and where its header stands.
+struct Table {
+    rows: Rows,
+    separator: char,
+    line: usize,
+}
+
+impl Table {
+    fn new(header: Header, line: usize) -> Table {
+        Table {
+            rows: Rows::new(header.columns, header.unit),
+            separator: header.separator,
+            line,
+        }
+    }
+}
+
+struct Header {
+    columns: Columns,
+    unit: Unit,
+    separator: char,
+}
+
+/// The header that a line is, if it is one.
+fn header(line: &str) -> Option<Header> {
+    let separator = [';', '\t', ','].into_iter().find(|c| line.contains(*c))?;
+    let names: Vec<String> = cells(line, separator).map(plain).collect();
+    let (first, rest) = names.split_first()?;
+    let unit = match first.as_str() {
+        "nm" | "wl_nm" | "wavelength_nm" => Unit::Nm,
+        "um" | "wl_um" | "wavelength_um" | "wl" => Unit::Um,
+        _ => return None,
+    };
+    let columns = match rest {
+        [n] if n == "n" => Columns::N,
+        [k] if k == "k" => Columns::K,
+        [n, k] if n == "n" && k == "k" => Columns::Nk,
+        _ => return None,
+    };
+    Some(Header {
+        columns,
+        unit,
+        separator,
+    })
+}
+
+/// `"Wavelength (µm)"` as `wavelength_um`.
+fn plain(cell: &str) -> String {
+    let cell = cell.to_lowercase().replace(['\u{b5}', '\u{3bc}'], "u");
+    let words = cell.split(|c: char| !c.is_alphanumeric());
+    let words: Vec<&str> = words.filter(|word| !word.is_empty()).collect();
+    words.join("_")
+}
+
+fn cells(line: &str, separator: char) -> impl Iterator<Item = &str> {
+    line.trim_end().split(separator).map(bare)
+}
+
+fn bare(cell: &str) -> &str {
+    let cell = cell.trim();
+    let inside = cell
+        .strip_prefix('"')
+        .and_then(|cell| cell.strip_suffix('"'));
+    inside.unwrap_or(cell)
+}
+
+/// A line of the file, for messages.
+struct Line<'a> {
+    file: &'a str,
+    number: usize,
+    text: &'a str,
+}
+
+impl Line<'_> {
+    fn no_header(&self) -> Fault {
+        let found = clipped(self.text.trim());
+        let what = format!("`{found}` stands before any header, which names the unit; {ALLOWED}");
+        self.fault(0, what)
+    }
+
+    fn in_row(&self, fault: RowFault, separator: char) -> Fault {
+        let cells = self.text.split(separator).take(fault.column);
+        let column = cells.map(|cell| cell.chars().count() + 1).sum();
+        self.fault(column, fault.what)
+    }
+
+    fn fault(&self, column: usize, what: String) -> Fault {
+        Fault {
+            file: self.file.to_owned(),
+            line: self.number,
+            column: column + 1,
+            what,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::materials::{Curve, Point};
+
+    fn table(points: &[(f64, f64)]) -> Option<Curve> {
+        let point = |&(nm, value): &(f64, f64)| Point { nm, value };
+        let points: Vec<Point> = points.iter().map(point).collect();
+        (!points.is_empty()).then_some(Curve::Table(points))
+    }
+
+    #[track_caller]
+    fn check(text: &str, n: &[(f64, f64)], k: &[(f64, f64)]) {
+        let page = Page::parse_csv("gold.csv", text).expect("it is good");
+        assert_eq!((page.n, page.k), (table(n), table(k)));
+    }
+
+    #[test]
+    fn exports_and_plain_files_are_read() {
+        let (n, k) = ([(226.1, 1.5)], [(226.1, 2.0)]);
+        check("wl,n\n0.2261,1.5\n\nwl,k\n0.2261,2\n", &n, &k);
+        check("wl,n\r\n2.26100E-01,1.5\r\nwl,k\r\n0.2261,2\r\n", &n, &k);
+        check("wavelength_nm,n,k\n226.1,1.5,2\n", &n, &k);
+        check("um, n, k\n0.2261, 1.5, 2", &n, &k);
+        check(
+            "\u{feff}# mine\n\"Wavelength (\u{b5}m)\",\"n\"\n\"0.2261\",\"1.5\"\n",
+            &n,
+            &[],
+        );
+        check("nm;n;k\n226.1;1.5;2\n", &n, &k);
+        check("nm\tk\n226.1\t2\n", &[], &k);
+    }
+
+    #[track_caller]
+    fn refused(text: &str, line: usize, column: usize, says: &str) {
+        let fault = Page::parse_csv("gold.csv", text).expect_err("it is refused");
+        assert!(fault.what.contains(says), "{fault}");
+        assert_eq!((fault.line, fault.column), (line, column), "{fault}");
+    }
+
+    #[test]
+    fn each_fault_names_its_line() {
+        refused("", 1, 1, "no table");
+        refused("# nothing\n", 1, 1, "no table");
+        refused(
+            "400,1.5\n",
+            1,
+            1,
+            "`400,1.5` stands before any header, which names the unit; allowed are",
+        );
+        refused(
+            "wavelength,n\n400,1.5\n",
+            1,
+            1,
+            "`wavelength,n` stands before any header",
+        );
+        refused("ev,n\n4,1.5\n", 1, 1, "before any header");
+        refused("nm,n\n", 1, 1, "has no rows");
+        refused("nm,n\nnm,k\n400,1", 1, 1, "has no rows");
+        refused("nm,n\n400,1.5\n\n500,x\n", 4, 5, "`x` is no number");
+        refused(
+            "nm,n,k\n400,1.5\n",
+            2,
+            1,
+            "a row of 2 numbers; it wants wavelength, n, k",
+        );
+        refused("nm,n\n400,1.80-17\n", 2, 5, "did you mean 1.80e-17?");
+        refused("nm;n\n400;1,5\n", 2, 5, "did you mean 1.5?");
+        refused("nm,n\n0,1\n", 2, 1, "must be above 0");
+        refused("nm,n\n400,nan\n", 2, 5, "not a finite number");
+        refused("nm,k\n400,-1\n", 2, 5, "k is -1");
+        refused("nm,n\n400,1\0\n", 2, 6, "NUL");
+    }
+
+    #[test]
+    fn a_table_given_twice_counts_once() {
+        let page = Page::parse_csv("gold.csv", "nm,n\n400,1\nnm,n\n400,2\n").expect("it is good");
+        assert_eq!(page.n, table(&[(400.0, 1.0)]));
+        assert_eq!(page.remarks, ["n is given twice: the first was taken"]);
+        let material = page.material(None).expect("it has n");
+        assert_eq!(
+            (material.name.as_str(), material.page.as_str()),
+            ("gold", "")
+        );
+    }
+}

@@ -1,0 +1,122 @@
+//! A page as a material: what the page does not say, its name, class and summary, is made from what it does.
+
+use super::Page;
+use crate::materials::dispersion::Extrapolate;
+use crate::materials::{Fault, Index, Kind, Material, name_fault};
+
+/// Where the class is guessed: near the middle of the visible range.
+const GUESS_NM: f64 = 580.0;
+
+/// A k from which a medium that is no metal is taken for a semiconductor rather than a dielectric: a wave of visible
+/// light loses a factor e in some 50 micrometres of it.
+const ABSORBING_K: f64 = 1e-3;
+
+/// What a material's file says of what its source does not.
+const NOT_GIVEN: &str = "not given";
+
+impl Page {
+    /// The material of this page, under a name of yours or else [`Page::default_name`]. The fields are public: what you
+    /// know better, put in its place.
+    pub fn material(&self, name: Option<&str>) -> Result<Material, Fault> {
+        let name = name.map_or_else(|| self.default_name(), str::to_owned);
+        if let Some(why) = name_fault(&name) {
+            return Err(self.fault(format!("`{name}` is no name: {why}")));
+        }
+        let Some(n) = self.n.clone() else {
+            let what = "the page gives k only, no n: there is no reflectance without n";
+            return Err(self.fault(what.to_owned()));
+        };
+        let mut material = Material {
+            substance: name.clone(),
+            name,
+            summary: self.summary(),
+            kind: Kind::Dielectric,
+            licence: "CC0-1.0".to_owned(),
+            reference: or(&self.reference, NOT_GIVEN),
+            link: or(&self.link, NOT_GIVEN),
+            page: self.path(),
+            conditions: self.conditions.clone(),
+            note: String::new(),
+            rgb_nm: None,
+            n,
+            k: self.k.clone(),
+        };
+        let (from, to) = material.range_nm();
+        if from > to {
+            let what = "n and k have no wavelength in common";
+            return Err(self.fault(what.to_owned()));
+        }
+        let mut remarks = self.remarks.clone();
+        let guess;
+        (material.kind, guess) = guessed(&material);
+        remarks.push(guess);
+        material.note = remarks.join("; ");
+        Ok(material)
+    }
+
+    /// `Au, Olmon-ts: Template-stripped gold`, not too long.
+    fn summary(&self) -> String {
+        const LONGEST: usize = 100;
+        let (book, title) = self.book_and_title();
+        let parts = [book, or(&title, "a page")];
+        let named: Vec<&str> = parts
+            .iter()
+            .map(String::as_str)
+            .filter(|part| !part.is_empty())
+            .collect();
+        let named = named.join(", ");
+        let whole = format!("{named}: {}", self.comments);
+        if self.comments.is_empty() || whole.chars().count() > LONGEST {
+            named
+        } else {
+            whole
+        }
+    }
+
+    fn fault(&self, what: String) -> Fault {
+        Fault {
+            file: self.file.clone(),
+            line: 1,
+            column: 1,
+            what,
+        }
+    }
+}
+
+fn or(text: &str, other: &str) -> String {
+    let text = if text.trim().is_empty() { other } else { text };
+    text.to_owned()
+}
+
+/// The class that n and k speak for, and the remark that says so.
+fn guessed(material: &Material) -> (Kind, String) {
+    let (from, to) = material.range_nm();
+    let middle = (from + to) / 2.0;
+    let index = |nm: f64| {
+        let index = material.index(nm, Extrapolate::Refuse).ok()?;
+        Some((nm, index))
+    };
+    let places = [GUESS_NM, middle, from, to];
+    match places.into_iter().find_map(index) {
+        Some((nm, Index { n, k })) => {
+            let kind = kind(n, k);
+            let name = kind.name();
+            (
+                kind,
+                format!("class {name} guessed from n = {n}, k = {k} at {nm} nm"),
+            )
+        }
+        None => (Kind::Dielectric, "class dielectric guessed".to_owned()),
+    }
+}
+
+/// A negative real part of the permittivity is a metal's.
+fn kind(n: f64, k: f64) -> Kind {
+    if n < k {
+        Kind::Metal
+    } else if k > ABSORBING_K {
+        Kind::Semiconductor
+    } else {
+        Kind::Dielectric
+    }
+}

@@ -1,0 +1,292 @@
+//! The rows of a table as others wrote them: checked one by one, then put in order, each wavelength once.
+//!
+//! A table is believed where it can be. What has to be done to it is said in a remark, and every remark reaches the
+//! user: rows out of order are sorted; a wavelength with several rows gets their mean; a k just below 0, which is
+//! noise of the measurement, is 0, since a passive medium has no gain.
+
+use super::decimal::{self, Unit};
+use super::dispersion::{Curve, Point};
+
+/// The k that is still taken for noise. The worst page of refractiveindex.info that is right elsewhere has -0.148.
+const LEAST_K: f64 = -0.2;
+
+/// What the columns after the wavelength hold.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Columns {
+    /// n alone.
+    N,
+    /// k alone.
+    K,
+    /// n, then k.
+    Nk,
+}
+
+impl Columns {
+    fn names(self) -> &'static [&'static str] {
+        match self {
+            Columns::N => &["n"],
+            Columns::K => &["k"],
+            Columns::Nk => &["n", "k"],
+        }
+    }
+}
+
+/// A wavelength in nanometres, and the columns after it; with one column the second value is 0.
+#[derive(Clone, Copy, PartialEq)]
+struct Row {
+    nm: f64,
+    values: [f64; 2],
+}
+
+/// A table that is being read.
+pub struct Rows {
+    columns: Columns,
+    unit: Unit,
+    rows: Vec<Row>,
+    gains: usize,
+    least_k: f64,
+}
+
+/// What is wrong with a row, and in which of its columns, from 0.
+pub struct RowFault {
+    /// The column.
+    pub column: usize,
+    /// What was found, and what is allowed.
+    pub what: String,
+}
+
+impl Rows {
+    /// A table without rows yet.
+    pub fn new(columns: Columns, unit: Unit) -> Rows {
+        Rows {
+            columns,
+            unit,
+            rows: Vec::new(),
+            gains: 0,
+            least_k: 0.0,
+        }
+    }
+
+    /// Whether there is no row yet.
+    pub fn is_empty(&self) -> bool {
+        self.rows.is_empty()
+    }
+
+    /// Reads a row.
+    pub fn push<'a>(&mut self, tokens: impl Iterator<Item = &'a str>) -> Result<(), RowFault> {
+        let names = self.columns.names();
+        let mut row = Row {
+            nm: 0.0,
+            values: [0.0; 2],
+        };
+        let mut found = 0;
+        for (column, token) in tokens.enumerate() {
+            let fault = |what| RowFault { column, what };
+            found += 1;
+            if column == 0 {
+                row.nm = decimal::nm(token, self.unit).map_err(fault)?;
+            } else if let Some(name) = names.get(column - 1) {
+                row.values[column - 1] = self.value(name, token).map_err(fault)?;
+            }
+        }
+        if found != names.len() + 1 {
+            let wanted = format!("wavelength, {}", names.join(", "));
+            let what = format!("a row of {found} numbers; it wants {wanted}");
+            return Err(RowFault { column: 0, what });
+        }
+        self.rows.push(row);
+        Ok(())
+    }
+
+    fn value(&mut self, name: &str, token: &str) -> Result<f64, String> {
+        let value = decimal::finite(token)?;
+        if name != "k" || value >= 0.0 {
+            return Ok(value);
+        }
+        if value < LEAST_K {
+            return Err(format!(
+                "k is {value}; it must not be below 0, and only down to {LEAST_K} is it taken for noise"
+            ));
+        }
+        self.gains += 1;
+        self.least_k = self.least_k.min(value);
+        Ok(0.0)
+    }
+
+    /// The curves of n and of k, as far as the table has them, with what was done to it. It has a row.
+    pub fn curves(mut self, remarks: &mut Vec<String>) -> (Option<Curve>, Option<Curve>) {
+        if self.gains > 0 {
+            remarks.push(format!(
+                "k was below 0 in {}, at worst {}: taken as 0",
+                counted(self.gains, "row"),
+                self.least_k
+            ));
+        }
+        if !self.rows.is_sorted_by(|a, b| a.nm <= b.nm) {
+            remarks.push("rows were not in order of wavelength: sorted".to_owned());
+            self.rows.sort_by(|a, b| a.nm.total_cmp(&b.nm));
+        }
+        let rows = each_wavelength_once(self.rows, remarks);
+        let column = |at: usize| {
+            let point = |row: &Row| Point {
+                nm: row.nm,
+                value: row.values[at],
+            };
+            Some(Curve::Table(rows.iter().map(point).collect()))
+        };
+        match self.columns {
+            Columns::N => (column(0), None),
+            Columns::K => (None, column(0)),
+            Columns::Nk => (column(0), column(1)),
+        }
+    }
+}
+
+/// Equal rows become one; different rows of one wavelength become their mean.
+fn each_wavelength_once(rows: Vec<Row>, remarks: &mut Vec<String>) -> Vec<Row> {
+    let mut once: Vec<Row> = Vec::with_capacity(rows.len());
+    let mut differing = Vec::new();
+    for same in rows.chunk_by(|a, b| a.nm == b.nm) {
+        let mut same = same.to_vec();
+        same.sort_by(|a, b| {
+            let second = || a.values[1].total_cmp(&b.values[1]);
+            a.values[0].total_cmp(&b.values[0]).then_with(second)
+        });
+        same.dedup();
+        if same.len() > 1 {
+            differing.push(same[0].nm);
+        }
+        once.push(mean(&same));
+    }
+    if let Some(first) = differing.first() {
+        remarks.push(format!(
+            "{} had several rows that differ, the first at {first} nm: their mean was taken",
+            counted(differing.len(), "wavelength")
+        ));
+    }
+    once
+}
+
+/// The mean of rows of one wavelength. Each is divided before they are added, so that the sum is finite.
+fn mean(same: &[Row]) -> Row {
+    let mean = |at: usize| match same {
+        [one] => one.values[at],
+        _ => {
+            let share = |row: &Row| row.values[at] / same.len() as f64;
+            same.iter().map(share).sum()
+        }
+    };
+    Row {
+        nm: same[0].nm,
+        values: [mean(0), mean(1)],
+    }
+}
+
+fn counted(count: usize, what: &str) -> String {
+    let plural = if count == 1 { "" } else { "s" };
+    format!("{count} {what}{plural}")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[track_caller]
+    fn check(columns: Columns, text: &str, n: &[(f64, f64)], k: &[(f64, f64)], remarks: &[&str]) {
+        let mut rows = Rows::new(columns, Unit::Nm);
+        for line in text.split(';') {
+            let fault = rows.push(line.split_whitespace()).err();
+            assert!(
+                fault.is_none(),
+                "{}",
+                fault.map_or(String::new(), |f| f.what)
+            );
+        }
+        let mut said = Vec::new();
+        let (got_n, got_k) = rows.curves(&mut said);
+        assert_eq!((got_n, got_k), (table(n), table(k)));
+        assert_eq!(said, remarks);
+    }
+
+    fn table(points: &[(f64, f64)]) -> Option<Curve> {
+        let point = |&(nm, value): &(f64, f64)| Point { nm, value };
+        let points: Vec<Point> = points.iter().map(point).collect();
+        (!points.is_empty()).then_some(Curve::Table(points))
+    }
+
+    #[test]
+    fn what_is_done_to_rows_is_said() {
+        use Columns::{K, N, Nk};
+        check(N, "400 1; 500 2", &[(400.0, 1.0), (500.0, 2.0)], &[], &[]);
+        check(Nk, "400 1 2", &[(400.0, 1.0)], &[(400.0, 2.0)], &[]);
+        let sorted = "rows were not in order of wavelength: sorted";
+        check(
+            N,
+            "500 2; 400 1",
+            &[(400.0, 1.0), (500.0, 2.0)],
+            &[],
+            &[sorted],
+        );
+        check(N, "400 1; 400 1", &[(400.0, 1.0)], &[], &[]);
+        let mean =
+            "1 wavelength had several rows that differ, the first at 400 nm: their mean was taken";
+        check(N, "400 1; 400 2; 400 2", &[(400.0, 1.5)], &[], &[mean]);
+        check(
+            Nk,
+            "400 1 0; 400 1 1",
+            &[(400.0, 1.0)],
+            &[(400.0, 0.5)],
+            &[mean],
+        );
+        check(
+            N,
+            "400 1e308; 400 1.5e308",
+            &[(400.0, 1.25e308)],
+            &[],
+            &[mean],
+        );
+        let noise = "k was below 0 in 2 rows, at worst -0.2: taken as 0";
+        check(
+            K,
+            "400 -0.1; 500 -0.2",
+            &[],
+            &[(400.0, 0.0), (500.0, 0.0)],
+            &[noise],
+        );
+        check(N, "400 -0.1", &[(400.0, -0.1)], &[], &[]);
+    }
+
+    #[track_caller]
+    fn refused(columns: Columns, row: &str, column: usize, says: &str) {
+        let fault = Rows::new(columns, Unit::Nm).push(row.split_whitespace());
+        let fault = fault.expect_err("it is refused");
+        assert_eq!((fault.column, fault.what.as_str()), (column, says));
+    }
+
+    #[test]
+    fn a_row_that_is_none_is_refused() {
+        use Columns::{K, N, Nk};
+        refused(N, "400", 0, "a row of 1 numbers; it wants wavelength, n");
+        refused(
+            N,
+            "400 1 2",
+            0,
+            "a row of 3 numbers; it wants wavelength, n",
+        );
+        refused(
+            Nk,
+            "400 1",
+            0,
+            "a row of 2 numbers; it wants wavelength, n, k",
+        );
+        refused(K, "", 0, "a row of 0 numbers; it wants wavelength, k");
+        refused(Nk, "400 nan 0", 1, "`nan` is not a finite number");
+        refused(K, "400 x", 1, "`x` is no number");
+        refused(
+            Nk,
+            "400 1 -0.21",
+            2,
+            "k is -0.21; it must not be below 0, and only down to -0.2 is it taken for noise",
+        );
+    }
+}
