@@ -3,6 +3,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use crate::emit::{self, Bounds, Emitted, File, NAGA_VERSION, Naming, Subject};
+use crate::materials::Unseen;
 use crate::methods::{self, Method};
 use crate::targets::Target;
 
@@ -10,7 +11,7 @@ use super::artifact::{Artifact, sha256};
 use super::error::Error;
 use super::manifest::{Input, Provenance};
 use super::names::quoted;
-use super::request::{Materials, Request};
+use super::request::{Materials, Request, Subjects};
 use super::scope::Scope;
 use super::sight;
 
@@ -23,6 +24,8 @@ pub struct Generated {
     pub scope: Scope,
     /// Versions and inputs, for the manifest.
     pub provenance: Provenance,
+    /// Why materials that `all` brings along are left out.
+    pub left_out: Vec<Unseen>,
 }
 
 /// Methods that a material's file holds besides those of the request, by target and material: what earlier runs put
@@ -71,6 +74,7 @@ pub fn generate_beside(request: &Request, kept: &Kept) -> Result<Generated, Erro
         artifacts,
         scope: run.scope(),
         provenance: run.provenance(),
+        left_out: run.left_out,
     })
 }
 
@@ -126,6 +130,7 @@ struct Run<'r> {
     /// The methods asked for by name; nothing where all are meant.
     named: Option<Vec<&'static Method>>,
     subjects: Vec<(Subject, String)>,
+    left_out: Vec<Unseen>,
     naming: Naming,
     bounds: Bounds,
 }
@@ -135,14 +140,16 @@ impl<'r> Run<'r> {
         let named = request.resolved_methods()?;
         request.derivation()?;
         let no_materials = named.is_some() && request.materials == Materials::Default;
+        let subjects = if no_materials {
+            Subjects::default()
+        } else {
+            request.subjects()?
+        };
         Ok(Run {
             request,
             targets: request.resolved_targets()?,
-            subjects: if no_materials {
-                Vec::new()
-            } else {
-                request.subjects()?
-            },
+            subjects: subjects.ready,
+            left_out: subjects.left_out,
             named,
             naming: request.naming(),
             bounds: Bounds::recorded(),

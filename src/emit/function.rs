@@ -4,7 +4,7 @@ use crate::fit::{
     Derivation, Effective, Known, Measured, ModelError, Truth, effective, model_error, values_of,
 };
 use crate::ir::Checked;
-use crate::materials::{Kind, Material, Sight, Surface};
+use crate::materials::{Kind, Material, Sight, Surface, Unseen};
 use crate::methods::{Class, Light, Method, Values};
 
 use super::bounds::Bounds;
@@ -73,7 +73,7 @@ impl Subject {
         medium: Option<Typed>,
         sight: &Sight,
         derivation: Derivation,
-    ) -> Result<Subject, String> {
+    ) -> Result<Subject, Unseen> {
         let around = medium.as_ref().map(|(_, medium)| medium);
         let surface = Surface::new(&material, around, sight)?;
         let truth = Truth::new(surface, Light::Unpolarised);

@@ -1,7 +1,7 @@
 //! What an engine wants to know of a material: colours, index per channel, averages, and how well each is known.
 //! Colours are unclipped: saturated gold has F0 above 1 in linear sRGB.
 
-use crate::materials::{Index, Kind, Material, Surface};
+use crate::materials::{Extrapolate, Index, Kind, Material, Surface};
 use crate::methods::Light;
 use crate::optics;
 
@@ -63,8 +63,7 @@ pub fn abbe(material: &Material) -> Option<f64> {
 }
 
 fn n_at(material: &Material, nm: f64) -> Option<f64> {
-    let index = material.index(nm, crate::materials::Extrapolate::Refuse);
-    index.ok().map(|index: Index| index.n)
+    material.n.at(nm, Extrapolate::Refuse).ok()
 }
 
 /// Reflectance at normal incidence at each of a surface's wavelengths.

@@ -13,6 +13,7 @@ mod formula;
 mod material;
 mod page;
 mod print;
+mod read;
 mod rows;
 mod surface;
 mod trim;
@@ -24,6 +25,7 @@ pub use file::name_fault;
 pub use formula::Formula;
 pub use material::{Index, Kind, Material};
 pub use page::Page;
-pub use surface::{Sight, Surface};
+pub use read::page;
+pub use surface::{Sight, Surface, Unseen};
 
 pub use crate::spectra::Fault;

@@ -54,20 +54,33 @@ pub struct Surface {
     pub held_nm: (Option<f64>, Option<f64>),
 }
 
+/// A material that is not known where it is looked at.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("{why}{advice}")]
+pub struct Unseen {
+    /// Which material, where it is known, which wavelength is wanted.
+    pub why: String,
+    /// What can be done.
+    pub advice: String,
+}
+
 impl Surface {
     /// The surface of a material in air or in a medium. Where either is known at three wavelengths only, these are taken.
     pub fn new(
         material: &Material,
         medium: Option<&Material>,
         sight: &Sight,
-    ) -> Result<Surface, String> {
+    ) -> Result<Surface, Unseen> {
         let three = sight
             .wavelengths_nm
             .or(material.rgb_nm)
             .or(medium.and_then(|medium| medium.rgb_nm));
         let integrator = match three {
             Some(rgb) => Integrator::three_wavelengths(rgb),
-            None => Integrator::new(&sight.integration).map_err(|fault| fault.to_string())?,
+            None => Integrator::new(&sight.integration).map_err(|fault| Unseen {
+                why: fault.to_string(),
+                advice: String::new(),
+            })?,
         };
         let index = |nm: &f64| {
             let own = material.index(*nm, sight.beyond)?;
@@ -87,7 +100,10 @@ impl Surface {
             sight.gamut
         };
         Ok(Surface {
-            indices: indices.map_err(|why| why + &advice(material, sight))?,
+            indices: indices.map_err(|why| Unseen {
+                why,
+                advice: advice(material, sight),
+            })?,
             held_nm: held(material, medium, &integrator.wavelengths),
             integrator,
             gamut,

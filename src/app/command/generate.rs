@@ -115,6 +115,9 @@ fn written(
         .collect();
     write_depfile(flags, &outputs)?;
     let mut output = Output::default();
+    for why in generated.left_out.iter().filter(|_| !flags.quiet) {
+        output.remarks.push(format!("left out: {}", why.why));
+    }
     for path in plan.orphans.iter().filter(|_| !flags.quiet) {
         output
             .remarks

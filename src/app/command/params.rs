@@ -49,9 +49,11 @@ pub fn run(flags: &ParamsFlags, json: Option<&std::path::Path>) -> Result<Output
 }
 
 fn told(material: Material, medium: Option<Material>, sight: Sight) -> Result<Told, Error> {
-    let refused = |what: String| Error::Usage { what };
-    let surface = Surface::new(&material, medium.as_ref(), &sight).map_err(refused)?;
-    let colour_errors = surface.channels().is_none().then(|| errors(&surface, &sight));
+    let surface = Surface::new(&material, medium.as_ref(), &sight)?;
+    let colour_errors = surface
+        .channels()
+        .is_none()
+        .then(|| errors(&surface, &sight));
     Ok(Told {
         held: surface.held(),
         seen: surface.seen.clone(),
@@ -71,17 +73,32 @@ fn errors(surface: &Surface, sight: &Sight) -> Vec<(String, [f64; 3])> {
     let error = |light: &Illuminant| {
         BOUNCES.map(|bounces| colour_error(&reflectance, rgb, light, bounces, &sight.integration))
     };
-    OTHER_LIGHTS.iter().map(|light| (light.name().to_owned(), error(light))).collect()
+    OTHER_LIGHTS
+        .iter()
+        .map(|light| (light.name().to_owned(), error(light)))
+        .collect()
 }
 
 /// F0 of the other measurements of the same substance over the whole spectrum.
-fn others(material: &Material, medium: Option<&Material>, sight: &Sight) -> Result<Vec<(String, [f64; 3])>, Error> {
-    let same = |other: &Material| other.substance == material.substance && other.name != material.name && other.rgb_nm.is_none();
+fn others(
+    material: &Material,
+    medium: Option<&Material>,
+    sight: &Sight,
+) -> Result<Vec<(String, [f64; 3])>, Error> {
+    let same = |other: &Material| {
+        other.substance == material.substance
+            && other.name != material.name
+            && other.rgb_nm.is_none()
+    };
     let f0 = |other: Material| {
         let surface = Surface::new(&other, medium, sight).ok()?;
         Some((other.name, surface.unpolarised(1.0).to_array()))
     };
-    Ok(materials::list()?.into_iter().filter(same).filter_map(f0).collect())
+    Ok(materials::list()?
+        .into_iter()
+        .filter(same)
+        .filter_map(f0)
+        .collect())
 }
 
 /// Smallest and largest F0 of all measurements, this one among them.
@@ -117,8 +134,12 @@ fn object(told: &Told) -> Value {
     }
     object["colour_error"] = colour_error_json(told);
     let (least, most) = spread(told);
-    let others = told.others.iter().map(|(name, f0)| json!({ "name": name, "f0": f0 }));
-    object["spread"] = json!({ "f0_min": least, "f0_max": most, "others": others.collect::<Vec<_>>() });
+    let others = told
+        .others
+        .iter()
+        .map(|(name, f0)| json!({ "name": name, "f0": f0 }));
+    object["spread"] =
+        json!({ "f0_min": least, "f0_max": most, "others": others.collect::<Vec<_>>() });
     object
 }
 
@@ -156,11 +177,23 @@ fn text(told: &Told) -> String {
     let rows = [
         row("F0", params.f0, "at 0 degrees"),
         row("F82", params.f82, "at 81.79 degrees"),
-        row("F82 tint", params.f82_tint, "F82 over Schlick's value there"),
+        row(
+            "F82 tint",
+            params.f82_tint,
+            "F82 over Schlick's value there",
+        ),
         row("F90", params.f90, "at 90 degrees"),
         row("average", params.average, "hemispherical reflectance"),
-        row("edge tint", params.edge_tint, "Gulbrandsen's g; his r is F0"),
-        row("n", params.effective.channels.n, &params.effective.by.map(by).join(", ")),
+        row(
+            "edge tint",
+            params.edge_tint,
+            "Gulbrandsen's g; his r is F0",
+        ),
+        row(
+            "n",
+            params.effective.channels.n,
+            &params.effective.by.map(by).join(", "),
+        ),
         row("k", params.effective.channels.k, ""),
     ];
     let mut lines = vec![
@@ -170,8 +203,13 @@ fn text(told: &Told) -> String {
     lines.extend(told.held.iter().map(|held| format!("extrapolated: {held}")));
     lines.push(String::new());
     lines.push(table::text(&["", "red", "green", "blue", ""], &rows));
-    let number = |value: Option<f64>| value.map_or("none".to_owned(), |value| format!("{value:.5}"));
-    lines.push(format!("index at the d line {}, Abbe number {}", number(ior_d(&told.material)), number(dispersion(&told.material))));
+    let number =
+        |value: Option<f64>| value.map_or("none".to_owned(), |value| format!("{value:.5}"));
+    lines.push(format!(
+        "index at the d line {}, Abbe number {}",
+        number(ior_d(&told.material)),
+        number(dispersion(&told.material))
+    ));
     lines.extend(colour_error_text(told));
     lines.extend(spread_text(told));
     lines.join("\n") + "\n"
@@ -200,7 +238,10 @@ fn spread_text(told: &Told) -> Vec<String> {
     }
     let (least, most) = spread(told);
     let row = |name: &str, values: &[f64; 3]| {
-        [name.to_owned()].into_iter().chain(values.map(|value| format!("{value:.5}"))).collect()
+        [name.to_owned()]
+            .into_iter()
+            .chain(values.map(|value| format!("{value:.5}")))
+            .collect()
     };
     let mut rows: Vec<Vec<String>> = told.others.iter().map(|(name, f0)| row(name, f0)).collect();
     rows.push(row("least of all", &least));

@@ -110,7 +110,7 @@ fn every_specialised_function_reads_as_it_was_meant() {
     let artifacts = generate(&request)
         .expect("the catalogue generates")
         .artifacts;
-    for (subject, _) in request.subjects().expect("the catalogue is good") {
+    for (subject, _) in request.subjects().expect("the catalogue is good").ready {
         for name in subject.default_methods() {
             let method = methods::find(name).expect("it is there");
             let constants = subject.values(method);
