@@ -16,6 +16,7 @@ mod readme;
 mod reproduce;
 mod reread;
 mod specialise;
+mod spectral;
 mod tidy;
 mod tree;
 
