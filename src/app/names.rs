@@ -29,7 +29,7 @@ fn listed(kind: &str, all: &[&str]) -> String {
 
 /// The names most like this one, best first.
 pub fn nearest(name: &str, all: &[&str]) -> Vec<String> {
-    let score = |other: &str| strsim::jaro_winkler(&name.to_lowercase(), other);
+    let score = |other: &str| strsim::jaro_winkler(&name.to_lowercase(), &other.to_lowercase());
     let mut alike: Vec<&str> = all
         .iter()
         .copied()

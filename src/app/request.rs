@@ -251,7 +251,7 @@ fn check_not_a_method(name: &str) -> Result<(), Error> {
 }
 
 /// A medium that absorbs has no incident wave of one amplitude, so that reflectance is not defined.
-fn check_transparent(medium: &Material) -> Result<(), Error> {
+pub fn check_transparent(medium: &Material) -> Result<(), Error> {
     if medium.kind == Kind::Dielectric {
         return Ok(());
     }

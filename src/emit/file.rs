@@ -2,7 +2,7 @@
 
 use serde_json::{Value, json};
 
-use crate::fit::Measured;
+use crate::fit::{By, Measured};
 use crate::methods::Method;
 use crate::targets::{Finish, Page, Target};
 
@@ -69,8 +69,22 @@ pub fn material(
     target
         .pages
         .iter()
-        .map(|page| file(target, page, &stem, &unique, &head, &documented, command))
+        .map(|page| {
+            let mut file = file(target, page, &stem, &unique, &head, &documented, command)?;
+            file.detail["seen"] = seen(subject);
+            Ok(file)
+        })
         .collect()
+}
+
+/// What the manifest says of how a material is seen: its modules have no head to say it in.
+fn seen(subject: &Subject) -> Value {
+    let surface = &subject.truth.surface;
+    let effective = &subject.effective;
+    json!({
+        "truth": surface.seen, "extrapolated": surface.held(),
+        "n": effective.channels.n, "k": effective.channels.k, "nk_by": effective.by.map(By::text),
+    })
 }
 
 /// One function with a short head, to be pasted: no guard, no includes.

@@ -158,8 +158,13 @@ fn how_found(subject: &Subject) -> Option<String> {
     };
     let (given, nearest) = (named(By::F0AndF82), named(By::Nearest));
     let given = (!given.is_empty()).then(|| format!("{given} as F0 and F82 determine it"));
+    let kind = if subject.effective.channels.is_transparent() {
+        "transparent index"
+    } else {
+        "index"
+    };
     let nearest = (!nearest.is_empty()).then(|| {
-        format!("{nearest} as its curve comes nearest, since no index has both F0 and F82")
+        format!("{nearest} as its curve comes nearest, since no {kind} has both F0 and F82")
     });
     let parts: Vec<String> = given.into_iter().chain(nearest).collect();
     (!parts.is_empty()).then(|| format!("  {}", parts.join("; ")))

@@ -32,6 +32,17 @@ pub enum By {
     Nearest,
 }
 
+impl By {
+    /// In words.
+    pub fn text(self) -> &'static str {
+        match self {
+            By::Itself => "one wavelength",
+            By::F0AndF82 => "f0 and f82",
+            By::Nearest => "nearest curve",
+        }
+    }
+}
+
 /// Below this n the exact law loses digits in f32.
 const LEAST_N: f64 = 1e-3;
 /// The box that is searched: n up to here in steps of equal ratio, k up to here.
@@ -83,11 +94,12 @@ pub fn effective(truth: &Truth, kind: Kind) -> Effective {
     }
 }
 
-/// Cosines and what is seen there.
+/// Cosines and what is seen there, between 0 and 1: no index reflects more than all, so that of saturated gold's red the
+/// part below 1 is what an index can follow.
 fn curve(truth: &Truth) -> Vec<(f64, [f64; 3])> {
     let cosine = |i: usize| libm::cos(i as f64 / ANGLES as f64 * std::f64::consts::FRAC_PI_2);
     (0..ANGLES)
-        .map(|i| (cosine(i), truth.at(cosine(i))))
+        .map(|i| (cosine(i), truth.at(cosine(i)).map(|r| r.clamp(0.0, 1.0))))
         .collect()
 }
 

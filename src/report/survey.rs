@@ -46,6 +46,8 @@ pub struct About {
 /// Unclipped colours of a surface in air.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Colours {
+    /// What was extrapolated, in words, where anything was.
+    pub held: Option<String>,
     /// At each whole degree from 0 to 90.
     pub by_degree: Vec<[f64; 3]>,
     /// At 81.79 degrees.
@@ -96,6 +98,7 @@ fn colours(surface: &Surface) -> Colours {
         _ => libm::cos((degree as f64).to_radians()),
     };
     Colours {
+        held: surface.held(),
         by_degree: (0..ANGLES)
             .map(|degree| surface.unpolarised(cosine(degree)).to_array())
             .collect(),
@@ -111,6 +114,7 @@ impl Surveyed {
             Outcome::Seen(about, colours) => {
                 row["f0"] = json!(colours.by_degree[0]);
                 row["f82"] = json!(colours.f82);
+                row["extrapolated"] = json!(colours.held);
                 ("seen", Some(about))
             }
             Outcome::Elsewhere(about, why) => {
@@ -151,9 +155,22 @@ pub fn text(all: &[Surveyed]) -> String {
         all.len(),
         all.len() - seen - elsewhere
     )];
+    lines.extend(extrapolated(all));
     lines.extend(refusals(all));
     lines.extend(glasses(all));
     lines.join("\n") + "\n"
+}
+
+/// How many colours rest on held ends.
+fn extrapolated(all: &[Surveyed]) -> Option<String> {
+    let is_held =
+        |s: &&Surveyed| matches!(&s.outcome, Outcome::Seen(_, colours) if colours.held.is_some());
+    let count = all.iter().filter(is_held).count();
+    (count > 0).then(|| {
+        format!(
+            "of these {count} are extrapolated: beyond the measured range the last index is held"
+        )
+    })
 }
 
 /// Reasons with the number of pages, and the page where it is one alone.

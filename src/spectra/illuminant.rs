@@ -13,7 +13,7 @@ use std::sync::LazyLock;
 use super::fault::Fault;
 use super::spectrum::Spectrum;
 use super::table::{Row, rows};
-use super::wavelength::{FIRST_NM, LAST_NM};
+use super::wavelength::{FIRST_NM, LAST_NM, Step};
 
 /// A light.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -130,10 +130,9 @@ fn range_fault(rows: &[Row<2>]) -> Option<(usize, String)> {
             format!("the table holds {from} to {to} nm; it must cover {FIRST_NM} to {LAST_NM} nm");
         return Some((line, what));
     }
-    let seen = rows
-        .iter()
-        .filter(|row| (FIRST_NM..=LAST_NM).contains(&row.values[0]));
-    let brightest = seen.map(|row| row.values[1]).fold(0.0, f64::max);
+    let power = spectrum(rows);
+    let seen = Step::Nm1.wavelengths().into_iter();
+    let brightest = seen.filter_map(|nm| power.at(nm)).fold(0.0, f64::max);
     (brightest < LEAST_POWER).then(|| {
         let what = format!(
             "no light: power is below {LEAST_POWER:e} at every wavelength from {FIRST_NM} to {LAST_NM} nm"

@@ -4,7 +4,7 @@ use serde_json::{Value, json};
 
 use crate::app::args::ParamsFlags;
 use crate::app::error::Error;
-use crate::app::request::load;
+use crate::app::request::{check_transparent, load};
 use crate::app::sight::sight;
 use crate::app::source::source;
 use crate::fit::{By, Params, abbe, ior_d, normal_spectrum, params};
@@ -43,6 +43,9 @@ pub fn run(flags: &ParamsFlags, json: Option<&std::path::Path>) -> Result<Output
     let material = load(&source(&flags.name)?)?.material;
     let medium = flags.medium.as_deref().map(source).transpose()?;
     let medium = medium.map(|medium| load(&medium)).transpose()?;
+    if let Some(medium) = &medium {
+        check_transparent(&medium.material)?;
+    }
     let sight = sight(&flags.sight.words(Some(Gamut::Keep.name())))?;
     let told = told(material, medium.map(|medium| medium.material), sight)?;
     report(text(&told), &object(&told), json)
@@ -123,7 +126,7 @@ fn object(told: &Told) -> Value {
         "step_nm": integration.step.nm(), "gamut": told.sight.gamut.name(), "truth": told.seen, "extrapolated": told.held,
         "f0": params.f0, "f82": params.f82, "f82_tint": params.f82_tint, "f90": params.f90,
         "reflectivity": params.f0, "edge_tint": params.edge_tint,
-        "n": params.effective.channels.n, "k": params.effective.channels.k, "nk_by": params.effective.by.map(by),
+        "n": params.effective.channels.n, "k": params.effective.channels.k, "nk_by": params.effective.by.map(By::text),
         "average": params.average, "ior_d": ior_d(&told.material), "abbe": dispersion(&told.material),
     });
     if told.sight.wavelengths_nm.or(told.material.rgb_nm).is_some() {
@@ -158,14 +161,6 @@ fn dispersion(material: &Material) -> Option<f64> {
     abbe(material).filter(|_| material.kind == Kind::Dielectric)
 }
 
-fn by(by: By) -> &'static str {
-    match by {
-        By::Itself => "one wavelength",
-        By::F0AndF82 => "f0 and f82",
-        By::Nearest => "nearest curve",
-    }
-}
-
 fn text(told: &Told) -> String {
     let params = &told.params;
     let row = |name: &str, values: [f64; 3], what: &str| {
@@ -192,7 +187,7 @@ fn text(told: &Told) -> String {
         row(
             "n",
             params.effective.channels.n,
-            &params.effective.by.map(by).join(", "),
+            &params.effective.by.map(By::text).join(", "),
         ),
         row("k", params.effective.channels.k, ""),
     ];

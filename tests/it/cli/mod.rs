@@ -8,6 +8,7 @@ mod generation;
 #[cfg(unix)]
 mod killed;
 mod materials;
+mod seen;
 mod single;
 mod streams;
 
