@@ -208,7 +208,7 @@ impl Source<'_> {
 fn completed(number: u8, coefficients: &mut Vec<f64>) -> Option<String> {
     let count = coefficients.len();
     match number {
-        1..=6 if count % 2 == 0 => {
+        1..=6 if count.is_multiple_of(2) => {
             coefficients.push(0.0);
             Some(format!(
                 "formula {number} has {count} coefficients: the missing partner of the last was taken as 0"
