@@ -18,6 +18,7 @@ pub mod methods;
 pub mod num;
 pub mod optics;
 pub mod report;
+pub mod spectra;
 pub mod targets;
 pub mod verify;
 

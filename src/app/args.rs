@@ -4,6 +4,8 @@ use std::path::PathBuf;
 
 use clap::{Args, Parser, Subcommand};
 
+use super::sight::Words;
+
 /// Turns measured optical constants into Fresnel reflectance functions that a shader can afford.
 ///
 /// Without a subcommand it generates: shaders for every target, method and material asked for.
@@ -12,7 +14,7 @@ use clap::{Args, Parser, Subcommand};
     name = "fresnel-gen",
     version,
     args_conflicts_with_subcommands = true,
-    after_help = "Examples:\n  fresnel-gen --target gles\n  fresnel-gen --material gold_thesis --method conductor_exact --target hlsl -o -\n  fresnel-gen --material my_metal.toml --target wgsl --out-dir shaders\n  fresnel-gen --check\n\nExit codes: 0 done; 1 findings (--check found a difference); 2 usage or input error; 3 something is missing on this machine."
+    after_help = "Examples:\n  fresnel-gen --target gles\n  fresnel-gen --material gold --method conductor_exact --target hlsl -o -\n  fresnel-gen --material my_metal.toml --target wgsl --out-dir shaders\n  fresnel-gen --check\n\nExit codes: 0 done; 1 findings (--check found a difference); 2 usage or input error; 3 something is missing on this machine."
 )]
 pub struct Cli {
     /// What to do; generation where nothing is named.
@@ -29,9 +31,11 @@ pub enum Command {
     /// List the methods, or show one with formula, source, domain and promised errors
     #[command(after_help = "Example:\n  fresnel-gen methods show schlick_corrected")]
     Methods(Listing),
-    /// List the materials, or show one with its data and source
-    #[command(after_help = "Example:\n  fresnel-gen materials show gold_thesis --json -")]
-    Materials(Listing),
+    /// List the materials, show one, compute its parameters, import more
+    #[command(
+        after_help = "Examples:\n  fresnel-gen materials list --class metal\n  fresnel-gen materials params gold --space acescg --json -\n  fresnel-gen materials show gold --svg gold.svg\n  fresnel-gen materials import main/Au/nk/Johnson.yml --name my_gold -o my_gold.toml"
+    )]
+    Materials(Box<MaterialsFlags>),
     /// List the targets, or show one with its validators
     #[command(after_help = "Example:\n  fresnel-gen targets show gles")]
     Targets(Listing),
@@ -48,12 +52,18 @@ pub struct Generate {
     /// Method, see `fresnel-gen methods` [default: all; for materials the exact one and two Schlicks]
     #[arg(long, value_delimiter = ',', value_name = "NAME")]
     pub method: Vec<String>,
-    /// Material to specialise to: names, paths of material files, all; or none [default: the thesis's four]
+    /// Material to specialise to: names, paths of material files, all; or none [default: gold, platinum, water, diamond]
     #[arg(long, value_delimiter = ',', value_name = "NAME")]
     pub material: Vec<String>,
     /// What the light comes from: a transparent material's name or file [default: air]
     #[arg(long, value_name = "NAME")]
     pub medium: Option<String>,
+    /// How the material is seen.
+    #[command(flatten)]
+    pub sight: SightFlags,
+    /// Colours outside the working space: keep, clip to [0, 1], or scale [default: clip]
+    #[arg(long, value_name = "NAME")]
+    pub gamut: Option<String>,
     /// Goes before every function's name
     #[arg(long, value_name = "TEXT", default_value = "fresnel_")]
     pub prefix: String,
@@ -80,7 +90,49 @@ pub struct Generate {
     pub quiet: bool,
 }
 
-/// The flags of `methods`, `materials` and `targets`.
+/// How materials are seen: the flags of every command that makes three channels of a spectrum.
+#[derive(Args, Clone, Debug, Default)]
+pub struct SightFlags {
+    /// Working space: srgb, p3, rec2020, acescg; all linear [default: srgb]
+    #[arg(long, value_name = "NAME")]
+    pub space: Option<String>,
+    /// The light: D65, E, A, F11, LED-B3, or a file of two columns, nm and power [default: D65]
+    #[arg(long, value_name = "NAME")]
+    pub illuminant: Option<String>,
+    /// The eye: cie1931 or cie2015 [default: cie1931]
+    #[arg(long, value_name = "NAME")]
+    pub observer: Option<String>,
+    /// How a mirror becomes (1, 1, 1): scale, by dividing by its colour, or bradford [default: scale]
+    #[arg(long, value_name = "NAME")]
+    pub adaptation: Option<String>,
+    /// Steps of the spectrum: 5nm or 1nm [default: 5nm]
+    #[arg(long, value_name = "STEP")]
+    pub step: Option<String>,
+    /// Red, green and blue at one wavelength each instead, in nm: the thesis has 685,535,475
+    #[arg(long, value_delimiter = ',', value_name = "R,G,B")]
+    pub wavelengths: Vec<f64>,
+    /// Beyond the measured range: refuse, or hold the last value [default: refuse]
+    #[arg(long, value_name = "HOW")]
+    pub extrapolate: Option<String>,
+}
+
+impl SightFlags {
+    /// What they say, in words.
+    pub fn words<'a>(&'a self, gamut: Option<&'a str>) -> Words<'a> {
+        Words {
+            space: self.space.as_deref(),
+            gamut,
+            illuminant: self.illuminant.as_deref(),
+            observer: self.observer.as_deref(),
+            adaptation: self.adaptation.as_deref(),
+            step: self.step.as_deref(),
+            wavelengths: &self.wavelengths,
+            extrapolate: self.extrapolate.as_deref(),
+        }
+    }
+}
+
+/// The flags of `methods` and `targets`.
 #[derive(Args, Debug)]
 pub struct Listing {
     /// `list`, or `show NAME`
@@ -98,9 +150,135 @@ pub enum ListingCommand {
     List,
     /// All that is known of one
     Show {
-        /// Its name; for materials also the path of a material file
+        /// Its name
         name: String,
     },
+}
+
+/// The flags of `materials`.
+#[derive(Args, Debug)]
+pub struct MaterialsFlags {
+    /// What to do [default: list]
+    #[command(subcommand)]
+    pub what: Option<MaterialsCommand>,
+    /// Write the report as JSON to this file, or `-` for stdout
+    #[arg(long, value_name = "FILE", global = true)]
+    pub json: Option<PathBuf>,
+}
+
+/// What is done with materials.
+#[derive(Debug, Subcommand)]
+pub enum MaterialsCommand {
+    /// Name, class, measured range and summary of each
+    List(FilterFlags),
+    /// All that is known of one, as text, and as a picture
+    Show(ShowFlags),
+    /// The numbers that an engine wants: F0, F82, n and k per channel, averages, and how well they are known
+    #[command(after_help = "Example:\n  fresnel-gen materials params gold --space acescg --json -")]
+    Params(ParamsFlags),
+    /// Turn a page of refractiveindex.info or a CSV table into a material file
+    #[command(
+        after_help = "Example:\n  fresnel-gen materials import main/Au/nk/Johnson.yml --name my_gold -o my_gold.toml"
+    )]
+    Import(ImportFlags),
+    /// Read every page of refractiveindex.info below a folder: what it is, its colour, or why it cannot be used
+    #[command(
+        after_help = "Example:\n  fresnel-gen materials survey refractiveindex.info-database/database/data --json pages.json"
+    )]
+    Survey(SurveyFlags),
+}
+
+/// Which materials are listed.
+#[derive(Args, Debug, Default)]
+pub struct FilterFlags {
+    /// Only metal, semiconductor or dielectric
+    #[arg(long, value_name = "NAME")]
+    pub class: Option<String>,
+    /// Only measurements of this substance, such as gold
+    #[arg(long, value_name = "NAME")]
+    pub substance: Option<String>,
+    /// Only those whose name, summary or source holds this text
+    #[arg(long, value_name = "TEXT")]
+    pub search: Option<String>,
+    /// Only those known over the whole visible spectrum
+    #[arg(long)]
+    pub full: bool,
+}
+
+/// The flags of `materials show`.
+#[derive(Args, Debug)]
+pub struct ShowFlags {
+    /// A name, or the path of a material file, page or table
+    pub name: String,
+    /// Draw n, k, reflectance and colour as SVG into this file
+    #[arg(long, value_name = "FILE")]
+    pub svg: Option<PathBuf>,
+    /// Draw them as PNG into this file
+    #[arg(long, value_name = "FILE")]
+    pub png: Option<PathBuf>,
+    /// What the light comes from: a transparent material's name or file [default: air]
+    #[arg(long, value_name = "NAME")]
+    pub medium: Option<String>,
+    /// How it is seen.
+    #[command(flatten)]
+    pub sight: SightFlags,
+}
+
+/// The flags of `materials params`.
+#[derive(Args, Debug)]
+pub struct ParamsFlags {
+    /// A name, or the path of a material file, page or table
+    pub name: String,
+    /// What the light comes from: a transparent material's name or file [default: air]
+    #[arg(long, value_name = "NAME")]
+    pub medium: Option<String>,
+    /// How it is seen.
+    #[command(flatten)]
+    pub sight: SightFlags,
+}
+
+/// The flags of `materials import`.
+#[derive(Args, Debug)]
+pub struct ImportFlags {
+    /// The page (.yml) or table (.csv)
+    pub page: String,
+    /// The material's name [default: made of the file's path]
+    #[arg(long, value_name = "NAME")]
+    pub name: Option<String>,
+    /// metal, semiconductor or dielectric [default: guessed from n and k]
+    #[arg(long, value_name = "NAME")]
+    pub class: Option<String>,
+    /// What it is an alternative measurement of [default: its name]
+    #[arg(long, value_name = "NAME")]
+    pub substance: Option<String>,
+    /// One line
+    #[arg(long, value_name = "TEXT")]
+    pub summary: Option<String>,
+    /// Who measured it
+    #[arg(long, value_name = "TEXT")]
+    pub reference: Option<String>,
+    /// Where to read about it
+    #[arg(long, value_name = "URL")]
+    pub link: Option<String>,
+    /// The licence of the numbers [default: CC0-1.0 for pages]
+    #[arg(long, value_name = "NAME")]
+    pub licence: Option<String>,
+    /// What a user should know
+    #[arg(long, value_name = "TEXT")]
+    pub note: Option<String>,
+    /// Write the material file here [default: stdout]
+    #[arg(short = 'o', value_name = "FILE")]
+    pub output: Option<PathBuf>,
+}
+
+/// The flags of `materials survey`.
+#[derive(Args, Debug)]
+pub struct SurveyFlags {
+    /// A folder of pages, or one page
+    pub folder: PathBuf,
+    /// How they are seen.
+    #[command(flatten)]
+    pub sight: SightFlags,
 }
 
 /// The flags of `reproduce`.

@@ -28,6 +28,9 @@ pub enum Error {
         /// What was wrong, and what is allowed.
         what: String,
     },
+    /// A material that is not known where it is looked at.
+    #[error(transparent)]
+    Unseen(#[from] materials::Unseen),
     /// A file that the user named cannot be read.
     #[error("cannot read {}: {source}", path.display())]
     Input {

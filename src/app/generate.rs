@@ -3,14 +3,17 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use crate::emit::{self, Bounds, Emitted, File, NAGA_VERSION, Naming, Subject};
+use crate::materials::Unseen;
 use crate::methods::{self, Method};
 use crate::targets::Target;
 
 use super::artifact::{Artifact, sha256};
 use super::error::Error;
 use super::manifest::{Input, Provenance};
-use super::request::{Materials, Request};
+use super::names::quoted;
+use super::request::{Materials, Request, Subjects};
 use super::scope::Scope;
+use super::sight;
 
 /// What a request comes to.
 #[derive(Clone, Debug)]
@@ -21,6 +24,8 @@ pub struct Generated {
     pub scope: Scope,
     /// Versions and inputs, for the manifest.
     pub provenance: Provenance,
+    /// Why materials that `all` brings along are left out.
+    pub left_out: Vec<Unseen>,
 }
 
 /// Methods that a material's file holds besides those of the request, by target and material: what earlier runs put
@@ -69,6 +74,7 @@ pub fn generate_beside(request: &Request, kept: &Kept) -> Result<Generated, Erro
         artifacts,
         scope: run.scope(),
         provenance: run.provenance(),
+        left_out: run.left_out,
     })
 }
 
@@ -124,6 +130,7 @@ struct Run<'r> {
     /// The methods asked for by name; nothing where all are meant.
     named: Option<Vec<&'static Method>>,
     subjects: Vec<(Subject, String)>,
+    left_out: Vec<Unseen>,
     naming: Naming,
     bounds: Bounds,
 }
@@ -133,14 +140,16 @@ impl<'r> Run<'r> {
         let named = request.resolved_methods()?;
         request.derivation()?;
         let no_materials = named.is_some() && request.materials == Materials::Default;
+        let subjects = if no_materials {
+            Subjects::default()
+        } else {
+            request.subjects()?
+        };
         Ok(Run {
             request,
             targets: request.resolved_targets()?,
-            subjects: if no_materials {
-                Vec::new()
-            } else {
-                request.subjects()?
-            },
+            subjects: subjects.ready,
+            left_out: subjects.left_out,
             named,
             naming: request.naming(),
             bounds: Bounds::recorded(),
@@ -217,6 +226,9 @@ impl<'r> Run<'r> {
         if self.naming != Naming::default() {
             command += &format!(" --prefix {}", self.request.prefix);
         }
+        if subject.is_some() {
+            command += &sight::flags(&self.request.sight);
+        }
         if let (Some(_), Some(degrees)) = (subject, self.request.matching_angle) {
             command += &format!(" --matching-angle {degrees}");
         }
@@ -277,16 +289,6 @@ impl Owners {
                 what: format!("`{name}` would stand in {other} and in {owner}; rename a material"),
             }),
         }
-    }
-}
-
-/// A word of a shell's command line.
-fn quoted(word: &str) -> String {
-    let plain = |c: char| c.is_ascii_alphanumeric() || "_-.".contains(c);
-    if word.chars().all(plain) {
-        word.to_owned()
-    } else {
-        format!("'{}'", word.replace('\'', "'\\''"))
     }
 }
 

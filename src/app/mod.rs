@@ -17,6 +17,7 @@ pub mod manifest;
 pub mod names;
 pub mod request;
 pub mod scope;
+pub mod sight;
 pub mod source;
 pub mod tree;
 pub mod write;

@@ -1,4 +1,4 @@
-//! Names that are not there: what is, and which of it comes nearest.
+//! Names that are not there: what is, and which of it comes nearest; and names on a shell's command line.
 
 use super::error::Error;
 
@@ -27,4 +27,14 @@ pub fn nearest(name: &str, all: &[&str]) -> Vec<String> {
         .collect();
     alike.sort_by(|a, b| score(b).total_cmp(&score(a)));
     alike.into_iter().take(OFFERED).map(str::to_owned).collect()
+}
+
+/// A word of a shell's command line.
+pub fn quoted(word: &str) -> String {
+    let plain = |c: char| c.is_ascii_alphanumeric() || "_-.".contains(c);
+    if word.chars().all(plain) {
+        word.to_owned()
+    } else {
+        format!("'{}'", word.replace('\'', "'\\''"))
+    }
 }

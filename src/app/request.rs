@@ -2,7 +2,7 @@
 
 use crate::emit::{Naming, Subject};
 use crate::fit::Derivation;
-use crate::materials::{self, Channels, Material, THESIS_NM};
+use crate::materials::{self, Kind, Material, Sight, Unseen};
 use crate::methods::{self, Method};
 use crate::targets::{self, Target};
 
@@ -24,6 +24,8 @@ pub struct Request {
     pub prefix: String,
     /// Degrees at which λ of the corrected method is matched, between 0 and 90; the thesis's 81.37 where not given.
     pub matching_angle: Option<f64>,
+    /// How materials are seen: the whole spectrum in linear sRGB under D65, unless said otherwise.
+    pub sight: Sight,
 }
 
 impl Default for Request {
@@ -35,6 +37,7 @@ impl Default for Request {
             medium: None,
             prefix: Naming::default().prefix,
             matching_angle: None,
+            sight: Sight::default(),
         }
     }
 }
@@ -42,7 +45,7 @@ impl Default for Request {
 /// The choice of materials.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Materials {
-    /// The four of the thesis.
+    /// Gold, platinum, water and diamond.
     Default,
     /// None: the library only.
     None,
@@ -57,6 +60,8 @@ pub enum Materials {
 pub enum Source {
     /// The catalogue.
     Named(String),
+    /// The catalogue, brought along by `all`: left out where it is not known over the whole spectrum.
+    BroughtAlong(String),
     /// A user's file, already read.
     File {
         /// Its name, for messages and for the command in headers.
@@ -71,17 +76,12 @@ impl Source {
     pub fn catalogue() -> impl Iterator<Item = Source> {
         materials::names()
             .into_iter()
-            .map(|name| Source::Named(name.to_owned()))
+            .map(|name| Source::BroughtAlong(name.to_owned()))
     }
 }
 
 /// The materials of a run without `--material`.
-pub const DEFAULT_MATERIALS: [&str; 4] = [
-    "diamond_thesis",
-    "gold_thesis",
-    "platinum_thesis",
-    "water_thesis",
-];
+pub const DEFAULT_MATERIALS: [&str; 4] = ["diamond", "gold", "platinum", "water"];
 
 /// A source read: the material, and what it was read from.
 #[derive(Clone, Debug)]
@@ -144,7 +144,7 @@ impl Request {
     }
 
     /// The materials read, each in the medium, with the text of both files.
-    pub fn subjects(&self) -> Result<Vec<(Subject, String)>, Error> {
+    pub fn subjects(&self) -> Result<Subjects, Error> {
         let medium = self.medium.as_ref().map(load).transpose()?;
         let sources: Vec<Source> = match &self.materials {
             Materials::Default => DEFAULT_MATERIALS
@@ -155,27 +155,20 @@ impl Request {
             Materials::All => Source::catalogue().collect(),
             Materials::These(sources) => sources.clone(),
         };
-        let mut subjects = sources
-            .iter()
-            .map(|source| {
-                let loaded = load(source)?;
-                let around = medium.as_ref().map_or("", |medium| &medium.text);
-                let text = format!("{}{around}", loaded.text);
-                Ok((self.subject(loaded, medium.as_ref())?, text))
-            })
-            .collect::<Result<Vec<_>, Error>>()?;
-        subjects.sort_by(|(a, _), (b, _)| a.name.cmp(&b.name));
-        if let Some(pair) = subjects
-            .windows(2)
-            .find(|pair| pair[0].0.name == pair[1].0.name && pair[0].1 != pair[1].1)
-        {
-            let name = &pair[0].0.name;
-            return Err(Error::Usage {
-                what: format!("two different materials are named `{name}`; rename one in its file"),
-            });
+        let mut subjects = Subjects::default();
+        for source in &sources {
+            let loaded = load(source)?;
+            let around = medium.as_ref().map_or("", |medium| &medium.text);
+            let text = format!("{}{around}", loaded.text);
+            match (self.subject(loaded, medium.as_ref()), source) {
+                (Ok(subject), _) => subjects.ready.push((subject, text)),
+                (Err(Error::Unseen(fault)), Source::BroughtAlong(_)) => {
+                    subjects.left_out.push(fault);
+                }
+                (Err(error), _) => return Err(error),
+            }
         }
-        subjects.dedup_by(|(a, _), (b, _)| a.name == b.name);
-        Ok(subjects)
+        subjects.sorted()
     }
 
     /// How functions are named.
@@ -201,36 +194,48 @@ impl Request {
     }
 
     fn subject(&self, loaded: Loaded, medium: Option<&Loaded>) -> Result<Subject, Error> {
-        let own = channels(&loaded.material)?;
-        let (name, channels) = match medium {
-            None => (loaded.material.name.clone(), own),
-            Some(medium) => {
-                let around = channels_of_medium(&medium.material)?;
-                (
-                    format!("{}_in_{}", loaded.material.name, medium.material.name),
-                    relative(own, around),
-                )
-            }
-        };
-        check_not_a_method(&name)?;
-        Ok(Subject {
-            name,
-            argument: loaded.argument,
-            material: loaded.material,
-            medium: medium.map(|medium| (medium.argument.clone(), medium.material.clone())),
-            wavelengths_nm: THESIS_NM,
-            channels,
-            derivation: self.derivation()?,
-        })
+        if let Some(medium) = medium {
+            check_transparent(&medium.material)?;
+        }
+        let typed = |loaded: &Loaded| (loaded.argument.clone(), loaded.material.clone());
+        let subject = Subject::new(
+            typed(&loaded),
+            medium.map(typed),
+            &self.sight,
+            self.derivation()?,
+        )?;
+        check_not_a_method(&subject.name)?;
+        Ok(subject)
     }
 }
 
-fn relative(own: Channels, around: Channels) -> Channels {
-    let index = |of: &Channels, i: usize| materials::Index {
-        n: of.n[i],
-        k: of.k[i],
-    };
-    Channels::of([0, 1, 2].map(|i| index(&own, i).relative_to(index(&around, i))))
+/// The materials of a request.
+#[derive(Clone, Debug, Default)]
+pub struct Subjects {
+    /// Each in its medium, with the text of both files; sorted by name, each once.
+    pub ready: Vec<(Subject, String)>,
+    /// Why some of those that `all` brings along are left out.
+    pub left_out: Vec<Unseen>,
+}
+
+impl Subjects {
+    fn sorted(mut self) -> Result<Subjects, Error> {
+        self.ready.sort_by(|(a, _), (b, _)| a.name.cmp(&b.name));
+        let twice = |pair: &&[(Subject, String)]| {
+            pair[0].0.name == pair[1].0.name && pair[0].1 != pair[1].1
+        };
+        if let Some(pair) = self.ready.windows(2).find(twice) {
+            let name = &pair[0].0.name;
+            return Err(Error::Usage {
+                what: format!("two different materials are named `{name}`; rename one in its file"),
+            });
+        }
+        self.ready.dedup_by(|(a, _), (b, _)| a.name == b.name);
+        match self.left_out.first() {
+            Some(fault) if self.ready.is_empty() => Err(fault.clone().into()),
+            _ => Ok(self),
+        }
+    }
 }
 
 /// The exact function of a material bears its name alone, where a method's function bears the method's.
@@ -245,20 +250,15 @@ fn check_not_a_method(name: &str) -> Result<(), Error> {
     Err(Error::Usage { what })
 }
 
-fn channels(material: &Material) -> Result<Channels, Error> {
-    material
-        .channels(THESIS_NM)
-        .map_err(|what| Error::Usage { what })
-}
-
-fn channels_of_medium(medium: &Material) -> Result<Channels, Error> {
-    let channels = channels(medium)?;
-    if channels.is_transparent() {
-        return Ok(channels);
+/// A medium that absorbs has no incident wave of one amplitude, so that reflectance is not defined.
+fn check_transparent(medium: &Material) -> Result<(), Error> {
+    if medium.kind == Kind::Dielectric {
+        return Ok(());
     }
     let what = format!(
-        "the medium `{}` absorbs (k > 0); a medium must be transparent",
-        medium.name
+        "the medium `{}` is a {}; a medium must be transparent: a dielectric",
+        medium.name,
+        medium.kind.name()
     );
     Err(Error::Usage { what })
 }
@@ -266,7 +266,7 @@ fn channels_of_medium(medium: &Material) -> Result<Channels, Error> {
 /// Reads a material from the catalogue, or from a text at hand.
 pub fn load(source: &Source) -> Result<Loaded, Error> {
     match source {
-        Source::Named(name) => {
+        Source::Named(name) | Source::BroughtAlong(name) => {
             let found = materials::find(name).zip(materials::source(name));
             let (material, text) =
                 found.ok_or_else(|| unknown("material", name, &materials::names()))?;
@@ -277,7 +277,7 @@ pub fn load(source: &Source) -> Result<Loaded, Error> {
             })
         }
         Source::File { file, text } => {
-            let material = Material::parse(file, text)?;
+            let material = Material::read(file, text)?;
             let argument = file.rsplit(['/', '\\']).next().unwrap_or(file).to_owned();
             Ok(Loaded {
                 material,

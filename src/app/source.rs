@@ -52,7 +52,8 @@ pub fn is_path(name: &str) -> bool {
     name.contains(['.', '/', '\\'])
 }
 
-fn read(name: &str) -> Result<String, Error> {
+/// The text of a file that a user names.
+pub fn read(name: &str) -> Result<String, Error> {
     let path = Path::new(name);
     let fail = |source: io::Error| Error::Input {
         path: path.to_owned(),
@@ -80,4 +81,48 @@ fn read(name: &str) -> Result<String, Error> {
             what: "the file is not UTF-8 text".to_owned(),
         })
     })
+}
+
+/// The pages below a folder, by their paths in it with `/`, sorted; links are not followed. A file is its own and only
+/// page, whose path in itself is empty.
+pub fn pages(folder: &Path) -> Result<Vec<String>, Error> {
+    if folder.is_file() {
+        return Ok(vec![String::new()]);
+    }
+    let mut found = Vec::new();
+    let mut waiting = vec![String::new()];
+    while let Some(below) = waiting.pop() {
+        let path = folder.join(&below);
+        let fail = |source: io::Error| Error::Input {
+            path: path.clone(),
+            source,
+        };
+        for entry in fs::read_dir(&path).map_err(fail)? {
+            let entry = entry.map_err(fail)?;
+            let Ok(name) = entry.file_name().into_string() else {
+                continue;
+            };
+            let kind = entry.file_type().map_err(fail)?;
+            let place = if below.is_empty() {
+                name.clone()
+            } else {
+                format!("{below}/{name}")
+            };
+            if kind.is_dir() {
+                waiting.push(place);
+            } else if kind.is_file() && is_page(&name) {
+                found.push(place);
+            }
+        }
+    }
+    found.sort_unstable();
+    Ok(found)
+}
+
+/// Whether a file of the database is a page: others tell about a book, or list the shelves.
+fn is_page(name: &str) -> bool {
+    name.ends_with(".yml")
+        && name != "about.yml"
+        && !name.starts_with("catalog-")
+        && name != "library.yml"
 }

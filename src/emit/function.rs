@@ -1,9 +1,11 @@
 //! A function ready to be printed: its name, its graph, and what is known of its errors.
 
-use crate::fit::{Derivation, Measured, ModelError, Truth, model_error, values};
+use crate::fit::{
+    Derivation, Effective, Known, Measured, ModelError, Truth, effective, model_error, values_of,
+};
 use crate::ir::Checked;
-use crate::materials::{Channels, Kind, Material};
-use crate::methods::{Class, Method, Values};
+use crate::materials::{Kind, Material, Sight, Surface, Unseen};
+use crate::methods::{Class, Light, Method, Values};
 
 use super::bounds::Bounds;
 use super::error::Error;
@@ -53,18 +55,53 @@ pub struct Subject {
     pub material: Material,
     /// What a user types to get the medium again, and its record, where it is not air.
     pub medium: Option<(String, Material)>,
-    /// The wavelengths of red, green and blue.
-    pub wavelengths_nm: [f64; 3],
-    /// The relative index per channel.
-    pub channels: Channels,
+    /// What is seen of it, in unpolarised light.
+    pub truth: Truth,
+    /// The index per channel that stands for it.
+    pub effective: Effective,
     /// How inputs are derived from it.
     pub derivation: Derivation,
 }
 
+/// A material with what a user types to get it: a name, or a file's name.
+pub type Typed = (String, Material);
+
 impl Subject {
+    /// A material in air or in a medium, as it is seen.
+    pub fn new(
+        (argument, material): Typed,
+        medium: Option<Typed>,
+        sight: &Sight,
+        derivation: Derivation,
+    ) -> Result<Subject, Unseen> {
+        let around = medium.as_ref().map(|(_, medium)| medium);
+        let surface = Surface::new(&material, around, sight)?;
+        let truth = Truth::new(surface, Light::Unpolarised);
+        Ok(Subject {
+            name: match around {
+                Some(medium) => format!("{}_in_{}", material.name, medium.name),
+                None => material.name.clone(),
+            },
+            effective: effective(&truth, material.kind),
+            argument,
+            material,
+            medium,
+            truth,
+            derivation,
+        })
+    }
+
+    /// What a method's inputs are for it.
+    pub fn values(&self, method: &Method) -> Values {
+        let seen = |cos_theta| self.truth.at(cos_theta);
+        let known = Known::with(self.effective.channels, seen, &self.derivation);
+        values_of(method, &known, &self.derivation)
+    }
+
     /// The exact method of its class.
     pub fn exact_method(&self) -> &'static str {
-        let glass = self.material.kind == Kind::Dielectric && self.channels.is_transparent();
+        let transparent = self.effective.channels.is_transparent();
+        let glass = self.material.kind == Kind::Dielectric && transparent;
         if glass {
             "dielectric_exact"
         } else {
@@ -116,12 +153,12 @@ pub fn specialised_function(
         material: subject.name.clone(),
         what,
     };
-    if method.class == Class::Dielectric && !subject.channels.is_transparent() {
+    if method.class == Class::Dielectric && !subject.effective.channels.is_transparent() {
         return Err(refused(
             "it describes dielectrics only, and this absorbs (k > 0)".to_owned(),
         ));
     }
-    let constants = values(method, &subject.channels, &subject.derivation);
+    let constants = subject.values(method);
     let function = method
         .specialise(&constants)
         .map_err(|fault| refused(fault.to_string()))?;
@@ -135,12 +172,18 @@ pub fn specialised_function(
         name: format!("{}{}{suffix}", naming.prefix, subject.name),
         method,
         form: "specialised",
-        model_error: Some(model_error(
-            &function,
-            &Truth::of(method, &subject.channels),
-        )),
+        model_error: Some(error(method, &function, &subject.truth)),
         code_ulp: bounds.of(&function),
         constants,
         function,
     })
+}
+
+/// The model error of a function, held against the truth in the light that its method describes.
+fn error(method: &Method, function: &Checked, truth: &Truth) -> ModelError {
+    if method.light == truth.light {
+        model_error(function, truth)
+    } else {
+        model_error(function, &Truth::new(truth.surface.clone(), method.light))
+    }
 }

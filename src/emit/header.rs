@@ -1,7 +1,7 @@
 //! What the head of a file says: how to make it again, what it is, where it holds, how wrong it is, its licence.
 //! No date, no path, no version: nothing that changes when the content does not.
 
-use crate::fit::{Measured, ModelError};
+use crate::fit::{By, Measured, ModelError};
 use crate::ir::Op;
 use crate::methods::{Claim, Contract, Method};
 
@@ -74,6 +74,7 @@ pub fn brief(emitted: &Emitted, subject: Option<&Subject>, command: &str) -> Vec
     lines.push(format!("Source: {}", emitted.method.source.line()));
     lines.extend(exemption(emitted.method));
     lines.push(format!("Cost: {}.", operations(emitted)));
+    lines.extend(subject.into_iter().flat_map(sight));
     lines.extend(emitted.model_error.iter().map(model_line));
     lines.push(format!(
         "{} {OUTPUT_LICENCE}.",
@@ -107,11 +108,6 @@ fn formula(method: &Method) -> impl Iterator<Item = String> {
 
 fn about(subject: &Subject) -> Vec<String> {
     let material = &subject.material;
-    let [red, green, blue] = subject.wavelengths_nm;
-    let medium = subject
-        .medium
-        .as_ref()
-        .map_or("air", |(_, medium)| &medium.name);
     let mut lines = vec![
         format!("{}: {}", subject.name, material.summary),
         format!(
@@ -122,15 +118,51 @@ fn about(subject: &Subject) -> Vec<String> {
     if !material.conditions.is_empty() {
         lines.push(format!("Conditions: {}", material.conditions));
     }
-    lines.push(format!(
-        "Index at {red}, {green}, {blue} nm for red, green, blue, relative to {medium}:"
-    ));
+    lines.extend(sight(subject));
+    lines.push("Index per channel, relative to ".to_owned() + medium(subject) + ":");
     lines.push(format!(
         "  n = {}, k = {}",
-        triple(subject.channels.n),
-        triple(subject.channels.k)
+        triple(subject.effective.channels.n),
+        triple(subject.effective.channels.k)
     ));
+    lines.extend(how_found(subject));
     lines
+}
+
+/// What the truth is that model errors are held against.
+fn sight(subject: &Subject) -> Vec<String> {
+    let surface = &subject.truth.surface;
+    let mut lines = vec![format!("Truth: {}", surface.seen)];
+    lines.extend(surface.held().map(|held| format!("Extrapolated: {held}")));
+    lines
+}
+
+fn medium(subject: &Subject) -> &str {
+    subject
+        .medium
+        .as_ref()
+        .map_or("air", |(_, medium)| &medium.name)
+}
+
+/// How the index stands for the spectrum, where it is not the index itself.
+fn how_found(subject: &Subject) -> Option<String> {
+    let named = |by: By| {
+        let channels = ["red", "green", "blue"]
+            .into_iter()
+            .zip(subject.effective.by);
+        let names: Vec<&str> = channels
+            .filter(|(_, other)| *other == by)
+            .map(|(name, _)| name)
+            .collect();
+        names.join(", ")
+    };
+    let (given, nearest) = (named(By::F0AndF82), named(By::Nearest));
+    let given = (!given.is_empty()).then(|| format!("{given} as F0 and F82 determine it"));
+    let nearest = (!nearest.is_empty()).then(|| {
+        format!("{nearest} as its curve comes nearest, since no index has both F0 and F82")
+    });
+    let parts: Vec<String> = given.into_iter().chain(nearest).collect();
+    (!parts.is_empty()).then(|| format!("  {}", parts.join("; ")))
 }
 
 fn triple(values: [f64; 3]) -> String {

@@ -6,7 +6,7 @@ use crate::materials::Channels;
 use crate::methods::{Method, Values};
 use crate::optics;
 
-use super::lambda::{THESIS_MATCHING_COS, lambda};
+use super::lambda::{THESIS_MATCHING_COS, lambda_for};
 
 /// The choices that a derivation leaves open.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -24,13 +24,65 @@ impl Default for Derivation {
 }
 
 /// cos θ of the second colour of F82 and its relatives: 1/7, where c (1-c)⁶ has its maximum.
-const COS_82: f64 = 1.0 / 7.0;
+pub const COS_82: f64 = 1.0 / 7.0;
 /// cos θ at which the empirical term meets the exact law: 60 degrees.
 const COS_60: f64 = 0.5;
 
-/// The values of all inputs of a method. A λ that does not exist is 0, which drops the term.
+/// What inputs are derived from: the index per channel, and reflectances at a few angles. Where a channel is one
+/// wavelength these are the law's; where it is a whole spectrum they are the spectrum's, and the index stands for it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Known {
+    /// The index per channel.
+    pub channels: Channels,
+    /// Reflectance at 0 degrees.
+    pub f0: [f64; 3],
+    /// At 81.79 degrees.
+    pub f82: [f64; 3],
+    /// At 60 degrees.
+    f60: [f64; 3],
+    /// At the angle where λ is matched.
+    matching: [f64; 3],
+}
+
+impl Known {
+    /// Of a surface that is known by its channels alone.
+    pub fn of_channels(channels: &Channels, derivation: &Derivation) -> Known {
+        let law = |c: f64| [0, 1, 2].map(|i| exact(channels.n[i], channels.k[i], c));
+        let normal = [0, 1, 2].map(|i| f0(channels.n[i], channels.k[i]));
+        Known {
+            f0: normal,
+            ..Known::with(*channels, law, derivation)
+        }
+    }
+
+    /// Of a surface for which these channels stand, by what it reflects at a cosine.
+    pub fn with(
+        channels: Channels,
+        seen: impl Fn(f64) -> [f64; 3],
+        derivation: &Derivation,
+    ) -> Known {
+        Known {
+            channels,
+            f0: seen(1.0),
+            f82: seen(COS_82),
+            f60: seen(COS_60),
+            matching: seen(derivation.matching_cos),
+        }
+    }
+}
+
+/// The values of all inputs of a method for a surface known by its channels alone.
 pub fn values(method: &Method, channels: &Channels, derivation: &Derivation) -> Values {
-    let value = |name: &str| value(name, channels, derivation);
+    values_of(
+        method,
+        &Known::of_channels(channels, derivation),
+        derivation,
+    )
+}
+
+/// The values of all inputs of a method. A λ that does not exist is 0, which drops the term.
+pub fn values_of(method: &Method, known: &Known, derivation: &Derivation) -> Values {
+    let value = |name: &str| value(name, known, derivation);
     method
         .inputs
         .iter()
@@ -38,23 +90,29 @@ pub fn values(method: &Method, channels: &Channels, derivation: &Derivation) -> 
         .collect::<BTreeMap<_, _>>()
 }
 
-fn value(name: &str, channels: &Channels, derivation: &Derivation) -> [f64; 3] {
-    let each = |f: &dyn Fn(f64, f64) -> f64| [0, 1, 2].map(|i| f(channels.n[i], channels.k[i]));
+fn value(name: &str, known: &Known, derivation: &Derivation) -> [f64; 3] {
+    let Channels { n, k } = known.channels;
+    let each = |f: &dyn Fn(usize) -> f64| [0, 1, 2].map(f);
     match name {
-        "eta" | "n" => channels.n,
-        "k" => channels.k,
-        "f0" | "reflectivity" => each(&f0),
+        "eta" | "n" => n,
+        "k" => k,
+        "f0" => known.f0,
         "f90" => [1.0; 3],
-        "f82" => each(&|n, k| exact(n, k, COS_82)),
-        "tint" => each(&|n, k| exact(n, k, COS_82) / schlick_82(f0(n, k))),
-        "edge_tint" => each(&edge_tint),
-        "bias" => [mean(each(&f0)); 3],
-        "scale" => [1.0 - mean(each(&f0)); 3],
-        "power" => [power(mean(each(&f0)), mean(each(&|n, k| exact(n, k, COS_60)))); 3],
+        "f82" => known.f82,
+        "tint" => each(&|i| known.f82[i] / schlick_82(known.f0[i])),
+        "reflectivity" => each(&|i| f0(n[i], k[i])),
+        "edge_tint" => each(&|i| edge_tint(n[i], k[i])),
+        "bias" => [mean(known.f0); 3],
+        "scale" => [1.0 - mean(known.f0); 3],
+        "power" => [power(mean(known.f0), mean(known.f60)); 3],
         "exponent" => [5.0; 3],
-        "lambda" => each(&|n, k| lambda(n, k, derivation.matching_cos).unwrap_or(0.0)),
+        "lambda" => each(&|i| lambda_at(n[i], k[i], known.matching[i], derivation).unwrap_or(0.0)),
         _ => unreachable!("every input of the vocabulary has its derivation; a test asks for all"),
     }
+}
+
+fn lambda_at(n: f64, k: f64, exact: f64, derivation: &Derivation) -> Option<f64> {
+    lambda_for(n, k, derivation.matching_cos, exact)
 }
 
 fn f0(n: f64, k: f64) -> f64 {
@@ -66,7 +124,7 @@ fn exact(n: f64, k: f64, cos_theta: f64) -> f64 {
 }
 
 /// Schlick's value at cos θ = 1/7, where the weight is (6/7)⁵.
-fn schlick_82(f0: f64) -> f64 {
+pub fn schlick_82(f0: f64) -> f64 {
     f0 + (1.0 - f0) * 7_776.0 / 16_807.0
 }
 
@@ -75,7 +133,7 @@ fn mean(channels: [f64; 3]) -> f64 {
 }
 
 /// Gulbrandsen's g: where n lies between the most (0) and the least (1) that F0 allows.
-fn edge_tint(n: f64, k: f64) -> f64 {
+pub fn edge_tint(n: f64, k: f64) -> f64 {
     let r = f0(n, k);
     let (most, least) = ((1.0 + r.sqrt()) / (1.0 - r.sqrt()), (1.0 - r) / (1.0 + r));
     if most == least {

@@ -4,13 +4,17 @@
 //! exact law. Minimax fits and the search for shapes have their place here.
 
 mod derive;
+mod effective;
 mod lambda;
 mod measured;
 mod model_error;
 mod over;
+mod params;
 
-pub use derive::{Derivation, values};
+pub use derive::{COS_82, Derivation, Known, values, values_of};
+pub use effective::{By, Effective, effective};
 pub use lambda::{THESIS_MATCHING_COS, lambda};
 pub use measured::Measured;
-pub use model_error::{ModelError, Truth, model_error, thesis_errors};
+pub use model_error::{ModelError, Truth, model_error, seen, thesis_errors};
 pub use over::model_error_over;
+pub use params::{Params, abbe, ior_d, normal_spectrum, params};

@@ -3,9 +3,8 @@
 use serde::Serialize;
 
 use crate::ir::{Checked, Value, evaluate};
-use crate::materials::Channels;
-use crate::methods::{Light, Method};
-use crate::optics;
+use crate::materials::{Channels, Surface};
+use crate::methods::Light;
 
 /// How wrong a method is for a material, whatever computes it.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
@@ -32,47 +31,66 @@ const GRAZING: usize = 120;
 const REFINEMENTS: usize = 6;
 const STEPS: usize = 32;
 
-/// What a method is held against: the exact law for these channels and this light.
-#[derive(Clone, Copy, Debug)]
-pub struct Truth<'a> {
-    /// The relative index per channel.
-    pub channels: &'a Channels,
+/// What a method is held against: a surface as it is seen, in one kind of light.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Truth {
+    /// The surface.
+    pub surface: Surface,
     /// Polarised or not.
     pub light: Light,
+    /// Its reflectance at [`cosines`] of [`ANGLES`]: what takes the time, and is wanted for every method.
+    table: Vec<[f64; 3]>,
 }
 
-impl<'a> Truth<'a> {
-    /// What this method should give for these channels.
-    pub fn of(method: &Method, channels: &'a Channels) -> Truth<'a> {
+impl Truth {
+    /// The truth about a surface in this light.
+    pub fn new(surface: Surface, light: Light) -> Truth {
+        let table = cosines(ANGLES)
+            .into_iter()
+            .map(|cos_theta| seen(&surface, light, cos_theta))
+            .collect();
         Truth {
-            channels,
-            light: method.light,
+            surface,
+            light,
+            table,
         }
     }
 
-    /// The exact reflectance of each channel at a cosine.
+    /// The reflectance of each channel at a cosine, in the gamut.
     pub fn at(&self, cos_theta: f64) -> [f64; 3] {
-        [0, 1, 2].map(|i| {
-            let exact = optics::conductor(self.channels.n[i], self.channels.k[i], cos_theta);
-            match self.light {
-                Light::Unpolarised => exact.unpolarised(),
-                Light::S => exact.s,
-                Light::P => exact.p,
-            }
-        })
+        seen(&self.surface, self.light, cos_theta)
     }
+
+    /// The hemispherical reflectance of each channel, 2 ∫ R cos θ d(cos θ), by the middles of equal steps of angle:
+    /// ∫ R sin 2θ dθ, within 1e-6.
+    pub fn average(&self) -> [f64; 3] {
+        let step = std::f64::consts::FRAC_PI_2 / ANGLES as f64;
+        let weight = |i: usize| libm::sin((2 * i + 1) as f64 * step) * step;
+        let sum = |channel: usize| {
+            let terms = self.table[..ANGLES].iter().enumerate();
+            terms.map(|(i, seen)| weight(i) * seen[channel]).sum()
+        };
+        [0, 1, 2].map(sum)
+    }
+}
+
+/// The reflectance of each channel at a cosine, in the surface's gamut.
+pub fn seen(surface: &Surface, light: Light, cos_theta: f64) -> [f64; 3] {
+    let colour = match light {
+        Light::Unpolarised => surface.unpolarised(cos_theta),
+        Light::S => surface.reflectance(cos_theta).s,
+        Light::P => surface.reflectance(cos_theta).p,
+    };
+    surface.gamut.apply(colour).to_array()
 }
 
 /// The model error of a function of `cos_theta` alone.
 pub fn model_error(function: &Checked, truth: &Truth) -> ModelError {
-    let run = |cosines: &[f64]| {
-        difference(
-            &evaluate(function, &[Value::each(cosines.to_vec())]),
-            truth,
-            cosines,
-        )
+    let run = |cosines: &[f64], want: &[[f64; 3]]| {
+        let got = evaluate(function, &[Value::each(cosines.to_vec())]);
+        difference(&got, want, cosines)
     };
-    let mut error = run(&cosines(ANGLES));
+    let mut error = run(&cosines(ANGLES), &truth.table);
     let mut reach = libm::acos(error.worst_cos).max(1e-3) / 8.0;
     for _ in 0..REFINEMENTS {
         let theta = libm::acos(error.worst_cos);
@@ -83,7 +101,8 @@ pub fn model_error(function: &Checked, truth: &Truth) -> ModelError {
             .filter(inside)
             .map(libm::cos)
             .collect();
-        let again = run(&close);
+        let want: Vec<[f64; 3]> = close.iter().map(|c| truth.at(*c)).collect();
+        let again = run(&close, &want);
         if again.max_abs > error.max_abs {
             (error.max_abs, error.worst_cos) = (again.max_abs, again.worst_cos);
         }
@@ -100,7 +119,7 @@ pub(super) fn cosines(angles: usize) -> Vec<f64> {
 }
 
 /// Values at these cosines against the exact law; means are over the first [`ANGLES`], or all where there are fewer.
-pub(super) fn difference(values: &Value<f64>, truth: &Truth, cosines: &[f64]) -> ModelError {
+pub(super) fn difference(values: &Value<f64>, want: &[[f64; 3]], cosines: &[f64]) -> ModelError {
     let mut error = ModelError {
         max_abs: 0.0,
         mean_abs: 0.0,
@@ -115,7 +134,7 @@ pub(super) fn difference(values: &Value<f64>, truth: &Truth, cosines: &[f64]) ->
         } else {
             0.0
         };
-        let (got, want) = (values.at(point), truth.at(*cos_theta));
+        let (got, want) = (values.at(point), want[point]);
         if got.iter().any(|got| got.is_nan()) {
             error.undefined += 1;
             continue;
@@ -154,16 +173,16 @@ pub fn thesis_errors(
     progress: &mut dyn FnMut(usize),
 ) -> Vec<[f64; 3]> {
     const CHUNK: usize = 4096;
-    let truth = Truth {
-        channels,
-        light: Light::Unpolarised,
-    };
+    let surface = Surface::of_channels(channels);
     let mut sums = vec![[0.0; 3]; functions.len()];
     for start in (0..angles).step_by(CHUNK) {
         let cosines: Vec<f64> = (start..(start + CHUNK).min(angles))
             .map(|i| cosine(2 * i + 1, 2 * angles))
             .collect();
-        let want: Vec<[f64; 3]> = cosines.iter().map(|c| truth.at(*c)).collect();
+        let want: Vec<[f64; 3]> = cosines
+            .iter()
+            .map(|c| seen(&surface, Light::Unpolarised, *c))
+            .collect();
         let points = cosines.len();
         let arguments = [Value::each(cosines)];
         for (function, sums) in functions.iter().zip(&mut sums) {

@@ -1,11 +1,11 @@
 //! Model error of library functions over stated sets of media: what methods' claims are held against.
 
 use crate::ir::{Value, evaluate};
-use crate::materials::Channels;
+use crate::materials::{Channels, Surface};
 use crate::methods::{Method, Over};
 
 use super::derive::{Derivation, values};
-use super::model_error::{ANGLES, ModelError, Truth, cosines, difference};
+use super::model_error::{ANGLES, ModelError, cosines, difference, seen};
 
 /// Steps of eta, of n and of k, where model errors are taken over a set.
 const STEPS: usize = 24;
@@ -44,11 +44,12 @@ pub fn model_error_over(method: &Method, over: Over) -> ModelError {
         let constants = values(method, channels, &Derivation::default());
         let mut arguments = vec![Value::each(cosines.clone())];
         arguments.extend(method.arguments(&constants));
-        difference(
-            &evaluate(&function, &arguments),
-            &Truth::of(method, channels),
-            &cosines,
-        )
+        let surface = Surface::of_channels(channels);
+        let want: Vec<[f64; 3]> = cosines
+            .iter()
+            .map(|c| seen(&surface, method.light, *c))
+            .collect();
+        difference(&evaluate(&function, &arguments), &want, &cosines)
     });
     errors
         .reduce(|worst, next| {

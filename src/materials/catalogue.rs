@@ -2,8 +2,8 @@
 
 use include_dir::{Dir, include_dir};
 
-use super::file::Fault;
 use super::material::Material;
+use crate::spectra::Fault;
 
 static FILES: Dir = include_dir!("$CARGO_MANIFEST_DIR/data/materials");
 

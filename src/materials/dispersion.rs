@@ -48,6 +48,14 @@ impl Curve {
         (from * (1.0 - END)..=to * (1.0 + END)).contains(&nm)
     }
 
+    /// The wavelengths of its measured points; none for a formula.
+    pub fn measured_nm(&self) -> Vec<f64> {
+        match self {
+            Curve::Table(points) => points.iter().map(|point| point.nm).collect(),
+            Curve::Formula(_) => Vec::new(),
+        }
+    }
+
     /// The value at a wavelength, or why there is none.
     pub fn at(&self, nm: f64, beyond: Extrapolate) -> Result<f64, String> {
         let (from, to) = self.range_nm();

@@ -32,20 +32,7 @@ use crate::ir::identifier_fault;
 use super::dispersion::{Curve, Point};
 use super::formula::{Formula, NUMBERS};
 use super::material::{Kind, Material};
-
-/// What is wrong with a material file, and where.
-#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("{file}:{line}:{column}: {what}")]
-pub struct Fault {
-    /// The file, as the user named it.
-    pub file: String,
-    /// From 1.
-    pub line: usize,
-    /// From 1, in characters.
-    pub column: usize,
-    /// What was found, and what is allowed.
-    pub what: String,
-}
+pub use crate::spectra::Fault;
 
 type Row = Spanned<Vec<Spanned<f64>>>;
 type Rows = Spanned<Vec<Row>>;

@@ -42,15 +42,15 @@ impl Formula {
     pub fn n(&self, nm: f64) -> Result<f64, String> {
         let l = nm / 1000.0;
         let n = match self.number {
-            1 => self.from_square(1.0 + self.sellmeier(l, |pole| pole * pole))?,
-            2 => self.from_square(1.0 + self.sellmeier(l, |pole| pole))?,
-            3 => self.from_square(self.polynomial(l, 0))?,
-            4 => self.from_square(self.polynomial(l, 4) + self.poles(l))?,
+            1 => self.root_of(1.0 + self.sellmeier(l, |pole| pole * pole))?,
+            2 => self.root_of(1.0 + self.sellmeier(l, |pole| pole))?,
+            3 => self.root_of(self.polynomial(l, 0))?,
+            4 => self.root_of(self.polynomial(l, 4) + self.poles(l))?,
             5 => self.polynomial(l, 0),
             6 => 1.0 + self.gas(l),
             7 => self.herzberger(l),
-            8 => self.from_square(self.retro(l))?,
-            9 => self.from_square(self.exotic(l))?,
+            8 => self.root_of(self.retro(l))?,
+            9 => self.root_of(self.exotic(l))?,
             other => return Err(format!("there is no formula {other}; there are 1 to 9")),
         };
         if n > 0.0 && n.is_finite() {
@@ -70,7 +70,7 @@ impl Formula {
         (1..=self.coefficients.len() / 2).map(|i| (self.c(2 * i), self.c(2 * i + 1)))
     }
 
-    fn from_square(&self, square: f64) -> Result<f64, String> {
+    fn root_of(&self, square: f64) -> Result<f64, String> {
         if square > 0.0 && square.is_finite() {
             Ok(square.sqrt())
         } else {

@@ -119,6 +119,15 @@ impl Material {
         whole(&self.n) && self.k.as_ref().is_none_or(whole)
     }
 
+    /// The wavelengths at which n or k was measured, ascending; none for formulas.
+    pub fn measured_nm(&self) -> Vec<f64> {
+        let curves = [Some(&self.n), self.k.as_ref()].into_iter().flatten();
+        let mut places: Vec<f64> = curves.flat_map(Curve::measured_nm).collect();
+        places.sort_by(f64::total_cmp);
+        places.dedup();
+        places
+    }
+
     /// Whether it is the one to take of all measurements of its substance.
     pub fn is_recommended(&self) -> bool {
         self.name == self.substance

@@ -13,13 +13,19 @@ mod formula;
 mod material;
 mod page;
 mod print;
+mod read;
 mod rows;
+mod surface;
 mod trim;
 
 pub use catalogue::{find, list, names, source};
 pub use channels::{Channels, THESIS_NM};
 pub use dispersion::{Curve, Extrapolate, Point};
-pub use file::{Fault, name_fault};
+pub use file::name_fault;
 pub use formula::Formula;
 pub use material::{Index, Kind, Material};
 pub use page::Page;
+pub use read::page;
+pub use surface::{Sight, Surface, Unseen};
+
+pub use crate::spectra::Fault;

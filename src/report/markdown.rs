@@ -1,8 +1,9 @@
 //! The tables of the README, written from the registries so that they cannot drift.
 
-use crate::fit::{Derivation, Truth, model_error, values};
-use crate::materials::{Channels, Material, THESIS_NM};
-use crate::methods::{self, Class, Contract, Method};
+use crate::emit::{Bounds, Naming, Subject, specialised_function};
+use crate::fit::Derivation;
+use crate::materials::{Material, Sight};
+use crate::methods::{self, Contract, Method};
 use crate::targets;
 
 /// Every method: what it takes, its cost in scalar operations for three channels, what it promises.
@@ -37,18 +38,24 @@ pub fn methods_table() -> String {
     )
 }
 
-/// Model error of every method on these materials: largest absolute, and mean relative in per cent.
-pub fn errors_table(materials: &[Material]) -> String {
-    let mut head = vec!["method".to_owned()];
-    head.extend(materials.iter().map(|material| material.name.clone()));
-    let head: Vec<&str> = head.iter().map(String::as_str).collect();
+/// Model error of every method on these materials in air, as they are seen by default: largest absolute, and mean
+/// relative in per cent.
+pub fn errors_table(materials: Vec<Material>) -> String {
+    let subject = |material: Material| {
+        let typed = (material.name.clone(), material);
+        Subject::new(typed, None, &Sight::default(), Derivation::default())
+    };
+    let subjects: Vec<Subject> = materials
+        .into_iter()
+        .filter_map(|m| subject(m).ok())
+        .collect();
+    let mut head = vec!["method"];
+    head.extend(subjects.iter().map(|subject| subject.name.as_str()));
     let rows = methods::ALL
         .iter()
         .filter(|method| method.contract == Contract::Kept)
         .map(|method| {
-            let errors = materials
-                .iter()
-                .map(|material| error_cell(method, material));
+            let errors = subjects.iter().map(|subject| error_cell(method, subject));
             [format!("`{}`", method.name)]
                 .into_iter()
                 .chain(errors)
@@ -93,27 +100,21 @@ fn ulp_cell(ulp: f64) -> String {
     }
 }
 
-fn error_cell(method: &'static Method, material: &Material) -> String {
-    let Ok(channels) = material.channels(THESIS_NM) else {
-        return "outside its measured range".to_owned();
-    };
-    if method.class == Class::Dielectric && !channels.is_transparent() {
+fn error_cell(method: &'static Method, subject: &Subject) -> String {
+    let (naming, bounds) = (Naming::default(), Bounds::default());
+    let Ok(emitted) = specialised_function(method, subject, &naming, &bounds) else {
         return "dielectrics only".to_owned();
-    }
-    match specialised_error(method, &channels) {
-        Some((max_abs, _)) if max_abs < 1e-9 => "exact".to_owned(),
-        Some((max_abs, Some(mean_rel))) => format!("{max_abs:.4} ({:.2} %)", 100.0 * mean_rel),
-        Some((max_abs, None)) => format!("{max_abs:.4}"),
+    };
+    match emitted.model_error {
+        Some(error) if error.max_abs < 1e-9 => "exact".to_owned(),
+        Some(error) => {
+            let mean = error
+                .mean_rel
+                .map(|mean| format!(" ({:.2} %)", 100.0 * mean));
+            format!("{:.4}{}", error.max_abs, mean.unwrap_or_default())
+        }
         None => "not measured".to_owned(),
     }
-}
-
-fn specialised_error(method: &Method, channels: &Channels) -> Option<(f64, Option<f64>)> {
-    let function = method
-        .specialise(&values(method, channels, &Derivation::default()))
-        .ok()?;
-    let error = model_error(&function, &Truth::of(method, channels));
-    Some((error.max_abs, error.mean_rel))
 }
 
 fn table(head: &[&str], rows: impl Iterator<Item = Vec<String>>) -> String {

@@ -3,4 +3,5 @@
 pub mod chart;
 pub mod markdown;
 pub mod reproduce;
+pub mod survey;
 pub mod table;

@@ -49,7 +49,7 @@ fn tables_are_what_the_program_says() {
         ("example", example()),
         ("targets", targets_table()),
         ("methods", methods_table()),
-        ("errors", errors_table(&thesis)),
+        ("errors", errors_table(thesis)),
     ];
     for (name, new) in parts {
         text = replaced(&text, name, &new);

@@ -7,7 +7,8 @@ use crate::app::error::Error;
 use crate::app::generate::{Generated, Kept, generate_beside, generate_single};
 use crate::app::manifest::{self, Manifest};
 use crate::app::request::Request;
-use crate::app::source::{materials, source};
+use crate::app::sight::{input, sight};
+use crate::app::source::{is_path, materials, source};
 use crate::app::tree::{Plan, plan};
 use crate::app::write::{write, write_file};
 use crate::app::{check, depfile, folder};
@@ -68,6 +69,7 @@ fn request(flags: &Generate) -> Result<Request, Error> {
         medium: flags.medium.as_deref().map(source).transpose()?,
         prefix: flags.prefix.clone(),
         matching_angle: flags.matching_angle,
+        sight: sight(&flags.sight.words(flags.gamut.as_deref()))?,
     })
 }
 
@@ -113,6 +115,9 @@ fn written(
         .collect();
     write_depfile(flags, &outputs)?;
     let mut output = Output::default();
+    for why in generated.left_out.iter().filter(|_| !flags.quiet) {
+        output.remarks.push(format!("left out: {}", why.why));
+    }
     for path in plan.orphans.iter().filter(|_| !flags.quiet) {
         output
             .remarks
@@ -138,9 +143,11 @@ fn write_depfile(flags: &Generate, outputs: &[String]) -> Result<(), Error> {
         return Ok(());
     };
     let named = flags.material.iter().chain(&flags.medium);
+    let light = input(&flags.sight.words(None)).map(str::to_owned);
     let inputs: Vec<String> = named
-        .filter(|name| crate::app::source::is_path(name))
+        .filter(|name| is_path(name))
         .cloned()
+        .chain(light)
         .collect();
     write_file(file, depfile::depfile(outputs, &inputs).as_bytes())?;
     Ok(())

@@ -1,14 +1,11 @@
-//! `methods`, `materials`, `targets`: list and show.
+//! `methods` and `targets`: list and show.
 
 use serde_json::{Value, json};
 
 use crate::app::args::{Listing, ListingCommand};
 use crate::app::error::Error;
 use crate::app::names::unknown;
-use crate::app::request::load;
-use crate::app::source::source;
 use crate::emit;
-use crate::materials::{self, Material};
 use crate::methods::{self, Contract, Method};
 use crate::report::table;
 use crate::targets::{self, Target};
@@ -29,27 +26,6 @@ pub fn methods(flags: &Listing) -> Result<Output, Error> {
         Ok((method_text(method), method_json(method)))
     };
     listing(flags, "methods", rows(), show)
-}
-
-/// `fresnel-gen materials`.
-pub fn materials(flags: &Listing) -> Result<Output, Error> {
-    let row = |m: Material| {
-        [
-            m.name.clone(),
-            m.summary.clone(),
-            format!("{}. {}", m.reference, m.link),
-        ]
-    };
-    let show = |name: &str| {
-        let material = load(&source(name)?)?.material;
-        Ok((material_text(&material), material_json(&material)))
-    };
-    listing(
-        flags,
-        "materials",
-        materials::list()?.into_iter().map(row).collect(),
-        show,
-    )
 }
 
 /// `fresnel-gen targets`.
@@ -121,28 +97,6 @@ fn method_json(method: &Method) -> Value {
         "claims": method.claims.model.iter()
             .map(|c| json!({ "over": c.over.text(), "max_abs": c.max_abs })).collect::<Vec<_>>(),
         "code_ulp": method.claims.code_ulp,
-    })
-}
-
-fn material_text(material: &Material) -> String {
-    let mut lines = vec![
-        format!("{}: {}", material.name, material.summary),
-        format!("class       {}", material.kind.name()),
-        format!("reference   {}", material.reference),
-        format!("link        {}", material.link),
-        format!("licence     {}", material.licence),
-        format!("conditions  {}", material.conditions),
-        String::new(),
-    ];
-    lines.push(material.to_toml());
-    lines.join("\n")
-}
-
-fn material_json(material: &Material) -> Value {
-    json!({
-        "name": material.name, "summary": material.summary, "class": material.kind.name(),
-        "source": format!("{}. {}", material.reference, material.link), "licence": material.licence,
-        "conditions": material.conditions,
     })
 }
 

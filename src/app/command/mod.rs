@@ -1,8 +1,12 @@
 //! The commands: from parsed flags to what a run prints and how it ends. Printing itself is `main.rs`'s.
 
 mod generate;
+mod import;
 mod listing;
+mod materials;
+mod params;
 mod reproduce;
+mod survey;
 
 use std::path::Path;
 
@@ -29,7 +33,7 @@ pub fn run(cli: &Cli, progress: Progress) -> Result<Output, Error> {
     match &cli.command {
         None => generate::run(&cli.generate),
         Some(Command::Methods(listing)) => listing::methods(listing),
-        Some(Command::Materials(listing)) => listing::materials(listing),
+        Some(Command::Materials(listing)) => materials::run(listing, progress),
         Some(Command::Targets(listing)) => listing::targets(listing),
         Some(Command::Reproduce(flags)) => reproduce::run(flags, progress),
     }

@@ -6,7 +6,7 @@ mod language;
 
 use fresnel_gen::app::{Materials, Request, generate};
 use fresnel_gen::ir::{Checked, Value, evaluate};
-use fresnel_gen::{emit, fit, methods, targets};
+use fresnel_gen::{emit, methods, targets};
 use language::{Program, Term};
 
 const COSINES: [f32; 9] = [-0.5, 0.0, 1e-6, 0.1, 1.0 / 7.0, 0.5, 0.9, 1.0, 1.5];
@@ -110,10 +110,10 @@ fn every_specialised_function_reads_as_it_was_meant() {
     let artifacts = generate(&request)
         .expect("the catalogue generates")
         .artifacts;
-    for (subject, _) in request.subjects().expect("the catalogue is good") {
+    for (subject, _) in request.subjects().expect("the catalogue is good").ready {
         for name in subject.default_methods() {
             let method = methods::find(name).expect("it is there");
-            let constants = fit::values(method, &subject.channels, &subject.derivation);
+            let constants = subject.values(method);
             let function = method.specialise(&constants).expect("it specialises");
             let suffix = if name == subject.exact_method() {
                 String::new()

@@ -1,0 +1,165 @@
+//! `materials`: list with filters, show as text and as a picture; the rest has files of its own.
+
+use std::path::Path;
+
+use serde_json::{Value, json};
+
+use crate::app::args::{FilterFlags, MaterialsCommand, MaterialsFlags, ShowFlags};
+use crate::app::error::Error;
+use crate::app::names::unknown;
+use crate::app::request::load;
+use crate::app::source::source;
+use crate::materials::{self, Extrapolate, Kind, Material};
+use crate::report::table;
+use crate::spectra::{FIRST_NM, LAST_NM};
+
+use super::{Output, Progress, import, params, report, survey};
+
+/// `fresnel-gen materials`.
+pub fn run(flags: &MaterialsFlags, progress: Progress) -> Result<Output, Error> {
+    let json = flags.json.as_deref();
+    match &flags.what {
+        None => list(&FilterFlags::default(), json),
+        Some(MaterialsCommand::List(filter)) => list(filter, json),
+        Some(MaterialsCommand::Show(show)) => shown(show, json),
+        Some(MaterialsCommand::Params(params)) => params::run(params, json),
+        Some(MaterialsCommand::Import(import)) => import::run(import),
+        Some(MaterialsCommand::Survey(survey)) => survey::run(survey, json, progress),
+    }
+}
+
+/// The class of this name.
+pub fn class(name: &str) -> Result<Kind, Error> {
+    let found = Kind::ALL.into_iter().find(|kind| kind.name() == name);
+    found.ok_or_else(|| unknown("class", name, &Kind::ALL.map(Kind::name)))
+}
+
+fn list(filter: &FilterFlags, json: Option<&Path>) -> Result<Output, Error> {
+    let kind = filter.class.as_deref().map(class).transpose()?;
+    let all = materials::list()?;
+    check_substance(filter, &all)?;
+    let wanted = |m: &&Material| kind.is_none_or(|kind| m.kind == kind) && admits(filter, m);
+    let chosen: Vec<&Material> = all.iter().filter(wanted).collect();
+    let rows: Vec<Vec<String>> = chosen.iter().map(|m| row(m)).collect();
+    let text = table::text(&["name", "class", "known in nm", "summary"], &rows);
+    let rows: Vec<Value> = chosen.iter().map(|m| json_row(m)).collect();
+    let full =
+        json!({ "tool": "fresnel-gen", "command": "materials list", "device": null, "rows": rows });
+    report(text, &full, json)
+}
+
+/// A substance that nothing is made of is a slip of the pen.
+fn check_substance(filter: &FilterFlags, all: &[Material]) -> Result<(), Error> {
+    let mut substances: Vec<&str> = all.iter().map(|m| m.substance.as_str()).collect();
+    substances.sort_unstable();
+    substances.dedup();
+    match &filter.substance {
+        Some(name) if !substances.contains(&name.as_str()) => {
+            Err(unknown("substance", name, &substances))
+        }
+        _ => Ok(()),
+    }
+}
+
+fn admits(filter: &FilterFlags, m: &Material) -> bool {
+    let holds = |text: &String| {
+        let all = [&m.name, &m.summary, &m.reference, &m.page, &m.conditions];
+        let text = text.to_lowercase();
+        all.iter().any(|field| field.to_lowercase().contains(&text))
+    };
+    filter
+        .substance
+        .as_ref()
+        .is_none_or(|name| m.substance == *name)
+        && filter.search.as_ref().is_none_or(holds)
+        && (!filter.full || is_full(m))
+}
+
+fn is_full(m: &Material) -> bool {
+    m.rgb_nm.is_none() && m.covers(FIRST_NM, LAST_NM)
+}
+
+fn range(m: &Material) -> String {
+    let (from, to) = m.range_nm();
+    match m.rgb_nm {
+        Some(rgb) => rgb.map(|nm| nm.to_string()).join(", "),
+        None => format!("{from:.0} to {to:.0}"),
+    }
+}
+
+fn row(m: &Material) -> Vec<String> {
+    vec![
+        m.name.clone(),
+        m.kind.name().to_owned(),
+        range(m),
+        m.summary.clone(),
+    ]
+}
+
+fn origin(m: &Material) -> String {
+    format!("{}. {}", m.reference, m.link)
+}
+
+fn json_row(m: &Material) -> Value {
+    let (from, to) = m.range_nm();
+    json!({
+        "name": m.name, "summary": m.summary, "source": origin(m), "class": m.kind.name(), "substance": m.substance,
+        "recommended": m.is_recommended(), "licence": m.licence, "page": m.page, "from_nm": from, "to_nm": to,
+        "full": is_full(m), "rgb_nm": m.rgb_nm,
+    })
+}
+
+fn shown(flags: &ShowFlags, json: Option<&Path>) -> Result<Output, Error> {
+    let material = load(&source(&flags.name)?)?.material;
+    report(text(&material), &json_of(&material), json)
+}
+
+fn text(m: &Material) -> String {
+    let field = |name: &str, value: &str| {
+        let line = format!("{name:12}{value}");
+        (!value.is_empty()).then_some(line)
+    };
+    let mut lines = vec![format!("{}: {}", m.name, m.summary)];
+    let fields = [
+        ("class", m.kind.name()),
+        ("substance", &m.substance),
+        ("known in nm", &range(m)),
+        ("reference", &m.reference),
+        ("link", &m.link),
+        ("page", &m.page),
+        ("licence", &m.licence),
+        ("conditions", &m.conditions),
+        ("note", &m.note),
+    ];
+    lines.extend(fields.iter().filter_map(|(name, value)| field(name, value)));
+    lines.push(String::new());
+    let rows: Vec<Vec<String>> = samples(m)
+        .into_iter()
+        .map(|sample| sample.map(|value| value.to_string()).to_vec())
+        .collect();
+    lines.push(table::text(&["nm", "n", "k"], &rows));
+    lines.join("\n")
+}
+
+fn json_of(m: &Material) -> Value {
+    let mut row = json_row(m);
+    row["conditions"] = json!(m.conditions);
+    row["note"] = json!(m.note);
+    row["data"] = samples(m).iter().map(|sample| json!(sample)).collect();
+    row
+}
+
+/// Wavelength, n and k wherever one of them was measured; every 10 nm of the visible range for a formula.
+fn samples(m: &Material) -> Vec<[f64; 3]> {
+    let mut places: Vec<f64> = m.measured_nm();
+    if places.is_empty() {
+        let (from, to) = m.range_nm();
+        let tens = (36..=83).map(|tens| f64::from(tens) * 10.0);
+        places = tens.filter(|nm| (from..=to).contains(nm)).collect();
+    }
+    let sample = |nm: f64| {
+        let index = m.index(nm, Extrapolate::Refuse).ok()?;
+        Some([nm, index.n, index.k])
+    };
+    places.into_iter().filter_map(sample).collect()
+}

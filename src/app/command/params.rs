@@ -1,0 +1,253 @@
+//! `materials params`: the numbers that an engine wants of a material, and how well each is known.
+
+use serde_json::{Value, json};
+
+use crate::app::args::ParamsFlags;
+use crate::app::error::Error;
+use crate::app::request::load;
+use crate::app::sight::sight;
+use crate::app::source::source;
+use crate::fit::{By, Params, abbe, ior_d, normal_spectrum, params};
+use crate::materials::{self, Kind, Material, Sight, Surface};
+use crate::report::table;
+use crate::spectra::{Gamut, Illuminant, colour_error};
+
+use super::{Output, report};
+
+/// The lights under which the colour error is told, beside the one that the colours are integrated under.
+const OTHER_LIGHTS: [Illuminant; 4] = [
+    Illuminant::A,
+    Illuminant::E,
+    Illuminant::F11,
+    Illuminant::LedB3,
+];
+/// Reflections one after the other.
+const BOUNCES: [u32; 3] = [1, 2, 3];
+
+/// All that is told.
+struct Told {
+    material: Material,
+    medium: Option<Material>,
+    sight: Sight,
+    params: Params,
+    held: Option<String>,
+    seen: String,
+    /// ΔE 2000 by light and number of bounces; none where three wavelengths are not a spectrum.
+    colour_errors: Option<Vec<(String, [f64; 3])>>,
+    /// F0 of the other measurements of the same substance.
+    others: Vec<(String, [f64; 3])>,
+}
+
+/// `fresnel-gen materials params NAME`.
+pub fn run(flags: &ParamsFlags, json: Option<&std::path::Path>) -> Result<Output, Error> {
+    let material = load(&source(&flags.name)?)?.material;
+    let medium = flags.medium.as_deref().map(source).transpose()?;
+    let medium = medium.map(|medium| load(&medium)).transpose()?;
+    let sight = sight(&flags.sight.words(Some(Gamut::Keep.name())))?;
+    let told = told(material, medium.map(|medium| medium.material), sight)?;
+    report(text(&told), &object(&told), json)
+}
+
+fn told(material: Material, medium: Option<Material>, sight: Sight) -> Result<Told, Error> {
+    let surface = Surface::new(&material, medium.as_ref(), &sight)?;
+    let colour_errors = surface
+        .channels()
+        .is_none()
+        .then(|| errors(&surface, &sight));
+    Ok(Told {
+        held: surface.held(),
+        seen: surface.seen.clone(),
+        colour_errors,
+        others: others(&material, medium.as_ref(), &sight)?,
+        params: params(surface, material.kind),
+        material,
+        medium,
+        sight,
+    })
+}
+
+/// What three numbers lose against the spectrum, by light.
+fn errors(surface: &Surface, sight: &Sight) -> Vec<(String, [f64; 3])> {
+    let reflectance = normal_spectrum(surface);
+    let rgb = surface.unpolarised(1.0);
+    let error = |light: &Illuminant| {
+        BOUNCES.map(|bounces| colour_error(&reflectance, rgb, light, bounces, &sight.integration))
+    };
+    OTHER_LIGHTS
+        .iter()
+        .map(|light| (light.name().to_owned(), error(light)))
+        .collect()
+}
+
+/// F0 of the other measurements of the same substance over the whole spectrum.
+fn others(
+    material: &Material,
+    medium: Option<&Material>,
+    sight: &Sight,
+) -> Result<Vec<(String, [f64; 3])>, Error> {
+    let same = |other: &Material| {
+        other.substance == material.substance
+            && other.name != material.name
+            && other.rgb_nm.is_none()
+    };
+    let f0 = |other: Material| {
+        let surface = Surface::new(&other, medium, sight).ok()?;
+        Some((other.name, surface.unpolarised(1.0).to_array()))
+    };
+    Ok(materials::list()?
+        .into_iter()
+        .filter(same)
+        .filter_map(f0)
+        .collect())
+}
+
+/// Smallest and largest F0 of all measurements, this one among them.
+fn spread(told: &Told) -> ([f64; 3], [f64; 3]) {
+    let mut ends = (told.params.f0, told.params.f0);
+    for (_, f0) in &told.others {
+        for (i, value) in f0.iter().enumerate() {
+            ends.0[i] = ends.0[i].min(*value);
+            ends.1[i] = ends.1[i].max(*value);
+        }
+    }
+    ends
+}
+
+fn object(told: &Told) -> Value {
+    let (params, integration) = (&told.params, &told.sight.integration);
+    let mut object = json!({
+        "name": told.material.name, "class": told.material.kind.name(),
+        "medium": told.medium.as_ref().map_or("air", |medium| &medium.name),
+        "space": integration.space.name(), "illuminant": integration.illuminant.name(),
+        "observer": integration.observer.name(), "adaptation": integration.adaptation.name(),
+        "step_nm": integration.step.nm(), "gamut": told.sight.gamut.name(), "truth": told.seen, "extrapolated": told.held,
+        "f0": params.f0, "f82": params.f82, "f82_tint": params.f82_tint, "f90": params.f90,
+        "reflectivity": params.f0, "edge_tint": params.edge_tint,
+        "n": params.effective.channels.n, "k": params.effective.channels.k, "nk_by": params.effective.by.map(by),
+        "average": params.average, "ior_d": ior_d(&told.material), "abbe": dispersion(&told.material),
+    });
+    if told.sight.wavelengths_nm.or(told.material.rgb_nm).is_some() {
+        for key in ["space", "illuminant", "observer", "adaptation", "step_nm"] {
+            object[key] = Value::Null;
+        }
+        object["reason"] = json!("one wavelength a channel: no spectrum is integrated");
+    }
+    object["colour_error"] = colour_error_json(told);
+    let (least, most) = spread(told);
+    let others = told
+        .others
+        .iter()
+        .map(|(name, f0)| json!({ "name": name, "f0": f0 }));
+    object["spread"] =
+        json!({ "f0_min": least, "f0_max": most, "others": others.collect::<Vec<_>>() });
+    object
+}
+
+fn colour_error_json(told: &Told) -> Value {
+    match &told.colour_errors {
+        None => Value::Null,
+        Some(errors) => {
+            let row = |(light, error): &(String, [f64; 3])| json!({ "illuminant": light, "delta_e2000": error });
+            json!({ "bounces": BOUNCES, "rows": errors.iter().map(row).collect::<Vec<_>>() })
+        }
+    }
+}
+
+/// Abbe's number, of what is clear enough to have one.
+fn dispersion(material: &Material) -> Option<f64> {
+    abbe(material).filter(|_| material.kind == Kind::Dielectric)
+}
+
+fn by(by: By) -> &'static str {
+    match by {
+        By::Itself => "one wavelength",
+        By::F0AndF82 => "f0 and f82",
+        By::Nearest => "nearest curve",
+    }
+}
+
+fn text(told: &Told) -> String {
+    let params = &told.params;
+    let row = |name: &str, values: [f64; 3], what: &str| {
+        let mut cells = vec![name.to_owned()];
+        cells.extend(values.map(|value| format!("{value:.5}")));
+        cells.push(what.to_owned());
+        cells
+    };
+    let rows = [
+        row("F0", params.f0, "at 0 degrees"),
+        row("F82", params.f82, "at 81.79 degrees"),
+        row(
+            "F82 tint",
+            params.f82_tint,
+            "F82 over Schlick's value there",
+        ),
+        row("F90", params.f90, "at 90 degrees"),
+        row("average", params.average, "hemispherical reflectance"),
+        row(
+            "edge tint",
+            params.edge_tint,
+            "Gulbrandsen's g; his r is F0",
+        ),
+        row(
+            "n",
+            params.effective.channels.n,
+            &params.effective.by.map(by).join(", "),
+        ),
+        row("k", params.effective.channels.k, ""),
+    ];
+    let mut lines = vec![
+        format!("{}: {}", told.material.name, told.material.summary),
+        told.seen.clone(),
+    ];
+    lines.extend(told.held.iter().map(|held| format!("extrapolated: {held}")));
+    lines.push(String::new());
+    lines.push(table::text(&["", "red", "green", "blue", ""], &rows));
+    let number =
+        |value: Option<f64>| value.map_or("none".to_owned(), |value| format!("{value:.5}"));
+    lines.push(format!(
+        "index at the d line {}, Abbe number {}",
+        number(ior_d(&told.material)),
+        number(dispersion(&told.material))
+    ));
+    lines.extend(colour_error_text(told));
+    lines.extend(spread_text(told));
+    lines.join("\n") + "\n"
+}
+
+fn colour_error_text(told: &Told) -> Vec<String> {
+    let Some(errors) = &told.colour_errors else {
+        return Vec::new();
+    };
+    let row = |(light, error): &(String, [f64; 3])| {
+        let cells = error.map(|error| format!("{error:.2}"));
+        [light.clone()].into_iter().chain(cells).collect()
+    };
+    let rows: Vec<Vec<String>> = errors.iter().map(row).collect();
+    vec![
+        String::new(),
+        "Colour error, of three channels in place of a spectrum, in Delta E 2000 after 1, 2, 3 bounces under another light.".to_owned(),
+        "More accuracy than this is not worth having:".to_owned(),
+        table::text(&["light", "1", "2", "3"], &rows),
+    ]
+}
+
+fn spread_text(told: &Told) -> Vec<String> {
+    if told.others.is_empty() {
+        return Vec::new();
+    }
+    let (least, most) = spread(told);
+    let row = |name: &str, values: &[f64; 3]| {
+        [name.to_owned()]
+            .into_iter()
+            .chain(values.map(|value| format!("{value:.5}")))
+            .collect()
+    };
+    let mut rows: Vec<Vec<String>> = told.others.iter().map(|(name, f0)| row(name, f0)).collect();
+    rows.push(row("least of all", &least));
+    rows.push(row("most of all", &most));
+    vec![
+        "How well it is known: F0 by the other measurements".to_owned(),
+        table::text(&["", "red", "green", "blue"], &rows),
+    ]
+}

@@ -1,0 +1,54 @@
+//! `materials survey`: every page of refractiveindex.info below a folder.
+
+use std::path::Path;
+
+use serde_json::{Value, json};
+
+use crate::app::args::SurveyFlags;
+use crate::app::error::Error;
+use crate::app::sight::sight;
+use crate::app::source::{pages, read};
+use crate::report::survey::{Surveyed, survey, text};
+use crate::spectra::Gamut;
+
+use super::{Output, Progress, report};
+
+/// `fresnel-gen materials survey FOLDER`.
+pub fn run(flags: &SurveyFlags, json: Option<&Path>, progress: Progress) -> Result<Output, Error> {
+    let sight = sight(&flags.sight.words(Some(Gamut::Keep.name())))?;
+    let files = pages(&flags.folder)?;
+    if files.is_empty() {
+        return Err(Error::Usage {
+            what: format!("there is no page (.yml) below {}", flags.folder.display()),
+        });
+    }
+    let mut all: Vec<Surveyed> = Vec::with_capacity(files.len());
+    for (done, file) in files.iter().enumerate() {
+        progress(done as u64, files.len() as u64, "pages");
+        all.push(surveyed(&flags.folder, file, &sight)?);
+    }
+    let rows: Vec<Value> = all.iter().map(Surveyed::json).collect();
+    let full = json!({ "tool": "fresnel-gen", "command": "materials survey", "device": null, "rows": rows });
+    report(text(&all), &full, json)
+}
+
+/// A page by its name below the folder, so that no report depends on where that lies.
+fn surveyed(folder: &Path, file: &str, sight: &crate::materials::Sight) -> Result<Surveyed, Error> {
+    let path = folder.join(file);
+    let named = if file.is_empty() {
+        folder.display().to_string()
+    } else {
+        file.to_owned()
+    };
+    match read(&path.display().to_string()) {
+        Ok(text) => Ok(survey(&named, &text, sight)),
+        Err(Error::Material(fault)) => Ok(Surveyed {
+            file: named,
+            outcome: crate::report::survey::Outcome::Refused(format!(
+                "line {}: {}",
+                fault.line, fault.what
+            )),
+        }),
+        Err(other) => Err(other),
+    }
+}

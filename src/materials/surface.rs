@@ -1,0 +1,228 @@
+//! A material as an observer sees it: its index at some wavelengths, and how these make three channels.
+//!
+//! ```text
+//! R_c(θ) = Σ w_c(λ) R(λ, θ) / Σ w_c(λ)      R(λ, θ) by the exact law, from n(λ) and k(λ) relative to the medium
+//! ```
+//!
+//! With one wavelength a channel this is the thesis's way; with the observer's curves times the illuminant it is the
+//! colour of the reflected light where a perfect mirror is (1, 1, 1).
+
+use glam::DVec3;
+
+use super::channels::Channels;
+use super::dispersion::Extrapolate;
+use super::material::{Index, Material};
+use crate::optics::{self, Reflectance};
+use crate::spectra::{FIRST_NM, Gamut, Integration, Integrator, LAST_NM};
+
+/// How materials are looked at.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Sight {
+    /// Observer, illuminant, working space, adaptation, step.
+    pub integration: Integration,
+    /// What becomes of colours outside the working space.
+    pub gamut: Gamut,
+    /// Red, green and blue at one wavelength each, in place of the whole spectrum.
+    pub wavelengths_nm: Option<[f64; 3]>,
+    /// Beyond the measured range.
+    pub beyond: Extrapolate,
+}
+
+impl Default for Sight {
+    fn default() -> Sight {
+        Sight {
+            integration: Integration::default(),
+            gamut: Gamut::Clip,
+            wavelengths_nm: None,
+            beyond: Extrapolate::Refuse,
+        }
+    }
+}
+
+/// The surface of a material in its medium, seen.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Surface {
+    /// The relative index at each of the integrator's wavelengths.
+    pub indices: Vec<Index>,
+    /// From a spectrum to three channels.
+    pub integrator: Integrator,
+    /// What becomes of colours outside the working space.
+    pub gamut: Gamut,
+    /// What is seen, in words.
+    pub seen: String,
+    /// Wavelengths in nanometres beyond which the nearest measured index was held: lowest and highest, where so.
+    pub held_nm: (Option<f64>, Option<f64>),
+}
+
+/// A material that is not known where it is looked at.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("{why}{advice}")]
+pub struct Unseen {
+    /// Which material, where it is known, which wavelength is wanted.
+    pub why: String,
+    /// What can be done.
+    pub advice: String,
+}
+
+impl Surface {
+    /// The surface of a material in air or in a medium. Where either is known at three wavelengths only, these are taken.
+    pub fn new(
+        material: &Material,
+        medium: Option<&Material>,
+        sight: &Sight,
+    ) -> Result<Surface, Unseen> {
+        let three = sight
+            .wavelengths_nm
+            .or(material.rgb_nm)
+            .or(medium.and_then(|medium| medium.rgb_nm));
+        let integrator = match three {
+            Some(rgb) => Integrator::three_wavelengths(rgb),
+            None => Integrator::new(&sight.integration).map_err(|fault| Unseen {
+                why: fault.to_string(),
+                advice: String::new(),
+            })?,
+        };
+        let index = |nm: &f64| {
+            let own = material.index(*nm, sight.beyond)?;
+            let around = medium
+                .map(|medium| medium.index(*nm, sight.beyond))
+                .transpose()?;
+            Ok(around.map_or(own, |around| own.relative_to(around)))
+        };
+        let indices = integrator
+            .wavelengths
+            .iter()
+            .map(index)
+            .collect::<Result<_, String>>();
+        let gamut = if three.is_some() {
+            Gamut::Keep
+        } else {
+            sight.gamut
+        };
+        Ok(Surface {
+            indices: indices.map_err(|why| Unseen {
+                why,
+                advice: advice(material, sight),
+            })?,
+            held_nm: held(material, medium, &integrator.wavelengths),
+            integrator,
+            gamut,
+            seen: match three {
+                Some(rgb) => three_in_words(rgb),
+                None => format!(
+                    "reflectance integrated over {}{}",
+                    sight.integration.description(),
+                    in_gamut(gamut)
+                ),
+            },
+        })
+    }
+
+    /// A surface that is known by its channels alone.
+    pub fn of_channels(channels: &Channels) -> Surface {
+        let index = |i: usize| Index {
+            n: channels.n[i],
+            k: channels.k[i],
+        };
+        Surface {
+            indices: [0, 1, 2].map(index).to_vec(),
+            integrator: Integrator::three_wavelengths(super::THESIS_NM),
+            gamut: Gamut::Keep,
+            seen: "one index a channel".to_owned(),
+            held_nm: (None, None),
+        }
+    }
+
+    /// The channels, where each is one wavelength.
+    pub fn channels(&self) -> Option<Channels> {
+        let indices: [Index; 3] = self.indices.as_slice().try_into().ok()?;
+        Some(Channels::of(indices))
+    }
+
+    /// The reflected share of each channel in both polarisations, colours outside the working space left as they are.
+    pub fn reflectance(&self, cos_theta: f64) -> Reflectance<DVec3> {
+        let each = self
+            .indices
+            .iter()
+            .map(|index| optics::conductor(index.n, index.k, cos_theta));
+        let both: Vec<Reflectance<f64>> = each.collect();
+        let colour = |part: fn(&Reflectance<f64>) -> f64| {
+            self.integrator
+                .colour(&both.iter().map(part).collect::<Vec<f64>>())
+        };
+        Reflectance {
+            s: colour(|r| r.s),
+            p: colour(|r| r.p),
+        }
+    }
+
+    /// The reflected share of unpolarised light, colours outside the working space left as they are.
+    pub fn unpolarised(&self, cos_theta: f64) -> DVec3 {
+        let law = |index: &Index| optics::conductor(index.n, index.k, cos_theta).unpolarised();
+        self.integrator
+            .colour(&self.indices.iter().map(law).collect::<Vec<f64>>())
+    }
+
+    /// What was extrapolated, in words, where anything was.
+    pub fn held(&self) -> Option<String> {
+        let below = self.held_nm.0.map(|nm| format!("below {nm} nm"));
+        let above = self.held_nm.1.map(|nm| format!("above {nm} nm"));
+        let ends: Vec<String> = below.into_iter().chain(above).collect();
+        (!ends.is_empty())
+            .then(|| format!("{} the last measured index is held", ends.join(" and ")))
+    }
+
+    /// The largest k at any of the wavelengths.
+    pub fn most_k(&self) -> f64 {
+        self.indices.iter().map(|index| index.k).fold(0.0, f64::max)
+    }
+}
+
+fn in_gamut(gamut: Gamut) -> &'static str {
+    match gamut {
+        Gamut::Keep => "",
+        Gamut::Clip => ", clipped to [0, 1]",
+        Gamut::Scale => ", scaled into [0, 1]",
+    }
+}
+
+fn three_in_words([red, green, blue]: [f64; 3]) -> String {
+    format!("reflectance at {red}, {green} and {blue} nm for red, green and blue")
+}
+
+/// What to do about a material that is not known everywhere.
+fn advice(material: &Material, sight: &Sight) -> String {
+    let (from, to) = material.range_nm();
+    if sight.wavelengths_nm.is_some() {
+        format!(
+            ". It is known from {from} to {to} nm; to hold the last value beyond, add --extrapolate hold"
+        )
+    } else {
+        format!(
+            ". The whole spectrum means {FIRST_NM} to {LAST_NM} nm; to hold the last value beyond {from} to {to} nm, \
+             add --extrapolate hold; to take three wavelengths instead, add --wavelengths 685,535,475 or others inside"
+        )
+    }
+}
+
+/// Beyond which wavelengths an index was held.
+fn held(
+    material: &Material,
+    medium: Option<&Material>,
+    wavelengths: &[f64],
+) -> (Option<f64>, Option<f64>) {
+    let all = || [Some(material), medium].into_iter().flatten();
+    let inside = |nm: f64| all().all(|material| material.covers(nm, nm));
+    let (from, to) = all()
+        .map(Material::range_nm)
+        .fold((0.0, f64::INFINITY), |(low, high), (from, to)| {
+            (f64::max(low, from), f64::min(high, to))
+        });
+    let outside = |end: f64, beyond: &dyn Fn(f64) -> bool| {
+        wavelengths
+            .iter()
+            .any(|nm| beyond(*nm) && !inside(*nm))
+            .then_some(end)
+    };
+    (outside(from, &|nm| nm < from), outside(to, &|nm| nm > to))
+}

@@ -1,0 +1,39 @@
+//! Spectra: from reflectance at every wavelength to one colour, and how far colours lie apart.
+//!
+//! The way of a colour, one file a step: [`Step`] gives the wavelengths; [`Observer`] and [`Illuminant`] say how much
+//! each counts for X, Y and Z; [`Space`] turns XYZ into linear red, green and blue; [`Adaptation`] says how a mirror
+//! comes out white; [`Integrator`] is all of this as one table of weights; [`Gamut`] is what happens to colours that
+//! a screen cannot show. [`ciede2000`] is a difference that the eye sees, [`colour_error`] what is lost by taking
+//! reflectance as three numbers at all.
+//!
+//! Wavelengths are in nanometres, colours are linear and lie in [`glam::DVec3`] as (X, Y, Z) or (red, green, blue). The
+//! tables lie in `data/spectra/` and are part of the program.
+
+mod adaptation;
+mod colour_error;
+mod difference;
+mod fault;
+mod gamut;
+mod illuminant;
+mod integration;
+mod integrator;
+mod observer;
+mod space;
+mod spectrum;
+mod table;
+mod tristimulus;
+mod wavelength;
+
+pub use adaptation::{Adaptation, bradford};
+pub use colour_error::colour_error;
+pub use difference::{Lab, ciede2000};
+pub use fault::Fault;
+pub use gamut::Gamut;
+pub use illuminant::Illuminant;
+pub use integration::Integration;
+pub use integrator::{Integrator, NoWhite};
+pub use observer::Observer;
+pub use space::Space;
+pub use spectrum::Spectrum;
+pub use tristimulus::{weighted_sum, xyz_weights};
+pub use wavelength::{FIRST_NM, LAST_NM, Step};

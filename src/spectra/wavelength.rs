@@ -1,0 +1,73 @@
+//! The wavelengths that a spectrum is summed over: 380 to 780 nm, both ends included.
+//!
+//! The eye sees little beyond: 400 to 700 nm instead moves the colour of no metal measured by more than 9e-4, and of
+//! the luminosity of all light, the sum of ȳ, 380 to 780 nm hold all but 5 parts in a million.
+
+/// The first wavelength of a sum, in nm.
+pub const FIRST_NM: f64 = 380.0;
+
+/// The last wavelength of a sum, in nm.
+pub const LAST_NM: f64 = 780.0;
+
+/// The distance of the wavelengths of a sum.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Step {
+    /// 81 wavelengths. Colours of metals differ from those of 1 nm by at most 2e-4.
+    #[default]
+    Nm5,
+    /// 401 wavelengths.
+    Nm1,
+}
+
+impl Step {
+    /// All of them.
+    pub const ALL: [Step; 2] = [Step::Nm5, Step::Nm1];
+
+    /// The name on the command line.
+    pub fn name(self) -> &'static str {
+        match self {
+            Step::Nm5 => "5nm",
+            Step::Nm1 => "1nm",
+        }
+    }
+
+    /// The step of this name.
+    pub fn find(name: &str) -> Option<Step> {
+        Step::ALL.into_iter().find(|step| step.name() == name)
+    }
+
+    /// Its width in nm.
+    pub fn nm(self) -> u16 {
+        match self {
+            Step::Nm5 => 5,
+            Step::Nm1 => 1,
+        }
+    }
+
+    /// The wavelengths from [`FIRST_NM`] to [`LAST_NM`], in nm, ascending.
+    pub fn wavelengths(self) -> Vec<f64> {
+        (0..)
+            .map(|index: u16| FIRST_NM + f64::from(index * self.nm()))
+            .take_while(|nm| *nm <= LAST_NM)
+            .collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn both_ends_are_in() {
+        for (step, count) in [(Step::Nm5, 81), (Step::Nm1, 401)] {
+            let wavelengths = step.wavelengths();
+            assert_eq!(wavelengths.len(), count);
+            assert_eq!(
+                (wavelengths[0], wavelengths[count - 1]),
+                (FIRST_NM, LAST_NM)
+            );
+            assert_eq!(Step::find(step.name()), Some(step));
+        }
+        assert_eq!(Step::find("2nm"), None);
+    }
+}
