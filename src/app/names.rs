@@ -13,7 +13,17 @@ pub fn unknown(kind: &'static str, name: &str, all: &[&str]) -> Error {
         kind,
         name: name.to_owned(),
         nearest: nearest(name, all),
-        all: all.join(", "),
+        all: listed(kind, all),
+    }
+}
+
+/// All names, or where to find them where they are many.
+fn listed(kind: &str, all: &[&str]) -> String {
+    const MANY: usize = 40;
+    if all.len() > MANY {
+        format!("{} of them: see `fresnel-gen {kind}s`", all.len())
+    } else {
+        all.join(", ")
     }
 }
 

@@ -37,6 +37,8 @@ const LEAST_N: f64 = 1e-3;
 /// The box that is searched: n up to here in steps of equal ratio, k up to here.
 const MOST_N: f64 = 20.0;
 const MOST_K: f64 = 20.0;
+/// A dielectric that reflects more has an n that no medium has.
+const MOST_F0: f64 = 0.9;
 /// A dielectric whose k stays below this is taken as transparent: k² adds 1e-5 to its reflectance at most.
 const FAINT_K: f64 = 0.01;
 /// Even steps of angle at which curves are compared, 0 and nearly 90 degrees included.
@@ -68,7 +70,11 @@ pub fn effective(truth: &Truth, kind: Kind) -> Effective {
             (index, By::F0AndF82)
         } else {
             let channel: Vec<(f64, f64)> = curve.iter().map(|(c, r)| (*c, r[i])).collect();
-            (nearest(&channel, transparent), By::Nearest)
+            if transparent {
+                (nearest_transparent(&channel), By::Nearest)
+            } else {
+                (nearest(&channel), By::Nearest)
+            }
         }
     });
     Effective {
@@ -85,40 +91,63 @@ fn curve(truth: &Truth) -> Vec<(f64, [f64; 3])> {
         .collect()
 }
 
-/// The index whose curve is nearest, by largest absolute difference; with k = 0 where that is asked for.
-fn nearest(curve: &[(f64, f64)], transparent: bool) -> Index {
+/// The index whose curve is nearest, by largest absolute difference.
+fn nearest(curve: &[(f64, f64)]) -> Index {
+    search(curve, -HALF..=HALF, |[n, k]| Index {
+        n: LEAST_N * libm::pow(MOST_N / LEAST_N, n),
+        k: MOST_K * k * k,
+    })
+}
+
+/// The nearest index without k, on the side of 1 that serves better: in the square root q of F0 around that of the
+/// curve, n = (1 + q) / (1 - q), up to twice or half of it.
+fn nearest_transparent(curve: &[(f64, f64)]) -> Index {
+    let root = curve[0].1.clamp(0.0, MOST_F0).sqrt();
+    let of = |root: f64| (1.0 + root) / (1.0 - root);
+    let around = |[q, _]: [f64; 2]| (root * libm::exp2(2.0 * q - 1.0)).min(MOST_F0);
+    let glass = |n: f64| Index { n, k: 0.0 };
+    let above = search(curve, 0..=0, |point| glass(of(around(point))));
+    let below = search(curve, 0..=0, |point| glass(1.0 / of(around(point))));
+    if distance(below, curve) < distance(above, curve) {
+        below
+    } else {
+        above
+    }
+}
+
+/// The best index of those that points of the unit square stand for; `along` are the steps of the second coordinate.
+fn search(
+    curve: &[(f64, f64)],
+    along: std::ops::RangeInclusive<i32>,
+    index: impl Fn([f64; 2]) -> Index,
+) -> Index {
     let mut best = (f64::INFINITY, [0.5, 0.5]);
     let mut reach = 0.5 / f64::from(HALF);
     for _ in 0..ROUNDS {
         let centre = best.1;
-        for point in grid(centre, reach, transparent) {
-            let error = distance(index(point, transparent), curve);
+        for point in grid(centre, reach, &along) {
+            let error = distance(index(point), curve);
             if error < best.0 {
                 best = (error, point);
             }
         }
         reach *= FINER;
     }
-    index(best.1, transparent)
+    index(best.1)
 }
 
 /// Points of the unit square around a centre.
-fn grid(centre: [f64; 2], reach: f64, transparent: bool) -> impl Iterator<Item = [f64; 2]> {
-    let along = if transparent { 0..=0 } else { -HALF..=HALF };
+fn grid(
+    centre: [f64; 2],
+    reach: f64,
+    along: &std::ops::RangeInclusive<i32>,
+) -> impl Iterator<Item = [f64; 2]> {
     let place = move |from: f64, step: i32| (from + f64::from(step) * reach).clamp(0.0, 1.0);
     (-HALF..=HALF).flat_map(move |i| {
         along
             .clone()
             .map(move |j| [place(centre[0], i), place(centre[1], j)])
     })
-}
-
-/// The index at a point of the unit square: n by equal ratios, k denser near 0.
-fn index([n, k]: [f64; 2], transparent: bool) -> Index {
-    Index {
-        n: LEAST_N * libm::pow(MOST_N / LEAST_N, n),
-        k: if transparent { 0.0 } else { MOST_K * k * k },
-    }
 }
 
 fn distance(index: Index, curve: &[(f64, f64)]) -> f64 {

@@ -89,8 +89,8 @@ impl Material {
             let named = |why: String| format!("material `{}`: {letter} {why}", self.name);
             curve.at(nm, beyond).map_err(named)
         };
-        let k = self.k.as_ref().map(|k| value(k, "k")).transpose()?;
         let n = value(&self.n, "n")?;
+        let k = self.k.as_ref().map(|k| value(k, "k")).transpose()?;
         // A table can hold such rows: of a fit gone wrong, or of a metamaterial.
         if n <= 0.0 {
             let name = &self.name;

@@ -18,6 +18,7 @@ mod readme;
 mod reproduce;
 mod reread;
 mod specialise;
+mod spectral;
 mod tidy;
 mod tree;
 

@@ -3,7 +3,6 @@
 use crate::fit::{Derivation, THESIS_MATCHING_COS, lambda, thesis_errors};
 use crate::materials::Channels;
 
-use super::metals::{GOLD, PLATINUM};
 use super::meter::Meter;
 use super::row::{Figure, Row, Verdict};
 use super::{Section, single, specialised, thesis};
@@ -138,9 +137,13 @@ fn rescaled_row(name: &str, thesis: f64, ours: f64) -> Row {
 
 /// The same with the indices that Table 1 was rounded from.
 fn unrounded(name: &str, thesis: [f64; 2], angles: usize, meter: &mut Meter) -> [Row; 2] {
-    let metal = if name == "gold" { GOLD } else { PLATINUM };
+    let page = if name == "gold" {
+        "gold_hagemann_2"
+    } else {
+        "platinum"
+    };
     let wanted = [("schlick_rescaled", AT_81), ("schlick_corrected", AT_81)];
-    let errors = percent(name, &metal.channels(), &wanted, angles, meter);
+    let errors = percent(name, &specialised::unrounded(page), &wanted, angles, meter);
     [0, 1].map(|i| {
         let column = [
             "rescaled, unrounded indices",

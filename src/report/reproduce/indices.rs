@@ -5,6 +5,15 @@ use super::{Section, specialised, thesis};
 
 /// The materials in the order of the thesis.
 const MATERIALS: [&str; 4] = ["gold", "platinum", "water", "diamond"];
+/// The pages that Table 1 was taken from, found by comparing all of the database.
+const PAGES: [(&str, &str); 4] = [
+    ("gold", "gold_hagemann_2"),
+    ("platinum", "platinum"),
+    ("water", "water"),
+    ("diamond", "diamond"),
+];
+/// How far rounding or cutting to the thesis's two digits moves an index.
+const ROUNDED: f64 = 0.0065;
 /// The channels in the order of the thesis.
 const CHANNELS: [&str; 3] = ["red", "green", "blue"];
 
@@ -13,8 +22,36 @@ pub fn section() -> Section {
     Section {
         title: "Table 1: indices of refraction at 685, 535 and 475 nm, from data/materials/*_thesis.toml"
             .to_owned(),
-        rows: MATERIALS.into_iter().flat_map(rows).collect(),
+        rows: MATERIALS
+            .into_iter()
+            .flat_map(rows)
+            .chain(PAGES.into_iter().flat_map(unrounded))
+            .collect(),
     }
+}
+
+/// The index as measured, beside what the thesis prints of it.
+fn unrounded((material, page): (&'static str, &'static str)) -> impl Iterator<Item = Row> {
+    let ours = specialised::unrounded(page);
+    let source = specialised::material(page).page;
+    CHANNELS.into_iter().enumerate().map(move |(i, channel)| {
+        let printed = thesis::numbers(&["table1_index", material, channel]);
+        let apart = (ours.n[i] - printed[0])
+            .abs()
+            .max((ours.k[i] - printed[1]).abs());
+        let digits = |value: f64| (value * 1e4).round() / 1e4;
+        Row::new("table1", page, channel)
+            .thesis(Figure::Index([printed[0], printed[1]]))
+            .ours(Figure::Index([digits(ours.n[i]), digits(ours.k[i])]))
+            .verdict(if apart <= ROUNDED {
+                Verdict::Agrees
+            } else {
+                Verdict::Differs
+            })
+            .remark(format!(
+                "refractiveindex.info's page {source}, linearly interpolated; the thesis rounds or cuts it"
+            ))
+    })
 }
 
 fn rows(material: &'static str) -> impl Iterator<Item = Row> {

@@ -2,7 +2,7 @@
 
 use crate::fit::{self, Derivation};
 use crate::ir::{Checked, Value, evaluate};
-use crate::materials::{self, Channels, THESIS_NM};
+use crate::materials::{self, Channels, Material, THESIS_NM};
 use crate::methods::{self, Method};
 
 /// A method of the registry.
@@ -10,11 +10,21 @@ pub fn method(name: &str) -> &'static Method {
     methods::find(name).expect("the names are constants, and a test reproduces every part")
 }
 
-/// The channels of a material that the thesis measures.
-pub fn channels(material: &str) -> Channels {
-    let found = materials::find(&format!("{material}_thesis")).and_then(Result::ok);
-    let channels = found.and_then(|material| material.channels(THESIS_NM).ok());
-    channels.expect("the thesis's materials are in the catalogue, at its wavelengths")
+/// A material of the catalogue.
+pub fn material(name: &str) -> Material {
+    let found = materials::find(name).and_then(Result::ok);
+    found.expect("the names are constants, and a test reproduces every part")
+}
+
+/// The channels of a material as the thesis rounds them.
+pub fn channels(name: &str) -> Channels {
+    unrounded(&format!("{name}_thesis"))
+}
+
+/// The channels of a material of the catalogue at the thesis's wavelengths, with all digits.
+pub fn unrounded(name: &str) -> Channels {
+    let channels = material(name).channels(THESIS_NM);
+    channels.expect("what is reproduced is known at the thesis's wavelengths")
 }
 
 /// The same index in all three channels.

@@ -40,7 +40,7 @@ fn an_unknown_name_is_answered_with_the_nearest() {
         ),
         (
             "--material zzz",
-            "there is no material `zzz`; there are diamond_thesis,",
+            "there is no material `zzz`; there are 147 of them: see `fresnel-gen materials`",
         ),
         ("methods show shlick", "(did you mean schlick"),
         ("materials show gold_tesis", "(did you mean gold_thesis"),
@@ -137,7 +137,7 @@ fn a_method_that_cannot_describe_the_material_is_refused() {
 #[test]
 fn a_medium_must_be_transparent() {
     let place = Place::new();
-    let says = "the medium `gold_thesis` absorbs (k > 0); a medium must be transparent";
+    let says = "the medium `gold_thesis` is a metal; a medium must be transparent";
     place.refused("--medium gold_thesis", &[says]);
     place.refused(
         "--medium gold_thesis --material none --target wgsl -o - --material water_thesis",

@@ -38,7 +38,7 @@ fn the_tree_is_the_documented_one() {
             .iter()
             .map(|method| format!("fresnel_{}", method.name));
         let materials = ["diamond", "gold", "platinum", "water"];
-        let materials = materials.map(|name| format!("materials/{name}_thesis"));
+        let materials = materials.map(|name| format!("materials/{name}"));
         for stem in methods.chain(materials) {
             let name = |page: &targets::Page| {
                 format!("{}/{stem}{}.{}", target.name, page.suffix, target.extension)

@@ -34,8 +34,8 @@ licence = "CC0-1.0"
 reference = "Nobody, Nothing, 2020"
 link = "https://example.org"
 data = [
-  [475, 1.39, 1.72],
-  [685, 0.23, 3.94],
+  [380, 1.39, 1.72],
+  [780, 0.23, 3.94],
 ]
 "#;
 

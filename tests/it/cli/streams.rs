@@ -10,10 +10,10 @@ use super::{MY_METAL, Place, Ran};
 #[test]
 fn json_on_stdout_stands_there_alone() {
     let place = Place::new();
-    for (command, count) in [
-        ("methods", methods::ALL.len()),
-        ("materials", materials::names().len()),
-        ("targets", targets::ALL.len()),
+    for (command, named, count) in [
+        ("methods", "methods", methods::ALL.len()),
+        ("materials", "materials list", materials::names().len()),
+        ("targets", "targets", targets::ALL.len()),
     ] {
         for line in [
             format!("{command} --json -"),
@@ -23,7 +23,7 @@ fn json_on_stdout_stands_there_alone() {
             let json = ran.json();
             assert_eq!(
                 (&json["tool"], &json["command"]),
-                (&"fresnel-gen".into(), &command.into())
+                (&"fresnel-gen".into(), &named.into())
             );
             let rows = json["rows"].as_array().unwrap();
             assert_eq!((rows.len(), ran.err.as_str()), (count, ""));

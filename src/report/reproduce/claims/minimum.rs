@@ -3,7 +3,6 @@
 use crate::fit::Derivation;
 use crate::materials::{Channels, THESIS_NM};
 use crate::report::reproduce::angle::{cosine, exact, highest, lowest};
-use crate::report::reproduce::metals;
 use crate::report::reproduce::row::{Figure, Row, Verdict};
 use crate::report::reproduce::specialised;
 
@@ -14,6 +13,16 @@ const CLAIMED: std::ops::RangeInclusive<f64> = 81.37..=84.26;
 /// The error of the rescaled Schlick from which it is worth a correction: a hundredth, two or three steps of an
 /// eight-bit display.
 const WORTH_CORRECTING: f64 = 0.01;
+
+/// More metals, to test what the thesis says of metals in general.
+const OTHERS: [&str; 6] = [
+    "silver",
+    "aluminium_rakic",
+    "chromium",
+    "copper",
+    "sodium",
+    "tungsten",
+];
 
 /// One metal at one wavelength.
 struct Curve {
@@ -44,7 +53,7 @@ pub fn rows() -> Vec<Row> {
 fn curves() -> Vec<Curve> {
     let thesis =
         ["gold", "platinum"].map(|name| (format!("thesis {name}"), specialised::channels(name)));
-    let others = metals::OTHERS.map(|metal| (metal.name.to_owned(), metal.channels()));
+    let others = OTHERS.map(|name| (name.to_owned(), specialised::unrounded(name)));
     let all = thesis.into_iter().chain(others);
     all.flat_map(|(name, channels)| three(&name, &channels))
         .collect()
