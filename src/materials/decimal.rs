@@ -80,6 +80,16 @@ pub fn clipped(text: &str) -> String {
     start
 }
 
+/// A number for a message: five digits of it, with an exponent where it is small.
+pub fn short(number: f64) -> String {
+    let rounded: f64 = format!("{number:.4e}").parse().unwrap_or(number);
+    if rounded != 0.0 && rounded.abs() < 1e-4 {
+        format!("{rounded:e}")
+    } else {
+        rounded.to_string()
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -129,5 +139,19 @@ mod tests {
         );
         let long = "x".repeat(100);
         refused(&long, &format!("`{}...` is no number", "x".repeat(40)));
+    }
+
+    #[test]
+    fn messages_have_few_digits() {
+        for (number, text) in [
+            (2.834_567, "2.8346"),
+            (-3.22e-17, "-3.22e-17"),
+            (0.0, "0"),
+            (400.0, "400"),
+            (f64::NAN, "NaN"),
+            (f64::INFINITY, "inf"),
+        ] {
+            assert_eq!(short(number), text);
+        }
     }
 }

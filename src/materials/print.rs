@@ -79,10 +79,11 @@ fn rows(name: &str, columns: &str, rows: impl Iterator<Item = Vec<f64>>) -> Vec<
     lines
 }
 
-/// Numbers in the fewest digits that give them back; very small ones with an exponent.
+/// Numbers in the fewest digits that give them back; very small ones with an exponent, and very large ones, which
+/// would be integers that TOML cannot hold.
 fn list(values: &[f64]) -> String {
     let number = |value: &f64| {
-        if *value != 0.0 && value.abs() < 1e-4 {
+        if *value != 0.0 && !(1e-4..1e15).contains(&value.abs()) {
             format!("{value:e}")
         } else {
             value.to_string()

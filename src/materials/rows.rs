@@ -99,7 +99,8 @@ impl Rows {
     }
 
     fn value(&mut self, name: &str, token: &str) -> Result<f64, String> {
-        let value = decimal::finite(token)?;
+        // Some glass catalogues print -0.0000E+00; plus 0 it is 0.
+        let value = decimal::finite(token)? + 0.0;
         if name != "k" || value >= 0.0 {
             return Ok(value);
         }
@@ -119,7 +120,7 @@ impl Rows {
             remarks.push(format!(
                 "k was below 0 in {}, at worst {}: taken as 0",
                 counted(self.gains, "row"),
-                self.least_k
+                decimal::short(self.least_k)
             ));
         }
         if !self.rows.is_sorted_by(|a, b| a.nm <= b.nm) {

@@ -1,7 +1,8 @@
 //! A page as a material: what the page does not say, its name, class and summary, is made from what it does.
 
 use super::Page;
-use crate::materials::dispersion::Extrapolate;
+use crate::materials::decimal::short;
+use crate::materials::dispersion::{Curve, Extrapolate};
 use crate::materials::{Fault, Index, Kind, Material, name_fault};
 
 /// Where the class is guessed: near the middle of the visible range.
@@ -41,12 +42,19 @@ impl Page {
             n,
             k: self.k.clone(),
         };
+        let mut remarks = self.remarks.clone();
         let (from, to) = material.range_nm();
         if from > to {
-            let what = "n and k have no wavelength in common";
-            return Err(self.fault(what.to_owned()));
+            if !material.k.as_ref().is_some_and(is_zero) {
+                let what = "n and k have no wavelength in common";
+                return Err(self.fault(what.to_owned()));
+            }
+            // Two glasses of a catalogue have k = 0 at two wavelengths in the ultraviolet, where n is not given.
+            material.k = None;
+            remarks.push(
+                "k is 0 at all of its wavelengths, where n is not given: left out".to_owned(),
+            );
         }
-        let mut remarks = self.remarks.clone();
         let guess;
         (material.kind, guess) = guessed(&material);
         remarks.push(guess);
@@ -83,6 +91,13 @@ impl Page {
     }
 }
 
+fn is_zero(curve: &Curve) -> bool {
+    match curve {
+        Curve::Table(points) => points.iter().all(|point| point.value == 0.0),
+        Curve::Formula(_) => false,
+    }
+}
+
 fn or(text: &str, other: &str) -> String {
     let text = if text.trim().is_empty() { other } else { text };
     text.to_owned()
@@ -101,10 +116,9 @@ fn guessed(material: &Material) -> (Kind, String) {
         Some((nm, Index { n, k })) => {
             let kind = kind(n, k);
             let name = kind.name();
-            (
-                kind,
-                format!("class {name} guessed from n = {n}, k = {k} at {nm} nm"),
-            )
+            let [n, k, nm] = [n, k, nm].map(short);
+            let guess = format!("class {name} guessed from n = {n}, k = {k} at {nm} nm");
+            (kind, guess)
         }
         None => (Kind::Dielectric, "class dielectric guessed".to_owned()),
     }

@@ -118,3 +118,398 @@ pub(super) fn check_text(file: &str, text: &str) -> Result<(), Fault> {
         None => Ok(()),
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::materials::{Extrapolate, Formula, Kind, Material, Point};
+
+    const GOOD: &str = "\
+# a comment
+REFERENCES: |
+    A. Author. <a href=\"https://doi.org/10.1000/1\"><i>J.</i> <b>6</b></a>
+COMMENTS: |
+    Room temperature
+DATA:
+  - type: tabulated nk
+    data: |
+        0.2261 1.28 1.188
+        0.5 1.5 0.25
+CONDITIONS:
+    temerature: 293
+    film_thickness: 20e-9
+PROPERTIES:
+    density:
+      - value: 2510
+    nd: 1.5168
+";
+
+    fn data(items: &str) -> String {
+        format!("REFERENCES: r\nDATA:\n{items}")
+    }
+
+    fn formula(number: &str, range: &str, coefficients: &str) -> String {
+        data(&format!(
+            "- type: formula {number}\n  wavelength_range: {range}\n  coefficients: {coefficients}\n"
+        ))
+    }
+
+    fn table(kind: &str, rows: &str) -> String {
+        let rows: String = rows
+            .split(';')
+            .map(|row| format!("     {}\n", row.trim()))
+            .collect();
+        data(&format!("- type: tabulated {kind}\n  data: |\n{rows}"))
+    }
+
+    fn read(text: &str) -> Page {
+        Page::parse("main/Au/nk/Mine.yml", text).expect("it is good")
+    }
+
+    fn curve(points: &[(f64, f64)]) -> Option<Curve> {
+        let point = |&(nm, value): &(f64, f64)| Point { nm, value };
+        Some(Curve::Table(points.iter().map(point).collect()))
+    }
+
+    #[test]
+    fn a_good_page_is_read() {
+        let page = read(GOOD);
+        assert_eq!(page.n, curve(&[(226.1, 1.28), (500.0, 1.5)]));
+        assert_eq!(page.k, curve(&[(226.1, 1.188), (500.0, 0.25)]));
+        assert_eq!(page.reference, "A. Author. J. 6");
+        assert_eq!(page.link, "https://doi.org/10.1000/1");
+        assert_eq!(page.comments, "Room temperature");
+        assert_eq!(page.conditions, "temerature: 293, film_thickness: 20e-9");
+        assert_eq!(page.nd, Some(1.5168));
+        assert_eq!(page.remarks, Vec::<String>::new());
+        let material = page.material(None).expect("it has n");
+        assert_eq!(material.name, "au_mine");
+        assert_eq!(material.summary, "Au, Mine: Room temperature");
+        assert_eq!(material.page, "main/Au/nk/Mine.yml");
+        assert_eq!(material.kind, Kind::Semiconductor);
+        assert_eq!(
+            material.note,
+            "class semiconductor guessed from n = 1.39, k = 0.719 at 363.05 nm"
+        );
+        assert_eq!(Material::parse("m.toml", &material.to_toml()), Ok(material));
+        assert_eq!(read(&GOOD.replace('\n', "\r\n")).n, page.n);
+        assert_eq!(read(&format!("\u{feff}{GOOD}")).n, page.n);
+    }
+
+    #[test]
+    fn formulas_are_read() {
+        let page = read(&formula("2", "0.3 2.5", "0 1.04 0.006"));
+        let expected = Formula {
+            number: 2,
+            coefficients: vec![0.0, 1.04, 0.006],
+            from_nm: 300.0,
+            to_nm: 2500.0,
+        };
+        assert_eq!(page.n, Some(Curve::Formula(expected)));
+        for number in 1..=9 {
+            let page = read(&formula(&number.to_string(), "0.3 2.5", "1.5"));
+            assert!(page.n.is_some() && page.remarks.is_empty(), "{number}");
+        }
+        let both =
+            formula("5", "0.3 2.5", "1.5") + "- type: tabulated k\n  data: |\n    0.4 1e-8\n";
+        assert_eq!(read(&both).k, curve(&[(400.0, 1e-8)]));
+    }
+
+    #[track_caller]
+    fn remarks(text: &str, remarks: &[&str]) -> Page {
+        let page = read(text);
+        assert_eq!(page.remarks, remarks);
+        page
+    }
+
+    #[test]
+    fn what_is_done_to_a_page_is_said() {
+        let page = remarks(
+            &table("nk", "0.5 2 0; 0.4 1 -0.1; 0.4 2 0"),
+            &[
+                "k was below 0 in 1 row, at worst -0.1: taken as 0",
+                "rows were not in order of wavelength: sorted",
+                "1 wavelength had several rows that differ, the first at 400 nm: their mean was taken",
+            ],
+        );
+        assert_eq!(page.n, curve(&[(400.0, 1.5), (500.0, 2.0)]));
+        let partner =
+            "formula 2 has 4 coefficients: the missing partner of the last was taken as 0";
+        remarks(&formula("2", "0.3 2.5", "0 1 0.01 2"), &[partner]);
+        let rest = "formula 9 has 6 coefficients, and 7 are given: the rest was not used";
+        remarks(&formula("9", "0.3 2.5", "1 2 3 4 5 6 7"), &[rest]);
+        remarks(&formula("8", "0.3 2.5", "1 2 3 4"), &[]);
+        let stray = table("n", "0.4 1") + "  wavelength_range: 0.3 2.5\n";
+        remarks(&stray, &["a table has no `wavelength_range`: not used"]);
+        let twice =
+            formula("5", "0.3 2.5", "1.5") + "- type: tabulated nk\n  data: |\n    0.4 1 0.5\n";
+        let page = remarks(&twice, &["n is given twice: the first was taken"]);
+        assert!(matches!(page.n, Some(Curve::Formula(_))) && page.k == curve(&[(400.0, 0.5)]));
+    }
+
+    #[track_caller]
+    fn refused(text: &str, line: usize, column: usize, says: &str) {
+        let fault = Page::parse("p.yml", text).expect_err("it is refused");
+        assert!(fault.what.contains(says), "{fault}");
+        assert_eq!((fault.line, fault.column), (line, column), "{fault}");
+    }
+
+    #[test]
+    fn a_fault_in_a_row_names_its_line_and_column() {
+        refused(
+            &table("nk", "0.4 1 1; 0.5 1.80-17 0"),
+            6,
+            10,
+            "`1.80-17` is no number; did you mean 1.80e-17?",
+        );
+        refused(&table("n", "0.4 1; 0,5 1"), 6, 6, "did you mean 0.5?");
+        refused(
+            &table("n", "0.4 nan"),
+            5,
+            10,
+            "`nan` is not a finite number",
+        );
+        refused(
+            &table("n", "0.4 1;; 0.5 -inf"),
+            7,
+            10,
+            "not a finite number",
+        );
+        refused(
+            &table("nk", "0.4 1"),
+            5,
+            6,
+            "a row of 2 numbers; it wants wavelength, n, k",
+        );
+        refused(
+            &table("k", "0.4 1 2"),
+            5,
+            6,
+            "a row of 3 numbers; it wants wavelength, k",
+        );
+        refused(&table("k", "0.4 -0.21"), 5, 10, "k is -0.21");
+        refused(&table("n", "0 1"), 5, 6, "the wavelength is 0");
+        refused(&table("n", "-0.4 1"), 5, 6, "the wavelength is -0.4");
+        // Lines that were folded into one have no place of their own.
+        refused(
+            &data("- type: tabulated n\n  data: >\n    0.4 1\n    0.5 x\n"),
+            5,
+            5,
+            "a row of 4 numbers",
+        );
+        refused(
+            &data("- type: tabulated n\n  data: \"0.4 x\"\n"),
+            4,
+            9,
+            "`x` is no number",
+        );
+    }
+
+    #[test]
+    fn a_page_that_is_none_is_refused() {
+        refused("", 1, 1, "");
+        refused("a text", 1, 1, "expected mapping start");
+        refused("REFERENCES: r\n", 1, 1, "DATA is missing");
+        refused("DATA: []\n", 1, 1, "DATA is empty");
+        refused("DATA:\n", 1, 1, "DATA is missing");
+        refused("DATA: x\n", 1, 7, "");
+        refused(
+            &data("- data: |\n    1 2\n"),
+            3,
+            3,
+            "without `type`; allowed: tabulated nk",
+        );
+        refused(
+            &data("- type: tabulated nkx\n"),
+            3,
+            9,
+            "unknown type `tabulated nkx`; allowed: tabulated nk",
+        );
+        refused(
+            &data("- type: formula 10\n"),
+            3,
+            9,
+            "unknown type `formula 10`; allowed",
+        );
+        refused(&data("- type: formula A\n"), 3, 9, "formula 1 to formula 9");
+        refused(
+            &table("n2", "0.4 1"),
+            3,
+            9,
+            "gives the nonlinear index n2, not n and k",
+        );
+        refused(
+            &data("- type: tabulated n\n"),
+            3,
+            9,
+            "the table `tabulated n` has no rows",
+        );
+        refused(&data("- type: tabulated n\n  data:\n"), 3, 9, "has no rows");
+        refused(&table("n", ""), 3, 9, "has no rows");
+        refused(&GOOD.replace("1.28", "1\0"), 9, 17, "NUL");
+        refused("DATA: []\nDATA: []\n", 2, 1, "duplicate mapping key: DATA");
+        refused(
+            "DATA: []\n---\nDATA: []\n",
+            2,
+            1,
+            "a second document; a page is one",
+        );
+    }
+
+    #[test]
+    fn a_formula_that_is_none_is_refused() {
+        refused(
+            &data("- type: formula 1\n  coefficients: 1\n"),
+            3,
+            9,
+            "`formula 1` without `wavelength_range`",
+        );
+        refused(
+            &data("- type: formula 1\n  wavelength_range: 1 2\n"),
+            3,
+            9,
+            "without `coefficients`",
+        );
+        refused(
+            &formula("1", "0.3", "1"),
+            4,
+            21,
+            "`wavelength_range` has 1 numbers",
+        );
+        refused(&formula("1", "2.5 0.3", "1"), 4, 21, "does not ascend");
+        refused(&formula("1", "1 1", "1"), 4, 21, "does not ascend");
+        refused(&formula("1", "0 1", "1"), 4, 21, "must be above 0");
+        refused(
+            &formula("1", "a 1", "1"),
+            4,
+            21,
+            "`wavelength_range`: `a` is no number",
+        );
+        refused(
+            &formula("1", "0.3 2.5", "1 1.8-2"),
+            5,
+            17,
+            "did you mean 1.8e-2?",
+        );
+        refused(
+            &formula("1", "0.3 2.5", "1 inf"),
+            5,
+            17,
+            "not a finite number",
+        );
+        refused(
+            &formula("1", "0.3 2.5", "\"\""),
+            5,
+            17,
+            "0 of them; a formula has 1 to 64",
+        );
+        refused(
+            &formula("1", "0.3 2.5", &"1 ".repeat(65)),
+            5,
+            17,
+            "65 of them",
+        );
+        assert!(read(&formula("1", "0.3 2.5", &"1 ".repeat(63))).n.is_some());
+    }
+
+    #[test]
+    fn bombs_are_refused() {
+        refused(
+            &format!("DATA: {}", "[".repeat(100)),
+            1,
+            23,
+            "recursion limit",
+        );
+        let anchors = "no page has anchors or aliases";
+        refused(&data("- &a\n  type: x\n- *a\n"), 4, 3, anchors);
+        refused(&data("- <<: {type: x}\n"), 3, 3, anchors);
+        let deep: String = (0..100).map(|depth| " ".repeat(depth) + "a:\n").collect();
+        refused(&deep, 17, 17, "nested deeper than any page");
+        let wide = "A: [".to_owned() + &"a,".repeat(20_000) + "]";
+        refused(&wide, 1, 19_995, "more than any page holds");
+        let long = "x".repeat(MOST_BYTES + 1);
+        refused(
+            &long,
+            1,
+            1,
+            "the file has 67108865 bytes; at most 67108864 are read",
+        );
+    }
+
+    #[test]
+    fn a_million_rows_are_read() {
+        let rows: String = (0..1_000_000)
+            .map(|i| format!("    {}.5 1.5\n", i + 1))
+            .collect();
+        let page = read(&data(&format!("- type: tabulated n\n  data: |\n{rows}")));
+        let Some(Curve::Table(points)) = page.n else {
+            panic!("a table");
+        };
+        assert_eq!(points.len(), 1_000_000);
+    }
+
+    #[track_caller]
+    fn no_material(text: &str, says: &str) {
+        let fault = read(text).material(None).expect_err("no material");
+        assert!(fault.to_string().contains(says), "{fault}");
+    }
+
+    #[test]
+    fn a_material_needs_n_and_a_name() {
+        no_material(
+            &table("k", "0.4 1"),
+            "main/Au/nk/Mine.yml:1:1: the page gives k only, no n",
+        );
+        let apart = |k| {
+            formula("5", "0.3 0.5", "1.5")
+                + &format!("- type: tabulated k\n  data: |\n    0.2 {k}\n")
+        };
+        no_material(&apart("1"), "n and k have no wavelength in common");
+        let material = read(&apart("-0.0000E+00")).material(None).expect("k is 0");
+        assert!(material.k.is_none() && material.note.contains("left out"));
+        let fault = read(GOOD).material(Some("Gold")).expect_err("no name");
+        assert!(
+            fault.what.contains("`Gold` is no name: capital letters"),
+            "{fault}"
+        );
+        let named = read(GOOD).material(Some("gold")).expect("a name");
+        assert_eq!(
+            (named.name.as_str(), named.substance.as_str()),
+            ("gold", "gold")
+        );
+        let bare = Page::parse("x.yml", "DATA:\n- type: tabulated n\n  data: 0.4 1\n");
+        let bare = bare.expect("it has data").material(None).expect("it has n");
+        let texts = [&bare.reference, &bare.link, &bare.summary, &bare.page];
+        assert_eq!(texts, ["not given", "not given", "x", ""]);
+        assert_eq!(Material::parse("m.toml", &bare.to_toml()), Ok(bare));
+    }
+
+    #[test]
+    fn the_class_is_guessed() {
+        for (row, kind) in [
+            ("0.58 0.3 2.8", Kind::Metal),
+            ("0.58 4 0.02", Kind::Semiconductor),
+            ("0.58 1.5 0.0001", Kind::Dielectric),
+            ("0.58 -1 1", Kind::Dielectric),
+        ] {
+            let material = read(&table("nk", row)).material(None).expect("it has n");
+            assert_eq!(material.kind, kind, "{row}");
+            assert!(material.note.contains("guessed"), "{}", material.note);
+        }
+    }
+
+    #[test]
+    fn an_index_that_is_none_is_refused_where_it_is_asked_for() {
+        let material = read(&table("nk", "0.4 -0.5 1; 0.6 1.5 1"))
+            .material(None)
+            .expect("it has n");
+        let fault = material
+            .index(400.0, Extrapolate::Refuse)
+            .expect_err("n < 0");
+        assert_eq!(
+            fault,
+            "material `au_mine`: n is -0.5 at 400 nm; it must be above 0"
+        );
+        assert!(material.index(590.0, Extrapolate::Refuse).is_ok());
+    }
+}

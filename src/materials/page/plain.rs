@@ -53,7 +53,7 @@ fn link_at(text: &str, at: usize) -> Option<String> {
     };
     let length = rest.find(ends).unwrap_or(rest.len());
     let found = rest[..length].trim_end_matches(['.', ',', ';', ' ']);
-    (found.len() <= LONGEST).then(|| resolved(found))
+    (found.len() <= LONGEST).then(|| resolved(found).replace(' ', "%20"))
 }
 
 /// `https://doi.org/10....` of a link that holds a DOI: of doi.org or of a journal.

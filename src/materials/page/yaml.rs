@@ -4,7 +4,8 @@ use std::fmt;
 
 use serde::Deserialize;
 use serde::de::{MapAccess, Visitor};
-use serde_saphyr::{Location, Options, Spanned};
+use serde_saphyr::budget::BudgetBreach;
+use serde_saphyr::{Error, Location, Options, Spanned};
 
 use super::MOST_BYTES;
 use crate::materials::Fault;
@@ -112,15 +113,27 @@ fn options() -> Options {
 }
 
 /// The parser's message without the place, which stands before it in a fault, and without its advice to programmers.
-fn message(error: &serde_saphyr::Error) -> String {
+fn message(error: &Error) -> String {
     const LONGEST: usize = 200;
-    let text = error.without_snippet().to_string().replace('\n', "; ");
+    let error = error.without_snippet();
+    if let Error::Budget { breach, .. } = error {
+        return beyond(breach).to_owned();
+    }
+    let text = error.to_string().replace('\n', "; ");
     let text = text.split(" at line ").next().unwrap_or(&text);
-    let text = text
-        .split(", set DuplicateKeyPolicy")
-        .next()
-        .unwrap_or(text);
-    text.chars().take(LONGEST).collect()
+    let advice = text.split(", set DuplicateKeyPolicy").next();
+    advice.unwrap_or(text).chars().take(LONGEST).collect()
+}
+
+fn beyond(breach: &BudgetBreach) -> &'static str {
+    match breach {
+        BudgetBreach::Documents { .. } => "a second document; a page is one",
+        BudgetBreach::Depth { .. } => "nested deeper than any page",
+        BudgetBreach::Anchors { .. }
+        | BudgetBreach::Aliases { .. }
+        | BudgetBreach::MergeKeys { .. } => "no page has anchors or aliases, and they are not read",
+        _ => "more than any page holds",
+    }
 }
 
 /// The place of a fault in a field.
