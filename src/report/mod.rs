@@ -1,6 +1,9 @@
 //! Reports: what people look at.
 
+pub mod card;
 pub mod chart;
 pub mod markdown;
+#[cfg(feature = "cli")]
+pub mod png;
 pub mod reproduce;
 pub mod table;
