@@ -1,7 +1,10 @@
 //! Reports: what people look at.
 
+pub mod card;
 pub mod chart;
 pub mod markdown;
+#[cfg(feature = "cli")]
+pub mod png;
 pub mod reproduce;
 pub mod survey;
 pub mod table;

@@ -10,10 +10,11 @@ mod sheet;
 mod text;
 mod ticks;
 
+pub(super) use sheet::{Frame, Sheet};
+pub(super) use text::{FOOT, Font, HEADING, PANEL, SUBTITLE, TICK};
 pub use ticks::ticks;
 
 use plot::Plot;
-use sheet::Sheet;
 
 /// A line chart: the curves, and the words that say what they are.
 #[derive(Clone, Debug, PartialEq)]
@@ -61,12 +62,27 @@ pub struct Series {
 }
 
 /// How a curve is drawn.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Style {
     /// The reference: solid, dark and thick, beneath all other curves.
     Exact,
     /// An approximation: dashed, with a colour and dash pattern by number.
     Approximate(usize),
+    /// As the look says; later curves lie above earlier ones.
+    Own(Look),
+}
+
+/// A look that a caller chooses.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Look {
+    /// The colour, as SVG writes it.
+    pub colour: &'static str,
+    /// Lengths of dashes and gaps, as SVG writes them; none for a solid line.
+    pub dashes: &'static str,
+    /// The width of the line.
+    pub width: f64,
+    /// Whether each point on the axes is a dot too.
+    pub dots: bool,
 }
 
 /// A vertical guide line with a label above the plot.
@@ -84,17 +100,29 @@ impl Chart {
     /// It is 720 wide and 440 high, or higher when long text would otherwise
     /// leave too little room for the plot.
     pub fn svg(&self) -> String {
-        let mut sheet = Sheet::default();
-        sheet.paragraph(&text::TITLE, &self.title);
-        sheet.paragraph(&text::SUBTITLE, &self.subtitle);
-        sheet.legend(&self.series);
-        let plot = Plot::below(self, sheet.bottom());
-        sheet.extend(plot.draw(), plot.end());
-        sheet.paragraph(&text::FOOT, &self.foot);
+        let sheet = self.set(sheet::ALONE, &text::TITLE, "plot-area");
         sheet.document(&self.title, &self.description())
     }
 
-    fn description(&self) -> String {
+    /// The chart as part of a larger sheet; `clip` is a name that no other
+    /// part of the document has.
+    pub(crate) fn panel(&self, frame: Frame, clip: &str) -> Sheet {
+        self.set(frame, &PANEL, clip)
+    }
+
+    fn set(&self, frame: Frame, title: &Font, clip: &str) -> Sheet {
+        let mut sheet = Sheet::new(frame);
+        sheet.paragraph(title, &self.title);
+        sheet.paragraph(&SUBTITLE, &self.subtitle);
+        sheet.legend(&self.series);
+        let plot = Plot::below(self, frame, clip, sheet.bottom());
+        sheet.extend(plot.draw(), plot.end());
+        sheet.paragraph(&FOOT, &self.foot);
+        sheet
+    }
+
+    /// What a reader who does not see the chart should hear.
+    pub(crate) fn description(&self) -> String {
         let names: Vec<&str> = self.series.iter().map(|one| one.name.as_str()).collect();
         let marks: Vec<&str> = self.marks.iter().map(|one| one.label.as_str()).collect();
         let mut parts = vec![

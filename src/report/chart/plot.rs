@@ -1,12 +1,13 @@
 //! The plot itself: grid, guide lines, curves and axis labels.
 
-use super::sheet::{HEIGHT, LOWER_MARGIN, MARGIN, ROOM, paragraph_height};
+use super::sheet::{Frame, paragraph_height};
 use super::text::{AXIS, FOOT, MARK, TICK};
 use super::{Axis, Chart, Mark, Series, Style};
 
 /// The least height of the plot; the sheet grows rather than go below it.
 const LEAST_HEIGHT: f64 = 210.0;
-const RIGHT: f64 = MARGIN + ROOM - 8.0;
+/// From the end of the plot to the margin: half of the last tick's label.
+const RIGHT_GAP: f64 = 8.0;
 const TICK_GAP: f64 = 7.0;
 /// The height in which the line from a label slants to its place.
 const SLANT: f64 = 11.0;
@@ -17,10 +18,14 @@ const EDGE: f64 = 1.5;
 /// The area of the plot, and the text around it broken into lines.
 pub(super) struct Plot<'a> {
     chart: &'a Chart,
+    frame: Frame,
+    /// The name of the clip path, of which a document may hold several.
+    clip: &'a str,
     labels: Vec<Label>,
     x_label: Vec<String>,
     y_label: Vec<String>,
     left: f64,
+    right: f64,
     top: f64,
     bottom: f64,
 }
@@ -34,21 +39,25 @@ struct Label {
 
 impl<'a> Plot<'a> {
     /// Lays out the plot from `head` down, leaving room for the foot.
-    pub(super) fn below(chart: &'a Chart, head: f64) -> Plot<'a> {
+    pub(super) fn below(chart: &'a Chart, frame: Frame, clip: &'a str, head: f64) -> Plot<'a> {
         let y_label = AXIS.wrap(&chart.y.label, LEAST_HEIGHT + 20.0);
-        let left = left_of_plot(&chart.y, AXIS.height(&y_label));
-        let x_label = AXIS.wrap(&chart.x.label, RIGHT - left);
-        let labels = place_labels(&chart.marks, &chart.x, left);
+        let left = frame.margin + left_of_plot(&chart.y, AXIS.height(&y_label));
+        let right = frame.right() - RIGHT_GAP;
+        let x_label = AXIS.wrap(&chart.x.label, right - left);
+        let labels = place_labels(&chart.marks, &chart.x, left, right);
         let top = head + 12.0 + labels_height(&labels);
-        let foot = paragraph_height(&FOOT, &chart.foot);
-        let below = height_below(&x_label) + foot + LOWER_MARGIN;
-        let bottom = (HEIGHT - below).max(top + LEAST_HEIGHT);
+        let foot = paragraph_height(&FOOT, &chart.foot, frame.room());
+        let below = height_below(&x_label) + foot + frame.lower;
+        let bottom = (frame.height - below).max(top + LEAST_HEIGHT);
         Plot {
             chart,
+            frame,
+            clip,
             labels,
             x_label,
             y_label,
             left,
+            right,
             top,
             bottom,
         }
@@ -72,15 +81,15 @@ impl<'a> Plot<'a> {
     }
 
     fn grid(&self) -> Vec<String> {
-        let (left, top, bottom) = (self.left, self.top, self.bottom);
+        let (left, right, top, bottom) = (self.left, self.right, self.top, self.bottom);
         let mut lines = String::new();
         for (tick, _) in self.chart.x.labelled_ticks() {
             lines += &format!("M{:.2} {top:.2}V{bottom:.2}", self.x(tick));
         }
         for (tick, _) in self.chart.y.labelled_ticks() {
-            lines += &format!("M{left:.2} {:.2}H{RIGHT:.2}", self.y(tick));
+            lines += &format!("M{left:.2} {:.2}H{right:.2}", self.y(tick));
         }
-        let axes = format!("M{left:.2} {top:.2}V{bottom:.2}H{RIGHT:.2}");
+        let axes = format!("M{left:.2} {top:.2}V{bottom:.2}H{right:.2}");
         vec![
             format!("<path fill=\"none\" stroke=\"#e4e8ed\" d=\"{lines}\"/>"),
             format!("<path fill=\"none\" stroke=\"#7d8794\" d=\"{axes}\"/>"),
@@ -101,10 +110,13 @@ impl<'a> Plot<'a> {
     }
 
     fn axis_labels(&self) -> Vec<String> {
-        let (across, up) = ((self.left + RIGHT) / 2.0, (self.top + self.bottom) / 2.0);
+        let (across, up) = (
+            (self.left + self.right) / 2.0,
+            (self.top + self.bottom) / 2.0,
+        );
         let top = self.bottom + TICK_GAP + TICK.leading;
         let mut elements = AXIS.draw(&self.x_label, across, top, "middle");
-        elements.extend(AXIS.draw_upwards(&self.y_label, MARGIN - 4.0, up));
+        elements.extend(AXIS.draw_upwards(&self.y_label, self.frame.margin - 4.0, up));
         elements
     }
 
@@ -128,21 +140,26 @@ impl<'a> Plot<'a> {
         // Dashes over the solid line show where the curves coincide.
         series.sort_by_key(|one| one.style != Style::Exact);
         let mut elements = vec![
-            self.clip(),
-            "<g clip-path=\"url(#plot-area)\" stroke-linejoin=\"round\">".into(),
+            self.clip_path(),
+            format!(
+                "<g clip-path=\"url(#{})\" stroke-linejoin=\"round\">",
+                self.clip
+            ),
         ];
-        elements.extend(series.into_iter().map(|one| self.curve(one)));
+        elements.extend(series.iter().map(|one| self.curve(one)));
         elements.push("</g>".into());
+        elements.extend(series.iter().flat_map(|one| self.dots(one)));
         elements
     }
 
-    fn clip(&self) -> String {
+    fn clip_path(&self) -> String {
         format!(
-            "<clipPath id=\"plot-area\"><rect x=\"{:.2}\" y=\"{:.2}\" \
+            "<clipPath id=\"{}\"><rect x=\"{:.2}\" y=\"{:.2}\" \
              width=\"{:.2}\" height=\"{:.2}\"/></clipPath>",
+            self.clip,
             self.left - EDGE,
             self.top - EDGE,
-            RIGHT - self.left + 2.0 * EDGE,
+            self.right - self.left + 2.0 * EDGE,
             self.bottom - self.top + 2.0 * EDGE
         )
     }
@@ -161,8 +178,18 @@ impl<'a> Plot<'a> {
         format!("<path {} d=\"{data}\"/>", series.style.attributes())
     }
 
+    /// The dots of a curve, where its style has any: whole ones, on both axes.
+    fn dots(&self, series: &Series) -> Vec<String> {
+        let (x, y) = (&self.chart.x, &self.chart.y);
+        let points = series.points.iter();
+        let inside = points.filter(|point| x.holds(point.0) && y.holds(point.1));
+        inside
+            .filter_map(|point| series.style.dot(self.x(point.0), self.y(point.1)))
+            .collect()
+    }
+
     fn x(&self, value: f64) -> f64 {
-        along(self.left, RIGHT, self.chart.x.fraction(value))
+        along(self.left, self.right, self.chart.x.fraction(value))
     }
 
     fn y(&self, value: f64) -> f64 {
@@ -175,13 +202,14 @@ fn along(start: f64, end: f64, fraction: f64) -> f64 {
     (start + (end - start) * fraction).clamp(-9999.0, 9999.0)
 }
 
+/// The room that an axis and its labels take on the left.
 fn left_of_plot(axis: &Axis, label_width: f64) -> f64 {
     let ticks: Vec<String> = axis
         .labelled_ticks()
         .into_iter()
         .map(|(_, label)| label)
         .collect();
-    MARGIN + label_width + TICK.widest(&ticks) + TICK_GAP
+    label_width + TICK.widest(&ticks) + TICK_GAP
 }
 
 fn height_below(x_label: &[String]) -> f64 {
@@ -194,14 +222,14 @@ fn labels_height(labels: &[Label]) -> f64 {
 }
 
 /// The labels of the guide lines in one row, in order and clear of each other.
-fn place_labels(marks: &[Mark], axis: &Axis, left: f64) -> Vec<Label> {
+fn place_labels(marks: &[Mark], axis: &Axis, left: f64, right: f64) -> Vec<Label> {
     let shown = marks.iter().filter(|mark| axis.holds(mark.at));
     let mut shown: Vec<&Mark> = shown.collect();
     shown.sort_by(|one, other| axis.fraction(one.at).total_cmp(&axis.fraction(other.at)));
     // With no more than an equal share each, the labels fit side by side.
-    let share = (RIGHT - left) / shown.len().max(1) as f64 - LABEL_GAP;
+    let share = (right - left) / shown.len().max(1) as f64 - LABEL_GAP;
     let label = |mark: &Mark| {
-        let at = along(left, RIGHT, axis.fraction(mark.at));
+        let at = along(left, right, axis.fraction(mark.at));
         Label {
             lines: MARK.wrap(&mark.label, share),
             at,
@@ -209,19 +237,19 @@ fn place_labels(marks: &[Mark], axis: &Axis, left: f64) -> Vec<Label> {
         }
     };
     let mut labels: Vec<Label> = shown.into_iter().map(label).collect();
-    spread(&mut labels, left);
+    spread(&mut labels, left, right + RIGHT_GAP);
     labels
 }
 
 /// Moves labels right to clear their neighbours, then back left into the row.
-fn spread(labels: &mut [Label], left: f64) {
+fn spread(labels: &mut [Label], left: f64, right: f64) {
     let mut free = left;
     for label in labels.iter_mut() {
         let half = MARK.widest(&label.lines) / 2.0;
         label.centre = label.centre.max(free + half);
         free = label.centre + half + LABEL_GAP;
     }
-    let mut free = MARGIN + ROOM;
+    let mut free = right;
     for label in labels.iter_mut().rev() {
         let half = MARK.widest(&label.lines) / 2.0;
         label.centre = label.centre.min(free - half);
@@ -246,7 +274,7 @@ mod tests {
             label: label.into(),
         };
         let marks: Vec<Mark> = marks.iter().map(mark).collect();
-        place_labels(&marks, &axis, 80.0)
+        place_labels(&marks, &axis, 80.0, 688.0)
     }
 
     fn edges(label: &Label) -> (f64, f64) {
@@ -269,7 +297,7 @@ mod tests {
             assert!(edges(&pair[0]).1 + LABEL_GAP <= edges(&pair[1]).0 + 1e-9);
         }
         assert!(edges(&labels[0]).0 >= 80.0);
-        assert!(edges(&labels[3]).1 <= MARGIN + ROOM);
+        assert!(edges(&labels[3]).1 <= 688.0 + RIGHT_GAP);
     }
 
     #[test]

@@ -1,20 +1,44 @@
 //! The sheet the chart is set on: text and legend, from the top down.
 
 use super::text::{Font, LEGEND, escape};
-use super::{Series, Style};
+use super::{Look, Series, Style};
 
-/// The width of the sheet.
-pub(super) const WIDTH: f64 = 720.0;
-/// The usual height of the sheet, and the least.
-pub(super) const HEIGHT: f64 = 440.0;
-/// The margin on the left and right.
-pub(super) const MARGIN: f64 = 24.0;
-/// The margin beneath the last line, which has white of its own.
-pub(super) const LOWER_MARGIN: f64 = 18.0;
-/// The width inside the margins.
-pub(super) const ROOM: f64 = WIDTH - 2.0 * MARGIN;
+/// The size of a sheet and its margins.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Frame {
+    /// The width.
+    pub width: f64,
+    /// The usual height, and the least.
+    pub height: f64,
+    /// The margin on the left and right.
+    pub margin: f64,
+    /// The margin above the first line.
+    pub upper: f64,
+    /// The margin beneath the last line, which has white of its own.
+    pub lower: f64,
+}
 
-const UPPER_MARGIN: f64 = 20.0;
+/// The sheet of a chart that stands alone.
+pub const ALONE: Frame = Frame {
+    width: 720.0,
+    height: 440.0,
+    margin: 24.0,
+    upper: 20.0,
+    lower: 18.0,
+};
+
+impl Frame {
+    /// The width inside the margins.
+    pub fn room(&self) -> f64 {
+        self.width - 2.0 * self.margin
+    }
+
+    /// The right end of the room.
+    pub fn right(&self) -> f64 {
+        self.margin + self.room()
+    }
+}
+
 /// The gap between one paragraph and the next.
 const PARAGRAPH_GAP: f64 = 2.0;
 /// The length of a line sample: two periods of the longest dash pattern.
@@ -38,48 +62,73 @@ const DASHES: [&str; 7] = [
     "13 2",
 ];
 
+/// The radius of a dot.
+const DOT: f64 = 2.4;
+
 /// What has been set so far, and where the next thing goes.
-pub(super) struct Sheet {
+pub struct Sheet {
+    frame: Frame,
     elements: Vec<String>,
     bottom: f64,
 }
 
-impl Default for Sheet {
-    fn default() -> Sheet {
+impl Sheet {
+    /// An empty sheet.
+    pub fn new(frame: Frame) -> Sheet {
         Sheet {
+            frame,
             elements: Vec::new(),
-            bottom: UPPER_MARGIN,
+            bottom: frame.upper,
         }
     }
-}
 
-impl Sheet {
     /// The lower edge of what has been set.
-    pub(super) fn bottom(&self) -> f64 {
+    pub fn bottom(&self) -> f64 {
         self.bottom
     }
 
     /// Adds elements that reach down to `bottom`.
-    pub(super) fn extend(&mut self, elements: Vec<String>, bottom: f64) {
+    pub fn extend(&mut self, elements: Vec<String>, bottom: f64) {
         self.elements.extend(elements);
         self.bottom = bottom;
     }
 
     /// Sets text across the sheet.
-    pub(super) fn paragraph(&mut self, font: &Font, text: &str) {
-        let lines = font.wrap(text, ROOM);
-        let elements = font.draw(&lines, MARGIN, self.bottom, "start");
-        self.extend(elements, self.bottom + paragraph_height(font, text));
+    pub fn paragraph(&mut self, font: &Font, text: &str) {
+        let lines = font.wrap(text, self.frame.room());
+        let elements = font.draw(&lines, self.frame.margin, self.bottom, "start");
+        let height = paragraph_height(font, text, self.frame.room());
+        self.extend(elements, self.bottom + height);
+    }
+
+    /// Sets other sheets side by side from `left` on, each in its own frame.
+    pub fn row(&mut self, left: f64, panels: Vec<Sheet>) {
+        let (top, mut left) = (self.bottom, left);
+        for panel in panels {
+            let height = panel.height();
+            self.elements
+                .push(format!("<g transform=\"translate({left:.2} {top:.2})\">"));
+            self.elements.extend(panel.elements);
+            self.elements.push("</g>".into());
+            self.bottom = self.bottom.max(top + height);
+            left += panel.frame.width;
+        }
+    }
+
+    /// The height, margins included.
+    fn height(&self) -> f64 {
+        (self.bottom + self.frame.lower).max(self.frame.height)
     }
 
     /// Sets a line sample and a name for each curve, in as many rows as needed.
-    pub(super) fn legend(&mut self, series: &[Series]) {
-        let (mut left, mut top) = (MARGIN, self.bottom + 7.0);
+    pub fn legend(&mut self, series: &[Series]) {
+        let Frame { margin, .. } = self.frame;
+        let (mut left, mut top) = (margin, self.bottom + 7.0);
         for one in series {
-            let lines = LEGEND.wrap(&one.name, ROOM - SAMPLE - SAMPLE_GAP);
+            let lines = LEGEND.wrap(&one.name, self.frame.room() - SAMPLE - SAMPLE_GAP);
             let width = SAMPLE + SAMPLE_GAP + LEGEND.widest(&lines);
-            if left > MARGIN && left + width > MARGIN + ROOM {
-                (left, top) = (MARGIN, self.bottom);
+            if left > margin && left + width > self.frame.right() {
+                (left, top) = (margin, self.bottom);
             }
             self.elements.extend(entry(one.style, &lines, left, top));
             self.bottom = self.bottom.max(top + LEGEND.height(&lines));
@@ -88,17 +137,17 @@ impl Sheet {
     }
 
     /// The finished SVG document.
-    pub(super) fn document(&self, title: &str, description: &str) -> String {
-        let height = (self.bottom + LOWER_MARGIN).max(HEIGHT).round();
+    pub fn document(&self, title: &str, description: &str) -> String {
+        let (width, height) = (self.frame.width, self.height().round());
         let head = format!(
-            "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{WIDTH}\" height=\"{height}\" \
-             viewBox=\"0 0 {WIDTH} {height}\" role=\"img\" font-family=\"system-ui, sans-serif\">"
+            "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width}\" height=\"{height}\" \
+             viewBox=\"0 0 {width} {height}\" role=\"img\" font-family=\"system-ui, sans-serif\">"
         );
         // The card is opaque so that the chart reads on a dark page as well.
         let card = format!(
             "<rect x=\"0.5\" y=\"0.5\" width=\"{}\" height=\"{}\" rx=\"8\" \
              fill=\"#ffffff\" stroke=\"#d5dae1\"/>",
-            WIDTH - 1.0,
+            width - 1.0,
             height - 1.0
         );
         let title = format!("<title>{}</title>", escape(title));
@@ -110,7 +159,7 @@ impl Sheet {
 
 impl Style {
     /// The attributes of a path in this style.
-    pub(super) fn attributes(self) -> String {
+    pub fn attributes(self) -> String {
         match self {
             Style::Exact => "fill=\"none\" stroke=\"#17202b\" stroke-width=\"3\"".into(),
             Style::Approximate(number) => format!(
@@ -118,13 +167,38 @@ impl Style {
                 COLOURS[number % COLOURS.len()],
                 DASHES[number % DASHES.len()]
             ),
+            Style::Own(look) => look.attributes(),
         }
+    }
+
+    /// A dot of this style, where it has dots.
+    pub fn dot(self, x: f64, y: f64) -> Option<String> {
+        let Style::Own(Look {
+            colour, dots: true, ..
+        }) = self
+        else {
+            return None;
+        };
+        Some(format!(
+            "<circle cx=\"{x:.2}\" cy=\"{y:.2}\" r=\"{DOT}\" fill=\"{colour}\"/>"
+        ))
+    }
+}
+
+impl Look {
+    fn attributes(self) -> String {
+        let (colour, width) = (self.colour, self.width);
+        let dashes = match self.dashes {
+            "" => String::new(),
+            dashes => format!(" stroke-dasharray=\"{dashes}\""),
+        };
+        format!("fill=\"none\" stroke=\"{colour}\"{dashes} stroke-width=\"{width}\"")
     }
 }
 
 /// The height that a paragraph takes; none when it is blank.
-pub(super) fn paragraph_height(font: &Font, text: &str) -> f64 {
-    match font.wrap(text, ROOM) {
+pub fn paragraph_height(font: &Font, text: &str, room: f64) -> f64 {
+    match font.wrap(text, room) {
         lines if lines.is_empty() => 0.0,
         lines => font.height(&lines) + PARAGRAPH_GAP,
     }
@@ -138,6 +212,7 @@ fn entry(style: Style, lines: &[String], left: f64, top: f64) -> Vec<String> {
         left + SAMPLE
     );
     let mut elements = vec![sample];
+    elements.extend(style.dot(left + SAMPLE / 2.0, top + LEGEND.leading / 2.0));
     elements.extend(LEGEND.draw(lines, left + SAMPLE + SAMPLE_GAP, top, "start"));
     elements
 }
@@ -157,7 +232,7 @@ mod tests {
     #[test]
     fn legend_rows_follow_the_length_of_the_names() {
         let rows = |names: &[&str]| {
-            let mut sheet = Sheet::default();
+            let mut sheet = Sheet::new(ALONE);
             let start = sheet.bottom();
             sheet.legend(&names.iter().map(|name| named(name)).collect::<Vec<_>>());
             ((sheet.bottom() - start) / LEGEND.leading).floor()

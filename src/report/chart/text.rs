@@ -1,25 +1,29 @@
 //! Text in the chart: fonts, estimated widths, line breaks and escaping.
 
 /// The title of the chart.
-pub(super) const TITLE: Font = Font::new(17.0, 23.0, "600", "#17202b");
+pub const TITLE: Font = Font::new(17.0, 23.0, "600", "#17202b");
+/// The title of a sheet of several charts.
+pub const HEADING: Font = Font::new(23.0, 31.0, "600", "#17202b");
+/// The title of a chart on such a sheet.
+pub const PANEL: Font = Font::new(15.0, 21.0, "600", "#17202b");
 /// The line beneath the title.
-pub(super) const SUBTITLE: Font = Font::new(12.0, 17.0, "400", "#556070");
+pub const SUBTITLE: Font = Font::new(12.0, 17.0, "400", "#556070");
 /// The names of the curves.
-pub(super) const LEGEND: Font = Font::new(12.5, 18.0, "400", "#17202b");
+pub const LEGEND: Font = Font::new(12.5, 18.0, "400", "#17202b");
 /// The labels of the guide lines.
-pub(super) const MARK: Font = Font::new(11.5, 14.0, "400", "#3d4856");
+pub const MARK: Font = Font::new(11.5, 14.0, "400", "#3d4856");
 /// The labels of the axes.
-pub(super) const AXIS: Font = Font::new(12.5, 17.0, "400", "#17202b");
+pub const AXIS: Font = Font::new(12.5, 17.0, "400", "#17202b");
 /// The labels of the ticks.
-pub(super) const TICK: Font = Font::new(11.5, 16.0, "400", "#3d4856");
+pub const TICK: Font = Font::new(11.5, 16.0, "400", "#3d4856");
 /// The command at the foot.
-pub(super) const FOOT: Font = Font::new(10.5, 14.0, "400", "#67717f");
+pub const FOOT: Font = Font::new(10.5, 14.0, "400", "#67717f");
 
 /// A size, a line height, a weight and a colour of text.
-pub(super) struct Font {
+pub struct Font {
     size: f64,
     /// The distance from one baseline to the next.
-    pub(super) leading: f64,
+    pub leading: f64,
     weight: &'static str,
     fill: &'static str,
 }
@@ -35,24 +39,24 @@ impl Font {
     }
 
     /// The estimated width of a line; most fonts set it a little narrower.
-    pub(super) fn width(&self, line: &str) -> f64 {
+    pub fn width(&self, line: &str) -> f64 {
         let bold = if self.weight == "400" { 1.0 } else { 1.1 };
         line.chars().map(advance).sum::<f64>() * self.size * bold
     }
 
     /// The estimated width of the widest line.
-    pub(super) fn widest(&self, lines: &[String]) -> f64 {
+    pub fn widest(&self, lines: &[String]) -> f64 {
         let widths = lines.iter().map(|line| self.width(line));
         widths.fold(0.0, f64::max)
     }
 
     /// The height of a number of lines.
-    pub(super) fn height(&self, lines: &[String]) -> f64 {
+    pub fn height(&self, lines: &[String]) -> f64 {
         self.leading * lines.len() as f64
     }
 
     /// Breaks text into lines no wider than `room`; blank text has no lines.
-    pub(super) fn wrap(&self, text: &str, room: f64) -> Vec<String> {
+    pub fn wrap(&self, text: &str, room: f64) -> Vec<String> {
         let mut lines: Vec<String> = Vec::new();
         for word in text
             .split_ascii_whitespace()
@@ -84,7 +88,7 @@ impl Font {
     }
 
     /// Lines of text from `top` down; `anchor` says which part of each is at `x`.
-    pub(super) fn draw(&self, lines: &[String], x: f64, top: f64, anchor: &str) -> Vec<String> {
+    pub fn draw(&self, lines: &[String], x: f64, top: f64, anchor: &str) -> Vec<String> {
         let baseline = top + (self.leading + 0.7 * self.size) / 2.0;
         let place = |(row, line): (usize, &String)| {
             let y = baseline + self.leading * row as f64;
@@ -94,7 +98,7 @@ impl Font {
     }
 
     /// Lines of text that read upwards, centred on `y`, from `left` rightwards.
-    pub(super) fn draw_upwards(&self, lines: &[String], left: f64, y: f64) -> Vec<String> {
+    pub fn draw_upwards(&self, lines: &[String], left: f64, y: f64) -> Vec<String> {
         let baseline = left + (self.leading + 0.7 * self.size) / 2.0;
         let place = |(row, line): (usize, &String)| {
             let x = baseline + self.leading * row as f64;
@@ -117,7 +121,7 @@ impl Font {
 }
 
 /// Text that is safe inside an XML element or a quoted attribute.
-pub(super) fn escape(text: &str) -> String {
+pub fn escape(text: &str) -> String {
     let mut safe = String::with_capacity(text.len());
     for letter in text.chars() {
         match letter {

@@ -1,0 +1,162 @@
+//! Pictures as PNG: SVG text drawn by `resvg` with fonts that are part of the program.
+//!
+//! No font and no file of the machine is read, so that equal text gives equal bytes everywhere. The fonts are parts of
+//! DejaVu Sans, Latin and Greek; what they lack is drawn as an empty box.
+
+use std::sync::Arc;
+
+use resvg::tiny_skia::{Color, Pixmap, Transform};
+use resvg::usvg::{ImageHrefResolver, Options, Tree, fontdb};
+
+/// Regular first: it has letters that the bold one lacks, and is asked for these next.
+const FONTS: [&[u8]; 2] = [
+    include_bytes!("../../data/fonts/DejaVuSans-subset.ttf"),
+    include_bytes!("../../data/fonts/DejaVuSans-Bold-subset.ttf"),
+];
+const FAMILY: &str = "DejaVu Sans";
+
+/// The largest picture: what most viewers can still show.
+const MOST_PIXELS: f32 = 16_384.0;
+
+/// A self-contained SVG document as PNG, `scale` pixels to each of its units, on white; or why it cannot be drawn.
+pub fn png(svg: &str, scale: f32) -> Result<Vec<u8>, String> {
+    let tree = parse(svg)?;
+    let width = pixels(tree.size().width(), scale)?;
+    let height = pixels(tree.size().height(), scale)?;
+    let mut map = Pixmap::new(width, height)
+        .ok_or_else(|| format!("a picture of {width} x {height} pixels is too large"))?;
+    map.fill(Color::WHITE);
+    resvg::render(
+        &tree,
+        Transform::from_scale(scale, scale),
+        &mut map.as_mut(),
+    );
+    encode(&map).map_err(|why| format!("the picture cannot be written as PNG: {why}"))
+}
+
+/// The document as `resvg` understands it.
+fn parse(svg: &str) -> Result<Tree, String> {
+    let mut options = Options {
+        font_family: FAMILY.to_owned(),
+        image_href_resolver: ImageHrefResolver {
+            resolve_data: Box::new(|_, _, _| None),
+            resolve_string: Box::new(|_, _| None),
+        },
+        fontdb: Arc::new(fonts()),
+        ..Options::default()
+    };
+    options.languages.clear();
+    Tree::from_str(svg, &options)
+        .map_err(|why| format!("the picture is not well-formed SVG: {why}"))
+}
+
+/// The embedded fonts, for whatever family a text asks for.
+fn fonts() -> fontdb::Database {
+    let mut fonts = fontdb::Database::new();
+    for font in FONTS {
+        fonts.load_font_data(font.to_vec());
+    }
+    fonts.set_sans_serif_family(FAMILY);
+    fonts.set_serif_family(FAMILY);
+    fonts.set_monospace_family(FAMILY);
+    fonts
+}
+
+fn pixels(length: f32, scale: f32) -> Result<u32, String> {
+    let pixels = (length * scale).round();
+    if (1.0..=MOST_PIXELS).contains(&pixels) {
+        return Ok(pixels as u32);
+    }
+    Err(format!(
+        "a scale of {scale} makes a picture {pixels} pixels long; it can have 1 to {MOST_PIXELS} a side"
+    ))
+}
+
+/// Red, green and blue of each pixel, marked as sRGB; the white ground leaves nothing transparent.
+fn encode(map: &Pixmap) -> Result<Vec<u8>, png::EncodingError> {
+    let mut bytes = Vec::new();
+    let mut encoder = png::Encoder::new(&mut bytes, map.width(), map.height());
+    encoder.set_color(png::ColorType::Rgb);
+    encoder.set_depth(png::BitDepth::Eight);
+    encoder.set_compression(png::Compression::Balanced);
+    encoder.set_source_srgb(png::SrgbRenderingIntent::RelativeColorimetric);
+    let mut writer = encoder.write_header()?;
+    let colours = map.data().chunks_exact(4).flat_map(|rgba| &rgba[..3]);
+    writer.write_image_data(&colours.copied().collect::<Vec<u8>>())?;
+    writer.finish()?;
+    Ok(bytes)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Width, height and pixels of a PNG.
+    fn decoded(bytes: &[u8]) -> (u32, u32, Vec<u8>) {
+        let mut reader = png::Decoder::new(std::io::Cursor::new(bytes))
+            .read_info()
+            .unwrap();
+        let mut pixels = vec![0; reader.output_buffer_size().unwrap()];
+        let info = reader.next_frame(&mut pixels).unwrap();
+        (info.width, info.height, pixels)
+    }
+
+    fn text(words: &str) -> String {
+        format!(
+            "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"200\" height=\"40\" \
+             font-family=\"system-ui, sans-serif\"><text x=\"4\" y=\"30\" font-size=\"20\">{words}</text></svg>"
+        )
+    }
+
+    #[test]
+    fn size_follows_the_scale_and_equal_text_gives_equal_bytes() {
+        let once = png(&text("n = 1.5"), 1.0).unwrap();
+        assert_eq!(once, png(&text("n = 1.5"), 1.0).unwrap());
+        let (width, height, pixels) = decoded(&once);
+        assert_eq!((width, height, pixels.len()), (200, 40, 3 * 200 * 40));
+        assert!(pixels.iter().any(|value| *value < 60), "no ink");
+        let (width, height, _) = decoded(&png(&text("n"), 2.5).unwrap());
+        assert_eq!((width, height), (500, 100));
+        assert!(once.windows(4).any(|name| name == b"sRGB"));
+    }
+
+    #[test]
+    fn each_letter_has_its_own_shape() {
+        let picture = |letter: char| png(&text(&letter.to_string()), 1.0).unwrap();
+        // A character that no font has: Chinese.
+        let missing = picture('\u{6c34}');
+        for letter in "aZ9°θληΔµ×−–·…²³₀₂₈éáčćšžüöäøåłşğő".chars()
+        {
+            assert_ne!(picture(letter), missing, "{letter}");
+            assert_ne!(picture(letter), picture(' '), "{letter}");
+        }
+    }
+
+    #[test]
+    fn bold_is_bolder() {
+        let ink = |svg: &str| {
+            let (_, _, pixels) = decoded(&png(svg, 1.0).unwrap());
+            pixels
+                .iter()
+                .map(|value| u64::from(255 - value))
+                .sum::<u64>()
+        };
+        let bold = text("gold").replace("<text", "<text font-weight=\"600\"");
+        assert!(ink(&bold) > ink(&text("gold")) * 11 / 10);
+    }
+
+    #[test]
+    fn what_cannot_be_drawn_is_refused() {
+        for (svg, scale) in [
+            ("gold", 1.0),
+            ("<svg", 1.0),
+            (&text("n"), 0.0),
+            (&text("n"), -1.0),
+            (&text("n"), f32::NAN),
+            (&text("n"), f32::INFINITY),
+            (&text("n"), 1e9),
+        ] {
+            assert!(png(svg, scale).is_err(), "{svg} at {scale}");
+        }
+    }
+}
