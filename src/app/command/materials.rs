@@ -6,10 +6,14 @@ use serde_json::{Value, json};
 
 use crate::app::args::{FilterFlags, MaterialsCommand, MaterialsFlags, ShowFlags};
 use crate::app::error::Error;
-use crate::app::names::unknown;
-use crate::app::request::load;
+use crate::app::names::{quoted, unknown};
+use crate::app::request::{Loaded, check_transparent, load};
+use crate::app::sight::{flags, sight};
 use crate::app::source::source;
-use crate::materials::{self, Extrapolate, Kind, Material};
+use crate::app::write::write_file;
+use crate::materials::{self, Extrapolate, Kind, Material, Sight};
+use crate::report::card::card;
+use crate::report::png::png;
 use crate::report::table;
 use crate::spectra::{FIRST_NM, LAST_NM};
 
@@ -110,8 +114,67 @@ fn json_row(m: &Material) -> Value {
 }
 
 fn shown(flags: &ShowFlags, json: Option<&Path>) -> Result<Output, Error> {
-    let material = load(&source(&flags.name)?)?.material;
-    report(text(&material), &json_of(&material), json)
+    let loaded = load(&source(&flags.name)?)?;
+    let mut output = report(text(&loaded.material), &json_of(&loaded.material), json)?;
+    drawn(flags, &loaded, &mut output)?;
+    Ok(output)
+}
+
+/// Draws the material where that was asked for.
+fn drawn(flags: &ShowFlags, loaded: &Loaded, output: &mut Output) -> Result<(), Error> {
+    if flags.svg.is_none() && flags.png.is_none() {
+        return Ok(());
+    }
+    let medium = medium(flags.medium.as_deref())?;
+    let sight = sight(&flags.sight.words(None))?;
+    let around = medium.as_ref().map(|medium| &medium.material);
+    let svg = card(
+        &loaded.material,
+        around,
+        &sight,
+        &command(loaded, medium.as_ref(), &sight),
+    )
+    .map_err(|what| Error::Usage { what })?;
+    let mut put = |file: &Path, bytes: &[u8]| -> Result<(), Error> {
+        write_file(file, bytes)?;
+        output.remarks.push(format!("{}: drawn", file.display()));
+        Ok(())
+    };
+    if let Some(file) = &flags.svg {
+        put(file, svg.as_bytes())?;
+    }
+    if let Some(file) = &flags.png {
+        let bytes = png(&svg, PNG_SCALE).map_err(|what| Error::Usage { what })?;
+        put(file, &bytes)?;
+    }
+    Ok(())
+}
+
+/// Pixels of a PNG for one of the SVG: sharp on today's screens.
+const PNG_SCALE: f32 = 2.0;
+
+/// The command that draws it again, without the output's place.
+fn command(loaded: &Loaded, medium: Option<&Loaded>, sight: &Sight) -> String {
+    let name = &loaded.argument;
+    let medium = medium.map_or(String::new(), |medium| {
+        format!(" --medium {}", quoted(&medium.argument))
+    });
+    format!(
+        "fresnel-gen materials show {}{medium}{} --svg {}.svg",
+        quoted(name),
+        flags(sight),
+        loaded.material.name
+    )
+}
+
+/// A medium by its name or file, which must be transparent.
+pub fn medium(name: Option<&str>) -> Result<Option<Loaded>, Error> {
+    let medium = name.map(source).transpose()?;
+    let medium = medium.map(|medium| load(&medium)).transpose()?;
+    if let Some(medium) = &medium {
+        check_transparent(&medium.material)?;
+    }
+    Ok(medium)
 }
 
 fn text(m: &Material) -> String {

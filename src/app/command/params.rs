@@ -4,7 +4,7 @@ use serde_json::{Value, json};
 
 use crate::app::args::ParamsFlags;
 use crate::app::error::Error;
-use crate::app::request::{check_transparent, load};
+use crate::app::request::load;
 use crate::app::sight::sight;
 use crate::app::source::source;
 use crate::fit::{By, Params, abbe, ior_d, normal_spectrum, params};
@@ -12,6 +12,7 @@ use crate::materials::{self, Kind, Material, Sight, Surface};
 use crate::report::table;
 use crate::spectra::{Gamut, Illuminant, colour_error};
 
+use super::materials::medium;
 use super::{Output, report};
 
 /// The lights under which the colour error is told, beside the one that the colours are integrated under.
@@ -41,11 +42,7 @@ struct Told {
 /// `fresnel-gen materials params NAME`.
 pub fn run(flags: &ParamsFlags, json: Option<&std::path::Path>) -> Result<Output, Error> {
     let material = load(&source(&flags.name)?)?.material;
-    let medium = flags.medium.as_deref().map(source).transpose()?;
-    let medium = medium.map(|medium| load(&medium)).transpose()?;
-    if let Some(medium) = &medium {
-        check_transparent(&medium.material)?;
-    }
+    let medium = medium(flags.medium.as_deref())?;
     let sight = sight(&flags.sight.words(Some(Gamut::Keep.name())))?;
     let told = told(material, medium.map(|medium| medium.material), sight)?;
     report(text(&told), &object(&told), json)

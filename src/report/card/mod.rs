@@ -58,7 +58,7 @@ pub fn card(
         gamut: Gamut::Keep,
         ..sight.clone()
     };
-    let surface = Surface::new(material, medium, &sight)?;
+    let surface = Surface::new(material, medium, &sight).map_err(|unseen| unseen.to_string())?;
     let subject = Subject {
         material,
         medium,

@@ -162,8 +162,8 @@ fn a_user_can_bring_a_light() {
         &["short.csv:2:1: ", "must cover 380 to 780 nm"],
     );
     place.refused(
-        "--material silver --illuminant D56",
-        &["no illuminant `D56` (did you mean D65"],
+        "--material silver --illuminant D6",
+        &["no illuminant `D6` (did you mean D65"],
     );
     place.refused(
         "--material silver --illuminant none.csv",
