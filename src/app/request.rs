@@ -263,6 +263,16 @@ pub fn check_transparent(medium: &Material) -> Result<(), Error> {
     Err(Error::Usage { what })
 }
 
+/// What a user types to name a file again, without the folders of this machine: its place in the database for a page that
+/// lies in one, since its name is made of that; the file's name for all others.
+fn argument(file: &str, page: &str) -> String {
+    if !page.is_empty() && file.replace('\\', "/").ends_with(page) {
+        page.to_owned()
+    } else {
+        file.rsplit(['/', '\\']).next().unwrap_or(file).to_owned()
+    }
+}
+
 /// Reads a material from the catalogue, or from a text at hand.
 pub fn load(source: &Source) -> Result<Loaded, Error> {
     match source {
@@ -278,10 +288,9 @@ pub fn load(source: &Source) -> Result<Loaded, Error> {
         }
         Source::File { file, text } => {
             let material = Material::read(file, text)?;
-            let argument = file.rsplit(['/', '\\']).next().unwrap_or(file).to_owned();
             Ok(Loaded {
+                argument: argument(file, &material.page),
                 material,
-                argument,
                 text: text.clone(),
             })
         }

@@ -6,14 +6,15 @@ use std::path::Path;
 use fresnel_gen::app::generate::generate_single;
 use fresnel_gen::app::request::DEFAULT_MATERIALS;
 use fresnel_gen::app::{Materials, Request, Source};
-use fresnel_gen::materials;
+use fresnel_gen::materials::{self, Sight};
+use fresnel_gen::report::card::card;
 use fresnel_gen::report::markdown::{errors_table, methods_table, targets_table};
 
 fn example() -> String {
     let request = Request {
         targets: vec!["hlsl".to_owned()],
         methods: vec!["conductor_exact".to_owned()],
-        materials: Materials::These(vec![Source::Named("gold_thesis".to_owned())]),
+        materials: Materials::These(vec![Source::Named("gold".to_owned())]),
         ..Request::default()
     };
     let text = String::from_utf8(generate_single(&request).expect("it generates")).expect("text");
@@ -55,4 +56,15 @@ fn tables_are_what_the_program_says() {
         text = replaced(&text, name, &new);
     }
     super::bless::check(&path, text.as_bytes());
+}
+
+#[test]
+fn the_picture_is_what_the_program_draws() {
+    let gold = materials::find("gold")
+        .expect("it is there")
+        .expect("it is good");
+    let command = "fresnel-gen materials show gold --svg gold.svg";
+    let svg = card(&gold, None, &Sight::default(), command).expect("gold is known everywhere");
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("data/figures/material-gold.svg");
+    super::bless::check(&path, svg.as_bytes());
 }

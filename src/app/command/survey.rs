@@ -34,11 +34,10 @@ pub fn run(flags: &SurveyFlags, json: Option<&Path>, progress: Progress) -> Resu
 
 /// A page by its name below the folder, so that no report depends on where that lies.
 fn surveyed(folder: &Path, file: &str, sight: &crate::materials::Sight) -> Result<Surveyed, Error> {
-    let path = folder.join(file);
-    let named = if file.is_empty() {
-        folder.display().to_string()
+    let (path, named) = if file.is_empty() {
+        (folder.to_owned(), folder.display().to_string())
     } else {
-        file.to_owned()
+        (folder.join(file), file.to_owned())
     };
     match read(&path.display().to_string()) {
         Ok(text) => Ok(survey(&named, &text, sight)),

@@ -6,7 +6,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let request = Request {
         targets: vec!["wgsl".into()],
         methods: vec!["conductor_exact".into()],
-        materials: Materials::These(vec![Source::Named("gold_thesis".into())]),
+        materials: Materials::These(vec![Source::Named("gold".into())]),
         ..Request::default()
     };
     let out_dir = std::path::PathBuf::from(std::env::var("OUT_DIR")?);

@@ -1,0 +1,75 @@
+//! How fast are pages read and seen? All pages of refractiveindex.info where the database is there (`tests/run` fetches
+//! it), or pages made of the catalogue: read, integrated over the spectrum at 91 angles.
+#![allow(missing_docs)]
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use criterion::{Criterion, Throughput, criterion_group, criterion_main};
+use fresnel_gen::materials::{self, Extrapolate, Material, Sight};
+use fresnel_gen::report::survey::survey;
+
+/// All pages below a folder: name and text.
+fn database(folder: &Path, found: &mut Vec<(String, String)>) {
+    let entries = fs::read_dir(folder).into_iter().flatten().flatten();
+    let mut paths: Vec<PathBuf> = entries.map(|entry| entry.path()).collect();
+    paths.sort();
+    for path in paths {
+        if path.is_dir() {
+            database(&path, found);
+        } else if path.extension().is_some_and(|e| e == "yml") && !path.ends_with("about.yml") {
+            let text = fs::read_to_string(&path).unwrap_or_default();
+            found.push((path.display().to_string(), text));
+        }
+    }
+}
+
+/// A page with the same numbers at every measured point, or every 10 nm of a formula.
+fn page(material: &Material) -> (String, String) {
+    let mut places = material.measured_nm();
+    if places.is_empty() {
+        places = (38..=78).map(|tens| f64::from(tens) * 10.0).collect();
+    }
+    let row = |nm: &f64| {
+        let index = material.index(*nm, Extrapolate::Hold).expect("an index");
+        format!("        {} {} {}\n", nm / 1000.0, index.n, index.k)
+    };
+    let rows: String = places.iter().map(row).collect();
+    let text = format!("REFERENCES: none\nDATA:\n  - type: tabulated nk\n    data: |\n{rows}");
+    (format!("{}.yml", material.name), text)
+}
+
+fn pages() -> Vec<(String, String)> {
+    let mut found = Vec::new();
+    database(
+        &Path::new(env!("CARGO_MANIFEST_DIR")).join("target/refractiveindex"),
+        &mut found,
+    );
+    if found.is_empty() {
+        found = materials::list()
+            .expect("the catalogue is good")
+            .iter()
+            .map(page)
+            .collect();
+    }
+    found
+}
+
+fn read_and_see(c: &mut Criterion) {
+    let pages = pages();
+    let sight = Sight::default();
+    let mut group = c.benchmark_group("pages");
+    group.throughput(Throughput::Elements(pages.len() as u64));
+    group.sample_size(10);
+    group.bench_function(format!("read and see {} pages", pages.len()), |b| {
+        b.iter(|| {
+            pages
+                .iter()
+                .map(|(file, text)| survey(file, text, &sight))
+                .collect::<Vec<_>>()
+        });
+    });
+}
+
+criterion_group!(benches, read_and_see);
+criterion_main!(benches);
