@@ -3,25 +3,25 @@
 #![allow(missing_docs)]
 
 use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
+use fresnel_gen::app::source::pages;
 use fresnel_gen::materials::{self, Extrapolate, Material, Sight};
 use fresnel_gen::report::survey::survey;
 
-/// All pages below a folder: name and text.
-fn database(folder: &Path, found: &mut Vec<(String, String)>) {
-    let entries = fs::read_dir(folder).into_iter().flatten().flatten();
-    let mut paths: Vec<PathBuf> = entries.map(|entry| entry.path()).collect();
-    paths.sort();
-    for path in paths {
-        if path.is_dir() {
-            database(&path, found);
-        } else if path.extension().is_some_and(|e| e == "yml") && !path.ends_with("about.yml") {
-            let text = fs::read_to_string(&path).unwrap_or_default();
-            found.push((path.display().to_string(), text));
-        }
-    }
+/// All pages of the database, name and text; none where it is not there.
+fn database() -> Vec<(String, String)> {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("target/refractiveindex");
+    let text = |name: String| {
+        let text = fs::read_to_string(folder.join(&name)).expect("a page");
+        (name, text)
+    };
+    pages(&folder)
+        .unwrap_or_default()
+        .into_iter()
+        .map(text)
+        .collect()
 }
 
 /// A page with the same numbers at every measured point, or every 10 nm of a formula.
@@ -39,24 +39,18 @@ fn page(material: &Material) -> (String, String) {
     (format!("{}.yml", material.name), text)
 }
 
-fn pages() -> Vec<(String, String)> {
-    let mut found = Vec::new();
-    database(
-        &Path::new(env!("CARGO_MANIFEST_DIR")).join("target/refractiveindex"),
-        &mut found,
-    );
+/// The database, or else the catalogue.
+fn all() -> Vec<(String, String)> {
+    let found = database();
     if found.is_empty() {
-        found = materials::list()
-            .expect("the catalogue is good")
-            .iter()
-            .map(page)
-            .collect();
+        let all = materials::list().expect("the catalogue is good");
+        return all.iter().map(page).collect();
     }
     found
 }
 
 fn read_and_see(c: &mut Criterion) {
-    let pages = pages();
+    let pages = all();
     let sight = Sight::default();
     let mut group = c.benchmark_group("pages");
     group.throughput(Throughput::Elements(pages.len() as u64));

@@ -24,6 +24,8 @@ pub struct Integrator {
     pub wavelengths: Vec<f64>,
     /// One for each wavelength.
     pub weights: Vec<DVec3>,
+    /// Σ w(λ), the colour of a mirror before the division.
+    mirror: DVec3,
 }
 
 /// A light that has no red, green or blue in a space: no reflectance can be divided by it.
@@ -50,27 +52,28 @@ impl Integrator {
         let adapt = choices.adaptation.matrix(light, choices.space.white());
         let to_rgb = choices.space.xyz_to_rgb() * adapt;
         let weights = weights.into_iter().map(|xyz| to_rgb * xyz).collect();
-        let integrator = Integrator {
-            wavelengths,
-            weights,
-        };
-        let mirror = integrator.mirror();
-        if mirror.cmpge(DVec3::splat(LEAST_MIRROR)).all() {
+        let integrator = Integrator::of(wavelengths, weights);
+        if integrator.mirror.cmpge(DVec3::splat(LEAST_MIRROR)).all() {
             return Ok(integrator);
         }
         Err(NoWhite {
             illuminant: choices.illuminant.name().to_owned(),
             space: choices.space.title(),
-            mirror,
+            mirror: integrator.mirror,
         })
+    }
+
+    fn of(wavelengths: Vec<f64>, weights: Vec<DVec3>) -> Integrator {
+        Integrator {
+            mirror: weighted_sum(&weights, weights.iter().map(|_| 1.0)),
+            wavelengths,
+            weights,
+        }
     }
 
     /// Red, green and blue taken at one wavelength each (nm), as in tables of n and k for three channels.
     pub fn three_wavelengths(nm: [f64; 3]) -> Integrator {
-        Integrator {
-            wavelengths: nm.to_vec(),
-            weights: vec![DVec3::X, DVec3::Y, DVec3::Z],
-        }
+        Integrator::of(nm.to_vec(), vec![DVec3::X, DVec3::Y, DVec3::Z])
     }
 
     /// The colour of a surface whose reflectance at each of `wavelengths` is given. A list of another length has no
@@ -79,12 +82,7 @@ impl Integrator {
         if reflectance.len() != self.weights.len() {
             return DVec3::NAN;
         }
-        weighted_sum(&self.weights, reflectance.iter().copied()) / self.mirror()
-    }
-
-    /// Σ w(λ), the colour of a mirror before the division.
-    fn mirror(&self) -> DVec3 {
-        weighted_sum(&self.weights, self.weights.iter().map(|_| 1.0))
+        weighted_sum(&self.weights, reflectance.iter().copied()) / self.mirror
     }
 }
 
@@ -142,7 +140,7 @@ mod tests {
             );
             if choices.adaptation == Adaptation::Bradford && choices.observer == Observer::Cie1931 {
                 assert!(
-                    integrator.mirror().abs_diff_eq(DVec3::ONE, 1e-13),
+                    integrator.mirror.abs_diff_eq(DVec3::ONE, 1e-13),
                     "{choices:?}"
                 );
             }
