@@ -153,7 +153,7 @@ mod tests {
             step: Step::Nm1,
             ..Integration::default()
         };
-        let mirror = Integrator::new(&choices).unwrap().mirror();
+        let mirror = Integrator::new(&choices).unwrap().mirror;
         assert!(
             mirror.abs_diff_eq(DVec3::new(1.00012, 1.00001, 0.99952), 5e-6),
             "{mirror}"
