@@ -248,24 +248,6 @@ pub struct ImportFlags {
     /// metal, semiconductor or dielectric [default: guessed from n and k]
     #[arg(long, value_name = "NAME")]
     pub class: Option<String>,
-    /// What it is an alternative measurement of [default: its name]
-    #[arg(long, value_name = "NAME")]
-    pub substance: Option<String>,
-    /// One line
-    #[arg(long, value_name = "TEXT")]
-    pub summary: Option<String>,
-    /// Who measured it
-    #[arg(long, value_name = "TEXT")]
-    pub reference: Option<String>,
-    /// Where to read about it
-    #[arg(long, value_name = "URL")]
-    pub link: Option<String>,
-    /// The licence of the numbers [default: CC0-1.0 for pages]
-    #[arg(long, value_name = "NAME")]
-    pub licence: Option<String>,
-    /// What a user should know
-    #[arg(long, value_name = "TEXT")]
-    pub note: Option<String>,
     /// Write the material file here [default: stdout]
     #[arg(short = 'o', value_name = "FILE")]
     pub output: Option<PathBuf>,

@@ -226,8 +226,8 @@ impl<'r> Run<'r> {
         if self.naming != Naming::default() {
             command += &format!(" --prefix {}", self.request.prefix);
         }
-        if subject.is_some() {
-            command += &sight::flags(&self.request.sight);
+        if let Some(subject) = subject {
+            command += &sight::flags_for(&self.request.sight, &subject.truth.surface);
         }
         if let (Some(_), Some(degrees)) = (subject, self.request.matching_angle) {
             command += &format!(" --matching-angle {degrees}");

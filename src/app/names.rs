@@ -21,7 +21,12 @@ pub fn unknown(kind: &'static str, name: &str, all: &[&str]) -> Error {
 fn listed(kind: &str, all: &[&str]) -> String {
     const MANY: usize = 40;
     if all.len() > MANY {
-        format!("{} of them: see `fresnel-gen {kind}s`", all.len())
+        let see = if kind == "substance" {
+            "material"
+        } else {
+            kind
+        };
+        format!("{} of them: see `fresnel-gen {see}s`", all.len())
     } else {
         all.join(", ")
     }

@@ -4,6 +4,7 @@ use crate::emit::{Naming, Subject};
 use crate::fit::Derivation;
 use crate::materials::{self, Kind, Material, Sight, Unseen};
 use crate::methods::{self, Method};
+use crate::spectra::Illuminant;
 use crate::targets::{self, Target};
 
 use super::error::Error;
@@ -159,7 +160,7 @@ impl Request {
         for source in &sources {
             let loaded = load(source)?;
             let around = medium.as_ref().map_or("", |medium| &medium.text);
-            let text = format!("{}{around}", loaded.text);
+            let text = format!("{}{around}{}", loaded.text, self.light());
             match (self.subject(loaded, medium.as_ref()), source) {
                 (Ok(subject), _) => subjects.ready.push((subject, text)),
                 (Err(Error::Unseen(fault)), Source::BroughtAlong(_)) => {
@@ -169,6 +170,14 @@ impl Request {
             }
         }
         subjects.sorted()
+    }
+
+    /// A user's light as text: it is an input, and its name does not tell its numbers.
+    fn light(&self) -> String {
+        match &self.sight.integration.illuminant {
+            Illuminant::Table { power, .. } => format!("{:?}", power.points()),
+            _ => String::new(),
+        }
     }
 
     /// How functions are named.
@@ -250,7 +259,7 @@ fn check_not_a_method(name: &str) -> Result<(), Error> {
     Err(Error::Usage { what })
 }
 
-/// A medium that absorbs has no incident wave of one amplitude, so that reflectance is not defined.
+/// Through a metal or a semiconductor no light comes to reflect.
 pub fn check_transparent(medium: &Material) -> Result<(), Error> {
     if medium.kind == Kind::Dielectric {
         return Ok(());

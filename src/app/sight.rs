@@ -1,8 +1,6 @@
 //! How materials are looked at, as a user says it: from words to a [`Sight`], and back into the command of a header.
 
-use std::path::Path;
-
-use crate::materials::{Extrapolate, Sight};
+use crate::materials::{Extrapolate, Sight, Surface};
 use crate::spectra::{Adaptation, Gamut, Illuminant, Integration, Observer, Space, Step};
 
 use super::error::Error;
@@ -101,14 +99,19 @@ fn illuminant(name: &str) -> Result<Illuminant, Error> {
         return Ok(found);
     }
     if !is_path(name) {
-        let all: Vec<String> = Illuminant::NAMED
-            .iter()
-            .map(|light| light.name().to_owned())
-            .collect();
-        let all: Vec<&str> = all.iter().map(String::as_str).collect();
+        let all = Illuminant::NAMED;
+        let all: Vec<&str> = all.iter().map(Illuminant::name).collect();
         return Err(unknown("illuminant", name, &all));
     }
-    Ok(Illuminant::parse(name, &read(name)?)?)
+    let own = Illuminant::parse(name, &read(name)?)?;
+    if Illuminant::find(own.name()).is_some() {
+        let what = format!(
+            "the light's file is named `{}`, as a standard light is; rename it",
+            own.name()
+        );
+        return Err(Error::Usage { what });
+    }
+    Ok(own)
 }
 
 /// Three wavelengths, where any are given.
@@ -131,19 +134,33 @@ fn wavelengths(words: &Words) -> Result<Option<[f64; 3]>, Error> {
     }
     let spectral = [
         words.space,
+        words.gamut,
         words.illuminant,
         words.observer,
         words.adaptation,
         words.step,
     ];
     if spectral.iter().any(Option::is_some) {
-        let what = "--wavelengths takes one wavelength a channel, so that observer, illuminant, space, adaptation and step say nothing beside it; leave one or the other out".to_owned();
+        let what = "--wavelengths takes one wavelength a channel, so that observer, illuminant, space, gamut, adaptation and step say nothing beside it; leave one or the other out".to_owned();
         return Err(Error::Usage { what });
     }
     Ok(Some(three))
 }
 
-/// The flags that say this sight again, each with a space before it; nothing where all is as usual.
+/// The flags that say again how a surface was seen, each with a space before it; nothing where all is as usual. Where each
+/// channel is one wavelength, the rest of the sight says nothing.
+pub fn flags_for(sight: &Sight, surface: &Surface) -> String {
+    if surface.channels().is_none() {
+        return flags(sight);
+    }
+    flags(&Sight {
+        wavelengths_nm: sight.wavelengths_nm,
+        beyond: sight.beyond,
+        ..Sight::default()
+    })
+}
+
+/// The flags that say this sight again.
 pub fn flags(sight: &Sight) -> String {
     let Integration {
         observer,
@@ -186,9 +203,9 @@ pub fn flags(sight: &Sight) -> String {
     text
 }
 
-/// Whether a file named by these words is one of a run's inputs.
+/// The file that these words name, if any: one of a run's inputs.
 pub fn input<'a>(words: &Words<'a>) -> Option<&'a str> {
     words
         .illuminant
-        .filter(|name| Illuminant::find(name).is_none() && Path::new(name).is_file())
+        .filter(|name| Illuminant::find(name).is_none())
 }

@@ -80,9 +80,17 @@ pub fn values(method: &Method, channels: &Channels, derivation: &Derivation) -> 
     )
 }
 
-/// The values of all inputs of a method. A λ that does not exist is 0, which drops the term.
+/// The values of all inputs of a method. A λ that does not exist is 0, which drops the term. A method that solves its
+/// colours for an index gets colours that an index has.
 pub fn values_of(method: &Method, known: &Known, derivation: &Derivation) -> Values {
-    let value = |name: &str| value(name, known, derivation);
+    let solvable;
+    let known = if method.specialised.is_some() {
+        solvable = Known::of_channels(&known.channels, derivation);
+        &solvable
+    } else {
+        known
+    };
+    let value = |name: &str| derived(name, known, derivation);
     method
         .inputs
         .iter()
@@ -90,7 +98,8 @@ pub fn values_of(method: &Method, known: &Known, derivation: &Derivation) -> Val
         .collect::<BTreeMap<_, _>>()
 }
 
-fn value(name: &str, known: &Known, derivation: &Derivation) -> [f64; 3] {
+/// The value of one input of the vocabulary.
+pub fn derived(name: &str, known: &Known, derivation: &Derivation) -> [f64; 3] {
     let Channels { n, k } = known.channels;
     let each = |f: &dyn Fn(usize) -> f64| [0, 1, 2].map(f);
     match name {
@@ -106,13 +115,11 @@ fn value(name: &str, known: &Known, derivation: &Derivation) -> [f64; 3] {
         "scale" => [1.0 - mean(known.f0); 3],
         "power" => [power(mean(known.f0), mean(known.f60)); 3],
         "exponent" => [5.0; 3],
-        "lambda" => each(&|i| lambda_at(n[i], k[i], known.matching[i], derivation).unwrap_or(0.0)),
+        "lambda" => each(&|i| {
+            lambda_for(n[i], k[i], derivation.matching_cos, known.matching[i]).unwrap_or(0.0)
+        }),
         _ => unreachable!("every input of the vocabulary has its derivation; a test asks for all"),
     }
-}
-
-fn lambda_at(n: f64, k: f64, exact: f64, derivation: &Derivation) -> Option<f64> {
-    lambda_for(n, k, derivation.matching_cos, exact)
 }
 
 fn f0(n: f64, k: f64) -> f64 {
@@ -124,7 +131,7 @@ fn exact(n: f64, k: f64, cos_theta: f64) -> f64 {
 }
 
 /// Schlick's value at cos θ = 1/7, where the weight is (6/7)⁵.
-pub fn schlick_82(f0: f64) -> f64 {
+fn schlick_82(f0: f64) -> f64 {
     f0 + (1.0 - f0) * 7_776.0 / 16_807.0
 }
 
@@ -133,7 +140,7 @@ fn mean(channels: [f64; 3]) -> f64 {
 }
 
 /// Gulbrandsen's g: where n lies between the most (0) and the least (1) that F0 allows.
-pub fn edge_tint(n: f64, k: f64) -> f64 {
+fn edge_tint(n: f64, k: f64) -> f64 {
     let r = f0(n, k);
     let (most, least) = ((1.0 + r.sqrt()) / (1.0 - r.sqrt()), (1.0 - r) / (1.0 + r));
     if most == least {

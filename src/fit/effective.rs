@@ -2,8 +2,7 @@
 //! index does, those whose curve comes nearest over all angles.
 //!
 //! No index has an F0 above 1 (the red of saturated gold), and the mean of several dielectrics is not quite a
-//! dielectric. There the largest absolute difference over the angles is minimised: by a grid around the best point so
-//! far, again and again finer. A dielectric keeps k = 0, so that the cheaper exact law serves it.
+//! dielectric. There the largest absolute difference over the angles is minimised. A dielectric keeps k = 0, so that the cheaper exact law serves it.
 
 use crate::materials::{Channels, Index, Kind};
 use crate::methods::Light;
@@ -45,19 +44,20 @@ impl By {
 
 /// Below this n the exact law loses digits in f32.
 const LEAST_N: f64 = 1e-3;
-/// The box that is searched: n up to here in steps of equal ratio, k up to here.
+/// The box that is searched: n up to here in steps of equal ratio, k up to here, denser near 0.
 const MOST_N: f64 = 20.0;
-const MOST_K: f64 = 20.0;
+const MOST_K: f64 = 60.0;
 /// A dielectric that reflects more has an n that no medium has.
 const MOST_F0: f64 = 0.9;
-/// A dielectric whose k stays below this is taken as transparent: k² adds 1e-5 to its reflectance at most.
+/// A dielectric whose k stays below this is taken as transparent: k² adds 4 n k²/(n + 1)⁴ to its F0, 2.5e-5 at most.
 const FAINT_K: f64 = 0.01;
 /// Even steps of angle at which curves are compared, 0 and nearly 90 degrees included.
 const ANGLES: usize = 60;
-/// Half the points of the grid along each side, and how often it is refined, and by how much.
-const HALF: i32 = 4;
-const ROUNDS: usize = 30;
-const FINER: f64 = 0.6;
+/// Even steps of n and of k before a golden section, its sections, and its ratio: (√5 - 1)/2.
+const STEPS_N: usize = 20;
+const STEPS_K: usize = 48;
+const SECTIONS: usize = 24;
+const GOLDEN: f64 = 0.618_033_988_749_894_9;
 
 /// The index per channel for what is seen of a surface in unpolarised light.
 pub fn effective(truth: &Truth, kind: Kind) -> Effective {
@@ -103,63 +103,59 @@ fn curve(truth: &Truth) -> Vec<(f64, [f64; 3])> {
         .collect()
 }
 
-/// The index whose curve is nearest, by largest absolute difference.
+/// The index whose curve is nearest, by largest absolute difference: for each k the best n, and of these the best.
+/// The valley is long, narrow and not smooth, so that each is searched by itself.
 fn nearest(curve: &[(f64, f64)]) -> Index {
-    search(curve, -HALF..=HALF, |[n, k]| Index {
+    let of = |k: f64, n: f64| Index {
         n: LEAST_N * libm::pow(MOST_N / LEAST_N, n),
         k: MOST_K * k * k,
-    })
+    };
+    let best_n = |k: f64| least(STEPS_N, |n| distance(of(k, n), curve));
+    let (k, _) = least(STEPS_K, |k| best_n(k).1);
+    of(k, best_n(k).0)
 }
 
 /// The nearest index without k, on the side of 1 that serves better: in the square root q of F0 around that of the
 /// curve, n = (1 + q) / (1 - q), up to twice or half of it.
 fn nearest_transparent(curve: &[(f64, f64)]) -> Index {
     let root = curve[0].1.clamp(0.0, MOST_F0).sqrt();
-    let of = |root: f64| (1.0 + root) / (1.0 - root);
-    let around = |[q, _]: [f64; 2]| (root * libm::exp2(2.0 * q - 1.0)).min(MOST_F0);
-    let glass = |n: f64| Index { n, k: 0.0 };
-    let above = search(curve, 0..=0, |point| glass(of(around(point))));
-    let below = search(curve, 0..=0, |point| glass(1.0 / of(around(point))));
-    if distance(below, curve) < distance(above, curve) {
-        below
+    let q = |share: f64| (root * libm::exp2(2.0 * share - 1.0)).min(MOST_F0);
+    let above = |share: f64| (1.0 + q(share)) / (1.0 - q(share));
+    let error = |n: f64| distance(Index { n, k: 0.0 }, curve);
+    let (glass, glass_error) = least(STEPS_N, |share| error(above(share)));
+    let (gas, gas_error) = least(STEPS_N, |share| error(1.0 / above(share)));
+    let n = if gas_error < glass_error {
+        1.0 / above(gas)
     } else {
-        above
-    }
+        above(glass)
+    };
+    Index { n, k: 0.0 }
 }
 
-/// The best index of those that points of the unit square stand for; `along` are the steps of the second coordinate.
-fn search(
-    curve: &[(f64, f64)],
-    along: std::ops::RangeInclusive<i32>,
-    index: impl Fn([f64; 2]) -> Index,
-) -> Index {
-    let mut best = (f64::INFINITY, [0.5, 0.5]);
-    let mut reach = 0.5 / f64::from(HALF);
-    for _ in 0..ROUNDS {
-        let centre = best.1;
-        for point in grid(centre, reach, &along) {
-            let error = distance(index(point), curve);
-            if error < best.0 {
-                best = (error, point);
-            }
+/// Where in [0, 1] a function is least, and its value: the best of even steps, then a golden section between its
+/// neighbours.
+fn least(steps: usize, f: impl Fn(f64) -> f64) -> (f64, f64) {
+    let at = |i: usize| i as f64 / steps as f64;
+    let values: Vec<f64> = (0..=steps).map(|i| f(at(i))).collect();
+    let best = (0..=steps)
+        .min_by(|a, b| values[*a].total_cmp(&values[*b]))
+        .unwrap_or(0);
+    let (mut low, mut high) = (at(best.saturating_sub(1)), at((best + 1).min(steps)));
+    for _ in 0..SECTIONS {
+        let [left, right] = [high - GOLDEN * (high - low), low + GOLDEN * (high - low)];
+        if f(left) <= f(right) {
+            high = right;
+        } else {
+            low = left;
         }
-        reach *= FINER;
     }
-    index(best.1)
-}
-
-/// Points of the unit square around a centre.
-fn grid(
-    centre: [f64; 2],
-    reach: f64,
-    along: &std::ops::RangeInclusive<i32>,
-) -> impl Iterator<Item = [f64; 2]> {
-    let place = move |from: f64, step: i32| (from + f64::from(step) * reach).clamp(0.0, 1.0);
-    (-HALF..=HALF).flat_map(move |i| {
-        along
-            .clone()
-            .map(move |j| [place(centre[0], i), place(centre[1], j)])
-    })
+    let middle = 0.5 * (low + high);
+    let found = (middle, f(middle));
+    if found.1 <= values[best] {
+        found
+    } else {
+        (at(best), values[best])
+    }
 }
 
 fn distance(index: Index, curve: &[(f64, f64)]) -> f64 {

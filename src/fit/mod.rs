@@ -17,4 +17,4 @@ pub use lambda::{THESIS_MATCHING_COS, lambda};
 pub use measured::Measured;
 pub use model_error::{ModelError, Truth, model_error, seen, thesis_errors};
 pub use over::model_error_over;
-pub use params::{Params, abbe, ior_d, normal_spectrum, params};
+pub use params::{BOUNCES, Params, abbe, colour_errors, ior_d, params};

@@ -4,8 +4,9 @@
 use crate::materials::{Extrapolate, Index, Kind, Material, Surface};
 use crate::methods::Light;
 use crate::optics;
+use crate::spectra::{Illuminant, Integration, colour_error};
 
-use super::derive::{COS_82, edge_tint, schlick_82};
+use super::derive::{Derivation, Known, derived};
 use super::effective::{Effective, effective};
 use super::model_error::Truth;
 
@@ -22,7 +23,9 @@ pub struct Params {
     pub f90: [f64; 3],
     /// n and k per channel, and how they were found.
     pub effective: Effective,
-    /// Gulbrandsen's edge tint g of that index; his reflectivity r is F0.
+    /// Gulbrandsen's reflectivity r of that index: F0 where the index has it, and never above 1.
+    pub reflectivity: [f64; 3],
+    /// Gulbrandsen's edge tint g of that index.
     pub edge_tint: [f64; 3],
     /// Hemispherical reflectance: 2 ∫ R cos θ d(cos θ).
     pub average: [f64; 3],
@@ -32,18 +35,47 @@ pub struct Params {
 pub fn params(surface: Surface, kind: Kind) -> Params {
     let truth = Truth::new(surface, Light::Unpolarised);
     let effective = effective(&truth, kind);
-    let (f0, f82) = (truth.at(1.0), truth.at(COS_82));
-    let (n, k) = (effective.channels.n, effective.channels.k);
+    let derivation = Derivation::default();
+    let known = Known::with(
+        effective.channels,
+        |cos_theta| truth.at(cos_theta),
+        &derivation,
+    );
+    let value = |name: &str| derived(name, &known, &derivation);
     Params {
-        f0,
-        f82,
-        f82_tint: [0, 1, 2].map(|i| f82[i] / schlick_82(f0[i])),
+        f0: known.f0,
+        f82: known.f82,
+        f82_tint: value("tint"),
         f90: truth.at(0.0),
         effective,
-        edge_tint: [0, 1, 2].map(|i| edge_tint(n[i], k[i])),
+        reflectivity: value("reflectivity"),
+        edge_tint: value("edge_tint"),
         average: truth.average(),
     }
 }
+
+/// The colour error of a surface at normal incidence under all named lights but the one that it is integrated under,
+/// after one, two and three bounces, in ΔE 2000; none where three wavelengths are no spectrum.
+pub fn colour_errors(
+    surface: &Surface,
+    integration: &Integration,
+) -> Option<Vec<(Illuminant, [f64; 3])>> {
+    if surface.channels().is_some() {
+        return None;
+    }
+    let reflectance = normal_spectrum(surface);
+    let rgb = surface.unpolarised(1.0);
+    let error = |light: &Illuminant| {
+        BOUNCES.map(|bounces| colour_error(&reflectance, rgb, light, bounces, integration))
+    };
+    let others = Illuminant::NAMED
+        .into_iter()
+        .filter(|light| *light != integration.illuminant);
+    Some(others.map(|light| (light.clone(), error(&light))).collect())
+}
+
+/// Reflections one after the other, for which the colour error is told.
+pub const BOUNCES: [u32; 3] = [1, 2, 3];
 
 /// Helium's d line and hydrogen's F and C in nanometres, as glass catalogues have them (ISO 7944).
 const D_NM: f64 = 587.561_8;
@@ -67,7 +99,7 @@ fn n_at(material: &Material, nm: f64) -> Option<f64> {
 }
 
 /// Reflectance at normal incidence at each of a surface's wavelengths.
-pub fn normal_spectrum(surface: &Surface) -> Vec<f64> {
+fn normal_spectrum(surface: &Surface) -> Vec<f64> {
     let normal = |index: &Index| optics::normal_incidence(index.n, index.k);
     surface.indices.iter().map(normal).collect()
 }

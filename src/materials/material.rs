@@ -71,13 +71,13 @@ pub struct Index {
 }
 
 impl Index {
-    /// The index seen from a medium: the complex quotient. A medium that absorbs more than the material would leave a
-    /// k below 0, which no passive surface has; it is 0 then.
+    /// The index seen from a medium: the complex quotient. From a medium that absorbs more than the material, its k
+    /// would be below 0; the law reflects as much for m and its conjugate, so that |k| stands for it.
     pub fn relative_to(self, medium: Index) -> Index {
         let square = medium.n * medium.n + medium.k * medium.k;
         Index {
             n: (self.n * medium.n + self.k * medium.k) / square,
-            k: ((self.k * medium.n - self.n * medium.k) / square).max(0.0),
+            k: ((self.k * medium.n - self.n * medium.k) / square).abs(),
         }
     }
 }
@@ -137,6 +137,7 @@ impl Material {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::optics;
 
     #[test]
     fn relative_index_is_the_complex_quotient() {
@@ -151,7 +152,10 @@ mod tests {
         );
         let murky = Index { n: 1.33, k: 1e-3 };
         let glass = Index { n: 1.5, k: 0.0 };
-        assert_eq!(glass.relative_to(murky).k, 0.0);
+        let seen = glass.relative_to(murky);
+        let (n, k) = (1.5 - 1.33, 1e-3);
+        let by_hand = (n * n + k * k) / ((1.5 + 1.33) * (1.5 + 1.33) + k * k);
+        assert!((optics::normal_incidence(seen.n, seen.k) - by_hand).abs() < 1e-16);
         let same = murky.relative_to(murky);
         assert!((same.n - 1.0).abs() < 1e-15 && same.k == 0.0);
     }

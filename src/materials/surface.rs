@@ -194,9 +194,7 @@ fn three_in_words([red, green, blue]: [f64; 3]) -> String {
 fn advice(material: &Material, sight: &Sight) -> String {
     let (from, to) = material.range_nm();
     if sight.wavelengths_nm.is_some() {
-        format!(
-            ". It is known from {from} to {to} nm; to hold the last value beyond, add --extrapolate hold"
-        )
+        format!("; to hold the last value beyond {from} to {to} nm, add --extrapolate hold")
     } else {
         format!(
             ". The whole spectrum means {FIRST_NM} to {LAST_NM} nm; to hold the last value beyond {from} to {to} nm, \

@@ -2,7 +2,7 @@
 
 use crate::emit::{Bounds, Naming, Subject, specialised_function};
 use crate::fit::Derivation;
-use crate::materials::{Material, Sight};
+use crate::materials::{Material, Sight, Unseen};
 use crate::methods::{self, Contract, Method};
 use crate::targets;
 
@@ -40,15 +40,15 @@ pub fn methods_table() -> String {
 
 /// Model error of every method on these materials in air, as they are seen by default: largest absolute, and mean
 /// relative in per cent.
-pub fn errors_table(materials: Vec<Material>) -> String {
+pub fn errors_table(materials: Vec<Material>) -> Result<String, Unseen> {
     let subject = |material: Material| {
         let typed = (material.name.clone(), material);
         Subject::new(typed, None, &Sight::default(), Derivation::default())
     };
     let subjects: Vec<Subject> = materials
         .into_iter()
-        .filter_map(|m| subject(m).ok())
-        .collect();
+        .map(subject)
+        .collect::<Result<_, _>>()?;
     let mut head = vec!["method"];
     head.extend(subjects.iter().map(|subject| subject.name.as_str()));
     let rows = methods::ALL
@@ -61,7 +61,7 @@ pub fn errors_table(materials: Vec<Material>) -> String {
                 .chain(errors)
                 .collect()
         });
-    table(&head, rows)
+    Ok(table(&head, rows))
 }
 
 /// Every target.

@@ -92,11 +92,6 @@ mod tests {
         let integrator = Integrator::new(&integration).unwrap();
         let reflectance = gold(&integrator.wavelengths);
         let rgb = integrator.colour(&reflectance);
-        for light in Illuminant::NAMED {
-            let errors =
-                [1, 2, 3].map(|b| colour_error(&reflectance, rgb, &light, b, &integration));
-            println!("{} {errors:?}", light.name());
-        }
         let error =
             |bounces| colour_error(&reflectance, rgb, &Illuminant::A, bounces, &integration);
         // Computed apart with another program.

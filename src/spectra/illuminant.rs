@@ -49,8 +49,8 @@ impl Illuminant {
     /// Those that have a name of their own.
     pub const NAMED: [Illuminant; 5] = [
         Illuminant::D65,
-        Illuminant::E,
         Illuminant::A,
+        Illuminant::E,
         Illuminant::F11,
         Illuminant::LedB3,
     ];

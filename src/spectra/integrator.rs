@@ -25,7 +25,7 @@ pub struct Integrator {
     /// One for each wavelength.
     pub weights: Vec<DVec3>,
     /// Σ w(λ), the colour of a mirror before the division.
-    mirror: DVec3,
+    pub mirror: DVec3,
 }
 
 /// A light that has no red, green or blue in a space: no reflectance can be divided by it.

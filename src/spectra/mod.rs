@@ -36,4 +36,4 @@ pub use observer::Observer;
 pub use space::Space;
 pub use spectrum::Spectrum;
 pub use tristimulus::{weighted_sum, xyz_weights};
-pub use wavelength::{FIRST_NM, LAST_NM, Step};
+pub use wavelength::{FIRST_NM, LAST_NM, OBSERVED_NM, Step};

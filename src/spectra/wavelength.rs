@@ -9,6 +9,9 @@ pub const FIRST_NM: f64 = 380.0;
 /// The last wavelength of a sum, in nm.
 pub const LAST_NM: f64 = 780.0;
 
+/// What the observers see at all, in nm: the range of the tables of CIE.
+pub const OBSERVED_NM: (f64, f64) = (360.0, 830.0);
+
 /// The distance of the wavelengths of a sum.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Step {

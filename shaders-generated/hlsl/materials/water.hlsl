@@ -23,13 +23,13 @@
 //   F = r_s^2 (1 + B^2) / 2, B = (c u - 1) / (c t / u + 1); 1 where t + c^2 < 0
 // Source: Cook, Torrance, "A Reflectance Model for Computer Graphics", ACM Transactions on Graphics 1(1), 7-24,
 //     1982. https://doi.org/10.1145/357290.357293
-// Model error: at most 0.00001 (at 84.78 degrees), 0.00 % in the mean over angles.
-// Code error: not measured for this material.
+// Model error: at most 0.00001 (at 46.73 degrees), 0.00 % in the mean over angles.
+// Code error: at most 4.3 ulp or 2^-22, unfused f32 against f64.
 // Cost: 57 scalar operations, among them 3 roots, 9 divisions
 float3 fresnel_water(float cos_theta)
 {
     float c = saturate(cos_theta); // 1 + 1 ulp must not reach what follows
-    float3 tau = float3(0.77242184, 0.7780611, 0.78839505); // eta^2 - 1 without its cancellation near 1
+    float3 tau = float3(0.7724217, 0.7780613, 0.7883952); // eta^2 - 1 without its cancellation near 1
     float3 g2 = tau + c * c; // below 0 past the critical angle
     float3 u = sqrt(g2) + c;
     float3 r_s = tau / (tau + 2.0 * c * u); // (g - c) / (g + c), as tau / u^2
@@ -43,7 +43,7 @@ float3 fresnel_water(float cos_theta)
 // Source: Lazanyi, Szirmay-Kalos, "Fresnel Term Approximations for Metals", WSCG Short Papers, 77-80, 2005.
 //     https://hdl.handle.net/11025/11214
 // Model error: at most 0.05960 (at 83.80 degrees), 8.67 % in the mean over angles.
-// Code error: not measured for this material.
+// Code error: at most 4.5 ulp or 2^-22, unfused f32 against f64.
 // Cost: 14 scalar operations
 float3 fresnel_water_schlick_rescaled(float cos_theta)
 {
@@ -51,7 +51,7 @@ float3 fresnel_water_schlick_rescaled(float cos_theta)
     float m = 1.0 - c; // 0 at normal incidence, 1 at grazing
     float m2 = m * m;
     float m5 = m2 * m2 * m;
-    return saturate(float3(0.020197567, 0.020419315, 0.020826837) + float3(0.9798024, 0.9795807, 0.9791732) * m5);
+    return saturate(float3(0.020197561, 0.02041932, 0.020826844) + float3(0.9798024, 0.9795807, 0.9791732) * m5);
 }
 
 // fresnel_water_schlick_corrected: the rescaled Schlick with a term that restores the minimum of metals,
@@ -61,7 +61,7 @@ float3 fresnel_water_schlick_rescaled(float cos_theta)
 // Source: Lazanyi, Szirmay-Kalos, "Fresnel Term Approximations for Metals", WSCG Short Papers, 77-80, 2005.
 //     https://hdl.handle.net/11025/11214
 // Model error: at most 0.02562 (at 87.21 degrees), 7.03 % in the mean over angles.
-// Code error: not measured for this material.
+// Code error: at most 4.6 ulp or 2^-22, unfused f32 against f64.
 // Cost: 31 scalar operations, among them 4 exponentials or logarithms
 float3 fresnel_water_schlick_corrected(float cos_theta)
 {
@@ -70,9 +70,9 @@ float3 fresnel_water_schlick_corrected(float cos_theta)
     float m2 = m * m;
     float m5 = m2 * m2 * m;
     // the rescaled Schlick
-    float3 base = float3(0.020197567, 0.020419315, 0.020826837) + float3(0.9798024, 0.9795807, 0.9791732) * m5;
+    float3 base = float3(0.020197561, 0.02041932, 0.020826844) + float3(0.9798024, 0.9795807, 0.9791732) * m5;
     float3 fall = exp2(float3(12.159324, 12.2322235, 12.3650465) * log2(max(m, 1.1754944e-38))); // (1 - c)^lambda
-    float3 dip = float3(2.6626468, 2.6668792, 2.6746178) * (c * fall); // what the minimum takes away
+    float3 dip = float3(2.6626465, 2.6668792, 2.674618) * (c * fall); // what the minimum takes away
     return saturate(base - dip);
 }
 

@@ -5,12 +5,10 @@ use crate::app::error::Error;
 use crate::app::source::read;
 use crate::app::write::write_file;
 use crate::materials::{Material, page};
+use crate::spectra::{FIRST_NM, LAST_NM, OBSERVED_NM};
 
 use super::Output;
 use super::materials::class;
-
-/// What is kept of a table, in nanometres: what CIE's observers see.
-const SEEN_NM: (f64, f64) = (360.0, 830.0);
 
 /// `fresnel-gen materials import PAGE`.
 pub fn run(flags: &ImportFlags) -> Result<Output, Error> {
@@ -19,11 +17,16 @@ pub fn run(flags: &ImportFlags) -> Result<Output, Error> {
         what: format!("`{}` ends in neither .yml nor .csv: a page of refractiveindex.info or a table is wanted", flags.page),
     })??;
     let own = found.material(flags.name.as_deref())?;
-    let material = told(flags, own)?.trimmed(SEEN_NM.0, SEEN_NM.1);
+    let kind = flags.class.as_deref().map(class).transpose()?;
+    let whole = Material {
+        kind: kind.unwrap_or(own.kind),
+        ..own
+    };
+    let mut output = Output::default();
+    let material = visible(&whole, &mut output);
     let toml = material.to_toml();
     // What the page holds may be more than a material file allows: an index of 0, say.
     Material::parse(&format!("the material file of {}", flags.page), &toml)?;
-    let mut output = Output::default();
     if !material.note.is_empty() {
         output
             .remarks
@@ -36,22 +39,16 @@ pub fn run(flags: &ImportFlags) -> Result<Output, Error> {
     Ok(output)
 }
 
-/// With what the user knows better.
-fn told(flags: &ImportFlags, own: Material) -> Result<Material, Error> {
-    let or = |said: &Option<String>, own: String| said.clone().unwrap_or(own);
-    Ok(Material {
-        kind: flags
-            .class
-            .as_deref()
-            .map(class)
-            .transpose()?
-            .unwrap_or(own.kind),
-        substance: or(&flags.substance, own.substance),
-        summary: or(&flags.summary, own.summary),
-        reference: or(&flags.reference, own.reference),
-        link: or(&flags.link, own.link),
-        licence: or(&flags.licence, own.licence),
-        note: or(&flags.note, own.note),
-        ..own
-    })
+/// Only the visible part, where the material is known over all of it.
+fn visible(whole: &Material, output: &mut Output) -> Material {
+    let (from, to) = OBSERVED_NM;
+    if !whole.covers(FIRST_NM, LAST_NM) {
+        return whole.clone();
+    }
+    let cut = whole.trimmed(from, to);
+    if cut != *whole {
+        let what = format!("{}: rows beyond {from} to {to} nm are left out", whole.name);
+        output.remarks.push(what);
+    }
+    cut
 }

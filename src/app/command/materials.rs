@@ -27,6 +27,9 @@ pub fn run(flags: &MaterialsFlags, progress: Progress) -> Result<Output, Error> 
         Some(MaterialsCommand::List(filter)) => list(filter, json),
         Some(MaterialsCommand::Show(show)) => shown(show, json),
         Some(MaterialsCommand::Params(params)) => params::run(params, json),
+        Some(MaterialsCommand::Import(_)) if json.is_some() => Err(Error::Usage {
+            what: "import writes a material file and no JSON; leave --json out".to_owned(),
+        }),
         Some(MaterialsCommand::Import(import)) => import::run(import),
         Some(MaterialsCommand::Survey(survey)) => survey::run(survey, json, progress),
     }
@@ -122,11 +125,11 @@ fn shown(flags: &ShowFlags, json: Option<&Path>) -> Result<Output, Error> {
 
 /// Draws the material where that was asked for.
 fn drawn(flags: &ShowFlags, loaded: &Loaded, output: &mut Output) -> Result<(), Error> {
+    let medium = medium(flags.medium.as_deref())?;
+    let sight = sight(&flags.sight.words(None))?;
     if flags.svg.is_none() && flags.png.is_none() {
         return Ok(());
     }
-    let medium = medium(flags.medium.as_deref())?;
-    let sight = sight(&flags.sight.words(None))?;
     let around = medium.as_ref().map(|medium| &medium.material);
     let svg = card(
         &loaded.material,

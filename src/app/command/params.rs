@@ -7,23 +7,13 @@ use crate::app::error::Error;
 use crate::app::request::load;
 use crate::app::sight::sight;
 use crate::app::source::source;
-use crate::fit::{By, Params, abbe, ior_d, normal_spectrum, params};
+use crate::fit::{BOUNCES, By, Params, abbe, colour_errors, ior_d, params};
 use crate::materials::{self, Kind, Material, Sight, Surface};
 use crate::report::table;
-use crate::spectra::{Gamut, Illuminant, colour_error};
+use crate::spectra::{Gamut, Illuminant};
 
 use super::materials::medium;
 use super::{Output, report};
-
-/// The lights under which the colour error is told, beside the one that the colours are integrated under.
-const OTHER_LIGHTS: [Illuminant; 4] = [
-    Illuminant::A,
-    Illuminant::E,
-    Illuminant::F11,
-    Illuminant::LedB3,
-];
-/// Reflections one after the other.
-const BOUNCES: [u32; 3] = [1, 2, 3];
 
 /// All that is told.
 struct Told {
@@ -34,7 +24,7 @@ struct Told {
     held: Option<String>,
     seen: String,
     /// ΔE 2000 by light and number of bounces; none where three wavelengths are not a spectrum.
-    colour_errors: Option<Vec<(String, [f64; 3])>>,
+    colour_errors: Option<Vec<(Illuminant, [f64; 3])>>,
     /// F0 of the other measurements of the same substance.
     others: Vec<(String, [f64; 3])>,
 }
@@ -43,17 +33,17 @@ struct Told {
 pub fn run(flags: &ParamsFlags, json: Option<&std::path::Path>) -> Result<Output, Error> {
     let material = load(&source(&flags.name)?)?.material;
     let medium = medium(flags.medium.as_deref())?;
-    let sight = sight(&flags.sight.words(Some(Gamut::Keep.name())))?;
+    let sight = Sight {
+        gamut: Gamut::Keep,
+        ..sight(&flags.sight.words(None))?
+    };
     let told = told(material, medium.map(|medium| medium.material), sight)?;
     report(text(&told), &object(&told), json)
 }
 
 fn told(material: Material, medium: Option<Material>, sight: Sight) -> Result<Told, Error> {
     let surface = Surface::new(&material, medium.as_ref(), &sight)?;
-    let colour_errors = surface
-        .channels()
-        .is_none()
-        .then(|| errors(&surface, &sight));
+    let colour_errors = colour_errors(&surface, &sight.integration);
     Ok(Told {
         held: surface.held(),
         seen: surface.seen.clone(),
@@ -64,19 +54,6 @@ fn told(material: Material, medium: Option<Material>, sight: Sight) -> Result<To
         medium,
         sight,
     })
-}
-
-/// What three numbers lose against the spectrum, by light.
-fn errors(surface: &Surface, sight: &Sight) -> Vec<(String, [f64; 3])> {
-    let reflectance = normal_spectrum(surface);
-    let rgb = surface.unpolarised(1.0);
-    let error = |light: &Illuminant| {
-        BOUNCES.map(|bounces| colour_error(&reflectance, rgb, light, bounces, &sight.integration))
-    };
-    OTHER_LIGHTS
-        .iter()
-        .map(|light| (light.name().to_owned(), error(light)))
-        .collect()
 }
 
 /// F0 of the other measurements of the same substance over the whole spectrum.
@@ -122,7 +99,7 @@ fn object(told: &Told) -> Value {
         "observer": integration.observer.name(), "adaptation": integration.adaptation.name(),
         "step_nm": integration.step.nm(), "gamut": told.sight.gamut.name(), "truth": told.seen, "extrapolated": told.held,
         "f0": params.f0, "f82": params.f82, "f82_tint": params.f82_tint, "f90": params.f90,
-        "reflectivity": params.f0, "edge_tint": params.edge_tint,
+        "reflectivity": params.reflectivity, "edge_tint": params.edge_tint,
         "n": params.effective.channels.n, "k": params.effective.channels.k, "nk_by": params.effective.by.map(By::text),
         "average": params.average, "ior_d": ior_d(&told.material), "abbe": dispersion(&told.material),
     });
@@ -147,7 +124,7 @@ fn colour_error_json(told: &Told) -> Value {
     match &told.colour_errors {
         None => Value::Null,
         Some(errors) => {
-            let row = |(light, error): &(String, [f64; 3])| json!({ "illuminant": light, "delta_e2000": error });
+            let row = |(light, error): &(Illuminant, [f64; 3])| json!({ "illuminant": light.name(), "delta_e2000": error });
             json!({ "bounces": BOUNCES, "rows": errors.iter().map(row).collect::<Vec<_>>() })
         }
     }
@@ -211,9 +188,9 @@ fn colour_error_text(told: &Told) -> Vec<String> {
     let Some(errors) = &told.colour_errors else {
         return Vec::new();
     };
-    let row = |(light, error): &(String, [f64; 3])| {
+    let row = |(light, error): &(Illuminant, [f64; 3])| {
         let cells = error.map(|error| format!("{error:.2}"));
-        [light.clone()].into_iter().chain(cells).collect()
+        [light.name().to_owned()].into_iter().chain(cells).collect()
     };
     let rows: Vec<Vec<String>> = errors.iter().map(row).collect();
     vec![

@@ -8,14 +8,18 @@ use crate::app::args::SurveyFlags;
 use crate::app::error::Error;
 use crate::app::sight::sight;
 use crate::app::source::{pages, read};
-use crate::report::survey::{Surveyed, survey, text};
+use crate::materials::Sight;
+use crate::report::survey::{Outcome, Surveyed, survey, text};
 use crate::spectra::Gamut;
 
 use super::{Output, Progress, report};
 
 /// `fresnel-gen materials survey FOLDER`.
 pub fn run(flags: &SurveyFlags, json: Option<&Path>, progress: Progress) -> Result<Output, Error> {
-    let sight = sight(&flags.sight.words(Some(Gamut::Keep.name())))?;
+    let sight = Sight {
+        gamut: Gamut::Keep,
+        ..sight(&flags.sight.words(None))?
+    };
     let files = pages(&flags.folder)?;
     if files.is_empty() {
         return Err(Error::Usage {
@@ -33,7 +37,7 @@ pub fn run(flags: &SurveyFlags, json: Option<&Path>, progress: Progress) -> Resu
 }
 
 /// A page by its name below the folder, so that no report depends on where that lies.
-fn surveyed(folder: &Path, file: &str, sight: &crate::materials::Sight) -> Result<Surveyed, Error> {
+fn surveyed(folder: &Path, file: &str, sight: &Sight) -> Result<Surveyed, Error> {
     let (path, named) = if file.is_empty() {
         (folder.to_owned(), folder.display().to_string())
     } else {
@@ -43,10 +47,7 @@ fn surveyed(folder: &Path, file: &str, sight: &crate::materials::Sight) -> Resul
         Ok(text) => Ok(survey(&named, &text, sight)),
         Err(Error::Material(fault)) => Ok(Surveyed {
             file: named,
-            outcome: crate::report::survey::Outcome::Refused(format!(
-                "line {}: {}",
-                fault.line, fault.what
-            )),
+            outcome: Outcome::Refused(format!("line {}: {}", fault.line, fault.what)),
         }),
         Err(other) => Err(other),
     }

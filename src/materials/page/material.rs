@@ -32,7 +32,7 @@ impl Page {
             name,
             summary: self.summary(),
             kind: Kind::Dielectric,
-            licence: "CC0-1.0".to_owned(),
+            licence: or(&self.licence, NOT_GIVEN),
             reference: or(&self.reference, NOT_GIVEN),
             link: or(&self.link, NOT_GIVEN),
             page: self.path(),

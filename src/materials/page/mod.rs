@@ -41,6 +41,8 @@ pub struct Page {
     pub n: Option<Curve>,
     /// Extinction coefficient by wavelength, not below 0.
     pub k: Option<Curve>,
+    /// The licence of the numbers: CC0-1.0 for a page of the database; empty where nothing says it.
+    pub licence: String,
     /// Who measured it, as one line of plain text; may be empty.
     pub reference: String,
     /// Where to read about it: its DOI as a link, or the first link; may be empty.
@@ -55,6 +57,9 @@ pub struct Page {
     pub remarks: Vec<String>,
 }
 
+/// What every page of the database says in its first lines.
+const LICENCE: &str = "CC0-1.0";
+
 /// The longest text that is read: more than all pages together.
 pub(super) const MOST_BYTES: usize = 64 << 20;
 
@@ -65,6 +70,7 @@ impl Page {
         let raw = yaml::read(file, text)?;
         let mut page = Page {
             file: file.to_owned(),
+            licence: LICENCE.to_owned(),
             reference: plain::line(raw.references.as_deref().unwrap_or("")),
             link: plain::link(raw.references.as_deref().unwrap_or("")),
             comments: plain::line(raw.comments.as_deref().unwrap_or("")),

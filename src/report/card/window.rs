@@ -2,15 +2,14 @@
 
 use crate::materials::{Curve, Material};
 use crate::report::chart::{Axis, ticks};
+use crate::spectra::OBSERVED_NM;
 
-/// The ends of visible light: those of the tables of the CIE.
-const VISIBLE_NM: (f64, f64) = (360.0, 830.0);
 /// Beside points that stand alone.
 const BESIDE_NM: f64 = 20.0;
 
 /// The part of a range that is shown, if any.
 pub fn shown((from, to): (f64, f64)) -> Option<(f64, f64)> {
-    let inside = (from.max(VISIBLE_NM.0), to.min(VISIBLE_NM.1));
+    let inside = (from.max(OBSERVED_NM.0), to.min(OBSERVED_NM.1));
     (inside.0 <= inside.1).then_some(inside)
 }
 
@@ -32,7 +31,7 @@ pub fn around(rgb: [f64; 3]) -> (f64, f64) {
 
 /// The axis of a range, wide enough to look at; all that is visible where there is none.
 pub fn axis(range: Option<(f64, f64)>) -> Axis {
-    let (mut low, mut high) = range.unwrap_or(VISIBLE_NM);
+    let (mut low, mut high) = range.unwrap_or(OBSERVED_NM);
     if high - low < BESIDE_NM {
         (low, high) = (low - BESIDE_NM, high + BESIDE_NM);
     }

@@ -45,16 +45,17 @@ fn a_page_is_a_material() {
 fn an_imported_page_is_a_material_file() {
     let place = Place::new();
     place.put("Johnson.yml", PAGE);
-    let ran = place.done("materials import Johnson.yml --name my_gold --substance gold --class metal -o my_gold.toml");
+    let ran =
+        place.done("materials import Johnson.yml --name my_gold --class metal -o my_gold.toml");
     assert_eq!(ran.out, "");
     let toml = place.read("my_gold.toml");
     assert!(
-        toml.contains("substance = \"gold\"") && toml.contains("[450.9, 1.38, 1.914]"),
+        toml.contains("licence = \"CC0-1.0\"") && toml.contains("[450.9, 1.38, 1.914]"),
         "{toml}"
     );
     assert_eq!(
         place
-            .done("materials import Johnson.yml --name my_gold --substance gold --class metal")
+            .done("materials import Johnson.yml --name my_gold --class metal")
             .out,
         toml
     );
