@@ -53,6 +53,8 @@ const MOST_F0: f64 = 0.9;
 const FAINT_K: f64 = 0.01;
 /// Even steps of angle at which curves are compared, 0 and nearly 90 degrees included.
 const ANGLES: usize = 60;
+/// Cosines close to grazing, besides: 2⁻ⁱ, where a large k has its minimum.
+const GRAZING: i32 = 14;
 /// Even steps of n and of k before a golden section, its sections, and its ratio: (√5 - 1)/2.
 const STEPS_N: usize = 20;
 const STEPS_K: usize = 48;
@@ -97,9 +99,11 @@ pub fn effective(truth: &Truth, kind: Kind) -> Effective {
 /// Cosines and what is seen there, between 0 and 1: no index reflects more than all, so that of saturated gold's red the
 /// part below 1 is what an index can follow.
 fn curve(truth: &Truth) -> Vec<(f64, [f64; 3])> {
-    let cosine = |i: usize| libm::cos(i as f64 / ANGLES as f64 * std::f64::consts::FRAC_PI_2);
-    (0..ANGLES)
-        .map(|i| (cosine(i), truth.at(cosine(i)).map(|r| r.clamp(0.0, 1.0))))
+    let even = (0..ANGLES).map(|i| i as f64 / ANGLES as f64 * std::f64::consts::FRAC_PI_2);
+    let grazing = (2..GRAZING).map(|i| libm::exp2(-f64::from(i)));
+    let cosines = even.map(libm::cos).chain(grazing);
+    cosines
+        .map(|c| (c, truth.at(c).map(|r| r.clamp(0.0, 1.0))))
         .collect()
 }
 
@@ -162,4 +166,92 @@ fn distance(index: Index, curve: &[(f64, f64)]) -> f64 {
     let difference =
         |(c, r): &(f64, f64)| (optics::conductor(index.n, index.k, *c).unpolarised() - r).abs();
     curve.iter().map(difference).fold(0.0, f64::max)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::materials::{self, Sight, Surface};
+
+    fn truth(name: &str) -> (Truth, Kind) {
+        let material = materials::find(name)
+            .expect("it is there")
+            .expect("it is good");
+        let surface = Surface::new(&material, None, &Sight::default()).expect("it is full");
+        (Truth::new(surface, Light::Unpolarised), material.kind)
+    }
+
+    /// No index of a dense grid around, and of a coarse one over the whole box, comes nearer.
+    #[test]
+    fn the_nearest_index_is_the_nearest() {
+        for (name, channel) in [
+            ("gold", 0),
+            ("gold_mcpeak", 0),
+            ("copper_babar", 0),
+            ("water", 1),
+        ] {
+            let (truth, kind) = truth(name);
+            let found = effective(&truth, kind);
+            assert_eq!(found.by[channel], By::Nearest, "{name}");
+            let curve: Vec<(f64, f64)> = curve(&truth)
+                .iter()
+                .map(|(c, r)| (*c, r[channel]))
+                .collect();
+            let (n, k) = (found.channels.n[channel], found.channels.k[channel]);
+            let error = distance(Index { n, k }, &curve);
+            let glass = kind == Kind::Dielectric;
+            for i in -50..=50 {
+                for j in -50..=50 {
+                    let near = Index {
+                        n: n * (1.0 + f64::from(i) * 2e-4),
+                        k: k * (1.0 + f64::from(j) * 2e-4),
+                    };
+                    let far = Index {
+                        n: 0.002 * libm::pow(2e3, f64::from(i + 50) / 100.0),
+                        k: if glass { 0.0 } else { 0.6 * f64::from(j + 51) },
+                    };
+                    let least = distance(near, &curve).min(distance(far, &curve));
+                    assert!(least > error - 1e-5, "{name}: {least} is less than {error}");
+                }
+            }
+        }
+    }
+
+    /// An index that is one comes back.
+    #[test]
+    fn grey_media_come_back() {
+        for (n, k, kind) in [
+            (1.5, 0.0, Kind::Dielectric),
+            (0.2, 3.5, Kind::Metal),
+            (4.0, 0.1, Kind::Semiconductor),
+        ] {
+            let (mut truth, _) = truth("silver");
+            truth
+                .surface
+                .indices
+                .iter_mut()
+                .for_each(|index| *index = Index { n, k });
+            let truth = Truth::new(truth.surface, Light::Unpolarised);
+            let found = effective(&truth, kind);
+            for i in 0..3 {
+                let apart = (found.channels.n[i] - n).abs() / n + (found.channels.k[i] - k).abs();
+                assert!(apart < 1e-6, "{found:?}");
+            }
+        }
+    }
+
+    /// 2 ∫ R cos θ d(cos θ): 1 for a mirror, and known in closed form for glass (Walsh 1926; n = 1.5: .0918).
+    #[test]
+    fn averages_are_hemispherical() {
+        let (truth, _) = truth("silver");
+        let of = |index: Index| {
+            let mut surface = truth.surface.clone();
+            surface.indices.iter_mut().for_each(|own| *own = index);
+            Truth::new(surface, Light::Unpolarised).average()[1]
+        };
+        let mirror = of(Index { n: 1.0, k: 1e9 });
+        assert!((mirror - 1.0).abs() < 1e-6, "{mirror}");
+        let glass = of(Index { n: 1.5, k: 0.0 });
+        assert!((glass - 0.0918).abs() < 5e-5, "{glass}");
+    }
 }

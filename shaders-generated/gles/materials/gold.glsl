@@ -9,7 +9,7 @@
 // Truth: reflectance integrated over 380-780 nm in steps of 5 nm, CIE 1931 2 degree observer, D65, linear sRGB,
 //     mirror = 1, clipped to [0, 1]
 // Index per channel, relative to air:
-//   n = (0.17507, 0.406327, 1.578881), k = (16.60976, 2.274419, 1.708002)
+//   n = (0.168201, 0.406327, 1.578881), k = (16.24907, 2.274419, 1.708002)
 //   green, blue as F0 and F82 determine it; red as its curve comes nearest, since no index has both F0 and F82
 // Argument: cos_theta, cosine between the normal and the direction to the light or viewer; clamped to [0, 1]
 // Licence of this file: CC0-1.0
@@ -22,17 +22,17 @@
 //   R_s = (r + c^2 - u) / (r + c^2 + u), x = r c^2 + s^4, s^2 = 1 - c^2, F = R_s x / (x + u s^2)
 // Source: Glassner, "Principles of Digital Image Synthesis", Morgan Kaufmann, 1995.
 //     https://www.realtimerendering.com/Principles_of_Digital_Image_Synthesis_v1.0.1.pdf
-// Model error: at most 0.00470 (at 87.94 degrees), 0.15 % in the mean over angles.
-// Code error: at most 2^-22, unfused f32 against f64.
+// Model error: at most 0.00445 (at 72.47 degrees), 0.15 % in the mean over angles.
+// Code error: not measured for this material.
 // Cost: 61 scalar operations, among them 6 roots, 6 divisions
 highp vec3 fresnel_gold(highp float cos_theta) {
     highp float c = clamp(cos_theta, 0.0, 1.0); // 1 + 1 ulp must not reach what follows
     highp float c2 = c * c;
     highp float s2 = 1.0 - c2; // sin^2 theta
-    highp vec3 tau = vec3(-276.8535, -6.0078807, -1.4244047); // n^2 - k^2 - 1
+    highp vec3 tau = vec3(-265.004, -6.0078807, -1.4244047); // n^2 - k^2 - 1
     highp vec3 t = tau + c2; // n^2 - k^2 - sin^2 theta
-    highp vec3 r = sqrt(t * t + vec3(33.823006, 3.416275, 29.08944)); // a^2 + b^2
-    highp vec3 u = vec3(5.815755, 1.8483168, 5.3934627) * inversesqrt(0.5 * (r - t)) * c;
+    highp vec3 r = sqrt(t * t + vec3(29.87962, 3.416275, 29.08944)); // a^2 + b^2
+    highp vec3 u = vec3(5.466225, 1.8483168, 5.3934627) * inversesqrt(0.5 * (r - t)) * c;
     highp vec3 sum = r + c2;
     highp vec3 r_s_metal = (sum - u) / (sum + u); // R_s where t < 0
     highp vec3 x = r * c2 + s2 * s2;
@@ -44,14 +44,14 @@ highp vec3 fresnel_gold(highp float cos_theta) {
 // Source: Lazanyi, Szirmay-Kalos, "Fresnel Term Approximations for Metals", WSCG Short Papers, 77-80, 2005.
 //     https://hdl.handle.net/11025/11214
 // Model error: at most 0.02231 (at 84.71 degrees), 0.67 % in the mean over angles.
-// Code error: at most 2^-22, unfused f32 against f64.
+// Code error: not measured for this material.
 // Cost: 14 scalar operations
 highp vec3 fresnel_gold_schlick_rescaled(highp float cos_theta) {
     highp float c = clamp(cos_theta, 0.0, 1.0); // 1 + 1 ulp must not reach what follows
     highp float m = 1.0 - c; // 0 at normal incidence, 1 at grazing
     highp float m2 = m * m;
     highp float m5 = m2 * m2 * m;
-    return clamp(vec3(0.9974743, 0.7727076, 0.3399256) + vec3(0.002525677, 0.22729243, 0.6600744) * m5, 0.0, 1.0);
+    return clamp(vec3(0.9974649, 0.7727076, 0.3399256) + vec3(0.002535088, 0.22729243, 0.6600744) * m5, 0.0, 1.0);
 }
 
 // fresnel_gold_schlick_corrected: the rescaled Schlick with a term that restores the minimum of metals,
@@ -61,7 +61,7 @@ highp vec3 fresnel_gold_schlick_rescaled(highp float cos_theta) {
 // Source: Lazanyi, Szirmay-Kalos, "Fresnel Term Approximations for Metals", WSCG Short Papers, 77-80, 2005.
 //     https://hdl.handle.net/11025/11214
 // Model error: at most 0.03915 (at 87.79 degrees), 0.63 % in the mean over angles.
-// Code error: at most 2^-22, unfused f32 against f64.
+// Code error: not measured for this material.
 // Cost: 31 scalar operations, among them 4 exponentials or logarithms
 highp vec3 fresnel_gold_schlick_corrected(highp float cos_theta) {
     highp float c = clamp(cos_theta, 0.0, 1.0); // 1 + 1 ulp must not reach what follows
@@ -69,9 +69,9 @@ highp vec3 fresnel_gold_schlick_corrected(highp float cos_theta) {
     highp float m2 = m * m;
     highp float m5 = m2 * m2 * m;
     // the rescaled Schlick
-    highp vec3 base = vec3(0.9974743, 0.7727076, 0.3399256) + vec3(0.002525677, 0.22729243, 0.6600744) * m5;
-    highp vec3 fall = exp2(vec3(10.031224, 0.0, 20.233997) * log2(max(m, 1.1754944e-38))); // (1 - c)^lambda
-    highp vec3 dip = vec3(0.3501408, 0.81265444, 3.1577618) * (c * fall); // what the minimum takes away
+    highp vec3 base = vec3(0.9974649, 0.7727076, 0.3399256) + vec3(0.002535088, 0.22729243, 0.6600744) * m5;
+    highp vec3 fall = exp2(vec3(9.788061, 0.0, 20.233997) * log2(max(m, 1.1754944e-38))); // (1 - c)^lambda
+    highp vec3 dip = vec3(0.33640233, 0.81265444, 3.1577618) * (c * fall); // what the minimum takes away
     highp vec3 correction = vec3(dip.r, 0.0, dip.b); // none where lambda <= 0
     return clamp(base - correction, 0.0, 1.0);
 }

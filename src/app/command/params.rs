@@ -153,11 +153,8 @@ fn text(told: &Told) -> String {
         ),
         row("F90", params.f90, "at 90 degrees"),
         row("average", params.average, "hemispherical reflectance"),
-        row(
-            "edge tint",
-            params.edge_tint,
-            "Gulbrandsen's g; his r is F0",
-        ),
+        row("reflectivity", params.reflectivity, "Gulbrandsen's r"),
+        row("edge tint", params.edge_tint, "Gulbrandsen's g"),
         row(
             "n",
             params.effective.channels.n,
