@@ -210,10 +210,10 @@ pub struct FilterFlags {
 pub struct ShowFlags {
     /// A name, or the path of a material file, page or table
     pub name: String,
-    /// Draw n, k, reflectance and colour as SVG into this file
+    /// Draw n, k, reflectance and colour as SVG into this file, or `-` for stdout
     #[arg(long, value_name = "FILE")]
     pub svg: Option<PathBuf>,
-    /// Draw them as PNG into this file
+    /// Draw them as PNG into this file, or `-` for stdout
     #[arg(long, value_name = "FILE")]
     pub png: Option<PathBuf>,
     /// What the light comes from: a transparent material's name or file [default: air]
@@ -248,7 +248,7 @@ pub struct ImportFlags {
     /// metal, semiconductor or dielectric [default: guessed from n and k]
     #[arg(long, value_name = "NAME")]
     pub class: Option<String>,
-    /// Write the material file here [default: stdout]
+    /// Write the material file here, or `-` for stdout [default: stdout]
     #[arg(short = 'o', value_name = "FILE")]
     pub output: Option<PathBuf>,
 }

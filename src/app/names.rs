@@ -47,7 +47,7 @@ pub fn nearest(name: &str, all: &[&str]) -> Vec<String> {
 /// A word of a shell's command line.
 pub fn quoted(word: &str) -> String {
     let plain = |c: char| c.is_ascii_alphanumeric() || "_-./".contains(c);
-    if word.chars().all(plain) {
+    if !word.is_empty() && word.chars().all(plain) {
         word.to_owned()
     } else {
         format!("'{}'", word.replace('\'', "'\\''"))

@@ -83,7 +83,8 @@ pub fn read(name: &str) -> Result<String, Error> {
     })
 }
 
-/// The pages below a folder, by their paths in it with `/`, sorted; links are not followed. A file is its own and only
+/// The pages below a folder, by their paths in it with `/`, sorted; links to
+/// folders are not followed. A file is its own and only
 /// page, whose path in itself is empty.
 pub fn pages(folder: &Path) -> Result<Vec<String>, Error> {
     if folder.is_file() {
@@ -103,6 +104,7 @@ pub fn pages(folder: &Path) -> Result<Vec<String>, Error> {
                 continue;
             };
             let kind = entry.file_type().map_err(fail)?;
+            let is_file = kind.is_file() || kind.is_symlink() && entry.path().is_file();
             let place = if below.is_empty() {
                 name.clone()
             } else {
@@ -110,7 +112,7 @@ pub fn pages(folder: &Path) -> Result<Vec<String>, Error> {
             };
             if kind.is_dir() {
                 waiting.push(place);
-            } else if kind.is_file() && is_page(&name) {
+            } else if is_file && is_page(&name) {
                 found.push(place);
             }
         }
@@ -121,7 +123,9 @@ pub fn pages(folder: &Path) -> Result<Vec<String>, Error> {
 
 /// Whether a file of the database is a page: others tell about a book, or list the shelves.
 fn is_page(name: &str) -> bool {
-    name.ends_with(".yml")
+    [".yml", ".yaml"]
+        .iter()
+        .any(|ending| name.ends_with(ending))
         && name != "about.yml"
         && !name.starts_with("catalog-")
         && name != "library.yml"

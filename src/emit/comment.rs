@@ -1,6 +1,8 @@
 //! Comment text that is safe in every language: ASCII, no line longer than a page is wide, none that ends in a
 //! backslash, which would swallow the next line.
 
+use deunicode::deunicode_char;
+
 /// The width that lines are broken at, without the comment's start.
 const WIDTH: usize = 112;
 /// Lines that begin so hold a command, which must stay in one piece to be pasted.
@@ -25,6 +27,7 @@ pub fn lines(lines: Vec<String>) -> Vec<String> {
         .collect()
 }
 
+/// In ASCII: names keep their letters without accents, µm is um.
 fn safe(line: &str) -> String {
     let legal = |c: char| {
         if c == ' ' || c.is_ascii_graphic() {
@@ -33,11 +36,17 @@ fn safe(line: &str) -> String {
             '?'
         }
     };
-    line.chars()
-        .map(legal)
-        .collect::<String>()
-        .trim_end_matches(['\\', ' '])
-        .to_owned()
+    let spelt: String = line.chars().map(spelt).collect();
+    let ascii: String = spelt.chars().map(legal).collect();
+    ascii.trim_end_matches(['\\', ' ']).to_owned()
+}
+
+/// A character by the nearest ones of ASCII.
+fn spelt(c: char) -> String {
+    match deunicode_char(c) {
+        Some(ascii) if !c.is_ascii() => ascii.to_owned(),
+        _ => c.to_string(),
+    }
 }
 
 fn broken(line: &str) -> Vec<String> {
@@ -74,7 +83,7 @@ mod tests {
     fn what_could_escape_from_a_comment_cannot() {
         check("a\nb", &["a?b"]);
         check("ends in \\", &["ends in"]);
-        check("Štetić", &["?teti?"]);
+        check("Štetić, 200 µm", &["Stetic, 200 um"]);
         check("", &[""]);
     }
 

@@ -53,6 +53,8 @@ const MOST_F0: f64 = 0.9;
 const FAINT_K: f64 = 0.01;
 /// Even steps of angle at which curves are compared, 0 and nearly 90 degrees included.
 const ANGLES: usize = 60;
+/// As many where k is 0, so that n alone is searched: past a critical angle there is a cusp to be met.
+const FINE: usize = 720;
 /// Cosines close to grazing, besides: 2⁻ⁱ, where a large k has its minimum.
 const GRAZING: i32 = 14;
 /// Even steps of n and of k before a golden section, its sections, and its ratio: (√5 - 1)/2.
@@ -70,7 +72,7 @@ pub fn effective(truth: &Truth, kind: Kind) -> Effective {
         };
     }
     let transparent = kind == Kind::Dielectric && truth.surface.most_k() < FAINT_K;
-    let curve = curve(truth);
+    let curve = curve(truth, if transparent { FINE } else { ANGLES });
     let at = |c: f64| seen(&truth.surface, Light::Unpolarised, c);
     let (f0, f82) = (at(1.0), at(COS_82));
     let each = [0, 1, 2].map(|i| {
@@ -98,8 +100,8 @@ pub fn effective(truth: &Truth, kind: Kind) -> Effective {
 
 /// Cosines and what is seen there, between 0 and 1: no index reflects more than all, so that of saturated gold's red the
 /// part below 1 is what an index can follow.
-fn curve(truth: &Truth) -> Vec<(f64, [f64; 3])> {
-    let even = (0..ANGLES).map(|i| i as f64 / ANGLES as f64 * std::f64::consts::FRAC_PI_2);
+fn curve(truth: &Truth, angles: usize) -> Vec<(f64, [f64; 3])> {
+    let even = (0..angles).map(|i| i as f64 / angles as f64 * std::f64::consts::FRAC_PI_2);
     let grazing = (2..GRAZING).map(|i| libm::exp2(-f64::from(i)));
     let cosines = even.map(libm::cos).chain(grazing);
     cosines
@@ -193,7 +195,7 @@ mod tests {
             let (truth, kind) = truth(name);
             let found = effective(&truth, kind);
             assert_eq!(found.by[channel], By::Nearest, "{name}");
-            let curve: Vec<(f64, f64)> = curve(&truth)
+            let curve: Vec<(f64, f64)> = curve(&truth, ANGLES)
                 .iter()
                 .map(|(c, r)| (*c, r[channel]))
                 .collect();

@@ -150,6 +150,58 @@ impl Material {
     }
 }
 
+impl Material {
+    /// What in its numbers a material file does not allow, if anything.
+    pub fn limits_fault(&self) -> Option<String> {
+        let curve = |curve: &Curve, column| match curve {
+            Curve::Table(points) => points.iter().find_map(|point| point_fault(point, column)),
+            Curve::Formula(formula) => formula_fault(formula),
+        };
+        curve(&self.n, N).or_else(|| curve(self.k.as_ref()?, K))
+    }
+}
+
+fn point_fault(point: &Point, (name, low, high): Column) -> Option<String> {
+    let (_, shortest, longest) = NM;
+    if !(shortest..=longest).contains(&point.nm) {
+        return Some(format!(
+            "a wavelength is {:e} nm; it must lie between {shortest} and {longest}",
+            point.nm
+        ));
+    }
+    let fault = || {
+        format!(
+            "{name} is {:e} at {} nm; it must lie between {low} and {high}",
+            point.value, point.nm
+        )
+    };
+    (!(low..=high).contains(&point.value)).then(fault)
+}
+
+fn formula_fault(formula: &Formula) -> Option<String> {
+    let (_, low, high) = NM;
+    let Formula {
+        number,
+        coefficients,
+        from_nm,
+        to_nm,
+    } = formula;
+    if !NUMBERS.contains(number) {
+        Some(format!("there is no formula {number}; there are 1 to 9"))
+    } else if !(low <= *from_nm && from_nm < to_nm && *to_nm <= high) {
+        Some(format!(
+            "the range of a formula must ascend between {low} and {high} nm"
+        ))
+    } else if coefficients.len() > MOST_COEFFICIENTS || coefficients.iter().any(|c| !c.is_finite())
+    {
+        Some(format!(
+            "coefficients must be finite, and at most {MOST_COEFFICIENTS}"
+        ))
+    } else {
+        None
+    }
+}
+
 fn check_name(field: &str, name: &Spanned<String>, place: &Place) -> Result<(), Fault> {
     match name_fault(name.get_ref()) {
         None => Ok(()),
@@ -184,6 +236,7 @@ fn curves(raw: &Raw, place: &Place) -> Result<(Curve, Option<Curve>), Fault> {
             1,
         )))
     };
+    let k = || raw.k.as_ref().map(|k| table(k, "k", K)).transpose();
     match (&raw.data, &raw.n, &raw.n_formula) {
         (Some(data), None, None) if raw.k.is_none() => {
             let rows = place.rows(data, "data", &[NM, N, K])?;
@@ -192,13 +245,8 @@ fn curves(raw: &Raw, place: &Place) -> Result<(Curve, Option<Curve>), Fault> {
                 Some(Curve::Table(pick(&rows, 2))),
             ))
         }
-        (None, n, formula) if n.is_some() != formula.is_some() => {
-            let n = match (n, formula) {
-                (Some(n), _) => table(n, "n", N)?,
-                (None, formula) => Curve::Formula(place.formula(formula.as_ref())?),
-            };
-            Ok((n, raw.k.as_ref().map(|k| table(k, "k", K)).transpose()?))
-        }
+        (None, Some(n), None) => Ok((table(n, "n", N)?, k()?)),
+        (None, None, Some(formula)) => Ok((Curve::Formula(place.formula(formula)?), k()?)),
         _ => {
             let what = "the index is wanted once: `data` alone, or one of `n` and `n_formula`, with `k` where it absorbs";
             Err(place.fault(0, what.to_owned()))
@@ -267,28 +315,18 @@ impl Place<'_> {
     }
 
     /// A formula whose numbers are all there.
-    fn formula(&self, raw: Option<&Spanned<RawFormula>>) -> Result<Formula, Fault> {
-        let raw = raw.expect("`curves` has seen that there is a formula");
+    fn formula(&self, raw: &Spanned<RawFormula>) -> Result<Formula, Fault> {
         let fields = raw.get_ref();
-        let (_, low, high) = NM;
-        let what = if !NUMBERS.contains(&fields.number) {
-            format!("there is no formula {}; there are 1 to 9", fields.number)
-        } else if !(low <= fields.from_nm && fields.from_nm < fields.to_nm && fields.to_nm <= high)
-        {
-            format!("the range must ascend between {low} and {high} nm")
-        } else if fields.coefficients.len() > MOST_COEFFICIENTS
-            || fields.coefficients.iter().any(|c| !c.is_finite())
-        {
-            format!("the coefficients must be finite, and at most {MOST_COEFFICIENTS}")
-        } else {
-            return Ok(Formula {
-                number: fields.number,
-                coefficients: fields.coefficients.clone(),
-                from_nm: fields.from_nm,
-                to_nm: fields.to_nm,
-            });
+        let formula = Formula {
+            number: fields.number,
+            coefficients: fields.coefficients.clone(),
+            from_nm: fields.from_nm,
+            to_nm: fields.to_nm,
         };
-        Err(self.fault(raw.span().start, format!("field `n_formula`: {what}")))
+        match formula_fault(&formula) {
+            None => Ok(formula),
+            Some(what) => Err(self.fault(raw.span().start, format!("field `n_formula`: {what}"))),
+        }
     }
 
     /// Three wavelengths in their limits.

@@ -94,6 +94,7 @@ impl Surface {
             .iter()
             .map(index)
             .collect::<Result<_, String>>();
+        let held_nm = held(material, medium, &integrator.wavelengths);
         let gamut = if three.is_some() {
             Gamut::Keep
         } else {
@@ -102,9 +103,9 @@ impl Surface {
         Ok(Surface {
             indices: indices.map_err(|why| Unseen {
                 why,
-                advice: advice(material, sight),
+                advice: advice(held_nm, three.is_some()),
             })?,
-            held_nm: held(material, medium, &integrator.wavelengths),
+            held_nm,
             integrator,
             gamut,
             seen: match three {
@@ -190,16 +191,16 @@ fn three_in_words([red, green, blue]: [f64; 3]) -> String {
     format!("reflectance at {red}, {green} and {blue} nm for red, green and blue")
 }
 
-/// What to do about a material that is not known everywhere.
-fn advice(material: &Material, sight: &Sight) -> String {
-    let (from, to) = material.range_nm();
-    if sight.wavelengths_nm.is_some() {
-        format!("; to hold the last value beyond {from} to {to} nm, add --extrapolate hold")
-    } else {
-        format!(
-            ". The whole spectrum means {FIRST_NM} to {LAST_NM} nm; to hold the last value beyond {from} to {to} nm, \
-             add --extrapolate hold; to take three wavelengths instead, add --wavelengths 685,535,475 or others inside"
-        )
+/// What to do about a material, or a medium, that is not known everywhere: nothing where the fault lies elsewhere.
+fn advice(held: (Option<f64>, Option<f64>), three: bool) -> String {
+    let hold = "to hold the last value beyond what was measured, add --extrapolate hold";
+    match (held, three) {
+        ((None, None), _) => String::new(),
+        (_, true) => format!("; {hold}"),
+        (_, false) => format!(
+            ". The whole spectrum means {FIRST_NM} to {LAST_NM} nm; {hold}; to take three wavelengths instead, add \
+             --wavelengths 685,535,475 or others inside"
+        ),
     }
 }
 

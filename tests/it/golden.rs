@@ -1,14 +1,31 @@
 //! Is `shaders-generated/` what the program writes today? The set of files, orphans included.
 
+use std::collections::BTreeSet;
 use std::path::Path;
 
 use fresnel_gen::app::{Request, check, generate, tree, write};
 use fresnel_gen::methods;
 
+/// All files below a folder, as paths in it.
+fn files(folder: &Path, below: &str, found: &mut BTreeSet<String>) {
+    for entry in std::fs::read_dir(folder.join(below)).into_iter().flatten() {
+        let entry = entry.expect("readable");
+        let name = format!("{below}{}", entry.file_name().to_string_lossy());
+        if entry.path().is_dir() {
+            files(folder, &format!("{name}/"), found);
+        } else {
+            found.insert(name);
+        }
+    }
+}
+
 #[test]
-fn the_committed_tree_is_what_a_run_writes() {
+fn the_committed_tree_is_what_a_run_into_an_empty_folder_writes() {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("shaders-generated");
     let generated = generate(&Request::default()).expect("the catalogue generates");
+    if super::bless::is_on() {
+        std::fs::remove_dir_all(&folder).expect("it is there");
+    }
     let plan = tree::plan(
         &folder,
         &generated.artifacts,
@@ -22,6 +39,17 @@ fn the_committed_tree_is_what_a_run_writes() {
     }
     let (report, drift) = check::report(&plan);
     assert!(!drift, "{report}\nBLESS=1 cargo test rewrites it");
+    let mut found = BTreeSet::new();
+    files(&folder, "", &mut found);
+    let paths = generated
+        .artifacts
+        .iter()
+        .map(|artifact| artifact.path.clone());
+    let wanted: BTreeSet<String> = paths.chain(["manifest.json".to_owned()]).collect();
+    assert_eq!(
+        found, wanted,
+        "a file too many, which BLESS=1 cargo test removes"
+    );
 }
 
 #[test]

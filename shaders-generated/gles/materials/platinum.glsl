@@ -3,7 +3,7 @@
 // Regenerate: fresnel-gen --target gles --material platinum
 //
 // platinum: Platinum, Rakic's Brendel-Bormann model
-// Data: A. D. Raki?, A. B. Djuri?ic, J. M. Elazar, M. L. Majewski. Optical properties of metallic films for
+// Data: A. D. Rakic, A. B. Djurisic, J. M. Elazar, M. L. Majewski. Optical properties of metallic films for
 //     vertical-cavity optoelectronic devices. Appl. Opt. 37, 5271-5283 (1998) [Calculation script (Python)].
 //     https://doi.org/10.1364/AO.37.005271. Licence CC0-1.0
 // Truth: reflectance integrated over 380-780 nm in steps of 5 nm, CIE 1931 2 degree observer, D65, linear sRGB,

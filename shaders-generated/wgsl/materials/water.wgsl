@@ -3,7 +3,7 @@
 // Regenerate: fresnel-gen --target wgsl --material water
 //
 // water: Water, liquid, Hale and Querry
-// Data: G. M. Hale and M. R. Querry. Optical constants of water in the 200-nm to 200-?m wavelength region. Appl.
+// Data: G. M. Hale and M. R. Querry. Optical constants of water in the 200-nm to 200-um wavelength region. Appl.
 //     Opt. 12, 555-563 (1973) See also Segelstein 1981 for more recent data from the same group..
 //     https://doi.org/10.1364/AO.12.000555. Licence CC0-1.0
 // Conditions: temperature: 298

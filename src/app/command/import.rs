@@ -1,5 +1,7 @@
 //! `materials import`: a page or table becomes a material file.
 
+use std::path::Path;
+
 use crate::app::args::ImportFlags;
 use crate::app::error::Error;
 use crate::app::source::read;
@@ -25,16 +27,18 @@ pub fn run(flags: &ImportFlags) -> Result<Output, Error> {
     let mut output = Output::default();
     let material = visible(&whole, &mut output);
     let toml = material.to_toml();
-    // What the page holds may be more than a material file allows: an index of 0, say.
-    Material::parse(&format!("the material file of {}", flags.page), &toml)?;
+    if let Some(what) = material.limits_fault() {
+        let what = format!("{}: no material file can hold this: {what}", flags.page);
+        return Err(Error::Usage { what });
+    }
     if !material.note.is_empty() {
         output
             .remarks
             .push(format!("{}: {}", material.name, material.note));
     }
     match &flags.output {
-        None => output.stdout = toml.into_bytes(),
-        Some(file) => drop(write_file(file, toml.as_bytes())?),
+        Some(file) if file != Path::new("-") => drop(write_file(file, toml.as_bytes())?),
+        _ => output.stdout = toml.into_bytes(),
     }
     Ok(output)
 }

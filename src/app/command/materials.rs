@@ -117,6 +117,7 @@ fn json_row(m: &Material) -> Value {
 }
 
 fn shown(flags: &ShowFlags, json: Option<&Path>) -> Result<Output, Error> {
+    check_places(flags, json)?;
     let loaded = load(&source(&flags.name)?)?;
     let mut output = report(text(&loaded.material), &json_of(&loaded.material), json)?;
     drawn(flags, &loaded, &mut output)?;
@@ -138,19 +139,45 @@ fn drawn(flags: &ShowFlags, loaded: &Loaded, output: &mut Output) -> Result<(), 
         &command(loaded, medium.as_ref(), &sight),
     )
     .map_err(|what| Error::Usage { what })?;
-    let mut put = |file: &Path, bytes: &[u8]| -> Result<(), Error> {
-        write_file(file, bytes)?;
-        output.remarks.push(format!("{}: drawn", file.display()));
-        Ok(())
-    };
-    if let Some(file) = &flags.svg {
-        put(file, svg.as_bytes())?;
-    }
-    if let Some(file) = &flags.png {
-        let bytes = png(&svg, PNG_SCALE).map_err(|what| Error::Usage { what })?;
-        put(file, &bytes)?;
+    let bytes = flags.png.as_ref().map(|_| png(&svg, PNG_SCALE)).transpose();
+    let bytes = bytes.map_err(|what| Error::Usage { what })?;
+    let pictures = [(&flags.svg, Some(svg.into_bytes())), (&flags.png, bytes)];
+    for (file, bytes) in pictures {
+        if let (Some(file), Some(bytes)) = (file, bytes) {
+            put(file, bytes, output)?;
+        }
     }
     Ok(())
+}
+
+/// Into a file, or to stdout in place of the text.
+fn put(file: &Path, bytes: Vec<u8>, output: &mut Output) -> Result<(), Error> {
+    if file == Path::new("-") {
+        output.stdout = bytes;
+    } else {
+        write_file(file, &bytes)?;
+        output.remarks.push(format!("{}: drawn", file.display()));
+    }
+    Ok(())
+}
+
+/// What goes to stdout goes there alone, and two pictures want two files.
+fn check_places(flags: &ShowFlags, json: Option<&Path>) -> Result<(), Error> {
+    let places = [flags.svg.as_deref(), flags.png.as_deref(), json];
+    let given: Vec<&Path> = places.into_iter().flatten().collect();
+    let twice = given
+        .iter()
+        .enumerate()
+        .find(|(i, place)| given[..*i].contains(place));
+    match twice {
+        None => Ok(()),
+        Some((_, place)) => Err(Error::Usage {
+            what: format!(
+                "--svg, --png and --json want different places, and `{}` is named twice",
+                place.display()
+            ),
+        }),
+    }
 }
 
 /// Pixels of a PNG for one of the SVG: sharp on today's screens.

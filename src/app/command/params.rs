@@ -42,6 +42,15 @@ pub fn run(flags: &ParamsFlags, json: Option<&std::path::Path>) -> Result<Output
 }
 
 fn told(material: Material, medium: Option<Material>, sight: Sight) -> Result<Told, Error> {
+    // What is known at three wavelengths is compared with others at the same.
+    let own = [Some(&material), medium.as_ref()]
+        .into_iter()
+        .flatten()
+        .find_map(|m| m.rgb_nm);
+    let sight = Sight {
+        wavelengths_nm: sight.wavelengths_nm.or(own),
+        ..sight
+    };
     let surface = Surface::new(&material, medium.as_ref(), &sight)?;
     let colour_errors = colour_errors(&surface, &sight.integration);
     Ok(Told {
@@ -103,7 +112,7 @@ fn object(told: &Told) -> Value {
         "n": params.effective.channels.n, "k": params.effective.channels.k, "nk_by": params.effective.by.map(By::text),
         "average": params.average, "ior_d": ior_d(&told.material), "abbe": dispersion(&told.material),
     });
-    if told.sight.wavelengths_nm.or(told.material.rgb_nm).is_some() {
+    if told.sight.wavelengths_nm.is_some() {
         for key in ["space", "illuminant", "observer", "adaptation", "step_nm"] {
             object[key] = Value::Null;
         }

@@ -6,7 +6,7 @@ use serde_json::{Value, json};
 
 use crate::app::args::SurveyFlags;
 use crate::app::error::Error;
-use crate::app::sight::sight;
+use crate::app::sight::{flags as sight_flags, sight};
 use crate::app::source::{pages, read};
 use crate::materials::Sight;
 use crate::report::survey::{Outcome, Surveyed, survey, text};
@@ -29,26 +29,31 @@ pub fn run(flags: &SurveyFlags, json: Option<&Path>, progress: Progress) -> Resu
     let mut all: Vec<Surveyed> = Vec::with_capacity(files.len());
     for (done, file) in files.iter().enumerate() {
         progress(done as u64, files.len() as u64, "pages");
-        all.push(surveyed(&flags.folder, file, &sight)?);
+        all.push(surveyed(&flags.folder, file, &sight));
     }
     let rows: Vec<Value> = all.iter().map(Surveyed::json).collect();
-    let full = json!({ "tool": "fresnel-gen", "command": "materials survey", "device": null, "rows": rows });
+    let full = json!({ "tool": "fresnel-gen", "command": format!("materials survey{}", sight_flags(&sight)), "device": null, "rows": rows });
     report(text(&all), &full, json)
 }
 
-/// A page by its name below the folder, so that no report depends on where that lies.
-fn surveyed(folder: &Path, file: &str, sight: &Sight) -> Result<Surveyed, Error> {
+/// A page by its name below the folder, so that no report depends on where that lies. One that cannot be read is refused as
+/// one that cannot be understood is.
+fn surveyed(folder: &Path, file: &str, sight: &Sight) -> Surveyed {
     let (path, named) = if file.is_empty() {
         (folder.to_owned(), folder.display().to_string())
     } else {
         (folder.join(file), file.to_owned())
     };
     match read(&path.display().to_string()) {
-        Ok(text) => Ok(survey(&named, &text, sight)),
-        Err(Error::Material(fault)) => Ok(Surveyed {
-            file: named,
-            outcome: Outcome::Refused(format!("line {}: {}", fault.line, fault.what)),
-        }),
-        Err(other) => Err(other),
+        Ok(text) => survey(&named, &text, sight),
+        Err(Error::Input { source, .. }) => refused(named, format!("cannot read it: {source}")),
+        Err(other) => refused(named, other.to_string()),
+    }
+}
+
+fn refused(file: String, why: String) -> Surveyed {
+    Surveyed {
+        file,
+        outcome: Outcome::Refused(why),
     }
 }
