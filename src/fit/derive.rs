@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use crate::materials::Channels;
 use crate::methods::{Method, Values};
-use crate::optics;
+use crate::optics::{self, COS_82};
 
 use super::lambda::{THESIS_MATCHING_COS, lambda_for};
 
@@ -23,8 +23,6 @@ impl Default for Derivation {
     }
 }
 
-/// cos θ of the second colour of F82 and its relatives: 1/7, where c (1-c)⁶ has its maximum.
-pub const COS_82: f64 = 1.0 / 7.0;
 /// cos θ at which the empirical term meets the exact law: 60 degrees.
 const COS_60: f64 = 0.5;
 

@@ -6,9 +6,8 @@
 
 use crate::materials::{Channels, Index, Kind};
 use crate::methods::Light;
-use crate::optics::{self, index_from_f0_f82};
+use crate::optics::{self, COS_82, index_from_f0_f82};
 
-use super::derive::COS_82;
 use super::model_error::{Truth, seen};
 
 /// The index per channel, and how it was come by.

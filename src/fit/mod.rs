@@ -11,7 +11,7 @@ mod model_error;
 mod over;
 mod params;
 
-pub use derive::{COS_82, Derivation, Known, values, values_of};
+pub use derive::{Derivation, Known, values, values_of};
 pub use effective::{By, Effective, effective};
 pub use lambda::{THESIS_MATCHING_COS, lambda};
 pub use measured::Measured;

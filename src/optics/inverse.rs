@@ -20,14 +20,10 @@
 //! the nearest F0, with `exact` false. Error: F0 is met within 1e-14 and F82 within 1e-12. F82 is even in φ, hence flat
 //! at the dielectric end: there an error ε of F82 moves k by about √ε (glass may come back with k = 1e-8).
 
-use super::conductor;
+use super::{COS_82, conductor};
 
 /// F0 is limited to this: at 1 the circle is the line n = 0, and no index but an infinite one has F82 < 1.
 pub const LARGEST_F0: f64 = 0.999_999;
-
-/// The angle at which the second colour is given, about 82 degrees: cos θ = 1/7 is where the correction of Schlick's
-/// approximation, cos θ (1 − cos θ)⁶, is largest (Hoffman 2019).
-const COS_82: f64 = 1.0 / 7.0;
 
 /// Given colours are met when F82 differs by no more.
 const EXACT_WITHIN: f64 = 1e-12;

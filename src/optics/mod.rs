@@ -14,6 +14,19 @@ pub use inverse::{EffectiveIndex, LARGEST_F0, index_from_f0_f82};
 
 use crate::num::Num;
 
+/// The angle of the second colour of a metal, about 81.79 degrees: cos θ = 1/7 is where the correction of Schlick's
+/// approximation, cos θ (1 − cos θ)⁶, is largest (Hoffman 2019, <https://doi.org/10.2312/mam.20191305>).
+pub const COS_82: f64 = 1.0 / 7.0;
+
+/// The cosine of an angle in degrees, exactly 0 at 90.
+pub fn cosine(degrees: f64) -> f64 {
+    if degrees == 90.0 {
+        0.0
+    } else {
+        libm::cos(degrees.to_radians())
+    }
+}
+
 /// The reflected share of the power, for the two linear polarisations.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Reflectance<N> {

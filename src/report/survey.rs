@@ -4,8 +4,9 @@ use std::collections::BTreeMap;
 
 use serde_json::{Value, json};
 
-use crate::fit::{COS_82, ior_d};
+use crate::fit::ior_d;
 use crate::materials::{Curve, Extrapolate, Material, Page, Sight, Surface};
+use crate::optics::{COS_82, cosine};
 
 /// Angles at which each surface is seen: every degree from 0 to 90.
 pub const ANGLES: usize = 91;
@@ -93,14 +94,10 @@ fn about(page: &Page, material: &Material) -> Result<About, String> {
 }
 
 fn colours(surface: &Surface) -> Colours {
-    let cosine = |degree: usize| match degree {
-        90 => 0.0,
-        _ => libm::cos((degree as f64).to_radians()),
-    };
     Colours {
         held: surface.held(),
         by_degree: (0..ANGLES)
-            .map(|degree| surface.unpolarised(cosine(degree)).to_array())
+            .map(|degree| surface.unpolarised(cosine(degree as f64)).to_array())
             .collect(),
         f82: surface.unpolarised(COS_82).to_array(),
     }
@@ -114,6 +111,7 @@ impl Surveyed {
             Outcome::Seen(about, colours) => {
                 row["f0"] = json!(colours.by_degree[0]);
                 row["f82"] = json!(colours.f82);
+                row["by_degree"] = json!(colours.by_degree);
                 row["extrapolated"] = json!(colours.held);
                 ("seen", Some(about))
             }

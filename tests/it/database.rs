@@ -7,7 +7,10 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::OnceLock;
 
-use fresnel_gen::materials::{Curve, Extrapolate, Fault, Material, Page};
+use fresnel_gen::app::source;
+use fresnel_gen::materials::{Curve, Extrapolate, Fault, Material, Page, Sight};
+use fresnel_gen::report::survey::{Outcome, survey};
+use fresnel_gen::spectra::Gamut;
 
 /// A page by its path from its shelf on, and what became of it.
 struct Read {
@@ -15,13 +18,14 @@ struct Read {
     page: Result<Page, Fault>,
 }
 
+fn root() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("target/refractiveindex")
+}
+
 /// Every page of the database, or nothing where it is not there.
 fn pages() -> Option<&'static [Read]> {
     static PAGES: OnceLock<Option<Vec<Read>>> = OnceLock::new();
-    let pages = PAGES.get_or_init(|| {
-        let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("target/refractiveindex");
-        Some(read_all(&data_folder(&root, 6)?))
-    });
+    let pages = PAGES.get_or_init(|| Some(read_all(&data_folder(&root(), 6)?)));
     if pages.is_none() {
         super::not_checked(
             "the reader against the refractiveindex.info database, which is not there; get it with: \
@@ -33,17 +37,13 @@ fn pages() -> Option<&'static [Read]> {
 }
 
 fn read_all(data: &Path) -> Vec<Read> {
-    let mut files = Vec::new();
-    visit(data, &mut files);
-    files.sort();
-    let read = |file: &PathBuf| {
-        let path = file.strip_prefix(data).expect("it lies there");
-        let path = path.display().to_string().replace('\\', "/");
-        let text = fs::read_to_string(file).expect("a page in UTF-8");
+    let read = |path: String| {
+        let text = fs::read_to_string(data.join(&path)).expect("a page in UTF-8");
         let page = Page::parse(&path, &text);
         Read { path, page }
     };
-    files.iter().map(read).collect()
+    let files = source::pages(data).expect("a folder of the database");
+    files.into_iter().map(read).collect()
 }
 
 /// The first folder `database/data` in another.
@@ -59,19 +59,6 @@ fn data_folder(folder: &Path, depth: usize) -> Option<PathBuf> {
         .collect();
     inner.sort();
     inner.iter().find_map(|path| data_folder(path, depth - 1))
-}
-
-fn visit(folder: &Path, files: &mut Vec<PathBuf>) {
-    for entry in fs::read_dir(folder).expect("a folder of the database") {
-        let path = entry.expect("readable").path();
-        if path.is_dir() {
-            visit(&path, files);
-        } else if path.extension().is_some_and(|extension| extension == "yml")
-            && !path.ends_with("about.yml")
-        {
-            files.push(path);
-        }
-    }
 }
 
 /// The pages that can be materials, as such.
@@ -261,4 +248,43 @@ fn every_material_has_its_own_name() {
             panic!("{} and {other} are both {}", read.path, material.name);
         }
     }
+}
+
+/// What `materials survey` does: every page is seen, or it is said why not.
+#[test]
+fn every_page_is_seen_at_all_angles_or_it_is_said_why_not() {
+    let Some(data) = data_folder(&root(), 6) else {
+        return;
+    };
+    let sight = Sight {
+        gamut: Gamut::Keep,
+        ..Sight::default()
+    };
+    let mut counts = [0; 3];
+    for file in source::pages(&data).expect("a folder of the database") {
+        let text = fs::read_to_string(data.join(&file)).expect("a page in UTF-8");
+        match survey(&file, &text, &sight).outcome {
+            Outcome::Seen(_, colours) => {
+                let all = colours.by_degree.iter().flatten();
+                assert!(
+                    all.into_iter().all(|colour| (-0.2..1.2).contains(colour)),
+                    "{file}"
+                );
+                assert_eq!(colours.by_degree.len(), 91);
+                counts[0] += 1;
+            }
+            Outcome::Elsewhere(_, why) => {
+                assert!(why.contains("is known from"), "{file}: {why}");
+                counts[1] += 1;
+            }
+            Outcome::Refused(why) => {
+                assert!(
+                    why.contains("n2") || why.contains("k only"),
+                    "{file}: {why}"
+                );
+                counts[2] += 1;
+            }
+        }
+    }
+    assert_eq!(counts, [2044, 1322, 240]);
 }

@@ -5,6 +5,7 @@ use std::collections::BTreeMap;
 
 use fresnel_gen::fit::{self, Known};
 use fresnel_gen::materials::{self, Channels, Kind, Material, Sight, Surface, THESIS_NM};
+use fresnel_gen::optics::cosine;
 use fresnel_gen::spectra::{Adaptation, Gamut, Illuminant, Integration, Step};
 
 /// The catalogue by page, without `.yml`.
@@ -55,11 +56,7 @@ fn worst(integration: Integration, first: usize) -> f64 {
         let surface =
             Surface::new(&pages[page], None, &sight).expect("known over the whole spectrum");
         let degrees = numbers[0];
-        let cos_theta = if degrees == 90.0 {
-            0.0
-        } else {
-            degrees.to_radians().cos()
-        };
+        let cos_theta = cosine(degrees);
         let got = surface.unpolarised(cos_theta).to_array();
         for (got, want) in got.iter().zip(&numbers[first..first + 3]) {
             worst = worst.max((got - want).abs());
@@ -175,11 +172,7 @@ fn the_index_per_channel_stands_for_the_spectrum() {
             assert!(met, "{}: {known:?}", material.name);
         }
         let apart = (0..=90).flat_map(|degree| {
-            let cos_theta = if degree == 90 {
-                0.0
-            } else {
-                f64::from(degree).to_radians().cos()
-            };
+            let cos_theta = cosine(f64::from(degree));
             let law = Surface::of_channels(&effective.channels)
                 .unpolarised(cos_theta)
                 .to_array();

@@ -2,6 +2,7 @@
 
 use glam::DVec3;
 
+pub use crate::optics::cosine;
 use crate::report::chart::{Axis, Chart, Look, Series, Style, ticks};
 
 use super::{Subject, axis};
@@ -59,14 +60,6 @@ pub(super) fn chart(subject: &Subject) -> Chart {
         marks: Vec::new(),
         foot: String::new(),
     }
-}
-
-/// The cosine of an angle in degrees; none of the rounding of π at 90.
-pub fn cosine(degrees: f64) -> f64 {
-    if degrees == 90.0 {
-        return 0.0;
-    }
-    libm::cos(degrees.to_radians())
 }
 
 fn subtitle(series: &[Series]) -> String {

@@ -1,18 +1,10 @@
 //! Angles in degrees, as the thesis draws and names them, and what curves do over them.
 
+pub use crate::optics::cosine;
 use crate::optics::{self, Reflectance};
 
 /// Steps of a degree in which minima and largest differences are looked for: the thesis names angles to 0.01 degrees.
 const STEPS: u32 = 100;
-
-/// The cosine of an angle, exactly 0 at 90 degrees.
-pub fn cosine(degrees: f64) -> f64 {
-    if degrees == 90.0 {
-        0.0
-    } else {
-        libm::cos(degrees.to_radians())
-    }
-}
 
 /// The exact law at an angle.
 pub fn exact([n, k]: [f64; 2], degrees: f64) -> Reflectance<f64> {
