@@ -179,12 +179,10 @@ impl Line<'_> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::materials::{Curve, Point};
+    use crate::materials::Curve;
 
     fn table(points: &[(f64, f64)]) -> Option<Curve> {
-        let point = |&(nm, value): &(f64, f64)| Point { nm, value };
-        let points: Vec<Point> = points.iter().map(point).collect();
-        (!points.is_empty()).then_some(Curve::Table(points))
+        Curve::table(points.to_vec())
     }
 
     #[track_caller]

@@ -1,23 +1,15 @@
 //! How n and k depend on the wavelength: a table with straight lines between its points, or a formula.
 
 use super::formula::Formula;
+use crate::spectra::Spectrum;
 
 /// n(λ) or k(λ).
 #[derive(Clone, Debug, PartialEq)]
 pub enum Curve {
-    /// Measured points by ascending wavelength, each wavelength once, at least one; linear between them.
-    Table(Vec<Point>),
+    /// Measured points by wavelength in nm; linear between them.
+    Table(Spectrum<f64>),
     /// A fitted formula.
     Formula(Formula),
-}
-
-/// A measured point.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Point {
-    /// Vacuum wavelength in nanometres.
-    pub nm: f64,
-    /// n or k there.
-    pub value: f64,
 }
 
 /// What is done beyond the measured range.
@@ -34,10 +26,15 @@ pub enum Extrapolate {
 const END: f64 = 1e-9;
 
 impl Curve {
+    /// A table of pairs of wavelength in nm and value; none where they do not ascend.
+    pub fn table(points: Vec<(f64, f64)>) -> Option<Curve> {
+        Spectrum::new(points).map(Curve::Table)
+    }
+
     /// The shortest and the longest wavelength, in nanometres.
     pub fn range_nm(&self) -> (f64, f64) {
         match self {
-            Curve::Table(points) => (points[0].nm, points[points.len() - 1].nm),
+            Curve::Table(table) => table.range(),
             Curve::Formula(formula) => (formula.from_nm, formula.to_nm),
         }
     }
@@ -51,7 +48,7 @@ impl Curve {
     /// The wavelengths of its measured points; none for a formula.
     pub fn measured_nm(&self) -> Vec<f64> {
         match self {
-            Curve::Table(points) => points.iter().map(|point| point.nm).collect(),
+            Curve::Table(table) => table.points().iter().map(|(nm, _)| *nm).collect(),
             Curve::Formula(_) => Vec::new(),
         }
     }
@@ -67,7 +64,9 @@ impl Curve {
         // Not `clamp`, which panics where the range is empty: a file's range is checked, a value made in Rust is not.
         let inside = nm.max(from).min(to);
         match self {
-            Curve::Table(points) => Ok(between(points, inside)),
+            Curve::Table(table) => table
+                .at(inside)
+                .ok_or_else(|| format!("has no value at {nm} nm")),
             Curve::Formula(formula) => formula
                 .n(inside)
                 .map_err(|why| format!("has no value at {nm} nm: {why}")),
@@ -75,27 +74,12 @@ impl Curve {
     }
 }
 
-/// Linear between the points; `nm` lies inside the table.
-fn between(points: &[Point], nm: f64) -> f64 {
-    let after = points.partition_point(|point| point.nm < nm);
-    let Some(high) = points.get(after) else {
-        return points[points.len() - 1].value;
-    };
-    if high.nm == nm || after == 0 {
-        return high.value;
-    }
-    let low = points[after - 1];
-    let share = (nm - low.nm) / (high.nm - low.nm);
-    low.value + (high.value - low.value) * share
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
 
     fn table() -> Curve {
-        let point = |(nm, value)| Point { nm, value };
-        Curve::Table([(400.0, 1.0), (500.0, 3.0)].map(point).to_vec())
+        Curve::table(vec![(400.0, 1.0), (500.0, 3.0)]).expect("it ascends")
     }
 
     #[test]
@@ -117,18 +101,8 @@ mod tests {
 
     #[test]
     fn one_point_is_a_range_of_its_own() {
-        let point = Point {
-            nm: 589.0,
-            value: 1.5,
-        };
-        assert_eq!(
-            Curve::Table(vec![point]).at(589.0, Extrapolate::Refuse),
-            Ok(1.5)
-        );
-        assert!(
-            Curve::Table(vec![point])
-                .at(590.0, Extrapolate::Refuse)
-                .is_err()
-        );
+        let one = Curve::table(vec![(589.0, 1.5)]).expect("it ascends");
+        assert_eq!(one.at(589.0, Extrapolate::Refuse), Ok(1.5));
+        assert!(one.at(590.0, Extrapolate::Refuse).is_err());
     }
 }

@@ -29,7 +29,7 @@ use toml::Spanned;
 
 use crate::ir::identifier_fault;
 
-use super::dispersion::{Curve, Point};
+use super::dispersion::Curve;
 use super::formula::{Formula, NUMBERS};
 use super::material::{Kind, Material};
 pub use crate::spectra::Fault;
@@ -154,28 +154,25 @@ impl Material {
     /// What in its numbers a material file does not allow, if anything.
     pub fn limits_fault(&self) -> Option<String> {
         let curve = |curve: &Curve, column| match curve {
-            Curve::Table(points) => points.iter().find_map(|point| point_fault(point, column)),
+            Curve::Table(table) => table
+                .points()
+                .iter()
+                .find_map(|point| point_fault(*point, column)),
             Curve::Formula(formula) => formula_fault(formula),
         };
         curve(&self.n, N).or_else(|| curve(self.k.as_ref()?, K))
     }
 }
 
-fn point_fault(point: &Point, (name, low, high): Column) -> Option<String> {
+fn point_fault((nm, value): (f64, f64), (name, low, high): Column) -> Option<String> {
     let (_, shortest, longest) = NM;
-    if !(shortest..=longest).contains(&point.nm) {
+    if !(shortest..=longest).contains(&nm) {
         return Some(format!(
-            "a wavelength is {:e} nm; it must lie between {shortest} and {longest}",
-            point.nm
+            "a wavelength is {nm:e} nm; it must lie between {shortest} and {longest}"
         ));
     }
-    let fault = || {
-        format!(
-            "{name} is {:e} at {} nm; it must lie between {low} and {high}",
-            point.value, point.nm
-        )
-    };
-    (!(low..=high).contains(&point.value)).then(fault)
+    let fault = || format!("{name} is {value:e} at {nm} nm; it must lie between {low} and {high}");
+    (!(low..=high).contains(&value)).then(fault)
 }
 
 fn formula_fault(formula: &Formula) -> Option<String> {
@@ -230,20 +227,12 @@ pub fn name_fault(name: &str) -> Option<&'static str> {
 
 /// n and k: together in `data`, or apart.
 fn curves(raw: &Raw, place: &Place) -> Result<(Curve, Option<Curve>), Fault> {
-    let table = |rows: &Rows, field, column| {
-        Ok(Curve::Table(pick(
-            &place.rows(rows, field, &[NM, column])?,
-            1,
-        )))
-    };
+    let table = |rows: &Rows, field, column| Ok(pick(&place.rows(rows, field, &[NM, column])?, 1));
     let k = || raw.k.as_ref().map(|k| table(k, "k", K)).transpose();
     match (&raw.data, &raw.n, &raw.n_formula) {
         (Some(data), None, None) if raw.k.is_none() => {
             let rows = place.rows(data, "data", &[NM, N, K])?;
-            Ok((
-                Curve::Table(pick(&rows, 1)),
-                Some(Curve::Table(pick(&rows, 2))),
-            ))
+            Ok((pick(&rows, 1), Some(pick(&rows, 2))))
         }
         (None, Some(n), None) => Ok((table(n, "n", N)?, k()?)),
         (None, None, Some(formula)) => Ok((Curve::Formula(place.formula(formula)?), k()?)),
@@ -255,12 +244,9 @@ fn curves(raw: &Raw, place: &Place) -> Result<(Curve, Option<Curve>), Fault> {
 }
 
 /// One column of checked rows, by wavelength.
-fn pick(rows: &[Vec<f64>], column: usize) -> Vec<Point> {
-    let point = |row: &Vec<f64>| Point {
-        nm: row[0],
-        value: row[column],
-    };
-    rows.iter().map(point).collect()
+fn pick(rows: &[Vec<f64>], column: usize) -> Curve {
+    let points = rows.iter().map(|row| (row[0], row[column])).collect();
+    Curve::table(points).expect("rows are checked to ascend")
 }
 
 impl Place<'_> {

@@ -20,7 +20,7 @@ mod trim;
 
 pub use catalogue::{find, list, names, source};
 pub use channels::{Channels, THESIS_NM};
-pub use dispersion::{Curve, Extrapolate, Point};
+pub use dispersion::{Curve, Extrapolate};
 pub use file::name_fault;
 pub use formula::Formula;
 pub use material::{Index, Kind, Material};

@@ -1,6 +1,6 @@
 //! A material as the text of its file.
 
-use super::dispersion::{Curve, Point};
+use super::dispersion::Curve;
 use super::formula::Formula;
 use super::material::Material;
 
@@ -41,11 +41,15 @@ fn text(name: &str, value: &str) -> String {
 
 fn index(n: &Curve, k: Option<&Curve>) -> Vec<String> {
     if let (Curve::Table(n), Some(Curve::Table(k))) = (n, k)
-        && n.len() == k.len()
-        && n.iter().zip(k).all(|(n, k)| n.nm == k.nm)
+        && n.points().len() == k.points().len()
+        && n.points().iter().zip(k.points()).all(|(n, k)| n.0 == k.0)
     {
-        let row = |(n, k): (&Point, &Point)| vec![n.nm, n.value, k.value];
-        return rows("data", "n, k", n.iter().zip(k).map(row));
+        let both = n.points().iter().zip(k.points());
+        return rows(
+            "data",
+            "n, k",
+            both.map(|((nm, n), (_, k))| vec![*nm, *n, *k]),
+        );
     }
     let mut lines = curve("n", n);
     lines.extend(k.into_iter().flat_map(|k| curve("k", k)));
@@ -54,7 +58,10 @@ fn index(n: &Curve, k: Option<&Curve>) -> Vec<String> {
 
 fn curve(name: &str, curve: &Curve) -> Vec<String> {
     match curve {
-        Curve::Table(points) => rows(name, name, points.iter().map(|p| vec![p.nm, p.value])),
+        Curve::Table(table) => {
+            let row = |(nm, value): &(f64, f64)| vec![*nm, *value];
+            rows(name, name, table.points().iter().map(row))
+        }
         Curve::Formula(formula) => vec![formula_line(name, formula)],
     }
 }

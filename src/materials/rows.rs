@@ -5,7 +5,7 @@
 //! noise of the measurement, is 0, since a passive medium has no gain.
 
 use super::decimal::{self, Unit};
-use super::dispersion::{Curve, Point};
+use super::dispersion::Curve;
 
 /// The k that is still taken for noise. The worst page of refractiveindex.info that is right elsewhere has -0.148.
 const LEAST_K: f64 = -0.2;
@@ -129,11 +129,8 @@ impl Rows {
         }
         let rows = each_wavelength_once(self.rows, remarks);
         let column = |at: usize| {
-            let point = |row: &Row| Point {
-                nm: row.nm,
-                value: row.values[at],
-            };
-            Some(Curve::Table(rows.iter().map(point).collect()))
+            let point = |row: &Row| (row.nm, row.values[at]);
+            Curve::table(rows.iter().map(point).collect())
         };
         match self.columns {
             Columns::N => (column(0), None),
@@ -210,9 +207,7 @@ mod tests {
     }
 
     fn table(points: &[(f64, f64)]) -> Option<Curve> {
-        let point = |&(nm, value): &(f64, f64)| Point { nm, value };
-        let points: Vec<Point> = points.iter().map(point).collect();
-        (!points.is_empty()).then_some(Curve::Table(points))
+        Curve::table(points.to_vec())
     }
 
     #[test]

@@ -1,6 +1,6 @@
 //! A material cut down to a range of wavelengths.
 
-use super::dispersion::{Curve, Point};
+use super::dispersion::Curve;
 use super::material::Material;
 
 impl Material {
@@ -9,7 +9,10 @@ impl Material {
     #[must_use]
     pub fn trimmed(&self, from_nm: f64, to_nm: f64) -> Material {
         let cut = |curve: &Curve| match curve {
-            Curve::Table(points) => Curve::Table(within(points, from_nm, to_nm).to_vec()),
+            Curve::Table(table) => {
+                let kept = within(table.points(), from_nm, to_nm).to_vec();
+                Curve::table(kept).unwrap_or_else(|| curve.clone())
+            }
             Curve::Formula(_) => curve.clone(),
         };
         Material {
@@ -21,10 +24,10 @@ impl Material {
 }
 
 /// At least one point, the nearest, where the table lies outside.
-fn within(points: &[Point], from_nm: f64, to_nm: f64) -> &[Point] {
-    let after_start = points.partition_point(|point| point.nm <= from_nm);
+fn within(points: &[(f64, f64)], from_nm: f64, to_nm: f64) -> &[(f64, f64)] {
+    let after_start = points.partition_point(|point| point.0 <= from_nm);
     let start = after_start.saturating_sub(1);
-    let before_end = points.partition_point(|point| point.nm < to_nm);
+    let before_end = points.partition_point(|point| point.0 < to_nm);
     let end = (before_end + 1).clamp(start + 1, points.len().max(start + 1));
     points.get(start..end).unwrap_or(points)
 }
@@ -35,9 +38,9 @@ mod tests {
 
     #[track_caller]
     fn check(from_nm: f64, to_nm: f64, kept: &[f64]) {
-        let point = |nm| Point { nm, value: 1.0 };
+        let point = |nm| (nm, 1.0);
         let points = [300.0, 400.0, 500.0, 600.0].map(point);
-        let got = within(&points, from_nm, to_nm).iter().map(|p| p.nm);
+        let got = within(&points, from_nm, to_nm).iter().map(|p| p.0);
         assert_eq!(got.collect::<Vec<_>>(), kept);
     }
 

@@ -187,7 +187,7 @@ fn an_index_that_is_none_is_refused_and_the_pages_are_known() {
 /// A table's own wavelengths, and 1001 in the range of a formula.
 fn places(n: &Curve) -> Vec<f64> {
     match n {
-        Curve::Table(points) => points.iter().map(|point| point.nm).collect(),
+        Curve::Table(_) => n.measured_nm(),
         Curve::Formula(formula) => {
             let step = (formula.to_nm - formula.from_nm) / 1000.0;
             let place = |i| formula.from_nm + f64::from(i) * step;

@@ -94,9 +94,10 @@ fn check(page: Page) {
 /// The limits of a material's file, written a second time.
 fn is_within_limits(material: &Material) -> bool {
     let inside = |curve: &Curve, low: f64, high: f64| match curve {
-        Curve::Table(points) => points
+        Curve::Table(table) => table
+            .points()
             .iter()
-            .all(|point| (1.0..=1e6).contains(&point.nm) && (low..=high).contains(&point.value)),
+            .all(|(nm, value)| (1.0..=1e6).contains(nm) && (low..=high).contains(value)),
         Curve::Formula(formula) => formula.from_nm >= 1.0 && formula.to_nm <= 1e6,
     };
     inside(&material.n, 1e-3, 1e4) && material.k.as_ref().is_none_or(|k| inside(k, 0.0, 1e4))

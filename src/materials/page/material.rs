@@ -93,7 +93,7 @@ impl Page {
 
 fn is_zero(curve: &Curve) -> bool {
     match curve {
-        Curve::Table(points) => points.iter().all(|point| point.value == 0.0),
+        Curve::Table(table) => table.points().iter().all(|(_, value)| *value == 0.0),
         Curve::Formula(_) => false,
     }
 }

@@ -128,7 +128,7 @@ pub(super) fn check_text(file: &str, text: &str) -> Result<(), Fault> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::materials::{Extrapolate, Formula, Kind, Material, Point};
+    use crate::materials::{Extrapolate, Formula, Kind, Material};
 
     const GOOD: &str = "\
 # a comment
@@ -173,8 +173,7 @@ PROPERTIES:
     }
 
     fn curve(points: &[(f64, f64)]) -> Option<Curve> {
-        let point = |&(nm, value): &(f64, f64)| Point { nm, value };
-        Some(Curve::Table(points.iter().map(point).collect()))
+        Curve::table(points.to_vec())
     }
 
     #[test]
@@ -448,10 +447,8 @@ PROPERTIES:
             .map(|i| format!("    {}.5 1.5\n", i + 1))
             .collect();
         let page = read(&data(&format!("- type: tabulated n\n  data: |\n{rows}")));
-        let Some(Curve::Table(points)) = page.n else {
-            panic!("a table");
-        };
-        assert_eq!(points.len(), 1_000_000);
+        let n = page.n.expect("a table");
+        assert_eq!(n.measured_nm().len(), 1_000_000);
     }
 
     #[track_caller]

@@ -1,6 +1,6 @@
 //! n and k against wavelength, as measured.
 
-use crate::materials::{Curve, Extrapolate, Point};
+use crate::materials::{Curve, Extrapolate};
 use crate::report::chart::{Chart, Look, Series, Style};
 
 use super::{Subject, axis, window};
@@ -102,7 +102,7 @@ fn joined(name: &str, curve: &Curve, look: Look, rgb: [f64; 3], beyond: Extrapol
 fn whole(name: &str, curve: &Curve, look: Look, range: Option<(f64, f64)>) -> Series {
     let points = match (curve, range) {
         (_, None) => Vec::new(),
-        (Curve::Table(points), Some(range)) => within(points, range),
+        (Curve::Table(table), Some(range)) => within(table.points(), range),
         (Curve::Formula(formula), Some(_)) => {
             let own = window::shown((formula.from_nm, formula.to_nm));
             let at = |nm: f64| (nm, formula.n(nm).unwrap_or(f64::NAN));
@@ -119,12 +119,11 @@ fn whole(name: &str, curve: &Curve, look: Look, range: Option<(f64, f64)>) -> Se
 }
 
 /// The points inside a range, and where the lines to their neighbours leave it.
-fn within(points: &[Point], (from, to): (f64, f64)) -> Vec<(f64, f64)> {
-    let first = points.partition_point(|point| point.nm < from);
-    let last = points.partition_point(|point| point.nm <= to);
+fn within(points: &[(f64, f64)], (from, to): (f64, f64)) -> Vec<(f64, f64)> {
+    let first = points.partition_point(|point| point.0 < from);
+    let last = points.partition_point(|point| point.0 <= to);
     let neighbours = first.saturating_sub(1)..points.len().min(last + 1);
-    let shown = points.get(neighbours).unwrap_or_default();
-    shown.iter().map(|point| (point.nm, point.value)).collect()
+    points.get(neighbours).unwrap_or_default().to_vec()
 }
 
 /// What the line stands on.
