@@ -1,0 +1,3 @@
+//! How fast are tables made?
+#![allow(missing_docs)]
+fn main() {}
