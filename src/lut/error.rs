@@ -11,7 +11,7 @@ pub enum Error {
     },
     /// No table is good enough.
     #[error(
-        "no table meets an error of {budget}: the best of {tried} reaches {best:.2e}, with 8-bit filtering weights and up to 16384 texels. Allow more, or more axes and formats"
+        "no table meets an error of {budget:?}: the best of {tried} reaches {best:.2e}, with 8-bit filtering weights and up to 16384 texels. Allow more, or more axes and formats"
     )]
     Budget {
         /// What was asked for.

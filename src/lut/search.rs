@@ -50,12 +50,12 @@ pub fn smallest(
                 axis: *axis,
                 depth: *depth,
             };
-            let most = best.map_or(MOST_TEXELS, |best| {
-                ((best.bytes() - 1) / depth.bytes()).min(MOST_TEXELS)
-            });
-            let Some(texels) = kind.fewest(budget, most, &mut least) else {
-                continue;
+            let below = best.map(|best| (best.bytes() - 1) / depth.bytes());
+            let found = match below {
+                None => kind.first(budget, &mut least),
+                Some(most) => kind.below(budget, most.min(MOST_TEXELS), &mut least),
             };
+            let Some(texels) = found else { continue };
             best = Some(kind.of(texels));
         }
     }
@@ -88,38 +88,44 @@ impl Kind<'_> {
         }
     }
 
-    /// The fewest texels that are good enough, up to `most`: doubled until they are, then halved in between.
-    fn fewest(&self, budget: f64, most: usize, least: &mut f64) -> Option<usize> {
-        if most < LEAST_TEXELS {
-            return None;
-        }
-        let mut meets = |texels: usize| {
-            let error = self.error(texels, budget);
-            *least = least.min(error);
-            error <= budget
-        };
-        let mut short = LEAST_TEXELS - 1;
-        let mut enough = LEAST_TEXELS;
-        while !meets(enough) {
-            if enough == most {
+    /// The fewest texels that are good enough: doubled until they are, then halved in between.
+    fn first(&self, budget: f64, least: &mut f64) -> Option<usize> {
+        let (mut short, mut enough) = (LEAST_TEXELS - 1, LEAST_TEXELS);
+        while !self.meets(enough, budget, least) {
+            if enough == MOST_TEXELS {
                 return None;
             }
             short = enough;
-            enough = (2 * enough).min(most);
+            enough = (2 * enough).min(MOST_TEXELS);
         }
+        Some(self.between(short, enough, budget, least))
+    }
+
+    /// The fewest texels that are good enough, where `most` are.
+    fn below(&self, budget: f64, most: usize, least: &mut f64) -> Option<usize> {
+        let possible = most >= LEAST_TEXELS && self.meets(most, budget, least);
+        possible.then(|| self.between(LEAST_TEXELS - 1, most, budget, least))
+    }
+
+    /// The fewest texels that are good enough, between some that are not and some that are.
+    fn between(&self, mut short: usize, mut enough: usize, budget: f64, least: &mut f64) -> usize {
         while enough - short > 1 {
             let middle = short.midpoint(enough);
-            if meets(middle) {
+            if self.meets(middle, budget, least) {
                 enough = middle;
             } else {
                 short = middle;
             }
         }
-        let below = enough.saturating_sub(BELOW).max(LEAST_TEXELS)..enough;
-        below
-            .into_iter()
-            .find(|texels| meets(*texels))
-            .or(Some(enough))
+        let mut lower = enough.saturating_sub(BELOW).max(LEAST_TEXELS)..enough;
+        let found = lower.find(|texels| self.meets(*texels, budget, least));
+        found.unwrap_or(enough)
+    }
+
+    fn meets(&self, texels: usize, budget: f64, least: &mut f64) -> bool {
+        let error = self.error(texels, budget);
+        *least = least.min(error);
+        error <= budget
     }
 
     /// The largest error over all truths, which share a scale; once it is past the budget, of those looked at.

@@ -20,6 +20,8 @@ pub use subject::{Lit, Wanted, lit};
 pub struct Request {
     /// The materials, sorted by name.
     pub subjects: Vec<Lit>,
+    /// What a user types to get all of them again: names with commas between, or `all`.
+    pub typed: String,
     /// The files wanted.
     pub formats: Vec<Format>,
     /// How large.
@@ -205,15 +207,17 @@ fn command(
     texels: usize,
     format: Option<Format>,
 ) -> String {
-    let arguments: Vec<String> = subjects.iter().map(|one| quoted(&one.argument)).collect();
+    let typed = match subjects {
+        [one] if name != ATLAS => quoted(&one.argument),
+        _ => request.typed.clone(),
+    };
     let formats: Vec<&str> = match format {
         Some(format) => vec![format.name()],
         None => request.formats.iter().map(|format| format.name()).collect(),
     };
     let atlas = if name == ATLAS { " --atlas" } else { "" };
     format!(
-        "fresnel-gen bake --material {}{} --size {texels} --axis {} --format {}{atlas}",
-        arguments.join(","),
+        "fresnel-gen bake --material {typed}{} --size {texels} --axis {} --format {}{atlas}",
         request.flags,
         axis.name(),
         formats.join(",")

@@ -51,6 +51,7 @@ pub fn run(flags: &BakeFlags, progress: Progress) -> Result<Output, Error> {
     let (subjects, left_out) = lit(&wanted)?;
     check_names(&subjects, flags.atlas)?;
     let request = Request {
+        typed: typed(flags, &subjects),
         flags: said(&subjects, &wanted.sight),
         subjects,
         formats,
@@ -161,19 +162,17 @@ fn said(subjects: &[Lit], sight: &Sight) -> String {
     medium + &sight_flags(sight)
 }
 
+/// The materials as a user types them.
+fn typed(flags: &BakeFlags, subjects: &[Lit]) -> String {
+    if flags.material == ["all"] {
+        return "all".to_owned();
+    }
+    let names: Vec<String> = subjects.iter().map(|one| quoted(&one.argument)).collect();
+    names.join(",")
+}
+
 /// The run's flags in one order, without the output's place.
 fn canonical(flags: &BakeFlags, request: &Request) -> String {
-    let names: Vec<String> = request
-        .subjects
-        .iter()
-        .map(|one| quoted(&one.argument))
-        .collect();
-    let all = flags.material.iter().any(|name| name == "all") && flags.material.len() == 1;
-    let names = if all {
-        "all".to_owned()
-    } else {
-        names.join(",")
-    };
     let formats: Vec<&str> = request.formats.iter().map(|format| format.name()).collect();
     let shape = match &request.shape {
         Shape::Fixed { axis, texels } => format!(" --size {texels} --axis {}", axis.name()),
@@ -184,7 +183,8 @@ fn canonical(flags: &BakeFlags, request: &Request) -> String {
     };
     let atlas = if request.atlas { " --atlas" } else { "" };
     format!(
-        " --material {names}{}{shape} --format {}{atlas}",
+        " --material {}{}{shape} --format {}{atlas}",
+        request.typed,
         request.flags,
         formats.join(",")
     )
