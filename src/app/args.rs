@@ -304,7 +304,7 @@ pub struct BakeFlags {
     /// Texels of a table, 2 to 16384 [default: 64]
     #[arg(long, value_name = "N")]
     pub size: Option<usize>,
-    /// How cosines are spread: cos, square, sqrt, rational, grazing [default: rational]
+    /// How cosines are spread: cos, square, sqrt, rational, steep, grazing [default: rational]
     #[arg(long, value_name = "NAME")]
     pub axis: Option<String>,
     /// Files: exr-half, exr-float, png8, png16, ktx2, c, rust, js, all [default: exr-half, png16, ktx2]

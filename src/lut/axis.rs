@@ -17,6 +17,10 @@
 //! | square | c (2 - c) | .0010 | 64 |
 //! | sqrt | √c | .00054 | 48 |
 //! | rational | 5 c / (4 c + 1) | .00014 | 25 |
+//! | steep | 9 c / (8 c + 1) | .00040 | 41 |
+//!
+//! The mean relative error (the thesis's measure) tells another tale for what is dark at normal incidence: at 64 texels
+//! water has .04 % along cos, .05 along square, .15 along rational.
 //!
 //! Tried and left out: 1 - (1 - c)³ and higher powers, which starve normal incidence; log(1 + 20 c), as good and dearer;
 //! √(c + b), between sqrt and rational; other constants of the rational one (1/5 and 3/10 in place of its 1/4 need 28
@@ -35,17 +39,20 @@ pub enum Axis {
     Sqrt,
     /// w = 5 c / (4 c + 1): one division, and for nearly all materials the fewest texels.
     Rational,
+    /// w = 9 c / (8 c + 1): for indices that leave a trough near grazing (zinc by Querry in red).
+    Steep,
     /// w = 65 c / (64 c + 1): for indices near 1 (gases, a material in a medium like it), which bend close to grazing.
     Grazing,
 }
 
 impl Axis {
     /// All of them, the cheapest in a shader first.
-    pub const ALL: [Axis; 5] = [
+    pub const ALL: [Axis; 6] = [
         Axis::Cos,
         Axis::Square,
         Axis::Sqrt,
         Axis::Rational,
+        Axis::Steep,
         Axis::Grazing,
     ];
 
@@ -56,6 +63,7 @@ impl Axis {
             Axis::Square => "square",
             Axis::Sqrt => "sqrt",
             Axis::Rational => "rational",
+            Axis::Steep => "steep",
             Axis::Grazing => "grazing",
         }
     }
@@ -72,6 +80,7 @@ impl Axis {
             Axis::Square => "c * (2.0 - c)",
             Axis::Sqrt => "sqrt(c)",
             Axis::Rational => "5.0 * c / (4.0 * c + 1.0)",
+            Axis::Steep => "9.0 * c / (8.0 * c + 1.0)",
             Axis::Grazing => "65.0 * c / (64.0 * c + 1.0)",
         }
     }
@@ -84,6 +93,7 @@ impl Axis {
             Axis::Square => c * (number(2.0) - c),
             Axis::Sqrt => c.sqrt(),
             Axis::Rational => number(5.0) * c / (number(4.0) * c + number(1.0)),
+            Axis::Steep => number(9.0) * c / (number(8.0) * c + number(1.0)),
             Axis::Grazing => number(65.0) * c / (number(64.0) * c + number(1.0)),
         }
     }
@@ -95,6 +105,7 @@ impl Axis {
             Axis::Square => 1.0 - (1.0 - w).sqrt(),
             Axis::Sqrt => w * w,
             Axis::Rational => w / (5.0 - 4.0 * w),
+            Axis::Steep => w / (9.0 - 8.0 * w),
             Axis::Grazing => w / (65.0 - 64.0 * w),
         }
     }

@@ -60,7 +60,7 @@ pub fn run(flags: &BakeFlags, progress: Progress) -> Result<Output, Error> {
     };
     let baked = bake(&request, progress)?;
     let written = write_files(&placed(&baked, &flags.out_dir))?;
-    let command = format!("bake{}", canonical(flags, &request));
+    let command = format!("bake{}", canonical(&request));
     let mut output = report(
         text(&baked.rows),
         &full(&command, &baked.rows),
@@ -172,7 +172,7 @@ fn typed(flags: &BakeFlags, subjects: &[Lit]) -> String {
 }
 
 /// The run's flags in one order, without the output's place.
-fn canonical(flags: &BakeFlags, request: &Request) -> String {
+fn canonical(request: &Request) -> String {
     let formats: Vec<&str> = request.formats.iter().map(|format| format.name()).collect();
     let shape = match &request.shape {
         Shape::Fixed { axis, texels } => format!(" --size {texels} --axis {}", axis.name()),

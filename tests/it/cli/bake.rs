@@ -77,7 +77,7 @@ fn bad_input_is_refused() {
         &[
             "no axis `sqr`",
             "sqrt",
-            "cos, square, sqrt, rational, grazing",
+            "cos, square, sqrt, rational, steep, grazing",
         ],
     );
     place.refused("bake --format exr", &["no format `exr`", "exr-half", "all"]);
