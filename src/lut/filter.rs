@@ -40,7 +40,12 @@ impl Stored {
             Weights::Exact => place,
             Weights::Steps256 => (place * 256.0).round() / 256.0,
         };
-        let place = place.clamp(0.0, last as f64);
+        // A NaN is the first texel.
+        let place = if place > 0.0 {
+            place.min(last as f64)
+        } else {
+            0.0
+        };
         let left = place.floor();
         let share = (place - left) as f32;
         let texel = |i: usize| self.texels.get(i.min(last)).copied().unwrap_or_default();
