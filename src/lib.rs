@@ -13,6 +13,7 @@ pub mod cite;
 pub mod emit;
 pub mod fit;
 pub mod ir;
+pub mod lut;
 pub mod materials;
 pub mod methods;
 pub mod num;

@@ -39,6 +39,11 @@ pub enum Command {
     /// List the targets, or show one with its validators
     #[command(after_help = "Example:\n  fresnel-gen targets show gles")]
     Targets(Listing),
+    /// Bake reflectance into lookup tables: EXR, PNG, KTX2, arrays, with the error of the filtered lookup
+    #[command(
+        after_help = "Examples:\n  fresnel-gen bake --material gold --size 64 --format exr-half,ktx2\n  fresnel-gen bake --material all --atlas --budget 0.001 --json -"
+    )]
+    Bake(Box<BakeFlags>),
     /// Compute the thesis's tables, figures and claims anew, and print both side by side
     Reproduce(Reproduce),
 }
@@ -261,6 +266,50 @@ pub struct SurveyFlags {
     /// How they are seen.
     #[command(flatten)]
     pub sight: SightFlags,
+}
+
+/// The flags of `bake`.
+#[derive(Args, Debug)]
+pub struct BakeFlags {
+    /// Names, paths of material files, or all [default: gold, platinum, water, diamond]
+    #[arg(long, value_delimiter = ',', value_name = "NAME")]
+    pub material: Vec<String>,
+    /// What the light comes from: a transparent material's name or file [default: air]
+    #[arg(long, value_name = "NAME")]
+    pub medium: Option<String>,
+    /// How the material is seen.
+    #[command(flatten)]
+    pub sight: SightFlags,
+    /// Colours outside the working space: keep (integers are scaled then), clip to [0, 1], or scale [default: keep]
+    #[arg(long, value_name = "NAME")]
+    pub gamut: Option<String>,
+    /// Texels of a table, 2 to 16384 [default: 64]
+    #[arg(long, value_name = "N")]
+    pub size: Option<usize>,
+    /// How cosines are spread: cos, square, sqrt, rational, steep, grazing [default: rational]
+    #[arg(long, value_name = "NAME")]
+    pub axis: Option<String>,
+    /// Files: exr-half, exr-float, png8, png16, ktx2, c, rust, js, all [default: exr-half, png16, ktx2]
+    #[arg(long, value_delimiter = ',', value_name = "NAME")]
+    pub format: Vec<String>,
+    /// One picture of all materials besides, a row each
+    #[arg(long)]
+    pub atlas: bool,
+    /// Search size, axis and bit depth: the smallest table whose filtered lookup errs by at most this, among the formats
+    /// and axes named [default: all axes; png8, exr-half, png16 and exr-float]
+    #[arg(
+        long,
+        value_name = "ERR",
+        conflicts_with = "size",
+        allow_negative_numbers = true
+    )]
+    pub budget: Option<f64>,
+    /// Folder that gets a folder `lut`
+    #[arg(long, value_name = "DIR", default_value = "shaders-generated")]
+    pub out_dir: PathBuf,
+    /// Write the report as JSON to this file, or `-` for stdout
+    #[arg(long, value_name = "FILE")]
+    pub json: Option<PathBuf>,
 }
 
 /// The flags of `reproduce`.

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 
 use thiserror::Error;
 
-use crate::{emit, materials};
+use crate::{emit, lut, materials};
 
 /// A fault of the output folder, or of what was to be put there.
 #[derive(Debug, Error)]
@@ -45,6 +45,9 @@ pub enum Error {
     /// Emission refused.
     #[error(transparent)]
     Emit(#[from] emit::Error),
+    /// A table cannot be made.
+    #[error(transparent)]
+    Lut(#[from] lut::Error),
     /// An artifact's path cannot be used.
     #[error("the output path `{path}` cannot be used: {reason}")]
     Path {

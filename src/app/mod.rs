@@ -6,6 +6,8 @@
 #[cfg(feature = "cli")]
 pub mod args;
 pub mod artifact;
+#[cfg(feature = "cli")]
+pub mod bake;
 pub mod check;
 #[cfg(feature = "cli")]
 pub mod command;

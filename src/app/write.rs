@@ -52,15 +52,34 @@ pub fn write(plan: &Plan) -> Result<Written, Error> {
 /// Writes a single file whole or not at all, with the folders above it. False: it was right already.
 /// A link is followed; a device or pipe (`/dev/null`) is written to, because renaming would destroy it.
 pub fn write_file(path: &Path, bytes: &[u8]) -> Result<bool, Error> {
+    if fs::metadata(path).is_ok_and(|found| !found.is_dir() && !found.is_file()) {
+        let fault = |source| stage_fault(path, source);
+        return fs::write(path, bytes).map(|()| true).map_err(fault);
+    }
+    Ok(write_files(&[(path.to_path_buf(), bytes)])? == 1)
+}
+
+/// Writes files, each whole or not at all, with the folders above them; a fault before all are staged changes nothing.
+/// How many were written: the others were right already. Links are followed.
+pub fn write_files(files: &[(PathBuf, &[u8])]) -> Result<usize, Error> {
+    let mut pending = Vec::new();
+    for (path, bytes) in files {
+        pending.extend(destination(path, bytes)?.map(|path| (path, *bytes)));
+    }
+    replace_all(stage_all(&pending)?, 0, pending.len())?;
+    Ok(pending.len())
+}
+
+/// Where these bytes go; nowhere where they are already.
+fn destination(path: &Path, bytes: &[u8]) -> Result<Option<PathBuf>, Error> {
     let fault = |source| stage_fault(path, source);
     match fs::metadata(path) {
-        Ok(found) if found.is_dir() => Err(Error::NotAFile {
+        Ok(found) if !found.is_file() => Err(Error::NotAFile {
             path: path.to_path_buf(),
         }),
-        Ok(found) if !found.is_file() => fs::write(path, bytes).map(|()| true).map_err(fault),
-        Ok(_) if folder::read(path)?.as_deref() == Some(bytes) => Ok(false),
-        Ok(_) => replace_one(fs::canonicalize(path).map_err(fault)?, bytes),
-        Err(missing) if missing.kind() == ErrorKind::NotFound => replace_one(path.into(), bytes),
+        Ok(_) if folder::read(path)?.as_deref() == Some(bytes) => Ok(None),
+        Ok(_) => fs::canonicalize(path).map(Some).map_err(fault),
+        Err(missing) if missing.kind() == ErrorKind::NotFound => Ok(Some(path.to_path_buf())),
         Err(other) => Err(fault(other)),
     }
 }
@@ -69,11 +88,6 @@ pub fn write_file(path: &Path, bytes: &[u8]) -> Result<bool, Error> {
 struct Staged {
     temporary: TempPath,
     destination: PathBuf,
-}
-
-fn replace_one(path: PathBuf, bytes: &[u8]) -> Result<bool, Error> {
-    replace_all(stage_all(&[(path, bytes)])?, 0, 1)?;
-    Ok(true)
 }
 
 fn stage_all(pending: &[(PathBuf, &[u8])]) -> Result<Vec<Staged>, Error> {

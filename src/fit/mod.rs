@@ -15,6 +15,6 @@ pub use derive::{Derivation, Known, values, values_of};
 pub use effective::{By, Effective, effective};
 pub use lambda::{THESIS_MATCHING_COS, lambda};
 pub use measured::Measured;
-pub use model_error::{ModelError, Truth, model_error, seen, thesis_errors};
+pub use model_error::{ModelError, Truth, error_of, model_error, seen, thesis_errors};
 pub use over::model_error_over;
 pub use params::{BOUNCES, Params, abbe, colour_errors, ior_d, params};

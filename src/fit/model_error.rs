@@ -86,10 +86,14 @@ pub fn seen(surface: &Surface, light: Light, cos_theta: f64) -> [f64; 3] {
 
 /// The model error of a function of `cos_theta` alone.
 pub fn model_error(function: &Checked, truth: &Truth) -> ModelError {
-    let run = |cosines: &[f64], want: &[[f64; 3]]| {
-        let got = evaluate(function, &[Value::each(cosines.to_vec())]);
-        difference(&got, want, cosines)
-    };
+    error_of(truth, &|cosines| {
+        evaluate(function, &[Value::each(cosines.to_vec())])
+    })
+}
+
+/// The error of whatever gives three channels at each of some cosines.
+pub fn error_of(truth: &Truth, values: &dyn Fn(&[f64]) -> Value<f64>) -> ModelError {
+    let run = |cosines: &[f64], want: &[[f64; 3]]| difference(&values(cosines), want, cosines);
     let mut error = run(&cosines(ANGLES), &truth.table);
     let mut reach = libm::acos(error.worst_cos).max(1e-3) / 8.0;
     for _ in 0..REFINEMENTS {

@@ -11,6 +11,8 @@ mod compilers;
 mod database;
 mod golden;
 mod graph;
+#[cfg(feature = "cli")]
+mod lut;
 mod oracle;
 mod pages;
 mod physics;

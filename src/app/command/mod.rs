@@ -1,5 +1,6 @@
 //! The commands: from parsed flags to what a run prints and how it ends. Printing itself is `main.rs`'s.
 
+mod bake;
 mod generate;
 mod import;
 mod listing;
@@ -35,6 +36,7 @@ pub fn run(cli: &Cli, progress: Progress) -> Result<Output, Error> {
         Some(Command::Methods(listing)) => listing::methods(listing),
         Some(Command::Materials(listing)) => materials::run(listing, progress),
         Some(Command::Targets(listing)) => listing::targets(listing),
+        Some(Command::Bake(flags)) => bake::run(flags, progress),
         Some(Command::Reproduce(flags)) => reproduce::run(flags, progress),
     }
 }

@@ -1,6 +1,7 @@
 //! The real program in temporary folders: flags, exit codes, streams, files.
 
 mod bad_input;
+mod bake;
 mod brought;
 mod determinism;
 #[cfg(unix)]

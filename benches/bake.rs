@@ -1,0 +1,64 @@
+//! How fast are tables made? Tables per second, from the truth to bytes in all formats, and the search for the smallest.
+#![allow(missing_docs)]
+
+use criterion::{Criterion, Throughput, criterion_group, criterion_main};
+use fresnel_gen::app::bake::{Request, Shape, Wanted, bake, lit};
+use fresnel_gen::app::request::Materials;
+use fresnel_gen::fit::Truth;
+use fresnel_gen::lut::{Axis, Depth, Format, Table, smallest};
+use fresnel_gen::materials::{Sight, Surface, find};
+use fresnel_gen::methods::Light;
+
+fn gold() -> Truth {
+    let gold = find("gold")
+        .expect("it is there")
+        .expect("it is well formed");
+    let surface = Surface::new(&gold, None, &Sight::default()).expect("gold is seen");
+    Truth::new(surface, Light::Unpolarised)
+}
+
+fn one(c: &mut Criterion) {
+    let gold = gold();
+    let mut group = c.benchmark_group("tables");
+    group.throughput(Throughput::Elements(1));
+    group.bench_function("256 texels of gold", |b| {
+        b.iter(|| Table::new("gold", &gold, Axis::Rational, 256))
+    });
+    group.finish();
+}
+
+fn all_formats(c: &mut Criterion) {
+    let wanted = Wanted {
+        materials: Materials::Default,
+        medium: None,
+        sight: Sight::default(),
+    };
+    let (subjects, _) = lit(&wanted).expect("the four are seen");
+    let request = Request {
+        subjects,
+        typed: String::new(),
+        formats: Format::ALL.to_vec(),
+        shape: Shape::Fixed {
+            axis: Axis::Rational,
+            texels: 256,
+        },
+        atlas: false,
+        flags: String::new(),
+    };
+    let mut group = c.benchmark_group("tables");
+    group.throughput(Throughput::Elements(4));
+    group.bench_function("256 texels of four materials, all formats, measured", |b| {
+        b.iter(|| bake(&request, &mut |_, _, _| {}))
+    });
+    group.finish();
+}
+
+fn search(c: &mut Criterion) {
+    let gold = gold();
+    c.bench_function("the smallest table of gold within 0.001", |b| {
+        b.iter(|| smallest(&[&gold], 0.001, &Axis::ALL, &Depth::ALL))
+    });
+}
+
+criterion_group!(benches, one, all_formats, search);
+criterion_main!(benches);

@@ -1,0 +1,220 @@
+//! `bake`: lookup tables as files, and how wrong each is.
+
+use std::path::{Path, PathBuf};
+
+use serde_json::Value;
+
+use crate::app::args::BakeFlags;
+use crate::app::bake::{ATLAS, Baked, Lit, Request, Shape, Wanted, bake, lit, report as full};
+use crate::app::error::Error;
+use crate::app::names::{quoted, unknown};
+use crate::app::sight::{flags as sight_flags, sight};
+use crate::app::source::{materials, source};
+use crate::app::write::write_files;
+use crate::lut::{Axis, Format, check_size};
+use crate::materials::Sight;
+use crate::report::table;
+use crate::spectra::Gamut;
+
+use super::{Output, Progress, report};
+
+/// The size of tables where none is asked for. In half precision the rounding of texels is then what errs most: more
+/// texels gain nothing, fewer cost (half the size quadruples what filtering errs).
+pub const DEFAULT_SIZE: usize = 64;
+/// The axis where none is asked for: the one with the smallest errors at equal size.
+pub const DEFAULT_AXIS: Axis = Axis::Rational;
+/// The files where none are asked for: what most programs read, what engines without float textures read, and what
+/// GPUs take.
+const DEFAULT_FORMATS: [Format; 3] = [Format::ExrHalf, Format::Png16, Format::Ktx2];
+/// The files that a search chooses from where none are asked for: one of each depth.
+const SEARCHED_FORMATS: [Format; 4] = [
+    Format::Png8,
+    Format::ExrHalf,
+    Format::Png16,
+    Format::ExrFloat,
+];
+
+/// Bakes.
+pub fn run(flags: &BakeFlags, progress: Progress) -> Result<Output, Error> {
+    let shape = shape(flags)?;
+    let formats = formats(flags)?;
+    let sight = sight(
+        &flags
+            .sight
+            .words(flags.gamut.as_deref().or(Some(Gamut::Keep.name()))),
+    )?;
+    let wanted = Wanted {
+        materials: materials(&flags.material)?,
+        medium: flags.medium.as_deref().map(source).transpose()?,
+        sight,
+    };
+    let (subjects, left_out) = lit(&wanted)?;
+    check_names(&subjects, flags.atlas)?;
+    let request = Request {
+        typed: typed(flags, &subjects),
+        flags: said(&subjects, &wanted.sight),
+        subjects,
+        formats,
+        shape,
+        atlas: flags.atlas,
+    };
+    let baked = bake(&request, progress)?;
+    let written = write_files(&placed(&baked, &flags.out_dir))?;
+    let command = format!("bake{}", canonical(&request));
+    let mut output = report(
+        text(&baked.rows),
+        &full(&command, &baked.rows),
+        flags.json.as_deref(),
+    )?;
+    output
+        .remarks
+        .extend(left_out.iter().map(|why| format!("left out: {why}")));
+    output.remarks.push(format!(
+        "{}: {written} written, {} unchanged",
+        flags.out_dir.display(),
+        baked.files.len() - written
+    ));
+    Ok(output)
+}
+
+fn shape(flags: &BakeFlags) -> Result<Shape, Error> {
+    let axis = flags.axis.as_deref().map(axis).transpose()?;
+    match flags.budget {
+        None => {
+            let texels = flags.size.unwrap_or(DEFAULT_SIZE);
+            check_size(texels)?;
+            Ok(Shape::Fixed {
+                axis: axis.unwrap_or(DEFAULT_AXIS),
+                texels,
+            })
+        }
+        Some(budget) if budget > 0.0 && budget.is_finite() => Ok(Shape::Within {
+            budget,
+            axes: axis.map_or(Axis::ALL.to_vec(), |axis| vec![axis]),
+        }),
+        Some(budget) => Err(Error::Usage {
+            what: format!(
+                "--budget is {budget}; it is an error of reflectance, above 0, such as 0.001"
+            ),
+        }),
+    }
+}
+
+fn axis(name: &str) -> Result<Axis, Error> {
+    let found = Axis::find(&name.to_lowercase());
+    found.ok_or_else(|| unknown("axis", name, &Axis::ALL.map(Axis::name)))
+}
+
+/// The formats, in the order of the list, each once.
+fn formats(flags: &BakeFlags) -> Result<Vec<Format>, Error> {
+    let mut chosen = Vec::new();
+    for name in &flags.format {
+        let name = name.to_lowercase();
+        match Format::find(&name) {
+            Some(format) => chosen.push(format),
+            None if name == "all" => chosen.extend(Format::ALL),
+            None => {
+                let all: Vec<&str> = Format::ALL
+                    .map(Format::name)
+                    .into_iter()
+                    .chain(["all"])
+                    .collect();
+                return Err(unknown("format", &name, &all));
+            }
+        }
+    }
+    if chosen.is_empty() {
+        let usual: &[Format] = if flags.budget.is_some() {
+            &SEARCHED_FORMATS
+        } else {
+            &DEFAULT_FORMATS
+        };
+        chosen.extend(usual);
+    }
+    chosen.sort_unstable();
+    chosen.dedup();
+    Ok(chosen)
+}
+
+/// There is something to bake, and no material bears the atlas's name.
+fn check_names(subjects: &[Lit], atlas: bool) -> Result<(), Error> {
+    let what = if subjects.is_empty() {
+        "`--material none` leaves nothing to bake; name materials, or all"
+    } else if atlas && subjects.iter().any(|subject| subject.name == ATLAS) {
+        "a material is named `atlas`, as is the picture of all; choose another `name` in its file"
+    } else {
+        return Ok(());
+    };
+    Err(Error::Usage {
+        what: what.to_owned(),
+    })
+}
+
+fn placed<'a>(baked: &'a Baked, out_dir: &Path) -> Vec<(PathBuf, &'a [u8])> {
+    let place = |(file, bytes): &'a (String, Vec<u8>)| (out_dir.join(file), bytes.as_slice());
+    baked.files.iter().map(place).collect()
+}
+
+/// Medium and sight as flags.
+fn said(subjects: &[Lit], sight: &Sight) -> String {
+    let medium = subjects.first().and_then(|subject| subject.medium.as_ref());
+    let medium = medium.map_or(String::new(), |name| format!(" --medium {}", quoted(name)));
+    medium + &sight_flags(sight)
+}
+
+/// The materials as a user types them.
+fn typed(flags: &BakeFlags, subjects: &[Lit]) -> String {
+    if flags.material == ["all"] {
+        return "all".to_owned();
+    }
+    let names: Vec<String> = subjects.iter().map(|one| quoted(&one.argument)).collect();
+    names.join(",")
+}
+
+/// The run's flags in one order, without the output's place.
+fn canonical(request: &Request) -> String {
+    let formats: Vec<&str> = request.formats.iter().map(|format| format.name()).collect();
+    let shape = match &request.shape {
+        Shape::Fixed { axis, texels } => format!(" --size {texels} --axis {}", axis.name()),
+        Shape::Within { budget, axes } if axes.len() == 1 => {
+            format!(" --budget {budget:?} --axis {}", axes[0].name())
+        }
+        Shape::Within { budget, .. } => format!(" --budget {budget:?}"),
+    };
+    let atlas = if request.atlas { " --atlas" } else { "" };
+    format!(
+        " --material {}{}{shape} --format {}{atlas}",
+        request.typed,
+        request.flags,
+        formats.join(",")
+    )
+}
+
+/// A line for each row.
+fn text(rows: &[Value]) -> String {
+    let cells = |row: &Value| {
+        let word = |key: &str| row[key].as_str().unwrap_or_default().to_owned();
+        let mean = row["mean_rel"].as_f64();
+        vec![
+            word("name"),
+            word("format"),
+            row["texels"].to_string(),
+            word("axis"),
+            word("file"),
+            row["scale"].to_string(),
+            format!("{:.6}", row["max_abs"].as_f64().unwrap_or_default()),
+            mean.map_or("none".to_owned(), |mean| format!("{:.4}", 100.0 * mean)),
+        ]
+    };
+    let head = [
+        "name",
+        "format",
+        "texels",
+        "axis",
+        "file",
+        "scale",
+        "max error",
+        "mean error, %",
+    ];
+    table::text(&head, &rows.iter().map(cells).collect::<Vec<_>>())
+}

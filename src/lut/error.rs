@@ -1,0 +1,32 @@
+//! What cannot be baked.
+
+/// A fault of what was asked for.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum Error {
+    /// A size that no texture has.
+    #[error("a table of {texels} texels cannot be: it has 2 to 16384")]
+    Size {
+        /// The size.
+        texels: usize,
+    },
+    /// No table is good enough.
+    #[error(
+        "no table meets an error of {budget:?}: the best of {tried} reaches {best:.2e}, with 8-bit filtering weights and up to 16384 texels. Allow more, or more axes and formats"
+    )]
+    Budget {
+        /// What was asked for.
+        budget: f64,
+        /// The least error that was reached.
+        best: f64,
+        /// The axes and depths.
+        tried: String,
+    },
+    /// An encoder refused.
+    #[error("the table cannot be written as {format}: {why}")]
+    Encode {
+        /// The format's name.
+        format: &'static str,
+        /// The encoder's reason.
+        why: String,
+    },
+}

@@ -1,0 +1,115 @@
+//! Formats: the files that a table can be written as.
+
+use super::depth::Depth;
+use super::error::Error;
+use super::picture::Picture;
+
+/// A kind of file.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Format {
+    /// OpenEXR, binary16.
+    ExrHalf,
+    /// OpenEXR, binary32.
+    ExrFloat,
+    /// PNG, 8 bits.
+    Png8,
+    /// PNG, 16 bits.
+    Png16,
+    /// KTX 2.0, RGBA of binary16: as GPUs take it.
+    Ktx2,
+    /// A C header with the bits of binary16.
+    C,
+    /// Rust with the bits of binary16.
+    Rust,
+    /// A JavaScript module with the bits of binary16.
+    Js,
+}
+
+impl Format {
+    /// All of them.
+    pub const ALL: [Format; 8] = [
+        Format::ExrHalf,
+        Format::ExrFloat,
+        Format::Png8,
+        Format::Png16,
+        Format::Ktx2,
+        Format::C,
+        Format::Rust,
+        Format::Js,
+    ];
+
+    /// The name on the command line.
+    pub fn name(self) -> &'static str {
+        match self {
+            Format::ExrHalf => "exr-half",
+            Format::ExrFloat => "exr-float",
+            Format::Png8 => "png8",
+            Format::Png16 => "png16",
+            Format::Ktx2 => "ktx2",
+            Format::C => "c",
+            Format::Rust => "rust",
+            Format::Js => "js",
+        }
+    }
+
+    /// The format of this name.
+    pub fn find(name: &str) -> Option<Format> {
+        Format::ALL.into_iter().find(|format| format.name() == name)
+    }
+
+    /// What its files end in: no two formats write the same file.
+    pub fn ending(self) -> &'static str {
+        match self {
+            Format::ExrHalf => ".exr",
+            Format::ExrFloat => ".float.exr",
+            Format::Png8 => ".8bit.png",
+            Format::Png16 => ".png",
+            Format::Ktx2 => ".ktx2",
+            Format::C => ".h",
+            Format::Rust => ".rs",
+            Format::Js => ".js",
+        }
+    }
+
+    /// The kind of number in it.
+    pub fn depth(self) -> Depth {
+        match self {
+            Format::ExrFloat => Depth::Float,
+            Format::Png8 => Depth::Unorm8,
+            Format::Png16 => Depth::Unorm16,
+            Format::ExrHalf | Format::Ktx2 | Format::C | Format::Rust | Format::Js => Depth::Half,
+        }
+    }
+
+    /// The file of a picture, whose depth is this format's.
+    ///
+    /// # Errors
+    /// The encoder refuses, or is not part of this build (EXR and PNG without the feature `cli`).
+    pub fn encode(self, picture: &Picture) -> Result<Vec<u8>, Error> {
+        match self {
+            #[cfg(feature = "cli")]
+            Format::ExrHalf | Format::ExrFloat => {
+                super::exr::exr(picture).map_err(|why| self.refused(why))
+            }
+            #[cfg(feature = "cli")]
+            Format::Png8 | Format::Png16 => {
+                super::png::png(picture).map_err(|why| self.refused(why))
+            }
+            #[cfg(not(feature = "cli"))]
+            Format::ExrHalf | Format::ExrFloat | Format::Png8 | Format::Png16 => {
+                Err(self.refused("it needs the feature `cli`".to_owned()))
+            }
+            Format::Ktx2 => Ok(super::ktx2::ktx2(picture)),
+            Format::C => Ok(super::text::c(picture).into_bytes()),
+            Format::Rust => Ok(super::text::rust(picture).into_bytes()),
+            Format::Js => Ok(super::text::js(picture).into_bytes()),
+        }
+    }
+
+    fn refused(self, why: String) -> Error {
+        Error::Encode {
+            format: self.name(),
+            why,
+        }
+    }
+}

@@ -1,0 +1,35 @@
+//! Lookup tables: reflectance by cos θ as a texture, and how wrong the filtered lookup is.
+//!
+//! The way of a table, one file a step: [`Axis`] says where a cosine lies; [`Table`] is the truth at the centres of
+//! texels; [`Stored`] is it in a [`Depth`]; [`Stored::lookup`] is what a sampler gives back, and [`table_error`] holds
+//! that against the truth; [`smallest`] looks for the table with the fewest bytes within an error; a [`Picture`] of one
+//! or more rows becomes a file in a [`Format`].
+//!
+//! Rows run along x, cos θ = 0 first. Values are linear: neither sRGB nor any other curve is applied, and every format
+//! that can say so does. Pure: no disk, no terminal. EXR and PNG need the feature `cli`.
+
+mod axis;
+mod depth;
+mod error;
+#[cfg(feature = "cli")]
+mod exr;
+mod filter;
+mod format;
+mod ktx2;
+mod measure;
+mod picture;
+#[cfg(feature = "cli")]
+mod png;
+mod search;
+mod table;
+mod text;
+
+pub use axis::Axis;
+pub use depth::{Depth, Stored};
+pub use error::Error;
+pub use filter::Weights;
+pub use format::Format;
+pub use measure::{Between, table_error};
+pub use picture::Picture;
+pub use search::{Choice, smallest};
+pub use table::{LEAST_TEXELS, MOST_TEXELS, Table, check_size};

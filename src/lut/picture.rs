@@ -1,0 +1,101 @@
+//! A picture: tables of one size, axis and depth as the rows of a texture, with what a file says about them.
+
+use crate::spectra::Space;
+
+use super::axis::Axis;
+use super::depth::{Depth, Stored};
+
+/// One or more tables as a texture.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Picture {
+    /// Its name, which is that of its file and of the array in a text form: a material's, or `atlas`.
+    pub name: String,
+    /// How cosines are spread along x.
+    pub axis: Axis,
+    /// The kind of number.
+    pub depth: Depth,
+    /// value = texel × scale.
+    pub scale: f32,
+    /// Texels in a row.
+    pub width: usize,
+    /// The rows' names, the top one first.
+    pub rows: Vec<String>,
+    /// The rows one after the other, as a sampler gives them back.
+    pub texels: Vec<[f32; 3]>,
+    /// The working space, where the channels are one.
+    pub space: Option<Space>,
+    /// What the file says about itself: ASCII, a line each.
+    pub about: Vec<String>,
+}
+
+impl Picture {
+    /// Tables, named, one below the other. They have one axis, depth, scale and size: those of the first.
+    pub fn new(name: &str, rows: &[(&str, &Stored)], space: Option<Space>) -> Picture {
+        let first = rows.first().map(|(_, stored)| *stored);
+        let width = first.map_or(0, |stored| stored.texels.len());
+        let texels = rows.iter().flat_map(|(_, stored)| {
+            let texel = |i: usize| stored.texels.get(i).copied().unwrap_or_default();
+            (0..width).map(texel)
+        });
+        Picture {
+            name: name.to_owned(),
+            axis: first.map_or(Axis::Cos, |stored| stored.axis),
+            depth: first.map_or(Depth::Float, |stored| stored.depth),
+            scale: first.map_or(1.0, |stored| stored.scale),
+            width,
+            rows: rows.iter().map(|(name, _)| (*name).to_owned()).collect(),
+            texels: texels.collect(),
+            space,
+            about: Vec::new(),
+        }
+    }
+
+    /// How many rows.
+    pub fn height(&self) -> usize {
+        self.rows.len()
+    }
+
+    /// How a shader looks a cosine up, in words and formulas.
+    pub fn lookup(&self) -> Vec<String> {
+        let (scale, offset) = Axis::half_texel(self.width);
+        let mut lines = vec![
+            format!(
+                "Row of {} texels by cos theta, 0 first; linear; wrap: clamp to edge; filter: linear; no mipmaps, level 0.",
+                self.width
+            ),
+            format!(
+                "Lookup: c = clamp(cos_theta, 0, 1), w = {}, u = w * {scale:?} + {offset:?}.",
+                self.axis.formula()
+            ),
+        ];
+        if self.height() > 1 {
+            lines.push(format!(
+                "Row i of {}, the top one being 0: v = (i + 0.5) / {}.",
+                self.height(),
+                self.height()
+            ));
+        }
+        if self.scale != 1.0 {
+            lines.push(format!("Reflectance = texel * {:?}.", self.scale));
+        }
+        lines
+    }
+
+    /// The bits of binary16 of each texel, red, green, blue and an alpha of 1. Values of other depths are rounded.
+    pub(super) fn half_bits(&self) -> impl Iterator<Item = [u16; 4]> {
+        let bits = |value: f32| half::f16::from_f32(value).to_bits();
+        self.texels
+            .iter()
+            .map(move |[r, g, b]| [bits(*r), bits(*g), bits(*b), bits(1.0)])
+    }
+
+    /// The integers of a depth that has them.
+    #[cfg(feature = "cli")]
+    pub(super) fn integers(&self) -> impl Iterator<Item = u16> {
+        let largest = self.depth.largest().unwrap_or(0.0);
+        self.texels
+            .iter()
+            .flatten()
+            .map(move |value| (value * largest).round() as u16)
+    }
+}
