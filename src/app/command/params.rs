@@ -175,13 +175,15 @@ fn text(told: &Told) -> String {
         format!("{}: {}", told.material.name, told.material.summary),
         told.seen.clone(),
     ];
+    let around = told.medium.as_ref();
+    lines.extend(around.map(|medium| format!("in {}: n and k are relative to it", medium.name)));
     lines.extend(told.held.iter().map(|held| format!("extrapolated: {held}")));
     lines.push(String::new());
     lines.push(table::text(&["", "red", "green", "blue", ""], &rows));
     let number =
         |value: Option<f64>| value.map_or("none".to_owned(), |value| format!("{value:.5}"));
     lines.push(format!(
-        "index at the d line {}, Abbe number {}",
+        "its own index at the d line {}, Abbe number {}",
         number(ior_d(&told.material)),
         number(dispersion(&told.material))
     ));

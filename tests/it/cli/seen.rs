@@ -231,7 +231,7 @@ fn what_is_not_known_is_refused_or_held_and_said() {
         .done("materials params pmma --extrapolate hold --json -")
         .json();
     assert!(json["extrapolated"].is_string());
-    // All brings along what is known, and names what is not.
+    // `all` brings along what is known, and names what is not.
     let ran = place.done("--material all --target gles");
     assert!(ran.err.contains("left out: material `pmma`"), "{}", ran.err);
     assert!(!ran.out.contains("pmma"));
