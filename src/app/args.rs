@@ -213,20 +213,15 @@ pub struct FilterFlags {
 /// The flags of `materials show`.
 #[derive(Args, Debug)]
 pub struct ShowFlags {
-    /// A name, or the path of a material file, page or table
-    pub name: String,
+    /// Which material, and how it is seen.
+    #[command(flatten)]
+    pub of: ParamsFlags,
     /// Draw n, k, reflectance and colour as SVG into this file, or `-` for stdout
     #[arg(long, value_name = "FILE")]
     pub svg: Option<PathBuf>,
     /// Draw them as PNG into this file, or `-` for stdout
     #[arg(long, value_name = "FILE")]
     pub png: Option<PathBuf>,
-    /// What the light comes from: a transparent material's name or file [default: air]
-    #[arg(long, value_name = "NAME")]
-    pub medium: Option<String>,
-    /// How it is seen.
-    #[command(flatten)]
-    pub sight: SightFlags,
 }
 
 /// The flags of `materials params`.

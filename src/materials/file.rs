@@ -340,13 +340,7 @@ impl Place<'_> {
     }
 
     fn fault(&self, offset: usize, what: String) -> Fault {
-        let before = self.text.get(..offset).unwrap_or("");
-        Fault {
-            file: self.file.to_owned(),
-            line: before.matches('\n').count() + 1,
-            column: before.rsplit('\n').next().unwrap_or("").chars().count() + 1,
-            what,
-        }
+        Fault::at(self.file, self.text, offset, what)
     }
 }
 

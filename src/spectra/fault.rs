@@ -13,3 +13,16 @@ pub struct Fault {
     /// What was found, and what is allowed.
     pub what: String,
 }
+
+impl Fault {
+    /// A fault at an offset of a text, in bytes: line and column are counted there.
+    pub fn at(file: &str, text: &str, offset: usize, what: String) -> Fault {
+        let before = text.get(..offset).unwrap_or("");
+        Fault {
+            file: file.to_owned(),
+            line: before.matches('\n').count() + 1,
+            column: before.rsplit('\n').next().unwrap_or("").chars().count() + 1,
+            what,
+        }
+    }
+}

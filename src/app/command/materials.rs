@@ -118,7 +118,7 @@ fn json_row(m: &Material) -> Value {
 
 fn shown(flags: &ShowFlags, json: Option<&Path>) -> Result<Output, Error> {
     check_places(flags, json)?;
-    let loaded = load(&source(&flags.name)?)?;
+    let loaded = load(&source(&flags.of.name)?)?;
     let mut output = report(text(&loaded.material), &json_of(&loaded.material), json)?;
     drawn(flags, &loaded, &mut output)?;
     Ok(output)
@@ -126,8 +126,8 @@ fn shown(flags: &ShowFlags, json: Option<&Path>) -> Result<Output, Error> {
 
 /// Draws the material where that was asked for.
 fn drawn(flags: &ShowFlags, loaded: &Loaded, output: &mut Output) -> Result<(), Error> {
-    let medium = medium(flags.medium.as_deref())?;
-    let sight = sight(&flags.sight.words(None))?;
+    let medium = medium(flags.of.medium.as_deref())?;
+    let sight = sight(&flags.of.sight.words(None))?;
     if flags.svg.is_none() && flags.png.is_none() {
         return Ok(());
     }

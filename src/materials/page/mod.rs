@@ -103,15 +103,7 @@ impl Page {
 
 /// Whether a text can be read at all.
 pub(super) fn check_text(file: &str, text: &str) -> Result<(), Fault> {
-    let fault = |at: usize, what: String| {
-        let before = &text[..at];
-        Fault {
-            file: file.to_owned(),
-            line: before.matches('\n').count() + 1,
-            column: before.rsplit('\n').next().unwrap_or("").chars().count() + 1,
-            what,
-        }
-    };
+    let fault = |at: usize, what: String| Fault::at(file, text, at, what);
     if text.len() > MOST_BYTES {
         let what = format!(
             "the file has {} bytes; at most {MOST_BYTES} are read",
