@@ -3,6 +3,7 @@
 use serde_json::{Value, json};
 
 use crate::fit::{By, Measured};
+use crate::ir::Ty;
 use crate::methods::Method;
 use crate::targets::{Finish, Page, Target};
 
@@ -148,6 +149,7 @@ fn detail(target: &Target, index: usize, emitted: &Emitted) -> Value {
         "signature": print::head(&emitted.function, &emitted.name, &target.spelling),
         "parameters": parameters(emitted),
         "operations": emitted.function.work(),
+        "fetches": emitted.function.fetches(),
         "code_error": match &emitted.code_ulp {
             Measured::Yes(ulp) => json!({ "max_ulp": ulp }),
             Measured::No(reason) => json!({ "max_ulp": null, "reason": reason }),
@@ -194,7 +196,9 @@ fn parameters(emitted: &Emitted) -> Value {
 /// is std140's for these types.
 fn uniforms(emitted: &Emitted) -> Value {
     let mut end = 0usize;
-    let rows = emitted.function.params.iter().skip(1).map(|param| {
+    let params = emitted.function.params.iter().skip(1);
+    let numbers = params.filter(|param| param.ty != Ty::Texture);
+    let rows = numbers.map(|param| {
         let (size, align, ty) = if param.ty.channels() == 3 {
             (12, 16, "vec3")
         } else {

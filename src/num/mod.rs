@@ -89,6 +89,11 @@ pub trait Num:
         self.max(Self::from_f64(0.0)).min(Self::from_f64(1.0))
     }
 
+    /// A value of which nothing is known: a NaN, or everything.
+    fn unknown() -> Self {
+        Self::from_f64(f64::NAN)
+    }
+
     /// A value that covers both, for a choice that a comparison left open. Only intervals leave one open.
     fn either(self, _other: Self) -> Self {
         self

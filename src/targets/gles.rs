@@ -15,6 +15,7 @@ pub static TARGET: Target = Target {
     by_default: true,
     spelling: Spelling {
         param: "highp {type} {name}",
+        texture: "highp sampler2D {name}",
         local: "highp {type} {name} = {value};",
         head: "highp {type} {name}({params})",
         ..glsl::SPELLING

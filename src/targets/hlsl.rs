@@ -14,9 +14,14 @@ pub static TARGET: Target = Target {
     by_default: true,
     spelling: Spelling {
         rgb: "float3",
+        texture: "Texture2D<float4> {name}, SamplerState {name}_sampler",
         differs: &[
             (Op::Splat, Form::Postfix(".xxx")),
             (Op::Compose, Form::Call("float3")),
+            (
+                Op::Sample,
+                Form::Pattern("{0}.SampleLevel({0}_sampler, float2({1}, {2}), 0.0).rgb"),
+            ),
         ],
         ..C_FAMILY
     },

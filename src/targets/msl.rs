@@ -15,6 +15,7 @@ pub static TARGET: Target = Target {
     by_default: false,
     spelling: Spelling {
         rgb: "metal::float3",
+        texture: "metal::texture2d<float> {name}, metal::sampler {name}_sampler",
         head: "inline {type} {name}({params})",
         suffix: "f",
         mixed_min_max: false,
@@ -29,6 +30,12 @@ pub static TARGET: Target = Target {
             (Op::InverseSqrt, Form::Call("metal::rsqrt")),
             (Op::Exp2, Form::Call("metal::exp2")),
             (Op::Log2, Form::Call("metal::log2")),
+            (
+                Op::Sample,
+                Form::Pattern(
+                    "{0}.sample({0}_sampler, metal::float2({1}, {2}), metal::level(0.0f)).rgb",
+                ),
+            ),
         ],
         ..C_FAMILY
     },

@@ -48,4 +48,6 @@ const OWN: &[&str] = &[
     "reflectances",
     "parameters",
     "Parameters",
+    "table_texture",
+    "table_filter",
 ];

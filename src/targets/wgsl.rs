@@ -43,6 +43,7 @@ pub(super) const SPELLING: Spelling = Spelling {
     scalar: "f32",
     rgb: "vec3<f32>",
     param: "{name}: {type}",
+    texture: "{name}: texture_2d<f32>, {name}_sampler: sampler",
     local: "let {name} = {value};",
     head: "fn {name}({params}) -> {type}",
     suffix: "",
@@ -53,5 +54,9 @@ pub(super) const SPELLING: Spelling = Spelling {
         (Op::Compose, Form::Call("vec3<f32>")),
         (Op::InverseSqrt, Form::Call("inverseSqrt")),
         (Op::Select, Form::CallSelect("select")),
+        (
+            Op::Sample,
+            Form::Pattern("textureSampleLevel({0}, {0}_sampler, vec2<f32>({1}, {2}), 0.0).rgb"),
+        ),
     ],
 };

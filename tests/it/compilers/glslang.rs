@@ -48,10 +48,10 @@ const HLSL: Language = Language {
     beginnings: &[""],
     options: &["-S", "frag", "-D", "-V", "-e", "main"],
     at_once: 1,
-    main: "float4 main(float3 at : TEXCOORD0) : SV_Target\n{\n    float3 sum = 0.0;\nCALLS    return float4(sum, 1.0);\n}\n",
+    main: "Texture2D<float4> a_table;\nSamplerState a_table_sampler;\nfloat4 main(float3 at : TEXCOORD0) : SV_Target\n{\n    float3 sum = 0.0;\nCALLS    return float4(sum, 1.0);\n}\n",
 };
 
-const GLSL_MAIN: &str = "in highp vec3 at;\nout highp vec4 colour;\nvoid main() {\n    highp vec3 sum = vec3(0.0);\nCALLS    colour = vec4(sum, 1.0);\n}\n";
+const GLSL_MAIN: &str = "uniform highp sampler2D a_table;\nin highp vec3 at;\nout highp vec4 colour;\nvoid main() {\n    highp vec3 sum = vec3(0.0);\nCALLS    colour = vec4(sum, 1.0);\n}\n";
 
 #[test]
 fn gles_is_accepted() {
@@ -147,13 +147,22 @@ fn calls<'a>(files: impl Iterator<Item = &'a Artifact>) -> String {
 fn call(signature: &str) -> String {
     let (head, parameters) = signature.trim_end_matches(')').split_once('(').unwrap();
     let name = head.rsplit(' ').next().unwrap();
-    let arguments: Vec<&str> = parameters.split(", ").map(argument).collect();
+    let arguments: Vec<String> = parameters.split(", ").map(argument).collect();
     format!("    sum += {name}({});\n", arguments.join(", "))
 }
 
-fn argument(parameter: &str) -> &'static str {
-    let ty = parameter.rsplit(' ').nth(1).unwrap();
-    if ty.ends_with('3') { "at" } else { "at.x" }
+/// The fragment's place, or a texture or sampler of the parameter's name.
+fn argument(parameter: &str) -> String {
+    let (ty, name) = parameter.rsplit_once(' ').unwrap();
+    let is_resource = ["sampler2D", "Texture2D<float4>", "SamplerState"]
+        .iter()
+        .any(|resource| ty.ends_with(resource));
+    match ty {
+        // Without a prefix a function bears the name `table` itself.
+        _ if is_resource => format!("a_{name}"),
+        _ if ty.ends_with('3') => "at".to_owned(),
+        _ => "at.x".to_owned(),
+    }
 }
 
 /// Compiles these; complaints bear the index of the shader, and its name and beginning come after them.

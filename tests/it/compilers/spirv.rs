@@ -91,6 +91,10 @@ fn promise(file: &Artifact) -> Value {
     if !uniforms.is_empty() {
         resources.push("Uniform 0 0");
     }
+    if functions.iter().any(|f| f["fetches"] != 0) {
+        resources.extend(["UniformConstant 0 3", "UniformConstant 0 4"]);
+    }
+    resources.sort_unstable();
     let entry = |f: &Value| json!([model, f["entry_point"], mode, variables]);
     json!({
         "entries": functions.iter().map(entry).collect::<Vec<_>>(),
