@@ -8,6 +8,7 @@ mod complex;
 mod dd;
 mod half;
 mod interval;
+mod loose;
 mod native;
 mod ulp;
 
@@ -15,6 +16,7 @@ pub use complex::Complex;
 pub use dd::Dd;
 pub use half::Half;
 pub use interval::Interval;
+pub use loose::Loose;
 pub use ulp::{ulp_distance, ulp_of};
 
 use std::fmt::Debug;

@@ -2,9 +2,12 @@
 //! unfused f32 against the graph in f64. Running the text of each target has its place here.
 
 mod code_error;
+pub mod harness;
 mod points;
+mod trial;
 
 pub use code_error::{
     ABSOLUTE_FLOOR, CodeError, code_error, library_code_error, library_code_error_at,
 };
-pub use points::cosines;
+pub use points::{BEYOND, cosines, cosines_around, limits};
+pub use trial::{Expected, Miss, Outcome, Trial};
