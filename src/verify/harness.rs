@@ -9,6 +9,8 @@ use crate::emit::uniform_offsets;
 use crate::ir::{Param, Ty};
 use crate::targets::{self, Spelling};
 
+use super::second::Gles;
+
 /// A function as a harness calls it.
 #[derive(Clone, Copy, Debug)]
 pub struct Call<'a> {
@@ -29,7 +31,8 @@ impl Call<'_> {
         params.filter(|param| param.ty != Ty::Texture)
     }
 
-    fn is_textured(&self) -> bool {
+    /// Whether it reads a texture.
+    pub fn is_textured(&self) -> bool {
         self.params.iter().any(|param| param.ty == Ty::Texture)
     }
 
@@ -110,6 +113,50 @@ fn {ENTRY}(@builtin(global_invocation_id) at: vec3<u32>) {{
 }}
 "
     )
+}
+
+/// A vertex shader of a WGSL file, with the values of the arguments in it: naga makes GLSL ES of that.
+pub fn wgsl_vertex(file: &str, call: &Call, values: &[[f32; 3]]) -> String {
+    let texture = if call.is_textured() {
+        "@group(0) @binding(3) var fg_table: texture_2d<f32>;\n@group(0) @binding(4) var fg_sampler: sampler;\n"
+    } else {
+        ""
+    };
+    let value = call.text("fg_cosine", "fg_table, fg_sampler", |name| {
+        let place = call.numbers().position(|param| param.name == name);
+        let is_rgb = call.numbers().any(|param| param.name == name && param.ty == Ty::Rgb);
+        let [r, g, b] = place.and_then(|i| values.get(i)).copied().unwrap_or_default();
+        if is_rgb {
+            format!("vec3<f32>({r:?}f, {g:?}f, {b:?}f)")
+        } else {
+            format!("{r:?}f")
+        }
+    });
+    format!(
+        "{file}
+{texture}struct FgResult {{
+    @builtin(position) fg_position: vec4<f32>,
+    @location(0) fg_value: vec3<f32>,
+}}
+@vertex
+fn {ENTRY}(@location(0) fg_cosine: f32) -> FgResult {{
+    return FgResult(vec4<f32>(), vec3<f32>({value}));
+}}
+"
+    )
+}
+
+/// naga's GLSL ES with the names that are bound here.
+pub fn renamed(made: &Gles) -> String {
+    let pairs = [
+        (made.inputs.get(&0), "cos_theta"),
+        (made.outputs.get(&0), "reflectance"),
+        (made.textures.get(&(0, 3)), "table"),
+    ];
+    pairs.iter().fold(made.text.clone(), |text, (from, to)| match from {
+        Some(from) => text.replace(from.as_str(), to),
+        None => text,
+    })
 }
 
 /// A vertex shader of a GLSL ES file.
