@@ -4,7 +4,7 @@
 use crate::ir::Op;
 
 use super::spelling::{C_FAMILY, Form, Spelling};
-use super::target::{Finish, Page, Target, Validator};
+use super::target::{Compiler, Finish, Frame, Page, Target, Validator};
 
 /// The record of this target.
 pub static TARGET: Target = Target {
@@ -48,9 +48,17 @@ pub static TARGET: Target = Target {
     finish: Finish::Text,
     validators: &[Validator {
         name: "metal",
-        command: "xcrun -sdk macosx metal -std=macos-metal1.2 -c FILE",
-        get: "Xcode, on macOS only",
+        compiler: &METAL,
+        options: "-sdk macosx metal -std=macos-metal1.2 -c FILE -o OUT",
+        frame: Frame::NONE,
     }],
+};
+
+/// Apple's compiler of Metal.
+static METAL: Compiler = Compiler {
+    name: "metal",
+    command: Some("xcrun"),
+    get: "Xcode, on macOS only",
 };
 
 /// C++14's keywords, Metal's own, and the library names that a file with `using namespace metal` would clash with.
