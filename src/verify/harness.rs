@@ -124,8 +124,13 @@ pub fn wgsl_vertex(file: &str, call: &Call, values: &[[f32; 3]]) -> String {
     };
     let value = call.text("fg_cosine", "fg_table, fg_sampler", |name| {
         let place = call.numbers().position(|param| param.name == name);
-        let is_rgb = call.numbers().any(|param| param.name == name && param.ty == Ty::Rgb);
-        let [r, g, b] = place.and_then(|i| values.get(i)).copied().unwrap_or_default();
+        let is_rgb = call
+            .numbers()
+            .any(|param| param.name == name && param.ty == Ty::Rgb);
+        let [r, g, b] = place
+            .and_then(|i| values.get(i))
+            .copied()
+            .unwrap_or_default();
         if is_rgb {
             format!("vec3<f32>({r:?}f, {g:?}f, {b:?}f)")
         } else {
@@ -153,10 +158,12 @@ pub fn renamed(made: &Gles) -> String {
         (made.outputs.get(&0), "reflectance"),
         (made.textures.get(&(0, 3)), "table"),
     ];
-    pairs.iter().fold(made.text.clone(), |text, (from, to)| match from {
-        Some(from) => text.replace(from.as_str(), to),
-        None => text,
-    })
+    pairs
+        .iter()
+        .fold(made.text.clone(), |text, (from, to)| match from {
+            Some(from) => text.replace(from.as_str(), to),
+            None => text,
+        })
 }
 
 /// A vertex shader of a GLSL ES file.

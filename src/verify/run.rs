@@ -15,7 +15,9 @@ use crate::emit::Emitted;
 use crate::ir::{Param, Ty};
 
 use super::compilers::{self, HlslVersion, hlsl_to_spirv};
-use super::gpu::{self, Argument, Code, Device, Kernel, Program, Texture, TextureFormat, Uniform, Wanted, Wrap};
+use super::gpu::{
+    self, Argument, Code, Device, Kernel, Program, Texture, TextureFormat, Uniform, Wanted, Wrap,
+};
 use super::harness::{self, Call, ENTRY};
 use super::second;
 use super::trial::Trial;
@@ -34,7 +36,9 @@ pub enum Fault {
 impl From<gpu::Fault> for Fault {
     fn from(fault: gpu::Fault) -> Fault {
         match fault {
-            gpu::Fault::Absent { .. } | gpu::Fault::Unable { .. } => Fault::Absent(fault.to_string()),
+            gpu::Fault::Absent { .. } | gpu::Fault::Unable { .. } => {
+                Fault::Absent(fault.to_string())
+            }
             _ => Fault::Failed(fault.to_string()),
         }
     }
@@ -165,7 +169,11 @@ impl Devices {
         let device = self.of(shown.target, way)?;
         let ready = |code: Code, entry: &str, is_bound: bool| {
             let params = &emitted.function.params;
-            let uniforms = if is_bound { Vec::new() } else { uniforms(params, trial, shown.target) };
+            let uniforms = if is_bound {
+                Vec::new()
+            } else {
+                uniforms(params, trial, shown.target)
+            };
             let program = Program {
                 code,
                 entry,
@@ -173,12 +181,17 @@ impl Devices {
                 textured: call.is_textured(),
             };
             let (kernel, params) = (device.prepare(&program)?, params.clone());
-            Ok(Runnable { kernel, params, is_bound })
+            Ok(Runnable {
+                kernel,
+                params,
+                is_bound,
+            })
         };
         if shown.target == "spirv" {
             return ready(Code::Spirv(shown.bytes), shown.entry, false);
         }
-        let text = std::str::from_utf8(shown.bytes).map_err(|fault| Fault::Failed(fault.to_string()))?;
+        let text =
+            std::str::from_utf8(shown.bytes).map_err(|fault| Fault::Failed(fault.to_string()))?;
         match (shown.target, way) {
             ("wgsl", Way::Own) => ready(Code::Wgsl(&harness::wgsl(text, &call)), ENTRY, false),
             ("wgsl", Way::NagaGles) => {
@@ -193,21 +206,38 @@ impl Devices {
             }
             ("gles", _) => ready(Code::Gles(&harness::gles(text, &call)), "main", false),
             ("hlsl", _) => {
-                let version = if way == Way::Hlsl2021 { HlslVersion::V2021 } else { HlslVersion::V2018 };
+                let version = if way == Way::Hlsl2021 {
+                    HlslVersion::V2021
+                } else {
+                    HlslVersion::V2018
+                };
                 let code = hlsl_to_spirv(&harness::hlsl(text, &call), ENTRY, version)?;
                 ready(Code::Spirv(&code), ENTRY, false)
             }
-            (other, _) => Err(Fault::Absent(format!("{other} cannot be run here: it is read again and compiled only"))),
+            (other, _) => Err(Fault::Absent(format!(
+                "{other} cannot be run here: it is read again and compiled only"
+            ))),
         }
     }
 }
 
 /// The arguments of a trial by name, as a target's harness names them.
 fn uniforms(params: &[Param], trial: &Trial, target: &str) -> Vec<Uniform> {
-    let numbers = params.iter().skip(1).filter(|param| param.ty != Ty::Texture);
+    let numbers = params
+        .iter()
+        .skip(1)
+        .filter(|param| param.ty != Ty::Texture);
     let uniform = |(param, value): (&Param, &[f32; 3])| Uniform {
-        name: if target == "gles" { format!("fg_{}", param.name) } else { param.name.clone() },
-        value: if param.ty == Ty::Rgb { Argument::Rgb(*value) } else { Argument::Scalar(value[0]) },
+        name: if target == "gles" {
+            format!("fg_{}", param.name)
+        } else {
+            param.name.clone()
+        },
+        value: if param.ty == Ty::Rgb {
+            Argument::Rgb(*value)
+        } else {
+            Argument::Scalar(value[0])
+        },
     };
     numbers.zip(&trial.values).map(uniform).collect()
 }
@@ -217,17 +247,33 @@ impl Runnable {
     ///
     /// # Errors
     /// The device fails.
-    pub fn run(&self, target: &str, trial: &Trial, cosines: &[f32]) -> Result<Vec<[f32; 3]>, Fault> {
-        let uniforms = if self.is_bound { Vec::new() } else { uniforms(&self.params, trial, target) };
+    pub fn run(
+        &self,
+        target: &str,
+        trial: &Trial,
+        cosines: &[f32],
+    ) -> Result<Vec<[f32; 3]>, Fault> {
+        let uniforms = if self.is_bound {
+            Vec::new()
+        } else {
+            uniforms(&self.params, trial, target)
+        };
         let texels: Option<Vec<[f32; 4]>> = trial.table.as_ref().map(|table| {
-            table.texels.iter().map(|[r, g, b]| [*r, *g, *b, 1.0]).collect()
+            table
+                .texels
+                .iter()
+                .map(|[r, g, b]| [*r, *g, *b, 1.0])
+                .collect()
         });
-        let texture = texels.as_ref().zip(trial.table.as_ref()).map(|(texels, table)| Texture {
-            width: table.width,
-            texels,
-            format: TextureFormat::Half,
-            wrap: Wrap::Clamp,
-        });
+        let texture = texels
+            .as_ref()
+            .zip(trial.table.as_ref())
+            .map(|(texels, table)| Texture {
+                width: table.width,
+                texels,
+                format: TextureFormat::Half,
+                wrap: Wrap::Clamp,
+            });
         Ok(self.kernel.run(cosines, &uniforms, texture.as_ref())?)
     }
 }

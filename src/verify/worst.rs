@@ -16,11 +16,18 @@ pub fn worst_cases(method: &'static Method) -> impl Iterator<Item = (Vec<[f32; 3
 pub fn worst_media(method: &'static Method) -> impl Iterator<Item = (Channels, f32)> {
     LIBRARY.lines().filter_map(|line| {
         let (name, numbers) = line.split_once(',')?;
-        let numbers: Vec<f64> = numbers.split(',').filter_map(|cell| cell.parse().ok()).collect();
+        let numbers: Vec<f64> = numbers
+            .split(',')
+            .filter_map(|cell| cell.parse().ok())
+            .collect();
         match (name == method.name, numbers.as_slice()) {
-            (true, [n, k, cos_theta]) => {
-                Some((Channels { n: [*n; 3], k: [*k; 3] }, *cos_theta as f32))
-            }
+            (true, [n, k, cos_theta]) => Some((
+                Channels {
+                    n: [*n; 3],
+                    k: [*k; 3],
+                },
+                *cos_theta as f32,
+            )),
             _ => None,
         }
     })
@@ -29,5 +36,7 @@ pub fn worst_media(method: &'static Method) -> impl Iterator<Item = (Channels, f
 fn arguments(method: &Method, channels: &Channels) -> Vec<[f32; 3]> {
     let values = values(method, channels, &Derivation::default());
     let numbers = method.inputs.iter().filter(|input| input.ty != Ty::Texture);
-    numbers.map(|input| values[input.name].map(|value| value as f32)).collect()
+    numbers
+        .map(|input| values[input.name].map(|value| value as f32))
+        .collect()
 }

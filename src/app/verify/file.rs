@@ -90,7 +90,11 @@ fn specialised<'a>(subject: &'a Subject, emitted: &Emitted) -> Case<'a> {
 
 fn library<'a>(subject: &'a Subject, emitted: &Emitted) -> Case<'a> {
     let values = subject.values(emitted.method);
-    let numbers = emitted.method.inputs.iter().filter(|input| input.ty != Ty::Texture);
+    let numbers = emitted
+        .method
+        .inputs
+        .iter()
+        .filter(|input| input.ty != Ty::Texture);
     let single = numbers.map(|input| values[input.name].map(|value| value as f32));
     let table = fit::table_of(&emitted.function, |c| subject.truth.at(c));
     Case {
@@ -121,9 +125,18 @@ fn promised(method: &Method) -> Measured<f64> {
     }
 }
 
-fn trial(emitted: &Emitted, values: Vec<[f32; 3]>, table: Option<crate::ir::Texels>, bound: Measured<f64>) -> Trial {
+fn trial(
+    emitted: &Emitted,
+    values: Vec<[f32; 3]>,
+    table: Option<crate::ir::Texels>,
+    bound: Measured<f64>,
+) -> Trial {
     // What reads a texture is as exact as its sampler, which the trial allows for.
-    let bound = if emitted.method.is_textured() { Measured::Yes(0.0) } else { bound };
+    let bound = if emitted.method.is_textured() {
+        Measured::Yes(0.0)
+    } else {
+        bound
+    };
     Trial {
         function: emitted.function.clone(),
         values,
@@ -154,16 +167,28 @@ impl<'a> Tried<'a> {
         devices: &'a Devices,
         effort: Effort,
     ) -> Tried<'a> {
-        let entry = file.run_page().entries.get(index).map_or("main", String::as_str);
-        Tried { file, emitted, entry, devices, effort }
+        let entry = file
+            .run_page()
+            .entries
+            .get(index)
+            .map_or("main", String::as_str);
+        Tried {
+            file,
+            emitted,
+            entry,
+            devices,
+            effort,
+        }
     }
 
     fn row(&self, case: &Case, accepts: &[(&'static str, Verdict)], is_first: bool) -> Value {
         let ways = Way::of(self.file.target.name);
         // Other ways are second opinions on the text: one material tells.
         let ways = if is_first { ways } else { &ways[..1] };
-        let runs: Vec<(Way, Result<Run, Fault>)> =
-            ways.iter().map(|way| (*way, self.run(case, *way))).collect();
+        let runs: Vec<(Way, Result<Run, Fault>)> = ways
+            .iter()
+            .map(|way| (*way, self.run(case, *way)))
+            .collect();
         Row {
             file: self.file,
             emitted: self.emitted,
@@ -211,7 +236,9 @@ impl<'a> Tried<'a> {
             return None;
         }
         let verdicts = compilers::accepts(self.file.target, &page.path, &page.bytes);
-        let refusal = verdicts.iter().find(|(_, verdict)| *verdict != Verdict::Yes)?;
+        let refusal = verdicts
+            .iter()
+            .find(|(_, verdict)| *verdict != Verdict::Yes)?;
         Some(match refusal {
             (name, Verdict::No(words)) => Fault::Failed(format!("{name}: {words}")),
             (name, _) => Fault::Absent(format!(
@@ -221,7 +248,12 @@ impl<'a> Tried<'a> {
     }
 
     /// The error of the method as it runs, against the truth.
-    fn model_error(&self, runnable: &Runnable, case: &Case, truth: &Truth) -> Result<ModelError, Fault> {
+    fn model_error(
+        &self,
+        runnable: &Runnable,
+        case: &Case,
+        truth: &Truth,
+    ) -> Result<ModelError, Fault> {
         let light = self.emitted.method.light;
         let own;
         let truth = if light == truth.light {
@@ -238,7 +270,8 @@ impl<'a> Tried<'a> {
                 let _ = fault.set(why);
                 vec![[f32::NAN; 3]; single.len()]
             });
-            let channel = |i: usize| Column::Each(got.iter().map(|rgb| f64::from(rgb[i])).collect());
+            let channel =
+                |i: usize| Column::Each(got.iter().map(|rgb| f64::from(rgb[i])).collect());
             crate::ir::Value::Rgb([0, 1, 2].map(channel))
         });
         fault.into_inner().map_or(Ok(error), Err)

@@ -28,7 +28,12 @@ fn word<'a>(row: &'a Value, key: &str) -> &'a str {
 }
 
 fn case(row: &Value) -> TestCase {
-    let name = format!("{} ({}, {})", word(row, "function"), word(row, "material"), word(row, "form"));
+    let name = format!(
+        "{} ({}, {})",
+        word(row, "function"),
+        word(row, "material"),
+        word(row, "form")
+    );
     let mut status = match word(row, "status") {
         "pass" => TestCaseStatus::success(),
         "not_checked" => TestCaseStatus::skipped(),

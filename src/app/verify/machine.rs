@@ -20,7 +20,11 @@ pub fn read_if_there(path: &Path) -> Result<Option<Vec<u8>>, Error> {
     };
     match std::fs::metadata(path) {
         Ok(found) if found.len() > LARGEST => Err(Error::Usage {
-            what: format!("{} has {} bytes: that is no shader", path.display(), found.len()),
+            what: format!(
+                "{} has {} bytes: that is no shader",
+                path.display(),
+                found.len()
+            ),
         }),
         Ok(_) => std::fs::read(path).map(Some).map_err(fault),
         Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(None),
@@ -33,7 +37,10 @@ pub fn read_if_there(path: &Path) -> Result<Option<Vec<u8>>, Error> {
 /// # Errors
 /// The system does not tell.
 pub fn own_program() -> io::Result<(PathBuf, Vec<std::ffi::OsString>)> {
-    Ok((std::env::current_exe()?, std::env::args_os().skip(1).collect()))
+    Ok((
+        std::env::current_exe()?,
+        std::env::args_os().skip(1).collect(),
+    ))
 }
 
 /// A process of this program, told what to do through a pipe and answering through another. What drivers print is not
@@ -48,7 +55,10 @@ pub fn worker(program: &Path, words: &[std::ffi::OsString], scratch: &Path) -> i
         // Mesa complains where it is not set.
         command.env("XDG_RUNTIME_DIR", scratch);
     }
-    command.stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::null());
+    command
+        .stdin(Stdio::piped())
+        .stdout(Stdio::piped())
+        .stderr(Stdio::null());
     command.spawn()
 }
 
@@ -61,4 +71,3 @@ pub fn is_github() -> bool {
 pub fn cores() -> usize {
     std::thread::available_parallelism().map_or(1, usize::from)
 }
-

@@ -5,7 +5,7 @@ use std::path::Path;
 
 use crate::app::error::Error;
 use crate::app::generate::{Made, generate_meant};
-use crate::app::request::Request;
+use crate::app::request::{Materials, Request};
 use crate::app::verify::machine;
 use crate::emit::{Emitted, Subject};
 use crate::targets::{self, Target};
@@ -17,6 +17,8 @@ pub struct Plan {
     pub files: Vec<Planned>,
     /// The materials.
     pub subjects: Vec<Subject>,
+    /// The materials with whose values library functions are run, where it is not those.
+    others: Vec<Subject>,
     /// Why some are left out.
     pub left_out: Vec<String>,
 }
@@ -50,6 +52,15 @@ pub struct Page {
 }
 
 impl Plan {
+    /// The materials with whose values library functions are run.
+    pub fn trial_subjects(&self) -> &[Subject] {
+        if self.others.is_empty() {
+            &self.subjects
+        } else {
+            &self.others
+        }
+    }
+
     /// What a request comes to, with the text that lies in a folder.
     ///
     /// # Errors
@@ -65,12 +76,32 @@ impl Plan {
                 _ => files.push(planned(made, page)?),
             }
         }
+        // A request that names methods and no material has library files only; they need values all the same.
+        let others = if meant.subjects.is_empty() {
+            usual_subjects(request)?
+        } else {
+            Vec::new()
+        };
         Ok(Plan {
             files,
+            others,
             subjects: meant.subjects,
-            left_out: meant.left_out.into_iter().map(|unseen| unseen.why).collect(),
+            left_out: meant
+                .left_out
+                .into_iter()
+                .map(|unseen| unseen.why)
+                .collect(),
         })
     }
+}
+
+fn usual_subjects(request: &Request) -> Result<Vec<Subject>, Error> {
+    let usual = Request {
+        materials: Materials::Default,
+        ..request.clone()
+    };
+    let ready = usual.subjects()?.ready;
+    Ok(ready.into_iter().map(|(subject, _)| subject).collect())
 }
 
 impl Planned {
@@ -106,7 +137,9 @@ fn page(made: &Made, folder: &Path) -> Result<Page, Error> {
     let entries = functions.into_iter().flatten().filter_map(entry).collect();
     Ok(Page {
         is_shipped: shipped.is_some(),
-        is_current: shipped.as_ref().is_none_or(|bytes| *bytes == made.artifact.bytes),
+        is_current: shipped
+            .as_ref()
+            .is_none_or(|bytes| *bytes == made.artifact.bytes),
         bytes: shipped.unwrap_or_else(|| made.artifact.bytes.clone()),
         entries,
         path,

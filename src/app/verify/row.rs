@@ -64,12 +64,19 @@ impl Row<'_> {
         for (name, verdict) in self.accepts {
             if let Verdict::No(words) = verdict {
                 status = "fail";
-                reasons.push(format!("{}: {name} refuses it: {words}", self.file.run_page().path));
+                reasons.push(format!(
+                    "{}: {name} refuses it: {words}",
+                    self.file.run_page().path
+                ));
             }
         }
         row["accepts"] = accepts(self.accepts);
         row["status"] = json!(status);
-        row["reason"] = if reasons.is_empty() { Value::Null } else { json!(reasons.join("\n")) };
+        row["reason"] = if reasons.is_empty() {
+            Value::Null
+        } else {
+            json!(reasons.join("\n"))
+        };
         row
     }
 
@@ -86,12 +93,22 @@ impl Row<'_> {
     }
 
     /// Enters a run, and says what to think of it.
-    fn judged(&self, way: Way, run: &Result<Run, Fault>, row: &mut Value) -> (&'static str, Vec<String>) {
+    fn judged(
+        &self,
+        way: Way,
+        run: &Result<Run, Fault>,
+        row: &mut Value,
+    ) -> (&'static str, Vec<String>) {
         match run {
             Err(Fault::Absent(why)) => ("not_checked", vec![why.clone()]),
-            Err(Fault::Failed(why)) => {
-                ("fail", vec![format!("{}: {}: {why}", self.file.run_page().path, self.emitted.name)])
-            }
+            Err(Fault::Failed(why)) => (
+                "fail",
+                vec![format!(
+                    "{}: {}: {why}",
+                    self.file.run_page().path,
+                    self.emitted.name
+                )],
+            ),
             Ok(run) => {
                 row["device"] = json!(run.device);
                 row["points"] = json!(run.points);
@@ -111,7 +128,9 @@ impl Row<'_> {
     /// What a function promises, in words.
     fn bound_text(&self) -> String {
         match &self.emitted.code_ulp {
-            Measured::Yes(ulp) => format!("{ulp} ulp or 2^-22; powers as Vulkan allows exp2 and log2"),
+            Measured::Yes(ulp) => {
+                format!("{ulp} ulp or 2^-22; powers as Vulkan allows exp2 and log2")
+            }
             Measured::No(why) => why.clone(),
         }
     }
@@ -119,8 +138,16 @@ impl Row<'_> {
     /// A miss as people and editors read it.
     fn missed(&self, way: Way, miss: &Miss) -> String {
         let channel = ["red", "green", "blue"][miss.channel];
-        let way = if way == Way::Own { String::new() } else { format!(", by {}", way.name()) };
-        let edited = if self.file.run_page().is_current { "" } else { " The file is not what would be written today." };
+        let way = if way == Way::Own {
+            String::new()
+        } else {
+            format!(", by {}", way.name())
+        };
+        let edited = if self.file.run_page().is_current {
+            ""
+        } else {
+            " The file is not what would be written today."
+        };
         format!(
             "{}: {}, {}{way}: at cos_theta = {:?} (0x{:08x}) {channel} is {:?} (0x{:08x}), expected {:?}: {:.1} ulp off.{edited}",
             self.file.run_page().path,
@@ -157,7 +184,14 @@ fn accepts(verdicts: &[(&'static str, Verdict)]) -> Value {
 /// The rows of a file whose run came to no end.
 pub fn unfinished(file: &Planned, why: &str) -> Vec<Value> {
     let row = |emitted: &Emitted| {
-        let mut row = Row { file, emitted, material: "", accepts: &[], runs: &[] }.head();
+        let mut row = Row {
+            file,
+            emitted,
+            material: "",
+            accepts: &[],
+            runs: &[],
+        }
+        .head();
         row["material"] = Value::Null;
         row["status"] = json!("fail");
         row["reason"] = json!(format!("{}: {}: {why}", file.run_page().path, emitted.name));

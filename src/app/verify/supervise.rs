@@ -64,10 +64,14 @@ pub fn supervise(
                 progress(count as u64, plan.files.len() as u64, &file.run_page().path);
             }
         }
-        let results = threads.into_iter().map(|thread| thread.join().unwrap_or(Ok(())));
+        let results = threads
+            .into_iter()
+            .map(|thread| thread.join().unwrap_or(Ok(())));
         results.collect::<Result<Vec<()>, Error>>()
     })?;
-    let rows = answers.into_iter().flat_map(|rows| rows.into_inner().unwrap_or_default());
+    let rows = answers
+        .into_iter()
+        .flat_map(|rows| rows.into_inner().unwrap_or_default());
     Ok(rows.collect())
 }
 
@@ -109,7 +113,9 @@ impl Silence {
                 limit.as_secs()
             ),
             Silence::Ended(status) => {
-                format!("the process that ran it ended ({status}): its driver failed on this shader")
+                format!(
+                    "the process that ran it ended ({status}): its driver failed on this shader"
+                )
             }
         }
     }
@@ -130,7 +136,11 @@ fn start(scratch: &std::path::Path) -> std::io::Result<Worker> {
             }
         }
     });
-    Ok(Worker { child, input, answers })
+    Ok(Worker {
+        child,
+        input,
+        answers,
+    })
 }
 
 impl Worker {

@@ -16,7 +16,12 @@ use super::plan::Plan;
 pub fn serve(plan: &Plan, devices: &Devices, effort: Effort) -> io::Result<()> {
     let (input, mut output) = (io::stdin().lock(), io::stdout().lock());
     for line in input.lines() {
-        let Some(file) = line?.trim().parse().ok().and_then(|index: usize| plan.files.get(index)) else {
+        let Some(file) = line?
+            .trim()
+            .parse()
+            .ok()
+            .and_then(|index: usize| plan.files.get(index))
+        else {
             continue;
         };
         let answer = Value::Array(rows(plan, file, devices, effort));
