@@ -1,7 +1,9 @@
-//! Verification: generated code against what it means. So far the part that needs no graphics stack: the graph in
-//! unfused f32 against the graph in f64. Running the text of each target has its place here.
+//! Verification: generated code against what it means. The graph in unfused f32 against the
+//! graph in f64 needs no graphics stack; `gpu`, behind the feature of that name, runs the text itself on one.
 
 mod code_error;
+#[cfg(feature = "gpu")]
+pub mod gpu;
 mod points;
 
 pub use code_error::{

@@ -1,0 +1,202 @@
+//! What the machine has: its adapters, and the one that is wanted.
+
+use std::fmt;
+use std::sync::OnceLock;
+
+use super::egl;
+use super::fault::Fault;
+use super::quiet::hush;
+
+/// What a device is.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Adapter {
+    /// The name that its driver gives it.
+    pub name: String,
+    /// The driver with its version.
+    pub driver: String,
+    /// The interface that it is spoken to by.
+    pub backend: Backend,
+    /// What stands behind it.
+    pub kind: Kind,
+}
+
+/// A graphics interface.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Backend {
+    /// Vulkan: WGSL and SPIR-V.
+    Vulkan,
+    /// Metal: WGSL.
+    Metal,
+    /// Direct3D 12: WGSL.
+    Direct3d12,
+    /// OpenGL with compute shaders: WGSL.
+    OpenGl,
+    /// OpenGL ES 3.0: GLSL ES.
+    Gles,
+}
+
+/// What stands behind an adapter, the fastest first.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Kind {
+    /// A card.
+    Discrete,
+    /// A part of the processor.
+    Integrated,
+    /// One that a host lends to a guest.
+    Virtual,
+    /// It does not say.
+    Unknown,
+    /// Software.
+    Software,
+}
+
+/// What is asked for; nothing in it means: the best there is.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Wanted {
+    /// The interface.
+    pub backend: Option<Backend>,
+    /// A part of the name, in whatever case.
+    pub name: Option<String>,
+}
+
+/// What Vulkan needs on Debian.
+const VULKAN_PACKAGES: &str = "mesa-vulkan-drivers libvulkan1";
+
+impl Backend {
+    /// All of them, the preferred first.
+    pub const ALL: [Backend; 5] = [
+        Backend::Vulkan,
+        Backend::Metal,
+        Backend::Direct3d12,
+        Backend::OpenGl,
+        Backend::Gles,
+    ];
+
+    /// The name on the command line.
+    pub fn name(self) -> &'static str {
+        match self {
+            Backend::Vulkan => "vulkan",
+            Backend::Metal => "metal",
+            Backend::Direct3d12 => "dx12",
+            Backend::OpenGl => "gl",
+            Backend::Gles => "gles",
+        }
+    }
+
+    /// The backend of this name.
+    pub fn find(name: &str) -> Option<Backend> {
+        Backend::ALL
+            .into_iter()
+            .find(|backend| backend.name() == name)
+    }
+}
+
+impl fmt::Display for Adapter {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        write!(
+            f,
+            "{}: {} ({})",
+            self.backend.name(),
+            self.name,
+            self.driver
+        )
+    }
+}
+
+/// Everything that shaders can be run on here.
+pub fn adapters() -> Vec<Adapter> {
+    let mut all: Vec<Adapter> = found().iter().map(describe).collect();
+    all.extend(egl::Context::open().map(|context| context.adapter.clone()));
+    all
+}
+
+/// The adapters of wgpu, the preferred first: looked for once in a process and kept. An instance that is dropped
+/// terminates the EGL display, and other contexts with it; and each search gives another handle to the same context of
+/// OpenGL with a lock of its own, so that two threads could take it at once.
+fn found() -> &'static [wgpu::Adapter] {
+    static FOUND: OnceLock<(wgpu::Instance, Vec<wgpu::Adapter>)> = OnceLock::new();
+    let (_, found) = FOUND.get_or_init(|| {
+        hush();
+        let mut descriptor = wgpu::InstanceDescriptor::new_without_display_handle();
+        // No validation layers: they print, and naga validates what needs it.
+        descriptor.flags = wgpu::InstanceFlags::empty();
+        let instance = wgpu::Instance::new(descriptor);
+        let every = wgpu::Backends::all();
+        let mut found = pollster::block_on(instance.enumerate_adapters(every));
+        found.sort_by_key(|adapter| (describe(adapter).kind, describe(adapter).backend));
+        (instance, found)
+    });
+    found
+}
+
+/// The first adapter that is wanted.
+pub(super) fn choose(wanted: &Wanted) -> Result<&'static wgpu::Adapter, Fault> {
+    let found = found();
+    let there: Vec<String> = found.iter().map(|a| describe(a).to_string()).collect();
+    let fits = |adapter: &wgpu::Adapter| wanted.fits(&describe(adapter));
+    found
+        .iter()
+        .find(|adapter| fits(adapter))
+        .ok_or_else(|| absent(wanted, &there))
+}
+
+impl Wanted {
+    fn fits(&self, adapter: &Adapter) -> bool {
+        let lower = adapter.name.to_lowercase();
+        self.backend
+            .is_none_or(|backend| backend == adapter.backend)
+            && self
+                .name
+                .as_ref()
+                .is_none_or(|name| lower.contains(&name.to_lowercase()))
+    }
+}
+
+fn absent(wanted: &Wanted, there: &[String]) -> Fault {
+    let mut what = match &wanted.name {
+        Some(name) => format!("no graphics adapter named `{name}`"),
+        None => "no graphics adapter".to_owned(),
+    };
+    if let Some(backend) = wanted.backend {
+        what += &format!(" for {}", backend.name());
+    }
+    let install = format!("on Debian install {VULKAN_PACKAGES}");
+    let get = match there {
+        [] => install,
+        there if wanted.name.is_some() => format!("there is {}", there.join(", ")),
+        there => format!("there is {}; {install}", there.join(", ")),
+    };
+    Fault::Absent { what, get }
+}
+
+/// An adapter of wgpu in our words.
+pub(super) fn describe(adapter: &wgpu::Adapter) -> Adapter {
+    let info = adapter.get_info();
+    let driver = format!("{} {}", info.driver, info.driver_info);
+    Adapter {
+        driver: driver.trim().to_owned(),
+        backend: backend(info.backend),
+        kind: kind(info.device_type),
+        name: info.name,
+    }
+}
+
+fn backend(backend: wgpu::Backend) -> Backend {
+    match backend {
+        wgpu::Backend::Metal => Backend::Metal,
+        wgpu::Backend::Dx12 => Backend::Direct3d12,
+        wgpu::Backend::Gl => Backend::OpenGl,
+        // The others are of the web and of tests, and not compiled.
+        _ => Backend::Vulkan,
+    }
+}
+
+fn kind(kind: wgpu::DeviceType) -> Kind {
+    match kind {
+        wgpu::DeviceType::DiscreteGpu => Kind::Discrete,
+        wgpu::DeviceType::IntegratedGpu => Kind::Integrated,
+        wgpu::DeviceType::VirtualGpu => Kind::Virtual,
+        wgpu::DeviceType::Other => Kind::Unknown,
+        wgpu::DeviceType::Cpu => Kind::Software,
+    }
+}

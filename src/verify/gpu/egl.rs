@@ -1,0 +1,146 @@
+//! An OpenGL ES 3.0 context without a window, through EGL as the machine has it.
+#![allow(unsafe_code)]
+
+use std::sync::OnceLock;
+
+use glow::HasContext;
+use khronos_egl as egl;
+
+use super::adapter::{Adapter, Backend, Kind};
+use super::fault::Fault;
+use super::quiet::hush;
+
+type Egl = egl::DynamicInstance<egl::EGL1_5>;
+
+/// A context with its functions. Nothing may use [`Context::gl`] before [`Context::enter`] has made it current.
+pub(super) struct Context {
+    egl: &'static Egl,
+    display: egl::Display,
+    context: egl::Context,
+    /// What it is.
+    pub adapter: Adapter,
+    pub gl: glow::Context,
+}
+
+/// `EGL_PLATFORM_SURFACELESS_MESA`, of the extension EGL_MESA_platform_surfaceless.
+const SURFACELESS: egl::Enum = 0x31DD;
+/// What OpenGL ES needs on Debian.
+const PACKAGES: &str = "libegl1 libegl-mesa0 libgles2 libgl1-mesa-dri";
+
+impl Context {
+    /// Opens a context.
+    pub fn open() -> Result<Context, Fault> {
+        hush();
+        let egl = library()?;
+        let display = display(egl)?;
+        egl.initialize(display).map_err(absent)?;
+        egl.bind_api(egl::OPENGL_ES_API).map_err(absent)?;
+        let context = create(egl, display)?;
+        enter(egl, display, context)?;
+        // SAFETY: the context is current, and EGL 1.5 gives the address of every function, of the core too.
+        let gl = unsafe { glow::Context::from_loader_function(|name| address(egl, name)) };
+        Ok(Context {
+            egl,
+            display,
+            context,
+            adapter: describe(&gl),
+            gl,
+        })
+    }
+
+    /// Makes it current on this thread, which another may have left.
+    pub fn enter(&self) -> Result<&glow::Context, Fault> {
+        self.egl.bind_api(egl::OPENGL_ES_API).map_err(Fault::lost)?;
+        enter(self.egl, self.display, self.context).map_err(Fault::lost)?;
+        Ok(&self.gl)
+    }
+}
+
+impl Drop for Context {
+    /// The display is left as it is: it is the process's, and others may have contexts on it.
+    fn drop(&mut self) {
+        if self.egl.get_current_context() == Some(self.context) {
+            let _ = self.egl.make_current(self.display, None, None, None);
+        }
+        let _ = self.egl.destroy_context(self.display, self.context);
+    }
+}
+
+/// The library, loaded once and never unloaded: drivers leave handlers behind that run when the program ends.
+fn library() -> Result<&'static Egl, Fault> {
+    static LIBRARY: OnceLock<Result<Egl, String>> = OnceLock::new();
+    // SAFETY: a library of this name is EGL; loading it runs its initialisers.
+    let load = || unsafe { Egl::load_required().map_err(|error| error.to_string()) };
+    LIBRARY.get_or_init(load).as_ref().map_err(absent)
+}
+
+/// The display without windows, or else the default one.
+fn display(egl: &Egl) -> Result<egl::Display, Fault> {
+    let none = [egl::ATTRIB_NONE];
+    // SAFETY: these displays take no pointer; that of the platform must be the default.
+    unsafe {
+        egl.get_platform_display(SURFACELESS, egl::DEFAULT_DISPLAY, &none)
+            .ok()
+            .or_else(|| egl.get_display(egl::DEFAULT_DISPLAY))
+            .ok_or_else(|| absent("no display"))
+    }
+}
+
+/// A context of version 3.0: without a configuration, which only surfaces need, or else with the first that fits.
+fn create(egl: &Egl, display: egl::Display) -> Result<egl::Context, Fault> {
+    let version = [
+        egl::CONTEXT_MAJOR_VERSION,
+        3,
+        egl::CONTEXT_MINOR_VERSION,
+        0,
+        egl::NONE,
+    ];
+    // SAFETY: EGL_NO_CONFIG_KHR is the null pointer. It is never looked through.
+    let no_config = unsafe { egl::Config::from_ptr(std::ptr::null_mut()) };
+    if let Ok(context) = egl.create_context(display, no_config, None, &version) {
+        return Ok(context);
+    }
+    let wanted = [egl::RENDERABLE_TYPE, egl::OPENGL_ES3_BIT, egl::NONE];
+    let config = egl
+        .choose_first_config(display, &wanted)
+        .map_err(absent)?
+        .ok_or_else(|| absent("no configuration for OpenGL ES 3"))?;
+    egl.create_context(display, config, None, &version)
+        .map_err(absent)
+}
+
+fn enter(egl: &Egl, display: egl::Display, context: egl::Context) -> Result<(), Fault> {
+    egl.make_current(display, None, None, Some(context))
+        .map_err(absent)
+}
+
+/// What the current context is.
+fn describe(gl: &glow::Context) -> Adapter {
+    // SAFETY: the caller has made the context current.
+    let text = |name| unsafe { gl.get_parameter_string(name) };
+    let name = text(glow::RENDERER);
+    let software = ["llvmpipe", "softpipe", "SwiftShader"];
+    let kind = if software.iter().any(|part| name.contains(part)) {
+        Kind::Software
+    } else {
+        Kind::Unknown
+    };
+    Adapter {
+        name,
+        driver: text(glow::VERSION),
+        backend: Backend::Gles,
+        kind,
+    }
+}
+
+fn address(egl: &Egl, name: &str) -> *const std::ffi::c_void {
+    egl.get_proc_address(name)
+        .map_or(std::ptr::null(), |function| function as *const _)
+}
+
+fn absent(why: impl ToString) -> Fault {
+    Fault::Absent {
+        what: format!("no OpenGL ES 3.0 ({})", why.to_string()),
+        get: format!("on Debian install {PACKAGES}"),
+    }
+}

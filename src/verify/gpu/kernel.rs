@@ -1,0 +1,308 @@
+//! A compute program ready to run: its pipeline, and what is bound to it.
+
+use std::rc::Rc;
+
+use wgpu::{BindingType, BufferBindingType, BufferUsages, Features};
+
+use super::compute::Compute;
+use super::fault::Fault;
+use super::passthrough;
+use super::program::{Code, Inputs, Program, Uniform, block, check_fit};
+use super::slot::{BLOCK, Block, Slot};
+use super::texture::{Texture, TextureFormat, Wrap};
+
+/// A pipeline on its device.
+pub(super) struct Kernel {
+    compute: Rc<Compute>,
+    pipeline: wgpu::ComputePipeline,
+    layout: wgpu::BindGroupLayout,
+    inputs: Inputs,
+    uniforms: Vec<Uniform>,
+    textured: bool,
+    has_block: bool,
+}
+
+/// The arguments and the texture of a run, on the device.
+pub(super) struct Resources {
+    block: Option<wgpu::Buffer>,
+    table: Option<(wgpu::TextureView, wgpu::Sampler)>,
+}
+
+impl Kernel {
+    /// Compiles a program.
+    pub fn new(compute: &Rc<Compute>, program: &Program, inputs: Inputs) -> Result<Kernel, Fault> {
+        let module = module(compute, program)?;
+        let (pipeline, layout) =
+            compute.guarded(|| pipeline(&compute.device, &module, program, inputs))?;
+        Ok(Kernel {
+            compute: compute.clone(),
+            pipeline,
+            layout,
+            inputs,
+            uniforms: program.uniforms.to_vec(),
+            textured: program.textured,
+            has_block: has_block(program),
+        })
+    }
+
+    /// Runs over cosines, block by block, and hands the results of each over in order.
+    pub fn run(
+        &self,
+        cosines: &[f32],
+        uniforms: &[Uniform],
+        texture: Option<&Texture>,
+        take: impl FnMut(&[[f32; 4]]),
+    ) -> Result<(), Fault> {
+        let blocks = cosines.chunks(BLOCK).map(Block::Cosines);
+        self.pump(blocks, uniforms, texture, take)
+    }
+
+    /// Runs over blocks: while one is read, the device computes the next.
+    pub fn pump<'a>(
+        &self,
+        blocks: impl Iterator<Item = Block<'a>>,
+        uniforms: &[Uniform],
+        texture: Option<&Texture>,
+        mut take: impl FnMut(&[[f32; 4]]),
+    ) -> Result<(), Fault> {
+        check_fit(&self.uniforms, uniforms, self.textured, texture.is_some())?;
+        let compute = &*self.compute;
+        let resources = self.resources(uniforms, texture)?;
+        let slots = [(); 2].map(|()| compute.guarded(|| Slot::new(&compute.device, self.inputs)));
+        let [even, odd] = slots;
+        let slots = [even?, odd?];
+        let mut ahead = None;
+        for (block, slot) in blocks.zip(slots.iter().cycle()) {
+            let flight = slot.submit(compute, self, &resources, &block)?;
+            if let Some((slot, flight)) = ahead.replace((slot, flight)) {
+                slot.read(compute, flight, &mut take)?;
+            }
+        }
+        match ahead {
+            Some((slot, flight)) => slot.read(compute, flight, &mut take),
+            None => Ok(()),
+        }
+    }
+
+    fn resources(
+        &self,
+        uniforms: &[Uniform],
+        texture: Option<&Texture>,
+    ) -> Result<Resources, Fault> {
+        let compute = &*self.compute;
+        let block = || compute.guarded(|| uniform_block(compute, &block(uniforms)));
+        let table = texture.map(|texture| table(compute, texture));
+        Ok(Resources {
+            block: self.has_block.then(block).transpose()?,
+            table: table.transpose()?,
+        })
+    }
+
+    /// What one block is bound to.
+    pub fn bind(
+        &self,
+        device: &wgpu::Device,
+        resources: &Resources,
+        inputs: wgpu::BindingResource,
+        results: wgpu::BindingResource,
+    ) -> wgpu::BindGroup {
+        let entry = |binding, resource| wgpu::BindGroupEntry { binding, resource };
+        let mut entries = vec![entry(1, inputs), entry(2, results)];
+        if let Some(block) = &resources.block {
+            entries.push(entry(0, block.as_entire_binding()));
+        }
+        if let Some((view, sampler)) = &resources.table {
+            entries.push(entry(3, wgpu::BindingResource::TextureView(view)));
+            entries.push(entry(4, wgpu::BindingResource::Sampler(sampler)));
+        }
+        device.create_bind_group(&wgpu::BindGroupDescriptor {
+            label: None,
+            layout: &self.layout,
+            entries: &entries,
+        })
+    }
+
+    /// The commands of one block, up to the results.
+    pub fn dispatch(
+        &self,
+        encoder: &mut wgpu::CommandEncoder,
+        group: &wgpu::BindGroup,
+        points: usize,
+    ) {
+        let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor::default());
+        pass.set_pipeline(&self.pipeline);
+        pass.set_bind_group(0, group, &[]);
+        pass.dispatch_workgroups(points.div_ceil(64) as u32, 1, 1);
+    }
+}
+
+fn module(compute: &Compute, program: &Program) -> Result<wgpu::ShaderModule, Fault> {
+    match program.code {
+        Code::Wgsl(text) => compute.guarded(|| {
+            compute
+                .device
+                .create_shader_module(wgpu::ShaderModuleDescriptor {
+                    label: None,
+                    source: wgpu::ShaderSource::Wgsl(text.into()),
+                })
+        }),
+        Code::Spirv(bytes) => passthrough::module(compute, bytes, program.entry),
+        Code::Gles(_) => Err(Fault::unable(&compute.adapter.name, "GLSL ES in compute")),
+    }
+}
+
+/// The layout is written out: that of a SPIR-V module cannot be derived.
+fn pipeline(
+    device: &wgpu::Device,
+    module: &wgpu::ShaderModule,
+    program: &Program,
+    inputs: Inputs,
+) -> (wgpu::ComputePipeline, wgpu::BindGroupLayout) {
+    let layout = device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
+        label: None,
+        entries: &entries(program, inputs),
+    });
+    let whole = device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
+        label: None,
+        bind_group_layouts: &[Some(&layout)],
+        immediate_size: 0,
+    });
+    let pipeline = device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
+        label: None,
+        layout: Some(&whole),
+        module,
+        entry_point: Some(program.entry),
+        compilation_options: wgpu::PipelineCompilationOptions::default(),
+        cache: None,
+    });
+    (pipeline, layout)
+}
+
+/// Whether binding 0 is there. wgpu numbers the bindings of a layout anew for Vulkan, without gaps, and shaders that it
+/// has not compiled do not hear of it (<https://github.com/gfx-rs/wgpu/issues/9326>): for SPIR-V it is always there.
+fn has_block(program: &Program) -> bool {
+    !program.uniforms.is_empty() || matches!(program.code, Code::Spirv(_))
+}
+
+/// In the order of their numbers, for the same reason.
+fn entries(program: &Program, inputs: Inputs) -> Vec<wgpu::BindGroupLayoutEntry> {
+    let entry = |binding, ty| wgpu::BindGroupLayoutEntry {
+        binding,
+        visibility: wgpu::ShaderStages::COMPUTE,
+        ty,
+        count: None,
+    };
+    let buffer = |ty| BindingType::Buffer {
+        ty,
+        has_dynamic_offset: false,
+        min_binding_size: None,
+    };
+    let read_only = |read_only| buffer(BufferBindingType::Storage { read_only });
+    let uniform = buffer(BufferBindingType::Uniform);
+    let first = match inputs {
+        Inputs::Cosines => read_only(true),
+        Inputs::Bits => uniform,
+    };
+    let mut entries = Vec::new();
+    if has_block(program) {
+        entries.push(entry(0, uniform));
+    }
+    entries.extend([entry(1, first), entry(2, read_only(false))]);
+    if program.textured {
+        let table = BindingType::Texture {
+            sample_type: wgpu::TextureSampleType::Float { filterable: true },
+            view_dimension: wgpu::TextureViewDimension::D2,
+            multisampled: false,
+        };
+        let sampler = BindingType::Sampler(wgpu::SamplerBindingType::Filtering);
+        entries.extend([entry(3, table), entry(4, sampler)]);
+    }
+    entries
+}
+
+fn uniform_block(compute: &Compute, bytes: &[u8]) -> wgpu::Buffer {
+    let buffer = compute.device.create_buffer(&wgpu::BufferDescriptor {
+        label: None,
+        // One that nobody reads is not empty either.
+        size: bytes.len().max(16) as u64,
+        usage: BufferUsages::UNIFORM | BufferUsages::COPY_DST,
+        mapped_at_creation: false,
+    });
+    compute.queue.write_buffer(&buffer, 0, bytes);
+    buffer
+}
+
+fn table(
+    compute: &Compute,
+    texture: &Texture,
+) -> Result<(wgpu::TextureView, wgpu::Sampler), Fault> {
+    let (format, needed) = match texture.format {
+        TextureFormat::Half => (wgpu::TextureFormat::Rgba16Float, Features::empty()),
+        TextureFormat::Float => (
+            wgpu::TextureFormat::Rgba32Float,
+            Features::FLOAT32_FILTERABLE,
+        ),
+        TextureFormat::Unorm8 => (wgpu::TextureFormat::Rgba8Unorm, Features::empty()),
+        TextureFormat::Unorm16 => (
+            wgpu::TextureFormat::Rgba16Unorm,
+            Features::TEXTURE_FORMAT_16BIT_NORM,
+        ),
+        TextureFormat::Srgb8 => (wgpu::TextureFormat::Rgba8UnormSrgb, Features::empty()),
+    };
+    if !compute.has(needed) {
+        let what = format!("filter a texture of {format:?}");
+        return Err(Fault::unable(&compute.adapter.name, what));
+    }
+    let size = wgpu::Extent3d {
+        width: texture.width as u32,
+        height: texture.height()? as u32,
+        depth_or_array_layers: 1,
+    };
+    compute.guarded(|| {
+        (
+            upload(compute, texture, format, size),
+            sampler(compute, texture),
+        )
+    })
+}
+
+fn upload(
+    compute: &Compute,
+    texture: &Texture,
+    format: wgpu::TextureFormat,
+    size: wgpu::Extent3d,
+) -> wgpu::TextureView {
+    let made = compute.device.create_texture(&wgpu::TextureDescriptor {
+        label: None,
+        size,
+        mip_level_count: 1,
+        sample_count: 1,
+        dimension: wgpu::TextureDimension::D2,
+        format,
+        usage: wgpu::TextureUsages::TEXTURE_BINDING | wgpu::TextureUsages::COPY_DST,
+        view_formats: &[],
+    });
+    let layout = wgpu::TexelCopyBufferLayout {
+        offset: 0,
+        bytes_per_row: Some(texture.row_bytes() as u32),
+        rows_per_image: None,
+    };
+    compute
+        .queue
+        .write_texture(made.as_image_copy(), &texture.bytes(), layout, size);
+    made.create_view(&wgpu::TextureViewDescriptor::default())
+}
+
+fn sampler(compute: &Compute, texture: &Texture) -> wgpu::Sampler {
+    let address = match texture.wrap {
+        Wrap::Clamp => wgpu::AddressMode::ClampToEdge,
+        Wrap::Repeat => wgpu::AddressMode::Repeat,
+    };
+    compute.device.create_sampler(&wgpu::SamplerDescriptor {
+        address_mode_u: address,
+        address_mode_v: address,
+        mag_filter: wgpu::FilterMode::Linear,
+        min_filter: wgpu::FilterMode::Linear,
+        ..Default::default()
+    })
+}

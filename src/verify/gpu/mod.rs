@@ -1,0 +1,133 @@
+//! Shaders run on a real graphics stack: cosines in, reflectances out.
+//!
+//! A [`Device`] is chosen among what the machine has, takes a [`Program`] and gives a [`Kernel`], which is run over
+//! cosines, or a [`Stream`], which is run over all numbers of a range without uploading them. WGSL and SPIR-V run as
+//! compute shaders through wgpu (Vulkan, Metal, Direct3D 12, OpenGL); GLSL ES 3.00 runs as a vertex shader in a context
+//! of just that version, with its results caught by transform feedback, exact to the bit.
+//!
+//! Nothing is linked. What is not there is a [`Fault`] that says what to install, never a result.
+
+mod adapter;
+mod compute;
+mod egl;
+mod fault;
+mod gles;
+mod kernel;
+mod passthrough;
+mod program;
+mod quiet;
+mod slot;
+mod stream;
+mod texture;
+
+pub use adapter::{Adapter, Backend, Kind, Wanted, adapters};
+pub use fault::Fault;
+pub use program::{Argument, Code, Program, Uniform};
+pub use stream::Stream;
+pub use texture::{Texture, TextureFormat, Wrap};
+
+use std::rc::Rc;
+
+use program::Inputs;
+
+/// What shaders are run on. It stays on its thread.
+pub struct Device {
+    /// What it is.
+    pub adapter: Adapter,
+    stack: Stack,
+}
+
+enum Stack {
+    Compute(Rc<compute::Compute>),
+    Gles(Rc<egl::Context>),
+}
+
+/// A program ready to run.
+pub struct Kernel(Prepared);
+
+enum Prepared {
+    Compute(kernel::Kernel),
+    Gles(gles::Kernel),
+}
+
+impl Device {
+    /// The device that is wanted; of several the one that computes fastest by its kind.
+    ///
+    /// # Errors
+    /// There is none, and the fault says what there is, or what to install.
+    pub fn open(wanted: &Wanted) -> Result<Device, Fault> {
+        if wanted.backend == Some(Backend::Gles) {
+            return Device::gles();
+        }
+        let found = adapter::choose(wanted)?;
+        let compute = compute::Compute::open(found)?;
+        Ok(Device {
+            adapter: compute.adapter.clone(),
+            stack: Stack::Compute(Rc::new(compute)),
+        })
+    }
+
+    /// OpenGL ES 3.0, for GLSL ES.
+    ///
+    /// # Errors
+    /// There is none, and the fault says what to install.
+    pub fn gles() -> Result<Device, Fault> {
+        let context = egl::Context::open()?;
+        Ok(Device {
+            adapter: context.adapter.clone(),
+            stack: Stack::Gles(Rc::new(context)),
+        })
+    }
+
+    /// Compiles a program.
+    ///
+    /// # Errors
+    /// It does not compile, or not for this device.
+    pub fn prepare(&self, program: &Program) -> Result<Kernel, Fault> {
+        let prepared = match &self.stack {
+            Stack::Compute(compute) => {
+                Prepared::Compute(kernel::Kernel::new(compute, program, Inputs::Cosines)?)
+            }
+            Stack::Gles(context) => Prepared::Gles(gles::Kernel::new(context, program)?),
+        };
+        Ok(Kernel(prepared))
+    }
+
+    /// Compiles a program whose binding 1 is `var<uniform> first: u32`, the bits of the block's first number.
+    ///
+    /// # Errors
+    /// It does not compile, or not for this device: OpenGL ES has no streams.
+    pub fn prepare_stream(&self, program: &Program) -> Result<Stream, Fault> {
+        match &self.stack {
+            Stack::Compute(compute) => {
+                let kernel = kernel::Kernel::new(compute, program, Inputs::Bits)?;
+                Ok(Stream(kernel))
+            }
+            Stack::Gles(_) => Err(Fault::unable(&self.adapter.name, "a stream in OpenGL ES")),
+        }
+    }
+}
+
+impl Kernel {
+    /// The reflectance at each cosine. The arguments are those that the program was prepared for, with their values.
+    ///
+    /// # Errors
+    /// Arguments or texture do not fit the program or the device, or the device is lost.
+    pub fn run(
+        &self,
+        cosines: &[f32],
+        uniforms: &[Uniform],
+        texture: Option<&Texture>,
+    ) -> Result<Vec<[f32; 3]>, Fault> {
+        match &self.0 {
+            Prepared::Compute(kernel) => {
+                let mut results = Vec::with_capacity(cosines.len());
+                kernel.run(cosines, uniforms, texture, |block| {
+                    results.extend(block.iter().map(|&[r, g, b, _]| [r, g, b]));
+                })?;
+                Ok(results)
+            }
+            Prepared::Gles(kernel) => kernel.run(cosines, uniforms, texture),
+        }
+    }
+}

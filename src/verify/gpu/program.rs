@@ -1,0 +1,134 @@
+//! What is run: one shape of program, and what it is run with.
+
+use super::Fault;
+
+/// A shader as it will be run.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Code<'a> {
+    /// A WGSL module with a compute entry point.
+    Wgsl(&'a str),
+    /// A SPIR-V module with a compute entry point, handed to the driver as it is. Whoever makes one up must validate
+    /// it first: a driver may do anything with a module that is not valid.
+    Spirv(&'a [u8]),
+    /// A vertex shader in GLSL ES 3.00, complete, `#version` included.
+    Gles(&'a str),
+}
+
+/// A program: cosines in, reflectances out.
+///
+/// In compute, workgroups are 64 wide, and group 0 holds: binding 0, a uniform block with the run-time arguments, none if
+/// there are none; binding 1, what [`Inputs`] says; binding 2, a storage array of `vec4<f32>`, as long as there are
+/// points; bindings 3 and 4, a `texture_2d<f32>` and its sampler, none if there is no texture. The last workgroup may
+/// be wider than what is left, and the program must check `arrayLength`.
+///
+/// A vertex shader has `in highp float cos_theta`, its arguments as uniforms by name, `uniform highp sampler2D table`
+/// if there is a texture, and `out highp vec3 reflectance`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Program<'a> {
+    /// The shader.
+    pub code: Code<'a>,
+    /// The entry point; in GLSL ES it is `main`, whatever stands here.
+    pub entry: &'a str,
+    /// The run-time arguments in the order of the block. Only names and shapes matter here.
+    pub uniforms: &'a [Uniform],
+    /// Whether it reads a texture.
+    pub textured: bool,
+}
+
+/// What binding 1 of a compute program is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Inputs {
+    /// `var<storage, read> cosines: array<f32>`.
+    Cosines,
+    /// `var<uniform> first: u32`: point i has the bits `first + i`.
+    Bits,
+}
+
+/// A run-time argument.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Uniform {
+    /// Its name in the text.
+    pub name: String,
+    /// What it is.
+    pub value: Argument,
+}
+
+/// The value of an argument.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Argument {
+    /// `f32`, `float`.
+    Scalar(f32),
+    /// `vec3<f32>`, `vec3`.
+    Rgb([f32; 3]),
+}
+
+/// The bytes of the uniform block of these arguments, by the rules that WGSL and std140 share: three channels begin at
+/// a multiple of 16, and a scalar may follow them in the fourth place.
+pub(super) fn block(uniforms: &[Uniform]) -> Vec<u8> {
+    let mut words: Vec<f32> = Vec::new();
+    for uniform in uniforms {
+        match uniform.value {
+            Argument::Scalar(value) => words.push(value),
+            Argument::Rgb(value) => {
+                words.resize(words.len().next_multiple_of(4), 0.0);
+                words.extend(value);
+            }
+        }
+    }
+    words.resize(words.len().next_multiple_of(4), 0.0);
+    bytemuck::cast_slice(&words).to_vec()
+}
+
+/// Checks that a program gets the arguments and the texture that it was prepared for.
+///
+/// # Errors
+/// It does not, and the fault says what is different.
+pub(super) fn check_fit(
+    wanted: &[Uniform],
+    given: &[Uniform],
+    wants_texture: bool,
+    has_texture: bool,
+) -> Result<(), Fault> {
+    let shape = |uniform: &Uniform| match uniform.value {
+        Argument::Scalar(_) => format!("{}: scalar", uniform.name),
+        Argument::Rgb(_) => format!("{}: rgb", uniform.name),
+    };
+    let shapes = |uniforms: &[Uniform]| uniforms.iter().map(shape).collect::<Vec<_>>().join(", ");
+    let (want, got) = (shapes(wanted), shapes(given));
+    if want != got {
+        return Err(Fault::refused(format!(
+            "its arguments are ({want}), and it is run with ({got})"
+        )));
+    }
+    match (wants_texture, has_texture) {
+        (true, false) => Err(Fault::refused("it reads a texture and is run with none")),
+        (false, true) => Err(Fault::refused("it reads no texture and is run with one")),
+        _ => Ok(()),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_scalar_fills_the_fourth_place_and_three_channels_are_aligned() {
+        let uniform = |value| Uniform {
+            name: String::new(),
+            value,
+        };
+        let words = |values: &[Argument]| {
+            let uniforms: Vec<Uniform> = values.iter().copied().map(uniform).collect();
+            bytemuck::pod_collect_to_vec::<u8, f32>(&block(&uniforms))
+        };
+        let rgb = Argument::Rgb([1.0, 2.0, 3.0]);
+        let scalar = Argument::Scalar(4.0);
+        assert!(words(&[]).is_empty());
+        assert_eq!(words(&[scalar]), [4.0, 0.0, 0.0, 0.0]);
+        assert_eq!(words(&[rgb, scalar]), [1.0, 2.0, 3.0, 4.0]);
+        assert_eq!(
+            words(&[scalar, rgb]),
+            [4.0, 0.0, 0.0, 0.0, 1.0, 2.0, 3.0, 0.0]
+        );
+    }
+}

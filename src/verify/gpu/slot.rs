@@ -1,0 +1,151 @@
+//! One block of points on its way: in, computed, and read from where the device left it.
+
+use std::sync::mpsc::{Receiver, channel};
+
+use wgpu::{BufferUsages, CommandEncoderDescriptor, MapMode};
+
+use super::compute::Compute;
+use super::fault::Fault;
+use super::kernel::{Kernel, Resources};
+use super::program::Inputs;
+
+/// Points of a block.
+pub(super) const BLOCK: usize = 1 << 18;
+/// Bytes of a result.
+const RESULT: u64 = 16;
+/// Bytes of an input, and of a uniform.
+const INPUT: u64 = 4;
+const UNIFORM: u64 = 16;
+
+/// The points of a block.
+pub(super) enum Block<'a> {
+    /// These cosines.
+    Cosines(&'a [f32]),
+    /// So many numbers, from that with these bits on.
+    Bits { first: u32, count: usize },
+}
+
+/// The buffers of one block.
+pub(super) struct Slot {
+    inputs: wgpu::Buffer,
+    results: wgpu::Buffer,
+    /// What the processor can read.
+    landing: wgpu::Buffer,
+}
+
+/// A block that the device is at.
+pub(super) struct Flight {
+    submission: wgpu::SubmissionIndex,
+    mapped: Receiver<Result<(), wgpu::BufferAsyncError>>,
+    bytes: u64,
+}
+
+impl Block<'_> {
+    fn points(&self) -> usize {
+        match self {
+            Block::Cosines(cosines) => cosines.len(),
+            Block::Bits { count, .. } => *count,
+        }
+    }
+
+    fn bytes(&self) -> Vec<u8> {
+        match self {
+            Block::Cosines(cosines) => bytemuck::cast_slice(cosines).to_vec(),
+            Block::Bits { first, .. } => bytemuck::cast_slice(&[*first, 0, 0, 0]).to_vec(),
+        }
+    }
+}
+
+impl Slot {
+    /// Buffers for whole blocks.
+    pub fn new(device: &wgpu::Device, inputs: Inputs) -> Slot {
+        let buffer = |size, usage| {
+            device.create_buffer(&wgpu::BufferDescriptor {
+                label: None,
+                size,
+                usage,
+                mapped_at_creation: false,
+            })
+        };
+        let points = BLOCK as u64;
+        let (size, usage) = match inputs {
+            Inputs::Cosines => (points * INPUT, BufferUsages::STORAGE),
+            Inputs::Bits => (UNIFORM, BufferUsages::UNIFORM),
+        };
+        Slot {
+            inputs: buffer(size, usage | BufferUsages::COPY_DST),
+            results: buffer(
+                points * RESULT,
+                BufferUsages::STORAGE | BufferUsages::COPY_SRC,
+            ),
+            landing: buffer(
+                points * RESULT,
+                BufferUsages::MAP_READ | BufferUsages::COPY_DST,
+            ),
+        }
+    }
+
+    /// Sets the device to work on a block, and does not wait for it.
+    pub fn submit(
+        &self,
+        compute: &Compute,
+        kernel: &Kernel,
+        resources: &Resources,
+        block: &Block,
+    ) -> Result<Flight, Fault> {
+        let inputs = block.bytes();
+        let bytes = block.points() as u64 * RESULT;
+        compute.guarded(|| {
+            compute.queue.write_buffer(&self.inputs, 0, &inputs);
+            // The bindings are as long as the block: the program asks for the length.
+            let group = kernel.bind(
+                &compute.device,
+                resources,
+                part(&self.inputs, inputs.len() as u64),
+                part(&self.results, bytes),
+            );
+            let descriptor = CommandEncoderDescriptor::default();
+            let mut encoder = compute.device.create_command_encoder(&descriptor);
+            kernel.dispatch(&mut encoder, &group, block.points());
+            encoder.copy_buffer_to_buffer(&self.results, 0, &self.landing, 0, bytes);
+            let submission = compute.queue.submit([encoder.finish()]);
+            let (tell, mapped) = channel();
+            self.landing.map_async(MapMode::Read, ..bytes, move |done| {
+                // Nobody listens any more after a fault.
+                let _ = tell.send(done);
+            });
+            Flight {
+                submission,
+                mapped,
+                bytes,
+            }
+        })
+    }
+
+    /// Waits for a block and hands its results over where they lie.
+    pub fn read(
+        &self,
+        compute: &Compute,
+        flight: Flight,
+        take: &mut impl FnMut(&[[f32; 4]]),
+    ) -> Result<(), Fault> {
+        compute.wait(flight.submission)?;
+        let mapped = flight.mapped.try_recv();
+        mapped.map_err(Fault::lost)?.map_err(Fault::lost)?;
+        let view = self.landing.get_mapped_range(..flight.bytes);
+        let view = view.map_err(Fault::lost)?;
+        take(bytemuck::try_cast_slice(&view).map_err(Fault::lost)?);
+        drop(view);
+        self.landing.unmap();
+        Ok(())
+    }
+}
+
+/// The beginning of a buffer, as a binding.
+fn part(buffer: &wgpu::Buffer, bytes: u64) -> wgpu::BindingResource<'_> {
+    wgpu::BindingResource::Buffer(wgpu::BufferBinding {
+        buffer,
+        offset: 0,
+        size: wgpu::BufferSize::new(bytes),
+    })
+}
