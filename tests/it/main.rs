@@ -11,6 +11,8 @@ mod code_bounds;
 mod compilers;
 mod database;
 mod golden;
+#[cfg(feature = "gpu")]
+mod gpu;
 mod graph;
 #[cfg(feature = "cli")]
 mod lut;
