@@ -95,6 +95,12 @@ pub fn hlsl_to_spirv(text: &str, entry: &str, version: HlslVersion) -> Result<Ve
     run(&DXC, &options, &[file])
 }
 
+/// Whether a compiler can be asked here.
+pub fn is_here(compiler: &Compiler) -> bool {
+    let found = |command| call::find(command).is_some();
+    compiler.command.is_none_or(found)
+}
+
 /// Which version of a compiler answers here, as it says itself.
 pub fn version(compiler: &Compiler) -> Measured<String> {
     if compiler.command.is_none() {
