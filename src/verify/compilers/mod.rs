@@ -10,6 +10,8 @@ use crate::targets::{Compiler, DXC, Target, Validator};
 
 use call::{Called, File};
 
+pub use program::calls;
+
 /// What a compiler says of a file.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Verdict {

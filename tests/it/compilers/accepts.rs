@@ -3,10 +3,10 @@
 
 use std::collections::BTreeMap;
 
-use fresnel_gen::targets::{self, Target, Validator};
-use fresnel_gen::verify::compilers::{Verdict, accepts, is_here, verdict, version};
+use fresnel_gen::targets::{self, Finish, Target, Validator};
+use fresnel_gen::verify::compilers::{Verdict, accepts, calls, is_here, verdict, version};
 
-use super::{Judgement, accepted, files, joined, tree};
+use super::{Judgement, accepted, files, joined, text, tree};
 use crate::not_checked;
 
 /// The compilers that must be there where `CI` is set.
@@ -31,6 +31,21 @@ fn compilers_that_are_not_here_are_named() {
                 "not checked: {remark}"
             );
             not_checked(&remark);
+        }
+    }
+}
+
+#[test]
+fn every_function_is_called() {
+    for target in targets::ALL.iter().filter(|t| t.finish != Finish::Spirv) {
+        for file in files(target.name) {
+            let functions = file.detail["functions"].as_array().unwrap();
+            let calls = calls(text(file));
+            assert_eq!(calls.lines().count(), functions.len(), "{}", file.path);
+            for function in functions {
+                let call = format!("    sum += {}(at.x", function["name"].as_str().unwrap());
+                assert!(calls.contains(&call), "{}: no {call}", file.path);
+            }
         }
     }
 }
@@ -81,11 +96,11 @@ fn units(target: &Target, slow: bool) -> Vec<(String, Vec<u8>)> {
     let files = files(target.name);
     let lone = files
         .iter()
-        .filter(|file| !slow || variant(&file.path) == "");
+        .filter(|file| !slow || variant(&file.path).is_empty());
     let mut units: Vec<_> = lone
         .map(|file| (file.path.clone(), file.bytes.clone()))
         .collect();
-    if target.extension == "spv" {
+    if target.finish == Finish::Spirv {
         return units;
     }
     let mut whole = BTreeMap::<&str, Vec<u8>>::new();
@@ -130,9 +145,12 @@ fn judge(validator: &Validator, name: &str, bytes: &[u8]) -> Judgement {
     }
 }
 
+/// Compilers, and something that each says.
+type Words<'a> = &'a [(&'a str, &'a str)];
+
 /// Faults of texts: the target, what is spoilt in its tree, and what each of its compilers says then.
 #[rustfmt::skip]
-const FAULTS: &[(&str, &str, &str, &[(&str, &str)])] = &[
+const FAULTS: &[(&str, &str, &str, Words)] = &[
     ("gles", "sqrt(", "root(", &[("glslang", "'root' : no matching overloaded function found")]),
     // All is declared highp, so that a shader without a default precision can include it.
     ("gles", "highp ", "", &[("glslang", "default precision qualifier")]),
@@ -171,7 +189,7 @@ fn broken_modules_are_refused() {
 }
 
 #[track_caller]
-fn refused(target: &Target, bytes: &[u8], words: &[(&str, &str)]) {
+fn refused(target: &Target, bytes: &[u8], words: Words) {
     let verdicts = accepts(target, &format!("a.{}", target.extension), bytes);
     for (validator, (_, verdict)) in target.validators.iter().zip(verdicts) {
         match verdict {
