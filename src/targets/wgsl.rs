@@ -33,7 +33,7 @@ pub static TARGET: Target = Target {
         Validator {
             name: "tint",
             compiler: &TINT,
-            options: "--format none FILE",
+            options: "--format wgsl -o OUT FILE",
             frame: Frame {
                 beginnings: &[""],
                 ending: ENDING,

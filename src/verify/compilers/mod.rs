@@ -10,6 +10,8 @@ use crate::targets::{Compiler, DXC, Target, Validator};
 
 use call::{Called, File};
 
+pub use program::calls;
+
 /// What a compiler says of a file.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Verdict {
@@ -93,6 +95,12 @@ pub fn hlsl_to_spirv(text: &str, entry: &str, version: HlslVersion) -> Result<Ve
         bytes: text.as_bytes().to_vec(),
     };
     run(&DXC, &options, &[file])
+}
+
+/// Whether a compiler can be asked here.
+pub fn is_here(compiler: &Compiler) -> bool {
+    let found = |command| call::find(command).is_some();
+    compiler.command.is_none_or(found)
 }
 
 /// Which version of a compiler answers here, as it says itself.

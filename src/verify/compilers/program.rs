@@ -34,7 +34,7 @@ pub fn named(name: &str, programs: Vec<Vec<u8>>) -> Vec<File> {
     programs.into_iter().enumerate().map(file).collect()
 }
 
-/// A statement for each function of a text.
+/// What a program does with a text of functions: a statement for each.
 pub fn calls(text: &str) -> String {
     let mut calls: Vec<String> = heads(text).iter().filter_map(|head| call(head)).collect();
     // A file that is included twice has its heads twice.
