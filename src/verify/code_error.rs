@@ -49,7 +49,7 @@ impl CodeError {
         }
     }
 
-    fn worst(self, other: CodeError) -> CodeError {
+    pub(super) fn worst(self, other: CodeError) -> CodeError {
         let max_abs = self.max_abs.max(other.max_abs);
         let worse = if other.max_ulp > self.max_ulp {
             other

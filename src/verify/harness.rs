@@ -5,7 +5,7 @@
 //! binding 0, cosines at 1, reflectances at 2, a texture and its sampler at 3 and 4. OpenGL ES 3.0 has no compute shaders:
 //! there a vertex shader gives its result to transform feedback, exact to the last bit.
 
-use crate::emit::uniform_offsets;
+use crate::emit::{Emitted, uniform_offsets};
 use crate::ir::{Param, Ty};
 use crate::targets::{self, Spelling};
 
@@ -26,6 +26,15 @@ pub struct Call<'a> {
 pub const ENTRY: &str = "fg_main";
 
 impl Call<'_> {
+    /// The call of a function.
+    pub fn of(emitted: &Emitted) -> Call<'_> {
+        Call {
+            name: &emitted.name,
+            params: &emitted.function.params,
+            is_scalar: emitted.function.ty() == Ty::Scalar,
+        }
+    }
+
     fn numbers(&self) -> impl Iterator<Item = &Param> {
         let params = self.params.iter().skip(1);
         params.filter(|param| param.ty != Ty::Texture)
@@ -209,7 +218,7 @@ pub fn hlsl(file: &str, call: &Call) -> String {
         .zip(offsets)
         .map(|(param, offset)| {
             format!(
-                "    [[vk::offset({offset})]] {} fg_{};\n",
+                "    [[vk::offset({offset})]] {} {};\n",
                 spelling.ty(param.ty),
                 param.name
             )
@@ -218,7 +227,9 @@ pub fn hlsl(file: &str, call: &Call) -> String {
     let block = if members.is_empty() {
         String::new()
     } else {
-        format!("[[vk::binding(0, 0)]] cbuffer FgParameters\n{{\n{members}}};\n")
+        format!(
+            "struct FgParameters\n{{\n{members}}};\n[[vk::binding(0, 0)]] ConstantBuffer<FgParameters> fg_parameters;\n"
+        )
     };
     let texture = if call.is_textured() {
         "[[vk::binding(3, 0)]] Texture2D<float4> fg_table;\n[[vk::binding(4, 0)]] SamplerState fg_sampler;\n"
@@ -226,7 +237,7 @@ pub fn hlsl(file: &str, call: &Call) -> String {
         ""
     };
     let value = call.text("fg_cosines[at.x]", "fg_table, fg_sampler", |name| {
-        format!("fg_{name}")
+        format!("fg_parameters.{name}")
     });
     let shown = if call.is_scalar {
         format!("({value}).xxx")

@@ -16,6 +16,8 @@ mod points;
 pub mod run;
 #[cfg(feature = "compilers")]
 pub mod second;
+#[cfg(feature = "gpu")]
+mod sweep;
 mod trial;
 mod worst;
 
@@ -23,5 +25,7 @@ pub use code_error::{
     ABSOLUTE_FLOOR, CodeError, code_error, library_code_error, library_code_error_at,
 };
 pub use points::{BEYOND, cosines, cosines_around, limits};
+#[cfg(feature = "gpu")]
+pub use sweep::{ALL, sweep};
 pub use trial::{Expected, Miss, Outcome, Trial};
 pub use worst::{worst_cases, worst_media};

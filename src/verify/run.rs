@@ -161,11 +161,7 @@ impl Devices {
     /// A compiler refuses the text, or what it takes is not here.
     pub fn prepare(&self, shown: &Shown, way: Way, trial: &Trial) -> Result<Runnable, Fault> {
         let emitted = shown.function;
-        let call = Call {
-            name: &emitted.name,
-            params: &emitted.function.params,
-            is_scalar: emitted.function.ty() == Ty::Scalar,
-        };
+        let call = Call::of(emitted);
         let device = self.of(shown.target, way)?;
         let ready = |code: Code, entry: &str, is_bound: bool| {
             let params = &emitted.function.params;

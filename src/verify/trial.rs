@@ -98,17 +98,22 @@ impl Trial {
         let is_inside = |c: &f32| self.is_guarded || (TEXTBOOK_FROM..=1.0).contains(c);
         let cosines: Vec<f32> = cosines.iter().copied().filter(is_inside).collect();
         let want = self.run::<f64>(&cosines);
-        let mut expected = Expected {
-            slack: self.slack(&cosines, &want),
-            want,
-            bound: f64::INFINITY,
-            cosines,
-        };
+        let mut expected = self.expected_of(cosines, want);
         expected.bound = match self.bound {
             Measured::Yes(ulp) => ulp,
             Measured::No(_) => self.unfused(&expected),
         };
         expected
+    }
+
+    /// What is expected where the results in f64 are known; there is no bound in ulp yet.
+    pub(super) fn expected_of(&self, cosines: Vec<f32>, want: Value<f64>) -> Expected {
+        Expected {
+            slack: self.slack(&cosines, &want),
+            want,
+            bound: f64::INFINITY,
+            cosines,
+        }
     }
 
     /// The error of unfused f32 at these points, with some room.
@@ -180,10 +185,7 @@ fn each(points: usize, at: impl Fn(usize) -> [f64; 3]) -> Value<f64> {
 impl Expected {
     /// Judges results, one for each cosine.
     pub fn judge(&self, got: &[[f32; 3]]) -> Outcome {
-        let mut outcome = Outcome {
-            error: CodeError::NONE,
-            miss: None,
-        };
+        let mut outcome = Outcome::NONE;
         for (point, (cos_theta, got)) in self.cosines.iter().zip(got).enumerate() {
             let want = self.want.at(point);
             let slack = self
@@ -214,6 +216,24 @@ impl Expected {
 }
 
 impl Outcome {
+    /// Nothing was different.
+    pub const NONE: Outcome = Outcome {
+        error: CodeError::NONE,
+        miss: None,
+    };
+
+    /// What came of two.
+    pub fn worst(self, other: Outcome) -> Outcome {
+        let mut both = Outcome {
+            error: self.error.worst(other.error),
+            miss: self.miss,
+        };
+        if let Some(miss) = other.miss {
+            both.add(miss);
+        }
+        both
+    }
+
     /// Keeps the miss that is further off in absolute terms: that is what a person sees.
     fn add(&mut self, miss: Miss) {
         let size = |miss: &Miss| {

@@ -43,16 +43,18 @@ pub fn run(flags: &VerifyFlags, progress: Progress) -> Result<Output, Error> {
             ..Output::default()
         });
     }
-    let rows = if flags.exhaustive {
+    let (rows, speeds) = if flags.exhaustive {
         exhaustive::rows(&plan, &Devices::new(wanted), progress)?
     } else {
         let limits = Limits {
             time: Duration::from_secs(flags.limit.max(1)),
             workers: machine::cores(),
         };
-        supervise(&plan, limits, progress)?
+        (supervise(&plan, limits, progress)?, Vec::new())
     };
-    told(flags, &request, &plan, &rows)
+    let mut output = told(flags, &request, &plan, &rows)?;
+    output.remarks.extend(speeds);
+    Ok(output)
 }
 
 fn request(flags: &VerifyFlags) -> Result<Request, Error> {

@@ -22,9 +22,9 @@ pub struct Effort {
 }
 
 /// A trial of a function, with what it is about.
-struct Case<'a> {
+pub(super) struct Case<'a> {
     material: &'a str,
-    trial: Trial,
+    pub trial: Trial,
     limits: Vec<f32>,
     truth: Option<&'a Truth>,
 }
@@ -77,7 +77,7 @@ fn cases<'a>(plan: &'a Plan, file: &Planned, emitted: &Emitted) -> Vec<Case<'a>>
     cases
 }
 
-fn specialised<'a>(subject: &'a Subject, emitted: &Emitted) -> Case<'a> {
+pub(super) fn specialised<'a>(subject: &'a Subject, emitted: &Emitted) -> Case<'a> {
     let bound = emitted.code_ulp.clone();
     let table = fit::table_of(&emitted.function, |c| subject.truth.at(c));
     Case {

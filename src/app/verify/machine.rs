@@ -1,36 +1,8 @@
-//! What verification needs of the machine: files, its own program, the environment.
+//! What verification needs of the machine: processes of its own program, the environment.
 
 use std::io;
 use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Stdio};
-
-use crate::app::error::Error;
-
-/// The largest file that is read: no shader of ours comes near.
-const LARGEST: u64 = 16 << 20;
-
-/// The bytes of a file, nothing where there is none.
-///
-/// # Errors
-/// It is there and cannot be read, or is too large to be a shader.
-pub fn read_if_there(path: &Path) -> Result<Option<Vec<u8>>, Error> {
-    let fault = |source: io::Error| Error::Input {
-        path: path.to_owned(),
-        source,
-    };
-    match std::fs::metadata(path) {
-        Ok(found) if found.len() > LARGEST => Err(Error::Usage {
-            what: format!(
-                "{} has {} bytes: that is no shader",
-                path.display(),
-                found.len()
-            ),
-        }),
-        Ok(_) => std::fs::read(path).map(Some).map_err(fault),
-        Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(None),
-        Err(error) => Err(fault(error)),
-    }
-}
 
 /// The program that runs, and the words it was given.
 ///

@@ -4,9 +4,10 @@
 use std::path::Path;
 
 use crate::app::error::Error;
+use crate::app::folder;
 use crate::app::generate::{Made, generate_meant};
+use crate::app::manifest::{self, Manifest};
 use crate::app::request::{Materials, Request};
-use crate::app::verify::machine;
 use crate::emit::{Emitted, Subject};
 use crate::targets::{self, Target};
 
@@ -15,6 +16,8 @@ use crate::targets::{self, Target};
 pub struct Plan {
     /// The files in order.
     pub files: Vec<Planned>,
+    /// The methods asked for by name; none where all are meant.
+    methods: Vec<String>,
     /// The materials.
     pub subjects: Vec<Subject>,
     /// The materials with whose values library functions are run, where it is not those.
@@ -61,15 +64,25 @@ impl Plan {
         }
     }
 
+    /// The functions of a file whose methods were asked for.
+    pub fn asked_for<'a>(&'a self, file: &'a Planned) -> impl Iterator<Item = &'a Emitted> {
+        let wanted = |emitted: &&Emitted| {
+            let named = |name: &String| name == "all" || name == emitted.method.name;
+            self.methods.is_empty() || self.methods.iter().any(named)
+        };
+        file.functions.iter().filter(wanted)
+    }
+
     /// What a request comes to, with the text that lies in a folder.
     ///
     /// # Errors
     /// The request cannot be met, or a file cannot be read.
     pub fn new(request: &Request, folder: &Path) -> Result<Plan, Error> {
         let meant = generate_meant(request)?;
+        let shipped = manifest(folder)?;
         let mut files: Vec<Planned> = Vec::new();
         for made in meant.files {
-            let page = page(&made, folder)?;
+            let page = page(&made, folder, shipped.as_ref())?;
             let stem = |path: &str| path.split('.').next().unwrap_or("").to_owned();
             match files.last_mut() {
                 Some(last) if stem(&last.pages[0].path) == stem(&page.path) => last.add(page),
@@ -84,6 +97,7 @@ impl Plan {
         };
         Ok(Plan {
             files,
+            methods: request.methods.clone(),
             others,
             subjects: meant.subjects,
             left_out: meant
@@ -129,9 +143,34 @@ fn planned(made: Made, page: Page) -> Result<Planned, Error> {
     })
 }
 
-fn page(made: &Made, folder: &Path) -> Result<Page, Error> {
+/// The manifest of a folder, where there is one.
+fn manifest(folder: &Path) -> Result<Option<Manifest>, Error> {
+    let path = folder.join(manifest::FILE);
+    let text = folder::read(&path)?;
+    text.map(|text| Manifest::parse(&path, &text)).transpose()
+}
+
+/// Whether a file of a folder has all functions that are wanted of it: an earlier run may have asked for fewer.
+fn has_all(manifest: Option<&Manifest>, made: &Made) -> bool {
+    let Some(manifest) = manifest else {
+        return true;
+    };
+    let entry = manifest
+        .files
+        .iter()
+        .find(|entry| entry.file == made.artifact.path);
+    let functions = entry.and_then(|entry| entry.detail.get("functions")?.as_array());
+    let holds = |name: &str| functions.is_some_and(|all| all.iter().any(|one| one["name"] == name));
+    made.functions.iter().all(|emitted| holds(&emitted.name))
+}
+
+fn page(made: &Made, folder: &Path, manifest: Option<&Manifest>) -> Result<Page, Error> {
     let path = made.artifact.path.clone();
-    let shipped = machine::read_if_there(&folder.join(&path))?;
+    let shipped = if has_all(manifest, made) {
+        folder::read(&folder.join(&path))?
+    } else {
+        None
+    };
     let functions = made.artifact.detail["functions"].as_array();
     let entry = |function: &serde_json::Value| function["entry_point"].as_str().map(str::to_owned);
     let entries = functions.into_iter().flatten().filter_map(entry).collect();
