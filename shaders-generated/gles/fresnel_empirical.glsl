@@ -29,7 +29,12 @@ highp vec3 fresnel_empirical(highp float cos_theta, highp float bias, highp floa
     return vec3(clamp(bias + scale * exp2(power * log2(max(m, 1.1754944e-38))), 0.0, 1.0));
 }
 
-highp float fresnel_empirical_scalar(highp float cos_theta, highp float bias, highp float scale, highp float power) {
+highp float fresnel_empirical_scalar(
+    highp float cos_theta,
+    highp float bias,
+    highp float scale,
+    highp float power
+) {
     highp float c = clamp(cos_theta, 0.0, 1.0); // 1 + 1 ulp must not reach what follows
     highp float m = 1.0 - c; // 1 + I.N, as I.N = -cos_theta
     return clamp(bias + scale * exp2(power * log2(max(m, 1.1754944e-38))), 0.0, 1.0);

@@ -23,13 +23,23 @@
 #ifndef FRESNEL_SCHLICK_GENERALISED_GLES
 #define FRESNEL_SCHLICK_GENERALISED_GLES
 
-highp vec3 fresnel_schlick_generalised(highp float cos_theta, highp vec3 f0, highp float f90, highp float exponent) {
+highp vec3 fresnel_schlick_generalised(
+    highp float cos_theta,
+    highp vec3 f0,
+    highp float f90,
+    highp float exponent
+) {
     highp float c = clamp(cos_theta, 0.0, 1.0); // 1 + 1 ulp must not reach what follows
     highp float m = 1.0 - c; // 0 at normal incidence, 1 at grazing
     return f0 + (f90 - f0) * exp2(exponent * log2(max(m, 1.1754944e-38)));
 }
 
-highp float fresnel_schlick_generalised_scalar(highp float cos_theta, highp float f0, highp float f90, highp float exponent) {
+highp float fresnel_schlick_generalised_scalar(
+    highp float cos_theta,
+    highp float f0,
+    highp float f90,
+    highp float exponent
+) {
     highp float c = clamp(cos_theta, 0.0, 1.0); // 1 + 1 ulp must not reach what follows
     highp float m = 1.0 - c; // 0 at normal incidence, 1 at grazing
     return f0 + (f90 - f0) * exp2(exponent * log2(max(m, 1.1754944e-38)));

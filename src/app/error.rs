@@ -28,6 +28,12 @@ pub enum Error {
         /// What was wrong, and what is allowed.
         what: String,
     },
+    /// Something that this takes is not here.
+    #[error("{what}")]
+    Lacking {
+        /// What is missing, and how to get it.
+        what: String,
+    },
     /// A material that is not known where it is looked at.
     #[error(transparent)]
     Unseen(#[from] materials::Unseen),
@@ -123,8 +129,11 @@ fn offered(nearest: &[String]) -> String {
 }
 
 impl Error {
-    /// The exit code of the program: all of these are faults of the input.
+    /// The exit code of the program: faults of the input are 2, what is missing here is 3.
     pub fn exit_code(&self) -> u8 {
-        2
+        match self {
+            Error::Lacking { .. } => 3,
+            _ => 2,
+        }
     }
 }

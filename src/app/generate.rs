@@ -40,35 +40,10 @@ pub fn generate(request: &Request) -> Result<Generated, Error> {
 /// The same, for a folder whose material files hold these methods already.
 pub fn generate_beside(request: &Request, kept: &Kept) -> Result<Generated, Error> {
     let run = Run::new(request)?;
-    let mut artifacts = Vec::new();
-    let mut owners = Owners::default();
-    for method in run.named.clone().unwrap_or_else(|| methods::ALL.to_vec()) {
-        let functions = emit::library_functions(method, &run.naming)?;
-        for emitted in &functions {
-            owners.claim(&emitted.name, "the library")?;
-        }
-        for target in &run.targets {
-            let command = run.command(target, Some(&[method.name]), None);
-            for file in emit::library(target, method, &functions, &command)? {
-                artifacts.push(artifact(target, file, Some(method.name), None));
-            }
-        }
-    }
-    for (subject, _) in &run.subjects {
-        let mut ready: BTreeMap<&str, Emitted> = BTreeMap::new();
-        for target in &run.targets {
-            let methods = run.methods_of(target, subject, kept);
-            let functions = run.specialised(&methods, subject, &mut ready)?;
-            let usual = methods == subject.default_methods();
-            let command = run.command(target, (!usual).then_some(&methods), Some(subject));
-            for file in emit::material(target, subject, &functions, &run.naming, &command)? {
-                artifacts.push(artifact(target, file, None, Some(&subject.name)));
-            }
-        }
-        for emitted in ready.values() {
-            owners.claim(&emitted.name, &format!("material {}", subject.name))?;
-        }
-    }
+    let mut artifacts: Vec<Artifact> = made(&run, kept)?
+        .into_iter()
+        .map(|made| made.artifact)
+        .collect();
     artifacts.sort_by(|a, b| a.path.cmp(&b.path));
     Ok(Generated {
         artifacts,
@@ -76,6 +51,54 @@ pub fn generate_beside(request: &Request, kept: &Kept) -> Result<Generated, Erro
         provenance: run.provenance(),
         left_out: run.left_out,
     })
+}
+
+/// A file with the functions in it.
+#[derive(Clone, Debug)]
+pub struct Made {
+    /// The file.
+    pub artifact: Artifact,
+    /// Its functions in order.
+    pub functions: Vec<Emitted>,
+    /// The place of its material among the subjects, where it has one.
+    pub subject: Option<usize>,
+}
+
+/// What a request comes to, with what its text means.
+#[derive(Clone, Debug)]
+pub struct Meant {
+    /// The files.
+    pub files: Vec<Made>,
+    /// The materials.
+    pub subjects: Vec<Subject>,
+    /// Why materials that `all` brings along are left out.
+    pub left_out: Vec<Unseen>,
+}
+
+/// Generates everything that the request asks for, and keeps the graphs of what is generated.
+pub fn generate_meant(request: &Request) -> Result<Meant, Error> {
+    let run = Run::new(request)?;
+    Ok(Meant {
+        files: made(&run, &Kept::new())?,
+        subjects: run
+            .subjects
+            .into_iter()
+            .map(|(subject, _)| subject)
+            .collect(),
+        left_out: run.left_out,
+    })
+}
+
+fn made(run: &Run, kept: &Kept) -> Result<Vec<Made>, Error> {
+    let mut files = Vec::new();
+    let mut owners = Owners::default();
+    for method in run.named.clone().unwrap_or_else(|| methods::ALL.to_vec()) {
+        files.extend(run.library(method, &mut owners)?);
+    }
+    for (index, (subject, _)) in run.subjects.iter().enumerate() {
+        files.extend(run.material(index, subject, kept, &mut owners)?);
+    }
+    Ok(files)
 }
 
 /// One function as text for pasting, or, without a material, the functions of a library file: for `-o`.
@@ -154,6 +177,55 @@ impl<'r> Run<'r> {
             naming: request.naming(),
             bounds: Bounds::recorded(),
         })
+    }
+
+    /// The library files of a method.
+    fn library(&self, method: &'static Method, owners: &mut Owners) -> Result<Vec<Made>, Error> {
+        let functions = emit::library_functions(method, &self.naming)?;
+        for emitted in &functions {
+            owners.claim(&emitted.name, "the library")?;
+        }
+        let mut files = Vec::new();
+        for target in &self.targets {
+            let command = self.command(target, Some(&[method.name]), None);
+            for file in emit::library(target, method, &functions, &command)? {
+                files.push(Made {
+                    artifact: artifact(target, file, Some(method.name), None),
+                    functions: emit::written_for(target, functions.clone()).collect(),
+                    subject: None,
+                });
+            }
+        }
+        Ok(files)
+    }
+
+    /// The files of a material.
+    fn material(
+        &self,
+        index: usize,
+        subject: &Subject,
+        kept: &Kept,
+        owners: &mut Owners,
+    ) -> Result<Vec<Made>, Error> {
+        let mut ready: BTreeMap<&str, Emitted> = BTreeMap::new();
+        let mut files = Vec::new();
+        for target in &self.targets {
+            let methods = self.methods_of(target, subject, kept);
+            let functions = self.specialised(&methods, subject, &mut ready)?;
+            let usual = methods == subject.default_methods();
+            let command = self.command(target, (!usual).then_some(&methods), Some(subject));
+            for file in emit::material(target, subject, &functions, &self.naming, &command)? {
+                files.push(Made {
+                    artifact: artifact(target, file, None, Some(&subject.name)),
+                    functions: functions.clone(),
+                    subject: Some(index),
+                });
+            }
+        }
+        for emitted in ready.values() {
+            owners.claim(&emitted.name, &format!("material {}", subject.name))?;
+        }
+        Ok(files)
     }
 
     fn named_or(&self, usual: &[&'static str]) -> Vec<&'static str> {

@@ -22,6 +22,8 @@ pub mod scope;
 pub mod sight;
 pub mod source;
 pub mod tree;
+#[cfg(all(feature = "cli", feature = "gpu"))]
+pub mod verify;
 pub mod write;
 
 pub use artifact::Artifact;

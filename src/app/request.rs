@@ -15,7 +15,7 @@ use super::names::unknown;
 pub struct Request {
     /// Names of targets; `all` is those that are written by default. Empty: the same.
     pub targets: Vec<String>,
-    /// Names of methods, or `all`. Empty: all, and materials get their usual three.
+    /// Names of methods, or `all`. Empty: all, and materials get their usual four.
     pub methods: Vec<String>,
     /// Which materials functions are specialised to.
     pub materials: Materials,

@@ -3,6 +3,7 @@
 use serde_json::{Value, json};
 
 use crate::fit::{By, Measured};
+use crate::ir::{Param, Ty};
 use crate::methods::Method;
 use crate::targets::{Finish, Page, Target};
 
@@ -148,6 +149,7 @@ fn detail(target: &Target, index: usize, emitted: &Emitted) -> Value {
         "signature": print::head(&emitted.function, &emitted.name, &target.spelling),
         "parameters": parameters(emitted),
         "operations": emitted.function.work(),
+        "fetches": emitted.function.fetches(),
         "code_error": match &emitted.code_ulp {
             Measured::Yes(ulp) => json!({ "max_ulp": ulp }),
             Measured::No(reason) => json!({ "max_ulp": null, "reason": reason }),
@@ -190,21 +192,39 @@ fn parameters(emitted: &Emitted) -> Value {
     Value::Object(emitted.constants.iter().map(row).collect())
 }
 
-/// The uniform block of a module: name, type and offset in bytes of each run-time argument, by WGSL's layout, which
-/// is std140's for these types.
+/// The uniform block of a module: name, type and offset in bytes of each run-time argument.
 fn uniforms(emitted: &Emitted) -> Value {
+    let params = &emitted.function.params;
+    let numbers = params
+        .iter()
+        .skip(1)
+        .filter(|param| param.ty != Ty::Texture);
+    let row = |(param, offset): (&Param, usize)| {
+        let ty = if param.ty == Ty::Rgb { "vec3" } else { "float" };
+        json!({ "name": param.name, "type": ty, "offset": offset })
+    };
+    numbers.zip(uniform_offsets(params)).map(row).collect()
+}
+
+/// Where the numbers that a function takes after `cos_theta` lie in its uniform block, in bytes: WGSL's layout, which is
+/// std140's for these types.
+pub fn uniform_offsets(params: &[Param]) -> Vec<usize> {
     let mut end = 0usize;
-    let rows = emitted.function.params.iter().skip(1).map(|param| {
-        let (size, align, ty) = if param.ty.channels() == 3 {
-            (12, 16, "vec3")
+    let numbers = params
+        .iter()
+        .skip(1)
+        .filter(|param| param.ty != Ty::Texture);
+    let place = |param: &Param| {
+        let (size, align) = if param.ty == Ty::Rgb {
+            (12, 16)
         } else {
-            (4, 4, "float")
+            (4, 4)
         };
         let offset = end.next_multiple_of(align);
         end = offset + size;
-        json!({ "name": param.name, "type": ty, "offset": offset })
-    });
-    Value::Array(rows.collect())
+        offset
+    };
+    numbers.map(place).collect()
 }
 
 fn check_names(target: &Target, functions: &[Emitted]) -> Result<(), Error> {

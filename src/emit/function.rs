@@ -9,6 +9,7 @@ use crate::methods::{Class, Light, Method, Values};
 
 use super::bounds::Bounds;
 use super::error::Error;
+use super::header::FILTERED;
 
 /// How functions are named.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -110,8 +111,13 @@ impl Subject {
     }
 
     /// The methods that its file holds unless others are asked for: the exact one first.
-    pub fn default_methods(&self) -> [&'static str; 3] {
-        [self.exact_method(), "schlick_rescaled", "schlick_corrected"]
+    pub fn default_methods(&self) -> [&'static str; 4] {
+        [
+            self.exact_method(),
+            "schlick_rescaled",
+            "schlick_corrected",
+            "table",
+        ]
     }
 }
 
@@ -135,7 +141,11 @@ pub fn library_functions(method: &'static Method, naming: &Naming) -> Result<Vec
                 function,
                 constants: Values::new(),
                 model_error: None,
-                code_ulp: Measured::Yes(method.claims.code_ulp),
+                code_ulp: if method.is_textured() {
+                    Measured::No(FILTERED.to_owned())
+                } else {
+                    Measured::Yes(method.claims.code_ulp)
+                },
             })
         })
         .collect()
@@ -173,7 +183,11 @@ pub fn specialised_function(
         method,
         form: "specialised",
         model_error: Some(error(method, &function, &subject.truth)),
-        code_ulp: bounds.of(&function),
+        code_ulp: if method.is_textured() {
+            Measured::No(FILTERED.to_owned())
+        } else {
+            bounds.of(&function)
+        },
         constants,
         function,
     })

@@ -3,7 +3,7 @@
 
 use crate::fit::{By, Measured, ModelError};
 use crate::ir::Op;
-use crate::methods::{Claim, Contract, Method};
+use crate::methods::{Claim, Contract, Method, TEXELS};
 
 use super::comment;
 use super::function::{Emitted, Subject};
@@ -57,6 +57,7 @@ pub fn specialised(emitted: &Emitted) -> Vec<String> {
     lines.extend(formula(emitted.method));
     lines.push(format!("Source: {}", emitted.method.source.line()));
     lines.extend(exemption(emitted.method));
+    lines.extend(table_line(emitted));
     lines.extend(emitted.model_error.iter().map(model_line));
     lines.push(code_line(&emitted.code_ulp));
     lines.push(format!("Cost: {}", operations(emitted)));
@@ -75,6 +76,7 @@ pub fn brief(emitted: &Emitted, subject: Option<&Subject>, command: &str) -> Vec
     lines.extend(exemption(emitted.method));
     lines.push(format!("Cost: {}.", operations(emitted)));
     lines.extend(subject.into_iter().flat_map(sight));
+    lines.extend(table_line(emitted));
     lines.extend(emitted.model_error.iter().map(model_line));
     lines.push(format!(
         "{} {OUTPUT_LICENCE}.",
@@ -175,6 +177,9 @@ fn triple(values: [f64; 3]) -> String {
     format!("({red}, {green}, {blue})")
 }
 
+/// The code error of what reads a texture: a sampler may round its weights to the nearest of 256, or down.
+pub const FILTERED: &str = "at most 1/256 of the difference of two neighbouring texels, as samplers weigh them in so many steps";
+
 /// What a method promises, a line each.
 pub fn promises(method: &Method) -> Vec<String> {
     let line = |claim: &Claim| {
@@ -184,12 +189,24 @@ pub fn promises(method: &Method) -> Vec<String> {
         };
         format!("Model error for {}: {error}", claim.over.text())
     };
-    let code = format!(
-        "Code error for {}: {}",
-        method.code_media(),
-        bound(method.claims.code_ulp)
-    );
+    let code = if method.is_textured() {
+        format!("Code error: {FILTERED}")
+    } else {
+        let bound = bound(method.claims.code_ulp);
+        format!("Code error for {}: {bound}", method.code_media())
+    };
     method.claims.model.iter().map(line).chain([code]).collect()
+}
+
+/// Which table a specialised function reads.
+fn table_line(emitted: &Emitted) -> Option<String> {
+    let reads = emitted.function.fetches() > 0 && emitted.form == "specialised";
+    reads.then(|| {
+        format!(
+            "Table: as `fresnel-gen bake` writes it unless asked otherwise: {TEXELS} texels, axis rational, one row, half \
+             precision"
+        )
+    })
 }
 
 fn model_line(error: &ModelError) -> String {
@@ -251,5 +268,12 @@ fn operations(emitted: &Emitted) -> String {
     } else {
         format!(", among them {}", parts.join(", "))
     };
-    format!("{} scalar operations{among}", emitted.function.work())
+    let fetches = match emitted.function.fetches() {
+        0 => "",
+        _ => ", and one texture fetch",
+    };
+    format!(
+        "{} scalar operations{among}{fetches}",
+        emitted.function.work()
+    )
 }

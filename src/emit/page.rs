@@ -1,9 +1,11 @@
 //! The page around functions: a template of the target, rendered. Numbers reach it as text.
 
+use std::collections::BTreeSet;
+
 use serde::Serialize;
 use tera::{Context, Tera};
 
-use crate::ir::Param;
+use crate::ir::{Param, Ty};
 use crate::targets::{Finish, Page, Target};
 
 use super::error::Error;
@@ -16,8 +18,10 @@ struct View<'a> {
     header: &'a [String],
     guard: &'a str,
     functions: Vec<FunctionView>,
-    /// The run-time arguments of a library method, after `cos_theta`.
+    /// The numbers that a library method takes after `cos_theta`.
     parameters: Vec<ParameterView>,
+    /// The textures that the functions read.
+    textures: Vec<String>,
 }
 
 #[derive(Serialize)]
@@ -29,6 +33,8 @@ struct FunctionView {
     name: String,
     /// The entry point of a module that calls it.
     entry: String,
+    /// What a module calls it with after `cos_theta`, each with a comma before it.
+    arguments: String,
 }
 
 #[derive(Serialize)]
@@ -79,18 +85,17 @@ pub fn render(request: &Request) -> Result<Vec<u8>, Error> {
 
 fn view<'a>(request: &'a Request) -> View<'a> {
     let functions = request.functions.iter().enumerate();
-    let runtime = |param: &&Param| param.name != "cos_theta";
     let first = &request.functions[0].1.function;
+    let numbers = first.params.iter().filter(|param| !is_texture(param));
     View {
         header: request.header,
         guard: request.guard,
         functions: functions
             .map(|(i, (doc, emitted))| function(request.target, i, doc, emitted))
             .collect(),
-        parameters: first
-            .params
-            .iter()
-            .filter(runtime)
+        textures: textures(request),
+        parameters: numbers
+            .skip(1)
             .map(|param| ParameterView {
                 name: param.name.clone(),
                 ty: request.target.spelling.ty(param.ty),
@@ -99,13 +104,42 @@ fn view<'a>(request: &'a Request) -> View<'a> {
     }
 }
 
+fn is_texture(param: &Param) -> bool {
+    param.ty == Ty::Texture
+}
+
+/// The names of the textures of a file, each once.
+fn textures(request: &Request) -> Vec<String> {
+    let functions = request.functions.iter();
+    let params = functions.flat_map(|(_, emitted)| &emitted.function.params);
+    let names = params.filter(|param| is_texture(param));
+    let sorted: BTreeSet<String> = names.map(|param| param.name.clone()).collect();
+    sorted.into_iter().collect()
+}
+
+/// How a module's entry point calls a function: numbers stand in its block, textures and samplers beside it.
+fn call_arguments(emitted: &Emitted) -> String {
+    let argument = |param: &Param| match param.ty {
+        Ty::Texture => format!(", {0}_texture, {0}_filter", param.name),
+        _ => format!(", parameters.{}", param.name),
+    };
+    emitted
+        .function
+        .params
+        .iter()
+        .skip(1)
+        .map(argument)
+        .collect()
+}
+
 fn function(target: &Target, index: usize, doc: &[String], emitted: &Emitted) -> FunctionView {
     FunctionView {
         doc: doc.to_vec(),
-        head: print::head(&emitted.function, &emitted.name, &target.spelling),
+        head: print::shown_head(&emitted.function, &emitted.name, &target.spelling),
         body: print::body(&emitted.function, &target.spelling),
         name: emitted.name.clone(),
         entry: entry_point(index, emitted),
+        arguments: call_arguments(emitted),
     }
 }
 

@@ -4,7 +4,7 @@
 //! parenthesis that precedence makes needless. Equal precedence on the right keeps its parenthesis, because
 //! floating-point sums and products do not associate.
 
-use crate::ir::{Checked, Node, NodeId, Op, Payload};
+use crate::ir::{Checked, Node, NodeId, Op, Payload, Ty};
 use crate::targets::{Form, Spelling, precedence};
 
 /// Lines longer than this are broken, and comments then stand above.
@@ -45,8 +45,11 @@ pub fn head(function: &Checked, name: &str, spelling: &Spelling) -> String {
         .params
         .iter()
         .map(|param| {
-            spelling
-                .param
+            let pattern = match param.ty {
+                Ty::Texture => spelling.texture,
+                _ => spelling.param,
+            };
+            pattern
                 .replace("{type}", spelling.ty(param.ty))
                 .replace("{name}", &param.name)
         })
@@ -56,6 +59,19 @@ pub fn head(function: &Checked, name: &str, spelling: &Spelling) -> String {
         .replace("{name}", name)
         .replace("{type}", spelling.ty(function.ty()));
     filled.replace("{params}", &params.join(", "))
+}
+
+/// The head as a page shows it: each argument on a line of its own where one line is too short for all.
+pub fn shown_head(function: &Checked, name: &str, spelling: &Spelling) -> String {
+    let whole = head(function, name, spelling);
+    if whole.len() <= WIDTH {
+        return whole;
+    }
+    let broken = whole.replacen('(', "(\n    ", 1).replace(", ", ",\n    ");
+    match broken.rsplit_once(')') {
+        Some((arguments, result)) => format!("{arguments}\n){result}"),
+        None => whole,
+    }
 }
 
 fn push(lines: &mut Vec<String>, statement: Vec<String>, why: &str, comment: &str) {
@@ -173,6 +189,7 @@ impl Printer<'_> {
                     ["r", "g", "b"][index]
                 ))
             }
+            Form::Pattern(pattern) => self.filled(pattern, node),
             Form::Ternary => {
                 let loose = precedence::TERNARY + 1;
                 let text = format!("{} ? {} : {}", arg(0, loose), arg(1, loose), arg(2, loose));
@@ -182,6 +199,14 @@ impl Printer<'_> {
                 }
             }
         }
+    }
+
+    fn filled(&self, pattern: &str, node: &Node) -> Text {
+        let fill = |text: String, (i, arg): (usize, &NodeId)| {
+            text.replace(&format!("{{{i}}}"), &self.expression(*arg).text)
+        };
+        let args = node.args.iter().enumerate();
+        Text::tight(args.fold(pattern.to_owned(), fill))
     }
 
     fn leaf(&self, node: &Node) -> Text {

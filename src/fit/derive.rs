@@ -2,8 +2,9 @@
 
 use std::collections::BTreeMap;
 
+use crate::ir::Ty;
 use crate::materials::Channels;
-use crate::methods::{Method, Values};
+use crate::methods::{Method, ONLY_ROW, TEXELS, Values, WARP};
 use crate::optics::{self, COS_82};
 
 use super::lambda::{THESIS_MATCHING_COS, lambda_for};
@@ -78,7 +79,7 @@ pub fn values(method: &Method, channels: &Channels, derivation: &Derivation) -> 
     )
 }
 
-/// The values of all inputs of a method. A λ that does not exist is 0, which drops the term. A method that solves its
+/// The values of all inputs of a method but a texture. A λ that does not exist is 0, which drops the term. A method that solves its
 /// colours for an index gets colours that an index has.
 pub fn values_of(method: &Method, known: &Known, derivation: &Derivation) -> Values {
     let solvable;
@@ -89,9 +90,8 @@ pub fn values_of(method: &Method, known: &Known, derivation: &Derivation) -> Val
         known
     };
     let value = |name: &str| derived(name, known, derivation);
-    method
-        .inputs
-        .iter()
+    let numbers = method.inputs.iter().filter(|input| input.ty != Ty::Texture);
+    numbers
         .map(|input| (input.name.to_owned(), value(input.name)))
         .collect::<BTreeMap<_, _>>()
 }
@@ -116,6 +116,10 @@ pub fn derived(name: &str, known: &Known, derivation: &Derivation) -> [f64; 3] {
         "lambda" => each(&|i| {
             lambda_for(n[i], k[i], derivation.matching_cos, known.matching[i]).unwrap_or(0.0)
         }),
+        "texels" => [TEXELS as f64; 3],
+        "warp" => [WARP; 3],
+        "row" => [ONLY_ROW; 3],
+        "table_scale" => [1.0; 3],
         _ => unreachable!("every input of the vocabulary has its derivation; a test asks for all"),
     }
 }
@@ -171,7 +175,8 @@ mod tests {
         };
         for method in ALL {
             let values = values(method, &channels, &Derivation::default());
-            assert_eq!(values.len(), method.inputs.len());
+            let textures = usize::from(method.is_textured());
+            assert_eq!(values.len() + textures, method.inputs.len());
             assert!(
                 values.values().flatten().all(|value| value.is_finite()),
                 "{}: {values:?}",

@@ -10,6 +10,7 @@ mod measured;
 mod model_error;
 mod over;
 mod params;
+mod texels;
 
 pub use derive::{Derivation, Known, values, values_of};
 pub use effective::{By, Effective, effective};
@@ -18,3 +19,4 @@ pub use measured::Measured;
 pub use model_error::{ModelError, Truth, error_of, model_error, seen, thesis_errors};
 pub use over::model_error_over;
 pub use params::{BOUNCES, Params, abbe, colour_errors, ior_d, params};
+pub use texels::{arguments, table_of, texels};

@@ -6,6 +6,8 @@ use crate::ir::{Checked, Value, evaluate};
 use crate::materials::{Channels, Surface};
 use crate::methods::Light;
 
+use super::texels::{arguments, table_of};
+
 /// How wrong a method is for a material, whatever computes it.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct ModelError {
@@ -84,10 +86,11 @@ pub fn seen(surface: &Surface, light: Light, cos_theta: f64) -> [f64; 3] {
     surface.gamut.apply(colour).to_array()
 }
 
-/// The model error of a function of `cos_theta` alone.
+/// The model error of a function of `cos_theta` alone, or with the table that it reads.
 pub fn model_error(function: &Checked, truth: &Truth) -> ModelError {
+    let table = table_of(function, |cos_theta| truth.at(cos_theta));
     error_of(truth, &|cosines| {
-        evaluate(function, &[Value::each(cosines.to_vec())])
+        evaluate(function, &arguments(cosines.to_vec(), table.as_ref()))
     })
 }
 

@@ -6,6 +6,7 @@ use crate::methods::{Method, Over};
 
 use super::derive::{Derivation, values};
 use super::model_error::{ANGLES, ModelError, cosines, difference, seen};
+use super::texels::texels;
 
 /// Steps of eta, of n and of k, where model errors are taken over a set.
 const STEPS: usize = 24;
@@ -43,8 +44,9 @@ pub fn model_error_over(method: &Method, over: Over) -> ModelError {
     let errors = media.iter().map(|channels| {
         let constants = values(method, channels, &Derivation::default());
         let mut arguments = vec![Value::each(cosines.clone())];
-        arguments.extend(method.arguments(&constants));
         let surface = Surface::of_channels(channels);
+        let table = texels(|c| seen(&surface, method.light, c));
+        arguments.extend(method.arguments(&constants, Some(&table)));
         let want: Vec<[f64; 3]> = cosines
             .iter()
             .map(|c| seen(&surface, method.light, *c))

@@ -195,6 +195,12 @@ impl<'b> Expr<'b> {
         (exponent * self.at_least(f64::from(f32::MIN_POSITIVE)).log2()).exp2()
     }
 
+    /// This texture at (u, v).
+    pub fn sample(self, u: Expr<'b>, v: Expr<'b>) -> Expr<'b> {
+        let args = [self.id, u.id, v.id];
+        self.builder.push(Op::Sample, &args, Payload::None)
+    }
+
     /// The larger of this and a number.
     pub fn at_least(self, low: f64) -> Expr<'b> {
         self.max(self.builder.number(low))

@@ -7,7 +7,7 @@
 //! 4. constants are finite, in f32 too;
 //! 5. names are identifiers in every language: a letter, then letters, digits and single underscores, none last;
 //! 6. names of arguments and steps are unique in the function;
-//! 7. arguments and the result are numbers, not Bools;
+//! 7. arguments are numbers or textures, and the result is a number;
 //! 8. the result depends on every node: nothing is computed for nothing;
 //! 9. a step that is used twice has a name, unless it is a comparison, or only names a constant or an argument.
 
@@ -15,7 +15,7 @@ use std::collections::BTreeSet;
 use std::ops::Deref;
 
 use super::graph::{Function, Node, NodeId, Ty};
-use super::op::{Payload, Signature};
+use super::op::{Op, Payload, Signature};
 
 /// The rules, in the order of the list above.
 pub const RULES: [&str; 9] = [
@@ -25,7 +25,7 @@ pub const RULES: [&str; 9] = [
     "constants are finite in f32",
     "names are identifiers in every language",
     "names are unique",
-    "arguments and result are numbers",
+    "arguments are numbers or textures, the result is a number",
     "every node is needed",
     "a shared step has a name",
 ];
@@ -134,8 +134,9 @@ fn check_whole(function: &Function) -> Result<(), Broken> {
         7,
         || "an argument is a Bool".to_owned(),
     )?;
-    ensure(function.ty() != Ty::Bool, 7, || {
-        "the result is a Bool".to_owned()
+    let is_number = matches!(function.ty(), Ty::Scalar | Ty::Rgb);
+    ensure(is_number, 7, || {
+        format!("the result is a {}", function.ty().name())
     })?;
     let uses = function.uses();
     for (id, node) in function.nodes.iter().enumerate() {
@@ -156,6 +157,7 @@ pub(super) fn wants_name(function: &Function, id: NodeId, uses: usize) -> bool {
 fn is_name_only(function: &Function, node: &Node) -> bool {
     node.is_leaf()
         || node.op.info().work == 0
+            && node.op != Op::Sample
             && node
                 .args
                 .iter()

@@ -5,6 +5,7 @@ use crate::num::{Num, Truth};
 use super::check::Checked;
 use super::graph::{Function, Node};
 use super::op::{Op, Payload};
+use super::texture::{Texels, Weights};
 
 /// A number for each point: the same for all, or one each.
 #[derive(Clone, Debug, PartialEq)]
@@ -24,6 +25,8 @@ pub enum Value<N> {
     Rgb([Column<N>; 3]),
     /// One answer a point.
     Bool(Column<Truth>),
+    /// The texels of a texture; none where nothing is known of them.
+    Texture(Option<Texels>),
 }
 
 impl<T: Copy> Column<T> {
@@ -87,8 +90,8 @@ impl<N: Num> Value<N> {
         match self {
             Value::Scalar(column) => column,
             Value::Rgb(columns) => &columns[index],
-            Value::Bool(_) => {
-                unreachable!("a checked function gives no Bool where a number is wanted")
+            Value::Bool(_) | Value::Texture(_) => {
+                unreachable!("a checked function gives no other type where a number is wanted")
             }
         }
     }
@@ -122,6 +125,21 @@ impl<N: Num> Value<N> {
             Truth::No => no,
             Truth::Either => yes.either(no),
         }))
+    }
+}
+
+impl<N: Num> Value<N> {
+    /// Exact weights: what a GPU's eight bits make of them is no rounding of numbers.
+    fn sample(&self, u: &Value<N>, v: &Value<N>) -> Value<N> {
+        let Value::Texture(texels) = self else {
+            unreachable!("a checked sample starts with a texture")
+        };
+        let at = |u, v| match texels {
+            Some(texels) => texels.sample(Weights::Exact, u, v),
+            None => [N::unknown(); 3],
+        };
+        let mixed = u.channel(0).zip(v.channel(0), at);
+        Value::Rgb([0, 1, 2].map(|i| mixed.map(|colour| colour[i])))
     }
 }
 
@@ -166,6 +184,7 @@ pub(super) fn apply<N: Num>(node: &Node, values: &[Value<N>], arguments: &[Value
         (Op::Log2, _) => arg(0).map(N::log2),
         (Op::Less, _) => Value::Bool(arg(0).channel(0).zip(arg(1).channel(0), N::less)),
         (Op::Select, _) => arg(0).choose(arg(1), arg(2)),
+        (Op::Sample, _) => arg(0).sample(arg(1), arg(2)),
         (Op::Number | Op::Param | Op::Channel, _) => {
             unreachable!("a checked node carries its payload")
         }

@@ -11,6 +11,8 @@ pub enum Ty {
     Rgb,
     /// The answer to a comparison.
     Bool,
+    /// A texture with the sampler that filters it: an argument only.
+    Texture,
 }
 
 impl Ty {
@@ -25,6 +27,7 @@ impl Ty {
             Ty::Scalar => "scalar",
             Ty::Rgb => "rgb",
             Ty::Bool => "bool",
+            Ty::Texture => "texture",
         }
     }
 }
@@ -46,7 +49,7 @@ pub struct Label {
 pub struct Param {
     /// Its name, the same in every language.
     pub name: String,
-    /// Scalar or colour.
+    /// Scalar, colour or texture.
     pub ty: Ty,
 }
 
@@ -104,7 +107,7 @@ impl Function {
         uses
     }
 
-    /// Scalar operations of one evaluation, a colour counted three times.
+    /// Scalar operations of one evaluation, a colour counted three times; fetches from a texture are not among them.
     pub fn work(&self) -> usize {
         let channels = |node: &Node| {
             node.args
@@ -126,6 +129,12 @@ impl Function {
             .filter(|node| node.op == op)
             .map(|node| node.ty.channels())
             .sum()
+    }
+
+    /// How often an evaluation reads a texture.
+    pub fn fetches(&self) -> usize {
+        let is_fetch = |node: &&Node| node.op == Op::Sample;
+        self.nodes.iter().filter(is_fetch).count()
     }
 
     /// The same function with only the nodes that the result needs, each leaf just before its first use.

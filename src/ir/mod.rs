@@ -3,8 +3,8 @@
 //! # Rules of evaluation
 //! 1. A [`Function`] is a list of [`Node`]s; a node's arguments stand before it. There is no control flow, no
 //!    loop, no array, no memory and no call: every node is evaluated once, in order, for every input.
-//! 2. Values are a `Scalar`, an `Rgb` (three channels that never mix, except by `channel` and `compose`) or a
-//!    `Bool`. `add`, `sub`, `mul` and `div` accept a scalar beside a colour and apply it to each channel;
+//! 2. Values are a `Scalar`, an `Rgb` (three channels that never mix, except by `channel` and `compose`), a
+//!    `Bool`, or a `Texture`, which only an argument can be and only `sample` reads. `add`, `sub`, `mul` and `div` accept a scalar beside a colour and apply it to each channel;
 //!    all other operations want alike types.
 //! 3. A choice is a scalar `select`: both sides are evaluated, one is taken. It is never a mix, because a mix
 //!    with 0 turns infinity into NaN.
@@ -25,6 +25,7 @@ mod fold;
 mod graph;
 mod op;
 mod text;
+mod texture;
 
 pub use build::{Builder, Expr};
 pub use check::{Checked, Fault, RULES, check, identifier_fault};
@@ -33,3 +34,4 @@ pub use fold::{fold, specialise};
 pub use graph::{Function, Label, Node, NodeId, Param, Ty};
 pub use op::{OPS, Op, OpInfo, Payload, Signature};
 pub use text::{ParseError, parse, print};
+pub use texture::{Texels, Weights, filtered};

@@ -27,6 +27,7 @@ pub enum Op {
     Log2,
     Less,
     Select,
+    Sample,
 }
 
 /// What a node carries beside its arguments.
@@ -63,6 +64,8 @@ pub enum Signature {
     Compare,
     /// `(bool, scalar, scalar) -> scalar`
     Choose,
+    /// `(texture, scalar, scalar) -> rgb`
+    Fetch,
 }
 
 impl Signature {
@@ -72,14 +75,14 @@ impl Signature {
             Signature::Number | Signature::Param => 0,
             Signature::Splat | Signature::Channel | Signature::Unary => 1,
             Signature::Alike | Signature::Mixed | Signature::Compare => 2,
-            Signature::Compose | Signature::Choose => 3,
+            Signature::Compose | Signature::Choose | Signature::Fetch => 3,
         }
     }
 
     /// The result type for these argument types, or nothing where they do not fit. A parameter's type is not
     /// known here and comes back as a scalar.
     pub fn result(self, arguments: &[Ty]) -> Option<Ty> {
-        use Ty::{Bool, Rgb, Scalar};
+        use Ty::{Bool, Rgb, Scalar, Texture};
         match (self, arguments) {
             (Signature::Number | Signature::Param, []) => Some(Scalar),
             (Signature::Splat, [Scalar]) => Some(Rgb),
@@ -91,6 +94,7 @@ impl Signature {
             (Signature::Mixed, [Scalar | Rgb, Scalar | Rgb]) => Some(Rgb),
             (Signature::Compare, [Scalar, Scalar]) => Some(Bool),
             (Signature::Choose, [Bool, Scalar, Scalar]) => Some(Scalar),
+            (Signature::Fetch, [Texture, Scalar, Scalar]) => Some(Rgb),
             _ => None,
         }
     }
@@ -129,7 +133,7 @@ const fn row(
 
 /// Every operation, in the order of [`Op`].
 #[rustfmt::skip]
-pub static OPS: [OpInfo; 20] = [
+pub static OPS: [OpInfo; 21] = [
     row(Op::Number,      "number",       Signature::Number,  0, "a constant"),
     row(Op::Param,       "param",        Signature::Param,   0, "an argument of the function"),
     row(Op::Splat,       "splat",        Signature::Splat,   0, "the same scalar in each channel"),
@@ -150,6 +154,7 @@ pub static OPS: [OpInfo; 20] = [
     row(Op::Log2,        "log2",         Signature::Unary,   1, "the logarithm to base 2"),
     row(Op::Less,        "less",         Signature::Compare, 1, "a < b"),
     row(Op::Select,      "select",       Signature::Choose,  1, "b where a holds, else c"),
+    row(Op::Sample,      "sample",       Signature::Fetch,   0, "the texture a at (b, c), filtered linearly, level 0"),
 ];
 
 impl Op {

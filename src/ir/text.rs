@@ -140,7 +140,7 @@ fn parse_head(line: usize, head: &str) -> Result<(String, Vec<Param>, Ty), Parse
         .ok_or_else(wrong)?;
     let (inside, returned) = rest.split_once(") -> ").ok_or_else(wrong)?;
     let number = |name: &str| {
-        [Ty::Scalar, Ty::Rgb]
+        [Ty::Scalar, Ty::Rgb, Ty::Texture]
             .into_iter()
             .find(|t| t.name() == name.trim())
     };

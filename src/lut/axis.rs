@@ -26,6 +26,7 @@
 //! √(c + b), between sqrt and rational; other constants of the rational one (1/5 and 3/10 in place of its 1/4 need 28
 //! and 26 texels).
 
+use crate::methods::{WARP, unwarped, warped};
 use crate::num::Num;
 
 /// How cosines are spread over a table.
@@ -85,28 +86,33 @@ impl Axis {
         }
     }
 
+    /// The constant k of the axes w = (1 + k) c / (1 + k c), which the method `table` takes as `warp`.
+    pub fn constant(self) -> Option<f64> {
+        match self {
+            Axis::Cos => Some(0.0),
+            Axis::Square | Axis::Sqrt => None,
+            Axis::Rational => Some(WARP),
+            Axis::Steep => Some(8.0),
+            Axis::Grazing => Some(64.0),
+        }
+    }
+
     /// w of a cosine in [0, 1], in any kind of number: 0 at 0 and 1 at 1, exactly.
     pub fn warp<N: Num>(self, c: N) -> N {
-        let number = N::from_f64;
-        match self {
-            Axis::Cos => c,
-            Axis::Square => c * (number(2.0) - c),
-            Axis::Sqrt => c.sqrt(),
-            Axis::Rational => number(5.0) * c / (number(4.0) * c + number(1.0)),
-            Axis::Steep => number(9.0) * c / (number(8.0) * c + number(1.0)),
-            Axis::Grazing => number(65.0) * c / (number(64.0) * c + number(1.0)),
+        match (self, self.constant()) {
+            (Axis::Cos, _) => c,
+            (_, Some(constant)) => warped(constant, c),
+            (Axis::Sqrt, None) => c.sqrt(),
+            (_, None) => c * (N::from_f64(2.0) - c),
         }
     }
 
     /// The cosine of a w in [0, 1].
     pub fn cosine(self, w: f64) -> f64 {
-        match self {
-            Axis::Cos => w,
-            Axis::Square => 1.0 - (1.0 - w).sqrt(),
-            Axis::Sqrt => w * w,
-            Axis::Rational => w / (5.0 - 4.0 * w),
-            Axis::Steep => w / (9.0 - 8.0 * w),
-            Axis::Grazing => w / (65.0 - 64.0 * w),
+        match (self, self.constant()) {
+            (_, Some(constant)) => unwarped(constant, w),
+            (Axis::Sqrt, None) => w * w,
+            (_, None) => 1.0 - (1.0 - w).sqrt(),
         }
     }
 

@@ -1,23 +1,12 @@
 //! The filter: what a linear sampler that clamps to the edge gives back for a cosine.
 //!
-//! The coordinate is computed as a shader does, in binary32 and unfused. A GPU then keeps eight bits of the place
-//! between two texels (Vulkan's `subPixelPrecisionBits` and Direct3D's 8-bit fraction), so that weights are whole
-//! 1/256; the mix itself is binary32. Source: Microsoft, *Direct3D 11.3 Functional Specification*, section 7.18.8, 2015,
-//! <https://microsoft.github.io/DirectX-Specs/d3d/archive/D3D11_3_FunctionalSpec.htm>.
+//! The coordinate is computed as a shader does, in binary32 and unfused; the texels are then mixed as [`filtered`] says.
 
+use crate::ir::{Weights, filtered};
 use crate::num::Num;
 
 use super::axis::Axis;
 use super::depth::Stored;
-
-/// How finely the place between two texels is known.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Weights {
-    /// As finely as the coordinate.
-    Exact,
-    /// In steps of 1/256, as GPUs do.
-    Steps256,
-}
 
 impl Stored {
     /// The filtered lookup at a cosine, scale included. A NaN is looked up at 0.
@@ -34,23 +23,7 @@ impl Stored {
 
     /// What a sampler gives at u, before the scale.
     pub fn sample(&self, weights: Weights, u: f32) -> [f32; 3] {
-        let last = self.texels.len().saturating_sub(1);
-        let place = f64::from(u) * self.texels.len() as f64 - 0.5;
-        let place = match weights {
-            Weights::Exact => place,
-            Weights::Steps256 => (place * 256.0).round() / 256.0,
-        };
-        // A NaN is the first texel.
-        let place = if place > 0.0 {
-            place.min(last as f64)
-        } else {
-            0.0
-        };
-        let left = place.floor();
-        let share = (place - left) as f32;
-        let texel = |i: usize| self.texels.get(i.min(last)).copied().unwrap_or_default();
-        let (a, b) = (texel(left as usize), texel(left as usize + 1));
-        [0, 1, 2].map(|i| a[i] * (1.0 - share) + b[i] * share)
+        filtered(&self.texels, weights, f64::from(u)).map(|channel| channel as f32)
     }
 }
 

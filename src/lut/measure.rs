@@ -5,8 +5,8 @@ use crate::ir::{Column, Value};
 
 use super::axis::Axis;
 use super::depth::Stored;
-use super::filter::Weights;
 use super::table::centre;
+use crate::ir::Weights;
 
 /// Places between texels at which the truth is known: filtering errs most there.
 #[derive(Clone, Debug, PartialEq)]

@@ -27,7 +27,6 @@ mod text;
 pub use axis::Axis;
 pub use depth::{Depth, Stored};
 pub use error::Error;
-pub use filter::Weights;
 pub use format::Format;
 pub use measure::{Between, table_error};
 pub use picture::Picture;

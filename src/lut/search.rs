@@ -5,9 +5,9 @@ use crate::fit::Truth;
 use super::axis::Axis;
 use super::depth::{Depth, Stored};
 use super::error::Error;
-use super::filter::Weights;
 use super::measure::{Between, table_error};
 use super::table::{LEAST_TEXELS, MOST_TEXELS, Table};
+use crate::ir::Weights;
 
 /// A kind of table.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -7,7 +7,7 @@ use crate::ir::{Builder, Expr, Ty};
 pub struct Input {
     /// Its name in every language.
     pub name: &'static str,
-    /// Scalar, or a value per channel.
+    /// Scalar, a value per channel, or a texture.
     pub ty: Ty,
     /// What it is, and its unit.
     pub meaning: &'static str,
@@ -90,11 +90,35 @@ impl Input {
         "any",
     );
 
+    pub const TABLE: Input = Input {
+        name: "table",
+        ty: Ty::Texture,
+        meaning: "the texture, and after it the sampler: reflectance along x, cos theta = 0 first",
+        domain: "linear filtering, clamped to the edge, not sRGB",
+    };
+    pub const TEXELS: Input = scalar("texels", "texels in a row of the table", "2 to 16384");
+    pub const WARP: Input = scalar(
+        "warp",
+        "how dense the axis is near grazing: 0 for cos theta itself, 4 for `--axis rational`",
+        "warp >= 0",
+    );
+    pub const ROW: Input = scalar(
+        "row",
+        "where the row's middle lies: (index + 0.5) / rows, 0.5 for a table of its own",
+        "[0, 1]",
+    );
+    pub const TABLE_SCALE: Input = scalar(
+        "table_scale",
+        "reflectance of a texel of 1: the `scale` beside the table",
+        "table_scale >= 1",
+    );
+
     /// Every input in the order of arguments.
     #[rustfmt::skip]
-    pub const ORDER: [Input; 14] = [
+    pub const ORDER: [Input; 19] = [
         Input::ETA, Input::N, Input::K, Input::F0, Input::F90, Input::F82, Input::TINT, Input::REFLECTIVITY,
-        Input::EDGE_TINT, Input::BIAS, Input::SCALE, Input::POWER, Input::EXPONENT, Input::LAMBDA,
+        Input::EDGE_TINT, Input::BIAS, Input::SCALE, Input::POWER, Input::EXPONENT, Input::LAMBDA, Input::TABLE,
+        Input::TEXELS, Input::WARP, Input::ROW, Input::TABLE_SCALE,
     ];
 }
 
@@ -114,7 +138,10 @@ impl<'b> Inputs<'b> {
     /// Declares `cos_theta` and these inputs as arguments. In the scalar form every input is a scalar.
     pub fn declare(builder: &'b Builder, inputs: &[Input], scalar_form: bool) -> Inputs<'b> {
         let cos_theta = builder.param("cos_theta", Ty::Scalar);
-        let ty = |input: &Input| if scalar_form { Ty::Scalar } else { input.ty };
+        let ty = |input: &Input| match input.ty {
+            Ty::Rgb if scalar_form => Ty::Scalar,
+            ty => ty,
+        };
         let given = inputs
             .iter()
             .map(|input| (input.name, builder.param(input.name, ty(input))))

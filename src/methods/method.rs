@@ -3,7 +3,9 @@
 use std::collections::BTreeMap;
 
 use crate::cite::Citation;
-use crate::ir::{Builder, Checked, Expr, Fault, Function, Ty, Value, check, fold, specialise};
+use crate::ir::{
+    Builder, Checked, Expr, Fault, Function, Texels, Ty, Value, check, fold, specialise,
+};
 use crate::num::Num;
 
 use super::input::{Input, Inputs};
@@ -90,7 +92,7 @@ pub struct Claims {
     /// Model error: maximum absolute difference to the exact law, over stated sets of media and all angles.
     pub model: &'static [Claim],
     /// Code error: the most ulp by which unfused f32 differs from f64 at the same inputs, over these media and all
-    /// angles; differences within 2⁻²² do not count.
+    /// angles; differences within 2⁻²² do not count. 0 for what a texture is read for: its sampler decides.
     pub code_ulp: f64,
     /// The media that the code error is stated over.
     pub code_over: Over,
@@ -166,10 +168,12 @@ impl Method {
         check(specialise(&library, values))
     }
 
-    /// These values as the library function takes them after `cos_theta`; an input without a value is a bug.
-    pub fn arguments<N: Num>(&self, values: &Values) -> Vec<Value<N>> {
+    /// These values as the library function takes them after `cos_theta`, and the texture where it reads one; an input
+    /// without a value is a bug.
+    pub fn arguments<N: Num>(&self, values: &Values, table: Option<&Texels>) -> Vec<Value<N>> {
         let argument = |input: &Input| match input.ty {
             Ty::Rgb => Value::rgb(values[input.name]),
+            Ty::Texture => Value::Texture(table.cloned()),
             _ => Value::scalar(values[input.name][0]),
         };
         self.inputs.iter().map(argument).collect()
@@ -183,6 +187,11 @@ impl Method {
         } else {
             self.claims.code_over.text()
         }
+    }
+
+    /// Whether the method reads a texture.
+    pub fn is_textured(&self) -> bool {
+        self.inputs.iter().any(|input| input.ty == Ty::Texture)
     }
 
     /// Whether the method has a scalar form.

@@ -2,7 +2,7 @@
 //!
 //! To add one, write its file: a `//!` header with formula and source, a `pub static METHOD: Method`, a `build`
 //! function and its limit tests. Then run the tests with `BLESS=1`: they rewrite the list below.
-//! The table lookup and fitted methods take their place here like all others, with their coefficients as inputs.
+//! Fitted methods take their place here like all others, with their coefficients as inputs.
 //! The room knows no target.
 
 mod input;
@@ -31,6 +31,7 @@ mod schlick_generalised;
 mod schlick_ior;
 mod schlick_rescaled;
 mod schlick_spherical_gaussian;
+mod table;
 
 /// Every method, by name.
 #[rustfmt::skip]
@@ -53,8 +54,11 @@ pub static ALL: &[&Method] = &[
     &schlick_ior::METHOD,
     &schlick_rescaled::METHOD,
     &schlick_spherical_gaussian::METHOD,
+    &table::METHOD,
 ];
 // END methods
+
+pub use table::{ONLY_ROW, TEXELS, WARP, fetch, unwarped, warped};
 
 /// The method of this name.
 pub fn find(name: &str) -> Option<&'static Method> {

@@ -8,6 +8,7 @@ mod complex;
 mod dd;
 mod half;
 mod interval;
+mod loose;
 mod native;
 mod ulp;
 
@@ -15,6 +16,7 @@ pub use complex::Complex;
 pub use dd::Dd;
 pub use half::Half;
 pub use interval::Interval;
+pub use loose::Loose;
 pub use ulp::{ulp_distance, ulp_of};
 
 use std::fmt::Debug;
@@ -87,6 +89,11 @@ pub trait Num:
     /// x limited to [0, 1]; a NaN becomes 0.
     fn saturate(self) -> Self {
         self.max(Self::from_f64(0.0)).min(Self::from_f64(1.0))
+    }
+
+    /// A value of which nothing is known: a NaN, or everything.
+    fn unknown() -> Self {
+        Self::from_f64(f64::NAN)
     }
 
     /// A value that covers both, for a choice that a comparison left open. Only intervals leave one open.

@@ -4,7 +4,7 @@
 
 use super::glsl;
 use super::spelling::Spelling;
-use super::target::{Finish, Page, Target, Validator};
+use super::target::{Finish, Frame, GLSLANG, Page, Target, Validator};
 
 /// The record of this target.
 pub static TARGET: Target = Target {
@@ -15,6 +15,7 @@ pub static TARGET: Target = Target {
     by_default: true,
     spelling: Spelling {
         param: "highp {type} {name}",
+        texture: "highp sampler2D {name}",
         local: "highp {type} {name} = {value};",
         head: "highp {type} {name}({params})",
         ..glsl::SPELLING
@@ -28,7 +29,16 @@ pub static TARGET: Target = Target {
     finish: Finish::Text,
     validators: &[Validator {
         name: "glslang",
-        command: "glslangValidator -S frag FILE, after `#version 300 es` and before a main()",
-        get: "Debian package glslang-tools",
+        compiler: &GLSLANG,
+        options: "-S frag FILE",
+        frame: Frame {
+            // All is declared highp, so that a shader without a default precision can include it.
+            beginnings: &[
+                "#version 300 es\nprecision highp float;\n#line 1\n",
+                "#version 300 es\nprecision mediump float;\n#line 1\n",
+                "#version 300 es\n#line 1\n",
+            ],
+            ending: glsl::ENDING,
+        },
     }],
 };

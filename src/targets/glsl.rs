@@ -3,7 +3,7 @@
 use crate::ir::Op;
 
 use super::spelling::{C_FAMILY, Form, Spelling};
-use super::target::{Finish, Page, Target, Validator};
+use super::target::{Finish, Frame, GLSLANG, Page, Target, Validator};
 
 /// The record of this target.
 pub static TARGET: Target = Target {
@@ -22,10 +22,26 @@ pub static TARGET: Target = Target {
     finish: Finish::Text,
     validators: &[Validator {
         name: "glslang",
-        command: "glslangValidator -S frag FILE, after `#version 450` and before a main()",
-        get: "Debian package glslang-tools",
+        compiler: &GLSLANG,
+        options: "-S frag FILE",
+        frame: Frame {
+            beginnings: &["#version 450\n#line 1\n"],
+            ending: ENDING,
+        },
     }],
 };
+
+/// Shared with GLSL ES.
+pub(super) const ENDING: &str = "
+uniform highp sampler2D a_texture;
+in highp vec3 at;
+out highp vec4 colour;
+void main() {
+    highp vec3 sum = vec3(0.0);
+CALLS
+    colour = vec4(sum, 1.0);
+}
+";
 
 /// Shared with GLSL ES.
 pub(super) const SPELLING: Spelling = Spelling {

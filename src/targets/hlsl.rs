@@ -3,7 +3,7 @@
 use crate::ir::Op;
 
 use super::spelling::{C_FAMILY, Form, Spelling};
-use super::target::{Finish, Page, Target, Validator};
+use super::target::{Compiler, Finish, Frame, GLSLANG, Page, Target, Validator};
 
 /// The record of this target.
 pub static TARGET: Target = Target {
@@ -14,9 +14,14 @@ pub static TARGET: Target = Target {
     by_default: true,
     spelling: Spelling {
         rgb: "float3",
+        texture: "Texture2D<float4> {name}, SamplerState {name}_sampler",
         differs: &[
             (Op::Splat, Form::Postfix(".xxx")),
             (Op::Compose, Form::Call("float3")),
+            (
+                Op::Sample,
+                Form::Pattern("{0}.SampleLevel({0}_sampler, float2({1}, {2}), 0.0).rgb"),
+            ),
         ],
         ..C_FAMILY
     },
@@ -30,15 +35,44 @@ pub static TARGET: Target = Target {
     validators: &[
         Validator {
             name: "glslang",
-            command: "glslangValidator -D -V -S frag -e main FILE, before an entry point",
-            get: "Debian package glslang-tools",
+            compiler: &GLSLANG,
+            options: "-D -V -S frag -e main -o OUT FILE",
+            frame: FRAME,
         },
         Validator {
-            name: "dxc",
-            command: "dxc -T ps_6_0 -E main -HV 2018 (and 2021) FILE",
-            get: "https://github.com/microsoft/DirectXShaderCompiler",
+            name: "dxc -HV 2018",
+            compiler: &DXC,
+            options: "-T ps_6_0 -E main -HV 2018 -Wall -Wextra -WX -Fo OUT FILE",
+            frame: FRAME,
+        },
+        Validator {
+            name: "dxc -HV 2021",
+            compiler: &DXC,
+            options: "-T ps_6_0 -E main -HV 2021 -Wall -Wextra -WX -Fo OUT FILE",
+            frame: FRAME,
         },
     ],
+};
+
+/// Microsoft's compiler of HLSL.
+pub static DXC: Compiler = Compiler {
+    name: "dxc",
+    command: Some("dxc"),
+    get: "https://github.com/microsoft/DirectXShaderCompiler; in a checkout, tests/run fetches it",
+};
+
+const FRAME: Frame = Frame {
+    beginnings: &[""],
+    ending: "
+Texture2D<float4> a_texture;
+SamplerState a_sampler;
+float4 main(float3 at : TEXCOORD0) : SV_Target
+{
+    float3 sum = 0.0;
+CALLS
+    return float4(sum, 1.0);
+}
+",
 };
 
 /// Keywords, reserved words and the intrinsic functions that a name would hide, from the reference's appendix.

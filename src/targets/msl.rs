@@ -4,7 +4,7 @@
 use crate::ir::Op;
 
 use super::spelling::{C_FAMILY, Form, Spelling};
-use super::target::{Finish, Page, Target, Validator};
+use super::target::{Compiler, Finish, Frame, Page, Target, Validator};
 
 /// The record of this target.
 pub static TARGET: Target = Target {
@@ -15,6 +15,7 @@ pub static TARGET: Target = Target {
     by_default: false,
     spelling: Spelling {
         rgb: "metal::float3",
+        texture: "metal::texture2d<float> {name}, metal::sampler {name}_sampler",
         head: "inline {type} {name}({params})",
         suffix: "f",
         mixed_min_max: false,
@@ -29,6 +30,12 @@ pub static TARGET: Target = Target {
             (Op::InverseSqrt, Form::Call("metal::rsqrt")),
             (Op::Exp2, Form::Call("metal::exp2")),
             (Op::Log2, Form::Call("metal::log2")),
+            (
+                Op::Sample,
+                Form::Pattern(
+                    "{0}.sample({0}_sampler, metal::float2({1}, {2}), metal::level(0.0f)).rgb",
+                ),
+            ),
         ],
         ..C_FAMILY
     },
@@ -41,9 +48,17 @@ pub static TARGET: Target = Target {
     finish: Finish::Text,
     validators: &[Validator {
         name: "metal",
-        command: "xcrun -sdk macosx metal -std=macos-metal1.2 -c FILE",
-        get: "Xcode, on macOS only",
+        compiler: &METAL,
+        options: "-sdk macosx metal -std=macos-metal1.2 -c FILE -o OUT",
+        frame: Frame::NONE,
     }],
+};
+
+/// Apple's compiler of Metal.
+static METAL: Compiler = Compiler {
+    name: "metal",
+    command: Some("xcrun"),
+    get: "Xcode, on macOS only",
 };
 
 /// C++14's keywords, Metal's own, and the library names that a file with `using namespace metal` would clash with.

@@ -21,6 +21,8 @@ pub enum Form {
     Ternary,
     /// `name(no, yes, condition)`
     CallSelect(&'static str),
+    /// This, with `{0}` and so on for the arguments.
+    Pattern(&'static str),
     /// Not written as an operation: constants and arguments.
     Leaf,
 }
@@ -52,6 +54,8 @@ pub struct Spelling {
     pub rgb: &'static str,
     /// An argument.
     pub param: &'static str,
+    /// An argument that is a texture, with its sampler where the language has one apart: `{name}_sampler`.
+    pub texture: &'static str,
     /// A named step.
     pub local: &'static str,
     /// The head of a function, without its brace.
@@ -72,6 +76,7 @@ pub(super) const C_FAMILY: Spelling = Spelling {
     scalar: "float",
     rgb: "vec3",
     param: "{type} {name}",
+    texture: "sampler2D {name}",
     local: "{type} {name} = {value};",
     head: "{type} {name}({params})",
     suffix: "",
@@ -126,6 +131,7 @@ fn c_family(op: Op) -> Form {
         Op::Log2 => Form::Call("log2"),
         Op::Less => Form::Infix("<", precedence::COMPARE),
         Op::Select => Form::Ternary,
+        Op::Sample => Form::Pattern("textureLod({0}, vec2({1}, {2}), 0.0).rgb"),
     }
 }
 

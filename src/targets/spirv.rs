@@ -4,7 +4,7 @@
 //! forbids), so each method and material comes as two modules: a fragment shader that takes the normal and the view
 //! direction, and a compute shader that maps an array of cosines. The templates say their interfaces.
 
-use super::target::{Finish, Page, Target, Validator};
+use super::target::{Compiler, Finish, Frame, Page, Target, Validator};
 use super::wgsl;
 
 /// The record of this target.
@@ -34,9 +34,17 @@ pub static TARGET: Target = Target {
     finish: Finish::Spirv,
     validators: &[Validator {
         name: "spirv-val",
-        command: "spirv-val --target-env vulkan1.1 FILE",
-        get: "Debian package spirv-tools",
+        compiler: &SPIRV_VAL,
+        options: "--target-env vulkan1.1 FILE",
+        frame: Frame::NONE,
     }],
+};
+
+/// Khronos's validator of SPIR-V.
+static SPIRV_VAL: Compiler = Compiler {
+    name: "spirv-val",
+    command: Some("spirv-val"),
+    get: "Debian package spirv-tools",
 };
 
 /// What the templates name themselves.
@@ -48,4 +56,6 @@ const OWN: &[&str] = &[
     "reflectances",
     "parameters",
     "Parameters",
+    "table_texture",
+    "table_filter",
 ];

@@ -49,15 +49,68 @@ pub enum Finish {
     Spirv,
 }
 
-/// An outside compiler.
-#[derive(Clone, Copy, Debug)]
-pub struct Validator {
+/// A compiler that is not ours.
+#[derive(Debug)]
+pub struct Compiler {
     /// Its name.
     pub name: &'static str,
-    /// How it is called; `FILE` stands for the file.
-    pub command: &'static str,
+    /// Its command; none where it is part of this program.
+    pub command: Option<&'static str>,
     /// Where to get it.
     pub get: &'static str,
+}
+
+/// How a compiler judges a target's files.
+#[derive(Debug)]
+pub struct Validator {
+    /// The compiler's name, and what tells its ways apart.
+    pub name: &'static str,
+    /// Who judges.
+    pub compiler: &'static Compiler,
+    /// What the command is called with: `FILE` stands for the file, `OUT` for what it writes.
+    pub options: &'static str,
+    /// What makes a program of a file.
+    pub frame: Frame,
+}
+
+/// The text around a file of functions that makes a program of it.
+#[derive(Clone, Copy, Debug)]
+pub struct Frame {
+    /// What may stand before the file: a program for each.
+    pub beginnings: &'static [&'static str],
+    /// What stands after it. The line `CALLS` becomes a call of each function, added to `sum`: so nothing is dead code.
+    /// Their arguments are `at` and `at.x`, `a_texture` and `a_sampler`.
+    pub ending: &'static str,
+}
+
+impl Frame {
+    /// The file is judged as it is.
+    pub const NONE: Frame = Frame {
+        beginnings: &[""],
+        ending: "",
+    };
+}
+
+/// Khronos's reference compiler of GLSL, which reads HLSL too.
+pub static GLSLANG: Compiler = Compiler {
+    name: "glslang",
+    command: Some("glslangValidator"),
+    get: "Debian package glslang-tools",
+};
+
+impl Validator {
+    /// How it judges, for people.
+    pub fn command(&self) -> String {
+        let Some(command) = self.compiler.command else {
+            return "in process".to_owned();
+        };
+        let frame = if self.frame.ending.is_empty() {
+            ""
+        } else {
+            ", FILE in a program that calls its functions"
+        };
+        format!("{command} {}{frame}", self.options)
+    }
 }
 
 impl Target {

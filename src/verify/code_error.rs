@@ -33,13 +33,13 @@ const METALS: f64 = 0.3;
 const CLEAR: f64 = 0.1;
 
 impl CodeError {
-    const NONE: CodeError = CodeError {
+    pub(super) const NONE: CodeError = CodeError {
         max_ulp: 0.0,
         max_abs: 0.0,
         worst_cos: 0.0,
     };
 
-    fn include(&mut self, got: f32, want: f64, cos_theta: f32, floor: f64) {
+    pub(super) fn include(&mut self, got: f32, want: f64, cos_theta: f32, floor: f64) {
         let difference = (f64::from(got) - want).abs();
         self.max_abs = self.max_abs.max(difference);
         let ulp = ulp_distance(got, want);

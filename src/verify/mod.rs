@@ -1,12 +1,27 @@
-//! Verification: generated code against what it means. The graph in unfused f32 against the
-//! graph in f64 needs no graphics stack; `gpu`, behind the feature of that name, runs the text itself on one.
+//! Verification: generated code against what it means.
+//!
+//! A [`Trial`] is a function with the values of its arguments; what it means at its inputs, in f64, is what is
+//! [`Expected`]. With the feature `compilers` compilers that are not ours give their word; with the feature `gpu` the
+//! text itself runs, on a real graphics stack.
 
 mod code_error;
+#[cfg(feature = "compilers")]
+pub mod compilers;
 #[cfg(feature = "gpu")]
 pub mod gpu;
+#[cfg(feature = "gpu")]
+pub mod harness;
 mod points;
+#[cfg(feature = "gpu")]
+pub mod run;
+#[cfg(feature = "compilers")]
+pub mod second;
+mod trial;
+mod worst;
 
 pub use code_error::{
     ABSOLUTE_FLOOR, CodeError, code_error, library_code_error, library_code_error_at,
 };
-pub use points::cosines;
+pub use points::{BEYOND, cosines, cosines_around, limits};
+pub use trial::{Expected, Miss, Outcome, Trial};
+pub use worst::{worst_cases, worst_media};

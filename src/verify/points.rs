@@ -4,11 +4,23 @@
 /// The seed of the random points.
 const SEED: u64 = 0x9E37_79B9_7F4A_7C15;
 
+/// Cosines that no geometry has and shaders see all the same: rounding brings 1 + 1 ulp about, a back side -1.
+pub const BEYOND: [f32; 5] = [-1.0, -f32::MIN_POSITIVE, 1.000_000_1, 1.000_000_2, 2.0];
+
 /// About `count` cosines in [0, 1], sorted, each once.
 pub fn cosines(count: usize) -> Vec<f32> {
+    cosines_around(count, &[])
+}
+
+/// The same, and these cosines with their ten neighbours on both sides.
+pub fn cosines_around(count: usize, limits: &[f32]) -> Vec<f32> {
     let share = count / 5;
     let even = |i: usize| i as f64 / share as f64;
-    let mut points: Vec<f32> = edges();
+    let mut points: Vec<f32> = [0.0, 1.0, 1.0 / 7.0, f32::MIN_POSITIVE, 1e-41]
+        .iter()
+        .chain(limits)
+        .flat_map(|limit| around(*limit))
+        .collect();
     points.extend((0..=share).map(|i| libm::cos(even(i) * std::f64::consts::FRAC_PI_2) as f32));
     points.extend((0..=share).map(|i| even(i) as f32));
     points.extend((0..=share).map(|i| libm::exp2(-30.0 * even(i)) as f32));
@@ -21,15 +33,16 @@ pub fn cosines(count: usize) -> Vec<f32> {
     points
 }
 
-/// 0, 1 and 1/7 with their ten neighbours, the smallest normal number, subnormals.
-fn edges() -> Vec<f32> {
-    let around = |x: f32| {
-        (-10..=10).map(move |step| f32::from_bits(x.to_bits().saturating_add_signed(step)))
-    };
-    [0.0, 1.0, 1.0 / 7.0, f32::MIN_POSITIVE, 1e-41]
-        .into_iter()
-        .flat_map(around)
-        .collect()
+/// The cosines at which something happens for a medium: total reflection begins, or Brewster's angle.
+pub fn limits(n: f64) -> [f32; 2] {
+    let critical = (1.0 - n * n).max(0.0).sqrt();
+    let brewster = 1.0 / (1.0 + n * n).sqrt();
+    [critical as f32, brewster as f32]
+}
+
+/// A number and its ten neighbours on both sides.
+fn around(x: f32) -> impl Iterator<Item = f32> {
+    (-10..=10).map(move |step| f32::from_bits(x.to_bits().saturating_add_signed(step)))
 }
 
 /// SplitMix64 (Steele, Lea, Flood, "Fast splittable pseudorandom number generators", OOPSLA, 2014,

@@ -63,7 +63,9 @@ fn worst_cases(method: &'static str) -> impl Iterator<Item = (Channels, f32)> {
 /// The promises stand for the worst of a large search, kept in the file, rounded up.
 #[test]
 fn code_errors_are_what_methods_promise() {
-    for method in methods::ALL {
+    // What reads a texture is as exact as its sampler, and has no figure of its own.
+    let numeric = methods::ALL.iter().filter(|method| !method.is_textured());
+    for method in numeric {
         let searched = library_code_error(method, MEDIA, POINTS).max_ulp;
         let known = worst_cases(method.name).map(|(channels, cos_theta)| {
             library_code_error_at(method, &channels, &[cos_theta]).max_ulp

@@ -13,7 +13,7 @@ use fresnel_gen::verify::code_error;
 /// Cosines tried for each function.
 const POINTS: usize = 200_000;
 
-/// All methods for the materials that are committed, the usual three for the others.
+/// All methods for the materials that are committed, the usual ones for the others.
 fn methods_of(subject: &Subject) -> Vec<&'static Method> {
     let transparent = subject.effective.channels.is_transparent();
     let name = subject.name.trim_end_matches("_thesis");
@@ -21,7 +21,8 @@ fn methods_of(subject: &Subject) -> Vec<&'static Method> {
     let wanted = |method: &&&Method| {
         let fits = method.class == Class::Any || transparent;
         let usual = subject.default_methods().contains(&method.name);
-        method.contract == Contract::Kept && fits && (committed || usual)
+        let numeric = method.contract == Contract::Kept && !method.is_textured();
+        numeric && fits && (committed || usual)
     };
     methods::ALL.iter().filter(wanted).copied().collect()
 }

@@ -77,8 +77,9 @@ fn generated_text_is_plain() {
             "{path}: space at a line's end"
         );
         for (number, line) in text.lines().enumerate() {
+            // A link is not broken.
             assert!(
-                line.len() <= 130,
+                line.len() <= 130 || line.contains("    https://"),
                 "{path}:{}: {} characters",
                 number + 1,
                 line.len()

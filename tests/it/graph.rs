@@ -1,5 +1,6 @@
 //! The graph, over all methods: its text form, its checker, its meaning in every kind of number.
 
+use fresnel_gen::fit;
 use fresnel_gen::ir::{
     Checked, Fault, Function, Label, Op, Payload, Ty, Value, check, evaluate, parse, print,
 };
@@ -146,20 +147,19 @@ fn each_rule_of_the_checker_can_be_broken() {
     }
 }
 
-/// A library function on one cosine, each input .4 (1.5 for indices) in all channels.
+/// A library function on one cosine, each input .4 (1.5 for indices, 64 for texels) in all channels.
 fn run<N: Num>(function: &Checked, cos_theta: f64) -> f64 {
-    let value = |name: &str| {
-        if ["eta", "n"].contains(&name) {
-            1.5
-        } else {
-            0.4
-        }
+    let value = |name: &str| match name {
+        "eta" | "n" => 1.5,
+        "texels" => 64.0,
+        _ => 0.4,
     };
     let arguments = function
         .params
         .iter()
         .map(|param| match (param.name.as_str(), param.ty) {
             ("cos_theta", _) => Value::scalar(cos_theta),
+            (_, Ty::Texture) => Value::Texture(Some(fit::texels(|c| [1.0 - 0.9 * c; 3]))),
             (name, Ty::Rgb) => Value::rgb([value(name); 3]),
             (name, _) => Value::scalar(value(name)),
         });

@@ -7,6 +7,7 @@ mod claims;
 #[cfg(feature = "cli")]
 mod cli;
 mod code_bounds;
+#[cfg(feature = "compilers")]
 mod compilers;
 mod database;
 mod golden;

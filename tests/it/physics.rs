@@ -1,7 +1,8 @@
 //! Physical laws, for all methods that promise them, over media on both sides of 1 and all angles, in f32 as shaders
 //! compute: bounds, limits, Brewster's zero, total reflection, reciprocity, k → 0.
 
-use fresnel_gen::ir::{Checked, Value, evaluate};
+use fresnel_gen::fit::texels;
+use fresnel_gen::ir::{Checked, Ty, Value, evaluate};
 use fresnel_gen::methods::{self, Class, Contract, Method};
 use fresnel_gen::optics;
 
@@ -25,10 +26,12 @@ fn run(function: &Checked, cos_theta: f32, arguments: &[f32]) -> f32 {
     let mut values = vec![Value::each(vec![cos_theta])];
     for (param, argument) in function.params.iter().skip(1).zip(arguments) {
         let wide = f64::from(*argument);
-        values.push(if param.ty.channels() == 3 {
-            Value::rgb([wide; 3])
-        } else {
-            Value::scalar(wide)
+        values.push(match param.ty {
+            Ty::Rgb => Value::rgb([wide; 3]),
+            Ty::Texture => Value::Texture(Some(texels(|c| {
+                [optics::conductor(1.5, 0.0, c).unpolarised(); 3]
+            }))),
+            _ => Value::scalar(wide),
         });
     }
     evaluate::<f32>(function, &values).at(0)[0]
@@ -63,6 +66,12 @@ fn arguments(method: &Method) -> Vec<Vec<f32>> {
             "f90" | "edge_tint" | "bias" | "scale" => vec![0.0, 0.3, 1.0],
             "tint" => vec![0.0, 0.4, 1.0, 1.4],
             "exponent" | "power" => vec![0.1, 1.0, 5.0, 40.0],
+            // A table of a dielectric stands for all; its number is not looked at.
+            "table" => vec![0.0],
+            "texels" => vec![2.0, 64.0, 16_384.0],
+            "warp" => vec![0.0, 4.0, 64.0],
+            "row" => vec![0.0, 0.5, 1.0],
+            "table_scale" => vec![1.0],
             "lambda" => vec![-1.0, 0.0, 0.5, 7.0, 60.0],
             _ => unreachable!("{name} has no values here: add some"),
         }

@@ -1,8 +1,8 @@
 //! The specialiser changes rounding and nothing else: a specialised function against the library function with the same
 //! values, over hard media, in f64 where rounding does not hide a wrong branch, and in f32 where it must stay small.
 
-use fresnel_gen::fit::{Derivation, values};
-use fresnel_gen::ir::{Value, evaluate};
+use fresnel_gen::fit::{self, Derivation, values};
+use fresnel_gen::ir::{Texels, Value, evaluate};
 use fresnel_gen::materials::Channels;
 use fresnel_gen::methods::{self, Class, Contract, Method, Values};
 use fresnel_gen::num::Num;
@@ -23,6 +23,11 @@ const MEDIA: [([f64; 3], [f64; 3]); 12] = [
     ([1.2, 0.9, 2.4], [1e-20, 1e-3, 1e-41]),
 ];
 
+/// A table whose texels all differ.
+fn table() -> Texels {
+    fit::texels(|c| [1.0 - 0.9 * c, 1.0 - 0.5 * c * c, 0.5])
+}
+
 fn run<N: Num>(
     method: &Method,
     constants: &Values,
@@ -31,14 +36,14 @@ fn run<N: Num>(
 ) -> Vec<[f64; 3]> {
     let cos_theta = Value::each(cosines.iter().map(|c| N::from_f64(*c)).collect());
     let values = if specialised {
-        evaluate::<N>(
-            &method.specialise(constants).expect("it specialises"),
-            &[cos_theta],
-        )
+        let mut arguments = vec![cos_theta];
+        arguments.extend(method.is_textured().then(|| Value::Texture(Some(table()))));
+        let function = method.specialise(constants).expect("it specialises");
+        evaluate::<N>(&function, &arguments)
     } else {
         let function = method.function(false).expect("it is well formed");
         let mut arguments = vec![cos_theta];
-        arguments.extend(method.arguments(constants));
+        arguments.extend(method.arguments(constants, Some(&table())));
         evaluate::<N>(&function, &arguments)
     };
     (0..cosines.len())

@@ -71,4 +71,22 @@ highp vec3 fresnel_diamond_schlick_corrected(highp float cos_theta) {
     return clamp(base - dip, 0.0, 1.0);
 }
 
+// fresnel_diamond_table: a lookup table in a texture, as `bake` writes it, specialised
+//   c = clamp(cos_theta, 0, 1)
+//   w = (1 + warp) c / (1 + warp c)
+//   u = (w (texels - 1) + 1/2) / texels
+//   F = table_scale table(u, row), level 0
+// Source: Selan, "Using Lookup Tables to Accelerate Color Transformations", GPU Gems 2, chapter 24, 2005.
+//     https://developer.nvidia.com/gpugems/gpugems2/part-iii-high-quality-rendering/chapter-24-using-lookup-tables-accelerate-color
+// Table: as `fresnel-gen bake` writes it unless asked otherwise: 64 texels, axis rational, one row, half precision
+// Model error: at most 0.00025 (at 88.48 degrees), 0.03 % in the mean over angles.
+// Code error: at most 1/256 of the difference of two neighbouring texels, as samplers weigh them in so many steps.
+// Cost: 7 scalar operations, among them 1 division, and one texture fetch
+highp vec3 fresnel_diamond_table(highp float cos_theta, highp sampler2D table) {
+    highp float c = clamp(cos_theta, 0.0, 1.0); // 1 + 1 ulp must not reach what follows
+    highp float w = 5.0 * c / (1.0 + 4.0 * c); // 0 at grazing, 1 at normal incidence; dense near grazing
+    highp float u = w * 0.984375 + 0.0078125; // half a texel is left at each end
+    return textureLod(table, vec2(u, 0.5), 0.0).rgb;
+}
+
 #endif

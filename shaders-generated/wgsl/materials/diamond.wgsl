@@ -69,3 +69,21 @@ fn fresnel_diamond_schlick_corrected(cos_theta: f32) -> vec3<f32> {
     let dip = vec3<f32>(4.819226, 4.8458495, 4.8825808) * (c * fall); // what the minimum takes away
     return saturate(base - dip);
 }
+
+// fresnel_diamond_table: a lookup table in a texture, as `bake` writes it, specialised
+//   c = clamp(cos_theta, 0, 1)
+//   w = (1 + warp) c / (1 + warp c)
+//   u = (w (texels - 1) + 1/2) / texels
+//   F = table_scale table(u, row), level 0
+// Source: Selan, "Using Lookup Tables to Accelerate Color Transformations", GPU Gems 2, chapter 24, 2005.
+//     https://developer.nvidia.com/gpugems/gpugems2/part-iii-high-quality-rendering/chapter-24-using-lookup-tables-accelerate-color
+// Table: as `fresnel-gen bake` writes it unless asked otherwise: 64 texels, axis rational, one row, half precision
+// Model error: at most 0.00025 (at 88.48 degrees), 0.03 % in the mean over angles.
+// Code error: at most 1/256 of the difference of two neighbouring texels, as samplers weigh them in so many steps.
+// Cost: 7 scalar operations, among them 1 division, and one texture fetch
+fn fresnel_diamond_table(cos_theta: f32, table: texture_2d<f32>, table_sampler: sampler) -> vec3<f32> {
+    let c = saturate(cos_theta); // 1 + 1 ulp must not reach what follows
+    let w = 5.0 * c / (1.0 + 4.0 * c); // 0 at grazing, 1 at normal incidence; dense near grazing
+    let u = w * 0.984375 + 0.0078125; // half a texel is left at each end
+    return textureSampleLevel(table, table_sampler, vec2<f32>(u, 0.5), 0.0).rgb;
+}

@@ -7,8 +7,9 @@ use serde_json::{Value, json};
 
 use crate::emit::MARK;
 use crate::fit::ModelError;
+use crate::ir::Weights;
 use crate::lut::{Axis, Choice, Depth, Format, Picture, Stored, Table, smallest};
-use crate::lut::{Between, Weights, table_error};
+use crate::lut::{Between, table_error};
 
 use super::error::Error;
 use super::names::quoted;

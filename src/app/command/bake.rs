@@ -13,14 +13,12 @@ use crate::app::source::{materials, source};
 use crate::app::write::write_files;
 use crate::lut::{Axis, Format, check_size};
 use crate::materials::Sight;
+use crate::methods::TEXELS;
 use crate::report::table;
 use crate::spectra::Gamut;
 
 use super::{Output, Progress, report};
 
-/// The size of tables where none is asked for. In half precision the rounding of texels is then what errs most: more
-/// texels gain nothing, fewer cost (half the size quadruples what filtering errs).
-pub const DEFAULT_SIZE: usize = 64;
 /// The axis where none is asked for: the one with the smallest errors at equal size.
 pub const DEFAULT_AXIS: Axis = Axis::Rational;
 /// The files where none are asked for: what most programs read, what engines without float textures read, and what
@@ -81,7 +79,7 @@ fn shape(flags: &BakeFlags) -> Result<Shape, Error> {
     let axis = flags.axis.as_deref().map(axis).transpose()?;
     match flags.budget {
         None => {
-            let texels = flags.size.unwrap_or(DEFAULT_SIZE);
+            let texels = flags.size.unwrap_or(TEXELS);
             check_size(texels)?;
             Ok(Shape::Fixed {
                 axis: axis.unwrap_or(DEFAULT_AXIS),

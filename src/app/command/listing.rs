@@ -117,7 +117,9 @@ fn target_text(target: &Target) -> String {
     for validator in target.validators {
         lines.push(format!(
             "validator   {}: {} ({})",
-            validator.name, validator.command, validator.get
+            validator.name,
+            validator.command(),
+            validator.compiler.get
         ));
     }
     lines.join("\n") + "\n"
@@ -128,6 +130,6 @@ fn target_json(target: &Target) -> Value {
         "name": target.name, "summary": target.summary, "source": target.source,
         "extension": target.extension, "by_default": target.by_default,
         "validators": target.validators.iter()
-            .map(|v| json!({ "name": v.name, "command": v.command, "get": v.get })).collect::<Vec<_>>(),
+            .map(|v| json!({ "name": v.name, "command": v.command(), "get": v.compiler.get })).collect::<Vec<_>>(),
     })
 }

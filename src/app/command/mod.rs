@@ -8,6 +8,8 @@ mod materials;
 mod params;
 mod reproduce;
 mod survey;
+#[cfg(feature = "gpu")]
+mod verify;
 
 use std::path::Path;
 
@@ -37,6 +39,13 @@ pub fn run(cli: &Cli, progress: Progress) -> Result<Output, Error> {
         Some(Command::Materials(listing)) => materials::run(listing, progress),
         Some(Command::Targets(listing)) => listing::targets(listing),
         Some(Command::Bake(flags)) => bake::run(flags, progress),
+        #[cfg(feature = "gpu")]
+        Some(Command::Verify(flags)) => verify::run(flags, progress),
+        #[cfg(not(feature = "gpu"))]
+        Some(Command::Verify(_)) => Err(Error::Lacking {
+            what: "this program was built without the feature `gpu`, and runs no shaders"
+                .to_owned(),
+        }),
         Some(Command::Reproduce(flags)) => reproduce::run(flags, progress),
     }
 }

@@ -17,6 +17,7 @@ const PIECES: usize = 64;
 pub fn ranges(function: &Function) -> Vec<Value<Interval>> {
     let whole = |ty: Ty| match ty {
         Ty::Rgb => Value::Rgb([0, 1, 2].map(|_| Column::Same(Interval::EVERYTHING))),
+        Ty::Texture => Value::Texture(None),
         _ => Value::Scalar(Column::Same(Interval::EVERYTHING)),
     };
     let mut arguments: Vec<Value<Interval>> = function

@@ -203,7 +203,7 @@ fn a_method_joins_a_material_file_and_takes_nothing_from_it() {
             .collect()
     };
     let usual = names(&place.read(&file));
-    assert_eq!(usual.len(), 3);
+    assert_eq!(usual.len(), 4);
     place.done("--target wgsl --method schlick --material gold_thesis");
     let more = names(&place.read(&file));
     assert!(usual.iter().all(|name| more.contains(name)), "{more:?}");
@@ -212,7 +212,7 @@ fn a_method_joins_a_material_file_and_takes_nothing_from_it() {
         "{more:?}"
     );
     place.done("--target wgsl --method schlick --material gold_thesis --check");
-    // What is not asked for by name is again the usual three.
+    // What is not asked for by name is again the usual four.
     place.done("--target wgsl --material gold_thesis");
     assert_eq!(names(&place.read(&file)), usual);
 }

@@ -1,10 +1,10 @@
 //! Compilers that are not ours accept every file of every target. What is not installed is named as not checked; where
 //! `CI` is set that is a failure.
 
-mod glslang;
+mod accepts;
 mod msl;
+mod second;
 mod spirv;
-mod wgsl;
 
 use std::ffi::OsStr;
 use std::process::Command;
@@ -16,7 +16,7 @@ use fresnel_gen::{methods, targets};
 
 use crate::not_checked;
 
-/// A compiler, and the Debian package that holds it.
+/// A program that only the tests call, and the Debian package that holds it.
 pub struct Tool {
     pub command: &'static str,
     pub package: &'static str,
@@ -77,12 +77,6 @@ pub fn text(file: &Artifact) -> &str {
 /// One unit of all these files.
 pub fn joined(files: &[&Artifact]) -> String {
     files.iter().map(|file| text(file)).collect()
-}
-
-/// The signatures of a file's functions, as its manifest entry tells them.
-pub fn signatures(file: &Artifact) -> impl Iterator<Item = &str> {
-    let functions = file.detail["functions"].as_array().unwrap();
-    functions.iter().map(|f| f["signature"].as_str().unwrap())
 }
 
 /// Judges all of these on a few threads, and fails with every complaint.
@@ -164,28 +158,4 @@ fn methods_of(request: &Request) -> Vec<String> {
     let possible: Vec<String> = names.filter(is_possible).collect();
     assert!(possible.len() > 3, "{possible:?}");
     possible
-}
-
-/// The validators that the tests of this module call. A target's others are named as not checked.
-const CALLED: [&str; 3] = ["naga", "glslang", "spirv-val"];
-
-#[test]
-fn validators_that_are_not_called_are_named() {
-    for target in targets::ALL {
-        assert!(
-            !target.validators.is_empty(),
-            "{} has no judge",
-            target.name
-        );
-        for validator in target
-            .validators
-            .iter()
-            .filter(|validator| !CALLED.contains(&validator.name))
-        {
-            not_checked(&format!(
-                "{} by {} ({})",
-                target.name, validator.name, validator.get
-            ));
-        }
-    }
 }

@@ -28,6 +28,11 @@ OPERATOR(+) OPERATOR(-) OPERATOR(*) OPERATOR(/)
 ONE(abs) ONE(exp2) ONE(log2) ONE(rsqrt) ONE(saturate) ONE(sqrt)
 #define TWO(f) float f(float, float); float3 f(float3, float3);
 TWO(max) TWO(min)
+struct float2 { float2(float, float); };
+struct float4 { float3 rgb; };
+struct sampler {};
+struct level { explicit level(float); };
+template <typename T> struct texture2d { float4 sample(sampler, float2, level) const; };
 }
 ";
 

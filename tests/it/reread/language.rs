@@ -3,12 +3,17 @@
 
 use std::collections::BTreeMap;
 
+use fresnel_gen::ir::{Texels, Weights};
+
 /// A value while a program runs.
 #[derive(Clone, Copy, Debug)]
 pub enum Term {
     Scalar(f32),
     Colour([f32; 3]),
     Bool(bool),
+    Pair([f32; 2]),
+    /// A texture; where a language has its sampler apart, that one too.
+    Texture,
 }
 
 impl Term {
@@ -16,7 +21,7 @@ impl Term {
         match self {
             Term::Scalar(value) => [value; 3],
             Term::Colour(value) => value,
-            Term::Bool(_) => panic!("a Bool where a number is wanted"),
+            _ => panic!("{self:?} where a number is wanted"),
         }
     }
 
@@ -48,13 +53,15 @@ impl Term {
 /// One function: the names of its arguments, its statements as tokens.
 pub struct Program {
     params: Vec<String>,
+    /// What every texture holds.
+    table: Texels,
     /// The variable that a statement sets; nothing for `return`.
     statements: Vec<(Option<String>, Vec<String>)>,
 }
 
 impl Program {
     /// Finds a function by name in a file.
-    pub fn parse(text: &str, name: &str) -> Program {
+    pub fn parse(text: &str, name: &str, table: &Texels) -> Program {
         let code: String = text
             .lines()
             .map(|line| line.split("//").next().unwrap_or(""))
@@ -63,6 +70,8 @@ impl Program {
         let plain = code
             .replace("metal::", "")
             .replace("vec3<f32>", "vec3")
+            .replace("vec2<f32>", "vec2")
+            .replace("float2", "vec2")
             .replace("float3", "vec3")
             .replace("highp ", "");
         let start = plain
@@ -75,6 +84,7 @@ impl Program {
         let (body, _) = rest.split_once('}').expect("a body ends");
         Program {
             params: params.split(',').map(parameter).collect(),
+            table: table.clone(),
             statements: body
                 .split(';')
                 .map(tokens)
@@ -86,18 +96,19 @@ impl Program {
 
     /// Runs it.
     pub fn run(&self, arguments: &[Term]) -> Term {
-        assert_eq!(self.params.len(), arguments.len());
-        let mut known: BTreeMap<&str, Term> = self
-            .params
-            .iter()
-            .map(String::as_str)
-            .zip(arguments.iter().copied())
-            .collect();
+        let is_sampler = |name: &&str| name.ends_with("_sampler");
+        let names = self.params.iter().map(String::as_str);
+        let taken: Vec<&str> = names.clone().filter(|name| !is_sampler(name)).collect();
+        assert_eq!(taken.len(), arguments.len());
+        let samplers = names.filter(is_sampler).map(|name| (name, Term::Texture));
+        let given = taken.into_iter().zip(arguments.iter().copied());
+        let mut known: BTreeMap<&str, Term> = given.chain(samplers).collect();
         for (name, tokens) in &self.statements {
             let mut reader = Reader {
                 tokens,
                 at: 0,
                 known: &known,
+                table: &self.table,
             };
             let value = reader.ternary();
             assert_eq!(
@@ -160,6 +171,7 @@ struct Reader<'a> {
     tokens: &'a [String],
     at: usize,
     known: &'a BTreeMap<&'a str, Term>,
+    table: &'a Texels,
 }
 
 impl Reader<'_> {
@@ -238,7 +250,12 @@ impl Reader<'_> {
             "g" => Term::Scalar(value.colour()[1]),
             "b" => Term::Scalar(value.colour()[2]),
             "xxx" => Term::Colour([value.scalar(); 3]),
-            other => panic!("no member {other}"),
+            method => {
+                let method = method.to_owned();
+                assert!(self.take("("), "no member {method}");
+                let arguments = self.arguments();
+                return self.member(value, &method, &arguments);
+            }
         }
     }
 
@@ -256,7 +273,7 @@ impl Reader<'_> {
         self.at += 1;
         if self.take("(") {
             let arguments = self.arguments();
-            return call(&name, &arguments);
+            return self.called(&name, &arguments);
         }
         match name.trim_end_matches('f').parse() {
             Ok(number) if name.starts_with(|c: char| c.is_ascii_digit()) => Term::Scalar(number),
@@ -265,6 +282,42 @@ impl Reader<'_> {
                 .get(name.as_str())
                 .unwrap_or_else(|| panic!("`{name}` is not known: {:?}", self.tokens)),
         }
+    }
+
+    /// `table.SampleLevel(table_sampler, at, 0.0).rgb` and `table.sample(table_sampler, at, level(0.0)).rgb`
+    fn member(&mut self, value: Term, method: &str, arguments: &[Term]) -> Term {
+        let sampled = match (value, method, arguments) {
+            (Term::Texture, "SampleLevel" | "sample", [Term::Texture, at, level])
+                if is_base(*level) =>
+            {
+                self.sample(*at)
+            }
+            _ => panic!("no member {method} of {value:?} with {arguments:?}"),
+        };
+        assert!(self.take(".") && self.take("rgb"));
+        sampled
+    }
+
+    /// A texture's colour, or an ordinary function's result.
+    fn called(&mut self, name: &str, arguments: &[Term]) -> Term {
+        match (name, arguments) {
+            ("textureLod", [Term::Texture, at, level])
+            | ("textureSampleLevel", [Term::Texture, Term::Texture, at, level])
+                if is_base(*level) =>
+            {
+                let sampled = self.sample(*at);
+                assert!(self.take(".") && self.take("rgb"));
+                sampled
+            }
+            _ => call(name, arguments),
+        }
+    }
+
+    fn sample(&self, at: Term) -> Term {
+        let Term::Pair([u, v]) = at else {
+            panic!("{at:?} where two coordinates are wanted")
+        };
+        Term::Colour(self.table.sample(Weights::Exact, u, v))
     }
 
     fn arguments(&mut self) -> Vec<Term> {
@@ -277,6 +330,11 @@ impl Reader<'_> {
     }
 }
 
+/// Level 0, where a language wraps it.
+fn is_base(level: Term) -> bool {
+    level.scalar() == 0.0
+}
+
 fn choose(condition: Term, yes: Term, no: Term) -> Term {
     let Term::Bool(condition) = condition else {
         panic!("a condition is a Bool")
@@ -287,6 +345,8 @@ fn choose(condition: Term, yes: Term, no: Term) -> Term {
 fn call(name: &str, arguments: &[Term]) -> Term {
     let saturate = |x: f32| x.clamp(0.0, 1.0);
     match (name, arguments) {
+        ("vec2", [u, v]) => Term::Pair([u.scalar(), v.scalar()]),
+        ("level", [level]) => *level,
         ("vec3", [x]) => Term::Colour([x.scalar(); 3]),
         ("vec3", [r, g, b]) => Term::Colour([r.scalar(), g.scalar(), b.scalar()]),
         ("saturate", [x]) => x.map(saturate),

@@ -5,7 +5,8 @@
 mod language;
 
 use fresnel_gen::app::{Materials, Request, generate};
-use fresnel_gen::ir::{Checked, Value, evaluate};
+use fresnel_gen::fit;
+use fresnel_gen::ir::{Checked, Texels, Ty, Value, evaluate};
 use fresnel_gen::{emit, methods, targets};
 use language::{Program, Term};
 
@@ -20,17 +21,28 @@ fn arguments(name: &str) -> Vec<[f32; 3]> {
         "lambda" => vec![[6.3, 0.0, 41.8]],
         "f0" | "reflectivity" => vec![[0.95, 0.04, 1.05]],
         "power" | "exponent" => vec![[4.4; 3]],
+        "texels" => vec![[64.0; 3]],
         _ => vec![[0.3, 0.7, 1.2]],
     }
 }
 
+/// A table whose texels all differ.
+fn table() -> Texels {
+    fit::texels(|c| [1.0 - 0.9 * c, 1.0 - 0.5 * c * c, 0.5])
+}
+
 #[track_caller]
 fn check(text: &str, name: &str, function: &Checked, inputs: &[[f32; 3]]) {
-    let program = Program::parse(text, name);
+    let program = Program::parse(text, name, &table());
     for cos_theta in COSINES {
         let mut values = vec![Value::each(vec![cos_theta])];
         let mut terms = vec![Term::Scalar(cos_theta)];
         for (param, input) in function.params.iter().skip(1).zip(inputs) {
+            if param.ty == Ty::Texture {
+                values.push(Value::Texture(Some(table())));
+                terms.push(Term::Texture);
+                continue;
+            }
             let wide = input.map(f64::from);
             let is_colour = param.ty.channels() == 3;
             values.push(if is_colour {
@@ -129,7 +141,8 @@ fn every_specialised_function_reads_as_it_was_meant() {
                     &text,
                     &format!("fresnel_{}{suffix}", subject.name),
                     &function,
-                    &[],
+                    // A texture, where there is one.
+                    &[[0.0; 3]],
                 );
             }
         }

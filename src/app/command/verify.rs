@@ -1,0 +1,292 @@
+//! `verify`: what is generated, run on every target and held against what it means.
+
+use std::collections::BTreeSet;
+use std::time::Duration;
+
+use serde_json::{Value, json};
+
+use crate::app::args::VerifyFlags;
+use crate::app::error::Error;
+use crate::app::names::{quoted, unknown};
+use crate::app::request::Request;
+use crate::app::sight::{flags as sight_flags, sight};
+use crate::app::source::{materials, source};
+use crate::app::verify::{Effort, Limits, Plan, exhaustive, junit, machine, serve, supervise};
+use crate::app::write::write_file;
+use crate::report::table;
+use crate::verify::gpu::{Backend, Wanted};
+use crate::verify::run::Devices;
+
+use super::{Output, Progress, report};
+
+/// Cosines that a run may ask for.
+const POINTS: std::ops::RangeInclusive<usize> = 100..=10_000_000;
+/// How many findings are told in full; the JSON has all.
+const TOLD: usize = 20;
+
+/// Verifies.
+pub fn run(flags: &VerifyFlags, progress: Progress) -> Result<Output, Error> {
+    let request = request(flags)?;
+    let wanted = wanted(flags)?;
+    let effort = effort(flags)?;
+    let plan = Plan::new(&request, &flags.out_dir)?;
+    if plan.files.is_empty() {
+        return Err(Error::Usage {
+            what: "there is nothing to run: name a method or a material".to_owned(),
+        });
+    }
+    if flags.worker {
+        let served = serve(&plan, &Devices::new(wanted), effort);
+        // The supervisor has gone: nobody is there to be told.
+        return Ok(Output {
+            code: u8::from(served.is_err()),
+            ..Output::default()
+        });
+    }
+    let rows = if flags.exhaustive {
+        exhaustive::rows(&plan, &Devices::new(wanted), progress)?
+    } else {
+        let limits = Limits {
+            time: Duration::from_secs(flags.limit.max(1)),
+            workers: machine::cores(),
+        };
+        supervise(&plan, limits, progress)?
+    };
+    told(flags, &request, &plan, &rows)
+}
+
+fn request(flags: &VerifyFlags) -> Result<Request, Error> {
+    let sight = sight(&flags.sight.words(flags.gamut.as_deref()))?;
+    Ok(Request {
+        targets: flags.target.clone(),
+        methods: flags.method.clone(),
+        materials: materials(&flags.material)?,
+        medium: flags.medium.as_deref().map(source).transpose()?,
+        sight,
+        prefix: flags.prefix.clone(),
+        ..Request::default()
+    })
+}
+
+fn wanted(flags: &VerifyFlags) -> Result<Wanted, Error> {
+    let backend = match flags.backend.as_deref() {
+        None => None,
+        Some("vulkan") => Some(Backend::Vulkan),
+        Some("gl") => Some(Backend::OpenGl),
+        Some(name) => return Err(unknown("backend", name, &["vulkan", "gl"])),
+    };
+    Ok(Wanted {
+        backend,
+        name: flags.adapter.clone(),
+    })
+}
+
+fn effort(flags: &VerifyFlags) -> Result<Effort, Error> {
+    if !POINTS.contains(&flags.points) {
+        let what = format!("--points is {}; it is 100 to 10000000", flags.points);
+        return Err(Error::Usage { what });
+    }
+    Ok(Effort {
+        points: flags.points,
+    })
+}
+
+/// The report, and how the run ends.
+fn told(
+    flags: &VerifyFlags,
+    request: &Request,
+    plan: &Plan,
+    rows: &[Value],
+) -> Result<Output, Error> {
+    if let Some(file) = &flags.junit {
+        let xml = junit(rows).map_err(|what| Error::Usage { what })?;
+        write_file(file, xml.as_bytes())?;
+    }
+    let full = json!({
+        "tool": "fresnel-gen", "command": canonical(flags, request), "device": devices(rows), "rows": rows,
+    });
+    let mut output = report(text(rows), &full, flags.json.as_deref())?;
+    output
+        .remarks
+        .extend(plan.left_out.iter().map(|why| format!("left out: {why}")));
+    output.remarks.extend(remarks(rows));
+    output.code = code(flags, rows);
+    Ok(output)
+}
+
+fn word<'a>(row: &'a Value, key: &str) -> &'a str {
+    row[key].as_str().unwrap_or_default()
+}
+
+fn with_status<'a>(rows: &'a [Value], status: &'a str) -> impl Iterator<Item = &'a Value> {
+    rows.iter().filter(move |row| word(row, "status") == status)
+}
+
+/// 1 for findings; 3 where a target could not be run at all, or, if all is asked for, anything was not checked.
+fn code(flags: &VerifyFlags, rows: &[Value]) -> u8 {
+    if with_status(rows, "fail").next().is_some() {
+        return 1;
+    }
+    let targets: BTreeSet<&str> = rows.iter().map(|row| word(row, "target")).collect();
+    let ran = |target: &&str| with_status(rows, "pass").any(|row| word(row, "target") == *target);
+    let lacks = !targets.iter().all(ran);
+    if lacks || flags.require_all && !unchecked(rows).is_empty() {
+        3
+    } else {
+        0
+    }
+}
+
+/// What was not checked, each once.
+fn unchecked(rows: &[Value]) -> BTreeSet<String> {
+    let mut all = BTreeSet::new();
+    for row in rows {
+        let target = word(row, "target");
+        if word(row, "status") == "not_checked" {
+            all.insert(format!("{target}: {}", word(row, "reason")));
+        }
+        let opinions = row["second_opinions"].as_array().into_iter().flatten();
+        for opinion in opinions.filter(|opinion| word(opinion, "status") == "not_checked") {
+            all.insert(format!(
+                "{target} by {}: {}",
+                word(opinion, "way"),
+                word(opinion, "reason")
+            ));
+        }
+        for (name, verdict) in row["accepts"].as_object().into_iter().flatten() {
+            if verdict == "not checked" {
+                all.insert(format!("{target} by {name}: {}", get(target, name)));
+            }
+        }
+    }
+    all
+}
+
+/// Where to get a compiler.
+fn get(target: &str, name: &str) -> String {
+    let validators = crate::targets::find(target).map_or(&[][..], |target| target.validators);
+    let found = validators.iter().find(|validator| validator.name == name);
+    found.map_or_else(String::new, |found| {
+        format!("not here; get it from {}", found.compiler.get)
+    })
+}
+
+/// Findings and what was not checked, for stderr; GitHub shows findings beside the file.
+fn remarks(rows: &[Value]) -> Vec<String> {
+    let failed: Vec<&Value> = with_status(rows, "fail").collect();
+    let mut remarks: Vec<String> = failed.iter().take(TOLD).map(|row| finding(row)).collect();
+    if failed.len() > TOLD {
+        remarks.push(format!(
+            "… and {} more, all in the JSON",
+            failed.len() - TOLD
+        ));
+    }
+    remarks.extend(
+        unchecked(rows)
+            .into_iter()
+            .map(|what| format!("not checked: {what}")),
+    );
+    let count = |status| with_status(rows, status).count();
+    remarks.push(format!(
+        "{} functions run: {} pass, {} fail, {} not checked",
+        rows.len(),
+        count("pass"),
+        count("fail"),
+        count("not_checked")
+    ));
+    remarks
+}
+
+fn finding(row: &Value) -> String {
+    let reason = word(row, "reason");
+    if machine::is_github() {
+        let line = reason
+            .replace('%', "%25")
+            .replace('\r', "%0D")
+            .replace('\n', "%0A");
+        format!(
+            "::error file={},title=fresnel-gen verify::{line}",
+            word(row, "file")
+        )
+    } else {
+        format!("FAIL {reason}")
+    }
+}
+
+/// The devices of all rows, each once.
+fn devices(rows: &[Value]) -> Value {
+    let names: BTreeSet<&str> = rows
+        .iter()
+        .filter_map(|row| row["device"].as_str())
+        .collect();
+    let names: Vec<&str> = names.into_iter().collect();
+    if names.is_empty() {
+        Value::Null
+    } else {
+        json!(names.join("; "))
+    }
+}
+
+/// The run's flags in one order, without places.
+fn canonical(flags: &VerifyFlags, request: &Request) -> String {
+    let list = |name: &str, words: &[String]| {
+        let words: Vec<String> = words.iter().map(|word| quoted(word)).collect();
+        if words.is_empty() {
+            String::new()
+        } else {
+            format!(" --{name} {}", words.join(","))
+        }
+    };
+    let one = |name: &str, word: &Option<String>| list(name, word.as_slice());
+    let mut command = "verify".to_owned();
+    command += &list("target", &flags.target);
+    command += &list("method", &flags.method);
+    command += &list("material", &flags.material);
+    command += &one("medium", &flags.medium);
+    command += &sight_flags(&request.sight);
+    command += &one("adapter", &flags.adapter);
+    command += &one("backend", &flags.backend);
+    command
+        + &if flags.exhaustive {
+            " --exhaustive".to_owned()
+        } else {
+            format!(" --points {}", flags.points)
+        }
+}
+
+/// A line for each row.
+fn text(rows: &[Value]) -> String {
+    let cells = |row: &Value| {
+        let figure = |key: &str, inner: &str, digits: usize| {
+            row[key][inner]
+                .as_f64()
+                .map_or("-".to_owned(), |value| format!("{value:.digits$}"))
+        };
+        let percent = row["model_error"]["mean_rel"].as_f64();
+        vec![
+            word(row, "target").to_owned(),
+            word(row, "method").to_owned(),
+            word(row, "material").to_owned(),
+            word(row, "form").to_owned(),
+            row["points"].to_string(),
+            figure("code_error", "max_ulp", 2),
+            figure("bound", "ulp", 1),
+            figure("model_error", "max_abs", 5),
+            percent.map_or("-".to_owned(), |mean| format!("{:.3}", 100.0 * mean)),
+            word(row, "status").replace('_', " "),
+        ]
+    };
+    let head = [
+        "target",
+        "method",
+        "material",
+        "form",
+        "points",
+        "code error, ulp",
+        "allowed",
+        "model error",
+        "in the mean, %",
+        "status",
+    ];
+    table::text(&head, &rows.iter().map(cells).collect::<Vec<_>>())
+}

@@ -1,0 +1,279 @@
+//! One file: every function of it run, and every compiler asked.
+
+use serde_json::Value;
+
+use crate::emit::{Emitted, Subject};
+use crate::fit::{self, Measured, ModelError, Truth};
+use crate::ir::{Column, Ty};
+use crate::materials::Channels;
+use crate::methods::{Class, Contract, Method};
+use crate::verify::compilers::{self, Verdict};
+use crate::verify::run::{Devices, Fault, Runnable, Shown, Way};
+use crate::verify::{BEYOND, Outcome, Trial, cosines_around, limits, worst_cases};
+
+use super::plan::{Plan, Planned};
+use super::row::{self, Row, Run};
+
+/// How a file is tried.
+#[derive(Clone, Copy, Debug)]
+pub struct Effort {
+    /// Cosines for each function and material.
+    pub points: usize,
+}
+
+/// A trial of a function, with what it is about.
+struct Case<'a> {
+    material: &'a str,
+    trial: Trial,
+    limits: Vec<f32>,
+    truth: Option<&'a Truth>,
+}
+
+/// The rows of a file.
+pub fn rows(plan: &Plan, file: &Planned, devices: &Devices, effort: Effort) -> Vec<Value> {
+    let accepts = accepts(file);
+    let mut rows = Vec::new();
+    for (index, emitted) in file.functions.iter().enumerate() {
+        let cases = cases(plan, file, emitted);
+        let tried = Tried::new(file, index, emitted, devices, effort);
+        for (place, case) in cases.iter().enumerate() {
+            rows.push(tried.row(case, &accepts, place == 0));
+        }
+    }
+    rows
+}
+
+/// What compilers say of all pages of a file: a refusal of one is a refusal.
+fn accepts(file: &Planned) -> Vec<(&'static str, Verdict)> {
+    let mut all: Vec<(&'static str, Verdict)> = Vec::new();
+    for page in &file.pages {
+        for (name, verdict) in compilers::accepts(file.target, &page.path, &page.bytes) {
+            match all.iter_mut().find(|(other, _)| *other == name) {
+                Some((_, known)) if *known == Verdict::Yes => *known = verdict,
+                Some(_) => {}
+                None => all.push((name, verdict)),
+            }
+        }
+    }
+    all
+}
+
+/// The trials of a function: a library function with each material's values, and where it was worst so far.
+fn cases<'a>(plan: &'a Plan, file: &Planned, emitted: &Emitted) -> Vec<Case<'a>> {
+    if let Some(index) = file.subject {
+        return vec![specialised(&plan.subjects[index], emitted)];
+    }
+    let method = emitted.method;
+    let fits = |subject: &&Subject| {
+        method.class == Class::Any || subject.effective.channels.is_transparent()
+    };
+    let mut cases: Vec<Case> = plan
+        .trial_subjects()
+        .iter()
+        .filter(fits)
+        .map(|subject| library(subject, emitted))
+        .collect();
+    cases.extend(known_worst(emitted));
+    cases
+}
+
+fn specialised<'a>(subject: &'a Subject, emitted: &Emitted) -> Case<'a> {
+    let bound = emitted.code_ulp.clone();
+    let table = fit::table_of(&emitted.function, |c| subject.truth.at(c));
+    Case {
+        material: &subject.argument,
+        trial: trial(emitted, Vec::new(), table, bound),
+        limits: limits_of(&subject.effective.channels),
+        truth: Some(&subject.truth),
+    }
+}
+
+fn library<'a>(subject: &'a Subject, emitted: &Emitted) -> Case<'a> {
+    let values = subject.values(emitted.method);
+    let numbers = emitted
+        .method
+        .inputs
+        .iter()
+        .filter(|input| input.ty != Ty::Texture);
+    let single = numbers.map(|input| values[input.name].map(|value| value as f32));
+    let table = fit::table_of(&emitted.function, |c| subject.truth.at(c));
+    Case {
+        material: &subject.argument,
+        trial: trial(emitted, single.collect(), table, promised(emitted.method)),
+        limits: limits_of(&subject.effective.channels),
+        truth: (emitted.form == "library").then_some(&subject.truth),
+    }
+}
+
+/// The worst inputs known of a method, kept for ever.
+fn known_worst(emitted: &Emitted) -> Vec<Case<'static>> {
+    let case = |(values, cos_theta): (Vec<[f32; 3]>, f32)| Case {
+        material: row::WORST,
+        trial: trial(emitted, values, None, promised(emitted.method)),
+        limits: vec![cos_theta],
+        truth: None,
+    };
+    worst_cases(emitted.method).map(case).collect()
+}
+
+/// What a library function promises in ulp; a method that does not keep the contract promises nothing beyond its media.
+fn promised(method: &Method) -> Measured<f64> {
+    match method.contract {
+        Contract::Kept if !method.is_textured() => Measured::Yes(method.claims.code_ulp),
+        Contract::Kept => Measured::Yes(0.0),
+        Contract::Exempt(why) => Measured::No(why.to_owned()),
+    }
+}
+
+fn trial(
+    emitted: &Emitted,
+    values: Vec<[f32; 3]>,
+    table: Option<crate::ir::Texels>,
+    bound: Measured<f64>,
+) -> Trial {
+    // What reads a texture is as exact as its sampler, which the trial allows for.
+    let bound = if emitted.method.is_textured() {
+        Measured::Yes(0.0)
+    } else {
+        bound
+    };
+    Trial {
+        function: emitted.function.clone(),
+        values,
+        table,
+        bound,
+        is_guarded: emitted.method.contract == Contract::Kept,
+    }
+}
+
+fn limits_of(channels: &Channels) -> Vec<f32> {
+    channels.n.iter().flat_map(|n| limits(*n)).collect()
+}
+
+/// A function, and how it is run.
+struct Tried<'a> {
+    file: &'a Planned,
+    emitted: &'a Emitted,
+    entry: &'a str,
+    devices: &'a Devices,
+    effort: Effort,
+}
+
+impl<'a> Tried<'a> {
+    fn new(
+        file: &'a Planned,
+        index: usize,
+        emitted: &'a Emitted,
+        devices: &'a Devices,
+        effort: Effort,
+    ) -> Tried<'a> {
+        let entry = file
+            .run_page()
+            .entries
+            .get(index)
+            .map_or("main", String::as_str);
+        Tried {
+            file,
+            emitted,
+            entry,
+            devices,
+            effort,
+        }
+    }
+
+    fn row(&self, case: &Case, accepts: &[(&'static str, Verdict)], is_first: bool) -> Value {
+        let ways = Way::of(self.file.target.name);
+        // Other ways are second opinions on the text: one material tells.
+        let ways = if is_first { ways } else { &ways[..1] };
+        let runs: Vec<(Way, Result<Run, Fault>)> = ways
+            .iter()
+            .map(|way| (*way, self.run(case, *way)))
+            .collect();
+        Row {
+            file: self.file,
+            emitted: self.emitted,
+            material: case.material,
+            accepts,
+            runs: &runs,
+        }
+        .json()
+    }
+
+    fn run(&self, case: &Case, way: Way) -> Result<Run, Fault> {
+        let page = self.file.run_page();
+        if let (Some(fault), true) = (self.untrusted(), way == Way::Own) {
+            return Err(fault);
+        }
+        let shown = Shown {
+            target: self.file.target.name,
+            bytes: &page.bytes,
+            function: self.emitted,
+            entry: self.entry,
+        };
+        let runnable = self.devices.prepare(&shown, way, &case.trial)?;
+        let mut points = cosines_around(self.effort.points, &case.limits);
+        points.extend(BEYOND);
+        let expected = case.trial.expected(&points);
+        let got = runnable.run(shown.target, &case.trial, &expected.cosines)?;
+        let outcome: Outcome = expected.judge(&got);
+        let model_error = match (case.truth, way) {
+            (Some(truth), Way::Own) => Some(self.model_error(&runnable, case, truth)?),
+            _ => None,
+        };
+        Ok(Run {
+            points: expected.cosines.len(),
+            bound: expected.bound,
+            outcome,
+            model_error,
+            device: self.devices.of(shown.target, way)?.adapter.to_string(),
+        })
+    }
+
+    /// A module that is not ours may do anything to a driver, unless a validator has looked at it.
+    fn untrusted(&self) -> Option<Fault> {
+        let page = self.file.run_page();
+        if self.file.target.name != "spirv" || page.is_current {
+            return None;
+        }
+        let verdicts = compilers::accepts(self.file.target, &page.path, &page.bytes);
+        let refusal = verdicts
+            .iter()
+            .find(|(_, verdict)| *verdict != Verdict::Yes)?;
+        Some(match refusal {
+            (name, Verdict::No(words)) => Fault::Failed(format!("{name}: {words}")),
+            (name, _) => Fault::Absent(format!(
+                "it is not what would be written today, and no {name} is here to say that it is safe to run"
+            )),
+        })
+    }
+
+    /// The error of the method as it runs, against the truth.
+    fn model_error(
+        &self,
+        runnable: &Runnable,
+        case: &Case,
+        truth: &Truth,
+    ) -> Result<ModelError, Fault> {
+        let light = self.emitted.method.light;
+        let own;
+        let truth = if light == truth.light {
+            truth
+        } else {
+            own = Truth::new(truth.surface.clone(), light);
+            &own
+        };
+        let fault = std::cell::OnceCell::new();
+        let error = fit::error_of(truth, &|cosines| {
+            let single: Vec<f32> = cosines.iter().map(|c| *c as f32).collect();
+            let got = runnable.run(self.file.target.name, &case.trial, &single);
+            let got = got.unwrap_or_else(|why| {
+                let _ = fault.set(why);
+                vec![[f32::NAN; 3]; single.len()]
+            });
+            let channel =
+                |i: usize| Column::Each(got.iter().map(|rgb| f64::from(rgb[i])).collect());
+            crate::ir::Value::Rgb([0, 1, 2].map(channel))
+        });
+        fault.into_inner().map_or(Ok(error), Err)
+    }
+}

@@ -1,0 +1,20 @@
+//! Verification: what a request generates, run on every target and held against what it means.
+//!
+//! Shaders run in processes of their own, so that one that never ends, or that takes its driver down, is a row of the
+//! report and no more. All processes make the same [`Plan`] from the same flags; a number names a file of it.
+
+pub mod exhaustive;
+pub mod file;
+mod junit;
+pub mod machine;
+mod plan;
+mod row;
+mod supervise;
+mod worker;
+
+pub use file::Effort;
+pub use junit::junit;
+pub use plan::{Page, Plan, Planned};
+pub use row::WORST;
+pub use supervise::{Limits, supervise};
+pub use worker::serve;

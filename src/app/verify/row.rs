@@ -1,0 +1,201 @@
+//! The rows of the report: both errors of a function on a target, never added, and who accepts its file.
+
+use serde_json::{Map, Value, json};
+
+use crate::emit::Emitted;
+use crate::fit::{Measured, ModelError};
+use crate::verify::compilers::Verdict;
+use crate::verify::run::{Fault, Way};
+use crate::verify::{CodeError, Miss, Outcome};
+
+use super::plan::Planned;
+
+/// Stands for a material where a function is run at the worst inputs known.
+pub const WORST: &str = "worst cases";
+
+/// What came of running a function in one way.
+#[derive(Clone, Debug)]
+pub struct Run {
+    /// At how many cosines.
+    pub points: usize,
+    /// What it may differ by, in ulp.
+    pub bound: f64,
+    /// What came of it.
+    pub outcome: Outcome,
+    /// Against the truth, where there is one.
+    pub model_error: Option<ModelError>,
+    /// On what.
+    pub device: String,
+}
+
+/// A row while it is made.
+pub struct Row<'a> {
+    /// The file.
+    pub file: &'a Planned,
+    /// The function.
+    pub emitted: &'a Emitted,
+    /// The material, as a user types it.
+    pub material: &'a str,
+    /// What compilers say of the file.
+    pub accepts: &'a [(&'static str, Verdict)],
+    /// Each way of running it: its own first.
+    pub runs: &'a [(Way, Result<Run, Fault>)],
+}
+
+impl Row<'_> {
+    /// The row.
+    pub fn json(&self) -> Value {
+        let (way, own) = &self.runs[0];
+        let mut row = self.head();
+        let (mut status, mut reasons) = self.judged(*way, own, &mut row);
+        for (way, run) in &self.runs[1..] {
+            let mut also = json!({ "way": way.name() });
+            let (other, why) = self.judged(*way, run, &mut also);
+            also["status"] = json!(other);
+            also["reason"] = json!(why.first());
+            if other == "fail" {
+                status = "fail";
+                reasons.extend(why);
+            }
+            if let Some(list) = row["second_opinions"].as_array_mut() {
+                list.push(also);
+            }
+        }
+        for (name, verdict) in self.accepts {
+            if let Verdict::No(words) = verdict {
+                status = "fail";
+                reasons.push(format!(
+                    "{}: {name} refuses it: {words}",
+                    self.file.run_page().path
+                ));
+            }
+        }
+        row["accepts"] = accepts(self.accepts);
+        row["status"] = json!(status);
+        row["reason"] = if reasons.is_empty() {
+            Value::Null
+        } else {
+            json!(reasons.join("\n"))
+        };
+        row
+    }
+
+    /// The keys in their order.
+    fn head(&self) -> Value {
+        let page = self.file.run_page();
+        json!({
+            "target": self.file.target.name, "method": self.emitted.method.name, "material": self.material,
+            "form": self.emitted.form, "precision": "f32", "function": self.emitted.name, "file": page.path,
+            "shipped": page.is_shipped, "current": page.is_current, "device": null, "points": null, "bound": null,
+            "code_error": null, "model_error": null, "accepts": null, "second_opinions": [], "status": null,
+            "reason": null,
+        })
+    }
+
+    /// Enters a run, and says what to think of it.
+    fn judged(
+        &self,
+        way: Way,
+        run: &Result<Run, Fault>,
+        row: &mut Value,
+    ) -> (&'static str, Vec<String>) {
+        match run {
+            Err(Fault::Absent(why)) => ("not_checked", vec![why.clone()]),
+            Err(Fault::Failed(why)) => (
+                "fail",
+                vec![format!(
+                    "{}: {}: {why}",
+                    self.file.run_page().path,
+                    self.emitted.name
+                )],
+            ),
+            Ok(run) => {
+                row["device"] = json!(run.device);
+                row["points"] = json!(run.points);
+                row["bound"] = json!({ "ulp": run.bound, "text": self.bound_text() });
+                row["code_error"] = code_error(&run.outcome.error);
+                if let Some(error) = &run.model_error {
+                    row["model_error"] = json!(error);
+                }
+                match &run.outcome.miss {
+                    None => ("pass", Vec::new()),
+                    Some(miss) => ("fail", vec![self.missed(way, miss)]),
+                }
+            }
+        }
+    }
+
+    /// What a function promises, in words.
+    fn bound_text(&self) -> String {
+        match &self.emitted.code_ulp {
+            Measured::Yes(ulp) => {
+                format!("{ulp} ulp or 2^-22; powers as Vulkan allows exp2 and log2")
+            }
+            Measured::No(why) => why.clone(),
+        }
+    }
+
+    /// A miss as people and editors read it.
+    fn missed(&self, way: Way, miss: &Miss) -> String {
+        let channel = ["red", "green", "blue"][miss.channel];
+        let way = if way == Way::Own {
+            String::new()
+        } else {
+            format!(", by {}", way.name())
+        };
+        let edited = if self.file.run_page().is_current {
+            ""
+        } else {
+            " The file is not what would be written today."
+        };
+        format!(
+            "{}: {}, {}{way}: at cos_theta = {:?} (0x{:08x}) {channel} is {:?} (0x{:08x}), expected {:?}: {:.1} ulp off.{edited}",
+            self.file.run_page().path,
+            self.emitted.name,
+            self.material,
+            miss.cos_theta,
+            miss.cos_theta.to_bits(),
+            miss.got,
+            miss.got.to_bits(),
+            miss.expected,
+            miss.ulp,
+        )
+    }
+}
+
+/// A code error as reports have it; what is not finite has no number in JSON.
+pub fn code_error(error: &CodeError) -> Value {
+    json!({ "max_ulp": error.max_ulp, "max_abs": error.max_abs, "worst_cos": error.worst_cos })
+}
+
+fn accepts(verdicts: &[(&'static str, Verdict)]) -> Value {
+    let mut all = Map::new();
+    for (name, verdict) in verdicts {
+        let word = match verdict {
+            Verdict::Yes => "yes",
+            Verdict::No(_) => "no",
+            Verdict::NotChecked(_) => "not checked",
+        };
+        all.insert((*name).to_owned(), json!(word));
+    }
+    Value::Object(all)
+}
+
+/// The rows of a file whose run came to no end.
+pub fn unfinished(file: &Planned, why: &str) -> Vec<Value> {
+    let row = |emitted: &Emitted| {
+        let mut row = Row {
+            file,
+            emitted,
+            material: "",
+            accepts: &[],
+            runs: &[],
+        }
+        .head();
+        row["material"] = Value::Null;
+        row["status"] = json!("fail");
+        row["reason"] = json!(format!("{}: {}: {why}", file.run_page().path, emitted.name));
+        row
+    };
+    file.functions.iter().map(row).collect()
+}

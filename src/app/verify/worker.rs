@@ -1,0 +1,32 @@
+//! A worker: reads the numbers of files, a line each, and answers each with its rows, a line of JSON.
+
+use std::io::{self, BufRead, Write};
+
+use serde_json::Value;
+
+use crate::verify::run::Devices;
+
+use super::file::{Effort, rows};
+use super::plan::Plan;
+
+/// Serves until there is nothing more to read. Only numbers of the plan are answered.
+///
+/// # Errors
+/// The pipe is gone.
+pub fn serve(plan: &Plan, devices: &Devices, effort: Effort) -> io::Result<()> {
+    let (input, mut output) = (io::stdin().lock(), io::stdout().lock());
+    for line in input.lines() {
+        let Some(file) = line?
+            .trim()
+            .parse()
+            .ok()
+            .and_then(|index: usize| plan.files.get(index))
+        else {
+            continue;
+        };
+        let answer = Value::Array(rows(plan, file, devices, effort));
+        writeln!(output, "{answer}")?;
+        output.flush()?;
+    }
+    Ok(())
+}

@@ -1,0 +1,145 @@
+//! The word of compilers that are not ours: whether they accept what was generated, and HLSL as DXC makes SPIR-V of it.
+//! One that is not there gives no verdict, and says where to get it.
+
+mod call;
+mod program;
+
+use crate::emit::{NAGA_VERSION, validate_wgsl};
+use crate::fit::Measured;
+use crate::targets::{Compiler, DXC, Target, Validator};
+
+use call::{Called, File};
+
+pub use program::calls;
+
+/// What a compiler says of a file.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Verdict {
+    /// It accepts it.
+    Yes,
+    /// It refuses it, in these words: the first lines.
+    No(String),
+    /// It was not asked, for this reason.
+    NotChecked(String),
+}
+
+/// Why a compiler has made nothing of a text.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum Fault {
+    /// It refuses it, in these words: the first lines.
+    #[error("{0}")]
+    Refused(String),
+    /// It was not asked, for this reason.
+    #[error("not checked: {0}")]
+    NotChecked(String),
+}
+
+impl<T> From<Result<T, Fault>> for Verdict {
+    fn from(made: Result<T, Fault>) -> Verdict {
+        match made {
+            Ok(_) => Verdict::Yes,
+            Err(Fault::Refused(words)) => Verdict::No(words),
+            Err(Fault::NotChecked(reason)) => Verdict::NotChecked(reason),
+        }
+    }
+}
+
+/// A version of HLSL, the language.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum HlslVersion {
+    /// As most engines compile it.
+    V2018,
+    /// As DXC compiles it unless asked otherwise.
+    V2021,
+}
+
+/// As much of a refusal as is told.
+const LINES: usize = 8;
+
+/// What every compiler that can judge a target's files says of one. Its name stands in their words.
+pub fn accepts(target: &Target, name: &str, bytes: &[u8]) -> Vec<(&'static str, Verdict)> {
+    let validators = target.validators.iter();
+    validators
+        .map(|validator| (validator.name, verdict(validator, name, bytes)))
+        .collect()
+}
+
+/// What one of them says.
+pub fn verdict(validator: &Validator, name: &str, bytes: &[u8]) -> Verdict {
+    let framed = match program::framed(&validator.frame, bytes) {
+        Ok(framed) => framed,
+        Err(fault) => return Verdict::No(fault.to_string()),
+    };
+    if validator.compiler.command.is_none() {
+        let text = String::from_utf8_lossy(bytes);
+        return validate_wgsl(&text)
+            .map_err(|words| Fault::Refused(first_lines(&words)))
+            .into();
+    }
+    let files: Vec<File> = program::named(name, framed);
+    run(validator.compiler, validator.options, &files).into()
+}
+
+/// A compute shader in HLSL as DXC makes SPIR-V of it for Vulkan 1.1: register numbers become bindings, spaces become
+/// sets.
+pub fn hlsl_to_spirv(text: &str, entry: &str, version: HlslVersion) -> Result<Vec<u8>, Fault> {
+    let version = match version {
+        HlslVersion::V2018 => 2018,
+        HlslVersion::V2021 => 2021,
+    };
+    let options = format!(
+        "-T cs_6_0 -E {entry} -HV {version} -spirv -fspv-target-env=vulkan1.1 -Fo OUT FILE"
+    );
+    let file = File {
+        name: "shader.hlsl".to_owned(),
+        bytes: text.as_bytes().to_vec(),
+    };
+    run(&DXC, &options, &[file])
+}
+
+/// Whether a compiler can be asked here.
+pub fn is_here(compiler: &Compiler) -> bool {
+    let found = |command| call::find(command).is_some();
+    compiler.command.is_none_or(found)
+}
+
+/// Which version of a compiler answers here, as it says itself.
+pub fn version(compiler: &Compiler) -> Measured<String> {
+    if compiler.command.is_none() {
+        return Measured::Yes(NAGA_VERSION.to_owned());
+    }
+    match called(compiler, "--version", &[]) {
+        Ok(Called { ok: true, said, .. }) => Measured::Yes(first_line(&said)),
+        Ok(_) => Measured::No("it does not tell its version".to_owned()),
+        Err(fault) => Measured::No(fault.to_string()),
+    }
+}
+
+/// What a compiler makes of these.
+fn run(compiler: &Compiler, options: &str, files: &[File]) -> Result<Vec<u8>, Fault> {
+    let called = called(compiler, options, files)?;
+    if called.ok {
+        return Ok(called.made);
+    }
+    Err(Fault::Refused(first_lines(&called.said)))
+}
+
+fn called(compiler: &Compiler, options: &str, files: &[File]) -> Result<Called, Fault> {
+    let Compiler { name, get, .. } = compiler;
+    let absent = || Fault::NotChecked(format!("no {name} here ({get})"));
+    let command = compiler.command.ok_or_else(absent)?;
+    let path = call::find(command).ok_or_else(absent)?;
+    call::call(&path, options, files)
+        .map_err(|fault| Fault::NotChecked(format!("{} cannot be called: {fault}", path.display())))
+}
+
+fn first_line(words: &str) -> String {
+    words.lines().next().unwrap_or("").trim().to_owned()
+}
+
+/// The first lines that are not empty.
+fn first_lines(words: &str) -> String {
+    let lines = words.lines().map(str::trim_end);
+    let said: Vec<&str> = lines.filter(|line| !line.is_empty()).take(LINES).collect();
+    said.join("\n")
+}

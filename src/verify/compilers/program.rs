@@ -1,0 +1,138 @@
+//! Programs around files of functions, which alone are none: each function is called with arguments that are known at
+//! run time only, so that no compiler passes it over as dead code.
+
+use std::collections::BTreeSet;
+use std::str::Utf8Error;
+
+use crate::targets::Frame;
+
+use super::call::File;
+
+/// The programs of a file, one for each beginning.
+pub fn framed(frame: &Frame, bytes: &[u8]) -> Result<Vec<Vec<u8>>, Utf8Error> {
+    if frame.ending.is_empty() {
+        return Ok(vec![bytes.to_vec()]);
+    }
+    let text = std::str::from_utf8(bytes)?;
+    let ending = frame.ending.replace("CALLS\n", &calls(text));
+    let program = |beginning: &&str| format!("{beginning}{text}{ending}").into_bytes();
+    Ok(frame.beginnings.iter().map(program).collect())
+}
+
+/// The programs as files, under the file's own name as far as that tells them apart.
+pub fn named(name: &str, programs: Vec<Vec<u8>>) -> Vec<File> {
+    let name = name.rsplit(['/', '\\']).next().unwrap_or(name);
+    let several = programs.len() > 1;
+    let file = |(index, bytes)| File {
+        name: if several {
+            format!("{index}-{name}")
+        } else {
+            name.to_owned()
+        },
+        bytes,
+    };
+    programs.into_iter().enumerate().map(file).collect()
+}
+
+/// What a program does with a text of functions: a statement for each.
+pub fn calls(text: &str) -> String {
+    let mut calls: Vec<String> = heads(text).iter().filter_map(|head| call(head)).collect();
+    // A file that is included twice has its heads twice.
+    let mut seen = BTreeSet::new();
+    calls.retain(|call| seen.insert(call.clone()));
+    calls.concat()
+}
+
+/// What stands before each outermost brace, in one line each: the heads of functions, in all our languages.
+fn heads(text: &str) -> Vec<String> {
+    let code = text
+        .lines()
+        .filter_map(|line| line.split("//").next())
+        .filter(|line| !line.trim_start().starts_with('#'));
+    let (mut heads, mut depth, mut head) = (Vec::new(), 0, String::new());
+    for character in code.flat_map(|line| line.chars().chain([' '])) {
+        match character {
+            '{' if depth == 0 => heads.push(std::mem::take(&mut head)),
+            ';' if depth == 0 => head.clear(),
+            _ if depth == 0 && character != '}' => head.push(character),
+            _ => {}
+        }
+        depth += match character {
+            '{' => 1,
+            '}' => -1,
+            _ => 0,
+        };
+    }
+    heads
+}
+
+/// The call of a function of this head: `type name(type argument, …)` or `fn name(argument: type, …) -> type`.
+fn call(head: &str) -> Option<String> {
+    let (before, rest) = head.split_once('(')?;
+    let (parameters, _) = rest.split_once(')')?;
+    let name = before.split_whitespace().last()?;
+    let arguments: Vec<&str> = parameters
+        .split(',')
+        .map(|parameter| argument(parameter.trim()))
+        .collect();
+    Some(format!("    sum += {name}({});\n", arguments.join(", ")))
+}
+
+fn argument(parameter: &str) -> &'static str {
+    let is_wgsl = parameter.split_once(": ").map(|(_, ty)| ty);
+    let is_c = || parameter.rsplit_once(' ').map(|(ty, _)| ty);
+    let ty = is_wgsl.or_else(is_c).unwrap_or(parameter);
+    // GLSL has its texture and its sampler in one.
+    if ty.contains("sampler2D") || ty.to_lowercase().contains("texture") {
+        "a_texture"
+    } else if ty.to_lowercase().contains("sampler") {
+        "a_sampler"
+    } else if ty.ends_with('3') || ty.starts_with("vec3") {
+        "at"
+    } else {
+        "at.x"
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::calls;
+
+    #[track_caller]
+    fn check(text: &str, expected: &str) {
+        assert_eq!(calls(text), expected, "{text}");
+    }
+
+    #[test]
+    fn functions_are_called_in_every_language() {
+        check(
+            "// f(x) {\n#ifndef A // {\nfloat3 f(float c, float3 f0)\n{\n    g(c);\n}\n#endif\n",
+            "    sum += f(at.x, at);\n",
+        );
+        check(
+            "highp float f(highp float c, highp vec3 f0) {}\nhighp vec3 g(highp sampler2D t) {}\n",
+            "    sum += f(at.x, at);\n    sum += g(a_texture);\n",
+        );
+        check(
+            "fn f(\n    c: f32, // the cosine\n    f0: vec3<f32>,\n    t: texture_2d<f32>,\n    t_sampler: sampler\n) -> f32 {\n  if c { }\n}\n",
+            "    sum += f(at.x, at, a_texture, a_sampler);\n",
+        );
+        check(
+            "float f(Texture2D<float4> t, SamplerState t_sampler)\n{}\n",
+            "    sum += f(a_texture, a_sampler);\n",
+        );
+    }
+
+    #[test]
+    fn a_function_that_stands_twice_is_called_once() {
+        check(
+            "float f(float c) {}\nfloat f(float c) {}\n",
+            "    sum += f(at.x);\n",
+        );
+    }
+
+    #[test]
+    fn what_is_no_function_is_not_called() {
+        check("struct A { float x; };\nfloat b = 1.0;\n", "");
+    }
+}

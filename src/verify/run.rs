@@ -1,0 +1,279 @@
+//! Running what was generated: the text of a file, as it is, on the stack that its language is for.
+//!
+//! | target | how |
+//! |---|---|
+//! | wgsl | by wgpu |
+//! | spirv | the module itself, handed to the driver |
+//! | gles | in a context of OpenGL ES 3.0, by transform feedback |
+//! | hlsl | by DXC to SPIR-V (HLSL 2018 and 2021), and that as above |
+//!
+//! MSL runs on Apple's systems only, and GLSL 4.50 is not a language of any of these stacks: they are not run here.
+
+use std::cell::OnceCell;
+
+use crate::emit::Emitted;
+use crate::ir::{Param, Ty};
+
+use super::compilers::{self, HlslVersion, hlsl_to_spirv};
+use super::gpu::{
+    self, Argument, Code, Device, Kernel, Program, Texture, TextureFormat, Uniform, Wanted, Wrap,
+};
+use super::harness::{self, Call, ENTRY};
+use super::second;
+use super::trial::Trial;
+
+/// Why nothing was run.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum Fault {
+    /// Something is missing here: not checked.
+    #[error("{0}")]
+    Absent(String),
+    /// The text is wrong, or the device failed.
+    #[error("{0}")]
+    Failed(String),
+}
+
+impl From<gpu::Fault> for Fault {
+    fn from(fault: gpu::Fault) -> Fault {
+        match fault {
+            gpu::Fault::Absent { .. } | gpu::Fault::Unable { .. } => {
+                Fault::Absent(fault.to_string())
+            }
+            _ => Fault::Failed(fault.to_string()),
+        }
+    }
+}
+
+impl From<compilers::Fault> for Fault {
+    fn from(fault: compilers::Fault) -> Fault {
+        match fault {
+            compilers::Fault::NotChecked(why) => Fault::Absent(why),
+            compilers::Fault::Refused(words) => Fault::Failed(words),
+        }
+    }
+}
+
+/// The devices of a run, each opened when it is first needed.
+pub struct Devices {
+    wanted: Wanted,
+    compute: OnceCell<Result<Device, gpu::Fault>>,
+    gles: OnceCell<Result<Device, gpu::Fault>>,
+}
+
+/// A way to run a target's text.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Way {
+    /// As the target's language says.
+    Own,
+    /// HLSL as of 2021.
+    Hlsl2021,
+    /// naga's translation of the WGSL into GLSL ES.
+    NagaGles,
+    /// naga's translation of the WGSL into HLSL.
+    NagaHlsl,
+}
+
+impl Way {
+    /// The ways of a target: its own first.
+    pub fn of(target: &str) -> &'static [Way] {
+        match target {
+            "wgsl" => &[Way::Own, Way::NagaGles, Way::NagaHlsl],
+            "hlsl" => &[Way::Own, Way::Hlsl2021],
+            _ => &[Way::Own],
+        }
+    }
+
+    /// The name in reports.
+    pub fn name(self) -> &'static str {
+        match self {
+            Way::Own => "as it is",
+            Way::Hlsl2021 => "HLSL 2021",
+            Way::NagaGles => "naga's GLSL ES",
+            Way::NagaHlsl => "naga's HLSL",
+        }
+    }
+}
+
+/// A function of a file.
+#[derive(Clone, Copy, Debug)]
+pub struct Shown<'a> {
+    /// The target's name.
+    pub target: &'a str,
+    /// The file.
+    pub bytes: &'a [u8],
+    /// The function.
+    pub function: &'a Emitted,
+    /// The entry point of a module.
+    pub entry: &'a str,
+}
+
+/// A function ready to run.
+pub struct Runnable {
+    kernel: Kernel,
+    params: Vec<Param>,
+    /// Bound values stand in the text: naga's translation takes no arguments.
+    is_bound: bool,
+}
+
+impl Devices {
+    /// None is opened yet.
+    pub fn new(wanted: Wanted) -> Devices {
+        Devices {
+            wanted,
+            compute: OnceCell::new(),
+            gles: OnceCell::new(),
+        }
+    }
+
+    /// The device that runs WGSL and SPIR-V.
+    ///
+    /// # Errors
+    /// There is none.
+    pub fn compute(&self) -> Result<&Device, Fault> {
+        let opened = self.compute.get_or_init(|| Device::open(&self.wanted));
+        opened.as_ref().map_err(|fault| fault.clone().into())
+    }
+
+    /// The device that runs GLSL ES.
+    ///
+    /// # Errors
+    /// There is none.
+    pub fn gles(&self) -> Result<&Device, Fault> {
+        let opened = self.gles.get_or_init(Device::gles);
+        opened.as_ref().map_err(|fault| fault.clone().into())
+    }
+
+    /// The device that runs a target's text in a way.
+    ///
+    /// # Errors
+    /// There is none.
+    pub fn of(&self, target: &str, way: Way) -> Result<&Device, Fault> {
+        if target == "gles" || way == Way::NagaGles {
+            self.gles()
+        } else {
+            self.compute()
+        }
+    }
+
+    /// Compiles a function of a file for running. naga's translations are of the function at the values of a trial.
+    ///
+    /// # Errors
+    /// A compiler refuses the text, or what it takes is not here.
+    pub fn prepare(&self, shown: &Shown, way: Way, trial: &Trial) -> Result<Runnable, Fault> {
+        let emitted = shown.function;
+        let call = Call {
+            name: &emitted.name,
+            params: &emitted.function.params,
+            is_scalar: emitted.function.ty() == Ty::Scalar,
+        };
+        let device = self.of(shown.target, way)?;
+        let ready = |code: Code, entry: &str, is_bound: bool| {
+            let params = &emitted.function.params;
+            let uniforms = if is_bound {
+                Vec::new()
+            } else {
+                uniforms(params, trial, shown.target)
+            };
+            let program = Program {
+                code,
+                entry,
+                uniforms: &uniforms,
+                textured: call.is_textured(),
+            };
+            let (kernel, params) = (device.prepare(&program)?, params.clone());
+            Ok(Runnable {
+                kernel,
+                params,
+                is_bound,
+            })
+        };
+        if shown.target == "spirv" {
+            return ready(Code::Spirv(shown.bytes), shown.entry, false);
+        }
+        let text =
+            std::str::from_utf8(shown.bytes).map_err(|fault| Fault::Failed(fault.to_string()))?;
+        match (shown.target, way) {
+            ("wgsl", Way::Own) => ready(Code::Wgsl(&harness::wgsl(text, &call)), ENTRY, false),
+            ("wgsl", Way::NagaGles) => {
+                let vertex = harness::wgsl_vertex(text, &call, &trial.values);
+                let made = second::to_gles(&vertex, ENTRY)?;
+                ready(Code::Gles(&harness::renamed(&made)), "main", true)
+            }
+            ("wgsl", _) => {
+                let made = second::to_hlsl(&harness::wgsl(text, &call), ENTRY)?;
+                let code = hlsl_to_spirv(&made.text, &made.entry, HlslVersion::V2018)?;
+                ready(Code::Spirv(&code), &made.entry, false)
+            }
+            ("gles", _) => ready(Code::Gles(&harness::gles(text, &call)), "main", false),
+            ("hlsl", _) => {
+                let version = if way == Way::Hlsl2021 {
+                    HlslVersion::V2021
+                } else {
+                    HlslVersion::V2018
+                };
+                let code = hlsl_to_spirv(&harness::hlsl(text, &call), ENTRY, version)?;
+                ready(Code::Spirv(&code), ENTRY, false)
+            }
+            (other, _) => Err(Fault::Absent(format!(
+                "{other} cannot be run here: it is read again and compiled only"
+            ))),
+        }
+    }
+}
+
+/// The arguments of a trial by name, as a target's harness names them.
+fn uniforms(params: &[Param], trial: &Trial, target: &str) -> Vec<Uniform> {
+    let numbers = params
+        .iter()
+        .skip(1)
+        .filter(|param| param.ty != Ty::Texture);
+    let uniform = |(param, value): (&Param, &[f32; 3])| Uniform {
+        name: if target == "gles" {
+            format!("fg_{}", param.name)
+        } else {
+            param.name.clone()
+        },
+        value: if param.ty == Ty::Rgb {
+            Argument::Rgb(*value)
+        } else {
+            Argument::Scalar(value[0])
+        },
+    };
+    numbers.zip(&trial.values).map(uniform).collect()
+}
+
+impl Runnable {
+    /// The results at these cosines with the arguments of a trial.
+    ///
+    /// # Errors
+    /// The device fails.
+    pub fn run(
+        &self,
+        target: &str,
+        trial: &Trial,
+        cosines: &[f32],
+    ) -> Result<Vec<[f32; 3]>, Fault> {
+        let uniforms = if self.is_bound {
+            Vec::new()
+        } else {
+            uniforms(&self.params, trial, target)
+        };
+        let texels: Option<Vec<[f32; 4]>> = trial.table.as_ref().map(|table| {
+            table
+                .texels
+                .iter()
+                .map(|[r, g, b]| [*r, *g, *b, 1.0])
+                .collect()
+        });
+        let texture = texels
+            .as_ref()
+            .zip(trial.table.as_ref())
+            .map(|(texels, table)| Texture {
+                width: table.width,
+                texels,
+                format: TextureFormat::Half,
+                wrap: Wrap::Clamp,
+            });
+        Ok(self.kernel.run(cosines, &uniforms, texture.as_ref())?)
+    }
+}
