@@ -226,6 +226,8 @@ fn only_the_writer_and_the_program_touch_the_machine() {
         "app/tree.rs",
         "build.rs",
         "verify/compilers/call.rs",
+        // It asks whether a library would complain of the environment.
+        "verify/gpu/quiet.rs",
     ];
     for (path, text) in sources("src") {
         let inside = path
@@ -248,6 +250,31 @@ fn only_the_writer_and_the_program_touch_the_machine() {
             assert!(
                 !before_tests(&text).contains(touch),
                 "{inside} uses {touch}"
+            );
+        }
+    }
+}
+
+#[test]
+fn only_leaves_of_the_graphics_stack_are_unsafe_and_say_why() {
+    let named = ["egl", "gles", "passthrough", "quiet"].map(|leaf| format!("verify/gpu/{leaf}.rs"));
+    for (path, text) in sources("src") {
+        let inside = path.strip_prefix(root().join("src")).unwrap();
+        let inside = inside.display().to_string();
+        assert_eq!(
+            named.contains(&inside),
+            text.contains("allow(unsafe_code)"),
+            "{inside} is unsafe, or is named and is not"
+        );
+        let lines: Vec<&str> = text.lines().collect();
+        for (at, line) in lines.iter().enumerate() {
+            // A reason stands above the statement, which may begin a few lines before the block.
+            let above = &lines[at.saturating_sub(4)..at];
+            let says_why = above.iter().any(|line| line.contains("// SAFETY:"));
+            assert!(
+                !line.contains("unsafe {") || says_why,
+                "{inside}:{}: an unsafe block without `// SAFETY:`",
+                at + 1
             );
         }
     }

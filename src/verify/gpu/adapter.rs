@@ -59,8 +59,9 @@ pub struct Wanted {
     pub name: Option<String>,
 }
 
-/// What Vulkan needs on Debian.
+/// What Vulkan needs on Debian, and OpenGL.
 const VULKAN_PACKAGES: &str = "mesa-vulkan-drivers libvulkan1";
+pub(super) const OPENGL_PACKAGES: &str = "libegl1 libegl-mesa0 libgles2 libgl1-mesa-dri";
 
 impl Backend {
     /// All of them, the preferred first.
@@ -160,7 +161,11 @@ fn absent(wanted: &Wanted, there: &[String]) -> Fault {
     if let Some(backend) = wanted.backend {
         what += &format!(" for {}", backend.name());
     }
-    let install = format!("on Debian install {VULKAN_PACKAGES}");
+    let packages = match wanted.backend {
+        Some(Backend::OpenGl) => OPENGL_PACKAGES,
+        _ => VULKAN_PACKAGES,
+    };
+    let install = format!("on Debian install {packages}");
     let get = match there {
         [] => install,
         there if wanted.name.is_some() => format!("there is {}", there.join(", ")),

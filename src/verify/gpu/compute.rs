@@ -5,7 +5,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 use pollster::block_on;
 use wgpu::{ErrorFilter, Features, PollType};
 
-use super::adapter::{Adapter, describe};
+use super::adapter::{Adapter, Kind, describe};
 use super::fault::Fault;
 
 /// A device and its queue.
@@ -21,6 +21,7 @@ pub(super) struct Compute {
 const FEATURES: Features = Features::PASSTHROUGH_SHADERS
     .union(Features::FLOAT32_FILTERABLE)
     .union(Features::TEXTURE_FORMAT_16BIT_NORM)
+    .union(Features::MAPPABLE_PRIMARY_BUFFERS)
     .union(Features::SHADER_F16);
 
 /// How long a block may take. It is a fraction of a second on a processor of long ago; what takes longer never ends.
@@ -52,6 +53,12 @@ impl Compute {
     /// Whether the device has this.
     pub fn has(&self, features: Features) -> bool {
         self.device.features().contains(features)
+    }
+
+    /// Whether its memory is the processor's, so that results can be read where the shader wrote them.
+    pub fn shares_memory(&self) -> bool {
+        let shared = matches!(self.adapter.kind, Kind::Software | Kind::Integrated);
+        shared && self.has(Features::MAPPABLE_PRIMARY_BUFFERS)
     }
 
     /// Does something, and takes up every error that it raised.

@@ -6,7 +6,7 @@ use std::sync::OnceLock;
 use glow::HasContext;
 use khronos_egl as egl;
 
-use super::adapter::{Adapter, Backend, Kind};
+use super::adapter::{Adapter, Backend, Kind, OPENGL_PACKAGES};
 use super::fault::Fault;
 use super::quiet::hush;
 
@@ -24,8 +24,6 @@ pub(super) struct Context {
 
 /// `EGL_PLATFORM_SURFACELESS_MESA`, of the extension EGL_MESA_platform_surfaceless.
 const SURFACELESS: egl::Enum = 0x31DD;
-/// What OpenGL ES needs on Debian.
-const PACKAGES: &str = "libegl1 libegl-mesa0 libgles2 libgl1-mesa-dri";
 
 impl Context {
     /// Opens a context.
@@ -141,6 +139,6 @@ fn address(egl: &Egl, name: &str) -> *const std::ffi::c_void {
 fn absent(why: impl ToString) -> Fault {
     Fault::Absent {
         what: format!("no OpenGL ES 3.0 ({})", why.to_string()),
-        get: format!("on Debian install {PACKAGES}"),
+        get: format!("on Debian install {OPENGL_PACKAGES}"),
     }
 }

@@ -68,9 +68,7 @@ impl Kernel {
         check_fit(&self.uniforms, uniforms, self.textured, texture.is_some())?;
         let compute = &*self.compute;
         let resources = self.resources(uniforms, texture)?;
-        let slots = [(); 2].map(|()| compute.guarded(|| Slot::new(&compute.device, self.inputs)));
-        let [even, odd] = slots;
-        let slots = [even?, odd?];
+        let slots = compute.guarded(|| [(); 2].map(|()| Slot::new(compute, self.inputs)))?;
         let mut ahead = None;
         for (block, slot) in blocks.zip(slots.iter().cycle()) {
             let flight = slot.submit(compute, self, &resources, &block)?;

@@ -29,8 +29,8 @@ pub(super) enum Block<'a> {
 pub(super) struct Slot {
     inputs: wgpu::Buffer,
     results: wgpu::Buffer,
-    /// What the processor can read.
-    landing: wgpu::Buffer,
+    /// What the processor reads, where it cannot read the results themselves.
+    landing: Option<wgpu::Buffer>,
 }
 
 /// A block that the device is at.
@@ -58,9 +58,9 @@ impl Block<'_> {
 
 impl Slot {
     /// Buffers for whole blocks.
-    pub fn new(device: &wgpu::Device, inputs: Inputs) -> Slot {
+    pub fn new(compute: &Compute, inputs: Inputs) -> Slot {
         let buffer = |size, usage| {
-            device.create_buffer(&wgpu::BufferDescriptor {
+            compute.device.create_buffer(&wgpu::BufferDescriptor {
                 label: None,
                 size,
                 usage,
@@ -72,17 +72,25 @@ impl Slot {
             Inputs::Cosines => (points * INPUT, BufferUsages::STORAGE),
             Inputs::Bits => (UNIFORM, BufferUsages::UNIFORM),
         };
-        Slot {
-            inputs: buffer(size, usage | BufferUsages::COPY_DST),
-            results: buffer(
-                points * RESULT,
-                BufferUsages::STORAGE | BufferUsages::COPY_SRC,
-            ),
-            landing: buffer(
-                points * RESULT,
-                BufferUsages::MAP_READ | BufferUsages::COPY_DST,
-            ),
+        let inputs = buffer(size, usage | BufferUsages::COPY_DST);
+        let results = |usage| buffer(points * RESULT, usage);
+        if compute.shares_memory() {
+            return Slot {
+                inputs,
+                results: results(BufferUsages::STORAGE | BufferUsages::MAP_READ),
+                landing: None,
+            };
         }
+        Slot {
+            inputs,
+            results: results(BufferUsages::STORAGE | BufferUsages::COPY_SRC),
+            landing: Some(results(BufferUsages::MAP_READ | BufferUsages::COPY_DST)),
+        }
+    }
+
+    /// What the processor reads.
+    fn readable(&self) -> &wgpu::Buffer {
+        self.landing.as_ref().unwrap_or(&self.results)
     }
 
     /// Sets the device to work on a block, and does not wait for it.
@@ -107,13 +115,16 @@ impl Slot {
             let descriptor = CommandEncoderDescriptor::default();
             let mut encoder = compute.device.create_command_encoder(&descriptor);
             kernel.dispatch(&mut encoder, &group, block.points());
-            encoder.copy_buffer_to_buffer(&self.results, 0, &self.landing, 0, bytes);
+            if let Some(landing) = &self.landing {
+                encoder.copy_buffer_to_buffer(&self.results, 0, landing, 0, bytes);
+            }
             let submission = compute.queue.submit([encoder.finish()]);
             let (tell, mapped) = channel();
-            self.landing.map_async(MapMode::Read, ..bytes, move |done| {
-                // Nobody listens any more after a fault.
-                let _ = tell.send(done);
-            });
+            self.readable()
+                .map_async(MapMode::Read, ..bytes, move |done| {
+                    // Nobody listens any more after a fault.
+                    let _ = tell.send(done);
+                });
             Flight {
                 submission,
                 mapped,
@@ -132,11 +143,11 @@ impl Slot {
         compute.wait(flight.submission)?;
         let mapped = flight.mapped.try_recv();
         mapped.map_err(Fault::lost)?.map_err(Fault::lost)?;
-        let view = self.landing.get_mapped_range(..flight.bytes);
+        let view = self.readable().get_mapped_range(..flight.bytes);
         let view = view.map_err(Fault::lost)?;
         take(bytemuck::try_cast_slice(&view).map_err(Fault::lost)?);
         drop(view);
-        self.landing.unmap();
+        self.readable().unmap();
         Ok(())
     }
 }

@@ -1,7 +1,7 @@
 //! A program run over all numbers of a range, none of which is uploaded.
 //!
 //! The program makes its own point, `bitcast<f32>(first + index)`, from the uniform `first` in binding 1. Two blocks are
-//! in flight: the device computes one while the other is read, from the memory that it was copied to.
+//! in flight: the device computes one while the other is read where it lies.
 
 use super::fault::Fault;
 use super::kernel::Kernel;
