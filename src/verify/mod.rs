@@ -26,6 +26,6 @@ pub use code_error::{
 };
 pub use points::{BEYOND, cosines, cosines_around, limits};
 #[cfg(feature = "gpu")]
-pub use sweep::{ALL, sweep};
+pub use sweep::{count, sweep};
 pub use trial::{Expected, Miss, Outcome, Trial};
 pub use worst::{worst_cases, worst_media};

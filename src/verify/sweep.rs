@@ -8,13 +8,14 @@ use std::sync::Mutex;
 
 use super::code_error::{ABSOLUTE_FLOOR, CodeError};
 use super::run::{Devices, Fault, Shown};
-use super::trial::{Outcome, Trial};
+use super::trial::{Outcome, TEXTBOOK_FROM, Trial};
 use super::{gpu, harness};
+use crate::fit::Measured;
 
 /// The bits of 1.
 const ONE: u32 = 0x3F80_0000;
 /// How many numbers there are from 0 to 1.
-pub const ALL: u64 = ONE as u64 + 1;
+const ALL: u64 = ONE as u64 + 1;
 /// Points evaluated at once: columns of f64 that a cache holds.
 const PIECE: usize = 512;
 
@@ -36,15 +37,33 @@ pub fn sweep(
         uniforms: &[],
         textured: false,
     })?;
-    let bound = trial.expected(&super::cosines(20_000)).bound;
+    let bound = match trial.bound {
+        Measured::Yes(ulp) => ulp,
+        Measured::No(_) => f64::INFINITY,
+    };
+    let first = if trial.is_guarded {
+        0
+    } else {
+        TEXTBOOK_FROM.to_bits()
+    };
     let mut outcome = Outcome::NONE;
     let mut done = 0;
-    stream.run(0, ALL, &[], None, |first, results| {
+    stream.run(first, count(trial), &[], None, |first, results| {
         outcome = outcome.worst(block(trial, bound, first, results));
         done += results.len() as u64;
         progress(done);
     })?;
     Ok(outcome)
+}
+
+/// How many numbers a trial is swept over: a textbook form promises nothing next to 0.
+pub fn count(trial: &Trial) -> u64 {
+    let first = if trial.is_guarded {
+        0
+    } else {
+        TEXTBOOK_FROM.to_bits()
+    };
+    ALL - u64::from(first)
 }
 
 /// A block, shared among the processor's cores.

@@ -26,6 +26,8 @@ mod specialise;
 mod spectral;
 mod tidy;
 mod tree;
+#[cfg(all(feature = "cli", feature = "gpu"))]
+mod verify;
 
 /// Says what could not be checked here, and how to check it. Unlike what the macros print, this is seen of a test that passes.
 pub fn not_checked(what: &str) {

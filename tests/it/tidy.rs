@@ -225,6 +225,9 @@ fn only_the_writer_and_the_program_touch_the_machine() {
         "app/source.rs",
         "app/tree.rs",
         "build.rs",
+        // Workers: processes of this program, with a time limit.
+        "app/verify/machine.rs",
+        "app/verify/supervise.rs",
         "verify/compilers/call.rs",
         // It asks whether a library would complain of the environment.
         "verify/gpu/quiet.rs",

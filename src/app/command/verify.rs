@@ -1,7 +1,6 @@
 //! `verify`: what is generated, run on every target and held against what it means.
 
 use std::collections::BTreeSet;
-use std::time::Duration;
 
 use serde_json::{Value, json};
 
@@ -47,7 +46,7 @@ pub fn run(flags: &VerifyFlags, progress: Progress) -> Result<Output, Error> {
         exhaustive::rows(&plan, &Devices::new(wanted), progress)?
     } else {
         let limits = Limits {
-            time: Duration::from_secs(flags.limit.max(1)),
+            seconds: flags.limit.max(1),
             workers: machine::cores(),
         };
         (supervise(&plan, limits, progress)?, Vec::new())

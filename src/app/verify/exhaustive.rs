@@ -1,76 +1,50 @@
 //! Every f32 from 0 to 1, for functions specialised to materials, in WGSL: not a sample.
 
-use std::time::Instant;
-
 use serde_json::Value;
 
 use crate::app::error::Error;
+use crate::emit::{Emitted, Subject};
+use crate::fit::Measured;
 use crate::verify::run::{Devices, Fault, Shown, Way};
-use crate::verify::{ALL, cosines, sweep};
+use crate::verify::{Trial, count, sweep};
 
 use super::file::specialised;
-use super::plan::Plan;
+use super::machine;
+use super::plan::{Plan, Planned};
 use super::row::{Row, Run};
+
+/// Hears how much is done, of how much, of what.
+type Progress<'a> = &'a mut dyn FnMut(u64, u64, &str);
 
 /// The rows of all numbers, and how many points a second each took.
 ///
 /// # Errors
-/// There is no device, or nothing that can be swept.
+/// Nothing of the plan can be swept.
 pub fn rows(
     plan: &Plan,
     devices: &Devices,
-    progress: &mut dyn FnMut(u64, u64, &str),
+    progress: Progress,
 ) -> Result<(Vec<Value>, Vec<String>), Error> {
-    let files = plan.files.iter().filter(|file| file.target.name == "wgsl");
-    let mut rows = Vec::new();
-    let mut remarks = Vec::new();
-    for file in files {
+    let (mut rows, mut speeds) = (Vec::new(), Vec::new());
+    for file in plan.files.iter().filter(|file| file.target.name == "wgsl") {
         let Some(subject) = file.subject.map(|index| &plan.subjects[index]) else {
             continue;
         };
         for emitted in plan.asked_for(file) {
-            let case = specialised(subject, emitted);
-            let page = file.run_page();
-            let shown = Shown {
-                target: "wgsl",
-                bytes: &page.bytes,
-                function: emitted,
-                entry: "",
-            };
-            let start = Instant::now();
-            let told = &mut |done| progress(done / 1024, ALL / 1024, &emitted.name);
-            let swept = match case.trial.table {
-                Some(_) => Err(Fault::Absent(
-                    "a texture is filtered by steps: a sample tells all".to_owned(),
-                )),
-                None => sweep(devices, &shown, &case.trial, told),
-            };
-            let seconds = start.elapsed().as_secs_f64();
-            remarks.push(format!(
-                "{}: {:.1} million points a second",
-                emitted.name,
-                ALL as f64 / seconds / 1e6
-            ));
-            let run = swept.and_then(|outcome| {
-                Ok(Run {
-                    points: ALL as usize,
-                    bound: case.trial.expected(&cosines(20_000)).bound,
-                    outcome,
-                    model_error: emitted.model_error,
-                    device: devices.of("wgsl", Way::Own)?.adapter.to_string(),
-                })
-            });
+            let (run, speed) = run(file, subject, emitted, devices, progress);
             let runs = [(Way::Own, run)];
-            rows.push(
-                Row {
-                    file,
-                    emitted,
-                    material: &subject.argument,
-                    accepts: &[],
-                    runs: &runs,
-                }
-                .json(),
-            );
+            let row = Row {
+                file,
+                emitted,
+                material: &subject.argument,
+                accepts: &[],
+                runs: &runs,
+            };
+            rows.push(row.json());
+            speeds.push(format!(
+                "{}: {speed:.1} million points a second",
+                emitted.name
+            ));
         }
     }
     if rows.is_empty() {
@@ -78,5 +52,42 @@ pub fn rows(
             what: "--exhaustive runs functions specialised to a material in WGSL: name both, and leave --target out or name wgsl".to_owned(),
         });
     }
-    Ok((rows, remarks))
+    Ok((rows, speeds))
+}
+
+/// A function at all numbers, and the millions of them a second.
+fn run(
+    file: &Planned,
+    subject: &Subject,
+    emitted: &Emitted,
+    devices: &Devices,
+    progress: Progress,
+) -> (Result<Run, Fault>, f64) {
+    let trial: Trial = specialised(subject, emitted).trial;
+    if trial.table.is_some() {
+        let why = "a texture is filtered in steps: a sample tells all";
+        return (Err(Fault::Absent(why.to_owned())), 0.0);
+    }
+    let shown = Shown {
+        target: "wgsl",
+        bytes: &file.run_page().bytes,
+        function: emitted,
+        entry: "",
+    };
+    let all = count(&trial);
+    let told = &mut |done: u64| progress(done / 1024, all / 1024, &emitted.name);
+    let (swept, time) = machine::timed(|| sweep(devices, &shown, &trial, told));
+    let run = swept.and_then(|outcome| {
+        Ok(Run {
+            points: all as usize,
+            bound: match trial.bound {
+                Measured::Yes(ulp) => Some(ulp),
+                Measured::No(_) => None,
+            },
+            outcome,
+            model_error: emitted.model_error,
+            device: devices.of("wgsl", Way::Own)?.adapter.to_string(),
+        })
+    });
+    (run, all as f64 / time.as_secs_f64() / 1e6)
 }

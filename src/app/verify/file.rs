@@ -8,6 +8,7 @@ use crate::ir::{Column, Ty};
 use crate::materials::Channels;
 use crate::methods::{Class, Contract, Method};
 use crate::verify::compilers::{self, Verdict};
+use crate::verify::harness;
 use crate::verify::run::{Devices, Fault, Runnable, Shown, Way};
 use crate::verify::{BEYOND, Outcome, Trial, cosines_around, limits, worst_cases};
 
@@ -204,6 +205,10 @@ impl<'a> Tried<'a> {
         if let (Some(fault), true) = (self.untrusted(), way == Way::Own) {
             return Err(fault);
         }
+        if self.has_loop() {
+            let why = "it holds a loop, which no function of ours does, and is not run";
+            return Err(Fault::Failed(why.to_owned()));
+        }
         let shown = Shown {
             target: self.file.target.name,
             bytes: &page.bytes,
@@ -222,11 +227,19 @@ impl<'a> Tried<'a> {
         };
         Ok(Run {
             points: expected.cosines.len(),
-            bound: expected.bound,
+            bound: Some(expected.bound),
             outcome,
             model_error,
             device: self.devices.of(shown.target, way)?.adapter.to_string(),
         })
+    }
+
+    fn has_loop(&self) -> bool {
+        let page = self.file.run_page();
+        match std::str::from_utf8(&page.bytes) {
+            Ok(text) if self.file.target.name != "spirv" => harness::has_loop(text),
+            _ => !page.is_current && harness::module_has_loop(&page.bytes),
+        }
     }
 
     /// A module that is not ours may do anything to a driver, unless a validator has looked at it.

@@ -3,6 +3,7 @@
 use std::io;
 use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Stdio};
+use std::time::{Duration, Instant};
 
 /// The program that runs, and the words it was given.
 ///
@@ -37,6 +38,13 @@ pub fn worker(program: &Path, words: &[std::ffi::OsString], scratch: &Path) -> i
 /// Whether GitHub runs this, and reads annotations.
 pub fn is_github() -> bool {
     std::env::var_os("GITHUB_ACTIONS").is_some_and(|value| value == "true")
+}
+
+/// Runs something, and tells how long it took.
+pub fn timed<T>(work: impl FnOnce() -> T) -> (T, Duration) {
+    let start = Instant::now();
+    let done = work();
+    (done, start.elapsed())
 }
 
 /// How many workers a machine takes.

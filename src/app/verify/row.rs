@@ -2,7 +2,7 @@
 
 use serde_json::{Map, Value, json};
 
-use crate::emit::Emitted;
+use crate::emit::{Emitted, fingerprint};
 use crate::fit::{Measured, ModelError};
 use crate::verify::compilers::Verdict;
 use crate::verify::run::{Fault, Way};
@@ -18,8 +18,8 @@ pub const WORST: &str = "worst cases";
 pub struct Run {
     /// At how many cosines.
     pub points: usize,
-    /// What it may differ by, in ulp.
-    pub bound: f64,
+    /// What it may differ by, in ulp; none where nothing is promised.
+    pub bound: Option<f64>,
     /// What came of it.
     pub outcome: Outcome,
     /// Against the truth, where there is one.
@@ -86,6 +86,7 @@ impl Row<'_> {
         json!({
             "target": self.file.target.name, "method": self.emitted.method.name, "material": self.material,
             "form": self.emitted.form, "precision": "f32", "function": self.emitted.name, "file": page.path,
+            "fingerprint": fingerprint(&self.emitted.function),
             "shipped": page.is_shipped, "current": page.is_current, "device": null, "points": null, "bound": null,
             "code_error": null, "model_error": null, "accepts": null, "second_opinions": [], "status": null,
             "reason": null,

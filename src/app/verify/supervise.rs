@@ -20,7 +20,7 @@ use super::row::unfinished;
 #[derive(Clone, Copy, Debug)]
 pub struct Limits {
     /// For one file.
-    pub time: Duration,
+    pub seconds: u64,
     /// Processes at once.
     pub workers: usize,
 }
@@ -47,13 +47,14 @@ pub fn supervise(
     limits: Limits,
     progress: &mut dyn FnMut(u64, u64, &str),
 ) -> Result<Vec<Value>, Error> {
+    let time = Duration::from_secs(limits.seconds);
     let scratch = tempfile::tempdir().map_err(|why| cannot_start(&why))?;
     let start = || start(scratch.path()).map_err(|why| cannot_start(&why));
     let next = AtomicUsize::new(0);
     let answers: Vec<Mutex<Vec<Value>>> = plan.files.iter().map(|_| Mutex::default()).collect();
     let (done, heard) = channel();
     thread::scope(|scope| {
-        let work = || work(plan, limits.time, &start, &next, &answers, &done.clone());
+        let work = || work(plan, time, &start, &next, &answers, &done.clone());
         let workers = limits.workers.clamp(1, plan.files.len().max(1));
         let threads: Vec<_> = (0..workers).map(|_| scope.spawn(work)).collect();
         let mut count = 0;
@@ -109,7 +110,7 @@ impl Silence {
     fn text(&self, limit: Duration) -> String {
         match self {
             Silence::TooLong => format!(
-                "it did not end within {} s: a loop without end, or a device that hangs; --limit allows more",
+                "it did not end within {} s: a device that hangs, or more --points than --limit allows",
                 limit.as_secs()
             ),
             Silence::Ended(status) => {

@@ -4,6 +4,7 @@
 mod agree;
 mod faults;
 mod stream;
+mod table;
 mod texture;
 
 use fresnel_gen::verify::gpu::{Backend, Code, Device, Fault, Program, Uniform, Wanted};
