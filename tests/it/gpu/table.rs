@@ -245,7 +245,7 @@ fn each_mistake_is_seen() {
             for (name, put) in mistakes {
                 let off = put.difference(backend, &at).unwrap();
                 assert!(
-                    off > 4.0 * (CLOSE + EIGHT_BITS),
+                    off > 4.0 * CLOSE + EIGHT_BITS,
                     "{}: {name}: {off}",
                     lit.name
                 );
