@@ -87,7 +87,7 @@ fn differs(trial: &Trial, function: &Checked) -> bool {
         let pairs = want.at(i).into_iter().zip(got.at(i));
         pairs
             .into_iter()
-            .any(|(want, got)| !((want - got).abs() <= 2.0 * ABSOLUTE_FLOOR))
+            .any(|(want, got)| (want - got).is_nan() || (want - got).abs() > 2.0 * ABSOLUTE_FLOOR)
     })
 }
 
