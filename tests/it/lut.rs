@@ -127,6 +127,8 @@ fn request(names: &str, formats: &[Format], atlas: bool) -> Request {
             texels: 64,
         },
         atlas,
+        targets: Vec::new(),
+        prefix: "fresnel_".to_owned(),
         flags: String::new(),
     }
 }

@@ -5,7 +5,9 @@ use std::path::{Path, PathBuf};
 use serde_json::Value;
 
 use crate::app::args::BakeFlags;
-use crate::app::bake::{ATLAS, Baked, Lit, Request, Shape, Wanted, bake, lit, report as full};
+use crate::app::bake::{
+    ATLAS, Baked, Lit, Request, Shape, Wanted, bake, lit, report as full, shader_flags,
+};
 use crate::app::error::Error;
 use crate::app::names::{quoted, unknown};
 use crate::app::sight::{flags as sight_flags, sight};
@@ -16,6 +18,7 @@ use crate::materials::Sight;
 use crate::methods::TEXELS;
 use crate::report::table;
 use crate::spectra::Gamut;
+use crate::targets::{self, Finish, Target};
 
 use super::{Output, Progress, report};
 
@@ -36,11 +39,11 @@ const SEARCHED_FORMATS: [Format; 4] = [
 pub fn run(flags: &BakeFlags, progress: Progress) -> Result<Output, Error> {
     let shape = shape(flags)?;
     let formats = formats(flags)?;
-    let sight = sight(
-        &flags
-            .sight
-            .words(flags.gamut.as_deref().or(Some(Gamut::Keep.name()))),
-    )?;
+    let targets = targets(&flags.target)?;
+    let mut sight = sight(&flags.sight.words(flags.gamut.as_deref()))?;
+    if flags.gamut.is_none() && sight.wavelengths_nm.is_none() {
+        sight.gamut = Gamut::Keep;
+    }
     let wanted = Wanted {
         materials: materials(&flags.material)?,
         medium: flags.medium.as_deref().map(source).transpose()?,
@@ -55,15 +58,21 @@ pub fn run(flags: &BakeFlags, progress: Progress) -> Result<Output, Error> {
         formats,
         shape,
         atlas: flags.atlas,
+        targets,
+        prefix: flags.prefix.clone(),
     };
     let baked = bake(&request, progress)?;
     let written = write_files(&placed(&baked, &flags.out_dir))?;
     let command = format!("bake{}", canonical(&request));
-    let mut output = report(
-        text(&baked.rows),
-        &full(&command, &baked.rows),
-        flags.json.as_deref(),
-    )?;
+    let text = if flags.quiet {
+        String::new()
+    } else {
+        text(&baked.rows)
+    };
+    let mut output = report(text, &full(&command, &baked.rows), flags.json.as_deref())?;
+    if flags.quiet {
+        return Ok(output);
+    }
     output
         .remarks
         .extend(left_out.iter().map(|why| format!("left out: {why}")));
@@ -134,6 +143,37 @@ fn formats(flags: &BakeFlags) -> Result<Vec<Format>, Error> {
     Ok(chosen)
 }
 
+/// The languages that get functions, sorted, each once; `all` is those that are written by default.
+fn targets(names: &[String]) -> Result<Vec<&'static Target>, Error> {
+    let text = || {
+        let all = targets::ALL.iter().copied();
+        all.filter(|target| target.finish != Finish::Spirv)
+    };
+    let mut chosen: Vec<&Target> = Vec::new();
+    for name in names {
+        match targets::find(name) {
+            Some(target) if target.finish == Finish::Spirv => return Err(no_function(name)),
+            Some(target) => chosen.push(target),
+            None if name == "all" => chosen.extend(text().filter(|target| target.by_default)),
+            None => {
+                let all: Vec<&str> = text().map(|target| target.name).chain(["all"]).collect();
+                return Err(unknown("target", name, &all));
+            }
+        }
+    }
+    chosen.sort_by_key(|target| target.name);
+    chosen.dedup_by_key(|target| target.name);
+    Ok(chosen)
+}
+
+fn no_function(name: &str) -> Error {
+    Error::Usage {
+        what: format!(
+            "--target {name}: a module is not a function that a shader could call; take wgsl, and compile it with your shader"
+        ),
+    }
+}
+
 /// There is something to bake, and no material bears the atlas's name.
 fn check_names(subjects: &[Lit], atlas: bool) -> Result<(), Error> {
     let what = if subjects.is_empty() {
@@ -181,10 +221,11 @@ fn canonical(request: &Request) -> String {
     };
     let atlas = if request.atlas { " --atlas" } else { "" };
     format!(
-        " --material {}{}{shape} --format {}{atlas}",
+        " --material {}{}{shape} --format {}{atlas}{}",
         request.typed,
         request.flags,
-        formats.join(",")
+        formats.join(","),
+        shader_flags(&request.targets, &request.prefix)
     )
 }
 

@@ -254,7 +254,7 @@ impl Reader<'_> {
                 let method = method.to_owned();
                 assert!(self.take("("), "no member {method}");
                 let arguments = self.arguments();
-                return self.member(value, &method, &arguments);
+                self.member(value, &method, &arguments)
             }
         }
     }
