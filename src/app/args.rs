@@ -321,7 +321,7 @@ pub struct BakeFlags {
 #[derive(Args, Debug)]
 #[command(after_help = "Example:\n  fresnel-gen reproduce table2 --json -")]
 pub struct Reproduce {
-    /// Only this: table1, table2, table3, table7, table8, claims or figures [default: all]
+    /// Only this: table1, table2, table3, table4, table5, table7, table8, claims or figures [default: all]
     pub table: Option<String>,
     /// Folder for the figures
     #[arg(long, value_name = "DIR", default_value = "reproduced")]
