@@ -4,17 +4,21 @@ mod picture;
 mod row;
 mod shader;
 mod subject;
+mod usual;
+mod words;
 
 use serde_json::{Value, json};
 
 use crate::lut::{Axis, Choice, Depth, Format, smallest};
 use crate::targets::Target;
 
+use super::artifact::TABLES;
 use super::error::Error;
 use picture::Baking;
 
-pub use picture::shader_flags;
 pub use subject::{Lit, Wanted, lit};
+pub use usual::{DEFAULT_AXIS, DEFAULT_FORMATS, add_tables, as_tables_are_seen};
+pub use words::{canonical, said, typed};
 
 /// What is baked.
 #[derive(Clone, Debug)]
@@ -65,53 +69,58 @@ pub struct Baked {
     pub rows: Vec<Value>,
 }
 
-/// The folder of the tables in the output folder.
-const FOLDER: &str = "lut";
 /// The name of the picture of all.
 pub const ATLAS: &str = "atlas";
 
 /// Bakes. `progress` hears how many tables are done, of how many.
 pub fn bake(request: &Request, progress: &mut dyn FnMut(u64, u64, &str)) -> Result<Baked, Error> {
     let mut baked = Baked::default();
-    let whole = (request.subjects.len() + usize::from(request.atlas)) as u64;
-    for (done, subject) in request.subjects.iter().enumerate() {
-        progress(done as u64, whole, &subject.name);
-        baked.add(request, &subject.name, std::slice::from_ref(subject))?;
-    }
-    if request.atlas {
-        progress(whole - 1, whole, ATLAS);
-        baked.add(request, ATLAS, &request.subjects)?;
+    let pictures = request.pictures();
+    for (done, (name, subjects)) in pictures.iter().enumerate() {
+        progress(done as u64, pictures.len() as u64, name);
+        let (one, _) = picture(request, name, subjects)?;
+        baked.files.extend(one.files);
+        baked.rows.extend(one.rows);
     }
     Ok(baked)
 }
 
-impl Baked {
-    /// The files of one picture, with functions that read it and a description beside them.
-    fn add(&mut self, request: &Request, name: &str, subjects: &[Lit]) -> Result<(), Error> {
-        let (axis, texels, formats) = chosen(request, subjects)?;
-        let baking = Baking::new(request, name, subjects, (axis, texels), formats)?;
-        let functions = shader::files(&baking)?;
-        let beside: Vec<&str> = functions.iter().map(|(file, _)| file.as_str()).collect();
-        let mut rows = Vec::new();
-        for (format, rounded) in baking.each() {
-            let file = baking.file(format);
-            let picture = baking.picture(format, rounded);
-            rows.extend(
-                row::rows(subjects, rounded, &picture, format, &file).map(|mut row| {
-                    row["lookup"]["functions"] = json!(beside);
-                    row
-                }),
-            );
-            self.files.push((file, format.encode(&picture)?));
-        }
-        self.files.extend(functions);
-        let full = report(&baking.command(&baking.formats, &request.targets), &rows);
-        let text = serde_json::to_string_pretty(&full).expect("a report has only text keys") + "\n";
-        self.files
-            .push((format!("{FOLDER}/{name}.json"), text.into_bytes()));
-        self.rows.extend(rows);
-        Ok(())
+impl Request {
+    /// The pictures, each with its rows.
+    fn pictures(&self) -> Vec<(&str, &[Lit])> {
+        let subjects = self.subjects.iter();
+        let alone = subjects.map(|one| (one.name.as_str(), std::slice::from_ref(one)));
+        let atlas = self.atlas.then_some((ATLAS, self.subjects.as_slice()));
+        alone.chain(atlas).collect()
     }
+}
+
+/// The files of one picture, with functions that read it and a description beside them; and the command that writes them
+/// again.
+fn picture(request: &Request, name: &str, subjects: &[Lit]) -> Result<(Baked, String), Error> {
+    let (axis, texels, formats) = chosen(request, subjects)?;
+    let baking = Baking::new(request, name, subjects, (axis, texels), formats)?;
+    let functions = shader::files(&baking)?;
+    let beside: Vec<&str> = functions.iter().map(|(file, _)| file.as_str()).collect();
+    let mut baked = Baked::default();
+    for (format, rounded) in baking.each() {
+        let file = baking.file(format);
+        let picture = baking.picture(format, rounded);
+        let rows = row::rows(subjects, rounded, &picture, format, &file);
+        baked.rows.extend(rows.map(|mut row| {
+            row["lookup"]["functions"] = json!(beside);
+            row
+        }));
+        baked.files.push((file, format.encode(&picture)?));
+    }
+    baked.files.extend(functions);
+    let command = baking.command(&baking.formats, &request.targets);
+    let full = serde_json::to_string_pretty(&report(&command, &baked.rows));
+    let text = full.expect("a report has only text keys") + "\n";
+    baked
+        .files
+        .push((format!("{TABLES}/{name}.json"), text.into_bytes()));
+    Ok((baked, command))
 }
 
 /// A report in the shape that all have.

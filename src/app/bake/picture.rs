@@ -1,15 +1,17 @@
 //! One picture in all its formats: its tables in every depth, how wrong each is, and what its files say of themselves.
 
+use crate::app::artifact::TABLES;
 use crate::app::error::Error;
 use crate::app::names::quoted;
-use crate::emit::{MARK, Naming, comment_lines};
+use crate::emit::{MARK, comment_lines};
 use crate::fit::ModelError;
 use crate::ir::Weights;
 use crate::lut::{Axis, Between, Depth, Format, Picture, Stored, Table, table_error};
 use crate::targets::Target;
 
 use super::subject::Lit;
-use super::{ATLAS, FOLDER, Request, depths, row};
+use super::words::shaders;
+use super::{ATLAS, Request, depths, row};
 
 /// A picture while it is baked.
 pub struct Baking<'a> {
@@ -83,7 +85,7 @@ impl<'a> Baking<'a> {
 
     /// The path of a file.
     pub fn file(&self, format: Format) -> String {
-        format!("{FOLDER}/{}{}", self.name, format.ending())
+        format!("{TABLES}/{}{}", self.name, format.ending())
     }
 
     /// The tables of a format as a picture that says what it is.
@@ -131,23 +133,9 @@ impl<'a> Baking<'a> {
             self.texels,
             self.axis.name(),
             formats.join(","),
-            shader_flags(targets, &self.request.prefix)
+            shaders(targets, &self.request.prefix)
         )
     }
-}
-
-/// The flags that ask for functions beside tables, each with a space before it.
-pub fn shader_flags(targets: &[&'static Target], prefix: &str) -> String {
-    if targets.is_empty() {
-        return String::new();
-    }
-    let names: Vec<&str> = targets.iter().map(|target| target.name).collect();
-    let prefix = if prefix == Naming::default().prefix {
-        String::new()
-    } else {
-        format!(" --prefix {}", quoted(prefix))
-    };
-    format!(" --target {}{prefix}", names.join(","))
 }
 
 impl Rounded {

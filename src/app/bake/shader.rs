@@ -1,11 +1,11 @@
 //! The functions that read a picture in a shader: a file a language.
 
+use crate::app::artifact::TABLES;
 use crate::app::error::Error;
 use crate::emit;
 use crate::lut::lookup;
 use crate::targets::Target;
 
-use super::FOLDER;
 use super::picture::Baking;
 use super::row;
 
@@ -17,7 +17,7 @@ pub fn files(baking: &Baking) -> Result<Vec<(String, Vec<u8>)>, Error> {
 
 fn file(baking: &Baking, target: &'static Target) -> Result<(String, Vec<u8>), Error> {
     let name = baking.name;
-    let path = format!("{FOLDER}/{}/{name}.{}", target.name, target.extension);
+    let path = format!("{TABLES}/{}/{name}.{}", target.name, target.extension);
     let function = lookup(
         baking.axis,
         baking.texels,
