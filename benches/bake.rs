@@ -43,6 +43,8 @@ fn all_formats(c: &mut Criterion) {
             texels: 256,
         },
         atlas: false,
+        targets: Vec::new(),
+        prefix: "fresnel_".to_owned(),
         flags: String::new(),
     };
     let mut group = c.benchmark_group("tables");

@@ -41,7 +41,7 @@ pub enum Command {
     Targets(Listing),
     /// Bake reflectance into lookup tables: EXR, PNG, KTX2, arrays, with the error of the filtered lookup
     #[command(
-        after_help = "Examples:\n  fresnel-gen bake --material gold --size 64 --format exr-half,ktx2\n  fresnel-gen bake --material all --atlas --budget 0.001 --json -"
+        after_help = "Examples:\n  fresnel-gen bake --material gold --format exr-half,ktx2 --target wgsl\n  fresnel-gen bake --material all --atlas --budget 0.001 --json -"
     )]
     Bake(Box<BakeFlags>),
     /// Run what is generated on every target, and hold it against the CPU
@@ -301,12 +301,22 @@ pub struct BakeFlags {
         allow_negative_numbers = true
     )]
     pub budget: Option<f64>,
+    /// Write a function that reads the table, beside it, in these languages: gles, glsl, hlsl, msl, wgsl; all means those
+    /// written by default [default: none]
+    #[arg(long, value_delimiter = ',', value_name = "NAME")]
+    pub target: Vec<String>,
+    /// Goes before the names of these functions
+    #[arg(long, value_name = "TEXT", default_value = "fresnel_")]
+    pub prefix: String,
     /// Folder that gets a folder `lut`
     #[arg(long, value_name = "DIR", default_value = "shaders-generated")]
     pub out_dir: PathBuf,
     /// Write the report as JSON to this file, or `-` for stdout
     #[arg(long, value_name = "FILE")]
     pub json: Option<PathBuf>,
+    /// No table and no summary on success
+    #[arg(long, short)]
+    pub quiet: bool,
 }
 
 /// The flags of `verify`.
@@ -372,7 +382,7 @@ pub struct VerifyFlags {
 #[derive(Args, Debug)]
 #[command(after_help = "Example:\n  fresnel-gen reproduce table2 --json -")]
 pub struct Reproduce {
-    /// Only this: table1, table2, table3, table7, table8, claims or figures [default: all]
+    /// Only this: table1, table2, table3, table4, table5, table7, table8, claims or figures [default: all]
     pub table: Option<String>,
     /// Folder for the figures
     #[arg(long, value_name = "DIR", default_value = "reproduced")]

@@ -136,9 +136,10 @@ impl Known {
         folder::is_temporary(path) || self.listed.contains(path)
     }
 
-    /// Should a run without flags say something about a file that nothing records?
+    /// Should a run without flags say something about a file that nothing records? Not of a table: `bake` records none.
     fn is_of_interest(&self, path: &str) -> bool {
-        let in_target = first_part(path).is_some_and(|(first, _)| self.folders.contains(first));
+        let ours = |first: &str| first != artifact::TABLES && self.folders.contains(first);
+        let in_target = first_part(path).is_some_and(|(first, _)| ours(first));
         self.whole && in_target && !is_hidden(path)
     }
 

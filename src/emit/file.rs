@@ -3,10 +3,11 @@
 use serde_json::{Value, json};
 
 use crate::fit::{By, Measured};
-use crate::ir::{Param, Ty};
-use crate::methods::Method;
+use crate::ir::{Checked, Param, Ty};
+use crate::methods::{self, Method, Values};
 use crate::targets::{Finish, Page, Target};
 
+use super::comment;
 use super::error::Error;
 use super::function::{Emitted, Naming, Subject};
 use super::page::{Request, comments, entry_point, guard, render};
@@ -107,6 +108,38 @@ pub fn single(
         file: &emitted.name,
     };
     render(&request)
+}
+
+/// The file of a function that reads a baked table, below a head made of what the table says of itself.
+pub fn lookup(
+    target: &'static Target,
+    name: String,
+    function: Checked,
+    about: Vec<String>,
+) -> Result<Vec<u8>, Error> {
+    let emitted = Emitted {
+        name,
+        method: methods::find("table").expect("the method of every table is registered"),
+        form: "lookup",
+        function,
+        constants: Values::new(),
+        model_error: None,
+        code_ulp: Measured::No(header::FILTERED.to_owned()),
+    };
+    check_names(target, std::slice::from_ref(&emitted))?;
+    let licence = format!("Licence of this file: {}", header::OUTPUT_LICENCE);
+    let about = about.into_iter().chain([licence]).collect();
+    let head = comments(target, &comment::lines(about));
+    let guard = guard(target, &emitted.name);
+    let file = emitted.name.clone();
+    render(&Request {
+        target,
+        page: &target.pages[0],
+        header: &head,
+        guard: &guard,
+        functions: &[(Vec::new(), emitted)],
+        file: &file,
+    })
 }
 
 fn file(

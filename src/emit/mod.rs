@@ -16,7 +16,7 @@ mod wgsl;
 pub use bounds::{Bounds, fingerprint, sha256};
 pub use comment::lines as comment_lines;
 pub use error::Error;
-pub use file::{File, library, material, single, uniform_offsets, written_for};
+pub use file::{File, library, lookup, material, single, uniform_offsets, written_for};
 pub use function::{Emitted, Naming, Subject, library_functions, specialised_function};
 pub use header::{MARK, promises};
 pub use wgsl::validate as validate_wgsl;

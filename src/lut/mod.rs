@@ -3,7 +3,7 @@
 //! The way of a table, one file a step: [`Axis`] says where a cosine lies; [`Table`] is the truth at the centres of
 //! texels; [`Stored`] is it in a [`Depth`]; [`Stored::lookup`] is what a sampler gives back, and [`table_error`] holds
 //! that against the truth; [`smallest`] looks for the table with the fewest bytes within an error; a [`Picture`] of one
-//! or more rows becomes a file in a [`Format`].
+//! or more rows becomes a file in a [`Format`]; [`lookup()`] is the function that reads it in a shader.
 //!
 //! Rows run along x, cos θ = 0 first. Values are linear: neither sRGB nor any other curve is applied, and every format
 //! that can say so does. Pure: no disk, no terminal. EXR and PNG need the feature `cli`.
@@ -16,6 +16,7 @@ mod exr;
 mod filter;
 mod format;
 mod ktx2;
+mod lookup;
 mod measure;
 mod picture;
 #[cfg(feature = "cli")]
@@ -28,6 +29,7 @@ pub use axis::Axis;
 pub use depth::{Depth, Stored};
 pub use error::Error;
 pub use format::Format;
+pub use lookup::lookup;
 pub use measure::{Between, table_error};
 pub use picture::Picture;
 pub use search::{Choice, smallest};

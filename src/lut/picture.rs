@@ -55,7 +55,7 @@ impl Picture {
         self.rows.len()
     }
 
-    /// How a shader looks a cosine up, in words and formulas.
+    /// How a shader looks a cosine up, in words and formulas, but for the scale.
     pub fn lookup(&self) -> Vec<String> {
         let (scale, offset) = Axis::half_texel(self.width);
         let mut lines = vec![
@@ -75,10 +75,12 @@ impl Picture {
                 self.height()
             ));
         }
-        if self.scale != 1.0 {
-            lines.push(format!("Reflectance = texel * {:?}.", self.scale));
-        }
         lines
+    }
+
+    /// What a texel is multiplied by, where that is not 1.
+    pub fn scaling(&self) -> Option<String> {
+        (self.scale != 1.0).then(|| format!("Reflectance = texel * {:?}.", self.scale))
     }
 
     /// The bits of binary16 of each texel, red, green, blue and an alpha of 1. Values of other depths are rounded.

@@ -58,7 +58,7 @@ pub static ALL: &[&Method] = &[
 ];
 // END methods
 
-pub use table::{ONLY_ROW, TEXELS, WARP, fetch, unwarped, warped};
+pub use table::{ONLY_ROW, TEXELS, WARP, fetch, unwarped, warped, warped_step};
 
 /// The method of this name.
 pub fn find(name: &str) -> Option<&'static Method> {

@@ -72,19 +72,21 @@ pub static METHOD: Method = Method {
 };
 
 fn build<'b>(x: &Inputs<'b>) -> Expr<'b> {
-    let c = x.cosine();
-    let warp = x.get(Input::WARP);
-    let w = (1.0 + warp) * c / (1.0 + warp * c);
-    let w = w.named(
-        "w",
-        "0 at grazing, 1 at normal incidence; dense near grazing",
-    );
     fetch(
         x.get(Input::TABLE),
-        w,
+        warped_step(x.get(Input::WARP), x.cosine()),
         x.get(Input::TEXELS),
         x.get(Input::ROW),
     ) * x.get(Input::TABLE_SCALE)
+}
+
+/// w of a cosine in [0, 1] as a step: [`warped`] in a graph.
+pub fn warped_step<'b>(warp: Expr<'b>, c: Expr<'b>) -> Expr<'b> {
+    let w = (1.0 + warp) * c / (1.0 + warp * c);
+    w.named(
+        "w",
+        "0 at grazing, 1 at normal incidence; dense near grazing",
+    )
 }
 
 /// A row of a texture of so many texels at w in [0, 1], whose ends are the centres of the first and the last texel.

@@ -3,6 +3,7 @@
 use std::collections::BTreeSet;
 use std::path::Path;
 
+use fresnel_gen::app::bake::{add_tables, as_tables_are_seen};
 use fresnel_gen::app::{Request, check, generate, tree, write};
 use fresnel_gen::methods;
 
@@ -22,7 +23,10 @@ fn files(folder: &Path, below: &str, found: &mut BTreeSet<String>) {
 #[test]
 fn the_committed_tree_is_what_a_run_into_an_empty_folder_writes() {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("shaders-generated");
-    let generated = generate(&Request::default()).expect("the catalogue generates");
+    let request = Request::default();
+    let mut generated = generate(&request).expect("the catalogue generates");
+    let sight = as_tables_are_seen(&request.sight, false);
+    add_tables(&mut generated, None, sight).expect("the tables are baked");
     if super::bless::is_on() {
         std::fs::remove_dir_all(&folder).expect("it is there");
     }

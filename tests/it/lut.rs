@@ -6,7 +6,7 @@ use std::process::Command;
 use fresnel_gen::app::args::Cli;
 use fresnel_gen::app::bake::{Request, Shape, Wanted, bake, lit};
 use fresnel_gen::app::request::Materials;
-use fresnel_gen::fit::{Truth, seen};
+use fresnel_gen::fit::Truth;
 use fresnel_gen::ir::Weights;
 use fresnel_gen::lut::{Axis, Between, Depth, Format, Stored, Table, table_error};
 use fresnel_gen::materials::{self, Sight, Surface};
@@ -23,44 +23,6 @@ fn truth(name: &str) -> Option<Truth> {
     let material = materials::find(name).unwrap().unwrap();
     let surface = Surface::new(&material, None, &sight).ok()?;
     Some(Truth::new(surface, Light::Unpolarised))
-}
-
-/// The thesis's measure: mean relative error at so many angles, even in angle, over three channels, in per cent.
-fn thesis_percent(truth: &Truth, stored: &[Stored], angles: usize) -> Vec<f64> {
-    let mut sums = vec![0.0; stored.len()];
-    for i in 0..angles {
-        let theta = (i as f64 + 0.5) / angles as f64 * std::f64::consts::FRAC_PI_2;
-        let c = theta.cos();
-        let want = seen(&truth.surface, truth.light, c);
-        for (sum, stored) in sums.iter_mut().zip(stored) {
-            let got = stored.lookup(Weights::Steps256, c as f32);
-            let relative = |i: usize| (f64::from(got[i]) - want[i]).abs() / want[i];
-            *sum += (0..3).map(relative).sum::<f64>();
-        }
-    }
-    let percent = |sum: f64| 100.0 * sum / (3 * angles) as f64;
-    sums.into_iter().map(percent).collect()
-}
-
-/// The thesis's tables with its own indices, three wavelengths, 256 texels along cos θ, at its million angles, filtered
-/// as GPUs do. Its own figures, of rendered pictures: gold .02, platinum .01, water .52 to .58, diamond .09.
-#[test]
-fn thesis_tables_are_beaten() {
-    for (name, float) in [
-        ("gold_thesis", 0.001),
-        ("platinum_thesis", 0.001),
-        ("water_thesis", 0.004),
-        ("diamond_thesis", 0.002),
-    ] {
-        let truth = truth(name).unwrap();
-        let table = Table::new(name, &truth, Axis::Cos, 256).unwrap();
-        let depths = [Depth::Float, Depth::Unorm16, Depth::Half];
-        let stored = depths.map(|depth| Stored::new(&table, depth));
-        let errors = thesis_percent(&truth, &stored, 1_000_000);
-        for ((depth, error), most) in depths.into_iter().zip(errors).zip([float, 0.015, 0.02]) {
-            assert!(error <= most, "{name} {depth:?}: {error} %, at most {most}");
-        }
-    }
 }
 
 /// Whether one of the axes is good enough, and the least error of all.
@@ -127,6 +89,8 @@ fn request(names: &str, formats: &[Format], atlas: bool) -> Request {
             texels: 64,
         },
         atlas,
+        targets: Vec::new(),
+        prefix: "fresnel_".to_owned(),
         flags: String::new(),
     }
 }

@@ -15,6 +15,8 @@ use fresnel_gen::report::reproduce::{Figure, Part, Report, Row, Verdict, reprodu
 /// The thesis's million angles: the figures must come out to its printed digit.
 static TABLES: LazyLock<Report> =
     LazyLock::new(|| run(&[Part::Table2, Part::Table3], thesis::ANGLES));
+static LOOKUPS: LazyLock<Report> =
+    LazyLock::new(|| run(&[Part::Table4, Part::Table5], thesis::ANGLES));
 /// The claims stand or fall by far more than what a hundredth of the angles leaves open.
 static CLAIMS: LazyLock<Report> = LazyLock::new(|| run(&[Part::Claims], thesis::ANGLES / 100));
 
@@ -118,6 +120,51 @@ fn the_corrected_method_comes_near_with_its_factor_and_one_angle() {
     );
     let remark = &row(tables, "gold", "corrected").remark;
     assert!(remark.contains("cos θ") && remark.contains("81.37°"));
+}
+
+/// With the thesis's own indices at its million angles, filtered as GPUs do.
+#[test]
+fn tables_of_256_texels_beat_those_of_the_thesis() {
+    let most = |name: &str, format: &str| match (format, name) {
+        ("half", _) => 0.02,
+        ("png16", _) => 0.015,
+        (_, "water") => 0.004,
+        (_, "diamond") => 0.002,
+        _ => 0.001,
+    };
+    for name in ["gold", "platinum", "water", "diamond"] {
+        for format in ["float", "half", "png16"] {
+            let ours = |axis: &str| {
+                let row = row(&LOOKUPS, name, &format!("256 texels, {axis}, {format}"));
+                assert_eq!(row.verdict, Verdict::Explained, "{row:?}");
+                match row.ours {
+                    Figure::Number(ours, ..) => ours,
+                    _ => panic!("{row:?}"),
+                }
+            };
+            let (cos, best) = (ours("cos"), ours("best axis"));
+            let most = most(name, format);
+            assert!(cos <= most, "{name} {format}: {cos} %, at most {most}");
+            assert!(best <= cos, "{name} {format}: {best} % on a better axis");
+        }
+    }
+    assert!(!LOOKUPS.has_findings());
+}
+
+#[test]
+fn a_few_texels_are_enough_for_the_figures_of_the_thesis() {
+    for (name, best, on_cos, fewest) in [
+        ("gold", "square", 29, 20),
+        ("platinum", "square", 60, 35),
+        ("water", "cos", 19, 19),
+        ("diamond", "square", 29, 21),
+    ] {
+        let check = |column: &str, ours: &str| check(&LOOKUPS, name, column, ours, Verdict::Open);
+        check("best axis", best);
+        check("enough on cos", &format!("{on_cos} texels"));
+        check("fewest", &format!("{fewest} texels"));
+        check("on the axis", best);
+    }
 }
 
 #[test]
@@ -297,7 +344,7 @@ fn json_stands_alone_and_has_its_shape() {
 
 #[test]
 fn a_missing_figure_is_null_with_a_reason() {
-    for row in TABLES.rows().chain(CLAIMS.rows()) {
+    for row in TABLES.rows().chain(CLAIMS.rows()).chain(LOOKUPS.rows()) {
         let json = row.json();
         let missing = json["thesis"].is_null() || json["ours"].is_null();
         assert_eq!(missing, json.get("reason").is_some(), "{json}");
@@ -332,6 +379,6 @@ fn what_cannot_be_reproduced_is_said() {
         "{}",
         says("tabel2")
     );
-    assert!(says("4").contains("need a renderer"));
+    assert!(says("6").contains("need a GPU"));
     assert!(says("").contains("there is no table"));
 }

@@ -1,20 +1,24 @@
 //! Baking: materials become tables, tables become files and rows of a report. Pure; the command writes.
 
+mod picture;
 mod row;
+mod shader;
 mod subject;
+mod usual;
+mod words;
 
 use serde_json::{Value, json};
 
-use crate::emit::MARK;
-use crate::fit::ModelError;
-use crate::ir::Weights;
-use crate::lut::{Axis, Choice, Depth, Format, Picture, Stored, Table, smallest};
-use crate::lut::{Between, table_error};
+use crate::lut::{Axis, Choice, Depth, Format, smallest};
+use crate::targets::Target;
 
+use super::artifact::TABLES;
 use super::error::Error;
-use super::names::quoted;
+use picture::Baking;
 
 pub use subject::{Lit, Wanted, lit};
+pub use usual::{DEFAULT_AXIS, DEFAULT_FORMATS, add_tables, as_tables_are_seen};
+pub use words::{canonical, said, typed};
 
 /// What is baked.
 #[derive(Clone, Debug)]
@@ -29,6 +33,10 @@ pub struct Request {
     pub shape: Shape,
     /// All of them as the rows of one picture besides.
     pub atlas: bool,
+    /// The languages that get a function for each picture.
+    pub targets: Vec<&'static Target>,
+    /// Goes before the names of these functions.
+    pub prefix: String,
     /// The flags of the sight and the medium, each with a space before it.
     pub flags: String,
 }
@@ -61,59 +69,58 @@ pub struct Baked {
     pub rows: Vec<Value>,
 }
 
-/// The folder of the tables in the output folder.
-const FOLDER: &str = "lut";
 /// The name of the picture of all.
 pub const ATLAS: &str = "atlas";
 
 /// Bakes. `progress` hears how many tables are done, of how many.
 pub fn bake(request: &Request, progress: &mut dyn FnMut(u64, u64, &str)) -> Result<Baked, Error> {
     let mut baked = Baked::default();
-    let whole = (request.subjects.len() + usize::from(request.atlas)) as u64;
-    for (done, subject) in request.subjects.iter().enumerate() {
-        progress(done as u64, whole, &subject.name);
-        baked.add(request, &subject.name, std::slice::from_ref(subject))?;
-    }
-    if request.atlas {
-        progress(whole - 1, whole, ATLAS);
-        baked.add(request, ATLAS, &request.subjects)?;
+    let pictures = request.pictures();
+    for (done, (name, subjects)) in pictures.iter().enumerate() {
+        progress(done as u64, pictures.len() as u64, name);
+        let (one, _) = picture(request, name, subjects)?;
+        baked.files.extend(one.files);
+        baked.rows.extend(one.rows);
     }
     Ok(baked)
 }
 
-/// A kind of number with the tables in it, and how wrong each is.
-struct Rounded {
-    depth: Depth,
-    tables: Vec<Stored>,
-    errors: Vec<[ModelError; 2]>,
+impl Request {
+    /// The pictures, each with its rows.
+    fn pictures(&self) -> Vec<(&str, &[Lit])> {
+        let subjects = self.subjects.iter();
+        let alone = subjects.map(|one| (one.name.as_str(), std::slice::from_ref(one)));
+        let atlas = self.atlas.then_some((ATLAS, self.subjects.as_slice()));
+        alone.chain(atlas).collect()
+    }
 }
 
-impl Baked {
-    /// The files of one picture, with a description beside them.
-    fn add(&mut self, request: &Request, name: &str, subjects: &[Lit]) -> Result<(), Error> {
-        let (axis, texels, formats) = chosen(request, subjects)?;
-        let tables = subjects
-            .iter()
-            .map(|subject| Table::new(&subject.name, &subject.truth, axis, texels))
-            .collect::<Result<Vec<_>, _>>()?;
-        let rounded = rounded(subjects, &tables, &formats, texels);
-        let mut rows = Vec::new();
-        for format in formats {
-            let Some(rounded) = rounded.iter().find(|one| one.depth == format.depth()) else {
-                continue;
-            };
-            let file = format!("{FOLDER}/{name}{}", format.ending());
-            let picture = picture(request, name, subjects, rounded, format);
-            rows.extend(row::rows(subjects, rounded, &picture, format, &file));
-            self.files.push((file, format.encode(&picture)?));
-        }
-        let full = report(&command(request, name, subjects, axis, texels, None), &rows);
-        let text = serde_json::to_string_pretty(&full).expect("a report has only text keys") + "\n";
-        self.files
-            .push((format!("{FOLDER}/{name}.json"), text.into_bytes()));
-        self.rows.extend(rows);
-        Ok(())
+/// The files of one picture, with functions that read it and a description beside them; and the command that writes them
+/// again.
+fn picture(request: &Request, name: &str, subjects: &[Lit]) -> Result<(Baked, String), Error> {
+    let (axis, texels, formats) = chosen(request, subjects)?;
+    let baking = Baking::new(request, name, subjects, (axis, texels), formats)?;
+    let functions = shader::files(&baking)?;
+    let beside: Vec<&str> = functions.iter().map(|(file, _)| file.as_str()).collect();
+    let mut baked = Baked::default();
+    for (format, rounded) in baking.each() {
+        let file = baking.file(format);
+        let picture = baking.picture(format, rounded);
+        let rows = row::rows(subjects, rounded, &picture, format, &file);
+        baked.rows.extend(rows.map(|mut row| {
+            row["lookup"]["functions"] = json!(beside);
+            row
+        }));
+        baked.files.push((file, format.encode(&picture)?));
     }
+    baked.files.extend(functions);
+    let command = baking.command(&baking.formats, &request.targets);
+    let full = serde_json::to_string_pretty(&report(&command, &baked.rows));
+    let text = full.expect("a report has only text keys") + "\n";
+    baked
+        .files
+        .push((format!("{TABLES}/{name}.json"), text.into_bytes()));
+    Ok((baked, command))
 }
 
 /// A report in the shape that all have.
@@ -143,84 +150,4 @@ fn chosen(request: &Request, subjects: &[Lit]) -> Result<(Axis, usize, Vec<Forma
 fn depths(formats: &[Format]) -> Vec<Depth> {
     let wanted = |depth: &Depth| formats.iter().any(|format| format.depth() == *depth);
     Depth::ALL.into_iter().filter(wanted).collect()
-}
-
-/// The tables in every depth that the formats have. Those of one picture share a scale.
-fn rounded(subjects: &[Lit], tables: &[Table], formats: &[Format], texels: usize) -> Vec<Rounded> {
-    let axis = tables.first().map_or(Axis::Cos, |table| table.axis);
-    let between = |subject: &Lit| Between::new(&subject.truth, axis, texels);
-    let between: Vec<Between> = subjects.iter().map(between).collect();
-    let all: Vec<&Table> = tables.iter().collect();
-    let of = |depth: Depth| {
-        let scale = depth.scale(&all);
-        let stored = |table| Stored::scaled(table, depth, scale);
-        let tables: Vec<Stored> = tables.iter().map(stored).collect();
-        let error = |((stored, subject), between): ((&Stored, &Lit), &Between)| {
-            [Weights::Steps256, Weights::Exact]
-                .map(|weights| table_error(stored, weights, &subject.truth, between))
-        };
-        let errors = tables.iter().zip(subjects).zip(&between).map(error);
-        Rounded {
-            depth,
-            errors: errors.collect(),
-            tables,
-        }
-    };
-    depths(formats).into_iter().map(of).collect()
-}
-
-/// The tables of one depth as a picture that says what it is.
-fn picture(
-    request: &Request,
-    name: &str,
-    subjects: &[Lit],
-    rounded: &Rounded,
-    format: Format,
-) -> Picture {
-    let names = subjects.iter().map(|subject| subject.name.as_str());
-    let rows: Vec<(&str, &Stored)> = names.zip(&rounded.tables).collect();
-    let mut picture = Picture::new(name, &rows, subjects.first().and_then(|first| first.space));
-    let command = command(
-        request,
-        name,
-        subjects,
-        picture.axis,
-        picture.width,
-        Some(format),
-    );
-    let seen = subjects.first().map_or("", |first| first.seen());
-    picture.about = vec![
-        format!("{MARK}: {command}"),
-        format!("{} by cos theta: {seen}", picture.rows.join(", ")),
-    ];
-    picture.about.extend(picture.lookup());
-    picture.about.push(row::error_line(&rounded.errors));
-    picture.about = crate::emit::comment_lines(picture.about);
-    picture
-}
-
-/// The command that writes it again. A search is told by what it found.
-fn command(
-    request: &Request,
-    name: &str,
-    subjects: &[Lit],
-    axis: Axis,
-    texels: usize,
-    format: Option<Format>,
-) -> String {
-    let typed = match subjects {
-        [one] if name != ATLAS => quoted(&one.argument),
-        _ => request.typed.clone(),
-    };
-    let formats: Vec<&str> = match format {
-        Some(format) => vec![format.name()],
-        None => request.formats.iter().map(|format| format.name()).collect(),
-    };
-    let atlas = if name == ATLAS { " --atlas" } else { "" };
-    format!(
-        "fresnel-gen bake --material {typed}{} --size {texels} --axis {} --format {}{atlas}",
-        request.flags,
-        axis.name(),
-        formats.join(",")
-    )
 }

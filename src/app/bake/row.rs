@@ -5,7 +5,7 @@ use serde_json::{Value, json};
 use crate::fit::ModelError;
 use crate::lut::{Axis, Format, Picture};
 
-use super::Rounded;
+use super::picture::Rounded;
 use super::subject::Lit;
 
 /// A row for each material of a picture.
@@ -30,7 +30,7 @@ pub fn rows<'a>(
 /// The keys in their order, with what all rows of a picture share.
 fn shape(picture: &Picture, format: Format, file: &str) -> Value {
     let (scale, offset) = Axis::half_texel(picture.width);
-    json!({
+    let mut row = json!({
         "material": null, "medium": null, "format": format.name(), "texels": picture.width,
         "axis": picture.axis.name(), "file": file, "row": null, "rows": null, "scale": picture.scale,
         "max_abs": null, "mean_rel": null, "mean_abs": null, "worst_cos": null, "exact_weights": null,
@@ -39,8 +39,15 @@ fn shape(picture: &Picture, format: Format, file: &str) -> Value {
         "lookup": {
             "c": "clamp(cos_theta, 0.0, 1.0)", "w": picture.axis.formula(), "u": format!("w * {scale:?} + {offset:?}"),
             "v": "(row + 0.5) / rows", "wrap": "clamp to edge", "filter": "linear", "level": 0,
+            "warp": picture.axis.constant(), "functions": [],
         },
-    })
+    });
+    if picture.axis.constant().is_none() {
+        row["lookup"]["reason"] = json!(
+            "the library's fresnel_table warps by (1 + warp) c / (1 + warp c), and this axis is no such: take the functions of --target"
+        );
+    }
+    row
 }
 
 fn seen(row: &mut Value, subject: &Lit) {
@@ -79,7 +86,7 @@ pub fn error_line(errors: &[[ModelError; 2]]) -> String {
     let all = errors.iter().map(|[steps, _]| steps);
     let most = |value: fn(&ModelError) -> f64| all.clone().map(value).fold(0.0, f64::max);
     format!(
-        "Error of the filtered lookup, weights in steps of 1/256: at most {:.6}; in the mean over angles at most {:.4} %. CC0-1.0.",
+        "Error of the filtered lookup, weights in steps of 1/256: at most {:.6}; in the mean over angles at most {:.4} %.",
         most(|error| error.max_abs),
         100.0 * most(|error| error.mean_rel.unwrap_or(0.0))
     )

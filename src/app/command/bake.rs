@@ -5,25 +5,22 @@ use std::path::{Path, PathBuf};
 use serde_json::Value;
 
 use crate::app::args::BakeFlags;
-use crate::app::bake::{ATLAS, Baked, Lit, Request, Shape, Wanted, bake, lit, report as full};
+use crate::app::bake::{
+    ATLAS, Baked, DEFAULT_AXIS, DEFAULT_FORMATS, Lit, Request, Shape, Wanted, as_tables_are_seen,
+    bake, canonical, lit, report as full, said, typed,
+};
 use crate::app::error::Error;
-use crate::app::names::{quoted, unknown};
-use crate::app::sight::{flags as sight_flags, sight};
+use crate::app::names::unknown;
+use crate::app::sight::sight;
 use crate::app::source::{materials, source};
 use crate::app::write::write_files;
 use crate::lut::{Axis, Format, check_size};
-use crate::materials::Sight;
 use crate::methods::TEXELS;
 use crate::report::table;
-use crate::spectra::Gamut;
+use crate::targets::{self, Finish, Target};
 
 use super::{Output, Progress, report};
 
-/// The axis where none is asked for: the one with the smallest errors at equal size.
-pub const DEFAULT_AXIS: Axis = Axis::Rational;
-/// The files where none are asked for: what most programs read, what engines without float textures read, and what
-/// GPUs take.
-const DEFAULT_FORMATS: [Format; 3] = [Format::ExrHalf, Format::Png16, Format::Ktx2];
 /// The files that a search chooses from where none are asked for: one of each depth.
 const SEARCHED_FORMATS: [Format; 4] = [
     Format::Png8,
@@ -36,34 +33,41 @@ const SEARCHED_FORMATS: [Format; 4] = [
 pub fn run(flags: &BakeFlags, progress: Progress) -> Result<Output, Error> {
     let shape = shape(flags)?;
     let formats = formats(flags)?;
-    let sight = sight(
-        &flags
-            .sight
-            .words(flags.gamut.as_deref().or(Some(Gamut::Keep.name()))),
-    )?;
+    let targets = targets(&flags.target)?;
+    let sight = sight(&flags.sight.words(flags.gamut.as_deref()))?;
     let wanted = Wanted {
         materials: materials(&flags.material)?,
         medium: flags.medium.as_deref().map(source).transpose()?,
-        sight,
+        sight: as_tables_are_seen(&sight, flags.gamut.is_some()),
     };
     let (subjects, left_out) = lit(&wanted)?;
     check_names(&subjects, flags.atlas)?;
     let request = Request {
-        typed: typed(flags, &subjects),
+        typed: if flags.material == ["all"] {
+            "all".to_owned()
+        } else {
+            typed(&subjects)
+        },
         flags: said(&subjects, &wanted.sight),
         subjects,
         formats,
         shape,
         atlas: flags.atlas,
+        targets,
+        prefix: flags.prefix.clone(),
     };
     let baked = bake(&request, progress)?;
     let written = write_files(&placed(&baked, &flags.out_dir))?;
     let command = format!("bake{}", canonical(&request));
-    let mut output = report(
-        text(&baked.rows),
-        &full(&command, &baked.rows),
-        flags.json.as_deref(),
-    )?;
+    let text = if flags.quiet {
+        String::new()
+    } else {
+        text(&baked.rows)
+    };
+    let mut output = report(text, &full(&command, &baked.rows), flags.json.as_deref())?;
+    if flags.quiet {
+        return Ok(output);
+    }
     output
         .remarks
         .extend(left_out.iter().map(|why| format!("left out: {why}")));
@@ -134,6 +138,37 @@ fn formats(flags: &BakeFlags) -> Result<Vec<Format>, Error> {
     Ok(chosen)
 }
 
+/// The languages that get functions, sorted, each once; `all` is those that are written by default.
+fn targets(names: &[String]) -> Result<Vec<&'static Target>, Error> {
+    let text = || {
+        let all = targets::ALL.iter().copied();
+        all.filter(|target| target.finish != Finish::Spirv)
+    };
+    let mut chosen: Vec<&Target> = Vec::new();
+    for name in names {
+        match targets::find(name) {
+            Some(target) if target.finish == Finish::Spirv => return Err(no_function(name)),
+            Some(target) => chosen.push(target),
+            None if name == "all" => chosen.extend(text().filter(|target| target.by_default)),
+            None => {
+                let all: Vec<&str> = text().map(|target| target.name).chain(["all"]).collect();
+                return Err(unknown("target", name, &all));
+            }
+        }
+    }
+    chosen.sort_by_key(|target| target.name);
+    chosen.dedup_by_key(|target| target.name);
+    Ok(chosen)
+}
+
+fn no_function(name: &str) -> Error {
+    Error::Usage {
+        what: format!(
+            "--target {name}: a module is not a function that a shader could call; take wgsl, and compile it with your shader"
+        ),
+    }
+}
+
 /// There is something to bake, and no material bears the atlas's name.
 fn check_names(subjects: &[Lit], atlas: bool) -> Result<(), Error> {
     let what = if subjects.is_empty() {
@@ -151,41 +186,6 @@ fn check_names(subjects: &[Lit], atlas: bool) -> Result<(), Error> {
 fn placed<'a>(baked: &'a Baked, out_dir: &Path) -> Vec<(PathBuf, &'a [u8])> {
     let place = |(file, bytes): &'a (String, Vec<u8>)| (out_dir.join(file), bytes.as_slice());
     baked.files.iter().map(place).collect()
-}
-
-/// Medium and sight as flags.
-fn said(subjects: &[Lit], sight: &Sight) -> String {
-    let medium = subjects.first().and_then(|subject| subject.medium.as_ref());
-    let medium = medium.map_or(String::new(), |name| format!(" --medium {}", quoted(name)));
-    medium + &sight_flags(sight)
-}
-
-/// The materials as a user types them.
-fn typed(flags: &BakeFlags, subjects: &[Lit]) -> String {
-    if flags.material == ["all"] {
-        return "all".to_owned();
-    }
-    let names: Vec<String> = subjects.iter().map(|one| quoted(&one.argument)).collect();
-    names.join(",")
-}
-
-/// The run's flags in one order, without the output's place.
-fn canonical(request: &Request) -> String {
-    let formats: Vec<&str> = request.formats.iter().map(|format| format.name()).collect();
-    let shape = match &request.shape {
-        Shape::Fixed { axis, texels } => format!(" --size {texels} --axis {}", axis.name()),
-        Shape::Within { budget, axes } if axes.len() == 1 => {
-            format!(" --budget {budget:?} --axis {}", axes[0].name())
-        }
-        Shape::Within { budget, .. } => format!(" --budget {budget:?}"),
-    };
-    let atlas = if request.atlas { " --atlas" } else { "" };
-    format!(
-        " --material {}{}{shape} --format {}{atlas}",
-        request.typed,
-        request.flags,
-        formats.join(",")
-    )
 }
 
 /// A line for each row.

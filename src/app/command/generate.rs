@@ -3,6 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use crate::app::args::Generate;
+use crate::app::bake::{add_tables, as_tables_are_seen};
 use crate::app::error::Error;
 use crate::app::generate::{Generated, Kept, generate_beside, generate_single};
 use crate::app::manifest::{self, Manifest};
@@ -37,7 +38,11 @@ pub fn run(flags: &Generate) -> Result<Output, Error> {
     } else {
         kept(out_dir)?
     };
-    let generated = generate_beside(&request, &kept)?;
+    let mut generated = generate_beside(&request, &kept)?;
+    if generated.scope.whole {
+        let sight = as_tables_are_seen(&request.sight, flags.gamut.is_some());
+        add_tables(&mut generated, request.medium.clone(), sight)?;
+    }
     if flags.list {
         let names: Vec<String> = generated
             .artifacts

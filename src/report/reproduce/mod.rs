@@ -10,6 +10,7 @@ mod claims;
 mod figures;
 mod function_errors;
 mod indices;
+mod lookup_tables;
 mod meter;
 mod row;
 mod single;
@@ -33,6 +34,10 @@ pub enum Part {
     Table2,
     /// Function errors, dielectrics.
     Table3,
+    /// Lookup tables, metals.
+    Table4,
+    /// Lookup tables, dielectrics.
+    Table5,
     /// Absolute times: the check of the table's head.
     Table7,
     /// Three wavelengths in place of the spectrum.
@@ -46,7 +51,7 @@ pub enum Part {
 /// The thesis's tables that have no rows here, and why.
 pub const NOT_MEASURED: [(&str, &str); 2] = [
     (
-        "tables 4 and 5",
+        "the other columns of tables 4 and 5",
         "errors in pictures of a cube and a sculpture need a renderer",
     ),
     (
@@ -57,10 +62,12 @@ pub const NOT_MEASURED: [(&str, &str); 2] = [
 
 impl Part {
     /// All parts in the order of the report.
-    pub const ALL: [Part; 7] = [
+    pub const ALL: [Part; 9] = [
         Part::Table1,
         Part::Table2,
         Part::Table3,
+        Part::Table4,
+        Part::Table5,
         Part::Table7,
         Part::Table8,
         Part::Claims,
@@ -73,6 +80,8 @@ impl Part {
             Part::Table1 => "table1",
             Part::Table2 => "table2",
             Part::Table3 => "table3",
+            Part::Table4 => "table4",
+            Part::Table5 => "table5",
             Part::Table7 => "table7",
             Part::Table8 => "table8",
             Part::Claims => "claims",
@@ -84,7 +93,7 @@ impl Part {
     fn work(self, angles: usize) -> usize {
         match self {
             Part::Table2 => 4 * angles,
-            Part::Table3 => 2 * angles,
+            Part::Table3 | Part::Table4 | Part::Table5 => 2 * angles,
             Part::Claims => claims::work(angles),
             Part::Table1 | Part::Table7 | Part::Table8 | Part::Figures => 0,
         }
@@ -95,6 +104,8 @@ impl Part {
             Part::Table1 => indices::section(),
             Part::Table2 => function_errors::metals(angles, meter),
             Part::Table3 => function_errors::dielectrics(angles, meter),
+            Part::Table4 => lookup_tables::metals(angles, meter),
+            Part::Table5 => lookup_tables::dielectrics(angles, meter),
             Part::Table7 => times::section(),
             Part::Table8 => three_wavelengths::section(),
             Part::Claims => claims::section(angles, meter),

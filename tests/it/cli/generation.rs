@@ -31,8 +31,12 @@ fn an_empty_folder_is_filled_and_a_second_run_writes_nothing() {
 #[test]
 fn the_tree_is_the_documented_one() {
     let place = Place::new();
-    place.done("--target all");
-    let mut expected: Vec<String> = Vec::new();
+    place.done("");
+    let tables = ["atlas", "diamond", "gold", "platinum", "water"].into_iter();
+    let files = tables.flat_map(|name| {
+        ["exr", "json", "ktx2", "png"].map(|ending| format!("lut/{name}.{ending}"))
+    });
+    let mut expected: Vec<String> = files.collect();
     for target in targets::ALL.iter().filter(|target| target.by_default) {
         let methods = methods::ALL
             .iter()
@@ -53,6 +57,57 @@ fn the_tree_is_the_documented_one() {
     expected.sort();
     let found: Vec<String> = contents(&place.path(OUT)).into_keys().collect();
     assert_eq!(found, expected);
+}
+
+#[test]
+fn a_run_without_flags_owns_its_tables_and_leaves_others_to_bake() {
+    let place = Place::new();
+    place.done("bake --material silver --size 16 --format c,ktx2 --target wgsl");
+    place.put(&format!("{OUT}/lut/notes.txt"), "mine");
+    let baked = contents(&place.path(OUT));
+    let ran = place.done("");
+    assert!(
+        ran.err.ends_with("written, 0 unchanged, 0 removed\n"),
+        "{ran:?}"
+    );
+    assert_eq!(ran.err.lines().count(), 1, "{ran:?}");
+    let now = contents(&place.path(OUT));
+    assert!(
+        baked
+            .iter()
+            .all(|(file, bytes)| now.get(file) == Some(bytes))
+    );
+    assert_eq!(place.done("--check").out, "");
+    // What bake writes and what the run writes are the same bytes.
+    place.done("bake --atlas");
+    assert_eq!(place.done("--check").out, "");
+    // A run of one language does not touch them.
+    fs::write(place.path(&format!("{OUT}/lut/gold.png")), "spoilt").unwrap();
+    assert_eq!(place.done("--target gles --check").out, "");
+    let drift = place.run("--check").ends(1).out;
+    assert!(
+        drift.starts_with("binary file lut/gold.png differs"),
+        "{drift}"
+    );
+}
+
+#[test]
+fn a_table_that_is_no_longer_written_goes() {
+    let place = Place::new();
+    place.done("");
+    let mut manifest = place.manifest();
+    let mut old = manifest["files"].as_array().unwrap().iter();
+    let mut old = old
+        .find(|entry| entry["file"] == "lut/gold.exr")
+        .unwrap()
+        .clone();
+    old["file"] = "lut/gold.dds".into();
+    manifest["files"].as_array_mut().unwrap().push(old);
+    place.put(&format!("{OUT}/manifest.json"), manifest.to_string());
+    place.put(&format!("{OUT}/lut/gold.dds"), "old");
+    let ran = place.done("");
+    assert!(ran.err.contains("removed: lut/gold.dds"), "{ran:?}");
+    assert!(!place.path(&format!("{OUT}/lut/gold.dds")).exists());
 }
 
 #[test]

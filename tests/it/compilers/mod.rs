@@ -12,7 +12,10 @@ use std::sync::{LazyLock, Mutex};
 
 use fresnel_gen::app::request::DEFAULT_MATERIALS;
 use fresnel_gen::app::{Artifact, Materials, Request, Source, generate};
-use fresnel_gen::{methods, targets};
+use fresnel_gen::lut::{self, Axis};
+use fresnel_gen::targets::Target;
+use fresnel_gen::{emit, methods, targets};
+use serde_json::json;
 
 use crate::not_checked;
 
@@ -122,7 +125,38 @@ fn all_files() -> Vec<Artifact> {
         ..Request::default()
     };
     files.extend(made(&unprefixed, "unprefixed/"));
+    files.extend(lookups());
     files
+}
+
+/// Functions that read baked tables: along every axis, with row and scale as constants and as arguments.
+fn lookups() -> Vec<Artifact> {
+    let text = targets::ALL.iter().copied();
+    let text = text.filter(|target| target.finish != targets::Finish::Spirv);
+    let kinds = [(Some(1.0), 1), (Some(1.058_7), 4), (None, 1), (None, 4)];
+    let every = text.flat_map(|target| Axis::ALL.map(|axis| (target, axis)));
+    every
+        .flat_map(|(target, axis)| kinds.map(|(scale, rows)| lookup(target, axis, scale, rows)))
+        .collect()
+}
+
+fn lookup(target: &'static Target, axis: Axis, scale: Option<f32>, rows: usize) -> Artifact {
+    let name = format!("fresnel_{}_{rows}_{}_table", axis.name(), scale.is_some());
+    let function = lut::lookup(axis, 64, scale, rows).unwrap();
+    let bytes = emit::lookup(target, name.clone(), function, Vec::new()).unwrap();
+    let text = std::str::from_utf8(&bytes).unwrap();
+    let (_, arguments) = text.split_once(&format!("{name}(")).unwrap();
+    let (arguments, _) = arguments.split_once(')').unwrap();
+    let arguments: Vec<&str> = arguments.split_whitespace().collect();
+    let signature = format!("colour {name}({})", arguments.join(" "));
+    Artifact {
+        path: format!("lookups/{name}.{}", target.extension),
+        target: target.name.to_owned(),
+        method: None,
+        material: None,
+        detail: json!({ "functions": [{ "signature": signature }] }),
+        bytes,
+    }
 }
 
 /// What a request gives in all languages, its paths below a folder of this name.

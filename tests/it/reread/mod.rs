@@ -7,7 +7,7 @@ mod language;
 use fresnel_gen::app::{Materials, Request, generate};
 use fresnel_gen::fit;
 use fresnel_gen::ir::{Checked, Texels, Ty, Value, evaluate};
-use fresnel_gen::{emit, methods, targets};
+use fresnel_gen::{emit, lut, methods, targets};
 use language::{Program, Term};
 
 const COSINES: [f32; 9] = [-0.5, 0.0, 1e-6, 0.1, 1.0 / 7.0, 0.5, 0.9, 1.0, 1.5];
@@ -70,7 +70,7 @@ fn check(text: &str, name: &str, function: &Checked, inputs: &[[f32; 3]]) {
 }
 
 /// One of each input's choices, as many rows as the longest has.
-fn rows(function: &Checked) -> Vec<Vec<[f32; 3]>> {
+fn rows_of(function: &Checked) -> Vec<Vec<[f32; 3]>> {
     let choices: Vec<Vec<[f32; 3]>> = function
         .params
         .iter()
@@ -103,7 +103,7 @@ fn every_library_function_reads_as_it_was_meant() {
             for file in emit::library(target, method, &functions, "").expect("it prints") {
                 let text = String::from_utf8(file.bytes).expect("text");
                 for emitted in &functions {
-                    for inputs in rows(&emitted.function) {
+                    for inputs in rows_of(&emitted.function) {
                         check(&text, &emitted.name, &emitted.function, &inputs);
                     }
                 }
@@ -144,6 +144,23 @@ fn every_specialised_function_reads_as_it_was_meant() {
                     // A texture, where there is one.
                     &[[0.0; 3]],
                 );
+            }
+        }
+    }
+}
+
+#[test]
+fn every_lookup_reads_as_it_was_meant() {
+    for axis in lut::Axis::ALL {
+        for (scale, rows) in [(Some(1.0), 1), (Some(1.058_7), 4), (None, 1), (None, 4)] {
+            let function = lut::lookup(axis, 64, scale, rows).expect("well formed");
+            for target in text_targets() {
+                let name = "fresnel_gold_table".to_owned();
+                let bytes = emit::lookup(target, name.clone(), function.clone(), Vec::new());
+                let text = String::from_utf8(bytes.expect("it prints")).expect("text");
+                for inputs in rows_of(&function) {
+                    check(&text, &name, &function, &inputs);
+                }
             }
         }
     }

@@ -1,0 +1,170 @@
+//! One picture in all its formats: its tables in every depth, how wrong each is, and what its files say of themselves.
+
+use crate::app::artifact::TABLES;
+use crate::app::error::Error;
+use crate::app::names::quoted;
+use crate::emit::{MARK, comment_lines};
+use crate::fit::ModelError;
+use crate::ir::Weights;
+use crate::lut::{Axis, Between, Depth, Format, Picture, Stored, Table, table_error};
+use crate::targets::Target;
+
+use super::subject::Lit;
+use super::words::shaders;
+use super::{ATLAS, Request, depths, row};
+
+/// A picture while it is baked.
+pub struct Baking<'a> {
+    /// The run that it belongs to.
+    pub request: &'a Request,
+    /// Its name, a material's or [`ATLAS`].
+    pub name: &'a str,
+    /// Its rows.
+    pub subjects: &'a [Lit],
+    /// How cosines are spread.
+    pub axis: Axis,
+    /// Texels in a row.
+    pub texels: usize,
+    /// Its files.
+    pub formats: Vec<Format>,
+    rounded: Vec<Rounded>,
+}
+
+/// A kind of number with the tables in it, and how wrong each is.
+pub struct Rounded {
+    depth: Depth,
+    tables: Vec<Stored>,
+    /// With weights in steps, and with exact ones.
+    pub errors: Vec<[ModelError; 2]>,
+}
+
+impl<'a> Baking<'a> {
+    /// Computes the tables and their errors.
+    pub fn new(
+        request: &'a Request,
+        name: &'a str,
+        subjects: &'a [Lit],
+        (axis, texels): (Axis, usize),
+        formats: Vec<Format>,
+    ) -> Result<Baking<'a>, Error> {
+        let tables = subjects
+            .iter()
+            .map(|subject| Table::new(&subject.name, &subject.truth, axis, texels))
+            .collect::<Result<Vec<_>, _>>()?;
+        Ok(Baking {
+            rounded: rounded(subjects, &tables, &formats, texels),
+            request,
+            name,
+            subjects,
+            axis,
+            texels,
+            formats,
+        })
+    }
+
+    /// The formats, each with its tables.
+    pub fn each(&self) -> impl Iterator<Item = (Format, &Rounded)> {
+        self.formats.iter().filter_map(|format| {
+            let mut all = self.rounded.iter();
+            let own = all.find(|rounded| rounded.depth == format.depth())?;
+            Some((*format, own))
+        })
+    }
+
+    /// The kinds of number, each with the names of its files.
+    pub fn by_depth(&self) -> impl Iterator<Item = (String, &Rounded)> {
+        self.rounded.iter().map(|rounded| {
+            let formats = self.formats.iter();
+            let own = formats.filter(|format| format.depth() == rounded.depth);
+            let names: Vec<String> = own
+                .map(|format| format!("{}{}", self.name, format.ending()))
+                .collect();
+            (names.join(", "), rounded)
+        })
+    }
+
+    /// The path of a file.
+    pub fn file(&self, format: Format) -> String {
+        format!("{TABLES}/{}{}", self.name, format.ending())
+    }
+
+    /// The tables of a format as a picture that says what it is.
+    pub fn picture(&self, format: Format, rounded: &Rounded) -> Picture {
+        let names = self.subjects.iter().map(|subject| subject.name.as_str());
+        let rows: Vec<(&str, &Stored)> = names.zip(&rounded.tables).collect();
+        let space = self.subjects.first().and_then(|first| first.space);
+        let mut picture = Picture::new(self.name, &rows, space);
+        picture.about = self.about(&[format], &[], &picture);
+        picture.about.extend(picture.scaling());
+        let errors = row::error_line(&rounded.errors);
+        picture.about.push(format!("{errors} CC0-1.0."));
+        picture.about = comment_lines(picture.about);
+        picture
+    }
+
+    /// What every file of the picture begins with: how to make it again, what it shows, how to look it up.
+    pub fn about(
+        &self,
+        formats: &[Format],
+        targets: &[&'static Target],
+        picture: &Picture,
+    ) -> Vec<String> {
+        let command = self.command(formats, targets);
+        let seen = self.subjects.first().map_or("", |first| first.seen());
+        let mut lines = vec![
+            format!("{MARK}: {command}"),
+            format!("{} by cos theta: {seen}", picture.rows.join(", ")),
+        ];
+        lines.extend(picture.lookup());
+        lines
+    }
+
+    /// The command that writes these files of the picture again. A search is told by what it found.
+    pub fn command(&self, formats: &[Format], targets: &[&'static Target]) -> String {
+        let typed = match self.subjects {
+            [one] if self.name != ATLAS => quoted(&one.argument),
+            _ => self.request.typed.clone(),
+        };
+        let formats: Vec<&str> = formats.iter().map(|format| format.name()).collect();
+        let atlas = if self.name == ATLAS { " --atlas" } else { "" };
+        format!(
+            "fresnel-gen bake --material {typed}{} --size {} --axis {} --format {}{atlas}{}",
+            self.request.flags,
+            self.texels,
+            self.axis.name(),
+            formats.join(","),
+            shaders(targets, &self.request.prefix)
+        )
+    }
+}
+
+impl Rounded {
+    /// value = texel × scale: one for all tables of a picture.
+    pub fn scale(&self) -> f32 {
+        self.tables.first().map_or(1.0, |table| table.scale)
+    }
+}
+
+/// The tables in every depth that the formats have. Those of one picture share a scale.
+fn rounded(subjects: &[Lit], tables: &[Table], formats: &[Format], texels: usize) -> Vec<Rounded> {
+    let axis = tables.first().map_or(Axis::Cos, |table| table.axis);
+    let between = |subject: &Lit| Between::new(&subject.truth, axis, texels);
+    let between: Vec<Between> = subjects.iter().map(between).collect();
+    let all: Vec<&Table> = tables.iter().collect();
+    let of = |depth: Depth| {
+        let scale = depth.scale(&all);
+        let stored = |table| Stored::scaled(table, depth, scale);
+        let tables: Vec<Stored> = tables.iter().map(stored).collect();
+        let error = |((stored, subject), between): ((&Stored, &Lit), &Between)| {
+            [Weights::Steps256, Weights::Exact]
+                .map(|weights| table_error(stored, weights, &subject.truth, between))
+        };
+        let errors = tables.iter().zip(subjects).zip(&between).map(error);
+        Rounded {
+            depth,
+            errors: errors.collect(),
+            tables,
+        }
+    };
+    depths(formats).into_iter().map(of).collect()
+}
