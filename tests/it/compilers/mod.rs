@@ -144,17 +144,12 @@ fn lookup(target: &'static Target, axis: Axis, scale: Option<f32>, rows: usize) 
     let name = format!("fresnel_{}_{rows}_{}_table", axis.name(), scale.is_some());
     let function = lut::lookup(axis, 64, scale, rows).unwrap();
     let bytes = emit::lookup(target, name.clone(), function, Vec::new()).unwrap();
-    let text = std::str::from_utf8(&bytes).unwrap();
-    let (_, arguments) = text.split_once(&format!("{name}(")).unwrap();
-    let (arguments, _) = arguments.split_once(')').unwrap();
-    let arguments: Vec<&str> = arguments.split_whitespace().collect();
-    let signature = format!("colour {name}({})", arguments.join(" "));
     Artifact {
         path: format!("lookups/{name}.{}", target.extension),
         target: target.name.to_owned(),
         method: None,
         material: None,
-        detail: json!({ "functions": [{ "signature": signature }] }),
+        detail: json!({ "functions": [{ "name": name }] }),
         bytes,
     }
 }
