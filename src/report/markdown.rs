@@ -21,7 +21,7 @@ pub fn methods_table() -> String {
             method.summary.to_owned(),
             inputs.join(", "),
             work.to_string(),
-            ulp_cell(method.claims.code_ulp),
+            code_cell(method),
             format!("{} {}", method.source.authors, method.source.year),
         ]
     });
@@ -91,9 +91,12 @@ pub fn targets_table() -> String {
     )
 }
 
-/// A bound in ulp, or that the method stays within the absolute one.
-fn ulp_cell(ulp: f64) -> String {
-    if ulp > 0.0 {
+/// A bound in ulp, or that the method stays within the absolute one; of what reads a texture its sampler's.
+fn code_cell(method: &Method) -> String {
+    let ulp = method.claims.code_ulp;
+    if method.is_textured() {
+        "the sampler's: 1/256 of the difference of two neighbouring texels".to_owned()
+    } else if ulp > 0.0 {
         ulp.to_string()
     } else {
         "within 2⁻²²".to_owned()

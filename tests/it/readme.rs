@@ -58,6 +58,29 @@ fn tables_are_what_the_program_says() {
     super::bless::check(&path, text.as_bytes());
 }
 
+/// The shader that reads an atlas, with the function that it calls.
+#[test]
+fn the_lookup_is_accepted() {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let read = |name: &str| fs::read_to_string(folder.join(name)).expect("it is there");
+    let readme = read("README.md");
+    let (_, after) = readme.split_once("```wgsl\n").expect("it begins");
+    let (example, _) = after.split_once("```").expect("it ends");
+    let text = read("shaders-generated/wgsl/fresnel_table.wgsl") + example;
+    if let Err(fault) = fresnel_gen::emit::validate_wgsl(&text) {
+        panic!("{fault}");
+    }
+    let atlas: serde_json::Value =
+        serde_json::from_str(&read("shaders-generated/lut/atlas.json")).expect("it is JSON");
+    let rows = atlas["rows"].as_array().expect("it has rows").iter();
+    let mut rows = rows.filter(|row| row["file"] == "lut/atlas.ktx2");
+    let gold = rows.find(|row| row["name"] == "gold").expect("gold");
+    let said = |key: &str| gold[key].as_f64();
+    let keys = ["texels", "row", "rows", "scale"].map(said);
+    assert_eq!(keys, [64.0, 1.0, 4.0, 1.0].map(Some));
+    assert_eq!(gold["lookup"]["warp"], 4.0);
+}
+
 #[test]
 fn the_picture_is_what_the_program_draws() {
     let gold = materials::find("gold")
