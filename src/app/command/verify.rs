@@ -269,7 +269,9 @@ fn text(rows: &[Value]) -> String {
             word(row, "method").to_owned(),
             word(row, "material").to_owned(),
             word(row, "form").to_owned(),
-            row["points"].to_string(),
+            row["points"]
+                .as_u64()
+                .map_or("-".to_owned(), |points| points.to_string()),
             figure("code_error", "max_ulp", 2),
             figure("bound", "ulp", 1),
             figure("model_error", "max_abs", 5),
