@@ -99,6 +99,20 @@ impl Subject {
         values_of(method, &known, &self.derivation)
     }
 
+    /// What a method's error is held against: the truth in its light; what reads a table keeps the table's colours.
+    pub fn truth_for(&self, method: &Method) -> Truth {
+        let truth = if method.light == self.truth.light {
+            self.truth.clone()
+        } else {
+            Truth::new(self.truth.surface.clone(), method.light)
+        };
+        if method.is_textured() {
+            truth.kept()
+        } else {
+            truth
+        }
+    }
+
     /// The exact method of its class.
     pub fn exact_method(&self) -> &'static str {
         let transparent = self.effective.channels.is_transparent();
@@ -182,7 +196,7 @@ pub fn specialised_function(
         name: format!("{}{}{suffix}", naming.prefix, subject.name),
         method,
         form: "specialised",
-        model_error: Some(error(method, &function, &subject.truth)),
+        model_error: Some(model_error(&function, &subject.truth_for(method))),
         code_ulp: if method.is_textured() {
             Measured::No(FILTERED.to_owned())
         } else {
@@ -191,13 +205,4 @@ pub fn specialised_function(
         constants,
         function,
     })
-}
-
-/// The model error of a function, held against the truth in the light that its method describes.
-fn error(method: &Method, function: &Checked, truth: &Truth) -> ModelError {
-    if method.light == truth.light {
-        model_error(function, truth)
-    } else {
-        model_error(function, &Truth::new(truth.surface.clone(), method.light))
-    }
 }

@@ -204,7 +204,7 @@ fn table_line(emitted: &Emitted) -> Option<String> {
     reads.then(|| {
         format!(
             "Table: as `fresnel-gen bake` writes it unless asked otherwise: {TEXELS} texels, axis rational, one row, half \
-             precision"
+             precision, colours outside the working space kept; its error is against the truth before clipping"
         )
     })
 }

@@ -1,10 +1,12 @@
 //! Model error: a method against the exact law, over all angles. Never to be added to code error.
 
+use glam::DVec3;
 use serde::Serialize;
 
 use crate::ir::{Checked, Value, evaluate};
 use crate::materials::{Channels, Surface};
 use crate::methods::Light;
+use crate::spectra::Gamut;
 
 use super::texels::{arguments, table_of};
 
@@ -40,22 +42,36 @@ pub struct Truth {
     pub surface: Surface,
     /// Polarised or not.
     pub light: Light,
-    /// Its reflectance at [`cosines`] of [`ANGLES`]: what takes the time, and is wanted for every method.
-    table: Vec<[f64; 3]>,
+    /// Its reflectance at [`cosines`] of [`ANGLES`], before the gamut: what takes the time, and is wanted for every method.
+    unclipped: Vec<DVec3>,
 }
 
 impl Truth {
     /// The truth about a surface in this light.
     pub fn new(surface: Surface, light: Light) -> Truth {
-        let table = cosines(ANGLES)
+        let unclipped = cosines(ANGLES)
             .into_iter()
-            .map(|cos_theta| seen(&surface, light, cos_theta))
+            .map(|cos_theta| reflected(&surface, light, cos_theta))
             .collect();
         Truth {
             surface,
             light,
-            table,
+            unclipped,
         }
+    }
+
+    /// The same, with colours outside the working space kept as they are.
+    pub fn kept(mut self) -> Truth {
+        self.surface.gamut = Gamut::Keep;
+        self
+    }
+
+    /// The reflectance at [`cosines`] of [`ANGLES`].
+    fn table(&self) -> Vec<[f64; 3]> {
+        let colours = self.unclipped.iter();
+        colours
+            .map(|colour| self.surface.gamut.apply(*colour).to_array())
+            .collect()
     }
 
     /// The reflectance of each channel at a cosine, in the gamut.
@@ -68,8 +84,9 @@ impl Truth {
     pub fn average(&self) -> [f64; 3] {
         let step = std::f64::consts::FRAC_PI_2 / ANGLES as f64;
         let weight = |i: usize| libm::sin((2 * i + 1) as f64 * step) * step;
+        let table = self.table();
         let sum = |channel: usize| {
-            let terms = self.table[..ANGLES].iter().enumerate();
+            let terms = table[..ANGLES].iter().enumerate();
             terms.map(|(i, seen)| weight(i) * seen[channel]).sum()
         };
         [0, 1, 2].map(sum)
@@ -78,12 +95,17 @@ impl Truth {
 
 /// The reflectance of each channel at a cosine, in the surface's gamut.
 pub fn seen(surface: &Surface, light: Light, cos_theta: f64) -> [f64; 3] {
-    let colour = match light {
+    let colour = reflected(surface, light, cos_theta);
+    surface.gamut.apply(colour).to_array()
+}
+
+/// The same before the gamut.
+fn reflected(surface: &Surface, light: Light, cos_theta: f64) -> DVec3 {
+    match light {
         Light::Unpolarised => surface.unpolarised(cos_theta),
         Light::S => surface.reflectance(cos_theta).s,
         Light::P => surface.reflectance(cos_theta).p,
-    };
-    surface.gamut.apply(colour).to_array()
+    }
 }
 
 /// The model error of a function of `cos_theta` alone, or with the table that it reads.
@@ -97,7 +119,7 @@ pub fn model_error(function: &Checked, truth: &Truth) -> ModelError {
 /// The error of whatever gives three channels at each of some cosines.
 pub fn error_of(truth: &Truth, values: &dyn Fn(&[f64]) -> Value<f64>) -> ModelError {
     let run = |cosines: &[f64], want: &[[f64; 3]]| difference(&values(cosines), want, cosines);
-    let mut error = run(&cosines(ANGLES), &truth.table);
+    let mut error = run(&cosines(ANGLES), &truth.table());
     let mut reach = libm::acos(error.worst_cos).max(1e-3) / 8.0;
     for _ in 0..REFINEMENTS {
         let theta = libm::acos(error.worst_cos);

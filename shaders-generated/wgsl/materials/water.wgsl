@@ -79,7 +79,8 @@ fn fresnel_water_schlick_corrected(cos_theta: f32) -> vec3<f32> {
 //   F = table_scale table(u, row), level 0
 // Source: Selan, "Using Lookup Tables to Accelerate Color Transformations", GPU Gems 2, chapter 24, 2005.
 //     https://developer.nvidia.com/gpugems/gpugems2/part-iii-high-quality-rendering/chapter-24-using-lookup-tables-accelerate-color
-// Table: as `fresnel-gen bake` writes it unless asked otherwise: 64 texels, axis rational, one row, half precision
+// Table: as `fresnel-gen bake` writes it unless asked otherwise: 64 texels, axis rational, one row, half
+//     precision, colours outside the working space kept; its error is against the truth before clipping
 // Model error: at most 0.00025 (at 88.42 degrees), 0.15 % in the mean over angles.
 // Code error: at most 1/256 of the difference of two neighbouring texels, as samplers weigh them in so many steps.
 // Cost: 7 scalar operations, among them 1 division, and one texture fetch

@@ -28,7 +28,7 @@ fn file(baking: &Baking, target: &'static Target) -> Result<(String, Vec<u8>), E
         file: path.clone(),
         what: fault.to_string(),
     })?;
-    let emitted = format!("{}{name}_table", baking.request.prefix);
+    let emitted = format!("{}{name}_lookup", baking.request.prefix);
     let bytes = emit::lookup(target, emitted, function, about(baking, target))?;
     Ok((path, bytes))
 }

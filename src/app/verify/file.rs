@@ -27,7 +27,7 @@ pub(super) struct Case<'a> {
     material: &'a str,
     pub trial: Trial,
     limits: Vec<f32>,
-    truth: Option<&'a Truth>,
+    truth: Option<Truth>,
 }
 
 /// The rows of a file.
@@ -80,12 +80,13 @@ fn cases<'a>(plan: &'a Plan, file: &Planned, emitted: &Emitted) -> Vec<Case<'a>>
 
 pub(super) fn specialised<'a>(subject: &'a Subject, emitted: &Emitted) -> Case<'a> {
     let bound = emitted.code_ulp.clone();
-    let table = fit::table_of(&emitted.function, |c| subject.truth.at(c));
+    let truth = subject.truth_for(emitted.method);
+    let table = fit::table_of(&emitted.function, |c| truth.at(c));
     Case {
         material: &subject.argument,
         trial: trial(emitted, Vec::new(), table, bound),
         limits: limits_of(&subject.effective.channels),
-        truth: Some(&subject.truth),
+        truth: Some(truth),
     }
 }
 
@@ -97,12 +98,13 @@ fn library<'a>(subject: &'a Subject, emitted: &Emitted) -> Case<'a> {
         .iter()
         .filter(|input| input.ty != Ty::Texture);
     let single = numbers.map(|input| values[input.name].map(|value| value as f32));
-    let table = fit::table_of(&emitted.function, |c| subject.truth.at(c));
+    let truth = subject.truth_for(emitted.method);
+    let table = fit::table_of(&emitted.function, |c| truth.at(c));
     Case {
         material: &subject.argument,
         trial: trial(emitted, single.collect(), table, promised(emitted.method)),
         limits: limits_of(&subject.effective.channels),
-        truth: (emitted.form == "library").then_some(&subject.truth),
+        truth: (emitted.form == "library").then_some(truth),
     }
 }
 
@@ -221,7 +223,7 @@ impl<'a> Tried<'a> {
         let expected = case.trial.expected(&points);
         let got = runnable.run(shown.target, &case.trial, &expected.cosines)?;
         let outcome: Outcome = expected.judge(&got);
-        let model_error = match (case.truth, way) {
+        let model_error = match (&case.truth, way) {
             (Some(truth), Way::Own) => Some(self.model_error(&runnable, case, truth)?),
             _ => None,
         };
@@ -267,14 +269,6 @@ impl<'a> Tried<'a> {
         case: &Case,
         truth: &Truth,
     ) -> Result<ModelError, Fault> {
-        let light = self.emitted.method.light;
-        let own;
-        let truth = if light == truth.light {
-            truth
-        } else {
-            own = Truth::new(truth.surface.clone(), light);
-            &own
-        };
         let fault = std::cell::OnceCell::new();
         let error = fit::error_of(truth, &|cosines| {
             let single: Vec<f32> = cosines.iter().map(|c| *c as f32).collect();

@@ -94,7 +94,7 @@ fn functions_stand_beside_their_tables() {
     ] {
         let file = format!("{OUT}/lut/wgsl/{name}.wgsl");
         let text = place.read(&file);
-        let head = format!("fn fresnel_{name}_table(");
+        let head = format!("fn fresnel_{name}_lookup(");
         let (_, head) = text.split_once(&head).unwrap();
         let (head, _) = head.split_once(')').unwrap();
         let names = head.split(',').filter_map(|one| one.split(':').next());
@@ -136,7 +136,7 @@ fn a_prefix_goes_before_names_and_into_the_command() {
     let place = Place::new();
     place.done("bake --material water --format c --target hlsl --prefix lut_");
     let text = place.read(&format!("{OUT}/lut/hlsl/water.hlsl"));
-    assert!(text.contains("float3 lut_water_table(") && text.contains("LUT_WATER_TABLE_HLSL"));
+    assert!(text.contains("float3 lut_water_lookup(") && text.contains("LUT_WATER_LOOKUP_HLSL"));
     assert!(command_of(&text).ends_with("--format c --target hlsl --prefix lut_"));
 }
 
@@ -166,7 +166,7 @@ fn bad_input_is_refused() {
     );
     place.refused(
         "bake --target hlsl --prefix 1",
-        &["`1diamond_table` is no name"],
+        &["`1diamond_lookup` is no name"],
     );
     place.refused(
         "bake --target gles --prefix gl_",

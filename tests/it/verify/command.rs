@@ -167,13 +167,13 @@ fn a_loop_is_found_and_not_run() {
         };
         let ran = ran.ends(1);
         assert!(ran.err.contains("it holds a loop"), "{}", ran.err);
-        // The others are run all the same.
+        // The others are run all the same, where their compilers are here.
         let others = rows(&ran)
             .into_iter()
             .filter(|row| row["method"] == "schlick_f90");
         let statuses: Vec<Value> = others.map(|row| row["status"].clone()).collect();
         assert!(
-            !statuses.is_empty() && statuses.iter().all(|status| status == "pass"),
+            !statuses.is_empty() && statuses.iter().all(|status| status != "fail"),
             "{statuses:?}"
         );
     }
