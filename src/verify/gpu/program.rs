@@ -17,9 +17,9 @@ pub enum Code<'a> {
 /// A program: cosines in, reflectances out.
 ///
 /// In compute, workgroups are 64 wide, and group 0 holds: binding 0, a uniform block with the run-time arguments, none if
-/// there are none; binding 1, what [`Inputs`] says; binding 2, a storage array of `vec4<f32>`, as long as there are
-/// points; bindings 3 and 4, a `texture_2d<f32>` and its sampler, none if there is no texture. The last workgroup may
-/// be wider than what is left, and the program must check `arrayLength`.
+/// there are none; binding 1, the cosines or, in a stream, the bits of the first; binding 2, a storage array of
+/// `vec4<f32>`, as long as there are points; bindings 3 and 4, a `texture_2d<f32>` and its sampler, none if there is no
+/// texture. The last workgroup may be wider than what is left, and the program must check `arrayLength`.
 ///
 /// A vertex shader has `in highp float cos_theta`, its arguments as uniforms by name, `uniform highp sampler2D table`
 /// if there is a texture, and `out highp vec3 reflectance`.
