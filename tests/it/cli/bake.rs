@@ -108,7 +108,7 @@ fn functions_stand_beside_their_tables() {
     assert!(
         place
             .read(&format!("{OUT}/lut/hlsl/gold.hlsl"))
-            .contains("#ifndef FRESNEL_GOLD_TABLE_HLSL")
+            .contains("#ifndef FRESNEL_GOLD_LOOKUP_HLSL")
     );
 }
 
