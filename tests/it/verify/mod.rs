@@ -2,7 +2,6 @@
 
 mod command;
 mod mutants;
-mod recorded;
 
 use fresnel_gen::app::{Request, Source, request::Materials};
 use fresnel_gen::emit::Subject;
