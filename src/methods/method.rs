@@ -134,6 +134,16 @@ impl Over {
         }
     }
 
+    /// Whether a medium lies in the set.
+    pub fn holds(self, n: f64, k: f64) -> bool {
+        let metal = || (0.05..=4.5).contains(&n) && (1.5..=8.0).contains(&k);
+        match self {
+            Over::Dielectrics => (1.3..=2.5).contains(&n) && k == 0.0,
+            Over::Metals => metal(),
+            Over::Wide => (1.0001..=12.0).contains(&n) && (0.0..=13.0).contains(&k) || metal(),
+        }
+    }
+
     /// The set in words.
     pub fn text(self) -> &'static str {
         match self {

@@ -17,7 +17,8 @@ pub struct Trial {
     pub values: Vec<[f32; 3]>,
     /// The texture that it reads.
     pub table: Option<Texels>,
-    /// What it promises in ulp; where it promises nothing the reason is said, and it must be as good as in unfused f32.
+    /// What it promises in ulp; where it promises nothing the reason is said, and it must come near what
+    /// unfused f32 gives.
     pub bound: Measured<f64>,
     /// Whether it keeps the contract: it is then tried beyond [0, 1] too, and else not at 0.
     pub is_guarded: bool,
@@ -60,8 +61,9 @@ pub struct Outcome {
     pub miss: Option<Miss>,
 }
 
-/// Room for what a sample of points does not find, where the bound is measured.
-const ROOM: f64 = 1.1;
+/// Where nothing is promised a result may be so many times as far off as in unfused f32 here: a formula that loses digits
+/// loses others with another root or another order.
+const ROOM: f64 = 2.0;
 /// The steps of a sampler's weights.
 const WEIGHTS: f64 = 256.0;
 /// Below this cosine a textbook form promises nothing.

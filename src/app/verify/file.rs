@@ -102,7 +102,12 @@ fn library<'a>(subject: &'a Subject, emitted: &Emitted) -> Case<'a> {
     let table = fit::table_of(&emitted.function, |c| truth.at(c));
     Case {
         material: &subject.argument,
-        trial: trial(emitted, single.collect(), table, promised(emitted.method)),
+        trial: trial(
+            emitted,
+            single.collect(),
+            table,
+            promised_for(emitted.method, &subject.effective.channels),
+        ),
         limits: limits_of(&subject.effective.channels),
         truth: (emitted.form == "library").then_some(truth),
     }
@@ -117,6 +122,17 @@ fn known_worst(emitted: &Emitted) -> Vec<Case<'static>> {
         truth: None,
     };
     worst_cases(emitted.method).map(case).collect()
+}
+
+/// What a library function promises for a material: its bound is stated over a set of media.
+fn promised_for(method: &Method, channels: &Channels) -> Measured<f64> {
+    let over = method.claims.code_over;
+    let holds = |i: usize| over.holds(channels.n[i], channels.k[i]);
+    if (0..3).all(holds) {
+        promised(method)
+    } else {
+        Measured::No(format!("its bound is stated over {}", over.text()))
+    }
 }
 
 /// What a library function promises in ulp; a method that does not keep the contract promises nothing beyond its media.

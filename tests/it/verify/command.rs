@@ -259,6 +259,15 @@ fn findings_are_annotations_where_github_reads_them() {
 }
 
 #[test]
+fn a_bound_is_not_applied_outside_the_media_that_it_is_stated_over() {
+    let place = Place::new();
+    let line = "--target gles --method conductor_artistic,conductor_textbook --material air,gold_rakic --points 5000";
+    if let Some(ran) = verify(&place, line) {
+        ran.ends(0);
+    }
+}
+
+#[test]
 fn bad_input_is_refused() {
     let place = Place::new();
     place.refused("verify --points 3", &["--points", "100 to 10000000"]);
