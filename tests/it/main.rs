@@ -10,6 +10,7 @@ mod code_bounds;
 #[cfg(feature = "compilers")]
 mod compilers;
 mod database;
+mod exhaustive;
 mod golden;
 #[cfg(feature = "gpu")]
 mod gpu;

@@ -10,7 +10,7 @@ use crate::methods::{Class, Contract, Method};
 use crate::verify::compilers::{self, Verdict};
 use crate::verify::harness;
 use crate::verify::run::{Devices, Fault, Runnable, Shown, Way};
-use crate::verify::{BEYOND, Outcome, Trial, cosines_around, limits, worst_cases};
+use crate::verify::{BEYOND, Outcome, Trial, cosines_around, limits, worst_cases, worst_cosines};
 
 use super::plan::{Plan, Planned};
 use super::row::{self, Row, Run};
@@ -85,7 +85,10 @@ pub(super) fn specialised<'a>(subject: &'a Subject, emitted: &Emitted) -> Case<'
     Case {
         material: &subject.argument,
         trial: trial(emitted, Vec::new(), table, bound),
-        limits: limits_of(&subject.effective.channels),
+        limits: limits_of(&subject.effective.channels)
+            .into_iter()
+            .chain(worst_cosines(emitted.method))
+            .collect(),
         truth: Some(truth),
     }
 }

@@ -2,6 +2,7 @@
 
 mod command;
 mod mutants;
+mod recorded;
 
 use fresnel_gen::app::{Request, Source, request::Materials};
 use fresnel_gen::emit::Subject;
