@@ -1,5 +1,7 @@
 //! One file: every function of it run, and every compiler asked.
 
+use std::cell::OnceCell;
+
 use serde_json::Value;
 
 use crate::emit::{Emitted, Subject};
@@ -179,6 +181,8 @@ struct Tried<'a> {
     entry: &'a str,
     devices: &'a Devices,
     effort: Effort,
+    /// The text compiled for running, once for all cases.
+    own: OnceCell<Result<Runnable, Fault>>,
 }
 
 impl<'a> Tried<'a> {
@@ -200,6 +204,7 @@ impl<'a> Tried<'a> {
             entry,
             devices,
             effort,
+            own: OnceCell::new(),
         }
     }
 
@@ -236,14 +241,22 @@ impl<'a> Tried<'a> {
             function: self.emitted,
             entry: self.entry,
         };
-        let runnable = self.devices.prepare(&shown, way, &case.trial)?;
+        let other;
+        let runnable = if way == Way::Own {
+            let compiled = || self.devices.prepare(&shown, way, &case.trial);
+            let own = self.own.get_or_init(compiled);
+            own.as_ref().map_err(Fault::clone)?
+        } else {
+            other = self.devices.prepare(&shown, way, &case.trial)?;
+            &other
+        };
         let mut points = cosines_around(self.effort.points, &case.limits);
         points.extend(BEYOND);
         let expected = case.trial.expected(&points);
         let got = runnable.run(shown.target, &case.trial, &expected.cosines)?;
         let outcome: Outcome = expected.judge(&got);
         let model_error = match (&case.truth, way) {
-            (Some(truth), Way::Own) => Some(self.model_error(&runnable, case, truth)?),
+            (Some(truth), Way::Own) => Some(self.model_error(runnable, case, truth)?),
             _ => None,
         };
         Ok(Run {
@@ -288,7 +301,7 @@ impl<'a> Tried<'a> {
         case: &Case,
         truth: &Truth,
     ) -> Result<ModelError, Fault> {
-        let fault = std::cell::OnceCell::new();
+        let fault = OnceCell::new();
         let error = fit::error_of(truth, &|cosines| {
             let single: Vec<f32> = cosines.iter().map(|c| *c as f32).collect();
             let got = runnable.run(self.file.target.name, &case.trial, &single);
