@@ -25,6 +25,8 @@ mod reproduce;
 mod reread;
 mod specialise;
 mod spectral;
+#[cfg(feature = "cli")]
+mod stability;
 mod tidy;
 mod tree;
 #[cfg(all(feature = "cli", feature = "gpu"))]

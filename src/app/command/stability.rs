@@ -1,5 +1,7 @@
 //! `stability`: where methods fail.
 
+use std::path::PathBuf;
+
 use serde_json::{Value, json};
 
 use crate::app::args::StabilityFlags;
@@ -7,12 +9,17 @@ use crate::app::error::Error;
 use crate::app::names::{quoted, unknown};
 use crate::app::request::Request;
 use crate::app::source::materials;
+use crate::app::write::write_files;
 use crate::emit::{Bounds, Naming, Subject, specialised_function};
 use crate::methods::{self, Class, Method};
-use crate::report::stability::{Row, text};
-use crate::verify::stability::{Finding, Precision, scan, scan_specialised};
+use crate::report::png::png;
+use crate::report::stability::{Row, heat, page, text};
+use crate::verify::stability::{Finding, Precision, maps, scan, scan_specialised};
 
 use super::{Output, Progress, report};
+
+/// Pixels of a map to a unit of its drawing.
+const SCALE: f32 = 1.0;
 
 /// Scans.
 pub fn run(flags: &StabilityFlags, progress: Progress) -> Result<Output, Error> {
@@ -22,11 +29,51 @@ pub fn run(flags: &StabilityFlags, progress: Progress) -> Result<Output, Error> 
     } else {
         specialised(flags, &methods, progress)?
     };
+    let remarks = drawn(flags, &methods, &rows, progress)?;
     let json = json!({
         "tool": "fresnel-gen", "command": canonical(flags), "device": null,
         "rows": rows.iter().map(Row::json).collect::<Vec<Value>>(),
     });
-    report(text(&rows), &json, flags.json.as_deref())
+    let mut output = report(text(&rows), &json, flags.json.as_deref())?;
+    output.remarks.extend(remarks);
+    Ok(output)
+}
+
+/// Draws the maps and the page into the folder asked for.
+fn drawn(
+    flags: &StabilityFlags,
+    methods: &[&'static Method],
+    rows: &[Row],
+    progress: Progress,
+) -> Result<Option<String>, Error> {
+    let Some(folder) = &flags.out_dir else {
+        return Ok(None);
+    };
+    let failed = |what: String| Error::Usage { what };
+    let mut pictures = Vec::new();
+    for (i, method) in methods.iter().enumerate() {
+        progress(i as u64, methods.len() as u64, "maps");
+        for map in maps(method, Precision::F32) {
+            let picture = png(&heat(method.name, &map), SCALE).map_err(failed)?;
+            pictures.push((method.name, map.axis.name, picture));
+        }
+    }
+    let page = page(rows, &pictures, &canonical(flags)).map_err(failed)?;
+    let named = |(method, over, bytes): &(&str, &str, Vec<u8>)| {
+        (folder.join(format!("{method}_{over}.png")), bytes.clone())
+    };
+    let mut files: Vec<(PathBuf, Vec<u8>)> = pictures.iter().map(named).collect();
+    files.push((folder.join("index.html"), page.into_bytes()));
+    let borrowed: Vec<(PathBuf, &[u8])> = files
+        .iter()
+        .map(|(path, bytes)| (path.clone(), bytes.as_slice()))
+        .collect();
+    write_files(&borrowed)?;
+    Ok(Some(format!(
+        "{}: {} maps, and index.html that shows them",
+        folder.display(),
+        pictures.len()
+    )))
 }
 
 /// The methods asked for; what reads a texture is as stable as its sampler.

@@ -11,7 +11,7 @@ mod text;
 mod ticks;
 
 pub(super) use sheet::{Frame, Sheet};
-pub(super) use text::{FOOT, Font, HEADING, PANEL, SUBTITLE, TICK};
+pub(super) use text::{FOOT, Font, HEADING, PANEL, SUBTITLE, TICK, escape};
 pub use ticks::ticks;
 
 use plot::Plot;

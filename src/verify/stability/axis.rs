@@ -48,7 +48,7 @@ pub fn dense() -> Axis {
 const DENSE: usize = 5000;
 
 /// Numbers from `low` to `high` at equal ratios.
-fn logarithmic(low: f64, high: f64, steps: u32) -> impl Iterator<Item = f64> {
+pub(super) fn logarithmic(low: f64, high: f64, steps: u32) -> impl Iterator<Item = f64> {
     let ratio = high / low;
     (0..=steps).map(move |i| low * libm::pow(ratio, f64::from(i) / f64::from(steps)))
 }

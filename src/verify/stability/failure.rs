@@ -70,6 +70,8 @@ impl Failure {
 /// A result at a cosine and at the next one, and what it should be.
 #[derive(Clone, Copy, Debug)]
 pub struct Point {
+    /// The cosine.
+    pub cos_theta: f64,
     /// What came.
     pub got: f64,
     /// What came at the next cosine.
@@ -122,7 +124,8 @@ impl Point {
     /// How many last places the result is off.
     pub fn digits(&self) -> f64 {
         let (least, most) = self.around;
-        if !(self.got.is_finite() && least.is_finite() && most.is_finite())
+        if is_flushed(self.cos_theta)
+            || !(self.got.is_finite() && least.is_finite() && most.is_finite())
             || self.want.abs() < LEAST
         {
             return 0.0;
@@ -130,4 +133,9 @@ impl Point {
         let off = f64::max(least - self.got, self.got - most).max(0.0);
         off / (ulp_of(self.want) * self.spacing)
     }
+}
+
+/// Whether a number is so small that a GPU may take it for 0.
+pub fn is_flushed(x: f64) -> bool {
+    x != 0.0 && x.abs() < f64::from(f32::MIN_POSITIVE)
 }

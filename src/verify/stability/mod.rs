@@ -6,10 +6,13 @@
 
 mod axis;
 mod failure;
+mod map;
 mod region;
 mod scan;
 mod space;
 
+pub use axis::Axis;
 pub use failure::Failure;
+pub use map::{Cell, Map, maps};
 pub use region::short;
 pub use scan::{Finding, Precision, Progress, Shown, scan, scan_specialised};

@@ -5,7 +5,7 @@ use crate::methods::Method;
 use crate::num::Num;
 
 use super::axis::{Axis, dense};
-use super::failure::{Failure, NEAR, Point};
+use super::failure::{Failure, NEAR, Point, is_flushed};
 use super::region::{Field, Region};
 use super::space::{Given, Space, is_lawful, law, spaces};
 
@@ -137,13 +137,13 @@ pub fn scan_specialised(
     scan.findings(&mut |_| {})
 }
 
-struct Scan<'a> {
-    function: &'a Checked,
-    channel: usize,
-    precision: Precision,
-    space: &'a Space,
-    given: &'a (dyn Fn(usize) -> Given + Sync),
-    law: &'a (dyn Fn(&Given, f64) -> Option<f64> + Sync),
+pub(super) struct Scan<'a> {
+    pub function: &'a Checked,
+    pub channel: usize,
+    pub precision: Precision,
+    pub space: &'a Space,
+    pub given: &'a (dyn Fn(usize) -> Given + Sync),
+    pub law: &'a (dyn Fn(&Given, f64) -> Option<f64> + Sync),
 }
 
 /// Points that a core scans at a time.
@@ -243,10 +243,14 @@ impl Scan<'_> {
         rows
     }
 
+    /// A point of the space, at all cosines.
+    pub fn curve(&self, index: usize) -> Vec<Point> {
+        self.points(&(self.given)(index), &self.space.cosines.values)
+    }
+
     fn row(&self, index: usize) -> Row {
-        let given = (self.given)(index);
         let cosines = &self.space.cosines.values;
-        let points = self.points(&given, cosines);
+        let points = self.curve(index);
         let amounts = |point: &Point| Failure::ALL.map(|failure| point.amount(failure) as f32);
         let worst = (0..points.len()).reduce(|a, b| {
             if points[b].error() > points[a].error() {
@@ -273,10 +277,11 @@ impl Scan<'_> {
         let (got, next) = (run(cosines), run(&beside(1)));
         let (below, want, above) = (mean(&beside(-NEAR)), mean(cosines), mean(&beside(NEAR)));
         let law = |c: f64| {
-            let is_inside = (0.0..=1.0).contains(&c);
+            let is_inside = (0.0..=1.0).contains(&c) && !is_flushed(c);
             is_inside.then(|| (self.law)(given, c)).flatten()
         };
         let point = |i: usize| Point {
+            cos_theta: cosines[i],
             got: got[i],
             next: next[i],
             want: want[i],

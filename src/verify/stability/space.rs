@@ -6,6 +6,7 @@ use crate::methods::{Class, Input, Method};
 use crate::optics;
 
 use super::axis::{Axis, argument, cosines, extinction, index};
+use super::failure::is_flushed;
 
 /// A space: its axes, and what a point of it means to a method.
 #[derive(Clone, Debug)]
@@ -114,7 +115,7 @@ const ABSORBS: f64 = 0.1;
 /// Whether a method is held against the law for this medium; an exact one always is.
 pub fn is_lawful(method: &Method, (_, k): (f64, f64)) -> bool {
     let is_exact = method.claims.model.iter().all(|claim| claim.max_abs == 0.0);
-    is_exact || k == 0.0 || k >= ABSORBS
+    !is_flushed(k) && (is_exact || k == 0.0 || k >= ABSORBS)
 }
 
 /// What the law says of a medium in a method's light.

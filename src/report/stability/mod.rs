@@ -1,9 +1,21 @@
 //! What a scan found, as rows: for people, for scripts, and as the table of the documents.
 
+#[cfg(feature = "cli")]
+mod heat;
+mod markdown;
+#[cfg(feature = "cli")]
+mod page;
+
 use serde_json::{Map, Value, json};
 
 use super::table;
 use crate::verify::stability::{Failure, Finding, short};
+
+#[cfg(feature = "cli")]
+pub use heat::heat;
+pub use markdown::markdown;
+#[cfg(feature = "cli")]
+pub use page::page;
 
 /// A finding with what it is about.
 #[derive(Clone, Debug)]
@@ -140,6 +152,21 @@ fn worst(finding: &Finding) -> String {
         (_, None) => String::new(),
     };
     format!("{at}: {what}")
+}
+
+/// A finding as a sentence.
+fn sentence(finding: &Finding) -> String {
+    let share = if finding.share >= 1.0 {
+        String::new()
+    } else {
+        format!(" ({} of it)", percent(finding.share))
+    };
+    format!(
+        "{}: {}{share}; worst at {}",
+        finding.region,
+        finding.failure.text(),
+        worst(finding)
+    )
 }
 
 /// Two digits.
