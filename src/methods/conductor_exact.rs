@@ -69,7 +69,9 @@ pub(super) fn conductor<'b>(c: Expr<'b>, n: Expr<'b>, k: Expr<'b>) -> Expr<'b> {
     let larger = (0.5 * (r + t.abs()))
         .sqrt()
         .named("larger", "the larger of a and b");
-    let smaller = (nk / larger.at_least(1e-30)).named("smaller", "the other one, since a b = n k");
+    // Where t rounds to 0 and the square of n k underflows (k below 1e-19), the larger is 0: a quotient by 1e-30 would be
+    // anything. Otherwise it is above 3e-10.
+    let smaller = (nk / larger.at_least(1e-10)).named("smaller", "the other one, since a b = n k");
     let a = t
         .choose_below(zero, smaller, larger)
         .named("a", "no cancellation on either side of t = 0");
