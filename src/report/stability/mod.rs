@@ -131,21 +131,11 @@ fn worst(finding: &Finding) -> String {
         .iter()
         .map(|(name, value)| format!("{name} {}", short(*value)));
     let at = at.collect::<Vec<_>>().join(", ");
-    let number = |x: f64| {
-        if x.is_finite() {
-            format!("{x:.4}")
-        } else {
-            x.to_string()
-        }
-    };
     let what = match (finding.failure, finding.point) {
         (Failure::Digits(_), _) => format!("{} ulp", rounded(finding.amount)),
         (Failure::Error(_), Some(shown)) => {
-            format!(
-                "{} for {}",
-                number(shown.want),
-                shown.law.map_or_else(String::new, number)
-            )
+            let law = shown.law.map_or_else(String::new, number);
+            format!("{}, the law {law}", number(shown.want))
         }
         (Failure::Monotony | Failure::Minimum, _) => format!("by {:.3}", finding.amount),
         (_, Some(shown)) => number(shown.got),
@@ -167,6 +157,16 @@ fn sentence(finding: &Finding) -> String {
         finding.failure.text(),
         worst(finding)
     )
+}
+
+/// A reflectance in four digits.
+fn number(x: f64) -> String {
+    match x.abs() {
+        0.0 => "0".to_owned(),
+        size if size < 1e-3 || size >= 1e4 && size.is_finite() => format!("{x:.1e}"),
+        size if size.is_finite() => format!("{x:.4}"),
+        _ => x.to_string(),
+    }
 }
 
 /// Two digits.

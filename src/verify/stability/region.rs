@@ -31,9 +31,9 @@ pub struct Region {
 /// More boxes than this are no help to a reader.
 const MOST: usize = 4;
 /// A cut must make the boxes this much tighter.
-const GAIN: f64 = 1.5;
+const GAIN: f64 = 1.3;
 /// What is this full needs no cut.
-const FULL: f64 = 0.9;
+const FULL: f64 = 0.97;
 
 impl Field<'_> {
     fn places(&self, mut index: usize) -> Vec<usize> {
@@ -61,6 +61,22 @@ impl Field<'_> {
         if points.is_empty() {
             return Vec::new();
         }
+        let parts = if self.axes.len() == 1 {
+            runs(points)
+        } else {
+            self.cut(points)
+        };
+        let mut regions: Vec<Region> = parts.iter().map(|part| region(part)).collect();
+        regions.sort_by(|a, b| {
+            b.failing
+                .cmp(&a.failing)
+                .then_with(|| a.worst.cmp(&b.worst))
+        });
+        regions
+    }
+
+    /// Points in parts whose boxes are as tight as a few cuts make them.
+    fn cut(&self, points: Vec<Point>) -> Vec<Vec<Point>> {
         let mut parts = vec![points];
         while parts.len() < MOST {
             let cut = |(i, part): (usize, &Vec<Point>)| {
@@ -77,13 +93,7 @@ impl Field<'_> {
             let (low, high) = part.into_iter().partition(|point| point.places[axis] < at);
             parts.extend([low, high]);
         }
-        let mut regions: Vec<Region> = parts.iter().map(|part| region(part)).collect();
-        regions.sort_by(|a, b| {
-            b.failing
-                .cmp(&a.failing)
-                .then_with(|| a.worst.cmp(&b.worst))
-        });
-        regions
+        parts
     }
 
     /// The cut of a set of points that makes their boxes tightest, where one is worth it.
@@ -104,6 +114,24 @@ impl Field<'_> {
         }
         best
     }
+}
+
+/// The points of one axis in runs, divided at the widest gaps.
+fn runs(points: Vec<Point>) -> Vec<Vec<Point>> {
+    let place = |point: &Point| point.places[0];
+    let mut gaps: Vec<usize> = (1..points.len())
+        .filter(|i| place(&points[*i]) > place(&points[i - 1]) + 1)
+        .collect();
+    gaps.sort_by_key(|i| std::cmp::Reverse(place(&points[*i]) - place(&points[i - 1])));
+    gaps.truncate(MOST - 1);
+    let mut parts: Vec<Vec<Point>> = vec![Vec::new()];
+    for (i, point) in points.into_iter().enumerate() {
+        if gaps.contains(&i) {
+            parts.push(Vec::new());
+        }
+        parts[gaps.iter().filter(|gap| **gap <= i).count()].push(point);
+    }
+    parts
 }
 
 #[derive(Clone, Debug)]
@@ -261,7 +289,7 @@ fn round_bounds(x: f64, digits: i32) -> [f64; 2] {
 
 /// A number in few digits: plain where that is short, with an exponent else.
 pub fn short(x: f64) -> String {
-    let single = x as f32;
+    let single = x as f32 + 0.0;
     let plain = format!("{single}");
     if x == 0.0 || plain.len() <= 10 {
         plain
