@@ -1,5 +1,7 @@
 //! The document that says where methods fail, written from a scan.
 
+use std::collections::BTreeSet;
+
 use super::{Row, percent, worst};
 use crate::report::markdown::table;
 use crate::verify::stability::Finding;
@@ -62,7 +64,9 @@ fn line(method: &str, findings: &[&Finding]) -> Vec<String> {
         };
         finding.region.clone() + &share
     };
-    let regions: Vec<String> = findings.iter().map(region).collect();
+    let mut regions: Vec<String> = findings.iter().map(region).collect();
+    let mut known = BTreeSet::new();
+    regions.retain(|region| known.insert(region.clone()));
     let gravest = findings
         .iter()
         .reduce(|a, b| if b.amount > a.amount { b } else { a });

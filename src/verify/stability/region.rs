@@ -31,9 +31,9 @@ pub struct Region {
 /// More boxes than this are no help to a reader.
 const MOST: usize = 4;
 /// A cut must make the boxes this much tighter.
-const GAIN: f64 = 1.3;
+const GAIN: f64 = 1.5;
 /// What is this full needs no cut.
-const FULL: f64 = 0.97;
+const FULL: f64 = 0.9;
 
 impl Field<'_> {
     fn places(&self, mut index: usize) -> Vec<usize> {
@@ -237,7 +237,7 @@ fn inequality(axis: &Axis, range: &Range<usize>) -> Option<String> {
     let high = (range.end < values.len())
         .then(|| between(values[range.end - 1], values[range.end], false));
     if range.len() == 1 {
-        return Some(format!("{name} = {}", short(values[range.start])));
+        return Some(single(axis, range.start));
     }
     match (low, high) {
         (None, None) => None,
@@ -249,6 +249,21 @@ fn inequality(axis: &Axis, range: &Range<usize>) -> Option<String> {
             Some(format!("{bound} {sign} {name} {high}"))
         }
     }
+}
+
+/// One value: where it stands for those around it, the roundest of them.
+fn single(axis: &Axis, place: usize) -> String {
+    let (name, value) = (axis.name, axis.values[place]);
+    let neighbour = |place: Option<usize>| place.and_then(|place| axis.values.get(place)).copied();
+    let (below, above) = (neighbour(place.checked_sub(1)), neighbour(Some(place + 1)));
+    let fits = |x: f64| below.is_none_or(|below| x > below) && above.is_none_or(|above| x < above);
+    let is_round = |digits: i32| round_bounds(value, digits).contains(&value);
+    if value == 0.0 || is_round(2) {
+        return format!("{name} = {}", short(value));
+    }
+    let rounded =
+        (1..8).find_map(|digits| round_bounds(value, digits).into_iter().find(|x| fits(*x)));
+    format!("{name} near {}", short(rounded.unwrap_or(value)))
 }
 
 /// The roundest bound between a value that is outside and one that is inside, with its sign.

@@ -12,6 +12,7 @@ mod killed;
 mod materials;
 mod seen;
 mod single;
+mod stability;
 mod streams;
 
 use std::fs;
