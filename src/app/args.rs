@@ -4,6 +4,7 @@ use std::path::PathBuf;
 
 use clap::{Args, Parser, Subcommand};
 
+use super::precision::PrecisionFlags;
 use super::sight::Words;
 
 /// Turns measured optical constants into Fresnel reflectance functions that a shader can afford.
@@ -74,6 +75,9 @@ pub struct Generate {
     /// Goes before every function's name
     #[arg(long, value_name = "TEXT", default_value = "fresnel_")]
     pub prefix: String,
+    /// What functions compute in.
+    #[command(flatten)]
+    pub precision: PrecisionFlags,
     /// Degrees at which the corrected Schlick meets the exact law [default: that of cosine 0.15, 81.373]
     #[arg(long, value_name = "DEGREES", allow_negative_numbers = true)]
     pub matching_angle: Option<f64>,
@@ -346,6 +350,9 @@ pub struct VerifyFlags {
     /// Goes before every function's name
     #[arg(long, value_name = "TEXT", default_value = "fresnel_")]
     pub prefix: String,
+    /// What functions compute in.
+    #[command(flatten)]
+    pub precision: PrecisionFlags,
     /// Folder whose files are run
     #[arg(long, value_name = "DIR", default_value = "shaders-generated")]
     pub out_dir: PathBuf,

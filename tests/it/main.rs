@@ -14,6 +14,7 @@ mod golden;
 #[cfg(feature = "gpu")]
 mod gpu;
 mod graph;
+mod half;
 #[cfg(feature = "cli")]
 mod lut;
 mod oracle;
