@@ -4,7 +4,8 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use crate::emit::{self, Bounds, Emitted, File, NAGA_VERSION, Naming, Subject};
 use crate::materials::Unseen;
-use crate::methods::{self, Method};
+use crate::methods::{self, InHalf, Method};
+use crate::num::Precision;
 use crate::targets::Target;
 
 use super::artifact::{Artifact, sha256};
@@ -26,6 +27,8 @@ pub struct Generated {
     pub provenance: Provenance,
     /// Why materials that `all` brings along are left out.
     pub left_out: Vec<Unseen>,
+    /// Methods that nobody named and half precision cannot bear, with the reason.
+    pub refused: Vec<String>,
 }
 
 /// Methods that a material's file holds besides those of the request, by target and material: what earlier runs put
@@ -49,6 +52,7 @@ pub fn generate_beside(request: &Request, kept: &Kept) -> Result<Generated, Erro
         artifacts,
         scope: run.scope(),
         provenance: run.provenance(),
+        refused: run.refused(),
         left_out: run.left_out,
     })
 }
@@ -92,7 +96,7 @@ pub fn generate_meant(request: &Request) -> Result<Meant, Error> {
 fn made(run: &Run, kept: &Kept) -> Result<Vec<Made>, Error> {
     let mut files = Vec::new();
     let mut owners = Owners::default();
-    for method in run.named.clone().unwrap_or_else(|| methods::ALL.to_vec()) {
+    for method in run.library_methods() {
         files.extend(run.library(method, &mut owners)?);
     }
     for (index, (subject, _)) in run.subjects.iter().enumerate() {
@@ -126,8 +130,7 @@ pub fn generate_single(request: &Request) -> Result<Vec<u8>, Error> {
         }
     }
     if run.subjects.is_empty() {
-        let methods = run.named.clone().unwrap_or_else(|| methods::ALL.to_vec());
-        for method in methods {
+        for method in run.library_methods() {
             let functions = emit::library_functions(method, &run.naming)?;
             for emitted in emit::written_for(target, functions) {
                 let command = run.command(target, Some(&[method.name]), None) + " -o -";
@@ -162,7 +165,9 @@ impl<'r> Run<'r> {
     fn new(request: &'r Request) -> Result<Run<'r>, Error> {
         let named = request.resolved_methods()?;
         request.derivation()?;
-        let no_materials = named.is_some() && request.materials == Materials::Default;
+        let no_materials = named.is_some() && request.materials == Materials::Default
+            || request.materials == Materials::None;
+        check_precision(request, named.as_deref(), no_materials)?;
         let subjects = if no_materials {
             Subjects::default()
         } else {
@@ -177,6 +182,27 @@ impl<'r> Run<'r> {
             naming: request.naming(),
             bounds: Bounds::recorded(),
         })
+    }
+
+    /// The methods of library files.
+    fn library_methods(&self) -> Vec<&'static Method> {
+        let mut methods = self.named.clone().unwrap_or_else(|| methods::ALL.to_vec());
+        methods.retain(|method| self.request.refusal(method, true).is_none());
+        methods
+    }
+
+    /// The methods whose library file is asked for and not written, with the reason.
+    fn refused(&self) -> Vec<String> {
+        let asked = self.named.clone().unwrap_or_else(|| methods::ALL.to_vec());
+        let refused = |method: &&Method| {
+            let why = self.request.refusal(method, true)?;
+            Some(format!(
+                "{} in {}: {why}",
+                method.name,
+                self.request.precision.name()
+            ))
+        };
+        asked.iter().filter_map(refused).collect()
     }
 
     /// The library files of a method.
@@ -212,7 +238,7 @@ impl<'r> Run<'r> {
         for target in &self.targets {
             let methods = self.methods_of(target, subject, kept);
             let functions = self.specialised(&methods, subject, &mut ready)?;
-            let usual = methods == subject.default_methods();
+            let usual = methods == self.usual(subject);
             let command = self.command(target, (!usual).then_some(&methods), Some(subject));
             for file in emit::material(target, subject, &functions, &self.naming, &command)? {
                 files.push(Made {
@@ -235,10 +261,24 @@ impl<'r> Run<'r> {
         }
     }
 
+    /// The methods that a material's file holds unless others are asked for.
+    fn usual(&self, subject: &Subject) -> Vec<&'static str> {
+        let mut usual = subject.default_methods().to_vec();
+        usual.retain(|name| self.is_written(name));
+        usual
+    }
+
+    /// Whether a method is specialised in the precision of the request.
+    fn is_written(&self, name: &str) -> bool {
+        let method = methods::find(name);
+        method.is_none_or(|method| self.request.refusal(method, false).is_none())
+    }
+
     /// The methods of a material's file, the exact one first.
     fn methods_of(&self, target: &Target, subject: &Subject, kept: &Kept) -> Vec<&'static str> {
-        let usual = subject.default_methods();
+        let usual = self.usual(subject);
         let mut chosen = self.named_or(&usual);
+        chosen.retain(|name| self.is_written(name));
         if self.named.is_some() {
             let kept = kept.get(&(target.name.to_owned(), subject.name.clone()));
             chosen.extend(
@@ -295,8 +335,14 @@ impl<'r> Run<'r> {
                 command += &format!(" --medium {}", quoted(argument));
             }
         }
-        if self.naming != Naming::default() {
+        if self.request.prefix != Naming::default().prefix {
             command += &format!(" --prefix {}", self.request.prefix);
+        }
+        if self.request.precision != Precision::default() {
+            command += &format!(" --precision {}", self.request.precision.name());
+        }
+        if self.request.force && self.request.precision.is_half() {
+            command += " --force";
         }
         if let Some(subject) = subject {
             command += &sight::flags_for(&self.request.sight, &subject.truth.surface);
@@ -328,9 +374,11 @@ impl<'r> Run<'r> {
                 .map(|(subject, _)| subject.name.clone())
                 .collect(),
             shared: false,
+            precision: request.precision,
             whole: request.targets.is_empty()
                 && request.methods.is_empty()
-                && request.materials == Materials::Default,
+                && request.materials == Materials::Default
+                && !request.precision.is_half(),
         }
     }
 
@@ -345,6 +393,28 @@ impl<'r> Run<'r> {
             inputs: self.subjects.iter().map(input).collect(),
         }
     }
+}
+
+/// Refuses methods that were named and cannot be written in the precision of the request.
+fn check_precision(
+    request: &Request,
+    named: Option<&[&'static Method]>,
+    no_materials: bool,
+) -> Result<(), Error> {
+    for method in named.unwrap_or_default() {
+        if let Some(why) = request.refusal(method, no_materials) {
+            let remedy = match method.half {
+                InHalf::Specialised(_) => {
+                    "name a --material, to which it can be specialised, or --force it"
+                }
+                _ => "--force writes it all the same, with no promise",
+            };
+            let (name, precision) = (method.name, request.precision.name());
+            let what = format!("method `{name}` cannot be saved in {precision}: {why}; {remedy}");
+            return Err(Error::Usage { what });
+        }
+    }
+    Ok(())
 }
 
 /// Which part of the output holds a function, by its name.

@@ -9,6 +9,8 @@ use serde::de::Error as _;
 use serde::{Deserialize, Deserializer, Serialize};
 use serde_json::{Map, Value};
 
+use crate::num::Precision;
+
 use super::artifact::{Artifact, check_path, sha256};
 use super::error::Error;
 use super::scope::Scope;
@@ -117,6 +119,12 @@ impl Manifest {
 }
 
 impl Entry {
+    /// What its functions compute in; only half precision is said.
+    pub fn precision(&self) -> &str {
+        let said = self.detail.get("precision").and_then(Value::as_str);
+        said.unwrap_or(Precision::F32.name())
+    }
+
     /// The entry of an artifact. A detail that is no object stands under `detail`;
     /// one that has a name of the entry's own fields is left out, because a name can stand only once.
     pub fn of(artifact: &Artifact) -> Entry {

@@ -17,6 +17,8 @@ pub mod folder;
 pub mod generate;
 pub mod manifest;
 pub mod names;
+#[cfg(feature = "cli")]
+pub mod precision;
 pub mod request;
 pub mod scope;
 pub mod sight;

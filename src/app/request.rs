@@ -4,6 +4,7 @@ use crate::emit::{Naming, Subject};
 use crate::fit::Derivation;
 use crate::materials::{self, Kind, Material, Sight, Unseen};
 use crate::methods::{self, Method};
+use crate::num::Precision;
 use crate::spectra::Illuminant;
 use crate::targets::{self, Target};
 
@@ -25,6 +26,10 @@ pub struct Request {
     pub prefix: String,
     /// Degrees at which λ of the corrected method is matched, between 0 and 90; the thesis's 81.37 where not given.
     pub matching_angle: Option<f64>,
+    /// What functions compute in.
+    pub precision: Precision,
+    /// Whether methods are written in half precision that cannot be saved there.
+    pub force: bool,
     /// How materials are seen: the whole spectrum in linear sRGB under D65, unless said otherwise.
     pub sight: Sight,
 }
@@ -38,6 +43,8 @@ impl Default for Request {
             medium: None,
             prefix: Naming::default().prefix,
             matching_angle: None,
+            precision: Precision::F32,
+            force: false,
             sight: Sight::default(),
         }
     }
@@ -184,7 +191,17 @@ impl Request {
     pub fn naming(&self) -> Naming {
         Naming {
             prefix: self.prefix.clone(),
+            precision: self.precision,
         }
+    }
+
+    /// Why this method is not written in the request's precision, if it is not: its library function, or any.
+    pub fn refusal(&self, method: &Method, library: bool) -> Option<&'static str> {
+        let refused = match library {
+            true => method.half.library_refusal(),
+            false => method.half.refusal(),
+        };
+        refused.filter(|_| self.precision.is_half() && !self.force)
     }
 
     /// How inputs are derived from a material.
@@ -250,6 +267,12 @@ impl Subjects {
 /// The exact function of a material bears its name alone, where a method's function bears the method's.
 fn check_not_a_method(name: &str) -> Result<(), Error> {
     let stem = name.strip_suffix("_scalar").unwrap_or(name);
+    if name.ends_with(Precision::F16.suffix()) {
+        let what = format!(
+            "the material `{name}` has the name of a function in half precision; choose another `name` in its file"
+        );
+        return Err(Error::Usage { what });
+    }
     if methods::find(stem).is_none() {
         return Ok(());
     }

@@ -4,6 +4,8 @@
 
 use std::collections::BTreeSet;
 
+use crate::num::Precision;
+
 use super::manifest::Entry;
 
 /// What a run generates, by name. A name must stand here only if the run generates its files:
@@ -20,6 +22,8 @@ pub struct Scope {
     pub materials: BTreeSet<String>,
     /// Does the run make the files that name neither method nor material, such as the catalogue?
     pub shared: bool,
+    /// What the run's functions compute in: files of the other precision are not its own.
+    pub precision: Precision,
     /// None of the three flags was given: the run also removes orphans.
     pub whole: bool,
 }
@@ -30,6 +34,7 @@ impl Scope {
         let method = |name: &String| self.methods.as_ref().is_none_or(|all| all.contains(name));
         let named = entry.method.is_some() || entry.material.is_some();
         self.targets.contains(&entry.target)
+            && entry.precision() == self.precision.name()
             && (named || self.shared)
             && entry.method.as_ref().is_none_or(method)
             && (entry.material.as_ref()).is_none_or(|name| self.materials.contains(name))

@@ -5,8 +5,10 @@ use serde_json::{Value, json};
 use crate::fit::{By, Measured};
 use crate::ir::{Checked, Param, Ty};
 use crate::methods::{self, Method, Values};
+use crate::num::Precision;
 use crate::targets::{Finish, Page, Target};
 
+use super::bounds::CodeBound;
 use super::comment;
 use super::error::Error;
 use super::function::{Emitted, Naming, Subject};
@@ -32,7 +34,7 @@ pub fn library(
     command: &str,
 ) -> Result<Vec<File>, Error> {
     check_names(target, functions)?;
-    let head = comments(target, &header::library(method, functions, command));
+    let head = comments(target, &header::library(target, method, functions, command));
     let plain: Vec<(Vec<String>, Emitted)> = written_for(target, functions.to_vec())
         .map(|f| (Vec::new(), f))
         .collect();
@@ -61,13 +63,17 @@ pub fn material(
     command: &str,
 ) -> Result<Vec<File>, Error> {
     check_names(target, functions)?;
-    let head = comments(target, &header::material(subject, command));
+    let head = comments(
+        target,
+        &header::material(target, subject, naming.precision, command),
+    );
     let documented: Vec<(Vec<String>, Emitted)> = functions
         .iter()
         .map(|f| (comments(target, &header::specialised(f)), f.clone()))
         .collect();
-    let stem = format!("materials/{}", subject.name);
-    let unique = format!("{}{}_material", naming.prefix, subject.name);
+    let name = format!("{}{}", subject.name, naming.precision.suffix());
+    let stem = format!("materials/{name}");
+    let unique = format!("{}{name}_material", naming.prefix);
     target
         .pages
         .iter()
@@ -97,7 +103,7 @@ pub fn single(
     command: &str,
 ) -> Result<Vec<u8>, Error> {
     check_names(target, std::slice::from_ref(emitted))?;
-    let head = comments(target, &header::brief(emitted, subject, command));
+    let head = comments(target, &header::brief(target, emitted, subject, command));
     let functions = [(Vec::new(), emitted.clone())];
     let request = Request {
         target,
@@ -121,10 +127,11 @@ pub fn lookup(
         name,
         method: methods::find("table").expect("the method of every table is registered"),
         form: "lookup",
+        precision: Precision::F32,
         function,
         constants: Values::new(),
         model_error: None,
-        code_ulp: Measured::No(header::FILTERED.to_owned()),
+        code: Measured::No(header::FILTERED.to_owned()),
     };
     check_names(target, std::slice::from_ref(&emitted))?;
     let licence = format!("Licence of this file: {}", header::OUTPUT_LICENCE);
@@ -166,10 +173,15 @@ fn file(
         .enumerate()
         .map(|(i, (_, f))| detail(target, i, f))
         .collect();
+    let mut about = json!({ "command": command, "functions": details });
+    let precision = functions[0].1.precision;
+    if precision.is_half() {
+        about["precision"] = json!(precision.name());
+    }
     Ok(File {
         name,
         bytes,
-        detail: json!({ "command": command, "functions": details }),
+        detail: about,
     })
 }
 
@@ -179,12 +191,16 @@ fn detail(target: &Target, index: usize, emitted: &Emitted) -> Value {
         "name": emitted.name,
         "method": emitted.method.name,
         "form": emitted.form,
-        "signature": print::head(&emitted.function, &emitted.name, &target.spelling),
+        "signature": print::head(&emitted.function, &emitted.name, target.spelling_in(emitted.precision)),
         "parameters": parameters(emitted),
         "operations": emitted.function.work(),
         "fetches": emitted.function.fetches(),
-        "code_error": match &emitted.code_ulp {
-            Measured::Yes(ulp) => json!({ "max_ulp": ulp }),
+        "code_error": match &emitted.code {
+            Measured::Yes(CodeBound::Ulp(ulp)) => json!({ "max_ulp": ulp }),
+            Measured::Yes(CodeBound::Absolute(most)) => json!({ "max_abs": most }),
+            Measured::No(reason) if emitted.precision.is_half() => {
+                json!({ "max_abs": null, "reason": reason })
+            }
             Measured::No(reason) => json!({ "max_ulp": null, "reason": reason }),
         },
         "licence": header::OUTPUT_LICENCE,

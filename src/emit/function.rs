@@ -3,26 +3,37 @@
 use crate::fit::{
     Derivation, Effective, Known, Measured, ModelError, Truth, effective, model_error, values_of,
 };
-use crate::ir::Checked;
+use crate::ir::{Checked, Fault};
 use crate::materials::{Kind, Material, Sight, Surface, Unseen};
 use crate::methods::{Class, Light, Method, Values};
+use crate::num::Precision;
 
-use super::bounds::Bounds;
+use super::bounds::{Bounds, CodeBound};
 use super::error::Error;
 use super::header::FILTERED;
 
-/// How functions are named.
+/// How functions are named, by what they compute in: half precision is told by the name.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Naming {
     /// Goes before every function's name.
     pub prefix: String,
+    /// What they compute in.
+    pub precision: Precision,
 }
 
 impl Default for Naming {
     fn default() -> Naming {
         Naming {
             prefix: "fresnel_".to_owned(),
+            precision: Precision::F32,
         }
+    }
+}
+
+impl Naming {
+    /// The name of a function, of a method or a material and a variant of it.
+    fn name(&self, of: &str, variant: &str) -> String {
+        format!("{}{of}{variant}{}", self.prefix, self.precision.suffix())
     }
 }
 
@@ -35,14 +46,31 @@ pub struct Emitted {
     pub method: &'static Method,
     /// `library`, `scalar` or `specialised`.
     pub form: &'static str,
+    /// What it computes in.
+    pub precision: Precision,
     /// The graph.
     pub function: Checked,
     /// The values that were folded in, for a specialised function.
     pub constants: Values,
     /// Method against exact law, for a specialised function.
     pub model_error: Option<ModelError>,
-    /// f32 against f64, in ulp.
-    pub code_ulp: Measured<f64>,
+    /// What it computes in against f64.
+    pub code: Measured<CodeBound>,
+}
+
+impl Emitted {
+    /// What the function means: in single precision its own graph; in half precision that of single precision, so
+    /// that half-precision's own guards and rounded constants count as code error.
+    ///
+    /// # Errors
+    /// The graph breaks a rule of the representation: a bug.
+    pub fn meaning(&self) -> Result<Checked, Fault> {
+        match (self.precision, self.form) {
+            (Precision::F32, _) => Ok(self.function.clone()),
+            (Precision::F16, "specialised") => self.method.specialise(&self.constants),
+            (Precision::F16, form) => self.method.function(form == "scalar"),
+        }
+    }
 }
 
 /// A material in its medium, as functions are specialised to it.
@@ -144,25 +172,34 @@ pub fn library_functions(method: &'static Method, naming: &Naming) -> Result<Vec
         .take(if method.has_scalar_form() { 2 } else { 1 });
     wanted
         .map(|(scalar, suffix, form)| {
-            let function = method.function(*scalar).map_err(|fault| Error::Generated {
+            let function = method.function_in(naming.precision, *scalar);
+            let function = function.map_err(|fault| Error::Generated {
                 file: method.name.to_owned(),
                 what: fault.to_string(),
             })?;
             Ok(Emitted {
-                name: format!("{}{}{suffix}", naming.prefix, method.name),
+                name: naming.name(method.name, suffix),
                 method,
                 form,
+                precision: naming.precision,
                 function,
                 constants: Values::new(),
                 model_error: None,
-                code_ulp: if method.is_textured() {
-                    Measured::No(FILTERED.to_owned())
-                } else {
-                    Measured::Yes(method.claims.code_ulp)
-                },
+                code: promised(method, naming.precision),
             })
         })
         .collect()
+}
+
+/// What a library function promises.
+fn promised(method: &Method, precision: Precision) -> Measured<CodeBound> {
+    let refused = method.half.library_refusal();
+    match (precision, method.half.claim(), refused) {
+        (Precision::F16, Some(claim), _) => Measured::Yes(CodeBound::Absolute(claim.max_abs)),
+        (Precision::F16, None, why) => Measured::No(why.unwrap_or_default().to_owned()),
+        (Precision::F32, ..) if method.is_textured() => Measured::No(FILTERED.to_owned()),
+        (Precision::F32, ..) => Measured::Yes(CodeBound::Ulp(method.claims.code_ulp)),
+    }
 }
 
 /// A method specialised to a material.
@@ -183,9 +220,15 @@ pub fn specialised_function(
         ));
     }
     let constants = subject.values(method);
-    let function = method
-        .specialise(&constants)
-        .map_err(|fault| refused(fault.to_string()))?;
+    let specialise = |precision| {
+        let function = method.specialise_in(precision, &constants);
+        function.map_err(|fault| refused(fault.to_string()))
+    };
+    let function = specialise(naming.precision)?;
+    let meant = match naming.precision {
+        Precision::F32 => function.clone(),
+        Precision::F16 => specialise(Precision::F32)?,
+    };
     let own = method.name == subject.exact_method();
     let suffix = if own {
         String::new()
@@ -193,14 +236,15 @@ pub fn specialised_function(
         format!("_{}", method.name)
     };
     Ok(Emitted {
-        name: format!("{}{}{suffix}", naming.prefix, subject.name),
+        name: naming.name(&subject.name, &suffix),
         method,
         form: "specialised",
-        model_error: Some(model_error(&function, &subject.truth_for(method))),
-        code_ulp: if method.is_textured() {
-            Measured::No(FILTERED.to_owned())
-        } else {
-            bounds.of(&function)
+        precision: naming.precision,
+        model_error: Some(model_error(&meant, &subject.truth_for(method))),
+        code: match (naming.precision, method.half.refusal()) {
+            (Precision::F16, Some(why)) => Measured::No(why.to_owned()),
+            _ if method.is_textured() => Measured::No(FILTERED.to_owned()),
+            (precision, _) => bounds.of(precision, &function),
         },
         constants,
         function,

@@ -13,12 +13,12 @@ mod page;
 mod print;
 mod wgsl;
 
-pub use bounds::{Bounds, fingerprint, sha256};
+pub use bounds::{Bounds, CodeBound, fingerprint, half_record, sha256};
 pub use comment::lines as comment_lines;
 pub use error::Error;
 pub use file::{File, library, lookup, material, single, uniform_offsets, written_for};
 pub use function::{Emitted, Naming, Subject, library_functions, specialised_function};
-pub use header::{MARK, promises};
+pub use header::{MARK, half_promise, promises};
 pub use wgsl::validate as validate_wgsl;
 
 /// The version of naga that lowers SPIR-V, pinned in Cargo.toml: another one gives other bytes.

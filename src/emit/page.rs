@@ -6,6 +6,7 @@ use serde::Serialize;
 use tera::{Context, Tera};
 
 use crate::ir::{Param, Ty};
+use crate::num::Precision;
 use crate::targets::{Finish, Page, Target};
 
 use super::error::Error;
@@ -17,6 +18,8 @@ use super::{print, wgsl};
 struct View<'a> {
     header: &'a [String],
     guard: &'a str,
+    /// What must stand before all code.
+    directive: &'a str,
     functions: Vec<FunctionView>,
     /// The numbers that a library method takes after `cos_theta`.
     parameters: Vec<ParameterView>,
@@ -30,11 +33,10 @@ struct FunctionView {
     doc: Vec<String>,
     head: String,
     body: Vec<String>,
-    name: String,
     /// The entry point of a module that calls it.
     entry: String,
-    /// What a module calls it with after `cos_theta`, each with a comma before it.
-    arguments: String,
+    /// How a module calls it: `cos_theta` and what its block holds are f32, and so is the result.
+    call: String,
 }
 
 #[derive(Serialize)]
@@ -90,6 +92,9 @@ fn view<'a>(request: &'a Request) -> View<'a> {
     View {
         header: request.header,
         guard: request.guard,
+        directive: request
+            .target
+            .directive_in(request.functions[0].1.precision),
         functions: functions
             .map(|(i, (doc, emitted))| function(request.target, i, doc, emitted))
             .collect(),
@@ -118,28 +123,33 @@ fn textures(request: &Request) -> Vec<String> {
 }
 
 /// How a module's entry point calls a function: numbers stand in its block, textures and samplers beside it.
-fn call_arguments(emitted: &Emitted) -> String {
-    let argument = |param: &Param| match param.ty {
-        Ty::Texture => format!(", {0}_texture, {0}_filter", param.name),
-        _ => format!(", parameters.{}", param.name),
+fn call(target: &Target, emitted: &Emitted) -> String {
+    let narrow = |ty: Ty, value: String| match emitted.precision {
+        Precision::F32 => value,
+        Precision::F16 => format!("{}({value})", target.half.spelling.ty(ty)),
     };
-    emitted
-        .function
-        .params
-        .iter()
-        .skip(1)
-        .map(argument)
-        .collect()
+    let argument = |(i, param): (usize, &Param)| match param.ty {
+        Ty::Texture => format!("{0}_texture, {0}_filter", param.name),
+        ty if i == 0 => narrow(ty, param.name.clone()),
+        ty => narrow(ty, format!("parameters.{}", param.name)),
+    };
+    let params = emitted.function.params.iter().enumerate();
+    let arguments: Vec<String> = params.map(argument).collect();
+    let call = format!("{}({})", emitted.name, arguments.join(", "));
+    match emitted.precision {
+        Precision::F32 => call,
+        Precision::F16 => format!("{}({call})", target.spelling.ty(emitted.function.ty())),
+    }
 }
 
 fn function(target: &Target, index: usize, doc: &[String], emitted: &Emitted) -> FunctionView {
+    let spelling = target.spelling_in(emitted.precision);
     FunctionView {
         doc: doc.to_vec(),
-        head: print::shown_head(&emitted.function, &emitted.name, &target.spelling),
-        body: print::body(&emitted.function, &target.spelling),
-        name: emitted.name.clone(),
+        head: print::shown_head(&emitted.function, &emitted.name, spelling),
+        body: print::body(&emitted.function, spelling),
         entry: entry_point(index, emitted),
-        arguments: call_arguments(emitted),
+        call: call(target, emitted),
     }
 }
 

@@ -18,7 +18,7 @@ fn media(over: Over) -> Vec<Channels> {
         Over::Dielectrics => (0..=2 * STEPS)
             .map(|i| over.medium(share(i, 2 * STEPS), 0.0))
             .collect(),
-        Over::Metals | Over::Wide => (0..=STEPS)
+        Over::Metals | Over::Wide | Over::Half => (0..=STEPS)
             .flat_map(|i| (0..=STEPS).map(move |j| over.medium(share(i, STEPS), share(j, STEPS))))
             .collect(),
     };

@@ -6,6 +6,7 @@ use std::ops::{Add, Div, Mul, Neg, Sub};
 
 use super::graph::{Function, Label, Node, NodeId, Param, Ty};
 use super::op::{Op, Payload, Signature};
+use crate::num::Precision;
 
 /// Collects the nodes of one function.
 #[derive(Debug, Default)]
@@ -190,9 +191,15 @@ impl<'b> Expr<'b> {
     }
 
     /// xᵖ for a real p and x ≥ 0, as exp2(p log2(max(x, 2⁻¹²⁶))): 2⁻¹²⁶ is the smallest normal f32, so that
-    /// the logarithm stays finite on every target.
-    pub fn power(self, exponent: Expr<'b>) -> Expr<'b> {
-        (exponent * self.at_least(f64::from(f32::MIN_POSITIVE)).log2()).exp2()
+    /// the logarithm stays finite on every target. The smallest normal f16, 2⁻¹⁴, would show: there it is 0 below.
+    pub fn power(self, exponent: Expr<'b>, precision: Precision) -> Expr<'b> {
+        let power = (exponent * self.at_least(precision.smallest()).log2()).exp2();
+        if !precision.is_half() {
+            return power;
+        }
+        let number = |value: f64| self.builder.number(value);
+        let power = power.named("raised", "");
+        self.choose_below(number(precision.smallest()), number(0.0), power)
     }
 
     /// This texture at (u, v).

@@ -4,7 +4,7 @@
 //! 1. arguments stand before the node that uses them;
 //! 2. the number and the types of arguments fit the operation's signature;
 //! 3. a node carries the payload that its operation wants, in range, and no other;
-//! 4. constants are finite, in f32 too;
+//! 4. constants are finite in the precision of the code;
 //! 5. names are identifiers in every language: a letter, then letters, digits and single underscores, none last;
 //! 6. names of arguments and steps are unique in the function;
 //! 7. arguments are numbers or textures, and the result is a number;
@@ -16,13 +16,14 @@ use std::ops::Deref;
 
 use super::graph::{Function, Node, NodeId, Ty};
 use super::op::{Op, Payload, Signature};
+use crate::num::Precision;
 
 /// The rules, in the order of the list above.
 pub const RULES: [&str; 9] = [
     "arguments stand before their use",
     "arguments fit the signature",
     "the payload fits the operation",
-    "constants are finite in f32",
+    "constants are finite in the precision of the code",
     "names are identifiers in every language",
     "names are unique",
     "arguments are numbers or textures, the result is a number",
@@ -56,10 +57,15 @@ impl Deref for Checked {
     }
 }
 
-/// Checks a function against all rules.
+/// Checks a function against all rules, for code in single precision.
 pub fn check(function: Function) -> Result<Checked, Fault> {
+    check_in(Precision::F32, function)
+}
+
+/// Checks a function against all rules, for code in this precision.
+pub fn check_in(precision: Precision, function: Function) -> Result<Checked, Fault> {
     for (id, node) in function.nodes.iter().enumerate() {
-        check_node(&function, id, node).map_err(|(rule, what)| Fault {
+        check_node(precision, &function, id, node).map_err(|(rule, what)| Fault {
             function: function.name.clone(),
             place: format!("node {id} ({})", node.op.info().name),
             rule,
@@ -81,12 +87,17 @@ fn ensure(holds: bool, rule: usize, what: impl FnOnce() -> String) -> Result<(),
     if holds { Ok(()) } else { Err((rule, what())) }
 }
 
-fn check_node(function: &Function, id: NodeId, node: &Node) -> Result<(), Broken> {
+fn check_node(
+    precision: Precision,
+    function: &Function,
+    id: NodeId,
+    node: &Node,
+) -> Result<(), Broken> {
     ensure(node.args.iter().all(|a| *a < id), 1, || {
         format!("it uses {:?}", node.args)
     })?;
     let types: Vec<Ty> = node.args.iter().map(|a| function.nodes[*a].ty).collect();
-    let payload = check_payload(function, node)?;
+    let payload = check_payload(precision, function, node)?;
     let result = node.op.info().signature.result(&types);
     let result = payload.or(result);
     ensure(types.len() == node.op.info().signature.arity(), 2, || {
@@ -98,11 +109,15 @@ fn check_node(function: &Function, id: NodeId, node: &Node) -> Result<(), Broken
 }
 
 /// The type that a parameter's payload tells, or nothing for all other operations.
-fn check_payload(function: &Function, node: &Node) -> Result<Option<Ty>, Broken> {
+fn check_payload(
+    precision: Precision,
+    function: &Function,
+    node: &Node,
+) -> Result<Option<Ty>, Broken> {
     let what = || format!("{:?}", node.payload);
     match (node.op.info().signature, node.payload) {
         (Signature::Number, Payload::Number(value)) => {
-            ensure((value as f32).is_finite(), 4, what).map(|()| None)
+            ensure(precision.rounded(value).is_finite(), 4, what).map(|()| None)
         }
         (Signature::Param, Payload::Index(index)) => {
             ensure(index < function.params.len(), 3, what)?;

@@ -13,7 +13,7 @@
 //! 5. Numbers are f64 in the graph. Each evaluation rounds them to its own precision first, and then rounds
 //!    after every operation.
 //! 6. Integer powers are written as multiplications. A real power is `exp2(p * log2(max(x, 2^-126)))`
-//!    ([`Expr::power`]), never `pow`.
+//!    ([`Expr::power`]), never `pow`; in half precision it is 0 below 2^-14.
 //! 7. A labelled node becomes a named variable with its reason as a comment, in every language.
 //!
 //! The room knows no method, no target and no material.
@@ -28,9 +28,9 @@ mod text;
 mod texture;
 
 pub use build::{Builder, Expr};
-pub use check::{Checked, Fault, RULES, check, identifier_fault};
+pub use check::{Checked, Fault, RULES, check, check_in, identifier_fault};
 pub use evaluate::{Column, Value, evaluate};
-pub use fold::{fold, specialise};
+pub use fold::{fold, fold_in, specialise, specialise_in};
 pub use graph::{Function, Label, Node, NodeId, Param, Ty};
 pub use op::{OPS, Op, OpInfo, Payload, Signature};
 pub use text::{ParseError, parse, print};

@@ -6,6 +6,7 @@
 
 use crate::ir::{Builder, Checked, Expr, Fault, check, fold};
 use crate::methods::{Input, Inputs, ONLY_ROW, fetch, warped_step};
+use crate::num::Precision;
 
 use super::axis::Axis;
 
@@ -29,7 +30,7 @@ pub fn lookup(
         scale.is_none().then_some(Input::TABLE_SCALE),
     ];
     let inputs: Vec<Input> = inputs.into_iter().flatten().collect();
-    let x = Inputs::declare(&builder, &inputs, false);
+    let x = Inputs::declare(&builder, &inputs, false, Precision::F32);
     let given = |input: Input, constant: Option<f64>| {
         constant.map_or_else(|| x.get(input), |value| builder.number(value))
     };

@@ -12,6 +12,7 @@ use crate::cite::Citation;
 use crate::ir::Expr;
 
 use super::conductor_exact::conductor;
+use super::half::InHalf;
 use super::input::{Input, Inputs};
 use super::method::{Claim, Claims, Class, Contract, Forms, Light, Method, Over};
 
@@ -45,6 +46,9 @@ pub static METHOD: Method = Method {
         code_over: Over::Metals,
     },
     contract: Contract::Kept,
+    half: InHalf::Specialised(
+        "n_max = (1 + sqrt(r))^2 / (1 - r) and its square overflow where r is above 0.98, which silver is",
+    ),
     build,
     specialised: None,
 };
@@ -69,7 +73,7 @@ fn build<'b>(x: &Inputs<'b>) -> Expr<'b> {
     let k = (g * span * (above + gap))
         .sqrt()
         .named("k", "k^2 = (n_max - n)(n - 1 / n_max), in positive terms");
-    conductor(x.cosine(), n, k)
+    conductor(x.precision(), x.cosine(), n, k)
 }
 
 #[cfg(test)]

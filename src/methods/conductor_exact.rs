@@ -6,12 +6,17 @@
 //! difference of nearly equal numbers is left: a² = ½(r+t) cancels where t < 0, so there a = nk / √(½(r-t));
 //! where t ≥ 0, R_s = ((a-c)²+b²) / ((a+c)²+b²) takes (a-c)² as T²/E with T = τ+b² = a²-c² and E = (a+c)².
 //! Merging R_s and R_p into one quotient gives F without adding the two.
+//! In half precision it is F = (1 - 2u/(r+c²+u)) (1 - us²/(x+us²)): only the absolute error counts there, so that no branch
+//! is needed, and where F is near 1 little is subtracted. r is the larger of |t| and 2nk times √(1+ratio²), since t²
+//! overflows for k ≥ 16.
 //! Domain: n ≥ 0.001, k ≥ 0; k = 0 is the dielectric, past the critical angle exactly 1; n = 1, k = 0 gives 0.
 //! Error: none in the model; the code error is [`METHOD`]'s claim.
 
 use crate::ir::Expr;
+use crate::num::Precision;
 
 use super::conductor_textbook::GLASSNER_1995;
+use super::half::InHalf;
 use super::input::{Input, Inputs};
 use super::method::{Claim, Claims, Class, Contract, Forms, Light, Method, Over};
 
@@ -46,16 +51,30 @@ pub static METHOD: Method = Method {
         code_over: Over::Wide,
     },
     contract: Contract::Kept,
+    half: InHalf::within(0.0015),
     build,
     specialised: None,
 };
 
 fn build<'b>(x: &Inputs<'b>) -> Expr<'b> {
-    conductor(x.cosine(), x.get(Input::N), x.get(Input::K))
+    conductor(x.precision(), x.cosine(), x.get(Input::N), x.get(Input::K))
 }
 
 /// The exact law, for methods that find n and k in their own way.
-pub(super) fn conductor<'b>(c: Expr<'b>, n: Expr<'b>, k: Expr<'b>) -> Expr<'b> {
+pub(super) fn conductor<'b>(
+    precision: Precision,
+    c: Expr<'b>,
+    n: Expr<'b>,
+    k: Expr<'b>,
+) -> Expr<'b> {
+    if precision.is_half() {
+        half(c, n, k)
+    } else {
+        single(c, n, k)
+    }
+}
+
+fn single<'b>(c: Expr<'b>, n: Expr<'b>, k: Expr<'b>) -> Expr<'b> {
     let zero = c.builder().number(0.0);
     let c2 = c.squared().named("c2", "");
     let s2 = (1.0 - c2).named("s2", "sin^2 theta");
@@ -89,6 +108,36 @@ pub(super) fn conductor<'b>(c: Expr<'b>, n: Expr<'b>, k: Expr<'b>) -> Expr<'b> {
 
     let x = (r * c2 + s2.squared()).named("x", "");
     r_s * (x / (x + u * s2).at_least(1e-37))
+}
+
+fn half<'b>(c: Expr<'b>, n: Expr<'b>, k: Expr<'b>) -> Expr<'b> {
+    let tiny = Precision::F16.smallest();
+    let number = |value: f64| c.builder().number(value);
+    let c2 = c.squared().named("c2", "");
+    let s2 = (1.0 - c2).named("s2", "sin^2 theta");
+    let tau = ((n - 1.0) * (n + 1.0) - k.squared()).named("tau", "n^2 - k^2 - 1");
+    let nk = (n * k).named("nk", "");
+    let t = (tau + c2).named("t", "n^2 - k^2 - sin^2 theta");
+
+    let (size, twice) = (t.abs().named("size", ""), (2.0 * nk).named("nk2", ""));
+    let most = size.max(twice).named("most", "");
+    let ratio = size.min(twice) / most.at_least(tiny);
+    let ratio = ratio.named("ratio", "up to 1, where t^2 would overflow");
+    let r = (most * (1.0 + ratio.squared()).sqrt()).named("r", "a^2 + b^2");
+    let larger = (0.5 * (r + size)).sqrt();
+    let larger = larger.named("larger", "the larger of a and b");
+    let smaller = (nk / larger.at_least(tiny)).named("smaller", "the other one, since a b = n k");
+    let a = t.choose_below(number(0.0), smaller, larger).named("a", "");
+    let u = (2.0 * a * c).named("u", "");
+
+    let lost_s = 2.0 * u / (r + c2 + u).at_least(tiny);
+    let lost_s = lost_s.named("lost_s", "1 - R_s");
+    let us2 = (u * s2).named("us2", "");
+    let lost = us2 / (r * c2 + s2.squared() + us2).at_least(tiny);
+    let lost = lost.named("lost", "1 - F / R_s");
+    let f = ((1.0 - lost_s) * (1.0 - lost)).named("f", "");
+    let apart = (tau.abs() + nk).named("apart", "0 where there is no interface");
+    apart.choose_below(number(tiny), number(0.0), f)
 }
 
 #[cfg(test)]

@@ -19,6 +19,7 @@ use crate::ir::Expr;
 use crate::optics::index_from_f0_f82;
 
 use super::conductor_exact::{self, conductor};
+use super::half::InHalf;
 use super::input::{Input, Inputs};
 use super::method::{Claim, Claims, Class, Contract, Forms, Light, Method, Over, Values};
 
@@ -60,6 +61,9 @@ pub static METHOD: Method = Method {
         code_over: Over::Metals,
     },
     contract: Contract::Kept,
+    half: InHalf::Specialised(
+        "n is solved from what F0 and F82 lack of 1, differences of which half precision leaves no digits",
+    ),
     build,
     specialised: Some(solved),
 };
@@ -94,6 +98,7 @@ fn build<'b>(x: &Inputs<'b>) -> Expr<'b> {
     let k2 = above * (circle.span - above);
     let n = (circle.least + above).named("n", "");
     conductor(
+        x.precision(),
         x.cosine(),
         n,
         k2.at_least(0.0)

@@ -10,6 +10,7 @@
 use crate::cite::Citation;
 use crate::ir::Expr;
 
+use super::half::InHalf;
 use super::input::{Input, Inputs};
 use super::method::{Claim, Claims, Class, Contract, Forms, Light, Method, Over};
 
@@ -49,6 +50,9 @@ pub static METHOD: Method = Method {
     },
     contract: Contract::Exempt(
         "NaN at exactly 90 degrees and for cos_theta above 1; thousands of ulp where k is small; no clamp",
+    ),
+    half: InHalf::Refused(
+        "differences of nearly equal numbers, and squares of squares that overflow",
     ),
     build,
     specialised: None,

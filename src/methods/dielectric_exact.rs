@@ -4,13 +4,17 @@
 //! Source: Fresnel 1823 in the g-form of Cook and Torrance, "A Reflectance Model for Computer Graphics", 1982,
 //! <https://doi.org/10.1145/357290.357293>, rearranged: `(g-c)/(g+c) = τ/u²` has no cancellation, and
 //! `u² = τ + 2 c u` needs no square of a small number. τ must come from (η-1)(η+1), not η²-1.
+//! In half precision it is F = ½ (r_s² + r_p²) with r_s = 1 - 2c/(g+c) and r_p = 1 - 2η²c/(η²c+g): where F is near 1 little
+//! is subtracted, and two roundings are left of eight.
 //! Domain: η ≥ 0.001, on both sides of 1; past the critical angle exactly 1; η = 1 gives 0 at every angle, 90° too.
 //! Error: none in the model; the code error is [`METHOD`]'s claim. Close to the critical angle the law itself is
 //! ill-conditioned (a square root reaches 0 there), and the error follows its condition number.
 
 use crate::cite::Citation;
 use crate::ir::Expr;
+use crate::num::Precision;
 
+use super::half::InHalf;
 use super::input::{Input, Inputs};
 use super::method::{Claim, Claims, Class, Contract, Forms, Light, Method, Over};
 
@@ -47,35 +51,82 @@ pub static METHOD: Method = Method {
         code_over: Over::Wide,
     },
     contract: Contract::Kept,
+    half: InHalf::within(0.0015),
     build,
     specialised: None,
 };
 
 fn build<'b>(x: &Inputs<'b>) -> Expr<'b> {
     let steps = steps(x);
-    let mean = 0.5 * steps.r_s.squared() * (1.0 + steps.ratio.squared());
-    steps.reflected(mean)
+    steps.reflected(steps.mean())
 }
 
 /// The steps that the polarised forms share.
 pub(super) struct Steps<'b> {
+    /// η² - 1.
+    tau: Expr<'b>,
     /// τ + c², negative past the critical angle.
     g2: Expr<'b>,
     /// The amplitude ratio of s-polarised light.
-    pub r_s: Expr<'b>,
-    /// r_p / r_s.
-    pub ratio: Expr<'b>,
+    r_s: Expr<'b>,
+    /// That of p-polarised light.
+    p: P<'b>,
+}
+
+/// The amplitude ratio of p-polarised light.
+enum P<'b> {
+    /// r_p / r_s: both are 0 near η = 1, and it is not.
+    OverS(Expr<'b>),
+    /// Itself: in half precision only the absolute error counts.
+    Itself(Expr<'b>),
 }
 
 impl<'b> Steps<'b> {
+    /// The reflectance of s-polarised light.
+    pub fn s(&self) -> Expr<'b> {
+        self.r_s.squared()
+    }
+
+    /// Of p-polarised light.
+    pub fn p(&self) -> Expr<'b> {
+        match self.p {
+            P::OverS(ratio) => (self.r_s * ratio).named("r_p", "").squared(),
+            P::Itself(r_p) => r_p.squared(),
+        }
+    }
+
+    /// Of both in equal parts.
+    fn mean(&self) -> Expr<'b> {
+        match self.p {
+            P::OverS(ratio) => 0.5 * self.r_s.squared() * (1.0 + ratio.squared()),
+            P::Itself(r_p) => 0.5 * (self.r_s.squared() + r_p.squared()),
+        }
+    }
+
     /// `reflectance`, but 1 past the critical angle, and never above 1.
     pub fn reflected(&self, reflectance: Expr<'b>) -> Expr<'b> {
         let builder = self.g2.builder();
+        if let P::Itself(_) = self.p {
+            return self.reflected_in_half(reflectance);
+        }
         let inside = reflectance
             .at_most(1.0)
             .named("f", "rounding near the critical angle must not exceed 1");
         self.g2
             .choose_below(builder.number(0.0), builder.number(1.0), inside)
+    }
+
+    /// The same; r_s and r_p lie in [-1, 1] by their form, and are ±1 and not 0 at 90 degrees where η = 1.
+    fn reflected_in_half(&self, reflectance: Expr<'b>) -> Expr<'b> {
+        let number = |value: f64| self.g2.builder().number(value);
+        let f = reflectance.named("f", "");
+        let total = self.g2.choose_below(number(0.0), number(1.0), f);
+        let total = total.named("total", "1 past the critical angle");
+        let apart = self
+            .tau
+            .abs()
+            .named("apart", "0 where there is no interface");
+        apart.choose_below(number(Precision::F16.smallest()), number(0.0), total)
     }
 }
 
@@ -84,14 +135,32 @@ pub(super) fn steps<'b>(x: &Inputs<'b>) -> Steps<'b> {
     let (c, eta) = (x.cosine(), x.get(Input::ETA));
     let tau = ((eta - 1.0) * (eta + 1.0)).named("tau", "eta^2 - 1 without its cancellation near 1");
     let g2 = (tau + c.squared()).named("g2", "below 0 past the critical angle");
+    if x.is_half() {
+        return half_steps(c, eta, tau, g2);
+    }
     let u = (g2.at_least(0.0).sqrt() + c).named("u", "");
     let r_s =
         (tau / (tau + 2.0 * c * u).at_least(1e-37)).named("r_s", "(g - c) / (g + c), as tau / u^2");
     let ratio = (c * u - 1.0) / (c * tau / u.at_least(1e-30) + 1.0);
     Steps {
+        tau,
         g2,
         r_s,
-        ratio: ratio.named("r_ps", "r_p / r_s"),
+        p: P::OverS(ratio.named("r_ps", "r_p / r_s")),
+    }
+}
+
+fn half_steps<'b>(c: Expr<'b>, eta: Expr<'b>, tau: Expr<'b>, g2: Expr<'b>) -> Steps<'b> {
+    let tiny = Precision::F16.smallest();
+    let g = g2.at_least(0.0).sqrt().named("g", "eta cos theta_t");
+    let r_s = (1.0 - 2.0 * c / (g + c).at_least(tiny)).named("r_s", "(g - c) / (g + c)");
+    let dense = (eta.squared() * c).named("eta2_c", "");
+    let r_p = 1.0 - 2.0 * dense / (dense + g).at_least(tiny);
+    Steps {
+        tau,
+        g2,
+        r_s,
+        p: P::Itself(r_p.named("r_p", "(g - eta^2 c) / (g + eta^2 c)")),
     }
 }
 

@@ -7,6 +7,7 @@
 use crate::ir::Expr;
 
 use super::dielectric_exact::{COOK_TORRANCE_1982, steps};
+use super::half::InHalf;
 use super::input::{Input, Inputs};
 use super::method::{Claim, Claims, Class, Contract, Forms, Light, Method, Over};
 
@@ -34,14 +35,14 @@ pub static METHOD: Method = Method {
         code_over: Over::Wide,
     },
     contract: Contract::Kept,
+    half: InHalf::within(0.0025),
     build,
     specialised: None,
 };
 
 fn build<'b>(x: &Inputs<'b>) -> Expr<'b> {
     let steps = steps(x);
-    let r_p = (steps.r_s * steps.ratio).named("r_p", "");
-    steps.reflected(r_p.squared())
+    steps.reflected(steps.p())
 }
 
 #[cfg(test)]

@@ -6,6 +6,7 @@
 use crate::ir::Expr;
 
 use super::dielectric_exact::{COOK_TORRANCE_1982, steps};
+use super::half::InHalf;
 use super::input::{Input, Inputs};
 use super::method::{Claim, Claims, Class, Contract, Forms, Light, Method, Over};
 
@@ -32,13 +33,14 @@ pub static METHOD: Method = Method {
         code_over: Over::Wide,
     },
     contract: Contract::Kept,
+    half: InHalf::within(0.0012),
     build,
     specialised: None,
 };
 
 fn build<'b>(x: &Inputs<'b>) -> Expr<'b> {
     let steps = steps(x);
-    steps.reflected(steps.r_s.squared())
+    steps.reflected(steps.s())
 }
 
 #[cfg(test)]

@@ -9,6 +9,7 @@
 use crate::cite::Citation;
 use crate::ir::Expr;
 
+use super::half::InHalf;
 use super::input::{Input, Inputs};
 use super::method::{Claim, Claims, Class, Contract, Forms, Light, Method, Over};
 
@@ -47,6 +48,9 @@ pub static METHOD: Method = Method {
     },
     contract: Contract::Exempt(
         "NaN past the critical angle; thousands of ulp as eta tends to 1; no clamp; NaN, not 0, at eta = 1 and 90 degrees",
+    ),
+    half: InHalf::Refused(
+        "1 - (sin theta / n)^2 cancels as n tends to 1, and nothing guards the root",
     ),
     build,
     specialised: None,

@@ -9,6 +9,7 @@
 use crate::cite::Citation;
 use crate::ir::Expr;
 
+use super::half::InHalf;
 use super::input::{Input, Inputs};
 use super::method::{Claim, Claims, Class, Contract, Forms, Light, Method, Over};
 
@@ -46,13 +47,15 @@ pub static METHOD: Method = Method {
         code_over: Over::Wide,
     },
     contract: Contract::Kept,
+    half: InHalf::within(0.002),
     build,
     specialised: None,
 };
 
 fn build<'b>(x: &Inputs<'b>) -> Expr<'b> {
     let m = (1.0 - x.cosine()).named("m", "1 + I.N, as I.N = -cos_theta");
-    (x.get(Input::BIAS) + x.get(Input::SCALE) * m.power(x.get(Input::POWER))).saturate()
+    (x.get(Input::BIAS) + x.get(Input::SCALE) * m.power(x.get(Input::POWER), x.precision()))
+        .saturate()
 }
 
 #[cfg(test)]

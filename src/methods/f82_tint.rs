@@ -10,6 +10,7 @@
 use crate::cite::Citation;
 use crate::ir::Expr;
 
+use super::half::InHalf;
 use super::hoffman_f82::{dip, limited};
 use super::input::{Input, Inputs};
 use super::method::{Claim, Claims, Class, Contract, Forms, Light, Method, Over};
@@ -52,14 +53,20 @@ pub static METHOD: Method = Method {
         code_over: Over::Wide,
     },
     contract: Contract::Kept,
+    half: InHalf::within(0.002),
     build,
     specialised: None,
 };
 
 fn build<'b>(x: &Inputs<'b>) -> Expr<'b> {
     let (c, f0, tint) = (x.cosine(), x.get(Input::F0), x.get(Input::TINT));
-    let b = ((49.0 / 46656.0) * (1.0 - tint) * (7776.0 + 9031.0 * f0))
-        .named("b", "the depth of the dip");
+    let (scale, less) = (49.0 / 46656.0, 1.0 - tint);
+    let b = if x.is_half() {
+        less * (scale * 7776.0 + scale * 9031.0 * f0)
+    } else {
+        scale * less * (7776.0 + 9031.0 * f0)
+    };
+    let b = b.named("b", "the depth of the dip");
     let m5 = grazing_weight(c);
     let bare = (f0 + (1.0 - f0) * m5 - b * dip(c, m5)).named("bare", "Schlick less the dip");
     limited(bare, f0)

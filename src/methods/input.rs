@@ -1,6 +1,7 @@
 //! The inputs of methods: one vocabulary with units and domain, in the order in which functions take them.
 
 use crate::ir::{Builder, Expr, Ty};
+use crate::num::Precision;
 
 /// An argument that a method takes after `cos_theta`.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -132,11 +133,17 @@ pub fn find_input(name: &str) -> Option<Input> {
 pub struct Inputs<'b> {
     cos_theta: Expr<'b>,
     given: Vec<(&'static str, Expr<'b>)>,
+    precision: Precision,
 }
 
 impl<'b> Inputs<'b> {
     /// Declares `cos_theta` and these inputs as arguments. In the scalar form every input is a scalar.
-    pub fn declare(builder: &'b Builder, inputs: &[Input], scalar_form: bool) -> Inputs<'b> {
+    pub fn declare(
+        builder: &'b Builder,
+        inputs: &[Input],
+        scalar_form: bool,
+        precision: Precision,
+    ) -> Inputs<'b> {
         let cos_theta = builder.param("cos_theta", Ty::Scalar);
         let ty = |input: &Input| match input.ty {
             Ty::Rgb if scalar_form => Ty::Scalar,
@@ -146,7 +153,21 @@ impl<'b> Inputs<'b> {
             .iter()
             .map(|input| (input.name, builder.param(input.name, ty(input))))
             .collect();
-        Inputs { cos_theta, given }
+        Inputs {
+            cos_theta,
+            given,
+            precision,
+        }
+    }
+
+    /// What the formula is computed in: one that overflows or cancels in half precision is built otherwise there.
+    pub fn precision(&self) -> Precision {
+        self.precision
+    }
+
+    /// Whether the formula is computed in half precision.
+    pub fn is_half(&self) -> bool {
+        self.precision.is_half()
     }
 
     /// `cos_theta` as it came. Only methods that are exempt from the contract use it so.

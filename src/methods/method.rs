@@ -4,10 +4,11 @@ use std::collections::BTreeMap;
 
 use crate::cite::Citation;
 use crate::ir::{
-    Builder, Checked, Expr, Fault, Function, Texels, Ty, Value, check, fold, specialise,
+    Builder, Checked, Expr, Fault, Function, Texels, Ty, Value, check_in, fold_in, specialise_in,
 };
-use crate::num::Num;
+use crate::num::{Num, Precision};
 
+use super::half::InHalf;
 use super::input::{Input, Inputs};
 
 /// A formula for reflectance.
@@ -35,6 +36,8 @@ pub struct Method {
     pub claims: Claims,
     /// Whether it keeps the function contract.
     pub contract: Contract,
+    /// What becomes of it in half precision.
+    pub half: InHalf,
     /// Builds the formula.
     pub build: for<'b> fn(&Inputs<'b>) -> Expr<'b>,
     /// Where a material's constants allow something better than folding them in: another method and its inputs,
@@ -118,11 +121,13 @@ pub enum Over {
     Metals,
     /// From nearly matched to far beyond any material, n 1.0001 to 12 and k 0 to 13 (0 for dielectrics), and metals.
     Wide,
+    /// What half precision is held to: n 1.001 to 12 and k 0 to 60 (0 for dielectrics), and metals.
+    Half,
 }
 
 impl Over {
-    /// A medium of the set, n and k, from two shares in [0, 1]. [`Over::Wide`] is dense where formulas break, near n = 1
-    /// and k = 0; its metals are those of [`Over::Metals`].
+    /// A medium of the set, n and k, from two shares in [0, 1]. [`Over::Wide`] and
+    /// [`Over::Half`] are dense where formulas break, near n = 1 and k = 0; their metals are those of [`Over::Metals`].
     pub fn medium(self, n_share: f64, k_share: f64) -> (f64, f64) {
         match self {
             Over::Dielectrics => (1.3 + 1.2 * n_share, 0.0),
@@ -130,6 +135,10 @@ impl Over {
             Over::Wide => (
                 1.0 + 1e-4 * libm::pow(1.1e5, n_share),
                 13.0 * k_share * k_share,
+            ),
+            Over::Half => (
+                1.0 + 1e-3 * libm::pow(1.1e4, n_share),
+                60.0 * k_share * k_share,
             ),
         }
     }
@@ -141,6 +150,7 @@ impl Over {
             Over::Dielectrics => (1.3..=2.5).contains(&n) && k == 0.0,
             Over::Metals => metal(),
             Over::Wide => (1.0001..=12.0).contains(&n) && (0.0..=13.0).contains(&k) || metal(),
+            Over::Half => (1.001..=12.0).contains(&n) && (0.0..=60.0).contains(&k) || metal(),
         }
     }
 
@@ -150,6 +160,7 @@ impl Over {
             Over::Dielectrics => "eta 1.3 to 2.5",
             Over::Metals => "n 0.05 to 4.5, k 1.5 to 8",
             Over::Wide => "n 1.0001 to 12 with k 0 to 13, and n 0.05 to 4.5 with k 1.5 to 8",
+            Over::Half => "n 1.001 to 12 with k 0 to 60, and n 0.05 to 4.5 with k 1.5 to 8",
         }
     }
 }
@@ -157,25 +168,36 @@ impl Over {
 impl Method {
     /// The library function: three channels, or the scalar form, with run-time arguments.
     pub fn function(&self, scalar_form: bool) -> Result<Checked, Fault> {
+        self.function_in(Precision::F32, scalar_form)
+    }
+
+    /// The same as it is computed in this precision.
+    pub fn function_in(&self, precision: Precision, scalar_form: bool) -> Result<Checked, Fault> {
         let builder = Builder::new();
-        let inputs = Inputs::declare(&builder, self.inputs, scalar_form);
+        let inputs = Inputs::declare(&builder, self.inputs, scalar_form, precision);
         let result = (self.build)(&inputs);
         let shaped = if scalar_form { result } else { result.rgb() };
-        check(fold(&builder.finish(self.name, shaped)))
+        let whole = builder.finish(self.name, shaped);
+        check_in(precision, fold_in(precision, &whole))
     }
 
     /// The function with these constants folded in; inputs that have no value stay arguments.
     pub fn specialise(&self, values: &Values) -> Result<Checked, Fault> {
+        self.specialise_in(Precision::F32, values)
+    }
+
+    /// The same as it is computed in this precision.
+    pub fn specialise_in(&self, precision: Precision, values: &Values) -> Result<Checked, Fault> {
         let complete = self
             .inputs
             .iter()
             .all(|input| values.contains_key(input.name));
         if let Some(better) = self.specialised.filter(|_| complete) {
             let (method, values) = better(values);
-            return method.specialise(&values);
+            return method.specialise_in(precision, &values);
         }
-        let library: Function = (*self.function(false)?).clone();
-        check(specialise(&library, values))
+        let library: Function = (*self.function_in(precision, false)?).clone();
+        check_in(precision, specialise_in(precision, &library, values))
     }
 
     /// These values as the library function takes them after `cos_theta`, and the texture where it reads one; an input
@@ -191,11 +213,15 @@ impl Method {
 
     /// The media that the code error is stated over, in words.
     pub fn code_media(&self) -> &'static str {
-        let wide_glass = self.class == Class::Dielectric && self.claims.code_over == Over::Wide;
-        if wide_glass {
-            "eta 1.0001 to 12"
-        } else {
-            self.claims.code_over.text()
+        self.media(self.claims.code_over)
+    }
+
+    /// A set of media in words, as far as the method describes them.
+    pub fn media(&self, over: Over) -> &'static str {
+        match (self.class, over) {
+            (Class::Dielectric, Over::Wide) => "eta 1.0001 to 12",
+            (Class::Dielectric, Over::Half) => "eta 1.001 to 12",
+            _ => over.text(),
         }
     }
 

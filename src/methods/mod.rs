@@ -5,10 +5,12 @@
 //! Fitted methods take their place here like all others, with their coefficients as inputs.
 //! The room knows no target.
 
+mod half;
 mod input;
 mod limits;
 mod method;
 
+pub use half::{HalfClaim, InHalf};
 pub use input::{Input, Inputs, find_input};
 pub use method::{Better, Claim, Claims, Class, Contract, Forms, Light, Method, Over, Values};
 
@@ -68,6 +70,7 @@ pub fn find(name: &str) -> Option<&'static Method> {
 #[cfg(test)]
 mod tests {
     use super::{ALL, Input};
+    use crate::num::Precision;
 
     #[test]
     fn every_form_of_every_method_is_well_formed() {
@@ -77,8 +80,10 @@ mod tests {
                     .into_iter()
                     .take(if method.has_scalar_form() { 2 } else { 1 })
             {
-                if let Err(fault) = method.function(scalar_form) {
-                    panic!("{fault}");
+                for precision in Precision::ALL {
+                    if let Err(fault) = method.function_in(precision, scalar_form) {
+                        panic!("{fault}");
+                    }
                 }
             }
         }

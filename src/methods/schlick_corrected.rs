@@ -11,6 +11,7 @@
 
 use crate::ir::Expr;
 
+use super::half::InHalf;
 use super::input::{Input, Inputs};
 use super::method::{Claim, Claims, Class, Contract, Forms, Light, Method, Over};
 use super::schlick_rescaled::{LAZANYI_2005, rescaled};
@@ -39,17 +40,18 @@ pub static METHOD: Method = Method {
         code_over: Over::Wide,
     },
     contract: Contract::Kept,
+    half: InHalf::within(0.003),
     build,
     specialised: None,
 };
 
 fn build<'b>(x: &Inputs<'b>) -> Expr<'b> {
     let (c, n, lambda) = (x.cosine(), x.get(Input::N), x.get(Input::LAMBDA));
-    let base = rescaled(c, n, x.get(Input::K)).named("base", "the rescaled Schlick");
+    let base = rescaled(x, c).named("base", "the rescaled Schlick");
     let zero = c.builder().number(0.0);
     let fall = (1.0 - c)
         .rgb()
-        .power(lambda)
+        .power(lambda, x.precision())
         .named("fall", "(1 - c)^lambda");
     let dip = (2.0 * n * (c * fall)).named("dip", "what the minimum takes away");
     let dip = zero

@@ -8,6 +8,7 @@
 use crate::cite::Citation;
 use crate::ir::Expr;
 
+use super::half::InHalf;
 use super::input::{Input, Inputs};
 use super::method::{Claim, Claims, Class, Contract, Forms, Light, Method, Over};
 
@@ -45,6 +46,7 @@ pub static METHOD: Method = Method {
         code_over: Over::Wide,
     },
     contract: Contract::Kept,
+    half: InHalf::within(0.002),
     build,
     specialised: None,
 };
@@ -52,7 +54,7 @@ pub static METHOD: Method = Method {
 fn build<'b>(x: &Inputs<'b>) -> Expr<'b> {
     let f0 = x.get(Input::F0);
     let m = (1.0 - x.cosine()).named("m", "0 at normal incidence, 1 at grazing");
-    f0 + (x.get(Input::F90) - f0) * m.power(x.get(Input::EXPONENT))
+    f0 + (x.get(Input::F90) - f0) * m.power(x.get(Input::EXPONENT), x.precision())
 }
 
 #[cfg(test)]

@@ -6,6 +6,7 @@
 
 use crate::ir::Expr;
 
+use super::half::InHalf;
 use super::input::{Input, Inputs};
 use super::method::{Claim, Claims, Class, Contract, Forms, Light, Method, Over};
 use super::schlick::{SCHLICK_1994, grazing_weight};
@@ -31,6 +32,7 @@ pub static METHOD: Method = Method {
         code_over: Over::Wide,
     },
     contract: Contract::Kept,
+    half: InHalf::within(0.002),
     build,
     specialised: None,
 };

@@ -7,6 +7,7 @@
 use crate::cite::Citation;
 use crate::ir::Expr;
 
+use super::half::InHalf;
 use super::input::{Input, Inputs};
 use super::method::{Claim, Claims, Class, Contract, Forms, Light, Method, Over};
 use super::schlick::grazing_weight;
@@ -48,20 +49,32 @@ pub static METHOD: Method = Method {
         code_over: Over::Wide,
     },
     contract: Contract::Kept,
+    half: InHalf::within(0.002),
     build,
     specialised: None,
 };
 
 fn build<'b>(x: &Inputs<'b>) -> Expr<'b> {
-    rescaled(x.cosine(), x.get(Input::N), x.get(Input::K)).saturate()
+    rescaled(x, x.cosine()).saturate()
 }
 
 /// Eq. 14.
-pub(super) fn rescaled<'b>(c: Expr<'b>, n: Expr<'b>, k: Expr<'b>) -> Expr<'b> {
+pub(super) fn rescaled<'b>(x: &Inputs<'b>, c: Expr<'b>) -> Expr<'b> {
+    let (n, k) = (x.get(Input::N), x.get(Input::K));
+    if x.is_half() {
+        return half(c, n, k);
+    }
     let k2 = k.squared().named("k2", "");
     let less = (n - 1.0).named("n_less", "");
     let more = (n + 1.0).named("n_more", "");
     (less.squared() + k2 + 4.0 * n * grazing_weight(c)) / (more.squared() + k2)
+}
+
+/// The same as 1 less what is lost: metals lose little.
+fn half<'b>(c: Expr<'b>, n: Expr<'b>, k: Expr<'b>) -> Expr<'b> {
+    let more = (n + 1.0).named("n_more", "");
+    let lost = 4.0 * n / (more.squared() + k.squared());
+    1.0 - lost.named("lost", "1 - F0") * (1.0 - grazing_weight(c))
 }
 
 #[cfg(test)]

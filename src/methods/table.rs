@@ -11,6 +11,7 @@ use crate::cite::Citation;
 use crate::ir::Expr;
 use crate::num::Num;
 
+use super::half::InHalf;
 use super::input::{Input, Inputs};
 use super::method::{Claim, Claims, Class, Contract, Forms, Light, Method, Over};
 
@@ -67,6 +68,7 @@ pub static METHOD: Method = Method {
         code_over: Over::Wide,
     },
     contract: Contract::Kept,
+    half: InHalf::Refused("11 bits of a coordinate do not tell the texels of a table apart"),
     build,
     specialised: None,
 };

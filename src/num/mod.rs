@@ -10,6 +10,7 @@ mod half;
 mod interval;
 mod loose;
 mod native;
+mod precision;
 mod ulp;
 
 pub use complex::Complex;
@@ -17,6 +18,7 @@ pub use dd::Dd;
 pub use half::Half;
 pub use interval::Interval;
 pub use loose::Loose;
+pub use precision::Precision;
 pub use ulp::{ulp_distance, ulp_of};
 
 use std::fmt::Debug;

@@ -1,6 +1,6 @@
 //! The tables of the README, written from the registries so that they cannot drift.
 
-use crate::emit::{Bounds, Naming, Subject, specialised_function};
+use crate::emit::{Bounds, Naming, Subject, half_record, specialised_function};
 use crate::fit::Derivation;
 use crate::materials::{Material, Sight, Unseen};
 use crate::methods::{self, Contract, Method};
@@ -86,6 +86,35 @@ pub fn targets_table() -> String {
             "what it is",
             "written by default",
             "compilers that can judge it",
+        ],
+        rows,
+    )
+}
+
+/// Half precision: what each method promises, and the largest error over the catalogue's specialised functions.
+pub fn half_table() -> String {
+    let worst = |method: &Method| {
+        let rows = half_record().filter(|(_, name, _)| *name == method.name);
+        let largest = rows.max_by(|a, b| a.2.total_cmp(&b.2));
+        largest.map_or("not written".to_owned(), |(material, _, most)| {
+            format!("{most:.5} ({material})")
+        })
+    };
+    let library = |method: &Method| match method.half.claim() {
+        Some(claim) => format!("{} for {}", claim.max_abs, method.media(claim.over)),
+        None => format!(
+            "refused: {}",
+            method.half.library_refusal().unwrap_or_default()
+        ),
+    };
+    let rows = methods::ALL
+        .iter()
+        .map(|method| vec![format!("`{}`", method.name), library(method), worst(method)]);
+    table(
+        &[
+            "method",
+            "library function",
+            "worst material of the catalogue",
         ],
         rows,
     )

@@ -1,10 +1,11 @@
 //! GLSL ES 3.00, as OpenGL ES 3.0 and WebGL 2 take it.
 //!
-//! Everything is declared `highp`: the exact forms need it, and the default precision is the including shader's.
+//! Everything is declared `highp`, in half precision `mediump`: the exact forms need it, and the default precision is the
+//! including shader's.
 
 use super::glsl;
 use super::spelling::Spelling;
-use super::target::{Finish, Frame, GLSLANG, Page, Target, Validator};
+use super::target::{Finish, Frame, GLSLANG, HalfText, Page, Target, Validator};
 
 /// The record of this target.
 pub static TARGET: Target = Target {
@@ -20,6 +21,12 @@ pub static TARGET: Target = Target {
         head: "highp {type} {name}({params})",
         ..glsl::SPELLING
     },
+    half: HalfText {
+        spelling: glsl::HALF_SPELLING,
+        directive: "",
+        remark: "mediump: 16 bits on most phones, 32 on desktops, which ignore it.",
+        validators: VALIDATORS,
+    },
     reserved: &[glsl::RESERVED],
     reserved_prefixes: &["gl_"],
     pages: &[Page {
@@ -27,18 +34,20 @@ pub static TARGET: Target = Target {
         template: include_str!("../../templates/glsl.tera"),
     }],
     finish: Finish::Text,
-    validators: &[Validator {
-        name: "glslang",
-        compiler: &GLSLANG,
-        options: "-S frag FILE",
-        frame: Frame {
-            // All is declared highp, so that a shader without a default precision can include it.
-            beginnings: &[
-                "#version 300 es\nprecision highp float;\n#line 1\n",
-                "#version 300 es\nprecision mediump float;\n#line 1\n",
-                "#version 300 es\n#line 1\n",
-            ],
-            ending: glsl::ENDING,
-        },
-    }],
+    validators: VALIDATORS,
 };
+
+const VALIDATORS: &[Validator] = &[Validator {
+    name: "glslang",
+    compiler: &GLSLANG,
+    options: "-S frag FILE",
+    frame: Frame {
+        // All declarations say their precision, so that a shader without a default one can include them.
+        beginnings: &[
+            "#version 300 es\nprecision highp float;\n#line 1\n",
+            "#version 300 es\nprecision mediump float;\n#line 1\n",
+            "#version 300 es\n#line 1\n",
+        ],
+        ending: glsl::ENDING,
+    },
+}];

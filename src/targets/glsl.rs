@@ -1,9 +1,10 @@
 //! GLSL 4.50, as desktop OpenGL and Vulkan front ends take it.
 
 use crate::ir::Op;
+use crate::num::Precision;
 
 use super::spelling::{C_FAMILY, Form, Spelling};
-use super::target::{Finish, Frame, GLSLANG, Page, Target, Validator};
+use super::target::{Finish, Frame, GLSLANG, HalfText, Page, Target, Validator};
 
 /// The record of this target.
 pub static TARGET: Target = Target {
@@ -13,6 +14,12 @@ pub static TARGET: Target = Target {
     extension: "glsl",
     by_default: false,
     spelling: SPELLING,
+    half: HalfText {
+        spelling: HALF_SPELLING,
+        directive: "",
+        remark: "mediump says that half precision will do: by glslang RelaxedPrecision in Vulkan, nothing in OpenGL.",
+        validators: VALIDATORS,
+    },
     reserved: &[RESERVED],
     reserved_prefixes: &["gl_"],
     pages: &[Page {
@@ -20,16 +27,18 @@ pub static TARGET: Target = Target {
         template: include_str!("../../templates/glsl.tera"),
     }],
     finish: Finish::Text,
-    validators: &[Validator {
-        name: "glslang",
-        compiler: &GLSLANG,
-        options: "-S frag FILE",
-        frame: Frame {
-            beginnings: &["#version 450\n#line 1\n"],
-            ending: ENDING,
-        },
-    }],
+    validators: VALIDATORS,
 };
+
+const VALIDATORS: &[Validator] = &[Validator {
+    name: "glslang",
+    compiler: &GLSLANG,
+    options: "-S frag FILE",
+    frame: Frame {
+        beginnings: &["#version 450\n#line 1\n"],
+        ending: ENDING,
+    },
+}];
 
 /// Shared with GLSL ES.
 pub(super) const ENDING: &str = "
@@ -50,6 +59,16 @@ pub(super) const SPELLING: Spelling = Spelling {
         (Op::InverseSqrt, Form::Call("inversesqrt")),
     ],
     ..C_FAMILY
+};
+
+/// Shared with GLSL ES: each declaration says it, since a statement `precision` would leak into the including shader.
+pub(super) const HALF_SPELLING: Spelling = Spelling {
+    precision: Precision::F16,
+    param: "mediump {type} {name}",
+    texture: "highp sampler2D {name}",
+    local: "mediump {type} {name} = {value};",
+    head: "mediump {type} {name}({params})",
+    ..SPELLING
 };
 
 /// Keywords and words kept for the future, from section 3.6 of GLSL 4.50 and 3.7 of GLSL ES 3.00, and the built-in

@@ -1,9 +1,10 @@
 //! HLSL, as FXC and DXC take it, under language versions 2018 and 2021 alike: no vector condition before `?`.
 
 use crate::ir::Op;
+use crate::num::Precision;
 
 use super::spelling::{C_FAMILY, Form, Spelling};
-use super::target::{Compiler, Finish, Frame, GLSLANG, Page, Target, Validator};
+use super::target::{Compiler, Finish, Frame, GLSLANG, HalfText, Page, Target, Validator};
 
 /// The record of this target.
 pub static TARGET: Target = Target {
@@ -25,6 +26,13 @@ pub static TARGET: Target = Target {
         ],
         ..C_FAMILY
     },
+    half: HalfText {
+        spelling: HALF_SPELLING,
+        directive: "",
+        remark: "half has 16 bits where DXC is called with -enable-16bit-types for shader model 6.2 and later, and 32 else; \
+                 an engine may define it as min16float.",
+        validators: HALF_VALIDATORS,
+    },
     reserved: &[RESERVED],
     reserved_prefixes: &["SV_"],
     pages: &[Page {
@@ -36,7 +44,7 @@ pub static TARGET: Target = Target {
         Validator {
             name: "glslang",
             compiler: &GLSLANG,
-            options: "-D -V -S frag -e main -o OUT FILE",
+            options: GLSLANG_OPTIONS,
             frame: FRAME,
         },
         Validator {
@@ -54,6 +62,54 @@ pub static TARGET: Target = Target {
     ],
 };
 
+const GLSLANG_OPTIONS: &str = "-D -V -S frag -e main -o OUT FILE";
+
+const HALF_SPELLING: Spelling = Spelling {
+    precision: Precision::F16,
+    scalar: "half",
+    rgb: "half3",
+    texture: "Texture2D<float4> {name}, SamplerState {name}_sampler",
+    suffix: "h",
+    // `min(half3, half)` is ambiguous where halves have 16 bits.
+    mixed_min_max: false,
+    differs: &[
+        (Op::Splat, Form::Call("half3")),
+        (Op::Compose, Form::Call("half3")),
+        (
+            Op::Sample,
+            Form::Pattern("half3({0}.SampleLevel({0}_sampler, float2({1}, {2}), 0.0).rgb)"),
+        ),
+    ],
+    ..C_FAMILY
+};
+
+const HALF_VALIDATORS: &[Validator] = &[
+    Validator {
+        name: "glslang",
+        compiler: &GLSLANG,
+        options: GLSLANG_OPTIONS,
+        frame: HALF_FRAME,
+    },
+    Validator {
+        name: "dxc -HV 2018",
+        compiler: &DXC,
+        options: "-T ps_6_2 -enable-16bit-types -E main -HV 2018 -Wall -Wextra -WX -Fo OUT FILE",
+        frame: HALF_FRAME,
+    },
+    Validator {
+        name: "dxc -HV 2021",
+        compiler: &DXC,
+        options: "-T ps_6_2 -enable-16bit-types -E main -HV 2021 -Wall -Wextra -WX -Fo OUT FILE",
+        frame: HALF_FRAME,
+    },
+    Validator {
+        name: "dxc, 32 bits",
+        compiler: &DXC,
+        options: "-T ps_6_0 -E main -HV 2021 -Wall -Wextra -WX -Fo OUT FILE",
+        frame: HALF_FRAME,
+    },
+];
+
 /// Microsoft's compiler of HLSL.
 pub static DXC: Compiler = Compiler {
     name: "dxc",
@@ -69,6 +125,21 @@ SamplerState a_sampler;
 float4 main(float3 at : TEXCOORD0) : SV_Target
 {
     float3 sum = 0.0;
+CALLS
+    return float4(sum, 1.0);
+}
+",
+};
+
+const HALF_FRAME: Frame = Frame {
+    beginnings: &[""],
+    ending: "
+Texture2D<float4> a_texture;
+SamplerState a_sampler;
+float4 main(float3 wide : TEXCOORD0) : SV_Target
+{
+    half3 at = half3(wide);
+    half3 sum = 0.0h;
 CALLS
     return float4(sum, 1.0);
 }

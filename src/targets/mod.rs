@@ -9,7 +9,7 @@ mod target;
 
 pub use hlsl::DXC;
 pub use spelling::{Form, Spelling, precedence};
-pub use target::{Compiler, Finish, Frame, GLSLANG, Page, Target, Validator};
+pub use target::{Compiler, Finish, Frame, GLSLANG, HalfText, Page, Target, Validator};
 
 // BEGIN targets (written by the test `tidy::lists_are_complete` with BLESS=1)
 mod gles;

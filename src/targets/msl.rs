@@ -2,9 +2,10 @@
 //! (and may) say `using namespace metal`.
 
 use crate::ir::Op;
+use crate::num::Precision;
 
 use super::spelling::{C_FAMILY, Form, Spelling};
-use super::target::{Compiler, Finish, Frame, Page, Target, Validator};
+use super::target::{Compiler, Finish, Frame, HalfText, Page, Target, Validator};
 
 /// The record of this target.
 pub static TARGET: Target = Target {
@@ -15,29 +16,22 @@ pub static TARGET: Target = Target {
     by_default: false,
     spelling: Spelling {
         rgb: "metal::float3",
-        texture: "metal::texture2d<float> {name}, metal::sampler {name}_sampler",
-        head: "inline {type} {name}({params})",
         suffix: "f",
-        mixed_min_max: false,
-        differs: &[
-            (Op::Splat, Form::Call("metal::float3")),
-            (Op::Compose, Form::Call("metal::float3")),
-            (Op::Abs, Form::Call("metal::abs")),
-            (Op::Min, Form::Call("metal::min")),
-            (Op::Max, Form::Call("metal::max")),
-            (Op::Saturate, Form::Call("metal::saturate")),
-            (Op::Sqrt, Form::Call("metal::sqrt")),
-            (Op::InverseSqrt, Form::Call("metal::rsqrt")),
-            (Op::Exp2, Form::Call("metal::exp2")),
-            (Op::Log2, Form::Call("metal::log2")),
-            (
-                Op::Sample,
-                Form::Pattern(
-                    "{0}.sample({0}_sampler, metal::float2({1}, {2}), metal::level(0.0f)).rgb",
-                ),
-            ),
-        ],
-        ..C_FAMILY
+        differs: &FORMS,
+        ..SHARED
+    },
+    half: HalfText {
+        spelling: Spelling {
+            precision: Precision::F16,
+            scalar: "half",
+            rgb: "metal::half3",
+            suffix: "h",
+            differs: &HALF_FORMS,
+            ..SHARED
+        },
+        directive: "",
+        remark: "half has 16 bits.",
+        validators: VALIDATORS,
     },
     reserved: &[RESERVED],
     reserved_prefixes: &[],
@@ -46,13 +40,50 @@ pub static TARGET: Target = Target {
         template: include_str!("../../templates/msl.tera"),
     }],
     finish: Finish::Text,
-    validators: &[Validator {
-        name: "metal",
-        compiler: &METAL,
-        options: "-sdk macosx metal -std=macos-metal1.2 -c FILE -o OUT",
-        frame: Frame::NONE,
-    }],
+    validators: VALIDATORS,
 };
+
+const VALIDATORS: &[Validator] = &[Validator {
+    name: "metal",
+    compiler: &METAL,
+    options: "-sdk macosx metal -std=macos-metal1.2 -c FILE -o OUT",
+    frame: Frame::NONE,
+}];
+
+/// What both precisions share.
+const SHARED: Spelling = Spelling {
+    texture: "metal::texture2d<float> {name}, metal::sampler {name}_sampler",
+    head: "inline {type} {name}({params})",
+    mixed_min_max: false,
+    ..C_FAMILY
+};
+
+const FORMS: [(Op, Form); 11] = forms(
+    "metal::float3",
+    "{0}.sample({0}_sampler, metal::float2({1}, {2}), metal::level(0.0f)).rgb",
+);
+
+const HALF_FORMS: [(Op, Form); 11] = forms(
+    "metal::half3",
+    "metal::half3({0}.sample({0}_sampler, metal::float2({1}, {2}), metal::level(0.0f)).rgb)",
+);
+
+/// The library's functions take both kinds of number.
+const fn forms(rgb: &'static str, sample: &'static str) -> [(Op, Form); 11] {
+    [
+        (Op::Splat, Form::Call(rgb)),
+        (Op::Compose, Form::Call(rgb)),
+        (Op::Abs, Form::Call("metal::abs")),
+        (Op::Min, Form::Call("metal::min")),
+        (Op::Max, Form::Call("metal::max")),
+        (Op::Saturate, Form::Call("metal::saturate")),
+        (Op::Sqrt, Form::Call("metal::sqrt")),
+        (Op::InverseSqrt, Form::Call("metal::rsqrt")),
+        (Op::Exp2, Form::Call("metal::exp2")),
+        (Op::Log2, Form::Call("metal::log2")),
+        (Op::Sample, Form::Pattern(sample)),
+    ]
+}
 
 /// Apple's compiler of Metal.
 static METAL: Compiler = Compiler {

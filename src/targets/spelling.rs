@@ -1,6 +1,7 @@
 //! How languages spell operations. C's family agrees on most; a target's table says where it differs.
 
 use crate::ir::{Op, Ty};
+use crate::num::Precision;
 
 /// How an operation is written.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -46,6 +47,8 @@ pub mod precedence {
 /// A language's table. In patterns `{type}`, `{name}`, `{value}` and `{params}` stand for what they say.
 #[derive(Debug)]
 pub struct Spelling {
+    /// What numbers are computed in.
+    pub precision: Precision,
     /// A line comment's start.
     pub comment: &'static str,
     /// The scalar type.
@@ -72,6 +75,7 @@ pub struct Spelling {
 
 /// What GLSL, HLSL and MSL share; each says where it differs.
 pub(super) const C_FAMILY: Spelling = Spelling {
+    precision: Precision::F32,
     comment: "//",
     scalar: "float",
     rgb: "vec3",
@@ -97,9 +101,12 @@ impl Spelling {
         if ty == Ty::Rgb { self.rgb } else { self.scalar }
     }
 
-    /// A number: the shortest digits that give back the same f32, always with a point.
+    /// A number: the shortest digits that give back the same in this precision, always with a point.
     pub fn number(&self, value: f64) -> String {
-        let digits = format!("{:?}", value as f32);
+        let digits = match self.precision {
+            Precision::F32 => format!("{:?}", value as f32),
+            Precision::F16 => format!("{:?}", shortest_half(value)),
+        };
         let digits = match digits.split_once('e') {
             Some((mantissa, exponent)) if !mantissa.contains('.') => {
                 format!("{mantissa}.0e{exponent}")
@@ -108,6 +115,16 @@ impl Spelling {
         };
         digits + self.suffix
     }
+}
+
+/// The decimal number with the fewest digits that is rounded to the same f16 as this: five tell all of them apart.
+fn shortest_half(value: f64) -> f64 {
+    let half = Precision::F16.rounded(value);
+    let with = |digits: usize| format!("{half:.digits$e}").parse().unwrap_or(half);
+    (0..5)
+        .map(with)
+        .find(|short| Precision::F16.rounded(*short) == half)
+        .unwrap_or(half)
 }
 
 /// How GLSL, HLSL and MSL agree to write an operation.
@@ -138,6 +155,23 @@ fn c_family(op: Op) -> Form {
 #[cfg(test)]
 mod tests {
     use super::super::ALL;
+    use crate::num::Precision;
+
+    #[test]
+    fn every_half_round_trips_with_a_point_and_few_digits() {
+        let halves = (0..0x7c00u16).map(|bits| f64::from(half::f16::from_bits(bits)));
+        for value in halves {
+            let text = ALL[0].half.spelling.number(value);
+            let back: f64 = text.parse().expect("it parses");
+            assert_eq!(Precision::F16.rounded(back), value, "{text}");
+            assert!(text.contains('.'), "{text}");
+            assert!(text.trim_end_matches(".0").len() <= 9, "{text}");
+        }
+        let wgsl = super::super::find("wgsl").expect("it is there");
+        let number = |value: f64| wgsl.half.spelling.number(value);
+        assert_eq!([0.04, 1.0, -0.5].map(number), ["0.04h", "1.0h", "-0.5h"]);
+        assert_eq!(number(Precision::F16.smallest()), "6.104e-5h");
+    }
 
     #[test]
     fn numbers_round_trip_and_have_a_point() {

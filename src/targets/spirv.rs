@@ -4,7 +4,7 @@
 //! forbids), so each method and material comes as two modules: a fragment shader that takes the normal and the view
 //! direction, and a compute shader that maps an array of cosines. The templates say their interfaces.
 
-use super::target::{Compiler, Finish, Frame, Page, Target, Validator};
+use super::target::{Compiler, Finish, Frame, HalfText, Page, Target, Validator};
 use super::wgsl;
 
 /// The record of this target.
@@ -15,6 +15,12 @@ pub static TARGET: Target = Target {
     extension: "spv",
     by_default: true,
     spelling: wgsl::SPELLING,
+    half: HalfText {
+        spelling: wgsl::HALF_SPELLING,
+        directive: wgsl::HALF_DIRECTIVE,
+        remark: "the device must have shaderFloat16; what goes in and comes out is float",
+        validators: VALIDATORS,
+    },
     reserved: &[
         naga::keywords::wgsl::RESERVED,
         naga::keywords::wgsl::BUILTIN_IDENTIFIERS,
@@ -32,13 +38,15 @@ pub static TARGET: Target = Target {
         },
     ],
     finish: Finish::Spirv,
-    validators: &[Validator {
-        name: "spirv-val",
-        compiler: &SPIRV_VAL,
-        options: "--target-env vulkan1.1 FILE",
-        frame: Frame::NONE,
-    }],
+    validators: VALIDATORS,
 };
+
+const VALIDATORS: &[Validator] = &[Validator {
+    name: "spirv-val",
+    compiler: &SPIRV_VAL,
+    options: "--target-env vulkan1.1 FILE",
+    frame: Frame::NONE,
+}];
 
 /// Khronos's validator of SPIR-V.
 static SPIRV_VAL: Compiler = Compiler {

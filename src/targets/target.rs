@@ -1,5 +1,7 @@
 //! What a target is: a plain record in a static table.
 
+use crate::num::Precision;
+
 use super::spelling::Spelling;
 
 /// An output language.
@@ -17,6 +19,8 @@ pub struct Target {
     pub by_default: bool,
     /// How it writes names, types, numbers and operations.
     pub spelling: Spelling,
+    /// How it writes half precision.
+    pub half: HalfText,
     /// Words that no name may be.
     pub reserved: &'static [&'static [&'static str]],
     /// Beginnings that no name may have.
@@ -26,6 +30,19 @@ pub struct Target {
     /// What becomes of the rendered page.
     pub finish: Finish,
     /// Compilers that are not ours and can judge it.
+    pub validators: &'static [Validator],
+}
+
+/// How a target writes half precision.
+#[derive(Debug)]
+pub struct HalfText {
+    /// Names, types, numbers and operations.
+    pub spelling: Spelling,
+    /// What must stand before all code of a file.
+    pub directive: &'static str,
+    /// What makes it half precision, or not, for the head of a file.
+    pub remark: &'static str,
+    /// Compilers that can judge it, as [`Target::validators`].
     pub validators: &'static [Validator],
 }
 
@@ -114,6 +131,30 @@ impl Validator {
 }
 
 impl Target {
+    /// How it writes code in this precision.
+    pub fn spelling_in(&self, precision: Precision) -> &Spelling {
+        match precision {
+            Precision::F32 => &self.spelling,
+            Precision::F16 => &self.half.spelling,
+        }
+    }
+
+    /// Compilers that can judge code in this precision.
+    pub fn validators_in(&self, precision: Precision) -> &'static [Validator] {
+        match precision {
+            Precision::F32 => self.validators,
+            Precision::F16 => self.half.validators,
+        }
+    }
+
+    /// What must stand before all code of a file in this precision, or nothing.
+    pub fn directive_in(&self, precision: Precision) -> &'static str {
+        match precision {
+            Precision::F32 => "",
+            Precision::F16 => self.half.directive,
+        }
+    }
+
     /// Why a name cannot be used in this language, if it cannot.
     pub fn name_fault(&self, name: &str) -> Option<String> {
         if self.reserved.iter().any(|words| words.contains(&name)) {

@@ -1,9 +1,10 @@
 //! WGSL, as WebGPU takes it.
 
 use crate::ir::Op;
+use crate::num::Precision;
 
 use super::spelling::{Form, Spelling};
-use super::target::{Compiler, Finish, Frame, Page, Target, Validator};
+use super::target::{Compiler, Finish, Frame, HalfText, Page, Target, Validator};
 
 /// The record of this target.
 pub static TARGET: Target = Target {
@@ -13,6 +14,24 @@ pub static TARGET: Target = Target {
     extension: "wgsl",
     by_default: true,
     spelling: SPELLING,
+    half: HalfText {
+        spelling: HALF_SPELLING,
+        directive: HALF_DIRECTIVE,
+        remark: "f16 wants a device with the feature shader-f16. `enable f16;` must stand before all other code of a module: \
+                 a file that is joined to others leaves it to the first.",
+        validators: &[
+            NAGA_VALIDATOR,
+            Validator {
+                name: "tint",
+                compiler: &TINT,
+                options: TINT_OPTIONS,
+                frame: Frame {
+                    beginnings: &[""],
+                    ending: HALF_ENDING,
+                },
+            },
+        ],
+    },
     reserved: &[
         naga::keywords::wgsl::RESERVED,
         naga::keywords::wgsl::BUILTIN_IDENTIFIERS,
@@ -24,16 +43,11 @@ pub static TARGET: Target = Target {
     }],
     finish: Finish::ValidWgsl,
     validators: &[
-        Validator {
-            name: "naga",
-            compiler: &NAGA,
-            options: "",
-            frame: Frame::NONE,
-        },
+        NAGA_VALIDATOR,
         Validator {
             name: "tint",
             compiler: &TINT,
-            options: "--format wgsl -o OUT FILE",
+            options: TINT_OPTIONS,
             frame: Frame {
                 beginnings: &[""],
                 ending: ENDING,
@@ -41,6 +55,15 @@ pub static TARGET: Target = Target {
         },
     ],
 };
+
+const NAGA_VALIDATOR: Validator = Validator {
+    name: "naga",
+    compiler: &NAGA,
+    options: "",
+    frame: Frame::NONE,
+};
+
+const TINT_OPTIONS: &str = "--format wgsl -o OUT FILE";
 
 /// wgpu's compiler.
 static NAGA: Compiler = Compiler {
@@ -67,8 +90,45 @@ CALLS
 }
 ";
 
+const HALF_ENDING: &str = "
+@group(0) @binding(0) var a_texture: texture_2d<f32>;
+@group(0) @binding(1) var a_sampler: sampler;
+@fragment
+fn main(@location(0) wide: vec3<f32>) -> @location(0) vec4<f32> {
+    let at = vec3<f16>(wide);
+    var sum = vec3<f16>();
+CALLS
+    return vec4<f32>(vec3<f32>(sum), 1.0);
+}
+";
+
+/// Shared with the targets that go through WGSL.
+pub(super) const HALF_DIRECTIVE: &str = "enable f16;";
+
+/// Shared with the targets that go through WGSL.
+pub(super) const HALF_SPELLING: Spelling = Spelling {
+    precision: Precision::F16,
+    scalar: "f16",
+    rgb: "vec3<f16>",
+    suffix: "h",
+    differs: &[
+        (Op::Splat, Form::Call("vec3<f16>")),
+        (Op::Compose, Form::Call("vec3<f16>")),
+        (Op::InverseSqrt, Form::Call("inverseSqrt")),
+        (Op::Select, Form::CallSelect("select")),
+        (
+            Op::Sample,
+            Form::Pattern(
+                "vec3<f16>(textureSampleLevel({0}, {0}_sampler, vec2<f32>(vec2<f16>({1}, {2})), 0.0).rgb)",
+            ),
+        ),
+    ],
+    ..SPELLING
+};
+
 /// Shared with the targets that go through WGSL.
 pub(super) const SPELLING: Spelling = Spelling {
+    precision: Precision::F32,
     comment: "//",
     scalar: "f32",
     rgb: "vec3<f32>",

@@ -77,7 +77,8 @@ pub fn library_code_error(method: &Method, media: usize, points: usize) -> CodeE
     let cosines: Vec<f32> = cosines(points).into_iter().filter(inside).collect();
     let mut random = Random(SEED);
     (0..media / 3).fold(CodeError::NONE, |worst, _| {
-        let [a, b, c] = [0; 3].map(|_| medium(method, &mut random));
+        let over = method.claims.code_over;
+        let [a, b, c] = [0; 3].map(|_| medium(method, over, &mut random));
         let channels = Channels {
             n: [a.0, b.0, c.0],
             k: [a.1, b.1, c.1],
@@ -97,10 +98,9 @@ pub fn library_code_error_at(method: &Method, channels: &Channels, cosines: &[f3
     compare(&function, cosines, &arguments, ABSOLUTE_FLOOR)
 }
 
-/// n and k of a random medium; of [`Over::Wide`]'s some are metals, and some absorb nothing.
-fn medium(method: &Method, random: &mut Random) -> (f64, f64) {
+/// n and k of a random medium of a set; of the wide sets' some are metals, and some absorb nothing.
+pub(super) fn medium(method: &Method, over: Over, random: &mut Random) -> (f64, f64) {
     let glass = method.class == Class::Dielectric;
-    let over = method.claims.code_over;
     if over == Over::Metals || !glass && random.unit() < METALS {
         return Over::Metals.medium(random.unit(), random.unit());
     }

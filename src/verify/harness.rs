@@ -7,6 +7,7 @@
 
 use crate::emit::{Emitted, uniform_offsets};
 use crate::ir::{Param, Ty};
+use crate::num::Precision;
 use crate::targets::{self, Spelling};
 
 use super::second::Gles;
@@ -20,6 +21,8 @@ pub struct Call<'a> {
     pub params: &'a [Param],
     /// Whether it gives one channel.
     pub is_scalar: bool,
+    /// What it computes in; what goes in and comes out is f32 all the same.
+    pub precision: Precision,
 }
 
 /// The entry point of every harness.
@@ -32,6 +35,7 @@ impl Call<'_> {
             name: &emitted.name,
             params: &emitted.function.params,
             is_scalar: emitted.function.ty() == Ty::Scalar,
+            precision: emitted.precision,
         }
     }
 
@@ -56,6 +60,26 @@ impl Call<'_> {
         format!("{}({})", self.name, arguments.join(", "))
     }
 }
+
+/// A number as a function of WGSL takes it, which converts nothing by itself.
+fn narrowed(call: &Call, ty: Ty, value: String) -> String {
+    match call.precision {
+        Precision::F32 => value,
+        Precision::F16 => format!("{}({value})", HALF_WGSL[usize::from(ty == Ty::Rgb)]),
+    }
+}
+
+/// f32 of what a function of WGSL gives.
+fn widened(call: &Call, value: String) -> String {
+    match call.precision {
+        Precision::F32 => value,
+        Precision::F16 if call.is_scalar => format!("f32({value})"),
+        Precision::F16 => format!("vec3<f32>({value})"),
+    }
+}
+
+/// A number and a colour.
+const HALF_WGSL: [&str; 2] = ["f16", "vec3<f16>"];
 
 /// Whether a text holds a loop. No function of ours does, and one that never ends would stop a device.
 pub fn has_loop(text: &str) -> bool {
@@ -132,9 +156,13 @@ fn wgsl_over(file: &str, call: &Call, input: &str, length: &str, cos_theta: &str
     } else {
         ""
     };
-    let value = call.text(cos_theta, "fg_table, fg_sampler", |name| {
-        format!("fg_parameters.{name}")
+    let cos_theta = narrowed(call, Ty::Scalar, cos_theta.to_owned());
+    let value = call.text(&cos_theta, "fg_table, fg_sampler", |name| {
+        let ty = call.numbers().find(|param| param.name == name);
+        let ty = ty.map_or(Ty::Scalar, |param| param.ty);
+        narrowed(call, ty, format!("fg_parameters.{name}"))
     });
+    let value = widened(call, value);
     format!(
         "{file}
 {block}{texture}{input}

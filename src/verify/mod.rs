@@ -9,6 +9,7 @@ mod code_error;
 pub mod compilers;
 #[cfg(feature = "gpu")]
 pub mod gpu;
+mod half;
 #[cfg(feature = "gpu")]
 pub mod harness;
 mod points;
@@ -24,6 +25,9 @@ mod worst;
 
 pub use code_error::{
     ABSOLUTE_FLOOR, CodeError, code_error, library_code_error, library_code_error_at,
+};
+pub use half::{
+    HalfError, HalfTrial, halves, library_half_error, library_half_error_at, nearest_half,
 };
 pub use points::{BEYOND, cosines, cosines_around, limits};
 #[cfg(feature = "gpu")]

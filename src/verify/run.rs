@@ -13,8 +13,9 @@ use std::cell::OnceCell;
 
 use crate::emit::Emitted;
 use crate::ir::{Param, Ty};
+use crate::num::Precision;
 
-use super::compilers::{self, HlslVersion, hlsl_to_spirv};
+use super::compilers::{self, HlslVersion, hlsl_to_spirv, hlsl_to_spirv_in};
 use super::gpu::{
     self, Argument, Code, Device, Kernel, Program, Texture, TextureFormat, Uniform, Wanted, Wrap,
 };
@@ -74,11 +75,11 @@ pub enum Way {
 }
 
 impl Way {
-    /// The ways of a target: its own first.
-    pub fn of(target: &str) -> &'static [Way] {
-        match target {
-            "wgsl" => &[Way::Own, Way::NagaGles, Way::NagaHlsl],
-            "hlsl" => &[Way::Own, Way::Hlsl2021],
+    /// The ways of a target: its own first. Of half precision naga writes no GLSL, and HLSL for another shader model.
+    pub fn of(target: &str, precision: Precision) -> &'static [Way] {
+        match (target, precision) {
+            ("wgsl", Precision::F32) => &[Way::Own, Way::NagaGles, Way::NagaHlsl],
+            ("hlsl", _) => &[Way::Own, Way::Hlsl2021],
             _ => &[Way::Own],
         }
     }
@@ -163,6 +164,7 @@ impl Devices {
         let emitted = shown.function;
         let call = Call::of(emitted);
         let device = self.of(shown.target, way)?;
+        check_able(device, emitted)?;
         let ready = |code: Code, entry: &str, is_bound: bool| {
             let params = &emitted.function.params;
             let uniforms = if is_bound {
@@ -207,7 +209,8 @@ impl Devices {
                 } else {
                     HlslVersion::V2018
                 };
-                let code = hlsl_to_spirv(&harness::hlsl(text, &call), ENTRY, version)?;
+                let shader = harness::hlsl(text, &call);
+                let code = hlsl_to_spirv_in(emitted.precision, &shader, ENTRY, version)?;
                 ready(Code::Spirv(&code), ENTRY, false)
             }
             (other, _) => Err(Fault::Absent(format!(
@@ -215,6 +218,15 @@ impl Devices {
             ))),
         }
     }
+}
+
+/// Whether a device computes in what a function asks for.
+fn check_able(device: &Device, emitted: &Emitted) -> Result<(), Fault> {
+    if !emitted.precision.is_half() || device.has_half() {
+        return Ok(());
+    }
+    let lacks = "has no 16-bit arithmetic in shaders (shader-f16, shaderFloat16)";
+    Err(Fault::Absent(format!("{} {lacks}", device.adapter)))
 }
 
 /// The arguments of a trial by name, as a target's harness names them.

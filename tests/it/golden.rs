@@ -4,8 +4,9 @@ use std::collections::BTreeSet;
 use std::path::Path;
 
 use fresnel_gen::app::bake::{add_tables, as_tables_are_seen};
-use fresnel_gen::app::{Request, check, generate, tree, write};
+use fresnel_gen::app::{Artifact, Request, check, generate, tree, write};
 use fresnel_gen::methods;
+use fresnel_gen::num::Precision;
 
 /// All files below a folder, as paths in it.
 fn files(folder: &Path, below: &str, found: &mut BTreeSet<String>) {
@@ -58,13 +59,7 @@ fn the_committed_tree_is_what_a_run_into_an_empty_folder_writes() {
 
 #[test]
 fn generated_text_is_plain() {
-    for artifact in generate(&Request {
-        targets: all(),
-        ..Request::default()
-    })
-    .expect("it generates")
-    .artifacts
-    {
+    for artifact in in_both_precisions() {
         if artifact.path.ends_with(".spv") {
             continue;
         }
@@ -102,13 +97,7 @@ fn generated_text_is_plain() {
 /// What each head must say, as the beginning of a comment line.
 #[test]
 fn heads_say_all_that_they_must() {
-    let artifacts = generate(&Request {
-        targets: all(),
-        ..Request::default()
-    })
-    .expect("it generates")
-    .artifacts;
-    for artifact in artifacts
+    for artifact in in_both_precisions()
         .iter()
         .filter(|artifact| !artifact.path.ends_with(".spv"))
     {
@@ -152,6 +141,19 @@ fn heads_say_all_that_they_must() {
             assert!(all, "{}: the formula is not there", artifact.path);
         }
     }
+}
+
+/// The tree of all targets.
+fn in_both_precisions() -> Vec<Artifact> {
+    let one = |precision| {
+        let request = Request {
+            targets: all(),
+            precision,
+            ..Request::default()
+        };
+        generate(&request).expect("it generates").artifacts
+    };
+    Precision::ALL.into_iter().flat_map(one).collect()
 }
 
 fn all() -> Vec<String> {

@@ -16,6 +16,7 @@ mod golden;
 #[cfg(feature = "gpu")]
 mod gpu;
 mod graph;
+mod half;
 mod incidents;
 #[cfg(feature = "cli")]
 mod lut;

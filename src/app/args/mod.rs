@@ -7,6 +7,7 @@ use std::path::PathBuf;
 
 use clap::{Args, Parser, Subcommand};
 
+use super::precision::PrecisionFlags;
 use super::sight::Words;
 
 pub use stability::StabilityFlags;
@@ -82,6 +83,9 @@ pub struct Generate {
     /// Goes before every function's name
     #[arg(long, value_name = "TEXT", default_value = "fresnel_")]
     pub prefix: String,
+    /// What functions compute in.
+    #[command(flatten)]
+    pub precision: PrecisionFlags,
     /// Degrees at which the corrected Schlick meets the exact law [default: that of cosine 0.15, 81.373]
     #[arg(long, value_name = "DEGREES", allow_negative_numbers = true)]
     pub matching_angle: Option<f64>,

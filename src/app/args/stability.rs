@@ -16,6 +16,9 @@ pub struct StabilityFlags {
     /// Scan the functions specialised to these instead: names, paths of material files, or all
     #[arg(long, value_delimiter = ',', value_name = "NAME")]
     pub material: Vec<String>,
+    /// What functions compute in: f32, or f16, rounded after every operation [default: f32]
+    #[arg(long, value_name = "NAME")]
+    pub precision: Option<String>,
     /// Draw maps of the errors and a page that shows them into this folder
     #[arg(long, value_name = "DIR", conflicts_with = "material")]
     pub out_dir: Option<PathBuf>,

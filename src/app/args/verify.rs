@@ -4,6 +4,8 @@ use std::path::PathBuf;
 
 use clap::Args;
 
+use crate::app::precision::PrecisionFlags;
+
 use super::SightFlags;
 
 /// The flags of `verify`.
@@ -33,6 +35,9 @@ pub struct VerifyFlags {
     /// Goes before every function's name
     #[arg(long, value_name = "TEXT", default_value = "fresnel_")]
     pub prefix: String,
+    /// What functions compute in.
+    #[command(flatten)]
+    pub precision: PrecisionFlags,
     /// Folder whose files are run
     #[arg(long, value_name = "DIR", default_value = "shaders-generated")]
     pub out_dir: PathBuf,

@@ -13,6 +13,7 @@ use crate::app::source::{is_path, materials, source};
 use crate::app::tree::{Plan, plan};
 use crate::app::write::{write, write_file};
 use crate::app::{check, depfile, folder};
+use crate::num::Precision;
 
 use super::Output;
 
@@ -36,7 +37,7 @@ pub fn run(flags: &Generate) -> Result<Output, Error> {
     let kept = if flags.method.is_empty() {
         Kept::new()
     } else {
-        kept(out_dir)?
+        kept(out_dir, request.precision)?
     };
     let mut generated = generate_beside(&request, &kept)?;
     if generated.scope.whole {
@@ -74,6 +75,8 @@ fn request(flags: &Generate) -> Result<Request, Error> {
         medium: flags.medium.as_deref().map(source).transpose()?,
         prefix: flags.prefix.clone(),
         matching_angle: flags.matching_angle,
+        precision: flags.precision.read()?,
+        force: flags.precision.force,
         sight: sight(&flags.sight.words(flags.gamut.as_deref()))?,
     })
 }
@@ -123,6 +126,9 @@ fn written(
     for why in generated.left_out.iter().filter(|_| !flags.quiet) {
         output.remarks.push(format!("left out: {}", why.why));
     }
+    for why in generated.refused.iter().filter(|_| !flags.quiet) {
+        output.remarks.push(format!("left out: {why}"));
+    }
     for path in plan.orphans.iter().filter(|_| !flags.quiet) {
         output
             .remarks
@@ -158,14 +164,16 @@ fn write_depfile(flags: &Generate, outputs: &[String]) -> Result<(), Error> {
     Ok(())
 }
 
-/// The methods that the folder's material files hold, by its manifest.
-fn kept(out_dir: &Path) -> Result<Kept, Error> {
+/// The methods that the folder's material files of this precision hold, by its manifest.
+fn kept(out_dir: &Path, precision: Precision) -> Result<Kept, Error> {
     let path: PathBuf = out_dir.join(manifest::FILE);
     let Some(text) = folder::read(&path)? else {
         return Ok(Kept::new());
     };
     let mut kept = Kept::new();
-    for entry in Manifest::parse(&path, &text)?.files {
+    let mut entries = Manifest::parse(&path, &text)?.files;
+    entries.retain(|entry| entry.precision() == precision.name());
+    for entry in entries {
         let Some(material) = entry.material else {
             continue;
         };

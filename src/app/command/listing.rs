@@ -82,6 +82,7 @@ fn method_text(method: &Method) -> String {
             .map(|i| format!("argument    {}: {}; {}", i.name, i.meaning, i.domain)),
     );
     lines.extend(emit::promises(method));
+    lines.push(format!("in f16      {}", emit::half_promise(method)));
     if let Contract::Exempt(why) = method.contract {
         lines.push(format!("fails       {why}"));
     }
@@ -97,6 +98,11 @@ fn method_json(method: &Method) -> Value {
         "claims": method.claims.model.iter()
             .map(|c| json!({ "over": c.over.text(), "max_abs": c.max_abs })).collect::<Vec<_>>(),
         "code_ulp": method.claims.code_ulp,
+        "f16": {
+            "max_abs": method.half.claim().map(|claim| claim.max_abs),
+            "over": method.half.claim().map(|claim| method.media(claim.over)),
+            "reason": method.half.library_refusal(), "specialised": method.half.refusal().is_none(),
+        },
     })
 }
 

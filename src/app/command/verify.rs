@@ -65,6 +65,8 @@ fn request(flags: &VerifyFlags) -> Result<Request, Error> {
         medium: flags.medium.as_deref().map(source).transpose()?,
         sight,
         prefix: flags.prefix.clone(),
+        precision: flags.precision.read()?,
+        force: flags.precision.force,
         ..Request::default()
     })
 }
@@ -245,14 +247,38 @@ fn canonical(flags: &VerifyFlags, request: &Request) -> String {
     command += &list("material", &flags.material);
     command += &one("medium", &flags.medium);
     command += &sight_flags(&request.sight);
+    command += &flags.precision.words();
     command += &one("adapter", &flags.adapter);
     command += &one("backend", &flags.backend);
     command
         + &if flags.exhaustive {
             " --exhaustive".to_owned()
+        } else if request.precision.is_half() {
+            String::new()
         } else {
             format!(" --points {}", flags.points)
         }
+}
+
+/// In half precision the absolute error, else ulp.
+fn code_error(row: &Value) -> String {
+    let (ulp, most) = (&row["code_error"]["max_ulp"], &row["code_error"]["max_abs"]);
+    match (ulp.as_f64(), most.as_f64()) {
+        (Some(ulp), _) => format!("{ulp:.2}"),
+        (None, Some(most)) if word(row, "precision") == "f16" => format!("{most:.5} abs"),
+        _ => "-".to_owned(),
+    }
+}
+
+fn allowed(row: &Value) -> String {
+    match (
+        row["bound"]["ulp"].as_f64(),
+        row["bound"]["max_abs"].as_f64(),
+    ) {
+        (Some(ulp), _) => format!("{ulp:.1}"),
+        (None, Some(most)) => format!("{most:.5} abs"),
+        _ => "-".to_owned(),
+    }
 }
 
 /// A line for each row.
@@ -272,8 +298,8 @@ fn text(rows: &[Value]) -> String {
             row["points"]
                 .as_u64()
                 .map_or("-".to_owned(), |points| points.to_string()),
-            figure("code_error", "max_ulp", 2),
-            figure("bound", "ulp", 1),
+            code_error(row),
+            allowed(row),
             figure("model_error", "max_abs", 5),
             percent.map_or("-".to_owned(), |mean| format!("{:.3}", 100.0 * mean)),
             word(row, "status").replace('_', " "),

@@ -85,6 +85,7 @@ fn run(
                 Measured::No(_) => None,
             },
             outcome,
+            half: None,
             model_error: emitted.model_error,
             device: devices.of("wgsl", Way::Own)?.adapter.to_string(),
         })

@@ -4,16 +4,20 @@ use std::cell::OnceCell;
 
 use serde_json::Value;
 
-use crate::emit::{Emitted, Subject};
+use crate::emit::{CodeBound, Emitted, Subject};
 use crate::fit::{self, Measured, ModelError, Truth};
 use crate::ir::{Column, Ty};
 use crate::materials::Channels;
 use crate::methods::{Class, Contract, Method};
+use crate::num::Precision;
 use crate::verify::compilers::{self, Verdict};
 use crate::verify::harness;
 use crate::verify::run::{Devices, Fault, Runnable, Shown, Way};
-use crate::verify::{BEYOND, Outcome, Trial, cosines_around, limits, worst_cases, worst_cosines};
+use crate::verify::{
+    BEYOND, Outcome, Trial, cosines_around, limits, nearest_half, worst_cases, worst_cosines,
+};
 
+use super::half;
 use super::plan::{Plan, Planned};
 use super::row::{self, Row, Run};
 
@@ -50,7 +54,9 @@ pub fn rows(plan: &Plan, file: &Planned, devices: &Devices, effort: Effort) -> V
 fn accepts(file: &Planned) -> Vec<(&'static str, Verdict)> {
     let mut all: Vec<(&'static str, Verdict)> = Vec::new();
     for page in &file.pages {
-        for (name, verdict) in compilers::accepts(file.target, &page.path, &page.bytes) {
+        for (name, verdict) in
+            compilers::accepts_in(file.precision(), file.target, &page.path, &page.bytes)
+        {
             match all.iter_mut().find(|(other, _)| *other == name) {
                 Some((_, known)) if *known == Verdict::Yes => *known = verdict,
                 Some(_) => {}
@@ -76,12 +82,17 @@ fn cases<'a>(plan: &'a Plan, file: &Planned, emitted: &Emitted) -> Vec<Case<'a>>
         .filter(fits)
         .map(|subject| library(subject, emitted))
         .collect();
-    cases.extend(known_worst(emitted));
+    if !emitted.precision.is_half() {
+        cases.extend(known_worst(emitted));
+    }
     cases
 }
 
 pub(super) fn specialised<'a>(subject: &'a Subject, emitted: &Emitted) -> Case<'a> {
-    let bound = emitted.code_ulp.clone();
+    let bound = match &emitted.code {
+        Measured::Yes(CodeBound::Ulp(bound) | CodeBound::Absolute(bound)) => Measured::Yes(*bound),
+        Measured::No(why) => Measured::No(why.clone()),
+    };
     let truth = subject.truth_for(emitted.method);
     let table = fit::table_of(&emitted.function, |c| truth.at(c));
     Case {
@@ -111,7 +122,7 @@ fn library<'a>(subject: &'a Subject, emitted: &Emitted) -> Case<'a> {
             emitted,
             single.collect(),
             table,
-            promised_for(emitted.method, &subject.effective.channels),
+            promised_for(emitted, &subject.effective.channels),
         ),
         limits: limits_of(&subject.effective.channels),
         truth: (emitted.form == "library").then_some(truth),
@@ -130,13 +141,23 @@ fn known_worst(emitted: &Emitted) -> Vec<Case<'static>> {
 }
 
 /// What a library function promises for a material: its bound is stated over a set of media.
-fn promised_for(method: &Method, channels: &Channels) -> Measured<f64> {
-    let over = method.claims.code_over;
+fn promised_for(emitted: &Emitted, channels: &Channels) -> Measured<f64> {
+    let method = emitted.method;
+    let over = match (emitted.precision, method.half.claim()) {
+        (Precision::F32, _) => method.claims.code_over,
+        (Precision::F16, Some(claim)) => claim.over,
+        (Precision::F16, None) => {
+            let why = method.half.library_refusal().unwrap_or_default();
+            return Measured::No(why.to_owned());
+        }
+    };
     let holds = |i: usize| over.holds(channels.n[i], channels.k[i]);
-    if (0..3).all(holds) {
-        promised(method)
-    } else {
+    if !(0..3).all(holds) {
         Measured::No(format!("its bound is stated over {}", over.text()))
+    } else if let (Precision::F16, Some(claim)) = (emitted.precision, method.half.claim()) {
+        Measured::Yes(claim.max_abs)
+    } else {
+        promised(method)
     }
 }
 
@@ -160,6 +181,11 @@ fn trial(
         Measured::Yes(0.0)
     } else {
         bound
+    };
+    let values = if emitted.precision.is_half() {
+        values.iter().map(|value| value.map(nearest_half)).collect()
+    } else {
+        values
     };
     Trial {
         function: emitted.function.clone(),
@@ -209,7 +235,7 @@ impl<'a> Tried<'a> {
     }
 
     fn row(&self, case: &Case, accepts: &[(&'static str, Verdict)], is_first: bool) -> Value {
-        let ways = Way::of(self.file.target.name);
+        let ways = Way::of(self.file.target.name, self.emitted.precision);
         // Other ways are second opinions on the text: one material tells.
         let ways = if is_first { ways } else { &ways[..1] };
         let runs: Vec<(Way, Result<Run, Fault>)> = ways
@@ -250,6 +276,11 @@ impl<'a> Tried<'a> {
             other = self.devices.prepare(&shown, way, &case.trial)?;
             &other
         };
+        if self.emitted.precision.is_half() {
+            let ran = half::run(runnable, &shown, &case.trial)?;
+            let device = self.devices.of(shown.target, way)?.adapter.to_string();
+            return Ok(Run { device, ..ran });
+        }
         let mut points = cosines_around(self.effort.points, &case.limits);
         points.extend(BEYOND);
         let expected = case.trial.expected(&points);
@@ -263,6 +294,7 @@ impl<'a> Tried<'a> {
             points: expected.cosines.len(),
             bound: Some(expected.bound),
             outcome,
+            half: None,
             model_error,
             device: self.devices.of(shown.target, way)?.adapter.to_string(),
         })
@@ -282,7 +314,12 @@ impl<'a> Tried<'a> {
         if self.file.target.name != "spirv" || page.is_current {
             return None;
         }
-        let verdicts = compilers::accepts(self.file.target, &page.path, &page.bytes);
+        let verdicts = compilers::accepts_in(
+            self.file.precision(),
+            self.file.target,
+            &page.path,
+            &page.bytes,
+        );
         let refusal = verdicts
             .iter()
             .find(|(_, verdict)| *verdict != Verdict::Yes)?;

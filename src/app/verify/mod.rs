@@ -5,6 +5,7 @@
 
 pub mod exhaustive;
 pub mod file;
+mod half;
 mod junit;
 pub mod machine;
 mod plan;

@@ -9,6 +9,7 @@ use crate::app::generate::{Made, generate_meant};
 use crate::app::manifest::{self, Manifest};
 use crate::app::request::{Materials, Request};
 use crate::emit::{Emitted, Subject};
+use crate::num::Precision;
 use crate::targets::{self, Target};
 
 /// What is to be run.
@@ -119,6 +120,13 @@ fn usual_subjects(request: &Request) -> Result<Vec<Subject>, Error> {
 }
 
 impl Planned {
+    /// What its functions compute in.
+    pub fn precision(&self) -> Precision {
+        self.functions
+            .first()
+            .map_or_else(Precision::default, |emitted| emitted.precision)
+    }
+
     /// The page that is run.
     pub fn run_page(&self) -> &Page {
         self.pages.last().expect("a planned file has a page")

@@ -2,11 +2,12 @@
 
 use serde_json::{Map, Value, json};
 
-use crate::emit::{Emitted, fingerprint};
+use crate::emit::{CodeBound, Emitted, fingerprint};
 use crate::fit::{Measured, ModelError};
+use crate::num::Precision;
 use crate::verify::compilers::Verdict;
 use crate::verify::run::{Fault, Way};
-use crate::verify::{CodeError, Miss, Outcome};
+use crate::verify::{CodeError, HalfError, Miss, Outcome};
 
 use super::plan::Planned;
 
@@ -22,10 +23,42 @@ pub struct Run {
     pub bound: Option<f64>,
     /// What came of it.
     pub outcome: Outcome,
+    /// In half precision: what came of it.
+    pub half: Option<HalfRun>,
     /// Against the truth, where there is one.
     pub model_error: Option<ModelError>,
     /// On what.
     pub device: String,
+}
+
+/// What came of running a function in half precision.
+#[derive(Clone, Copy, Debug)]
+pub struct HalfRun {
+    /// The device against f64.
+    pub error: HalfError,
+    /// The device against f16 rounded after every operation.
+    pub emulation: HalfError,
+    /// What it may differ by from f64; infinite where nothing is promised.
+    pub allowed: f64,
+}
+
+impl HalfRun {
+    /// What the device computes in, by what it gives: no f16 comes so near.
+    fn computes_in(&self) -> Precision {
+        const NEARER: f64 = 1e-5;
+        if self.error.max_abs < NEARER {
+            Precision::F32
+        } else {
+            Precision::F16
+        }
+    }
+
+    fn json(&self) -> Value {
+        json!({
+            "max_abs": self.emulation.max_abs, "worst_cos": self.emulation.worst_cos,
+            "device_computes_in": self.computes_in().name(),
+        })
+    }
 }
 
 /// A row while it is made.
@@ -85,7 +118,7 @@ impl Row<'_> {
         let page = self.file.run_page();
         json!({
             "target": self.file.target.name, "method": self.emitted.method.name, "material": self.material,
-            "form": self.emitted.form, "precision": "f32", "function": self.emitted.name, "file": page.path,
+            "form": self.emitted.form, "precision": self.emitted.precision.name(), "function": self.emitted.name, "file": page.path,
             "fingerprint": fingerprint(&self.emitted.function),
             "shipped": page.is_shipped, "current": page.is_current, "device": null, "points": null, "bound": null,
             "code_error": null, "model_error": null, "accepts": null, "second_opinions": [], "status": null,
@@ -110,6 +143,7 @@ impl Row<'_> {
                     self.emitted.name
                 )],
             ),
+            Ok(run) if run.half.is_some() => self.judged_in_half(run, row),
             Ok(run) => {
                 row["device"] = json!(run.device);
                 row["points"] = json!(run.points);
@@ -126,12 +160,45 @@ impl Row<'_> {
         }
     }
 
+    /// Enters a run in half precision.
+    fn judged_in_half(&self, run: &Run, row: &mut Value) -> (&'static str, Vec<String>) {
+        let Some(half) = &run.half else {
+            return ("not_checked", Vec::new());
+        };
+        row["device"] = json!(run.device);
+        row["points"] = json!(run.points);
+        let promised = half.allowed.is_finite().then_some(half.allowed);
+        row["bound"] = json!({ "max_abs": promised, "text": self.bound_text() });
+        row["code_error"] = json!({
+            "max_ulp": null, "reason": "half precision is judged by the absolute error",
+            "max_abs": half.error.max_abs, "worst_cos": half.error.worst_cos,
+        });
+        row["emulation"] = half.json();
+        if let Some(error) = &run.model_error {
+            row["model_error"] = json!(error);
+        }
+        if half.error.max_abs <= half.allowed {
+            return ("pass", Vec::new());
+        }
+        let words = format!(
+            "{}: {}, {}: at cos_theta = {} it is {} off, and {} is allowed",
+            self.file.run_page().path,
+            self.emitted.name,
+            self.material,
+            half.error.worst_cos,
+            half.error.max_abs,
+            half.allowed
+        );
+        ("fail", vec![words])
+    }
+
     /// What a function promises, in words.
     fn bound_text(&self) -> String {
-        match &self.emitted.code_ulp {
-            Measured::Yes(ulp) => {
+        match &self.emitted.code {
+            Measured::Yes(CodeBound::Ulp(ulp)) => {
                 format!("{ulp} ulp or 2^-22; powers as Vulkan allows exp2 and log2")
             }
+            Measured::Yes(CodeBound::Absolute(most)) => format!("{most} absolute"),
             Measured::No(why) => why.clone(),
         }
     }

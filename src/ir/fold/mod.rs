@@ -6,6 +6,9 @@
 //! rewritten by an identity of `identity`. Equal nodes are shared by the builder.
 //!
 //! The only algebra is what constants make trivial. `0 x = 0` is used: no formula here relies on infinities.
+//!
+//! For half precision ranges must lie further apart, and constants below its smallest normal number, which hardware may
+//! take for 0, are 0.
 
 use std::collections::BTreeMap;
 
@@ -17,12 +20,22 @@ use super::check::wants_name;
 use super::evaluate::{Value, apply};
 use super::graph::{Function, Label, Node, NodeId, Ty};
 use super::op::{Op, Payload};
+use crate::num::Precision;
 use identity::{identity, merged, spread, value_of};
 use range::{decided, ranges};
 
 /// The function with these arguments fixed (a scalar argument takes the first number), folded.
 /// Arguments that are not named stay.
 pub fn specialise(function: &Function, constants: &BTreeMap<String, [f64; 3]>) -> Function {
+    specialise_in(Precision::F32, function, constants)
+}
+
+/// The same for code in this precision; constants are folded in f64 all the same.
+pub fn specialise_in(
+    precision: Precision,
+    function: &Function,
+    constants: &BTreeMap<String, [f64; 3]>,
+) -> Function {
     let builder = Builder::new();
     let arguments: Vec<Expr> = function
         .params
@@ -33,9 +46,8 @@ pub fn specialise(function: &Function, constants: &BTreeMap<String, [f64; 3]>) -
             (None, ty) => builder.param(&param.name, ty),
         })
         .collect();
-    name_shared(fold(&rebuild(function, &builder, &arguments, |_, _, _| {
-        None
-    })))
+    let fixed = rebuild(function, &builder, &arguments, |_, _, _| None);
+    name_shared(fold_in(precision, &fixed))
 }
 
 /// Names what constants have made shared: two steps that were different and now are one.
@@ -55,17 +67,37 @@ fn name_shared(mut function: Function) -> Function {
 
 /// The function with all that is constant or decided taken out.
 pub fn fold(function: &Function) -> Function {
+    fold_in(Precision::F32, function)
+}
+
+/// The same for code in this precision.
+pub fn fold_in(precision: Precision, function: &Function) -> Function {
     let mut current = function.compact();
     loop {
-        let next = pass(&current);
-        if next == current {
-            return next;
+        let next = pass(precision, &current);
+        if next != current {
+            current = next;
+        } else if !flush(precision, &mut current) {
+            return current;
         }
-        current = next;
     }
 }
 
-fn pass(function: &Function) -> Function {
+/// Makes constants 0 that half precision has no normal number for; whether there were any.
+fn flush(precision: Precision, function: &mut Function) -> bool {
+    let mut found = false;
+    for node in function.nodes.iter_mut().filter(|_| precision.is_half()) {
+        if let Payload::Number(value) = &mut node.payload {
+            let is_small = *value != 0.0 && value.abs() < precision.smallest();
+            if is_small {
+                (*value, found) = (0.0, true);
+            }
+        }
+    }
+    found
+}
+
+fn pass(precision: Precision, function: &Function) -> Function {
     let ranges = ranges(function);
     let uses = function.uses();
     let builder = Builder::new();
@@ -76,7 +108,7 @@ fn pass(function: &Function) -> Function {
         .collect();
     rebuild(function, &builder, &params, |id, node, args| {
         constant(&builder, node, args)
-            .or_else(|| decided(function, node, args, &ranges))
+            .or_else(|| decided(precision, function, node, args, &ranges))
             .or_else(|| identity(&builder, node, args))
             .or_else(|| spread(&builder, node, args))
             .or_else(|| merged(&builder, function, &uses, id, args))

@@ -4,11 +4,13 @@ use crate::ir::build::Expr;
 use crate::ir::evaluate::{Column, Value, evaluate_nodes};
 use crate::ir::graph::{Function, Node, Ty};
 use crate::ir::op::Op;
-use crate::num::Interval;
+use crate::num::{Interval, Precision};
 
 /// A guard or a comparison is dropped only where the ranges are apart by this share of the largest number in either,
 /// so that rounding, even of a difference whose terms nearly cancel, cannot bring the other side about in f32 (6e-8).
 const MARGIN: f64 = 1e-3;
+/// The same for f16, whose rounding is 8000 times as coarse (5e-4).
+const HALF_MARGIN: f64 = 1.0 / 32.0;
 /// Into how many parts [0, 1] is cut to find ranges.
 const PIECES: usize = 64;
 
@@ -47,15 +49,22 @@ fn pieces() -> Vec<Interval> {
 
 /// What the ranges decide: which side of a select, whether a guard acts, which sign an absolute value sees.
 pub fn decided<'b>(
+    precision: Precision,
     function: &Function,
     node: &Node,
     args: &[Expr<'b>],
     ranges: &[Value<Interval>],
 ) -> Option<Expr<'b>> {
     let zero = Value::scalar(0.0);
+    let margin = if precision.is_half() {
+        HALF_MARGIN
+    } else {
+        MARGIN
+    };
+    let apart = |low: &Value<Interval>, high: &Value<Interval>| apart(low, high, margin);
     let below = |a: usize, b: usize| apart(&ranges[node.args[a]], &ranges[node.args[b]]);
     match node.op {
-        Op::Select => chosen(&function.nodes[node.args[0]], args, ranges),
+        Op::Select => chosen(&function.nodes[node.args[0]], args, ranges, margin),
         Op::Max if below(1, 0) => Some(args[0]),
         Op::Max if below(0, 1) => Some(args[1]),
         Op::Min if below(0, 1) => Some(args[0]),
@@ -67,13 +76,18 @@ pub fn decided<'b>(
 }
 
 /// The side of a select that a comparison always takes.
-fn chosen<'b>(less: &Node, args: &[Expr<'b>], ranges: &[Value<Interval>]) -> Option<Expr<'b>> {
+fn chosen<'b>(
+    less: &Node,
+    args: &[Expr<'b>],
+    ranges: &[Value<Interval>],
+    margin: f64,
+) -> Option<Expr<'b>> {
     let [a, b] = [0, 1].map(|i| &ranges[less.args[i]]);
     if let (Some(a), Some(b)) = (constant(a), constant(b)) {
         Some(if a < b { args[1] } else { args[2] })
-    } else if apart(a, b) {
+    } else if apart(a, b, margin) {
         Some(args[1])
-    } else if apart(b, a) {
+    } else if apart(b, a, margin) {
         Some(args[2])
     } else {
         None
@@ -89,13 +103,13 @@ fn constant(range: &Value<Interval>) -> Option<f64> {
 }
 
 /// Whether `low` stays below `high` in every channel and piece, by more than rounding can bridge.
-fn apart(low: &Value<Interval>, high: &Value<Interval>) -> bool {
+fn apart(low: &Value<Interval>, high: &Value<Interval>, margin: f64) -> bool {
     let below = |low: Interval, high: Interval| {
         let ends = [low.lo(), low.hi(), high.lo(), high.hi()];
         let size = ends
             .into_iter()
             .fold(0.0, |size: f64, end| size.max(end.abs()));
-        low.hi() < high.lo() - MARGIN * size
+        low.hi() < high.lo() - margin * size
     };
     (0..3).all(|i| low.channel(i).all_with(high.channel(i), below))
 }

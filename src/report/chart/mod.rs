@@ -11,7 +11,9 @@ mod text;
 mod ticks;
 
 pub(super) use sheet::{Frame, Sheet};
-pub(super) use text::{FOOT, Font, HEADING, PANEL, SUBTITLE, TICK, escape};
+#[cfg(feature = "cli")]
+pub(super) use text::escape;
+pub(super) use text::{FOOT, Font, HEADING, PANEL, SUBTITLE, TICK};
 pub use ticks::ticks;
 
 use plot::Plot;

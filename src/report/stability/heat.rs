@@ -19,7 +19,8 @@ const BROKEN: &str = "#d7263d";
 
 /// What a panel shows.
 struct Panel {
-    title: &'static str,
+    /// What comes against what.
+    title: fn(&str) -> String,
     /// The powers of ten at both ends of the colour bar.
     decades: (i32, i32),
     value: fn(&Cell) -> f64,
@@ -27,12 +28,12 @@ struct Panel {
 
 static PANELS: [Panel; 2] = [
     Panel {
-        title: "formula against the law, absolute",
+        title: |_| "formula against the law, absolute".to_owned(),
         decades: (-6, 0),
         value: |cell| cell.error,
     },
     Panel {
-        title: "f32 against the formula in f64, ulp",
+        title: |precision| format!("{precision} against the formula in f64, ulp"),
         decades: (0, 8),
         value: |cell| cell.digits,
     },
@@ -83,7 +84,12 @@ pub fn heat(method: &str, map: &Map) -> String {
 impl Panel {
     fn draw(&self, map: &Map, left: f64) -> Vec<String> {
         let middle = left + PLOT.0 / 2.0;
-        let mut parts = SUBTITLE.draw(&[self.title.to_owned()], middle, TOP - 24.0, "middle");
+        let mut parts = SUBTITLE.draw(
+            &[(self.title)(map.precision.name())],
+            middle,
+            TOP - 24.0,
+            "middle",
+        );
         parts.extend(self.cells(map, left));
         parts.push(frame(left, PLOT.0));
         for degree in (0..=90).step_by(15) {

@@ -144,21 +144,6 @@ fn worst(finding: &Finding) -> String {
     format!("{at}: {what}")
 }
 
-/// A finding as a sentence.
-fn sentence(finding: &Finding) -> String {
-    let share = if finding.share >= 1.0 {
-        String::new()
-    } else {
-        format!(" ({} of it)", percent(finding.share))
-    };
-    format!(
-        "{}: {}{share}; worst at {}",
-        finding.region,
-        finding.failure.text(),
-        worst(finding)
-    )
-}
-
 /// A reflectance in four digits.
 fn number(x: f64) -> String {
     match x.abs() {

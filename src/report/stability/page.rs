@@ -5,7 +5,8 @@ use base64::prelude::BASE64_STANDARD;
 use serde::Serialize;
 use tera::{Context, Tera};
 
-use super::Row;
+use super::{Row, percent, worst};
+use crate::verify::stability::Finding;
 
 static TEMPLATE: &str = include_str!("../../../templates/stability.html.tera");
 
@@ -56,14 +57,14 @@ fn section(
     rows: &[Row],
     pictures: &[(&'static str, &'static str, Vec<u8>)],
 ) -> Section {
-    let sentences = |wanted: fn(&super::Finding) -> bool| -> Vec<String> {
+    let sentences = |wanted: fn(&Finding) -> bool| -> Vec<String> {
         let findings = rows
             .iter()
             .filter(|row| row.method == method)
             .filter_map(|row| row.finding.as_ref());
         findings
             .filter(|finding| wanted(finding))
-            .map(super::sentence)
+            .map(sentence)
             .collect()
     };
     let own = pictures.iter().filter(|(of, _, _)| *of == method);
@@ -80,4 +81,19 @@ fn section(
             })
             .collect(),
     }
+}
+
+/// A finding as a sentence.
+fn sentence(finding: &Finding) -> String {
+    let share = if finding.share >= 1.0 {
+        String::new()
+    } else {
+        format!(" ({} of it)", percent(finding.share))
+    };
+    format!(
+        "{}: {}{share}; worst at {}",
+        finding.region,
+        finding.failure.text(),
+        worst(finding)
+    )
 }

@@ -6,6 +6,7 @@ mod program;
 
 use crate::emit::{NAGA_VERSION, validate_wgsl};
 use crate::fit::Measured;
+use crate::num::Precision;
 use crate::targets::{Compiler, DXC, Target, Validator};
 
 use call::{Called, File};
@@ -58,7 +59,17 @@ const LINES: usize = 8;
 
 /// What every compiler that can judge a target's files says of one. Its name stands in their words.
 pub fn accepts(target: &Target, name: &str, bytes: &[u8]) -> Vec<(&'static str, Verdict)> {
-    let validators = target.validators.iter();
+    accepts_in(Precision::F32, target, name, bytes)
+}
+
+/// The same of a file in this precision.
+pub fn accepts_in(
+    precision: Precision,
+    target: &Target,
+    name: &str,
+    bytes: &[u8],
+) -> Vec<(&'static str, Verdict)> {
+    let validators = target.validators_in(precision).iter();
     validators
         .map(|validator| (validator.name, verdict(validator, name, bytes)))
         .collect()
@@ -83,12 +94,26 @@ pub fn verdict(validator: &Validator, name: &str, bytes: &[u8]) -> Verdict {
 /// A compute shader in HLSL as DXC makes SPIR-V of it for Vulkan 1.1: register numbers become bindings, spaces become
 /// sets.
 pub fn hlsl_to_spirv(text: &str, entry: &str, version: HlslVersion) -> Result<Vec<u8>, Fault> {
+    hlsl_to_spirv_in(Precision::F32, text, entry, version)
+}
+
+/// The same where `half` has as many bits as this precision: 16, or 32.
+pub fn hlsl_to_spirv_in(
+    precision: Precision,
+    text: &str,
+    entry: &str,
+    version: HlslVersion,
+) -> Result<Vec<u8>, Fault> {
+    let model = match precision {
+        Precision::F32 => "cs_6_0",
+        Precision::F16 => "cs_6_2 -enable-16bit-types",
+    };
     let version = match version {
         HlslVersion::V2018 => 2018,
         HlslVersion::V2021 => 2021,
     };
     let options = format!(
-        "-T cs_6_0 -E {entry} -HV {version} -spirv -fspv-target-env=vulkan1.1 -Fo OUT FILE"
+        "-T {model} -E {entry} -HV {version} -spirv -fspv-target-env=vulkan1.1 -Fo OUT FILE"
     );
     let file = File {
         name: "shader.hlsl".to_owned(),

@@ -79,6 +79,14 @@ impl Device {
         })
     }
 
+    /// Whether it computes in 16 bits where a text says so; in OpenGL ES that is left to the driver.
+    pub fn has_half(&self) -> bool {
+        match &self.stack {
+            Stack::Compute(compute) => compute.has(wgpu::Features::SHADER_F16),
+            Stack::Gles(_) => true,
+        }
+    }
+
     /// Compiles a program.
     ///
     /// # Errors

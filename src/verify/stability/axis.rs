@@ -1,5 +1,7 @@
 //! What a scan varies: cosines, indices and other arguments, over their domains and past them.
 
+use crate::num::Precision;
+
 /// A quantity and the values at which it is tried, in order.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Axis {
@@ -16,9 +18,10 @@ impl Axis {
         Axis { name, values }
     }
 
-    /// The values as a kind of number has them.
-    pub fn rounded(&self, round: impl Fn(f64) -> f64) -> Axis {
-        Axis::new(self.name, self.values.iter().map(|x| round(*x)).collect())
+    /// The values as a precision has them, without those that it has not.
+    pub fn rounded(&self, precision: Precision) -> Axis {
+        let all = self.values.iter().map(|x| precision.rounded(*x));
+        Axis::new(self.name, all.filter(|x| x.is_finite()).collect())
     }
 }
 

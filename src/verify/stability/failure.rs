@@ -17,6 +17,8 @@ pub enum Failure {
     Jump,
     /// So many units of the last place from what the same formula gives in f64 at this cosine or within two last places of it.
     Digits(f64),
+    /// So far from what the same formula gives in f64: what counts where numbers have no digits to lose.
+    Off(f64),
     /// So far from the law.
     Error(f64),
     /// Rises where the law falls, or falls where it rises.
@@ -27,7 +29,7 @@ pub enum Failure {
 
 impl Failure {
     /// All, the gravest first; of each kind the highest level first.
-    pub const ALL: [Failure; 12] = [
+    pub const ALL: [Failure; 14] = [
         Failure::NotANumber,
         Failure::Infinite,
         Failure::Negative,
@@ -35,6 +37,8 @@ impl Failure {
         Failure::Jump,
         Failure::Digits(1000.0),
         Failure::Digits(16.0),
+        Failure::Off(0.1),
+        Failure::Off(0.01),
         Failure::Error(0.2),
         Failure::Error(0.05),
         Failure::Error(0.01),
@@ -51,6 +55,7 @@ impl Failure {
             Failure::AboveOne => "above 1".to_owned(),
             Failure::Jump => "jump".to_owned(),
             Failure::Digits(ulp) => format!("more than {ulp} ulp off"),
+            Failure::Off(level) => format!("more than {level} off"),
             Failure::Error(level) => format!("error above {level}"),
             Failure::Monotony => "wrong monotony".to_owned(),
             Failure::Minimum => "missed minimum".to_owned(),
@@ -110,7 +115,10 @@ impl Point {
                 (self.next - self.got).abs() - (self.around.1 - self.around.0),
                 STEP,
             ),
-            Failure::Digits(ulp) => above(self.digits(), ulp),
+            Failure::Digits(_) | Failure::Off(_) if !self.is_finite() => 0.0,
+            Failure::Digits(ulp) if self.is_single() => above(self.digits(), ulp),
+            Failure::Off(level) if !self.is_single() => above(self.off(), level),
+            Failure::Digits(_) | Failure::Off(_) => 0.0,
             Failure::Error(level) => above(self.error(), level),
             Failure::Monotony | Failure::Minimum => 0.0,
         }
@@ -121,17 +129,26 @@ impl Point {
         self.law.map_or(0.0, |law| (self.want - law).abs())
     }
 
+    fn is_single(&self) -> bool {
+        self.spacing == 1.0
+    }
+
+    fn is_finite(&self) -> bool {
+        self.got.is_finite() && self.around.0.is_finite() && self.around.1.is_finite()
+    }
+
+    /// How far the result is from what it may be.
+    fn off(&self) -> f64 {
+        let (least, most) = self.around;
+        f64::max(least - self.got, self.got - most).max(0.0)
+    }
+
     /// How many last places the result is off.
     pub fn digits(&self) -> f64 {
-        let (least, most) = self.around;
-        if is_flushed(self.cos_theta)
-            || !(self.got.is_finite() && least.is_finite() && most.is_finite())
-            || self.want.abs() < LEAST
-        {
+        if is_flushed(self.cos_theta) || self.want.abs() < LEAST || !self.is_finite() {
             return 0.0;
         }
-        let off = f64::max(least - self.got, self.got - most).max(0.0);
-        off / (ulp_of(self.want) * self.spacing)
+        self.off() / (ulp_of(self.want) * self.spacing)
     }
 }
 

@@ -1,10 +1,11 @@
 //! Maps: how wrong a method is over the angle and an index.
 
 use crate::methods::{Class, Method};
+use crate::num::Precision;
 
 use super::axis::{Axis, logarithmic};
 use super::failure::{Failure, Point};
-use super::scan::{Precision, Scan};
+use super::scan::{Code, Scan};
 use super::space::{Space, law};
 
 /// Errors over angle and index.
@@ -12,6 +13,8 @@ use super::space::{Space, law};
 pub struct Map {
     /// What varies besides the angle, and its values in order.
     pub axis: Axis,
+    /// What functions compute in.
+    pub precision: Precision,
     /// What is held.
     pub held: &'static str,
     /// The angles, in degrees.
@@ -58,9 +61,7 @@ pub fn maps(method: &'static Method, precision: Precision) -> Vec<Map> {
 }
 
 fn map(method: &'static Method, precision: Precision, axes: Vec<Axis>, held: &'static str) -> Map {
-    let function = method
-        .function(true)
-        .expect("every method's function is well formed; a test builds all");
+    let code = Code::of(method, precision);
     let degrees: Vec<f64> = (0..=90).map(f64::from).collect();
     let cosines = degrees
         .iter()
@@ -73,14 +74,13 @@ fn map(method: &'static Method, precision: Precision, axes: Vec<Axis>, held: &'s
             name: "cos_theta",
             values: cosines,
         }
-        .rounded(precision.round),
+        .rounded(precision),
     };
     let scan = Scan {
-        function: &function,
+        code: &code,
         channel: 0,
-        precision,
         space: &space,
-        given: &|index| space.given(method, index, precision.round),
+        given: &|index| space.given(method, index, precision),
         law: &|given, c| Some(law(method, given.medium?, c)),
     };
     // The axis of cosines is in order, that of angles runs the other way.
@@ -93,6 +93,7 @@ fn map(method: &'static Method, precision: Precision, axes: Vec<Axis>, held: &'s
     Map {
         cells: (0..space.count()).flat_map(row).collect(),
         axis: space.axes.last().expect("a map has an axis").clone(),
+        precision,
         held,
         degrees,
     }

@@ -15,4 +15,4 @@ pub use axis::Axis;
 pub use failure::Failure;
 pub use map::{Cell, Map, maps};
 pub use region::short;
-pub use scan::{Finding, Precision, Progress, Shown, scan, scan_specialised};
+pub use scan::{Code, Finding, Progress, Shown, scan, scan_specialised};

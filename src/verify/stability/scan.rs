@@ -2,7 +2,7 @@
 
 use crate::ir::{Checked, Value, evaluate};
 use crate::methods::Method;
-use crate::num::Num;
+use crate::num::{Half, Num, Precision};
 
 use super::axis::{Axis, dense};
 use super::failure::{Failure, NEAR, Point, is_flushed};
@@ -39,27 +39,6 @@ pub struct Shown {
     pub law: Option<f64>,
 }
 
-/// A kind of number: how it rounds, and how far apart its numbers are, in the spacing of f32.
-#[derive(Clone, Copy, Debug)]
-pub struct Precision {
-    /// Its name in reports.
-    pub name: &'static str,
-    /// Rounds a number to this kind.
-    pub round: fn(f64) -> f64,
-    spacing: f64,
-    evaluate: fn(&Checked, usize, &[f64], &[f64]) -> Vec<f64>,
-}
-
-impl Precision {
-    /// Single precision, nothing fused.
-    pub const F32: Precision = Precision {
-        name: "f32",
-        round: |x| f64::from(x as f32),
-        spacing: 1.0,
-        evaluate: in_numbers::<f32>,
-    };
-}
-
 /// What a function of scalars gives at these cosines, in a kind of number.
 fn in_numbers<N: Num>(
     function: &Checked,
@@ -76,25 +55,30 @@ fn in_numbers<N: Num>(
     (0..count).map(|i| column.at(i).to_f64()).collect()
 }
 
+/// How far apart the numbers of a precision are, in the spacing of f32.
+fn spacing(precision: Precision) -> f64 {
+    match precision {
+        Precision::F32 => 1.0,
+        Precision::F16 => 8192.0,
+    }
+}
+
 /// Hears how many points are done, of how many.
 pub type Progress<'a> = &'a mut dyn FnMut(usize, usize);
 
 /// Scans a method.
 pub fn scan(method: &'static Method, precision: Precision, progress: Progress) -> Vec<Finding> {
-    let function = method
-        .function(true)
-        .expect("every method's function is well formed; a test builds all");
-    let spaces = spaces(method, precision.round);
+    let code = Code::of(method, precision);
+    let spaces = spaces(method, precision);
     let total: usize = spaces.iter().map(Space::count).sum();
     let mut before = 0;
     let mut findings = Vec::new();
     for space in &spaces {
         let scan = Scan {
-            function: &function,
+            code: &code,
             channel: 0,
-            precision,
             space,
-            given: &|index| space.given(method, index, precision.round),
+            given: &|index| space.given(method, index, precision),
             law: &|given, c| {
                 Some(law(
                     method,
@@ -109,17 +93,42 @@ pub fn scan(method: &'static Method, precision: Precision, progress: Progress) -
     findings
 }
 
+/// A function, and what it means.
+#[derive(Clone, Debug)]
+pub struct Code {
+    /// What its text says.
+    pub function: Checked,
+    /// What it means: in half precision some formulas are written otherwise.
+    pub meaning: Checked,
+    /// What it is computed in.
+    pub precision: Precision,
+}
+
+impl Code {
+    /// A method's library function of scalars.
+    pub(super) fn of(method: &Method, precision: Precision) -> Code {
+        let built = |precision| {
+            let function = method.function_in(precision, true);
+            function.expect("every method's function is well formed; a test builds all")
+        };
+        Code {
+            function: built(precision),
+            meaning: built(Precision::F32),
+            precision,
+        }
+    }
+}
+
 /// Scans one channel of a function of the cosine alone, against what the law says of it.
 pub fn scan_specialised(
-    function: &Checked,
+    code: &Code,
     channel: usize,
     law: &(dyn Fn(f64) -> f64 + Sync),
-    precision: Precision,
 ) -> Vec<Finding> {
     let space = Space {
         is_media: true,
         axes: Vec::new(),
-        cosines: dense().rounded(precision.round),
+        cosines: dense().rounded(code.precision),
     };
     let given = Given {
         arguments: Vec::new(),
@@ -127,9 +136,8 @@ pub fn scan_specialised(
         limit: 1.0,
     };
     let scan = Scan {
-        function,
+        code,
         channel,
-        precision,
         space: &space,
         given: &|_| given.clone(),
         law: &|_, c| Some(law(c)),
@@ -138,9 +146,8 @@ pub fn scan_specialised(
 }
 
 pub(super) struct Scan<'a> {
-    pub function: &'a Checked,
+    pub code: &'a Code,
     pub channel: usize,
-    pub precision: Precision,
     pub space: &'a Space,
     pub given: &'a (dyn Fn(usize) -> Given + Sync),
     pub law: &'a (dyn Fn(&Given, f64) -> Option<f64> + Sync),
@@ -268,12 +275,16 @@ impl Scan<'_> {
     }
 
     fn points(&self, given: &Given, cosines: &[f64]) -> Vec<Point> {
-        let beside =
-            |steps: i32| -> Vec<f64> { cosines.iter().map(|c| stepped(*c, steps)).collect() };
-        let arguments = &given.arguments;
-        let run =
-            |at: &[f64]| (self.precision.evaluate)(self.function, self.channel, arguments, at);
-        let mean = |at: &[f64]| in_numbers::<f64>(self.function, self.channel, arguments, at);
+        let (code, arguments) = (self.code, &given.arguments);
+        let beside = |steps: i32| -> Vec<f64> {
+            let step = |c: &f64| stepped(code.precision, *c, steps);
+            cosines.iter().map(step).collect()
+        };
+        let run = |at: &[f64]| match code.precision {
+            Precision::F32 => in_numbers::<f32>(&code.function, self.channel, arguments, at),
+            Precision::F16 => in_numbers::<Half>(&code.function, self.channel, arguments, at),
+        };
+        let mean = |at: &[f64]| in_numbers::<f64>(&code.meaning, self.channel, arguments, at);
         let (got, next) = (run(cosines), run(&beside(1)));
         let (below, want, above) = (mean(&beside(-NEAR)), mean(cosines), mean(&beside(NEAR)));
         let law = |c: f64| {
@@ -291,23 +302,16 @@ impl Scan<'_> {
             ),
             law: law(cosines[i]),
             limit: given.limit,
-            spacing: self.precision.spacing,
+            spacing: spacing(code.precision),
         };
         (0..cosines.len()).map(point).collect()
     }
 }
 
-/// The f32 that is so many last places above this one.
-fn stepped(x: f64, steps: i32) -> f64 {
-    let single = x as f32;
-    let step = |x: f32, _: i32| {
-        if steps > 0 {
-            x.next_up()
-        } else {
-            x.next_down()
-        }
-    };
-    f64::from((0..steps.abs()).fold(single, step))
+/// The number that is so many last places, or half of those, further from 0 than this one.
+fn stepped(precision: Precision, x: f64, steps: i32) -> f64 {
+    let place = f64::from(f32::EPSILON) * spacing(precision);
+    precision.rounded(x * (1.0 + f64::from(steps) * place))
 }
 
 /// Without what a graver level of the same failure says already.

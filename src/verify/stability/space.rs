@@ -3,6 +3,7 @@
 use crate::fit::{Derivation, values};
 use crate::materials::Channels;
 use crate::methods::{Class, Input, Method};
+use crate::num::Precision;
 use crate::optics;
 
 use super::axis::{Axis, argument, cosines, extinction, index};
@@ -19,8 +20,8 @@ pub struct Space {
     pub cosines: Axis,
 }
 
-/// The spaces of a method, with numbers of a kind that rounds so.
-pub fn spaces(method: &Method, round: fn(f64) -> f64) -> Vec<Space> {
+/// The spaces of a method, with numbers of a precision.
+pub fn spaces(method: &Method, precision: Precision) -> Vec<Space> {
     let mut all = vec![vec![index("eta", 40)]];
     if method.class == Class::Any {
         all.push(vec![index("n", 12), extinction()]);
@@ -35,8 +36,11 @@ pub fn spaces(method: &Method, round: fn(f64) -> f64) -> Vec<Space> {
         .chain([(false, given)])
         .map(|(is_media, axes)| Space {
             is_media,
-            axes: axes.iter().map(|axis: &Axis| axis.rounded(round)).collect(),
-            cosines: cosines().rounded(round),
+            axes: axes
+                .iter()
+                .map(|axis: &Axis| axis.rounded(precision))
+                .collect(),
+            cosines: cosines().rounded(precision),
         })
         .collect()
 }
@@ -69,7 +73,7 @@ impl Space {
     }
 
     /// What a method is given there.
-    pub fn given(&self, method: &Method, index: usize, round: fn(f64) -> f64) -> Given {
+    pub fn given(&self, method: &Method, index: usize, precision: Precision) -> Given {
         let at = self.at(index);
         if !self.is_media {
             let limit = limit(method.inputs, &at);
@@ -80,7 +84,10 @@ impl Space {
             };
         }
         let medium = (at[0], at.get(1).copied().unwrap_or(0.0));
-        let arguments = arguments(method, medium).into_iter().map(round).collect();
+        let arguments = arguments(method, medium)
+            .into_iter()
+            .map(|x| precision.rounded(x))
+            .collect();
         Given {
             arguments,
             medium: Some(medium),

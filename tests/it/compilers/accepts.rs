@@ -3,10 +3,11 @@
 
 use std::collections::BTreeMap;
 
+use fresnel_gen::num::Precision;
 use fresnel_gen::targets::{self, Finish, Target, Validator};
 use fresnel_gen::verify::compilers::{Verdict, accepts, calls, is_here, verdict, version};
 
-use super::{Judgement, accepted, files, joined, text, tree};
+use super::{Judgement, accepted, files, joined, precision, text, tree};
 use crate::not_checked;
 
 /// The compilers that must be there where `CI` is set.
@@ -83,17 +84,21 @@ fn wgsl_is_accepted() {
 #[track_caller]
 fn check(target: &str) {
     let target = targets::find(target).unwrap();
-    for validator in target.validators.iter().filter(|v| is_here(v.compiler)) {
-        let units = units(target, SLOW.contains(&validator.compiler.name));
-        accepted(&units, |(name, bytes)| judge(validator, name, bytes));
+    for precision in Precision::ALL {
+        let validators = target.validators_in(precision).iter();
+        for validator in validators.filter(|v| is_here(v.compiler)) {
+            let units = units(target, precision, SLOW.contains(&validator.compiler.name));
+            accepted(&units, |(name, bytes)| judge(validator, name, bytes));
+        }
     }
 }
 
 /// Each file, and what a shader may hold together: each variant of the tree. With guards all may be included twice; WGSL
 /// has none, so that no two names of a variant may meet. A slow compiler sees the files of the variants together only, and
 /// everything twice only.
-fn units(target: &Target, slow: bool) -> Vec<(String, Vec<u8>)> {
-    let files = files(target.name);
+fn units(target: &Target, computes_in: Precision, slow: bool) -> Vec<(String, Vec<u8>)> {
+    let mut files = files(target.name);
+    files.retain(|file| precision(file) == computes_in);
     let lone = files
         .iter()
         .filter(|file| !slow || variant(&file.path).is_empty());
@@ -105,10 +110,8 @@ fn units(target: &Target, slow: bool) -> Vec<(String, Vec<u8>)> {
     }
     let mut whole = BTreeMap::<&str, Vec<u8>>::new();
     for file in &files {
-        whole
-            .entry(variant(&file.path))
-            .or_default()
-            .extend(&file.bytes);
+        let unit = whole.entry(variant(&file.path)).or_default();
+        unit.extend(joinable(target, unit.is_empty(), &file.bytes));
     }
     let whole = whole.into_iter();
     units.extend(whole.map(|(name, bytes)| (format!("all-{name}.{}", target.extension), bytes)));
@@ -123,6 +126,16 @@ fn units(target: &Target, slow: bool) -> Vec<(String, Vec<u8>)> {
         units.extend(twice);
     }
     units
+}
+
+/// A file as it is joined to others: what must stand first stands in the first.
+fn joinable(target: &Target, is_first: bool, bytes: &[u8]) -> Vec<u8> {
+    let directive = target.directive_in(Precision::F16);
+    if is_first || directive.is_empty() {
+        return bytes.to_vec();
+    }
+    let text = String::from_utf8(bytes.to_vec()).unwrap();
+    text.replace(&format!("\n{directive}\n"), "\n").into_bytes()
 }
 
 /// Before the folder of a target: `every`, `immersed`; nothing for the tree without flags.

@@ -13,6 +13,7 @@ use std::sync::{LazyLock, Mutex};
 use fresnel_gen::app::request::DEFAULT_MATERIALS;
 use fresnel_gen::app::{Artifact, Materials, Request, Source, generate};
 use fresnel_gen::lut::{self, Axis};
+use fresnel_gen::num::Precision;
 use fresnel_gen::targets::Target;
 use fresnel_gen::{emit, methods, targets};
 use serde_json::json;
@@ -125,8 +126,37 @@ fn all_files() -> Vec<Artifact> {
         ..Request::default()
     };
     files.extend(made(&unprefixed, "unprefixed/"));
+    files.extend(in_half());
     files.extend(lookups());
     files
+}
+
+/// All methods in half precision, those too that cannot be saved there: as a library, and for each material.
+fn in_half() -> Vec<Artifact> {
+    let half = Request {
+        precision: Precision::F16,
+        force: true,
+        ..Request::default()
+    };
+    let mut files = made(&half, "half/");
+    for material in DEFAULT_MATERIALS {
+        let request = Request {
+            materials: Materials::These(vec![Source::Named(material.to_owned())]),
+            ..half.clone()
+        };
+        let every = Request {
+            methods: methods_of(&request),
+            ..request
+        };
+        files.extend(specialised(made(&every, "half-every/")));
+    }
+    files
+}
+
+/// What a file's functions compute in.
+pub fn precision(file: &Artifact) -> Precision {
+    let said = file.detail["precision"].as_str();
+    said.map_or(Precision::F32, |name| Precision::find(name).unwrap())
 }
 
 /// Functions that read baked tables: along every axis, with row and scale as constants and as arguments.

@@ -15,6 +15,13 @@ const COMPILER: Tool = Tool {
 /// As much of `metal_stdlib` as the files use. As in Metal, a scalar meets a vector in operators but not in functions.
 const STAND_IN: &str = "
 #pragma once
+struct half {
+    float value;
+    explicit operator float() const;
+};
+half operator\"\"h(long double);
+half operator-(half);
+bool operator<(half, half);
 namespace metal {
 struct float3 {
     float r, g, b;
@@ -28,7 +35,20 @@ OPERATOR(+) OPERATOR(-) OPERATOR(*) OPERATOR(/)
 ONE(abs) ONE(exp2) ONE(log2) ONE(rsqrt) ONE(saturate) ONE(sqrt)
 #define TWO(f) float f(float, float); float3 f(float3, float3);
 TWO(max) TWO(min)
-struct float2 { float2(float, float); };
+struct half3 {
+    half r, g, b;
+    explicit half3(half);
+    explicit half3(float3);
+    half3(half, half, half);
+};
+half3 operator-(half3);
+#define HALF_OPERATOR(o) half operator o(half, half); half3 operator o(half3, half3); half3 operator o(half3, half); half3 operator o(half, half3);
+HALF_OPERATOR(+) HALF_OPERATOR(-) HALF_OPERATOR(*) HALF_OPERATOR(/)
+#define HALF_ONE(f) half f(half); half3 f(half3);
+HALF_ONE(abs) HALF_ONE(exp2) HALF_ONE(log2) HALF_ONE(rsqrt) HALF_ONE(saturate) HALF_ONE(sqrt)
+#define HALF_TWO(f) half f(half, half); half3 f(half3, half3);
+HALF_TWO(max) HALF_TWO(min)
+struct float2 { float2(float, float); explicit float2(half, half); };
 struct float4 { float3 rgb; };
 struct sampler {};
 struct level { explicit level(float); };
@@ -76,7 +96,7 @@ fn judge(units: &[String]) -> Judgement {
     let folder = TempDir::new().unwrap();
     let at = |name: &str| folder.path().join(name);
     fs::write(at("metal_stdlib"), STAND_IN).unwrap();
-    let options = "-std=c++14 -fsyntax-only -Wall -Wconversion -Wdouble-promotion -Werror -I";
+    let options = "-std=c++14 -fsyntax-only -Wall -Wconversion -Wdouble-promotion -Wno-literal-suffix -Werror -I";
     let mut arguments: Vec<_> = options.split(' ').map(Into::into).collect();
     arguments.push(folder.path().to_owned());
     for (index, unit) in units.iter().enumerate() {

@@ -14,6 +14,7 @@ use fresnel_gen::app::artifact::Artifact;
 use fresnel_gen::app::manifest::{Input, Provenance};
 use fresnel_gen::app::scope::Scope;
 use fresnel_gen::app::tree::{Plan, plan};
+use fresnel_gen::num::Precision;
 use serde_json::json;
 
 /// A run without flags: two targets with two methods, two materials and a catalogue each,
@@ -70,6 +71,7 @@ pub fn run(targets: &[&str], materials: &[&str], method: Option<&str>) -> (Vec<A
         methods: method.map(|only| names(&[only])),
         materials: names(materials),
         shared: method.is_none(),
+        precision: Precision::F32,
         whole: false,
     };
     (artifacts, scope)

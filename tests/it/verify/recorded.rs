@@ -2,7 +2,9 @@
 
 use std::process::Command;
 
-use fresnel_gen::emit::{Bounds, Emitted, Naming, Subject, fingerprint, specialised_function};
+use fresnel_gen::emit::{
+    Bounds, CodeBound, Emitted, Naming, Subject, fingerprint, specialised_function,
+};
 use fresnel_gen::fit::Measured;
 use fresnel_gen::ir::Op;
 use fresnel_gen::methods::{self, Class, Contract, Method};
@@ -50,7 +52,7 @@ fn it_is_whole_and_current_and_within_the_bounds() {
         let has_power = [Op::Exp2, Op::Log2]
             .iter()
             .any(|op| emitted.function.count(*op) > 0);
-        if let (Measured::Yes(bound), false) = (&emitted.code_ulp, has_power) {
+        if let (Measured::Yes(CodeBound::Ulp(bound)), false) = (&emitted.code, has_power) {
             assert!(line.max_ulp <= *bound, "{what}, {bound} promised");
         }
     }

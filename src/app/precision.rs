@@ -1,0 +1,48 @@
+//! What functions compute in, as the command line says it: single or half precision.
+
+use clap::Args;
+
+use crate::num::Precision;
+
+use super::error::Error;
+use super::names::unknown;
+
+/// The flags of every command that writes or runs functions.
+#[derive(Args, Clone, Debug, Default)]
+pub struct PrecisionFlags {
+    /// What functions compute in: f32, or f16, whose names end in _f16 [default: f32]
+    #[arg(long, value_name = "NAME")]
+    pub precision: Option<String>,
+    /// Methods too that cannot be saved in f16, with no promise
+    #[arg(long, requires = "precision")]
+    pub force: bool,
+}
+
+impl PrecisionFlags {
+    /// What they say.
+    ///
+    /// # Errors
+    /// There is no precision of this name.
+    pub fn read(&self) -> Result<Precision, Error> {
+        named(self.precision.as_deref())
+    }
+
+    /// The same as words of a command.
+    pub fn words(&self) -> String {
+        let precision = self.precision.as_deref();
+        let force = if self.force { " --force" } else { "" };
+        precision.map_or_else(String::new, |name| format!(" --precision {name}{force}"))
+    }
+}
+
+/// The precision of a name, single where none is said.
+///
+/// # Errors
+/// There is no precision of this name.
+pub fn named(name: Option<&str>) -> Result<Precision, Error> {
+    let names = Precision::ALL.map(Precision::name);
+    match name {
+        None => Ok(Precision::default()),
+        Some(name) => Precision::find(name).ok_or_else(|| unknown("precision", name, &names)),
+    }
+}

@@ -1,0 +1,60 @@
+//! A function in half precision as it runs: at every f16 from 0 to 1 and a few beyond, against f64 and against f16 rounded
+//! after every operation.
+
+use crate::fit::Measured;
+use crate::methods::Contract;
+use crate::num::Num;
+use crate::verify::run::{Fault, Runnable, Shown};
+use crate::verify::{HalfError, HalfTrial, Outcome, Trial, halves};
+
+use super::row::{HalfRun, Run};
+
+/// f16 that no geometry has and shaders see all the same.
+const BEYOND: [f32; 4] = [-1.0, -6.103_515_6e-5, 1.000_976_6, 2.0];
+
+/// Runs it. A function that promises nothing may be twice as far off as its emulation.
+pub(super) fn run(runnable: &Runnable, shown: &Shown, trial: &Trial) -> Result<Run, Fault> {
+    let emitted = shown.function;
+    let meaning = emitted.meaning();
+    let meaning = meaning.map_err(|fault| Fault::Failed(fault.to_string()))?;
+    let half = HalfTrial {
+        function: &emitted.function,
+        meaning: &meaning,
+        values: &trial.values,
+        table: trial.table.as_ref(),
+    };
+    let mut cosines = halves();
+    match emitted.method.contract {
+        Contract::Kept => cosines.extend(BEYOND),
+        // Nothing is promised at grazing, where most have no number.
+        Contract::Exempt(_) => cosines.retain(|c| *c > 0.1),
+    }
+    let got = runnable.run(shown.target, trial, &cosines)?;
+    let (want, emulated) = (half.want(&cosines), half.emulated(&cosines));
+    let mut result = HalfRun {
+        error: HalfError::NONE,
+        emulation: HalfError::NONE,
+        allowed: match trial.bound {
+            Measured::Yes(most) => most,
+            Measured::No(_) => 2.0 * half.error(&cosines).max_abs,
+        },
+    };
+    for (point, (cos_theta, got)) in cosines.iter().zip(&got).enumerate() {
+        for channel in 0..3 {
+            let got = f64::from(got[channel]);
+            result
+                .error
+                .include(got, want.at(point)[channel], *cos_theta);
+            let rounded = emulated.at(point)[channel].to_f64();
+            result.emulation.include(got, rounded, *cos_theta);
+        }
+    }
+    Ok(Run {
+        points: cosines.len(),
+        bound: None,
+        outcome: Outcome::NONE,
+        half: Some(result),
+        model_error: emitted.model_error,
+        device: String::new(),
+    })
+}

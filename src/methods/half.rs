@@ -1,0 +1,61 @@
+//! What becomes of a method in half precision: what it promises there, or why it cannot be saved.
+//!
+//! A number has 11 bits there, the largest is 65504, the smallest normal one 6.1e-5. So squares of squares overflow
+//! (an extinction coefficient of 16 has 65536 as its fourth power), guards of 1e-37 are 0, and a difference of
+//! two numbers near 1 is off by 5e-4. A method whose formula does not bear that builds another one where
+//! [`Inputs::is_half`](super::Inputs::is_half), in its own file: most often 1 less a small quotient in place of a quotient near 1.
+
+use super::method::Over;
+
+/// A method in half precision.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum InHalf {
+    /// It is written, and promises this.
+    Kept(HalfClaim),
+    /// Only specialised to materials, for this reason: constants are folded in f64.
+    Specialised(&'static str),
+    /// It cannot be saved, for this reason.
+    Refused(&'static str),
+}
+
+/// A promised code error in half precision. Tests hold it in both directions.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct HalfClaim {
+    /// The most by which the library function, rounded to f16 after every operation, differs from f64 at the same
+    /// inputs, over these media and every f16 from 0 to 1.
+    pub max_abs: f64,
+    /// The media.
+    pub over: Over,
+}
+
+impl InHalf {
+    /// It is written, and promises this over [`Over::Half`].
+    pub const fn within(max_abs: f64) -> InHalf {
+        let over = Over::Half;
+        InHalf::Kept(HalfClaim { max_abs, over })
+    }
+
+    /// What the library function promises.
+    pub fn claim(&self) -> Option<HalfClaim> {
+        match self {
+            InHalf::Kept(claim) => Some(*claim),
+            _ => None,
+        }
+    }
+
+    /// Why there is no library function.
+    pub fn library_refusal(&self) -> Option<&'static str> {
+        match self {
+            InHalf::Kept(_) => None,
+            InHalf::Specialised(why) | InHalf::Refused(why) => Some(why),
+        }
+    }
+
+    /// Why there is no function of a material either.
+    pub fn refusal(&self) -> Option<&'static str> {
+        match self {
+            InHalf::Refused(why) => Some(why),
+            _ => None,
+        }
+    }
+}

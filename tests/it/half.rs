@@ -1,0 +1,268 @@
+//! Half precision: every f16 from 0 to 1, rounded after every operation, against f64. Library functions over random media,
+//! specialised ones for the whole catalogue; `data/code-bounds-f16.csv` records the latter, and `BLESS=1` rewrites it.
+
+use std::fmt::Write;
+use std::path::Path;
+
+use fresnel_gen::app::{Error, Materials, Request, Source, generate};
+use fresnel_gen::emit::{Bounds, Emitted, Naming, Subject, specialised_function};
+use fresnel_gen::ir::Value;
+use fresnel_gen::methods::{self, Class, Contract, InHalf, Method};
+use fresnel_gen::num::{Half, Num, Precision};
+use fresnel_gen::verify::{HalfTrial, halves, library_half_error};
+
+/// Random media over which a library function's error is taken.
+const MEDIA: usize = 120;
+/// What specialised functions are to keep within.
+const AIM: f64 = 0.002;
+/// The methods that are the exact law, which reflects everything at 90 degrees.
+const EXACT: [&str; 5] = [
+    "conductor_artistic",
+    "conductor_exact",
+    "conductor_from_f0_f82",
+    "dielectric_exact",
+    "dielectric_exact_s",
+];
+
+fn naming() -> Naming {
+    Naming {
+        precision: Precision::F16,
+        ..Naming::default()
+    }
+}
+
+fn in_half(methods: &[&str], force: bool) -> Request {
+    Request {
+        methods: methods.iter().map(|name| (*name).to_owned()).collect(),
+        materials: Materials::None,
+        precision: Precision::F16,
+        force,
+        ..Request::default()
+    }
+}
+
+#[test]
+fn library_functions_keep_what_they_promise() {
+    let check = |method: &&'static Method| {
+        let claim = method.half.claim()?;
+        let error = library_half_error(method, MEDIA);
+        let (promised, measured) = (claim.max_abs, error.max_abs);
+        let what = format!(
+            "{}: measured {measured:.6} at cos {}, promised {promised}",
+            method.name, error.worst_cos
+        );
+        if measured > promised {
+            Some(format!("exceeded: {what}"))
+        } else if measured < 0.85 * promised {
+            Some(format!("slack, lower the promise: {what}"))
+        } else {
+            None
+        }
+    };
+    let broken: Vec<String> = methods::ALL.iter().filter_map(check).collect();
+    assert!(broken.is_empty(), "{}", broken.join("\n"));
+}
+
+/// All methods that are written for a material.
+fn methods_of(subject: &Subject) -> impl Iterator<Item = &'static Method> {
+    let transparent = subject.effective.channels.is_transparent();
+    let fits = move |method: &&&Method| {
+        method.half.refusal().is_none() && (method.class == Class::Any || transparent)
+    };
+    methods::ALL.iter().filter(fits).copied()
+}
+
+/// The row of a function, and what is wrong with its numbers.
+fn measured(emitted: &Emitted, subject: &Subject, cosines: &[f32]) -> (String, Option<String>) {
+    let meaning = emitted.meaning().expect("it is well formed");
+    let trial = HalfTrial {
+        function: &emitted.function,
+        meaning: &meaning,
+        values: &[],
+        table: None,
+    };
+    let error = trial.error(cosines);
+    let mark = fresnel_gen::emit::fingerprint(&emitted.function);
+    let (material, method) = (&subject.name, emitted.method.name);
+    let row = format!(
+        "{mark},{material},{method},{:e},{:e}\n",
+        error.max_abs, error.worst_cos
+    );
+    let what = format!("{}: {error:?}", emitted.name);
+    let fault = if error.max_abs > AIM {
+        Some(format!("above the aim: {what}"))
+    } else {
+        range_fault(emitted, &trial.emulated(cosines), cosines.len())
+    };
+    (row, fault)
+}
+
+/// What is wrong with results: they lie in [0, 1], and the exact law is exactly 1 at 90 degrees.
+fn range_fault(emitted: &Emitted, got: &Value<Half>, count: usize) -> Option<String> {
+    let number = |i: usize| got.at(i).map(Num::to_f64);
+    let inside = |value: f64| (0.0..=1.0).contains(&value);
+    let kept = emitted.method.contract == Contract::Kept;
+    if let Some(i) = (0..count).find(|i| kept && !number(*i).into_iter().all(inside)) {
+        return Some(format!("{} leaves [0, 1]: {:?}", emitted.name, number(i)));
+    }
+    let is_exact = EXACT.contains(&emitted.method.name);
+    (is_exact && number(0) != [1.0; 3])
+        .then(|| format!("{} at 90 degrees: {:?}", emitted.name, number(0)))
+}
+
+#[test]
+fn the_catalogue_keeps_within_the_aim_and_is_recorded() {
+    let request = Request {
+        materials: Materials::All,
+        ..Request::default()
+    };
+    let subjects = request.subjects().expect("the catalogue is good").ready;
+    let cosines = halves();
+    let of = |subject: &Subject| -> Vec<(String, Option<String>)> {
+        let emitted = methods_of(subject).map(|method| {
+            specialised_function(method, subject, &naming(), &Bounds::default())
+                .expect("every method specialises to the catalogue")
+        });
+        emitted
+            .map(|emitted| measured(&emitted, subject, &cosines))
+            .collect()
+    };
+    let share = subjects.len().div_ceil(2);
+    let rows: Vec<(String, Option<String>)> = std::thread::scope(|scope| {
+        let parts = subjects.chunks(share);
+        let threads: Vec<_> = parts
+            .map(|part| scope.spawn(|| part.iter().flat_map(|(subject, _)| of(subject)).collect()))
+            .collect();
+        let joined = threads.into_iter().map(|thread| {
+            let rows: Vec<(String, Option<String>)> = thread.join().expect("no thread panics");
+            rows
+        });
+        joined.flatten().collect()
+    });
+    let mut record = String::from("fingerprint,material,method,max_abs,worst_cos\n");
+    let mut faults = String::new();
+    for (row, fault) in rows {
+        record += &row;
+        if let Some(fault) = fault {
+            let _ = writeln!(faults, "{fault}");
+        }
+    }
+    super::bless::check(
+        &Path::new(env!("CARGO_MANIFEST_DIR")).join("data/code-bounds-f16.csv"),
+        record.as_bytes(),
+    );
+    assert!(faults.is_empty(), "{faults}");
+}
+
+#[test]
+fn an_interface_that_is_not_there_reflects_nothing() {
+    for (name, values) in [
+        ("conductor_exact", vec![[1.0; 3], [0.0; 3]]),
+        ("dielectric_exact", vec![[1.0; 3]]),
+        ("dielectric_exact_s", vec![[1.0; 3]]),
+        ("dielectric_exact_p", vec![[1.0; 3]]),
+    ] {
+        let method = methods::find(name).expect("it is registered");
+        let function = method
+            .function_in(Precision::F16, false)
+            .expect("it is well formed");
+        let trial = HalfTrial {
+            function: &function,
+            meaning: &function,
+            values: &values,
+            table: None,
+        };
+        let got = trial.emulated(&halves());
+        assert!(
+            (0..15_361).all(|i| got.at(i).map(Num::to_f64) == [0.0; 3]),
+            "{name}"
+        );
+    }
+}
+
+#[test]
+fn a_method_that_cannot_be_saved_is_refused_by_name_unless_forced() {
+    for method in methods::ALL {
+        let result = generate(&in_half(&[method.name], false));
+        let Some(why) = method.half.library_refusal() else {
+            assert!(result.is_ok(), "{}", method.name);
+            continue;
+        };
+        let Err(error @ Error::Usage { .. }) = result else {
+            panic!("{} is written", method.name);
+        };
+        let words = error.to_string();
+        assert_eq!(error.exit_code(), 2);
+        for part in [method.name, why, "--force"] {
+            assert!(words.contains(part), "{words}");
+        }
+        let forced = generate(&in_half(&[method.name], true)).expect("it is forced");
+        let text = &forced.artifacts[0].bytes;
+        let text = String::from_utf8_lossy(text);
+        assert!(text.contains("nothing is promised"), "{text}");
+        assert!(text.contains(" --precision f16 --force\n"), "{text}");
+    }
+}
+
+#[test]
+fn without_a_name_such_methods_are_left_out_with_a_remark() {
+    let generated = generate(&in_half(&[], false)).expect("it generates");
+    let refused: Vec<&&Method> = methods::ALL
+        .iter()
+        .filter(|method| method.half.library_refusal().is_some())
+        .collect();
+    assert_eq!(generated.refused.len(), refused.len());
+    for method in refused {
+        let file = format!("fresnel_{}_f16.", method.name);
+        assert!(
+            generated
+                .artifacts
+                .iter()
+                .all(|artifact| !artifact.path.contains(&file))
+        );
+    }
+}
+
+#[test]
+fn what_is_solved_in_f64_is_written_for_materials() {
+    let solved = methods::ALL
+        .iter()
+        .filter(|method| matches!(method.half, InHalf::Specialised(_)));
+    for method in solved {
+        let request = Request {
+            materials: Materials::These(vec![Source::Named("gold".to_owned())]),
+            ..in_half(&[method.name], false)
+        };
+        let generated = generate(&request).expect("it generates");
+        let name = format!("fresnel_gold_{}_f16", method.name);
+        for artifact in generated.artifacts {
+            assert!(artifact.path.contains("/materials/gold_f16."));
+            assert_eq!(artifact.detail["functions"][0]["name"], name.as_str());
+        }
+    }
+}
+
+#[test]
+fn half_precision_stands_beside_single_precision() {
+    let request = |precision| Request {
+        targets: vec!["wgsl".to_owned()],
+        precision,
+        ..Request::default()
+    };
+    let [single, half] = Precision::ALL.map(|precision| generate(&request(precision)).unwrap());
+    for artifact in &half.artifacts {
+        assert!(artifact.path.ends_with("_f16.wgsl"), "{}", artifact.path);
+        assert_eq!(artifact.detail["precision"], "f16");
+        let text = String::from_utf8_lossy(&artifact.bytes);
+        assert!(
+            text.contains("\nenable f16;\n") && !text.contains("f32>"),
+            "{text}"
+        );
+        assert!(text.contains(" --precision f16\n"), "{text}");
+    }
+    for artifact in &single.artifacts {
+        assert!(!artifact.path.contains("_f16"));
+        let entry = fresnel_gen::app::manifest::Entry::of(artifact);
+        assert!(single.scope.owns(&entry) && !half.scope.owns(&entry));
+    }
+}
