@@ -37,6 +37,7 @@ pub static METHOD: Method = Method {
     contract: Contract::Kept,
     half: InHalf::within(0.0025),
     build,
+    plain: None,
     specialised: None,
 };
 

@@ -35,6 +35,7 @@ pub static METHOD: Method = Method {
     contract: Contract::Kept,
     half: InHalf::within(0.0012),
     build,
+    plain: None,
     specialised: None,
 };
 
