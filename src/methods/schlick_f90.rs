@@ -47,14 +47,14 @@ pub static METHOD: Method = Method {
         code_over: Over::Wide,
     },
     contract: Contract::Kept,
-    half: InHalf::within(0.002),
+    half: InHalf::within(0.0013),
     build,
     specialised: None,
 };
 
 fn build<'b>(x: &Inputs<'b>) -> Expr<'b> {
     let f0 = x.get(Input::F0);
-    f0 + (x.get(Input::F90) - f0) * grazing_weight(x.cosine())
+    f0 + (x.get(Input::F90) - f0) * grazing_weight(x, x.cosine())
 }
 
 #[cfg(test)]
