@@ -199,7 +199,9 @@ impl Row<'_> {
             Measured::Yes(CodeBound::Ulp(ulp)) => {
                 format!("{ulp} ulp or 2^-22; powers as Vulkan allows exp2 and log2")
             }
-            Measured::Yes(CodeBound::Absolute(most)) => format!("{most} absolute"),
+            Measured::Yes(CodeBound::Absolute(most)) => {
+                format!("{most} absolute, and 2^-11 for what a device is free to do")
+            }
             Measured::No(why) => why.clone(),
         }
     }

@@ -20,7 +20,7 @@ fn it_passes_on_every_target_and_comes_near_the_emulation() {
     let rows = ran.json()["rows"].as_array().unwrap().clone();
     for target in ["wgsl", "spirv", "gles", "hlsl"] {
         let own: Vec<&Value> = rows.iter().filter(|row| row["target"] == target).collect();
-        assert!(own.len() > 30, "{target}");
+        assert!(own.len() > 25, "{target}");
         for row in own {
             assert_eq!(row["status"], "pass", "{row}");
             assert_eq!(row["precision"], "f16", "{row}");
