@@ -136,7 +136,11 @@ fn half<'b>(c: Expr<'b>, n: Expr<'b>, k: Expr<'b>) -> Expr<'b> {
     let us2 = (u * s2).named("us2", "");
     let lost = us2 / (r * c2 + s2.squared() + us2).at_least(tiny);
     let lost = lost.named("lost", "1 - F / R_s");
-    let f = ((1.0 - lost_s) * (1.0 - lost)).named("f", "");
+    let f = ((1.0 - lost_s) * (1.0 - lost)).saturate();
+    let f = f.named(
+        "f",
+        "where next to nothing is reflected, rounding must not make it negative",
+    );
     let apart = (tau.abs() + nk).named("apart", "0 where there is no interface");
     apart.choose_below(number(tiny), number(0.0), f)
 }

@@ -35,7 +35,7 @@ pub static METHOD: Method = Method {
         code_over: Over::Wide,
     },
     contract: Contract::Kept,
-    half: InHalf::within(0.0025),
+    half: InHalf::within(0.0022),
     build,
     plain: None,
     specialised: None,

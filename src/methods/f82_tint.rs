@@ -53,7 +53,7 @@ pub static METHOD: Method = Method {
         code_over: Over::Wide,
     },
     contract: Contract::Kept,
-    half: InHalf::within(0.002),
+    half: InHalf::within(0.0016),
     build,
     plain: None,
     specialised: None,
@@ -68,7 +68,7 @@ fn build<'b>(x: &Inputs<'b>) -> Expr<'b> {
         scale * less * (7776.0 + 9031.0 * f0)
     };
     let b = b.named("b", "the depth of the dip");
-    let m5 = grazing_weight(c);
+    let m5 = grazing_weight(x, c);
     let bare = (f0 + (1.0 - f0) * m5 - b * dip(c, m5)).named("bare", "Schlick less the dip");
     limited(bare, f0)
 }

@@ -56,7 +56,7 @@ pub static METHOD: Method = Method {
         code_over: Over::Wide,
     },
     contract: Contract::Kept,
-    half: InHalf::within(0.002),
+    half: InHalf::within(0.0017),
     build,
     plain: None,
     specialised: None,
@@ -66,7 +66,7 @@ fn build<'b>(x: &Inputs<'b>) -> Expr<'b> {
     let (c, f0, f82) = (x.cosine(), x.get(Input::F0), x.get(Input::F82));
     let rise = (1.0 - f0).named("rise", "");
     let b = (PEAK * (f0 + rise * WEIGHT_82 - f82)).named("b", "the depth of the dip");
-    let m5 = grazing_weight(c);
+    let m5 = grazing_weight(x, c);
     let bare = (f0 + rise * m5 - b * dip(c, m5)).named("bare", "Schlick less the dip");
     limited(bare, f0)
 }

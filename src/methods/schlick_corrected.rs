@@ -40,7 +40,7 @@ pub static METHOD: Method = Method {
         code_over: Over::Wide,
     },
     contract: Contract::Kept,
-    half: InHalf::within(0.003),
+    half: InHalf::within(0.0024),
     build,
     plain: None,
     specialised: None,

@@ -47,7 +47,7 @@ pub static METHOD: Method = Method {
         code_over: Over::Wide,
     },
     contract: Contract::Kept,
-    half: InHalf::within(0.002),
+    half: InHalf::within(0.0013),
     build,
     plain: None,
     specialised: None,
@@ -55,7 +55,7 @@ pub static METHOD: Method = Method {
 
 fn build<'b>(x: &Inputs<'b>) -> Expr<'b> {
     let f0 = x.get(Input::F0);
-    f0 + (x.get(Input::F90) - f0) * grazing_weight(x.cosine())
+    f0 + (x.get(Input::F90) - f0) * grazing_weight(x, x.cosine())
 }
 
 #[cfg(test)]

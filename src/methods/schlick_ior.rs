@@ -32,7 +32,7 @@ pub static METHOD: Method = Method {
         code_over: Over::Wide,
     },
     contract: Contract::Kept,
-    half: InHalf::within(0.002),
+    half: InHalf::within(0.0013),
     build,
     plain: None,
     specialised: None,
@@ -42,7 +42,13 @@ fn build<'b>(x: &Inputs<'b>) -> Expr<'b> {
     let eta = x.get(Input::ETA);
     let less = (eta - 1.0).named("eta_less", "");
     let more = (eta + 1.0).named("eta_more", "");
-    ((less.squared() + 4.0 * eta * grazing_weight(x.cosine())) / more.squared()).saturate()
+    if x.is_half() {
+        // A quotient near 1 would be off by five roundings.
+        let r = (less / more).named("r", "the amplitude at normal incidence");
+        let f0 = r.squared().named("f0", "");
+        return f0 + (1.0 - f0) * grazing_weight(x, x.cosine());
+    }
+    ((less.squared() + 4.0 * eta * grazing_weight(x, x.cosine())) / more.squared()).saturate()
 }
 
 #[cfg(test)]

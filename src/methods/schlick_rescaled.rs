@@ -10,7 +10,7 @@ use crate::ir::Expr;
 use super::half::InHalf;
 use super::input::{Input, Inputs};
 use super::method::{Claim, Claims, Class, Contract, Forms, Light, Method, Over};
-use super::schlick::grazing_weight;
+use super::schlick::{grazing_rest, grazing_weight};
 
 /// Lazányi and Szirmay-Kalos 2005.
 pub const LAZANYI_2005: Citation = Citation {
@@ -49,7 +49,7 @@ pub static METHOD: Method = Method {
         code_over: Over::Wide,
     },
     contract: Contract::Kept,
-    half: InHalf::within(0.002),
+    half: InHalf::within(0.0024),
     build,
     plain: None,
     specialised: None,
@@ -68,14 +68,14 @@ pub(super) fn rescaled<'b>(x: &Inputs<'b>, c: Expr<'b>) -> Expr<'b> {
     let k2 = k.squared().named("k2", "");
     let less = (n - 1.0).named("n_less", "");
     let more = (n + 1.0).named("n_more", "");
-    (less.squared() + k2 + 4.0 * n * grazing_weight(c)) / (more.squared() + k2)
+    (less.squared() + k2 + 4.0 * n * grazing_weight(x, c)) / (more.squared() + k2)
 }
 
 /// The same as 1 less what is lost: metals lose little.
 fn half<'b>(c: Expr<'b>, n: Expr<'b>, k: Expr<'b>) -> Expr<'b> {
     let more = (n + 1.0).named("n_more", "");
     let lost = 4.0 * n / (more.squared() + k.squared());
-    1.0 - lost.named("lost", "1 - F0") * (1.0 - grazing_weight(c))
+    1.0 - lost.named("lost", "1 - F0") * grazing_rest(c)
 }
 
 #[cfg(test)]

@@ -70,10 +70,8 @@ const HALF_SPELLING: Spelling = Spelling {
     rgb: "half3",
     texture: "Texture2D<float4> {name}, SamplerState {name}_sampler",
     suffix: "h",
-    // `min(half3, half)` is ambiguous where halves have 16 bits.
-    mixed_min_max: false,
     differs: &[
-        (Op::Splat, Form::Call("half3")),
+        (Op::Splat, Form::Postfix(".xxx")),
         (Op::Compose, Form::Call("half3")),
         (
             Op::Sample,

@@ -43,20 +43,21 @@ pub struct HalfRun {
 }
 
 impl HalfRun {
-    /// What the device computes in, by what it gives: no f16 comes so near.
-    fn computes_in(&self) -> Precision {
+    /// What the device computes in, by what it gives: no f16 comes so near. Where nothing is rounded nothing is told.
+    fn computes_in(&self) -> Option<Precision> {
         const NEARER: f64 = 1e-5;
-        if self.error.max_abs < NEARER {
+        let rounds = self.error.max_abs.max(self.emulation.max_abs) > 0.0;
+        rounds.then_some(if self.error.max_abs < NEARER {
             Precision::F32
         } else {
             Precision::F16
-        }
+        })
     }
 
     fn json(&self) -> Value {
         json!({
             "max_abs": self.emulation.max_abs, "worst_cos": self.emulation.worst_cos,
-            "device_computes_in": self.computes_in().name(),
+            "device_computes_in": self.computes_in().map(Precision::name),
         })
     }
 }
@@ -198,7 +199,9 @@ impl Row<'_> {
             Measured::Yes(CodeBound::Ulp(ulp)) => {
                 format!("{ulp} ulp or 2^-22; powers as Vulkan allows exp2 and log2")
             }
-            Measured::Yes(CodeBound::Absolute(most)) => format!("{most} absolute"),
+            Measured::Yes(CodeBound::Absolute(most)) => {
+                format!("{most} absolute, and 2^-11 for what a device is free to do")
+            }
             Measured::No(why) => why.clone(),
         }
     }

@@ -21,6 +21,10 @@ struct half {
 };
 half operator\"\"h(long double);
 half operator-(half);
+half operator+(half, half);
+half operator-(half, half);
+half operator*(half, half);
+half operator/(half, half);
 bool operator<(half, half);
 namespace metal {
 struct float3 {
@@ -42,7 +46,7 @@ struct half3 {
     half3(half, half, half);
 };
 half3 operator-(half3);
-#define HALF_OPERATOR(o) half operator o(half, half); half3 operator o(half3, half3); half3 operator o(half3, half); half3 operator o(half, half3);
+#define HALF_OPERATOR(o) half3 operator o(half3, half3); half3 operator o(half3, half); half3 operator o(half, half3);
 HALF_OPERATOR(+) HALF_OPERATOR(-) HALF_OPERATOR(*) HALF_OPERATOR(/)
 #define HALF_ONE(f) half f(half); half3 f(half3);
 HALF_ONE(abs) HALF_ONE(exp2) HALF_ONE(log2) HALF_ONE(rsqrt) HALF_ONE(saturate) HALF_ONE(sqrt)

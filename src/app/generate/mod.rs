@@ -1,10 +1,13 @@
 //! Generation: a request becomes artifacts in memory. Pure: nothing is read, nothing is written.
 
+mod owners;
+mod written;
+
 use std::collections::{BTreeMap, BTreeSet};
 
 use crate::emit::{self, Bounds, Emitted, File, NAGA_VERSION, Naming, Subject};
 use crate::materials::Unseen;
-use crate::methods::{self, InHalf, Method};
+use crate::methods::{self, Method};
 use crate::num::Precision;
 use crate::targets::Target;
 
@@ -15,6 +18,7 @@ use super::names::quoted;
 use super::request::{Materials, Request, Subjects};
 use super::scope::Scope;
 use super::sight;
+use owners::Owners;
 
 /// What a request comes to.
 #[derive(Clone, Debug)]
@@ -52,7 +56,7 @@ pub fn generate_beside(request: &Request, kept: &Kept) -> Result<Generated, Erro
         artifacts,
         scope: run.scope(),
         provenance: run.provenance(),
-        refused: run.refused(),
+        refused: written::refused(request, run.named.as_deref()),
         left_out: run.left_out,
     })
 }
@@ -96,7 +100,7 @@ pub fn generate_meant(request: &Request) -> Result<Meant, Error> {
 fn made(run: &Run, kept: &Kept) -> Result<Vec<Made>, Error> {
     let mut files = Vec::new();
     let mut owners = Owners::default();
-    for method in run.library_methods() {
+    for method in written::library_methods(run.request, run.named.as_deref()) {
         files.extend(run.library(method, &mut owners)?);
     }
     for (index, (subject, _)) in run.subjects.iter().enumerate() {
@@ -130,7 +134,7 @@ pub fn generate_single(request: &Request) -> Result<Vec<u8>, Error> {
         }
     }
     if run.subjects.is_empty() {
-        for method in run.library_methods() {
+        for method in written::library_methods(run.request, run.named.as_deref()) {
             let functions = emit::library_functions(method, &run.naming)?;
             for emitted in emit::written_for(target, functions) {
                 let command = run.command(target, Some(&[method.name]), None) + " -o -";
@@ -167,7 +171,7 @@ impl<'r> Run<'r> {
         request.derivation()?;
         let no_materials = named.is_some() && request.materials == Materials::Default
             || request.materials == Materials::None;
-        check_precision(request, named.as_deref(), no_materials)?;
+        written::check(request, named.as_deref(), no_materials)?;
         let subjects = if no_materials {
             Subjects::default()
         } else {
@@ -182,27 +186,6 @@ impl<'r> Run<'r> {
             naming: request.naming(),
             bounds: Bounds::recorded(),
         })
-    }
-
-    /// The methods of library files.
-    fn library_methods(&self) -> Vec<&'static Method> {
-        let mut methods = self.named.clone().unwrap_or_else(|| methods::ALL.to_vec());
-        methods.retain(|method| self.request.refusal(method, true).is_none());
-        methods
-    }
-
-    /// The methods whose library file is asked for and not written, with the reason.
-    fn refused(&self) -> Vec<String> {
-        let asked = self.named.clone().unwrap_or_else(|| methods::ALL.to_vec());
-        let refused = |method: &&Method| {
-            let why = self.request.refusal(method, true)?;
-            Some(format!(
-                "{} in {}: {why}",
-                method.name,
-                self.request.precision.name()
-            ))
-        };
-        asked.iter().filter_map(refused).collect()
     }
 
     /// The library files of a method.
@@ -238,7 +221,7 @@ impl<'r> Run<'r> {
         for target in &self.targets {
             let methods = self.methods_of(target, subject, kept);
             let functions = self.specialised(&methods, subject, &mut ready)?;
-            let usual = methods == self.usual(subject);
+            let usual = methods == written::usual(self.request, subject);
             let command = self.command(target, (!usual).then_some(&methods), Some(subject));
             for file in emit::material(target, subject, &functions, &self.naming, &command)? {
                 files.push(Made {
@@ -261,24 +244,11 @@ impl<'r> Run<'r> {
         }
     }
 
-    /// The methods that a material's file holds unless others are asked for.
-    fn usual(&self, subject: &Subject) -> Vec<&'static str> {
-        let mut usual = subject.default_methods().to_vec();
-        usual.retain(|name| self.is_written(name));
-        usual
-    }
-
-    /// Whether a method is specialised in the precision of the request.
-    fn is_written(&self, name: &str) -> bool {
-        let method = methods::find(name);
-        method.is_none_or(|method| self.request.refusal(method, false).is_none())
-    }
-
     /// The methods of a material's file, the exact one first.
     fn methods_of(&self, target: &Target, subject: &Subject, kept: &Kept) -> Vec<&'static str> {
-        let usual = self.usual(subject);
+        let usual = written::usual(self.request, subject);
         let mut chosen = self.named_or(&usual);
-        chosen.retain(|name| self.is_written(name));
+        chosen.retain(|name| written::is_written(self.request, name));
         if self.named.is_some() {
             let kept = kept.get(&(target.name.to_owned(), subject.name.clone()));
             chosen.extend(
@@ -391,45 +361,6 @@ impl<'r> Run<'r> {
             version: env!("CARGO_PKG_VERSION").to_owned(),
             naga: NAGA_VERSION.to_owned(),
             inputs: self.subjects.iter().map(input).collect(),
-        }
-    }
-}
-
-/// Refuses methods that were named and cannot be written in the precision of the request.
-fn check_precision(
-    request: &Request,
-    named: Option<&[&'static Method]>,
-    no_materials: bool,
-) -> Result<(), Error> {
-    for method in named.unwrap_or_default() {
-        if let Some(why) = request.refusal(method, no_materials) {
-            let remedy = match method.half {
-                InHalf::Specialised(_) => {
-                    "name a --material, to which it can be specialised, or --force it"
-                }
-                _ => "--force writes it all the same, with no promise",
-            };
-            let (name, precision) = (method.name, request.precision.name());
-            let what = format!("method `{name}` cannot be saved in {precision}: {why}; {remedy}");
-            return Err(Error::Usage { what });
-        }
-    }
-    Ok(())
-}
-
-/// Which part of the output holds a function, by its name.
-#[derive(Default)]
-struct Owners(BTreeMap<String, String>);
-
-impl Owners {
-    /// Refuses two functions of one name: a material called `gold_schlick` meets gold's `schlick` so.
-    fn claim(&mut self, name: &str, owner: &str) -> Result<(), Error> {
-        let other = self.0.insert(name.to_owned(), owner.to_owned());
-        match other.filter(|other| other != owner) {
-            None => Ok(()),
-            Some(other) => Err(Error::Usage {
-                what: format!("`{name}` would stand in {other} and in {owner}; rename a material"),
-            }),
         }
     }
 }
