@@ -62,7 +62,7 @@ highp vec3 fresnel_conductor_from_f0_f82(highp float cos_theta, highp vec3 f0, h
     highp vec3 t = tau + c2; // n^2 - k^2 - sin^2 theta
     highp vec3 r = sqrt(t * t + 4.0 * (nk * nk)); // a^2 + b^2
     highp vec3 larger = sqrt(0.5 * (r + abs(t))); // the larger of a and b
-    highp vec3 smaller = nk / max(larger, 1.0e-30); // the other one, since a b = n k
+    highp vec3 smaller = nk / max(larger, 1.0e-10); // the other one, since a b = n k
     // no cancellation on either side of t = 0
     highp vec3 a = vec3(
         t.r < 0.0 ? smaller.r : larger.r,

@@ -62,7 +62,7 @@ float3 fresnel_conductor_from_f0_f82(float cos_theta, float3 f0, float3 f82)
     float3 t = tau + c2; // n^2 - k^2 - sin^2 theta
     float3 r = sqrt(t * t + 4.0 * (nk * nk)); // a^2 + b^2
     float3 larger = sqrt(0.5 * (r + abs(t))); // the larger of a and b
-    float3 smaller = nk / max(larger, 1.0e-30); // the other one, since a b = n k
+    float3 smaller = nk / max(larger, 1.0e-10); // the other one, since a b = n k
     // no cancellation on either side of t = 0
     float3 a = float3(
         t.r < 0.0 ? smaller.r : larger.r,

@@ -39,7 +39,7 @@ fn fresnel_conductor_artistic(cos_theta: f32, reflectivity: vec3<f32>, edge_tint
     let t = tau + c2; // n^2 - k^2 - sin^2 theta
     let r = sqrt(t * t + 4.0 * (nk * nk)); // a^2 + b^2
     let larger = sqrt(0.5 * (r + abs(t))); // the larger of a and b
-    let smaller = nk / max(larger, vec3<f32>(1.0e-30)); // the other one, since a b = n k
+    let smaller = nk / max(larger, vec3<f32>(1.0e-10)); // the other one, since a b = n k
     // no cancellation on either side of t = 0
     let a = vec3<f32>(
         select(larger.r, smaller.r, t.r < 0.0),
