@@ -263,25 +263,25 @@ fn check(name: &str, media: &[Medium], cosines: &dyn Fn(&[Medium; 3]) -> Vec<f32
 
 #[test]
 fn dielectrics_keep_their_digits_at_all_angles() {
-    let points = cosines(1000);
-    check("dielectric_exact", &glasses(1800), &|_| points.clone());
+    let points = cosines(1500);
+    check("dielectric_exact", &glasses(9000), &|_| points.clone());
 }
 
 #[test]
 fn conductors_keep_their_digits_at_all_angles() {
-    let points = cosines(1000);
-    check("conductor_exact", &absorbing(1800), &|_| points.clone());
+    let points = cosines(1500);
+    check("conductor_exact", &absorbing(12_000), &|_| points.clone());
 }
 
 #[test]
 fn dielectrics_are_as_good_as_their_condition_beside_the_critical_angle() {
-    let media: Vec<Medium> = even(2400).map(|(share, _)| (below(share), 0.0)).collect();
+    let media: Vec<Medium> = even(6000).map(|(share, _)| (below(share), 0.0)).collect();
     check("dielectric_exact", &media, &beside);
 }
 
 #[test]
 fn conductors_are_as_good_as_their_condition_beside_the_critical_angle() {
-    let media: Vec<Medium> = even(4800)
+    let media: Vec<Medium> = even(12_000)
         .map(|(share, rest)| (below(share), extinction(rest)))
         .collect();
     check("conductor_exact", &media, &beside);
@@ -291,7 +291,7 @@ fn conductors_are_as_good_as_their_condition_beside_the_critical_angle() {
 #[test]
 fn digits_go_with_an_index_that_nothing_has() {
     let dense = |(share, _): (f64, f64)| ((3.0 * libm::pow(3.0, -share) / 12.0) as f32, 0.0);
-    let media: Vec<Medium> = even(900).map(dense).collect();
+    let media: Vec<Medium> = even(1800).map(dense).collect();
     let points = cosines(600);
     check("dielectric_exact", &media, &|three| {
         [beside(three), points.clone()].concat()
