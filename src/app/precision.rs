@@ -24,11 +24,7 @@ impl PrecisionFlags {
     /// # Errors
     /// There is no precision of this name.
     pub fn read(&self) -> Result<Precision, Error> {
-        let names = Precision::ALL.map(Precision::name);
-        match self.precision.as_deref() {
-            None => Ok(Precision::default()),
-            Some(name) => Precision::find(name).ok_or_else(|| unknown("precision", name, &names)),
-        }
+        named(self.precision.as_deref())
     }
 
     /// The same as words of a command.
@@ -36,5 +32,17 @@ impl PrecisionFlags {
         let precision = self.precision.as_deref();
         let force = if self.force { " --force" } else { "" };
         precision.map_or_else(String::new, |name| format!(" --precision {name}{force}"))
+    }
+}
+
+/// The precision of a name, single where none is said.
+///
+/// # Errors
+/// There is no precision of this name.
+pub fn named(name: Option<&str>) -> Result<Precision, Error> {
+    let names = Precision::ALL.map(Precision::name);
+    match name {
+        None => Ok(Precision::default()),
+        Some(name) => Precision::find(name).ok_or_else(|| unknown("precision", name, &names)),
     }
 }

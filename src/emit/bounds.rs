@@ -22,6 +22,9 @@ pub enum CodeBound {
     Absolute(f64),
 }
 
+/// The most that a plain form may be off to be written in place of the stable one.
+pub const PLAIN_ULP: f64 = 10.0;
+
 /// The record, by fingerprint.
 #[derive(Clone, Debug, Default)]
 pub struct Bounds {

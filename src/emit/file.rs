@@ -132,6 +132,7 @@ pub fn lookup(
         constants: Values::new(),
         model_error: None,
         code: Measured::No(header::FILTERED.to_owned()),
+        plain_for: None,
     };
     check_names(target, std::slice::from_ref(&emitted))?;
     let licence = format!("Licence of this file: {}", header::OUTPUT_LICENCE);

@@ -8,7 +8,7 @@ use crate::materials::{Kind, Material, Sight, Surface, Unseen};
 use crate::methods::{Class, Light, Method, Values};
 use crate::num::Precision;
 
-use super::bounds::{Bounds, CodeBound};
+use super::bounds::{Bounds, CodeBound, PLAIN_ULP};
 use super::error::Error;
 use super::header::FILTERED;
 
@@ -56,6 +56,8 @@ pub struct Emitted {
     pub model_error: Option<ModelError>,
     /// What it computes in against f64.
     pub code: Measured<CodeBound>,
+    /// Of a plain form: the operations of the stable one.
+    pub plain_for: Option<usize>,
 }
 
 impl Emitted {
@@ -186,6 +188,7 @@ pub fn library_functions(method: &'static Method, naming: &Naming) -> Result<Vec
                 constants: Values::new(),
                 model_error: None,
                 code: promised(method, naming.precision),
+                plain_for: None,
             })
         })
         .collect()
@@ -224,7 +227,13 @@ pub fn specialised_function(
         let function = method.specialise_in(precision, &constants);
         function.map_err(|fault| refused(fault.to_string()))
     };
-    let function = specialise(naming.precision)?;
+    let stable = specialise(naming.precision)?;
+    let plain = match naming.precision {
+        Precision::F32 => plain(method, &constants, &stable, bounds),
+        Precision::F16 => None,
+    };
+    let plain_for = plain.as_ref().map(|_| stable.work());
+    let function = plain.unwrap_or(stable);
     let meant = match naming.precision {
         Precision::F32 => function.clone(),
         Precision::F16 => specialise(Precision::F32)?,
@@ -248,5 +257,19 @@ pub fn specialised_function(
         },
         constants,
         function,
+        plain_for,
     })
+}
+
+/// The plain form, where it is cheaper and recorded as one that keeps its digits.
+fn plain(
+    method: &Method,
+    constants: &Values,
+    stable: &Checked,
+    bounds: &Bounds,
+) -> Option<Checked> {
+    let plain = method.specialise_plain(constants)?.ok()?;
+    let bound = bounds.of(Precision::F32, &plain);
+    let keeps = matches!(bound, Measured::Yes(CodeBound::Ulp(ulp)) if ulp <= PLAIN_ULP);
+    (keeps && plain.work() < stable.work()).then_some(plain)
 }

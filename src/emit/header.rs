@@ -77,6 +77,7 @@ pub fn specialised(emitted: &Emitted) -> Vec<String> {
     lines.extend(emitted.model_error.iter().map(model_line));
     lines.push(code_line(&emitted.code));
     lines.push(format!("Cost: {}", operations(emitted)));
+    lines.extend(form_line(emitted));
     comment::lines(lines)
 }
 
@@ -97,11 +98,20 @@ pub fn brief(
     lines.extend(half_line(target, emitted.precision));
     lines.extend(exemption(emitted.method));
     lines.push(format!("Cost: {}.", operations(emitted)));
+    lines.extend(form_line(emitted));
     lines.extend(subject.into_iter().flat_map(sight));
     lines.extend(table_line(emitted));
     lines.extend(emitted.model_error.iter().map(model_line));
     lines.push(format!("{} {OUTPUT_LICENCE}.", code_line(&emitted.code)));
     comment::lines(lines)
+}
+
+/// Which of two forms it is, where the cheaper one is written.
+fn form_line(emitted: &Emitted) -> Option<String> {
+    let stable = emitted.plain_for?;
+    Some(format!(
+        "Form: plain, which keeps its digits for this material; the stable form has {stable} operations."
+    ))
 }
 
 fn start(command: &str) -> Vec<String> {

@@ -13,7 +13,7 @@ mod page;
 mod print;
 mod wgsl;
 
-pub use bounds::{Bounds, CodeBound, fingerprint, half_record, sha256};
+pub use bounds::{Bounds, CodeBound, PLAIN_ULP, fingerprint, half_record, sha256};
 pub use comment::lines as comment_lines;
 pub use error::Error;
 pub use file::{File, library, lookup, material, single, uniform_offsets, written_for};

@@ -56,6 +56,7 @@ pub static METHOD: Method = Method {
         "n^2 + k^2 above 60000 overflows; for n below 1 with k near 0 see dielectric_exact",
     ),
     build,
+    plain: Some(plain),
     specialised: None,
 };
 
@@ -91,7 +92,9 @@ fn single<'b>(c: Expr<'b>, n: Expr<'b>, k: Expr<'b>) -> Expr<'b> {
     let larger = (0.5 * (r + t.abs()))
         .sqrt()
         .named("larger", "the larger of a and b");
-    let smaller = (nk / larger.at_least(1e-30)).named("smaller", "the other one, since a b = n k");
+    // Where t rounds to 0 and the square of n k underflows (k below 1e-19), the larger is 0: a quotient by 1e-30 would be
+    // anything. Otherwise it is above 3e-10.
+    let smaller = (nk / larger.at_least(1e-10)).named("smaller", "the other one, since a b = n k");
     let a = t
         .choose_below(zero, smaller, larger)
         .named("a", "no cancellation on either side of t = 0");
@@ -143,6 +146,24 @@ fn half<'b>(c: Expr<'b>, n: Expr<'b>, k: Expr<'b>) -> Expr<'b> {
     );
     let apart = (tau.abs() + nk).named("apart", "0 where there is no interface");
     apart.choose_below(number(tiny), number(0.0), f)
+}
+
+/// Where neither t < 0 nor a small reflectance makes a difference of nearly equal numbers: a as it stands in the books.
+fn plain<'b>(x: &Inputs<'b>) -> Expr<'b> {
+    let (c, n, k) = (x.cosine(), x.get(Input::N), x.get(Input::K));
+    let c2 = c.squared().named("c2", "");
+    let s2 = (1.0 - c2).named("s2", "sin^2 theta");
+    let tau = ((n - 1.0) * (n + 1.0) - k.squared()).named("tau", "n^2 - k^2 - 1");
+    let nk = (n * k).named("nk", "");
+    let t = (tau + c2).named("t", "n^2 - k^2 - sin^2 theta");
+    let r = (t.squared() + 4.0 * nk.squared()).sqrt();
+    let r = r.named("r", "a^2 + b^2");
+    let a = (0.5 * (r + t).at_least(0.0)).sqrt().named("a", "");
+    let u = (2.0 * a * c).named("u", "");
+    let sum = (r + c2).named("sum", "");
+    let r_s = ((sum - u) / (sum + u)).named("r_s", "R_s");
+    let x = (r * c2 + s2.squared()).named("x", "");
+    r_s * (x / (x + u * s2).at_least(1e-37))
 }
 
 #[cfg(test)]

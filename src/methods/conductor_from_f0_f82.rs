@@ -65,6 +65,7 @@ pub static METHOD: Method = Method {
         "n is solved from what F0 and F82 lack of 1, differences of which half precision leaves no digits",
     ),
     build,
+    plain: None,
     specialised: Some(solved),
 };
 

@@ -55,6 +55,7 @@ pub static METHOD: Method = Method {
         "differences of nearly equal numbers, and squares of squares that overflow",
     ),
     build,
+    plain: None,
     specialised: None,
 };
 

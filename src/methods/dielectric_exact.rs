@@ -57,12 +57,26 @@ pub static METHOD: Method = Method {
     contract: Contract::Kept,
     half: InHalf::within_but(0.0015, BELOW_ONE),
     build,
+    plain: Some(plain),
     specialised: None,
 };
 
 fn build<'b>(x: &Inputs<'b>) -> Expr<'b> {
     let steps = steps(x);
     steps.reflected(steps.mean())
+}
+
+/// Where eta is well above 1 nothing cancels: `r_s = (c - g) / (c + g)`, `r_p = (g - η² c) / (g + η² c)`, two quotients for
+/// three.
+fn plain<'b>(x: &Inputs<'b>) -> Expr<'b> {
+    let (c, eta) = (x.cosine(), x.get(Input::ETA));
+    let tau = ((eta - 1.0) * (eta + 1.0)).named("tau", "eta^2 - 1");
+    let g = (tau + c.squared()).sqrt();
+    let g = g.named("g", "eta times the cosine of the refracted ray");
+    let e = (eta.squared() * c).named("e", "eta^2 cos_theta");
+    let r_s = ((c - g) / (c + g)).named("r_s", "");
+    let r_p = ((g - e) / (g + e)).named("r_p", "");
+    0.5 * (r_s.squared() + r_p.squared())
 }
 
 /// The steps that the polarised forms share.

@@ -37,6 +37,7 @@ pub static METHOD: Method = Method {
     contract: Contract::Kept,
     half: InHalf::within_but(0.0022, BELOW_ONE),
     build,
+    plain: None,
     specialised: None,
 };
 

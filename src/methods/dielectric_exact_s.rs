@@ -35,6 +35,7 @@ pub static METHOD: Method = Method {
     contract: Contract::Kept,
     half: InHalf::within_but(0.0012, BELOW_ONE),
     build,
+    plain: None,
     specialised: None,
 };
 

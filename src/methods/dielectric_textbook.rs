@@ -53,6 +53,7 @@ pub static METHOD: Method = Method {
         "1 - (sin theta / n)^2 cancels as n tends to 1, and nothing guards the root",
     ),
     build,
+    plain: None,
     specialised: None,
 };
 

@@ -49,6 +49,7 @@ pub static METHOD: Method = Method {
     contract: Contract::Kept,
     half: InHalf::within(0.0017),
     build,
+    plain: None,
     specialised: None,
 };
 

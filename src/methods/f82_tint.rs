@@ -55,6 +55,7 @@ pub static METHOD: Method = Method {
     contract: Contract::Kept,
     half: InHalf::within(0.0016),
     build,
+    plain: None,
     specialised: None,
 };
 

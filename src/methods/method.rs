@@ -39,11 +39,17 @@ pub struct Method {
     /// What becomes of it in half precision.
     pub half: InHalf,
     /// Builds the formula.
-    pub build: for<'b> fn(&Inputs<'b>) -> Expr<'b>,
+    pub build: Build,
+    /// The same formula without what keeps it stable everywhere, where that costs something: a material for which the
+    /// record of code bounds says that it keeps its digits gets this form.
+    pub plain: Option<Build>,
     /// Where a material's constants allow something better than folding them in: another method and its inputs,
     /// from the values of this method's inputs.
     pub specialised: Option<Better>,
 }
+
+/// From arguments to a formula.
+pub type Build = for<'b> fn(&Inputs<'b>) -> Expr<'b>;
 
 /// Another method, and the values of its inputs, that do a specialised method's work better.
 pub type Better = fn(&Values) -> (&'static Method, Values);
@@ -173,9 +179,18 @@ impl Method {
 
     /// The same as it is computed in this precision.
     pub fn function_in(&self, precision: Precision, scalar_form: bool) -> Result<Checked, Fault> {
+        self.built(self.build, precision, scalar_form)
+    }
+
+    fn built(
+        &self,
+        build: Build,
+        precision: Precision,
+        scalar_form: bool,
+    ) -> Result<Checked, Fault> {
         let builder = Builder::new();
         let inputs = Inputs::declare(&builder, self.inputs, scalar_form, precision);
-        let result = (self.build)(&inputs);
+        let result = build(&inputs);
         let shaped = if scalar_form { result } else { result.rgb() };
         let whole = builder.finish(self.name, shaped);
         check_in(precision, fold_in(precision, &whole))
@@ -188,16 +203,34 @@ impl Method {
 
     /// The same as it is computed in this precision.
     pub fn specialise_in(&self, precision: Precision, values: &Values) -> Result<Checked, Fault> {
-        let complete = self
-            .inputs
-            .iter()
-            .all(|input| values.contains_key(input.name));
-        if let Some(better) = self.specialised.filter(|_| complete) {
-            let (method, values) = better(values);
+        if let Some((method, values)) = self.better(values) {
             return method.specialise_in(precision, &values);
         }
         let library: Function = (*self.function_in(precision, false)?).clone();
         check_in(precision, specialise_in(precision, &library, values))
+    }
+
+    /// The plain form with these constants folded in, where the method has one; single precision.
+    pub fn specialise_plain(&self, values: &Values) -> Option<Result<Checked, Fault>> {
+        if let Some((method, values)) = self.better(values) {
+            return method.specialise_plain(&values);
+        }
+        let library = self.built(self.plain?, Precision::F32, false);
+        let fold = |library: Checked| {
+            check_in(
+                Precision::F32,
+                specialise_in(Precision::F32, &library, values),
+            )
+        };
+        Some(library.and_then(fold))
+    }
+
+    /// What does a specialised function's work better, where all inputs have a value.
+    fn better(&self, values: &Values) -> Option<(&'static Method, Values)> {
+        let mut names = self.inputs.iter().map(|input| input.name);
+        let complete = names.all(|name| values.contains_key(name));
+        let better = self.specialised.filter(|_| complete)?;
+        Some(better(values))
     }
 
     /// These values as the library function takes them after `cos_theta`, and the texture where it reads one; an input

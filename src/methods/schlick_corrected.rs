@@ -42,6 +42,7 @@ pub static METHOD: Method = Method {
     contract: Contract::Kept,
     half: InHalf::within(0.0024),
     build,
+    plain: None,
     specialised: None,
 };
 

@@ -34,6 +34,7 @@ pub static METHOD: Method = Method {
     contract: Contract::Kept,
     half: InHalf::within(0.0013),
     build,
+    plain: None,
     specialised: None,
 };
 

@@ -51,6 +51,7 @@ pub static METHOD: Method = Method {
     contract: Contract::Kept,
     half: InHalf::within(0.0024),
     build,
+    plain: None,
     specialised: None,
 };
 

@@ -48,6 +48,7 @@ pub static METHOD: Method = Method {
     contract: Contract::Kept,
     half: InHalf::within(0.0009),
     build,
+    plain: None,
     specialised: None,
 };
 

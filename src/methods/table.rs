@@ -70,6 +70,7 @@ pub static METHOD: Method = Method {
     contract: Contract::Kept,
     half: InHalf::Refused("11 bits of a coordinate do not tell the texels of a table apart"),
     build,
+    plain: None,
     specialised: None,
 };
 

@@ -6,5 +6,6 @@ pub mod markdown;
 #[cfg(feature = "cli")]
 pub mod png;
 pub mod reproduce;
+pub mod stability;
 pub mod survey;
 pub mod table;

@@ -17,6 +17,7 @@ mod points;
 pub mod run;
 #[cfg(feature = "compilers")]
 pub mod second;
+pub mod stability;
 #[cfg(feature = "gpu")]
 mod sweep;
 mod trial;
@@ -32,4 +33,4 @@ pub use points::{BEYOND, cosines, cosines_around, limits};
 #[cfg(feature = "gpu")]
 pub use sweep::{count, sweep};
 pub use trial::{Expected, Miss, Outcome, Trial};
-pub use worst::{worst_cases, worst_media};
+pub use worst::{worst_cases, worst_cosines, worst_media};

@@ -6,6 +6,17 @@ use crate::materials::Channels;
 use crate::methods::Method;
 
 static LIBRARY: &str = include_str!("../../data/worst-cases/library-code-error.csv");
+static SPECIALISED: &str = include_str!("../../data/worst-cases/specialised-code-error.csv");
+
+/// The cosines at which the specialised functions of a method were worst, whatever the material.
+pub fn worst_cosines(method: &'static Method) -> impl Iterator<Item = f32> {
+    SPECIALISED.lines().filter_map(|line| {
+        let (name, rest) = line.split_once(',')?;
+        let (_, cos_theta) = rest.split_once(',')?;
+        let cos_theta = cos_theta.parse().ok()?;
+        (name == method.name).then_some(cos_theta)
+    })
+}
 
 /// The values of a library function's arguments, in f32, and the cosine.
 pub fn worst_cases(method: &'static Method) -> impl Iterator<Item = (Vec<[f32; 3]>, f32)> {

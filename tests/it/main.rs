@@ -3,6 +3,7 @@
 #![allow(clippy::unwrap_used, clippy::print_stdout, clippy::print_stderr)]
 
 mod bless;
+mod bounds;
 mod claims;
 #[cfg(feature = "cli")]
 mod cli;
@@ -10,11 +11,13 @@ mod code_bounds;
 #[cfg(feature = "compilers")]
 mod compilers;
 mod database;
+mod exhaustive;
 mod golden;
 #[cfg(feature = "gpu")]
 mod gpu;
 mod graph;
 mod half;
+mod incidents;
 #[cfg(feature = "cli")]
 mod lut;
 mod oracle;
@@ -25,10 +28,26 @@ mod reproduce;
 mod reread;
 mod specialise;
 mod spectral;
+#[cfg(feature = "cli")]
+mod stability;
 mod tidy;
 mod tree;
 #[cfg(all(feature = "cli", feature = "gpu"))]
 mod verify;
+
+use fresnel_gen::app::{Materials, Request, Source};
+use fresnel_gen::emit::Subject;
+
+/// Materials of the catalogue, seen as they are unless asked otherwise.
+pub fn subjects(names: &[&str]) -> Vec<Subject> {
+    let named = |name: &&str| Source::Named((*name).to_owned());
+    let request = Request {
+        materials: Materials::These(names.iter().map(named).collect()),
+        ..Request::default()
+    };
+    let ready = request.subjects().unwrap().ready;
+    ready.into_iter().map(|(subject, _)| subject).collect()
+}
 
 /// Says what could not be checked here, and how to check it. Unlike what the macros print, this is seen of a test that passes.
 pub fn not_checked(what: &str) {

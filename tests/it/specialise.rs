@@ -2,7 +2,7 @@
 //! values, over hard media, in f64 where rounding does not hide a wrong branch, and in f32 where it must stay small.
 
 use fresnel_gen::fit::{self, Derivation, values};
-use fresnel_gen::ir::{Texels, Value, evaluate};
+use fresnel_gen::ir::{Op, Texels, Value, evaluate};
 use fresnel_gen::materials::Channels;
 use fresnel_gen::methods::{self, Class, Contract, Method, Values};
 use fresnel_gen::num::Num;
@@ -93,4 +93,50 @@ fn only_rounding_changes() {
             }
         }
     }
+}
+
+/// Metals on both sides of t = 0, all of which have one side only; a channel that has both keeps its choice.
+const METALS: [&str; 12] = [
+    "aluminium",
+    "chromium",
+    "copper",
+    "germanium",
+    "gold",
+    "iron",
+    "nickel",
+    "platinum",
+    "silicon",
+    "silver",
+    "titanium",
+    "tungsten",
+];
+
+/// A metal that pays for the branch that it never takes, or for a guard against what it never meets.
+#[test]
+fn metals_have_no_branch_and_no_guard_left() {
+    let method = methods::find("conductor_exact").expect("it is there");
+    let library = method.function(false).expect("it is well formed");
+    assert_eq!((library.count(Op::Select), library.count(Op::Max)), (6, 12));
+    let mut sides = [0, 0];
+    for subject in crate::subjects(&METALS) {
+        let channels = &subject.effective.channels;
+        let mut open = 0;
+        for (n, k) in channels.n.into_iter().zip(channels.k) {
+            // t = n^2 - k^2 - sin^2, at 0 and at 90 degrees.
+            let (greatest, least) = (n * n - k * k, n * n - k * k - 1.0);
+            sides[usize::from(least >= 0.0)] += 1;
+            open += usize::from(greatest >= 0.0 && least < 0.0);
+        }
+        let function = method
+            .specialise(&subject.values(method))
+            .expect("it specialises");
+        let left = [Op::Select, Op::Less, Op::Max].map(|op| function.count(op));
+        assert_eq!(left[0], 2 * open, "{}: {channels:?}", subject.name);
+        assert!(
+            open > 0 || left == [0, 0, 0],
+            "{}: {left:?} left",
+            subject.name
+        );
+    }
+    assert!(sides.iter().all(|channels| *channels > 3), "{sides:?}");
 }

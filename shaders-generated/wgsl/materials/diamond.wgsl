@@ -56,7 +56,7 @@ fn fresnel_diamond_schlick_rescaled(cos_theta: f32) -> vec3<f32> {
 // Source: Lazanyi, Szirmay-Kalos, "Fresnel Term Approximations for Metals", WSCG Short Papers, 77-80, 2005.
 //     https://hdl.handle.net/11025/11214
 // Model error: at most 0.05084 (at 87.37 degrees), 2.51 % in the mean over angles.
-// Code error: at most 5.5 ulp or 2^-22, unfused f32 against f64.
+// Code error: at most 6.5 ulp or 2^-22, unfused f32 against f64.
 // Cost: 31 scalar operations, among them 4 exponentials or logarithms
 fn fresnel_diamond_schlick_corrected(cos_theta: f32) -> vec3<f32> {
     let c = saturate(cos_theta); // 1 + 1 ulp must not reach what follows

@@ -7,6 +7,7 @@ mod listing;
 mod materials;
 mod params;
 mod reproduce;
+mod stability;
 mod survey;
 #[cfg(feature = "gpu")]
 mod verify;
@@ -46,6 +47,7 @@ pub fn run(cli: &Cli, progress: Progress) -> Result<Output, Error> {
             what: "this program was built without the feature `gpu`, and runs no shaders"
                 .to_owned(),
         }),
+        Some(Command::Stability(flags)) => stability::run(flags, progress),
         Some(Command::Reproduce(flags)) => reproduce::run(flags, progress),
     }
 }

@@ -1,5 +1,7 @@
 //! One file: every function of it run, and every compiler asked.
 
+use std::cell::OnceCell;
+
 use serde_json::Value;
 
 use crate::emit::{CodeBound, Emitted, Subject};
@@ -11,7 +13,9 @@ use crate::num::Precision;
 use crate::verify::compilers::{self, Verdict};
 use crate::verify::harness;
 use crate::verify::run::{Devices, Fault, Runnable, Shown, Way};
-use crate::verify::{BEYOND, Outcome, Trial, cosines_around, limits, nearest_half, worst_cases};
+use crate::verify::{
+    BEYOND, Outcome, Trial, cosines_around, limits, nearest_half, worst_cases, worst_cosines,
+};
 
 use super::half;
 use super::plan::{Plan, Planned};
@@ -94,7 +98,10 @@ pub(super) fn specialised<'a>(subject: &'a Subject, emitted: &Emitted) -> Case<'
     Case {
         material: &subject.argument,
         trial: trial(emitted, Vec::new(), table, bound),
-        limits: limits_of(&subject.effective.channels),
+        limits: limits_of(&subject.effective.channels)
+            .into_iter()
+            .chain(worst_cosines(emitted.method))
+            .collect(),
         truth: Some(truth),
     }
 }
@@ -200,6 +207,8 @@ struct Tried<'a> {
     entry: &'a str,
     devices: &'a Devices,
     effort: Effort,
+    /// The text compiled for running, once for all cases.
+    own: OnceCell<Result<Runnable, Fault>>,
 }
 
 impl<'a> Tried<'a> {
@@ -221,6 +230,7 @@ impl<'a> Tried<'a> {
             entry,
             devices,
             effort,
+            own: OnceCell::new(),
         }
     }
 
@@ -257,9 +267,17 @@ impl<'a> Tried<'a> {
             function: self.emitted,
             entry: self.entry,
         };
-        let runnable = self.devices.prepare(&shown, way, &case.trial)?;
+        let other;
+        let runnable = if way == Way::Own {
+            let compiled = || self.devices.prepare(&shown, way, &case.trial);
+            let own = self.own.get_or_init(compiled);
+            own.as_ref().map_err(Fault::clone)?
+        } else {
+            other = self.devices.prepare(&shown, way, &case.trial)?;
+            &other
+        };
         if self.emitted.precision.is_half() {
-            let ran = half::run(&runnable, &shown, &case.trial)?;
+            let ran = half::run(runnable, &shown, &case.trial)?;
             let device = self.devices.of(shown.target, way)?.adapter.to_string();
             return Ok(Run { device, ..ran });
         }
@@ -269,7 +287,7 @@ impl<'a> Tried<'a> {
         let got = runnable.run(shown.target, &case.trial, &expected.cosines)?;
         let outcome: Outcome = expected.judge(&got);
         let model_error = match (&case.truth, way) {
-            (Some(truth), Way::Own) => Some(self.model_error(&runnable, case, truth)?),
+            (Some(truth), Way::Own) => Some(self.model_error(runnable, case, truth)?),
             _ => None,
         };
         Ok(Run {
@@ -320,7 +338,7 @@ impl<'a> Tried<'a> {
         case: &Case,
         truth: &Truth,
     ) -> Result<ModelError, Fault> {
-        let fault = std::cell::OnceCell::new();
+        let fault = OnceCell::new();
         let error = fit::error_of(truth, &|cosines| {
             let single: Vec<f32> = cosines.iter().map(|c| *c as f32).collect();
             let got = runnable.run(self.file.target.name, &case.trial, &single);

@@ -11,6 +11,8 @@ mod text;
 mod ticks;
 
 pub(super) use sheet::{Frame, Sheet};
+#[cfg(feature = "cli")]
+pub(super) use text::escape;
 pub(super) use text::{FOOT, Font, HEADING, PANEL, SUBTITLE, TICK};
 pub use ticks::ticks;
 

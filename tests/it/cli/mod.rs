@@ -13,6 +13,7 @@ mod killed;
 mod materials;
 mod seen;
 mod single;
+mod stability;
 mod streams;
 
 use std::fs;

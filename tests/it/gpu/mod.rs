@@ -2,6 +2,8 @@
 //! says that it did not check; with `CI` set it fails.
 
 mod agree;
+mod bounds;
+mod contract;
 mod faults;
 mod stream;
 mod table;

@@ -1,9 +1,13 @@
 //! Physical laws, for all methods that promise them, over media on both sides of 1 and all angles, in f32 as shaders
-//! compute: bounds, limits, Brewster's zero, total reflection, reciprocity, k → 0.
+//! compute: bounds, limits, Brewster's zero, total reflection, reciprocity, k → 0. Here over grids of hard values, in
+//! `random` over random ones.
+
+mod random;
 
 use fresnel_gen::fit::texels;
 use fresnel_gen::ir::{Checked, Ty, Value, evaluate};
 use fresnel_gen::methods::{self, Class, Contract, Method};
+use fresnel_gen::num::Num;
 use fresnel_gen::optics;
 
 const EXACT: [&str; 4] = [
@@ -22,10 +26,16 @@ fn cosines() -> Vec<f32> {
 }
 
 /// Runs a library function in f32 on one cosine and channel-wise equal arguments.
-fn run(function: &Checked, cos_theta: f32, arguments: &[f32]) -> f32 {
+pub fn run(function: &Checked, cos_theta: f32, arguments: &[f32]) -> f32 {
+    let wide: Vec<f64> = arguments.iter().copied().map(f64::from).collect();
+    run_in(function, cos_theta, &wide)
+}
+
+/// The same in any kind of number.
+pub fn run_in<N: Num>(function: &Checked, cos_theta: N, arguments: &[f64]) -> N {
     let mut values = vec![Value::each(vec![cos_theta])];
     for (param, argument) in function.params.iter().skip(1).zip(arguments) {
-        let wide = f64::from(*argument);
+        let wide = *argument;
         values.push(match param.ty {
             Ty::Rgb => Value::rgb([wide; 3]),
             Ty::Texture => Value::Texture(Some(texels(|c| {
@@ -34,10 +44,11 @@ fn run(function: &Checked, cos_theta: f32, arguments: &[f32]) -> f32 {
             _ => Value::scalar(wide),
         });
     }
-    evaluate::<f32>(function, &values).at(0)[0]
+    evaluate(function, &values).at(0)[0]
 }
 
-fn function(name: &str) -> Checked {
+/// A library function.
+pub fn function(name: &str) -> Checked {
     methods::find(name)
         .expect("it is there")
         .function(false)

@@ -1,11 +1,17 @@
 //! The command line: flags and subcommands.
 
+mod stability;
+mod verify;
+
 use std::path::PathBuf;
 
 use clap::{Args, Parser, Subcommand};
 
 use super::precision::PrecisionFlags;
 use super::sight::Words;
+
+pub use stability::StabilityFlags;
+pub use verify::VerifyFlags;
 
 /// Turns measured optical constants into Fresnel reflectance functions that a shader can afford.
 ///
@@ -47,6 +53,8 @@ pub enum Command {
     Bake(Box<BakeFlags>),
     /// Run what is generated on every target, and hold it against the CPU
     Verify(Box<VerifyFlags>),
+    /// Where methods fail: NaN, lost digits, what the law has and they have not, told as regions
+    Stability(StabilityFlags),
     /// Compute the thesis's tables, figures and claims anew, and print both side by side
     Reproduce(Reproduce),
 }
@@ -321,68 +329,6 @@ pub struct BakeFlags {
     /// No table and no summary on success
     #[arg(long, short)]
     pub quiet: bool,
-}
-
-/// The flags of `verify`.
-#[derive(Args, Debug)]
-#[command(
-    after_help = "Examples:\n  fresnel-gen verify\n  fresnel-gen verify --target gles --material gold --junit verify.xml\n  fresnel-gen verify --exhaustive --method schlick --material gold\n\nFiles are taken from --out-dir as they lie there; what is not there is generated. Exit codes: 0 all is as promised,\n1 something is not, 2 wrong input, 3 something is missing here."
-)]
-pub struct VerifyFlags {
-    /// Output language, see `fresnel-gen targets`; all means those written by default [default: all]
-    #[arg(long, value_delimiter = ',', value_name = "NAME")]
-    pub target: Vec<String>,
-    /// Method, see `fresnel-gen methods` [default: all; for materials the usual four]
-    #[arg(long, value_delimiter = ',', value_name = "NAME")]
-    pub method: Vec<String>,
-    /// Names, paths of material files, all, or none [default: gold, platinum, water, diamond]
-    #[arg(long, value_delimiter = ',', value_name = "NAME")]
-    pub material: Vec<String>,
-    /// What the light comes from: a transparent material's name or file [default: air]
-    #[arg(long, value_name = "NAME")]
-    pub medium: Option<String>,
-    /// How the material is seen.
-    #[command(flatten)]
-    pub sight: SightFlags,
-    /// Colours outside the working space: keep, clip to [0, 1], or scale [default: clip]
-    #[arg(long, value_name = "NAME")]
-    pub gamut: Option<String>,
-    /// Goes before every function's name
-    #[arg(long, value_name = "TEXT", default_value = "fresnel_")]
-    pub prefix: String,
-    /// What functions compute in.
-    #[command(flatten)]
-    pub precision: PrecisionFlags,
-    /// Folder whose files are run
-    #[arg(long, value_name = "DIR", default_value = "shaders-generated")]
-    pub out_dir: PathBuf,
-    /// The graphics card, by a part of its name [default: the fastest there is]
-    #[arg(long, value_name = "NAME")]
-    pub adapter: Option<String>,
-    /// What WGSL and SPIR-V run on: vulkan or gl (gl has no SPIR-V) [default: vulkan]
-    #[arg(long, value_name = "NAME")]
-    pub backend: Option<String>,
-    /// Cosines for each function and material, 100 to 10000000
-    #[arg(long, value_name = "N", default_value_t = 20_000)]
-    pub points: usize,
-    /// Every f32 in [0, 1], all 1065353217, for one method and material, in WGSL
-    #[arg(long, requires_all = ["method", "material"])]
-    pub exhaustive: bool,
-    /// Seconds that one file may take
-    #[arg(long, value_name = "SECONDS", default_value_t = 60)]
-    pub limit: u64,
-    /// Exit with 3 where anything could not be checked
-    #[arg(long)]
-    pub require_all: bool,
-    /// Write the report as JSON to this file, or `-` for stdout
-    #[arg(long, value_name = "FILE")]
-    pub json: Option<PathBuf>,
-    /// Write the report as JUnit's XML to this file
-    #[arg(long, value_name = "FILE")]
-    pub junit: Option<PathBuf>,
-    /// Read numbers of files and answer with rows
-    #[arg(long, hide = true)]
-    pub worker: bool,
 }
 
 /// The flags of `reproduce`.

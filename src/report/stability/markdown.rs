@@ -1,0 +1,93 @@
+//! The document that says where methods fail, written from a scan.
+
+use std::collections::BTreeSet;
+
+use super::{Row, percent, worst};
+use crate::report::markdown::table;
+use crate::verify::stability::Finding;
+
+const HEAD: &str = "# Where methods fail
+
+Written by `fresnel-gen stability`, and held by a test. Each method was run in unfused f32 over its domain and past it: cosines from
+-1 to 8 ulp above 1, indices from 0.001 to 1000 with 1 and its neighbours, k from subnormal numbers to 10000. Two things go wrong, and
+they are never added:
+
+- the **formula**, held against the exact law: an error, told of media whatever the angle; a minimum that metals have and it has not;
+  a rise where the law falls;
+- its **rounding**, held against the same formula in f64: NaN, infinities, results below 0 or above 1, steps that no slope explains, lost
+  digits. What lies within 2 ulp of the cosine is no fault: at the critical angle and at Brewster's no rounding can do better.
+
+A share says how much of a region fails. The methods marked *exempt* are textbook forms, kept for comparison.
+`fresnel-gen stability --out-dir DIR` draws maps of all this.
+";
+
+/// The document of a scan in single precision and of one in half.
+pub fn markdown(rows: &[Row], half: &[Row]) -> String {
+    let head = ["method", "failure", "where", "worst"];
+    let told = |rows, wanted| table(&head, grouped(rows, wanted).into_iter());
+    let is_media = |finding: &Finding| finding.is_media;
+    let of_media = |finding: &Finding| finding.is_media && !finding.failure.is_of_the_model();
+    format!(
+        "{HEAD}\n## Media\n\n{}\n## Arguments that no medium has\n\n{}\n## Half precision\n\n{HALF}\n{}",
+        told(rows, is_media),
+        told(rows, |finding| !finding.is_media),
+        told(half, of_media),
+    )
+}
+
+const HALF: &str = "Rounded to f16 after every operation, at inputs that f16 has; the formulas' own errors are those above. Distances are \
+absolute: 11 bits leave 0.0005 near 1. What is not listed as a method of `--precision f16` is refused there, and is not here.
+";
+
+/// A line for each method and failure, with all its regions.
+fn grouped(rows: &[Row], wanted: fn(&Finding) -> bool) -> Vec<Vec<String>> {
+    let mut lines: Vec<(&'static str, Vec<&Finding>)> = Vec::new();
+    let found = rows
+        .iter()
+        .filter_map(|row| Some((row.method, row.finding.as_ref()?)));
+    for (method, finding) in found.filter(|(_, finding)| wanted(finding)) {
+        match lines
+            .iter_mut()
+            .find(|(of, all)| *of == method && all[0].failure == finding.failure)
+        {
+            Some((_, all)) => all.push(finding),
+            None => lines.push((method, vec![finding])),
+        }
+    }
+    lines.sort_by_key(|(method, _)| *method);
+    lines
+        .iter()
+        .map(|(method, findings)| line(method, findings))
+        .collect()
+}
+
+fn line(method: &str, findings: &[&Finding]) -> Vec<String> {
+    let region = |finding: &&Finding| {
+        let share = if finding.share < 1.0 {
+            format!(" ({})", percent(finding.share))
+        } else {
+            String::new()
+        };
+        finding.region.clone() + &share
+    };
+    let mut regions: Vec<String> = findings.iter().map(region).collect();
+    let mut known = BTreeSet::new();
+    regions.retain(|region| known.insert(region.clone()));
+    let gravest = findings
+        .iter()
+        .reduce(|a, b| if b.amount > a.amount { b } else { a });
+    vec![
+        format!("`{method}`{}", exempt(method)),
+        findings[0].failure.text(),
+        regions.join("; "),
+        gravest.map_or_else(String::new, |finding| worst(finding)),
+    ]
+}
+
+fn exempt(method: &str) -> &'static str {
+    use crate::methods::{Contract, find};
+    match find(method).map(|method| method.contract) {
+        Some(Contract::Exempt(_)) => " (exempt)",
+        _ => "",
+    }
+}

@@ -1,0 +1,183 @@
+//! What a scan found, as rows: for people, for scripts, and as the table of the documents.
+
+#[cfg(feature = "cli")]
+mod heat;
+mod markdown;
+#[cfg(feature = "cli")]
+mod page;
+
+use serde_json::{Map, Value, json};
+
+use super::table;
+use crate::verify::stability::{Failure, Finding, short};
+
+#[cfg(feature = "cli")]
+pub use heat::heat;
+pub use markdown::markdown;
+#[cfg(feature = "cli")]
+pub use page::page;
+
+/// A finding with what it is about.
+#[derive(Clone, Debug)]
+pub struct Row {
+    /// The method.
+    pub method: &'static str,
+    /// The material that it is specialised to, and the channel.
+    pub material: Option<(String, &'static str)>,
+    /// The kind of number.
+    pub precision: &'static str,
+    /// What goes wrong; none where nothing does.
+    pub finding: Option<Finding>,
+}
+
+impl Row {
+    /// The row as JSON.
+    pub fn json(&self) -> Value {
+        let (material, channel) = self.material.clone().unzip();
+        let mut row = json!({
+            "method": self.method, "material": material, "channel": channel, "precision": self.precision, "failure": null,
+            "fault_of": null, "points": null, "region": null, "share": null, "worst": null,
+        });
+        match &self.finding {
+            None => row["reason"] = json!("nothing was found"),
+            Some(finding) => {
+                row["failure"] = json!(finding.failure.text());
+                row["fault_of"] = json!(fault_of(finding.failure));
+                row["points"] = json!(points(finding));
+                row["region"] = json!(finding.region);
+                row["share"] = json!(finding.share);
+                row["worst"] = worst_json(finding);
+            }
+        }
+        row
+    }
+
+    fn cells(&self) -> Vec<String> {
+        let about = match &self.material {
+            None => String::new(),
+            Some((name, channel)) => format!("{name}, {channel}"),
+        };
+        let mut cells = vec![self.method.to_owned(), about];
+        match &self.finding {
+            None => cells.extend([
+                "none".to_owned(),
+                String::new(),
+                String::new(),
+                String::new(),
+            ]),
+            Some(finding) => cells.extend([
+                finding.failure.text(),
+                region(finding),
+                percent(finding.share),
+                worst(finding),
+            ]),
+        }
+        cells
+    }
+}
+
+/// Whose fault it is.
+fn fault_of(failure: Failure) -> &'static str {
+    if failure.is_of_the_model() {
+        "formula"
+    } else {
+        "rounding"
+    }
+}
+
+fn points(finding: &Finding) -> &'static str {
+    if finding.is_media {
+        "media"
+    } else {
+        "arguments"
+    }
+}
+
+/// The region; of arguments that no medium has, with that said.
+fn region(finding: &Finding) -> String {
+    if finding.is_media {
+        finding.region.clone()
+    } else {
+        format!("arguments {}", finding.region)
+    }
+}
+
+fn percent(share: f64) -> String {
+    let percent = (100.0 * share).round();
+    if share >= 1.0 {
+        "all".to_owned()
+    } else {
+        format!("{} %", percent.clamp(1.0, 99.0))
+    }
+}
+
+fn worst_json(finding: &Finding) -> Value {
+    let at: Map<String, Value> = finding
+        .worst
+        .iter()
+        .map(|(name, value)| ((*name).to_owned(), json!(value)))
+        .collect();
+    let shown = finding.point;
+    json!({
+        "at": at, "amount": finding.amount, "got": shown.map(|shown| shown.got), "expected": shown.map(|shown| shown.want),
+        "law": shown.and_then(|shown| shown.law),
+    })
+}
+
+/// Where it is worst, and what comes there.
+fn worst(finding: &Finding) -> String {
+    let at = finding
+        .worst
+        .iter()
+        .map(|(name, value)| format!("{name} {}", short(*value)));
+    let at = at.collect::<Vec<_>>().join(", ");
+    let what = match (finding.failure, finding.point) {
+        (Failure::Digits(_), _) => format!("{} ulp", rounded(finding.amount)),
+        (Failure::Error(_), Some(shown)) => {
+            let law = shown.law.map_or_else(String::new, number);
+            format!("{}, the law {law}", number(shown.want))
+        }
+        (Failure::Monotony | Failure::Minimum, _) => format!("by {:.3}", finding.amount),
+        (_, Some(shown)) => number(shown.got),
+        (_, None) => String::new(),
+    };
+    format!("{at}: {what}")
+}
+
+/// A reflectance in four digits.
+fn number(x: f64) -> String {
+    match x.abs() {
+        0.0 => "0".to_owned(),
+        size if size < 1e-3 || size >= 1e4 && size.is_finite() => format!("{x:.1e}"),
+        size if size.is_finite() => format!("{x:.4}"),
+        _ => x.to_string(),
+    }
+}
+
+/// Two digits.
+fn rounded(x: f64) -> String {
+    if x >= 1e4 {
+        format!("{x:.1e}")
+    } else {
+        format!("{x:.0}")
+    }
+}
+
+/// All rows for people.
+pub fn text(rows: &[Row]) -> String {
+    let head = ["method", "material", "failure", "where", "of it", "worst"];
+    let cells: Vec<Vec<String>> = rows.iter().map(Row::cells).collect();
+    let has_material = rows.iter().any(|row| row.material.is_some());
+    let wanted = |(i, _): &(usize, String)| *i != 1 || has_material;
+    let only = |cells: Vec<String>| -> Vec<String> {
+        cells
+            .into_iter()
+            .enumerate()
+            .filter(wanted)
+            .map(|(_, cell)| cell)
+            .collect()
+    };
+    let head = only(head.iter().map(|cell| (*cell).to_owned()).collect());
+    let head: Vec<&str> = head.iter().map(String::as_str).collect();
+    table::text(&head, &cells.into_iter().map(only).collect::<Vec<_>>())
+}

@@ -1,0 +1,99 @@
+//! One page with all maps, and a sentence for each failure: self-contained, for any browser.
+
+use base64::Engine;
+use base64::prelude::BASE64_STANDARD;
+use serde::Serialize;
+use tera::{Context, Tera};
+
+use super::{Row, percent, worst};
+use crate::verify::stability::Finding;
+
+static TEMPLATE: &str = include_str!("../../../templates/stability.html.tera");
+
+/// A method on the page.
+#[derive(Serialize)]
+struct Section {
+    method: &'static str,
+    summary: &'static str,
+    /// What goes wrong where, a sentence each.
+    formula: Vec<String>,
+    rounding: Vec<String>,
+    arguments: Vec<String>,
+    pictures: Vec<Picture>,
+}
+
+/// A picture by its words.
+#[derive(Serialize)]
+struct Picture {
+    about: String,
+    data: String,
+}
+
+/// The page of these rows and pictures (method, what over, PNG), or why it cannot be made.
+pub fn page(
+    rows: &[Row],
+    pictures: &[(&'static str, &'static str, Vec<u8>)],
+    command: &str,
+) -> Result<String, String> {
+    let mut methods: Vec<&'static str> = rows.iter().map(|row| row.method).collect();
+    methods.dedup();
+    let sections: Vec<Section> = methods
+        .into_iter()
+        .map(|method| section(method, rows, pictures))
+        .collect();
+    let mut tera = Tera::new();
+    tera.autoescape_on(vec![".tera"]);
+    tera.add_raw_template("page.tera", TEMPLATE)
+        .map_err(|error| error.to_string())?;
+    let mut context = Context::new();
+    context.insert("sections", &sections);
+    context.insert("command", command);
+    tera.render("page.tera", &context)
+        .map_err(|error| error.to_string())
+}
+
+fn section(
+    method: &'static str,
+    rows: &[Row],
+    pictures: &[(&'static str, &'static str, Vec<u8>)],
+) -> Section {
+    let sentences = |wanted: fn(&Finding) -> bool| -> Vec<String> {
+        let findings = rows
+            .iter()
+            .filter(|row| row.method == method)
+            .filter_map(|row| row.finding.as_ref());
+        findings
+            .filter(|finding| wanted(finding))
+            .map(sentence)
+            .collect()
+    };
+    let own = pictures.iter().filter(|(of, _, _)| *of == method);
+    Section {
+        method,
+        summary: crate::methods::find(method).map_or("", |method| method.summary),
+        formula: sentences(|finding| finding.is_media && finding.failure.is_of_the_model()),
+        rounding: sentences(|finding| finding.is_media && !finding.failure.is_of_the_model()),
+        arguments: sentences(|finding| !finding.is_media),
+        pictures: own
+            .map(|(_, over, png)| Picture {
+                about: format!("Errors of {method} over angle and {over}"),
+                data: BASE64_STANDARD.encode(png),
+            })
+            .collect(),
+    }
+}
+
+/// A finding as a sentence.
+fn sentence(finding: &Finding) -> String {
+    let share = if finding.share >= 1.0 {
+        String::new()
+    } else {
+        format!(" ({} of it)", percent(finding.share))
+    };
+    format!(
+        "{}: {}{share}; worst at {}",
+        finding.region,
+        finding.failure.text(),
+        worst(finding)
+    )
+}

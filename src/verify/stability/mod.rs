@@ -1,0 +1,18 @@
+//! Stability: where a method fails, found by a scan of its domain and past it, and told as inequalities.
+//!
+//! Two things go wrong, and they are not added: rounding (a result against the same formula in f64) and the formula
+//! itself (against the law). Points are media where the method has a law to be held against, and its arguments
+//! themselves, beyond what any medium gives them.
+
+mod axis;
+mod failure;
+mod map;
+mod region;
+mod scan;
+mod space;
+
+pub use axis::Axis;
+pub use failure::Failure;
+pub use map::{Cell, Map, maps};
+pub use region::short;
+pub use scan::{Code, Finding, Progress, Shown, scan, scan_specialised};

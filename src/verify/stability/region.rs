@@ -1,0 +1,372 @@
+//! Regions: where on a grid something happens, as boxes of inequalities that a person can read.
+
+use std::ops::Range;
+
+use super::axis::Axis;
+
+/// A grid of up to four axes, and at each point by how much it fails; 0 where it does not.
+#[derive(Clone, Debug)]
+pub struct Field<'a> {
+    /// The axes; the last one varies fastest.
+    pub axes: &'a [Axis],
+    /// The amounts.
+    pub amounts: Vec<f32>,
+}
+
+/// A box of the grid.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Region {
+    /// For each axis the places from the first that fails to behind the last.
+    pub box_: Vec<Range<usize>>,
+    /// How many of its points fail.
+    pub failing: usize,
+    /// How many points it has.
+    pub points: usize,
+    /// The point that fails most: a place on each axis.
+    pub worst: Vec<usize>,
+    /// By how much.
+    pub amount: f32,
+}
+
+/// More boxes than this are no help to a reader.
+const MOST: usize = 4;
+/// A cut must make the boxes this much tighter.
+const GAIN: f64 = 1.5;
+/// What is this full needs no cut.
+const FULL: f64 = 0.9;
+
+impl Field<'_> {
+    fn places(&self, mut index: usize) -> Vec<usize> {
+        let mut places = vec![0; self.axes.len()];
+        for (place, axis) in places.iter_mut().zip(self.axes).rev() {
+            *place = index % axis.values.len();
+            index /= axis.values.len();
+        }
+        places
+    }
+
+    /// The boxes that hold all points that fail: one, or a few where that says more.
+    pub fn regions(&self) -> Vec<Region> {
+        let failing = self
+            .amounts
+            .iter()
+            .enumerate()
+            .filter(|(_, amount)| **amount > 0.0);
+        let points: Vec<Point> = failing
+            .map(|(i, amount)| Point {
+                places: self.places(i),
+                amount: *amount,
+            })
+            .collect();
+        if points.is_empty() {
+            return Vec::new();
+        }
+        let parts = if self.axes.len() == 1 {
+            runs(points)
+        } else {
+            self.cut(points)
+        };
+        let mut regions: Vec<Region> = parts.iter().map(|part| region(part)).collect();
+        regions.sort_by(|a, b| {
+            b.failing
+                .cmp(&a.failing)
+                .then_with(|| a.worst.cmp(&b.worst))
+        });
+        regions
+    }
+
+    /// Points in parts whose boxes are as tight as a few cuts make them.
+    fn cut(&self, points: Vec<Point>) -> Vec<Vec<Point>> {
+        let mut parts = vec![points];
+        while parts.len() < MOST {
+            let cut = |(i, part): (usize, &Vec<Point>)| {
+                let (axis, at, gain) = self.best_cut(part)?;
+                Some((i, axis, at, gain * part.len() as f64))
+            };
+            let best = parts
+                .iter()
+                .enumerate()
+                .filter_map(cut)
+                .max_by(|a, b| a.3.total_cmp(&b.3));
+            let Some((i, axis, at, _)) = best else { break };
+            let part = parts.swap_remove(i);
+            let (low, high) = part.into_iter().partition(|point| point.places[axis] < at);
+            parts.extend([low, high]);
+        }
+        parts
+    }
+
+    /// The cut of a set of points that makes their boxes tightest, where one is worth it.
+    fn best_cut(&self, points: &[Point]) -> Option<(usize, usize, f64)> {
+        let whole = bounds(points.iter());
+        let volume = size(&whole);
+        if points.len() as f64 >= FULL * volume as f64 {
+            return None;
+        }
+        let mut best: Option<(usize, usize, f64)> = None;
+        for axis in 0..self.axes.len() {
+            for (at, low, high) in halves(points, axis, &whole[axis]) {
+                let gain = volume as f64 / (size(&low) + size(&high)) as f64;
+                if gain >= GAIN && best.is_none_or(|(_, _, most)| gain > most) {
+                    best = Some((axis, at, gain));
+                }
+            }
+        }
+        best
+    }
+}
+
+/// The points of one axis in runs, divided at the widest gaps.
+fn runs(points: Vec<Point>) -> Vec<Vec<Point>> {
+    let place = |point: &Point| point.places[0];
+    let mut gaps: Vec<usize> = (1..points.len())
+        .filter(|i| place(&points[*i]) > place(&points[i - 1]) + 1)
+        .collect();
+    gaps.sort_by_key(|i| std::cmp::Reverse(place(&points[*i]) - place(&points[i - 1])));
+    gaps.truncate(MOST - 1);
+    let mut parts: Vec<Vec<Point>> = vec![Vec::new()];
+    for (i, point) in points.into_iter().enumerate() {
+        if gaps.contains(&i) {
+            parts.push(Vec::new());
+        }
+        parts[gaps.iter().filter(|gap| **gap <= i).count()].push(point);
+    }
+    parts
+}
+
+#[derive(Clone, Debug)]
+struct Point {
+    places: Vec<usize>,
+    amount: f32,
+}
+
+type Box_ = Vec<Range<usize>>;
+
+fn size(box_: &Box_) -> usize {
+    box_.iter().map(ExactSizeIterator::len).product()
+}
+
+fn bounds<'a>(points: impl Iterator<Item = &'a Point>) -> Box_ {
+    let one =
+        |point: &Point| -> Box_ { point.places.iter().map(|place| *place..place + 1).collect() };
+    points
+        .map(one)
+        .reduce(|a, b| joined(&a, &b))
+        .unwrap_or_default()
+}
+
+fn joined(a: &Box_, b: &Box_) -> Box_ {
+    a.iter()
+        .zip(b)
+        .map(|(a, b)| a.start.min(b.start)..a.end.max(b.end))
+        .collect()
+}
+
+/// The boxes on both sides of every cut of an axis.
+fn halves(points: &[Point], axis: usize, range: &Range<usize>) -> Vec<(usize, Box_, Box_)> {
+    let mut slices: Vec<Option<Box_>> = vec![None; range.len()];
+    for point in points {
+        let slice = &mut slices[point.places[axis] - range.start];
+        let one = bounds(std::iter::once(point));
+        *slice = Some(
+            slice
+                .as_ref()
+                .map_or(one.clone(), |known| joined(known, &one)),
+        );
+    }
+    let together = |a: Option<Box_>, b: &Option<Box_>| match (a, b) {
+        (Some(a), Some(b)) => Some(joined(&a, b)),
+        (a, b) => a.or_else(|| b.clone()),
+    };
+    let sums = |slices: &mut dyn Iterator<Item = &Option<Box_>>| -> Vec<Option<Box_>> {
+        let next = |sum: &mut Option<Box_>, slice: &Option<Box_>| {
+            *sum = together(sum.take(), slice);
+            Some(sum.clone())
+        };
+        slices.scan(None, next).collect()
+    };
+    let below = sums(&mut slices.iter());
+    let mut above = sums(&mut slices.iter().rev());
+    above.reverse();
+    let cut = |at: usize| Some((range.start + at, below[at - 1].clone()?, above[at].clone()?));
+    (1..range.len()).filter_map(cut).collect()
+}
+
+fn region(points: &[Point]) -> Region {
+    let box_ = bounds(points.iter());
+    let worst = points
+        .iter()
+        .reduce(|a, b| if b.amount > a.amount { b } else { a });
+    let worst = worst.expect("a region has points");
+    Region {
+        failing: points.len(),
+        points: size(&box_),
+        worst: worst.places.clone(),
+        amount: worst.amount,
+        box_,
+    }
+}
+
+impl Region {
+    /// The inequalities, joined by "and"; nothing where it is all of the grid.
+    pub fn text(&self, axes: &[Axis]) -> String {
+        let words = self
+            .box_
+            .iter()
+            .zip(axes)
+            .filter_map(|(range, axis)| inequality(axis, range));
+        let words: Vec<String> = words.collect();
+        if words.is_empty() {
+            "everywhere".to_owned()
+        } else {
+            words.join(", ")
+        }
+    }
+
+    /// The share of its points that fail.
+    pub fn share(&self) -> f64 {
+        self.failing as f64 / self.points as f64
+    }
+}
+
+/// What a range says of an axis; nothing where it is all of it.
+fn inequality(axis: &Axis, range: &Range<usize>) -> Option<String> {
+    let (name, values) = (axis.name, &axis.values);
+    let low =
+        (range.start > 0).then(|| between(values[range.start - 1], values[range.start], true));
+    let high = (range.end < values.len())
+        .then(|| between(values[range.end - 1], values[range.end], false));
+    if range.len() == 1 {
+        return Some(single(axis, range.start));
+    }
+    match (low, high) {
+        (None, None) => None,
+        (Some(low), None) => Some(format!("{name} {low}")),
+        (None, Some(high)) => Some(format!("{name} {high}")),
+        (Some(low), Some(high)) => {
+            let turned = low.replacen(">=", "<=", 1).replacen('>', "<", 1);
+            let (sign, bound) = turned.split_once(' ').unwrap_or(("<", ""));
+            Some(format!("{bound} {sign} {name} {high}"))
+        }
+    }
+}
+
+/// One value: where it stands for those around it, the roundest of them.
+fn single(axis: &Axis, place: usize) -> String {
+    let (name, value) = (axis.name, axis.values[place]);
+    let neighbour = |place: Option<usize>| place.and_then(|place| axis.values.get(place)).copied();
+    let (below, above) = (neighbour(place.checked_sub(1)), neighbour(Some(place + 1)));
+    let fits = |x: f64| below.is_none_or(|below| x > below) && above.is_none_or(|above| x < above);
+    let is_round = |digits: i32| round_bounds(value, digits).contains(&value);
+    if value == 0.0 || is_round(2) {
+        return format!("{name} = {}", short(value));
+    }
+    let rounded =
+        (1..8).find_map(|digits| round_bounds(value, digits).into_iter().find(|x| fits(*x)));
+    format!("{name} near {}", short(rounded.unwrap_or(value)))
+}
+
+/// The roundest bound between a value that is outside and one that is inside, with its sign.
+fn between(a: f64, b: f64, is_low: bool) -> String {
+    let (inside, outside) = if is_low { (b, a) } else { (a, b) };
+    let strict = if is_low { ">" } else { "<" };
+    // What a person would name: 0 and 1 themselves.
+    for plain in [0.0, 1.0] {
+        if outside == plain {
+            return format!("{strict} {plain}");
+        }
+        if inside == plain {
+            return format!("{strict}= {plain}");
+        }
+    }
+    let fits = |x: f64| {
+        if is_low {
+            x > outside && x <= inside
+        } else {
+            x >= inside && x < outside
+        }
+    };
+    let rounded =
+        (0..8).find_map(|digits| round_bounds(inside, digits).into_iter().find(|x| fits(*x)));
+    format!("{strict}= {}", short(rounded.unwrap_or(inside)))
+}
+
+/// A number with so many digits after the first, from below and from above.
+fn round_bounds(x: f64, digits: i32) -> [f64; 2] {
+    let unit = libm::pow(10.0, libm::floor(libm::log10(x.abs())) - f64::from(digits));
+    let exact = |steps: f64| {
+        format!("{:.*e}", digits as usize, steps * unit)
+            .parse()
+            .unwrap_or(x)
+    };
+    [exact((x / unit).floor()), exact((x / unit).ceil())]
+}
+
+/// A number in few digits: plain where that is short, with an exponent else.
+pub fn short(x: f64) -> String {
+    let single = x as f32 + 0.0;
+    let plain = format!("{single}");
+    if x == 0.0 || plain.len() <= 10 {
+        plain
+    } else {
+        format!("{single:e}")
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn axis(name: &'static str, values: &[f64]) -> Axis {
+        Axis {
+            name,
+            values: values.to_vec(),
+        }
+    }
+
+    fn field(axes: &[Axis], fails: impl Fn(&[f64]) -> bool) -> Vec<String> {
+        let points: usize = axes.iter().map(|axis| axis.values.len()).product();
+        let mut field = Field {
+            axes,
+            amounts: vec![0.0; points],
+        };
+        for i in 0..points {
+            let at: Vec<f64> = field
+                .places(i)
+                .iter()
+                .zip(axes)
+                .map(|(place, axis)| axis.values[*place])
+                .collect();
+            field.amounts[i] = f32::from(fails(&at));
+        }
+        field
+            .regions()
+            .iter()
+            .map(|region| region.text(axes))
+            .collect()
+    }
+
+    fn grid() -> [Axis; 2] {
+        let cosines: Vec<f64> = (0..=100).map(|i| f64::from(i) / 100.0).collect();
+        let etas: Vec<f64> = (0..=400).map(|i| 0.5 + f64::from(i) / 200.0).collect();
+        [axis("eta", &etas), axis("cos_theta", &cosines)]
+    }
+
+    #[test]
+    fn a_box_is_told_in_its_roundest_bounds() {
+        assert_eq!(field(&grid(), |at| at[0] < 1.088), ["eta <= 1.09"]);
+        assert_eq!(
+            field(&grid(), |at| at[0] > 1.0 && at[1] < 0.203),
+            ["eta > 1, cos_theta <= 0.2"]
+        );
+        assert_eq!(field(&grid(), |at| at[0] == 1.0), ["eta = 1"]);
+        assert_eq!(field(&grid(), |_| true), ["everywhere"]);
+        assert!(field(&grid(), |_| false).is_empty());
+    }
+
+    #[test]
+    fn two_places_are_two_regions() {
+        let regions = field(&grid(), |at| at[0] < 0.7 || at[0] > 2.2 && at[1] > 0.5);
+        assert_eq!(regions, ["eta < 0.7", "eta > 2.2, cos_theta > 0.5"]);
+    }
+}

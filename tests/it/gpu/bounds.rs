@@ -1,0 +1,58 @@
+//! The digits of the stable forms on a real graphics stack: the WGSL of the library, as shipped, over the media that `bounds`
+//! has.
+
+use fresnel_gen::emit::{self, Naming};
+use fresnel_gen::fit::Measured;
+use fresnel_gen::verify::gpu::Wanted;
+use fresnel_gen::verify::run::{Devices, Fault, Shown, Way};
+use fresnel_gen::verify::{Trial, cosines};
+use fresnel_gen::{methods, targets};
+
+use crate::bounds::{Medium, absorbing, beside, glasses, worst};
+use crate::not_checked;
+
+#[track_caller]
+fn check(name: &str, media: &[Medium]) {
+    let devices = Devices::new(Wanted::default());
+    let method = methods::find(name).unwrap();
+    let functions = emit::library_functions(method, &Naming::default()).unwrap();
+    let emitted = &functions[0];
+    let files = emit::library(targets::find("wgsl").unwrap(), method, &functions, "").unwrap();
+    let shown = Shown {
+        target: "wgsl",
+        bytes: &files[0].bytes,
+        function: emitted,
+        entry: "main",
+    };
+    let trial = |media: &[Medium; 3]| Trial {
+        function: emitted.function.clone(),
+        values: vec![media.map(|(n, _)| n), media.map(|(_, k)| k)],
+        table: None,
+        bound: Measured::Yes(method.claims.code_ulp),
+        is_guarded: true,
+    };
+    let runnable = match devices.prepare(&shown, Way::Own, &trial(&[(1.5, 0.0); 3])) {
+        Err(Fault::Absent(why)) => {
+            let remark = format!("digits of {name} on a device: {why}");
+            assert!(std::env::var_os("CI").is_none(), "not checked: {remark}");
+            return not_checked(&remark);
+        }
+        runnable => runnable.unwrap(),
+    };
+    let points = cosines(1000);
+    let around = |media: &[Medium; 3]| [points.clone(), beside(media)].concat();
+    let run = |media: &[Medium; 3], cosines: &[f32]| {
+        runnable.run("wgsl", &trial(media), cosines).unwrap()
+    };
+    worst(&emitted.function, media, &around, &run).check(&format!("{name} in WGSL"));
+}
+
+#[test]
+fn dielectrics_keep_their_digits_on_a_device() {
+    check("dielectric_exact", &glasses(900));
+}
+
+#[test]
+fn conductors_keep_their_digits_on_a_device() {
+    check("conductor_exact", &absorbing(900));
+}

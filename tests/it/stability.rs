@@ -1,0 +1,194 @@
+//! Where methods fail: the document is what a scan says, what keeps the contract keeps it, and what is known as worst gets no worse.
+
+use std::fmt::Write;
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::sync::LazyLock;
+
+use fresnel_gen::methods::{self, Class, Contract, Method};
+use fresnel_gen::num::Precision;
+use fresnel_gen::report::png::png;
+use fresnel_gen::report::stability::{Row, heat, markdown};
+use fresnel_gen::verify::stability::{Failure, maps, scan};
+
+/// All methods scanned, once for all tests.
+static ROWS: LazyLock<Vec<Row>> = LazyLock::new(|| scanned(Precision::F32));
+/// In half precision those that are written in it.
+static HALF: LazyLock<Vec<Row>> = LazyLock::new(|| scanned(Precision::F16));
+
+fn scanned(precision: Precision) -> Vec<Row> {
+    let is_written = |method: &&&'static Method| {
+        let refused = precision.is_half() && method.half.library_refusal().is_some();
+        !method.is_textured() && !refused
+    };
+    let mut rows = Vec::new();
+    for method in methods::ALL.iter().filter(is_written) {
+        let found = scan(method, precision, &mut |_, _| {});
+        rows.extend(found.into_iter().map(|finding| Row {
+            method: method.name,
+            material: None,
+            precision: precision.name(),
+            finding: Some(finding),
+        }));
+    }
+    rows
+}
+
+fn at(path: &str) -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join(path)
+}
+
+#[test]
+fn the_document_is_what_the_scan_says() {
+    super::bless::check(&at("docs/stability.md"), markdown(&ROWS, &HALF).as_bytes());
+}
+
+#[test]
+fn the_maps_of_the_document_are_what_is_drawn() {
+    for (method, over) in [("schlick", "eta"), ("dielectric_textbook", "eta")] {
+        let maps = maps(methods::find(method).unwrap(), Precision::F32);
+        let map = maps.iter().find(|map| map.axis.name == over).unwrap();
+        let picture = png(&heat(method, map), 1.0).unwrap();
+        super::bless::check(&at(&format!("docs/{method}_{over}.png")), &picture);
+    }
+}
+
+fn fails(rows: &[Row], method: &str, failure: Failure) -> bool {
+    let of = |row: &&Row| row.method == method;
+    let mut findings = rows
+        .iter()
+        .filter(of)
+        .filter_map(|row| row.finding.as_ref());
+    findings.any(|finding| finding.failure == failure && finding.is_media)
+}
+
+#[test]
+fn what_keeps_the_contract_is_a_reflectance_everywhere() {
+    let broken = [
+        Failure::NotANumber,
+        Failure::Infinite,
+        Failure::Negative,
+        Failure::AboveOne,
+    ];
+    for method in methods::ALL
+        .iter()
+        .filter(|method| method.contract == Contract::Kept)
+    {
+        for failure in broken {
+            assert!(
+                !fails(&ROWS, method.name, failure) && !fails(&HALF, method.name, failure),
+                "{}: {}",
+                method.name,
+                failure.text()
+            );
+        }
+    }
+}
+
+/// The other direction: the scan sees what textbooks do.
+#[test]
+fn what_fails_is_seen() {
+    for (method, failure) in [
+        ("dielectric_textbook", Failure::NotANumber),
+        ("dielectric_textbook", Failure::Digits(1000.0)),
+        ("conductor_textbook", Failure::NotANumber),
+        ("conductor_textbook", Failure::Negative),
+        ("conductor_textbook", Failure::AboveOne),
+        ("conductor_textbook", Failure::Digits(1000.0)),
+        ("schlick", Failure::Error(0.2)),
+        ("schlick", Failure::Minimum),
+        ("schlick", Failure::Monotony),
+    ] {
+        assert!(
+            fails(&ROWS, method, failure),
+            "{method}: no {}",
+            failure.text()
+        );
+    }
+    // The exact laws fail nowhere as formulas.
+    for method in methods::ALL
+        .iter()
+        .filter(|method| method.name.contains("_exact"))
+    {
+        assert!(
+            !fails(&ROWS, method.name, Failure::Error(0.01)),
+            "{}",
+            method.name
+        );
+    }
+}
+
+/// Inputs at which rounding was found worst. With `BLESS=1` those of today's scan are added; none is removed.
+#[test]
+fn the_worst_inputs_known_get_no_worse() {
+    let path = at("data/worst-cases/stability.csv");
+    let known = fs::read_to_string(&path).unwrap_or_default();
+    let mut lines: Vec<String> = known
+        .lines()
+        .filter(|line| !line.starts_with(['#', 'm']))
+        .map(str::to_owned)
+        .collect();
+    for line in &lines {
+        check_known(line);
+    }
+    for row in ROWS.iter() {
+        let line = row
+            .finding
+            .as_ref()
+            .filter(|finding| finding.is_media)
+            .and_then(|finding| {
+                let of = |name: &str| {
+                    finding
+                        .worst
+                        .iter()
+                        .find(|(of, _)| *of == name)
+                        .map(|(_, value)| *value)
+                };
+                let (n, k) = (of("n").or(of("eta"))?, of("k").unwrap_or(0.0));
+                let what = finding.failure.text();
+                (!finding.failure.is_of_the_model()).then_some(format!(
+                    "{},{what},{n:e},{k:e},{:e}",
+                    row.method,
+                    of("cos_theta")?
+                ))
+            });
+        lines.extend(line.filter(|line| !lines.contains(line)));
+    }
+    lines.sort();
+    let mut text = String::from(ABOUT);
+    lines
+        .iter()
+        .for_each(|line| writeln!(text, "{line}").unwrap());
+    super::bless::check(&path, text.as_bytes());
+}
+
+const ABOUT: &str = "\
+# The worst input of each region in which a method's rounding fails, for media n + ik (k = 0 where the scan was over eta):
+# `fresnel-gen stability`, unfused f32. Lines are added, never removed.
+method,failure,n,k,cos_theta
+";
+
+/// What was known to fail may be mended; what keeps the contract stays a reflectance there.
+fn check_known(line: &str) {
+    use fresnel_gen::fit::{Derivation, values};
+    use fresnel_gen::ir::{Value, evaluate};
+    use fresnel_gen::materials::Channels;
+    let cells: Vec<&str> = line.split(',').collect();
+    let method = methods::find(cells[0]).unwrap();
+    let [n, k, cos_theta] = [2, 3, 4].map(|i| cells[i].parse::<f64>().unwrap());
+    if method.contract != Contract::Kept || method.class == Class::Dielectric && k > 0.0 {
+        return;
+    }
+    let values = values(
+        method,
+        &Channels {
+            n: [n; 3],
+            k: [k; 3],
+        },
+        &Derivation::default(),
+    );
+    let mut arguments = vec![Value::each(vec![cos_theta as f32])];
+    arguments.extend(method.arguments(&values, None));
+    let [got, _, _] = evaluate::<f32>(&method.function(false).unwrap(), &arguments).at(0);
+    assert!((0.0..=1.0).contains(&got), "{line}: {got}");
+}
