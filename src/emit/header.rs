@@ -225,7 +225,14 @@ pub fn half_promise(method: &Method) -> String {
     match (method.half.claim(), method.half.refusal()) {
         (Some(claim), _) => {
             let media = method.media(claim.over);
-            format!("Code error for {media}: {}", absolute(claim.max_abs))
+            let beyond = match claim.beyond {
+                "" => String::new(),
+                beyond => format!("; {beyond}"),
+            };
+            format!(
+                "Code error for {media}: {}{beyond}",
+                absolute(claim.max_abs)
+            )
         }
         (None, Some(why)) => format!("Code error: nothing is promised; {why}"),
         (None, None) => format!(

@@ -51,7 +51,10 @@ pub static METHOD: Method = Method {
         code_over: Over::Wide,
     },
     contract: Contract::Kept,
-    half: InHalf::within(0.0015),
+    half: InHalf::within_but(
+        0.0015,
+        "n^2 + k^2 above 60000 overflows; for n below 1 with k near 0 see dielectric_exact",
+    ),
     build,
     plain: Some(plain),
     specialised: None,

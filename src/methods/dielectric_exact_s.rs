@@ -5,7 +5,7 @@
 
 use crate::ir::Expr;
 
-use super::dielectric_exact::{COOK_TORRANCE_1982, steps};
+use super::dielectric_exact::{BELOW_ONE, COOK_TORRANCE_1982, steps};
 use super::half::InHalf;
 use super::input::{Input, Inputs};
 use super::method::{Claim, Claims, Class, Contract, Forms, Light, Method, Over};
@@ -33,7 +33,7 @@ pub static METHOD: Method = Method {
         code_over: Over::Wide,
     },
     contract: Contract::Kept,
-    half: InHalf::within(0.0012),
+    half: InHalf::within_but(0.0012, BELOW_ONE),
     build,
     plain: None,
     specialised: None,

@@ -26,13 +26,23 @@ pub struct HalfClaim {
     pub max_abs: f64,
     /// The media.
     pub over: Over,
+    /// What is promised less of other media; may be empty.
+    pub beyond: &'static str,
 }
 
 impl InHalf {
     /// It is written, and promises this over [`Over::Half`].
     pub const fn within(max_abs: f64) -> InHalf {
-        let over = Over::Half;
-        InHalf::Kept(HalfClaim { max_abs, over })
+        InHalf::within_but(max_abs, "")
+    }
+
+    /// The same, with what happens beyond.
+    pub const fn within_but(max_abs: f64, beyond: &'static str) -> InHalf {
+        InHalf::Kept(HalfClaim {
+            max_abs,
+            over: Over::Half,
+            beyond,
+        })
     }
 
     /// What the library function promises.

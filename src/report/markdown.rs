@@ -101,7 +101,7 @@ pub fn half_table() -> String {
         })
     };
     let library = |method: &Method| match method.half.claim() {
-        Some(claim) => format!("{} for {}", claim.max_abs, method.media(claim.over)),
+        Some(claim) => claim.max_abs.to_string(),
         None => format!(
             "refused: {}",
             method.half.library_refusal().unwrap_or_default()

@@ -7,6 +7,7 @@ mod determinism;
 #[cfg(unix)]
 mod disk;
 mod generation;
+mod half;
 #[cfg(unix)]
 mod killed;
 mod materials;

@@ -4,6 +4,7 @@
 use std::collections::BTreeMap;
 
 use fresnel_gen::ir::{Texels, Weights};
+use fresnel_gen::num::Precision;
 
 /// A value while a program runs.
 #[derive(Clone, Copy, Debug)]
@@ -32,6 +33,15 @@ impl Term {
         value
     }
 
+    /// As a precision has it; of f32 that came of f16 this is what one rounding to f16 had given.
+    fn rounded(self, precision: Precision) -> Term {
+        let round = |value: f32| precision.rounded(f64::from(value)) as f32;
+        match self {
+            Term::Scalar(_) | Term::Colour(_) => self.map(round),
+            other => other,
+        }
+    }
+
     fn map(self, f: impl Fn(f32) -> f32) -> Term {
         match self {
             Term::Scalar(value) => Term::Scalar(f(value)),
@@ -53,6 +63,7 @@ impl Term {
 /// One function: the names of its arguments, its statements as tokens.
 pub struct Program {
     params: Vec<String>,
+    precision: Precision,
     /// What every texture holds.
     table: Texels,
     /// The variable that a statement sets; nothing for `return`.
@@ -61,7 +72,7 @@ pub struct Program {
 
 impl Program {
     /// Finds a function by name in a file.
-    pub fn parse(text: &str, name: &str, table: &Texels) -> Program {
+    pub fn parse(text: &str, name: &str, table: &Texels, precision: Precision) -> Program {
         let code: String = text
             .lines()
             .map(|line| line.split("//").next().unwrap_or(""))
@@ -70,6 +81,9 @@ impl Program {
         let plain = code
             .replace("metal::", "")
             .replace("vec3<f32>", "vec3")
+            .replace("vec3<f16>", "vec3")
+            .replace("half3", "vec3")
+            .replace("mediump ", "")
             .replace("vec2<f32>", "vec2")
             .replace("float2", "vec2")
             .replace("float3", "vec3")
@@ -84,6 +98,7 @@ impl Program {
         let (body, _) = rest.split_once('}').expect("a body ends");
         Program {
             params: params.split(',').map(parameter).collect(),
+            precision,
             table: table.clone(),
             statements: body
                 .split(';')
@@ -108,6 +123,7 @@ impl Program {
                 tokens,
                 at: 0,
                 known: &known,
+                precision: self.precision,
                 table: &self.table,
             };
             let value = reader.ternary();
@@ -171,6 +187,7 @@ struct Reader<'a> {
     tokens: &'a [String],
     at: usize,
     known: &'a BTreeMap<&'a str, Term>,
+    precision: Precision,
     table: &'a Texels,
 }
 
@@ -209,9 +226,13 @@ impl Reader<'_> {
         let mut left = self.product();
         loop {
             if self.take("+") {
-                left = left.zip(self.product(), |a, b| a + b);
+                left = left
+                    .zip(self.product(), |a, b| a + b)
+                    .rounded(self.precision);
             } else if self.take("-") {
-                left = left.zip(self.product(), |a, b| a - b);
+                left = left
+                    .zip(self.product(), |a, b| a - b)
+                    .rounded(self.precision);
             } else {
                 return left;
             }
@@ -222,9 +243,13 @@ impl Reader<'_> {
         let mut left = self.prefix();
         loop {
             if self.take("*") {
-                left = left.zip(self.prefix(), |a, b| a * b);
+                left = left
+                    .zip(self.prefix(), |a, b| a * b)
+                    .rounded(self.precision);
             } else if self.take("/") {
-                left = left.zip(self.prefix(), |a, b| a / b);
+                left = left
+                    .zip(self.prefix(), |a, b| a / b)
+                    .rounded(self.precision);
             } else {
                 return left;
             }
@@ -275,8 +300,10 @@ impl Reader<'_> {
             let arguments = self.arguments();
             return self.called(&name, &arguments);
         }
-        match name.trim_end_matches('f').parse() {
-            Ok(number) if name.starts_with(|c: char| c.is_ascii_digit()) => Term::Scalar(number),
+        match name.trim_end_matches(['f', 'h']).parse() {
+            Ok(number) if name.starts_with(|c: char| c.is_ascii_digit()) => {
+                Term::Scalar(number).rounded(self.precision)
+            }
             _ => *self
                 .known
                 .get(name.as_str())
@@ -309,7 +336,7 @@ impl Reader<'_> {
                 assert!(self.take(".") && self.take("rgb"));
                 sampled
             }
-            _ => call(name, arguments),
+            _ => call(name, arguments).rounded(self.precision),
         }
     }
 

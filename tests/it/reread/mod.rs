@@ -1,5 +1,5 @@
 //! The text of every language, read again and run: a small interpreter of the C-like subset that functions are written
-//! in must give, bit for bit, what the graph gives in f32. It catches a wrong precedence, spelling or literal in any
+//! in must give, bit for bit, what the graph gives in f32, or in f16 rounded after every operation. It catches a wrong precedence, spelling or literal in any
 //! target without a compiler of that language.
 
 mod language;
@@ -7,6 +7,8 @@ mod language;
 use fresnel_gen::app::{Materials, Request, generate};
 use fresnel_gen::fit;
 use fresnel_gen::ir::{Checked, Texels, Ty, Value, evaluate};
+use fresnel_gen::num::{Half, Num, Precision};
+use fresnel_gen::verify::nearest_half;
 use fresnel_gen::{emit, lut, methods, targets};
 use language::{Program, Term};
 
@@ -33,9 +35,27 @@ fn table() -> Texels {
 
 #[track_caller]
 fn check(text: &str, name: &str, function: &Checked, inputs: &[[f32; 3]]) {
-    let program = Program::parse(text, name, &table());
-    for cos_theta in COSINES {
-        let mut values = vec![Value::each(vec![cos_theta])];
+    check_in::<f32>(Precision::F32, text, name, function, inputs);
+}
+
+/// Text of half precision; its inputs are numbers that f16 has.
+#[track_caller]
+fn check_half(text: &str, name: &str, function: &Checked, inputs: &[[f32; 3]]) {
+    let inputs: Vec<[f32; 3]> = inputs.iter().map(|input| input.map(nearest_half)).collect();
+    check_in::<Half>(Precision::F16, text, name, function, &inputs);
+}
+
+#[track_caller]
+fn check_in<N: Num>(
+    precision: Precision,
+    text: &str,
+    name: &str,
+    function: &Checked,
+    inputs: &[[f32; 3]],
+) {
+    let program = Program::parse(text, name, &table(), precision);
+    for cos_theta in COSINES.map(|c| precision.rounded(f64::from(c)) as f32) {
+        let mut values = vec![Value::each(vec![N::from_f64(f64::from(cos_theta))])];
         let mut terms = vec![Term::Scalar(cos_theta)];
         for (param, input) in function.params.iter().skip(1).zip(inputs) {
             if param.ty == Ty::Texture {
@@ -56,7 +76,8 @@ fn check(text: &str, name: &str, function: &Checked, inputs: &[[f32; 3]]) {
                 Term::Scalar(input[0])
             });
         }
-        let want = evaluate::<f32>(function, &values).at(0);
+        let want = evaluate::<N>(function, &values).at(0);
+        let want = want.map(|want| want.to_f64() as f32);
         let got = program.run(&terms).colour();
         let same = got
             .iter()
@@ -107,6 +128,52 @@ fn every_library_function_reads_as_it_was_meant() {
                         check(&text, &emitted.name, &emitted.function, &inputs);
                     }
                 }
+            }
+        }
+    }
+}
+
+#[test]
+fn every_library_function_in_half_precision_reads_as_it_was_meant() {
+    let naming = emit::Naming {
+        precision: Precision::F16,
+        ..emit::Naming::default()
+    };
+    for method in methods::ALL.iter().filter(|method| !method.is_textured()) {
+        let functions = emit::library_functions(method, &naming).expect("well formed");
+        for target in text_targets() {
+            for file in emit::library(target, method, &functions, "").expect("it prints") {
+                let text = String::from_utf8(file.bytes).expect("text");
+                for emitted in &functions {
+                    for inputs in rows_of(&emitted.function) {
+                        check_half(&text, &emitted.name, &emitted.function, &inputs);
+                    }
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn specialised_functions_in_half_precision_read_as_they_were_meant() {
+    let request = Request {
+        precision: Precision::F16,
+        ..Request::default()
+    };
+    for (subject, _) in request.subjects().expect("the catalogue is good").ready {
+        for name in subject
+            .default_methods()
+            .iter()
+            .filter(|name| **name != "table")
+        {
+            let method = methods::find(name).expect("it is there");
+            let bounds = emit::Bounds::default();
+            let emitted = emit::specialised_function(method, &subject, &request.naming(), &bounds)
+                .expect("it specialises");
+            for target in text_targets() {
+                let text = emit::single(target, &emitted, Some(&subject), "").expect("it prints");
+                let text = String::from_utf8(text).expect("text");
+                check_half(&text, &emitted.name, &emitted.function, &[]);
             }
         }
     }
