@@ -11,10 +11,10 @@
 use crate::cite::Citation;
 use crate::ir::Expr;
 
-use super::conductor_exact::conductor;
+use super::conductor_exact::{self, conductor};
 use super::half::InHalf;
 use super::input::{Input, Inputs};
-use super::method::{Claim, Claims, Class, Contract, Forms, Light, Method, Over};
+use super::method::{Claim, Claims, Class, Contract, Forms, Light, Method, Over, Values};
 
 /// The record of this method.
 pub static METHOD: Method = Method {
@@ -51,7 +51,7 @@ pub static METHOD: Method = Method {
     ),
     build,
     plain: None,
-    specialised: None,
+    specialised: Some(solved),
 };
 
 fn build<'b>(x: &Inputs<'b>) -> Expr<'b> {
@@ -75,6 +75,23 @@ fn build<'b>(x: &Inputs<'b>) -> Expr<'b> {
         .sqrt()
         .named("k", "k^2 = (n_max - n)(n - 1 / n_max), in positive terms");
     conductor(x.precision(), x.cosine(), n, k)
+}
+
+/// n and k in f64.
+fn solved(values: &Values) -> Option<(&'static Method, Values)> {
+    let index = |i: usize| {
+        let r = values["reflectivity"][i].clamp(0.0, 0.999);
+        let g = values["edge_tint"][i].clamp(0.0, 1.0);
+        let (least, most) = ((1.0 - r) / (1.0 + r), (1.0 + r.sqrt()).powi(2) / (1.0 - r));
+        let above = (1.0 - g) * (most - least);
+        let gap = 2.0 * r.sqrt() / (most * (1.0 + r));
+        (least + above, (g * (most - least) * (above + gap)).sqrt())
+    };
+    let index = [0, 1, 2].map(index);
+    Some(conductor_exact::with(
+        index.map(|(n, _)| n),
+        index.map(|(_, k)| k),
+    ))
 }
 
 #[cfg(test)]

@@ -12,13 +12,16 @@
 //! Domain: n ≥ 0.001, k ≥ 0; k = 0 is the dielectric, past the critical angle exactly 1; n = 1, k = 0 gives 0.
 //! Error: none in the model; the code error is [`METHOD`]'s claim.
 
+use std::collections::BTreeMap;
+
 use crate::ir::Expr;
 use crate::num::Precision;
 
 use super::conductor_textbook::GLASSNER_1995;
+use super::dielectric_exact;
 use super::half::InHalf;
 use super::input::{Input, Inputs};
-use super::method::{Claim, Claims, Class, Contract, Forms, Light, Method, Over};
+use super::method::{Claim, Claims, Class, Contract, Forms, Light, Method, Over, Values};
 
 /// The record of this method.
 pub static METHOD: Method = Method {
@@ -57,11 +60,33 @@ pub static METHOD: Method = Method {
     ),
     build,
     plain: Some(plain),
-    specialised: None,
+    specialised: Some(clear),
 };
 
 fn build<'b>(x: &Inputs<'b>) -> Expr<'b> {
     conductor(x.precision(), x.cosine(), x.get(Input::N), x.get(Input::K))
+}
+
+/// Below this k changes a reflectance by less than 1e-12.
+const CLEAR: f64 = 1e-6;
+
+/// What does not absorb is a dielectric, whose law is shorter.
+fn clear(values: &Values) -> Option<(&'static Method, Values)> {
+    let is_clear = values["k"].iter().all(|k| *k <= CLEAR);
+    is_clear.then(|| {
+        (
+            &dielectric_exact::METHOD,
+            BTreeMap::from([("eta".to_owned(), values["n"])]),
+        )
+    })
+}
+
+/// This method with these constants.
+pub(super) fn with(n: [f64; 3], k: [f64; 3]) -> (&'static Method, Values) {
+    (
+        &METHOD,
+        BTreeMap::from([("n".to_owned(), n), ("k".to_owned(), k)]),
+    )
 }
 
 /// The exact law, for methods that find n and k in their own way.

@@ -12,8 +12,6 @@
 //! the worst (F0 .905, F82 .74, an index that no material has).
 //! Specialised to a material, n and k are solved in f64 and this error is gone.
 
-use std::collections::BTreeMap;
-
 use crate::cite::Citation;
 use crate::ir::Expr;
 use crate::optics::index_from_f0_f82;
@@ -160,15 +158,14 @@ fn deficit<'b>(circle: &Circle<'b>, n: Expr<'b>) -> Expr<'b> {
 }
 
 /// With constants at hand: n and k solved in f64, then the exact law.
-fn solved(values: &Values) -> (&'static Method, Values) {
+fn solved(values: &Values) -> Option<(&'static Method, Values)> {
     let colour = |name: &str| values.get(name).copied().unwrap_or([0.0; 3]);
     let (f0, f82) = (colour("f0"), colour("f82"));
     let index = [0, 1, 2].map(|i| index_from_f0_f82(f0[i], f82[i]));
-    let values = BTreeMap::from([
-        ("n".to_owned(), index.map(|index| index.n)),
-        ("k".to_owned(), index.map(|index| index.k)),
-    ]);
-    (&conductor_exact::METHOD, values)
+    Some(conductor_exact::with(
+        index.map(|index| index.n),
+        index.map(|index| index.k),
+    ))
 }
 
 #[cfg(test)]

@@ -52,7 +52,7 @@ pub struct Method {
 pub type Build = for<'b> fn(&Inputs<'b>) -> Expr<'b>;
 
 /// Another method, and the values of its inputs, that do a specialised method's work better.
-pub type Better = fn(&Values) -> (&'static Method, Values);
+pub type Better = fn(&Values) -> Option<(&'static Method, Values)>;
 
 /// Values of inputs by name; a scalar input uses the first number.
 pub type Values = BTreeMap<String, [f64; 3]>;
@@ -230,7 +230,7 @@ impl Method {
         let mut names = self.inputs.iter().map(|input| input.name);
         let complete = names.all(|name| values.contains_key(name));
         let better = self.specialised.filter(|_| complete)?;
-        Some(better(values))
+        better(values)
     }
 
     /// These values as the library function takes them after `cos_theta`, and the texture where it reads one; an input

@@ -104,8 +104,8 @@ impl Field<'_> {
             return None;
         }
         let mut best: Option<(usize, usize, f64)> = None;
-        for axis in 0..self.axes.len() {
-            for (at, low, high) in halves(points, axis, &whole[axis]) {
+        for (axis, range) in whole.iter().enumerate() {
+            for (at, low, high) in halves(points, axis, range) {
                 let gain = volume as f64 / (size(&low) + size(&high)) as f64;
                 if gain >= GAIN && best.is_none_or(|(_, _, most)| gain > most) {
                     best = Some((axis, at, gain));
@@ -279,17 +279,27 @@ fn between(a: f64, b: f64, is_low: bool) -> String {
             return format!("{strict}= {plain}");
         }
     }
-    let fits = |x: f64| {
-        if is_low {
-            x > outside && x <= inside
-        } else {
-            x >= inside && x < outside
-        }
+    let side = if is_low { -1.0 } else { 1.0 };
+    let same = |x: f64, y: f64| (x - y).abs() <= SAME * y.abs();
+    let lies_between = |x: &f64| {
+        let beyond_inside = side * (*x - inside) > 0.0 || same(*x, inside);
+        beyond_inside && side * (outside - *x) > 0.0 && !same(*x, outside)
     };
-    let rounded =
-        (0..8).find_map(|digits| round_bounds(inside, digits).into_iter().find(|x| fits(*x)));
-    format!("{strict}= {}", short(rounded.unwrap_or(inside)))
+    let rounded = |digits: i32| {
+        let loose = round_bounds(inside, digits).into_iter().find(lies_between);
+        let tight = || {
+            round_bounds(outside, digits)
+                .into_iter()
+                .find(|x| same(*x, outside))
+        };
+        loose.map(|x| ("=", x)).or_else(|| tight().map(|x| ("", x)))
+    };
+    let (equal, bound) = (0..8).find_map(rounded).unwrap_or(("=", inside));
+    format!("{strict}{equal} {}", short(bound))
 }
+
+/// Numbers that differ by less are read as one.
+const SAME: f64 = 1e-7;
 
 /// A number with so many digits after the first, from below and from above.
 fn round_bounds(x: f64, digits: i32) -> [f64; 2] {
@@ -354,7 +364,7 @@ mod tests {
 
     #[test]
     fn a_box_is_told_in_its_roundest_bounds() {
-        assert_eq!(field(&grid(), |at| at[0] < 1.088), ["eta <= 1.09"]);
+        assert_eq!(field(&grid(), |at| at[0] < 1.088), ["eta < 1.09"]);
         assert_eq!(
             field(&grid(), |at| at[0] > 1.0 && at[1] < 0.203),
             ["eta > 1, cos_theta <= 0.2"]

@@ -63,20 +63,9 @@ const EXACT: [&str; 6] = [
 const NEAR: f64 = 1e-4;
 const SAMPLED: f64 = 1e-2;
 
-/// Functions that a compiler keeps from being exactly 1 at 90 degrees, by one ulp: with a constant `gap` DXC makes
-/// `gap^2 / e` of `gap (gap / e)`. Only a conductor's law specialised to what has no k is of this kind; of silicon nitride it
-/// even gives 1 + 1 ulp.
-const REORDERED: [(&str, &str); 3] = [
-    ("hlsl", "fresnel_water_conductor_artistic"),
-    ("hlsl", "fresnel_water_conductor_exact"),
-    ("hlsl", "fresnel_water_conductor_from_f0_f82"),
-];
-
 /// A result with what it came from.
 struct Seen<'a> {
     method: &'a Method,
-    /// The name of the target and of the function.
-    what: (&'a str, &'a str),
     cos_theta: f32,
     /// The inputs of its channel by name; none for a specialised function.
     inputs: Vec<(&'a str, f32)>,
@@ -109,10 +98,9 @@ impl Seen<'_> {
         self.index() == Some((1.0, 0.0)) || black.contains(&true)
     }
 
-    /// All light, to the last bit but for what is known.
+    /// All light, to the last bit.
     fn is_one(&self) -> bool {
-        let known = REORDERED.contains(&self.what) && self.got == 1.0f32.next_down();
-        self.got == 1.0 || known
+        self.got == 1.0
     }
 
     /// The largest result: a run-time F0 above 1 is taken as it is.
@@ -253,7 +241,6 @@ fn judged((target, emitted): (&str, &Emitted), trial: &Trial, got: &[[f32; 3]]) 
         for channel in 0..3 {
             let seen = Seen {
                 method: emitted.method,
-                what: (target, &emitted.name),
                 cos_theta: *cos_theta,
                 inputs: inputs(emitted, &trial.values, channel),
                 want: want.at(i)[channel],
