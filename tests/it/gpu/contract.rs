@@ -228,13 +228,13 @@ fn broken(
     for row in rows {
         trial.values = row;
         let got = runnable.run(target.name, &trial, &COSINES)?;
-        faults.extend(judged((target.name, emitted), &trial, &got));
+        faults.extend(judged(emitted, &trial, &got));
     }
     Ok(faults)
 }
 
 /// The rules that some results break.
-fn judged((target, emitted): (&str, &Emitted), trial: &Trial, got: &[[f32; 3]]) -> Vec<String> {
+fn judged(emitted: &Emitted, trial: &Trial, got: &[[f32; 3]]) -> Vec<String> {
     let want = trial.run::<f64>(&COSINES);
     let mut faults = Vec::new();
     for (i, cos_theta) in COSINES.iter().enumerate() {
