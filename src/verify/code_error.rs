@@ -70,6 +70,11 @@ pub fn code_error(function: &Checked, points: usize) -> CodeError {
     compare(function, &cosines(points), &[], ROOM * ABSOLUTE_FLOOR)
 }
 
+/// The largest distance in ulp, however small the result: what a form loses that stays within [`ABSOLUTE_FLOOR`] counts too.
+pub fn digits_lost(function: &Checked, points: usize) -> f64 {
+    compare(function, &cosines(points), &[], 0.0).max_ulp
+}
+
 /// The code error of a method's library function over so many random media of those that its claim names, at about
 /// `points` cosines each.
 pub fn library_code_error(method: &Method, media: usize, points: usize) -> CodeError {

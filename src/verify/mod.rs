@@ -24,7 +24,7 @@ mod trial;
 mod worst;
 
 pub use code_error::{
-    ABSOLUTE_FLOOR, CodeError, code_error, library_code_error, library_code_error_at,
+    ABSOLUTE_FLOOR, CodeError, code_error, digits_lost, library_code_error, library_code_error_at,
 };
 pub use half::{
     HalfError, HalfTrial, halves, library_half_error, library_half_error_at, nearest_half,

@@ -192,8 +192,9 @@ fn every_specialised_function_reads_as_it_was_meant() {
     for (subject, _) in request.subjects().expect("the catalogue is good").ready {
         for name in subject.default_methods() {
             let method = methods::find(name).expect("it is there");
-            let constants = subject.values(method);
-            let function = method.specialise(&constants).expect("it specialises");
+            let (naming, bounds) = (emit::Naming::default(), emit::Bounds::recorded());
+            let emitted = emit::specialised_function(method, &subject, &naming, &bounds);
+            let function = emitted.expect("it specialises").function;
             let suffix = if name == subject.exact_method() {
                 String::new()
             } else {
