@@ -12,6 +12,7 @@ use super::error::Error;
 use super::folder;
 use super::manifest::{self, Manifest, Provenance};
 use super::scope::Scope;
+use crate::num::Precision;
 
 /// The difference between the artifacts and the folder.
 #[derive(Clone, Debug, PartialEq)]
@@ -112,6 +113,8 @@ struct Known {
     whole: bool,
     /// The folder holds a manifest of ours.
     has_manifest: bool,
+    /// What the names of the run's own files end in.
+    suffix: &'static str,
 }
 
 impl Known {
@@ -128,6 +131,7 @@ impl Known {
             folders,
             whole: scope.whole,
             has_manifest: old.is_some(),
+            suffix: scope.precision.suffix(),
         }
     }
 
@@ -140,7 +144,15 @@ impl Known {
     fn is_of_interest(&self, path: &str) -> bool {
         let ours = |first: &str| first != artifact::TABLES && self.folders.contains(first);
         let in_target = first_part(path).is_some_and(|(first, _)| ours(first));
-        self.whole && in_target && !is_hidden(path)
+        self.whole && in_target && !is_hidden(path) && self.is_of_precision(path)
+    }
+
+    /// Has a file the name of this run's precision? Those of the other are not its own.
+    fn is_of_precision(&self, path: &str) -> bool {
+        let name = path.rsplit('/').next().unwrap_or(path);
+        let stem = name.split('.').next().unwrap_or(name);
+        let half = Precision::F16.suffix();
+        stem.ends_with(half) == (self.suffix == half)
     }
 
     /// Has a module a name that only we give? SPIR-V has no comments, so it cannot bear the mark.

@@ -133,6 +133,7 @@ pub fn lookup(
         model_error: None,
         code: Measured::No(header::FILTERED.to_owned()),
         plain_for: None,
+        written_as: None,
     };
     check_names(target, std::slice::from_ref(&emitted))?;
     let licence = format!("Licence of this file: {}", header::OUTPUT_LICENCE);

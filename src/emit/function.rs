@@ -56,6 +56,8 @@ pub struct Emitted {
     pub model_error: Option<ModelError>,
     /// What it computes in against f64.
     pub code: Measured<CodeBound>,
+    /// The method whose formula it has, where that is another one's.
+    pub written_as: Option<&'static Method>,
     /// Of a plain form: the operations of the stable one.
     pub plain_for: Option<usize>,
 }
@@ -189,6 +191,7 @@ pub fn library_functions(method: &'static Method, naming: &Naming) -> Result<Vec
                 model_error: None,
                 code: promised(method, naming.precision),
                 plain_for: None,
+                written_as: None,
             })
         })
         .collect()
@@ -255,6 +258,8 @@ pub fn specialised_function(
             _ if method.is_textured() => Measured::No(FILTERED.to_owned()),
             (precision, _) => bounds.of(precision, &function),
         },
+        written_as: Some(method.specialised_as(&constants))
+            .filter(|other| other.name != method.name),
         constants,
         function,
         plain_for,

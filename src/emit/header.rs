@@ -106,12 +106,15 @@ pub fn brief(
     comment::lines(lines)
 }
 
-/// Which of two forms it is, where the cheaper one is written.
-fn form_line(emitted: &Emitted) -> Option<String> {
-    let stable = emitted.plain_for?;
-    Some(format!(
-        "Form: plain, which keeps its digits for this material; the stable form has {stable} operations."
-    ))
+/// Which formula it has, where that is another method's, and which of two forms, where the cheaper one is written.
+fn form_line(emitted: &Emitted) -> Vec<String> {
+    let other = emitted
+        .written_as
+        .map(|method| format!("Written as: {}, with constants found in f64", method.name));
+    let plain = emitted.plain_for.map(|stable| {
+        format!("Form: plain, which keeps its digits for this material; the stable form has {stable} operations.")
+    });
+    other.into_iter().chain(plain).collect()
 }
 
 fn start(command: &str) -> Vec<String> {

@@ -28,8 +28,7 @@ pub const COOK_TORRANCE_1982: Citation = Citation {
 };
 
 /// What half precision makes of total reflection.
-pub(super) const BELOW_ONE: &str =
-    "below eta = 1 off by tenths next to the critical angle, where a root reaches 0";
+pub(super) const BELOW_ONE: &str = "below eta = 1 off by tenths next to the critical angle, where a root reaches 0; eta above 150 overflows";
 
 /// The record of this method.
 pub static METHOD: Method = Method {

@@ -225,6 +225,12 @@ impl Method {
         Some(library.and_then(fold))
     }
 
+    /// The method whose formula a function specialised to these constants has: another one's, where that does the work better.
+    pub fn specialised_as(&'static self, values: &Values) -> &'static Method {
+        let better = self.better(values);
+        better.map_or(self, |(method, values)| method.specialised_as(&values))
+    }
+
     /// What does a specialised function's work better, where all inputs have a value.
     fn better(&self, values: &Values) -> Option<(&'static Method, Values)> {
         let mut names = self.inputs.iter().map(|input| input.name);

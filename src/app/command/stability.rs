@@ -33,7 +33,8 @@ struct Asked<'a> {
 /// Scans.
 pub fn run(flags: &StabilityFlags, progress: Progress) -> Result<Output, Error> {
     let precision = named(flags.precision.as_deref())?;
-    let (methods, left_out) = methods_of(&flags.method, precision)?;
+    let is_library = flags.material.is_empty();
+    let (methods, left_out) = methods_of(&flags.method, precision, is_library)?;
     let asked = Asked {
         flags,
         methods,
@@ -44,14 +45,17 @@ pub fn run(flags: &StabilityFlags, progress: Progress) -> Result<Output, Error> 
     } else {
         asked.specialised(progress)?
     };
-    let drawn = asked.drawn(&rows, progress)?;
+    if rows.is_empty() {
+        let what = "there is nothing to scan: no such method for these materials".to_owned();
+        return Err(Error::Usage { what });
+    }
     let json = json!({
         "tool": "fresnel-gen", "command": canonical(flags), "device": null,
         "rows": rows.iter().map(Row::json).collect::<Vec<Value>>(),
     });
     let mut output = report(text(&rows), &json, flags.json.as_deref())?;
     output.remarks.extend(left_out);
-    output.remarks.extend(drawn);
+    output.remarks.extend(asked.drawn(&rows, progress)?);
     Ok(output)
 }
 
@@ -60,12 +64,17 @@ pub fn run(flags: &StabilityFlags, progress: Progress) -> Result<Output, Error> 
 fn methods_of(
     names: &[String],
     precision: Precision,
+    is_library: bool,
 ) -> Result<(Vec<&'static Method>, Vec<String>), Error> {
     let numeric = methods::ALL.iter().copied();
     let scanned: Vec<&'static Method> = numeric.filter(|method| !method.is_textured()).collect();
     if names.is_empty() || names.iter().any(|name| name == "all") {
         let refusal = |method: &&'static Method| {
-            let why = method.half.library_refusal();
+            let why = if is_library {
+                method.half.library_refusal()
+            } else {
+                method.half.refusal()
+            };
             why.filter(|_| precision.is_half())
         };
         let told = |method: &&'static Method| {
@@ -77,11 +86,19 @@ fn methods_of(
     }
     let all: Vec<&str> = scanned.iter().map(|method| method.name).collect();
     let find = |name: &String| {
+        if methods::find(name).is_some_and(Method::is_textured) {
+            let what =
+                format!("`{name}` reads a texture, and is as stable as its sampler: not scanned");
+            return Err(Error::Usage { what });
+        }
         let found = scanned.iter().find(|method| method.name == name);
         found.copied().ok_or_else(|| unknown("method", name, &all))
     };
     let found: Result<Vec<&'static Method>, Error> = names.iter().map(find).collect();
-    Ok((found?, Vec::new()))
+    let mut found = found?;
+    found.sort_by_key(|method| method.name);
+    found.dedup_by_key(|method| method.name);
+    Ok((found, Vec::new()))
 }
 
 impl Asked<'_> {
@@ -125,7 +142,7 @@ impl Asked<'_> {
                 precision,
                 ..Naming::default()
             };
-            specialised_function(method, subject, &naming, &Bounds::default())
+            specialised_function(method, subject, &naming, &Bounds::recorded())
         };
         let code = Code {
             function: function(self.precision)?.function,
@@ -182,10 +199,11 @@ impl Asked<'_> {
             .iter()
             .map(|(method, over, bytes)| (path(method, over), bytes.as_slice()))
             .collect();
-        files.push((folder.join("index.html"), page.as_bytes()));
+        let index = format!("index{suffix}.html");
+        files.push((folder.join(&index), page.as_bytes()));
         write_files(&files)?;
         Ok(Some(format!(
-            "{}: {} maps, and index.html that shows them",
+            "{}: {} maps, and {index} that shows them",
             folder.display(),
             pictures.len()
         )))

@@ -42,6 +42,12 @@ pub fn run(flags: &VerifyFlags, progress: Progress) -> Result<Output, Error> {
             ..Output::default()
         });
     }
+    if flags.exhaustive && request.precision.is_half() {
+        let what = "--exhaustive runs every f32; a run of --precision f16 tries every f16 already";
+        return Err(Error::Usage {
+            what: what.to_owned(),
+        });
+    }
     let (rows, speeds) = if flags.exhaustive {
         exhaustive::rows(&plan, &Devices::new(wanted), progress)?
     } else {

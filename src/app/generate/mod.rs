@@ -306,7 +306,7 @@ impl<'r> Run<'r> {
             }
         }
         if self.request.prefix != Naming::default().prefix {
-            command += &format!(" --prefix {}", self.request.prefix);
+            command += &format!(" --prefix {}", quoted(&self.request.prefix));
         }
         if self.request.precision != Precision::default() {
             command += &format!(" --precision {}", self.request.precision.name());

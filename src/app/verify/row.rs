@@ -38,7 +38,7 @@ pub struct HalfRun {
     pub error: HalfError,
     /// The device against f16 rounded after every operation.
     pub emulation: HalfError,
-    /// What it may differ by from f64; infinite where nothing is promised.
+    /// What it may differ by from f64: where nothing is promised, twice what its emulation does.
     pub allowed: f64,
 }
 

@@ -190,7 +190,7 @@ fn ends(map: &Map) -> (f64, f64) {
     (values[0], values[values.len() - 1])
 }
 
-/// Where a logarithmic axis is labelled: 1, 2 and 5 of each decade, or every other decade where there are many.
+/// Where a logarithmic axis is labelled: six times a decade, or once where there are many.
 fn marks(low: f64, high: f64) -> Vec<(f64, String)> {
     let decades = libm::floor(libm::log10(low)) as i32..=libm::ceil(libm::log10(high)) as i32;
     let is_long = high / low > 1e4;

@@ -141,7 +141,11 @@ fn worst(finding: &Finding) -> String {
         (_, Some(shown)) => number(shown.got),
         (_, None) => String::new(),
     };
-    format!("{at}: {what}")
+    if at.is_empty() {
+        what
+    } else {
+        format!("{at}: {what}")
+    }
 }
 
 /// A reflectance in four digits.

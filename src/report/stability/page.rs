@@ -48,6 +48,7 @@ pub fn page(
     let mut context = Context::new();
     context.insert("sections", &sections);
     context.insert("command", command);
+    context.insert("precision", rows.first().map_or("f32", |row| row.precision));
     tera.render("page.tera", &context)
         .map_err(|error| error.to_string())
 }

@@ -23,6 +23,14 @@ impl Axis {
         let all = self.values.iter().map(|x| precision.rounded(*x));
         Axis::new(self.name, all.filter(|x| x.is_finite()).collect())
     }
+
+    /// The same values, as many, each as a precision has it.
+    pub fn each_rounded(mut self, precision: Precision) -> Axis {
+        self.values
+            .iter_mut()
+            .for_each(|x| *x = precision.rounded(*x));
+        self
+    }
 }
 
 /// From -1 to 8 ulp above 1: the edges with their neighbours, even in angle, logarithmic towards 0 and 1.
@@ -36,7 +44,8 @@ pub fn cosines() -> Axis {
     values.extend((0..=90).map(|degree| crate::optics::cosine(f64::from(degree))));
     values.extend((81..90).map(|degree| crate::optics::cosine(f64::from(degree) + 0.5)));
     values.extend((1..=30).map(|i| libm::exp2(-f64::from(i))));
-    values.extend((2..=23).map(|i| 1.0 - libm::exp2(-f64::from(i))));
+    // Dense towards 1: the critical angle of a small index lies there.
+    values.extend((8..=92).map(|i| 1.0 - libm::exp2(-0.25 * f64::from(i))));
     Axis::new("cos_theta", values)
 }
 

@@ -98,6 +98,8 @@ pub struct Point {
 pub const NEAR: i32 = 2;
 /// A step that no slope explains.
 const STEP: f64 = 1e-3;
+/// The same in half precision, where a last place near 1 is 5e-4.
+const HALF_STEP: f64 = 1e-2;
 /// Below this a reflectance is nothing, and has no digits to lose.
 const LEAST: f64 = 1e-20;
 
@@ -113,7 +115,7 @@ impl Point {
             Failure::AboveOne => above(self.got - self.limit, 0.0),
             Failure::Jump => above(
                 (self.next - self.got).abs() - (self.around.1 - self.around.0),
-                STEP,
+                if self.is_single() { STEP } else { HALF_STEP },
             ),
             Failure::Digits(_) | Failure::Off(_) if !self.is_finite() => 0.0,
             Failure::Digits(ulp) if self.is_single() => above(self.digits(), ulp),

@@ -61,6 +61,8 @@ pub fn maps(method: &'static Method, precision: Precision) -> Vec<Map> {
 }
 
 fn map(method: &'static Method, precision: Precision, axes: Vec<Axis>, held: &'static str) -> Map {
+    let rounded = |axis: Axis| axis.each_rounded(precision);
+    let axes: Vec<Axis> = axes.into_iter().map(rounded).collect();
     let code = Code::of(method, precision);
     let degrees: Vec<f64> = (0..=90).map(f64::from).collect();
     let cosines = degrees
@@ -74,7 +76,7 @@ fn map(method: &'static Method, precision: Precision, axes: Vec<Axis>, held: &'s
             name: "cos_theta",
             values: cosines,
         }
-        .rounded(precision),
+        .each_rounded(precision),
     };
     let scan = Scan {
         code: &code,

@@ -17,7 +17,7 @@ pub struct Field<'a> {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Region {
     /// For each axis the places from the first that fails to behind the last.
-    pub box_: Vec<Range<usize>>,
+    pub extent: Vec<Range<usize>>,
     /// How many of its points fail.
     pub failing: usize,
     /// How many points it has.
@@ -140,22 +140,22 @@ struct Point {
     amount: f32,
 }
 
-type Box_ = Vec<Range<usize>>;
+type Extent = Vec<Range<usize>>;
 
-fn size(box_: &Box_) -> usize {
-    box_.iter().map(ExactSizeIterator::len).product()
+fn size(extent: &Extent) -> usize {
+    extent.iter().map(ExactSizeIterator::len).product()
 }
 
-fn bounds<'a>(points: impl Iterator<Item = &'a Point>) -> Box_ {
+fn bounds<'a>(points: impl Iterator<Item = &'a Point>) -> Extent {
     let one =
-        |point: &Point| -> Box_ { point.places.iter().map(|place| *place..place + 1).collect() };
+        |point: &Point| -> Extent { point.places.iter().map(|place| *place..place + 1).collect() };
     points
         .map(one)
         .reduce(|a, b| joined(&a, &b))
         .unwrap_or_default()
 }
 
-fn joined(a: &Box_, b: &Box_) -> Box_ {
+fn joined(a: &Extent, b: &Extent) -> Extent {
     a.iter()
         .zip(b)
         .map(|(a, b)| a.start.min(b.start)..a.end.max(b.end))
@@ -163,8 +163,8 @@ fn joined(a: &Box_, b: &Box_) -> Box_ {
 }
 
 /// The boxes on both sides of every cut of an axis.
-fn halves(points: &[Point], axis: usize, range: &Range<usize>) -> Vec<(usize, Box_, Box_)> {
-    let mut slices: Vec<Option<Box_>> = vec![None; range.len()];
+fn halves(points: &[Point], axis: usize, range: &Range<usize>) -> Vec<(usize, Extent, Extent)> {
+    let mut slices: Vec<Option<Extent>> = vec![None; range.len()];
     for point in points {
         let slice = &mut slices[point.places[axis] - range.start];
         let one = bounds(std::iter::once(point));
@@ -174,12 +174,12 @@ fn halves(points: &[Point], axis: usize, range: &Range<usize>) -> Vec<(usize, Bo
                 .map_or(one.clone(), |known| joined(known, &one)),
         );
     }
-    let together = |a: Option<Box_>, b: &Option<Box_>| match (a, b) {
+    let together = |a: Option<Extent>, b: &Option<Extent>| match (a, b) {
         (Some(a), Some(b)) => Some(joined(&a, b)),
         (a, b) => a.or_else(|| b.clone()),
     };
-    let sums = |slices: &mut dyn Iterator<Item = &Option<Box_>>| -> Vec<Option<Box_>> {
-        let next = |sum: &mut Option<Box_>, slice: &Option<Box_>| {
+    let sums = |slices: &mut dyn Iterator<Item = &Option<Extent>>| -> Vec<Option<Extent>> {
+        let next = |sum: &mut Option<Extent>, slice: &Option<Extent>| {
             *sum = together(sum.take(), slice);
             Some(sum.clone())
         };
@@ -193,17 +193,17 @@ fn halves(points: &[Point], axis: usize, range: &Range<usize>) -> Vec<(usize, Bo
 }
 
 fn region(points: &[Point]) -> Region {
-    let box_ = bounds(points.iter());
+    let extent = bounds(points.iter());
     let worst = points
         .iter()
         .reduce(|a, b| if b.amount > a.amount { b } else { a });
     let worst = worst.expect("a region has points");
     Region {
         failing: points.len(),
-        points: size(&box_),
+        points: size(&extent),
         worst: worst.places.clone(),
         amount: worst.amount,
-        box_,
+        extent,
     }
 }
 
@@ -211,7 +211,7 @@ impl Region {
     /// The inequalities, joined by "and"; nothing where it is all of the grid.
     pub fn text(&self, axes: &[Axis]) -> String {
         let words = self
-            .box_
+            .extent
             .iter()
             .zip(axes)
             .filter_map(|(range, axis)| inequality(axis, range));
@@ -363,7 +363,7 @@ mod tests {
     }
 
     #[test]
-    fn a_box_is_told_in_its_roundest_bounds() {
+    fn a_extentis_told_in_its_roundest_bounds() {
         assert_eq!(field(&grid(), |at| at[0] < 1.088), ["eta < 1.09"]);
         assert_eq!(
             field(&grid(), |at| at[0] > 1.0 && at[1] < 0.203),

@@ -96,10 +96,19 @@ fn a_page_shows_all_maps_and_needs_nothing_else() {
 }
 
 #[test]
+fn half_precision_has_maps_and_a_page_of_its_own() {
+    let place = Place::new();
+    place.done("stability --method schlick,schlick --precision f16 --out-dir maps");
+    let page = place.read("maps/index_f16.html");
+    assert!(page.contains("run in f16") && page.matches("<img").count() == 2);
+    assert!(place.path("maps/schlick_eta_f16.png").is_file());
+}
+
+#[test]
 fn bad_input_is_told_with_what_is_near() {
     let place = Place::new();
     place.refused("stability --method schlik", &["`schlik`", "schlick"]);
-    place.refused("stability --method table", &["there is no method `table`"]);
+    place.refused("stability --method table", &["`table` reads a texture"]);
     place.refused("stability --material golt", &["`golt`", "gold"]);
     place.refused("stability --material gold --out-dir maps", &["--out-dir"]);
 }
