@@ -8,6 +8,7 @@ use super::axis::{Axis, dense};
 use super::failure::{Failure, NEAR, Point, is_flushed};
 use super::region::{Field, Region};
 use super::space::{Given, Space, is_lawful, law, spaces};
+use crate::verify::limits;
 
 /// A failure of a method, and where it happens.
 #[derive(Clone, Debug)]
@@ -160,7 +161,7 @@ const BATCH: usize = 32;
 struct Row {
     at: Vec<Amounts>,
     whole: Amounts,
-    worst: usize,
+    worst: f64,
 }
 
 /// By how much in each way.
@@ -200,11 +201,10 @@ impl Scan<'_> {
             .zip(sizes)
             .fold(0, |index, (place, size)| index * size + place);
         let cosine = match (cosine.first(), failure) {
-            (Some(place), _) => Some(*place),
+            (Some(place), _) => Some(self.space.cosines.values[*place]),
             (None, Failure::Error(_)) => Some(rows[index].worst),
             _ => None,
         };
-        let cosine = cosine.map(|place| self.space.cosines.values[place]);
         let values = self.space.at(index);
         let names = self.space.axes.iter().map(|axis| axis.name);
         Finding {
@@ -259,19 +259,30 @@ impl Scan<'_> {
         let cosines = &self.space.cosines.values;
         let points = self.curve(index);
         let amounts = |point: &Point| Failure::ALL.map(|failure| point.amount(failure) as f32);
-        let worst = (0..points.len()).reduce(|a, b| {
-            if points[b].error() > points[a].error() {
-                b
-            } else {
-                a
-            }
-        });
-        let worst = worst.unwrap_or(0);
+        let between = self.at_limits(index);
+        let all = points.iter().chain(&between);
+        let worst = all.reduce(|a, b| if b.error() > a.error() { b } else { a });
+        let worst = worst.expect("a curve has points");
         Row {
             at: points.iter().map(amounts).collect(),
             whole: whole(cosines, &points, worst),
-            worst,
+            worst: worst.cos_theta,
         }
+    }
+
+    /// At the critical angle, at Brewster's and next to them, where an index far from 1 has all that it has: no axis of
+    /// cosines meets them.
+    fn at_limits(&self, index: usize) -> Vec<Point> {
+        let given = (self.given)(index);
+        let Some((n, _)) = given.medium else {
+            return Vec::new();
+        };
+        let near = |cosine: f32| {
+            let beside = [-8, 0, 8].map(|steps| stepped(self.code.precision, cosine.into(), steps));
+            beside.into_iter().filter(|c| (0.0..=1.0).contains(c))
+        };
+        let cosines: Vec<f64> = limits(n).into_iter().flat_map(near).collect();
+        self.points(&given, &cosines)
     }
 
     fn points(&self, given: &Given, cosines: &[f64]) -> Vec<Point> {
@@ -335,7 +346,7 @@ const SEEN: f64 = 0.002;
 const DEPTH: f64 = 0.005;
 
 /// What a whole curve does wrong.
-fn whole(cosines: &[f64], points: &[Point], worst: usize) -> Amounts {
+fn whole(cosines: &[f64], points: &[Point], worst: &Point) -> Amounts {
     let inside = (0..cosines.len()).filter(|i| (0.0..=1.0).contains(&cosines[*i]));
     let curve: Vec<(f64, f64)> = inside
         .filter_map(|i| Some((points[i].want, points[i].law?)))
@@ -343,7 +354,7 @@ fn whole(cosines: &[f64], points: &[Point], worst: usize) -> Amounts {
     let amount = |failure: Failure| match failure {
         Failure::Monotony => against(&curve),
         Failure::Minimum => missed(&curve),
-        Failure::Error(_) => points[worst].amount(failure),
+        Failure::Error(_) => worst.amount(failure),
         _ => 0.0,
     };
     Failure::ALL.map(|failure| amount(failure) as f32)
