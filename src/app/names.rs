@@ -53,3 +53,13 @@ pub fn quoted(word: &str) -> String {
         format!("'{}'", word.replace('\'', "'\\''"))
     }
 }
+
+/// A flag with its words as a shell's command line has it; nothing where there are no words.
+pub fn flag(name: &str, words: &[String]) -> String {
+    let words: Vec<String> = words.iter().map(|word| quoted(word)).collect();
+    if words.is_empty() {
+        String::new()
+    } else {
+        format!(" --{name} {}", words.join(","))
+    }
+}

@@ -106,13 +106,34 @@ pub(super) fn conductor<'b>(
     }
 }
 
-fn single<'b>(c: Expr<'b>, n: Expr<'b>, k: Expr<'b>) -> Expr<'b> {
-    let zero = c.builder().number(0.0);
+/// The steps that all forms share.
+struct Steps<'b> {
+    c2: Expr<'b>,
+    s2: Expr<'b>,
+    tau: Expr<'b>,
+    nk: Expr<'b>,
+    /// τ + c², whose sign says which of a and b is the larger.
+    t: Expr<'b>,
+}
+
+fn steps<'b>(c: Expr<'b>, n: Expr<'b>, k: Expr<'b>) -> Steps<'b> {
     let c2 = c.squared().named("c2", "");
     let s2 = (1.0 - c2).named("s2", "sin^2 theta");
     let tau = ((n - 1.0) * (n + 1.0) - k.squared()).named("tau", "n^2 - k^2 - 1");
     let nk = (n * k).named("nk", "");
     let t = (tau + c2).named("t", "n^2 - k^2 - sin^2 theta");
+    Steps { c2, s2, tau, nk, t }
+}
+
+/// `R_s x / (x + u s²)`, in single precision.
+fn merged<'b>(r_s: Expr<'b>, r: Expr<'b>, u: Expr<'b>, c2: Expr<'b>, s2: Expr<'b>) -> Expr<'b> {
+    let x = (r * c2 + s2.squared()).named("x", "");
+    r_s * (x / (x + u * s2).at_least(1e-37))
+}
+
+fn single<'b>(c: Expr<'b>, n: Expr<'b>, k: Expr<'b>) -> Expr<'b> {
+    let zero = c.builder().number(0.0);
+    let Steps { c2, s2, tau, nk, t } = steps(c, n, k);
     let r = (t.squared() + 4.0 * nk.squared())
         .sqrt()
         .named("r", "a^2 + b^2");
@@ -138,18 +159,13 @@ fn single<'b>(c: Expr<'b>, n: Expr<'b>, k: Expr<'b>) -> Expr<'b> {
     let glass = glass.named("r_s_glass", "R_s where t >= 0");
     let r_s = t.choose_below(zero, metal, glass).named("r_s", "");
 
-    let x = (r * c2 + s2.squared()).named("x", "");
-    r_s * (x / (x + u * s2).at_least(1e-37))
+    merged(r_s, r, u, c2, s2)
 }
 
 fn half<'b>(c: Expr<'b>, n: Expr<'b>, k: Expr<'b>) -> Expr<'b> {
     let tiny = Precision::F16.smallest();
     let number = |value: f64| c.builder().number(value);
-    let c2 = c.squared().named("c2", "");
-    let s2 = (1.0 - c2).named("s2", "sin^2 theta");
-    let tau = ((n - 1.0) * (n + 1.0) - k.squared()).named("tau", "n^2 - k^2 - 1");
-    let nk = (n * k).named("nk", "");
-    let t = (tau + c2).named("t", "n^2 - k^2 - sin^2 theta");
+    let Steps { c2, s2, tau, nk, t } = steps(c, n, k);
 
     let (size, twice) = (t.abs().named("size", ""), (2.0 * nk).named("nk2", ""));
     let most = size.max(twice).named("most", "");
@@ -179,19 +195,14 @@ fn half<'b>(c: Expr<'b>, n: Expr<'b>, k: Expr<'b>) -> Expr<'b> {
 /// Where neither t < 0 nor a small reflectance makes a difference of nearly equal numbers: a as it stands in the books.
 fn plain<'b>(x: &Inputs<'b>) -> Expr<'b> {
     let (c, n, k) = (x.cosine(), x.get(Input::N), x.get(Input::K));
-    let c2 = c.squared().named("c2", "");
-    let s2 = (1.0 - c2).named("s2", "sin^2 theta");
-    let tau = ((n - 1.0) * (n + 1.0) - k.squared()).named("tau", "n^2 - k^2 - 1");
-    let nk = (n * k).named("nk", "");
-    let t = (tau + c2).named("t", "n^2 - k^2 - sin^2 theta");
+    let Steps { c2, s2, nk, t, .. } = steps(c, n, k);
     let r = (t.squared() + 4.0 * nk.squared()).sqrt();
     let r = r.named("r", "a^2 + b^2");
     let a = (0.5 * (r + t).at_least(0.0)).sqrt().named("a", "");
     let u = (2.0 * a * c).named("u", "");
     let sum = (r + c2).named("sum", "");
     let r_s = ((sum - u) / (sum + u)).named("r_s", "R_s");
-    let x = (r * c2 + s2.squared()).named("x", "");
-    r_s * (x / (x + u * s2).at_least(1e-37))
+    merged(r_s, r, u, c2, s2)
 }
 
 #[cfg(test)]

@@ -19,18 +19,7 @@ pub static TARGET: Target = Target {
         directive: HALF_DIRECTIVE,
         remark: "f16 wants a device with the feature shader-f16. `enable f16;` must stand before all other code of a module: \
                  a file that is joined to others leaves it to the first.",
-        validators: &[
-            NAGA_VALIDATOR,
-            Validator {
-                name: "tint",
-                compiler: &TINT,
-                options: TINT_OPTIONS,
-                frame: Frame {
-                    beginnings: &[""],
-                    ending: HALF_ENDING,
-                },
-            },
-        ],
+        validators: &[NAGA_VALIDATOR, tint(HALF_ENDING)],
     },
     reserved: &[
         naga::keywords::wgsl::RESERVED,
@@ -42,19 +31,21 @@ pub static TARGET: Target = Target {
         template: include_str!("../../templates/wgsl.tera"),
     }],
     finish: Finish::ValidWgsl,
-    validators: &[
-        NAGA_VALIDATOR,
-        Validator {
-            name: "tint",
-            compiler: &TINT,
-            options: TINT_OPTIONS,
-            frame: Frame {
-                beginnings: &[""],
-                ending: ENDING,
-            },
-        },
-    ],
+    validators: &[NAGA_VALIDATOR, tint(ENDING)],
 };
+
+/// tint judges a file with calls of its functions behind it.
+const fn tint(ending: &'static str) -> Validator {
+    Validator {
+        name: "tint",
+        compiler: &TINT,
+        options: TINT_OPTIONS,
+        frame: Frame {
+            beginnings: &[""],
+            ending,
+        },
+    }
+}
 
 const NAGA_VALIDATOR: Validator = Validator {
     name: "naga",

@@ -6,7 +6,7 @@ use serde_json::{Value, json};
 
 use crate::app::args::StabilityFlags;
 use crate::app::error::Error;
-use crate::app::names::{quoted, unknown};
+use crate::app::names::{flag, unknown};
 use crate::app::precision::named;
 use crate::app::request::Request;
 use crate::app::source::materials;
@@ -211,18 +211,10 @@ impl Asked<'_> {
 }
 
 fn canonical(flags: &StabilityFlags) -> String {
-    let list = |name: &str, words: &[String]| {
-        let words: Vec<String> = words.iter().map(|word| quoted(word)).collect();
-        if words.is_empty() {
-            String::new()
-        } else {
-            format!(" --{name} {}", words.join(","))
-        }
-    };
     format!(
         "stability{}{}{}",
-        list("method", &flags.method),
-        list("material", &flags.material),
-        list("precision", flags.precision.as_slice())
+        flag("method", &flags.method),
+        flag("material", &flags.material),
+        flag("precision", flags.precision.as_slice())
     )
 }

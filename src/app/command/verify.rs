@@ -6,7 +6,7 @@ use serde_json::{Value, json};
 
 use crate::app::args::VerifyFlags;
 use crate::app::error::Error;
-use crate::app::names::{quoted, unknown};
+use crate::app::names::{flag, unknown};
 use crate::app::request::Request;
 use crate::app::sight::{flags as sight_flags, sight};
 use crate::app::source::{materials, source};
@@ -238,19 +238,11 @@ fn devices(rows: &[Value]) -> Value {
 
 /// The run's flags in one order, without places.
 fn canonical(flags: &VerifyFlags, request: &Request) -> String {
-    let list = |name: &str, words: &[String]| {
-        let words: Vec<String> = words.iter().map(|word| quoted(word)).collect();
-        if words.is_empty() {
-            String::new()
-        } else {
-            format!(" --{name} {}", words.join(","))
-        }
-    };
-    let one = |name: &str, word: &Option<String>| list(name, word.as_slice());
+    let one = |name: &str, word: &Option<String>| flag(name, word.as_slice());
     let mut command = "verify".to_owned();
-    command += &list("target", &flags.target);
-    command += &list("method", &flags.method);
-    command += &list("material", &flags.material);
+    command += &flag("target", &flags.target);
+    command += &flag("method", &flags.method);
+    command += &flag("material", &flags.material);
     command += &one("medium", &flags.medium);
     command += &sight_flags(&request.sight);
     command += &flags.precision.words();

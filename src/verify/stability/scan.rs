@@ -257,9 +257,10 @@ impl Scan<'_> {
 
     fn row(&self, index: usize) -> Row {
         let cosines = &self.space.cosines.values;
-        let points = self.curve(index);
+        let given = (self.given)(index);
+        let points = self.points(&given, cosines);
         let amounts = |point: &Point| Failure::ALL.map(|failure| point.amount(failure) as f32);
-        let between = self.at_limits(index);
+        let between = self.at_limits(&given);
         let all = points.iter().chain(&between);
         let worst = all.reduce(|a, b| if b.error() > a.error() { b } else { a });
         let worst = worst.expect("a curve has points");
@@ -272,8 +273,7 @@ impl Scan<'_> {
 
     /// At the critical angle, at Brewster's and next to them, where an index far from 1 has all that it has: no axis of
     /// cosines meets them.
-    fn at_limits(&self, index: usize) -> Vec<Point> {
-        let given = (self.given)(index);
+    fn at_limits(&self, given: &Given) -> Vec<Point> {
         let Some((n, _)) = given.medium else {
             return Vec::new();
         };
@@ -282,7 +282,7 @@ impl Scan<'_> {
             beside.into_iter().filter(|c| (0.0..=1.0).contains(c))
         };
         let cosines: Vec<f64> = limits(n).into_iter().flat_map(near).collect();
-        self.points(&given, &cosines)
+        self.points(given, &cosines)
     }
 
     fn points(&self, given: &Given, cosines: &[f64]) -> Vec<Point> {

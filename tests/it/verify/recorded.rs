@@ -2,6 +2,7 @@
 
 use std::process::Command;
 
+use fresnel_gen::app::request::DEFAULT_MATERIALS as MATERIALS;
 use fresnel_gen::emit::{
     Bounds, CodeBound, Emitted, Naming, Subject, fingerprint, specialised_function,
 };
@@ -11,9 +12,6 @@ use fresnel_gen::methods::{self, Class, Contract, Method};
 
 use super::subjects;
 use crate::exhaustive::{Line, lines};
-
-/// The committed materials.
-const MATERIALS: [&str; 4] = ["diamond", "gold", "platinum", "water"];
 
 fn emitted(method: &'static Method, subject: &Subject) -> Emitted {
     specialised_function(method, subject, &Naming::default(), &Bounds::recorded()).unwrap()
