@@ -6,12 +6,15 @@
 #![cfg_attr(test, allow(clippy::print_stdout, clippy::unwrap_used))]
 
 // The rooms. A room imports only rooms to its left; rooms between the same two `<` do not import each other.
-// num, cite < ir, optics < spectra < materials, methods, targets < fit < emit < lut < verify, cost < scene, effects < report < app
+// num, cite < ir, optics < spectra < materials, methods, targets < fit < emit < lut < gpu < verify, cost < scene, effects < report < app
 
 pub mod app;
 pub mod cite;
+pub mod cost;
 pub mod emit;
 pub mod fit;
+#[cfg(feature = "gpu")]
+pub mod gpu;
 pub mod ir;
 pub mod lut;
 pub mod materials;

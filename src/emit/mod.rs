@@ -19,7 +19,8 @@ pub use error::Error;
 pub use file::{File, library, lookup, material, single, uniform_offsets, written_for};
 pub use function::{Emitted, Naming, Subject, library_functions, specialised_function};
 pub use header::{MARK, half_promise, promises};
-pub use wgsl::validate as validate_wgsl;
+pub use print::bare;
+pub use wgsl::{spirv as wgsl_to_spirv, validate as validate_wgsl};
 
 /// The version of naga that lowers SPIR-V, pinned in Cargo.toml: another one gives other bytes.
 pub const NAGA_VERSION: &str = "30.0.1";

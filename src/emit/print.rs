@@ -61,6 +61,17 @@ pub fn head(function: &Checked, name: &str, spelling: &Spelling) -> String {
     filled.replace("{params}", &params.join(", "))
 }
 
+/// A function alone, without comments: what of its text a compiler reads.
+pub fn bare(function: &Checked, name: &str, spelling: &Spelling) -> String {
+    let lines = body(function, spelling);
+    let code = lines.iter().map(|line| {
+        let code = line.split(spelling.comment).next();
+        code.unwrap_or_default().trim_end()
+    });
+    let body: String = code.map(|line| format!("    {line}\n")).collect();
+    format!("{} {{\n{body}}}\n", head(function, name, spelling))
+}
+
 /// The head as a page shows it: each argument on a line of its own where one line is too short for all.
 pub fn shown_head(function: &Checked, name: &str, spelling: &Spelling) -> String {
     let whole = head(function, name, spelling);

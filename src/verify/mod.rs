@@ -7,8 +7,6 @@
 mod code_error;
 #[cfg(feature = "compilers")]
 pub mod compilers;
-#[cfg(feature = "gpu")]
-pub mod gpu;
 mod half;
 #[cfg(feature = "gpu")]
 pub mod harness;

@@ -16,12 +16,12 @@ use crate::ir::{Param, Ty};
 use crate::num::Precision;
 
 use super::compilers::{self, HlslVersion, hlsl_to_spirv, hlsl_to_spirv_in};
-use super::gpu::{
-    self, Argument, Code, Device, Kernel, Program, Texture, TextureFormat, Uniform, Wanted, Wrap,
-};
 use super::harness::{self, Call, ENTRY};
 use super::second;
 use super::trial::Trial;
+use crate::gpu::{
+    self, Argument, Code, Device, Kernel, Program, Texture, TextureFormat, Uniform, Wanted, Wrap,
+};
 
 /// Why nothing was run.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]

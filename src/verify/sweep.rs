@@ -7,10 +7,11 @@
 use std::sync::Mutex;
 
 use super::code_error::{ABSOLUTE_FLOOR, CodeError};
+use super::harness;
 use super::run::{Devices, Fault, Shown};
 use super::trial::{Outcome, TEXTBOOK_FROM, Trial};
-use super::{gpu, harness};
 use crate::fit::Measured;
+use crate::gpu::{Code, Program};
 
 /// The bits of 1.
 const ONE: u32 = 0x3F80_0000;
@@ -31,8 +32,8 @@ pub fn sweep(
 ) -> Result<Outcome, Fault> {
     let text = std::str::from_utf8(shown.bytes).map_err(|why| Fault::Failed(why.to_string()))?;
     let call = harness::Call::of(shown.function);
-    let stream = devices.compute()?.prepare_stream(&gpu::Program {
-        code: gpu::Code::Wgsl(&harness::wgsl_stream(text, &call)),
+    let stream = devices.compute()?.prepare_stream(&Program {
+        code: Code::Wgsl(&harness::wgsl_stream(text, &call)),
         entry: harness::ENTRY,
         uniforms: &[],
         textured: false,

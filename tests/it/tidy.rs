@@ -230,7 +230,7 @@ fn only_the_writer_and_the_program_touch_the_machine() {
         "app/verify/supervise.rs",
         "verify/compilers/call.rs",
         // It asks whether a library would complain of the environment.
-        "verify/gpu/quiet.rs",
+        "gpu/quiet.rs",
     ];
     for (path, text) in sources("src") {
         let inside = path
@@ -260,7 +260,7 @@ fn only_the_writer_and_the_program_touch_the_machine() {
 
 #[test]
 fn only_leaves_of_the_graphics_stack_are_unsafe_and_say_why() {
-    let named = ["egl", "gles", "passthrough", "quiet"].map(|leaf| format!("verify/gpu/{leaf}.rs"));
+    let named = ["egl", "gles", "passthrough", "quiet"].map(|leaf| format!("gpu/{leaf}.rs"));
     for (path, text) in sources("src") {
         let inside = path.strip_prefix(root().join("src")).unwrap();
         let inside = inside.display().to_string();

@@ -12,8 +12,8 @@ use crate::app::sight::{flags as sight_flags, sight};
 use crate::app::source::{materials, source};
 use crate::app::verify::{Effort, Limits, Plan, exhaustive, junit, machine, serve, supervise};
 use crate::app::write::write_file;
+use crate::gpu::{Backend, Wanted};
 use crate::report::table;
-use crate::verify::gpu::{Backend, Wanted};
 use crate::verify::run::Devices;
 
 use super::{Output, Progress, report};

@@ -5,10 +5,10 @@ use std::path::Path;
 
 use fresnel_gen::app::{Materials, Request, request};
 use fresnel_gen::emit::{self, Bounds, Naming};
+use fresnel_gen::gpu::{Argument, Backend, Code, Uniform};
 use fresnel_gen::ir::{Checked, Value, evaluate};
 use fresnel_gen::methods;
 use fresnel_gen::num::ulp_distance;
-use fresnel_gen::verify::gpu::{Argument, Backend, Code, Uniform};
 use fresnel_gen::verify::{ABSOLUTE_FLOOR, cosines};
 
 use super::{device, gles, program, wgsl};

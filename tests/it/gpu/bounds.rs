@@ -3,7 +3,7 @@
 
 use fresnel_gen::emit::{self, Naming};
 use fresnel_gen::fit::Measured;
-use fresnel_gen::verify::gpu::Wanted;
+use fresnel_gen::gpu::Wanted;
 use fresnel_gen::verify::run::{Devices, Fault, Shown, Way};
 use fresnel_gen::verify::{Trial, cosines};
 use fresnel_gen::{methods, targets};

@@ -5,12 +5,12 @@
 use fresnel_gen::app::{Materials, Request, Source};
 use fresnel_gen::emit::{self, Bounds, Emitted, Naming, Subject};
 use fresnel_gen::fit::{self, Measured};
+use fresnel_gen::gpu::Wanted;
 use fresnel_gen::ir::Ty;
 use fresnel_gen::methods::{self, Class, Contract, Method};
 use fresnel_gen::optics;
 use fresnel_gen::targets::{self, Finish};
 use fresnel_gen::verify::Trial;
-use fresnel_gen::verify::gpu::Wanted;
 use fresnel_gen::verify::run::{Devices, Fault, Shown, Way};
 
 use crate::not_checked;

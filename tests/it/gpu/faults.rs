@@ -1,6 +1,6 @@
 //! What cannot run says why, in the words of what refused it.
 
-use fresnel_gen::verify::gpu::{
+use fresnel_gen::gpu::{
     Argument, Backend, Code, Device, Fault, Texture, TextureFormat, Uniform, Wanted, Wrap, adapters,
 };
 

@@ -9,7 +9,7 @@ mod stream;
 mod table;
 mod texture;
 
-use fresnel_gen::verify::gpu::{Backend, Code, Device, Fault, Program, Uniform, Wanted};
+use fresnel_gen::gpu::{Backend, Code, Device, Fault, Program, Uniform, Wanted};
 
 use super::not_checked;
 

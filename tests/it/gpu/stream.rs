@@ -1,6 +1,6 @@
 //! A stream gives each number of a range once, in order.
 
-use fresnel_gen::verify::gpu::{Backend, Code};
+use fresnel_gen::gpu::{Backend, Code};
 
 use super::{device, program};
 

@@ -4,14 +4,14 @@
 use fresnel_gen::app::bake::{Lit, Wanted as Materials, lit};
 use fresnel_gen::app::source::materials;
 use fresnel_gen::emit::{self, Emitted, Naming};
+use fresnel_gen::gpu::{
+    Argument, Backend, Code, Fault, Program, Texture, TextureFormat, Uniform, Wrap,
+};
 use fresnel_gen::ir::Weights;
 use fresnel_gen::lut::{Axis, Depth, Stored, Table};
 use fresnel_gen::materials::Sight;
 use fresnel_gen::methods;
 use fresnel_gen::targets;
-use fresnel_gen::verify::gpu::{
-    Argument, Backend, Code, Fault, Program, Texture, TextureFormat, Uniform, Wrap,
-};
 use fresnel_gen::verify::{cosines, harness};
 
 use super::device;

@@ -1,6 +1,6 @@
 //! A texture is sampled as the filter of the tables says: linear between the centres of texels.
 
-use fresnel_gen::verify::gpu::{Backend, Code, Fault, Program, Texture, TextureFormat, Wrap};
+use fresnel_gen::gpu::{Backend, Code, Fault, Program, Texture, TextureFormat, Wrap};
 
 use super::device;
 

@@ -3,10 +3,10 @@
 
 use fresnel_gen::emit::{self, Emitted, Naming, Subject};
 use fresnel_gen::fit::{self, Measured};
+use fresnel_gen::gpu::Wanted;
 use fresnel_gen::ir::{Checked, Function, Label, Node, NodeId, Op, Payload, Ty, check};
 use fresnel_gen::methods::{self, Class, Contract, Method};
 use fresnel_gen::targets;
-use fresnel_gen::verify::gpu::Wanted;
 use fresnel_gen::verify::run::{Devices, Fault, Shown, Way};
 use fresnel_gen::verify::{ABSOLUTE_FLOOR, BEYOND, Trial, cosines_around};
 
