@@ -11,6 +11,8 @@ pub mod bake;
 pub mod check;
 #[cfg(feature = "cli")]
 pub mod command;
+#[cfg(all(feature = "cli", feature = "gpu"))]
+pub mod cost;
 pub mod depfile;
 pub mod error;
 pub mod folder;
@@ -26,6 +28,8 @@ pub mod source;
 pub mod tree;
 #[cfg(all(feature = "cli", feature = "gpu"))]
 pub mod verify;
+#[cfg(all(feature = "cli", feature = "gpu"))]
+pub mod worker;
 pub mod write;
 
 pub use artifact::Artifact;

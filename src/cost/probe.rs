@@ -1,16 +1,18 @@
 //! The shaders that are measured: a function in a fragment shader, evaluated once or several times in a chain.
 //!
-//! Each evaluation takes its cosine from the colour before it, weighted by what comes from the vertices, so that none can
-//! be left out, and each has arguments of its own, so that nothing computed from arguments is shared. The chain's own
-//! price is that of the [empty](Probe::empty) function in it.
+//! Each evaluation takes its cosine from the result before it by one multiply-add, `r g - b`, so that no channel can be
+//! left out and no compiler can make it simpler, and each has arguments of its own, so that nothing computed from
+//! arguments is shared. The chain's own price is that of the [empty](Probe::empty) function in it.
 //!
 //! Interface: location 0 holds weights and the first cosine; group 0 has the arguments at binding 0 (one block for each
 //! evaluation, [`BLOCKS`] in all), a texture at 3 and its sampler at 4, as in our SPIR-V modules.
 
-use crate::emit::{Emitted, bare};
-use crate::ir::{Param, Ty};
+use crate::emit::bare;
+use crate::ir::{Checked, Param, Ty};
 use crate::num::Precision;
 use crate::targets::{self, Spelling};
+
+use super::family::Dialect;
 
 /// Most evaluations in one shader.
 pub const BLOCKS: usize = 8;
@@ -19,17 +21,17 @@ pub const ENTRY: &str = "fg_main";
 /// The entry point of the vertex shader.
 pub const VERTEX: &str = "fg_vertex";
 
+/// What every function is called in a probe, so that equal functions have equal shaders.
+const NAME: &str = "fg_measured";
+
 /// A function as it is measured.
 #[derive(Clone, Debug)]
 pub struct Probe {
-    name: String,
     params: Vec<Param>,
     is_scalar: bool,
     precision: Precision,
     /// In WGSL and in GLSL ES.
     texts: [String; 2],
-    /// The arguments' values, where they stand in the text.
-    folded: Option<Vec<[f64; 3]>>,
 }
 
 /// A full-screen triangle in WGSL whose location 0 runs over (0, 1) and is no constant.
@@ -46,19 +48,14 @@ fn fg_vertex(@builtin(vertex_index) i: u32) -> FgVertex {
 ";
 
 impl Probe {
-    /// A function with its arguments from uniforms, or, where values are given, from literals.
-    pub fn new(emitted: &Emitted, folded: Option<Vec<[f64; 3]>>) -> Probe {
-        let text = |target: &str| {
-            let spelling = spelling(target, emitted.precision);
-            bare(&emitted.function, &emitted.name, spelling)
-        };
+    /// A function with its arguments, if it has any, from uniforms.
+    pub fn new(function: &Checked, precision: Precision) -> Probe {
+        let text = |target: &str| bare(function, NAME, spelling(target, precision));
         Probe {
-            name: emitted.name.clone(),
-            params: emitted.function.params.clone(),
-            is_scalar: emitted.function.ty() == Ty::Scalar,
-            precision: emitted.precision,
+            params: function.params.clone(),
+            is_scalar: function.ty() == Ty::Scalar,
+            precision,
             texts: [text("wgsl"), text("gles")],
-            folded,
         }
     }
 
@@ -68,31 +65,37 @@ impl Probe {
             let spelling = spelling(target, precision);
             let ty = spelling.ty(if is_scalar { Ty::Scalar } else { Ty::Rgb });
             let param = spelling.param.replace("{type}", spelling.scalar);
-            let head = spelling.head.replace("{name}", "fg_empty");
+            let head = spelling.head.replace("{name}", NAME);
             let head = head.replace("{type}", ty);
             let head = head.replace("{params}", &param.replace("{name}", "c"));
             format!("{head} {{\n    return {ty}(c);\n}}\n")
         };
         Probe {
-            name: "fg_empty".to_owned(),
             params: Vec::new(),
             is_scalar,
             precision,
             texts: [text("wgsl"), text("gles")],
-            folded: None,
         }
     }
 
     /// What it takes from uniforms after `cos_theta`, in order.
     pub fn uniforms(&self) -> impl Iterator<Item = &Param> {
-        let bound = self.folded.is_none();
         let params = self.params.iter().skip(1);
-        params.filter(move |param| bound && param.ty != Ty::Texture)
+        params.filter(|param| param.ty != Ty::Texture)
     }
 
     /// Whether it reads a texture.
     pub fn is_textured(&self) -> bool {
         self.params.iter().any(|param| param.ty == Ty::Texture)
+    }
+
+    /// The fragment shader in a compiler's language.
+    pub fn text(&self, evaluations: usize, dialect: Dialect) -> String {
+        match dialect {
+            Dialect::Wgsl => self.wgsl(evaluations),
+            Dialect::Es300 => self.gles(evaluations, false),
+            Dialect::Es100 => self.gles(evaluations, true),
+        }
     }
 
     /// The fragment shader in WGSL.
@@ -122,7 +125,7 @@ impl Probe {
             ""
         };
         let call = |i: usize| {
-            self.call(spelling, "fg_table, fg_sampler", |name| {
+            self.call("fg_table, fg_sampler", |name| {
                 format!("fg_arguments[{i}].{name}")
             })
         };
@@ -133,7 +136,7 @@ impl Probe {
 fn {ENTRY}(@location(0) fg_in: vec4<f32>) -> @location(0) vec4<f32> {{
     let w = {rgb}(fg_in.xyz);
     let c0 = {scalar}(fg_in.w);
-{steps}    return vec4<f32>(vec3<f32>(r{}), 1.0);
+{steps}    return vec4<f32>(vec3<f32>({rgb}(r{})), 1.0);
 }}
 ",
             self.texts[0],
@@ -142,7 +145,7 @@ fn {ENTRY}(@location(0) fg_in: vec4<f32>) -> @location(0) vec4<f32> {{
     }
 
     /// The fragment shader in GLSL ES 3.00, or in GLSL ES 1.00 for what knows no other: the same text under other names.
-    pub fn gles(&self, evaluations: usize, is_old: bool) -> String {
+    fn gles(&self, evaluations: usize, is_old: bool) -> String {
         let spelling = spelling("gles", self.precision);
         let uniform = |param: &Param| {
             let declared = spelling.param.replace("{type}", spelling.ty(param.ty));
@@ -155,7 +158,7 @@ fn {ENTRY}(@location(0) fg_in: vec4<f32>) -> @location(0) vec4<f32> {{
         } else {
             ""
         };
-        let call = |i: usize| self.call(spelling, "fg_table", |name| format!("fg_{name}[{i}]"));
+        let call = |i: usize| self.call("fg_table", |name| format!("fg_{name}[{i}]"));
         let head = if is_old { OLD_HEAD } else { NEW_HEAD };
         let colour = if is_old { "gl_FragColor" } else { "fg_colour" };
         let local = |ty| spelling.local.replace("{type}", spelling.ty(ty));
@@ -196,11 +199,11 @@ fn {ENTRY}(@location(0) fg_in: vec4<f32>) -> @location(0) vec4<f32> {{
             format!("    {filled}\n")
         };
         let step = |i: usize| {
+            let r = format!("r{}", i.saturating_sub(1));
             let next = if self.is_scalar {
-                format!("r{} * w.x", i.saturating_sub(1))
+                format!("{r} * w.x - w.y")
             } else {
-                let r = format!("r{}", i.saturating_sub(1));
-                format!("{r}.x * w.x + {r}.y * w.y + {r}.z * w.z")
+                format!("{r}.x * {r}.y - {r}.z")
             };
             let chained = if i == 0 {
                 String::new()
@@ -214,30 +217,20 @@ fn {ENTRY}(@location(0) fg_in: vec4<f32>) -> @location(0) vec4<f32> {{
     }
 
     /// The call: its cosine is `fg_cosine`.
-    fn call(&self, spelling: &Spelling, texture: &str, uniform: impl Fn(&str) -> String) -> String {
-        let mut numbers = self.folded.iter().flatten();
-        let argument = |param: &Param| match (param.ty, &self.folded) {
-            (Ty::Texture, _) => texture.to_owned(),
-            (_, None) => uniform(&param.name),
-            (ty, Some(_)) => {
-                let [r, g, b] = numbers.next().copied().unwrap_or_default();
-                let [r, g, b] = [r, g, b].map(|value| spelling.number(value));
-                if ty == Ty::Rgb {
-                    format!("{}({r}, {g}, {b})", spelling.rgb)
-                } else {
-                    r
-                }
-            }
+    fn call(&self, texture: &str, uniform: impl Fn(&str) -> String) -> String {
+        let argument = |param: &Param| match param.ty {
+            Ty::Texture => texture.to_owned(),
+            _ => uniform(&param.name),
         };
         let rest = self.params.iter().skip(1).map(argument);
         let arguments: Vec<String> = ["fg_cosine".to_owned()].into_iter().chain(rest).collect();
-        format!("{}({})", self.name, arguments.join(", "))
+        format!("{NAME}({})", arguments.join(", "))
     }
 }
 
 /// The vertex shader that belongs to the fragment shaders in GLSL ES.
-pub fn gles_vertex(is_old: bool) -> String {
-    let (version, input, output) = if is_old {
+pub fn gles_vertex(dialect: Dialect) -> String {
+    let (version, input, output) = if dialect == Dialect::Es100 {
         ("100", "attribute", "varying")
     } else {
         ("300 es", "in", "out")

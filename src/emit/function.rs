@@ -208,6 +208,59 @@ fn promised(method: &Method, precision: Precision) -> Measured<CodeBound> {
     }
 }
 
+/// A method's formula with a material's constants in it, in the form that is written.
+#[derive(Clone, Debug)]
+pub struct Specialised {
+    /// The graph.
+    pub function: Checked,
+    /// The values that were folded in.
+    pub constants: Values,
+    /// Of a plain form: the operations of the stable one.
+    pub plain_for: Option<usize>,
+}
+
+/// A method's formula specialised to a material, without what is known of its errors.
+pub fn specialised_graph(
+    method: &Method,
+    subject: &Subject,
+    precision: Precision,
+    bounds: &Bounds,
+) -> Result<Specialised, Error> {
+    if method.class == Class::Dielectric && !subject.effective.channels.is_transparent() {
+        let what = "it describes dielectrics only, and this absorbs (k > 0)";
+        return Err(refused(method, subject, what));
+    }
+    let constants = subject.values(method);
+    let stable = specialise(method, subject, precision, &constants)?;
+    let plain = match precision {
+        Precision::F32 => plain(method, &constants, &stable, bounds),
+        Precision::F16 => None,
+    };
+    Ok(Specialised {
+        plain_for: plain.as_ref().map(|_| stable.work()),
+        function: plain.unwrap_or(stable),
+        constants,
+    })
+}
+
+fn specialise(
+    method: &Method,
+    subject: &Subject,
+    precision: Precision,
+    constants: &Values,
+) -> Result<Checked, Error> {
+    let function = method.specialise_in(precision, constants);
+    function.map_err(|fault| refused(method, subject, &fault.to_string()))
+}
+
+fn refused(method: &Method, subject: &Subject, what: &str) -> Error {
+    Error::Specialise {
+        method: method.name.to_owned(),
+        material: subject.name.clone(),
+        what: what.to_owned(),
+    }
+}
+
 /// A method specialised to a material.
 pub fn specialised_function(
     method: &'static Method,
@@ -215,31 +268,14 @@ pub fn specialised_function(
     naming: &Naming,
     bounds: &Bounds,
 ) -> Result<Emitted, Error> {
-    let refused = |what: String| Error::Specialise {
-        method: method.name.to_owned(),
-        material: subject.name.clone(),
-        what,
-    };
-    if method.class == Class::Dielectric && !subject.effective.channels.is_transparent() {
-        return Err(refused(
-            "it describes dielectrics only, and this absorbs (k > 0)".to_owned(),
-        ));
-    }
-    let constants = subject.values(method);
-    let specialise = |precision| {
-        let function = method.specialise_in(precision, &constants);
-        function.map_err(|fault| refused(fault.to_string()))
-    };
-    let stable = specialise(naming.precision)?;
-    let plain = match naming.precision {
-        Precision::F32 => plain(method, &constants, &stable, bounds),
-        Precision::F16 => None,
-    };
-    let plain_for = plain.as_ref().map(|_| stable.work());
-    let function = plain.unwrap_or(stable);
+    let Specialised {
+        function,
+        constants,
+        plain_for,
+    } = specialised_graph(method, subject, naming.precision, bounds)?;
     let meant = match naming.precision {
         Precision::F32 => function.clone(),
-        Precision::F16 => specialise(Precision::F32)?,
+        Precision::F16 => specialise(method, subject, Precision::F32, &constants)?,
     };
     let own = method.name == subject.exact_method();
     let suffix = if own {

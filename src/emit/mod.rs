@@ -17,10 +17,13 @@ pub use bounds::{Bounds, CodeBound, PLAIN_ULP, fingerprint, half_record, sha256}
 pub use comment::lines as comment_lines;
 pub use error::Error;
 pub use file::{File, library, lookup, material, single, uniform_offsets, written_for};
-pub use function::{Emitted, Naming, Subject, library_functions, specialised_function};
+pub use function::{
+    Emitted, Naming, Specialised, Subject, library_functions, specialised_function,
+    specialised_graph,
+};
 pub use header::{MARK, half_promise, promises};
 pub use print::bare;
-pub use wgsl::{spirv as wgsl_to_spirv, validate as validate_wgsl};
+pub use wgsl::{spirv_with_storage as wgsl_to_spirv, validate as validate_wgsl};
 
 /// The version of naga that lowers SPIR-V, pinned in Cargo.toml: another one gives other bytes.
 pub const NAGA_VERSION: &str = "30.0.1";

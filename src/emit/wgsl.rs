@@ -16,6 +16,19 @@ pub fn validate(text: &str) -> Result<(naga::Module, ModuleInfo), String> {
 
 /// Lowers a module to SPIR-V 1.3, with names for people who read it, as little-endian bytes.
 pub fn spirv(text: &str) -> Result<Vec<u8>, String> {
+    Ok(bytes(&without_storage(&words(text)?)))
+}
+
+/// The same for a module that keeps 16-bit numbers in buffers.
+pub fn spirv_with_storage(text: &str) -> Result<Vec<u8>, String> {
+    Ok(bytes(&words(text)?))
+}
+
+fn bytes(words: &[u32]) -> Vec<u8> {
+    words.iter().flat_map(|word| word.to_le_bytes()).collect()
+}
+
+fn words(text: &str) -> Result<Vec<u32>, String> {
     let (module, info) = validate(text)?;
     let options = spv::Options {
         lang_version: (1, 3),
@@ -23,10 +36,7 @@ pub fn spirv(text: &str) -> Result<Vec<u8>, String> {
         use_storage_input_output_16: false,
         ..Default::default()
     };
-    let words =
-        spv::write_vec(&module, &info, &options, None).map_err(|error| error.to_string())?;
-    let words = without_storage(&words);
-    Ok(words.iter().flat_map(|word| word.to_le_bytes()).collect())
+    spv::write_vec(&module, &info, &options, None).map_err(|error| error.to_string())
 }
 
 /// Without the capabilities to hold 16-bit numbers in buffers, which naga adds as soon as anything computes with them: our

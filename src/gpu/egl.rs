@@ -10,7 +10,7 @@ use super::adapter::{Adapter, Backend, Kind, OPENGL_PACKAGES};
 use super::fault::Fault;
 use super::quiet::hush;
 
-type Egl = egl::DynamicInstance<egl::EGL1_5>;
+pub(super) type Egl = egl::DynamicInstance<egl::EGL1_5>;
 
 /// A context with its functions. Nothing may use [`Context::gl`] before [`Context::enter`] has made it current.
 pub(super) struct Context {
@@ -65,7 +65,7 @@ impl Drop for Context {
 }
 
 /// The library, loaded once and never unloaded: drivers leave handlers behind that run when the program ends.
-fn library() -> Result<&'static Egl, Fault> {
+pub(super) fn library() -> Result<&'static Egl, Fault> {
     static LIBRARY: OnceLock<Result<Egl, String>> = OnceLock::new();
     // SAFETY: a library of this name is EGL; loading it runs its initialisers.
     let load = || unsafe { Egl::load_required().map_err(|error| error.to_string()) };
@@ -107,7 +107,7 @@ fn create(egl: &Egl, display: egl::Display) -> Result<egl::Context, Fault> {
         .map_err(absent)
 }
 
-fn enter(egl: &Egl, display: egl::Display, context: egl::Context) -> Result<(), Fault> {
+pub(super) fn enter(egl: &Egl, display: egl::Display, context: egl::Context) -> Result<(), Fault> {
     egl.make_current(display, None, None, Some(context))
         .map_err(absent)
 }
@@ -131,12 +131,12 @@ fn describe(gl: &glow::Context) -> Adapter {
     }
 }
 
-fn address(egl: &Egl, name: &str) -> *const std::ffi::c_void {
+pub(super) fn address(egl: &Egl, name: &str) -> *const std::ffi::c_void {
     egl.get_proc_address(name)
         .map_or(std::ptr::null(), |function| function as *const _)
 }
 
-fn absent(why: impl ToString) -> Fault {
+pub(super) fn absent(why: impl ToString) -> Fault {
     Fault::Absent {
         what: format!("no OpenGL ES 3.0 ({})", why.to_string()),
         get: format!("on Debian install {OPENGL_PACKAGES}"),

@@ -13,6 +13,8 @@ mod egl;
 mod fault;
 mod gles;
 mod kernel;
+mod node;
+mod null;
 mod passthrough;
 mod program;
 mod quiet;
@@ -22,6 +24,8 @@ mod texture;
 
 pub use adapter::{Adapter, Backend, Kind, Wanted, adapters};
 pub use fault::Fault;
+pub use node::{Language, Node};
+pub use null::{Entry, Null};
 pub use program::{Argument, Code, Program, Uniform};
 pub use stream::Stream;
 pub use texture::{Texture, TextureFormat, Wrap};

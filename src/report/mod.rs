@@ -2,6 +2,7 @@
 
 pub mod card;
 pub mod chart;
+pub mod cost;
 pub mod markdown;
 #[cfg(feature = "cli")]
 pub mod png;

@@ -33,7 +33,7 @@ fn padded(cell: &str, width: usize) -> String {
     let space = " ".repeat(width.saturating_sub(cell.chars().count()));
     let is_number = cell.starts_with(|c: char| c.is_ascii_digit() || c == '-')
         && cell
-            .trim_end_matches(['%', '°'])
+            .trim_end_matches(['%', '°', '+'])
             .trim()
             .parse::<f64>()
             .is_ok();

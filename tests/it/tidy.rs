@@ -228,9 +228,12 @@ fn only_the_writer_and_the_program_touch_the_machine() {
         // Workers: processes of this program, with a time limit.
         "app/verify/machine.rs",
         "app/verify/supervise.rs",
+        "app/worker.rs",
         "verify/compilers/call.rs",
         // It asks whether a library would complain of the environment.
         "gpu/quiet.rs",
+        // It opens a device's node.
+        "gpu/node.rs",
     ];
     for (path, text) in sources("src") {
         let inside = path
@@ -260,7 +263,8 @@ fn only_the_writer_and_the_program_touch_the_machine() {
 
 #[test]
 fn only_leaves_of_the_graphics_stack_are_unsafe_and_say_why() {
-    let named = ["egl", "gles", "passthrough", "quiet"].map(|leaf| format!("gpu/{leaf}.rs"));
+    let named = ["egl", "gles", "node", "null", "passthrough", "quiet"]
+        .map(|leaf| format!("gpu/{leaf}.rs"));
     for (path, text) in sources("src") {
         let inside = path.strip_prefix(root().join("src")).unwrap();
         let inside = inside.display().to_string();

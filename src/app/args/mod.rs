@@ -1,5 +1,6 @@
 //! The command line: flags and subcommands.
 
+mod cost;
 mod stability;
 mod verify;
 
@@ -10,6 +11,7 @@ use clap::{Args, Parser, Subcommand};
 use super::precision::PrecisionFlags;
 use super::sight::Words;
 
+pub use cost::CostFlags;
 pub use stability::StabilityFlags;
 pub use verify::VerifyFlags;
 
@@ -55,6 +57,8 @@ pub enum Command {
     Verify(Box<VerifyFlags>),
     /// Where methods fail: NaN, lost digits, what the law has and they have not, told as regions
     Stability(StabilityFlags),
+    /// What functions cost: counts by the compilers of GPUs, from the record where a compiler is not here
+    Cost(Box<CostFlags>),
     /// Compute the thesis's tables, figures and claims anew, and print both side by side
     Reproduce(Reproduce),
 }

@@ -1,6 +1,8 @@
 //! The commands: from parsed flags to what a run prints and how it ends. Printing itself is `main.rs`'s.
 
 mod bake;
+#[cfg(feature = "gpu")]
+mod cost;
 mod generate;
 mod import;
 mod listing;
@@ -42,8 +44,10 @@ pub fn run(cli: &Cli, progress: Progress) -> Result<Output, Error> {
         Some(Command::Bake(flags)) => bake::run(flags, progress),
         #[cfg(feature = "gpu")]
         Some(Command::Verify(flags)) => verify::run(flags, progress),
+        #[cfg(feature = "gpu")]
+        Some(Command::Cost(flags)) => cost::run(flags, progress),
         #[cfg(not(feature = "gpu"))]
-        Some(Command::Verify(_)) => Err(Error::Lacking {
+        Some(Command::Verify(_) | Command::Cost(_)) => Err(Error::Lacking {
             what: "this program was built without the feature `gpu`, and runs no shaders"
                 .to_owned(),
         }),

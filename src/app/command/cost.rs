@@ -1,0 +1,223 @@
+//! `cost`: what compilers of real GPUs make of functions.
+
+use serde_json::{Value, json};
+
+use crate::app::args::CostFlags;
+use crate::app::cost::{Function, Limits, Told, ask, functions, rows, serve};
+use crate::app::error::Error;
+use crate::app::names::{flag, unknown};
+use crate::app::precision::named;
+use crate::app::request::Request;
+use crate::app::source::materials;
+use crate::app::verify::machine;
+use crate::app::write::write_file;
+use crate::cost::{FAMILIES, Family, Figures, Record, find, records};
+use crate::methods::{self, Method};
+use crate::num::Precision;
+use crate::report::cost::{self as sheet, Row, Source};
+
+use super::{Output, Progress, report};
+
+/// Measures.
+pub fn run(flags: &CostFlags, progress: Progress) -> Result<Output, Error> {
+    if let Some(name) = &flags.worker {
+        serve(family(name)?)?;
+        return Ok(Output::default());
+    }
+    let families = families(&flags.gpu)?;
+    let (functions, left_out) = asked(flags)?;
+    let told = told(flags, &families, &functions, progress)?;
+    let table: Vec<Vec<Row>> = families
+        .iter()
+        .zip(&told)
+        .map(|(family, told)| rows(family, told.as_ref(), &records(family.name), &functions))
+        .collect();
+    let json = json!({
+        "tool": "fresnel-gen", "command": canonical(flags), "device": null,
+        "rows": table.iter().flatten().map(Row::json).collect::<Vec<Value>>(),
+    });
+    let (text, findings) = if flags.check {
+        check(&table)
+    } else {
+        (sheet::text(&table), 0)
+    };
+    let mut output = report(text, &json, flags.json.as_deref())?;
+    output.remarks.extend(left_out);
+    output.remarks.extend(paged(flags, &table)?);
+    output.code = ending(flags, &table, findings);
+    Ok(output)
+}
+
+/// 1 where a check found something, 3 where something that could be measured was not and all was required.
+fn ending(flags: &CostFlags, table: &[Vec<Row>], findings: usize) -> u8 {
+    let is_lacking = |row: &Row| {
+        let measurable = row.family.compiler.dialect().is_some();
+        measurable && (row.figures.is_err() || flags.check && row.source != Source::Compiler)
+    };
+    match findings {
+        0 if flags.require_all && table.iter().flatten().any(is_lacking) => 3,
+        0 => 0,
+        _ => 1,
+    }
+}
+
+/// What the compilers say of the functions; nothing for what has none.
+fn told(
+    flags: &CostFlags,
+    families: &[&'static Family],
+    functions: &[Function],
+    progress: Progress,
+) -> Result<Vec<Option<Told>>, Error> {
+    let limits = Limits {
+        seconds: flags.limit.max(1),
+        workers: machine::cores(),
+    };
+    let has_compiler = |family: &&&'static Family| family.compiler.dialect().is_some();
+    let asked: Vec<&'static Family> = families.iter().filter(has_compiler).copied().collect();
+    let mut answers = ask(&asked, functions, limits, progress)?.into_iter();
+    let told = families.iter().map(|family| {
+        family.compiler.dialect()?;
+        answers.next()
+    });
+    Ok(told.collect())
+}
+
+/// The functions of a request, and why some are left out.
+fn asked(flags: &CostFlags) -> Result<(Vec<Function>, Vec<String>), Error> {
+    let request = Request {
+        materials: materials(&flags.material)?,
+        methods: flags.method.clone(),
+        ..Request::default()
+    };
+    let methods: Vec<&'static Method> = request
+        .resolved_methods()?
+        .unwrap_or_else(|| methods::ALL.to_vec());
+    let precisions = match flags.precision.as_deref() {
+        None => Precision::ALL.to_vec(),
+        named_one => vec![named(named_one)?],
+    };
+    let subjects = request.subjects()?;
+    let left_out = subjects.left_out.iter();
+    let left_out = left_out
+        .map(|unseen| format!("left out: {}", unseen.why))
+        .collect();
+    let subjects: Vec<_> = subjects
+        .ready
+        .into_iter()
+        .map(|(subject, _)| subject)
+        .collect();
+    Ok((functions(&methods, &subjects, &precisions)?, left_out))
+}
+
+/// Fresh counts against the record: what differs, and a summary.
+fn check(table: &[Vec<Row>]) -> (String, usize) {
+    let (mut text, mut findings) = (String::new(), 0);
+    for rows in table {
+        let Some(first) = rows.first() else { continue };
+        let found = Checked::of(rows, &records(first.family.name));
+        findings += found.differences.len();
+        text += &found.text(first.family.name);
+    }
+    (text, findings)
+}
+
+/// A family's fresh counts against its record.
+#[derive(Default)]
+struct Checked {
+    agree: usize,
+    unknown: usize,
+    differences: Vec<String>,
+    unchecked: Option<String>,
+}
+
+impl Checked {
+    fn of(rows: &[Row], record: &Record) -> Checked {
+        let fresh = rows.iter().find(|row| row.source == Source::Compiler);
+        let compiler = fresh.and_then(|row| row.compiler.as_deref());
+        let mut checked = Checked::default();
+        match compiler {
+            None => checked.unchecked = Some(unasked(rows)),
+            Some(compiler) if compiler != record.compiler => {
+                let recorded = &record.compiler;
+                checked.unchecked = Some(format!("here is {compiler}, and recorded {recorded}"));
+            }
+            Some(_) => rows.iter().for_each(|row| checked.add(row, record)),
+        }
+        checked
+    }
+
+    fn add(&mut self, row: &Row, record: &Record) {
+        let key = row.key();
+        let Some(hash) = record.functions.get(&key) else {
+            self.unknown += 1;
+            return;
+        };
+        let known = record.figures.get(hash);
+        if row.shader.as_ref() != Some(hash) {
+            self.differences
+                .push(format!("{key}: the shader is another one"));
+        } else if row.figures.as_ref().ok() != known {
+            let now = row.figures.as_ref().map(Figures::cost);
+            let then = known.map(Figures::cost);
+            self.differences
+                .push(format!("{key}: {then:?} is recorded, and it is {now:?}"));
+        } else {
+            self.agree += 1;
+        }
+    }
+
+    fn text(&self, family: &str) -> String {
+        if let Some(why) = &self.unchecked {
+            return format!("{family}: not checked: {why}\n");
+        }
+        let differences = self.differences.iter();
+        let lines: String = differences
+            .map(|line| format!("{family}: {line}\n"))
+            .collect();
+        let (agree, differ) = (self.agree, self.differences.len());
+        let unknown = self.unknown;
+        format!("{lines}{family}: {agree} agree, {differ} differ, {unknown} not recorded\n")
+    }
+}
+
+/// Why a family has no fresh counts.
+fn unasked(rows: &[Row]) -> String {
+    let why = rows.iter().find_map(|row| row.figures.as_ref().err());
+    why.cloned()
+        .unwrap_or_else(|| "its compiler is not here".to_owned())
+}
+
+fn paged(flags: &CostFlags, table: &[Vec<Row>]) -> Result<Option<String>, Error> {
+    let Some(folder) = &flags.out_dir else {
+        return Ok(None);
+    };
+    let page = sheet::page(table, &canonical(flags)).map_err(|what| Error::Usage { what })?;
+    let file = folder.join("cost.html");
+    write_file(&file, page.as_bytes())?;
+    Ok(Some(format!("{}: a page with all figures", file.display())))
+}
+
+fn canonical(flags: &CostFlags) -> String {
+    format!(
+        "cost{}{}{}{}",
+        flag("gpu", &flags.gpu),
+        flag("method", &flags.method),
+        flag("material", &flags.material),
+        flag("precision", flags.precision.as_slice())
+    )
+}
+
+fn family(name: &str) -> Result<&'static Family, Error> {
+    let names: Vec<&str> = FAMILIES.iter().map(|family| family.name).collect();
+    find(name).ok_or_else(|| unknown("GPU family", name, &names))
+}
+
+fn families(names: &[String]) -> Result<Vec<&'static Family>, Error> {
+    if names.is_empty() || names.iter().any(|name| name == "all") {
+        return Ok(FAMILIES.iter().collect());
+    }
+    let chosen: Result<Vec<&Family>, Error> = names.iter().map(|name| family(name)).collect();
+    let chosen = chosen?;
+    let is_asked = |family: &&Family| chosen.iter().any(|other| other.name == family.name);
+    Ok(FAMILIES.iter().filter(is_asked).collect())
+}

@@ -1,0 +1,323 @@
+//! The supervisor: shares functions out among processes that each hold one compiler, and ends those that come to no end.
+
+use std::collections::BTreeMap;
+use std::ffi::OsString;
+use std::path::{Path, PathBuf};
+use std::sync::Mutex;
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::mpsc::{Sender, channel};
+use std::thread;
+use std::time::Duration;
+
+use serde::Deserialize;
+
+use crate::app::error::Error;
+use crate::app::worker::{Silence, Worker, scratch};
+use crate::cost::{Compiler, Dialect, Family, Figures, Statistics, figures};
+use crate::num::Precision;
+
+use super::function::{Function, empty};
+
+/// How much a run may take.
+#[derive(Clone, Copy, Debug)]
+pub struct Limits {
+    /// For one shader.
+    pub seconds: u64,
+    /// Processes at once.
+    pub workers: usize,
+}
+
+/// What a compiler says of a function, or why it says nothing.
+pub type Answer = Result<Figures, String>;
+
+/// What came of asking a family's compiler.
+#[derive(Clone, Debug)]
+pub enum Told {
+    /// It is here: its name and version, and an answer for each function.
+    Fresh(String, Vec<Answer>),
+    /// It is not, and why.
+    Absent(String),
+}
+
+/// A part of the work: a family, and some of the functions.
+struct Job {
+    family: usize,
+    functions: std::ops::Range<usize>,
+}
+
+/// What a worker answers.
+#[derive(Deserialize)]
+#[serde(rename_all = "snake_case")]
+enum Said {
+    Compiler(String),
+    Absent(String),
+    Told(Statistics),
+    Refused(String),
+}
+
+/// What came of a job.
+enum Done {
+    Fresh(String, Vec<Answer>),
+    Absent(String),
+}
+
+/// Functions of one job: enough that starting a process does not count.
+const JOB: usize = 60;
+
+/// Asks the compilers of families about functions. `progress` hears how many answers are there.
+///
+/// # Errors
+/// No process can be started.
+pub fn ask(
+    families: &[&'static Family],
+    functions: &[Function],
+    limits: Limits,
+    progress: &mut dyn FnMut(u64, u64, &str),
+) -> Result<Vec<Told>, Error> {
+    let (functions, places) = once_each(functions);
+    let functions = functions.as_slice();
+    let scratch = scratch()?;
+    let jobs: Vec<Job> = jobs(families.len(), functions.len());
+    let next = AtomicUsize::new(0);
+    let results: Vec<Mutex<Option<Done>>> = jobs.iter().map(|_| Mutex::default()).collect();
+    let whole = (families.len() * functions.len()) as u64;
+    let (send, heard) = channel();
+    thread::scope(|scope| {
+        let work = |send: Sender<usize>| {
+            while let Some(job) = jobs.get(next.fetch_add(1, Ordering::Relaxed)) {
+                let asker = Asker {
+                    family: families[job.family],
+                    limit: Duration::from_secs(limits.seconds),
+                    scratch: scratch.path(),
+                };
+                let done = asker.run(&functions[job.functions.clone()], &mut || {
+                    // Nobody listens any more where another process could not be started.
+                    let _ = send.send(job.family);
+                })?;
+                let place = jobs.iter().position(|other| std::ptr::eq(other, job));
+                let place = place.and_then(|place| results.get(place));
+                if let Some(Ok(mut place)) = place.map(Mutex::lock) {
+                    *place = Some(done);
+                }
+            }
+            Ok(())
+        };
+        let threads: Vec<_> = (0..limits.workers.max(1))
+            .map(|_| {
+                let send = send.clone();
+                scope.spawn(move || work(send))
+            })
+            .collect();
+        drop(send);
+        let mut count = 0;
+        while let Ok(family) = heard.recv() {
+            count += 1;
+            progress(count, whole, families[family].name);
+        }
+        let ends = threads
+            .into_iter()
+            .map(|thread| thread.join().unwrap_or(Ok(())));
+        ends.collect::<Result<Vec<()>, Error>>()
+    })?;
+    let results = results
+        .into_iter()
+        .map(|result| result.into_inner().unwrap_or_default());
+    let told = gathered(families.len(), &jobs, results);
+    Ok(told.into_iter().map(|told| told.at(&places)).collect())
+}
+
+/// Functions whose shaders are different, and for each function which of them is its own.
+fn once_each(functions: &[Function]) -> (Vec<&Function>, Vec<usize>) {
+    let mut known: BTreeMap<String, usize> = BTreeMap::new();
+    let mut different = Vec::new();
+    let mut places = Vec::new();
+    for function in functions {
+        let place = known
+            .entry(function.hash(Dialect::Wgsl))
+            .or_insert_with(|| {
+                different.push(function);
+                different.len() - 1
+            });
+        places.push(*place);
+    }
+    (different, places)
+}
+
+impl Told {
+    /// The same with the answers of these places.
+    fn at(self, places: &[usize]) -> Told {
+        match self {
+            Told::Fresh(compiler, answers) => {
+                let answers = places.iter().map(|place| answers[*place].clone());
+                Told::Fresh(compiler, answers.collect())
+            }
+            absent => absent,
+        }
+    }
+}
+
+fn jobs(families: usize, functions: usize) -> Vec<Job> {
+    let parts = (0..functions)
+        .step_by(JOB)
+        .map(|start| start..functions.min(start + JOB));
+    let parts: Vec<_> = parts.collect();
+    (0..families)
+        .flat_map(|family| {
+            let job = move |functions: &std::ops::Range<usize>| Job {
+                family,
+                functions: functions.clone(),
+            };
+            parts.iter().map(job).collect::<Vec<_>>()
+        })
+        .collect()
+}
+
+/// The answers of each family, in the functions' order.
+fn gathered(
+    families: usize,
+    jobs: &[Job],
+    results: impl Iterator<Item = Option<Done>>,
+) -> Vec<Told> {
+    let mut all: Vec<Told> = vec![Told::Absent("it was not asked".to_owned()); families];
+    for (job, done) in jobs.iter().zip(results) {
+        match (&mut all[job.family], done) {
+            (Told::Fresh(_, answers), Some(Done::Fresh(_, more))) => answers.extend(more),
+            (place, Some(Done::Fresh(compiler, answers))) => {
+                *place = Told::Fresh(compiler, answers)
+            }
+            (place, Some(Done::Absent(why))) => *place = Told::Absent(why),
+            (_, None) => {}
+        }
+    }
+    all
+}
+
+/// Who asks one family's compiler.
+struct Asker<'a> {
+    family: &'static Family,
+    limit: Duration,
+    scratch: &'a Path,
+}
+
+impl Asker<'_> {
+    fn run(&self, functions: &[&Function], tick: &mut dyn FnMut()) -> Result<Done, Error> {
+        let Some(dialect) = self.family.compiler.dialect() else {
+            return Ok(Done::Absent("it has no compiler".to_owned()));
+        };
+        let environment = match environment(self.family) {
+            Ok(environment) => environment,
+            Err(why) => return Ok(Done::Absent(why)),
+        };
+        let start = || -> Result<(Worker, Said), Error> {
+            let words = ["cost", "--worker", self.family.name].map(OsString::from);
+            let mut worker = Worker::start(&words, &environment, self.scratch)?;
+            let hello = worker.ask::<Said>("", self.limit);
+            let hello = hello.unwrap_or_else(|silence| Said::Absent(reason(&silence, self.limit)));
+            Ok((worker, hello))
+        };
+        let (mut worker, hello) = start()?;
+        let compiler = match hello {
+            Said::Compiler(name) => name,
+            Said::Absent(why) | Said::Refused(why) => return Ok(Done::Absent(why)),
+            Said::Told(_) => return Ok(Done::Absent("it answers another question".to_owned())),
+        };
+        let mut bare = Bare::default();
+        let mut answers = Vec::new();
+        for function in functions {
+            let kind = (function.is_scalar(), function.precision);
+            let answer = bare
+                .of(kind, dialect, &mut |text| self.shader(&mut worker, text))
+                .and_then(|empty| {
+                    let [short, long] = function.chains(dialect);
+                    let chains = [
+                        self.shader(&mut worker, &short)?,
+                        self.shader(&mut worker, &long)?,
+                    ];
+                    let none = || "the compiler does not tell instructions".to_owned();
+                    figures(&self.family.columns, dialect.chains(), &chains, &empty)
+                        .ok_or_else(none)
+                });
+            if answer.is_err() {
+                // It may be gone, or at work without end.
+                worker = start()?.0;
+            }
+            answers.push(answer);
+            tick();
+        }
+        Ok(Done::Fresh(compiler, answers))
+    }
+
+    fn shader(&self, worker: &mut Worker, text: &str) -> Result<Statistics, String> {
+        let line = serde_json::to_string(text).map_err(|why| why.to_string())?;
+        match worker.ask::<Said>(&line, self.limit) {
+            Ok(Said::Told(statistics)) => Ok(statistics),
+            Ok(Said::Refused(why) | Said::Absent(why) | Said::Compiler(why)) => Err(why),
+            Err(silence) => Err(reason(&silence, self.limit)),
+        }
+    }
+}
+
+/// The chains of the empty function, asked once for each kind.
+#[derive(Default)]
+struct Bare(Vec<((bool, Precision), [Statistics; 2])>);
+
+impl Bare {
+    fn of(
+        &mut self,
+        kind: (bool, Precision),
+        dialect: Dialect,
+        ask: &mut dyn FnMut(&str) -> Result<Statistics, String>,
+    ) -> Result<[Statistics; 2], String> {
+        if let Some((_, known)) = self.0.iter().find(|(other, _)| *other == kind) {
+            return Ok(known.clone());
+        }
+        let [short, long] = empty(kind.0, kind.1, dialect);
+        let told = [ask(&short)?, ask(&long)?];
+        self.0.push((kind, told.clone()));
+        Ok(told)
+    }
+}
+
+fn reason(silence: &Silence, limit: Duration) -> String {
+    match silence {
+        Silence::TooLong => format!("the compiler did not end within {} s", limit.as_secs()),
+        Silence::Ended(status) => format!("the process with the compiler ended ({status})"),
+    }
+}
+
+/// Where tests/mesa-compilers puts what it builds.
+fn built() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("target/tools/mesa")
+}
+
+/// What a process needs in its environment to be that compiler, or why it cannot be.
+fn environment(family: &Family) -> Result<Vec<(String, OsString)>, String> {
+    let pair = |name: &str, value: OsString| (name.to_owned(), value);
+    let mut all = vec![
+        pair("MESA_SHADER_CACHE_DISABLE", "true".into()),
+        // A driver with a thread of its own remarks nothing.
+        pair("GALLIUM_THREAD", "0".into()),
+    ];
+    match family.compiler {
+        Compiler::Radv(chip) => all.push(pair("RADV_FORCE_FAMILY", chip.into())),
+        Compiler::Mesa {
+            shim, environment, ..
+        } => {
+            let folder = built();
+            let shim = folder.join(format!("lib{shim}_noop_drm_shim.so"));
+            if !shim.is_file() {
+                return Err("its compiler is not here; tests/mesa-compilers builds it".to_owned());
+            }
+            all.push(pair("LD_PRELOAD", shim.into()));
+            all.push(pair("LIBGL_DRIVERS_PATH", folder.join("dri").into()));
+            all.push(pair("LD_LIBRARY_PATH", folder.into()));
+            all.extend(
+                environment
+                    .iter()
+                    .map(|(name, value)| pair(name, value.into())),
+            );
+        }
+        Compiler::Operations | Compiler::None(_) => {}
+    }
+    Ok(all)
+}

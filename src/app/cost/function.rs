@@ -1,0 +1,150 @@
+//! What is measured: library functions with arguments from uniforms, specialised ones with their constants folded in.
+
+use crate::app::error::Error;
+use crate::cost::{Dialect, Probe};
+use crate::emit::{Bounds, Emitted, Naming, Subject, library_functions, sha256, specialised_graph};
+use crate::ir::{Checked, Ty};
+use crate::methods::{self, Class, Method};
+use crate::num::Precision;
+
+/// A function as it is measured.
+#[derive(Clone, Debug)]
+pub struct Function {
+    /// Whether it was asked for, or is here as the reference only.
+    pub is_asked: bool,
+    /// The material that it is specialised to.
+    pub material: Option<String>,
+    /// Its method.
+    pub method: &'static Method,
+    /// `library`, `scalar` or `specialised`.
+    pub form: &'static str,
+    /// What it computes in.
+    pub precision: Precision,
+    /// The graph.
+    pub graph: Checked,
+    probe: Probe,
+}
+
+/// The functions of these methods: library and scalar forms, and specialised ones for each material that they describe,
+/// in each precision that they are written in.
+///
+/// # Errors
+/// A function cannot be made.
+pub fn functions(
+    methods: &[&'static Method],
+    subjects: &[Subject],
+    precisions: &[Precision],
+) -> Result<Vec<Function>, Error> {
+    let bounds = Bounds::recorded();
+    let mut found = Vec::new();
+    for precision in precisions.iter().copied() {
+        let naming = Naming {
+            precision,
+            ..Naming::default()
+        };
+        for method in methods.iter().copied() {
+            if !(precision.is_half() && method.half.library_refusal().is_some()) {
+                let library = library_functions(method, &naming)?;
+                found.extend(library.into_iter().map(Function::library));
+            }
+        }
+        for subject in subjects {
+            let transparent = subject.effective.channels.is_transparent();
+            for method in methods.iter().copied() {
+                let fits = method.class == Class::Any || transparent;
+                let refused = precision.is_half() && method.half.refusal().is_some();
+                if fits && !refused {
+                    let made = specialised_graph(method, subject, precision, &bounds)?;
+                    found.push(Function {
+                        material: Some(subject.argument.clone()),
+                        ..Function::new(method, "specialised", precision, made.function)
+                    });
+                }
+            }
+        }
+    }
+    if !found.iter().any(Function::is_reference) {
+        found.push(reference()?);
+    }
+    Ok(found)
+}
+
+/// The function with which others are compared, where nobody asked for it.
+fn reference() -> Result<Function, Error> {
+    let method = methods::find(REFERENCE).expect("a test asks for its cost");
+    let functions = library_functions(method, &Naming::default())?;
+    let emitted = functions
+        .into_iter()
+        .next()
+        .expect("it has a form of three channels");
+    Ok(Function {
+        is_asked: false,
+        ..Function::library(emitted)
+    })
+}
+
+impl Function {
+    fn library(emitted: Emitted) -> Function {
+        Function::new(
+            emitted.method,
+            emitted.form,
+            emitted.precision,
+            emitted.function,
+        )
+    }
+
+    fn new(
+        method: &'static Method,
+        form: &'static str,
+        precision: Precision,
+        graph: Checked,
+    ) -> Function {
+        Function {
+            is_asked: true,
+            material: None,
+            probe: Probe::new(&graph, precision),
+            method,
+            form,
+            precision,
+            graph,
+        }
+    }
+
+    /// The function with which others are compared: the exact law for dielectrics, its arguments from uniforms.
+    pub fn is_reference(&self) -> bool {
+        self.method.name == REFERENCE && self.form == "library" && !self.precision.is_half()
+    }
+
+    /// How many channels it gives.
+    pub fn channels(&self) -> usize {
+        if self.is_scalar() { 1 } else { 3 }
+    }
+
+    /// Whether it gives one channel.
+    pub fn is_scalar(&self) -> bool {
+        self.graph.ty() == Ty::Scalar
+    }
+
+    /// The shader of the longer chain by its hash: what a record belongs to.
+    pub fn hash(&self, dialect: Dialect) -> String {
+        sha256(self.probe.text(dialect.chains()[1], dialect).as_bytes())[..16].to_owned()
+    }
+
+    /// The fragment shaders of both chains.
+    pub fn chains(&self, dialect: Dialect) -> [String; 2] {
+        dialect
+            .chains()
+            .map(|evaluations| self.probe.text(evaluations, dialect))
+    }
+}
+
+/// The method that others' costs are shares of.
+pub const REFERENCE: &str = "dielectric_exact";
+
+/// The chains of the empty function.
+pub fn empty(is_scalar: bool, precision: Precision, dialect: Dialect) -> [String; 2] {
+    let probe = Probe::empty(is_scalar, precision);
+    dialect
+        .chains()
+        .map(|evaluations| probe.text(evaluations, dialect))
+}

@@ -1,0 +1,106 @@
+//! The rows of a family: from its compiler, from the record, or from the graph.
+
+use crate::cost::{Compiler, Counts, Family, Figures, Record};
+use crate::report::cost::{Row, Source};
+
+use super::asked::Told;
+use super::function::Function;
+
+/// The rows of a family, in the functions' order.
+pub fn rows(
+    family: &'static Family,
+    told: Option<&Told>,
+    record: &Record,
+    functions: &[Function],
+) -> Vec<Row> {
+    let about = |place: usize, function: &Function| {
+        let row = bare(family, function);
+        match (family.compiler, told) {
+            (Compiler::Operations, _) => counted(row, function),
+            (Compiler::None(why), _) => Row {
+                figures: Err(why.to_owned()),
+                ..row
+            },
+            (_, Some(Told::Fresh(compiler, answers))) => Row {
+                compiler: Some(compiler.clone()),
+                source: Source::Compiler,
+                figures: answers[place].clone(),
+                ..row
+            },
+            (_, Some(Told::Absent(why))) => recorded(row, record, why),
+            (_, None) => recorded(row, record, "its compiler was not asked"),
+        }
+    };
+    let all = functions.iter().enumerate();
+    let mut rows: Vec<Row> = all
+        .map(|(place, function)| about(place, function))
+        .collect();
+    let reference = functions.iter().position(Function::is_reference);
+    let whole = reference.and_then(|place| rows[place].figures.as_ref().ok().map(Figures::cost));
+    let mut asked = functions.iter().map(|function| function.is_asked);
+    rows.retain(|_| asked.next().unwrap_or(false));
+    for row in &mut rows {
+        let cost = row.figures.as_ref().ok().map(Figures::cost);
+        row.share = cost.zip(whole).map(|(cost, whole)| 100.0 * cost / whole);
+    }
+    rows
+}
+
+/// A row of which nothing is known yet.
+fn bare(family: &'static Family, function: &Function) -> Row {
+    let dialect = family.compiler.dialect();
+    Row {
+        method: function.method.name,
+        material: function.material.clone(),
+        form: function.form,
+        channels: function.channels(),
+        precision: function.precision.name(),
+        fetches: function.graph.fetches(),
+        family,
+        compiler: None,
+        source: Source::Nobody,
+        figures: Err(String::new()),
+        share: None,
+        shader: dialect.map(|dialect| function.hash(dialect)),
+    }
+}
+
+fn counted(row: Row, function: &Function) -> Row {
+    let counts = Counts {
+        instructions: function.graph.work() as f64,
+        ..Counts::default()
+    };
+    Row {
+        source: Source::Graph,
+        figures: Ok(Figures {
+            shader: counts,
+            registers: None,
+            net: counts,
+        }),
+        ..row
+    }
+}
+
+fn recorded(row: Row, record: &Record, absent: &str) -> Row {
+    let found = row
+        .shader
+        .as_ref()
+        .and_then(|hash| record.figures.get(hash));
+    if let Some(figures) = found {
+        return Row {
+            compiler: Some(record.compiler.clone()),
+            source: Source::Record,
+            figures: Ok(*figures),
+            ..row
+        };
+    }
+    let why = if record.functions.contains_key(&row.key()) {
+        "what was recorded is of another shader"
+    } else {
+        "it is not recorded"
+    };
+    Row {
+        figures: Err(format!("not measured: {absent}, and {why}")),
+        ..row
+    }
+}

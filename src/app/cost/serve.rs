@@ -1,0 +1,100 @@
+//! A worker: opens the compiler that its environment tells, and answers each shader with what the compiler says.
+
+use std::ffi::CString;
+use std::io::{self, BufRead, Write};
+
+use serde_json::json;
+
+use crate::app::error::Error;
+use crate::cost::{Compiler, Dialect, ENTRY, Family, Statistics, VERTEX, WGSL_VERTEX};
+use crate::cost::{gles_vertex, remarked};
+use crate::emit::wgsl_to_spirv;
+use crate::gpu::{Entry, Fault, Node, Null};
+
+/// A compiler at work.
+enum Open {
+    Radv(Null, [CString; 2]),
+    Mesa(Node, Dialect),
+}
+
+/// Serves until there is nothing more to read: a line of JSON, the text of a fragment shader, is answered by a line. The
+/// first line says who answers, whatever is asked.
+///
+/// # Errors
+/// The family has no compiler, or the pipe is gone.
+pub fn serve(family: &Family) -> Result<(), Error> {
+    let gone = |why: io::Error| Error::Usage {
+        what: why.to_string(),
+    };
+    let (mut input, mut output) = (io::stdin().lock().lines(), io::stdout().lock());
+    let mut answer = |value: serde_json::Value| {
+        writeln!(output, "{value}")
+            .and_then(|()| output.flush())
+            .map_err(gone)
+    };
+    let opened = open(family);
+    let hello = match &opened {
+        Ok(open) => json!({ "compiler": open.compiler() }),
+        Err(fault) => json!({ "absent": fault.to_string() }),
+    };
+    let _ = input.next();
+    answer(hello)?;
+    let Ok(open) = opened else { return Ok(()) };
+    for line in input {
+        let line = line.map_err(gone)?;
+        let told = serde_json::from_str::<String>(&line)
+            .map_err(|why| why.to_string())
+            .and_then(|text| open.measure(&text));
+        answer(match told {
+            Ok(statistics) => json!({ "told": statistics }),
+            Err(why) => json!({ "refused": why }),
+        })?;
+    }
+    Ok(())
+}
+
+fn open(family: &Family) -> Result<Open, Fault> {
+    match family.compiler {
+        Compiler::Radv(_) => {
+            let vertex = wgsl_to_spirv(WGSL_VERTEX).expect("the vertex shader is a constant");
+            let names = [VERTEX, ENTRY].map(|name| CString::new(name).unwrap_or_default());
+            Ok(Open::Radv(Null::open(&vertex)?, names))
+        }
+        Compiler::Mesa { dialect, .. } => Ok(Open::Mesa(Node::open()?, dialect)),
+        Compiler::Operations | Compiler::None(_) => Err(Fault::Absent {
+            what: format!("{} has no compiler", family.name),
+            get: "none is needed".to_owned(),
+        }),
+    }
+}
+
+impl Open {
+    fn compiler(&self) -> String {
+        match self {
+            Open::Radv(null, _) => format!("{}, {}", null.driver, null.name),
+            Open::Mesa(node, _) => format!("{}, {}", node.driver, node.name),
+        }
+    }
+
+    fn measure(&self, text: &str) -> Result<Statistics, String> {
+        match self {
+            Open::Radv(null, [vertex, entry]) => {
+                let module = wgsl_to_spirv(text)?;
+                let fragment = Entry {
+                    module: &module,
+                    name: entry,
+                };
+                let told = null.measure(vertex, fragment);
+                told.map(Statistics::from_iter)
+                    .map_err(|why| why.to_string())
+            }
+            Open::Mesa(node, dialect) => {
+                let remarks = node
+                    .link(&gles_vertex(*dialect), text)
+                    .map_err(|why| why.to_string())?;
+                let silent = || format!("the driver does not say what became of it: {remarks:?}");
+                remarked(&remarks).ok_or_else(silent)
+            }
+        }
+    }
+}

@@ -1,0 +1,282 @@
+//! The families of GPUs whose compilers can be asked, and those that cannot.
+
+use super::figures::Columns;
+
+/// A family of GPUs.
+#[derive(Debug)]
+pub struct Family {
+    /// Its name on the command line and in reports.
+    pub name: &'static str,
+    /// Who makes it.
+    pub vendor: &'static str,
+    /// The part that stands for it.
+    pub gpu: &'static str,
+    /// Who compiles for it.
+    pub compiler: Compiler,
+    /// Under which names the compiler tells its figures.
+    pub columns: Columns,
+}
+
+/// Who compiles.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Compiler {
+    /// Nobody: the operations of the function are counted.
+    Operations,
+    /// Mesa's driver for AMD's cards, as distributions package it, playing this family.
+    Radv(&'static str),
+    /// A compiler of Mesa's that tests/mesa-compilers builds.
+    Mesa {
+        /// The stand-in for the kernel's driver.
+        shim: &'static str,
+        /// What tells it which GPU to play, and to say what shaders become.
+        environment: &'static [(&'static str, &'static str)],
+        /// What it takes.
+        dialect: Dialect,
+    },
+    /// None that can be had, and why.
+    None(&'static str),
+}
+
+/// The language that a compiler is given.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Dialect {
+    /// SPIR-V from WGSL.
+    Wgsl,
+    /// GLSL ES 3.00.
+    Es300,
+    /// GLSL ES 1.00.
+    Es100,
+}
+
+impl Dialect {
+    /// How many evaluations stand in the shorter chain and in the longer one: the GPUs of OpenGL ES 2.0 have programs of
+    /// a few hundred instructions at most.
+    pub fn chains(self) -> [usize; 2] {
+        match self {
+            Dialect::Wgsl | Dialect::Es300 => [4, 8],
+            Dialect::Es100 => [1, 2],
+        }
+    }
+}
+
+impl Compiler {
+    /// The language that it is given, where there is one to give to.
+    pub fn dialect(self) -> Option<Dialect> {
+        match self {
+            Compiler::Radv(_) => Some(Dialect::Wgsl),
+            Compiler::Mesa { dialect, .. } => Some(dialect),
+            Compiler::Operations | Compiler::None(_) => None,
+        }
+    }
+}
+
+/// The family of this name.
+pub fn find(name: &str) -> Option<&'static Family> {
+    FAMILIES.iter().find(|family| family.name == name)
+}
+
+const RADV: Columns = Columns {
+    instructions: "Instructions",
+    latency: Some("Latency"),
+    inverse_throughput: Some("Inverse Throughput"),
+    registers: Some("VGPRs"),
+    measure: "inverse throughput",
+};
+
+const fn amd(name: &'static str, gpu: &'static str, chip: &'static str) -> Family {
+    Family {
+        name,
+        vendor: "AMD",
+        gpu,
+        compiler: Compiler::Radv(chip),
+        columns: RADV,
+    }
+}
+
+const fn mesa(
+    (name, vendor, gpu): (&'static str, &'static str, &'static str),
+    shim: &'static str,
+    environment: &'static [(&'static str, &'static str)],
+    dialect: Dialect,
+    columns: Columns,
+) -> Family {
+    Family {
+        name,
+        vendor,
+        gpu,
+        compiler: Compiler::Mesa {
+            shim,
+            environment,
+            dialect,
+        },
+        columns,
+    }
+}
+
+/// What every driver of Mesa's tells.
+const INSTRUCTIONS: Columns = Columns {
+    instructions: "inst",
+    latency: None,
+    inverse_throughput: None,
+    registers: None,
+    measure: "instructions",
+};
+
+const fn adreno(
+    (name, gpu): (&'static str, &'static str),
+    environment: &'static [(&'static str, &'static str)],
+) -> Family {
+    let columns = Columns {
+        registers: Some("full"),
+        ..INSTRUCTIONS
+    };
+    let about = (name, "Qualcomm", gpu);
+    mesa(about, "freedreno", environment, Dialect::Es300, columns)
+}
+
+const fn intel(
+    (name, gpu): (&'static str, &'static str),
+    environment: &'static [(&'static str, &'static str)],
+) -> Family {
+    let columns = Columns {
+        latency: Some("cycles"),
+        ..INSTRUCTIONS
+    };
+    let about = (name, "Intel", gpu);
+    mesa(about, "intel", environment, Dialect::Es300, columns)
+}
+
+const fn nvidia(
+    (name, gpu): (&'static str, &'static str),
+    environment: &'static [(&'static str, &'static str)],
+) -> Family {
+    let columns = Columns {
+        registers: Some("gpr"),
+        ..INSTRUCTIONS
+    };
+    let about = (name, "NVIDIA", gpu);
+    mesa(about, "nouveau", environment, Dialect::Es300, columns)
+}
+
+/// All families, in the order of reports.
+pub static FAMILIES: &[Family] = &[
+    Family {
+        name: "operations",
+        vendor: "none",
+        gpu: "scalar operations of the formula, before any compiler",
+        compiler: Compiler::Operations,
+        columns: Columns {
+            measure: "operations",
+            ..INSTRUCTIONS
+        },
+    },
+    amd("gcn4", "GCN 4, Polaris 10", "polaris10"),
+    amd("rdna1", "RDNA 1, Navi 10", "navi10"),
+    amd("rdna2", "RDNA 2, Navi 21", "navi21"),
+    amd("rdna3", "RDNA 3, Navi 31", "gfx1100"),
+    adreno(
+        ("adreno320", "Adreno 320"),
+        &[("FD_GPU_ID", "320"), ("FD_MESA_DEBUG", "shaderdb")],
+    ),
+    adreno(
+        ("adreno330", "Adreno 330"),
+        &[("FD_GPU_ID", "330"), ("FD_MESA_DEBUG", "shaderdb")],
+    ),
+    adreno(
+        ("adreno530", "Adreno 530"),
+        &[("FD_GPU_ID", "530"), ("FD_MESA_DEBUG", "shaderdb")],
+    ),
+    adreno(
+        ("adreno630", "Adreno 630"),
+        &[("FD_GPU_ID", "630"), ("FD_MESA_DEBUG", "shaderdb")],
+    ),
+    mesa(
+        (
+            "mali450",
+            "Arm",
+            "Mali-450, Utgard, the family of the Mali-400",
+        ),
+        "lima",
+        &[("LIMA_DEBUG", "shaderdb,precompile")],
+        Dialect::Es100,
+        INSTRUCTIONS,
+    ),
+    mesa(
+        ("malit860", "Arm", "Mali-T860, Midgard"),
+        "panfrost",
+        &[("PAN_GPU_ID", "860"), ("PAN_MESA_DEBUG", "precompile")],
+        Dialect::Es300,
+        Columns {
+            inverse_throughput: Some("bundles"),
+            registers: Some("registers"),
+            measure: "bundles",
+            ..INSTRUCTIONS
+        },
+    ),
+    mesa(
+        ("malig72", "Arm", "Mali-G72, Bifrost"),
+        "panfrost",
+        &[("PAN_GPU_ID", "6221"), ("BIFROST_MESA_DEBUG", "shaderdb")],
+        Dialect::Es300,
+        Columns {
+            inverse_throughput: Some("arith"),
+            measure: "cycles of arithmetic",
+            ..INSTRUCTIONS
+        },
+    ),
+    mesa(
+        ("malig57", "Arm", "Mali-G57, Valhall"),
+        "panfrost",
+        &[("PAN_GPU_ID", "9093"), ("BIFROST_MESA_DEBUG", "shaderdb")],
+        Dialect::Es300,
+        Columns {
+            inverse_throughput: Some("cycles"),
+            measure: "cycles of the busiest pipe",
+            ..INSTRUCTIONS
+        },
+    ),
+    intel(
+        ("hd4000", "HD Graphics 4000, generation 7"),
+        &[("INTEL_STUB_GPU_PLATFORM", "ivb")],
+    ),
+    intel(
+        ("hd530", "HD Graphics 530, generation 9"),
+        &[("INTEL_STUB_GPU_PLATFORM", "skl")],
+    ),
+    intel(
+        ("xe", "Xe, Tiger Lake, generation 12"),
+        &[("INTEL_STUB_GPU_PLATFORM", "tgl")],
+    ),
+    nvidia(("kepler", "GK110, Kepler"), &[("NOUVEAU_CHIPSET", "f0")]),
+    nvidia(("maxwell", "GM204, Maxwell"), &[("NOUVEAU_CHIPSET", "124")]),
+    mesa(
+        ("videocore6", "Broadcom", "VideoCore VI, Raspberry Pi 4"),
+        "v3d",
+        &[("V3D_DEBUG", "precompile,shaderdb")],
+        Dialect::Es300,
+        Columns {
+            registers: Some("max-temps"),
+            ..INSTRUCTIONS
+        },
+    ),
+    mesa(
+        ("gc2000", "Vivante", "GC2000"),
+        "etnaviv",
+        &[("ETNA_SHIM_GPU", "GC2000"), ("ETNA_MESA_DEBUG", "shaderdb")],
+        Dialect::Es100,
+        Columns {
+            instructions: "instructions",
+            registers: Some("temps"),
+            ..INSTRUCTIONS
+        },
+    ),
+    Family {
+        name: "powervr",
+        vendor: "Imagination",
+        gpu: "PowerVR G6430, Rogue",
+        compiler: Compiler::None(
+            "Mesa has no compiler for this generation of PowerVR, and the vendor's own is not free to run in a build",
+        ),
+        columns: INSTRUCTIONS,
+    },
+];

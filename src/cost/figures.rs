@@ -1,0 +1,182 @@
+//! What compilers say of shaders, and what follows for one evaluation of a function.
+
+use std::collections::BTreeMap;
+
+/// What a compiler says of a shader, under its own names.
+pub type Statistics = BTreeMap<String, f64>;
+
+/// Under which names a compiler tells what is reported.
+#[derive(Debug)]
+pub struct Columns {
+    /// Instructions.
+    pub instructions: &'static str,
+    /// Cycles from the first instruction to the last.
+    pub latency: Option<&'static str>,
+    /// Cycles that a unit is busy with it: what it costs where many run.
+    pub inverse_throughput: Option<&'static str>,
+    /// Registers of a lane.
+    pub registers: Option<&'static str>,
+    /// What the main figure is: the inverse throughput in the compiler's own words, or its instructions.
+    pub measure: &'static str,
+}
+
+/// The counts of a shader, or of an evaluation.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Counts {
+    /// Instructions.
+    pub instructions: f64,
+    /// Cycles from the first to the last.
+    pub latency: Option<f64>,
+    /// Cycles that a unit is busy.
+    pub inverse_throughput: Option<f64>,
+}
+
+/// What is known of a function on a GPU.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Figures {
+    /// The fragment shader with the shorter chain of it.
+    pub shader: Counts,
+    /// Registers of that shader.
+    pub registers: Option<f64>,
+    /// One evaluation, net of the chain.
+    pub net: Counts,
+}
+
+impl Figures {
+    /// The main figure of one evaluation.
+    pub fn cost(&self) -> f64 {
+        self.net.inverse_throughput.unwrap_or(self.net.instructions)
+    }
+}
+
+/// A compiler's words in our columns.
+fn counts(columns: &Columns, told: &Statistics) -> Option<Counts> {
+    let of = |name: Option<&str>| name.and_then(|name| told.get(name).copied());
+    Some(Counts {
+        instructions: *told.get(columns.instructions)?,
+        latency: of(columns.latency),
+        inverse_throughput: of(columns.inverse_throughput),
+    })
+}
+
+/// The figures of a function: what the shorter and the longer chain of it are, of these lengths, and of the empty
+/// function.
+pub fn figures(
+    columns: &Columns,
+    lengths: [usize; 2],
+    chains: &[Statistics; 2],
+    empty: &[Statistics; 2],
+) -> Option<Figures> {
+    let more = (lengths[1] - lengths[0]) as f64;
+    let [short, long] = chains.each_ref().map(|told| counts(columns, told));
+    let [bare_short, bare_long] = empty.each_ref().map(|told| counts(columns, told));
+    let (own, bare) = (
+        slope(short?, long?, more),
+        slope(bare_short?, bare_long?, more),
+    );
+    let registers = columns.registers;
+    Some(Figures {
+        shader: short?,
+        registers: registers.and_then(|name| chains[0].get(name).copied()),
+        net: less(own, bare),
+    })
+}
+
+/// What one more evaluation costs, where the longer chain has so many more.
+fn slope(short: Counts, long: Counts, more: f64) -> Counts {
+    let difference = less(long, short);
+    Counts {
+        instructions: difference.instructions / more,
+        latency: difference.latency.map(|cycles| cycles / more),
+        inverse_throughput: difference.inverse_throughput.map(|cycles| cycles / more),
+    }
+}
+
+fn less(counts: Counts, other: Counts) -> Counts {
+    let each = |a: Option<f64>, b: Option<f64>| a.zip(b).map(|(a, b)| a - b);
+    Counts {
+        instructions: counts.instructions - other.instructions,
+        latency: each(counts.latency, other.latency),
+        inverse_throughput: each(counts.inverse_throughput, other.inverse_throughput),
+    }
+}
+
+/// What a driver of OpenGL remarked of the fragment shader: `FRAG shader: 30 inst, 4 nops, …` or `type: 4, inst: 30, …`.
+pub fn remarked(remarks: &[String]) -> Option<Statistics> {
+    let of_fragment = remarks.iter().rev().filter_map(|remark| {
+        let told = remark.split_once("shader:");
+        let (head, list) = told.unwrap_or(("", remark));
+        let head = head.to_lowercase();
+        let is_fragment = ["frag", "fs"].iter().any(|word| head.contains(word));
+        // NVIDIA's says the stage as a number; Intel's speaks of each width, of which every shader has the first.
+        let is_numbered = told.is_none() && remark.starts_with("type: 4,");
+        let is_wide = head.contains("simd") && !head.contains("simd8");
+        ((is_fragment && !is_wide) || is_numbered).then(|| pairs(list))
+    });
+    of_fragment.into_iter().find(|told| !told.is_empty())
+}
+
+/// `30 inst` or `inst: 30`, between commas.
+fn pairs(list: &str) -> Statistics {
+    let pair = |part: &str| {
+        let part = part.trim();
+        if let Some((name, value)) = part.split_once(": ") {
+            return Some((name.to_owned(), value.parse().ok()?));
+        }
+        let (value, name) = part.split_once(' ')?;
+        Some((name.to_owned(), value.parse().ok()?))
+    };
+    list.split(',').filter_map(pair).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn told(words: &str) -> Statistics {
+        remarked(&[words.to_owned()]).unwrap_or_default()
+    }
+
+    #[test]
+    fn remarks_of_all_drivers_are_read() {
+        let adreno = told("FRAG shader: 30 inst, 4 nops, 26 non-nops, 2 half, 3 full, 12 (ss)");
+        assert_eq!(adreno["inst"], 30.0);
+        assert_eq!(adreno["full"], 3.0);
+        let bifrost = told(
+            "MESA_SHADER_FRAGMENT shader: 62 tuples, 9 clauses, 2.583333 cycles, 2.583333 arith",
+        );
+        assert_eq!(bifrost["cycles"], 2.583333);
+        let nvidia = told("type: 4, local: 0, shared: 0, gpr: 9, inst: 41, bytes: 328, cached: 0");
+        assert_eq!(nvidia["inst"], 41.0);
+        let intel = told("FS SIMD8 shader: 52 inst, 0 loops, 210 cycles, 0:0 spills:fills");
+        assert_eq!(intel["cycles"], 210.0);
+        assert!(told("FS SIMD16 shader: 52 inst, 0 loops").is_empty());
+        assert!(told("VERT shader: 3 inst, 0 nops").is_empty());
+    }
+
+    #[test]
+    fn an_evaluation_is_the_slope_net_of_the_empty_chain() {
+        let columns = Columns {
+            instructions: "inst",
+            latency: None,
+            inverse_throughput: None,
+            registers: Some("full"),
+            measure: "instructions",
+        };
+        let shader =
+            |inst: f64| Statistics::from([("inst".to_owned(), inst), ("full".to_owned(), 4.0)]);
+        let found = figures(
+            &columns,
+            [4, 8],
+            &[shader(57.0), shader(97.0)],
+            &[shader(17.0), shader(21.0)],
+        );
+        let found = found.expect("both are complete");
+        assert_eq!(found.net.instructions, 9.0);
+        assert_eq!(
+            (found.shader.instructions, found.registers),
+            (57.0, Some(4.0))
+        );
+        assert_eq!(found.cost(), 9.0);
+    }
+}

@@ -1,0 +1,93 @@
+//! What compilers said, kept in `data/records/costs/`, a file for each family, keyed by the hash of the shader: it serves
+//! where a compiler is absent.
+
+use std::collections::BTreeMap;
+
+use include_dir::{Dir, include_dir};
+
+use super::figures::{Counts, Figures};
+
+static FOLDER: Dir = include_dir!("$CARGO_MANIFEST_DIR/data/records/costs");
+
+/// What was recorded of a family.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Record {
+    /// The compiler with its version.
+    pub compiler: String,
+    /// The figures of each shader by its hash.
+    pub figures: BTreeMap<String, Figures>,
+    /// The hash of each function by its other cells, to tell a shader that changed from one that was never measured.
+    pub functions: BTreeMap<String, String>,
+}
+
+/// The columns of a file.
+pub const HEAD: &str = "method,material,form,channels,precision,shader,instructions,latency,inverse_throughput,registers,net_instructions,net_latency,net_inverse_throughput";
+/// How many of them say which function it is.
+const KEYS: usize = 5;
+/// What stands before the compiler's name.
+pub const COMPILER: &str = "# compiler: ";
+
+/// The record of a family, empty where there is none.
+pub fn records(family: &str) -> Record {
+    let file = FOLDER.get_file(format!("{family}.csv"));
+    let text = file.and_then(|file| file.contents_utf8());
+    text.map(parse).unwrap_or_default()
+}
+
+/// A file as [`Record`].
+fn parse(text: &str) -> Record {
+    let mut record = Record::default();
+    for line in text.lines() {
+        if let Some(compiler) = line.strip_prefix(COMPILER) {
+            compiler.clone_into(&mut record.compiler);
+        } else if let Some((function, shader, figures)) = row(line) {
+            record.functions.insert(function, shader.clone());
+            record.figures.insert(shader, figures);
+        }
+    }
+    record
+}
+
+fn row(line: &str) -> Option<(String, String, Figures)> {
+    let cells: Vec<&str> = line.split(',').collect();
+    let number = |place: usize| cells.get(place)?.parse::<f64>().ok();
+    let first = KEYS + 1;
+    Some((
+        cells.get(..KEYS)?.join(","),
+        (*cells.get(KEYS)?).to_owned(),
+        Figures {
+            shader: Counts {
+                instructions: number(first)?,
+                latency: number(first + 1),
+                inverse_throughput: number(first + 2),
+            },
+            registers: number(first + 3),
+            net: Counts {
+                instructions: number(first + 4)?,
+                latency: number(first + 5),
+                inverse_throughput: number(first + 6),
+            },
+        },
+    ))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_record_is_read() {
+        let text = format!(
+            "{COMPILER}X 1.0\n{HEAD}\nschlick,,library,3,f32,0123456789abcdef,57,,28,8,9,,7\n"
+        );
+        let record = parse(&text);
+        assert_eq!(record.compiler, "X 1.0");
+        let figures = record.figures["0123456789abcdef"];
+        assert_eq!(figures.cost(), 7.0);
+        assert_eq!(figures.shader.latency, None);
+        assert_eq!(
+            record.functions["schlick,,library,3,f32"],
+            "0123456789abcdef"
+        );
+    }
+}

@@ -1,0 +1,183 @@
+//! A context of OpenGL ES on a device's render node, whose driver's remarks are kept: where it is told to, Mesa says of
+//! every shader what it became. Nothing is drawn, so that a stand-in for the kernel's driver is enough.
+#![allow(unsafe_code)]
+
+use std::ffi::{c_int, c_void};
+use std::fs::File;
+use std::os::fd::AsRawFd;
+use std::sync::{Arc, Mutex, PoisonError};
+
+use glow::HasContext;
+use khronos_egl as egl;
+
+use super::egl::{Egl, absent, address, enter, library};
+use super::fault::Fault;
+
+/// A context on a render node. It lives as long as the process.
+pub struct Node {
+    /// What the driver calls the device.
+    pub name: String,
+    /// The version of OpenGL ES, and the driver's.
+    pub driver: String,
+    /// The language that it takes.
+    pub language: Language,
+    gl: glow::Context,
+    remarks: Arc<Mutex<Vec<String>>>,
+}
+
+/// A language of OpenGL ES.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Language {
+    /// GLSL ES 1.00, of OpenGL ES 2.0.
+    Es100,
+    /// GLSL ES 3.00.
+    Es300,
+}
+
+/// The node of the first device.
+const PATH: &str = "/dev/dri/renderD128";
+/// `EGL_PLATFORM_GBM_KHR`, of the extension EGL_KHR_platform_gbm.
+const PLATFORM_GBM: egl::Enum = 0x31D7;
+/// `EGL_CONTEXT_FLAGS_KHR` and `EGL_CONTEXT_OPENGL_DEBUG_BIT_KHR`, of the extension EGL_KHR_create_context: older drivers
+/// know no other way to ask for remarks.
+const CONTEXT_FLAGS: egl::Int = 0x30FC;
+const DEBUG_BIT: egl::Int = 1;
+/// The attribute that the vertices come by.
+const CORNER: u32 = 0;
+
+impl Node {
+    /// Opens the node.
+    ///
+    /// # Errors
+    /// There is none, or its driver gives no context.
+    pub fn open() -> Result<Node, Fault> {
+        let egl = library()?;
+        let display = display(egl)?;
+        egl.initialize(display).map_err(absent)?;
+        egl.bind_api(egl::OPENGL_ES_API).map_err(absent)?;
+        let (context, language) = context(egl, display)?;
+        enter(egl, display, context)?;
+        // SAFETY: the context is current, and EGL 1.5 gives the address of every function, of the core too.
+        let mut gl = unsafe { glow::Context::from_loader_function(|name| address(egl, name)) };
+        let remarks = Arc::new(Mutex::new(Vec::new()));
+        listen(&mut gl, remarks.clone());
+        // SAFETY: the context is current.
+        let text = |name| unsafe { gl.get_parameter_string(name) };
+        Ok(Node {
+            name: text(glow::RENDERER),
+            driver: text(glow::VERSION),
+            language,
+            gl,
+            remarks,
+        })
+    }
+
+    /// Compiles and links a program, and gives what the driver remarked on the way. The vertices' attribute is `fg_corner`.
+    ///
+    /// # Errors
+    /// The driver refuses it, in its words.
+    pub fn link(&self, vertex: &str, fragment: &str) -> Result<Vec<String>, Fault> {
+        self.take();
+        // SAFETY: the context is current on this thread, and the program is its own.
+        unsafe {
+            let program = self.gl.create_program().map_err(Fault::lost)?;
+            let linked = self.build(program, vertex, fragment);
+            self.gl.delete_program(program);
+            linked?;
+        }
+        Ok(self.take())
+    }
+
+    fn take(&self) -> Vec<String> {
+        let mut remarks = self.remarks.lock().unwrap_or_else(PoisonError::into_inner);
+        std::mem::take(&mut *remarks)
+    }
+
+    unsafe fn build(
+        &self,
+        program: glow::Program,
+        vertex: &str,
+        fragment: &str,
+    ) -> Result<(), Fault> {
+        let gl = &self.gl;
+        // SAFETY: as in `link`.
+        unsafe {
+            for (ty, text) in [
+                (glow::VERTEX_SHADER, vertex),
+                (glow::FRAGMENT_SHADER, fragment),
+            ] {
+                let shader = gl.create_shader(ty).map_err(Fault::lost)?;
+                gl.attach_shader(program, shader);
+                // It goes with the program.
+                gl.delete_shader(shader);
+                gl.shader_source(shader, text);
+                gl.compile_shader(shader);
+                if !gl.get_shader_compile_status(shader) {
+                    return Err(Fault::refused(gl.get_shader_info_log(shader)));
+                }
+            }
+            gl.bind_attrib_location(program, CORNER, "fg_corner");
+            gl.link_program(program);
+            if gl.get_program_link_status(program) {
+                Ok(())
+            } else {
+                Err(Fault::refused(gl.get_program_info_log(program)))
+            }
+        }
+    }
+}
+
+/// Keeps what the driver says.
+fn listen(gl: &mut glow::Context, remarks: Arc<Mutex<Vec<String>>>) {
+    let keep = move |_source, _type, _id, _severity, text: &str| {
+        let mut kept = remarks.lock().unwrap_or_else(PoisonError::into_inner);
+        kept.push(text.to_owned());
+    };
+    // SAFETY: the context is current; the function belongs to it.
+    unsafe {
+        gl.enable(glow::DEBUG_OUTPUT);
+        gl.enable(glow::DEBUG_OUTPUT_SYNCHRONOUS);
+        gl.debug_message_callback(keep);
+    }
+}
+
+/// The display of a render node, through the library that allocates its buffers.
+fn display(egl: &Egl) -> Result<egl::Display, Fault> {
+    let node = File::options().read(true).write(true).open(PATH);
+    let node = node.map_err(|error| absent(format!("{PATH}: {error}")))?;
+    type Create = unsafe extern "C" fn(c_int) -> *mut c_void;
+    // SAFETY: a library of this name is Mesa's GBM, and its function has had this signature since the first version. The
+    // device, the node and the library are never given back.
+    unsafe {
+        let gbm = libloading::Library::new("libgbm.so.1").map_err(absent)?;
+        let create = gbm.get::<Create>(b"gbm_create_device\0").map_err(absent)?;
+        let device = create(node.as_raw_fd());
+        std::mem::forget(node);
+        std::mem::forget(gbm);
+        if device.is_null() {
+            return Err(absent(format!("{PATH} has no driver")));
+        }
+        egl.get_platform_display(PLATFORM_GBM, device, &[egl::ATTRIB_NONE])
+            .map_err(absent)
+    }
+}
+
+/// A context that reports, of the newest version that there is.
+fn context(egl: &Egl, display: egl::Display) -> Result<(egl::Context, Language), Fault> {
+    // SAFETY: EGL_NO_CONFIG_KHR is the null pointer. It is never looked through.
+    let no_config = unsafe { egl::Config::from_ptr(std::ptr::null_mut()) };
+    let open = |major| {
+        let wanted = [
+            egl::CONTEXT_MAJOR_VERSION,
+            major,
+            CONTEXT_FLAGS,
+            DEBUG_BIT,
+            egl::NONE,
+        ];
+        egl.create_context(display, no_config, None, &wanted)
+    };
+    let newest = open(3).map(|context| (context, Language::Es300));
+    newest
+        .or_else(|_| open(2).map(|context| (context, Language::Es100)))
+        .map_err(absent)
+}

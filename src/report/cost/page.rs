@@ -1,0 +1,90 @@
+//! One page with all figures: a bar for each function on each family. Self-contained, for any browser.
+
+use serde::Serialize;
+use tera::{Context, Tera};
+
+use super::{Row, short};
+
+static TEMPLATE: &str = include_str!("../../../templates/cost.html.tera");
+
+/// A family on the page.
+#[derive(Serialize)]
+struct Section {
+    name: &'static str,
+    gpu: &'static str,
+    vendor: &'static str,
+    measure: &'static str,
+    compiler: String,
+    /// Why nothing is known, where nothing is.
+    reason: Option<String>,
+    lines: Vec<Line>,
+}
+
+/// A function in a family.
+#[derive(Serialize)]
+struct Line {
+    label: String,
+    cost: String,
+    share: String,
+    /// The length of its bar, in per cent of the longest.
+    length: String,
+    fetches: usize,
+    registers: String,
+    reason: String,
+}
+
+/// The page of these rows, or why it cannot be made.
+pub fn page(families: &[Vec<Row>], command: &str) -> Result<String, String> {
+    let sections: Vec<Section> = families.iter().filter_map(|rows| section(rows)).collect();
+    let mut tera = Tera::new();
+    tera.autoescape_on(vec![".tera"]);
+    tera.add_raw_template("page.tera", TEMPLATE)
+        .map_err(|error| error.to_string())?;
+    let mut context = Context::new();
+    context.insert("sections", &sections);
+    context.insert("command", command);
+    tera.render("page.tera", &context)
+        .map_err(|error| error.to_string())
+}
+
+fn section(rows: &[Row]) -> Option<Section> {
+    let family = rows.first()?.family;
+    let known = rows.iter().find(|row| row.figures.is_ok());
+    let reason = match known {
+        Some(_) => None,
+        None => rows[0].figures.clone().err(),
+    };
+    let longest = rows.iter().filter_map(|row| row.share).fold(0.0, f64::max);
+    Some(Section {
+        name: family.name,
+        gpu: family.gpu,
+        vendor: family.vendor,
+        measure: family.columns.measure,
+        compiler: known
+            .and_then(|row| row.compiler.clone())
+            .unwrap_or_default(),
+        lines: if reason.is_some() {
+            Vec::new()
+        } else {
+            rows.iter().map(|row| line(row, longest)).collect()
+        },
+        reason,
+    })
+}
+
+fn line(row: &Row, longest: f64) -> Line {
+    let figures = row.figures.as_ref().ok();
+    let share = row.share.unwrap_or(0.0);
+    Line {
+        label: row.label(),
+        cost: short(figures.map(|figures| figures.cost())),
+        share: row
+            .share
+            .map(|share| format!("{share:.0}"))
+            .unwrap_or_default(),
+        length: format!("{:.1}", (100.0 * share / longest.max(1e-9)).max(0.0)),
+        fetches: row.fetches,
+        registers: short(figures.and_then(|figures| figures.registers)),
+        reason: row.figures.clone().err().unwrap_or_default(),
+    }
+}

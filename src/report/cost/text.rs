@@ -1,0 +1,92 @@
+//! The report for a terminal: one family with all its figures, or several side by side.
+
+use super::{Row, Source, short};
+use crate::report::table;
+
+/// The rows of each family, all of the same functions in the same order.
+pub fn text(families: &[Vec<Row>]) -> String {
+    match families {
+        [one] => format!("{}\n{}\n", table::text(&ALONE, &alone(one)), about(one)),
+        several => {
+            let body = beside(several);
+            let told: String = several.iter().map(|rows| about(rows) + "\n").collect();
+            format!(
+                "{body}\nIn per cent of dielectric_exact, its argument from a uniform; a + is a texture fetch.\n{told}"
+            )
+        }
+    }
+}
+
+const ALONE: [&str; 8] = [
+    "function",
+    "an evaluation",
+    "share",
+    "fetches",
+    "instructions of the shader",
+    "latency",
+    "inverse throughput",
+    "registers",
+];
+
+fn alone(rows: &[Row]) -> Vec<Vec<String>> {
+    let cells = |row: &Row| match &row.figures {
+        Ok(figures) => vec![
+            row.label(),
+            short(Some(figures.cost())),
+            percent(row),
+            row.fetches.to_string(),
+            short(Some(figures.shader.instructions)),
+            short(figures.shader.latency),
+            short(figures.shader.inverse_throughput),
+            short(figures.registers),
+        ],
+        Err(why) => vec![row.label(), why.clone()],
+    };
+    rows.iter().map(cells).collect()
+}
+
+fn beside(families: &[Vec<Row>]) -> String {
+    let names = families.iter().filter_map(|rows| rows.first());
+    let head: Vec<&str> = ["function"]
+        .into_iter()
+        .chain(names.map(|row| row.family.name))
+        .collect();
+    let count = families.first().map_or(0, Vec::len);
+    let line = |place: usize| -> Vec<String> {
+        let label = families[0][place].label();
+        let shares = families.iter().map(|rows| percent(&rows[place]));
+        [label].into_iter().chain(shares).collect()
+    };
+    let lines: Vec<Vec<String>> = (0..count).map(line).collect();
+    table::text(&head, &lines)
+}
+
+/// The share, with a mark for each fetch.
+fn percent(row: &Row) -> String {
+    let fetches = "+".repeat(row.fetches);
+    row.share
+        .map_or_else(|| "?".to_owned(), |share| format!("{share:.0}{fetches}"))
+}
+
+/// Who said it, and what it is.
+fn about(rows: &[Row]) -> String {
+    let Some(first) = rows.first() else {
+        return String::new();
+    };
+    let family = first.family;
+    let unknown = rows.iter().filter(|row| row.figures.is_err()).count();
+    let known = rows.iter().find(|row| row.figures.is_ok());
+    let mut about = format!(
+        "{}: {}, {}",
+        family.name, family.gpu, family.columns.measure
+    );
+    match known.map(|row| (row.source, row.compiler.as_deref())) {
+        Some((Source::Record, Some(compiler))) => about += &format!("; recorded with {compiler}"),
+        Some((_, Some(compiler))) => about += &format!("; {compiler}"),
+        _ => {}
+    }
+    if let Some(Err(why)) = rows.iter().map(|row| &row.figures).find(|one| one.is_err()) {
+        about += &format!("; {unknown} of {} not measured: {why}", rows.len());
+    }
+    about
+}
