@@ -92,10 +92,15 @@ fn slope(short: Counts, long: Counts, more: f64) -> Counts {
     }
 }
 
+/// To the sixth decimal, as compilers tell cycles, so that a record says the same.
+fn rounded(value: f64) -> f64 {
+    (1e6 * value).round() / 1e6
+}
+
 fn less(counts: Counts, other: Counts) -> Counts {
-    let each = |a: Option<f64>, b: Option<f64>| a.zip(b).map(|(a, b)| a - b);
+    let each = |a: Option<f64>, b: Option<f64>| a.zip(b).map(|(a, b)| rounded(a - b));
     Counts {
-        instructions: counts.instructions - other.instructions,
+        instructions: rounded(counts.instructions - other.instructions),
         latency: each(counts.latency, other.latency),
         inverse_throughput: each(counts.inverse_throughput, other.inverse_throughput),
     }

@@ -20,12 +20,21 @@ pub struct Record {
     pub functions: BTreeMap<String, String>,
 }
 
+impl Record {
+    /// What was recorded of a library function of three channels in single precision.
+    pub fn library(&self, method: &str) -> Option<Figures> {
+        let shader = self.functions.get(&format!("{method},,library,3,f32"))?;
+        self.figures.get(shader).copied()
+    }
+}
+
 /// The columns of a file.
-pub const HEAD: &str = "method,material,form,channels,precision,shader,instructions,latency,inverse_throughput,registers,net_instructions,net_latency,net_inverse_throughput";
+#[cfg(test)]
+const HEAD: &str = "method,material,form,channels,precision,shader,instructions,latency,inverse_throughput,registers,net_instructions,net_latency,net_inverse_throughput";
 /// How many of them say which function it is.
 const KEYS: usize = 5;
 /// What stands before the compiler's name.
-pub const COMPILER: &str = "# compiler: ";
+const COMPILER: &str = "# compiler: ";
 
 /// The record of a family, empty where there is none.
 pub fn records(family: &str) -> Record {

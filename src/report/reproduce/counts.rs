@@ -1,0 +1,229 @@
+//! Table 6: relative times on five devices, beside what the compilers of those GPUs count in the same formulas.
+//!
+//! A count is no time. A time holds what a draw costs whatever its formula (rasterising, blending, writing), which the
+//! thesis did not subtract; so beside each share stands what it becomes on the line `time = fixed + rate * count` that fits
+//! the device best.
+
+use crate::cost::{Compiler, find, records};
+
+use super::row::{Figure, Row, Verdict};
+use super::{Section, thesis};
+
+const TIMES: &str = "table6_relative_time_percent";
+
+/// The devices of the thesis, and the families whose compilers stand for their GPUs.
+const DEVICES: [(&str, &str); 5] = [
+    ("Lenovo W530, Intel HD4000", "hd4000"),
+    ("Samsung Galaxy S3, Mali 400", "mali450"),
+    ("Apple iPhone 5s, PowerVR G6430", "powervr"),
+    ("Google Nexus 4, Adreno 320", "adreno320"),
+    ("Samsung Galaxy S5, Adreno 330", "adreno330"),
+];
+
+/// The methods that the thesis timed, in the order of its columns.
+const METHODS: [&str; 7] = [
+    "dielectric_textbook",
+    "schlick_ior",
+    "conductor_textbook",
+    "schlick_rescaled",
+    "schlick_corrected",
+    "table",
+    "empirical",
+];
+
+/// The place of the table: it fetches, which no count shows, and it is left out of all statistics.
+const TABLE: usize = 5;
+
+/// Percentage points within which a count stands for a time.
+const NEAR: f64 = 15.0;
+
+/// Table 6 and the counts.
+pub fn section() -> Section {
+    Section {
+        title: "Table 6: shares of the time of dielectric_exact on five devices, beside shares of the instructions that \
+            Mesa's compilers for these GPUs make of the same textbook formulas (data/records/costs), net of an empty shader"
+            .to_owned(),
+        rows: DEVICES.iter().flat_map(|(device, family)| of_device(device, family)).collect(),
+    }
+}
+
+/// A device's times and counts, in per cent of the first method.
+struct Pairs {
+    times: Vec<f64>,
+    counts: Vec<f64>,
+    /// Of formulas that ours write in another way: the count of what the thesis prints.
+    printed: Vec<Option<f64>>,
+}
+
+/// Those counts: GPU, method, instructions.
+static PRINTED: &str = include_str!("../../../data/records/thesis-forms.csv");
+
+/// Instructions of a formula as the thesis prints it.
+fn printed(family: &str, method: &str) -> Option<f64> {
+    let key = format!("{family},{method},");
+    PRINTED
+        .lines()
+        .find_map(|line| line.strip_prefix(&key)?.parse().ok())
+}
+
+impl Pairs {
+    fn of(device: &str, family: &str) -> Option<Pairs> {
+        let record = records(family);
+        let count = |method: &&str| Some(record.library(method)?.net.instructions);
+        let counts: Option<Vec<f64>> = METHODS.iter().map(count).collect();
+        let counts = counts?;
+        let share = |count: f64| 100.0 * count / counts[0];
+        Some(Pairs {
+            printed: METHODS
+                .iter()
+                .map(|method| printed(family, method).map(share))
+                .collect(),
+            times: thesis::numbers(&[TIMES, device]),
+            counts: counts
+                .iter()
+                .map(|count| 100.0 * count / counts[0])
+                .collect(),
+        })
+    }
+
+    /// Without the table.
+    fn arithmetic(&self) -> (Vec<f64>, Vec<f64>) {
+        let pairs = self.counts.iter().zip(&self.times).enumerate();
+        pairs
+            .filter(|(place, _)| *place != TABLE)
+            .map(|(_, (count, time))| (*count, *time))
+            .unzip()
+    }
+}
+
+fn of_device(device: &str, family: &str) -> Vec<Row> {
+    let names = thesis::names(&[TIMES, "columns"]);
+    let Some(pairs) = Pairs::of(device, family) else {
+        return unmeasured(device, family, &names);
+    };
+    let (counts, times) = pairs.arithmetic();
+    let (fixed, rate) = line(&counts, &times);
+    let row = |place: usize| {
+        let (time, count) = (pairs.times[place], pairs.counts[place]);
+        let row = Row::new("table6", device, names[place])
+            .thesis(Figure::Number(time, 0, " %"))
+            .ours(Figure::Number(count, 0, " %"));
+        match place {
+            0 => row.remark("what the others are shares of"),
+            TABLE => row.remark("and a texture fetch, which no count shows"),
+            _ if (count - time).abs() <= NEAR => row.verdict(Verdict::Holds),
+            _ => {
+                let of_printed = pairs.printed[place].map(|count| {
+                    format!("; as printed, with pow, it counts {count:.0} % (data/thesis-forms)")
+                });
+                row.verdict(Verdict::Explained).remark(format!(
+                    "a time of {:.0} % on the line below: what does not depend on the formula is in it{}",
+                    fixed + rate * count,
+                    of_printed.unwrap_or_default()
+                ))
+            }
+        }
+    };
+    let mut rows: Vec<Row> = (0..METHODS.len()).map(row).collect();
+    rows.extend(statistics(device, &pairs));
+    rows
+}
+
+fn unmeasured(device: &str, family: &str, names: &[&'static str]) -> Vec<Row> {
+    let why = match find(family).map(|family| family.compiler) {
+        Some(Compiler::None(why)) => why,
+        _ => "nothing is recorded",
+    };
+    let times = thesis::numbers(&[TIMES, device]);
+    let row = |(name, time): (&&'static str, &f64)| {
+        Row::new("table6", device, name)
+            .thesis(Figure::Number(*time, 0, " %"))
+            .remark(why)
+    };
+    names.iter().zip(&times).map(row).collect()
+}
+
+/// What the counts of a device are worth.
+fn statistics(device: &str, pairs: &Pairs) -> Vec<Row> {
+    let (counts, times) = pairs.arithmetic();
+    let (fixed, rate) = line(&counts, &times);
+    let differences = counts
+        .iter()
+        .zip(&times)
+        .skip(1)
+        .map(|(count, time)| (count - time).abs());
+    let mean = differences.sum::<f64>() / (counts.len() - 1) as f64;
+    let off = counts
+        .iter()
+        .zip(&times)
+        .map(|(count, time)| (fixed + rate * count - time).abs());
+    let worst = off.fold(0.0, f64::max);
+    let row = |column: &str, figure| Row::new("table6", device, column).ours(figure);
+    vec![
+        row(
+            "rank correlation",
+            Figure::Number(rank_correlation(&counts, &times), 2, ""),
+        )
+        .remark("Spearman's, of counts and times, without the table"),
+        row("mean difference", Figure::Number(mean, 0, " points"))
+            .remark("of counts and times, without the table"),
+        row(
+            "time = fixed + rate * count, fixed",
+            Figure::Number(fixed, 0, " %"),
+        )
+        .remark(format!(
+            "rate {rate:.2}; least squares over the six methods, at most {worst:.0} points off"
+        )),
+    ]
+}
+
+/// Least squares: where the line begins, and how steep it is.
+fn line(counts: &[f64], times: &[f64]) -> (f64, f64) {
+    let mean = |values: &[f64]| values.iter().sum::<f64>() / values.len() as f64;
+    let (about, level) = (mean(counts), mean(times));
+    let pairs = || counts.iter().zip(times);
+    let across: f64 = pairs()
+        .map(|(count, time)| (count - about) * (time - level))
+        .sum();
+    let square: f64 = counts.iter().map(|count| (count - about).powi(2)).sum();
+    let rate = across / square;
+    (level - rate * about, rate)
+}
+
+/// Spearman's rank correlation: 1 where both are in the same order, -1 where in the opposite one.
+pub fn rank_correlation(a: &[f64], b: &[f64]) -> f64 {
+    let (a, b) = (ranks(a), ranks(b));
+    let mean = (a.len() as f64 + 1.0) / 2.0;
+    let product = |x: &[f64], y: &[f64]| -> f64 {
+        x.iter().zip(y).map(|(x, y)| (x - mean) * (y - mean)).sum()
+    };
+    product(&a, &b) / (product(&a, &a) * product(&b, &b)).sqrt()
+}
+
+/// The place of each value in order, from 1; equal values share the mean of their places.
+fn ranks(values: &[f64]) -> Vec<f64> {
+    let rank = |value: &f64| {
+        let below = values.iter().filter(|other| *other < value).count() as f64;
+        let equal = values.iter().filter(|other| *other == value).count() as f64;
+        below + (equal + 1.0) / 2.0
+    };
+    values.iter().map(rank).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn ranks_correlate_from_minus_one_to_one() {
+        assert_eq!(rank_correlation(&[1.0, 2.0, 9.0], &[0.1, 0.2, 0.3]), 1.0);
+        assert_eq!(rank_correlation(&[1.0, 2.0, 9.0], &[3.0, 2.0, 1.0]), -1.0);
+        assert_eq!(ranks(&[5.0, 1.0, 5.0]), [2.5, 1.0, 2.5]);
+    }
+
+    #[test]
+    fn a_line_is_found() {
+        let (fixed, rate) = line(&[0.0, 50.0, 100.0], &[20.0, 60.0, 100.0]);
+        assert!((fixed - 20.0).abs() < 1e-9 && (rate - 0.8).abs() < 1e-9);
+    }
+}
