@@ -132,8 +132,7 @@ impl Probe {
         let (scalar, rgb) = (spelling.scalar, spelling.rgb);
         let steps = self.steps(evaluations, "let {name} = {value};", &call);
         format!(
-            "{enable}{}{block}{texture}@fragment
-fn {ENTRY}(@location(0) fg_in: vec4<f32>) -> @location(0) vec4<f32> {{
+            "{enable}{}{block}{texture}@fragment fn {ENTRY}(@location(0) fg_in: vec4<f32>) -> @location(0) vec4<f32> {{
     let w = {rgb}(fg_in.xyz);
     let c0 = {scalar}(fg_in.w);
 {steps}    return vec4<f32>(vec3<f32>({rgb}(r{})), 1.0);

@@ -10,6 +10,8 @@ mod cli;
 mod code_bounds;
 #[cfg(feature = "compilers")]
 mod compilers;
+#[cfg(all(feature = "cli", feature = "gpu"))]
+mod costs;
 mod database;
 mod exhaustive;
 mod golden;

@@ -379,6 +379,31 @@ fn what_cannot_be_reproduced_is_said() {
         "{}",
         says("tabel2")
     );
-    assert!(says("6").contains("need a GPU"));
+    assert!(says("other").contains("need a renderer"));
     assert!(says("").contains("there is no table"));
+}
+
+#[test]
+fn table_6_stands_beside_what_compilers_count() {
+    let output = command(&["6", "--json", "-"]).unwrap();
+    let json: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
+    let rows = json["rows"].as_array().unwrap();
+    let of = |device: &str, column: &str| {
+        let row = rows
+            .iter()
+            .find(|row| row["row"].as_str().unwrap().contains(device) && row["column"] == column);
+        row.unwrap()
+    };
+    for device in ["Adreno 320", "Adreno 330", "HD4000", "Mali 400"] {
+        assert!(of(device, "rank correlation")["ours"].as_f64().unwrap() > 0.8);
+        assert_eq!(of(device, "dielectric_exact")["ours"], 100.0);
+    }
+    for device in ["Adreno 320", "Adreno 330"] {
+        let corrected = of(device, "corrected");
+        let [ours, thesis] = ["ours", "thesis"].map(|key| corrected[key].as_f64().unwrap());
+        assert!((ours - thesis).abs() <= 15.0, "{corrected}");
+        let rescaled = of(device, "schlick_conductor")["remark"].as_str().unwrap();
+        assert!(rescaled.contains("as printed, with pow"), "{rescaled}");
+    }
+    assert!(of("PowerVR", "corrected")["ours"].is_null());
 }

@@ -1,5 +1,6 @@
 //! The supervisor: shares functions out among processes that each hold one compiler, and ends those that come to no end.
 
+use core::time::Duration;
 use std::collections::BTreeMap;
 use std::ffi::OsString;
 use std::path::{Path, PathBuf};
@@ -7,7 +8,6 @@ use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::mpsc::{Sender, channel};
 use std::thread;
-use std::time::Duration;
 
 use serde::Deserialize;
 

@@ -4,9 +4,30 @@ use std::fmt::Write;
 
 use super::{Row, short};
 
+const INTRODUCTION: &str = "\
+# What methods cost
+
+Written from the record that `tests/costs` keeps (`data/records/costs/`), and held by a test. `fresnel-gen cost` says the
+same of every function, specialised ones too, and asks the compilers that are here; `--check` compares with the record.
+
+- **An evaluation** is what one more of it in a chain adds to a fragment shader (a quarter of what eight cost more than
+  four; on GPUs of OpenGL ES 2.0, with their short programs, what two cost more than one), less the price of the chain
+  itself, which the empty function tells. Each takes its cosine from the result before it and arguments of its own from
+  uniforms, so that nothing is shared and nothing is left out.
+- **The figure** is what the compiler itself takes for the cost: RADV's inverse throughput, the cycles of the Malis,
+  instructions everywhere else. Adreno's instructions hold the empty ones that wait for a result; where other work stands
+  beside the function they are filled.
+- **A texture fetch** costs what latency and bandwidth cost, which no count shows: a column of its own.
+- **Where a count is no time:** it says nothing of memory, of the unit that divides and takes roots beside the others (on
+  RDNA that is in the inverse throughput, on Adreno it is not), of how many registers leave how many waves, of what a draw
+  costs whatever its formula. The Adreno 630 computes what depends on uniforms alone once for a draw, before any fragment:
+  its counts are of what is left. `fresnel-gen reproduce table6` shows the counts beside times on four phones and a laptop.
+- Shares are of `dielectric_exact`.
+";
+
 /// The library functions of each family in single precision, three channels: what an evaluation costs, and its share.
 pub fn markdown(families: &[Vec<Row>]) -> String {
-    let mut page = String::new();
+    let mut page = INTRODUCTION.to_owned();
     for rows in families {
         let wanted =
             |row: &&Row| row.figures.is_ok() && row.precision == "f32" && row.channels == 3;

@@ -3,6 +3,8 @@
 mod bad_input;
 mod bake;
 mod brought;
+#[cfg(feature = "gpu")]
+mod cost;
 mod determinism;
 #[cfg(unix)]
 mod disk;

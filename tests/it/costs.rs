@@ -1,0 +1,116 @@
+//! The record of costs: it is of today's shaders, of many GPUs, and the document is written from it.
+
+use std::collections::BTreeSet;
+use std::path::Path;
+use std::sync::LazyLock;
+
+use fresnel_gen::app::cost::{Function, functions, rows};
+use fresnel_gen::app::{Materials, Request};
+use fresnel_gen::cost::{FAMILIES, records};
+use fresnel_gen::methods;
+use fresnel_gen::num::Precision;
+use fresnel_gen::report::cost::{Row, Source, markdown, page};
+
+/// What is recorded: all methods, the committed materials, both precisions.
+static FUNCTIONS: LazyLock<Vec<Function>> = LazyLock::new(|| {
+    let request = Request {
+        materials: Materials::Default,
+        ..Request::default()
+    };
+    let ready = request.subjects().unwrap().ready.into_iter();
+    let subjects: Vec<_> = ready.map(|(subject, _)| subject).collect();
+    functions(methods::ALL, &subjects, &Precision::ALL).unwrap()
+});
+
+/// The rows of all families, from the record.
+static TABLE: LazyLock<Vec<Vec<Row>>> = LazyLock::new(|| {
+    let of = |family| rows(family, None, &records(family.name), &FUNCTIONS);
+    FAMILIES.iter().map(of).collect()
+});
+
+/// Functions that a GPU cannot hold: no record of it has them.
+const TOO_LONG: [(&str, &str); 1] = [("gc2000", "conductor_from_f0_f82")];
+
+#[test]
+fn the_record_is_of_todays_shaders() {
+    for row in TABLE.iter().flatten() {
+        let too_long = TOO_LONG.contains(&(row.family.name, row.method)) && row.material.is_none();
+        if row.family.compiler.dialect().is_none() || too_long {
+            continue;
+        }
+        assert_eq!(
+            row.source,
+            Source::Record,
+            "{}, {}: {:?}; run tests/mesa-compilers and tests/costs",
+            row.family.name,
+            row.label(),
+            row.figures
+        );
+    }
+}
+
+#[test]
+fn many_families_of_many_vendors_are_recorded_and_powervr_says_why_not() {
+    let known = TABLE
+        .iter()
+        .filter(|rows| rows.iter().any(|row| row.source == Source::Record));
+    let families: Vec<_> = known.map(|rows| rows[0].family).collect();
+    let vendors: BTreeSet<&str> = families.iter().map(|family| family.vendor).collect();
+    assert!(families.len() >= 9, "{families:?}");
+    for vendor in ["AMD", "Qualcomm", "Arm", "Intel", "NVIDIA"] {
+        assert!(vendors.contains(vendor), "{vendor}");
+    }
+    let powervr = TABLE
+        .iter()
+        .flatten()
+        .find(|row| row.family.name == "powervr");
+    assert!(
+        powervr
+            .unwrap()
+            .figures
+            .as_ref()
+            .unwrap_err()
+            .contains("PowerVR")
+    );
+}
+
+#[test]
+fn costs_are_in_the_order_that_formulas_suggest() {
+    for family in FAMILIES
+        .iter()
+        .filter(|family| family.compiler.dialect().is_some())
+    {
+        let record = records(family.name);
+        let cost = |method| record.library(method).unwrap().cost();
+        assert!(cost("schlick") < cost("schlick_ior"), "{}", family.name);
+        assert!(
+            cost("schlick_ior") < cost("dielectric_exact"),
+            "{}",
+            family.name
+        );
+        assert!(
+            cost("dielectric_exact") < cost("conductor_exact"),
+            "{}",
+            family.name
+        );
+    }
+}
+
+#[test]
+fn the_document_is_what_is_recorded() {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/cost.md");
+    super::bless::check(&path, markdown(&TABLE).as_bytes());
+}
+
+#[test]
+fn the_page_shows_every_family() {
+    let page = page(&TABLE, "cost").unwrap();
+    for family in FAMILIES {
+        assert!(
+            page.contains(&format!("id=\"{}\"", family.name)),
+            "{}",
+            family.name
+        );
+    }
+    assert!(page.contains("Not measured: Mesa has no compiler"));
+}
