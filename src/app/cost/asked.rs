@@ -14,7 +14,6 @@ use serde::Deserialize;
 use crate::app::error::Error;
 use crate::app::worker::{Silence, Worker, scratch};
 use crate::cost::{Compiler, Dialect, Family, Figures, Statistics, figures};
-use crate::num::Precision;
 
 use super::function::{Function, empty};
 
@@ -208,73 +207,98 @@ impl Asker<'_> {
             Ok(environment) => environment,
             Err(why) => return Ok(Done::Absent(why)),
         };
-        let start = || -> Result<(Worker, Said), Error> {
-            let words = ["cost", "--worker", self.family.name].map(OsString::from);
-            let mut worker = Worker::start(&words, &environment, self.scratch)?;
-            let hello = worker.ask::<Said>("", self.limit);
-            let hello = hello.unwrap_or_else(|silence| Said::Absent(reason(&silence, self.limit)));
-            Ok((worker, hello))
-        };
-        let (mut worker, hello) = start()?;
+        let (worker, hello) = self.start(&environment)?;
         let compiler = match hello {
             Said::Compiler(name) => name,
             Said::Absent(why) | Said::Refused(why) => return Ok(Done::Absent(why)),
             Said::Told(_) => return Ok(Done::Absent("it answers another question".to_owned())),
         };
-        let mut bare = Bare::default();
+        let mut session = Session {
+            asker: self,
+            dialect,
+            environment,
+            worker,
+            empty: BTreeMap::new(),
+            hangs: 0,
+        };
         let mut answers = Vec::new();
         for function in functions {
-            let kind = (function.is_scalar(), function.precision);
-            let answer = bare
-                .of(kind, dialect, &mut |text| self.shader(&mut worker, text))
-                .and_then(|empty| {
-                    let [short, long] = function.chains(dialect);
-                    let chains = [
-                        self.shader(&mut worker, &short)?,
-                        self.shader(&mut worker, &long)?,
-                    ];
-                    let none = || "the compiler does not tell instructions".to_owned();
-                    figures(&self.family.columns, dialect.chains(), &chains, &empty)
-                        .ok_or_else(none)
-                });
-            if answer.is_err() {
-                // It may be gone, or at work without end.
-                worker = start()?.0;
-            }
-            answers.push(answer);
+            answers.push(session.answer(function)?);
             tick();
         }
         Ok(Done::Fresh(compiler, answers))
     }
 
-    fn shader(&self, worker: &mut Worker, text: &str) -> Result<Statistics, String> {
-        let line = serde_json::to_string(text).map_err(|why| why.to_string())?;
-        match worker.ask::<Said>(&line, self.limit) {
-            Ok(Said::Told(statistics)) => Ok(statistics),
-            Ok(Said::Refused(why) | Said::Absent(why) | Said::Compiler(why)) => Err(why),
-            Err(silence) => Err(reason(&silence, self.limit)),
-        }
+    fn start(&self, environment: &[(String, OsString)]) -> Result<(Worker, Said), Error> {
+        let words = ["cost", "--worker", self.family.name].map(OsString::from);
+        let mut worker = Worker::start(&words, environment, self.scratch)?;
+        let hello = worker.ask::<Said>("", self.limit);
+        let hello = hello.unwrap_or_else(|silence| Said::Absent(reason(&silence, self.limit)));
+        Ok((worker, hello))
     }
 }
 
-/// The chains of the empty function, asked once for each kind.
-#[derive(Default)]
-struct Bare(Vec<((bool, Precision), [Statistics; 2])>);
+/// Hangs after which a compiler is asked no more.
+const HANGS: usize = 3;
 
-impl Bare {
-    fn of(
-        &mut self,
-        kind: (bool, Precision),
-        dialect: Dialect,
-        ask: &mut dyn FnMut(&str) -> Result<Statistics, String>,
-    ) -> Result<[Statistics; 2], String> {
-        if let Some((_, known)) = self.0.iter().find(|(other, _)| *other == kind) {
+/// A compiler at work.
+struct Session<'a> {
+    asker: &'a Asker<'a>,
+    dialect: Dialect,
+    environment: Vec<(String, OsString)>,
+    worker: Worker,
+    /// The chains of the empty function, of one channel or not, in each precision.
+    empty: BTreeMap<(bool, bool), [Statistics; 2]>,
+    hangs: usize,
+}
+
+impl Session<'_> {
+    fn answer(&mut self, function: &Function) -> Result<Answer, Error> {
+        if self.hangs >= HANGS {
+            let why = format!("not asked: the compiler hung {HANGS} times before");
+            return Ok(Err(why));
+        }
+        let answer = self.figures(function);
+        if answer.is_err() {
+            // It may be gone, or at work without end.
+            self.worker = self.asker.start(&self.environment)?.0;
+        }
+        Ok(answer)
+    }
+
+    fn figures(&mut self, function: &Function) -> Answer {
+        let empty = self.empty(function)?;
+        let chains = self.both(function.chains(self.dialect))?;
+        let columns = &self.asker.family.columns;
+        figures(columns, self.dialect.chains(), &chains, &empty)
+            .ok_or_else(|| "the compiler does not tell instructions".to_owned())
+    }
+
+    fn empty(&mut self, function: &Function) -> Result<[Statistics; 2], String> {
+        let kind = (function.is_scalar(), function.precision.is_half());
+        if let Some(known) = self.empty.get(&kind) {
             return Ok(known.clone());
         }
-        let [short, long] = empty(kind.0, kind.1, dialect);
-        let told = [ask(&short)?, ask(&long)?];
-        self.0.push((kind, told.clone()));
+        let chains = empty(function.is_scalar(), function.precision, self.dialect);
+        let told = self.both(chains)?;
+        self.empty.insert(kind, told.clone());
         Ok(told)
+    }
+
+    fn both(&mut self, [short, long]: [String; 2]) -> Result<[Statistics; 2], String> {
+        Ok([self.shader(&short)?, self.shader(&long)?])
+    }
+
+    fn shader(&mut self, text: &str) -> Result<Statistics, String> {
+        let line = serde_json::to_string(text).map_err(|why| why.to_string())?;
+        match self.worker.ask::<Said>(&line, self.asker.limit) {
+            Ok(Said::Told(statistics)) => Ok(statistics),
+            Ok(Said::Refused(why) | Said::Absent(why) | Said::Compiler(why)) => Err(why),
+            Err(silence) => {
+                self.hangs += usize::from(silence == Silence::TooLong);
+                Err(reason(&silence, self.asker.limit))
+            }
+        }
     }
 }
 

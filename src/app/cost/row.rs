@@ -41,7 +41,7 @@ pub fn rows(
     rows.retain(|_| asked.next().unwrap_or(false));
     for row in &mut rows {
         let cost = row.figures.as_ref().ok().map(Figures::cost);
-        row.share = cost.zip(whole).map(|(cost, whole)| 100.0 * cost / whole);
+        row.share = cost.zip(whole).map(|(cost, whole)| cost / whole);
     }
     rows
 }

@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use super::{Row, short};
+use super::{Row, percent, short};
 
 const INTRODUCTION: &str = "\
 # What methods cost
@@ -25,34 +25,60 @@ same of every function, specialised ones too, and asks the compilers that are he
 - Shares are of `dielectric_exact`.
 ";
 
-/// The library functions of each family in single precision, three channels: what an evaluation costs, and its share.
+/// The functions of three channels in single precision: all families side by side, then each with its figures.
 pub fn markdown(families: &[Vec<Row>]) -> String {
-    let mut page = INTRODUCTION.to_owned();
-    for rows in families {
-        let wanted =
-            |row: &&Row| row.figures.is_ok() && row.precision == "f32" && row.channels == 3;
-        let shown: Vec<&Row> = rows.iter().filter(wanted).collect();
-        let Some(first) = shown.first() else { continue };
-        let family = first.family;
-        let compiler = first.compiler.as_deref().unwrap_or("counted in the graph");
+    let sections = families.iter().map(|rows| section(rows));
+    INTRODUCTION.to_owned() + &side_by_side(families) + &sections.collect::<String>()
+}
+
+fn is_shown(row: &Row) -> bool {
+    row.precision == "f32" && row.channels == 3
+}
+
+/// Shares, a column for each family of which anything is known.
+fn side_by_side(families: &[Vec<Row>]) -> String {
+    let known: Vec<&Vec<Row>> = families
+        .iter()
+        .filter(|rows| rows.iter().any(|row| row.figures.is_ok()))
+        .collect();
+    let names: Vec<&str> = known.iter().map(|rows| rows[0].family.name).collect();
+    let mut page = format!(
+        "\n## Side by side\n\nShares in per cent; `+` is a texture fetch.\n\n| function | {} |\n|---|{}\n",
+        names.join(" | "),
+        "---:|".repeat(names.len())
+    );
+    for (place, row) in known[0].iter().enumerate().filter(|(_, row)| is_shown(row)) {
+        let cells: Vec<String> = known.iter().map(|rows| percent(&rows[place])).collect();
         // Writing to a String cannot fail.
-        let _ = write!(
-            page,
-            "\n## {}\n\n{}. {compiler}.\n\n| function | {} | share | fetches |\n|---|---:|---:|---:|\n",
-            family.name, family.gpu, family.columns.measure
-        );
-        for row in shown {
-            let cost = row.figures.as_ref().ok().map(|figures| figures.cost());
-            let share = row.share.map(|share| format!("{share:.0} %"));
-            let _ = writeln!(
-                page,
-                "| {} | {} | {} | {} |",
-                row.label(),
-                short(cost),
-                share.unwrap_or_default(),
-                row.fetches
-            );
-        }
+        let _ = writeln!(page, "| {} | {} |", row.label(), cells.join(" | "));
     }
     page
+}
+
+fn section(rows: &[Row]) -> String {
+    let shown: Vec<&Row> = rows
+        .iter()
+        .filter(|row| is_shown(row) && row.figures.is_ok())
+        .collect();
+    let Some(first) = shown.first() else {
+        return String::new();
+    };
+    let family = first.family;
+    let compiler = first.compiler.as_deref().unwrap_or("Counted in the graph");
+    let head = format!(
+        "\n## {}\n\n{}. {compiler}.\n\n| function | {} | share | fetches |\n|---|---:|---:|---:|\n",
+        family.name, family.gpu, family.columns.measure
+    );
+    let line = |row: &&Row| {
+        let cost = row.figures.as_ref().ok().map(|figures| figures.cost());
+        let share = row.share.map(|share| format!("{:.0} %", 100.0 * share));
+        format!(
+            "| {} | {} | {} | {} |\n",
+            row.label(),
+            short(cost),
+            share.unwrap_or_default(),
+            row.fetches
+        )
+    };
+    head + &shown.iter().map(line).collect::<String>()
 }

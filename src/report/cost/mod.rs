@@ -37,7 +37,7 @@ pub struct Row {
     pub source: Source,
     /// What is known, or why nothing is.
     pub figures: Result<Figures, String>,
-    /// The cost over that of the reference, in per cent.
+    /// The cost over that of the reference.
     pub share: Option<f64>,
     /// The shader by its hash.
     pub shader: Option<String>,
@@ -124,4 +124,13 @@ fn short(value: Option<f64>) -> String {
         let rounded = (100.0 * value).round() / 100.0;
         format!("{rounded}")
     })
+}
+
+/// The share, with a mark for each fetch.
+fn percent(row: &Row) -> String {
+    let fetches = "+".repeat(row.fetches);
+    row.share.map_or_else(
+        || "?".to_owned(),
+        |share| format!("{:.0}{fetches}", 100.0 * share),
+    )
 }

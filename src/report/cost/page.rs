@@ -80,7 +80,7 @@ fn line(row: &Row, longest: f64) -> Line {
         cost: short(figures.map(|figures| figures.cost())),
         share: row
             .share
-            .map(|share| format!("{share:.0}"))
+            .map(|share| format!("{:.0}", 100.0 * share))
             .unwrap_or_default(),
         length: format!("{:.1}", (100.0 * share / longest.max(1e-9)).max(0.0)),
         fetches: row.fetches,

@@ -1,6 +1,6 @@
 //! The report for a terminal: one family with all its figures, or several side by side.
 
-use super::{Row, Source, short};
+use super::{Row, Source, percent, short};
 use crate::report::table;
 
 /// The rows of each family, all of the same functions in the same order.
@@ -59,13 +59,6 @@ fn beside(families: &[Vec<Row>]) -> String {
     };
     let lines: Vec<Vec<String>> = (0..count).map(line).collect();
     table::text(&head, &lines)
-}
-
-/// The share, with a mark for each fetch.
-fn percent(row: &Row) -> String {
-    let fetches = "+".repeat(row.fetches);
-    row.share
-        .map_or_else(|| "?".to_owned(), |share| format!("{share:.0}{fetches}"))
 }
 
 /// Who said it, and what it is.
