@@ -26,6 +26,8 @@ pub mod source;
 pub mod tree;
 #[cfg(all(feature = "cli", feature = "gpu"))]
 pub mod verify;
+#[cfg(all(feature = "cli", feature = "gpu"))]
+pub mod worker;
 pub mod write;
 
 pub use artifact::Artifact;

@@ -1,18 +1,16 @@
 //! The supervisor: hands files to workers, and ends those that come to no end.
 
-use std::io::{BufRead, BufReader, Write};
-use std::process::{Child, ChildStdin};
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
-use std::sync::mpsc::{Receiver, RecvTimeoutError, channel};
+use std::sync::mpsc::channel;
 use std::thread;
 use std::time::Duration;
 
 use serde_json::Value;
 
 use crate::app::error::Error;
+use crate::app::worker::{Silence, Worker, own_words, scratch};
 
-use super::machine;
 use super::plan::Plan;
 use super::row::unfinished;
 
@@ -25,19 +23,6 @@ pub struct Limits {
     pub workers: usize,
 }
 
-/// A process that answers.
-struct Worker {
-    child: Child,
-    input: ChildStdin,
-    answers: Receiver<String>,
-}
-
-/// Why a worker gave no answer.
-enum Silence {
-    TooLong,
-    Ended(String),
-}
-
 /// The rows of all files, in the plan's order. `progress` hears how many are done.
 ///
 /// # Errors
@@ -48,8 +33,10 @@ pub fn supervise(
     progress: &mut dyn FnMut(u64, u64, &str),
 ) -> Result<Vec<Value>, Error> {
     let time = Duration::from_secs(limits.seconds);
-    let scratch = tempfile::tempdir().map_err(|why| cannot_start(&why))?;
-    let start = || start(scratch.path()).map_err(|why| cannot_start(&why));
+    let scratch = scratch()?;
+    let mut words = own_words();
+    words.push("--worker".into());
+    let start = || Worker::start(&words, &[], scratch.path());
     let next = AtomicUsize::new(0);
     let answers: Vec<Mutex<Vec<Value>>> = plan.files.iter().map(|_| Mutex::default()).collect();
     let (done, heard) = channel();
@@ -91,11 +78,11 @@ fn work(
         let Some(file) = plan.files.get(index) else {
             return Ok(());
         };
-        let rows = match worker.ask(index, limit) {
+        let rows = match worker.ask(&index.to_string(), limit) {
             Ok(rows) => rows,
             Err(silence) => {
                 worker = start()?;
-                unfinished(file, &silence.text(limit))
+                unfinished(file, &reason(&silence, limit))
             }
         };
         if let Ok(mut place) = answers[index].lock() {
@@ -106,73 +93,15 @@ fn work(
     }
 }
 
-impl Silence {
-    fn text(&self, limit: Duration) -> String {
-        match self {
-            Silence::TooLong => format!(
-                "it did not end within {} s: a device that hangs, or more --points than --limit allows",
-                limit.as_secs()
-            ),
-            Silence::Ended(status) => {
-                format!(
-                    "the process that ran it ended ({status}): its driver failed on this shader"
-                )
-            }
+/// Why there are no rows.
+fn reason(silence: &Silence, limit: Duration) -> String {
+    match silence {
+        Silence::TooLong => format!(
+            "it did not end within {} s: a device that hangs, or more --points than --limit allows",
+            limit.as_secs()
+        ),
+        Silence::Ended(status) => {
+            format!("the process that ran it ended ({status}): its driver failed on this shader")
         }
-    }
-}
-
-fn start(scratch: &std::path::Path) -> std::io::Result<Worker> {
-    let (program, words) = machine::own_program()?;
-    let mut child = machine::worker(&program, &words, scratch)?;
-    let gone = || std::io::Error::other("a process without pipes");
-    let input = child.stdin.take().ok_or_else(gone)?;
-    let output = BufReader::new(child.stdout.take().ok_or_else(gone)?);
-    let (send, answers) = channel();
-    thread::spawn(move || {
-        // Ends with the process's output, or when nobody listens.
-        for line in output.lines().map_while(Result::ok) {
-            if send.send(line).is_err() {
-                break;
-            }
-        }
-    });
-    Ok(Worker {
-        child,
-        input,
-        answers,
-    })
-}
-
-impl Worker {
-    fn ask(&mut self, index: usize, limit: Duration) -> Result<Vec<Value>, Silence> {
-        let asked = writeln!(self.input, "{index}").and_then(|()| self.input.flush());
-        if asked.is_err() {
-            return Err(self.ended());
-        }
-        match self.answers.recv_timeout(limit) {
-            Ok(line) => serde_json::from_str(&line).map_err(|why| Silence::Ended(why.to_string())),
-            Err(RecvTimeoutError::Timeout) => Err(Silence::TooLong),
-            Err(RecvTimeoutError::Disconnected) => Err(self.ended()),
-        }
-    }
-
-    fn ended(&mut self) -> Silence {
-        let status = self.child.wait();
-        Silence::Ended(status.map_or_else(|why| why.to_string(), |status| status.to_string()))
-    }
-}
-
-impl Drop for Worker {
-    /// Ends the process, whatever it does.
-    fn drop(&mut self) {
-        let _ = self.child.kill();
-        let _ = self.child.wait();
-    }
-}
-
-fn cannot_start(why: &std::io::Error) -> Error {
-    Error::Usage {
-        what: format!("this program cannot start a process of its own to run shaders in: {why}"),
     }
 }
