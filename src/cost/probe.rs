@@ -133,7 +133,7 @@ impl Probe {
 fn {ENTRY}(@location(0) fg_in: vec4<f32>) -> @location(0) vec4<f32> {{
     let w = {rgb}(fg_in.xyz);
     let c0 = {scalar}(fg_in.w);
-{steps}    return vec4<f32>(vec3<f32>(r{}), 1.0);
+{steps}    return vec4<f32>(vec3<f32>({rgb}(r{})), 1.0);
 }}
 ",
             self.texts[0],
