@@ -1,12 +1,18 @@
-//! Cost: a function measured, always with the device or compiler named.
+//! Cost: a function measured, always with the device or compiler named. By its own compiler, as counts; by overdraw, as
+//! time.
 
+#[cfg(feature = "gpu")]
+mod clock;
 mod family;
 mod figures;
+pub mod overdraw;
 mod probe;
 mod record;
+pub mod statistics;
+mod times;
 
 pub use family::{Compiler, Dialect, FAMILIES, Family, find};
-pub use figures::Columns;
-pub use figures::{Counts, Figures, Statistics, figures, remarked};
+pub use figures::{Columns, Counts, Figures, Statistics, figures, remarked};
 pub use probe::{BLOCKS, ENTRY, Probe, VERTEX, WGSL_VERTEX, gles_vertex};
 pub use record::{Record, records};
+pub use times::{Time, times};

@@ -22,7 +22,8 @@ const FEATURES: Features = Features::PASSTHROUGH_SHADERS
     .union(Features::FLOAT32_FILTERABLE)
     .union(Features::TEXTURE_FORMAT_16BIT_NORM)
     .union(Features::MAPPABLE_PRIMARY_BUFFERS)
-    .union(Features::SHADER_F16);
+    .union(Features::SHADER_F16)
+    .union(Features::TIMESTAMP_QUERY);
 
 /// How long a block may take. It is a fraction of a second on a processor of long ago; what takes longer never ends.
 const PATIENCE: core::time::Duration = core::time::Duration::from_secs(120);

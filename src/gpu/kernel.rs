@@ -218,7 +218,7 @@ fn entries(program: &Program, inputs: Inputs) -> Vec<wgpu::BindGroupLayoutEntry>
     entries
 }
 
-fn uniform_block(compute: &Compute, bytes: &[u8]) -> wgpu::Buffer {
+pub(super) fn uniform_block(compute: &Compute, bytes: &[u8]) -> wgpu::Buffer {
     let buffer = compute.device.create_buffer(&wgpu::BufferDescriptor {
         label: None,
         // One that nobody reads is not empty either.
@@ -230,7 +230,8 @@ fn uniform_block(compute: &Compute, bytes: &[u8]) -> wgpu::Buffer {
     buffer
 }
 
-fn table(
+/// A texture on the device, and its sampler.
+pub(super) fn table(
     compute: &Compute,
     texture: &Texture,
 ) -> Result<(wgpu::TextureView, wgpu::Sampler), Fault> {

@@ -9,6 +9,7 @@
 
 mod adapter;
 mod compute;
+mod draw;
 mod egl;
 mod fault;
 mod gles;
@@ -23,6 +24,7 @@ mod stream;
 mod texture;
 
 pub use adapter::{Adapter, Backend, Kind, Wanted, adapters};
+pub use draw::{Canvas, Layer, Shader};
 pub use fault::Fault;
 pub use node::{Language, Node};
 pub use null::{Entry, Null};
@@ -88,6 +90,17 @@ impl Device {
         match &self.stack {
             Stack::Compute(compute) => compute.has(wgpu::Features::SHADER_F16),
             Stack::Gles(_) => true,
+        }
+    }
+
+    /// A square target to draw full-screen shaders to, so many pixels a side.
+    ///
+    /// # Errors
+    /// It is larger than the device allows, or the device does not draw here: OpenGL ES does not.
+    pub fn canvas(&self, pixels: u32) -> Result<Canvas, Fault> {
+        match &self.stack {
+            Stack::Compute(compute) => Canvas::new(compute, pixels),
+            Stack::Gles(_) => Err(Fault::unable(&self.adapter.name, "drawing in OpenGL ES")),
         }
     }
 

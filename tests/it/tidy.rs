@@ -85,7 +85,9 @@ fn function_lengths(text: &str) -> Vec<(String, usize)> {
         .any(|head| bare.starts_with(head));
         let indent = line.len() - bare.len();
         let closes = |line: &&str| **line == format!("{}}}", " ".repeat(indent));
-        if is_function && !line.ends_with(';') {
+        // A function of a shader, in a text that is filled in.
+        let is_text = bare.starts_with("fn {");
+        if is_function && !is_text && !line.ends_with(';') {
             let length = lines[start..]
                 .iter()
                 .position(closes)

@@ -1,0 +1,132 @@
+//! Who draws on a device: its target, and every shader compiled when it is first drawn.
+
+use serde::{Deserialize, Serialize};
+
+use crate::cost::clock::timed;
+use crate::gpu::{
+    Canvas, Device, Fault, Kind, Layer, Shader, Texture, TextureFormat, Wanted, Wrap,
+};
+
+use super::measure::Reading;
+use super::plan::{Drawing, Plan};
+
+/// Pixels a side where nothing is said: a processor is busy with little, a card is not.
+const ON_A_PROCESSOR: u32 = 256;
+const ON_A_CARD: u32 = 1024;
+
+/// What the device is.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Hello {
+    /// The device with its driver.
+    pub device: String,
+    /// Its name alone.
+    pub name: String,
+    /// Its driver alone.
+    pub driver: String,
+    /// Whether it is software.
+    pub is_software: bool,
+    /// Whether it computes in 16 bits.
+    pub has_half: bool,
+    /// Pixels of the target.
+    pub pixels: u64,
+}
+
+impl Hello {
+    /// That it does not compute in 16 bits, in words.
+    pub fn no_half(&self) -> String {
+        format!(
+            "{} has no 16-bit arithmetic in shaders (shader-f16, shaderFloat16)",
+            self.device
+        )
+    }
+}
+
+/// A device that draws a plan.
+pub struct Easel<'a> {
+    plan: &'a Plan,
+    canvas: Canvas,
+    layers: Vec<Option<Layer>>,
+}
+
+impl<'a> Easel<'a> {
+    /// Opens the device that is wanted, with a target of so many pixels a side.
+    ///
+    /// # Errors
+    /// There is none, or it draws no such target.
+    pub fn open(plan: &'a Plan, wanted: &Wanted, size: Option<u32>) -> Result<Easel<'a>, Fault> {
+        let device = Device::open(wanted)?;
+        let usual = match device.adapter.kind {
+            Kind::Software => ON_A_PROCESSOR,
+            _ => ON_A_CARD,
+        };
+        Ok(Easel {
+            plan,
+            canvas: device.canvas(size.unwrap_or(usual))?,
+            layers: plan.drawings.iter().map(|_| None).collect(),
+        })
+    }
+
+    /// What it draws on.
+    pub fn hello(&self) -> Hello {
+        let adapter = self.canvas.adapter();
+        Hello {
+            device: adapter.to_string(),
+            name: adapter.name.clone(),
+            driver: adapter.driver.clone(),
+            is_software: adapter.kind == Kind::Software,
+            has_half: self.canvas.has_half(),
+            pixels: self.canvas.pixels(),
+        }
+    }
+
+    /// Draws the heavy shader, and over it a drawing so many times.
+    ///
+    /// # Errors
+    /// The device does not take it, or is lost.
+    pub fn draw(&mut self, drawing: usize, draws: u32) -> Result<Reading, Fault> {
+        self.compile(Plan::HEAVY)?;
+        self.compile(drawing)?;
+        let layer = |place: usize| self.layers[place].as_ref();
+        let over = layer(drawing).filter(|_| drawing != Plan::HEAVY);
+        let below = layer(Plan::HEAVY).map(|heavy| (heavy, 1));
+        let layers: Vec<(&Layer, u32)> =
+            below.into_iter().chain(over.map(|l| (l, draws))).collect();
+        let recorded = self.canvas.record(&layers)?;
+        let (drawn, spent) = timed(|| self.canvas.draw(recorded));
+        drawn?;
+        Ok(Reading {
+            gpu: self.canvas.nanoseconds()?,
+            cpu: spent.processor,
+            wall: spent.wall,
+        })
+    }
+
+    fn compile(&mut self, place: usize) -> Result<(), Fault> {
+        if self.layers[place].is_none() {
+            self.layers[place] = Some(layer(&self.canvas, &self.plan.drawings[place])?);
+        }
+        Ok(())
+    }
+}
+
+fn layer(canvas: &Canvas, drawing: &Drawing) -> Result<Layer, Fault> {
+    let texels: Option<Vec<[f32; 4]>> = drawing.table.as_ref().map(|table| {
+        let texels = table.texels.iter();
+        texels.map(|[r, g, b]| [*r, *g, *b, 1.0]).collect()
+    });
+    let tables = texels.as_ref().zip(drawing.table.as_ref());
+    let texture = tables.map(|(texels, table)| Texture {
+        width: table.width,
+        texels,
+        format: TextureFormat::Half,
+        wrap: Wrap::Clamp,
+    });
+    canvas.layer(&Shader {
+        text: &drawing.text,
+        vertex: Drawing::VERTEX,
+        fragment: Drawing::FRAGMENT,
+        uniforms: &drawing.uniforms,
+        texture: texture.as_ref(),
+        blends: drawing.blends,
+    })
+}

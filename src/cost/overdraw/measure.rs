@@ -1,0 +1,376 @@
+//! The measurement: how often each shader is drawn, in what order, and what was read. It draws through [`Draw`] and
+//! touches no device itself.
+
+use serde::{Deserialize, Serialize};
+
+use crate::cost::statistics::{median, quantile};
+
+use super::plan::Plan;
+
+/// Readings of a shader in a round; their lower decile counts, since what disturbs only adds.
+pub const READINGS: usize = 5;
+/// Readings that choose how often a shader is drawn, and the clock.
+const TRIALS: usize = 3;
+/// Nanoseconds that the draws of a reading should take: some hundred times what a clock can tell apart.
+const LONG_ENOUGH: f64 = 4e6;
+/// How far the draws of a reading stand above what the heavy shader alone varies by; and nanoseconds that are spent at most.
+const ABOVE_NOISE: f64 = 20.0;
+const TOO_LONG: f64 = 16e6;
+/// Most draws in a reading.
+const MOST_DRAWS: u32 = 4096;
+/// Shaders between two readings of what all are held against.
+const STRIDE: usize = 6;
+
+/// Nanoseconds that a drawing took.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Reading {
+    /// By the device's timestamps, where it has them.
+    pub gpu: Option<f64>,
+    /// By the processor's work for the process that draws, where the system tells: what a software device computes with.
+    pub cpu: Option<f64>,
+    /// By the wall, from the submission to its end.
+    pub wall: f64,
+}
+
+/// What a time was taken by.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Clock {
+    /// The device's timestamps.
+    Gpu,
+    /// The processor's work.
+    Cpu,
+    /// The wall clock.
+    Wall,
+}
+
+/// Why there is no reading.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Stop {
+    /// This shader cannot be drawn.
+    One(String),
+    /// Nothing can.
+    All(String),
+}
+
+/// Who draws.
+pub trait Draw {
+    /// Draws the heavy shader, and over it a drawing so many times; [`Plan::HEAVY`] is drawn alone.
+    ///
+    /// # Errors
+    /// It cannot be drawn, or not within its time.
+    fn draw(&mut self, drawing: usize, draws: u32) -> Result<Reading, Stop>;
+}
+
+/// How much is done.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Effort {
+    /// Rounds.
+    pub rounds: usize,
+    /// The clock; none: of software the processor's work, else the device's timestamps, where they advance, else the wall.
+    pub clock: Option<Clock>,
+    /// Whether the device is software: its timestamps count what other programs do as well.
+    pub is_software: bool,
+    /// Nanoseconds that a reading may take.
+    pub limit: f64,
+}
+
+/// What was read.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Measured {
+    /// What counts.
+    pub clock: Clock,
+    /// Whether the device's own clock advances.
+    pub advances: bool,
+    /// How often each drawing is drawn in a reading.
+    pub draws: Vec<u32>,
+    /// Why a drawing was given up.
+    pub failed: Vec<Option<String>>,
+    /// What was seen of each drawing in each round.
+    pub rounds: Vec<Vec<Seen>>,
+    /// Every reading of the heavy shader alone, and of the empty one over it.
+    pub noise: [Vec<f64>; 2],
+}
+
+impl Reading {
+    /// Nothing was read.
+    const NONE: Reading = Reading {
+        gpu: None,
+        cpu: None,
+        wall: f64::NAN,
+    };
+}
+
+impl Clock {
+    /// All of them.
+    pub const ALL: [Clock; 3] = [Clock::Gpu, Clock::Cpu, Clock::Wall];
+
+    /// The name on the command line.
+    pub fn name(self) -> &'static str {
+        match self {
+            Clock::Gpu => "gpu",
+            Clock::Cpu => "cpu",
+            Clock::Wall => "wall",
+        }
+    }
+
+    /// What a reading says by this clock.
+    pub fn of(self, reading: &Reading) -> f64 {
+        match self {
+            Clock::Gpu => reading.gpu.unwrap_or(f64::NAN),
+            Clock::Cpu => reading.cpu.unwrap_or(f64::NAN),
+            Clock::Wall => reading.wall,
+        }
+    }
+}
+
+/// A drawing in a round, and what it is held against, read next to it and as often: a machine that is slower for most of a
+/// round is slower for both, and neither has more readings from which to take a quick one. Of each the lower decile; NaN
+/// where it was given up, and for a clock that is not there.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Seen {
+    /// The drawing.
+    pub own: Reading,
+    /// [`Plan::fixed`].
+    pub fixed: Vec<Reading>,
+}
+
+/// A measurement under way.
+struct Session<'a> {
+    plan: &'a Plan,
+    artist: &'a mut dyn Draw,
+    clock: Clock,
+    draws: Vec<u32>,
+    failed: Vec<Option<String>>,
+    noise: [Vec<f64>; 2],
+}
+
+/// Measures all drawings of a plan.
+///
+/// # Errors
+/// Nothing can be drawn, or the clock that was asked for does not advance.
+pub fn measure(
+    plan: &Plan,
+    effort: &Effort,
+    artist: &mut dyn Draw,
+    progress: &mut dyn FnMut(u64, u64, &str),
+) -> Result<Measured, Stop> {
+    let count = plan.drawings.len();
+    let mut session = Session {
+        plan,
+        artist,
+        clock: Clock::Wall,
+        draws: vec![0; count],
+        failed: vec![None; count],
+        noise: [Vec::new(), Vec::new()],
+    };
+    let whole = (count + effort.rounds * READINGS * count) as u64;
+    let advances = session.choose_clock(effort)?;
+    let heavy = session.heavy()?;
+    for drawing in 1..count {
+        progress(drawing as u64, whole, "how often to draw");
+        session.calibrate(drawing, &heavy, effort.limit)?;
+    }
+    session.noise = [Vec::new(), Vec::new()];
+    let mut rounds = Vec::new();
+    for round in 0..effort.rounds {
+        let before = (count * (1 + round * READINGS)) as u64;
+        let what = format!("round {} of {}", round + 1, effort.rounds);
+        let mut told = |done: usize| progress(before + done as u64, whole, &what);
+        rounds.push(session.round(round, &mut told)?);
+    }
+    Ok(Measured {
+        clock: session.clock,
+        advances,
+        draws: session.draws,
+        failed: session.failed,
+        rounds,
+        noise: session.noise,
+    })
+}
+
+impl Session<'_> {
+    /// A reading; nothing where the drawing is given up.
+    fn read(&mut self, drawing: usize) -> Result<Reading, Stop> {
+        let reading = self.read_draws(drawing, self.draws[drawing])?;
+        Ok(reading.unwrap_or(Reading::NONE))
+    }
+
+    /// A reading of so many draws; none where the drawing is given up, now or before.
+    fn read_draws(&mut self, drawing: usize, draws: u32) -> Result<Option<Reading>, Stop> {
+        if self.failed[drawing].is_some() {
+            return Ok(None);
+        }
+        match self.artist.draw(drawing, draws) {
+            Ok(reading) => {
+                let noise = match drawing {
+                    Plan::HEAVY => self.noise.first_mut(),
+                    Plan::EMPTY => self.noise.last_mut(),
+                    _ => None,
+                };
+                let time = self.clock.of(&reading);
+                noise.into_iter().for_each(|all| all.push(time));
+                Ok(Some(reading))
+            }
+            Err(Stop::One(why)) => {
+                self.give_up(drawing, &why);
+                Ok(None)
+            }
+            Err(all) => Err(all),
+        }
+    }
+
+    /// Without the heavy shader there is nothing to draw over.
+    fn give_up(&mut self, drawing: usize, why: &str) {
+        let name = &self.plan.drawings[drawing].name;
+        self.failed[drawing] = Some(format!("{name}: {why}"));
+        if drawing == Plan::HEAVY {
+            let why = format!("the heavy shader below it, {name}: {why}");
+            self.failed.fill(Some(why));
+        }
+    }
+
+    /// Takes the clock that is asked for, or the best there is; says whether the device's own advances.
+    fn choose_clock(&mut self, effort: &Effort) -> Result<bool, Stop> {
+        let mut advances = Clock::ALL.map(|_| true);
+        for _ in 0..TRIALS {
+            let Some(reading) = self.read_draws(Plan::HEAVY, 0)? else {
+                break;
+            };
+            for (advances, clock) in advances.iter_mut().zip(Clock::ALL) {
+                *advances &= clock.of(&reading) > 0.0;
+            }
+        }
+        let [gpu, cpu, _] = advances;
+        self.clock = match effort.clock {
+            Some(Clock::Gpu) if !gpu => {
+                let why =
+                    "the device's timestamps do not advance, or it has none; take --clock wall";
+                return Err(Stop::All(why.to_owned()));
+            }
+            Some(Clock::Cpu) if !cpu => {
+                let why = "this system does not tell the processor's time; take --clock wall";
+                return Err(Stop::All(why.to_owned()));
+            }
+            Some(clock) => clock,
+            None if effort.is_software && cpu => Clock::Cpu,
+            None if gpu => Clock::Gpu,
+            None => Clock::Wall,
+        };
+        Ok(gpu)
+    }
+
+    /// Readings of the heavy shader alone.
+    fn heavy(&mut self) -> Result<Vec<f64>, Stop> {
+        const ENOUGH: usize = 15;
+        let mut readings = Vec::new();
+        for _ in 0..ENOUGH {
+            let reading = self.read_draws(Plan::HEAVY, 0)?;
+            readings.extend(reading.map(|reading| self.clock.of(&reading)));
+        }
+        Ok(readings)
+    }
+
+    /// Finds how often a shader is drawn: until the draws take long enough, and stand well above what the heavy shader
+    /// alone varies by. Its first reading warms it up.
+    fn calibrate(&mut self, drawing: usize, heavy: &[f64], limit: f64) -> Result<(), Stop> {
+        let alone = median(heavy);
+        let scatter = quantile(heavy, 0.75) - quantile(heavy, 0.25);
+        let wanted = (ABOVE_NOISE * scatter)
+            .clamp(LONG_ENOUGH, TOO_LONG)
+            .min(limit / 4.0);
+        let mut draws = 1;
+        loop {
+            let mut times = Vec::new();
+            for _ in 0..TRIALS {
+                let reading = self.read_draws(drawing, draws)?;
+                times.extend(reading.map(|reading| self.clock.of(&reading) - alone));
+            }
+            let time = median(&times);
+            if times.is_empty() || draws >= MOST_DRAWS || time >= wanted / 4.0 {
+                let each = (time / f64::from(draws)).max(1.0);
+                self.draws[drawing] = ((wanted / each) as u32).clamp(1, MOST_DRAWS);
+                return Ok(());
+            }
+            draws *= 2;
+        }
+    }
+
+    /// A round: every drawing so many times, in turns, and every few of them what all are held against.
+    fn round(&mut self, round: usize, told: &mut dyn FnMut(usize)) -> Result<Vec<Seen>, Stop> {
+        let (count, fixed) = (self.plan.drawings.len(), self.plan.fixed());
+        let mut all: Vec<Vec<Seen>> = vec![Vec::new(); count];
+        let members: Vec<usize> = (fixed.end..count).chain([Plan::REFERENCE]).collect();
+        for turn in 0..READINGS {
+            let mut beside = Vec::new();
+            let order = order(members.len(), round * READINGS + turn);
+            for (done, drawing) in order.map(|place| members[place]).enumerate() {
+                if done % STRIDE == 0 {
+                    let read = fixed.clone().map(|drawing| self.read(drawing));
+                    beside = read.collect::<Result<Vec<Reading>, Stop>>()?;
+                }
+                let own = if drawing == Plan::REFERENCE {
+                    beside[drawing]
+                } else {
+                    self.read(drawing)?
+                };
+                let fixed = beside.clone();
+                all[drawing].push(Seen { own, fixed });
+                told(turn * count + done);
+            }
+        }
+        Ok(all.iter().map(|turns| quiet(turns, fixed.len())).collect())
+    }
+}
+
+/// All drawings once, each turn in another order. The steps have no factor in common with the count, so that none is left
+/// out, and so other neighbours meet.
+fn order(count: usize, turn: usize) -> impl Iterator<Item = usize> {
+    let is_prime_to = |step: &usize| {
+        let (mut a, mut b) = (*step, count);
+        while b > 0 {
+            (a, b) = (b, a % b);
+        }
+        a == 1
+    };
+    let steps: Vec<usize> = (1..count.max(2)).filter(is_prime_to).collect();
+    let step = steps[(7 * turn) % steps.len()];
+    (0..count).map(move |i| (i * step + 11 * turn) % count)
+}
+
+/// The lower decile of each over the turns.
+fn quiet(turns: &[Seen], fixed: usize) -> Seen {
+    let of = |one: &dyn Fn(&Seen) -> Reading| {
+        let by = |clock: Clock| {
+            let times: Vec<f64> = turns.iter().map(|seen| clock.of(&one(seen))).collect();
+            quantile(&times, 0.1)
+        };
+        Reading {
+            gpu: Some(by(Clock::Gpu)),
+            cpu: Some(by(Clock::Cpu)),
+            wall: by(Clock::Wall),
+        }
+    };
+    Seen {
+        own: of(&|seen| seen.own),
+        fixed: (0..fixed).map(|i| of(&|seen| seen.fixed[i])).collect(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_order_has_all_and_neighbours_change() {
+        for count in [1, 2, 9, 30, 117] {
+            for turn in 0..20 {
+                let mut all: Vec<usize> = order(count, turn).collect();
+                all.sort_unstable();
+                assert_eq!(all, (0..count).collect::<Vec<_>>(), "{count} {turn}");
+            }
+        }
+        let first: Vec<usize> = order(30, 0).collect();
+        let second: Vec<usize> = order(30, 1).collect();
+        assert_ne!(first, second);
+    }
+}

@@ -1,0 +1,30 @@
+//! What a function costs by overdraw: a heavy full-screen shader is drawn alone, then with the measured shader over it N
+//! times; the difference over N is a draw's cost. The heavy one keeps the device at work, so that what a frame costs anyway
+//! is in both.
+//!
+//! The measured shader is blended, so that no draw can be left out. A draw's own price, blending above all, would hide a
+//! cheap function on any large device; so each draw evaluates the function several times, each from the result
+//! before ([`Probe`](super::Probe)), and the shader that evaluates nothing, the empty one, is taken off:
+//!
+//! `net = ((T(heavy + N draws) - T(heavy)) / N - the same of the empty shader) / evaluations`.
+//!
+//! All shaders are drawn in turn in every round, in an order that changes, and beside each few of them what they are held
+//! against, so that a machine that is busy for a while is busy for both. A round gives each shader the lower decile of its
+//! readings, since what disturbs only adds, and each function its share of `dielectric_exact`; what is told is the median
+//! over rounds.
+//!
+//! A software device shares the processor with everything else that runs. There the processor's own count of what it
+//! worked for the process is taken, in which other programs are not: with four of them on two cores shares by timestamps
+//! are off by half.
+
+#[cfg(feature = "gpu")]
+mod easel;
+mod figure;
+mod measure;
+mod plan;
+
+#[cfg(feature = "gpu")]
+pub use easel::{Easel, Hello};
+pub use figure::{Figure, Noise};
+pub use measure::{Clock, Draw, Effort, Measured, READINGS, Reading, Seen, Stop, measure};
+pub use plan::{Drawing, Plan, Timed};

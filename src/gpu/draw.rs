@@ -1,0 +1,316 @@
+//! Full-screen shaders drawn one over the other into one target, for the time that it takes: with the device's own
+//! timestamps where it has them.
+//!
+//! A layer that blends is added to what lies below, so that no draw of it can be left out. The target holds half floats,
+//! as targets of scenes do.
+
+use std::rc::Rc;
+
+use wgpu::{BufferUsages, Features};
+
+use super::adapter::Adapter;
+use super::compute::Compute;
+use super::fault::Fault;
+use super::kernel;
+use super::texture::Texture;
+
+/// What a target holds: half floats blend everywhere.
+const FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba16Float;
+/// The two timestamps of a pass.
+const STAMPS: u64 = 2 * wgpu::QUERY_SIZE as u64;
+
+/// A square target.
+pub struct Canvas {
+    compute: Rc<Compute>,
+    view: wgpu::TextureView,
+    pixels: u32,
+    stamps: Option<Stamps>,
+}
+
+/// A shader as it is drawn: text in WGSL with both entry points.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Shader<'a> {
+    /// The module.
+    pub text: &'a str,
+    /// The entry point for vertices, three of which make a triangle that covers the target.
+    pub vertex: &'a str,
+    /// The entry point for pixels.
+    pub fragment: &'a str,
+    /// The bytes of the uniform block at binding 0; none if there is none.
+    pub uniforms: &'a [u8],
+    /// What it reads at bindings 3 and 4.
+    pub texture: Option<&'a Texture<'a>>,
+    /// Whether it is added to what lies below, or replaces it.
+    pub blends: bool,
+}
+
+/// A shader ready to be drawn.
+pub struct Layer {
+    pipeline: wgpu::RenderPipeline,
+    group: Option<wgpu::BindGroup>,
+}
+
+/// Where the device writes the time at both ends of a pass.
+struct Stamps {
+    set: wgpu::QuerySet,
+    resolved: wgpu::Buffer,
+    read: wgpu::Buffer,
+    nanoseconds: f64,
+}
+
+impl Canvas {
+    pub(super) fn new(compute: &Rc<Compute>, pixels: u32) -> Result<Canvas, Fault> {
+        let most = compute.device.limits().max_texture_dimension_2d;
+        if pixels == 0 || pixels > most {
+            let what = format!("a target of {pixels} pixels a side; at most {most}");
+            return Err(Fault::unable(&compute.adapter.name, what));
+        }
+        let (view, stamps) = compute.guarded(|| {
+            let stamps = compute.has(Features::TIMESTAMP_QUERY);
+            (
+                target(&compute.device, pixels),
+                stamps.then(|| Stamps::new(compute)),
+            )
+        })?;
+        Ok(Canvas {
+            compute: compute.clone(),
+            view,
+            pixels,
+            stamps,
+        })
+    }
+
+    /// What it is drawn on.
+    pub fn adapter(&self) -> &Adapter {
+        &self.compute.adapter
+    }
+
+    /// Whether it computes in 16 bits where a text says so.
+    pub fn has_half(&self) -> bool {
+        self.compute.has(Features::SHADER_F16)
+    }
+
+    /// How many pixels the target has.
+    pub fn pixels(&self) -> u64 {
+        u64::from(self.pixels).pow(2)
+    }
+
+    /// Compiles a shader and uploads what it reads.
+    ///
+    /// # Errors
+    /// It does not compile, or not for this device.
+    pub fn layer(&self, shader: &Shader) -> Result<Layer, Fault> {
+        let compute = &*self.compute;
+        let table = shader
+            .texture
+            .map(|texture| kernel::table(compute, texture));
+        let table = table.transpose()?;
+        compute.guarded(|| {
+            let pipeline = pipeline(&compute.device, shader);
+            let group = bound(compute, &pipeline, shader.uniforms, table.as_ref());
+            Layer { pipeline, group }
+        })
+    }
+
+    /// Writes down what is to be drawn, in one pass: each layer so many times.
+    ///
+    /// # Errors
+    /// The device does not take it.
+    pub fn record(&self, layers: &[(&Layer, u32)]) -> Result<wgpu::CommandBuffer, Fault> {
+        let device = &self.compute.device;
+        self.compute.guarded(|| {
+            let mut encoder = device.create_command_encoder(&Default::default());
+            self.pass(&mut encoder, layers);
+            if let Some(stamps) = &self.stamps {
+                stamps.resolve(&mut encoder);
+            }
+            encoder.finish()
+        })
+    }
+
+    /// Draws what was written down, and waits for it.
+    ///
+    /// # Errors
+    /// The device is lost.
+    pub fn draw(&self, recorded: wgpu::CommandBuffer) -> Result<(), Fault> {
+        let submission = self
+            .compute
+            .guarded(|| self.compute.queue.submit([recorded]))?;
+        self.compute.wait(submission)
+    }
+
+    /// The nanoseconds that the last drawing took by the device's own clock, where it has one.
+    ///
+    /// # Errors
+    /// The device is lost.
+    pub fn nanoseconds(&self) -> Result<Option<f64>, Fault> {
+        let read = |stamps: &Stamps| stamps.read(&self.compute);
+        self.stamps.as_ref().map(read).transpose()
+    }
+
+    fn pass(&self, encoder: &mut wgpu::CommandEncoder, layers: &[(&Layer, u32)]) {
+        let stamps = |stamps| wgpu::RenderPassTimestampWrites {
+            query_set: stamps,
+            beginning_of_pass_write_index: Some(0),
+            end_of_pass_write_index: Some(1),
+        };
+        let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
+            color_attachments: &[Some(wgpu::RenderPassColorAttachment {
+                view: &self.view,
+                depth_slice: None,
+                resolve_target: None,
+                ops: wgpu::Operations {
+                    load: wgpu::LoadOp::Clear(wgpu::Color::BLACK),
+                    store: wgpu::StoreOp::Store,
+                },
+            })],
+            timestamp_writes: self.stamps.as_ref().map(|s| stamps(&s.set)),
+            ..Default::default()
+        });
+        for (layer, draws) in layers {
+            pass.set_pipeline(&layer.pipeline);
+            pass.set_bind_group(0, &layer.group, &[]);
+            for _ in 0..*draws {
+                pass.draw(0..3, 0..1);
+            }
+        }
+    }
+}
+
+impl Stamps {
+    fn new(compute: &Compute) -> Stamps {
+        let buffer = |usage| {
+            compute.device.create_buffer(&wgpu::BufferDescriptor {
+                label: None,
+                size: STAMPS,
+                usage: usage | BufferUsages::COPY_DST,
+                mapped_at_creation: false,
+            })
+        };
+        Stamps {
+            set: compute.device.create_query_set(&wgpu::QuerySetDescriptor {
+                label: None,
+                ty: wgpu::QueryType::Timestamp,
+                count: 2,
+            }),
+            resolved: buffer(BufferUsages::QUERY_RESOLVE | BufferUsages::COPY_SRC),
+            read: buffer(BufferUsages::MAP_READ),
+            nanoseconds: f64::from(compute.queue.get_timestamp_period()),
+        }
+    }
+
+    fn resolve(&self, encoder: &mut wgpu::CommandEncoder) {
+        encoder.resolve_query_set(&self.set, 0..2, &self.resolved, 0);
+        encoder.copy_buffer_to_buffer(&self.resolved, 0, &self.read, 0, STAMPS);
+    }
+
+    /// The time between both; 0 where the clock stands still or runs backwards.
+    fn read(&self, compute: &Compute) -> Result<f64, Fault> {
+        let whole = self.read.slice(..);
+        compute.guarded(|| whole.map_async(wgpu::MapMode::Read, |_| {}))?;
+        compute
+            .device
+            .poll(wgpu::PollType::Poll)
+            .map_err(Fault::lost)?;
+        let ticks = {
+            let bytes = whole.get_mapped_range().map_err(Fault::lost)?;
+            let stamps: Vec<u64> = bytemuck::pod_collect_to_vec(&bytes);
+            stamps[1].saturating_sub(stamps[0])
+        };
+        self.read.unmap();
+        Ok(ticks as f64 * self.nanoseconds)
+    }
+}
+
+fn target(device: &wgpu::Device, pixels: u32) -> wgpu::TextureView {
+    let made = device.create_texture(&wgpu::TextureDescriptor {
+        label: None,
+        size: wgpu::Extent3d {
+            width: pixels,
+            height: pixels,
+            depth_or_array_layers: 1,
+        },
+        mip_level_count: 1,
+        sample_count: 1,
+        dimension: wgpu::TextureDimension::D2,
+        format: FORMAT,
+        usage: wgpu::TextureUsages::RENDER_ATTACHMENT,
+        view_formats: &[],
+    });
+    made.create_view(&wgpu::TextureViewDescriptor::default())
+}
+
+/// What a pipeline reads, where it reads anything: its layout is what its text says.
+fn bound(
+    compute: &Compute,
+    pipeline: &wgpu::RenderPipeline,
+    uniforms: &[u8],
+    table: Option<&(wgpu::TextureView, wgpu::Sampler)>,
+) -> Option<wgpu::BindGroup> {
+    let block = (!uniforms.is_empty()).then(|| kernel::uniform_block(compute, uniforms));
+    let entry = |binding, resource| wgpu::BindGroupEntry { binding, resource };
+    let mut entries = Vec::new();
+    if let Some(block) = &block {
+        entries.push(entry(0, block.as_entire_binding()));
+    }
+    if let Some((view, sampler)) = table {
+        entries.push(entry(3, wgpu::BindingResource::TextureView(view)));
+        entries.push(entry(4, wgpu::BindingResource::Sampler(sampler)));
+    }
+    let bind = || {
+        compute
+            .device
+            .create_bind_group(&wgpu::BindGroupDescriptor {
+                label: None,
+                layout: &pipeline.get_bind_group_layout(0),
+                entries: &entries,
+            })
+    };
+    (!entries.is_empty()).then(bind)
+}
+
+fn pipeline(device: &wgpu::Device, shader: &Shader) -> wgpu::RenderPipeline {
+    let module = device.create_shader_module(wgpu::ShaderModuleDescriptor {
+        label: None,
+        source: wgpu::ShaderSource::Wgsl(shader.text.into()),
+    });
+    let targets = [Some(wgpu::ColorTargetState {
+        format: FORMAT,
+        blend: shader.blends.then_some(ADDED),
+        write_mask: wgpu::ColorWrites::ALL,
+    })];
+    device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
+        label: None,
+        layout: None,
+        vertex: wgpu::VertexState {
+            module: &module,
+            entry_point: Some(shader.vertex),
+            compilation_options: wgpu::PipelineCompilationOptions::default(),
+            buffers: &[],
+        },
+        primitive: wgpu::PrimitiveState::default(),
+        depth_stencil: None,
+        multisample: wgpu::MultisampleState::default(),
+        fragment: Some(wgpu::FragmentState {
+            module: &module,
+            entry_point: Some(shader.fragment),
+            compilation_options: wgpu::PipelineCompilationOptions::default(),
+            targets: &targets,
+        }),
+        multiview_mask: None,
+        cache: None,
+    })
+}
+
+/// What is drawn is added to what is there.
+const ADDED: wgpu::BlendState = {
+    let sum = wgpu::BlendComponent {
+        src_factor: wgpu::BlendFactor::One,
+        dst_factor: wgpu::BlendFactor::One,
+        operation: wgpu::BlendOperation::Add,
+    };
+    wgpu::BlendState {
+        color: sum,
+        alpha: sum,
+    }
+};
