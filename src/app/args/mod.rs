@@ -2,6 +2,7 @@
 
 mod cost;
 mod stability;
+mod time;
 mod verify;
 
 use std::path::PathBuf;
@@ -13,6 +14,7 @@ use super::sight::Words;
 
 pub use cost::CostFlags;
 pub use stability::StabilityFlags;
+pub use time::TimeFlags;
 pub use verify::VerifyFlags;
 
 /// Turns measured optical constants into Fresnel reflectance functions that a shader can afford.
@@ -59,6 +61,8 @@ pub enum Command {
     Stability(StabilityFlags),
     /// What functions cost: counts by the compilers of GPUs, from the record where a compiler is not here
     Cost(Box<CostFlags>),
+    /// What functions cost on the device at hand, by overdraw: times, and shares of the exact law's
+    Time(TimeFlags),
     /// Compute the thesis's tables, figures and claims anew, and print both side by side
     Reproduce(Reproduce),
 }

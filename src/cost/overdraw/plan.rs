@@ -51,7 +51,7 @@ pub struct Plan {
 
 impl Timed {
     fn drawing(&self, evaluations: usize) -> Drawing {
-        let probe = Probe::new(&self.emitted, None);
+        let probe = Probe::new(&self.emitted.function, self.emitted.precision);
         Drawing {
             name: self.emitted.name.clone(),
             uniforms: uniforms(&probe, &self.values, self.emitted.precision),
