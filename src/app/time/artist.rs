@@ -16,6 +16,10 @@ const PATIENCE: Duration = Duration::from_secs(30);
 /// How much longer than it says a drawing may take before its process is ended: it need not hang, it may be late.
 const GRACE: Duration = Duration::from_secs(2);
 
+/// Mesa's llvmpipe draws on one thread. Two of them share what the processor's cores share, each slows the other at times,
+/// and shares that repeat within 2 % differ by 15.
+const ONE_THREAD: [(&str, &str); 1] = [("LP_NUM_THREADS", "1")];
+
 /// The process, and what it knows.
 pub struct Artist<'a> {
     plan: &'a Plan,
@@ -103,7 +107,8 @@ impl Draw for Artist<'_> {
 fn open(scratch: &TempDir) -> Result<(Worker, Hello), Error> {
     let mut words = own_words();
     words.push("--worker".into());
-    let mut worker = Worker::start(&words, &[], scratch.path())?;
+    let environment = ONE_THREAD.map(|(name, value)| (name.to_owned(), value.into()));
+    let mut worker = Worker::start(&words, &environment, scratch.path())?;
     let lacking = |what: String| Error::Lacking { what };
     match worker.ask(HELLO, PATIENCE) {
         Ok(Answer::Hello(hello)) => Ok((worker, hello)),

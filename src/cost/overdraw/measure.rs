@@ -8,7 +8,7 @@ use crate::cost::statistics::{median, quantile};
 use super::plan::Plan;
 
 /// Readings of a shader in a round; the quickest counts, since what disturbs only adds.
-pub const READINGS: usize = 11;
+pub const READINGS: usize = 9;
 /// Readings that choose how often a shader is drawn, and the clock.
 const TRIALS: usize = 3;
 /// Nanoseconds that the draws of a reading should take: some hundred times what a clock can tell apart.
