@@ -15,6 +15,8 @@ pub struct Family {
     pub compiler: Compiler,
     /// Under which names the compiler tells its figures.
     pub columns: Columns,
+    /// Whether it computes in 16 bits where a text says so; in OpenGL ES that is left to the driver.
+    pub half: bool,
 }
 
 /// Who compiles.
@@ -78,7 +80,7 @@ pub fn find(name: &str) -> Option<&'static Family> {
 const RADV: Columns = Columns {
     instructions: "Instructions",
     latency: Some("Latency"),
-    inverse_throughput: Some("Inverse Throughput"),
+    inverse_throughput: &["Inverse Throughput"],
     registers: Some("VGPRs"),
     measure: "inverse throughput",
 };
@@ -90,6 +92,7 @@ const fn amd(name: &'static str, gpu: &'static str, chip: &'static str) -> Famil
         gpu,
         compiler: Compiler::Radv(chip),
         columns: RADV,
+        half: true,
     }
 }
 
@@ -110,6 +113,7 @@ const fn mesa(
             dialect,
         },
         columns,
+        half: true,
     }
 }
 
@@ -117,7 +121,7 @@ const fn mesa(
 const INSTRUCTIONS: Columns = Columns {
     instructions: "inst",
     latency: None,
-    inverse_throughput: None,
+    inverse_throughput: &[],
     registers: None,
     measure: "instructions",
 };
@@ -169,8 +173,12 @@ pub static FAMILIES: &[Family] = &[
             measure: "operations",
             ..INSTRUCTIONS
         },
+        half: true,
     },
-    amd("gcn4", "GCN 4, Polaris 10", "polaris10"),
+    Family {
+        half: false,
+        ..amd("gcn4", "GCN 4, Polaris 10", "polaris10")
+    },
     amd("rdna1", "RDNA 1, Navi 10", "navi10"),
     amd("rdna2", "RDNA 2, Navi 21", "navi21"),
     amd("rdna3", "RDNA 3, Navi 31", "gfx1100"),
@@ -207,7 +215,7 @@ pub static FAMILIES: &[Family] = &[
         &[("PAN_GPU_ID", "860"), ("PAN_MESA_DEBUG", "precompile")],
         Dialect::Es300,
         Columns {
-            inverse_throughput: Some("bundles"),
+            inverse_throughput: &["bundles"],
             registers: Some("registers"),
             measure: "bundles",
             ..INSTRUCTIONS
@@ -219,7 +227,7 @@ pub static FAMILIES: &[Family] = &[
         &[("PAN_GPU_ID", "6221"), ("BIFROST_MESA_DEBUG", "shaderdb")],
         Dialect::Es300,
         Columns {
-            inverse_throughput: Some("arith"),
+            inverse_throughput: &["arith"],
             measure: "cycles of arithmetic",
             ..INSTRUCTIONS
         },
@@ -230,7 +238,7 @@ pub static FAMILIES: &[Family] = &[
         &[("PAN_GPU_ID", "9093"), ("BIFROST_MESA_DEBUG", "shaderdb")],
         Dialect::Es300,
         Columns {
-            inverse_throughput: Some("cycles"),
+            inverse_throughput: &["fma", "cvt", "sfu", "t", "ls"],
             measure: "cycles of the busiest pipe",
             ..INSTRUCTIONS
         },
@@ -278,5 +286,6 @@ pub static FAMILIES: &[Family] = &[
             "Mesa has no compiler for this generation of PowerVR, and the vendor's own is not free to run in a build",
         ),
         columns: INSTRUCTIONS,
+        half: true,
     },
 ];

@@ -12,8 +12,9 @@ pub struct Columns {
     pub instructions: &'static str,
     /// Cycles from the first instruction to the last.
     pub latency: Option<&'static str>,
-    /// Cycles that a unit is busy with it: what it costs where many run.
-    pub inverse_throughput: Option<&'static str>,
+    /// Cycles that a unit is busy with it: what it costs where many run. Of several units the busiest counts, each net of
+    /// what the empty chain asks of it.
+    pub inverse_throughput: &'static [&'static str],
     /// Registers of a lane.
     pub registers: Option<&'static str>,
     /// What the main figure is: the inverse throughput in the compiler's own words, or its instructions.
@@ -43,6 +44,19 @@ pub struct Figures {
 }
 
 impl Figures {
+    /// All of them, for a message.
+    pub fn text(&self) -> String {
+        let shown = |value: Option<f64>| value.map_or("none".to_owned(), |value| value.to_string());
+        format!(
+            "{} (instructions {} of the shader, {} of an evaluation; latency {}; registers {})",
+            self.cost(),
+            self.shader.instructions,
+            self.net.instructions,
+            shown(self.shader.latency),
+            shown(self.registers)
+        )
+    }
+
     /// The main figure of one evaluation.
     pub fn cost(&self) -> f64 {
         self.net.inverse_throughput.unwrap_or(self.net.instructions)
@@ -55,7 +69,7 @@ fn counts(columns: &Columns, told: &Statistics) -> Option<Counts> {
     Some(Counts {
         instructions: *told.get(columns.instructions)?,
         latency: of(columns.latency),
-        inverse_throughput: of(columns.inverse_throughput),
+        inverse_throughput: busiest(columns.inverse_throughput.iter().map(|unit| of(Some(unit)))),
     })
 }
 
@@ -74,11 +88,20 @@ pub fn figures(
         slope(short?, long?, more),
         slope(bare_short?, bare_long?, more),
     );
+    let of_unit = |unit: &&str| {
+        let told = |of: &Statistics| of.get(*unit).copied();
+        let [[a, b], [c, d]] = [chains, empty].map(|pair| pair.each_ref().map(told));
+        Some(rounded((b? - a? - (d? - c?)) / more))
+    };
+    let busy = busiest(columns.inverse_throughput.iter().map(of_unit));
     let registers = columns.registers;
     Some(Figures {
         shader: short?,
         registers: registers.and_then(|name| chains[0].get(name).copied()),
-        net: less(own, bare),
+        net: Counts {
+            inverse_throughput: busy,
+            ..less(own, bare)
+        },
     })
 }
 
@@ -90,6 +113,11 @@ fn slope(short: Counts, long: Counts, more: f64) -> Counts {
         latency: difference.latency.map(|cycles| cycles / more),
         inverse_throughput: difference.inverse_throughput.map(|cycles| cycles / more),
     }
+}
+
+/// The most that a unit is busy.
+fn busiest(units: impl Iterator<Item = Option<f64>>) -> Option<f64> {
+    units.flatten().reduce(f64::max)
 }
 
 /// To the sixth decimal, as compilers tell cycles, so that a record says the same.
@@ -164,7 +192,7 @@ mod tests {
         let columns = Columns {
             instructions: "inst",
             latency: None,
-            inverse_throughput: None,
+            inverse_throughput: &[],
             registers: Some("full"),
             measure: "instructions",
         };

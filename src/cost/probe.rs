@@ -1,7 +1,7 @@
 //! The shaders that are measured: a function in a fragment shader, evaluated once or several times in a chain.
 //!
-//! Each evaluation takes its cosine from the result before it by one multiply-add, `r g - b`, so that no channel can be
-//! left out and no compiler can make it simpler, and each has arguments of its own, so that nothing computed from
+//! Each evaluation takes its cosine from the result before it, `r g - b` and what comes from the vertices, so that no channel
+//! can be left out, no compiler can make it simpler, and cosines stay spread where the shader is run; and each has arguments of its own, so that nothing computed from
 //! arguments is shared. The chain's own price is that of the [empty](Probe::empty) function in it.
 //!
 //! Interface: location 0 holds weights and the first cosine; group 0 has the arguments at binding 0 (one block for each
@@ -200,9 +200,9 @@ impl Probe {
         let step = |i: usize| {
             let r = format!("r{}", i.saturating_sub(1));
             let next = if self.is_scalar {
-                format!("{r} * w.x - w.y")
+                format!("{r} * w.x + w.y")
             } else {
-                format!("{r}.x * {r}.y - {r}.z")
+                format!("{r}.x * {r}.y - {r}.z + w.z")
             };
             let chained = if i == 0 {
                 String::new()

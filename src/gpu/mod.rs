@@ -26,7 +26,7 @@ mod texture;
 pub use adapter::{Adapter, Backend, Kind, Wanted, adapters};
 pub use draw::{Canvas, Layer, Shader};
 pub use fault::Fault;
-pub use node::{Language, Node};
+pub use node::Node;
 pub use null::{Entry, Null};
 pub use program::{Argument, Code, Program, Uniform};
 pub use stream::Stream;

@@ -19,19 +19,8 @@ pub struct Node {
     pub name: String,
     /// The version of OpenGL ES, and the driver's.
     pub driver: String,
-    /// The language that it takes.
-    pub language: Language,
     gl: glow::Context,
     remarks: Arc<Mutex<Vec<String>>>,
-}
-
-/// A language of OpenGL ES.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Language {
-    /// GLSL ES 1.00, of OpenGL ES 2.0.
-    Es100,
-    /// GLSL ES 3.00.
-    Es300,
 }
 
 /// The node of the first device.
@@ -46,16 +35,16 @@ const DEBUG_BIT: egl::Int = 1;
 const CORNER: u32 = 0;
 
 impl Node {
-    /// Opens the node.
+    /// Opens the node with a context of this version of OpenGL ES, or a later one that takes its shaders.
     ///
     /// # Errors
     /// There is none, or its driver gives no context.
-    pub fn open() -> Result<Node, Fault> {
+    pub fn open(major: i32) -> Result<Node, Fault> {
         let egl = library()?;
         let display = display(egl)?;
         egl.initialize(display).map_err(absent)?;
         egl.bind_api(egl::OPENGL_ES_API).map_err(absent)?;
-        let (context, language) = context(egl, display)?;
+        let context = context(egl, display, major)?;
         enter(egl, display, context)?;
         // SAFETY: the context is current, and EGL 1.5 gives the address of every function, of the core too.
         let mut gl = unsafe { glow::Context::from_loader_function(|name| address(egl, name)) };
@@ -66,7 +55,6 @@ impl Node {
         Ok(Node {
             name: text(glow::RENDERER),
             driver: text(glow::VERSION),
-            language,
             gl,
             remarks,
         })
@@ -162,22 +150,17 @@ fn display(egl: &Egl) -> Result<egl::Display, Fault> {
     }
 }
 
-/// A context that reports, of the newest version that there is.
-fn context(egl: &Egl, display: egl::Display) -> Result<(egl::Context, Language), Fault> {
+/// A context that reports.
+fn context(egl: &Egl, display: egl::Display, major: i32) -> Result<egl::Context, Fault> {
     // SAFETY: EGL_NO_CONFIG_KHR is the null pointer. It is never looked through.
     let no_config = unsafe { egl::Config::from_ptr(std::ptr::null_mut()) };
-    let open = |major| {
-        let wanted = [
-            egl::CONTEXT_MAJOR_VERSION,
-            major,
-            CONTEXT_FLAGS,
-            DEBUG_BIT,
-            egl::NONE,
-        ];
-        egl.create_context(display, no_config, None, &wanted)
-    };
-    let newest = open(3).map(|context| (context, Language::Es300));
-    newest
-        .or_else(|_| open(2).map(|context| (context, Language::Es100)))
+    let wanted = [
+        egl::CONTEXT_MAJOR_VERSION,
+        major,
+        CONTEXT_FLAGS,
+        DEBUG_BIT,
+        egl::NONE,
+    ];
+    egl.create_context(display, no_config, None, &wanted)
         .map_err(absent)
 }

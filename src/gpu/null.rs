@@ -152,7 +152,8 @@ impl Null {
             let is_fragment = |part: &vk::PipelineExecutablePropertiesKHR| {
                 part.stages.contains(vk::ShaderStageFlags::FRAGMENT)
             };
-            let index = parts.iter().position(is_fragment).unwrap_or_default() as u32;
+            let found = parts.iter().position(is_fragment);
+            let index = found.ok_or(vk::Result::ERROR_UNKNOWN)? as u32;
             let info = vk::PipelineExecutableInfoKHR::default()
                 .pipeline(pipeline)
                 .executable_index(index);
@@ -221,7 +222,7 @@ unsafe fn create(
             .enabled_extension_names(&names)
             .push_next(&mut told)
             .push_next(&mut rendering);
-        // Families from before 16-bit arithmetic compute in 32.
+        // Families from before 16-bit arithmetic are given none.
         let wanted = if has.shader_float16 == vk::TRUE {
             wanted.push_next(&mut half).push_next(&mut storage)
         } else {

@@ -20,8 +20,8 @@ pub struct CostFlags {
     #[arg(long, value_delimiter = ',', value_name = "NAME")]
     pub material: Vec<String>,
     /// What functions compute in: f32 or f16 [default: both]
-    #[arg(long, value_name = "NAME")]
-    pub precision: Option<String>,
+    #[arg(long, value_delimiter = ',', value_name = "NAME")]
+    pub precision: Vec<String>,
     /// Compare what compilers say now with what was recorded; exit 1 where it differs
     #[arg(long)]
     pub check: bool,

@@ -24,6 +24,10 @@ pub fn run(flags: &CostFlags, progress: Progress) -> Result<Output, Error> {
         serve(family(name)?)?;
         return Ok(Output::default());
     }
+    if flags.limit == 0 {
+        let what = "--limit is 0 seconds; it is 1 or more".to_owned();
+        return Err(Error::Usage { what });
+    }
     let families = families(&flags.gpu)?;
     let (functions, left_out) = asked(flags)?;
     let told = told(flags, &families, &functions, progress)?;
@@ -36,26 +40,26 @@ pub fn run(flags: &CostFlags, progress: Progress) -> Result<Output, Error> {
         "tool": "fresnel-gen", "command": canonical(flags), "device": null,
         "rows": table.iter().flatten().map(Row::json).collect::<Vec<Value>>(),
     });
-    let (text, findings) = if flags.check {
+    let (text, findings, whole) = if flags.check {
         check(&table)
     } else {
-        (sheet::text(&table), 0)
+        (sheet::text(&table), 0, true)
     };
     let mut output = report(text, &json, flags.json.as_deref())?;
     output.remarks.extend(left_out);
     output.remarks.extend(paged(flags, &table)?);
-    output.code = ending(flags, &table, findings);
+    output.code = ending(flags, &table, findings, whole);
     Ok(output)
 }
 
 /// 1 where a check found something, 3 where something that could be measured was not and all was required.
-fn ending(flags: &CostFlags, table: &[Vec<Row>], findings: usize) -> u8 {
+fn ending(flags: &CostFlags, table: &[Vec<Row>], findings: usize, whole: bool) -> u8 {
     let is_lacking = |row: &Row| {
-        let measurable = row.family.compiler.dialect().is_some();
-        measurable && (row.figures.is_err() || flags.check && row.source != Source::Compiler)
+        let cannot = row.precision == "f16" && !row.family.half;
+        row.family.compiler.dialect().is_some() && !cannot && row.figures.is_err()
     };
     match findings {
-        0 if flags.require_all && table.iter().flatten().any(is_lacking) => 3,
+        0 if flags.require_all && (!whole || table.iter().flatten().any(is_lacking)) => 3,
         0 => 0,
         _ => 1,
     }
@@ -69,7 +73,7 @@ fn told(
     progress: Progress,
 ) -> Result<Vec<Option<Told>>, Error> {
     let limits = Limits {
-        seconds: flags.limit.max(1),
+        seconds: flags.limit,
         workers: machine::cores(),
     };
     let has_compiler = |family: &&&'static Family| family.compiler.dialect().is_some();
@@ -92,9 +96,12 @@ fn asked(flags: &CostFlags) -> Result<(Vec<Function>, Vec<String>), Error> {
     let methods: Vec<&'static Method> = request
         .resolved_methods()?
         .unwrap_or_else(|| methods::ALL.to_vec());
-    let precisions = match flags.precision.as_deref() {
-        None => Precision::ALL.to_vec(),
-        named_one => vec![named(named_one)?],
+    let precisions: Vec<Precision> = match flags.precision.as_slice() {
+        [] => Precision::ALL.to_vec(),
+        names => names
+            .iter()
+            .map(|name| named(Some(name)))
+            .collect::<Result<_, _>>()?,
     };
     let subjects = request.subjects()?;
     let left_out = subjects.left_out.iter();
@@ -106,19 +113,28 @@ fn asked(flags: &CostFlags) -> Result<(Vec<Function>, Vec<String>), Error> {
         .into_iter()
         .map(|(subject, _)| subject)
         .collect();
-    Ok((functions(&methods, &subjects, &precisions)?, left_out))
+    let functions = functions(&methods, &subjects, &precisions)?;
+    if !functions.iter().any(|function| function.is_asked) {
+        let what =
+            "there is nothing to measure: no such method for these materials in this precision";
+        return Err(Error::Usage {
+            what: what.to_owned(),
+        });
+    }
+    Ok((functions, left_out))
 }
 
-/// Fresh counts against the record: what differs, and a summary.
-fn check(table: &[Vec<Row>]) -> (String, usize) {
-    let (mut text, mut findings) = (String::new(), 0);
+/// Fresh counts against the record: what differs, how much, and whether all that has a compiler was compared.
+fn check(table: &[Vec<Row>]) -> (String, usize, bool) {
+    let (mut text, mut findings, mut whole) = (String::new(), 0, true);
     for rows in table {
         let Some(first) = rows.first() else { continue };
         let found = Checked::of(rows, &records(first.family.name));
         findings += found.differences.len();
+        whole &= found.unchecked.is_none() || first.family.compiler.dialect().is_none();
         text += &found.text(first.family.name);
     }
-    (text, findings)
+    (text, findings, whole)
 }
 
 /// A family's fresh counts against its record.
@@ -157,10 +173,11 @@ impl Checked {
             self.differences
                 .push(format!("{key}: the shader is another one"));
         } else if row.figures.as_ref().ok() != known {
-            let now = row.figures.as_ref().map(Figures::cost);
-            let then = known.map(Figures::cost);
+            let told =
+                |figures: Option<&Figures>| figures.map_or("nothing".to_owned(), Figures::text);
+            let (now, then) = (told(row.figures.as_ref().ok()), told(known));
             self.differences
-                .push(format!("{key}: {then:?} is recorded, and it is {now:?}"));
+                .push(format!("{key}: recorded is {then}, and now it is {now}"));
         } else {
             self.agree += 1;
         }
@@ -203,7 +220,7 @@ fn canonical(flags: &CostFlags) -> String {
         flag("gpu", &flags.gpu),
         flag("method", &flags.method),
         flag("material", &flags.material),
-        flag("precision", flags.precision.as_slice())
+        flag("precision", &flags.precision)
     )
 }
 

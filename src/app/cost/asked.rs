@@ -73,6 +73,9 @@ pub fn ask(
     limits: Limits,
     progress: &mut dyn FnMut(u64, u64, &str),
 ) -> Result<Vec<Told>, Error> {
+    if families.is_empty() {
+        return Ok(Vec::new());
+    }
     let (functions, places) = once_each(functions);
     let functions = functions.as_slice();
     let scratch = scratch()?;
@@ -83,7 +86,11 @@ pub fn ask(
     let (send, heard) = channel();
     thread::scope(|scope| {
         let work = |send: Sender<usize>| {
-            while let Some(job) = jobs.get(next.fetch_add(1, Ordering::Relaxed)) {
+            loop {
+                let place = next.fetch_add(1, Ordering::Relaxed);
+                let Some(job) = jobs.get(place) else {
+                    return Ok(());
+                };
                 let asker = Asker {
                     family: families[job.family],
                     limit: Duration::from_secs(limits.seconds),
@@ -93,13 +100,10 @@ pub fn ask(
                     // Nobody listens any more where another process could not be started.
                     let _ = send.send(job.family);
                 })?;
-                let place = jobs.iter().position(|other| std::ptr::eq(other, job));
-                let place = place.and_then(|place| results.get(place));
-                if let Some(Ok(mut place)) = place.map(Mutex::lock) {
-                    *place = Some(done);
+                if let Ok(mut slot) = results[place].lock() {
+                    *slot = Some(done);
                 }
             }
-            Ok(())
         };
         let threads: Vec<_> = (0..limits.workers.max(1))
             .map(|_| {
@@ -113,15 +117,17 @@ pub fn ask(
             count += 1;
             progress(count, whole, families[family].name);
         }
-        let ends = threads
-            .into_iter()
-            .map(|thread| thread.join().unwrap_or(Ok(())));
+        let ends = threads.into_iter().map(|thread| {
+            thread
+                .join()
+                .unwrap_or_else(|panic| std::panic::resume_unwind(panic))
+        });
         ends.collect::<Result<Vec<()>, Error>>()
     })?;
     let results = results
         .into_iter()
         .map(|result| result.into_inner().unwrap_or_default());
-    let told = gathered(families.len(), &jobs, results);
+    let told = gathered(families.len(), functions.len(), &jobs, results);
     Ok(told.into_iter().map(|told| told.at(&places)).collect())
 }
 
@@ -171,24 +177,35 @@ fn jobs(families: usize, functions: usize) -> Vec<Job> {
         .collect()
 }
 
-/// The answers of each family, in the functions' order.
+/// The answers of each family, in the functions' order. Where one process could not start and others could, the functions
+/// of that one have its reason.
 fn gathered(
     families: usize,
+    count: usize,
     jobs: &[Job],
     results: impl Iterator<Item = Option<Done>>,
 ) -> Vec<Told> {
-    let mut all: Vec<Told> = vec![Told::Absent("it was not asked".to_owned()); families];
+    let unknown = || Err("it was not asked".to_owned());
+    let mut compilers: Vec<Option<String>> = vec![None; families];
+    let mut answers: Vec<Vec<Answer>> = (0..families).map(|_| vec![unknown(); count]).collect();
     for (job, done) in jobs.iter().zip(results) {
-        match (&mut all[job.family], done) {
-            (Told::Fresh(_, answers), Some(Done::Fresh(_, more))) => answers.extend(more),
-            (place, Some(Done::Fresh(compiler, answers))) => {
-                *place = Told::Fresh(compiler, answers)
+        let slots = &mut answers[job.family][job.functions.clone()];
+        match done {
+            Some(Done::Fresh(compiler, fresh)) => {
+                compilers[job.family] = Some(compiler);
+                slots.clone_from_slice(&fresh);
             }
-            (place, Some(Done::Absent(why))) => *place = Told::Absent(why),
-            (_, None) => {}
+            Some(Done::Absent(why)) => slots.fill(Err(why)),
+            None => {}
         }
     }
-    all
+    let told = compilers.into_iter().zip(answers);
+    told.map(|(compiler, answers)| match (compiler, answers.first()) {
+        (Some(compiler), _) => Told::Fresh(compiler, answers),
+        (None, Some(Err(why))) => Told::Absent(why.clone()),
+        (None, _) => Told::Absent("it was not asked".to_owned()),
+    })
+    .collect()
 }
 
 /// Who asks one family's compiler.
@@ -220,6 +237,7 @@ impl Asker<'_> {
             worker,
             empty: BTreeMap::new(),
             hangs: 0,
+            is_silent: false,
         };
         let mut answers = Vec::new();
         for function in functions {
@@ -238,7 +256,7 @@ impl Asker<'_> {
     }
 }
 
-/// Hangs after which a compiler is asked no more.
+/// Hangs after which a process is asked no more.
 const HANGS: usize = 3;
 
 /// A compiler at work.
@@ -250,6 +268,7 @@ struct Session<'a> {
     /// The chains of the empty function, of one channel or not, in each precision.
     empty: BTreeMap<(bool, bool), [Statistics; 2]>,
     hangs: usize,
+    is_silent: bool,
 }
 
 impl Session<'_> {
@@ -258,9 +277,12 @@ impl Session<'_> {
             let why = format!("not asked: the compiler hung {HANGS} times before");
             return Ok(Err(why));
         }
+        if function.precision.is_half() && !self.asker.family.half {
+            return Ok(Err("it has no 16-bit arithmetic".to_owned()));
+        }
         let answer = self.figures(function);
-        if answer.is_err() {
-            // It may be gone, or at work without end.
+        if std::mem::take(&mut self.is_silent) {
+            // It is gone, or at work without end.
             self.worker = self.asker.start(&self.environment)?.0;
         }
         Ok(answer)
@@ -295,6 +317,7 @@ impl Session<'_> {
             Ok(Said::Told(statistics)) => Ok(statistics),
             Ok(Said::Refused(why) | Said::Absent(why) | Said::Compiler(why)) => Err(why),
             Err(silence) => {
+                self.is_silent = true;
                 self.hangs += usize::from(silence == Silence::TooLong);
                 Err(reason(&silence, self.asker.limit))
             }
@@ -344,4 +367,28 @@ fn environment(family: &Family) -> Result<Vec<(String, OsString)>, String> {
         Compiler::Operations | Compiler::None(_) => {}
     }
     Ok(all)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_process_that_did_not_start_takes_nothing_from_others() {
+        let jobs: Vec<Job> = jobs(1, 2 * JOB + 5);
+        let fresh = |count| {
+            Some(Done::Fresh(
+                "X".to_owned(),
+                vec![Ok(Figures::default()); count],
+            ))
+        };
+        let done = [fresh(JOB), Some(Done::Absent("gone".to_owned())), fresh(5)];
+        let told = gathered(1, 2 * JOB + 5, &jobs, done.into_iter());
+        let [Told::Fresh(_, answers)] = told.as_slice() else {
+            panic!("{told:?}");
+        };
+        assert!(answers[..JOB].iter().all(Result::is_ok));
+        assert!(answers[JOB..2 * JOB].iter().all(Result::is_err));
+        assert!(answers[2 * JOB..].iter().all(Result::is_ok));
+    }
 }

@@ -15,6 +15,13 @@ pub fn rows(
 ) -> Vec<Row> {
     let about = |place: usize, function: &Function| {
         let row = bare(family, function);
+        if function.precision.is_half() && !family.half {
+            let why = "it has no 16-bit arithmetic (shaderFloat16)".to_owned();
+            return Row {
+                figures: Err(why),
+                ..row
+            };
+        }
         match (family.compiler, told) {
             (Compiler::Operations, _) => counted(row, function),
             (Compiler::None(why), _) => Row {
@@ -100,7 +107,7 @@ fn recorded(row: Row, record: &Record, absent: &str) -> Row {
         "it is not recorded"
     };
     Row {
-        figures: Err(format!("not measured: {absent}, and {why}")),
+        figures: Err(format!("{absent}, and {why}")),
         ..row
     }
 }

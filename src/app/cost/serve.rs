@@ -60,7 +60,10 @@ fn open(family: &Family) -> Result<Open, Fault> {
             let names = [VERTEX, ENTRY].map(|name| CString::new(name).unwrap_or_default());
             Ok(Open::Radv(Null::open(&vertex)?, names))
         }
-        Compiler::Mesa { dialect, .. } => Ok(Open::Mesa(Node::open()?, dialect)),
+        Compiler::Mesa { dialect, .. } => {
+            let major = if dialect == Dialect::Es100 { 2 } else { 3 };
+            Ok(Open::Mesa(Node::open(major)?, dialect))
+        }
         Compiler::Operations | Compiler::None(_) => Err(Fault::Absent {
             what: format!("{} has no compiler", family.name),
             get: "none is needed".to_owned(),

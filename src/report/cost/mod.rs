@@ -89,8 +89,15 @@ impl Row {
             "net_inverse_throughput": net.and_then(|of| of.inverse_throughput),
             "share": self.share, "shader": self.shader, "from": self.source.name(),
         });
-        if let Err(why) = &self.figures {
-            row["reason"] = json!(why);
+        match &self.figures {
+            Err(why) => row["reason"] = json!(why),
+            Ok(_) => {
+                let told = ["latency", "inverse_throughput", "registers"];
+                let untold: Vec<&str> = told.into_iter().filter(|key| row[key].is_null()).collect();
+                if !untold.is_empty() {
+                    row["reason"] = json!(format!("not told here: {}", untold.join(", ")));
+                }
+            }
         }
         row
     }

@@ -6,7 +6,11 @@ use crate::report::table;
 /// The rows of each family, all of the same functions in the same order.
 pub fn text(families: &[Vec<Row>]) -> String {
     match families {
-        [one] => format!("{}\n{}\n", table::text(&ALONE, &alone(one)), about(one)),
+        [one] => format!(
+            "{}\nThe shader's figures are of a chain of evaluations, four or, in GLSL ES 1.00, one.\n{}\n",
+            table::text(&ALONE, &alone(one)),
+            about(one)
+        ),
         several => {
             let body = beside(several);
             let told: String = several.iter().map(|rows| about(rows) + "\n").collect();
@@ -20,9 +24,9 @@ pub fn text(families: &[Vec<Row>]) -> String {
 const ALONE: [&str; 8] = [
     "function",
     "an evaluation",
-    "share",
+    "share, %",
     "fetches",
-    "instructions of the shader",
+    "shader's instructions",
     "latency",
     "inverse throughput",
     "registers",
@@ -79,7 +83,7 @@ fn about(rows: &[Row]) -> String {
         _ => {}
     }
     if let Some(Err(why)) = rows.iter().map(|row| &row.figures).find(|one| one.is_err()) {
-        about += &format!("; {unknown} of {} not measured: {why}", rows.len());
+        about += &format!("; {unknown} of {} not measured: {}", rows.len(), why);
     }
     about
 }
