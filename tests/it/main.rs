@@ -21,6 +21,8 @@ mod incidents;
 #[cfg(feature = "cli")]
 mod lut;
 mod oracle;
+#[cfg(all(feature = "cli", feature = "gpu"))]
+mod overdraw;
 mod pages;
 mod physics;
 mod readme;

@@ -231,6 +231,8 @@ fn only_the_writer_and_the_program_touch_the_machine() {
         "app/verify/machine.rs",
         "app/verify/supervise.rs",
         "app/worker.rs",
+        // The clock of what is measured.
+        "cost/clock.rs",
         "verify/compilers/call.rs",
         // It asks whether a library would complain of the environment.
         "gpu/quiet.rs",

@@ -1,6 +1,7 @@
 //! The command line: flags and subcommands.
 
 mod stability;
+mod time;
 mod verify;
 
 use std::path::PathBuf;
@@ -11,6 +12,7 @@ use super::precision::PrecisionFlags;
 use super::sight::Words;
 
 pub use stability::StabilityFlags;
+pub use time::TimeFlags;
 pub use verify::VerifyFlags;
 
 /// Turns measured optical constants into Fresnel reflectance functions that a shader can afford.
@@ -55,6 +57,8 @@ pub enum Command {
     Verify(Box<VerifyFlags>),
     /// Where methods fail: NaN, lost digits, what the law has and they have not, told as regions
     Stability(StabilityFlags),
+    /// What functions cost on the device at hand, by overdraw: times, and shares of the exact law's
+    Time(TimeFlags),
     /// Compute the thesis's tables, figures and claims anew, and print both side by side
     Reproduce(Reproduce),
 }

@@ -10,6 +10,8 @@ mod reproduce;
 mod stability;
 mod survey;
 #[cfg(feature = "gpu")]
+mod time;
+#[cfg(feature = "gpu")]
 mod verify;
 
 use std::path::Path;
@@ -42,8 +44,10 @@ pub fn run(cli: &Cli, progress: Progress) -> Result<Output, Error> {
         Some(Command::Bake(flags)) => bake::run(flags, progress),
         #[cfg(feature = "gpu")]
         Some(Command::Verify(flags)) => verify::run(flags, progress),
+        #[cfg(feature = "gpu")]
+        Some(Command::Time(flags)) => time::run(flags, progress),
         #[cfg(not(feature = "gpu"))]
-        Some(Command::Verify(_)) => Err(Error::Lacking {
+        Some(Command::Verify(_) | Command::Time(_)) => Err(Error::Lacking {
             what: "this program was built without the feature `gpu`, and runs no shaders"
                 .to_owned(),
         }),

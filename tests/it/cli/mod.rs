@@ -15,6 +15,8 @@ mod seen;
 mod single;
 mod stability;
 mod streams;
+#[cfg(feature = "gpu")]
+mod time;
 
 use std::fs;
 use std::path::{Path, PathBuf};

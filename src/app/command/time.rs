@@ -1,0 +1,188 @@
+//! `time`: what functions cost on the device at hand.
+
+use core::time::Duration;
+use std::collections::BTreeSet;
+
+use crate::app::args::TimeFlags;
+use crate::app::error::Error;
+use crate::app::names::{flag, unknown};
+use crate::app::source::materials;
+use crate::app::time::{Artist, Asked, Report, Row, Words, serve, text};
+use crate::cost::BLOCKS;
+use crate::cost::overdraw::{Clock, Effort, Hello, Measured, Stop, measure};
+use crate::gpu::{Backend, Wanted};
+
+use super::{Output, Progress, report};
+
+/// Pixels a side that a run may ask for, rounds, and seconds of a submission.
+const SIZES: std::ops::RangeInclusive<u32> = 16..=8192;
+const ROUNDS: std::ops::RangeInclusive<usize> = 1..=1000;
+const MOST_SECONDS: f64 = 3600.0;
+
+/// Measures.
+pub fn run(flags: &TimeFlags, progress: Progress) -> Result<Output, Error> {
+    check(flags)?;
+    let (wanted, clock) = (wanted(flags)?, clock(flags)?);
+    let asked = Asked::new(&Words {
+        methods: &flags.method,
+        materials: materials(&flags.material)?,
+        precisions: &flags.precision,
+        evaluations: flags.evaluations,
+    })?;
+    if flags.worker {
+        let served = serve(&asked.plan, &wanted, flags.size);
+        // The supervisor has gone: nobody is there to be told.
+        return Ok(Output {
+            code: u8::from(served.is_err()),
+            ..Output::default()
+        });
+    }
+    let limit = Duration::from_secs_f64(flags.limit);
+    let mut artist = Artist::start(&asked.plan, limit)?;
+    if flags.hardware && artist.hello.is_software {
+        return Err(no_hardware(&artist.hello));
+    }
+    if clock == Some(Clock::Cpu) && !artist.hello.is_software {
+        let device = &artist.hello.device;
+        return Err(Error::Usage {
+            what: format!(
+                "--clock cpu is for software; {device} does not compute on the processor"
+            ),
+        });
+    }
+    let effort = Effort {
+        rounds: flags.rounds,
+        clock,
+        is_software: artist.hello.is_software,
+        limit: limit.as_nanos() as f64,
+    };
+    let measured = measure(&asked.plan, &effort, &mut artist, progress).map_err(|stop| {
+        let (Stop::One(why) | Stop::All(why)) = stop;
+        let what = format!("{}: {why}", artist.hello.device);
+        Error::Lacking { what }
+    })?;
+    let told = Report {
+        asked: &asked,
+        hello: &artist.hello,
+        measured: &measured,
+    };
+    let rows = told.rows();
+    let json = told.json(&canonical(flags), &rows);
+    let mut output = report(text(&told, &rows), &json, flags.json.as_deref())?;
+    output.remarks = remarks(&asked, &measured, &rows, clock);
+    output.code = code(flags, &rows);
+    Ok(output)
+}
+
+fn check(flags: &TimeFlags) -> Result<(), Error> {
+    let usage = |what: String| Err(Error::Usage { what });
+    if let Some(size) = flags.size.filter(|size| !SIZES.contains(size)) {
+        return usage(format!("--size is {size}; it is 16 to 8192 pixels a side"));
+    }
+    if !ROUNDS.contains(&flags.rounds) {
+        return usage(format!("--rounds is {}; it is 1 to 1000", flags.rounds));
+    }
+    if !(1..=BLOCKS).contains(&flags.evaluations) {
+        let given = flags.evaluations;
+        return usage(format!("--evaluations is {given}; it is 1 to {BLOCKS}"));
+    }
+    if !(flags.limit > 0.0 && flags.limit <= MOST_SECONDS) {
+        let given = flags.limit;
+        return usage(format!(
+            "--limit is {given}; it is more than 0 and at most {MOST_SECONDS} seconds"
+        ));
+    }
+    Ok(())
+}
+
+fn wanted(flags: &TimeFlags) -> Result<Wanted, Error> {
+    // OpenGL ES runs vertex shaders here, and draws nothing.
+    let draws = Backend::ALL
+        .into_iter()
+        .filter(|backend| *backend != Backend::Gles);
+    let names: Vec<&str> = draws.clone().map(Backend::name).collect();
+    let find = |name: &String| {
+        let found = draws.clone().find(|backend| backend.name() == name);
+        found.ok_or_else(|| unknown("backend", name, &names))
+    };
+    Ok(Wanted {
+        backend: flags.backend.as_ref().map(find).transpose()?,
+        name: flags.adapter.clone(),
+    })
+}
+
+fn clock(flags: &TimeFlags) -> Result<Option<Clock>, Error> {
+    let find = |name: &String| {
+        let found = Clock::ALL.into_iter().find(|clock| clock.name() == name);
+        found.ok_or_else(|| unknown("clock", name, &Clock::ALL.map(Clock::name)))
+    };
+    flags.clock.as_ref().map(find).transpose()
+}
+
+fn no_hardware(hello: &Hello) -> Error {
+    Error::Lacking {
+        what: format!(
+            "no hardware adapter: there is only software, {}; install the driver of the graphics card, on Debian mesa-vulkan-drivers or the maker's, or leave --hardware out",
+            hello.device
+        ),
+    }
+}
+
+/// What failed, each reason once; what was left out; and how the time was taken where that was not asked for.
+fn remarks(asked: &Asked, measured: &Measured, rows: &[Row], clock: Option<Clock>) -> Vec<String> {
+    let faults = |lacking: bool, word: &str| -> BTreeSet<String> {
+        let wanted = rows.iter().filter(|row| row.is_lacking == lacking);
+        let whys = wanted.filter_map(|row| row.figure.as_ref().err());
+        whys.map(|why| format!("{word}: {why}")).collect()
+    };
+    let mut remarks: Vec<String> = faults(false, "FAIL").into_iter().collect();
+    remarks.extend(faults(true, "not measured"));
+    let left_out = asked.left_out.iter();
+    remarks.extend(left_out.map(|why| format!("left out: {why}")));
+    remarks.extend(clock.map_or_else(|| chosen(measured), |_| None));
+    remarks
+}
+
+/// What the time was taken by, where that was not asked for and is not the device's own clock.
+fn chosen(measured: &Measured) -> Option<String> {
+    let why = match measured.clock {
+        Clock::Gpu => return None,
+        Clock::Cpu => {
+            "the device is software: measured by the processor's time, in which other programs are not; --clock gpu takes its timestamps"
+        }
+        Clock::Wall => {
+            "the device's timestamps do not advance, or it has none: measured by wall time"
+        }
+    };
+    Some(why.to_owned())
+}
+
+/// 1 where a shader failed, 3 where this machine cannot run some and all was asked for.
+fn code(flags: &TimeFlags, rows: &[Row]) -> u8 {
+    let missing = |row: &&Row| row.figure.is_err();
+    if rows.iter().filter(missing).any(|row| !row.is_lacking) {
+        1
+    } else if flags.require_all && rows.iter().any(|row| row.is_lacking) {
+        3
+    } else {
+        0
+    }
+}
+
+/// The run's flags in one order, without places.
+fn canonical(flags: &TimeFlags) -> String {
+    let one = |name: &str, word: &Option<String>| flag(name, word.as_slice());
+    let size = flags.size.map(|size| size.to_string());
+    let hardware = if flags.hardware { " --hardware" } else { "" };
+    let mut command = "time".to_owned();
+    command += &flag("method", &flags.method);
+    command += &flag("material", &flags.material);
+    command += &flag("precision", &flags.precision);
+    command += &one("adapter", &flags.adapter);
+    command += &one("backend", &flags.backend);
+    command += hardware;
+    command += &one("clock", &flags.clock);
+    command += &one("size", &size);
+    let (evaluations, rounds) = (flags.evaluations, flags.rounds);
+    command + &format!(" --evaluations {evaluations} --rounds {rounds}")
+}

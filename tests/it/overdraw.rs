@@ -1,0 +1,164 @@
+//! Timing by overdraw, apart from any device: what is drawn is valid, and what is read becomes the figures that it should.
+
+use fresnel_gen::app::Materials;
+use fresnel_gen::app::time::{Asked, Words};
+use fresnel_gen::cost::overdraw::{Clock, Draw, Effort, Measured, Plan, Reading, Stop, measure};
+use fresnel_gen::emit::validate_wgsl;
+
+/// Pixels of the target that is made up here.
+const PIXELS: u64 = 1000;
+
+fn asked(methods: &[&str]) -> Asked {
+    let methods: Vec<String> = methods.iter().map(|name| (*name).to_owned()).collect();
+    Asked::new(&Words {
+        methods: &methods,
+        materials: Materials::Default,
+        precisions: &[],
+        evaluations: 4,
+    })
+    .unwrap()
+}
+
+/// A device whose every draw takes what it should, but for a machine that is at times busy with something else.
+struct MadeUp {
+    /// Nanoseconds of a draw.
+    costs: Vec<f64>,
+    has_clock: bool,
+    /// A drawing that never ends.
+    hangs: Option<usize>,
+    calls: u64,
+}
+
+impl MadeUp {
+    /// An evaluation takes a hundred nanoseconds times the drawing's number, an empty draw a thousand.
+    fn new(plan: &Plan) -> MadeUp {
+        let cost = |i: usize| match i {
+            Plan::HEAVY => 1e6,
+            i if plan.drawings[i].name == "the empty shader" => 1e3,
+            i => 1e3 + 100.0 * i as f64 * plan.evaluations as f64,
+        };
+        MadeUp {
+            costs: (0..plan.drawings.len()).map(cost).collect(),
+            has_clock: true,
+            hangs: None,
+            calls: 0,
+        }
+    }
+}
+
+impl Draw for MadeUp {
+    fn draw(&mut self, drawing: usize, draws: u32) -> Result<Reading, Stop> {
+        if self.hangs == Some(drawing) {
+            return Err(Stop::One("it never ends".to_owned()));
+        }
+        self.calls += 1;
+        let over = if drawing == Plan::HEAVY {
+            0.0
+        } else {
+            self.costs[drawing]
+        };
+        let time = self.costs[Plan::HEAVY] + over * f64::from(draws);
+        // One reading in seven is anything.
+        let busy = if self.calls.is_multiple_of(7) {
+            3.0
+        } else {
+            1.0
+        };
+        Ok(Reading {
+            gpu: self.has_clock.then_some(time * busy),
+            cpu: Some(1.5 * time * busy),
+            wall: (time + 5e4) * busy,
+        })
+    }
+}
+
+fn effort(clock: Option<Clock>) -> Effort {
+    Effort {
+        rounds: 9,
+        clock,
+        is_software: false,
+        limit: 1e10,
+    }
+}
+
+fn measured(plan: &Plan, artist: &mut MadeUp, clock: Option<Clock>) -> Result<Measured, Stop> {
+    measure(plan, &effort(clock), artist, &mut |_, _, _| {})
+}
+
+#[test]
+fn everything_that_is_drawn_is_valid() {
+    let asked = asked(&[]);
+    for drawing in &asked.plan.drawings {
+        validate_wgsl(&drawing.text)
+            .unwrap_or_else(|fault| panic!("{}: {fault}\n{}", drawing.name, drawing.text));
+        let blocks = drawing.text.contains("var<uniform>");
+        assert_eq!(blocks, !drawing.uniforms.is_empty(), "{}", drawing.name);
+        assert_eq!(
+            drawing.text.contains("texture_2d"),
+            drawing.table.is_some(),
+            "{}",
+            drawing.name
+        );
+    }
+    assert_eq!(asked.plan.places().len(), asked.functions.len());
+}
+
+#[test]
+fn shares_are_found_again_through_noise() {
+    let asked = asked(&["schlick", "dielectric_exact", "table"]);
+    let plan = &asked.plan;
+    for clock in Clock::ALL {
+        let measured = measured(plan, &mut MadeUp::new(plan), Some(clock)).unwrap();
+        assert_eq!(measured.clock, clock);
+        for (i, (own, _)) in plan.places().iter().enumerate() {
+            let figure = measured.figure(plan, i, PIXELS).unwrap();
+            let share = *own as f64 / Plan::REFERENCE as f64;
+            assert!(
+                (figure.share / share - 1.0).abs() < 1e-9,
+                "{own}: {figure:?}"
+            );
+            let longer = if clock == Clock::Cpu { 1.5 } else { 1.0 };
+            let net = 0.1 * longer * *own as f64;
+            assert!(
+                (figure.net_ns_per_pixel - net).abs() < 1e-9,
+                "{own}: {figure:?}"
+            );
+            assert!(
+                (figure.empty_ns_per_pixel - longer).abs() < 1e-9,
+                "{own}: {figure:?}"
+            );
+            let (low, high) = figure.interval.unwrap();
+            assert!(low <= figure.share && figure.share <= high, "{figure:?}");
+        }
+    }
+}
+
+#[test]
+fn a_clock_that_stands_still_is_not_taken() {
+    let asked = asked(&["schlick"]);
+    let mut artist = MadeUp::new(&asked.plan);
+    artist.has_clock = false;
+    let found = measured(&asked.plan, &mut artist, None).unwrap();
+    assert!(found.clock == Clock::Wall && !found.advances);
+    assert!(found.figure(&asked.plan, 0, PIXELS).is_ok());
+    let refused = measured(&asked.plan, &mut artist, Some(Clock::Gpu));
+    assert!(matches!(refused, Err(Stop::All(why)) if why.contains("do not advance")));
+}
+
+#[test]
+fn a_shader_that_hangs_takes_only_what_needs_it_along() {
+    let asked = asked(&["schlick", "schlick_ior"]);
+    let plan = &asked.plan;
+    let failing = |hangs: usize| {
+        let mut artist = MadeUp::new(plan);
+        artist.hangs = Some(hangs);
+        let measured = measured(plan, &mut artist, None).unwrap();
+        let figures = (0..plan.places().len()).map(|i| measured.figure(plan, i, PIXELS));
+        let failed: Vec<String> = figures.filter_map(Result::err).collect();
+        assert!(failed.iter().all(|why| why.contains("it never ends")));
+        failed.len()
+    };
+    assert_eq!(failing(plan.places()[0].0), 1);
+    assert_eq!(failing(Plan::REFERENCE), plan.places().len());
+    assert_eq!(failing(Plan::HEAVY), plan.places().len());
+}
