@@ -7,8 +7,8 @@ use crate::cost::statistics::{median, quantile};
 
 use super::plan::Plan;
 
-/// Readings of a shader in a round; the quickest counts, since what disturbs only adds.
-pub const READINGS: usize = 9;
+/// Readings of a shader in a round; their lower decile counts, since what disturbs only adds.
+pub const READINGS: usize = 5;
 /// Readings that choose how often a shader is drawn, and the clock.
 const TRIALS: usize = 3;
 /// Nanoseconds that the draws of a reading should take: some hundred times what a clock can tell apart.
@@ -124,7 +124,7 @@ impl Clock {
 }
 
 /// A drawing in a round, and what it is held against, read next to it and as often: a machine that is slower for most of a
-/// round is slower for both, and neither has more readings from which to take a quick one. Of each the quickest; NaN
+/// round is slower for both, and neither has more readings from which to take a quick one. Of each the lower decile; NaN
 /// where it was given up, and for a clock that is not there.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Seen {
@@ -337,12 +337,12 @@ fn order(count: usize, turn: usize) -> impl Iterator<Item = usize> {
     (0..count).map(move |i| (i * step + 11 * turn) % count)
 }
 
-/// The quickest of each over the turns.
+/// The lower decile of each over the turns.
 fn quiet(turns: &[Seen], fixed: usize) -> Seen {
     let of = |one: &dyn Fn(&Seen) -> Reading| {
         let by = |clock: Clock| {
             let times: Vec<f64> = turns.iter().map(|seen| clock.of(&one(seen))).collect();
-            quantile(&times, 0.0)
+            quantile(&times, 0.1)
         };
         Reading {
             gpu: Some(by(Clock::Gpu)),

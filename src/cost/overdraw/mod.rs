@@ -9,7 +9,7 @@
 //! `net = ((T(heavy + N draws) - T(heavy)) / N - the same of the empty shader) / evaluations`.
 //!
 //! All shaders are drawn in turn in every round, in an order that changes, and beside each few of them what they are held
-//! against, so that a machine that is busy for a while is busy for both. A round gives each shader the quickest of its
+//! against, so that a machine that is busy for a while is busy for both. A round gives each shader the lower decile of its
 //! readings, since what disturbs only adds, and each function its share of `dielectric_exact`; what is told is the median
 //! over rounds.
 //!
