@@ -77,58 +77,75 @@ pub fn ask(
         return Ok(Vec::new());
     }
     let (functions, places) = once_each(functions);
-    let functions = functions.as_slice();
     let scratch = scratch()?;
     let jobs: Vec<Job> = jobs(families.len(), functions.len());
-    let next = AtomicUsize::new(0);
-    let results: Vec<Mutex<Option<Done>>> = jobs.iter().map(|_| Mutex::default()).collect();
+    let crew = Crew {
+        families,
+        functions: &functions,
+        results: jobs.iter().map(|_| Mutex::default()).collect(),
+        jobs: &jobs,
+        limit: Duration::from_secs(limits.seconds),
+        scratch: scratch.path(),
+        next: AtomicUsize::new(0),
+    };
     let whole = (families.len() * functions.len()) as u64;
     let (send, heard) = channel();
     thread::scope(|scope| {
-        let work = |send: Sender<usize>| {
-            loop {
-                let place = next.fetch_add(1, Ordering::Relaxed);
-                let Some(job) = jobs.get(place) else {
-                    return Ok(());
-                };
-                let asker = Asker {
-                    family: families[job.family],
-                    limit: Duration::from_secs(limits.seconds),
-                    scratch: scratch.path(),
-                };
-                let done = asker.run(&functions[job.functions.clone()], &mut || {
-                    // Nobody listens any more where another process could not be started.
-                    let _ = send.send(job.family);
-                })?;
-                if let Ok(mut slot) = results[place].lock() {
-                    *slot = Some(done);
-                }
-            }
+        let start = |_| {
+            let send = send.clone();
+            let crew = &crew;
+            scope.spawn(move || crew.work(&send))
         };
-        let threads: Vec<_> = (0..limits.workers.max(1))
-            .map(|_| {
-                let send = send.clone();
-                scope.spawn(move || work(send))
-            })
-            .collect();
+        let threads: Vec<_> = (0..limits.workers.max(1)).map(start).collect();
         drop(send);
-        let mut count = 0;
-        while let Ok(family) = heard.recv() {
-            count += 1;
-            progress(count, whole, families[family].name);
+        for (count, family) in heard.iter().enumerate() {
+            progress(count as u64 + 1, whole, families[family].name);
         }
         let ends = threads.into_iter().map(|thread| {
-            thread
-                .join()
-                .unwrap_or_else(|panic| std::panic::resume_unwind(panic))
+            let end = thread.join();
+            end.unwrap_or_else(|panic| std::panic::resume_unwind(panic))
         });
         ends.collect::<Result<Vec<()>, Error>>()
     })?;
-    let results = results
-        .into_iter()
-        .map(|result| result.into_inner().unwrap_or_default());
+    let results = crew.results.into_iter();
+    let results = results.map(|result| result.into_inner().unwrap_or_default());
     let told = gathered(families.len(), functions.len(), &jobs, results);
     Ok(told.into_iter().map(|told| told.at(&places)).collect())
+}
+
+/// What the threads of a run share.
+struct Crew<'a> {
+    families: &'a [&'static Family],
+    functions: &'a [&'a Function],
+    jobs: &'a [Job],
+    results: Vec<Mutex<Option<Done>>>,
+    limit: Duration,
+    scratch: &'a Path,
+    next: AtomicUsize,
+}
+
+impl Crew<'_> {
+    /// Takes jobs until there are none.
+    fn work(&self, send: &Sender<usize>) -> Result<(), Error> {
+        loop {
+            let place = self.next.fetch_add(1, Ordering::Relaxed);
+            let Some(job) = self.jobs.get(place) else {
+                return Ok(());
+            };
+            let asker = Asker {
+                family: self.families[job.family],
+                limit: self.limit,
+                scratch: self.scratch,
+            };
+            let done = asker.run(&self.functions[job.functions.clone()], &mut || {
+                // Nobody listens any more where another process could not be started.
+                let _ = send.send(job.family);
+            })?;
+            if let Ok(mut slot) = self.results[place].lock() {
+                *slot = Some(done);
+            }
+        }
+    }
 }
 
 /// Functions whose shaders are different, and for each function which of them is its own.

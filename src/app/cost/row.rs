@@ -107,7 +107,7 @@ fn recorded(row: Row, record: &Record, absent: &str) -> Row {
         "it is not recorded"
     };
     Row {
-        figures: Err(format!("{absent}, and {why}")),
+        figures: Err(format!("not measured: {absent}, and {why}")),
         ..row
     }
 }

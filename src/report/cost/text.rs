@@ -83,7 +83,8 @@ fn about(rows: &[Row]) -> String {
         _ => {}
     }
     if let Some(Err(why)) = rows.iter().map(|row| &row.figures).find(|one| one.is_err()) {
-        about += &format!("; {unknown} of {} not measured: {}", rows.len(), why);
+        let why = why.strip_prefix("not measured: ").unwrap_or(why);
+        about += &format!("; {unknown} of {} not measured: {why}", rows.len());
     }
     about
 }
