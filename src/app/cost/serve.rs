@@ -13,8 +13,8 @@ use crate::gpu::{Entry, Fault, Node, Null};
 
 /// A compiler at work.
 enum Open {
-    Radv(Null, [CString; 2]),
-    Mesa(Node, Dialect),
+    Radv(Box<Null>, [CString; 2]),
+    Mesa(Box<Node>, Dialect),
 }
 
 /// Serves until there is nothing more to read: a line of JSON, the text of a fragment shader, is answered by a line. The
@@ -58,11 +58,11 @@ fn open(family: &Family) -> Result<Open, Fault> {
         Compiler::Radv(_) => {
             let vertex = wgsl_to_spirv(WGSL_VERTEX).expect("the vertex shader is a constant");
             let names = [VERTEX, ENTRY].map(|name| CString::new(name).unwrap_or_default());
-            Ok(Open::Radv(Null::open(&vertex)?, names))
+            Ok(Open::Radv(Box::new(Null::open(&vertex)?), names))
         }
         Compiler::Mesa { dialect, .. } => {
             let major = if dialect == Dialect::Es100 { 2 } else { 3 };
-            Ok(Open::Mesa(Node::open(major)?, dialect))
+            Ok(Open::Mesa(Box::new(Node::open(major)?), dialect))
         }
         Compiler::Operations | Compiler::None(_) => Err(Fault::Absent {
             what: format!("{} has no compiler", family.name),
