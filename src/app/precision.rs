@@ -46,3 +46,18 @@ pub fn named(name: Option<&str>) -> Result<Precision, Error> {
         Some(name) => Precision::find(name).ok_or_else(|| unknown("precision", name, &names)),
     }
 }
+
+/// The precisions of these names, each once and in order; both where none is said.
+///
+/// # Errors
+/// There is no precision of one of these names.
+pub fn several(names: &[String]) -> Result<Vec<Precision>, Error> {
+    if names.is_empty() {
+        return Ok(Precision::ALL.to_vec());
+    }
+    let found = names.iter().map(|name| named(Some(name)));
+    let mut found = found.collect::<Result<Vec<Precision>, Error>>()?;
+    found.sort_unstable();
+    found.dedup();
+    Ok(found)
+}

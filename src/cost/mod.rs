@@ -16,3 +16,6 @@ pub use figures::{Columns, Counts, Figures, Statistics, figures, remarked};
 pub use probe::{BLOCKS, ENTRY, Probe, VERTEX, WGSL_VERTEX, gles_vertex};
 pub use record::{Record, records};
 pub use times::{Time, times};
+
+/// The method that others' costs and times are shares of, in its library form of three channels.
+pub const REFERENCE: &str = "dielectric_exact";

@@ -243,7 +243,10 @@ fn link(gl: &glow::Context, vertex: &str) -> Result<glow::Program, Fault> {
     // SAFETY: the caller has made the context current.
     unsafe {
         let program = gl.create_program().map_err(Fault::lost)?;
-        let linked = build(gl, program, vertex);
+        let linked = build(gl, program, vertex, FRAGMENT, || {
+            gl.bind_attrib_location(program, COS_THETA, "cos_theta");
+            gl.transform_feedback_varyings(program, &["reflectance"], glow::INTERLEAVED_ATTRIBS);
+        });
         if linked.is_err() {
             gl.delete_program(program);
         }
@@ -251,12 +254,19 @@ fn link(gl: &glow::Context, vertex: &str) -> Result<glow::Program, Fault> {
     }
 }
 
-unsafe fn build(gl: &glow::Context, program: glow::Program, vertex: &str) -> Result<(), Fault> {
+/// Compiles both shaders of a program and links it; names are bound between.
+pub(super) unsafe fn build(
+    gl: &glow::Context,
+    program: glow::Program,
+    vertex: &str,
+    fragment: &str,
+    bind: impl FnOnce(),
+) -> Result<(), Fault> {
     // SAFETY: the caller has made the context current.
     unsafe {
         for (ty, text) in [
             (glow::VERTEX_SHADER, vertex),
-            (glow::FRAGMENT_SHADER, FRAGMENT),
+            (glow::FRAGMENT_SHADER, fragment),
         ] {
             let shader = gl.create_shader(ty).map_err(Fault::lost)?;
             gl.attach_shader(program, shader);
@@ -268,8 +278,7 @@ unsafe fn build(gl: &glow::Context, program: glow::Program, vertex: &str) -> Res
                 return Err(Fault::refused(gl.get_shader_info_log(shader)));
             }
         }
-        gl.bind_attrib_location(program, COS_THETA, "cos_theta");
-        gl.transform_feedback_varyings(program, &["reflectance"], glow::INTERLEAVED_ATTRIBS);
+        bind();
         gl.link_program(program);
         if gl.get_program_link_status(program) {
             Ok(())

@@ -12,6 +12,7 @@ use khronos_egl as egl;
 
 use super::egl::{Egl, absent, address, enter, library};
 use super::fault::Fault;
+use super::gles::build;
 
 /// A context on a render node. It lives as long as the process.
 pub struct Node {
@@ -69,7 +70,9 @@ impl Node {
         // SAFETY: the context is current on this thread, and the program is its own.
         unsafe {
             let program = self.gl.create_program().map_err(Fault::lost)?;
-            let linked = self.build(program, vertex, fragment);
+            let linked = build(&self.gl, program, vertex, fragment, || {
+                self.gl.bind_attrib_location(program, CORNER, "fg_corner");
+            });
             self.gl.delete_program(program);
             linked?;
         }
@@ -79,39 +82,6 @@ impl Node {
     fn take(&self) -> Vec<String> {
         let mut remarks = self.remarks.lock().unwrap_or_else(PoisonError::into_inner);
         std::mem::take(&mut *remarks)
-    }
-
-    unsafe fn build(
-        &self,
-        program: glow::Program,
-        vertex: &str,
-        fragment: &str,
-    ) -> Result<(), Fault> {
-        let gl = &self.gl;
-        // SAFETY: as in `link`.
-        unsafe {
-            for (ty, text) in [
-                (glow::VERTEX_SHADER, vertex),
-                (glow::FRAGMENT_SHADER, fragment),
-            ] {
-                let shader = gl.create_shader(ty).map_err(Fault::lost)?;
-                gl.attach_shader(program, shader);
-                // It goes with the program.
-                gl.delete_shader(shader);
-                gl.shader_source(shader, text);
-                gl.compile_shader(shader);
-                if !gl.get_shader_compile_status(shader) {
-                    return Err(Fault::refused(gl.get_shader_info_log(shader)));
-                }
-            }
-            gl.bind_attrib_location(program, CORNER, "fg_corner");
-            gl.link_program(program);
-            if gl.get_program_link_status(program) {
-                Ok(())
-            } else {
-                Err(Fault::refused(gl.get_program_info_log(program)))
-            }
-        }
     }
 }
 

@@ -3,6 +3,8 @@
 pub mod card;
 pub mod chart;
 pub mod cost;
+#[cfg(feature = "cli")]
+mod html;
 pub mod markdown;
 #[cfg(feature = "cli")]
 pub mod png;

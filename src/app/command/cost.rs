@@ -6,14 +6,13 @@ use crate::app::args::CostFlags;
 use crate::app::cost::{Function, Limits, Told, ask, functions, rows, serve};
 use crate::app::error::Error;
 use crate::app::names::{flag, unknown};
-use crate::app::precision::named;
+use crate::app::precision::several;
 use crate::app::request::Request;
 use crate::app::source::materials;
 use crate::app::verify::machine;
 use crate::app::write::write_file;
 use crate::cost::{FAMILIES, Family, Figures, Record, find, records};
 use crate::methods::{self, Method};
-use crate::num::Precision;
 use crate::report::cost::{self as sheet, Row, Source};
 
 use super::{Output, Progress, report};
@@ -96,13 +95,7 @@ fn asked(flags: &CostFlags) -> Result<(Vec<Function>, Vec<String>), Error> {
     let methods: Vec<&'static Method> = request
         .resolved_methods()?
         .unwrap_or_else(|| methods::ALL.to_vec());
-    let precisions: Vec<Precision> = match flags.precision.as_slice() {
-        [] => Precision::ALL.to_vec(),
-        names => names
-            .iter()
-            .map(|name| named(Some(name)))
-            .collect::<Result<_, _>>()?,
-    };
+    let precisions = several(&flags.precision)?;
     let subjects = request.subjects()?;
     let left_out = subjects.left_out.iter();
     let left_out = left_out

@@ -150,7 +150,7 @@ impl Crew<'_> {
 
 /// Functions whose shaders are different, and for each function which of them is its own.
 fn once_each(functions: &[Function]) -> (Vec<&Function>, Vec<usize>) {
-    let mut known: BTreeMap<String, usize> = BTreeMap::new();
+    let mut known: BTreeMap<&str, usize> = BTreeMap::new();
     let mut different = Vec::new();
     let mut places = Vec::new();
     for function in functions {

@@ -1,7 +1,9 @@
 //! What is measured: library functions with arguments from uniforms, specialised ones with their constants folded in.
 
+use std::sync::OnceLock;
+
 use crate::app::error::Error;
-use crate::cost::{Dialect, Probe};
+use crate::cost::{Dialect, Probe, REFERENCE};
 use crate::emit::{Bounds, Emitted, Naming, Subject, library_functions, sha256, specialised_graph};
 use crate::ir::{Checked, Ty};
 use crate::methods::{self, Class, Method};
@@ -23,6 +25,8 @@ pub struct Function {
     /// The graph.
     pub graph: Checked,
     probe: Probe,
+    /// The hash for each language, once it was asked for.
+    hashes: [OnceLock<String>; 3],
 }
 
 /// The functions of these methods: library and scalar forms, and specialised ones for each material that they describe,
@@ -103,6 +107,7 @@ impl Function {
             is_asked: true,
             material: None,
             probe: Probe::new(&graph, precision),
+            hashes: Default::default(),
             method,
             form,
             precision,
@@ -126,8 +131,11 @@ impl Function {
     }
 
     /// The shader of the longer chain by its hash: what a record belongs to.
-    pub fn hash(&self, dialect: Dialect) -> String {
-        sha256(self.probe.text(dialect.chains()[1], dialect).as_bytes())[..16].to_owned()
+    pub fn hash(&self, dialect: Dialect) -> &str {
+        self.hashes[dialect as usize].get_or_init(|| {
+            let text = self.probe.text(dialect.chains()[1], dialect);
+            sha256(text.as_bytes())[..16].to_owned()
+        })
     }
 
     /// The fragment shaders of both chains.
@@ -137,9 +145,6 @@ impl Function {
             .map(|evaluations| self.probe.text(evaluations, dialect))
     }
 }
-
-/// The method that others' costs are shares of.
-pub const REFERENCE: &str = "dielectric_exact";
 
 /// The chains of the empty function.
 pub fn empty(is_scalar: bool, precision: Precision, dialect: Dialect) -> [String; 2] {

@@ -68,7 +68,7 @@ fn bare(family: &'static Family, function: &Function) -> Row {
         source: Source::Nobody,
         figures: Err(String::new()),
         share: None,
-        shader: dialect.map(|dialect| function.hash(dialect)),
+        shader: dialect.map(|dialect| function.hash(dialect).to_owned()),
     }
 }
 

@@ -2,8 +2,9 @@
 //! same from the same flags, so that a number names a drawing.
 
 use crate::app::error::Error;
-use crate::app::precision::named;
+use crate::app::precision::several;
 use crate::app::request::{Materials, Request, Source};
+use crate::cost::REFERENCE;
 use crate::cost::overdraw::{Plan, Timed};
 use crate::emit::{Bounds, Emitted, Naming, Subject, library_functions, specialised_function};
 use crate::fit::table_of;
@@ -17,8 +18,6 @@ const METAL: &str = "gold";
 const DIELECTRIC: &str = "water";
 /// What lies below everything: the dearest of the library.
 const HEAVY: &str = "conductor_from_f0_f82";
-/// What shares are of.
-const REFERENCE: &str = "dielectric_exact";
 
 /// What is measured.
 pub struct Asked {
@@ -71,7 +70,7 @@ impl Asked {
             plan: library.plan(&[], words.evaluations)?,
             left_out: unseen.collect(),
         };
-        for precision in precisions(words.precisions)? {
+        for precision in several(words.precisions)? {
             let methods = chosen.as_deref().unwrap_or(methods::ALL);
             asked.add_library(methods, precision, &library)?;
             for (subject, _) in &subjects.ready {
@@ -198,16 +197,4 @@ fn subject(name: &str) -> Result<Subject, Error> {
     };
     let mut ready = request.subjects()?.ready;
     Ok(ready.swap_remove(0).0)
-}
-
-/// The precisions of these names, single first, each once; both where none is named.
-fn precisions(names: &[String]) -> Result<Vec<Precision>, Error> {
-    if names.is_empty() {
-        return Ok(Precision::ALL.to_vec());
-    }
-    let found = names.iter().map(|name| named(Some(name)));
-    let mut found = found.collect::<Result<Vec<Precision>, Error>>()?;
-    found.sort_unstable();
-    found.dedup();
-    Ok(found)
 }

@@ -1,9 +1,10 @@
 //! One page with all figures: a bar for each function on each family. Self-contained, for any browser.
 
 use serde::Serialize;
-use tera::{Context, Tera};
+use tera::Context;
 
 use super::{Row, short};
+use crate::report::html;
 
 static TEMPLATE: &str = include_str!("../../../templates/cost.html.tera");
 
@@ -36,15 +37,10 @@ struct Line {
 /// The page of these rows, or why it cannot be made.
 pub fn page(families: &[Vec<Row>], command: &str) -> Result<String, String> {
     let sections: Vec<Section> = families.iter().filter_map(|rows| section(rows)).collect();
-    let mut tera = Tera::new();
-    tera.autoescape_on(vec![".tera"]);
-    tera.add_raw_template("page.tera", TEMPLATE)
-        .map_err(|error| error.to_string())?;
     let mut context = Context::new();
     context.insert("sections", &sections);
     context.insert("command", command);
-    tera.render("page.tera", &context)
-        .map_err(|error| error.to_string())
+    html::page(TEMPLATE, &context)
 }
 
 fn section(rows: &[Row]) -> Option<Section> {

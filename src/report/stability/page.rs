@@ -3,9 +3,10 @@
 use base64::Engine;
 use base64::prelude::BASE64_STANDARD;
 use serde::Serialize;
-use tera::{Context, Tera};
+use tera::Context;
 
 use super::{Row, percent, worst};
+use crate::report::html;
 use crate::verify::stability::Finding;
 
 static TEMPLATE: &str = include_str!("../../../templates/stability.html.tera");
@@ -41,16 +42,11 @@ pub fn page(
         .into_iter()
         .map(|method| section(method, rows, pictures))
         .collect();
-    let mut tera = Tera::new();
-    tera.autoescape_on(vec![".tera"]);
-    tera.add_raw_template("page.tera", TEMPLATE)
-        .map_err(|error| error.to_string())?;
     let mut context = Context::new();
     context.insert("sections", &sections);
     context.insert("command", command);
     context.insert("precision", rows.first().map_or("f32", |row| row.precision));
-    tera.render("page.tera", &context)
-        .map_err(|error| error.to_string())
+    html::page(TEMPLATE, &context)
 }
 
 fn section(
