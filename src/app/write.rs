@@ -70,6 +70,28 @@ pub fn write_files(files: &[(PathBuf, &[u8])]) -> Result<usize, Error> {
     Ok(pending.len())
 }
 
+/// Whether a file can be written there, found out by doing it and taking it back: before work that takes long.
+///
+/// # Errors
+/// It cannot be.
+pub fn try_file(path: &Path) -> Result<(), Error> {
+    match fs::metadata(path) {
+        Ok(found) if found.is_dir() => {
+            let path = path.to_path_buf();
+            return Err(Error::NotAFile { path });
+        }
+        Ok(found) if !found.is_file() => return Ok(()),
+        _ => {}
+    }
+    let mut created = Vec::new();
+    let staged = stage(path, &[], &mut created);
+    let tried = staged.map(drop).map_err(|fault| stage_fault(path, fault));
+    for folder in created.iter().rev() {
+        let _ = fs::remove_dir(folder);
+    }
+    tried
+}
+
 /// Where these bytes go; nowhere where they are already.
 fn destination(path: &Path, bytes: &[u8]) -> Result<Option<PathBuf>, Error> {
     let fault = |source| stage_fault(path, source);

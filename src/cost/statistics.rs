@@ -23,29 +23,21 @@ pub fn spread(values: &[f64]) -> f64 {
     (quantile(values, 0.75) - quantile(values, 0.25)) / median(values).abs()
 }
 
-/// An interval that holds the median of what the values are drawn from with at least 95 %, from two of the values. Nothing
-/// is assumed of how they scatter: each lies below the true median with probability ½, and so the number below it is binomial.
-/// None where there are too few values for that.
+/// As many numbers below `count`, drawn with repetition, again and again: what is computed of each draw scatters as it would
+/// over measurements made anew. The same draws in every run.
 ///
-/// Source: W. R. Thompson, "On Confidence Ranges for the Median", Annals of Mathematical Statistics 7(3), 1936,
-/// <https://doi.org/10.1214/aoms/1177732502>.
-pub fn interval(values: &[f64]) -> Option<(f64, f64)> {
-    const OUTSIDE: f64 = 0.05;
-    let mut sorted = values.to_vec();
-    sorted.sort_by(f64::total_cmp);
-    let count = sorted.len();
-    let mut chance = libm::exp2(-(count as f64));
-    let (mut tail, mut cut) = (0.0, 0);
-    for below in 0..count / 2 {
-        tail += chance;
-        if 2.0 * tail > OUTSIDE {
-            break;
-        }
-        cut = below + 1;
-        chance *= (count - below) as f64 / (below + 1) as f64;
-    }
-    cut.checked_sub(1)
-        .map(|place| (sorted[place], sorted[count - 1 - place]))
+/// Source: B. Efron, "Bootstrap Methods: Another Look at the Jackknife", Annals of Statistics 7(1), 1979,
+/// <https://doi.org/10.1214/aos/1176344552>.
+pub fn resamples(count: usize) -> impl Iterator<Item = Vec<usize>> {
+    const TIMES: usize = 400;
+    let mut random = fastrand::Rng::with_seed(count as u64);
+    let draw = move |_| (0..count).map(|_| random.usize(0..count)).collect();
+    (0..TIMES).map(draw)
+}
+
+/// The limits within which 95 % of the values lie: of a statistic over [`resamples`] its confidence interval.
+pub fn interval(values: &[f64]) -> (f64, f64) {
+    (quantile(values, 0.025), quantile(values, 0.975))
 }
 
 #[cfg(test)]
@@ -61,14 +53,19 @@ mod tests {
     }
 
     #[test]
-    fn the_interval_has_the_ranks_of_tables() {
-        // Conover, "Practical Nonparametric Statistics", 1999, table A3: the ranks for a median at 95 %.
-        for (count, rank) in [(6, 1), (8, 1), (9, 2), (15, 4), (21, 6), (30, 10)] {
-            let values: Vec<f64> = (1..=count).rev().map(f64::from).collect();
-            let expected = (f64::from(rank), f64::from(count + 1 - rank));
-            assert_eq!(interval(&values), Some(expected), "{count}");
-        }
-        assert_eq!(interval(&[1.0, 2.0, 3.0, 4.0, 5.0]), None);
-        assert_eq!(interval(&[]), None);
+    fn the_interval_holds_what_it_should() {
+        // Where the lower decile of what is drawn lies is known: 0.1.
+        let mut random = fastrand::Rng::with_seed(7);
+        let holds = |_| {
+            let drawn: Vec<f64> = (0..75).map(|_| random.f64()).collect();
+            let of = |places: Vec<usize>| {
+                let values: Vec<f64> = places.iter().map(|place| drawn[*place]).collect();
+                quantile(&values, 0.1)
+            };
+            let (low, high) = interval(&resamples(drawn.len()).map(of).collect::<Vec<f64>>());
+            usize::from(low <= 0.1 && 0.1 <= high)
+        };
+        let held: usize = (0..200).map(holds).sum();
+        assert!((180..=198).contains(&held), "{held} of 200");
     }
 }

@@ -19,7 +19,7 @@ pub struct Time {
     pub ns_per_pixel: f64,
     /// Its net cost over that of `dielectric_exact`.
     pub share: f64,
-    /// How far the middle half of the rounds' shares reaches, over their median.
+    /// How far the middle half of single rounds' shares reaches, over their median.
     pub spread: f64,
     /// The device.
     pub device: &'static str,

@@ -110,8 +110,9 @@ fn shares_are_found_again_through_noise() {
     for clock in Clock::ALL {
         let measured = measured(plan, &mut MadeUp::new(plan), Some(clock)).unwrap();
         assert_eq!(measured.clock, clock);
-        for (i, (own, _)) in plan.places().iter().enumerate() {
-            let figure = measured.figure(plan, i, PIXELS).unwrap();
+        let figures = measured.figures(plan, PIXELS);
+        for ((own, _), figure) in plan.places().iter().zip(figures) {
+            let figure = figure.unwrap();
             let share = *own as f64 / Plan::REFERENCE as f64;
             assert!(
                 (figure.share / share - 1.0).abs() < 1e-9,
@@ -140,7 +141,7 @@ fn a_clock_that_stands_still_is_not_taken() {
     artist.has_clock = false;
     let found = measured(&asked.plan, &mut artist, None).unwrap();
     assert!(found.clock == Clock::Wall && !found.advances);
-    assert!(found.figure(&asked.plan, 0, PIXELS).is_ok());
+    assert!(found.figures(&asked.plan, PIXELS)[0].is_ok());
     let refused = measured(&asked.plan, &mut artist, Some(Clock::Gpu));
     assert!(matches!(refused, Err(Stop::All(why)) if why.contains("do not advance")));
 }
@@ -153,7 +154,7 @@ fn a_shader_that_hangs_takes_only_what_needs_it_along() {
         let mut artist = MadeUp::new(plan);
         artist.hangs = Some(hangs);
         let measured = measured(plan, &mut artist, None).unwrap();
-        let figures = (0..plan.places().len()).map(|i| measured.figure(plan, i, PIXELS));
+        let figures = measured.figures(plan, PIXELS).into_iter();
         let failed: Vec<String> = figures.filter_map(Result::err).collect();
         assert!(failed.iter().all(|why| why.contains("it never ends")));
         failed.len()

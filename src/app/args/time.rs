@@ -37,8 +37,8 @@ pub struct TimeFlags {
     /// Evaluations in a draw, 1 to 8, each from the result before; 1 is what a scene draws
     #[arg(long, value_name = "N", default_value_t = 8)]
     pub evaluations: usize,
-    /// Rounds, 1 to 1000; each draws every shader five times
-    #[arg(long, value_name = "N", default_value_t = 15)]
+    /// Rounds, 1 to 1000; each draws every shader, and what all are held against beside every sixth
+    #[arg(long, value_name = "N", default_value_t = 75)]
     pub rounds: usize,
     /// Seconds that a single submission may take
     #[arg(long, value_name = "SECONDS", default_value_t = 10.0)]

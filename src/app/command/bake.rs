@@ -19,7 +19,7 @@ use crate::methods::TEXELS;
 use crate::report::table;
 use crate::targets::{self, Finish, Target};
 
-use super::{Output, Progress, report};
+use super::{Output, Progress, report, try_places};
 
 /// The files that a search chooses from where none are asked for: one of each depth.
 const SEARCHED_FORMATS: [Format; 4] = [
@@ -56,6 +56,7 @@ pub fn run(flags: &BakeFlags, progress: Progress) -> Result<Output, Error> {
         targets,
         prefix: flags.prefix.clone(),
     };
+    try_places(flags.json.as_deref(), None)?;
     let baked = bake(&request, progress)?;
     let written = write_files(&placed(&baked, &flags.out_dir))?;
     let command = format!("bake{}", canonical(&request));

@@ -15,7 +15,10 @@ use crate::cost::{FAMILIES, Family, Figures, Record, find, records};
 use crate::methods::{self, Method};
 use crate::report::cost::{self as sheet, Row, Source};
 
-use super::{Output, Progress, report};
+use super::{Output, Progress, report, try_places};
+
+/// The page in the folder asked for.
+const PAGE: &str = "cost.html";
 
 /// Measures.
 pub fn run(flags: &CostFlags, progress: Progress) -> Result<Output, Error> {
@@ -29,6 +32,8 @@ pub fn run(flags: &CostFlags, progress: Progress) -> Result<Output, Error> {
     }
     let families = families(&flags.gpu)?;
     let (functions, left_out) = asked(flags)?;
+    let page = flags.out_dir.as_ref().map(|folder| folder.join(PAGE));
+    try_places(flags.json.as_deref(), page.as_deref())?;
     let told = told(flags, &families, &functions, progress)?;
     let table: Vec<Vec<Row>> = families
         .iter()
@@ -202,7 +207,7 @@ fn paged(flags: &CostFlags, table: &[Vec<Row>]) -> Result<Option<String>, Error>
         return Ok(None);
     };
     let page = sheet::page(table, &canonical(flags)).map_err(|what| Error::Usage { what })?;
-    let file = folder.join("cost.html");
+    let file = folder.join(PAGE);
     write_file(&file, page.as_bytes())?;
     Ok(Some(format!("{}: a page with all figures", file.display())))
 }

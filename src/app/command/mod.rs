@@ -20,7 +20,7 @@ use std::path::Path;
 
 use super::args::{Cli, Command};
 use super::error::Error;
-use super::write::write_file;
+use super::write::{try_file, write_file};
 
 /// What a run leaves: text for stdout, remarks for stderr, the exit code.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -58,6 +58,12 @@ pub fn run(cli: &Cli, progress: Progress) -> Result<Output, Error> {
         Some(Command::Stability(flags)) => stability::run(flags, progress),
         Some(Command::Reproduce(flags)) => reproduce::run(flags, progress),
     }
+}
+
+/// Refuses places that cannot be written, before the work: a report's, and a page's in its folder.
+fn try_places(report: Option<&Path>, page: Option<&Path>) -> Result<(), Error> {
+    let report = report.filter(|file| *file != Path::new("-"));
+    report.into_iter().chain(page).try_for_each(try_file)
 }
 
 /// A report as text, or as JSON where that was asked for. JSON on stdout stands there alone.

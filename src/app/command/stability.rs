@@ -18,7 +18,7 @@ use crate::report::png::png;
 use crate::report::stability::{Row, heat, page, text};
 use crate::verify::stability::{Code, Finding, maps, scan, scan_specialised};
 
-use super::{Output, Progress, report};
+use super::{Output, Progress, report, try_places};
 
 /// Pixels of a map to a unit of its drawing.
 const SCALE: f32 = 1.0;
@@ -28,6 +28,11 @@ struct Asked<'a> {
     flags: &'a StabilityFlags,
     methods: Vec<&'static Method>,
     precision: Precision,
+}
+
+/// The page in the folder asked for.
+fn index(precision: Precision) -> String {
+    format!("index{}.html", precision.suffix())
 }
 
 /// Scans.
@@ -40,6 +45,11 @@ pub fn run(flags: &StabilityFlags, progress: Progress) -> Result<Output, Error> 
         methods,
         precision,
     };
+    let page = flags
+        .out_dir
+        .as_ref()
+        .map(|folder| folder.join(index(precision)));
+    try_places(flags.json.as_deref(), page.as_deref())?;
     let rows = if flags.material.is_empty() {
         asked.libraries(progress)
     } else {
@@ -199,7 +209,7 @@ impl Asked<'_> {
             .iter()
             .map(|(method, over, bytes)| (path(method, over), bytes.as_slice()))
             .collect();
-        let index = format!("index{suffix}.html");
+        let index = index(self.precision);
         files.push((folder.join(&index), page.as_bytes()));
         write_files(&files)?;
         Ok(Some(format!(

@@ -12,12 +12,12 @@ use crate::cost::BLOCKS;
 use crate::cost::overdraw::{Clock, Effort, Hello, Measured, Stop, measure};
 use crate::gpu::{Backend, Wanted};
 
-use super::{Output, Progress, report};
+use super::{Output, Progress, report, try_places};
 
 /// Pixels a side that a run may ask for, rounds, and seconds of a submission.
 const SIZES: std::ops::RangeInclusive<u32> = 16..=8192;
 const ROUNDS: std::ops::RangeInclusive<usize> = 1..=1000;
-const MOST_SECONDS: f64 = 3600.0;
+const SECONDS: std::ops::RangeInclusive<f64> = 1e-6..=3600.0;
 
 /// Measures.
 pub fn run(flags: &TimeFlags, progress: Progress) -> Result<Output, Error> {
@@ -37,10 +37,11 @@ pub fn run(flags: &TimeFlags, progress: Progress) -> Result<Output, Error> {
             ..Output::default()
         });
     }
+    try_places(flags.json.as_deref(), None)?;
     let limit = Duration::from_secs_f64(flags.limit);
     let mut artist = Artist::start(&asked.plan, limit)?;
     if flags.hardware && artist.hello.is_software {
-        return Err(no_hardware(&artist.hello));
+        return Err(no_hardware(&artist.hello, &wanted));
     }
     if clock == Some(Clock::Cpu) && !artist.hello.is_software {
         let device = &artist.hello.device;
@@ -86,10 +87,10 @@ fn check(flags: &TimeFlags) -> Result<(), Error> {
         let given = flags.evaluations;
         return usage(format!("--evaluations is {given}; it is 1 to {BLOCKS}"));
     }
-    if !(flags.limit > 0.0 && flags.limit <= MOST_SECONDS) {
+    if !SECONDS.contains(&flags.limit) {
         let given = flags.limit;
         return usage(format!(
-            "--limit is {given}; it is more than 0 and at most {MOST_SECONDS} seconds"
+            "--limit is {given}; it is 0.000001 to 3600 seconds"
         ));
     }
     Ok(())
@@ -119,13 +120,18 @@ fn clock(flags: &TimeFlags) -> Result<Option<Clock>, Error> {
     flags.clock.as_ref().map(find).transpose()
 }
 
-fn no_hardware(hello: &Hello) -> Error {
-    Error::Lacking {
-        what: format!(
-            "no hardware adapter: there is only software, {}; install the driver of the graphics card, on Debian mesa-vulkan-drivers or the maker's, or leave --hardware out",
-            hello.device
-        ),
-    }
+fn no_hardware(hello: &Hello, wanted: &Wanted) -> Error {
+    let device = &hello.device;
+    let what = if wanted.name.is_some() {
+        format!(
+            "no hardware adapter: what --adapter names is software, {device}; leave --adapter or --hardware out"
+        )
+    } else {
+        format!(
+            "no hardware adapter: there is only software, {device}; install the driver of the graphics card, on Debian mesa-vulkan-drivers or the maker's, or leave --hardware out"
+        )
+    };
+    Error::Lacking { what }
 }
 
 /// What failed, each reason once; what was left out; and how the time was taken where that was not asked for.

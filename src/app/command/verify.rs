@@ -16,7 +16,7 @@ use crate::gpu::{Backend, Wanted};
 use crate::report::table;
 use crate::verify::run::Devices;
 
-use super::{Output, Progress, report};
+use super::{Output, Progress, report, try_places};
 
 /// Cosines that a run may ask for.
 const POINTS: std::ops::RangeInclusive<usize> = 100..=10_000_000;
@@ -48,6 +48,7 @@ pub fn run(flags: &VerifyFlags, progress: Progress) -> Result<Output, Error> {
             what: what.to_owned(),
         });
     }
+    try_places(flags.json.as_deref(), None)?;
     let (rows, speeds) = if flags.exhaustive {
         exhaustive::rows(&plan, &Devices::new(wanted), progress)?
     } else {

@@ -2,7 +2,7 @@
 
 use serde_json::{Value, json};
 
-use crate::cost::overdraw::{Clock, Figure, Hello, Measured, Noise, READINGS};
+use crate::cost::overdraw::{Clock, Figure, Hello, Measured, Noise, Timed};
 use crate::ir::Ty;
 use crate::report::table;
 
@@ -35,15 +35,15 @@ impl<'a> Report<'a> {
     /// The rows, in the order of the plan.
     pub fn rows(&self) -> Vec<Row<'a>> {
         let asked = self.asked;
-        let functions = asked.functions.iter().enumerate();
-        let row = |(i, (timed, material)): (usize, &'a (_, Option<String>))| {
-            let timed: &crate::cost::overdraw::Timed = timed;
+        let figures = self.measured.figures(&asked.plan, self.hello.pixels);
+        let functions = asked.functions.iter().zip(figures);
+        let row = |((timed, material), figure): (&'a (Timed, Option<String>), _)| {
             let emitted = &timed.emitted;
             let is_lacking = emitted.precision.is_half() && !self.hello.has_half;
             let figure = if is_lacking {
                 Err(self.hello.no_half())
             } else {
-                self.measured.figure(&asked.plan, i, self.hello.pixels)
+                figure
             };
             Row {
                 method: emitted.method.name,
@@ -99,11 +99,11 @@ impl<'a> Report<'a> {
         let [heavy, empty] = self.measured.noise();
         let clock = match self.measured.clock {
             Clock::Gpu => "the device's timestamps",
-            Clock::Cpu => "the processor's time, all threads together",
+            Clock::Cpu => "the processor's time of the process that draws",
             Clock::Wall => "wall time",
         };
         format!(
-            "{}\n{} pixels, {} evaluations a draw, {} rounds of {READINGS} readings, by {clock}\nnoise of this machine:\n  {}\n  {}\n\n",
+            "{}\n{} pixels, {} evaluations a draw, {} rounds, by {clock}\nnoise of this machine:\n  {}\n  {}\n\n",
             self.hello.device,
             self.hello.pixels,
             self.asked.plan.evaluations,
@@ -164,6 +164,14 @@ pub fn text(report: &Report, rows: &[Row]) -> String {
     report.head() + &table::text(&head, &cells)
 }
 
+fn percent(share: f64) -> String {
+    if share.is_finite() {
+        format!("{:.1}%", 100.0 * share)
+    } else {
+        "-".to_owned()
+    }
+}
+
 fn cells(row: &Row) -> Vec<String> {
     let mut cells = vec![
         row.method.to_owned(),
@@ -176,7 +184,7 @@ fn cells(row: &Row) -> Vec<String> {
         Ok(figure) => cells.extend([
             format!("{:.4}", figure.ns_per_pixel),
             format!("{:.3}", figure.share),
-            format!("{:.1}%", 100.0 * figure.spread),
+            percent(figure.spread),
             figure.interval.map_or("-".to_owned(), |(low, high)| {
                 format!("{low:.3} to {high:.3}")
             }),

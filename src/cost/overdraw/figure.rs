@@ -1,9 +1,14 @@
 //! From readings to figures.
 
-use crate::cost::statistics::{interval, median, quantile, spread};
+use crate::cost::statistics::{interval, median, quantile, resamples, spread};
 
-use super::measure::{Clock, Measured, Seen};
+use super::measure::{Clock, Measured};
 use super::plan::Plan;
+
+/// Which of a shader's readings counts: what disturbs only adds, and the very quickest is a matter of luck.
+const QUICK: f64 = 0.1;
+/// Fewest rounds of which others are drawn.
+const FEWEST: usize = 6;
 
 /// What a function costs.
 #[derive(Clone, Debug, PartialEq)]
@@ -18,11 +23,11 @@ pub struct Figure {
     pub gpu_ns_per_pixel: f64,
     /// As `ns_per_pixel`, by the wall clock.
     pub wall_ns_per_pixel: f64,
-    /// Its net cost over that of `dielectric_exact`: the median over rounds.
+    /// Its net cost over that of `dielectric_exact`: the median over rounds drawn anew from the rounds.
     pub share: f64,
-    /// How far the middle half of the rounds' shares reaches, over the median.
+    /// How far the middle half of single rounds' shares reaches, over their median; NaN of a single round.
     pub spread: f64,
-    /// 95 % confidence interval of the median share, where there are rounds enough.
+    /// 95 % confidence interval of the share, where there are rounds enough.
     pub interval: Option<(f64, f64)>,
     /// Draws in a reading.
     pub draws: u32,
@@ -50,35 +55,75 @@ impl Noise {
     }
 }
 
-/// Nanoseconds a pixel in one round: one evaluation, one of `dielectric_exact`, and the empty draw.
+/// Nanoseconds a pixel in some rounds: one evaluation, one of `dielectric_exact`, and the empty draw.
+#[derive(Clone, Copy)]
 struct Costs {
     net: f64,
     reference: f64,
     empty: f64,
 }
 
+impl Costs {
+    fn share(&self) -> f64 {
+        self.net / self.reference
+    }
+}
+
+/// The time of each drawing: in all rounds by each clock, in single rounds, and in rounds drawn anew.
+struct Times {
+    gpu: Vec<f64>,
+    wall: Vec<f64>,
+    singly: Vec<Vec<f64>>,
+    anew: Vec<Vec<f64>>,
+}
+
 impl Measured {
-    /// What the plan's function of this number costs on a target of so many pixels.
-    ///
-    /// # Errors
-    /// It was given up, or what it is held against was; in words.
-    pub fn figure(&self, plan: &Plan, function: usize, pixels: u64) -> Result<Figure, String> {
+    /// What each of the plan's functions costs on a target of so many pixels, or why that is not known: it was given up, or
+    /// what it is held against was.
+    pub fn figures(&self, plan: &Plan, pixels: u64) -> Vec<Result<Figure, String>> {
+        let rounds: Vec<usize> = (0..self.rounds.len()).collect();
+        let anew = if rounds.len() < FEWEST {
+            vec![rounds.clone()]
+        } else {
+            resamples(rounds.len()).collect()
+        };
+        let times = Times {
+            gpu: self.times(Clock::Gpu, &rounds),
+            wall: self.times(Clock::Wall, &rounds),
+            singly: rounds
+                .iter()
+                .map(|r| self.times(self.clock, &[*r]))
+                .collect(),
+            anew: anew.iter().map(|r| self.times(self.clock, r)).collect(),
+        };
+        let functions = 0..plan.places().len();
+        functions
+            .map(|function| self.figure(plan, function, pixels, &times))
+            .collect()
+    }
+
+    fn figure(
+        &self,
+        plan: &Plan,
+        function: usize,
+        pixels: u64,
+        times: &Times,
+    ) -> Result<Figure, String> {
         let (own, empty) = plan.places()[function];
         for needed in [Plan::HEAVY, own, empty, Plan::REFERENCE, Plan::EMPTY] {
             if let Some(why) = &self.failed[needed] {
                 return Err(why.clone());
             }
         }
-        let of = |clock| self.costs(plan, clock, (own, empty), pixels);
-        let costs = of(self.clock);
-        let [gpu, wall] = [Clock::Gpu, Clock::Wall].map(of);
-        let shares: Vec<f64> = costs.iter().map(|c| c.net / c.reference).collect();
-        let over = |costs: &[Costs], one: fn(&Costs) -> f64| {
-            median(&costs.iter().map(one).collect::<Vec<f64>>())
+        let costs = |times: &Vec<f64>| self.costs(plan, times, (own, empty), pixels);
+        let [gpu, wall] = [&times.gpu, &times.wall].map(costs);
+        let anew: Vec<Costs> = times.anew.iter().map(costs).collect();
+        let middle = |one: fn(&Costs) -> f64| median(&anew.iter().map(one).collect::<Vec<f64>>());
+        let shares = |all: &[Vec<f64>]| -> Vec<f64> {
+            all.iter().map(|times| costs(times).share()).collect()
         };
-        let (net, empty) = (over(&costs, |c| c.net), over(&costs, |c| c.empty));
-        let share = median(&shares);
-        if !share.is_finite() || over(&costs, |c| c.reference) <= 0.0 {
+        let (net, empty, share) = (middle(|c| c.net), middle(|c| c.empty), middle(Costs::share));
+        if !share.is_finite() || middle(|c| c.reference) <= 0.0 {
             let why = "dielectric_exact is not told apart from the empty shader: noise; take more --rounds or a larger --size";
             return Err(why.to_owned());
         }
@@ -86,43 +131,58 @@ impl Measured {
             ns_per_pixel: empty + net,
             net_ns_per_pixel: net,
             empty_ns_per_pixel: empty,
-            gpu_ns_per_pixel: over(&gpu, |c| c.net + c.empty),
-            wall_ns_per_pixel: over(&wall, |c| c.net + c.empty),
+            gpu_ns_per_pixel: gpu.net + gpu.empty,
+            wall_ns_per_pixel: wall.net + wall.empty,
             share,
-            spread: spread(&shares),
-            interval: interval(&shares),
+            spread: if self.rounds.len() > 1 {
+                spread(&shares(&times.singly))
+            } else {
+                f64::NAN
+            },
+            interval: (self.rounds.len() >= FEWEST).then(|| interval(&shares(&times.anew))),
             draws: self.draws[own],
         })
     }
 
     /// The noise of the heavy shader alone, and of the empty one over it.
     pub fn noise(&self) -> [Noise; 2] {
-        [&self.noise[0], &self.noise[1]].map(|readings| Noise::of(readings))
+        let rounds: Vec<usize> = (0..self.rounds.len()).collect();
+        [Plan::HEAVY, Plan::EMPTY].map(|drawing| {
+            let readings = self.readings(self.clock, drawing, &rounds);
+            Noise::of(&readings)
+        })
+    }
+
+    /// The readings of a drawing in these rounds.
+    fn readings(&self, clock: Clock, drawing: usize, rounds: &[usize]) -> Vec<f64> {
+        let readings = rounds
+            .iter()
+            .flat_map(|round| &self.rounds[*round][drawing]);
+        readings.map(|reading| clock.of(reading)).collect()
+    }
+
+    /// The time of each drawing in these rounds.
+    fn times(&self, clock: Clock, rounds: &[usize]) -> Vec<f64> {
+        let time = |drawing| quantile(&self.readings(clock, drawing, rounds), QUICK);
+        (0..self.draws.len()).map(time).collect()
     }
 
     fn costs(
         &self,
         plan: &Plan,
-        clock: Clock,
+        times: &[f64],
         (own, empty): (usize, usize),
         pixels: u64,
-    ) -> Vec<Costs> {
-        let round = |round: &Vec<Seen>| {
-            let seen = &round[own];
-            let heavy = clock.of(&seen.fixed[Plan::HEAVY]);
-            let draw = |drawing: usize, reading| {
-                let draws = f64::from(self.draws[drawing]) * pixels as f64;
-                (clock.of(reading) - heavy) / draws
-            };
-            let fixed = |drawing: usize| draw(drawing, &seen.fixed[drawing]);
-            let net = |draw: f64, empty: f64| (draw - empty) / plan.evaluations as f64;
-            let empty = fixed(empty);
-            Costs {
-                net: net(draw(own, &seen.own), empty),
-                reference: net(fixed(Plan::REFERENCE), fixed(Plan::EMPTY)),
-                empty,
-            }
+    ) -> Costs {
+        let draw = |drawing: usize| {
+            let draws = f64::from(self.draws[drawing]) * pixels as f64;
+            (times[drawing] - times[Plan::HEAVY]) / draws
         };
-        self.rounds.iter().map(round).collect()
+        let net = |own: usize, empty: usize| (draw(own) - draw(empty)) / plan.evaluations as f64;
+        Costs {
+            net: net(own, empty),
+            reference: net(Plan::REFERENCE, Plan::EMPTY),
+            empty: draw(empty),
+        }
     }
 }

@@ -1,14 +1,14 @@
 //! The measurement: how often each shader is drawn, in what order, and what was read. It draws through [`Draw`] and
 //! touches no device itself.
 
+use core::ops::Range;
+
 use serde::{Deserialize, Serialize};
 
 use crate::cost::statistics::{median, quantile};
 
 use super::plan::Plan;
 
-/// Readings of a shader in a round; their lower decile counts, since what disturbs only adds.
-pub const READINGS: usize = 5;
 /// Readings that choose how often a shader is drawn, and the clock.
 const TRIALS: usize = 3;
 /// Nanoseconds that the draws of a reading should take: some hundred times what a clock can tell apart.
@@ -85,11 +85,13 @@ pub struct Measured {
     pub draws: Vec<u32>,
     /// Why a drawing was given up.
     pub failed: Vec<Option<String>>,
-    /// What was seen of each drawing in each round.
-    pub rounds: Vec<Vec<Seen>>,
-    /// Every reading of the heavy shader alone, and of the empty one over it.
-    pub noise: [Vec<f64>; 2],
+    /// All readings.
+    pub rounds: Vec<Round>,
 }
+
+/// The readings of each drawing in a round: one, and of what all are held against one beside every few others. NaN where it
+/// was given up.
+pub type Round = Vec<Vec<Reading>>;
 
 impl Reading {
     /// Nothing was read.
@@ -123,17 +125,6 @@ impl Clock {
     }
 }
 
-/// A drawing in a round, and what it is held against, read next to it and as often: a machine that is slower for most of a
-/// round is slower for both, and neither has more readings from which to take a quick one. Of each the lower decile; NaN
-/// where it was given up, and for a clock that is not there.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Seen {
-    /// The drawing.
-    pub own: Reading,
-    /// [`Plan::fixed`].
-    pub fixed: Vec<Reading>,
-}
-
 /// A measurement under way.
 struct Session<'a> {
     plan: &'a Plan,
@@ -141,7 +132,6 @@ struct Session<'a> {
     clock: Clock,
     draws: Vec<u32>,
     failed: Vec<Option<String>>,
-    noise: [Vec<f64>; 2],
 }
 
 /// Measures all drawings of a plan.
@@ -161,19 +151,17 @@ pub fn measure(
         clock: Clock::Wall,
         draws: vec![0; count],
         failed: vec![None; count],
-        noise: [Vec::new(), Vec::new()],
     };
-    let whole = (count + effort.rounds * READINGS * count) as u64;
+    let whole = (count * (1 + effort.rounds)) as u64;
     let advances = session.choose_clock(effort)?;
     let heavy = session.heavy()?;
     for drawing in 1..count {
         progress(drawing as u64, whole, "how often to draw");
         session.calibrate(drawing, &heavy, effort.limit)?;
     }
-    session.noise = [Vec::new(), Vec::new()];
     let mut rounds = Vec::new();
     for round in 0..effort.rounds {
-        let before = (count * (1 + round * READINGS)) as u64;
+        let before = (count * (1 + round)) as u64;
         let what = format!("round {} of {}", round + 1, effort.rounds);
         let mut told = |done: usize| progress(before + done as u64, whole, &what);
         rounds.push(session.round(round, &mut told)?);
@@ -184,7 +172,6 @@ pub fn measure(
         draws: session.draws,
         failed: session.failed,
         rounds,
-        noise: session.noise,
     })
 }
 
@@ -201,16 +188,7 @@ impl Session<'_> {
             return Ok(None);
         }
         match self.artist.draw(drawing, draws) {
-            Ok(reading) => {
-                let noise = match drawing {
-                    Plan::HEAVY => self.noise.first_mut(),
-                    Plan::EMPTY => self.noise.last_mut(),
-                    _ => None,
-                };
-                let time = self.clock.of(&reading);
-                noise.into_iter().for_each(|all| all.push(time));
-                Ok(Some(reading))
-            }
+            Ok(reading) => Ok(Some(reading)),
             Err(Stop::One(why)) => {
                 self.give_up(drawing, &why);
                 Ok(None)
@@ -295,34 +273,35 @@ impl Session<'_> {
         }
     }
 
-    /// A round: every drawing so many times, in turns, and every few of them what all are held against.
-    fn round(&mut self, round: usize, told: &mut dyn FnMut(usize)) -> Result<Vec<Seen>, Stop> {
+    /// A round: every drawing, and every few of them what all are held against, so that a machine that is busy for a while
+    /// is busy for both.
+    fn round(&mut self, round: usize, told: &mut dyn FnMut(usize)) -> Result<Round, Stop> {
         let (count, fixed) = (self.plan.drawings.len(), self.plan.fixed());
-        let mut all: Vec<Vec<Seen>> = vec![Vec::new(); count];
-        let members: Vec<usize> = (fixed.end..count).chain([Plan::REFERENCE]).collect();
-        for turn in 0..READINGS {
-            let mut beside = Vec::new();
-            let order = order(members.len(), round * READINGS + turn);
-            for (done, drawing) in order.map(|place| members[place]).enumerate() {
-                if done % STRIDE == 0 {
-                    let read = fixed.clone().map(|drawing| self.read(drawing));
-                    beside = read.collect::<Result<Vec<Reading>, Stop>>()?;
-                }
-                let own = if drawing == Plan::REFERENCE {
-                    beside[drawing]
-                } else {
-                    self.read(drawing)?
-                };
-                let fixed = beside.clone();
-                all[drawing].push(Seen { own, fixed });
-                told(turn * count + done);
+        let mut all: Round = vec![Vec::new(); count];
+        let functions = count - fixed.end;
+        for (done, place) in order(functions, round).enumerate() {
+            if done % STRIDE == 0 {
+                self.read_into(&mut all, fixed.clone())?;
             }
+            let drawing = fixed.end + place;
+            self.read_into(&mut all, drawing..drawing + 1)?;
+            told(done);
         }
-        Ok(all.iter().map(|turns| quiet(turns, fixed.len())).collect())
+        if functions == 0 {
+            self.read_into(&mut all, fixed)?;
+        }
+        Ok(all)
+    }
+
+    fn read_into(&mut self, all: &mut Round, drawings: Range<usize>) -> Result<(), Stop> {
+        for drawing in drawings {
+            all[drawing].push(self.read(drawing)?);
+        }
+        Ok(())
     }
 }
 
-/// All drawings once, each turn in another order. The steps have no factor in common with the count, so that none is left
+/// All functions once, each turn in another order. The steps have no factor in common with the count, so that none is left
 /// out, and so other neighbours meet.
 fn order(count: usize, turn: usize) -> impl Iterator<Item = usize> {
     let is_prime_to = |step: &usize| {
@@ -337,32 +316,13 @@ fn order(count: usize, turn: usize) -> impl Iterator<Item = usize> {
     (0..count).map(move |i| (i * step + 11 * turn) % count)
 }
 
-/// The lower decile of each over the turns.
-fn quiet(turns: &[Seen], fixed: usize) -> Seen {
-    let of = |one: &dyn Fn(&Seen) -> Reading| {
-        let by = |clock: Clock| {
-            let times: Vec<f64> = turns.iter().map(|seen| clock.of(&one(seen))).collect();
-            quantile(&times, 0.1)
-        };
-        Reading {
-            gpu: Some(by(Clock::Gpu)),
-            cpu: Some(by(Clock::Cpu)),
-            wall: by(Clock::Wall),
-        }
-    };
-    Seen {
-        own: of(&|seen| seen.own),
-        fixed: (0..fixed).map(|i| of(&|seen| seen.fixed[i])).collect(),
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
 
     #[test]
     fn every_order_has_all_and_neighbours_change() {
-        for count in [1, 2, 9, 30, 117] {
+        for count in [0, 1, 2, 9, 30, 117] {
             for turn in 0..20 {
                 let mut all: Vec<usize> = order(count, turn).collect();
                 all.sort_unstable();

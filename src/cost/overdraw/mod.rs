@@ -9,9 +9,9 @@
 //! `net = ((T(heavy + N draws) - T(heavy)) / N - the same of the empty shader) / evaluations`.
 //!
 //! All shaders are drawn in turn in every round, in an order that changes, and beside each few of them what they are held
-//! against, so that a machine that is busy for a while is busy for both. A round gives each shader the lower decile of its
-//! readings, since what disturbs only adds, and each function its share of `dielectric_exact`; what is told is the median
-//! over rounds.
+//! against, so that a machine that is busy for a while is busy for both. What disturbs only adds: a shader's time is the lower
+//! decile of its readings over all rounds. How sure a share of `dielectric_exact` is, rounds drawn anew from the rounds
+//! tell (the bootstrap): it is the median of what they give, between the limits within which 95 % of them lie.
 //!
 //! A software device shares the processor with everything else that runs. There the processor's own count of what it
 //! worked for the process is taken, in which other programs are not: with four of them on two cores shares by timestamps
@@ -26,5 +26,5 @@ mod plan;
 #[cfg(feature = "gpu")]
 pub use easel::{Easel, Hello};
 pub use figure::{Figure, Noise};
-pub use measure::{Clock, Draw, Effort, Measured, READINGS, Reading, Seen, Stop, measure};
+pub use measure::{Clock, Draw, Effort, Measured, Reading, Round, Stop, measure};
 pub use plan::{Drawing, Plan, Timed};
