@@ -1,12 +1,14 @@
 //! A function ready to be printed: its name, its graph, and what is known of its errors.
 
 use crate::fit::{
-    Derivation, Effective, Known, Measured, ModelError, Truth, effective, model_error, values_of,
+    Derivation, Effective, Known, Measured, ModelError, Truth, effective, fitted_values,
+    model_error, seen, values_of,
 };
 use crate::ir::{Checked, Fault};
 use crate::materials::{Kind, Material, Sight, Surface, Unseen};
 use crate::methods::{Class, Light, Method, Values};
 use crate::num::Precision;
+use crate::spectra::Gamut;
 
 use super::bounds::{Bounds, CodeBound, PLAIN_ULP};
 use super::error::Error;
@@ -124,8 +126,16 @@ impl Subject {
         })
     }
 
-    /// What a method's inputs are for it.
+    /// What a method's inputs are for it. Coefficients are fitted to colours before they are clipped: a clipped curve has a
+    /// corner, and the function clips by itself.
     pub fn values(&self, method: &Method) -> Values {
+        if method.is_fitted() {
+            let mut surface = self.truth.surface.clone();
+            if surface.gamut == Gamut::Clip {
+                surface.gamut = Gamut::Keep;
+            }
+            return fitted_values(method, |c| seen(&surface, method.light, c));
+        }
         let seen = |cos_theta| self.truth.at(cos_theta);
         let known = Known::with(self.effective.channels, seen, &self.derivation);
         values_of(method, &known, &self.derivation)
@@ -157,9 +167,15 @@ impl Subject {
     }
 
     /// The methods that its file holds unless others are asked for: the exact one first.
-    pub fn default_methods(&self) -> [&'static str; 4] {
+    pub fn default_methods(&self) -> [&'static str; 5] {
+        let exact = self.exact_method();
         [
-            self.exact_method(),
+            exact,
+            if exact == "dielectric_exact" {
+                "fitted_dielectric"
+            } else {
+                "fitted"
+            },
             "schlick_rescaled",
             "schlick_corrected",
             "table",

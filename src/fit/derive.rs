@@ -4,9 +4,10 @@ use std::collections::BTreeMap;
 
 use crate::ir::Ty;
 use crate::materials::Channels;
-use crate::methods::{Method, ONLY_ROW, TEXELS, Values, WARP};
+use crate::methods::{Input, Method, ONLY_ROW, TEXELS, Values, WARP};
 use crate::optics::{self, COS_82};
 
+use super::fitted::{Curve, fit};
 use super::lambda::{THESIS_MATCHING_COS, lambda_for};
 
 /// The choices that a derivation leaves open.
@@ -72,11 +73,21 @@ impl Known {
 
 /// The values of all inputs of a method for a surface known by its channels alone.
 pub fn values(method: &Method, channels: &Channels, derivation: &Derivation) -> Values {
-    values_of(
-        method,
-        &Known::of_channels(channels, derivation),
-        derivation,
-    )
+    if method.is_fitted() {
+        let Channels { n, k } = *channels;
+        return fitted_values(method, |c| [0, 1, 2].map(|i| exact(n[i], k[i], c)));
+    }
+    let known = Known::of_channels(channels, derivation);
+    values_of(method, &known, derivation)
+}
+
+/// The coefficients of a fitted method for what is seen at a cosine.
+pub fn fitted_values(method: &Method, seen: impl Fn(f64) -> [f64; 3]) -> Values {
+    let function = method.function(false);
+    let fitted = function.ok().and_then(|f| fit(&f, &Curve::new(seen)));
+    let fitted = fitted.expect("a fitted method's terms tell angles apart; a test fits them all");
+    let names = Input::COEFFICIENTS.map(|input| input.name.to_owned());
+    names.into_iter().zip(fitted.coefficients).collect()
 }
 
 /// The values of all inputs of a method but a texture. A λ that does not exist is 0, which drops the term. A method that solves its

@@ -91,6 +91,13 @@ impl Input {
         "any",
     );
 
+    pub const C0: Input = rgb("c0", "first coefficient of the fit", "any");
+    pub const C1: Input = rgb("c1", "coefficient of the next power", "any");
+    pub const C2: Input = rgb("c2", "coefficient of the next power", "any");
+    pub const C3: Input = rgb("c3", "coefficient of the next power", "any");
+    pub const C4: Input = rgb("c4", "coefficient of the next power", "any");
+    pub const COEFFICIENTS: [Input; 5] = [Input::C0, Input::C1, Input::C2, Input::C3, Input::C4];
+
     pub const TABLE: Input = Input {
         name: "table",
         ty: Ty::Texture,
@@ -116,10 +123,10 @@ impl Input {
 
     /// Every input in the order of arguments.
     #[rustfmt::skip]
-    pub const ORDER: [Input; 19] = [
+    pub const ORDER: [Input; 24] = [
         Input::ETA, Input::N, Input::K, Input::F0, Input::F90, Input::F82, Input::TINT, Input::REFLECTIVITY,
-        Input::EDGE_TINT, Input::BIAS, Input::SCALE, Input::POWER, Input::EXPONENT, Input::LAMBDA, Input::TABLE,
-        Input::TEXELS, Input::WARP, Input::ROW, Input::TABLE_SCALE,
+        Input::EDGE_TINT, Input::BIAS, Input::SCALE, Input::POWER, Input::EXPONENT, Input::LAMBDA, Input::C0,
+        Input::C1, Input::C2, Input::C3, Input::C4, Input::TABLE, Input::TEXELS, Input::WARP, Input::ROW, Input::TABLE_SCALE,
     ];
 }
 

@@ -269,6 +269,11 @@ impl Method {
         self.inputs.iter().any(|input| input.ty == Ty::Texture)
     }
 
+    /// Whether the method's inputs are coefficients, in which it is linear: they are fitted.
+    pub fn is_fitted(&self) -> bool {
+        self.inputs.contains(&Input::C0)
+    }
+
     /// Whether the method has a scalar form.
     pub fn has_scalar_form(&self) -> bool {
         self.forms == Forms::ColourAndScalar

@@ -9,10 +9,12 @@ mod half;
 mod input;
 mod limits;
 mod method;
+mod shape;
 
 pub use half::{HalfClaim, InHalf};
 pub use input::{Input, Inputs, find_input};
 pub use method::{Better, Claim, Claims, Class, Contract, Forms, Light, Method, Over, Values};
+pub use shape::{Base, Shape};
 
 // BEGIN methods (written by the test `tidy::lists_are_complete` with BLESS=1)
 mod conductor_artistic;
@@ -25,6 +27,9 @@ mod dielectric_exact_s;
 mod dielectric_textbook;
 mod empirical;
 mod f82_tint;
+mod fitted;
+mod fitted_dielectric;
+mod fitted_five;
 mod hoffman_f82;
 mod schlick;
 mod schlick_corrected;
@@ -48,6 +53,9 @@ pub static ALL: &[&Method] = &[
     &dielectric_textbook::METHOD,
     &empirical::METHOD,
     &f82_tint::METHOD,
+    &fitted::METHOD,
+    &fitted_dielectric::METHOD,
+    &fitted_five::METHOD,
     &hoffman_f82::METHOD,
     &schlick::METHOD,
     &schlick_corrected::METHOD,

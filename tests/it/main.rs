@@ -14,6 +14,7 @@ mod compilers;
 mod costs;
 mod database;
 mod exhaustive;
+mod fits;
 mod golden;
 #[cfg(feature = "gpu")]
 mod gpu;

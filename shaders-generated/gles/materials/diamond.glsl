@@ -35,6 +35,26 @@ highp vec3 fresnel_diamond(highp float cos_theta) {
     return 0.5 * (r_s * r_s + r_p * r_p);
 }
 
+// fresnel_diamond_fitted_dielectric: four coefficients fitted to a dielectric, specialised
+//   F = c0 + b^3 (c1 + b^4 (c2 + b^7 c3)), b = 1 - c, limited to [0, 1]
+// Source: Stiefel, "Ueber diskrete und lineare Tschebyscheff-Approximationen", Numerische Mathematik 1, 1-28,
+//     1959. https://doi.org/10.1007/BF01386369
+// Model error: at most 0.00103 (at 72.09 degrees), 0.33 % in the mean over angles.
+// Code error: at most 7.5 ulp or 2^-22, unfused f32 against f64.
+// Cost: 27 scalar operations
+highp vec3 fresnel_diamond_fitted_dielectric(highp float cos_theta) {
+    highp float c = clamp(cos_theta, 0.0, 1.0); // 1 + 1 ulp must not reach what follows
+    highp float b = 1.0 - c; // 0 at normal incidence, 1 at grazing
+    highp float b2 = b * b;
+    highp float b3 = b * b2;
+    highp float b4 = b2 * b2;
+    highp float b7 = b3 * b4;
+    highp vec3 sum2 = vec3(0.32213795, 0.3210665, 0.3196094) + b7 * vec3(0.22163804, 0.22384138, 0.22687781);
+    highp vec3 sum1 = vec3(0.2853053, 0.28228173, 0.27809927) + b4 * sum2;
+    highp vec3 sum0 = vec3(0.1719484, 0.17383085, 0.17641972) + b3 * sum1;
+    return clamp(sum0, 0.0, 1.0);
+}
+
 // fresnel_diamond_schlick_rescaled: Schlick's approximation rescaled to n and k, specialised
 //   F = ((n - 1)^2 + 4 n (1 - cos_theta)^5 + k^2) / ((n + 1)^2 + k^2)
 // Source: Lazanyi, Szirmay-Kalos, "Fresnel Term Approximations for Metals", WSCG Short Papers, 77-80, 2005.

@@ -39,6 +39,22 @@ highp vec3 fresnel_gold(highp float cos_theta) {
     return r_s_metal * (x / (x + u * s2));
 }
 
+// fresnel_gold_fitted: four coefficients fitted to a metal or semiconductor, at Schlick's price, specialised
+//   F = c0 + b (c1 + b (c2 + b c3)), b = 2^(-6.5 c), limited to [0, 1]
+// Source: Stiefel, "Ueber diskrete und lineare Tschebyscheff-Approximationen", Numerische Mathematik 1, 1-28,
+//     1959. https://doi.org/10.1007/BF01386369
+// Model error: at most 0.00193 (at 59.39 degrees), 0.14 % in the mean over angles.
+// Code error: at most 4.5 ulp or 2^-22, unfused f32 against f64.
+// Cost: 24 scalar operations, among them 1 exponential or logarithm
+highp vec3 fresnel_gold_fitted(highp float cos_theta) {
+    highp float c = clamp(cos_theta, 0.0, 1.0); // 1 + 1 ulp must not reach what follows
+    highp float b = exp2(-6.5 * c); // small at normal incidence, 1 at grazing
+    highp vec3 sum2 = vec3(0.29959092, 0.35512033, 0.42893875) + b * vec3(-0.112050526, -0.20854598, -0.13217598);
+    highp vec3 sum1 = vec3(-0.22834298, 0.081663415, 0.36742333) + b * sum2;
+    highp vec3 sum0 = vec3(1.0415795, 0.7698396, 0.3342778) + b * sum1;
+    return clamp(sum0, 0.0, 1.0);
+}
+
 // fresnel_gold_schlick_rescaled: Schlick's approximation rescaled to n and k, specialised
 //   F = ((n - 1)^2 + 4 n (1 - cos_theta)^5 + k^2) / ((n + 1)^2 + k^2)
 // Source: Lazanyi, Szirmay-Kalos, "Fresnel Term Approximations for Metals", WSCG Short Papers, 77-80, 2005.

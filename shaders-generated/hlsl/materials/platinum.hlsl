@@ -40,6 +40,23 @@ float3 fresnel_platinum(float cos_theta)
     return r_s_metal * (x / (x + u * s2));
 }
 
+// fresnel_platinum_fitted: four coefficients fitted to a metal or semiconductor, at Schlick's price, specialised
+//   F = c0 + b (c1 + b (c2 + b c3)), b = 2^(-6.5 c), limited to [0, 1]
+// Source: Stiefel, "Ueber diskrete und lineare Tschebyscheff-Approximationen", Numerische Mathematik 1, 1-28,
+//     1959. https://doi.org/10.1007/BF01386369
+// Model error: at most 0.00176 (at 68.74 degrees), 0.12 % in the mean over angles.
+// Code error: at most 5.5 ulp or 2^-22, unfused f32 against f64.
+// Cost: 24 scalar operations, among them 1 exponential or logarithm
+float3 fresnel_platinum_fitted(float cos_theta)
+{
+    float c = saturate(cos_theta); // 1 + 1 ulp must not reach what follows
+    float b = exp2(-6.5 * c); // small at normal incidence, 1 at grazing
+    float3 sum2 = float3(0.52948034, 0.6898998, 0.7678605) + b * float3(0.16399093, -0.004602543, -0.13379498);
+    float3 sum1 = float3(-0.37649608, -0.32838467, -0.22003342) + b * sum2;
+    float3 sum0 = float3(0.6847771, 0.6443679, 0.5864807) + b * sum1;
+    return saturate(sum0);
+}
+
 // fresnel_platinum_schlick_rescaled: Schlick's approximation rescaled to n and k, specialised
 //   F = ((n - 1)^2 + 4 n (1 - cos_theta)^5 + k^2) / ((n + 1)^2 + k^2)
 // Source: Lazanyi, Szirmay-Kalos, "Fresnel Term Approximations for Metals", WSCG Short Papers, 77-80, 2005.

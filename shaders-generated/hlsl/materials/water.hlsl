@@ -38,6 +38,27 @@ float3 fresnel_water(float cos_theta)
     return 0.5 * (r_s * r_s + r_p * r_p);
 }
 
+// fresnel_water_fitted_dielectric: four coefficients fitted to a dielectric, specialised
+//   F = c0 + b^3 (c1 + b^4 (c2 + b^7 c3)), b = 1 - c, limited to [0, 1]
+// Source: Stiefel, "Ueber diskrete und lineare Tschebyscheff-Approximationen", Numerische Mathematik 1, 1-28,
+//     1959. https://doi.org/10.1007/BF01386369
+// Model error: at most 0.00049 (at 38.58 degrees), 0.61 % in the mean over angles.
+// Code error: at most 7.5 ulp or 2^-22, unfused f32 against f64.
+// Cost: 27 scalar operations
+float3 fresnel_water_fitted_dielectric(float cos_theta)
+{
+    float c = saturate(cos_theta); // 1 + 1 ulp must not reach what follows
+    float b = 1.0 - c; // 0 at normal incidence, 1 at grazing
+    float b2 = b * b;
+    float b3 = b * b2;
+    float b4 = b2 * b2;
+    float b7 = b3 * b4;
+    float3 sum2 = float3(0.6275027, 0.6262105, 0.6238446) + b7 * float3(0.07441119, 0.07398222, 0.073234916);
+    float3 sum1 = float3(0.27735028, 0.27884308, 0.28153703) + b4 * sum2;
+    float3 sum0 = float3(0.020263657, 0.020488584, 0.020901965) + b3 * sum1;
+    return saturate(sum0);
+}
+
 // fresnel_water_schlick_rescaled: Schlick's approximation rescaled to n and k, specialised
 //   F = ((n - 1)^2 + 4 n (1 - cos_theta)^5 + k^2) / ((n + 1)^2 + k^2)
 // Source: Lazanyi, Szirmay-Kalos, "Fresnel Term Approximations for Metals", WSCG Short Papers, 77-80, 2005.

@@ -36,6 +36,22 @@ fn fresnel_platinum(cos_theta: f32) -> vec3<f32> {
     return r_s_metal * (x / (x + u * s2));
 }
 
+// fresnel_platinum_fitted: four coefficients fitted to a metal or semiconductor, at Schlick's price, specialised
+//   F = c0 + b (c1 + b (c2 + b c3)), b = 2^(-6.5 c), limited to [0, 1]
+// Source: Stiefel, "Ueber diskrete und lineare Tschebyscheff-Approximationen", Numerische Mathematik 1, 1-28,
+//     1959. https://doi.org/10.1007/BF01386369
+// Model error: at most 0.00176 (at 68.74 degrees), 0.12 % in the mean over angles.
+// Code error: at most 5.5 ulp or 2^-22, unfused f32 against f64.
+// Cost: 24 scalar operations, among them 1 exponential or logarithm
+fn fresnel_platinum_fitted(cos_theta: f32) -> vec3<f32> {
+    let c = saturate(cos_theta); // 1 + 1 ulp must not reach what follows
+    let b = exp2(-6.5 * c); // small at normal incidence, 1 at grazing
+    let sum2 = vec3<f32>(0.52948034, 0.6898998, 0.7678605) + b * vec3<f32>(0.16399093, -0.004602543, -0.13379498);
+    let sum1 = vec3<f32>(-0.37649608, -0.32838467, -0.22003342) + b * sum2;
+    let sum0 = vec3<f32>(0.6847771, 0.6443679, 0.5864807) + b * sum1;
+    return saturate(sum0);
+}
+
 // fresnel_platinum_schlick_rescaled: Schlick's approximation rescaled to n and k, specialised
 //   F = ((n - 1)^2 + 4 n (1 - cos_theta)^5 + k^2) / ((n + 1)^2 + k^2)
 // Source: Lazanyi, Szirmay-Kalos, "Fresnel Term Approximations for Metals", WSCG Short Papers, 77-80, 2005.

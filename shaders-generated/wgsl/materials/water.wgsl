@@ -34,6 +34,26 @@ fn fresnel_water(cos_theta: f32) -> vec3<f32> {
     return 0.5 * (r_s * r_s + r_p * r_p);
 }
 
+// fresnel_water_fitted_dielectric: four coefficients fitted to a dielectric, specialised
+//   F = c0 + b^3 (c1 + b^4 (c2 + b^7 c3)), b = 1 - c, limited to [0, 1]
+// Source: Stiefel, "Ueber diskrete und lineare Tschebyscheff-Approximationen", Numerische Mathematik 1, 1-28,
+//     1959. https://doi.org/10.1007/BF01386369
+// Model error: at most 0.00049 (at 38.58 degrees), 0.61 % in the mean over angles.
+// Code error: at most 7.5 ulp or 2^-22, unfused f32 against f64.
+// Cost: 27 scalar operations
+fn fresnel_water_fitted_dielectric(cos_theta: f32) -> vec3<f32> {
+    let c = saturate(cos_theta); // 1 + 1 ulp must not reach what follows
+    let b = 1.0 - c; // 0 at normal incidence, 1 at grazing
+    let b2 = b * b;
+    let b3 = b * b2;
+    let b4 = b2 * b2;
+    let b7 = b3 * b4;
+    let sum2 = vec3<f32>(0.6275027, 0.6262105, 0.6238446) + b7 * vec3<f32>(0.07441119, 0.07398222, 0.073234916);
+    let sum1 = vec3<f32>(0.27735028, 0.27884308, 0.28153703) + b4 * sum2;
+    let sum0 = vec3<f32>(0.020263657, 0.020488584, 0.020901965) + b3 * sum1;
+    return saturate(sum0);
+}
+
 // fresnel_water_schlick_rescaled: Schlick's approximation rescaled to n and k, specialised
 //   F = ((n - 1)^2 + 4 n (1 - cos_theta)^5 + k^2) / ((n + 1)^2 + k^2)
 // Source: Lazanyi, Szirmay-Kalos, "Fresnel Term Approximations for Metals", WSCG Short Papers, 77-80, 2005.

@@ -1,5 +1,7 @@
 //! What is recorded of digits: the bounds of specialised functions, and the worst inputs found so far.
 
+use fresnel_gen::methods::{self, Method};
+
 use super::{Medium, exact, unfused, worst};
 
 /// The most that a function specialised to a material of the catalogue may be off, in ulp.
@@ -8,6 +10,10 @@ const SPECIALISED: f64 = 10.0;
 /// Methods with a real power, which is as good as a stack's `log2` and `exp2`, and the most of theirs.
 const POWERS: [&str; 3] = ["empirical", "schlick_corrected", "schlick_generalised"];
 const POWER: f64 = 17.0;
+
+/// The most that a fitted one may be off: where nearly nothing is reflected, its fit is off by a thousand times that, and
+/// ulp of nearly nothing say nothing.
+const FITTED: f64 = 2e-6;
 
 /// A material whose shader is further from its formula than its page lets one think.
 #[test]
@@ -20,7 +26,10 @@ fn no_specialised_function_loses_more_than_ten_ulp() {
         let ulp: f64 = cells[3].parse().unwrap();
         let is_power = POWERS.contains(&method);
         let most = if is_power { POWER } else { SPECIALISED };
-        assert!(ulp <= most, "{method} of {material}: {ulp} ulp");
+        let is_fitted = methods::find(method).is_some_and(Method::is_fitted);
+        let is_close = is_fitted && cells[4].parse::<f64>().unwrap() <= FITTED;
+        let what = format!("{method} of {material}: {ulp} ulp");
+        assert!(ulp <= most || is_close, "{what}");
         count += 1;
     }
     assert!(count > 400, "{count} bounds");

@@ -258,7 +258,7 @@ fn a_method_joins_a_material_file_and_takes_nothing_from_it() {
             .collect()
     };
     let usual = names(&place.read(&file));
-    assert_eq!(usual.len(), 4);
+    assert_eq!(usual.len(), 5);
     place.done("--target wgsl --method schlick --material gold_thesis");
     let more = names(&place.read(&file));
     assert!(usual.iter().all(|name| more.contains(name)), "{more:?}");

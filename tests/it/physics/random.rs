@@ -71,6 +71,7 @@ fn value(name: &str, share: f64, pick: f64) -> f32 {
         "tint" => (0.0, 2.0),
         "exponent" | "power" => (0.2, 60.0),
         "lambda" => (-1.0, 60.0),
+        "c0" | "c1" | "c2" | "c3" | "c4" => (-3.0, 3.0),
         "f90" | "reflectivity" | "edge_tint" | "bias" | "scale" => (0.0, 1.0),
         _ => unreachable!("{name} has no domain here: add it"),
     };
@@ -96,7 +97,7 @@ proptest! {
     /// More light than came in, or less than none, within the domain of a method.
     #[test]
     fn reflectance_lies_between_zero_and_one(
-        which in 0..KEPT.len(), shares in prop::array::uniform4((0.0..=1.0, 0.0..=1.0)), cos_theta in cosine(),
+        which in 0..KEPT.len(), shares in prop::array::uniform5((0.0..=1.0, 0.0..=1.0)), cos_theta in cosine(),
     ) {
         let method = KEPT[which];
         let given = method.inputs.iter().zip(shares);

@@ -1,0 +1,90 @@
+//! `F = c0 + b (c1 + b (c2 + b c3))`, `b = 2^(-6.5 cos θ)`: four coefficients a channel, at Schlick's price.
+//!
+//! Source: ours, by the exchange of Stiefel, "Über diskrete und lineare Tschebyscheff-Approximationen", 1959,
+//! <https://doi.org/10.1007/BF01386369>. The coefficients minimise the largest error over all angles (`fit`), for whatever F is: a spectrum seen in
+//! any space. Being linear they can be blended, filtered and interpolated as colours are. The base and its 6.5 are what a search found
+//! for metals and semiconductors.
+//! Domain: any coefficients; the result is limited to [0, 1]. Error: see [`METHOD`]'s claims.
+
+use crate::cite::Citation;
+use crate::ir::Expr;
+
+use super::half::InHalf;
+use super::input::{Input, Inputs};
+use super::method::{Claim, Claims, Class, Contract, Forms, Light, Method, Over};
+use super::shape::{Base, Shape};
+
+/// Where the exchange comes from that finds the coefficients of all fitted methods.
+pub const STIEFEL_1959: Citation = Citation {
+    authors: "Stiefel",
+    title: "Ueber diskrete und lineare Tschebyscheff-Approximationen",
+    place: "Numerische Mathematik 1, 1-28",
+    year: 1959,
+    link: "https://doi.org/10.1007/BF01386369",
+};
+
+/// The shape.
+pub const SHAPE: Shape = Shape {
+    base: Base::Exponential(6.5),
+    steps: &[1, 1, 1],
+    is_tilted: false,
+};
+
+/// The record of this method.
+pub static METHOD: Method = Method {
+    name: "fitted",
+    summary: "four coefficients fitted to a metal or semiconductor, at Schlick's price",
+    formula: &["F = c0 + b (c1 + b (c2 + b c3)), b = 2^(-6.5 c), limited to [0, 1]"],
+    source: STIEFEL_1959,
+    inputs: &[Input::C0, Input::C1, Input::C2, Input::C3],
+    forms: Forms::ColourAndScalar,
+    class: Class::Any,
+    light: Light::Unpolarised,
+    domain: "any coefficients; limited to [0, 1]",
+    claims: Claims {
+        model: &[
+            Claim {
+                over: Over::Dielectrics,
+                max_abs: 0.0038,
+                at_degrees: 53.9,
+            },
+            Claim {
+                over: Over::Metals,
+                max_abs: 0.0085,
+                at_degrees: 81.5,
+            },
+        ],
+        code_ulp: 0.0,
+        code_over: Over::Metals,
+    },
+    contract: Contract::Kept,
+    half: InHalf::Refused(
+        "its coefficients are fitted in single precision; rounded to 11 bits they miss by as much as the fit gains",
+    ),
+    build,
+    plain: None,
+    specialised: None,
+};
+
+fn build<'b>(x: &Inputs<'b>) -> Expr<'b> {
+    SHAPE.build(x)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::limits::check;
+    use super::METHOD;
+
+    #[test]
+    fn it_is_the_sum_at_grazing_and_limited() {
+        check(&METHOD, 0.0, &[0.5, 0.25, 0.125, 0.0625], 0.9375);
+        check(&METHOD, 0.0, &[0.5, 0.5, 0.5, 0.5], 1.0);
+        check(&METHOD, 0.0, &[-0.5, 0.0, 0.0, 0.0], 0.0);
+        check(
+            &METHOD,
+            2.0 / 6.5,
+            &[0.5, 1.0, 1.0, 1.0],
+            0.5 + 0.25 + 0.0625 + 0.015625,
+        );
+    }
+}

@@ -1,0 +1,71 @@
+//! `F = c0 + b³ (c1 + b⁴ (c2 + b⁷ c3))`, `b = 1 - cos θ`: four coefficients a channel for dielectrics.
+//!
+//! Source: ours, as [`fitted`](super::fitted), by the exchange of Stiefel 1959, <https://doi.org/10.1007/BF01386369>. Powers follow a dielectric's dark middle more closely than an exponential does: where little
+//! is reflected, a small error is a large share.
+//! Domain: any coefficients; the result is limited to [0, 1]. Error: see [`METHOD`]'s claims.
+
+use crate::ir::Expr;
+
+use super::fitted::STIEFEL_1959;
+use super::half::InHalf;
+use super::input::{Input, Inputs};
+use super::method::{Claim, Claims, Class, Contract, Forms, Light, Method, Over};
+use super::shape::{Base, Shape};
+
+/// The shape.
+pub const SHAPE: Shape = Shape {
+    base: Base::Grazing,
+    steps: &[3, 4, 7],
+    is_tilted: false,
+};
+
+/// The record of this method.
+pub static METHOD: Method = Method {
+    name: "fitted_dielectric",
+    summary: "four coefficients fitted to a dielectric",
+    formula: &["F = c0 + b^3 (c1 + b^4 (c2 + b^7 c3)), b = 1 - c, limited to [0, 1]"],
+    source: STIEFEL_1959,
+    inputs: &[Input::C0, Input::C1, Input::C2, Input::C3],
+    forms: Forms::ColourAndScalar,
+    class: Class::Dielectric,
+    light: Light::Unpolarised,
+    domain: "any coefficients; limited to [0, 1]",
+    claims: Claims {
+        model: &[Claim {
+            over: Over::Dielectrics,
+            max_abs: 0.0012,
+            at_degrees: 48.4,
+        }],
+        code_ulp: 7.0,
+        code_over: Over::Dielectrics,
+    },
+    contract: Contract::Kept,
+    half: InHalf::Refused(
+        "its coefficients are fitted in single precision; rounded to 11 bits they miss by as much as the fit gains",
+    ),
+    build,
+    plain: None,
+    specialised: None,
+};
+
+fn build<'b>(x: &Inputs<'b>) -> Expr<'b> {
+    SHAPE.build(x)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::limits::check;
+    use super::METHOD;
+
+    #[test]
+    fn it_begins_at_c0_and_ends_at_the_sum() {
+        check(&METHOD, 1.0, &[0.04, 0.5, 0.25, 0.125], 0.04);
+        check(&METHOD, 0.0, &[0.04, 0.5, 0.25, 0.125], 0.915);
+        check(
+            &METHOD,
+            0.5,
+            &[0.25, 0.5, 0.25, 0.0],
+            0.25 + 0.0625 + 0.25 / 128.0,
+        );
+    }
+}
