@@ -75,21 +75,19 @@ pub fn write_files(files: &[(PathBuf, &[u8])]) -> Result<usize, Error> {
 /// # Errors
 /// It cannot be.
 pub fn try_file(path: &Path) -> Result<(), Error> {
-    match fs::metadata(path) {
-        Ok(found) if found.is_dir() => {
-            let path = path.to_path_buf();
-            return Err(Error::NotAFile { path });
-        }
-        Ok(found) if !found.is_file() => return Ok(()),
-        _ => {}
+    if fs::metadata(path).is_ok_and(|found| !found.is_dir() && !found.is_file()) {
+        return Ok(());
     }
+    // No file of ours holds this alone.
+    let Some(place) = destination(path, &[0])? else {
+        return Ok(());
+    };
     let mut created = Vec::new();
-    let staged = stage(path, &[], &mut created);
-    let tried = staged.map(drop).map_err(|fault| stage_fault(path, fault));
+    let tried = stage(&place, &[], &mut created).map(drop);
     for folder in created.iter().rev() {
         let _ = fs::remove_dir(folder);
     }
-    tried
+    tried.map_err(|source| stage_fault(path, source))
 }
 
 /// Where these bytes go; nowhere where they are already.

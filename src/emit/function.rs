@@ -79,6 +79,9 @@ impl Emitted {
     }
 }
 
+/// The least n of a dielectric that fitted methods follow.
+const LEAST_FITTED_N: f64 = 1.2;
+
 /// A material in its medium, as functions are specialised to it.
 #[derive(Clone, Debug)]
 pub struct Subject {
@@ -166,20 +169,24 @@ impl Subject {
         }
     }
 
-    /// The methods that its file holds unless others are asked for: the exact one first.
-    pub fn default_methods(&self) -> [&'static str; 5] {
+    /// The methods that its file holds unless others are asked for: the exact one first. No fit follows what is nearly
+    /// matched, or seen from a denser medium.
+    pub fn default_methods(&self) -> Vec<&'static str> {
         let exact = self.exact_method();
-        [
-            exact,
-            if exact == "dielectric_exact" {
-                "fitted_dielectric"
-            } else {
-                "fitted"
-            },
-            "schlick_rescaled",
-            "schlick_corrected",
-            "table",
-        ]
+        let fitted = match exact {
+            "dielectric_exact" => "fitted_dielectric",
+            _ => "fitted",
+        };
+        let is_followed = exact != "dielectric_exact"
+            || self
+                .effective
+                .channels
+                .n
+                .iter()
+                .all(|n| *n >= LEAST_FITTED_N);
+        let fitted = Some(fitted).filter(|_| is_followed);
+        let rest = ["schlick_rescaled", "schlick_corrected", "table"];
+        [exact].into_iter().chain(fitted).chain(rest).collect()
     }
 }
 

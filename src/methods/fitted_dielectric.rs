@@ -1,12 +1,14 @@
 //! `F = c0 + b³ (c1 + b⁴ (c2 + b⁷ c3))`, `b = 1 - cos θ`: four coefficients a channel for dielectrics.
 //!
-//! Source: ours, as [`fitted`](super::fitted), by the exchange of Stiefel 1959, <https://doi.org/10.1007/BF01386369>. Powers follow a dielectric's dark middle more closely than an exponential does: where little
-//! is reflected, a small error is a large share.
+//! Source: ours, as [`fitted`](super::fitted), by the exchange of Stiefel 1959, <https://doi.org/10.1007/BF01386369>.
+//! Powers follow a dielectric's dark middle more closely than an exponential does: where little is reflected, a small error
+//! is a large share. Of whole exponents 0, 3, 7 and 14 are next to the best (.0011 at the
+//! 90th percentile of glasses; 0, 3, 7 and 13: .0010).
 //! Domain: any coefficients; the result is limited to [0, 1]. Error: see [`METHOD`]'s claims.
 
 use crate::ir::Expr;
 
-use super::fitted::STIEFEL_1959;
+use super::fitted::{NOT_IN_HALF, STIEFEL_1959};
 use super::half::InHalf;
 use super::input::{Input, Inputs};
 use super::method::{Claim, Claims, Class, Contract, Forms, Light, Method, Over};
@@ -16,13 +18,12 @@ use super::shape::{Base, Shape};
 pub const SHAPE: Shape = Shape {
     base: Base::Grazing,
     steps: &[3, 4, 7],
-    is_tilted: false,
 };
 
 /// The record of this method.
 pub static METHOD: Method = Method {
     name: "fitted_dielectric",
-    summary: "four coefficients fitted to a dielectric",
+    summary: "four coefficients fitted to a dielectric of n 1.2 or more",
     formula: &["F = c0 + b^3 (c1 + b^4 (c2 + b^7 c3)), b = 1 - c, limited to [0, 1]"],
     source: STIEFEL_1959,
     inputs: &[Input::C0, Input::C1, Input::C2, Input::C3],
@@ -40,9 +41,7 @@ pub static METHOD: Method = Method {
         code_over: Over::Dielectrics,
     },
     contract: Contract::Kept,
-    half: InHalf::Refused(
-        "its coefficients are fitted in single precision; rounded to 11 bits they miss by as much as the fit gains",
-    ),
+    half: InHalf::Refused(NOT_IN_HALF),
     build,
     plain: None,
     specialised: None,

@@ -74,7 +74,7 @@ impl Draw for MadeUp {
 
 fn effort(clock: Option<Clock>) -> Effort {
     Effort {
-        rounds: 9,
+        rounds: 29,
         clock,
         is_software: false,
         limit: 1e10,

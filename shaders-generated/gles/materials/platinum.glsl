@@ -39,7 +39,7 @@ highp vec3 fresnel_platinum(highp float cos_theta) {
     return r_s_metal * (x / (x + u * s2));
 }
 
-// fresnel_platinum_fitted: four coefficients fitted to a metal or semiconductor, at Schlick's price, specialised
+// fresnel_platinum_fitted: four coefficients fitted to a metal or semiconductor, specialised
 //   F = c0 + b (c1 + b (c2 + b c3)), b = 2^(-6.5 c), limited to [0, 1]
 // Source: Stiefel, "Ueber diskrete und lineare Tschebyscheff-Approximationen", Numerische Mathematik 1, 1-28,
 //     1959. https://doi.org/10.1007/BF01386369

@@ -37,7 +37,7 @@ highp vec3 fresnel_water(highp float cos_theta) {
     return 0.5 * (r_s * r_s + r_p * r_p);
 }
 
-// fresnel_water_fitted_dielectric: four coefficients fitted to a dielectric, specialised
+// fresnel_water_fitted_dielectric: four coefficients fitted to a dielectric of n 1.2 or more, specialised
 //   F = c0 + b^3 (c1 + b^4 (c2 + b^7 c3)), b = 1 - c, limited to [0, 1]
 // Source: Stiefel, "Ueber diskrete und lineare Tschebyscheff-Approximationen", Numerische Mathematik 1, 1-28,
 //     1959. https://doi.org/10.1007/BF01386369

@@ -40,7 +40,7 @@ float3 fresnel_gold(float cos_theta)
     return r_s_metal * (x / (x + u * s2));
 }
 
-// fresnel_gold_fitted: four coefficients fitted to a metal or semiconductor, at Schlick's price, specialised
+// fresnel_gold_fitted: four coefficients fitted to a metal or semiconductor, specialised
 //   F = c0 + b (c1 + b (c2 + b c3)), b = 2^(-6.5 c), limited to [0, 1]
 // Source: Stiefel, "Ueber diskrete und lineare Tschebyscheff-Approximationen", Numerische Mathematik 1, 1-28,
 //     1959. https://doi.org/10.1007/BF01386369

@@ -32,7 +32,7 @@ fn fresnel_diamond(cos_theta: f32) -> vec3<f32> {
     return 0.5 * (r_s * r_s + r_p * r_p);
 }
 
-// fresnel_diamond_fitted_dielectric: four coefficients fitted to a dielectric, specialised
+// fresnel_diamond_fitted_dielectric: four coefficients fitted to a dielectric of n 1.2 or more, specialised
 //   F = c0 + b^3 (c1 + b^4 (c2 + b^7 c3)), b = 1 - c, limited to [0, 1]
 // Source: Stiefel, "Ueber diskrete und lineare Tschebyscheff-Approximationen", Numerische Mathematik 1, 1-28,
 //     1959. https://doi.org/10.1007/BF01386369

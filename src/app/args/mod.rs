@@ -73,7 +73,7 @@ pub struct Generate {
     /// Output language, see `fresnel-gen targets`; all means those written by default [default: all]
     #[arg(long, value_delimiter = ',', value_name = "NAME")]
     pub target: Vec<String>,
-    /// Method, see `fresnel-gen methods` [default: all; for materials the exact one and two Schlicks]
+    /// Method, see `fresnel-gen methods` [default: all; for materials the exact one, a fitted one, two Schlicks and the table]
     #[arg(long, value_delimiter = ',', value_name = "NAME")]
     pub method: Vec<String>,
     /// Material to specialise to: names, paths of material files, all; or none [default: gold, platinum, water, diamond]

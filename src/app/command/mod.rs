@@ -60,10 +60,10 @@ pub fn run(cli: &Cli, progress: Progress) -> Result<Output, Error> {
     }
 }
 
-/// Refuses places that cannot be written, before the work: a report's, and a page's in its folder.
-fn try_places(report: Option<&Path>, page: Option<&Path>) -> Result<(), Error> {
+/// Refuses places that cannot be written, before the work: a report's, and another file's.
+fn try_places(report: Option<&Path>, other: Option<&Path>) -> Result<(), Error> {
     let report = report.filter(|file| *file != Path::new("-"));
-    report.into_iter().chain(page).try_for_each(try_file)
+    report.into_iter().chain(other).try_for_each(try_file)
 }
 
 /// A report as text, or as JSON where that was asked for. JSON on stdout stands there alone.

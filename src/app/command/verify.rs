@@ -48,7 +48,7 @@ pub fn run(flags: &VerifyFlags, progress: Progress) -> Result<Output, Error> {
             what: what.to_owned(),
         });
     }
-    try_places(flags.json.as_deref(), None)?;
+    try_places(flags.json.as_deref(), flags.junit.as_deref())?;
     let (rows, speeds) = if flags.exhaustive {
         exhaustive::rows(&plan, &Devices::new(wanted), progress)?
     } else {

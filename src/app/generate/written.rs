@@ -30,7 +30,7 @@ pub fn refused(request: &Request, named: Named) -> Vec<String> {
 
 /// The methods that a material's file holds unless others are asked for.
 pub fn usual(request: &Request, subject: &Subject) -> Vec<&'static str> {
-    let mut usual = subject.default_methods().to_vec();
+    let mut usual = subject.default_methods();
     usual.retain(|name| is_written(request, name));
     usual
 }

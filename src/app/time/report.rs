@@ -135,7 +135,7 @@ fn noise(noise: &Noise) -> Value {
 fn reason(row: &Row, has_interval: bool) -> Option<String> {
     match &row.figure {
         Err(why) => Some(why.clone()),
-        Ok(_) if !has_interval => Some("an interval takes 6 rounds".to_owned()),
+        Ok(_) if !has_interval => Some("an interval takes 29 rounds".to_owned()),
         Ok(_) => None,
     }
 }

@@ -7,7 +7,7 @@ use super::{Place, Ran};
 use crate::not_checked;
 
 /// Small enough for a test.
-const QUICK: &str = "--size 32 --rounds 6 --evaluations 2";
+const QUICK: &str = "--size 32 --rounds 29 --evaluations 2";
 
 /// The keys of a row.
 const KEYS: [&str; 19] = [
@@ -55,7 +55,7 @@ fn rows_say_what_each_form_costs() {
         return;
     };
     let report = ran.ends(0).json();
-    let command = "time --method dielectric_exact,schlick,table --precision f32 --size 32 --evaluations 2 --rounds 6";
+    let command = "time --method dielectric_exact,schlick,table --precision f32 --size 32 --evaluations 2 --rounds 29";
     assert_eq!(report["command"], command);
     assert!(report["device"].is_string() && report["driver"].is_string());
     for shader in ["heavy", "empty"] {
