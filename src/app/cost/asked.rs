@@ -60,8 +60,11 @@ enum Done {
     Absent(String),
 }
 
-/// Functions of one job: enough that starting a process does not count.
-const JOB: usize = 60;
+/// Functions of one job: enough that starting a process, which takes as long as ten functions, does not count, and few
+/// enough that all workers have some.
+fn job_size(functions: usize, workers: usize) -> usize {
+    functions.div_ceil(workers.max(1)).clamp(60, 400)
+}
 
 /// Asks the compilers of families about functions. `progress` hears how many answers are there.
 ///
@@ -78,7 +81,8 @@ pub fn ask(
     }
     let (functions, places) = once_each(functions);
     let scratch = scratch()?;
-    let jobs: Vec<Job> = jobs(families.len(), functions.len());
+    let size = job_size(functions.len(), limits.workers);
+    let jobs: Vec<Job> = jobs(families.len(), functions.len(), size);
     let crew = Crew {
         families,
         functions: &functions,
@@ -178,10 +182,10 @@ impl Told {
     }
 }
 
-fn jobs(families: usize, functions: usize) -> Vec<Job> {
+fn jobs(families: usize, functions: usize, size: usize) -> Vec<Job> {
     let parts = (0..functions)
-        .step_by(JOB)
-        .map(|start| start..functions.min(start + JOB));
+        .step_by(size)
+        .map(|start| start..functions.min(start + size));
     let parts: Vec<_> = parts.collect();
     (0..families)
         .flat_map(|family| {
@@ -390,9 +394,11 @@ fn environment(family: &Family) -> Result<Vec<(String, OsString)>, String> {
 mod tests {
     use super::*;
 
+    const JOB: usize = 60;
+
     #[test]
     fn a_process_that_did_not_start_takes_nothing_from_others() {
-        let jobs: Vec<Job> = jobs(1, 2 * JOB + 5);
+        let jobs: Vec<Job> = jobs(1, 2 * JOB + 5, JOB);
         let fresh = |count| {
             Some(Done::Fresh(
                 "X".to_owned(),
