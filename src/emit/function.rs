@@ -158,35 +158,35 @@ impl Subject {
         }
     }
 
+    /// Whether the exact law for dielectrics serves it.
+    fn is_glass(&self) -> bool {
+        self.material.kind == Kind::Dielectric && self.effective.channels.is_transparent()
+    }
+
     /// The exact method of its class.
     pub fn exact_method(&self) -> &'static str {
-        let transparent = self.effective.channels.is_transparent();
-        let glass = self.material.kind == Kind::Dielectric && transparent;
-        if glass {
+        if self.is_glass() {
             "dielectric_exact"
         } else {
             "conductor_exact"
         }
     }
 
-    /// The methods that its file holds unless others are asked for: the exact one first. No fit follows what is nearly
-    /// matched, or seen from a denser medium.
+    /// The fitted method of its class. None follows a dielectric that is nearly matched, or seen from a denser medium.
+    fn fitted_method(&self) -> Option<&'static str> {
+        let n = self.effective.channels.n;
+        match self.is_glass() {
+            false => Some("fitted"),
+            true if n.iter().all(|n| *n >= LEAST_FITTED_N) => Some("fitted_dielectric"),
+            true => None,
+        }
+    }
+
+    /// The methods that its file holds unless others are asked for: the exact one first.
     pub fn default_methods(&self) -> Vec<&'static str> {
-        let exact = self.exact_method();
-        let fitted = match exact {
-            "dielectric_exact" => "fitted_dielectric",
-            _ => "fitted",
-        };
-        let is_followed = exact != "dielectric_exact"
-            || self
-                .effective
-                .channels
-                .n
-                .iter()
-                .all(|n| *n >= LEAST_FITTED_N);
-        let fitted = Some(fitted).filter(|_| is_followed);
         let rest = ["schlick_rescaled", "schlick_corrected", "table"];
-        [exact].into_iter().chain(fitted).chain(rest).collect()
+        let exact = [self.exact_method()].into_iter();
+        exact.chain(self.fitted_method()).chain(rest).collect()
     }
 }
 

@@ -44,7 +44,7 @@ impl Curve {
 }
 
 /// What each coefficient of a linear function multiplies at some cosines: a row for each cosine.
-pub fn basis(function: &Checked, cosines: &[f64]) -> Vec<Vec<f64>> {
+fn basis(function: &Checked, cosines: &[f64]) -> Vec<Vec<f64>> {
     let terms = function.params.len() - 1;
     let alone = |term: usize| {
         let one = |i: usize| Value::rgb([if i == term { 1.0 } else { 0.0 }; 3]);
@@ -59,15 +59,11 @@ pub fn basis(function: &Checked, cosines: &[f64]) -> Vec<Vec<f64>> {
 
 /// Fits a function that is linear in all its arguments after `cos_theta`. None where its terms do not tell angles apart.
 pub fn fit(function: &Checked, curve: &Curve) -> Option<Fit> {
-    fit_rows(&basis(function, &curve.cosines), curve)
-}
-
-/// The same with what coefficients multiply known.
-pub fn fit_rows(rows: &[Vec<f64>], curve: &Curve) -> Option<Fit> {
+    let rows = basis(function, &curve.cosines);
     let weights = vec![1.0; rows.len()];
     let channel = |i: usize| {
         let wanted: Vec<f64> = curve.seen.iter().map(|seen| seen[i]).collect();
-        minimax(rows, &wanted, &weights)
+        minimax(&rows, &wanted, &weights)
     };
     let [red, green, blue] = [channel(0)?, channel(1)?, channel(2)?];
     let single = |value: f64| f64::from(value as f32);

@@ -16,7 +16,7 @@ mod texels;
 
 pub use derive::{Derivation, Known, fitted_values, values, values_of};
 pub use effective::{By, Effective, effective};
-pub use fitted::{Curve, Fit, basis, fit, fit_rows};
+pub use fitted::{Curve, Fit, fit};
 pub use lambda::{THESIS_MATCHING_COS, lambda};
 pub use measured::Measured;
 pub use minimax::{Minimax, minimax};

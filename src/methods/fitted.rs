@@ -1,9 +1,9 @@
 //! `F = c0 + b (c1 + b (c2 + b c3))`, `b = 2^(-6.5 cos θ)`: four coefficients a channel.
 //!
 //! Source: ours, by the exchange of Stiefel, "Über diskrete und lineare Tschebyscheff-Approximationen", 1959,
-//! <https://doi.org/10.1007/BF01386369>. The coefficients minimise the largest error over all angles (`fit`), for whatever F is: a spectrum seen in
-//! any space. Being linear they can be blended, filtered and interpolated as colours are. The base and its 6.5 are what a search found
-//! for metals and semiconductors.
+//! <https://doi.org/10.1007/BF01386369>. The coefficients minimise the largest error over all angles (`fit`),
+//! for whatever F is: a spectrum seen in any space. Being linear they can be blended, filtered and interpolated as colours are.
+//! The base and its 6.5 are what a search found for metals and semiconductors.
 //! Domain: any coefficients; the result is limited to [0, 1]. Error: see [`METHOD`]'s claims.
 
 use crate::cite::Citation;
@@ -27,7 +27,7 @@ pub const STIEFEL_1959: Citation = Citation {
 pub(super) const NOT_IN_HALF: &str = "its coefficients are fitted for single precision; what 11 bits add, .001 for metals and .003 for glass, is not promised yet";
 
 /// The shape; of all a in steps of a half, 6.5 has the least 90th percentile over metals and semiconductors.
-pub const SHAPE: Shape = Shape {
+const SHAPE: Shape = Shape {
     base: Base::Exponential(6.5),
     steps: &[1, 1, 1],
 };

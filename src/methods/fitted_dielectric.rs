@@ -15,7 +15,7 @@ use super::method::{Claim, Claims, Class, Contract, Forms, Light, Method, Over};
 use super::shape::{Base, Shape};
 
 /// The shape.
-pub const SHAPE: Shape = Shape {
+const SHAPE: Shape = Shape {
     base: Base::Grazing,
     steps: &[3, 4, 7],
 };

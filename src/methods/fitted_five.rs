@@ -14,7 +14,7 @@ use super::method::{Claim, Claims, Class, Contract, Forms, Light, Method, Over};
 use super::shape::{Base, Shape};
 
 /// The shape.
-pub const SHAPE: Shape = Shape {
+const SHAPE: Shape = Shape {
     base: Base::Rational(3.5),
     steps: &[1, 1, 1, 1],
 };
