@@ -8,6 +8,8 @@ pub mod args;
 pub mod artifact;
 #[cfg(feature = "cli")]
 pub mod bake;
+#[cfg(feature = "cli")]
+pub mod chart;
 pub mod check;
 #[cfg(feature = "cli")]
 pub mod command;

@@ -80,7 +80,7 @@ impl Emitted {
 }
 
 /// The least n of a dielectric that fitted methods follow.
-const LEAST_FITTED_N: f64 = 1.2;
+pub const LEAST_FITTED_N: f64 = 1.2;
 
 /// A material in its medium, as functions are specialised to it.
 #[derive(Clone, Debug)]

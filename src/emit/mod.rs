@@ -18,7 +18,7 @@ pub use comment::lines as comment_lines;
 pub use error::Error;
 pub use file::{File, library, lookup, material, single, uniform_offsets, written_for};
 pub use function::{
-    Emitted, Naming, Specialised, Subject, library_functions, specialised_function,
+    Emitted, LEAST_FITTED_N, Naming, Specialised, Subject, library_functions, specialised_function,
     specialised_graph,
 };
 pub use header::{MARK, half_promise, promises};

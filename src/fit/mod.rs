@@ -12,6 +12,8 @@ mod minimax;
 mod model_error;
 mod over;
 mod params;
+mod perceived;
+mod rival;
 mod texels;
 
 pub use derive::{Derivation, Known, fitted_values, values, values_of};
@@ -23,4 +25,6 @@ pub use minimax::{Minimax, minimax};
 pub use model_error::{ModelError, Truth, error_of, model_error, seen, thesis_errors};
 pub use over::model_error_over;
 pub use params::{BOUNCES, Params, abbe, colour_errors, ior_d, params};
+pub use perceived::{Perceived, perceived};
+pub use rival::{best_inputs, values_at};
 pub use texels::{arguments, table_of, texels};

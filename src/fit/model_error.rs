@@ -67,7 +67,7 @@ impl Truth {
     }
 
     /// The reflectance at [`cosines`] of [`ANGLES`].
-    fn table(&self) -> Vec<[f64; 3]> {
+    pub(super) fn table(&self) -> Vec<[f64; 3]> {
         let colours = self.unclipped.iter();
         colours
             .map(|colour| self.surface.gamut.apply(*colour).to_array())

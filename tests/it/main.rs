@@ -4,6 +4,8 @@
 
 mod bless;
 mod bounds;
+#[cfg(feature = "cli")]
+mod chart_page;
 mod claims;
 #[cfg(feature = "cli")]
 mod cli;

@@ -1,5 +1,6 @@
 //! The command line: flags and subcommands.
 
+mod chart;
 mod cost;
 mod stability;
 mod time;
@@ -12,6 +13,7 @@ use clap::{Args, Parser, Subcommand};
 use super::precision::PrecisionFlags;
 use super::sight::Words;
 
+pub use chart::ChartFlags;
 pub use cost::CostFlags;
 pub use stability::StabilityFlags;
 pub use time::TimeFlags;
@@ -63,6 +65,8 @@ pub enum Command {
     Cost(Box<CostFlags>),
     /// What functions cost on the device at hand, by overdraw: times, and shares of the exact law's
     Time(TimeFlags),
+    /// Error against cost: every method a point, and the frontier of those that nothing beats
+    Chart(ChartFlags),
     /// Compute the thesis's tables, figures and claims anew, and print both side by side
     Reproduce(Reproduce),
 }

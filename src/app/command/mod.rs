@@ -1,6 +1,7 @@
 //! The commands: from parsed flags to what a run prints and how it ends. Printing itself is `main.rs`'s.
 
 mod bake;
+mod chart;
 #[cfg(feature = "gpu")]
 mod cost;
 mod generate;
@@ -55,6 +56,7 @@ pub fn run(cli: &Cli, progress: Progress) -> Result<Output, Error> {
             what: "this program was built without the feature `gpu`, and runs no shaders"
                 .to_owned(),
         }),
+        Some(Command::Chart(flags)) => chart::run(flags, progress),
         Some(Command::Stability(flags)) => stability::run(flags, progress),
         Some(Command::Reproduce(flags)) => reproduce::run(flags, progress),
     }

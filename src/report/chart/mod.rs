@@ -13,7 +13,7 @@ mod ticks;
 pub(super) use sheet::{Frame, Sheet};
 #[cfg(feature = "cli")]
 pub(super) use text::escape;
-pub(super) use text::{FOOT, Font, HEADING, PANEL, SUBTITLE, TICK};
+pub(super) use text::{AXIS, FOOT, Font, HEADING, PANEL, SUBTITLE, TICK, TITLE};
 pub use ticks::ticks;
 
 use plot::Plot;

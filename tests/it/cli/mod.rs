@@ -3,6 +3,7 @@
 mod bad_input;
 mod bake;
 mod brought;
+mod chart;
 #[cfg(feature = "gpu")]
 mod cost;
 mod determinism;

@@ -1,0 +1,73 @@
+//! The axes of cost: what compilers said of library functions, the graph's own operations, and times.
+
+use crate::cost::{Compiler, FAMILIES, Family, records, times};
+use crate::report::frontier::{CostAxis, Entry};
+
+use super::library;
+
+/// An axis for each family of which anything is recorded, and one of times.
+pub fn axes(entries: &[Entry]) -> Vec<CostAxis> {
+    let mut axes = Vec::new();
+    for family in FAMILIES.iter() {
+        let costs = match family.compiler {
+            Compiler::Operations => counted(entries),
+            _ => recorded(family, entries),
+        };
+        if costs.iter().any(Option::is_some) {
+            axes.push(CostAxis {
+                name: family.name,
+                title: title(family),
+                holds_fetches: false,
+                costs,
+            });
+        }
+    }
+    axes.extend(timed(entries));
+    axes
+}
+
+fn title(family: &Family) -> String {
+    let measure = family.columns.measure;
+    match family.compiler {
+        Compiler::Operations => format!("{measure} in the function itself, before any compiler"),
+        _ => format!(
+            "{measure} of an evaluation on {} ({}), by its compiler",
+            family.gpu, family.vendor
+        ),
+    }
+}
+
+fn counted(entries: &[Entry]) -> Vec<Option<f64>> {
+    let work = |entry: &Entry| Some(library(entry.method).work() as f64);
+    entries.iter().map(work).collect()
+}
+
+fn recorded(family: &Family, entries: &[Entry]) -> Vec<Option<f64>> {
+    let record = records(family.name);
+    let cost = |entry: &Entry| {
+        record
+            .library(entry.method.name)
+            .map(|figures| figures.cost())
+    };
+    entries.iter().map(cost).collect()
+}
+
+/// Shares of time on the device of the record.
+fn timed(entries: &[Entry]) -> Option<CostAxis> {
+    let all: Vec<_> = times()
+        .filter(|time| time.form == "library" && time.precision == "f32")
+        .collect();
+    let device = all.first()?.device;
+    let share = |entry: &Entry| {
+        let own = all
+            .iter()
+            .find(|time| time.method == entry.method.name && time.device == device);
+        own.map(|time| 100.0 * time.share)
+    };
+    Some(CostAxis {
+        name: "time",
+        title: format!("time on {device}, in per cent of dielectric_exact"),
+        holds_fetches: true,
+        costs: entries.iter().map(share).collect(),
+    })
+}

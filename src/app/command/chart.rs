@@ -1,0 +1,156 @@
+//! `chart`: error against cost.
+
+use std::path::Path;
+
+use serde_json::json;
+
+use crate::app::args::ChartFlags;
+use crate::app::chart::{CLASSES, OF, cost_names, data};
+use crate::app::error::Error;
+use crate::app::names::{flag, unknown};
+use crate::app::request::{Materials, Request};
+use crate::app::source::materials;
+use crate::app::write::write_file;
+use crate::emit::Subject;
+use crate::report::frontier::{Data, ERRORS, View, page, svg, text};
+
+use super::{Output, Progress, report, try_places};
+
+const PICTURE: &str = "chart.svg";
+const PAGE: &str = "chart.html";
+
+/// Draws.
+pub fn run(flags: &ChartFlags, progress: Progress) -> Result<Output, Error> {
+    let error = place("error", &flags.error, &ERRORS.map(|error| error.name))?;
+    place("way of taking a class together", &flags.of, &OF)?;
+    let cost = place("cost", &flags.gpu, &cost_names())?;
+    let folder = flags.out_dir.as_deref();
+    for file in [PICTURE, PAGE] {
+        try_places(
+            flags.json.as_deref(),
+            folder.map(|folder| folder.join(file)).as_deref(),
+        )?;
+    }
+    let request = Request {
+        materials: chosen(flags)?,
+        ..Request::default()
+    };
+    let found = request.subjects()?;
+    let subjects: Vec<Subject> = found
+        .ready
+        .into_iter()
+        .map(|(subject, _)| subject)
+        .collect();
+    check_shown(flags, &subjects)?;
+    let space = request.sight.integration.space;
+    let data = data(&subjects, space, canonical(flags), progress);
+    let set = set(flags, &data)?;
+    let view = View {
+        data: &data,
+        set: &data.sets[set],
+        cost: &data.costs[cost],
+        error,
+    };
+    let json = json!({
+        "tool": "fresnel-gen", "command": canonical(flags), "device": null, "rows": view.json(),
+    });
+    let mut output = report(text(&view), &json, flags.json.as_deref())?;
+    let left_out = found.left_out.iter();
+    output
+        .remarks
+        .extend(left_out.map(|unseen| format!("left out: {}", unseen.why)));
+    if let Some(folder) = folder {
+        output
+            .remarks
+            .extend(written(folder, &view, [set, cost, error])?);
+    }
+    Ok(output)
+}
+
+/// Materials to chart: the whole catalogue unless others are asked for.
+fn chosen(flags: &ChartFlags) -> Result<Materials, Error> {
+    match materials(&flags.material)? {
+        Materials::Default => Ok(Materials::All),
+        Materials::None => Err(Error::Usage {
+            what: "a chart is of materials; `none` leaves nothing to show".to_owned(),
+        }),
+        named => Ok(named),
+    }
+}
+
+fn written(folder: &Path, view: &View, first: [usize; 3]) -> Result<Vec<String>, Error> {
+    let page = page(view.data, first).map_err(|what| Error::Usage { what })?;
+    let picture = svg(view).ok_or_else(|| Error::Usage {
+        what: format!(
+            "nothing is known of {} on {}: there is no picture to draw",
+            view.set.title, view.cost.name
+        ),
+    })?;
+    let mut remarks = Vec::new();
+    for (name, text, about) in [
+        (PICTURE, picture, "the picture of what is shown"),
+        (PAGE, page, "a page with all charts"),
+    ] {
+        let file = folder.join(name);
+        write_file(&file, text.as_bytes())?;
+        remarks.push(format!("{}: {about}", file.display()));
+    }
+    Ok(remarks)
+}
+
+/// The place of a name among those that there are.
+fn place(kind: &'static str, name: &str, all: &[&str]) -> Result<usize, Error> {
+    let found = all.iter().position(|other| *other == name);
+    found.ok_or_else(|| unknown(kind, name, all))
+}
+
+fn set(flags: &ChartFlags, data: &Data) -> Result<usize, Error> {
+    let names: Vec<&str> = data.sets.iter().map(|set| set.name.as_str()).collect();
+    let Some(show) = &flags.show else {
+        let class = CLASSES.iter().find_map(|class| {
+            let name = format!("{class}-{}", flags.of);
+            names.iter().position(|other| *other == name)
+        });
+        return Ok(class.unwrap_or(0));
+    };
+    if CLASSES.contains(&show.as_str()) {
+        let name = format!("{show}-{}", flags.of);
+        let found = names.iter().position(|other| *other == name);
+        return found.ok_or_else(|| Error::Usage {
+            what: format!("--show {show} needs two {show} or more among the materials"),
+        });
+    }
+    let found = names.iter().position(|other| other == show);
+    Ok(found.expect("what is shown was checked"))
+}
+
+/// Refuses, before the work, to show what is not among the materials.
+fn check_shown(flags: &ChartFlags, subjects: &[Subject]) -> Result<(), Error> {
+    let Some(show) = &flags.show else {
+        return Ok(());
+    };
+    let alone = subjects.iter().map(|subject| subject.argument.as_str());
+    let all: Vec<&str> = CLASSES.into_iter().chain(alone).collect();
+    place("material", show, &all).map(|_| ())
+}
+
+/// The command without places, and without what stands there anyway.
+fn canonical(flags: &ChartFlags) -> String {
+    let one = |name: &str, value: &str, usual: &str| {
+        let words = if value == usual {
+            vec![]
+        } else {
+            vec![value.to_owned()]
+        };
+        flag(name, &words)
+    };
+    let show: Vec<String> = flags.show.iter().cloned().collect();
+    format!(
+        "chart{}{}{}{}{}",
+        flag("material", &flags.material),
+        flag("show", &show),
+        one("of", &flags.of, "median"),
+        one("gpu", &flags.gpu, "rdna2"),
+        one("error", &flags.error, "max"),
+    )
+}

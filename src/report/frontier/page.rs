@@ -1,0 +1,94 @@
+//! All charts on one page: the set, the axes and what is shown are chosen there. Self-contained, for any browser.
+
+use serde::Serialize;
+use tera::Context;
+
+use super::{AS_NEAR, Data, ERRORS, LEAST_ERROR};
+use crate::report::html;
+
+static TEMPLATE: &str = include_str!("../../../templates/chart.html.tera");
+
+/// What the page's script reads.
+#[derive(Serialize)]
+struct Told<'a> {
+    least_error: f64,
+    as_near: f64,
+    entries: Vec<Entry>,
+    errors: Vec<[&'static str; 2]>,
+    costs: Vec<Cost<'a>>,
+    sets: Vec<Set<'a>>,
+}
+
+#[derive(Serialize)]
+struct Entry {
+    label: String,
+    inputs: &'static str,
+    summary: &'static str,
+    source: String,
+    fetches: usize,
+    fails: Option<&'static str>,
+}
+
+#[derive(Serialize)]
+struct Cost<'a> {
+    name: &'a str,
+    title: &'a str,
+    holds_fetches: bool,
+    costs: &'a [Option<f64>],
+}
+
+#[derive(Serialize)]
+struct Set<'a> {
+    name: &'a str,
+    title: &'a str,
+    errors: Vec<[Option<f64>; 4]>,
+}
+
+/// The page; it opens with this set, cost and error. Or why it cannot be made.
+pub fn page(data: &Data, [set, cost, error]: [usize; 3]) -> Result<String, String> {
+    let told = serde_json::to_string(&told(data)).map_err(|why| why.to_string())?;
+    let mut context = Context::new();
+    // A string of JSON may hold `</script>`; an escape of JSON's own keeps it from ending the script.
+    context.insert("data", &told.replace('<', "\\u003c"));
+    context.insert("first", &[set, cost, error]);
+    context.insert("command", &data.command);
+    html::page(TEMPLATE, &context)
+}
+
+fn told(data: &Data) -> Told<'_> {
+    let entry = |entry: &super::Entry| Entry {
+        label: entry.label(),
+        inputs: entry.inputs(),
+        summary: entry.method.summary,
+        source: entry.method.source.line(),
+        fetches: entry.fetches,
+        fails: entry.fails(),
+    };
+    let costs = data.costs.iter().map(|cost| Cost {
+        name: cost.name,
+        title: &cost.title,
+        holds_fetches: cost.holds_fetches,
+        costs: &cost.costs,
+    });
+    let sets = data.sets.iter().map(|set| Set {
+        name: &set.name,
+        title: &set.title,
+        errors: set.errors.iter().map(|errors| errors.map(short)).collect(),
+    });
+    Told {
+        least_error: LEAST_ERROR,
+        as_near: AS_NEAR,
+        entries: data.entries.iter().map(entry).collect(),
+        errors: ERRORS
+            .iter()
+            .map(|error| [error.short, error.title])
+            .collect(),
+        costs: costs.collect(),
+        sets: sets.collect(),
+    }
+}
+
+/// Four digits that count: what is seen of a point on a page.
+fn short(error: Option<f64>) -> Option<f64> {
+    error.and_then(|error| format!("{error:.3e}").parse().ok())
+}

@@ -1,0 +1,124 @@
+//! The chart for a terminal: its points as a table, and what follows from them in a sentence each.
+
+use super::{ERRORS, Point, View};
+use crate::report::table;
+
+/// The points by cost, the frontier marked, and the headline.
+pub fn text(view: &View) -> String {
+    let head = [
+        "",
+        "method",
+        "inputs",
+        "cost",
+        ERRORS[view.error].name,
+        "fetches",
+    ];
+    let points = view.points();
+    let rows: Vec<Vec<String>> = points.iter().map(cells).collect();
+    format!(
+        "{}\nCost: {}.\n\n{}\nA star before a row: nothing is cheaper and as near, or nearer and as cheap.\n{}\n{}",
+        view.title(),
+        view.cost.title,
+        table::text(&head, &rows),
+        failing(&points),
+        headline(view)
+    )
+}
+
+/// A remark on each method that fails: the frontier is without it.
+fn failing(points: &[Point]) -> String {
+    let own = points.iter().filter(|point| !point.entry.is_best);
+    let remark = |point: &Point| {
+        let why = point.entry.fails()?;
+        Some(format!(
+            "{} fails, and takes no part in that: {why}.\n",
+            point.entry.method.name
+        ))
+    };
+    own.filter_map(remark).collect()
+}
+
+fn cells(point: &Point) -> Vec<String> {
+    let star = if point.is_on_frontier { "*" } else { "" };
+    vec![
+        star.to_owned(),
+        point.entry.method.name.to_owned(),
+        point.entry.inputs().to_owned(),
+        figure(point.cost),
+        figure(point.error),
+        point.entry.fetches.to_string(),
+    ]
+}
+
+/// Three digits that count.
+pub(super) fn figure(value: f64) -> String {
+    if value == 0.0 || !value.is_finite() {
+        return format!("{value}");
+    }
+    let digits = (2.0 - libm::floor(libm::log10(value.abs()))).clamp(0.0, 9.0) as usize;
+    let long = format!("{value:.digits$}");
+    let is_fraction = long.contains('.');
+    let short = if is_fraction {
+        long.trim_end_matches('0').trim_end_matches('.')
+    } else {
+        &long
+    };
+    short.to_owned()
+}
+
+/// What a fitted method gains on a rival with its intended inputs and with its best ones, at which part of its cost: of each
+/// fitted method against the nearest rival that is no cheaper than it by more than a tenth.
+pub fn headline(view: &View) -> String {
+    let points = view.points();
+    let ours = points.iter().filter(|point| point.entry.method.is_fitted());
+    ours.filter_map(|our| sentence(our, &points)).collect()
+}
+
+fn sentence(our: &Point, points: &[Point]) -> Option<String> {
+    let is_rival = |point: &&Point| {
+        let method = point.entry.method;
+        let is_cheap = our.cost <= 1.1 * point.cost && point.cost <= 2.0 * our.cost;
+        !method.is_fitted() && point.entry.fetches == 0 && is_cheap && our.error < point.error
+    };
+    let rivals: Vec<&Point> = points.iter().filter(is_rival).collect();
+    let intended = rivals.iter().filter(|point| !point.entry.is_best);
+    let nearest = intended.min_by(|a, b| a.error.total_cmp(&b.error))?;
+    let is_same = |point: &&&Point| {
+        point.entry.is_best && point.entry.method.name == nearest.entry.method.name
+    };
+    let best = rivals.iter().find(is_same);
+    let best = best.map_or(String::new(), |best| {
+        format!(", {} with its best", times(best.error / our.error))
+    });
+    Some(format!(
+        "{} errs {} less than {} with its intended inputs{best}, at {} of its cost.\n",
+        our.entry.method.name,
+        times(nearest.error / our.error),
+        nearest.entry.method.name,
+        figure(our.cost / nearest.cost),
+    ))
+}
+
+fn times(ratio: f64) -> String {
+    format!("{} times", figure(ratio))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::figure;
+
+    #[test]
+    fn figures_keep_three_digits() {
+        for (value, wanted) in [
+            (0.0019234, "0.00192"),
+            (21.0, "21"),
+            (146.25, "146"),
+            (0.5, "0.5"),
+            (62.345, "62.3"),
+            (1e-6, "0.000001"),
+            (120.0, "120"),
+        ] {
+            assert_eq!(figure(value), wanted);
+        }
+    }
+}

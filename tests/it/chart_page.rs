@@ -1,0 +1,133 @@
+//! The page of charts in a real browser without a window: its points, its filters, its frontier, and that it asks nobody.
+
+use serde_json::Value;
+
+use crate::cli::Place;
+use crate::compilers::Tool;
+
+const CHROMIUM: Tool = Tool {
+    command: "chromium",
+    package: "chromium",
+};
+const MATERIALS: &str = "gold,platinum,water,diamond";
+
+/// Stands in the page before anything of it runs, and hears what goes wrong.
+const EARS: &str = r#"<script>
+const faults = [];
+addEventListener("error", event => faults.push(event.message));
+addEventListener("securitypolicyviolation", event => faults.push("it asks for " + event.blockedURI));
+for (const kind of ["error", "warn"]) console[kind] = (...words) => faults.push(words.join(" "));
+</script><title>"#;
+
+/// Stands after it, does what a reader does, and leaves in the page what was seen.
+const HANDS: &str = r##"<script>
+{
+  const count = () => document.querySelectorAll("#chart .point").length;
+  const click = id => { document.getElementById(id).click(); return count(); };
+  const choose = (id, part) => {
+    const list = document.getElementById(id);
+    list.value = [...list.options].find(option => option.text.startsWith(part)).value;
+    list.dispatchEvent(new Event("input", { bubbles: true }));
+  };
+  const frontier = () => [...document.querySelectorAll("#rows tr.best-row")].map(row => row.cells[0].textContent);
+  const told = { all: count(), rows: document.querySelectorAll("#rows tr").length, first: frontier() };
+  told.unfitted = click("show-fitted");
+  told.again = click("show-fitted");
+  told.intended = click("show-best");
+  click("show-best");
+  choose("set", "gold"); choose("cost", "adreno330"); choose("error", "largest difference of colour");
+  told.gold = frontier();
+  choose("set", "water"); choose("cost", "time"); choose("error", "mean relative");
+  told.water = frontier();
+  document.querySelector("#chart .point.fitted").dispatchEvent(new Event("mouseenter"));
+  told.about = document.getElementById("about").textContent;
+  told.asked = performance.getEntriesByType("resource").map(one => one.name);
+  told.faults = faults;
+  const place = document.body.appendChild(document.createElement("pre"));
+  place.id = "told";
+  place.textContent = btoa(unescape(encodeURIComponent(JSON.stringify(told))));
+}
+</script></html>"##;
+
+/// The labels on the frontier as the program's own rows tell them.
+fn frontier(place: &Place, view: &str) -> (usize, Vec<String>) {
+    let ran = place.done(&format!("chart --material {MATERIALS} {view} --json -"));
+    let report: Value = serde_json::from_str(&ran.out).unwrap();
+    let rows = report["rows"].as_array().unwrap().clone();
+    let best = rows.iter().filter(|row| row["is_on_frontier"] == true);
+    let label = |row: &Value| {
+        let star = if row["inputs"] == "best" { "*" } else { "" };
+        format!("{}{star}", row["method"].as_str().unwrap())
+    };
+    (rows.len(), best.map(label).collect())
+}
+
+fn labels(told: &Value) -> Vec<String> {
+    let list = told.as_array().unwrap().iter();
+    list.map(|one| one.as_str().unwrap().to_owned()).collect()
+}
+
+/// What the hands saw in the page.
+fn told(place: &Place) -> Value {
+    let page = place.read("chart.html").replacen("<title>", EARS, 1);
+    place.put("tried.html", page.replace("</html>", HANDS));
+    let profile = format!("--user-data-dir={}", place.path("profile").display());
+    let page = format!("file://{}", place.path("tried.html").display());
+    let dom = CHROMIUM.run([
+        "--headless",
+        "--no-sandbox",
+        "--disable-gpu",
+        "--no-first-run",
+        "--disable-quic",
+        "--disable-sync",
+        "--disable-background-networking",
+        "--disable-component-update",
+        &profile,
+        "--dump-dom",
+        &page,
+    ]);
+    let dom = dom.expect("the page is rendered");
+    let told = dom
+        .split("<pre id=\"told\">")
+        .nth(1)
+        .expect("the script came to its end");
+    let told = told.split('<').next().unwrap();
+    let bytes = base64::Engine::decode(&base64::prelude::BASE64_STANDARD, told).unwrap();
+    serde_json::from_slice(&bytes).unwrap()
+}
+
+#[test]
+fn a_browser_shows_every_point_and_asks_nobody() {
+    let place = Place::new();
+    place.done(&format!("chart --material {MATERIALS} --out-dir ."));
+    if !CHROMIUM.is_here("the page of charts") {
+        return;
+    }
+    let told = told(&place);
+    assert_eq!(told["faults"], serde_json::json!([]), "{told}");
+    assert_eq!(told["asked"], serde_json::json!([]), "{told}");
+    let (points, first) = frontier(&place, "");
+    assert_eq!(told["all"], points);
+    assert_eq!(told["rows"], points);
+    assert_eq!(told["again"], points);
+    assert!(told["unfitted"].as_u64() < told["all"].as_u64());
+    assert!(told["intended"].as_u64() < told["all"].as_u64());
+    assert_eq!(labels(&told["first"]), first);
+    let gold = "--show gold --gpu adreno330 --error de2000";
+    assert_eq!(labels(&told["gold"]), frontier(&place, gold).1);
+    let water = "--show water --gpu time --error mean-rel";
+    assert_eq!(labels(&told["water"]), frontier(&place, water).1);
+    assert!(
+        told["about"].as_str().unwrap().starts_with("fitted"),
+        "{told}"
+    );
+}
+
+/// The picture that README shows is of the whole catalogue, as the program draws it.
+#[test]
+fn the_picture_in_readme_is_what_the_program_draws() {
+    let place = Place::new();
+    place.done("chart --out-dir .");
+    let path = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/chart.svg");
+    crate::bless::check(&path, place.read("chart.svg").as_bytes());
+}
