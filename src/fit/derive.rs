@@ -144,7 +144,7 @@ fn exact(n: f64, k: f64, cos_theta: f64) -> f64 {
 }
 
 /// Schlick's value at cos θ = 1/7, where the weight is (6/7)⁵.
-fn schlick_82(f0: f64) -> f64 {
+pub(super) fn schlick_82(f0: f64) -> f64 {
     f0 + (1.0 - f0) * 7_776.0 / 16_807.0
 }
 

@@ -140,6 +140,16 @@ pub fn error_of(truth: &Truth, values: &dyn Fn(&[f64]) -> Value<f64>) -> ModelEr
     error
 }
 
+/// The error of the same against whatever else is to be met, at the angles alone.
+pub fn error_from(
+    seen: impl Fn(f64) -> [f64; 3],
+    values: &dyn Fn(&[f64]) -> Value<f64>,
+) -> ModelError {
+    let at = cosines(ANGLES);
+    let want: Vec<[f64; 3]> = at.iter().map(|c| seen(*c)).collect();
+    difference(&values(&at), &want, &at)
+}
+
 /// The middles of equal steps of angle, over which means are taken, and after them both ends and grazing cosines.
 pub(super) fn cosines(angles: usize) -> Vec<f64> {
     let middles = (0..angles).map(|i| cosine(2 * i + 1, 2 * angles));

@@ -3,6 +3,7 @@
 pub mod card;
 pub mod chart;
 pub mod cost;
+pub mod fits;
 pub mod frontier;
 #[cfg(feature = "cli")]
 mod html;

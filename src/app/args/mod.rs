@@ -2,6 +2,7 @@
 
 mod chart;
 mod cost;
+mod fit;
 mod stability;
 mod time;
 mod verify;
@@ -15,6 +16,7 @@ use super::sight::Words;
 
 pub use chart::ChartFlags;
 pub use cost::CostFlags;
+pub use fit::FitFlags;
 pub use stability::StabilityFlags;
 pub use time::TimeFlags;
 pub use verify::VerifyFlags;
@@ -65,6 +67,8 @@ pub enum Command {
     Cost(Box<CostFlags>),
     /// What functions cost on the device at hand, by overdraw: times, and shares of the exact law's
     Time(TimeFlags),
+    /// Fit coefficients: of materials, or of an artist's two colours
+    Fit(Box<FitFlags>),
     /// Error against cost: every method a point, and the frontier of those that nothing beats
     Chart(ChartFlags),
     /// Compute the thesis's tables, figures and claims anew, and print both side by side

@@ -4,6 +4,7 @@
 mod costs;
 mod sets;
 
+use crate::app::parallel::each;
 use crate::emit::Subject;
 use crate::fit::{
     Curve, ModelError, Truth, best_inputs, error_of, model_error, perceived, values_at,
@@ -73,23 +74,12 @@ fn errors(
     space: Space,
     progress: &mut dyn FnMut(u64, u64, &str),
 ) -> Vec<Errors> {
-    let cores = std::thread::available_parallelism().map_or(1, usize::from);
-    let mut all = Vec::with_capacity(subjects.len());
-    for batch in subjects.chunks(cores) {
-        let started = std::thread::scope(|scope| {
-            let start = |subject| scope.spawn(move || of_subject(entries, subject, space));
-            let threads: Vec<_> = batch.iter().map(start).collect();
-            let ended = threads.into_iter().map(|thread| {
-                thread
-                    .join()
-                    .unwrap_or_else(|panic| std::panic::resume_unwind(panic))
-            });
-            ended.collect::<Vec<Errors>>()
-        });
-        all.extend(started);
-        progress(all.len() as u64, subjects.len() as u64, "materials");
-    }
-    all
+    let whole = subjects.len() as u64;
+    each(
+        subjects,
+        |subject| of_subject(entries, subject, space),
+        &mut |done| progress(done as u64, whole, "materials"),
+    )
 }
 
 fn of_subject(entries: &[Entry], subject: &Subject, space: Space) -> Errors {

@@ -4,6 +4,7 @@ mod bake;
 mod chart;
 #[cfg(feature = "gpu")]
 mod cost;
+mod fit;
 mod generate;
 mod import;
 mod listing;
@@ -57,6 +58,7 @@ pub fn run(cli: &Cli, progress: Progress) -> Result<Output, Error> {
                 .to_owned(),
         }),
         Some(Command::Chart(flags)) => chart::run(flags, progress),
+        Some(Command::Fit(flags)) => fit::run(flags, progress),
         Some(Command::Stability(flags)) => stability::run(flags, progress),
         Some(Command::Reproduce(flags)) => reproduce::run(flags, progress),
     }

@@ -13,6 +13,7 @@ use crate::methods::{Contract, Method};
 #[cfg(feature = "cli")]
 pub use page::page;
 pub use svg::svg;
+pub(super) use text::figure;
 pub use text::{headline, text};
 
 /// How error is told.

@@ -51,7 +51,7 @@ fn cells(point: &Point) -> Vec<String> {
 }
 
 /// Three digits that count.
-pub(super) fn figure(value: f64) -> String {
+pub fn figure(value: f64) -> String {
     if value == 0.0 || !value.is_finite() {
         return format!("{value}");
     }

@@ -9,6 +9,7 @@ mod cost;
 mod determinism;
 #[cfg(unix)]
 mod disk;
+mod fit;
 mod generation;
 mod half;
 #[cfg(unix)]

@@ -1,0 +1,39 @@
+//! The flags of `fit`.
+
+use std::path::PathBuf;
+
+use clap::Args;
+
+use super::SightFlags;
+
+/// The flags of fits.
+#[derive(Args, Debug)]
+#[command(
+    after_help = "Examples:\n  fresnel-gen fit --material gold\n  fresnel-gen fit --material all --terms 5 --json fits.json\n  fresnel-gen fit --f0 1.0,0.71,0.29 --f82 0.98,0.91,0.66\n\nFits the shared forms, whose coefficients a shader takes as arguments (see `fresnel-gen methods show fitted`): those with the\nleast largest error over all angles. Colours are linear. A star marks what no other form of the same material beats in cost\nand error. `fresnel-gen --method fitted --material gold` writes the function with the coefficients in it."
+)]
+pub struct FitFlags {
+    /// Names, paths of material files, or all [default: gold, platinum, water, diamond]
+    #[arg(long, value_delimiter = ',', value_name = "NAME")]
+    pub material: Vec<String>,
+    /// Only forms with so many coefficients: 4 or 5
+    #[arg(long, value_name = "N")]
+    pub terms: Option<usize>,
+    /// No material: reflectance at 0 degrees, three numbers from 0 to 1; with --f82
+    #[arg(long, value_delimiter = ',', value_name = "R,G,B", requires = "f82", conflicts_with_all = ["material", "medium"])]
+    pub f0: Vec<f64>,
+    /// And at 81.79 degrees (cos θ = 1/7)
+    #[arg(long, value_delimiter = ',', value_name = "R,G,B", requires = "f0")]
+    pub f82: Vec<f64>,
+    /// What the light comes from: a transparent material's name or file [default: air]
+    #[arg(long, value_name = "NAME")]
+    pub medium: Option<String>,
+    /// Whose cost stands beside the error: rdna2, adreno330, malig72 ... as for `cost`
+    #[arg(long, value_name = "NAME", default_value = "rdna2")]
+    pub gpu: String,
+    /// How materials are seen
+    #[command(flatten)]
+    pub sight: SightFlags,
+    /// Write the report as JSON to this file, or `-` for stdout
+    #[arg(long, value_name = "FILE")]
+    pub json: Option<PathBuf>,
+}

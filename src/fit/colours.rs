@@ -1,0 +1,83 @@
+//! Reflectance at every angle from two colours alone, as artists give them: at 0 degrees and at 81.79.
+//!
+//! Where an index has both ([`index_from_f0_f82`]) it is that index's, by the exact law. Where none has them, or F0 is so large that
+//! F82 decides between indices far from any metal, it is that of the method `f82_tint`, which meets any two.
+
+use crate::ir::Value;
+use crate::methods::{self, Input};
+use crate::optics::{self, EffectiveIndex, index_from_f0_f82};
+
+use super::derive::schlick_82;
+
+/// The largest F0 that is taken for an index's. From here on a hundredth of F82 moves n by more than its half.
+pub const LARGEST_SOLVED_F0: f64 = 0.985;
+
+/// What a channel follows between its two colours.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Follows {
+    /// The exact law of this index.
+    Law(EffectiveIndex),
+    /// The method `f82_tint`: no index has these colours.
+    Tint {
+        /// At 0 degrees.
+        f0: f64,
+        /// At 81.79 degrees, over Schlick's value there.
+        tint: f64,
+    },
+}
+
+impl Follows {
+    /// What a channel of these two reflectances follows.
+    pub fn of(f0: f64, f82: f64) -> Follows {
+        let index = index_from_f0_f82(f0, f82);
+        if index.exact && f0 < LARGEST_SOLVED_F0 {
+            return Follows::Law(index);
+        }
+        let tint = f82 / schlick_82(f0);
+        Follows::Tint { f0, tint }
+    }
+
+    /// The reflectance at a cosine.
+    pub fn at(&self, cos_theta: f64) -> f64 {
+        match *self {
+            Follows::Law(index) => optics::conductor(index.n, index.k, cos_theta).unpolarised(),
+            Follows::Tint { f0, tint } => tinted(f0, tint, cos_theta),
+        }
+    }
+}
+
+fn tinted(f0: f64, tint: f64, cos_theta: f64) -> f64 {
+    let method = methods::find("f82_tint").expect("a test follows it");
+    let function = method.function(true).expect("a test builds every method");
+    let argument = |input: &Input| Value::scalar(if input.name == "f0" { f0 } else { tint });
+    let arguments: Vec<Value<f64>> = [Value::scalar(cos_theta)]
+        .into_iter()
+        .chain(method.inputs.iter().map(argument))
+        .collect();
+    crate::ir::evaluate(&function, &arguments).at(0)[0]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn both_colours_are_met_by_whatever_is_followed() {
+        for (f0, f82, is_law) in [
+            (0.04, 0.46, true),
+            (0.9, 0.9, true),
+            (0.95, 0.97, true),
+            // Darker than any index of this F0 is at 82 degrees; and too bright at 0.
+            (0.9, 0.2, false),
+            (0.99, 0.99, false),
+        ] {
+            let follows = Follows::of(f0, f82);
+            assert_eq!(matches!(follows, Follows::Law(_)), is_law, "{follows:?}");
+            assert!((follows.at(1.0) - f0).abs() < 1e-9, "{follows:?}");
+            assert!(
+                (follows.at(optics::COS_82) - f82).abs() < 1e-9,
+                "{follows:?}"
+            );
+        }
+    }
+}
