@@ -18,6 +18,11 @@
 // Code error for n 0.05 to 4.5, k 1.5 to 8: at most 2^-22, unfused f32 against f64
 // fresnel_fitted: 24 scalar operations, among them 1 exponential or logarithm
 // fresnel_fitted_scalar: 10 scalar operations, among them 1 exponential or logarithm
+// fresnel_fitted_average: 21 scalar operations
+// fresnel_fitted_average_scalar: 7 scalar operations
+// fresnel_fitted_average: the mean of F over the hemisphere, twice the integral of F c over c, for compensation of
+//     multiple scattering: c0 + 0.092533 c1 + 0.024601 c2 + 0.010947 c3, limited to [0, 1]. It is in closed form,
+//     of F before its limit: where F meets the limit the mean of the function differs
 // Licence of this file: CC0-1.0
 
 #ifndef FRESNEL_FITTED_GLES
@@ -45,6 +50,14 @@ highp float fresnel_fitted_scalar(
     highp float sum1 = c1 + b * sum2;
     highp float sum0 = c0 + b * sum1;
     return clamp(sum0, 0.0, 1.0);
+}
+
+highp vec3 fresnel_fitted_average(highp vec3 c0, highp vec3 c1, highp vec3 c2, highp vec3 c3) {
+    return clamp(c0 + 0.09253325 * c1 + 0.024601486 * c2 + 0.010947157 * c3, 0.0, 1.0);
+}
+
+highp float fresnel_fitted_average_scalar(highp float c0, highp float c1, highp float c2, highp float c3) {
+    return clamp(c0 + 0.09253325 * c1 + 0.024601486 * c2 + 0.010947157 * c3, 0.0, 1.0);
 }
 
 #endif

@@ -17,6 +17,11 @@
 // Code error for eta 1.3 to 2.5: at most 7 ulp or 2^-22, unfused f32 against f64
 // fresnel_fitted_dielectric: 27 scalar operations
 // fresnel_fitted_dielectric_scalar: 13 scalar operations
+// fresnel_fitted_dielectric_average: 21 scalar operations
+// fresnel_fitted_dielectric_average_scalar: 7 scalar operations
+// fresnel_fitted_dielectric_average: the mean of F over the hemisphere, twice the integral of F c over c, for
+//     compensation of multiple scattering: c0 + 0.100000 c1 + 0.027778 c2 + 0.008333 c3, limited to [0, 1]. It is
+//     in closed form, of F before its limit: where F meets the limit the mean of the function differs
 // Licence of this file: CC0-1.0
 
 #ifndef FRESNEL_FITTED_DIELECTRIC_GLES
@@ -58,6 +63,19 @@ highp float fresnel_fitted_dielectric_scalar(
     highp float sum1 = c1 + b4 * sum2;
     highp float sum0 = c0 + b3 * sum1;
     return clamp(sum0, 0.0, 1.0);
+}
+
+highp vec3 fresnel_fitted_dielectric_average(highp vec3 c0, highp vec3 c1, highp vec3 c2, highp vec3 c3) {
+    return clamp(c0 + 0.1 * c1 + 0.027777778 * c2 + 0.008333334 * c3, 0.0, 1.0);
+}
+
+highp float fresnel_fitted_dielectric_average_scalar(
+    highp float c0,
+    highp float c1,
+    highp float c2,
+    highp float c3
+) {
+    return clamp(c0 + 0.1 * c1 + 0.027777778 * c2 + 0.008333334 * c3, 0.0, 1.0);
 }
 
 #endif

@@ -18,6 +18,11 @@
 // Code error for n 0.05 to 4.5, k 1.5 to 8: at most 2^-22, unfused f32 against f64
 // fresnel_fitted: 24 scalar operations, among them 1 exponential or logarithm
 // fresnel_fitted_scalar: 10 scalar operations, among them 1 exponential or logarithm
+// fresnel_fitted_average: 21 scalar operations
+// fresnel_fitted_average_scalar: 7 scalar operations
+// fresnel_fitted_average: the mean of F over the hemisphere, twice the integral of F c over c, for compensation of
+//     multiple scattering: c0 + 0.092533 c1 + 0.024601 c2 + 0.010947 c3, limited to [0, 1]. It is in closed form,
+//     of F before its limit: where F meets the limit the mean of the function differs
 // Licence of this file: CC0-1.0
 
 #ifndef FRESNEL_FITTED_HLSL
@@ -41,6 +46,16 @@ float fresnel_fitted_scalar(float cos_theta, float c0, float c1, float c2, float
     float sum1 = c1 + b * sum2;
     float sum0 = c0 + b * sum1;
     return saturate(sum0);
+}
+
+float3 fresnel_fitted_average(float3 c0, float3 c1, float3 c2, float3 c3)
+{
+    return saturate(c0 + 0.09253325 * c1 + 0.024601486 * c2 + 0.010947157 * c3);
+}
+
+float fresnel_fitted_average_scalar(float c0, float c1, float c2, float c3)
+{
+    return saturate(c0 + 0.09253325 * c1 + 0.024601486 * c2 + 0.010947157 * c3);
 }
 
 #endif

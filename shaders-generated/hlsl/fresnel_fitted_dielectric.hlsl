@@ -17,6 +17,11 @@
 // Code error for eta 1.3 to 2.5: at most 7 ulp or 2^-22, unfused f32 against f64
 // fresnel_fitted_dielectric: 27 scalar operations
 // fresnel_fitted_dielectric_scalar: 13 scalar operations
+// fresnel_fitted_dielectric_average: 21 scalar operations
+// fresnel_fitted_dielectric_average_scalar: 7 scalar operations
+// fresnel_fitted_dielectric_average: the mean of F over the hemisphere, twice the integral of F c over c, for
+//     compensation of multiple scattering: c0 + 0.100000 c1 + 0.027778 c2 + 0.008333 c3, limited to [0, 1]. It is
+//     in closed form, of F before its limit: where F meets the limit the mean of the function differs
 // Licence of this file: CC0-1.0
 
 #ifndef FRESNEL_FITTED_DIELECTRIC_HLSL
@@ -48,6 +53,16 @@ float fresnel_fitted_dielectric_scalar(float cos_theta, float c0, float c1, floa
     float sum1 = c1 + b4 * sum2;
     float sum0 = c0 + b3 * sum1;
     return saturate(sum0);
+}
+
+float3 fresnel_fitted_dielectric_average(float3 c0, float3 c1, float3 c2, float3 c3)
+{
+    return saturate(c0 + 0.1 * c1 + 0.027777778 * c2 + 0.008333334 * c3);
+}
+
+float fresnel_fitted_dielectric_average_scalar(float c0, float c1, float c2, float c3)
+{
+    return saturate(c0 + 0.1 * c1 + 0.027777778 * c2 + 0.008333334 * c3);
 }
 
 #endif

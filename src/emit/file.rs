@@ -8,6 +8,7 @@ use crate::methods::{self, Method, Values};
 use crate::num::Precision;
 use crate::targets::{Finish, Page, Target};
 
+use super::average::Average;
 use super::bounds::CodeBound;
 use super::comment;
 use super::error::Error;
@@ -51,7 +52,7 @@ pub fn written_for(target: &Target, functions: Vec<Emitted>) -> impl Iterator<It
     let modules = target.finish == Finish::Spirv;
     functions
         .into_iter()
-        .filter(move |function| !modules || function.form != "scalar")
+        .filter(move |function| !modules || function.function.ty() != Ty::Scalar)
 }
 
 /// The files of a material: its functions together.
@@ -214,6 +215,10 @@ fn detail(target: &Target, index: usize, emitted: &Emitted) -> Value {
                 json!("a channel reflects nothing, so that no relative error is defined");
         }
     }
+    if let Some(average) = Average::of(emitted) {
+        value["average"] = json!(average.given);
+        value["average_unlimited"] = json!(average.unlimited);
+    }
     if target.finish == Finish::Spirv {
         value["entry_point"] = json!(entry_point(index, emitted));
         value["uniforms"] = uniforms(emitted);
@@ -246,10 +251,7 @@ fn parameters(emitted: &Emitted) -> Value {
 /// The uniform block of a module: name, type and offset in bytes of each run-time argument.
 fn uniforms(emitted: &Emitted) -> Value {
     let params = &emitted.function.params;
-    let numbers = params
-        .iter()
-        .skip(1)
-        .filter(|param| param.ty != Ty::Texture);
+    let numbers = params.iter().filter(|param| is_number(param));
     let row = |(param, offset): (&Param, usize)| {
         let ty = if param.ty == Ty::Rgb { "vec3" } else { "float" };
         json!({ "name": param.name, "type": ty, "offset": offset })
@@ -261,10 +263,7 @@ fn uniforms(emitted: &Emitted) -> Value {
 /// std140's for these types.
 pub fn uniform_offsets(params: &[Param]) -> Vec<usize> {
     let mut end = 0usize;
-    let numbers = params
-        .iter()
-        .skip(1)
-        .filter(|param| param.ty != Ty::Texture);
+    let numbers = params.iter().filter(|param| is_number(param));
     let place = |param: &Param| {
         let (size, align) = if param.ty == Ty::Rgb {
             (12, 16)
@@ -276,6 +275,11 @@ pub fn uniform_offsets(params: &[Param]) -> Vec<usize> {
         offset
     };
     numbers.map(place).collect()
+}
+
+/// Whether it stands in the uniform block of a module: it is neither the cosine nor a texture.
+fn is_number(param: &Param) -> bool {
+    param.ty != Ty::Texture && !param.is_cosine()
 }
 
 fn check_names(target: &Target, functions: &[Emitted]) -> Result<(), Error> {

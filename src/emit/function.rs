@@ -10,6 +10,7 @@ use crate::methods::{Class, Light, Method, Values};
 use crate::num::Precision;
 use crate::spectra::Gamut;
 
+use super::average;
 use super::bounds::{Bounds, CodeBound, PLAIN_ULP};
 use super::error::Error;
 use super::header::FILTERED;
@@ -46,7 +47,7 @@ pub struct Emitted {
     pub name: String,
     /// Its method.
     pub method: &'static Method,
-    /// `library`, `scalar` or `specialised`.
+    /// `library`, `scalar`, `specialised`, `average` or `average_scalar`.
     pub form: &'static str,
     /// What it computes in.
     pub precision: Precision,
@@ -74,7 +75,8 @@ impl Emitted {
         match (self.precision, self.form) {
             (Precision::F32, _) => Ok(self.function.clone()),
             (Precision::F16, "specialised") => self.method.specialise(&self.constants),
-            (Precision::F16, form) => self.method.function(form == "scalar"),
+            (Precision::F16, form) => average::meaning(self.method, form)
+                .unwrap_or_else(|| self.method.function(form == "scalar")),
         }
     }
 }
@@ -200,24 +202,35 @@ pub fn library_functions(method: &'static Method, naming: &Naming) -> Result<Vec
     wanted
         .map(|(scalar, suffix, form)| {
             let function = method.function_in(naming.precision, *scalar);
-            let function = function.map_err(|fault| Error::Generated {
-                file: method.name.to_owned(),
-                what: fault.to_string(),
-            })?;
-            Ok(Emitted {
-                name: naming.name(method.name, suffix),
-                method,
-                form,
-                precision: naming.precision,
-                function,
-                constants: Values::new(),
-                model_error: None,
-                code: promised(method, naming.precision),
-                plain_for: None,
-                written_as: None,
-            })
+            library_function(method, naming, suffix, form, function)
         })
         .collect()
+}
+
+/// A function with run-time arguments.
+pub(super) fn library_function(
+    method: &'static Method,
+    naming: &Naming,
+    suffix: &str,
+    form: &'static str,
+    function: Result<Checked, Fault>,
+) -> Result<Emitted, Error> {
+    let function = function.map_err(|fault| Error::Generated {
+        file: method.name.to_owned(),
+        what: fault.to_string(),
+    })?;
+    Ok(Emitted {
+        name: naming.name(method.name, suffix),
+        method,
+        form,
+        precision: naming.precision,
+        function,
+        constants: Values::new(),
+        model_error: None,
+        code: promised(method, naming.precision),
+        plain_for: None,
+        written_as: None,
+    })
 }
 
 /// What a library function promises.

@@ -7,6 +7,7 @@ use crate::methods::{Claim, Contract, Method, TEXELS};
 use crate::num::Precision;
 use crate::targets::Target;
 
+use super::average::{self, Average};
 use super::bounds::CodeBound;
 use super::comment;
 use super::function::{Emitted, Subject};
@@ -45,6 +46,7 @@ pub fn library(
             .iter()
             .map(|f| format!("{}: {}", f.name, operations(f))),
     );
+    lines.extend(average::library_lines(functions));
     lines.push(format!("Licence of this file: {OUTPUT_LICENCE}"));
     comment::lines(lines)
 }
@@ -76,6 +78,7 @@ pub fn specialised(emitted: &Emitted) -> Vec<String> {
     lines.extend(table_line(emitted));
     lines.extend(emitted.model_error.iter().map(model_line));
     lines.push(code_line(&emitted.code));
+    lines.extend(Average::of(emitted).map(|average| average.line()));
     lines.push(format!("Cost: {}", operations(emitted)));
     lines.extend(form_line(emitted));
     comment::lines(lines)

@@ -3,6 +3,7 @@
 //! The graph is printed by one printer ([`print`]) from the target's table, a Tera template puts the page around it,
 //! and SPIR-V is lowered from WGSL by naga. Library files hold functions only.
 
+mod average;
 mod bounds;
 mod comment;
 mod error;
@@ -13,6 +14,7 @@ mod page;
 mod print;
 mod wgsl;
 
+pub use average::{AVERAGE, Average, average_functions};
 pub use bounds::{Bounds, CodeBound, PLAIN_ULP, fingerprint, half_record, sha256};
 pub use comment::lines as comment_lines;
 pub use error::Error;

@@ -10,6 +10,7 @@ use crate::num::Precision;
 use crate::targets::{Finish, Page, Target};
 
 use super::error::Error;
+use super::average::AVERAGE;
 use super::function::Emitted;
 use super::{print, wgsl};
 
@@ -88,7 +89,8 @@ pub fn render(request: &Request) -> Result<Vec<u8>, Error> {
 fn view<'a>(request: &'a Request) -> View<'a> {
     let functions = request.functions.iter().enumerate();
     let first = &request.functions[0].1.function;
-    let numbers = first.params.iter().filter(|param| !is_texture(param));
+    let is_number = |param: &&Param| !is_texture(param) && !param.is_cosine();
+    let numbers = first.params.iter().filter(is_number);
     View {
         header: request.header,
         guard: request.guard,
@@ -100,7 +102,6 @@ fn view<'a>(request: &'a Request) -> View<'a> {
             .collect(),
         textures: textures(request),
         parameters: numbers
-            .skip(1)
             .map(|param| ParameterView {
                 name: param.name.clone(),
                 ty: request.target.spelling.ty(param.ty),
@@ -128,12 +129,12 @@ fn call(target: &Target, emitted: &Emitted) -> String {
         Precision::F32 => value,
         Precision::F16 => format!("{}({value})", target.half.spelling.ty(ty)),
     };
-    let argument = |(i, param): (usize, &Param)| match param.ty {
+    let argument = |param: &Param| match param.ty {
         Ty::Texture => format!("{0}_texture, {0}_filter", param.name),
-        ty if i == 0 => narrow(ty, param.name.clone()),
+        ty if param.is_cosine() => narrow(ty, param.name.clone()),
         ty => narrow(ty, format!("parameters.{}", param.name)),
     };
-    let params = emitted.function.params.iter().enumerate();
+    let params = emitted.function.params.iter();
     let arguments: Vec<String> = params.map(argument).collect();
     let call = format!("{}({})", emitted.name, arguments.join(", "));
     match emitted.precision {
@@ -153,12 +154,13 @@ fn function(target: &Target, index: usize, doc: &[String], emitted: &Emitted) ->
     }
 }
 
-/// A module's entry points: `main` for its first function, the method's name for the others.
+/// A module's entry points: `main` for its first function, `average` for a mean over the hemisphere, the method's name for
+/// others.
 pub fn entry_point(index: usize, emitted: &Emitted) -> String {
-    if index == 0 {
-        "main".to_owned()
-    } else {
-        emitted.method.name.to_owned()
+    match emitted.form {
+        _ if index == 0 => "main".to_owned(),
+        AVERAGE => AVERAGE.to_owned(),
+        _ => emitted.method.name.to_owned(),
     }
 }
 

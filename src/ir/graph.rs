@@ -53,6 +53,16 @@ pub struct Param {
     pub ty: Ty,
 }
 
+/// The name of the cosine, which comes first among the arguments of what depends on it.
+pub const COSINE: &str = "cos_theta";
+
+impl Param {
+    /// Whether it is the cosine.
+    pub fn is_cosine(&self) -> bool {
+        self.name == COSINE
+    }
+}
+
 /// One operation applied to earlier nodes.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Node {

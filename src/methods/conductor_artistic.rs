@@ -52,6 +52,7 @@ pub static METHOD: Method = Method {
     build,
     plain: None,
     specialised: Some(solved),
+    shape: None,
 };
 
 fn build<'b>(x: &Inputs<'b>) -> Expr<'b> {

@@ -61,6 +61,7 @@ pub static METHOD: Method = Method {
     build,
     plain: Some(plain),
     specialised: Some(clear),
+    shape: None,
 };
 
 fn build<'b>(x: &Inputs<'b>) -> Expr<'b> {

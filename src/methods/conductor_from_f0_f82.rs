@@ -65,6 +65,7 @@ pub static METHOD: Method = Method {
     build,
     plain: None,
     specialised: Some(solved),
+    shape: None,
 };
 
 /// sin² at cos θ = 1/7.

@@ -58,6 +58,7 @@ pub static METHOD: Method = Method {
     build,
     plain: Some(plain),
     specialised: None,
+    shape: None,
 };
 
 fn build<'b>(x: &Inputs<'b>) -> Expr<'b> {

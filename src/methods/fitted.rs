@@ -64,6 +64,7 @@ pub static METHOD: Method = Method {
     build,
     plain: None,
     specialised: None,
+    shape: Some(SHAPE),
 };
 
 fn build<'b>(x: &Inputs<'b>) -> Expr<'b> {

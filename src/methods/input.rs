@@ -1,6 +1,6 @@
 //! The inputs of methods: one vocabulary with units and domain, in the order in which functions take them.
 
-use crate::ir::{Builder, Expr, Ty};
+use crate::ir::{Builder, COSINE, Expr, Ty};
 use crate::num::Precision;
 
 /// An argument that a method takes after `cos_theta`.
@@ -151,7 +151,7 @@ impl<'b> Inputs<'b> {
         scalar_form: bool,
         precision: Precision,
     ) -> Inputs<'b> {
-        let cos_theta = builder.param("cos_theta", Ty::Scalar);
+        let cos_theta = builder.param(COSINE, Ty::Scalar);
         let ty = |input: &Input| match input.ty {
             Ty::Rgb if scalar_form => Ty::Scalar,
             ty => ty,

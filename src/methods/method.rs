@@ -10,6 +10,7 @@ use crate::num::{Num, Precision};
 
 use super::half::InHalf;
 use super::input::{Input, Inputs};
+use super::shape::Shape;
 
 /// A formula for reflectance.
 #[derive(Debug)]
@@ -46,6 +47,8 @@ pub struct Method {
     /// Where a material's constants allow something better than folding them in: another method and its inputs,
     /// from the values of this method's inputs.
     pub specialised: Option<Better>,
+    /// What a fitted method's coefficients multiply.
+    pub shape: Option<Shape>,
 }
 
 /// From arguments to a formula.
@@ -196,6 +199,22 @@ impl Method {
         check_in(precision, fold_in(precision, &whole))
     }
 
+    /// The mean over the hemisphere of a fitted method, with its coefficients as run-time arguments: see
+    /// [`Shape::build_average`]. None for other methods.
+    pub fn average_in(
+        &self,
+        precision: Precision,
+        scalar_form: bool,
+    ) -> Option<Result<Checked, Fault>> {
+        let shape = self.shape?;
+        let builder = Builder::new();
+        let ty = if scalar_form { Ty::Scalar } else { Ty::Rgb };
+        let declare = |input: &Input| builder.param(input.name, ty);
+        let coefficients: Vec<Expr> = self.inputs.iter().map(declare).collect();
+        let whole = builder.finish(self.name, shape.build_average(&coefficients));
+        Some(check_in(precision, fold_in(precision, &whole)))
+    }
+
     /// The function with these constants folded in; inputs that have no value stay arguments.
     pub fn specialise(&self, values: &Values) -> Result<Checked, Fault> {
         self.specialise_in(Precision::F32, values)
@@ -271,7 +290,7 @@ impl Method {
 
     /// Whether the method's inputs are coefficients, in which it is linear: they are fitted.
     pub fn is_fitted(&self) -> bool {
-        self.inputs.contains(&Input::C0)
+        self.shape.is_some()
     }
 
     /// Whether the method has a scalar form.

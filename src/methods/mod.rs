@@ -14,6 +14,7 @@ mod shape;
 pub use half::{HalfClaim, InHalf};
 pub use input::{Input, Inputs, find_input};
 pub use method::{Better, Claim, Claims, Class, Contract, Forms, Light, Method, Over, Values};
+pub use shape::{Base, Shape};
 
 // BEGIN methods (written by the test `tidy::lists_are_complete` with BLESS=1)
 mod conductor_artistic;

@@ -72,6 +72,7 @@ pub static METHOD: Method = Method {
     build,
     plain: None,
     specialised: None,
+    shape: None,
 };
 
 fn build<'b>(x: &Inputs<'b>) -> Expr<'b> {

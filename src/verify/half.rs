@@ -3,7 +3,7 @@
 //! the judge, at every f16 from 0 to 1.
 
 use crate::fit::{Derivation, values};
-use crate::ir::{Checked, Texels, Ty, Value, evaluate};
+use crate::ir::{Checked, Param, Texels, Ty, Value, evaluate};
 use crate::materials::Channels;
 use crate::methods::Method;
 use crate::num::{Half, Num, Precision};
@@ -83,15 +83,14 @@ impl HalfTrial<'_> {
     fn run<N: Num>(&self, function: &Checked, cosines: &[f32]) -> Value<N> {
         let number = |c: &f32| N::from_f64(f64::from(*c));
         let mut values = self.values.iter().copied();
-        let mut rest = |ty: Ty| match ty {
+        let mut value = |param: &Param| match param.ty {
             Ty::Texture => Value::Texture(self.table.cloned()),
             Ty::Rgb => Value::rgb(values.next().unwrap_or_default().map(f64::from)),
+            _ if param.is_cosine() => Value::each(cosines.iter().map(number).collect()),
             _ => Value::scalar(f64::from(values.next().unwrap_or_default()[0])),
         };
-        let cos_theta = Value::each(cosines.iter().map(number).collect());
-        let params = function.params.iter().skip(1);
-        let rest: Vec<Value<N>> = params.map(|param| rest(param.ty)).collect();
-        let arguments: Vec<Value<N>> = [cos_theta].into_iter().chain(rest).collect();
+        let params = function.params.iter();
+        let arguments: Vec<Value<N>> = params.map(&mut value).collect();
         evaluate(function, &arguments)
     }
 

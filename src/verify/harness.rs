@@ -17,7 +17,7 @@ use super::second::Gles;
 pub struct Call<'a> {
     /// Its name.
     pub name: &'a str,
-    /// Its arguments, `cos_theta` first.
+    /// Its arguments, `cos_theta` first where it depends on it.
     pub params: &'a [Param],
     /// Whether it gives one channel.
     pub is_scalar: bool,
@@ -40,8 +40,8 @@ impl Call<'_> {
     }
 
     fn numbers(&self) -> impl Iterator<Item = &Param> {
-        let params = self.params.iter().skip(1);
-        params.filter(|param| param.ty != Ty::Texture)
+        let params = self.params.iter();
+        params.filter(|param| param.ty != Ty::Texture && !param.is_cosine())
     }
 
     /// Whether it reads a texture.
@@ -53,10 +53,10 @@ impl Call<'_> {
     fn text(&self, cos_theta: &str, texture: &str, number: impl Fn(&str) -> String) -> String {
         let argument = |param: &Param| match param.ty {
             Ty::Texture => texture.to_owned(),
+            _ if param.is_cosine() => cos_theta.to_owned(),
             _ => number(&param.name),
         };
-        let rest = self.params.iter().skip(1).map(argument);
-        let arguments: Vec<String> = [cos_theta.to_owned()].into_iter().chain(rest).collect();
+        let arguments: Vec<String> = self.params.iter().map(argument).collect();
         format!("{}({})", self.name, arguments.join(", "))
     }
 }

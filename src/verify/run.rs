@@ -233,8 +233,7 @@ fn check_able(device: &Device, emitted: &Emitted) -> Result<(), Fault> {
 fn uniforms(params: &[Param], trial: &Trial, target: &str) -> Vec<Uniform> {
     let numbers = params
         .iter()
-        .skip(1)
-        .filter(|param| param.ty != Ty::Texture);
+        .filter(|param| param.ty != Ty::Texture && !param.is_cosine());
     let uniform = |(param, value): (&Param, &[f32; 3])| Uniform {
         name: if target == "gles" {
             format!("fg_{}", param.name)

@@ -3,7 +3,7 @@
 use serde::Serialize;
 
 use crate::fit::Measured;
-use crate::ir::{Checked, Column, Op, Texels, Ty, Value, evaluate};
+use crate::ir::{Checked, Column, Op, Param, Texels, Ty, Value, evaluate};
 use crate::num::{Loose, Num, ulp_distance};
 
 use super::code_error::{ABSOLUTE_FLOOR, CodeError};
@@ -76,17 +76,13 @@ impl Trial {
     fn arguments<N: Num>(&self, cosines: &[f32], table: Option<&Texels>) -> Vec<Value<N>> {
         let number = |c: &f32| N::from_f64(f64::from(*c));
         let mut values = self.values.iter();
-        let mut rest = |ty: Ty| match ty {
+        let mut value = |param: &Param| match param.ty {
             Ty::Texture => Value::Texture(table.cloned()),
             Ty::Rgb => Value::rgb(values.next().copied().unwrap_or_default().map(f64::from)),
+            _ if param.is_cosine() => Value::each(cosines.iter().map(number).collect()),
             _ => Value::scalar(f64::from(values.next().map_or(0.0, |value| value[0]))),
         };
-        let cos_theta = Value::each(cosines.iter().map(number).collect());
-        let params = self.function.params.iter().skip(1);
-        [cos_theta]
-            .into_iter()
-            .chain(params.map(|param| rest(param.ty)))
-            .collect()
+        self.function.params.iter().map(&mut value).collect()
     }
 
     /// What the function means at these cosines, in any kind of number.

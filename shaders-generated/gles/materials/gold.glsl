@@ -45,6 +45,8 @@ highp vec3 fresnel_gold(highp float cos_theta) {
 //     1959. https://doi.org/10.1007/BF01386369
 // Model error: at most 0.00193 (at 59.39 degrees), 0.14 % in the mean over angles.
 // Code error: at most 4.5 ulp or 2^-22, unfused f32 against f64.
+// Average over the hemisphere: (0.999366, 0.78385, 0.377382); before the limit to [0, 1] (1.026594, 0.78385,
+//     0.377382).
 // Cost: 24 scalar operations, among them 1 exponential or logarithm
 highp vec3 fresnel_gold_fitted(highp float cos_theta) {
     highp float c = clamp(cos_theta, 0.0, 1.0); // 1 + 1 ulp must not reach what follows

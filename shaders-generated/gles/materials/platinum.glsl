@@ -45,6 +45,7 @@ highp vec3 fresnel_platinum(highp float cos_theta) {
 //     1959. https://doi.org/10.1007/BF01386369
 // Model error: at most 0.00176 (at 68.74 degrees), 0.12 % in the mean over angles.
 // Code error: at most 5.5 ulp or 2^-22, unfused f32 against f64.
+// Average over the hemisphere: (0.66476, 0.630904, 0.583546).
 // Cost: 24 scalar operations, among them 1 exponential or logarithm
 highp vec3 fresnel_platinum_fitted(highp float cos_theta) {
     highp float c = clamp(cos_theta, 0.0, 1.0); // 1 + 1 ulp must not reach what follows

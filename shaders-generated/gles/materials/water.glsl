@@ -43,6 +43,7 @@ highp vec3 fresnel_water(highp float cos_theta) {
 //     1959. https://doi.org/10.1007/BF01386369
 // Model error: at most 0.00049 (at 38.58 degrees), 0.61 % in the mean over angles.
 // Code error: at most 7.5 ulp or 2^-22, unfused f32 against f64.
+// Average over the hemisphere: (0.066049, 0.066384, 0.066995).
 // Cost: 27 scalar operations
 highp vec3 fresnel_water_fitted_dielectric(highp float cos_theta) {
     highp float c = clamp(cos_theta, 0.0, 1.0); // 1 + 1 ulp must not reach what follows

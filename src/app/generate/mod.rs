@@ -135,7 +135,7 @@ pub fn generate_single(request: &Request) -> Result<Vec<u8>, Error> {
     }
     if run.subjects.is_empty() {
         for method in written::library_methods(run.request, run.named.as_deref()) {
-            let functions = emit::library_functions(method, &run.naming)?;
+            let functions = run.library_functions(method)?;
             for emitted in emit::written_for(target, functions) {
                 let command = run.command(target, Some(&[method.name]), None) + " -o -";
                 pages.push(emit::single(target, &emitted, None, &command)?);
@@ -188,9 +188,16 @@ impl<'r> Run<'r> {
         })
     }
 
+    /// The functions of a method's library file, and its means over the hemisphere.
+    fn library_functions(&self, method: &'static Method) -> Result<Vec<Emitted>, Error> {
+        let mut functions = emit::library_functions(method, &self.naming)?;
+        functions.extend(emit::average_functions(method, &self.naming)?);
+        Ok(functions)
+    }
+
     /// The library files of a method.
     fn library(&self, method: &'static Method, owners: &mut Owners) -> Result<Vec<Made>, Error> {
-        let functions = emit::library_functions(method, &self.naming)?;
+        let functions = self.library_functions(method)?;
         for emitted in &functions {
             owners.claim(&emitted.name, "the library")?;
         }

@@ -55,9 +55,13 @@ fn check_in<N: Num>(
 ) {
     let program = Program::parse(text, name, &table(), precision);
     for cos_theta in COSINES.map(|c| precision.rounded(f64::from(c)) as f32) {
-        let mut values = vec![Value::each(vec![N::from_f64(f64::from(cos_theta))])];
-        let mut terms = vec![Term::Scalar(cos_theta)];
-        for (param, input) in function.params.iter().skip(1).zip(inputs) {
+        let (mut values, mut terms) = (Vec::new(), Vec::new());
+        if function.params[0].is_cosine() {
+            values.push(Value::each(vec![N::from_f64(f64::from(cos_theta))]));
+            terms.push(Term::Scalar(cos_theta));
+        }
+        let params = function.params.iter().filter(|param| !param.is_cosine());
+        for (param, input) in params.zip(inputs) {
             if param.ty == Ty::Texture {
                 values.push(Value::Texture(Some(table())));
                 terms.push(Term::Texture);
@@ -95,7 +99,7 @@ fn rows_of(function: &Checked) -> Vec<Vec<[f32; 3]>> {
     let choices: Vec<Vec<[f32; 3]>> = function
         .params
         .iter()
-        .skip(1)
+        .filter(|param| !param.is_cosine())
         .map(|param| arguments(&param.name))
         .collect();
     let longest = choices.iter().map(Vec::len).max().unwrap_or(1);
@@ -115,11 +119,17 @@ fn text_targets() -> impl Iterator<Item = &'static &'static targets::Target> {
         .filter(|target| target.finish != targets::Finish::Spirv)
 }
 
+/// All functions of a library file.
+fn library(method: &'static methods::Method, naming: &emit::Naming) -> Vec<emit::Emitted> {
+    let own = emit::library_functions(method, naming).expect("well formed");
+    let means = emit::average_functions(method, naming).expect("well formed");
+    own.into_iter().chain(means).collect()
+}
+
 #[test]
 fn every_library_function_reads_as_it_was_meant() {
     for method in methods::ALL {
-        let functions =
-            emit::library_functions(method, &emit::Naming::default()).expect("well formed");
+        let functions = library(method, &emit::Naming::default());
         for target in text_targets() {
             for file in emit::library(target, method, &functions, "").expect("it prints") {
                 let text = String::from_utf8(file.bytes).expect("text");
@@ -140,7 +150,7 @@ fn every_library_function_in_half_precision_reads_as_it_was_meant() {
         ..emit::Naming::default()
     };
     for method in methods::ALL.iter().filter(|method| !method.is_textured()) {
-        let functions = emit::library_functions(method, &naming).expect("well formed");
+        let functions = library(method, &naming);
         for target in text_targets() {
             for file in emit::library(target, method, &functions, "").expect("it prints") {
                 let text = String::from_utf8(file.bytes).expect("text");

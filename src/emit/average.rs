@@ -1,0 +1,127 @@
+//! Means over the hemisphere, `2 ∫ F c dc`: functions of coefficients beside those of a fitted method, and the constants of a
+//! material, for what light does that is reflected more than once between microfacets.
+
+use crate::ir::{Checked, Fault, Value, evaluate};
+use crate::methods::Method;
+use crate::num::{Legendre, Precision};
+
+use super::error::Error;
+use super::function::{Emitted, Naming, library_function};
+
+/// The form of a mean, three channels.
+pub const AVERAGE: &str = "average";
+/// The same for one channel.
+const AVERAGE_SCALAR: &str = "average_scalar";
+
+/// The means of a fitted method's library file: three channels, and one. None for other methods.
+///
+/// # Errors
+/// A graph breaks a rule of the representation: a bug.
+pub fn average_functions(method: &'static Method, naming: &Naming) -> Result<Vec<Emitted>, Error> {
+    let forms = [(false, AVERAGE), (true, AVERAGE_SCALAR)];
+    let functions = forms.into_iter().filter_map(|(is_scalar, form)| {
+        let function = method.average_in(naming.precision, is_scalar)?;
+        let suffix = format!("_{form}");
+        Some(library_function(method, naming, &suffix, form, function))
+    });
+    functions.collect()
+}
+
+/// What a mean of this form means; none where the form is no mean.
+pub(super) fn meaning(method: &Method, form: &str) -> Option<Result<Checked, Fault>> {
+    let is_scalar = match form {
+        AVERAGE => false,
+        AVERAGE_SCALAR => true,
+        _ => return None,
+    };
+    method.average_in(Precision::F32, is_scalar)
+}
+
+/// What stands in the head of a library file about its means.
+pub(super) fn library_lines(functions: &[Emitted]) -> Vec<String> {
+    let mean = functions.iter().find(|emitted| emitted.form == AVERAGE);
+    let Some((mean, shape)) = mean.and_then(|mean| Some((mean, mean.method.shape?))) else {
+        return Vec::new();
+    };
+    let averages = shape.averages();
+    let term = |(i, average): (usize, &f64)| match i {
+        0 => "c0".to_owned(),
+        _ => format!("{:.6} c{i}", average),
+    };
+    let terms: Vec<String> = averages.iter().enumerate().map(term).collect();
+    vec![format!(
+        "{}: the mean of F over the hemisphere, twice the integral of F c over c, for compensation of multiple scattering: {}, \
+         limited to [0, 1]. It is in closed form, of F before its limit: where F meets the limit the mean of the function differs",
+        mean.name,
+        terms.join(" + ")
+    )]
+}
+
+/// The mean over the hemisphere of a material's fitted function, its limit to [0, 1] included, and before that limit; none for
+/// other functions.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Average {
+    /// Of what the function gives.
+    pub given: [f64; 3],
+    /// Of the form before its limit, in closed form.
+    pub unlimited: [f64; 3],
+}
+
+/// Pieces of [0, 1], each with a rule of so many points: a corner where the limit sets in is integrated within 1e-7.
+const PIECES: usize = 256;
+const POINTS: usize = 8;
+
+impl Average {
+    /// Of a specialised function.
+    pub fn of(emitted: &Emitted) -> Option<Average> {
+        let shape = emitted.method.shape?;
+        let own = |name: &str| emitted.constants.get(name);
+        let names = emitted.method.inputs.iter().map(|input| input.name);
+        let coefficients: Vec<[f64; 3]> = names.map(|name| own(name).copied()).collect::<Option<_>>()?;
+        let sum = |channel: usize| {
+            let terms = coefficients.iter().zip(shape.averages());
+            terms.map(|(c, average)| c[channel] * average).sum()
+        };
+        Some(Average {
+            given: hemispherical(&emitted.function),
+            unlimited: [0, 1, 2].map(sum),
+        })
+    }
+
+    /// The furthest that the limit brings them apart.
+    fn difference(&self) -> f64 {
+        let pairs = self.given.iter().zip(self.unlimited);
+        pairs.fold(0.0, |most, (a, b)| f64::max(most, (a - b).abs()))
+    }
+
+    /// What stands above a specialised function.
+    pub(super) fn line(&self) -> String {
+        let triple = |values: [f64; 3]| {
+            let [red, green, blue] = values.map(|value| format!("{}", (value * 1e6).round() / 1e6));
+            format!("({red}, {green}, {blue})")
+        };
+        let before = if self.difference() > TOLD {
+            format!("; before the limit to [0, 1] {}", triple(self.unlimited))
+        } else {
+            String::new()
+        };
+        format!("Average over the hemisphere: {}{before}.", triple(self.given))
+    }
+}
+
+/// Differences that are told.
+const TOLD: f64 = 1e-6;
+
+/// `2 ∫ F c dc` over c from 0 to 1 of a function of `cos_theta` alone.
+fn hemispherical(function: &Checked) -> [f64; 3] {
+    let rule = Legendre::new(POINTS);
+    let end = |i: usize| i as f64 / PIECES as f64;
+    let piece = |i: usize| rule.over(end(i), end(i + 1));
+    let (cosines, weights): (Vec<f64>, Vec<f64>) = (0..PIECES).flat_map(piece).unzip();
+    let values = evaluate(function, &[Value::each(cosines.clone())]);
+    let weighed = cosines.iter().zip(weights).enumerate();
+    weighed.fold([0.0; 3], |sum, (i, (c, weight))| {
+        let value = values.at(i);
+        [0, 1, 2].map(|channel| sum[channel] + 2.0 * c * weight * value[channel])
+    })
+}
