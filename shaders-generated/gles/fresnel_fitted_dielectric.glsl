@@ -19,9 +19,9 @@
 // fresnel_fitted_dielectric_scalar: 13 scalar operations
 // fresnel_fitted_dielectric_average: 21 scalar operations
 // fresnel_fitted_dielectric_average_scalar: 7 scalar operations
-// fresnel_fitted_dielectric_average: the mean of F over the hemisphere, twice the integral of F c over c, for
+// fresnel_fitted_dielectric_average: the mean of F over the hemisphere, twice the integral of F c dc, for
 //     compensation of multiple scattering: c0 + 0.100000 c1 + 0.027778 c2 + 0.008333 c3, limited to [0, 1]. It is
-//     in closed form, of F before its limit: where F meets the limit the mean of the function differs
+//     exact for F before its limit; where F meets the limit, the mean of the function differs
 // Licence of this file: CC0-1.0
 
 #ifndef FRESNEL_FITTED_DIELECTRIC_GLES

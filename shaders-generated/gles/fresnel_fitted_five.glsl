@@ -22,10 +22,9 @@
 // fresnel_fitted_five_scalar: 15 scalar operations, among them 1 division
 // fresnel_fitted_five_average: 27 scalar operations
 // fresnel_fitted_five_average_scalar: 9 scalar operations
-// fresnel_fitted_five_average: the mean of F over the hemisphere, twice the integral of F c over c, for
-//     compensation of multiple scattering: c0 + 0.076090 c1 + 0.020917 c2 + 0.009091 c3 + 0.004965 c4, limited to
-//     [0, 1]. It is in closed form, of F before its limit: where F meets the limit the mean of the function
-//     differs
+// fresnel_fitted_five_average: the mean of F over the hemisphere, twice the integral of F c dc, for compensation
+//     of multiple scattering: c0 + 0.076090 c1 + 0.020917 c2 + 0.009091 c3 + 0.004965 c4, limited to [0, 1]. It is
+//     exact for F before its limit; where F meets the limit, the mean of the function differs
 // Licence of this file: CC0-1.0
 
 #ifndef FRESNEL_FITTED_FIVE_GLES

@@ -20,9 +20,9 @@
 // fresnel_fitted_scalar: 10 scalar operations, among them 1 exponential or logarithm
 // fresnel_fitted_average: 21 scalar operations
 // fresnel_fitted_average_scalar: 7 scalar operations
-// fresnel_fitted_average: the mean of F over the hemisphere, twice the integral of F c over c, for compensation of
-//     multiple scattering: c0 + 0.092533 c1 + 0.024601 c2 + 0.010947 c3, limited to [0, 1]. It is in closed form,
-//     of F before its limit: where F meets the limit the mean of the function differs
+// fresnel_fitted_average: the mean of F over the hemisphere, twice the integral of F c dc, for compensation of
+//     multiple scattering: c0 + 0.092533 c1 + 0.024601 c2 + 0.010947 c3, limited to [0, 1]. It is exact for F
+//     before its limit; where F meets the limit, the mean of the function differs
 // Licence of this file: CC0-1.0
 
 fn fresnel_fitted(cos_theta: f32, c0: vec3<f32>, c1: vec3<f32>, c2: vec3<f32>, c3: vec3<f32>) -> vec3<f32> {

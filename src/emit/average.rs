@@ -37,24 +37,26 @@ pub(super) fn meaning(method: &Method, form: &str) -> Option<Result<Checked, Fau
     method.average_in(Precision::F32, is_scalar)
 }
 
-/// What stands in the head of a library file about its means.
-pub(super) fn library_lines(functions: &[Emitted]) -> Vec<String> {
-    let mean = functions.iter().find(|emitted| emitted.form == AVERAGE);
-    let Some((mean, shape)) = mean.and_then(|mean| Some((mean, mean.method.shape?))) else {
-        return Vec::new();
-    };
+/// What the head of a file says about a mean; nothing of other functions.
+pub(super) fn mean_line(emitted: &Emitted) -> Option<String> {
+    let shape = emitted.method.shape.filter(|_| is_mean(emitted))?;
     let averages = shape.averages();
     let term = |(i, average): (usize, &f64)| match i {
         0 => "c0".to_owned(),
-        _ => format!("{:.6} c{i}", average),
+        _ => format!("{average:.6} c{i}"),
     };
     let terms: Vec<String> = averages.iter().enumerate().map(term).collect();
-    vec![format!(
-        "{}: the mean of F over the hemisphere, twice the integral of F c over c, for compensation of multiple scattering: {}, \
-         limited to [0, 1]. It is in closed form, of F before its limit: where F meets the limit the mean of the function differs",
-        mean.name,
+    Some(format!(
+        "{}: the mean of F over the hemisphere, twice the integral of F c dc, for compensation of multiple scattering: {}, limited \
+         to [0, 1]. It is exact for F before its limit; where F meets the limit, the mean of the function differs",
+        emitted.name,
         terms.join(" + ")
-    )]
+    ))
+}
+
+/// Whether a function is a mean.
+fn is_mean(emitted: &Emitted) -> bool {
+    [AVERAGE, AVERAGE_SCALAR].contains(&emitted.form)
 }
 
 /// The mean over the hemisphere of a material's fitted function, its limit to [0, 1] included, and before that limit; none for
@@ -77,7 +79,9 @@ impl Average {
         let shape = emitted.method.shape?;
         let own = |name: &str| emitted.constants.get(name);
         let names = emitted.method.inputs.iter().map(|input| input.name);
-        let coefficients: Vec<[f64; 3]> = names.map(|name| own(name).copied()).collect::<Option<_>>()?;
+        let coefficients: Vec<[f64; 3]> = names
+            .map(|name| own(name).copied())
+            .collect::<Option<_>>()?;
         let sum = |channel: usize| {
             let terms = coefficients.iter().zip(shape.averages());
             terms.map(|(c, average)| c[channel] * average).sum()
@@ -105,7 +109,10 @@ impl Average {
         } else {
             String::new()
         };
-        format!("Average over the hemisphere: {}{before}.", triple(self.given))
+        format!(
+            "Average over the hemisphere: {}{before}.",
+            triple(self.given)
+        )
     }
 }
 

@@ -46,7 +46,7 @@ pub fn library(
             .iter()
             .map(|f| format!("{}: {}", f.name, operations(f))),
     );
-    lines.extend(average::library_lines(functions));
+    lines.extend(functions.iter().find_map(average::mean_line));
     lines.push(format!("Licence of this file: {OUTPUT_LICENCE}"));
     comment::lines(lines)
 }
@@ -100,8 +100,10 @@ pub fn brief(
     lines.push(format!("Source: {}", emitted.method.source.line()));
     lines.extend(half_line(target, emitted.precision));
     lines.extend(exemption(emitted.method));
+    lines.extend(average::mean_line(emitted).map(|line| line + "."));
     lines.push(format!("Cost: {}.", operations(emitted)));
     lines.extend(form_line(emitted));
+    lines.extend(Average::of(emitted).map(|average| average.line()));
     lines.extend(subject.into_iter().flat_map(sight));
     lines.extend(table_line(emitted));
     lines.extend(emitted.model_error.iter().map(model_line));

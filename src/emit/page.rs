@@ -9,8 +9,8 @@ use crate::ir::{Param, Ty};
 use crate::num::Precision;
 use crate::targets::{Finish, Page, Target};
 
-use super::error::Error;
 use super::average::AVERAGE;
+use super::error::Error;
 use super::function::Emitted;
 use super::{print, wgsl};
 

@@ -135,7 +135,11 @@ pub fn generate_single(request: &Request) -> Result<Vec<u8>, Error> {
     }
     if run.subjects.is_empty() {
         for method in written::library_methods(run.request, run.named.as_deref()) {
-            let functions = run.library_functions(method)?;
+            // Of a module one function can be put out, the method's own.
+            let functions = match target.pages.len() {
+                1 => run.library_functions(method)?,
+                _ => emit::library_functions(method, &run.naming)?,
+            };
             for emitted in emit::written_for(target, functions) {
                 let command = run.command(target, Some(&[method.name]), None) + " -o -";
                 pages.push(emit::single(target, &emitted, None, &command)?);
