@@ -1,5 +1,7 @@
 //! What cannot be baked.
 
+use super::split_sum::MOST_SIDE;
+
 /// A fault of what was asked for.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum Error {
@@ -20,6 +22,20 @@ pub enum Error {
         best: f64,
         /// The axes and depths.
         tried: String,
+    },
+    /// A size that a split-sum table cannot have.
+    #[error("a split-sum table of {size} texels a side cannot be: it has 2 to {MOST_SIDE}")]
+    Side {
+        /// The size.
+        size: usize,
+    },
+    /// A split-sum table of too many terms.
+    #[error(
+        "a split-sum table has a channel for each coefficient, and a texture has 4: {terms} do not fit (fitted and fitted_dielectric have 4)"
+    )]
+    Terms {
+        /// The coefficients.
+        terms: usize,
     },
     /// An encoder refused.
     #[error("the table cannot be written as {format}: {why}")]

@@ -1,7 +1,7 @@
 //! OpenEXR: binary16 or binary32, compressed without loss, no dates.
 //!
 //! Source: Academy Software Foundation, *OpenEXR File Layout*, 2013, <https://openexr.com/en/latest/OpenEXRFileLayout.html>.
-//! Red, green and blue, one part, scan lines; the working space's primaries stand in `chromaticities`, so that no reader
+//! Red, green and blue, and alpha where there is one, one part, scan lines; the working space's primaries stand in `chromaticities`, so that no reader
 //! has to guess them.
 
 use std::io::Cursor;
@@ -26,15 +26,22 @@ const ENCODING: Encoding = Encoding {
 
 /// The file, or why there is none.
 pub fn exr(picture: &Picture) -> Result<Vec<u8>, String> {
-    let channel = |(i, name)| AnyChannel::new(name, samples(picture, i));
-    let channels = ["R", "G", "B"].into_iter().enumerate().map(channel);
+    let colour = |i: usize| picture.texels.iter().map(move |texel| texel[i]);
+    let colours = ["R", "G", "B"].into_iter().enumerate();
+    let mut channels: Vec<_> = colours
+        .map(|(i, name)| AnyChannel::new(name, samples(picture.depth, colour(i))))
+        .collect();
+    if let Some(alpha) = &picture.alpha {
+        let alpha = alpha.iter().copied();
+        channels.push(AnyChannel::new("A", samples(picture.depth, alpha)));
+    }
     let attributes = LayerAttributes {
         software_name: Text::new_or_none("fresnel-gen"),
         comments: Text::new_or_none(picture.about.join("\n")),
         ..LayerAttributes::default()
     };
     let size = (picture.width, picture.height());
-    let channels = AnyChannels::sort(channels.collect());
+    let channels = AnyChannels::sort(channels.into());
     let mut image = Image::from_layer(Layer::new(size, attributes, ENCODING, channels));
     image.attributes.chromaticities = picture.space.map(chromaticities);
     let mut bytes = Cursor::new(Vec::new());
@@ -46,9 +53,8 @@ pub fn exr(picture: &Picture) -> Result<Vec<u8>, String> {
 }
 
 /// One channel of all texels.
-fn samples(picture: &Picture, channel: usize) -> FlatSamples {
-    let values = picture.texels.iter().map(|texel| texel[channel]);
-    if picture.depth == Depth::Half {
+fn samples(depth: Depth, values: impl Iterator<Item = f32>) -> FlatSamples {
+    if depth == Depth::Half {
         FlatSamples::F16(values.map(f16::from_f32).collect())
     } else {
         FlatSamples::F32(values.collect())

@@ -5,6 +5,8 @@
 //! that against the truth; [`smallest`] looks for the table with the fewest bytes within an error; a [`Picture`] of one
 //! or more rows becomes a file in a [`Format`]; [`lookup()`] is the function that reads it in a shader.
 //!
+//! [`SplitSum`] is a table of another kind, by angle and roughness, of what a rough surface reflects.
+//!
 //! Rows run along x, cos θ = 0 first. Values are linear: neither sRGB nor any other curve is applied, and every format
 //! that can say so does. Pure: no disk, no terminal. EXR and PNG need the feature `cli`.
 
@@ -22,6 +24,7 @@ mod picture;
 #[cfg(feature = "cli")]
 mod png;
 mod search;
+mod split_sum;
 mod table;
 mod text;
 
@@ -33,4 +36,8 @@ pub use lookup::lookup;
 pub use measure::{Between, table_error};
 pub use picture::Picture;
 pub use search::{Choice, smallest};
+pub use split_sum::{
+    BetweenSplitSum, LEAST_ROUGHNESS, SPLIT_SUM_SIZE, SplitSum, StoredSplitSum, TERMS, check_side,
+    split_sum_cosine, split_sum_roughness, split_sum_terms,
+};
 pub use table::{LEAST_TEXELS, MOST_TEXELS, Table, check_size};

@@ -4,6 +4,7 @@ use crate::spectra::Space;
 
 use super::axis::Axis;
 use super::depth::{Depth, Stored};
+use super::split_sum::StoredSplitSum;
 
 /// One or more tables as a texture.
 #[derive(Clone, Debug, PartialEq)]
@@ -22,6 +23,8 @@ pub struct Picture {
     pub rows: Vec<String>,
     /// The rows one after the other, as a sampler gives them back.
     pub texels: Vec<[f32; 3]>,
+    /// The fourth channel of each texel, where there is one.
+    pub alpha: Option<Vec<f32>>,
     /// The working space, where the channels are one.
     pub space: Option<Space>,
     /// What the file says about itself: ASCII, a line each.
@@ -45,8 +48,31 @@ impl Picture {
             width,
             rows: rows.iter().map(|(name, _)| (*name).to_owned()).collect(),
             texels: texels.collect(),
+            alpha: None,
             space,
             about: Vec::new(),
+        }
+    }
+
+    /// A split-sum table, with its rows' names and what it says about itself. Its axis says nothing of how it is looked up.
+    pub fn of_terms(
+        name: &str,
+        stored: &StoredSplitSum,
+        rows: Vec<String>,
+        about: Vec<String>,
+    ) -> Picture {
+        let texels = stored.texels.iter();
+        Picture {
+            name: name.to_owned(),
+            axis: Axis::Cos,
+            depth: stored.depth,
+            scale: 1.0,
+            width: stored.size,
+            rows,
+            texels: texels.clone().map(|[r, g, b, _]| [*r, *g, *b]).collect(),
+            alpha: Some(texels.map(|texel| texel[3]).collect()),
+            space: None,
+            about,
         }
     }
 
@@ -83,21 +109,23 @@ impl Picture {
         (self.scale != 1.0).then(|| format!("Reflectance = texel * {:?}.", self.scale))
     }
 
-    /// The bits of binary16 of each texel, red, green, blue and an alpha of 1. Values of other depths are rounded.
+    /// The bits of binary16 of each texel, red, green, blue and alpha, which is 1 where there is none. Values of other depths
+    /// are rounded.
     pub(super) fn half_bits(&self) -> impl Iterator<Item = [u16; 4]> {
         let bits = |value: f32| half::f16::from_f32(value).to_bits();
-        self.texels
-            .iter()
-            .map(move |[r, g, b]| [bits(*r), bits(*g), bits(*b), bits(1.0)])
+        let alpha = |i: usize| self.alpha.as_ref().map_or(1.0, |alpha| alpha[i]);
+        let texels = self.texels.iter().enumerate();
+        texels.map(move |(i, [r, g, b])| [bits(*r), bits(*g), bits(*b), bits(alpha(i))])
     }
 
     /// The integers of a depth that has them.
     #[cfg(feature = "cli")]
     pub(super) fn integers(&self) -> impl Iterator<Item = u16> {
         let largest = self.depth.largest().unwrap_or(0.0);
-        self.texels
-            .iter()
-            .flatten()
-            .map(move |value| (value * largest).round() as u16)
+        let channels = self.texels.iter().enumerate().flat_map(|(i, texel)| {
+            let alpha = self.alpha.as_ref().map(|alpha| alpha[i]);
+            texel.iter().copied().chain(alpha)
+        });
+        channels.map(move |value| (value * largest).round() as u16)
     }
 }

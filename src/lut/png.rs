@@ -18,7 +18,10 @@ fn encoded(picture: &Picture) -> Result<Vec<u8>, png::EncodingError> {
     let mut bytes = Vec::new();
     let side = |texels: usize| u32::try_from(texels).unwrap_or(u32::MAX);
     let mut encoder = Encoder::new(&mut bytes, side(picture.width), side(picture.height()));
-    encoder.set_color(ColorType::Rgb);
+    encoder.set_color(match picture.alpha {
+        Some(_) => ColorType::Rgba,
+        None => ColorType::Rgb,
+    });
     let is_byte = picture.depth == Depth::Unorm8;
     encoder.set_depth(if is_byte {
         BitDepth::Eight

@@ -50,6 +50,11 @@ impl Shape {
 }
 
 impl Shape {
+    /// How many coefficients it has.
+    pub fn terms(&self) -> usize {
+        self.steps.len() + 1
+    }
+
     /// The power of the base that each coefficient multiplies: 0 for the first.
     pub fn powers(&self) -> Vec<u32> {
         let grown = self.steps.iter().scan(0, |power, step| {
