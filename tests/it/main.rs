@@ -35,6 +35,7 @@ mod reproduce;
 mod reread;
 mod specialise;
 mod spectral;
+mod split_sum;
 #[cfg(feature = "cli")]
 mod stability;
 mod tidy;

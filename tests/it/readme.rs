@@ -61,15 +61,18 @@ fn tables_are_what_the_program_says() {
 
 /// The shader that reads an atlas, with the function that it calls.
 #[test]
-fn the_lookup_is_accepted() {
+fn lookups_are_accepted() {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR"));
     let read = |name: &str| fs::read_to_string(folder.join(name)).expect("it is there");
     let readme = read("README.md");
-    let (_, after) = readme.split_once("```wgsl\n").expect("it begins");
-    let (example, _) = after.split_once("```").expect("it ends");
-    let text = read("shaders-generated/wgsl/fresnel_table.wgsl") + example;
-    if let Err(fault) = fresnel_gen::emit::validate_wgsl(&text) {
-        panic!("{fault}");
+    let examples: Vec<&str> = readme.split("```wgsl\n").skip(1).collect();
+    assert_eq!(examples.len(), 2);
+    for after in examples {
+        let (example, _) = after.split_once("```").expect("it ends");
+        let text = read("shaders-generated/wgsl/fresnel_table.wgsl") + example;
+        if let Err(fault) = fresnel_gen::emit::validate_wgsl(&text) {
+            panic!("{fault}");
+        }
     }
     let atlas: serde_json::Value =
         serde_json::from_str(&read("shaders-generated/lut/atlas.json")).expect("it is JSON");

@@ -56,7 +56,7 @@ pub enum Command {
     Targets(Listing),
     /// Bake reflectance into lookup tables: EXR, PNG, KTX2, arrays, with the error of the filtered lookup
     #[command(
-        after_help = "Examples:\n  fresnel-gen bake --material gold --format exr-half,ktx2 --target wgsl\n  fresnel-gen bake --material all --atlas --budget 0.001 --json -"
+        after_help = "Examples:\n  fresnel-gen bake --material gold --format exr-half,ktx2 --target wgsl\n  fresnel-gen bake --material all --atlas --budget 0.001 --json -\n  fresnel-gen bake --dfg --method fitted --format exr-half"
     )]
     Bake(Box<BakeFlags>),
     /// Run what is generated on every target, and hold it against the CPU
@@ -293,6 +293,25 @@ pub struct SurveyFlags {
     pub sight: SightFlags,
 }
 
+/// What a table that holds no material takes nothing of.
+const NO_MATERIAL: [&str; 15] = [
+    "material",
+    "medium",
+    "gamut",
+    "axis",
+    "atlas",
+    "budget",
+    "target",
+    "prefix",
+    "space",
+    "illuminant",
+    "observer",
+    "adaptation",
+    "step",
+    "wavelengths",
+    "extrapolate",
+];
+
 /// The flags of `bake`.
 #[derive(Args, Debug)]
 pub struct BakeFlags {
@@ -308,7 +327,14 @@ pub struct BakeFlags {
     /// Colours outside the working space: keep (integers are scaled then), clip to [0, 1], or scale [default: keep]
     #[arg(long, value_name = "NAME")]
     pub gamut: Option<String>,
-    /// Texels of a table, 2 to 16384 [default: 64]
+    /// In place of materials' tables the split-sum table of a fitted method, cos θ by roughness: a channel a coefficient, which
+    /// serves every material
+    #[arg(long, conflicts_with_all = NO_MATERIAL)]
+    pub dfg: bool,
+    /// Whose coefficients the split-sum table is for: fitted, fitted_dielectric [default: fitted]
+    #[arg(long, value_name = "NAME", requires = "dfg")]
+    pub method: Option<String>,
+    /// Texels of a table, 2 to 16384 [default: 64; a side of --dfg, 2 to 1024: 128]
     #[arg(long, value_name = "N")]
     pub size: Option<usize>,
     /// How cosines are spread: cos, square, sqrt, rational, steep, grazing [default: rational]

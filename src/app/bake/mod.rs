@@ -3,6 +3,7 @@
 mod picture;
 mod row;
 mod shader;
+mod split_sum;
 mod subject;
 mod usual;
 mod words;
@@ -16,6 +17,7 @@ use super::artifact::TABLES;
 use super::error::Error;
 use picture::Baking;
 
+pub use split_sum::{SplitSumRequest, bake_split_sum};
 pub use subject::{Lit, Wanted, lit};
 pub use usual::{DEFAULT_AXIS, DEFAULT_FORMATS, add_tables, as_tables_are_seen};
 pub use words::{canonical, said, typed};

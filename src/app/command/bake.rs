@@ -6,16 +6,16 @@ use serde_json::Value;
 
 use crate::app::args::BakeFlags;
 use crate::app::bake::{
-    ATLAS, Baked, DEFAULT_AXIS, DEFAULT_FORMATS, Lit, Request, Shape, Wanted, as_tables_are_seen,
-    bake, canonical, lit, report as full, said, typed,
+    ATLAS, Baked, DEFAULT_AXIS, DEFAULT_FORMATS, Lit, Request, Shape, SplitSumRequest, Wanted,
+    as_tables_are_seen, bake, bake_split_sum, canonical, lit, report as full, said, typed,
 };
 use crate::app::error::Error;
 use crate::app::names::unknown;
 use crate::app::sight::sight;
 use crate::app::source::{materials, source};
 use crate::app::write::write_files;
-use crate::lut::{Axis, Format, check_size};
-use crate::methods::TEXELS;
+use crate::lut::{Axis, Format, SPLIT_SUM_SIZE, check_size};
+use crate::methods::{self, TEXELS};
 use crate::report::table;
 use crate::targets::{self, Finish, Target};
 
@@ -31,6 +31,9 @@ const SEARCHED_FORMATS: [Format; 4] = [
 
 /// Bakes.
 pub fn run(flags: &BakeFlags, progress: Progress) -> Result<Output, Error> {
+    if flags.dfg {
+        return split_sum(flags, progress);
+    }
     let shape = shape(flags)?;
     let formats = formats(flags)?;
     let targets = targets(&flags.target)?;
@@ -58,14 +61,43 @@ pub fn run(flags: &BakeFlags, progress: Progress) -> Result<Output, Error> {
     };
     try_places(flags.json.as_deref(), None)?;
     let baked = bake(&request, progress)?;
-    let written = write_files(&placed(&baked, &flags.out_dir))?;
-    let command = format!("bake{}", canonical(&request));
+    finished(
+        flags,
+        &format!("bake{}", canonical(&request)),
+        &baked,
+        &left_out,
+    )
+}
+
+/// Bakes the split-sum table of a method.
+fn split_sum(flags: &BakeFlags, progress: Progress) -> Result<Output, Error> {
+    let name = flags.method.as_deref().unwrap_or("fitted");
+    let all = || methods::ALL.iter().filter(|method| method.is_fitted());
+    let names: Vec<&str> = all().map(|method| method.name).collect();
+    let request = SplitSumRequest {
+        method: methods::find(name).ok_or_else(|| unknown("method", name, &names))?,
+        size: flags.size.unwrap_or(SPLIT_SUM_SIZE),
+        formats: formats(flags)?,
+    };
+    try_places(flags.json.as_deref(), None)?;
+    let baked = bake_split_sum(&request, progress)?;
+    finished(flags, &request.command(), &baked, &[])
+}
+
+/// Writes what was baked, and tells of it.
+fn finished(
+    flags: &BakeFlags,
+    command: &str,
+    baked: &Baked,
+    left_out: &[String],
+) -> Result<Output, Error> {
+    let written = write_files(&placed(baked, &flags.out_dir))?;
     let text = if flags.quiet {
         String::new()
     } else {
         text(&baked.rows)
     };
-    let mut output = report(text, &full(&command, &baked.rows), flags.json.as_deref())?;
+    let mut output = report(text, &full(command, &baked.rows), flags.json.as_deref())?;
     if flags.quiet {
         return Ok(output);
     }

@@ -206,3 +206,79 @@ fn bad_input_is_refused() {
     );
     assert!(!place.path(OUT).exists());
 }
+
+#[test]
+fn one_split_sum_table_serves_all_materials() {
+    let place = Place::new();
+    let line = "bake --dfg --method fitted_dielectric --size 16 --format all";
+    let ran = place.done(&format!("{line} --json -"));
+    let json = ran.json();
+    let command = "bake --dfg --method fitted_dielectric --size 16 --format \
+                   exr-half,exr-float,png8,png16,ktx2,c,rust,js";
+    assert_eq!(json["command"], command);
+    let rows = json["rows"].as_array().unwrap();
+    assert_eq!(rows.len(), 8);
+    for row in rows {
+        assert!(
+            place
+                .path(OUT)
+                .join(row["file"].as_str().unwrap())
+                .is_file()
+        );
+        assert_eq!((&row["texels"], &row["scale"]), (&16.into(), &1.0.into()));
+        assert_eq!(row["powers"], serde_json::json!([0, 3, 7, 14]));
+        assert!(row["max_abs"].as_f64().unwrap() < 0.1 && row["material"].is_null());
+    }
+    let again = place.done(line);
+    assert!(again.err.contains("0 written, 9 unchanged"), "{again:?}");
+    // Four channels: of the roughest texel from above T0 is 1 - ln 2.
+    let bytes =
+        std::fs::read(place.path(&format!("{OUT}/lut/dfg_fitted_dielectric.ktx2"))).unwrap();
+    let texel: Vec<u16> = bytes[bytes.len() - 8..]
+        .chunks(2)
+        .map(|pair| u16::from_le_bytes([pair[0], pair[1]]))
+        .collect();
+    let half = |bits: u16| half::f16::from_bits(bits).to_f64();
+    assert!((half(texel[0]) - 0.306_853).abs() < 2e-4, "{texel:?}");
+    assert!(half(texel[3]) < half(texel[2]) && half(texel[2]) < half(texel[1]));
+    let png =
+        std::fs::File::open(place.path(&format!("{OUT}/lut/dfg_fitted_dielectric.png"))).unwrap();
+    let reader = png::Decoder::new(std::io::BufReader::new(png))
+        .read_info()
+        .unwrap();
+    assert_eq!(reader.info().color_type, png::ColorType::Rgba);
+    let exr = exr::prelude::read_all_flat_layers_from_file(
+        place.path(&format!("{OUT}/lut/dfg_fitted_dielectric.exr")),
+    );
+    let names = exr.unwrap().layer_data.remove(0).channel_data.list;
+    let names: Vec<String> = names
+        .iter()
+        .map(|channel| channel.name.to_string())
+        .collect();
+    assert_eq!(names, ["A", "B", "G", "R"]);
+    let text = place.read(&format!("{OUT}/lut/dfg_fitted_dielectric.h"));
+    let other = Place::new();
+    other.done(command_of(&text));
+    assert_eq!(
+        other.read(&format!("{OUT}/lut/dfg_fitted_dielectric.h")),
+        text
+    );
+}
+
+#[test]
+fn what_has_no_split_sum_table_is_refused() {
+    let place = Place::new();
+    place.refused(
+        "bake --dfg --method fitted_five",
+        &["5 do not fit", "fitted_dielectric"],
+    );
+    place.refused(
+        "bake --dfg --method schlick",
+        &["linear in its coefficients", "schlick"],
+    );
+    place.refused("bake --dfg --method fited", &["fited", "fitted"]);
+    place.refused("bake --dfg --size 1", &["2 to 1024"]);
+    place.refused("bake --dfg --space acescg", &["--space"]);
+    place.refused("bake --dfg --material gold", &["--dfg", "--material"]);
+    place.refused("bake --method fitted", &["--dfg"]);
+}
