@@ -6,6 +6,8 @@
 #[cfg(feature = "cli")]
 pub mod args;
 pub mod artifact;
+#[cfg(all(feature = "cli", feature = "gpu"))]
+pub mod audit;
 #[cfg(feature = "cli")]
 pub mod bake;
 #[cfg(feature = "cli")]

@@ -12,6 +12,9 @@ use super::request::{Materials, Source};
 /// A material file has at most this many bytes: 10⁶ rows fit.
 const LARGEST: u64 = 64 << 20;
 
+/// A file with a function of a user's has at most this many bytes.
+const LARGEST_SHADER: u64 = 1 << 20;
+
 /// The choice that `--material` makes: names, files and `all` together, or `none` alone.
 pub fn materials(names: &[String]) -> Result<Materials, Error> {
     if names.is_empty() {
@@ -54,6 +57,15 @@ pub fn is_path(name: &str) -> bool {
 
 /// The text of a file that a user names.
 pub fn read(name: &str) -> Result<String, Error> {
+    read_within(LARGEST, name)
+}
+
+/// The text of a file with a function of a user's.
+pub fn shader(name: &str) -> Result<String, Error> {
+    read_within(LARGEST_SHADER, name)
+}
+
+fn read_within(largest: u64, name: &str) -> Result<String, Error> {
     let path = Path::new(name);
     let fail = |source: io::Error| Error::Input {
         path: path.to_owned(),
@@ -63,9 +75,9 @@ pub fn read(name: &str) -> Result<String, Error> {
     if !about.is_file() {
         return Err(fail(io::Error::other("it is not an ordinary file")));
     }
-    if about.len() > LARGEST {
+    if about.len() > largest {
         return Err(fail(io::Error::other(format!(
-            "it has {} bytes; at most {LARGEST} are read",
+            "it has {} bytes; at most {largest} are read",
             about.len()
         ))));
     }

@@ -5,6 +5,7 @@
 mod clock;
 mod family;
 mod figures;
+pub mod foreign;
 pub mod overdraw;
 mod probe;
 mod record;

@@ -59,6 +59,17 @@ impl Probe {
         }
     }
 
+    /// A function that is there as text, under the name `fg_measured`: in WGSL, and in GLSL ES, as far as it is known. It gives
+    /// three channels.
+    pub fn of_text(params: Vec<Param>, wgsl: String, gles: String) -> Probe {
+        Probe {
+            params,
+            is_scalar: false,
+            precision: Precision::F32,
+            texts: [wgsl, gles],
+        }
+    }
+
     /// What a chain costs where nothing is evaluated in it.
     pub fn empty(is_scalar: bool, precision: Precision) -> Probe {
         let text = |target: &str| {

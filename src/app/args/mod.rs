@@ -1,6 +1,7 @@
 //! The command line: flags and subcommands.
 
 mod chart;
+mod audit;
 mod cost;
 mod fit;
 mod stability;
@@ -15,6 +16,7 @@ use super::precision::PrecisionFlags;
 use super::sight::Words;
 
 pub use chart::ChartFlags;
+pub use audit::AuditFlags;
 pub use cost::CostFlags;
 pub use fit::FitFlags;
 pub use stability::StabilityFlags;
@@ -71,6 +73,8 @@ pub enum Command {
     Fit(Box<FitFlags>),
     /// Error against cost: every method a point, and the frontier of those that nothing beats
     Chart(ChartFlags),
+    /// Hold your own function, in WGSL, GLSL or HLSL, against a material and against ours
+    Audit(Box<AuditFlags>),
     /// Compute the thesis's tables, figures and claims anew, and print both side by side
     Reproduce(Reproduce),
 }

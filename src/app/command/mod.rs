@@ -1,5 +1,7 @@
 //! The commands: from parsed flags to what a run prints and how it ends. Printing itself is `main.rs`'s.
 
+#[cfg(feature = "gpu")]
+mod audit;
 mod bake;
 mod chart;
 #[cfg(feature = "gpu")]
@@ -52,8 +54,10 @@ pub fn run(cli: &Cli, progress: Progress) -> Result<Output, Error> {
         Some(Command::Cost(flags)) => cost::run(flags, progress),
         #[cfg(feature = "gpu")]
         Some(Command::Time(flags)) => time::run(flags, progress),
+        #[cfg(feature = "gpu")]
+        Some(Command::Audit(flags)) => audit::run(flags, progress),
         #[cfg(not(feature = "gpu"))]
-        Some(Command::Verify(_) | Command::Cost(_) | Command::Time(_)) => Err(Error::Lacking {
+        Some(Command::Verify(_) | Command::Cost(_) | Command::Time(_) | Command::Audit(_)) => Err(Error::Lacking {
             what: "this program was built without the feature `gpu`, and runs no shaders"
                 .to_owned(),
         }),

@@ -109,7 +109,7 @@ fn told(
     rows: &[Value],
 ) -> Result<Output, Error> {
     if let Some(file) = &flags.junit {
-        let xml = junit(rows).map_err(|what| Error::Usage { what })?;
+        let xml = junit("fresnel-gen verify", rows).map_err(|what| Error::Usage { what })?;
         write_file(file, xml.as_bytes())?;
     }
     let full = json!({

@@ -47,10 +47,14 @@ struct Job {
 /// What a worker answers.
 #[derive(Deserialize)]
 #[serde(rename_all = "snake_case")]
-enum Said {
+pub enum Said {
+    /// It is here: its name and version.
     Compiler(String),
+    /// It is not, and why.
     Absent(String),
+    /// What it says of a shader.
     Told(Statistics),
+    /// It refuses a shader, and why.
     Refused(String),
 }
 
@@ -346,7 +350,8 @@ impl Session<'_> {
     }
 }
 
-fn reason(silence: &Silence, limit: Duration) -> String {
+/// Why a compiler gave no answer.
+pub fn reason(silence: &Silence, limit: Duration) -> String {
     match silence {
         Silence::TooLong => format!("the compiler did not end within {} s", limit.as_secs()),
         Silence::Ended(status) => format!("the process with the compiler ended ({status})"),
@@ -359,7 +364,7 @@ fn built() -> PathBuf {
 }
 
 /// What a process needs in its environment to be that compiler, or why it cannot be.
-fn environment(family: &Family) -> Result<Vec<(String, OsString)>, String> {
+pub fn environment(family: &Family) -> Result<Vec<(String, OsString)>, String> {
     let pair = |name: &str, value: OsString| (name.to_owned(), value);
     let mut all = vec![
         pair("MESA_SHADER_CACHE_DISABLE", "true".into()),

@@ -6,7 +6,7 @@ mod row;
 #[cfg(feature = "gpu")]
 mod serve;
 
-pub use asked::{Limits, Told, ask};
+pub use asked::{Limits, Said, Told, ask, environment, reason};
 pub use function::{Function, functions};
 pub use row::rows;
 #[cfg(feature = "gpu")]

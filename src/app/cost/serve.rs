@@ -3,6 +3,7 @@
 use std::ffi::CString;
 use std::io::{self, BufRead, Write};
 
+use serde::Deserialize;
 use serde_json::json;
 
 use crate::app::error::Error;
@@ -17,8 +18,18 @@ enum Open {
     Mesa(Box<Node>, Dialect),
 }
 
-/// Serves until there is nothing more to read: a line of JSON, the text of a fragment shader, is answered by a line. The
-/// first line says who answers, whatever is asked.
+/// A fragment shader.
+#[derive(Deserialize)]
+#[serde(untagged)]
+enum Shader {
+    /// In the compiler's language, or in WGSL for one that takes SPIR-V.
+    Text(String),
+    /// A module of SPIR-V.
+    Module(Vec<u8>),
+}
+
+/// Serves until there is nothing more to read: a line of JSON, a fragment shader as text or as the bytes of a module, is
+/// answered by a line. The first line says who answers, whatever is asked.
 ///
 /// # Errors
 /// The family has no compiler, or the pipe is gone.
@@ -42,9 +53,9 @@ pub fn serve(family: &Family) -> Result<(), Error> {
     let Ok(open) = opened else { return Ok(()) };
     for line in input {
         let line = line.map_err(gone)?;
-        let told = serde_json::from_str::<String>(&line)
+        let told = serde_json::from_str::<Shader>(&line)
             .map_err(|why| why.to_string())
-            .and_then(|text| open.measure(&text));
+            .and_then(|shader| open.measure(&shader));
         answer(match told {
             Ok(statistics) => json!({ "told": statistics }),
             Err(why) => json!({ "refused": why }),
@@ -79,19 +90,27 @@ impl Open {
         }
     }
 
-    fn measure(&self, text: &str) -> Result<Statistics, String> {
-        match self {
-            Open::Radv(null, [vertex, entry]) => {
-                let module = wgsl_to_spirv(text)?;
+    fn measure(&self, shader: &Shader) -> Result<Statistics, String> {
+        match (self, shader) {
+            (Open::Radv(null, [vertex, entry]), shader) => {
+                let lowered;
+                let module = match shader {
+                    Shader::Module(module) => module,
+                    Shader::Text(text) => {
+                        lowered = wgsl_to_spirv(text)?;
+                        &lowered
+                    }
+                };
                 let fragment = Entry {
-                    module: &module,
+                    module,
                     name: entry,
                 };
                 let told = null.measure(vertex, fragment);
                 told.map(Statistics::from_iter)
                     .map_err(|why| why.to_string())
             }
-            Open::Mesa(node, dialect) => {
+            (Open::Mesa(..), Shader::Module(_)) => Err("it takes GLSL ES, no SPIR-V".to_owned()),
+            (Open::Mesa(node, dialect), Shader::Text(text)) => {
                 let remarks = node
                     .link(&gles_vertex(*dialect), text)
                     .map_err(|why| why.to_string())?;

@@ -3,12 +3,12 @@
 use quick_junit::{NonSuccessKind, Report, TestCase, TestCaseStatus, TestSuite};
 use serde_json::Value;
 
-/// The rows as JUnit's XML; a suite for each target and device.
+/// The rows as JUnit's XML under a name; a suite for each target and device.
 ///
 /// # Errors
 /// The writer refuses.
-pub fn junit(rows: &[Value]) -> Result<String, String> {
-    let mut report = Report::new("fresnel-gen verify");
+pub fn junit(name: &str, rows: &[Value]) -> Result<String, String> {
+    let mut report = Report::new(name);
     let mut suites: Vec<(String, TestSuite)> = Vec::new();
     for row in rows {
         let name = format!("{} on {}", word(row, "target"), word(row, "device"));

@@ -122,6 +122,20 @@ pub fn hlsl_to_spirv_in(
     run(&DXC, &options, &[file])
 }
 
+/// What a compiler makes of a text under this name. Its options are as a [`Validator`]'s.
+pub fn compiled(
+    compiler: &Compiler,
+    options: &str,
+    name: &str,
+    text: &str,
+) -> Result<Vec<u8>, Fault> {
+    let file = File {
+        name: name.to_owned(),
+        bytes: text.as_bytes().to_vec(),
+    };
+    run(compiler, options, &[file])
+}
+
 /// Whether a compiler can be asked here.
 pub fn is_here(compiler: &Compiler) -> bool {
     let found = |command| call::find(command).is_some();

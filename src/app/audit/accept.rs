@@ -1,0 +1,82 @@
+//! The word of every compiler of a language on a program around a user's text.
+
+use crate::targets::{Compiler, DXC, GLSLANG, Target, find};
+use crate::verify::compilers::{Fault, HlslVersion, Verdict, compiled, hlsl_to_spirv};
+use crate::verify::harness::ENTRY;
+
+use super::job::Code;
+use super::language::Language;
+
+/// What compilers that run beside us say.
+#[derive(Debug)]
+pub struct Accepted {
+    /// Each with its verdict.
+    pub verdicts: Vec<(&'static str, Verdict)>,
+    /// What is run, where there is something to run; else why not.
+    pub code: Result<Code, Fault>,
+}
+
+/// Asks the compilers about a whole program.
+pub fn accepted(language: Language, program: String) -> Accepted {
+    match language {
+        Language::Wgsl => Accepted {
+            verdicts: tint(&program).into_iter().collect(),
+            code: Ok(Code::Wgsl(program)),
+        },
+        Language::Gles => {
+            let made = compiled(&GLSLANG, "-S vert FILE", "shader.vert", &program);
+            Accepted {
+                verdicts: vec![(GLSLANG.name, made.into())],
+                code: Ok(Code::Gles(program)),
+            }
+        }
+        Language::Hlsl => hlsl(&program),
+    }
+}
+
+/// Chrome's compiler, as the target knows it.
+fn tint(program: &str) -> Option<(&'static str, Verdict)> {
+    let validators = find("wgsl").map_or(&[][..], |target: &Target| target.validators);
+    let tint = validators.iter().find(|one| one.compiler.command.is_some())?;
+    let compiler: &Compiler = tint.compiler;
+    let made = compiled(compiler, tint.options, "shader.wgsl", program);
+    Some((compiler.name, made.into()))
+}
+
+/// Both versions of the language: what either accepts is run, as the older one has it where both do.
+fn hlsl(program: &str) -> Accepted {
+    let old = hlsl_to_spirv(program, ENTRY, HlslVersion::V2018);
+    let new = hlsl_to_spirv(program, ENTRY, HlslVersion::V2021);
+    let verdicts = vec![
+        ("dxc -HV 2018", old.clone().into()),
+        ("dxc -HV 2021", new.clone().into()),
+    ];
+    let code = old.or_else(|fault| new.map_err(|_| fault));
+    Accepted {
+        verdicts,
+        code: code.map(Code::Spirv),
+    }
+}
+
+/// A pixel shader in HLSL as SPIR-V.
+///
+/// # Errors
+/// DXC is not here, or refuses it.
+pub fn pixel(text: &str) -> Result<Vec<u8>, Fault> {
+    let made = |version: usize| {
+        let options = format!(
+            "-T ps_6_0 -E {ENTRY} -HV {version} -spirv -fspv-target-env=vulkan1.1 -Fo OUT FILE"
+        );
+        compiled(&DXC, &options, "shader.hlsl", text)
+    };
+    made(2018).or_else(|fault| made(2021).map_err(|_| fault))
+}
+
+/// A fragment shader in GLSL 4.50 as SPIR-V.
+///
+/// # Errors
+/// glslang is not here, or refuses it.
+pub fn fragment(text: &str) -> Result<Vec<u8>, Fault> {
+    let options = format!("-V -S frag -e {ENTRY} --source-entrypoint main -o OUT FILE");
+    compiled(&GLSLANG, &options, "shader.frag", text)
+}

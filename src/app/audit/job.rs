@@ -1,0 +1,73 @@
+//! What supervisor and worker say to each other, a line of JSON each. Numbers go as bits: what is run may give NaN.
+
+use serde::{Deserialize, Serialize};
+
+use crate::gpu::{Argument, Uniform};
+
+/// What a worker is asked.
+#[derive(Debug, Serialize, Deserialize)]
+pub enum Asked {
+    /// To compile a program.
+    Prepare(Code, Vec<Value>),
+    /// To run it over cosines.
+    Run(Vec<u32>),
+}
+
+/// What a worker answers.
+#[derive(Debug, Serialize, Deserialize)]
+pub enum Said {
+    /// It is compiled, for this device.
+    Ready(String),
+    /// Something is missing here.
+    Absent(String),
+    /// A compiler refuses it, or the device failed: who, and in which words.
+    Refused(String, String),
+    /// The results.
+    Ran(Vec<[u32; 3]>),
+}
+
+/// A program.
+#[derive(Debug, Serialize, Deserialize)]
+pub enum Code {
+    /// In WGSL.
+    Wgsl(String),
+    /// In GLSL ES 3.00.
+    Gles(String),
+    /// A module that DXC has made.
+    Spirv(Vec<u8>),
+}
+
+/// A value from a uniform.
+#[derive(Debug, Serialize, Deserialize)]
+pub struct Value {
+    name: String,
+    is_rgb: bool,
+    bits: [u32; 3],
+}
+
+impl Value {
+    /// As it is said.
+    pub fn of(uniform: &Uniform) -> Value {
+        let (is_rgb, value) = match uniform.value {
+            Argument::Rgb(value) => (true, value),
+            Argument::Scalar(value) => (false, [value; 3]),
+        };
+        Value {
+            name: uniform.name.clone(),
+            is_rgb,
+            bits: value.map(f32::to_bits),
+        }
+    }
+
+    /// As it is bound.
+    pub fn uniform(&self) -> Uniform {
+        let value = self.bits.map(f32::from_bits);
+        Uniform {
+            name: self.name.clone(),
+            value: match self.is_rgb {
+                true => Argument::Rgb(value),
+                false => Argument::Scalar(value[0]),
+            },
+        }
+    }
+}

@@ -1,0 +1,98 @@
+//! The languages that a user's function may be written in.
+
+use crate::app::error::Error;
+use crate::app::names::unknown;
+use crate::ir::Ty;
+
+/// A language of functions that users bring.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Language {
+    /// WGSL.
+    Wgsl,
+    /// GLSL, run as GLSL ES 3.00.
+    Gles,
+    /// HLSL.
+    Hlsl,
+}
+
+/// Names of languages, and endings of files.
+const NAMES: [(&str, Language); 10] = [
+    ("wgsl", Language::Wgsl),
+    ("glsl", Language::Gles),
+    ("gles", Language::Gles),
+    ("frag", Language::Gles),
+    ("vert", Language::Gles),
+    ("fs", Language::Gles),
+    ("vs", Language::Gles),
+    ("hlsl", Language::Hlsl),
+    ("hlsli", Language::Hlsl),
+    ("fx", Language::Hlsl),
+];
+/// How many of them are names of languages.
+const LANGUAGES: [&str; 4] = ["wgsl", "glsl", "gles", "hlsl"];
+
+impl Language {
+    /// The language that is named, or that the file's ending tells.
+    ///
+    /// # Errors
+    /// There is none of that name, or the ending tells nothing.
+    pub fn of(file: &str, named: Option<&str>) -> Result<Language, Error> {
+        let find = |word: &str| NAMES.iter().find(|(name, _)| *name == word);
+        if let Some(name) = named {
+            let found = find(name).filter(|_| LANGUAGES.contains(&name));
+            let found = found.map(|(_, language)| *language);
+            return found.ok_or_else(|| unknown("language", name, &LANGUAGES));
+        }
+        let name = file.rsplit(['/', '\\']).next().unwrap_or(file);
+        let ending = name.rsplit_once('.').map_or("", |(_, ending)| ending);
+        let found = find(&ending.to_lowercase()).map(|(_, language)| *language);
+        found.ok_or_else(|| Error::Usage {
+            what: format!(
+                "{file}: its ending does not tell a language; say --language wgsl, glsl or hlsl"
+            ),
+        })
+    }
+
+    /// The target of this language.
+    pub fn target(self) -> &'static str {
+        match self {
+            Language::Wgsl => "wgsl",
+            Language::Gles => "gles",
+            Language::Hlsl => "hlsl",
+        }
+    }
+
+    /// Whether lines may begin with `#`.
+    pub fn has_preprocessor(self) -> bool {
+        self != Language::Wgsl
+    }
+
+    /// How it writes one number, or three.
+    pub fn ty(self, ty: Ty) -> &'static str {
+        match (self, ty == Ty::Rgb) {
+            (Language::Wgsl, false) => "f32",
+            (Language::Wgsl, true) => "vec3<f32>",
+            (Language::Gles, false) => "highp float",
+            (Language::Gles, true) => "highp vec3",
+            (Language::Hlsl, false) => "float",
+            (Language::Hlsl, true) => "float3",
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_ending_or_a_flag_tells_the_language() {
+        let of = |file, named| Language::of(file, named).ok();
+        assert_eq!(of("a/b.WGSL", None), Some(Language::Wgsl));
+        assert_eq!(of("b.frag", None), Some(Language::Gles));
+        assert_eq!(of("b.fx", None), Some(Language::Hlsl));
+        assert_eq!(of("b.txt", Some("hlsl")), Some(Language::Hlsl));
+        assert_eq!(of("b.txt", None), None);
+        assert_eq!(of("wgsl", None), None);
+        assert_eq!(of("b.wgsl", Some("fx")), None);
+    }
+}

@@ -1,0 +1,199 @@
+//! Audit: a user's own function held against the truth about a material, and against our methods.
+//!
+//! The text is read for heads of functions only ([`scan`]); all else is left to compilers. Ours goes around theirs
+//! ([`program`]), runs in a process of its own ([`runner`], [`serve()`]), so that one that never ends, or takes a driver
+//! down, is a line of the report; compilers run beside us within times of their own.
+
+mod accept;
+mod bind;
+mod code;
+mod cost;
+mod edges;
+mod frontier;
+mod job;
+mod language;
+mod ours;
+mod place;
+mod program;
+mod row;
+mod runner;
+mod scan;
+mod serve;
+
+use std::path::Path;
+use std::time::Duration;
+
+use serde_json::Value;
+
+use crate::app::cost::Limits;
+use crate::cost::Family;
+use crate::emit::Subject;
+use crate::gpu::Uniform;
+use crate::verify::compilers::{Fault, Verdict};
+
+use super::error::Error;
+use super::worker::scratch;
+
+pub use bind::Given;
+pub use language::Language;
+pub use row::text;
+pub use serve::serve;
+
+use bind::Bound;
+use program::Program;
+use row::{Ran, Row};
+use runner::{Runner, Trouble};
+
+/// What is audited.
+#[derive(Clone, Debug)]
+pub struct Audit {
+    /// The file's name, for messages.
+    pub file: String,
+    /// Its text.
+    pub text: String,
+    /// Its language.
+    pub language: Language,
+    /// The function; where none is named the file holds one.
+    pub function: Option<String>,
+    /// Values of its arguments.
+    pub given: Vec<Given>,
+    /// The GPUs whose compilers are asked.
+    pub families: Vec<&'static Family>,
+    /// Seconds that one step may take.
+    pub seconds: u64,
+    /// Processes at once.
+    pub workers: usize,
+}
+
+impl Audit {
+    /// The row of a material.
+    ///
+    /// # Errors
+    /// The file does not hold the function, or its arguments are not bound.
+    pub fn row(
+        &self,
+        subject: &Subject,
+        progress: &mut dyn FnMut(u64, u64, &str),
+    ) -> Result<Value, Error> {
+        program::check(&self.file, &self.text, self.language)?;
+        let found = scan::functions(&self.text, self.language);
+        let chosen = bind::choose(&self.file, found, self.function.as_deref())?;
+        let bound = bind::bind(&self.file, chosen, &self.given, subject)?;
+        let program = Program::new(self.language, &self.text, &bound);
+        let scratch = scratch()?;
+        let mut accepted = accept::accepted(self.language, program.harnessed());
+        let code = std::mem::replace(
+            &mut accepted.code,
+            Err(Fault::NotChecked("it is run".to_owned())),
+        );
+        let ran = match code {
+            Ok(code) => self.run(code, &program, &bound, subject, scratch.path())?,
+            Err(Fault::NotChecked(why)) => Err(Trouble::Absent(why)),
+            Err(Fault::Refused(words)) => Err(Trouble::Refused(String::new(), words)),
+        };
+        self.accept(&mut accepted.verdicts, &ran);
+        let (costs, rivals) = match &ran {
+            Ok(_) => self.costs(&program, subject, scratch.path(), progress)?,
+            Err(_) => (Vec::new(), Vec::new()),
+        };
+        Ok(Row {
+            audit: self,
+            bound: &bound,
+            subject,
+            verdicts: &accepted.verdicts,
+            ran: &ran,
+            costs: &costs,
+            ours: &rivals,
+        }
+        .json())
+    }
+
+    fn limit(&self) -> Duration {
+        Duration::from_secs(self.seconds)
+    }
+
+    /// The function run at the edges and over all angles.
+    fn run(
+        &self,
+        code: job::Code,
+        program: &Program,
+        bound: &Bound,
+        subject: &Subject,
+        scratch: &Path,
+    ) -> Result<Result<Ran, Trouble>, Error> {
+        let uniforms: Vec<Uniform> = program.uniforms();
+        let runner = match Runner::start(code, &uniforms, self.limit(), scratch)? {
+            Ok(runner) => runner,
+            Err(trouble) => return Ok(Err(trouble)),
+        };
+        Ok(measured(&runner, subject, most(bound)))
+    }
+
+    /// The word of the compiler that ran it, and all words with places in the user's file.
+    fn accept(&self, verdicts: &mut Vec<(&'static str, Verdict)>, ran: &Result<Ran, Trouble>) {
+        let own = match self.language {
+            Language::Wgsl => "naga",
+            Language::Gles => "the OpenGL ES driver",
+            Language::Hlsl => "the Vulkan driver",
+        };
+        let verdict = match ran {
+            Err(Trouble::Refused(who, _)) if who.is_empty() => None,
+            Err(Trouble::Refused(_, words)) => Some(Verdict::No(words.clone())),
+            Err(Trouble::Absent(why) | Trouble::Failed(why)) => Some(Verdict::NotChecked(why.clone())),
+            Ok(_) => Some(Verdict::Yes),
+        };
+        verdicts.extend(verdict.map(|verdict| (own, verdict)));
+        let lines = self.text.lines().count();
+        for (_, verdict) in verdicts {
+            if let Verdict::No(words) = verdict {
+                *words = place::placed(&self.file, lines, words);
+            }
+        }
+    }
+
+    /// The cost of the function and of ours.
+    fn costs(
+        &self,
+        program: &Program,
+        subject: &Subject,
+        scratch: &Path,
+        progress: &mut dyn FnMut(u64, u64, &str),
+    ) -> Result<(Vec<cost::Cost>, Vec<ours::Ours>), Error> {
+        let each = self.families.iter();
+        let each = each.map(|family| cost::cost(program, family, self.limit(), scratch));
+        let costs: Vec<cost::Cost> = each.collect::<Result<_, _>>()?;
+        if costs.iter().all(|cost| cost.figures.is_err()) {
+            return Ok((costs, Vec::new()));
+        }
+        let limits = Limits {
+            seconds: self.seconds.max(60),
+            workers: self.workers,
+        };
+        let takes_arguments = program.params.len() > 1;
+        let ours = ours::ours(subject, takes_arguments, &self.families, limits, progress)?;
+        Ok((costs, ours))
+    }
+}
+
+/// What a result may reach: 1, or an F0 that is given above it, as our own functions take it.
+fn most(bound: &Bound) -> [f32; 3] {
+    let f0 = bound.arguments.iter();
+    let f0 = f0.filter(|argument| argument.name.eq_ignore_ascii_case("f0"));
+    f0.fold([1.0; 3], |most, argument| {
+        [0, 1, 2].map(|i| most[i].max(argument.value[i]))
+    })
+}
+
+fn measured(runner: &Runner, subject: &Subject, most: [f32; 3]) -> Result<Ran, Trouble> {
+    let results = runner.run(&edges::cosines())?;
+    let mut edges = edges::judged(&results, most);
+    let between = edges::Between::new(most);
+    let error = runner.error(&subject.truth, &|cosines, got| between.look(cosines, got))?;
+    edges.findings.extend(between.finding());
+    Ok(Ran {
+        device: runner.device.clone(),
+        points: runner.points.get(),
+        edges,
+        error,
+    })
+}

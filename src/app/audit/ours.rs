@@ -1,0 +1,120 @@
+//! Our methods for the same material: how wrong in single precision, and how dear.
+
+use crate::app::cost::{Function, Limits, Told, ask, functions, rows};
+use crate::app::error::Error;
+use crate::cost::{Family, Figures, records};
+use crate::emit::Subject;
+use crate::fit::error_of;
+use crate::ir::{Column, Value, evaluate};
+use crate::methods::{self, Class, Contract, Light, Method};
+use crate::num::Precision;
+
+use super::frontier::Rival;
+
+/// A method with its error, and its cost on each family where it is known.
+#[derive(Clone, Debug)]
+pub struct Ours {
+    method: &'static str,
+    form: &'static str,
+    error: f64,
+    costs: Vec<Option<f64>>,
+}
+
+impl Ours {
+    /// As it stands against a function on the family of this place.
+    pub fn rival(&self, place: usize) -> Option<Rival> {
+        Some(Rival {
+            method: self.method,
+            form: self.form,
+            error: self.error,
+            cost: self.costs[place]?,
+        })
+    }
+}
+
+/// The methods that a shader may take in place of a user's function for a material: in their library form where it takes
+/// arguments, else specialised. Those that read a texture cost another kind of work, and those for one
+/// polarisation tell another thing.
+///
+/// # Errors
+/// No process can be started.
+pub fn ours(
+    subject: &Subject,
+    takes_arguments: bool,
+    families: &[&'static Family],
+    limits: Limits,
+    progress: &mut dyn FnMut(u64, u64, &str),
+) -> Result<Vec<Ours>, Error> {
+    let form = match takes_arguments {
+        true => "library",
+        false => "specialised",
+    };
+    let is_glass = subject.effective.channels.is_transparent();
+    let fits = |method: &&&'static Method| {
+        (method.class == Class::Any || is_glass)
+            && method.light == Light::Unpolarised
+            && method.contract == Contract::Kept
+            && !method.is_textured()
+    };
+    let methods: Vec<&'static Method> = methods::ALL.iter().filter(fits).copied().collect();
+    let mut all = functions(&methods, std::slice::from_ref(subject), &[Precision::F32])?;
+    all.retain(|function| function.is_asked && function.form == form || function.is_reference());
+    let asked: Vec<&'static Family> = families
+        .iter()
+        .filter(|family| family.compiler.dialect().is_some())
+        .copied()
+        .collect();
+    let mut told = ask(&asked, &all, limits, progress)?.into_iter();
+    let columns: Vec<Vec<Option<f64>>> = families
+        .iter()
+        .map(|family| {
+            let told = family.compiler.dialect().and_then(|_| told.next());
+            costs(family, told.as_ref(), &all)
+        })
+        .collect();
+    let asked = all.iter().filter(|function| function.is_asked).enumerate();
+    Ok(asked
+        .filter(|(_, function)| function.form == form)
+        .map(|(place, function)| Ours {
+            method: function.method.name,
+            form,
+            error: error(function, subject),
+            costs: columns.iter().map(|column| column[place]).collect(),
+        })
+        .collect())
+}
+
+/// The cost of each function that was asked for, in order.
+fn costs(
+    family: &'static Family,
+    told: Option<&Told>,
+    functions: &[Function],
+) -> Vec<Option<f64>> {
+    let rows = rows(family, told, &records(family.name), functions);
+    let cost = |figures: Result<Figures, String>| figures.ok().map(|figures| figures.cost());
+    rows.into_iter().map(|row| cost(row.figures)).collect()
+}
+
+/// The largest error in single precision, as a user's function has it.
+fn error(function: &Function, subject: &Subject) -> f64 {
+    let others: Vec<Value<f32>> = match function.form {
+        "library" => function
+            .method
+            .arguments(&subject.values(function.method), None),
+        _ => Vec::new(),
+    };
+    let error = error_of(&subject.truth, &|cosines| {
+        let single = cosines.iter().map(|c| *c as f32).collect();
+        let arguments: Vec<Value<f32>> = [Value::each(single)]
+            .into_iter()
+            .chain(others.clone())
+            .collect();
+        let got = evaluate(&function.graph, &arguments);
+        let channel = |i: usize| {
+            let column = got.channel(i);
+            Column::Each((0..cosines.len()).map(|point| f64::from(column.at(point))).collect())
+        };
+        Value::Rgb([0, 1, 2].map(channel))
+    });
+    error.max_abs
+}

@@ -1,0 +1,80 @@
+//! Words of compilers with the place in the user's file before them.
+
+use super::program::own_names;
+
+/// The words of a refusal, the place of the first fault before them: `FILE:LINE:COL: what`.
+pub fn placed(file: &str, lines: usize, words: &str) -> String {
+    let words = own_names(words);
+    let first = words.lines().enumerate().find_map(|(i, line)| {
+        let (line_number, column) = place(line)?;
+        Some((i, line_number, column))
+    });
+    let Some((i, line, column)) = first else {
+        return format!("{file}: {}", words.trim_end());
+    };
+    let all: Vec<&str> = words.lines().collect();
+    // naga says what is wrong in the line before the place.
+    let is_arrow = all[i].contains("┌─") || all[i].trim_start().starts_with("-->");
+    let said = if is_arrow && i > 0 { all[i - 1] } else { all[i] };
+    let said = message(said);
+    let column = column.map_or(String::new(), |column| format!("{column}:"));
+    if line > lines {
+        // What is open at the end is noticed in what stands behind it.
+        return format!("{file}:{}: at the end of the file: {said}", lines.max(1));
+    }
+    format!("{file}:{line}:{column} {said}")
+}
+
+/// The line and column that a compiler names: `shader.hlsl:3:5: error`, `0:3(5): error`, `ERROR: 0:3:`, `┌─ wgsl:3:5`.
+fn place(line: &str) -> Option<(usize, Option<usize>)> {
+    let marks = ["wgsl:", "shader.hlsl:", "shader.vert:", "shader.frag:", "shader.wgsl:", "0:"];
+    let mark = marks.iter().find_map(|mark| Some(line.find(mark)? + mark.len()))?;
+    let rest = &line[mark..];
+    let line_number = number(rest)?;
+    let after = rest.trim_start_matches(|c: char| c.is_ascii_digit());
+    let column = after.strip_prefix([':', '(']).and_then(number);
+    Some((line_number, column))
+}
+
+fn number(text: &str) -> Option<usize> {
+    let end = text.find(|c: char| !c.is_ascii_digit());
+    text[..end.unwrap_or(text.len())].parse().ok()
+}
+
+/// What is wrong, without the place before it.
+fn message(line: &str) -> &str {
+    let heads = ["error:", "ERROR:"];
+    let found = heads.iter().find_map(|head| Some(line.find(head)? + head.len()));
+    let rest = found.map_or(line, |at| line[at..].trim_start());
+    // glslang: `ERROR: 0:3: 'x' : undeclared identifier`.
+    match place(rest) {
+        Some(_) => rest.splitn(3, ':').nth(2).unwrap_or(rest).trim_start(),
+        None => rest,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::placed;
+
+    #[test]
+    fn every_compiler_s_words_get_the_user_s_place() {
+        let naga = "error: no definition in scope for identifier: `x`\n  ┌─ wgsl:2:12\n  │";
+        let mesa = "the shader was refused: 0:3(7): error: `x' undeclared\n0:4(1): error: b";
+        let dxc = "shader.hlsl:2:9: error: use of undeclared identifier 'x'\n  return x;";
+        let glslang = "shader.vert\nERROR: 0:2: 'x' : undeclared identifier";
+        let told = |words| placed("f.x", 5, words);
+        assert_eq!(
+            told(naga),
+            "f.x:2:12: no definition in scope for identifier: `x`"
+        );
+        assert_eq!(told(mesa), "f.x:3:7: `x' undeclared");
+        assert_eq!(told(dxc), "f.x:2:9: use of undeclared identifier 'x'");
+        assert_eq!(told(glslang), "f.x:2: 'x' : undeclared identifier");
+        assert_eq!(told("gone"), "f.x: gone");
+        assert_eq!(
+            placed("f.x", 2, dxc.replace("2:9", "7:1").as_str()),
+            "f.x:2: at the end of the file: use of undeclared identifier 'x'"
+        );
+    }
+}

@@ -1,0 +1,209 @@
+//! A user's text made a program: a function of ours around theirs, so that all that comes after knows one kind of call.
+
+use crate::app::error::Error;
+use crate::gpu::{Argument as Value, Uniform};
+use crate::ir::{Param, Ty};
+use crate::num::Precision;
+use crate::verify::harness::{self, Call};
+
+use super::bind::{Argument, Bound};
+use super::code::{bare, tokens};
+use super::language::Language;
+use super::scan::Shape;
+
+/// What our function around theirs is called: as [`crate::cost::Probe`] calls what it measures.
+pub const NAME: &str = "fg_measured";
+/// Names of the program around it that GLSL cannot keep apart: theirs are renamed while their text is read.
+const RENAMED: [&str; 3] = ["main", "cos_theta", "reflectance"];
+/// What goes before them.
+const THEIRS: &str = "fg_their_";
+
+/// A text with our function behind it.
+#[derive(Clone, Debug)]
+pub struct Program {
+    /// Its language.
+    pub language: Language,
+    /// The text. The lines of theirs keep their numbers.
+    pub text: String,
+    /// What our function takes, the cosine first.
+    pub params: Vec<Param>,
+    /// The values of the others.
+    pub values: Vec<[f32; 3]>,
+}
+
+impl Program {
+    /// The program of a text.
+    pub fn new(language: Language, text: &str, bound: &Bound) -> Program {
+        let mut params = vec![param("cos_theta", Ty::Scalar)];
+        let ty = |argument: &Argument| match argument.is_rgb || argument.is_split() {
+            true => Ty::Rgb,
+            false => Ty::Scalar,
+        };
+        let named = bound.arguments.iter().enumerate();
+        params.extend(named.map(|(i, argument)| param(&format!("a{i}"), ty(argument))));
+        let wrapper = wrapper(language, bound, &params);
+        let text = match language {
+            Language::Gles => framed(text, &wrapper),
+            _ => format!("{text}\n{wrapper}"),
+        };
+        Program {
+            language,
+            text,
+            params,
+            values: bound.arguments.iter().map(|a| a.value).collect(),
+        }
+    }
+
+    /// The whole program that is run over cosines.
+    pub fn harnessed(&self) -> String {
+        let call = Call {
+            name: NAME,
+            params: &self.params,
+            is_scalar: false,
+            precision: Precision::F32,
+        };
+        match self.language {
+            Language::Wgsl => harness::wgsl(&self.text, &call),
+            Language::Gles => harness::gles(&self.text, &call),
+            Language::Hlsl => harness::hlsl(&self.text, &call),
+        }
+    }
+
+    /// The arguments as the harness binds them.
+    pub fn uniforms(&self) -> Vec<Uniform> {
+        let prefix = match self.language {
+            Language::Gles => "fg_",
+            _ => "",
+        };
+        let each = self.params[1..].iter().zip(&self.values);
+        each.map(|(param, value)| Uniform {
+            name: format!("{prefix}{}", param.name),
+            value: match param.ty {
+                Ty::Rgb => Value::Rgb(*value),
+                _ => Value::Scalar(value[0]),
+            },
+        })
+        .collect()
+    }
+}
+
+fn param(name: &str, ty: Ty) -> Param {
+    Param {
+        name: name.to_owned(),
+        ty,
+    }
+}
+
+/// Their text in GLSL: names that the program around it has are theirs under other names, and it has a version already.
+fn framed(text: &str, wrapper: &str) -> String {
+    let each = |line: fn(&str) -> String| RENAMED.map(line).concat();
+    let define = each(|name| format!("#define {name} {THEIRS}{name}\n"));
+    let undefine = each(|name| format!("#undef {name}\n"));
+    let kept: Vec<&str> = text
+        .lines()
+        .map(|line| if is_head(line) { "" } else { line })
+        .collect();
+    format!(
+        "{define}#line 1\n{}\n{wrapper}{undefine}",
+        kept.join("\n")
+    )
+}
+
+/// Whether a line may stand at the head of a program only.
+fn is_head(line: &str) -> bool {
+    let directive = line.trim_start().strip_prefix('#').map(str::trim_start);
+    let heads = ["version", "extension"];
+    directive.is_some_and(|word| heads.iter().any(|head| word.starts_with(head)))
+}
+
+/// Words of compilers, with their names as they wrote them.
+pub fn own_names(words: &str) -> String {
+    words.replace(THEIRS, "")
+}
+
+/// Our function around theirs: the cosine, then all others in order; three numbers out.
+fn wrapper(language: Language, bound: &Bound, params: &[Param]) -> String {
+    let declared = |param: &Param| {
+        let (name, ty) = (format!("fg_{}", param.name), language.ty(param.ty));
+        match language {
+            Language::Wgsl => format!("{name}: {ty}"),
+            _ => format!("{ty} {name}"),
+        }
+    };
+    let list: Vec<String> = params.iter().map(declared).collect();
+    let list = list.join(", ");
+    let rgb = language.ty(Ty::Rgb);
+    let constructor = rgb.trim_start_matches("highp ");
+    let value = if bound.is_per_channel() {
+        let calls = ["x", "y", "z"].map(|channel| call(bound, channel));
+        format!("{constructor}({})", calls.join(", "))
+    } else if bound.function.result == Shape::Scalar {
+        let one = call(bound, "x");
+        match language {
+            Language::Hlsl => format!("({one}).xxx"),
+            _ => format!("{constructor}({one})"),
+        }
+    } else {
+        call(bound, "x")
+    };
+    match language {
+        Language::Wgsl => format!("fn {NAME}({list}) -> {rgb} {{ return {value}; }}\n"),
+        _ => format!("{rgb} {NAME}({list}) {{ return {value}; }}\n"),
+    }
+}
+
+/// The call of theirs for a channel.
+fn call(bound: &Bound, channel: &str) -> String {
+    let mut others = bound.arguments.iter().enumerate();
+    let argument = |place: usize| {
+        if place == bound.cosine {
+            return "fg_cos_theta".to_owned();
+        }
+        let Some((i, argument)) = others.next() else {
+            return String::new();
+        };
+        match argument.is_split() {
+            true => format!("fg_a{i}.{channel}"),
+            false => format!("fg_a{i}"),
+        }
+    };
+    let all: Vec<String> = (0..bound.function.params.len()).map(argument).collect();
+    format!("{}({})", bound.function.name, all.join(", "))
+}
+
+/// Refuses what no program can be made of.
+///
+/// # Errors
+/// A name that is ours, a file that asks for others, or signs that are no text.
+pub fn check(file: &str, text: &str, language: Language) -> Result<(), Error> {
+    let refuse = |line: usize, column: usize, what: String| {
+        Err(Error::Usage {
+            what: format!("{file}:{line}:{column}: {what}"),
+        })
+    };
+    for (number, line) in text.lines().enumerate() {
+        let control = line.chars().position(|c| c.is_control() && c != '\t' && c != '\r');
+        if let Some(at) = control {
+            return refuse(number + 1, at + 1, "this is not text".to_owned());
+        }
+    }
+    let code = bare(text, false);
+    let tokens = tokens(&code);
+    for (at, token) in tokens.iter().enumerate() {
+        let ours = ["fg_", "FgParameters", "FgArguments"];
+        if ours.iter().any(|name| token.text.starts_with(name)) {
+            let what = format!(
+                "the name `{}` is one of the program around it; names that begin with `fg_` are not free",
+                token.text
+            );
+            return refuse(token.line, token.column, what);
+        }
+        let includes = ["include", "import"].contains(&token.text);
+        let is_directive = at > 0 && tokens[at - 1].text == "#";
+        if language.has_preprocessor() && includes && is_directive {
+            let what = "it asks for another file, and one file alone is audited: paste what it needs";
+            return refuse(token.line, token.column, what.to_owned());
+        }
+    }
+    Ok(())
+}

@@ -1,0 +1,139 @@
+//! A user's function run in a process of its own, within a time.
+
+use std::cell::{Cell, OnceCell, RefCell};
+use std::ffi::OsString;
+use std::path::Path;
+use std::time::Duration;
+
+use crate::app::error::Error;
+use crate::app::worker::{Silence, Worker};
+use crate::fit::{ModelError, Truth, error_of};
+use crate::gpu::Uniform;
+use crate::ir::{Column, Value};
+
+use super::job::{self, Asked, Code, Said};
+
+/// Why there are no results.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Trouble {
+    /// Something is missing here.
+    Absent(String),
+    /// It is not accepted: by whom, and in which words.
+    Refused(String, String),
+    /// It does not end, or took its process down.
+    Failed(String),
+}
+
+impl Trouble {
+    /// For people.
+    pub fn text(&self) -> &str {
+        match self {
+            Trouble::Absent(why) | Trouble::Refused(_, why) | Trouble::Failed(why) => why,
+        }
+    }
+}
+
+/// A process that has the function compiled.
+pub struct Runner {
+    worker: RefCell<Worker>,
+    limit: Duration,
+    /// On what it runs.
+    pub device: String,
+    /// At how many cosines it has run.
+    pub points: Cell<usize>,
+}
+
+/// The most that a wait is told of, in a process that starts, too.
+fn reason(silence: &Silence, limit: Duration) -> Trouble {
+    Trouble::Failed(match silence {
+        Silence::TooLong => format!(
+            "it did not end within {} s: a loop without end, or more work than --limit allows",
+            limit.as_secs()
+        ),
+        Silence::Ended(status) => {
+            format!("the process that ran it ended ({status}): its compiler or driver fell over this text")
+        }
+    })
+}
+
+impl Runner {
+    /// Starts a process and has it compile a program.
+    ///
+    /// # Errors
+    /// No process can be started.
+    pub fn start(
+        code: Code,
+        uniforms: &[Uniform],
+        limit: Duration,
+        scratch: &Path,
+    ) -> Result<Result<Runner, Trouble>, Error> {
+        let words = ["audit", "--worker"].map(OsString::from);
+        let mut worker = Worker::start(&words, &[], scratch)?;
+        let asked = Asked::Prepare(code, uniforms.iter().map(job::Value::of).collect());
+        Ok(match ask(&mut worker, &asked, limit) {
+            Ok(Said::Ready(device)) => Ok(Runner {
+                worker: RefCell::new(worker),
+                limit,
+                device,
+                points: Cell::new(0),
+            }),
+            Ok(said) => Err(trouble(said)),
+            Err(trouble) => Err(trouble),
+        })
+    }
+
+    /// The results at these cosines.
+    pub fn run(&self, cosines: &[f32]) -> Result<Vec<[f32; 3]>, Trouble> {
+        let asked = Asked::Run(cosines.iter().map(|c| c.to_bits()).collect());
+        let said = ask(&mut self.worker.borrow_mut(), &asked, self.limit)?;
+        match said {
+            Said::Ran(results) if results.len() == cosines.len() => {
+                self.points.set(self.points.get() + cosines.len());
+                Ok(results.into_iter().map(|rgb| rgb.map(f32::from_bits)).collect())
+            }
+            other => Err(trouble(other)),
+        }
+    }
+
+    /// The error against the truth. `look` sees every cosine with its result.
+    pub fn error(
+        &self,
+        truth: &Truth,
+        look: &dyn Fn(&[f32], &[[f32; 3]]),
+    ) -> Result<ModelError, Trouble> {
+        let failed: OnceCell<Trouble> = OnceCell::new();
+        let error = error_of(truth, &|cosines| {
+            let single: Vec<f32> = cosines.iter().map(|c| *c as f32).collect();
+            let nothing = || vec![[f32::NAN; 3]; single.len()];
+            // What has failed once is not asked again: each wait takes its time.
+            let got = match failed.get() {
+                Some(_) => nothing(),
+                None => self.run(&single).unwrap_or_else(|trouble| {
+                    let _ = failed.set(trouble);
+                    nothing()
+                }),
+            };
+            if failed.get().is_none() {
+                look(&single, &got);
+            }
+            let channel = |i: usize| Column::Each(got.iter().map(|rgb| f64::from(rgb[i])).collect());
+            Value::Rgb([0, 1, 2].map(channel))
+        });
+        failed.into_inner().map_or(Ok(error), Err)
+    }
+}
+
+fn ask(worker: &mut Worker, asked: &Asked, limit: Duration) -> Result<Said, Trouble> {
+    let line = serde_json::to_string(asked).map_err(|why| Trouble::Failed(why.to_string()))?;
+    worker
+        .ask(&line, limit)
+        .map_err(|silence| reason(&silence, limit))
+}
+
+fn trouble(said: Said) -> Trouble {
+    match said {
+        Said::Absent(why) => Trouble::Absent(why),
+        Said::Refused(who, words) => Trouble::Refused(who, words),
+        Said::Ready(_) | Said::Ran(_) => Trouble::Failed("it answers another question".to_owned()),
+    }
+}

@@ -1,0 +1,304 @@
+//! The functions of a user's file, by their heads. What stands in their bodies is for compilers to judge.
+
+use super::code::{Token, bare, tokens};
+use super::language::Language;
+
+/// A function as its head tells.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Found {
+    /// Its name.
+    pub name: String,
+    /// The line of its name, from 1.
+    pub line: usize,
+    /// The column of its name, from 1.
+    pub column: usize,
+    /// What it takes.
+    pub params: Vec<Parameter>,
+    /// What it gives.
+    pub result: Shape,
+}
+
+/// What a function takes.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Parameter {
+    /// Its name.
+    pub name: String,
+    /// Its type.
+    pub shape: Shape,
+}
+
+/// A type as far as it matters here.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Shape {
+    /// One number.
+    Scalar,
+    /// Three.
+    Rgb,
+    /// Another, as it is written.
+    Other(String),
+}
+
+impl Shape {
+    /// For messages.
+    pub fn text(&self) -> &str {
+        match self {
+            Shape::Scalar => "one number",
+            Shape::Rgb => "three numbers",
+            Shape::Other(written) if written.is_empty() => "nothing",
+            Shape::Other(written) => written,
+        }
+    }
+}
+
+impl Found {
+    /// Whether it can be one of reflectance: numbers in, numbers out, one of them the cosine.
+    pub fn is_candidate(&self) -> bool {
+        let known = |shape: &Shape| !matches!(shape, Shape::Other(_));
+        let scalar = |param: &Parameter| param.shape == Shape::Scalar;
+        known(&self.result)
+            && self.params.iter().all(|param| known(&param.shape))
+            && self.params.iter().any(scalar)
+    }
+}
+
+/// The functions of a text in order.
+pub fn functions(text: &str, language: Language) -> Vec<Found> {
+    let code = bare(text, language.has_preprocessor());
+    let tokens = tokens(&code);
+    let (mut found, mut start, mut at) = (Vec::new(), 0, 0);
+    while let Some(token) = tokens.get(at) {
+        match token.text {
+            "{" => {
+                found.extend(function(&tokens[start..at], language));
+                at = behind(&tokens, at);
+                start = at;
+            }
+            ";" | "}" => {
+                at += 1;
+                start = at;
+            }
+            "(" | "[" => at = behind(&tokens, at),
+            _ => at += 1,
+        }
+    }
+    found
+}
+
+/// The place behind the bracket that closes the one here.
+fn behind(tokens: &[Token], open: usize) -> usize {
+    let mut depth = 0usize;
+    for (at, token) in tokens.iter().enumerate().skip(open) {
+        match token.text {
+            "(" | "[" | "{" => depth += 1,
+            ")" | "]" | "}" => depth -= 1,
+            _ => {}
+        }
+        if depth == 0 {
+            return at + 1;
+        }
+    }
+    tokens.len()
+}
+
+/// The function of a head, where it is one of a function.
+fn function(head: &[Token], language: Language) -> Option<Found> {
+    let name = match language {
+        Language::Wgsl => head.iter().position(|token| token.text == "fn")? + 1,
+        _ => c_name(head)?,
+    };
+    let open = name + 1;
+    if head.get(open)?.text != "(" || !head[name].is_word() {
+        return None;
+    }
+    let close = behind(head, open);
+    let inside = head.get(open + 1..close - 1)?;
+    let params = parts(inside).into_iter();
+    let params = params.filter(|part| !matches!(part, [] | [Token { text: "void", .. }]));
+    let (params, result) = match language {
+        Language::Wgsl => (
+            params.map(wgsl_parameter).collect(),
+            wgsl_result(&head[close..]),
+        ),
+        _ => (
+            params.map(c_parameter).collect(),
+            shape(&without_qualifiers(&head[..name])),
+        ),
+    };
+    Some(Found {
+        name: head[name].text.to_owned(),
+        line: head[name].line,
+        column: head[name].column,
+        params,
+        result,
+    })
+}
+
+/// The place of a function's name in the languages of C's family: before the first parenthesis, behind a type.
+fn c_name(head: &[Token]) -> Option<usize> {
+    let mut at = 0;
+    while head.get(at)?.text == "[" {
+        at = behind(head, at);
+    }
+    let open = head.iter().skip(at).position(|token| token.text == "(")? + at;
+    let is_value = head[..open].iter().any(|token| token.text == "=");
+    (open >= at + 2 && !is_value).then(|| open - 1)
+}
+
+/// What stands between commas that are in no brackets.
+fn parts<'t, 'a>(tokens: &'t [Token<'a>]) -> Vec<&'t [Token<'a>]> {
+    let (mut parts, mut start, mut depth) = (Vec::new(), 0, 0i32);
+    for (at, token) in tokens.iter().enumerate() {
+        match token.text {
+            "(" | "[" | "<" => depth += 1,
+            ")" | "]" | ">" => depth -= 1,
+            "," if depth == 0 => {
+                parts.push(&tokens[start..at]);
+                start = at + 1;
+            }
+            _ => {}
+        }
+    }
+    parts.push(&tokens[start..]);
+    parts
+}
+
+fn joined(tokens: &[Token]) -> String {
+    tokens.iter().map(|token| token.text).collect()
+}
+
+/// `name: type`, attributes before it.
+fn wgsl_parameter(part: &[Token]) -> Parameter {
+    let colon = part.iter().position(|token| token.text == ":");
+    let colon = colon.unwrap_or(part.len());
+    let name = part[..colon].last().map_or("", |token| token.text);
+    Parameter {
+        name: name.to_owned(),
+        shape: shape(&joined(part.get(colon + 1..).unwrap_or(&[]))),
+    }
+}
+
+/// `-> type`, attributes before it.
+fn wgsl_result(after: &[Token]) -> Shape {
+    let arrow = after.iter().position(|token| token.text == ">");
+    let written = arrow.map_or(&[][..], |arrow| &after[arrow + 1..]);
+    shape(&joined(written))
+}
+
+/// `type name`, qualifiers before it, a meaning or a value behind it.
+fn c_parameter(part: &[Token]) -> Parameter {
+    let end = part.iter().position(|t| [":", "="].contains(&t.text));
+    let part = &part[..end.unwrap_or(part.len())];
+    let name = part.iter().rposition(Token::is_word).unwrap_or(0);
+    let gives = |token: &Token| ["out", "inout"].contains(&token.text);
+    let is_array = name + 1 < part.len();
+    let written = if is_array || part.iter().any(gives) {
+        joined(part)
+    } else {
+        without_qualifiers(&part[..name.min(part.len())])
+    };
+    Parameter {
+        name: part.get(name).map_or("", |token| token.text).to_owned(),
+        shape: shape(&written),
+    }
+}
+
+/// Words that say nothing of a type.
+const QUALIFIERS: [&str; 13] = [
+    "const",
+    "in",
+    "highp",
+    "mediump",
+    "lowp",
+    "precise",
+    "invariant",
+    "static",
+    "inline",
+    "uniform",
+    "export",
+    "nointerpolation",
+    "linear",
+];
+
+fn without_qualifiers(tokens: &[Token]) -> String {
+    let kept = tokens.iter().map(|token| token.text);
+    kept.filter(|word| !QUALIFIERS.contains(word)).collect()
+}
+
+fn shape(written: &str) -> Shape {
+    match written {
+        "f32" | "float" | "half" | "min16float" => Shape::Scalar,
+        "vec3<f32>" | "vec3f" | "vec3" | "float3" | "half3" | "min16float3" => Shape::Rgb,
+        other => Shape::Other(other.to_owned()),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[track_caller]
+    fn check(text: &str, language: Language, expected: &[&str]) {
+        let shown = |found: &Found| {
+            let params: Vec<String> = found
+                .params
+                .iter()
+                .map(|param| format!("{} {}", param.name, param.shape.text()))
+                .collect();
+            format!(
+                "{}:{} {}({}) {}",
+                found.line,
+                found.column,
+                found.name,
+                params.join(", "),
+                found.result.text()
+            )
+        };
+        let found: Vec<String> = functions(text, language).iter().map(shown).collect();
+        assert_eq!(found, expected, "{text}");
+    }
+
+    #[test]
+    fn heads_of_wgsl_are_read() {
+        check(
+            "const a = array<f32, 2>(1.0, 2.0);\nstruct S { x: f32 }\n@must_use fn f(\n  c: f32, // c\n f0: vec3<f32>,\n) -> vec3f { if c > 0. { } return f0; }\nfn g() {}",
+            Language::Wgsl,
+            &[
+                "3:14 f(c one number, f0 three numbers) three numbers",
+                "7:4 g() nothing",
+            ],
+        );
+    }
+
+    #[test]
+    fn heads_of_glsl_are_read() {
+        check(
+            "#version 300 es\n#define F(x) { \\\n }\nlayout(std140) uniform B { vec3 a; } b;\nconst float t[2] = float[](1., 2.);\nhighp vec3 f(const in highp float c, vec3 f0, out float d)\n{\n}\nvoid main(void) {}",
+            Language::Gles,
+            &[
+                "6:12 f(c one number, f0 three numbers, d outfloatd) three numbers",
+                "9:6 main() void",
+            ],
+        );
+    }
+
+    #[test]
+    fn heads_of_hlsl_are_read() {
+        check(
+            "static const float t[2] = { 1, 2 };\ncbuffer B : register(b0) { float3 a; };\n[numthreads(1, 1, 1)] void k() {}\nfloat3 f(float c : A, half3 f0 = 1, float x[2]) : SV_Target { }\nfloat g(float c);",
+            Language::Hlsl,
+            &[
+                "3:28 k() void",
+                "4:8 f(c one number, f0 three numbers, x floatx[2]) three numbers",
+            ],
+        );
+    }
+
+    #[test]
+    fn what_is_broken_ends() {
+        for text in ["fn", "fn f(", "}}}{{{", "fn (a: f32) {", "float f( {", "[[["] {
+            for language in [Language::Wgsl, Language::Gles, Language::Hlsl] {
+                let _ = functions(text, language);
+            }
+        }
+    }
+}

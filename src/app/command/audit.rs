@@ -1,0 +1,140 @@
+//! `audit`: a user's own function held against the truth and against ours.
+
+use serde_json::{Value, json};
+
+use crate::app::args::AuditFlags;
+use crate::app::audit::{Audit, Given, Language, serve, text};
+use crate::app::error::Error;
+use crate::app::names::{flag, unknown};
+use crate::app::request::{Materials, Request};
+use crate::app::sight::{flags as sight_flags, sight};
+use crate::app::source::{materials, shader, source};
+use crate::app::verify::{junit, machine};
+use crate::app::write::write_file;
+use crate::cost::{FAMILIES, Family, find};
+use crate::emit::Subject;
+
+use super::{Output, Progress, report, try_places};
+
+/// The GPUs that are asked unless others are named: one of a desktop, one of a phone.
+const USUAL: [&str; 2] = ["rdna2", "adreno330"];
+
+/// Audits.
+pub fn run(flags: &AuditFlags, progress: Progress) -> Result<Output, Error> {
+    if flags.worker {
+        let served = serve();
+        // The supervisor has gone: nobody is there to be told.
+        return Ok(Output {
+            code: u8::from(served.is_err()),
+            ..Output::default()
+        });
+    }
+    if flags.limit == 0 {
+        let what = "--limit is 0 seconds; it is 1 or more".to_owned();
+        return Err(Error::Usage { what });
+    }
+    let request = request(flags)?;
+    let audit = audit(flags)?;
+    let subjects = request.subjects()?;
+    try_places(flags.json.as_deref(), flags.junit.as_deref())?;
+    let row = |(subject, _): &(Subject, String)| audit.row(subject, progress);
+    let rows: Vec<Value> = subjects.ready.iter().map(row).collect::<Result<_, _>>()?;
+    if let Some(file) = &flags.junit {
+        let xml = junit("fresnel-gen audit", &rows).map_err(|what| Error::Usage { what })?;
+        write_file(file, xml.as_bytes())?;
+    }
+    let full = json!({
+        "tool": "fresnel-gen", "command": canonical(flags, &request), "device": rows.first().map(|row| &row["device"]),
+        "rows": rows,
+    });
+    let told: Vec<String> = rows.iter().map(text).collect();
+    let mut output = report(told.join("\n"), &full, flags.json.as_deref())?;
+    output.remarks = rows.iter().flat_map(remarks).collect();
+    output.code = code(&rows);
+    Ok(output)
+}
+
+fn request(flags: &AuditFlags) -> Result<Request, Error> {
+    let materials = materials(&flags.material)?;
+    if materials == Materials::None {
+        let what = "--material is none; an audit holds a function against a material".to_owned();
+        return Err(Error::Usage { what });
+    }
+    Ok(Request {
+        materials,
+        medium: flags.medium.as_deref().map(source).transpose()?,
+        sight: sight(&flags.sight.words(flags.gamut.as_deref()))?,
+        ..Request::default()
+    })
+}
+
+fn audit(flags: &AuditFlags) -> Result<Audit, Error> {
+    let file = flags.file.clone().unwrap_or_default();
+    let language = Language::of(&file, flags.language.as_deref())?;
+    let given = flags.arg.iter().map(|word| Given::read(word));
+    Ok(Audit {
+        given: given.collect::<Result<_, _>>()?,
+        families: families(&flags.gpu)?,
+        text: shader(&file)?,
+        function: flags.function.clone(),
+        seconds: flags.limit,
+        workers: machine::cores(),
+        file,
+        language,
+    })
+}
+
+fn families(names: &[String]) -> Result<Vec<&'static Family>, Error> {
+    let names: Vec<&str> = names.iter().map(String::as_str).collect();
+    match names.as_slice() {
+        ["none"] => return Ok(Vec::new()),
+        ["all"] => return Ok(FAMILIES.iter().collect()),
+        _ => {}
+    }
+    let names = if names.is_empty() { USUAL.to_vec() } else { names };
+    let all: Vec<&str> = FAMILIES.iter().map(|family| family.name).collect();
+    let family = |name: &&str| find(name).ok_or_else(|| unknown("GPU family", name, &all));
+    names.iter().map(family).collect()
+}
+
+/// What is wrong, for stderr.
+fn remarks(row: &Value) -> Vec<String> {
+    let head = match row["status"].as_str() {
+        Some("fail") => "FAIL ",
+        Some("not_checked") => "not checked: ",
+        _ => "",
+    };
+    let reasons = row["reason"].as_str().unwrap_or_default().lines();
+    reasons.map(|reason| format!("{head}{reason}")).collect()
+}
+
+/// 1 for findings; 3 where nothing could be run.
+fn code(rows: &[Value]) -> u8 {
+    let any = |status: &str| rows.iter().any(|row| row["status"] == status);
+    match (any("fail"), any("not_checked")) {
+        (true, _) => 1,
+        (_, true) => 3,
+        _ => 0,
+    }
+}
+
+/// The run's flags in one order, without places.
+fn canonical(flags: &AuditFlags, request: &Request) -> String {
+    let one = |name: &str, word: &Option<String>| flag(name, word.as_slice());
+    let file = flags.file.as_deref().unwrap_or_default();
+    let name = file.rsplit(['/', '\\']).next().unwrap_or(file);
+    let arguments = flags.arg.iter();
+    let arguments: String = arguments
+        .map(|word| flag("arg", std::slice::from_ref(word)))
+        .collect();
+    format!(
+        "audit {}{}{}{arguments}{}{}{}{}",
+        crate::app::names::quoted(name),
+        one("language", &flags.language),
+        one("function", &flags.function),
+        flag("material", &flags.material),
+        one("medium", &flags.medium),
+        sight_flags(&request.sight),
+        flag("gpu", &flags.gpu)
+    )
+}
