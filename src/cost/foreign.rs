@@ -100,7 +100,11 @@ mod tests {
             name: name.to_owned(),
             ty,
         };
-        let params = [param("cos_theta", Ty::Scalar), param("a0", Ty::Rgb), param("a1", Ty::Scalar)];
+        let params = [
+            param("cos_theta", Ty::Scalar),
+            param("a0", Ty::Rgb),
+            param("a1", Ty::Scalar),
+        ];
         let text = hlsl("", &params, 2);
         assert!(text.contains("fg_measured(fg_c1, fg_arguments[1].a0.xyz, fg_arguments[1].a1.x)"));
         assert!(text.contains("fg_c1 = fg_r0.x * fg_r0.y - fg_r0.z + fg_w.z;"));

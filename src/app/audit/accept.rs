@@ -37,7 +37,9 @@ pub fn accepted(language: Language, program: String) -> Accepted {
 /// Chrome's compiler, as the target knows it.
 fn tint(program: &str) -> Option<(&'static str, Verdict)> {
     let validators = find("wgsl").map_or(&[][..], |target: &Target| target.validators);
-    let tint = validators.iter().find(|one| one.compiler.command.is_some())?;
+    let tint = validators
+        .iter()
+        .find(|one| one.compiler.command.is_some())?;
     let compiler: &Compiler = tint.compiler;
     let made = compiled(compiler, tint.options, "shader.wgsl", program);
     Some((compiler.name, made.into()))

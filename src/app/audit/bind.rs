@@ -230,14 +230,38 @@ fn material_value(subject: &Subject, name: &str) -> Option<[f64; 3]> {
     let exact = methods::find(subject.exact_method()).into_iter();
     let exact: Vec<&'static Method> = exact.collect();
     let exact = exact.iter().filter(takes);
-    let method = exact.chain(methods::ALL.iter().filter(takes).filter(fits)).next()?;
+    let method = exact
+        .chain(methods::ALL.iter().filter(takes).filter(fits))
+        .next()?;
     subject.values(method).get(name).copied()
 }
 
 /// Names that mean the cosine, in small letters without `_`.
 const COSINES: [&str; 25] = [
-    "costheta", "costhetai", "cosine", "cosi", "cos", "costh", "ct", "c", "mu", "ndotv", "ndotl", "ndoth",
-    "vdoth", "ldoth", "hdotv", "hdotl", "vdotn", "ldotn", "nov", "nol", "voh", "loh", "vdoth01", "dotnv",
+    "costheta",
+    "costhetai",
+    "cosine",
+    "cosi",
+    "cos",
+    "costh",
+    "ct",
+    "c",
+    "mu",
+    "ndotv",
+    "ndotl",
+    "ndoth",
+    "vdoth",
+    "ldoth",
+    "hdotv",
+    "hdotl",
+    "vdotn",
+    "ldotn",
+    "nov",
+    "nol",
+    "voh",
+    "loh",
+    "vdoth01",
+    "dotnv",
     "dotvh",
 ];
 
@@ -249,9 +273,8 @@ fn cosine(
     subject: &Subject,
 ) -> Result<usize, Error> {
     let plain = |name: &str| name.to_lowercase().replace('_', "");
-    let is_open = |place: &usize| {
-        values[*place].is_none() && function.params[*place].shape == Shape::Scalar
-    };
+    let is_open =
+        |place: &usize| values[*place].is_none() && function.params[*place].shape == Shape::Scalar;
     let is_named = |place: &usize| COSINES.contains(&plain(&function.params[*place].name).as_str());
     let open: Vec<usize> = (0..values.len()).filter(is_open).collect();
     let named: Vec<usize> = open.iter().copied().filter(is_named).collect();
@@ -313,7 +336,15 @@ mod tests {
         let read = |word: &str| Given::read(word).map(|given| given.values).ok();
         assert_eq!(read("f0=.5"), Some(vec![0.5]));
         assert_eq!(read("f0=1.03,.73, .36"), Some(vec![1.03, 0.73, 0.36]));
-        for wrong in ["f0", "f0=", "f0=1,2", "f0=red", "f0=nan", "f0=1e99", "f0=1,2,3,4"] {
+        for wrong in [
+            "f0",
+            "f0=",
+            "f0=1,2",
+            "f0=red",
+            "f0=nan",
+            "f0=1e99",
+            "f0=1,2,3,4",
+        ] {
             assert_eq!(read(wrong), None, "{wrong}");
         }
     }

@@ -77,11 +77,7 @@ pub fn cost(
 }
 
 /// The figures of four shaders: both chains of the function, both of the empty one.
-fn counted(
-    family: &Family,
-    dialect: Dialect,
-    told: Vec<Statistics>,
-) -> Result<Figures, String> {
+fn counted(family: &Family, dialect: Dialect, told: Vec<Statistics>) -> Result<Figures, String> {
     let silent = || "the compiler does not tell instructions".to_owned();
     let [short, long, bare_short, bare_long] =
         <[Statistics; 4]>::try_from(told).map_err(|_| silent())?;
@@ -131,7 +127,7 @@ fn shader(program: &Program, dialect: Dialect, evaluations: usize) -> Result<Lin
     match (language, dialect) {
         (Language::Wgsl, _) => {
             let probe = Probe::of_text(params.clone(), own.clone(), String::new());
-            wgsl(&probe, params.len() > 1, dialect, evaluations)
+            wgsl(&probe, dialect, evaluations)
         }
         (Language::Gles, Dialect::Wgsl) => module(fragment(&foreign::glsl(
             &format!("{PRECISION}{own}"),
@@ -155,7 +151,7 @@ fn empty(language: Language, dialect: Dialect, evaluations: usize) -> Result<Lin
         ty: crate::ir::Ty::Scalar,
     }];
     match (language, dialect) {
-        (Language::Wgsl, _) => wgsl(&probe, false, dialect, evaluations),
+        (Language::Wgsl, _) => wgsl(&probe, dialect, evaluations),
         (Language::Gles, Dialect::Wgsl) => module(fragment(&foreign::glsl(
             foreign::EMPTY_GLSL,
             &none,
@@ -171,23 +167,39 @@ fn empty(language: Language, dialect: Dialect, evaluations: usize) -> Result<Lin
 }
 
 /// WGSL itself, or naga's GLSL ES of it.
-fn wgsl(
-    probe: &Probe,
-    has_arguments: bool,
-    dialect: Dialect,
-    evaluations: usize,
-) -> Result<Line, String> {
+fn wgsl(probe: &Probe, dialect: Dialect, evaluations: usize) -> Result<Line, String> {
     let own = probe.text(evaluations, Dialect::Wgsl);
     match dialect {
         Dialect::Wgsl => text(&own),
         Dialect::Es100 => Err("it takes GLSL ES 1.00, which nothing here makes of WGSL".to_owned()),
-        Dialect::Es300 if has_arguments => Err(
-            "naga's GLSL ES has arguments in a block, which costs another price than ours".to_owned(),
-        ),
         Dialect::Es300 => {
             let made = second::to_gles(&own, ENTRY).map_err(|fault| fault.to_string())?;
             let input = made.inputs.get(&0).map_or("fg_in", String::as_str);
-            text(&made.text.replace(input, "fg_in"))
+            text(&unblocked(&made.text.replace(input, "fg_in")))
         }
+    }
+}
+
+/// Arguments as our own shaders have them: naga puts them in a block, which is read from memory.
+fn unblocked(text: &str) -> String {
+    let line = |line: &str| {
+        let inside = line
+            .strip_prefix("layout(std140) uniform ")
+            .and_then(|rest| rest.split_once('{'))
+            .and_then(|(_, rest)| rest.split_once('}'));
+        inside.map_or_else(|| line.to_owned(), |(inside, _)| format!("uniform{inside}"))
+    };
+    let lines: Vec<String> = text.lines().map(line).collect();
+    lines.join("\n") + "\n"
+}
+
+#[cfg(test)]
+mod tests {
+    use super::unblocked;
+
+    #[test]
+    fn a_block_becomes_a_uniform() {
+        let text = "layout(std140) uniform B_block_0Fragment { B _group_0[8]; };\nvoid main() {}\n";
+        assert_eq!(unblocked(text), "uniform B _group_0[8]; \nvoid main() {}\n");
     }
 }

@@ -159,7 +159,11 @@ mod tests {
     fn edges_are_the_numbers_that_they_are_called() {
         for (edge, value) in EDGES.iter().zip(cosines()) {
             if let Ok(named) = edge.name.parse::<f32>() {
-                assert!(named.to_bits() == value.to_bits() || named.is_nan(), "{}", edge.name);
+                assert!(
+                    named.to_bits() == value.to_bits() || named.is_nan(),
+                    "{}",
+                    edge.name
+                );
             }
         }
     }

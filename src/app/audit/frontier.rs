@@ -131,11 +131,27 @@ mod tests {
 
     #[test]
     fn the_sentence_says_by_how_much() {
-        check(0.09, 28.0, "dominated by fitted: 9 times the error at 1.4 times the cost");
-        check(0.1, 12.0, "dominated by schlick: the same error at 1.2 times the cost");
+        check(
+            0.09,
+            28.0,
+            "dominated by fitted: 9 times the error at 1.4 times the cost",
+        );
+        check(
+            0.1,
+            12.0,
+            "dominated by schlick: the same error at 1.2 times the cost",
+        );
         check(0.01, 20.0, "on the frontier, where fitted is");
-        check(0.05, 12.0, "on the frontier: no method of ours errs less for as little");
-        check(3e-7, 130.0, "dominated by exact: the same error at 1.3 times the cost");
+        check(
+            0.05,
+            12.0,
+            "on the frontier: no method of ours errs less for as little",
+        );
+        check(
+            3e-7,
+            130.0,
+            "dominated by exact: the same error at 1.3 times the cost",
+        );
     }
 
     #[test]

@@ -139,7 +139,9 @@ impl Audit {
         let verdict = match ran {
             Err(Trouble::Refused(who, _)) if who.is_empty() => None,
             Err(Trouble::Refused(_, words)) => Some(Verdict::No(words.clone())),
-            Err(Trouble::Absent(why) | Trouble::Failed(why)) => Some(Verdict::NotChecked(why.clone())),
+            Err(Trouble::Absent(why) | Trouble::Failed(why)) => {
+                Some(Verdict::NotChecked(why.clone()))
+            }
             Ok(_) => Some(Verdict::Yes),
         };
         verdicts.extend(verdict.map(|verdict| (own, verdict)));

@@ -85,11 +85,7 @@ pub fn ours(
 }
 
 /// The cost of each function that was asked for, in order.
-fn costs(
-    family: &'static Family,
-    told: Option<&Told>,
-    functions: &[Function],
-) -> Vec<Option<f64>> {
+fn costs(family: &'static Family, told: Option<&Told>, functions: &[Function]) -> Vec<Option<f64>> {
     let rows = rows(family, told, &records(family.name), functions);
     let cost = |figures: Result<Figures, String>| figures.ok().map(|figures| figures.cost());
     rows.into_iter().map(|row| cost(row.figures)).collect()
@@ -112,7 +108,11 @@ fn error(function: &Function, subject: &Subject) -> f64 {
         let got = evaluate(&function.graph, &arguments);
         let channel = |i: usize| {
             let column = got.channel(i);
-            Column::Each((0..cosines.len()).map(|point| f64::from(column.at(point))).collect())
+            Column::Each(
+                (0..cosines.len())
+                    .map(|point| f64::from(column.at(point)))
+                    .collect(),
+            )
         };
         Value::Rgb([0, 1, 2].map(channel))
     });

@@ -15,7 +15,11 @@ pub fn placed(file: &str, lines: usize, words: &str) -> String {
     let all: Vec<&str> = words.lines().collect();
     // naga says what is wrong in the line before the place.
     let is_arrow = all[i].contains("┌─") || all[i].trim_start().starts_with("-->");
-    let said = if is_arrow && i > 0 { all[i - 1] } else { all[i] };
+    let said = if is_arrow && i > 0 {
+        all[i - 1]
+    } else {
+        all[i]
+    };
     let said = message(said);
     let column = column.map_or(String::new(), |column| format!("{column}:"));
     if line > lines {
@@ -27,8 +31,17 @@ pub fn placed(file: &str, lines: usize, words: &str) -> String {
 
 /// The line and column that a compiler names: `shader.hlsl:3:5: error`, `0:3(5): error`, `ERROR: 0:3:`, `┌─ wgsl:3:5`.
 fn place(line: &str) -> Option<(usize, Option<usize>)> {
-    let marks = ["wgsl:", "shader.hlsl:", "shader.vert:", "shader.frag:", "shader.wgsl:", "0:"];
-    let mark = marks.iter().find_map(|mark| Some(line.find(mark)? + mark.len()))?;
+    let marks = [
+        "wgsl:",
+        "shader.hlsl:",
+        "shader.vert:",
+        "shader.frag:",
+        "shader.wgsl:",
+        "0:",
+    ];
+    let mark = marks
+        .iter()
+        .find_map(|mark| Some(line.find(mark)? + mark.len()))?;
     let rest = &line[mark..];
     let line_number = number(rest)?;
     let after = rest.trim_start_matches(|c: char| c.is_ascii_digit());
@@ -44,7 +57,9 @@ fn number(text: &str) -> Option<usize> {
 /// What is wrong, without the place before it.
 fn message(line: &str) -> &str {
     let heads = ["error:", "ERROR:"];
-    let found = heads.iter().find_map(|head| Some(line.find(head)? + head.len()));
+    let found = heads
+        .iter()
+        .find_map(|head| Some(line.find(head)? + head.len()));
     let rest = found.map_or(line, |at| line[at..].trim_start());
     // glslang: `ERROR: 0:3: 'x' : undeclared identifier`.
     match place(rest) {

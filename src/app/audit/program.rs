@@ -9,7 +9,7 @@ use crate::verify::harness::{self, Call};
 use super::bind::{Argument, Bound};
 use super::code::{bare, tokens};
 use super::language::Language;
-use super::scan::Shape;
+use super::scan::{Shape, without_stage};
 
 /// What our function around theirs is called: as [`crate::cost::Probe`] calls what it measures.
 pub const NAME: &str = "fg_measured";
@@ -94,19 +94,18 @@ fn param(name: &str, ty: Ty) -> Param {
     }
 }
 
-/// Their text in GLSL: names that the program around it has are theirs under other names, and it has a version already.
+/// Their text in GLSL: their shader around it is left out, names that the program around it has are theirs under other names,
+/// and it has a version already.
 fn framed(text: &str, wrapper: &str) -> String {
     let each = |line: fn(&str) -> String| RENAMED.map(line).concat();
     let define = each(|name| format!("#define {name} {THEIRS}{name}\n"));
     let undefine = each(|name| format!("#undef {name}\n"));
+    let text = without_stage(text);
     let kept: Vec<&str> = text
         .lines()
         .map(|line| if is_head(line) { "" } else { line })
         .collect();
-    format!(
-        "{define}#line 1\n{}\n{wrapper}{undefine}",
-        kept.join("\n")
-    )
+    format!("{define}#line 1\n{}\n{wrapper}{undefine}", kept.join("\n"))
 }
 
 /// Whether a line may stand at the head of a program only.
@@ -182,7 +181,9 @@ pub fn check(file: &str, text: &str, language: Language) -> Result<(), Error> {
         })
     };
     for (number, line) in text.lines().enumerate() {
-        let control = line.chars().position(|c| c.is_control() && c != '\t' && c != '\r');
+        let control = line
+            .chars()
+            .position(|c| c.is_control() && c != '\t' && c != '\r');
         if let Some(at) = control {
             return refuse(number + 1, at + 1, "this is not text".to_owned());
         }
@@ -201,7 +202,8 @@ pub fn check(file: &str, text: &str, language: Language) -> Result<(), Error> {
         let includes = ["include", "import"].contains(&token.text);
         let is_directive = at > 0 && tokens[at - 1].text == "#";
         if language.has_preprocessor() && includes && is_directive {
-            let what = "it asks for another file, and one file alone is audited: paste what it needs";
+            let what =
+                "it asks for another file, and one file alone is audited: paste what it needs";
             return refuse(token.line, token.column, what.to_owned());
         }
     }

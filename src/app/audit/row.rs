@@ -51,7 +51,12 @@ impl Row<'_> {
         let function = &self.bound.function.name;
         let ran = self.ran.as_ref().ok();
         let (status, reasons) = self.judged();
-        let dominated: Vec<Value> = self.costs.iter().enumerate().flat_map(|(i, cost)| self.dominated(i, cost)).collect();
+        let dominated: Vec<Value> = self
+            .costs
+            .iter()
+            .enumerate()
+            .flat_map(|(i, cost)| self.dominated(i, cost))
+            .collect();
         json!({
             "target": self.audit.language.target(), "method": function, "material": self.subject.argument,
             "form": "user", "precision": "f32", "function": function, "file": file_name(&self.audit.file),
@@ -67,8 +72,15 @@ impl Row<'_> {
 
     fn arguments(&self) -> Value {
         let value = |argument: &super::bind::Argument| {
-            let from = if argument.is_filled { "material" } else { "--arg" };
-            (argument.name.clone(), json!({ "value": argument.value, "from": from }))
+            let from = if argument.is_filled {
+                "material"
+            } else {
+                "--arg"
+            };
+            (
+                argument.name.clone(),
+                json!({ "value": argument.value, "from": from }),
+            )
         };
         Value::Object(self.bound.arguments.iter().map(value).collect())
     }
@@ -88,7 +100,9 @@ impl Row<'_> {
                 reasons.extend(findings.map(|finding| format!("{place}: {finding}")));
                 if ran.error.undefined > 0 {
                     let count = ran.error.undefined;
-                    reasons.push(format!("{place}: it gives no number at {count} cosines, which no error counts"));
+                    reasons.push(format!(
+                        "{place}: it gives no number at {count} cosines, which no error counts"
+                    ));
                 }
             }
             Err(Trouble::Failed(why)) => reasons.push(format!("{place}: {why}")),
@@ -113,7 +127,10 @@ impl Row<'_> {
     }
 
     fn rivals(&self, place: usize) -> Vec<Rival> {
-        self.ours.iter().filter_map(|ours| ours.rival(place)).collect()
+        self.ours
+            .iter()
+            .filter_map(|ours| ours.rival(place))
+            .collect()
     }
 
     /// The error and the cost on the family of this place, where both are known.
@@ -186,9 +203,15 @@ pub fn text(row: &Value) -> String {
 
 fn lines(row: &Value) -> Vec<(&'static str, String)> {
     let mut lines = Vec::new();
-    let filled: Vec<&str> = list(row, "filled").iter().filter_map(Value::as_str).collect();
+    let filled: Vec<&str> = list(row, "filled")
+        .iter()
+        .filter_map(Value::as_str)
+        .collect();
     if !filled.is_empty() {
-        lines.push(("filled in", format!("{}, as the material has it", filled.join("; "))));
+        lines.push((
+            "filled in",
+            format!("{}, as the material has it", filled.join("; ")),
+        ));
     }
     let accepts = row["accepts"].as_object().into_iter().flatten();
     let accepts: Vec<String> = accepts
@@ -214,7 +237,10 @@ fn edges(row: &Value) -> String {
     let edges = list(row, "edges");
     let wrong = |edge: &&Value| edge["counts"] == true && edge["fault"].is_string();
     let wrong = edges.iter().filter(wrong).count();
-    let beyond: Vec<&str> = list(row, "beyond").iter().filter_map(Value::as_str).collect();
+    let beyond: Vec<&str> = list(row, "beyond")
+        .iter()
+        .filter_map(Value::as_str)
+        .collect();
     let beyond = match beyond.is_empty() {
         true => String::new(),
         false => format!("; beyond them, {}", beyond.join(", ")),
@@ -244,7 +270,9 @@ fn costs_line(row: &Value, cost: &Value) -> String {
     match cost["net"].as_f64() {
         None => format!("{gpu}: not checked: {}", word(cost, "reason")),
         Some(net) => {
-            let says = row["says"][gpu].as_str().unwrap_or("ours are not known there");
+            let says = row["says"][gpu]
+                .as_str()
+                .unwrap_or("ours are not known there");
             format!("{gpu}: {net} ({}): {says}", word(cost, "measure"))
         }
     }

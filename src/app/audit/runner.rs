@@ -24,15 +24,6 @@ pub enum Trouble {
     Failed(String),
 }
 
-impl Trouble {
-    /// For people.
-    pub fn text(&self) -> &str {
-        match self {
-            Trouble::Absent(why) | Trouble::Refused(_, why) | Trouble::Failed(why) => why,
-        }
-    }
-}
-
 /// A process that has the function compiled.
 pub struct Runner {
     worker: RefCell<Worker>,
@@ -43,7 +34,6 @@ pub struct Runner {
     pub points: Cell<usize>,
 }
 
-/// The most that a wait is told of, in a process that starts, too.
 fn reason(silence: &Silence, limit: Duration) -> Trouble {
     Trouble::Failed(match silence {
         Silence::TooLong => format!(
@@ -51,7 +41,9 @@ fn reason(silence: &Silence, limit: Duration) -> Trouble {
             limit.as_secs()
         ),
         Silence::Ended(status) => {
-            format!("the process that ran it ended ({status}): its compiler or driver fell over this text")
+            format!(
+                "the process that ran it ended ({status}): its compiler or driver fell over this text"
+            )
         }
     })
 }
@@ -89,7 +81,10 @@ impl Runner {
         match said {
             Said::Ran(results) if results.len() == cosines.len() => {
                 self.points.set(self.points.get() + cosines.len());
-                Ok(results.into_iter().map(|rgb| rgb.map(f32::from_bits)).collect())
+                Ok(results
+                    .into_iter()
+                    .map(|rgb| rgb.map(f32::from_bits))
+                    .collect())
             }
             other => Err(trouble(other)),
         }
@@ -116,7 +111,8 @@ impl Runner {
             if failed.get().is_none() {
                 look(&single, &got);
             }
-            let channel = |i: usize| Column::Each(got.iter().map(|rgb| f64::from(rgb[i])).collect());
+            let channel =
+                |i: usize| Column::Each(got.iter().map(|rgb| f64::from(rgb[i])).collect());
             Value::Rgb([0, 1, 2].map(channel))
         });
         failed.into_inner().map_or(Ok(error), Err)

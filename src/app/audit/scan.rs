@@ -65,20 +65,72 @@ impl Found {
 pub fn functions(text: &str, language: Language) -> Vec<Found> {
     let code = bare(text, language.has_preprocessor());
     let tokens = tokens(&code);
+    let bodies = declarations(&tokens).into_iter().filter(|one| one.has_body);
+    bodies
+        .filter_map(|one| function(&tokens[one.start..one.head_end], language))
+        .collect()
+}
+
+/// A text of GLSL without what makes a shader of one stage of it, its entry point, inputs and outputs; the rest keeps its place.
+pub fn without_stage(text: &str) -> String {
+    let code = bare(text, true);
+    let tokens = tokens(&code);
+    let is_stage = |one: &&Declaration| {
+        let head = &tokens[one.start..one.head_end];
+        let has = |word: &str| head.iter().any(|token| token.text == word);
+        if one.has_body {
+            function(head, Language::Gles).is_some_and(|found| found.name == "main")
+        } else {
+            !has("(") && ["in", "out", "varying", "attribute"].into_iter().any(has)
+                || head.first().is_some_and(|token| token.text == "layout")
+        }
+    };
+    let place = |token: &Token| (token.line, token.column);
+    let declarations = declarations(&tokens);
+    let spans: Vec<_> = declarations
+        .iter()
+        .filter(is_stage)
+        .map(|one| place(&tokens[one.start])..=place(&tokens[one.end - 1]))
+        .collect();
+    let (mut line, mut column) = (1, 1);
+    let kept = text.chars().map(|c| {
+        let is_cut = c != '\n' && spans.iter().any(|span| span.contains(&(line, column)));
+        (line, column) = if c == '\n' {
+            (line + 1, 1)
+        } else {
+            (line, column + 1)
+        };
+        if is_cut { ' ' } else { c }
+    });
+    kept.collect()
+}
+
+/// A declaration outside all others, by places of words.
+struct Declaration {
+    start: usize,
+    /// Where its body begins, or the sign that ends it.
+    head_end: usize,
+    end: usize,
+    has_body: bool,
+}
+
+/// What ends in `;` or in a body. A block of GLSL has both, and the second is empty.
+fn declarations(tokens: &[Token]) -> Vec<Declaration> {
     let (mut found, mut start, mut at) = (Vec::new(), 0, 0);
     while let Some(token) = tokens.get(at) {
-        match token.text {
-            "{" => {
-                found.extend(function(&tokens[start..at], language));
-                at = behind(&tokens, at);
-                start = at;
-            }
-            ";" | "}" => {
-                at += 1;
-                start = at;
-            }
-            "(" | "[" => at = behind(&tokens, at),
-            _ => at += 1,
+        let head_end = at;
+        at = match token.text {
+            "(" | "[" | "{" => behind(tokens, at),
+            _ => at + 1,
+        };
+        if ["{", ";", "}"].contains(&token.text) {
+            found.push(Declaration {
+                start,
+                head_end,
+                end: at,
+                has_body: token.text == "{",
+            });
+            start = at;
         }
     }
     found
@@ -294,10 +346,37 @@ mod tests {
     }
 
     #[test]
+    fn a_shader_of_glsl_leaves_its_functions() {
+        let text = "in vec3 at; // é\nlayout(location = 0) out vec4 c;\nfloat f(in float x) { return x; }\nvoid main() {\n c = vec4(f(at.x)); }\nfloat g(float x);";
+        let kept = without_stage(text);
+        let lines: Vec<&str> = kept.lines().map(str::trim).collect();
+        assert_eq!(
+            lines,
+            [
+                "// é",
+                "",
+                "float f(in float x) { return x; }",
+                "",
+                "",
+                "float g(float x);"
+            ]
+        );
+        assert_eq!(without_stage("void main() {"), " ".repeat(13));
+    }
+
+    #[test]
     fn what_is_broken_ends() {
-        for text in ["fn", "fn f(", "}}}{{{", "fn (a: f32) {", "float f( {", "[[["] {
+        for text in [
+            "fn",
+            "fn f(",
+            "}}}{{{",
+            "fn (a: f32) {",
+            "float f( {",
+            "[[[",
+        ] {
             for language in [Language::Wgsl, Language::Gles, Language::Hlsl] {
                 let _ = functions(text, language);
+                let _ = without_stage(text);
             }
         }
     }

@@ -38,11 +38,7 @@ pub fn serve() -> io::Result<()> {
     Ok(())
 }
 
-fn prepare(
-    devices: &Devices,
-    code: &Code,
-    uniforms: &[Uniform],
-) -> Result<(Kernel, String), Said> {
+fn prepare(devices: &Devices, code: &Code, uniforms: &[Uniform]) -> Result<(Kernel, String), Said> {
     if let Code::Wgsl(text) = code {
         validate_wgsl(text).map_err(|words| Said::Refused("naga".to_owned(), words))?;
     }

@@ -91,7 +91,11 @@ fn families(names: &[String]) -> Result<Vec<&'static Family>, Error> {
         ["all"] => return Ok(FAMILIES.iter().collect()),
         _ => {}
     }
-    let names = if names.is_empty() { USUAL.to_vec() } else { names };
+    let names = if names.is_empty() {
+        USUAL.to_vec()
+    } else {
+        names
+    };
     let all: Vec<&str> = FAMILIES.iter().map(|family| family.name).collect();
     let family = |name: &&str| find(name).ok_or_else(|| unknown("GPU family", name, &all));
     names.iter().map(family).collect()
