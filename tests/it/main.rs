@@ -2,6 +2,8 @@
 // These lints are for the library. A test that could not check something says so on stderr.
 #![allow(clippy::unwrap_used, clippy::print_stdout, clippy::print_stderr)]
 
+#[cfg(all(feature = "cli", feature = "gpu"))]
+mod audit;
 mod bless;
 mod bounds;
 #[cfg(feature = "cli")]

@@ -202,7 +202,7 @@ fn spread(given: &Given, may_differ: bool) -> Result<[f32; 3], Error> {
         [r, g, b] if may_differ => Ok([*r, *g, *b]),
         _ => Err(Error::Usage {
             what: format!(
-                "--arg {}: the function takes one number there, and gives three; {} are given",
+                "--arg {}: it is one number in a function that gives three, and {} are given",
                 given.name,
                 given.values.len()
             ),

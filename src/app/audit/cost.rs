@@ -1,8 +1,8 @@
 //! What a user's function costs, by the compilers of GPUs: the slope of a chain of it, less the empty function's, as ours.
 
+use core::time::Duration;
 use std::ffi::OsString;
 use std::path::Path;
-use std::time::Duration;
 
 use crate::app::cost::{Said, environment, reason};
 use crate::app::error::Error;

@@ -12,6 +12,7 @@ mod edges;
 mod frontier;
 mod job;
 mod language;
+mod loops;
 mod ours;
 mod place;
 mod program;
@@ -20,8 +21,8 @@ mod runner;
 mod scan;
 mod serve;
 
+use core::time::Duration;
 use std::path::Path;
-use std::time::Duration;
 
 use serde_json::Value;
 
@@ -79,15 +80,18 @@ impl Audit {
         let found = scan::functions(&self.text, self.language);
         let chosen = bind::choose(&self.file, found, self.function.as_deref())?;
         let bound = bind::bind(&self.file, chosen, &self.given, subject)?;
-        let program = Program::new(self.language, &self.text, &bound);
+        let (program, run) = Program::pair(self.language, &self.text, &bound);
         let scratch = scratch()?;
         let mut accepted = accept::accepted(self.language, program.harnessed());
-        let code = std::mem::replace(
-            &mut accepted.code,
-            Err(Fault::NotChecked("it is run".to_owned())),
-        );
+        // Only what its compilers accept as it is gets counters, or is run at all.
+        let code = match accepted.code {
+            Ok(_) if run.text != program.text => {
+                accept::accepted(self.language, run.harnessed()).code
+            }
+            code => code,
+        };
         let ran = match code {
-            Ok(code) => self.run(code, &program, &bound, subject, scratch.path())?,
+            Ok(code) => self.run(code, &run, &bound, subject, scratch.path())?,
             Err(Fault::NotChecked(why)) => Err(Trouble::Absent(why)),
             Err(Fault::Refused(words)) => Err(Trouble::Refused(String::new(), words)),
         };

@@ -9,6 +9,7 @@ use crate::verify::harness::{self, Call};
 use super::bind::{Argument, Bound};
 use super::code::{bare, tokens};
 use super::language::Language;
+use super::loops::{MARK, TURNS, counted, counter};
 use super::scan::{Shape, without_stage};
 
 /// What our function around theirs is called: as [`crate::cost::Probe`] calls what it measures.
@@ -32,8 +33,17 @@ pub struct Program {
 }
 
 impl Program {
-    /// The program of a text.
-    pub fn new(language: Language, text: &str, bound: &Bound) -> Program {
+    /// The program of a text, and the one that is run: its loops count their turns.
+    pub fn pair(language: Language, text: &str, bound: &Bound) -> (Program, Program) {
+        let plain = Program::new(language, text, bound, false);
+        let run = match counted(text, language) {
+            Some(counted) => Program::new(language, &counted, bound, true),
+            None => plain.clone(),
+        };
+        (plain, run)
+    }
+
+    fn new(language: Language, text: &str, bound: &Bound, counts: bool) -> Program {
         let mut params = vec![param("cos_theta", Ty::Scalar)];
         let ty = |argument: &Argument| match argument.is_rgb || argument.is_split() {
             true => Ty::Rgb,
@@ -41,10 +51,15 @@ impl Program {
         };
         let named = bound.arguments.iter().enumerate();
         params.extend(named.map(|(i, argument)| param(&format!("a{i}"), ty(argument))));
-        let wrapper = wrapper(language, bound, &params);
-        let text = match language {
-            Language::Gles => framed(text, &wrapper),
-            _ => format!("{text}\n{wrapper}"),
+        let wrapper = wrapper(language, bound, &params, counts);
+        let counter = match counts {
+            true => counter(language),
+            false => String::new(),
+        };
+        let text = match (language, counts) {
+            (Language::Gles, _) => format!("{counter}{}", framed(text, &wrapper)),
+            (Language::Hlsl, true) => format!("{counter}#line 1\n{text}\n{wrapper}"),
+            _ => format!("{text}\n{wrapper}{counter}"),
         };
         Program {
             language,
@@ -121,7 +136,7 @@ pub fn own_names(words: &str) -> String {
 }
 
 /// Our function around theirs: the cosine, then all others in order; three numbers out.
-fn wrapper(language: Language, bound: &Bound, params: &[Param]) -> String {
+fn wrapper(language: Language, bound: &Bound, params: &[Param], counts: bool) -> String {
     let declared = |param: &Param| {
         let (name, ty) = (format!("fg_{}", param.name), language.ty(param.ty));
         match language {
@@ -145,9 +160,18 @@ fn wrapper(language: Language, bound: &Bound, params: &[Param]) -> String {
     } else {
         call(bound, "x")
     };
+    let body = match (counts, language) {
+        (false, _) => format!("return {value};"),
+        (true, Language::Wgsl) => format!(
+            "fg_turns = 0; let fg_r = {value}; return select(fg_r, {rgb}({MARK:e}), fg_turns > {TURNS});"
+        ),
+        (true, _) => format!(
+            "fg_turns = 0; {rgb} fg_r = {value}; if (fg_turns > {TURNS}) {{ fg_r = {constructor}({MARK:e}, {MARK:e}, {MARK:e}); }} return fg_r;"
+        ),
+    };
     match language {
-        Language::Wgsl => format!("fn {NAME}({list}) -> {rgb} {{ return {value}; }}\n"),
-        _ => format!("{rgb} {NAME}({list}) {{ return {value}; }}\n"),
+        Language::Wgsl => format!("fn {NAME}({list}) -> {rgb} {{ {body} }}\n"),
+        _ => format!("{rgb} {NAME}({list}) {{ {body} }}\n"),
     }
 }
 

@@ -1,9 +1,9 @@
 //! A user's function run in a process of its own, within a time.
 
-use std::cell::{Cell, OnceCell, RefCell};
+use core::cell::{Cell, OnceCell, RefCell};
+use core::time::Duration;
 use std::ffi::OsString;
 use std::path::Path;
-use std::time::Duration;
 
 use crate::app::error::Error;
 use crate::app::worker::{Silence, Worker};
@@ -12,6 +12,7 @@ use crate::gpu::Uniform;
 use crate::ir::{Column, Value};
 
 use super::job::{self, Asked, Code, Said};
+use super::loops::{MARK, TURNS};
 
 /// Why there are no results.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -81,10 +82,8 @@ impl Runner {
         match said {
             Said::Ran(results) if results.len() == cosines.len() => {
                 self.points.set(self.points.get() + cosines.len());
-                Ok(results
-                    .into_iter()
-                    .map(|rgb| rgb.map(f32::from_bits))
-                    .collect())
+                let results = results.into_iter().map(|rgb| rgb.map(f32::from_bits));
+                ended(cosines, results.collect())
             }
             other => Err(trouble(other)),
         }
@@ -117,6 +116,17 @@ impl Runner {
         });
         failed.into_inner().map_or(Ok(error), Err)
     }
+}
+
+/// The results, unless a loop has not ended at one of them.
+fn ended(cosines: &[f32], results: Vec<[f32; 3]>) -> Result<Vec<[f32; 3]>, Trouble> {
+    let endless = results.iter().position(|rgb| *rgb == [MARK; 3]);
+    endless.map_or(Ok(results), |at| {
+        let cosine = cosines[at];
+        Err(Trouble::Failed(format!(
+            "at cos_theta = {cosine:?} its loops have not ended after {TURNS} turns"
+        )))
+    })
 }
 
 fn ask(worker: &mut Worker, asked: &Asked, limit: Duration) -> Result<Said, Trouble> {

@@ -1,0 +1,155 @@
+//! Text that nobody vouches for: whatever it holds, a run ends within a limit, with a word.
+
+use std::time::{Duration, Instant};
+
+use super::{audit, rows};
+use crate::cli::Place;
+
+const FILES: [(&str, &str); 3] = [
+    ("f.wgsl", "fn f(c: f32) -> f32 {\n    var x = c;\n"),
+    ("f.glsl", "float f(float c) {\n    float x = c;\n"),
+    ("f.hlsl", "float f(float c)\n{ float x = c;\n"),
+];
+
+/// Runs a function in every language; its body begins in the third line.
+#[track_caller]
+fn each(bodies: [&str; 3], code: i32, says: &[&str]) {
+    for ((file, head), body) in FILES.into_iter().zip(bodies) {
+        let place = Place::new();
+        place.put(file, format!("{head}{body}"));
+        let line = format!("{file} --material gold --gpu none --limit 5");
+        let start = Instant::now();
+        let Some(ran) = audit(&place, &line) else {
+            continue;
+        };
+        let ran = ran.ends(code);
+        assert!(start.elapsed() < Duration::from_secs(60), "{file}");
+        for says in says {
+            assert!(
+                ran.err.contains(&says.replace("FILE", file)),
+                "{says}: {ran:?}"
+            );
+        }
+    }
+}
+
+#[test]
+fn a_loop_without_end_is_an_error_within_the_limit() {
+    let says = ["FAIL FILE: f: ", "have not ended after 10000 turns"];
+    let c = "    while (x >= 0.0) { x = x * 0.5 + 0.1; }\n    return x;\n}\n";
+    let wgsl = "    loop { x = x * 0.5 + 0.1; if x < 0.0 { break; } }\n    return x;\n}\n";
+    each([wgsl, c, c], 1, &says);
+    let c = "    for (;;) { do { for (; x > 0.0;) x = 0.5; } while (true); }\n    return x;\n}\n";
+    let wgsl = "    loop { while true { for (;;) { x = 0.5; } } }\n    return x;\n}\n";
+    each([wgsl, c, c], 1, &says);
+}
+
+#[test]
+fn a_loop_with_an_end_is_run() {
+    let c = "    for (int i = 0; i < 4; i++) x *= c;\n    return x;\n}\n";
+    let wgsl = "    for (var i = 0; i < 4; i++) { x *= c; }\n    return x;\n}\n";
+    each([wgsl, c, c], 0, &[]);
+}
+
+#[test]
+fn broken_code_is_told_with_file_line_and_column() {
+    let c = "    return x + y;\n}\n";
+    each([c, c, c], 1, &["FAIL FILE:3:"]);
+    for (file, says) in [
+        ("f.wgsl", "f.wgsl:3:16"),
+        ("f.glsl", "f.glsl:3:16"),
+        ("f.hlsl", "f.hlsl:3:16"),
+    ] {
+        let place = Place::new();
+        let head = FILES.iter().find(|(name, _)| *name == file).unwrap().1;
+        place.put(file, format!("{head}{c}"));
+        if let Some(ran) = audit(&place, &format!("{file} --material gold --gpu none")) {
+            assert!(ran.err.contains(says), "{ran:?}");
+        }
+    }
+    let open = "    return x;\n";
+    each([open, open, open], 1, &["FILE:3: at the end of the file"]);
+    let deep = format!(
+        "    return {}x{};\n}}\n",
+        "(".repeat(20_000),
+        ")".repeat(20_000)
+    );
+    each([&deep, &deep, &deep], 1, &["FAIL FILE"]);
+}
+
+#[test]
+fn a_function_that_gives_nan_is_found_and_told() {
+    let c = "    return sqrt(x - 0.5);\n}\n";
+    each(
+        [c, c, c],
+        1,
+        &["at cos_theta = 0 it is NaN", "it gives no number at"],
+    );
+    let c = "    return x * 2.0 - 0.5;\n}\n";
+    each(
+        [c, c, c],
+        1,
+        &[
+            "at cos_theta = 0 it is below 0",
+            "at cos_theta = 1 it is above 1",
+        ],
+    );
+}
+
+#[test]
+fn files_that_are_no_source_are_refused() {
+    let place = Place::new();
+    place.put("huge.wgsl", vec![b' '; (1 << 20) + 1]);
+    place.put("binary.wgsl", [0xFFu8, 0xFE, 0x00, 0x80]);
+    place.put("zero.wgsl", "fn f(c: f32) -> f32 { return c; }\n \u{0}");
+    place.put(
+        "include.hlsl",
+        "#include \"/etc/passwd\"\nfloat f(float c) { return c; }\n",
+    );
+    place.put("folder/file.wgsl", "");
+    for (file, says) in [
+        ("huge.wgsl", "at most 1048576 are read"),
+        ("binary.wgsl", "not UTF-8"),
+        ("zero.wgsl", "zero.wgsl:2:2: this is not text"),
+        ("include.hlsl", "include.hlsl:1:2: it asks for another file"),
+        ("missing.wgsl", "cannot read missing.wgsl"),
+        ("folder.wgsl", "cannot read folder.wgsl"),
+    ] {
+        place.refused(&format!("audit {file} --material gold"), &[says]);
+    }
+    place.refused(
+        "audit folder --language wgsl --material gold",
+        &["not an ordinary file"],
+    );
+}
+
+#[test]
+fn a_row_of_what_fails_has_its_keys() {
+    let place = Place::new();
+    place.put("f.wgsl", "fn f(c: f32) -> f32 { return y; }");
+    let Some(ran) = audit(&place, "f.wgsl --material gold --json -") else {
+        return;
+    };
+    let row = rows(&ran.ends(1)).remove(0);
+    for key in [
+        "target",
+        "method",
+        "material",
+        "form",
+        "precision",
+        "points",
+        "code_error",
+        "model_error",
+        "accepts",
+        "status",
+        "reason",
+        "cost",
+        "dominated_by",
+    ] {
+        assert!(row.get(key).is_some(), "{key}: {row}");
+    }
+    assert_eq!(
+        (&row["status"], &row["accepts"]["naga"]),
+        (&"fail".into(), &"no".into())
+    );
+}
