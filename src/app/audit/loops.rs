@@ -26,6 +26,18 @@ pub fn counted(text: &str, language: Language) -> Option<String> {
     Some(inserted(text, &marks))
 }
 
+/// Whether a macro holds a loop, or makes words that might be one: no turn of it is counted.
+pub fn is_in_macro(text: &str) -> bool {
+    let count = |text: &str| {
+        let words = ["for", "while", "do", "loop"];
+        let tokens = tokens(text);
+        let loops = tokens.iter().filter(|token| words.contains(&token.text));
+        loops.count()
+    };
+    let (whole, code) = (bare(text, false), bare(text, true));
+    count(&whole) > count(&code) || whole.contains("##")
+}
+
 /// The counter, and what counts: before the text where the language wants it declared before it is used.
 pub fn counter(language: Language) -> String {
     match language {
@@ -57,9 +69,11 @@ fn in_body<'a>(tokens: &[Token], at: usize) -> Option<(usize, usize, &'a str)> {
 /// `while (fg_turn(…))`, `for (…; fg_turn(…); …)`. What is to be unrolled has an end, or is refused.
 fn in_condition<'a>(tokens: &[Token], at: usize) -> Option<Vec<(usize, usize, &'a str)>> {
     let is_for = tokens[at].text == "for";
-    let is_unrolled = tokens[at.saturating_sub(5)..at]
-        .iter()
-        .any(|token| token.text == "unroll");
+    let mut before = tokens[..at].iter().rev();
+    let is_unrolled = before.next().is_some_and(|token| token.text == "]")
+        && before
+            .take_while(|token| token.text != "[")
+            .any(|token| token.text == "unroll");
     if !is_for && tokens[at].text != "while" || is_unrolled {
         return None;
     }
@@ -146,6 +160,15 @@ mod tests {
             "for (int i = 0; fg_turn( i < 3) ; i++) {}",
         );
         assert!(IN_BODY.contains(&TURNS.to_string()));
+    }
+
+    #[test]
+    fn loops_in_macros_are_seen() {
+        assert!(is_in_macro("#define EVER for (;;)\nfloat f() { EVER; }"));
+        assert!(is_in_macro("#define GO(a) wh##a\n"));
+        assert!(!is_in_macro(
+            "#define PI 3.1 // for all\nfloat f() { for (;;) {} }"
+        ));
     }
 
     #[test]

@@ -9,7 +9,7 @@ use crate::verify::harness::{self, Call};
 use super::bind::{Argument, Bound};
 use super::code::{bare, tokens};
 use super::language::Language;
-use super::loops::{MARK, TURNS, counted, counter};
+use super::loops::{MARK, TURNS, counted, counter, is_in_macro};
 use super::scan::{Shape, without_stage};
 
 /// What our function around theirs is called: as [`crate::cost::Probe`] calls what it measures.
@@ -211,6 +211,10 @@ pub fn check(file: &str, text: &str, language: Language) -> Result<(), Error> {
         if let Some(at) = control {
             return refuse(number + 1, at + 1, "this is not text".to_owned());
         }
+    }
+    if language.has_preprocessor() && is_in_macro(text) {
+        let what = "a macro holds a loop, or joins words with ##: write it out, so that its turns can be counted";
+        return refuse(1, 1, what.to_owned());
     }
     let code = bare(text, false);
     let tokens = tokens(&code);

@@ -129,7 +129,10 @@ fn names_of_the_program_around_it_do_not_collide() {
         if let Some(ran) = audit(&place, &line) {
             let row = rows(&ran.ends(0)).remove(0);
             // At 90 degrees it is 0, and the law 1.
-            assert!(row["model_error"]["max_abs"].as_f64().unwrap() > 0.999, "{row}");
+            assert!(
+                row["model_error"]["max_abs"].as_f64().unwrap() > 0.999,
+                "{row}"
+            );
         }
     }
     place.put("g.wgsl", "fn fg_main(c: f32) -> f32 { return c; }");

@@ -106,12 +106,17 @@ fn files_that_are_no_source_are_refused() {
         "include.hlsl",
         "#include \"/etc/passwd\"\nfloat f(float c) { return c; }\n",
     );
+    place.put(
+        "macro.glsl",
+        "#define EVER for (;;)\nfloat f(float c) { EVER {} return c; }\n",
+    );
     place.put("folder/file.wgsl", "");
     for (file, says) in [
         ("huge.wgsl", "at most 1048576 are read"),
         ("binary.wgsl", "not UTF-8"),
         ("zero.wgsl", "zero.wgsl:2:2: this is not text"),
         ("include.hlsl", "include.hlsl:1:2: it asks for another file"),
+        ("macro.glsl", "a macro holds a loop"),
         ("missing.wgsl", "cannot read missing.wgsl"),
         ("folder.wgsl", "cannot read folder.wgsl"),
     ] {
