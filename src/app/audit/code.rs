@@ -121,7 +121,7 @@ mod tests {
         let text = "a // b\n#define f \\\n g\n /* c\n /* é */ */d";
         assert_eq!(
             bare(text, true),
-            "a     \n           \n  \n     \n          d"
+            "a     \n           \n  \n     \n           d"
         );
         assert!(bare(text, false).contains("#define f"));
         assert_eq!(bare("/* never ends", true).trim(), "");

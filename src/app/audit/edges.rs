@@ -104,7 +104,16 @@ pub fn judged(results: &[[f32; 3]], most: [f32; 3]) -> Edges {
 #[derive(Debug)]
 pub struct Between {
     most: [f32; 3],
-    first: RefCell<Option<(f32, [f32; 3], &'static str, usize)>>,
+    first: RefCell<Option<Seen>>,
+}
+
+/// The first of its kind.
+#[derive(Clone, Copy, Debug)]
+struct Seen {
+    cosine: f32,
+    rgb: [f32; 3],
+    fault: &'static str,
+    count: usize,
 }
 
 impl Between {
@@ -124,14 +133,24 @@ impl Between {
             let Some(fault) = fault(*rgb, self.most).filter(|_| !is_end) else {
                 continue;
             };
-            let (.., count) = first.get_or_insert((*cosine, *rgb, fault, 0));
-            *count += 1;
+            let seen = first.get_or_insert(Seen {
+                cosine: *cosine,
+                rgb: *rgb,
+                fault,
+                count: 0,
+            });
+            seen.count += 1;
         }
     }
 
     /// What was seen, for people.
     pub fn finding(&self) -> Option<String> {
-        let (cosine, rgb, fault, count) = (*self.first.borrow())?;
+        let Seen {
+            cosine,
+            rgb,
+            fault,
+            count,
+        } = (*self.first.borrow())?;
         let rgb = shown(rgb);
         Some(format!(
             "at cos_theta = {cosine:?} it {fault}: {rgb}; so at {count} cosines between the ends"

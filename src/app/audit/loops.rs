@@ -101,13 +101,12 @@ fn in_condition<'a>(tokens: &[Token], at: usize) -> Option<Vec<(usize, usize, &'
 fn closing(tokens: &[Token], open: usize) -> Option<usize> {
     let mut depth = 0usize;
     for (at, token) in tokens.iter().enumerate().skip(open) {
-        match token.text {
-            "(" => depth += 1,
-            ")" => depth -= 1,
+        match (token.text, depth) {
+            ("(", _) => depth += 1,
+            (")", 1) => return Some(at),
+            (")", 2..) => depth -= 1,
+            (_, 0) => return None,
             _ => {}
-        }
-        if depth == 0 {
-            return (token.text == ")").then_some(at);
         }
     }
     None
@@ -180,6 +179,7 @@ mod tests {
             "while",
             "for (",
             "for (;",
+            "while ) for )",
         ] {
             assert_eq!(counted(text, Language::Hlsl), None, "{text}");
         }

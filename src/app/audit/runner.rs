@@ -14,6 +14,9 @@ use crate::ir::{Column, Value};
 use super::job::{self, Asked, Code, Said};
 use super::loops::{MARK, TURNS};
 
+/// What sees cosines, and the result at each.
+pub type Look<'a> = &'a dyn Fn(&[f32], &[[f32; 3]]);
+
 /// Why there are no results.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Trouble {
@@ -90,11 +93,7 @@ impl Runner {
     }
 
     /// The error against the truth. `look` sees every cosine with its result.
-    pub fn error(
-        &self,
-        truth: &Truth,
-        look: &dyn Fn(&[f32], &[[f32; 3]]),
-    ) -> Result<ModelError, Trouble> {
+    pub fn error(&self, truth: &Truth, look: Look) -> Result<ModelError, Trouble> {
         let failed: OnceCell<Trouble> = OnceCell::new();
         let error = error_of(truth, &|cosines| {
             let single: Vec<f32> = cosines.iter().map(|c| *c as f32).collect();

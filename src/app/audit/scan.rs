@@ -192,8 +192,10 @@ fn c_name(head: &[Token]) -> Option<usize> {
         at = behind(head, at);
     }
     let open = head.iter().skip(at).position(|token| token.text == "(")? + at;
-    let is_value = head[..open].iter().any(|token| token.text == "=");
-    (open >= at + 2 && !is_value).then(|| open - 1)
+    // `t[] = f(`, `cbuffer B : register(`
+    let is_other = |token: &Token| ["=", ":"].contains(&token.text);
+    let is_head = open >= at + 2 && !head[..open].iter().any(is_other);
+    is_head.then(|| open - 1)
 }
 
 /// What stands between commas that are in no brackets.
