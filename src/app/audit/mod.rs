@@ -1,7 +1,7 @@
 //! Audit: a user's own function held against the truth about a material, and against our methods.
 //!
-//! The text is read for heads of functions only ([`scan`]); all else is left to compilers. Ours goes around theirs
-//! ([`program`]), runs in a process of its own ([`runner`], [`serve()`]), so that one that never ends, or takes a driver
+//! The text is read for heads of functions only (`scan`), and for loops (`loops`); all else is left to compilers. Ours goes around
+//! theirs (`program`), runs in a process of its own (`runner`, `serve`), so that one that never ends, or takes a driver
 //! down, is a line of the report; compilers run beside us within times of their own.
 
 mod accept;
