@@ -154,6 +154,7 @@ fn behind(tokens: &[Token], open: usize) -> usize {
 
 /// The function of a head, where it is one of a function.
 fn function(head: &[Token], language: Language) -> Option<Found> {
+    let head = without_attributes(head);
     let name = match language {
         Language::Wgsl => head.iter().position(|token| token.text == "fn")? + 1,
         _ => c_name(head)?,
@@ -185,16 +186,21 @@ fn function(head: &[Token], language: Language) -> Option<Found> {
     })
 }
 
-/// The place of a function's name in the languages of C's family: before the first parenthesis, behind a type.
-fn c_name(head: &[Token]) -> Option<usize> {
+/// A head without `[numthreads(1, 1, 1)]` before it.
+fn without_attributes<'t, 'a>(head: &'t [Token<'a>]) -> &'t [Token<'a>] {
     let mut at = 0;
-    while head.get(at)?.text == "[" {
+    while head.get(at).is_some_and(|token| token.text == "[") {
         at = behind(head, at);
     }
-    let open = head.iter().skip(at).position(|token| token.text == "(")? + at;
+    &head[at..]
+}
+
+/// The place of a function's name in the languages of C's family: before the first parenthesis, behind a type.
+fn c_name(head: &[Token]) -> Option<usize> {
+    let open = head.iter().position(|token| token.text == "(")?;
     // `t[] = f(`, `cbuffer B : register(`
     let is_other = |token: &Token| ["=", ":"].contains(&token.text);
-    let is_head = open >= at + 2 && !head[..open].iter().any(is_other);
+    let is_head = open >= 2 && !head[..open].iter().any(is_other);
     is_head.then(|| open - 1)
 }
 
