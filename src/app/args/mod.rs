@@ -1,7 +1,7 @@
 //! The command line: flags and subcommands.
 
-mod chart;
 mod audit;
+mod chart;
 mod cost;
 mod fit;
 mod stability;
@@ -15,8 +15,8 @@ use clap::{Args, Parser, Subcommand};
 use super::precision::PrecisionFlags;
 use super::sight::Words;
 
-pub use chart::ChartFlags;
 pub use audit::AuditFlags;
+pub use chart::ChartFlags;
 pub use cost::CostFlags;
 pub use fit::FitFlags;
 pub use stability::StabilityFlags;

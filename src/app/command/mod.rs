@@ -57,18 +57,14 @@ pub fn run(cli: &Cli, progress: Progress) -> Result<Output, Error> {
         #[cfg(feature = "gpu")]
         Some(Command::Audit(flags)) => audit::run(flags, progress),
         #[cfg(not(feature = "gpu"))]
-        Some(Command::Verify(_) | Command::Cost(_) | Command::Time(_) | Command::Audit(_)) => Err(Error::Lacking {
-            what: "this program was built without the feature `gpu`, and runs no shaders"
-                .to_owned(),
-        }),
-        Some(Command::Chart(flags)) => chart::run(flags, progress),
-        Some(Command::Fit(flags)) => fit::run(flags, progress),
         Some(Command::Verify(_) | Command::Cost(_) | Command::Time(_) | Command::Audit(_)) => {
             Err(Error::Lacking {
                 what: "this program was built without the feature `gpu`, and runs no shaders"
                     .to_owned(),
             })
         }
+        Some(Command::Chart(flags)) => chart::run(flags, progress),
+        Some(Command::Fit(flags)) => fit::run(flags, progress),
         Some(Command::Stability(flags)) => stability::run(flags, progress),
         Some(Command::Reproduce(flags)) => reproduce::run(flags, progress),
     }
