@@ -83,8 +83,9 @@ pub fn values(method: &Method, channels: &Channels, derivation: &Derivation) -> 
 
 /// The coefficients of a fitted method for what is seen at a cosine.
 pub fn fitted_values(method: &Method, seen: impl Fn(f64) -> [f64; 3]) -> Values {
-    let function = method.function(false);
-    let fitted = function.ok().and_then(|f| fit(&f, &Curve::new(seen)));
+    let fitted = method
+        .shape
+        .and_then(|shape| fit(&shape, &Curve::new(seen)));
     let fitted = fitted.expect("a fitted method's terms tell angles apart; a test fits them all");
     let names = Input::COEFFICIENTS.map(|input| input.name.to_owned());
     names.into_iter().zip(fitted.coefficients).collect()

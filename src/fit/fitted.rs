@@ -1,10 +1,7 @@
 //! The coefficients of a fitted method for what is seen of a material: those with the least largest error over all angles,
 //! channel by channel, without the clip to [0, 1] that comes after.
-//!
-//! What a coefficient multiplies is asked of the function itself: it is linear in them, and each alone stays within [0, 1].
 
-use crate::ir::{Checked, Value, evaluate};
-use crate::methods::unwarped;
+use crate::methods::{Shape, unwarped};
 
 use super::minimax::minimax;
 
@@ -43,23 +40,16 @@ impl Curve {
     }
 }
 
-/// What each coefficient of a linear function multiplies at some cosines: a row for each cosine.
-fn basis(function: &Checked, cosines: &[f64]) -> Vec<Vec<f64>> {
-    let terms = function.params.len() - 1;
-    let alone = |term: usize| {
-        let one = |i: usize| Value::rgb([if i == term { 1.0 } else { 0.0 }; 3]);
-        let cosines = [Value::each(cosines.to_vec())];
-        let arguments: Vec<Value<f64>> = cosines.into_iter().chain((0..terms).map(one)).collect();
-        evaluate(function, &arguments)
-    };
-    let columns: Vec<Value<f64>> = (0..terms).map(alone).collect();
-    let row = |point: usize| columns.iter().map(|column| column.at(point)[0]).collect();
-    (0..cosines.len()).map(row).collect()
+/// What each coefficient of a shape multiplies at a cosine.
+fn row(shape: &Shape, cos_theta: f64) -> Vec<f64> {
+    let mut row = vec![0.0; shape.terms()];
+    shape.add(cos_theta, 1.0, &mut row);
+    row
 }
 
-/// Fits a function that is linear in all its arguments after `cos_theta`. None where its terms do not tell angles apart.
-pub fn fit(function: &Checked, curve: &Curve) -> Option<Fit> {
-    let rows = basis(function, &curve.cosines);
+/// Fits a shape's coefficients. None where its terms do not tell angles apart.
+pub fn fit(shape: &Shape, curve: &Curve) -> Option<Fit> {
+    let rows: Vec<Vec<f64>> = curve.cosines.iter().map(|c| row(shape, *c)).collect();
     let weights = vec![1.0; rows.len()];
     let channel = |i: usize| {
         let wanted: Vec<f64> = curve.seen.iter().map(|seen| seen[i]).collect();

@@ -12,7 +12,7 @@ use crate::ir::Expr;
 use super::half::InHalf;
 use super::input::{Input, Inputs};
 use super::method::{Claim, Claims, Class, Contract, Forms, Light, Method, Over};
-use super::shape::{Base, Shape};
+use super::shape::{Factor, Shape};
 
 /// Where the exchange comes from that finds the coefficients of all fitted methods.
 pub const STIEFEL_1959: Citation = Citation {
@@ -28,8 +28,7 @@ pub(super) const NOT_IN_HALF: &str = "its coefficients are fitted for single pre
 
 /// The shape; of all a in steps of a half, 6.5 has the least 90th percentile over metals and semiconductors.
 const SHAPE: Shape = Shape {
-    base: Base::Exponential(6.5),
-    steps: &[1, 1, 1],
+    factors: &[Factor::Exponential(6.5); 3],
 };
 
 /// The record of this method.

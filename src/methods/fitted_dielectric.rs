@@ -12,12 +12,11 @@ use super::fitted::{NOT_IN_HALF, STIEFEL_1959};
 use super::half::InHalf;
 use super::input::{Input, Inputs};
 use super::method::{Claim, Claims, Class, Contract, Forms, Light, Method, Over};
-use super::shape::{Base, Shape};
+use super::shape::{Factor, Shape};
 
 /// The shape.
 const SHAPE: Shape = Shape {
-    base: Base::Grazing,
-    steps: &[3, 4, 7],
+    factors: &[Factor::Grazing(3), Factor::Grazing(4), Factor::Grazing(7)],
 };
 
 /// The record of this method.

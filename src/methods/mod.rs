@@ -14,7 +14,7 @@ mod shape;
 pub use half::{HalfClaim, InHalf};
 pub use input::{Input, Inputs, find_input};
 pub use method::{Better, Claim, Claims, Class, Contract, Forms, Light, Method, Over, Values};
-pub use shape::{Base, Shape};
+pub use shape::{Factor, Shape};
 
 // BEGIN methods (written by the test `tidy::lists_are_complete` with BLESS=1)
 mod conductor_artistic;
@@ -30,6 +30,7 @@ mod f82_tint;
 mod fitted;
 mod fitted_dielectric;
 mod fitted_five;
+mod fitted_rational;
 mod hoffman_f82;
 mod schlick;
 mod schlick_corrected;
@@ -56,6 +57,7 @@ pub static ALL: &[&Method] = &[
     &fitted::METHOD,
     &fitted_dielectric::METHOD,
     &fitted_five::METHOD,
+    &fitted_rational::METHOD,
     &hoffman_f82::METHOD,
     &schlick::METHOD,
     &schlick_corrected::METHOD,

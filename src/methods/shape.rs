@@ -1,9 +1,8 @@
 //! The shapes of fitted methods: short forms in cos θ that are linear in their coefficients, so that coefficients can be
 //! blended, filtered and integrated over a spectrum.
 //!
-//! `F = c0 + b^g1 (c1 + b^g2 (c2 + ...))`, b being a base that runs from small at normal incidence to 1 at grazing. The
-//! steps g are whole; powers of the base are shared between channels, and a coefficient costs one multiplication and one
-//! addition a channel.
+//! `F = c0 + f1 (c1 + f2 (c2 + ...))`: each factor f is a function of c = cos θ alone, shared between channels, and a coefficient
+//! costs one multiplication and one addition a channel.
 //!
 //! The mean over the hemisphere, `2 ∫ F c dc`, is linear too: what multiplies a coefficient is a constant of the shape
 //! ([`Shape::averages`]). Kulla and Conty, "Revisiting Physically Based Shading at Imageworks", SIGGRAPH course, 2017,
@@ -11,79 +10,78 @@
 //! microfacet models", 2019, <https://blog.selfshadow.com/publications/turquin/ms_comp_final.pdf>, ask for it.
 
 use crate::ir::Expr;
+use crate::num::Legendre;
 
 use super::input::{Input, Inputs};
 
-/// What the powers of a shape are of, for a cosine c in [0, 1].
+/// A factor, for a cosine c in [0, 1].
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Base {
-    /// `1 - c`.
-    Grazing,
+pub enum Factor {
+    /// `(1 - c)^p`.
+    Grazing(u32),
     /// `2^(-a c)`.
     Exponential(f64),
-    /// `(1 - c)² / (1 + a c)`.
-    Rational(f64),
+    /// `c`.
+    Cosine,
+    /// `c² + e`.
+    Square(f64),
+    /// `c + p`: a part of the following.
+    Shifted(f64),
+    /// `1 / (c + p)`.
+    Reciprocal(f64),
+    /// `1 / √(c + p)`.
+    Root(f64),
+    /// `1 / (c² + e) - 1 / √(c + p)`, as (e, p).
+    Peak(f64, f64),
 }
 
 /// A shape.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Shape {
-    /// What its powers are of.
-    pub base: Base,
-    /// By how much the power grows from one coefficient to the next.
-    pub steps: &'static [u32],
+    /// What stands before each bracket, the outermost first.
+    pub factors: &'static [Factor],
 }
+
+/// Points of the rule for means: factors are smooth, and more change nothing.
+const POINTS: usize = 64;
 
 impl Shape {
     /// The formula, for a method whose inputs are its coefficients. It is limited to [0, 1], which costs nothing on a GPU.
     pub fn build<'b>(&self, x: &Inputs<'b>) -> Expr<'b> {
-        let c = x.cosine();
-        let b = self.base.build(c).named("b", self.base.text());
-        let mut sum = x.get(Input::COEFFICIENTS[self.steps.len()]);
-        let terms = Input::COEFFICIENTS[..self.steps.len()].iter().rev();
-        for (step, input) in self.steps.iter().rev().zip(terms) {
-            sum = x.get(*input) + power(b, *step) * sum;
+        let mut made = Made::of(x.cosine());
+        let mut sum = x.get(Input::COEFFICIENTS[self.factors.len()]);
+        let terms = Input::COEFFICIENTS[..self.factors.len()].iter().rev();
+        for (factor, input) in self.factors.iter().rev().zip(terms) {
+            sum = x.get(*input) + made.factor(*factor) * sum;
             sum = sum.named(&input.name.replace('c', "sum"), "");
         }
         sum.saturate()
     }
-}
 
-impl Shape {
     /// How many coefficients it has.
     pub fn terms(&self) -> usize {
-        self.steps.len() + 1
-    }
-
-    /// The power of the base that each coefficient multiplies: 0 for the first.
-    pub fn powers(&self) -> Vec<u32> {
-        let grown = self.steps.iter().scan(0, |power, step| {
-            *power += step;
-            Some(*power)
-        });
-        [0].into_iter().chain(grown).collect()
+        self.factors.len() + 1
     }
 
     /// Adds to each of these sums, one a coefficient, a weight times what that coefficient multiplies at a cosine in [0, 1].
     pub fn add(&self, c: f64, weight: f64, sums: &mut [f64]) {
-        let b = self.base.at(c);
         let mut term = weight;
-        for (i, sum) in sums.iter_mut().enumerate() {
-            if i > 0 {
-                term *= whole_power(b, self.steps[i - 1]);
-            }
+        sums[0] += term;
+        for (factor, sum) in self.factors.iter().zip(&mut sums[1..]) {
+            term *= factor.at(c);
             *sum += term;
         }
     }
 
-    /// What multiplies each coefficient in the mean over the hemisphere, of the form before its limit: `2 ∫ b^p c dc` over c
-    /// from 0 to 1, in closed form, within 1e-15.
+    /// What multiplies each coefficient in the mean over the hemisphere, of the form before its limit: twice the integral of its
+    /// factors times c, over c from 0 to 1, by Gauss's rule, within 1e-14.
     pub fn averages(&self) -> Vec<f64> {
-        let powers = self.powers();
-        powers
-            .iter()
-            .map(|power| self.base.average(*power))
-            .collect()
+        let mut sums = vec![0.0; self.terms()];
+        for (c, weight) in Legendre::new(POINTS).over(0.0, 1.0) {
+            self.add(c, 2.0 * c * weight, &mut sums);
+        }
+        sums[0] = 1.0;
+        sums
     }
 
     /// The mean over the hemisphere of coefficients: their sum, each times its constant. It is limited to [0, 1].
@@ -95,82 +93,70 @@ impl Shape {
     }
 }
 
-impl Base {
-    /// What powers are of, at a cosine in [0, 1].
+impl Factor {
+    /// Its value at a cosine in [0, 1].
     fn at(self, c: f64) -> f64 {
         match self {
-            Base::Grazing => 1.0 - c,
-            Base::Exponential(a) => libm::exp2(-a * c),
-            Base::Rational(a) => (1.0 - c) * (1.0 - c) / (1.0 + a * c),
+            Factor::Grazing(power) => (0..power).fold(1.0, |whole, _| whole * (1.0 - c)),
+            Factor::Exponential(a) => libm::exp2(-a * c),
+            Factor::Cosine => c,
+            Factor::Square(e) => c * c + e,
+            Factor::Shifted(p) => c + p,
+            Factor::Reciprocal(p) => 1.0 / (c + p),
+            Factor::Root(p) => 1.0 / (c + p).sqrt(),
+            Factor::Peak(e, p) => 1.0 / (c * c + e) - Factor::Root(p).at(c),
         }
     }
+}
 
-    /// `2 ∫ b^p c dc` over c from 0 to 1.
-    ///
-    /// - Of `(1 - c)^p`: Euler's beta function, `2 B(2, p + 1) = 2 / ((p + 1) (p + 2))`.
-    /// - Of `e^(-k c)`, k = a p ln 2, in parts: `2 (1 - (1 + k) e^(-k)) / k²`.
-    /// - Of `(1 - c)^(2p) / (1 + a c)^p`: with u = 1 + a c and A = 1 + a it is
-    ///   `2 / a^(2p + 2) ∫ (A - u)^(2p) (u - 1) u^(-p) du` over u from 1 to A, whole powers of u once the bracket is
-    ///   multiplied out.
-    fn average(self, power: u32) -> f64 {
-        let p = f64::from(power);
-        match self {
-            _ if power == 0 => 1.0,
-            Base::Grazing => 2.0 / ((p + 1.0) * (p + 2.0)),
-            Base::Exponential(a) => {
-                let k = a * p * std::f64::consts::LN_2;
-                2.0 * (1.0 - (1.0 + k) * libm::exp2(-a * p)) / (k * k)
+/// Factors as steps of a graph, each made once.
+struct Made<'b> {
+    c: Expr<'b>,
+    known: Vec<(Factor, Expr<'b>)>,
+}
+
+impl<'b> Made<'b> {
+    fn of(c: Expr<'b>) -> Made<'b> {
+        let known = Vec::new();
+        Made { c, known }
+    }
+
+    fn factor(&mut self, factor: Factor) -> Expr<'b> {
+        let known = self.known.iter().find(|(other, _)| *other == factor);
+        if let Some((_, made)) = known {
+            return *made;
+        }
+        let made = self.make(factor);
+        self.known.push((factor, made));
+        made
+    }
+
+    fn make(&mut self, factor: Factor) -> Expr<'b> {
+        let c = self.c;
+        match factor {
+            Factor::Grazing(1) => (1.0 - c).named("b", "0 at normal incidence, 1 at grazing"),
+            Factor::Grazing(p) => power(self.factor(Factor::Grazing(1)), p),
+            Factor::Exponential(a) => {
+                let b = (-a * c).exp2();
+                b.named("b", "small at normal incidence, 1 at grazing")
             }
-            Base::Rational(a) => rational_average(a, power),
-        }
-    }
-
-    fn build<'b>(self, c: Expr<'b>) -> Expr<'b> {
-        match self {
-            Base::Grazing => 1.0 - c,
-            Base::Exponential(a) => (-a * c).exp2(),
-            Base::Rational(a) => (1.0 - c).named("m", "").squared() / (1.0 + a * c),
-        }
-    }
-
-    fn text(self) -> &'static str {
-        match self {
-            Base::Grazing | Base::Rational(_) => "0 at normal incidence, 1 at grazing",
-            Base::Exponential(_) => "small at normal incidence, 1 at grazing",
+            Factor::Cosine => c,
+            Factor::Square(e) => (c * c + e).named("q", ""),
+            Factor::Shifted(p) => (c + p).named("l", ""),
+            Factor::Reciprocal(p) => (1.0 / self.factor(Factor::Shifted(p))).named("r", ""),
+            Factor::Root(p) => {
+                let root = self.factor(Factor::Shifted(p)).inverse_sqrt();
+                root.named("q", "")
+            }
+            Factor::Peak(e, p) => {
+                let root = self.factor(Factor::Root(p));
+                (1.0 / (c * c + e) - root).named("a", "large at grazing")
+            }
         }
     }
 }
 
-/// `2 ∫ ((1 - c)² / (1 + a c))^p c dc` over c from 0 to 1: see [`Base::average`].
-fn rational_average(a: f64, power: u32) -> f64 {
-    let (end, n) = (1.0 + a, 2 * power);
-    let (mut sum, mut binomial) = (0.0, 1.0);
-    for j in 0..=n {
-        let e = j.cast_signed() - power.cast_signed();
-        let sign = if j % 2 == 0 { 1.0 } else { -1.0 };
-        let factor = sign * binomial * whole_power(end, n - j);
-        sum += factor * (power_integral(end, e + 1) - power_integral(end, e));
-        binomial *= f64::from(n - j) / f64::from(j + 1);
-    }
-    2.0 * sum / whole_power(a, n + 2)
-}
-
-/// `∫ u^e du` over u from 1 to `end`.
-fn power_integral(end: f64, e: i32) -> f64 {
-    let power = whole_power(end, (e + 1).unsigned_abs());
-    match e + 1 {
-        0 => libm::log(end),
-        n if n < 0 => (1.0 / power - 1.0) / f64::from(n),
-        n => (power - 1.0) / f64::from(n),
-    }
-}
-
-/// A whole power by multiplications, the same to the last bit everywhere.
-fn whole_power(b: f64, exponent: u32) -> f64 {
-    (0..exponent).fold(1.0, |power, _| power * b)
-}
-
-/// The same as steps of a graph, the lower factors first, so that powers share what they can.
+/// A whole power by multiplications, the lower factors first, so that powers share what they can.
 fn power(b: Expr<'_>, exponent: u32) -> Expr<'_> {
     let (mut whole, mut reached) = (None::<Expr<'_>>, 0);
     let (mut square, mut place) = (b, 1);
@@ -195,21 +181,42 @@ fn named_power(power: Expr<'_>, exponent: u32) -> Expr<'_> {
 mod tests {
     use super::*;
     use crate::methods::ALL;
-    use crate::num::Legendre;
 
+    fn close(one: &[f64], other: &[f64]) {
+        assert_eq!(one.len(), other.len());
+        for (one, other) in one.iter().zip(other) {
+            assert!((one - other).abs() < 1e-14, "{one} {other}");
+        }
+    }
+
+    /// Of (1 - c)^p, Euler's beta function: 2 / ((p + 1) (p + 2)). Of e^(-k c), k = a p ln 2, in parts:
+    /// 2 (1 - (1 + k) e^(-k)) / k². Of c e^(-k c) in parts again: 2 (2 - (2 + 2 k + k²) e^(-k)) / k³.
     #[test]
-    fn averages_are_the_integrals() {
-        let shapes: Vec<Shape> = ALL.iter().filter_map(|method| method.shape).collect();
-        assert_eq!(shapes.len(), 3);
-        let rule = Legendre::new(64);
+    fn averages_are_the_closed_forms() {
+        let powers = Shape {
+            factors: &[Factor::Grazing(3), Factor::Grazing(4)],
+        };
+        close(&powers.averages(), &[1.0, 2.0 / 20.0, 2.0 / 72.0]);
+        let exponential = Shape {
+            factors: &[Factor::Exponential(6.5), Factor::Cosine],
+        };
+        let k = 6.5 * std::f64::consts::LN_2;
+        let end = libm::exp2(-6.5);
+        let once = 2.0 * (1.0 - (1.0 + k) * end) / (k * k);
+        let twice = 2.0 * (2.0 - (2.0 + 2.0 * k + k * k) * end) / (k * k * k);
+        close(&exponential.averages(), &[1.0, once, twice]);
+    }
+
+    /// A rule of fewer points gives the same: none of the factors is too steep for it.
+    #[test]
+    fn averages_of_all_shapes_are_the_integrals() {
+        let shapes = ALL.iter().filter_map(|method| method.shape);
         for shape in shapes {
-            let mut sums = vec![0.0; shape.powers().len()];
-            for (c, weight) in rule.over(0.0, 1.0) {
+            let mut sums = vec![0.0; shape.terms()];
+            for (c, weight) in Legendre::new(40).over(0.0, 1.0) {
                 shape.add(c, 2.0 * c * weight, &mut sums);
             }
-            for (sum, average) in sums.iter().zip(shape.averages()) {
-                assert!((sum - average).abs() < 1e-14, "{shape:?}: {sum} {average}");
-            }
+            close(&shape.averages(), &sums);
         }
     }
 }

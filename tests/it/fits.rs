@@ -6,6 +6,7 @@ use std::path::Path;
 use std::sync::OnceLock;
 
 use fresnel_gen::app::{Materials, Request};
+use fresnel_gen::cost::records;
 use fresnel_gen::cost::statistics::quantile;
 use fresnel_gen::emit::Subject;
 use fresnel_gen::fit::{ModelError, model_error};
@@ -190,10 +191,12 @@ fn the_catalogue_is_followed_as_promised_and_recorded() {
     };
     let [four, five, schlick] = ["fitted", "fitted_five", "schlick"].map(|name| of(name, &absorbs));
     assert_eq!(four.len(), 75);
+    let rational = of("fitted_rational", &absorbs);
     let glasses = of("fitted_dielectric", &glass);
     assert!(glasses.len() >= 35, "{}", glasses.len());
     for (name, rows, middle, limit) in [
         ("four coefficients", &four, 0.0020, 0.0036),
+        ("four without an exponential", &rational, 0.0020, 0.0036),
         ("five coefficients", &five, 0.0006, 0.0027),
         ("dielectrics", &glasses, 0.0020, 0.0020),
     ] {
@@ -212,4 +215,25 @@ fn the_catalogue_is_followed_as_promised_and_recorded() {
         .and_then(|row| row.error.mean_rel)
         .expect("water is there");
     assert!(relative <= 0.007, "water: {relative}");
+}
+
+/// What the methods are for: no dearer than Schlick's on phones, than F82-tint on a desktop. Shares of a rival's recorded cost.
+#[test]
+fn each_is_as_cheap_as_was_promised() {
+    for (gpu, method, rival, most) in [
+        ("adreno330", "fitted", "schlick", 1.1),
+        ("malig72", "fitted_rational", "schlick", 1.1),
+        ("rdna2", "fitted", "f82_tint", 1.0),
+        ("adreno330", "fitted_five", "f82_tint", 1.6),
+        ("adreno330", "fitted_five", "schlick_rescaled", 1.0),
+        ("malig72", "fitted_five", "f82_tint", 1.6),
+        ("malig72", "fitted_five", "schlick_rescaled", 1.0),
+        ("rdna2", "fitted_five", "f82_tint", 1.6),
+        ("rdna2", "fitted_five", "schlick_rescaled", 1.0),
+    ] {
+        let record = records(gpu);
+        let cost = |name: &str| record.library(name).expect("it is recorded").cost();
+        let share = cost(method) / cost(rival);
+        assert!(share <= most, "{method} on {gpu}: {share} of {rival}");
+    }
 }

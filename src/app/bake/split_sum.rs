@@ -158,7 +158,7 @@ fn row(
         "max_abs": most(steps), "mean_rel": null, "term_max_abs": steps, "weights": "steps of 1/256, as GPUs filter",
         "exact_weights": { "max_abs": most(exact), "term_max_abs": exact }, "least_roughness": LEAST_ROUGHNESS,
         "depth": format.depth().name(), "bytes": request.size * request.size * format.depth().bytes(),
-        "channels": CHANNELS, "powers": shape.powers(), "averages": shape.averages(),
+        "channels": CHANNELS, "averages": shape.averages(),
         "albedo": "c0 T0 + c1 T1 + c2 T2 + c3 T3", "alpha": "roughness^2",
         "distribution": "GGX, height-correlated Smith masking",
         "lookup": {

@@ -1,0 +1,81 @@
+//! `F = c0 + a (c1 + r (c2 + q c3))`, `r = 1 / (c + .144)`, `q = √r`, `a = 1 / (c² + .112) - q`, c = cos θ: four coefficients a
+//! channel, without an exponential.
+//!
+//! Source: ours, as [`fitted`](super::fitted), by the exchange of Stiefel 1959, <https://doi.org/10.1007/BF01386369>. The nest and
+//! its constants are what a search among products of cheap factors found for Mali-G72, where an exponential is dear: half a
+//! bundle above Schlick. On others [`fitted`](super::fitted) is cheaper, and no worse.
+//! Domain: any coefficients; the result is limited to [0, 1]. Error: see [`METHOD`]'s claims.
+
+use crate::ir::Expr;
+
+use super::fitted::{NOT_IN_HALF, STIEFEL_1959};
+use super::half::InHalf;
+use super::input::{Input, Inputs};
+use super::method::{Claim, Claims, Class, Contract, Forms, Light, Method, Over};
+use super::shape::{Factor, Shape};
+
+/// The shape.
+const SHAPE: Shape = Shape {
+    factors: &[
+        Factor::Peak(0.112, 0.144),
+        Factor::Reciprocal(0.144),
+        Factor::Root(0.144),
+    ],
+};
+
+/// The record of this method.
+pub static METHOD: Method = Method {
+    name: "fitted_rational",
+    summary: "four coefficients fitted to a metal or semiconductor, without an exponential",
+    formula: &[
+        "F = c0 + a (c1 + r (c2 + q c3)), limited to [0, 1]",
+        "r = 1 / (c + 0.144), q = sqrt(r), a = 1 / (c^2 + 0.112) - q",
+    ],
+    source: STIEFEL_1959,
+    inputs: &[Input::C0, Input::C1, Input::C2, Input::C3],
+    forms: Forms::ColourAndScalar,
+    class: Class::Any,
+    light: Light::Unpolarised,
+    domain: "any coefficients; limited to [0, 1]",
+    claims: Claims {
+        model: &[
+            Claim {
+                over: Over::Dielectrics,
+                max_abs: 0.0034,
+                at_degrees: 48.4,
+            },
+            Claim {
+                over: Over::Metals,
+                max_abs: 0.0098,
+                at_degrees: 64.8,
+            },
+        ],
+        code_ulp: 6.0,
+        code_over: Over::Metals,
+    },
+    contract: Contract::Kept,
+    half: InHalf::Refused(NOT_IN_HALF),
+    build,
+    plain: None,
+    specialised: None,
+    shape: Some(SHAPE),
+};
+
+fn build<'b>(x: &Inputs<'b>) -> Expr<'b> {
+    SHAPE.build(x)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::limits::check;
+    use super::METHOD;
+
+    #[test]
+    fn it_is_c0_and_what_its_factors_add() {
+        check(&METHOD, 1.0, &[0.5, 0.0, 0.0, 0.0], 0.5);
+        // a is 1/.112 - 1/√.144 at grazing.
+        let a = 1.0 / 0.112 - 1.0 / 0.144_f64.sqrt();
+        check(&METHOD, 0.0, &[0.25, 0.5 / a, 0.0, 0.0], 0.75);
+        check(&METHOD, 0.0, &[0.25, 0.0, 0.5 * 0.144 / a, 0.0], 0.75);
+    }
+}
