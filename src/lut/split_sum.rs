@@ -120,7 +120,7 @@ impl SplitSum {
 /// Refuses a side that a table cannot have.
 ///
 /// # Errors
-/// Fewer than [`LEAST_TEXELS`], more than [`MOST_SIDE`].
+/// Fewer than [`LEAST_TEXELS`], or more than a texture may have.
 pub fn check_side(size: usize) -> Result<(), Error> {
     if (LEAST_TEXELS..=MOST_SIDE).contains(&size) {
         Ok(())
