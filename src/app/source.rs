@@ -62,7 +62,12 @@ pub fn read(name: &str) -> Result<String, Error> {
 
 /// The text of a file with a function of a user's.
 pub fn shader(name: &str) -> Result<String, Error> {
-    read_within(LARGEST_SHADER, name)
+    let text = read_within(LARGEST_SHADER, name)?;
+    // Some editors begin a file with a mark of its bytes' order.
+    Ok(text
+        .strip_prefix('\u{feff}')
+        .map(str::to_owned)
+        .unwrap_or(text))
 }
 
 fn read_within(largest: u64, name: &str) -> Result<String, Error> {

@@ -37,6 +37,11 @@ pub enum Error {
         /// The coefficients.
         terms: usize,
     },
+    /// A split-sum table whose terms lie beyond 1.
+    #[error(
+        "the terms of this form reach beyond 1, which integers cannot hold and half precision holds poorly: fitted and fitted_dielectric stay below"
+    )]
+    Range,
     /// An encoder refused.
     #[error("the table cannot be written as {format}: {why}")]
     Encode {

@@ -129,11 +129,17 @@ pub fn check_side(size: usize) -> Result<(), Error> {
     }
 }
 
-/// Refuses a shape of more terms than a texture has channels.
+/// Refuses a shape of more terms than a texture has channels, and one whose terms a texture does not hold.
 fn check_terms(shape: &Shape) -> Result<(), Error> {
-    match shape.terms() {
-        terms if terms <= TERMS => Ok(()),
-        terms => Err(Error::Terms { terms }),
+    let terms = shape.terms();
+    if terms > TERMS {
+        return Err(Error::Terms { terms });
+    }
+    let mut at_grazing = vec![0.0; terms];
+    shape.add(0.0, 1.0, &mut at_grazing);
+    match at_grazing.iter().all(|term| *term <= 1.0) {
+        true => Ok(()),
+        false => Err(Error::Range),
     }
 }
 

@@ -38,9 +38,17 @@ impl Row {
             "terms": self.coefficients.len(), "shape": self.method.formula, "shared": true,
             "coefficients": self.channels(), "max_abs": self.max_abs, "mean_rel": self.mean_rel, "cost": self.cost,
         });
-        if self.mean_rel.is_none() {
-            row["reason"] =
-                json!("a channel reflects nothing at some angle: it has no relative error");
+        let reasons = [
+            (
+                self.mean_rel.is_none(),
+                "a channel that reflects nothing has no relative error",
+            ),
+            (self.cost.is_none(), "its cost is not recorded there"),
+        ];
+        let lacking = reasons.into_iter().filter(|(lacks, _)| *lacks);
+        let lacking: Vec<&str> = lacking.map(|(_, why)| why).collect();
+        if !lacking.is_empty() {
+            row["reason"] = json!(lacking.join("; "));
         }
         if let Some(follows) = &self.follows {
             row["follows"] = follows.iter().map(followed).collect();
@@ -130,7 +138,7 @@ fn remarks(rows: &[Row]) -> String {
     let remark = |(channel, follows): (&str, Follows)| match follows {
         Follows::Law(index) => format!("{channel}: n {:.4}, k {:.4}\n", index.n, index.k),
         Follows::Tint { tint, .. } => format!(
-            "{channel}: no index has these colours; it follows f82_tint with a tint of {tint:.4}\n"
+            "{channel}: no index below an F0 of .985 has these colours; it follows f82_tint with a tint of {tint:.4}\n"
         ),
     };
     "\n".to_owned() + &channels.map(remark).collect::<String>()

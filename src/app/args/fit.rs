@@ -6,6 +6,19 @@ use clap::Args;
 
 use super::SightFlags;
 
+/// What says nothing of two colours.
+const NO_MATERIAL: [&str; 9] = [
+    "material",
+    "medium",
+    "space",
+    "illuminant",
+    "observer",
+    "adaptation",
+    "step",
+    "wavelengths",
+    "extrapolate",
+];
+
 /// The flags of fits.
 #[derive(Args, Debug)]
 #[command(
@@ -18,8 +31,11 @@ pub struct FitFlags {
     /// Only forms with so many coefficients: 4 or 5
     #[arg(long, value_name = "N")]
     pub terms: Option<usize>,
+    /// Only forms that all materials share: today all are
+    #[arg(long)]
+    pub shared: bool,
     /// No material: reflectance at 0 degrees, three numbers from 0 to 1; with --f82
-    #[arg(long, value_delimiter = ',', value_name = "R,G,B", requires = "f82", conflicts_with_all = ["material", "medium"])]
+    #[arg(long, value_delimiter = ',', value_name = "R,G,B", requires = "f82", conflicts_with_all = NO_MATERIAL)]
     pub f0: Vec<f64>,
     /// And at 81.79 degrees (cos θ = 1/7)
     #[arg(long, value_delimiter = ',', value_name = "R,G,B", requires = "f0")]

@@ -194,6 +194,56 @@ fn call(bound: &Bound, channel: &str) -> String {
     format!("{}({})", bound.function.name, all.join(", "))
 }
 
+/// What ends a line in WGSL, and is a character like others elsewhere.
+fn is_line_end(c: char) -> bool {
+    ['\u{2028}', '\u{2029}'].contains(&c)
+}
+
+/// The line at which comments could be read in two ways, and why: what is hidden from us must be hidden from compilers.
+fn ambiguous(text: &str) -> Option<(usize, &'static str)> {
+    let code = bare(text, false);
+    let lines = text.lines().zip(code.lines()).enumerate();
+    let mut found = lines.filter_map(|(number, (line, code))| {
+        let has_comment = line.contains("/*") || line.contains("//");
+        let what = if line.trim_end().ends_with('\\') || line.contains("??/") {
+            "the line goes on behind its end: write it in one"
+        } else if has_comment && code.contains(['"', '\'']) {
+            "a comment stands beside a string: take them apart"
+        } else {
+            return None;
+        };
+        Some((number + 1, what))
+    });
+    found.next().or_else(|| nested(text))
+}
+
+/// The line at which a comment begins in another: in some languages the first end of one ends both.
+fn nested(text: &str) -> Option<(usize, &'static str)> {
+    let (mut rest, mut line) = (text, 1);
+    while let Some(start) = rest.find("/*") {
+        let begins = rest[..start].rfind('\n').map_or(0, |end| end + 1);
+        let (before, after) = rest.split_at(start);
+        line += before.matches('\n').count();
+        if before[begins..].contains("//") {
+            // It stands in a comment that ends with its line.
+            rest = after.split_once('\n').map_or("", |(_, rest)| rest);
+            line += usize::from(!rest.is_empty());
+            continue;
+        }
+        let inner = &after[2..];
+        let end = inner.find("*/").unwrap_or(inner.len());
+        if inner[..end].contains("/*") {
+            return Some((
+                line,
+                "a comment begins in a comment: let the first end before",
+            ));
+        }
+        line += inner[..end].matches('\n').count();
+        rest = inner.get(end + 2..).unwrap_or("");
+    }
+    None
+}
+
 /// Refuses what no program can be made of.
 ///
 /// # Errors
@@ -207,10 +257,18 @@ pub fn check(file: &str, text: &str, language: Language) -> Result<(), Error> {
     for (number, line) in text.lines().enumerate() {
         let control = line
             .chars()
-            .position(|c| c.is_control() && c != '\t' && c != '\r');
+            .position(|c| c.is_control() && c != '\t' || is_line_end(c));
         if let Some(at) = control {
-            return refuse(number + 1, at + 1, "this is not text".to_owned());
+            let what = "this is not text, or ends a line in some languages only";
+            return refuse(number + 1, at + 1, what.to_owned());
         }
+    }
+    if let Some((line, what)) = language
+        .has_preprocessor()
+        .then(|| ambiguous(text))
+        .flatten()
+    {
+        return refuse(line, 1, what.to_owned());
     }
     if language.has_preprocessor() && is_in_macro(text) {
         let what = "a macro holds a loop, or joins words with ##: write it out, so that its turns can be counted";

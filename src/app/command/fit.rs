@@ -6,7 +6,7 @@ use crate::app::args::FitFlags;
 use crate::app::error::Error;
 use crate::app::names::{flag, quoted, unknown};
 use crate::app::parallel::each;
-use crate::app::request::Request;
+use crate::app::request::{Materials, Request};
 use crate::app::sight::{flags as sight_flags, sight};
 use crate::app::source::{materials, source};
 use crate::cost::{FAMILIES, records};
@@ -59,8 +59,13 @@ fn of_materials(
     methods: &[&'static Method],
     progress: Progress,
 ) -> Result<(Vec<Row>, Vec<String>), Error> {
+    let materials = materials(&flags.material)?;
+    if materials == Materials::None {
+        let what = "a fit is of materials; `none` leaves nothing to fit".to_owned();
+        return Err(Error::Usage { what });
+    }
     let request = Request {
-        materials: materials(&flags.material)?,
+        materials,
         medium: flags.medium.as_deref().map(source).transpose()?,
         sight: sight(&flags.sight.words(None))?,
         ..Request::default()
@@ -98,7 +103,7 @@ fn of_subject(
             .expect("a test specialises every method");
         let error = model_error(&function, &subject.truth_for(method));
         Row {
-            material: Some(subject.name.clone()),
+            material: Some(subject.argument.clone()),
             class: Some(subject.material.kind.name()),
             ..bare(method, &values, error, (space, gpu))
         }
@@ -125,10 +130,18 @@ fn bare(
             .collect(),
         max_abs: error.max_abs,
         mean_rel: error.mean_rel,
-        cost: records(gpu)
-            .library(method.name)
-            .map(|figures| figures.cost()),
+        cost: cost(method, gpu),
     }
+}
+
+/// What an evaluation of the library function costs: counted in the graph, or recorded.
+fn cost(method: &Method, gpu: &str) -> Option<f64> {
+    if gpu == "operations" {
+        let function = method.function(false).expect("a test builds every method");
+        return Some(function.work() as f64);
+    }
+    let figures = records(gpu).library(method.name)?;
+    Some(figures.cost())
 }
 
 /// A row for each method, fitted to two colours.

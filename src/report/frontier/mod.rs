@@ -135,7 +135,7 @@ impl<'a> View<'a> {
         let rows = self.data.entries.iter().enumerate();
         let known = rows.filter_map(|(place, entry)| {
             let error = self.set.errors[place][self.error]?;
-            Some((*entry, self.cost.costs[place]?, error.max(LEAST_ERROR)))
+            Some((*entry, self.cost.costs[place]?, error))
         });
         let mut known: Vec<(Entry, f64, f64)> = known.collect();
         known.sort_by(|a, b| {
@@ -144,7 +144,7 @@ impl<'a> View<'a> {
         });
         let compared: Vec<Option<(f64, f64)>> = known
             .iter()
-            .map(|(entry, cost, error)| self.compares(entry).then_some((*cost, *error)))
+            .map(|(entry, cost, error)| self.compares(entry).then_some((*cost, drawn(*error))))
             .collect();
         let best = frontier(&compared);
         let point = |(place, (entry, cost, error)): (usize, &(Entry, f64, f64))| Point {
@@ -205,6 +205,11 @@ impl Entry {
     }
 }
 
+/// Where an error is drawn.
+fn drawn(error: f64) -> f64 {
+    error.max(LEAST_ERROR)
+}
+
 fn capital(text: &str) -> String {
     let mut letters = text.chars();
     let first = letters.next().map(|first| first.to_ascii_uppercase());
@@ -214,21 +219,25 @@ fn capital(text: &str) -> String {
 /// What errs by less than this share less is as near: nobody pays for it.
 const AS_NEAR: f64 = 0.01;
 
-/// The places of those that nothing beats: none costs no more and is as near, and one of the two less. What is not known
-/// takes no part.
+/// The places of those that nothing beats, in a walk from the cheapest: each is nearer than all before it by what counts.
+/// Two that cost and err the same stand both. What is not known takes no part.
 pub fn frontier(points: &[Option<(f64, f64)>]) -> Vec<usize> {
-    let beats = |one: (f64, f64), other: (f64, f64)| {
-        let is_as_near = one.1 <= other.1 * (1.0 + AS_NEAR);
-        one.0 <= other.0 && is_as_near && (one.0 < other.0 || one.1 < other.1)
-    };
-    let is_best = |point: &Option<(f64, f64)>| {
-        point.is_some_and(|own| !points.iter().flatten().any(|other| beats(*other, own)))
-    };
     let places = points.iter().enumerate();
+    let mut known: Vec<(usize, (f64, f64))> = places
+        .filter_map(|(place, point)| Some((place, (*point)?)))
+        .collect();
+    known.sort_by(|(_, a), (_, b)| a.0.total_cmp(&b.0).then(a.1.total_cmp(&b.1)));
+    let mut best: Vec<(usize, (f64, f64))> = Vec::new();
+    for (place, point) in known {
+        let is_better =
+            |last: &(usize, (f64, f64))| point == last.1 || point.1 * (1.0 + AS_NEAR) < last.1.1;
+        if best.last().is_none_or(is_better) {
+            best.push((place, point));
+        }
+    }
+    let mut places: Vec<usize> = best.into_iter().map(|(place, _)| place).collect();
+    places.sort_unstable();
     places
-        .filter(|(_, point)| is_best(point))
-        .map(|(place, _)| place)
-        .collect()
 }
 
 #[cfg(test)]
@@ -238,7 +247,7 @@ mod tests {
     #[test]
     fn the_frontier_holds_what_nothing_beats() {
         type Case = (&'static [Option<(f64, f64)>], &'static [usize]);
-        const CASES: [Case; 10] = [
+        const CASES: [Case; 11] = [
             (&[], &[]),
             (&[None], &[]),
             (&[Some((1.0, 1.0))], &[0]),
@@ -260,6 +269,16 @@ mod tests {
             // Less wrong by nothing that counts is not worth a higher price; at the same price it is.
             (&[Some((2.0, 0.999)), Some((1.0, 1.0))], &[1]),
             (&[Some((1.0, 0.999)), Some((1.0, 1.0))], &[0]),
+            // Small steps add up.
+            (
+                &[
+                    Some((1.0, 1.0)),
+                    Some((2.0, 0.993)),
+                    Some((3.0, 0.987)),
+                    Some((4.0, 0.98)),
+                ],
+                &[0, 2],
+            ),
             // One that is not known beats nothing.
             (&[Some((2.0, 1.0)), None, Some((1.0, 2.0))], &[0, 2]),
         ];

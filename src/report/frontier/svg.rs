@@ -3,7 +3,7 @@
 use crate::report::chart::{AXIS, FOOT, Font, Frame, SUBTITLE, Sheet, TICK, TITLE};
 
 use super::labels::{Area, DOT, Place, places};
-use super::{ERRORS, Point, View, capital};
+use super::{ERRORS, Point, View, capital, drawn};
 
 /// The size of the picture.
 const FRAME: Frame = Frame {
@@ -87,7 +87,7 @@ pub fn svg(view: &View) -> Option<String> {
     let bottom = FRAME.height - BELOW - FOOT_ROOM;
     let (left, right) = (FRAME.margin + LEFT - 30.0, FRAME.right() - 8.0);
     let x = Scale::of(points.iter().map(|point| point.cost), left, right);
-    let y = Scale::of(points.iter().map(|point| point.error), bottom, top);
+    let y = Scale::of(points.iter().map(|point| drawn(point.error)), bottom, top);
     let page = Area([left, top, right, bottom]);
     let mut elements = grid(&x, &y, page);
     elements.extend(names(view, page));
@@ -152,7 +152,7 @@ fn staircase(points: &[Point], x: &Scale, y: &Scale, Area([_, top, right, _]): A
     let best = points.iter().filter(|point| point.is_on_frontier);
     let mut line = String::new();
     for point in best {
-        let (across, down) = (x.at(point.cost), y.at(point.error));
+        let (across, down) = (x.at(point.cost), y.at(drawn(point.error)));
         line += &if line.is_empty() {
             format!("M{across:.2} {top:.2}V{down:.2}")
         } else {
@@ -172,7 +172,11 @@ fn pairs(points: &[Point], x: &Scale, y: &Scale) -> Vec<String> {
             !point.entry.is_best && point.entry.method.name == best.entry.method.name
         };
         let intended = points.iter().find(is_same)?;
-        let (across, from, to) = (x.at(best.cost), y.at(intended.error), y.at(best.error));
+        let (across, from, to) = (
+            x.at(best.cost),
+            y.at(drawn(intended.error)),
+            y.at(drawn(best.error)),
+        );
         Some(format!(
             "<path stroke=\"{THEIRS}\" stroke-opacity=\"0.5\" d=\"M{across:.2} {from:.2}V{to:.2}\"/>"
         ))
@@ -181,7 +185,7 @@ fn pairs(points: &[Point], x: &Scale, y: &Scale) -> Vec<String> {
 }
 
 fn dot(point: &Point, x: &Scale, y: &Scale) -> String {
-    let (x, y) = (x.at(point.cost), y.at(point.error));
+    let (x, y) = (x.at(point.cost), y.at(drawn(point.error)));
     let colour = if point.entry.method.is_fitted() {
         OURS
     } else {
@@ -214,11 +218,11 @@ fn labels(points: &[Point], x: &Scale, y: &Scale, page: Area) -> Vec<String> {
     order.sort_by_key(|point| (!point.is_on_frontier, point.entry.is_best));
     let all: Vec<(f64, f64)> = points
         .iter()
-        .map(|point| (x.at(point.cost), y.at(point.error)))
+        .map(|point| (x.at(point.cost), y.at(drawn(point.error))))
         .collect();
     let at: Vec<(f64, f64)> = order
         .iter()
-        .map(|point| (x.at(point.cost), y.at(point.error)))
+        .map(|point| (x.at(point.cost), y.at(drawn(point.error))))
         .collect();
     let texts: Vec<String> = order.iter().map(|point| point.entry.label()).collect();
     let widths: Vec<f64> = texts.iter().map(|text| FONT.width(text)).collect();

@@ -158,3 +158,59 @@ fn a_row_of_what_fails_has_its_keys() {
         (&"fail".into(), &"no".into())
     );
 }
+
+/// What is hidden from the reader of loops and includes, and not from a compiler.
+#[test]
+fn text_that_can_be_read_in_two_ways_is_refused() {
+    for (file, text) in [
+        (
+            "f.hlsl",
+            "#inc\\\nlude \"other.h\"\nfloat f(float c) { return c; }\n",
+        ),
+        (
+            "f.hlsl",
+            "/* /* */\n#include \"other.h\"\n// */\nfloat f(float c) { return c; }\n",
+        ),
+        (
+            "f.hlsl",
+            "#pragma message \"/*\"\n#include \"other.h\"\nfloat f(float c) { return c; }\n",
+        ),
+        (
+            "f.hlsl",
+            "// \r#include \"other.h\"\nfloat f(float c) { return c; }\n",
+        ),
+        (
+            "f.glsl",
+            "float f(float c) { fo\\\nr (;;) c = 0.5; return c; }\n",
+        ),
+        (
+            "f.glsl",
+            "float f(float c) { /* /* */ while (c >= 0.0) c = 0.5; // */\n return c; }\n",
+        ),
+        (
+            "f.wgsl",
+            "fn f(c: f32) -> f32 { // \u{2028} loop { }\n return c; }\n",
+        ),
+        (
+            "f.wgsl",
+            "fn f(c: f32) -> f32 { // \r loop { }\n return c; }\n",
+        ),
+    ] {
+        let place = Place::new();
+        place.put(file, text);
+        let Some(ran) = audit(&place, &format!("{file} --material gold --gpu none")) else {
+            continue;
+        };
+        let ran = ran.ends(2);
+        assert!(ran.err.contains(&format!("{file}:")), "{ran:?}");
+    }
+    // Comments that end before the next begins, and a mark of byte order, are nobody's trick.
+    let place = Place::new();
+    place.put(
+        "f.hlsl",
+        "\u{feff}/* one */ /* two */ // /* three\r\nfloat f(float c) { return c; } // \"four\"\r\n",
+    );
+    if let Some(ran) = audit(&place, "f.hlsl --material gold --gpu none") {
+        ran.ends(0);
+    }
+}

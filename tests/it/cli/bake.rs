@@ -271,6 +271,7 @@ fn what_has_no_split_sum_table_is_refused() {
         "bake --dfg --method fitted_five",
         &["5 do not fit", "fitted_dielectric"],
     );
+    place.refused("bake --dfg --method fitted_rational", &["beyond 1"]);
     place.refused(
         "bake --dfg --method schlick",
         &["linear in its coefficients", "schlick"],

@@ -73,6 +73,8 @@ fn names_and_numbers_that_make_no_sense_are_refused() {
         ("--f0 0.5,0.5 --f82 0.5,0.5,0.5", "three reflectances"),
         ("--f0 0.5,0.5,1.5 --f82 0.5,0.5,0.5", "0 to 1"),
         ("--f0 0.5,0.5,nan --f82 0.5,0.5,0.5", "0 to 1"),
+        ("--f0 0.5,0.5,0.5 --f82 0.5,0.5,0.5 --space p3", "--space"),
+        ("--material none", "nothing to fit"),
         ("--json .", "."),
     ] {
         place.refused(&format!("fit {line}"), &[says]);
