@@ -24,8 +24,6 @@ pub mod generate;
 pub mod manifest;
 pub mod names;
 #[cfg(feature = "cli")]
-pub mod parallel;
-#[cfg(feature = "cli")]
 pub mod precision;
 pub mod request;
 pub mod scope;

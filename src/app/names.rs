@@ -1,5 +1,7 @@
 //! Names that are not there: what is, and which of it comes nearest; and names on a shell's command line.
 
+use crate::cost::{FAMILIES, Family, find};
+
 use super::error::Error;
 
 /// How alike two names must be (Jaro-Winkler, 0 to 1) before one is offered for the other.
@@ -15,6 +17,12 @@ pub fn unknown(kind: &'static str, name: &str, all: &[&str]) -> Error {
         nearest: nearest(name, all),
         all: listed(kind, all),
     }
+}
+
+/// The family of GPUs of this name.
+pub fn family(name: &str) -> Result<&'static Family, Error> {
+    let all: Vec<&str> = FAMILIES.iter().map(|family| family.name).collect();
+    find(name).ok_or_else(|| unknown("GPU family", name, &all))
 }
 
 /// All names, or where to find them where they are many.

@@ -5,6 +5,9 @@ use std::collections::BTreeMap;
 
 use include_dir::{Dir, include_dir};
 
+use crate::methods::Method;
+
+use super::family::{Compiler, Family};
 use super::figures::{Counts, Figures};
 
 static FOLDER: Dir = include_dir!("$CARGO_MANIFEST_DIR/data/records/costs");
@@ -26,6 +29,16 @@ impl Record {
         let shader = self.functions.get(&format!("{method},,library,3,f32"))?;
         self.figures.get(shader).copied()
     }
+}
+
+/// What an evaluation of a method's library function, three channels, costs on a family: its operations where those are counted,
+/// else what was recorded.
+pub fn library_cost(method: &Method, family: &Family, record: &Record) -> Option<f64> {
+    if family.compiler == Compiler::Operations {
+        let function = method.function(false);
+        return Some(function.expect("a test builds every method").work() as f64);
+    }
+    record.library(method.name).map(|figures| figures.cost())
 }
 
 /// The columns of a file.

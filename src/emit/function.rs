@@ -165,6 +165,11 @@ impl Subject {
         self.material.kind == Kind::Dielectric && self.effective.channels.is_transparent()
     }
 
+    /// Whether a method describes it: those for dielectrics take no k.
+    pub fn is_described_by(&self, method: &Method) -> bool {
+        method.class == Class::Any || self.effective.channels.is_transparent()
+    }
+
     /// The exact method of its class.
     pub fn exact_method(&self) -> &'static str {
         if self.is_glass() {
@@ -262,7 +267,7 @@ pub fn specialised_graph(
     precision: Precision,
     bounds: &Bounds,
 ) -> Result<Specialised, Error> {
-    if method.class == Class::Dielectric && !subject.effective.channels.is_transparent() {
+    if !subject.is_described_by(method) {
         let what = "it describes dielectrics only, and this absorbs (k > 0)";
         return Err(refused(method, subject, what));
     }

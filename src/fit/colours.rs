@@ -3,8 +3,10 @@
 //! Where an index has both ([`index_from_f0_f82`]) it is that index's, by the exact law. Where none has them, or F0 is so large that
 //! F82 decides between indices far from any metal, it is that of the method `f82_tint`, which meets any two.
 
-use crate::ir::Value;
-use crate::methods::{self, Input};
+use std::sync::LazyLock;
+
+use crate::ir::{Checked, Value, evaluate};
+use crate::methods;
 use crate::optics::{self, EffectiveIndex, index_from_f0_f82};
 
 use super::derive::schlick_82;
@@ -46,15 +48,15 @@ impl Follows {
     }
 }
 
-fn tinted(f0: f64, tint: f64, cos_theta: f64) -> f64 {
+/// The method `f82_tint` for one channel: of the cosine, F0 and the tint.
+static F82_TINT: LazyLock<Checked> = LazyLock::new(|| {
     let method = methods::find("f82_tint").expect("a test follows it");
-    let function = method.function(true).expect("a test builds every method");
-    let argument = |input: &Input| Value::scalar(if input.name == "f0" { f0 } else { tint });
-    let arguments: Vec<Value<f64>> = [Value::scalar(cos_theta)]
-        .into_iter()
-        .chain(method.inputs.iter().map(argument))
-        .collect();
-    crate::ir::evaluate(&function, &arguments).at(0)[0]
+    method.function(true).expect("a test builds every method")
+});
+
+fn tinted(f0: f64, tint: f64, cos_theta: f64) -> f64 {
+    let arguments = [cos_theta, f0, tint].map(Value::scalar);
+    evaluate::<f64>(&F82_TINT, &arguments).at(0)[0]
 }
 
 #[cfg(test)]

@@ -23,12 +23,9 @@
 //! | ∛c, √roughness | .0028 | .0013 | .0008 |
 //! | ∜c, √roughness | .0023 | .0011 | .0006 |
 
-use std::sync::atomic::{AtomicUsize, Ordering};
-use std::sync::mpsc;
-use std::thread;
-
 use crate::ir::Weights;
 use crate::methods::Shape;
+use crate::num::in_parallel;
 use crate::optics::Ggx;
 
 use super::depth::Depth;
@@ -215,36 +212,6 @@ impl BetweenSplitSum {
         }
         most
     }
-}
-
-/// The results of so many calls in order, computed by as many threads as there are processors.
-fn in_parallel<T: Send>(
-    count: usize,
-    one: &(impl Fn(usize) -> T + Sync),
-    progress: Rows,
-) -> Vec<T> {
-    let next = AtomicUsize::new(0);
-    let (send, receive) = mpsc::channel();
-    let mut results: Vec<Option<T>> = (0..count).map(|_| None).collect();
-    thread::scope(|scope| {
-        for _ in 0..thread::available_parallelism().map_or(1, usize::from) {
-            let (send, next) = (send.clone(), &next);
-            scope.spawn(move || {
-                let own = std::iter::repeat_with(|| next.fetch_add(1, Ordering::Relaxed));
-                for i in own.take_while(|i| *i < count) {
-                    if send.send((i, one(i))).is_err() {
-                        break;
-                    }
-                }
-            });
-        }
-        drop(send);
-        for (done, (i, result)) in receive.iter().enumerate() {
-            results[i] = Some(result);
-            progress(done as u64 + 1, count as u64);
-        }
-    });
-    results.into_iter().flatten().collect()
 }
 
 #[cfg(test)]

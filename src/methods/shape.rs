@@ -9,6 +9,8 @@
 //! <https://blog.selfshadow.com/publications/s2017-shading-course/>, and Turquin, "Practical multiple scattering compensation for
 //! microfacet models", 2019, <https://blog.selfshadow.com/publications/turquin/ms_comp_final.pdf>, ask for it.
 
+use std::sync::LazyLock;
+
 use crate::ir::Expr;
 use crate::num::Legendre;
 
@@ -42,8 +44,8 @@ pub struct Shape {
     pub factors: &'static [Factor],
 }
 
-/// Points of the rule for means: factors are smooth, and more change nothing.
-const POINTS: usize = 64;
+/// The rule for means: factors are smooth, and more points change nothing.
+static RULE: LazyLock<Legendre> = LazyLock::new(|| Legendre::new(64));
 
 impl Shape {
     /// The formula, for a method whose inputs are its coefficients. It is limited to [0, 1], which costs nothing on a GPU.
@@ -77,7 +79,7 @@ impl Shape {
     /// factors times c, over c from 0 to 1, by Gauss's rule, within 1e-14.
     pub fn averages(&self) -> Vec<f64> {
         let mut sums = vec![0.0; self.terms()];
-        for (c, weight) in Legendre::new(POINTS).over(0.0, 1.0) {
+        for (c, weight) in RULE.over(0.0, 1.0) {
             self.add(c, 2.0 * c * weight, &mut sums);
         }
         sums[0] = 1.0;

@@ -11,6 +11,7 @@ mod interval;
 mod legendre;
 mod loose;
 mod native;
+mod parallel;
 mod precision;
 mod ulp;
 
@@ -20,6 +21,7 @@ pub use half::Half;
 pub use interval::Interval;
 pub use legendre::Legendre;
 pub use loose::Loose;
+pub use parallel::in_parallel;
 pub use precision::Precision;
 pub use ulp::{ulp_distance, ulp_of};
 

@@ -6,19 +6,6 @@ use clap::Args;
 
 use super::SightFlags;
 
-/// What says nothing of two colours.
-const NO_MATERIAL: [&str; 9] = [
-    "material",
-    "medium",
-    "space",
-    "illuminant",
-    "observer",
-    "adaptation",
-    "step",
-    "wavelengths",
-    "extrapolate",
-];
-
 /// The flags of fits.
 #[derive(Args, Debug)]
 #[command(
@@ -35,7 +22,7 @@ pub struct FitFlags {
     #[arg(long)]
     pub shared: bool,
     /// No material: reflectance at 0 degrees, three numbers from 0 to 1; with --f82
-    #[arg(long, value_delimiter = ',', value_name = "R,G,B", requires = "f82", conflicts_with_all = NO_MATERIAL)]
+    #[arg(long, value_delimiter = ',', value_name = "R,G,B", requires = "f82", conflicts_with_all = ["material", "medium", "SightFlags"])]
     pub f0: Vec<f64>,
     /// And at 81.79 degrees (cos θ = 1/7)
     #[arg(long, value_delimiter = ',', value_name = "R,G,B", requires = "f0")]

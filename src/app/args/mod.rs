@@ -298,7 +298,7 @@ pub struct SurveyFlags {
 }
 
 /// What a table that holds no material takes nothing of.
-const NO_MATERIAL: [&str; 15] = [
+const NO_MATERIAL: [&str; 9] = [
     "material",
     "medium",
     "gamut",
@@ -307,13 +307,7 @@ const NO_MATERIAL: [&str; 15] = [
     "budget",
     "target",
     "prefix",
-    "space",
-    "illuminant",
-    "observer",
-    "adaptation",
-    "step",
-    "wavelengths",
-    "extrapolate",
+    "SightFlags",
 ];
 
 /// The flags of `bake`.

@@ -221,11 +221,10 @@ fn material_value(subject: &Subject, name: &str) -> Option<[f64; 3]> {
     let name = if name.len() > 1 { lower.as_str() } else { name };
     find_input(name)?;
     let takes = |method: &&&Method| method.inputs.iter().any(|input| input.name == name);
-    let is_glass = subject.effective.channels.is_transparent();
     let fits = |method: &&&Method| {
         let is_usual = !method.is_fitted() || subject.default_methods().contains(&method.name);
         let is_told = method.specialised.is_none() || method.class == Class::Dielectric;
-        is_usual && is_told && !method.is_textured() && (method.class == Class::Any || is_glass)
+        is_usual && is_told && !method.is_textured() && subject.is_described_by(method)
     };
     let exact = methods::find(subject.exact_method()).into_iter();
     let exact: Vec<&'static Method> = exact.collect();

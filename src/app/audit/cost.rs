@@ -59,15 +59,13 @@ pub fn cost(
         let said = worker.ask::<Said>(line, limit);
         said.map_err(|silence| reason(&silence, limit))
     };
-    let compiler = match ask("") {
-        Ok(Said::Compiler(name)) => name,
-        Ok(Said::Absent(why) | Said::Refused(why)) | Err(why) => return Ok(unknown(why)),
-        Ok(Said::Told(_)) => return Ok(unknown("it answers another question".to_owned())),
+    let compiler = match ask("").and_then(Said::compiler) {
+        Ok(name) => name,
+        Err(why) => return Ok(unknown(why)),
     };
-    let told = lines.iter().map(|line| match ask(line) {
-        Ok(Said::Told(statistics)) => Ok(statistics),
-        Ok(Said::Refused(why) | Said::Absent(why) | Said::Compiler(why)) | Err(why) => Err(why),
-    });
+    let told = lines
+        .iter()
+        .map(|line| ask(line).and_then(Said::statistics));
     let told: Result<Vec<Statistics>, String> = told.collect();
     Ok(Cost {
         family,

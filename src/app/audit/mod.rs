@@ -37,7 +37,7 @@ use super::worker::scratch;
 
 pub use bind::Given;
 pub use language::Language;
-pub use row::text;
+pub use row::{file_name, text};
 pub use serve::serve;
 
 use bind::Bound;

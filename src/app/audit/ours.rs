@@ -6,7 +6,7 @@ use crate::cost::{Family, Figures, records};
 use crate::emit::Subject;
 use crate::fit::error_of;
 use crate::ir::{Column, Value, evaluate};
-use crate::methods::{self, Class, Contract, Light, Method};
+use crate::methods::{self, Contract, Light, Method};
 use crate::num::Precision;
 
 use super::frontier::Rival;
@@ -49,9 +49,8 @@ pub fn ours(
         true => "library",
         false => "specialised",
     };
-    let is_glass = subject.effective.channels.is_transparent();
     let fits = |method: &&&'static Method| {
-        (method.class == Class::Any || is_glass)
+        subject.is_described_by(method)
             && method.light == Light::Unpolarised
             && method.contract == Contract::Kept
             && !method.is_textured()
@@ -59,18 +58,10 @@ pub fn ours(
     let methods: Vec<&'static Method> = methods::ALL.iter().filter(fits).copied().collect();
     let mut all = functions(&methods, std::slice::from_ref(subject), &[Precision::F32])?;
     all.retain(|function| function.is_asked && function.form == form || function.is_reference());
-    let asked: Vec<&'static Family> = families
-        .iter()
-        .filter(|family| family.compiler.dialect().is_some())
-        .copied()
-        .collect();
-    let mut told = ask(&asked, &all, limits, progress)?.into_iter();
-    let columns: Vec<Vec<Option<f64>>> = families
-        .iter()
-        .map(|family| {
-            let told = family.compiler.dialect().and_then(|_| told.next());
-            costs(family, told.as_ref(), &all)
-        })
+    let told = ask(families, &all, limits, progress)?;
+    let each = families.iter().zip(&told);
+    let columns: Vec<Vec<Option<f64>>> = each
+        .map(|(family, told)| costs(family, told.as_ref(), &all))
         .collect();
     let asked = all.iter().filter(|function| function.is_asked).enumerate();
     Ok(asked

@@ -1,18 +1,15 @@
 //! The axes of cost: what compilers said of library functions, the graph's own operations, and times.
 
-use crate::cost::{Compiler, FAMILIES, Family, records, times};
+use crate::cost::{Compiler, FAMILIES, Family, library_cost, records, times};
 use crate::report::frontier::{CostAxis, Entry};
-
-use super::library;
 
 /// An axis for each family of which anything is recorded, and one of times.
 pub fn axes(entries: &[Entry]) -> Vec<CostAxis> {
     let mut axes = Vec::new();
     for family in FAMILIES.iter() {
-        let costs = match family.compiler {
-            Compiler::Operations => counted(entries),
-            _ => recorded(family, entries),
-        };
+        let record = records(family.name);
+        let cost = |entry: &Entry| library_cost(entry.method, family, &record);
+        let costs: Vec<Option<f64>> = entries.iter().map(cost).collect();
         if costs.iter().any(Option::is_some) {
             axes.push(CostAxis {
                 name: family.name,
@@ -35,21 +32,6 @@ fn title(family: &Family) -> String {
             family.gpu, family.vendor
         ),
     }
-}
-
-fn counted(entries: &[Entry]) -> Vec<Option<f64>> {
-    let work = |entry: &Entry| Some(library(entry.method).work() as f64);
-    entries.iter().map(work).collect()
-}
-
-fn recorded(family: &Family, entries: &[Entry]) -> Vec<Option<f64>> {
-    let record = records(family.name);
-    let cost = |entry: &Entry| {
-        record
-            .library(entry.method.name)
-            .map(|figures| figures.cost())
-    };
-    entries.iter().map(cost).collect()
 }
 
 /// Shares of time on the device of the record.

@@ -4,13 +4,13 @@
 mod costs;
 mod sets;
 
-use crate::app::parallel::each;
 use crate::emit::Subject;
 use crate::fit::{
     Curve, ModelError, Truth, best_inputs, error_of, model_error, perceived, values_at,
 };
 use crate::ir::{Checked, Value};
-use crate::methods::{ALL, Class, Light, Method, Values};
+use crate::methods::{ALL, Light, Method, Values};
+use crate::num::in_parallel;
 use crate::report::frontier::{Data, Entry};
 use crate::spectra::Space;
 
@@ -67,48 +67,42 @@ fn entries() -> Vec<Entry> {
     entries
 }
 
-/// The errors of all entries for each material, shared among the processor's cores.
+/// The errors of all entries for each material.
 fn errors(
     entries: &[Entry],
     subjects: &[Subject],
     space: Space,
     progress: &mut dyn FnMut(u64, u64, &str),
 ) -> Vec<Errors> {
-    let whole = subjects.len() as u64;
-    each(
-        subjects,
-        |subject| of_subject(entries, subject, space),
-        &mut |done| progress(done as u64, whole, "materials"),
-    )
+    let of = |i: usize| of_subject(entries, &subjects[i], space);
+    in_parallel(subjects.len(), &of, &mut |done, whole| {
+        progress(done, whole, "materials");
+    })
 }
 
 fn of_subject(entries: &[Entry], subject: &Subject, space: Space) -> Errors {
-    let transparent = subject.effective.channels.is_transparent();
-    let of = |entry: &Entry| {
-        if entry.method.class == Class::Dielectric && !transparent {
-            return [None; 4];
-        }
-        of_entry(entry, subject, space)
+    let curve = Curve::new(|c| subject.truth.at(c));
+    let of = |entry: &Entry| match subject.is_described_by(entry.method) {
+        true => of_entry(entry, subject, &curve, space),
+        false => [None; 4],
     };
     entries.iter().map(of).collect()
 }
 
-fn of_entry(entry: &Entry, subject: &Subject, space: Space) -> [Option<f64>; 4] {
+fn of_entry(entry: &Entry, subject: &Subject, curve: &Curve, space: Space) -> [Option<f64>; 4] {
     let method = entry.method;
-    let truth = subject.truth_for(method);
     let values = subject.values(method);
     if method.is_textured() {
         let function = method.specialise(&values).expect(BUILT);
-        let error = model_error(&function, &truth);
+        let error = model_error(&function, &subject.truth_for(method));
         return [Some(error.max_abs), error.mean_rel, None, None];
     }
     let values = if entry.is_best {
-        let curve = Curve::new(|c| truth.at(c));
-        best_inputs(method, &values, &curve).unwrap_or(values)
+        best_inputs(method, &values, curve).unwrap_or(values)
     } else {
         values
     };
-    measured(method, &library(method), &values, &truth, space)
+    measured(method, &library(method), &values, &subject.truth, space)
 }
 
 /// The four errors; angles at which the method gives no number are left out.

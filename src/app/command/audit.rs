@@ -3,15 +3,15 @@
 use serde_json::{Value, json};
 
 use crate::app::args::AuditFlags;
-use crate::app::audit::{Audit, Given, Language, serve, text};
+use crate::app::audit::{Audit, Given, Language, file_name, serve, text};
 use crate::app::error::Error;
-use crate::app::names::{flag, unknown};
+use crate::app::names::{family, flag};
 use crate::app::request::{Materials, Request};
 use crate::app::sight::{flags as sight_flags, sight};
 use crate::app::source::{materials, shader, source};
 use crate::app::verify::{junit, machine};
 use crate::app::write::write_file;
-use crate::cost::{FAMILIES, Family, find};
+use crate::cost::{FAMILIES, Family};
 use crate::emit::Subject;
 
 use super::{Output, Progress, report, try_places};
@@ -96,9 +96,7 @@ fn families(names: &[String]) -> Result<Vec<&'static Family>, Error> {
     } else {
         names
     };
-    let all: Vec<&str> = FAMILIES.iter().map(|family| family.name).collect();
-    let family = |name: &&str| find(name).ok_or_else(|| unknown("GPU family", name, &all));
-    names.iter().map(family).collect()
+    names.into_iter().map(family).collect()
 }
 
 /// What is wrong, for stderr.
@@ -125,8 +123,7 @@ fn code(rows: &[Value]) -> u8 {
 /// The run's flags in one order, without places.
 fn canonical(flags: &AuditFlags, request: &Request) -> String {
     let one = |name: &str, word: &Option<String>| flag(name, word.as_slice());
-    let file = flags.file.as_deref().unwrap_or_default();
-    let name = file.rsplit(['/', '\\']).next().unwrap_or(file);
+    let name = file_name(flags.file.as_deref().unwrap_or_default());
     let arguments = flags.arg.iter();
     let arguments: String = arguments
         .map(|word| flag("arg", std::slice::from_ref(word)))

@@ -3,15 +3,15 @@
 use serde_json::{Value, json};
 
 use crate::app::args::CostFlags;
-use crate::app::cost::{Function, Limits, Told, ask, functions, rows, serve};
+use crate::app::cost::{Function, Limits, ask, functions, rows, serve};
 use crate::app::error::Error;
-use crate::app::names::{flag, unknown};
+use crate::app::names::{family, flag};
 use crate::app::precision::several;
 use crate::app::request::Request;
 use crate::app::source::materials;
 use crate::app::verify::machine;
 use crate::app::write::write_file;
-use crate::cost::{FAMILIES, Family, Figures, Record, find, records};
+use crate::cost::{FAMILIES, Family, Figures, Record, records};
 use crate::methods::{self, Method};
 use crate::report::cost::{self as sheet, Row, Source};
 
@@ -34,7 +34,11 @@ pub fn run(flags: &CostFlags, progress: Progress) -> Result<Output, Error> {
     let (functions, left_out) = asked(flags)?;
     let page = flags.out_dir.as_ref().map(|folder| folder.join(PAGE));
     try_places(flags.json.as_deref(), page.as_deref())?;
-    let told = told(flags, &families, &functions, progress)?;
+    let limits = Limits {
+        seconds: flags.limit,
+        workers: machine::cores(),
+    };
+    let told = ask(&families, &functions, limits, progress)?;
     let table: Vec<Vec<Row>> = families
         .iter()
         .zip(&told)
@@ -67,27 +71,6 @@ fn ending(flags: &CostFlags, table: &[Vec<Row>], findings: usize, whole: bool) -
         0 => 0,
         _ => 1,
     }
-}
-
-/// What the compilers say of the functions; nothing for what has none.
-fn told(
-    flags: &CostFlags,
-    families: &[&'static Family],
-    functions: &[Function],
-    progress: Progress,
-) -> Result<Vec<Option<Told>>, Error> {
-    let limits = Limits {
-        seconds: flags.limit,
-        workers: machine::cores(),
-    };
-    let has_compiler = |family: &&&'static Family| family.compiler.dialect().is_some();
-    let asked: Vec<&'static Family> = families.iter().filter(has_compiler).copied().collect();
-    let mut answers = ask(&asked, functions, limits, progress)?.into_iter();
-    let told = families.iter().map(|family| {
-        family.compiler.dialect()?;
-        answers.next()
-    });
-    Ok(told.collect())
 }
 
 /// The functions of a request, and why some are left out.
@@ -220,11 +203,6 @@ fn canonical(flags: &CostFlags) -> String {
         flag("material", &flags.material),
         flag("precision", &flags.precision)
     )
-}
-
-fn family(name: &str) -> Result<&'static Family, Error> {
-    let names: Vec<&str> = FAMILIES.iter().map(|family| family.name).collect();
-    find(name).ok_or_else(|| unknown("GPU family", name, &names))
 }
 
 fn families(names: &[String]) -> Result<Vec<&'static Family>, Error> {

@@ -4,31 +4,27 @@ use serde_json::{Value, json};
 
 use crate::app::args::FitFlags;
 use crate::app::error::Error;
-use crate::app::names::{flag, quoted, unknown};
-use crate::app::parallel::each;
+use crate::app::names::{family, flag, quoted};
 use crate::app::request::{Materials, Request};
 use crate::app::sight::{flags as sight_flags, sight};
 use crate::app::source::{materials, source};
-use crate::cost::{FAMILIES, records};
+use crate::cost::{Family, library_cost, records};
 use crate::emit::Subject;
 use crate::fit::{Follows, ModelError, error_from, fitted_values, model_error, values_at};
-use crate::methods::{ALL, Class, Input, Method, Values};
+use crate::methods::{ALL, Class, Method, Values};
+use crate::num::in_parallel;
 use crate::report::fits::{Row, text};
 
 use super::{Output, Progress, report, try_places};
 
 /// Fits.
 pub fn run(flags: &FitFlags, progress: Progress) -> Result<Output, Error> {
-    let families: Vec<&str> = FAMILIES.iter().map(|family| family.name).collect();
-    if !families.contains(&flags.gpu.as_str()) {
-        return Err(unknown("GPU family", &flags.gpu, &families));
-    }
-    let methods = methods(flags.terms)?;
+    let forms = forms(flags.terms, family(&flags.gpu)?)?;
     try_places(flags.json.as_deref(), None)?;
     let (rows, left_out) = if flags.f0.is_empty() {
-        of_materials(flags, &methods, progress)?
+        of_materials(flags, &forms, progress)?
     } else {
-        (of_colours(flags, &methods)?, Vec::new())
+        (of_colours(flags, &forms)?, Vec::new())
     };
     let json = json!({
         "tool": "fresnel-gen", "command": canonical(flags)?, "device": null,
@@ -39,8 +35,14 @@ pub fn run(flags: &FitFlags, progress: Progress) -> Result<Output, Error> {
     Ok(output)
 }
 
+/// A fitted method, and what an evaluation of its library function costs, where that is known.
+struct Form {
+    method: &'static Method,
+    cost: Option<f64>,
+}
+
 /// The fitted methods with so many coefficients, the fewest first.
-fn methods(terms: Option<usize>) -> Result<Vec<&'static Method>, Error> {
+fn forms(terms: Option<usize>, gpu: &Family) -> Result<Vec<Form>, Error> {
     let fitted = ALL.iter().copied().filter(|method| method.is_fitted());
     let mut chosen: Vec<&Method> = fitted
         .filter(|method| terms.is_none_or(|terms| method.inputs.len() == terms))
@@ -50,13 +52,19 @@ fn methods(terms: Option<usize>) -> Result<Vec<&'static Method>, Error> {
         return Err(Error::Usage { what });
     }
     chosen.sort_by_key(|method| (method.inputs.len(), method.name));
-    Ok(chosen)
+    let record = records(gpu.name);
+    let cost = |method| library_cost(method, gpu, &record);
+    let form = |method: &'static Method| Form {
+        method,
+        cost: cost(method),
+    };
+    Ok(chosen.into_iter().map(form).collect())
 }
 
 /// A row for each material and method that describes it, and what was left out.
 fn of_materials(
     flags: &FitFlags,
-    methods: &[&'static Method],
+    forms: &[Form],
     progress: Progress,
 ) -> Result<(Vec<Row>, Vec<String>), Error> {
     let materials = materials(&flags.material)?;
@@ -77,90 +85,66 @@ fn of_materials(
         .map(|(subject, _)| subject)
         .collect();
     let space = request.sight.integration.space.name();
-    let whole = subjects.len() as u64;
-    let rows = each(
-        &subjects,
-        |subject| of_subject(subject, methods, space, &flags.gpu),
-        &mut |done| progress(done as u64, whole, "materials"),
-    );
+    let of = |i: usize| of_subject(&subjects[i], forms, space);
+    let rows = in_parallel(subjects.len(), &of, &mut |done, whole| {
+        progress(done, whole, "materials");
+    });
     let left_out = found.left_out.iter();
     let left_out = left_out.map(|unseen| format!("left out: {}", unseen.why));
     Ok((rows.into_iter().flatten().collect(), left_out.collect()))
 }
 
-fn of_subject(
-    subject: &Subject,
-    methods: &[&'static Method],
-    space: &'static str,
-    gpu: &str,
-) -> Vec<Row> {
-    let transparent = subject.effective.channels.is_transparent();
-    let fits = |method: &&&'static Method| method.class == Class::Any || transparent;
-    let row = |method: &&'static Method| {
-        let values = subject.values(method);
-        let function = method
-            .specialise(&values)
-            .expect("a test specialises every method");
-        let error = model_error(&function, &subject.truth_for(method));
+fn of_subject(subject: &Subject, forms: &[Form], space: &'static str) -> Vec<Row> {
+    let row = |form: &Form| {
+        let values = subject.values(form.method);
+        let function = form.method.specialise(&values);
+        let function = function.expect("a test specialises every method");
+        let error = model_error(&function, &subject.truth_for(form.method));
         Row {
             material: Some(subject.argument.clone()),
             class: Some(subject.material.kind.name()),
-            ..bare(method, &values, error, (space, gpu))
+            ..bare(form, &values, error, space)
         }
     };
-    methods.iter().filter(fits).map(row).collect()
+    let own = forms
+        .iter()
+        .filter(|form| subject.is_described_by(form.method));
+    own.map(row).collect()
 }
 
-fn bare(
-    method: &'static Method,
-    values: &Values,
-    error: ModelError,
-    (space, gpu): (&'static str, &str),
-) -> Row {
+fn bare(form: &Form, values: &Values, error: ModelError, space: &'static str) -> Row {
+    let inputs = form.method.inputs.iter();
     Row {
         material: None,
         class: None,
         follows: None,
         space,
-        method,
-        coefficients: method
-            .inputs
-            .iter()
-            .map(|input: &Input| values[input.name])
-            .collect(),
+        method: form.method,
+        coefficients: inputs.map(|input| values[input.name]).collect(),
         max_abs: error.max_abs,
         mean_rel: error.mean_rel,
-        cost: cost(method, gpu),
+        cost: form.cost,
     }
-}
-
-/// What an evaluation of the library function costs: counted in the graph, or recorded.
-fn cost(method: &Method, gpu: &str) -> Option<f64> {
-    if gpu == "operations" {
-        let function = method.function(false).expect("a test builds every method");
-        return Some(function.work() as f64);
-    }
-    let figures = records(gpu).library(method.name)?;
-    Some(figures.cost())
 }
 
 /// A row for each method, fitted to two colours.
-fn of_colours(flags: &FitFlags, methods: &[&'static Method]) -> Result<Vec<Row>, Error> {
+fn of_colours(flags: &FitFlags, forms: &[Form]) -> Result<Vec<Row>, Error> {
     let (f0, f82) = (colour("f0", &flags.f0)?, colour("f82", &flags.f82)?);
     let follows = [0, 1, 2].map(|i| Follows::of(f0[i], f82[i]));
     let seen = |cos_theta: f64| follows.map(|channel| channel.at(cos_theta));
-    let row = |method: &&'static Method| {
-        let values = fitted_values(method, seen);
-        let function = method.function(false).expect("a test builds every method");
+    let row = |form: &Form| {
+        let (method, values) = (form.method, fitted_values(form.method, seen));
+        let function = method.function(false);
+        let function = function.expect("a test builds every method");
         let error = error_from(seen, &|cosines| {
             values_at(&function, method.inputs, &values, cosines)
         });
         Row {
             follows: Some(follows),
-            ..bare(method, &values, error, ("any", &flags.gpu))
+            ..bare(form, &values, error, "any")
         }
     };
-    let of_any = methods.iter().filter(|method| method.class == Class::Any);
+    let of_any = forms.iter().filter(|form| form.method.class == Class::Any);
     Ok(of_any.map(row).collect())
 }
 

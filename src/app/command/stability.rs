@@ -12,7 +12,7 @@ use crate::app::request::Request;
 use crate::app::source::materials;
 use crate::app::write::write_files;
 use crate::emit::{Bounds, Naming, Subject, specialised_function};
-use crate::methods::{self, Class, Method};
+use crate::methods::{self, Method};
 use crate::num::Precision;
 use crate::report::png::png;
 use crate::report::stability::{Row, heat, page, text};
@@ -137,8 +137,7 @@ impl Asked<'_> {
         let mut rows = Vec::new();
         for (i, (subject, _)) in ready.iter().enumerate() {
             progress(i as u64, ready.len() as u64, &subject.name);
-            let transparent = subject.effective.channels.is_transparent();
-            let fits = |method: &&&Method| method.class == Class::Any || transparent;
+            let fits = |method: &&&Method| subject.is_described_by(method);
             for method in self.methods.iter().filter(fits) {
                 rows.extend(self.channels(method, subject)?);
             }

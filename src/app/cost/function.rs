@@ -6,7 +6,7 @@ use crate::app::error::Error;
 use crate::cost::{Dialect, Probe, REFERENCE};
 use crate::emit::{Bounds, Emitted, Naming, Subject, library_functions, sha256, specialised_graph};
 use crate::ir::{Checked, Ty};
-use crate::methods::{self, Class, Method};
+use crate::methods::{self, Method};
 use crate::num::Precision;
 
 /// A function as it is measured.
@@ -53,11 +53,9 @@ pub fn functions(
             }
         }
         for subject in subjects {
-            let transparent = subject.effective.channels.is_transparent();
             for method in methods.iter().copied() {
-                let fits = method.class == Class::Any || transparent;
                 let refused = precision.is_half() && method.half.refusal().is_some();
-                if fits && !refused {
+                if subject.is_described_by(method) && !refused {
                     let made = specialised_graph(method, subject, precision, &bounds)?;
                     found.push(Function {
                         material: Some(subject.argument.clone()),

@@ -5,9 +5,11 @@ mod function;
 mod row;
 #[cfg(feature = "gpu")]
 mod serve;
+mod session;
 
-pub use asked::{Limits, Said, Told, ask, environment, reason};
+pub use asked::{Limits, Told, ask};
 pub use function::{Function, functions};
 pub use row::rows;
 #[cfg(feature = "gpu")]
 pub use serve::serve;
+pub use session::{Said, environment, reason};

@@ -111,8 +111,7 @@ impl Asked {
         precision: Precision,
         subject: &Subject,
     ) -> Result<(), Error> {
-        let transparent = subject.effective.channels.is_transparent();
-        let fits = |method: &&&'static Method| method.class == Class::Any || transparent;
+        let fits = |method: &&&'static Method| subject.is_described_by(method);
         for method in methods.iter().filter(fits) {
             let of = format!(" for {}", subject.name);
             if self.is_refused(precision, method, &of, method.half.refusal()) {

@@ -8,7 +8,7 @@ use crate::emit::{CodeBound, Emitted, Subject};
 use crate::fit::{self, Measured, ModelError, Truth};
 use crate::ir::{Column, Ty};
 use crate::materials::Channels;
-use crate::methods::{Class, Contract, Method};
+use crate::methods::{Contract, Method};
 use crate::num::Precision;
 use crate::verify::compilers::{self, Verdict};
 use crate::verify::harness;
@@ -73,9 +73,7 @@ fn cases<'a>(plan: &'a Plan, file: &Planned, emitted: &Emitted) -> Vec<Case<'a>>
         return vec![specialised(&plan.subjects[index], emitted)];
     }
     let method = emitted.method;
-    let fits = |subject: &&Subject| {
-        method.class == Class::Any || subject.effective.channels.is_transparent()
-    };
+    let fits = |subject: &&Subject| subject.is_described_by(method);
     let mut cases: Vec<Case> = plan
         .trial_subjects()
         .iter()

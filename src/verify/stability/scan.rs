@@ -2,7 +2,7 @@
 
 use crate::ir::{Checked, Value, evaluate};
 use crate::methods::Method;
-use crate::num::{Half, Num, Precision};
+use crate::num::{Half, Num, Precision, in_parallel};
 
 use super::axis::{Axis, dense};
 use super::failure::{Failure, NEAR, Point, is_flushed};
@@ -154,9 +154,6 @@ pub(super) struct Scan<'a> {
     pub law: &'a (dyn Fn(&Given, f64) -> Option<f64> + Sync),
 }
 
-/// Points that a core scans at a time.
-const BATCH: usize = 32;
-
 /// By how much a point of a space fails in each way: at each cosine, and as a whole curve with its worst cosine.
 struct Row {
     at: Vec<Amounts>,
@@ -232,22 +229,10 @@ impl Scan<'_> {
 
     /// All points of the space, shared among the processor's cores.
     fn rows(&self, done: &mut dyn FnMut(usize)) -> Vec<Row> {
-        let cores = std::thread::available_parallelism().map_or(1, usize::from);
-        let indices: Vec<usize> = (0..self.space.count()).collect();
-        let mut rows = Vec::with_capacity(indices.len());
-        for batch in indices.chunks(BATCH * cores) {
-            std::thread::scope(|scope| {
-                let part = |part: &[usize]| part.iter().map(|index| self.row(*index)).collect();
-                let started = batch
-                    .chunks(BATCH)
-                    .map(|indices| scope.spawn(move || -> Vec<Row> { part(indices) }));
-                for thread in started.collect::<Vec<_>>() {
-                    rows.extend(thread.join().expect("a scan does not panic"));
-                }
-            });
-            done(rows.len());
-        }
-        rows
+        let row = |index| self.row(index);
+        in_parallel(self.space.count(), &row, &mut |count, _| {
+            done(count as usize)
+        })
     }
 
     /// A point of the space, at all cosines.
