@@ -134,12 +134,17 @@ impl Subject {
     /// What a method's inputs are for it. Coefficients are fitted to colours before they are clipped: a clipped curve has a
     /// corner, and the function clips by itself.
     pub fn values(&self, method: &Method) -> Values {
+        self.values_in(Precision::F32, method)
+    }
+
+    /// The same, with coefficients that are fitted as this precision holds them.
+    pub fn values_in(&self, precision: Precision, method: &Method) -> Values {
         if method.is_fitted() {
             let mut surface = self.truth.surface.clone();
             if surface.gamut == Gamut::Clip {
                 surface.gamut = Gamut::Keep;
             }
-            return fitted_values(method, |c| seen(&surface, method.light, c));
+            return fitted_values(method, precision, |c| seen(&surface, method.light, c));
         }
         let seen = |cos_theta| self.truth.at(cos_theta);
         let known = Known::with(self.effective.channels, seen, &self.derivation);
@@ -271,7 +276,7 @@ pub fn specialised_graph(
         let what = "it describes dielectrics only, and this absorbs (k > 0)";
         return Err(refused(method, subject, what));
     }
-    let constants = subject.values(method);
+    let constants = subject.values_in(precision, method);
     let stable = specialise(method, subject, precision, &constants)?;
     let plain = match precision {
         Precision::F32 => plain(method, &constants, &stable, bounds),

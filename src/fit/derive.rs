@@ -5,6 +5,7 @@ use std::collections::BTreeMap;
 use crate::ir::Ty;
 use crate::materials::Channels;
 use crate::methods::{Input, Method, ONLY_ROW, TEXELS, Values, WARP};
+use crate::num::Precision;
 use crate::optics::{self, COS_82};
 
 use super::fitted::{Curve, fit};
@@ -75,17 +76,23 @@ impl Known {
 pub fn values(method: &Method, channels: &Channels, derivation: &Derivation) -> Values {
     if method.is_fitted() {
         let Channels { n, k } = *channels;
-        return fitted_values(method, |c| [0, 1, 2].map(|i| exact(n[i], k[i], c)));
+        return fitted_values(method, Precision::F32, |c| {
+            [0, 1, 2].map(|i| exact(n[i], k[i], c))
+        });
     }
     let known = Known::of_channels(channels, derivation);
     values_of(method, &known, derivation)
 }
 
-/// The coefficients of a fitted method for what is seen at a cosine.
-pub fn fitted_values(method: &Method, seen: impl Fn(f64) -> [f64; 3]) -> Values {
+/// The coefficients of a fitted method for what is seen at a cosine, as a precision holds them.
+pub fn fitted_values(
+    method: &Method,
+    precision: Precision,
+    seen: impl Fn(f64) -> [f64; 3],
+) -> Values {
     let fitted = method
         .shape
-        .and_then(|shape| fit(&shape, &Curve::new(seen)));
+        .and_then(|shape| fit(&shape, &Curve::new(seen), precision));
     let fitted = fitted.expect("a fitted method's terms tell angles apart; a test fits them all");
     let names = Input::COEFFICIENTS.map(|input| input.name.to_owned());
     names.into_iter().zip(fitted.coefficients).collect()

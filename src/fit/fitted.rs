@@ -2,8 +2,10 @@
 //! channel by channel, without the clip to [0, 1] that comes after.
 
 use crate::methods::{Shape, unwarped};
+use crate::num::Precision;
 
 use super::minimax::minimax;
+use super::rounded::rounded;
 
 /// Cosines that a curve is fitted at: from 0 to 1, dense towards grazing as `--axis steep` is. Twice as many change no
 /// error by a hundredth of it.
@@ -22,7 +24,7 @@ pub struct Curve {
 /// A form fitted to a curve.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Fit {
-    /// Each coefficient for three channels, as f32 holds it.
+    /// Each coefficient for three channels, as the precision holds it.
     pub coefficients: Vec<[f64; 3]>,
     /// The largest error of each channel at the curve's cosines, on paper.
     pub max_abs: [f64; 3],
@@ -47,18 +49,22 @@ fn row(shape: &Shape, cos_theta: f64) -> Vec<f64> {
     row
 }
 
-/// Fits a shape's coefficients. None where its terms do not tell angles apart.
-pub fn fit(shape: &Shape, curve: &Curve) -> Option<Fit> {
+/// Fits a shape's coefficients: those of single precision are rounded afterwards, to 6e-8 of themselves. None where its terms do
+/// not tell angles apart.
+pub fn fit(shape: &Shape, curve: &Curve, precision: Precision) -> Option<Fit> {
     let rows: Vec<Vec<f64>> = curve.cosines.iter().map(|c| row(shape, *c)).collect();
     let weights = vec![1.0; rows.len()];
     let channel = |i: usize| {
         let wanted: Vec<f64> = curve.seen.iter().map(|seen| seen[i]).collect();
-        minimax(&rows, &wanted, &weights)
+        match precision {
+            Precision::F32 => minimax(&rows, &wanted, &weights),
+            Precision::F16 => rounded(&rows, &wanted, &weights),
+        }
     };
     let [red, green, blue] = [channel(0)?, channel(1)?, channel(2)?];
-    let single = |value: f64| f64::from(value as f32);
     let terms = 0..red.coefficients.len();
-    let coefficient = |term: usize| [&red, &green, &blue].map(|c| single(c.coefficients[term]));
+    let coefficient =
+        |term: usize| [&red, &green, &blue].map(|c| precision.rounded(c.coefficients[term]));
     Some(Fit {
         coefficients: terms.map(coefficient).collect(),
         max_abs: [red.error, green.error, blue.error],

@@ -15,6 +15,7 @@ mod over;
 mod params;
 mod perceived;
 mod rival;
+mod rounded;
 mod texels;
 
 pub use colours::{Follows, LARGEST_SOLVED_F0};

@@ -1,9 +1,10 @@
-//! `F = ½ r_s² (1 + B²)`, with `τ = (η-1)(η+1)`, `g = √(τ + c²)`, `u = g + c`, `r_s = τ / u²`,
-//! `B = r_p / r_s = (c u - 1) / (c τ / u + 1)`: the exact law for dielectrics, in a form that is stable near η = 1.
+//! `F = (c² g² + s⁴) k²`, with `s² = 1 - c²`, `τ = η² - 1`, `g = √(τ + c²)`, `u = g + c`, `k = τ / (c (u (τ + 2) - c) + g²)`:
+//! the exact law for dielectrics by one quotient and one root, stable near η = 1.
 //!
 //! Source: Fresnel 1823 in the g-form of Cook and Torrance, "A Reflectance Model for Computer Graphics", 1982,
-//! <https://doi.org/10.1145/357290.357293>, rearranged: `(g-c)/(g+c) = τ/u²` has no cancellation, and
-//! `u² = τ + 2 c u` needs no square of a small number. τ must come from (η-1)(η+1), not η²-1.
+//! <https://doi.org/10.1145/357290.357293>, rearranged: r_s = (g-c)/(g+c) is τ/u² without its cancellation, r_p / r_s is
+//! (cg-s²)/(cg+s²), so F = ½ (r_s² + r_p²) is (c²g²+s⁴) (τ / (u² (cg+s²)))², and u² (cg+s²) = c (u (τ+2) - c) + g².
+//! τ must come from η-1, not η²-1. Past the critical angle g is 0 in it, and it is 1 or more: the limit makes it 1.
 //! In half precision it is F = ½ (r_s² + r_p²) with r_s = 1 - 2c/(g+c) and r_p = 1 - 2η²c/(η²c+g): where F is near 1 little
 //! is subtracted, and two roundings are left of eight.
 //! Domain: η ≥ 0.001, on both sides of 1; past the critical angle exactly 1; η = 1 gives 0 at every angle, 90° too.
@@ -35,8 +36,8 @@ pub static METHOD: Method = Method {
     name: "dielectric_exact",
     summary: "the exact law for dielectrics, stable near eta = 1, total reflection included",
     formula: &[
-        "t = (eta - 1)(eta + 1), g = sqrt(t + c^2), u = g + c, r_s = t / u^2",
-        "F = r_s^2 (1 + B^2) / 2, B = (c u - 1) / (c t / u + 1); 1 where t + c^2 < 0",
+        "s2 = 1 - c^2, t = eta^2 - 1, g2 = max(t + c^2, 0), u = sqrt(g2) + c",
+        "F = min((c^2 g2 + s2^2) k^2, 1), k = t / (c (u (t + 2) - c) + g2)",
     ],
     source: COOK_TORRANCE_1982,
     inputs: &[Input::ETA],
@@ -61,22 +62,46 @@ pub static METHOD: Method = Method {
     shape: None,
 };
 
+/// What the root is of at the least: past the critical angle, and at 90 degrees where η = 1, the quotient then is a number still.
+const SMALLEST_SQUARE: f64 = 1e-14;
+
 fn build<'b>(x: &Inputs<'b>) -> Expr<'b> {
-    let steps = steps(x);
-    steps.reflected(steps.mean())
+    if x.is_half() {
+        let steps = steps(x);
+        return steps.reflected(steps.mean());
+    }
+    let (c, eta) = (x.cosine(), x.get(Input::ETA));
+    let (c2, s4) = squares(c);
+    let apart = (eta - 1.0).named("apart", "");
+    let tau = (apart * eta + apart).named("tau", "eta^2 - 1 without its cancellation near 1");
+    let g2 = (tau + c2).at_least(SMALLEST_SQUARE).named(
+        "g2",
+        "square of eta cos theta_t; next to 0 past the critical angle",
+    );
+    let u = (g2.sqrt() + c).named("u", "");
+    let k = tau / (c * (u * (tau + 2.0) - c) + g2);
+    let k = k.named("k", "");
+    ((c2 * g2 + s4) * k.squared()).at_most(1.0)
 }
 
-/// Where eta is well above 1 nothing cancels: `r_s = (c - g) / (c + g)`, `r_p = (g - η² c) / (g + η² c)`, two quotients for
-/// three.
+/// Where eta is well above 1 nothing cancels: `k = (g - c) / (g + η² c)`.
 fn plain<'b>(x: &Inputs<'b>) -> Expr<'b> {
     let (c, eta) = (x.cosine(), x.get(Input::ETA));
+    let (c2, s4) = squares(c);
     let tau = ((eta - 1.0) * (eta + 1.0)).named("tau", "eta^2 - 1");
-    let g = (tau + c.squared()).sqrt();
-    let g = g.named("g", "eta times the cosine of the refracted ray");
-    let e = (eta.squared() * c).named("e", "eta^2 cos_theta");
-    let r_s = ((c - g) / (c + g)).named("r_s", "");
-    let r_p = ((g - e) / (g + e)).named("r_p", "");
-    0.5 * (r_s.squared() + r_p.squared())
+    let g2 = (tau + c2).named("g2", "");
+    let g = g2
+        .sqrt()
+        .named("g", "eta times the cosine of the refracted ray");
+    let k = ((g - c) / (g + eta.squared() * c)).named("k", "");
+    (c2 * g2 + s4) * k.squared()
+}
+
+/// `cos² θ` and `sin⁴ θ`.
+fn squares(c: Expr<'_>) -> (Expr<'_>, Expr<'_>) {
+    let c2 = c.squared().named("c2", "");
+    let s2 = (1.0 - c2).named("s2", "sin^2 theta");
+    (c2, s2.squared().named("s4", ""))
 }
 
 /// The steps that the polarised forms share.
@@ -115,10 +140,7 @@ impl<'b> Steps<'b> {
 
     /// Of both in equal parts.
     fn mean(&self) -> Expr<'b> {
-        match self.p {
-            P::OverS(ratio) => 0.5 * self.r_s.squared() * (1.0 + ratio.squared()),
-            P::Itself(r_p) => 0.5 * (self.r_s.squared() + r_p.squared()),
-        }
+        0.5 * (self.s() + self.p())
     }
 
     /// `reflectance`, but 1 past the critical angle, and never above 1.

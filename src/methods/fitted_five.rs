@@ -8,7 +8,7 @@
 
 use crate::ir::Expr;
 
-use super::fitted::{NOT_IN_HALF, STIEFEL_1959};
+use super::fitted::{FLOOR, STIEFEL_1959};
 use super::half::InHalf;
 use super::input::{Input, Inputs};
 use super::method::{Claim, Claims, Class, Contract, Forms, Light, Method, Over};
@@ -55,7 +55,7 @@ pub static METHOD: Method = Method {
         code_over: Over::Metals,
     },
     contract: Contract::Kept,
-    half: InHalf::Refused(NOT_IN_HALF),
+    half: InHalf::within_over(0.0028, Over::Metals, FLOOR),
     build,
     plain: None,
     specialised: None,

@@ -38,9 +38,14 @@ impl InHalf {
 
     /// The same, with what happens beyond.
     pub const fn within_but(max_abs: f64, beyond: &'static str) -> InHalf {
+        InHalf::within_over(max_abs, Over::Half, beyond)
+    }
+
+    /// It is written, and promises this over some media, with what happens beyond.
+    pub const fn within_over(max_abs: f64, over: Over, beyond: &'static str) -> InHalf {
         InHalf::Kept(HalfClaim {
             max_abs,
-            over: Over::Half,
+            over,
             beyond,
         })
     }

@@ -50,7 +50,7 @@ static RULE: LazyLock<Legendre> = LazyLock::new(|| Legendre::new(64));
 impl Shape {
     /// The formula, for a method whose inputs are its coefficients. It is limited to [0, 1], which costs nothing on a GPU.
     pub fn build<'b>(&self, x: &Inputs<'b>) -> Expr<'b> {
-        let mut made = Made::of(x.cosine());
+        let mut made = Made::of(x);
         let mut sum = x.get(Input::COEFFICIENTS[self.factors.len()]);
         let terms = Input::COEFFICIENTS[..self.factors.len()].iter().rev();
         for (factor, input) in self.factors.iter().rev().zip(terms) {
@@ -114,13 +114,17 @@ impl Factor {
 /// Factors as steps of a graph, each made once.
 struct Made<'b> {
     c: Expr<'b>,
+    is_half: bool,
     known: Vec<(Factor, Expr<'b>)>,
 }
 
 impl<'b> Made<'b> {
-    fn of(c: Expr<'b>) -> Made<'b> {
-        let known = Vec::new();
-        Made { c, known }
+    fn of(x: &Inputs<'b>) -> Made<'b> {
+        Made {
+            c: x.cosine(),
+            is_half: x.is_half(),
+            known: Vec::new(),
+        }
     }
 
     fn factor(&mut self, factor: Factor) -> Expr<'b> {
@@ -137,6 +141,7 @@ impl<'b> Made<'b> {
         let c = self.c;
         match factor {
             Factor::Grazing(1) => (1.0 - c).named("b", "0 at normal incidence, 1 at grazing"),
+            Factor::Grazing(p) if self.is_half => power_in_half(c, p),
             Factor::Grazing(p) => power(self.factor(Factor::Grazing(1)), p),
             Factor::Exponential(a) => {
                 let b = (-a * c).exp2();
@@ -158,25 +163,44 @@ impl<'b> Made<'b> {
     }
 }
 
-/// A whole power by multiplications, the lower factors first, so that powers share what they can.
-fn power(b: Expr<'_>, exponent: u32) -> Expr<'_> {
-    let (mut whole, mut reached) = (None::<Expr<'_>>, 0);
+/// A whole power by products, the lower factors first, so that powers share what they can.
+fn product<'b>(
+    b: Expr<'b>,
+    exponent: u32,
+    times: fn(Expr<'b>, Expr<'b>, u32) -> Expr<'b>,
+) -> Option<Expr<'b>> {
+    let (mut whole, mut reached) = (None::<Expr<'b>>, 0);
     let (mut square, mut place) = (b, 1);
     while place <= exponent {
         if exponent & place != 0 {
             reached += place;
-            whole = Some(whole.map_or(square, |whole| named_power(whole * square, reached)));
+            whole = Some(whole.map_or(square, |whole| times(whole, square, reached)));
         }
         place *= 2;
         if place <= exponent {
-            square = named_power(square.squared(), place);
+            square = times(square, square, place);
         }
     }
-    whole.unwrap_or_else(|| b.builder().number(1.0))
+    whole
 }
 
-fn named_power(power: Expr<'_>, exponent: u32) -> Expr<'_> {
-    power.named(&format!("b{exponent}"), "")
+fn power(b: Expr<'_>, exponent: u32) -> Expr<'_> {
+    fn times<'b>(one: Expr<'b>, other: Expr<'b>, reached: u32) -> Expr<'b> {
+        (one * other).named(&format!("b{reached}"), "")
+    }
+    product(b, exponent, times).unwrap_or_else(|| b.builder().number(1.0))
+}
+
+/// `(1 - c)^p` in half precision: 1 less what is small at grazing, where a rounded 1 - c would be as many roundings off as the
+/// power says. `1 - (1 - x) (1 - y) = x + y - x y`.
+fn power_in_half(c: Expr<'_>, exponent: u32) -> Expr<'_> {
+    fn times<'b>(one: Expr<'b>, other: Expr<'b>, reached: u32) -> Expr<'b> {
+        let both = one + other - one * other;
+        both.named(&format!("less{reached}"), "1 - (1 - c)^p, small at grazing")
+    }
+    let less = product(c, exponent, times);
+    let less = less.unwrap_or_else(|| c.builder().number(0.0));
+    (1.0 - less).named(&format!("b{exponent}"), "")
 }
 
 #[cfg(test)]

@@ -12,7 +12,7 @@ use crate::cost::{Family, library_cost, records};
 use crate::emit::Subject;
 use crate::fit::{Follows, ModelError, error_from, fitted_values, model_error, values_at};
 use crate::methods::{ALL, Class, Method, Values};
-use crate::num::in_parallel;
+use crate::num::{Precision, in_parallel};
 use crate::report::fits::{Row, text};
 
 use super::{Output, Progress, report, try_places};
@@ -133,7 +133,10 @@ fn of_colours(flags: &FitFlags, forms: &[Form]) -> Result<Vec<Row>, Error> {
     let follows = [0, 1, 2].map(|i| Follows::of(f0[i], f82[i]));
     let seen = |cos_theta: f64| follows.map(|channel| channel.at(cos_theta));
     let row = |form: &Form| {
-        let (method, values) = (form.method, fitted_values(form.method, seen));
+        let (method, values) = (
+            form.method,
+            fitted_values(form.method, Precision::F32, seen),
+        );
         let function = method.function(false);
         let function = function.expect("a test builds every method");
         let error = error_from(seen, &|cosines| {

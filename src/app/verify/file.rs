@@ -105,7 +105,7 @@ pub(super) fn specialised<'a>(subject: &'a Subject, emitted: &Emitted) -> Case<'
 }
 
 fn library<'a>(subject: &'a Subject, emitted: &Emitted) -> Case<'a> {
-    let values = subject.values(emitted.method);
+    let values = subject.values_in(emitted.precision, emitted.method);
     let numbers = emitted
         .method
         .inputs
