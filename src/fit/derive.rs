@@ -4,7 +4,9 @@ use std::collections::BTreeMap;
 
 use crate::ir::Ty;
 use crate::materials::Channels;
-use crate::methods::{Input, Method, ONLY_ROW, TEXELS, Values, WARP};
+use crate::methods::{
+    BELCOUR_COSINES, Input, Method, ONLY_ROW, TEXELS, Values, WARP, belcour_weights,
+};
 use crate::num::Precision;
 use crate::optics::{self, COS_82};
 
@@ -43,6 +45,8 @@ pub struct Known {
     f60: [f64; 3],
     /// At the angle where λ is matched.
     matching: [f64; 3],
+    /// At the two angles where Belcour's curves are weighed.
+    belcour: [[f64; 3]; 2],
 }
 
 impl Known {
@@ -68,6 +72,7 @@ impl Known {
             f82: seen(COS_82),
             f60: seen(COS_60),
             matching: seen(derivation.matching_cos),
+            belcour: BELCOUR_COSINES.map(&seen),
         }
     }
 }
@@ -135,6 +140,8 @@ pub fn derived(name: &str, known: &Known, derivation: &Derivation) -> [f64; 3] {
         "lambda" => each(&|i| {
             lambda_for(n[i], k[i], derivation.matching_cos, known.matching[i]).unwrap_or(0.0)
         }),
+        "b2_weight" => each(&|i| belcour(known, i)[0]),
+        "b3_weight" => each(&|i| belcour(known, i)[1]),
         "texels" => [TEXELS as f64; 3],
         "warp" => [WARP; 3],
         "row" => [ONLY_ROW; 3],
@@ -154,6 +161,10 @@ fn exact(n: f64, k: f64, cos_theta: f64) -> f64 {
 /// Schlick's value at cos θ = 1/7, where the weight is (6/7)⁵.
 pub(super) fn schlick_82(f0: f64) -> f64 {
     f0 + (1.0 - f0) * 7_776.0 / 16_807.0
+}
+
+fn belcour(known: &Known, i: usize) -> [f64; 2] {
+    belcour_weights(known.f0[i], known.belcour.map(|seen| seen[i]))
 }
 
 fn mean(channels: [f64; 3]) -> f64 {

@@ -91,6 +91,17 @@ impl Input {
         "any",
     );
 
+    pub const B2_WEIGHT: Input = rgb(
+        "b2_weight",
+        "share of the second curve, solved at 82.64 degrees",
+        "any",
+    );
+    pub const B3_WEIGHT: Input = rgb(
+        "b3_weight",
+        "share of the third curve, solved at 64.38 degrees",
+        "any",
+    );
+
     pub const C0: Input = rgb("c0", "coefficient of 1", "any");
     pub const C1: Input = rgb("c1", "coefficient of the first power", "any");
     pub const C2: Input = rgb("c2", "coefficient of the second power", "any");
@@ -123,10 +134,10 @@ impl Input {
 
     /// Every input in the order of arguments.
     #[rustfmt::skip]
-    pub const ORDER: [Input; 24] = [
+    pub const ORDER: [Input; 26] = [
         Input::ETA, Input::N, Input::K, Input::F0, Input::F90, Input::F82, Input::TINT, Input::REFLECTIVITY,
-        Input::EDGE_TINT, Input::BIAS, Input::SCALE, Input::POWER, Input::EXPONENT, Input::LAMBDA, Input::C0,
-        Input::C1, Input::C2, Input::C3, Input::C4, Input::TABLE, Input::TEXELS, Input::WARP, Input::ROW, Input::TABLE_SCALE,
+        Input::EDGE_TINT, Input::BIAS, Input::SCALE, Input::POWER, Input::EXPONENT, Input::LAMBDA,
+        Input::B2_WEIGHT, Input::B3_WEIGHT, Input::C0, Input::C1, Input::C2, Input::C3, Input::C4, Input::TABLE, Input::TEXELS, Input::WARP, Input::ROW, Input::TABLE_SCALE,
     ];
 }
 

@@ -17,6 +17,7 @@ pub use method::{Better, Claim, Claims, Class, Contract, Forms, Light, Method, O
 pub use shape::{Factor, Shape};
 
 // BEGIN methods (written by the test `tidy::lists_are_complete` with BLESS=1)
+mod belcour_decomposition;
 mod conductor_artistic;
 mod conductor_exact;
 mod conductor_from_f0_f82;
@@ -44,6 +45,7 @@ mod table;
 /// Every method, by name.
 #[rustfmt::skip]
 pub static ALL: &[&Method] = &[
+    &belcour_decomposition::METHOD,
     &conductor_artistic::METHOD,
     &conductor_exact::METHOD,
     &conductor_from_f0_f82::METHOD,
@@ -70,6 +72,7 @@ pub static ALL: &[&Method] = &[
 ];
 // END methods
 
+pub use belcour_decomposition::{BELCOUR_COSINES, belcour_weights};
 pub use table::{ONLY_ROW, TEXELS, WARP, fetch, unwarped, warped, warped_step};
 
 /// The method of this name.

@@ -36,7 +36,7 @@ const COSINES: [f32; 16] = [
 ];
 
 /// What each input is tried with: its domain's ends, ordinary values, and what lies outside.
-const INPUTS: [(&[&str], &[f32]); 11] = [
+const INPUTS: [(&[&str], &[f32]); 12] = [
     (&["eta", "n"], &[1.0, 1.5, 0.5, 0.0, 2.4, 1e-3, 1.0001]),
     (&["k"], &[0.0, 3.0, 1e-3, 20.0]),
     (&["f0", "reflectivity", "f82"], &[0.04, 1.06, 0.0, 1.0, 0.9]),
@@ -45,6 +45,7 @@ const INPUTS: [(&[&str], &[f32]); 11] = [
     (&["power", "exponent"], &[5.0, 0.2, 40.0]),
     (&["lambda"], &[7.0, -1.0, 0.5]),
     (&["c0", "c1", "c2", "c3", "c4"], &[0.3, 1.0, -2.0]),
+    (&["b2_weight", "b3_weight"], &[0.05, -0.3, 1.0]),
     (&["texels"], &[64.0]),
     (&["warp"], &[4.0, 0.0, 0.5]),
     (&["row", "table_scale"], &[1.0]),

@@ -84,6 +84,7 @@ fn arguments(method: &Method) -> Vec<Vec<f32>> {
             "row" => vec![0.0, 0.5, 1.0],
             "table_scale" => vec![1.0],
             "lambda" => vec![-1.0, 0.0, 0.5, 7.0, 60.0],
+            "b2_weight" | "b3_weight" => vec![-0.3, 0.0, 0.2],
             "c0" | "c1" | "c2" | "c3" | "c4" => vec![-2.0, 0.3, 1.0],
             _ => unreachable!("{name} has no values here: add some"),
         }

@@ -71,6 +71,7 @@ fn value(name: &str, share: f64, pick: f64) -> f32 {
         "tint" => (0.0, 2.0),
         "exponent" | "power" => (0.2, 60.0),
         "lambda" => (-1.0, 60.0),
+        "b2_weight" | "b3_weight" => (-0.5, 0.5),
         "c0" | "c1" | "c2" | "c3" | "c4" => (-3.0, 3.0),
         "f90" | "reflectivity" | "edge_tint" | "bias" | "scale" => (0.0, 1.0),
         _ => unreachable!("{name} has no domain here: add it"),
