@@ -1,7 +1,7 @@
 //! A function ready to be printed: its name, its graph, and what is known of its errors.
 
 use crate::fit::{
-    Derivation, Effective, Known, Measured, ModelError, Truth, effective, fitted_values,
+    Curve, Derivation, Effective, Known, Measured, ModelError, Truth, effective, fitted_values,
     model_error, seen, values_of,
 };
 use crate::ir::{Checked, Fault};
@@ -140,15 +140,27 @@ impl Subject {
     /// The same, with coefficients that are fitted as this precision holds them.
     pub fn values_in(&self, precision: Precision, method: &Method) -> Values {
         if method.is_fitted() {
-            let mut surface = self.truth.surface.clone();
-            if surface.gamut == Gamut::Clip {
-                surface.gamut = Gamut::Keep;
-            }
+            let surface = self.unclipped();
             return fitted_values(method, precision, |c| seen(&surface, method.light, c));
         }
         let seen = |cos_theta| self.truth.at(cos_theta);
         let known = Known::with(self.effective.channels, seen, &self.derivation);
         values_of(method, &known, &self.derivation)
+    }
+
+    /// What coefficients are fitted to, for unpolarised light.
+    pub fn curve(&self) -> Curve {
+        let surface = self.unclipped();
+        Curve::new(|c| seen(&surface, Light::Unpolarised, c))
+    }
+
+    /// The surface with colours as they are before they are clipped.
+    fn unclipped(&self) -> Surface {
+        let mut surface = self.truth.surface.clone();
+        if surface.gamut == Gamut::Clip {
+            surface.gamut = Gamut::Keep;
+        }
+        surface
     }
 
     /// What a method's error is held against: the truth in its light; what reads a table keeps the table's colours.

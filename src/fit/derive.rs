@@ -10,7 +10,7 @@ use crate::methods::{
 use crate::num::Precision;
 use crate::optics::{self, COS_82};
 
-use super::fitted::{Curve, fit};
+use super::fitted::{Aim, Curve, Task, basis};
 use super::lambda::{THESIS_MATCHING_COS, lambda_for};
 
 /// The choices that a derivation leaves open.
@@ -95,12 +95,21 @@ pub fn fitted_values(
     precision: Precision,
     seen: impl Fn(f64) -> [f64; 3],
 ) -> Values {
-    let fitted = method
-        .shape
-        .and_then(|shape| fit(&shape, &Curve::new(seen), precision));
+    let aim = Aim {
+        precision,
+        ..Aim::default()
+    };
+    let fitted = fitted_for(method, &Curve::new(seen), aim);
     let fitted = fitted.expect("a fitted method's terms tell angles apart; a test fits them all");
+    fitted.0
+}
+
+/// The coefficients of a fitted method for a curve with an aim, and the largest error in its measure on paper. None where the
+/// method is not fitted, or its terms do not tell angles apart under such weights.
+pub fn fitted_for(method: &Method, curve: &Curve, aim: Aim) -> Option<(Values, f64)> {
+    let fit = Task::new(curve, aim).fit(&basis(&method.shape?))?;
     let names = Input::COEFFICIENTS.map(|input| input.name.to_owned());
-    names.into_iter().zip(fitted.coefficients).collect()
+    Some((names.into_iter().zip(fit.coefficients).collect(), fit.error))
 }
 
 /// The values of all inputs of a method but a texture. A λ that does not exist is 0, which drops the term. A method that solves its

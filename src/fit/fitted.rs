@@ -1,11 +1,13 @@
 //! The coefficients of a fitted method for what is seen of a material: those with the least largest error over all angles,
-//! channel by channel, without the clip to [0, 1] that comes after.
+//! without the clip to [0, 1] that comes after. Which error, and what is met exactly, is an [`Aim`].
 
 use crate::methods::{Shape, unwarped};
 use crate::num::Precision;
+use crate::spectra::Space;
 
-use super::minimax::minimax;
+use super::exact::{Exact, fit_meeting, held};
 use super::rounded::rounded;
+use super::weight::{Weight, luminance, shares};
 
 /// Cosines that a curve is fitted at: from 0 to 1, dense towards grazing as `--axis steep` is. Twice as many change no
 /// error by a hundredth of it.
@@ -24,17 +26,38 @@ pub struct Curve {
 /// A form fitted to a curve.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Fit {
-    /// Each coefficient for three channels, as the precision holds it.
+    /// Each coefficient for three channels, as the aim's precision holds it.
     pub coefficients: Vec<[f64; 3]>,
-    /// The largest error of each channel at the curve's cosines, on paper.
-    pub max_abs: [f64; 3],
+    /// The largest error that these leave at the curve's cosines, on paper, in the measure that was minimised.
+    pub error: f64,
+}
+
+/// What coefficients are to be: the best in which measure, exact where.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Aim {
+    /// The measure that is minimised, at its largest over all angles.
+    pub weight: Weight,
+    /// Where what is seen is met exactly: within 1e-7, of the coefficients as f32 holds them. In half precision nothing is.
+    pub exact: Exact,
+    /// What holds the coefficients. Those of half precision are rounded in the optimisation.
+    pub precision: Precision,
+    /// The space of the three channels, for measures of colours.
+    pub space: Space,
+}
+
+/// A curve with the weights of an aim, computed once for all shapes that are fitted to it.
+#[derive(Clone, Debug)]
+pub struct Task<'a> {
+    curve: &'a Curve,
+    aim: Aim,
+    wanted: [Vec<f64>; 3],
+    weights: [Vec<f64>; 3],
 }
 
 impl Curve {
     /// The curve of what is seen at a cosine.
     pub fn new(seen: impl Fn(f64) -> [f64; 3]) -> Curve {
-        let place = |i: usize| unwarped(DENSE, i as f64 / (POINTS - 1) as f64);
-        let cosines: Vec<f64> = (0..POINTS).map(place).collect();
+        let cosines = cosines();
         Curve {
             seen: cosines.iter().map(|c| seen(*c)).collect(),
             cosines,
@@ -42,31 +65,210 @@ impl Curve {
     }
 }
 
-/// What each coefficient of a shape multiplies at a cosine.
-fn row(shape: &Shape, cos_theta: f64) -> Vec<f64> {
-    let mut row = vec![0.0; shape.terms()];
-    shape.add(cos_theta, 1.0, &mut row);
-    row
+/// The cosines of all curves.
+fn cosines() -> Vec<f64> {
+    let place = |i: usize| unwarped(DENSE, i as f64 / (POINTS - 1) as f64);
+    (0..POINTS).map(place).collect()
 }
 
-/// Fits a shape's coefficients: those of single precision are rounded afterwards, to 6e-8 of themselves. None where its terms do
-/// not tell angles apart.
-pub fn fit(shape: &Shape, curve: &Curve, precision: Precision) -> Option<Fit> {
-    let rows: Vec<Vec<f64>> = curve.cosines.iter().map(|c| row(shape, *c)).collect();
-    let weights = vec![1.0; rows.len()];
-    let channel = |i: usize| {
-        let wanted: Vec<f64> = curve.seen.iter().map(|seen| seen[i]).collect();
-        match precision {
-            Precision::F32 => minimax(&rows, &wanted, &weights),
-            Precision::F16 => rounded(&rows, &wanted, &weights),
-        }
+/// What each coefficient of a shape multiplies, at each of a curve's cosines.
+pub fn basis(shape: &Shape) -> Vec<Vec<f64>> {
+    let row = |cos_theta: f64| {
+        let mut row = vec![0.0; shape.terms()];
+        shape.add(cos_theta, 1.0, &mut row);
+        row
     };
-    let [red, green, blue] = [channel(0)?, channel(1)?, channel(2)?];
-    let terms = 0..red.coefficients.len();
-    let coefficient =
-        |term: usize| [&red, &green, &blue].map(|c| precision.rounded(c.coefficients[term]));
-    Some(Fit {
-        coefficients: terms.map(coefficient).collect(),
-        max_abs: [red.error, green.error, blue.error],
-    })
+    cosines().into_iter().map(row).collect()
+}
+
+impl Task<'_> {
+    /// What is to be fitted to a curve.
+    pub fn new(curve: &Curve, aim: Aim) -> Task<'_> {
+        let of = |seen: &[f64; 3]| aim.weight.of_channels(*seen, aim.space);
+        let weights: Vec<[f64; 3]> = curve.seen.iter().map(of).collect();
+        let channel = |all: &[[f64; 3]], i: usize| all.iter().map(|three| three[i]).collect();
+        Task {
+            curve,
+            aim,
+            wanted: [0, 1, 2].map(|i| channel(&curve.seen, i)),
+            weights: [0, 1, 2].map(|i| channel(&weights, i)),
+        }
+    }
+
+    /// Fits the coefficients of a shape with this [`basis`]. None where its terms do not tell angles apart. For ΔE₀₀, which is of
+    /// all channels together, the better of two: of the channels by their weights, and without.
+    pub fn fit(&self, basis: &[Vec<f64>]) -> Option<Fit> {
+        let weighed = self.fit_by(&self.weights, basis)?;
+        if self.aim.weight != Weight::DeltaE {
+            return Some(weighed);
+        }
+        let even = self.fit_by(&[0, 1, 2].map(|_| vec![1.0; basis.len()]), basis);
+        let better = even.filter(|even| even.error < weighed.error);
+        Some(better.unwrap_or(weighed))
+    }
+
+    fn fit_by(&self, weights: &[Vec<f64>; 3], basis: &[Vec<f64>]) -> Option<Fit> {
+        let ends = match self.aim.precision {
+            Precision::F32 => self.aim.exact.ends(basis.len()),
+            Precision::F16 => Vec::new(),
+        };
+        let channel = |i: usize| match self.aim.precision {
+            Precision::F32 => fit_meeting(basis, &self.wanted[i], &weights[i], &ends),
+            Precision::F16 => {
+                rounded(basis, &self.wanted[i], &weights[i]).map(|found| found.coefficients)
+            }
+        };
+        let (red, blue) = (channel(0)?, channel(2)?);
+        let green = match self.aim.weight {
+            Weight::Luminance => self.green(basis, &ends, &red, &blue)?,
+            _ => channel(1)?,
+        };
+        let single = |i: usize, found: &[f64]| {
+            let met: Vec<(&[f64], f64)> = ends
+                .iter()
+                .map(|end| (&basis[*end][..], self.wanted[i][*end]))
+                .collect();
+            match self.aim.precision {
+                Precision::F32 => held(found, &met),
+                Precision::F16 => found.iter().map(|c| Precision::F16.rounded(*c)).collect(),
+            }
+        };
+        let held = [single(0, &red), single(1, &green), single(2, &blue)];
+        let coefficients: Vec<[f64; 3]> = (0..red.len())
+            .map(|term| [0, 1, 2].map(|i| held[i][term]))
+            .collect();
+        Some(Fit {
+            error: self.error(basis, &coefficients),
+            coefficients,
+        })
+    }
+
+    /// Green such that the luminance of all three is the best form there is.
+    fn green(
+        &self,
+        basis: &[Vec<f64>],
+        ends: &[usize],
+        red: &[f64],
+        blue: &[f64],
+    ) -> Option<Vec<f64>> {
+        let seen = self.curve.seen.iter();
+        let light: Vec<f64> = seen.map(|seen| luminance(*seen, self.aim.space)).collect();
+        let light = fit_meeting(basis, &light, &self.weights[1], ends)?;
+        let share = shares(self.aim.space);
+        let rest = |term: usize| light[term] - share.x * red[term] - share.z * blue[term];
+        Some((0..light.len()).map(|term| rest(term) / share.y).collect())
+    }
+
+    /// The largest error of these coefficients, in the measure that is minimised.
+    fn error(&self, basis: &[Vec<f64>], coefficients: &[[f64; 3]]) -> f64 {
+        let Aim { weight, space, .. } = self.aim;
+        let points = basis.iter().zip(&self.curve.seen);
+        let errors = points.map(|(row, seen)| {
+            let terms = row.iter().zip(coefficients);
+            let given = terms.fold([0.0; 3], |sum, (b, c)| [0, 1, 2].map(|i| sum[i] + b * c[i]));
+            weight.error(given, *seen, space)
+        });
+        errors.fold(0.0, f64::max)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::methods::find;
+    use crate::optics;
+
+    /// Gold at three wavelengths, as the thesis has it.
+    fn gold() -> Curve {
+        let index = [(0.15, 3.7), (0.45, 2.4), (1.35, 1.85)];
+        Curve::new(|c| index.map(|(n, k)| optics::conductor(n, k, c).unpolarised()))
+    }
+
+    fn water() -> Curve {
+        Curve::new(|c| [1.331, 1.333, 1.337].map(|n| optics::conductor(n, 0.0, c).unpolarised()))
+    }
+
+    /// The largest error in a measure of what was fitted for another.
+    fn error(curve: &Curve, name: &str, weight: Weight, fitted_for: Weight) -> f64 {
+        let shape = find(name)
+            .and_then(|method| method.shape)
+            .expect("a fitted method");
+        let aim = |weight| Aim {
+            weight,
+            ..Aim::default()
+        };
+        let basis = basis(&shape);
+        let fit = Task::new(curve, aim(fitted_for))
+            .fit(&basis)
+            .expect("it is fitted");
+        Task::new(curve, aim(weight)).error(&basis, &fit.coefficients)
+    }
+
+    #[test]
+    fn each_weight_is_best_in_its_own_measure() {
+        for (curve, name) in [
+            (gold(), "fitted"),
+            (gold(), "fitted_five"),
+            (water(), "fitted_dielectric"),
+        ] {
+            for weight in Weight::ALL {
+                let own = error(&curve, name, weight, weight);
+                for other in Weight::ALL.into_iter().filter(|other| *other != weight) {
+                    let others = error(&curve, name, weight, other);
+                    // ΔE₀₀ is minimised channel by channel: another may come a little nearer.
+                    let slack = if weight == Weight::DeltaE {
+                        1.1
+                    } else {
+                        1.0 + 1e-6
+                    };
+                    assert!(
+                        own <= others * slack,
+                        "{name}: {weight:?} {own}, {other:?} {others}"
+                    );
+                }
+            }
+            let [relative, absolute] = [Weight::Relative, Weight::Absolute]
+                .map(|by| error(&curve, name, Weight::Relative, by));
+            assert!(relative < 0.95 * absolute, "{name}: {relative} {absolute}");
+        }
+    }
+
+    #[test]
+    fn ends_are_met_by_every_form_in_every_measure() {
+        let curve = gold();
+        for name in ["fitted", "fitted_five", "fitted_rational"] {
+            let basis = basis(&find(name).and_then(|m| m.shape).expect("a fitted method"));
+            for (normal, grazing) in [(true, false), (false, true), (true, true)] {
+                for weight in Weight::ALL {
+                    let exact = Exact { normal, grazing };
+                    let aim = Aim {
+                        weight,
+                        exact,
+                        ..Aim::default()
+                    };
+                    let fit = Task::new(&curve, aim).fit(&basis).expect("it is fitted");
+                    let free = Task::new(
+                        &curve,
+                        Aim {
+                            weight,
+                            ..Aim::default()
+                        },
+                    );
+                    let free = free.fit(&basis).expect("it is fitted");
+                    assert!(weight == Weight::DeltaE || fit.error >= free.error * 0.999_99);
+                    for end in exact.ends(basis.len()) {
+                        let off = |i: usize| {
+                            let terms = basis[end].iter().zip(&fit.coefficients);
+                            terms.map(|(b, c)| b * c[i]).sum::<f64>() - curve.seen[end][i]
+                        };
+                        let off = [0, 1, 2].map(|i| off(i).abs());
+                        assert!(
+                            off.iter().all(|off| *off < 1e-7),
+                            "{name} {weight:?} {exact:?}: {off:?}"
+                        );
+                    }
+                }
+            }
+        }
+    }
 }

@@ -1,11 +1,14 @@
 //! Fits: what a method needs to know of a material, and how wrong it then is.
 //!
 //! Derived inputs (F0, F82, the artist's pair, λ of the corrected method), and the model error of a method against the
-//! exact law. Minimax fits: the coefficients of fitted methods.
+//! exact law. Minimax fits: the coefficients of fitted methods, for a measure of error, and exact where that is asked for;
+//! the shapes among which one is chosen.
 
+mod candidates;
 mod colours;
 mod derive;
 mod effective;
+mod exact;
 mod fitted;
 mod lambda;
 mod measured;
@@ -16,12 +19,16 @@ mod params;
 mod perceived;
 mod rival;
 mod rounded;
+mod search;
 mod texels;
+mod weight;
 
+pub use candidates::{Candidate, candidates};
 pub use colours::{Follows, LARGEST_SOLVED_F0};
-pub use derive::{Derivation, Known, fitted_values, values, values_of};
+pub use derive::{Derivation, Known, fitted_for, fitted_values, values, values_of};
 pub use effective::{By, Effective, effective};
-pub use fitted::{Curve, Fit, fit};
+pub use exact::Exact;
+pub use fitted::{Aim, Curve, Fit, Task, basis};
 pub use lambda::{THESIS_MATCHING_COS, lambda};
 pub use measured::Measured;
 pub use minimax::{Minimax, minimax};
@@ -30,4 +37,6 @@ pub use over::model_error_over;
 pub use params::{BOUNCES, Params, abbe, colour_errors, ior_d, params};
 pub use perceived::{Perceived, perceived};
 pub use rival::{best_inputs, values_at};
+pub use search::{Tried, search};
 pub use texels::{arguments, table_of, texels};
+pub use weight::Weight;

@@ -43,10 +43,15 @@ impl Perceived {
     fn include(&mut self, given: DVec3, wanted: DVec3, space: Space) {
         let to_xyz = space.rgb_to_xyz();
         let luminance = to_xyz.row(1).dot((given - wanted).abs());
-        let lab = |rgb: DVec3| Lab::from_xyz(to_xyz * rgb, space.white());
         self.luminance = self.luminance.max(luminance);
-        self.de2000 = self.de2000.max(ciede2000(lab(given), lab(wanted)));
+        let seen = ciede2000(lab(given, space), lab(wanted, space));
+        self.de2000 = self.de2000.max(seen);
     }
+}
+
+/// Three channels as a colour beside the white of their space.
+pub(super) fn lab(rgb: DVec3, space: Space) -> Lab {
+    Lab::from_xyz(space.rgb_to_xyz() * rgb, space.white())
 }
 
 #[cfg(test)]

@@ -9,6 +9,7 @@
 //! <https://blog.selfshadow.com/publications/s2017-shading-course/>, and Turquin, "Practical multiple scattering compensation for
 //! microfacet models", 2019, <https://blog.selfshadow.com/publications/turquin/ms_comp_final.pdf>, ask for it.
 
+use std::fmt;
 use std::sync::LazyLock;
 
 use crate::ir::Expr;
@@ -35,6 +36,8 @@ pub enum Factor {
     Root(f64),
     /// `1 / (c² + e) - 1 / √(c + p)`, as (e, p).
     Peak(f64, f64),
+    /// `(1 - c)² / (1 + a c)`.
+    Bent(f64),
 }
 
 /// A shape.
@@ -107,7 +110,38 @@ impl Factor {
             Factor::Reciprocal(p) => 1.0 / (c + p),
             Factor::Root(p) => 1.0 / (c + p).sqrt(),
             Factor::Peak(e, p) => 1.0 / (c * c + e) - Factor::Root(p).at(c),
+            Factor::Bent(a) => (1.0 - c) * (1.0 - c) / (1.0 + a * c),
         }
+    }
+}
+
+/// A factor as formulas have it.
+impl fmt::Display for Factor {
+    fn fmt(&self, out: &mut fmt::Formatter) -> fmt::Result {
+        match self {
+            Factor::Grazing(1) => write!(out, "(1 - c)"),
+            Factor::Grazing(power) => write!(out, "(1 - c)^{power}"),
+            Factor::Exponential(a) => write!(out, "2^(-{a} c)"),
+            Factor::Cosine => write!(out, "c"),
+            Factor::Square(e) => write!(out, "(c^2 + {e})"),
+            Factor::Shifted(p) => write!(out, "(c + {p})"),
+            Factor::Reciprocal(p) => write!(out, "1/(c + {p})"),
+            Factor::Root(p) => write!(out, "1/sqrt(c + {p})"),
+            Factor::Peak(e, p) => write!(out, "(1/(c^2 + {e}) - 1/sqrt(c + {p}))"),
+            Factor::Bent(a) => write!(out, "(1 - c)^2/(1 + {a} c)"),
+        }
+    }
+}
+
+/// A shape as a formula in c.
+impl fmt::Display for Shape {
+    fn fmt(&self, out: &mut fmt::Formatter) -> fmt::Result {
+        let last = self.factors.len();
+        for (i, factor) in self.factors.iter().enumerate() {
+            let bracket = if i + 1 < last { "(" } else { "" };
+            write!(out, "c{i} + {factor} {bracket}")?;
+        }
+        write!(out, "c{last}{}", ")".repeat(last.saturating_sub(1)))
     }
 }
 
@@ -158,6 +192,10 @@ impl<'b> Made<'b> {
             Factor::Peak(e, p) => {
                 let root = self.factor(Factor::Root(p));
                 (1.0 / (c * c + e) - root).named("a", "large at grazing")
+            }
+            Factor::Bent(a) => {
+                let bent = self.factor(Factor::Grazing(2)) / (1.0 + a * c);
+                bent.named("w", "0 at normal incidence, 1 at grazing")
             }
         }
     }

@@ -4,7 +4,7 @@ use serde_json::{Value, json};
 
 use super::frontier::{figure, frontier};
 use super::table;
-use crate::fit::Follows;
+use crate::fit::{Aim, Follows, Weight};
 use crate::methods::Method;
 
 /// A fitted method and what it was fitted to.
@@ -20,7 +20,7 @@ pub struct Row {
     pub space: &'static str,
     /// The method.
     pub method: &'static Method,
-    /// Each coefficient for three channels, as f32 holds it.
+    /// Each coefficient for three channels, as the aim's precision holds it.
     pub coefficients: Vec<[f64; 3]>,
     /// The largest error.
     pub max_abs: f64,
@@ -28,6 +28,12 @@ pub struct Row {
     pub mean_rel: Option<f64>,
     /// What an evaluation of the library function costs, where that was recorded.
     pub cost: Option<f64>,
+    /// What was minimised, and what is met exactly.
+    pub aim: Aim,
+    /// The largest error in the measure that was minimised, on paper and before the limit to [0, 1].
+    pub error: f64,
+    /// The same without the ends that are met exactly, where there are any.
+    pub free: Option<f64>,
 }
 
 impl Row {
@@ -37,7 +43,12 @@ impl Row {
             "material": self.material, "class": self.class, "space": self.space, "method": self.method.name,
             "terms": self.coefficients.len(), "shape": self.method.formula, "shared": true,
             "coefficients": self.channels(), "max_abs": self.max_abs, "mean_rel": self.mean_rel, "cost": self.cost,
+            "weight": self.aim.weight.name(), "error": self.error, "exact": self.aim.exact.degrees(),
+            "precision": self.aim.precision.name(),
         });
+        if let Some(free) = self.free {
+            row["error_without_exact"] = json!(free);
+        }
         let reasons = [
             (
                 self.mean_rel.is_none(),
@@ -75,15 +86,10 @@ fn followed(follows: &Follows) -> Value {
 
 /// The rows for a terminal; a star where no other of the same material is cheaper and as near.
 pub fn text(rows: &[Row], gpu: &str) -> String {
-    let head = [
-        "",
-        "material",
-        "method",
-        "terms",
-        "largest error",
-        "mean relative, %",
-        gpu,
-    ];
+    let aim = rows.first().map_or(Aim::default(), |row| row.aim);
+    let mut head = vec!["", "material", "method", "terms", "largest error"];
+    head.extend(measure(aim).map(|(title, _)| title));
+    head.extend(["mean relative, %", gpu]);
     let mut lines = Vec::new();
     for of in rows.chunk_by(|a, b| a.material == b.material) {
         let points: Vec<_> = of
@@ -100,20 +106,40 @@ pub fn text(rows: &[Row], gpu: &str) -> String {
     format!("{table}\n{coefficients}{}", remarks(rows))
 }
 
+/// A column of a row's.
+type Column = (&'static str, fn(&Row) -> Option<f64>);
+
+/// What is told of the measure that was minimised, and of what an exact end costs, where that is asked for.
+fn measure(aim: Aim) -> impl Iterator<Item = Column> {
+    let title = match aim.weight {
+        Weight::Absolute => "largest on paper",
+        Weight::Relative => "largest relative",
+        Weight::Luminance => "largest of luminance",
+        Weight::DeltaE => "largest CIEDE2000",
+    };
+    let error: Column = (title, |row| Some(row.error));
+    let free: Column = ("the same, no end exact", |row| row.free);
+    let is_any = aim.exact.is_any();
+    let told = (is_any || aim.weight != Weight::Absolute).then_some(error);
+    told.into_iter().chain(is_any.then_some(free))
+}
+
 /// Rows of which the coefficients are printed too.
 const SHOWN: usize = 6;
 
 fn cells(row: &Row, is_best: bool) -> Vec<String> {
     let shown = |value: Option<f64>| value.map_or_else(String::new, figure);
-    vec![
+    let mut cells = vec![
         if is_best { "*" } else { "" }.to_owned(),
         row.name().to_owned(),
         row.method.name.to_owned(),
         row.coefficients.len().to_string(),
         figure(row.max_abs),
-        shown(row.mean_rel.map(|share| 100.0 * share)),
-        shown(row.cost),
-    ]
+    ];
+    cells.extend(measure(row.aim).map(|(_, value)| shown(value(row))));
+    cells.push(shown(row.mean_rel.map(|share| 100.0 * share)));
+    cells.push(shown(row.cost));
+    cells
 }
 
 /// The coefficients as arguments, one after the other.

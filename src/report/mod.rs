@@ -11,6 +11,7 @@ pub mod markdown;
 #[cfg(feature = "cli")]
 pub mod png;
 pub mod reproduce;
+pub mod search;
 pub mod stability;
 pub mod survey;
 pub mod table;

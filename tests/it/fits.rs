@@ -45,6 +45,11 @@ const BESIDE: [&str; 22] = [
 /// Below this n a dielectric is a gas.
 const LEAST_N: f64 = 1.2;
 
+/// Whether it is one of the 75 that promises are about.
+pub fn is_promised(subject: &Subject) -> bool {
+    subject.material.kind != Kind::Dielectric && !BESIDE.contains(&&*subject.name)
+}
+
 /// The error of a method for a material.
 struct Row<'a> {
     subject: &'a Subject,
@@ -80,7 +85,7 @@ fn most(rows: &[&Row], share: f64) -> f64 {
 }
 
 /// The catalogue as it is seen.
-fn catalogue() -> &'static [Subject] {
+pub fn catalogue() -> &'static [Subject] {
     static CATALOGUE: OnceLock<Vec<Subject>> = OnceLock::new();
     CATALOGUE.get_or_init(|| {
         let request = Request {
@@ -176,9 +181,7 @@ fn the_catalogue_is_followed_as_promised_and_recorded() {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("data/records/fits.csv");
     super::bless::check(&path, record.as_bytes());
 
-    let absorbs = |row: &&Row| {
-        row.subject.material.kind != Kind::Dielectric && !BESIDE.contains(&&*row.subject.name)
-    };
+    let absorbs = |row: &&Row| is_promised(row.subject);
     let glass = |row: &&Row| {
         row.subject.material.kind == Kind::Dielectric
             && row.subject.effective.channels.n[1] >= LEAST_N

@@ -35,6 +35,7 @@ mod physics;
 mod readme;
 mod reproduce;
 mod reread;
+mod shapes;
 mod specialise;
 mod spectral;
 mod split_sum;

@@ -14,7 +14,7 @@ use crate::num::in_parallel;
 use crate::report::frontier::{Data, Entry};
 use crate::spectra::Space;
 
-pub use sets::{CLASSES, OF};
+pub use sets::{CLASSES, OF, class};
 
 /// The names of all axes of cost.
 pub fn cost_names() -> Vec<&'static str> {

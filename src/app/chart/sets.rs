@@ -28,14 +28,16 @@ pub fn sets(subjects: &[Subject], errors: &[Errors]) -> Vec<Set> {
     together.chain(alone).collect()
 }
 
-fn is_in(class: &str, subject: &Subject) -> bool {
+/// The class that a material is in: none for gases, and for dielectrics that absorb.
+pub fn class(subject: &Subject) -> Option<&'static str> {
     let n = subject.effective.channels.n;
     let is_solid = n.iter().all(|n| *n >= LEAST_FITTED_N);
     match subject.material.kind {
-        Kind::Metal | Kind::Semiconductor => class == CLASSES[0],
-        Kind::Dielectric => {
-            class == CLASSES[1] && is_solid && subject.effective.channels.is_transparent()
+        Kind::Metal | Kind::Semiconductor => Some(CLASSES[0]),
+        Kind::Dielectric if is_solid && subject.effective.channels.is_transparent() => {
+            Some(CLASSES[1])
         }
+        Kind::Dielectric => None,
     }
 }
 
@@ -43,7 +45,7 @@ fn together(class: &str, subjects: &[Subject], errors: &[Errors]) -> Vec<Set> {
     let own: Vec<(&Subject, &Errors)> = subjects
         .iter()
         .zip(errors)
-        .filter(|(subject, _)| is_in(class, subject))
+        .filter(|(subject, _)| self::class(subject) == Some(class))
         .collect();
     if own.len() < 2 {
         return Vec::new();

@@ -4,27 +4,35 @@ use serde_json::{Value, json};
 
 use crate::app::args::FitFlags;
 use crate::app::error::Error;
-use crate::app::names::{family, flag, quoted};
+use crate::app::names::{family, flag, quoted, unknown};
+use crate::app::precision::named;
 use crate::app::request::{Materials, Request};
 use crate::app::sight::{flags as sight_flags, sight};
 use crate::app::source::{materials, source};
 use crate::cost::{Family, library_cost, records};
 use crate::emit::Subject;
-use crate::fit::{Follows, ModelError, error_from, fitted_values, model_error, values_at};
+use crate::fit::{
+    Aim, Curve, Exact, Follows, ModelError, Weight, error_from, fitted_for, model_error, values_at,
+};
 use crate::methods::{ALL, Class, Method, Values};
-use crate::num::{Precision, in_parallel};
+use crate::num::in_parallel;
 use crate::report::fits::{Row, text};
 
-use super::{Output, Progress, report, try_places};
+use super::{Output, Progress, report, search, try_places};
 
 /// Fits.
 pub fn run(flags: &FitFlags, progress: Progress) -> Result<Output, Error> {
-    let forms = forms(flags.terms, family(&flags.gpu)?)?;
+    let gpu = family(&flags.gpu)?;
+    let aim = aim(flags)?;
+    if flags.search {
+        return search::run(flags, aim, gpu, progress);
+    }
+    let forms = forms(flags.terms, gpu)?;
     try_places(flags.json.as_deref(), None)?;
     let (rows, left_out) = if flags.f0.is_empty() {
-        of_materials(flags, &forms, progress)?
+        of_materials(flags, aim, &forms, progress)?
     } else {
-        (of_colours(flags, &forms)?, Vec::new())
+        (of_colours(flags, aim, &forms)?, Vec::new())
     };
     let json = json!({
         "tool": "fresnel-gen", "command": canonical(flags)?, "device": null,
@@ -33,6 +41,34 @@ pub fn run(flags: &FitFlags, progress: Progress) -> Result<Output, Error> {
     let mut output = report(text(&rows, &flags.gpu), &json, flags.json.as_deref())?;
     output.remarks = left_out;
     Ok(output)
+}
+
+/// What is to be minimised and met.
+fn aim(flags: &FitFlags) -> Result<Aim, Error> {
+    let names = Weight::ALL.map(Weight::name);
+    let weight = Weight::find(&flags.weight);
+    let weight = weight.ok_or_else(|| unknown("weight", &flags.weight, &names))?;
+    if weight.is_of_colours() && !flags.f0.is_empty() {
+        let what = format!(
+            "--weight {} wants a space, which --f0 and --f82 have not; absolute and relative go with them",
+            weight.name()
+        );
+        return Err(Error::Usage { what });
+    }
+    let end = |end: &str| flags.exact.iter().any(|given| given == end);
+    if let Some(other) = flags.exact.iter().find(|end| *end != "0" && *end != "90") {
+        let what = format!("`{other}` is no end of the right angle; --exact is 0, 90, or 0,90");
+        return Err(Error::Usage { what });
+    }
+    Ok(Aim {
+        weight,
+        precision: named(flags.precision.as_deref())?,
+        exact: Exact {
+            normal: end("0"),
+            grazing: end("90"),
+        },
+        space: sight(&flags.sight.words(None))?.integration.space,
+    })
 }
 
 /// A fitted method, and what an evaluation of its library function costs, where that is known.
@@ -61,13 +97,12 @@ fn forms(terms: Option<usize>, gpu: &Family) -> Result<Vec<Form>, Error> {
     Ok(chosen.into_iter().map(form).collect())
 }
 
-/// A row for each material and method that describes it, and what was left out.
-fn of_materials(
-    flags: &FitFlags,
-    forms: &[Form],
-    progress: Progress,
-) -> Result<(Vec<Row>, Vec<String>), Error> {
-    let materials = materials(&flags.material)?;
+/// The materials that are meant, as they are seen, with what was left out; a search is of all unless some are named.
+pub(super) fn subjects(flags: &FitFlags) -> Result<(Vec<Subject>, Vec<String>), Error> {
+    let materials = match flags.search && flags.material.is_empty() {
+        true => Materials::All,
+        false => materials(&flags.material)?,
+    };
     if materials == Materials::None {
         let what = "a fit is of materials; `none` leaves nothing to fit".to_owned();
         return Err(Error::Usage { what });
@@ -79,40 +114,87 @@ fn of_materials(
         ..Request::default()
     };
     let found = request.subjects()?;
-    let subjects: Vec<Subject> = found
-        .ready
-        .into_iter()
-        .map(|(subject, _)| subject)
-        .collect();
-    let space = request.sight.integration.space.name();
-    let of = |i: usize| of_subject(&subjects[i], forms, space);
-    let rows = in_parallel(subjects.len(), &of, &mut |done, whole| {
-        progress(done, whole, "materials");
-    });
+    let ready = found.ready.into_iter().map(|(subject, _)| subject);
     let left_out = found.left_out.iter();
     let left_out = left_out.map(|unseen| format!("left out: {}", unseen.why));
-    Ok((rows.into_iter().flatten().collect(), left_out.collect()))
+    Ok((ready.collect(), left_out.collect()))
 }
 
-fn of_subject(subject: &Subject, forms: &[Form], space: &'static str) -> Vec<Row> {
+/// A row for each material and method that describes it, and what was left out.
+fn of_materials(
+    flags: &FitFlags,
+    aim: Aim,
+    forms: &[Form],
+    progress: Progress,
+) -> Result<(Vec<Row>, Vec<String>), Error> {
+    let (subjects, mut remarks) = subjects(flags)?;
+    let of = |i: usize| of_subject(&subjects[i], aim, forms);
+    let found = in_parallel(subjects.len(), &of, &mut |done, whole| {
+        progress(done, whole, "materials");
+    });
+    let mut rows = Vec::new();
+    for (row, subject, form) in found.into_iter().flatten() {
+        match row {
+            Some(row) => rows.push(row),
+            None => remarks.push(format!("left out: {subject} with {form}: {NO_FIT}")),
+        }
+    }
+    Ok((rows, remarks))
+}
+
+/// Why there is no row.
+const NO_FIT: &str = "under these weights its terms do not tell angles apart";
+
+/// A row for each form that describes a material, none where it has no fit, with the names of both.
+fn of_subject(
+    subject: &Subject,
+    aim: Aim,
+    forms: &[Form],
+) -> Vec<(Option<Row>, String, &'static str)> {
+    let curve = subject.curve();
     let row = |form: &Form| {
-        let values = subject.values(form.method);
-        let function = form.method.specialise(&values);
+        let fitted = Fitted::new(form.method, &curve, aim)?;
+        let function = form.method.specialise(&fitted.values);
         let function = function.expect("a test specialises every method");
         let error = model_error(&function, &subject.truth_for(form.method));
-        Row {
+        Some(Row {
             material: Some(subject.argument.clone()),
             class: Some(subject.material.kind.name()),
-            ..bare(form, &values, error, space)
-        }
+            ..bare(form, &fitted, error, aim.space.name())
+        })
     };
     let own = forms
         .iter()
         .filter(|form| subject.is_described_by(form.method));
-    own.map(row).collect()
+    own.map(|form| (row(form), subject.argument.clone(), form.method.name))
+        .collect()
 }
 
-fn bare(form: &Form, values: &Values, error: ModelError, space: &'static str) -> Row {
+/// Coefficients, and what they are worth in the measure that they minimise.
+struct Fitted {
+    values: Values,
+    aim: Aim,
+    error: f64,
+    free: Option<f64>,
+}
+
+impl Fitted {
+    fn new(method: &Method, curve: &Curve, aim: Aim) -> Option<Fitted> {
+        let (values, error) = fitted_for(method, curve, aim)?;
+        let exact = Exact::default();
+        let free = || fitted_for(method, curve, Aim { exact, ..aim });
+        let free = aim.exact.is_any().then(free).flatten();
+        let free = free.map(|(_, error)| error);
+        Some(Fitted {
+            values,
+            aim,
+            error,
+            free,
+        })
+    }
+}
+
+fn bare(form: &Form, fitted: &Fitted, error: ModelError, space: &'static str) -> Row {
     let inputs = form.method.inputs.iter();
     Row {
         material: None,
@@ -120,35 +202,39 @@ fn bare(form: &Form, values: &Values, error: ModelError, space: &'static str) ->
         follows: None,
         space,
         method: form.method,
-        coefficients: inputs.map(|input| values[input.name]).collect(),
+        coefficients: inputs.map(|input| fitted.values[input.name]).collect(),
         max_abs: error.max_abs,
         mean_rel: error.mean_rel,
         cost: form.cost,
+        aim: fitted.aim,
+        error: fitted.error,
+        free: fitted.free,
     }
 }
 
 /// A row for each method, fitted to two colours.
-fn of_colours(flags: &FitFlags, forms: &[Form]) -> Result<Vec<Row>, Error> {
+fn of_colours(flags: &FitFlags, aim: Aim, forms: &[Form]) -> Result<Vec<Row>, Error> {
     let (f0, f82) = (colour("f0", &flags.f0)?, colour("f82", &flags.f82)?);
     let follows = [0, 1, 2].map(|i| Follows::of(f0[i], f82[i]));
     let seen = |cos_theta: f64| follows.map(|channel| channel.at(cos_theta));
+    let curve = Curve::new(seen);
     let row = |form: &Form| {
-        let (method, values) = (
-            form.method,
-            fitted_values(form.method, Precision::F32, seen),
-        );
+        let method = form.method;
+        let fitted = Fitted::new(method, &curve, aim).ok_or_else(|| Error::Usage {
+            what: format!("{} has no fit to these colours: {NO_FIT}", method.name),
+        })?;
         let function = method.function(false);
         let function = function.expect("a test builds every method");
         let error = error_from(seen, &|cosines| {
-            values_at(&function, method.inputs, &values, cosines)
+            values_at(&function, method.inputs, &fitted.values, cosines)
         });
-        Row {
+        Ok(Row {
             follows: Some(follows),
-            ..bare(form, &values, error, "any")
-        }
+            ..bare(form, &fitted, error, "any")
+        })
     };
     let of_any = forms.iter().filter(|form| form.method.class == Class::Any);
-    Ok(of_any.map(row).collect())
+    of_any.map(row).collect()
 }
 
 fn colour(name: &str, numbers: &[f64]) -> Result<[f64; 3], Error> {
@@ -160,7 +246,7 @@ fn colour(name: &str, numbers: &[f64]) -> Result<[f64; 3], Error> {
     })
 }
 
-fn canonical(flags: &FitFlags) -> Result<String, Error> {
+pub(super) fn canonical(flags: &FitFlags) -> Result<String, Error> {
     let terms: Vec<String> = flags.terms.iter().map(usize::to_string).collect();
     let numbers = |numbers: &[f64]| {
         let words: Vec<String> = numbers.iter().map(f64::to_string).collect();
@@ -174,11 +260,17 @@ fn canonical(flags: &FitFlags) -> Result<String, Error> {
         let words = words.first().map(|word| format!(" --{name} {word}"));
         words.unwrap_or_default()
     };
+    let weight = Some(flags.weight.clone()).filter(|name| name != Weight::default().name());
+    let weight = weight.into_iter().collect();
     let medium = flags.medium.as_deref().map(quoted).into_iter().collect();
     Ok(format!(
-        "fit{}{}{}{}{}{}",
+        "fit{}{}{}{}{}{}{}{}{}{}",
+        if flags.search { " --search" } else { "" },
         flag("material", &flags.material),
         plain("terms", terms),
+        plain("weight", weight),
+        flag("exact", &flags.exact),
+        flag("precision", flags.precision.as_slice()),
         plain("f0", numbers(&flags.f0)),
         plain("f82", numbers(&flags.f82)),
         plain("medium", medium),

@@ -13,6 +13,7 @@ mod listing;
 mod materials;
 mod params;
 mod reproduce;
+mod search;
 mod stability;
 mod survey;
 #[cfg(feature = "gpu")]

@@ -75,8 +75,115 @@ fn names_and_numbers_that_make_no_sense_are_refused() {
         ("--f0 0.5,0.5,nan --f82 0.5,0.5,0.5", "0 to 1"),
         ("--f0 0.5,0.5,0.5 --f82 0.5,0.5,0.5 --space p3", "--space"),
         ("--material none", "nothing to fit"),
+        ("--weight relativ", "did you mean relative"),
+        ("--weight deltae", "did you mean delta-e"),
+        ("--exact 45", "--exact is 0, 90, or 0,90"),
+        ("--exact 0,nan", "`nan` is no end"),
+        ("--f0 0.5,0.5,0.5 --f82 0.5,0.5,0.5 --search", "--search"),
+        (
+            "--f0 0.5,0.5,0.5 --f82 0.5,0.5,0.5 --weight luminance",
+            "wants a space",
+        ),
+        ("--search --terms 6", "4 or 5"),
+        ("--search --material air", "no material to search"),
+        ("--search --material none", "nothing to fit"),
         ("--json .", "."),
     ] {
         place.refused(&format!("fit {line}"), &[says]);
     }
+}
+
+/// The largest error relative to water's law, of green, over even steps of the cosine.
+fn largest_relative(row: &Value) -> f64 {
+    let own = channel(row, 1);
+    let at = |i: i32| f64::from(i) / 500.0;
+    let law = |c: f64| fresnel_gen::optics::conductor(1.3345, 0.0, c).unpolarised();
+    let off = |c: f64| (powers(&own, c) / law(c) - 1.0).abs();
+    (0..=500).map(|i| off(at(i))).fold(0.0, f64::max)
+}
+
+/// The form of dielectrics, as anyone would write it down.
+fn powers(c: &[f64], cos_theta: f64) -> f64 {
+    let b = 1.0 - cos_theta;
+    c[0] + b.powi(3) * (c[1] + b.powi(4) * (c[2] + b.powi(7) * c[3]))
+}
+
+fn only(rows: Vec<Value>, method: &str) -> Value {
+    let mut own = rows.into_iter().filter(|row| row["method"] == method);
+    own.next().unwrap()
+}
+
+fn number(value: &Value) -> f64 {
+    value.as_f64().unwrap()
+}
+
+#[test]
+fn a_weight_changes_what_is_least() {
+    let place = Place::new();
+    let by = |weight: &str| {
+        let line = format!("fit --material water --weight {weight}");
+        only(rows(&place, &line), "fitted_dielectric")
+    };
+    let (absolute, relative) = (by("absolute"), by("relative"));
+    assert!(number(&relative["max_abs"]) > number(&absolute["max_abs"]));
+    assert!(largest_relative(&relative) < 0.8 * largest_relative(&absolute));
+    assert_eq!(relative["weight"], "relative");
+    for weight in ["luminance", "delta-e"] {
+        let error = number(&by(weight)["error"]);
+        assert!(error > 0.0 && error < 3.0, "{weight}: {error}");
+    }
+}
+
+#[test]
+fn ends_are_met_and_their_price_is_told() {
+    let place = Place::new();
+    let law = |c: f64| fresnel_gen::optics::conductor(1.5, 0.0, c).unpolarised();
+    place.put(
+        "plain.toml",
+        super::MY_METAL
+            .replace("\"metal\"", "\"dielectric\"")
+            .replace("1.39, 1.72", "1.5, 0")
+            .replace("0.23, 3.94", "1.5, 0"),
+    );
+    for (exact, ends) in [("0", &[1.0][..]), ("90", &[0.0]), ("0,90", &[1.0, 0.0])] {
+        let line = format!("fit --material plain.toml --exact {exact}");
+        let row = only(rows(&place, &line), "fitted_dielectric");
+        for end in ends {
+            let off = powers(&channel(&row, 1), *end) - law(*end);
+            assert!(off.abs() < 1e-7, "{exact} at {end}: {off:e}");
+        }
+        let (error, free) = (number(&row["error"]), number(&row["error_without_exact"]));
+        assert!(free < error && error < 4.0 * free, "{row}");
+    }
+    let text = place.done("fit --material plain.toml --exact 90").out;
+    assert!(text.contains("the same, no end exact"), "{text}");
+}
+
+#[test]
+fn a_search_finds_what_is_shipped_and_says_the_same_twice() {
+    let place = Place::new();
+    let line = "fit --search --terms 4 --material gold,silver,gold_johnson,iron --json -";
+    let (one, other) = (place.done(line).out, place.done(line).out);
+    assert!(one == other, "two runs differ");
+    let report: Value = serde_json::from_str(&one).unwrap();
+    let rows = report["rows"].as_array().unwrap();
+    let shapes: Vec<&Value> = rows.iter().filter(|row| row["row"] == "shape").collect();
+    for name in ["fitted", "fitted_rational", "fitted_dielectric"] {
+        assert!(shapes.iter().any(|row| row["method"] == name), "{name}");
+    }
+    let best: Vec<&&Value> = shapes
+        .iter()
+        .filter(|row| row["is_on_frontier"] == true)
+        .collect();
+    let errors = best.iter().map(|row| number(&row["errors"]["p90"]));
+    assert!(errors.collect::<Vec<f64>>().is_sorted_by(|a, b| a > b));
+    assert!(
+        best.iter()
+            .map(|row| row["operations"].as_u64())
+            .is_sorted()
+    );
+    let choice = rows.iter().find(|row| row["row"] == "choice").unwrap();
+    let times = choice["chosen"].as_array().unwrap().iter();
+    let times: u64 = times.map(|one| one["substances"].as_u64().unwrap()).sum();
+    assert_eq!(times, 3, "gold votes once: {choice}");
 }

@@ -1,0 +1,105 @@
+//! `fit --search`: shapes tried on the catalogue.
+
+use serde_json::json;
+
+use crate::app::args::FitFlags;
+use crate::app::chart::{CLASSES, class};
+use crate::app::error::Error;
+use crate::cost::{Family, library_cost, records};
+use crate::emit::Subject;
+use crate::fit::{Aim, Candidate, Curve, Task, candidates, search};
+use crate::materials::{Material, find};
+use crate::methods::Method;
+use crate::num::in_parallel;
+use crate::report::search::{Errors, Told, json, text};
+
+use super::fit::{canonical, subjects};
+use super::{Output, Progress, report, try_places};
+
+/// Searches.
+pub(super) fn run(
+    flags: &FitFlags,
+    aim: Aim,
+    gpu: &Family,
+    progress: Progress,
+) -> Result<Output, Error> {
+    let terms = terms(flags)?;
+    try_places(flags.json.as_deref(), None)?;
+    let (subjects, mut remarks) = subjects(flags)?;
+    let outside = subjects.iter().filter(|subject| class(subject).is_none());
+    remarks.extend(outside.map(|subject| format!("left out: {}: {OUTSIDE}", subject.argument)));
+    let shapes: Vec<Candidate> = terms.iter().flat_map(|terms| candidates(*terms)).collect();
+    let mut told = Vec::new();
+    for class in CLASSES {
+        let errors = errors(class, &subjects, &shapes, aim, progress);
+        told.extend(errors.map(|errors| Told { class, errors }));
+    }
+    if told.is_empty() {
+        let what = format!("there is no material to search shapes for: {OUTSIDE}");
+        return Err(Error::Usage { what });
+    }
+    let record = records(gpu.name);
+    let cost = |method: &Method| library_cost(method, gpu, &record);
+    let json = json!({
+        "tool": "fresnel-gen", "command": canonical(flags)?, "device": null,
+        "rows": json(&told, &terms, aim, &cost),
+    });
+    let text = text(&told, &terms, gpu.name, &cost);
+    let mut output = report(text, &json, flags.json.as_deref())?;
+    output.remarks = remarks;
+    Ok(output)
+}
+
+/// Why a material takes no part.
+const OUTSIDE: &str = "gases, and dielectrics that absorb, are in no class that shapes are for";
+
+/// The numbers of coefficients that are asked for.
+fn terms(flags: &FitFlags) -> Result<Vec<usize>, Error> {
+    match flags.terms {
+        None => Ok(vec![4, 5]),
+        Some(terms @ (4 | 5)) => Ok(vec![terms]),
+        Some(_) => Err(Error::Usage {
+            what: "shapes are searched among those with 4 or 5 coefficients; --terms is 4 or 5"
+                .to_owned(),
+        }),
+    }
+}
+
+/// The errors of all shapes for the materials of a class; none where there are none.
+fn errors(
+    name: &str,
+    subjects: &[Subject],
+    shapes: &[Candidate],
+    aim: Aim,
+    progress: Progress,
+) -> Option<Errors> {
+    let own = subjects
+        .iter()
+        .filter(|subject| class(subject) == Some(name));
+    let own: Vec<&Subject> = own.collect();
+    let curve = |i: usize| own[i].curve();
+    let curves: Vec<Curve> = in_parallel(own.len(), &curve, &mut |done, whole| {
+        progress(done, whole, "materials");
+    });
+    let tasks: Vec<Task> = curves.iter().map(|curve| Task::new(curve, aim)).collect();
+    let tried = search(shapes, &tasks, &mut |done, whole| {
+        progress(done, whole, "shapes");
+    });
+    (!own.is_empty() && !tried.is_empty()).then(|| Errors {
+        substances: own
+            .iter()
+            .map(|subject| substance(&subject.material))
+            .collect(),
+        tried,
+    })
+}
+
+/// What a material is: of the catalogue its substance, of a page besides it the book that it stands in, such as `main/Au`.
+fn substance(material: &Material) -> String {
+    let is_known = find(&material.substance).is_some();
+    let mut parts = material.page.split('/');
+    match (parts.next(), parts.next()) {
+        (Some("main"), Some(book)) if !is_known => format!("main/{book}"),
+        _ => material.substance.clone(),
+    }
+}

@@ -1,0 +1,177 @@
+//! Coefficients that meet what is true at an end exactly: one condition takes one coefficient out of the fit.
+//!
+//! `Σ cᵢ bᵢ(e) = F(e)` at an end e gives `cⱼ = (F(e) - Σ cᵢ bᵢ(e)) / bⱼ(e)`, the sum over all others, with j the one whose
+//! `bⱼ(e)` is largest; put into the form, the others are fitted by exchange to what is left, and the optimum is that of all
+//! forms that meet the end.
+
+use super::minimax::minimax;
+
+/// At which ends of the right angle what is true is met exactly.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Exact {
+    /// At normal incidence, 0 degrees.
+    pub normal: bool,
+    /// At 90 degrees.
+    pub grazing: bool,
+}
+
+/// Steps of a coefficient's last digit, down and up, among which f32 coefficients are sought that meet the ends.
+const STEPS: i32 = 24;
+/// As near as an end is sought: half a digit of f32 below 1.
+const CLOSE: f64 = 3e-8;
+
+impl Exact {
+    /// Whether there is an end to meet.
+    pub fn is_any(self) -> bool {
+        self.normal || self.grazing
+    }
+
+    /// The angles in degrees, the smaller first.
+    pub fn degrees(self) -> Vec<u32> {
+        let normal = self.normal.then_some(0).into_iter();
+        normal.chain(self.grazing.then_some(90)).collect()
+    }
+
+    /// The places of the ends among points that run from 90 degrees to 0, the last first.
+    pub(super) fn ends(self, points: usize) -> Vec<usize> {
+        let normal = self.normal.then(|| points - 1);
+        normal
+            .into_iter()
+            .chain(self.grazing.then_some(0))
+            .collect()
+    }
+}
+
+/// Fits as [`minimax`] does, among the forms that meet what is wanted at these points, the last of them first.
+pub(super) fn fit_meeting(
+    rows: &[Vec<f64>],
+    wanted: &[f64],
+    weights: &[f64],
+    ends: &[usize],
+) -> Option<Vec<f64>> {
+    let Some((end, rest)) = ends.split_first() else {
+        return minimax(rows, wanted, weights).map(|found| found.coefficients);
+    };
+    let (at, value) = (&rows[*end], wanted[*end]);
+    let largest = (0..at.len()).max_by(|a, b| at[*a].abs().total_cmp(&at[*b].abs()))?;
+    let reduced = |row: &Vec<f64>| -> Vec<f64> {
+        let share = row[largest] / at[largest];
+        let others = (0..row.len()).filter(|i| *i != largest);
+        others.map(|i| row[i] - share * at[i]).collect()
+    };
+    let left = |(row, wanted): (&Vec<f64>, &f64)| wanted - row[largest] / at[largest] * value;
+    let mut new_rows: Vec<Vec<f64>> = rows.iter().map(reduced).collect();
+    let mut new_wanted: Vec<f64> = rows.iter().zip(wanted).map(left).collect();
+    let mut new_weights = weights.to_vec();
+    new_rows.remove(*end);
+    new_wanted.remove(*end);
+    new_weights.remove(*end);
+    let mut found = fit_meeting(&new_rows, &new_wanted, &new_weights, rest)?;
+    found.insert(largest, 0.0);
+    found[largest] = (value - sum(at, &found)) / at[largest];
+    Some(found)
+}
+
+/// These coefficients as f32 holds them, so that what is wanted at the ends is still met, where that can be had within some
+/// steps of the last digits. Each end is a row of the basis and what is wanted there.
+pub(super) fn held(coefficients: &[f64], ends: &[(&[f64], f64)]) -> Vec<f64> {
+    let nearest: Vec<f64> = coefficients.iter().map(|c| single(*c)).collect();
+    if ends.is_empty() {
+        return nearest;
+    }
+    let around = |steps: (i32, i32)| {
+        let mut held = nearest.clone();
+        held[1] = stepped(held[1], steps.0);
+        held[2] = stepped(held[2], steps.1);
+        let missed: f64 = ends
+            .iter()
+            .map(|(row, value)| value - sum(row, &held))
+            .sum();
+        held[0] = single(held[0] + missed / ends.len() as f64);
+        held
+    };
+    let missed = |held: &Vec<f64>| {
+        let all = ends
+            .iter()
+            .map(|(row, value)| (value - sum(row, held)).abs());
+        all.fold(0.0, f64::max)
+    };
+    let mut best = nearest.clone();
+    for steps in (0..=STEPS).flat_map(ring) {
+        let next = around(steps);
+        if missed(&next) < missed(&best) {
+            best = next;
+        }
+        if missed(&best) <= CLOSE {
+            break;
+        }
+    }
+    best
+}
+
+/// All pairs of steps of which the larger is so large.
+fn ring(size: i32) -> impl Iterator<Item = (i32, i32)> {
+    let all = (-size..=size).flat_map(move |a| (-size..=size).map(move |b| (a, b)));
+    all.filter(move |(a, b)| a.abs().max(b.abs()) == size)
+}
+
+fn sum(row: &[f64], coefficients: &[f64]) -> f64 {
+    row.iter().zip(coefficients).map(|(b, c)| b * c).sum()
+}
+
+fn single(value: f64) -> f64 {
+    f64::from(value as f32)
+}
+
+/// A number so many f32 further from 0, or nearer.
+fn stepped(value: f64, steps: i32) -> f64 {
+    let bits = (value as f32).to_bits().saturating_add_signed(steps);
+    let moved = f64::from(f32::from_bits(bits));
+    if moved.is_finite() && moved.signum() == value.signum() {
+        moved
+    } else {
+        value
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// x² by a line that meets it at 1: 1 + s (x - 1) misses it most at 0, by s - 1, and at s / 2, by (1 - s / 2)² on the other
+    /// side; both are 3 - 2 √2 for s = 4 - 2 √2.
+    #[test]
+    fn a_line_through_an_end_is_the_best_of_those() {
+        let at: Vec<f64> = (0..=2000).map(|i| f64::from(i) / 2000.0).collect();
+        let rows: Vec<Vec<f64>> = at.iter().map(|x| vec![1.0, *x]).collect();
+        let wanted: Vec<f64> = at.iter().map(|x| x * x).collect();
+        let found = fit_meeting(&rows, &wanted, &vec![1.0; at.len()], &[2000]).expect("a line");
+        assert!((sum(&rows[2000], &found) - 1.0).abs() < 1e-14);
+        let both = fit_meeting(&rows, &wanted, &vec![1.0; at.len()], &[2000, 0]);
+        let both = both.expect("both ends say all");
+        assert!(both[0].abs() < 1e-14 && (both[1] - 1.0).abs() < 1e-14);
+        let error = at.iter().map(|x| (x * x - found[0] - found[1] * x).abs());
+        let error = error.fold(0.0, f64::max);
+        assert!(
+            (error - (3.0 - 2.0 * 2.0_f64.sqrt())).abs() < 1e-6,
+            "{error} {found:?}"
+        );
+    }
+
+    #[test]
+    fn single_precision_meets_the_ends_too() {
+        let (grazing, normal) = (
+            [1.0, 1.0, 0.094, 0.094, 0.0],
+            [1.0, 4.9e-4, 5.3e-4, 2.6e-7, 2.6e-7],
+        );
+        let coefficients = [0.91 + 1e-9, 31.000_000_7, -401.123_456_789, 90.3, -2.0];
+        let ends = [grazing, normal].map(|row| (row, sum(&row, &coefficients)));
+        let ends = [(&ends[0].0[..], ends[0].1), (&ends[1].0[..], ends[1].1)];
+        let found = held(&coefficients, &ends);
+        for (row, value) in ends {
+            assert!((sum(row, &found) - value).abs() < 1e-7, "{found:?}");
+        }
+        assert!(found.iter().all(|c| single(*c) == *c), "{found:?}");
+        assert_eq!(held(&[0.1, 0.2, 0.3], &[])[0], f64::from(0.1f32));
+    }
+}
