@@ -10,6 +10,8 @@ pub mod artifact;
 pub mod audit;
 #[cfg(feature = "cli")]
 pub mod bake;
+pub mod budget;
+pub mod catalogue;
 #[cfg(feature = "cli")]
 pub mod chart;
 pub mod check;

@@ -1,5 +1,7 @@
 //! The request: what a run is asked for, with names resolved. The input of the pure library.
 
+use std::collections::BTreeMap;
+
 use crate::emit::{Naming, Subject};
 use crate::fit::Derivation;
 use crate::materials::{self, Kind, Material, Sight, Unseen};
@@ -30,6 +32,8 @@ pub struct Request {
     pub precision: Precision,
     /// Whether methods are written in half precision that cannot be saved there.
     pub force: bool,
+    /// The one method of each material, by the material's name, where a budget chose them; empty where none did.
+    pub chosen: BTreeMap<String, &'static str>,
     /// How materials are seen: the whole spectrum in linear sRGB under D65, unless said otherwise.
     pub sight: Sight,
 }
@@ -45,6 +49,7 @@ impl Default for Request {
             matching_angle: None,
             precision: Precision::F32,
             force: false,
+            chosen: BTreeMap::new(),
             sight: Sight::default(),
         }
     }
@@ -80,6 +85,11 @@ pub enum Source {
 }
 
 impl Source {
+    /// What a user types to name it again.
+    pub fn argument(&self) -> Result<String, Error> {
+        Ok(load(self)?.argument)
+    }
+
     /// All materials of the catalogue.
     pub fn catalogue() -> impl Iterator<Item = Source> {
         materials::names()

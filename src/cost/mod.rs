@@ -15,7 +15,7 @@ mod times;
 pub use family::{Compiler, Dialect, FAMILIES, Family, find};
 pub use figures::{Columns, Counts, Figures, Statistics, figures, remarked};
 pub use probe::{BLOCKS, ENTRY, Probe, VERTEX, WGSL_VERTEX, gles_vertex};
-pub use record::{Record, library_cost, records};
+pub use record::{Record, function_cost, library_cost, records};
 pub use times::{Time, times};
 
 /// The method that others' costs and times are shares of, in its library form of three channels.

@@ -7,7 +7,7 @@
 //! Interface: location 0 holds weights and the first cosine; group 0 has the arguments at binding 0 (one block for each
 //! evaluation, [`BLOCKS`] in all), a texture at 3 and its sampler at 4, as in our SPIR-V modules.
 
-use crate::emit::bare;
+use crate::emit::{bare, sha256};
 use crate::ir::{Checked, Param, Ty};
 use crate::num::Precision;
 use crate::targets::{self, Spelling};
@@ -107,6 +107,12 @@ impl Probe {
             Dialect::Es300 => self.gles(evaluations, false),
             Dialect::Es100 => self.gles(evaluations, true),
         }
+    }
+
+    /// The shader of the longer chain by its hash: what a record belongs to.
+    pub fn hash(&self, dialect: Dialect) -> String {
+        let text = self.text(dialect.chains()[1], dialect);
+        sha256(text.as_bytes())[..16].to_owned()
     }
 
     /// The fragment shader in WGSL.

@@ -5,10 +5,13 @@ use std::collections::BTreeMap;
 
 use include_dir::{Dir, include_dir};
 
+use crate::ir::Checked;
 use crate::methods::Method;
+use crate::num::Precision;
 
 use super::family::{Compiler, Family};
 use super::figures::{Counts, Figures};
+use super::probe::Probe;
 
 static FOLDER: Dir = include_dir!("$CARGO_MANIFEST_DIR/data/records/costs");
 
@@ -39,6 +42,17 @@ pub fn library_cost(method: &Method, family: &Family, record: &Record) -> Option
         return Some(function.expect("a test builds every method").work() as f64);
     }
     record.library(method.name).map(|figures| figures.cost())
+}
+
+/// What an evaluation of a function of `cos_theta` costs on a family: its operations where those are counted, else what was
+/// recorded of the same shader.
+pub fn function_cost(function: &Checked, family: &Family, record: &Record) -> Option<f64> {
+    if family.compiler == Compiler::Operations {
+        return Some(function.work() as f64);
+    }
+    let dialect = family.compiler.dialect()?;
+    let shader = Probe::new(function, Precision::F32).hash(dialect);
+    record.figures.get(&shader).map(Figures::cost)
 }
 
 /// The columns of a file.

@@ -197,7 +197,7 @@ impl Subject {
     }
 
     /// The fitted method of its class. None follows a dielectric that is nearly matched, or seen from a denser medium.
-    fn fitted_method(&self) -> Option<&'static str> {
+    pub fn fitted_method(&self) -> Option<&'static str> {
         let n = self.effective.channels.n;
         match self.is_glass() {
             false => Some("fitted"),

@@ -5,6 +5,7 @@
 
 mod average;
 mod bounds;
+mod catalogue;
 mod comment;
 mod error;
 mod file;
@@ -16,6 +17,7 @@ mod wgsl;
 
 pub use average::{AVERAGE, Average, average_functions};
 pub use bounds::{Bounds, CodeBound, PLAIN_ULP, fingerprint, half_record, sha256};
+pub use catalogue::{CATALOGUE, Row, catalogue};
 pub use comment::lines as comment_lines;
 pub use error::Error;
 pub use file::{File, library, lookup, material, single, uniform_offsets, written_for};
@@ -23,7 +25,7 @@ pub use function::{
     Emitted, LEAST_FITTED_N, Naming, Specialised, Subject, library_functions, specialised_function,
     specialised_graph,
 };
-pub use header::{MARK, half_promise, promises};
+pub use header::{MARK, OUTPUT_LICENCE, half_promise, promises};
 pub use print::bare;
 pub use wgsl::{spirv_with_storage as wgsl_to_spirv, validate as validate_wgsl};
 

@@ -64,20 +64,35 @@ pub struct Request<'a> {
 
 /// The bytes of a file.
 pub fn render(request: &Request) -> Result<Vec<u8>, Error> {
+    let template = request.page.template;
+    finished(
+        template,
+        &view(request),
+        request.target.finish,
+        request.file,
+    )
+}
+
+/// A template with what it sees, and what becomes of the text; the file's name is for messages.
+pub fn finished(
+    template: &str,
+    view: &impl Serialize,
+    finish: Finish,
+    file: &str,
+) -> Result<Vec<u8>, Error> {
     let wrong = |what: String| Error::Generated {
-        file: request.file.to_owned(),
+        file: file.to_owned(),
         what,
     };
     let mut tera = Tera::new();
-    tera.add_raw_template("page", request.page.template)
+    tera.add_raw_template("page", template)
         .map_err(|error| wrong(error.to_string()))?;
-    let context =
-        Context::from_serialize(&view(request)).map_err(|error| wrong(error.to_string()))?;
+    let context = Context::from_serialize(view).map_err(|error| wrong(error.to_string()))?;
     let text = tera
         .render("page", &context)
         .map_err(|error| wrong(error.to_string()))?;
     let text = text.trim_end().to_owned() + "\n";
-    match request.target.finish {
+    match finish {
         Finish::Text => Ok(text.into_bytes()),
         Finish::ValidWgsl => wgsl::validate(&text)
             .map(|_| text.into_bytes())

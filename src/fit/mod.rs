@@ -32,7 +32,9 @@ pub use fitted::{Aim, Curve, Fit, Task, basis};
 pub use lambda::{THESIS_MATCHING_COS, lambda};
 pub use measured::Measured;
 pub use minimax::{Minimax, minimax};
-pub use model_error::{ModelError, Truth, error_from, error_of, model_error, seen, thesis_errors};
+pub use model_error::{
+    ModelError, Truth, error_from, error_of, model_error, seen, single_error, thesis_errors,
+};
 pub use over::model_error_over;
 pub use params::{BOUNCES, Params, abbe, colour_errors, ior_d, params};
 pub use perceived::{Perceived, perceived};

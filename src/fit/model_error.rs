@@ -3,7 +3,7 @@
 use glam::DVec3;
 use serde::Serialize;
 
-use crate::ir::{Checked, Value, evaluate};
+use crate::ir::{Checked, Column, Value, evaluate};
 use crate::materials::{Channels, Surface};
 use crate::methods::Light;
 use crate::spectra::Gamut;
@@ -113,6 +113,20 @@ pub fn model_error(function: &Checked, truth: &Truth) -> ModelError {
     let table = table_of(function, |cos_theta| truth.at(cos_theta));
     error_of(truth, &|cosines| {
         evaluate(function, &arguments(cosines.to_vec(), table.as_ref()))
+    })
+}
+
+/// The same of the function as f32 computes it, each operation rounded.
+pub fn single_error(function: &Checked, truth: &Truth) -> ModelError {
+    let table = table_of(function, |cos_theta| truth.at(cos_theta));
+    error_of(truth, &|cosines| {
+        let single: Vec<f32> = cosines.iter().map(|c| *c as f32).collect();
+        let got = evaluate(function, &arguments(single, table.as_ref()));
+        let channel = |i: usize| {
+            let values = (0..cosines.len()).map(|point| f64::from(got.at(point)[i]));
+            Column::Each(values.collect())
+        };
+        Value::Rgb([0, 1, 2].map(channel))
     })
 }
 

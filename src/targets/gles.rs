@@ -33,6 +33,7 @@ pub static TARGET: Target = Target {
         suffix: "",
         template: include_str!("../../templates/glsl.tera"),
     }],
+    catalogue: Some(include_str!("../../templates/catalogue.gles.tera")),
     finish: Finish::Text,
     validators: VALIDATORS,
 };

@@ -26,6 +26,7 @@ pub static TARGET: Target = Target {
         suffix: "",
         template: include_str!("../../templates/glsl.tera"),
     }],
+    catalogue: Some(include_str!("../../templates/catalogue.glsl.tera")),
     finish: Finish::Text,
     validators: VALIDATORS,
 };

@@ -39,6 +39,7 @@ pub static TARGET: Target = Target {
         suffix: "",
         template: include_str!("../../templates/hlsl.tera"),
     }],
+    catalogue: Some(include_str!("../../templates/catalogue.hlsl.tera")),
     finish: Finish::Text,
     validators: &[
         Validator {

@@ -39,6 +39,7 @@ pub static TARGET: Target = Target {
         suffix: "",
         template: include_str!("../../templates/msl.tera"),
     }],
+    catalogue: Some(include_str!("../../templates/catalogue.msl.tera")),
     finish: Finish::Text,
     validators: VALIDATORS,
 };

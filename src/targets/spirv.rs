@@ -37,6 +37,7 @@ pub static TARGET: Target = Target {
             template: include_str!("../../templates/spirv.comp.tera"),
         },
     ],
+    catalogue: None,
     finish: Finish::Spirv,
     validators: VALIDATORS,
 };

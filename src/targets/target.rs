@@ -27,6 +27,8 @@ pub struct Target {
     pub reserved_prefixes: &'static [&'static str],
     /// The page around the functions; a binary target may have several.
     pub pages: &'static [Page],
+    /// The template of the catalogue's array of coefficients; none where constants alone are no file.
+    pub catalogue: Option<&'static str>,
     /// What becomes of the rendered page.
     pub finish: Finish,
     /// Compilers that are not ours and can judge it.

@@ -30,6 +30,7 @@ pub static TARGET: Target = Target {
         suffix: "",
         template: include_str!("../../templates/wgsl.tera"),
     }],
+    catalogue: Some(include_str!("../../templates/catalogue.wgsl.tera")),
     finish: Finish::ValidWgsl,
     validators: &[NAGA_VALIDATOR, tint(ENDING)],
 };

@@ -4,6 +4,7 @@ use std::collections::BTreeSet;
 use std::path::Path;
 
 use fresnel_gen::app::bake::{add_tables, as_tables_are_seen};
+use fresnel_gen::app::catalogue::add_catalogue;
 use fresnel_gen::app::{Artifact, Request, check, generate, tree, write};
 use fresnel_gen::methods;
 use fresnel_gen::num::Precision;
@@ -26,6 +27,7 @@ fn the_committed_tree_is_what_a_run_into_an_empty_folder_writes() {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("shaders-generated");
     let request = Request::default();
     let mut generated = generate(&request).expect("the catalogue generates");
+    add_catalogue(&mut generated, &request).expect("the catalogue is fitted");
     let sight = as_tables_are_seen(&request.sight, false);
     add_tables(&mut generated, None, sight).expect("the tables are baked");
     if super::bless::is_on() {

@@ -6,6 +6,7 @@
 mod audit;
 mod bless;
 mod bounds;
+mod catalogue;
 #[cfg(feature = "cli")]
 mod chart_page;
 mod claims;

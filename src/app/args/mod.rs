@@ -31,7 +31,7 @@ pub use verify::VerifyFlags;
     name = "fresnel-gen",
     version,
     args_conflicts_with_subcommands = true,
-    after_help = "Examples:\n  fresnel-gen --target gles\n  fresnel-gen --material gold --method conductor_exact --target hlsl -o -\n  fresnel-gen --material my_metal.toml --target wgsl --out-dir shaders\n  fresnel-gen --check\n\nExit codes: 0 done; 1 findings (--check found a difference); 2 usage or input error; 3 something is missing on this machine."
+    after_help = "Examples:\n  fresnel-gen --target gles\n  fresnel-gen --material gold --method conductor_exact --target hlsl -o -\n  fresnel-gen --material my_metal.toml --target wgsl --out-dir shaders\n  fresnel-gen --material gold --budget 0.002 --gpu adreno330 -o -\n  fresnel-gen --check\n\nExit codes: 0 done; 1 findings (--check found a difference); 2 usage or input error; 3 something is missing on this machine."
 )]
 pub struct Cli {
     /// What to do; generation where nothing is named.
@@ -109,6 +109,12 @@ pub struct Generate {
     /// Degrees at which the corrected Schlick meets the exact law [default: that of cosine 0.15, 81.373]
     #[arg(long, value_name = "DEGREES", allow_negative_numbers = true)]
     pub matching_angle: Option<f64>,
+    /// Of each material the one cheapest function that errs by no more than this, over angles and channels
+    #[arg(long, value_name = "ERR", allow_negative_numbers = true)]
+    pub budget: Option<f64>,
+    /// Whose recorded costs decide, beside --budget: rdna2, adreno330 ... as for `cost` [default: rdna2]
+    #[arg(long, value_name = "NAME", requires = "budget")]
+    pub gpu: Option<String>,
     /// Folder for the generated tree
     #[arg(long, value_name = "DIR", default_value = "shaders-generated")]
     pub out_dir: PathBuf,

@@ -1,12 +1,16 @@
 //! `fresnel-gen` without a subcommand: generate, check, list.
 
+use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 use crate::app::args::Generate;
 use crate::app::bake::{add_tables, as_tables_are_seen};
+use crate::app::budget::{Budget, within};
+use crate::app::catalogue::{add_catalogue, is_wanted};
 use crate::app::error::Error;
 use crate::app::generate::{Generated, Kept, generate_beside, generate_single};
 use crate::app::manifest::{self, Manifest};
+use crate::app::names::family;
 use crate::app::request::Request;
 use crate::app::sight::{input, sight};
 use crate::app::source::{is_path, materials, source};
@@ -19,27 +23,38 @@ use super::Output;
 
 /// Generates.
 pub fn run(flags: &Generate) -> Result<Output, Error> {
-    let request = request(flags)?;
+    let (request, said) = chosen(flags, request(flags)?)?;
     if flags.depfile.as_deref() == Some(Path::new("-")) {
         return Err(Error::Usage {
             what: "--depfile takes a file; stdout is not one of its places".to_owned(),
         });
     }
-    if let Some(file) = &flags.output {
-        return single(flags, &request, file);
-    }
+    let mut output = match &flags.output {
+        Some(file) => single(flags, &request, file)?,
+        None => tree(flags, &request)?,
+    };
+    let said = said.into_iter().filter(|_| !flags.quiet);
+    output.remarks = said.chain(output.remarks).collect();
+    Ok(output)
+}
+
+/// The tree of files: listed, compared or written.
+fn tree(flags: &Generate, request: &Request) -> Result<Output, Error> {
     let out_dir = if flags.out_dir.as_os_str().is_empty() {
         Path::new(".")
     } else {
         &flags.out_dir
     };
     // Only a run that names methods adds to what a material's file holds.
-    let kept = if flags.method.is_empty() {
+    let kept = if flags.method.is_empty() && request.chosen.is_empty() {
         Kept::new()
     } else {
         kept(out_dir, request.precision)?
     };
-    let mut generated = generate_beside(&request, &kept)?;
+    let mut generated = generate_beside(request, &kept)?;
+    if is_wanted(request) {
+        add_catalogue(&mut generated, request)?;
+    }
     if generated.scope.whole {
         let sight = as_tables_are_seen(&request.sight, flags.gamut.is_some());
         add_tables(&mut generated, request.medium.clone(), sight)?;
@@ -67,6 +82,18 @@ pub fn run(flags: &Generate) -> Result<Output, Error> {
     written(flags, &generated, &plan, out_dir)
 }
 
+/// The request with the methods that a budget chooses, where one is given, and what is said of the choice.
+fn chosen(flags: &Generate, request: Request) -> Result<(Request, Vec<String>), Error> {
+    let Some(most) = flags.budget else {
+        return Ok((request, Vec::new()));
+    };
+    let family = family(flags.gpu.as_deref().unwrap_or(USUAL_GPU))?;
+    within(request, Budget { most, family })
+}
+
+/// Whose costs decide where none is named.
+const USUAL_GPU: &str = "rdna2";
+
 fn request(flags: &Generate) -> Result<Request, Error> {
     Ok(Request {
         targets: flags.target.clone(),
@@ -77,6 +104,7 @@ fn request(flags: &Generate) -> Result<Request, Error> {
         matching_angle: flags.matching_angle,
         precision: flags.precision.read()?,
         force: flags.precision.force,
+        chosen: BTreeMap::new(),
         sight: sight(&flags.sight.words(flags.gamut.as_deref()))?,
     })
 }

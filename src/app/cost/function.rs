@@ -4,7 +4,7 @@ use std::sync::OnceLock;
 
 use crate::app::error::Error;
 use crate::cost::{Dialect, Probe, REFERENCE};
-use crate::emit::{Bounds, Emitted, Naming, Subject, library_functions, sha256, specialised_graph};
+use crate::emit::{Bounds, Emitted, Naming, Subject, library_functions, specialised_graph};
 use crate::ir::{Checked, Ty};
 use crate::methods::{self, Method};
 use crate::num::Precision;
@@ -130,10 +130,7 @@ impl Function {
 
     /// The shader of the longer chain by its hash: what a record belongs to.
     pub fn hash(&self, dialect: Dialect) -> &str {
-        self.hashes[dialect as usize].get_or_init(|| {
-            let text = self.probe.text(dialect.chains()[1], dialect);
-            sha256(text.as_bytes())[..16].to_owned()
-        })
+        self.hashes[dialect as usize].get_or_init(|| self.probe.hash(dialect))
     }
 
     /// The fragment shaders of both chains.

@@ -100,7 +100,9 @@ pub fn generate_meant(request: &Request) -> Result<Meant, Error> {
 fn made(run: &Run, kept: &Kept) -> Result<Vec<Made>, Error> {
     let mut files = Vec::new();
     let mut owners = Owners::default();
-    for method in written::library_methods(run.request, run.named.as_deref()) {
+    let mut library = written::library_methods(run.request, run.named.as_deref());
+    library.retain(|_| run.request.chosen.is_empty());
+    for method in library {
         files.extend(run.library(method, &mut owners)?);
     }
     for (index, (subject, _)) in run.subjects.iter().enumerate() {
@@ -126,7 +128,7 @@ pub fn generate_single(request: &Request) -> Result<Vec<u8>, Error> {
     };
     let mut pages = Vec::new();
     for (subject, _) in &run.subjects {
-        let methods = run.named_or(&[subject.exact_method()]);
+        let methods = run.named_or(&subject.name, &[subject.exact_method()]);
         for emitted in run.specialised(&methods, subject, &mut BTreeMap::new())? {
             let command =
                 run.command(target, Some(&[emitted.method.name]), Some(subject)) + " -o -";
@@ -248,7 +250,11 @@ impl<'r> Run<'r> {
         Ok(files)
     }
 
-    fn named_or(&self, usual: &[&'static str]) -> Vec<&'static str> {
+    /// The methods asked for of a material: the one that a budget chose, those named, or the usual ones.
+    fn named_or(&self, material: &str, usual: &[&'static str]) -> Vec<&'static str> {
+        if let Some(chosen) = self.request.chosen.get(material) {
+            return vec![*chosen];
+        }
         match &self.named {
             Some(named) => named.iter().map(|method| method.name).collect(),
             None => usual.to_vec(),
@@ -258,9 +264,9 @@ impl<'r> Run<'r> {
     /// The methods of a material's file, the exact one first.
     fn methods_of(&self, target: &Target, subject: &Subject, kept: &Kept) -> Vec<&'static str> {
         let usual = written::usual(self.request, subject);
-        let mut chosen = self.named_or(&usual);
+        let mut chosen = self.named_or(&subject.name, &usual);
         chosen.retain(|name| written::is_written(self.request, name));
-        if self.named.is_some() {
+        if self.named.is_some() || !self.request.chosen.is_empty() {
             let kept = kept.get(&(target.name.to_owned(), subject.name.clone()));
             chosen.extend(
                 kept.into_iter()
@@ -348,7 +354,10 @@ impl<'r> Run<'r> {
                 .iter()
                 .map(|target| target.name.to_owned())
                 .collect(),
-            methods: self.named.as_ref().map(names),
+            methods: match request.chosen.is_empty() {
+                true => self.named.as_ref().map(names),
+                false => Some(BTreeSet::new()),
+            },
             materials: self
                 .subjects
                 .iter()

@@ -49,7 +49,10 @@ fn the_tree_is_the_documented_one() {
             };
             expected.extend(target.pages.iter().map(name));
         }
+        let array = format!("{}/catalogue.{}", target.name, target.extension);
+        expected.extend(target.catalogue.map(|_| array));
     }
+    expected.push("catalogue.json".to_owned());
     expected.sort();
     assert_eq!(place.listed(), expected);
     assert_eq!(place.done("--list").out, expected.join("\n") + "\n");

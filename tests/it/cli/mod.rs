@@ -3,6 +3,8 @@
 mod bad_input;
 mod bake;
 mod brought;
+mod budget;
+mod catalogue;
 mod chart;
 #[cfg(feature = "gpu")]
 mod cost;

@@ -2,6 +2,7 @@
 //! `CI` is set that is a failure.
 
 mod accepts;
+mod catalogue;
 mod msl;
 mod second;
 mod spirv;
@@ -15,6 +16,7 @@ use fresnel_gen::app::{Artifact, Materials, Request, Source, generate};
 use fresnel_gen::lut::{self, Axis};
 use fresnel_gen::num::Precision;
 use fresnel_gen::targets::Target;
+use fresnel_gen::verify::compilers::Verdict;
 use fresnel_gen::{emit, methods, targets};
 use serde_json::json;
 

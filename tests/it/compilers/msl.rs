@@ -7,7 +7,7 @@ use tempfile::TempDir;
 
 use super::{Judgement, Tool, files, joined, text, tree};
 
-const COMPILER: Tool = Tool {
+pub const COMPILER: Tool = Tool {
     command: "g++",
     package: "g++",
 };
@@ -15,6 +15,7 @@ const COMPILER: Tool = Tool {
 /// As much of `metal_stdlib` as the files use. As in Metal, a scalar meets a vector in operators but not in functions.
 const STAND_IN: &str = "
 #pragma once
+#define constant const
 struct half {
     float value;
     explicit operator float() const;
@@ -96,7 +97,7 @@ fn broken_msl_is_refused() {
     }
 }
 
-fn judge(units: &[String]) -> Judgement {
+pub fn judge(units: &[String]) -> Judgement {
     let folder = TempDir::new().unwrap();
     let at = |name: &str| folder.path().join(name);
     fs::write(at("metal_stdlib"), STAND_IN).unwrap();

@@ -1,0 +1,65 @@
+//! How far published measurements of a material lie apart: what no function of one of them can be better than.
+
+use crate::emit::Subject;
+use crate::fit::{Curve, seen};
+use crate::materials::{self, Material, Sight, Surface};
+use crate::methods::Light;
+
+/// How far they lie apart.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Spread {
+    /// The largest difference of two at one angle in one channel.
+    pub most: f64,
+    /// How many there are.
+    pub sources: usize,
+}
+
+/// The spread of the catalogue's pages of a material's substance that can be seen so. None for a user's own file, for what is known
+/// at three wavelengths only, and where there is one page.
+pub fn spread(subject: &Subject, catalogue: &[Material], sight: &Sight) -> Option<Spread> {
+    let own = &subject.material;
+    if materials::source(&subject.argument).is_none() || own.rgb_nm.is_some() {
+        return None;
+    }
+    let medium = subject.medium.as_ref().map(|(_, medium)| medium);
+    let is_page = |other: &&Material| other.substance == own.substance && other.rgb_nm.is_none();
+    let curve = |other: &Material| {
+        let surface = Surface::new(other, medium, sight).ok()?;
+        Some(Curve::new(|c| seen(&surface, Light::Unpolarised, c)).seen)
+    };
+    let pages = catalogue.iter().filter(is_page);
+    let curves: Vec<Vec<[f64; 3]>> = pages.filter_map(curve).collect();
+    (curves.len() > 1).then(|| Spread {
+        most: apart(&curves),
+        sources: curves.len(),
+    })
+}
+
+/// The largest difference of two curves, over all points and channels.
+fn apart(curves: &[Vec<[f64; 3]>]) -> f64 {
+    let points = curves.iter().map(Vec::len).min().unwrap_or(0);
+    let at = |point: usize, channel: usize| {
+        let values = curves.iter().map(move |curve| curve[point][channel]);
+        let (least, most) = values.fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), value| {
+            (a.min(value), b.max(value))
+        });
+        most - least
+    };
+    let all = (0..points).flat_map(|point| [0, 1, 2].map(|channel| at(point, channel)));
+    all.fold(0.0, f64::max)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::apart;
+
+    #[test]
+    fn curves_lie_as_far_apart_as_at_their_worst_point() {
+        let grey = |values: &[f64]| values.iter().map(|v| [*v; 3]).collect::<Vec<_>>();
+        let (a, b, c) = (grey(&[0.5, 0.9]), grey(&[0.25, 0.8]), grey(&[0.625, 0.9]));
+        assert_eq!(apart(&[a.clone(), b.clone()]), 0.25);
+        assert_eq!(apart(&[a.clone(), b, c]), 0.375);
+        assert_eq!(apart(&[a]), 0.0);
+        assert_eq!(apart(&[]), 0.0);
+    }
+}

@@ -1,0 +1,208 @@
+//! The catalogue of fitted coefficients: those of every material that is known over the whole spectrum, as JSON and as an array
+//! in each language. A run that names neither methods nor materials writes it.
+
+use serde_json::{Value, json};
+
+use crate::emit::{self, Average, Bounds, CATALOGUE, OUTPUT_LICENCE, Row, Subject};
+use crate::methods::{self, Method};
+use crate::num::in_parallel;
+
+use super::artifact::Artifact;
+use super::error::Error;
+use super::generate::Generated;
+use super::manifest::TOOL;
+use super::names::quoted;
+use super::request::{Materials, Request};
+use super::sight;
+
+/// What stands for a target of the file that is for no language.
+const JSON: &str = "json";
+
+/// Whether a run writes it: one without `--method` and `--material`, in single precision, which the fitted methods want.
+pub fn is_wanted(request: &Request) -> bool {
+    request.methods.is_empty()
+        && request.materials == Materials::Default
+        && !request.precision.is_half()
+}
+
+/// Adds the arrays of the run's languages, and in a run without flags `catalogue.json`, and makes them the run's own.
+///
+/// # Errors
+/// A material cannot be seen as the request wants, or a language refuses a name.
+pub fn add_catalogue(generated: &mut Generated, request: &Request) -> Result<(), Error> {
+    let request = Request {
+        materials: Materials::All,
+        ..request.clone()
+    };
+    let subjects = subjects(&request)?;
+    let rows = rows(&subjects, &request)?;
+    let seen = seen(&subjects);
+    for target in request.resolved_targets()? {
+        let command = command(&request, Some(target.name))?;
+        let file = emit::catalogue(target, &rows, &request.naming(), seen, &command)?;
+        generated.artifacts.extend(file.map(|file| {
+            let path = format!("{}/{}", target.name, file.name);
+            artifact(path, file.bytes, target.name, file.detail)
+        }));
+    }
+    if generated.scope.whole {
+        generated.artifacts.push(as_json(&rows, seen, &request)?);
+        generated.scope.targets.insert(JSON.to_owned());
+    }
+    generated.artifacts.sort_by(|a, b| a.path.cmp(&b.path));
+    generated.scope.shared = true;
+    Ok(())
+}
+
+/// The materials that can be seen as the request wants. What is known at three wavelengths only has no spectrum.
+fn subjects(request: &Request) -> Result<Vec<Subject>, Error> {
+    let ready = request.subjects()?.ready;
+    let mut subjects: Vec<Subject> = ready.into_iter().map(|(subject, _)| subject).collect();
+    let of_spectra = request.sight.wavelengths_nm.is_none();
+    subjects.retain(|subject| !of_spectra || subject.material.rgb_nm.is_none());
+    Ok(subjects)
+}
+
+/// The rows of those that a fitted method follows: first those of `fitted`, then those of `fitted_dielectric`, each by name.
+fn rows(subjects: &[Subject], request: &Request) -> Result<Vec<Row>, Error> {
+    let bounds = Bounds::recorded();
+    let row = |i: usize| {
+        let subject = &subjects[i];
+        let method = methods::find(subject.fitted_method()?)?;
+        Some(row(subject, method, request, &bounds))
+    };
+    let found = in_parallel(subjects.len(), &row, &mut |_, _| {});
+    let mut rows = found
+        .into_iter()
+        .flatten()
+        .collect::<Result<Vec<_>, Error>>()?;
+    rows.sort_by(|a, b| (a.method.name, &a.name).cmp(&(b.method.name, &b.name)));
+    Ok(rows)
+}
+
+fn row(
+    subject: &Subject,
+    method: &'static Method,
+    request: &Request,
+    bounds: &Bounds,
+) -> Result<Row, Error> {
+    let emitted = emit::specialised_function(method, subject, &request.naming(), bounds)?;
+    let value = |input: &methods::Input| emitted.constants[input.name];
+    Ok(Row {
+        name: subject.name.clone(),
+        class: subject.material.kind.name(),
+        method,
+        coefficients: method.inputs.iter().map(value).collect(),
+        error: emitted
+            .model_error
+            .expect("a specialised function has its model error"),
+        average: Average::of(&emitted).expect("a fitted method has a mean"),
+    })
+}
+
+/// What the truth is: the same for all, for those that hold a value beyond their range say so themselves.
+fn seen(subjects: &[Subject]) -> &str {
+    let first = subjects.first();
+    first.map_or("", |subject| &subject.truth.surface.seen)
+}
+
+/// The command that writes a target's array among its part of the tree, or all.
+fn command(request: &Request, target: Option<&str>) -> Result<String, Error> {
+    let mut command = TOOL.to_owned();
+    if let Some(target) = target {
+        command += &format!(" --target {target}");
+    }
+    if let Some(medium) = &request.medium {
+        command += &format!(" --medium {}", quoted(&medium.argument()?));
+    }
+    if request.prefix != Request::default().prefix {
+        command += &format!(" --prefix {}", quoted(&request.prefix));
+    }
+    Ok(command + &sight::flags(&request.sight))
+}
+
+fn as_json(rows: &[Row], seen: &str, request: &Request) -> Result<Artifact, Error> {
+    let command = command(request, None)?;
+    let about = |method: &&'static Method| json!({ "name": method.name, "formula": method.formula, "source": method.source.line() });
+    let mut methods: Vec<&'static Method> = rows.iter().map(|row| row.method).collect();
+    methods.dedup_by_key(|method| method.name);
+    let report = json!({
+        "tool": TOOL, "command": command, "truth": seen,
+        "space": request.sight.wavelengths_nm.is_none().then(|| request.sight.integration.space.name()),
+        "licence": OUTPUT_LICENCE,
+        "methods": methods.iter().map(about).collect::<Vec<Value>>(),
+        "materials": rows.iter().map(object).collect::<Vec<Value>>(),
+    });
+    let text = serde_json::to_string_pretty(&report).expect("a report has only text keys") + "\n";
+    let detail = json!({ "command": command, "materials": rows.len(), "seen": seen, "licence": OUTPUT_LICENCE });
+    let path = format!("{CATALOGUE}.{JSON}");
+    Ok(artifact(path, text.into_bytes(), JSON, detail))
+}
+
+/// A material: a list of coefficients for each channel.
+fn object(row: &Row) -> Value {
+    let channel = |i: usize| {
+        let own = row.coefficients.iter();
+        own.map(|c| shortest(c[i])).collect::<Vec<f64>>()
+    };
+    json!({
+        "name": row.name, "class": row.class, "method": row.method.name,
+        "coefficients": [channel(0), channel(1), channel(2)],
+        "max_abs": row.error.max_abs, "worst_cos": row.error.worst_cos, "mean_rel": row.error.mean_rel,
+        "average": row.average.given, "average_unlimited": row.average.unlimited,
+    })
+}
+
+/// The number that prints with the fewest digits of those that are the same in f32.
+fn shortest(value: f64) -> f64 {
+    let digits = (value as f32).to_string();
+    digits.parse().expect("what is printed of a number is one")
+}
+
+fn artifact(path: String, bytes: Vec<u8>, target: &str, detail: Value) -> Artifact {
+    Artifact {
+        path,
+        bytes,
+        target: target.to_owned(),
+        method: None,
+        material: None,
+        detail,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_run_that_names_nothing_writes_it() {
+        let usual = Request::default();
+        let named = |methods: &[&str]| methods.iter().map(|m| (*m).to_owned()).collect();
+        assert!(is_wanted(&usual));
+        assert!(is_wanted(&Request {
+            targets: named(&["gles"]),
+            ..usual.clone()
+        }));
+        assert!(!is_wanted(&Request {
+            methods: named(&["fitted"]),
+            ..usual.clone()
+        }));
+        assert!(!is_wanted(&Request {
+            materials: Materials::None,
+            ..usual.clone()
+        }));
+        assert!(!is_wanted(&Request {
+            precision: crate::num::Precision::F16,
+            ..usual
+        }));
+    }
+
+    #[test]
+    fn digits_give_the_same_f32_back() {
+        for value in [1.041_579_5_f32, -0.112_050_526, 1e-9, 0.1] {
+            let short = shortest(f64::from(value));
+            assert_eq!(short as f32, value);
+            assert_eq!(short.to_string(), value.to_string());
+        }
+    }
+}

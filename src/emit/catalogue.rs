@@ -1,0 +1,232 @@
+//! The fitted coefficients of many materials as one constant array of a language, with the row of each by name: what the
+//! library functions `fitted` and `fitted_dielectric` take, four colours a material.
+
+use serde::Serialize;
+use serde_json::json;
+
+use crate::fit::ModelError;
+use crate::methods::Method;
+use crate::targets::Target;
+
+use super::average::Average;
+use super::comment;
+use super::error::Error;
+use super::file::File;
+use super::function::Naming;
+use super::header::{OUTPUT_LICENCE, at_most, formula, start};
+use super::page::{comments, finished, guard};
+
+/// The name of the file and of the array.
+pub const CATALOGUE: &str = "catalogue";
+/// The constant that says where the methods change.
+const DIELECTRICS: &str = "first_dielectric";
+/// Rows of the array that a material has: its coefficients.
+const ROWS: usize = 4;
+
+/// A material of the catalogue.
+#[derive(Clone, Debug)]
+pub struct Row {
+    /// Its name, with the medium's.
+    pub name: String,
+    /// `metal`, `semiconductor` or `dielectric`.
+    pub class: &'static str,
+    /// The fitted method of its class.
+    pub method: &'static Method,
+    /// Its coefficients in order, three channels each, as f32 holds them.
+    pub coefficients: Vec<[f64; 3]>,
+    /// How far the function with these coefficients is from the exact law.
+    pub error: ModelError,
+    /// The mean of that function over the hemisphere.
+    pub average: Average,
+}
+
+/// What a template sees.
+#[derive(Serialize)]
+struct View {
+    header: Vec<String>,
+    guard: String,
+    name: String,
+    size: usize,
+    materials: Vec<MaterialView>,
+    dielectrics_doc: Vec<String>,
+    dielectrics: PlaceView,
+}
+
+#[derive(Serialize)]
+struct PlaceView {
+    constant: String,
+    row: usize,
+}
+
+#[derive(Serialize)]
+struct MaterialView {
+    constant: String,
+    row: usize,
+    remark: String,
+    rows: Vec<RowView>,
+}
+
+#[derive(Serialize)]
+struct RowView {
+    colour: String,
+    remark: String,
+    is_last: bool,
+}
+
+/// The file of a target; none where it has no constants, or there is no material. The rows of one method stand together; `seen`
+/// says what the truth is.
+///
+/// # Errors
+/// A name is a word of the language, or a text is refused by it.
+pub fn catalogue(
+    target: &'static Target,
+    rows: &[Row],
+    naming: &Naming,
+    seen: &str,
+    command: &str,
+) -> Result<Option<File>, Error> {
+    let Some(template) = target.catalogue.filter(|_| !rows.is_empty()) else {
+        return Ok(None);
+    };
+    let view = view(target, rows, naming, seen, command);
+    check_names(target, &view)?;
+    let name = format!("{CATALOGUE}.{}", target.extension);
+    Ok(Some(File {
+        bytes: finished(template, &view, target.finish, &name)?,
+        name,
+        detail: json!({
+            "command": command, "array": view.name, "materials": rows.len(), "rows": view.size, "seen": seen,
+            "licence": OUTPUT_LICENCE,
+        }),
+    }))
+}
+
+fn view(target: &Target, rows: &[Row], naming: &Naming, seen: &str, command: &str) -> View {
+    let dielectrics = rows.partition_point(|row| row.method.name == rows[0].method.name);
+    let is_last = |i: usize| i + 1 == rows.len();
+    let all = rows.iter().enumerate();
+    View {
+        header: comments(target, &header(rows, naming, seen, command)),
+        guard: guard(target, &constant(naming, CATALOGUE)),
+        name: constant(naming, CATALOGUE),
+        size: ROWS * rows.len(),
+        materials: all
+            .map(|(i, row)| material(target, naming, i, row, is_last(i)))
+            .collect(),
+        dielectrics_doc: comments(target, &comment::lines(vec![where_methods_change(rows)])),
+        dielectrics: PlaceView {
+            constant: constant(naming, DIELECTRICS),
+            row: ROWS * dielectrics,
+        },
+    }
+}
+
+/// A name in capitals, as constants have it.
+fn constant(naming: &Naming, of: &str) -> String {
+    format!("{}{of}", naming.prefix).to_uppercase()
+}
+
+fn material(
+    target: &Target,
+    naming: &Naming,
+    place: usize,
+    row: &Row,
+    is_last: bool,
+) -> MaterialView {
+    let coefficient = |(i, values): (usize, &[f64; 3])| RowView {
+        colour: colour(target, *values),
+        remark: if i == 0 {
+            row.name.clone()
+        } else {
+            String::new()
+        },
+        is_last: is_last && i + 1 == ROWS,
+    };
+    MaterialView {
+        constant: constant(naming, &row.name),
+        row: ROWS * place,
+        remark: format!("{}, {}", row.class, at_most(&row.error)),
+        rows: row
+            .coefficients
+            .iter()
+            .enumerate()
+            .map(coefficient)
+            .collect(),
+    }
+}
+
+/// A colour with the shortest digits that give the same f32 back.
+fn colour(target: &Target, values: [f64; 3]) -> String {
+    let spelling = &target.spelling;
+    let numbers = values.map(|value| spelling.number(value));
+    format!("{}({})", spelling.rgb, numbers.join(", "))
+}
+
+/// The methods of the rows, each once.
+fn methods(rows: &[Row]) -> Vec<&'static Method> {
+    let mut methods: Vec<&'static Method> = rows.iter().map(|row| row.method).collect();
+    methods.dedup_by_key(|method| method.name);
+    methods
+}
+
+fn where_methods_change(rows: &[Row]) -> String {
+    match methods(rows).as_slice() {
+        [first, then, ..] => format!(
+            "From this row on the method is {}, before it {}.",
+            then.name, first.name
+        ),
+        _ => "The row after the last: all materials have one method.".to_owned(),
+    }
+}
+
+fn header(rows: &[Row], naming: &Naming, seen: &str, command: &str) -> Vec<String> {
+    let mut lines = start(command);
+    let array = constant(naming, CATALOGUE);
+    let row = constant(naming, &rows[0].name);
+    lines.push(format!(
+        "{CATALOGUE}: coefficients fitted to {} materials, four rows of {array} each, c0 to c3",
+        rows.len()
+    ));
+    for method in methods(rows) {
+        let of = rows.iter().filter(|row| row.method.name == method.name);
+        lines.push(format!("{}: {} of them", method.name, of.count()));
+        lines.extend(formula(method));
+    }
+    lines.push(format!("Source: {}", rows[0].method.source.line()));
+    lines.push(format!(
+        "Use: {}{}(cos_theta, {array}[{row}], {array}[{row} + 1], {array}[{row} + 2], {array}[{row} + 3]), with the library \
+         function of the material's method. By a constant it costs nothing; where the material is known at run time only, put the \
+         array into a buffer: {CATALOGUE}.json has the same numbers",
+        naming.prefix, rows[0].method.name
+    ));
+    lines.push(format!("Truth: {seen}"));
+    lines.push(worst(rows));
+    lines.push("Code error: that of the library functions".to_owned());
+    lines.push(format!(
+        "Data: CC0-1.0, each with its reference: `fresnel-gen materials show {}`",
+        rows[0].name
+    ));
+    lines.push(format!("Licence of this file: {OUTPUT_LICENCE}"));
+    comment::lines(lines)
+}
+
+/// The model error of the worst, and where each one's stands.
+fn worst(rows: &[Row]) -> String {
+    let by_error = |a: &&Row, b: &&Row| a.error.max_abs.total_cmp(&b.error.max_abs);
+    let worst = rows.iter().max_by(by_error).expect("there are rows");
+    let degrees = libm::acos(worst.error.worst_cos).to_degrees();
+    format!(
+        "Model error: beside each material, over all angles and channels; the largest is {}'s, {} (at {degrees:.2} degrees)",
+        worst.name,
+        at_most(&worst.error)
+    )
+}
+
+fn check_names(target: &Target, view: &View) -> Result<(), Error> {
+    let materials = view.materials.iter().map(|material| &material.constant);
+    let mut names = materials.chain([&view.name, &view.dielectrics.constant]);
+    match names.find_map(|name| target.name_fault(name)) {
+        Some(what) => Err(Error::Name { what }),
+        None => Ok(()),
+    }
+}

@@ -1,0 +1,87 @@
+//! The array of fitted coefficients beside the library functions that take them, in every language with text: rows by constants
+//! and by an index that is known at run time only.
+
+use fresnel_gen::app::catalogue::add_catalogue;
+use fresnel_gen::app::{Materials, Request, generate};
+use fresnel_gen::targets::{self, Finish};
+use fresnel_gen::verify::compilers::{is_here, verdict};
+
+use super::{Verdict, accepted, msl};
+
+/// A function that reads the array by constants and one that reads it by what only a run knows.
+fn users(target: &str) -> String {
+    let arguments = |row: &str| {
+        let rows = [0, 1, 2, 3].map(|i| format!("FRESNEL_CATALOGUE[{row} + {i}]"));
+        rows.join(", ")
+    };
+    let constant = format!("fresnel_fitted(c, {})", arguments("FRESNEL_GOLD"));
+    let any = format!("fresnel_fitted_dielectric(c, {})", arguments("row"));
+    let first = "FRESNEL_FIRST_DIELECTRIC";
+    match target {
+        "wgsl" => format!(
+            "fn gold(c: f32) -> vec3<f32> {{\n    return {constant};\n}}\nfn any(c: f32) -> vec3<f32> {{\n    let row = {first} + 4u * \
+             u32(30.0 * c);\n    return {any};\n}}\n"
+        ),
+        _ => {
+            let (rgb, highp) = match target {
+                "hlsl" => ("float3", ""),
+                "msl" => ("metal::float3", ""),
+                "gles" => ("vec3", "highp "),
+                _ => ("vec3", ""),
+            };
+            format!(
+                "{highp}{rgb} gold({highp}float c) {{\n    return {constant};\n}}\n{highp}{rgb} any_of({highp}float c) {{\n    {highp}int \
+                 row = {first} + 4 * int(c);\n    return {any};\n}}\n"
+            )
+        }
+    }
+}
+
+/// The library functions, the array, and what uses both.
+fn program(target: &str) -> String {
+    let request = Request {
+        targets: vec![target.to_owned()],
+        materials: Materials::None,
+        ..Request::default()
+    };
+    let mut generated = generate(&request).unwrap();
+    let names = ["/fresnel_fitted.", "/fresnel_fitted_dielectric."];
+    generated
+        .artifacts
+        .retain(|file| names.iter().any(|name| file.path.contains(name)));
+    add_catalogue(&mut generated, &request).unwrap();
+    generated
+        .artifacts
+        .sort_by_key(|file| file.path.contains("catalogue"));
+    let texts = generated.artifacts.into_iter().map(|file| file.bytes);
+    let text: Vec<u8> = texts.flatten().collect();
+    String::from_utf8(text).unwrap() + &users(target)
+}
+
+#[test]
+fn the_catalogue_is_accepted_with_what_uses_it() {
+    for target in targets::ALL.iter().filter(|t| t.finish != Finish::Spirv) {
+        let text = program(target.name);
+        let here = target.validators.iter().filter(|v| is_here(v.compiler));
+        let validators: Vec<_> = here.collect();
+        accepted(&validators, |validator| {
+            match verdict(validator, "catalogue", text.as_bytes()) {
+                Verdict::Yes => Ok(String::new()),
+                Verdict::No(words) | Verdict::NotChecked(words) => {
+                    Err(format!("{}: {}: {words}", target.name, validator.name))
+                }
+            }
+        });
+    }
+    if msl::COMPILER.is_here("the syntax of msl") {
+        msl::judge(&[program("msl")]).unwrap();
+    }
+}
+
+#[test]
+fn a_module_has_none() {
+    let spirv = targets::find("spirv").unwrap();
+    assert!(spirv.catalogue.is_none());
+    let text = targets::ALL.iter().filter(|t| t.finish != Finish::Spirv);
+    assert!(text.into_iter().all(|target| target.catalogue.is_some()));
+}
