@@ -62,10 +62,11 @@ fn program(target: &str) -> String {
 fn the_catalogue_is_accepted_with_what_uses_it() {
     for target in targets::ALL.iter().filter(|t| t.finish != Finish::Spirv) {
         let text = program(target.name);
+        let name = format!("catalogue.{}", target.extension);
         let here = target.validators.iter().filter(|v| is_here(v.compiler));
         let validators: Vec<_> = here.collect();
         accepted(&validators, |validator| {
-            match verdict(validator, "catalogue", text.as_bytes()) {
+            match verdict(validator, &name, text.as_bytes()) {
                 Verdict::Yes => Ok(String::new()),
                 Verdict::No(words) | Verdict::NotChecked(words) => {
                     Err(format!("{}: {}: {words}", target.name, validator.name))
