@@ -16,12 +16,17 @@ const MEDIA: usize = 120;
 /// What specialised functions are to keep within.
 const AIM: f64 = 0.002;
 /// Those that do not: a power of a rounded 1 - c is as many roundings off as its exponent says, and coefficients near n = 1 cancel.
-const BEYOND_THE_AIM: [(&str, &str, f64); 18] = [
+const BEYOND_THE_AIM: [(&str, &str, f64); 23] = [
     ("empirical", "air", 0.0056),
     ("empirical", "hydrogen", 0.0061),
     ("schlick_corrected", "zinc_querry", 0.0036),
     ("schlick_generalised", "ice", 0.0021),
     ("fitted", "zinc_querry", 0.00205),
+    ("belcour_decomposition", "air", 0.0086),
+    ("belcour_decomposition", "hydrogen", 0.0086),
+    ("belcour_decomposition", "germanium", 0.004),
+    ("belcour_decomposition", "molybdenum", 0.0038),
+    ("belcour_decomposition", "zinc_querry", 0.0054),
     ("fitted_five", "zinc_querry", 0.0136),
     ("fitted_rational", "zinc_querry", 0.0058),
     ("fitted", "air", 0.0072),
@@ -37,7 +42,11 @@ const BEYOND_THE_AIM: [(&str, &str, f64); 18] = [
     ("fitted_rational", "silver_mcpeak", 0.004),
 ];
 /// What those keep within whose coefficients are larger than 1 and cancel.
-const LARGE_COEFFICIENTS: [(&str, f64); 2] = [("fitted_five", 0.0026), ("fitted_rational", 0.003)];
+const LARGE_COEFFICIENTS: [(&str, f64); 3] = [
+    ("belcour_decomposition", 0.0036),
+    ("fitted_five", 0.0026),
+    ("fitted_rational", 0.003),
+];
 /// The methods that are the exact law, which reflects everything at 90 degrees.
 const EXACT: [&str; 5] = [
     "conductor_artistic",
