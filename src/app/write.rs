@@ -90,6 +90,27 @@ pub fn try_file(path: &Path) -> Result<(), Error> {
     tried.map_err(|source| stage_fault(path, source))
 }
 
+/// Whether two paths lead to one file, which the later of two outputs would replace. A device takes both.
+pub fn is_same_file(one: &Path, other: &Path) -> bool {
+    let is_device = fs::metadata(one).is_ok_and(|found| !found.is_dir() && !found.is_file());
+    !is_device && resolved(one) == resolved(other)
+}
+
+/// A path without links, as far as it is there.
+fn resolved(path: &Path) -> PathBuf {
+    let (Some(parent), Some(name)) = (path.parent(), path.file_name()) else {
+        return path.to_path_buf();
+    };
+    let above = match parent {
+        parent if parent.as_os_str().is_empty() => fs::canonicalize("."),
+        parent => fs::canonicalize(parent),
+    };
+    fs::canonicalize(path).unwrap_or_else(|_| match above {
+        Ok(above) => above.join(name),
+        Err(_) => resolved(parent).join(name),
+    })
+}
+
 /// Where these bytes go; nowhere where they are already.
 fn destination(path: &Path, bytes: &[u8]) -> Result<Option<PathBuf>, Error> {
     let fault = |source| stage_fault(path, source);

@@ -2,6 +2,8 @@
 
 use serde_json::Value;
 
+#[cfg(feature = "gpu")]
+use crate::audit;
 use crate::cli::Place;
 use crate::compilers::Tool;
 
@@ -31,6 +33,13 @@ const HANDS: &str = r##"<script>
   };
   const frontier = () => [...document.querySelectorAll("#rows tr.best-row")].map(row => row.cells[0].textContent);
   const told = { all: count(), rows: document.querySelectorAll("#rows tr").length, first: frontier() };
+  const own = document.querySelector("#chart .point.yours");
+  if (own) {
+    own.dispatchEvent(new Event("mouseenter"));
+    told.yours = document.getElementById("about").textContent;
+    told.others = click("show-yours");
+    click("show-yours");
+  }
   told.unfitted = click("show-fitted");
   told.again = click("show-fitted");
   told.intended = click("show-best");
@@ -41,6 +50,7 @@ const HANDS: &str = r##"<script>
   told.water = frontier();
   document.querySelector("#chart .point.fitted").dispatchEvent(new Event("mouseenter"));
   told.about = document.getElementById("about").textContent;
+  told.lacks = document.getElementById("lacks")?.textContent;
   told.asked = performance.getEntriesByType("resource").map(one => one.name);
   told.faults = faults;
   const place = document.body.appendChild(document.createElement("pre"));
@@ -120,6 +130,32 @@ fn a_browser_shows_every_point_and_asks_nobody() {
     assert!(
         told["about"].as_str().unwrap().starts_with("fitted"),
         "{told}"
+    );
+}
+
+#[cfg(feature = "gpu")]
+#[test]
+fn a_users_function_is_one_more_point() {
+    let place = audit::thesis::place();
+    let line = format!("thesis.wgsl --function schlick --material {MATERIALS} --out-dir .");
+    let Some(ran) = audit::audit(&place, &line) else {
+        return;
+    };
+    ran.ends(0);
+    if !CHROMIUM.is_here("the page of charts") || place.read("chart.svg").contains("has no point") {
+        return;
+    }
+    let told = told(&place);
+    assert_eq!(told["faults"], serde_json::json!([]), "{told}");
+    let (points, _) = frontier(&place, "");
+    assert_eq!(told["all"], points + 1);
+    assert_eq!(told["rows"], points + 1);
+    assert_eq!(told["others"], points);
+    let about = told["yours"].as_str().unwrap();
+    assert!(about.starts_with("schlick (yours) (your own"), "{told}");
+    assert_eq!(
+        told["lacks"],
+        "schlick (yours) has no point here: its cost is not known."
     );
 }
 

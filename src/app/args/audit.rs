@@ -9,7 +9,7 @@ use super::SightFlags;
 /// The flags of `audit`.
 #[derive(Args, Debug)]
 #[command(
-    after_help = "Examples:\n  fresnel-gen audit mine.glsl --function fresnel --material gold\n  fresnel-gen audit mine.hlsl --function schlick --arg f0=1.03,.73,.36 --material gold --json -\n\nThe function takes the cosine and whatever --arg binds; arguments named as ours are (eta, n, k, f0, f82, lambda, c0 ...)\nthat are not bound have the material's values. A function of single numbers is called once a channel where they differ.\nIt runs in a process of its own, within --limit. Exit codes: 0 done, 1 a compiler refuses it, it does not end, or a\nresult is no reflectance; 2 wrong input, 3 something is missing here. Being dominated is no finding."
+    after_help = "Examples:\n  fresnel-gen audit mine.glsl --function fresnel --material gold\n  fresnel-gen audit mine.hlsl --function schlick --arg f0=1.03,.73,.36 --material gold --json -\n  fresnel-gen audit mine.wgsl --material gold,platinum --out-dir charts\n\nThe function takes the cosine and whatever --arg binds; arguments named as ours are (eta, n, k, f0, f82, lambda, c0 ...)\nthat are not bound have the material's values. A function of single numbers is called once a channel where they differ.\nIt runs in a process of its own, within --limit. Exit codes: 0 done, 1 a compiler refuses it, it does not end, or a\nresult is no reflectance; 2 wrong input, 3 something is missing here. Being dominated is no finding."
 )]
 pub struct AuditFlags {
     /// The file: .wgsl, .glsl (as GLSL ES 3.00) or .hlsl
@@ -47,6 +47,9 @@ pub struct AuditFlags {
     /// Seconds that one step may take
     #[arg(long, value_name = "SECONDS", default_value_t = 20)]
     pub limit: u64,
+    /// Write chart.svg and chart.html into this folder: `chart` of these materials, with this function as one more point
+    #[arg(long, value_name = "DIR")]
+    pub out_dir: Option<PathBuf>,
     /// Write the report as JSON to this file, or `-` for stdout
     #[arg(long, value_name = "FILE")]
     pub json: Option<PathBuf>,

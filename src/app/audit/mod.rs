@@ -6,6 +6,7 @@
 
 mod accept;
 mod bind;
+mod chart;
 mod code;
 mod cost;
 mod edges;
@@ -30,12 +31,14 @@ use crate::app::cost::Limits;
 use crate::cost::Family;
 use crate::emit::Subject;
 use crate::gpu::Uniform;
+use crate::spectra::Space;
 use crate::verify::compilers::{Fault, Verdict};
 
 use super::error::Error;
 use super::worker::scratch;
 
 pub use bind::Given;
+pub use chart::own;
 pub use language::Language;
 pub use row::{file_name, text};
 pub use serve::serve;
@@ -58,6 +61,8 @@ pub struct Audit {
     pub function: Option<String>,
     /// Values of its arguments.
     pub given: Vec<Given>,
+    /// The space of colours, for errors as they are seen.
+    pub space: Space,
     /// The GPUs whose compilers are asked.
     pub families: Vec<&'static Family>,
     /// Seconds that one step may take.
@@ -130,7 +135,7 @@ impl Audit {
             Ok(runner) => runner,
             Err(trouble) => return Ok(Err(trouble)),
         };
-        Ok(measured(&runner, subject, most(bound)))
+        Ok(measured(&runner, subject, self.space, most(bound)))
     }
 
     /// The word of the compiler that ran it, and all words with places in the user's file.
@@ -190,16 +195,23 @@ fn most(bound: &Bound) -> [f32; 3] {
     })
 }
 
-fn measured(runner: &Runner, subject: &Subject, most: [f32; 3]) -> Result<Ran, Trouble> {
+fn measured(
+    runner: &Runner,
+    subject: &Subject,
+    space: Space,
+    most: [f32; 3],
+) -> Result<Ran, Trouble> {
     let results = runner.run(&edges::cosines())?;
     let mut edges = edges::judged(&results, most);
     let between = edges::Between::new(most);
     let error = runner.error(&subject.truth, &|cosines, got| between.look(cosines, got))?;
     edges.findings.extend(between.finding());
+    let seen = runner.perceived(&subject.truth, space)?;
     Ok(Ran {
         device: runner.device.clone(),
         points: runner.points.get(),
         edges,
         error,
+        seen,
     })
 }

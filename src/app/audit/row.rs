@@ -3,7 +3,7 @@
 use serde_json::{Map, Value, json};
 
 use crate::emit::Subject;
-use crate::fit::ModelError;
+use crate::fit::{ModelError, Perceived};
 use crate::verify::compilers::Verdict;
 
 use super::Audit;
@@ -25,6 +25,8 @@ pub struct Ran {
     pub edges: Edges,
     /// Against the truth.
     pub error: ModelError,
+    /// The same, as it is seen.
+    pub seen: Perceived,
 }
 
 /// A row while it is made.
@@ -62,7 +64,7 @@ impl Row<'_> {
             "form": "user", "precision": "f32", "function": function, "file": file_name(&self.audit.file),
             "arguments": self.arguments(), "filled": self.bound.filled(), "device": ran.map(|ran| &ran.device), "points": ran.map(|ran| ran.points),
             "code_error": null, "code_error_reason": "there is no formula to hold it against but its own text",
-            "model_error": ran.map(|ran| ran.error), "accepts": self.accepts(),
+            "model_error": ran.map(|ran| ran.error), "perceived": ran.map(seen), "accepts": self.accepts(),
             "edges": ran.map(|ran| &ran.edges.rows), "beyond": ran.map(|ran| &ran.edges.remarks),
             "cost": self.costs.iter().map(costed).collect::<Vec<Value>>(),
             "dominated_by": dominated, "says": self.sentences(), "status": status,
@@ -167,6 +169,10 @@ impl Row<'_> {
 /// A file without the folders of this machine.
 pub fn file_name(file: &str) -> &str {
     file.rsplit(['/', '\\']).next().unwrap_or(file)
+}
+
+fn seen(ran: &Ran) -> Value {
+    json!({ "luminance": ran.seen.luminance, "de2000": ran.seen.de2000 })
 }
 
 fn costed(cost: &Cost) -> Value {

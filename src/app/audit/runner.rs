@@ -7,9 +7,10 @@ use std::path::Path;
 
 use crate::app::error::Error;
 use crate::app::worker::{Silence, Worker};
-use crate::fit::{ModelError, Truth, error_of};
+use crate::fit::{ModelError, Perceived, Truth, error_of, perceived};
 use crate::gpu::Uniform;
 use crate::ir::{Column, Value};
+use crate::spectra::Space;
 
 use super::job::{self, Asked, Code, Said};
 use super::loops::{MARK, TURNS};
@@ -94,8 +95,22 @@ impl Runner {
 
     /// The error against the truth. `look` sees every cosine with its result.
     pub fn error(&self, truth: &Truth, look: Look) -> Result<ModelError, Trouble> {
+        self.measured(look, |values| error_of(truth, values))
+    }
+
+    /// The error as it is seen.
+    pub fn perceived(&self, truth: &Truth, space: Space) -> Result<Perceived, Trouble> {
+        self.measured(&|_, _| {}, |values| perceived(truth, space, values))
+    }
+
+    /// What is measured of its values.
+    fn measured<T>(
+        &self,
+        look: Look,
+        measure: impl FnOnce(&dyn Fn(&[f64]) -> Value<f64>) -> T,
+    ) -> Result<T, Trouble> {
         let failed: OnceCell<Trouble> = OnceCell::new();
-        let error = error_of(truth, &|cosines| {
+        let measured = measure(&|cosines| {
             let single: Vec<f32> = cosines.iter().map(|c| *c as f32).collect();
             let nothing = || vec![[f32::NAN; 3]; single.len()];
             // What has failed once is not asked again: each wait takes its time.
@@ -113,7 +128,7 @@ impl Runner {
                 |i: usize| Column::Each(got.iter().map(|rgb| f64::from(rgb[i])).collect());
             Value::Rgb([0, 1, 2].map(channel))
         });
-        failed.into_inner().map_or(Ok(error), Err)
+        failed.into_inner().map_or(Ok(measured), Err)
     }
 }
 

@@ -8,7 +8,7 @@ pub fn axes(entries: &[Entry]) -> Vec<CostAxis> {
     let mut axes = Vec::new();
     for family in FAMILIES.iter() {
         let record = records(family.name);
-        let cost = |entry: &Entry| library_cost(entry.method, family, &record);
+        let cost = |entry: &Entry| library_cost(entry.method()?, family, &record);
         let costs: Vec<Option<f64>> = entries.iter().map(cost).collect();
         if costs.iter().any(Option::is_some) {
             axes.push(CostAxis {
@@ -43,7 +43,7 @@ fn timed(entries: &[Entry]) -> Option<CostAxis> {
     let share = |entry: &Entry| {
         let own = all
             .iter()
-            .find(|time| time.method == entry.method.name && time.device == device);
+            .find(|time| time.method == entry.name() && time.device == device);
         own.map(|time| 100.0 * time.share)
     };
     Some(CostAxis {

@@ -1,7 +1,8 @@
 //! What charts show: the error of every method for every material, with its intended inputs and with its best ones, and what an
-//! evaluation of its library function costs where that was recorded.
+//! evaluation of its library function costs where that was recorded; a user's own function beside them.
 
 mod costs;
+mod own;
 mod sets;
 
 use crate::emit::Subject;
@@ -11,9 +12,10 @@ use crate::fit::{
 use crate::ir::{Checked, Value};
 use crate::methods::{ALL, Light, Method, Values};
 use crate::num::in_parallel;
-use crate::report::frontier::{Data, Entry};
+use crate::report::frontier::{Data, Entry, Function};
 use crate::spectra::Space;
 
+pub use own::Own;
 pub use sets::{CLASSES, OF, class};
 
 /// The names of all axes of cost.
@@ -27,20 +29,28 @@ const BUILT: &str = "a test builds every method";
 /// For each entry, the error on each axis.
 type Errors = Vec<[Option<f64>; 4]>;
 
-/// The data of charts of these materials. `progress` hears how many are done.
+/// The data of charts of these materials, with a user's function as one more entry. `progress` hears how many are done.
 pub fn data(
     subjects: &[Subject],
     space: Space,
+    own: Option<&Own>,
     command: String,
     progress: &mut dyn FnMut(u64, u64, &str),
 ) -> Data {
     let entries = entries();
-    let errors = errors(&entries, subjects, space, progress);
-    Data {
+    let mut errors = errors(&entries, subjects, space, progress);
+    if let Some(own) = own {
+        own.join(&mut errors);
+    }
+    let data = Data {
         costs: costs::axes(&entries),
         sets: sets::sets(subjects, &errors),
         entries,
         command,
+    };
+    match own {
+        Some(own) => own.beside(data),
+        None => data,
     }
 }
 
@@ -53,14 +63,14 @@ fn entries() -> Vec<Entry> {
         .filter(|method| method.light == Light::Unpolarised)
     {
         let own = Entry {
-            method,
+            function: Function::Method(method),
             is_best: false,
             fetches: library(method).fetches(),
         };
         let has_best = !method.is_fitted() && !method.is_textured();
         let best = has_best.then_some(Entry {
             is_best: true,
-            ..own
+            ..own.clone()
         });
         entries.extend([own].into_iter().chain(best));
     }
@@ -82,22 +92,29 @@ fn errors(
 
 fn of_subject(entries: &[Entry], subject: &Subject, space: Space) -> Errors {
     let curve = Curve::new(|c| subject.truth.at(c));
-    let of = |entry: &Entry| match subject.is_described_by(entry.method) {
-        true => of_entry(entry, subject, &curve, space),
-        false => [None; 4],
+    let of = |entry: &Entry| match entry.method() {
+        Some(method) if subject.is_described_by(method) => {
+            of_method(method, entry.is_best, subject, &curve, space)
+        }
+        _ => [None; 4],
     };
     entries.iter().map(of).collect()
 }
 
-fn of_entry(entry: &Entry, subject: &Subject, curve: &Curve, space: Space) -> [Option<f64>; 4] {
-    let method = entry.method;
+fn of_method(
+    method: &Method,
+    is_best: bool,
+    subject: &Subject,
+    curve: &Curve,
+    space: Space,
+) -> [Option<f64>; 4] {
     let values = subject.values(method);
     if method.is_textured() {
         let function = method.specialise(&values).expect(BUILT);
         let error = model_error(&function, &subject.truth_for(method));
         return [Some(error.max_abs), error.mean_rel, None, None];
     }
-    let values = if entry.is_best {
+    let values = if is_best {
         best_inputs(method, &values, curve).unwrap_or(values)
     } else {
         values

@@ -1,9 +1,12 @@
 //! `audit`: a user's own function held against the truth and against ours.
 
+use std::path::{Path, PathBuf};
+
 use serde_json::{Value, json};
 
 use crate::app::args::AuditFlags;
-use crate::app::audit::{Audit, Given, Language, file_name, serve, text};
+use crate::app::audit::{Audit, Given, Language, file_name, own, serve, text};
+use crate::app::chart::{OF, data};
 use crate::app::error::Error;
 use crate::app::names::{family, flag};
 use crate::app::request::{Materials, Request};
@@ -13,8 +16,10 @@ use crate::app::verify::{junit, machine};
 use crate::app::write::write_file;
 use crate::cost::{FAMILIES, Family};
 use crate::emit::Subject;
+use crate::report::frontier::{CostAxis, View};
+use crate::spectra::Space;
 
-use super::{Output, Progress, report, try_places};
+use super::{Output, Progress, chart, report, try_files};
 
 /// The GPUs that are asked unless others are named: one of a desktop, one of a phone.
 const USUAL: [&str; 2] = ["rdna2", "adreno330"];
@@ -34,24 +39,60 @@ pub fn run(flags: &AuditFlags, progress: Progress) -> Result<Output, Error> {
         return Err(Error::Usage { what });
     }
     let request = request(flags)?;
-    let audit = audit(flags)?;
+    let audit = audit(flags, request.sight.integration.space)?;
     let subjects = request.subjects()?;
-    try_places(flags.json.as_deref(), flags.junit.as_deref())?;
-    let row = |(subject, _): &(Subject, String)| audit.row(subject, progress);
-    let rows: Vec<Value> = subjects.ready.iter().map(row).collect::<Result<_, _>>()?;
+    let charts = chart::files(flags.out_dir.as_deref());
+    let all = flags.json.iter().chain(&flags.junit).chain(&charts);
+    try_files(&all.map(PathBuf::as_path).collect::<Vec<_>>())?;
+    let subjects: Vec<Subject> = subjects.ready.into_iter().map(|(one, _)| one).collect();
+    let rows = subjects.iter().map(|one| audit.row(one, progress));
+    let rows: Vec<Value> = rows.collect::<Result<_, _>>()?;
+    let command = canonical(flags, &request);
     if let Some(file) = &flags.junit {
         let xml = junit("fresnel-gen audit", &rows).map_err(|what| Error::Usage { what })?;
         write_file(file, xml.as_bytes())?;
     }
     let full = json!({
-        "tool": "fresnel-gen", "command": canonical(flags, &request), "device": rows.first().map(|row| &row["device"]),
+        "tool": "fresnel-gen", "command": command, "device": rows.first().map(|row| &row["device"]),
         "rows": rows,
     });
     let told: Vec<String> = rows.iter().map(text).collect();
     let mut output = report(told.join("\n"), &full, flags.json.as_deref())?;
     output.remarks = rows.iter().flat_map(remarks).collect();
+    if let Some(folder) = &flags.out_dir {
+        let charted = charted(folder, &rows, &subjects, audit.space, command, progress)?;
+        output.remarks.extend(charted);
+    }
     output.code = code(&rows);
     Ok(output)
+}
+
+/// Draws the charts of these materials with the function as one more point, and says where, and what lacks.
+fn charted(
+    folder: &Path,
+    rows: &[Value],
+    subjects: &[Subject],
+    space: Space,
+    command: String,
+    progress: Progress,
+) -> Result<Vec<String>, Error> {
+    let Some(own) = own(rows) else {
+        return Ok(Vec::new());
+    };
+    let data = data(subjects, space, Some(&own), command, progress);
+    let is_known = |cost: &CostAxis| own.costs.contains_key(cost.name);
+    let cost = data.costs.iter().position(is_known);
+    let cost = cost.or_else(|| data.costs.iter().position(|cost| cost.name == USUAL[0]));
+    let (set, cost) = (chart::usual_set(&data, OF[0]), cost.unwrap_or(0));
+    let view = View {
+        data: &data,
+        set: &data.sets[set],
+        cost: &data.costs[cost],
+        error: 0,
+    };
+    let mut remarks = chart::written(folder, &view, [set, cost, 0])?;
+    remarks.extend(view.lacks());
+    Ok(remarks)
 }
 
 fn request(flags: &AuditFlags) -> Result<Request, Error> {
@@ -68,12 +109,13 @@ fn request(flags: &AuditFlags) -> Result<Request, Error> {
     })
 }
 
-fn audit(flags: &AuditFlags) -> Result<Audit, Error> {
+fn audit(flags: &AuditFlags, space: Space) -> Result<Audit, Error> {
     let file = flags.file.clone().unwrap_or_default();
     let language = Language::of(&file, flags.language.as_deref())?;
     let given = flags.arg.iter().map(|word| Given::read(word));
     Ok(Audit {
         given: given.collect::<Result<_, _>>()?,
+        space,
         families: families(&flags.gpu)?,
         text: shader(&file)?,
         function: flags.function.clone(),

@@ -1,6 +1,6 @@
 //! `chart`: error against cost.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use serde_json::json;
 
@@ -10,11 +10,11 @@ use crate::app::error::Error;
 use crate::app::names::{flag, unknown};
 use crate::app::request::{Materials, Request};
 use crate::app::source::materials;
-use crate::app::write::write_file;
+use crate::app::write::write_files;
 use crate::emit::Subject;
 use crate::report::frontier::{Data, ERRORS, View, page, svg, text};
 
-use super::{Output, Progress, report, try_places};
+use super::{Output, Progress, report, try_files};
 
 const PICTURE: &str = "chart.svg";
 const PAGE: &str = "chart.html";
@@ -25,12 +25,9 @@ pub fn run(flags: &ChartFlags, progress: Progress) -> Result<Output, Error> {
     place("way of taking a class together", &flags.of, &OF)?;
     let cost = place("cost", &flags.gpu, &cost_names())?;
     let folder = flags.out_dir.as_deref();
-    for file in [PICTURE, PAGE] {
-        try_places(
-            flags.json.as_deref(),
-            folder.map(|folder| folder.join(file)).as_deref(),
-        )?;
-    }
+    let files = files(folder);
+    let all = flags.json.iter().chain(&files);
+    try_files(&all.map(PathBuf::as_path).collect::<Vec<_>>())?;
     let request = Request {
         materials: chosen(flags)?,
         ..Request::default()
@@ -43,7 +40,7 @@ pub fn run(flags: &ChartFlags, progress: Progress) -> Result<Output, Error> {
         .collect();
     check_shown(flags, &subjects)?;
     let space = request.sight.integration.space;
-    let data = data(&subjects, space, canonical(flags), progress);
+    let data = data(&subjects, space, None, canonical(flags), progress);
     let set = set(flags, &data)?;
     let view = View {
         data: &data,
@@ -78,7 +75,17 @@ fn chosen(flags: &ChartFlags) -> Result<Materials, Error> {
     }
 }
 
-fn written(folder: &Path, view: &View, first: [usize; 3]) -> Result<Vec<String>, Error> {
+/// The files that a chart is, where it has a folder.
+pub(super) fn files(folder: Option<&Path>) -> Vec<PathBuf> {
+    let each = |folder: &Path| [PICTURE, PAGE].map(|file| folder.join(file));
+    folder.into_iter().flat_map(each).collect()
+}
+
+/// Writes picture and page, both or neither, and says where.
+///
+/// # Errors
+/// Nothing of the view is known, or a file cannot be written.
+pub(super) fn written(folder: &Path, view: &View, first: [usize; 3]) -> Result<Vec<String>, Error> {
     let page = page(view.data, first).map_err(|what| Error::Usage { what })?;
     let picture = svg(view).ok_or_else(|| Error::Usage {
         what: format!(
@@ -86,16 +93,13 @@ fn written(folder: &Path, view: &View, first: [usize; 3]) -> Result<Vec<String>,
             view.set.title, view.cost.name
         ),
     })?;
-    let mut remarks = Vec::new();
-    for (name, text, about) in [
-        (PICTURE, picture, "the picture of what is shown"),
-        (PAGE, page, "a page with all charts"),
-    ] {
-        let file = folder.join(name);
-        write_file(&file, text.as_bytes())?;
-        remarks.push(format!("{}: {about}", file.display()));
-    }
-    Ok(remarks)
+    let files = files(Some(folder));
+    let texts = [picture.as_bytes(), page.as_bytes()];
+    let all: Vec<(PathBuf, &[u8])> = files.iter().cloned().zip(texts).collect();
+    write_files(&all)?;
+    let about = ["the picture of what is shown", "a page with all charts"];
+    let remark = |(file, about): (&PathBuf, &str)| format!("{}: {about}", file.display());
+    Ok(files.iter().zip(about).map(remark).collect())
 }
 
 /// The place of a name among those that there are.
@@ -104,14 +108,19 @@ fn place(kind: &'static str, name: &str, all: &[&str]) -> Result<usize, Error> {
     found.ok_or_else(|| unknown(kind, name, all))
 }
 
+/// The set that is shown unless another is asked for: the first class of which there are two, else the first material.
+pub(super) fn usual_set(data: &Data, of: &str) -> usize {
+    let class = CLASSES.iter().find_map(|class| {
+        let name = format!("{class}-{of}");
+        data.sets.iter().position(|set| set.name == name)
+    });
+    class.unwrap_or(0)
+}
+
 fn set(flags: &ChartFlags, data: &Data) -> Result<usize, Error> {
     let names: Vec<&str> = data.sets.iter().map(|set| set.name.as_str()).collect();
     let Some(show) = &flags.show else {
-        let class = CLASSES.iter().find_map(|class| {
-            let name = format!("{class}-{}", flags.of);
-            names.iter().position(|other| *other == name)
-        });
-        return Ok(class.unwrap_or(0));
+        return Ok(usual_set(data, &flags.of));
     };
     if CLASSES.contains(&show.as_str()) {
         let name = format!("{show}-{}", flags.of);

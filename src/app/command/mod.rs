@@ -25,7 +25,7 @@ use std::path::Path;
 
 use super::args::{Cli, Command};
 use super::error::Error;
-use super::write::{try_file, write_file};
+use super::write::{is_same_file, try_file, write_file};
 
 /// What a run leaves: text for stdout, remarks for stderr, the exit code.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -73,8 +73,24 @@ pub fn run(cli: &Cli, progress: Progress) -> Result<Output, Error> {
 
 /// Refuses places that cannot be written, before the work: a report's, and another file's.
 fn try_places(report: Option<&Path>, other: Option<&Path>) -> Result<(), Error> {
-    let report = report.filter(|file| *file != Path::new("-"));
-    report.into_iter().chain(other).try_for_each(try_file)
+    let files: Vec<&Path> = report.into_iter().chain(other).collect();
+    try_files(&files)
+}
+
+/// The same for files that a run writes together, and two that are one.
+fn try_files(files: &[&Path]) -> Result<(), Error> {
+    for (i, file) in files.iter().enumerate() {
+        if files[..i].iter().any(|other| is_same_file(other, file)) {
+            return Err(Error::Usage {
+                what: format!(
+                    "{}: two outputs of this run would be written there; give each a place of its own",
+                    file.display()
+                ),
+            });
+        }
+    }
+    let named = files.iter().filter(|file| **file != Path::new("-"));
+    named.copied().try_for_each(try_file)
 }
 
 /// A report as text, or as JSON where that was asked for. JSON on stdout stands there alone.

@@ -1,4 +1,4 @@
-//! Error against cost: every method a point, and the frontier of those that nothing beats in both.
+//! Error against cost: every method a point, and a user's function where there is one, and the frontier of those that nothing beats in both.
 
 mod labels;
 #[cfg(feature = "cli")]
@@ -51,15 +51,35 @@ pub static ERRORS: [ErrorAxis; 4] = [
     },
 ];
 
-/// A function on the chart: a method with its intended inputs, or with those whose largest error is least.
-#[derive(Clone, Copy, Debug)]
+/// A function on the chart: a method with its intended inputs, or with those whose largest error is least; or a user's own.
+#[derive(Clone, Debug)]
 pub struct Entry {
-    /// The method.
-    pub method: &'static Method,
+    /// Whose it is.
+    pub function: Function,
     /// Whether its inputs are the best ones, not those that it was meant to have.
     pub is_best: bool,
     /// Texture fetches, whose cost no count shows.
     pub fetches: usize,
+}
+
+/// Whose a function is.
+#[derive(Clone, Debug)]
+pub enum Function {
+    /// A method's.
+    Method(&'static Method),
+    /// A user's.
+    User(User),
+}
+
+/// A user's function.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct User {
+    /// Its name.
+    pub name: String,
+    /// What it is, in a sentence without its full stop.
+    pub about: String,
+    /// What is wrong with it, if anything is.
+    pub fails: Option<String>,
 }
 
 /// What an evaluation costs somewhere.
@@ -71,7 +91,7 @@ pub struct CostAxis {
     pub title: String,
     /// Whether the figure holds what a texture fetch costs.
     pub holds_fetches: bool,
-    /// The cost of each entry's method; none where it is not known.
+    /// The cost of each entry's function; none where it is not known.
     pub costs: Vec<Option<f64>>,
 }
 
@@ -82,7 +102,7 @@ pub struct Set {
     pub name: String,
     /// In words.
     pub title: String,
-    /// For each entry the error on each of [`ERRORS`]; none where the method does not describe it.
+    /// For each entry the error on each of [`ERRORS`]; none where it is not known, or the method does not describe it.
     pub errors: Vec<[Option<f64>; 4]>,
 }
 
@@ -114,9 +134,9 @@ pub struct View<'a> {
 
 /// A point of a chart.
 #[derive(Clone, Copy, Debug)]
-pub struct Point {
+pub struct Point<'a> {
     /// The function.
-    pub entry: Entry,
+    pub entry: &'a Entry,
     /// Its cost.
     pub cost: f64,
     /// Its error.
@@ -131,13 +151,13 @@ const LEAST_ERROR: f64 = 1e-5;
 impl<'a> View<'a> {
     /// The points, by cost, then by error. Where the figure does not hold what a fetch costs, what reads a texture is not on
     /// the frontier, and keeps nothing from it; nor does a method that fails inside its domain.
-    pub fn points(&self) -> Vec<Point> {
+    pub fn points(&self) -> Vec<Point<'a>> {
         let rows = self.data.entries.iter().enumerate();
         let known = rows.filter_map(|(place, entry)| {
             let error = self.set.errors[place][self.error]?;
-            Some((*entry, self.cost.costs[place]?, error))
+            Some((entry, self.cost.costs[place]?, error))
         });
-        let mut known: Vec<(Entry, f64, f64)> = known.collect();
+        let mut known: Vec<(&'a Entry, f64, f64)> = known.collect();
         known.sort_by(|a, b| {
             let order = a.1.total_cmp(&b.1).then(a.2.total_cmp(&b.2));
             order.then(a.0.label().cmp(&b.0.label()))
@@ -147,8 +167,8 @@ impl<'a> View<'a> {
             .map(|(entry, cost, error)| self.compares(entry).then_some((*cost, drawn(*error))))
             .collect();
         let best = frontier(&compared);
-        let point = |(place, (entry, cost, error)): (usize, &(Entry, f64, f64))| Point {
-            entry: *entry,
+        let point = |(place, (entry, cost, error)): (usize, &(&'a Entry, f64, f64))| Point {
+            entry,
             cost: *cost,
             error: *error,
             is_on_frontier: best.contains(&place),
@@ -158,6 +178,22 @@ impl<'a> View<'a> {
 
     fn compares(&self, entry: &Entry) -> bool {
         (entry.fetches == 0 || self.cost.holds_fetches) && entry.fails().is_none()
+    }
+
+    /// What a user's function lacks for a point of this chart: its error or its cost.
+    pub fn lacks(&self) -> Option<String> {
+        let rows = self.data.entries.iter().enumerate();
+        let mut own = rows.filter_map(|(place, entry)| Some((place, entry.user()?)));
+        let (place, user) = own.next()?;
+        let what = match (self.set.errors[place][self.error], self.cost.costs[place]) {
+            (None, _) => "error",
+            (_, None) => "cost",
+            _ => return None,
+        };
+        Some(format!(
+            "{} has no point here: its {what} is not known.",
+            user.name
+        ))
     }
 
     /// What the chart shows, in one line.
@@ -170,7 +206,7 @@ impl<'a> View<'a> {
     pub fn json(&self) -> Vec<Value> {
         let row = |point: &Point| {
             json!({
-                "material": self.set.name, "method": point.entry.method.name,
+                "material": self.set.name, "method": point.entry.name(),
                 "inputs": point.entry.inputs(), "gpu": self.cost.name, "cost": point.cost,
                 "fetches": point.entry.fetches, "error": ERRORS[self.error].name, "value": point.error,
                 "is_on_frontier": point.is_on_frontier, "fails": point.entry.fails(),
@@ -181,26 +217,63 @@ impl<'a> View<'a> {
 }
 
 impl Entry {
-    /// Its name on charts: a star where its inputs are the best ones.
-    pub fn label(&self) -> String {
-        let star = if self.is_best { "*" } else { "" };
-        format!("{}{star}", self.method.name)
-    }
-
-    /// Where its method fails, if it breaks the contract of functions.
-    pub fn fails(&self) -> Option<&'static str> {
-        match self.method.contract {
-            Contract::Kept => None,
-            Contract::Exempt(why) => Some(why),
+    /// Its method, unless it is a user's.
+    pub fn method(&self) -> Option<&'static Method> {
+        match self.function {
+            Function::Method(method) => Some(method),
+            Function::User(_) => None,
         }
     }
 
-    /// Which inputs it has, in one word.
+    /// What is known of it as a user's, if it is one.
+    pub fn user(&self) -> Option<&User> {
+        match &self.function {
+            Function::Method(_) => None,
+            Function::User(user) => Some(user),
+        }
+    }
+
+    /// The name of its method, or its own.
+    pub fn name(&self) -> &str {
+        match &self.function {
+            Function::Method(method) => method.name,
+            Function::User(user) => &user.name,
+        }
+    }
+
+    /// Its name on charts: a star where its inputs are the best ones, a word where it is a user's.
+    pub fn label(&self) -> String {
+        let mark = match (&self.function, self.is_best) {
+            (Function::User(_), _) => " (yours)",
+            (_, true) => "*",
+            (_, false) => "",
+        };
+        format!("{}{mark}", self.name())
+    }
+
+    /// Where it fails, if it breaks the contract of functions.
+    pub fn fails(&self) -> Option<&str> {
+        match &self.function {
+            Function::User(user) => user.fails.as_deref(),
+            Function::Method(method) => match method.contract {
+                Contract::Kept => None,
+                Contract::Exempt(why) => Some(why),
+            },
+        }
+    }
+
+    /// Whether its coefficients are fitted here.
+    pub fn is_fitted(&self) -> bool {
+        self.method().is_some_and(Method::is_fitted)
+    }
+
+    /// Which inputs it has, or that it is a user's, in one word.
     pub fn inputs(&self) -> &'static str {
-        match (self.method.is_fitted(), self.is_best) {
-            (true, _) => "fitted",
-            (false, true) => "best",
-            (false, false) => "intended",
+        match (&self.function, self.is_best) {
+            (Function::User(_), _) => "yours",
+            (Function::Method(method), _) if method.is_fitted() => "fitted",
+            (_, true) => "best",
+            (_, false) => "intended",
         }
     }
 }
@@ -291,7 +364,7 @@ mod tests {
     fn a_texture_is_compared_only_where_its_fetch_is_counted() {
         let method = |name| crate::methods::find(name).expect("it is there");
         let entry = |name, fetches| Entry {
-            method: method(name),
+            function: Function::Method(method(name)),
             is_best: false,
             fetches,
         };

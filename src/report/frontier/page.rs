@@ -3,7 +3,7 @@
 use serde::Serialize;
 use tera::Context;
 
-use super::{AS_NEAR, Data, ERRORS, LEAST_ERROR};
+use super::{AS_NEAR, Data, ERRORS, Function, LEAST_ERROR};
 use crate::report::html;
 
 static TEMPLATE: &str = include_str!("../../../templates/chart.html.tera");
@@ -13,20 +13,20 @@ static TEMPLATE: &str = include_str!("../../../templates/chart.html.tera");
 struct Told<'a> {
     least_error: f64,
     as_near: f64,
-    entries: Vec<Entry>,
+    entries: Vec<Entry<'a>>,
     errors: Vec<[&'static str; 2]>,
     costs: Vec<Cost<'a>>,
     sets: Vec<Set<'a>>,
 }
 
 #[derive(Serialize)]
-struct Entry {
+struct Entry<'a> {
     label: String,
     inputs: &'static str,
-    summary: &'static str,
+    summary: &'a str,
     source: String,
     fetches: usize,
-    fails: Option<&'static str>,
+    fails: Option<&'a str>,
 }
 
 #[derive(Serialize)]
@@ -52,18 +52,12 @@ pub fn page(data: &Data, [set, cost, error]: [usize; 3]) -> Result<String, Strin
     context.insert("data", &told.replace('<', "\\u003c"));
     context.insert("first", &[set, cost, error]);
     context.insert("command", &data.command);
+    let user = data.entries.iter().find_map(super::Entry::user);
+    context.insert("user", &user.map(|user| &user.name));
     html::page(TEMPLATE, &context)
 }
 
 fn told(data: &Data) -> Told<'_> {
-    let entry = |entry: &super::Entry| Entry {
-        label: entry.label(),
-        inputs: entry.inputs(),
-        summary: entry.method.summary,
-        source: entry.method.source.line(),
-        fetches: entry.fetches,
-        fails: entry.fails(),
-    };
     let costs = data.costs.iter().map(|cost| Cost {
         name: cost.name,
         title: &cost.title,
@@ -78,13 +72,28 @@ fn told(data: &Data) -> Told<'_> {
     Told {
         least_error: LEAST_ERROR,
         as_near: AS_NEAR,
-        entries: data.entries.iter().map(entry).collect(),
+        entries: data.entries.iter().map(of).collect(),
         errors: ERRORS
             .iter()
             .map(|error| [error.short, error.title])
             .collect(),
         costs: costs.collect(),
         sets: sets.collect(),
+    }
+}
+
+fn of(entry: &super::Entry) -> Entry<'_> {
+    let (summary, source) = match &entry.function {
+        Function::Method(method) => (method.summary, method.source.line()),
+        Function::User(user) => (user.about.as_str(), String::new()),
+    };
+    Entry {
+        label: entry.label(),
+        inputs: entry.inputs(),
+        summary,
+        source,
+        fetches: entry.fetches,
+        fails: entry.fails(),
     }
 }
 

@@ -3,7 +3,7 @@
 use crate::report::chart::{AXIS, FOOT, Font, Frame, SUBTITLE, Sheet, TICK, TITLE};
 
 use super::labels::{Area, DOT, Place, places};
-use super::{ERRORS, Point, View, capital, drawn};
+use super::{ERRORS, Entry, Point, View, capital, drawn};
 
 /// The size of the picture.
 const FRAME: Frame = Frame {
@@ -25,6 +25,7 @@ const SLACK: f64 = 1.25;
 /// Colours by Okabe and Ito, which colour-blind readers can tell apart.
 const OURS: &str = "#0072b2";
 const THEIRS: &str = "#d55e00";
+const YOURS: &str = "#009e73";
 const INK: &str = "#17202b";
 const GRID: &str = "#e4e8ed";
 const EDGE: &str = "#7d8794";
@@ -82,7 +83,8 @@ pub fn svg(view: &View) -> Option<String> {
     }
     let mut sheet = Sheet::new(FRAME);
     sheet.paragraph(&TITLE, &view.title());
-    sheet.paragraph(&SUBTITLE, KEY);
+    let key = key(view);
+    sheet.paragraph(&SUBTITLE, &key);
     let top = sheet.bottom() + 12.0;
     let bottom = FRAME.height - BELOW - FOOT_ROOM;
     let (left, right) = (FRAME.margin + LEFT - 30.0, FRAME.right() - 8.0);
@@ -103,11 +105,21 @@ pub fn svg(view: &View) -> Option<String> {
     elements.push("</g>".to_owned());
     sheet.extend(elements, bottom + BELOW - 8.0);
     sheet.paragraph(&FOOT, &format!("fresnel-gen {}", view.data.command));
-    Some(sheet.document(&view.title(), KEY))
+    Some(sheet.document(&view.title(), &key))
 }
 
 const KEY: &str = "Blue: fitted here. Orange: published; full with the inputs that its authors meant, hollow (*) with those whose \
 largest error is least. Square: reads a texture, whose fetch no count holds. The line: nothing is cheaper and as near; what fails inside its domain has no part in it.";
+
+/// The key, with what is said of a user's function.
+fn key(view: &View) -> String {
+    let user = view.data.entries.iter().find_map(Entry::user);
+    let own = user.map(|user| match view.lacks() {
+        None => format!(" Green diamond: {}, your own.", user.name),
+        Some(lacks) => format!(" {lacks}"),
+    });
+    format!("{KEY}{}", own.unwrap_or_default())
+}
 
 fn grid(x: &Scale, y: &Scale, Area([left, top, right, bottom]): Area) -> Vec<String> {
     let mut lines = String::new();
@@ -169,7 +181,7 @@ fn pairs(points: &[Point], x: &Scale, y: &Scale) -> Vec<String> {
     let best = points.iter().filter(|point| point.entry.is_best);
     let line = |best: &Point| {
         let is_same = |point: &&Point| {
-            !point.entry.is_best && point.entry.method.name == best.entry.method.name
+            point.entry.inputs() == "intended" && point.entry.name() == best.entry.name()
         };
         let intended = points.iter().find(is_same)?;
         let (across, from, to) = (
@@ -186,7 +198,10 @@ fn pairs(points: &[Point], x: &Scale, y: &Scale) -> Vec<String> {
 
 fn dot(point: &Point, x: &Scale, y: &Scale) -> String {
     let (x, y) = (x.at(point.cost), y.at(drawn(point.error)));
-    let colour = if point.entry.method.is_fitted() {
+    if point.entry.user().is_some() {
+        return diamond(x, y);
+    }
+    let colour = if point.entry.is_fitted() {
         OURS
     } else {
         THEIRS
@@ -210,12 +225,27 @@ fn dot(point: &Point, x: &Scale, y: &Scale) -> String {
     )
 }
 
-/// Names of points, those of the frontier first. A method at its best, on a line with itself, has one only there.
+/// The mark of a user's function.
+fn diamond(x: f64, y: f64) -> String {
+    let half = DOT + 1.5;
+    format!(
+        "<path fill=\"{YOURS}\" stroke=\"{YOURS}\" stroke-width=\"1.6\" d=\"M{:.2} {y:.2}L{x:.2} {:.2}L{:.2} {y:.2}L{x:.2} {:.2}Z\"/>",
+        x - half,
+        y - half,
+        x + half,
+        y + half
+    )
+}
+
+/// Names of points, a user's first, then those of the frontier. A method at its best, on a line with itself, has one only there.
 fn labels(points: &[Point], x: &Scale, y: &Scale, page: Area) -> Vec<String> {
     const FONT: &Font = &TICK;
     let has_name = |point: &&Point| point.is_on_frontier || !point.entry.is_best;
     let mut order: Vec<&Point> = points.iter().filter(has_name).collect();
-    order.sort_by_key(|point| (!point.is_on_frontier, point.entry.is_best));
+    order.sort_by_key(|point| {
+        let entry = point.entry;
+        (entry.user().is_none(), !point.is_on_frontier, entry.is_best)
+    });
     let all: Vec<(f64, f64)> = points
         .iter()
         .map(|point| (x.at(point.cost), y.at(drawn(point.error))))

@@ -32,7 +32,7 @@ fn failing(points: &[Point]) -> String {
         let why = point.entry.fails()?;
         Some(format!(
             "{} fails, and takes no part in that: {why}.\n",
-            point.entry.method.name
+            point.entry.name()
         ))
     };
     own.filter_map(remark).collect()
@@ -42,7 +42,7 @@ fn cells(point: &Point) -> Vec<String> {
     let star = if point.is_on_frontier { "*" } else { "" };
     vec![
         star.to_owned(),
-        point.entry.method.name.to_owned(),
+        point.entry.name().to_owned(),
         point.entry.inputs().to_owned(),
         figure(point.cost),
         figure(point.error),
@@ -70,31 +70,33 @@ pub fn figure(value: f64) -> String {
 /// fitted method against the nearest rival that is no cheaper than it by more than a tenth.
 pub fn headline(view: &View) -> String {
     let points = view.points();
-    let ours = points.iter().filter(|point| point.entry.method.is_fitted());
+    let ours = points.iter().filter(|point| point.entry.is_fitted());
     ours.filter_map(|our| sentence(our, &points)).collect()
 }
 
 fn sentence(our: &Point, points: &[Point]) -> Option<String> {
     let is_rival = |point: &&Point| {
-        let method = point.entry.method;
+        let is_published = point
+            .entry
+            .method()
+            .is_some_and(|method| !method.is_fitted());
         let is_cheap = our.cost <= 1.1 * point.cost && point.cost <= 2.0 * our.cost;
-        !method.is_fitted() && point.entry.fetches == 0 && is_cheap && our.error < point.error
+        is_published && point.entry.fetches == 0 && is_cheap && our.error < point.error
     };
     let rivals: Vec<&Point> = points.iter().filter(is_rival).collect();
     let intended = rivals.iter().filter(|point| !point.entry.is_best);
     let nearest = intended.min_by(|a, b| a.error.total_cmp(&b.error))?;
-    let is_same = |point: &&&Point| {
-        point.entry.is_best && point.entry.method.name == nearest.entry.method.name
-    };
+    let is_same =
+        |point: &&&Point| point.entry.is_best && point.entry.name() == nearest.entry.name();
     let best = rivals.iter().find(is_same);
     let best = best.map_or(String::new(), |best| {
         format!(", {} with its best", times(best.error / our.error))
     });
     Some(format!(
         "{} errs {} less than {} with its intended inputs{best}, at {} of its cost.\n",
-        our.entry.method.name,
+        our.entry.name(),
         times(nearest.error / our.error),
-        nearest.entry.method.name,
+        nearest.entry.name(),
         figure(our.cost / nearest.cost),
     ))
 }

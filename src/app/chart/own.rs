@@ -1,0 +1,47 @@
+//! A user's function among ours: one entry more, one error more of each material, one cost more on each axis.
+
+use std::collections::BTreeMap;
+
+use crate::report::frontier::{CostAxis, Data, Entry, Function, User};
+
+use super::Errors;
+
+/// What is known of a user's function.
+#[derive(Clone, Debug)]
+pub struct Own {
+    /// The function.
+    pub user: User,
+    /// For each material the error on each axis; none where it gave no number.
+    pub errors: Errors,
+    /// What an evaluation costs, by the names of axes.
+    pub costs: BTreeMap<String, f64>,
+}
+
+impl Own {
+    /// Its errors behind those of all others.
+    pub fn join(&self, errors: &mut [Errors]) {
+        for (all, own) in errors.iter_mut().zip(&self.errors) {
+            all.push(*own);
+        }
+    }
+
+    /// The charts with it as their last entry; its errors have joined already.
+    pub fn beside(&self, mut data: Data) -> Data {
+        for axis in &mut data.costs {
+            axis.costs.push(self.cost(axis));
+        }
+        data.entries.push(Entry {
+            function: Function::User(self.user.clone()),
+            is_best: false,
+            fetches: 0,
+        });
+        data
+    }
+
+    /// An axis in powers of ten has no 0: what costs nothing to the last count costs a count, or as little as any of ours.
+    fn cost(&self, axis: &CostAxis) -> Option<f64> {
+        let cost = *self.costs.get(axis.name)?;
+        let least = axis.costs.iter().flatten().copied().fold(1.0, f64::min);
+        Some(if cost > 0.0 { cost } else { least })
+    }
+}
