@@ -95,10 +95,10 @@ pub fn svg(view: &View) -> Option<String> {
     elements.extend(names(view, page));
     elements.push(staircase(&points, &x, &y, page));
     elements.extend(pairs(&points, &x, &y));
-    // A full dot lies over its hollow one where they are the same.
-    let (best, own): (Vec<&Point>, Vec<&Point>) =
-        points.iter().partition(|point| point.entry.is_best);
-    elements.extend(best.into_iter().chain(own).map(|point| dot(point, &x, &y)));
+    // A full dot lies over its hollow one where they are the same, and a user's over all.
+    let mut layers: Vec<&Point> = points.iter().collect();
+    layers.sort_by_key(|point| (point.entry.user().is_some(), !point.entry.is_best));
+    elements.extend(layers.into_iter().map(|point| dot(point, &x, &y)));
     // A rim in the paper's colour keeps names readable over lines.
     elements.push("<g paint-order=\"stroke\" stroke=\"#ffffff\" stroke-width=\"3\">".to_owned());
     elements.extend(labels(&points, &x, &y, page));
