@@ -3,8 +3,8 @@
 // Regenerate: fresnel-gen --target gles --method dielectric_exact
 //
 // fresnel_dielectric_exact: the exact law for dielectrics, stable near eta = 1, total reflection included
-//   t = (eta - 1)(eta + 1), g = sqrt(t + c^2), u = g + c, r_s = t / u^2
-//   F = r_s^2 (1 + B^2) / 2, B = (c u - 1) / (c t / u + 1); 1 where t + c^2 < 0
+//   s2 = 1 - c^2, t = eta^2 - 1, g2 = max(t + c^2, 0), u = sqrt(g2) + c
+//   F = min((c^2 g2 + s2^2) k^2, 1), k = t / (c (u (t + 2) - c) + g2)
 // Source: Cook, Torrance, "A Reflectance Model for Computer Graphics", ACM Transactions on Graphics 1(1), 7-24,
 //     1982. https://doi.org/10.1145/357290.357293
 // Domain: eta >= 0.001, on both sides of 1; past the critical angle exactly 1; eta = 1 gives 0 at every angle
@@ -13,8 +13,8 @@
 //   eta: relative index of refraction, transmitted over incident (n_t / n_i)
 // Model error for eta 1.3 to 2.5: none, it is the exact law
 // Code error for eta 1.0001 to 12: at most 6.5 ulp or 2^-22, unfused f32 against f64
-// fresnel_dielectric_exact: 81 scalar operations, among them 3 roots, 9 divisions
-// fresnel_dielectric_exact_scalar: 29 scalar operations, among them 1 root, 3 divisions
+// fresnel_dielectric_exact: 58 scalar operations, among them 3 roots, 3 divisions
+// fresnel_dielectric_exact_scalar: 22 scalar operations, among them 1 root, 1 division
 // Licence of this file: CC0-1.0
 
 #ifndef FRESNEL_DIELECTRIC_EXACT_GLES
@@ -22,26 +22,28 @@
 
 highp vec3 fresnel_dielectric_exact(highp float cos_theta, highp vec3 eta) {
     highp float c = clamp(cos_theta, 0.0, 1.0); // 1 + 1 ulp must not reach what follows
-    highp vec3 tau = (eta - 1.0) * (eta + 1.0); // eta^2 - 1 without its cancellation near 1
-    highp vec3 g2 = tau + c * c; // below 0 past the critical angle
-    highp vec3 u = sqrt(max(g2, 0.0)) + c;
-    highp vec3 r_s = tau / max(tau + 2.0 * c * u, 1.0e-37); // (g - c) / (g + c), as tau / u^2
-    highp vec3 r_ps = (c * u - 1.0) / (c * tau / max(u, 1.0e-30) + 1.0); // r_p / r_s
-    // rounding near the critical angle must not exceed 1
-    highp vec3 f = min(0.5 * (r_s * r_s) * (1.0 + r_ps * r_ps), 1.0);
-    return vec3(g2.r < 0.0 ? 1.0 : f.r, g2.g < 0.0 ? 1.0 : f.g, g2.b < 0.0 ? 1.0 : f.b);
+    highp float c2 = c * c;
+    highp float s2 = 1.0 - c2; // sin^2 theta
+    highp float s4 = s2 * s2;
+    highp vec3 apart = eta - 1.0;
+    highp vec3 tau = apart * eta + apart; // eta^2 - 1 without its cancellation near 1
+    highp vec3 g2 = max(tau + c2, 1.0e-14); // square of eta cos theta_t; next to 0 past the critical angle
+    highp vec3 u = sqrt(g2) + c;
+    highp vec3 k = tau / (c * (u * (tau + 2.0) - c) + g2);
+    return min((c2 * g2 + s4) * (k * k), 1.0);
 }
 
 highp float fresnel_dielectric_exact_scalar(highp float cos_theta, highp float eta) {
     highp float c = clamp(cos_theta, 0.0, 1.0); // 1 + 1 ulp must not reach what follows
-    highp float tau = (eta - 1.0) * (eta + 1.0); // eta^2 - 1 without its cancellation near 1
-    highp float g2 = tau + c * c; // below 0 past the critical angle
-    highp float u = sqrt(max(g2, 0.0)) + c;
-    highp float r_s = tau / max(tau + 2.0 * c * u, 1.0e-37); // (g - c) / (g + c), as tau / u^2
-    highp float r_ps = (c * u - 1.0) / (c * tau / max(u, 1.0e-30) + 1.0); // r_p / r_s
-    // rounding near the critical angle must not exceed 1
-    highp float f = min(0.5 * (r_s * r_s) * (1.0 + r_ps * r_ps), 1.0);
-    return g2 < 0.0 ? 1.0 : f;
+    highp float c2 = c * c;
+    highp float s2 = 1.0 - c2; // sin^2 theta
+    highp float s4 = s2 * s2;
+    highp float apart = eta - 1.0;
+    highp float tau = apart * eta + apart; // eta^2 - 1 without its cancellation near 1
+    highp float g2 = max(tau + c2, 1.0e-14); // square of eta cos theta_t; next to 0 past the critical angle
+    highp float u = sqrt(g2) + c;
+    highp float k = tau / (c * (u * (tau + 2.0) - c) + g2);
+    return min((c2 * g2 + s4) * (k * k), 1.0);
 }
 
 #endif

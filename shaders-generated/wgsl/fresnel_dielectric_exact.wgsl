@@ -3,8 +3,8 @@
 // Regenerate: fresnel-gen --target wgsl --method dielectric_exact
 //
 // fresnel_dielectric_exact: the exact law for dielectrics, stable near eta = 1, total reflection included
-//   t = (eta - 1)(eta + 1), g = sqrt(t + c^2), u = g + c, r_s = t / u^2
-//   F = r_s^2 (1 + B^2) / 2, B = (c u - 1) / (c t / u + 1); 1 where t + c^2 < 0
+//   s2 = 1 - c^2, t = eta^2 - 1, g2 = max(t + c^2, 0), u = sqrt(g2) + c
+//   F = min((c^2 g2 + s2^2) k^2, 1), k = t / (c (u (t + 2) - c) + g2)
 // Source: Cook, Torrance, "A Reflectance Model for Computer Graphics", ACM Transactions on Graphics 1(1), 7-24,
 //     1982. https://doi.org/10.1145/357290.357293
 // Domain: eta >= 0.001, on both sides of 1; past the critical angle exactly 1; eta = 1 gives 0 at every angle
@@ -13,30 +13,32 @@
 //   eta: relative index of refraction, transmitted over incident (n_t / n_i)
 // Model error for eta 1.3 to 2.5: none, it is the exact law
 // Code error for eta 1.0001 to 12: at most 6.5 ulp or 2^-22, unfused f32 against f64
-// fresnel_dielectric_exact: 81 scalar operations, among them 3 roots, 9 divisions
-// fresnel_dielectric_exact_scalar: 29 scalar operations, among them 1 root, 3 divisions
+// fresnel_dielectric_exact: 58 scalar operations, among them 3 roots, 3 divisions
+// fresnel_dielectric_exact_scalar: 22 scalar operations, among them 1 root, 1 division
 // Licence of this file: CC0-1.0
 
 fn fresnel_dielectric_exact(cos_theta: f32, eta: vec3<f32>) -> vec3<f32> {
     let c = saturate(cos_theta); // 1 + 1 ulp must not reach what follows
-    let tau = (eta - 1.0) * (eta + 1.0); // eta^2 - 1 without its cancellation near 1
-    let g2 = tau + c * c; // below 0 past the critical angle
-    let u = sqrt(max(g2, vec3<f32>(0.0))) + c;
-    let r_s = tau / max(tau + 2.0 * c * u, vec3<f32>(1.0e-37)); // (g - c) / (g + c), as tau / u^2
-    let r_ps = (c * u - 1.0) / (c * tau / max(u, vec3<f32>(1.0e-30)) + 1.0); // r_p / r_s
-    // rounding near the critical angle must not exceed 1
-    let f = min(0.5 * (r_s * r_s) * (1.0 + r_ps * r_ps), vec3<f32>(1.0));
-    return vec3<f32>(select(f.r, 1.0, g2.r < 0.0), select(f.g, 1.0, g2.g < 0.0), select(f.b, 1.0, g2.b < 0.0));
+    let c2 = c * c;
+    let s2 = 1.0 - c2; // sin^2 theta
+    let s4 = s2 * s2;
+    let apart = eta - 1.0;
+    let tau = apart * eta + apart; // eta^2 - 1 without its cancellation near 1
+    let g2 = max(tau + c2, vec3<f32>(1.0e-14)); // square of eta cos theta_t; next to 0 past the critical angle
+    let u = sqrt(g2) + c;
+    let k = tau / (c * (u * (tau + 2.0) - c) + g2);
+    return min((c2 * g2 + s4) * (k * k), vec3<f32>(1.0));
 }
 
 fn fresnel_dielectric_exact_scalar(cos_theta: f32, eta: f32) -> f32 {
     let c = saturate(cos_theta); // 1 + 1 ulp must not reach what follows
-    let tau = (eta - 1.0) * (eta + 1.0); // eta^2 - 1 without its cancellation near 1
-    let g2 = tau + c * c; // below 0 past the critical angle
-    let u = sqrt(max(g2, 0.0)) + c;
-    let r_s = tau / max(tau + 2.0 * c * u, 1.0e-37); // (g - c) / (g + c), as tau / u^2
-    let r_ps = (c * u - 1.0) / (c * tau / max(u, 1.0e-30) + 1.0); // r_p / r_s
-    // rounding near the critical angle must not exceed 1
-    let f = min(0.5 * (r_s * r_s) * (1.0 + r_ps * r_ps), 1.0);
-    return select(f, 1.0, g2 < 0.0);
+    let c2 = c * c;
+    let s2 = 1.0 - c2; // sin^2 theta
+    let s4 = s2 * s2;
+    let apart = eta - 1.0;
+    let tau = apart * eta + apart; // eta^2 - 1 without its cancellation near 1
+    let g2 = max(tau + c2, 1.0e-14); // square of eta cos theta_t; next to 0 past the critical angle
+    let u = sqrt(g2) + c;
+    let k = tau / (c * (u * (tau + 2.0) - c) + g2);
+    return min((c2 * g2 + s4) * (k * k), 1.0);
 }

@@ -1,10 +1,10 @@
-//! `F = (c² g² + s⁴) k²`, with `s² = 1 - c²`, `τ = η² - 1`, `g = √(τ + c²)`, `u = g + c`, `k = τ / (c (u (τ + 2) - c) + g²)`:
+//! `F = (c² g² + s⁴) k²`, with `s² = 1 - c²`, `τ = η² - 1`, `g = √(τ + c²)`, `k = τ / (c (η² (g + c) + g) + g²)`:
 //! the exact law for dielectrics by one quotient and one root, stable near η = 1.
 //!
 //! Source: Fresnel 1823 in the g-form of Cook and Torrance, "A Reflectance Model for Computer Graphics", 1982,
 //! <https://doi.org/10.1145/357290.357293>, rearranged: r_s = (g-c)/(g+c) is τ/u² without its cancellation, r_p / r_s is
-//! (cg-s²)/(cg+s²), so F = ½ (r_s² + r_p²) is (c²g²+s⁴) (τ / (u² (cg+s²)))², and u² (cg+s²) = c (u (τ+2) - c) + g².
-//! τ must come from η-1, not η²-1. Past the critical angle g is 0 in it, and it is 1 or more: the limit makes it 1.
+//! (cg-s²)/(cg+s²), so F = ½ (r_s² + r_p²) is (c²g²+s⁴) (τ / (u² (cg+s²)))², u = g+c, and u² (cg+s²) = c (η² u + g) + g²,
+//! where nothing is subtracted. τ must come from η-1, and η² from τ, so that their roundings are one. Past the critical angle g is 0 in it, and it is 1 or more: the limit makes it 1.
 //! In half precision it is F = ½ (r_s² + r_p²) with r_s = 1 - 2c/(g+c) and r_p = 1 - 2η²c/(η²c+g): where F is near 1 little
 //! is subtracted, and two roundings are left of eight.
 //! Domain: η ≥ 0.001, on both sides of 1; past the critical angle exactly 1; η = 1 gives 0 at every angle, 90° too.
@@ -36,8 +36,8 @@ pub static METHOD: Method = Method {
     name: "dielectric_exact",
     summary: "the exact law for dielectrics, stable near eta = 1, total reflection included",
     formula: &[
-        "s2 = 1 - c^2, t = eta^2 - 1, g2 = max(t + c^2, 0), u = sqrt(g2) + c",
-        "F = min((c^2 g2 + s2^2) k^2, 1), k = t / (c (u (t + 2) - c) + g2)",
+        "s2 = 1 - c^2, t = eta^2 - 1, g = sqrt(max(t + c^2, 0))",
+        "F = min((c^2 g^2 + s2^2) k^2, 1), k = t / (c (eta^2 (g + c) + g) + g^2)",
     ],
     source: COOK_TORRANCE_1982,
     inputs: &[Input::ETA],
@@ -51,7 +51,7 @@ pub static METHOD: Method = Method {
             max_abs: 0.0,
             at_degrees: 0.0,
         }],
-        code_ulp: 6.5,
+        code_ulp: 6.6,
         code_over: Over::Wide,
     },
     contract: Contract::Kept,
@@ -78,8 +78,8 @@ fn build<'b>(x: &Inputs<'b>) -> Expr<'b> {
         "g2",
         "square of eta cos theta_t; next to 0 past the critical angle",
     );
-    let u = (g2.sqrt() + c).named("u", "");
-    let k = tau / (c * (u * (tau + 2.0) - c) + g2);
+    let g = g2.sqrt().named("g", "");
+    let k = tau / (c * ((tau + 1.0) * (g + c) + g) + g2);
     let k = k.named("k", "");
     ((c2 * g2 + s4) * k.squared()).at_most(1.0)
 }

@@ -24,7 +24,7 @@ fn an_unknown_name_is_answered_with_the_nearest() {
         ),
         (
             "--method schlick --method exact_conductor",
-            "there are conductor_artistic, conductor_exact",
+            "there are belcour_decomposition, conductor_artistic, conductor_exact",
         ),
         (
             "--material gold_thesi",

@@ -60,9 +60,9 @@ fn a_disk_that_fills_up_leaves_the_old_tree() {
     let place = Place::new();
     place.done("--target gles");
     let before = place.files();
-    // The manifest is larger than 16 blocks, the shaders are not: all is staged before the fault.
+    // The manifest is larger than 128 blocks, the other files are not: all is staged before the fault.
     let script =
-        format!("trap '' XFSZ; ulimit -f 16; exec '{PROGRAM}' --target gles,wgsl --prefix other_");
+        format!("trap '' XFSZ; ulimit -f 128; exec '{PROGRAM}' --target gles,wgsl --prefix other_");
     let run = Command::new("sh")
         .args(["-c", &script])
         .current_dir(place.path(""))
