@@ -63,7 +63,8 @@ pub static METHOD: Method = Method {
 };
 
 /// What the root is of at the least: past the critical angle, and at 90 degrees where η = 1, the quotient then is a number still.
-const SMALLEST_SQUARE: f64 = 1e-14;
+/// Its root is small beside the least η², 1e-6, and the square of what it makes of the quotient is below the largest f32.
+const SMALLEST_SQUARE: f64 = 1e-18;
 
 fn build<'b>(x: &Inputs<'b>) -> Expr<'b> {
     if x.is_half() {

@@ -103,10 +103,10 @@ impl Input {
     );
 
     pub const C0: Input = rgb("c0", "coefficient of 1", "any");
-    pub const C1: Input = rgb("c1", "coefficient of the first power", "any");
-    pub const C2: Input = rgb("c2", "coefficient of the second power", "any");
-    pub const C3: Input = rgb("c3", "coefficient of the third power", "any");
-    pub const C4: Input = rgb("c4", "coefficient of the fourth power", "any");
+    pub const C1: Input = rgb("c1", "coefficient of the first term", "any");
+    pub const C2: Input = rgb("c2", "coefficient of the second term", "any");
+    pub const C3: Input = rgb("c3", "coefficient of the third term", "any");
+    pub const C4: Input = rgb("c4", "coefficient of the fourth term", "any");
     pub const COEFFICIENTS: [Input; 5] = [Input::C0, Input::C1, Input::C2, Input::C3, Input::C4];
 
     pub const TABLE: Input = Input {
