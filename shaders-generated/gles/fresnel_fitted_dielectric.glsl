@@ -10,9 +10,9 @@
 // Arguments:
 //   cos_theta: cosine between the normal and the direction to the light or viewer
 //   c0: coefficient of 1
-//   c1: coefficient of the first power
-//   c2: coefficient of the second power
-//   c3: coefficient of the third power
+//   c1: coefficient of the first term
+//   c2: coefficient of the second term
+//   c3: coefficient of the third term
 // Model error for eta 1.3 to 2.5: at most 0.0012, worst at 48.4 degrees
 // Code error for eta 1.3 to 2.5: at most 7 ulp or 2^-22, unfused f32 against f64
 // fresnel_fitted_dielectric: 27 scalar operations

@@ -12,8 +12,8 @@
 // Arguments:
 //   cos_theta: cosine between the normal and the direction to the light or viewer
 //   f0: reflectance at normal incidence, linear
-//   b2_weight: share of the second curve, solved at 82.64 degrees
-//   b3_weight: share of the third curve, solved at 64.38 degrees
+//   b2_weight: weight of the second curve, solved at 82.64 degrees
+//   b3_weight: weight of the third curve, solved at 64.38 degrees
 // Model error for eta 1.3 to 2.5: at most 0.0043, worst at 87.8 degrees
 // Model error for n 0.05 to 4.5, k 1.5 to 8: at most 0.024, worst at 87.3 degrees
 // Code error for n 0.05 to 4.5, k 1.5 to 8: at most 9.5 ulp or 2^-22, unfused f32 against f64

@@ -3,11 +3,12 @@
 // Regenerate: fresnel-gen --target wgsl --method dielectric_exact
 //
 // fresnel_dielectric_exact: the exact law for dielectrics, stable near eta = 1, total reflection included
-//   s2 = 1 - c^2, t = eta^2 - 1, g = sqrt(max(t + c^2, 0))
+//   s2 = 1 - c^2, t = eta^2 - 1, g = sqrt(max(t + c^2, 1e-18))
 //   F = min((c^2 g^2 + s2^2) k^2, 1), k = t / (c (eta^2 (g + c) + g) + g^2)
 // Source: Cook, Torrance, "A Reflectance Model for Computer Graphics", ACM Transactions on Graphics 1(1), 7-24,
 //     1982. https://doi.org/10.1145/357290.357293
-// Domain: eta >= 0.001, on both sides of 1; past the critical angle exactly 1; eta = 1 gives 0 at every angle
+// Domain: eta from 0.001 to 1e12, on both sides of 1; past the critical angle exactly 1; eta = 1 gives 0 at every
+//     angle
 // Arguments:
 //   cos_theta: cosine between the normal and the direction to the light or viewer
 //   eta: relative index of refraction, transmitted over incident (n_t / n_i)
@@ -24,7 +25,7 @@ fn fresnel_dielectric_exact(cos_theta: f32, eta: vec3<f32>) -> vec3<f32> {
     let s4 = s2 * s2;
     let apart = eta - 1.0;
     let tau = apart * eta + apart; // eta^2 - 1 without its cancellation near 1
-    let g2 = max(tau + c2, vec3<f32>(1.0e-14)); // square of eta cos theta_t; next to 0 past the critical angle
+    let g2 = max(tau + c2, vec3<f32>(1.0e-18)); // square of eta cos theta_t; next to 0 past the critical angle
     let g = sqrt(g2);
     let k = tau / (c * ((tau + 1.0) * (g + c) + g) + g2);
     return min((c2 * g2 + s4) * (k * k), vec3<f32>(1.0));
@@ -37,7 +38,7 @@ fn fresnel_dielectric_exact_scalar(cos_theta: f32, eta: f32) -> f32 {
     let s4 = s2 * s2;
     let apart = eta - 1.0;
     let tau = apart * eta + apart; // eta^2 - 1 without its cancellation near 1
-    let g2 = max(tau + c2, 1.0e-14); // square of eta cos theta_t; next to 0 past the critical angle
+    let g2 = max(tau + c2, 1.0e-18); // square of eta cos theta_t; next to 0 past the critical angle
     let g = sqrt(g2);
     let k = tau / (c * ((tau + 1.0) * (g + c) + g) + g2);
     return min((c2 * g2 + s4) * (k * k), 1.0);

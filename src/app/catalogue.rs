@@ -18,7 +18,8 @@ use super::sight;
 /// What stands for a target of the file that is for no language.
 const JSON: &str = "json";
 
-/// Whether a run writes it: one without `--method` and `--material`, in single precision, which the fitted methods want.
+/// Whether a run writes it: one without `--method` and `--material`, in single precision: those of half precision
+/// are others.
 pub fn is_wanted(request: &Request) -> bool {
     request.methods.is_empty()
         && request.materials == Materials::Default
@@ -90,6 +91,7 @@ fn row(
     let value = |input: &methods::Input| emitted.constants[input.name];
     Ok(Row {
         name: subject.name.clone(),
+        argument: subject.argument.clone(),
         class: subject.material.kind.name(),
         method,
         coefficients: method.inputs.iter().map(value).collect(),
@@ -97,10 +99,11 @@ fn row(
             .model_error
             .expect("a specialised function has its model error"),
         average: Average::of(&emitted).expect("a fitted method has a mean"),
+        held: subject.truth.surface.held(),
     })
 }
 
-/// What the truth is: the same for all, for those that hold a value beyond their range say so themselves.
+/// What the truth is: the same for all; which ones hold a value beyond their range stands beside each.
 fn seen(subjects: &[Subject]) -> &str {
     let first = subjects.first();
     first.map_or("", |subject| &subject.truth.surface.seen)
@@ -150,6 +153,7 @@ fn object(row: &Row) -> Value {
         "coefficients": [channel(0), channel(1), channel(2)],
         "max_abs": row.error.max_abs, "worst_cos": row.error.worst_cos, "mean_rel": row.error.mean_rel,
         "average": row.average.given, "average_unlimited": row.average.unlimited,
+        "extrapolated": row.held,
     })
 }
 

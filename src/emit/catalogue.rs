@@ -28,6 +28,8 @@ const ROWS: usize = 4;
 pub struct Row {
     /// Its name, with the medium's.
     pub name: String,
+    /// What a user types to get it again.
+    pub argument: String,
     /// `metal`, `semiconductor` or `dielectric`.
     pub class: &'static str,
     /// The fitted method of its class.
@@ -38,6 +40,8 @@ pub struct Row {
     pub error: ModelError,
     /// The mean of that function over the hemisphere.
     pub average: Average,
+    /// Beyond which wavelengths its index was held, in words, where it was.
+    pub held: Option<String>,
 }
 
 /// What a template sees.
@@ -145,7 +149,7 @@ fn material(
     MaterialView {
         constant: constant(naming, &row.name),
         row: ROWS * place,
-        remark: format!("{}, {}", row.class, at_most(&row.error)),
+        remark: remark(row),
         rows: row
             .coefficients
             .iter()
@@ -153,6 +157,15 @@ fn material(
             .map(coefficient)
             .collect(),
     }
+}
+
+fn remark(row: &Row) -> String {
+    let held = row
+        .held
+        .iter()
+        .map(|held| format!("; extrapolated: {held}"));
+    let held: String = held.collect();
+    format!("{}, {}{held}", row.class, at_most(&row.error))
 }
 
 /// A colour with the shortest digits that give the same f32 back.
@@ -196,7 +209,7 @@ fn header(rows: &[Row], naming: &Naming, seen: &str, command: &str) -> Vec<Strin
     lines.push(format!(
         "Use: {}{}(cos_theta, {array}[{row}], {array}[{row} + 1], {array}[{row} + 2], {array}[{row} + 3]), with the library \
          function of the material's method. By a constant it costs nothing; where the material is known at run time only, put the \
-         array into a buffer: {CATALOGUE}.json has the same numbers",
+         array into a buffer: {CATALOGUE}.json, of a run without flags, has the same numbers",
         naming.prefix, rows[0].method.name
     ));
     lines.push(format!("Truth: {seen}"));
@@ -204,7 +217,7 @@ fn header(rows: &[Row], naming: &Naming, seen: &str, command: &str) -> Vec<Strin
     lines.push("Code error: that of the library functions".to_owned());
     lines.push(format!(
         "Data: CC0-1.0, each with its reference: `fresnel-gen materials show {}`",
-        rows[0].name
+        rows[0].argument
     ));
     lines.push(format!("Licence of this file: {OUTPUT_LICENCE}"));
     comment::lines(lines)

@@ -4,10 +4,10 @@
 //! Source: Fresnel 1823 in the g-form of Cook and Torrance, "A Reflectance Model for Computer Graphics", 1982,
 //! <https://doi.org/10.1145/357290.357293>, rearranged: r_s = (g-c)/(g+c) is τ/u² without its cancellation, r_p / r_s is
 //! (cg-s²)/(cg+s²), so F = ½ (r_s² + r_p²) is (c²g²+s⁴) (τ / (u² (cg+s²)))², u = g+c, and u² (cg+s²) = c (η² u + g) + g²,
-//! where nothing is subtracted. τ must come from η-1, and η² from τ, so that their roundings are one. Past the critical angle g is 0 in it, and it is 1 or more: the limit makes it 1.
+//! where nothing is subtracted. τ must come from η-1, and η² from τ, so that their roundings are one. Past the critical angle g is next to 0, and it is 1 or more: the limit makes it 1.
 //! In half precision it is F = ½ (r_s² + r_p²) with r_s = 1 - 2c/(g+c) and r_p = 1 - 2η²c/(η²c+g): where F is near 1 little
 //! is subtracted, and two roundings are left of eight.
-//! Domain: η ≥ 0.001, on both sides of 1; past the critical angle exactly 1; η = 1 gives 0 at every angle, 90° too.
+//! Domain: η from 0.001 to 1e12 (beyond, η³ overflows), on both sides of 1; past the critical angle exactly 1; η = 1 gives 0 at every angle, 90° too.
 //! Error: none in the model; the code error is [`METHOD`]'s claim. Close to the critical angle the law itself is
 //! ill-conditioned (a square root reaches 0 there), and the error follows its condition number.
 
@@ -36,7 +36,7 @@ pub static METHOD: Method = Method {
     name: "dielectric_exact",
     summary: "the exact law for dielectrics, stable near eta = 1, total reflection included",
     formula: &[
-        "s2 = 1 - c^2, t = eta^2 - 1, g = sqrt(max(t + c^2, 0))",
+        "s2 = 1 - c^2, t = eta^2 - 1, g = sqrt(max(t + c^2, 1e-18))",
         "F = min((c^2 g^2 + s2^2) k^2, 1), k = t / (c (eta^2 (g + c) + g) + g^2)",
     ],
     source: COOK_TORRANCE_1982,
@@ -44,7 +44,7 @@ pub static METHOD: Method = Method {
     forms: Forms::ColourAndScalar,
     class: Class::Dielectric,
     light: Light::Unpolarised,
-    domain: "eta >= 0.001, on both sides of 1; past the critical angle exactly 1; eta = 1 gives 0 at every angle",
+    domain: "eta from 0.001 to 1e12, on both sides of 1; past the critical angle exactly 1; eta = 1 gives 0 at every angle",
     claims: Claims {
         model: &[Claim {
             over: Over::Dielectrics,

@@ -26,7 +26,7 @@ pub const STIEFEL_1959: Citation = Citation {
 };
 
 /// What half precision asks of whoever calls them, and where it fails.
-pub(super) const FLOOR: &str = "take coefficients that were fitted for half precision; near n = 1 large ones cancel, and hundredths are lost";
+pub(super) const FLOOR: &str = "take coefficients that were fitted for half precision; near n = 1 large ones cancel, and up to .01 is lost, of five terms .1";
 
 /// The shape; of all a in steps of a half, 6.5 has the least 90th percentile over metals and semiconductors.
 const SHAPE: Shape = Shape {

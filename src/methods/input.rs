@@ -93,12 +93,12 @@ impl Input {
 
     pub const B2_WEIGHT: Input = rgb(
         "b2_weight",
-        "share of the second curve, solved at 82.64 degrees",
+        "weight of the second curve, solved at 82.64 degrees",
         "any",
     );
     pub const B3_WEIGHT: Input = rgb(
         "b3_weight",
-        "share of the third curve, solved at 64.38 degrees",
+        "weight of the third curve, solved at 64.38 degrees",
         "any",
     );
 

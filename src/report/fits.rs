@@ -156,9 +156,13 @@ fn listed(row: &Row) -> String {
 }
 
 /// What became of colours that no index has.
+const HALF: &str = "\ncoefficients are rounded to f16, errors are those of exact arithmetic with them, and costs those of single precision\n";
+
 fn remarks(rows: &[Row]) -> String {
+    let is_half = rows.first().is_some_and(|row| row.aim.precision.is_half());
+    let half = if is_half { HALF } else { "" }.to_owned();
     let Some(follows) = rows.first().and_then(|row| row.follows) else {
-        return String::new();
+        return half;
     };
     let channels = ["red", "green", "blue"].into_iter().zip(follows);
     let remark = |(channel, follows): (&str, Follows)| match follows {
@@ -167,5 +171,5 @@ fn remarks(rows: &[Row]) -> String {
             "{channel}: no index below an F0 of .985 has these colours; it follows f82_tint with a tint of {tint:.4}\n"
         ),
     };
-    "\n".to_owned() + &channels.map(remark).collect::<String>()
+    half + "\n" + &channels.map(remark).collect::<String>()
 }

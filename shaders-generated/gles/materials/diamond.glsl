@@ -17,7 +17,7 @@
 #define FRESNEL_DIAMOND_MATERIAL_GLES
 
 // fresnel_diamond: the exact law for dielectrics, stable near eta = 1, total reflection included, specialised
-//   s2 = 1 - c^2, t = eta^2 - 1, g = sqrt(max(t + c^2, 0))
+//   s2 = 1 - c^2, t = eta^2 - 1, g = sqrt(max(t + c^2, 1e-18))
 //   F = min((c^2 g^2 + s2^2) k^2, 1), k = t / (c (eta^2 (g + c) + g) + g^2)
 // Source: Cook, Torrance, "A Reflectance Model for Computer Graphics", ACM Transactions on Graphics 1(1), 7-24,
 //     1982. https://doi.org/10.1145/357290.357293

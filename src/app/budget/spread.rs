@@ -15,13 +15,16 @@ pub struct Spread {
 }
 
 /// The spread of the catalogue's pages of a material's substance that can be seen so. None for a user's own file, for what is known
-/// at three wavelengths only, and where there is one page.
+/// at three wavelengths only, seen from itself, and where there is one page.
 pub fn spread(subject: &Subject, catalogue: &[Material], sight: &Sight) -> Option<Spread> {
     let own = &subject.material;
     if materials::source(&subject.argument).is_none() || own.rgb_nm.is_some() {
         return None;
     }
     let medium = subject.medium.as_ref().map(|(_, medium)| medium);
+    if medium.is_some_and(|medium| medium.substance == own.substance) {
+        return None;
+    }
     let is_page = |other: &&Material| other.substance == own.substance && other.rgb_nm.is_none();
     let curve = |other: &Material| {
         let surface = Surface::new(other, medium, sight).ok()?;

@@ -68,7 +68,7 @@ fn figures(candidate: &Candidate) -> String {
 /// How well the material is known.
 fn known(error_made: f64, spread: Option<Spread>) -> String {
     let Some(Spread { most, sources }) = spread else {
-        return "how far measurements of it lie apart is not known: there are not two of them"
+        return "how far measurements of it lie apart is not known: the catalogue tells it where it has two spectra or more"
             .to_owned();
     };
     let apart = format!(
