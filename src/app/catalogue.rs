@@ -18,14 +18,6 @@ use super::sight;
 /// What stands for a target of the file that is for no language.
 const JSON: &str = "json";
 
-/// Whether a run writes it: one without `--method` and `--material`, in single precision: those of half precision
-/// are others.
-pub fn is_wanted(request: &Request) -> bool {
-    request.methods.is_empty()
-        && request.materials == Materials::Default
-        && !request.precision.is_half()
-}
-
 /// Adds the arrays of the run's languages, and in a run without flags `catalogue.json`, and makes them the run's own.
 ///
 /// # Errors
@@ -126,14 +118,12 @@ fn command(request: &Request, target: Option<&str>) -> Result<String, Error> {
 
 fn as_json(rows: &[Row], seen: &str, request: &Request) -> Result<Artifact, Error> {
     let command = command(request, None)?;
-    let about = |method: &&'static Method| json!({ "name": method.name, "formula": method.formula, "source": method.source.line() });
-    let mut methods: Vec<&'static Method> = rows.iter().map(|row| row.method).collect();
-    methods.dedup_by_key(|method| method.name);
+    let about = |method: &Method| json!({ "name": method.name, "formula": method.formula, "source": method.source.line() });
     let report = json!({
         "tool": TOOL, "command": command, "truth": seen,
         "space": request.sight.wavelengths_nm.is_none().then(|| request.sight.integration.space.name()),
         "licence": OUTPUT_LICENCE,
-        "methods": methods.iter().map(about).collect::<Vec<Value>>(),
+        "methods": emit::methods_of(rows).into_iter().map(about).collect::<Vec<Value>>(),
         "materials": rows.iter().map(object).collect::<Vec<Value>>(),
     });
     let text = serde_json::to_string_pretty(&report).expect("a report has only text keys") + "\n";
@@ -182,23 +172,35 @@ mod tests {
     fn a_run_that_names_nothing_writes_it() {
         let usual = Request::default();
         let named = |methods: &[&str]| methods.iter().map(|m| (*m).to_owned()).collect();
-        assert!(is_wanted(&usual));
-        assert!(is_wanted(&Request {
-            targets: named(&["gles"]),
-            ..usual.clone()
-        }));
-        assert!(!is_wanted(&Request {
-            methods: named(&["fitted"]),
-            ..usual.clone()
-        }));
-        assert!(!is_wanted(&Request {
-            materials: Materials::None,
-            ..usual.clone()
-        }));
-        assert!(!is_wanted(&Request {
-            precision: crate::num::Precision::F16,
-            ..usual
-        }));
+        assert!(usual.names_nothing());
+        assert!(
+            Request {
+                targets: named(&["gles"]),
+                ..usual.clone()
+            }
+            .names_nothing()
+        );
+        assert!(
+            !Request {
+                methods: named(&["fitted"]),
+                ..usual.clone()
+            }
+            .names_nothing()
+        );
+        assert!(
+            !Request {
+                materials: Materials::None,
+                ..usual.clone()
+            }
+            .names_nothing()
+        );
+        assert!(
+            !Request {
+                precision: crate::num::Precision::F16,
+                ..usual
+            }
+            .names_nothing()
+        );
     }
 
     #[test]

@@ -205,6 +205,12 @@ impl Request {
         }
     }
 
+    /// Whether it names neither methods nor materials, in single precision: the catalogue goes with such a run, and to a whole
+    /// tree, where it names no targets either, tables do.
+    pub fn names_nothing(&self) -> bool {
+        self.methods.is_empty() && self.materials == Materials::Default && !self.precision.is_half()
+    }
+
     /// Why this method is not written in the request's precision, if it is not: its library function, or any.
     pub fn refusal(&self, method: &Method, library: bool) -> Option<&'static str> {
         let refused = match library {

@@ -1,6 +1,8 @@
 //! What is told of readings: the middle, how far they scatter, and how sure the middle is. All by rank, so that one reading
 //! that something else disturbed moves nothing.
 
+use std::collections::BTreeMap;
+
 /// The value below which this share of all lies; between two values it is interpolated. NaN where there are none.
 pub fn quantile(values: &[f64], share: f64) -> f64 {
     let mut sorted = values.to_vec();
@@ -16,6 +18,15 @@ pub fn quantile(values: &[f64], share: f64) -> f64 {
 /// The middle.
 pub fn median(values: &[f64]) -> f64 {
     quantile(values, 0.5)
+}
+
+/// The middle of the values of each name, in the order of names: one vote a name, however many values it has.
+pub fn medians<'a>(values: &[f64], names: impl IntoIterator<Item = &'a str>) -> Vec<f64> {
+    let mut of: BTreeMap<&str, Vec<f64>> = BTreeMap::new();
+    for (value, name) in values.iter().zip(names) {
+        of.entry(name).or_default().push(*value);
+    }
+    of.into_values().map(|own| median(&own)).collect()
 }
 
 /// How far the middle half reaches, as a share of the median.

@@ -175,15 +175,15 @@ fn colour(target: &Target, values: [f64; 3]) -> String {
     format!("{}({})", spelling.rgb, numbers.join(", "))
 }
 
-/// The methods of the rows, each once.
-fn methods(rows: &[Row]) -> Vec<&'static Method> {
+/// The methods of the rows, each once: rows of one stand together.
+pub fn methods_of(rows: &[Row]) -> Vec<&'static Method> {
     let mut methods: Vec<&'static Method> = rows.iter().map(|row| row.method).collect();
     methods.dedup_by_key(|method| method.name);
     methods
 }
 
 fn where_methods_change(rows: &[Row]) -> String {
-    match methods(rows).as_slice() {
+    match methods_of(rows).as_slice() {
         [first, then, ..] => format!(
             "From this row on the method is {}, before it {}.",
             then.name, first.name
@@ -200,7 +200,7 @@ fn header(rows: &[Row], naming: &Naming, seen: &str, command: &str) -> Vec<Strin
         "{CATALOGUE}: coefficients fitted to {} materials, four rows of {array} each, c0 to c3",
         rows.len()
     ));
-    for method in methods(rows) {
+    for method in methods_of(rows) {
         let of = rows.iter().filter(|row| row.method.name == method.name);
         lines.push(format!("{}: {} of them", method.name, of.count()));
         lines.extend(formula(method));

@@ -140,27 +140,20 @@ impl Subject {
     /// The same, with coefficients that are fitted as this precision holds them.
     pub fn values_in(&self, precision: Precision, method: &Method) -> Values {
         if method.is_fitted() {
-            let surface = self.unclipped();
-            return fitted_values(method, precision, |c| seen(&surface, method.light, c));
+            return fitted_values(method, precision, &self.curve());
         }
         let seen = |cos_theta| self.truth.at(cos_theta);
         let known = Known::with(self.effective.channels, seen, &self.derivation);
         values_of(method, &known, &self.derivation)
     }
 
-    /// What coefficients are fitted to, for unpolarised light.
+    /// What coefficients are fitted to, in unpolarised light: colours as they are before they are clipped.
     pub fn curve(&self) -> Curve {
-        let surface = self.unclipped();
-        Curve::new(|c| seen(&surface, Light::Unpolarised, c))
-    }
-
-    /// The surface with colours as they are before they are clipped.
-    fn unclipped(&self) -> Surface {
         let mut surface = self.truth.surface.clone();
         if surface.gamut == Gamut::Clip {
             surface.gamut = Gamut::Keep;
         }
-        surface
+        Curve::new(|c| seen(&surface, Light::Unpolarised, c))
     }
 
     /// What a method's error is held against: the truth in its light; what reads a table keeps the table's colours.

@@ -1,7 +1,7 @@
 //! What the head of a file says: how to make it again, what it is, where it holds, how wrong it is, its licence.
 //! No date, no path, no version: nothing that changes when the content does not.
 
-use crate::fit::{By, Measured, ModelError};
+use crate::fit::{By, Measured, ModelError, rounded_up};
 use crate::ir::Op;
 use crate::methods::{Claim, Contract, Method, TEXELS};
 use crate::num::Precision;
@@ -282,7 +282,7 @@ fn table_line(emitted: &Emitted) -> Option<String> {
 
 /// The largest error as "at most" has it: rounded up.
 pub(super) fn at_most(error: &ModelError) -> String {
-    format!("at most {:.5}", (error.max_abs * 1e5).ceil() / 1e5)
+    format!("at most {}", rounded_up(error.max_abs))
 }
 
 fn model_line(error: &ModelError) -> String {

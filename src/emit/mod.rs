@@ -17,7 +17,7 @@ mod wgsl;
 
 pub use average::{AVERAGE, Average, average_functions};
 pub use bounds::{Bounds, CodeBound, PLAIN_ULP, fingerprint, half_record, sha256};
-pub use catalogue::{CATALOGUE, Row, catalogue};
+pub use catalogue::{CATALOGUE, Row, catalogue, methods_of};
 pub use comment::lines as comment_lines;
 pub use error::Error;
 pub use file::{File, library, lookup, material, single, uniform_offsets, written_for};

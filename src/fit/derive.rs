@@ -81,25 +81,20 @@ impl Known {
 pub fn values(method: &Method, channels: &Channels, derivation: &Derivation) -> Values {
     if method.is_fitted() {
         let Channels { n, k } = *channels;
-        return fitted_values(method, Precision::F32, |c| {
-            [0, 1, 2].map(|i| exact(n[i], k[i], c))
-        });
+        let curve = Curve::new(|c| [0, 1, 2].map(|i| exact(n[i], k[i], c)));
+        return fitted_values(method, Precision::F32, &curve);
     }
     let known = Known::of_channels(channels, derivation);
     values_of(method, &known, derivation)
 }
 
-/// The coefficients of a fitted method for what is seen at a cosine, as a precision holds them.
-pub fn fitted_values(
-    method: &Method,
-    precision: Precision,
-    seen: impl Fn(f64) -> [f64; 3],
-) -> Values {
+/// The coefficients of a fitted method for a curve, as a precision holds them.
+pub fn fitted_values(method: &Method, precision: Precision, curve: &Curve) -> Values {
     let aim = Aim {
         precision,
         ..Aim::default()
     };
-    let fitted = fitted_for(method, &Curve::new(seen), aim);
+    let fitted = fitted_for(method, curve, aim);
     let fitted = fitted.expect("a fitted method's terms tell angles apart; a test fits them all");
     fitted.0
 }

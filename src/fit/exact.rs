@@ -4,6 +4,8 @@
 //! `bⱼ(e)` is largest; put into the form, the others are fitted by exchange to what is left, and the optimum is that of all
 //! forms that meet the end.
 
+use crate::num::Precision;
+
 use super::minimax::minimax;
 
 /// At which ends of the right angle what is true is met exactly.
@@ -72,10 +74,10 @@ pub(super) fn fit_meeting(
     Some(found)
 }
 
-/// These coefficients as f32 holds them, so that what is wanted at the ends is still met, where that can be had within some
+/// These coefficients as a precision holds them. Those of f32 are so that what is wanted at the ends is still met, where that can be had within some
 /// steps of the last digits. Each end is a row of the basis and what is wanted there.
-pub(super) fn held(coefficients: &[f64], ends: &[(&[f64], f64)]) -> Vec<f64> {
-    let nearest: Vec<f64> = coefficients.iter().map(|c| single(*c)).collect();
+pub(super) fn held(coefficients: &[f64], ends: &[(&[f64], f64)], precision: Precision) -> Vec<f64> {
+    let nearest: Vec<f64> = coefficients.iter().map(|c| precision.rounded(*c)).collect();
     if ends.is_empty() {
         return nearest;
     }
@@ -87,7 +89,7 @@ pub(super) fn held(coefficients: &[f64], ends: &[(&[f64], f64)]) -> Vec<f64> {
             .iter()
             .map(|(row, value)| value - sum(row, &held))
             .sum();
-        held[0] = single(held[0] + missed / ends.len() as f64);
+        held[0] = Precision::F32.rounded(held[0] + missed / ends.len() as f64);
         held
     };
     let missed = |held: &Vec<f64>| {
@@ -117,10 +119,6 @@ fn ring(size: i32) -> impl Iterator<Item = (i32, i32)> {
 
 fn sum(row: &[f64], coefficients: &[f64]) -> f64 {
     row.iter().zip(coefficients).map(|(b, c)| b * c).sum()
-}
-
-fn single(value: f64) -> f64 {
-    f64::from(value as f32)
 }
 
 /// A number so many f32 further from 0, or nearer.
@@ -167,11 +165,17 @@ mod tests {
         let coefficients = [0.91 + 1e-9, 31.000_000_7, -401.123_456_789, 90.3, -2.0];
         let ends = [grazing, normal].map(|row| (row, sum(&row, &coefficients)));
         let ends = [(&ends[0].0[..], ends[0].1), (&ends[1].0[..], ends[1].1)];
-        let found = held(&coefficients, &ends);
+        let found = held(&coefficients, &ends, Precision::F32);
         for (row, value) in ends {
             assert!((sum(row, &found) - value).abs() < 1e-7, "{found:?}");
         }
-        assert!(found.iter().all(|c| single(*c) == *c), "{found:?}");
-        assert_eq!(held(&[0.1, 0.2, 0.3], &[])[0], f64::from(0.1f32));
+        assert!(
+            found.iter().all(|c| Precision::F32.rounded(*c) == *c),
+            "{found:?}"
+        );
+        assert_eq!(
+            held(&[0.1, 0.2, 0.3], &[], Precision::F32)[0],
+            f64::from(0.1f32)
+        );
     }
 }

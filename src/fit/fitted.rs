@@ -128,10 +128,7 @@ impl Task<'_> {
                 .iter()
                 .map(|end| (&basis[*end][..], self.wanted[i][*end]))
                 .collect();
-            match self.aim.precision {
-                Precision::F32 => held(found, &met),
-                Precision::F16 => found.iter().map(|c| Precision::F16.rounded(*c)).collect(),
-            }
+            held(found, &met, self.aim.precision)
         };
         let held = [single(0, &red), single(1, &green), single(2, &blue)];
         let coefficients: Vec<[f64; 3]> = (0..red.len())

@@ -33,7 +33,8 @@ pub use lambda::{THESIS_MATCHING_COS, lambda};
 pub use measured::Measured;
 pub use minimax::{Minimax, minimax};
 pub use model_error::{
-    ModelError, Truth, error_from, error_of, model_error, seen, single_error, thesis_errors,
+    ModelError, Truth, error_from, error_of, model_error, rounded_up, seen, single_error,
+    thesis_errors,
 };
 pub use over::model_error_over;
 pub use params::{BOUNCES, Params, abbe, colour_errors, ior_d, params};

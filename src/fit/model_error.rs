@@ -26,6 +26,11 @@ pub struct ModelError {
     pub undefined: usize,
 }
 
+/// An error with five digits behind the point that it does not exceed.
+pub fn rounded_up(error: f64) -> String {
+    format!("{:.5}", (error * 1e5).ceil() / 1e5)
+}
+
 /// Angles between 0 and 90 degrees over which means are taken.
 pub(super) const ANGLES: usize = 2048;
 /// Cosines close to grazing, besides: 2⁻ⁱᐟ⁴, where indices far from 1 have their largest errors.

@@ -81,7 +81,7 @@ impl Weight {
             Weight::Relative => {
                 (off / DVec3::from(truth).abs().max(DVec3::splat(LEAST))).max_element()
             }
-            Weight::Luminance => { luminance(given, space) - luminance(truth, space) }.abs(),
+            Weight::Luminance => (luminance(given, space) - luminance(truth, space)).abs(),
             Weight::DeltaE => ciede2000(lab(given.into(), space), lab(truth.into(), space)),
         }
     }

@@ -128,6 +128,11 @@ impl Material {
         places
     }
 
+    /// Whether it is a spectrum of this substance.
+    pub fn is_spectrum_of(&self, substance: &str) -> bool {
+        self.substance == substance && self.rgb_nm.is_none()
+    }
+
     /// Whether it is the one to take of all measurements of its substance.
     pub fn is_recommended(&self) -> bool {
         self.name == self.substance

@@ -15,3 +15,11 @@ pub mod search;
 pub mod stability;
 pub mod survey;
 pub mod table;
+
+/// A class of materials in words: `metals`, with semiconductors, or `dielectrics`.
+pub fn class_title(class: &str) -> &'static str {
+    match class {
+        "metals" => "metals and semiconductors",
+        _ => "dielectrics, n of 1.2 and more",
+    }
+}

@@ -25,7 +25,7 @@ pub fn spread(subject: &Subject, catalogue: &[Material], sight: &Sight) -> Optio
     if medium.is_some_and(|medium| medium.substance == own.substance) {
         return None;
     }
-    let is_page = |other: &&Material| other.substance == own.substance && other.rgb_nm.is_none();
+    let is_page = |other: &&Material| other.is_spectrum_of(&own.substance);
     let curve = |other: &Material| {
         let surface = Surface::new(other, medium, sight).ok()?;
         Some(Curve::new(|c| seen(&surface, Light::Unpolarised, c)).seen)

@@ -1,6 +1,7 @@
 //! What is said of a choice: which and why, what cheaper ones err, and when finer is pointless.
 
 use crate::cost::Family;
+use crate::fit::rounded_up;
 
 use super::choice::{Candidate, Choice};
 use super::spread::Spread;
@@ -104,7 +105,7 @@ fn error(value: f64) -> String {
     if value < 1e-4 {
         return format!("{value:.1e}");
     }
-    format!("{:.5}", (value * 1e5).ceil() / 1e5)
+    rounded_up(value)
 }
 
 #[cfg(test)]

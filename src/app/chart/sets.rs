@@ -1,10 +1,9 @@
 //! What errors are of: a material alone, or a class with its materials taken together in some way.
 
-use std::collections::BTreeMap;
-
-use crate::cost::statistics::{median, quantile};
+use crate::cost::statistics::{median, medians, quantile};
 use crate::emit::{LEAST_FITTED_N, Subject};
 use crate::materials::Kind;
+use crate::report::class_title;
 use crate::report::frontier::Set;
 
 use super::Errors;
@@ -59,10 +58,7 @@ fn together(class: &str, subjects: &[Subject], errors: &[Errors]) -> Vec<Set> {
 }
 
 fn title(class: &str, of: &str, count: usize) -> String {
-    let class = match class {
-        "metals" => "metals and semiconductors",
-        _ => "dielectrics, n of 1.2 and more",
-    };
+    let class = class_title(class);
     let of = match of {
         "median" => "the median of",
         "p90" => "nine of ten of",
@@ -74,6 +70,7 @@ fn title(class: &str, of: &str, count: usize) -> String {
 
 /// Each entry's error on each axis, of all materials together; none where it is not known of one of them.
 fn taken(of: &str, own: &[(&Subject, &Errors)]) -> Errors {
+    let substances = || own.iter().map(|(subject, _)| &*subject.material.substance);
     let entries = own.first().map_or(0, |(_, errors)| errors.len());
     let figure = |entry: usize, axis: usize| -> Option<f64> {
         let known: Option<Vec<f64>> = own.iter().map(|(_, errors)| errors[entry][axis]).collect();
@@ -82,24 +79,9 @@ fn taken(of: &str, own: &[(&Subject, &Errors)]) -> Errors {
             "median" => median(&known),
             "p90" => quantile(&known, 0.9),
             "worst" => quantile(&known, 1.0),
-            _ => median(&votes(own, &known)),
+            _ => median(&medians(&known, substances())),
         })
     };
     let axes = |entry: usize| [0, 1, 2, 3].map(|axis| figure(entry, axis));
     (0..entries).map(axes).collect()
-}
-
-/// The median of each substance's measurements.
-fn votes(own: &[(&Subject, &Errors)], known: &[f64]) -> Vec<f64> {
-    let mut substances: BTreeMap<&str, Vec<f64>> = BTreeMap::new();
-    for ((subject, _), error) in own.iter().zip(known) {
-        substances
-            .entry(&subject.material.substance)
-            .or_default()
-            .push(*error);
-    }
-    substances
-        .into_values()
-        .map(|errors| median(&errors))
-        .collect()
 }

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use crate::app::args::Generate;
 use crate::app::bake::{add_tables, as_tables_are_seen};
 use crate::app::budget::{Budget, within};
-use crate::app::catalogue::{add_catalogue, is_wanted};
+use crate::app::catalogue::add_catalogue;
 use crate::app::error::Error;
 use crate::app::generate::{Generated, Kept, generate_beside, generate_single};
 use crate::app::manifest::{self, Manifest};
@@ -52,7 +52,7 @@ fn tree(flags: &Generate, request: &Request) -> Result<Output, Error> {
         kept(out_dir, request.precision)?
     };
     let mut generated = generate_beside(request, &kept)?;
-    if is_wanted(request) {
+    if request.names_nothing() {
         add_catalogue(&mut generated, request)?;
     }
     if generated.scope.whole {

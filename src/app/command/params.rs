@@ -71,11 +71,8 @@ fn others(
     medium: Option<&Material>,
     sight: &Sight,
 ) -> Result<Vec<(String, [f64; 3])>, Error> {
-    let same = |other: &Material| {
-        other.substance == material.substance
-            && other.name != material.name
-            && other.rgb_nm.is_none()
-    };
+    let same =
+        |other: &Material| other.is_spectrum_of(&material.substance) && other.name != material.name;
     let f0 = |other: Material| {
         let surface = Surface::new(&other, medium, sight).ok()?;
         Some((other.name, surface.unpolarised(1.0).to_array()))

@@ -365,10 +365,7 @@ impl<'r> Run<'r> {
                 .collect(),
             shared: false,
             precision: request.precision,
-            whole: request.targets.is_empty()
-                && request.methods.is_empty()
-                && request.materials == Materials::Default
-                && !request.precision.is_half(),
+            whole: request.targets.is_empty() && request.names_nothing(),
         }
     }
 

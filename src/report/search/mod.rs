@@ -3,9 +3,9 @@
 
 mod text;
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeSet;
 
-use crate::cost::statistics::{median, quantile};
+use crate::cost::statistics::{median, medians, quantile};
 use crate::fit::{Candidate, Tried};
 use crate::methods::Method;
 
@@ -69,11 +69,7 @@ pub struct LeftOut {
 impl Figures {
     /// Of errors and what each is of. Both of the same length, and not empty.
     pub fn of(errors: &[f64], substances: &[String]) -> Figures {
-        let mut votes: BTreeMap<&str, Vec<f64>> = BTreeMap::new();
-        for (error, substance) in errors.iter().zip(substances) {
-            votes.entry(substance).or_default().push(*error);
-        }
-        let votes: Vec<f64> = votes.into_values().map(|own| median(&own)).collect();
+        let votes = medians(errors, substances.iter().map(String::as_str));
         Figures {
             median: median(errors),
             p90: quantile(errors, 0.9),

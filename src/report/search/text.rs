@@ -5,7 +5,7 @@ use serde_json::{Value, json};
 use crate::fit::{Aim, Candidate};
 use crate::methods::Method;
 use crate::report::frontier::figure;
-use crate::report::table;
+use crate::report::{class_title, table};
 
 use super::{Errors, Figures, LeftOut};
 
@@ -38,16 +38,9 @@ fn headline(told: &Told) -> String {
     let (materials, substances) = (told.errors.substances.len(), told.errors.count());
     format!(
         "{}: {} shapes for {materials} measurements of {substances} substances",
-        title(told.class),
+        class_title(told.class),
         told.errors.tried.len(),
     )
-}
-
-fn title(class: &str) -> &'static str {
-    match class {
-        "metals" => "metals and semiconductors",
-        _ => "dielectrics, n of 1.2 and more",
-    }
 }
 
 fn shapes(told: &Told, gpu: &str, cost: Cost) -> String {
