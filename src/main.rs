@@ -11,9 +11,11 @@ use indicatif::{ProgressBar, ProgressStyle};
 fn main() -> ExitCode {
     let cli = Cli::parse();
     let mut bar: Option<ProgressBar> = None;
-    let outcome = command::run(&cli, &mut |done, whole, what| {
-        show(&mut bar, done, whole, what)
-    });
+    let outcome = command::run(
+        &cli,
+        &mut |done, whole, what| show(&mut bar, done, whole, what),
+        &say,
+    );
     if let Some(bar) = bar {
         bar.finish_and_clear();
     }

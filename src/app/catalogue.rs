@@ -6,6 +6,7 @@ use serde_json::{Value, json};
 use crate::emit::{self, Average, Bounds, CATALOGUE, OUTPUT_LICENCE, Row, Subject};
 use crate::methods::{self, Method};
 use crate::num::in_parallel;
+use crate::report::SCHEMA;
 
 use super::artifact::Artifact;
 use super::error::Error;
@@ -16,7 +17,7 @@ use super::request::{Materials, Request};
 use super::sight;
 
 /// What stands for a target of the file that is for no language.
-const JSON: &str = "json";
+pub const JSON: &str = "json";
 
 /// Adds the arrays of the run's languages, and in a run without flags `catalogue.json`, and makes them the run's own.
 ///
@@ -120,7 +121,7 @@ fn as_json(rows: &[Row], seen: &str, request: &Request) -> Result<Artifact, Erro
     let command = command(request, None)?;
     let about = |method: &Method| json!({ "name": method.name, "formula": method.formula, "source": method.source.line() });
     let report = json!({
-        "tool": TOOL, "command": command, "truth": seen,
+        "tool": TOOL, "schema": SCHEMA, "command": command, "truth": seen,
         "space": request.sight.wavelengths_nm.is_none().then(|| request.sight.integration.space.name()),
         "licence": OUTPUT_LICENCE,
         "methods": emit::methods_of(rows).into_iter().map(about).collect::<Vec<Value>>(),

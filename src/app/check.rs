@@ -1,11 +1,12 @@
-//! What `--check` prints: the difference between the folder and what would be generated. It changes nothing.
+//! What `--check` prints: what a run would write or remove. It changes nothing. A file that a run leaves alone is no
+//! difference.
 
 use std::collections::BTreeMap;
 
 use similar::TextDiff;
 
 use super::artifact::sha256;
-use super::tree::{Plan, Planned};
+use super::tree::{Plan, Planned, State};
 
 const CONTEXT_LINES: usize = 3;
 
@@ -15,12 +16,8 @@ pub fn report(plan: &Plan) -> (String, bool) {
     for file in plan.all() {
         parts.insert(&file.path, report_file(file));
     }
-    for path in &plan.orphans {
-        parts.insert(path, format!("orphan: {path}\n"));
-    }
-    for path in &plan.foreign {
-        let remark = "not written by fresnel-gen, which will not remove it";
-        parts.insert(path, format!("orphan: {path} ({remark})\n"));
+    for orphan in &plan.orphans {
+        parts.insert(&orphan.file, format!("orphan: {}\n", orphan.file));
     }
     let text: String = parts.into_values().collect();
     let drift = !text.is_empty();
@@ -30,7 +27,7 @@ pub fn report(plan: &Plan) -> (String, bool) {
 fn report_file(file: &Planned) -> String {
     match &file.old {
         None => format!("missing: {}\n", file.path),
-        Some(old) if *old == file.new => String::new(),
+        Some(_) if file.state() == State::Unchanged => String::new(),
         Some(old) => difference(&file.path, old, &file.new),
     }
 }

@@ -90,6 +90,22 @@ pub enum Error {
         /// What stands there.
         path: PathBuf,
     },
+    /// A file lies where one is to be written, and nothing proves that this program wrote it.
+    #[error("{}: {what}; nothing was written. Move it away, choose another place, or replace it with --overwrite", path.display())]
+    NotOurs {
+        /// The place.
+        path: PathBuf,
+        /// What lies there.
+        what: String,
+    },
+    /// A folder of the output is a link: what lies behind it is not this run's.
+    #[error("{} is a link to {}; nothing was written. Name the folder itself with --out-dir, or put a folder in the link's place", link.display(), leads_to.display())]
+    Linked {
+        /// The link.
+        link: PathBuf,
+        /// Where it leads.
+        leads_to: PathBuf,
+    },
     /// A file could not be prepared: no old file was touched.
     #[error("cannot write {}: {source}; no file was changed there. Check permissions and free space, then run again", path.display())]
     Stage {

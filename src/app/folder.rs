@@ -1,22 +1,18 @@
 //! Reading the output folder. Links are never followed here: what lies behind one is not ours to remove.
 
 use std::collections::BTreeSet;
-use std::fs::{self, File};
-use std::io::{self, ErrorKind, Read};
-use std::path::Path;
+use std::fs;
+use std::io::{self, ErrorKind};
+use std::path::{Path, PathBuf};
 
 use super::error::Error;
 
-pub use crate::emit::MARK;
-
 /// The beginning of a temporary file's name.
-pub const TEMPORARY_PREFIX: &str = ".fresnel-gen-";
-
+const TEMPORARY_PREFIX: &str = ".fresnel-gen-";
 /// The end of a temporary file's name.
-pub const TEMPORARY_SUFFIX: &str = ".tmp";
-
-/// The mark must stand within this many bytes.
-const MARK_WITHIN: u64 = 1024;
+const TEMPORARY_SUFFIX: &str = ".tmp";
+/// The hexadecimal digits between them.
+const TEMPORARY_DIGITS: usize = 16;
 
 /// The files right in `root` and at any depth of these folders in it, as paths relative to `root` with `/`.
 /// A link is listed as one file.
@@ -43,22 +39,41 @@ pub fn read(path: &Path) -> Result<Option<Vec<u8>>, Error> {
     }
 }
 
-/// Is this a plain file whose first lines hold the [`MARK`]?
-pub fn is_marked(path: &Path) -> bool {
-    let plain = fs::symlink_metadata(path).is_ok_and(|found| found.is_file());
-    plain && first_bytes(path).is_ok_and(|head| holds_mark(&head))
+/// A new name for a temporary file.
+pub fn temporary_name() -> String {
+    format!(
+        "{TEMPORARY_PREFIX}{:0digits$x}{TEMPORARY_SUFFIX}",
+        fastrand::u64(..),
+        digits = TEMPORARY_DIGITS
+    )
 }
 
-/// Is this a plain file that begins as a SPIR-V module does?
-pub fn is_spirv(path: &Path) -> bool {
-    let plain = fs::symlink_metadata(path).is_ok_and(|found| found.is_file());
-    plain && first_bytes(path).is_ok_and(|head| head.starts_with(&[0x03, 0x02, 0x23, 0x07]))
-}
-
-/// Is this the name of a temporary file that a run left behind when it was killed?
+/// Is this the name of a temporary file?
 pub fn is_temporary(path: &str) -> bool {
     let name = path.rsplit('/').next().unwrap_or(path);
-    name.starts_with(TEMPORARY_PREFIX) && name.ends_with(TEMPORARY_SUFFIX)
+    let inner = name.strip_prefix(TEMPORARY_PREFIX);
+    let digits = inner.and_then(|inner| inner.strip_suffix(TEMPORARY_SUFFIX));
+    digits.is_some_and(|digits| {
+        digits.len() == TEMPORARY_DIGITS && digits.bytes().all(|digit| digit.is_ascii_hexdigit())
+    })
+}
+
+/// Is this a file itself, and neither a link nor a folder?
+pub fn is_plain_file(path: &Path) -> bool {
+    fs::symlink_metadata(path).is_ok_and(|found| found.is_file())
+}
+
+/// The first folder on the way from `root` to this path that is a link, and where the link leads.
+pub fn linked_folder(root: &Path, path: &str) -> Option<(PathBuf, PathBuf)> {
+    let mut folder = root.to_path_buf();
+    let parts: Vec<&str> = path.split('/').collect();
+    for part in &parts[..parts.len().saturating_sub(1)] {
+        folder.push(part);
+        if let Ok(leads_to) = fs::read_link(&folder) {
+            return Some((folder, leads_to));
+        }
+    }
+    None
 }
 
 /// Adds the files of one folder and returns the folders in it. A folder that is not there is empty.
@@ -88,17 +103,6 @@ fn join(folder: &str, name: &str) -> String {
         "" => name.to_string(),
         _ => format!("{folder}/{name}"),
     }
-}
-
-fn first_bytes(path: &Path) -> io::Result<Vec<u8>> {
-    let mut head = Vec::new();
-    File::open(path)?.take(MARK_WITHIN).read_to_end(&mut head)?;
-    Ok(head)
-}
-
-fn holds_mark(head: &[u8]) -> bool {
-    head.windows(MARK.len())
-        .any(|bytes| bytes == MARK.as_bytes())
 }
 
 fn read_fault(path: &Path, source: io::Error) -> Error {

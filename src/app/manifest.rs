@@ -11,8 +11,9 @@ use serde_json::{Map, Value};
 
 use crate::num::Precision;
 
-use super::artifact::{Artifact, check_path, sha256};
+use super::artifact::{Artifact, check_path};
 use super::error::Error;
+use super::ours::{could_be_written, listed_hash};
 use super::scope::Scope;
 
 /// The manifest's name in the output folder.
@@ -21,12 +22,18 @@ pub const FILE: &str = "manifest.json";
 /// The name by which a manifest is known as ours.
 pub const TOOL: &str = "fresnel-gen";
 
+/// The version of the manifest's form. It rises when an older program would misread a newer manifest.
+pub const SCHEMA: u32 = 1;
+
 /// All that `manifest.json` says.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Manifest {
     /// Always [`TOOL`].
     #[serde(deserialize_with = "our_tool")]
     pub tool: String,
+    /// The version of its form: [`SCHEMA`]. The first manifests did not say it.
+    #[serde(default, deserialize_with = "known_schema")]
+    pub schema: u32,
     /// The version that wrote it last.
     pub version: String,
     /// The version of naga that lowered to SPIR-V.
@@ -58,8 +65,12 @@ pub struct Entry {
     pub method: Option<String>,
     /// The material of a specialised file.
     pub material: Option<String>,
-    /// The SHA-256 of the file.
+    /// The SHA-256 of the file; of text, as it is with LF at the ends of lines.
     pub sha256: String,
+    /// The SHA-256 of the file that this one replaces. It stands here only while a run writes, so that a run that is
+    /// killed leaves no file unlisted.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub was: Option<String>,
     /// Functions, parameters, errors.
     #[serde(flatten)]
     pub detail: Map<String, Value>,
@@ -79,11 +90,19 @@ pub struct Provenance {
 impl Manifest {
     /// Reads a manifest; `path` is for the message only.
     pub fn parse(path: &Path, text: &[u8]) -> Result<Manifest, Error> {
-        serde_json::from_slice(text).map_err(|fault| Error::Manifest {
-            path: path.to_path_buf(),
-            line: fault.line(),
-            column: fault.column(),
-            reason: reason(&fault),
+        serde_json::from_slice(text).map_err(|fault| match conflict(text) {
+            Some(line) => Error::Manifest {
+                path: path.to_path_buf(),
+                line,
+                column: 1,
+                reason: CONFLICT.to_owned(),
+            },
+            None => Error::Manifest {
+                path: path.to_path_buf(),
+                line: fault.line(),
+                column: fault.column(),
+                reason: reason(&fault),
+            },
         })
     }
 
@@ -101,7 +120,9 @@ impl Manifest {
         provenance: &Provenance,
     ) -> Manifest {
         let old_files = old.map_or(&[][..], |old| &old.files);
-        let kept = old_files.iter().filter(|entry| !scope.owns(entry));
+        let kept = old_files
+            .iter()
+            .filter(|entry| !scope.owns(entry) || !could_be_written(entry));
         let made = artifacts.iter().map(Entry::of);
         // Later pairs replace earlier ones: what this run made stands above what it found.
         let files: BTreeMap<_, _> = (kept.cloned().chain(made))
@@ -110,6 +131,7 @@ impl Manifest {
         let files: Vec<Entry> = files.into_values().collect();
         Manifest {
             tool: TOOL.to_string(),
+            schema: SCHEMA,
             version: provenance.version.clone(),
             naga: provenance.naga.clone(),
             inputs: merge_inputs(old, &provenance.inputs, &files),
@@ -139,13 +161,14 @@ impl Entry {
             target: artifact.target.clone(),
             method: artifact.method.clone(),
             material: artifact.material.clone(),
-            sha256: sha256(&artifact.bytes),
+            sha256: listed_hash(&artifact.path, &artifact.bytes),
+            was: None,
             detail,
         }
     }
 }
 
-const OWN_FIELDS: [&str; 5] = ["file", "target", "method", "material", "sha256"];
+const OWN_FIELDS: [&str; 6] = ["file", "target", "method", "material", "sha256", "was"];
 
 fn merge_inputs(old: Option<&Manifest>, new: &[Input], files: &[Entry]) -> Vec<Input> {
     let named: BTreeSet<_> = files.iter().filter_map(|e| e.material.as_ref()).collect();
@@ -155,6 +178,18 @@ fn merge_inputs(old: Option<&Manifest>, new: &[Input], files: &[Entry]) -> Vec<I
         .map(|input| (&input.name, input))
         .collect();
     inputs.into_values().cloned().collect()
+}
+
+/// What to do with a manifest that version control could not merge.
+const CONFLICT: &str = "it holds a merge conflict. Take either side whole (git checkout --ours or --theirs), then run the \
+    same commands again: each run lists what it writes";
+
+/// The line of a conflict that version control left, from 1.
+fn conflict(text: &[u8]) -> Option<usize> {
+    let mut lines = text.split(|byte| *byte == b'\n');
+    let marks: [&[u8]; 2] = [b"<<<<<<< ", b">>>>>>> "];
+    let is_mark = |line: &[u8]| marks.iter().any(|mark| line.starts_with(mark));
+    lines.position(is_mark).map(|at| at + 1)
 }
 
 fn reason(fault: &serde_json::Error) -> String {
@@ -170,6 +205,17 @@ fn our_tool<'de, D: Deserializer<'de>>(from: D) -> Result<String, D::Error> {
         return Ok(tool);
     }
     Err(D::Error::custom(format!("`tool` is `{tool}`")))
+}
+
+/// What a newer program wrote may mean something else: it is not touched.
+fn known_schema<'de, D: Deserializer<'de>>(from: D) -> Result<u32, D::Error> {
+    let schema = u32::deserialize(from)?;
+    if schema <= SCHEMA {
+        return Ok(schema);
+    }
+    Err(D::Error::custom(format!(
+        "its `schema` is {schema}, and this version knows {SCHEMA} at most: a newer fresnel-gen wrote it. Update this one"
+    )))
 }
 
 /// A manifest comes from a repository, and what it lists may be removed: it must not reach outside.

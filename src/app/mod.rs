@@ -1,7 +1,8 @@
 //! The program without its terminal: a request becomes artifacts, artifacts meet an output folder.
 //!
 //! The way through: [`Request`] → [`generate()`] → artifacts → [`tree::plan`] → [`check::report`] or [`write::write`].
-//! Only [`tree`], [`folder`] and [`write`](mod@write) touch the disk, and only [`write`](mod@write) changes it.
+//! Only [`tree`], [`folder`], [`lock`] and [`write`](mod@write) touch the disk, and only [`write`](mod@write) changes it, but
+//! for the lock's own file.
 
 #[cfg(feature = "cli")]
 pub mod args;
@@ -23,8 +24,10 @@ pub mod depfile;
 pub mod error;
 pub mod folder;
 pub mod generate;
+pub mod lock;
 pub mod manifest;
 pub mod names;
+pub mod ours;
 #[cfg(feature = "cli")]
 pub mod precision;
 pub mod request;

@@ -1,16 +1,18 @@
 //! The artifacts of a run against the output folder: what would be written, what removed. Nothing is changed here.
 //!
-//! An *orphan* is ours and no longer generated: in the scope of the run by the old manifest, a leftover
-//! temporary file, or, in a run without flags, a file in a target's folder that no manifest entry names
-//! and that bears our marks. A *foreign* file lies there too, bears none, and is reported but never removed.
+//! An *orphan* is in the scope of the run, is no longer generated, and is removed: the manifest lists it, and its bytes are
+//! as listed. What else lies in the folder *stays*. Where a file that is not ours lies in the place of an artifact,
+//! it is an *obstacle*: the run ends before it writes anything. What is ours and by what proof: [`ours`](super::ours).
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
+use std::fs;
 use std::path::{Path, PathBuf};
 
 use super::artifact::{self, Artifact};
 use super::error::Error;
 use super::folder;
-use super::manifest::{self, Manifest, Provenance};
+use super::manifest::{self, Entry, Manifest, Provenance};
+use super::ours::{bears_mark, could_be_written, is_listed, is_same, listed_hash};
 use super::scope::Scope;
 use crate::num::Precision;
 
@@ -23,10 +25,18 @@ pub struct Plan {
     pub files: Vec<Planned>,
     /// The manifest after the run.
     pub manifest: Planned,
-    /// Files of ours that a write removes, sorted.
-    pub orphans: Vec<String>,
-    /// Files of others in the targets' folders, sorted: to be warned of. Empty unless the run is whole.
-    pub foreign: Vec<String>,
+    /// The manifest while the run writes: it lists what is there and what comes.
+    pub interim: Vec<u8>,
+    /// The entries of files that a write removes, sorted by file.
+    pub orphans: Vec<Entry>,
+    /// Files that stay though they are not what this program writes there, sorted: to be named.
+    pub stays: Vec<Stay>,
+    /// Files of others that lie where an artifact is to be written.
+    pub obstacles: Vec<Obstacle>,
+    /// Files of ours that were changed since they were written, and that a write replaces: to be named.
+    pub edited: Vec<String>,
+    /// The first folder of the tree that is a link, and where it leads.
+    pub linked: Option<(PathBuf, PathBuf)>,
 }
 
 /// One file, as it is and as it will be.
@@ -40,6 +50,24 @@ pub struct Planned {
     pub new: Vec<u8>,
 }
 
+/// A file that a run leaves where it is, and says so.
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub struct Stay {
+    /// The path, relative to the output folder.
+    pub path: String,
+    /// Why it is not removed.
+    pub why: &'static str,
+}
+
+/// What lies where an artifact is to be written, and is not this program's to replace.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Obstacle {
+    /// The path, relative to the output folder.
+    pub path: String,
+    /// Where it leads, if it is a link.
+    pub leads_to: Option<PathBuf>,
+}
+
 /// How a file on disk stands to what it should be.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum State {
@@ -47,7 +75,7 @@ pub enum State {
     Missing,
     /// It is there and differs.
     Changed,
-    /// It is there and the same.
+    /// It is there and says the same.
     Unchanged,
 }
 
@@ -62,18 +90,42 @@ pub fn plan(
     let old_text = folder::read(&out_dir.join(manifest::FILE))?;
     let old = old_manifest(out_dir, old_text.as_deref(), scope)?;
     let merged = Manifest::merge(old.as_ref(), scope, artifacts, provenance);
-    let known = Known::new(&merged, old.as_ref(), scope);
-    let (orphans, foreign) = strays(out_dir, &known)?;
+    let old_entries = old.as_ref().map_or(&[][..], |old| &old.files);
+    let listed: BTreeMap<&str, &Entry> = old_entries
+        .iter()
+        .map(|entry| (entry.file.as_str(), entry))
+        .collect();
+    let files = planned(out_dir, artifacts)?;
+    let manifest = Planned {
+        path: manifest::FILE.to_string(),
+        old: old_text,
+        new: merged.to_json().into_bytes(),
+    };
+    let expected: BTreeSet<&str> = (merged.files.iter().map(|entry| entry.file.as_str()))
+        .chain([manifest::FILE])
+        .collect();
+    let (orphans, mut stays) = dropped(out_dir, old_entries, &expected)?;
+    if scope.whole {
+        stays.extend(strangers(out_dir, &expected, &listed, scope)?);
+        stays.sort();
+    }
+    let (obstacles, edited) = standing(out_dir, &files, &manifest, &listed);
+    let mut written = files.iter().map(|file| file.path.as_str());
+    let mut linked = written.find_map(|path| folder::linked_folder(out_dir, path));
+    if linked.is_none() {
+        let mut removed = orphans.iter().map(|entry| entry.file.as_str());
+        linked = removed.find_map(|path| folder::linked_folder(out_dir, path));
+    }
     Ok(Plan {
         out_dir: out_dir.to_path_buf(),
-        files: planned(out_dir, artifacts)?,
-        manifest: Planned {
-            path: manifest::FILE.to_string(),
-            old: old_text,
-            new: merged.to_json().into_bytes(),
-        },
+        interim: interim(&merged, &files, &orphans, &listed),
+        files,
+        manifest,
         orphans,
-        foreign,
+        stays,
+        obstacles,
+        edited,
+        linked,
     })
 }
 
@@ -95,74 +147,9 @@ impl Planned {
     pub fn state(&self) -> State {
         match &self.old {
             None => State::Missing,
-            Some(old) if *old == self.new => State::Unchanged,
+            Some(old) if is_same(&self.path, old, &self.new) => State::Unchanged,
             Some(_) => State::Changed,
         }
-    }
-}
-
-/// What tells our files from others'.
-struct Known {
-    /// Every path that will be in the folder after the run.
-    expected: BTreeSet<String>,
-    /// Every path that the old manifest lists.
-    listed: BTreeSet<String>,
-    /// The folders in which all files should be ours: targets, and the first part of every path.
-    folders: BTreeSet<String>,
-    /// The run removes orphans that no manifest lists.
-    whole: bool,
-    /// The folder holds a manifest of ours.
-    has_manifest: bool,
-    /// What the names of the run's own files end in.
-    suffix: &'static str,
-}
-
-impl Known {
-    fn new(merged: &Manifest, old: Option<&Manifest>, scope: &Scope) -> Known {
-        let mut expected = paths(merged);
-        let listed = old.map(paths).unwrap_or_default();
-        let parts = || expected.union(&listed).filter_map(|path| first_part(path));
-        let folders = parts().map(|(first, _)| first.to_string());
-        let folders = folders.chain(scope.targets.iter().cloned()).collect();
-        expected.insert(manifest::FILE.to_string());
-        Known {
-            expected,
-            listed,
-            folders,
-            whole: scope.whole,
-            has_manifest: old.is_some(),
-            suffix: scope.precision.suffix(),
-        }
-    }
-
-    /// Is the file ours beyond doubt, in any run?
-    fn is_recorded(&self, path: &str) -> bool {
-        folder::is_temporary(path) || self.listed.contains(path)
-    }
-
-    /// Should a run without flags say something about a file that nothing records? Not of a table: `bake` records none.
-    fn is_of_interest(&self, path: &str) -> bool {
-        let ours = |first: &str| first != artifact::TABLES && self.folders.contains(first);
-        let in_target = first_part(path).is_some_and(|(first, _)| ours(first));
-        self.whole && in_target && !is_hidden(path) && self.is_of_precision(path)
-    }
-
-    /// Has a file the name of this run's precision? Those of the other are not its own.
-    fn is_of_precision(&self, path: &str) -> bool {
-        let name = path.rsplit('/').next().unwrap_or(path);
-        let stem = name.split('.').next().unwrap_or(name);
-        let half = Precision::F16.suffix();
-        stem.ends_with(half) == (self.suffix == half)
-    }
-
-    /// Has a module a name that only we give? SPIR-V has no comments, so it cannot bear the mark.
-    fn is_our_module(&self, out_dir: &Path, path: &str) -> bool {
-        let rest = first_part(path).map_or("", |(_, rest)| rest);
-        let named = rest.starts_with("fresnel_") || rest.starts_with("materials/");
-        self.has_manifest
-            && named
-            && extension(rest) == Some("spv")
-            && folder::is_spirv(&out_dir.join(path))
     }
 }
 
@@ -178,8 +165,9 @@ fn old_manifest(
     };
     let mut old = Manifest::parse(&out_dir.join(manifest::FILE), text)?;
     if scope.whole {
+        let is_there = |entry: &Entry| out_dir.join(&entry.file).try_exists().unwrap_or(true);
         old.files
-            .retain(|entry| out_dir.join(&entry.file).try_exists().unwrap_or(true));
+            .retain(|entry| !could_be_written(entry) || is_there(entry));
     }
     Ok(Some(old))
 }
@@ -197,37 +185,125 @@ fn planned(out_dir: &Path, artifacts: &[Artifact]) -> Result<Vec<Planned>, Error
     Ok(files)
 }
 
-/// The orphans and the foreign files.
-fn strays(out_dir: &Path, known: &Known) -> Result<(Vec<String>, Vec<String>), Error> {
-    let mut present = folder::list(out_dir, &known.folders)?;
-    present.retain(|path| !known.expected.contains(path));
-    let (mut orphans, mut foreign) = (Vec::new(), Vec::new());
-    for path in present {
-        if known.is_recorded(&path) {
-            orphans.push(path);
-        } else if known.is_of_interest(&path) {
-            let ours =
-                known.is_our_module(out_dir, &path) || folder::is_marked(&out_dir.join(&path));
-            (if ours { &mut orphans } else { &mut foreign }).push(path);
+/// What the old manifest lists and the new one does not: files as they are listed are orphans, others stay.
+fn dropped(
+    out_dir: &Path,
+    old: &[Entry],
+    expected: &BTreeSet<&str>,
+) -> Result<(Vec<Entry>, Vec<Stay>), Error> {
+    let (mut orphans, mut stays) = (Vec::new(), Vec::new());
+    for entry in old {
+        let path = out_dir.join(&entry.file);
+        if expected.contains(entry.file.as_str()) || fs::symlink_metadata(&path).is_err() {
+            continue;
+        }
+        let is_plain = folder::is_plain_file(&path);
+        if is_plain && folder::read(&path)?.is_some_and(|bytes| is_listed(entry, &bytes)) {
+            orphans.push(entry.clone());
+        } else {
+            stays.push(Stay {
+                path: entry.file.clone(),
+                why: "it is no longer generated, and was changed since it was: the manifest lists it no more",
+            });
         }
     }
-    Ok((orphans, foreign))
+    Ok((orphans, stays))
 }
 
-fn paths(manifest: &Manifest) -> BTreeSet<String> {
-    manifest.files.iter().map(|e| e.file.clone()).collect()
+/// Files in the targets' folders that nothing lists: a run without flags names them.
+fn strangers(
+    out_dir: &Path,
+    expected: &BTreeSet<&str>,
+    listed: &BTreeMap<&str, &Entry>,
+    scope: &Scope,
+) -> Result<Vec<Stay>, Error> {
+    let first = |path: &&str| path.split_once('/').map(|(first, _)| first.to_owned());
+    let paths = expected.iter().chain(listed.keys());
+    let mut folders: BTreeSet<String> = paths.filter_map(first).collect();
+    folders.extend(scope.targets.iter().cloned());
+    // `bake` puts tables there under any name.
+    folders.remove(artifact::TABLES);
+    let mut present = folder::list(out_dir, &folders)?;
+    present.retain(|path| {
+        let is_known = expected.contains(path.as_str()) || listed.contains_key(path.as_str());
+        path.contains('/') && !is_known && !is_hidden(path) && is_of_precision(path, scope)
+    });
+    let stay = |path| Stay {
+        path,
+        why: "fresnel-gen did not write it, or no manifest lists it",
+    };
+    Ok(present.into_iter().map(stay).collect())
 }
 
-fn first_part(path: &str) -> Option<(&str, &str)> {
-    path.split_once('/')
-}
-
-fn extension(path: &str) -> Option<&str> {
-    let name = path.rsplit('/').next()?;
-    name.rsplit_once('.').map(|(_, extension)| extension)
+/// Has a file the name of this run's precision? Those of the other are not its own.
+fn is_of_precision(path: &str, scope: &Scope) -> bool {
+    let name = path.rsplit('/').next().unwrap_or(path);
+    let stem = name.split('.').next().unwrap_or(name);
+    let half = Precision::F16.suffix();
+    stem.ends_with(half) == (scope.precision.suffix() == half)
 }
 
 /// Desktops and version control leave such files anywhere.
 fn is_hidden(path: &str) -> bool {
     path.split('/').any(|part| part.starts_with('.'))
+}
+
+/// Of the files that differ from what they should be: those of others, and those of ours that were changed.
+fn standing(
+    out_dir: &Path,
+    files: &[Planned],
+    manifest: &Planned,
+    listed: &BTreeMap<&str, &Entry>,
+) -> (Vec<Obstacle>, Vec<String>) {
+    let (mut obstacles, mut edited) = (Vec::new(), Vec::new());
+    for file in files.iter().chain([manifest]) {
+        let (State::Changed, Some(old)) = (file.state(), &file.old) else {
+            continue;
+        };
+        let leads_to = fs::read_link(out_dir.join(&file.path)).ok();
+        let entry = listed.get(file.path.as_str());
+        if leads_to.is_some() {
+            obstacles.push(Obstacle {
+                path: file.path.clone(),
+                leads_to,
+            });
+        } else if file.path == manifest::FILE || entry.is_some_and(|entry| is_listed(entry, old)) {
+            // As this program left it.
+        } else if bears_mark(old) {
+            edited.push(file.path.clone());
+        } else {
+            obstacles.push(Obstacle {
+                path: file.path.clone(),
+                leads_to,
+            });
+        }
+    }
+    (obstacles, edited)
+}
+
+/// The manifest that is on disk while the run writes. It lists every file with the hash that it has before and the one it
+/// has after, and the orphans: a run that is killed leaves nothing unlisted.
+fn interim(
+    merged: &Manifest,
+    files: &[Planned],
+    orphans: &[Entry],
+    listed: &BTreeMap<&str, &Entry>,
+) -> Vec<u8> {
+    let mut interim = merged.clone();
+    let changed = files.iter().filter(|file| file.state() == State::Changed);
+    let before: BTreeMap<&str, &Vec<u8>> = changed
+        .filter_map(|file| Some((file.path.as_str(), file.old.as_ref()?)))
+        .collect();
+    for entry in &mut interim.files {
+        let path = entry.file.as_str();
+        let (Some(old), Some(known)) = (before.get(path), listed.get(path)) else {
+            continue;
+        };
+        if is_listed(known, old) {
+            entry.was = Some(listed_hash(path, old));
+        }
+    }
+    interim.files.extend(orphans.iter().cloned());
+    interim.files.sort_by(|a, b| a.file.cmp(&b.file));
+    interim.to_json().into_bytes()
 }

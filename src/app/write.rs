@@ -1,20 +1,23 @@
-//! The only writer. Every file is first staged beside its destination; only when all are staged
-//! are they renamed into place, orphans removed, and the manifest renamed last. Until the first rename a failure
-//! changes nothing. A run killed at any moment leaves each file either old or new, and running it again ends its work.
+//! The only writer. Every file is first staged beside its destination, under a name that the folder's lock lists. When
+//! all are staged, a manifest that lists old and new files is put in place, then the files, then orphans are removed, then
+//! the manifest that stays is put in place. Until the first of these steps a failure changes nothing. A run killed at any
+//! moment leaves each file either old or new and listed, and running it again ends its work.
 //!
-//! Two runs at once in one folder are not provided for: the later manifest would lack the earlier entries.
+//! What is not proved to be this program's own is never replaced or removed: [`ours`](super::ours).
 //! Nothing is forced to the disk's platter: after a power cut, run again.
 
-use std::fs;
+use std::fs::{self, OpenOptions};
 use std::io::{self, ErrorKind, Write as _};
 use std::path::{Path, PathBuf};
 
 use tempfile::TempPath;
 
 use super::error::Error;
-use super::folder::{self, TEMPORARY_PREFIX, TEMPORARY_SUFFIX};
-use super::manifest;
-use super::tree::{Plan, State};
+use super::folder;
+use super::lock::Lock;
+use super::manifest::{self, Entry};
+use super::ours::{bears_mark, is_listed};
+use super::tree::{Obstacle, Plan, Planned, State};
 
 /// What a write did, in files, the manifest included.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -27,26 +30,102 @@ pub struct Written {
     pub unchanged: usize,
 }
 
-/// Brings the folder to the state of the plan. Files that are right already are not touched.
-pub fn write(plan: &Plan) -> Result<Written, Error> {
-    let pending = plan.all().filter(|file| file.state() != State::Unchanged);
-    let pending: Vec<(PathBuf, &[u8])> = pending
+/// Brings the folder to the state of the plan. Files that are right already are not touched. With `overwrite` files of
+/// others are replaced where they lie in the place of one of the plan's.
+///
+/// # Errors
+/// A file of others lies where one is to be written, a folder of the tree is a link, or the disk refuses.
+pub fn write(plan: &Plan, overwrite: bool, lock: &mut Lock) -> Result<Written, Error> {
+    if let Some((link, leads_to)) = &plan.linked {
+        return Err(Error::Linked {
+            link: link.clone(),
+            leads_to: leads_to.clone(),
+        });
+    }
+    if let (Some(obstacle), false) = (plan.obstacles.first(), overwrite) {
+        return Err(not_ours(&plan.out_dir, obstacle, plan.obstacles.len() - 1));
+    }
+    let pending: Vec<&Planned> = (plan.files.iter())
+        .filter(|file| file.state() != State::Unchanged)
+        .collect();
+    let has_interim = !pending.is_empty() || !plan.orphans.is_empty();
+    let is_new = plan.manifest.state() != State::Unchanged || has_interim;
+    let mut files: Vec<(PathBuf, &[u8])> = pending
+        .iter()
         .map(|file| (plan.out_dir.join(&file.path), file.new.as_slice()))
         .collect();
-    let mut staged = stage_all(&pending)?;
     let manifest = plan.out_dir.join(manifest::FILE);
-    let manifest = staged.pop_if(|file| file.destination == manifest);
-    replace_all(staged, 0, pending.len())?;
-    // Before the manifest: of a run that is killed here, the old one still names the orphans, and the next run ends it.
-    let mut orphans = plan.orphans.iter();
-    let removed = orphans.try_for_each(|orphan| remove(&plan.out_dir, orphan));
-    replace_all(manifest, pending.len().saturating_sub(1), pending.len())?;
-    removed?;
+    if has_interim {
+        files.push((manifest.clone(), &plan.interim));
+    }
+    if is_new {
+        files.push((manifest, &plan.manifest.new));
+    }
+    let mut staged = stage_all(&files, Some((&plan.out_dir, lock)))?;
+    let last = if is_new { staged.pop() } else { None };
+    let interim = if has_interim { staged.pop() } else { None };
+    let all = pending.len() + usize::from(is_new);
+    replace_all(interim, 0, all)?;
+    replace_all(staged, 0, all)?;
+    // Before the last manifest: of a run that is killed here, the one on disk still lists the orphans.
+    let mut removed = 0;
+    for orphan in &plan.orphans {
+        removed += usize::from(remove(&plan.out_dir, orphan)?);
+    }
+    for name in lock.leftovers() {
+        remove_leftover(&plan.out_dir, name);
+    }
+    lock.forget_leftovers();
+    replace_all(last, pending.len(), all)?;
+    let written = pending.len() + usize::from(plan.manifest.state() != State::Unchanged);
     Ok(Written {
-        written: pending.len(),
-        removed: plan.orphans.len(),
-        unchanged: plan.all().count() - pending.len(),
+        written,
+        removed,
+        unchanged: plan.all().count() - written,
     })
+}
+
+/// Refuses these places of a report where files lie that do not bear our mark.
+///
+/// # Errors
+/// One does.
+pub fn try_places_of_ours(files: &[PathBuf], overwrite: bool) -> Result<(), Error> {
+    for path in files.iter().filter(|_| !overwrite) {
+        if folder::read(path)?.is_some_and(|bytes| !bears_mark(&bytes)) {
+            return Err(Error::NotOurs {
+                path: path.clone(),
+                what: "a file that fresnel-gen did not write lies there".to_owned(),
+            });
+        }
+    }
+    Ok(())
+}
+
+/// Writes the files of a report into a folder, each whole or not at all. They replace only what bears our mark.
+///
+/// # Errors
+/// A file of others lies in the place of one, or the disk refuses.
+pub fn write_report(files: &[(PathBuf, &[u8])], overwrite: bool) -> Result<usize, Error> {
+    for (path, bytes) in files {
+        if folder::read(path)?.as_deref() != Some(bytes) {
+            try_places_of_ours(std::slice::from_ref(path), overwrite)?;
+        }
+    }
+    write_files(files)
+}
+
+fn not_ours(out_dir: &Path, obstacle: &Obstacle, others: usize) -> Error {
+    let mut what = match &obstacle.leads_to {
+        Some(leads_to) => format!("a link to {} lies there", leads_to.display()),
+        None => "a file that fresnel-gen did not write lies there".to_owned(),
+    };
+    if others > 0 {
+        what += &format!(", and {others} more in other places");
+    }
+    Error::NotOurs {
+        path: out_dir.join(&obstacle.path),
+        what,
+    }
 }
 
 /// Writes a single file whole or not at all, with the folders above it. False: it was right already.
@@ -66,7 +145,7 @@ pub fn write_files(files: &[(PathBuf, &[u8])]) -> Result<usize, Error> {
     for (path, bytes) in files {
         pending.extend(destination(path, bytes)?.map(|path| (path, *bytes)));
     }
-    replace_all(stage_all(&pending)?, 0, pending.len())?;
+    replace_all(stage_all(&pending, None)?, 0, pending.len())?;
     Ok(pending.len())
 }
 
@@ -83,7 +162,7 @@ pub fn try_file(path: &Path) -> Result<(), Error> {
         return Ok(());
     };
     let mut created = Vec::new();
-    let tried = stage(&place, &[], &mut created).map(drop);
+    let tried = stage(&place, &[], &folder::temporary_name(), &mut created).map(drop);
     for folder in created.iter().rev() {
         let _ = fs::remove_dir(folder);
     }
@@ -131,12 +210,30 @@ struct Staged {
     destination: PathBuf,
 }
 
-fn stage_all(pending: &[(PathBuf, &[u8])]) -> Result<Vec<Staged>, Error> {
+/// Stages files. In a folder with a lock their temporary names are written down before they are made.
+fn stage_all(
+    pending: &[(PathBuf, &[u8])],
+    locked: Option<(&Path, &mut Lock)>,
+) -> Result<Vec<Staged>, Error> {
+    let names: Vec<String> = pending.iter().map(|_| folder::temporary_name()).collect();
+    if let (Some((out_dir, lock)), Some((first, _))) = (locked, pending.first()) {
+        let beside = |(path, name): (&PathBuf, &String)| {
+            let inside = path.with_file_name(name);
+            let inside = inside.strip_prefix(out_dir).unwrap_or(&inside);
+            let parts: Vec<_> = inside.iter().map(|part| part.to_string_lossy()).collect();
+            parts.join("/")
+        };
+        let paths = pending.iter().map(|(path, _)| path);
+        let beside: Vec<String> = paths.zip(&names).map(beside).collect();
+        lock.write_down(&beside)
+            .map_err(|source| stage_fault(first, source))?;
+    }
     let mut created = Vec::new();
     let staged: Result<Vec<Staged>, Error> = pending
         .iter()
-        .map(|(path, bytes)| {
-            stage(path, bytes, &mut created).map_err(|source| stage_fault(path, source))
+        .zip(&names)
+        .map(|((path, bytes), name)| {
+            stage(path, bytes, name, &mut created).map_err(|source| stage_fault(path, source))
         })
         .collect();
     if staged.is_err() {
@@ -148,40 +245,26 @@ fn stage_all(pending: &[(PathBuf, &[u8])]) -> Result<Vec<Staged>, Error> {
     staged
 }
 
-fn stage(path: &Path, bytes: &[u8], created: &mut Vec<PathBuf>) -> io::Result<Staged> {
+fn stage(path: &Path, bytes: &[u8], name: &str, created: &mut Vec<PathBuf>) -> io::Result<Staged> {
     let folder = match path.parent() {
         Some(parent) if !parent.as_os_str().is_empty() => parent,
         _ => Path::new("."),
     };
     create_folder(folder, created)?;
-    let mut file = builder().tempfile_in(folder)?;
+    let temporary = folder.join(name);
+    let mut file = OpenOptions::new()
+        .write(true)
+        .create_new(true)
+        .open(&temporary)?;
+    // From here on it is deleted when dropped.
+    let temporary = TempPath::try_from_path(temporary)?;
     file.write_all(bytes)?;
     file.flush()?;
     Ok(Staged {
         // Without its handle: a tree has more files than some systems let a process open.
-        temporary: file.into_temp_path(),
+        temporary,
         destination: path.to_path_buf(),
     })
-}
-
-/// Temporary files are private by default; ours become the user's files and get what the umask leaves.
-#[cfg(unix)]
-fn builder() -> tempfile::Builder<'static, 'static> {
-    use std::os::unix::fs::PermissionsExt;
-    let mut builder = named_builder();
-    builder.permissions(fs::Permissions::from_mode(0o666));
-    builder
-}
-
-#[cfg(not(unix))]
-fn builder() -> tempfile::Builder<'static, 'static> {
-    named_builder()
-}
-
-fn named_builder() -> tempfile::Builder<'static, 'static> {
-    let mut builder = tempfile::Builder::new();
-    builder.prefix(TEMPORARY_PREFIX).suffix(TEMPORARY_SUFFIX);
-    builder
 }
 
 /// Creates a folder and those above it, and notes each that was not there.
@@ -222,14 +305,31 @@ fn replace_all(
     Ok(())
 }
 
-/// Removes a file, or a link but not what it points to, and the folders that it leaves empty.
-fn remove(out_dir: &Path, orphan: &str) -> Result<(), Error> {
-    let path = out_dir.join(orphan);
-    match fs::remove_file(&path) {
-        Err(source) if source.kind() != ErrorKind::NotFound => {
-            return Err(Error::Remove { path, source });
+/// Removes an orphan and the folders that it leaves empty. False: it is gone, or no longer what the manifest lists.
+fn remove(out_dir: &Path, orphan: &Entry) -> Result<bool, Error> {
+    let path = out_dir.join(&orphan.file);
+    let is_listed = |bytes: Vec<u8>| is_listed(orphan, &bytes);
+    if !folder::is_plain_file(&path) || !folder::read(&path)?.is_some_and(is_listed) {
+        return Ok(false);
+    }
+    fs::remove_file(&path).map_err(|source| Error::Remove {
+        path: path.clone(),
+        source,
+    })?;
+    let above = path.ancestors().skip(1);
+    for folder in above.take_while(|folder| *folder != out_dir) {
+        if fs::remove_dir(folder).is_err() {
+            break;
         }
-        _ => {}
+    }
+    Ok(true)
+}
+
+/// Removes a temporary file that a killed run left behind, with the folders that it leaves empty. If it cannot be, nothing is lost.
+fn remove_leftover(out_dir: &Path, name: &str) {
+    let path = out_dir.join(name);
+    if folder::is_plain_file(&path) && folder::linked_folder(out_dir, name).is_none() {
+        let _ = fs::remove_file(&path);
     }
     let above = path.ancestors().skip(1);
     for folder in above.take_while(|folder| *folder != out_dir) {
@@ -237,7 +337,6 @@ fn remove(out_dir: &Path, orphan: &str) -> Result<(), Error> {
             break;
         }
     }
-    Ok(())
 }
 
 fn stage_fault(path: &Path, source: io::Error) -> Error {

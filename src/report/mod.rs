@@ -16,6 +16,9 @@ pub mod stability;
 pub mod survey;
 pub mod table;
 
+/// The version of the form of JSON reports. It rises when a key changes its meaning or goes.
+pub const SCHEMA: u32 = 1;
+
 /// A class of materials in words: `metals`, with semiconductors, or `dielectrics`.
 pub fn class_title(class: &str) -> &'static str {
     match class {

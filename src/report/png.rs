@@ -8,6 +8,8 @@ use std::sync::Arc;
 use resvg::tiny_skia::{Color, Pixmap, Transform};
 use resvg::usvg::{ImageHrefResolver, Options, Tree, fontdb};
 
+use crate::emit::MARK;
+
 /// Regular first: it has letters that the bold one lacks, and is asked for these next.
 const FONTS: [&[u8]; 2] = [
     include_bytes!("../../data/fonts/DejaVuSans-subset.ttf"),
@@ -80,6 +82,7 @@ fn encode(map: &Pixmap) -> Result<Vec<u8>, png::EncodingError> {
     encoder.set_depth(png::BitDepth::Eight);
     encoder.set_compression(png::Compression::Balanced);
     encoder.set_source_srgb(png::SrgbRenderingIntent::RelativeColorimetric);
+    encoder.add_text_chunk("Software".to_owned(), MARK.to_owned())?;
     let mut writer = encoder.write_header()?;
     let colours = map.data().chunks_exact(4).flat_map(|rgba| &rgba[..3]);
     writer.write_image_data(&colours.copied().collect::<Vec<u8>>())?;

@@ -5,6 +5,7 @@ use std::path::Path;
 
 use fresnel_gen::app::bake::{add_tables, as_tables_are_seen};
 use fresnel_gen::app::catalogue::add_catalogue;
+use fresnel_gen::app::lock::Lock;
 use fresnel_gen::app::{Artifact, Request, check, generate, tree, write};
 use fresnel_gen::methods;
 use fresnel_gen::num::Precision;
@@ -41,7 +42,9 @@ fn the_committed_tree_is_what_a_run_into_an_empty_folder_writes() {
     )
     .expect("a plan");
     if super::bless::is_on() {
-        write::write(&plan).expect("the repository can be written");
+        let mut lock = Lock::take(&folder, &|_| ());
+        write::write(&plan, false, &mut lock).expect("the repository can be written");
+        drop(lock);
         return;
     }
     let (report, drift) = check::report(&plan);

@@ -96,7 +96,9 @@ fn request(names: &str, formats: &[Format], atlas: bool) -> Request {
 }
 
 fn files(request: &Request) -> Vec<(String, Vec<u8>)> {
-    bake(request, &mut |_, _, _| {}).unwrap().files
+    let baked = bake(request, &mut |_, _, _| {}).unwrap();
+    let files = baked.files.into_iter();
+    files.map(|file| (file.path, file.bytes)).collect()
 }
 
 #[test]

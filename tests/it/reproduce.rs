@@ -321,7 +321,7 @@ fn figures_are_those_of_the_repository() {
 fn command(arguments: &[&str]) -> Result<Output, Error> {
     let start = ["fresnel-gen", "reproduce"];
     let cli = Cli::parse_from(start.iter().chain(arguments));
-    command::run(&cli, &mut |_, _, _| {})
+    command::run(&cli, &mut |_, _, _| {}, &|_| ())
 }
 
 #[test]

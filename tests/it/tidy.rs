@@ -224,6 +224,8 @@ fn only_the_writer_and_the_program_touch_the_machine() {
         "main.rs",
         "app/write.rs",
         "app/folder.rs",
+        // The lock on an output folder, and its waits.
+        "app/lock.rs",
         "app/source.rs",
         "app/tree.rs",
         "build.rs",

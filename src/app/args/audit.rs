@@ -50,6 +50,9 @@ pub struct AuditFlags {
     /// Write chart.svg and chart.html into this folder: `chart` of these materials, with this function as one more point
     #[arg(long, value_name = "DIR")]
     pub out_dir: Option<PathBuf>,
+    /// Replace files of others that lie where this run writes
+    #[arg(long, requires = "out_dir")]
+    pub overwrite: bool,
     /// Write the report as JSON to this file, or `-` for stdout
     #[arg(long, value_name = "FILE")]
     pub json: Option<PathBuf>,

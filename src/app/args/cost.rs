@@ -34,6 +34,9 @@ pub struct CostFlags {
     /// Write a page with all figures as cost.html into this folder
     #[arg(long, value_name = "DIR")]
     pub out_dir: Option<PathBuf>,
+    /// Replace files of others that lie where this run writes
+    #[arg(long, requires = "out_dir")]
+    pub overwrite: bool,
     /// Write the report as JSON to this file, or `-` for stdout
     #[arg(long, value_name = "FILE")]
     pub json: Option<PathBuf>,

@@ -124,6 +124,9 @@ pub struct Generate {
     /// Write nothing: compare with the folder, print a diff, exit 1 where it differs
     #[arg(long, conflicts_with_all = ["list", "depfile"])]
     pub check: bool,
+    /// Replace files of others that lie where this run writes
+    #[arg(long)]
+    pub overwrite: bool,
     /// Write the run's outputs and inputs as a Makefile rule
     #[arg(long, value_name = "FILE")]
     pub depfile: Option<PathBuf>,
@@ -369,6 +372,9 @@ pub struct BakeFlags {
     /// Folder that gets a folder `lut`
     #[arg(long, value_name = "DIR", default_value = "shaders-generated")]
     pub out_dir: PathBuf,
+    /// Replace files of others that lie where this run writes
+    #[arg(long)]
+    pub overwrite: bool,
     /// Write the report as JSON to this file, or `-` for stdout
     #[arg(long, value_name = "FILE")]
     pub json: Option<PathBuf>,
@@ -386,6 +392,9 @@ pub struct Reproduce {
     /// Folder for the figures
     #[arg(long, value_name = "DIR", default_value = "reproduced")]
     pub out_dir: PathBuf,
+    /// Replace files of others that lie where this run writes
+    #[arg(long)]
+    pub overwrite: bool,
     /// Write the report as JSON to this file, or `-` for stdout
     #[arg(long, value_name = "FILE")]
     pub json: Option<PathBuf>,

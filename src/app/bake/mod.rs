@@ -11,9 +11,10 @@ mod words;
 use serde_json::{Value, json};
 
 use crate::lut::{Axis, Choice, Depth, Format, smallest};
+use crate::report::SCHEMA;
 use crate::targets::Target;
 
-use super::artifact::TABLES;
+use super::artifact::{Artifact, TABLES};
 use super::error::Error;
 use picture::Baking;
 
@@ -65,8 +66,8 @@ pub enum Shape {
 /// Files in memory, and what is known of them.
 #[derive(Clone, Debug, Default)]
 pub struct Baked {
-    /// Paths relative to the output folder, and bytes.
-    pub files: Vec<(String, Vec<u8>)>,
+    /// The files, as a manifest lists them.
+    pub files: Vec<Artifact>,
     /// A row for each material and format.
     pub rows: Vec<Value>,
 }
@@ -80,7 +81,7 @@ pub fn bake(request: &Request, progress: &mut dyn FnMut(u64, u64, &str)) -> Resu
     let pictures = request.pictures();
     for (done, (name, subjects)) in pictures.iter().enumerate() {
         progress(done as u64, pictures.len() as u64, name);
-        let (one, _) = picture(request, name, subjects)?;
+        let one = picture(request, name, subjects)?;
         baked.files.extend(one.files);
         baked.rows.extend(one.rows);
     }
@@ -97,37 +98,57 @@ impl Request {
     }
 }
 
-/// The files of one picture, with functions that read it and a description beside them; and the command that writes them
-/// again.
-fn picture(request: &Request, name: &str, subjects: &[Lit]) -> Result<(Baked, String), Error> {
+/// The files of one picture, with functions that read it and a description beside them.
+fn picture(request: &Request, name: &str, subjects: &[Lit]) -> Result<Baked, Error> {
     let (axis, texels, formats) = chosen(request, subjects)?;
     let baking = Baking::new(request, name, subjects, (axis, texels), formats)?;
     let functions = shader::files(&baking)?;
     let beside: Vec<&str> = functions.iter().map(|(file, _)| file.as_str()).collect();
-    let mut baked = Baked::default();
+    let mut rows = Vec::new();
+    let mut files = Vec::new();
     for (format, rounded) in baking.each() {
         let file = baking.file(format);
         let picture = baking.picture(format, rounded);
-        let rows = row::rows(subjects, rounded, &picture, format, &file);
-        baked.rows.extend(rows.map(|mut row| {
+        let own = row::rows(subjects, rounded, &picture, format, &file);
+        rows.extend(own.map(|mut row| {
             row["lookup"]["functions"] = json!(beside);
             row
         }));
-        baked.files.push((file, format.encode(&picture)?));
+        files.push((file, format.encode(&picture)?));
     }
-    baked.files.extend(functions);
+    files.extend(functions);
     let command = baking.command(&baking.formats, &request.targets);
-    let full = serde_json::to_string_pretty(&report(&command, &baked.rows));
+    let material = (name != ATLAS).then_some(name);
+    let files = described(files, &rows, &command, name, ("table", material));
+    Ok(Baked { files, rows })
+}
+
+/// The files of a picture as a manifest lists them, and a description of all beside them.
+fn described(
+    mut files: Vec<(String, Vec<u8>)>,
+    rows: &[Value],
+    command: &str,
+    name: &str,
+    (method, material): (&str, Option<&str>),
+) -> Vec<Artifact> {
+    let full = serde_json::to_string_pretty(&report(command, rows));
     let text = full.expect("a report has only text keys") + "\n";
-    baked
-        .files
-        .push((format!("{TABLES}/{name}.json"), text.into_bytes()));
-    Ok((baked, command))
+    let description = format!("{TABLES}/{name}.json");
+    files.push((description.clone(), text.into_bytes()));
+    let listed = |(path, bytes)| Artifact {
+        path,
+        bytes,
+        target: TABLES.to_owned(),
+        method: Some(method.to_owned()),
+        material: material.map(str::to_owned),
+        detail: json!({ "command": command, "description": description, "licence": "CC0-1.0" }),
+    };
+    files.into_iter().map(listed).collect()
 }
 
 /// A report in the shape that all have.
 pub fn report(command: &str, rows: &[Value]) -> Value {
-    json!({ "tool": "fresnel-gen", "command": command, "device": null, "rows": rows })
+    json!({ "tool": "fresnel-gen", "schema": SCHEMA, "command": command, "device": null, "rows": rows })
 }
 
 /// Axis, size and formats: as asked for, or the smallest that is good enough in those of its depth.

@@ -12,7 +12,7 @@ use crate::lut::{
 };
 use crate::methods::{Method, Shape};
 
-use super::{Baked, depths, report};
+use super::{Baked, depths, described};
 
 /// What is baked.
 #[derive(Clone, Debug)]
@@ -65,15 +65,15 @@ pub fn bake_split_sum(
             request.method.name
         ),
     })?;
-    let rows = request.size as u64;
-    let all = 3 * rows - 1;
+    let lines = request.size as u64;
+    let all = 3 * lines - 1;
     let table = SplitSum::new(shape, request.size, &mut |done, _| {
         progress(done, all, &name);
     })?;
     let between = BetweenSplitSum::new(shape, request.size, &mut |done, _| {
-        progress(rows + done, all, &name);
+        progress(lines + done, all, &name);
     });
-    let mut baked = Baked::default();
+    let (mut rows, mut files) = (Vec::new(), Vec::new());
     for depth in depths(&request.formats) {
         let stored = table.stored(depth);
         let errors = [Weights::Steps256, Weights::Exact].map(|w| between.errors(&stored, w));
@@ -81,19 +81,13 @@ pub fn bake_split_sum(
         for format in own.filter(|format| format.depth() == depth) {
             let file = format!("{TABLES}/{name}{}", format.ending());
             let picture = picture(request, *format, &stored, &errors);
-            baked
-                .rows
-                .push(row(request, shape, *format, &file, &errors));
-            baked.files.push((file, format.encode(&picture)?));
+            rows.push(row(request, shape, *format, &file, &errors));
+            files.push((file, format.encode(&picture)?));
         }
     }
     let command = format!("fresnel-gen {}", request.command());
-    let full = serde_json::to_string_pretty(&report(&command, &baked.rows));
-    let text = full.expect("a report has only text keys") + "\n";
-    baked
-        .files
-        .push((format!("{TABLES}/{name}.json"), text.into_bytes()));
-    Ok(baked)
+    let files = described(files, &rows, &command, &name, (request.method.name, None));
+    Ok(Baked { files, rows })
 }
 
 /// The largest of some errors.

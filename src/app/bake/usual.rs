@@ -1,9 +1,6 @@
 //! What is baked unless asked otherwise; a run of the generator without flags writes it beside the shaders, so that what
 //! their functions called `table` read is there.
 
-use serde_json::json;
-
-use crate::app::artifact::{Artifact, TABLES};
 use crate::app::error::Error;
 use crate::app::generate::Generated;
 use crate::app::request::{Materials, Source};
@@ -14,7 +11,7 @@ use crate::methods::TEXELS;
 use crate::spectra::Gamut;
 
 use super::words::{said, typed};
-use super::{ATLAS, Request, Shape, Wanted, lit, picture};
+use super::{Request, Shape, Wanted, lit, picture};
 
 /// The axis: the one with the smallest errors at equal size.
 pub const DEFAULT_AXIS: Axis = Axis::Rational;
@@ -31,8 +28,8 @@ pub fn as_tables_are_seen(sight: &Sight, gamut_was_said: bool) -> Sight {
     sight
 }
 
-/// Adds the tables of the usual materials and their atlas to what a run without flags generates, and makes them the
-/// run's own.
+/// Adds the tables of the usual materials and their atlas to what a run without flags generates. They are not made the
+/// run's own: it replaces tables, and removes none, since `bake` writes others beside them.
 pub fn add_tables(
     generated: &mut Generated,
     medium: Option<Source>,
@@ -40,19 +37,11 @@ pub fn add_tables(
 ) -> Result<(), Error> {
     let request = request(medium, sight)?;
     for (name, subjects) in request.pictures() {
-        let (baked, command) = picture(&request, name, subjects)?;
-        let files = baked.files.into_iter();
-        generated.artifacts.extend(files.map(|(path, bytes)| Artifact {
-            path,
-            bytes,
-            target: TABLES.to_owned(),
-            method: Some("table".to_owned()),
-            material: (name != ATLAS).then(|| name.to_owned()),
-            detail: json!({ "command": command, "description": format!("{TABLES}/{name}.json"), "licence": "CC0-1.0" }),
-        }));
+        generated
+            .artifacts
+            .extend(picture(&request, name, subjects)?.files);
     }
     generated.artifacts.sort_by(|a, b| a.path.cmp(&b.path));
-    generated.scope.targets.insert(TABLES.to_owned());
     Ok(())
 }
 

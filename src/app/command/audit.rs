@@ -13,9 +13,10 @@ use crate::app::request::{Materials, Request};
 use crate::app::sight::{flags as sight_flags, sight};
 use crate::app::source::{materials, shader, source};
 use crate::app::verify::{junit, machine};
-use crate::app::write::write_file;
+use crate::app::write::{try_places_of_ours, write_file};
 use crate::cost::{FAMILIES, Family};
 use crate::emit::Subject;
+use crate::report::SCHEMA;
 use crate::report::frontier::{CostAxis, View};
 use crate::spectra::Space;
 
@@ -44,6 +45,7 @@ pub fn run(flags: &AuditFlags, progress: Progress) -> Result<Output, Error> {
     let charts = chart::files(flags.out_dir.as_deref());
     let all = flags.json.iter().chain(&flags.junit).chain(&charts);
     try_files(&all.map(PathBuf::as_path).collect::<Vec<_>>())?;
+    try_places_of_ours(&charts, flags.overwrite)?;
     let subjects: Vec<Subject> = subjects.ready.into_iter().map(|(one, _)| one).collect();
     let rows = subjects.iter().map(|one| audit.row(one, progress));
     let rows: Vec<Value> = rows.collect::<Result<_, _>>()?;
@@ -53,23 +55,27 @@ pub fn run(flags: &AuditFlags, progress: Progress) -> Result<Output, Error> {
         write_file(file, xml.as_bytes())?;
     }
     let full = json!({
-        "tool": "fresnel-gen", "command": command, "device": rows.first().map(|row| &row["device"]),
+        "tool": "fresnel-gen", "schema": SCHEMA, "command": command, "device": rows.first().map(|row| &row["device"]),
         "rows": rows,
     });
+    let charted = match &flags.out_dir {
+        Some(folder) => {
+            let place = (folder.as_path(), flags.overwrite);
+            charted(place, &rows, &subjects, audit.space, command, progress)?
+        }
+        None => Vec::new(),
+    };
     let told: Vec<String> = rows.iter().map(text).collect();
     let mut output = report(told.join("\n"), &full, flags.json.as_deref())?;
-    output.remarks = rows.iter().flat_map(remarks).collect();
-    if let Some(folder) = &flags.out_dir {
-        let charted = charted(folder, &rows, &subjects, audit.space, command, progress)?;
-        output.remarks.extend(charted);
-    }
+    output.remarks = rows.iter().flat_map(remarks).chain(charted).collect();
     output.code = code(&rows);
     Ok(output)
 }
 
-/// Draws the charts of these materials with the function as one more point, and says where, and what lacks.
+/// Draws the charts of these materials with the function as one more point, and says where, and what lacks. The place is a
+/// folder, and whether files of others are replaced there.
 fn charted(
-    folder: &Path,
+    (folder, overwrite): (&Path, bool),
     rows: &[Value],
     subjects: &[Subject],
     space: Space,
@@ -90,7 +96,7 @@ fn charted(
         cost: &data.costs[cost],
         error: 0,
     };
-    let mut remarks = chart::written(folder, &view, [set, cost, 0])?;
+    let mut remarks = chart::written(folder, overwrite, &view, [set, cost, 0])?;
     remarks.extend(view.lacks());
     Ok(remarks)
 }

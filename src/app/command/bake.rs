@@ -1,6 +1,6 @@
 //! `bake`: lookup tables as files, and how wrong each is.
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use serde_json::Value;
 
@@ -10,15 +10,20 @@ use crate::app::bake::{
     as_tables_are_seen, bake, bake_split_sum, canonical, lit, report as full, said, typed,
 };
 use crate::app::error::Error;
+use crate::app::generate::provenance;
+use crate::app::lock::{Announce, Lock};
 use crate::app::names::unknown;
+use crate::app::scope::Scope;
 use crate::app::sight::sight;
 use crate::app::source::{materials, source};
-use crate::app::write::write_files;
+use crate::app::tree::plan;
+use crate::app::write::write;
 use crate::lut::{Axis, Format, SPLIT_SUM_SIZE, check_size};
 use crate::methods::{self, TEXELS};
 use crate::report::table;
 use crate::targets::{self, Finish, Target};
 
+use super::generate::named;
 use super::{Output, Progress, report, try_places};
 
 /// The files that a search chooses from where none are asked for: one of each depth.
@@ -30,9 +35,9 @@ const SEARCHED_FORMATS: [Format; 4] = [
 ];
 
 /// Bakes.
-pub fn run(flags: &BakeFlags, progress: Progress) -> Result<Output, Error> {
+pub fn run(flags: &BakeFlags, progress: Progress, announce: Announce) -> Result<Output, Error> {
     if flags.dfg {
-        return split_sum(flags, progress);
+        return split_sum(flags, progress, announce);
     }
     let shape = shape(flags)?;
     let formats = formats(flags)?;
@@ -66,11 +71,12 @@ pub fn run(flags: &BakeFlags, progress: Progress) -> Result<Output, Error> {
         &format!("bake{}", canonical(&request)),
         &baked,
         &left_out,
+        announce,
     )
 }
 
 /// Bakes the split-sum table of a method.
-fn split_sum(flags: &BakeFlags, progress: Progress) -> Result<Output, Error> {
+fn split_sum(flags: &BakeFlags, progress: Progress, announce: Announce) -> Result<Output, Error> {
     let name = flags.method.as_deref().unwrap_or("fitted");
     let all = || methods::ALL.iter().filter(|method| method.is_fitted());
     let names: Vec<&str> = all().map(|method| method.name).collect();
@@ -81,7 +87,7 @@ fn split_sum(flags: &BakeFlags, progress: Progress) -> Result<Output, Error> {
     };
     try_places(flags.json.as_deref(), None)?;
     let baked = bake_split_sum(&request, progress)?;
-    finished(flags, &request.command(), &baked, &[])
+    finished(flags, &request.command(), &baked, &[], announce)
 }
 
 /// Writes what was baked, and tells of it.
@@ -90,14 +96,29 @@ fn finished(
     command: &str,
     baked: &Baked,
     left_out: &[String],
+    announce: Announce,
 ) -> Result<Output, Error> {
-    let written = write_files(&placed(baked, &flags.out_dir))?;
+    let out_dir = match flags.out_dir.as_os_str().is_empty() {
+        true => Path::new("."),
+        false => &flags.out_dir,
+    };
+    let mut lock = Lock::take(out_dir, announce);
+    let plan = plan(
+        out_dir,
+        &baked.files,
+        &Scope::default(),
+        &provenance(Vec::new()),
+    )?;
+    let written = write(&plan, flags.overwrite, &mut lock)?;
     let text = if flags.quiet {
         String::new()
     } else {
         text(&baked.rows)
     };
     let mut output = report(text, &full(command, &baked.rows), flags.json.as_deref())?;
+    output
+        .remarks
+        .extend(named(&plan, flags.overwrite, "replaced"));
     if flags.quiet {
         return Ok(output);
     }
@@ -105,9 +126,10 @@ fn finished(
         .remarks
         .extend(left_out.iter().map(|why| format!("left out: {why}")));
     output.remarks.push(format!(
-        "{}: {written} written, {} unchanged",
-        flags.out_dir.display(),
-        baked.files.len() - written
+        "{}: {} written, {} unchanged",
+        out_dir.display(),
+        written.written,
+        written.unchanged
     ));
     Ok(output)
 }
@@ -214,11 +236,6 @@ fn check_names(subjects: &[Lit], atlas: bool) -> Result<(), Error> {
     Err(Error::Usage {
         what: what.to_owned(),
     })
-}
-
-fn placed<'a>(baked: &'a Baked, out_dir: &Path) -> Vec<(PathBuf, &'a [u8])> {
-    let place = |(file, bytes): &'a (String, Vec<u8>)| (out_dir.join(file), bytes.as_slice());
-    baked.files.iter().map(place).collect()
 }
 
 /// A line for each row.

@@ -10,8 +10,9 @@ use crate::app::error::Error;
 use crate::app::names::{flag, unknown};
 use crate::app::request::{Materials, Request};
 use crate::app::source::materials;
-use crate::app::write::write_files;
+use crate::app::write::{try_places_of_ours, write_report};
 use crate::emit::Subject;
+use crate::report::SCHEMA;
 use crate::report::frontier::{Data, ERRORS, View, page, svg, text};
 
 use super::{Output, Progress, report, try_files};
@@ -28,6 +29,7 @@ pub fn run(flags: &ChartFlags, progress: Progress) -> Result<Output, Error> {
     let files = files(folder);
     let all = flags.json.iter().chain(&files);
     try_files(&all.map(PathBuf::as_path).collect::<Vec<_>>())?;
+    try_places_of_ours(&files, flags.overwrite)?;
     let request = Request {
         materials: chosen(flags)?,
         ..Request::default()
@@ -49,18 +51,16 @@ pub fn run(flags: &ChartFlags, progress: Progress) -> Result<Output, Error> {
         error,
     };
     let json = json!({
-        "tool": "fresnel-gen", "command": canonical(flags), "device": null, "rows": view.json(),
+        "tool": "fresnel-gen", "schema": SCHEMA, "command": canonical(flags), "device": null, "rows": view.json(),
     });
+    let drawn = match folder {
+        Some(folder) => written(folder, flags.overwrite, &view, [set, cost, error])?,
+        None => Vec::new(),
+    };
     let mut output = report(text(&view), &json, flags.json.as_deref())?;
     let left_out = found.left_out.iter();
-    output
-        .remarks
-        .extend(left_out.map(|unseen| format!("left out: {}", unseen.why)));
-    if let Some(folder) = folder {
-        output
-            .remarks
-            .extend(written(folder, &view, [set, cost, error])?);
-    }
+    let left_out = left_out.map(|unseen| format!("left out: {}", unseen.why));
+    output.remarks = left_out.chain(drawn).collect();
     Ok(output)
 }
 
@@ -85,7 +85,12 @@ pub(super) fn files(folder: Option<&Path>) -> Vec<PathBuf> {
 ///
 /// # Errors
 /// Nothing of the view is known, or a file cannot be written.
-pub(super) fn written(folder: &Path, view: &View, first: [usize; 3]) -> Result<Vec<String>, Error> {
+pub(super) fn written(
+    folder: &Path,
+    overwrite: bool,
+    view: &View,
+    first: [usize; 3],
+) -> Result<Vec<String>, Error> {
     let page = page(view.data, first).map_err(|what| Error::Usage { what })?;
     let picture = svg(view).ok_or_else(|| Error::Usage {
         what: format!(
@@ -96,7 +101,7 @@ pub(super) fn written(folder: &Path, view: &View, first: [usize; 3]) -> Result<V
     let files = files(Some(folder));
     let texts = [picture.as_bytes(), page.as_bytes()];
     let all: Vec<(PathBuf, &[u8])> = files.iter().cloned().zip(texts).collect();
-    write_files(&all)?;
+    write_report(&all, overwrite)?;
     let about = ["the picture of what is shown", "a page with all charts"];
     let remark = |(file, about): (&PathBuf, &str)| format!("{}: {about}", file.display());
     Ok(files.iter().zip(about).map(remark).collect())

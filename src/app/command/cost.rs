@@ -10,9 +10,10 @@ use crate::app::precision::several;
 use crate::app::request::Request;
 use crate::app::source::materials;
 use crate::app::verify::machine;
-use crate::app::write::write_file;
+use crate::app::write::{try_places_of_ours, write_report};
 use crate::cost::{FAMILIES, Family, Figures, Record, records};
 use crate::methods::{self, Method};
+use crate::report::SCHEMA;
 use crate::report::cost::{self as sheet, Row, Source};
 
 use super::{Output, Progress, report, try_places};
@@ -34,6 +35,7 @@ pub fn run(flags: &CostFlags, progress: Progress) -> Result<Output, Error> {
     let (functions, left_out) = asked(flags)?;
     let page = flags.out_dir.as_ref().map(|folder| folder.join(PAGE));
     try_places(flags.json.as_deref(), page.as_deref())?;
+    try_places_of_ours(page.as_slice(), flags.overwrite)?;
     let limits = Limits {
         seconds: flags.limit,
         workers: machine::cores(),
@@ -45,7 +47,7 @@ pub fn run(flags: &CostFlags, progress: Progress) -> Result<Output, Error> {
         .map(|(family, told)| rows(family, told.as_ref(), &records(family.name), &functions))
         .collect();
     let json = json!({
-        "tool": "fresnel-gen", "command": canonical(flags), "device": null,
+        "tool": "fresnel-gen", "schema": SCHEMA, "command": canonical(flags), "device": null,
         "rows": table.iter().flatten().map(Row::json).collect::<Vec<Value>>(),
     });
     let (text, findings, whole) = if flags.check {
@@ -53,9 +55,10 @@ pub fn run(flags: &CostFlags, progress: Progress) -> Result<Output, Error> {
     } else {
         (sheet::text(&table), 0, true)
     };
+    let paged = paged(flags, &table)?;
     let mut output = report(text, &json, flags.json.as_deref())?;
     output.remarks.extend(left_out);
-    output.remarks.extend(paged(flags, &table)?);
+    output.remarks.extend(paged);
     output.code = ending(flags, &table, findings, whole);
     Ok(output)
 }
@@ -191,7 +194,7 @@ fn paged(flags: &CostFlags, table: &[Vec<Row>]) -> Result<Option<String>, Error>
     };
     let page = sheet::page(table, &canonical(flags)).map_err(|what| Error::Usage { what })?;
     let file = folder.join(PAGE);
-    write_file(&file, page.as_bytes())?;
+    write_report(&[(file.clone(), page.as_bytes())], flags.overwrite)?;
     Ok(Some(format!("{}: a page with all figures", file.display())))
 }
 

@@ -16,6 +16,7 @@ use crate::fit::{
 };
 use crate::methods::{ALL, Class, Method, Values};
 use crate::num::in_parallel;
+use crate::report::SCHEMA;
 use crate::report::fits::{Row, text};
 
 use super::{Output, Progress, report, search, try_places};
@@ -35,7 +36,7 @@ pub fn run(flags: &FitFlags, progress: Progress) -> Result<Output, Error> {
         (of_colours(flags, aim, &forms)?, Vec::new())
     };
     let json = json!({
-        "tool": "fresnel-gen", "command": canonical(flags)?, "device": null,
+        "tool": "fresnel-gen", "schema": SCHEMA, "command": canonical(flags)?, "device": null,
         "rows": rows.iter().map(Row::json).collect::<Vec<Value>>(),
     });
     let mut output = report(text(&rows, &flags.gpu), &json, flags.json.as_deref())?;

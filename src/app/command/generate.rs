@@ -9,6 +9,7 @@ use crate::app::budget::{Budget, within};
 use crate::app::catalogue::add_catalogue;
 use crate::app::error::Error;
 use crate::app::generate::{Generated, Kept, generate_beside, generate_single};
+use crate::app::lock::{Announce, Lock};
 use crate::app::manifest::{self, Manifest};
 use crate::app::names::family;
 use crate::app::request::Request;
@@ -21,8 +22,8 @@ use crate::num::Precision;
 
 use super::Output;
 
-/// Generates.
-pub fn run(flags: &Generate) -> Result<Output, Error> {
+/// Generates. `announce` hears what a person should know before the run ends.
+pub fn run(flags: &Generate, announce: Announce) -> Result<Output, Error> {
     let (request, said) = chosen(flags, request(flags)?)?;
     if flags.depfile.as_deref() == Some(Path::new("-")) {
         return Err(Error::Usage {
@@ -31,7 +32,7 @@ pub fn run(flags: &Generate) -> Result<Output, Error> {
     }
     let mut output = match &flags.output {
         Some(file) => single(flags, &request, file)?,
-        None => tree(flags, &request)?,
+        None => tree(flags, &request, announce)?,
     };
     let said = said.into_iter().filter(|_| !flags.quiet);
     output.remarks = said.chain(output.remarks).collect();
@@ -39,12 +40,14 @@ pub fn run(flags: &Generate) -> Result<Output, Error> {
 }
 
 /// The tree of files: listed, compared or written.
-fn tree(flags: &Generate, request: &Request) -> Result<Output, Error> {
+fn tree(flags: &Generate, request: &Request, announce: Announce) -> Result<Output, Error> {
     let out_dir = if flags.out_dir.as_os_str().is_empty() {
         Path::new(".")
     } else {
         &flags.out_dir
     };
+    let changes_nothing = flags.check || flags.list;
+    let mut lock = (!changes_nothing).then(|| Lock::take(out_dir, announce));
     // Only a run that names methods adds to what a material's file holds.
     let kept = if flags.method.is_empty() && request.chosen.is_empty() {
         Kept::new()
@@ -76,10 +79,10 @@ fn tree(flags: &Generate, request: &Request) -> Result<Output, Error> {
         &generated.scope,
         &generated.provenance,
     )?;
-    if flags.check {
-        return Ok(checked(flags, &plan));
+    match &mut lock {
+        Some(lock) => written(flags, &generated, &plan, lock),
+        None => Ok(checked(flags, &plan)),
     }
-    written(flags, &generated, &plan, out_dir)
 }
 
 /// The request with the methods that a budget chooses, where one is given, and what is said of the choice.
@@ -128,6 +131,7 @@ fn checked(flags: &Generate, plan: &Plan) -> Output {
         code: u8::from(drift),
         ..Output::default()
     };
+    output.remarks = named(plan, flags.overwrite, "to be replaced");
     if drift && !flags.quiet {
         output.remarks.push(
             "the folder differs from what this run would write; run without --check to write it"
@@ -137,13 +141,37 @@ fn checked(flags: &Generate, plan: &Plan) -> Output {
     output
 }
 
+/// What a person should know of files that stay, or that are not as this program left them.
+pub(super) fn named(plan: &Plan, overwrite: bool, replaced: &str) -> Vec<String> {
+    let stays = plan.stays.iter();
+    let stays = stays.map(|stay| format!("left alone: {}: {}", stay.path, stay.why));
+    let edited = plan.edited.iter();
+    let edited = edited.map(|path| {
+        format!(
+            "{replaced}: {path}, which was changed since fresnel-gen wrote it, or is in no manifest"
+        )
+    });
+    let obstacles = plan.obstacles.iter().map(|obstacle| match overwrite {
+        true => format!(
+            "{replaced}: {}, which fresnel-gen did not write",
+            obstacle.path
+        ),
+        false => format!(
+            "{}: fresnel-gen did not write it; a run replaces it only with --overwrite",
+            obstacle.path
+        ),
+    });
+    stays.chain(edited).chain(obstacles).collect()
+}
+
 fn written(
     flags: &Generate,
     generated: &Generated,
     plan: &Plan,
-    out_dir: &Path,
+    lock: &mut Lock,
 ) -> Result<Output, Error> {
-    let counts = write(plan)?;
+    let counts = write(plan, flags.overwrite, lock)?;
+    let out_dir = &plan.out_dir;
     let outputs: Vec<String> = generated
         .artifacts
         .iter()
@@ -157,16 +185,15 @@ fn written(
     for why in generated.refused.iter().filter(|_| !flags.quiet) {
         output.remarks.push(format!("left out: {why}"));
     }
-    for path in plan.orphans.iter().filter(|_| !flags.quiet) {
+    for orphan in plan.orphans.iter().filter(|_| !flags.quiet) {
+        let file = &orphan.file;
         output
             .remarks
-            .push(format!("removed: {path}, which is no longer generated"));
+            .push(format!("removed: {file}, which is no longer generated"));
     }
-    for path in &plan.foreign {
-        output
-            .remarks
-            .push(format!("left alone: {path} was not written by fresnel-gen"));
-    }
+    output
+        .remarks
+        .extend(named(plan, flags.overwrite, "replaced"));
     if !flags.quiet {
         let folder = out_dir.display();
         output.remarks.push(format!(

@@ -7,6 +7,7 @@ use crate::app::error::Error;
 use crate::app::names::unknown;
 use crate::emit;
 use crate::methods::{self, Contract, Method};
+use crate::report::SCHEMA;
 use crate::report::table;
 use crate::targets::{self, Target};
 
@@ -59,7 +60,7 @@ fn listing(
                 .iter()
                 .map(|[name, summary, source]| json!({ "name": name, "summary": summary, "source": source }))
                 .collect();
-            let full = json!({ "tool": "fresnel-gen", "command": command, "device": null, "rows": json_rows });
+            let full = json!({ "tool": "fresnel-gen", "schema": SCHEMA, "command": command, "device": null, "rows": json_rows });
             (table::text(&["name", "summary"], &short), full)
         }
     };
@@ -91,7 +92,7 @@ fn method_text(method: &Method) -> String {
 
 fn method_json(method: &Method) -> Value {
     json!({
-        "name": method.name, "summary": method.summary, "source": method.source.line(),
+        "schema": SCHEMA, "name": method.name, "summary": method.summary, "source": method.source.line(),
         "formula": method.formula, "domain": method.domain,
         "arguments": method.inputs.iter()
             .map(|i| json!({ "name": i.name, "meaning": i.meaning, "domain": i.domain })).collect::<Vec<_>>(),
@@ -133,7 +134,7 @@ fn target_text(target: &Target) -> String {
 
 fn target_json(target: &Target) -> Value {
     json!({
-        "name": target.name, "summary": target.summary, "source": target.source,
+        "schema": SCHEMA, "name": target.name, "summary": target.summary, "source": target.source,
         "extension": target.extension, "by_default": target.by_default,
         "validators": target.validators.iter()
             .map(|v| json!({ "name": v.name, "command": v.command(), "get": v.compiler.get })).collect::<Vec<_>>(),

@@ -12,6 +12,7 @@ use crate::app::sight::{flags, sight};
 use crate::app::source::source;
 use crate::app::write::write_file;
 use crate::materials::{self, Extrapolate, Kind, Material, Sight};
+use crate::report::SCHEMA;
 use crate::report::card::card;
 use crate::report::png::png;
 use crate::report::table;
@@ -50,8 +51,7 @@ fn list(filter: &FilterFlags, json: Option<&Path>) -> Result<Output, Error> {
     let rows: Vec<Vec<String>> = chosen.iter().map(|m| row(m)).collect();
     let text = table::text(&["name", "class", "known in nm", "summary"], &rows);
     let rows: Vec<Value> = chosen.iter().map(|m| json_row(m)).collect();
-    let full =
-        json!({ "tool": "fresnel-gen", "command": "materials list", "device": null, "rows": rows });
+    let full = json!({ "tool": "fresnel-gen", "schema": SCHEMA, "command": "materials list", "device": null, "rows": rows });
     report(text, &full, json)
 }
 
@@ -236,6 +236,7 @@ fn text(m: &Material) -> String {
 
 fn json_of(m: &Material) -> Value {
     let mut row = json_row(m);
+    row["schema"] = json!(SCHEMA);
     row["conditions"] = json!(m.conditions);
     row["note"] = json!(m.note);
     row["data"] = samples(m).iter().map(|sample| json!(sample)).collect();

@@ -25,6 +25,7 @@ use std::path::Path;
 
 use super::args::{Cli, Command};
 use super::error::Error;
+use super::lock::Announce;
 use super::write::{is_same_file, try_file, write_file};
 
 /// What a run leaves: text for stdout, remarks for stderr, the exit code.
@@ -42,13 +43,15 @@ pub struct Output {
 pub type Progress<'a> = &'a mut dyn FnMut(u64, u64, &str);
 
 /// Runs what the command line asks for.
-pub fn run(cli: &Cli, progress: Progress) -> Result<Output, Error> {
+///
+/// `progress` hears how far long work is; `announce` hears what a person should know before the run ends.
+pub fn run(cli: &Cli, progress: Progress, announce: Announce) -> Result<Output, Error> {
     match &cli.command {
-        None => generate::run(&cli.generate),
+        None => generate::run(&cli.generate, announce),
         Some(Command::Methods(listing)) => listing::methods(listing),
         Some(Command::Materials(listing)) => materials::run(listing, progress),
         Some(Command::Targets(listing)) => listing::targets(listing),
-        Some(Command::Bake(flags)) => bake::run(flags, progress),
+        Some(Command::Bake(flags)) => bake::run(flags, progress, announce),
         #[cfg(feature = "gpu")]
         Some(Command::Verify(flags)) => verify::run(flags, progress),
         #[cfg(feature = "gpu")]

@@ -9,6 +9,7 @@ use crate::app::sight::sight;
 use crate::app::source::source;
 use crate::fit::{BOUNCES, By, Params, abbe, colour_errors, ior_d, params};
 use crate::materials::{self, Kind, Material, Sight, Surface};
+use crate::report::SCHEMA;
 use crate::report::table;
 use crate::spectra::{Gamut, Illuminant};
 
@@ -99,7 +100,7 @@ fn spread(told: &Told) -> ([f64; 3], [f64; 3]) {
 fn object(told: &Told) -> Value {
     let (params, integration) = (&told.params, &told.sight.integration);
     let mut object = json!({
-        "name": told.material.name, "class": told.material.kind.name(),
+        "schema": SCHEMA, "name": told.material.name, "class": told.material.kind.name(),
         "medium": told.medium.as_ref().map_or("air", |medium| &medium.name),
         "space": integration.space.name(), "illuminant": integration.illuminant.name(),
         "observer": integration.observer.name(), "adaptation": integration.adaptation.name(),

@@ -1,11 +1,14 @@
 //! `reproduce`: the thesis beside ours.
 
+use std::path::PathBuf;
+
 use serde_json::{Value, json};
 
 use crate::app::args::Reproduce;
 use crate::app::error::Error;
 use crate::app::names::unknown;
-use crate::app::write::write_file;
+use crate::app::write::write_report;
+use crate::report::SCHEMA;
 use crate::report::reproduce::{NOT_MEASURED, Part, Report, Row, reproduce, thesis};
 
 use super::{Output, Progress, report};
@@ -17,13 +20,14 @@ pub fn run(flags: &Reproduce, progress: Progress) -> Result<Output, Error> {
         .as_ref()
         .map_or(Part::ALL.as_slice(), std::slice::from_ref);
     let reproduced = reproduce(parts, thesis::ANGLES, progress);
+    let drawn = draw(flags, &reproduced)?;
     let mut output = report(
         reproduced.text(),
         &json(&reproduced, part),
         flags.json.as_deref(),
     )?;
     output.code = u8::from(reproduced.has_findings());
-    draw(flags, &reproduced, &mut output)?;
+    output.remarks.extend(drawn);
     Ok(output)
 }
 
@@ -57,24 +61,21 @@ fn json(reproduced: &Report, part: Option<Part>) -> Value {
         format!("reproduce {}", part.name())
     });
     json!({
-        "tool": "fresnel-gen", "command": command, "device": null,
+        "tool": "fresnel-gen", "schema": SCHEMA, "command": command, "device": null,
         "rows": reproduced.rows().map(Row::json).collect::<Vec<_>>(),
     })
 }
 
-fn draw(flags: &Reproduce, reproduced: &Report, output: &mut Output) -> Result<(), Error> {
-    for drawing in &reproduced.drawings {
-        write_file(
-            &flags.out_dir.join(&drawing.file),
-            drawing.chart.svg().as_bytes(),
-        )?;
-    }
-    if !reproduced.drawings.is_empty() {
-        output.remarks.push(format!(
-            "{}: {} figures",
-            flags.out_dir.display(),
-            reproduced.drawings.len()
-        ));
-    }
-    Ok(())
+/// Draws the figures, and says where.
+fn draw(flags: &Reproduce, reproduced: &Report) -> Result<Option<String>, Error> {
+    let pictures: Vec<(PathBuf, String)> = (reproduced.drawings.iter())
+        .map(|drawing| (flags.out_dir.join(&drawing.file), drawing.chart.svg()))
+        .collect();
+    let files: Vec<(PathBuf, &[u8])> = (pictures.iter())
+        .map(|(path, text)| (path.clone(), text.as_bytes()))
+        .collect();
+    write_report(&files, flags.overwrite)?;
+    let count = files.len();
+    let folder = flags.out_dir.display();
+    Ok((count > 0).then(|| format!("{folder}: {count} figures")))
 }

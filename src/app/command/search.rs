@@ -11,6 +11,7 @@ use crate::fit::{Aim, Candidate, Curve, Task, candidates, search};
 use crate::materials::{Material, find};
 use crate::methods::Method;
 use crate::num::in_parallel;
+use crate::report::SCHEMA;
 use crate::report::search::{Errors, Told, json, text};
 
 use super::fit::{canonical, subjects};
@@ -41,7 +42,7 @@ pub(super) fn run(
     let record = records(gpu.name);
     let cost = |method: &Method| library_cost(method, gpu, &record);
     let json = json!({
-        "tool": "fresnel-gen", "command": canonical(flags)?, "device": null,
+        "tool": "fresnel-gen", "schema": SCHEMA, "command": canonical(flags)?, "device": null,
         "rows": json(&told, &terms, aim, &cost),
     });
     let text = text(&told, &terms, gpu.name, &cost);

@@ -10,10 +10,11 @@ use crate::app::names::{flag, unknown};
 use crate::app::precision::named;
 use crate::app::request::Request;
 use crate::app::source::materials;
-use crate::app::write::write_files;
+use crate::app::write::{try_places_of_ours, write_report};
 use crate::emit::{Bounds, Naming, Subject, specialised_function};
 use crate::methods::{self, Method};
 use crate::num::Precision;
+use crate::report::SCHEMA;
 use crate::report::png::png;
 use crate::report::stability::{Row, heat, page, text};
 use crate::verify::stability::{Code, Finding, maps, scan, scan_specialised};
@@ -50,6 +51,7 @@ pub fn run(flags: &StabilityFlags, progress: Progress) -> Result<Output, Error> 
         .as_ref()
         .map(|folder| folder.join(index(precision)));
     try_places(flags.json.as_deref(), page.as_deref())?;
+    try_places_of_ours(page.as_slice(), flags.overwrite)?;
     let rows = if flags.material.is_empty() {
         asked.libraries(progress)
     } else {
@@ -60,12 +62,13 @@ pub fn run(flags: &StabilityFlags, progress: Progress) -> Result<Output, Error> 
         return Err(Error::Usage { what });
     }
     let json = json!({
-        "tool": "fresnel-gen", "command": canonical(flags), "device": null,
+        "tool": "fresnel-gen", "schema": SCHEMA, "command": canonical(flags), "device": null,
         "rows": rows.iter().map(Row::json).collect::<Vec<Value>>(),
     });
+    let drawn = asked.drawn(&rows, progress)?;
     let mut output = report(text(&rows), &json, flags.json.as_deref())?;
     output.remarks.extend(left_out);
-    output.remarks.extend(asked.drawn(&rows, progress)?);
+    output.remarks.extend(drawn);
     Ok(output)
 }
 
@@ -210,7 +213,7 @@ impl Asked<'_> {
             .collect();
         let index = index(self.precision);
         files.push((folder.join(&index), page.as_bytes()));
-        write_files(&files)?;
+        write_report(&files, self.flags.overwrite)?;
         Ok(Some(format!(
             "{}: {} maps, and {index} that shows them",
             folder.display(),

@@ -9,6 +9,7 @@ use crate::app::error::Error;
 use crate::app::sight::{flags as sight_flags, sight};
 use crate::app::source::{pages, read};
 use crate::materials::Sight;
+use crate::report::SCHEMA;
 use crate::report::survey::{Outcome, Surveyed, survey, text};
 use crate::spectra::Gamut;
 
@@ -32,7 +33,7 @@ pub fn run(flags: &SurveyFlags, json: Option<&Path>, progress: Progress) -> Resu
         all.push(surveyed(&flags.folder, file, &sight));
     }
     let rows: Vec<Value> = all.iter().map(Surveyed::json).collect();
-    let full = json!({ "tool": "fresnel-gen", "command": format!("materials survey{}", sight_flags(&sight)), "device": null, "rows": rows });
+    let full = json!({ "tool": "fresnel-gen", "schema": SCHEMA, "command": format!("materials survey{}", sight_flags(&sight)), "device": null, "rows": rows });
     report(text(&all), &full, json)
 }
 

@@ -13,6 +13,7 @@ use crate::app::source::{materials, source};
 use crate::app::verify::{Effort, Limits, Plan, exhaustive, junit, machine, serve, supervise};
 use crate::app::write::write_file;
 use crate::gpu::{Backend, Wanted};
+use crate::report::SCHEMA;
 use crate::report::table;
 use crate::verify::run::Devices;
 
@@ -113,7 +114,7 @@ fn told(
         write_file(file, xml.as_bytes())?;
     }
     let full = json!({
-        "tool": "fresnel-gen", "command": canonical(flags, request), "device": devices(rows), "rows": rows,
+        "tool": "fresnel-gen", "schema": SCHEMA, "command": canonical(flags, request), "device": devices(rows), "rows": rows,
     });
     let mut output = report(text(rows), &full, flags.json.as_deref())?;
     output

@@ -374,11 +374,16 @@ impl<'r> Run<'r> {
             name: subject.name.clone(),
             sha256: sha256(text.as_bytes()),
         };
-        Provenance {
-            version: env!("CARGO_PKG_VERSION").to_owned(),
-            naga: NAGA_VERSION.to_owned(),
-            inputs: self.subjects.iter().map(input).collect(),
-        }
+        provenance(self.subjects.iter().map(input).collect())
+    }
+}
+
+/// What a manifest says of a run with these inputs.
+pub fn provenance(inputs: Vec<Input>) -> Provenance {
+    Provenance {
+        version: env!("CARGO_PKG_VERSION").to_owned(),
+        naga: NAGA_VERSION.to_owned(),
+        inputs,
     }
 }
 

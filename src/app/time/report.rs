@@ -4,6 +4,7 @@ use serde_json::{Value, json};
 
 use crate::cost::overdraw::{Clock, Figure, Hello, Measured, Noise, Timed};
 use crate::ir::Ty;
+use crate::report::SCHEMA;
 use crate::report::table;
 
 use super::asked::Asked;
@@ -67,7 +68,7 @@ impl<'a> Report<'a> {
         let [heavy, empty] = self.measured.noise();
         let rows: Vec<Value> = rows.iter().map(|row| self.row(row)).collect();
         json!({
-            "tool": "fresnel-gen", "command": command, "device": self.hello.device,
+            "tool": "fresnel-gen", "schema": SCHEMA, "command": command, "device": self.hello.device,
             "adapter": self.hello.name, "driver": self.hello.driver, "software": self.hello.is_software,
             "clock": self.measured.clock.name(), "pixels": self.hello.pixels,
             "noise": { "heavy": noise(&heavy), "empty": noise(&empty) },

@@ -1,5 +1,7 @@
 //! The sheet the chart is set on: text and legend, from the top down.
 
+use crate::emit::MARK;
+
 use super::text::{Font, LEGEND, escape};
 use super::{Look, Series, Style};
 
@@ -140,7 +142,7 @@ impl Sheet {
     pub fn document(&self, title: &str, description: &str) -> String {
         let (width, height) = (self.frame.width, self.height().round());
         let head = format!(
-            "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width}\" height=\"{height}\" \
+            "<!-- {MARK} -->\n<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width}\" height=\"{height}\" \
              viewBox=\"0 0 {width} {height}\" role=\"img\" font-family=\"system-ui, sans-serif\">"
         );
         // The card is opaque so that the chart reads on a dark page as well.

@@ -147,27 +147,88 @@ fn read_only_mount(place: &Place) {
 }
 
 #[test]
-fn links_are_followed_to_files_and_never_removed_through() {
+fn links_are_not_written_through() {
+    use std::os::unix::fs::symlink;
     let place = Place::new();
     place.done("--target gles --method schlick");
-    place.put("elsewhere/fresnel_schlick.glsl", "old\n");
     let link = place.path("shaders-generated/gles/fresnel_schlick.glsl");
+    let text = place.read("shaders-generated/gles/fresnel_schlick.glsl");
     fs::remove_file(&link).unwrap();
-    std::os::unix::fs::symlink(place.path("elsewhere/fresnel_schlick.glsl"), &link).unwrap();
+    // A link to what would be written passes: build sandboxes are made of them.
+    place.put("elsewhere/fresnel_schlick.glsl", &text);
+    symlink(place.path("elsewhere/fresnel_schlick.glsl"), &link).unwrap();
     place.done("--target gles --method schlick");
-    assert_eq!(
-        place
-            .run("--target gles --method schlick --check")
-            .ends(0)
-            .out,
-        ""
+    place.done("--target gles --method schlick --check");
+    place.put("elsewhere/fresnel_schlick.glsl", "old\n");
+    place.refused(
+        "--target gles --method schlick",
+        &["fresnel_schlick.glsl: a link to ", "nothing was written"],
     );
+    place.done("--target gles --method schlick --overwrite");
+    assert_eq!(place.read("elsewhere/fresnel_schlick.glsl"), "old\n");
+    assert!(!fs::symlink_metadata(&link).unwrap().is_symlink());
     place.done("-o single.wgsl --method schlick");
     fs::remove_file(place.path("single.wgsl")).unwrap();
-    std::os::unix::fs::symlink(
+    symlink(
         place.path("elsewhere/single.wgsl"),
         place.path("single.wgsl"),
     )
     .unwrap();
     place.run("-o single.wgsl --method schlick").ends(0);
+}
+
+#[test]
+fn a_folder_of_the_tree_that_is_a_link_is_refused() {
+    use std::os::unix::fs::symlink;
+    let usual = "--target gles,wgsl --material gold";
+    for folder in ["gles", "gles/materials", "lut"] {
+        let place = Place::new();
+        let run = if folder == "lut" {
+            "bake --material gold --format ktx2"
+        } else {
+            usual
+        };
+        place.done(run);
+        fs::create_dir(place.path("elsewhere")).unwrap();
+        fs::rename(place.path(OUT).join(folder), place.path("elsewhere/moved")).unwrap();
+        symlink("../elsewhere/moved", place.path(OUT).join(folder)).unwrap();
+        let other = if folder == "lut" {
+            "bake --material gold --format ktx2 --size 32"
+        } else {
+            "--target gles,wgsl --material gold --prefix other_"
+        };
+        let link = format!("{OUT}/{folder} is a link to ../elsewhere/moved");
+        place.refused(other, &[&link, "nothing was written"]);
+        if folder != "lut" {
+            place.done(&format!("{usual} --check"));
+        }
+    }
+    // The output folder itself may be one.
+    let place = Place::new();
+    fs::create_dir(place.path("real")).unwrap();
+    symlink("real", place.path(OUT)).unwrap();
+    place.done(usual);
+    assert!(place.path("real/gles/materials/gold.glsl").exists());
+}
+
+#[test]
+fn check_creates_nothing_and_needs_no_right_to_write() {
+    let place = Place::new();
+    let ran = place.run("--target gles --method schlick --check").ends(1);
+    assert!(ran.out.contains("missing: gles/fresnel_schlick.glsl"));
+    assert!(!place.path(OUT).exists());
+    place.done("--target gles --method schlick");
+    let script = format!(
+        "mount --bind {OUT} {OUT} && mount -o remount,ro,bind {OUT} || exit 77; '{PROGRAM}' --target gles --method schlick --check && exec '{PROGRAM}' --target gles --method schlick"
+    );
+    let run = Command::new("unshare")
+        .args(["--mount", "sh", "-c", &script])
+        .current_dir(place.path(""))
+        .output();
+    match run.map(|output| Ran::new(script, output)) {
+        Ok(ran) if ran.code != Some(77) && !ran.err.contains("unshare:") => drop(ran.ends(0)),
+        other => not_checked(&format!(
+            "a read-only folder: it cannot be mounted ({other:?})"
+        )),
+    }
 }

@@ -5,7 +5,7 @@ use std::path::Path;
 use std::process::{Child, Stdio};
 use std::time::Duration;
 
-use fresnel_gen::app::folder;
+use fresnel_gen::app::{folder, lock, manifest};
 
 use super::{OUT, Place, contents};
 
@@ -80,6 +80,10 @@ fn sorted(
 ) -> (usize, [usize; 2]) {
     let (mut temporary, mut counts) = (0, [0, 0]);
     for (path, bytes) in found {
+        // While a run writes, the manifest lists both editions.
+        if path == lock::FILE || path == manifest::FILE {
+            continue;
+        }
         let of = [0, 1].map(|edition: usize| whole[edition].get(path) == Some(bytes));
         match of {
             _ if folder::is_temporary(path) => temporary += 1,

@@ -11,6 +11,7 @@ mod cost;
 mod determinism;
 #[cfg(unix)]
 mod disk;
+mod files;
 mod fit;
 mod generation;
 mod half;

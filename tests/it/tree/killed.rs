@@ -5,12 +5,12 @@ use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Stdio};
 use std::time::Duration;
 
-use fresnel_gen::app::folder;
+use fresnel_gen::app::manifest::Manifest;
 use fresnel_gen::app::tree::plan;
-use fresnel_gen::app::write::write;
+use fresnel_gen::app::{folder, lock, manifest, ours};
 use tempfile::TempDir;
 
-use super::{Snapshot, big_tree, provenance, snapshot};
+use super::{Snapshot, big_tree, provenance, snapshot, write};
 
 #[cfg(unix)]
 #[test]
@@ -33,9 +33,14 @@ fn a_killed_run_leaves_each_file_old_or_new() {
         std::thread::sleep(Duration::from_micros(5_000 + (seed >> 33) % 60_000));
         child.kill().unwrap();
         child.wait().unwrap();
-        for (path, (bytes, _)) in snapshot(&out) {
+        let found = snapshot(&out);
+        assert_all_listed(&found);
+        for (path, (bytes, _)) in found {
             if folder::is_temporary(&path) {
                 leftovers += 1;
+                continue;
+            }
+            if path == lock::FILE || path == manifest::FILE {
                 continue;
             }
             let whole = allowed.iter().filter_map(|tree| tree.get(&path));
@@ -54,6 +59,28 @@ fn a_killed_run_leaves_each_file_old_or_new() {
         .collect()
     };
     assert_eq!(contents(&snapshot(&out)), contents(&allowed[1]));
+}
+
+/// A manifest names every file, by its bytes, of whatever step the run was killed in.
+#[track_caller]
+fn assert_all_listed(found: &Snapshot) {
+    let Some((text, _)) = found.get(manifest::FILE) else {
+        let named = |path: &String| folder::is_temporary(path) || path == lock::FILE;
+        assert!(found.keys().all(named), "{:?}", found.keys());
+        return;
+    };
+    let listed = Manifest::parse(Path::new(manifest::FILE), text)
+        .unwrap()
+        .files;
+    for (path, (bytes, _)) in found {
+        let own = listed.iter().find(|entry| entry.file == *path);
+        let is_beside =
+            folder::is_temporary(path) || [lock::FILE, manifest::FILE].contains(&&**path);
+        assert!(
+            is_beside || own.is_some_and(|entry| ours::is_listed(entry, bytes)),
+            "{path} is not listed as it is"
+        );
+    }
 }
 
 /// Names the folder to the child that is to be killed.

@@ -10,10 +10,13 @@ use std::fs;
 use std::path::Path;
 use std::time::SystemTime;
 
+use fresnel_gen::app::Error;
 use fresnel_gen::app::artifact::Artifact;
+use fresnel_gen::app::lock::Lock;
 use fresnel_gen::app::manifest::{Input, Provenance};
 use fresnel_gen::app::scope::Scope;
 use fresnel_gen::app::tree::{Plan, plan};
+use fresnel_gen::app::write::{self, Written};
 use fresnel_gen::num::Precision;
 use serde_json::json;
 
@@ -30,6 +33,11 @@ pub fn whole(out: &Path) -> Plan {
         ..scope
     };
     plan(out, &artifacts, &scope, &provenance()).unwrap()
+}
+
+/// Writes as a run does that replaces nothing of others.
+pub fn write(plan: &Plan) -> Result<Written, Error> {
+    write::write(plan, false, &mut Lock::take(&plan.out_dir, &|_| ()))
 }
 
 /// `--material silver`: no library, no catalogue.
@@ -81,11 +89,8 @@ pub fn run(targets: &[&str], materials: &[&str], method: Option<&str>) -> (Vec<A
 pub fn big_tree(edition: usize, bytes: usize) -> (Vec<Artifact>, Scope) {
     let count = if edition == 1 { 60 } else { 54 };
     let artifacts = (0..count).map(|at| {
-        let mut artifact = artifact(
-            &format!("gles/part{}/fresnel_{at}.glsl", at % 3),
-            "gles",
-            edition,
-        );
+        let mut artifact = artifact(&format!("gles/fresnel_m{at}.glsl"), "gles", edition);
+        artifact.method = Some(format!("m{at}"));
         artifact.bytes.resize(bytes, b'0' + edition as u8);
         artifact
     });

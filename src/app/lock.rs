@@ -1,0 +1,204 @@
+//! The lock on an output folder: runs that write to one folder do so one after the other.
+//!
+//! The lock lies on the file [`FILE`] in the folder. The system releases it when a run ends or is killed. While a run
+//! works, the file lists the temporary files of the run, written down before they are made: what a killed run leaves
+//! behind is known by its name, and the next run removes it. A run that ends removes the file itself. Nobody renames it.
+
+use std::fs::{self, File, OpenOptions, TryLockError};
+use std::io::{self, ErrorKind, Read, Seek, SeekFrom, Write};
+use std::path::{Path, PathBuf};
+use std::thread;
+use std::time::Duration;
+
+use super::artifact::check_path;
+use super::folder::is_temporary;
+
+/// The lock's file in the output folder.
+pub const FILE: &str = ".fresnel-gen.lock";
+
+/// How long a run waits before it says that it waits: so many turns of so many milliseconds.
+const SILENT_TURNS: u32 = 20;
+const TURN_MS: u64 = 50;
+
+/// Hears what a person should know while a run goes on.
+pub type Announce<'a> = &'a dyn Fn(&str);
+
+/// A held lock, or the lack of one where the folder cannot have it.
+#[derive(Debug)]
+pub struct Lock {
+    file: Option<File>,
+    path: PathBuf,
+    /// Temporary files that a killed run left behind, relative to the folder.
+    leftovers: Vec<String>,
+    /// Folders that were made for the lock, the outermost first.
+    created: Vec<PathBuf>,
+}
+
+impl Lock {
+    /// Waits until no other run holds the folder's lock, and takes it. The folder is made where it is missing.
+    ///
+    /// Where the lock's file cannot be made, as in a read-only folder, nothing is held: a run that has nothing to write
+    /// needs no lock, and one that has something fails when it writes. Where the file system has no locks the run goes on
+    /// without and `announce` hears of it.
+    pub fn take(out_dir: &Path, announce: Announce) -> Lock {
+        let mut lock = Lock {
+            file: None,
+            path: out_dir.join(FILE),
+            leftovers: Vec::new(),
+            created: Vec::new(),
+        };
+        loop {
+            lock.create_folders(out_dir);
+            if is_foreign(&lock.path) {
+                announce(&format!(
+                    "{} is not a lock of fresnel-gen, which goes on without; let no other run write there meanwhile",
+                    lock.path.display()
+                ));
+                return lock;
+            }
+            let opened = OpenOptions::new()
+                .read(true)
+                .write(true)
+                .create(true)
+                .truncate(false)
+                .open(&lock.path);
+            let Ok(mut file) = opened else {
+                return lock;
+            };
+            match wait(&file, &lock.path, announce) {
+                Err(why) => {
+                    drop(file);
+                    announce(&format!(
+                        "{}: the file system has no locks ({why}); let no other run write there meanwhile",
+                        out_dir.display()
+                    ));
+                    let _ = fs::remove_file(&lock.path);
+                    return lock;
+                }
+                // The run before this one removed the file while this one waited for it.
+                Ok(()) if !is_at(&file, &lock.path) => continue,
+                Ok(()) => {
+                    lock.leftovers = listed(&mut file);
+                    lock.file = Some(file);
+                    return lock;
+                }
+            }
+        }
+    }
+
+    /// Writes down which temporary files are about to be made. Without a held lock nothing is written down.
+    ///
+    /// # Errors
+    /// The disk is full, or the like.
+    pub fn write_down(&mut self, temporaries: &[String]) -> io::Result<()> {
+        let Some(file) = &mut self.file else {
+            return Ok(());
+        };
+        let lines: String = (self.leftovers.iter().chain(temporaries))
+            .map(|name| format!("{name}\n"))
+            .collect();
+        file.seek(SeekFrom::Start(0))?;
+        file.set_len(0)?;
+        file.write_all(lines.as_bytes())
+    }
+
+    /// Temporary files that a killed run left behind, relative to the folder.
+    pub fn leftovers(&self) -> &[String] {
+        &self.leftovers
+    }
+
+    /// The leftovers are removed: nobody need remember them.
+    pub fn forget_leftovers(&mut self) {
+        self.leftovers.clear();
+    }
+
+    fn create_folders(&mut self, out_dir: &Path) {
+        let missing = out_dir.ancestors().take_while(|folder| {
+            !folder.as_os_str().is_empty() && fs::symlink_metadata(folder).is_err()
+        });
+        let missing: Vec<PathBuf> = missing.map(Path::to_path_buf).collect();
+        for folder in missing.into_iter().rev() {
+            if fs::create_dir(&folder).is_ok() {
+                self.created.push(folder);
+            }
+        }
+    }
+}
+
+impl Drop for Lock {
+    fn drop(&mut self) {
+        // A run that failed removed its own temporary files, and not those of the run before it.
+        let is_clean = self.leftovers.is_empty() || self.write_down(&[]).is_err();
+        if let (Some(file), true) = (&mut self.file, is_clean) {
+            // Elsewhere a file that another run has open cannot be removed: it stays, and lists nothing.
+            if cfg!(unix) {
+                let _ = fs::remove_file(&self.path);
+            } else {
+                let _ = file.set_len(0);
+            }
+        }
+        // A run that wrote nothing leaves no folder. One that holds something is not removed.
+        for folder in self.created.iter().rev() {
+            let _ = fs::remove_dir(folder);
+        }
+    }
+}
+
+/// Waits for the lock, and says so when that takes longer than a second.
+fn wait(file: &File, path: &Path, announce: Announce) -> io::Result<()> {
+    for _ in 0..SILENT_TURNS {
+        match file.try_lock() {
+            Ok(()) => return Ok(()),
+            Err(TryLockError::WouldBlock) => thread::sleep(Duration::from_millis(TURN_MS)),
+            Err(TryLockError::Error(why)) => return Err(why),
+        }
+    }
+    let folder = path.parent().unwrap_or(path).display();
+    announce(&format!(
+        "{folder}: another run writes there; waiting for it to end"
+    ));
+    loop {
+        match file.lock() {
+            Err(why) if why.kind() == ErrorKind::Interrupted => {}
+            other => return other,
+        }
+    }
+}
+
+/// Whether the open file is still the one that lies at this path.
+#[cfg(unix)]
+fn is_at(file: &File, path: &Path) -> bool {
+    use std::os::unix::fs::MetadataExt;
+    let identity = |found: fs::Metadata| (found.dev(), found.ino());
+    let (held, there) = (file.metadata(), fs::symlink_metadata(path));
+    match (held, there) {
+        (Ok(held), Ok(there)) => identity(held) == identity(there),
+        _ => false,
+    }
+}
+
+/// Elsewhere the file is never removed.
+#[cfg(not(unix))]
+fn is_at(_file: &File, _path: &Path) -> bool {
+    true
+}
+
+/// The temporary files that the lock's file lists.
+fn listed(file: &mut File) -> Vec<String> {
+    let mut text = String::new();
+    let read = file.read_to_string(&mut text);
+    match read {
+        Ok(_) => text.lines().map(str::to_owned).collect(),
+        Err(_) => Vec::new(),
+    }
+}
+
+/// Whether something else lies at the lock's place: a link, a folder, a pipe, or a file that lists other names than those
+/// of temporary files.
+fn is_foreign(path: &Path) -> bool {
+    let Ok(found) = fs::symlink_metadata(path) else {
+        return false;
+    };
+    let is_ours = |line: &str| is_temporary(line) && check_path(line).is_ok();
+    !found.is_file() || fs::read_to_string(path).is_ok_and(|text| !text.lines().all(is_ours))
+}

@@ -1,0 +1,298 @@
+//! A user's files: nothing is removed or replaced that the program did not write and can prove so; runs at once in one
+//! folder lose nothing.
+
+use std::collections::BTreeSet;
+use std::fs;
+use std::io::{BufRead, BufReader};
+use std::process::{Child, Stdio};
+
+use fresnel_gen::app::artifact::sha256;
+use fresnel_gen::app::lock::{self, Lock};
+use fresnel_gen::methods;
+
+use super::{OUT, Place, contents};
+
+/// Files that look like ours and are the user's: a shader with a pasted function, a copy, what `-o` wrote.
+#[test]
+fn a_run_without_flags_removes_nothing_of_others() {
+    let place = Place::new();
+    let pasted = place.run("--method schlick --target gles -o -").ends(0).out;
+    let mine = [
+        ("gles/water.glsl", format!("{pasted}\nvoid main() {{}}\n")),
+        ("gles/materials/old_gold.glsl", pasted.clone()),
+        ("wgsl/fresnel_mine.wgsl", pasted),
+    ];
+    for (path, text) in &mine {
+        place.put(&format!("{OUT}/{path}"), text);
+    }
+    let ran = place.done("");
+    for (path, text) in &mine {
+        assert_eq!(&place.read(&format!("{OUT}/{path}")), text);
+        assert!(ran.err.contains(&format!("left alone: {path}")), "{ran:?}");
+    }
+    let check = place.done("--check");
+    assert_eq!(check.out, "", "what stays is no finding");
+    assert!(
+        check.err.contains("left alone: gles/water.glsl"),
+        "{check:?}"
+    );
+}
+
+/// An orphan that somebody edited stays, is named once, and leaves the manifest.
+#[test]
+fn an_edited_orphan_stays() {
+    let place = Place::new();
+    place.done("--target gles --method schlick --prefix old_");
+    let path = format!("{OUT}/gles/old_schlick.glsl");
+    place.put(&path, place.read(&path) + "// mine\n");
+    let check = place.run("--target gles --method schlick --check").ends(1);
+    assert!(!check.out.contains("orphan"), "{check:?}");
+    let ran = place.done("--target gles --method schlick");
+    assert!(
+        ran.err.contains("left alone: gles/old_schlick.glsl"),
+        "{ran:?}"
+    );
+    assert!(place.read(&path).ends_with("// mine\n"));
+    assert_eq!(place.listed(), ["gles/fresnel_schlick.glsl"]);
+    let again = place.done("--target gles --method schlick");
+    assert!(!again.err.contains("left alone"), "{again:?}");
+}
+
+#[test]
+fn a_hostile_manifest_removes_nothing() {
+    let place = Place::new();
+    place.put("src/main.rs", "fn main() {}\n");
+    let hash = sha256(b"fn main() {}\n");
+    for hash in ["0", &hash] {
+        place.put(
+            "manifest.json",
+            format!(
+                r#"{{"tool":"fresnel-gen","version":"0.1.0","naga":"","inputs":[],"files":[{{"file":"src/main.rs","target":"gles","method":"schlick","material":null,"sha256":"{hash}"}}]}}"#
+            ),
+        );
+        place.done("--target gles --method schlick --material none --out-dir .");
+        assert_eq!(place.read("src/main.rs"), "fn main() {}\n");
+        assert!(place.read("manifest.json").contains("src/main.rs"));
+    }
+}
+
+#[test]
+fn a_newer_manifest_is_not_touched() {
+    let place = Place::new();
+    place.done("--target gles --method schlick");
+    let manifest = format!("{OUT}/manifest.json");
+    let text = place.read(&manifest);
+    assert!(text.contains("\"schema\": 1,"), "{text}");
+    place.put(&manifest, text.replace("\"schema\": 1,", "\"schema\": 2,"));
+    for line in ["--target gles --method schlick", "--target gles --check"] {
+        place.refused(line, &["manifest.json:3:", "a newer fresnel-gen wrote it"]);
+    }
+    let conflict = text.replace("\"schema\": 1,", "<<<<<<< HEAD\n\"schema\": 1,\n>>>>>>> x");
+    place.put(&manifest, conflict);
+    place.refused(
+        "--target gles --method schlick",
+        &["manifest.json:3:1: it holds a merge conflict", "--theirs"],
+    );
+}
+
+/// A file of the user's own lies at an output path: nothing is written, and `--overwrite` takes it.
+#[test]
+fn what_is_not_ours_is_not_replaced() {
+    let lut = format!("{OUT}/lut/gold.png");
+    let shader = format!("{OUT}/gles/fresnel_schlick.glsl");
+    for (line, path) in [
+        ("--target gles --method schlick,fitted", shader.as_str()),
+        ("bake --material gold,water", lut.as_str()),
+        ("chart --material gold,platinum --out-dir .", "chart.svg"),
+        ("chart --material gold,platinum --out-dir .", "chart.html"),
+        ("stability --method schlick --out-dir .", "index.html"),
+        ("stability --method schlick --out-dir .", "schlick_eta.png"),
+        ("reproduce figures --out-dir .", "figure-1-gold.svg"),
+    ] {
+        let path = match path {
+            "figure-1-gold.svg" => &some_figure(),
+            other => other,
+        };
+        let place = Place::new();
+        place.put(path, "mine\n");
+        place.refused(
+            line,
+            &[path, "did not write", "nothing was written", "--overwrite"],
+        );
+        place.done(&format!("{line} --overwrite"));
+        assert_ne!(place.path(path).metadata().unwrap().len(), 5, "{line}");
+        // What a run wrote bears its mark, or is listed: the next one replaces it.
+        place.done(line);
+    }
+}
+
+/// The name of a figure that `reproduce` draws.
+fn some_figure() -> String {
+    let place = Place::new();
+    place.done("reproduce figures --out-dir .");
+    let mut names = contents(&place.path("")).into_keys();
+    names.find(|name| name.ends_with(".svg")).unwrap()
+}
+
+/// What is named on the command line is replaced, as a compiler replaces its output.
+#[test]
+fn what_the_user_names_is_replaced() {
+    let place = Place::new();
+    for (line, path) in [
+        ("--method schlick --target wgsl -o mine", "mine"),
+        ("--method schlick --depfile mine", "mine"),
+        ("methods --json mine", "mine"),
+        ("materials show gold --svg mine", "mine"),
+    ] {
+        place.put(path, "mine\n");
+        place.done(line);
+        assert_ne!(place.read(path), "mine\n", "{line}");
+    }
+}
+
+#[test]
+fn an_edited_file_of_ours_is_replaced_and_named() {
+    let place = Place::new();
+    place.done("--target gles --method schlick");
+    let path = format!("{OUT}/gles/fresnel_schlick.glsl");
+    let text = place.read(&path);
+    place.put(&path, text.clone() + "// mine\n");
+    let ran = place.done("--target gles --method schlick");
+    let said = "replaced: gles/fresnel_schlick.glsl, which was changed";
+    assert!(ran.err.contains(said), "{ran:?}");
+    assert_eq!(place.read(&path), text);
+    // Version control that changes ends of lines makes no difference.
+    place.put(&path, text.replace('\n', "\r\n"));
+    place.done("--target gles --method schlick --check");
+}
+
+#[test]
+fn tables_that_bake_writes_are_listed_and_stay() {
+    let place = Place::new();
+    place.done("bake --material gold,silver --format c,png8 --target gles");
+    let tables: BTreeSet<String> = place.listed().into_iter().collect();
+    let there = contents(&place.path(OUT)).into_keys();
+    let there: BTreeSet<String> = there.filter(|path| path != "manifest.json").collect();
+    assert_eq!(tables, there);
+    place.done("");
+    let listed: BTreeSet<String> = place.listed().into_iter().collect();
+    assert!(tables.is_subset(&listed));
+    assert!(
+        tables
+            .iter()
+            .all(|path| place.path(OUT).join(path).exists())
+    );
+    place.done("--check");
+    // The same tables by `bake` or by a run without flags: the same manifest.
+    let manifest = place.manifest();
+    place.done("bake --atlas");
+    assert_eq!(place.manifest(), manifest);
+}
+
+/// Binary files say who wrote them as well.
+#[test]
+fn binary_files_bear_the_mark() {
+    let place = Place::new();
+    place.done("bake --material gold --format exr-half,exr-float,png8,png16,ktx2 --out-dir .");
+    place.done("stability --method schlick --out-dir maps");
+    fs::remove_file(place.path("manifest.json")).unwrap();
+    let files = contents(&place.path(""));
+    for (path, bytes) in &files {
+        assert!(fresnel_gen::app::ours::bears_mark(bytes), "{path}");
+    }
+    // Without a manifest the mark is what lets a run replace them.
+    place.done(
+        "bake --material gold --size 32 --format exr-half,exr-float,png8,png16,ktx2 --out-dir .",
+    );
+}
+
+/// Runs at once, of different methods, targets and materials and of the same: every one ends well, and the manifest
+/// lists all.
+#[test]
+fn runs_at_once_lose_nothing() {
+    for count in [2, 8, 32] {
+        let place = Place::new();
+        let names: Vec<&str> = methods::ALL.iter().map(|method| method.name).collect();
+        let lines: Vec<String> = (0..count)
+            .map(|at| match at % 4 {
+                0 => format!("--target wgsl --method {}", names[at / 2 % names.len()]),
+                1 => format!("--target gles,hlsl --method {}", names[at % names.len()]),
+                2 => "--target gles --method schlick,fitted".to_owned(),
+                _ => format!(
+                    "bake --material {} --size 16",
+                    ["gold", "water"][at / 4 % 2]
+                ),
+            })
+            .collect();
+        let start = |line: &String| -> Child {
+            let words: Vec<&str> = line.split(' ').collect();
+            let mut command = place.command(&words);
+            let command = command.stdout(Stdio::null()).stderr(Stdio::piped());
+            command.spawn().unwrap()
+        };
+        let children: Vec<Child> = lines.iter().map(start).collect();
+        for (line, child) in lines.iter().zip(children) {
+            let output = child.wait_with_output().unwrap();
+            let said = String::from_utf8_lossy(&output.stderr).into_owned();
+            assert!(output.status.success(), "{count} at once: {line}: {said}");
+        }
+        let there = contents(&place.path(OUT)).into_keys();
+        let there: BTreeSet<String> = there.filter(|path| path != "manifest.json").collect();
+        assert_eq!(there, place.listed().into_iter().collect(), "{count}");
+        for line in lines.iter().filter(|line| !line.starts_with("bake")) {
+            place.done(&format!("{line} --check"));
+        }
+    }
+}
+
+/// A run that waits for another says so after a second, and goes on when the other ends.
+#[test]
+fn a_wait_is_announced() {
+    let place = Place::new();
+    let held = Lock::take(&place.path(OUT), &|_| ());
+    let words = ["--target", "gles", "--method", "schlick"];
+    let mut child = (place.command(&words).stderr(Stdio::piped()))
+        .spawn()
+        .unwrap();
+    let mut lines = BufReader::new(child.stderr.take().unwrap()).lines();
+    let said = lines.next().unwrap().unwrap();
+    assert!(said.contains("another run writes there; waiting"), "{said}");
+    assert!(!place.path(OUT).join("gles").exists());
+    // `--check` waits for nobody.
+    place.run("--target gles --method schlick --check").ends(1);
+    drop(held);
+    assert!(child.wait().unwrap().success());
+    assert!(!place.path(OUT).join(lock::FILE).exists());
+}
+
+/// Something of the user's own in the lock's place is neither removed nor waited for.
+#[test]
+fn a_file_of_others_in_the_locks_place_stays() {
+    let place = Place::new();
+    let path = format!("{OUT}/{}", lock::FILE);
+    place.put(&path, "mine\n");
+    let ran = place.done("--target gles --method schlick");
+    assert!(ran.err.contains("is not a lock of fresnel-gen"), "{ran:?}");
+    assert_eq!(place.read(&path), "mine\n");
+    #[cfg(unix)]
+    {
+        fs::remove_file(place.path(&path)).unwrap();
+        std::os::unix::fs::symlink("/dev/null", place.path(&path)).unwrap();
+        place.done("--target hlsl --method schlick");
+        assert!(
+            fs::symlink_metadata(place.path(&path))
+                .unwrap()
+                .is_symlink()
+        );
+    }
+}
+
+/// A run that finds nothing to write leaves no folder behind, nor a lock.
+#[test]
+fn a_refused_run_leaves_nothing() {
+    let place = Place::new();
+    place.refused("--target gles --method nothing", &["there is no method"]);
+    assert!(!place.path(OUT).exists());
+    place.done("--target gles --method schlick");
+    assert!(!place.path(OUT).join(lock::FILE).exists());
+}
