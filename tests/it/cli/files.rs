@@ -87,7 +87,10 @@ fn a_newer_manifest_is_not_touched() {
     for line in ["--target gles --method schlick", "--target gles --check"] {
         place.refused(line, &["manifest.json:3:", "a newer fresnel-gen wrote it"]);
     }
-    let conflict = text.replace("\"schema\": 1,", "<<<<<<< HEAD\n\"schema\": 1,\n>>>>>>> x");
+    let conflict = text.replace(
+        "  \"schema\": 1,",
+        "<<<<<<< HEAD\n\"schema\": 1,\n>>>>>>> x",
+    );
     place.put(&manifest, conflict);
     place.refused(
         "--target gles --method schlick",

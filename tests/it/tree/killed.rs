@@ -1,6 +1,7 @@
 //! Runs that are killed: each file is old or new, and the next run cleans up.
 
 use std::collections::BTreeMap;
+use std::io::{BufRead, BufReader};
 use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Stdio};
 use std::time::Duration;
@@ -103,10 +104,17 @@ fn spawn_writer(out: &Path) -> Child {
     let module = module_path!().split_once("::").map(|parts| parts.1);
     let test = [module, Some("child_that_writes_until_killed")];
     let test = test.into_iter().flatten().collect::<Vec<_>>().join("::");
-    Command::new(std::env::current_exe().unwrap())
+    let mut child = Command::new(std::env::current_exe().unwrap())
         .args(["--exact", &test])
         .env(CHILD, out)
-        .stdout(Stdio::null())
+        .stdout(Stdio::piped())
         .spawn()
-        .unwrap()
+        .unwrap();
+    // The process takes as long to start as the machine is busy: it says so when it has.
+    let said = BufReader::new(child.stdout.take().unwrap()).lines();
+    let started = said
+        .map_while(Result::ok)
+        .find(|line| line.starts_with("running"));
+    assert!(started.is_some());
+    child
 }
