@@ -291,10 +291,8 @@ fn errors_stand_at_their_places(read: &Read) {
         .model
         .iter()
         .all(|claim| claim.max_abs == 0.0);
-    assert!(
-        seen > 5 || is_exact || !read.method.is_fitted(),
-        "nothing was read: {seen}"
-    );
+    let is_read = seen > 5 || is_exact || read.precision.is_half();
+    assert!(is_read, "nothing was read: {seen}");
 }
 
 /// Indices below 1, with their critical angles.

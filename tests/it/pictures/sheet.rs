@@ -22,7 +22,7 @@ pub static FACTS: &[Fact] = &[
     Fact {
         pictures: "*material-*.svg",
         says: "reflectance at 0 degrees is what n and k of the panel beside it give, at each wavelength",
-        holds: |shown| Sheet::new(shown).index_gives_reflectance(),
+        holds: |shown| Sheet::new(shown).index_gives_reflectance_in(1.0),
     },
     Fact {
         pictures: "*material-*.svg",
@@ -54,6 +54,17 @@ pub static FACTS: &[Fact] = &[
             let [red, green, blue] = sheet.swatch(0.0).fill;
             assert!(red > green && green > blue + 40, "{red} {green} {blue}");
             assert!(sheet.swatch(82.0).fill[2] > blue);
+        },
+    },
+    Fact {
+        pictures: "*gold_in_water.svg",
+        says: "n and k are gold's own, and what it reflects in water is what they give divided by water's index",
+        holds: |shown| {
+            let sheet = Sheet::new(shown);
+            assert!(shown.text().contains("Its own, not divided by the medium"));
+            sheet.index_gives_reflectance_in(1.334);
+            let [red, green, blue] = sheet.swatch(0.0).fill;
+            assert!(red > green && green > blue + 40, "{red} {green} {blue}");
         },
     },
     Fact {
@@ -178,11 +189,15 @@ impl Sheet {
     }
 
     #[track_caller]
-    fn index_gives_reflectance(&self) {
+    fn index_gives_reflectance_in(&self, medium: f64) {
         let has_k = self.index().curves.iter().any(|(name, _)| name == "k");
         for nm in [400.0, 500.0, 550.0, 600.0, 700.0] {
-            let n = self.index().at("n", nm);
-            let k = if has_k { self.index().at("k", nm) } else { 0.0 };
+            let n = self.index().at("n", nm) / medium;
+            let k = if has_k {
+                self.index().at("k", nm) / medium
+            } else {
+                0.0
+            };
             let want = ((n - 1.0).powi(2) + k * k) / ((n + 1.0).powi(2) + k * k);
             let got = self.spectrum().at("0°", nm);
             assert!(
@@ -284,5 +299,6 @@ fn sheets_show_what_is_known_of_materials() {
         place.done(&line);
     }
     place.done("materials show gold --png material-gold.png");
-    assert_eq!(check_all(&place.path("")).len(), 6);
+    place.done("materials show gold --medium water --svg gold_in_water.svg");
+    assert_eq!(check_all(&place.path("")).len(), 7);
 }
