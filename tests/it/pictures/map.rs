@@ -349,7 +349,7 @@ fn schlick_knows_no_total_reflection(read: &Read) {
         let before = read.error(angle.floor() - 4.0, eta).unwrap();
         let beyond = read.error(angle.ceil() + 1.0, eta).unwrap();
         assert!(
-            beyond > 0.8 && before < beyond,
+            beyond > 0.6 && before < beyond / 2.0,
             "eta {eta}: {before:.1e}, then {beyond:.1e}"
         );
     }
@@ -400,8 +400,8 @@ fn maps_show_total_reflection_beyond_the_critical_angle() {
     let folder = TempDir::new().unwrap();
     for precision in [Precision::F32, Precision::F16] {
         let is_drawn = |method: &&&Method| {
-            !method.is_textured()
-                && !(precision.is_half() && method.half.library_refusal().is_some())
+            let is_refused = precision.is_half() && method.half.library_refusal().is_some();
+            !method.is_textured() && !is_refused
         };
         for method in methods::ALL.iter().filter(is_drawn) {
             let all = maps(method, precision);
