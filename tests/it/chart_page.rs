@@ -6,6 +6,7 @@ use serde_json::Value;
 use crate::audit;
 use crate::cli::Place;
 use crate::compilers::Tool;
+use crate::pictures::reader::Scale;
 
 const CHROMIUM: Tool = Tool {
     command: "chromium",
@@ -33,6 +34,12 @@ const HANDS: &str = r##"<script>
   };
   const frontier = () => [...document.querySelectorAll("#rows tr.best-row")].map(row => row.cells[0].textContent);
   const told = { all: count(), rows: document.querySelectorAll("#rows tr").length, first: frontier() };
+  const number = (one, name) => Number(one.getAttribute(name));
+  told.places = [...document.querySelectorAll("#chart circle.point")].map(one =>
+    [number(one, "cx"), number(one, "cy"), ...one.textContent.match(/cost (\S+), error (\S+)$/).slice(1).map(Number)]);
+  const labels = [...document.querySelectorAll("#chart text")].filter(one => one.hasAttribute("x") && Number(one.textContent) > 0);
+  told.across = labels.filter(one => one.getAttribute("text-anchor") === "middle").map(one => [number(one, "x"), Number(one.textContent)]);
+  told.upwards = labels.filter(one => one.getAttribute("text-anchor") === "end").map(one => [number(one, "y") - 4, Number(one.textContent)]);
   const own = document.querySelector("#chart .point.yours");
   if (own) {
     own.dispatchEvent(new Event("mouseenter"));
@@ -106,6 +113,33 @@ fn told(place: &Place) -> Value {
     serde_json::from_slice(&bytes).unwrap()
 }
 
+/// Cost rises to the right and error upwards, as the labels say, and each point stands at its own.
+#[track_caller]
+fn points_stand_at_their_numbers(told: &Value) {
+    let numbers = |list: &Value| -> Vec<Vec<f64>> { serde_json::from_value(list.clone()).unwrap() };
+    let scale = |name: &str| {
+        let mut labels: Vec<(f64, f64)> = numbers(&told[name])
+            .iter()
+            .map(|label| (label[0], label[1]))
+            .collect();
+        labels.sort_by(|a, b| a.0.total_cmp(&b.0));
+        Scale::through(&labels)
+    };
+    let (across, upwards) = (scale("across"), scale("upwards"));
+    assert!(across.is_logarithmic && across.rises_rightwards());
+    assert!(upwards.is_logarithmic && upwards.place(0.1) < upwards.place(0.01));
+    let places = numbers(&told["places"]);
+    assert!(places.len() > 20);
+    for place in places {
+        // Told with three digits: up to a pixel and a half.
+        let (x, y) = (across.place(place[2]), upwards.place(place[3].max(1e-5)));
+        assert!(
+            (x - place[0]).abs() < 1.5 && (y - place[1]).abs() < 1.5,
+            "{place:?}: not at {x}, {y}"
+        );
+    }
+}
+
 #[test]
 fn a_browser_shows_every_point_and_asks_nobody() {
     let place = Place::new();
@@ -120,6 +154,7 @@ fn a_browser_shows_every_point_and_asks_nobody() {
     assert_eq!(told["all"], points);
     assert_eq!(told["rows"], points);
     assert_eq!(told["again"], points);
+    points_stand_at_their_numbers(&told);
     assert!(told["unfitted"].as_u64() < told["all"].as_u64());
     assert!(told["intended"].as_u64() < told["all"].as_u64());
     assert_eq!(labels(&told["first"]), first);

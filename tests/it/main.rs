@@ -33,6 +33,8 @@ mod oracle;
 mod overdraw;
 mod pages;
 mod physics;
+#[cfg(feature = "cli")]
+mod pictures;
 mod readme;
 mod reproduce;
 mod reread;

@@ -95,3 +95,33 @@ fn the_picture_is_what_the_program_draws() {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("data/figures/material-gold.svg");
     super::bless::check(&path, svg.as_bytes());
 }
+
+/// The nearest published work is named where methods are compared, and what our exact law costs beside it is the record's.
+#[test]
+fn published_work_is_cited_beside_our_own_figures() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let readme = fs::read_to_string(root.join("README.md")).expect("README");
+    let section = readme.split("\n## Speed against accuracy").nth(1);
+    let section = section.and_then(|rest| rest.split("\n## ").next());
+    let words: Vec<&str> = section.expect("a section").split_whitespace().collect();
+    let section = words.join(" ");
+    let record = fs::read_to_string(root.join("data/records/costs/rdna2.csv")).expect("a record");
+    let units = |method: &str| {
+        let start = format!("{method},,library,3,f32,");
+        let row = record.lines().find(|line| line.starts_with(&start));
+        row.and_then(|row| row.rsplit(',').next()).expect("a cost")
+    };
+    let costs = format!(
+        "one of `dielectric_exact` takes {} units on RDNA 2, one of `schlick` {}.",
+        units("dielectric_exact"),
+        units("schlick")
+    );
+    for part in [
+        "Vernooij, [A Fresnel Model for Coated Materials](https://doi.org/10.2312/egs.20241028)",
+        "Imagire, [Reexamination of the Schlick Approximation with Graphics Hardware in the Early 2020s](",
+        "Journal of Digital Games Research 17(1), 23–32, 2024",
+        costs.as_str(),
+    ] {
+        assert!(section.contains(part), "README lacks: {part}");
+    }
+}

@@ -39,6 +39,9 @@ pub(super) fn chart(subject: &Subject) -> Chart {
     let k = material.k.as_ref().map(|curve| drawn("k", curve, K));
     let mut subtitle = origin(&n, &material.n, three, range);
     subtitle += &without_k(k.as_ref());
+    if subject.medium.is_some() {
+        subtitle += " Its own, not divided by the medium's.";
+    }
     let k = k.filter(is_seen);
     // Beside k, n is seen from 0; alone, its dispersion is what there is to see.
     let ground = k.as_ref().map(|_| 0.0);

@@ -93,7 +93,7 @@ impl Panel {
         parts.extend(self.cells(map, left));
         parts.push(frame(left, PLOT.0));
         for degree in (0..=90).step_by(15) {
-            let x = left + PLOT.0 * f64::from(degree) / 90.0;
+            let x = left + PLOT.0 * column(map, f64::from(degree));
             parts.push(tick(x, TOP + PLOT.1, 0.0, 4.0));
             parts.extend(TICK.draw(&[format!("{degree}°")], x, TOP + PLOT.1 + 5.0, "middle"));
         }
@@ -105,7 +105,7 @@ impl Panel {
         ));
         let (low, high) = ends(map);
         for (value, label) in marks(low, high) {
-            let y = TOP + PLOT.1 * (1.0 - libm::log(value / low) / libm::log(high / low));
+            let y = TOP + PLOT.1 * (1.0 - row(map, value));
             parts.push(tick(left - 4.0, y, 4.0, 0.0));
             parts.extend(TICK.draw(&[label], left - 7.0, y - TICK.leading / 2.0, "end"));
         }
@@ -183,6 +183,26 @@ impl Panel {
         }
         parts
     }
+}
+
+/// Where an angle lies from left to right, from 0 to 1: in the middle of its column.
+fn column(map: &Map, degrees: f64) -> f64 {
+    let (first, last) = (map.degrees[0], map.degrees[map.degrees.len() - 1]);
+    middle((degrees - first) / (last - first), map.degrees.len())
+}
+
+/// Where a value lies from the bottom up, from 0 to 1: in the middle of its row.
+fn row(map: &Map, value: f64) -> f64 {
+    let (low, high) = ends(map);
+    middle(
+        libm::log(value / low) / libm::log(high / low),
+        map.axis.values.len(),
+    )
+}
+
+/// Of so many cells side by side, the middle of the first lies at 0 of the way and that of the last at 1.
+fn middle(share: f64, cells: usize) -> f64 {
+    (share * (cells - 1) as f64 + 0.5) / cells as f64
 }
 
 fn ends(map: &Map) -> (f64, f64) {

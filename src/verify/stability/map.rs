@@ -85,13 +85,8 @@ fn map(method: &'static Method, precision: Precision, axes: Vec<Axis>, held: &'s
         given: &|index| space.given(method, index, precision),
         law: &|given, c| Some(law(method, given.medium?, c)),
     };
-    // The axis of cosines is in order, that of angles runs the other way.
-    let row = |index| {
-        scan.curve(index)
-            .into_iter()
-            .rev()
-            .map(|point| cell(&point))
-    };
+    // Cosines stand as angles do, from 0 degrees on.
+    let row = |index| scan.curve(index).into_iter().map(|point| cell(&point));
     Map {
         cells: (0..space.count()).flat_map(row).collect(),
         axis: space.axes.last().expect("a map has an axis").clone(),
