@@ -23,6 +23,8 @@ pub mod depfile;
 pub mod error;
 pub mod folder;
 pub mod generate;
+#[cfg(all(feature = "cli", feature = "gpu"))]
+pub mod inbox;
 pub mod manifest;
 pub mod names;
 #[cfg(feature = "cli")]
@@ -31,6 +33,8 @@ pub mod request;
 pub mod scope;
 pub mod sight;
 pub mod source;
+#[cfg(all(feature = "cli", feature = "gpu"))]
+pub mod surroundings;
 #[cfg(all(feature = "cli", feature = "gpu"))]
 pub mod time;
 pub mod tree;

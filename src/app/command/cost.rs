@@ -9,6 +9,7 @@ use crate::app::names::{family, flag};
 use crate::app::precision::several;
 use crate::app::request::Request;
 use crate::app::source::materials;
+use crate::app::surroundings::Surroundings;
 use crate::app::verify::machine;
 use crate::app::write::write_file;
 use crate::cost::{FAMILIES, Family, Figures, Record, records};
@@ -38,7 +39,8 @@ pub fn run(flags: &CostFlags, progress: Progress) -> Result<Output, Error> {
         seconds: flags.limit,
         workers: machine::cores(),
     };
-    let told = ask(&families, &functions, limits, progress)?;
+    let surroundings = Surroundings::new(flags.tools.as_deref())?;
+    let told = ask(&families, &functions, limits, &surroundings, progress)?;
     let table: Vec<Vec<Row>> = families
         .iter()
         .zip(&told)

@@ -6,6 +6,7 @@ use serde_json::{Value, json};
 
 use crate::app::args::VerifyFlags;
 use crate::app::error::Error;
+use crate::app::inbox::Inbox;
 use crate::app::names::{flag, unknown};
 use crate::app::request::Request;
 use crate::app::sight::{flags as sight_flags, sight};
@@ -25,6 +26,8 @@ const TOLD: usize = 20;
 
 /// Verifies.
 pub fn run(flags: &VerifyFlags, progress: Progress) -> Result<Output, Error> {
+    // Before the work begins, so that a worker ends with its supervisor at any time.
+    let inbox = flags.worker.then(Inbox::open);
     let request = request(flags)?;
     let wanted = wanted(flags)?;
     let effort = effort(flags)?;
@@ -34,8 +37,8 @@ pub fn run(flags: &VerifyFlags, progress: Progress) -> Result<Output, Error> {
             what: "there is nothing to run: name a method or a material".to_owned(),
         });
     }
-    if flags.worker {
-        let served = serve(&plan, &Devices::new(wanted), effort);
+    if let Some(inbox) = inbox {
+        let served = serve(inbox, &plan, &Devices::new(wanted), effort);
         // The supervisor has gone: nobody is there to be told.
         return Ok(Output {
             code: u8::from(served.is_err()),
@@ -56,7 +59,10 @@ pub fn run(flags: &VerifyFlags, progress: Progress) -> Result<Output, Error> {
             seconds: flags.limit.max(1),
             workers: machine::cores(),
         };
-        (supervise(&plan, limits, progress)?, Vec::new())
+        (
+            supervise(&plan, limits, flags.tools.as_deref(), progress)?,
+            Vec::new(),
+        )
     };
     let mut output = told(flags, &request, &plan, &rows)?;
     output.remarks.extend(speeds);
