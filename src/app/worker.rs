@@ -47,7 +47,8 @@ impl Worker {
     /// # Errors
     /// None came.
     pub fn ask<T: DeserializeOwned>(&mut self, line: &str, limit: Duration) -> Result<T, Silence> {
-        let asked = writeln!(self.input, "{}", framed(line, limit)).and_then(|()| self.input.flush());
+        let asked =
+            writeln!(self.input, "{}", framed(line, limit)).and_then(|()| self.input.flush());
         if asked.is_err() {
             return Err(self.ended());
         }
@@ -119,7 +120,9 @@ fn spawn(
 
 fn cannot_start(why: &io::Error) -> Error {
     Error::Lacking {
-        what: format!("not checked: this program cannot start a process of its own to run shaders in: {why}"),
+        what: format!(
+            "not checked: this program cannot start a process of its own to run shaders in: {why}"
+        ),
     }
 }
 

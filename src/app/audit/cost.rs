@@ -47,7 +47,9 @@ pub fn cost(
         compiler: None,
         figures: Err(why),
     };
-    let (Some(dialect), Ok(environment)) = (family.compiler.dialect(), environment(family, surroundings)) else {
+    let (Some(dialect), Ok(environment)) =
+        (family.compiler.dialect(), environment(family, surroundings))
+    else {
         return Ok(unknown(absent(family, surroundings)));
     };
     let lines = match lines(program, dialect, compilers)? {

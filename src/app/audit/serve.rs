@@ -24,9 +24,7 @@ pub fn serve() -> io::Result<()> {
             Ok(Asked::Accept(language, program)) => {
                 Said::Accepted(accept::accepted(language, program))
             }
-            Ok(Asked::Module(language, shader)) => {
-                Said::Module(accept::module(language, &shader))
-            }
+            Ok(Asked::Module(language, shader)) => Said::Module(accept::module(language, &shader)),
             Ok(Asked::Prepare(code, values)) => {
                 let uniforms: Vec<Uniform> = values.iter().map(|value| value.uniform()).collect();
                 match prepare(&devices, &code, &uniforms) {

@@ -45,7 +45,9 @@ pub enum Silent {
     #[error("it cannot be started: {0}")]
     Start(io::Error),
     /// Its files cannot be written.
-    #[error("its temporary files cannot be written: {0}; make room in the temporary folder, or set {TEMPORARY} to another")]
+    #[error(
+        "its temporary files cannot be written: {0}; make room in the temporary folder, or set {TEMPORARY} to another"
+    )]
     Files(#[from] io::Error),
 }
 
