@@ -25,6 +25,8 @@ pub mod error;
 pub mod folder;
 pub mod generate;
 pub mod lock;
+#[cfg(all(feature = "cli", feature = "gpu"))]
+pub mod inbox;
 pub mod manifest;
 pub mod names;
 pub mod ours;
@@ -34,6 +36,8 @@ pub mod request;
 pub mod scope;
 pub mod sight;
 pub mod source;
+#[cfg(all(feature = "cli", feature = "gpu"))]
+pub mod surroundings;
 #[cfg(all(feature = "cli", feature = "gpu"))]
 pub mod time;
 pub mod tree;

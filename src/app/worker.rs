@@ -2,7 +2,6 @@
 
 use std::ffi::OsString;
 use std::io::{self, BufRead, BufReader, Write};
-use std::path::Path;
 use std::process::{Child, ChildStdin, Command, Stdio};
 use std::sync::mpsc::{Receiver, RecvTimeoutError, channel};
 use std::thread;
@@ -11,8 +10,10 @@ use std::time::Duration;
 use serde::de::DeserializeOwned;
 
 use super::error::Error;
+use super::inbox::framed;
+use super::surroundings::Surroundings;
 
-/// A process that answers. It ends when this is dropped, whatever it does.
+/// A process that answers. It ends when this is dropped, with all that it has started, and when this process ends.
 pub struct Worker {
     child: Child,
     input: ChildStdin,
@@ -36,9 +37,9 @@ impl Worker {
     pub fn start(
         words: &[OsString],
         environment: &[(String, OsString)],
-        scratch: &Path,
+        surroundings: &Surroundings,
     ) -> Result<Worker, Error> {
-        spawn(words, environment, scratch).map_err(|why| cannot_start(&why))
+        spawn(words, environment, surroundings).map_err(|why| cannot_start(&why))
     }
 
     /// Asks a line, and waits for a line of JSON.
@@ -46,7 +47,8 @@ impl Worker {
     /// # Errors
     /// None came.
     pub fn ask<T: DeserializeOwned>(&mut self, line: &str, limit: Duration) -> Result<T, Silence> {
-        let asked = writeln!(self.input, "{line}").and_then(|()| self.input.flush());
+        let asked =
+            writeln!(self.input, "{}", framed(line, limit)).and_then(|()| self.input.flush());
         if asked.is_err() {
             return Err(self.ended());
         }
@@ -65,23 +67,33 @@ impl Worker {
 
 impl Drop for Worker {
     fn drop(&mut self) {
+        #[cfg(unix)]
+        end_group(&self.child);
         let _ = self.child.kill();
         let _ = self.child.wait();
     }
 }
 
+/// Ends a worker with the compilers that it has started: they are all in its group.
+#[cfg(unix)]
+fn end_group(child: &Child) {
+    use rustix::process::{Pid, Signal, kill_process_group};
+    let group = i32::try_from(child.id()).ok().and_then(Pid::from_raw);
+    // Nothing may be left of it.
+    let _ = group.map(|group| kill_process_group(group, Signal::KILL));
+}
+
 fn spawn(
     words: &[OsString],
     environment: &[(String, OsString)],
-    scratch: &Path,
+    surroundings: &Surroundings,
 ) -> io::Result<Worker> {
     let mut command = Command::new(std::env::current_exe()?);
     command.args(words);
-    if std::env::var_os("XDG_RUNTIME_DIR").is_none() {
-        // Mesa complains where it is not set.
-        command.env("XDG_RUNTIME_DIR", scratch);
-    }
+    command.envs(surroundings.environment());
     command.envs(environment.iter().map(|(name, value)| (name, value)));
+    #[cfg(unix)]
+    std::os::unix::process::CommandExt::process_group(&mut command, 0);
     command
         .stdin(Stdio::piped())
         .stdout(Stdio::piped())
@@ -107,20 +119,14 @@ fn spawn(
 }
 
 fn cannot_start(why: &io::Error) -> Error {
-    Error::Usage {
-        what: format!("this program cannot start a process of its own to run shaders in: {why}"),
+    Error::Lacking {
+        what: format!(
+            "not checked: this program cannot start a process of its own to run shaders in: {why}"
+        ),
     }
 }
 
 /// The words that this program was given.
 pub fn own_words() -> Vec<OsString> {
     std::env::args_os().skip(1).collect()
-}
-
-/// A folder for what processes leave behind, gone with the value.
-///
-/// # Errors
-/// There is no place for one.
-pub fn scratch() -> Result<tempfile::TempDir, Error> {
-    tempfile::tempdir().map_err(|why| cannot_start(&why))
 }

@@ -50,7 +50,7 @@ pub enum Kind {
     Software,
 }
 
-/// What is asked for; nothing in it means: the best there is.
+/// What is asked for; nothing in it means: the best there is, OpenGL left out.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Wanted {
     /// The interface.
@@ -59,6 +59,9 @@ pub struct Wanted {
     pub name: Option<String>,
 }
 
+/// What hides drivers that are installed.
+const DRIVERS: &str =
+    "; where VK_DRIVER_FILES or VK_ICD_FILENAMES is set it must name the file of a driver";
 /// What Vulkan needs on Debian, and OpenGL.
 const VULKAN_PACKAGES: &str = "mesa-vulkan-drivers libvulkan1";
 pub(super) const OPENGL_PACKAGES: &str = "libegl1 libegl-mesa0 libgles2 libgl1-mesa-dri";
@@ -144,8 +147,11 @@ pub(super) fn choose(wanted: &Wanted) -> Result<&'static wgpu::Adapter, Fault> {
 impl Wanted {
     fn fits(&self, adapter: &Adapter) -> bool {
         let lower = adapter.name.to_lowercase();
+        // OpenGL takes no SPIR-V, so it stands in for nothing: it is taken where it is named.
         self.backend
-            .is_none_or(|backend| backend == adapter.backend)
+            .map_or(adapter.backend != Backend::OpenGl, |backend| {
+                backend == adapter.backend
+            })
             && self
                 .name
                 .as_ref()
@@ -165,11 +171,21 @@ fn absent(wanted: &Wanted, there: &[String]) -> Fault {
         Some(Backend::OpenGl) => OPENGL_PACKAGES,
         _ => VULKAN_PACKAGES,
     };
-    let install = format!("on Debian install {packages}");
+    let mut install = format!("on Debian install {packages}");
+    if wanted.backend != Some(Backend::OpenGl) {
+        install += DRIVERS;
+    }
+    let listed = match wanted.backend {
+        None => format!(
+            "{}; OpenGL is taken only where it is named",
+            there.join(", ")
+        ),
+        Some(_) => there.join(", "),
+    };
     let get = match there {
         [] => install,
-        there if wanted.name.is_some() => format!("there is {}", there.join(", ")),
-        there => format!("there is {}; {install}", there.join(", ")),
+        _ if wanted.name.is_some() => format!("there is {listed}"),
+        _ => format!("there is {listed}; {install}"),
     };
     Fault::Absent { what, get }
 }

@@ -1,6 +1,7 @@
 //! SPIR-V handed to the driver as it is.
 #![allow(unsafe_code)]
 
+use super::adapter::Backend;
 use super::compute::Compute;
 use super::fault::Fault;
 
@@ -31,8 +32,18 @@ pub(super) fn module(
         let log = format!("no compute entry point `{entry}`; there is {there}");
         return Err(Fault::refused(log));
     }
-    if !compute.has(wgpu::Features::PASSTHROUGH_SHADERS) {
-        return Err(Fault::unable(&compute.adapter.name, "SPIR-V as it is"));
+    // OpenGL has the feature too, and takes GLSL by it.
+    let is_vulkan = compute.adapter.backend == Backend::Vulkan;
+    if !is_vulkan || !compute.has(wgpu::Features::PASSTHROUGH_SHADERS) {
+        let device = format!(
+            "{}: {}",
+            compute.adapter.backend.name(),
+            compute.adapter.name
+        );
+        return Err(Fault::unable(
+            &device,
+            "SPIR-V as it is, which takes Vulkan",
+        ));
     }
     compute.guarded(|| pass(compute, &words, entry))
 }

@@ -27,7 +27,7 @@ pub use code_error::{
 pub use half::{
     HalfError, HalfTrial, halves, library_half_error, library_half_error_at, nearest_half,
 };
-pub use points::{BEYOND, cosines, cosines_around, limits};
+pub use points::{ALL, BEYOND, cosines, cosines_around, limits, share};
 #[cfg(feature = "gpu")]
 pub use sweep::{count, sweep};
 pub use trial::{Expected, Miss, Outcome, Trial};

@@ -4,6 +4,15 @@
 /// The seed of the random points.
 const SEED: u64 = 0x9E37_79B9_7F4A_7C15;
 
+/// How many f32 there are from 0 to 1.
+pub const ALL: u64 = 0x3F80_0001;
+
+/// What share of all f32 from 0 to 1 these cosines are.
+pub fn share(cosines: &[f32]) -> f64 {
+    let is_within = |c: &&f32| c.is_sign_positive() && **c <= 1.0;
+    cosines.iter().filter(is_within).count() as f64 / ALL as f64
+}
+
 /// Cosines that no geometry has and shaders see all the same: rounding brings 1 + 1 ulp about, a back side -1.
 pub const BEYOND: [f32; 5] = [-1.0, -f32::MIN_POSITIVE, 1.000_000_1, 1.000_000_2, 2.0];
 

@@ -8,15 +8,12 @@ use std::sync::Mutex;
 
 use super::code_error::{ABSOLUTE_FLOOR, CodeError};
 use super::harness;
+use super::points::ALL;
 use super::run::{Devices, Fault, Shown};
 use super::trial::{Outcome, TEXTBOOK_FROM, Trial};
 use crate::fit::Measured;
 use crate::gpu::{Code, Program};
 
-/// The bits of 1.
-const ONE: u32 = 0x3F80_0000;
-/// How many numbers there are from 0 to 1.
-const ALL: u64 = ONE as u64 + 1;
 /// Points evaluated at once: columns of f64 that a cache holds.
 const PIECE: usize = 512;
 

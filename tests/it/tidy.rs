@@ -233,6 +233,9 @@ fn only_the_writer_and_the_program_touch_the_machine() {
         "app/verify/machine.rs",
         "app/verify/supervise.rs",
         "app/worker.rs",
+        "app/inbox.rs",
+        // The folder for their temporary files.
+        "app/surroundings.rs",
         // The clock of what is measured.
         "cost/clock.rs",
         "verify/compilers/call.rs",

@@ -44,6 +44,9 @@ pub struct AuditFlags {
     /// Families of GPUs whose compilers say what it costs, see `fresnel-gen cost`; or none [default: rdna2, adreno330]
     #[arg(long, value_delimiter = ',', value_name = "NAME")]
     pub gpu: Vec<String>,
+    /// Folder of compilers, searched before PATH and the folder `tools` beside this program
+    #[arg(long, value_name = "DIR")]
+    pub tools: Option<PathBuf>,
     /// Seconds that one step may take
     #[arg(long, value_name = "SECONDS", default_value_t = 20)]
     pub limit: u64,

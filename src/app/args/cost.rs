@@ -25,6 +25,9 @@ pub struct CostFlags {
     /// Compare what compilers say now with what was recorded; exit 1 where it differs
     #[arg(long)]
     pub check: bool,
+    /// Folder whose folder `mesa` holds compilers, searched before the folder `tools` beside this program
+    #[arg(long, value_name = "DIR")]
+    pub tools: Option<PathBuf>,
     /// Seconds that a compiler may take for one shader
     #[arg(long, value_name = "SECONDS", default_value_t = 60)]
     pub limit: u64,

@@ -53,6 +53,9 @@ pub struct VerifyFlags {
     /// Every f32 in [0, 1], all 1065353217, for one method and material, in WGSL
     #[arg(long, requires_all = ["method", "material"])]
     pub exhaustive: bool,
+    /// Folder of compilers, searched before PATH and the folder `tools` beside this program
+    #[arg(long, value_name = "DIR")]
+    pub tools: Option<PathBuf>,
     /// Seconds that one file may take
     #[arg(long, value_name = "SECONDS", default_value_t = 60)]
     pub limit: u64,

@@ -1,5 +1,7 @@
 //! The word of every compiler of a language on a program around a user's text.
 
+use serde::{Deserialize, Serialize};
+
 use crate::targets::{Compiler, DXC, GLSLANG, Target, find};
 use crate::verify::compilers::{Fault, HlslVersion, Verdict, compiled, hlsl_to_spirv};
 use crate::verify::harness::ENTRY;
@@ -8,10 +10,10 @@ use super::job::Code;
 use super::language::Language;
 
 /// What compilers that run beside us say.
-#[derive(Debug)]
+#[derive(Debug, Serialize, Deserialize)]
 pub struct Accepted {
     /// Each with its verdict.
-    pub verdicts: Vec<(&'static str, Verdict)>,
+    pub verdicts: Vec<(String, Verdict)>,
     /// What is run, where there is something to run; else why not.
     pub code: Result<Code, Fault>,
 }
@@ -26,7 +28,7 @@ pub fn accepted(language: Language, program: String) -> Accepted {
         Language::Gles => {
             let made = compiled(&GLSLANG, "-S vert FILE", "shader.vert", &program);
             Accepted {
-                verdicts: vec![(GLSLANG.name, made.into())],
+                verdicts: vec![(GLSLANG.name.to_owned(), made.into())],
                 code: Ok(Code::Gles(program)),
             }
         }
@@ -35,14 +37,14 @@ pub fn accepted(language: Language, program: String) -> Accepted {
 }
 
 /// Chrome's compiler, as the target knows it.
-fn tint(program: &str) -> Option<(&'static str, Verdict)> {
+fn tint(program: &str) -> Option<(String, Verdict)> {
     let validators = find("wgsl").map_or(&[][..], |target: &Target| target.validators);
     let tint = validators
         .iter()
         .find(|one| one.compiler.command.is_some())?;
     let compiler: &Compiler = tint.compiler;
     let made = compiled(compiler, tint.options, "shader.wgsl", program);
-    Some((compiler.name, made.into()))
+    Some((compiler.name.to_owned(), made.into()))
 }
 
 /// Both versions of the language: what either accepts is run, as the older one has it where both do.
@@ -50,8 +52,8 @@ fn hlsl(program: &str) -> Accepted {
     let old = hlsl_to_spirv(program, ENTRY, HlslVersion::V2018);
     let new = hlsl_to_spirv(program, ENTRY, HlslVersion::V2021);
     let verdicts = vec![
-        ("dxc -HV 2018", old.clone().into()),
-        ("dxc -HV 2021", new.clone().into()),
+        ("dxc -HV 2018".to_owned(), old.clone().into()),
+        ("dxc -HV 2021".to_owned(), new.clone().into()),
     ];
     let code = old.or_else(|fault| new.map_err(|_| fault));
     Accepted {
@@ -60,11 +62,22 @@ fn hlsl(program: &str) -> Accepted {
     }
 }
 
+/// A shader as SPIR-V, as it is measured.
+///
+/// # Errors
+/// The compiler is not here, or refuses it.
+pub fn module(language: Language, text: &str) -> Result<Vec<u8>, Fault> {
+    match language {
+        Language::Hlsl => pixel(text),
+        Language::Gles | Language::Wgsl => fragment(text),
+    }
+}
+
 /// A pixel shader in HLSL as SPIR-V.
 ///
 /// # Errors
 /// DXC is not here, or refuses it.
-pub fn pixel(text: &str) -> Result<Vec<u8>, Fault> {
+fn pixel(text: &str) -> Result<Vec<u8>, Fault> {
     let made = |version: usize| {
         let options = format!(
             "-T ps_6_0 -E {ENTRY} -HV {version} -spirv -fspv-target-env=vulkan1.1 -Fo OUT FILE"
@@ -78,7 +91,7 @@ pub fn pixel(text: &str) -> Result<Vec<u8>, Fault> {
 ///
 /// # Errors
 /// glslang is not here, or refuses it.
-pub fn fragment(text: &str) -> Result<Vec<u8>, Fault> {
+fn fragment(text: &str) -> Result<Vec<u8>, Fault> {
     let options = format!("-V -S frag -e {ENTRY} --source-entrypoint main -o OUT FILE");
     compiled(&GLSLANG, &options, "shader.frag", text)
 }

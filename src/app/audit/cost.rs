@@ -2,17 +2,17 @@
 
 use core::time::Duration;
 use std::ffi::OsString;
-use std::path::Path;
 
 use crate::app::cost::{Said, environment, reason};
 use crate::app::error::Error;
+use crate::app::surroundings::Surroundings;
 use crate::app::worker::Worker;
 use crate::cost::{Compiler, Dialect, ENTRY, Family, Figures, Probe, Statistics, figures, foreign};
 use crate::num::Precision;
 use crate::verify::compilers::Fault;
 use crate::verify::second;
 
-use super::accept::{fragment, pixel};
+use super::compile::Compilers;
 use super::language::Language;
 use super::place::placed;
 use super::program::Program;
@@ -38,23 +38,26 @@ type Line = String;
 pub fn cost(
     program: &Program,
     family: &'static Family,
+    compilers: &Compilers,
     limit: Duration,
-    scratch: &Path,
+    surroundings: &Surroundings,
 ) -> Result<Cost, Error> {
     let unknown = |why: String| Cost {
         family,
         compiler: None,
         figures: Err(why),
     };
-    let (Some(dialect), Ok(environment)) = (family.compiler.dialect(), environment(family)) else {
-        return Ok(unknown(absent(family)));
+    let (Some(dialect), Ok(environment)) =
+        (family.compiler.dialect(), environment(family, surroundings))
+    else {
+        return Ok(unknown(absent(family, surroundings)));
     };
-    let lines = match lines(program, dialect) {
+    let lines = match lines(program, dialect, compilers)? {
         Ok(lines) => lines,
         Err(why) => return Ok(unknown(why)),
     };
     let words = ["cost", "--worker", family.name].map(OsString::from);
-    let mut worker = Worker::start(&words, &environment, scratch)?;
+    let mut worker = Worker::start(&words, &environment, surroundings)?;
     let mut ask = |line: &str| {
         let said = worker.ask::<Said>(line, limit);
         said.map_err(|silence| reason(&silence, limit))
@@ -83,24 +86,49 @@ fn counted(family: &Family, dialect: Dialect, told: Vec<Statistics>) -> Result<F
     figures(&family.columns, dialect.chains(), &own, &bare).ok_or_else(silent)
 }
 
-fn absent(family: &Family) -> String {
+fn absent(family: &Family, surroundings: &Surroundings) -> String {
     match family.compiler {
         Compiler::Operations => "operations are counted in formulas, and this is text".to_owned(),
         Compiler::None(why) => why.to_owned(),
-        _ => environment(family).err().unwrap_or_default(),
+        _ => environment(family, surroundings).err().unwrap_or_default(),
     }
 }
 
 /// The four shaders as the worker takes them.
-fn lines(program: &Program, dialect: Dialect) -> Result<Vec<Line>, String> {
+fn lines(
+    program: &Program,
+    dialect: Dialect,
+    compilers: &Compilers,
+) -> Result<Result<Vec<Line>, String>, Error> {
     let chains = dialect.chains();
     let own = chains.map(|evaluations| shader(program, dialect, evaluations));
     let bare = chains.map(|evaluations| empty(program.language, dialect, evaluations));
-    own.into_iter().chain(bare).collect()
+    let mut lines = Vec::new();
+    // What a compiler did not end for once is not asked again.
+    for made in own.into_iter().chain(bare) {
+        match made {
+            Ok(Shader::Line(line)) => lines.push(line),
+            Ok(Shader::Text(language, text)) => match module(compilers.module(language, text)?) {
+                Ok(line) => lines.push(line),
+                Err(why) => return Ok(Err(why)),
+            },
+            Err(why) => return Ok(Err(why)),
+        }
+    }
+    Ok(Ok(lines))
 }
 
-fn text(shader: &str) -> Result<Line, String> {
-    serde_json::to_string(shader).map_err(|why| why.to_string())
+/// A shader that is measured.
+enum Shader {
+    /// As the worker takes it.
+    Line(Line),
+    /// As a compiler makes a module of it.
+    Text(Language, String),
+}
+
+fn text(shader: &str) -> Result<Shader, String> {
+    let line = serde_json::to_string(shader);
+    line.map(Shader::Line).map_err(|why| why.to_string())
 }
 
 /// A module, or why there is none.
@@ -115,7 +143,7 @@ fn module(made: Result<Vec<u8>, Fault>) -> Result<Line, String> {
 /// What stands before GLSL ES that may leave precision to the program around it.
 const PRECISION: &str = "precision highp float;\n";
 
-fn shader(program: &Program, dialect: Dialect, evaluations: usize) -> Result<Line, String> {
+fn shader(program: &Program, dialect: Dialect, evaluations: usize) -> Result<Shader, String> {
     let Program {
         language,
         text: own,
@@ -127,22 +155,25 @@ fn shader(program: &Program, dialect: Dialect, evaluations: usize) -> Result<Lin
             let probe = Probe::of_text(params.clone(), own.clone(), String::new());
             wgsl(&probe, dialect, evaluations)
         }
-        (Language::Gles, Dialect::Wgsl) => module(fragment(&foreign::glsl(
-            &format!("{PRECISION}{own}"),
-            params,
-            evaluations,
-        ))),
+        (Language::Gles, Dialect::Wgsl) => {
+            let own = format!("{PRECISION}{own}");
+            let shader = foreign::glsl(&own, params, evaluations);
+            Ok(Shader::Text(Language::Gles, shader))
+        }
         (Language::Gles, _) => {
             let own = format!("{PRECISION}{own}");
             let probe = Probe::of_text(params.clone(), String::new(), own);
             text(&probe.text(evaluations, dialect))
         }
-        (Language::Hlsl, Dialect::Wgsl) => module(pixel(&foreign::hlsl(own, params, evaluations))),
+        (Language::Hlsl, Dialect::Wgsl) => Ok(Shader::Text(
+            Language::Hlsl,
+            foreign::hlsl(own, params, evaluations),
+        )),
         (Language::Hlsl, _) => Err("it takes GLSL ES, which nothing here makes of HLSL".to_owned()),
     }
 }
 
-fn empty(language: Language, dialect: Dialect, evaluations: usize) -> Result<Line, String> {
+fn empty(language: Language, dialect: Dialect, evaluations: usize) -> Result<Shader, String> {
     let probe = Probe::empty(false, Precision::F32);
     let none = [crate::ir::Param {
         name: "cos_theta".to_owned(),
@@ -150,22 +181,20 @@ fn empty(language: Language, dialect: Dialect, evaluations: usize) -> Result<Lin
     }];
     match (language, dialect) {
         (Language::Wgsl, _) => wgsl(&probe, dialect, evaluations),
-        (Language::Gles, Dialect::Wgsl) => module(fragment(&foreign::glsl(
-            foreign::EMPTY_GLSL,
-            &none,
-            evaluations,
-        ))),
-        (Language::Hlsl, Dialect::Wgsl) => module(pixel(&foreign::hlsl(
-            foreign::EMPTY_HLSL,
-            &none,
-            evaluations,
-        ))),
+        (Language::Gles, Dialect::Wgsl) => Ok(Shader::Text(
+            Language::Gles,
+            foreign::glsl(foreign::EMPTY_GLSL, &none, evaluations),
+        )),
+        (Language::Hlsl, Dialect::Wgsl) => Ok(Shader::Text(
+            Language::Hlsl,
+            foreign::hlsl(foreign::EMPTY_HLSL, &none, evaluations),
+        )),
         (Language::Gles | Language::Hlsl, _) => text(&probe.text(evaluations, dialect)),
     }
 }
 
 /// WGSL itself, or naga's GLSL ES of it.
-fn wgsl(probe: &Probe, dialect: Dialect, evaluations: usize) -> Result<Line, String> {
+fn wgsl(probe: &Probe, dialect: Dialect, evaluations: usize) -> Result<Shader, String> {
     let own = probe.text(evaluations, Dialect::Wgsl);
     match dialect {
         Dialect::Wgsl => text(&own),

@@ -3,10 +3,18 @@
 use serde::{Deserialize, Serialize};
 
 use crate::gpu::{Argument, Uniform};
+use crate::verify::compilers::Fault;
+
+use super::accept::Accepted;
+use super::language::Language;
 
 /// What a worker is asked.
 #[derive(Debug, Serialize, Deserialize)]
 pub enum Asked {
+    /// To ask the compilers of a language about a whole program.
+    Accept(Language, String),
+    /// To make SPIR-V of a shader.
+    Module(Language, String),
     /// To compile a program.
     Prepare(Code, Vec<Value>),
     /// To run it over cosines.
@@ -16,6 +24,10 @@ pub enum Asked {
 /// What a worker answers.
 #[derive(Debug, Serialize, Deserialize)]
 pub enum Said {
+    /// What the compilers say.
+    Accepted(Accepted),
+    /// What the compiler has made, or why it has not.
+    Module(Result<Vec<u8>, Fault>),
     /// It is compiled, for this device.
     Ready(String),
     /// Something is missing here.

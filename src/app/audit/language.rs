@@ -1,11 +1,14 @@
 //! The languages that a user's function may be written in.
 
+use serde::{Deserialize, Serialize};
+
 use crate::app::error::Error;
 use crate::app::names::unknown;
 use crate::ir::Ty;
+use crate::targets::{DXC, GLSLANG};
 
 /// A language of functions that users bring.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Language {
     /// WGSL.
     Wgsl,
@@ -32,6 +35,15 @@ const NAMES: [(&str, Language); 10] = [
 const LANGUAGES: [&str; 4] = ["wgsl", "glsl", "gles", "hlsl"];
 
 impl Language {
+    /// The compiler beside us that is asked about it.
+    pub fn compiler(self) -> &'static str {
+        match self {
+            Language::Wgsl => "tint",
+            Language::Gles => GLSLANG.name,
+            Language::Hlsl => DXC.name,
+        }
+    }
+
     /// The language that is named, or that the file's ending tells.
     ///
     /// # Errors

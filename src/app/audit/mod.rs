@@ -2,12 +2,13 @@
 //!
 //! The text is read for heads of functions only (`scan`), and for loops (`loops`); all else is left to compilers. Ours goes around
 //! theirs (`program`), runs in a process of its own (`runner`, `serve`), so that one that never ends, or takes a driver
-//! down, is a line of the report; compilers run beside us within times of their own.
+//! down, is a line of the report. Compilers run in such a process too (`compile`).
 
 mod accept;
 mod bind;
 mod chart;
 mod code;
+mod compile;
 mod cost;
 mod edges;
 mod frontier;
@@ -23,7 +24,7 @@ mod scan;
 mod serve;
 
 use core::time::Duration;
-use std::path::Path;
+use std::path::PathBuf;
 
 use serde_json::Value;
 
@@ -35,7 +36,7 @@ use crate::spectra::Space;
 use crate::verify::compilers::{Fault, Verdict};
 
 use super::error::Error;
-use super::worker::scratch;
+use super::surroundings::Surroundings;
 
 pub use bind::Given;
 pub use chart::own;
@@ -44,6 +45,7 @@ pub use row::{file_name, text};
 pub use serve::serve;
 
 use bind::Bound;
+use compile::Compilers;
 use program::Program;
 use row::{Ran, Row};
 use runner::{Runner, Trouble};
@@ -65,6 +67,8 @@ pub struct Audit {
     pub space: Space,
     /// The GPUs whose compilers are asked.
     pub families: Vec<&'static Family>,
+    /// The folder of compilers that the user names.
+    pub tools: Option<PathBuf>,
     /// Seconds that one step may take.
     pub seconds: u64,
     /// Processes at once.
@@ -86,23 +90,24 @@ impl Audit {
         let chosen = bind::choose(&self.file, found, self.function.as_deref())?;
         let bound = bind::bind(&self.file, chosen, &self.given, subject)?;
         let (program, run) = Program::pair(self.language, &self.text, &bound);
-        let scratch = scratch()?;
-        let mut accepted = accept::accepted(self.language, program.harnessed());
+        let surroundings = Surroundings::new(self.tools.as_deref())?;
+        let compilers = Compilers::new(self.limit(), &surroundings);
+        let mut accepted = compilers.accepted(self.language, program.harnessed())?;
         // Only what its compilers accept as it is gets counters, or is run at all.
         let code = match accepted.code {
             Ok(_) if run.text != program.text => {
-                accept::accepted(self.language, run.harnessed()).code
+                compilers.accepted(self.language, run.harnessed())?.code
             }
             code => code,
         };
         let ran = match code {
-            Ok(code) => self.run(code, &run, &bound, subject, scratch.path())?,
+            Ok(code) => self.run(code, &run, &bound, subject, &surroundings)?,
             Err(Fault::NotChecked(why)) => Err(Trouble::Absent(why)),
             Err(Fault::Refused(words)) => Err(Trouble::Refused(String::new(), words)),
         };
         self.accept(&mut accepted.verdicts, &ran);
         let (costs, rivals) = match &ran {
-            Ok(_) => self.costs(&program, subject, scratch.path(), progress)?,
+            Ok(_) => self.costs(&program, subject, &compilers, &surroundings, progress)?,
             Err(_) => (Vec::new(), Vec::new()),
         };
         Ok(Row {
@@ -128,10 +133,10 @@ impl Audit {
         program: &Program,
         bound: &Bound,
         subject: &Subject,
-        scratch: &Path,
+        surroundings: &Surroundings,
     ) -> Result<Result<Ran, Trouble>, Error> {
         let uniforms: Vec<Uniform> = program.uniforms();
-        let runner = match Runner::start(code, &uniforms, self.limit(), scratch)? {
+        let runner = match Runner::start(code, &uniforms, self.limit(), surroundings)? {
             Ok(runner) => runner,
             Err(trouble) => return Ok(Err(trouble)),
         };
@@ -139,7 +144,7 @@ impl Audit {
     }
 
     /// The word of the compiler that ran it, and all words with places in the user's file.
-    fn accept(&self, verdicts: &mut Vec<(&'static str, Verdict)>, ran: &Result<Ran, Trouble>) {
+    fn accept(&self, verdicts: &mut Vec<(String, Verdict)>, ran: &Result<Ran, Trouble>) {
         let own = match self.language {
             Language::Wgsl => "naga",
             Language::Gles => "the OpenGL ES driver",
@@ -153,7 +158,7 @@ impl Audit {
             }
             Ok(_) => Some(Verdict::Yes),
         };
-        verdicts.extend(verdict.map(|verdict| (own, verdict)));
+        verdicts.extend(verdict.map(|verdict| (own.to_owned(), verdict)));
         let lines = self.text.lines().count();
         for (_, verdict) in verdicts {
             if let Verdict::No(words) = verdict {
@@ -167,21 +172,30 @@ impl Audit {
         &self,
         program: &Program,
         subject: &Subject,
-        scratch: &Path,
+        compilers: &Compilers,
+        surroundings: &Surroundings,
         progress: &mut dyn FnMut(u64, u64, &str),
     ) -> Result<(Vec<cost::Cost>, Vec<ours::Ours>), Error> {
         let each = self.families.iter();
-        let each = each.map(|family| cost::cost(program, family, self.limit(), scratch));
+        let limit = self.limit();
+        let each = each.map(|family| cost::cost(program, family, compilers, limit, surroundings));
         let costs: Vec<cost::Cost> = each.collect::<Result<_, _>>()?;
         if costs.iter().all(|cost| cost.figures.is_err()) {
             return Ok((costs, Vec::new()));
         }
         let limits = Limits {
-            seconds: self.seconds.max(60),
+            seconds: self.seconds,
             workers: self.workers,
         };
         let takes_arguments = program.params.len() > 1;
-        let ours = ours::ours(subject, takes_arguments, &self.families, limits, progress)?;
+        let ours = ours::ours(
+            subject,
+            takes_arguments,
+            &self.families,
+            limits,
+            surroundings,
+            progress,
+        )?;
         Ok((costs, ours))
     }
 }

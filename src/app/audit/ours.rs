@@ -2,6 +2,7 @@
 
 use crate::app::cost::{Function, Limits, Told, ask, functions, rows};
 use crate::app::error::Error;
+use crate::app::surroundings::Surroundings;
 use crate::cost::{Family, Figures, records};
 use crate::emit::Subject;
 use crate::fit::error_of;
@@ -43,6 +44,7 @@ pub fn ours(
     takes_arguments: bool,
     families: &[&'static Family],
     limits: Limits,
+    surroundings: &Surroundings,
     progress: &mut dyn FnMut(u64, u64, &str),
 ) -> Result<Vec<Ours>, Error> {
     let form = match takes_arguments {
@@ -58,7 +60,7 @@ pub fn ours(
     let methods: Vec<&'static Method> = methods::ALL.iter().filter(fits).copied().collect();
     let mut all = functions(&methods, std::slice::from_ref(subject), &[Precision::F32])?;
     all.retain(|function| function.is_asked && function.form == form || function.is_reference());
-    let told = ask(families, &all, limits, progress)?;
+    let told = ask(families, &all, limits, surroundings, progress)?;
     let each = families.iter().zip(&told);
     let columns: Vec<Vec<Option<f64>>> = each
         .map(|(family, told)| costs(family, told.as_ref(), &all))

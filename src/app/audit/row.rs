@@ -38,7 +38,7 @@ pub struct Row<'a> {
     /// The material.
     pub subject: &'a Subject,
     /// What compilers say.
-    pub verdicts: &'a [(&'static str, Verdict)],
+    pub verdicts: &'a [(String, Verdict)],
     /// What came of running it.
     pub ran: &'a Result<Ran, Trouble>,
     /// What it costs.

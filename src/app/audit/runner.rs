@@ -3,9 +3,9 @@
 use core::cell::{Cell, OnceCell, RefCell};
 use core::time::Duration;
 use std::ffi::OsString;
-use std::path::Path;
 
 use crate::app::error::Error;
+use crate::app::surroundings::Surroundings;
 use crate::app::worker::{Silence, Worker};
 use crate::fit::{ModelError, Perceived, Truth, error_of, perceived};
 use crate::gpu::Uniform;
@@ -62,10 +62,10 @@ impl Runner {
         code: Code,
         uniforms: &[Uniform],
         limit: Duration,
-        scratch: &Path,
+        surroundings: &Surroundings,
     ) -> Result<Result<Runner, Trouble>, Error> {
         let words = ["audit", "--worker"].map(OsString::from);
-        let mut worker = Worker::start(&words, &[], scratch)?;
+        let mut worker = Worker::start(&words, &[], surroundings)?;
         let asked = Asked::Prepare(code, uniforms.iter().map(job::Value::of).collect());
         Ok(match ask(&mut worker, &asked, limit) {
             Ok(Said::Ready(device)) => Ok(Runner {
@@ -154,6 +154,6 @@ fn trouble(said: Said) -> Trouble {
     match said {
         Said::Absent(why) => Trouble::Absent(why),
         Said::Refused(who, words) => Trouble::Refused(who, words),
-        Said::Ready(_) | Said::Ran(_) => Trouble::Failed("it answers another question".to_owned()),
+        _ => Trouble::Failed("it answers another question".to_owned()),
     }
 }

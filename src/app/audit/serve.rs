@@ -1,12 +1,14 @@
 //! A worker: compiles the program that it is handed, and runs it. What a user's text does to a driver ends with it.
 
-use std::io::{self, BufRead, Write};
+use std::io::{self, Write};
 
+use crate::app::inbox::Inbox;
 use crate::emit::validate_wgsl;
 use crate::gpu::{self, Kernel, Program, Uniform, Wanted};
 use crate::verify::harness::ENTRY;
 use crate::verify::run::Devices;
 
+use super::accept;
 use super::job::{Asked, Code, Said};
 
 /// Serves until there is nothing more to read.
@@ -14,11 +16,15 @@ use super::job::{Asked, Code, Said};
 /// # Errors
 /// The pipe is gone.
 pub fn serve() -> io::Result<()> {
-    let (input, mut output) = (io::stdin().lock(), io::stdout().lock());
+    let (input, mut output) = (Inbox::open(), io::stdout().lock());
     let devices = Devices::new(Wanted::default());
     let mut ready: Option<(Kernel, Vec<Uniform>)> = None;
-    for line in input.lines() {
-        let said = match serde_json::from_str(&line?) {
+    for line in input {
+        let said = match serde_json::from_str(&line) {
+            Ok(Asked::Accept(language, program)) => {
+                Said::Accepted(accept::accepted(language, program))
+            }
+            Ok(Asked::Module(language, shader)) => Said::Module(accept::module(language, &shader)),
             Ok(Asked::Prepare(code, values)) => {
                 let uniforms: Vec<Uniform> = values.iter().map(|value| value.uniform()).collect();
                 match prepare(&devices, &code, &uniforms) {

@@ -125,6 +125,7 @@ fn audit(flags: &AuditFlags, space: Space) -> Result<Audit, Error> {
         families: families(&flags.gpu)?,
         text: shader(&file)?,
         function: flags.function.clone(),
+        tools: flags.tools.clone(),
         seconds: flags.limit,
         workers: machine::cores(),
         file,

@@ -9,6 +9,7 @@ use crate::app::names::{family, flag};
 use crate::app::precision::several;
 use crate::app::request::Request;
 use crate::app::source::materials;
+use crate::app::surroundings::Surroundings;
 use crate::app::verify::machine;
 use crate::app::write::{try_places_of_ours, write_report};
 use crate::cost::{FAMILIES, Family, Figures, Record, records};
@@ -40,7 +41,8 @@ pub fn run(flags: &CostFlags, progress: Progress) -> Result<Output, Error> {
         seconds: flags.limit,
         workers: machine::cores(),
     };
-    let told = ask(&families, &functions, limits, progress)?;
+    let surroundings = Surroundings::new(flags.tools.as_deref())?;
+    let told = ask(&families, &functions, limits, &surroundings, progress)?;
     let table: Vec<Vec<Row>> = families
         .iter()
         .zip(&told)

@@ -5,6 +5,7 @@ use std::collections::BTreeSet;
 
 use crate::app::args::TimeFlags;
 use crate::app::error::Error;
+use crate::app::inbox::Inbox;
 use crate::app::names::{flag, unknown};
 use crate::app::source::materials;
 use crate::app::time::{Artist, Asked, Report, Row, Words, serve, text};
@@ -21,6 +22,8 @@ const SECONDS: std::ops::RangeInclusive<f64> = 1e-6..=3600.0;
 
 /// Measures.
 pub fn run(flags: &TimeFlags, progress: Progress) -> Result<Output, Error> {
+    // Before the work begins, so that a worker ends with its supervisor at any time.
+    let inbox = flags.worker.then(Inbox::open);
     check(flags)?;
     let (wanted, clock) = (wanted(flags)?, clock(flags)?);
     let asked = Asked::new(&Words {
@@ -29,8 +32,8 @@ pub fn run(flags: &TimeFlags, progress: Progress) -> Result<Output, Error> {
         precisions: &flags.precision,
         evaluations: flags.evaluations,
     })?;
-    if flags.worker {
-        let served = serve(&asked.plan, &wanted, flags.size);
+    if let Some(inbox) = inbox {
+        let served = serve(inbox, &asked.plan, &wanted, flags.size);
         // The supervisor has gone: nobody is there to be told.
         return Ok(Output {
             code: u8::from(served.is_err()),

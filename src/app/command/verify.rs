@@ -6,6 +6,7 @@ use serde_json::{Value, json};
 
 use crate::app::args::VerifyFlags;
 use crate::app::error::Error;
+use crate::app::inbox::Inbox;
 use crate::app::names::{flag, unknown};
 use crate::app::request::Request;
 use crate::app::sight::{flags as sight_flags, sight};
@@ -15,6 +16,7 @@ use crate::app::write::write_file;
 use crate::gpu::{Backend, Wanted};
 use crate::report::SCHEMA;
 use crate::report::table;
+use crate::verify::ALL;
 use crate::verify::run::Devices;
 
 use super::{Output, Progress, report, try_places};
@@ -26,6 +28,8 @@ const TOLD: usize = 20;
 
 /// Verifies.
 pub fn run(flags: &VerifyFlags, progress: Progress) -> Result<Output, Error> {
+    // Before the work begins, so that a worker ends with its supervisor at any time.
+    let inbox = flags.worker.then(Inbox::open);
     let request = request(flags)?;
     let wanted = wanted(flags)?;
     let effort = effort(flags)?;
@@ -35,8 +39,8 @@ pub fn run(flags: &VerifyFlags, progress: Progress) -> Result<Output, Error> {
             what: "there is nothing to run: name a method or a material".to_owned(),
         });
     }
-    if flags.worker {
-        let served = serve(&plan, &Devices::new(wanted), effort);
+    if let Some(inbox) = inbox {
+        let served = serve(inbox, &plan, &Devices::new(wanted), effort);
         // The supervisor has gone: nobody is there to be told.
         return Ok(Output {
             code: u8::from(served.is_err()),
@@ -57,7 +61,10 @@ pub fn run(flags: &VerifyFlags, progress: Progress) -> Result<Output, Error> {
             seconds: flags.limit.max(1),
             workers: machine::cores(),
         };
-        (supervise(&plan, limits, progress)?, Vec::new())
+        (
+            supervise(&plan, limits, flags.tools.as_deref(), progress)?,
+            Vec::new(),
+        )
     };
     let mut output = told(flags, &request, &plan, &rows)?;
     output.remarks.extend(speeds);
@@ -164,22 +171,14 @@ fn unchecked(rows: &[Value]) -> BTreeSet<String> {
                 word(opinion, "reason")
             ));
         }
-        for (name, verdict) in row["accepts"].as_object().into_iter().flatten() {
-            if verdict == "not checked" {
-                all.insert(format!("{target} by {name}: {}", get(target, name)));
-            }
+        for (name, why) in row["not_asked"].as_object().into_iter().flatten() {
+            all.insert(format!(
+                "{target} by {name}: {}",
+                why.as_str().unwrap_or_default()
+            ));
         }
     }
     all
-}
-
-/// Where to get a compiler.
-fn get(target: &str, name: &str) -> String {
-    let validators = crate::targets::find(target).map_or(&[][..], |target| target.validators);
-    let found = validators.iter().find(|validator| validator.name == name);
-    found.map_or_else(String::new, |found| {
-        format!("not here; get it from {}", found.compiler.get)
-    })
 }
 
 /// Findings and what was not checked, for stderr; GitHub shows findings beside the file.
@@ -317,5 +316,31 @@ fn text(rows: &[Value]) -> String {
         "in the mean, %",
         "status",
     ];
-    table::text(&head, &rows.iter().map(cells).collect::<Vec<_>>())
+    table::text(&head, &rows.iter().map(cells).collect::<Vec<_>>()) + &covered(rows)
+}
+
+/// What share of all numbers was tried: a sample finds what is wrong at a single number by luck only.
+fn covered(rows: &[Value]) -> String {
+    let shares = |precision: &str| {
+        let rows = rows
+            .iter()
+            .filter(move |row| word(row, "precision") == precision);
+        let most = rows.filter_map(|row| row["share"].as_f64());
+        most.reduce(f64::max)
+    };
+    let mut told = String::new();
+    if let Some(share) = shares("f32") {
+        let cosines = (share * ALL as f64).round();
+        let percent = 100.0 * share;
+        told += &format!(
+            "\nFrom 0 to 1 each function was run at {cosines} cosines at most, {percent:.6} % of the {ALL} f32 there are.\n"
+        );
+        if share < 0.5 {
+            told += "A result that is wrong at a single f32 is found by luck only; --exhaustive tries all of them.\n";
+        }
+    }
+    if shares("f16").is_some() {
+        told += "\nIn half precision each function was run at every f16 from 0 to 1.\n";
+    }
+    told
 }

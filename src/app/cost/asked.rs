@@ -2,14 +2,13 @@
 
 use core::time::Duration;
 use std::collections::BTreeMap;
-use std::path::Path;
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::mpsc::{Sender, channel};
 use std::thread;
 
 use crate::app::error::Error;
-use crate::app::worker::scratch;
+use crate::app::surroundings::Surroundings;
 use crate::cost::{Dialect, Family};
 
 use super::function::Function;
@@ -54,11 +53,12 @@ pub fn ask(
     families: &[&'static Family],
     functions: &[Function],
     limits: Limits,
+    surroundings: &Surroundings,
     progress: &mut dyn FnMut(u64, u64, &str),
 ) -> Result<Vec<Option<Told>>, Error> {
     let has_compiler = |family: &&'static Family| family.compiler.dialect().is_some();
     let asked: Vec<&'static Family> = families.iter().copied().filter(has_compiler).collect();
-    let mut told = ask_compilers(&asked, functions, limits, progress)?.into_iter();
+    let mut told = ask_compilers(&asked, functions, limits, surroundings, progress)?.into_iter();
     let of = |family: &&'static Family| has_compiler(family).then(|| told.next()).flatten();
     Ok(families.iter().map(of).collect())
 }
@@ -67,13 +67,13 @@ fn ask_compilers(
     families: &[&'static Family],
     functions: &[Function],
     limits: Limits,
+    surroundings: &Surroundings,
     progress: &mut dyn FnMut(u64, u64, &str),
 ) -> Result<Vec<Told>, Error> {
     if families.is_empty() {
         return Ok(Vec::new());
     }
     let (functions, places) = once_each(functions);
-    let scratch = scratch()?;
     let size = job_size(functions.len(), limits.workers);
     let jobs: Vec<Job> = jobs(families.len(), functions.len(), size);
     let crew = Crew {
@@ -82,7 +82,7 @@ fn ask_compilers(
         results: jobs.iter().map(|_| Mutex::default()).collect(),
         jobs: &jobs,
         limit: Duration::from_secs(limits.seconds),
-        scratch: scratch.path(),
+        surroundings,
         next: AtomicUsize::new(0),
     };
     let whole = (families.len() * functions.len()) as u64;
@@ -117,7 +117,7 @@ struct Crew<'a> {
     jobs: &'a [Job],
     results: Vec<Mutex<Option<Done>>>,
     limit: Duration,
-    scratch: &'a Path,
+    surroundings: &'a Surroundings,
     next: AtomicUsize,
 }
 
@@ -132,7 +132,7 @@ impl Crew<'_> {
             let asker = Asker {
                 family: self.families[job.family],
                 limit: self.limit,
-                scratch: self.scratch,
+                surroundings: self.surroundings,
             };
             let done = asker.run(&self.functions[job.functions.clone()], &mut || {
                 // Nobody listens any more where another process could not be started.

@@ -1,12 +1,13 @@
 //! A worker: opens the compiler that its environment tells, and answers each shader with what the compiler says.
 
 use std::ffi::CString;
-use std::io::{self, BufRead, Write};
+use std::io::{self, Write};
 
 use serde::Deserialize;
 use serde_json::json;
 
 use crate::app::error::Error;
+use crate::app::inbox::Inbox;
 use crate::cost::{Compiler, Dialect, ENTRY, Family, Statistics, VERTEX, WGSL_VERTEX};
 use crate::cost::{gles_vertex, remarked};
 use crate::emit::wgsl_to_spirv;
@@ -37,7 +38,7 @@ pub fn serve(family: &Family) -> Result<(), Error> {
     let gone = |why: io::Error| Error::Usage {
         what: why.to_string(),
     };
-    let (mut input, mut output) = (io::stdin().lock().lines(), io::stdout().lock());
+    let (mut input, mut output) = (Inbox::open(), io::stdout().lock());
     let mut answer = |value: serde_json::Value| {
         writeln!(output, "{value}")
             .and_then(|()| output.flush())
@@ -52,7 +53,6 @@ pub fn serve(family: &Family) -> Result<(), Error> {
     answer(hello)?;
     let Ok(open) = opened else { return Ok(()) };
     for line in input {
-        let line = line.map_err(gone)?;
         let told = serde_json::from_str::<Shader>(&line)
             .map_err(|why| why.to_string())
             .and_then(|shader| open.measure(&shader));

@@ -8,8 +8,10 @@ use std::path::{Path, PathBuf};
 use serde::Deserialize;
 
 use crate::app::error::Error;
+use crate::app::surroundings::Surroundings;
 use crate::app::worker::{Silence, Worker};
 use crate::cost::{Compiler, Dialect, Family, Figures, Statistics, figures};
+use crate::verify::compilers;
 
 use super::function::{Function, empty};
 
@@ -61,7 +63,7 @@ pub enum Done {
 pub struct Asker<'a> {
     pub family: &'static Family,
     pub limit: Duration,
-    pub scratch: &'a Path,
+    pub surroundings: &'a Surroundings,
 }
 
 impl Asker<'_> {
@@ -73,7 +75,7 @@ impl Asker<'_> {
         let Some(dialect) = self.family.compiler.dialect() else {
             return Ok(Done::Absent("it has no compiler".to_owned()));
         };
-        let environment = match environment(self.family) {
+        let environment = match environment(self.family, self.surroundings) {
             Ok(environment) => environment,
             Err(why) => return Ok(Done::Absent(why)),
         };
@@ -101,7 +103,7 @@ impl Asker<'_> {
 
     fn start(&self, environment: &[(String, OsString)]) -> Result<(Worker, Said), Error> {
         let words = ["cost", "--worker", self.family.name].map(OsString::from);
-        let mut worker = Worker::start(&words, environment, self.scratch)?;
+        let mut worker = Worker::start(&words, environment, self.surroundings)?;
         let hello = worker.ask::<Said>("", self.limit);
         let hello = hello.unwrap_or_else(|silence| Said::Absent(reason(&silence, self.limit)));
         Ok((worker, hello))
@@ -184,13 +186,20 @@ pub fn reason(silence: &Silence, limit: Duration) -> String {
     }
 }
 
-/// Where tests/mesa-compilers puts what it builds.
-fn built() -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("target/tools/mesa")
+/// The folder of a file among what tests/mesa-compilers builds: in the folder of tools that the user names, or beside this
+/// program.
+fn built(file: &str, tools: Option<&Path>) -> Option<PathBuf> {
+    let beside = compilers::beside();
+    let places = tools.into_iter().chain(beside.iter().map(PathBuf::as_path));
+    let mut folders = places.map(|place| place.join("mesa"));
+    folders.find(|folder| folder.join(file).is_file())
 }
 
 /// What a process needs in its environment to be that compiler, or why it cannot be.
-pub fn environment(family: &Family) -> Result<Vec<(String, OsString)>, String> {
+pub fn environment(
+    family: &Family,
+    surroundings: &Surroundings,
+) -> Result<Vec<(String, OsString)>, String> {
     let pair = |name: &str, value: OsString| (name.to_owned(), value);
     let mut all = vec![
         pair("MESA_SHADER_CACHE_DISABLE", "true".into()),
@@ -202,12 +211,11 @@ pub fn environment(family: &Family) -> Result<Vec<(String, OsString)>, String> {
         Compiler::Mesa {
             shim, environment, ..
         } => {
-            let folder = built();
-            let shim = folder.join(format!("lib{shim}_noop_drm_shim.so"));
-            if !shim.is_file() {
+            let shim = format!("lib{shim}_noop_drm_shim.so");
+            let Some(folder) = built(&shim, surroundings.tools.as_deref()) else {
                 return Err("its compiler is not here; tests/mesa-compilers builds it".to_owned());
-            }
-            all.push(pair("LD_PRELOAD", shim.into()));
+            };
+            all.push(pair("LD_PRELOAD", folder.join(shim).into()));
             all.push(pair("LIBGL_DRIVERS_PATH", folder.join("dri").into()));
             all.push(pair("LD_LIBRARY_PATH", folder.into()));
             all.extend(

@@ -3,10 +3,9 @@
 use core::time::Duration;
 use std::collections::BTreeSet;
 
-use tempfile::TempDir;
-
 use crate::app::error::Error;
-use crate::app::worker::{Silence, Worker, own_words, scratch};
+use crate::app::surroundings::Surroundings;
+use crate::app::worker::{Silence, Worker, own_words};
 use crate::cost::overdraw::{Draw, Hello, Plan, Reading, Stop};
 
 use super::serve::{Answer, HELLO};
@@ -24,7 +23,7 @@ const ONE_THREAD: [(&str, &str); 1] = [("LP_NUM_THREADS", "1")];
 pub struct Artist<'a> {
     plan: &'a Plan,
     worker: Worker,
-    scratch: TempDir,
+    surroundings: Surroundings,
     limit: Duration,
     /// What it draws on.
     pub hello: Hello,
@@ -38,12 +37,12 @@ impl<'a> Artist<'a> {
     /// # Errors
     /// There is no device, or it cannot be opened.
     pub fn start(plan: &'a Plan, limit: Duration) -> Result<Artist<'a>, Error> {
-        let scratch = scratch()?;
-        let (worker, hello) = open(&scratch)?;
+        let surroundings = Surroundings::new(None)?;
+        let (worker, hello) = open(&surroundings)?;
         Ok(Artist {
             plan,
             worker,
-            scratch,
+            surroundings,
             limit,
             hello,
             compiled: BTreeSet::new(),
@@ -52,7 +51,7 @@ impl<'a> Artist<'a> {
 
     /// Another process in place of one that is lost.
     fn restart(&mut self) -> Result<(), Stop> {
-        let (worker, _) = open(&self.scratch).map_err(|why| Stop::All(why.to_string()))?;
+        let (worker, _) = open(&self.surroundings).map_err(|why| Stop::All(why.to_string()))?;
         self.worker = worker;
         self.compiled.clear();
         Ok(())
@@ -104,11 +103,11 @@ impl Draw for Artist<'_> {
     }
 }
 
-fn open(scratch: &TempDir) -> Result<(Worker, Hello), Error> {
+fn open(surroundings: &Surroundings) -> Result<(Worker, Hello), Error> {
     let mut words = own_words();
     words.push("--worker".into());
     let environment = ONE_THREAD.map(|(name, value)| (name.to_owned(), value.into()));
-    let mut worker = Worker::start(&words, &environment, scratch.path())?;
+    let mut worker = Worker::start(&words, &environment, surroundings)?;
     let lacking = |what: String| Error::Lacking { what };
     match worker.ask(HELLO, PATIENCE) {
         Ok(Answer::Hello(hello)) => Ok((worker, hello)),

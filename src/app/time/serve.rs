@@ -1,10 +1,11 @@
 //! The process that draws: opens the device, and answers each line with a line of JSON: [`HELLO`] with what the device is, a
 //! drawing's number and how often it is drawn with a reading.
 
-use std::io::{self, BufRead, Write};
+use std::io::{self, Write};
 
 use serde::{Deserialize, Serialize};
 
+use crate::app::inbox::Inbox;
 use crate::cost::overdraw::{Easel, Hello, Plan, Reading};
 use crate::gpu::{Fault, Wanted};
 
@@ -37,10 +38,9 @@ impl From<Fault> for Answer {
 ///
 /// # Errors
 /// The pipe is gone.
-pub fn serve(plan: &Plan, wanted: &Wanted, size: Option<u32>) -> io::Result<()> {
+pub fn serve(inbox: Inbox, plan: &Plan, wanted: &Wanted, size: Option<u32>) -> io::Result<()> {
     let mut easel = Easel::open(plan, wanted, size);
-    for line in io::stdin().lock().lines() {
-        let line = line?;
+    for line in inbox {
         let answer = match (&mut easel, job(&line, plan)) {
             (Err(fault), _) => fault.clone().into(),
             (Ok(easel), Some((drawing, draws))) => easel

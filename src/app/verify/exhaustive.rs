@@ -6,7 +6,7 @@ use crate::app::error::Error;
 use crate::emit::{Emitted, Subject};
 use crate::fit::Measured;
 use crate::verify::run::{Devices, Fault, Shown, Way};
-use crate::verify::{Trial, count, sweep};
+use crate::verify::{ALL, Trial, count, sweep};
 
 use super::file::specialised;
 use super::machine;
@@ -80,6 +80,7 @@ fn run(
     let run = swept.and_then(|outcome| {
         Ok(Run {
             points: all as usize,
+            share: (all as f64 / ALL as f64).min(1.0),
             bound: match trial.bound {
                 Measured::Yes(ulp) => Some(ulp),
                 Measured::No(_) => None,

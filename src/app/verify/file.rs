@@ -14,7 +14,7 @@ use crate::verify::compilers::{self, Verdict};
 use crate::verify::harness;
 use crate::verify::run::{Devices, Fault, Runnable, Shown, Way};
 use crate::verify::{
-    BEYOND, Outcome, Trial, cosines_around, limits, nearest_half, worst_cases, worst_cosines,
+    BEYOND, Outcome, Trial, cosines_around, limits, nearest_half, share, worst_cases, worst_cosines,
 };
 
 use super::half;
@@ -290,6 +290,7 @@ impl<'a> Tried<'a> {
         };
         Ok(Run {
             points: expected.cosines.len(),
+            share: share(&expected.cosines),
             bound: Some(expected.bound),
             outcome,
             half: None,

@@ -55,6 +55,7 @@ pub(super) fn run(runnable: &Runnable, shown: &Shown, trial: &Trial) -> Result<R
     }
     Ok(Run {
         points: cosines.len(),
+        share: 1.0,
         bound: None,
         outcome: Outcome::NONE,
         half: Some(result),

@@ -19,6 +19,8 @@ pub const WORST: &str = "worst cases";
 pub struct Run {
     /// At how many cosines.
     pub points: usize,
+    /// What share of all numbers from 0 to 1 they are.
+    pub share: f64,
     /// What it may differ by, in ulp; none where nothing is promised.
     pub bound: Option<f64>,
     /// What came of it.
@@ -105,6 +107,7 @@ impl Row<'_> {
             }
         }
         row["accepts"] = accepts(self.accepts);
+        row["not_asked"] = not_asked(self.accepts);
         row["status"] = json!(status);
         row["reason"] = if reasons.is_empty() {
             Value::Null
@@ -121,8 +124,8 @@ impl Row<'_> {
             "target": self.file.target.name, "method": self.emitted.method.name, "material": self.material,
             "form": self.emitted.form, "precision": self.emitted.precision.name(), "function": self.emitted.name, "file": page.path,
             "fingerprint": fingerprint(&self.emitted.function),
-            "shipped": page.is_shipped, "current": page.is_current, "device": null, "points": null, "bound": null,
-            "code_error": null, "model_error": null, "accepts": null, "second_opinions": [], "status": null,
+            "shipped": page.is_shipped, "current": page.is_current, "device": null, "points": null, "share": null, "bound": null,
+            "code_error": null, "model_error": null, "accepts": null, "not_asked": {}, "second_opinions": [], "status": null,
             "reason": null,
         })
     }
@@ -148,6 +151,7 @@ impl Row<'_> {
             Ok(run) => {
                 row["device"] = json!(run.device);
                 row["points"] = json!(run.points);
+                row["share"] = json!(run.share);
                 row["bound"] = json!({ "ulp": run.bound, "text": self.bound_text() });
                 row["code_error"] = code_error(&run.outcome.error);
                 if let Some(error) = &run.model_error {
@@ -168,6 +172,7 @@ impl Row<'_> {
         };
         row["device"] = json!(run.device);
         row["points"] = json!(run.points);
+        row["share"] = json!(run.share);
         let promised = half.allowed.is_finite().then_some(half.allowed);
         row["bound"] = json!({ "max_abs": promised, "text": self.bound_text() });
         row["code_error"] = json!({
@@ -250,6 +255,15 @@ fn accepts(verdicts: &[(&'static str, Verdict)]) -> Value {
         all.insert((*name).to_owned(), json!(word));
     }
     Value::Object(all)
+}
+
+/// Why compilers were not asked.
+fn not_asked(verdicts: &[(&'static str, Verdict)]) -> Value {
+    let reason = |(name, verdict): &(&'static str, Verdict)| match verdict {
+        Verdict::NotChecked(why) => Some(((*name).to_owned(), json!(why))),
+        Verdict::Yes | Verdict::No(_) => None,
+    };
+    Value::Object(verdicts.iter().filter_map(reason).collect())
 }
 
 /// The rows of a file whose run came to no end.

@@ -1,5 +1,6 @@
 //! The supervisor: hands files to workers, and ends those that come to no end.
 
+use std::path::Path;
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::mpsc::channel;
@@ -9,7 +10,8 @@ use std::time::Duration;
 use serde_json::Value;
 
 use crate::app::error::Error;
-use crate::app::worker::{Silence, Worker, own_words, scratch};
+use crate::app::surroundings::Surroundings;
+use crate::app::worker::{Silence, Worker, own_words};
 
 use super::plan::Plan;
 use super::row::unfinished;
@@ -23,20 +25,21 @@ pub struct Limits {
     pub workers: usize,
 }
 
-/// The rows of all files, in the plan's order. `progress` hears how many are done.
+/// The rows of all files, in the plan's order, by the compilers in the folder of tools before all others. `progress` hears how many are done.
 ///
 /// # Errors
 /// No process can be started.
 pub fn supervise(
     plan: &Plan,
     limits: Limits,
+    tools: Option<&Path>,
     progress: &mut dyn FnMut(u64, u64, &str),
 ) -> Result<Vec<Value>, Error> {
     let time = Duration::from_secs(limits.seconds);
-    let scratch = scratch()?;
+    let surroundings = Surroundings::new(tools)?;
     let mut words = own_words();
     words.push("--worker".into());
-    let start = || Worker::start(&words, &[], scratch.path());
+    let start = || Worker::start(&words, &[], &surroundings);
     let next = AtomicUsize::new(0);
     let answers: Vec<Mutex<Vec<Value>>> = plan.files.iter().map(|_| Mutex::default()).collect();
     let (done, heard) = channel();
@@ -97,7 +100,7 @@ fn work(
 fn reason(silence: &Silence, limit: Duration) -> String {
     match silence {
         Silence::TooLong => format!(
-            "it did not end within {} s: a device that hangs, or more --points than --limit allows",
+            "it did not end within {} s: a device or a compiler that hangs, or more --points than --limit allows",
             limit.as_secs()
         ),
         Silence::Ended(status) => {

@@ -1,9 +1,10 @@
 //! A worker: reads the numbers of files, a line each, and answers each with its rows, a line of JSON.
 
-use std::io::{self, BufRead, Write};
+use std::io::{self, Write};
 
 use serde_json::Value;
 
+use crate::app::inbox::Inbox;
 use crate::verify::run::Devices;
 
 use super::file::{Effort, rows};
@@ -13,10 +14,10 @@ use super::plan::Plan;
 ///
 /// # Errors
 /// The pipe is gone.
-pub fn serve(plan: &Plan, devices: &Devices, effort: Effort) -> io::Result<()> {
-    let (input, mut output) = (io::stdin().lock(), io::stdout().lock());
-    for line in input.lines() {
-        let Some(file) = line?
+pub fn serve(inbox: Inbox, plan: &Plan, devices: &Devices, effort: Effort) -> io::Result<()> {
+    let mut output = io::stdout().lock();
+    for line in inbox {
+        let Some(file) = line
             .trim()
             .parse()
             .ok()

@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::cost::clock::timed;
 use crate::gpu::{
-    Canvas, Device, Fault, Kind, Layer, Shader, Texture, TextureFormat, Wanted, Wrap,
+    Backend, Canvas, Device, Fault, Kind, Layer, Shader, Texture, TextureFormat, Wanted, Wrap,
 };
 
 use super::measure::Reading;
@@ -41,6 +41,20 @@ impl Hello {
     }
 }
 
+/// The device that is wanted. OpenGL draws as well as the others, so it is taken where nothing else is there.
+fn open(wanted: &Wanted) -> Result<Device, Fault> {
+    let opengl = Wanted {
+        backend: Some(Backend::OpenGl),
+        ..wanted.clone()
+    };
+    match Device::open(wanted) {
+        Err(fault @ Fault::Absent { .. }) if wanted.backend.is_none() => {
+            Device::open(&opengl).map_err(|_| fault)
+        }
+        opened => opened,
+    }
+}
+
 /// A device that draws a plan.
 pub struct Easel<'a> {
     plan: &'a Plan,
@@ -54,7 +68,7 @@ impl<'a> Easel<'a> {
     /// # Errors
     /// There is none, or it draws no such target.
     pub fn open(plan: &'a Plan, wanted: &Wanted, size: Option<u32>) -> Result<Easel<'a>, Fault> {
-        let device = Device::open(wanted)?;
+        let device = open(wanted)?;
         let usual = match device.adapter.kind {
             Kind::Software => ON_A_PROCESSOR,
             _ => ON_A_CARD,

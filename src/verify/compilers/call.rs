@@ -1,7 +1,7 @@
 //! The one place of this room that touches the machine: it finds a compiler, runs it in a folder of its own that is gone
 //! afterwards, and stops it when it takes too long.
 
-use std::env::{consts::EXE_SUFFIX, split_paths, var_os};
+use std::env::{consts::EXE_SUFFIX, current_exe, join_paths, split_paths, var_os};
 use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
@@ -11,8 +11,14 @@ use std::time::{Duration, Instant};
 
 use tempfile::TempDir;
 
+/// The variable that says where temporary files go.
+pub const TEMPORARY: &str = if cfg!(windows) { "TMP" } else { "TMPDIR" };
+
 /// More than any compiler needs for our files, on a slow machine too.
 const LIMIT: Duration = Duration::from_secs(20);
+
+/// Bytes that must find room beside what a compiler writes: more than most of what it makes.
+const PROBE: usize = 1 << 18;
 
 /// A file for a compiler to read.
 pub struct File {
@@ -32,21 +38,55 @@ pub struct Called {
     pub made: Vec<u8>,
 }
 
-/// Where a command lies: on the path, or where `tests/run` puts what it fetches.
+/// Why a command said nothing.
+#[derive(Debug, thiserror::Error)]
+pub enum Silent {
+    /// It cannot be started.
+    #[error("it cannot be started: {0}")]
+    Start(io::Error),
+    /// Its files cannot be written.
+    #[error(
+        "its temporary files cannot be written: {0}; make room in the temporary folder, or set {TEMPORARY} to another"
+    )]
+    Files(#[from] io::Error),
+}
+
+/// Where a command lies: on the path, or beside this program.
 pub fn find(command: &str) -> Option<PathBuf> {
     let file = format!("{command}{EXE_SUFFIX}");
-    let path = var_os("PATH").unwrap_or_default();
-    // The current folder may be anybody's: what lies below it is not run.
-    let fetched = Path::new(env!("CARGO_MANIFEST_DIR")).join("target/tools");
-    let mut places = split_paths(&path).chain([fetched]);
+    let mut places = path().into_iter().chain(beside());
     places.find_map(|place| {
         let path = place.join(&file);
-        (place.is_absolute() && path.is_file()).then_some(path)
+        path.is_file().then_some(path)
     })
 }
 
+/// The folders of the path. What lies below the current folder may be anybody's, so folders that are relative to it are left
+/// out.
+fn path() -> Vec<PathBuf> {
+    let path = var_os("PATH").unwrap_or_default();
+    split_paths(&path)
+        .filter(|place| place.is_absolute())
+        .collect()
+}
+
+/// The folders of tools that belong to this program: `tools` beside it and, where Cargo has built it, `tools` in the target
+/// folder, where `tests/run` puts what it fetches.
+pub fn beside() -> Vec<PathBuf> {
+    let program = current_exe().unwrap_or_default();
+    let Some(folder) = program.parent().filter(|folder| folder.is_absolute()) else {
+        return Vec::new();
+    };
+    // Cargo keeps its own notes beside a program, and one folder above a test.
+    let mut above = folder.ancestors().take(2);
+    let built = above.find(|folder| folder.join(".fingerprint").is_dir());
+    let target = built.and_then(Path::parent);
+    let places = [Some(folder), target].into_iter().flatten();
+    places.map(|place| place.join("tools")).collect()
+}
+
 /// Calls a command with options, in which `FILE` stands for all the files and `OUT` for what it writes.
-pub fn call(command: &Path, options: &str, files: &[File]) -> io::Result<Called> {
+pub fn call(command: &Path, options: &str, files: &[File]) -> Result<Called, Silent> {
     call_within(LIMIT, command, options, files)
 }
 
@@ -55,7 +95,7 @@ fn call_within(
     command: &Path,
     options: &str,
     files: &[File],
-) -> io::Result<Called> {
+) -> Result<Called, Silent> {
     let folder = TempDir::new()?;
     for file in files {
         fs::write(folder.path().join(&file.name), &file.bytes)?;
@@ -65,14 +105,21 @@ fn call_within(
     let words = fs::File::create(&said)?;
     let mut child = Command::new(command)
         .args(arguments(options, files, made))
+        // Some are scripts, whose interpreter is looked up as well. All of these folders were in the path.
+        .env("PATH", join_paths(path()).unwrap_or_default())
         .current_dir(folder.path())
         .stdin(Stdio::null())
         .stdout(words.try_clone()?)
         .stderr(words)
-        .spawn()?;
+        .spawn()
+        .map_err(Silent::Start)?;
     let status = wait(&mut child, limit)?;
     let mut said = String::from_utf8_lossy(&fs::read(said)?).into_owned();
     let ok = status.is_some_and(|status| status.success());
+    if !ok {
+        // A compiler that cannot write what it makes fails in words of its own, and is not to blame.
+        fs::write(folder.path().join("probe"), [0; PROBE])?;
+    }
     match status {
         None => said.insert_str(0, &format!("stopped after {} s\n", limit.as_secs_f64())),
         Some(status) if !ok && said.trim().is_empty() => said = format!("no word, {status}"),
@@ -153,5 +200,12 @@ mod tests {
     #[test]
     fn what_does_not_exist_is_not_found() {
         assert_eq!(find("no-such-compiler"), None);
+    }
+
+    #[test]
+    fn tools_of_a_build_lie_beside_its_profiles() {
+        let target = current_exe().unwrap();
+        let target = target.ancestors().nth(3).unwrap();
+        assert!(beside().contains(&target.join("tools")));
     }
 }

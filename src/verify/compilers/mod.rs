@@ -4,6 +4,8 @@
 mod call;
 mod program;
 
+use serde::{Deserialize, Serialize};
+
 use crate::emit::{NAGA_VERSION, validate_wgsl};
 use crate::fit::Measured;
 use crate::num::Precision;
@@ -11,10 +13,11 @@ use crate::targets::{Compiler, DXC, Target, Validator};
 
 use call::{Called, File};
 
+pub use call::{TEMPORARY, beside};
 pub use program::calls;
 
 /// What a compiler says of a file.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Verdict {
     /// It accepts it.
     Yes,
@@ -25,7 +28,7 @@ pub enum Verdict {
 }
 
 /// Why a compiler has made nothing of a text.
-#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error, Serialize, Deserialize)]
 pub enum Fault {
     /// It refuses it, in these words: the first lines.
     #[error("{0}")]
@@ -169,7 +172,7 @@ fn called(compiler: &Compiler, options: &str, files: &[File]) -> Result<Called, 
     let command = compiler.command.ok_or_else(absent)?;
     let path = call::find(command).ok_or_else(absent)?;
     call::call(&path, options, files)
-        .map_err(|fault| Fault::NotChecked(format!("{} cannot be called: {fault}", path.display())))
+        .map_err(|silent| Fault::NotChecked(format!("{name} was not asked: {silent}")))
 }
 
 fn first_line(words: &str) -> String {

@@ -18,7 +18,7 @@ pub fn verify(place: &Place, line: &str) -> Option<Ran> {
     Some(ran)
 }
 
-fn rows(ran: &Ran) -> Vec<Value> {
+pub fn rows(ran: &Ran) -> Vec<Value> {
     ran.json()["rows"].as_array().unwrap().clone()
 }
 

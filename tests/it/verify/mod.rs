@@ -2,7 +2,14 @@
 
 mod command;
 mod half;
+#[cfg(unix)]
+mod machine;
 mod mutants;
+#[cfg(target_os = "linux")]
+mod processes;
 mod recorded;
+mod share;
+#[cfg(unix)]
+mod tools;
 
 pub use crate::subjects;

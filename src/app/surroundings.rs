@@ -1,0 +1,260 @@
+//! What the processes of a run share: a folder for their temporary files, and the folder of tools that the user names.
+//!
+//! The run holds a lock in its folder, and removes the folder at its end, on SIGTERM and SIGINT too. A run that is killed leaves
+//! its folder behind. The next run removes every such folder whose lock is free.
+
+use std::collections::BTreeSet;
+use std::env::{join_paths, split_paths, temp_dir, var_os};
+use std::ffi::OsString;
+use std::fs::{self, File, Metadata};
+use std::io::{self, Write};
+use std::path::{Path, PathBuf};
+use std::sync::{Mutex, MutexGuard, PoisonError};
+
+use tempfile::TempDir;
+
+use crate::verify::compilers::TEMPORARY;
+
+use super::error::Error;
+
+/// How the name of a run's folder begins. Nothing else with our lock in it is ever removed.
+const PREFIX: &str = ".fresnel-gen-run-";
+/// The file that a run holds locked.
+const LOCK: &str = "lock";
+/// Its name until it is locked, so that no other run takes it for one that was left behind.
+const UNLOCKED: &str = "lock.new";
+/// What it says to people. On a disk that is full these bytes cannot be written, and the run says so before it begins.
+const ABOUT: &str = "A run of fresnel-gen locks this file and removes this folder when it ends. After a run that was killed \
+the next run removes it.\n";
+
+/// What the processes of a run share.
+pub struct Surroundings {
+    /// The folder that is searched for tools before all others.
+    pub tools: Option<PathBuf>,
+    /// It is closed before the folder is removed.
+    _lock: Option<File>,
+    folder: TempDir,
+}
+
+impl Surroundings {
+    /// Makes the folder, and removes those of runs that were killed.
+    ///
+    /// # Errors
+    /// Temporary files cannot be written, or the folder of tools is none.
+    pub fn new(tools: Option<&Path>) -> Result<Surroundings, Error> {
+        let tools = tools.map(named).transpose()?;
+        let place = temp_dir();
+        sweep(&place);
+        signals::listen();
+        let lacking = |why: io::Error| no_place(&place, &why);
+        let folder = tempfile::Builder::new().prefix(PREFIX).tempdir();
+        let folder = folder.map_err(lacking)?;
+        folders().insert(folder.path().to_path_buf());
+        let lock = locked(folder.path()).map_err(lacking)?;
+        Ok(Surroundings {
+            tools,
+            _lock: lock,
+            folder,
+        })
+    }
+
+    /// What each process has in its environment beside our own: temporary files go into the folder, and tools that the user
+    /// names come first.
+    pub fn environment(&self) -> Vec<(String, OsString)> {
+        let folder = || self.folder.path().as_os_str().to_owned();
+        let mut all: Vec<(String, OsString)> = ["TMPDIR", "TMP", "TEMP"]
+            .map(|name| (name.to_owned(), folder()))
+            .into();
+        if var_os("XDG_RUNTIME_DIR").is_none() {
+            // Mesa complains where it is not set.
+            all.push(("XDG_RUNTIME_DIR".to_owned(), folder()));
+        }
+        if let Some(tools) = &self.tools {
+            let path = var_os("PATH").unwrap_or_default();
+            let all_places = [tools.clone()].into_iter().chain(split_paths(&path));
+            // What cannot be joined was refused when it was named.
+            let joined = join_paths(all_places).unwrap_or(path.clone());
+            all.push(("PATH".to_owned(), joined));
+        }
+        all
+    }
+}
+
+impl Drop for Surroundings {
+    fn drop(&mut self) {
+        folders().remove(self.folder.path());
+    }
+}
+
+/// The folder of tools as the user names it: the only place that may be relative to the current folder.
+fn named(tools: &Path) -> Result<PathBuf, Error> {
+    let refused = |why: &str| Error::Usage {
+        what: format!(
+            "--tools {}: {why}; name a folder that holds compilers",
+            tools.display()
+        ),
+    };
+    if !tools.is_dir() {
+        return Err(refused("this is no folder"));
+    }
+    let whole = std::path::absolute(tools).map_err(|why| refused(&why.to_string()))?;
+    match join_paths([&whole]) {
+        Ok(_) => Ok(whole),
+        Err(why) => Err(refused(&why.to_string())),
+    }
+}
+
+fn no_place(place: &Path, why: &io::Error) -> Error {
+    // The error's own words repeat the path.
+    let inner = why.get_ref().and_then(|inner| inner.source());
+    let why = inner.map_or_else(|| why.to_string(), ToString::to_string);
+    Error::Lacking {
+        what: format!(
+            "not checked: temporary files cannot be written in {}: {why}; create this folder, make room in it, or set {TEMPORARY} to another",
+            place.display()
+        ),
+    }
+}
+
+/// The lock of a new folder; nothing where the file system has no locks, and then no other run removes the folder.
+fn locked(folder: &Path) -> io::Result<Option<File>> {
+    let file = folder.join(UNLOCKED);
+    let mut lock = File::create(&file)?;
+    lock.write_all(ABOUT.as_bytes())?;
+    if lock.try_lock().is_err() {
+        return Ok(None);
+    }
+    fs::rename(file, folder.join(LOCK))?;
+    Ok(Some(lock))
+}
+
+/// Removes what runs that were killed have left in a folder.
+fn sweep(place: &Path) {
+    for entry in fs::read_dir(place).into_iter().flatten().flatten() {
+        let name = entry.file_name();
+        let is_named = name.to_str().is_some_and(|name| name.starts_with(PREFIX));
+        if is_named && is_left(&entry.path()) {
+            // Who cannot remove it leaves it to its owner.
+            let _ = fs::remove_dir_all(entry.path());
+        }
+    }
+}
+
+/// Whether a folder was made by a run of this user's that is no more.
+fn is_left(folder: &Path) -> bool {
+    let lock = folder.join(LOCK);
+    let own = |path: &Path, is: fn(&Metadata) -> bool| {
+        fs::symlink_metadata(path).is_ok_and(|found| is(&found) && is_own(&found))
+    };
+    let open = || File::options().read(true).write(true).open(&lock);
+    own(folder, Metadata::is_dir)
+        && own(&lock, Metadata::is_file)
+        && open().is_ok_and(|lock| lock.try_lock().is_ok())
+}
+
+#[cfg(unix)]
+fn is_own(found: &Metadata) -> bool {
+    use std::os::unix::fs::MetadataExt;
+    found.uid() == rustix::process::geteuid().as_raw()
+}
+
+#[cfg(not(unix))]
+fn is_own(_: &Metadata) -> bool {
+    // The temporary folder of other systems is the user's own.
+    true
+}
+
+/// The folders of this process that a signal must remove.
+fn folders() -> MutexGuard<'static, BTreeSet<PathBuf>> {
+    static FOLDERS: Mutex<BTreeSet<PathBuf>> = Mutex::new(BTreeSet::new());
+    FOLDERS.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+#[cfg(unix)]
+mod signals {
+    use std::fs;
+    use std::sync::Once;
+    use std::thread::{sleep, spawn};
+    use std::time::Duration;
+
+    use signal_hook::consts::{SIGINT, SIGTERM};
+    use signal_hook::iterator::Signals;
+    use signal_hook::low_level::emulate_default_handler;
+
+    /// Has folders removed when a signal ends this process. Workers end by themselves when this process is gone.
+    pub fn listen() {
+        static ONCE: Once = Once::new();
+        ONCE.call_once(|| {
+            let Ok(mut signals) = Signals::new([SIGINT, SIGTERM]) else {
+                return;
+            };
+            spawn(move || {
+                for signal in signals.forever() {
+                    remove();
+                    // Whoever sent the signal sees that this process ended by it.
+                    let _ = emulate_default_handler(signal);
+                }
+            });
+        });
+    }
+
+    /// A worker may write while its folder is removed, so this tries a few times.
+    fn remove() {
+        for folder in super::folders().iter() {
+            for _ in 0..20 {
+                let _ = fs::remove_dir_all(folder);
+                if !folder.exists() {
+                    break;
+                }
+                sleep(Duration::from_millis(5));
+            }
+        }
+    }
+}
+
+#[cfg(not(unix))]
+mod signals {
+    /// Other systems end a process without a word to it; the next run removes its folder.
+    pub fn listen() {}
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn only_folders_that_a_run_left_are_removed() {
+        let place = TempDir::new().unwrap();
+        let folder = |name: &str| {
+            let path = place.path().join(name);
+            fs::create_dir(&path).unwrap();
+            path
+        };
+        let left = folder(&format!("{PREFIX}left"));
+        drop(locked(&left).unwrap());
+        fs::create_dir(left.join("inner")).unwrap();
+        let busy = folder(&format!("{PREFIX}busy"));
+        let lock = locked(&busy).unwrap();
+        let new = folder(&format!("{PREFIX}new"));
+        fs::write(new.join(UNLOCKED), "").unwrap();
+        let strange = folder("strange");
+        fs::write(strange.join(LOCK), "").unwrap();
+        sweep(place.path());
+        assert!(!left.exists());
+        assert!(busy.exists() && new.exists() && strange.exists());
+        drop(lock);
+        sweep(place.path());
+        assert!(!busy.exists());
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn links_are_left_alone() {
+        let (place, elsewhere) = (TempDir::new().unwrap(), TempDir::new().unwrap());
+        drop(locked(elsewhere.path()).unwrap());
+        let link = place.path().join(format!("{PREFIX}link"));
+        std::os::unix::fs::symlink(elsewhere.path(), &link).unwrap();
+        sweep(place.path());
+        assert!(link.exists() && elsewhere.path().join(LOCK).exists());
+    }
+}
