@@ -23,6 +23,8 @@ pub mod depfile;
 pub mod error;
 pub mod folder;
 pub mod generate;
+#[cfg(feature = "cli")]
+pub mod legible;
 pub mod manifest;
 pub mod names;
 #[cfg(feature = "cli")]

@@ -14,6 +14,7 @@ mod disk;
 mod fit;
 mod generation;
 mod half;
+mod hostile;
 #[cfg(unix)]
 mod killed;
 mod materials;
