@@ -9,6 +9,7 @@ mod bind;
 mod chart;
 mod code;
 mod cost;
+mod directives;
 mod edges;
 mod frontier;
 mod job;
@@ -84,6 +85,7 @@ impl Audit {
         program::check(&self.file, &self.text, self.language)?;
         let found = scan::functions(&self.text, self.language);
         let chosen = bind::choose(&self.file, found, self.function.as_deref())?;
+        program::check_name(&self.file, &self.text, self.language, &chosen.name)?;
         let bound = bind::bind(&self.file, chosen, &self.given, subject)?;
         let (program, run) = Program::pair(self.language, &self.text, &bound);
         let scratch = scratch()?;
