@@ -111,13 +111,15 @@ fn request(flags: &Generate) -> Result<Request, Error> {
 
 fn single(flags: &Generate, request: &Request, file: &Path) -> Result<Output, Error> {
     let bytes = generate_single(request)?;
+    let rule = rule(flags, &[file.display().to_string()])?;
     let mut output = Output::default();
     if file == Path::new("-") {
         output.stdout = bytes;
+        output.is_file = true;
     } else {
         write_file(file, &bytes)?;
     }
-    write_depfile(flags, &[file.display().to_string()])?;
+    write_depfile(flags, rule)?;
     Ok(output)
 }
 
@@ -143,13 +145,14 @@ fn written(
     plan: &Plan,
     out_dir: &Path,
 ) -> Result<Output, Error> {
-    let counts = write(plan)?;
     let outputs: Vec<String> = generated
         .artifacts
         .iter()
         .map(|artifact| out_dir.join(&artifact.path).display().to_string())
         .collect();
-    write_depfile(flags, &outputs)?;
+    let rule = rule(flags, &outputs)?;
+    let counts = write(plan)?;
+    write_depfile(flags, rule)?;
     let mut output = Output::default();
     for why in generated.left_out.iter().filter(|_| !flags.quiet) {
         output.remarks.push(format!("left out: {}", why.why));
@@ -177,10 +180,11 @@ fn written(
     Ok(output)
 }
 
-fn write_depfile(flags: &Generate, outputs: &[String]) -> Result<(), Error> {
-    let Some(file) = &flags.depfile else {
-        return Ok(());
-    };
+/// The rule of the depfile, where one is asked for: made before anything is written, since it can be refused.
+fn rule(flags: &Generate, outputs: &[String]) -> Result<Option<String>, Error> {
+    if flags.depfile.is_none() {
+        return Ok(None);
+    }
     let named = flags.material.iter().chain(&flags.medium);
     let light = input(&flags.sight.words(None)).map(str::to_owned);
     let inputs: Vec<String> = named
@@ -188,7 +192,13 @@ fn write_depfile(flags: &Generate, outputs: &[String]) -> Result<(), Error> {
         .cloned()
         .chain(light)
         .collect();
-    write_file(file, depfile::depfile(outputs, &inputs).as_bytes())?;
+    depfile::depfile(outputs, &inputs).map(Some)
+}
+
+fn write_depfile(flags: &Generate, rule: Option<String>) -> Result<(), Error> {
+    if let (Some(file), Some(rule)) = (&flags.depfile, rule) {
+        write_file(file, rule.as_bytes())?;
+    }
     Ok(())
 }
 
