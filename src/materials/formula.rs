@@ -118,7 +118,7 @@ impl Formula {
             let value = |nm: f64| (nm, self.value(nm / 1000.0));
             let mut samples = [from, middle, to].map(value).into_iter();
             let outside = samples.find(|(_, value)| !limits.contains(*value));
-            if let Some((nm, value)) = outside.or((is_narrow).then_some((middle, f64::INFINITY))) {
+            if let Some((nm, value)) = outside.or(is_narrow.then_some((middle, f64::INFINITY))) {
                 let gives = self.said(value);
                 return Some(Outlier { nm, gives });
             }
