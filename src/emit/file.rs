@@ -133,9 +133,22 @@ pub fn single(
         guard: "",
         functions: &functions,
         file: &emitted.name,
-        goes_on: place == Place::Later,
     };
-    render(&request)
+    let bytes = render(&request)?;
+    Ok(match place {
+        Place::First => bytes,
+        Place::Later => without(bytes, target.directive_in(emitted.precision)),
+    })
+}
+
+/// A page without the line of its directive: it was validated with it.
+fn without(bytes: Vec<u8>, directive: &str) -> Vec<u8> {
+    if directive.is_empty() {
+        return bytes;
+    }
+    let text = String::from_utf8_lossy(&bytes);
+    text.replacen(&format!("\n{directive}\n"), "", 1)
+        .into_bytes()
 }
 
 /// The file of a function that reads a baked table, below a head made of what the table says of itself.
@@ -170,7 +183,6 @@ pub fn lookup(
         guard: &guard,
         functions: &[(Vec::new(), emitted)],
         file: &file,
-        goes_on: false,
     })
 }
 
@@ -192,7 +204,6 @@ fn file(
         guard: &guard,
         functions,
         file: &name,
-        goes_on: false,
     })?;
     let details: Vec<Value> = functions
         .iter()

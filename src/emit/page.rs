@@ -60,8 +60,6 @@ pub struct Request<'a> {
     pub functions: &'a [(Vec<String>, Emitted)],
     /// The name of the file, for messages.
     pub file: &'a str,
-    /// Whether it goes on where another page ends, so that what must stand before all code stands there.
-    pub goes_on: bool,
 }
 
 /// The bytes of a file.
@@ -111,12 +109,9 @@ fn view<'a>(request: &'a Request) -> View<'a> {
     View {
         header: request.header,
         guard: request.guard,
-        directive: match request.goes_on {
-            true => "",
-            false => request
-                .target
-                .directive_in(request.functions[0].1.precision),
-        },
+        directive: request
+            .target
+            .directive_in(request.functions[0].1.precision),
         functions: functions
             .map(|(i, (doc, emitted))| function(request.target, i, doc, emitted))
             .collect(),

@@ -18,7 +18,7 @@ const COMMANDS: [&str; 8] = [
     "--material bomb --budget 0.01",
     "--medium bomb --material gold --target gles",
     "chart --material bomb",
-    "fit bomb",
+    "fit --material bomb",
     "bake --material bomb",
     "materials params bomb",
     "materials show bomb",
@@ -47,22 +47,21 @@ fn a_formula_that_explodes_is_refused_by_every_command() {
 fn an_index_beyond_the_laws_is_refused_wherever_it_is_taken() {
     let place = Place::new();
     for (rows, says) in [
-        ("360,1e155,0\n830,1.5,0", "n is 1e155"),
-        (
-            "360,5e-324,0\n830,1e-9,0",
-            "it must lie between 0.001 and 10000",
-        ),
-        ("360,1,1e200\n830,1,0", "k is 1e200"),
-        ("360,-3,0\n830,2,0", "n is -"),
+        ("360,1e155,0\n830,1.5,0", "n is 9.5745e154 at 380 nm"),
+        ("360,5e-324,0\n830,1e-9,0", "n is 4.2553e-11 at 380 nm"),
+        ("360,1,1e200\n830,1,0", "k is 9.5745e199 at 380 nm"),
+        ("360,-3,0\n830,2,0", "n is -2.7872 at 380 nm"),
     ] {
         place.put("bomb.csv", format!("nm,n,k\n{rows}\n"));
-        for line in &COMMANDS[..7] {
-            let ran = place.run(&line.replace("bomb", "bomb.csv")).ends(2);
-            assert!(ran.err.starts_with("error: "), "{ran:?}");
+        for line in COMMANDS
+            .iter()
+            .filter(|line| !line.contains("medium") && !line.contains("show"))
+        {
+            place.refused(
+                &line.replace("bomb", "bomb.csv"),
+                &[says, "it must lie between"],
+            );
         }
-        place.refused("--material bomb.csv --target gles", &[]);
-        let ran = place.run("materials params bomb.csv").ends(2);
-        assert!(ran.err.contains("it must lie between"), "{says}: {ran:?}");
     }
 }
 
