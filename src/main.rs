@@ -6,10 +6,14 @@ use std::process::ExitCode;
 use clap::Parser;
 use fresnel_gen::app::args::Cli;
 use fresnel_gen::app::command;
+use fresnel_gen::app::legible::legible;
 use indicatif::{ProgressBar, ProgressStyle};
 
 fn main() -> ExitCode {
-    let cli = Cli::parse();
+    let cli = match Cli::try_parse() {
+        Ok(cli) => cli,
+        Err(error) => return refused(&error),
+    };
     let mut bar: Option<ProgressBar> = None;
     let outcome = command::run(
         &cli,
@@ -22,7 +26,11 @@ fn main() -> ExitCode {
     match outcome {
         Ok(output) => {
             output.remarks.iter().for_each(|remark| say(remark));
-            ExitCode::from(printed(&output.stdout, output.code))
+            let stdout = match output.is_file {
+                true => output.stdout,
+                false => legible(&String::from_utf8_lossy(&output.stdout)).into_bytes(),
+            };
+            ExitCode::from(printed(&stdout, output.code))
         }
         Err(error) => {
             say(&format!("error: {error}"));
@@ -31,9 +39,20 @@ fn main() -> ExitCode {
     }
 }
 
+/// What the parser of the command line says. It colours its own words; where a user's hold what a terminal obeys, none is.
+fn refused(error: &clap::Error) -> ExitCode {
+    let text = error.render().to_string();
+    if legible(&text) == text {
+        let _ = error.print();
+    } else {
+        say(text.trim_end());
+    }
+    ExitCode::from(u8::try_from(error.exit_code()).unwrap_or(2))
+}
+
 /// Says something on stderr. Where that is closed or full there is nobody to tell.
 fn say(line: &str) {
-    let _ = writeln!(io::stderr(), "{line}");
+    let _ = writeln!(io::stderr(), "{}", legible(line));
 }
 
 /// Writes to stdout. A reader that has seen enough closes the pipe, and that is no error.
@@ -57,6 +76,6 @@ fn show(bar: &mut Option<ProgressBar>, done: u64, whole: u64, what: &str) {
         let style = ProgressStyle::with_template("{msg:30} {wide_bar} {percent:>3} %");
         ProgressBar::new(whole).with_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()))
     });
-    bar.set_message(what.to_owned());
+    bar.set_message(legible(what));
     bar.set_position(done);
 }

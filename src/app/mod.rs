@@ -24,9 +24,11 @@ pub mod depfile;
 pub mod error;
 pub mod folder;
 pub mod generate;
-pub mod lock;
 #[cfg(all(feature = "cli", feature = "gpu"))]
 pub mod inbox;
+#[cfg(feature = "cli")]
+pub mod legible;
+pub mod lock;
 pub mod manifest;
 pub mod names;
 pub mod ours;

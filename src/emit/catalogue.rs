@@ -6,7 +6,7 @@ use serde_json::json;
 
 use crate::fit::ModelError;
 use crate::methods::Method;
-use crate::targets::Target;
+use crate::targets::{self, Target};
 
 use super::average::Average;
 use super::comment;
@@ -93,7 +93,7 @@ pub fn catalogue(
         return Ok(None);
     };
     let view = view(target, rows, naming, seen, command);
-    check_names(target, &view)?;
+    check_names(&view)?;
     let name = format!("{CATALOGUE}.{}", target.extension);
     Ok(Some(File {
         bytes: finished(template, &view, target.finish, &name)?,
@@ -235,10 +235,11 @@ fn worst(rows: &[Row]) -> String {
     )
 }
 
-fn check_names(target: &Target, view: &View) -> Result<(), Error> {
+/// A constant must be free in every language, as functions are.
+fn check_names(view: &View) -> Result<(), Error> {
     let materials = view.materials.iter().map(|material| &material.constant);
     let mut names = materials.chain([&view.name, &view.dielectrics.constant]);
-    match names.find_map(|name| target.name_fault(name)) {
+    match names.find_map(|name| targets::name_fault(name)) {
         Some(what) => Err(Error::Name { what }),
         None => Ok(()),
     }

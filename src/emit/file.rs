@@ -6,7 +6,7 @@ use crate::fit::{By, Measured};
 use crate::ir::{Checked, Param, Ty};
 use crate::methods::{self, Method, Values};
 use crate::num::Precision;
-use crate::targets::{Finish, Page, Target};
+use crate::targets::{self, Finish, Page, Target};
 
 use super::average::Average;
 use super::bounds::CodeBound;
@@ -34,7 +34,7 @@ pub fn library(
     functions: &[Emitted],
     command: &str,
 ) -> Result<Vec<File>, Error> {
-    check_names(target, functions)?;
+    check_names(functions)?;
     let head = comments(target, &header::library(target, method, functions, command));
     let plain: Vec<(Vec<String>, Emitted)> = written_for(target, functions.to_vec())
         .map(|f| (Vec::new(), f))
@@ -63,7 +63,7 @@ pub fn material(
     naming: &Naming,
     command: &str,
 ) -> Result<Vec<File>, Error> {
-    check_names(target, functions)?;
+    check_names(functions)?;
     let head = comments(
         target,
         &header::material(target, subject, naming.precision, command),
@@ -96,14 +96,34 @@ fn seen(subject: &Subject) -> Value {
     })
 }
 
+/// Where a function stands in a text of several. Directives such as `enable f16;` stand in the first only: no code may be before them.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Place {
+    /// At its beginning.
+    First,
+    /// After another function.
+    Later,
+}
+
+impl Place {
+    /// The place behind these pages.
+    pub fn behind(pages: &[Vec<u8>]) -> Place {
+        match pages {
+            [] => Place::First,
+            _ => Place::Later,
+        }
+    }
+}
+
 /// One function with a short head, to be pasted: no guard, no includes.
 pub fn single(
     target: &'static Target,
     emitted: &Emitted,
     subject: Option<&Subject>,
     command: &str,
+    place: Place,
 ) -> Result<Vec<u8>, Error> {
-    check_names(target, std::slice::from_ref(emitted))?;
+    check_names(std::slice::from_ref(emitted))?;
     let head = comments(target, &header::brief(target, emitted, subject, command));
     let functions = [(Vec::new(), emitted.clone())];
     let request = Request {
@@ -114,7 +134,21 @@ pub fn single(
         functions: &functions,
         file: &emitted.name,
     };
-    render(&request)
+    let bytes = render(&request)?;
+    Ok(match place {
+        Place::First => bytes,
+        Place::Later => without(bytes, target.directive_in(emitted.precision)),
+    })
+}
+
+/// A page without the line of its directive: it was validated with it.
+fn without(bytes: Vec<u8>, directive: &str) -> Vec<u8> {
+    if directive.is_empty() {
+        return bytes;
+    }
+    let text = String::from_utf8_lossy(&bytes);
+    text.replacen(&format!("\n{directive}\n"), "", 1)
+        .into_bytes()
 }
 
 /// The file of a function that reads a baked table, below a head made of what the table says of itself.
@@ -136,7 +170,7 @@ pub fn lookup(
         plain_for: None,
         written_as: None,
     };
-    check_names(target, std::slice::from_ref(&emitted))?;
+    check_names(std::slice::from_ref(&emitted))?;
     let licence = format!("Licence of this file: {}", header::OUTPUT_LICENCE);
     let about = about.into_iter().chain([licence]).collect();
     let head = comments(target, &comment::lines(about));
@@ -282,11 +316,12 @@ fn is_number(param: &Param) -> bool {
     param.ty != Ty::Texture && !param.is_cosine()
 }
 
-fn check_names(target: &Target, functions: &[Emitted]) -> Result<(), Error> {
+/// A name is whole here, with its prefix, and must be free in every language: the same function has one name in all.
+fn check_names(functions: &[Emitted]) -> Result<(), Error> {
     for emitted in functions {
         let fault = crate::ir::identifier_fault(&emitted.name)
             .map(|why| format!("`{}` is no name: {why}", emitted.name))
-            .or_else(|| target.name_fault(&emitted.name));
+            .or_else(|| targets::name_fault(&emitted.name));
         if let Some(what) = fault {
             return Err(Error::Name { what });
         }

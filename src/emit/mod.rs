@@ -20,7 +20,7 @@ pub use bounds::{Bounds, CodeBound, PLAIN_ULP, fingerprint, half_record, sha256}
 pub use catalogue::{CATALOGUE, Row, catalogue, methods_of};
 pub use comment::lines as comment_lines;
 pub use error::Error;
-pub use file::{File, library, lookup, material, single, uniform_offsets, written_for};
+pub use file::{File, Place, library, lookup, material, single, uniform_offsets, written_for};
 pub use function::{
     Emitted, LEAST_FITTED_N, Naming, Specialised, Subject, library_functions, specialised_function,
     specialised_graph,

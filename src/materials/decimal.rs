@@ -80,10 +80,10 @@ pub fn clipped(text: &str) -> String {
     start
 }
 
-/// A number for a message: five digits of it, with an exponent where it is small.
+/// A number for a message: five digits of it, with an exponent where it is small or large.
 pub fn short(number: f64) -> String {
     let rounded: f64 = format!("{number:.4e}").parse().unwrap_or(number);
-    if rounded != 0.0 && rounded.abs() < 1e-4 {
+    if rounded != 0.0 && !(1e-4..1e15).contains(&rounded.abs()) {
         format!("{rounded:e}")
     } else {
         rounded.to_string()
@@ -148,6 +148,7 @@ mod tests {
             (-3.22e-17, "-3.22e-17"),
             (0.0, "0"),
             (400.0, "400"),
+            (-1.0e155, "-1e155"),
             (f64::NAN, "NaN"),
             (f64::INFINITY, "inf"),
         ] {

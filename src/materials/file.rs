@@ -2,7 +2,7 @@
 //!
 //! ```toml
 //! name = "my_gold"                  # snake_case: it becomes part of function and file names
-//! summary = "Gold, evaporated film" # one line
+//! summary = "Gold, evaporated film" # one line, as all texts but the note are
 //! class = "metal"                   # metal, semiconductor or dielectric
 //! licence = "CC0-1.0"               # of these numbers
 //! reference = "Author, Title, Journal, Year"
@@ -29,9 +29,11 @@ use toml::Spanned;
 
 use crate::ir::identifier_fault;
 
+use super::decimal::short;
 use super::dispersion::Curve;
 use super::formula::{Formula, NUMBERS};
-use super::material::{Kind, Material};
+use super::hidden::is_hidden;
+use super::material::{GREATEST, Kind, LEAST_N, Material};
 pub use crate::spectra::Fault;
 
 type Row = Spanned<Vec<Spanned<f64>>>;
@@ -47,12 +49,9 @@ struct Raw {
     reference: Spanned<String>,
     link: Spanned<String>,
     substance: Option<Spanned<String>>,
-    #[serde(default)]
-    page: String,
-    #[serde(default)]
-    conditions: String,
-    #[serde(default)]
-    note: String,
+    page: Option<Spanned<String>>,
+    conditions: Option<Spanned<String>>,
+    note: Option<Spanned<String>>,
     rgb_nm: Option<Spanned<[f64; 3]>>,
     data: Option<Rows>,
     n: Option<Rows>,
@@ -91,10 +90,9 @@ const FIELDS: [&str; 15] = [
 type Column = (&'static str, f64, f64);
 /// 1 nm to 1 mm covers all of optics.
 const NM: Column = ("wavelength_nm", 1.0, 1e6);
-/// No index measured there comes near 1e4. Below 0.001 the exact forms lose their last digits in f32.
-const N: Column = ("n", 1e-3, 1e4);
-/// The same limit; a k below 0 would be gain.
-const K: Column = ("k", 0.0, 1e4);
+const N: Column = ("n", LEAST_N, GREATEST);
+/// A k below 0 would be gain.
+const K: Column = ("k", 0.0, GREATEST);
 /// The longest formula of refractiveindex.info has 17.
 pub const MOST_COEFFICIENTS: usize = 64;
 
@@ -124,6 +122,12 @@ impl Material {
                 let what = format!("field `{name}` is empty; it wants text");
                 return Err(place.fault(field.span().start, what));
             }
+            place.one_line(name, field)?;
+        }
+        for (name, field) in [("page", &raw.page), ("conditions", &raw.conditions)] {
+            field
+                .iter()
+                .try_for_each(|field| place.one_line(name, field))?;
         }
         let rgb_nm = raw
             .rgb_nm
@@ -140,9 +144,9 @@ impl Material {
             licence: raw.licence.into_inner(),
             reference: raw.reference.into_inner(),
             link: raw.link.into_inner(),
-            page: raw.page,
-            conditions: raw.conditions,
-            note: raw.note,
+            page: raw.page.map_or(String::new(), Spanned::into_inner),
+            conditions: raw.conditions.map_or(String::new(), Spanned::into_inner),
+            note: raw.note.map_or(String::new(), Spanned::into_inner),
             rgb_nm,
             n,
             k,
@@ -195,7 +199,12 @@ fn formula_fault(formula: &Formula) -> Option<String> {
             "coefficients must be finite, and at most {MOST_COEFFICIENTS}"
         ))
     } else {
-        None
+        let outlier = formula.outlier(*from_nm, *to_nm, LEAST_N, GREATEST)?;
+        Some(format!(
+            "{} at {} nm; n must lie between {LEAST_N} and {GREATEST} all over its range, {from_nm} to {to_nm} nm",
+            outlier.gives,
+            short(outlier.nm)
+        ))
     }
 }
 
@@ -214,15 +223,22 @@ pub fn name_fault(name: &str) -> Option<&'static str> {
     const LONGEST: usize = 64;
     if name.len() > LONGEST {
         Some("it has more than 64 letters")
-    } else if ["aux", "con", "nul", "prn"].contains(&name)
-        || name.starts_with("com") && name.len() == 4
-    {
+    } else if is_device(name) {
         Some("Windows cannot have files of this name")
     } else if name.chars().any(|c| c.is_ascii_uppercase()) {
         Some("capital letters are not allowed: on some systems `Gold` and `gold` are one file")
     } else {
         identifier_fault(name)
     }
+}
+
+/// Whether Windows keeps a name for a device, whatever its ending is: COM1 to COM9 and LPT1 to LPT9 are ports.
+fn is_device(name: &str) -> bool {
+    let port = name
+        .strip_prefix("com")
+        .or_else(|| name.strip_prefix("lpt"));
+    ["aux", "con", "nul", "prn"].contains(&name)
+        || port.is_some_and(|port| matches!(port.as_bytes(), [b'1'..=b'9']))
 }
 
 /// n and k: together in `data`, or apart.
@@ -298,6 +314,21 @@ impl Place<'_> {
             }
         }
         Ok(row.get_ref().iter().map(|value| *value.get_ref()).collect())
+    }
+
+    /// A field without line breaks, and without what a terminal obeys.
+    fn one_line(&self, name: &str, field: &Spanned<String>) -> Result<(), Fault> {
+        let Some(hidden) = field.get_ref().chars().find(|c| is_hidden(*c)) else {
+            return Ok(());
+        };
+        let what = match hidden {
+            '\n' | '\r' | '\u{b}' | '\u{c}' | '\u{85}' | '\u{2028}' | '\u{2029}' => {
+                "a line break".to_owned()
+            }
+            _ => format!("the control character U+{:04X}", u32::from(hidden)),
+        };
+        let what = format!("field `{name}` holds {what}; it wants one line of plain text");
+        Err(self.fault(field.span().start, what))
     }
 
     /// A formula whose numbers are all there.
@@ -383,12 +414,81 @@ mod tests {
         check("1.4, ", "", 8, "a row of 2 numbers");
         check("1.4, ", "1.4, 0, ", 8, "a row of 4 numbers");
         check("\"m\"", "\"con\"", 1, "Windows");
+        check("\"m\"", "\"lpt1\"", 1, "Windows");
+        check("\"m\"", "\"com9\"", 1, "Windows");
+        for (text, says) in [
+            ("\"a\\nb\"", "field `summary` holds a line break"),
+            ("\"\"\"a\n b\"\"\"", "field `summary` holds a line break"),
+            ("\"a\\u2028b\"", "field `summary` holds a line break"),
+            ("\"a\\u001b[31m\"", "control character U+001B"),
+            ("\"a\\u009d\"", "control character U+009D"),
+            ("\"a\\u202e\"", "control character U+202E"),
+        ] {
+            check("\"s\"", text, 2, says);
+        }
+        check(
+            "\"r\"",
+            "\"a\\nb\"",
+            5,
+            "field `reference` holds a line break",
+        );
+        check(
+            "data",
+            "conditions = \"a\\rb\"\ndata",
+            7,
+            "field `conditions` holds a line break",
+        );
         check(
             "[\n  [475, 1.4, 1.7],\n  [685, 0.2, 3.9],\n]",
             "[]",
             7,
             "is empty",
         );
+    }
+
+    #[test]
+    fn a_name_that_only_looks_like_a_port_is_free() {
+        for name in ["comb", "com0", "lpt", "lpta", "com10", "coma"] {
+            assert_eq!(name_fault(name), None, "{name}");
+        }
+    }
+
+    /// Each is finite, and none is an index that the laws hold for: too large, a pole between two samples, 0 or below.
+    #[test]
+    fn a_formula_must_give_an_index_all_over_its_range() {
+        let apart = GOOD.split("data").next().expect("a head").to_owned();
+        for (number, coefficients, says) in [
+            (1, "[1e155]", "formula 1 gives n^2 = "),
+            (5, "[1e155]", "formula 5 gives n = "),
+            (5, "[-1e300]", "formula 5 gives n = "),
+            (5, "[20000]", "n must lie between 0.001 and 10000"),
+            (5, "[1e-4]", "formula 5 gives n = 0.0001 at 300 nm"),
+            (5, "[0]", "formula 5 gives n = 0 at 300 nm"),
+            (3, "[1e308, 1e308, 300]", "formula 3 gives n^2 = "),
+            (3, "[2, -1, 2]", "formula 3 gives n^2 = "),
+            // A pole, with n^2 below 0 before it; and poles so narrow that no sample comes near them.
+            (1, "[0, 1, 0.600123]", " at 424.35 nm"),
+            (2, "[0, 1e-12, 0.36]", "formula 2 gives n^2 = "),
+            (4, "[2, 1e-9, 0, 0.6, 2]", "formula 4 gives n^2 = "),
+            (6, "[0, 1e-9, 2.5]", "formula 6 gives n = "),
+            (8, "[0, 0.5, 0.36]", "formula 8 gives n^2 = "),
+            (9, "[2, 1e-9, 0.36]", "formula 9 gives n^2 = "),
+        ] {
+            let more = format!(
+                "n_formula = {{ number = {number}, from_nm = 300, to_nm = 2500, coefficients = {coefficients} }}\n"
+            );
+            let fault = Material::parse("m.toml", &(apart.clone() + &more)).expect_err(&more);
+            assert!(fault.what.contains(says), "{fault}");
+            assert_eq!(fault.line, 7, "{fault}");
+        }
+        // The pole of formula 7 lies at 167.3 nm.
+        for (from, is_read) in [(168, true), (100, false)] {
+            let more = format!(
+                "n_formula = {{ number = 7, from_nm = {from}, to_nm = 2500, coefficients = [1.5, 1e-6] }}\n"
+            );
+            let read = Material::parse("m.toml", &(apart.clone() + &more));
+            assert_eq!(read.is_ok(), is_read, "{read:?}");
+        }
     }
 
     #[test]

@@ -16,7 +16,8 @@
 //! Source: M. N. Polyanskiy, *Refractiveindex.info database of optical constants*, Scientific Data 11, 94 (2024),
 //! <https://doi.org/10.1038/s41597-023-02898-2>, and the document "Dispersion formulas" of that database.
 
-use libm::pow;
+use super::decimal::short;
+use crate::num::{Interval, Num};
 
 /// A formula with its coefficients and the range it was fitted to.
 #[derive(Clone, Debug, PartialEq)]
@@ -37,26 +38,119 @@ pub const NUMBERS: std::ops::RangeInclusive<u8> = 1..=9;
 /// The one pole of formula 7, in square micrometres.
 const HERZBERGER_POLE: f64 = 0.028;
 
+/// The narrowest piece of a range that is looked at, as a share of the wavelength: in a narrower one no index is limited by
+/// interval arithmetic only where the formula has a pole.
+const NARROWEST: f64 = 1e-9;
+/// Pieces of a range that are looked at. A formula whose terms nearly cancel takes many; after so many, each piece that is left is
+/// sampled.
+const MOST_PIECES: usize = 20_000;
+
+/// A wavelength at which a formula gives no index within limits, and what it gives there.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Outlier {
+    /// In nanometres.
+    pub nm: f64,
+    /// `n = 7.1e154`, `n^2 = -3`.
+    pub gives: String,
+}
+
+/// A wavelength, or all wavelengths of an interval: numbers that can be raised to a power.
+trait Length: Num {
+    fn power(self, exponent: f64) -> Self;
+}
+
+impl Length for f64 {
+    fn power(self, exponent: f64) -> f64 {
+        libm::pow(self, exponent)
+    }
+}
+
+impl Length for Interval {
+    /// Wavelengths are above 0.
+    fn power(self, exponent: f64) -> Interval {
+        (self.log2() * Interval::from_f64(exponent)).exp2()
+    }
+}
+
 impl Formula {
     /// n at a wavelength, or what the formula gives instead of a refractive index.
     pub fn n(&self, nm: f64) -> Result<f64, String> {
-        let l = nm / 1000.0;
-        let n = match self.number {
-            1 => self.root_of(1.0 + self.sellmeier(l, |pole| pole * pole))?,
-            2 => self.root_of(1.0 + self.sellmeier(l, |pole| pole))?,
-            3 => self.root_of(self.polynomial(l, 0))?,
-            4 => self.root_of(self.polynomial(l, 4) + self.poles(l))?,
-            5 => self.polynomial(l, 0),
-            6 => 1.0 + self.gas(l),
-            7 => self.herzberger(l),
-            8 => self.root_of(self.retro(l))?,
-            9 => self.root_of(self.exotic(l))?,
-            other => return Err(format!("there is no formula {other}; there are 1 to 9")),
-        };
-        if n > 0.0 && n.is_finite() {
-            Ok(n)
+        if !NUMBERS.contains(&self.number) {
+            return Err(format!(
+                "there is no formula {}; there are 1 to 9",
+                self.number
+            ));
+        }
+        let value = self.value(nm / 1000.0);
+        if value > 0.0 && value.is_finite() {
+            Ok(if self.gives_square() {
+                value.sqrt()
+            } else {
+                value
+            })
         } else {
-            Err(format!("formula {} gives n = {n}", self.number))
+            Err(self.said(value))
+        }
+    }
+
+    /// The first wavelength from one to another at which n lies outside of limits, if any. The formula is evaluated in intervals
+    /// of wavelengths, so that no pole is missed between two samples.
+    pub fn outlier(&self, from_nm: f64, to_nm: f64, least: f64, most: f64) -> Option<Outlier> {
+        let limits = if self.gives_square() {
+            Interval::new(least * least, most * most)
+        } else {
+            Interval::new(least, most)
+        };
+        let mut left = MOST_PIECES;
+        let mut pieces = vec![(from_nm, to_nm)];
+        while let Some((from, to)) = pieces.pop() {
+            left = left.saturating_sub(1);
+            let reach = self.value(Interval::new(from / 1000.0, to / 1000.0));
+            if limits.contains(reach.lo()) && limits.contains(reach.hi()) {
+                continue;
+            }
+            let middle = from + 0.5 * (to - from);
+            let is_narrow = to - from <= NARROWEST * from;
+            if !is_narrow && left > 0 {
+                pieces.extend([(middle, to), (from, middle)]);
+                continue;
+            }
+            let value = |nm: f64| (nm, self.value(nm / 1000.0));
+            let mut samples = [from, middle, to].map(value).into_iter();
+            let outside = samples.find(|(_, value)| !limits.contains(*value));
+            if let Some((nm, value)) = outside.or(is_narrow.then_some((middle, f64::INFINITY))) {
+                let gives = self.said(value);
+                return Some(Outlier { nm, gives });
+            }
+        }
+        None
+    }
+
+    /// Whether the formula is one of n², and not of n.
+    fn gives_square(&self) -> bool {
+        !matches!(self.number, 5..=7)
+    }
+
+    fn said(&self, value: f64) -> String {
+        let square = if self.gives_square() { "^2" } else { "" };
+        let number = self.number;
+        format!("formula {number} gives n{square} = {}", short(value))
+    }
+
+    /// n or n² by the wavelength in micrometres.
+    fn value<L: Length>(&self, l: L) -> L {
+        let one = L::from_f64(1.0);
+        match self.number {
+            1 => one + self.sellmeier(l, |pole| pole * pole),
+            2 => one + self.sellmeier(l, |pole| pole),
+            3 => self.polynomial(l, 1),
+            4 => self.polynomial(l, 5) + self.poles(l),
+            5 => self.polynomial(l, 1),
+            6 => one + self.gas(l),
+            7 => self.herzberger(l),
+            8 => self.retro(l),
+            9 => self.exotic(l),
+            _ => L::unknown(),
         }
     }
 
@@ -65,70 +159,79 @@ impl Formula {
         self.coefficients.get(i - 1).copied().unwrap_or(0.0)
     }
 
-    /// (C(2i), C(2i+1)) from i = 1.
-    fn pairs(&self) -> impl Iterator<Item = (f64, f64)> {
-        (1..=self.coefficients.len() / 2).map(|i| (self.c(2 * i), self.c(2 * i + 1)))
+    /// C(i) as a number of this kind.
+    fn constant<L: Length>(&self, i: usize) -> L {
+        L::from_f64(self.c(i))
     }
 
-    fn root_of(&self, square: f64) -> Result<f64, String> {
-        if square > 0.0 && square.is_finite() {
-            Ok(square.sqrt())
-        } else {
-            Err(format!("formula {} gives n^2 = {square}", self.number))
-        }
+    /// (C(2i), C(2i+1)) from one i on, without those that add nothing.
+    fn pairs(&self, first: usize) -> impl Iterator<Item = (f64, f64)> {
+        let places = first..=self.coefficients.len() / 2;
+        let pairs = places.map(|i| (self.c(2 * i), self.c(2 * i + 1)));
+        pairs.filter(|(factor, _)| *factor != 0.0)
     }
 
-    fn sellmeier(&self, l: f64, squared: impl Fn(f64) -> f64) -> f64 {
-        let terms = self
-            .pairs()
-            .map(|(strength, pole)| strength * l * l / (l * l - squared(pole)));
-        self.c(1) + terms.sum::<f64>()
+    /// C1 and these terms.
+    fn sum<L: Length>(&self, terms: impl Iterator<Item = L>) -> L {
+        let zero = L::from_f64(0.0);
+        self.constant::<L>(1) + terms.fold(zero, |sum, term| sum + term)
     }
 
-    fn polynomial(&self, l: f64, skipped: usize) -> f64 {
-        let terms = self
-            .pairs()
-            .skip(skipped)
-            .map(|(factor, power)| factor * pow(l, power));
-        self.c(1) + terms.sum::<f64>()
+    fn sellmeier<L: Length>(&self, l: L, squared: impl Fn(f64) -> f64) -> L {
+        let term = |(strength, pole): (f64, f64)| {
+            L::from_f64(strength) * l * l / (l.squared() - L::from_f64(squared(pole)))
+        };
+        self.sum(self.pairs(1).map(term))
+    }
+
+    fn polynomial<L: Length>(&self, l: L, first: usize) -> L {
+        let term = |(factor, power): (f64, f64)| L::from_f64(factor) * l.power(power);
+        self.sum(self.pairs(first).map(term))
     }
 
     /// The two poles of formula 4. One that has no strength is left out: 0 to the power 0 is 1.
-    fn poles(&self, l: f64) -> f64 {
+    fn poles<L: Length>(&self, l: L) -> L {
         let pole = |first: usize| match self.c(first) {
-            0.0 => 0.0,
+            0.0 => L::from_f64(0.0),
             strength => {
-                strength * pow(l, self.c(first + 1))
-                    / (l * l - pow(self.c(first + 2), self.c(first + 3)))
+                L::from_f64(strength) * l.power(self.c(first + 1))
+                    / (l.squared() - L::from_f64(self.c(first + 2).power(self.c(first + 3))))
             }
         };
         pole(2) + pole(6)
     }
 
-    fn gas(&self, l: f64) -> f64 {
-        let terms = self
-            .pairs()
-            .map(|(strength, pole)| strength / (pole - 1.0 / (l * l)));
-        self.c(1) + terms.sum::<f64>()
+    fn gas<L: Length>(&self, l: L) -> L {
+        let one = L::from_f64(1.0);
+        let term = |(strength, pole): (f64, f64)| {
+            L::from_f64(strength) / (L::from_f64(pole) - one / l.squared())
+        };
+        self.sum(self.pairs(1).map(term))
     }
 
-    fn herzberger(&self, l: f64) -> f64 {
-        let square = l * l;
-        let near = 1.0 / (square - HERZBERGER_POLE);
-        self.c(1)
-            + near * (self.c(2) + near * self.c(3))
-            + square * (self.c(4) + square * (self.c(5) + square * self.c(6)))
+    fn herzberger<L: Length>(&self, l: L) -> L {
+        let square = l.squared();
+        let near = L::from_f64(1.0) / (square - L::from_f64(HERZBERGER_POLE));
+        self.constant::<L>(1)
+            + near * (self.constant::<L>(2) + near * self.constant(3))
+            + square
+                * (self.constant::<L>(4)
+                    + square * (self.constant::<L>(5) + square * self.constant(6)))
     }
 
-    fn retro(&self, l: f64) -> f64 {
-        let square = l * l;
-        let share = self.c(1) + self.c(2) * square / (square - self.c(3)) + self.c(4) * square;
-        (1.0 + 2.0 * share) / (1.0 - share)
+    fn retro<L: Length>(&self, l: L) -> L {
+        let (square, one) = (l.squared(), L::from_f64(1.0));
+        let share = self.constant::<L>(1)
+            + self.constant::<L>(2) * square / (square - self.constant(3))
+            + self.constant::<L>(4) * square;
+        (one + L::from_f64(2.0) * share) / (one - share)
     }
 
-    fn exotic(&self, l: f64) -> f64 {
-        let from = l - self.c(5);
-        self.c(1) + self.c(2) / (l * l - self.c(3)) + self.c(4) * from / (from * from + self.c(6))
+    fn exotic<L: Length>(&self, l: L) -> L {
+        let from = l - self.constant(5);
+        self.constant::<L>(1)
+            + self.constant::<L>(2) / (l.squared() - self.constant(3))
+            + self.constant::<L>(4) * from / (from.squared() + self.constant(6))
     }
 }
 

@@ -2,7 +2,13 @@
 
 use serde::Deserialize;
 
+use super::decimal::short;
 use super::dispersion::{Curve, Extrapolate};
+
+/// The least n. Below it the exact forms lose their last digits in f32.
+pub const LEAST_N: f64 = 1e-3;
+/// The greatest n and k: no index measured between 1 nm and 1 mm comes near it.
+pub const GREATEST: f64 = 1e4;
 
 /// A material as its file tells it.
 #[derive(Clone, Debug, PartialEq)]
@@ -89,19 +95,19 @@ impl Material {
             let named = |why: String| format!("material `{}`: {letter} {why}", self.name);
             curve.at(nm, beyond).map_err(named)
         };
-        let n = value(&self.n, "n")?;
+        // A page's table can hold rows beyond these limits: of a fit gone wrong, or of a metamaterial.
+        let within = |value: f64, letter: &str, least: f64| match value {
+            value if (least..=GREATEST).contains(&value) => Ok(value),
+            _ => Err(format!(
+                "material `{}`: {letter} is {} at {nm} nm; it must lie between {least} and {GREATEST}",
+                self.name,
+                short(value)
+            )),
+        };
+        let n = within(value(&self.n, "n")?, "n", LEAST_N)?;
         let k = self.k.as_ref().map(|k| value(k, "k")).transpose()?;
-        // A table can hold such rows: of a fit gone wrong, or of a metamaterial.
-        if n <= 0.0 {
-            let name = &self.name;
-            return Err(format!(
-                "material `{name}`: n is {n} at {nm} nm; it must be above 0"
-            ));
-        }
-        Ok(Index {
-            n,
-            k: k.unwrap_or(0.0),
-        })
+        let k = k.map_or(Ok(0.0), |k| within(k, "k", 0.0))?;
+        Ok(Index { n, k })
     }
 
     /// The wavelengths at which both n and k are known, in nanometres; the first is above the second where there is none.

@@ -2,6 +2,7 @@
 
 use super::dispersion::Curve;
 use super::formula::Formula;
+use super::hidden::escaped;
 use super::material::Material;
 
 impl Material {
@@ -33,10 +34,10 @@ impl Material {
     }
 }
 
-/// A field of text: TOML's basic strings escape as JSON's do, and beside that want DEL escaped.
+/// A field of text: TOML's basic strings escape as JSON's do. What a terminal obeys is escaped too.
 fn text(name: &str, value: &str) -> String {
     let quoted = serde_json::Value::from(value).to_string();
-    format!("{name} = {}", quoted.replace('\u{7f}', "\\u007f"))
+    format!("{name} = {}", escaped(&quoted))
 }
 
 fn index(n: &Curve, k: Option<&Curve>) -> Vec<String> {

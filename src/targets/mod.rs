@@ -31,6 +31,11 @@ pub static ALL: &[&Target] = &[
 ];
 // END targets
 
+/// Why a name cannot be used in one of the languages, if it cannot.
+pub fn name_fault(name: &str) -> Option<String> {
+    ALL.iter().find_map(|target| target.name_fault(name))
+}
+
 /// The target of this name.
 pub fn find(name: &str) -> Option<&'static Target> {
     ALL.iter().find(|target| target.name == name).copied()

@@ -194,11 +194,39 @@ fn a_users_function_is_one_more_point() {
     );
 }
 
+/// Every name of a point stands right above a copy of itself with a rim: viewers that know no `paint-order` show it too.
+#[track_caller]
+fn names_are_readable(svg: &str) {
+    assert!(!svg.contains("paint-order"));
+    let lines: Vec<&str> = svg.lines().collect();
+    let is_rim = |line: &str| line.starts_with("<text aria-hidden=\"true\" stroke=");
+    let rims = lines.windows(2).filter(|pair| is_rim(pair[0]));
+    let after = |line: &str| line.split_once(" x=").map(|(_, rest)| rest.to_owned());
+    let mut count = 0;
+    for pair in rims {
+        assert!(pair[1].starts_with("<text x="), "{pair:?}");
+        assert_eq!(after(pair[0]), after(pair[1]));
+        count += 1;
+    }
+    assert!(count > 15, "{count}");
+    // Nothing else is drawn with a stroke and letters at once.
+    let stroked = lines
+        .iter()
+        .filter(|line| line.starts_with("<text") && line.contains("stroke="));
+    assert_eq!(stroked.count(), count);
+    assert!(
+        !lines
+            .iter()
+            .any(|line| line.starts_with("<g ") && line.contains("stroke"))
+    );
+}
+
 /// The picture that README shows is of the whole catalogue, as the program draws it.
 #[test]
 fn the_picture_in_readme_is_what_the_program_draws() {
     let place = Place::new();
     place.done("chart --out-dir .");
+    names_are_readable(&place.read("chart.svg"));
     let path = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/chart.svg");
     crate::bless::check(&path, place.read("chart.svg").as_bytes());
 }

@@ -86,7 +86,7 @@ fn in_condition<'a>(tokens: &[Token], at: usize) -> Option<Vec<(usize, usize, &'
         (open, close)
     };
     let (from, to) = (&tokens[first], &tokens[last]);
-    let whole = (from.line, from.column + 1, " fg_turn(true) ");
+    let whole = (from.line, from.column + 1, " fg_turn(0 == 0) ");
     Some(if last == first + 1 {
         vec![whole]
     } else {
@@ -151,7 +151,7 @@ mod tests {
         check(
             Language::Gles,
             "f() {\n for (;;) g(); // for\n do { } while (a(b)); }",
-            "f() {\n for (; fg_turn(true) ;) g(); // for\n do { } while ( fg_turn(a(b)) ); }",
+            "f() {\n for (; fg_turn(0 == 0) ;) g(); // for\n do { } while ( fg_turn(a(b)) ); }",
         );
         check(
             Language::Hlsl,

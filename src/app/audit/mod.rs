@@ -10,6 +10,7 @@ mod chart;
 mod code;
 mod compile;
 mod cost;
+mod directives;
 mod edges;
 mod frontier;
 mod job;
@@ -88,6 +89,7 @@ impl Audit {
         program::check(&self.file, &self.text, self.language)?;
         let found = scan::functions(&self.text, self.language);
         let chosen = bind::choose(&self.file, found, self.function.as_deref())?;
+        program::check_name(&self.file, &self.text, self.language, &chosen.name)?;
         let bound = bind::bind(&self.file, chosen, &self.given, subject)?;
         let (program, run) = Program::pair(self.language, &self.text, &bound);
         let surroundings = Surroundings::new(self.tools.as_deref())?;

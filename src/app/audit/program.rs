@@ -8,6 +8,7 @@ use crate::verify::harness::{self, Call};
 
 use super::bind::{Argument, Bound};
 use super::code::{bare, tokens};
+use super::directives;
 use super::language::Language;
 use super::loops::{MARK, TURNS, counted, counter, is_in_macro};
 use super::scan::{Shape, without_stage};
@@ -51,7 +52,7 @@ impl Program {
         };
         let named = bound.arguments.iter().enumerate();
         params.extend(named.map(|(i, argument)| param(&format!("a{i}"), ty(argument))));
-        let wrapper = wrapper(language, bound, &params, counts);
+        let wrapper = without_macros(text, language) + &wrapper(language, bound, &params, counts);
         let counter = match counts {
             true => counter(language),
             false => String::new(),
@@ -163,7 +164,7 @@ fn wrapper(language: Language, bound: &Bound, params: &[Param], counts: bool) ->
     let body = match (counts, language) {
         (false, _) => format!("return {value};"),
         (true, Language::Wgsl) => format!(
-            "fg_turns = 0; let fg_r = {value}; return select(fg_r, {rgb}({MARK:e}), fg_turns > {TURNS});"
+            "fg_turns = 0; let fg_r = {value}; if fg_turns > {TURNS} {{ return {rgb}({MARK:e}); }} return fg_r;"
         ),
         (true, _) => format!(
             "fg_turns = 0; {rgb} fg_r = {value}; if (fg_turns > {TURNS}) {{ fg_r = {constructor}({MARK:e}, {MARK:e}, {MARK:e}); }} return fg_r;"
@@ -276,7 +277,7 @@ pub fn check(file: &str, text: &str, language: Language) -> Result<(), Error> {
     }
     let code = bare(text, false);
     let tokens = tokens(&code);
-    for (at, token) in tokens.iter().enumerate() {
+    for token in &tokens {
         let ours = ["fg_", "FgParameters", "FgArguments"];
         if ours.iter().any(|name| token.text.starts_with(name)) {
             let what = format!(
@@ -285,13 +286,38 @@ pub fn check(file: &str, text: &str, language: Language) -> Result<(), Error> {
             );
             return refuse(token.line, token.column, what);
         }
-        let includes = ["include", "import"].contains(&token.text);
-        let is_directive = at > 0 && tokens[at - 1].text == "#";
-        if language.has_preprocessor() && includes && is_directive {
-            let what =
-                "it asks for another file, and one file alone is audited: paste what it needs";
-            return refuse(token.line, token.column, what.to_owned());
-        }
     }
-    Ok(())
+    let found = language
+        .has_preprocessor()
+        .then(|| directives::fault(text))
+        .flatten();
+    found.map_or(Ok(()), |(line, column, what)| refuse(line, column, what))
+}
+
+/// Refuses a text in which the name of the audited function means another thing to compilers.
+///
+/// # Errors
+/// A macro has that name.
+pub fn check_name(file: &str, text: &str, language: Language, name: &str) -> Result<(), Error> {
+    let found = language
+        .has_preprocessor()
+        .then(|| directives::redefinition(text, name))
+        .flatten();
+    found.map_or(Ok(()), |(line, column, what)| {
+        Err(Error::Usage {
+            what: format!("{file}:{line}:{column}: {what}"),
+        })
+    })
+}
+
+/// Takes their macros away before our text goes on: it means what it says, whatever they are named.
+fn without_macros(text: &str, language: Language) -> String {
+    if !language.has_preprocessor() {
+        return String::new();
+    }
+    let names = directives::macros(text).into_iter();
+    names
+        .filter(|name| !RENAMED.contains(&name.as_str()))
+        .map(|name| format!("#undef {name}\n"))
+        .collect()
 }

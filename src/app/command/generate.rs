@@ -114,13 +114,15 @@ fn request(flags: &Generate) -> Result<Request, Error> {
 
 fn single(flags: &Generate, request: &Request, file: &Path) -> Result<Output, Error> {
     let bytes = generate_single(request)?;
+    let rule = rule(flags, &[file.display().to_string()])?;
     let mut output = Output::default();
     if file == Path::new("-") {
         output.stdout = bytes;
+        output.is_file = true;
     } else {
         write_file(file, &bytes)?;
     }
-    write_depfile(flags, &[file.display().to_string()])?;
+    write_depfile(flags, rule)?;
     Ok(output)
 }
 
@@ -170,14 +172,15 @@ fn written(
     plan: &Plan,
     lock: &mut Lock,
 ) -> Result<Output, Error> {
-    let counts = write(plan, flags.overwrite, lock)?;
     let out_dir = &plan.out_dir;
     let outputs: Vec<String> = generated
         .artifacts
         .iter()
         .map(|artifact| out_dir.join(&artifact.path).display().to_string())
         .collect();
-    write_depfile(flags, &outputs)?;
+    let rule = rule(flags, &outputs)?;
+    let counts = write(plan, flags.overwrite, lock)?;
+    write_depfile(flags, rule)?;
     let mut output = Output::default();
     for why in generated.left_out.iter().filter(|_| !flags.quiet) {
         output.remarks.push(format!("left out: {}", why.why));
@@ -204,10 +207,11 @@ fn written(
     Ok(output)
 }
 
-fn write_depfile(flags: &Generate, outputs: &[String]) -> Result<(), Error> {
-    let Some(file) = &flags.depfile else {
-        return Ok(());
-    };
+/// The rule of the depfile, where one is asked for: made before anything is written, since it can be refused.
+fn rule(flags: &Generate, outputs: &[String]) -> Result<Option<String>, Error> {
+    if flags.depfile.is_none() {
+        return Ok(None);
+    }
     let named = flags.material.iter().chain(&flags.medium);
     let light = input(&flags.sight.words(None)).map(str::to_owned);
     let inputs: Vec<String> = named
@@ -215,7 +219,13 @@ fn write_depfile(flags: &Generate, outputs: &[String]) -> Result<(), Error> {
         .cloned()
         .chain(light)
         .collect();
-    write_file(file, depfile::depfile(outputs, &inputs).as_bytes())?;
+    depfile::depfile(outputs, &inputs).map(Some)
+}
+
+fn write_depfile(flags: &Generate, rule: Option<String>) -> Result<(), Error> {
+    if let (Some(file), Some(rule)) = (&flags.depfile, rule) {
+        write_file(file, rule.as_bytes())?;
+    }
     Ok(())
 }
 

@@ -154,6 +154,7 @@ fn drawn(flags: &ShowFlags, loaded: &Loaded, output: &mut Output) -> Result<(), 
 fn put(file: &Path, bytes: Vec<u8>, output: &mut Output) -> Result<(), Error> {
     if file == Path::new("-") {
         output.stdout = bytes;
+        output.is_file = true;
     } else {
         write_file(file, &bytes)?;
         output.remarks.push(format!("{}: drawn", file.display()));

@@ -27,12 +27,15 @@ use super::args::{Cli, Command};
 use super::error::Error;
 use super::lock::Announce;
 use super::write::{is_same_file, try_file, write_file};
+use crate::materials::escaped;
 
-/// What a run leaves: text for stdout, remarks for stderr, the exit code.
+/// What a run leaves: text or a file for stdout, remarks for stderr, the exit code.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Output {
     /// For stdout.
     pub stdout: Vec<u8>,
+    /// Whether that is a file, which stays as it is to the byte, and not text for people.
+    pub is_file: bool,
     /// For stderr, a line each.
     pub remarks: Vec<String>,
     /// 0 done, 1 findings.
@@ -105,9 +108,11 @@ fn report(text: String, json: &serde_json::Value, file: Option<&Path>) -> Result
         });
     };
     let json = serde_json::to_string_pretty(json).expect("a report has only text keys") + "\n";
+    let json = escaped(&json);
     if file == Path::new("-") {
         return Ok(Output {
             stdout: json.into_bytes(),
+            is_file: true,
             ..Output::default()
         });
     }

@@ -5,7 +5,7 @@ mod written;
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use crate::emit::{self, Bounds, Emitted, File, NAGA_VERSION, Naming, Subject};
+use crate::emit::{self, Bounds, Emitted, File, NAGA_VERSION, Naming, Place, Subject};
 use crate::materials::Unseen;
 use crate::methods::{self, Method};
 use crate::num::Precision;
@@ -130,9 +130,9 @@ pub fn generate_single(request: &Request) -> Result<Vec<u8>, Error> {
     for (subject, _) in &run.subjects {
         let methods = run.named_or(&subject.name, &[subject.exact_method()]);
         for emitted in run.specialised(&methods, subject, &mut BTreeMap::new())? {
-            let command =
-                run.command(target, Some(&[emitted.method.name]), Some(subject)) + " -o -";
-            pages.push(emit::single(target, &emitted, Some(subject), &command)?);
+            let (place, of) = (Place::behind(&pages), Some(subject));
+            let command = run.command(target, Some(&[emitted.method.name]), of) + " -o -";
+            pages.push(emit::single(target, &emitted, of, &command, place)?);
         }
     }
     if run.subjects.is_empty() {
@@ -144,7 +144,8 @@ pub fn generate_single(request: &Request) -> Result<Vec<u8>, Error> {
             };
             for emitted in emit::written_for(target, functions) {
                 let command = run.command(target, Some(&[method.name]), None) + " -o -";
-                pages.push(emit::single(target, &emitted, None, &command)?);
+                let place = Place::behind(&pages);
+                pages.push(emit::single(target, &emitted, None, &command, place)?);
             }
         }
     }

@@ -2,12 +2,14 @@
 
 use serde_saphyr::{Location, Spanned};
 
+use super::material::GUESS_NM;
 use super::yaml::{self, RawItem};
 use crate::materials::Fault;
 use crate::materials::decimal::{self, Unit, clipped};
 use crate::materials::dispersion::Curve;
 use crate::materials::file::MOST_COEFFICIENTS;
 use crate::materials::formula::{Formula, NUMBERS};
+use crate::materials::material::{GREATEST, LEAST_N};
 use crate::materials::rows::{Columns, RowFault, Rows};
 
 /// What an item gives.
@@ -130,10 +132,11 @@ impl Source<'_> {
             from_nm,
             to_nm,
         };
+        let (formula, cut) = cut(formula).map_err(|what| self.fault(kind.defined, what))?;
         Ok(Item {
             n: Some(Curve::Formula(formula)),
             k: None,
-            remarks: remarks.into_iter().collect(),
+            remarks: remarks.into_iter().chain(cut).collect(),
         })
     }
 
@@ -202,6 +205,48 @@ impl Source<'_> {
     fn fault(&self, at: Location, what: String) -> Fault {
         yaml::fault(self.file, at, what)
     }
+}
+
+/// A formula with its range cut to where it gives an index, and the remark that says so. The part in which visible light lies stays,
+/// or what is nearest to it. Some formulas of the database are stated to go too far, GaSe's to 1.62 mm.
+fn cut(formula: Formula) -> Result<(Formula, Option<String>), String> {
+    let (from, to) = (formula.from_nm, formula.to_nm);
+    let outlier = |from: f64, to: f64| formula.outlier(from, to, LEAST_N, GREATEST);
+    let Some(first) = outlier(from, to) else {
+        return Ok((formula, None));
+    };
+    let said = format!("{} at {} nm", first.gives, decimal::short(first.nm));
+    let middle = GUESS_NM.max(from).min(to);
+    let to_nm = outlier(middle, to).map_or(to, |found| found.nm.ceil() - 1.0);
+    let from_nm = match outlier(from, middle) {
+        None => from,
+        Some(_) => shortest(from, middle, |nm| outlier(nm, middle).is_none()),
+    };
+    if from_nm >= to_nm {
+        return Err(format!(
+            "{said}; n must lie between {LEAST_N} and {GREATEST}"
+        ));
+    }
+    let remark = format!("{said}: the range of the formula was cut to {from_nm} to {to_nm} nm");
+    let formula = Formula {
+        from_nm,
+        to_nm,
+        ..formula
+    };
+    Ok((formula, Some(remark)))
+}
+
+/// The shortest whole wavelength above `bad` that is good, as all up to `good` are.
+fn shortest(mut bad: f64, mut good: f64, is_good: impl Fn(f64) -> bool) -> f64 {
+    while good - bad > 0.5 {
+        let middle = 0.5 * (bad + good);
+        if is_good(middle) {
+            good = middle;
+        } else {
+            bad = middle;
+        }
+    }
+    good.ceil()
 }
 
 /// Gives a coefficient that has no partner its partner 0, where they go in pairs, and says what is beyond the formula.

@@ -6,7 +6,7 @@ use crate::materials::dispersion::{Curve, Extrapolate};
 use crate::materials::{Fault, Index, Kind, Material, name_fault};
 
 /// Where the class is guessed: near the middle of the visible range.
-const GUESS_NM: f64 = 580.0;
+pub(super) const GUESS_NM: f64 = 580.0;
 
 /// A k from which a medium that is no metal is taken for a semiconductor rather than a dielectric: a wave of visible
 /// light loses a factor e in some 50 micrometres of it.

@@ -204,7 +204,8 @@ PROPERTIES:
         };
         assert_eq!(page.n, Some(Curve::Formula(expected)));
         for number in 1..=9 {
-            let page = read(&formula(&number.to_string(), "0.3 2.5", "1.5"));
+            // A share of 1.5 would be a negative n² in formula 8.
+            let page = read(&formula(&number.to_string(), "0.3 2.5", "0.25"));
             assert!(page.n.is_some() && page.remarks.is_empty(), "{number}");
         }
         let both =
@@ -242,6 +243,35 @@ PROPERTIES:
             formula("5", "0.3 2.5", "1.5") + "- type: tabulated nk\n  data: |\n    0.4 1 0.5\n";
         let page = remarks(&twice, &["n is given twice: the first was taken"]);
         assert!(matches!(page.n, Some(Curve::Formula(_))) && page.k == curve(&[(400.0, 0.5)]));
+    }
+
+    /// The pole of the first lies at 0.6 um, beside the middle of the visible range, that of the second at 0.4 um.
+    #[test]
+    fn a_formula_is_cut_to_where_it_gives_an_index() {
+        for (coefficients, from_nm, to_nm, says) in [
+            ("0.5 0.01 0.36", 300.0, 598.0, "formula 2 gives n^2 = "),
+            ("1.5 0.01 0.16", 401.0, 2500.0, "formula 2 gives n^2 = "),
+        ] {
+            let page = read(&formula("2", "0.3 2.5", coefficients));
+            let Some(Curve::Formula(cut)) = &page.n else {
+                panic!("{page:?}");
+            };
+            assert_eq!((cut.from_nm, cut.to_nm), (from_nm, to_nm), "{page:?}");
+            assert!(page.remarks[0].starts_with(says), "{page:?}");
+            assert!(page.remarks[0].contains("was cut to"), "{page:?}");
+        }
+        refused(
+            &formula("1", "0.3 2.5", "1e155"),
+            3,
+            9,
+            "formula 1 gives n^2 = 1e155 at 300 nm; n must lie between 0.001 and 10000",
+        );
+        refused(
+            &formula("5", "0.3 2.5", "-1"),
+            3,
+            9,
+            "formula 5 gives n = -1",
+        );
     }
 
     #[track_caller]

@@ -1,5 +1,7 @@
 //! HTML or Markdown as one line of plain text, and its link. Pages use a handful of tags, and will use Markdown.
 
+use crate::materials::is_hidden;
+
 /// The longest tag or mark that is looked for: beyond it, a `<` is a `<`. With the length of a text that is read, ten
 /// times what any page has, it keeps a hostile text from being searched to its end at every letter.
 const LONGEST: usize = 2_000;
@@ -14,7 +16,7 @@ pub fn line(text: &str) -> String {
     let whole = resolved(&lines.join(" "));
     let legal: String = whole
         .chars()
-        .map(|c| if c.is_control() { ' ' } else { c })
+        .map(|c| if is_hidden(c) { ' ' } else { c })
         .collect();
     legal.split_whitespace().collect::<Vec<_>>().join(" ")
 }
@@ -257,6 +259,7 @@ mod tests {
         );
         check("<nobr>a</nobr><a unclosed", "a<a unclosed");
         check("a\tb\u{1b}[0m\u{7f}", "a b [0m");
+        check("a\u{9b}b\u{202e}c&#x9d;d&#8238;e", "a b c d e");
         check("", "");
     }
 

@@ -99,10 +99,7 @@ pub fn svg(view: &View) -> Option<String> {
     let mut layers: Vec<&Point> = points.iter().collect();
     layers.sort_by_key(|point| (point.entry.user().is_some(), !point.entry.is_best));
     elements.extend(layers.into_iter().map(|point| dot(point, &x, &y)));
-    // A rim in the paper's colour keeps names readable over lines.
-    elements.push("<g paint-order=\"stroke\" stroke=\"#ffffff\" stroke-width=\"3\">".to_owned());
     elements.extend(labels(&points, &x, &y, page));
-    elements.push("</g>".to_owned());
     sheet.extend(elements, bottom + BELOW - 8.0);
     sheet.paragraph(&FOOT, &format!("fresnel-gen {}", view.data.command));
     Some(sheet.document(&view.title(), &key))
@@ -261,7 +258,7 @@ fn labels(points: &[Point], x: &Scale, y: &Scale, page: Area) -> Vec<String> {
         let place = place?;
         let line = place.is_led.then(|| led(at[i], &place, widths[i]));
         let top = place.middle - FONT.leading / 2.0;
-        let text = FONT.draw(&texts[i..=i], place.left, top, "start");
+        let text = FONT.draw_with_rim(&texts[i..=i], place.left, top, "start");
         Some(line.into_iter().chain(text).collect::<Vec<String>>())
     };
     let drawn = found.into_iter().enumerate().filter_map(draw);

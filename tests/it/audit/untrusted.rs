@@ -110,13 +110,47 @@ fn files_that_are_no_source_are_refused() {
         "macro.glsl",
         "#define EVER for (;;)\nfloat f(float c) { EVER {} return c; }\n",
     );
+    place.put(
+        "named.hlsl",
+        "float f(float c) { return 5.0; }\n#define f(x) 0.5\n",
+    );
+    place.put(
+        "named.glsl",
+        "#/* here */define f g\nfloat f(float c) { return 5.0; }\n",
+    );
+    place.put(
+        "asks.hlsl",
+        "#if __has_include(\"/etc/passwd\")\n#endif\nfloat f(float c) { return c; }\n",
+    );
+    place.put(
+        "digraph.hlsl",
+        "%:include \"/etc/passwd\"\nfloat f(float c) { return c; }\n",
+    );
+    place.put(
+        "pragma.hlsl",
+        "#pragma GCC dependency \"/etc/passwd\"\nfloat f(float c) { return c; }\n",
+    );
     place.put("folder/file.wgsl", "");
     for (file, says) in [
         ("huge.wgsl", "at most 1048576 are read"),
         ("binary.wgsl", "not UTF-8"),
         ("zero.wgsl", "zero.wgsl:2:2: this is not text"),
-        ("include.hlsl", "include.hlsl:1:2: it asks for another file"),
+        (
+            "include.hlsl",
+            "include.hlsl:1:2: `#include` is not allowed",
+        ),
         ("macro.glsl", "a macro holds a loop"),
+        ("named.hlsl", "named.hlsl:2:9: a macro is named `f`"),
+        ("named.glsl", "named.glsl:1:19: a macro is named `f`"),
+        ("asks.hlsl", "asks.hlsl:1:5: `__has_include` is not allowed"),
+        (
+            "digraph.hlsl",
+            "digraph.hlsl:1:1: some compilers read these two signs",
+        ),
+        (
+            "pragma.hlsl",
+            "pragma.hlsl:1:9: `#pragma GCC` is not allowed",
+        ),
         ("missing.wgsl", "cannot read missing.wgsl"),
         ("folder.wgsl", "cannot read folder.wgsl"),
     ] {
@@ -126,6 +160,45 @@ fn files_that_are_no_source_are_refused() {
         "audit folder --language wgsl --material gold",
         &["not an ordinary file"],
     );
+}
+
+/// Their macros end with their text: ours around it means what it says.
+#[test]
+fn a_macro_changes_nothing_of_the_program_around_it() {
+    for (file, text) in [
+        (
+            "f.hlsl",
+            "float3 f(float c) { return 5.0; }\n#define float4(a, b) float4(0.5, 0.5, 0.5, 1.0)\n",
+        ),
+        (
+            "f.glsl",
+            "float f(float c) { return 5.0; }\n#define vec3(a) vec3(0.5)\n",
+        ),
+        (
+            "f.wgsl",
+            "fn select(a: vec3<f32>, b: vec3<f32>, c: bool) -> vec3<f32> { return vec3<f32>(0.5); }\nfn f(c: f32) -> f32 { for (var i = 0; i < 3; i++) { } return 5.0; }\n",
+        ),
+    ] {
+        let place = Place::new();
+        place.put(file, text);
+        let Some(ran) = audit(
+            &place,
+            &format!("{file} --function f --material gold --gpu none"),
+        ) else {
+            continue;
+        };
+        let ran = ran.ends(1);
+        assert!(ran.out.contains("it is above 1"), "{ran:?}");
+    }
+    // Names that a language has, under macros of portable shaders.
+    let place = Place::new();
+    place.put(
+        "f.glsl",
+        "#define float3 vec3\n#define saturate(x) clamp(x, 0.0, 1.0)\nfloat3 f(float c) { return float3(saturate(c)); }\n",
+    );
+    if let Some(ran) = audit(&place, "f.glsl --material gold --gpu none") {
+        ran.ends(0);
+    }
 }
 
 #[test]

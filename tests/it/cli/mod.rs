@@ -15,6 +15,7 @@ mod files;
 mod fit;
 mod generation;
 mod half;
+mod hostile;
 #[cfg(unix)]
 mod killed;
 mod materials;

@@ -3,6 +3,8 @@
 
 use std::collections::BTreeMap;
 
+use fresnel_gen::app::generate::generate_single;
+use fresnel_gen::app::{Materials, Request, Source};
 use fresnel_gen::num::Precision;
 use fresnel_gen::targets::{self, Finish, Target, Validator};
 use fresnel_gen::verify::compilers::{Verdict, accepts, calls, is_here, verdict, version};
@@ -146,6 +148,50 @@ fn variant(path: &str) -> &str {
         ""
     } else {
         before
+    }
+}
+
+/// Functions of several methods, of the library and of materials, in one file as `-o` writes it: what must stand before all code
+/// stands there once.
+#[test]
+fn several_functions_in_one_file_are_accepted() {
+    let names = |names: &[&str]| {
+        names
+            .iter()
+            .map(|name| name.to_string())
+            .collect::<Vec<_>>()
+    };
+    let gold = Materials::These(vec![Source::Named("gold".to_owned())]);
+    for target in targets::ALL.iter().filter(|t| t.finish != Finish::Spirv) {
+        for (precision, materials) in Precision::ALL.into_iter().flat_map(|precision| {
+            [Materials::None, gold.clone()].map(|materials| (precision, materials))
+        }) {
+            let request = Request {
+                targets: names(&[target.name]),
+                methods: names(&["schlick", "fitted", "conductor_exact"]),
+                precision,
+                materials,
+                ..Request::default()
+            };
+            let bytes = generate_single(&request).expect("it generates");
+            let text = String::from_utf8(bytes.clone()).expect("text");
+            let directive = target.directive_in(precision);
+            if !directive.is_empty() {
+                assert_eq!(
+                    text.matches(&format!("\n{directive}\n")).count(),
+                    1,
+                    "{text}"
+                );
+            }
+            let name = format!("several.{}", target.extension);
+            for validator in target
+                .validators_in(precision)
+                .iter()
+                .filter(|v| is_here(v.compiler))
+            {
+                judge(validator, &name, &bytes).unwrap_or_else(|words| panic!("{words}\n{text}"));
+            }
+        }
     }
 }
 
