@@ -4,5 +4,6 @@ mod command;
 mod half;
 mod mutants;
 mod recorded;
+mod tampered;
 
 pub use crate::subjects;
