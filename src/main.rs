@@ -4,12 +4,15 @@ use std::io::{self, IsTerminal, Write};
 use std::process::ExitCode;
 
 use clap::Parser;
-use fresnel_gen::app::args::Cli;
+use fresnel_gen::app::args::{Cli, with_names_of_today};
 use fresnel_gen::app::command;
+use fresnel_gen::methods;
 use indicatif::{ProgressBar, ProgressStyle};
 
 fn main() -> ExitCode {
-    let cli = Cli::parse();
+    let (words, renamed) = with_names_of_today(std::env::args_os(), methods::RENAMED);
+    let cli = Cli::parse_from(words);
+    renamed.iter().for_each(|remark| say(remark));
     let mut bar: Option<ProgressBar> = None;
     let outcome = command::run(&cli, &mut |done, whole, what| {
         show(&mut bar, done, whole, what)
