@@ -184,13 +184,23 @@ fn get(target: &str, name: &str) -> String {
 /// Findings and what was not checked, for stderr; GitHub shows findings beside the file.
 fn remarks(rows: &[Value]) -> Vec<String> {
     let failed: Vec<&Value> = with_status(rows, "fail").collect();
-    let mut remarks: Vec<String> = failed.iter().take(TOLD).map(|row| finding(row)).collect();
-    if failed.len() > TOLD {
-        remarks.push(format!(
-            "… and {} more, all in the JSON",
-            failed.len() - TOLD
-        ));
+    // What is wrong with a file stands in all of its rows.
+    let mut findings: Vec<String> = Vec::new();
+    for finding in failed.iter().map(|row| finding(row)) {
+        if !findings.contains(&finding) {
+            findings.push(finding);
+        }
     }
+    let more = findings.len().saturating_sub(TOLD);
+    let mut remarks: Vec<String> = findings.into_iter().take(TOLD).collect();
+    if more > 0 {
+        remarks.push(format!("… and {more} more, all in the JSON"));
+    }
+    let said: BTreeSet<&str> = rows
+        .iter()
+        .filter_map(|row| row["remark"].as_str())
+        .collect();
+    remarks.extend(said.into_iter().map(|remark| format!("remark: {remark}")));
     remarks.extend(
         unchecked(rows)
             .into_iter()

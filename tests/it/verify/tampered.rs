@@ -111,7 +111,11 @@ fn nan_for_nan_is_seen() {
 fn a_function_that_was_added_is_seen() {
     for (target, ending, added) in [
         ("wgsl", "wgsl", "fn evil(x: f32) -> f32 { return x; }"),
-        ("gles", "glsl", "highp float evil(highp float x) { return x; }"),
+        (
+            "gles",
+            "glsl",
+            "highp float evil(highp float x) { return x; }",
+        ),
         ("hlsl", "hlsl", "float evil(float x) { return x; }"),
     ] {
         let file = format!("{target}/fresnel_schlick.{ending}");
@@ -124,9 +128,17 @@ fn a_function_that_was_added_is_seen() {
 #[test]
 fn a_resource_that_was_added_is_seen() {
     for (target, ending, added) in [
-        ("wgsl", "wgsl", "@group(3) @binding(7) var<uniform> evil: vec4<f32>;"),
+        (
+            "wgsl",
+            "wgsl",
+            "@group(3) @binding(7) var<uniform> evil: vec4<f32>;",
+        ),
         ("wgsl", "wgsl", "var<private> evil: f32;"),
-        ("wgsl", "wgsl", "// a comment\u{2028}override evil: f32 = 1.0;"),
+        (
+            "wgsl",
+            "wgsl",
+            "// a comment\u{2028}override evil: f32 = 1.0;",
+        ),
         ("gles", "glsl", "uniform highp float evil;"),
         ("gles", "glsl", "#define evil 1"),
         ("hlsl", "hlsl", "static float evil;"),
@@ -142,16 +154,38 @@ fn a_resource_that_was_added_is_seen() {
 #[test]
 fn a_false_number_in_a_header_is_seen() {
     for (from, to, says) in [
-        ("Model error: at most 0.00445", "Model error: at most 0.00045", "0.00045"),
-        ("Model error: at most 0.00193", "Model error: none, it is the exact law", "exact law"),
+        (
+            "Model error: at most 0.00445",
+            "Model error: at most 0.00045",
+            "0.00045",
+        ),
+        (
+            "Model error: at most 0.00193",
+            "Model error: none, it is the exact law",
+            "exact law",
+        ),
         ("0.15 % in the mean", "0.01 % in the mean", "0.01 %"),
-        ("Code error: at most 4.5 ulp", "Code error: at most 1.5 ulp", "1.5 ulp"),
-        ("hemisphere: (0.999366,", "hemisphere: (0.899366,", "0.899366"),
+        (
+            "Code error: at most 4.5 ulp",
+            "Code error: at most 1.5 ulp",
+            "1.5 ulp",
+        ),
+        (
+            "hemisphere: (0.999366,",
+            "hemisphere: (0.899366,",
+            "0.899366",
+        ),
         ("Cost: 61 scalar", "Cost: 16 scalar", "Cost: 16"),
-        ("Truth: reflectance integrated over 380", "Truth: reflectance integrated over 360", "360"),
+        (
+            "Truth: reflectance integrated over 380",
+            "Truth: reflectance integrated over 360",
+            "360",
+        ),
     ] {
         let file = "wgsl/materials/gold.wgsl";
-        let ran = edited(&format!("--target wgsl {GOLD}"), file, |text| text.replacen(from, to, 1));
+        let ran = edited(&format!("--target wgsl {GOLD}"), file, |text| {
+            text.replacen(from, to, 1)
+        });
         fails(ran, &["wgsl/materials/gold.wgsl:", says]);
     }
 }
@@ -173,7 +207,11 @@ fn a_false_number_in_the_manifest_is_seen() {
 #[test]
 fn a_function_that_the_manifest_lists_and_the_file_lacks_is_seen() {
     let edit = |text: &str| text[..text.find("// fresnel_gold_fitted").unwrap()].to_owned();
-    let ran = edited(&format!("--target wgsl {GOLD}"), "wgsl/materials/gold.wgsl", edit);
+    let ran = edited(
+        &format!("--target wgsl {GOLD}"),
+        "wgsl/materials/gold.wgsl",
+        edit,
+    );
     fails(ran, &["wgsl/materials/gold.wgsl", "fresnel_gold_fitted"]);
 }
 
@@ -186,7 +224,10 @@ fn a_file_that_no_manifest_lists_is_run_all_the_same() {
     fs::write(&path, text.replace("m2 * m2 * m", "m2 * m2")).unwrap();
     fs::write(
         place.path(&format!("{OUT}/manifest.json")),
-        place.manifest().to_string().replace("fresnel_schlick.wgsl", "another.wgsl"),
+        place
+            .manifest()
+            .to_string()
+            .replace("fresnel_schlick.wgsl", "another.wgsl"),
     )
     .unwrap();
     let ran = verify(&place, &format!("--target wgsl {LIBRARY} --points 500"));
@@ -196,9 +237,22 @@ fn a_file_that_no_manifest_lists_is_run_all_the_same() {
 #[test]
 fn what_differs_and_is_right_is_a_remark() {
     let file = "wgsl/materials/gold.wgsl";
-    for (from, to) in [("let sum = r", "let total = r"), ("// sin^2 theta\n", "// the sine squared\n")] {
-        let edit = |text: &str| text.replacen(from, to, 1).replace("sum ", "total ").replace("sum)", "total)");
-        let edit = |text: &str| if from.contains("sum") { edit(text) } else { text.replacen(from, to, 1) };
+    for (from, to) in [
+        ("let sum = r", "let total = r"),
+        ("// sin^2 theta\n", "// the sine squared\n"),
+    ] {
+        let edit = |text: &str| {
+            text.replacen(from, to, 1)
+                .replace("sum ", "total ")
+                .replace("sum)", "total)")
+        };
+        let edit = |text: &str| {
+            if from.contains("sum") {
+                edit(text)
+            } else {
+                text.replacen(from, to, 1)
+            }
+        };
         let ran = edited(&format!("--target wgsl {GOLD}"), file, edit);
         passes(ran, file, Some("is not what would be written today"));
     }
@@ -207,7 +261,9 @@ fn what_differs_and_is_right_is_a_remark() {
 #[test]
 fn line_ends_of_windows_are_no_difference() {
     let file = "wgsl/materials/gold.wgsl";
-    let ran = edited(&format!("--target wgsl {GOLD}"), file, |text| text.replace('\n', "\r\n"));
+    let ran = edited(&format!("--target wgsl {GOLD}"), file, |text| {
+        text.replace('\n', "\r\n")
+    });
     passes(ran, file, None);
 }
 
@@ -217,7 +273,10 @@ fn what_earlier_runs_put_into_a_file_belongs_to_it() {
     place.done("--target wgsl --material gold");
     place.done("--target wgsl --material gold --method schlick");
     for flags in ["--material gold", "--material gold --method schlick"] {
-        let ran = verify(&place, &format!("--target wgsl {flags} --points 500 --json -"));
+        let ran = verify(
+            &place,
+            &format!("--target wgsl {flags} --points 500 --json -"),
+        );
         passes(ran, "wgsl/materials/gold.wgsl", None);
     }
 }
