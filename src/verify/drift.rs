@@ -21,7 +21,7 @@ const PROMISES: [&str; 12] = [
     "Licence",
 ];
 /// How many findings of a kind are told.
-const TOLD: usize = 5;
+const TOLD: usize = 10;
 
 /// What was found in a file, a sentence each, with its line. `path` is for the message; `is_wanted` says whether the
 /// file must hold a function.

@@ -103,15 +103,14 @@ fn the_keys_of_every_report_are_the_committed_ones() {
     }
     place.done("--target gles,spirv --material gold");
     all.extend(lines("manifest.json", &place.manifest()));
-    place.done("--out-dir whole");
+    // The test `golden` holds these to what a run writes.
     for (name, file) in [
         ("catalogue.json", "catalogue.json"),
         ("lut/NAME.json", "lut/gold.json"),
         ("lut/atlas.json", "lut/atlas.json"),
     ] {
-        let text = place.read(&format!("whole/{file}"));
+        let text = fs::read_to_string(super::root().join(OUT).join(file)).unwrap();
         all.extend(lines(name, &serde_json::from_str(&text).unwrap()));
     }
-    assert!(place.path(OUT).exists());
     super::check("json", &all);
 }
