@@ -214,7 +214,7 @@ mod tests {
         declares(
             "float f() { \"//\"; } float e;",
             false,
-            &["float f ( ) {", "\"", "\""],
+            &["float f ( ) {", "\""],
         );
         declares("float f() { } }", false, &["float f ( ) {", "}"]);
         declares(

@@ -138,6 +138,9 @@ fn part_of(judge: &Judge, first: u32, results: &[[f32; 4]]) -> Outcome {
 
 /// Numbers beyond [0, 1]: of a run of equal results on one side one is judged.
 fn beyond(judge: &Judge, first: u32, results: &[[f32; 4]]) -> Outcome {
+    if results.is_empty() {
+        return Outcome::NONE;
+    }
     let side = |cos_theta: f32| (cos_theta.is_nan(), cos_theta < 0.0);
     let bits = |result: &[f32; 4]| result.map(f32::to_bits);
     let (mut cosines, mut got, mut last) = (Vec::new(), Vec::new(), None);
