@@ -4,16 +4,19 @@ use std::io::{self, IsTerminal, Write};
 use std::process::ExitCode;
 
 use clap::Parser;
-use fresnel_gen::app::args::Cli;
+use fresnel_gen::app::args::{Cli, with_names_of_today};
 use fresnel_gen::app::command;
 use fresnel_gen::app::legible::legible;
+use fresnel_gen::methods;
 use indicatif::{ProgressBar, ProgressStyle};
 
 fn main() -> ExitCode {
-    let cli = match Cli::try_parse() {
+    let (words, renamed) = with_names_of_today(std::env::args_os(), methods::RENAMED);
+    let cli = match Cli::try_parse_from(words) {
         Ok(cli) => cli,
         Err(error) => return refused(&error),
     };
+    renamed.iter().for_each(|remark| say(remark));
     let mut bar: Option<ProgressBar> = None;
     let outcome = command::run(
         &cli,

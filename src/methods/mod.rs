@@ -9,11 +9,13 @@ mod half;
 mod input;
 mod limits;
 mod method;
+mod renamed;
 mod shape;
 
 pub use half::{HalfClaim, InHalf};
 pub use input::{Input, Inputs, find_input};
 pub use method::{Better, Claim, Claims, Class, Contract, Forms, Light, Method, Over, Values};
+pub use renamed::{RENAMED, Renamed, renamed};
 pub use shape::{Factor, Shape};
 
 // BEGIN methods (written by the test `tidy::lists_are_complete` with BLESS=1)
@@ -75,9 +77,10 @@ pub static ALL: &[&Method] = &[
 pub use belcour_decomposition::{BELCOUR_COSINES, belcour_weights};
 pub use table::{ONLY_ROW, TEXELS, WARP, fetch, unwarped, warped, warped_step};
 
-/// The method of this name.
+/// The method of this name, or of this old name.
 pub fn find(name: &str) -> Option<&'static Method> {
-    ALL.iter().find(|method| method.name == name).copied()
+    let found = ALL.iter().find(|method| method.name == name).copied();
+    found.or_else(|| renamed::find_renamed(name))
 }
 
 #[cfg(test)]

@@ -61,6 +61,17 @@ pub fn halves() -> Vec<f32> {
     (0..=ONE).map(value).collect()
 }
 
+/// f16 outside [0, 1]: every exponent of both signs, the neighbour of 1, both infinities, NaN with several payloads.
+pub fn halves_beyond() -> Vec<f32> {
+    const FRACTIONS: [u16; 4] = [0, 1, 0x155, 0x3ff];
+    let sizes = (0..32u16).flat_map(|exponent| FRACTIONS.map(|fraction| exponent << 10 | fraction));
+    let above = sizes.clone().filter(|bits| *bits > ONE);
+    let below = sizes.map(|bits| 1 << 15 | bits);
+    let all = above.chain(below);
+    all.map(|bits| half::f16::from_bits(bits).to_f32())
+        .collect()
+}
+
 /// A number as f16 has it.
 pub fn nearest_half(x: f32) -> f32 {
     Half::from_f32(x).to_f32()

@@ -7,9 +7,12 @@
 mod code_error;
 #[cfg(feature = "compilers")]
 pub mod compilers;
+pub mod drift;
 mod half;
 #[cfg(feature = "gpu")]
 pub mod harness;
+pub mod module;
+pub mod outline;
 mod points;
 #[cfg(feature = "gpu")]
 pub mod run;
@@ -25,10 +28,11 @@ pub use code_error::{
     ABSOLUTE_FLOOR, CodeError, code_error, digits_lost, library_code_error, library_code_error_at,
 };
 pub use half::{
-    HalfError, HalfTrial, halves, library_half_error, library_half_error_at, nearest_half,
+    HalfError, HalfTrial, halves, halves_beyond, library_half_error, library_half_error_at,
+    nearest_half,
 };
-pub use points::{ALL, BEYOND, cosines, cosines_around, limits, share};
+pub use points::{WITHIN, beyond, cosines, cosines_around, limits, share};
 #[cfg(feature = "gpu")]
 pub use sweep::{count, sweep};
-pub use trial::{Expected, Miss, Outcome, Trial};
+pub use trial::{Expected, Miss, Outcome, Trial, result_range};
 pub use worst::{worst_cases, worst_cosines, worst_media};

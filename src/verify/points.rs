@@ -4,17 +4,42 @@
 /// The seed of the random points.
 const SEED: u64 = 0x9E37_79B9_7F4A_7C15;
 
+/// Fractions of numbers that are tried with every exponent: none, the smallest, one third, all.
+const FRACTIONS: [u32; 4] = [0, 1, 0x2A_AAAA, 0x7F_FFFF];
+/// The bits of 1 and of infinity.
+const ONE: u32 = 0x3F80_0000;
+const INFINITY: u32 = 0x7F80_0000;
+/// The bit of the sign.
+const SIGN: u32 = 1 << 31;
+/// What NaN can hold: the quiet one of most devices, signalling ones, all bits set.
+const NANS: [u32; 5] = [
+    0x7FC0_0000,
+    0x7FC0_0001,
+    0x7F80_0001,
+    0x7FBF_FFFF,
+    0x7FFF_FFFF,
+];
 /// How many f32 there are from 0 to 1.
-pub const ALL: u64 = 0x3F80_0001;
+pub const WITHIN: u64 = 0x3F80_0001;
 
 /// What share of all f32 from 0 to 1 these cosines are.
 pub fn share(cosines: &[f32]) -> f64 {
     let is_within = |c: &&f32| c.is_sign_positive() && **c <= 1.0;
-    cosines.iter().filter(is_within).count() as f64 / ALL as f64
+    cosines.iter().filter(is_within).count() as f64 / WITHIN as f64
 }
 
-/// Cosines that no geometry has and shaders see all the same: rounding brings 1 + 1 ulp about, a back side -1.
-pub const BEYOND: [f32; 5] = [-1.0, -f32::MIN_POSITIVE, 1.000_000_1, 1.000_000_2, 2.0];
+/// Cosines outside [0, 1], which shaders see all the same: rounding makes 1 + 1 ulp, a back side gives -1. Every exponent
+/// of both signs, the neighbours of 1, both infinities, NaN with several payloads.
+pub fn beyond() -> Vec<f32> {
+    let of_exponent = |exponent: u32| FRACTIONS.map(|fraction| exponent << 23 | fraction);
+    let sizes = (0..255).flat_map(of_exponent).chain([INFINITY]);
+    let above = sizes.clone().filter(|bits| *bits > ONE);
+    let near = (1..=10).map(|step| ONE + step);
+    let below = sizes.chain([ONE + 1]).map(|bits| SIGN | bits);
+    let nans = NANS.into_iter().flat_map(|bits| [bits, SIGN | bits]);
+    let all = near.chain(above).chain(below).chain(nans);
+    all.map(f32::from_bits).collect()
+}
 
 /// About `count` cosines in [0, 1], sorted, each once.
 pub fn cosines(count: usize) -> Vec<f32> {

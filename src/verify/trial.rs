@@ -37,6 +37,8 @@ pub struct Expected {
     pub bound: f64,
     /// Differences up to this are no error, whatever they are in ulp.
     floor: f64,
+    /// The smallest and the largest of these results, with 0 and 1: for a cosine that is NaN any value between is right.
+    pub(super) range: [f64; 2],
 }
 
 /// A result that is too far off.
@@ -113,6 +115,7 @@ impl Trial {
     pub(super) fn expected_of(&self, cosines: Vec<f32>, want: Value<f64>) -> Expected {
         Expected {
             slack: self.slack(&cosines, &want),
+            range: result_range(&cosines, &want),
             want,
             bound: f64::INFINITY,
             floor: ABSOLUTE_FLOOR,
@@ -120,11 +123,18 @@ impl Trial {
         }
     }
 
-    /// The error of unfused f32 at these points, with some room.
+    /// The error of unfused f32 at these points, with some room. Beyond [0, 1] it is that of the ends.
     fn unfused(&self, expected: &Expected) -> f64 {
+        let mut error = CodeError::NONE;
         let got = self.run::<f32>(&expected.cosines);
-        let got: Vec<[f32; 3]> = (0..expected.cosines.len()).map(|i| got.at(i)).collect();
-        ROOM * expected.judge(&got).error.max_ulp
+        for (point, cos_theta) in expected.cosines.iter().enumerate() {
+            if (0.0..=1.0).contains(cos_theta) {
+                for (got, want) in got.at(point).into_iter().zip(expected.want.at(point)) {
+                    error.include(got, want, *cos_theta, ABSOLUTE_FLOOR);
+                }
+            }
+        }
+        ROOM * error.max_ulp
     }
 
     fn slack(&self, cosines: &[f32], want: &Value<f64>) -> Option<Value<f64>> {
@@ -197,7 +207,10 @@ impl Expected {
                 .as_ref()
                 .map_or([0.0; 3], |slack| slack.at(point));
             for channel in 0..3 {
-                let (got, want) = (got[channel], want[channel]);
+                let (got, want) = (
+                    got[channel],
+                    self.meant(*cos_theta, got[channel], want[channel]),
+                );
                 outcome.error.include(got, want, *cos_theta, ABSOLUTE_FLOOR);
                 if !self.allows(got, want, slack[channel]) {
                     outcome.add(Miss {
@@ -213,11 +226,30 @@ impl Expected {
         outcome
     }
 
+    /// What should have come: for a cosine that is NaN the nearest of all right values.
+    fn meant(&self, cos_theta: f32, got: f32, want: f64) -> f64 {
+        let [least, most] = self.range;
+        match (cos_theta.is_nan(), got.is_nan()) {
+            (false, _) => want,
+            (true, true) => least,
+            (true, false) => f64::from(got).clamp(least, most),
+        }
+    }
+
     fn allows(&self, got: f32, want: f64, slack: f64) -> bool {
         let difference = (f64::from(got) - want).abs();
         let has_no_bound = self.bound == f64::INFINITY;
         has_no_bound || difference <= self.floor + slack || ulp_distance(got, want) <= self.bound
     }
+}
+
+/// The smallest and the largest result at cosines that are numbers, with 0 and 1.
+pub fn result_range(cosines: &[f32], want: &Value<f64>) -> [f64; 2] {
+    let points = (0..cosines.len()).filter(|i| !cosines[*i].is_nan());
+    let results = points.flat_map(|i| want.at(i));
+    results.fold([0.0, 1.0], |[least, most], result| {
+        [least.min(result), most.max(result)]
+    })
 }
 
 impl Outcome {
@@ -279,6 +311,18 @@ mod tests {
         assert_eq!((miss.cos_theta, miss.channel), (0.3, 1));
         got[4][2] = f32::NAN;
         assert!(expected.judge(&got).miss.unwrap().got.is_nan());
+    }
+
+    #[test]
+    fn for_nan_any_reflectance_is_right_and_nan_is_not() {
+        let trial = trial("schlick", &[[0.04, 0.5, 1.2]]);
+        let expected = trial.expected(&[f32::NAN, 0.0, 1.0, f32::INFINITY]);
+        let ends = [[1.0, 1.0, 1.0], [0.04, 0.5, 1.2], [0.04, 0.5, 1.2]];
+        let judge = |first: [f32; 3]| expected.judge(&[&[first], &ends[..]].concat()).miss;
+        assert_eq!(judge([0.0, 0.7, 1.2]), None);
+        assert_eq!(judge([0.0, 1.3, 1.0]).unwrap().channel, 1);
+        assert!(judge([0.0, 0.5, f32::NAN]).unwrap().got.is_nan());
+        assert_eq!(judge([-0.1, 0.5, 1.0]).unwrap().channel, 0);
     }
 
     #[test]

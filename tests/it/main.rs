@@ -26,6 +26,7 @@ mod gpu;
 mod graph;
 mod half;
 mod incidents;
+mod licences;
 #[cfg(feature = "cli")]
 mod lut;
 mod oracle;
@@ -39,6 +40,7 @@ mod readme;
 mod reproduce;
 mod reread;
 mod shapes;
+mod snapshots;
 mod specialise;
 mod spectral;
 mod split_sum;

@@ -230,7 +230,7 @@ fn write_depfile(flags: &Generate, rule: Option<String>) -> Result<(), Error> {
 }
 
 /// The methods that the folder's material files of this precision hold, by its manifest.
-fn kept(out_dir: &Path, precision: Precision) -> Result<Kept, Error> {
+pub fn kept(out_dir: &Path, precision: Precision) -> Result<Kept, Error> {
     let path: PathBuf = out_dir.join(manifest::FILE);
     let Some(text) = folder::read(&path)? else {
         return Ok(Kept::new());

@@ -21,6 +21,9 @@ mod time;
 #[cfg(feature = "gpu")]
 mod verify;
 
+#[cfg(feature = "gpu")]
+pub(super) use generate::kept;
+
 use std::path::Path;
 
 use super::args::{Cli, Command};

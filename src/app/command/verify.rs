@@ -16,7 +16,7 @@ use crate::app::write::write_file;
 use crate::gpu::{Backend, Wanted};
 use crate::report::SCHEMA;
 use crate::report::table;
-use crate::verify::ALL;
+use crate::verify::WITHIN;
 use crate::verify::run::Devices;
 
 use super::{Output, Progress, report, try_places};
@@ -184,13 +184,23 @@ fn unchecked(rows: &[Value]) -> BTreeSet<String> {
 /// Findings and what was not checked, for stderr; GitHub shows findings beside the file.
 fn remarks(rows: &[Value]) -> Vec<String> {
     let failed: Vec<&Value> = with_status(rows, "fail").collect();
-    let mut remarks: Vec<String> = failed.iter().take(TOLD).map(|row| finding(row)).collect();
-    if failed.len() > TOLD {
-        remarks.push(format!(
-            "… and {} more, all in the JSON",
-            failed.len() - TOLD
-        ));
+    // What is wrong with a file stands in all of its rows.
+    let mut findings: Vec<String> = Vec::new();
+    for finding in failed.iter().map(|row| finding(row)) {
+        if !findings.contains(&finding) {
+            findings.push(finding);
+        }
     }
+    let more = findings.len().saturating_sub(TOLD);
+    let mut remarks: Vec<String> = findings.into_iter().take(TOLD).collect();
+    if more > 0 {
+        remarks.push(format!("… and {more} more, all in the JSON"));
+    }
+    let said: BTreeSet<&str> = rows
+        .iter()
+        .filter_map(|row| row["remark"].as_str())
+        .collect();
+    remarks.extend(said.into_iter().map(|remark| format!("remark: {remark}")));
     remarks.extend(
         unchecked(rows)
             .into_iter()
@@ -330,10 +340,10 @@ fn covered(rows: &[Value]) -> String {
     };
     let mut told = String::new();
     if let Some(share) = shares("f32") {
-        let cosines = (share * ALL as f64).round();
+        let cosines = (share * WITHIN as f64).round();
         let percent = 100.0 * share;
         told += &format!(
-            "\nFrom 0 to 1 each function was run at {cosines} cosines at most, {percent:.6} % of the {ALL} f32 there are.\n"
+            "\nFrom 0 to 1 each function was run at {cosines} cosines at most, {percent:.6} % of the {WITHIN} f32 there are.\n"
         );
         if share < 0.5 {
             told += "A result that is wrong at a single f32 is found by luck only; --exhaustive tries all of them.\n";

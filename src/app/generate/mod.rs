@@ -84,10 +84,10 @@ pub struct Meant {
 }
 
 /// Generates everything that the request asks for, and keeps the graphs of what is generated.
-pub fn generate_meant(request: &Request) -> Result<Meant, Error> {
+pub fn generate_meant(request: &Request, kept: &Kept) -> Result<Meant, Error> {
     let run = Run::new(request)?;
     Ok(Meant {
-        files: made(&run, &Kept::new())?,
+        files: made(&run, kept)?,
         subjects: run
             .subjects
             .into_iter()
@@ -267,15 +267,13 @@ impl<'r> Run<'r> {
         let usual = written::usual(self.request, subject);
         let mut chosen = self.named_or(&subject.name, &usual);
         chosen.retain(|name| written::is_written(self.request, name));
-        if self.named.is_some() || !self.request.chosen.is_empty() {
-            let kept = kept.get(&(target.name.to_owned(), subject.name.clone()));
-            chosen.extend(
-                kept.into_iter()
-                    .flatten()
-                    .filter_map(|name| methods::find(name))
-                    .map(|m| m.name),
-            );
-        }
+        let kept = kept.get(&(target.name.to_owned(), subject.name.clone()));
+        chosen.extend(
+            kept.into_iter()
+                .flatten()
+                .filter_map(|name| methods::find(name))
+                .map(|m| m.name),
+        );
         let rank = |name: &str| {
             usual
                 .iter()

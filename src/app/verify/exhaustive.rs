@@ -1,4 +1,4 @@
-//! Every f32 from 0 to 1, for functions specialised to materials, in WGSL: not a sample.
+//! Every f32 there is, all 2³² bit patterns, for functions specialised to materials, in WGSL: not a sample.
 
 use serde_json::Value;
 
@@ -6,7 +6,7 @@ use crate::app::error::Error;
 use crate::emit::{Emitted, Subject};
 use crate::fit::Measured;
 use crate::verify::run::{Devices, Fault, Shown, Way};
-use crate::verify::{ALL, Trial, count, sweep};
+use crate::verify::{Trial, WITHIN, count, sweep};
 
 use super::file::specialised;
 use super::machine;
@@ -30,7 +30,7 @@ pub fn rows(
         let Some(subject) = file.subject.map(|index| &plan.subjects[index]) else {
             continue;
         };
-        for emitted in plan.asked_for(file) {
+        for emitted in &file.functions {
             let (run, speed) = run(file, subject, emitted, devices, progress);
             let runs = [(Way::Own, run)];
             let row = Row {
@@ -80,7 +80,7 @@ fn run(
     let run = swept.and_then(|outcome| {
         Ok(Run {
             points: all as usize,
-            share: (all as f64 / ALL as f64).min(1.0),
+            share: (all as f64 / WITHIN as f64).min(1.0),
             bound: match trial.bound {
                 Measured::Yes(ulp) => Some(ulp),
                 Measured::No(_) => None,

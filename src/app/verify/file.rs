@@ -14,7 +14,7 @@ use crate::verify::compilers::{self, Verdict};
 use crate::verify::harness;
 use crate::verify::run::{Devices, Fault, Runnable, Shown, Way};
 use crate::verify::{
-    BEYOND, Outcome, Trial, cosines_around, limits, nearest_half, share, worst_cases, worst_cosines,
+    Outcome, Trial, beyond, cosines_around, limits, nearest_half, share, worst_cases, worst_cosines,
 };
 
 use super::half;
@@ -280,7 +280,7 @@ impl<'a> Tried<'a> {
             return Ok(Run { device, ..ran });
         }
         let mut points = cosines_around(self.effort.points, &case.limits);
-        points.extend(BEYOND);
+        points.extend(beyond());
         let expected = case.trial.expected(&points);
         let got = runnable.run(shown.target, &case.trial, &expected.cosines)?;
         let outcome: Outcome = expected.judge(&got);

@@ -1,16 +1,13 @@
-//! A function in half precision as it runs: at every f16 from 0 to 1 and a few beyond, against f64 and against f16 rounded
-//! after every operation.
+//! A function in half precision as it runs: at every f16 from 0 to 1 and every exponent beyond, against f64 and against f16
+//! rounded after every operation.
 
 use crate::fit::Measured;
 use crate::methods::Contract;
 use crate::num::Num;
 use crate::verify::run::{Fault, Runnable, Shown};
-use crate::verify::{HalfError, HalfTrial, Outcome, Trial, halves};
+use crate::verify::{HalfError, HalfTrial, Outcome, Trial, halves, halves_beyond, result_range};
 
 use super::row::{HalfRun, Run};
-
-/// f16 that no geometry has and shaders see all the same.
-const BEYOND: [f32; 4] = [-1.0, -6.103_515_6e-5, 1.000_976_6, 2.0];
 
 /// What a device may be further off than the emulation, which is what is promised: 2⁻¹¹, the last place below 1. A
 /// device may fuse, reorder, divide and take roots in two steps, and take numbers below the smallest normal one for 0.
@@ -29,7 +26,7 @@ pub(super) fn run(runnable: &Runnable, shown: &Shown, trial: &Trial) -> Result<R
     };
     let mut cosines = halves();
     match emitted.method.contract {
-        Contract::Kept => cosines.extend(BEYOND),
+        Contract::Kept => cosines.extend(halves_beyond()),
         // Nothing is promised at grazing, where most have no number.
         Contract::Exempt(_) => cosines.retain(|c| *c > 0.1),
     }
@@ -40,12 +37,19 @@ pub(super) fn run(runnable: &Runnable, shown: &Shown, trial: &Trial) -> Result<R
         emulation: HalfError::NONE,
         allowed: match trial.bound {
             Measured::Yes(most) => most + FREEDOM,
-            Measured::No(_) => 2.0 * half.error(&cosines).max_abs,
+            Measured::No(_) => 2.0 * half.error(&halves_of(&cosines)).max_abs,
         },
     };
+    let [least, most] = result_range(&cosines, &want);
     for (point, (cos_theta, got)) in cosines.iter().zip(&got).enumerate() {
         for channel in 0..3 {
             let got = f64::from(got[channel]);
+            if cos_theta.is_nan() {
+                // Any reflectance is right. What is NaN counts as an infinite error.
+                let nearest = got.clamp(least, most);
+                result.error.include(got, nearest, *cos_theta);
+                continue;
+            }
             result
                 .error
                 .include(got, want.at(point)[channel], *cos_theta);
@@ -62,4 +66,10 @@ pub(super) fn run(runnable: &Runnable, shown: &Shown, trial: &Trial) -> Result<R
         model_error: emitted.model_error,
         device: String::new(),
     })
+}
+
+/// Those within [0, 1]: beyond them the emulation has no error of its own, and NaN has none at all.
+fn halves_of(cosines: &[f32]) -> Vec<f32> {
+    let inside = |c: &&f32| (0.0..=1.0).contains(*c);
+    cosines.iter().filter(inside).copied().collect()
 }

@@ -106,6 +106,16 @@ impl Row<'_> {
                 ));
             }
         }
+        let findings: Vec<&String> = self
+            .file
+            .pages
+            .iter()
+            .flat_map(|page| &page.findings)
+            .collect();
+        if !findings.is_empty() {
+            status = "fail";
+            reasons.extend(findings.into_iter().cloned());
+        }
         row["accepts"] = accepts(self.accepts);
         row["not_asked"] = not_asked(self.accepts);
         row["status"] = json!(status);
@@ -126,7 +136,7 @@ impl Row<'_> {
             "fingerprint": fingerprint(&self.emitted.function),
             "shipped": page.is_shipped, "current": page.is_current, "device": null, "points": null, "share": null, "bound": null,
             "code_error": null, "model_error": null, "accepts": null, "not_asked": {}, "second_opinions": [], "status": null,
-            "reason": null,
+            "reason": null, "remark": self.file.pages.iter().find_map(|page| page.remark.as_ref()),
         })
     }
 
@@ -224,8 +234,13 @@ impl Row<'_> {
         } else {
             " The file is not what would be written today."
         };
+        let expected = if miss.cos_theta.is_nan() {
+            "expected any reflectance, since the cosine is NaN".to_owned()
+        } else {
+            format!("expected {:?}: {:.1} ulp off", miss.expected, miss.ulp)
+        };
         format!(
-            "{}: {}, {}{way}: at cos_theta = {:?} (0x{:08x}) {channel} is {:?} (0x{:08x}), expected {:?}: {:.1} ulp off.{edited}",
+            "{}: {}, {}{way}: at cos_theta = {:?} (0x{:08x}) {channel} is {:?} (0x{:08x}), {expected}.{edited}",
             self.file.run_page().path,
             self.emitted.name,
             self.material,
@@ -233,8 +248,6 @@ impl Row<'_> {
             miss.cos_theta.to_bits(),
             miss.got,
             miss.got.to_bits(),
-            miss.expected,
-            miss.ulp,
         )
     }
 }

@@ -9,6 +9,7 @@ mod mutants;
 mod processes;
 mod recorded;
 mod share;
+mod tampered;
 #[cfg(unix)]
 mod tools;
 

@@ -8,7 +8,7 @@ use fresnel_gen::ir::{Checked, Function, Label, Node, NodeId, Op, Payload, Ty, c
 use fresnel_gen::methods::{self, Class, Contract, Method};
 use fresnel_gen::targets;
 use fresnel_gen::verify::run::{Devices, Fault, Shown, Way};
-use fresnel_gen::verify::{ABSOLUTE_FLOOR, BEYOND, Trial, cosines_around};
+use fresnel_gen::verify::{ABSOLUTE_FLOOR, Trial, beyond, cosines_around};
 
 use super::subjects;
 use crate::not_checked;
@@ -94,7 +94,7 @@ fn differs(trial: &Trial, function: &Checked) -> bool {
 /// The cosines of a trial.
 fn points(trial: &Trial) -> Vec<f32> {
     let mut points = cosines_around(POINTS, &[]);
-    points.extend(BEYOND);
+    points.extend(beyond());
     points.retain(|c| trial.is_guarded || (1e-6..=1.0).contains(c));
     points
 }

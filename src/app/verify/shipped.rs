@@ -1,0 +1,214 @@
+//! A file as it lies in the folder, against what would be written today and against what the manifest says of it.
+
+use std::path::Path;
+
+use crate::app::error::Error;
+use crate::app::folder;
+use crate::app::generate::Made;
+use crate::app::manifest::{self, Manifest};
+use crate::verify::drift;
+use crate::verify::module;
+use crate::verify::outline::{Outline, function_name, outline};
+
+use super::listed::{self, Listed};
+
+/// A file as it is shipped.
+#[derive(Debug)]
+pub struct Page {
+    /// Relative to the output folder.
+    pub path: String,
+    /// Its bytes: those in the output folder, or, where it is not there, what would be written.
+    pub bytes: Vec<u8>,
+    /// Whether it lies in the output folder.
+    pub is_shipped: bool,
+    /// Whether it is what would be written today, line ends aside.
+    pub is_current: bool,
+    /// The entry point of each function, in order; nothing for text.
+    pub entries: Vec<String>,
+    /// What a reader of the report should know of it, and is no fault.
+    pub remark: Option<String>,
+    /// Its faults, whatever its functions return: what was added, what it lacks, false numbers.
+    pub findings: Vec<String>,
+}
+
+/// The output folder.
+pub(super) struct Folder<'a> {
+    path: &'a Path,
+    /// The manifest with its text.
+    manifest: Option<(Manifest, String)>,
+}
+
+impl Folder<'_> {
+    pub fn new(path: &Path) -> Result<Folder<'_>, Error> {
+        let file = path.join(manifest::FILE);
+        let text = folder::read(&file)?;
+        let manifest = match text {
+            Some(text) => {
+                let parsed = Manifest::parse(&file, &text)?;
+                Some((parsed, String::from_utf8_lossy(&text).into_owned()))
+            }
+            None => None,
+        };
+        Ok(Folder { path, manifest })
+    }
+
+    /// The page of a file; `asked` says which of its functions are to be run.
+    pub fn page(&self, made: &Made, asked: &[bool]) -> Result<Page, Error> {
+        let path = made.artifact.path.clone();
+        let lying = folder::read(&self.path.join(&path))?;
+        let today = Today::new(made, asked);
+        let listed = self
+            .manifest
+            .as_ref()
+            .and_then(|(manifest, text)| Listed::new(manifest, text, &path));
+        let mut page = Page {
+            is_shipped: lying.is_some(),
+            is_current: true,
+            bytes: Vec::new(),
+            entries: today.entries(),
+            remark: None,
+            findings: listed
+                .iter()
+                .flat_map(|listed| listed.findings(&made.artifact.detail))
+                .collect(),
+            path,
+        };
+        let Some(bytes) = lying else {
+            page.bytes.clone_from(&made.artifact.bytes);
+            return Ok(page);
+        };
+        today.compare(&mut page, bytes, listed.as_ref());
+        Ok(page)
+    }
+}
+
+/// What would be written today.
+struct Today<'a> {
+    made: &'a Made,
+    asked: &'a [bool],
+}
+
+impl<'a> Today<'a> {
+    fn new(made: &'a Made, asked: &'a [bool]) -> Today<'a> {
+        Today { made, asked }
+    }
+
+    fn is_module(&self) -> bool {
+        self.made.artifact.path.ends_with(".spv")
+    }
+
+    /// The entry points of the functions that are to be run.
+    fn entries(&self) -> Vec<String> {
+        let functions = listed::functions(&self.made.artifact.detail);
+        let entry =
+            |function: &serde_json::Value| function["entry_point"].as_str().map(str::to_owned);
+        let wanted = functions
+            .iter()
+            .zip(self.asked)
+            .filter(|(_, asked)| **asked);
+        wanted.filter_map(|(function, _)| entry(function)).collect()
+    }
+
+    /// The names by which a file holds the functions that are to be run.
+    fn names(&self) -> Vec<String> {
+        if self.is_module() {
+            return self.entries();
+        }
+        let wanted = self
+            .made
+            .functions
+            .iter()
+            .zip(self.asked)
+            .filter(|(_, asked)| **asked);
+        wanted.map(|(emitted, _)| emitted.name.clone()).collect()
+    }
+
+    /// Enters what lies there. Where it lacks a function that is to be run, what would be written is run.
+    fn compare(&self, page: &mut Page, bytes: Vec<u8>, listed: Option<&Listed>) {
+        page.is_current = self.is_current(&bytes);
+        if page.is_current {
+            page.bytes = bytes;
+            return;
+        }
+        let found = self.outline(&bytes);
+        let held = self.held(&bytes, &found);
+        let lacks: Vec<String> = self
+            .names()
+            .into_iter()
+            .filter(|name| !held.contains(name))
+            .collect();
+        let is_listed = |name: &str| listed.is_none_or(|listed| listed.has(name));
+        page.findings
+            .extend(self.findings(&page.path, &found, &lacks, &is_listed));
+        page.is_shipped = lacks.is_empty();
+        let why = if page.is_shipped {
+            page.bytes = bytes;
+            "it is not what would be written today".to_owned()
+        } else {
+            page.bytes.clone_from(&self.made.artifact.bytes);
+            format!(
+                "it lacks {}, so that what would be written today was run",
+                lacks.join(", ")
+            )
+        };
+        page.remark = Some(format!("{}: {why}", page.path));
+    }
+
+    fn is_current(&self, bytes: &[u8]) -> bool {
+        let today = &self.made.artifact.bytes;
+        let text = |bytes: &[u8]| String::from_utf8_lossy(bytes).replace("\r\n", "\n");
+        bytes == today || !self.is_module() && text(bytes) == text(today)
+    }
+
+    fn outline(&self, bytes: &[u8]) -> Outline {
+        if self.is_module() {
+            return Outline {
+                declared: module::declarations(bytes),
+                comments: Vec::new(),
+            };
+        }
+        let nests = self.made.artifact.target == "wgsl";
+        outline(&String::from_utf8_lossy(bytes), nests)
+    }
+
+    fn held(&self, bytes: &[u8], found: &Outline) -> Vec<String> {
+        if self.is_module() {
+            return module::entry_points(bytes);
+        }
+        let names = found
+            .declared
+            .iter()
+            .filter_map(|item| function_name(&item.words));
+        names.map(str::to_owned).collect()
+    }
+
+    fn findings(
+        &self,
+        path: &str,
+        found: &Outline,
+        lacks: &[String],
+        is_listed: &dyn Fn(&str) -> bool,
+    ) -> Vec<String> {
+        if self.is_module() && !lacks.is_empty() {
+            // A module with fewer functions has another interface. Functions are listed by name, not by entry point.
+            let pairs = self
+                .made
+                .functions
+                .iter()
+                .zip(listed::functions(&self.made.artifact.detail));
+            let lost = pairs.filter(|(emitted, function)| {
+                let entry = function["entry_point"].as_str().unwrap_or_default();
+                lacks.iter().any(|name| name == entry) && is_listed(&emitted.name)
+            });
+            return lost
+                .map(|(emitted, _)| format!("{path}: it lacks `{}`", emitted.name))
+                .collect();
+        }
+        drift::findings(
+            path,
+            found,
+            &self.outline(&self.made.artifact.bytes),
+            is_listed,
+        )
+    }
+}

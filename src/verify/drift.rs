@@ -1,0 +1,227 @@
+//! A file as it lies there against what would be written today: declarations that were added or are missing, and headers
+//! whose numbers are others. A difference elsewhere is no finding: what the code does is found by running it.
+
+use std::collections::BTreeMap;
+
+use super::outline::{Item, Outline, function_name};
+
+/// How comments begin that say what a function promises or costs. One that would not be written is a false promise.
+const PROMISES: [&str; 12] = [
+    "Model error",
+    "Code error",
+    "Average",
+    "Cost:",
+    "Truth:",
+    "Domain:",
+    "Index per channel",
+    "Half precision:",
+    "Table:",
+    "Form:",
+    "Written as:",
+    "Licence",
+];
+/// How many findings of a kind are told.
+const TOLD: usize = 10;
+
+/// What was found in a file, a sentence each, with its line. `path` is for the message; `is_wanted` says whether the
+/// file must hold a function.
+pub fn findings(
+    path: &str,
+    found: &Outline,
+    today: &Outline,
+    is_wanted: &dyn Fn(&str) -> bool,
+) -> Vec<String> {
+    let place = |item: &Item| match item.line {
+        0 => path.to_owned(),
+        line => format!("{path}:{line}"),
+    };
+    let added = missing_from(&today.declared, &found.declared)
+        .into_iter()
+        .map(|item| {
+            format!(
+                "{}: it declares `{}`, which fresnel-gen does not write",
+                place(item),
+                shown(&item.words)
+            )
+        });
+    let wanted = |item: &&Item| function_name(&item.words).is_none_or(is_wanted);
+    let absent = missing_from(&found.declared, &today.declared)
+        .into_iter()
+        .filter(wanted);
+    let absent = absent.map(|item| format!("{path}: it lacks `{}`", shown(&item.words)));
+    let numbers = false_numbers(&found.comments, &today.comments);
+    let numbers = numbers.into_iter().map(|(item, right)| match right {
+        Some(right) => format!(
+            "{}: it says `{}`, and right is `{right}`",
+            place(item),
+            shown(&item.words)
+        ),
+        None => format!(
+            "{}: it says `{}`, which fresnel-gen does not say of it",
+            place(item),
+            shown(&item.words)
+        ),
+    });
+    added
+        .take(TOLD)
+        .chain(absent.take(TOLD))
+        .chain(numbers.take(TOLD))
+        .collect()
+}
+
+/// The items of `all` that `known` lacks, by their words; what stands twice must stand twice.
+fn missing_from<'a>(known: &[Item], all: &'a [Item]) -> Vec<&'a Item> {
+    let mut counts: BTreeMap<&str, usize> = BTreeMap::new();
+    for item in known {
+        *counts.entry(&item.words).or_default() += 1;
+    }
+    let is_missing = |item: &&Item| match counts.get_mut(item.words.as_str()) {
+        Some(count) if *count > 0 => {
+            *count -= 1;
+            false
+        }
+        _ => true,
+    };
+    all.iter().filter(is_missing).collect()
+}
+
+/// Comments whose words are those of today but for their numbers, with the right ones; and promises that nobody makes.
+fn false_numbers<'a>(found: &'a [Item], today: &'a [Item]) -> Vec<(&'a Item, Option<&'a str>)> {
+    let mut right: BTreeMap<String, Vec<&str>> = BTreeMap::new();
+    for item in today {
+        right
+            .entry(masked(&item.words))
+            .or_default()
+            .push(&item.words);
+    }
+    let mut used: BTreeMap<String, usize> = BTreeMap::new();
+    let mut wrong = Vec::new();
+    for item in found {
+        let mask = masked(&item.words);
+        let place = used.entry(mask.clone()).or_default();
+        let meant = right.get(&mask).and_then(|all| all.get(*place));
+        *place += 1;
+        match meant {
+            Some(meant) if *meant == item.words => {}
+            Some(meant) => wrong.push((item, Some(*meant))),
+            None if is_promise(&item.words) => wrong.push((item, None)),
+            None => {}
+        }
+    }
+    wrong
+}
+
+fn is_promise(words: &str) -> bool {
+    PROMISES.iter().any(|promise| words.starts_with(promise)) || words.contains("scalar operations")
+}
+
+/// The words with `#` in place of each number. Digits of names (`f0`) stay.
+fn masked(words: &str) -> String {
+    let mut out = String::new();
+    let (mut before, mut rest) = (' ', words);
+    while let Some(c) = rest.chars().next() {
+        let is_number = c.is_ascii_digit() && !(before.is_alphanumeric() || before == '_');
+        let taken = if is_number {
+            number(rest)
+        } else {
+            c.len_utf8()
+        };
+        if is_number {
+            out.push('#');
+        } else {
+            out.push(c);
+        }
+        before = rest[..taken].chars().next_back().unwrap_or(' ');
+        rest = &rest[taken..];
+    }
+    out
+}
+
+/// How many bytes of a number begin here: digits, a point before a digit, an exponent.
+fn number(text: &str) -> usize {
+    let bytes = text.as_bytes();
+    let digit = |at: usize| bytes.get(at).is_some_and(u8::is_ascii_digit);
+    let mut at = 1;
+    loop {
+        let follows = match bytes.get(at) {
+            Some(b'.') if digit(at + 1) => 1,
+            Some(b'e') if digit(at + 1) => 1,
+            Some(b'e') if matches!(bytes.get(at + 1), Some(b'-' | b'+')) && digit(at + 2) => 2,
+            Some(byte) if byte.is_ascii_digit() => 1,
+            _ => return at,
+        };
+        at += follows;
+    }
+}
+
+/// Some words of a long declaration.
+fn shown(words: &str) -> String {
+    const MOST: usize = 160;
+    let mut shown: String = words.chars().take(MOST).collect();
+    if shown.len() < words.len() {
+        shown.push('…');
+    }
+    shown
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::verify::outline::outline;
+
+    const TODAY: &str = "// F0 at 8 degrees\n// Model error: at most 0.01 (at 8.5 degrees).\nfloat f(float c0) {\n}\n// Model error: at most 0.02 (at 9 degrees).\nfloat g(float c0) {\n}\n";
+
+    #[track_caller]
+    fn check(from: &str, to: &str, expected: &[&str]) {
+        let found = outline(&TODAY.replacen(from, to, 1), false);
+        let findings = findings("a.glsl", &found, &outline(TODAY, false), &|_| true);
+        assert_eq!(findings.len(), expected.len(), "{findings:?}");
+        for (finding, words) in findings.iter().zip(expected) {
+            assert!(finding.contains(words), "{finding}");
+        }
+    }
+
+    #[test]
+    fn numbers_and_promises_are_held() {
+        check("", "", &[]);
+        check("at 8 degrees", "of a metal", &[]);
+        check(
+            "0.01",
+            "0.1",
+            &["a.glsl:2: it says `Model error: at most 0.1 (at 8.5 degrees).`, and right is"],
+        );
+        check(
+            "at most 0.02 (at 9 degrees)",
+            "none",
+            &["a.glsl:5: it says `Model error: none.`, which"],
+        );
+        check("0.01 (at 8.5", "0.02 (at 9.5", &["a.glsl:2"]);
+    }
+
+    #[test]
+    fn declarations_are_held() {
+        check(
+            "float g",
+            "float h",
+            &["a.glsl:6: it declares `float h", "it lacks `float g"],
+        );
+        check(
+            "\n",
+            "\nuniform float x;\n",
+            &["a.glsl:2: it declares `uniform float x ;`"],
+        );
+        check(
+            "float f(float c0) {\n}",
+            "",
+            &["it lacks `float f ( float c0 ) {`"],
+        );
+    }
+
+    #[test]
+    fn a_number_is_masked_and_a_name_is_not() {
+        assert_eq!(
+            masked("f0 at 1.5e-7, 2^-22 of c1_2."),
+            "f0 at #, #^-# of c1_2."
+        );
+    }
+}

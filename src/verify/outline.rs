@@ -1,0 +1,240 @@
+//! The outline of a generated file: what it declares, and its comments with their lines. It serves to compare a file that
+//! somebody may have edited with what would be written.
+//!
+//! The outline errs on the safe side: what our own text never holds (a quote, a backslash, a digraph) counts as a
+//! declaration, because compilers disagree about what it hides.
+
+/// What a file declares and says.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Outline {
+    /// Declarations outside all bodies, directives, and signs that our text never holds.
+    pub declared: Vec<Item>,
+    /// Comments, a line each.
+    pub comments: Vec<Item>,
+}
+
+/// A declaration or a line of a comment.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Item {
+    /// Its line, from 1; 0 in a module, which has no lines.
+    pub line: usize,
+    /// Its words, a space between them: of a function its head.
+    pub words: String,
+}
+
+/// What some language takes for the end of a line: WGSL ends `//` comments at all of them.
+const LINE_ENDS: [char; 7] = [
+    '\n', '\r', '\u{b}', '\u{c}', '\u{85}', '\u{2028}', '\u{2029}',
+];
+/// Signs that our text never holds, because languages read them differently: quotes, digraphs, trigraphs, `\` before a line's end.
+const STRANGE: [char; 5] = ['"', '\'', '\\', '%', '$'];
+
+/// The outline of a text. `nests`: whether comments within comments count, as in WGSL.
+pub fn outline(text: &str, nests: bool) -> Outline {
+    let text = text.replace("\r\n", "\n");
+    let mut reader = Reader {
+        rest: &text,
+        line: 1,
+        depth: 0,
+        head: Vec::new(),
+        begun: 1,
+        found: Outline::default(),
+    };
+    while !reader.rest.is_empty() {
+        reader.step(nests);
+    }
+    reader.close("");
+    reader.found
+}
+
+struct Reader<'a> {
+    rest: &'a str,
+    line: usize,
+    /// How many bodies are open.
+    depth: usize,
+    /// The words of the declaration at hand.
+    head: Vec<&'a str>,
+    /// The line of its first word.
+    begun: usize,
+    found: Outline,
+}
+
+impl<'a> Reader<'a> {
+    /// Takes so many bytes.
+    fn take(&mut self, bytes: usize) -> &'a str {
+        let (taken, rest) = self.rest.split_at(bytes);
+        self.line += taken.matches('\n').count();
+        self.rest = rest;
+        taken
+    }
+
+    fn step(&mut self, nests: bool) {
+        let rest = self.rest;
+        let first = rest.chars().next().unwrap_or(' ');
+        if rest.starts_with("//") {
+            self.comment(rest.find(LINE_ENDS).unwrap_or(rest.len()));
+        } else if rest.starts_with("/*") {
+            self.comment(block_comment(rest, nests));
+        } else if first == '#' {
+            let end = rest.find(LINE_ENDS).unwrap_or(rest.len());
+            let end = rest[..end].find("//").unwrap_or(end);
+            self.directive(end);
+        } else if is_part(first) {
+            let end = rest.find(|c| !is_part(c)).unwrap_or(rest.len());
+            self.word(end);
+        } else {
+            self.sign(first);
+        }
+    }
+
+    /// A comment of so many bytes, a line each.
+    fn comment(&mut self, bytes: usize) {
+        let first = self.line;
+        let lines = self.take(bytes).lines().enumerate();
+        let items = lines.map(|(i, line)| Item {
+            line: first + i,
+            words: line.trim_start_matches(['/', '*']).trim().to_owned(),
+        });
+        self.found.comments.extend(items);
+    }
+
+    fn directive(&mut self, bytes: usize) {
+        let line = self.line;
+        let words: Vec<&str> = self.take(bytes).split_whitespace().collect();
+        self.declare(line, words.join(" "));
+    }
+
+    fn word(&mut self, bytes: usize) {
+        if self.head.is_empty() {
+            self.begun = self.line;
+        }
+        let word = self.take(bytes);
+        if self.depth == 0 {
+            self.head.push(word);
+        }
+    }
+
+    fn sign(&mut self, sign: char) {
+        if STRANGE.contains(&sign) || self.rest.starts_with("??") || self.rest.starts_with("<:") {
+            self.declare(self.line, format!("{sign}"));
+        }
+        match sign {
+            '{' => {
+                self.close("{");
+                self.depth += 1;
+            }
+            '}' if self.depth == 0 => self.declare(self.line, "}".to_owned()),
+            '}' => self.depth -= 1,
+            ';' => self.close(";"),
+            _ if sign.is_whitespace() => {}
+            _ => return self.word(sign.len_utf8()),
+        }
+        self.take(sign.len_utf8());
+    }
+
+    /// Ends the declaration at hand.
+    fn close(&mut self, end: &str) {
+        if self.depth == 0 && !self.head.is_empty() {
+            let words = self.head.join(" ") + " " + end;
+            self.declare(self.begun, words.trim_end().to_owned());
+            self.head.clear();
+        }
+    }
+
+    fn declare(&mut self, line: usize, words: String) {
+        self.found.declared.push(Item { line, words });
+    }
+}
+
+fn is_part(c: char) -> bool {
+    c.is_alphanumeric() || c == '_'
+}
+
+/// How many bytes of a comment begin here; one without an end takes the rest.
+fn block_comment(rest: &str, nests: bool) -> usize {
+    let (mut at, mut depth) = (2, 1);
+    while depth > 0 {
+        let Some(next) = rest[at..].find(['/', '*']).map(|next| at + next) else {
+            return rest.len();
+        };
+        let opens = nests && rest[next..].starts_with("/*");
+        let closes = rest[next..].starts_with("*/");
+        depth = if opens {
+            depth + 1
+        } else {
+            depth - usize::from(closes)
+        };
+        at = next + if opens || closes { 2 } else { 1 };
+    }
+    at
+}
+
+/// The name of the function that a declaration declares.
+pub fn function_name(declared: &str) -> Option<&str> {
+    let head = declared.strip_suffix(" {")?;
+    let mut words = head[..head.find(" (")?].split(' ');
+    words.next_back()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[track_caller]
+    fn declares(text: &str, nests: bool, expected: &[&str]) {
+        let found = outline(text, nests).declared;
+        let words: Vec<&str> = found.iter().map(|item| item.words.as_str()).collect();
+        assert_eq!(words, expected, "{text}");
+    }
+
+    #[test]
+    fn declarations_are_heads_and_directives() {
+        let text = "// a\n#define A 1 // b\nfloat f(float x)\n{\n  { float y = x; } return y;\n}\nuniform float z;\n";
+        let heads = ["#define A 1", "float f ( float x ) {", "uniform float z ;"];
+        declares(text, false, &heads);
+        assert_eq!(function_name(heads[1]), Some("f"));
+        assert_eq!(function_name(heads[2]), None);
+        let lines: Vec<usize> = outline(text, false)
+            .declared
+            .iter()
+            .map(|item| item.line)
+            .collect();
+        assert_eq!(lines, [2, 3, 7]);
+    }
+
+    #[test]
+    fn what_could_hide_a_declaration_counts_as_one() {
+        declares(
+            "// a\u{2028}override e: f32;",
+            true,
+            &["override e : f32 ;"],
+        );
+        declares("/* /* */ float e; /* */", false, &["float e ;"]);
+        declares("/* /* */ float e; */ float f;", true, &["float f ;"]);
+        declares(
+            "float f() { \"//\"; } float e;",
+            false,
+            &["float f ( ) {", "\""],
+        );
+        declares("float f() { } }", false, &["float f ( ) {", "}"]);
+        declares(
+            "float f() { # define x\n }",
+            false,
+            &["float f ( ) {", "# define x"],
+        );
+    }
+
+    #[test]
+    fn comments_have_their_lines() {
+        let found = outline("// one\r\n/* two\r\nthree */ float f; // four", false);
+        let comments: Vec<(usize, &str)> = found
+            .comments
+            .iter()
+            .map(|item| (item.line, item.words.as_str()))
+            .collect();
+        assert_eq!(
+            comments,
+            [(1, "one"), (2, "two"), (3, "three */"), (3, "four")]
+        );
+    }
+}

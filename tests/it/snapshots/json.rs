@@ -1,0 +1,116 @@
+//! The keys of every report, with the kinds of their values. A value that is null says nothing of its kind.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::fs;
+
+use serde_json::Value;
+
+use crate::cli::{OUT, Place, Ran};
+use crate::not_checked;
+
+/// A name in the list, and a command whose stdout is the report.
+const REPORTS: [(&str, &str); 16] = [
+    ("methods", "methods --json -"),
+    ("methods show", "methods show fitted --json -"),
+    ("targets", "targets --json -"),
+    ("targets show", "targets show gles --json -"),
+    ("materials list", "materials list --json -"),
+    ("materials params", "materials params gold --json -"),
+    ("fit", "fit --material gold --json -"),
+    (
+        "fit of colours",
+        "fit --f0 1,.71,.29 --f82 .98,.91,.66 --json -",
+    ),
+    ("bake", "bake --material gold --json - --out-dir baked"),
+    ("chart", "chart --material gold --json -"),
+    ("stability", "stability --method schlick --json -"),
+    ("reproduce", "reproduce table3 --json -"),
+    ("cost", "cost --gpu adreno330 --method schlick --json -"),
+    (
+        "verify",
+        "verify --target wgsl --method schlick --material gold --points 500 --json -",
+    ),
+    (
+        "time",
+        "time --method schlick --material none --precision f32 --size 32 --evaluations 2 --rounds 5 --json -",
+    ),
+    (
+        "audit",
+        "audit mine.wgsl --function schlick --material gold --gpu adreno330 --json -",
+    ),
+];
+
+const MINE: &str = "fn schlick(c: f32, f0: vec3<f32>) -> vec3<f32> {\n    let m = clamp(1.0 - c, 0.0, 1.0);\n    return f0 + (1.0 - f0) * m * m * m * m * m;\n}\n";
+
+/// Enters the keys of a value below a path.
+fn enter(path: &str, value: &Value, found: &mut BTreeMap<String, BTreeSet<&'static str>>) {
+    let kind = match value {
+        Value::Null => None,
+        Value::Bool(_) => Some("yes or no"),
+        Value::Number(_) => Some("number"),
+        Value::String(_) => Some("text"),
+        Value::Array(_) => Some("list"),
+        Value::Object(_) => Some("object"),
+    };
+    found.entry(path.to_owned()).or_default().extend(kind);
+    match value {
+        Value::Array(all) => all
+            .iter()
+            .for_each(|one| enter(&format!("{path}[]"), one, found)),
+        Value::Object(all) => all
+            .iter()
+            .for_each(|(key, one)| enter(&format!("{path}.{key}"), one, found)),
+        _ => {}
+    }
+}
+
+fn lines(name: &str, report: &Value) -> Vec<String> {
+    let mut found = BTreeMap::new();
+    enter("", report, &mut found);
+    let kinds = |kinds: &BTreeSet<&str>| match kinds.len() {
+        0 => "null".to_owned(),
+        _ => kinds.iter().copied().collect::<Vec<_>>().join(" or "),
+    };
+    let keys = found.iter().filter(|(path, _)| !path.is_empty());
+    keys.map(|(path, all)| format!("{name}: {} = {}", path.trim_start_matches('.'), kinds(all)))
+        .collect()
+}
+
+/// The lines of a report in the committed list, for a command that lacks something here.
+fn committed(name: &str) -> Vec<String> {
+    let text = fs::read_to_string(super::file("json")).unwrap_or_default();
+    let head = format!("{name}: ");
+    text.lines()
+        .filter(|line| line.starts_with(&head))
+        .map(str::to_owned)
+        .collect()
+}
+
+#[test]
+fn the_keys_of_every_report_are_the_committed_ones() {
+    let place = Place::new();
+    place.put("mine.wgsl", MINE);
+    let mut all = Vec::new();
+    for (name, line) in REPORTS {
+        let ran: Ran = place.run(line);
+        if ran.code == Some(3) && std::env::var_os("CI").is_none() {
+            not_checked(&format!("the JSON keys of {line}: {}", ran.err));
+            all.extend(committed(name));
+            continue;
+        }
+        assert!(matches!(ran.code, Some(0 | 1)), "{ran:?}");
+        all.extend(lines(name, &ran.json()));
+    }
+    place.done("--target gles,spirv --material gold");
+    all.extend(lines("manifest.json", &place.manifest()));
+    // The test `golden` holds these to what a run writes.
+    for (name, file) in [
+        ("catalogue.json", "catalogue.json"),
+        ("lut/NAME.json", "lut/gold.json"),
+        ("lut/atlas.json", "lut/atlas.json"),
+    ] {
+        let text = fs::read_to_string(super::root().join(OUT).join(file)).unwrap();
+        all.extend(lines(name, &serde_json::from_str(&text).unwrap()));
+    }
+    super::check("json", &all);
+}
