@@ -371,7 +371,9 @@ fn a_method_has_one_name_and_its_formula_first() {
 fn lists_are_complete() {
     check_list(
         "methods",
-        &["mod", "half", "input", "method", "limits", "shape"],
+        &[
+            "mod", "by_class", "half", "input", "method", "limits", "shape",
+        ],
         "METHOD",
         "Method",
         "method",
