@@ -185,7 +185,7 @@ fn what_artists_feed_is_within_the_stated_bound() {
         println!("{}: {measured:?}, promised {promised}", method.name);
         if worst > promised || worst < 0.25 * promised || worst.is_nan() {
             all += &format!(
-                "{}: measured {measured:e?}, promised {promised}\n",
+                "{}: measured {measured:?}, promised {promised}\n",
                 method.name
             );
         }
