@@ -45,7 +45,7 @@ pub static METHOD: Method = Method {
         code_ulp: 9.5,
         code_over: Over::Metals,
         colours: Some(Colours {
-            max_abs: 1e-6,
+            max_abs: 3e-6,
             ends: &[(
                 "reflectivity",
                 Range {
