@@ -10,10 +10,12 @@
 // Domain: both are clamped to [0, 1]; reflectivity above 0.999 counts as 0.999
 // Arguments:
 //   cos_theta: cosine between the normal and the direction to the light or viewer
-//   reflectivity: reflectance at normal incidence, linear
-//   edge_tint: 1 for the least n that the reflectivity allows, 0 for the most
+//   reflectivity: reflectance at normal incidence, linear, 0 to 1
+//   edge_tint: 1 for the least n that the reflectivity allows, 0 for the most, 0 to 1
 // Model error for n 0.05 to 4.5, k 1.5 to 8: none, it is the exact law
 // Code error for n 0.05 to 4.5, k 1.5 to 8: at most 9.5 ulp or 2^-22, unfused f32 against f64
+// Code error for any colours, reflectivity 0.001 to 1, edge_tint 0 to 1: at most 3e-6 absolute, unfused or fused;
+//     below, where n is next to 1, digits go as those of n - 1 do
 // fresnel_conductor_artistic: 206 scalar operations, among them 12 roots, 24 divisions
 // Licence of this file: CC0-1.0
 

@@ -6,15 +6,16 @@
 //   F = F0 + (F90 - F0) (1 - cos_theta)^5
 // Source: Lagarde, de Rousiers, "Moving Frostbite to Physically Based Rendering", SIGGRAPH course, 2014.
 //     https://seblagarde.wordpress.com/2015/07/14/siggraph-2014-moving-frostbite-to-physically-based-rendering/
-// Domain: f0 >= 0, f90 in [0, 1]; the result lies between the two
+// Domain: the result lies between f0 and f90, and f0 above 1 is taken as it is
 // Arguments:
 //   cos_theta: cosine between the normal and the direction to the light or viewer
-//   f0: reflectance at normal incidence, linear
-//   f90: reflectance at 90 degrees
+//   f0: reflectance at normal incidence, linear, 0 to 1
+//   f90: reflectance at 90 degrees, 0 to 1
 // Model error for eta 1.3 to 2.5: at most 0.0841, worst at 84.5 degrees
 // Model error for n 0.05 to 4.5, k 1.5 to 8: at most 0.278, worst at 84.5 degrees
 // Code error for n 1.0001 to 12 with k 0 to 13, and n 0.05 to 4.5 with k 1.5 to 8: at most 6 ulp or 2^-22, unfused
 //     f32 against f64
+// Code error for any colours, f0 0 to 1, f90 0 to 1: at most 3e-7 absolute, unfused or fused
 // fresnel_schlick_f90: 14 scalar operations
 // fresnel_schlick_f90_scalar: 8 scalar operations
 // Licence of this file: CC0-1.0

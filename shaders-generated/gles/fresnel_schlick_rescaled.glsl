@@ -6,11 +6,11 @@
 //   F = ((n - 1)^2 + 4 n (1 - cos_theta)^5 + k^2) / ((n + 1)^2 + k^2)
 // Source: Lazanyi, Szirmay-Kalos, "Fresnel Term Approximations for Metals", WSCG Short Papers, 77-80, 2005.
 //     https://hdl.handle.net/11025/11214
-// Domain: n >= 0.001, k >= 0; misses the minimum of metals
+// Domain: misses the minimum of metals
 // Arguments:
 //   cos_theta: cosine between the normal and the direction to the light or viewer
-//   n: real part of the relative index of refraction
-//   k: extinction coefficient, the imaginary part of the relative index
+//   n: real part of the relative index of refraction, 0.001 to 1e9
+//   k: extinction coefficient, the imaginary part of the relative index, 0 to 1e9
 // Model error for eta 1.3 to 2.5: at most 0.0841, worst at 84.5 degrees
 // Model error for n 0.05 to 4.5, k 1.5 to 8: at most 0.278, worst at 84.5 degrees
 // Code error for n 1.0001 to 12 with k 0 to 13, and n 0.05 to 4.5 with k 1.5 to 8: at most 10.5 ulp or 2^-22,

@@ -7,12 +7,12 @@
 //       - 2 n cos_theta (1 - cos_theta)^lambda; without the last term where lambda <= 0
 // Source: Lazanyi, Szirmay-Kalos, "Fresnel Term Approximations for Metals", WSCG Short Papers, 77-80, 2005.
 //     https://hdl.handle.net/11025/11214
-// Domain: n >= 0.001, k >= 0; clamped to [0, 1]; lambda <= 0 drops the correction
+// Domain: clamped to [0, 1]; lambda <= 0 drops the correction
 // Arguments:
 //   cos_theta: cosine between the normal and the direction to the light or viewer
-//   n: real part of the relative index of refraction
-//   k: extinction coefficient, the imaginary part of the relative index
-//   lambda: exponent of the correction; 0 or less where there is none
+//   n: real part of the relative index of refraction, 0.001 to 1e9
+//   k: extinction coefficient, the imaginary part of the relative index, 0 to 1e9
+//   lambda: exponent of the correction; 0 or less where there is none, -1000 to 1000
 // Model error for n 0.05 to 4.5, k 1.5 to 8: at most 0.0872, worst at 75.8 degrees
 // Code error for n 1.0001 to 12 with k 0 to 13, and n 0.05 to 4.5 with k 1.5 to 8: at most 15.5 ulp or 2^-22,
 //     unfused f32 against f64

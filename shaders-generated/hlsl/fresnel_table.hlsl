@@ -12,11 +12,12 @@
 // Domain: a sampler that filters linearly and clamps to the edge, linear texels (not sRGB), cos theta = 0 first
 // Arguments:
 //   cos_theta: cosine between the normal and the direction to the light or viewer
-//   table: the texture, and after it the sampler: reflectance along x, cos theta = 0 first
-//   texels: texels in a row of the table
-//   warp: how dense the axis is near grazing: 0 for cos theta itself, 4 for `--axis rational`
-//   row: where the row's middle lies: (index + 0.5) / rows, 0.5 for a table of its own
-//   table_scale: reflectance of a texel of 1: the `scale` beside the table
+//   table: the texture, and after it the sampler: reflectance along x, cos theta = 0 first, linear and not sRGB;
+//       the sampler filters linearly and clamps to the edge, 0 to 1
+//   texels: texels in a row of the table, 2 to 16384
+//   warp: how dense the axis is near grazing: 0 for cos theta itself, 4 for `--axis rational`, 0 to 100
+//   row: where the row's middle lies: (index + 0.5) / rows, 0.5 for a table of its own, 0 to 1
+//   table_scale: reflectance of a texel of 1: the `scale` beside the table, 1 to 100
 // Model error for eta 1.3 to 2.5: at most 0.00027, worst at 84.3 degrees
 // Model error for n 0.05 to 4.5, k 1.5 to 8: at most 0.00045, worst at 15.2 degrees
 // Code error: at most 1/256 of the difference of two neighbouring texels, as samplers weigh them in so many steps

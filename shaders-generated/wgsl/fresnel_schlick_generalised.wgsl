@@ -6,12 +6,12 @@
 //   F = F0 + (F90 - F0) (1 - cos_theta)^exponent
 // Source: Hoffman, "Generalization of Adobe's Fresnel Model", renderwonk.com, 2023.
 //     https://renderwonk.com/publications/gfm/
-// Domain: f0 >= 0, f90 in [0, 1], exponent >= 0.2; the result lies between f0 and f90
+// Domain: the result lies between f0 and f90, and f0 above 1 is taken as it is
 // Arguments:
 //   cos_theta: cosine between the normal and the direction to the light or viewer
-//   f0: reflectance at normal incidence, linear
-//   f90: reflectance at 90 degrees
-//   exponent: how late the curve rises to f90; 5 is Schlick's
+//   f0: reflectance at normal incidence, linear, 0 to 1
+//   f90: reflectance at 90 degrees, 0 to 1
+//   exponent: how late the curve rises to f90; 5 is Schlick's, 0.2 to 1000
 // Model error for eta 1.3 to 2.5: at most 0.0841, worst at 84.5 degrees
 // Model error for n 0.05 to 4.5, k 1.5 to 8: at most 0.278, worst at 84.5 degrees
 // Code error for n 1.0001 to 12 with k 0 to 13, and n 0.05 to 4.5 with k 1.5 to 8: at most 5 ulp or 2^-22, unfused

@@ -3,7 +3,9 @@
 
 use serde_json::{Value, json};
 
-use crate::emit::{self, Average, Bounds, CATALOGUE, OUTPUT_LICENCE, Row, Subject};
+use crate::emit::{
+    self, Average, Better, Bounds, CATALOGUE, Emitted, OUTPUT_LICENCE, Row, Subject,
+};
 use crate::methods::{self, Method};
 use crate::num::in_parallel;
 use crate::report::SCHEMA;
@@ -62,7 +64,7 @@ fn rows(subjects: &[Subject], request: &Request) -> Result<Vec<Row>, Error> {
     let bounds = Bounds::recorded();
     let row = |i: usize| {
         let subject = &subjects[i];
-        let method = methods::find(subject.fitted_method()?)?;
+        let method = methods::find(subject.fitted_with_four()?)?;
         Some(row(subject, method, request, &bounds))
     };
     let found = in_parallel(subjects.len(), &row, &mut |_, _| {});
@@ -92,8 +94,32 @@ fn row(
             .model_error
             .expect("a specialised function has its model error"),
         average: Average::of(&emitted).expect("a fitted method has a mean"),
+        better: better(subject, &emitted, bounds, request)?,
         held: subject.truth.surface.held(),
     })
+}
+
+/// The method that follows a material more closely than its four coefficients do: the one of its class, or what serves where the
+/// fit misses its class.
+fn better(
+    subject: &Subject,
+    emitted: &Emitted,
+    bounds: &Bounds,
+    request: &Request,
+) -> Result<Option<Better>, Error> {
+    let own = subject.fitted_method().and_then(methods::find);
+    let own = own.filter(|own| own.name != emitted.method.name);
+    let serves = emitted.missed.as_ref().map(|missed| missed.serves);
+    let Some(method) = own.or(serves) else {
+        return Ok(None);
+    };
+    let made = emit::specialised_function(method, subject, &request.naming(), bounds)?;
+    let fitted = method.inputs.iter().filter(|_| method.is_fitted());
+    Ok(Some(Better {
+        method,
+        coefficients: fitted.map(|input| made.constants[input.name]).collect(),
+        max_abs: made.model_error.map_or(0.0, |error| error.max_abs),
+    }))
 }
 
 /// What the truth is: the same for all; which ones hold a value beyond their range stands beside each.
@@ -135,17 +161,26 @@ fn as_json(rows: &[Row], seen: &str, request: &Request) -> Result<Artifact, Erro
 
 /// A material: a list of coefficients for each channel.
 fn object(row: &Row) -> Value {
-    let channel = |i: usize| {
-        let own = row.coefficients.iter();
-        own.map(|c| shortest(c[i])).collect::<Vec<f64>>()
-    };
+    let better = row.better.as_ref().map(|better| {
+        let own = Some(&better.coefficients).filter(|own| !own.is_empty());
+        json!({
+            "method": better.method.name, "max_abs": better.max_abs,
+            "coefficients": own.map(|own| channels(own)),
+        })
+    });
     json!({
         "name": row.name, "class": row.class, "method": row.method.name,
-        "coefficients": [channel(0), channel(1), channel(2)],
+        "coefficients": channels(&row.coefficients), "better": better,
         "max_abs": row.error.max_abs, "worst_cos": row.error.worst_cos, "mean_rel": row.error.mean_rel,
         "average": row.average.given, "average_unlimited": row.average.unlimited,
         "extrapolated": row.held,
     })
+}
+
+/// A list of coefficients for each channel.
+fn channels(coefficients: &[[f64; 3]]) -> [Vec<f64>; 3] {
+    let channel = |i: usize| coefficients.iter().map(|c| shortest(c[i])).collect();
+    [0, 1, 2].map(channel)
 }
 
 /// The number that prints with the fewest digits of those that are the same in f32.

@@ -4,7 +4,7 @@
 use serde::Serialize;
 use serde_json::json;
 
-use crate::fit::ModelError;
+use crate::fit::{ModelError, rounded_up};
 use crate::methods::Method;
 use crate::targets::{self, Target};
 
@@ -40,8 +40,21 @@ pub struct Row {
     pub error: ModelError,
     /// The mean of that function over the hemisphere.
     pub average: Average,
+    /// A method that follows it more closely, of a semiconductor, or where the fit misses its class.
+    pub better: Option<Better>,
     /// Beyond which wavelengths its index was held, in words, where it was.
     pub held: Option<String>,
+}
+
+/// A method that follows a material of the catalogue more closely than its four coefficients do.
+#[derive(Clone, Debug)]
+pub struct Better {
+    /// The method.
+    pub method: &'static Method,
+    /// Its coefficients in order, three channels each; none of the exact law.
+    pub coefficients: Vec<[f64; 3]>,
+    /// The largest error.
+    pub max_abs: f64,
 }
 
 /// What a template sees.
@@ -165,7 +178,12 @@ fn remark(row: &Row) -> String {
         .iter()
         .map(|held| format!("; extrapolated: {held}"));
     let held: String = held.collect();
-    format!("{}, {}{held}", row.class, at_most(&row.error))
+    let better = row.better.iter().map(|better| {
+        let most = rounded_up(better.max_abs);
+        format!("; {} at most {most}", better.method.name)
+    });
+    let better: String = better.collect();
+    format!("{}, {}{better}{held}", row.class, at_most(&row.error))
 }
 
 /// A colour with the shortest digits that give the same f32 back.
@@ -214,6 +232,11 @@ fn header(rows: &[Row], naming: &Naming, seen: &str, command: &str) -> Vec<Strin
     ));
     lines.push(format!("Truth: {seen}"));
     lines.push(worst(rows));
+    lines.push(
+        "Where another method stands beside a material it follows it more closely: semiconductors need the five coefficients of \
+         fitted_five, and some metals miss what fitted promises of metals"
+            .to_owned(),
+    );
     lines.push("Code error: that of the library functions".to_owned());
     lines.push(format!(
         "Data: CC0-1.0, each with its reference: `fresnel-gen materials show {}`",

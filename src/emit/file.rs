@@ -169,6 +169,7 @@ pub fn lookup(
         code: Measured::No(header::FILTERED.to_owned()),
         plain_for: None,
         written_as: None,
+        missed: None,
     };
     check_names(std::slice::from_ref(&emitted))?;
     let licence = format!("Licence of this file: {}", header::OUTPUT_LICENCE);
@@ -249,6 +250,9 @@ fn detail(target: &Target, index: usize, emitted: &Emitted) -> Value {
                 json!("a channel reflects nothing, so that no relative error is defined");
         }
     }
+    if let Some(missed) = &emitted.missed {
+        value["misses_its_class"] = missed.json();
+    }
     if let Some(average) = Average::of(emitted) {
         value["average"] = json!(average.given);
         value["average_unlimited"] = json!(average.unlimited);
@@ -265,8 +269,9 @@ fn detail(target: &Target, index: usize, emitted: &Emitted) -> Value {
 fn parameters(emitted: &Emitted) -> Value {
     if emitted.constants.is_empty() {
         let rows = emitted.method.inputs.iter();
+        let domain = |i| emitted.method.range(i, emitted.precision).words();
         return rows
-            .map(|i| json!({ "name": i.name, "meaning": i.meaning, "domain": i.domain }))
+            .map(|i| json!({ "name": i.name, "meaning": i.meaning, "domain": domain(i) }))
             .collect();
     }
     let cell = |name: &str, value: f64| {

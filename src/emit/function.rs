@@ -14,6 +14,7 @@ use super::average;
 use super::bounds::{Bounds, CodeBound, PLAIN_ULP};
 use super::error::Error;
 use super::header::FILTERED;
+use super::missed::{Missed, missed};
 
 /// How functions are named, by what they compute in: half precision is told by the name.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -63,6 +64,8 @@ pub struct Emitted {
     pub written_as: Option<&'static Method>,
     /// Of a plain form: the operations of the stable one.
     pub plain_for: Option<usize>,
+    /// Of a fit: whether it misses what its method promises of the material's class.
+    pub missed: Option<Missed>,
 }
 
 impl Emitted {
@@ -175,9 +178,10 @@ impl Subject {
         self.material.kind == Kind::Dielectric && self.effective.channels.is_transparent()
     }
 
-    /// Whether a method describes it: those for dielectrics take no k.
+    /// Whether a method describes it: the exact laws for dielectrics take no k. Coefficients follow a dielectric that absorbs too.
     pub fn is_described_by(&self, method: &Method) -> bool {
-        method.class == Class::Any || self.effective.channels.is_transparent()
+        let is_followed = method.is_fitted() && self.material.kind == Kind::Dielectric;
+        method.class == Class::Any || is_followed || self.effective.channels.is_transparent()
     }
 
     /// The exact method of its class.
@@ -189,13 +193,22 @@ impl Subject {
         }
     }
 
-    /// The fitted method of its class. None follows a dielectric that is nearly matched, or seen from a denser medium.
-    pub fn fitted_method(&self) -> Option<&'static str> {
+    /// The fitted method of its class with four coefficients, for arrays of materials. None follows a dielectric that is nearly
+    /// matched, or seen from a denser medium.
+    pub fn fitted_with_four(&self) -> Option<&'static str> {
         let n = self.effective.channels.n;
         match self.is_glass() {
             false => Some("fitted"),
             true if n.iter().all(|n| *n >= LEAST_FITTED_N) => Some("fitted_dielectric"),
             true => None,
+        }
+    }
+
+    /// The fitted method that suits its class: a semiconductor's needs five coefficients, or errs eight times as much.
+    pub fn fitted_method(&self) -> Option<&'static str> {
+        match self.material.kind {
+            Kind::Semiconductor => Some("fitted_five"),
+            _ => self.fitted_with_four(),
         }
     }
 
@@ -245,6 +258,7 @@ pub(super) fn library_function(
         code: promised(method, naming.precision),
         plain_for: None,
         written_as: None,
+        missed: None,
     })
 }
 
@@ -278,8 +292,13 @@ pub fn specialised_graph(
     bounds: &Bounds,
 ) -> Result<Specialised, Error> {
     if !subject.is_described_by(method) {
-        let what = "it describes dielectrics only, and this absorbs (k > 0)";
-        return Err(refused(method, subject, what));
+        let serves = match method.is_fitted() {
+            true => subject.fitted_method().unwrap_or("fitted_five"),
+            false => subject.exact_method(),
+        };
+        let what =
+            format!("it describes dielectrics only, and this absorbs (k > 0); {serves} serves it");
+        return Err(refused(method, subject, &what));
     }
     let constants = subject.values_in(precision, method);
     let stable = specialise(method, subject, precision, &constants)?;
@@ -329,6 +348,7 @@ pub fn specialised_function(
         Precision::F16 => specialise(method, subject, Precision::F32, &constants)?,
     };
     let own = method.name == subject.exact_method();
+    let error = model_error(&meant, &subject.truth_for(method));
     let suffix = if own {
         String::new()
     } else {
@@ -339,7 +359,8 @@ pub fn specialised_function(
         method,
         form: "specialised",
         precision: naming.precision,
-        model_error: Some(model_error(&meant, &subject.truth_for(method))),
+        missed: missed(subject, method, error.max_abs),
+        model_error: Some(error),
         code: match (naming.precision, method.half.refusal()) {
             (Precision::F16, Some(why)) => Measured::No(why.to_owned()),
             _ if method.is_textured() => Measured::No(FILTERED.to_owned()),

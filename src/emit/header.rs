@@ -3,7 +3,7 @@
 
 use crate::fit::{By, Measured, ModelError, rounded_up};
 use crate::ir::Op;
-use crate::methods::{Claim, Contract, Method, TEXELS};
+use crate::methods::{Claim, Colours, Contract, Input, Method, TEXELS};
 use crate::num::Precision;
 use crate::targets::Target;
 
@@ -38,7 +38,8 @@ pub fn library(
             .to_owned(),
     );
     for input in method.inputs {
-        lines.push(format!("  {}: {}", input.name, input.meaning));
+        let range = method.range(input, precision).words();
+        lines.push(format!("  {}: {}, {range}", input.name, input.meaning));
     }
     lines.extend(promises_in(precision, method));
     lines.extend(
@@ -77,6 +78,7 @@ pub fn specialised(emitted: &Emitted) -> Vec<String> {
     lines.extend(exemption(emitted.method));
     lines.extend(table_line(emitted));
     lines.extend(emitted.model_error.iter().map(model_line));
+    lines.extend(missed_line(emitted));
     lines.push(code_line(&emitted.code));
     lines.extend(Average::of(emitted).map(|average| average.line()));
     lines.push(format!("Cost: {}", operations(emitted)));
@@ -107,6 +109,7 @@ pub fn brief(
     lines.extend(subject.into_iter().flat_map(sight));
     lines.extend(table_line(emitted));
     lines.extend(emitted.model_error.iter().map(model_line));
+    lines.extend(missed_line(emitted));
     lines.push(format!("{} {OUTPUT_LICENCE}.", code_line(&emitted.code)));
     comment::lines(lines)
 }
@@ -266,7 +269,25 @@ fn promises_in(precision: Precision, method: &Method) -> Vec<String> {
         let bound = bound(method.claims.code_ulp);
         format!("Code error for {}: {bound}", method.code_media())
     };
-    method.claims.model.iter().map(line).chain([code]).collect()
+    let colours = method.claims.colours.filter(|_| !precision.is_half());
+    let colours = colours.map(|colours| colours_line(method, colours));
+    let model = method.claims.model.iter().map(line);
+    model.chain([code]).chain(colours).collect()
+}
+
+/// What a method promises to artists.
+fn colours_line(method: &Method, colours: Colours) -> String {
+    let range = |input: &Input| format!("{} {}", input.name, colours.range(input).words());
+    let ranges: Vec<String> = method.inputs.iter().map(range).collect();
+    let beyond = match colours.beyond {
+        "" => String::new(),
+        beyond => format!("; {beyond}"),
+    };
+    format!(
+        "Code error for any colours, {}: at most {:e} absolute, unfused or fused{beyond}",
+        ranges.join(", "),
+        colours.max_abs
+    )
 }
 
 /// Which table a specialised function reads.
@@ -300,6 +321,12 @@ fn model_line(error: &ModelError) -> String {
         None => "no relative mean, as a channel reflects nothing".to_owned(),
     };
     format!("Model error: {most} (at {degrees:.2} degrees), {mean}{undefined}.")
+}
+
+/// That a fit misses its class, and what serves.
+fn missed_line(emitted: &Emitted) -> Option<String> {
+    let missed = emitted.missed.as_ref()?;
+    Some(format!("Misses its class: {}.", missed.words()))
 }
 
 fn code_line(measured: &Measured<CodeBound>) -> String {

@@ -11,13 +11,14 @@ mod error;
 mod file;
 mod function;
 mod header;
+mod missed;
 mod page;
 mod print;
 mod wgsl;
 
 pub use average::{AVERAGE, Average, average_functions};
 pub use bounds::{Bounds, CodeBound, PLAIN_ULP, fingerprint, half_record, sha256};
-pub use catalogue::{CATALOGUE, Row, catalogue, methods_of};
+pub use catalogue::{Better, CATALOGUE, Row, catalogue, methods_of};
 pub use comment::lines as comment_lines;
 pub use error::Error;
 pub use file::{File, Place, library, lookup, material, single, uniform_offsets, written_for};
@@ -26,6 +27,7 @@ pub use function::{
     specialised_graph,
 };
 pub use header::{MARK, OUTPUT_LICENCE, half_promise, promises};
+pub use missed::{Missed, missed};
 pub use print::bare;
 pub use wgsl::{spirv_with_storage as wgsl_to_spirv, validate as validate_wgsl};
 

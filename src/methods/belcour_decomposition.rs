@@ -14,7 +14,7 @@ use crate::ir::Expr;
 
 use super::half::InHalf;
 use super::input::{Input, Inputs};
-use super::method::{Claim, Claims, Class, Contract, Forms, Light, Method, Over};
+use super::method::{Claim, Claims, Class, Colours, Contract, Forms, Light, Method, Over};
 
 /// The cosines of the two angles at which the law is met: the maxima of b2 and of -b3 in a table of 1000 cosines.
 pub const BELCOUR_COSINES: [f64; 2] = [128.0 / 999.0, 432.0 / 999.0];
@@ -48,7 +48,7 @@ pub static METHOD: Method = Method {
     forms: Forms::ColourAndScalar,
     class: Class::Any,
     light: Light::Unpolarised,
-    domain: "f0 in [0, 1], weights solved for it; limited to [0, 1]",
+    domain: "weights solved for f0; limited to [0, 1]",
     claims: Claims {
         model: &[
             Claim {
@@ -64,6 +64,7 @@ pub static METHOD: Method = Method {
         ],
         code_ulp: 9.5,
         code_over: Over::Metals,
+        colours: Colours::within(8e-6),
     },
     contract: Contract::Kept,
     half: InHalf::within_over(

@@ -13,8 +13,8 @@ use crate::ir::Expr;
 
 use super::conductor_exact::{self, conductor};
 use super::half::InHalf;
-use super::input::{Input, Inputs};
-use super::method::{Claim, Claims, Class, Contract, Forms, Light, Method, Over, Values};
+use super::input::{Input, Inputs, Range};
+use super::method::{Claim, Claims, Class, Colours, Contract, Forms, Light, Method, Over, Values};
 
 /// The record of this method.
 pub static METHOD: Method = Method {
@@ -44,6 +44,17 @@ pub static METHOD: Method = Method {
         }],
         code_ulp: 9.5,
         code_over: Over::Metals,
+        colours: Some(Colours {
+            max_abs: 3e-6,
+            ends: &[(
+                "reflectivity",
+                Range {
+                    least: 0.001,
+                    most: 1.0,
+                },
+            )],
+            beyond: "below, where n is next to 1, digits go as those of n - 1 do",
+        }),
     },
     contract: Contract::Kept,
     half: InHalf::Specialised(

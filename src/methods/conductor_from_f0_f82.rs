@@ -18,8 +18,8 @@ use crate::optics::index_from_f0_f82;
 
 use super::conductor_exact::{self, conductor};
 use super::half::InHalf;
-use super::input::{Input, Inputs};
-use super::method::{Claim, Claims, Class, Contract, Forms, Light, Method, Over, Values};
+use super::input::{Input, Inputs, Range};
+use super::method::{Claim, Claims, Class, Colours, Contract, Forms, Light, Method, Over, Values};
 
 /// The record of this method.
 pub static METHOD: Method = Method {
@@ -41,7 +41,8 @@ pub static METHOD: Method = Method {
     forms: Forms::Colour,
     class: Class::Any,
     light: Light::Unpolarised,
-    domain: "f0 counts as at most 0.999; an f82 that no n and k can give takes the nearest that one can",
+    domain: "f0 counts as at most 0.999; an f82 that no n and k can give takes the nearest that one can. It needs a square root that \
+             gives 0 for 0: one computed as x / sqrt(x) gives NaN where k is 0, for half of all pairs",
     claims: Claims {
         model: &[
             Claim {
@@ -57,6 +58,26 @@ pub static METHOD: Method = Method {
         ],
         code_ulp: 9.0,
         code_over: Over::Metals,
+        colours: Some(Colours {
+            max_abs: 3.5e-4,
+            ends: &[
+                (
+                    "f0",
+                    Range {
+                        least: 0.05,
+                        most: 1.0,
+                    },
+                ),
+                (
+                    "f82",
+                    Range {
+                        least: 0.0,
+                        most: 0.99,
+                    },
+                ),
+            ],
+            beyond: "of other pairs, which no material has, f32 may be off by 0.3",
+        }),
     },
     contract: Contract::Kept,
     half: InHalf::Specialised(

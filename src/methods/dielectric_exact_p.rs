@@ -1,7 +1,7 @@
 //! `F_p = (r_s B)²`: the exact law for dielectrics and light polarised in the plane of incidence.
 //!
 //! Source: as in `dielectric_exact` (Cook and Torrance, 1982, <https://doi.org/10.1145/357290.357293>).
-//! Domain: η ≥ 0.001, on both sides of 1; past the critical angle exactly 1; 0 at Brewster's angle (tan θ = η).
+//! Domain: η from 0.001 to 1e12, on both sides of 1; past the critical angle exactly 1 but for the next number; 0 at Brewster's angle (tan θ = η).
 //! Error: none in the model; at Brewster's zero only an absolute bound makes sense.
 
 use crate::ir::Expr;
@@ -24,7 +24,8 @@ pub static METHOD: Method = Method {
     forms: Forms::ColourAndScalar,
     class: Class::Dielectric,
     light: Light::P,
-    domain: "eta >= 0.001, on both sides of 1; past the critical angle exactly 1; 0 at Brewster's angle",
+    domain: "on both sides of 1; 0 at Brewster's angle. Past the critical angle exactly 1, but for the number next to its cosine, where rounding \
+             decides: 0.98 or more for eta from 0.25 on",
     claims: Claims {
         model: &[Claim {
             over: Over::Dielectrics,
@@ -33,9 +34,10 @@ pub static METHOD: Method = Method {
         }],
         code_ulp: 13.5,
         code_over: Over::Wide,
+        colours: None,
     },
     contract: Contract::Kept,
-    half: InHalf::within_but(0.0022, BELOW_ONE),
+    half: InHalf::within_but(0.0022, BELOW_ONE).ending(&[("eta", 180.0)]),
     build,
     plain: None,
     specialised: None,

@@ -1,7 +1,7 @@
 //! `F_s = (τ / u²)²`: the exact law for dielectrics and light polarised across the plane of incidence.
 //!
 //! Source: as in `dielectric_exact` (Cook and Torrance, 1982, <https://doi.org/10.1145/357290.357293>).
-//! Domain: η ≥ 0.001, on both sides of 1; past the critical angle exactly 1. Error: none in the model.
+//! Domain: η from 0.001 to 1e12, on both sides of 1; past the critical angle exactly 1 but for the next number. Error: none in the model.
 
 use crate::ir::Expr;
 
@@ -22,7 +22,7 @@ pub static METHOD: Method = Method {
     forms: Forms::ColourAndScalar,
     class: Class::Dielectric,
     light: Light::S,
-    domain: "eta >= 0.001, on both sides of 1; past the critical angle exactly 1; eta = 1 gives 0 at every angle",
+    domain: "on both sides of 1; eta = 1 gives 0 at every angle. Past the critical angle exactly 1, but for the number next to its cosine, where rounding decides: 0.998 or more",
     claims: Claims {
         model: &[Claim {
             over: Over::Dielectrics,
@@ -31,9 +31,10 @@ pub static METHOD: Method = Method {
         }],
         code_ulp: 0.0,
         code_over: Over::Wide,
+        colours: None,
     },
     contract: Contract::Kept,
-    half: InHalf::within_but(0.0012, BELOW_ONE),
+    half: InHalf::within_but(0.0012, BELOW_ONE).ending(&[("eta", 255.0)]),
     build,
     plain: None,
     specialised: None,

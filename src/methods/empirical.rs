@@ -29,7 +29,7 @@ pub static METHOD: Method = Method {
     forms: Forms::ColourAndScalar,
     class: Class::Any,
     light: Light::Unpolarised,
-    domain: "bias and scale in [0, 1], power >= 0.2; the three channels are alike",
+    domain: "the three channels are alike",
     claims: Claims {
         model: &[
             Claim {
@@ -45,6 +45,7 @@ pub static METHOD: Method = Method {
         ],
         code_ulp: 9.0,
         code_over: Over::Wide,
+        colours: None,
     },
     contract: Contract::Kept,
     half: InHalf::within(0.0017),

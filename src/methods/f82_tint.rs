@@ -13,7 +13,7 @@ use crate::ir::Expr;
 use super::half::InHalf;
 use super::hoffman_f82::{dip, limited};
 use super::input::{Input, Inputs};
-use super::method::{Claim, Claims, Class, Contract, Forms, Light, Method, Over};
+use super::method::{Claim, Claims, Class, Colours, Contract, Forms, Light, Method, Over};
 use super::schlick::grazing_weight;
 
 /// The record of this method.
@@ -35,7 +35,7 @@ pub static METHOD: Method = Method {
     forms: Forms::Colour,
     class: Class::Any,
     light: Light::Unpolarised,
-    domain: "f0 and tint >= 0; clamped to [0, max(1, f0)]",
+    domain: "clamped to [0, max(1, f0)]: f0 above 1 is taken as it is",
     claims: Claims {
         model: &[
             Claim {
@@ -51,6 +51,7 @@ pub static METHOD: Method = Method {
         ],
         code_ulp: 6.5,
         code_over: Over::Wide,
+        colours: Colours::within(6e-7),
     },
     contract: Contract::Kept,
     half: InHalf::within(0.0016),

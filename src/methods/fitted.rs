@@ -43,7 +43,7 @@ pub static METHOD: Method = Method {
     forms: Forms::ColourAndScalar,
     class: Class::Any,
     light: Light::Unpolarised,
-    domain: "any coefficients; limited to [0, 1]",
+    domain: "limited to [0, 1]",
     claims: Claims {
         model: &[
             Claim {
@@ -59,6 +59,7 @@ pub static METHOD: Method = Method {
         ],
         code_ulp: 0.0,
         code_over: Over::Metals,
+        colours: None,
     },
     contract: Contract::Kept,
     half: InHalf::within_over(0.0013, Over::Metals, FLOOR),

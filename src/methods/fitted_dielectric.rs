@@ -29,7 +29,7 @@ pub static METHOD: Method = Method {
     forms: Forms::ColourAndScalar,
     class: Class::Dielectric,
     light: Light::Unpolarised,
-    domain: "any coefficients; limited to [0, 1]",
+    domain: "limited to [0, 1]",
     claims: Claims {
         model: &[Claim {
             over: Over::Dielectrics,
@@ -38,6 +38,7 @@ pub static METHOD: Method = Method {
         }],
         code_ulp: 7.0,
         code_over: Over::Dielectrics,
+        colours: None,
     },
     contract: Contract::Kept,
     half: InHalf::within_over(0.0015, Over::Dielectrics, FLOOR),

@@ -37,7 +37,7 @@ pub static METHOD: Method = Method {
     forms: Forms::ColourAndScalar,
     class: Class::Any,
     light: Light::Unpolarised,
-    domain: "any coefficients; limited to [0, 1]",
+    domain: "limited to [0, 1]",
     claims: Claims {
         model: &[
             Claim {
@@ -53,6 +53,7 @@ pub static METHOD: Method = Method {
         ],
         code_ulp: 6.0,
         code_over: Over::Metals,
+        colours: None,
     },
     contract: Contract::Kept,
     half: InHalf::within_over(0.0028, Over::Metals, FLOOR),

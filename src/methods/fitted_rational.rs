@@ -36,7 +36,7 @@ pub static METHOD: Method = Method {
     forms: Forms::ColourAndScalar,
     class: Class::Any,
     light: Light::Unpolarised,
-    domain: "any coefficients; limited to [0, 1]",
+    domain: "limited to [0, 1]",
     claims: Claims {
         model: &[
             Claim {
@@ -52,6 +52,7 @@ pub static METHOD: Method = Method {
         ],
         code_ulp: 6.0,
         code_over: Over::Metals,
+        colours: None,
     },
     contract: Contract::Kept,
     half: InHalf::within_over(0.0025, Over::Metals, FLOOR),

@@ -28,6 +28,8 @@ pub struct HalfClaim {
     pub over: Over,
     /// What is promised less of other media; may be empty.
     pub beyond: &'static str,
+    /// The largest values of arguments, by name, where half precision overflows beyond and single precision does not.
+    pub ends: &'static [(&'static str, f64)],
 }
 
 impl InHalf {
@@ -47,7 +49,16 @@ impl InHalf {
             max_abs,
             over,
             beyond,
+            ends: &[],
         })
+    }
+
+    /// The same where half precision overflows beyond these values of arguments.
+    pub const fn ending(self, ends: &'static [(&'static str, f64)]) -> InHalf {
+        match self {
+            InHalf::Kept(claim) => InHalf::Kept(HalfClaim { ends, ..claim }),
+            other => other,
+        }
     }
 
     /// What the library function promises.

@@ -11,7 +11,7 @@ use crate::ir::Expr;
 
 use super::half::InHalf;
 use super::input::{Input, Inputs};
-use super::method::{Claim, Claims, Class, Contract, Forms, Light, Method, Over};
+use super::method::{Claim, Claims, Class, Colours, Contract, Forms, Light, Method, Over};
 use super::schlick::grazing_weight;
 
 /// 7⁷/6⁶, the reciprocal of the maximum of c (1-c)⁶.
@@ -38,7 +38,7 @@ pub static METHOD: Method = Method {
     forms: Forms::Colour,
     class: Class::Any,
     light: Light::Unpolarised,
-    domain: "f0 and f82 >= 0; clamped to [0, max(1, f0)]",
+    domain: "clamped to [0, max(1, f0)]: f0 above 1 is taken as it is",
     claims: Claims {
         model: &[
             Claim {
@@ -54,6 +54,7 @@ pub static METHOD: Method = Method {
         ],
         code_ulp: 6.5,
         code_over: Over::Wide,
+        colours: Colours::within(5e-7),
     },
     contract: Contract::Kept,
     half: InHalf::within(0.0017),

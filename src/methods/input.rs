@@ -12,25 +12,50 @@ pub struct Input {
     pub ty: Ty,
     /// What it is, and its unit.
     pub meaning: &'static str,
-    /// Where it is meant to lie.
-    pub domain: &'static str,
+    /// Where it lies in single precision.
+    pub range: Range,
 }
 
-const fn rgb(name: &'static str, meaning: &'static str, domain: &'static str) -> Input {
+/// Where an argument lies, both ends included. Within its arguments' ranges a function gives a number.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Range {
+    /// The least value.
+    pub least: f64,
+    /// The largest value.
+    pub most: f64,
+}
+
+impl Range {
+    /// In words: `0.001 to 1e9`.
+    pub fn words(self) -> String {
+        format!("{} to {}", figure(self.least), figure(self.most))
+    }
+}
+
+/// A number as a person writes it.
+fn figure(value: f64) -> String {
+    if value.abs() < 1e5 {
+        value.to_string()
+    } else {
+        format!("{value:e}")
+    }
+}
+
+const fn rgb(name: &'static str, meaning: &'static str, least: f64, most: f64) -> Input {
     Input {
         name,
         ty: Ty::Rgb,
         meaning,
-        domain,
+        range: Range { least, most },
     }
 }
 
-const fn scalar(name: &'static str, meaning: &'static str, domain: &'static str) -> Input {
+const fn scalar(name: &'static str, meaning: &'static str, least: f64, most: f64) -> Input {
     Input {
         name,
         ty: Ty::Scalar,
         meaning,
-        domain,
+        range: Range { least, most },
     }
 }
 
@@ -39,97 +64,110 @@ impl Input {
     pub const ETA: Input = rgb(
         "eta",
         "relative index of refraction, transmitted over incident (n_t / n_i)",
-        "eta >= 0.001",
+        0.001,
+        1e12,
     );
     pub const N: Input = rgb(
         "n",
         "real part of the relative index of refraction",
-        "n >= 0.001",
+        0.001,
+        1e9,
     );
     pub const K: Input = rgb(
         "k",
         "extinction coefficient, the imaginary part of the relative index",
-        "k >= 0",
+        0.0,
+        1e9,
     );
-    pub const F0: Input = rgb(
-        "f0",
-        "reflectance at normal incidence, linear",
-        "f0 >= 0; above 1 is taken as it is",
-    );
-    pub const F90: Input = scalar("f90", "reflectance at 90 degrees", "0 <= f90 <= 1");
+    pub const F0: Input = rgb("f0", "reflectance at normal incidence, linear", 0.0, 1.0);
+    pub const F90: Input = scalar("f90", "reflectance at 90 degrees", 0.0, 1.0);
     pub const F82: Input = rgb(
         "f82",
         "reflectance at cos_theta = 1/7 (81.79 degrees), linear",
-        "f82 >= 0",
+        0.0,
+        1.0,
     );
     pub const TINT: Input = rgb(
         "tint",
         "reflectance at 81.79 degrees over Schlick's value there",
-        "tint >= 0",
+        0.0,
+        2.0,
     );
     pub const REFLECTIVITY: Input = rgb(
         "reflectivity",
         "reflectance at normal incidence, linear",
-        "[0, 1)",
+        0.0,
+        1.0,
     );
     pub const EDGE_TINT: Input = rgb(
         "edge_tint",
         "1 for the least n that the reflectivity allows, 0 for the most",
-        "[0, 1]",
+        0.0,
+        1.0,
     );
-    pub const BIAS: Input = scalar("bias", "reflectance at normal incidence", "[0, 1]");
-    pub const SCALE: Input = scalar("scale", "what grazing incidence adds", "[0, 1]");
-    pub const POWER: Input = scalar("power", "how late it is added", "power >= 0.2");
+    pub const BIAS: Input = scalar("bias", "reflectance at normal incidence", 0.0, 1.0);
+    pub const SCALE: Input = scalar("scale", "what grazing incidence adds", 0.0, 1.0);
+    pub const POWER: Input = scalar("power", "how late it is added", 0.2, 1000.0);
     pub const EXPONENT: Input = scalar(
         "exponent",
         "how late the curve rises to f90; 5 is Schlick's",
-        "exponent >= 0.2",
+        0.2,
+        1000.0,
     );
     pub const LAMBDA: Input = rgb(
         "lambda",
         "exponent of the correction; 0 or less where there is none",
-        "any",
+        -1000.0,
+        1000.0,
     );
 
     pub const B2_WEIGHT: Input = rgb(
         "b2_weight",
         "weight of the second curve, solved at 82.64 degrees",
-        "any",
+        -1000.0,
+        1000.0,
     );
     pub const B3_WEIGHT: Input = rgb(
         "b3_weight",
         "weight of the third curve, solved at 64.38 degrees",
-        "any",
+        -1000.0,
+        1000.0,
     );
 
-    pub const C0: Input = rgb("c0", "coefficient of 1", "any");
-    pub const C1: Input = rgb("c1", "coefficient of the first term", "any");
-    pub const C2: Input = rgb("c2", "coefficient of the second term", "any");
-    pub const C3: Input = rgb("c3", "coefficient of the third term", "any");
-    pub const C4: Input = rgb("c4", "coefficient of the fourth term", "any");
+    pub const C0: Input = rgb("c0", "coefficient of 1", -1000.0, 1000.0);
+    pub const C1: Input = rgb("c1", "coefficient of the first term", -1000.0, 1000.0);
+    pub const C2: Input = rgb("c2", "coefficient of the second term", -1000.0, 1000.0);
+    pub const C3: Input = rgb("c3", "coefficient of the third term", -1000.0, 1000.0);
+    pub const C4: Input = rgb("c4", "coefficient of the fourth term", -1000.0, 1000.0);
     pub const COEFFICIENTS: [Input; 5] = [Input::C0, Input::C1, Input::C2, Input::C3, Input::C4];
 
     pub const TABLE: Input = Input {
         name: "table",
         ty: Ty::Texture,
-        meaning: "the texture, and after it the sampler: reflectance along x, cos theta = 0 first",
-        domain: "linear filtering, clamped to the edge, not sRGB",
+        meaning: "the texture, and after it the sampler: reflectance along x, cos theta = 0 first, linear and not sRGB; the sampler filters linearly and clamps to the edge",
+        range: Range {
+            least: 0.0,
+            most: 1.0,
+        },
     };
-    pub const TEXELS: Input = scalar("texels", "texels in a row of the table", "2 to 16384");
+    pub const TEXELS: Input = scalar("texels", "texels in a row of the table", 2.0, 16384.0);
     pub const WARP: Input = scalar(
         "warp",
         "how dense the axis is near grazing: 0 for cos theta itself, 4 for `--axis rational`",
-        "warp >= 0",
+        0.0,
+        100.0,
     );
     pub const ROW: Input = scalar(
         "row",
         "where the row's middle lies: (index + 0.5) / rows, 0.5 for a table of its own",
-        "[0, 1]",
+        0.0,
+        1.0,
     );
     pub const TABLE_SCALE: Input = scalar(
         "table_scale",
         "reflectance of a texel of 1: the `scale` beside the table",
-        "table_scale >= 1",
+        1.0,
+        100.0,
     );
 
     /// Every input in the order of arguments.

@@ -9,7 +9,7 @@ use crate::ir::{
 use crate::num::{Num, Precision};
 
 use super::half::InHalf;
-use super::input::{Input, Inputs};
+use super::input::{Input, Inputs, Range};
 use super::shape::Shape;
 
 /// A formula for reflectance.
@@ -108,6 +108,41 @@ pub struct Claims {
     pub code_ulp: f64,
     /// The media that the code error is stated over.
     pub code_over: Over,
+    /// The code error over all that artists feed, where a method takes colours.
+    pub colours: Option<Colours>,
+}
+
+/// A promised code error of a method that artists feed.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Colours {
+    /// The most by which f32, unfused or fused, differs from f64 at the same inputs, over every argument from 0 to 1 and every
+    /// angle.
+    pub max_abs: f64,
+    /// Arguments that it holds for from and up to other values.
+    pub ends: &'static [(&'static str, Range)],
+    /// What is promised less beyond these; may be empty.
+    pub beyond: &'static str,
+}
+
+impl Colours {
+    /// At most this.
+    pub const fn within(max_abs: f64) -> Option<Colours> {
+        Some(Colours {
+            max_abs,
+            ends: &[],
+            beyond: "",
+        })
+    }
+
+    /// Where the promise holds.
+    pub fn range(&self, input: &Input) -> Range {
+        let own = self.ends.iter().find(|(name, _)| *name == input.name);
+        let whole = Range {
+            least: 0.0,
+            most: 1.0,
+        };
+        own.map_or(whole, |(_, range)| *range)
+    }
 }
 
 /// A promised model error.
@@ -272,6 +307,17 @@ impl Method {
     /// The media that the code error is stated over, in words.
     pub fn code_media(&self) -> &'static str {
         self.media(self.claims.code_over)
+    }
+
+    /// Where an argument lies in this precision.
+    pub fn range(&self, input: &Input, precision: Precision) -> Range {
+        let claim = self.half.claim().filter(|_| precision.is_half());
+        let ends = claim.map_or(&[][..], |claim| claim.ends);
+        let end = ends.iter().find(|(name, _)| *name == input.name);
+        Range {
+            most: end.map_or(input.range.most, |(_, most)| *most),
+            ..input.range
+        }
     }
 
     /// A set of media in words, as far as the method describes them.

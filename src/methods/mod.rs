@@ -5,6 +5,7 @@
 //! Fitted methods take their place here like all others, with their coefficients as inputs.
 //! The room knows no target.
 
+mod by_class;
 mod half;
 mod input;
 mod limits;
@@ -12,9 +13,12 @@ mod method;
 mod renamed;
 mod shape;
 
+pub use by_class::{BY_CLASS, ByClass, Spread, by_class};
 pub use half::{HalfClaim, InHalf};
-pub use input::{Input, Inputs, find_input};
-pub use method::{Better, Claim, Claims, Class, Contract, Forms, Light, Method, Over, Values};
+pub use input::{Input, Inputs, Range, find_input};
+pub use method::{
+    Better, Claim, Claims, Class, Colours, Contract, Forms, Light, Method, Over, Values,
+};
 pub use renamed::{RENAMED, Renamed, renamed};
 pub use shape::{Factor, Shape};
 

@@ -10,7 +10,7 @@ use crate::ir::Expr;
 
 use super::half::InHalf;
 use super::input::{Input, Inputs};
-use super::method::{Claim, Claims, Class, Contract, Forms, Light, Method, Over};
+use super::method::{Claim, Claims, Class, Colours, Contract, Forms, Light, Method, Over};
 
 /// Schlick 1994.
 pub const SCHLICK_1994: Citation = Citation {
@@ -31,7 +31,7 @@ pub static METHOD: Method = Method {
     forms: Forms::ColourAndScalar,
     class: Class::Any,
     light: Light::Unpolarised,
-    domain: "f0 >= 0; above 1 the result lies between 1 and f0. Misses the minimum of metals near 80 degrees",
+    domain: "f0 above 1 is taken as it is: the result then lies in [0, max(1, f0)]. Misses the minimum of metals near 80 degrees",
     claims: Claims {
         model: &[
             Claim {
@@ -47,6 +47,7 @@ pub static METHOD: Method = Method {
         ],
         code_ulp: 6.0,
         code_over: Over::Wide,
+        colours: Colours::within(3e-7),
     },
     contract: Contract::Kept,
     half: InHalf::within(0.0013),

@@ -7,7 +7,7 @@
 //! F(90°) = 1 - 2n would be negative.
 //! λ is computed per material and channel so that F meets the exact law at a matching angle (81.37 degrees,
 //! cos θ = 0.15). Where no λ does, as in gold's green, the term is dropped: λ ≤ 0 says so.
-//! Domain: n ≥ 0.001, k ≥ 0; clamped to [0, 1]. Error: [`METHOD`]'s claims.
+//! Domain: n from 0.001 to 1e9, k from 0 to 1e9; clamped to [0, 1]. Error: [`METHOD`]'s claims.
 
 use crate::ir::Expr;
 
@@ -29,7 +29,7 @@ pub static METHOD: Method = Method {
     forms: Forms::Colour,
     class: Class::Any,
     light: Light::Unpolarised,
-    domain: "n >= 0.001, k >= 0; clamped to [0, 1]; lambda <= 0 drops the correction",
+    domain: "clamped to [0, 1]; lambda <= 0 drops the correction",
     claims: Claims {
         model: &[Claim {
             over: Over::Metals,
@@ -38,9 +38,10 @@ pub static METHOD: Method = Method {
         }],
         code_ulp: 15.5,
         code_over: Over::Wide,
+        colours: None,
     },
     contract: Contract::Kept,
-    half: InHalf::within(0.0024),
+    half: InHalf::within(0.0024).ending(&[("n", 180.0), ("k", 180.0)]),
     build,
     plain: None,
     specialised: None,

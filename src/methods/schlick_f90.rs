@@ -10,7 +10,7 @@ use crate::ir::Expr;
 
 use super::half::InHalf;
 use super::input::{Input, Inputs};
-use super::method::{Claim, Claims, Class, Contract, Forms, Light, Method, Over};
+use super::method::{Claim, Claims, Class, Colours, Contract, Forms, Light, Method, Over};
 use super::schlick::grazing_weight;
 
 /// The record of this method.
@@ -29,7 +29,7 @@ pub static METHOD: Method = Method {
     forms: Forms::ColourAndScalar,
     class: Class::Any,
     light: Light::Unpolarised,
-    domain: "f0 >= 0, f90 in [0, 1]; the result lies between the two",
+    domain: "the result lies between f0 and f90, and f0 above 1 is taken as it is",
     claims: Claims {
         model: &[
             Claim {
@@ -45,6 +45,7 @@ pub static METHOD: Method = Method {
         ],
         code_ulp: 6.0,
         code_over: Over::Wide,
+        colours: Colours::within(3e-7),
     },
     contract: Contract::Kept,
     half: InHalf::within(0.0013),

@@ -28,7 +28,7 @@ pub static METHOD: Method = Method {
     forms: Forms::ColourAndScalar,
     class: Class::Any,
     light: Light::Unpolarised,
-    domain: "f0 >= 0, f90 in [0, 1], exponent >= 0.2; the result lies between f0 and f90",
+    domain: "the result lies between f0 and f90, and f0 above 1 is taken as it is",
     claims: Claims {
         model: &[
             Claim {
@@ -44,6 +44,7 @@ pub static METHOD: Method = Method {
         ],
         code_ulp: 5.0,
         code_over: Over::Wide,
+        colours: None,
     },
     contract: Contract::Kept,
     half: InHalf::within(0.0017),

@@ -2,7 +2,7 @@
 //!
 //! Source: Schlick, "An Inexpensive BRDF Model for Physically-based Rendering", 1994,
 //! <https://doi.org/10.1111/1467-8659.1330233>; eq. 7 of the thesis.
-//! Domain: η ≥ 0.001. Below 1 it misses total reflection altogether. Error: [`METHOD`]'s claim; good for η 1.4 to 2.2.
+//! Domain: η from 0.001 to 1e12. Below 1 it misses total reflection altogether. Error: [`METHOD`]'s claim; good for η 1.4 to 2.2.
 
 use crate::ir::Expr;
 
@@ -21,7 +21,7 @@ pub static METHOD: Method = Method {
     forms: Forms::ColourAndScalar,
     class: Class::Dielectric,
     light: Light::Unpolarised,
-    domain: "eta >= 0.001; good for 1.4 to 2.2; below 1 it misses total reflection",
+    domain: "good for 1.4 to 2.2; below 1 it misses total reflection",
     claims: Claims {
         model: &[Claim {
             over: Over::Dielectrics,
@@ -30,9 +30,10 @@ pub static METHOD: Method = Method {
         }],
         code_ulp: 10.5,
         code_over: Over::Wide,
+        colours: None,
     },
     contract: Contract::Kept,
-    half: InHalf::within(0.0013),
+    half: InHalf::within(0.0013).ending(&[("eta", 65504.0)]),
     build,
     plain: None,
     specialised: None,

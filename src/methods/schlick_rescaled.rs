@@ -2,7 +2,7 @@
 //!
 //! Source: Lazányi and Szirmay-Kalos, "Fresnel Term Approximations for Metals", WSCG, 2005,
 //! <https://hdl.handle.net/11025/11214>; eq. 14 of the thesis.
-//! Domain: n ≥ 0.001, k ≥ 0. It rises monotonically and so misses the minimum of metals. Error: [`METHOD`]'s claims.
+//! Domain: n from 0.001 to 1e9, k from 0 to 1e9. It rises monotonically and so misses the minimum of metals. Error: [`METHOD`]'s claims.
 
 use crate::cite::Citation;
 use crate::ir::Expr;
@@ -31,7 +31,7 @@ pub static METHOD: Method = Method {
     forms: Forms::Colour,
     class: Class::Any,
     light: Light::Unpolarised,
-    domain: "n >= 0.001, k >= 0; misses the minimum of metals",
+    domain: "misses the minimum of metals",
     claims: Claims {
         model: &[
             Claim {
@@ -47,9 +47,10 @@ pub static METHOD: Method = Method {
         ],
         code_ulp: 10.5,
         code_over: Over::Wide,
+        colours: None,
     },
     contract: Contract::Kept,
-    half: InHalf::within(0.0024),
+    half: InHalf::within(0.0024).ending(&[("n", 180.0), ("k", 180.0)]),
     build,
     plain: None,
     specialised: None,

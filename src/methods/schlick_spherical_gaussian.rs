@@ -10,7 +10,7 @@ use crate::ir::Expr;
 
 use super::half::InHalf;
 use super::input::{Input, Inputs};
-use super::method::{Claim, Claims, Class, Contract, Forms, Light, Method, Over};
+use super::method::{Claim, Claims, Class, Colours, Contract, Forms, Light, Method, Over};
 
 /// The record of this method.
 pub static METHOD: Method = Method {
@@ -28,7 +28,7 @@ pub static METHOD: Method = Method {
     forms: Forms::ColourAndScalar,
     class: Class::Any,
     light: Light::Unpolarised,
-    domain: "f0 >= 0; at normal incidence the result is f0 + 1.7e-4 (1 - f0)",
+    domain: "f0 above 1 is taken as it is: the result then lies in [0, max(1, f0)]; at normal incidence the result is f0 + 1.7e-4 (1 - f0)",
     claims: Claims {
         model: &[
             Claim {
@@ -44,6 +44,7 @@ pub static METHOD: Method = Method {
         ],
         code_ulp: 0.0,
         code_over: Over::Wide,
+        colours: Colours::within(3e-7),
     },
     contract: Contract::Kept,
     half: InHalf::within(0.0009),

@@ -4,6 +4,7 @@ use serde_json::{Value, json};
 
 use super::frontier::{figure, frontier};
 use super::table;
+use crate::emit::Missed;
 use crate::fit::{Aim, Follows, Weight};
 use crate::methods::Method;
 
@@ -34,6 +35,8 @@ pub struct Row {
     pub error: f64,
     /// The same without the ends that are met exactly, where there are any.
     pub free: Option<f64>,
+    /// Whether it misses what its method promises of the material's class.
+    pub missed: Option<Missed>,
 }
 
 impl Row {
@@ -60,6 +63,9 @@ impl Row {
         let lacking: Vec<&str> = lacking.map(|(_, why)| why).collect();
         if !lacking.is_empty() {
             row["reason"] = json!(lacking.join("; "));
+        }
+        if let Some(missed) = &self.missed {
+            row["misses_its_class"] = missed.json();
         }
         if let Some(follows) = &self.follows {
             row["follows"] = follows.iter().map(followed).collect();
@@ -160,7 +166,12 @@ const HALF: &str = "\ncoefficients are rounded to f16, errors are those of exact
 
 fn remarks(rows: &[Row]) -> String {
     let is_half = rows.first().is_some_and(|row| row.aim.precision.is_half());
-    let half = if is_half { HALF } else { "" }.to_owned();
+    let half = if is_half { HALF } else { "" };
+    let missed = rows.iter().filter_map(|row| {
+        let missed = row.missed.as_ref()?;
+        Some(format!("{}: {}\n", row.name(), missed.words()))
+    });
+    let half = half.to_owned() + &missed.collect::<String>();
     let Some(follows) = rows.first().and_then(|row| row.follows) else {
         return half;
     };

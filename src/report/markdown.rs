@@ -3,7 +3,7 @@
 use crate::emit::{Bounds, Naming, Subject, half_record, specialised_function};
 use crate::fit::Derivation;
 use crate::materials::{Material, Sight, Unseen};
-use crate::methods::{self, Contract, Method};
+use crate::methods::{self, BY_CLASS, Contract, Method, Spread};
 use crate::targets;
 
 /// Every method: what it takes, its cost in scalar operations for three channels, what it promises.
@@ -62,6 +62,30 @@ pub fn errors_table(materials: Vec<Material>) -> Result<String, Unseen> {
                 .collect()
         });
     Ok(table(&head, rows))
+}
+
+/// What fitted methods promise of classes of materials.
+pub fn classes_table() -> String {
+    let spread = |spread: Spread| format!("{}, {}", spread.median, spread.ninth);
+    let rows = BY_CLASS.iter().map(|row| {
+        vec![
+            format!("`{}`", row.method),
+            format!("{}s", row.class),
+            spread(row.catalogue),
+            spread(row.outside),
+            row.limit.to_string(),
+        ]
+    });
+    table(
+        &[
+            "method",
+            "class",
+            "catalogue: median, 90th percentile",
+            "pages outside it",
+            "nine of ten of both",
+        ],
+        rows,
+    )
 }
 
 /// Every target.

@@ -22,6 +22,17 @@ fn root() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("target/refractiveindex")
 }
 
+/// A page's material; none where the database is not there.
+pub fn material(path: &str) -> Option<Material> {
+    let data = data_folder(&root(), 6)?;
+    let text = fs::read_to_string(data.join(path)).unwrap_or_else(|why| panic!("{path}: {why}"));
+    let page = Page::parse(path, &text).unwrap_or_else(|why| panic!("{path}: {why}"));
+    Some(
+        page.material(None)
+            .unwrap_or_else(|why| panic!("{path}: {why}")),
+    )
+}
+
 /// Every page of the database, or nothing where it is not there.
 fn pages() -> Option<&'static [Read]> {
     static PAGES: OnceLock<Option<Vec<Read>>> = OnceLock::new();

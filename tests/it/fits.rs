@@ -8,10 +8,10 @@ use std::sync::OnceLock;
 use fresnel_gen::app::{Materials, Request};
 use fresnel_gen::cost::records;
 use fresnel_gen::cost::statistics::quantile;
-use fresnel_gen::emit::Subject;
-use fresnel_gen::fit::{ModelError, model_error};
+use fresnel_gen::emit::{Bounds, Naming, Subject, missed, specialised_function};
+use fresnel_gen::fit::{Derivation, ModelError, model_error};
 use fresnel_gen::ir::{Value, evaluate};
-use fresnel_gen::materials::Kind;
+use fresnel_gen::materials::{Kind, Material, Sight};
 use fresnel_gen::methods::{self, Method};
 use fresnel_gen::num::{Legendre, Precision};
 
@@ -82,6 +82,139 @@ fn rows(subjects: &[Subject]) -> Vec<Row<'_>> {
 fn most(rows: &[&Row], share: f64) -> f64 {
     let all: Vec<f64> = rows.iter().map(|row| row.error.max_abs).collect();
     quantile(&all, share)
+}
+
+/// The pages of `data/outside.csv` with their class, as they are seen; none where the database is not there.
+fn outside() -> Option<Vec<(&'static str, Subject)>> {
+    let text = include_str!("../../data/outside.csv");
+    let lines = text.lines().filter(|line| !line.starts_with('#')).skip(1);
+    let seen = lines.map(|line| {
+        let (class, path) = line.split_once(',').expect("a class and a page");
+        let mut material = super::database::material(path)?;
+        material.kind = Kind::ALL
+            .into_iter()
+            .find(|kind| kind.name() == class)
+            .expect("a class");
+        let typed = (path.to_owned(), material);
+        let subject = Subject::new(typed, None, &Sight::default(), Derivation::default());
+        Some((
+            class,
+            subject.unwrap_or_else(|why| panic!("{path}: {why:?}")),
+        ))
+    });
+    seen.collect()
+}
+
+/// Every promise over both sets, and of both together, each in both directions.
+#[test]
+fn classes_are_followed_as_promised() {
+    let Some(outside) = outside() else { return };
+    let has_class = |subject: &&Subject| {
+        let is_gas =
+            subject.material.kind == Kind::Dielectric && subject.effective.channels.n[1] < LEAST_N;
+        subject.material.rgb_nm.is_none() && !is_gas
+    };
+    let inside = catalogue().iter().filter(has_class);
+    let inside: Vec<(&str, &Subject)> = inside
+        .map(|subject| (subject.material.kind.name(), subject))
+        .collect();
+    let outside: Vec<(&str, &Subject)> = outside
+        .iter()
+        .map(|(class, subject)| (*class, subject))
+        .collect();
+    let mut faults = String::new();
+    for promise in &methods::BY_CLASS {
+        let method = methods::find(promise.method).expect("it is registered");
+        let errors = |set: &[(&str, &Subject)]| -> Vec<f64> {
+            let own = set.iter().filter(|(class, subject)| {
+                *class == promise.class && subject.is_described_by(method)
+            });
+            own.map(|(_, subject)| error(subject, method).max_abs)
+                .collect()
+        };
+        let (within, without) = (errors(&inside), errors(&outside));
+        let both = [&within[..], &without[..]].concat();
+        for (what, measured, promised) in [
+            ("median", quantile(&within, 0.5), promise.catalogue.median),
+            ("ninth", quantile(&within, 0.9), promise.catalogue.ninth),
+            (
+                "median outside",
+                quantile(&without, 0.5),
+                promise.outside.median,
+            ),
+            (
+                "ninth outside",
+                quantile(&without, 0.9),
+                promise.outside.ninth,
+            ),
+            ("limit", quantile(&both, 0.9), promise.limit),
+        ] {
+            if measured > promised || measured <= promised - 1.01e-4 {
+                faults += &format!(
+                    "{}, {}s ({} and {}): {what} {measured:.6}, promised {promised}\n",
+                    promise.method,
+                    promise.class,
+                    within.len(),
+                    without.len()
+                );
+            }
+        }
+    }
+    assert!(faults.is_empty(), "{faults}");
+}
+
+/// Caesium, which no fitted method follows, and germanium, which four coefficients do not.
+#[test]
+fn a_fit_that_misses_its_class_names_what_serves() {
+    let germanium = &super::subjects(&["germanium"])[0];
+    assert_eq!(germanium.fitted_method(), Some("fitted_five"));
+    assert!(germanium.default_methods().contains(&"fitted_five"));
+    let fitted = methods::find("fitted").expect("it is registered");
+    let found =
+        missed(germanium, fitted, error(germanium, fitted).max_abs).expect("it errs by .009");
+    assert_eq!(
+        (found.class, found.serves.name),
+        ("semiconductor", "fitted_five")
+    );
+    let gold = &super::subjects(&["gold"])[0];
+    assert!(missed(gold, fitted, error(gold, fitted).max_abs).is_none());
+    let Some(outside) = outside() else { return };
+    let caesium = &outside
+        .iter()
+        .find(|(_, subject)| subject.argument.contains("/Cs/"))
+        .expect("it is there")
+        .1;
+    let found = missed(caesium, fitted, error(caesium, fitted).max_abs).expect("it errs by .0386");
+    println!("{}", found.words());
+    assert_eq!(found.serves.name, "conductor_exact");
+    assert!(found.error < found.limit, "{found:?}");
+}
+
+/// What absorbs a little is a dielectric still, and coefficients follow it; a semiconductor is told what serves.
+#[test]
+fn what_absorbs_a_little_is_fitted_or_told_what_serves() {
+    let Some(material) = super::database::material("main/ZnSe/nk/Adachi.yml") else {
+        return;
+    };
+    let seen = |kind| {
+        let typed = (
+            "znse".to_owned(),
+            Material {
+                kind,
+                ..material.clone()
+            },
+        );
+        Subject::new(typed, None, &Sight::default(), Derivation::default()).expect("it is seen")
+    };
+    let method = methods::find("fitted_dielectric").expect("it is registered");
+    let made =
+        |kind| specialised_function(method, &seen(kind), &Naming::default(), &Bounds::default());
+    let dielectric = made(Kind::Dielectric).expect("it is fitted");
+    assert!(dielectric.model_error.expect("it is measured").max_abs < 0.002);
+    let refused = made(Kind::Semiconductor)
+        .expect_err("it is refused")
+        .to_string();
+    assert!(refused.contains("fitted_five serves it"), "{refused}");
 }
 
 /// The catalogue as it is seen.

@@ -18,6 +18,7 @@ mod compilers;
 #[cfg(all(feature = "cli", feature = "gpu"))]
 mod costs;
 mod database;
+mod domains;
 mod exhaustive;
 mod fits;
 mod golden;

@@ -8,7 +8,9 @@ use fresnel_gen::app::request::DEFAULT_MATERIALS;
 use fresnel_gen::app::{Materials, Request, Source};
 use fresnel_gen::materials::{self, Sight};
 use fresnel_gen::report::card::card;
-use fresnel_gen::report::markdown::{errors_table, half_table, methods_table, targets_table};
+use fresnel_gen::report::markdown::{
+    classes_table, errors_table, half_table, methods_table, targets_table,
+};
 
 fn example() -> String {
     let request = Request {
@@ -51,6 +53,7 @@ fn tables_are_what_the_program_says() {
         ("targets", targets_table()),
         ("methods", methods_table()),
         ("half", half_table()),
+        ("classes", classes_table()),
         ("errors", errors_table(materials).expect("all are seen")),
     ];
     for (name, new) in parts {

@@ -10,7 +10,7 @@ use crate::app::request::{Materials, Request};
 use crate::app::sight::{flags as sight_flags, sight};
 use crate::app::source::{materials, source};
 use crate::cost::{Family, library_cost, records};
-use crate::emit::Subject;
+use crate::emit::{Subject, missed};
 use crate::fit::{
     Aim, Curve, Exact, Follows, ModelError, Weight, error_from, fitted_for, model_error, values_at,
 };
@@ -153,6 +153,8 @@ fn of_subject(
     forms: &[Form],
 ) -> Vec<(Option<Row>, String, &'static str)> {
     let curve = subject.curve();
+    // Promises of classes are of the usual fit.
+    let promised = aim.weight == Weight::Absolute && !aim.exact.is_any();
     let row = |form: &Form| {
         let fitted = Fitted::new(form.method, &curve, aim)?;
         let function = form.method.specialise(&fitted.values);
@@ -161,6 +163,9 @@ fn of_subject(
         Some(Row {
             material: Some(subject.argument.clone()),
             class: Some(subject.material.kind.name()),
+            missed: promised
+                .then(|| missed(subject, form.method, error.max_abs))
+                .flatten(),
             ..bare(form, &fitted, error, aim.space.name())
         })
     };
@@ -210,6 +215,7 @@ fn bare(form: &Form, fitted: &Fitted, error: ModelError, space: &'static str) ->
         aim: fitted.aim,
         error: fitted.error,
         free: fitted.free,
+        missed: None,
     }
 }
 

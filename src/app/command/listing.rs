@@ -80,7 +80,7 @@ fn method_text(method: &Method) -> String {
         method
             .inputs
             .iter()
-            .map(|i| format!("argument    {}: {}; {}", i.name, i.meaning, i.domain)),
+            .map(|i| format!("argument    {}: {}; {}", i.name, i.meaning, i.range.words())),
     );
     lines.extend(emit::promises(method));
     lines.push(format!("in f16      {}", emit::half_promise(method)));
@@ -95,7 +95,7 @@ fn method_json(method: &Method) -> Value {
         "schema": SCHEMA, "name": method.name, "summary": method.summary, "source": method.source.line(),
         "formula": method.formula, "domain": method.domain,
         "arguments": method.inputs.iter()
-            .map(|i| json!({ "name": i.name, "meaning": i.meaning, "domain": i.domain })).collect::<Vec<_>>(),
+            .map(|i| json!({ "name": i.name, "meaning": i.meaning, "domain": i.range.words() })).collect::<Vec<_>>(),
         "claims": method.claims.model.iter()
             .map(|c| json!({ "over": c.over.text(), "max_abs": c.max_abs })).collect::<Vec<_>>(),
         "code_ulp": method.claims.code_ulp,
