@@ -16,8 +16,6 @@ use crate::fit::Measured;
 use crate::gpu::{Code, Program};
 use crate::ir::Value;
 
-/// The bits of 1.
-const ONE: u32 = 0x3F80_0000;
 /// How many bit patterns there are.
 const ALL: u64 = 1 << 32;
 /// Points evaluated at once: columns of f64 that a cache holds.
@@ -233,7 +231,7 @@ mod tests {
     fn one_wrong_result_is_found_wherever_it_stands() {
         // About 1, 2, infinity, the smallest negative number, negative infinity, and the last numbers there are.
         for first in [
-            ONE - 1000,
+            1f32.to_bits() - 1000,
             0x4000_0000,
             0x7F7F_FC18,
             0x8000_0000,

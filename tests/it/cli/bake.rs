@@ -33,7 +33,7 @@ fn files_and_report_agree() {
     // The same run again writes nothing; the description beside the files says the same.
     let again =
         place.done("bake --material gold --medium water --size 16 --axis cos --format all --atlas");
-    assert!(again.err.contains("0 written, 18 unchanged"), "{again:?}");
+    assert!(again.err.contains("0 written, 19 unchanged"), "{again:?}");
     let beside = place.read(&format!("{OUT}/lut/gold_in_water.json"));
     let beside: serde_json::Value = serde_json::from_str(&beside).unwrap();
     assert_eq!(beside["rows"].as_array().unwrap()[..], rows[..8]);
@@ -50,7 +50,11 @@ fn a_budget_is_met_by_the_smallest() {
         assert!(row["max_abs"].as_f64().unwrap() <= 0.001, "{row}");
         assert!(row["texels"].as_u64().unwrap() <= 32, "{row}");
     }
-    assert_eq!(contents(&place.path(OUT)).len(), 8);
+    assert_eq!(
+        contents(&place.path(OUT)).len(),
+        9,
+        "two a material, and the manifest"
+    );
     let coarse =
         place.done("bake --budget 0.02 --material water --axis cos --format png8,png16 --json -");
     let row = &coarse.json()["rows"][0];
@@ -202,7 +206,7 @@ fn bad_input_is_refused() {
     );
     place.refused(
         "bake --out-dir file",
-        &["cannot write", "no file was changed"],
+        &["cannot read file/manifest.json", "nothing was written"],
     );
     assert!(!place.path(OUT).exists());
 }
@@ -229,7 +233,7 @@ fn one_split_sum_table_serves_all_materials() {
         assert!(row["max_abs"].as_f64().unwrap() < 0.1 && row["material"].is_null());
     }
     let again = place.done(line);
-    assert!(again.err.contains("0 written, 9 unchanged"), "{again:?}");
+    assert!(again.err.contains("0 written, 10 unchanged"), "{again:?}");
     // Four channels: of the roughest texel from above T0 is 1 - ln 2.
     let bytes =
         std::fs::read(place.path(&format!("{OUT}/lut/dfg_fitted_dielectric.ktx2"))).unwrap();

@@ -30,6 +30,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output, Stdio};
 
+use fresnel_gen::app::artifact::sha256;
 use serde_json::Value;
 use tempfile::TempDir;
 
@@ -84,6 +85,22 @@ impl Place {
     /// The manifest of the usual output folder.
     pub fn manifest(&self) -> Value {
         serde_json::from_str(&self.read(&format!("{OUT}/manifest.json"))).unwrap()
+    }
+
+    /// Puts a file into the usual output folder, and lists it as if an earlier version had written it: the entry is that
+    /// of `like`, of a method named `old` where `like` has a method.
+    pub fn list_as(&self, like: &str, file: &str, text: &str) {
+        let mut manifest = self.manifest();
+        let entries = manifest["files"].as_array_mut().unwrap();
+        let mut entry = entries.iter().find(|e| e["file"] == like).unwrap().clone();
+        if entry["material"].is_null() {
+            entry["method"] = "old".into();
+        }
+        entry["file"] = file.into();
+        entry["sha256"] = sha256(text.as_bytes()).into();
+        entries.push(entry);
+        self.put(&format!("{OUT}/{file}"), text);
+        self.put(&format!("{OUT}/manifest.json"), manifest.to_string());
     }
 
     /// The files that the manifest lists.
