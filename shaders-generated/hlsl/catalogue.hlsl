@@ -107,7 +107,7 @@
 #define FRESNEL_SODIUM 308 // metal, at most 0.00087
 #define FRESNEL_SODIUM_SMITH 312 // metal, at most 0.00080
 #define FRESNEL_STAINLESS_STEEL 316 // metal, at most 0.00166
-#define FRESNEL_TANTALUM 320 // metal, at most 0.00322
+#define FRESNEL_TANTALUM 320 // metal, at most 0.00322; fitted_five at most 0.00060
 #define FRESNEL_TITANIUM 324 // metal, at most 0.00102
 #define FRESNEL_TITANIUM_CARBIDE 328 // metal, at most 0.00076
 #define FRESNEL_TITANIUM_NITRIDE 332 // metal, at most 0.00264
