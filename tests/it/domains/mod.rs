@@ -104,11 +104,10 @@ fn faults<const KIND: u8>(
         let got = evaluate::<Fast<KIND>>(&function, &arguments(method, &three, cosines));
         let want = evaluate::<f64>(&function, &arguments(method, &three, cosines));
         for (i, c) in cosines.iter().enumerate() {
-            for channel in 0..3 {
+            for (channel, inputs) in three.iter().enumerate() {
                 let (got, want) = (got.at(i)[channel].to_f64(), want.at(i)[channel]);
                 off = off.max((got - want).abs());
                 if !(0.0..=1.0 + ROUNDING).contains(&got) {
-                    let inputs = &three[channel];
                     faults.push(format!(
                         "{} {}({c:e}, {inputs:?}) = {got:e}",
                         method.name,
