@@ -17,7 +17,7 @@
 // Model error for eta 1.3 to 2.5: at most 0.0000347, worst at 82.2 degrees
 // Model error for n 0.05 to 4.5, k 1.5 to 8: at most 0.000384, worst at 72.5 degrees
 // Code error for n 0.05 to 4.5, k 1.5 to 8: at most 9 ulp or 2^-22, unfused f32 against f64
-// Code error for any colours, f0 0.05 to 1, f82 0 to 0.99: at most 3.5e-4 absolute, unfused or fused; of other
+// Code error for any colours, f0 0.05 to 1, f82 0 to 0.99: at most 5e-4 absolute, unfused or fused; of other
 //     pairs, which no material has, f32 may be off by 0.3
 // fresnel_conductor_from_f0_f82: 389 scalar operations, among them 18 roots, 33 divisions
 // Licence of this file: CC0-1.0

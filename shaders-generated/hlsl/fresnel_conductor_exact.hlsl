@@ -7,7 +7,7 @@
 //   R_s = (r + c^2 - u) / (r + c^2 + u), x = r c^2 + s^4, s^2 = 1 - c^2, F = R_s x / (x + u s^2)
 // Source: Glassner, "Principles of Digital Image Synthesis", Morgan Kaufmann, 1995.
 //     https://www.realtimerendering.com/Principles_of_Digital_Image_Synthesis_v1.0.1.pdf
-// Domain: k = 0 is the dielectric; n = 1 with k = 0 gives 0 at every angle; from n or k of 4e9 on it overflows.
+// Domain: k = 0 is the dielectric; n = 1 with k = 0 gives 0 at every angle; from n and k of 3e9 on it overflows.
 //     Where a compiler fuses or approximates quotients a result may exceed 1 by 2.4e-7
 // Arguments:
 //   cos_theta: cosine between the normal and the direction to the light or viewer

@@ -101,17 +101,21 @@ pub fn try_places_of_ours(files: &[PathBuf], overwrite: bool) -> Result<(), Erro
     Ok(())
 }
 
-/// Writes the files of a report into a folder, each whole or not at all. They replace only what bears our mark.
+/// Writes the files of a report into a folder, each whole or not at all. They replace only what bears our mark. Which were
+/// replaced: no manifest tells whether somebody changed them since.
 ///
 /// # Errors
 /// A file of others lies in the place of one, or the disk refuses.
-pub fn write_report(files: &[(PathBuf, &[u8])], overwrite: bool) -> Result<usize, Error> {
+pub fn write_report(files: &[(PathBuf, &[u8])], overwrite: bool) -> Result<Vec<PathBuf>, Error> {
+    let mut replaced = Vec::new();
     for (path, bytes) in files {
-        if folder::read(path)?.as_deref() != Some(bytes) {
+        if folder::read(path)?.is_some_and(|old| old != *bytes) {
             try_places_of_ours(std::slice::from_ref(path), overwrite)?;
+            replaced.push(path.clone());
         }
     }
-    write_files(files)
+    write_files(files)?;
+    Ok(replaced)
 }
 
 fn not_ours(out_dir: &Path, obstacle: &Obstacle, others: usize) -> Error {

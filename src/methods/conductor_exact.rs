@@ -9,7 +9,7 @@
 //! In half precision it is F = (1 - 2u/(r+c²+u)) (1 - us²/(x+us²)): only the absolute error counts there, so that no branch
 //! is needed, and where F is near 1 little is subtracted. r is the larger of |t| and 2nk times √(1+ratio²), since t²
 //! overflows for k ≥ 16.
-//! Domain: n from 0.001 to 1e9, k from 0 to 1e9 (from 4e9 on t² overflows); k = 0 is the dielectric; n = 1, k = 0 gives 0.
+//! Domain: n from 0.001 to 1e9, k from 0 to 1e9 (from 3e9 on 4n²k² overflows); k = 0 is the dielectric; n = 1, k = 0 gives 0.
 //! Error: none in the model; the code error is [`METHOD`]'s claim.
 
 use std::collections::BTreeMap;
@@ -36,7 +36,7 @@ pub static METHOD: Method = Method {
     forms: Forms::Colour,
     class: Class::Any,
     light: Light::Unpolarised,
-    domain: "k = 0 is the dielectric; n = 1 with k = 0 gives 0 at every angle; from n or k of 4e9 on it overflows. Where a compiler \
+    domain: "k = 0 is the dielectric; n = 1 with k = 0 gives 0 at every angle; from n and k of 3e9 on it overflows. Where a compiler \
              fuses or approximates quotients a result may exceed 1 by 2.4e-7",
     claims: Claims {
         model: &[

@@ -59,7 +59,7 @@ pub static METHOD: Method = Method {
         code_ulp: 9.0,
         code_over: Over::Metals,
         colours: Some(Colours {
-            max_abs: 3.5e-4,
+            max_abs: 5e-4,
             ends: &[
                 (
                     "f0",

@@ -20,7 +20,7 @@ use crate::report::SCHEMA;
 use crate::report::frontier::{CostAxis, View};
 use crate::spectra::Space;
 
-use super::{Output, Progress, chart, report, try_files};
+use super::{Output, Progress, chart, check_limit, report, try_files};
 
 /// The GPUs that are asked unless others are named: one of a desktop, one of a phone.
 const USUAL: [&str; 2] = ["rdna2", "adreno330"];
@@ -35,10 +35,7 @@ pub fn run(flags: &AuditFlags, progress: Progress) -> Result<Output, Error> {
             ..Output::default()
         });
     }
-    if flags.limit == 0 {
-        let what = "--limit is 0 seconds; it is 1 or more".to_owned();
-        return Err(Error::Usage { what });
-    }
+    check_limit(flags.limit)?;
     let request = request(flags)?;
     let audit = audit(flags, request.sight.integration.space)?;
     let subjects = request.subjects()?;

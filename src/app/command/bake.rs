@@ -24,7 +24,7 @@ use crate::report::table;
 use crate::targets::{self, Finish, Target};
 
 use super::generate::named;
-use super::{Output, Progress, report, try_places};
+use super::{Output, Progress, refuse_within_tree, report, try_places};
 
 /// The files that a search chooses from where none are asked for: one of each depth.
 const SEARCHED_FORMATS: [Format; 4] = [
@@ -109,6 +109,7 @@ fn finished(
         &Scope::default(),
         &provenance(Vec::new()),
     )?;
+    refuse_within_tree(&plan, flags.json.as_deref())?;
     let written = write(&plan, flags.overwrite, &mut lock)?;
     let text = if flags.quiet {
         String::new()

@@ -15,7 +15,7 @@ use crate::emit::Subject;
 use crate::report::SCHEMA;
 use crate::report::frontier::{Data, ERRORS, View, page, svg, text};
 
-use super::{Output, Progress, report, try_files};
+use super::{Output, Progress, replaced, report, try_files};
 
 const PICTURE: &str = "chart.svg";
 const PAGE: &str = "chart.html";
@@ -101,10 +101,11 @@ pub(super) fn written(
     let files = files(Some(folder));
     let texts = [picture.as_bytes(), page.as_bytes()];
     let all: Vec<(PathBuf, &[u8])> = files.iter().cloned().zip(texts).collect();
-    write_report(&all, overwrite)?;
+    let old = write_report(&all, overwrite)?;
     let about = ["the picture of what is shown", "a page with all charts"];
     let remark = |(file, about): (&PathBuf, &str)| format!("{}: {about}", file.display());
-    Ok(files.iter().zip(about).map(remark).collect())
+    let written = files.iter().zip(about).map(remark);
+    Ok(replaced(&old).chain(written).collect())
 }
 
 /// The place of a name among those that there are.

@@ -17,7 +17,7 @@ use crate::methods::{self, Method};
 use crate::report::SCHEMA;
 use crate::report::cost::{self as sheet, Row, Source};
 
-use super::{Output, Progress, report, try_places};
+use super::{Output, Progress, check_limit, replaced, report, try_places};
 
 /// The page in the folder asked for.
 const PAGE: &str = "cost.html";
@@ -28,10 +28,7 @@ pub fn run(flags: &CostFlags, progress: Progress) -> Result<Output, Error> {
         serve(family(name)?)?;
         return Ok(Output::default());
     }
-    if flags.limit == 0 {
-        let what = "--limit is 0 seconds; it is 1 or more".to_owned();
-        return Err(Error::Usage { what });
-    }
+    check_limit(flags.limit)?;
     let families = families(&flags.gpu)?;
     let (functions, left_out) = asked(flags)?;
     let page = flags.out_dir.as_ref().map(|folder| folder.join(PAGE));
@@ -52,27 +49,30 @@ pub fn run(flags: &CostFlags, progress: Progress) -> Result<Output, Error> {
         "tool": "fresnel-gen", "schema": SCHEMA, "command": canonical(flags), "device": null,
         "rows": table.iter().flatten().map(Row::json).collect::<Vec<Value>>(),
     });
-    let (text, findings, whole) = if flags.check {
+    let (text, checked) = if flags.check {
         check(&table)
     } else {
-        (sheet::text(&table), 0, true)
+        (sheet::text(&table), Checks::NONE)
     };
     let paged = paged(flags, &table)?;
     let mut output = report(text, &json, flags.json.as_deref())?;
     output.remarks.extend(left_out);
     output.remarks.extend(paged);
-    output.code = ending(flags, &table, findings, whole);
+    output.code = ending(flags, &table, &checked);
     Ok(output)
 }
 
 /// 1 where a check found something, 3 where something that could be measured was not and all was required.
-fn ending(flags: &CostFlags, table: &[Vec<Row>], findings: usize, whole: bool) -> u8 {
+fn ending(flags: &CostFlags, table: &[Vec<Row>], checked: &Checks) -> u8 {
     let is_lacking = |row: &Row| {
         let cannot = row.precision == "f16" && !row.family.half;
         row.family.compiler.dialect().is_some() && !cannot && row.figures.is_err()
     };
-    match findings {
-        0 if flags.require_all && (!whole || table.iter().flatten().any(is_lacking)) => 3,
+    let is_lacking = !checked.whole || table.iter().flatten().any(is_lacking);
+    match checked.differ {
+        0 if flags.require_all && is_lacking => 3,
+        // What nothing was held against is not checked.
+        0 if flags.check && checked.agree == 0 && !checked.whole => 3,
         0 => 0,
         _ => 1,
     }
@@ -111,16 +111,34 @@ fn asked(flags: &CostFlags) -> Result<(Vec<Function>, Vec<String>), Error> {
 }
 
 /// Fresh counts against the record: what differs, how much, and whether all that has a compiler was compared.
-fn check(table: &[Vec<Row>]) -> (String, usize, bool) {
-    let (mut text, mut findings, mut whole) = (String::new(), 0, true);
+fn check(table: &[Vec<Row>]) -> (String, Checks) {
+    let (mut text, mut all) = (String::new(), Checks::NONE);
     for rows in table {
         let Some(first) = rows.first() else { continue };
         let found = Checked::of(rows, &records(first.family.name));
-        findings += found.differences.len();
-        whole &= found.unchecked.is_none() || first.family.compiler.dialect().is_none();
+        all.agree += found.agree;
+        all.differ += found.differences.len();
+        all.whole &= found.unchecked.is_none() || first.family.compiler.dialect().is_none();
         text += &found.text(first.family.name);
     }
-    (text, findings, whole)
+    (text, all)
+}
+
+/// What came of `--check`, all families together.
+struct Checks {
+    /// Counts that are as recorded, and that are not.
+    agree: usize,
+    differ: usize,
+    /// Whether every family was asked that has a compiler.
+    whole: bool,
+}
+
+impl Checks {
+    const NONE: Checks = Checks {
+        agree: 0,
+        differ: 0,
+        whole: true,
+    };
 }
 
 /// A family's fresh counts against its record.
@@ -190,14 +208,15 @@ fn unasked(rows: &[Row]) -> String {
         .unwrap_or_else(|| "its compiler is not here".to_owned())
 }
 
-fn paged(flags: &CostFlags, table: &[Vec<Row>]) -> Result<Option<String>, Error> {
+fn paged(flags: &CostFlags, table: &[Vec<Row>]) -> Result<Vec<String>, Error> {
     let Some(folder) = &flags.out_dir else {
-        return Ok(None);
+        return Ok(Vec::new());
     };
     let page = sheet::page(table, &canonical(flags)).map_err(|what| Error::Usage { what })?;
     let file = folder.join(PAGE);
-    write_report(&[(file.clone(), page.as_bytes())], flags.overwrite)?;
-    Ok(Some(format!("{}: a page with all figures", file.display())))
+    let old = write_report(&[(file.clone(), page.as_bytes())], flags.overwrite)?;
+    let said = format!("{}: a page with all figures", file.display());
+    Ok(replaced(&old).chain([said]).collect())
 }
 
 fn canonical(flags: &CostFlags) -> String {

@@ -20,7 +20,7 @@ use crate::app::write::{write, write_file};
 use crate::app::{check, depfile, folder};
 use crate::num::Precision;
 
-use super::Output;
+use super::{Output, refuse_within_tree};
 
 /// Generates. `announce` hears what a person should know before the run ends.
 pub fn run(flags: &Generate, announce: Announce) -> Result<Output, Error> {
@@ -178,6 +178,7 @@ fn written(
         .iter()
         .map(|artifact| out_dir.join(&artifact.path).display().to_string())
         .collect();
+    refuse_within_tree(plan, flags.depfile.as_deref())?;
     let rule = rule(flags, &outputs)?;
     let counts = write(plan, flags.overwrite, lock)?;
     write_depfile(flags, rule)?;

@@ -24,11 +24,12 @@ mod verify;
 #[cfg(feature = "gpu")]
 pub(super) use generate::kept;
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
-use super::args::{Cli, Command};
+use super::args::{Cli, Command, NamedFiles};
 use super::error::Error;
 use super::lock::Announce;
+use super::tree::Plan;
 use super::write::{is_same_file, try_file, write_file};
 use crate::materials::escaped;
 
@@ -52,6 +53,7 @@ pub type Progress<'a> = &'a mut dyn FnMut(u64, u64, &str);
 ///
 /// `progress` hears how far long work is; `announce` hears what a person should know before the run ends.
 pub fn run(cli: &Cli, progress: Progress, announce: Announce) -> Result<Output, Error> {
+    refuse_clashes(&cli.named_files())?;
     match &cli.command {
         None => generate::run(&cli.generate, announce),
         Some(Command::Methods(listing)) => listing::methods(listing),
@@ -86,8 +88,23 @@ fn try_places(report: Option<&Path>, other: Option<&Path>) -> Result<(), Error> 
     try_files(&files)
 }
 
-/// The same for files that a run writes together, and two that are one.
-fn try_files(files: &[&Path]) -> Result<(), Error> {
+/// Refuses an output that lies where an input of the run does, and two outputs in one place.
+fn refuse_clashes(named: &NamedFiles) -> Result<(), Error> {
+    for output in &named.outputs {
+        if named.inputs.iter().any(|input| is_same_file(input, output)) {
+            return Err(Error::Usage {
+                what: format!(
+                    "{}: this run reads that file; write to another place",
+                    output.display()
+                ),
+            });
+        }
+    }
+    refuse_one_place(&named.outputs)
+}
+
+/// Refuses two outputs that are one file.
+fn refuse_one_place(files: &[&Path]) -> Result<(), Error> {
     for (i, file) in files.iter().enumerate() {
         if files[..i].iter().any(|other| is_same_file(other, file)) {
             return Err(Error::Usage {
@@ -98,6 +115,44 @@ fn try_files(files: &[&Path]) -> Result<(), Error> {
             });
         }
     }
+    Ok(())
+}
+
+/// Refuses a file that the user names in the place of one of the tree.
+fn refuse_within_tree(plan: &Plan, named: Option<&Path>) -> Result<(), Error> {
+    let Some(named) = named.filter(|named| *named != Path::new("-")) else {
+        return Ok(());
+    };
+    let places: Vec<PathBuf> = plan
+        .all()
+        .map(|file| plan.out_dir.join(&file.path))
+        .collect();
+    let place = places.iter().find(|place| is_same_file(place, named));
+    place.map_or(Ok(()), |place| refuse_one_place(&[place, named]))
+}
+
+/// Refuses a time limit of 0, and one that no clock can add.
+#[cfg(feature = "gpu")]
+fn check_limit(seconds: u64) -> Result<(), Error> {
+    const MOST_SECONDS: u64 = 86_400;
+    if (1..=MOST_SECONDS).contains(&seconds) {
+        return Ok(());
+    }
+    Err(Error::Usage {
+        what: format!("--limit is {seconds} seconds; it is 1 to {MOST_SECONDS}"),
+    })
+}
+
+/// What is said of files of ours that a report replaced.
+fn replaced(files: &[PathBuf]) -> impl Iterator<Item = String> {
+    files
+        .iter()
+        .map(|file| format!("replaced: {}", file.display()))
+}
+
+/// The same for files that a run writes together, and two that are one.
+fn try_files(files: &[&Path]) -> Result<(), Error> {
+    refuse_one_place(files)?;
     let named = files.iter().filter(|file| **file != Path::new("-"));
     named.copied().try_for_each(try_file)
 }

@@ -11,7 +11,7 @@ use crate::app::write::write_report;
 use crate::report::SCHEMA;
 use crate::report::reproduce::{NOT_MEASURED, Part, Report, Row, reproduce, thesis};
 
-use super::{Output, Progress, report};
+use super::{Output, Progress, replaced, report};
 
 /// Reproduces.
 pub fn run(flags: &Reproduce, progress: Progress) -> Result<Output, Error> {
@@ -67,15 +67,16 @@ fn json(reproduced: &Report, part: Option<Part>) -> Value {
 }
 
 /// Draws the figures, and says where.
-fn draw(flags: &Reproduce, reproduced: &Report) -> Result<Option<String>, Error> {
+fn draw(flags: &Reproduce, reproduced: &Report) -> Result<Vec<String>, Error> {
     let pictures: Vec<(PathBuf, String)> = (reproduced.drawings.iter())
         .map(|drawing| (flags.out_dir.join(&drawing.file), drawing.chart.svg()))
         .collect();
     let files: Vec<(PathBuf, &[u8])> = (pictures.iter())
         .map(|(path, text)| (path.clone(), text.as_bytes()))
         .collect();
-    write_report(&files, flags.overwrite)?;
+    let old = write_report(&files, flags.overwrite)?;
     let count = files.len();
     let folder = flags.out_dir.display();
-    Ok((count > 0).then(|| format!("{folder}: {count} figures")))
+    let said = (count > 0).then(|| format!("{folder}: {count} figures"));
+    Ok(replaced(&old).chain(said).collect())
 }

@@ -19,7 +19,7 @@ use crate::report::png::png;
 use crate::report::stability::{Row, heat, page, text};
 use crate::verify::stability::{Code, Finding, maps, scan, scan_specialised};
 
-use super::{Output, Progress, report, try_places};
+use super::{Output, Progress, replaced, report, try_places};
 
 /// Pixels of a map to a unit of its drawing.
 const SCALE: f32 = 1.0;
@@ -191,9 +191,9 @@ impl Asked<'_> {
     }
 
     /// Draws the maps and the page into the folder asked for.
-    fn drawn(&self, rows: &[Row], progress: Progress) -> Result<Option<String>, Error> {
+    fn drawn(&self, rows: &[Row], progress: Progress) -> Result<Vec<String>, Error> {
         let Some(folder) = &self.flags.out_dir else {
-            return Ok(None);
+            return Ok(Vec::new());
         };
         let failed = |what: String| Error::Usage { what };
         let mut pictures = Vec::new();
@@ -213,12 +213,13 @@ impl Asked<'_> {
             .collect();
         let index = index(self.precision);
         files.push((folder.join(&index), page.as_bytes()));
-        write_report(&files, self.flags.overwrite)?;
-        Ok(Some(format!(
+        let old = write_report(&files, self.flags.overwrite)?;
+        let said = format!(
             "{}: {} maps, and {index} that shows them",
             folder.display(),
             pictures.len()
-        )))
+        );
+        Ok(replaced(&old).chain([said]).collect())
     }
 }
 

@@ -19,7 +19,7 @@ use crate::report::table;
 use crate::verify::WITHIN;
 use crate::verify::run::Devices;
 
-use super::{Output, Progress, report, try_places};
+use super::{Output, Progress, check_limit, report, try_places};
 
 /// Cosines that a run may ask for.
 const POINTS: std::ops::RangeInclusive<usize> = 100..=10_000_000;
@@ -30,6 +30,7 @@ const TOLD: usize = 20;
 pub fn run(flags: &VerifyFlags, progress: Progress) -> Result<Output, Error> {
     // Before the work begins, so that a worker ends with its supervisor at any time.
     let inbox = flags.worker.then(Inbox::open);
+    check_limit(flags.limit)?;
     let request = request(flags)?;
     let wanted = wanted(flags)?;
     let effort = effort(flags)?;
@@ -58,7 +59,7 @@ pub fn run(flags: &VerifyFlags, progress: Progress) -> Result<Output, Error> {
         exhaustive::rows(&plan, &Devices::new(wanted), progress)?
     } else {
         let limits = Limits {
-            seconds: flags.limit.max(1),
+            seconds: flags.limit,
             workers: machine::cores(),
         };
         (

@@ -2,24 +2,9 @@
 
 use serde_json::Value;
 
+use crate::app::artifact::Artifact;
 use crate::app::manifest::{self, Entry, Manifest};
-
-/// What is said of a function and can be false.
-const CLAIMS: [&str; 13] = [
-    "method",
-    "form",
-    "signature",
-    "parameters",
-    "operations",
-    "fetches",
-    "code_error",
-    "model_error",
-    "average",
-    "average_unlimited",
-    "entry_point",
-    "uniforms",
-    "licence",
-];
+use crate::app::ours::is_listed;
 
 /// The manifest's entry of a file.
 pub(super) struct Listed<'a> {
@@ -47,10 +32,35 @@ impl<'a> Listed<'a> {
     }
 
     /// What it says and is not so, against what would be listed today.
-    pub fn findings(&self, today: &Value) -> Vec<String> {
+    pub fn findings(&self, artifact: &Artifact) -> Vec<String> {
         // As it would be read again: numbers compare by their digits.
-        let today: Value = serde_json::from_str(&today.to_string()).unwrap_or_default();
+        let today: Value = serde_json::from_str(&artifact.detail.to_string()).unwrap_or_default();
         let mut found = Vec::new();
+        for (claim, said, right) in [
+            ("method", &self.entry.method, &artifact.method),
+            ("material", &self.entry.material, &artifact.material),
+        ] {
+            if said != right {
+                found.push(format!(
+                    "{}:{}: of {} it says `{claim}` is {}, and right is {}",
+                    manifest::FILE,
+                    self.line(&[&format!("\"{claim}\":")]),
+                    self.entry.file,
+                    said.as_deref().unwrap_or("null"),
+                    right.as_deref().unwrap_or("null")
+                ));
+            }
+        }
+        let missing = functions(&today).iter();
+        let missing = missing.filter_map(|function| function["name"].as_str());
+        for name in missing.filter(|name| !self.has(name)) {
+            found.push(format!(
+                "{}:{}: of {} it does not list {name}",
+                manifest::FILE,
+                self.line(&[]),
+                self.entry.file
+            ));
+        }
         for function in self.functions() {
             let name = function["name"].as_str().unwrap_or_default();
             match functions(&today).iter().find(|other| other["name"] == name) {
@@ -80,19 +90,28 @@ impl<'a> Listed<'a> {
     }
 
     fn claims(&self, name: &str, function: &Value, right: &Value) -> Vec<String> {
-        let is_false = |claim: &&&str| {
-            function
-                .get(**claim)
-                .is_some_and(|said| *said != right[**claim])
-        };
-        let words = |claim: &&str| {
+        let claims = function.as_object().into_iter().flatten();
+        let is_false = |(claim, said): &(&String, &Value)| right.get(claim.as_str()) != Some(said);
+        let words = |(claim, said): (&String, &Value)| {
             let what = format!(
-                "says `{claim}` is {}, and right is {}",
-                function[*claim], right[*claim]
+                "says `{claim}` is {said}, and right is {}",
+                right[claim.as_str()]
             );
             self.finding(name, claim, &what)
         };
-        CLAIMS.iter().filter(is_false).map(words).collect()
+        claims.filter(is_false).map(words).collect()
+    }
+
+    /// What is false of the hash of a file that is what would be written today.
+    pub fn hash_finding(&self, bytes: &[u8]) -> Option<String> {
+        (!is_listed(self.entry, bytes)).then(|| {
+            format!(
+                "{}:{}: of {} it says a `sha256` that is not the file's",
+                manifest::FILE,
+                self.line(&["\"sha256\":"]),
+                self.entry.file
+            )
+        })
     }
 
     fn finding(&self, name: &str, claim: &str, what: &str) -> String {

@@ -69,7 +69,7 @@ impl Folder<'_> {
             remark: None,
             findings: listed
                 .iter()
-                .flat_map(|listed| listed.findings(&made.artifact.detail))
+                .flat_map(|listed| listed.findings(&made.artifact))
                 .collect(),
             path,
         };
@@ -127,6 +127,8 @@ impl<'a> Today<'a> {
     fn compare(&self, page: &mut Page, bytes: Vec<u8>, listed: Option<&Listed>) {
         page.is_current = self.is_current(&bytes);
         if page.is_current {
+            let hash = listed.and_then(|listed| listed.hash_finding(&bytes));
+            page.findings.extend(hash);
             page.bytes = bytes;
             return;
         }

@@ -20,6 +20,9 @@ const LIMIT: Duration = Duration::from_secs(20);
 /// Bytes that must find room beside what a compiler writes: more than most of what it makes.
 const PROBE: usize = 1 << 18;
 
+/// What the system's own programs end with where they cannot run another: not executable, not found.
+const NOT_RUN: [i32; 2] = [126, 127];
+
 /// A file for a compiler to read.
 pub struct File {
     /// Its name, without a folder.
@@ -44,6 +47,9 @@ pub enum Silent {
     /// It cannot be started.
     #[error("it cannot be started: {0}")]
     Start(io::Error),
+    /// A shell, a loader or `env` could not run it: an interpreter or a library is missing.
+    #[error("it could not be run (exit status {0}): {1}")]
+    NotRun(i32, String),
     /// Its files cannot be written.
     #[error(
         "its temporary files cannot be written: {0}; make room in the temporary folder, or set {TEMPORARY} to another"
@@ -116,6 +122,12 @@ fn call_within(
     let status = wait(&mut child, limit)?;
     let mut said = String::from_utf8_lossy(&fs::read(said)?).into_owned();
     let ok = status.is_some_and(|status| status.success());
+    if let Some(code) = status
+        .and_then(|status| status.code())
+        .filter(|code| NOT_RUN.contains(code))
+    {
+        return Err(Silent::NotRun(code, said.trim().to_owned()));
+    }
     if !ok {
         // A compiler that cannot write what it makes fails in words of its own, and is not to blame.
         fs::write(folder.path().join("probe"), [0; PROBE])?;

@@ -10,7 +10,7 @@ use fresnel_gen::app::artifact::sha256;
 use fresnel_gen::app::lock::{self, Lock};
 use fresnel_gen::methods;
 
-use super::{OUT, Place, contents};
+use super::{MY_METAL, OUT, Place, contents};
 
 /// Files that look like ours and are the user's: a shader with a pasted function, a copy, what `-o` wrote.
 #[test]
@@ -298,4 +298,50 @@ fn a_refused_run_leaves_nothing() {
     assert!(!place.path(OUT).exists());
     place.done("--target gles --method schlick");
     assert!(!place.path(OUT).join(lock::FILE).exists());
+}
+
+/// A run never writes over what it reads, nor one of its outputs over another.
+#[test]
+fn an_output_is_no_input_and_no_other_output() {
+    let place = Place::new();
+    place.put("my.toml", MY_METAL);
+    place.put("t.csv", "nm,n,k\n380,1.4,1.7\n780,0.2,3.9\n");
+    place.put("light.txt", "380 1\n780 1\n");
+    place.done("--method schlick --target gles --material none");
+    let shader = format!("{OUT}/gles/fresnel_schlick.glsl");
+    let manifest = format!("{OUT}/manifest.json");
+    for line in [
+        "--material my.toml --method schlick -o my.toml",
+        "--material my.toml --method schlick --target gles --depfile my.toml",
+        "--material gold --method schlick --illuminant light.txt -o light.txt",
+        "materials params my.toml --json my.toml",
+        "materials show my.toml --svg my.toml",
+        "materials import t.csv --name tt -o t.csv",
+        "bake --material my.toml --json my.toml",
+        "fit --material my.toml --json my.toml",
+        "chart --material my.toml --json my.toml",
+        "stability --material my.toml --json my.toml",
+    ] {
+        place.refused(line, &["this run reads that file"]);
+    }
+    for line in [
+        "--method schlick --target wgsl -o s.wgsl --depfile s.wgsl".to_owned(),
+        format!("--method schlick --target gles --material none --depfile {shader}"),
+        format!("--method schlick --target gles --material none --depfile {manifest}"),
+        format!("bake --material gold --json {manifest}"),
+        format!("bake --material gold --json {OUT}/lut/gold.json"),
+    ] {
+        place.refused(&line, &["two outputs of this run"]);
+    }
+}
+
+#[test]
+fn a_report_says_which_files_it_replaced() {
+    let place = Place::new();
+    let line = "chart --material gold,platinum --out-dir .";
+    place.done(line);
+    assert!(!place.done(line).err.contains("replaced"));
+    place.put("chart.html", place.read("chart.html") + "<!-- mine -->\n");
+    let ran = place.done(line);
+    assert!(ran.err.contains("replaced: ./chart.html"), "{ran:?}");
 }
