@@ -262,20 +262,16 @@ fn standing(
         };
         let leads_to = fs::read_link(out_dir.join(&file.path)).ok();
         let entry = listed.get(file.path.as_str());
-        if leads_to.is_some() {
-            obstacles.push(Obstacle {
-                path: file.path.clone(),
-                leads_to,
-            });
-        } else if file.path == manifest::FILE || entry.is_some_and(|entry| is_listed(entry, old)) {
-            // As this program left it.
-        } else if bears_mark(old) {
-            edited.push(file.path.clone());
+        let as_we_left_it =
+            || file.path == manifest::FILE || entry.is_some_and(|entry| is_listed(entry, old));
+        if leads_to.is_none() && as_we_left_it() {
+            continue;
+        }
+        let path = file.path.clone();
+        if leads_to.is_none() && bears_mark(old) {
+            edited.push(path);
         } else {
-            obstacles.push(Obstacle {
-                path: file.path.clone(),
-                leads_to,
-            });
+            obstacles.push(Obstacle { path, leads_to });
         }
     }
     (obstacles, edited)

@@ -19,6 +19,9 @@ use super::manifest::{self, Entry};
 use super::ours::{bears_mark, is_listed};
 use super::tree::{Obstacle, Plan, Planned, State};
 
+/// What is said of a file that nothing proves to be ours.
+const OF_OTHERS: &str = "a file that fresnel-gen did not write lies there";
+
 /// What a write did, in files, the manifest included.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Written {
@@ -94,7 +97,7 @@ pub fn try_places_of_ours(files: &[PathBuf], overwrite: bool) -> Result<(), Erro
         if folder::read(path)?.is_some_and(|bytes| !bears_mark(&bytes)) {
             return Err(Error::NotOurs {
                 path: path.clone(),
-                what: "a file that fresnel-gen did not write lies there".to_owned(),
+                what: OF_OTHERS.to_owned(),
             });
         }
     }
@@ -121,7 +124,7 @@ pub fn write_report(files: &[(PathBuf, &[u8])], overwrite: bool) -> Result<Vec<P
 fn not_ours(out_dir: &Path, obstacle: &Obstacle, others: usize) -> Error {
     let mut what = match &obstacle.leads_to {
         Some(leads_to) => format!("a link to {} lies there", leads_to.display()),
-        None => "a file that fresnel-gen did not write lies there".to_owned(),
+        None => OF_OTHERS.to_owned(),
     };
     if others > 0 {
         what += &format!(", and {others} more in other places");
@@ -320,12 +323,7 @@ fn remove(out_dir: &Path, orphan: &Entry) -> Result<bool, Error> {
         path: path.clone(),
         source,
     })?;
-    let above = path.ancestors().skip(1);
-    for folder in above.take_while(|folder| *folder != out_dir) {
-        if fs::remove_dir(folder).is_err() {
-            break;
-        }
-    }
+    remove_empty_folders(out_dir, &path);
     Ok(true)
 }
 
@@ -335,6 +333,11 @@ fn remove_leftover(out_dir: &Path, name: &str) {
     if folder::is_plain_file(&path) && folder::linked_folder(out_dir, name).is_none() {
         let _ = fs::remove_file(&path);
     }
+    remove_empty_folders(out_dir, &path);
+}
+
+/// Removes the folders above a path, up to the output folder, as far as they are empty.
+fn remove_empty_folders(out_dir: &Path, path: &Path) {
     let above = path.ancestors().skip(1);
     for folder in above.take_while(|folder| *folder != out_dir) {
         if fs::remove_dir(folder).is_err() {

@@ -1,7 +1,5 @@
 //! `bake`: lookup tables as files, and how wrong each is.
 
-use std::path::Path;
-
 use serde_json::Value;
 
 use crate::app::args::BakeFlags;
@@ -24,7 +22,7 @@ use crate::report::table;
 use crate::targets::{self, Finish, Target};
 
 use super::generate::named;
-use super::{Output, Progress, refuse_within_tree, report, try_places};
+use super::{Output, Progress, folder_or_current, refuse_within_tree, report, try_places};
 
 /// The files that a search chooses from where none are asked for: one of each depth.
 const SEARCHED_FORMATS: [Format; 4] = [
@@ -98,10 +96,7 @@ fn finished(
     left_out: &[String],
     announce: Announce,
 ) -> Result<Output, Error> {
-    let out_dir = match flags.out_dir.as_os_str().is_empty() {
-        true => Path::new("."),
-        false => &flags.out_dir,
-    };
+    let out_dir = folder_or_current(&flags.out_dir);
     let mut lock = Lock::take(out_dir, announce);
     let plan = plan(
         out_dir,

@@ -20,7 +20,7 @@ use crate::app::write::{write, write_file};
 use crate::app::{check, depfile, folder};
 use crate::num::Precision;
 
-use super::{Output, refuse_within_tree};
+use super::{Output, folder_or_current, refuse_within_tree};
 
 /// Generates. `announce` hears what a person should know before the run ends.
 pub fn run(flags: &Generate, announce: Announce) -> Result<Output, Error> {
@@ -41,11 +41,7 @@ pub fn run(flags: &Generate, announce: Announce) -> Result<Output, Error> {
 
 /// The tree of files: listed, compared or written.
 fn tree(flags: &Generate, request: &Request, announce: Announce) -> Result<Output, Error> {
-    let out_dir = if flags.out_dir.as_os_str().is_empty() {
-        Path::new(".")
-    } else {
-        &flags.out_dir
-    };
+    let out_dir = folder_or_current(&flags.out_dir);
     let changes_nothing = flags.check || flags.list;
     let mut lock = (!changes_nothing).then(|| Lock::take(out_dir, announce));
     // Only a run that names methods adds to what a material's file holds.

@@ -88,6 +88,14 @@ fn try_places(report: Option<&Path>, other: Option<&Path>) -> Result<(), Error> 
     try_files(&files)
 }
 
+/// An output folder as it is named; the current folder where its name is empty.
+fn folder_or_current(out_dir: &Path) -> &Path {
+    match out_dir.as_os_str().is_empty() {
+        true => Path::new("."),
+        false => out_dir,
+    }
+}
+
 /// Refuses an output that lies where an input of the run does, and two outputs in one place.
 fn refuse_clashes(named: &NamedFiles) -> Result<(), Error> {
     for output in &named.outputs {
@@ -150,7 +158,7 @@ fn replaced(files: &[PathBuf]) -> impl Iterator<Item = String> {
         .map(|file| format!("replaced: {}", file.display()))
 }
 
-/// The same for files that a run writes together, and two that are one.
+/// Refuses files that cannot be written, and two that are one, before the work.
 fn try_files(files: &[&Path]) -> Result<(), Error> {
     refuse_one_place(files)?;
     let named = files.iter().filter(|file| **file != Path::new("-"));
