@@ -46,7 +46,14 @@ fn main() -> ExitCode {
 fn refused(error: &clap::Error) -> ExitCode {
     let text = error.render().to_string();
     if legible(&text) == text {
-        let _ = error.print();
+        let printed = error.print().and_then(|()| io::stdout().flush());
+        let failed = printed
+            .err()
+            .filter(|why| why.kind() != io::ErrorKind::BrokenPipe);
+        if let Some(why) = failed {
+            say(&format!("error: cannot write to stdout: {why}"));
+            return ExitCode::from(2);
+        }
     } else {
         say(text.trim_end());
     }

@@ -8,25 +8,24 @@
 //   then conductor_exact(cos_theta, n, k)
 // Source: Gulbrandsen, "Artist Friendly Metallic Fresnel", Journal of Computer Graphics Techniques 3(4), 64-72,
 //     2014. https://jcgt.org/published/0003/04/03/
-// Domain: f0 counts as at most 0.999; an f82 that no n and k can give takes the nearest that one can. It needs a
-//     square root that gives 0 for 0: one computed as x / sqrt(x) gives NaN where k is 0, for half of all pairs
+// Domain: f0 counts as at most 0.999; an f82 that no n and k can give takes the nearest that one can
 // Arguments:
 //   cos_theta: cosine between the normal and the direction to the light or viewer
 //   f0: reflectance at normal incidence, linear, 0 to 1
 //   f82: reflectance at cos_theta = 1/7 (81.79 degrees), linear, 0 to 1
 // Model error for eta 1.3 to 2.5: at most 0.0000347, worst at 82.2 degrees
 // Model error for n 0.05 to 4.5, k 1.5 to 8: at most 0.000384, worst at 72.5 degrees
-// Code error for n 0.05 to 4.5, k 1.5 to 8: at most 9 ulp or 2^-22, unfused f32 against f64
-// Code error for any colours, f0 0.05 to 1, f82 0 to 0.99: at most 5e-4 absolute, unfused or fused; of other
-//     pairs, which no material has, f32 may be off by 0.3
-// fresnel_conductor_from_f0_f82: 389 scalar operations, among them 18 roots, 33 divisions
+// Code error for n 0.05 to 4.5, k 1.5 to 8: at most 5.5 ulp or 2^-22, unfused f32 against f64
+// Code error for colours with f0 0.05 to 1, f82 0 to 0.99: at most 5e-4 absolute, unfused or fused; of other pairs
+//     f32 may be off by 0.3
+// fresnel_conductor_from_f0_f82: 398 scalar operations, among them 21 roots, 30 divisions
 // Licence of this file: CC0-1.0
 
 #ifndef FRESNEL_CONDUCTOR_FROM_F0_F82_GLES
 #define FRESNEL_CONDUCTOR_FROM_F0_F82_GLES
 
 highp vec3 fresnel_conductor_from_f0_f82(highp float cos_theta, highp vec3 f0, highp vec3 f82) {
-    highp vec3 f0_less = min(max(f0, 0.0), 0.999); // n_max is infinite at 1
+    highp vec3 f0_less = min(max(f0, 1.0e-37), 0.999); // n_max is infinite at 1
     highp vec3 root = sqrt(f0_less);
     highp vec3 reciprocal = 1.0 / (1.0 - f0_less);
     highp vec3 one_more = 1.0 + root;
@@ -44,8 +43,8 @@ highp vec3 fresnel_conductor_from_f0_f82(highp float cos_theta, highp vec3 f0, h
     highp vec3 n_guess = n_min + n_guess_less;
     highp vec3 q = (4.0 * reciprocal - 2.0) * n_guess - 0.020408163; // n^2 + k^2 + sin^2
     highp vec3 h = 1.9794866 * n_guess;
-    highp vec3 r_guess = sqrt(max((q - h) * (q + h), 0.0)); // a^2 + b^2 there
-    highp vec3 a_guess = n_guess * sqrt(max(1.0 - 1.9591837 / (r_guess + q), 0.0));
+    highp vec3 r_guess = sqrt(max((q - h) * (q + h), 1.0e-37)); // a^2 + b^2 there
+    highp vec3 a_guess = n_guess * sqrt(max(1.0 - 1.9591837 / (r_guess + q), 1.0e-37));
     highp vec3 x_guess = r_guess * 3.5 + 0.071428575;
     highp vec3 y_guess = r_guess * 0.072916664 + 3.4285715;
     // what it lacks with this n
@@ -55,17 +54,19 @@ highp vec3 fresnel_conductor_from_f0_f82(highp float cos_theta, highp vec3 f0, h
     highp vec3 u_aim = aim * u_scale;
     highp vec3 curve_aim = max(t_a + u_aim * (t_b + u_aim * t_c), 1.0e-5);
     highp vec3 above = min(u_aim * (aim * root) / curve_aim, span);
+    highp vec3 k2 = above * (span - above); // on the circle of one F0
+    highp vec3 k = k2 * inversesqrt(max(k2, 1.0e-37)); // 0 where k2 is 0, by any arithmetic
     highp vec3 n = n_min + above;
-    highp float c = clamp(cos_theta, 0.0, 1.0); // 1 + 1 ulp must not reach what follows
-    highp vec3 k = sqrt(max(above * (span - above), 0.0)); // on the circle of one F0
+    highp float c = clamp(cos_theta, 0.0, 1.0); // clamp: a rounded dot product may exceed 1
     highp float c2 = c * c;
     highp float s2 = 1.0 - c2; // sin^2 theta
     highp vec3 tau = (n - 1.0) * (n + 1.0) - k * k; // n^2 - k^2 - 1
     highp vec3 nk = n * k;
     highp vec3 t = tau + c2; // n^2 - k^2 - sin^2 theta
-    highp vec3 r = sqrt(t * t + 4.0 * (nk * nk)); // a^2 + b^2
-    highp vec3 larger = sqrt(0.5 * (r + abs(t))); // the larger of a and b
-    highp vec3 smaller = nk / max(larger, 1.0e-10); // the other one, since a b = n k
+    highp vec3 r = sqrt(max(t * t + 4.0 * (nk * nk), 1.0e-37)); // a^2 + b^2
+    highp vec3 larger2 = 0.5 * (r + abs(t)); // used twice
+    highp vec3 larger = sqrt(larger2); // the larger of a and b
+    highp vec3 smaller = nk * inversesqrt(larger2); // the other one, since a b = n k
     // no cancellation on either side of t = 0
     highp vec3 a = vec3(
         t.r < 0.0 ? smaller.r : larger.r,
@@ -86,7 +87,7 @@ highp vec3 fresnel_conductor_from_f0_f82(highp float cos_theta, highp vec3 f0, h
         t.b < 0.0 ? r_s_metal.b : r_s_glass.b
     );
     highp vec3 x = r * c2 + s2 * s2;
-    return r_s * (x / max(x + u * s2, 1.0e-37));
+    return clamp(r_s * (x / max(x + u * s2, 1.0e-37)), 0.0, 1.0);
 }
 
 #endif

@@ -7,8 +7,9 @@
 //   F = min((c^2 g^2 + s2^2) k^2, 1), k = t / (c (eta^2 (g + c) + g) + g^2)
 // Source: Cook, Torrance, "A Reflectance Model for Computer Graphics", ACM Transactions on Graphics 1(1), 7-24,
 //     1982. https://doi.org/10.1145/357290.357293
-// Domain: on both sides of 1; eta = 1 gives 0 at every angle. Past the critical angle exactly 1, but for 33
-//     numbers next to its cosine, where rounding decides: 0.99 or more for eta from 0.25 on
+// Domain: on both sides of 1; eta = 1 gives 0 at every angle. Past the critical angle exactly 1, but for up to 34
+//     values of f32 next to its cosine, where rounding decides: 0.99 or more for eta from 0.25 on. Before it the
+//     law is steep: f32 may be off by 0.01 for eta from 0.25 to 0.999
 // Arguments:
 //   cos_theta: cosine between the normal and the direction to the light or viewer
 //   eta: relative index of refraction, transmitted over incident (n_t / n_i), 0.001 to 1e12
@@ -22,7 +23,7 @@
 #define FRESNEL_DIELECTRIC_EXACT_GLES
 
 highp vec3 fresnel_dielectric_exact(highp float cos_theta, highp vec3 eta) {
-    highp float c = clamp(cos_theta, 0.0, 1.0); // 1 + 1 ulp must not reach what follows
+    highp float c = clamp(cos_theta, 0.0, 1.0); // clamp: a rounded dot product may exceed 1
     highp float c2 = c * c;
     highp float s2 = 1.0 - c2; // sin^2 theta
     highp float s4 = s2 * s2;
@@ -35,7 +36,7 @@ highp vec3 fresnel_dielectric_exact(highp float cos_theta, highp vec3 eta) {
 }
 
 highp float fresnel_dielectric_exact_scalar(highp float cos_theta, highp float eta) {
-    highp float c = clamp(cos_theta, 0.0, 1.0); // 1 + 1 ulp must not reach what follows
+    highp float c = clamp(cos_theta, 0.0, 1.0); // clamp: a rounded dot product may exceed 1
     highp float c2 = c * c;
     highp float s2 = 1.0 - c2; // sin^2 theta
     highp float s4 = s2 * s2;

@@ -14,32 +14,32 @@
 //   eta: relative index of refraction, transmitted over incident (n_t / n_i), 0.001 to 1e12
 // Model error for eta 1.3 to 2.5: none, it is the exact law
 // Code error for eta 1.0001 to 12: at most 13.5 ulp or 2^-22, unfused f32 against f64
-// fresnel_dielectric_exact_p: 72 scalar operations, among them 3 roots, 9 divisions
-// fresnel_dielectric_exact_p_scalar: 26 scalar operations, among them 1 root, 3 divisions
+// fresnel_dielectric_exact_p: 69 scalar operations, among them 3 roots, 9 divisions
+// fresnel_dielectric_exact_p_scalar: 25 scalar operations, among them 1 root, 3 divisions
 // Licence of this file: CC0-1.0
 
 #ifndef FRESNEL_DIELECTRIC_EXACT_P_GLES
 #define FRESNEL_DIELECTRIC_EXACT_P_GLES
 
 highp vec3 fresnel_dielectric_exact_p(highp float cos_theta, highp vec3 eta) {
-    highp float c = clamp(cos_theta, 0.0, 1.0); // 1 + 1 ulp must not reach what follows
+    highp float c = clamp(cos_theta, 0.0, 1.0); // clamp: a rounded dot product may exceed 1
     highp vec3 tau = (eta - 1.0) * (eta + 1.0); // eta^2 - 1 without its cancellation near 1
     highp vec3 g2 = tau + c * c; // below 0 past the critical angle
-    highp vec3 u = sqrt(max(g2, 0.0)) + c;
+    highp vec3 u = sqrt(max(g2, 1.0e-37)) + c;
     highp vec3 r_s = tau / max(tau + 2.0 * c * u, 1.0e-37); // (g - c) / (g + c), as tau / u^2
-    highp vec3 r_ps = (c * u - 1.0) / (c * tau / max(u, 1.0e-30) + 1.0); // r_p / r_s
+    highp vec3 r_ps = (c * u - 1.0) / (c * tau / u + 1.0); // r_p / r_s
     highp vec3 r_p = r_s * r_ps;
     highp vec3 f = min(r_p * r_p, 1.0); // rounding near the critical angle must not exceed 1
     return vec3(g2.r < 0.0 ? 1.0 : f.r, g2.g < 0.0 ? 1.0 : f.g, g2.b < 0.0 ? 1.0 : f.b);
 }
 
 highp float fresnel_dielectric_exact_p_scalar(highp float cos_theta, highp float eta) {
-    highp float c = clamp(cos_theta, 0.0, 1.0); // 1 + 1 ulp must not reach what follows
+    highp float c = clamp(cos_theta, 0.0, 1.0); // clamp: a rounded dot product may exceed 1
     highp float tau = (eta - 1.0) * (eta + 1.0); // eta^2 - 1 without its cancellation near 1
     highp float g2 = tau + c * c; // below 0 past the critical angle
-    highp float u = sqrt(max(g2, 0.0)) + c;
+    highp float u = sqrt(max(g2, 1.0e-37)) + c;
     highp float r_s = tau / max(tau + 2.0 * c * u, 1.0e-37); // (g - c) / (g + c), as tau / u^2
-    highp float r_ps = (c * u - 1.0) / (c * tau / max(u, 1.0e-30) + 1.0); // r_p / r_s
+    highp float r_ps = (c * u - 1.0) / (c * tau / u + 1.0); // r_p / r_s
     highp float r_p = r_s * r_ps;
     highp float f = min(r_p * r_p, 1.0); // rounding near the critical angle must not exceed 1
     return g2 < 0.0 ? 1.0 : f;

@@ -21,20 +21,20 @@
 #define FRESNEL_DIELECTRIC_EXACT_S_GLES
 
 highp vec3 fresnel_dielectric_exact_s(highp float cos_theta, highp vec3 eta) {
-    highp float c = clamp(cos_theta, 0.0, 1.0); // 1 + 1 ulp must not reach what follows
+    highp float c = clamp(cos_theta, 0.0, 1.0); // clamp: a rounded dot product may exceed 1
     highp vec3 tau = (eta - 1.0) * (eta + 1.0); // eta^2 - 1 without its cancellation near 1
     highp vec3 g2 = tau + c * c; // below 0 past the critical angle
-    highp vec3 u = sqrt(max(g2, 0.0)) + c;
+    highp vec3 u = sqrt(max(g2, 1.0e-37)) + c;
     highp vec3 r_s = tau / max(tau + 2.0 * c * u, 1.0e-37); // (g - c) / (g + c), as tau / u^2
     highp vec3 f = min(r_s * r_s, 1.0); // rounding near the critical angle must not exceed 1
     return vec3(g2.r < 0.0 ? 1.0 : f.r, g2.g < 0.0 ? 1.0 : f.g, g2.b < 0.0 ? 1.0 : f.b);
 }
 
 highp float fresnel_dielectric_exact_s_scalar(highp float cos_theta, highp float eta) {
-    highp float c = clamp(cos_theta, 0.0, 1.0); // 1 + 1 ulp must not reach what follows
+    highp float c = clamp(cos_theta, 0.0, 1.0); // clamp: a rounded dot product may exceed 1
     highp float tau = (eta - 1.0) * (eta + 1.0); // eta^2 - 1 without its cancellation near 1
     highp float g2 = tau + c * c; // below 0 past the critical angle
-    highp float u = sqrt(max(g2, 0.0)) + c;
+    highp float u = sqrt(max(g2, 1.0e-37)) + c;
     highp float r_s = tau / max(tau + 2.0 * c * u, 1.0e-37); // (g - c) / (g + c), as tau / u^2
     highp float f = min(r_s * r_s, 1.0); // rounding near the critical angle must not exceed 1
     return g2 < 0.0 ? 1.0 : f;

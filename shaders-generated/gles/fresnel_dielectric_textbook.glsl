@@ -3,8 +3,9 @@
 // Regenerate: fresnel-gen --target gles --method dielectric_textbook
 //
 // fresnel_dielectric_textbook: the exact law for dielectrics as textbooks print it, for comparison
-//   root = sqrt(1 - (sin_theta / n)^2)
-//   R_s = ((cos_theta - n root) / (cos_theta + n root))^2, R_p = ((root - n cos_theta) / (root + n cos_theta))^2
+//   root = sqrt(1 - (sin_theta / eta)^2)
+//   R_s = ((cos_theta - eta root) / (cos_theta + eta root))^2, R_p = ((root - eta cos_theta) / (root + eta
+//       cos_theta))^2
 //   F = (R_s + R_p) / 2
 // Source: Pharr, Humphreys, "Physically Based Rendering: From Theory to Implementation, 2nd edition", Morgan
 //     Kaufmann, section 8.2, 2010. https://www.pbr-book.org

@@ -6,7 +6,7 @@
 //   F = max(0, min(1, bias + scale (1 - cos_theta)^power))
 // Source: Fernando, Kilgard, "The Cg Tutorial, chapter 7", Addison-Wesley, 2003.
 //     https://developer.download.nvidia.com/CgTutorial/cg_tutorial_chapter07.html
-// Domain: the three channels are alike
+// Domain: the arguments are numbers: the three channels get the same reflectance
 // Arguments:
 //   cos_theta: cosine between the normal and the direction to the light or viewer
 //   bias: reflectance at normal incidence, 0 to 1
@@ -24,7 +24,7 @@
 #define FRESNEL_EMPIRICAL_GLES
 
 highp vec3 fresnel_empirical(highp float cos_theta, highp float bias, highp float scale, highp float power) {
-    highp float c = clamp(cos_theta, 0.0, 1.0); // 1 + 1 ulp must not reach what follows
+    highp float c = clamp(cos_theta, 0.0, 1.0); // clamp: a rounded dot product may exceed 1
     highp float m = 1.0 - c; // 1 + I.N, as I.N = -cos_theta
     return vec3(clamp(bias + scale * exp2(power * log2(max(m, 1.1754944e-38))), 0.0, 1.0));
 }
@@ -35,7 +35,7 @@ highp float fresnel_empirical_scalar(
     highp float scale,
     highp float power
 ) {
-    highp float c = clamp(cos_theta, 0.0, 1.0); // 1 + 1 ulp must not reach what follows
+    highp float c = clamp(cos_theta, 0.0, 1.0); // clamp: a rounded dot product may exceed 1
     highp float m = 1.0 - c; // 1 + I.N, as I.N = -cos_theta
     return clamp(bias + scale * exp2(power * log2(max(m, 1.1754944e-38))), 0.0, 1.0);
 }

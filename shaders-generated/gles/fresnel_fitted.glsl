@@ -29,7 +29,7 @@
 #define FRESNEL_FITTED_GLES
 
 highp vec3 fresnel_fitted(highp float cos_theta, highp vec3 c0, highp vec3 c1, highp vec3 c2, highp vec3 c3) {
-    highp float c = clamp(cos_theta, 0.0, 1.0); // 1 + 1 ulp must not reach what follows
+    highp float c = clamp(cos_theta, 0.0, 1.0); // clamp: a rounded dot product may exceed 1
     highp float b = exp2(-6.5 * c); // small at normal incidence, 1 at grazing
     highp vec3 sum2 = c2 + b * c3;
     highp vec3 sum1 = c1 + b * sum2;
@@ -44,7 +44,7 @@ highp float fresnel_fitted_scalar(
     highp float c2,
     highp float c3
 ) {
-    highp float c = clamp(cos_theta, 0.0, 1.0); // 1 + 1 ulp must not reach what follows
+    highp float c = clamp(cos_theta, 0.0, 1.0); // clamp: a rounded dot product may exceed 1
     highp float b = exp2(-6.5 * c); // small at normal incidence, 1 at grazing
     highp float sum2 = c2 + b * c3;
     highp float sum1 = c1 + b * sum2;

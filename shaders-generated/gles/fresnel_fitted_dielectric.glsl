@@ -34,7 +34,7 @@ highp vec3 fresnel_fitted_dielectric(
     highp vec3 c2,
     highp vec3 c3
 ) {
-    highp float c = clamp(cos_theta, 0.0, 1.0); // 1 + 1 ulp must not reach what follows
+    highp float c = clamp(cos_theta, 0.0, 1.0); // clamp: a rounded dot product may exceed 1
     highp float b = 1.0 - c; // 0 at normal incidence, 1 at grazing
     highp float b2 = b * b;
     highp float b3 = b * b2;
@@ -53,7 +53,7 @@ highp float fresnel_fitted_dielectric_scalar(
     highp float c2,
     highp float c3
 ) {
-    highp float c = clamp(cos_theta, 0.0, 1.0); // 1 + 1 ulp must not reach what follows
+    highp float c = clamp(cos_theta, 0.0, 1.0); // clamp: a rounded dot product may exceed 1
     highp float b = 1.0 - c; // 0 at normal incidence, 1 at grazing
     highp float b2 = b * b;
     highp float b3 = b * b2;

@@ -38,7 +38,7 @@ highp vec3 fresnel_fitted_five(
     highp vec3 c3,
     highp vec3 c4
 ) {
-    highp float c = clamp(cos_theta, 0.0, 1.0); // 1 + 1 ulp must not reach what follows
+    highp float c = clamp(cos_theta, 0.0, 1.0); // clamp: a rounded dot product may exceed 1
     highp vec3 sum3 = c3 + c * c4;
     highp float b = exp2(-11.0 * c); // small at normal incidence, 1 at grazing
     highp vec3 sum2 = c2 + b * sum3;
@@ -56,7 +56,7 @@ highp float fresnel_fitted_five_scalar(
     highp float c3,
     highp float c4
 ) {
-    highp float c = clamp(cos_theta, 0.0, 1.0); // 1 + 1 ulp must not reach what follows
+    highp float c = clamp(cos_theta, 0.0, 1.0); // clamp: a rounded dot product may exceed 1
     highp float sum3 = c3 + c * c4;
     highp float b = exp2(-11.0 * c); // small at normal incidence, 1 at grazing
     highp float sum2 = c2 + b * sum3;

@@ -36,7 +36,7 @@ highp vec3 fresnel_fitted_rational(
     highp vec3 c2,
     highp vec3 c3
 ) {
-    highp float c = clamp(cos_theta, 0.0, 1.0); // 1 + 1 ulp must not reach what follows
+    highp float c = clamp(cos_theta, 0.0, 1.0); // clamp: a rounded dot product may exceed 1
     highp float l = c + 0.144;
     highp float q = inversesqrt(l);
     highp vec3 sum2 = c2 + q * c3;
@@ -54,7 +54,7 @@ highp float fresnel_fitted_rational_scalar(
     highp float c2,
     highp float c3
 ) {
-    highp float c = clamp(cos_theta, 0.0, 1.0); // 1 + 1 ulp must not reach what follows
+    highp float c = clamp(cos_theta, 0.0, 1.0); // clamp: a rounded dot product may exceed 1
     highp float l = c + 0.144;
     highp float q = inversesqrt(l);
     highp float sum2 = c2 + q * c3;

@@ -15,7 +15,7 @@
 // Model error for n 0.05 to 4.5, k 1.5 to 8: at most 0.278, worst at 84.5 degrees
 // Code error for n 1.0001 to 12 with k 0 to 13, and n 0.05 to 4.5 with k 1.5 to 8: at most 6 ulp or 2^-22, unfused
 //     f32 against f64
-// Code error for any colours, f0 0 to 1: at most 3e-7 absolute, unfused or fused
+// Code error for colours with f0 0 to 1: at most 3e-7 absolute, unfused or fused
 // fresnel_schlick: 14 scalar operations
 // fresnel_schlick_scalar: 8 scalar operations
 // Licence of this file: CC0-1.0
@@ -24,7 +24,7 @@
 #define FRESNEL_SCHLICK_GLES
 
 highp vec3 fresnel_schlick(highp float cos_theta, highp vec3 f0) {
-    highp float c = clamp(cos_theta, 0.0, 1.0); // 1 + 1 ulp must not reach what follows
+    highp float c = clamp(cos_theta, 0.0, 1.0); // clamp: a rounded dot product may exceed 1
     highp float m = 1.0 - c; // 0 at normal incidence, 1 at grazing
     highp float m2 = m * m;
     highp float m5 = m2 * m2 * m;
@@ -32,7 +32,7 @@ highp vec3 fresnel_schlick(highp float cos_theta, highp vec3 f0) {
 }
 
 highp float fresnel_schlick_scalar(highp float cos_theta, highp float f0) {
-    highp float c = clamp(cos_theta, 0.0, 1.0); // 1 + 1 ulp must not reach what follows
+    highp float c = clamp(cos_theta, 0.0, 1.0); // clamp: a rounded dot product may exceed 1
     highp float m = 1.0 - c; // 0 at normal incidence, 1 at grazing
     highp float m2 = m * m;
     highp float m5 = m2 * m2 * m;

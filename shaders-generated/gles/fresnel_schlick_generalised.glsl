@@ -29,7 +29,7 @@ highp vec3 fresnel_schlick_generalised(
     highp float f90,
     highp float exponent
 ) {
-    highp float c = clamp(cos_theta, 0.0, 1.0); // 1 + 1 ulp must not reach what follows
+    highp float c = clamp(cos_theta, 0.0, 1.0); // clamp: a rounded dot product may exceed 1
     highp float m = 1.0 - c; // 0 at normal incidence, 1 at grazing
     return f0 + (f90 - f0) * exp2(exponent * log2(max(m, 1.1754944e-38)));
 }
@@ -40,7 +40,7 @@ highp float fresnel_schlick_generalised_scalar(
     highp float f90,
     highp float exponent
 ) {
-    highp float c = clamp(cos_theta, 0.0, 1.0); // 1 + 1 ulp must not reach what follows
+    highp float c = clamp(cos_theta, 0.0, 1.0); // clamp: a rounded dot product may exceed 1
     highp float m = 1.0 - c; // 0 at normal incidence, 1 at grazing
     return f0 + (f90 - f0) * exp2(exponent * log2(max(m, 1.1754944e-38)));
 }

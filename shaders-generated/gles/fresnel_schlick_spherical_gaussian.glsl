@@ -15,7 +15,7 @@
 // Model error for n 0.05 to 4.5, k 1.5 to 8: at most 0.279, worst at 84.5 degrees
 // Code error for n 1.0001 to 12 with k 0 to 13, and n 0.05 to 4.5 with k 1.5 to 8: at most 2^-22, unfused f32
 //     against f64
-// Code error for any colours, f0 0 to 1: at most 3e-7 absolute, unfused or fused
+// Code error for colours with f0 0 to 1: at most 3e-7 absolute, unfused or fused
 // fresnel_schlick_spherical_gaussian: 14 scalar operations, among them 1 exponential or logarithm
 // fresnel_schlick_spherical_gaussian_scalar: 8 scalar operations, among them 1 exponential or logarithm
 // Licence of this file: CC0-1.0
@@ -24,12 +24,12 @@
 #define FRESNEL_SCHLICK_SPHERICAL_GAUSSIAN_GLES
 
 highp vec3 fresnel_schlick_spherical_gaussian(highp float cos_theta, highp vec3 f0) {
-    highp float c = clamp(cos_theta, 0.0, 1.0); // 1 + 1 ulp must not reach what follows
+    highp float c = clamp(cos_theta, 0.0, 1.0); // clamp: a rounded dot product may exceed 1
     return f0 + (1.0 - f0) * exp2((-5.55473 * c - 6.98316) * c);
 }
 
 highp float fresnel_schlick_spherical_gaussian_scalar(highp float cos_theta, highp float f0) {
-    highp float c = clamp(cos_theta, 0.0, 1.0); // 1 + 1 ulp must not reach what follows
+    highp float c = clamp(cos_theta, 0.0, 1.0); // clamp: a rounded dot product may exceed 1
     return f0 + (1.0 - f0) * exp2((-5.55473 * c - 6.98316) * c);
 }
 

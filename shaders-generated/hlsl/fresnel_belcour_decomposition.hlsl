@@ -17,7 +17,7 @@
 // Model error for eta 1.3 to 2.5: at most 0.0043, worst at 87.8 degrees
 // Model error for n 0.05 to 4.5, k 1.5 to 8: at most 0.024, worst at 87.3 degrees
 // Code error for n 0.05 to 4.5, k 1.5 to 8: at most 9.5 ulp or 2^-22, unfused f32 against f64
-// Code error for any colours, f0 0 to 1, b2_weight 0 to 1, b3_weight 0 to 1: at most 8e-6 absolute, unfused or
+// Code error for colours with f0 0 to 1, b2_weight 0 to 1, b3_weight 0 to 1: at most 8e-6 absolute, unfused or
 //     fused
 // fresnel_belcour_decomposition: 50 scalar operations, among them 1 division
 // fresnel_belcour_decomposition_scalar: 34 scalar operations, among them 1 division
@@ -28,7 +28,7 @@
 
 float3 fresnel_belcour_decomposition(float cos_theta, float3 f0, float3 b2_weight, float3 b3_weight)
 {
-    float c = saturate(cos_theta); // 1 + 1 ulp must not reach what follows
+    float c = saturate(cos_theta); // clamp: a rounded dot product may exceed 1
     float m = 1.0 - c; // 0 at normal incidence, 1 at grazing
     float r = 1.0 / (1.0 + 3.0 * c);
     float b1 = m * (-0.01361334 + r * (-0.3220094 + r * (1.603441 + r * -0.2677399)));
@@ -39,7 +39,7 @@ float3 fresnel_belcour_decomposition(float cos_theta, float3 f0, float3 b2_weigh
 
 float fresnel_belcour_decomposition_scalar(float cos_theta, float f0, float b2_weight, float b3_weight)
 {
-    float c = saturate(cos_theta); // 1 + 1 ulp must not reach what follows
+    float c = saturate(cos_theta); // clamp: a rounded dot product may exceed 1
     float m = 1.0 - c; // 0 at normal incidence, 1 at grazing
     float r = 1.0 / (1.0 + 3.0 * c);
     float b1 = m * (-0.01361334 + r * (-0.3220094 + r * (1.603441 + r * -0.2677399)));

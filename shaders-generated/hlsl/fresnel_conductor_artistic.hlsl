@@ -14,9 +14,9 @@
 //   edge_tint: 1 for the least n that the reflectivity allows, 0 for the most, 0 to 1
 // Model error for n 0.05 to 4.5, k 1.5 to 8: none, it is the exact law
 // Code error for n 0.05 to 4.5, k 1.5 to 8: at most 9.5 ulp or 2^-22, unfused f32 against f64
-// Code error for any colours, reflectivity 0.001 to 1, edge_tint 0 to 1: at most 3e-6 absolute, unfused or fused;
+// Code error for colours with reflectivity 0.001 to 1, edge_tint 0 to 1: at most 3e-6 absolute, unfused or fused;
 //     below, where n is next to 1, digits go as those of n - 1 do
-// fresnel_conductor_artistic: 206 scalar operations, among them 12 roots, 24 divisions
+// fresnel_conductor_artistic: 218 scalar operations, among them 15 roots, 21 divisions
 // Licence of this file: CC0-1.0
 
 #ifndef FRESNEL_CONDUCTOR_ARTISTIC_HLSL
@@ -24,7 +24,7 @@
 
 float3 fresnel_conductor_artistic(float cos_theta, float3 reflectivity, float3 edge_tint)
 {
-    float3 facing = min(max(reflectivity, 0.0), 0.999); // n_max is singular at 1
+    float3 facing = min(max(reflectivity, 1.0e-37), 0.999); // n_max is singular at 1
     float3 edge = saturate(edge_tint);
     float3 r_more = 1.0 + facing;
     float3 lack = 1.0 - facing;
@@ -35,17 +35,19 @@ float3 fresnel_conductor_artistic(float cos_theta, float3 reflectivity, float3 e
     float3 span = n_max - n_min;
     float3 above = (1.0 - edge) * span; // n - n_min
     float3 n = n_min + above;
-    // k^2 = (n_max - n)(n - 1 / n_max), in positive terms
-    float3 k = sqrt(edge * span * (above + 2.0 * root / (n_max * r_more)));
-    float c = saturate(cos_theta); // 1 + 1 ulp must not reach what follows
+    // (n_max - n)(n - 1 / n_max), in positive terms
+    float3 k2 = edge * span * (above + 2.0 * root / (n_max * r_more));
+    float3 k = k2 * rsqrt(max(k2, 1.0e-37)); // 0 where k2 is 0, by any arithmetic
+    float c = saturate(cos_theta); // clamp: a rounded dot product may exceed 1
     float c2 = c * c;
     float s2 = 1.0 - c2; // sin^2 theta
     float3 tau = (n - 1.0) * (n + 1.0) - k * k; // n^2 - k^2 - 1
     float3 nk = n * k;
     float3 t = tau + c2; // n^2 - k^2 - sin^2 theta
-    float3 r = sqrt(t * t + 4.0 * (nk * nk)); // a^2 + b^2
-    float3 larger = sqrt(0.5 * (r + abs(t))); // the larger of a and b
-    float3 smaller = nk / max(larger, 1.0e-10); // the other one, since a b = n k
+    float3 r = sqrt(max(t * t + 4.0 * (nk * nk), 1.0e-37)); // a^2 + b^2
+    float3 larger2 = 0.5 * (r + abs(t)); // used twice
+    float3 larger = sqrt(larger2); // the larger of a and b
+    float3 smaller = nk * rsqrt(larger2); // the other one, since a b = n k
     // no cancellation on either side of t = 0
     float3 a = float3(
         t.r < 0.0 ? smaller.r : larger.r,
@@ -66,7 +68,7 @@ float3 fresnel_conductor_artistic(float cos_theta, float3 reflectivity, float3 e
         t.b < 0.0 ? r_s_metal.b : r_s_glass.b
     );
     float3 x = r * c2 + s2 * s2;
-    return r_s * (x / max(x + u * s2, 1.0e-37));
+    return saturate(r_s * (x / max(x + u * s2, 1.0e-37)));
 }
 
 #endif

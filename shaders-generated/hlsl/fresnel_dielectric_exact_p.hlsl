@@ -14,8 +14,8 @@
 //   eta: relative index of refraction, transmitted over incident (n_t / n_i), 0.001 to 1e12
 // Model error for eta 1.3 to 2.5: none, it is the exact law
 // Code error for eta 1.0001 to 12: at most 13.5 ulp or 2^-22, unfused f32 against f64
-// fresnel_dielectric_exact_p: 72 scalar operations, among them 3 roots, 9 divisions
-// fresnel_dielectric_exact_p_scalar: 26 scalar operations, among them 1 root, 3 divisions
+// fresnel_dielectric_exact_p: 69 scalar operations, among them 3 roots, 9 divisions
+// fresnel_dielectric_exact_p_scalar: 25 scalar operations, among them 1 root, 3 divisions
 // Licence of this file: CC0-1.0
 
 #ifndef FRESNEL_DIELECTRIC_EXACT_P_HLSL
@@ -23,12 +23,12 @@
 
 float3 fresnel_dielectric_exact_p(float cos_theta, float3 eta)
 {
-    float c = saturate(cos_theta); // 1 + 1 ulp must not reach what follows
+    float c = saturate(cos_theta); // clamp: a rounded dot product may exceed 1
     float3 tau = (eta - 1.0) * (eta + 1.0); // eta^2 - 1 without its cancellation near 1
     float3 g2 = tau + c * c; // below 0 past the critical angle
-    float3 u = sqrt(max(g2, 0.0)) + c;
+    float3 u = sqrt(max(g2, 1.0e-37)) + c;
     float3 r_s = tau / max(tau + 2.0 * c * u, 1.0e-37); // (g - c) / (g + c), as tau / u^2
-    float3 r_ps = (c * u - 1.0) / (c * tau / max(u, 1.0e-30) + 1.0); // r_p / r_s
+    float3 r_ps = (c * u - 1.0) / (c * tau / u + 1.0); // r_p / r_s
     float3 r_p = r_s * r_ps;
     float3 f = min(r_p * r_p, 1.0); // rounding near the critical angle must not exceed 1
     return float3(g2.r < 0.0 ? 1.0 : f.r, g2.g < 0.0 ? 1.0 : f.g, g2.b < 0.0 ? 1.0 : f.b);
@@ -36,12 +36,12 @@ float3 fresnel_dielectric_exact_p(float cos_theta, float3 eta)
 
 float fresnel_dielectric_exact_p_scalar(float cos_theta, float eta)
 {
-    float c = saturate(cos_theta); // 1 + 1 ulp must not reach what follows
+    float c = saturate(cos_theta); // clamp: a rounded dot product may exceed 1
     float tau = (eta - 1.0) * (eta + 1.0); // eta^2 - 1 without its cancellation near 1
     float g2 = tau + c * c; // below 0 past the critical angle
-    float u = sqrt(max(g2, 0.0)) + c;
+    float u = sqrt(max(g2, 1.0e-37)) + c;
     float r_s = tau / max(tau + 2.0 * c * u, 1.0e-37); // (g - c) / (g + c), as tau / u^2
-    float r_ps = (c * u - 1.0) / (c * tau / max(u, 1.0e-30) + 1.0); // r_p / r_s
+    float r_ps = (c * u - 1.0) / (c * tau / u + 1.0); // r_p / r_s
     float r_p = r_s * r_ps;
     float f = min(r_p * r_p, 1.0); // rounding near the critical angle must not exceed 1
     return g2 < 0.0 ? 1.0 : f;

@@ -22,10 +22,10 @@
 
 float3 fresnel_dielectric_exact_s(float cos_theta, float3 eta)
 {
-    float c = saturate(cos_theta); // 1 + 1 ulp must not reach what follows
+    float c = saturate(cos_theta); // clamp: a rounded dot product may exceed 1
     float3 tau = (eta - 1.0) * (eta + 1.0); // eta^2 - 1 without its cancellation near 1
     float3 g2 = tau + c * c; // below 0 past the critical angle
-    float3 u = sqrt(max(g2, 0.0)) + c;
+    float3 u = sqrt(max(g2, 1.0e-37)) + c;
     float3 r_s = tau / max(tau + 2.0 * c * u, 1.0e-37); // (g - c) / (g + c), as tau / u^2
     float3 f = min(r_s * r_s, 1.0); // rounding near the critical angle must not exceed 1
     return float3(g2.r < 0.0 ? 1.0 : f.r, g2.g < 0.0 ? 1.0 : f.g, g2.b < 0.0 ? 1.0 : f.b);
@@ -33,10 +33,10 @@ float3 fresnel_dielectric_exact_s(float cos_theta, float3 eta)
 
 float fresnel_dielectric_exact_s_scalar(float cos_theta, float eta)
 {
-    float c = saturate(cos_theta); // 1 + 1 ulp must not reach what follows
+    float c = saturate(cos_theta); // clamp: a rounded dot product may exceed 1
     float tau = (eta - 1.0) * (eta + 1.0); // eta^2 - 1 without its cancellation near 1
     float g2 = tau + c * c; // below 0 past the critical angle
-    float u = sqrt(max(g2, 0.0)) + c;
+    float u = sqrt(max(g2, 1.0e-37)) + c;
     float r_s = tau / max(tau + 2.0 * c * u, 1.0e-37); // (g - c) / (g + c), as tau / u^2
     float f = min(r_s * r_s, 1.0); // rounding near the critical angle must not exceed 1
     return g2 < 0.0 ? 1.0 : f;

@@ -6,7 +6,7 @@
 //   F = max(0, min(1, bias + scale (1 - cos_theta)^power))
 // Source: Fernando, Kilgard, "The Cg Tutorial, chapter 7", Addison-Wesley, 2003.
 //     https://developer.download.nvidia.com/CgTutorial/cg_tutorial_chapter07.html
-// Domain: the three channels are alike
+// Domain: the arguments are numbers: the three channels get the same reflectance
 // Arguments:
 //   cos_theta: cosine between the normal and the direction to the light or viewer
 //   bias: reflectance at normal incidence, 0 to 1
@@ -25,14 +25,14 @@
 
 float3 fresnel_empirical(float cos_theta, float bias, float scale, float power)
 {
-    float c = saturate(cos_theta); // 1 + 1 ulp must not reach what follows
+    float c = saturate(cos_theta); // clamp: a rounded dot product may exceed 1
     float m = 1.0 - c; // 1 + I.N, as I.N = -cos_theta
     return saturate(bias + scale * exp2(power * log2(max(m, 1.1754944e-38)))).xxx;
 }
 
 float fresnel_empirical_scalar(float cos_theta, float bias, float scale, float power)
 {
-    float c = saturate(cos_theta); // 1 + 1 ulp must not reach what follows
+    float c = saturate(cos_theta); // clamp: a rounded dot product may exceed 1
     float m = 1.0 - c; // 1 + I.N, as I.N = -cos_theta
     return saturate(bias + scale * exp2(power * log2(max(m, 1.1754944e-38))));
 }

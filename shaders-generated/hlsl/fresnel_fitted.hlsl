@@ -30,7 +30,7 @@
 
 float3 fresnel_fitted(float cos_theta, float3 c0, float3 c1, float3 c2, float3 c3)
 {
-    float c = saturate(cos_theta); // 1 + 1 ulp must not reach what follows
+    float c = saturate(cos_theta); // clamp: a rounded dot product may exceed 1
     float b = exp2(-6.5 * c); // small at normal incidence, 1 at grazing
     float3 sum2 = c2 + b * c3;
     float3 sum1 = c1 + b * sum2;
@@ -40,7 +40,7 @@ float3 fresnel_fitted(float cos_theta, float3 c0, float3 c1, float3 c2, float3 c
 
 float fresnel_fitted_scalar(float cos_theta, float c0, float c1, float c2, float c3)
 {
-    float c = saturate(cos_theta); // 1 + 1 ulp must not reach what follows
+    float c = saturate(cos_theta); // clamp: a rounded dot product may exceed 1
     float b = exp2(-6.5 * c); // small at normal incidence, 1 at grazing
     float sum2 = c2 + b * c3;
     float sum1 = c1 + b * sum2;

@@ -29,7 +29,7 @@
 
 float3 fresnel_fitted_dielectric(float cos_theta, float3 c0, float3 c1, float3 c2, float3 c3)
 {
-    float c = saturate(cos_theta); // 1 + 1 ulp must not reach what follows
+    float c = saturate(cos_theta); // clamp: a rounded dot product may exceed 1
     float b = 1.0 - c; // 0 at normal incidence, 1 at grazing
     float b2 = b * b;
     float b3 = b * b2;
@@ -43,7 +43,7 @@ float3 fresnel_fitted_dielectric(float cos_theta, float3 c0, float3 c1, float3 c
 
 float fresnel_fitted_dielectric_scalar(float cos_theta, float c0, float c1, float c2, float c3)
 {
-    float c = saturate(cos_theta); // 1 + 1 ulp must not reach what follows
+    float c = saturate(cos_theta); // clamp: a rounded dot product may exceed 1
     float b = 1.0 - c; // 0 at normal incidence, 1 at grazing
     float b2 = b * b;
     float b3 = b * b2;

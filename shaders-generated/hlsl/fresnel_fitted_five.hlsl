@@ -32,7 +32,7 @@
 
 float3 fresnel_fitted_five(float cos_theta, float3 c0, float3 c1, float3 c2, float3 c3, float3 c4)
 {
-    float c = saturate(cos_theta); // 1 + 1 ulp must not reach what follows
+    float c = saturate(cos_theta); // clamp: a rounded dot product may exceed 1
     float3 sum3 = c3 + c * c4;
     float b = exp2(-11.0 * c); // small at normal incidence, 1 at grazing
     float3 sum2 = c2 + b * sum3;
@@ -44,7 +44,7 @@ float3 fresnel_fitted_five(float cos_theta, float3 c0, float3 c1, float3 c2, flo
 
 float fresnel_fitted_five_scalar(float cos_theta, float c0, float c1, float c2, float c3, float c4)
 {
-    float c = saturate(cos_theta); // 1 + 1 ulp must not reach what follows
+    float c = saturate(cos_theta); // clamp: a rounded dot product may exceed 1
     float sum3 = c3 + c * c4;
     float b = exp2(-11.0 * c); // small at normal incidence, 1 at grazing
     float sum2 = c2 + b * sum3;

@@ -31,7 +31,7 @@
 
 float3 fresnel_fitted_rational(float cos_theta, float3 c0, float3 c1, float3 c2, float3 c3)
 {
-    float c = saturate(cos_theta); // 1 + 1 ulp must not reach what follows
+    float c = saturate(cos_theta); // clamp: a rounded dot product may exceed 1
     float l = c + 0.144;
     float q = rsqrt(l);
     float3 sum2 = c2 + q * c3;
@@ -44,7 +44,7 @@ float3 fresnel_fitted_rational(float cos_theta, float3 c0, float3 c1, float3 c2,
 
 float fresnel_fitted_rational_scalar(float cos_theta, float c0, float c1, float c2, float c3)
 {
-    float c = saturate(cos_theta); // 1 + 1 ulp must not reach what follows
+    float c = saturate(cos_theta); // clamp: a rounded dot product may exceed 1
     float l = c + 0.144;
     float q = rsqrt(l);
     float sum2 = c2 + q * c3;

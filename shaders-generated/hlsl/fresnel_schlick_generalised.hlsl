@@ -25,14 +25,14 @@
 
 float3 fresnel_schlick_generalised(float cos_theta, float3 f0, float f90, float exponent)
 {
-    float c = saturate(cos_theta); // 1 + 1 ulp must not reach what follows
+    float c = saturate(cos_theta); // clamp: a rounded dot product may exceed 1
     float m = 1.0 - c; // 0 at normal incidence, 1 at grazing
     return f0 + (f90 - f0) * exp2(exponent * log2(max(m, 1.1754944e-38)));
 }
 
 float fresnel_schlick_generalised_scalar(float cos_theta, float f0, float f90, float exponent)
 {
-    float c = saturate(cos_theta); // 1 + 1 ulp must not reach what follows
+    float c = saturate(cos_theta); // clamp: a rounded dot product may exceed 1
     float m = 1.0 - c; // 0 at normal incidence, 1 at grazing
     return f0 + (f90 - f0) * exp2(exponent * log2(max(m, 1.1754944e-38)));
 }

@@ -23,7 +23,7 @@
 
 float3 fresnel_schlick_rescaled(float cos_theta, float3 n, float3 k)
 {
-    float c = saturate(cos_theta); // 1 + 1 ulp must not reach what follows
+    float c = saturate(cos_theta); // clamp: a rounded dot product may exceed 1
     float3 k2 = k * k;
     float3 n_less = n - 1.0;
     float3 n_more = n + 1.0;

@@ -8,22 +8,21 @@
 //   then conductor_exact(cos_theta, n, k)
 // Source: Gulbrandsen, "Artist Friendly Metallic Fresnel", Journal of Computer Graphics Techniques 3(4), 64-72,
 //     2014. https://jcgt.org/published/0003/04/03/
-// Domain: f0 counts as at most 0.999; an f82 that no n and k can give takes the nearest that one can. It needs a
-//     square root that gives 0 for 0: one computed as x / sqrt(x) gives NaN where k is 0, for half of all pairs
+// Domain: f0 counts as at most 0.999; an f82 that no n and k can give takes the nearest that one can
 // Arguments:
 //   cos_theta: cosine between the normal and the direction to the light or viewer
 //   f0: reflectance at normal incidence, linear, 0 to 1
 //   f82: reflectance at cos_theta = 1/7 (81.79 degrees), linear, 0 to 1
 // Model error for eta 1.3 to 2.5: at most 0.0000347, worst at 82.2 degrees
 // Model error for n 0.05 to 4.5, k 1.5 to 8: at most 0.000384, worst at 72.5 degrees
-// Code error for n 0.05 to 4.5, k 1.5 to 8: at most 9 ulp or 2^-22, unfused f32 against f64
-// Code error for any colours, f0 0.05 to 1, f82 0 to 0.99: at most 5e-4 absolute, unfused or fused; of other
-//     pairs, which no material has, f32 may be off by 0.3
-// fresnel_conductor_from_f0_f82: 389 scalar operations, among them 18 roots, 33 divisions
+// Code error for n 0.05 to 4.5, k 1.5 to 8: at most 5.5 ulp or 2^-22, unfused f32 against f64
+// Code error for colours with f0 0.05 to 1, f82 0 to 0.99: at most 5e-4 absolute, unfused or fused; of other pairs
+//     f32 may be off by 0.3
+// fresnel_conductor_from_f0_f82: 398 scalar operations, among them 21 roots, 30 divisions
 // Licence of this file: CC0-1.0
 
 fn fresnel_conductor_from_f0_f82(cos_theta: f32, f0: vec3<f32>, f82: vec3<f32>) -> vec3<f32> {
-    let f0_less = min(max(f0, vec3<f32>(0.0)), vec3<f32>(0.999)); // n_max is infinite at 1
+    let f0_less = min(max(f0, vec3<f32>(1.0e-37)), vec3<f32>(0.999)); // n_max is infinite at 1
     let root = sqrt(f0_less);
     let reciprocal = 1.0 / (1.0 - f0_less);
     let one_more = 1.0 + root;
@@ -41,8 +40,8 @@ fn fresnel_conductor_from_f0_f82(cos_theta: f32, f0: vec3<f32>, f82: vec3<f32>) 
     let n_guess = n_min + n_guess_less;
     let q = (4.0 * reciprocal - 2.0) * n_guess - 0.020408163; // n^2 + k^2 + sin^2
     let h = 1.9794866 * n_guess;
-    let r_guess = sqrt(max((q - h) * (q + h), vec3<f32>(0.0))); // a^2 + b^2 there
-    let a_guess = n_guess * sqrt(max(1.0 - 1.9591837 / (r_guess + q), vec3<f32>(0.0)));
+    let r_guess = sqrt(max((q - h) * (q + h), vec3<f32>(1.0e-37))); // a^2 + b^2 there
+    let a_guess = n_guess * sqrt(max(1.0 - 1.9591837 / (r_guess + q), vec3<f32>(1.0e-37)));
     let x_guess = r_guess * 3.5 + 0.071428575;
     let y_guess = r_guess * 0.072916664 + 3.4285715;
     // what it lacks with this n
@@ -51,17 +50,19 @@ fn fresnel_conductor_from_f0_f82(cos_theta: f32, f0: vec3<f32>, f82: vec3<f32>) 
     let u_aim = aim * u_scale;
     let curve_aim = max(t_a + u_aim * (t_b + u_aim * t_c), vec3<f32>(1.0e-5));
     let above = min(u_aim * (aim * root) / curve_aim, span);
+    let k2 = above * (span - above); // on the circle of one F0
+    let k = k2 * inverseSqrt(max(k2, vec3<f32>(1.0e-37))); // 0 where k2 is 0, by any arithmetic
     let n = n_min + above;
-    let c = saturate(cos_theta); // 1 + 1 ulp must not reach what follows
-    let k = sqrt(max(above * (span - above), vec3<f32>(0.0))); // on the circle of one F0
+    let c = saturate(cos_theta); // clamp: a rounded dot product may exceed 1
     let c2 = c * c;
     let s2 = 1.0 - c2; // sin^2 theta
     let tau = (n - 1.0) * (n + 1.0) - k * k; // n^2 - k^2 - 1
     let nk = n * k;
     let t = tau + c2; // n^2 - k^2 - sin^2 theta
-    let r = sqrt(t * t + 4.0 * (nk * nk)); // a^2 + b^2
-    let larger = sqrt(0.5 * (r + abs(t))); // the larger of a and b
-    let smaller = nk / max(larger, vec3<f32>(1.0e-10)); // the other one, since a b = n k
+    let r = sqrt(max(t * t + 4.0 * (nk * nk), vec3<f32>(1.0e-37))); // a^2 + b^2
+    let larger2 = 0.5 * (r + abs(t)); // used twice
+    let larger = sqrt(larger2); // the larger of a and b
+    let smaller = nk * inverseSqrt(larger2); // the other one, since a b = n k
     // no cancellation on either side of t = 0
     let a = vec3<f32>(
         select(larger.r, smaller.r, t.r < 0.0),
@@ -82,5 +83,5 @@ fn fresnel_conductor_from_f0_f82(cos_theta: f32, f0: vec3<f32>, f82: vec3<f32>) 
         select(r_s_glass.b, r_s_metal.b, t.b < 0.0)
     );
     let x = r * c2 + s2 * s2;
-    return r_s * (x / max(x + u * s2, vec3<f32>(1.0e-37)));
+    return saturate(r_s * (x / max(x + u * s2, vec3<f32>(1.0e-37))));
 }

@@ -18,20 +18,20 @@
 // Licence of this file: CC0-1.0
 
 fn fresnel_dielectric_exact_s(cos_theta: f32, eta: vec3<f32>) -> vec3<f32> {
-    let c = saturate(cos_theta); // 1 + 1 ulp must not reach what follows
+    let c = saturate(cos_theta); // clamp: a rounded dot product may exceed 1
     let tau = (eta - 1.0) * (eta + 1.0); // eta^2 - 1 without its cancellation near 1
     let g2 = tau + c * c; // below 0 past the critical angle
-    let u = sqrt(max(g2, vec3<f32>(0.0))) + c;
+    let u = sqrt(max(g2, vec3<f32>(1.0e-37))) + c;
     let r_s = tau / max(tau + 2.0 * c * u, vec3<f32>(1.0e-37)); // (g - c) / (g + c), as tau / u^2
     let f = min(r_s * r_s, vec3<f32>(1.0)); // rounding near the critical angle must not exceed 1
     return vec3<f32>(select(f.r, 1.0, g2.r < 0.0), select(f.g, 1.0, g2.g < 0.0), select(f.b, 1.0, g2.b < 0.0));
 }
 
 fn fresnel_dielectric_exact_s_scalar(cos_theta: f32, eta: f32) -> f32 {
-    let c = saturate(cos_theta); // 1 + 1 ulp must not reach what follows
+    let c = saturate(cos_theta); // clamp: a rounded dot product may exceed 1
     let tau = (eta - 1.0) * (eta + 1.0); // eta^2 - 1 without its cancellation near 1
     let g2 = tau + c * c; // below 0 past the critical angle
-    let u = sqrt(max(g2, 0.0)) + c;
+    let u = sqrt(max(g2, 1.0e-37)) + c;
     let r_s = tau / max(tau + 2.0 * c * u, 1.0e-37); // (g - c) / (g + c), as tau / u^2
     let f = min(r_s * r_s, 1.0); // rounding near the critical angle must not exceed 1
     return select(f, 1.0, g2 < 0.0);

@@ -6,7 +6,7 @@
 //   F = max(0, min(1, bias + scale (1 - cos_theta)^power))
 // Source: Fernando, Kilgard, "The Cg Tutorial, chapter 7", Addison-Wesley, 2003.
 //     https://developer.download.nvidia.com/CgTutorial/cg_tutorial_chapter07.html
-// Domain: the three channels are alike
+// Domain: the arguments are numbers: the three channels get the same reflectance
 // Arguments:
 //   cos_theta: cosine between the normal and the direction to the light or viewer
 //   bias: reflectance at normal incidence, 0 to 1
@@ -21,13 +21,13 @@
 // Licence of this file: CC0-1.0
 
 fn fresnel_empirical(cos_theta: f32, bias: f32, scale: f32, power: f32) -> vec3<f32> {
-    let c = saturate(cos_theta); // 1 + 1 ulp must not reach what follows
+    let c = saturate(cos_theta); // clamp: a rounded dot product may exceed 1
     let m = 1.0 - c; // 1 + I.N, as I.N = -cos_theta
     return vec3<f32>(saturate(bias + scale * exp2(power * log2(max(m, 1.1754944e-38)))));
 }
 
 fn fresnel_empirical_scalar(cos_theta: f32, bias: f32, scale: f32, power: f32) -> f32 {
-    let c = saturate(cos_theta); // 1 + 1 ulp must not reach what follows
+    let c = saturate(cos_theta); // clamp: a rounded dot product may exceed 1
     let m = 1.0 - c; // 1 + I.N, as I.N = -cos_theta
     return saturate(bias + scale * exp2(power * log2(max(m, 1.1754944e-38))));
 }

@@ -26,7 +26,7 @@
 // Licence of this file: CC0-1.0
 
 fn fresnel_fitted(cos_theta: f32, c0: vec3<f32>, c1: vec3<f32>, c2: vec3<f32>, c3: vec3<f32>) -> vec3<f32> {
-    let c = saturate(cos_theta); // 1 + 1 ulp must not reach what follows
+    let c = saturate(cos_theta); // clamp: a rounded dot product may exceed 1
     let b = exp2(-6.5 * c); // small at normal incidence, 1 at grazing
     let sum2 = c2 + b * c3;
     let sum1 = c1 + b * sum2;
@@ -35,7 +35,7 @@ fn fresnel_fitted(cos_theta: f32, c0: vec3<f32>, c1: vec3<f32>, c2: vec3<f32>, c
 }
 
 fn fresnel_fitted_scalar(cos_theta: f32, c0: f32, c1: f32, c2: f32, c3: f32) -> f32 {
-    let c = saturate(cos_theta); // 1 + 1 ulp must not reach what follows
+    let c = saturate(cos_theta); // clamp: a rounded dot product may exceed 1
     let b = exp2(-6.5 * c); // small at normal incidence, 1 at grazing
     let sum2 = c2 + b * c3;
     let sum1 = c1 + b * sum2;

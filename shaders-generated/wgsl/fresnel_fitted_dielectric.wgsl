@@ -31,7 +31,7 @@ fn fresnel_fitted_dielectric(
     c2: vec3<f32>,
     c3: vec3<f32>
 ) -> vec3<f32> {
-    let c = saturate(cos_theta); // 1 + 1 ulp must not reach what follows
+    let c = saturate(cos_theta); // clamp: a rounded dot product may exceed 1
     let b = 1.0 - c; // 0 at normal incidence, 1 at grazing
     let b2 = b * b;
     let b3 = b * b2;
@@ -44,7 +44,7 @@ fn fresnel_fitted_dielectric(
 }
 
 fn fresnel_fitted_dielectric_scalar(cos_theta: f32, c0: f32, c1: f32, c2: f32, c3: f32) -> f32 {
-    let c = saturate(cos_theta); // 1 + 1 ulp must not reach what follows
+    let c = saturate(cos_theta); // clamp: a rounded dot product may exceed 1
     let b = 1.0 - c; // 0 at normal incidence, 1 at grazing
     let b2 = b * b;
     let b3 = b * b2;

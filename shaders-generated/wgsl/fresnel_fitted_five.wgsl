@@ -35,7 +35,7 @@ fn fresnel_fitted_five(
     c3: vec3<f32>,
     c4: vec3<f32>
 ) -> vec3<f32> {
-    let c = saturate(cos_theta); // 1 + 1 ulp must not reach what follows
+    let c = saturate(cos_theta); // clamp: a rounded dot product may exceed 1
     let sum3 = c3 + c * c4;
     let b = exp2(-11.0 * c); // small at normal incidence, 1 at grazing
     let sum2 = c2 + b * sum3;
@@ -46,7 +46,7 @@ fn fresnel_fitted_five(
 }
 
 fn fresnel_fitted_five_scalar(cos_theta: f32, c0: f32, c1: f32, c2: f32, c3: f32, c4: f32) -> f32 {
-    let c = saturate(cos_theta); // 1 + 1 ulp must not reach what follows
+    let c = saturate(cos_theta); // clamp: a rounded dot product may exceed 1
     let sum3 = c3 + c * c4;
     let b = exp2(-11.0 * c); // small at normal incidence, 1 at grazing
     let sum2 = c2 + b * sum3;

@@ -33,7 +33,7 @@ fn fresnel_fitted_rational(
     c2: vec3<f32>,
     c3: vec3<f32>
 ) -> vec3<f32> {
-    let c = saturate(cos_theta); // 1 + 1 ulp must not reach what follows
+    let c = saturate(cos_theta); // clamp: a rounded dot product may exceed 1
     let l = c + 0.144;
     let q = inverseSqrt(l);
     let sum2 = c2 + q * c3;
@@ -45,7 +45,7 @@ fn fresnel_fitted_rational(
 }
 
 fn fresnel_fitted_rational_scalar(cos_theta: f32, c0: f32, c1: f32, c2: f32, c3: f32) -> f32 {
-    let c = saturate(cos_theta); // 1 + 1 ulp must not reach what follows
+    let c = saturate(cos_theta); // clamp: a rounded dot product may exceed 1
     let l = c + 0.144;
     let q = inverseSqrt(l);
     let sum2 = c2 + q * c3;

@@ -3,11 +3,11 @@
 // Regenerate: fresnel-gen --target wgsl --method hoffman_f82
 //
 // fresnel_hoffman_f82: Schlick's approximation corrected to the reflectance at 81.79 degrees
-//   F = F0 + (1 - F0) (1 - c)^5 - b c (1 - c)^6, clamped to [0, max(1, F0)]
+//   F = F0 + (1 - F0) (1 - c)^5 - b c (1 - c)^6, limited to [0, 1]
 //   b = (823543 / 46656) (F0 + (1 - F0) 7776 / 16807 - F82)
 // Source: Hoffman, "Fresnel Equations Considered Harmful", Eurographics Workshop on Material Appearance Modeling,
 //     2019. https://renderwonk.com/publications/mam2019/
-// Domain: clamped to [0, max(1, f0)]: f0 above 1 is taken as it is
+// Domain: the result is limited to [0, 1], of f0 above 1 too
 // Arguments:
 //   cos_theta: cosine between the normal and the direction to the light or viewer
 //   f0: reflectance at normal incidence, linear, 0 to 1
@@ -16,17 +16,17 @@
 // Model error for n 0.05 to 4.5, k 1.5 to 8: at most 0.0837, worst at 87.3 degrees
 // Code error for n 1.0001 to 12 with k 0 to 13, and n 0.05 to 4.5 with k 1.5 to 8: at most 6.5 ulp or 2^-22,
 //     unfused f32 against f64
-// Code error for any colours, f0 0 to 1, f82 0 to 1: at most 5e-7 absolute, unfused or fused
-// fresnel_hoffman_f82: 43 scalar operations
+// Code error for colours with f0 0 to 1, f82 0 to 1: at most 5e-7 absolute, unfused or fused
+// fresnel_hoffman_f82: 37 scalar operations
 // Licence of this file: CC0-1.0
 
 fn fresnel_hoffman_f82(cos_theta: f32, f0: vec3<f32>, f82: vec3<f32>) -> vec3<f32> {
-    let c = saturate(cos_theta); // 1 + 1 ulp must not reach what follows
+    let c = saturate(cos_theta); // clamp: a rounded dot product may exceed 1
     let rise = 1.0 - f0;
     let b = 17.651384 * (f0 + rise * 0.46266437 - f82); // the depth of the dip
     let m = 1.0 - c; // 0 at normal incidence, 1 at grazing
     let m2 = m * m;
     let m5 = m2 * m2 * m;
     let bare = f0 + rise * m5 - b * (c * (m5 * m)); // Schlick less the dip
-    return min(max(bare, vec3<f32>(0.0)), max(f0, vec3<f32>(1.0)));
+    return saturate(bare);
 }

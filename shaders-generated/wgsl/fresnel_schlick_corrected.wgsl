@@ -20,7 +20,7 @@
 // Licence of this file: CC0-1.0
 
 fn fresnel_schlick_corrected(cos_theta: f32, n: vec3<f32>, k: vec3<f32>, lambda: vec3<f32>) -> vec3<f32> {
-    let c = saturate(cos_theta); // 1 + 1 ulp must not reach what follows
+    let c = saturate(cos_theta); // clamp: a rounded dot product may exceed 1
     let k2 = k * k;
     let n_less = n - 1.0;
     let n_more = n + 1.0;

@@ -15,13 +15,13 @@
 // Model error for n 0.05 to 4.5, k 1.5 to 8: at most 0.278, worst at 84.5 degrees
 // Code error for n 1.0001 to 12 with k 0 to 13, and n 0.05 to 4.5 with k 1.5 to 8: at most 6 ulp or 2^-22, unfused
 //     f32 against f64
-// Code error for any colours, f0 0 to 1, f90 0 to 1: at most 3e-7 absolute, unfused or fused
+// Code error for colours with f0 0 to 1, f90 0 to 1: at most 3e-7 absolute, unfused or fused
 // fresnel_schlick_f90: 14 scalar operations
 // fresnel_schlick_f90_scalar: 8 scalar operations
 // Licence of this file: CC0-1.0
 
 fn fresnel_schlick_f90(cos_theta: f32, f0: vec3<f32>, f90: f32) -> vec3<f32> {
-    let c = saturate(cos_theta); // 1 + 1 ulp must not reach what follows
+    let c = saturate(cos_theta); // clamp: a rounded dot product may exceed 1
     let m = 1.0 - c; // 0 at normal incidence, 1 at grazing
     let m2 = m * m;
     let m5 = m2 * m2 * m;
@@ -29,7 +29,7 @@ fn fresnel_schlick_f90(cos_theta: f32, f0: vec3<f32>, f90: f32) -> vec3<f32> {
 }
 
 fn fresnel_schlick_f90_scalar(cos_theta: f32, f0: f32, f90: f32) -> f32 {
-    let c = saturate(cos_theta); // 1 + 1 ulp must not reach what follows
+    let c = saturate(cos_theta); // clamp: a rounded dot product may exceed 1
     let m = 1.0 - c; // 0 at normal incidence, 1 at grazing
     let m2 = m * m;
     let m5 = m2 * m2 * m;

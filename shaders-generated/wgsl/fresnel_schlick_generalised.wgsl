@@ -21,13 +21,13 @@
 // Licence of this file: CC0-1.0
 
 fn fresnel_schlick_generalised(cos_theta: f32, f0: vec3<f32>, f90: f32, exponent: f32) -> vec3<f32> {
-    let c = saturate(cos_theta); // 1 + 1 ulp must not reach what follows
+    let c = saturate(cos_theta); // clamp: a rounded dot product may exceed 1
     let m = 1.0 - c; // 0 at normal incidence, 1 at grazing
     return f0 + (f90 - f0) * exp2(exponent * log2(max(m, 1.1754944e-38)));
 }
 
 fn fresnel_schlick_generalised_scalar(cos_theta: f32, f0: f32, f90: f32, exponent: f32) -> f32 {
-    let c = saturate(cos_theta); // 1 + 1 ulp must not reach what follows
+    let c = saturate(cos_theta); // clamp: a rounded dot product may exceed 1
     let m = 1.0 - c; // 0 at normal incidence, 1 at grazing
     return f0 + (f90 - f0) * exp2(exponent * log2(max(m, 1.1754944e-38)));
 }

@@ -9,7 +9,8 @@
 //   F = table_scale table(u, row), level 0
 // Source: Selan, "Using Lookup Tables to Accelerate Color Transformations", GPU Gems 2, chapter 24, 2005.
 //     https://developer.nvidia.com/gpugems/gpugems2/part-iii-high-quality-rendering/chapter-24-using-lookup-tables-accelerate-color
-// Domain: a sampler that filters linearly and clamps to the edge, linear texels (not sRGB), cos theta = 0 first
+// Domain: a sampler that filters linearly and clamps to the edge, linear texels (not sRGB), cos theta = 0 first.
+//     The errors below are those of 64 texels and warp 4
 // Arguments:
 //   cos_theta: cosine between the normal and the direction to the light or viewer
 //   table: the texture, and after it the sampler: reflectance along x, cos theta = 0 first, linear and not sRGB;
@@ -33,7 +34,7 @@ fn fresnel_table(
     row: f32,
     table_scale: f32
 ) -> vec3<f32> {
-    let c = saturate(cos_theta); // 1 + 1 ulp must not reach what follows
+    let c = saturate(cos_theta); // clamp: a rounded dot product may exceed 1
     let w = (1.0 + warp) * c / (1.0 + warp * c); // 0 at grazing, 1 at normal incidence; dense near grazing
     let u = w * (1.0 - 1.0 / texels) + 0.5 / texels; // half a texel is left at each end
     return textureSampleLevel(table, table_sampler, vec2<f32>(u, row), 0.0).rgb * table_scale;

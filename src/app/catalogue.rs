@@ -15,6 +15,7 @@ use super::error::Error;
 use super::generate::Generated;
 use super::manifest::TOOL;
 use super::names::quoted;
+use super::recorded;
 use super::request::{Materials, Request};
 use super::sight;
 
@@ -26,15 +27,13 @@ pub const JSON: &str = "json";
 /// # Errors
 /// A material cannot be seen as the request wants, or a language refuses a name.
 pub fn add_catalogue(generated: &mut Generated, request: &Request) -> Result<(), Error> {
-    let request = Request {
-        materials: Materials::All,
-        ..request.clone()
+    let (rows, seen) = match recorded::rows(request) {
+        Some(rows) => (rows, request.sight.seen()),
+        None => derived_rows(request)?,
     };
-    let subjects = subjects(&request)?;
-    let rows = rows(&subjects, &request)?;
-    let seen = seen(&subjects);
+    let seen = seen.as_str();
     for target in request.resolved_targets()? {
-        let command = command(&request, Some(target.name))?;
+        let command = command(request, Some(target.name))?;
         let file = emit::catalogue(target, &rows, &request.naming(), seen, &command)?;
         generated.artifacts.extend(file.map(|file| {
             let path = format!("{}/{}", target.name, file.name);
@@ -42,7 +41,7 @@ pub fn add_catalogue(generated: &mut Generated, request: &Request) -> Result<(),
         }));
     }
     if generated.scope.whole {
-        generated.artifacts.push(as_json(&rows, seen, &request)?);
+        generated.artifacts.push(as_json(&rows, seen, request)?);
         generated.scope.targets.insert(JSON.to_owned());
     }
     generated.artifacts.sort_by(|a, b| a.path.cmp(&b.path));
@@ -57,6 +56,20 @@ fn subjects(request: &Request) -> Result<Vec<Subject>, Error> {
     let of_spectra = request.sight.wavelengths_nm.is_none();
     subjects.retain(|subject| !of_spectra || subject.material.rgb_nm.is_none());
     Ok(subjects)
+}
+
+/// The rows of a request and what the truth is, derived from the spectra.
+///
+/// # Errors
+/// A material cannot be seen as the request wants.
+pub fn derived_rows(request: &Request) -> Result<(Vec<Row>, String), Error> {
+    let request = Request {
+        materials: Materials::All,
+        ..request.clone()
+    };
+    let subjects = subjects(&request)?;
+    let rows = rows(&subjects, &request)?;
+    Ok((rows, seen(&subjects).to_owned()))
 }
 
 /// The rows of those that a fitted method follows: first those of `fitted`, then those of `fitted_dielectric`, each by name.

@@ -3,9 +3,10 @@
 use std::collections::BTreeSet;
 use std::fs;
 use std::io::{self, ErrorKind};
-use std::path::{Path, PathBuf};
+use std::path::{Component, Path, PathBuf};
 
 use super::error::Error;
+use crate::emit::sha256;
 
 /// The beginning of a temporary file's name.
 const TEMPORARY_PREFIX: &str = ".fresnel-gen-";
@@ -48,6 +49,17 @@ pub fn temporary_name() -> String {
     )
 }
 
+/// The name of the temporary file of an output that the user names: the same in every run, so that what a killed run left
+/// behind is found by the next one.
+pub fn temporary_of(output: &Path) -> String {
+    let name = output.file_name().unwrap_or_default();
+    let hash = sha256(name.as_encoded_bytes());
+    format!(
+        "{TEMPORARY_PREFIX}{}{TEMPORARY_SUFFIX}",
+        &hash[..TEMPORARY_DIGITS]
+    )
+}
+
 /// Is this the name of a temporary file?
 pub fn is_temporary(path: &str) -> bool {
     let name = path.rsplit('/').next().unwrap_or(path);
@@ -61,6 +73,58 @@ pub fn is_temporary(path: &str) -> bool {
 /// Is this a file itself, and neither a link nor a folder?
 pub fn is_plain_file(path: &Path) -> bool {
     fs::symlink_metadata(path).is_ok_and(|found| found.is_file())
+}
+
+/// Whether two paths lead to one file, which the later of two outputs would replace. A device takes both.
+pub fn is_same_file(one: &Path, other: &Path) -> bool {
+    let is_device = fs::metadata(one).is_ok_and(|found| !found.is_dir() && !found.is_file());
+    !is_device && resolved(one) == resolved(other)
+}
+
+/// Whether a path leads into a folder.
+pub fn is_below(folder: &Path, path: &Path) -> bool {
+    resolved(path).starts_with(resolved(folder))
+}
+
+/// How many links are followed in a row: as many as Linux follows.
+const LINKS: u32 = 40;
+
+/// A path without links and without `..`, whether or not it is there: a run makes the folders that are missing, so that `new/..`
+/// is where `new` will lie, and a link that leads to nothing leads to what will be made.
+fn resolved(path: &Path) -> PathBuf {
+    let whole = resolved_within(path, LINKS);
+    fs::canonicalize(&whole).unwrap_or(whole)
+}
+
+fn resolved_within(path: &Path, links: u32) -> PathBuf {
+    let mut whole = match path.is_absolute() {
+        true => PathBuf::new(),
+        false => fs::canonicalize(".").unwrap_or_default(),
+    };
+    for part in path.components() {
+        match part {
+            Component::Prefix(_) | Component::RootDir => whole.push(part),
+            Component::CurDir => {}
+            Component::ParentDir => {
+                whole.pop();
+            }
+            Component::Normal(name) => {
+                let next = whole.join(name);
+                whole = match fs::read_link(&next) {
+                    Ok(leads_to) if links > 0 => resolved_within(&whole.join(leads_to), links - 1),
+                    _ => next,
+                };
+            }
+        }
+    }
+    whole
+}
+
+/// Where a link leads that leads to nothing.
+pub fn dangling_link(path: &Path) -> Option<PathBuf> {
+    let leads_to = fs::read_link(path).ok()?;
+    let is_missing = fs::metadata(path).is_err_and(|fault| fault.kind() == ErrorKind::NotFound);
+    is_missing.then(|| path.parent().unwrap_or(Path::new("")).join(leads_to))
 }
 
 /// The first folder on the way from `root` to this path that is a link, and where the link leads.

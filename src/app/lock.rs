@@ -3,6 +3,8 @@
 //! The lock lies on the file [`FILE`] in the folder. The system releases it when a run ends or is killed. While a run
 //! works, the file lists the temporary files of the run, written down before they are made: what a killed run leaves
 //! behind is known by its name, and the next run removes it. A run that ends removes the file itself. Nobody renames it.
+//!
+//! A file that the user names has no such folder: there the lock lies on its temporary file.
 
 use std::fs::{self, File, OpenOptions, TryLockError};
 use std::io::{self, ErrorKind, Read, Seek, SeekFrom, Write};
@@ -11,7 +13,7 @@ use std::thread;
 use std::time::Duration;
 
 use super::artifact::check_path;
-use super::folder::is_temporary;
+use super::folder::{is_plain_file, is_temporary};
 
 /// The lock's file in the output folder.
 pub const FILE: &str = ".fresnel-gen.lock";
@@ -140,6 +142,38 @@ impl Drop for Lock {
         // A run that wrote nothing leaves no folder. One that holds something is not removed.
         for folder in self.created.iter().rev() {
             let _ = fs::remove_dir(folder);
+        }
+    }
+}
+
+/// Makes the temporary file of an output that the user names, and holds its lock. While another run writes that output, this one
+/// waits; what a killed run left there is removed.
+///
+/// # Errors
+/// Something else lies there, the file system has no locks, or the disk refuses.
+pub fn create_held(temporary: &Path) -> io::Result<File> {
+    loop {
+        let made = OpenOptions::new()
+            .write(true)
+            .create_new(true)
+            .open(temporary);
+        match made {
+            Ok(file) => {
+                file.lock()?;
+                // Another run may have taken it for a leftover before it was locked.
+                if is_at(&file, temporary) {
+                    return Ok(file);
+                }
+            }
+            Err(fault) if fault.kind() == ErrorKind::AlreadyExists && is_plain_file(temporary) => {
+                if let Ok(other) = File::open(temporary) {
+                    other.lock()?;
+                    if is_at(&other, temporary) {
+                        fs::remove_file(temporary)?;
+                    }
+                }
+            }
+            Err(fault) => return Err(fault),
         }
     }
 }

@@ -42,6 +42,9 @@ pub struct Manifest {
     pub inputs: Vec<Input>,
     /// The artifacts, sorted by file.
     pub files: Vec<Entry>,
+    /// What somebody else wrote into it: it stays.
+    #[serde(flatten)]
+    pub others: Map<String, Value>,
 }
 
 /// The data of one material.
@@ -136,6 +139,7 @@ impl Manifest {
             naga: provenance.naga.clone(),
             inputs: merge_inputs(old, &provenance.inputs, &files),
             files,
+            others: old.map_or_else(Map::new, |old| old.others.clone()),
         }
     }
 }

@@ -149,6 +149,7 @@ fn is_left(folder: &Path) -> bool {
     let open = || File::options().read(true).write(true).open(&lock);
     own(folder, Metadata::is_dir)
         && own(&lock, Metadata::is_file)
+        && fs::read(&lock).is_ok_and(|text| text == ABOUT.as_bytes())
         && open().is_ok_and(|lock| lock.try_lock().is_ok())
 }
 
@@ -238,10 +239,12 @@ mod tests {
         let new = folder(&format!("{PREFIX}new"));
         fs::write(new.join(UNLOCKED), "").unwrap();
         let strange = folder("strange");
-        fs::write(strange.join(LOCK), "").unwrap();
+        fs::write(strange.join(LOCK), ABOUT).unwrap();
+        let foreign = folder(&format!("{PREFIX}foreign"));
+        fs::write(foreign.join(LOCK), "").unwrap();
         sweep(place.path());
         assert!(!left.exists());
-        assert!(busy.exists() && new.exists() && strange.exists());
+        assert!(busy.exists() && new.exists() && strange.exists() && foreign.exists());
         drop(lock);
         sweep(place.path());
         assert!(!busy.exists());

@@ -8,6 +8,8 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::{Path, PathBuf};
 
+use serde_json::Value;
+
 use super::artifact::{self, Artifact};
 use super::error::Error;
 use super::folder;
@@ -35,6 +37,8 @@ pub struct Plan {
     pub obstacles: Vec<Obstacle>,
     /// Files of ours that were changed since they were written, and that a write replaces: to be named.
     pub edited: Vec<String>,
+    /// Functions that earlier runs put into a file and this one does not, by file: to be named.
+    pub dropped: Vec<(String, Vec<String>)>,
     /// The first folder of the tree that is a link, and where it leads.
     pub linked: Option<(PathBuf, PathBuf)>,
 }
@@ -90,6 +94,7 @@ pub fn plan(
     let old_text = folder::read(&out_dir.join(manifest::FILE))?;
     let old = old_manifest(out_dir, old_text.as_deref(), scope)?;
     let merged = Manifest::merge(old.as_ref(), scope, artifacts, provenance);
+    refuse_meeting_names(artifacts, &merged)?;
     let old_entries = old.as_ref().map_or(&[][..], |old| &old.files);
     let listed: BTreeMap<&str, &Entry> = old_entries
         .iter()
@@ -125,8 +130,64 @@ pub fn plan(
         stays,
         obstacles,
         edited,
+        dropped: dropped_functions(artifacts, &listed),
         linked,
     })
+}
+
+/// The names of the functions that a file's detail lists.
+fn functions(detail: Option<&Value>) -> Vec<&str> {
+    let functions = detail.and_then(Value::as_array).into_iter().flatten();
+    let names = functions.filter_map(|function| function["name"].as_str());
+    names.collect()
+}
+
+/// Functions that the manifest lists of a file and the artifact does not hold.
+fn dropped_functions(
+    artifacts: &[Artifact],
+    listed: &BTreeMap<&str, &Entry>,
+) -> Vec<(String, Vec<String>)> {
+    let dropped = |artifact: &Artifact| {
+        let entry = listed.get(artifact.path.as_str())?;
+        let kept = functions(artifact.detail.get("functions"));
+        let mut lost = functions(entry.detail.get("functions"));
+        lost.retain(|name| !kept.contains(name));
+        let lost: Vec<String> = lost.into_iter().map(str::to_owned).collect();
+        (!lost.is_empty()).then(|| (artifact.path.clone(), lost))
+    };
+    artifacts.iter().filter_map(dropped).collect()
+}
+
+/// Refuses a function that another file of the same language holds already, from another run: whoever includes both would have
+/// it twice.
+fn refuse_meeting_names(artifacts: &[Artifact], merged: &Manifest) -> Result<(), Error> {
+    let made: BTreeSet<&str> = artifacts
+        .iter()
+        .map(|artifact| artifact.path.as_str())
+        .collect();
+    let others = merged
+        .files
+        .iter()
+        .filter(|entry| !made.contains(entry.file.as_str()));
+    let mut owners: BTreeMap<(&str, &str), &str> = BTreeMap::new();
+    for entry in others {
+        for name in functions(entry.detail.get("functions")) {
+            owners.insert((&entry.target, name), &entry.file);
+        }
+    }
+    for artifact in artifacts {
+        for name in functions(artifact.detail.get("functions")) {
+            if let Some(other) = owners.get(&(artifact.target.as_str(), name)) {
+                return Err(Error::Usage {
+                    what: format!(
+                        "`{name}` would stand in {} and stands in {other}; rename a material, or choose another --prefix",
+                        artifact.path
+                    ),
+                });
+            }
+        }
+    }
+    Ok(())
 }
 
 impl Plan {
@@ -192,9 +253,10 @@ fn dropped(
     expected: &BTreeSet<&str>,
 ) -> Result<(Vec<Entry>, Vec<Stay>), Error> {
     let (mut orphans, mut stays) = (Vec::new(), Vec::new());
+    let mut seen = expected.clone();
     for entry in old {
         let path = out_dir.join(&entry.file);
-        if expected.contains(entry.file.as_str()) || fs::symlink_metadata(&path).is_err() {
+        if !seen.insert(&entry.file) || fs::symlink_metadata(&path).is_err() {
             continue;
         }
         let is_plain = folder::is_plain_file(&path);
@@ -257,10 +319,18 @@ fn standing(
 ) -> (Vec<Obstacle>, Vec<String>) {
     let (mut obstacles, mut edited) = (Vec::new(), Vec::new());
     for file in files.iter().chain([manifest]) {
-        let (State::Changed, Some(old)) = (file.state(), &file.old) else {
+        if file.state() == State::Unchanged {
+            continue;
+        }
+        let leads_to = fs::read_link(out_dir.join(&file.path)).ok();
+        let Some(old) = &file.old else {
+            // A link that leads to nothing lies there, or nothing does.
+            obstacles.extend(leads_to.map(|leads_to| Obstacle {
+                path: file.path.clone(),
+                leads_to: Some(leads_to),
+            }));
             continue;
         };
-        let leads_to = fs::read_link(out_dir.join(&file.path)).ok();
         let entry = listed.get(file.path.as_str());
         let as_we_left_it =
             || file.path == manifest::FILE || entry.is_some_and(|entry| is_listed(entry, old));

@@ -6,7 +6,7 @@
 //! What is not proved to be this program's own is never replaced or removed: [`ours`](super::ours).
 //! Nothing is forced to the disk's platter: after a power cut, run again.
 
-use std::fs::{self, OpenOptions};
+use std::fs::{self, File, OpenOptions};
 use std::io::{self, ErrorKind, Write as _};
 use std::path::{Path, PathBuf};
 
@@ -14,13 +14,10 @@ use tempfile::TempPath;
 
 use super::error::Error;
 use super::folder;
-use super::lock::Lock;
+use super::lock::{Lock, create_held};
 use super::manifest::{self, Entry};
 use super::ours::{bears_mark, is_listed};
 use super::tree::{Obstacle, Plan, Planned, State};
-
-/// What is said of a file that nothing proves to be ours.
-const OF_OTHERS: &str = "a file that fresnel-gen did not write lies there";
 
 /// What a write did, in files, the manifest included.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -94,10 +91,11 @@ pub fn write(plan: &Plan, overwrite: bool, lock: &mut Lock) -> Result<Written, E
 /// One does.
 pub fn try_places_of_ours(files: &[PathBuf], overwrite: bool) -> Result<(), Error> {
     for path in files.iter().filter(|_| !overwrite) {
-        if folder::read(path)?.is_some_and(|bytes| !bears_mark(&bytes)) {
+        let link = fs::read_link(path).ok();
+        if link.is_some() || folder::read(path)?.is_some_and(|bytes| !bears_mark(&bytes)) {
             return Err(Error::NotOurs {
                 path: path.clone(),
-                what: OF_OTHERS.to_owned(),
+                what: of_others(link.as_deref()),
             });
         }
     }
@@ -110,22 +108,34 @@ pub fn try_places_of_ours(files: &[PathBuf], overwrite: bool) -> Result<(), Erro
 /// # Errors
 /// A file of others lies in the place of one, or the disk refuses.
 pub fn write_report(files: &[(PathBuf, &[u8])], overwrite: bool) -> Result<Vec<PathBuf>, Error> {
-    let mut replaced = Vec::new();
+    let (mut replaced, mut pending) = (Vec::new(), Vec::new());
     for (path, bytes) in files {
-        if folder::read(path)?.is_some_and(|old| old != *bytes) {
+        let old = folder::read(path)?;
+        if old.as_deref() == Some(*bytes) {
+            continue;
+        }
+        if old.is_some() || fs::read_link(path).is_ok() {
             try_places_of_ours(std::slice::from_ref(path), overwrite)?;
             replaced.push(path.clone());
         }
+        pending.push((path.clone(), *bytes));
     }
-    write_files(files)?;
+    // Not through links: what lies behind one is not the report's.
+    let count = pending.len();
+    replace_all(stage_all(&pending, None)?, 0, count)?;
     Ok(replaced)
 }
 
-fn not_ours(out_dir: &Path, obstacle: &Obstacle, others: usize) -> Error {
-    let mut what = match &obstacle.leads_to {
+/// What lies in the place of an output.
+fn of_others(leads_to: Option<&Path>) -> String {
+    match leads_to {
         Some(leads_to) => format!("a link to {} lies there", leads_to.display()),
-        None => OF_OTHERS.to_owned(),
-    };
+        None => "a file that fresnel-gen did not write lies there".to_owned(),
+    }
+}
+
+fn not_ours(out_dir: &Path, obstacle: &Obstacle, others: usize) -> Error {
+    let mut what = of_others(obstacle.leads_to.as_deref());
     if others > 0 {
         what += &format!(", and {others} more in other places");
     }
@@ -169,32 +179,18 @@ pub fn try_file(path: &Path) -> Result<(), Error> {
         return Ok(());
     };
     let mut created = Vec::new();
-    let tried = stage(&place, &[], &folder::temporary_name(), &mut created).map(drop);
+    let tried = stage(
+        &place,
+        &[],
+        &folder::temporary_of(&place),
+        false,
+        &mut created,
+    )
+    .map(drop);
     for folder in created.iter().rev() {
         let _ = fs::remove_dir(folder);
     }
     tried.map_err(|source| stage_fault(path, source))
-}
-
-/// Whether two paths lead to one file, which the later of two outputs would replace. A device takes both.
-pub fn is_same_file(one: &Path, other: &Path) -> bool {
-    let is_device = fs::metadata(one).is_ok_and(|found| !found.is_dir() && !found.is_file());
-    !is_device && resolved(one) == resolved(other)
-}
-
-/// A path without links, as far as it is there.
-fn resolved(path: &Path) -> PathBuf {
-    let (Some(parent), Some(name)) = (path.parent(), path.file_name()) else {
-        return path.to_path_buf();
-    };
-    let above = match parent {
-        parent if parent.as_os_str().is_empty() => fs::canonicalize("."),
-        parent => fs::canonicalize(parent),
-    };
-    fs::canonicalize(path).unwrap_or_else(|_| match above {
-        Ok(above) => above.join(name),
-        Err(_) => resolved(parent).join(name),
-    })
 }
 
 /// Where these bytes go; nowhere where they are already.
@@ -206,7 +202,14 @@ fn destination(path: &Path, bytes: &[u8]) -> Result<Option<PathBuf>, Error> {
         }),
         Ok(_) if folder::read(path)?.as_deref() == Some(bytes) => Ok(None),
         Ok(_) => fs::canonicalize(path).map(Some).map_err(fault),
-        Err(missing) if missing.kind() == ErrorKind::NotFound => Ok(Some(path.to_path_buf())),
+        Err(missing) if missing.kind() == ErrorKind::NotFound => {
+            match folder::dangling_link(path) {
+                // The link stays, and what it leads to is made.
+                Some(leads_to) if leads_to.parent().is_some_and(Path::is_dir) => Ok(Some(leads_to)),
+                Some(_) => Err(fault(missing)),
+                None => Ok(Some(path.to_path_buf())),
+            }
+        }
         Err(other) => Err(fault(other)),
     }
 }
@@ -215,6 +218,8 @@ fn destination(path: &Path, bytes: &[u8]) -> Result<Option<PathBuf>, Error> {
 struct Staged {
     temporary: TempPath,
     destination: PathBuf,
+    /// The lock on the temporary file, held until it is renamed or removed.
+    _held: Option<File>,
 }
 
 /// Stages files. In a folder with a lock their temporary names are written down before they are made.
@@ -222,7 +227,12 @@ fn stage_all(
     pending: &[(PathBuf, &[u8])],
     locked: Option<(&Path, &mut Lock)>,
 ) -> Result<Vec<Staged>, Error> {
-    let names: Vec<String> = pending.iter().map(|_| folder::temporary_name()).collect();
+    let is_tree = locked.is_some();
+    let name = |(path, _): &(PathBuf, &[u8])| match is_tree {
+        true => folder::temporary_name(),
+        false => folder::temporary_of(path),
+    };
+    let names: Vec<String> = pending.iter().map(name).collect();
     if let (Some((out_dir, lock)), Some((first, _))) = (locked, pending.first()) {
         let beside = |(path, name): (&PathBuf, &String)| {
             let inside = path.with_file_name(name);
@@ -240,7 +250,8 @@ fn stage_all(
         .iter()
         .zip(&names)
         .map(|((path, bytes), name)| {
-            stage(path, bytes, name, &mut created).map_err(|source| stage_fault(path, source))
+            stage(path, bytes, name, is_tree, &mut created)
+                .map_err(|source| stage_fault(path, source))
         })
         .collect();
     if staged.is_err() {
@@ -252,25 +263,44 @@ fn stage_all(
     staged
 }
 
-fn stage(path: &Path, bytes: &[u8], name: &str, created: &mut Vec<PathBuf>) -> io::Result<Staged> {
+/// Writes one temporary file. In a tree the folder's lock holds; elsewhere the file's own, where there can be one.
+fn stage(
+    path: &Path,
+    bytes: &[u8],
+    name: &str,
+    is_tree: bool,
+    created: &mut Vec<PathBuf>,
+) -> io::Result<Staged> {
     let folder = match path.parent() {
         Some(parent) if !parent.as_os_str().is_empty() => parent,
         _ => Path::new("."),
     };
     create_folder(folder, created)?;
-    let temporary = folder.join(name);
-    let mut file = OpenOptions::new()
-        .write(true)
-        .create_new(true)
-        .open(&temporary)?;
+    let mut temporary = folder.join(name);
+    let held = if is_tree {
+        None
+    } else {
+        create_held(&temporary).ok()
+    };
+    if held.is_none() && !is_tree {
+        temporary = folder.join(folder::temporary_name());
+    }
+    let mut file = match held {
+        Some(file) => file,
+        None => OpenOptions::new()
+            .write(true)
+            .create_new(true)
+            .open(&temporary)?,
+    };
     // From here on it is deleted when dropped.
     let temporary = TempPath::try_from_path(temporary)?;
     file.write_all(bytes)?;
     file.flush()?;
     Ok(Staged {
-        // Without its handle: a tree has more files than some systems let a process open.
         temporary,
         destination: path.to_path_buf(),
+        // A tree has more files than some systems let a process open.
+        _held: (!is_tree).then_some(file),
     })
 }
 

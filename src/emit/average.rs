@@ -1,6 +1,8 @@
 //! Means over the hemisphere, `2 ∫ F c dc`: functions of coefficients beside those of a fitted method, and the constants of a
 //! material, for what light does that is reflected more than once between microfacets.
 
+use serde::{Deserialize, Serialize};
+
 use crate::ir::{Checked, Fault, Value, evaluate};
 use crate::methods::Method;
 use crate::num::{Legendre, Precision};
@@ -61,7 +63,7 @@ fn is_mean(emitted: &Emitted) -> bool {
 
 /// The mean over the hemisphere of a material's fitted function, its limit to [0, 1] included, and before that limit; none for
 /// other functions.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Average {
     /// Of what the function gives.
     pub given: [f64; 3],

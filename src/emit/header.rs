@@ -284,7 +284,7 @@ fn colours_line(method: &Method, colours: Colours) -> String {
         beyond => format!("; {beyond}"),
     };
     format!(
-        "Code error for any colours, {}: at most {:e} absolute, unfused or fused{beyond}",
+        "Code error for colours with {}: at most {:e} absolute, unfused or fused{beyond}",
         ranges.join(", "),
         colours.max_abs
     )
@@ -317,6 +317,8 @@ fn model_line(error: &ModelError) -> String {
     let most = at_most(error);
     let degrees = libm::acos(error.worst_cos).to_degrees();
     let mean = match error.mean_rel {
+        // Of a reflectance next to 0 any error is large.
+        Some(mean) if mean > 100.0 => "above 10000 % in the mean over angles".to_owned(),
         Some(mean) => format!("{:.2} % in the mean over angles", 100.0 * mean),
         None => "no relative mean, as a channel reflects nothing".to_owned(),
     };

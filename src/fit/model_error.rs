@@ -1,7 +1,7 @@
 //! Model error: a method against the exact law, over all angles. Never to be added to code error.
 
 use glam::DVec3;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use crate::ir::{Checked, Column, Value, evaluate};
 use crate::materials::{Channels, Surface};
@@ -11,7 +11,7 @@ use crate::spectra::Gamut;
 use super::texels::{arguments, table_of};
 
 /// How wrong a method is for a material, whatever computes it.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct ModelError {
     /// Largest absolute difference, over angles and channels.
     pub max_abs: f64,

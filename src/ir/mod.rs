@@ -30,7 +30,7 @@ mod texture;
 pub use build::{Builder, Expr};
 pub use check::{Checked, Fault, RULES, check, check_in, identifier_fault};
 pub use evaluate::{Column, Value, evaluate};
-pub use fold::{fold, fold_in, specialise, specialise_in};
+pub use fold::{USED_TWICE, fold, fold_in, specialise, specialise_in};
 pub use graph::{COSINE, Function, Label, Node, NodeId, Param, Ty};
 pub use op::{OPS, Op, OpInfo, Payload, Signature};
 pub use text::{ParseError, parse, print};

@@ -39,6 +39,17 @@ impl Default for Sight {
     }
 }
 
+impl Sight {
+    /// What is seen of a spectrum, in words.
+    pub fn seen(&self) -> String {
+        format!(
+            "reflectance integrated over {}{}",
+            self.integration.description(),
+            in_gamut(self.gamut)
+        )
+    }
+}
+
 /// The surface of a material in its medium, seen.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Surface {
@@ -110,11 +121,7 @@ impl Surface {
             gamut,
             seen: match three {
                 Some(rgb) => three_in_words(rgb),
-                None => format!(
-                    "reflectance integrated over {}{}",
-                    sight.integration.description(),
-                    in_gamut(gamut)
-                ),
+                None => sight.seen(),
             },
         })
     }

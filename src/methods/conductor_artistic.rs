@@ -11,7 +11,7 @@
 use crate::cite::Citation;
 use crate::ir::Expr;
 
-use super::conductor_exact::{self, conductor};
+use super::conductor_exact::{self, conductor, least_squared, root_or_zero};
 use super::half::InHalf;
 use super::input::{Input, Inputs, Range};
 use super::method::{Claim, Claims, Class, Colours, Contract, Forms, Light, Method, Over, Values};
@@ -69,7 +69,7 @@ pub static METHOD: Method = Method {
 fn build<'b>(x: &Inputs<'b>) -> Expr<'b> {
     let r = x
         .get(Input::REFLECTIVITY)
-        .at_least(0.0)
+        .at_least(least_squared(x.precision()))
         .at_most(0.999)
         .named("facing", "n_max is singular at 1");
     let g = x.get(Input::EDGE_TINT).saturate().named("edge", "");
@@ -83,9 +83,9 @@ fn build<'b>(x: &Inputs<'b>) -> Expr<'b> {
     let above = ((1.0 - g) * span).named("above", "n - n_min");
     let n = (least + above).named("n", "");
     let gap = 2.0 * root / (most * r_more);
-    let k = (g * span * (above + gap))
-        .sqrt()
-        .named("k", "k^2 = (n_max - n)(n - 1 / n_max), in positive terms");
+    let k2 = g * span * (above + gap);
+    let k2 = k2.named("k2", "(n_max - n)(n - 1 / n_max), in positive terms");
+    let k = root_or_zero(x.precision(), k2).named("k", "0 where k2 is 0, by any arithmetic");
     conductor(x.precision(), x.cosine(), n, k)
 }
 

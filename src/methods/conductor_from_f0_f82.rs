@@ -16,7 +16,7 @@ use crate::cite::Citation;
 use crate::ir::Expr;
 use crate::optics::index_from_f0_f82;
 
-use super::conductor_exact::{self, conductor};
+use super::conductor_exact::{self, conductor, least_squared, root_or_zero};
 use super::half::InHalf;
 use super::input::{Input, Inputs, Range};
 use super::method::{Claim, Claims, Class, Colours, Contract, Forms, Light, Method, Over, Values};
@@ -41,8 +41,7 @@ pub static METHOD: Method = Method {
     forms: Forms::Colour,
     class: Class::Any,
     light: Light::Unpolarised,
-    domain: "f0 counts as at most 0.999; an f82 that no n and k can give takes the nearest that one can. It needs a square root that \
-             gives 0 for 0: one computed as x / sqrt(x) gives NaN where k is 0, for half of all pairs",
+    domain: "f0 counts as at most 0.999; an f82 that no n and k can give takes the nearest that one can",
     claims: Claims {
         model: &[
             Claim {
@@ -56,7 +55,7 @@ pub static METHOD: Method = Method {
                 at_degrees: 72.5,
             },
         ],
-        code_ulp: 9.0,
+        code_ulp: 5.5,
         code_over: Over::Metals,
         colours: Some(Colours {
             max_abs: 5e-4,
@@ -76,7 +75,7 @@ pub static METHOD: Method = Method {
                     },
                 ),
             ],
-            beyond: "of other pairs, which no material has, f32 may be off by 0.3",
+            beyond: "of other pairs f32 may be off by 0.3",
         }),
     },
     contract: Contract::Kept,
@@ -105,32 +104,27 @@ struct Circle<'b> {
 }
 
 fn build<'b>(x: &Inputs<'b>) -> Expr<'b> {
-    let circle = circle(x.get(Input::F0));
+    let tiny = least_squared(x.precision());
+    let circle = circle(x.get(Input::F0), tiny);
     let m = (1.0 - x.get(Input::F82))
         .at_least(0.0)
         .named("m", "what the reflectance at 82 degrees lacks of 1");
     let guess = aimed(&circle, m, ["u_guess", "curve_guess", "n_guess_less"]);
     let n_guess = (circle.least + guess).named("n_guess", "");
-    let missed = deficit(&circle, n_guess).named("m_guess", "what it lacks with this n");
+    let missed = deficit(&circle, n_guess, tiny).named("m_guess", "what it lacks with this n");
     let aim = (2.0 * m - missed)
         .at_least(0.0)
         .named("aim", "as far on the other side");
     let above = aimed(&circle, aim, ["u_aim", "curve_aim", "above"]);
-    let k2 = above * (circle.span - above);
+    let k2 = (above * (circle.span - above)).named("k2", "on the circle of one F0");
+    let k = root_or_zero(x.precision(), k2).named("k", "0 where k2 is 0, by any arithmetic");
     let n = (circle.least + above).named("n", "");
-    conductor(
-        x.precision(),
-        x.cosine(),
-        n,
-        k2.at_least(0.0)
-            .sqrt()
-            .named("k", "on the circle of one F0"),
-    )
+    conductor(x.precision(), x.cosine(), n, k)
 }
 
-fn circle<'b>(f0: Expr<'b>) -> Circle<'b> {
+fn circle<'b>(f0: Expr<'b>, tiny: f64) -> Circle<'b> {
     let f0 = f0
-        .at_least(0.0)
+        .at_least(tiny)
         .at_most(0.999)
         .named("f0_less", "n_max is infinite at 1");
     let root = f0.sqrt().named("root", "");
@@ -165,15 +159,15 @@ fn aimed<'b>(circle: &Circle<'b>, m: Expr<'b>, names: [&str; 3]) -> Expr<'b> {
 }
 
 /// 1 - F at cos θ = 1/7 for an n on the circle, without k and without cancellation.
-fn deficit<'b>(circle: &Circle<'b>, n: Expr<'b>) -> Expr<'b> {
+fn deficit<'b>(circle: &Circle<'b>, n: Expr<'b>, tiny: f64) -> Expr<'b> {
     let (c, s) = (1.0 / 7.0, SIN2.sqrt());
     let q = ((4.0 * circle.inverse - 2.0) * n - c * c).named("q", "n^2 + k^2 + sin^2");
     let h = (2.0 * s * n).named("h", "");
     let r = ((q - h) * (q + h))
-        .at_least(0.0)
+        .at_least(tiny)
         .sqrt()
         .named("r_guess", "a^2 + b^2 there");
-    let a = (n * (1.0 - 2.0 * SIN2 / (r + q)).at_least(0.0).sqrt()).named("a_guess", "");
+    let a = (n * (1.0 - 2.0 * SIN2 / (r + q)).at_least(tiny).sqrt()).named("a_guess", "");
     let x = (r / (2.0 * c) + 0.5 * c).named("x_guess", "");
     let y = (r * (c / (2.0 * SIN2)) + SIN2 / (2.0 * c)).named("y_guess", "");
     a * (x + 2.0 * y + a) / ((x + a) * (y + a))

@@ -8,7 +8,7 @@
 //! In half precision it is F = ½ (r_s² + r_p²) with r_s = 1 - 2c/(g+c) and r_p = 1 - 2η²c/(η²c+g): where F is near 1 little
 //! is subtracted, and two roundings are left of eight.
 //! Domain: η from 0.001 to 1e12 (beyond, η³ overflows), on both sides of 1; η = 1 gives 0 at every angle, 90° too. Past the critical angle exactly 1, but
-//! for the 33 numbers next to its cosine: there the rounding of c² decides, and a root of 6e-8 is 2.4e-4.
+//! for the 34 numbers next to its cosine: there the rounding of c² decides, and a root of 6e-8 is 2.4e-4.
 //! Error: none in the model; the code error is [`METHOD`]'s claim. Close to the critical angle the law itself is
 //! ill-conditioned (a square root reaches 0 there), and the error follows its condition number.
 
@@ -46,8 +46,9 @@ pub static METHOD: Method = Method {
     forms: Forms::ColourAndScalar,
     class: Class::Dielectric,
     light: Light::Unpolarised,
-    domain: "on both sides of 1; eta = 1 gives 0 at every angle. Past the critical angle exactly 1, but for 33 numbers next to its \
-             cosine, where rounding decides: 0.99 or more for eta from 0.25 on",
+    domain: "on both sides of 1; eta = 1 gives 0 at every angle. Past the critical angle exactly 1, but for up to 34 values of f32 next to its \
+             cosine, where rounding decides: 0.99 or more for eta from 0.25 on. Before it the law is steep: f32 may be off by 0.01 for \
+             eta from 0.25 to 0.999",
     claims: Claims {
         model: &[Claim {
             over: Over::Dielectrics,
@@ -183,10 +184,11 @@ pub(super) fn steps<'b>(x: &Inputs<'b>) -> Steps<'b> {
     if x.is_half() {
         return half_steps(c, eta, tau, g2);
     }
-    let u = (g2.at_least(0.0).sqrt() + c).named("u", "");
+    // Of 0 a root taken as x / sqrt(x) is a NaN.
+    let u = (g2.at_least(1e-37).sqrt() + c).named("u", "");
     let r_s =
         (tau / (tau + 2.0 * c * u).at_least(1e-37)).named("r_s", "(g - c) / (g + c), as tau / u^2");
-    let ratio = (c * u - 1.0) / (c * tau / u.at_least(1e-30) + 1.0);
+    let ratio = (c * u - 1.0) / (c * tau / u + 1.0);
     Steps {
         tau,
         g2,

@@ -27,8 +27,8 @@ pub static METHOD: Method = Method {
     name: "dielectric_textbook",
     summary: "the exact law for dielectrics as textbooks print it, for comparison",
     formula: &[
-        "root = sqrt(1 - (sin_theta / n)^2)",
-        "R_s = ((cos_theta - n root) / (cos_theta + n root))^2, R_p = ((root - n cos_theta) / (root + n cos_theta))^2",
+        "root = sqrt(1 - (sin_theta / eta)^2)",
+        "R_s = ((cos_theta - eta root) / (cos_theta + eta root))^2, R_p = ((root - eta cos_theta) / (root + eta cos_theta))^2",
         "F = (R_s + R_p) / 2",
     ],
     source: PBRT_2010,

@@ -29,7 +29,7 @@ pub static METHOD: Method = Method {
     forms: Forms::ColourAndScalar,
     class: Class::Any,
     light: Light::Unpolarised,
-    domain: "the three channels are alike",
+    domain: "the arguments are numbers: the three channels get the same reflectance",
     claims: Claims {
         model: &[
             Claim {

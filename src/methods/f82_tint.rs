@@ -5,13 +5,13 @@
 //! <https://helpx.adobe.com/substance-3d-general/adobe-standard-material.html>.
 //! With 7⁷/6⁶ for the quotient, b = (49/46656) (1 - tint) (7776 + 9031 F0), exactly.
 //! Domain: F0, tint ≥ 0. For tints below .52 the bare formula turns negative (to -.127), and above 1 it can exceed
-//! 1: the result is clamped to [0, max(1, F0)]. Error: [`METHOD`]'s claims.
+//! 1: the result is limited to [0, 1]. Error: [`METHOD`]'s claims.
 
 use crate::cite::Citation;
 use crate::ir::Expr;
 
 use super::half::InHalf;
-use super::hoffman_f82::{dip, limited};
+use super::hoffman_f82::dip;
 use super::input::{Input, Inputs};
 use super::method::{Claim, Claims, Class, Colours, Contract, Forms, Light, Method, Over};
 use super::schlick::grazing_weight;
@@ -21,7 +21,7 @@ pub static METHOD: Method = Method {
     name: "f82_tint",
     summary: "Schlick's approximation corrected to a tint at 81.79 degrees",
     formula: &[
-        "F = F0 + (1 - F0) (1 - c)^5 - b c (1 - c)^6, clamped to [0, max(1, F0)]",
+        "F = F0 + (1 - F0) (1 - c)^5 - b c (1 - c)^6, limited to [0, 1]",
         "b = (49 / 46656) (1 - tint) (7776 + 9031 F0)",
     ],
     source: Citation {
@@ -35,7 +35,7 @@ pub static METHOD: Method = Method {
     forms: Forms::Colour,
     class: Class::Any,
     light: Light::Unpolarised,
-    domain: "clamped to [0, max(1, f0)]: f0 above 1 is taken as it is",
+    domain: "the result is limited to [0, 1], of f0 above 1 too",
     claims: Claims {
         model: &[
             Claim {
@@ -72,7 +72,7 @@ fn build<'b>(x: &Inputs<'b>) -> Expr<'b> {
     let b = b.named("b", "the depth of the dip");
     let m5 = grazing_weight(x, c);
     let bare = (f0 + (1.0 - f0) * m5 - b * dip(c, m5)).named("bare", "Schlick less the dip");
-    limited(bare, f0)
+    bare.saturate()
 }
 
 #[cfg(test)]

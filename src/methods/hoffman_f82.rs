@@ -4,7 +4,7 @@
 //! Source: Hoffman, "Fresnel Equations Considered Harmful", MAM workshop, 2019,
 //! <https://renderwonk.com/publications/mam2019/>.
 //! 1 / (1/7 (6/7)⁶) = 7⁷/6⁶ and F_S(1/7) = F0 + (1 - F0) (6/7)⁵, both exact.
-//! Domain: F0, F82 ≥ 0; clamped to [0, max(1, F0)]. Error: [`METHOD`]'s claims.
+//! Domain: F0, F82 ≥ 0; limited to [0, 1]. Error: [`METHOD`]'s claims.
 
 use crate::cite::Citation;
 use crate::ir::Expr;
@@ -24,7 +24,7 @@ pub static METHOD: Method = Method {
     name: "hoffman_f82",
     summary: "Schlick's approximation corrected to the reflectance at 81.79 degrees",
     formula: &[
-        "F = F0 + (1 - F0) (1 - c)^5 - b c (1 - c)^6, clamped to [0, max(1, F0)]",
+        "F = F0 + (1 - F0) (1 - c)^5 - b c (1 - c)^6, limited to [0, 1]",
         "b = (823543 / 46656) (F0 + (1 - F0) 7776 / 16807 - F82)",
     ],
     source: Citation {
@@ -38,7 +38,7 @@ pub static METHOD: Method = Method {
     forms: Forms::Colour,
     class: Class::Any,
     light: Light::Unpolarised,
-    domain: "clamped to [0, max(1, f0)]: f0 above 1 is taken as it is",
+    domain: "the result is limited to [0, 1], of f0 above 1 too",
     claims: Claims {
         model: &[
             Claim {
@@ -70,17 +70,12 @@ fn build<'b>(x: &Inputs<'b>) -> Expr<'b> {
     let b = (PEAK * (f0 + rise * WEIGHT_82 - f82)).named("b", "the depth of the dip");
     let m5 = grazing_weight(x, c);
     let bare = (f0 + rise * m5 - b * dip(c, m5)).named("bare", "Schlick less the dip");
-    limited(bare, f0)
+    bare.saturate()
 }
 
 /// `c (1-c)⁶`, from the fifth power that is there already.
 pub(super) fn dip<'b>(c: Expr<'b>, m5: Expr<'b>) -> Expr<'b> {
     c * (m5 * (1.0 - c))
-}
-
-/// A result that may leave its range, limited to [0, max(1, F0)].
-pub(super) fn limited<'b>(f: Expr<'b>, f0: Expr<'b>) -> Expr<'b> {
-    f.at_least(0.0).min(f0.at_least(1.0))
 }
 
 #[cfg(test)]

@@ -231,11 +231,11 @@ impl<'b> Inputs<'b> {
         self.cos_theta
     }
 
-    /// `cos_theta` limited to [0, 1], so that 1 + 1 ulp never reaches a power.
+    /// `cos_theta` limited to [0, 1]: a rounded dot product may be 1 + 1 ulp, and a power of 1 - c would be NaN.
     pub fn cosine(&self) -> Expr<'b> {
         self.cos_theta
             .saturate()
-            .named("c", "1 + 1 ulp must not reach what follows")
+            .named("c", "clamp: a rounded dot product may exceed 1")
     }
 
     /// An input that the method declared.

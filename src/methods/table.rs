@@ -50,7 +50,8 @@ pub static METHOD: Method = Method {
     forms: Forms::Colour,
     class: Class::Any,
     light: Light::Unpolarised,
-    domain: "a sampler that filters linearly and clamps to the edge, linear texels (not sRGB), cos theta = 0 first",
+    domain: "a sampler that filters linearly and clamps to the edge, linear texels (not sRGB), cos theta = 0 first. The errors below are \
+             those of 64 texels and warp 4",
     claims: Claims {
         model: &[
             Claim {

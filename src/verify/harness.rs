@@ -81,32 +81,6 @@ fn widened(call: &Call, value: String) -> String {
 /// A number and a colour.
 const HALF_WGSL: [&str; 2] = ["f16", "vec3<f16>"];
 
-/// Whether a text holds a loop. No function of ours does, and one that never ends would stop a device.
-pub fn has_loop(text: &str) -> bool {
-    let code = text.lines().filter_map(|line| line.split("//").next());
-    let is_part = |c: char| c.is_ascii_alphanumeric() || c == '_';
-    code.flat_map(|line| line.split(|c: char| !is_part(c)))
-        .any(|word| ["for", "while", "loop", "do", "goto"].contains(&word))
-}
-
-/// Whether a SPIR-V module holds a loop: an OpLoopMerge.
-pub fn module_has_loop(bytes: &[u8]) -> bool {
-    const LOOP_MERGE: u32 = 246;
-    let words: Vec<u32> = bytes
-        .chunks_exact(4)
-        .map(|word| u32::from_le_bytes([word[0], word[1], word[2], word[3]]))
-        .collect();
-    // Five words of head; each instruction then says its own length.
-    let mut at = 5;
-    while let Some(word) = words.get(at) {
-        if word & 0xFFFF == LOOP_MERGE {
-            return true;
-        }
-        at += (word >> 16).max(1) as usize;
-    }
-    false
-}
-
 /// The spelling of a target that is always there.
 fn spelling(target: &str) -> &'static Spelling {
     &targets::find(target)

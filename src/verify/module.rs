@@ -11,6 +11,7 @@ const CAPABILITY: u32 = 17;
 const FUNCTION: u32 = 54;
 const VARIABLE: u32 = 59;
 const DECORATE: u32 = 71;
+const LOOP_MERGE: u32 = 246;
 /// Decorations, chapter 3.20.
 const LOCATION: u32 = 30;
 const BINDING: u32 = 33;
@@ -20,23 +21,40 @@ const LOCAL: u32 = 7;
 
 /// What a module declares, in words. Nothing of it has a line.
 pub fn declarations(bytes: &[u8]) -> Vec<Item> {
-    let words: Vec<u32> = bytes
+    let words = words(bytes);
+    let declared = instructions(&words).filter_map(|(code, of)| declaration(code, of, &words));
+    declared.map(|words| Item { line: 0, words }).collect()
+}
+
+/// The loops of a module.
+pub fn loops(bytes: &[u8]) -> Vec<Item> {
+    let words = words(bytes);
+    let found = instructions(&words).filter(|(code, _)| *code == LOOP_MERGE);
+    found
+        .map(|_| Item {
+            line: 0,
+            words: "OpLoopMerge".to_owned(),
+        })
+        .collect()
+}
+
+fn words(bytes: &[u8]) -> Vec<u32> {
+    bytes
         .chunks_exact(4)
         .map(|word| u32::from_le_bytes([word[0], word[1], word[2], word[3]]))
-        .collect();
-    let mut found = Vec::new();
-    // Five words of head; each instruction then says its own length.
+        .collect()
+}
+
+/// Each instruction with its operands. Five words of head; each instruction then says its own length.
+fn instructions(words: &[u32]) -> impl Iterator<Item = (u32, &[u32])> {
     let mut at = 5;
-    while let Some(first) = words.get(at) {
+    std::iter::from_fn(move || {
+        let first = *words.get(at)?;
         let length = (first >> 16).max(1) as usize;
         let operands = words.get(at + 1..at + length).unwrap_or_default();
-        found.extend(declaration(first & 0xFFFF, operands, &words));
         at += length;
-    }
-    found
-        .into_iter()
-        .map(|words| Item { line: 0, words })
-        .collect()
+        Some((first & 0xFFFF, operands))
+    })
 }
 
 /// The entry points of a module, by name.

@@ -11,6 +11,8 @@ pub struct Outline {
     pub declared: Vec<Item>,
     /// Comments, a line each.
     pub comments: Vec<Item>,
+    /// Words that begin a loop. No function of ours holds one, and one that never ends would stop a device.
+    pub loops: Vec<Item>,
 }
 
 /// A declaration or a line of a comment.
@@ -28,6 +30,9 @@ const LINE_ENDS: [char; 7] = [
 ];
 /// Signs that our text never holds, because languages read them differently: quotes, digraphs, trigraphs, `\` before a line's end.
 const STRANGE: [char; 5] = ['"', '\'', '\\', '%', '$'];
+
+/// Words that a loop begins with, or jumps.
+const LOOPS: [&str; 5] = ["for", "while", "loop", "do", "goto"];
 
 /// The outline of a text. `nests`: whether comments within comments count, as in WGSL.
 pub fn outline(text: &str, nests: bool) -> Outline {
@@ -100,7 +105,10 @@ impl<'a> Reader<'a> {
 
     fn directive(&mut self, bytes: usize) {
         let line = self.line;
-        let words: Vec<&str> = self.take(bytes).split_whitespace().collect();
+        let text = self.take(bytes);
+        let held = text.split(|c| !is_part(c));
+        held.for_each(|word| self.note_loop(line, word));
+        let words: Vec<&str> = text.split_whitespace().collect();
         self.declare(line, words.join(" "));
     }
 
@@ -108,9 +116,18 @@ impl<'a> Reader<'a> {
         if self.head.is_empty() {
             self.begun = self.line;
         }
+        let line = self.line;
         let word = self.take(bytes);
+        self.note_loop(line, word);
         if self.depth == 0 {
             self.head.push(word);
+        }
+    }
+
+    fn note_loop(&mut self, line: usize, word: &str) {
+        if LOOPS.contains(&word) {
+            let words = word.to_owned();
+            self.found.loops.push(Item { line, words });
         }
     }
 
@@ -151,7 +168,7 @@ fn is_part(c: char) -> bool {
 }
 
 /// How many bytes of a comment begin here; one without an end takes the rest.
-fn block_comment(rest: &str, nests: bool) -> usize {
+pub(super) fn block_comment(rest: &str, nests: bool) -> usize {
     let (mut at, mut depth) = (2, 1);
     while depth > 0 {
         let Some(next) = rest[at..].find(['/', '*']).map(|next| at + next) else {
@@ -222,6 +239,22 @@ mod tests {
             false,
             &["float f ( ) {", "# define x"],
         );
+    }
+
+    #[test]
+    fn loops_are_found_in_code_alone() {
+        let loops = |text, nests| -> Vec<(usize, String)> {
+            let found = outline(text, nests).loops.into_iter();
+            found.map(|item| (item.line, item.words)).collect()
+        };
+        assert_eq!(loops("// for\n/* while\n */ float fore;", false), []);
+        let text = "float f() {\n for (;;) {} }\n#define F while (x)\n";
+        assert_eq!(
+            loops(text, false),
+            [(2, "for".to_owned()), (3, "while".to_owned())]
+        );
+        assert_eq!(loops("// a\u{2028}loop {}", true), [(1, "loop".to_owned())]);
+        assert_eq!(loops("/* /* */ do", false).len(), 1);
     }
 
     #[test]

@@ -1,8 +1,12 @@
 //! The catalogue of fitted coefficients: the same numbers in JSON and in every language, to the bit, and the ones that the fit has.
 
-use fresnel_gen::app::catalogue::add_catalogue;
+use std::path::Path;
+
+use fresnel_gen::app::catalogue::{add_catalogue, derived_rows};
+use fresnel_gen::app::recorded;
 use fresnel_gen::app::{Artifact, Request, generate};
 use fresnel_gen::methods;
+use fresnel_gen::spectra::Gamut;
 use fresnel_gen::targets;
 use serde_json::Value;
 
@@ -101,4 +105,18 @@ fn it_holds_what_the_fit_gives_and_what_it_errs() {
         "no fitted method follows a gas"
     );
     assert!(!has("gold_thesis"), "three wavelengths are no spectrum");
+}
+
+/// The record that runs start from, derived anew; and it is taken for the default viewing conditions alone.
+#[test]
+fn the_record_is_what_the_spectra_give() {
+    let (rows, seen) = derived_rows(&Request::default()).unwrap();
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("data/records/catalogue.json");
+    super::bless::check(&path, recorded::record(&rows).as_bytes());
+    let taken = recorded::rows(&Request::default()).expect("the record is true");
+    assert_eq!(recorded::record(&taken), recorded::record(&rows));
+    assert_eq!(Request::default().sight.seen(), seen);
+    let mut other = Request::default();
+    other.sight.gamut = Gamut::Keep;
+    assert!(recorded::rows(&other).is_none());
 }

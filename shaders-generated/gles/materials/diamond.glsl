@@ -26,7 +26,7 @@
 // Cost: 34 scalar operations, among them 3 roots, 3 divisions
 // Form: plain, which keeps its digits for this material; the stable form has 43 operations.
 highp vec3 fresnel_diamond(highp float cos_theta) {
-    highp float c = clamp(cos_theta, 0.0, 1.0); // 1 + 1 ulp must not reach what follows
+    highp float c = clamp(cos_theta, 0.0, 1.0); // clamp: a rounded dot product may exceed 1
     highp float c2 = c * c;
     highp float s2 = 1.0 - c2; // sin^2 theta
     highp float s4 = s2 * s2;
@@ -46,7 +46,7 @@ highp vec3 fresnel_diamond(highp float cos_theta) {
 // Average over the hemisphere: (0.211274, 0.212843, 0.214998).
 // Cost: 27 scalar operations
 highp vec3 fresnel_diamond_fitted_dielectric(highp float cos_theta) {
-    highp float c = clamp(cos_theta, 0.0, 1.0); // 1 + 1 ulp must not reach what follows
+    highp float c = clamp(cos_theta, 0.0, 1.0); // clamp: a rounded dot product may exceed 1
     highp float b = 1.0 - c; // 0 at normal incidence, 1 at grazing
     highp float b2 = b * b;
     highp float b3 = b * b2;
@@ -66,7 +66,7 @@ highp vec3 fresnel_diamond_fitted_dielectric(highp float cos_theta) {
 // Code error: at most 5.5 ulp or 2^-22, unfused f32 against f64.
 // Cost: 14 scalar operations
 highp vec3 fresnel_diamond_schlick_rescaled(highp float cos_theta) {
-    highp float c = clamp(cos_theta, 0.0, 1.0); // 1 + 1 ulp must not reach what follows
+    highp float c = clamp(cos_theta, 0.0, 1.0); // clamp: a rounded dot product may exceed 1
     highp float m = 1.0 - c; // 0 at normal incidence, 1 at grazing
     highp float m2 = m * m;
     highp float m5 = m2 * m2 * m;
@@ -83,7 +83,7 @@ highp vec3 fresnel_diamond_schlick_rescaled(highp float cos_theta) {
 // Code error: at most 6.5 ulp or 2^-22, unfused f32 against f64.
 // Cost: 31 scalar operations, among them 4 exponentials or logarithms
 highp vec3 fresnel_diamond_schlick_corrected(highp float cos_theta) {
-    highp float c = clamp(cos_theta, 0.0, 1.0); // 1 + 1 ulp must not reach what follows
+    highp float c = clamp(cos_theta, 0.0, 1.0); // clamp: a rounded dot product may exceed 1
     highp float m = 1.0 - c; // 0 at normal incidence, 1 at grazing
     highp float m2 = m * m;
     highp float m5 = m2 * m2 * m;
@@ -107,7 +107,7 @@ highp vec3 fresnel_diamond_schlick_corrected(highp float cos_theta) {
 // Code error: at most 1/256 of the difference of two neighbouring texels, as samplers weigh them in so many steps.
 // Cost: 7 scalar operations, among them 1 division, and one texture fetch
 highp vec3 fresnel_diamond_table(highp float cos_theta, highp sampler2D table) {
-    highp float c = clamp(cos_theta, 0.0, 1.0); // 1 + 1 ulp must not reach what follows
+    highp float c = clamp(cos_theta, 0.0, 1.0); // clamp: a rounded dot product may exceed 1
     highp float w = 5.0 * c / (1.0 + 4.0 * c); // 0 at grazing, 1 at normal incidence; dense near grazing
     highp float u = w * 0.984375 + 0.0078125; // half a texel is left at each end
     return textureLod(table, vec2(u, 0.5), 0.0).rgb;

@@ -24,9 +24,9 @@
 //     https://www.realtimerendering.com/Principles_of_Digital_Image_Synthesis_v1.0.1.pdf
 // Model error: at most 0.00445 (at 72.47 degrees), 0.15 % in the mean over angles.
 // Code error: at most 4.5 ulp or 2^-22, unfused f32 against f64.
-// Cost: 61 scalar operations, among them 6 roots, 6 divisions
+// Cost: 64 scalar operations, among them 6 roots, 6 divisions
 highp vec3 fresnel_gold(highp float cos_theta) {
-    highp float c = clamp(cos_theta, 0.0, 1.0); // 1 + 1 ulp must not reach what follows
+    highp float c = clamp(cos_theta, 0.0, 1.0); // clamp: a rounded dot product may exceed 1
     highp float c2 = c * c;
     highp float s2 = 1.0 - c2; // sin^2 theta
     highp vec3 tau = vec3(-265.004, -6.0078807, -1.4244047); // n^2 - k^2 - 1
@@ -36,7 +36,7 @@ highp vec3 fresnel_gold(highp float cos_theta) {
     highp vec3 sum = r + c2;
     highp vec3 r_s_metal = (sum - u) / (sum + u); // R_s where t < 0
     highp vec3 x = r * c2 + s2 * s2;
-    return r_s_metal * (x / (x + u * s2));
+    return clamp(r_s_metal * (x / (x + u * s2)), 0.0, 1.0);
 }
 
 // fresnel_gold_fitted: four coefficients fitted to a metal or semiconductor, specialised
@@ -49,7 +49,7 @@ highp vec3 fresnel_gold(highp float cos_theta) {
 //     0.377382).
 // Cost: 24 scalar operations, among them 1 exponential or logarithm
 highp vec3 fresnel_gold_fitted(highp float cos_theta) {
-    highp float c = clamp(cos_theta, 0.0, 1.0); // 1 + 1 ulp must not reach what follows
+    highp float c = clamp(cos_theta, 0.0, 1.0); // clamp: a rounded dot product may exceed 1
     highp float b = exp2(-6.5 * c); // small at normal incidence, 1 at grazing
     highp vec3 sum2 = vec3(0.29959092, 0.35512033, 0.42893875) + b * vec3(-0.112050526, -0.20854598, -0.13217598);
     highp vec3 sum1 = vec3(-0.22834298, 0.081663415, 0.36742333) + b * sum2;
@@ -65,7 +65,7 @@ highp vec3 fresnel_gold_fitted(highp float cos_theta) {
 // Code error: at most 2^-22, unfused f32 against f64.
 // Cost: 14 scalar operations
 highp vec3 fresnel_gold_schlick_rescaled(highp float cos_theta) {
-    highp float c = clamp(cos_theta, 0.0, 1.0); // 1 + 1 ulp must not reach what follows
+    highp float c = clamp(cos_theta, 0.0, 1.0); // clamp: a rounded dot product may exceed 1
     highp float m = 1.0 - c; // 0 at normal incidence, 1 at grazing
     highp float m2 = m * m;
     highp float m5 = m2 * m2 * m;
@@ -82,7 +82,7 @@ highp vec3 fresnel_gold_schlick_rescaled(highp float cos_theta) {
 // Code error: at most 4.5 ulp or 2^-22, unfused f32 against f64.
 // Cost: 31 scalar operations, among them 4 exponentials or logarithms
 highp vec3 fresnel_gold_schlick_corrected(highp float cos_theta) {
-    highp float c = clamp(cos_theta, 0.0, 1.0); // 1 + 1 ulp must not reach what follows
+    highp float c = clamp(cos_theta, 0.0, 1.0); // clamp: a rounded dot product may exceed 1
     highp float m = 1.0 - c; // 0 at normal incidence, 1 at grazing
     highp float m2 = m * m;
     highp float m5 = m2 * m2 * m;
@@ -107,7 +107,7 @@ highp vec3 fresnel_gold_schlick_corrected(highp float cos_theta) {
 // Code error: at most 1/256 of the difference of two neighbouring texels, as samplers weigh them in so many steps.
 // Cost: 7 scalar operations, among them 1 division, and one texture fetch
 highp vec3 fresnel_gold_table(highp float cos_theta, highp sampler2D table) {
-    highp float c = clamp(cos_theta, 0.0, 1.0); // 1 + 1 ulp must not reach what follows
+    highp float c = clamp(cos_theta, 0.0, 1.0); // clamp: a rounded dot product may exceed 1
     highp float w = 5.0 * c / (1.0 + 4.0 * c); // 0 at grazing, 1 at normal incidence; dense near grazing
     highp float u = w * 0.984375 + 0.0078125; // half a texel is left at each end
     return textureLod(table, vec2(u, 0.5), 0.0).rgb;

@@ -24,9 +24,9 @@
 //     https://www.realtimerendering.com/Principles_of_Digital_Image_Synthesis_v1.0.1.pdf
 // Model error: at most 0.00062 (at 87.14 degrees), 0.01 % in the mean over angles.
 // Code error: at most 4.5 ulp or 2^-22, unfused f32 against f64.
-// Cost: 61 scalar operations, among them 6 roots, 6 divisions
+// Cost: 64 scalar operations, among them 6 roots, 6 divisions
 highp vec3 fresnel_platinum(highp float cos_theta) {
-    highp float c = clamp(cos_theta, 0.0, 1.0); // 1 + 1 ulp must not reach what follows
+    highp float c = clamp(cos_theta, 0.0, 1.0); // clamp: a rounded dot product may exceed 1
     highp float c2 = c * c;
     highp float s2 = 1.0 - c2; // sin^2 theta
     highp vec3 tau = vec3(-13.540496, -10.2591715, -7.2215977); // n^2 - k^2 - 1
@@ -36,7 +36,7 @@ highp vec3 fresnel_platinum(highp float cos_theta) {
     highp vec3 sum = r + c2;
     highp vec3 r_s_metal = (sum - u) / (sum + u); // R_s where t < 0
     highp vec3 x = r * c2 + s2 * s2;
-    return r_s_metal * (x / (x + u * s2));
+    return clamp(r_s_metal * (x / (x + u * s2)), 0.0, 1.0);
 }
 
 // fresnel_platinum_fitted: four coefficients fitted to a metal or semiconductor, specialised
@@ -48,7 +48,7 @@ highp vec3 fresnel_platinum(highp float cos_theta) {
 // Average over the hemisphere: (0.66476, 0.630904, 0.583546).
 // Cost: 24 scalar operations, among them 1 exponential or logarithm
 highp vec3 fresnel_platinum_fitted(highp float cos_theta) {
-    highp float c = clamp(cos_theta, 0.0, 1.0); // 1 + 1 ulp must not reach what follows
+    highp float c = clamp(cos_theta, 0.0, 1.0); // clamp: a rounded dot product may exceed 1
     highp float b = exp2(-6.5 * c); // small at normal incidence, 1 at grazing
     highp vec3 sum2 = vec3(0.52948034, 0.6898998, 0.7678605) + b * vec3(0.16399093, -0.004602543, -0.13379498);
     highp vec3 sum1 = vec3(-0.37649608, -0.32838467, -0.22003342) + b * sum2;
@@ -64,7 +64,7 @@ highp vec3 fresnel_platinum_fitted(highp float cos_theta) {
 // Code error: at most 2^-22, unfused f32 against f64.
 // Cost: 14 scalar operations
 highp vec3 fresnel_platinum_schlick_rescaled(highp float cos_theta) {
-    highp float c = clamp(cos_theta, 0.0, 1.0); // 1 + 1 ulp must not reach what follows
+    highp float c = clamp(cos_theta, 0.0, 1.0); // clamp: a rounded dot product may exceed 1
     highp float m = 1.0 - c; // 0 at normal incidence, 1 at grazing
     highp float m2 = m * m;
     highp float m5 = m2 * m2 * m;
@@ -81,7 +81,7 @@ highp vec3 fresnel_platinum_schlick_rescaled(highp float cos_theta) {
 // Code error: at most 5 ulp or 2^-22, unfused f32 against f64.
 // Cost: 31 scalar operations, among them 4 exponentials or logarithms
 highp vec3 fresnel_platinum_schlick_corrected(highp float cos_theta) {
-    highp float c = clamp(cos_theta, 0.0, 1.0); // 1 + 1 ulp must not reach what follows
+    highp float c = clamp(cos_theta, 0.0, 1.0); // clamp: a rounded dot product may exceed 1
     highp float m = 1.0 - c; // 0 at normal incidence, 1 at grazing
     highp float m2 = m * m;
     highp float m5 = m2 * m2 * m;
@@ -105,7 +105,7 @@ highp vec3 fresnel_platinum_schlick_corrected(highp float cos_theta) {
 // Code error: at most 1/256 of the difference of two neighbouring texels, as samplers weigh them in so many steps.
 // Cost: 7 scalar operations, among them 1 division, and one texture fetch
 highp vec3 fresnel_platinum_table(highp float cos_theta, highp sampler2D table) {
-    highp float c = clamp(cos_theta, 0.0, 1.0); // 1 + 1 ulp must not reach what follows
+    highp float c = clamp(cos_theta, 0.0, 1.0); // clamp: a rounded dot product may exceed 1
     highp float w = 5.0 * c / (1.0 + 4.0 * c); // 0 at grazing, 1 at normal incidence; dense near grazing
     highp float u = w * 0.984375 + 0.0078125; // half a texel is left at each end
     return textureLod(table, vec2(u, 0.5), 0.0).rgb;

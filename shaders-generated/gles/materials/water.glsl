@@ -27,7 +27,7 @@
 // Code error: at most 6.5 ulp or 2^-22, unfused f32 against f64.
 // Cost: 43 scalar operations, among them 3 roots, 3 divisions
 highp vec3 fresnel_water(highp float cos_theta) {
-    highp float c = clamp(cos_theta, 0.0, 1.0); // 1 + 1 ulp must not reach what follows
+    highp float c = clamp(cos_theta, 0.0, 1.0); // clamp: a rounded dot product may exceed 1
     highp float c2 = c * c;
     highp float s2 = 1.0 - c2; // sin^2 theta
     highp float s4 = s2 * s2;
@@ -47,7 +47,7 @@ highp vec3 fresnel_water(highp float cos_theta) {
 // Average over the hemisphere: (0.066049, 0.066384, 0.066995).
 // Cost: 27 scalar operations
 highp vec3 fresnel_water_fitted_dielectric(highp float cos_theta) {
-    highp float c = clamp(cos_theta, 0.0, 1.0); // 1 + 1 ulp must not reach what follows
+    highp float c = clamp(cos_theta, 0.0, 1.0); // clamp: a rounded dot product may exceed 1
     highp float b = 1.0 - c; // 0 at normal incidence, 1 at grazing
     highp float b2 = b * b;
     highp float b3 = b * b2;
@@ -67,7 +67,7 @@ highp vec3 fresnel_water_fitted_dielectric(highp float cos_theta) {
 // Code error: at most 5 ulp or 2^-22, unfused f32 against f64.
 // Cost: 14 scalar operations
 highp vec3 fresnel_water_schlick_rescaled(highp float cos_theta) {
-    highp float c = clamp(cos_theta, 0.0, 1.0); // 1 + 1 ulp must not reach what follows
+    highp float c = clamp(cos_theta, 0.0, 1.0); // clamp: a rounded dot product may exceed 1
     highp float m = 1.0 - c; // 0 at normal incidence, 1 at grazing
     highp float m2 = m * m;
     highp float m5 = m2 * m2 * m;
@@ -84,7 +84,7 @@ highp vec3 fresnel_water_schlick_rescaled(highp float cos_theta) {
 // Code error: at most 8.5 ulp or 2^-22, unfused f32 against f64.
 // Cost: 31 scalar operations, among them 4 exponentials or logarithms
 highp vec3 fresnel_water_schlick_corrected(highp float cos_theta) {
-    highp float c = clamp(cos_theta, 0.0, 1.0); // 1 + 1 ulp must not reach what follows
+    highp float c = clamp(cos_theta, 0.0, 1.0); // clamp: a rounded dot product may exceed 1
     highp float m = 1.0 - c; // 0 at normal incidence, 1 at grazing
     highp float m2 = m * m;
     highp float m5 = m2 * m2 * m;
@@ -109,7 +109,7 @@ highp vec3 fresnel_water_schlick_corrected(highp float cos_theta) {
 // Code error: at most 1/256 of the difference of two neighbouring texels, as samplers weigh them in so many steps.
 // Cost: 7 scalar operations, among them 1 division, and one texture fetch
 highp vec3 fresnel_water_table(highp float cos_theta, highp sampler2D table) {
-    highp float c = clamp(cos_theta, 0.0, 1.0); // 1 + 1 ulp must not reach what follows
+    highp float c = clamp(cos_theta, 0.0, 1.0); // clamp: a rounded dot product may exceed 1
     highp float w = 5.0 * c / (1.0 + 4.0 * c); // 0 at grazing, 1 at normal incidence; dense near grazing
     highp float u = w * 0.984375 + 0.0078125; // half a texel is left at each end
     return textureLod(table, vec2(u, 0.5), 0.0).rgb;

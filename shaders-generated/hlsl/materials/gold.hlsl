@@ -24,10 +24,10 @@
 //     https://www.realtimerendering.com/Principles_of_Digital_Image_Synthesis_v1.0.1.pdf
 // Model error: at most 0.00445 (at 72.47 degrees), 0.15 % in the mean over angles.
 // Code error: at most 4.5 ulp or 2^-22, unfused f32 against f64.
-// Cost: 61 scalar operations, among them 6 roots, 6 divisions
+// Cost: 64 scalar operations, among them 6 roots, 6 divisions
 float3 fresnel_gold(float cos_theta)
 {
-    float c = saturate(cos_theta); // 1 + 1 ulp must not reach what follows
+    float c = saturate(cos_theta); // clamp: a rounded dot product may exceed 1
     float c2 = c * c;
     float s2 = 1.0 - c2; // sin^2 theta
     float3 tau = float3(-265.004, -6.0078807, -1.4244047); // n^2 - k^2 - 1
@@ -37,7 +37,7 @@ float3 fresnel_gold(float cos_theta)
     float3 sum = r + c2;
     float3 r_s_metal = (sum - u) / (sum + u); // R_s where t < 0
     float3 x = r * c2 + s2 * s2;
-    return r_s_metal * (x / (x + u * s2));
+    return saturate(r_s_metal * (x / (x + u * s2)));
 }
 
 // fresnel_gold_fitted: four coefficients fitted to a metal or semiconductor, specialised
@@ -51,7 +51,7 @@ float3 fresnel_gold(float cos_theta)
 // Cost: 24 scalar operations, among them 1 exponential or logarithm
 float3 fresnel_gold_fitted(float cos_theta)
 {
-    float c = saturate(cos_theta); // 1 + 1 ulp must not reach what follows
+    float c = saturate(cos_theta); // clamp: a rounded dot product may exceed 1
     float b = exp2(-6.5 * c); // small at normal incidence, 1 at grazing
     float3 sum2 = float3(0.29959092, 0.35512033, 0.42893875) + b * float3(-0.112050526, -0.20854598, -0.13217598);
     float3 sum1 = float3(-0.22834298, 0.081663415, 0.36742333) + b * sum2;
@@ -68,7 +68,7 @@ float3 fresnel_gold_fitted(float cos_theta)
 // Cost: 14 scalar operations
 float3 fresnel_gold_schlick_rescaled(float cos_theta)
 {
-    float c = saturate(cos_theta); // 1 + 1 ulp must not reach what follows
+    float c = saturate(cos_theta); // clamp: a rounded dot product may exceed 1
     float m = 1.0 - c; // 0 at normal incidence, 1 at grazing
     float m2 = m * m;
     float m5 = m2 * m2 * m;
@@ -86,7 +86,7 @@ float3 fresnel_gold_schlick_rescaled(float cos_theta)
 // Cost: 31 scalar operations, among them 4 exponentials or logarithms
 float3 fresnel_gold_schlick_corrected(float cos_theta)
 {
-    float c = saturate(cos_theta); // 1 + 1 ulp must not reach what follows
+    float c = saturate(cos_theta); // clamp: a rounded dot product may exceed 1
     float m = 1.0 - c; // 0 at normal incidence, 1 at grazing
     float m2 = m * m;
     float m5 = m2 * m2 * m;
@@ -112,7 +112,7 @@ float3 fresnel_gold_schlick_corrected(float cos_theta)
 // Cost: 7 scalar operations, among them 1 division, and one texture fetch
 float3 fresnel_gold_table(float cos_theta, Texture2D<float4> table, SamplerState table_sampler)
 {
-    float c = saturate(cos_theta); // 1 + 1 ulp must not reach what follows
+    float c = saturate(cos_theta); // clamp: a rounded dot product may exceed 1
     float w = 5.0 * c / (1.0 + 4.0 * c); // 0 at grazing, 1 at normal incidence; dense near grazing
     float u = w * 0.984375 + 0.0078125; // half a texel is left at each end
     return table.SampleLevel(table_sampler, float2(u, 0.5), 0.0).rgb;

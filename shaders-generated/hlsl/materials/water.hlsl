@@ -28,7 +28,7 @@
 // Cost: 43 scalar operations, among them 3 roots, 3 divisions
 float3 fresnel_water(float cos_theta)
 {
-    float c = saturate(cos_theta); // 1 + 1 ulp must not reach what follows
+    float c = saturate(cos_theta); // clamp: a rounded dot product may exceed 1
     float c2 = c * c;
     float s2 = 1.0 - c2; // sin^2 theta
     float s4 = s2 * s2;
@@ -49,7 +49,7 @@ float3 fresnel_water(float cos_theta)
 // Cost: 27 scalar operations
 float3 fresnel_water_fitted_dielectric(float cos_theta)
 {
-    float c = saturate(cos_theta); // 1 + 1 ulp must not reach what follows
+    float c = saturate(cos_theta); // clamp: a rounded dot product may exceed 1
     float b = 1.0 - c; // 0 at normal incidence, 1 at grazing
     float b2 = b * b;
     float b3 = b * b2;
@@ -70,7 +70,7 @@ float3 fresnel_water_fitted_dielectric(float cos_theta)
 // Cost: 14 scalar operations
 float3 fresnel_water_schlick_rescaled(float cos_theta)
 {
-    float c = saturate(cos_theta); // 1 + 1 ulp must not reach what follows
+    float c = saturate(cos_theta); // clamp: a rounded dot product may exceed 1
     float m = 1.0 - c; // 0 at normal incidence, 1 at grazing
     float m2 = m * m;
     float m5 = m2 * m2 * m;
@@ -88,7 +88,7 @@ float3 fresnel_water_schlick_rescaled(float cos_theta)
 // Cost: 31 scalar operations, among them 4 exponentials or logarithms
 float3 fresnel_water_schlick_corrected(float cos_theta)
 {
-    float c = saturate(cos_theta); // 1 + 1 ulp must not reach what follows
+    float c = saturate(cos_theta); // clamp: a rounded dot product may exceed 1
     float m = 1.0 - c; // 0 at normal incidence, 1 at grazing
     float m2 = m * m;
     float m5 = m2 * m2 * m;
@@ -113,7 +113,7 @@ float3 fresnel_water_schlick_corrected(float cos_theta)
 // Cost: 7 scalar operations, among them 1 division, and one texture fetch
 float3 fresnel_water_table(float cos_theta, Texture2D<float4> table, SamplerState table_sampler)
 {
-    float c = saturate(cos_theta); // 1 + 1 ulp must not reach what follows
+    float c = saturate(cos_theta); // clamp: a rounded dot product may exceed 1
     float w = 5.0 * c / (1.0 + 4.0 * c); // 0 at grazing, 1 at normal incidence; dense near grazing
     float u = w * 0.984375 + 0.0078125; // half a texel is left at each end
     return table.SampleLevel(table_sampler, float2(u, 0.5), 0.0).rgb;

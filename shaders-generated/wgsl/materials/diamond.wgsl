@@ -23,7 +23,7 @@
 // Cost: 34 scalar operations, among them 3 roots, 3 divisions
 // Form: plain, which keeps its digits for this material; the stable form has 43 operations.
 fn fresnel_diamond(cos_theta: f32) -> vec3<f32> {
-    let c = saturate(cos_theta); // 1 + 1 ulp must not reach what follows
+    let c = saturate(cos_theta); // clamp: a rounded dot product may exceed 1
     let c2 = c * c;
     let s2 = 1.0 - c2; // sin^2 theta
     let s4 = s2 * s2;
@@ -43,7 +43,7 @@ fn fresnel_diamond(cos_theta: f32) -> vec3<f32> {
 // Average over the hemisphere: (0.211274, 0.212843, 0.214998).
 // Cost: 27 scalar operations
 fn fresnel_diamond_fitted_dielectric(cos_theta: f32) -> vec3<f32> {
-    let c = saturate(cos_theta); // 1 + 1 ulp must not reach what follows
+    let c = saturate(cos_theta); // clamp: a rounded dot product may exceed 1
     let b = 1.0 - c; // 0 at normal incidence, 1 at grazing
     let b2 = b * b;
     let b3 = b * b2;
@@ -63,7 +63,7 @@ fn fresnel_diamond_fitted_dielectric(cos_theta: f32) -> vec3<f32> {
 // Code error: at most 5.5 ulp or 2^-22, unfused f32 against f64.
 // Cost: 14 scalar operations
 fn fresnel_diamond_schlick_rescaled(cos_theta: f32) -> vec3<f32> {
-    let c = saturate(cos_theta); // 1 + 1 ulp must not reach what follows
+    let c = saturate(cos_theta); // clamp: a rounded dot product may exceed 1
     let m = 1.0 - c; // 0 at normal incidence, 1 at grazing
     let m2 = m * m;
     let m5 = m2 * m2 * m;
@@ -82,7 +82,7 @@ fn fresnel_diamond_schlick_rescaled(cos_theta: f32) -> vec3<f32> {
 // Code error: at most 6.5 ulp or 2^-22, unfused f32 against f64.
 // Cost: 31 scalar operations, among them 4 exponentials or logarithms
 fn fresnel_diamond_schlick_corrected(cos_theta: f32) -> vec3<f32> {
-    let c = saturate(cos_theta); // 1 + 1 ulp must not reach what follows
+    let c = saturate(cos_theta); // clamp: a rounded dot product may exceed 1
     let m = 1.0 - c; // 0 at normal incidence, 1 at grazing
     let m2 = m * m;
     let m5 = m2 * m2 * m;
@@ -106,7 +106,7 @@ fn fresnel_diamond_schlick_corrected(cos_theta: f32) -> vec3<f32> {
 // Code error: at most 1/256 of the difference of two neighbouring texels, as samplers weigh them in so many steps.
 // Cost: 7 scalar operations, among them 1 division, and one texture fetch
 fn fresnel_diamond_table(cos_theta: f32, table: texture_2d<f32>, table_sampler: sampler) -> vec3<f32> {
-    let c = saturate(cos_theta); // 1 + 1 ulp must not reach what follows
+    let c = saturate(cos_theta); // clamp: a rounded dot product may exceed 1
     let w = 5.0 * c / (1.0 + 4.0 * c); // 0 at grazing, 1 at normal incidence; dense near grazing
     let u = w * 0.984375 + 0.0078125; // half a texel is left at each end
     return textureSampleLevel(table, table_sampler, vec2<f32>(u, 0.5), 0.0).rgb;

@@ -21,9 +21,9 @@
 //     https://www.realtimerendering.com/Principles_of_Digital_Image_Synthesis_v1.0.1.pdf
 // Model error: at most 0.00445 (at 72.47 degrees), 0.15 % in the mean over angles.
 // Code error: at most 4.5 ulp or 2^-22, unfused f32 against f64.
-// Cost: 61 scalar operations, among them 6 roots, 6 divisions
+// Cost: 64 scalar operations, among them 6 roots, 6 divisions
 fn fresnel_gold(cos_theta: f32) -> vec3<f32> {
-    let c = saturate(cos_theta); // 1 + 1 ulp must not reach what follows
+    let c = saturate(cos_theta); // clamp: a rounded dot product may exceed 1
     let c2 = c * c;
     let s2 = 1.0 - c2; // sin^2 theta
     let tau = vec3<f32>(-265.004, -6.0078807, -1.4244047); // n^2 - k^2 - 1
@@ -33,7 +33,7 @@ fn fresnel_gold(cos_theta: f32) -> vec3<f32> {
     let sum = r + c2;
     let r_s_metal = (sum - u) / (sum + u); // R_s where t < 0
     let x = r * c2 + s2 * s2;
-    return r_s_metal * (x / (x + u * s2));
+    return saturate(r_s_metal * (x / (x + u * s2)));
 }
 
 // fresnel_gold_fitted: four coefficients fitted to a metal or semiconductor, specialised
@@ -46,7 +46,7 @@ fn fresnel_gold(cos_theta: f32) -> vec3<f32> {
 //     0.377382).
 // Cost: 24 scalar operations, among them 1 exponential or logarithm
 fn fresnel_gold_fitted(cos_theta: f32) -> vec3<f32> {
-    let c = saturate(cos_theta); // 1 + 1 ulp must not reach what follows
+    let c = saturate(cos_theta); // clamp: a rounded dot product may exceed 1
     let b = exp2(-6.5 * c); // small at normal incidence, 1 at grazing
     let sum2 = vec3<f32>(0.29959092, 0.35512033, 0.42893875) +
         b * vec3<f32>(-0.112050526, -0.20854598, -0.13217598);
@@ -63,7 +63,7 @@ fn fresnel_gold_fitted(cos_theta: f32) -> vec3<f32> {
 // Code error: at most 2^-22, unfused f32 against f64.
 // Cost: 14 scalar operations
 fn fresnel_gold_schlick_rescaled(cos_theta: f32) -> vec3<f32> {
-    let c = saturate(cos_theta); // 1 + 1 ulp must not reach what follows
+    let c = saturate(cos_theta); // clamp: a rounded dot product may exceed 1
     let m = 1.0 - c; // 0 at normal incidence, 1 at grazing
     let m2 = m * m;
     let m5 = m2 * m2 * m;
@@ -82,7 +82,7 @@ fn fresnel_gold_schlick_rescaled(cos_theta: f32) -> vec3<f32> {
 // Code error: at most 4.5 ulp or 2^-22, unfused f32 against f64.
 // Cost: 31 scalar operations, among them 4 exponentials or logarithms
 fn fresnel_gold_schlick_corrected(cos_theta: f32) -> vec3<f32> {
-    let c = saturate(cos_theta); // 1 + 1 ulp must not reach what follows
+    let c = saturate(cos_theta); // clamp: a rounded dot product may exceed 1
     let m = 1.0 - c; // 0 at normal incidence, 1 at grazing
     let m2 = m * m;
     let m5 = m2 * m2 * m;
@@ -107,7 +107,7 @@ fn fresnel_gold_schlick_corrected(cos_theta: f32) -> vec3<f32> {
 // Code error: at most 1/256 of the difference of two neighbouring texels, as samplers weigh them in so many steps.
 // Cost: 7 scalar operations, among them 1 division, and one texture fetch
 fn fresnel_gold_table(cos_theta: f32, table: texture_2d<f32>, table_sampler: sampler) -> vec3<f32> {
-    let c = saturate(cos_theta); // 1 + 1 ulp must not reach what follows
+    let c = saturate(cos_theta); // clamp: a rounded dot product may exceed 1
     let w = 5.0 * c / (1.0 + 4.0 * c); // 0 at grazing, 1 at normal incidence; dense near grazing
     let u = w * 0.984375 + 0.0078125; // half a texel is left at each end
     return textureSampleLevel(table, table_sampler, vec2<f32>(u, 0.5), 0.0).rgb;

@@ -6,7 +6,7 @@ use clap::Args;
 
 use super::SightFlags;
 
-/// What a table that holds no material takes nothing of.
+/// Flags that conflict with `--dfg`.
 const NO_MATERIAL: [&str; 9] = [
     "material",
     "medium",

@@ -134,7 +134,7 @@ pub struct Generate {
     #[arg(long)]
     pub overwrite: bool,
     /// Write the run's outputs and inputs as a Makefile rule
-    #[arg(long, value_name = "FILE")]
+    #[arg(long, value_name = "FILE", conflicts_with = "list")]
     pub depfile: Option<PathBuf>,
     /// Print the names of the files that would be written, and write nothing
     #[arg(long)]

@@ -11,7 +11,7 @@ pub struct Edge {
     pub name: &'static str,
     /// Its bits.
     bits: u32,
-    /// Whether a result that is no reflectance is a finding; of what lies beyond it is told only.
+    /// Whether a result that is no reflectance is a finding. Outside the domain, failures are reported but not counted.
     counts: bool,
 }
 

@@ -1,5 +1,5 @@
-//! Loops of a user's text that count their turns: one that never ends ends, and is seen. A device could hang in it, and a software
-//! driver leaves it after so many turns without a word, with a result that means nothing.
+//! Adds a counter to the loops of a user's text: it counts iterations, so that an infinite loop terminates and is reported. A device
+//! could hang in one, and a software driver leaves it after a number of iterations without a message, with a result that means nothing.
 
 use super::code::{Token, bare, tokens};
 use super::language::Language;

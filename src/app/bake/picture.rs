@@ -119,7 +119,7 @@ impl<'a> Baking<'a> {
         lines
     }
 
-    /// The command that writes these files of the picture again. A search is told by what it found.
+    /// The command that writes these files of the picture again. For a search, states the size and axis found.
     pub fn command(&self, formats: &[Format], targets: &[&'static Target]) -> String {
         let typed = match self.subjects {
             [one] if self.name != ATLAS => quoted(&one.argument),

@@ -17,7 +17,7 @@ use crate::app::source::{materials, source};
 use crate::app::tree::plan;
 use crate::app::write::write;
 use crate::lut::{Axis, Format, SPLIT_SUM_SIZE, check_size};
-use crate::methods::{self, TEXELS};
+use crate::methods::{self, Method, TEXELS};
 use crate::report::table;
 use crate::targets::{self, Finish, Target};
 
@@ -220,12 +220,20 @@ fn no_function(name: &str) -> Error {
     }
 }
 
+/// Whether a table of `--dfg` has this name.
+fn is_split_sum(name: &str) -> bool {
+    let method = name.strip_prefix("dfg_").and_then(methods::find);
+    method.is_some_and(Method::is_fitted)
+}
+
 /// There is something to bake, and no material bears the atlas's name.
 fn check_names(subjects: &[Lit], atlas: bool) -> Result<(), Error> {
     let what = if subjects.is_empty() {
         "`--material none` leaves nothing to bake; name materials, or all"
     } else if atlas && subjects.iter().any(|subject| subject.name == ATLAS) {
         "a material is named `atlas`, as is the picture of all; choose another `name` in its file"
+    } else if subjects.iter().any(|subject| is_split_sum(&subject.name)) {
+        "a material is named as a table of `bake --dfg` is; choose another `name` in its file"
     } else {
         return Ok(());
     };

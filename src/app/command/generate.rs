@@ -159,7 +159,17 @@ pub(super) fn named(plan: &Plan, overwrite: bool, replaced: &str) -> Vec<String>
             obstacle.path
         ),
     });
-    stays.chain(edited).chain(obstacles).collect()
+    let dropped = plan.dropped.iter().map(|(path, names)| {
+        format!(
+            "no longer in {path}: {}, which an earlier run put there; name its method to have it",
+            names.join(", ")
+        )
+    });
+    stays
+        .chain(edited)
+        .chain(obstacles)
+        .chain(dropped)
+        .collect()
 }
 
 fn written(

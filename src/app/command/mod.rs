@@ -28,9 +28,10 @@ use std::path::{Path, PathBuf};
 
 use super::args::{Cli, Command, NamedFiles};
 use super::error::Error;
+use super::folder::{is_below, is_same_file};
 use super::lock::Announce;
 use super::tree::Plan;
-use super::write::{is_same_file, try_file, write_file};
+use super::write::{try_file, write_file};
 use crate::materials::escaped;
 
 /// What a run leaves: text or a file for stdout, remarks for stderr, the exit code.
@@ -98,8 +99,13 @@ fn folder_or_current(out_dir: &Path) -> &Path {
 
 /// Refuses an output that lies where an input of the run does, and two outputs in one place.
 fn refuse_clashes(named: &NamedFiles) -> Result<(), Error> {
+    let is_page = |output: &Path| output.extension().is_some_and(|ending| ending == "yml");
     for output in &named.outputs {
-        if named.inputs.iter().any(|input| is_same_file(input, output)) {
+        let is_read = |input: &&Path| {
+            is_same_file(input, output)
+                || is_page(output) && input.is_dir() && is_below(input, output)
+        };
+        if named.inputs.iter().any(is_read) {
             return Err(Error::Usage {
                 what: format!(
                     "{}: this run reads that file; write to another place",
@@ -128,15 +134,28 @@ fn refuse_one_place(files: &[&Path]) -> Result<(), Error> {
 
 /// Refuses a file that the user names in the place of one of the tree.
 fn refuse_within_tree(plan: &Plan, named: Option<&Path>) -> Result<(), Error> {
-    let Some(named) = named.filter(|named| *named != Path::new("-")) else {
+    let Some(named) = named else {
         return Ok(());
     };
     let places: Vec<PathBuf> = plan
         .all()
         .map(|file| plan.out_dir.join(&file.path))
         .collect();
-    let place = places.iter().find(|place| is_same_file(place, named));
-    place.map_or(Ok(()), |place| refuse_one_place(&[place, named]))
+    refuse_place_of(&places, named)
+}
+
+/// Refuses a file that the user names in the place of one of these.
+fn refuse_place_of(places: &[PathBuf], named: &Path) -> Result<(), Error> {
+    let is_taken = |place: &PathBuf| named != Path::new("-") && is_same_file(place, named);
+    if !places.iter().any(is_taken) {
+        return Ok(());
+    }
+    Err(Error::Usage {
+        what: format!(
+            "{}: a file of the generated tree lies there; write to another place",
+            named.display()
+        ),
+    })
 }
 
 /// Refuses a time limit of 0, and one that no clock can add.

@@ -19,7 +19,7 @@ use crate::report::table;
 use crate::verify::WITHIN;
 use crate::verify::run::Devices;
 
-use super::{Output, Progress, check_limit, report, try_places};
+use super::{Output, Progress, check_limit, refuse_place_of, report, try_places};
 
 /// Cosines that a run may ask for.
 const POINTS: std::ops::RangeInclusive<usize> = 100..=10_000_000;
@@ -54,6 +54,9 @@ pub fn run(flags: &VerifyFlags, progress: Progress) -> Result<Output, Error> {
             what: what.to_owned(),
         });
     }
+    for report in flags.json.iter().chain(&flags.junit) {
+        refuse_place_of(&plan.places, report)?;
+    }
     try_places(flags.json.as_deref(), flags.junit.as_deref())?;
     let (rows, speeds) = if flags.exhaustive {
         exhaustive::rows(&plan, &Devices::new(wanted), progress)?
@@ -69,6 +72,12 @@ pub fn run(flags: &VerifyFlags, progress: Progress) -> Result<Output, Error> {
     };
     let mut output = told(flags, &request, &plan, &rows)?;
     output.remarks.extend(speeds);
+    if !flags.out_dir.is_dir() {
+        output.remarks.push(format!(
+            "there is no folder {}: what would be written was run",
+            flags.out_dir.display()
+        ));
+    }
     Ok(output)
 }
 

@@ -126,10 +126,11 @@ pub fn generate_single(request: &Request) -> Result<Vec<u8>, Error> {
             what: "-o takes one --target".to_owned(),
         });
     };
-    let mut pages = Vec::new();
+    let (mut pages, mut owners) = (Vec::new(), Owners::default());
     for (subject, _) in &run.subjects {
         let methods = run.named_or(&subject.name, &[subject.exact_method()]);
         for emitted in run.specialised(&methods, subject, &mut BTreeMap::new())? {
+            owners.claim(&emitted.name, &format!("material {}", subject.name))?;
             let (place, of) = (Place::behind(&pages), Some(subject));
             let command = run.command(target, Some(&[emitted.method.name]), of) + " -o -";
             pages.push(emit::single(target, &emitted, of, &command, place)?);

@@ -11,7 +11,6 @@ use crate::materials::Channels;
 use crate::methods::{Contract, Method};
 use crate::num::Precision;
 use crate::verify::compilers::{self, Verdict};
-use crate::verify::harness;
 use crate::verify::run::{Devices, Fault, Runnable, Shown, Way};
 use crate::verify::{
     Outcome, Trial, beyond, cosines_around, limits, nearest_half, share, worst_cases, worst_cosines,
@@ -50,13 +49,19 @@ pub fn rows(plan: &Plan, file: &Planned, devices: &Devices, effort: Effort) -> V
     rows
 }
 
-/// What compilers say of all pages of a file: a refusal of one is a refusal.
+/// What compilers say of all pages of a file: a refusal of one is a refusal, and says which page it is.
 fn accepts(file: &Planned) -> Vec<(&'static str, Verdict)> {
     let mut all: Vec<(&'static str, Verdict)> = Vec::new();
     for page in &file.pages {
         for (name, verdict) in
             compilers::accepts_in(file.precision(), file.target, &page.path, &page.bytes)
         {
+            let verdict = match verdict {
+                Verdict::No(words) => {
+                    Verdict::No(format!("{}: {name} refuses it: {words}", page.path))
+                }
+                other => other,
+            };
             match all.iter_mut().find(|(other, _)| *other == name) {
                 Some((_, known)) if *known == Verdict::Yes => *known = verdict,
                 Some(_) => {}
@@ -255,9 +260,9 @@ impl<'a> Tried<'a> {
         if let (Some(fault), true) = (self.untrusted(), way == Way::Own) {
             return Err(fault);
         }
-        if self.has_loop() {
-            let why = "it holds a loop, which no function of ours does, and is not run";
-            return Err(Fault::Failed(why.to_owned()));
+        if let Some(holds_loop) = &page.holds_loop {
+            let why = format!("{holds_loop}, which no function of ours does, and is not run");
+            return Err(Fault::Failed(why));
         }
         let shown = Shown {
             target: self.file.target.name,
@@ -297,14 +302,6 @@ impl<'a> Tried<'a> {
             model_error,
             device: self.devices.of(shown.target, way)?.adapter.to_string(),
         })
-    }
-
-    fn has_loop(&self) -> bool {
-        let page = self.file.run_page();
-        match std::str::from_utf8(&page.bytes) {
-            Ok(text) if self.file.target.name != "spirv" => harness::has_loop(text),
-            _ => !page.is_current && harness::module_has_loop(&page.bytes),
-        }
     }
 
     /// A module that is not ours may do anything to a driver, unless a validator has looked at it.

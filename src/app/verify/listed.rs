@@ -51,16 +51,6 @@ impl<'a> Listed<'a> {
                 ));
             }
         }
-        let missing = functions(&today).iter();
-        let missing = missing.filter_map(|function| function["name"].as_str());
-        for name in missing.filter(|name| !self.has(name)) {
-            found.push(format!(
-                "{}:{}: of {} it does not list {name}",
-                manifest::FILE,
-                self.line(&[]),
-                self.entry.file
-            ));
-        }
         for function in self.functions() {
             let name = function["name"].as_str().unwrap_or_default();
             match functions(&today).iter().find(|other| other["name"] == name) {
@@ -87,6 +77,25 @@ impl<'a> Listed<'a> {
             ));
         }
         found
+    }
+
+    /// Of the functions that the file holds those that it does not list.
+    pub fn unlisted(&self, held: &[&str]) -> Vec<String> {
+        let missing = held.iter().filter(|name| !self.has(name));
+        let finding = |name: &&str| {
+            format!(
+                "{}:{}: of {} it does not list {name}",
+                manifest::FILE,
+                self.line(&[]),
+                self.entry.file
+            )
+        };
+        missing.map(finding).collect()
+    }
+
+    /// Whether the file is as it is listed.
+    pub fn is_of(&self, bytes: &[u8]) -> bool {
+        is_listed(self.entry, bytes)
     }
 
     fn claims(&self, name: &str, function: &Value, right: &Value) -> Vec<String> {

@@ -1,7 +1,7 @@
 //! The plan: which files are run, each with what its functions mean. Supervisor and workers make the same plan from the
 //! same flags, so that a number names a file.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use crate::app::command::kept;
 use crate::app::error::Error;
@@ -24,6 +24,8 @@ pub struct Plan {
     others: Vec<Subject>,
     /// Why some are left out.
     pub left_out: Vec<String>,
+    /// The files that are read or listed in the folder: no report may take the place of one.
+    pub places: Vec<PathBuf>,
 }
 
 /// A file, or the modules that stand for one.
@@ -79,7 +81,11 @@ impl Plan {
         } else {
             Vec::new()
         };
+        let pages = files.iter().flat_map(|file| &file.pages);
+        let mut places = shipped.files();
+        places.extend(pages.map(|page| folder.join(&page.path)));
         Ok(Plan {
+            places,
             files,
             others,
             subjects: meant.subjects,
@@ -123,7 +129,7 @@ impl Planned {
     /// Adds a page; compute modules are run, so that they come last.
     fn add(&mut self, page: Page) {
         self.pages.push(page);
-        self.pages.sort_by_key(|page| page.path.contains(".comp."));
+        self.pages.sort_by_key(Page::is_run);
     }
 }
 

@@ -97,13 +97,10 @@ impl Row<'_> {
                 list.push(also);
             }
         }
-        for (name, verdict) in self.accepts {
+        for (_, verdict) in self.accepts {
             if let Verdict::No(words) = verdict {
                 status = "fail";
-                reasons.push(format!(
-                    "{}: {name} refuses it: {words}",
-                    self.file.run_page().path
-                ));
+                reasons.push(words.clone());
             }
         }
         let findings: Vec<&String> = self

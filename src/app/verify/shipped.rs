@@ -1,6 +1,6 @@
 //! A file as it lies in the folder, against what would be written today and against what the manifest says of it.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use crate::app::error::Error;
 use crate::app::folder;
@@ -8,7 +8,7 @@ use crate::app::generate::Made;
 use crate::app::manifest::{self, Manifest};
 use crate::verify::drift;
 use crate::verify::module;
-use crate::verify::outline::{Outline, function_name, outline};
+use crate::verify::outline::{Item, Outline, function_name, outline};
 
 use super::listed::{self, Listed};
 
@@ -23,12 +23,28 @@ pub struct Page {
     pub is_shipped: bool,
     /// Whether it is what would be written today, line ends aside.
     pub is_current: bool,
+    /// The loop in what would be run, with its line: a device is not given one.
+    pub holds_loop: Option<String>,
     /// The entry point of each function, in order; nothing for text.
     pub entries: Vec<String>,
     /// What a reader of the report should know of it, and is no fault.
     pub remark: Option<String>,
     /// Its faults, whatever its functions return: what was added, what it lacks, false numbers.
     pub findings: Vec<String>,
+}
+
+fn loop_found(found: &Item) -> String {
+    match found.line {
+        0 => format!("it holds a loop ({})", found.words),
+        line => format!("it holds a loop (line {line}: `{}`)", found.words),
+    }
+}
+
+impl Page {
+    /// Whether its functions are run: of modules those of compute shaders are.
+    pub fn is_run(&self) -> bool {
+        !self.path.ends_with(".spv") || self.path.contains(".comp.")
+    }
 }
 
 /// The output folder.
@@ -52,6 +68,16 @@ impl Folder<'_> {
         Ok(Folder { path, manifest })
     }
 
+    /// The files that its manifest lists, and the manifest.
+    pub fn files(&self) -> Vec<PathBuf> {
+        let listed = self
+            .manifest
+            .iter()
+            .flat_map(|(manifest, _)| &manifest.files);
+        let listed = listed.map(|entry| self.path.join(&entry.file));
+        listed.chain([self.path.join(manifest::FILE)]).collect()
+    }
+
     /// The page of a file; `asked` says which of its functions are to be run.
     pub fn page(&self, made: &Made, asked: &[bool]) -> Result<Page, Error> {
         let path = made.artifact.path.clone();
@@ -64,6 +90,7 @@ impl Folder<'_> {
         let mut page = Page {
             is_shipped: lying.is_some(),
             is_current: true,
+            holds_loop: None,
             bytes: Vec::new(),
             entries: today.entries(),
             remark: None,
@@ -74,6 +101,13 @@ impl Folder<'_> {
             path,
         };
         let Some(bytes) = lying else {
+            page.findings.extend(listed.map(|_| {
+                format!(
+                    "{}: it is not there, and {} lists it",
+                    page.path,
+                    manifest::FILE
+                )
+            }));
             page.bytes.clone_from(&made.artifact.bytes);
             return Ok(page);
         };
@@ -129,11 +163,22 @@ impl<'a> Today<'a> {
         if page.is_current {
             let hash = listed.and_then(|listed| listed.hash_finding(&bytes));
             page.findings.extend(hash);
+            page.findings
+                .extend(self.unlisted(listed, &self.entries_of_all()));
             page.bytes = bytes;
             return;
         }
         let found = self.outline(&bytes);
         let held = self.held(&bytes, &found);
+        page.findings.extend(self.unlisted(listed, &held));
+        if self.is_module() && !page.is_run() && !listed.is_some_and(|listed| listed.is_of(&bytes))
+        {
+            page.findings.push(format!(
+                "{}: it is neither what would be written today nor what {} lists, and only compute modules are run",
+                page.path,
+                manifest::FILE
+            ));
+        }
         let lacks: Vec<String> = self
             .names()
             .into_iter()
@@ -144,6 +189,7 @@ impl<'a> Today<'a> {
             .extend(self.findings(&page.path, &found, &lacks, &is_listed));
         page.is_shipped = lacks.is_empty();
         let why = if page.is_shipped {
+            page.holds_loop = found.loops.first().map(loop_found);
             page.bytes = bytes;
             "it is not what would be written today".to_owned()
         } else {
@@ -156,6 +202,35 @@ impl<'a> Today<'a> {
         page.remark = Some(format!("{}: {why}", page.path));
     }
 
+    /// Functions by the name that stands in the file: of a module the entry point.
+    fn functions(&self) -> impl Iterator<Item = (&str, &str)> {
+        let word = if self.is_module() {
+            "entry_point"
+        } else {
+            "name"
+        };
+        listed::functions(&self.made.artifact.detail)
+            .iter()
+            .filter_map(move |function| {
+                Some((function[word].as_str()?, function["name"].as_str()?))
+            })
+    }
+
+    fn entries_of_all(&self) -> Vec<String> {
+        self.functions()
+            .map(|(entry, _)| entry.to_owned())
+            .collect()
+    }
+
+    /// Of the functions that the file holds those that the manifest does not list.
+    fn unlisted(&self, listed: Option<&Listed>, held: &[String]) -> Vec<String> {
+        let held = self
+            .functions()
+            .filter(|(entry, _)| held.iter().any(|held| held == entry));
+        let names: Vec<&str> = held.map(|(_, name)| name).collect();
+        listed.map_or_else(Vec::new, |listed| listed.unlisted(&names))
+    }
+
     fn is_current(&self, bytes: &[u8]) -> bool {
         let today = &self.made.artifact.bytes;
         let text = |bytes: &[u8]| String::from_utf8_lossy(bytes).replace("\r\n", "\n");
@@ -166,7 +241,8 @@ impl<'a> Today<'a> {
         if self.is_module() {
             return Outline {
                 declared: module::declarations(bytes),
-                comments: Vec::new(),
+                loops: module::loops(bytes),
+                ..Outline::default()
             };
         }
         let nests = self.made.artifact.target == "wgsl";

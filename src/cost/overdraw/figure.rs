@@ -5,7 +5,7 @@ use crate::cost::statistics::{interval, median, quantile, resamples, spread};
 use super::measure::{Clock, Measured};
 use super::plan::Plan;
 
-/// Which of a shader's readings counts: what disturbs only adds, and the very quickest is a matter of luck.
+/// Interference only lengthens a reading, so we take the 10th percentile: the very quickest reading is a matter of luck.
 const QUICK: f64 = 0.1;
 /// Fewest rounds of which others are drawn: of fewer not one in ten is quick with a chance of 95 %, 1 - 0.9^29.
 const FEWEST: usize = 29;

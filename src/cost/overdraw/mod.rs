@@ -9,8 +9,8 @@
 //! `net = ((T(heavy + N draws) - T(heavy)) / N - the same of the empty shader) / evaluations`.
 //!
 //! All shaders are drawn in turn in every round, in an order that changes, and beside each few of them what they are held
-//! against, so that a machine that is busy for a while is busy for both. What disturbs only adds: a shader's time is the lower
-//! decile of its readings over all rounds. How sure a share of `dielectric_exact` is, rounds drawn anew from the rounds
+//! against, so that a machine that is busy for a while is busy for both. Interference only lengthens a reading, so a
+//! shader's time is the 10th percentile of its readings over all rounds. How sure a share of `dielectric_exact` is, rounds drawn anew from the rounds
 //! tell (the bootstrap): it is the median of what they give, between the limits within which 95 % of them lie.
 //!
 //! A software device shares the processor with everything else that runs. There the processor's own count of what it

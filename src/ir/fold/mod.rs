@@ -47,7 +47,21 @@ pub fn specialise_in(
         })
         .collect();
     let fixed = rebuild(function, &builder, &arguments, |_, _, _| None);
-    name_shared(fold_in(precision, &fixed))
+    name_shared(without_needless_names(fold_in(precision, &fixed)))
+}
+
+/// The reason of a step that has a name only because it is used twice. Where constants leave one use the name goes.
+pub const USED_TWICE: &str = "used twice";
+
+fn without_needless_names(mut function: Function) -> Function {
+    let uses = function.uses();
+    for (node, uses) in function.nodes.iter_mut().zip(uses) {
+        let is_needless = |label: &Label| uses < 2 && label.why == USED_TWICE;
+        if node.label.as_ref().is_some_and(is_needless) {
+            node.label = None;
+        }
+    }
+    function
 }
 
 /// Names what constants have made shared: two steps that were different and now are one.

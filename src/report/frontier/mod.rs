@@ -289,7 +289,7 @@ fn capital(text: &str) -> String {
     first.into_iter().chain(letters).collect()
 }
 
-/// What errs by less than this share less is as near: nobody pays for it.
+/// Smaller relative improvements count as ties.
 const AS_NEAR: f64 = 0.01;
 
 /// The places of those that nothing beats, in a walk from the cheapest: each is nearer than all before it by what counts.

@@ -7,6 +7,7 @@ use std::str::Utf8Error;
 use crate::targets::Frame;
 
 use super::call::File;
+use crate::verify::outline::block_comment;
 
 /// The programs of a file, one for each beginning.
 pub fn framed(frame: &Frame, bytes: &[u8]) -> Result<Vec<Vec<u8>>, Utf8Error> {
@@ -14,7 +15,9 @@ pub fn framed(frame: &Frame, bytes: &[u8]) -> Result<Vec<Vec<u8>>, Utf8Error> {
         return Ok(vec![bytes.to_vec()]);
     }
     let text = std::str::from_utf8(bytes)?;
-    let ending = frame.ending.replace("CALLS\n", &calls(text));
+    // WGSL alone has this word, and comments within comments.
+    let nests = frame.ending.contains("fn ");
+    let ending = frame.ending.replace("CALLS\n", &calls(text, nests));
     let program = |beginning: &&str| format!("{beginning}{text}{ending}").into_bytes();
     Ok(frame.beginnings.iter().map(program).collect())
 }
@@ -34,9 +37,12 @@ pub fn named(name: &str, programs: Vec<Vec<u8>>) -> Vec<File> {
     programs.into_iter().enumerate().map(file).collect()
 }
 
-/// What a program does with a text of functions: a statement for each.
-pub fn calls(text: &str) -> String {
-    let mut calls: Vec<String> = heads(text).iter().filter_map(|head| call(head)).collect();
+/// What a program does with a text of functions: a statement for each. `nests`: whether comments within comments count.
+pub fn calls(text: &str, nests: bool) -> String {
+    let mut calls: Vec<String> = heads(text, nests)
+        .iter()
+        .filter_map(|head| call(head))
+        .collect();
     // A file that is included twice has its heads twice.
     let mut seen = BTreeSet::new();
     calls.retain(|call| seen.insert(call.clone()));
@@ -44,10 +50,10 @@ pub fn calls(text: &str) -> String {
 }
 
 /// What stands before each outermost brace, in one line each: the heads of functions, in all our languages.
-fn heads(text: &str) -> Vec<String> {
+fn heads(text: &str, nests: bool) -> Vec<String> {
+    let text = without_comments(text, nests);
     let code = text
         .lines()
-        .filter_map(|line| line.split("//").next())
         .filter(|line| !line.trim_start().starts_with('#'));
     let (mut heads, mut depth, mut head) = (Vec::new(), 0, String::new());
     for character in code.flat_map(|line| line.chars().chain([' '])) {
@@ -64,6 +70,25 @@ fn heads(text: &str) -> Vec<String> {
         };
     }
     heads
+}
+
+/// A text without its comments.
+fn without_comments(text: &str, nests: bool) -> String {
+    let (mut rest, mut kept) = (text, String::new());
+    while let Some(at) = rest.find('/') {
+        kept += &rest[..at];
+        let comment = &rest[at..];
+        let length = match comment.as_bytes().get(1) {
+            Some(b'/') => comment.find('\n').unwrap_or(comment.len()),
+            Some(b'*') => block_comment(comment, nests),
+            _ => {
+                kept.push('/');
+                1
+            }
+        };
+        rest = &comment[length..];
+    }
+    kept + rest
 }
 
 /// The call of a function of this head: `type name(type argument, …)` or `fn name(argument: type, …) -> type`.
@@ -100,7 +125,7 @@ mod tests {
 
     #[track_caller]
     fn check(text: &str, expected: &str) {
-        assert_eq!(calls(text), expected, "{text}");
+        assert_eq!(calls(text, false), expected, "{text}");
     }
 
     #[test]
@@ -133,6 +158,11 @@ mod tests {
 
     #[test]
     fn what_is_no_function_is_not_called() {
+        assert_eq!(calls("/* /* */ fn g() {} */\n", true), "");
+        check(
+            "/* float h(float c) {} */ // float g(float c) {\nfloat f(float c) { return c / 2.0; }\n",
+            "    sum += f(at.x);\n",
+        );
         check("struct A { float x; };\nfloat b = 1.0;\n", "");
     }
 }

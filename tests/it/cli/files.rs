@@ -7,6 +7,7 @@ use std::io::{BufRead, BufReader};
 use std::process::{Child, Stdio};
 
 use fresnel_gen::app::artifact::sha256;
+use fresnel_gen::app::folder;
 use fresnel_gen::app::lock::{self, Lock};
 use fresnel_gen::methods;
 
@@ -324,14 +325,15 @@ fn an_output_is_no_input_and_no_other_output() {
     ] {
         place.refused(line, &["this run reads that file"]);
     }
+    let line = "--method schlick --target wgsl -o s.wgsl --depfile s.wgsl";
+    place.refused(line, &["two outputs of this run"]);
     for line in [
-        "--method schlick --target wgsl -o s.wgsl --depfile s.wgsl".to_owned(),
         format!("--method schlick --target gles --material none --depfile {shader}"),
         format!("--method schlick --target gles --material none --depfile {manifest}"),
         format!("bake --material gold --json {manifest}"),
         format!("bake --material gold --json {OUT}/lut/gold.json"),
     ] {
-        place.refused(&line, &["two outputs of this run"]);
+        place.refused(&line, &["a file of the generated tree lies there"]);
     }
 }
 
@@ -344,4 +346,203 @@ fn a_report_says_which_files_it_replaced() {
     place.put("chart.html", place.read("chart.html") + "<!-- mine -->\n");
     let ran = place.done(line);
     assert!(ran.err.contains("replaced: ./chart.html"), "{ran:?}");
+}
+
+/// What a killed run left beside an output that the user names: the next run of that output removes it. While another run holds
+/// it, the next one waits. What else lies under that name is left alone.
+#[test]
+fn an_output_leaves_no_temporary_file_for_ever() {
+    let place = Place::new();
+    let temporary = folder::temporary_of(&place.path("a.wgsl"));
+    place.put(&temporary, "half a function");
+    place.done("--method schlick -o a.wgsl");
+    assert!(!place.path(&temporary).exists());
+    let whole = place.read("a.wgsl");
+    assert!(whole.contains("fn fresnel_schlick("));
+
+    let held = lock::create_held(&place.path(&temporary)).unwrap();
+    fs::remove_file(place.path("a.wgsl")).unwrap();
+    let words = ["--method", "schlick", "-o", "a.wgsl"];
+    let mut child = place.command(&words).spawn().unwrap();
+    std::thread::sleep(std::time::Duration::from_millis(1500));
+    assert!(child.try_wait().unwrap().is_none(), "it did not wait");
+    drop(held);
+    assert!(child.wait().unwrap().success());
+    assert_eq!(place.read("a.wgsl"), whole);
+    assert!(!place.path(&temporary).exists());
+
+    place.put("mine.txt", "mine");
+    std::os::unix::fs::symlink(place.path("mine.txt"), place.path(&temporary)).unwrap();
+    place.done("--method schlick_f90 -o a.wgsl");
+    assert_eq!(place.read("mine.txt"), "mine");
+    assert!(place.path(&temporary).is_symlink());
+}
+
+/// Keys of others in the manifest stay, a file listed twice is removed once and named once.
+#[test]
+fn a_manifest_keeps_the_keys_of_others() {
+    let place = Place::new();
+    place.done("--target gles --method schlick,schlick_f90 --material none");
+    let file = format!("{OUT}/manifest.json");
+    let mut manifest: serde_json::Value = serde_json::from_str(&place.read(&file)).unwrap();
+    manifest["team"] = "lighting".into();
+    place.put(&file, serde_json::to_string_pretty(&manifest).unwrap());
+    place.done("--target gles --method schlick --material none");
+    let mut manifest: serde_json::Value = serde_json::from_str(&place.read(&file)).unwrap();
+    assert_eq!(manifest["team"], "lighting");
+
+    // An orphan, listed twice.
+    let old = format!("{OUT}/gles/fresnel_of_old.glsl");
+    place.put(&old, "// old\n");
+    let mut entry = manifest["files"][0].clone();
+    entry["file"] = "gles/fresnel_of_old.glsl".into();
+    entry["method"] = "fresnel_of_old".into();
+    entry["sha256"] = sha256(b"// old\n").into();
+    let files = manifest["files"].as_array_mut().unwrap();
+    files.extend([entry.clone(), entry]);
+    place.put(&file, manifest.to_string());
+    let ran = place.done("--target gles");
+    assert!(!place.path(&old).exists());
+    assert_eq!(
+        ran.err.matches("removed: gles/fresnel_of_old.glsl").count(),
+        1,
+        "{}",
+        ran.err
+    );
+}
+
+/// A link that leads to nothing is no free place: it is somebody's.
+#[cfg(unix)]
+#[test]
+fn a_dangling_link_is_not_replaced() {
+    let place = Place::new();
+    fs::create_dir_all(place.path(&format!("{OUT}/wgsl"))).unwrap();
+    fs::create_dir_all(place.path("drawn")).unwrap();
+    let schlick = place.path(&format!("{OUT}/wgsl/fresnel_schlick.wgsl"));
+    let nowhere = place.path("nothing");
+    std::os::unix::fs::symlink(&nowhere, &schlick).unwrap();
+    std::os::unix::fs::symlink(&nowhere, place.path("drawn/chart.svg")).unwrap();
+    let library = "--target wgsl --method schlick --material none";
+    place.refused(
+        library,
+        &["fresnel_schlick.wgsl: a link to ", "--overwrite"],
+    );
+    place.refused(
+        "chart --material gold --out-dir drawn",
+        &["chart.svg: a link to ", "--overwrite"],
+    );
+    assert!(schlick.is_symlink());
+    place.done(&format!("{library} --overwrite"));
+    assert!(!schlick.is_symlink());
+
+    // A file that the user names is made where the link leads.
+    std::os::unix::fs::symlink(place.path("target.wgsl"), place.path("link.wgsl")).unwrap();
+    place.done("--method schlick -o link.wgsl");
+    assert!(place.path("link.wgsl").is_symlink());
+    assert!(place.read("target.wgsl").contains("fresnel_schlick"));
+    std::os::unix::fs::symlink(place.path("share/nothing"), place.path("lost.wgsl")).unwrap();
+    place.refused("--method schlick -o lost.wgsl", &["lost.wgsl"]);
+}
+
+/// Functions that an earlier run put into a file, and the next does not, are named.
+#[test]
+fn functions_that_a_run_drops_are_named() {
+    let place = Place::new();
+    place.done("--target gles --material gold --method f82_tint,fitted,conductor_exact");
+    let line = "--target gles --material gold";
+    let says = "no longer in gles/materials/gold.glsl: fresnel_gold_f82_tint";
+    assert!(
+        place
+            .run(&format!("{line} --check"))
+            .ends(1)
+            .err
+            .contains(says)
+    );
+    assert!(place.done(line).err.contains(says));
+    assert!(!place.done(line).err.contains("no longer"));
+}
+
+/// Two functions of one name never meet in one output, and no table takes the place of the one for all materials.
+#[test]
+fn names_that_meet_are_refused() {
+    let place = Place::new();
+    place.put("a.toml", MY_METAL.replace("my_metal", "gold_fitted"));
+    place.refused(
+        "--target wgsl --material gold,a.toml --method conductor_exact,fitted -o x.wgsl",
+        &["`fresnel_gold_fitted` would stand in"],
+    );
+    place.done("--target gles --material gold --method conductor_exact,fitted");
+    place.refused(
+        "--target gles --material a.toml --method conductor_exact",
+        &["`fresnel_gold_fitted` would stand in gles/materials/gold_fitted.glsl and stands in gles/materials/gold.glsl"],
+    );
+    place.put("d.toml", MY_METAL.replace("my_metal", "dfg_fitted"));
+    place.refused("bake --material d.toml", &["--dfg"]);
+    fs::create_dir_all(place.path("pages")).unwrap();
+    place.put("pages/a.yml", "REFERENCES: x\n");
+    place.refused(
+        "materials survey pages --json pages/a.yml",
+        &["this run reads that file"],
+    );
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn help_on_a_full_disk_is_an_error() {
+    let place = Place::new();
+    for word in ["--help", "--version", "methods"] {
+        let full = fs::File::options().write(true).open("/dev/full").unwrap();
+        let ended = place.command(&[word]).stdout(full).status().unwrap();
+        assert_eq!(ended.code(), Some(2), "{word}");
+    }
+}
+
+/// A path through a folder that a run would make, and a link that leads to nothing yet, are where they will lead.
+#[cfg(unix)]
+#[test]
+fn outputs_are_told_apart_before_they_are_made() {
+    let place = Place::new();
+    place.put("m.toml", MY_METAL);
+    for line in [
+        "--material m.toml --method schlick -o new/../m.toml",
+        "--target wgsl --material m.toml --method schlick --depfile new/deep/../../m.toml",
+        "materials params m.toml --json new/../m.toml",
+        "fit --material m.toml --json ./new/.././m.toml",
+    ] {
+        place.refused(line, &["this run reads that file"]);
+    }
+    let absolute = place.path("new/../m.toml");
+    place.refused(
+        &format!("materials params m.toml --json {}", absolute.display()),
+        &["this run reads that file"],
+    );
+    std::os::unix::fs::symlink("q.wgsl", place.path("link")).unwrap();
+    for line in [
+        "--method schlick -o q.wgsl --depfile link",
+        "--method schlick -o q.wgsl --depfile sub/../q.wgsl",
+    ] {
+        place.refused(line, &["two outputs of this run"]);
+    }
+    let library = "--target wgsl --method schlick --material none";
+    place.done(library);
+    place.refused(
+        &format!("{library} --depfile new/../{OUT}/manifest.json"),
+        &["a file of the generated tree lies there"],
+    );
+    assert_eq!(place.read("m.toml"), MY_METAL);
+}
+
+/// A report replaces a link with `--overwrite`, and never what lies behind it.
+#[cfg(unix)]
+#[test]
+fn a_report_is_not_written_through_a_link() {
+    let place = Place::new();
+    place.put("mine.svg", "mine");
+    place.put("drawn/note.txt", "");
+    std::os::unix::fs::symlink("../mine.svg", place.path("drawn/chart.svg")).unwrap();
+    let line = "chart --material gold --out-dir drawn";
+    place.refused(line, &["chart.svg: a link to ../mine.svg lies there"]);
+    place.done(&format!("{line} --overwrite"));
+    assert_eq!(place.read("mine.svg"), "mine");
+    assert!(!place.path("drawn/chart.svg").is_symlink());
 }

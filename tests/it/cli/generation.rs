@@ -189,6 +189,7 @@ fn list_and_quiet() {
         "hlsl/fresnel_f82_tint.hlsl\nhlsl/fresnel_schlick.hlsl\n"
     );
     assert!(place.files().is_empty(), "--list wrote files");
+    place.refused("--list --depfile a.d", &["--list", "--depfile"]);
     let ran = place.done("--quiet --target hlsl");
     assert_eq!((ran.out.as_str(), ran.err.as_str()), ("", ""));
 }

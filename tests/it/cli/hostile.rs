@@ -1,6 +1,12 @@
 //! Files, names and arguments that are made to do harm: numbers that explode, text that a terminal obeys, names that compilers
 //! and systems keep.
 
+use std::collections::BTreeSet;
+
+use fresnel_gen::app::generate::generate;
+use fresnel_gen::app::request::{Materials, Request, Source};
+use fresnel_gen::targets;
+
 use super::{MY_METAL, OUT, Place};
 
 /// A material whose index is a formula.
@@ -192,6 +198,36 @@ fn a_field_of_one_line_has_no_break() {
         "--material m.toml --target gles",
         &["m.toml:2:11: field `summary` holds a line break; it wants one line"],
     );
+}
+
+/// Every reserved word of every language as the name of a material without a prefix: refused for each target, since a function
+/// has one name in all. With the prefix each is a good name, where a material may have it at all.
+#[test]
+fn every_reserved_word_is_refused_as_a_whole_name() {
+    let request = |word: &str, prefix: &str| Request {
+        targets: vec!["gles".to_owned()],
+        methods: vec!["conductor_exact".to_owned()],
+        materials: Materials::These(vec![Source::File {
+            file: "m.toml".to_owned(),
+            text: MY_METAL.replace("\"my_metal\"", &format!("\"{word}\"")),
+        }]),
+        prefix: prefix.to_owned(),
+        ..Request::default()
+    };
+    let lists = targets::ALL.iter().flat_map(|target| target.reserved);
+    let words: BTreeSet<&str> = lists.copied().flatten().copied().collect();
+    let mut refused = 0;
+    for word in &words {
+        let bare = generate(&request(word, ""));
+        let why = bare.expect_err(word).to_string();
+        if generate(&request(word, "fresnel_")).is_ok() {
+            let expected = format!("`{word}` is a reserved word of ");
+            assert!(why.contains(&expected), "{word}: {why}");
+            refused += 1;
+        }
+    }
+    println!("{refused} of {} words are names", words.len());
+    assert!(refused > 600, "{refused}");
 }
 
 /// Words of the six languages and names that their compilers know, as a material's name without a prefix.

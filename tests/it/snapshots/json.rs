@@ -36,7 +36,7 @@ const REPORTS: [(&str, &str); 16] = [
     ),
     (
         "audit",
-        "audit mine.wgsl --function schlick --material gold --gpu adreno330 --json -",
+        "audit mine.wgsl --function schlick --material gold --gpu rdna2 --json -",
     ),
 ];
 
@@ -86,6 +86,11 @@ fn committed(name: &str) -> Vec<String> {
         .collect()
 }
 
+/// Whether an audit could not ask the GPU's compiler: its costs are null then.
+fn lacks_compiler(audit: &Value) -> bool {
+    audit["rows"][0]["cost"][0]["compiler"].is_null()
+}
+
 #[test]
 fn the_keys_of_every_report_are_the_committed_ones() {
     let place = Place::new();
@@ -93,7 +98,8 @@ fn the_keys_of_every_report_are_the_committed_ones() {
     let mut all = Vec::new();
     for (name, line) in REPORTS {
         let ran: Ran = place.run(line);
-        if ran.code == Some(3) && std::env::var_os("CI").is_none() {
+        let lacks = ran.code == Some(3) || name == "audit" && lacks_compiler(&ran.json());
+        if lacks && std::env::var_os("CI").is_none() {
             not_checked(&format!("the JSON keys of {line}: {}", ran.err));
             all.extend(committed(name));
             continue;

@@ -205,7 +205,7 @@ fn false_numbers_in_a_header_are_seen() {
             "hemisphere: (0.899366,",
             "0.899366",
         ),
-        ("Cost: 61 scalar", "Cost: 16 scalar", "Cost: 16"),
+        ("Cost: 64 scalar", "Cost: 16 scalar", "Cost: 16"),
         (
             "Truth: reflectance integrated over 380",
             "Truth: reflectance integrated over 360",
@@ -226,7 +226,7 @@ fn false_numbers_in_a_header_are_seen() {
 fn false_numbers_in_the_manifest_are_seen() {
     let edits = [
         ("\"max_ulp\": 4.5", "\"max_ulp\": 0.5", "`code_error`"),
-        ("\"operations\": 61", "\"operations\": 16", "`operations`"),
+        ("\"operations\": 64", "\"operations\": 16", "`operations`"),
         ("\"max_abs\": 0.004", "\"max_abs\": 0.001", "`model_error`"),
         ("0.9993", "0.8993", "`average`"),
     ];
@@ -324,4 +324,58 @@ fn a_changed_interface_of_a_module_is_seen() {
     fs::write(&file, changed).unwrap();
     let ran = verify(&place, &format!("--target spirv {LIBRARY} --points 500"));
     fails(ran, &["spirv/fresnel_schlick.comp.spv", "binding"]);
+}
+
+/// Of modules only those of compute shaders are run: a fragment module that is neither today's nor the listed one fails.
+#[test]
+fn a_swapped_fragment_module_is_seen() {
+    let place = Place::new();
+    let line = "--target spirv --material gold,platinum --method conductor_exact";
+    place.done(line);
+    let file = |name: &str| place.path(&format!("{OUT}/spirv/materials/{name}.frag.spv"));
+    fs::copy(file("platinum"), file("gold")).unwrap();
+    let ran = verify(&place, &format!("{line} --points 500 --json -"));
+    fails(
+        ran,
+        &["spirv/materials/gold.frag.spv: it is neither what would be written today"],
+    );
+}
+
+/// A method that nobody put into a file is no fault of the file; a listed file that is gone is one.
+#[test]
+fn what_was_not_asked_for_is_not_missing() {
+    let place = Place::new();
+    place.done("--target wgsl --material gold --method conductor_exact");
+    let line = "--target wgsl --material gold --method schlick --points 500 --json -";
+    let Some(ran) = verify(&place, line) else {
+        return;
+    };
+    ran.ends(0);
+    fs::remove_file(place.path(&format!("{OUT}/wgsl/materials/gold.wgsl"))).unwrap();
+    fails(
+        verify(&place, line),
+        &["wgsl/materials/gold.wgsl: it is not there, and manifest.json lists it"],
+    );
+    let nowhere = format!("{line} --out-dir nowhere");
+    let Some(ran) = verify(&place, &nowhere) else {
+        return;
+    };
+    assert!(ran.ends(0).err.contains("there is no folder nowhere"));
+}
+
+/// A loop or a function in a comment is none; a report takes the place of no file of the tree.
+#[test]
+fn comments_are_no_code_and_reports_replace_no_shader() {
+    let comment = |text: &str| format!("{text}/* for a fn fresnel_other() {{}} */\n// while\n");
+    let file = "wgsl/fresnel_schlick.wgsl";
+    let ran = edited(&format!("--target wgsl {LIBRARY}"), file, comment);
+    passes(ran, file, Some("not what would be written today"));
+    let place = Place::new();
+    place.done(&format!("--target wgsl {LIBRARY}"));
+    for taken in [file, "manifest.json"] {
+        place.refused(
+            &format!("verify --target wgsl {LIBRARY} --points 100 --json {OUT}/{taken}"),
+            &[taken, "a file of the generated tree lies there"],
+        );
+    }
 }
