@@ -91,7 +91,7 @@ const LINKS: u32 = 40;
 
 /// A path without links and without `..`, whether or not it is there: a run makes the folders that are missing, so that `new/..`
 /// is where `new` will lie, and a link that leads to nothing leads to what will be made.
-fn resolved(path: &Path) -> PathBuf {
+pub fn resolved(path: &Path) -> PathBuf {
     let whole = resolved_within(path, LINKS);
     fs::canonicalize(&whole).unwrap_or(whole)
 }

@@ -10,6 +10,7 @@ use std::fs::{self, File, Metadata};
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, MutexGuard, PoisonError};
+use std::time::Duration;
 
 use tempfile::TempDir;
 
@@ -133,11 +134,21 @@ fn sweep(place: &Path) {
     for entry in fs::read_dir(place).into_iter().flatten().flatten() {
         let name = entry.file_name();
         let is_named = name.to_str().is_some_and(|name| name.starts_with(PREFIX));
+        // Who cannot remove one leaves it to its owner.
         if is_named && is_left(&entry.path()) {
-            // Who cannot remove it leaves it to its owner.
             let _ = fs::remove_dir_all(entry.path());
+        } else if is_named && entry.metadata().is_ok_and(|found| is_old(&found)) {
+            // A run that was killed before it took its lock. Only an empty folder can be removed so.
+            let _ = fs::remove_dir(entry.path());
         }
     }
+}
+
+/// Whether a folder of this user's is so old that no run is about to put its lock there.
+fn is_old(found: &Metadata) -> bool {
+    const HOUR: Duration = Duration::from_secs(3600);
+    let age = found.modified().ok().and_then(|made| made.elapsed().ok());
+    found.is_dir() && is_own(found) && age.is_some_and(|age| age > HOUR)
 }
 
 /// Whether a folder was made by a run of this user's that is no more.
@@ -221,6 +232,8 @@ mod signals {
 
 #[cfg(test)]
 mod tests {
+    use std::time::SystemTime;
+
     use super::*;
 
     #[test]
@@ -246,8 +259,15 @@ mod tests {
         assert!(!left.exists());
         assert!(busy.exists() && new.exists() && strange.exists() && foreign.exists());
         drop(lock);
+        let bare = folder(&format!("{PREFIX}bare"));
         sweep(place.path());
-        assert!(!busy.exists());
+        assert!(!busy.exists() && bare.exists());
+        let old = SystemTime::now() - Duration::from_secs(7200);
+        for folder in [&bare, &new] {
+            File::open(folder).unwrap().set_modified(old).unwrap();
+        }
+        sweep(place.path());
+        assert!(!bare.exists() && new.exists());
     }
 
     #[cfg(unix)]

@@ -148,22 +148,30 @@ fn not_ours(out_dir: &Path, obstacle: &Obstacle, others: usize) -> Error {
 /// Writes a single file whole or not at all, with the folders above it. False: it was right already.
 /// A link is followed; a device or pipe (`/dev/null`) is written to, because renaming would destroy it.
 pub fn write_file(path: &Path, bytes: &[u8]) -> Result<bool, Error> {
-    if fs::metadata(path).is_ok_and(|found| !found.is_dir() && !found.is_file()) {
-        let fault = |source| stage_fault(path, source);
-        return fs::write(path, bytes).map(|()| true).map_err(fault);
-    }
     Ok(write_files(&[(path.to_path_buf(), bytes)])? == 1)
 }
 
 /// Writes files, each whole or not at all, with the folders above them; a fault before all are staged changes nothing.
-/// How many were written: the others were right already. Links are followed.
+/// How many were written: the others were right already. Links are followed, and devices are written to.
 pub fn write_files(files: &[(PathBuf, &[u8])]) -> Result<usize, Error> {
-    let mut pending = Vec::new();
+    let (mut pending, mut devices) = (Vec::new(), Vec::new());
     for (path, bytes) in files {
-        pending.extend(destination(path, bytes)?.map(|path| (path, *bytes)));
+        if is_device(path) {
+            devices.push((path, *bytes));
+        } else {
+            pending.extend(destination(path, bytes)?.map(|path| (path, *bytes)));
+        }
     }
     replace_all(stage_all(&pending, None)?, 0, pending.len())?;
-    Ok(pending.len())
+    for (path, bytes) in &devices {
+        fs::write(path, bytes).map_err(|source| stage_fault(path, source))?;
+    }
+    Ok(pending.len() + devices.len())
+}
+
+/// Whether a path leads to a device or a pipe.
+fn is_device(path: &Path) -> bool {
+    fs::metadata(path).is_ok_and(|found| !found.is_dir() && !found.is_file())
 }
 
 /// Whether a file can be written there, found out by doing it and taking it back: before work that takes long.
@@ -171,7 +179,7 @@ pub fn write_files(files: &[(PathBuf, &[u8])]) -> Result<usize, Error> {
 /// # Errors
 /// It cannot be.
 pub fn try_file(path: &Path) -> Result<(), Error> {
-    if fs::metadata(path).is_ok_and(|found| !found.is_dir() && !found.is_file()) {
+    if is_device(path) {
         return Ok(());
     }
     // No file of ours holds this alone.
@@ -296,6 +304,10 @@ fn stage(
     let temporary = TempPath::try_from_path(temporary)?;
     file.write_all(bytes)?;
     file.flush()?;
+    // Who may read a file is its owner's choice: a new version keeps it.
+    if let Ok(old) = fs::metadata(path) {
+        file.set_permissions(old.permissions())?;
+    }
     Ok(Staged {
         temporary,
         destination: path.to_path_buf(),

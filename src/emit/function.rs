@@ -35,6 +35,15 @@ impl Default for Naming {
 }
 
 impl Naming {
+    /// The name of a method's function for a material: the exact law bears the material's name alone.
+    pub fn specialised(&self, method: &Method, subject: &Subject) -> String {
+        if method.name == subject.exact_method() {
+            self.name(&subject.name, "")
+        } else {
+            self.name(&subject.name, &format!("_{}", method.name))
+        }
+    }
+
     /// The name of a function, of a method or a material and a variant of it.
     fn name(&self, of: &str, variant: &str) -> String {
         format!("{}{of}{variant}{}", self.prefix, self.precision.suffix())
@@ -347,15 +356,9 @@ pub fn specialised_function(
         Precision::F32 => function.clone(),
         Precision::F16 => specialise(method, subject, Precision::F32, &constants)?,
     };
-    let own = method.name == subject.exact_method();
     let error = model_error(&meant, &subject.truth_for(method));
-    let suffix = if own {
-        String::new()
-    } else {
-        format!("_{}", method.name)
-    };
     Ok(Emitted {
-        name: naming.name(&subject.name, &suffix),
+        name: naming.specialised(method, subject),
         method,
         form: "specialised",
         precision: naming.precision,

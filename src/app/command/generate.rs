@@ -16,7 +16,7 @@ use crate::app::request::Request;
 use crate::app::sight::{input, sight};
 use crate::app::source::{is_path, materials, source};
 use crate::app::tree::{Plan, plan};
-use crate::app::write::{write, write_file};
+use crate::app::write::{write, write_file, write_files};
 use crate::app::{check, depfile, folder};
 use crate::num::Precision;
 
@@ -111,15 +111,21 @@ fn request(flags: &Generate) -> Result<Request, Error> {
 fn single(flags: &Generate, request: &Request, file: &Path) -> Result<Output, Error> {
     let bytes = generate_single(request)?;
     let rule = rule(flags, &[file.display().to_string()])?;
-    let mut output = Output::default();
-    if file == Path::new("-") {
-        output.stdout = bytes;
-        output.is_file = true;
-    } else {
-        write_file(file, &bytes)?;
+    let mut files: Vec<(PathBuf, &[u8])> = Vec::new();
+    if let (Some(depfile), Some(rule)) = (&flags.depfile, &rule) {
+        files.push((depfile.clone(), rule.as_bytes()));
     }
-    write_depfile(flags, rule)?;
-    Ok(output)
+    if file != Path::new("-") {
+        files.push((file.to_path_buf(), &bytes));
+        write_files(&files)?;
+        return Ok(Output::default());
+    }
+    write_files(&files)?;
+    Ok(Output {
+        stdout: bytes,
+        is_file: true,
+        ..Output::default()
+    })
 }
 
 fn checked(flags: &Generate, plan: &Plan) -> Output {

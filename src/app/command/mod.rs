@@ -28,8 +28,9 @@ use std::path::{Path, PathBuf};
 
 use super::args::{Cli, Command, NamedFiles};
 use super::error::Error;
-use super::folder::{is_below, is_same_file};
+use super::folder::{is_below, is_plain_file, is_same_file, read, resolved};
 use super::lock::Announce;
+use super::manifest::{self, Manifest};
 use super::tree::Plan;
 use super::write::{try_file, write_file};
 use crate::materials::escaped;
@@ -114,7 +115,35 @@ fn refuse_clashes(named: &NamedFiles) -> Result<(), Error> {
             });
         }
     }
-    refuse_one_place(&named.outputs)
+    refuse_one_place(&named.outputs)?;
+    named
+        .outputs
+        .iter()
+        .try_for_each(|file| refuse_listed(file))
+}
+
+/// Refuses a file of a generated tree, whichever run made it: the manifest in a folder above lists it, or it is the manifest.
+fn refuse_listed(named: &Path) -> Result<(), Error> {
+    /// A file of a tree lies this many folders below it at most, with some to spare for tables.
+    const DEPTH: usize = 5;
+    let whole = resolved(named);
+    for folder in whole.ancestors().skip(1).take(DEPTH) {
+        let path = folder.join(manifest::FILE);
+        // A manifest that is not ours, or cannot be read, lists nothing of ours.
+        let text = if is_plain_file(&path) {
+            read(&path).ok().flatten()
+        } else {
+            None
+        };
+        let Some(manifest) = text.and_then(|text| Manifest::parse(&path, &text).ok()) else {
+            continue;
+        };
+        let files = manifest.files.iter();
+        let mut places: Vec<PathBuf> = files.map(|entry| folder.join(&entry.file)).collect();
+        places.push(path);
+        refuse_place_of(&places, named)?;
+    }
+    Ok(())
 }
 
 /// Refuses two outputs that are one file.

@@ -83,9 +83,15 @@ pub struct Meant {
     pub left_out: Vec<Unseen>,
 }
 
-/// Generates everything that the request asks for, and keeps the graphs of what is generated.
-pub fn generate_meant(request: &Request, kept: &Kept) -> Result<Meant, Error> {
-    let run = Run::new(request)?;
+/// Generates everything that the request asks for, and keeps the graphs of what is generated. Material files that `exactly`
+/// names hold its methods and no others.
+pub fn generate_meant<'r>(
+    request: &'r Request,
+    kept: &Kept,
+    exactly: &'r Kept,
+) -> Result<Meant, Error> {
+    let mut run = Run::new(request)?;
+    run.exactly = Some(exactly);
     Ok(Meant {
         files: made(&run, kept)?,
         subjects: run
@@ -128,7 +134,7 @@ pub fn generate_single(request: &Request) -> Result<Vec<u8>, Error> {
     };
     let (mut pages, mut owners) = (Vec::new(), Owners::default());
     for (subject, _) in &run.subjects {
-        let methods = run.named_or(&subject.name, &[subject.exact_method()]);
+        let methods = written::named_or(&run, &subject.name, &[subject.exact_method()]);
         for emitted in run.specialised(&methods, subject, &mut BTreeMap::new())? {
             owners.claim(&emitted.name, &format!("material {}", subject.name))?;
             let (place, of) = (Place::behind(&pages), Some(subject));
@@ -171,6 +177,8 @@ struct Run<'r> {
     left_out: Vec<Unseen>,
     naming: Naming,
     bounds: Bounds,
+    /// The methods of material files that hold these and no others.
+    exactly: Option<&'r Kept>,
 }
 
 impl<'r> Run<'r> {
@@ -193,6 +201,7 @@ impl<'r> Run<'r> {
             named,
             naming: request.naming(),
             bounds: Bounds::recorded(),
+            exactly: None,
         })
     }
 
@@ -234,7 +243,7 @@ impl<'r> Run<'r> {
         let mut ready: BTreeMap<&str, Emitted> = BTreeMap::new();
         let mut files = Vec::new();
         for target in &self.targets {
-            let methods = self.methods_of(target, subject, kept);
+            let methods = written::methods_of(self, target, subject, kept);
             let functions = self.specialised(&methods, subject, &mut ready)?;
             let usual = methods == written::usual(self.request, subject);
             let command = self.command(target, (!usual).then_some(&methods), Some(subject));
@@ -250,40 +259,6 @@ impl<'r> Run<'r> {
             owners.claim(&emitted.name, &format!("material {}", subject.name))?;
         }
         Ok(files)
-    }
-
-    /// The methods asked for of a material: the one that a budget chose, those named, or the usual ones.
-    fn named_or(&self, material: &str, usual: &[&'static str]) -> Vec<&'static str> {
-        if let Some(chosen) = self.request.chosen.get(material) {
-            return vec![*chosen];
-        }
-        match &self.named {
-            Some(named) => named.iter().map(|method| method.name).collect(),
-            None => usual.to_vec(),
-        }
-    }
-
-    /// The methods of a material's file, the exact one first.
-    fn methods_of(&self, target: &Target, subject: &Subject, kept: &Kept) -> Vec<&'static str> {
-        let usual = written::usual(self.request, subject);
-        let mut chosen = self.named_or(&subject.name, &usual);
-        chosen.retain(|name| written::is_written(self.request, name));
-        let kept = kept.get(&(target.name.to_owned(), subject.name.clone()));
-        chosen.extend(
-            kept.into_iter()
-                .flatten()
-                .filter_map(|name| methods::find(name))
-                .map(|m| m.name),
-        );
-        let rank = |name: &str| {
-            usual
-                .iter()
-                .position(|other| *other == name)
-                .unwrap_or(usual.len())
-        };
-        chosen.sort_by(|a, b| rank(a).cmp(&rank(b)).then(a.cmp(b)));
-        chosen.dedup();
-        chosen
     }
 
     fn specialised<'a>(

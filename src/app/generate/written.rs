@@ -1,9 +1,12 @@
-//! Which methods are written in the precision of a request: half precision cannot bear all of them.
+//! Which methods are written: those asked for, those that a file holds already, and in half precision those that it can bear.
 
 use crate::app::error::Error;
 use crate::app::request::Request;
 use crate::emit::Subject;
 use crate::methods::{self, InHalf, Method};
+use crate::targets::Target;
+
+use super::{Kept, Run};
 
 type Named<'a> = Option<&'a [&'static Method]>;
 
@@ -33,6 +36,38 @@ pub fn usual(request: &Request, subject: &Subject) -> Vec<&'static str> {
     let mut usual = subject.default_methods();
     usual.retain(|name| is_written(request, name));
     usual
+}
+
+/// The methods asked for of a material: the one that a budget chose, those named, or the usual ones.
+pub fn named_or(run: &Run, material: &str, usual: &[&'static str]) -> Vec<&'static str> {
+    if let Some(chosen) = run.request.chosen.get(material) {
+        return vec![*chosen];
+    }
+    match &run.named {
+        Some(named) => named.iter().map(|method| method.name).collect(),
+        None => usual.to_vec(),
+    }
+}
+
+/// The methods of a material's file, the exact one first.
+pub fn methods_of(run: &Run, target: &Target, subject: &Subject, kept: &Kept) -> Vec<&'static str> {
+    let usual = usual(run.request, subject);
+    let file = (target.name.to_owned(), subject.name.clone());
+    let exactly = run.exactly.and_then(|exactly| exactly.get(&file));
+    let mut chosen = match exactly {
+        Some(_) => Vec::new(),
+        None => named_or(run, &subject.name, &usual),
+    };
+    chosen.retain(|name| is_written(run.request, name));
+    let kept = exactly.or_else(|| kept.get(&file)).into_iter().flatten();
+    chosen.extend(kept.filter_map(|name| methods::find(name)).map(|m| m.name));
+    let rank = |name: &str| {
+        let place = usual.iter().position(|other| *other == name);
+        place.unwrap_or(usual.len())
+    };
+    chosen.sort_by(|a, b| rank(a).cmp(&rank(b)).then(a.cmp(b)));
+    chosen.dedup();
+    chosen
 }
 
 /// Whether a method is written for materials.

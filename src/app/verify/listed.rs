@@ -10,13 +10,19 @@ use crate::app::ours::is_listed;
 pub(super) struct Listed<'a> {
     entry: &'a Entry,
     text: &'a str,
+    /// How often the manifest lists the file.
+    times: usize,
 }
 
 impl<'a> Listed<'a> {
     /// The entry of a file, where there is one.
     pub fn new(manifest: &'a Manifest, text: &'a str, path: &str) -> Option<Listed<'a>> {
-        let entry = manifest.files.iter().find(|entry| entry.file == path)?;
-        Some(Listed { entry, text })
+        let mut entries = manifest.files.iter().filter(|entry| entry.file == path);
+        Some(Listed {
+            entry: entries.next()?,
+            text,
+            times: 1 + entries.count(),
+        })
     }
 
     fn functions(&self) -> &'a [Value] {
@@ -36,6 +42,14 @@ impl<'a> Listed<'a> {
         // As it would be read again: numbers compare by their digits.
         let today: Value = serde_json::from_str(&artifact.detail.to_string()).unwrap_or_default();
         let mut found = Vec::new();
+        if self.times > 1 {
+            found.push(format!(
+                "{}: it lists {} {} times; a run that writes the file lists it once",
+                manifest::FILE,
+                self.entry.file,
+                self.times
+            ));
+        }
         for (claim, said, right) in [
             ("method", &self.entry.method, &artifact.method),
             ("material", &self.entry.material, &artifact.material),

@@ -5,9 +5,10 @@ use std::path::{Path, PathBuf};
 
 use crate::app::command::kept;
 use crate::app::error::Error;
-use crate::app::generate::{Made, generate_meant};
+use crate::app::generate::{Kept, Made, Meant, generate_meant};
 use crate::app::request::{Materials, Request};
 use crate::emit::{Emitted, Subject};
+use crate::methods;
 use crate::num::Precision;
 use crate::targets::{self, Target};
 
@@ -57,18 +58,14 @@ impl Plan {
     /// The request cannot be met, or a file cannot be read.
     pub fn new(request: &Request, folder: &Path) -> Result<Plan, Error> {
         // What earlier runs put into a material's file belongs to it: it would be written again.
-        let meant = generate_meant(request, &kept(folder, request.precision)?)?;
+        let kept = kept(folder, request.precision)?;
+        let meant = generate_meant(request, &kept, &Kept::new())?;
         let shipped = Folder::new(folder)?;
+        let held = held(request, &meant, &shipped, &kept)?;
+        let exact = generate_meant(request, &kept, &held)?;
         let mut files: Vec<Planned> = Vec::new();
-        for mut made in meant.files {
-            let asked: Vec<bool> = made
-                .functions
-                .iter()
-                .map(|one| is_asked_for(request, one))
-                .collect();
-            let page = shipped.page(&made, &asked)?;
-            let mut asked = asked.into_iter();
-            made.functions.retain(|_| asked.next().unwrap_or(true));
+        for (meant, exact) in meant.files.into_iter().zip(exact.files) {
+            let (made, page) = page(request, &shipped, meant, exact)?;
             let stem = |path: &str| path.split('.').next().unwrap_or("").to_owned();
             match files.last_mut() {
                 Some(last) if stem(&last.pages[0].path) == stem(&page.path) => last.add(page),
@@ -96,6 +93,58 @@ impl Plan {
                 .collect(),
         })
     }
+}
+
+/// The methods that material files in the folder hold, by the manifest and by the names of the functions in them: what such a
+/// file is held against has these and no others.
+fn held(request: &Request, meant: &Meant, shipped: &Folder, kept: &Kept) -> Result<Kept, Error> {
+    let naming = request.naming();
+    let mut held = Kept::new();
+    for made in &meant.files {
+        let Some(subject) = made.subject.map(|index| &meant.subjects[index]) else {
+            continue;
+        };
+        let file = (made.artifact.target.clone(), subject.name.clone());
+        let names = shipped.functions_in(&made.artifact.path)?;
+        let in_text = methods::ALL
+            .iter()
+            .filter(|method| names.contains(&naming.specialised(method, subject)));
+        let mut all = kept.get(&file).cloned().unwrap_or_default();
+        all.extend(in_text.map(|method| method.name.to_owned()));
+        all.retain(|name| methods::find(name).is_some());
+        if !all.is_empty() {
+            held.entry(file).or_default().extend(all);
+        }
+    }
+    Ok(held)
+}
+
+/// The page of a file, and what is run of it: `exact` is what the file should be, `meant` has what was asked for too.
+fn page(
+    request: &Request,
+    shipped: &Folder,
+    meant: Made,
+    exact: Made,
+) -> Result<(Made, Page), Error> {
+    let asked_in = |made: &Made| -> Vec<bool> {
+        let asked = made.functions.iter();
+        asked.map(|one| is_asked_for(request, one)).collect()
+    };
+    let asked = asked_in(&exact);
+    let mut page = shipped.page(&exact, &asked)?;
+    let has = |name: &str| exact.functions.iter().any(|one| one.name == name);
+    let missing = meant.functions.iter().filter(|one| !has(&one.name));
+    let lacks: Vec<&str> = missing.map(|one| one.name.as_str()).collect();
+    let (mut made, asked) = if request.methods.is_empty() || lacks.is_empty() {
+        (exact.clone(), asked)
+    } else {
+        let asked = asked_in(&meant);
+        page.replace(&meant, &asked, &lacks);
+        (meant.clone(), asked)
+    };
+    let mut asked = asked.into_iter();
+    made.functions.retain(|_| asked.next().unwrap_or(true));
+    Ok((made, page))
 }
 
 /// Whether a function's method was asked for: by name, or because none was named.

@@ -41,10 +41,26 @@ fn loop_found(found: &Item) -> String {
 }
 
 impl Page {
+    /// Lets what would be written today be run in place of the file, which lacks some of its functions.
+    pub fn replace(&mut self, made: &Made, asked: &[bool], lacks: &[&str]) {
+        self.is_shipped = false;
+        self.holds_loop = None;
+        self.bytes.clone_from(&made.artifact.bytes);
+        self.entries = Today::new(made, asked).entries();
+        self.remark = Some(lacking(&self.path, lacks));
+    }
+
     /// Whether its functions are run: of modules those of compute shaders are.
     pub fn is_run(&self) -> bool {
         !self.path.ends_with(".spv") || self.path.contains(".comp.")
     }
+}
+
+fn lacking(path: &str, lacks: &[&str]) -> String {
+    format!(
+        "{path}: it lacks {}, so that what would be written today was run",
+        lacks.join(", ")
+    )
 }
 
 /// The output folder.
@@ -76,6 +92,17 @@ impl Folder<'_> {
             .flat_map(|(manifest, _)| &manifest.files);
         let listed = listed.map(|entry| self.path.join(&entry.file));
         listed.chain([self.path.join(manifest::FILE)]).collect()
+    }
+
+    /// The names of the functions that stand in a text of the folder.
+    pub fn functions_in(&self, path: &str) -> Result<Vec<String>, Error> {
+        let bytes = folder::read(&self.path.join(path))?.unwrap_or_default();
+        let found = outline(&String::from_utf8_lossy(&bytes), path.ends_with(".wgsl"));
+        let names = found
+            .declared
+            .iter()
+            .filter_map(|item| function_name(&item.words));
+        Ok(names.map(str::to_owned).collect())
     }
 
     /// The page of a file; `asked` says which of its functions are to be run.
@@ -188,18 +215,15 @@ impl<'a> Today<'a> {
         page.findings
             .extend(self.findings(&page.path, &found, &lacks, &is_listed));
         page.is_shipped = lacks.is_empty();
-        let why = if page.is_shipped {
+        page.remark = Some(if page.is_shipped {
             page.holds_loop = found.loops.first().map(loop_found);
             page.bytes = bytes;
-            "it is not what would be written today".to_owned()
+            format!("{}: it is not what would be written today", page.path)
         } else {
             page.bytes.clone_from(&self.made.artifact.bytes);
-            format!(
-                "it lacks {}, so that what would be written today was run",
-                lacks.join(", ")
-            )
-        };
-        page.remark = Some(format!("{}: {why}", page.path));
+            let lacks: Vec<&str> = lacks.iter().map(String::as_str).collect();
+            lacking(&page.path, &lacks)
+        });
     }
 
     /// Functions by the name that stands in the file: of a module the entry point.

@@ -532,6 +532,56 @@ fn outputs_are_told_apart_before_they_are_made() {
     assert_eq!(place.read("m.toml"), MY_METAL);
 }
 
+/// What the user names lies in the place of no file that an earlier run wrote into a tree, by whatever command.
+#[test]
+fn an_output_replaces_no_file_of_a_tree() {
+    let place = Place::new();
+    place.done("--target wgsl,gles --method schlick --material gold");
+    let shader = format!("{OUT}/wgsl/materials/gold.wgsl");
+    for line in [
+        format!("--target gles --method schlick -o {shader}"),
+        format!("--target gles --method schlick --material none --depfile {shader}"),
+        format!("--target gles --method schlick -o {OUT}/manifest.json"),
+        format!("--target gles --method schlick -o {OUT}/new/../wgsl/materials/gold.wgsl"),
+        format!("materials show gold --svg {shader}"),
+        format!("fit --material gold --json {shader}"),
+    ] {
+        place.refused(&line, &["a file of the generated tree lies there"]);
+    }
+    assert!(
+        place
+            .done("--target wgsl --check --method schlick --material gold")
+            .err
+            .is_empty()
+    );
+    // Beside them there is room.
+    place.done(&format!(
+        "--target gles --method schlick -o {OUT}/wgsl/mine.glsl"
+    ));
+}
+
+/// A new version of a file is read by whom the old one was; a run that fails leaves none of two files.
+#[cfg(unix)]
+#[test]
+fn a_named_output_keeps_its_permissions() {
+    use std::os::unix::fs::PermissionsExt;
+    let place = Place::new();
+    place.put("private.wgsl", "old");
+    let path = place.path("private.wgsl");
+    fs::set_permissions(&path, fs::Permissions::from_mode(0o600)).unwrap();
+    place.done("--method schlick -o private.wgsl");
+    assert_ne!(place.read("private.wgsl"), "old");
+    assert_eq!(
+        fs::metadata(&path).unwrap().permissions().mode() & 0o777,
+        0o600
+    );
+    place.refused(
+        "--method schlick -o new/s.wgsl --depfile private.wgsl/s.d",
+        &["private.wgsl"],
+    );
+    assert!(!place.path("new").exists());
+}
+
 /// A report replaces a link with `--overwrite`, and never what lies behind it.
 #[cfg(unix)]
 #[test]

@@ -341,6 +341,43 @@ fn a_swapped_fragment_module_is_seen() {
     );
 }
 
+/// A file is held against what it should hold: one with fewer functions than the usual, by --method or a budget, with its
+/// manifest and without.
+#[test]
+fn a_file_of_few_methods_is_held_against_these() {
+    for made in [
+        "--method schlick",
+        "--method fitted_rational,schlick",
+        "--budget 20",
+    ] {
+        let place = Place::new();
+        place.done(&format!("--target gles --material gold {made}"));
+        for manifest in [true, false] {
+            if !manifest {
+                fs::remove_file(place.path(&format!("{OUT}/manifest.json"))).unwrap();
+            }
+            let line = "--target gles --material gold --points 500 --json -";
+            passes(verify(&place, line), "gles/materials/gold.glsl", None);
+            let ran = verify(&place, &format!("{line} --method conductor_exact"));
+            let lacks = "it lacks fresnel_gold, so that what would be written today was run";
+            passes(ran, "gles/materials/gold.glsl", Some(lacks));
+        }
+    }
+}
+
+#[test]
+fn a_file_that_is_listed_twice_is_seen() {
+    let place = Place::new();
+    place.done(&format!("--target wgsl {LIBRARY}"));
+    let mut manifest = place.manifest();
+    let files = manifest["files"].as_array_mut().unwrap();
+    files.push(files[0].clone());
+    let path = place.path(&format!("{OUT}/manifest.json"));
+    fs::write(path, manifest.to_string()).unwrap();
+    let ran = verify(&place, &format!("--target wgsl {LIBRARY} --points 500"));
+    fails(ran, &["it lists wgsl/fresnel_schlick.wgsl 2 times"]);
+}
+
 /// A method that nobody put into a file is no fault of the file; a listed file that is gone is one.
 #[test]
 fn what_was_not_asked_for_is_not_missing() {
