@@ -26,7 +26,7 @@ pub mod spectra;
 pub mod targets;
 pub mod verify;
 
-/// The README's Rust is compiled as a test.
+/// The documents' Rust is compiled as a test.
 #[cfg(doctest)]
-#[doc = include_str!("../README.md")]
-pub struct Readme;
+#[doc = include_str!("../docs/builds.md")]
+pub struct Documents;

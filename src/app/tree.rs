@@ -39,6 +39,8 @@ pub struct Plan {
     pub edited: Vec<String>,
     /// Functions that earlier runs put into a file and this one does not, by file: to be named.
     pub dropped: Vec<(String, Vec<String>)>,
+    /// Files whose functions are written for other viewing conditions than before: the file, and both in words; to be named.
+    pub reseen: Vec<(String, [String; 2])>,
     /// The first folder of the tree that is a link, and where it leads.
     pub linked: Option<(PathBuf, PathBuf)>,
 }
@@ -131,6 +133,7 @@ pub fn plan(
         obstacles,
         edited,
         dropped: dropped_functions(artifacts, &listed),
+        reseen: reseen(artifacts, &listed),
         linked,
     })
 }
@@ -156,6 +159,17 @@ fn dropped_functions(
         (!lost.is_empty()).then(|| (artifact.path.clone(), lost))
     };
     artifacts.iter().filter_map(dropped).collect()
+}
+
+/// Files of materials whose functions were written for other viewing conditions. A file is written for one set of them: functions
+/// that it keeps from earlier runs change with it.
+fn reseen(artifacts: &[Artifact], listed: &BTreeMap<&str, &Entry>) -> Vec<(String, [String; 2])> {
+    let changed = |artifact: &Artifact| {
+        let old = listed.get(artifact.path.as_str())?.detail.get("seen")?["truth"].as_str()?;
+        let new = artifact.detail["seen"]["truth"].as_str()?;
+        (old != new).then(|| (artifact.path.clone(), [old.to_owned(), new.to_owned()]))
+    };
+    artifacts.iter().filter_map(changed).collect()
 }
 
 /// Refuses a function that another file of the same language holds already, from another run: whoever includes both would have

@@ -1,5 +1,7 @@
 //! Evaluation of a function in any kind of number, node by node over whole columns of inputs.
 
+use std::ops::Range;
+
 use crate::num::{Num, Truth};
 
 use super::check::Checked;
@@ -51,6 +53,21 @@ impl<T: Copy> Column<T> {
         self.zip(other, holds).all(|answer| answer)
     }
 
+    fn part(&self, range: &Range<usize>) -> Column<T> {
+        match self {
+            Column::Same(value) => Column::Same(*value),
+            Column::Each(values) => Column::Each(values[range.clone()].to_vec()),
+        }
+    }
+
+    /// This column with the points of the next chunk behind its own.
+    fn joined(mut self, next: Column<T>) -> Column<T> {
+        if let (Column::Each(values), Column::Each(next)) = (&mut self, next) {
+            values.extend(next);
+        }
+        self
+    }
+
     fn map<U>(&self, f: impl Fn(T) -> U) -> Column<U> {
         match self {
             Column::Same(value) => Column::Same(f(*value)),
@@ -93,6 +110,39 @@ impl<N: Num> Value<N> {
             Value::Bool(_) | Value::Texture(_) => {
                 unreachable!("a checked function gives no other type where a number is wanted")
             }
+        }
+    }
+
+    /// How many points it has a number each for; nothing where it is the same at all.
+    fn points(&self) -> Option<usize> {
+        let columns = match self {
+            Value::Scalar(column) => std::slice::from_ref(column),
+            Value::Rgb(columns) => columns,
+            Value::Bool(_) | Value::Texture(_) => &[],
+        };
+        let lengths = columns.iter().filter_map(|column| match column {
+            Column::Same(_) => None,
+            Column::Each(values) => Some(values.len()),
+        });
+        lengths.max()
+    }
+
+    fn part(&self, range: &Range<usize>) -> Value<N> {
+        match self {
+            Value::Scalar(column) => Value::Scalar(column.part(range)),
+            Value::Rgb(columns) => Value::Rgb([0, 1, 2].map(|i| columns[i].part(range))),
+            Value::Bool(column) => Value::Bool(column.part(range)),
+            Value::Texture(texels) => Value::Texture(texels.clone()),
+        }
+    }
+
+    fn joined(self, next: Value<N>) -> Value<N> {
+        match (self, next) {
+            (Value::Scalar(column), Value::Scalar(next)) => Value::Scalar(column.joined(next)),
+            (Value::Rgb([a, b, c]), Value::Rgb([d, e, f])) => {
+                Value::Rgb([a.joined(d), b.joined(e), c.joined(f)])
+            }
+            _ => unreachable!("a function's results are numbers, and of one type"),
         }
     }
 
@@ -143,10 +193,31 @@ impl<N: Num> Value<N> {
     }
 }
 
-/// Evaluates a function for these arguments, in the order of its parameters.
+/// Points that are evaluated at a time: the columns of all nodes then fit into a processor's cache.
+const CHUNK: usize = 1024;
+
+/// Evaluates a function for these arguments, in the order of its parameters. Columns with a number for each point have the
+/// same length.
 pub fn evaluate<N: Num>(function: &Checked, arguments: &[Value<N>]) -> Value<N> {
-    let mut values = evaluate_nodes(function, arguments);
-    values.swap_remove(function.result)
+    let whole = |arguments: &[Value<N>]| {
+        let mut values = evaluate_nodes(function, arguments);
+        values.swap_remove(function.result)
+    };
+    let points = arguments
+        .iter()
+        .filter_map(Value::points)
+        .max()
+        .unwrap_or(0);
+    if points <= CHUNK {
+        return whole(arguments);
+    }
+    let chunks = (0..points).step_by(CHUNK).map(|start| {
+        let range = start..(start + CHUNK).min(points);
+        let parts: Vec<Value<N>> = arguments.iter().map(|one| one.part(&range)).collect();
+        whole(&parts)
+    });
+    let joined = chunks.reduce(Value::joined);
+    joined.expect("there are more points than a chunk has")
 }
 
 /// The values of all nodes, for whoever wants to know more than the result.

@@ -5,10 +5,11 @@ pub mod chart;
 pub mod cost;
 pub mod fits;
 pub mod frontier;
+pub mod headline;
 #[cfg(feature = "cli")]
 mod html;
 pub mod markdown;
-#[cfg(feature = "cli")]
+#[cfg(feature = "pictures")]
 pub mod png;
 pub mod reproduce;
 pub mod search;

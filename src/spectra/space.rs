@@ -99,9 +99,36 @@ fn xyz_of([x, y]: [f64; 2]) -> DVec3 {
     DVec3::new(x / y, 1.0, (1.0 - x - y) / y)
 }
 
+/// A linear channel, limited to [0, 1], as a byte of sRGB: IEC 61966-2-1:1999.
+pub fn srgb_byte(linear: f64) -> u8 {
+    let linear = linear.clamp(0.0, 1.0);
+    let encoded = if linear <= 0.003_130_8 {
+        12.92 * linear
+    } else {
+        1.055 * libm::pow(linear, 1.0 / 2.4) - 0.055
+    };
+    (255.0 * encoded).round() as u8
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn encoding_is_that_of_the_standard() {
+        for (linear, byte) in [
+            (0.0, 0),
+            (-1.0, 0),
+            (f64::NAN, 0),
+            (0.0025, 8),
+            (0.215_860_5, 128),
+            (0.5, 188),
+            (1.0, 255),
+            (7.0, 255),
+        ] {
+            assert_eq!(srgb_byte(linear), byte, "{linear}");
+        }
+    }
 
     #[test]
     fn white_is_one_one_one() {

@@ -1,7 +1,9 @@
 //! A file as it lies there against what would be written today: declarations that were added or are missing, and headers
 //! whose numbers are others. A difference elsewhere is no finding: what the code does is found by running it.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
+
+use similar::{Algorithm, DiffTag, capture_diff_slices};
 
 use super::outline::{Item, Outline, function_name};
 
@@ -62,7 +64,16 @@ pub fn findings(
             shown(&item.words)
         ),
     });
+    let narrow = missing_from(&today.narrow, &found.narrow).into_iter();
+    let narrow = narrow.map(|item| {
+        format!(
+            "{}: it says `{}`, which makes numbers narrower than fresnel-gen does",
+            place(item),
+            item.words
+        )
+    });
     added
+        .chain(narrow)
         .take(TOLD)
         .chain(absent.take(TOLD))
         .chain(numbers.take(TOLD))
@@ -85,30 +96,39 @@ fn missing_from<'a>(known: &[Item], all: &'a [Item]) -> Vec<&'a Item> {
     all.iter().filter(is_missing).collect()
 }
 
-/// Comments whose words are those of today but for their numbers, with the right ones; and promises that nobody makes.
+/// Comments that would not be written today and state something: anything with a digit, a promise, or another text behind the label of a
+/// line (`Licence`, `Regenerate`, a function's name). With each the right words, where there are such.
 fn false_numbers<'a>(found: &'a [Item], today: &'a [Item]) -> Vec<(&'a Item, Option<&'a str>)> {
-    let mut right: BTreeMap<String, Vec<&str>> = BTreeMap::new();
-    for item in today {
-        right
-            .entry(masked(&item.words))
-            .or_default()
-            .push(&item.words);
+    let words = |items: &'a [Item]| items.iter().map(|item| item.words.as_str()).collect();
+    let (old, new): (Vec<&str>, Vec<&str>) = (words(today), words(found));
+    let (mut gone, mut added) = (Vec::new(), Vec::new());
+    for change in capture_diff_slices(Algorithm::Myers, &old, &new) {
+        if change.tag() != DiffTag::Equal {
+            gone.extend_from_slice(&old[change.old_range()]);
+            added.extend(&found[change.new_range()]);
+        }
     }
-    let mut used: BTreeMap<String, usize> = BTreeMap::new();
+    let labels: BTreeSet<&str> = old.iter().filter_map(|words| label(words)).collect();
     let mut wrong = Vec::new();
-    for item in found {
-        let mask = masked(&item.words);
-        let place = used.entry(mask.clone()).or_default();
-        let meant = right.get(&mask).and_then(|all| all.get(*place));
-        *place += 1;
-        match meant {
-            Some(meant) if *meant == item.words => {}
-            Some(meant) => wrong.push((item, Some(*meant))),
-            None if is_promise(&item.words) => wrong.push((item, None)),
-            None => {}
+    for item in added {
+        let words = item.words.as_str();
+        let right = gone.iter().position(|other| masked(other) == masked(words));
+        let own = label(words).filter(|label| labels.contains(label));
+        let right = right.or_else(|| {
+            gone.iter()
+                .position(|other| own.is_some() && label(other) == own)
+        });
+        let has_digit = words.bytes().any(|byte| byte.is_ascii_digit());
+        if right.is_some() || has_digit || own.is_some() || is_promise(words) {
+            wrong.push((item, right.map(|at| gone.remove(at))));
         }
     }
     wrong
+}
+
+/// What a line of a comment is about: the words before its first colon.
+fn label(words: &str) -> Option<&str> {
+    words.split_once(": ").map(|(label, _)| label)
 }
 
 fn is_promise(words: &str) -> bool {
@@ -184,7 +204,14 @@ mod tests {
     #[test]
     fn numbers_and_promises_are_held() {
         check("", "", &[]);
-        check("at 8 degrees", "of a metal", &[]);
+        check("F0 at 8 degrees", "of a metal", &[]);
+        check("at 8 degrees", "at 80 degrees", &["F0 at 80 degrees"]);
+        check("F0 at", "at most 1e-9, F0 at", &["a.glsl:1: it says"]);
+        check(
+            "Model error: at most 0.01 (at 8.5 degrees).",
+            "Model error: as small as can be",
+            &["and right is `Model error: at most 0.01"],
+        );
         check(
             "0.01",
             "0.1",
@@ -193,9 +220,20 @@ mod tests {
         check(
             "at most 0.02 (at 9 degrees)",
             "none",
-            &["a.glsl:5: it says `Model error: none.`, which"],
+            &["a.glsl:5: it says `Model error: none.`, and right is"],
         );
         check("0.01 (at 8.5", "0.02 (at 9.5", &["a.glsl:2"]);
+    }
+
+    #[test]
+    fn narrow_numbers_are_held() {
+        let heads = ["mediump float f", "it says `mediump`", "it lacks"];
+        check("float f(", "mediump float f(", &heads);
+        check(
+            "(float c0) {",
+            "(float c0) { lowp float x;",
+            &["a.glsl:3: it says `lowp`"],
+        );
     }
 
     #[test]

@@ -4,6 +4,7 @@
 use super::outline::Item;
 
 /// Instructions of SPIR-V 1.3, chapter 3.52: <https://registry.khronos.org/SPIR-V/specs/unified1/SPIRV.html>.
+const NAME: u32 = 5;
 const EXTENSION: u32 = 10;
 const ENTRY_POINT: u32 = 15;
 const EXECUTION_MODE: u32 = 16;
@@ -13,6 +14,7 @@ const VARIABLE: u32 = 59;
 const DECORATE: u32 = 71;
 const LOOP_MERGE: u32 = 246;
 /// Decorations, chapter 3.20.
+const RELAXED_PRECISION: u32 = 0;
 const LOCATION: u32 = 30;
 const BINDING: u32 = 33;
 const DESCRIPTOR_SET: u32 = 34;
@@ -57,6 +59,15 @@ fn instructions(words: &[u32]) -> impl Iterator<Item = (u32, &[u32])> {
     })
 }
 
+/// All names that a module gives to its parts; functions are among them.
+pub fn names(bytes: &[u8]) -> Vec<String> {
+    let words = words(bytes);
+    let named = instructions(&words).filter(|(code, _)| *code == NAME);
+    named
+        .map(|(_, of)| literal(of.get(1..).unwrap_or_default()))
+        .collect()
+}
+
 /// The entry points of a module, by name.
 pub fn entry_points(bytes: &[u8]) -> Vec<String> {
     let name = |item: Item| {
@@ -83,6 +94,7 @@ fn declaration(instruction: u32, operands: &[u32], words: &[u32]) -> Option<Stri
         }
         (EXECUTION_MODE, [_, mode @ ..]) => format!("execution mode {mode:?}"),
         (FUNCTION, _) => "a function".to_owned(),
+        (DECORATE, [_, RELAXED_PRECISION]) => "a number of relaxed precision".to_owned(),
         (VARIABLE, [_, id, class, ..]) if *class != LOCAL => {
             format!("a variable of storage class {class}{}", place(*id, words))
         }

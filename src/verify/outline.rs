@@ -13,6 +13,8 @@ pub struct Outline {
     pub comments: Vec<Item>,
     /// Words that begin a loop. No function of ours holds one, and one that never ends would stop a device.
     pub loops: Vec<Item>,
+    /// Words that make numbers narrower: wrong on devices that heed them, and right on those that do not.
+    pub narrow: Vec<Item>,
 }
 
 /// A declaration or a line of a comment.
@@ -33,6 +35,17 @@ const STRANGE: [char; 5] = ['"', '\'', '\\', '%', '$'];
 
 /// Words that a loop begins with, or jumps.
 const LOOPS: [&str; 5] = ["for", "while", "loop", "do", "goto"];
+
+/// How languages say that numbers have fewer bits: qualifiers of GLSL, types of HLSL, MSL and WGSL, without their sizes.
+const NARROW: [&str; 7] = [
+    "mediump",
+    "lowp",
+    "min16float",
+    "min10float",
+    "half",
+    "float16_t",
+    "f16",
+];
 
 /// The outline of a text. `nests`: whether comments within comments count, as in WGSL.
 pub fn outline(text: &str, nests: bool) -> Outline {
@@ -107,7 +120,7 @@ impl<'a> Reader<'a> {
         let line = self.line;
         let text = self.take(bytes);
         let held = text.split(|c| !is_part(c));
-        held.for_each(|word| self.note_loop(line, word));
+        held.for_each(|word| self.note(line, word));
         let words: Vec<&str> = text.split_whitespace().collect();
         self.declare(line, words.join(" "));
     }
@@ -118,16 +131,21 @@ impl<'a> Reader<'a> {
         }
         let line = self.line;
         let word = self.take(bytes);
-        self.note_loop(line, word);
+        self.note(line, word);
         if self.depth == 0 {
             self.head.push(word);
         }
     }
 
-    fn note_loop(&mut self, line: usize, word: &str) {
+    /// Notes a word that a loop begins with, or that makes numbers narrower.
+    fn note(&mut self, line: usize, word: &str) {
+        let words = word.to_owned();
         if LOOPS.contains(&word) {
-            let words = word.to_owned();
             self.found.loops.push(Item { line, words });
+        } else if NARROW.contains(&word.trim_end_matches(|c: char| c.is_ascii_digit() || c == 'x'))
+            || NARROW.contains(&word)
+        {
+            self.found.narrow.push(Item { line, words });
         }
     }
 
@@ -255,6 +273,19 @@ mod tests {
         );
         assert_eq!(loops("// a\u{2028}loop {}", true), [(1, "loop".to_owned())]);
         assert_eq!(loops("/* /* */ do", false).len(), 1);
+    }
+
+    #[test]
+    fn narrow_numbers_are_found_in_code_alone() {
+        let narrow = |text| -> Vec<String> {
+            let found = outline(text, false).narrow.into_iter();
+            found.map(|item| item.words).collect()
+        };
+        let text = "// half\nmediump vec3 f(highp vec3 x) { half3 y = f16(x); lowp float halfway; }\n#define F min16float\n";
+        assert_eq!(
+            narrow(text),
+            ["mediump", "half3", "f16", "lowp", "min16float"]
+        );
     }
 
     #[test]

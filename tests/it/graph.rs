@@ -29,6 +29,33 @@ fn the_text_form_prints_and_parses() {
     }
 }
 
+/// Many points are evaluated in chunks; each comes out as it does alone.
+#[test]
+fn each_point_of_many_is_what_it_is_alone() {
+    let cosines: Vec<f64> = (0..2500).map(|i| f64::from(i) / 2499.0).collect();
+    for function in all_functions() {
+        let values = |param: &fresnel_gen::ir::Param| match param.ty {
+            Ty::Scalar => Value::scalar(0.4),
+            Ty::Rgb => Value::rgb([0.3, 0.7, 1.2]),
+            _ => Value::Texture(None),
+        };
+        let mut arguments: Vec<Value<f64>> = function.params.iter().map(values).collect();
+        let run = |arguments: &[Value<f64>], point| evaluate(&function, arguments).at(point);
+        arguments[0] = Value::each(cosines.clone());
+        let many = evaluate(&function, &arguments);
+        for point in [0, 1, 1023, 1024, 1025, 2047, 2048, 2499] {
+            arguments[0] = Value::scalar(cosines[point]);
+            let (all, alone) = (many.at(point), run(&arguments, 0));
+            let is_same = (0..3).all(|i| all[i].to_bits() == alone[i].to_bits());
+            assert!(
+                is_same,
+                "{} at {point}: {all:?}, {alone:?}",
+                print(&function)
+            );
+        }
+    }
+}
+
 #[test]
 fn a_text_that_is_wrong_names_its_line() {
     let cases = [

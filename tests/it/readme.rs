@@ -1,4 +1,5 @@
-//! README's tables and example are what the program says today; `BLESS=1` rewrites them. Its Rust is compiled by rustdoc.
+//! The tables, examples and pictures of README and of `docs/` are what the program says today; `BLESS=1` rewrites them. Their
+//! Rust is compiled by rustdoc, and their links lead somewhere.
 
 use std::fs;
 use std::path::Path;
@@ -8,6 +9,7 @@ use fresnel_gen::app::request::DEFAULT_MATERIALS;
 use fresnel_gen::app::{Materials, Request, Source};
 use fresnel_gen::materials::{self, Sight};
 use fresnel_gen::report::card::card;
+use fresnel_gen::report::headline::headline;
 use fresnel_gen::report::markdown::{
     classes_table, errors_table, half_table, methods_table, targets_table,
 };
@@ -15,7 +17,7 @@ use fresnel_gen::report::markdown::{
 fn example() -> String {
     let request = Request {
         targets: vec!["hlsl".to_owned()],
-        methods: vec!["conductor_exact".to_owned()],
+        methods: vec!["fitted".to_owned()],
         materials: Materials::These(vec![Source::Named("gold".to_owned())]),
         ..Request::default()
     };
@@ -36,9 +38,25 @@ fn replaced(text: &str, name: &str, new: &str) -> String {
     format!("{}{new}{}", &text[..start], &text[end..])
 }
 
+/// A page of the documents, by its path in the repository.
+fn page(path: &str) -> String {
+    let whole = Path::new(env!("CARGO_MANIFEST_DIR")).join(path);
+    fs::read_to_string(&whole).unwrap_or_else(|why| panic!("{path}: {why}"))
+}
+
+/// README and all pages of `docs/`.
+fn pages() -> Vec<String> {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("docs");
+    let names = fs::read_dir(folder).expect("docs").flatten();
+    let names = names.map(|entry| format!("docs/{}", entry.file_name().to_string_lossy()));
+    let mut pages: Vec<String> = names.filter(|name| name.ends_with(".md")).collect();
+    pages.push("README.md".to_owned());
+    pages.sort();
+    pages
+}
+
 #[test]
 fn tables_are_what_the_program_says() {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("README.md");
     let materials: Vec<_> = DEFAULT_MATERIALS
         .iter()
         .map(|name| {
@@ -47,38 +65,91 @@ fn tables_are_what_the_program_says() {
                 .expect("it is good")
         })
         .collect();
-    let mut text = fs::read_to_string(&path).expect("it is there");
+    let errors = errors_table(materials).expect("all are seen");
     let parts = [
-        ("example", example()),
-        ("targets", targets_table()),
-        ("methods", methods_table()),
-        ("half", half_table()),
-        ("classes", classes_table()),
-        ("errors", errors_table(materials).expect("all are seen")),
+        ("README.md", vec![("example", example())]),
+        ("docs/shaders.md", vec![("targets", targets_table())]),
+        (
+            "docs/methods.md",
+            vec![
+                ("methods", methods_table()),
+                ("errors", errors),
+                ("classes", classes_table()),
+            ],
+        ),
+        ("docs/half-precision.md", vec![("half", half_table())]),
     ];
-    for (name, new) in parts {
-        text = replaced(&text, name, &new);
+    for (path, parts) in parts {
+        let text = parts
+            .into_iter()
+            .fold(page(path), |text, (name, new)| replaced(&text, name, &new));
+        let whole = Path::new(env!("CARGO_MANIFEST_DIR")).join(path);
+        super::bless::check(&whole, text.as_bytes());
     }
-    super::bless::check(&path, text.as_bytes());
 }
 
-/// The shader that reads an atlas, with the function that it calls.
+/// README is read in one sitting.
 #[test]
-fn lookups_are_accepted() {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR"));
-    let read = |name: &str| fs::read_to_string(folder.join(name)).expect("it is there");
-    let readme = read("README.md");
-    let examples: Vec<&str> = readme.split("```wgsl\n").skip(1).collect();
-    assert_eq!(examples.len(), 2);
-    for after in examples {
-        let (example, _) = after.split_once("```").expect("it ends");
-        let text = read("shaders-generated/wgsl/fresnel_table.wgsl") + example;
-        if let Err(fault) = fresnel_gen::emit::validate_wgsl(&text) {
-            panic!("{fault}");
+fn readme_is_short() {
+    let lines = page("README.md").lines().count();
+    assert!(
+        lines <= 250,
+        "{lines} lines; move what is not for the first hour into docs/"
+    );
+}
+
+/// Links between pages lead to a file, and to a heading of it.
+#[test]
+fn links_lead_somewhere() {
+    for path in pages() {
+        let folder = Path::new(&path).parent().expect("a folder");
+        for after in page(&path).split("](").skip(1) {
+            let link = after.split(')').next().unwrap_or_default();
+            if link.contains("://") {
+                continue;
+            }
+            let (file, heading) = link.split_once('#').unwrap_or((link, ""));
+            let target = folder.join(file);
+            let target = target.to_string_lossy();
+            let whole = Path::new(env!("CARGO_MANIFEST_DIR")).join(&*target);
+            assert!(whole.exists(), "{path}: there is no {link}");
+            let slug = |line: &str| {
+                let words = line.trim_start_matches('#').trim().to_lowercase();
+                let kept = words
+                    .chars()
+                    .filter(|c| c.is_alphanumeric() || " -_".contains(*c));
+                kept.collect::<String>().replace(' ', "-")
+            };
+            let has = |text: String| {
+                text.lines()
+                    .any(|line| line.starts_with('#') && slug(line) == heading)
+            };
+            assert!(
+                heading.is_empty() || has(page(&target)),
+                "{path}: there is no {link}"
+            );
         }
     }
+}
+
+/// The pages' shaders in WGSL, with the functions that they call; and the atlas that one of them reads.
+#[test]
+fn lookups_are_accepted() {
+    let mut shown = 0;
+    for path in pages() {
+        for after in page(&path).split("```wgsl\n").skip(1) {
+            let (example, _) = after.split_once("```").expect("it ends");
+            let library = ["table", "fitted"]
+                .map(|method| page(&format!("shaders-generated/wgsl/fresnel_{method}.wgsl")));
+            if let Err(fault) = fresnel_gen::emit::validate_wgsl(&(library.concat() + example)) {
+                panic!("{path}: {fault}");
+            }
+            shown += 1;
+        }
+    }
+    assert_eq!(shown, 4);
     let atlas: serde_json::Value =
-        serde_json::from_str(&read("shaders-generated/lut/atlas.json")).expect("it is JSON");
+        serde_json::from_str(&page("shaders-generated/lut/atlas.json")).expect("it is JSON");
     let rows = atlas["rows"].as_array().expect("it has rows").iter();
     let mut rows = rows.filter(|row| row["file"] == "lut/atlas.ktx2");
     let gold = rows.find(|row| row["name"] == "gold").expect("gold");
@@ -86,6 +157,13 @@ fn lookups_are_accepted() {
     let keys = ["texels", "row", "rows", "scale"].map(said);
     assert_eq!(keys, [64.0, 1.0, 4.0, 1.0].map(Some));
     assert_eq!(gold["lookup"]["warp"], 4.0);
+}
+
+#[test]
+fn the_headline_is_what_the_program_draws() {
+    let svg = headline("Drawn by the test `readme::the_headline_is_what_the_program_draws`");
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/headline.svg");
+    super::bless::check(&path, svg.expect("both are known").as_bytes());
 }
 
 #[test]
@@ -102,13 +180,10 @@ fn the_picture_is_what_the_program_draws() {
 /// The nearest published work is named where methods are compared, and what our exact law costs beside it is the record's.
 #[test]
 fn published_work_is_cited_beside_our_own_figures() {
-    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
-    let readme = fs::read_to_string(root.join("README.md")).expect("README");
-    let section = readme.split("\n## Speed against accuracy").nth(1);
-    let section = section.and_then(|rest| rest.split("\n## ").next());
-    let words: Vec<&str> = section.expect("a section").split_whitespace().collect();
+    let text = page("docs/accuracy-and-cost.md");
+    let words: Vec<&str> = text.split_whitespace().collect();
     let section = words.join(" ");
-    let record = fs::read_to_string(root.join("data/records/costs/rdna2.csv")).expect("a record");
+    let record = page("data/records/costs/rdna2.csv");
     let units = |method: &str| {
         let start = format!("{method},,library,3,f32,");
         let row = record.lines().find(|line| line.starts_with(&start));
@@ -125,6 +200,9 @@ fn published_work_is_cited_beside_our_own_figures() {
         "Journal of Digital Games Research 17(1), 23–32, 2024",
         costs.as_str(),
     ] {
-        assert!(section.contains(part), "README lacks: {part}");
+        assert!(
+            section.contains(part),
+            "docs/accuracy-and-cost.md lacks: {part}"
+        );
     }
 }

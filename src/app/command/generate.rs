@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 use crate::app::args::Generate;
+use crate::app::artifact::Artifact;
 use crate::app::bake::{add_tables, as_tables_are_seen};
 use crate::app::budget::{Budget, within};
 use crate::app::catalogue::add_catalogue;
@@ -11,7 +12,7 @@ use crate::app::error::Error;
 use crate::app::generate::{Generated, Kept, generate_beside, generate_single};
 use crate::app::lock::{Announce, Lock};
 use crate::app::manifest::{self, Manifest};
-use crate::app::names::family;
+use crate::app::names::{family, quoted};
 use crate::app::request::Request;
 use crate::app::sight::{input, sight};
 use crate::app::source::{is_path, materials, source};
@@ -171,10 +172,14 @@ pub(super) fn named(plan: &Plan, overwrite: bool, replaced: &str) -> Vec<String>
             names.join(", ")
         )
     });
+    let reseen = plan.reseen.iter().map(|(path, [old, new])| {
+        format!("all functions of {path} have other constants now: they were for {old}, and are for {new}")
+    });
     stays
         .chain(edited)
         .chain(obstacles)
         .chain(dropped)
+        .chain(reseen)
         .collect()
 }
 
@@ -216,8 +221,36 @@ fn written(
             "{folder}: {} written, {} unchanged, {} removed",
             counts.written, counts.unchanged, counts.removed
         ));
+        if plan.manifest.old.is_none() {
+            output.remarks.extend(first_steps(generated, out_dir));
+        }
     }
     Ok(output)
+}
+
+/// After the first run in a folder: one of the functions, and what to do next.
+fn first_steps(generated: &Generated, out_dir: &Path) -> Vec<String> {
+    let function = |artifact: &&Artifact| artifact.detail["functions"][0]["signature"].is_string();
+    let mut artifacts = generated.artifacts.iter().filter(function);
+    let of_material = artifacts
+        .clone()
+        .find(|artifact| artifact.material.is_some());
+    let Some(artifact) = of_material.or_else(|| artifacts.next()) else {
+        return Vec::new();
+    };
+    let signature = artifact.detail["functions"][0]["signature"].as_str();
+    let file = out_dir.join(&artifact.path);
+    vec![
+        format!(
+            "for example {}: {}",
+            file.display(),
+            signature.unwrap_or_default()
+        ),
+        format!(
+            "next: include it; `fresnel-gen verify --out-dir {}` runs all of them on this machine",
+            quoted(&out_dir.display().to_string())
+        ),
+    ]
 }
 
 /// The rule of the depfile, where one is asked for: made before anything is written, since it can be refused.

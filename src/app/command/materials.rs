@@ -14,11 +14,10 @@ use crate::app::write::write_file;
 use crate::materials::{self, Extrapolate, Kind, Material, Sight};
 use crate::report::SCHEMA;
 use crate::report::card::card;
-use crate::report::png::png;
 use crate::report::table;
 use crate::spectra::{FIRST_NM, LAST_NM};
 
-use super::{Output, Progress, import, params, report, survey};
+use super::{Output, Progress, import, params, png, report, survey};
 
 /// `fresnel-gen materials`.
 pub fn run(flags: &MaterialsFlags, progress: Progress) -> Result<Output, Error> {
@@ -139,8 +138,11 @@ fn drawn(flags: &ShowFlags, loaded: &Loaded, output: &mut Output) -> Result<(), 
         &command(loaded, medium.as_ref(), &sight),
     )
     .map_err(|what| Error::Usage { what })?;
-    let bytes = flags.png.as_ref().map(|_| png(&svg, PNG_SCALE)).transpose();
-    let bytes = bytes.map_err(|what| Error::Usage { what })?;
+    let bytes = flags
+        .png
+        .as_ref()
+        .map(|_| png(&svg, PNG_SCALE))
+        .transpose()?;
     let pictures = [(&flags.svg, Some(svg.into_bytes())), (&flags.png, bytes)];
     for (file, bytes) in pictures {
         if let (Some(file), Some(bytes)) = (file, bytes) {

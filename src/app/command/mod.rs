@@ -199,6 +199,20 @@ fn check_limit(seconds: u64) -> Result<(), Error> {
     })
 }
 
+/// An SVG document as PNG.
+#[cfg(feature = "pictures")]
+fn png(svg: &str, scale: f32) -> Result<Vec<u8>, Error> {
+    crate::report::png::png(svg, scale).map_err(|what| Error::Usage { what })
+}
+
+/// An SVG document as PNG, which this program cannot draw.
+#[cfg(not(feature = "pictures"))]
+fn png(_: &str, _: f32) -> Result<Vec<u8>, Error> {
+    Err(Error::Lacking {
+        what: "this program was built without the feature `pictures`, and draws no PNG".to_owned(),
+    })
+}
+
 /// What is said of files of ours that a report replaced.
 fn replaced(files: &[PathBuf]) -> impl Iterator<Item = String> {
     files

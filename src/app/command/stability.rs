@@ -15,11 +15,10 @@ use crate::emit::{Bounds, Naming, Subject, specialised_function};
 use crate::methods::{self, Method};
 use crate::num::Precision;
 use crate::report::SCHEMA;
-use crate::report::png::png;
 use crate::report::stability::{Row, heat, page, text};
 use crate::verify::stability::{Code, Finding, maps, scan, scan_specialised};
 
-use super::{Output, Progress, replaced, report, try_places};
+use super::{Output, Progress, png, replaced, report, try_places};
 
 /// Pixels of a map to a unit of its drawing.
 const SCALE: f32 = 1.0;
@@ -200,7 +199,7 @@ impl Asked<'_> {
         for (i, method) in self.methods.iter().enumerate() {
             progress(i as u64, self.methods.len() as u64, "maps");
             for map in maps(method, self.precision) {
-                let picture = png(&heat(method.name, &map), SCALE).map_err(failed)?;
+                let picture = png(&heat(method.name, &map), SCALE)?;
                 pictures.push((method.name, map.axis.name, picture));
             }
         }

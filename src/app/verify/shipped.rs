@@ -94,9 +94,12 @@ impl Folder<'_> {
         listed.chain([self.path.join(manifest::FILE)]).collect()
     }
 
-    /// The names of the functions that stand in a text of the folder.
+    /// The names of the functions that stand in a file of the folder; of a module all its names.
     pub fn functions_in(&self, path: &str) -> Result<Vec<String>, Error> {
         let bytes = folder::read(&self.path.join(path))?.unwrap_or_default();
+        if path.ends_with(".spv") {
+            return Ok(module::names(&bytes));
+        }
         let found = outline(&String::from_utf8_lossy(&bytes), path.ends_with(".wgsl"));
         let names = found
             .declared

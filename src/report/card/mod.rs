@@ -209,7 +209,7 @@ mod tests {
     }
 
     /// By a reader that is not ours: it draws the sheet too, and there is ink on it.
-    #[cfg(feature = "cli")]
+    #[cfg(feature = "pictures")]
     #[track_caller]
     fn well_formed(svg: &str) {
         let png = crate::report::png::png(svg, 0.5).unwrap();
@@ -218,7 +218,7 @@ mod tests {
         assert!(png.len() > 10_000, "a blank sheet is smaller");
     }
 
-    #[cfg(not(feature = "cli"))]
+    #[cfg(not(feature = "pictures"))]
     fn well_formed(_: &str) {}
 
     #[test]

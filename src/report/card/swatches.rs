@@ -3,7 +3,7 @@
 use glam::DVec3;
 
 use crate::report::chart::{Font, Frame, PANEL, SUBTITLE, Sheet, TICK};
-use crate::spectra::{Space, bradford};
+use crate::spectra::{Space, bradford, srgb_byte};
 
 use super::Subject;
 use super::angle::cosine;
@@ -87,7 +87,7 @@ fn subtitle(subject: &Subject, swatches: &[Swatch]) -> String {
 impl Swatch {
     /// The colour of the swatch, as SVG writes it.
     fn fill(&self) -> String {
-        let [red, green, blue] = self.screen.to_array().map(encoded);
+        let [red, green, blue] = self.screen.to_array().map(srgb_byte);
         format!("#{red:02x}{green:02x}{blue:02x}")
     }
 
@@ -111,17 +111,6 @@ impl Swatch {
         let numbers = self.numbers().join(", ");
         format!("At {}°: {numbers}{clipped}. ", self.degrees)
     }
-}
-
-/// A linear channel as a byte of sRGB: IEC 61966-2-1:1999.
-fn encoded(linear: f64) -> u8 {
-    let linear = linear.clamp(0.0, 1.0);
-    let encoded = if linear <= 0.003_130_8 {
-        12.92 * linear
-    } else {
-        1.055 * libm::pow(linear, 1.0 / 2.4) - 0.055
-    };
-    (255.0 * encoded).round() as u8
 }
 
 /// All swatches in a row from `top` down, and where they end.
@@ -176,22 +165,6 @@ fn widest(font: &Font, names: &[&str]) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn encoding_is_that_of_the_standard() {
-        for (linear, byte) in [
-            (0.0, 0),
-            (-1.0, 0),
-            (f64::NAN, 0),
-            (0.0025, 8),
-            (0.215_860_5, 128),
-            (0.5, 188),
-            (1.0, 255),
-            (7.0, 255),
-        ] {
-            assert_eq!(encoded(linear), byte, "{linear}");
-        }
-    }
 
     #[test]
     fn white_is_white_on_the_screen() {

@@ -560,6 +560,22 @@ fn an_output_replaces_no_file_of_a_tree() {
     ));
 }
 
+/// A run that adds a method under other viewing conditions says that the functions that stay change too.
+#[test]
+fn other_viewing_conditions_are_named() {
+    let place = Place::new();
+    place.done("--target gles --material gold --method schlick --space acescg --gamut keep");
+    let ran = place.done("--target gles --material gold --method f82_tint");
+    for words in [
+        "all functions of gles/materials/gold.glsl have other constants now",
+        "ACEScg",
+    ] {
+        assert!(ran.err.contains(words), "{words} is not in {}", ran.err);
+    }
+    let again = place.done("--target gles --material gold --method f82_tint");
+    assert!(!again.err.contains("other constants"), "{}", again.err);
+}
+
 /// A new version of a file is read by whom the old one was; a run that fails leaves none of two files.
 #[cfg(unix)]
 #[test]

@@ -5,6 +5,7 @@
 
 mod baked;
 mod chart;
+mod headline;
 mod map;
 pub mod reader;
 mod sheet;
@@ -32,9 +33,10 @@ struct Shown {
     file: String,
 }
 
-static FACTS: [&[Fact]; 5] = [
+static FACTS: [&[Fact]; 6] = [
     baked::FACTS,
     chart::FACTS,
+    headline::FACTS,
     map::FACTS,
     sheet::FACTS,
     thesis::FACTS,

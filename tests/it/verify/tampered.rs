@@ -341,6 +341,35 @@ fn a_swapped_fragment_module_is_seen() {
     );
 }
 
+/// Words that state something false: terms, labels, a bound that nobody gives, fewer bits.
+#[test]
+fn false_words_are_seen() {
+    let edits = [
+        ("Licence CC0-1.0", "Licence GPL-3.0", "GPL-3.0"),
+        ("red as its curve", "blue as its curve", "blue as its curve"),
+        ("clamped to [0, 1]", "not clamped", "not clamped"),
+        ("--material gold", "--material silver", "silver"),
+        ("gold: Gold,", "gold: Silver,", "gold: Silver"),
+        (
+            "fresnel_gold: the exact law",
+            "fresnel_gold: Schlick's law",
+            "fresnel_gold: Schlick's law",
+        ),
+        ("// n^2 - k^2 - 1", "// n^2 + k^2 - 1", "n^2 + k^2"),
+        (
+            "\n// gold",
+            "\n// Max error 1e-9\n// gold",
+            "Max error 1e-9",
+        ),
+        ("highp float c = ", "mediump float c = ", "`mediump`"),
+    ];
+    let file = "gles/materials/gold.glsl";
+    let edit = |text: &str| all_of(text, &edits);
+    let ran = edited(&format!("--target gles {GOLD}"), file, edit);
+    let says: Vec<&str> = edits.iter().map(|(_, _, says)| *says).collect();
+    fails(ran, &[&says[..], &[file]].concat());
+}
+
 /// A file is held against what it should hold: one with fewer functions than the usual, by --method or a budget, with its
 /// manifest and without.
 #[test]
@@ -351,13 +380,14 @@ fn a_file_of_few_methods_is_held_against_these() {
         "--budget 20",
     ] {
         let place = Place::new();
-        place.done(&format!("--target gles --material gold {made}"));
+        place.done(&format!("--target gles,spirv --material gold {made}"));
         for manifest in [true, false] {
             if !manifest {
                 fs::remove_file(place.path(&format!("{OUT}/manifest.json"))).unwrap();
             }
-            let line = "--target gles --material gold --points 500 --json -";
+            let line = "--target gles,spirv --material gold --points 500 --json -";
             passes(verify(&place, line), "gles/materials/gold.glsl", None);
+            passes(verify(&place, line), "spirv/materials/gold.comp.spv", None);
             let ran = verify(&place, &format!("{line} --method conductor_exact"));
             let lacks = "it lacks fresnel_gold, so that what would be written today was run";
             passes(ran, "gles/materials/gold.glsl", Some(lacks));

@@ -1,0 +1,209 @@
+//! The first picture of README: gold and platinum by Schlick's approximation, by `fitted` and by the exact law of the whole
+//! spectrum, as spheres and as curves.
+//!
+//! A sphere is seen from afar in a room that is white everywhere, so that a pixel's colour is the reflectance at its angle:
+//! at r of the radius sin θ = r. The right half of a sphere shows the error in place of the colour.
+
+use crate::emit::{Bounds, Naming, Subject, specialised_function};
+use crate::fit::Derivation;
+use crate::ir::{Value, evaluate};
+use crate::materials::{self, Sight};
+use crate::methods;
+use crate::optics::cosine;
+use crate::spectra::srgb_byte;
+
+use super::chart::{
+    Axis, Chart, FOOT, Frame, HEADING, SUBTITLE, Series, Sheet, Style, TICK, ticks,
+};
+
+/// The materials, with the lowest reflectance of each axis.
+const MATERIALS: [(&str, f64); 2] = [("gold", 0.6), ("platinum", 0.4)];
+/// The methods, cheapest first; the exact law comes last.
+const METHODS: [(&str, &str); 2] = [("schlick", "Schlick"), ("fitted", "fitted")];
+/// The exact law's name in the picture.
+const EXACT: &str = "exact law";
+/// How much the error is brightened.
+const BRIGHTER: f64 = 5.0;
+/// From 0 to 90 degrees, half a degree apart.
+const ANGLES: u32 = 181;
+/// Of these angles a sphere's gradient takes each so many.
+const STOPS: usize = 4;
+
+const SHEET: Frame = Frame {
+    width: 1040.0,
+    height: 700.0,
+    margin: 24.0,
+    upper: 20.0,
+    lower: 14.0,
+};
+const SPHERES: Frame = Frame {
+    width: 580.0,
+    height: 310.0,
+    margin: 8.0,
+    upper: 12.0,
+    lower: 8.0,
+};
+const CURVES: Frame = Frame {
+    width: 420.0,
+    ..SPHERES
+};
+const RADIUS: f64 = 90.0;
+
+/// A reflectance at all angles, and what it is called.
+struct Curve {
+    name: &'static str,
+    colours: Vec<[f64; 3]>,
+}
+
+/// The picture as SVG text; `command` is what makes it, for its foot.
+///
+/// # Errors
+/// A material or a method is not there, or cannot be seen.
+pub fn headline(command: &str) -> Result<String, String> {
+    let mut sheet = Sheet::new(SHEET);
+    let title = "Schlick's approximation, fitted, and the exact law";
+    sheet.paragraph(&HEADING, title);
+    let words = format!(
+        "Spheres in a white room. Left half: the colour of the reflection. Right half: the error, {BRIGHTER} times \
+         brighter; black is no error. On RDNA 2 fitted costs 1.1 times as much as Schlick."
+    );
+    sheet.paragraph(&SUBTITLE, &words);
+    for (material, low) in MATERIALS {
+        let curves = curves(material)?;
+        let (spheres, chart) = (spheres(material, &curves), chart(material, &curves, low));
+        sheet.row(
+            SHEET.margin - SPHERES.margin,
+            vec![spheres, chart.panel(CURVES, material)],
+        );
+    }
+    sheet.paragraph(&FOOT, command);
+    Ok(sheet.document(title, &words))
+}
+
+fn degrees() -> impl Iterator<Item = f64> {
+    (0..ANGLES).map(|i| 90.0 * f64::from(i) / f64::from(ANGLES - 1))
+}
+
+/// The methods' reflectance, and last that of the whole spectrum.
+fn curves(name: &str) -> Result<Vec<Curve>, String> {
+    let material = materials::find(name).ok_or_else(|| format!("there is no material {name}"))?;
+    let material = material.map_err(|why| why.to_string())?;
+    let typed = (name.to_owned(), material);
+    let subject = Subject::new(typed, None, &Sight::default(), Derivation::default());
+    let subject = subject.map_err(|why| why.to_string())?;
+    let cosines: Vec<f64> = degrees().map(cosine).collect();
+    let mut curves = Vec::new();
+    for (method, shown) in METHODS {
+        let method = methods::find(method).ok_or_else(|| format!("there is no method {method}"))?;
+        let (naming, bounds) = (Naming::default(), Bounds::recorded());
+        let emitted = specialised_function(method, &subject, &naming, &bounds);
+        let function = emitted.map_err(|why| why.to_string())?.function;
+        let values = evaluate(&function, &[Value::each(cosines.clone())]);
+        curves.push(Curve {
+            name: shown,
+            colours: (0..cosines.len()).map(|i| values.at(i)).collect(),
+        });
+    }
+    curves.push(Curve {
+        name: EXACT,
+        colours: cosines.iter().map(|c| subject.truth.at(*c)).collect(),
+    });
+    Ok(curves)
+}
+
+/// The spheres of a material side by side.
+fn spheres(material: &str, curves: &[Curve]) -> Sheet {
+    let mut sheet = Sheet::new(SPHERES);
+    sheet.paragraph(&super::chart::PANEL, material);
+    let exact = &curves[curves.len() - 1];
+    let (top, mut elements) = (sheet.bottom() + 18.0, Vec::new());
+    let step = SPHERES.room() / curves.len() as f64;
+    for (i, curve) in curves.iter().enumerate() {
+        let centre = [SPHERES.margin + step * (i as f64 + 0.5), top + RADIUS];
+        let id = format!("{material}-{i}");
+        elements.extend(half_disc(
+            &format!("{id}-colour"),
+            &curve.colours,
+            centre,
+            0,
+        ));
+        let errors: Vec<[f64; 3]> = errors(curve, exact)
+            .map(|error| [BRIGHTER * error; 3])
+            .collect();
+        elements.extend(half_disc(&format!("{id}-error"), &errors, centre, 1));
+        let below = centre[1] + RADIUS + 6.0;
+        let most = errors_of(curve, exact);
+        let words = match curve.name {
+            EXACT => vec![EXACT.to_owned(), "of the whole spectrum".to_owned()],
+            name => vec![name.to_owned(), format!("error at most {most:.4}")],
+        };
+        elements.extend(TICK.draw(&words, centre[0], below, "middle"));
+    }
+    sheet.extend(elements, top + 2.0 * RADIUS + 6.0 + 2.0 * TICK.leading);
+    sheet
+}
+
+/// The largest error of the three channels, at each angle.
+fn errors<'a>(curve: &'a Curve, exact: &'a Curve) -> impl Iterator<Item = f64> + 'a {
+    let pairs = curve.colours.iter().zip(&exact.colours);
+    pairs.map(|(a, b)| (0..3).map(|i| (a[i] - b[i]).abs()).fold(0.0, f64::max))
+}
+
+fn errors_of(curve: &Curve, exact: &Curve) -> f64 {
+    errors(curve, exact).fold(0.0, f64::max)
+}
+
+/// Half a disc, the left one (0) or the right one (1), with a colour for each angle.
+fn half_disc(id: &str, colours: &[[f64; 3]], [x, y]: [f64; 2], right: u8) -> Vec<String> {
+    let stops = degrees().zip(colours).step_by(STOPS).map(|(at, colour)| {
+        let [red, green, blue] = colour.map(srgb_byte);
+        let offset = libm::sin(at.to_radians());
+        format!("<stop offset=\"{offset:.4}\" stop-color=\"#{red:02x}{green:02x}{blue:02x}\"/>")
+    });
+    let head = format!(
+        "<radialGradient id=\"{id}\" gradientUnits=\"userSpaceOnUse\" cx=\"{x:.2}\" cy=\"{y:.2}\" r=\"{RADIUS}\">"
+    );
+    let (top, bottom) = (y - RADIUS, y + RADIUS);
+    let disc = format!(
+        "<path d=\"M{x:.2} {top:.2}A{RADIUS} {RADIUS} 0 0 {right} {x:.2} {bottom:.2}Z\" fill=\"url(#{id})\"/>"
+    );
+    [head]
+        .into_iter()
+        .chain(stops)
+        .chain(["</radialGradient>".to_owned(), disc])
+        .collect()
+}
+
+/// The mean of the three channels against angle.
+fn chart(material: &str, curves: &[Curve], low: f64) -> Chart {
+    let mean = |colour: &[f64; 3]| colour.iter().sum::<f64>() / 3.0;
+    let series = curves.iter().rev().enumerate().map(|(i, curve)| Series {
+        name: curve.name.to_owned(),
+        style: match i {
+            0 => Style::Exact,
+            i => Style::Approximate(i - 1),
+        },
+        points: degrees().zip(curve.colours.iter().map(mean)).collect(),
+    });
+    Chart {
+        title: format!("{material}: mean of the channels"),
+        subtitle: String::new(),
+        x: Axis {
+            label: "angle of incidence".to_owned(),
+            low: 0.0,
+            high: 90.0,
+            ticks: ticks(0.0, 90.0, 9),
+            unit: "°",
+        },
+        y: Axis {
+            label: "reflectance".to_owned(),
+            low,
+            high: 1.0,
+            ticks: ticks(low, 1.0, 6),
+            unit: "",
+        },
+        series: series.collect(),
+        marks: Vec::new(),
+        foot: String::new(),
+    }
+}
