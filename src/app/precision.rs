@@ -13,7 +13,7 @@ pub struct PrecisionFlags {
     /// What functions compute in: f32, or f16, whose names end in _f16 [default: f32]
     #[arg(long, value_name = "NAME")]
     pub precision: Option<String>,
-    /// Methods too that cannot be saved in f16, with no promise
+    /// Also write methods that f16 cannot compute accurately, without an error bound
     #[arg(long, requires = "precision")]
     pub force: bool,
 }

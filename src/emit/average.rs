@@ -113,7 +113,7 @@ impl Average {
             String::new()
         };
         format!(
-            "Average over the hemisphere: {}{before}.",
+            "Average over the hemisphere, weighted by cosine: {}{before}.",
             triple(self.given)
         )
     }

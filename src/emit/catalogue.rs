@@ -13,7 +13,7 @@ use super::comment;
 use super::error::Error;
 use super::file::File;
 use super::function::Naming;
-use super::header::{OUTPUT_LICENCE, at_most, formula, start};
+use super::header::{OUTPUT_LICENCE, at_most, formula, source, start};
 use super::page::{comments, finished, guard};
 
 /// The name of the file and of the array.
@@ -223,7 +223,7 @@ fn header(rows: &[Row], naming: &Naming, seen: &str, command: &str) -> Vec<Strin
         lines.push(format!("{}: {} of them", method.name, of.count()));
         lines.extend(formula(method));
     }
-    lines.push(format!("Source: {}", rows[0].method.source.line()));
+    lines.push(source(rows[0].method));
     lines.push(format!(
         "Use: {}{}(cos_theta, {array}[{row}], {array}[{row} + 1], {array}[{row} + 2], {array}[{row} + 3]), with the library \
          function of the material's method. By a constant it costs nothing; where the material is known at run time only, put the \

@@ -1,12 +1,12 @@
 //! A function ready to be printed: its name, its graph, and what is known of its errors.
 
 use crate::fit::{
-    Curve, Derivation, Effective, Known, Measured, ModelError, Truth, effective, fitted_values,
+    Curve, Derivation, Effective, Measured, ModelError, Truth, effective, fitted_values,
     model_error, seen, values_of,
 };
 use crate::ir::{Checked, Fault};
-use crate::materials::{Kind, Material, Sight, Surface, Unseen};
-use crate::methods::{Class, Light, Method, Values};
+use crate::materials::{Channels, Kind, Material, Sight, Surface, Unseen};
+use crate::methods::{Class, KnownSurface, Light, Method, Values};
 use crate::num::Precision;
 use crate::spectra::Gamut;
 
@@ -155,8 +155,9 @@ impl Subject {
             return fitted_values(method, precision, &self.curve());
         }
         let seen = |cos_theta| self.truth.at(cos_theta);
-        let known = Known::with(self.effective.channels, seen, &self.derivation);
-        values_of(method, &known, &self.derivation)
+        let Channels { n, k } = self.effective.channels;
+        let known = KnownSurface::with(n, k, seen, self.derivation.matching_cos);
+        values_of(method, &known)
     }
 
     /// What coefficients are fitted to, in unpolarised light: colours as they are before they are clipped.

@@ -28,13 +28,13 @@ pub fn library(
     let precision = functions[0].precision;
     lines.push(format!("{}: {}", functions[0].name, method.summary));
     lines.extend(formula(method));
-    lines.push(format!("Source: {}", method.source.line()));
+    lines.push(source(method));
     lines.push(format!("Domain: {}", method.domain));
     lines.extend(half_line(target, precision));
     lines.extend(exemption(method));
     lines.push("Arguments:".to_owned());
     lines.push(
-        "  cos_theta: cosine between the normal and the direction to the light or viewer"
+        "  cos_theta: cosine of the angle of incidence, dot(half, view) for a microfacet"
             .to_owned(),
     );
     for input in method.inputs {
@@ -62,9 +62,19 @@ pub fn material(
     let mut lines = start(command);
     lines.extend(about(subject));
     lines.extend(half_line(target, precision));
-    lines.push("Argument: cos_theta, cosine between the normal and the direction to the light or viewer; clamped to [0, 1]".to_owned());
+    lines.push("Argument: cos_theta, cosine of the angle of incidence, dot(half, view) for a microfacet; clamped to [0, 1]".to_owned());
     lines.push(format!("Licence of this file: {OUTPUT_LICENCE}"));
     comment::lines(lines)
+}
+
+/// Where a method comes from. The forms of fitted ones are this program's own; the algorithm of the fit is published.
+pub(super) fn source(method: &Method) -> String {
+    let line = method.source.line();
+    if method.is_fitted() {
+        format!("Source: the form is fresnel-gen's; coefficients by exchange: {line}")
+    } else {
+        format!("Source: {line}")
+    }
 }
 
 /// What stands above one specialised function in a material's file.
@@ -74,7 +84,7 @@ pub fn specialised(emitted: &Emitted) -> Vec<String> {
         emitted.name, emitted.method.summary
     )];
     lines.extend(formula(emitted.method));
-    lines.push(format!("Source: {}", emitted.method.source.line()));
+    lines.push(source(emitted.method));
     lines.extend(exemption(emitted.method));
     lines.extend(table_line(emitted));
     lines.extend(emitted.model_error.iter().map(model_line));
@@ -99,7 +109,7 @@ pub fn brief(
         format!("{}{of}", emitted.method.summary),
     ];
     lines.extend(formula(emitted.method));
-    lines.push(format!("Source: {}", emitted.method.source.line()));
+    lines.push(source(emitted.method));
     lines.extend(half_line(target, emitted.precision));
     lines.extend(exemption(emitted.method));
     lines.extend(average::mean_line(emitted).map(|line| line + "."));

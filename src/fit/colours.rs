@@ -6,10 +6,8 @@
 use std::sync::LazyLock;
 
 use crate::ir::{Checked, Value, evaluate};
-use crate::methods;
+use crate::methods::{self, schlick_82};
 use crate::optics::{self, EffectiveIndex, index_from_f0_f82};
-
-use super::derive::schlick_82;
 
 /// The largest F0 that is taken for an index's. From here on a hundredth of F82 moves n by more than its half.
 pub const LARGEST_SOLVED_F0: f64 = 0.985;

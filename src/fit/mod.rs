@@ -10,7 +10,6 @@ mod derive;
 mod effective;
 mod exact;
 mod fitted;
-mod lambda;
 mod measured;
 mod minimax;
 mod model_error;
@@ -25,11 +24,12 @@ mod weight;
 
 pub use candidates::{Candidate, candidates};
 pub use colours::{Follows, LARGEST_SOLVED_F0};
-pub use derive::{Derivation, Known, fitted_for, fitted_values, values, values_of};
+pub use derive::{
+    Derivation, THESIS_MATCHING_COS, fitted_for, fitted_values, known, values, values_of,
+};
 pub use effective::{By, Effective, effective};
 pub use exact::Exact;
 pub use fitted::{Aim, Curve, Fit, Task, basis};
-pub use lambda::{THESIS_MATCHING_COS, lambda};
 pub use measured::Measured;
 pub use minimax::{Minimax, minimax};
 pub use model_error::{

@@ -1,12 +1,12 @@
 //! What an engine wants to know of a material: colours, index per channel, averages, and how well each is known.
 //! Colours are unclipped: saturated gold has F0 above 1 in linear sRGB.
 
-use crate::materials::{Extrapolate, Index, Kind, Material, Surface};
-use crate::methods::Light;
+use crate::materials::{Channels, Extrapolate, Index, Kind, Material, Surface};
+use crate::methods::{Input, KnownSurface, Light};
 use crate::optics;
 use crate::spectra::{Illuminant, Integration, colour_error};
 
-use super::derive::{Derivation, Known, derived};
+use super::derive::Derivation;
 use super::effective::{Effective, effective};
 use super::model_error::Truth;
 
@@ -35,21 +35,18 @@ pub struct Params {
 pub fn params(surface: Surface, kind: Kind) -> Params {
     let truth = Truth::new(surface, Light::Unpolarised);
     let effective = effective(&truth, kind);
-    let derivation = Derivation::default();
-    let known = Known::with(
-        effective.channels,
-        |cos_theta| truth.at(cos_theta),
-        &derivation,
-    );
-    let value = |name: &str| derived(name, &known, &derivation);
+    let matching_cos = Derivation::default().matching_cos;
+    let Channels { n, k } = effective.channels;
+    let known = KnownSurface::with(n, k, |cos_theta| truth.at(cos_theta), matching_cos);
+    let value = |input: Input| (input.of)(&known);
     Params {
         f0: known.f0,
         f82: known.f82,
-        f82_tint: value("tint"),
+        f82_tint: value(Input::TINT),
         f90: truth.at(0.0),
         effective,
-        reflectivity: value("reflectivity"),
-        edge_tint: value("edge_tint"),
+        reflectivity: value(Input::REFLECTIVITY),
+        edge_tint: value(Input::EDGE_TINT),
         average: truth.average(),
     }
 }

@@ -172,7 +172,12 @@ fn point_fault((nm, value): (f64, f64), (name, low, high): Column) -> Option<Str
     let (_, shortest, longest) = NM;
     if !(shortest..=longest).contains(&nm) {
         return Some(format!(
-            "a wavelength is {nm:e} nm; it must lie between {shortest} and {longest}"
+            "a wavelength is {nm:e} nm; it must lie between {shortest} and {longest}{}",
+            if nm < shortest {
+                "; are these micrometres, in a column named nm?"
+            } else {
+                ""
+            }
         ));
     }
     let fault = || format!("{name} is {value:e} at {nm} nm; it must lie between {low} and {high}");

@@ -14,6 +14,7 @@ use crate::ir::Expr;
 
 use super::half::InHalf;
 use super::input::{Input, Inputs};
+use super::known::{KnownSurface, each};
 use super::method::{Claim, Claims, Class, Colours, Contract, Forms, Light, Method, Over};
 
 /// The cosines of the two angles at which the law is met: the maxima of b2 and of -b3 in a table of 1000 cosines.
@@ -30,6 +31,31 @@ const CURVES: [[f64; 4]; 3] = [
 const FALL: f64 = 3.0;
 
 /// The record of this method.
+#[allow(missing_docs)] // each says what it is
+impl Input {
+    pub const B2_WEIGHT: Input = Input::rgb(
+        "b2_weight",
+        "weight of the second curve, solved at 82.64 degrees",
+        [-1000.0, 1000.0],
+        |known| each(|i| weights_of(known, i)[0]),
+    )
+    .tried(&[0.0, -0.3, 0.2])
+    .scanned(&[-1.0, -0.3, -0.05, 0.0, 0.05, 0.3, 1.0]);
+
+    pub const B3_WEIGHT: Input = Input::rgb(
+        "b3_weight",
+        "weight of the third curve, solved at 64.38 degrees",
+        [-1000.0, 1000.0],
+        |known| each(|i| weights_of(known, i)[1]),
+    )
+    .tried(Input::B2_WEIGHT.tried)
+    .scanned(Input::B2_WEIGHT.scanned);
+}
+
+fn weights_of(known: &KnownSurface, i: usize) -> [f64; 2] {
+    belcour_weights(known.f0[i], known.belcour.map(|seen| seen[i]))
+}
+
 pub static METHOD: Method = Method {
     name: "belcour_decomposition",
     summary: "Belcour's four shared curves, two of them weighted",

@@ -10,13 +10,47 @@
 
 use crate::cite::Citation;
 use crate::ir::Expr;
+use crate::optics;
 
 use super::conductor_exact::{self, conductor, least_squared, root_or_zero};
 use super::half::InHalf;
-use super::input::{Input, Inputs, Range};
+use super::input::{Input, Inputs, Range, SHARES, SHARES_AND_BEYOND};
+use super::known::each;
 use super::method::{Claim, Claims, Class, Colours, Contract, Forms, Light, Method, Over, Values};
 
 /// The record of this method.
+#[allow(missing_docs)] // each says what it is
+impl Input {
+    pub const REFLECTIVITY: Input = Input::rgb(
+        "reflectivity",
+        "reflectance at normal incidence, linear",
+        [0.0, 1.0],
+        |known| each(|i| optics::normal_incidence(known.n[i], known.k[i])),
+    )
+    .tried(&[0.04, 0.0, 1e-6, 0.5, 0.98, 1.0])
+    .scanned(Input::F0.scanned);
+
+    pub const EDGE_TINT: Input = Input::rgb(
+        "edge_tint",
+        "1 for the least n that the reflectivity allows, 0 for the most",
+        [0.0, 1.0],
+        |known| each(|i| edge_tint(known.n[i], known.k[i])),
+    )
+    .tried(SHARES)
+    .scanned(SHARES_AND_BEYOND);
+}
+
+/// Gulbrandsen's g: where n lies between the most (0) and the least (1) that F0 allows.
+fn edge_tint(n: f64, k: f64) -> f64 {
+    let r = optics::normal_incidence(n, k);
+    let (most, least) = ((1.0 + r.sqrt()) / (1.0 - r.sqrt()), (1.0 - r) / (1.0 + r));
+    if most == least {
+        0.0
+    } else {
+        ((most - n) / (most - least)).clamp(0.0, 1.0)
+    }
+}
+
 pub static METHOD: Method = Method {
     name: "conductor_artistic",
     summary: "the exact law for conductors from reflectivity and edge tint",

@@ -10,10 +10,49 @@ use crate::cite::Citation;
 use crate::ir::Expr;
 
 use super::half::InHalf;
-use super::input::{Input, Inputs};
+use super::input::{Input, Inputs, POWERS, POWERS_AND_BEYOND, SHARES, SHARES_AND_BEYOND};
+use super::known::{COS_60, mean};
 use super::method::{Claim, Claims, Class, Contract, Forms, Light, Method, Over};
 
 /// The record of this method.
+#[allow(missing_docs)] // each says what it is
+impl Input {
+    pub const BIAS: Input = Input::scalar(
+        "bias",
+        "reflectance at normal incidence",
+        [0.0, 1.0],
+        |known| [mean(known.f0); 3],
+    )
+    .tried(SHARES)
+    .scanned(SHARES_AND_BEYOND);
+
+    pub const SCALE: Input = Input::scalar(
+        "scale",
+        "what grazing incidence adds",
+        [0.0, 1.0],
+        |known| [1.0 - mean(known.f0); 3],
+    )
+    .tried(SHARES)
+    .scanned(SHARES_AND_BEYOND);
+
+    pub const POWER: Input =
+        Input::scalar("power", "how late it is added", [0.2, 1000.0], |known| {
+            [power(mean(known.f0), mean(known.f60)); 3]
+        })
+        .tried(POWERS)
+        .scanned(POWERS_AND_BEYOND);
+}
+
+/// The power with which bias + (1 - bias) (1-c)^power meets `target` at 60 degrees; Schlick's 5 where none does.
+fn power(bias: f64, target: f64) -> f64 {
+    let share = (target - bias) / (1.0 - bias);
+    if share > 0.0 && share < 1.0 {
+        libm::log2(share) / libm::log2(1.0 - COS_60)
+    } else {
+        5.0
+    }
+}
+
 pub static METHOD: Method = Method {
     name: "empirical",
     summary: "NVIDIA's bias, scale and power",

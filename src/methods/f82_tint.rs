@@ -13,10 +13,30 @@ use crate::ir::Expr;
 use super::half::InHalf;
 use super::hoffman_f82::dip;
 use super::input::{Input, Inputs};
+use super::known::each;
 use super::method::{Claim, Claims, Class, Colours, Contract, Forms, Light, Method, Over};
 use super::schlick::grazing_weight;
 
 /// The record of this method.
+#[allow(missing_docs)] // each says what it is
+impl Input {
+    pub const TINT: Input = Input::rgb(
+        "tint",
+        "reflectance at 81.79 degrees over Schlick's value there",
+        [0.0, 2.0],
+        |known| each(|i| known.f82[i] / schlick_82(known.f0[i])),
+    )
+    .tried(&[1.0, 0.0, 0.4, 1.4])
+    .scanned(&[
+        -0.5, 0.0, 1e-4, 0.1, 0.25, 0.5, 0.75, 0.9, 0.99, 1.0, 1.01, 1.1, 1.44, 2.0, 8.0,
+    ]);
+}
+
+/// Schlick's value at cos θ = 1/7, where the weight is (6/7)⁵.
+pub fn schlick_82(f0: f64) -> f64 {
+    f0 + (1.0 - f0) * 7_776.0 / 16_807.0
+}
+
 pub static METHOD: Method = Method {
     name: "f82_tint",
     summary: "Schlick's approximation corrected to a tint at 81.79 degrees",

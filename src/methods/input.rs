@@ -1,10 +1,13 @@
-//! The inputs of methods: one vocabulary with units and domain, in the order in which functions take them.
+//! The inputs of methods: one vocabulary with units, domain, derivation from a surface, and the values that they are tried
+//! with. One that a single method takes stands in that method's file.
 
 use crate::ir::{Builder, COSINE, Expr, Ty};
 use crate::num::Precision;
 
+use super::known::KnownSurface;
+
 /// An argument that a method takes after `cos_theta`.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug)]
 pub struct Input {
     /// Its name in every language.
     pub name: &'static str,
@@ -14,6 +17,13 @@ pub struct Input {
     pub meaning: &'static str,
     /// Where it lies in single precision.
     pub range: Range,
+    /// What it is for a surface.
+    pub of: fn(&KnownSurface) -> [f64; 3],
+    /// Values within reason that tests try, in all combinations with those of other inputs: a usual one first, then the
+    /// ends of what people give and what is hard.
+    pub tried: &'static [f64],
+    /// Values within its range and past it, ascending, where the scan for failures looks.
+    pub scanned: &'static [f64],
 }
 
 /// Where an argument lies, both ends included. Within its arguments' ranges a function gives a number.
@@ -41,147 +51,138 @@ fn figure(value: f64) -> String {
     }
 }
 
-const fn rgb(name: &'static str, meaning: &'static str, least: f64, most: f64) -> Input {
-    Input {
-        name,
-        ty: Ty::Rgb,
-        meaning,
-        range: Range { least, most },
+impl Input {
+    /// A value per channel.
+    pub(super) const fn rgb(
+        name: &'static str,
+        meaning: &'static str,
+        [least, most]: [f64; 2],
+        of: fn(&KnownSurface) -> [f64; 3],
+    ) -> Input {
+        Input {
+            name,
+            ty: Ty::Rgb,
+            meaning,
+            range: Range { least, most },
+            of,
+            tried: &[0.0, 1.0],
+            scanned: &[0.0, 1.0],
+        }
+    }
+
+    /// One value for all channels.
+    pub(super) const fn scalar(
+        name: &'static str,
+        meaning: &'static str,
+        range: [f64; 2],
+        of: fn(&KnownSurface) -> [f64; 3],
+    ) -> Input {
+        Input {
+            ty: Ty::Scalar,
+            ..Input::rgb(name, meaning, range, of)
+        }
+    }
+
+    pub(super) const fn tried(self, tried: &'static [f64]) -> Input {
+        Input { tried, ..self }
+    }
+
+    pub(super) const fn scanned(self, scanned: &'static [f64]) -> Input {
+        Input { scanned, ..self }
     }
 }
 
-const fn scalar(name: &'static str, meaning: &'static str, least: f64, most: f64) -> Input {
-    Input {
-        name,
-        ty: Ty::Scalar,
-        meaning,
-        range: Range { least, most },
-    }
-}
+/// Indices of anything: of what is thinner than its medium, of what is nearly matched, of glass, diamond and lead telluride.
+const INDICES: &[f64] = &[
+    1.5,
+    1e-3,
+    0.05,
+    0.7,
+    0.999_999_9,
+    1.0,
+    1.000_000_1,
+    1.0001,
+    2.4,
+    12.0,
+    1e3,
+];
+/// Reflectances, and what gold's red is in sRGB.
+const REFLECTANCES: &[f64] = &[0.04, 0.0, 1e-6, 0.5, 0.98, 1.0, 1.06];
+/// Reflectances, and what nothing reflects.
+const REFLECTANCES_AND_BEYOND: &[f64] = &[
+    -1.0, -0.1, -1e-9, 0.0, 1e-9, 1e-4, 0.02, 0.04, 0.1, 0.3, 0.5, 0.8, 0.95, 0.99, 0.9999, 1.0,
+    1.0001, 1.06, 1.5, 4.0, 100.0,
+];
+/// Shares, and what lies beyond them.
+pub(super) const SHARES_AND_BEYOND: &[f64] = &[
+    -0.5, -1e-6, 0.0, 1e-6, 0.04, 0.3, 0.5, 0.9, 1.0, 1.0001, 1.5,
+];
+/// Exponents of 1 - c.
+pub(super) const POWERS: &[f64] = &[5.0, 0.2, 1.0, 40.0];
+/// Exponents, and what no curve has.
+pub(super) const POWERS_AND_BEYOND: &[f64] =
+    &[0.0, 0.2, 0.5, 1.0, 2.0, 4.0, 5.0, 8.0, 20.0, 100.0, 1000.0];
+/// Shares.
+pub(super) const SHARES: &[f64] = &[1.0, 0.0, 0.3];
 
+/// The inputs that several methods take. Those of a single method stand in its file.
 #[allow(missing_docs)] // each says what it is
 impl Input {
-    pub const ETA: Input = rgb(
+    pub const ETA: Input = Input::rgb(
         "eta",
         "relative index of refraction, transmitted over incident (n_t / n_i)",
-        0.001,
-        1e12,
-    );
-    pub const N: Input = rgb(
+        [0.001, 1e12],
+        |known| known.n,
+    )
+    .tried(INDICES)
+    .scanned(&[0.0, 1e-30, 1e4, 1e6]);
+
+    pub const N: Input = Input::rgb(
         "n",
         "real part of the relative index of refraction",
-        0.001,
-        1e9,
-    );
-    pub const K: Input = rgb(
+        [0.001, 1e9],
+        |known| known.n,
+    )
+    .tried(INDICES)
+    .scanned(&[0.0, 1e-30, 1e4, 1e6]);
+
+    pub const K: Input = Input::rgb(
         "k",
         "extinction coefficient, the imaginary part of the relative index",
-        0.0,
-        1e9,
-    );
-    pub const F0: Input = rgb("f0", "reflectance at normal incidence, linear", 0.0, 1.0);
-    pub const F90: Input = scalar("f90", "reflectance at 90 degrees", 0.0, 1.0);
-    pub const F82: Input = rgb(
+        [0.0, 1e9],
+        |known| known.k,
+    )
+    .tried(&[1.0, 0.0, 1e-41, 1e-20, 1e-3, 4.0, 13.0, 1e4])
+    .scanned(&[0.0, 1e-41, 1.0, 1e4, 1e6]);
+
+    pub const F0: Input = Input::rgb(
+        "f0",
+        "reflectance at normal incidence, linear",
+        [0.0, 1.0],
+        |known| known.f0,
+    )
+    .tried(REFLECTANCES)
+    .scanned(REFLECTANCES_AND_BEYOND);
+
+    pub const F82: Input = Input::rgb(
         "f82",
         "reflectance at cos_theta = 1/7 (81.79 degrees), linear",
-        0.0,
-        1.0,
-    );
-    pub const TINT: Input = rgb(
-        "tint",
-        "reflectance at 81.79 degrees over Schlick's value there",
-        0.0,
-        2.0,
-    );
-    pub const REFLECTIVITY: Input = rgb(
-        "reflectivity",
-        "reflectance at normal incidence, linear",
-        0.0,
-        1.0,
-    );
-    pub const EDGE_TINT: Input = rgb(
-        "edge_tint",
-        "1 for the least n that the reflectivity allows, 0 for the most",
-        0.0,
-        1.0,
-    );
-    pub const BIAS: Input = scalar("bias", "reflectance at normal incidence", 0.0, 1.0);
-    pub const SCALE: Input = scalar("scale", "what grazing incidence adds", 0.0, 1.0);
-    pub const POWER: Input = scalar("power", "how late it is added", 0.2, 1000.0);
-    pub const EXPONENT: Input = scalar(
-        "exponent",
-        "how late the curve rises to f90; 5 is Schlick's",
-        0.2,
-        1000.0,
-    );
-    pub const LAMBDA: Input = rgb(
-        "lambda",
-        "exponent of the correction; 0 or less where there is none",
-        -1000.0,
-        1000.0,
-    );
+        [0.0, 1.0],
+        |known| known.f82,
+    )
+    .tried(REFLECTANCES)
+    .scanned(REFLECTANCES_AND_BEYOND);
 
-    pub const B2_WEIGHT: Input = rgb(
-        "b2_weight",
-        "weight of the second curve, solved at 82.64 degrees",
-        -1000.0,
-        1000.0,
-    );
-    pub const B3_WEIGHT: Input = rgb(
-        "b3_weight",
-        "weight of the third curve, solved at 64.38 degrees",
-        -1000.0,
-        1000.0,
-    );
-
-    pub const C0: Input = rgb("c0", "coefficient of 1", -1000.0, 1000.0);
-    pub const C1: Input = rgb("c1", "coefficient of the first term", -1000.0, 1000.0);
-    pub const C2: Input = rgb("c2", "coefficient of the second term", -1000.0, 1000.0);
-    pub const C3: Input = rgb("c3", "coefficient of the third term", -1000.0, 1000.0);
-    pub const C4: Input = rgb("c4", "coefficient of the fourth term", -1000.0, 1000.0);
-    pub const COEFFICIENTS: [Input; 5] = [Input::C0, Input::C1, Input::C2, Input::C3, Input::C4];
-
-    pub const TABLE: Input = Input {
-        name: "table",
-        ty: Ty::Texture,
-        meaning: "the texture, and after it the sampler: reflectance along x, cos theta = 0 first, linear and not sRGB; the sampler filters linearly and clamps to the edge",
-        range: Range {
-            least: 0.0,
-            most: 1.0,
-        },
-    };
-    pub const TEXELS: Input = scalar("texels", "texels in a row of the table", 2.0, 16384.0);
-    pub const WARP: Input = scalar(
-        "warp",
-        "how dense the axis is near grazing: 0 for cos theta itself, 4 for `--axis rational`",
-        0.0,
-        100.0,
-    );
-    pub const ROW: Input = scalar(
-        "row",
-        "where the row's middle lies: (index + 0.5) / rows, 0.5 for a table of its own",
-        0.0,
-        1.0,
-    );
-    pub const TABLE_SCALE: Input = scalar(
-        "table_scale",
-        "reflectance of a texel of 1: the `scale` beside the table",
-        1.0,
-        100.0,
-    );
-
-    /// Every input in the order of arguments.
-    #[rustfmt::skip]
-    pub const ORDER: [Input; 26] = [
-        Input::ETA, Input::N, Input::K, Input::F0, Input::F90, Input::F82, Input::TINT, Input::REFLECTIVITY,
-        Input::EDGE_TINT, Input::BIAS, Input::SCALE, Input::POWER, Input::EXPONENT, Input::LAMBDA,
-        Input::B2_WEIGHT, Input::B3_WEIGHT, Input::C0, Input::C1, Input::C2, Input::C3, Input::C4, Input::TABLE, Input::TEXELS, Input::WARP, Input::ROW, Input::TABLE_SCALE,
-    ];
+    pub const F90: Input =
+        Input::scalar("f90", "reflectance at 90 degrees", [0.0, 1.0], |_| [1.0; 3])
+            .tried(SHARES)
+            .scanned(SHARES_AND_BEYOND);
 }
 
-/// The input of this name.
-pub fn find_input(name: &str) -> Option<Input> {
-    Input::ORDER.into_iter().find(|input| input.name == name)
+/// The input of this name, of whichever method takes it.
+pub fn find_input(name: &str) -> Option<&'static Input> {
+    let mut inputs = super::ALL.iter().flat_map(|method| method.inputs);
+    inputs.find(|input| input.name == name)
 }
 
 /// The arguments of a method while it is built.

@@ -8,6 +8,7 @@
 mod by_class;
 mod half;
 mod input;
+mod known;
 mod limits;
 mod method;
 mod renamed;
@@ -16,6 +17,7 @@ mod shape;
 pub use by_class::{BY_CLASS, ByClass, Spread, by_class};
 pub use half::{HalfClaim, InHalf};
 pub use input::{Input, Inputs, Range, find_input};
+pub use known::KnownSurface;
 pub use method::{
     Better, Claim, Claims, Class, Colours, Contract, Forms, Light, Method, Over, Values,
 };
@@ -78,7 +80,8 @@ pub static ALL: &[&Method] = &[
 ];
 // END methods
 
-pub use belcour_decomposition::{BELCOUR_COSINES, belcour_weights};
+pub use f82_tint::schlick_82;
+pub use schlick_corrected::lambda;
 pub use table::{ONLY_ROW, TEXELS, WARP, fetch, unwarped, warped, warped_step};
 
 /// The method of this name, or of this old name.
@@ -89,7 +92,7 @@ pub fn find(name: &str) -> Option<&'static Method> {
 
 #[cfg(test)]
 mod tests {
-    use super::{ALL, Input};
+    use super::{ALL, Input, find_input};
     use crate::num::Precision;
 
     #[test]
@@ -109,11 +112,30 @@ mod tests {
         }
     }
 
+    /// A name means one thing: inputs of one name are one input, and stand in one order wherever they meet.
     #[test]
-    fn inputs_stand_in_the_order_of_the_contract() {
-        let place = |input: &Input| Input::ORDER.iter().position(|other| other == input);
+    fn inputs_of_one_name_are_one() {
         for method in ALL {
-            assert!(method.inputs.is_sorted_by_key(place), "{}", method.name);
+            for input in method.inputs {
+                let first = find_input(input.name).expect("a method takes it");
+                assert_eq!((first.meaning, first.range), (input.meaning, input.range));
+                assert!(input.scanned.is_sorted_by(|a, b| a <= b), "{}", input.name);
+                let is_within = |value: &f64| (0.0..=1.0).contains(value);
+                assert!(
+                    !input.tried.is_empty()
+                        && (is_within(&input.range.least) || input.range.least < 0.0)
+                );
+            }
+            for other in ALL {
+                let place =
+                    |input: &&Input| other.inputs.iter().position(|own| own.name == input.name);
+                let places: Vec<usize> = method
+                    .inputs
+                    .iter()
+                    .filter_map(|input| place(&input))
+                    .collect();
+                assert!(places.is_sorted(), "{} and {}", method.name, other.name);
+            }
         }
     }
 }

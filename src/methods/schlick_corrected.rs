@@ -10,13 +10,53 @@
 //! Domain: n from 0.001 to 1e9, k from 0 to 1e9; clamped to [0, 1]. Error: [`METHOD`]'s claims.
 
 use crate::ir::Expr;
+use crate::optics;
 
 use super::half::InHalf;
 use super::input::{Input, Inputs};
+use super::known::each;
 use super::method::{Claim, Claims, Class, Contract, Forms, Light, Method, Over};
 use super::schlick_rescaled::{LAZANYI_2005, rescaled};
 
 /// The record of this method.
+#[allow(missing_docs)] // each says what it is
+impl Input {
+    pub const LAMBDA: Input = Input::rgb(
+        "lambda",
+        "exponent of the correction; 0 or less where there is none",
+        [-1000.0, 1000.0],
+        |known| {
+            each(|i| {
+                lambda_for(
+                    known.n[i],
+                    known.k[i],
+                    known.matching_cos,
+                    known.matching[i],
+                )
+                .unwrap_or(0.0)
+            })
+        },
+    )
+    .tried(&[7.0, -1.0, 0.0, 0.5, 60.0])
+    .scanned(&[-5.0, 0.0, 0.2, 0.5, 1.0, 3.0, 5.0, 8.0, 20.0, 100.0, 1000.0]);
+}
+
+/// The λ with which the corrected method meets the exact law at `cos_theta`, for one channel:
+/// `(1-c)^λ = (F_rescaled - F_exact) / (2 n c)`. There is none where the exact law lies above the rescaled Schlick (gold's green),
+/// or so far below that λ would not be positive.
+pub fn lambda(n: f64, k: f64, cos_theta: f64) -> Option<f64> {
+    let exact = optics::conductor(n, k, cos_theta).unpolarised();
+    lambda_for(n, k, cos_theta, exact)
+}
+
+/// The same for a reflectance that is `exact` at `cos_theta`.
+fn lambda_for(n: f64, k: f64, cos_theta: f64, exact: f64) -> Option<f64> {
+    let (less, more, m) = (n - 1.0, n + 1.0, 1.0 - cos_theta);
+    let rescaled = (less * less + 4.0 * n * m * m * m * m * m + k * k) / (more * more + k * k);
+    let share = (rescaled - exact) / (2.0 * n * cos_theta);
+    (share > 0.0 && share < 1.0).then(|| libm::log2(share) / libm::log2(1.0 - cos_theta))
+}
+
 pub static METHOD: Method = Method {
     name: "schlick_corrected",
     summary: "the rescaled Schlick with a term that restores the minimum of metals",

@@ -9,10 +9,22 @@ use crate::cite::Citation;
 use crate::ir::Expr;
 
 use super::half::InHalf;
-use super::input::{Input, Inputs};
+use super::input::{Input, Inputs, POWERS, POWERS_AND_BEYOND};
 use super::method::{Claim, Claims, Class, Contract, Forms, Light, Method, Over};
 
 /// The record of this method.
+#[allow(missing_docs)] // each says what it is
+impl Input {
+    pub const EXPONENT: Input = Input::scalar(
+        "exponent",
+        "how late the curve rises to f90; 5 is Schlick's",
+        [0.2, 1000.0],
+        |_| [5.0; 3],
+    )
+    .tried(POWERS)
+    .scanned(POWERS_AND_BEYOND);
+}
+
 pub static METHOD: Method = Method {
     name: "schlick_generalised",
     summary: "Schlick's approximation with F90 and any exponent",

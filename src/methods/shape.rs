@@ -241,6 +241,21 @@ fn power_in_half(c: Expr<'_>, exponent: u32) -> Expr<'_> {
     (1.0 - less).named(&format!("b{exponent}"), "")
 }
 
+#[allow(missing_docs)] // each says what it is
+impl Input {
+    pub const C0: Input = coefficient("c0", "coefficient of 1");
+    pub const C1: Input = coefficient("c1", "coefficient of the first term");
+    pub const C2: Input = coefficient("c2", "coefficient of the second term");
+    pub const C3: Input = coefficient("c3", "coefficient of the third term");
+    pub const C4: Input = coefficient("c4", "coefficient of the fourth term");
+    pub const COEFFICIENTS: [Input; 5] = [Input::C0, Input::C1, Input::C2, Input::C3, Input::C4];
+}
+
+/// A fitted method's values come of a fit to the whole curve, and of no surface's numbers.
+const fn coefficient(name: &'static str, meaning: &'static str) -> Input {
+    Input::rgb(name, meaning, [-1000.0, 1000.0], |_| [f64::NAN; 3]).tried(&[0.3, -2.0, 1.0])
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -8,7 +8,7 @@
 //! the difference of two neighbouring texels for the sampler's weights.
 
 use crate::cite::Citation;
-use crate::ir::Expr;
+use crate::ir::{Expr, Ty};
 use crate::num::Num;
 
 use super::half::InHalf;
@@ -22,6 +22,53 @@ pub const TEXELS: usize = 64;
 pub const WARP: f64 = 4.0;
 /// The row of a texture that holds one table: its middle.
 pub const ONLY_ROW: f64 = 0.5;
+
+#[allow(missing_docs)] // each says what it is
+impl Input {
+    pub const TABLE: Input = Input {
+        ty: Ty::Texture,
+        ..Input::rgb(
+            "table",
+            "the texture, and after it the sampler: reflectance along x, cos theta = 0 first, linear and not sRGB; the sampler filters linearly and clamps to the edge",
+            [0.0, 1.0],
+            |_| [f64::NAN; 3],
+        )
+        // A table of a dielectric stands for all; its number is not looked at.
+        .tried(&[0.0])
+    };
+
+    pub const TEXELS: Input = Input::scalar(
+        "texels",
+        "texels in a row of the table",
+        [2.0, 16384.0],
+        |_| [TEXELS as f64; 3],
+    )
+    .tried(&[64.0, 2.0, 16_384.0]);
+
+    pub const WARP: Input = Input::scalar(
+        "warp",
+        "how dense the axis is near grazing: 0 for cos theta itself, 4 for `--axis rational`",
+        [0.0, 100.0],
+        |_| [WARP; 3],
+    )
+    .tried(&[4.0, 0.0, 64.0]);
+
+    pub const ROW: Input = Input::scalar(
+        "row",
+        "where the row's middle lies: (index + 0.5) / rows, 0.5 for a table of its own",
+        [0.0, 1.0],
+        |_| [ONLY_ROW; 3],
+    )
+    .tried(&[0.5, 0.0, 1.0]);
+
+    pub const TABLE_SCALE: Input = Input::scalar(
+        "table_scale",
+        "reflectance of a texel of 1: the `scale` beside the table",
+        [1.0, 100.0],
+        |_| [1.0; 3],
+    )
+    .tried(&[1.0]);
+}
 
 /// The record of this method.
 pub static METHOD: Method = Method {

@@ -174,13 +174,9 @@ fn each_rule_of_the_checker_can_be_broken() {
     }
 }
 
-/// A library function on one cosine, each input .4 (1.5 for indices, 64 for texels) in all channels.
+/// A library function on one cosine, each input as usual in all channels.
 fn run<N: Num>(function: &Checked, cos_theta: f64) -> f64 {
-    let value = |name: &str| match name {
-        "eta" | "n" => 1.5,
-        "texels" => 64.0,
-        _ => 0.4,
-    };
+    let value = |name: &str| methods::find_input(name).expect("a method takes it").tried[0];
     let arguments = function
         .params
         .iter()

@@ -3,7 +3,7 @@
 
 use std::collections::BTreeMap;
 
-use fresnel_gen::fit::{self, Known};
+use fresnel_gen::fit;
 use fresnel_gen::materials::{self, Channels, Kind, Material, Sight, Surface, THESIS_NM};
 use fresnel_gen::optics::cosine;
 use fresnel_gen::spectra::{Adaptation, Gamut, Illuminant, Integration, Step};
@@ -165,7 +165,7 @@ fn the_index_per_channel_stands_for_the_spectrum() {
         };
         let truth = fit::Truth::new(surface, fresnel_gen::methods::Light::Unpolarised);
         let effective = fit::effective(&truth, material.kind);
-        let known = Known::of_channels(&effective.channels, &fit::Derivation::default());
+        let known = fit::known(&effective.channels, &fit::Derivation::default());
         let seen = truth.at(1.0);
         for (by, (law, seen)) in effective.by.iter().zip(known.f0.iter().zip(seen)) {
             let met = *by != fit::By::F0AndF82 || (law - seen).abs() < 1e-9;

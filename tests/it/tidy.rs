@@ -377,7 +377,7 @@ fn lists_are_complete() {
     check_list(
         "methods",
         &[
-            "mod", "by_class", "half", "input", "method", "limits", "renamed", "shape",
+            "mod", "by_class", "half", "input", "known", "method", "limits", "renamed", "shape",
         ],
         "METHOD",
         "Method",

@@ -9,7 +9,7 @@ use super::SightFlags;
 /// The flags of `audit`.
 #[derive(Args, Debug)]
 #[command(
-    after_help = "Examples:\n  fresnel-gen audit mine.glsl --function fresnel --material gold\n  fresnel-gen audit mine.hlsl --function schlick --arg f0=1.03,.73,.36 --material gold --json -\n  fresnel-gen audit mine.wgsl --material gold,platinum --out-dir charts\n\nThe function takes the cosine and whatever --arg binds; arguments named as ours are (eta, n, k, f0, f82, lambda, c0 ...)\nthat are not bound have the material's values. A function of single numbers is called once a channel where they differ.\nIt runs in a process of its own, within --limit. Exit codes: 0 done, 1 a compiler refuses it, it does not end, or a\nresult is no reflectance; 2 wrong input, 3 something is missing here. Being dominated is no finding."
+    after_help = "Examples:\n  fresnel-gen audit mine.glsl --function fresnel --material gold\n  fresnel-gen audit mine.hlsl --function schlick --arg f0=1.03,.73,.36 --material gold --json -\n  fresnel-gen audit mine.wgsl --material gold,platinum --out-dir charts\n\nThe function takes the cosine and whatever --arg binds; arguments named as ours are (eta, n, k, f0, f82, lambda, c0 ...) that are not bound have the material's values. A function of single numbers is called once a channel where they differ. It runs in a process of its own, within --limit. Exit codes: 0 done, 1 a compiler refuses it, it does not end, or a result is no reflectance; 2 wrong input, 3 something is missing here. Being dominated is no finding."
 )]
 pub struct AuditFlags {
     /// The file: .wgsl, .glsl (as GLSL ES 3.00) or .hlsl
@@ -32,7 +32,7 @@ pub struct AuditFlags {
         required_unless_present = "worker"
     )]
     pub material: Vec<String>,
-    /// What the light comes from: a transparent material's name or file [default: air]
+    /// Medium on the incident side: name or file of a transparent material [default: air]
     #[arg(long, value_name = "NAME")]
     pub medium: Option<String>,
     /// How the material is seen.
@@ -53,7 +53,7 @@ pub struct AuditFlags {
     /// Write chart.svg and chart.html into this folder: `chart` of these materials, with this function as one more point
     #[arg(long, value_name = "DIR")]
     pub out_dir: Option<PathBuf>,
-    /// Replace files of others that lie where this run writes
+    /// Also replace files that fresnel-gen did not write
     #[arg(long, requires = "out_dir")]
     pub overwrite: bool,
     /// Write the report as JSON to this file, or `-` for stdout

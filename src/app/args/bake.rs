@@ -25,7 +25,7 @@ pub struct BakeFlags {
     /// Names, paths of material files, or all [default: gold, platinum, water, diamond]
     #[arg(long, value_delimiter = ',', value_name = "NAME")]
     pub material: Vec<String>,
-    /// What the light comes from: a transparent material's name or file [default: air]
+    /// Medium on the incident side: name or file of a transparent material [default: air]
     #[arg(long, value_name = "NAME")]
     pub medium: Option<String>,
     /// How the material is seen.
@@ -34,8 +34,8 @@ pub struct BakeFlags {
     /// Colours outside the working space: keep (integers are scaled then), clip to [0, 1], or scale [default: keep]
     #[arg(long, value_name = "NAME")]
     pub gamut: Option<String>,
-    /// In place of materials' tables the split-sum table of a fitted method, cos θ by roughness: a channel a coefficient, which
-    /// serves every material
+    /// Bake the split-sum table of a fitted method (cos θ by roughness, one channel per coefficient) in place of material tables; one
+    /// table serves every material fitted by that method
     #[arg(long, conflicts_with_all = NO_MATERIAL)]
     pub dfg: bool,
     /// Whose coefficients the split-sum table is for: fitted, fitted_dielectric [default: fitted]
@@ -50,7 +50,7 @@ pub struct BakeFlags {
     /// Files: exr-half, exr-float, png8, png16, ktx2, c, rust, js, all [default: exr-half, png16, ktx2]
     #[arg(long, value_delimiter = ',', value_name = "NAME")]
     pub format: Vec<String>,
-    /// One picture of all materials besides, a row each
+    /// Also write one image with one row per material
     #[arg(long)]
     pub atlas: bool,
     /// Search size, axis and bit depth: the smallest table whose filtered lookup errs by at most this, among the formats
@@ -72,7 +72,7 @@ pub struct BakeFlags {
     /// Folder that gets a folder `lut`
     #[arg(long, value_name = "DIR", default_value = "shaders-generated")]
     pub out_dir: PathBuf,
-    /// Replace files of others that lie where this run writes
+    /// Also replace files that fresnel-gen did not write
     #[arg(long)]
     pub overwrite: bool,
     /// Write the report as JSON to this file, or `-` for stdout

@@ -7,7 +7,7 @@ use clap::Args;
 /// The flags of charts.
 #[derive(Args, Debug)]
 #[command(
-    after_help = "Examples:\n  fresnel-gen chart --out-dir charts\n  fresnel-gen chart --material gold --gpu adreno330 --error de2000\n  fresnel-gen chart --show dielectrics --of worst --gpu time --json -\n\nCosts are those of library functions, one evaluation, as recorded; `fresnel-gen cost` tells and checks them. Each published\nmethod stands twice: with the inputs that its authors meant, and with those whose largest error is least. Into the folder\ngo chart.svg, the picture of what is shown, and chart.html, a page with all of them to choose from."
+    after_help = "Examples:\n  fresnel-gen chart --out-dir charts\n  fresnel-gen chart --material gold --gpu adreno330 --error de2000\n  fresnel-gen chart --show dielectrics --of worst --gpu time --json -\n\nCosts are those of library functions, one evaluation, as recorded; `fresnel-gen cost` tells and checks them. Each published method stands twice: with the inputs that its authors meant, and with those whose largest error is least. Into the folder go chart.svg, the picture of what is shown, and chart.html, a page with all of them to choose from."
 )]
 pub struct ChartFlags {
     /// Materials on the page: names, paths of material files, all [default: all]
@@ -28,7 +28,7 @@ pub struct ChartFlags {
     /// Write chart.svg and chart.html into this folder
     #[arg(long, value_name = "DIR")]
     pub out_dir: Option<PathBuf>,
-    /// Replace files of others that lie where this run writes
+    /// Also replace files that fresnel-gen did not write
     #[arg(long, requires = "out_dir")]
     pub overwrite: bool,
     /// Write the report as JSON to this file, or `-` for stdout

@@ -7,7 +7,7 @@ use clap::Args;
 /// The flags of `cost`.
 #[derive(Args, Debug)]
 #[command(
-    after_help = "Examples:\n  fresnel-gen cost --gpu rdna2\n  fresnel-gen cost --gpu rdna2,adreno330 --method schlick,conductor_exact --material gold\n  fresnel-gen cost --check\n\nA figure is that of one evaluation: a quarter of what eight of them in a chain cost more than four, less the chain's own\nprice. Shares are of dielectric_exact with its argument from a uniform. Where a compiler is not here, what was recorded\nof the same shader stands in its place. Exit codes: 0 done, 1 --check found a difference, 2 wrong input, 3 with\n--require-all: something could not be measured, with --check: nothing could."
+    after_help = "Examples:\n  fresnel-gen cost --gpu rdna2\n  fresnel-gen cost --gpu rdna2,adreno330 --method schlick,conductor_exact --material gold\n  fresnel-gen cost --check\n\nA figure is that of one evaluation: a quarter of what eight of them in a chain cost more than four, less the chain's own price. Shares are of dielectric_exact with its argument from a uniform. Where a compiler is not here, what was recorded of the same shader stands in its place. Exit codes: 0 done, 1 --check found a difference, 2 wrong input, 3 with --require-all: something could not be measured, with --check: nothing could."
 )]
 pub struct CostFlags {
     /// Family of GPUs: operations (before any compiler), gcn4, rdna1, rdna2, rdna3, adreno330, malig72 ... [default: all]
@@ -37,7 +37,7 @@ pub struct CostFlags {
     /// Write a page with all figures as cost.html into this folder
     #[arg(long, value_name = "DIR")]
     pub out_dir: Option<PathBuf>,
-    /// Replace files of others that lie where this run writes
+    /// Also replace files that fresnel-gen did not write
     #[arg(long, requires = "out_dir")]
     pub overwrite: bool,
     /// Write the report as JSON to this file, or `-` for stdout

@@ -67,21 +67,21 @@ pub enum Command {
         after_help = "Examples:\n  fresnel-gen bake --material gold --format exr-half,ktx2 --target wgsl\n  fresnel-gen bake --material all --atlas --budget 0.001 --json -\n  fresnel-gen bake --dfg --method fitted --format exr-half"
     )]
     Bake(Box<BakeFlags>),
-    /// Run what is generated on every target, and hold it against the CPU
+    /// Run the generated functions of every target and compare the results with f64 on the CPU
     Verify(Box<VerifyFlags>),
-    /// Where methods fail: NaN, lost digits, what the law has and they have not, told as regions
+    /// Show where methods fail: regions of NaN, of lost digits, and of large error against the exact law
     Stability(StabilityFlags),
-    /// What functions cost: counts by the compilers of GPUs, from the record where a compiler is not here
+    /// Show what functions cost, by Mesa's GPU compilers; recorded figures replace a missing compiler
     Cost(Box<CostFlags>),
-    /// What functions cost on the device at hand, by overdraw: times, and shares of the exact law's
+    /// Measure the time of functions on this machine's device, by overdraw, and as a share of the exact law's time
     Time(TimeFlags),
     /// Fit coefficients: of materials, or of an artist's two colours
     Fit(Box<FitFlags>),
-    /// Error against cost: every method a point, and the frontier of those that nothing beats
+    /// Chart error against cost: one point per method, and the Pareto frontier
     Chart(ChartFlags),
-    /// Hold your own function, in WGSL, GLSL or HLSL, against a material and against ours
+    /// Measure your own function (WGSL, GLSL or HLSL) against a material's exact reflectance and compare it with our methods
     Audit(Box<AuditFlags>),
-    /// Compute the thesis's tables, figures and claims anew, and print both side by side
+    /// Recompute the tables, figures and claims of the thesis (Štetić-Kozić 2014) and print both side by side
     Reproduce(Reproduce),
 }
 
@@ -91,13 +91,13 @@ pub struct Generate {
     /// Output language, see `fresnel-gen targets`; all means those written by default [default: all]
     #[arg(long, value_delimiter = ',', value_name = "NAME")]
     pub target: Vec<String>,
-    /// Method, see `fresnel-gen methods` [default: all; for materials the exact one, a fitted one, two Schlicks and the table]
+    /// Method, see `fresnel-gen methods` [default: all; for a material: exact, fitted, two Schlick variants and table]
     #[arg(long, value_delimiter = ',', value_name = "NAME")]
     pub method: Vec<String>,
     /// Material to specialise to: names, paths of material files, all; or none [default: gold, platinum, water, diamond]
     #[arg(long, value_delimiter = ',', value_name = "NAME")]
     pub material: Vec<String>,
-    /// What the light comes from: a transparent material's name or file [default: air]
+    /// Medium on the incident side: name or file of a transparent material [default: air]
     #[arg(long, value_name = "NAME")]
     pub medium: Option<String>,
     /// How the material is seen.
@@ -115,10 +115,10 @@ pub struct Generate {
     /// Degrees at which the corrected Schlick meets the exact law [default: that of cosine 0.15, 81.373]
     #[arg(long, value_name = "DEGREES", allow_negative_numbers = true)]
     pub matching_angle: Option<f64>,
-    /// Of each material the one cheapest function that errs by no more than this, over angles and channels
+    /// Write one function per material: the cheapest whose largest error over angles and channels is at most this
     #[arg(long, value_name = "ERR", allow_negative_numbers = true)]
     pub budget: Option<f64>,
-    /// Whose recorded costs decide, beside --budget: rdna2, adreno330 ... as for `cost` [default: rdna2]
+    /// GPU family whose recorded costs --budget compares: rdna2, adreno330 ... as for `cost` [default: rdna2]
     #[arg(long, value_name = "NAME", requires = "budget")]
     pub gpu: Option<String>,
     /// Folder for the generated tree
@@ -130,7 +130,7 @@ pub struct Generate {
     /// Write nothing: compare with the folder, print a diff, exit 1 where it differs
     #[arg(long, conflicts_with_all = ["list", "depfile"])]
     pub check: bool,
-    /// Replace files of others that lie where this run writes
+    /// Also replace files that fresnel-gen did not write
     #[arg(long)]
     pub overwrite: bool,
     /// Write the run's outputs and inputs as a Makefile rule
@@ -156,13 +156,13 @@ pub struct SightFlags {
     /// The eye: cie1931 or cie2015 [default: cie1931]
     #[arg(long, value_name = "NAME")]
     pub observer: Option<String>,
-    /// How a mirror becomes (1, 1, 1): scale, by dividing by its colour, or bradford [default: scale]
+    /// How the colour of a perfect mirror becomes (1, 1, 1): scale (divide each channel) or bradford [default: scale]
     #[arg(long, value_name = "NAME")]
     pub adaptation: Option<String>,
     /// Steps of the spectrum: 5nm or 1nm [default: 5nm]
     #[arg(long, value_name = "STEP")]
     pub step: Option<String>,
-    /// Red, green and blue at one wavelength each instead, in nm: the thesis has 685,535,475
+    /// Use one wavelength per channel, in nm, in place of the spectrum (the thesis uses 685,535,475)
     #[arg(long, value_delimiter = ',', value_name = "R,G,B")]
     pub wavelengths: Vec<f64>,
     /// Beyond the measured range: refuse, or hold the last value [default: refuse]
@@ -278,7 +278,7 @@ pub struct ShowFlags {
 pub struct ParamsFlags {
     /// A name, or the path of a material file, page or table
     pub name: String,
-    /// What the light comes from: a transparent material's name or file [default: air]
+    /// Medium on the incident side: name or file of a transparent material [default: air]
     #[arg(long, value_name = "NAME")]
     pub medium: Option<String>,
     /// How it is seen.
@@ -316,12 +316,12 @@ pub struct SurveyFlags {
 #[derive(Args, Debug)]
 #[command(after_help = "Example:\n  fresnel-gen reproduce table2 --json -")]
 pub struct Reproduce {
-    /// Only this: table1, table2, table3, table4, table5, table7, table8, claims or figures [default: all]
+    /// Only this: table1, table2, table3, table4, table5, table6, table7, table8, claims or figures [default: all]
     pub table: Option<String>,
     /// Folder for the figures
     #[arg(long, value_name = "DIR", default_value = "reproduced")]
     pub out_dir: PathBuf,
-    /// Replace files of others that lie where this run writes
+    /// Also replace files that fresnel-gen did not write
     #[arg(long)]
     pub overwrite: bool,
     /// Write the report as JSON to this file, or `-` for stdout

@@ -22,7 +22,7 @@ pub struct StabilityFlags {
     /// Draw maps of the errors and a page that shows them into this folder
     #[arg(long, value_name = "DIR", conflicts_with = "material")]
     pub out_dir: Option<PathBuf>,
-    /// Replace files of others that lie where this run writes
+    /// Also replace files that fresnel-gen did not write
     #[arg(long, requires = "out_dir")]
     pub overwrite: bool,
     /// Write the report as JSON to this file, or `-` for stdout

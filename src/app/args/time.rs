@@ -7,7 +7,7 @@ use clap::Args;
 /// The flags of `time`.
 #[derive(Args, Debug)]
 #[command(
-    after_help = "Examples:\n  fresnel-gen time\n  fresnel-gen time --method schlick,conductor_exact --material gold --json times.json\n  fresnel-gen time --hardware --size 2048\n\nA share is the cost of one evaluation over that of dielectric_exact's library function, both net of the empty shader.\nExit codes: 0 done, 1 a shader failed or took longer than --limit, 2 wrong input, 3 something is missing here."
+    after_help = "Examples:\n  fresnel-gen time\n  fresnel-gen time --method schlick,conductor_exact --material gold --json times.json\n  fresnel-gen time --hardware --size 2048\n\nA share is the cost of one evaluation over that of dielectric_exact's library function, both net of the empty shader. Exit codes: 0 done, 1 a shader failed or took longer than --limit, 2 wrong input, 3 something is missing here."
 )]
 pub struct TimeFlags {
     /// Method, see `fresnel-gen methods` [default: all]
@@ -28,7 +28,7 @@ pub struct TimeFlags {
     /// Refuse an adapter that is software
     #[arg(long)]
     pub hardware: bool,
-    /// What counts: gpu, the device's timestamps; cpu, the processor's time, of software; or wall [default: cpu of software, else gpu where its timestamps advance, else wall]
+    /// Clock: gpu (the device's timestamps), cpu (CPU time, for software renderers) or wall [default: cpu of software, else gpu where its timestamps advance, else wall]
     #[arg(long, value_name = "NAME")]
     pub clock: Option<String>,
     /// Pixels a side of the square target, 16 to 8192 [default: 256 in software, else 1024]
@@ -37,7 +37,7 @@ pub struct TimeFlags {
     /// Evaluations in a draw, 1 to 8, each from the result before; 1 is what a scene draws
     #[arg(long, value_name = "N", default_value_t = 8)]
     pub evaluations: usize,
-    /// Rounds, 1 to 1000; each draws every shader, and what all are held against beside every sixth
+    /// Rounds, 1 to 1000. Each draws every shader once, and the reference shader beside every sixth
     #[arg(long, value_name = "N", default_value_t = 75)]
     pub rounds: usize,
     /// Seconds that a single submission may take

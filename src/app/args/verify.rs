@@ -11,19 +11,19 @@ use super::SightFlags;
 /// The flags of `verify`.
 #[derive(Args, Debug)]
 #[command(
-    after_help = "Examples:\n  fresnel-gen verify\n  fresnel-gen verify --target gles --material gold --junit verify.xml\n  fresnel-gen verify --exhaustive --method schlick --material gold\n\nFiles are taken from --out-dir as they lie there; what is not there is generated. Exit codes: 0 all is as promised,\n1 something is not, 2 wrong input, 3 something is missing here."
+    after_help = "Examples:\n  fresnel-gen verify\n  fresnel-gen verify --target gles --material gold --junit verify.xml\n  fresnel-gen verify --exhaustive --method schlick --material gold\n\nFiles are taken from --out-dir as they lie there; what is not there is generated. Exit codes: 0 all is as promised, 1 something is not, 2 wrong input, 3 something is missing here."
 )]
 pub struct VerifyFlags {
     /// Output language, see `fresnel-gen targets`; all means those written by default [default: all]
     #[arg(long, value_delimiter = ',', value_name = "NAME")]
     pub target: Vec<String>,
-    /// Method, see `fresnel-gen methods` [default: all; for materials the usual four]
+    /// Method, see `fresnel-gen methods` [default: all; of a material's file those that it holds]
     #[arg(long, value_delimiter = ',', value_name = "NAME")]
     pub method: Vec<String>,
     /// Names, paths of material files, all, or none [default: gold, platinum, water, diamond]
     #[arg(long, value_delimiter = ',', value_name = "NAME")]
     pub material: Vec<String>,
-    /// What the light comes from: a transparent material's name or file [default: air]
+    /// Medium on the incident side: name or file of a transparent material [default: air]
     #[arg(long, value_name = "NAME")]
     pub medium: Option<String>,
     /// How the material is seen.

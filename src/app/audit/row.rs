@@ -253,7 +253,10 @@ fn edges(row: &Value) -> String {
     };
     match wrong {
         0 => format!("a reflectance at all of them{beyond}"),
-        _ => format!("{wrong} of them wrong{beyond}"),
+        _ => format!(
+            "{wrong} of {} results are no reflectance{beyond}",
+            edges.len()
+        ),
     }
 }
 

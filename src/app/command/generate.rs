@@ -12,7 +12,7 @@ use crate::app::error::Error;
 use crate::app::generate::{Generated, Kept, generate_beside, generate_single};
 use crate::app::lock::{Announce, Lock};
 use crate::app::manifest::{self, Manifest};
-use crate::app::names::{family, quoted};
+use crate::app::names::family;
 use crate::app::request::Request;
 use crate::app::sight::{input, sight};
 use crate::app::source::{is_path, materials, source};
@@ -190,9 +190,14 @@ fn written(
     lock: &mut Lock,
 ) -> Result<Output, Error> {
     let out_dir = &plan.out_dir;
-    let outputs: Vec<String> = generated
+    // Files of materials first: what a build names as its own output is one of these where there is one.
+    let (of_materials, others): (Vec<&Artifact>, Vec<&Artifact>) = generated
         .artifacts
         .iter()
+        .partition(|artifact| artifact.material.is_some());
+    let outputs: Vec<String> = of_materials
+        .into_iter()
+        .chain(others)
         .map(|artifact| out_dir.join(&artifact.path).display().to_string())
         .collect();
     refuse_within_tree(plan, flags.depfile.as_deref())?;
@@ -246,10 +251,8 @@ fn first_steps(generated: &Generated, out_dir: &Path) -> Vec<String> {
             file.display(),
             signature.unwrap_or_default()
         ),
-        format!(
-            "next: include it; `fresnel-gen verify --out-dir {}` runs all of them on this machine",
-            quoted(&out_dir.display().to_string())
-        ),
+        "next: include it; `fresnel-gen verify` with the same --target, --material and --out-dir runs it on this machine"
+            .to_owned(),
     ]
 }
 

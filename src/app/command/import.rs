@@ -47,6 +47,16 @@ pub fn run(flags: &ImportFlags) -> Result<Output, Error> {
 fn visible(whole: &Material, output: &mut Output) -> Material {
     let (from, to) = OBSERVED_NM;
     if !whole.covers(FIRST_NM, LAST_NM) {
+        let (first, last) = whole.range_nm();
+        let unit = if first > 10.0 * LAST_NM {
+            ". Are these nanometres, in a column named um?"
+        } else {
+            ""
+        };
+        output.remarks.push(format!(
+            "{}: known from {first} to {last} nm only; functions want {FIRST_NM} to {LAST_NM} nm{unit}",
+            whole.name
+        ));
         return whole.clone();
     }
     let cut = whole.trimmed(from, to);

@@ -294,6 +294,7 @@ fn allowed(row: &Value) -> String {
         row["bound"]["ulp"].as_f64(),
         row["bound"]["max_abs"].as_f64(),
     ) {
+        (Some(0.0), _) => "2^-22".to_owned(),
         (Some(ulp), _) => format!("{ulp:.1}"),
         (None, Some(most)) => format!("{most:.5} abs"),
         _ => "-".to_owned(),
@@ -350,6 +351,7 @@ fn covered(rows: &[Value]) -> String {
     };
     let mut told = String::new();
     if let Some(share) = shares("f32") {
+        told += "\nA difference within 2^-22 passes, however many ulp it is.";
         let cosines = (share * WITHIN as f64).round();
         let percent = 100.0 * share;
         told += &format!(

@@ -10,18 +10,18 @@ const INTRODUCTION: &str = "\
 Written from the record that `tests/costs` keeps (`data/records/costs/`), and held by a test. `fresnel-gen cost` says the
 same of every function, specialised ones too, and asks the compilers that are here; `--check` compares with the record.
 
-- **An evaluation** is what one more of it in a chain adds to a fragment shader (a quarter of what eight cost more than
-  four; on GPUs of OpenGL ES 2.0, with their short programs, what two cost more than one), less the price of the chain
-  itself, which the empty function tells. Each takes its cosine from the result before it and arguments of its own from
+- **One evaluation** is the cost that one more evaluation in a chain adds to a fragment shader: (cost of eight − cost of four) / 4.
+  GPUs of OpenGL ES 2.0 limit program length; there it is cost of two − cost of one. The cost of the chain itself, measured with an
+  empty function, is subtracted. Each takes its cosine from the result before it and arguments of its own from
   uniforms, so that nothing is shared and nothing is left out.
 - **The figure** is what the compiler itself takes for the cost: RADV's inverse throughput, bundles on
-  the Mali-T860, cycles of arithmetic on the Mali-G72 and of the busiest unit on the Mali-G57, instructions everywhere else. Adreno's instructions hold the empty ones that wait for a result; where other work stands
-  beside the function they are filled.
+  the Mali-T860, cycles of arithmetic on the Mali-G72 and of the busiest unit on the Mali-G57, instructions everywhere else. Adreno's counts
+  include the nops that wait for a result; in a larger shader other work can fill them.
 - **A texture fetch** costs what latency and bandwidth cost, which no count shows: a column of its own.
 - **Where a count is no time:** it says nothing of memory, of the unit that divides and takes roots beside the others (on
   RDNA that is in the inverse throughput, on Adreno it is not), of how many registers leave how many waves, of what a draw
-  costs whatever its formula. The Adreno 630 computes what depends on uniforms alone once for a draw, before any fragment:
-  its counts are of what is left. `fresnel-gen reproduce table6` shows the counts beside times on three phones and a laptop.
+  costs whatever its formula. The Adreno 630 computes what depends only on uniforms once per draw, before the
+  fragments; its counts exclude that part. `fresnel-gen reproduce table6` shows the counts beside times on three phones and a laptop.
 - **Families that share a compiler** differ little: the Adrenos 320 and 330 not at all, RDNA 1 and 2 in a few functions.
 - Shares are of `dielectric_exact`.
 ";

@@ -12,9 +12,9 @@ Written by `fresnel-gen stability`, and held by a test. Each method was run in u
 -1 to 8 ulp above 1, indices from 0.001 to 1000 with 1 and its neighbours, k from subnormal numbers to 10000. Two things go wrong, and
 they are never added:
 
-- the **formula**, held against the exact law: an error, told of media whatever the angle; a minimum that metals have and it has not;
-  a rise where the law falls. Approximations are held against the law for k = 0 (over eta) and from k = 0.1 on (over n and k);
-- its **rounding**, held against the same formula in f64: NaN, infinities, results below 0 or above 1, steps that no slope explains, lost
+- the **formula**, compared with the exact law: a large error at any angle; a missing minimum, where the exact curve of metals has
+  one; a rise where the exact curve falls. Approximations are compared for k = 0 (over eta) and for k ≥ 0.1 (over n and k);
+- its **rounding**, compared with the same formula in f64: NaN, infinities, results below 0 or above 1, steps that no slope explains, lost
   digits. What lies within 2 ulp of the cosine is no fault: at the critical angle and at Brewster's no rounding can do better.
 
 A share says how much of a region fails. The methods marked *exempt* are textbook forms, kept for comparison.

@@ -1,5 +1,6 @@
 //! What a scan varies: cosines, indices and other arguments, over their domains and past them.
 
+use crate::methods::Input;
 use crate::num::Precision;
 
 /// A quantity and the values at which it is tried, in order.
@@ -97,26 +98,8 @@ pub fn extinction() -> Axis {
 }
 
 /// What a method's argument may be given, within its domain and past it.
-pub fn argument(name: &'static str) -> Axis {
-    let values: &[f64] = match name {
-        "f0" | "f82" | "reflectivity" => &[
-            -1.0, -0.1, -1e-9, 0.0, 1e-9, 1e-4, 0.02, 0.04, 0.1, 0.3, 0.5, 0.8, 0.95, 0.99, 0.9999,
-            1.0, 1.0001, 1.06, 1.5, 4.0, 100.0,
-        ],
-        "tint" => &[
-            -0.5, 0.0, 1e-4, 0.1, 0.25, 0.5, 0.75, 0.9, 0.99, 1.0, 1.01, 1.1, 1.44, 2.0, 8.0,
-        ],
-        "f90" | "bias" | "scale" | "edge_tint" => &[
-            -0.5, -1e-6, 0.0, 1e-6, 0.04, 0.3, 0.5, 0.9, 1.0, 1.0001, 1.5,
-        ],
-        "power" | "exponent" => &[0.0, 0.2, 0.5, 1.0, 2.0, 4.0, 5.0, 8.0, 20.0, 100.0, 1000.0],
-        "lambda" => &[-5.0, 0.0, 0.2, 0.5, 1.0, 3.0, 5.0, 8.0, 20.0, 100.0, 1000.0],
-        "b2_weight" | "b3_weight" => &[-1.0, -0.3, -0.05, 0.0, 0.05, 0.3, 1.0],
-        "n" | "eta" => &[0.0, 1e-30, 1e4, 1e6],
-        "k" => &[0.0, 1e-41, 1.0, 1e4, 1e6],
-        _ => &[0.0, 1.0],
-    };
-    Axis::new(name, values.to_vec())
+pub fn argument(input: &Input) -> Axis {
+    Axis::new(input.name, input.scanned.to_vec())
 }
 
 #[cfg(test)]
@@ -125,7 +108,12 @@ mod tests {
 
     #[test]
     fn axes_hold_their_edges_in_order() {
-        for axis in [cosines(), index("eta", 20), extinction(), argument("f0")] {
+        for axis in [
+            cosines(),
+            index("eta", 20),
+            extinction(),
+            argument(&Input::F0),
+        ] {
             assert!(axis.values.is_sorted_by(|a, b| a <= b), "{}", axis.name);
         }
         let ulp = f64::from(f32::EPSILON);

@@ -27,11 +27,7 @@ pub fn spaces(method: &Method, precision: Precision) -> Vec<Space> {
         all.push(vec![index("n", 12), extinction()]);
     }
     let media = all.into_iter().map(|axes| (true, axes));
-    let given = method
-        .inputs
-        .iter()
-        .map(|input| argument(input.name))
-        .collect();
+    let given = method.inputs.iter().map(argument).collect();
     media
         .chain([(false, given)])
         .map(|(is_media, axes)| Space {

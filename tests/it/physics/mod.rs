@@ -57,45 +57,13 @@ pub fn function(name: &str) -> Checked {
 
 /// Arguments for a method from a few hard values of each input, in all combinations.
 fn arguments(method: &Method) -> Vec<Vec<f32>> {
-    let choices = |name: &str| -> Vec<f32> {
-        match name {
-            "eta" | "n" => vec![
-                1e-3,
-                0.05,
-                0.7,
-                0.999_999_9,
-                1.0,
-                1.000_000_1,
-                1.0001,
-                1.5,
-                2.4,
-                12.0,
-                1e3,
-            ],
-            "k" => vec![0.0, 1e-41, 1e-20, 1e-3, 1.0, 4.0, 13.0, 1e4],
-            "f0" | "reflectivity" | "f82" => vec![0.0, 1e-6, 0.04, 0.5, 0.98, 1.0, 1.06],
-            "f90" | "edge_tint" | "bias" | "scale" => vec![0.0, 0.3, 1.0],
-            "tint" => vec![0.0, 0.4, 1.0, 1.4],
-            "exponent" | "power" => vec![0.1, 1.0, 5.0, 40.0],
-            // A table of a dielectric stands for all; its number is not looked at.
-            "table" => vec![0.0],
-            "texels" => vec![2.0, 64.0, 16_384.0],
-            "warp" => vec![0.0, 4.0, 64.0],
-            "row" => vec![0.0, 0.5, 1.0],
-            "table_scale" => vec![1.0],
-            "lambda" => vec![-1.0, 0.0, 0.5, 7.0, 60.0],
-            "b2_weight" | "b3_weight" => vec![-0.3, 0.0, 0.2],
-            "c0" | "c1" | "c2" | "c3" | "c4" => vec![-2.0, 0.3, 1.0],
-            _ => unreachable!("{name} has no values here: add some"),
-        }
-    };
     method.inputs.iter().fold(vec![Vec::new()], |all, input| {
-        let choices = choices(input.name);
         all.iter()
             .flat_map(|row| {
-                choices
+                input
+                    .tried
                     .iter()
-                    .map(move |value| [row.as_slice(), &[*value]].concat())
+                    .map(move |value| [row.as_slice(), &[*value as f32]].concat())
             })
             .collect()
     })

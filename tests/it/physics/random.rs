@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::sync::LazyLock;
 
 use fresnel_gen::ir::Checked;
-use fresnel_gen::methods::{self, Contract, Method};
+use fresnel_gen::methods::{self, Contract, Input, Method};
 use fresnel_gen::num::ulp_distance;
 use fresnel_gen::optics;
 use proptest::prelude::*;
@@ -61,22 +61,22 @@ fn cosine() -> impl Strategy<Value = f32> {
     ]
 }
 
-/// A value of an input within its domain, from two shares in [0, 1]: the ends come often.
-fn value(name: &str, share: f64, pick: f64) -> f32 {
-    let (low, high) = match name {
-        "eta" | "n" => return (1e-3 * libm::pow(1e5, share)) as f32,
-        "k" if pick < 0.2 => return 0.0,
-        "k" => return (1e-12 * libm::pow(1e14, share)) as f32,
-        "f0" | "f82" => (0.0, 1.1),
-        "tint" => (0.0, 2.0),
-        "exponent" | "power" => (0.2, 60.0),
-        "lambda" => (-1.0, 60.0),
-        "b2_weight" | "b3_weight" => (-0.5, 0.5),
-        "c0" | "c1" | "c2" | "c3" | "c4" => (-3.0, 3.0),
-        "f90" | "reflectivity" | "edge_tint" | "bias" | "scale" => (0.0, 1.0),
-        _ => unreachable!("{name} has no domain here: add it"),
+/// A value of an input between the ends of what it is tried with, from two shares in [0, 1]: the ends come often. Over several
+/// powers of ten it is even in its logarithm.
+fn value(input: &Input, share: f64, pick: f64) -> f32 {
+    let ends = |values: &mut dyn Iterator<Item = f64>| {
+        values.fold((f64::MAX, f64::MIN), |(low, high), x| {
+            (low.min(x), high.max(x))
+        })
     };
-    let inner = low + (high - low) * share;
+    let (low, high) = ends(&mut input.tried.iter().copied());
+    let positive = |x: &f64| *x > 1e-12;
+    let (least, _) = ends(&mut input.tried.iter().copied().filter(positive));
+    let inner = if low >= 0.0 && high > 1e3 * least {
+        least * libm::pow(high / least, share)
+    } else {
+        low + (high - low) * share
+    };
     (if pick < 0.1 {
         low
     } else if pick > 0.9 {
@@ -102,7 +102,7 @@ proptest! {
     ) {
         let method = KEPT[which];
         let given = method.inputs.iter().zip(shares);
-        let arguments: Vec<f32> = given.map(|(input, (share, pick))| value(input.name, share, pick)).collect();
+        let arguments: Vec<f32> = given.map(|(input, (share, pick))| value(input, share, pick)).collect();
         let f0 = method.inputs.iter().position(|input| input.name == "f0");
         let most = f0.map_or(1.0, |place| arguments[place].max(1.0));
         let f = single(method.name, cos_theta, &arguments);
