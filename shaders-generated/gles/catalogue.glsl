@@ -7,8 +7,8 @@
 //   F = c0 + b (c1 + b (c2 + b c3)), b = 2^(-6.5 c), limited to [0, 1]
 // fitted_dielectric: 33 of them
 //   F = c0 + b^3 (c1 + b^4 (c2 + b^7 c3)), b = 1 - c, limited to [0, 1]
-// Source: Stiefel, "Ueber diskrete und lineare Tschebyscheff-Approximationen", Numerische Mathematik 1, 1-28,
-//     1959. https://doi.org/10.1007/BF01386369
+// Source: the form is fresnel-gen's; coefficients by exchange: Stiefel, "Ueber diskrete und lineare
+//     Tschebyscheff-Approximationen", Numerische Mathematik 1, 1-28, 1959. https://doi.org/10.1007/BF01386369
 // Use: fresnel_fitted(cos_theta, FRESNEL_CATALOGUE[FRESNEL_ALUMINIUM], FRESNEL_CATALOGUE[FRESNEL_ALUMINIUM + 1],
 //     FRESNEL_CATALOGUE[FRESNEL_ALUMINIUM + 2], FRESNEL_CATALOGUE[FRESNEL_ALUMINIUM + 3]), with the library
 //     function of the material's method. By a constant it costs nothing; where the material is known at run time

@@ -10,7 +10,7 @@
 //     2014. https://jcgt.org/published/0003/04/03/
 // Domain: f0 counts as at most 0.999; an f82 that no n and k can give takes the nearest that one can
 // Arguments:
-//   cos_theta: cosine between the normal and the direction to the light or viewer
+//   cos_theta: cosine of the angle of incidence, dot(half, view) for a microfacet
 //   f0: reflectance at normal incidence, linear, 0 to 1
 //   f82: reflectance at cos_theta = 1/7 (81.79 degrees), linear, 0 to 1
 // Model error for eta 1.3 to 2.5: at most 0.0000347, worst at 82.2 degrees

@@ -13,7 +13,7 @@
 // Kept for comparison, exempt from the contract of the others. It fails: NaN at exactly 90 degrees and for
 //     cos_theta above 1; thousands of ulp where k is small; no clamp
 // Arguments:
-//   cos_theta: cosine between the normal and the direction to the light or viewer
+//   cos_theta: cosine of the angle of incidence, dot(half, view) for a microfacet
 //   n: real part of the relative index of refraction, 0.001 to 1e9
 //   k: extinction coefficient, the imaginary part of the relative index, 0 to 1e9
 // Model error for n 0.05 to 4.5, k 1.5 to 8: none, it is the exact law

@@ -9,7 +9,7 @@
 // Domain: on both sides of 1; eta = 1 gives 0 at every angle. Past the critical angle exactly 1, but for the
 //     number next to its cosine, where rounding decides: 0.998 or more
 // Arguments:
-//   cos_theta: cosine between the normal and the direction to the light or viewer
+//   cos_theta: cosine of the angle of incidence, dot(half, view) for a microfacet
 //   eta: relative index of refraction, transmitted over incident (n_t / n_i), 0.001 to 1e12
 // Model error for eta 1.3 to 2.5: none, it is the exact law
 // Code error for eta 1.0001 to 12: at most 2^-22, unfused f32 against f64

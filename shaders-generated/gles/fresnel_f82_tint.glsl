@@ -9,7 +9,7 @@
 //     https://helpx.adobe.com/substance-3d-general/adobe-standard-material.html
 // Domain: the result is limited to [0, 1], of f0 above 1 too
 // Arguments:
-//   cos_theta: cosine between the normal and the direction to the light or viewer
+//   cos_theta: cosine of the angle of incidence, dot(half, view) for a microfacet
 //   f0: reflectance at normal incidence, linear, 0 to 1
 //   tint: reflectance at 81.79 degrees over Schlick's value there, 0 to 2
 // Model error for eta 1.3 to 2.5: at most 0.0341, worst at 67.8 degrees

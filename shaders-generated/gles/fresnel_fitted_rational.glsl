@@ -5,11 +5,11 @@
 // fresnel_fitted_rational: four coefficients fitted to a metal or semiconductor, without an exponential
 //   F = c0 + a (c1 + r (c2 + q c3)), limited to [0, 1]
 //   r = 1 / (c + 0.144), q = sqrt(r), a = 1 / (c^2 + 0.112) - q
-// Source: Stiefel, "Ueber diskrete und lineare Tschebyscheff-Approximationen", Numerische Mathematik 1, 1-28,
-//     1959. https://doi.org/10.1007/BF01386369
+// Source: the form is fresnel-gen's; coefficients by exchange: Stiefel, "Ueber diskrete und lineare
+//     Tschebyscheff-Approximationen", Numerische Mathematik 1, 1-28, 1959. https://doi.org/10.1007/BF01386369
 // Domain: limited to [0, 1]
 // Arguments:
-//   cos_theta: cosine between the normal and the direction to the light or viewer
+//   cos_theta: cosine of the angle of incidence, dot(half, view) for a microfacet
 //   c0: coefficient of 1, -1000 to 1000
 //   c1: coefficient of the first term, -1000 to 1000
 //   c2: coefficient of the second term, -1000 to 1000

@@ -9,7 +9,7 @@
 //     https://hdl.handle.net/11025/11214
 // Domain: clamped to [0, 1]; lambda <= 0 drops the correction
 // Arguments:
-//   cos_theta: cosine between the normal and the direction to the light or viewer
+//   cos_theta: cosine of the angle of incidence, dot(half, view) for a microfacet
 //   n: real part of the relative index of refraction, 0.001 to 1e9
 //   k: extinction coefficient, the imaginary part of the relative index, 0 to 1e9
 //   lambda: exponent of the correction; 0 or less where there is none, -1000 to 1000

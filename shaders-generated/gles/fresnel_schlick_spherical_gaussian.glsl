@@ -9,7 +9,7 @@
 // Domain: f0 above 1 is taken as it is: the result then lies in [0, max(1, f0)]; at normal incidence the result is
 //     f0 + 1.7e-4 (1 - f0)
 // Arguments:
-//   cos_theta: cosine between the normal and the direction to the light or viewer
+//   cos_theta: cosine of the angle of incidence, dot(half, view) for a microfacet
 //   f0: reflectance at normal incidence, linear, 0 to 1
 // Model error for eta 1.3 to 2.5: at most 0.0864, worst at 84.6 degrees
 // Model error for n 0.05 to 4.5, k 1.5 to 8: at most 0.279, worst at 84.5 degrees

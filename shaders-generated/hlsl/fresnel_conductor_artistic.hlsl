@@ -9,7 +9,7 @@
 //     2014. https://jcgt.org/published/0003/04/03/
 // Domain: both are clamped to [0, 1]; reflectivity above 0.999 counts as 0.999
 // Arguments:
-//   cos_theta: cosine between the normal and the direction to the light or viewer
+//   cos_theta: cosine of the angle of incidence, dot(half, view) for a microfacet
 //   reflectivity: reflectance at normal incidence, linear, 0 to 1
 //   edge_tint: 1 for the least n that the reflectivity allows, 0 for the most, 0 to 1
 // Model error for n 0.05 to 4.5, k 1.5 to 8: none, it is the exact law

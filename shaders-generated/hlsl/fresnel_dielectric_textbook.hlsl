@@ -13,7 +13,7 @@
 // Kept for comparison, exempt from the contract of the others. It fails: NaN past the critical angle; thousands of
 //     ulp as eta tends to 1; no clamp; NaN, not 0, at eta = 1 and 90 degrees
 // Arguments:
-//   cos_theta: cosine between the normal and the direction to the light or viewer
+//   cos_theta: cosine of the angle of incidence, dot(half, view) for a microfacet
 //   eta: relative index of refraction, transmitted over incident (n_t / n_i), 0.001 to 1e12
 // Model error for eta 1.3 to 2.5: none, it is the exact law
 // Code error for eta 1.0001 to 12: at most 11000 ulp or 2^-22, unfused f32 against f64

@@ -4,11 +4,11 @@
 //
 // fresnel_fitted: four coefficients fitted to a metal or semiconductor
 //   F = c0 + b (c1 + b (c2 + b c3)), b = 2^(-6.5 c), limited to [0, 1]
-// Source: Stiefel, "Ueber diskrete und lineare Tschebyscheff-Approximationen", Numerische Mathematik 1, 1-28,
-//     1959. https://doi.org/10.1007/BF01386369
+// Source: the form is fresnel-gen's; coefficients by exchange: Stiefel, "Ueber diskrete und lineare
+//     Tschebyscheff-Approximationen", Numerische Mathematik 1, 1-28, 1959. https://doi.org/10.1007/BF01386369
 // Domain: limited to [0, 1]
 // Arguments:
-//   cos_theta: cosine between the normal and the direction to the light or viewer
+//   cos_theta: cosine of the angle of incidence, dot(half, view) for a microfacet
 //   c0: coefficient of 1, -1000 to 1000
 //   c1: coefficient of the first term, -1000 to 1000
 //   c2: coefficient of the second term, -1000 to 1000

@@ -8,7 +8,7 @@
 //     233-246, 1994. https://doi.org/10.1111/1467-8659.1330233
 // Domain: off by at most 0.059 for eta from 1.4 to 2.2; below 1 it misses total reflection
 // Arguments:
-//   cos_theta: cosine between the normal and the direction to the light or viewer
+//   cos_theta: cosine of the angle of incidence, dot(half, view) for a microfacet
 //   eta: relative index of refraction, transmitted over incident (n_t / n_i), 0.001 to 1e12
 // Model error for eta 1.3 to 2.5: at most 0.0841, worst at 84.5 degrees
 // Code error for eta 1.0001 to 12: at most 10.5 ulp or 2^-22, unfused f32 against f64

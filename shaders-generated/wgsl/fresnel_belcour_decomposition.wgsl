@@ -10,7 +10,7 @@
 //     https://blog.selfshadow.com/publications/s2020-shading-course/
 // Domain: weights solved for f0; limited to [0, 1]
 // Arguments:
-//   cos_theta: cosine between the normal and the direction to the light or viewer
+//   cos_theta: cosine of the angle of incidence, dot(half, view) for a microfacet
 //   f0: reflectance at normal incidence, linear, 0 to 1
 //   b2_weight: weight of the second curve, solved at 82.64 degrees, -1000 to 1000
 //   b3_weight: weight of the third curve, solved at 64.38 degrees, -1000 to 1000

@@ -9,7 +9,7 @@
 //     https://www.realtimerendering.com/Principles_of_Digital_Image_Synthesis_v1.0.1.pdf
 // Domain: k = 0 is the dielectric; n = 1 with k = 0 gives 0 at every angle; from n = k = 3e9 on it overflows
 // Arguments:
-//   cos_theta: cosine between the normal and the direction to the light or viewer
+//   cos_theta: cosine of the angle of incidence, dot(half, view) for a microfacet
 //   n: real part of the relative index of refraction, 0.001 to 1e9
 //   k: extinction coefficient, the imaginary part of the relative index, 0 to 1e9
 // Model error for eta 1.3 to 2.5: none, it is the exact law

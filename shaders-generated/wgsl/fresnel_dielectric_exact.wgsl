@@ -11,7 +11,7 @@
 //     values of f32 next to its cosine, where rounding decides: 0.99 or more for eta from 0.25 on. Before it the
 //     law is steep: f32 may be off by 0.01 for eta from 0.25 to 0.999
 // Arguments:
-//   cos_theta: cosine between the normal and the direction to the light or viewer
+//   cos_theta: cosine of the angle of incidence, dot(half, view) for a microfacet
 //   eta: relative index of refraction, transmitted over incident (n_t / n_i), 0.001 to 1e12
 // Model error for eta 1.3 to 2.5: none, it is the exact law
 // Code error for eta 1.0001 to 12: at most 6.6 ulp or 2^-22, unfused f32 against f64

@@ -8,7 +8,7 @@
 //     https://developer.download.nvidia.com/CgTutorial/cg_tutorial_chapter07.html
 // Domain: the arguments are numbers: the three channels get the same reflectance
 // Arguments:
-//   cos_theta: cosine between the normal and the direction to the light or viewer
+//   cos_theta: cosine of the angle of incidence, dot(half, view) for a microfacet
 //   bias: reflectance at normal incidence, 0 to 1
 //   scale: what grazing incidence adds, 0 to 1
 //   power: how late it is added, 0.2 to 1000

@@ -8,7 +8,7 @@
 //     https://seblagarde.wordpress.com/2015/07/14/siggraph-2014-moving-frostbite-to-physically-based-rendering/
 // Domain: the result lies between f0 and f90, and f0 above 1 is taken as it is
 // Arguments:
-//   cos_theta: cosine between the normal and the direction to the light or viewer
+//   cos_theta: cosine of the angle of incidence, dot(half, view) for a microfacet
 //   f0: reflectance at normal incidence, linear, 0 to 1
 //   f90: reflectance at 90 degrees, 0 to 1
 // Model error for eta 1.3 to 2.5: at most 0.0841, worst at 84.5 degrees

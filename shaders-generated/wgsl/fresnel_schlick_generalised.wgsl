@@ -8,7 +8,7 @@
 //     https://renderwonk.com/publications/gfm/
 // Domain: the result lies between f0 and f90, and f0 above 1 is taken as it is
 // Arguments:
-//   cos_theta: cosine between the normal and the direction to the light or viewer
+//   cos_theta: cosine of the angle of incidence, dot(half, view) for a microfacet
 //   f0: reflectance at normal incidence, linear, 0 to 1
 //   f90: reflectance at 90 degrees, 0 to 1
 //   exponent: how late the curve rises to f90; 5 is Schlick's, 0.2 to 1000

@@ -8,7 +8,7 @@
 //     https://hdl.handle.net/11025/11214
 // Domain: misses the minimum of metals
 // Arguments:
-//   cos_theta: cosine between the normal and the direction to the light or viewer
+//   cos_theta: cosine of the angle of incidence, dot(half, view) for a microfacet
 //   n: real part of the relative index of refraction, 0.001 to 1e9
 //   k: extinction coefficient, the imaginary part of the relative index, 0 to 1e9
 // Model error for eta 1.3 to 2.5: at most 0.0841, worst at 84.5 degrees

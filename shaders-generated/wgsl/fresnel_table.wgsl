@@ -12,7 +12,7 @@
 // Domain: a sampler that filters linearly and clamps to the edge, linear texels (not sRGB), cos theta = 0 first.
 //     The errors below are those of 64 texels and warp 4
 // Arguments:
-//   cos_theta: cosine between the normal and the direction to the light or viewer
+//   cos_theta: cosine of the angle of incidence, dot(half, view) for a microfacet
 //   table: the texture, and after it the sampler: reflectance along x, cos theta = 0 first, linear and not sRGB;
 //       the sampler filters linearly and clamps to the edge, 0 to 1
 //   texels: texels in a row of the table, 2 to 16384

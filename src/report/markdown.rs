@@ -22,7 +22,7 @@ pub fn methods_table() -> String {
             inputs.join(", "),
             work.to_string(),
             code_cell(method),
-            format!("{} {}", method.source.authors, method.source.year),
+            source_cell(method),
         ]
     });
     table(
@@ -36,6 +36,14 @@ pub fn methods_table() -> String {
         ],
         rows,
     )
+}
+
+fn source_cell(method: &Method) -> String {
+    let source = format!("{} {}", method.source.authors, method.source.year);
+    match method.is_fitted() {
+        true => format!("fresnel-gen; fit by exchange: {source}"),
+        false => source,
+    }
 }
 
 /// Model error of every method on these materials in air, as they are seen by default: largest absolute, and mean

@@ -10,7 +10,7 @@
 // Index per channel, relative to air:
 //   n = (2.409613, 2.422925, 2.44129), k = (0, 0, 0)
 //   red, green, blue as its curve comes nearest, since no transparent index has both F0 and F82
-// Argument: cos_theta, cosine between the normal and the direction to the light or viewer; clamped to [0, 1]
+// Argument: cos_theta, cosine of the angle of incidence, dot(half, view) for a microfacet; clamped to [0, 1]
 // Licence of this file: CC0-1.0
 
 #ifndef FRESNEL_DIAMOND_MATERIAL_GLES
@@ -39,11 +39,11 @@ highp vec3 fresnel_diamond(highp float cos_theta) {
 
 // fresnel_diamond_fitted_dielectric: four coefficients fitted to a dielectric of n 1.2 or more, specialised
 //   F = c0 + b^3 (c1 + b^4 (c2 + b^7 c3)), b = 1 - c, limited to [0, 1]
-// Source: Stiefel, "Ueber diskrete und lineare Tschebyscheff-Approximationen", Numerische Mathematik 1, 1-28,
-//     1959. https://doi.org/10.1007/BF01386369
+// Source: the form is fresnel-gen's; coefficients by exchange: Stiefel, "Ueber diskrete und lineare
+//     Tschebyscheff-Approximationen", Numerische Mathematik 1, 1-28, 1959. https://doi.org/10.1007/BF01386369
 // Model error: at most 0.00103 (at 72.09 degrees), 0.33 % in the mean over angles.
 // Code error: at most 7.5 ulp or 2^-22, unfused f32 against f64.
-// Average over the hemisphere: (0.211274, 0.212843, 0.214998).
+// Average over the hemisphere, weighted by cosine: (0.211274, 0.212843, 0.214998).
 // Cost: 27 scalar operations
 highp vec3 fresnel_diamond_fitted_dielectric(highp float cos_theta) {
     highp float c = clamp(cos_theta, 0.0, 1.0); // clamp: a rounded dot product may exceed 1

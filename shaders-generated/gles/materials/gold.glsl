@@ -11,7 +11,7 @@
 // Index per channel, relative to air:
 //   n = (0.168201, 0.406327, 1.578881), k = (16.24907, 2.274419, 1.708002)
 //   green, blue as F0 and F82 determine it; red as its curve comes nearest, since no index has both F0 and F82
-// Argument: cos_theta, cosine between the normal and the direction to the light or viewer; clamped to [0, 1]
+// Argument: cos_theta, cosine of the angle of incidence, dot(half, view) for a microfacet; clamped to [0, 1]
 // Licence of this file: CC0-1.0
 
 #ifndef FRESNEL_GOLD_MATERIAL_GLES
@@ -41,12 +41,12 @@ highp vec3 fresnel_gold(highp float cos_theta) {
 
 // fresnel_gold_fitted: four coefficients fitted to a metal or semiconductor, specialised
 //   F = c0 + b (c1 + b (c2 + b c3)), b = 2^(-6.5 c), limited to [0, 1]
-// Source: Stiefel, "Ueber diskrete und lineare Tschebyscheff-Approximationen", Numerische Mathematik 1, 1-28,
-//     1959. https://doi.org/10.1007/BF01386369
+// Source: the form is fresnel-gen's; coefficients by exchange: Stiefel, "Ueber diskrete und lineare
+//     Tschebyscheff-Approximationen", Numerische Mathematik 1, 1-28, 1959. https://doi.org/10.1007/BF01386369
 // Model error: at most 0.00193 (at 59.39 degrees), 0.14 % in the mean over angles.
 // Code error: at most 4.5 ulp or 2^-22, unfused f32 against f64.
-// Average over the hemisphere: (0.999366, 0.78385, 0.377382); before the limit to [0, 1] (1.026594, 0.78385,
-//     0.377382).
+// Average over the hemisphere, weighted by cosine: (0.999366, 0.78385, 0.377382); before the limit to [0, 1]
+//     (1.026594, 0.78385, 0.377382).
 // Cost: 24 scalar operations, among them 1 exponential or logarithm
 highp vec3 fresnel_gold_fitted(highp float cos_theta) {
     highp float c = clamp(cos_theta, 0.0, 1.0); // clamp: a rounded dot product may exceed 1

@@ -12,7 +12,7 @@
 // Index per channel, relative to air:
 //   n = (1.331323, 1.33344, 1.337309), k = (0, 0, 0)
 //   red, green, blue as its curve comes nearest, since no transparent index has both F0 and F82
-// Argument: cos_theta, cosine between the normal and the direction to the light or viewer; clamped to [0, 1]
+// Argument: cos_theta, cosine of the angle of incidence, dot(half, view) for a microfacet; clamped to [0, 1]
 // Licence of this file: CC0-1.0
 
 #ifndef FRESNEL_WATER_MATERIAL_GLES
@@ -40,11 +40,11 @@ highp vec3 fresnel_water(highp float cos_theta) {
 
 // fresnel_water_fitted_dielectric: four coefficients fitted to a dielectric of n 1.2 or more, specialised
 //   F = c0 + b^3 (c1 + b^4 (c2 + b^7 c3)), b = 1 - c, limited to [0, 1]
-// Source: Stiefel, "Ueber diskrete und lineare Tschebyscheff-Approximationen", Numerische Mathematik 1, 1-28,
-//     1959. https://doi.org/10.1007/BF01386369
+// Source: the form is fresnel-gen's; coefficients by exchange: Stiefel, "Ueber diskrete und lineare
+//     Tschebyscheff-Approximationen", Numerische Mathematik 1, 1-28, 1959. https://doi.org/10.1007/BF01386369
 // Model error: at most 0.00049 (at 38.58 degrees), 0.61 % in the mean over angles.
 // Code error: at most 7.5 ulp or 2^-22, unfused f32 against f64.
-// Average over the hemisphere: (0.066049, 0.066384, 0.066995).
+// Average over the hemisphere, weighted by cosine: (0.066049, 0.066384, 0.066995).
 // Cost: 27 scalar operations
 highp vec3 fresnel_water_fitted_dielectric(highp float cos_theta) {
     highp float c = clamp(cos_theta, 0.0, 1.0); // clamp: a rounded dot product may exceed 1

@@ -11,7 +11,7 @@
 // Index per channel, relative to air:
 //   n = (2.358056, 2.067692, 1.826141), k = (4.254518, 3.67893, 3.091341)
 //   red, green, blue as F0 and F82 determine it
-// Argument: cos_theta, cosine between the normal and the direction to the light or viewer; clamped to [0, 1]
+// Argument: cos_theta, cosine of the angle of incidence, dot(half, view) for a microfacet; clamped to [0, 1]
 // Licence of this file: CC0-1.0
 
 // fresnel_platinum: the exact law for conductors, stable at small k and at grazing, specialised
@@ -38,11 +38,11 @@ fn fresnel_platinum(cos_theta: f32) -> vec3<f32> {
 
 // fresnel_platinum_fitted: four coefficients fitted to a metal or semiconductor, specialised
 //   F = c0 + b (c1 + b (c2 + b c3)), b = 2^(-6.5 c), limited to [0, 1]
-// Source: Stiefel, "Ueber diskrete und lineare Tschebyscheff-Approximationen", Numerische Mathematik 1, 1-28,
-//     1959. https://doi.org/10.1007/BF01386369
+// Source: the form is fresnel-gen's; coefficients by exchange: Stiefel, "Ueber diskrete und lineare
+//     Tschebyscheff-Approximationen", Numerische Mathematik 1, 1-28, 1959. https://doi.org/10.1007/BF01386369
 // Model error: at most 0.00176 (at 68.74 degrees), 0.12 % in the mean over angles.
 // Code error: at most 5.5 ulp or 2^-22, unfused f32 against f64.
-// Average over the hemisphere: (0.66476, 0.630904, 0.583546).
+// Average over the hemisphere, weighted by cosine: (0.66476, 0.630904, 0.583546).
 // Cost: 24 scalar operations, among them 1 exponential or logarithm
 fn fresnel_platinum_fitted(cos_theta: f32) -> vec3<f32> {
     let c = saturate(cos_theta); // clamp: a rounded dot product may exceed 1

@@ -6,6 +6,7 @@ mod brought;
 mod budget;
 mod catalogue;
 mod chart;
+mod cmake;
 #[cfg(feature = "gpu")]
 mod cost;
 mod determinism;
