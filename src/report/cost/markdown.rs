@@ -26,10 +26,16 @@ same of every function, specialised ones too, and asks the compilers that are he
 - Shares are of `dielectric_exact`.
 ";
 
-/// The functions of three channels in single precision: all families side by side, then each with its figures.
+/// The functions of three channels in single precision, all families side by side, and what the families are. All figures are in the
+/// record.
 pub fn markdown(families: &[Vec<Row>]) -> String {
-    let sections = families.iter().map(|rows| section(rows));
-    INTRODUCTION.to_owned() + &side_by_side(families) + &sections.collect::<String>()
+    let library = side_by_side(families, &|row| row.material.is_none());
+    let materials = side_by_side(families, &|row| row.material.is_some());
+    format!(
+        "{INTRODUCTION}\n## Library functions\n\nShares in per cent; `+` is a texture fetch, `?` is not measured.\n\n{library}\n\
+         ## Functions of materials\n\n{materials}\n## Families\n\n{}",
+        families_table(families)
+    )
 }
 
 fn is_shown(row: &Row) -> bool {
@@ -37,49 +43,58 @@ fn is_shown(row: &Row) -> bool {
 }
 
 /// Shares, a column for each family of which anything is known.
-fn side_by_side(families: &[Vec<Row>]) -> String {
-    let known: Vec<&Vec<Row>> = families
-        .iter()
-        .filter(|rows| rows.iter().any(|row| row.figures.is_ok()))
-        .collect();
+fn side_by_side(families: &[Vec<Row>], is_wanted: &dyn Fn(&Row) -> bool) -> String {
+    let known: Vec<&Vec<Row>> = families.iter().filter(|rows| is_known(rows)).collect();
     let names: Vec<&str> = known.iter().map(|rows| rows[0].family.name).collect();
-    let mut page = format!(
-        "\n## Side by side\n\nShares in per cent; `+` is a texture fetch.\n\n| function | {} |\n|---|{}\n",
+    let mut table = format!(
+        "| function | {} |\n|---|{}\n",
         names.join(" | "),
         "---:|".repeat(names.len())
     );
-    for (place, row) in known[0].iter().enumerate().filter(|(_, row)| is_shown(row)) {
+    let is_wanted = |row: &Row| is_shown(row) && is_wanted(row);
+    for (place, row) in known[0]
+        .iter()
+        .enumerate()
+        .filter(|(_, row)| is_wanted(row))
+    {
         let cells: Vec<String> = known.iter().map(|rows| percent(&rows[place])).collect();
         // Writing to a String cannot fail.
-        let _ = writeln!(page, "| {} | {} |", row.label(), cells.join(" | "));
+        let _ = writeln!(table, "| {} | {} |", row.label(), cells.join(" | "));
     }
-    page
+    table
 }
 
-fn section(rows: &[Row]) -> String {
-    let shown: Vec<&Row> = rows
-        .iter()
-        .filter(|row| is_shown(row) && row.figures.is_ok())
-        .collect();
-    let Some(first) = shown.first() else {
-        return String::new();
-    };
-    let family = first.family;
-    let compiler = first.compiler.as_deref().unwrap_or("Counted in the graph");
-    let head = format!(
-        "\n## {}\n\n{}. {compiler}.\n\n| function | {} | share | fetches |\n|---|---:|---:|---:|\n",
-        family.name, family.gpu, family.columns.measure
-    );
-    let line = |row: &&Row| {
-        let cost = row.figures.as_ref().ok().map(|figures| figures.cost());
-        let share = row.share.map(|share| format!("{:.0} %", 100.0 * share));
-        format!(
-            "| {} | {} | {} | {} |\n",
-            row.label(),
-            short(cost),
-            share.unwrap_or_default(),
-            row.fetches
-        )
-    };
-    head + &shown.iter().map(line).collect::<String>()
+fn is_known(rows: &[Row]) -> bool {
+    rows.iter().any(|row| row.figures.is_ok())
+}
+
+/// Which GPU each family is, who compiled, what the figure is, what one evaluation of the exact law for dielectrics costs by it.
+fn families_table(families: &[Vec<Row>]) -> String {
+    let mut table =
+        "| family | GPU | compiler | figure | `dielectric_exact` | all figures |\n|---|---|---|---|---:|---|\n".to_owned();
+    for rows in families.iter().filter(|rows| is_known(rows)) {
+        let family = rows[0].family;
+        let compiler = rows.iter().find_map(|row| row.compiler.as_deref());
+        let is_whole = |row: &&Row| {
+            is_shown(row) && row.material.is_none() && row.method == "dielectric_exact"
+        };
+        let whole = rows
+            .iter()
+            .find(is_whole)
+            .and_then(|row| row.figures.as_ref().ok());
+        let record = match compiler {
+            Some(_) => format!("[CSV](../data/records/costs/{}.csv)", family.name),
+            None => "`fresnel-gen cost --gpu operations`".to_owned(),
+        };
+        let _ = writeln!(
+            table,
+            "| {} | {} | {} | {} | {} | {record} |",
+            family.name,
+            family.gpu,
+            compiler.unwrap_or("counted in the graph"),
+            family.columns.measure,
+            short(whole.map(|figures| figures.cost())),
+        );
+    }
+    table
 }

@@ -1,10 +1,11 @@
 //! The document that says where methods fail, written from a scan.
 
 use std::collections::BTreeSet;
+use std::mem::{Discriminant, discriminant};
 
 use super::{Row, percent, worst};
 use crate::report::markdown::table;
-use crate::verify::stability::Finding;
+use crate::verify::stability::{Failure, Finding};
 
 const HEAD: &str = "# Where methods fail
 
@@ -28,7 +29,11 @@ pub fn markdown(rows: &[Row], half: &[Row]) -> String {
     let is_media = |finding: &Finding| finding.is_media;
     let of_media = |finding: &Finding| finding.is_media && !finding.failure.is_of_the_model();
     format!(
-        "{HEAD}\n## Media\n\n{}\n## Arguments that no medium has\n\n{}\n## Half precision\n\n{HALF}\n{}",
+        "{HEAD}\n## Each method in a line\n\n{}\n## Media\n\n{}\n## Arguments that no medium has\n\n{}\n## Half precision\n\n{HALF}\n{}",
+        table(
+            &["method", "in f32, over all media"],
+            summaries(rows).into_iter()
+        ),
         told(rows, is_media),
         told(rows, |finding| !finding.is_media),
         told(half, of_media),
@@ -38,6 +43,32 @@ pub fn markdown(rows: &[Row], half: &[Row]) -> String {
 const HALF: &str = "Rounded to f16 after every operation, at inputs that f16 has; the formulas' own errors are those above. Distances are \
 absolute: 11 bits leave 0.0005 near 1. Methods that `--precision f16` refuses are not here; others that are not here do not fail.
 ";
+
+/// A line for each method: its gravest failures over media, with the widest of their regions.
+fn summaries(rows: &[Row]) -> Vec<Vec<String>> {
+    let methods: BTreeSet<&'static str> = rows.iter().map(|row| row.method).collect();
+    let summary = |method: &'static str| {
+        let of_method = rows.iter().filter(|row| row.method == method);
+        let findings = of_method.filter_map(|row| row.finding.as_ref());
+        let findings: Vec<&Finding> = findings.filter(|finding| finding.is_media).collect();
+        let mut told: Vec<String> = Vec::new();
+        let mut kinds: Vec<Discriminant<Failure>> = Vec::new();
+        for finding in &findings {
+            // Of errors above several limits, and of several distances in ulp, the largest says enough.
+            let kind = discriminant(&finding.failure);
+            if !kinds.contains(&kind) {
+                kinds.push(kind);
+                told.push(format!("{}: {}", finding.failure.text(), finding.region));
+            }
+        }
+        let words = match told.is_empty() {
+            true => "no failure found".to_owned(),
+            false => told.join("; "),
+        };
+        vec![format!("`{method}`{}", exempt(method)), words]
+    };
+    methods.into_iter().map(summary).collect()
+}
 
 /// A line for each method and failure, with all its regions.
 fn grouped(rows: &[Row], wanted: fn(&Finding) -> bool) -> Vec<Vec<String>> {
