@@ -201,8 +201,8 @@ fn false_numbers_in_a_header_are_seen() {
             "1.5 ulp",
         ),
         (
-            "hemisphere: (0.999366,",
-            "hemisphere: (0.899366,",
+            "by cosine: (0.999366,",
+            "by cosine: (0.899366,",
             "0.899366",
         ),
         ("Cost: 64 scalar", "Cost: 16 scalar", "Cost: 16"),
