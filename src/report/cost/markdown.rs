@@ -7,6 +7,8 @@ use super::{Row, percent, short};
 const INTRODUCTION: &str = "\
 # What methods cost
 
+Of one evaluation of the exact law for dielectrics `schlick` costs {schlick}, `fitted` {fitted} and `f82_tint` {f82_tint}, by family of GPUs.
+
 Written from the record that `tests/costs` keeps (`data/records/costs/`), and held by a test. `fresnel-gen cost` says the
 same of every function, specialised ones too, and asks the compilers that are here; `--check` compares with the record.
 
@@ -31,8 +33,13 @@ same of every function, specialised ones too, and asks the compilers that are he
 pub fn markdown(families: &[Vec<Row>]) -> String {
     let library = side_by_side(families, &|row| row.material.is_none());
     let materials = side_by_side(families, &|row| row.material.is_some());
+    let mut introduction = INTRODUCTION.to_owned();
+    for method in ["schlick", "fitted", "f82_tint"] {
+        let mark = format!("{{{method}}}");
+        introduction = introduction.replace(&mark, &range(families, method));
+    }
     format!(
-        "{INTRODUCTION}\n## Library functions\n\nShares in per cent; `+` is a texture fetch, `?` is not measured.\n\n{library}\n\
+        "{introduction}\n## Library functions\n\nShares in per cent; `+` is a texture fetch, `?` is not measured.\n\n{library}\n\
          ## Functions of materials\n\n{materials}\n## Families\n\n{}",
         families_table(families)
     )
@@ -62,6 +69,20 @@ fn side_by_side(families: &[Vec<Row>], is_wanted: &dyn Fn(&Row) -> bool) -> Stri
         let _ = writeln!(table, "| {} | {} |", row.label(), cells.join(" | "));
     }
     table
+}
+
+/// The least and the largest share of a library function over all families that a compiler spoke for.
+fn range(families: &[Vec<Row>], method: &str) -> String {
+    let rows = families
+        .iter()
+        .flatten()
+        .filter(|row| row.compiler.is_some() && is_shown(row));
+    let own = rows.filter(|row| row.material.is_none() && row.method == method);
+    let shares = own.filter_map(|row| row.share);
+    let ends = shares.fold((f64::MAX, f64::MIN), |(low, high), x| {
+        (low.min(x), high.max(x))
+    });
+    format!("{:.0} to {:.0} %", 100.0 * ends.0, 100.0 * ends.1)
 }
 
 fn is_known(rows: &[Row]) -> bool {

@@ -9,6 +9,10 @@ use crate::verify::stability::{Failure, Finding};
 
 const HEAD: &str = "# Where methods fail
 
+In f32, what this program writes for use is a reflectance for every medium of the scan, at every cosine. Schlick's family knows neither
+total reflection, nor indices near 1, nor the dip of metals. The textbook forms of the exact laws give NaN at 90 degrees, for a cosine
+above 1 or past the critical angle, and lose all their digits near eta = 1 and k = 0.
+
 Written by `fresnel-gen stability`, and held by a test. Each method was run in unfused f32 over its domain and past it: cosines from
 -1 to 8 ulp above 1, indices from 0.001 to 1000 with 1 and its neighbours, k from subnormal numbers to 10000. Two things go wrong, and
 they are never added:

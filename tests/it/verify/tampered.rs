@@ -200,11 +200,7 @@ fn false_numbers_in_a_header_are_seen() {
             "Code error: at most 1.5 ulp",
             "1.5 ulp",
         ),
-        (
-            "by cosine: (0.999366,",
-            "by cosine: (0.899366,",
-            "0.899366",
-        ),
+        ("by cosine: (0.999366,", "by cosine: (0.899366,", "0.899366"),
         ("Cost: 64 scalar", "Cost: 16 scalar", "Cost: 16"),
         (
             "Truth: reflectance integrated over 380",
