@@ -302,12 +302,15 @@ fn stage(
     };
     // From here on it is deleted when dropped.
     let temporary = TempPath::try_from_path(temporary)?;
+    // Who may read a file is its owner's choice: a new version keeps it, where the file system can.
+    if let Some(old) = fs::symlink_metadata(path)
+        .ok()
+        .filter(fs::Metadata::is_file)
+    {
+        let _ = file.set_permissions(old.permissions());
+    }
     file.write_all(bytes)?;
     file.flush()?;
-    // Who may read a file is its owner's choice: a new version keeps it.
-    if let Ok(old) = fs::metadata(path) {
-        file.set_permissions(old.permissions())?;
-    }
     Ok(Staged {
         temporary,
         destination: path.to_path_buf(),

@@ -66,6 +66,7 @@ pub fn fitted_for(method: &Method, curve: &Curve, aim: Aim) -> Option<(Values, f
 /// The values of all inputs of a method but a texture. A λ that does not exist is 0, which drops the term. A method that solves its
 /// colours for an index gets colours that an index has.
 pub fn values_of(method: &Method, surface: &KnownSurface) -> Values {
+    assert!(!method.is_fitted(), "coefficients come of a fit: a bug");
     let solvable;
     let surface = if method.specialised.is_some() {
         solvable = KnownSurface::of_index(surface.n, surface.k, surface.matching_cos);

@@ -173,10 +173,9 @@ fn point_fault((nm, value): (f64, f64), (name, low, high): Column) -> Option<Str
     if !(shortest..=longest).contains(&nm) {
         return Some(format!(
             "a wavelength is {nm:e} nm; it must lie between {shortest} and {longest}{}",
-            if nm < shortest {
-                "; are these micrometres, in a column named nm?"
-            } else {
-                ""
+            match nm < shortest {
+                true => "; are these micrometres, in a column named nm?",
+                false => "; are these nanometres, in a column named um?",
             }
         ));
     }

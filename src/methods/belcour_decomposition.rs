@@ -30,7 +30,6 @@ const CURVES: [[f64; 4]; 3] = [
 /// How fast r falls.
 const FALL: f64 = 3.0;
 
-/// The record of this method.
 #[allow(missing_docs)] // each says what it is
 impl Input {
     pub const B2_WEIGHT: Input = Input::rgb(
@@ -56,6 +55,7 @@ fn weights_of(known: &KnownSurface, i: usize) -> [f64; 2] {
     belcour_weights(known.f0[i], known.belcour.map(|seen| seen[i]))
 }
 
+/// The record of this method.
 pub static METHOD: Method = Method {
     name: "belcour_decomposition",
     summary: "Belcour's four shared curves, two of them weighted",

@@ -18,7 +18,6 @@ use super::input::{Input, Inputs, Range, SHARES, SHARES_AND_BEYOND};
 use super::known::each;
 use super::method::{Claim, Claims, Class, Colours, Contract, Forms, Light, Method, Over, Values};
 
-/// The record of this method.
 #[allow(missing_docs)] // each says what it is
 impl Input {
     pub const REFLECTIVITY: Input = Input::rgb(
@@ -51,6 +50,7 @@ fn edge_tint(n: f64, k: f64) -> f64 {
     }
 }
 
+/// The record of this method.
 pub static METHOD: Method = Method {
     name: "conductor_artistic",
     summary: "the exact law for conductors from reflectivity and edge tint",

@@ -14,7 +14,6 @@ use super::input::{Input, Inputs, POWERS, POWERS_AND_BEYOND, SHARES, SHARES_AND_
 use super::known::{COS_60, mean};
 use super::method::{Claim, Claims, Class, Contract, Forms, Light, Method, Over};
 
-/// The record of this method.
 #[allow(missing_docs)] // each says what it is
 impl Input {
     pub const BIAS: Input = Input::scalar(
@@ -53,6 +52,7 @@ fn power(bias: f64, target: f64) -> f64 {
     }
 }
 
+/// The record of this method.
 pub static METHOD: Method = Method {
     name: "empirical",
     summary: "NVIDIA's bias, scale and power",

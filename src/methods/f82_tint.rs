@@ -17,7 +17,6 @@ use super::known::each;
 use super::method::{Claim, Claims, Class, Colours, Contract, Forms, Light, Method, Over};
 use super::schlick::grazing_weight;
 
-/// The record of this method.
 #[allow(missing_docs)] // each says what it is
 impl Input {
     pub const TINT: Input = Input::rgb(
@@ -37,6 +36,7 @@ pub fn schlick_82(f0: f64) -> f64 {
     f0 + (1.0 - f0) * 7_776.0 / 16_807.0
 }
 
+/// The record of this method.
 pub static METHOD: Method = Method {
     name: "f82_tint",
     summary: "Schlick's approximation corrected to a tint at 81.79 degrees",

@@ -23,7 +23,7 @@ pub struct Method {
     pub formula: &'static [&'static str],
     /// Who published it.
     pub source: Citation,
-    /// What it takes after `cos_theta`, in the order of [`Input::ORDER`].
+    /// What it takes after `cos_theta`, in the order of all methods that take these.
     pub inputs: &'static [Input],
     /// Which forms it has.
     pub forms: Forms,

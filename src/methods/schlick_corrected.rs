@@ -18,7 +18,6 @@ use super::known::each;
 use super::method::{Claim, Claims, Class, Contract, Forms, Light, Method, Over};
 use super::schlick_rescaled::{LAZANYI_2005, rescaled};
 
-/// The record of this method.
 #[allow(missing_docs)] // each says what it is
 impl Input {
     pub const LAMBDA: Input = Input::rgb(
@@ -57,6 +56,7 @@ fn lambda_for(n: f64, k: f64, cos_theta: f64, exact: f64) -> Option<f64> {
     (share > 0.0 && share < 1.0).then(|| libm::log2(share) / libm::log2(1.0 - cos_theta))
 }
 
+/// The record of this method.
 pub static METHOD: Method = Method {
     name: "schlick_corrected",
     summary: "the rescaled Schlick with a term that restores the minimum of metals",

@@ -12,7 +12,6 @@ use super::half::InHalf;
 use super::input::{Input, Inputs, POWERS, POWERS_AND_BEYOND};
 use super::method::{Claim, Claims, Class, Contract, Forms, Light, Method, Over};
 
-/// The record of this method.
 #[allow(missing_docs)] // each says what it is
 impl Input {
     pub const EXPONENT: Input = Input::scalar(
@@ -25,6 +24,7 @@ impl Input {
     .scanned(POWERS_AND_BEYOND);
 }
 
+/// The record of this method.
 pub static METHOD: Method = Method {
     name: "schlick_generalised",
     summary: "Schlick's approximation with F90 and any exponent",

@@ -65,7 +65,7 @@ pub fn headline(command: &str) -> Result<String, String> {
     sheet.paragraph(&HEADING, title);
     let words = format!(
         "Spheres in a white room. Left half: the colour of the reflection. Right half: the error, {BRIGHTER} times \
-         brighter; black is no error. On RDNA 2 fitted costs 1.1 times as much as Schlick."
+         brighter; black is no error."
     );
     sheet.paragraph(&SUBTITLE, &words);
     for (material, low) in MATERIALS {

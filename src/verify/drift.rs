@@ -1,5 +1,5 @@
-//! A file as it lies there against what would be written today: declarations that were added or are missing, and headers
-//! whose numbers are others. A difference elsewhere is no finding: what the code does is found by running it.
+//! A file as it lies there against what would be written today: declarations that were added or are missing, narrower
+//! types, and comments that state something else. A difference elsewhere is no finding: what the code does is found by running it.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -51,7 +51,7 @@ pub fn findings(
         .into_iter()
         .filter(wanted);
     let absent = absent.map(|item| format!("{path}: it lacks `{}`", shown(&item.words)));
-    let numbers = false_numbers(&found.comments, &today.comments);
+    let numbers = false_statements(&found.comments, &today.comments);
     let numbers = numbers.into_iter().map(|(item, right)| match right {
         Some(right) => format!(
             "{}: it says `{}`, and right is `{right}`",
@@ -73,8 +73,8 @@ pub fn findings(
         )
     });
     added
-        .chain(narrow)
         .take(TOLD)
+        .chain(narrow.take(TOLD))
         .chain(absent.take(TOLD))
         .chain(numbers.take(TOLD))
         .collect()
@@ -96,34 +96,55 @@ fn missing_from<'a>(known: &[Item], all: &'a [Item]) -> Vec<&'a Item> {
     all.iter().filter(is_missing).collect()
 }
 
-/// Comments that would not be written today and state something: anything with a digit, a promise, or another text behind the label of a
-/// line (`Licence`, `Regenerate`, a function's name). With each the right words, where there are such.
-fn false_numbers<'a>(found: &'a [Item], today: &'a [Item]) -> Vec<(&'a Item, Option<&'a str>)> {
-    let words = |items: &'a [Item]| items.iter().map(|item| item.words.as_str()).collect();
-    let (old, new): (Vec<&str>, Vec<&str>) = (words(today), words(found));
-    let (mut gone, mut added) = (Vec::new(), Vec::new());
+/// Comments that would not be written today and state something: anything with a digit, a promise, or another text behind the
+/// label of a line (`Licence`, `Data`, a function's name). With each the right words, where there are such: nearest first. The command
+/// of a file is left out: it names the flags and files of whoever ran it.
+fn false_statements<'a>(found: &'a [Item], today: &'a [Item]) -> Vec<(&'a Item, Option<&'a str>)> {
+    let (found, today) = (without_command(found), without_command(today));
+    let words = |items: &[&'a Item]| items.iter().map(|item| item.words.as_str()).collect();
+    let (old, new): (Vec<&str>, Vec<&str>) = (words(&today), words(&found));
+    let mut changes: Vec<(Vec<&str>, Vec<&Item>)> = Vec::new();
     for change in capture_diff_slices(Algorithm::Myers, &old, &new) {
         if change.tag() != DiffTag::Equal {
-            gone.extend_from_slice(&old[change.old_range()]);
-            added.extend(&found[change.new_range()]);
+            let (gone, added) = (&old[change.old_range()], &found[change.new_range()]);
+            changes.push((gone.to_vec(), added.to_vec()));
         }
     }
+    let mut moved: Vec<&str> = changes.iter().flat_map(|(gone, _)| gone.clone()).collect();
     let labels: BTreeSet<&str> = old.iter().filter_map(|words| label(words)).collect();
     let mut wrong = Vec::new();
-    for item in added {
-        let words = item.words.as_str();
-        let right = gone.iter().position(|other| masked(other) == masked(words));
-        let own = label(words).filter(|label| labels.contains(label));
-        let right = right.or_else(|| {
-            gone.iter()
-                .position(|other| own.is_some() && label(other) == own)
-        });
-        let has_digit = words.bytes().any(|byte| byte.is_ascii_digit());
-        if right.is_some() || has_digit || own.is_some() || is_promise(words) {
-            wrong.push((item, right.map(|at| gone.remove(at))));
+    for (gone, added) in &mut changes {
+        for item in added.iter() {
+            let words = item.words.as_str();
+            if let Some(at) = moved.iter().position(|other| *other == words) {
+                // A line that stands in another place is what it was.
+                moved.remove(at);
+                continue;
+            }
+            let (mask, own) = (
+                masked(words),
+                label(words).filter(|label| labels.contains(label)),
+            );
+            let right = gone.iter().position(|other| masked(other) == mask);
+            let is_labelled = |other: &&str| own.is_some() && label(other) == own;
+            let right = right.or_else(|| gone.iter().position(is_labelled));
+            let has_digit = words.bytes().any(|byte| byte.is_ascii_digit());
+            if right.is_some() || has_digit || own.is_some() || is_promise(words) {
+                wrong.push((*item, right.map(|at| gone.remove(at))));
+            }
         }
     }
     wrong
+}
+
+/// The comments without the command that makes the file again, which ends at an empty line.
+fn without_command(comments: &[Item]) -> Vec<&Item> {
+    let mut is_command = false;
+    let mut is_other = |item: &&Item| {
+        is_command = item.words.starts_with("Regenerate: ") || is_command && !item.words.is_empty();
+        !is_command
+    };
+    comments.iter().filter(|item| is_other(item)).collect()
 }
 
 /// What a line of a comment is about: the words before its first colon.
@@ -234,6 +255,21 @@ mod tests {
             "(float c0) { lowp float x;",
             &["a.glsl:3: it says `lowp`"],
         );
+    }
+
+    #[test]
+    fn what_moved_is_as_it_was_and_commands_are_nobodys_claim() {
+        let g = TODAY
+            .find("// Model error: at most 0.02")
+            .expect("it is there");
+        let first = TODAY.find("// Model error").expect("it is there");
+        let moved = [&TODAY[..first], &TODAY[g..], &TODAY[first..g]].concat();
+        let commanded = "// Regenerate: fresnel-gen --matching-angle 80\n//\n".to_owned() + TODAY;
+        for text in [moved, commanded] {
+            let found = outline(&text, false);
+            let findings = findings("a.glsl", &found, &outline(TODAY, false), &|_| true);
+            assert!(findings.is_empty(), "{findings:?}");
+        }
     }
 
     #[test]

@@ -12,6 +12,7 @@ const CAPABILITY: u32 = 17;
 const FUNCTION: u32 = 54;
 const VARIABLE: u32 = 59;
 const DECORATE: u32 = 71;
+const MEMBER_DECORATE: u32 = 72;
 const LOOP_MERGE: u32 = 246;
 /// Decorations, chapter 3.20.
 const RELAXED_PRECISION: u32 = 0;
@@ -94,7 +95,9 @@ fn declaration(instruction: u32, operands: &[u32], words: &[u32]) -> Option<Stri
         }
         (EXECUTION_MODE, [_, mode @ ..]) => format!("execution mode {mode:?}"),
         (FUNCTION, _) => "a function".to_owned(),
-        (DECORATE, [_, RELAXED_PRECISION]) => "a number of relaxed precision".to_owned(),
+        (DECORATE, [_, RELAXED_PRECISION]) | (MEMBER_DECORATE, [_, _, RELAXED_PRECISION]) => {
+            "a number of relaxed precision".to_owned()
+        }
         (VARIABLE, [_, id, class, ..]) if *class != LOCAL => {
             format!("a variable of storage class {class}{}", place(*id, words))
         }

@@ -38,6 +38,9 @@ pub struct VerifyFlags {
     /// What functions compute in.
     #[command(flatten)]
     pub precision: PrecisionFlags,
+    /// Degrees at which the corrected Schlick meets the exact law [default: that of cosine 0.15, 81.373]
+    #[arg(long, value_name = "DEGREES", allow_negative_numbers = true)]
+    pub matching_angle: Option<f64>,
     /// Folder whose files are run
     #[arg(long, value_name = "DIR", default_value = "shaders-generated")]
     pub out_dir: PathBuf,

@@ -255,7 +255,7 @@ fn edges(row: &Value) -> String {
         0 => format!("a reflectance at all of them{beyond}"),
         _ => format!(
             "{wrong} of {} results are no reflectance{beyond}",
-            edges.len()
+            edges.iter().filter(|edge| edge["counts"] == true).count()
         ),
     }
 }

@@ -173,7 +173,7 @@ pub(super) fn named(plan: &Plan, overwrite: bool, replaced: &str) -> Vec<String>
         )
     });
     let reseen = plan.reseen.iter().map(|(path, [old, new])| {
-        format!("all functions of {path} have other constants now: they were for {old}, and are for {new}")
+        format!("{path}: other viewing conditions, so that all of its functions change: from {old} to {new}")
     });
     stays
         .chain(edited)
@@ -251,8 +251,13 @@ fn first_steps(generated: &Generated, out_dir: &Path) -> Vec<String> {
             file.display(),
             signature.unwrap_or_default()
         ),
-        "next: include it; `fresnel-gen verify` with the same --target, --material and --out-dir runs it on this machine"
-            .to_owned(),
+        match cfg!(feature = "gpu") {
+            true => {
+                "next: use it; `fresnel-gen verify` with the same flags runs it on this machine"
+            }
+            false => "next: use it",
+        }
+        .to_owned(),
     ]
 }
 

@@ -90,6 +90,7 @@ fn request(flags: &VerifyFlags) -> Result<Request, Error> {
         medium: flags.medium.as_deref().map(source).transpose()?,
         sight,
         prefix: flags.prefix.clone(),
+        matching_angle: flags.matching_angle,
         precision: flags.precision.read()?,
         force: flags.precision.force,
         ..Request::default()

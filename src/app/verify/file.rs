@@ -307,7 +307,7 @@ impl<'a> Tried<'a> {
     /// A module that is not ours may do anything to a driver, unless a validator has looked at it.
     fn untrusted(&self) -> Option<Fault> {
         let page = self.file.run_page();
-        if self.file.target.name != "spirv" || page.is_current {
+        if self.file.target.name != "spirv" || page.is_current || !page.is_shipped {
             return None;
         }
         let verdicts = compilers::accepts_in(

@@ -35,7 +35,10 @@ pub fn markdown(rows: &[Row], half: &[Row]) -> String {
     format!(
         "{HEAD}\n## Each method in a line\n\n{}\n## Media\n\n{}\n## Arguments that no medium has\n\n{}\n## Half precision\n\n{HALF}\n{}",
         table(
-            &["method", "in f32, over all media"],
+            &[
+                "method",
+                "its failures in f32, each with its largest region; all regions stand below"
+            ],
             summaries(rows).into_iter()
         ),
         told(rows, is_media),
@@ -48,7 +51,7 @@ const HALF: &str = "Rounded to f16 after every operation, at inputs that f16 has
 absolute: 11 bits leave 0.0005 near 1. Methods that `--precision f16` refuses are not here; others that are not here do not fail.
 ";
 
-/// A line for each method: its gravest failures over media, with the widest of their regions.
+/// A line for each method: its gravest failures over media, with the first of their regions.
 fn summaries(rows: &[Row]) -> Vec<Vec<String>> {
     let methods: BTreeSet<&'static str> = rows.iter().map(|row| row.method).collect();
     let summary = |method: &'static str| {

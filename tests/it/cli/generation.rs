@@ -22,7 +22,7 @@ fn an_empty_folder_is_filled_and_a_second_run_writes_nothing() {
             "{more}"
         );
         assert!(
-            more.contains("next: include it; `fresnel-gen verify` with the same"),
+            more.contains("next: use it; `fresnel-gen verify` with the same flags"),
             "{more}"
         );
         let again = place.done(line);
