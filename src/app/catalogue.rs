@@ -27,8 +27,8 @@ pub const JSON: &str = "json";
 /// # Errors
 /// A material cannot be seen as the request wants, or a language refuses a name.
 pub fn add_catalogue(generated: &mut Generated, request: &Request) -> Result<(), Error> {
-    let (rows, seen) = match recorded::rows(request) {
-        Some(rows) => (rows, request.sight.seen()),
+    let (rows, seen) = match recorded::recorded_rows(request) {
+        Some(rows) => (rows, request.sight.reference_in_words()),
         None => derived_rows(request)?,
     };
     let seen = seen.as_str();

@@ -77,8 +77,12 @@ pub fn is_plain_file(path: &Path) -> bool {
 
 /// Whether two paths lead to one file, which the later of two outputs would replace. A device takes both.
 pub fn is_same_file(one: &Path, other: &Path) -> bool {
-    let is_device = fs::metadata(one).is_ok_and(|found| !found.is_dir() && !found.is_file());
-    !is_device && resolved(one) == resolved(other)
+    !is_device(one) && resolved(one) == resolved(other)
+}
+
+/// Whether a path leads to a device or a pipe.
+pub fn is_device(path: &Path) -> bool {
+    fs::metadata(path).is_ok_and(|found| !found.is_dir() && !found.is_file())
 }
 
 /// Whether a path leads into a folder.

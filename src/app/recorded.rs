@@ -47,7 +47,7 @@ struct RecordedBetter {
 
 /// The rows of a request as they are recorded; nothing where it wants other viewing conditions, or where a material's file or a
 /// fitted method has changed since.
-pub fn rows(request: &Request) -> Option<Vec<Row>> {
+pub fn recorded_rows(request: &Request) -> Option<Vec<Row>> {
     if request.medium.is_some() || request.sight != Sight::default() {
         return None;
     }
@@ -63,7 +63,7 @@ pub fn record(rows: &[Row]) -> String {
     let record = Record {
         methods: fitted_methods(),
         files: files(),
-        rows: rows.iter().map(Recorded::of).collect(),
+        rows: rows.iter().map(Recorded::from_row).collect(),
     };
     let mut text = "{\n\"methods\": ".to_owned();
     text += &line(&record.methods);
@@ -96,7 +96,7 @@ fn files() -> BTreeMap<String, String> {
 }
 
 impl Recorded {
-    fn of(row: &Row) -> Recorded {
+    fn from_row(row: &Row) -> Recorded {
         let better = row.better.as_ref().map(|better| RecordedBetter {
             method: better.method.name.to_owned(),
             coefficients: better.coefficients.clone(),

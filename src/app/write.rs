@@ -156,7 +156,7 @@ pub fn write_file(path: &Path, bytes: &[u8]) -> Result<bool, Error> {
 pub fn write_files(files: &[(PathBuf, &[u8])]) -> Result<usize, Error> {
     let (mut pending, mut devices) = (Vec::new(), Vec::new());
     for (path, bytes) in files {
-        if is_device(path) {
+        if folder::is_device(path) {
             devices.push((path, *bytes));
         } else {
             pending.extend(destination(path, bytes)?.map(|path| (path, *bytes)));
@@ -169,17 +169,12 @@ pub fn write_files(files: &[(PathBuf, &[u8])]) -> Result<usize, Error> {
     Ok(pending.len() + devices.len())
 }
 
-/// Whether a path leads to a device or a pipe.
-fn is_device(path: &Path) -> bool {
-    fs::metadata(path).is_ok_and(|found| !found.is_dir() && !found.is_file())
-}
-
 /// Whether a file can be written there, found out by doing it and taking it back: before work that takes long.
 ///
 /// # Errors
 /// It cannot be.
 pub fn try_file(path: &Path) -> Result<(), Error> {
-    if is_device(path) {
+    if folder::is_device(path) {
         return Ok(());
     }
     // No file of ours holds this alone.

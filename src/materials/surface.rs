@@ -41,7 +41,7 @@ impl Default for Sight {
 
 impl Sight {
     /// What is seen of a spectrum, in words.
-    pub fn seen(&self) -> String {
+    pub fn reference_in_words(&self) -> String {
         format!(
             "reflectance integrated over {}{}",
             self.integration.description(),
@@ -121,7 +121,7 @@ impl Surface {
             gamut,
             seen: match three {
                 Some(rgb) => three_in_words(rgb),
-                None => sight.seen(),
+                None => sight.reference_in_words(),
             },
         })
     }

@@ -188,13 +188,7 @@ fn chart(material: &str, curves: &[Curve], low: f64) -> Chart {
     Chart {
         title: format!("{material}: mean of the channels"),
         subtitle: String::new(),
-        x: Axis {
-            label: "angle of incidence".to_owned(),
-            low: 0.0,
-            high: 90.0,
-            ticks: ticks(0.0, 90.0, 9),
-            unit: "°",
-        },
+        x: Axis::angle_of_incidence(),
         y: Axis {
             label: "reflectance".to_owned(),
             low,

@@ -17,6 +17,15 @@ pub struct Outline {
     pub narrow: Vec<Item>,
 }
 
+impl Outline {
+    /// The names of the functions that it declares.
+    pub fn functions(&self) -> Vec<String> {
+        let declared = self.declared.iter();
+        let names = declared.filter_map(|item| function_name(&item.words));
+        names.map(str::to_owned).collect()
+    }
+}
+
 /// A declaration or a line of a comment.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Item {

@@ -113,10 +113,10 @@ fn the_record_is_what_the_spectra_give() {
     let (rows, seen) = derived_rows(&Request::default()).unwrap();
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("data/records/catalogue.json");
     super::bless::check(&path, recorded::record(&rows).as_bytes());
-    let taken = recorded::rows(&Request::default()).expect("the record is true");
+    let taken = recorded::recorded_rows(&Request::default()).expect("the record is true");
     assert_eq!(recorded::record(&taken), recorded::record(&rows));
-    assert_eq!(Request::default().sight.seen(), seen);
+    assert_eq!(Request::default().sight.reference_in_words(), seen);
     let mut other = Request::default();
     other.sight.gamut = Gamut::Keep;
-    assert!(recorded::rows(&other).is_none());
+    assert!(recorded::recorded_rows(&other).is_none());
 }

@@ -62,9 +62,12 @@ impl Plan {
         let meant = generate_meant(request, &kept, &Kept::new())?;
         let shipped = Folder::new(folder)?;
         let held = held(request, &meant, &shipped, &kept)?;
-        let exact = generate_meant(request, &kept, &held)?;
+        let exact = match is_as_meant(&meant, &held) {
+            true => meant.files.clone(),
+            false => generate_meant(request, &kept, &held)?.files,
+        };
         let mut files: Vec<Planned> = Vec::new();
-        for (meant, exact) in meant.files.into_iter().zip(exact.files) {
+        for (meant, exact) in meant.files.into_iter().zip(exact) {
             let (made, page) = page(request, &shipped, meant, exact)?;
             let stem = |path: &str| path.split('.').next().unwrap_or("").to_owned();
             match files.last_mut() {
@@ -101,10 +104,9 @@ fn held(request: &Request, meant: &Meant, shipped: &Folder, kept: &Kept) -> Resu
     let naming = request.naming();
     let mut held = Kept::new();
     for made in &meant.files {
-        let Some(subject) = made.subject.map(|index| &meant.subjects[index]) else {
+        let Some((file, subject)) = material_file(meant, made) else {
             continue;
         };
-        let file = (made.artifact.target.clone(), subject.name.clone());
         let names = shipped.functions_in(&made.artifact.path)?;
         let in_text = methods::ALL
             .iter()
@@ -117,6 +119,23 @@ fn held(request: &Request, meant: &Meant, shipped: &Folder, kept: &Kept) -> Resu
         }
     }
     Ok(held)
+}
+
+/// The target and the material that a material's file is kept under, and the material.
+fn material_file<'a>(meant: &'a Meant, made: &Made) -> Option<((String, String), &'a Subject)> {
+    let subject = &meant.subjects[made.subject?];
+    let file = (made.artifact.target.clone(), subject.name.clone());
+    Some((file, subject))
+}
+
+/// Whether files that hold something hold the very methods that would be written: nothing need be generated again then.
+fn is_as_meant(meant: &Meant, held: &Kept) -> bool {
+    meant.files.iter().all(|made| {
+        let file = material_file(meant, made);
+        let held = file.and_then(|(file, _)| held.get(&file));
+        let methods = || made.functions.iter().map(|one| one.method.name.to_owned());
+        held.is_none_or(|held| *held == methods().collect())
+    })
 }
 
 /// The page of a file, and what is run of it: `exact` is what the file should be, `meant` has what was asked for too.
@@ -136,11 +155,11 @@ fn page(
     let missing = meant.functions.iter().filter(|one| !has(&one.name));
     let lacks: Vec<&str> = missing.map(|one| one.name.as_str()).collect();
     let (mut made, asked) = if request.methods.is_empty() || lacks.is_empty() {
-        (exact.clone(), asked)
+        (exact, asked)
     } else {
         let asked = asked_in(&meant);
         page.replace(&meant, &asked, &lacks);
-        (meant.clone(), asked)
+        (meant, asked)
     };
     let mut asked = asked.into_iter();
     made.functions.retain(|_| asked.next().unwrap_or(true));

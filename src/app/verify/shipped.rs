@@ -8,7 +8,7 @@ use crate::app::generate::Made;
 use crate::app::manifest::{self, Manifest};
 use crate::verify::drift;
 use crate::verify::module;
-use crate::verify::outline::{Item, Outline, function_name, outline};
+use crate::verify::outline::{Item, Outline, outline};
 
 use super::listed::{self, Listed};
 
@@ -47,20 +47,17 @@ impl Page {
         self.holds_loop = None;
         self.bytes.clone_from(&made.artifact.bytes);
         self.entries = Today::new(made, asked).entries();
-        self.remark = Some(lacking(&self.path, lacks));
+        self.remark = Some(format!(
+            "{}: it lacks {}, so that what would be written today was run",
+            self.path,
+            lacks.join(", ")
+        ));
     }
 
     /// Whether its functions are run: of modules those of compute shaders are.
     pub fn is_run(&self) -> bool {
         !self.path.ends_with(".spv") || self.path.contains(".comp.")
     }
-}
-
-fn lacking(path: &str, lacks: &[&str]) -> String {
-    format!(
-        "{path}: it lacks {}, so that what would be written today was run",
-        lacks.join(", ")
-    )
 }
 
 /// The output folder.
@@ -101,11 +98,7 @@ impl Folder<'_> {
             return Ok(module::names(&bytes));
         }
         let found = outline(&String::from_utf8_lossy(&bytes), path.ends_with(".wgsl"));
-        let names = found
-            .declared
-            .iter()
-            .filter_map(|item| function_name(&item.words));
-        Ok(names.map(str::to_owned).collect())
+        Ok(found.functions())
     }
 
     /// The page of a file; `asked` says which of its functions are to be run.
@@ -217,16 +210,17 @@ impl<'a> Today<'a> {
         let is_listed = |name: &str| listed.is_none_or(|listed| listed.has(name));
         page.findings
             .extend(self.findings(&page.path, &found, &lacks, &is_listed));
-        page.is_shipped = lacks.is_empty();
-        page.remark = Some(if page.is_shipped {
-            page.holds_loop = found.loops.first().map(loop_found);
-            page.bytes = bytes;
-            format!("{}: it is not what would be written today", page.path)
-        } else {
-            page.bytes.clone_from(&self.made.artifact.bytes);
+        if !lacks.is_empty() {
             let lacks: Vec<&str> = lacks.iter().map(String::as_str).collect();
-            lacking(&page.path, &lacks)
-        });
+            page.replace(self.made, self.asked, &lacks);
+            return;
+        }
+        page.holds_loop = found.loops.first().map(loop_found);
+        page.bytes = bytes;
+        page.remark = Some(format!(
+            "{}: it is not what would be written today",
+            page.path
+        ));
     }
 
     /// Functions by the name that stands in the file: of a module the entry point.
@@ -280,11 +274,7 @@ impl<'a> Today<'a> {
         if self.is_module() {
             return module::entry_points(bytes);
         }
-        let names = found
-            .declared
-            .iter()
-            .filter_map(|item| function_name(&item.words));
-        names.map(str::to_owned).collect()
+        found.functions()
     }
 
     fn findings(

@@ -3,7 +3,7 @@
 use glam::DVec3;
 
 pub use crate::optics::cosine;
-use crate::report::chart::{Axis, Chart, Look, Series, Style, ticks};
+use crate::report::chart::{Axis, Chart, Look, Series, Style};
 
 use super::{Subject, axis};
 
@@ -48,13 +48,7 @@ pub(super) fn chart(subject: &Subject) -> Chart {
     Chart {
         title: "Reflectance against angle".to_owned(),
         subtitle: subtitle(&series),
-        x: Axis {
-            label: "angle of incidence".to_owned(),
-            low: 0.0,
-            high: 90.0,
-            ticks: ticks(0.0, 90.0, 9),
-            unit: "°",
-        },
+        x: Axis::angle_of_incidence(),
         y: axis::reflectance(&series),
         series,
         marks: Vec::new(),

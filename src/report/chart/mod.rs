@@ -142,6 +142,17 @@ impl Chart {
 }
 
 impl Axis {
+    /// The angle of incidence, in degrees.
+    pub fn angle_of_incidence() -> Axis {
+        Axis {
+            label: "angle of incidence".to_owned(),
+            low: 0.0,
+            high: 90.0,
+            ticks: ticks(0.0, 90.0, 9),
+            unit: "°",
+        }
+    }
+
     /// Where a value lies along the axis: 0 at the low end, 1 at the high end.
     fn fraction(&self, value: f64) -> f64 {
         let span = self.high - self.low;

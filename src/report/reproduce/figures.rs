@@ -233,7 +233,7 @@ impl Plan {
         Chart {
             title: format!("Figure {}: {}", self.number, self.subject),
             subtitle,
-            x: axis("angle of incidence", 0.0, 90.0, 9, "°"),
+            x: Axis::angle_of_incidence(),
             y: axis("unpolarised reflectance", self.low, 100.0, 5, "%"),
             series: drawn,
             marks: self.marks(),
