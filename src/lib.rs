@@ -6,7 +6,7 @@
 #![cfg_attr(test, allow(clippy::print_stdout, clippy::unwrap_used))]
 
 // The rooms. A room imports only rooms to its left; rooms between the same two `<` do not import each other.
-// num, cite < ir, optics < spectra < materials, methods, targets < fit < emit < lut < gpu < verify, cost < scene, effects < report < app
+// num, cite < ir, optics < spectra < materials, methods, targets < reference < fit < emit < lut < gpu, process < verify, cost < overdraw, stability < audit, budget, bake < scene, effects < report < app
 
 pub mod app;
 pub mod cite;
