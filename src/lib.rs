@@ -23,6 +23,7 @@ pub mod num;
 pub mod optics;
 pub mod report;
 pub mod spectra;
+pub mod stability;
 pub mod targets;
 pub mod verify;
 

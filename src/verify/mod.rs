@@ -18,7 +18,6 @@ mod points;
 pub mod run;
 #[cfg(feature = "compilers")]
 pub mod second;
-pub mod stability;
 #[cfg(feature = "gpu")]
 mod sweep;
 mod trial;

@@ -9,7 +9,7 @@ use fresnel_gen::methods::{self, Class, Contract, Method, Over};
 use fresnel_gen::num::Precision;
 use fresnel_gen::report::png::png;
 use fresnel_gen::report::stability::{Row, heat, markdown};
-use fresnel_gen::verify::stability::{Failure, maps, scan};
+use fresnel_gen::stability::{Failure, maps, scan};
 
 /// All methods scanned, once for all tests.
 static ROWS: LazyLock<Vec<Row>> = LazyLock::new(|| scanned(Precision::F32));

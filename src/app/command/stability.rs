@@ -16,7 +16,7 @@ use crate::methods::{self, Method};
 use crate::num::Precision;
 use crate::report::SCHEMA;
 use crate::report::stability::{Row, heat, page, text};
-use crate::verify::stability::{Code, Finding, maps, scan, scan_specialised};
+use crate::stability::{Code, Finding, maps, scan, scan_specialised};
 
 use super::{Output, Progress, png, replaced, report, try_places};
 

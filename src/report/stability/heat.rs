@@ -1,7 +1,7 @@
 //! A map as a picture: the formula's error on the left, that of its rounding on the right, each with its colour bar.
 
 use crate::report::chart::{Font, PANEL, SUBTITLE, TICK, escape};
-use crate::verify::stability::{Cell, Map};
+use crate::stability::{Cell, Map};
 
 const WIDTH: f64 = 920.0;
 const HEIGHT: f64 = 366.0;

@@ -5,7 +5,7 @@ use std::mem::{Discriminant, discriminant};
 
 use super::{Row, percent, worst};
 use crate::report::markdown::table;
-use crate::verify::stability::{Failure, Finding};
+use crate::stability::{Failure, Finding};
 
 const HEAD: &str = "# Where methods fail
 

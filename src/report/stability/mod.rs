@@ -9,7 +9,7 @@ mod page;
 use serde_json::{Map, Value, json};
 
 use super::table;
-use crate::verify::stability::{Failure, Finding, short};
+use crate::stability::{Failure, Finding, short};
 
 #[cfg(feature = "cli")]
 pub use heat::heat;

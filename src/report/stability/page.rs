@@ -7,7 +7,7 @@ use tera::Context;
 
 use super::{Row, percent, worst};
 use crate::report::html;
-use crate::verify::stability::Finding;
+use crate::stability::Finding;
 
 static TEMPLATE: &str = include_str!("../../../templates/stability.html.tera");
 

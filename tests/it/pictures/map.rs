@@ -9,7 +9,7 @@ use fresnel_gen::methods::{self, Class, Contract, Light, Method};
 use fresnel_gen::num::Precision;
 use fresnel_gen::report::png::png;
 use fresnel_gen::report::stability::heat;
-use fresnel_gen::verify::stability::{Axis, Cell, Map, maps};
+use fresnel_gen::stability::{Axis, Cell, Map, maps};
 use roxmltree::Document;
 use tempfile::TempDir;
 
