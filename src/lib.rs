@@ -9,6 +9,8 @@
 // num, cite < ir, optics < spectra < materials, methods, targets < reference < fit < emit < lut < gpu, process < verify, cost < overdraw, stability < audit, budget, bake < scene, effects < report < app
 
 pub mod app;
+#[cfg(all(feature = "cli", feature = "gpu"))]
+pub mod audit;
 pub mod cite;
 pub mod cost;
 pub mod emit;

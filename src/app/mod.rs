@@ -8,7 +8,7 @@
 pub mod args;
 pub mod artifact;
 #[cfg(all(feature = "cli", feature = "gpu"))]
-pub mod audit;
+mod audited;
 #[cfg(feature = "cli")]
 pub mod bake;
 pub mod budget;

@@ -3,24 +3,45 @@
 //! A [`Trial`] is a function with the values of its arguments; what it means at its inputs, in f64, is what is
 //! [`Expected`]. With the feature `compilers` compilers that are not ours give their word; with the feature `gpu` the
 //! text itself runs, on a real graphics stack.
+//!
+//! Shaders run in processes of their own, so that one that never ends, or that takes its driver down, is a row of the
+//! report and no more. All processes make the same [`Plan`](plan::Plan) from the same flags; a number names a file of it.
 
 mod code_error;
 #[cfg(feature = "compilers")]
 pub mod compilers;
 pub mod drift;
+#[cfg(all(feature = "cli", feature = "gpu"))]
+pub mod exhaustive;
+#[cfg(all(feature = "cli", feature = "gpu"))]
+pub mod file;
 mod half;
+#[cfg(all(feature = "cli", feature = "gpu"))]
+mod half_run;
 #[cfg(feature = "gpu")]
 pub mod harness;
+#[cfg(all(feature = "cli", feature = "gpu"))]
+mod junit;
+#[cfg(all(feature = "cli", feature = "gpu"))]
+pub mod machine;
 pub mod module;
 pub mod outline;
+#[cfg(all(feature = "cli", feature = "gpu"))]
+pub mod plan;
 mod points;
+#[cfg(all(feature = "cli", feature = "gpu"))]
+mod row;
 #[cfg(feature = "gpu")]
 pub mod run;
 #[cfg(feature = "compilers")]
 pub mod second;
+#[cfg(all(feature = "cli", feature = "gpu"))]
+mod supervise;
 #[cfg(feature = "gpu")]
 mod sweep;
 mod trial;
+#[cfg(all(feature = "cli", feature = "gpu"))]
+mod worker;
 mod worst;
 
 pub use code_error::{
@@ -30,8 +51,16 @@ pub use half::{
     HalfError, HalfTrial, halves, halves_beyond, library_half_error, library_half_error_at,
     nearest_half,
 };
+#[cfg(all(feature = "cli", feature = "gpu"))]
+pub use junit::junit;
 pub use points::{WITHIN, beyond, cosines, cosines_around, limits, share};
+#[cfg(all(feature = "cli", feature = "gpu"))]
+pub use row::WORST;
+#[cfg(all(feature = "cli", feature = "gpu"))]
+pub use supervise::{Limits, supervise};
 #[cfg(feature = "gpu")]
 pub use sweep::{count, sweep};
 pub use trial::{Expected, Miss, Outcome, Trial, result_range};
+#[cfg(all(feature = "cli", feature = "gpu"))]
+pub use worker::serve;
 pub use worst::{worst_cases, worst_cosines, worst_media};

@@ -230,8 +230,8 @@ fn only_the_writer_and_the_program_touch_the_machine() {
         "app/tree.rs",
         "build.rs",
         // Workers: processes of this program, with a time limit.
-        "app/verify/machine.rs",
-        "app/verify/supervise.rs",
+        "verify/machine.rs",
+        "verify/supervise.rs",
         "app/worker.rs",
         "app/inbox.rs",
         // The folder for their temporary files.

@@ -5,20 +5,21 @@ use std::path::{Path, PathBuf};
 use serde_json::{Value, json};
 
 use crate::app::args::AuditFlags;
-use crate::app::audit::{Audit, Given, Language, file_name, own, serve, text};
+use crate::app::audited::own;
 use crate::app::chart::{OF, data};
 use crate::app::error::Error;
 use crate::app::names::{family, flag};
 use crate::app::request::{Materials, Request};
 use crate::app::sight::{flags as sight_flags, sight};
 use crate::app::source::{materials, shader, source};
-use crate::app::verify::{junit, machine};
 use crate::app::write::{try_places_of_ours, write_file};
+use crate::audit::{Audit, Given, Language, file_name, serve, text};
 use crate::cost::{FAMILIES, Family};
 use crate::emit::Subject;
 use crate::report::SCHEMA;
 use crate::report::frontier::{CostAxis, View};
 use crate::spectra::Space;
+use crate::verify::{junit, machine};
 
 use super::{Output, Progress, chart, check_limit, report, try_files};
 

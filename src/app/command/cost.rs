@@ -10,12 +10,12 @@ use crate::app::precision::several;
 use crate::app::request::Request;
 use crate::app::source::materials;
 use crate::app::surroundings::Surroundings;
-use crate::app::verify::machine;
 use crate::app::write::{try_places_of_ours, write_report};
 use crate::cost::{FAMILIES, Family, Figures, Record, records};
 use crate::methods::{self, Method};
 use crate::report::SCHEMA;
 use crate::report::cost::{self as sheet, Row, Source};
+use crate::verify::machine;
 
 use super::{Output, Progress, check_limit, replaced, report, try_places};
 

@@ -11,13 +11,15 @@ use crate::app::names::{flag, unknown};
 use crate::app::request::Request;
 use crate::app::sight::{flags as sight_flags, sight};
 use crate::app::source::{materials, source};
-use crate::app::verify::{Effort, Limits, Plan, exhaustive, junit, machine, serve, supervise};
+use crate::app::verify::plan_of_request;
 use crate::app::write::write_file;
 use crate::gpu::{Backend, Wanted};
 use crate::report::SCHEMA;
 use crate::report::table;
-use crate::verify::WITHIN;
+use crate::verify::file::Effort;
+use crate::verify::plan::Plan;
 use crate::verify::run::Devices;
+use crate::verify::{Limits, WITHIN, exhaustive, junit, machine, serve, supervise};
 
 use super::{Output, Progress, check_limit, refuse_place_of, report, try_places};
 
@@ -34,7 +36,7 @@ pub fn run(flags: &VerifyFlags, progress: Progress) -> Result<Output, Error> {
     let request = request(flags)?;
     let wanted = wanted(flags)?;
     let effort = effort(flags)?;
-    let plan = Plan::new(&request, &flags.out_dir)?;
+    let plan = plan_of_request(&request, &flags.out_dir)?;
     if plan.files.is_empty() {
         return Err(Error::Usage {
             what: "there is nothing to run: name a method or a material".to_owned(),

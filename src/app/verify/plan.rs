@@ -1,7 +1,6 @@
-//! The plan: which files are run, each with what its functions mean. Supervisor and workers make the same plan from the
-//! same flags, so that a number names a file.
+//! The plan of a verification from a request, and from what an output folder and its manifest hold.
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use crate::app::command::kept;
 use crate::app::error::Error;
@@ -9,93 +8,54 @@ use crate::app::generate::{Kept, Made, Meant, generate_meant};
 use crate::app::request::{Materials, Request};
 use crate::emit::{Emitted, Subject};
 use crate::methods;
-use crate::num::Precision;
-use crate::targets::{self, Target};
+use crate::targets;
+use crate::verify::plan::{Page, Plan, Planned};
 
-use super::shipped::{Folder, Page};
+use super::shipped::{Folder, replace_with_today};
 
-/// What is to be run.
-#[derive(Debug)]
-pub struct Plan {
-    /// The files in order.
-    pub files: Vec<Planned>,
-    /// The materials.
-    pub subjects: Vec<Subject>,
-    /// The materials with whose values library functions are run, where it is not those.
-    others: Vec<Subject>,
-    /// Why some are left out.
-    pub left_out: Vec<String>,
-    /// The files that are read or listed in the folder: no report may take the place of one.
-    pub places: Vec<PathBuf>,
-}
-
-/// A file, or the modules that stand for one.
-#[derive(Debug)]
-pub struct Planned {
-    /// Its target.
-    pub target: &'static Target,
-    /// Its pages: that which is run comes last.
-    pub pages: Vec<Page>,
-    /// Its functions in order.
-    pub functions: Vec<Emitted>,
-    /// The place of its material among the subjects, where it has one.
-    pub subject: Option<usize>,
-}
-
-impl Plan {
-    /// The materials with whose values library functions are run.
-    pub fn trial_subjects(&self) -> &[Subject] {
-        if self.others.is_empty() {
-            &self.subjects
-        } else {
-            &self.others
+/// What a request comes to, with the text that lies in a folder.
+///
+/// # Errors
+/// The request cannot be met, or a file cannot be read.
+pub fn plan_of_request(request: &Request, folder: &Path) -> Result<Plan, Error> {
+    // What earlier runs put into a material's file belongs to it: it would be written again.
+    let kept = kept(folder, request.precision)?;
+    let meant = generate_meant(request, &kept, &Kept::new())?;
+    let shipped = Folder::new(folder)?;
+    let held = held(request, &meant, &shipped, &kept)?;
+    let exact = match is_as_meant(&meant, &held) {
+        true => meant.files.clone(),
+        false => generate_meant(request, &kept, &held)?.files,
+    };
+    let mut files: Vec<Planned> = Vec::new();
+    for (meant, exact) in meant.files.into_iter().zip(exact) {
+        let (made, page) = page(request, &shipped, meant, exact)?;
+        let stem = |path: &str| path.split('.').next().unwrap_or("").to_owned();
+        match files.last_mut() {
+            Some(last) if stem(&last.pages[0].path) == stem(&page.path) => last.add(page),
+            _ => files.push(planned(made, page)?),
         }
     }
-
-    /// What a request comes to, with the text that lies in a folder.
-    ///
-    /// # Errors
-    /// The request cannot be met, or a file cannot be read.
-    pub fn new(request: &Request, folder: &Path) -> Result<Plan, Error> {
-        // What earlier runs put into a material's file belongs to it: it would be written again.
-        let kept = kept(folder, request.precision)?;
-        let meant = generate_meant(request, &kept, &Kept::new())?;
-        let shipped = Folder::new(folder)?;
-        let held = held(request, &meant, &shipped, &kept)?;
-        let exact = match is_as_meant(&meant, &held) {
-            true => meant.files.clone(),
-            false => generate_meant(request, &kept, &held)?.files,
-        };
-        let mut files: Vec<Planned> = Vec::new();
-        for (meant, exact) in meant.files.into_iter().zip(exact) {
-            let (made, page) = page(request, &shipped, meant, exact)?;
-            let stem = |path: &str| path.split('.').next().unwrap_or("").to_owned();
-            match files.last_mut() {
-                Some(last) if stem(&last.pages[0].path) == stem(&page.path) => last.add(page),
-                _ => files.push(planned(made, page)?),
-            }
-        }
-        // A request that names methods and no material has library files only; they need values all the same.
-        let others = if meant.subjects.is_empty() {
-            usual_subjects(request)?
-        } else {
-            Vec::new()
-        };
-        let pages = files.iter().flat_map(|file| &file.pages);
-        let mut places = shipped.files();
-        places.extend(pages.map(|page| folder.join(&page.path)));
-        Ok(Plan {
-            places,
-            files,
-            others,
-            subjects: meant.subjects,
-            left_out: meant
-                .left_out
-                .into_iter()
-                .map(|unseen| unseen.why)
-                .collect(),
-        })
-    }
+    // A request that names methods and no material has library files only; they need values all the same.
+    let others = if meant.subjects.is_empty() {
+        usual_subjects(request)?
+    } else {
+        Vec::new()
+    };
+    let pages = files.iter().flat_map(|file| &file.pages);
+    let mut places = shipped.files();
+    places.extend(pages.map(|page| folder.join(&page.path)));
+    Ok(Plan {
+        places,
+        files,
+        others,
+        subjects: meant.subjects,
+        left_out: meant
+            .left_out
+            .into_iter()
+            .map(|unseen| unseen.why)
+            .collect(),
+    })
 }
 
 /// The methods that material files in the folder hold, by the manifest and by the names of the functions in them: what such a
@@ -158,7 +118,7 @@ fn page(
         (exact, asked)
     } else {
         let asked = asked_in(&meant);
-        page.replace(&meant, &asked, &lacks);
+        replace_with_today(&mut page, &meant, &asked, &lacks);
         (meant, asked)
     };
     let mut asked = asked.into_iter();
@@ -179,26 +139,6 @@ fn usual_subjects(request: &Request) -> Result<Vec<Subject>, Error> {
     };
     let ready = usual.subjects()?.ready;
     Ok(ready.into_iter().map(|(subject, _)| subject).collect())
-}
-
-impl Planned {
-    /// What its functions compute in.
-    pub fn precision(&self) -> Precision {
-        self.functions
-            .first()
-            .map_or_else(Precision::default, |emitted| emitted.precision)
-    }
-
-    /// The page that is run.
-    pub fn run_page(&self) -> &Page {
-        self.pages.last().expect("a planned file has a page")
-    }
-
-    /// Adds a page; compute modules are run, so that they come last.
-    fn add(&mut self, page: Page) {
-        self.pages.push(page);
-        self.pages.sort_by_key(Page::is_run);
-    }
 }
 
 fn planned(made: Made, page: Page) -> Result<Planned, Error> {

@@ -9,29 +9,9 @@ use crate::app::manifest::{self, Manifest};
 use crate::verify::drift;
 use crate::verify::module;
 use crate::verify::outline::{Item, Outline, outline};
+use crate::verify::plan::Page;
 
 use super::listed::{self, Listed};
-
-/// A file as it is shipped.
-#[derive(Debug)]
-pub struct Page {
-    /// Relative to the output folder.
-    pub path: String,
-    /// Its bytes: those in the output folder, or, where it is not there, what would be written.
-    pub bytes: Vec<u8>,
-    /// Whether it lies in the output folder.
-    pub is_shipped: bool,
-    /// Whether it is what would be written today, line ends aside.
-    pub is_current: bool,
-    /// The loop in what would be run, with its line: a device is not given one.
-    pub holds_loop: Option<String>,
-    /// The entry point of each function, in order; nothing for text.
-    pub entries: Vec<String>,
-    /// What a reader of the report should know of it, and is no fault.
-    pub remark: Option<String>,
-    /// Its faults, whatever its functions return: what was added, what it lacks, false numbers.
-    pub findings: Vec<String>,
-}
 
 fn loop_found(found: &Item) -> String {
     match found.line {
@@ -40,24 +20,17 @@ fn loop_found(found: &Item) -> String {
     }
 }
 
-impl Page {
-    /// Lets what would be written today be run in place of the file, which lacks some of its functions.
-    pub fn replace(&mut self, made: &Made, asked: &[bool], lacks: &[&str]) {
-        self.is_shipped = false;
-        self.holds_loop = None;
-        self.bytes.clone_from(&made.artifact.bytes);
-        self.entries = Today::new(made, asked).entries();
-        self.remark = Some(format!(
-            "{}: it lacks {}, so that what would be written today was run",
-            self.path,
-            lacks.join(", ")
-        ));
-    }
-
-    /// Whether its functions are run: of modules those of compute shaders are.
-    pub fn is_run(&self) -> bool {
-        !self.path.ends_with(".spv") || self.path.contains(".comp.")
-    }
+/// Lets what would be written today be run in place of the file, which lacks some of its functions.
+pub(super) fn replace_with_today(page: &mut Page, made: &Made, asked: &[bool], lacks: &[&str]) {
+    page.is_shipped = false;
+    page.holds_loop = None;
+    page.bytes.clone_from(&made.artifact.bytes);
+    page.entries = Today::new(made, asked).entries();
+    page.remark = Some(format!(
+        "{}: it lacks {}, so that what would be written today was run",
+        page.path,
+        lacks.join(", ")
+    ));
 }
 
 /// The output folder.
@@ -212,7 +185,7 @@ impl<'a> Today<'a> {
             .extend(self.findings(&page.path, &found, &lacks, &is_listed));
         if !lacks.is_empty() {
             let lacks: Vec<&str> = lacks.iter().map(String::as_str).collect();
-            page.replace(self.made, self.asked, &lacks);
+            replace_with_today(page, self.made, self.asked, &lacks);
             return;
         }
         page.holds_loop = found.loops.first().map(loop_found);

@@ -6,7 +6,6 @@
 
 mod accept;
 mod bind;
-mod chart;
 mod code;
 mod compile;
 mod cost;
@@ -36,11 +35,10 @@ use crate::gpu::Uniform;
 use crate::spectra::Space;
 use crate::verify::compilers::{Fault, Verdict};
 
-use super::error::Error;
-use super::surroundings::Surroundings;
+use crate::app::error::Error;
+use crate::app::surroundings::Surroundings;
 
 pub use bind::Given;
-pub use chart::own;
 pub use language::Language;
 pub use row::{file_name, text};
 pub use serve::serve;

@@ -16,7 +16,7 @@ use crate::verify::{
     Outcome, Trial, beyond, cosines_around, limits, nearest_half, share, worst_cases, worst_cosines,
 };
 
-use super::half;
+use super::half_run;
 use super::plan::{Plan, Planned};
 use super::row::{self, Row, Run};
 
@@ -280,7 +280,7 @@ impl<'a> Tried<'a> {
             &other
         };
         if self.emitted.precision.is_half() {
-            let ran = half::run(runnable, &shown, &case.trial)?;
+            let ran = half_run::run(runnable, &shown, &case.trial)?;
             let device = self.devices.of(shown.target, way)?.adapter.to_string();
             return Ok(Run { device, ..ran });
         }
