@@ -23,6 +23,9 @@ pub mod materials;
 pub mod methods;
 pub mod num;
 pub mod optics;
+pub mod overdraw;
+#[cfg(all(feature = "cli", feature = "gpu"))]
+pub mod process;
 pub mod report;
 pub mod spectra;
 pub mod stability;

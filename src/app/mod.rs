@@ -18,14 +18,10 @@ pub mod chart;
 pub mod check;
 #[cfg(feature = "cli")]
 pub mod command;
-#[cfg(all(feature = "cli", feature = "gpu"))]
-pub mod cost;
 pub mod depfile;
 pub mod error;
 pub mod folder;
 pub mod generate;
-#[cfg(all(feature = "cli", feature = "gpu"))]
-pub mod inbox;
 #[cfg(feature = "cli")]
 pub mod legible;
 pub mod lock;
@@ -39,15 +35,9 @@ pub mod request;
 pub mod scope;
 pub mod sight;
 pub mod source;
-#[cfg(all(feature = "cli", feature = "gpu"))]
-pub mod surroundings;
-#[cfg(all(feature = "cli", feature = "gpu"))]
-pub mod time;
 pub mod tree;
 #[cfg(all(feature = "cli", feature = "gpu"))]
 pub mod verify;
-#[cfg(all(feature = "cli", feature = "gpu"))]
-pub mod worker;
 pub mod write;
 
 pub use artifact::Artifact;

@@ -5,8 +5,8 @@ use core::time::Duration;
 use std::ffi::OsString;
 
 use crate::app::error::Error;
-use crate::app::surroundings::Surroundings;
-use crate::app::worker::{Silence, Worker};
+use crate::process::Surroundings;
+use crate::process::{Silence, Worker};
 use crate::verify::compilers::{Fault, Verdict};
 
 use super::accept::Accepted;

@@ -3,12 +3,12 @@
 use core::time::Duration;
 use std::ffi::OsString;
 
-use crate::app::cost::{Said, environment, reason};
 use crate::app::error::Error;
-use crate::app::surroundings::Surroundings;
-use crate::app::worker::Worker;
 use crate::cost::{Compiler, Dialect, ENTRY, Family, Figures, Probe, Statistics, figures, foreign};
+use crate::cost::{Said, environment, reason};
 use crate::num::Precision;
+use crate::process::Surroundings;
+use crate::process::Worker;
 use crate::verify::compilers::Fault;
 use crate::verify::second;
 

@@ -28,15 +28,15 @@ use std::path::PathBuf;
 
 use serde_json::Value;
 
-use crate::app::cost::Limits;
 use crate::cost::Family;
+use crate::cost::Limits;
 use crate::emit::Subject;
 use crate::gpu::Uniform;
 use crate::spectra::Space;
 use crate::verify::compilers::{Fault, Verdict};
 
 use crate::app::error::Error;
-use crate::app::surroundings::Surroundings;
+use crate::process::Surroundings;
 
 pub use bind::Given;
 pub use language::Language;

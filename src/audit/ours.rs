@@ -1,14 +1,14 @@
 //! Our methods for the same material: how wrong in single precision, and how dear.
 
-use crate::app::cost::{Function, Limits, Told, ask, functions, rows};
 use crate::app::error::Error;
-use crate::app::surroundings::Surroundings;
 use crate::cost::{Family, Figures, records};
+use crate::cost::{Function, Limits, Told, ask, functions, rows};
 use crate::emit::Subject;
 use crate::fit::error_of;
 use crate::ir::{Column, Value, evaluate};
 use crate::methods::{self, Contract, Light, Method};
 use crate::num::Precision;
+use crate::process::Surroundings;
 
 use super::frontier::Rival;
 

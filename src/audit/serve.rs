@@ -2,9 +2,9 @@
 
 use std::io::{self, Write};
 
-use crate::app::inbox::Inbox;
 use crate::emit::validate_wgsl;
 use crate::gpu::{self, Kernel, Program, Uniform, Wanted};
+use crate::process::Inbox;
 use crate::verify::harness::ENTRY;
 use crate::verify::run::Devices;
 

@@ -13,6 +13,7 @@ mod loose;
 mod native;
 mod parallel;
 mod precision;
+pub mod statistics;
 mod ulp;
 
 pub use complex::Complex;

@@ -10,8 +10,8 @@ use std::time::Duration;
 use serde_json::Value;
 
 use crate::app::error::Error;
-use crate::app::surroundings::Surroundings;
-use crate::app::worker::{Silence, Worker, own_words};
+use crate::process::Surroundings;
+use crate::process::{Silence, Worker, own_words};
 
 use super::plan::Plan;
 use super::row::unfinished;

@@ -4,7 +4,7 @@ use std::io::{self, Write};
 
 use serde_json::Value;
 
-use crate::app::inbox::Inbox;
+use crate::process::Inbox;
 use crate::verify::run::Devices;
 
 use super::file::{Effort, rows};

@@ -4,9 +4,9 @@ use std::collections::BTreeSet;
 use std::path::Path;
 use std::sync::LazyLock;
 
-use fresnel_gen::app::cost::{Function, functions, rows};
 use fresnel_gen::app::{Materials, Request};
 use fresnel_gen::cost::{FAMILIES, records};
+use fresnel_gen::cost::{Function, functions, rows};
 use fresnel_gen::methods;
 use fresnel_gen::num::Precision;
 use fresnel_gen::report::cost::{Row, Source, markdown, page};

@@ -7,12 +7,12 @@ use std::sync::OnceLock;
 
 use fresnel_gen::app::{Materials, Request};
 use fresnel_gen::cost::records;
-use fresnel_gen::cost::statistics::quantile;
 use fresnel_gen::emit::{Bounds, Naming, Subject, missed, specialised_function};
 use fresnel_gen::fit::{Derivation, ModelError, model_error};
 use fresnel_gen::ir::{Value, evaluate};
 use fresnel_gen::materials::{Kind, Material, Sight};
 use fresnel_gen::methods::{self, Method};
+use fresnel_gen::num::statistics::quantile;
 use fresnel_gen::num::{Legendre, Precision};
 
 /// Further measurements of metals and semiconductors, beside the 75 of the reference list that the promises are about: pages

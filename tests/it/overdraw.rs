@@ -1,9 +1,9 @@
 //! Timing by overdraw, apart from any device: what is drawn is valid, and what is read becomes the figures that it should.
 
 use fresnel_gen::app::Materials;
-use fresnel_gen::app::time::{Asked, Words};
-use fresnel_gen::cost::overdraw::{Clock, Draw, Effort, Measured, Plan, Reading, Stop, measure};
 use fresnel_gen::emit::validate_wgsl;
+use fresnel_gen::overdraw::{Asked, Words};
+use fresnel_gen::overdraw::{Clock, Draw, Effort, Measured, Plan, Reading, Stop, measure};
 
 /// Pixels of the target that is made up here.
 const PIXELS: u64 = 1000;

@@ -232,12 +232,12 @@ fn only_the_writer_and_the_program_touch_the_machine() {
         // Workers: processes of this program, with a time limit.
         "verify/machine.rs",
         "verify/supervise.rs",
-        "app/worker.rs",
-        "app/inbox.rs",
+        "process/worker.rs",
+        "process/inbox.rs",
         // The folder for their temporary files.
-        "app/surroundings.rs",
+        "process/surroundings.rs",
         // The clock of what is measured.
-        "cost/clock.rs",
+        "overdraw/clock.rs",
         "verify/compilers/call.rs",
         // It asks whether a library would complain of the environment.
         "gpu/quiet.rs",

@@ -1,6 +1,7 @@
 //! The axes of cost: what compilers said of library functions, the graph's own operations, and times.
 
-use crate::cost::{Compiler, FAMILIES, Family, library_cost, records, times};
+use crate::cost::{Compiler, FAMILIES, Family, library_cost, records};
+use crate::overdraw::times;
 use crate::report::frontier::{CostAxis, Entry};
 
 /// An axis for each family of which anything is recorded, and one of times.

@@ -3,16 +3,16 @@
 use serde_json::{Value, json};
 
 use crate::app::args::CostFlags;
-use crate::app::cost::{Function, Limits, ask, functions, rows, serve};
 use crate::app::error::Error;
 use crate::app::names::{family, flag};
 use crate::app::precision::several;
 use crate::app::request::Request;
 use crate::app::source::materials;
-use crate::app::surroundings::Surroundings;
 use crate::app::write::{try_places_of_ours, write_report};
 use crate::cost::{FAMILIES, Family, Figures, Record, records};
+use crate::cost::{Function, Limits, ask, functions, rows, serve};
 use crate::methods::{self, Method};
+use crate::process::Surroundings;
 use crate::report::SCHEMA;
 use crate::report::cost::{self as sheet, Row, Source};
 use crate::verify::machine;

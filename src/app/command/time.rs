@@ -5,13 +5,13 @@ use std::collections::BTreeSet;
 
 use crate::app::args::TimeFlags;
 use crate::app::error::Error;
-use crate::app::inbox::Inbox;
 use crate::app::names::{flag, unknown};
 use crate::app::source::materials;
-use crate::app::time::{Artist, Asked, Report, Row, Words, serve, text};
 use crate::cost::BLOCKS;
-use crate::cost::overdraw::{Clock, Effort, Hello, Measured, Stop, measure};
 use crate::gpu::{Backend, Wanted};
+use crate::overdraw::{Artist, Asked, Report, Row, Words, serve, text};
+use crate::overdraw::{Clock, Effort, Hello, Measured, Stop, measure};
+use crate::process::Inbox;
 
 use super::{Output, Progress, report, try_places};
 

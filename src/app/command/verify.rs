@@ -6,7 +6,6 @@ use serde_json::{Value, json};
 
 use crate::app::args::VerifyFlags;
 use crate::app::error::Error;
-use crate::app::inbox::Inbox;
 use crate::app::names::{flag, unknown};
 use crate::app::request::Request;
 use crate::app::sight::{flags as sight_flags, sight};
@@ -14,6 +13,7 @@ use crate::app::source::{materials, source};
 use crate::app::verify::plan_of_request;
 use crate::app::write::write_file;
 use crate::gpu::{Backend, Wanted};
+use crate::process::Inbox;
 use crate::report::SCHEMA;
 use crate::report::table;
 use crate::verify::file::Effort;

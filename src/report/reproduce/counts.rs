@@ -4,8 +4,9 @@
 //! thesis did not subtract; so beside each share stands what it becomes on the line `time = fixed + rate * count` that fits
 //! the device best.
 
-use crate::cost::{Compiler, Time, find, records, times};
+use crate::cost::{Compiler, find, records};
 use crate::methods;
+use crate::overdraw::{Time, times};
 
 use super::row::{Figure, Row, Verdict};
 use super::{Section, thesis};

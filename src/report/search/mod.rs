@@ -5,9 +5,9 @@ mod text;
 
 use std::collections::BTreeSet;
 
-use crate::cost::statistics::{median, medians, quantile};
 use crate::fit::{Candidate, Tried};
 use crate::methods::Method;
+use crate::num::statistics::{median, medians, quantile};
 
 use super::frontier::frontier;
 

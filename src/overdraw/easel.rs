@@ -2,10 +2,10 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::cost::clock::timed;
 use crate::gpu::{
     Backend, Canvas, Device, Fault, Kind, Layer, Shader, Texture, TextureFormat, Wanted, Wrap,
 };
+use crate::overdraw::clock::timed;
 
 use super::measure::Reading;
 use super::plan::{Drawing, Plan};

@@ -8,9 +8,9 @@ use std::path::{Path, PathBuf};
 use serde::Deserialize;
 
 use crate::app::error::Error;
-use crate::app::surroundings::Surroundings;
-use crate::app::worker::{Silence, Worker};
 use crate::cost::{Compiler, Dialect, Family, Figures, Statistics, figures};
+use crate::process::Surroundings;
+use crate::process::{Silence, Worker};
 use crate::verify::compilers;
 
 use super::function::{Function, empty};

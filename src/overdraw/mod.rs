@@ -4,7 +4,7 @@
 //!
 //! The measured shader is blended, so that no draw can be left out. A draw's own price, blending above all, would hide a
 //! cheap function on any large device; so each draw evaluates the function several times, each from the result
-//! before ([`Probe`](super::Probe)), and the shader that evaluates nothing, the empty one, is taken off:
+//! before ([`Probe`](crate::cost::Probe)), and the shader that evaluates nothing, the empty one, is taken off:
 //!
 //! `net = ((T(heavy + N draws) - T(heavy)) / N - the same of the empty shader) / evaluations`.
 //!
@@ -17,14 +17,34 @@
 //! worked for the process is taken, in which other programs are not: with four of them on two cores shares by timestamps
 //! are off by half.
 
+#[cfg(all(feature = "cli", feature = "gpu"))]
+mod artist;
+#[cfg(all(feature = "cli", feature = "gpu"))]
+mod asked;
+#[cfg(feature = "gpu")]
+mod clock;
 #[cfg(feature = "gpu")]
 mod easel;
 mod figure;
 mod measure;
 mod plan;
+#[cfg(all(feature = "cli", feature = "gpu"))]
+mod report;
+#[cfg(all(feature = "cli", feature = "gpu"))]
+mod serve;
+mod times;
 
+#[cfg(all(feature = "cli", feature = "gpu"))]
+pub use artist::Artist;
+#[cfg(all(feature = "cli", feature = "gpu"))]
+pub use asked::{Asked, Words};
 #[cfg(feature = "gpu")]
 pub use easel::{Easel, Hello};
 pub use figure::{Figure, Noise};
 pub use measure::{Clock, Draw, Effort, Measured, Reading, Round, Stop, measure};
 pub use plan::{Drawing, Plan, Timed};
+#[cfg(all(feature = "cli", feature = "gpu"))]
+pub use report::{Report, Row, text};
+#[cfg(all(feature = "cli", feature = "gpu"))]
+pub use serve::{Answer, serve};
+pub use times::{Time, times};

@@ -5,11 +5,11 @@ use crate::app::error::Error;
 use crate::app::precision::several;
 use crate::app::request::{Materials, Request, Source};
 use crate::cost::REFERENCE;
-use crate::cost::overdraw::{Plan, Timed};
 use crate::emit::{Bounds, Emitted, Naming, Subject, library_functions, specialised_function};
 use crate::fit::table_of;
 use crate::methods::{self, Class, Method, Values};
 use crate::num::Precision;
+use crate::overdraw::{Plan, Timed};
 
 /// Materials that functions are specialised to where none is named: a metal and a dielectric.
 const USUAL: [&str; 2] = ["gold", "water"];

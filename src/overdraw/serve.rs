@@ -5,9 +5,9 @@ use std::io::{self, Write};
 
 use serde::{Deserialize, Serialize};
 
-use crate::app::inbox::Inbox;
-use crate::cost::overdraw::{Easel, Hello, Plan, Reading};
 use crate::gpu::{Fault, Wanted};
+use crate::overdraw::{Easel, Hello, Plan, Reading};
+use crate::process::Inbox;
 
 /// What it is asked first.
 pub const HELLO: &str = "hello";

@@ -5,7 +5,7 @@ use core::ops::Range;
 
 use serde::{Deserialize, Serialize};
 
-use crate::cost::statistics::{median, quantile};
+use crate::num::statistics::{median, quantile};
 
 use super::plan::Plan;
 

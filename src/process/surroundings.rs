@@ -16,7 +16,7 @@ use tempfile::TempDir;
 
 use crate::verify::compilers::TEMPORARY;
 
-use super::error::Error;
+use crate::app::error::Error;
 
 /// How the name of a run's folder begins. Nothing else with our lock in it is ever removed.
 const PREFIX: &str = ".fresnel-gen-run-";

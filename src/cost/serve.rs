@@ -7,11 +7,11 @@ use serde::Deserialize;
 use serde_json::json;
 
 use crate::app::error::Error;
-use crate::app::inbox::Inbox;
 use crate::cost::{Compiler, Dialect, ENTRY, Family, Statistics, VERTEX, WGSL_VERTEX};
 use crate::cost::{gles_vertex, remarked};
 use crate::emit::wgsl_to_spirv;
 use crate::gpu::{Entry, Fault, Node, Null};
+use crate::process::Inbox;
 
 /// A compiler at work.
 enum Open {

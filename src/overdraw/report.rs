@@ -2,8 +2,8 @@
 
 use serde_json::{Value, json};
 
-use crate::cost::overdraw::{Clock, Figure, Hello, Measured, Noise, Timed};
 use crate::ir::Ty;
+use crate::overdraw::{Clock, Figure, Hello, Measured, Noise, Timed};
 use crate::report::SCHEMA;
 use crate::report::table;
 

@@ -1,6 +1,6 @@
 //! From readings to figures.
 
-use crate::cost::statistics::{interval, median, quantile, resamples, spread};
+use crate::num::statistics::{interval, median, quantile, resamples, spread};
 
 use super::measure::{Clock, Measured};
 use super::plan::Plan;

@@ -4,9 +4,9 @@ use core::time::Duration;
 use std::collections::BTreeSet;
 
 use crate::app::error::Error;
-use crate::app::surroundings::Surroundings;
-use crate::app::worker::{Silence, Worker, own_words};
-use crate::cost::overdraw::{Draw, Hello, Plan, Reading, Stop};
+use crate::overdraw::{Draw, Hello, Plan, Reading, Stop};
+use crate::process::Surroundings;
+use crate::process::{Silence, Worker, own_words};
 
 use super::serve::{Answer, HELLO};
 

@@ -8,8 +8,8 @@ use std::sync::mpsc::{Sender, channel};
 use std::thread;
 
 use crate::app::error::Error;
-use crate::app::surroundings::Surroundings;
 use crate::cost::{Dialect, Family};
+use crate::process::Surroundings;
 
 use super::function::Function;
 use super::session::{Answer, Asker, Done};

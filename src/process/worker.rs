@@ -9,9 +9,9 @@ use std::time::Duration;
 
 use serde::de::DeserializeOwned;
 
-use super::error::Error;
 use super::inbox::framed;
 use super::surroundings::Surroundings;
+use crate::app::error::Error;
 
 /// A process that answers. It ends when this is dropped, with all that it has started, and when this process ends.
 pub struct Worker {
