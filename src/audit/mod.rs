@@ -7,11 +7,11 @@
 mod accept;
 mod bind;
 mod code;
+mod comparison;
 mod compile;
 mod cost;
 mod directives;
 mod edges;
-mod frontier;
 mod job;
 mod language;
 mod loops;

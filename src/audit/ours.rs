@@ -1,7 +1,7 @@
 //! Our methods for the same material: how wrong in single precision, and how dear.
 
 use crate::app::error::Error;
-use crate::cost::{Family, Figures, records};
+use crate::cost::{CostAndError, Family, Figures, records};
 use crate::cost::{Function, Limits, Told, ask, functions, rows};
 use crate::emit::Subject;
 use crate::fit::error_of;
@@ -10,7 +10,7 @@ use crate::methods::{self, Contract, Light, Method};
 use crate::num::Precision;
 use crate::process::Surroundings;
 
-use super::frontier::Rival;
+use super::comparison::Competitor;
 
 /// A method with its error, and its cost on each family where it is known.
 #[derive(Clone, Debug)]
@@ -23,12 +23,12 @@ pub struct Ours {
 
 impl Ours {
     /// As it stands against a function on the family of this place.
-    pub fn rival(&self, place: usize) -> Option<Rival> {
-        Some(Rival {
+    pub fn competitor(&self, place: usize) -> Option<Competitor> {
+        let (cost, error) = (self.costs[place]?, self.error);
+        Some(Competitor {
             method: self.method,
             form: self.form,
-            error: self.error,
-            cost: self.costs[place]?,
+            point: CostAndError { cost, error },
         })
     }
 }

@@ -2,15 +2,16 @@
 
 use serde_json::{Map, Value, json};
 
+use crate::cost::CostAndError;
 use crate::emit::Subject;
 use crate::fit::{ModelError, Perceived};
 use crate::verify::compilers::Verdict;
 
 use super::Audit;
 use super::bind::Bound;
+use super::comparison::{Competitor, dominating, sentence};
 use super::cost::Cost;
 use super::edges::Edges;
-use super::frontier::{Rival, better, sentence};
 use super::ours::Ours;
 use super::runner::Trouble;
 
@@ -128,28 +129,29 @@ impl Row<'_> {
         Value::Object(each.collect::<Map<String, Value>>())
     }
 
-    fn rivals(&self, place: usize) -> Vec<Rival> {
-        self.ours
-            .iter()
-            .filter_map(|ours| ours.rival(place))
-            .collect()
+    fn competitors(&self, place: usize) -> Vec<Competitor> {
+        let each = self.ours.iter();
+        each.filter_map(|ours| ours.competitor(place)).collect()
     }
 
-    /// The error and the cost on the family of this place, where both are known.
-    fn point(&self, cost: &Cost) -> Option<(f64, f64)> {
-        let error = self.ran.as_ref().ok()?.error.max_abs;
-        Some((error, cost.figures.as_ref().ok()?.cost()))
+    /// The cost on the family of this place and the error, where both are known.
+    fn point(&self, cost: &Cost) -> Option<CostAndError> {
+        Some(CostAndError {
+            error: self.ran.as_ref().ok()?.error.max_abs,
+            cost: cost.figures.as_ref().ok()?.cost(),
+        })
     }
 
     fn dominated(&self, place: usize, cost: &Cost) -> Vec<Value> {
-        let Some((error, own)) = self.point(cost) else {
+        let Some(own) = self.point(cost) else {
             return Vec::new();
         };
-        let all = better(error, own, &self.rivals(place)).into_iter();
-        all.map(|better| {
-            let mut row = better.json();
-            row["gpu"] = json!(cost.family.name);
-            row
+        let all = dominating(&own, &self.competitors(place)).into_iter();
+        all.map(|other| {
+            json!({
+                "method": other.method, "form": other.form, "error_times": other.times.error,
+                "cost_times": other.times.cost, "gpu": cost.family.name,
+            })
         })
         .collect()
     }
@@ -157,9 +159,9 @@ impl Row<'_> {
     /// The sentence that matters, for each GPU.
     fn sentences(&self) -> Value {
         let each = self.costs.iter().enumerate().filter_map(|(place, cost)| {
-            let (error, own) = self.point(cost)?;
-            let rivals = self.rivals(place);
-            let known = (!rivals.is_empty()).then(|| sentence(error, own, &rivals));
+            let own = self.point(cost)?;
+            let others = self.competitors(place);
+            let known = (!others.is_empty()).then(|| sentence(&own, &others));
             Some((cost.family.name.to_owned(), json!(known)))
         });
         Value::Object(each.collect())

@@ -8,6 +8,7 @@ mod figures;
 pub mod foreign;
 #[cfg(all(feature = "cli", feature = "gpu"))]
 mod function;
+mod pareto;
 mod probe;
 mod record;
 #[cfg(all(feature = "cli", feature = "gpu"))]
@@ -23,6 +24,7 @@ pub use family::{Compiler, Dialect, FAMILIES, Family, find};
 pub use figures::{Columns, Counts, Figures, Statistics, figures, remarked};
 #[cfg(all(feature = "cli", feature = "gpu"))]
 pub use function::{Function, functions};
+pub use pareto::{CostAndError, Multiples, TIE, pareto_frontier};
 pub use probe::{BLOCKS, ENTRY, Probe, VERTEX, WGSL_VERTEX, gles_vertex};
 pub use record::{Record, function_cost, library_cost, records};
 #[cfg(all(feature = "cli", feature = "gpu"))]

@@ -2,8 +2,9 @@
 
 use serde_json::{Value, json};
 
-use super::frontier::{figure, frontier};
+use super::frontier::figure;
 use super::table;
+use crate::cost::{CostAndError, pareto_frontier};
 use crate::emit::Missed;
 use crate::fit::{Aim, Follows, Weight};
 use crate::methods::Method;
@@ -100,9 +101,12 @@ pub fn text(rows: &[Row], gpu: &str) -> String {
     for of in rows.chunk_by(|a, b| a.material == b.material) {
         let points: Vec<_> = of
             .iter()
-            .map(|row| row.cost.map(|cost| (cost, row.max_abs)))
+            .map(|row| {
+                let error = row.max_abs;
+                row.cost.map(|cost| CostAndError { cost, error })
+            })
             .collect();
-        let best = frontier(&points);
+        let best = pareto_frontier(&points);
         let starred = of.iter().enumerate();
         lines.extend(starred.map(|(place, row)| cells(row, best.contains(&place))));
     }

@@ -8,6 +8,7 @@ mod text;
 
 use serde_json::{Value, json};
 
+use crate::cost::{CostAndError, pareto_frontier};
 use crate::methods::{Contract, Method};
 
 #[cfg(feature = "cli")]
@@ -162,11 +163,14 @@ impl<'a> View<'a> {
             let order = a.1.total_cmp(&b.1).then(a.2.total_cmp(&b.2));
             order.then(a.0.label().cmp(&b.0.label()))
         });
-        let compared: Vec<Option<(f64, f64)>> = known
+        let compared: Vec<Option<CostAndError>> = known
             .iter()
-            .map(|(entry, cost, error)| self.compares(entry).then_some((*cost, drawn(*error))))
+            .map(|(entry, cost, error)| {
+                let (cost, error) = (*cost, drawn(*error));
+                self.compares(entry).then_some(CostAndError { cost, error })
+            })
             .collect();
-        let best = frontier(&compared);
+        let best = pareto_frontier(&compared);
         let point = |(place, (entry, cost, error)): (usize, &(&'a Entry, f64, f64))| Point {
             entry,
             cost: *cost,
@@ -289,76 +293,9 @@ fn capital(text: &str) -> String {
     first.into_iter().chain(letters).collect()
 }
 
-/// Smaller relative improvements count as ties.
-const AS_NEAR: f64 = 0.01;
-
-/// The places of those that nothing beats, in a walk from the cheapest: each is nearer than all before it by what counts.
-/// Two that cost and err the same stand both. What is not known takes no part.
-pub fn frontier(points: &[Option<(f64, f64)>]) -> Vec<usize> {
-    let places = points.iter().enumerate();
-    let mut known: Vec<(usize, (f64, f64))> = places
-        .filter_map(|(place, point)| Some((place, (*point)?)))
-        .collect();
-    known.sort_by(|(_, a), (_, b)| a.0.total_cmp(&b.0).then(a.1.total_cmp(&b.1)));
-    let mut best: Vec<(usize, (f64, f64))> = Vec::new();
-    for (place, point) in known {
-        let is_better =
-            |last: &(usize, (f64, f64))| point == last.1 || point.1 * (1.0 + AS_NEAR) < last.1.1;
-        if best.last().is_none_or(is_better) {
-            best.push((place, point));
-        }
-    }
-    let mut places: Vec<usize> = best.into_iter().map(|(place, _)| place).collect();
-    places.sort_unstable();
-    places
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn the_frontier_holds_what_nothing_beats() {
-        type Case = (&'static [Option<(f64, f64)>], &'static [usize]);
-        const CASES: [Case; 11] = [
-            (&[], &[]),
-            (&[None], &[]),
-            (&[Some((1.0, 1.0))], &[0]),
-            // A staircase, and one behind it.
-            (
-                &[
-                    Some((1.0, 3.0)),
-                    Some((2.0, 2.0)),
-                    Some((3.0, 1.0)),
-                    Some((3.0, 2.5)),
-                ],
-                &[0, 1, 2],
-            ),
-            // As dear and as wrong: both stand.
-            (&[Some((1.0, 1.0)), Some((1.0, 1.0))], &[0, 1]),
-            // As dear and less wrong, or as wrong and cheaper, is enough.
-            (&[Some((1.0, 1.0)), Some((1.0, 0.5))], &[1]),
-            (&[Some((2.0, 0.5)), Some((1.0, 0.5))], &[1]),
-            // Less wrong by nothing that counts is not worth a higher price; at the same price it is.
-            (&[Some((2.0, 0.999)), Some((1.0, 1.0))], &[1]),
-            (&[Some((1.0, 0.999)), Some((1.0, 1.0))], &[0]),
-            // Small steps add up.
-            (
-                &[
-                    Some((1.0, 1.0)),
-                    Some((2.0, 0.993)),
-                    Some((3.0, 0.987)),
-                    Some((4.0, 0.98)),
-                ],
-                &[0, 2],
-            ),
-            // One that is not known beats nothing.
-            (&[Some((2.0, 1.0)), None, Some((1.0, 2.0))], &[0, 2]),
-        ];
-        for (points, wanted) in CASES {
-            assert_eq!(frontier(points), wanted, "{points:?}");
-        }
-    }
 
     #[test]
     fn a_texture_is_compared_only_where_its_fetch_is_counted() {

@@ -3,7 +3,7 @@
 use serde::Serialize;
 use tera::Context;
 
-use super::{AS_NEAR, Data, ERRORS, Function, LEAST_ERROR};
+use super::{Data, ERRORS, Function, LEAST_ERROR};
 use crate::report::html;
 
 static TEMPLATE: &str = include_str!("../../../templates/chart.html.tera");
@@ -71,7 +71,7 @@ fn told(data: &Data) -> Told<'_> {
     });
     Told {
         least_error: LEAST_ERROR,
-        as_near: AS_NEAR,
+        as_near: crate::cost::TIE,
         entries: data.entries.iter().map(of).collect(),
         errors: ERRORS
             .iter()

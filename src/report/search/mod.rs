@@ -5,11 +5,10 @@ mod text;
 
 use std::collections::BTreeSet;
 
+use crate::cost::{CostAndError, pareto_frontier};
 use crate::fit::{Candidate, Tried};
 use crate::methods::Method;
 use crate::num::statistics::{median, medians, quantile};
-
-use super::frontier::frontier;
 
 pub use text::{Told, json, text};
 
@@ -96,9 +95,14 @@ impl Errors {
             is_best: false,
         };
         let mut rows: Vec<Row> = self.tried.iter().map(row).collect();
-        let point = |row: &Row| Some((row.operations as f64, row.figures.p90));
+        let point = |row: &Row| {
+            Some(CostAndError {
+                cost: row.operations as f64,
+                error: row.figures.p90,
+            })
+        };
         let points: Vec<_> = rows.iter().map(point).collect();
-        for place in frontier(&points) {
+        for place in pareto_frontier(&points) {
             rows[place].is_best = true;
         }
         rows.retain(|row| row.is_best || row.candidate.method.is_some());
