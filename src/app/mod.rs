@@ -7,14 +7,10 @@
 #[cfg(feature = "cli")]
 pub mod args;
 pub mod artifact;
-#[cfg(all(feature = "cli", feature = "gpu"))]
-mod audited;
 #[cfg(feature = "cli")]
 pub mod bake;
 pub mod budget;
 pub mod catalogue;
-#[cfg(feature = "cli")]
-pub mod chart;
 pub mod check;
 #[cfg(feature = "cli")]
 pub mod command;

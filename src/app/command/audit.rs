@@ -5,8 +5,6 @@ use std::path::{Path, PathBuf};
 use serde_json::{Value, json};
 
 use crate::app::args::AuditFlags;
-use crate::app::audited::own;
-use crate::app::chart::{OF, data};
 use crate::app::error::Error;
 use crate::app::names::{family, flag};
 use crate::app::request::{Materials, Request};
@@ -17,7 +15,7 @@ use crate::audit::{Audit, Given, Language, file_name, serve, text};
 use crate::cost::{FAMILIES, Family};
 use crate::emit::Subject;
 use crate::report::SCHEMA;
-use crate::report::frontier::{CostAxis, View};
+use crate::report::frontier::{CostAxis, OF, View, data, own};
 use crate::spectra::Space;
 use crate::verify::{junit, machine};
 

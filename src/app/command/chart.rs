@@ -5,7 +5,6 @@ use std::path::{Path, PathBuf};
 use serde_json::json;
 
 use crate::app::args::ChartFlags;
-use crate::app::chart::{CLASSES, OF, cost_names, data};
 use crate::app::error::Error;
 use crate::app::names::{flag, unknown};
 use crate::app::request::{Materials, Request};
@@ -13,7 +12,7 @@ use crate::app::source::materials;
 use crate::app::write::{try_places_of_ours, write_report};
 use crate::emit::Subject;
 use crate::report::SCHEMA;
-use crate::report::frontier::{Data, ERRORS, View, page, svg, text};
+use crate::report::frontier::{CLASSES, Data, ERRORS, OF, View, cost_names, data, page, svg, text};
 
 use super::{Output, Progress, replaced, report, try_files};
 

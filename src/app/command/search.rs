@@ -3,7 +3,6 @@
 use serde_json::json;
 
 use crate::app::args::FitFlags;
-use crate::app::chart::{CLASSES, class};
 use crate::app::error::Error;
 use crate::cost::{Family, library_cost, records};
 use crate::emit::Subject;
@@ -12,6 +11,7 @@ use crate::materials::{Material, find};
 use crate::methods::Method;
 use crate::num::in_parallel;
 use crate::report::SCHEMA;
+use crate::report::frontier::{CLASSES, class};
 use crate::report::search::{Errors, Told, json, text};
 
 use super::fit::{canonical, subjects};

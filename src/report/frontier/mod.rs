@@ -1,8 +1,13 @@
 //! Error against cost: every method a point, and a user's function where there is one, and the frontier of those that nothing beats in both.
 
+mod audited;
+mod costs;
 mod labels;
+mod measure;
+mod own;
 #[cfg(feature = "cli")]
 mod page;
+mod sets;
 mod svg;
 mod text;
 
@@ -11,8 +16,12 @@ use serde_json::{Value, json};
 use crate::cost::{CostAndError, pareto_frontier};
 use crate::methods::{Contract, Method};
 
+pub use audited::own;
+pub use measure::{cost_names, data};
+pub use own::Own;
 #[cfg(feature = "cli")]
 pub use page::page;
+pub use sets::{CLASSES, OF, class};
 pub use svg::svg;
 pub(super) use text::figure;
 pub use text::{headline, text};

@@ -2,7 +2,8 @@
 
 use crate::cost::{Compiler, FAMILIES, Family, library_cost, records};
 use crate::overdraw::times;
-use crate::report::frontier::{CostAxis, Entry};
+
+use super::{CostAxis, Entry};
 
 /// An axis for each family of which anything is recorded, and one of times.
 pub fn axes(entries: &[Entry]) -> Vec<CostAxis> {

@@ -4,8 +4,7 @@ use std::collections::BTreeMap;
 
 use serde_json::Value;
 
-use crate::app::chart::Own;
-use crate::report::frontier::User;
+use super::{Own, User};
 
 /// Errors leave out cosines at which it gives no number. Above this share they are no longer those of the function.
 const MOST_UNDEFINED: f64 = 0.01;

@@ -4,9 +4,9 @@ use crate::emit::{LEAST_FITTED_N, Subject};
 use crate::materials::Kind;
 use crate::num::statistics::{median, medians, quantile};
 use crate::report::class_title;
-use crate::report::frontier::Set;
 
-use super::Errors;
+use super::Set;
+use super::measure::Errors;
 
 /// The classes, by the names of their sets.
 pub const CLASSES: [&str; 2] = ["metals", "dielectrics"];

@@ -2,9 +2,8 @@
 
 use std::collections::BTreeMap;
 
-use crate::report::frontier::{CostAxis, Data, Entry, Function, User};
-
-use super::Errors;
+use super::measure::Errors;
+use super::{CostAxis, Data, Entry, Function, User};
 
 /// What is known of a user's function.
 #[derive(Clone, Debug)]

@@ -1,10 +1,6 @@
 //! What charts show: the error of every method for every material, with its intended inputs and with its best ones, and what an
 //! evaluation of its library function costs where that was recorded; a user's own function beside them.
 
-mod costs;
-mod own;
-mod sets;
-
 use crate::emit::Subject;
 use crate::fit::{
     Curve, ModelError, Truth, best_inputs, error_of, model_error, perceived, values_at,
@@ -12,11 +8,10 @@ use crate::fit::{
 use crate::ir::{Checked, Value};
 use crate::methods::{ALL, Light, Method, Values};
 use crate::num::in_parallel;
-use crate::report::frontier::{Data, Entry, Function};
 use crate::spectra::Space;
 
-pub use own::Own;
-pub use sets::{CLASSES, OF, class};
+use super::own::Own;
+use super::{Data, Entry, Function, costs, sets};
 
 /// The names of all axes of cost.
 pub fn cost_names() -> Vec<&'static str> {
@@ -27,7 +22,7 @@ pub fn cost_names() -> Vec<&'static str> {
 const BUILT: &str = "a test builds every method";
 
 /// For each entry, the error on each axis.
-type Errors = Vec<[Option<f64>; 4]>;
+pub(super) type Errors = Vec<[Option<f64>; 4]>;
 
 /// The data of charts of these materials, with a user's function as one more entry. `progress` hears how many are done.
 pub fn data(
