@@ -1,14 +1,14 @@
 //! Dependencies: their licences and where they come from, by the lists in deny.toml. `cargo deny` says the same of them
 //! and needs to be installed; this test needs cargo only.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 use std::process::Command;
 
 use serde_json::Value;
 
-/// Every package that the lock file names, as cargo tells it.
-fn packages() -> Vec<Value> {
+/// What cargo says of the workspace's packages and of how they depend on each other.
+fn metadata() -> Value {
     let output = Command::new(env!("CARGO"))
         .args([
             "metadata",
@@ -25,8 +25,30 @@ fn packages() -> Vec<Value> {
         "{}",
         String::from_utf8_lossy(&output.stderr)
     );
-    let all: Value = serde_json::from_slice(&output.stdout).unwrap();
-    all["packages"].as_array().unwrap().clone()
+    serde_json::from_slice(&output.stdout).unwrap()
+}
+
+/// The root package and all that it depends on, on any system. The fuzzer's own runtime belongs to another member, and nobody ships it.
+fn packages() -> Vec<Value> {
+    let metadata = metadata();
+    let nodes: BTreeMap<&str, &Value> = metadata["resolve"]["nodes"]
+        .as_array()
+        .unwrap()
+        .iter()
+        .map(|node| (node["id"].as_str().unwrap(), &node["dependencies"]))
+        .collect();
+    let mut pending = vec![metadata["resolve"]["root"].as_str().unwrap()];
+    let mut reached = BTreeSet::new();
+    while let Some(id) = pending.pop() {
+        if reached.insert(id) {
+            let dependencies = nodes[id].as_array().unwrap().iter();
+            pending.extend(dependencies.map(|one| one.as_str().unwrap()));
+        }
+    }
+    let all = metadata["packages"].as_array().unwrap().iter();
+    all.filter(|package| reached.contains(package["id"].as_str().unwrap()))
+        .cloned()
+        .collect()
 }
 
 /// A list of deny.toml.
