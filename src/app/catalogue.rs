@@ -1,6 +1,7 @@
 //! The catalogue of fitted coefficients: those of every material that is known over the whole spectrum, as JSON and as an array
 //! in each language. A run that names neither methods nor materials writes it.
 
+use serde::Serialize;
 use serde_json::{Value, json};
 
 use crate::emit::{
@@ -8,12 +9,11 @@ use crate::emit::{
 };
 use crate::methods::{self, Method};
 use crate::num::in_parallel;
-use crate::report::SCHEMA;
+use crate::report::{Origin, TOOL};
 
 use super::artifact::Artifact;
 use super::error::Error;
 use super::generate::Generated;
-use super::manifest::TOOL;
 use super::names::quoted;
 use super::recorded;
 use super::request::{Materials, Request};
@@ -156,16 +156,30 @@ fn command(request: &Request, target: Option<&str>) -> Result<String, Error> {
     Ok(command + &sight::flags(&request.sight))
 }
 
+/// `catalogue.json`: how its materials are seen, the methods, the materials with their coefficients.
+#[derive(Serialize)]
+struct Listed<'a> {
+    #[serde(flatten)]
+    origin: Origin,
+    truth: &'a str,
+    space: Option<&'static str>,
+    licence: &'static str,
+    methods: Vec<Value>,
+    materials: Vec<Value>,
+}
+
 fn as_json(rows: &[Row], seen: &str, request: &Request) -> Result<Artifact, Error> {
     let command = command(request, None)?;
     let about = |method: &Method| json!({ "name": method.name, "formula": method.formula, "source": method.source.line() });
-    let report = json!({
-        "tool": TOOL, "schema": SCHEMA, "command": command, "truth": seen,
-        "space": request.sight.wavelengths_nm.is_none().then(|| request.sight.integration.space.name()),
-        "licence": OUTPUT_LICENCE,
-        "methods": emit::methods_of(rows).into_iter().map(about).collect::<Vec<Value>>(),
-        "materials": rows.iter().map(object).collect::<Vec<Value>>(),
-    });
+    let is_spectral = request.sight.wavelengths_nm.is_none();
+    let report = Listed {
+        origin: Origin::new(command.clone()),
+        truth: seen,
+        space: is_spectral.then(|| request.sight.integration.space.name()),
+        licence: OUTPUT_LICENCE,
+        methods: emit::methods_of(rows).into_iter().map(about).collect(),
+        materials: rows.iter().map(object).collect(),
+    };
     let text = serde_json::to_string_pretty(&report).expect("a report has only text keys") + "\n";
     let detail = json!({ "command": command, "materials": rows.len(), "seen": seen, "licence": OUTPUT_LICENCE });
     let path = format!("{CATALOGUE}.{JSON}");

@@ -10,6 +10,7 @@ use serde::{Deserialize, Deserializer, Serialize};
 use serde_json::{Map, Value};
 
 use crate::num::Precision;
+use crate::report::TOOL;
 
 use super::artifact::{Artifact, check_path};
 use super::error::Error;
@@ -18,9 +19,6 @@ use super::scope::Scope;
 
 /// The manifest's name in the output folder.
 pub const FILE: &str = "manifest.json";
-
-/// The name by which a manifest is known as ours.
-pub const TOOL: &str = "fresnel-gen";
 
 /// The version of the manifest's form. It rises when an older program would misread a newer manifest.
 pub const SCHEMA: u32 = 1;

@@ -3,6 +3,7 @@
 pub mod card;
 pub mod chart;
 pub mod cost;
+mod envelope;
 pub mod fits;
 pub mod frontier;
 pub mod headline;
@@ -17,8 +18,7 @@ pub mod stability;
 pub mod survey;
 pub mod table;
 
-/// The version of the form of JSON reports. It rises when a key changes its meaning or goes.
-pub const SCHEMA: u32 = 1;
+pub use envelope::{Origin, Report, SCHEMA, TOOL};
 
 /// A class of materials in words: `metals`, with semiconductors, or `dielectrics`.
 pub fn class_title(class: &str) -> &'static str {

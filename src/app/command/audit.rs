@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use serde_json::{Value, json};
+use serde_json::Value;
 
 use crate::app::args::AuditFlags;
 use crate::app::error::Error;
@@ -14,7 +14,7 @@ use crate::app::write::{try_places_of_ours, write_file};
 use crate::audit::{Audit, Given, Language, file_name, serve, text};
 use crate::cost::{FAMILIES, Family};
 use crate::emit::Subject;
-use crate::report::SCHEMA;
+use crate::report::Report;
 use crate::report::frontier::{CostAxis, OF, View, data, own};
 use crate::spectra::Space;
 use crate::verify::{junit, machine};
@@ -50,10 +50,10 @@ pub fn run(flags: &AuditFlags, progress: Progress) -> Result<Output, Error> {
         let xml = junit("fresnel-gen audit", &rows).map_err(|what| Error::Usage { what })?;
         write_file(file, xml.as_bytes())?;
     }
-    let full = json!({
-        "tool": "fresnel-gen", "schema": SCHEMA, "command": command, "device": rows.first().map(|row| &row["device"]),
-        "rows": rows,
-    });
+    let full = Report::new(command.clone(), rows.clone()).with_device(
+        rows.first()
+            .and_then(|row| row["device"].as_str().map(str::to_owned)),
+    );
     let charted = match &flags.out_dir {
         Some(folder) => {
             let place = (folder.as_path(), flags.overwrite);

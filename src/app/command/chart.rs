@@ -2,8 +2,6 @@
 
 use std::path::{Path, PathBuf};
 
-use serde_json::json;
-
 use crate::app::args::ChartFlags;
 use crate::app::error::Error;
 use crate::app::names::{flag, unknown};
@@ -11,7 +9,7 @@ use crate::app::request::{Materials, Request};
 use crate::app::source::materials;
 use crate::app::write::{try_places_of_ours, write_report};
 use crate::emit::Subject;
-use crate::report::SCHEMA;
+use crate::report::Report;
 use crate::report::frontier::{CLASSES, Data, ERRORS, OF, View, cost_names, data, page, svg, text};
 
 use super::{Output, Progress, replaced, report, try_files};
@@ -49,9 +47,7 @@ pub fn run(flags: &ChartFlags, progress: Progress) -> Result<Output, Error> {
         cost: &data.costs[cost],
         error,
     };
-    let json = json!({
-        "tool": "fresnel-gen", "schema": SCHEMA, "command": canonical(flags), "device": null, "rows": view.json(),
-    });
+    let json = Report::new(canonical(flags), view.json());
     let drawn = match folder {
         Some(folder) => written(folder, flags.overwrite, &view, [set, cost, error])?,
         None => Vec::new(),

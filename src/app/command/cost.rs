@@ -1,7 +1,5 @@
 //! `cost`: what compilers of real GPUs make of functions.
 
-use serde_json::{Value, json};
-
 use crate::app::args::CostFlags;
 use crate::app::error::Error;
 use crate::app::names::{family, flag};
@@ -13,7 +11,7 @@ use crate::cost::{FAMILIES, Family, Figures, Record, records};
 use crate::cost::{Function, Limits, ask, functions, rows, serve};
 use crate::methods::{self, Method};
 use crate::process::Surroundings;
-use crate::report::SCHEMA;
+use crate::report::Report;
 use crate::report::cost::{self as sheet, Row, Source};
 use crate::verify::machine;
 
@@ -45,10 +43,10 @@ pub fn run(flags: &CostFlags, progress: Progress) -> Result<Output, Error> {
         .zip(&told)
         .map(|(family, told)| rows(family, told.as_ref(), &records(family.name), &functions))
         .collect();
-    let json = json!({
-        "tool": "fresnel-gen", "schema": SCHEMA, "command": canonical(flags), "device": null,
-        "rows": table.iter().flatten().map(Row::json).collect::<Vec<Value>>(),
-    });
+    let json = Report::new(
+        canonical(flags),
+        table.iter().flatten().map(Row::json).collect(),
+    );
     let (text, checked) = if flags.check {
         check(&table)
     } else {

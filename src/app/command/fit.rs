@@ -1,7 +1,5 @@
 //! `fit`: the coefficients of fitted methods.
 
-use serde_json::{Value, json};
-
 use crate::app::args::FitFlags;
 use crate::app::error::Error;
 use crate::app::names::{family, flag, quoted, unknown};
@@ -16,7 +14,7 @@ use crate::fit::{
 };
 use crate::methods::{ALL, Class, Method, Values};
 use crate::num::in_parallel;
-use crate::report::SCHEMA;
+use crate::report::Report;
 use crate::report::fits::{Row, text};
 
 use super::{Output, Progress, report, search, try_places};
@@ -35,10 +33,7 @@ pub fn run(flags: &FitFlags, progress: Progress) -> Result<Output, Error> {
     } else {
         (of_colours(flags, aim, &forms)?, Vec::new())
     };
-    let json = json!({
-        "tool": "fresnel-gen", "schema": SCHEMA, "command": canonical(flags)?, "device": null,
-        "rows": rows.iter().map(Row::json).collect::<Vec<Value>>(),
-    });
+    let json = Report::new(canonical(flags)?, rows.iter().map(Row::json).collect());
     let mut output = report(text(&rows, &flags.gpu), &json, flags.json.as_deref())?;
     output.remarks = left_out;
     Ok(output)

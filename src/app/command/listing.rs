@@ -1,70 +1,86 @@
 //! `methods` and `targets`: list and show.
 
-use serde_json::{Value, json};
+use serde::Serialize;
 
 use crate::app::args::{Listing, ListingCommand};
 use crate::app::error::Error;
 use crate::app::names::unknown;
 use crate::emit;
 use crate::methods::{self, Contract, Method};
-use crate::report::SCHEMA;
 use crate::report::table;
+use crate::report::{Report, SCHEMA};
 use crate::targets::{self, Target};
 
 use super::{Output, report};
 
 /// `fresnel-gen methods`.
 pub fn methods(flags: &Listing) -> Result<Output, Error> {
-    let rows = || {
-        methods::ALL
-            .iter()
-            .map(|m| [m.name.to_owned(), m.summary.to_owned(), m.source.line()])
-            .collect()
+    let row = |method: &&'static Method| NameRow {
+        name: method.name,
+        summary: method.summary,
+        source: method.source.line(),
     };
     let show = |name: &str| {
         let all: Vec<&str> = methods::ALL.iter().map(|method| method.name).collect();
         let method = methods::find(name).ok_or_else(|| unknown("method", name, &all))?;
-        Ok((method_text(method), method_json(method)))
+        Ok((method_text(method), MethodSheet::new(method)))
     };
-    listing(flags, "methods", rows(), show)
+    listing(
+        flags,
+        "methods",
+        methods::ALL.iter().map(row).collect(),
+        show,
+    )
 }
 
 /// `fresnel-gen targets`.
 pub fn targets(flags: &Listing) -> Result<Output, Error> {
-    let rows = targets::ALL
-        .iter()
-        .map(|t| [t.name, t.summary, t.source].map(str::to_owned))
-        .collect();
+    let row = |target: &&'static Target| NameRow {
+        name: target.name,
+        summary: target.summary,
+        source: target.source.to_owned(),
+    };
     let show = |name: &str| {
         let all: Vec<&str> = targets::ALL.iter().map(|target| target.name).collect();
         let target = targets::find(name).ok_or_else(|| unknown("target", name, &all))?;
-        Ok((target_text(target), target_json(target)))
+        Ok((target_text(target), TargetSheet::new(target)))
     };
-    listing(flags, "targets", rows, show)
+    listing(
+        flags,
+        "targets",
+        targets::ALL.iter().map(row).collect(),
+        show,
+    )
 }
 
-fn listing(
+/// A name of a list, with what it stands for.
+#[derive(Serialize)]
+struct NameRow {
+    name: &'static str,
+    summary: &'static str,
+    source: String,
+}
+
+/// One name is shown, or all are listed.
+fn listing<T: Serialize>(
     flags: &Listing,
     command: &str,
-    rows: Vec<[String; 3]>,
-    show: impl Fn(&str) -> Result<(String, Value), Error>,
+    rows: Vec<NameRow>,
+    show: impl Fn(&str) -> Result<(String, T), Error>,
 ) -> Result<Output, Error> {
-    let (text, json) = match &flags.what {
-        Some(ListingCommand::Show { name }) => show(name)?,
-        Some(ListingCommand::List) | None => {
-            let short: Vec<Vec<String>> = rows
-                .iter()
-                .map(|[name, summary, _]| vec![name.clone(), summary.clone()])
-                .collect();
-            let json_rows: Vec<Value> = rows
-                .iter()
-                .map(|[name, summary, source]| json!({ "name": name, "summary": summary, "source": source }))
-                .collect();
-            let full = json!({ "tool": "fresnel-gen", "schema": SCHEMA, "command": command, "device": null, "rows": json_rows });
-            (table::text(&["name", "summary"], &short), full)
+    let file = flags.json.as_deref();
+    match &flags.what {
+        Some(ListingCommand::Show { name }) => {
+            let (text, sheet) = show(name)?;
+            report(text, &sheet, file)
         }
-    };
-    report(text, &json, flags.json.as_deref())
+        Some(ListingCommand::List) | None => {
+            let cells = |row: &NameRow| [row.name, row.summary].map(str::to_owned).to_vec();
+            let cells: Vec<Vec<String>> = rows.iter().map(cells).collect();
+            let text = table::text(&["name", "summary"], &cells);
+            report(text, &Report::new(command, rows), file)
+        }
+    }
 }
 
 fn method_text(method: &Method) -> String {
@@ -90,21 +106,74 @@ fn method_text(method: &Method) -> String {
     lines.join("\n") + "\n"
 }
 
-fn method_json(method: &Method) -> Value {
-    json!({
-        "schema": SCHEMA, "name": method.name, "summary": method.summary, "source": method.source.line(),
-        "formula": method.formula, "domain": method.domain,
-        "arguments": method.inputs.iter()
-            .map(|i| json!({ "name": i.name, "meaning": i.meaning, "domain": i.range.words() })).collect::<Vec<_>>(),
-        "claims": method.claims.model.iter()
-            .map(|c| json!({ "over": c.over.text(), "max_abs": c.max_abs })).collect::<Vec<_>>(),
-        "code_ulp": method.claims.code_ulp,
-        "f16": {
-            "max_abs": method.half.claim().map(|claim| claim.max_abs),
-            "over": method.half.claim().map(|claim| method.media(claim.over)),
-            "reason": method.half.library_refusal(), "specialised": method.half.refusal().is_none(),
-        },
-    })
+/// What is known of a method.
+#[derive(Serialize)]
+struct MethodSheet {
+    schema: u32,
+    name: &'static str,
+    summary: &'static str,
+    source: String,
+    formula: &'static [&'static str],
+    domain: &'static str,
+    arguments: Vec<ArgumentRow>,
+    claims: Vec<ClaimRow>,
+    code_ulp: f64,
+    f16: HalfRow,
+}
+
+#[derive(Serialize)]
+struct ArgumentRow {
+    name: &'static str,
+    meaning: &'static str,
+    domain: String,
+}
+
+/// The model error that a method promises over a set of media.
+#[derive(Serialize)]
+struct ClaimRow {
+    over: &'static str,
+    max_abs: f64,
+}
+
+/// What a method promises in half precision.
+#[derive(Serialize)]
+struct HalfRow {
+    max_abs: Option<f64>,
+    over: Option<&'static str>,
+    reason: Option<&'static str>,
+    specialised: bool,
+}
+
+impl MethodSheet {
+    fn new(method: &'static Method) -> MethodSheet {
+        let arguments = method.inputs.iter().map(|input| ArgumentRow {
+            name: input.name,
+            meaning: input.meaning,
+            domain: input.range.words(),
+        });
+        let claims = method.claims.model.iter().map(|claim| ClaimRow {
+            over: claim.over.text(),
+            max_abs: claim.max_abs,
+        });
+        let half = method.half.claim();
+        MethodSheet {
+            schema: SCHEMA,
+            name: method.name,
+            summary: method.summary,
+            source: method.source.line(),
+            formula: method.formula,
+            domain: method.domain,
+            arguments: arguments.collect(),
+            claims: claims.collect(),
+            code_ulp: method.claims.code_ulp,
+            f16: HalfRow {
+                max_abs: half.map(|claim| claim.max_abs),
+                over: half.map(|claim| method.media(claim.over)),
+                reason: method.half.library_refusal(),
+                specialised: method.half.refusal().is_none(),
+            },
+        }
+    }
 }
 
 fn target_text(target: &Target) -> String {
@@ -132,11 +201,40 @@ fn target_text(target: &Target) -> String {
     lines.join("\n") + "\n"
 }
 
-fn target_json(target: &Target) -> Value {
-    json!({
-        "schema": SCHEMA, "name": target.name, "summary": target.summary, "source": target.source,
-        "extension": target.extension, "by_default": target.by_default,
-        "validators": target.validators.iter()
-            .map(|v| json!({ "name": v.name, "command": v.command(), "get": v.compiler.get })).collect::<Vec<_>>(),
-    })
+/// What is known of a target.
+#[derive(Serialize)]
+struct TargetSheet {
+    schema: u32,
+    name: &'static str,
+    summary: &'static str,
+    source: &'static str,
+    extension: &'static str,
+    by_default: bool,
+    validators: Vec<ValidatorRow>,
+}
+
+#[derive(Serialize)]
+struct ValidatorRow {
+    name: &'static str,
+    command: String,
+    get: &'static str,
+}
+
+impl TargetSheet {
+    fn new(target: &'static Target) -> TargetSheet {
+        let validators = target.validators.iter().map(|validator| ValidatorRow {
+            name: validator.name,
+            command: validator.command(),
+            get: validator.compiler.get,
+        });
+        TargetSheet {
+            schema: SCHEMA,
+            name: target.name,
+            summary: target.summary,
+            source: target.source,
+            extension: target.extension,
+            by_default: target.by_default,
+            validators: validators.collect(),
+        }
+    }
 }

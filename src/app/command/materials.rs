@@ -12,9 +12,9 @@ use crate::app::sight::{flags, sight};
 use crate::app::source::source;
 use crate::app::write::write_file;
 use crate::materials::{self, Extrapolate, Kind, Material, Sight};
-use crate::report::SCHEMA;
 use crate::report::card::card;
 use crate::report::table;
+use crate::report::{Report, SCHEMA};
 use crate::spectra::{FIRST_NM, LAST_NM};
 
 use super::{Output, Progress, import, params, png, report, survey};
@@ -50,7 +50,7 @@ fn list(filter: &FilterFlags, json: Option<&Path>) -> Result<Output, Error> {
     let rows: Vec<Vec<String>> = chosen.iter().map(|m| row(m)).collect();
     let text = table::text(&["name", "class", "known in nm", "summary"], &rows);
     let rows: Vec<Value> = chosen.iter().map(|m| json_row(m)).collect();
-    let full = json!({ "tool": "fresnel-gen", "schema": SCHEMA, "command": "materials list", "device": null, "rows": rows });
+    let full = Report::new("materials list", rows);
     report(text, &full, json)
 }
 

@@ -26,6 +26,8 @@ pub(super) use generate::kept;
 
 use std::path::{Path, PathBuf};
 
+use serde::Serialize;
+
 use super::args::{Cli, Command, NamedFiles};
 use super::error::Error;
 use super::folder::{is_below, is_plain_file, is_same_file, read, resolved};
@@ -233,7 +235,7 @@ fn try_files(files: &[&Path]) -> Result<(), Error> {
 }
 
 /// A report as text, or as JSON where that was asked for. JSON on stdout stands there alone.
-fn report(text: String, json: &serde_json::Value, file: Option<&Path>) -> Result<Output, Error> {
+fn report<T: Serialize>(text: String, json: &T, file: Option<&Path>) -> Result<Output, Error> {
     let Some(file) = file else {
         return Ok(Output {
             stdout: text.into_bytes(),

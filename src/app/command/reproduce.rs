@@ -2,13 +2,13 @@
 
 use std::path::PathBuf;
 
-use serde_json::{Value, json};
+use serde_json::Value;
 
 use crate::app::args::Reproduce;
 use crate::app::error::Error;
 use crate::app::names::unknown;
 use crate::app::write::write_report;
-use crate::report::SCHEMA;
+use crate::report;
 use crate::report::reproduce::{NOT_MEASURED, Part, Report, Row, reproduce, thesis};
 
 use super::{Output, Progress, replaced, report};
@@ -56,14 +56,11 @@ fn part(name: &str) -> Result<Part, Error> {
     }
 }
 
-fn json(reproduced: &Report, part: Option<Part>) -> Value {
+fn json(reproduced: &Report, part: Option<Part>) -> report::Report<Value> {
     let command = part.map_or("reproduce".to_owned(), |part| {
         format!("reproduce {}", part.name())
     });
-    json!({
-        "tool": "fresnel-gen", "schema": SCHEMA, "command": command, "device": null,
-        "rows": reproduced.rows().map(Row::json).collect::<Vec<_>>(),
-    })
+    report::Report::new(command, reproduced.rows().map(Row::json).collect())
 }
 
 /// Draws the figures, and says where.

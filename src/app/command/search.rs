@@ -1,7 +1,5 @@
 //! `fit --search`: shapes tried on the catalogue.
 
-use serde_json::json;
-
 use crate::app::args::FitFlags;
 use crate::app::error::Error;
 use crate::cost::{Family, library_cost, records};
@@ -10,7 +8,7 @@ use crate::fit::{Aim, Candidate, Curve, Task, candidates, search};
 use crate::materials::{Material, find};
 use crate::methods::Method;
 use crate::num::in_parallel;
-use crate::report::SCHEMA;
+use crate::report::Report;
 use crate::report::frontier::{CLASSES, class};
 use crate::report::search::{Errors, Told, json, text};
 
@@ -41,10 +39,7 @@ pub(super) fn run(
     }
     let record = records(gpu.name);
     let cost = |method: &Method| library_cost(method, gpu, &record);
-    let json = json!({
-        "tool": "fresnel-gen", "schema": SCHEMA, "command": canonical(flags)?, "device": null,
-        "rows": json(&told, &terms, aim, &cost),
-    });
+    let json = Report::new(canonical(flags)?, json(&told, &terms, aim, &cost));
     let text = text(&told, &terms, gpu.name, &cost);
     let mut output = report(text, &json, flags.json.as_deref())?;
     output.remarks = remarks;

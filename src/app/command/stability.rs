@@ -2,8 +2,6 @@
 
 use std::path::PathBuf;
 
-use serde_json::{Value, json};
-
 use crate::app::args::StabilityFlags;
 use crate::app::error::Error;
 use crate::app::names::{flag, unknown};
@@ -14,7 +12,7 @@ use crate::app::write::{try_places_of_ours, write_report};
 use crate::emit::{Bounds, Naming, Subject, specialised_function};
 use crate::methods::{self, Method};
 use crate::num::Precision;
-use crate::report::SCHEMA;
+use crate::report::Report;
 use crate::report::stability::{Row, heat, page, text};
 use crate::stability::{Code, Finding, maps, scan, scan_specialised};
 
@@ -60,10 +58,7 @@ pub fn run(flags: &StabilityFlags, progress: Progress) -> Result<Output, Error> 
         let what = "there is nothing to scan: no such method for these materials".to_owned();
         return Err(Error::Usage { what });
     }
-    let json = json!({
-        "tool": "fresnel-gen", "schema": SCHEMA, "command": canonical(flags), "device": null,
-        "rows": rows.iter().map(Row::json).collect::<Vec<Value>>(),
-    });
+    let json = Report::new(canonical(flags), rows.iter().map(Row::json).collect());
     let drawn = asked.drawn(&rows, progress)?;
     let mut output = report(text(&rows), &json, flags.json.as_deref())?;
     output.remarks.extend(left_out);

@@ -2,14 +2,14 @@
 
 use std::path::Path;
 
-use serde_json::{Value, json};
+use serde_json::Value;
 
 use crate::app::args::SurveyFlags;
 use crate::app::error::Error;
 use crate::app::sight::{flags as sight_flags, sight};
 use crate::app::source::{pages, read};
 use crate::materials::Sight;
-use crate::report::SCHEMA;
+use crate::report::Report;
 use crate::report::survey::{Outcome, Surveyed, survey, text};
 use crate::spectra::Gamut;
 
@@ -33,7 +33,7 @@ pub fn run(flags: &SurveyFlags, json: Option<&Path>, progress: Progress) -> Resu
         all.push(surveyed(&flags.folder, file, &sight));
     }
     let rows: Vec<Value> = all.iter().map(Surveyed::json).collect();
-    let full = json!({ "tool": "fresnel-gen", "schema": SCHEMA, "command": format!("materials survey{}", sight_flags(&sight)), "device": null, "rows": rows });
+    let full = Report::new(format!("materials survey{}", sight_flags(&sight)), rows);
     report(text(&all), &full, json)
 }
 

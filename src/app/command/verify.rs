@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use serde_json::{Value, json};
+use serde_json::Value;
 
 use crate::app::args::VerifyFlags;
 use crate::app::error::Error;
@@ -14,7 +14,7 @@ use crate::app::verify::plan_of_request;
 use crate::app::write::write_file;
 use crate::gpu::{Backend, Wanted};
 use crate::process::Inbox;
-use crate::report::SCHEMA;
+use crate::report::Report;
 use crate::report::table;
 use crate::verify::file::Effort;
 use crate::verify::plan::Plan;
@@ -133,9 +133,7 @@ fn told(
         let xml = junit("fresnel-gen verify", rows).map_err(|what| Error::Usage { what })?;
         write_file(file, xml.as_bytes())?;
     }
-    let full = json!({
-        "tool": "fresnel-gen", "schema": SCHEMA, "command": canonical(flags, request), "device": devices(rows), "rows": rows,
-    });
+    let full = Report::new(canonical(flags, request), rows.to_vec()).with_device(devices(rows));
     let mut output = report(text(rows), &full, flags.json.as_deref())?;
     output
         .remarks
@@ -247,17 +245,13 @@ fn finding(row: &Value) -> String {
 }
 
 /// The devices of all rows, each once.
-fn devices(rows: &[Value]) -> Value {
+fn devices(rows: &[Value]) -> Option<String> {
     let names: BTreeSet<&str> = rows
         .iter()
         .filter_map(|row| row["device"].as_str())
         .collect();
     let names: Vec<&str> = names.into_iter().collect();
-    if names.is_empty() {
-        Value::Null
-    } else {
-        json!(names.join("; "))
-    }
+    (!names.is_empty()).then(|| names.join("; "))
 }
 
 /// The run's flags in one order, without places.

@@ -1,0 +1,70 @@
+//! The one form of JSON reports: which program wrote it, the command that writes it again, the device, the rows.
+//!
+//! A report with keys of its own flattens [`Origin`] and lists its keys after that: the order of fields is the order of keys.
+
+use serde::Serialize;
+
+/// The version of the form of JSON reports. It rises when a key changes its meaning or goes.
+pub const SCHEMA: u32 = 1;
+
+/// The name of the program, as reports give it.
+pub const TOOL: &str = "fresnel-gen";
+
+/// Where a report comes from.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+pub struct Origin {
+    tool: &'static str,
+    schema: u32,
+    command: String,
+}
+
+impl Origin {
+    /// The origin of what this command writes.
+    pub fn new(command: impl Into<String>) -> Origin {
+        Origin {
+            tool: TOOL,
+            schema: SCHEMA,
+            command: command.into(),
+        }
+    }
+}
+
+/// A report of rows.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Report<T> {
+    #[serde(flatten)]
+    origin: Origin,
+    device: Option<String>,
+    rows: Vec<T>,
+}
+
+impl<T> Report<T> {
+    /// The report that this command writes. No device took part.
+    pub fn new(command: impl Into<String>, rows: Vec<T>) -> Report<T> {
+        Report {
+            origin: Origin::new(command),
+            device: None,
+            rows,
+        }
+    }
+
+    /// The same report, of what ran on this device.
+    pub fn with_device(self, device: Option<String>) -> Report<T> {
+        Report { device, ..self }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn keys_stand_in_the_order_that_users_read() {
+        let report = Report::new("chart", vec![1]).with_device(Some("a card".to_owned()));
+        let text = serde_json::to_string(&report).unwrap();
+        assert_eq!(
+            text,
+            r#"{"tool":"fresnel-gen","schema":1,"command":"chart","device":"a card","rows":[1]}"#
+        );
+    }
+}
