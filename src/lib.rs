@@ -24,7 +24,6 @@ pub mod methods;
 pub mod num;
 pub mod optics;
 pub mod overdraw;
-#[cfg(all(feature = "cli", feature = "gpu"))]
 pub mod process;
 pub mod report;
 pub mod spectra;

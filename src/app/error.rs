@@ -5,7 +5,7 @@ use std::path::PathBuf;
 
 use thiserror::Error;
 
-use crate::{emit, lut, materials};
+use crate::{emit, lut, materials, process};
 
 /// A fault of the output folder, or of what was to be put there.
 #[derive(Debug, Error)]
@@ -54,6 +54,9 @@ pub enum Error {
     /// A table cannot be made.
     #[error(transparent)]
     Lut(#[from] lut::Error),
+    /// The processes of a run cannot be started.
+    #[error(transparent)]
+    Process(#[from] process::Error),
     /// An artifact's path cannot be used.
     #[error("the output path `{path}` cannot be used: {reason}")]
     Path {
@@ -149,6 +152,7 @@ impl Error {
     pub fn exit_code(&self) -> u8 {
         match self {
             Error::Lacking { .. } => 3,
+            Error::Process(error) if error.is_lacking() => 3,
             _ => 2,
         }
     }

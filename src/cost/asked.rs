@@ -7,9 +7,8 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::mpsc::{Sender, channel};
 use std::thread;
 
-use crate::app::error::Error;
 use crate::cost::{Dialect, Family};
-use crate::process::Surroundings;
+use crate::process::{Error, Surroundings};
 
 use super::function::Function;
 use super::session::{Answer, Asker, Done};

@@ -2,9 +2,8 @@
 
 use std::sync::OnceLock;
 
-use crate::app::error::Error;
 use crate::cost::{Dialect, Probe, REFERENCE};
-use crate::emit::{Bounds, Emitted, Naming, Subject, library_functions, specialised_graph};
+use crate::emit::{Bounds, Emitted, Error, Naming, Subject, library_functions, specialised_graph};
 use crate::ir::{Checked, Ty};
 use crate::methods::{self, Method};
 use crate::num::Precision;

@@ -6,7 +6,6 @@ use std::io::{self, Write};
 use serde::Deserialize;
 use serde_json::json;
 
-use crate::app::error::Error;
 use crate::cost::{Compiler, Dialect, ENTRY, Family, Statistics, VERTEX, WGSL_VERTEX};
 use crate::cost::{gles_vertex, remarked};
 use crate::emit::wgsl_to_spirv;
@@ -34,15 +33,11 @@ enum Shader {
 ///
 /// # Errors
 /// The family has no compiler, or the pipe is gone.
-pub fn serve(family: &Family) -> Result<(), Error> {
-    let gone = |why: io::Error| Error::Usage {
-        what: why.to_string(),
-    };
+pub fn serve(family: &Family) -> io::Result<()> {
     let (mut input, mut output) = (Inbox::open(), io::stdout().lock());
     let mut answer = |value: serde_json::Value| {
-        writeln!(output, "{value}")
-            .and_then(|()| output.flush())
-            .map_err(gone)
+        writeln!(output, "{value}")?;
+        output.flush()
     };
     let opened = open(family);
     let hello = match &opened {

@@ -7,11 +7,8 @@ use std::path::{Path, PathBuf};
 
 use serde::Deserialize;
 
-use crate::app::error::Error;
 use crate::cost::{Compiler, Dialect, Family, Figures, Statistics, figures};
-use crate::process::Surroundings;
-use crate::process::{Silence, Worker};
-use crate::verify::compilers;
+use crate::process::{Error, Silence, Surroundings, Worker, beside};
 
 use super::function::{Function, empty};
 
@@ -189,8 +186,8 @@ pub fn reason(silence: &Silence, limit: Duration) -> String {
 /// The folder of a file among what tests/mesa-compilers builds: in the folder of tools that the user names, or beside this
 /// program.
 fn built(file: &str, tools: Option<&Path>) -> Option<PathBuf> {
-    let beside = compilers::beside();
-    let places = tools.into_iter().chain(beside.iter().map(PathBuf::as_path));
+    let own = beside();
+    let places = tools.into_iter().chain(own.iter().map(PathBuf::as_path));
     let mut folders = places.map(|place| place.join("mesa"));
     folders.find(|folder| folder.join(file).is_file())
 }

@@ -14,9 +14,7 @@ use std::time::Duration;
 
 use tempfile::TempDir;
 
-use crate::verify::compilers::TEMPORARY;
-
-use crate::app::error::Error;
+use super::error::Error;
 
 /// How the name of a run's folder begins. Nothing else with our lock in it is ever removed.
 const PREFIX: &str = ".fresnel-gen-run-";
@@ -89,11 +87,9 @@ impl Drop for Surroundings {
 
 /// The folder of tools as the user names it: the only place that may be relative to the current folder.
 fn named(tools: &Path) -> Result<PathBuf, Error> {
-    let refused = |why: &str| Error::Usage {
-        what: format!(
-            "--tools {}: {why}; name a folder that holds compilers",
-            tools.display()
-        ),
+    let refused = |why: &str| Error::Tools {
+        folder: tools.to_path_buf(),
+        why: why.to_owned(),
     };
     if !tools.is_dir() {
         return Err(refused("this is no folder"));
@@ -109,11 +105,9 @@ fn no_place(place: &Path, why: &io::Error) -> Error {
     // The error's own words repeat the path.
     let inner = why.get_ref().and_then(|inner| inner.source());
     let why = inner.map_or_else(|| why.to_string(), ToString::to_string);
-    Error::Lacking {
-        what: format!(
-            "not checked: temporary files cannot be written in {}: {why}; create this folder, make room in it, or set {TEMPORARY} to another",
-            place.display()
-        ),
+    Error::Temporary {
+        place: place.to_path_buf(),
+        why,
     }
 }
 

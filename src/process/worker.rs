@@ -9,9 +9,9 @@ use std::time::Duration;
 
 use serde::de::DeserializeOwned;
 
+use super::error::Error;
 use super::inbox::framed;
 use super::surroundings::Surroundings;
-use crate::app::error::Error;
 
 /// A process that answers. It ends when this is dropped, with all that it has started, and when this process ends.
 pub struct Worker {
@@ -39,7 +39,7 @@ impl Worker {
         environment: &[(String, OsString)],
         surroundings: &Surroundings,
     ) -> Result<Worker, Error> {
-        spawn(words, environment, surroundings).map_err(|why| cannot_start(&why))
+        spawn(words, environment, surroundings).map_err(Error::Start)
     }
 
     /// Asks a line, and waits for a line of JSON.
@@ -116,14 +116,6 @@ fn spawn(
         input,
         answers,
     })
-}
-
-fn cannot_start(why: &io::Error) -> Error {
-    Error::Lacking {
-        what: format!(
-            "not checked: this program cannot start a process of its own to run shaders in: {why}"
-        ),
-    }
 }
 
 /// The words that this program was given.

@@ -9,8 +9,7 @@ use std::time::Duration;
 
 use serde_json::Value;
 
-use crate::app::error::Error;
-use crate::process::Surroundings;
+use crate::process::{Error, Surroundings};
 use crate::process::{Silence, Worker, own_words};
 
 use super::plan::Plan;

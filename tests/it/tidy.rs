@@ -234,6 +234,7 @@ fn only_the_writer_and_the_program_touch_the_machine() {
         "verify/supervise.rs",
         "process/worker.rs",
         "process/inbox.rs",
+        "process/tools.rs",
         // The folder for their temporary files.
         "process/surroundings.rs",
         // The clock of what is measured.

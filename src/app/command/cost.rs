@@ -23,8 +23,12 @@ const PAGE: &str = "cost.html";
 /// Measures.
 pub fn run(flags: &CostFlags, progress: Progress) -> Result<Output, Error> {
     if let Some(name) = &flags.worker {
-        serve(family(name)?)?;
-        return Ok(Output::default());
+        let served = serve(family(name)?);
+        // The supervisor has gone: nobody is there to be told.
+        return Ok(Output {
+            code: u8::from(served.is_err()),
+            ..Output::default()
+        });
     }
     check_limit(flags.limit)?;
     let families = families(&flags.gpu)?;

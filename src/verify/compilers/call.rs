@@ -1,7 +1,7 @@
 //! The one place of this room that touches the machine: it finds a compiler, runs it in a folder of its own that is gone
 //! afterwards, and stops it when it takes too long.
 
-use std::env::{consts::EXE_SUFFIX, current_exe, join_paths, split_paths, var_os};
+use std::env::{consts::EXE_SUFFIX, join_paths, split_paths, var_os};
 use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
@@ -11,8 +11,7 @@ use std::time::{Duration, Instant};
 
 use tempfile::TempDir;
 
-/// The variable that says where temporary files go.
-pub const TEMPORARY: &str = if cfg!(windows) { "TMP" } else { "TMPDIR" };
+use crate::process::{TEMPORARY, beside};
 
 /// More than any compiler needs for our files, on a slow machine too.
 const LIMIT: Duration = Duration::from_secs(20);
@@ -74,21 +73,6 @@ fn path() -> Vec<PathBuf> {
     split_paths(&path)
         .filter(|place| place.is_absolute())
         .collect()
-}
-
-/// The folders of tools that belong to this program: `tools` beside it and, where Cargo has built it, `tools` in the target
-/// folder, where `tests/run` puts what it fetches.
-pub fn beside() -> Vec<PathBuf> {
-    let program = current_exe().unwrap_or_default();
-    let Some(folder) = program.parent().filter(|folder| folder.is_absolute()) else {
-        return Vec::new();
-    };
-    // Cargo keeps its own notes beside a program, and one folder above a test.
-    let mut above = folder.ancestors().take(2);
-    let built = above.find(|folder| folder.join(".fingerprint").is_dir());
-    let target = built.and_then(Path::parent);
-    let places = [Some(folder), target].into_iter().flatten();
-    places.map(|place| place.join("tools")).collect()
 }
 
 /// Calls a command with options, in which `FILE` stands for all the files and `OUT` for what it writes.
@@ -212,12 +196,5 @@ mod tests {
     #[test]
     fn what_does_not_exist_is_not_found() {
         assert_eq!(find("no-such-compiler"), None);
-    }
-
-    #[test]
-    fn tools_of_a_build_lie_beside_its_profiles() {
-        let target = current_exe().unwrap();
-        let target = target.ancestors().nth(3).unwrap();
-        assert!(beside().contains(&target.join("tools")));
     }
 }

@@ -13,7 +13,6 @@ use crate::targets::{Compiler, DXC, Target, Validator};
 
 use call::{Called, File};
 
-pub use call::{TEMPORARY, beside};
 pub use program::calls;
 
 /// What a compiler says of a file.
