@@ -11,6 +11,9 @@
 pub mod app;
 #[cfg(all(feature = "cli", feature = "gpu"))]
 pub mod audit;
+#[cfg(feature = "cli")]
+pub mod bake;
+pub mod budget;
 pub mod cite;
 pub mod cost;
 pub mod emit;

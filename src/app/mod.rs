@@ -7,9 +7,6 @@
 #[cfg(feature = "cli")]
 pub mod args;
 pub mod artifact;
-#[cfg(feature = "cli")]
-pub mod bake;
-pub mod budget;
 pub mod catalogue;
 pub mod check;
 #[cfg(feature = "cli")]

@@ -3,10 +3,10 @@
 use std::collections::BTreeSet;
 use std::path::Path;
 
-use fresnel_gen::app::bake::{add_tables, as_tables_are_seen};
 use fresnel_gen::app::catalogue::add_catalogue;
 use fresnel_gen::app::lock::Lock;
 use fresnel_gen::app::{Artifact, Request, check, generate, tree, write};
+use fresnel_gen::bake::{add_tables, as_tables_are_seen};
 use fresnel_gen::methods;
 use fresnel_gen::num::Precision;
 

@@ -4,8 +4,8 @@ use std::fs;
 use std::process::Command;
 
 use fresnel_gen::app::args::Cli;
-use fresnel_gen::app::bake::{Request, Shape, Wanted, bake, lit};
 use fresnel_gen::app::request::Materials;
+use fresnel_gen::bake::{Request, Shape, Wanted, bake, lit};
 use fresnel_gen::fit::Truth;
 use fresnel_gen::ir::Weights;
 use fresnel_gen::lut::{Axis, Between, Depth, Format, Stored, Table, table_error};
@@ -119,7 +119,7 @@ fn equal_requests_give_equal_bytes() {
 
 /// The values that a picture of these rows has in a depth, row by row.
 fn expected(request: &Request, depth: Depth) -> (f32, Vec<[f32; 3]>) {
-    let table = |subject: &fresnel_gen::app::bake::Lit| {
+    let table = |subject: &fresnel_gen::bake::Lit| {
         Table::new(&subject.name, &subject.truth, Axis::Rational, 64).unwrap()
     };
     let tables: Vec<Table> = request.subjects.iter().map(table).collect();

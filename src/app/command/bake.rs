@@ -3,10 +3,6 @@
 use serde_json::Value;
 
 use crate::app::args::BakeFlags;
-use crate::app::bake::{
-    ATLAS, Baked, DEFAULT_AXIS, DEFAULT_FORMATS, Lit, Request, Shape, SplitSumRequest, Wanted,
-    as_tables_are_seen, bake, bake_split_sum, canonical, lit, report as full, said, typed,
-};
 use crate::app::error::Error;
 use crate::app::generate::provenance;
 use crate::app::lock::{Announce, Lock};
@@ -16,6 +12,10 @@ use crate::app::sight::sight;
 use crate::app::source::{materials, source};
 use crate::app::tree::plan;
 use crate::app::write::write;
+use crate::bake::{
+    ATLAS, Baked, DEFAULT_AXIS, DEFAULT_FORMATS, Lit, Request, Shape, SplitSumRequest, Wanted,
+    as_tables_are_seen, bake, bake_split_sum, canonical, lit, report as full, said, typed,
+};
 use crate::lut::{Axis, Format, SPLIT_SUM_SIZE, check_size};
 use crate::methods::{self, Method, TEXELS};
 use crate::report::table;

@@ -5,8 +5,6 @@ use std::path::{Path, PathBuf};
 
 use crate::app::args::Generate;
 use crate::app::artifact::Artifact;
-use crate::app::bake::{add_tables, as_tables_are_seen};
-use crate::app::budget::{Budget, within};
 use crate::app::catalogue::add_catalogue;
 use crate::app::error::Error;
 use crate::app::generate::{Generated, Kept, generate_beside, generate_single};
@@ -19,6 +17,8 @@ use crate::app::source::{is_path, materials, source};
 use crate::app::tree::{Plan, plan};
 use crate::app::write::{write, write_file, write_files};
 use crate::app::{check, depfile, folder};
+use crate::bake::{add_tables, as_tables_are_seen};
+use crate::budget::{Budget, within};
 use crate::num::Precision;
 
 use super::{Output, folder_or_current, refuse_within_tree};

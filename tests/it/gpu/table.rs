@@ -1,8 +1,8 @@
 //! Tables as GPUs sample them: the lookup that is generated, on real stacks, against the filter that errors of tables
 //! are computed with; and the usual mistakes, made on purpose, are each seen.
 
-use fresnel_gen::app::bake::{Lit, Wanted as Materials, lit};
 use fresnel_gen::app::source::materials;
+use fresnel_gen::bake::{Lit, Wanted as Materials, lit};
 use fresnel_gen::emit::{self, Emitted, Naming};
 use fresnel_gen::gpu::{
     Argument, Backend, Code, Fault, Program, Texture, TextureFormat, Uniform, Wrap,

@@ -15,8 +15,8 @@ use crate::materials::{self, Material};
 use crate::methods::{self, Contract, Light, Method};
 use crate::num::{Precision, in_parallel};
 
-use super::error::Error;
-use super::request::{DEFAULT_MATERIALS, Materials, Request, Source};
+use crate::app::error::Error;
+use crate::app::request::{DEFAULT_MATERIALS, Materials, Request, Source};
 use choice::{Candidate, cheapest, nearest};
 use spread::spread;
 use text::Measured;

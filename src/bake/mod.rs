@@ -14,8 +14,8 @@ use crate::lut::{Axis, Choice, Depth, Format, smallest};
 use crate::report::SCHEMA;
 use crate::targets::Target;
 
-use super::artifact::{Artifact, TABLES};
-use super::error::Error;
+use crate::app::artifact::{Artifact, TABLES};
+use crate::app::error::Error;
 use picture::Baking;
 
 pub use split_sum::{SplitSumRequest, bake_split_sum};
