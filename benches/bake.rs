@@ -4,10 +4,10 @@
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 use fresnel_gen::app::request::Materials;
 use fresnel_gen::bake::{Request, Shape, Wanted, bake, lit};
-use fresnel_gen::fit::Truth;
 use fresnel_gen::lut::{Axis, Depth, Format, Table, smallest};
 use fresnel_gen::materials::{Sight, Surface, find};
 use fresnel_gen::methods::Light;
+use fresnel_gen::reference::Truth;
 
 fn gold() -> Truth {
     let gold = find("gold")

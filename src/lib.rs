@@ -28,6 +28,7 @@ pub mod num;
 pub mod optics;
 pub mod overdraw;
 pub mod process;
+pub mod reference;
 pub mod report;
 pub mod spectra;
 pub mod stability;

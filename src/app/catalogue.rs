@@ -4,11 +4,10 @@
 use serde::Serialize;
 use serde_json::{Value, json};
 
-use crate::emit::{
-    self, Average, Better, Bounds, CATALOGUE, Emitted, OUTPUT_LICENCE, Row, Subject,
-};
+use crate::emit::{self, Average, Better, Bounds, CATALOGUE, Emitted, OUTPUT_LICENCE, Row};
 use crate::methods::{self, Method};
 use crate::num::in_parallel;
+use crate::reference::Subject;
 use crate::report::{Origin, TOOL};
 
 use super::artifact::Artifact;

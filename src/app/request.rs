@@ -2,11 +2,11 @@
 
 use std::collections::BTreeMap;
 
-use crate::emit::{Naming, Subject};
-use crate::fit::Derivation;
+use crate::emit::Naming;
 use crate::materials::{self, Kind, Material, Sight, Unseen};
 use crate::methods::{self, Method};
 use crate::num::Precision;
+use crate::reference::{Derivation, Subject};
 use crate::spectra::Illuminant;
 use crate::targets::{self, Target};
 

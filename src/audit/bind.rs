@@ -2,8 +2,9 @@
 
 use crate::app::error::Error;
 use crate::app::names::{nearest, unknown};
-use crate::emit::Subject;
+use crate::fit::inputs_of;
 use crate::methods::{self, Class, Method, find_input};
+use crate::reference::Subject;
 
 use super::scan::{Found, Shape};
 
@@ -232,7 +233,7 @@ fn material_value(subject: &Subject, name: &str) -> Option<[f64; 3]> {
     let method = exact
         .chain(methods::ALL.iter().filter(takes).filter(fits))
         .next()?;
-    subject.values(method).get(name).copied()
+    inputs_of(subject, method).get(name).copied()
 }
 
 /// Names that mean the cosine, in small letters without `_`.

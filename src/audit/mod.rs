@@ -30,8 +30,8 @@ use serde_json::Value;
 
 use crate::cost::Family;
 use crate::cost::Limits;
-use crate::emit::Subject;
 use crate::gpu::Uniform;
+use crate::reference::Subject;
 use crate::spectra::Space;
 use crate::verify::compilers::{Fault, Verdict};
 

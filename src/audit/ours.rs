@@ -3,12 +3,12 @@
 use crate::app::error::Error;
 use crate::cost::{CostAndError, Family, Figures, records};
 use crate::cost::{Function, Limits, Told, ask, functions, rows};
-use crate::emit::Subject;
-use crate::fit::error_of;
+use crate::fit::{error_of, inputs_of};
 use crate::ir::{Column, Value, evaluate};
 use crate::methods::{self, Contract, Light, Method};
 use crate::num::Precision;
 use crate::process::Surroundings;
+use crate::reference::Subject;
 
 use super::comparison::Competitor;
 
@@ -89,7 +89,7 @@ fn error(function: &Function, subject: &Subject) -> f64 {
     let others: Vec<Value<f32>> = match function.form {
         "library" => function
             .method
-            .arguments(&subject.values(function.method), None),
+            .arguments(&inputs_of(subject, function.method), None),
         _ => Vec::new(),
     };
     let error = error_of(&subject.truth, &|cosines| {

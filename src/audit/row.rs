@@ -3,8 +3,8 @@
 use serde_json::{Map, Value, json};
 
 use crate::cost::CostAndError;
-use crate::emit::Subject;
 use crate::fit::{ModelError, Perceived};
+use crate::reference::Subject;
 use crate::verify::compilers::Verdict;
 
 use super::Audit;

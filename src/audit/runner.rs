@@ -5,11 +5,12 @@ use core::time::Duration;
 use std::ffi::OsString;
 
 use crate::app::error::Error;
-use crate::fit::{ModelError, Perceived, Truth, error_of, perceived};
+use crate::fit::{ModelError, Perceived, error_of, perceived};
 use crate::gpu::Uniform;
 use crate::ir::{Column, Value};
 use crate::process::Surroundings;
 use crate::process::{Silence, Worker};
+use crate::reference::Truth;
 use crate::spectra::Space;
 
 use super::job::{self, Asked, Code, Said};

@@ -4,9 +4,9 @@ use std::collections::BTreeMap;
 
 use crate::app::error::Error;
 use crate::app::request::{DEFAULT_MATERIALS, Loaded, Materials, Source, check_transparent, load};
-use crate::fit::Truth;
 use crate::materials::{Sight, Surface};
 use crate::methods::Light;
+use crate::reference::Truth;
 use crate::spectra::Space;
 
 /// What is wanted of which materials.

@@ -8,12 +8,13 @@ mod text;
 use std::collections::BTreeMap;
 
 use crate::cost::{Compiler, Family, Record, function_cost, library_cost, records};
-use crate::emit::{Bounds, Subject, specialised_graph};
+use crate::emit::{Bounds, specialised_graph};
 use crate::fit::single_error;
 use crate::ir::Checked;
 use crate::materials::{self, Material};
 use crate::methods::{self, Contract, Light, Method};
 use crate::num::{Precision, in_parallel};
+use crate::reference::Subject;
 
 use crate::app::error::Error;
 use crate::app::request::{DEFAULT_MATERIALS, Materials, Request, Source};

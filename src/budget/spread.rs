@@ -1,9 +1,9 @@
 //! How far published measurements of a material lie apart: what no function of one of them can be better than.
 
-use crate::emit::Subject;
-use crate::fit::{Curve, seen};
+use crate::fit::Curve;
 use crate::materials::{self, Material, Sight, Surface};
 use crate::methods::Light;
+use crate::reference::{Subject, seen};
 
 /// How far they lie apart.
 #[derive(Clone, Copy, Debug, PartialEq)]

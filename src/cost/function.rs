@@ -3,10 +3,11 @@
 use std::sync::OnceLock;
 
 use crate::cost::{Dialect, Probe, REFERENCE};
-use crate::emit::{Bounds, Emitted, Error, Naming, Subject, library_functions, specialised_graph};
+use crate::emit::{Bounds, Emitted, Error, Naming, library_functions, specialised_graph};
 use crate::ir::{Checked, Ty};
 use crate::methods::{self, Method};
 use crate::num::Precision;
+use crate::reference::Subject;
 
 /// A function as it is measured.
 #[derive(Clone, Debug)]

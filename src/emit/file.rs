@@ -2,19 +2,21 @@
 
 use serde_json::{Value, json};
 
-use crate::fit::{By, Measured};
+use crate::fit::Measured;
 use crate::ir::{Checked, Param, Ty};
 use crate::methods::{self, Method, Values};
 use crate::num::Precision;
+use crate::reference::By;
 use crate::targets::{self, Finish, Page, Target};
 
 use super::average::Average;
 use super::bounds::CodeBound;
 use super::comment;
 use super::error::Error;
-use super::function::{Emitted, Naming, Subject};
+use super::function::{Emitted, Naming};
 use super::page::{Request, comments, entry_point, guard, render};
 use super::{header, print};
+use crate::reference::Subject;
 
 /// A file of one target, in memory.
 #[derive(Clone, Debug, PartialEq)]

@@ -1,14 +1,10 @@
 //! A function ready to be printed: its name, its graph, and what is known of its errors.
 
-use crate::fit::{
-    Curve, Derivation, Effective, Measured, ModelError, Truth, effective, fitted_values,
-    model_error, seen, values_of,
-};
+use crate::fit::{Measured, ModelError, inputs_in, model_error};
 use crate::ir::{Checked, Fault};
-use crate::materials::{Channels, Kind, Material, Sight, Surface, Unseen};
-use crate::methods::{Class, KnownSurface, Light, Method, Values};
+use crate::methods::{Method, Values};
 use crate::num::Precision;
-use crate::spectra::Gamut;
+use crate::reference::Subject;
 
 use super::average;
 use super::bounds::{Bounds, CodeBound, PLAIN_ULP};
@@ -93,143 +89,6 @@ impl Emitted {
     }
 }
 
-/// The least n of a dielectric that fitted methods follow.
-pub const LEAST_FITTED_N: f64 = 1.2;
-
-/// A material in its medium, as functions are specialised to it.
-#[derive(Clone, Debug)]
-pub struct Subject {
-    /// The material's name, with `_in_` and the medium's where there is one.
-    pub name: String,
-    /// What a user types to get it again: a name, or a file's name.
-    pub argument: String,
-    /// The record.
-    pub material: Material,
-    /// What a user types to get the medium again, and its record, where it is not air.
-    pub medium: Option<(String, Material)>,
-    /// What is seen of it, in unpolarised light.
-    pub truth: Truth,
-    /// The index per channel that stands for it.
-    pub effective: Effective,
-    /// How inputs are derived from it.
-    pub derivation: Derivation,
-}
-
-/// A material with what a user types to get it: a name, or a file's name.
-pub type Typed = (String, Material);
-
-impl Subject {
-    /// A material in air or in a medium, as it is seen.
-    pub fn new(
-        (argument, material): Typed,
-        medium: Option<Typed>,
-        sight: &Sight,
-        derivation: Derivation,
-    ) -> Result<Subject, Unseen> {
-        let around = medium.as_ref().map(|(_, medium)| medium);
-        let surface = Surface::new(&material, around, sight)?;
-        let truth = Truth::new(surface, Light::Unpolarised);
-        Ok(Subject {
-            name: match around {
-                Some(medium) => format!("{}_in_{}", material.name, medium.name),
-                None => material.name.clone(),
-            },
-            effective: effective(&truth, material.kind),
-            argument,
-            material,
-            medium,
-            truth,
-            derivation,
-        })
-    }
-
-    /// What a method's inputs are for it. Coefficients are fitted to colours before they are clipped: a clipped curve has a
-    /// corner, and the function clips by itself.
-    pub fn values(&self, method: &Method) -> Values {
-        self.values_in(Precision::F32, method)
-    }
-
-    /// The same, with coefficients that are fitted as this precision holds them.
-    pub fn values_in(&self, precision: Precision, method: &Method) -> Values {
-        if method.is_fitted() {
-            return fitted_values(method, precision, &self.curve());
-        }
-        let seen = |cos_theta| self.truth.at(cos_theta);
-        let Channels { n, k } = self.effective.channels;
-        let known = KnownSurface::with(n, k, seen, self.derivation.matching_cos);
-        values_of(method, &known)
-    }
-
-    /// What coefficients are fitted to, in unpolarised light: colours as they are before they are clipped.
-    pub fn curve(&self) -> Curve {
-        let mut surface = self.truth.surface.clone();
-        if surface.gamut == Gamut::Clip {
-            surface.gamut = Gamut::Keep;
-        }
-        Curve::new(|c| seen(&surface, Light::Unpolarised, c))
-    }
-
-    /// What a method's error is held against: the truth in its light; what reads a table keeps the table's colours.
-    pub fn truth_for(&self, method: &Method) -> Truth {
-        let truth = if method.light == self.truth.light {
-            self.truth.clone()
-        } else {
-            Truth::new(self.truth.surface.clone(), method.light)
-        };
-        if method.is_textured() {
-            truth.kept()
-        } else {
-            truth
-        }
-    }
-
-    /// Whether the exact law for dielectrics serves it.
-    fn is_glass(&self) -> bool {
-        self.material.kind == Kind::Dielectric && self.effective.channels.is_transparent()
-    }
-
-    /// Whether a method describes it: the exact laws for dielectrics take no k. Coefficients follow a dielectric that absorbs too.
-    pub fn is_described_by(&self, method: &Method) -> bool {
-        let is_followed = method.is_fitted() && self.material.kind == Kind::Dielectric;
-        method.class == Class::Any || is_followed || self.effective.channels.is_transparent()
-    }
-
-    /// The exact method of its class.
-    pub fn exact_method(&self) -> &'static str {
-        if self.is_glass() {
-            "dielectric_exact"
-        } else {
-            "conductor_exact"
-        }
-    }
-
-    /// The fitted method of its class with four coefficients, for arrays of materials. None follows a dielectric that is nearly
-    /// matched, or seen from a denser medium.
-    pub fn fitted_with_four(&self) -> Option<&'static str> {
-        let n = self.effective.channels.n;
-        match self.is_glass() {
-            false => Some("fitted"),
-            true if n.iter().all(|n| *n >= LEAST_FITTED_N) => Some("fitted_dielectric"),
-            true => None,
-        }
-    }
-
-    /// The fitted method that suits its class: a semiconductor's needs five coefficients, or errs eight times as much.
-    pub fn fitted_method(&self) -> Option<&'static str> {
-        match self.material.kind {
-            Kind::Semiconductor => Some("fitted_five"),
-            _ => self.fitted_with_four(),
-        }
-    }
-
-    /// The methods that its file holds unless others are asked for: the exact one first.
-    pub fn default_methods(&self) -> Vec<&'static str> {
-        let rest = ["schlick_rescaled", "schlick_corrected", "table"];
-        let exact = [self.exact_method()].into_iter();
-        exact.chain(self.fitted_method()).chain(rest).collect()
-    }
-}
-
 /// The functions of a method's library file.
 pub fn library_functions(method: &'static Method, naming: &Naming) -> Result<Vec<Emitted>, Error> {
     let forms: &[(bool, &str, &'static str)] =
@@ -310,7 +169,7 @@ pub fn specialised_graph(
             format!("it describes dielectrics only, and this absorbs (k > 0); {serves} serves it");
         return Err(refused(method, subject, &what));
     }
-    let constants = subject.values_in(precision, method);
+    let constants = inputs_in(precision, subject, method);
     let stable = specialise(method, subject, precision, &constants)?;
     let plain = match precision {
         Precision::F32 => plain(method, &constants, &stable, bounds),

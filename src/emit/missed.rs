@@ -7,7 +7,8 @@ use crate::methods::{self, ALL, Method, by_class};
 use crate::num::Precision;
 
 use super::bounds::Bounds;
-use super::function::{LEAST_FITTED_N, Subject, specialised_graph};
+use super::function::specialised_graph;
+use crate::reference::{LEAST_FITTED_N, Subject};
 
 /// What is missed, and what serves.
 #[derive(Clone, Debug)]

@@ -23,8 +23,7 @@ pub use comment::lines as comment_lines;
 pub use error::Error;
 pub use file::{File, Place, library, lookup, material, single, uniform_offsets, written_for};
 pub use function::{
-    Emitted, LEAST_FITTED_N, Naming, Specialised, Subject, library_functions, specialised_function,
-    specialised_graph,
+    Emitted, Naming, Specialised, library_functions, specialised_function, specialised_graph,
 };
 pub use header::{MARK, OUTPUT_LICENCE, half_promise, promises};
 pub use missed::{Missed, missed};

@@ -5,29 +5,9 @@ use crate::materials::Channels;
 use crate::methods::{Input, KnownSurface, Method, Values};
 use crate::num::Precision;
 use crate::optics;
+use crate::reference::{Derivation, Subject};
 
 use super::fitted::{Aim, Curve, Task, basis};
-
-/// cos θ at which λ is matched unless asked otherwise: 81.37 degrees. The thesis's text matches at 84.26 degrees, but its Table 2
-/// comes out with cos θ = 0.15, the other end of the range that it gives.
-///
-/// Source of λ: Lazányi and Szirmay-Kalos, "Fresnel Term Approximations for Metals", WSCG, 2005, <https://hdl.handle.net/11025/11214>.
-pub const THESIS_MATCHING_COS: f64 = 0.15;
-
-/// The choices that a derivation leaves open.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Derivation {
-    /// cos θ at which λ of the corrected method meets the exact law.
-    pub matching_cos: f64,
-}
-
-impl Default for Derivation {
-    fn default() -> Derivation {
-        Derivation {
-            matching_cos: THESIS_MATCHING_COS,
-        }
-    }
-}
 
 /// What is known of a surface by its channels alone.
 pub fn known(channels: &Channels, derivation: &Derivation) -> KnownSurface {
@@ -42,6 +22,22 @@ pub fn values(method: &Method, channels: &Channels, derivation: &Derivation) -> 
         return fitted_values(method, Precision::F32, &curve);
     }
     values_of(method, &known(channels, derivation))
+}
+
+/// What a method's inputs are for a material as it is seen.
+pub fn inputs_of(subject: &Subject, method: &Method) -> Values {
+    inputs_in(Precision::F32, subject, method)
+}
+
+/// The same, with coefficients that are fitted as this precision holds them.
+pub fn inputs_in(precision: Precision, subject: &Subject, method: &Method) -> Values {
+    if method.is_fitted() {
+        return fitted_values(method, precision, &Curve::unclipped(subject));
+    }
+    let seen = |cos_theta| subject.truth.at(cos_theta);
+    let Channels { n, k } = subject.effective.channels;
+    let known = KnownSurface::with(n, k, seen, subject.derivation.matching_cos);
+    values_of(method, &known)
 }
 
 /// The coefficients of a fitted method for a curve, as a precision holds them.

@@ -1,9 +1,10 @@
 //! The coefficients of a fitted method for what is seen of a material: those with the least largest error over all angles,
 //! without the clip to [0, 1] that comes after. Which error, and what is met exactly, is an [`Aim`].
 
-use crate::methods::{Shape, unwarped};
+use crate::methods::{Light, Shape, unwarped};
 use crate::num::Precision;
-use crate::spectra::Space;
+use crate::reference::{Subject, seen};
+use crate::spectra::{Gamut, Space};
 
 use super::exact::{Exact, fit_meeting, held};
 use super::rounded::rounded;
@@ -62,6 +63,16 @@ impl Curve {
             seen: cosines.iter().map(|c| seen(*c)).collect(),
             cosines,
         }
+    }
+
+    /// What coefficients are fitted to, in unpolarised light: colours as they are before they are clipped. A clipped curve has a
+    /// corner, and the function clips by itself.
+    pub fn unclipped(subject: &Subject) -> Curve {
+        let mut surface = subject.truth.surface.clone();
+        if surface.gamut == Gamut::Clip {
+            surface.gamut = Gamut::Keep;
+        }
+        Curve::new(|c| seen(&surface, Light::Unpolarised, c))
     }
 }
 

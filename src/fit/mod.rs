@@ -7,7 +7,6 @@
 mod candidates;
 mod colours;
 mod derive;
-mod effective;
 mod exact;
 mod fitted;
 mod measured;
@@ -24,17 +23,13 @@ mod weight;
 
 pub use candidates::{Candidate, candidates};
 pub use colours::{Follows, LARGEST_SOLVED_F0};
-pub use derive::{
-    Derivation, THESIS_MATCHING_COS, fitted_for, fitted_values, known, values, values_of,
-};
-pub use effective::{By, Effective, effective};
+pub use derive::{fitted_for, fitted_values, inputs_in, inputs_of, known, values, values_of};
 pub use exact::Exact;
 pub use fitted::{Aim, Curve, Fit, Task, basis};
 pub use measured::Measured;
 pub use minimax::{Minimax, minimax};
 pub use model_error::{
-    ModelError, Truth, error_from, error_of, model_error, rounded_up, seen, single_error,
-    thesis_errors,
+    ModelError, error_from, error_of, model_error, rounded_up, single_error, thesis_errors,
 };
 pub use over::model_error_over;
 pub use params::{BOUNCES, Params, abbe, colour_errors, ior_d, params};

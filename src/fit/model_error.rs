@@ -1,12 +1,11 @@
 //! Model error: a method against the exact law, over all angles. Never to be added to code error.
 
-use glam::DVec3;
 use serde::{Deserialize, Serialize};
 
 use crate::ir::{Checked, Column, Value, evaluate};
 use crate::materials::{Channels, Surface};
 use crate::methods::Light;
-use crate::spectra::Gamut;
+use crate::reference::{ANGLES, Truth, cosine, cosines, seen};
 
 use super::texels::{arguments, table_of};
 
@@ -31,87 +30,10 @@ pub fn rounded_up(error: f64) -> String {
     format!("{:.5}", (error * 1e5).ceil() / 1e5)
 }
 
-/// Angles between 0 and 90 degrees over which means are taken.
-pub(super) const ANGLES: usize = 2048;
-/// Cosines close to grazing, besides: 2⁻ⁱᐟ⁴, where indices far from 1 have their largest errors.
-const GRAZING: usize = 120;
 /// How often the neighbourhood of the worst angle is searched again, and in how many steps: a maximum is found to 1e-9
 /// of its place, cusps at the critical angle included.
 const REFINEMENTS: usize = 6;
 const STEPS: usize = 32;
-
-/// What a method is held against: a surface as it is seen, in one kind of light.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Truth {
-    /// The surface.
-    pub surface: Surface,
-    /// Polarised or not.
-    pub light: Light,
-    /// Its reflectance at [`cosines`] of [`ANGLES`], before the gamut: what takes the time, and is wanted for every method.
-    unclipped: Vec<DVec3>,
-}
-
-impl Truth {
-    /// The truth about a surface in this light.
-    pub fn new(surface: Surface, light: Light) -> Truth {
-        let unclipped = cosines(ANGLES)
-            .into_iter()
-            .map(|cos_theta| reflected(&surface, light, cos_theta))
-            .collect();
-        Truth {
-            surface,
-            light,
-            unclipped,
-        }
-    }
-
-    /// The same, with colours outside the working space kept as they are.
-    pub fn kept(mut self) -> Truth {
-        self.surface.gamut = Gamut::Keep;
-        self
-    }
-
-    /// The reflectance at [`cosines`] of [`ANGLES`].
-    pub(super) fn table(&self) -> Vec<[f64; 3]> {
-        let colours = self.unclipped.iter();
-        colours
-            .map(|colour| self.surface.gamut.apply(*colour).to_array())
-            .collect()
-    }
-
-    /// The reflectance of each channel at a cosine, in the gamut.
-    pub fn at(&self, cos_theta: f64) -> [f64; 3] {
-        seen(&self.surface, self.light, cos_theta)
-    }
-
-    /// The hemispherical reflectance of each channel, 2 ∫ R cos θ d(cos θ), by the middles of equal steps of angle:
-    /// ∫ R sin 2θ dθ, within 1e-6.
-    pub fn average(&self) -> [f64; 3] {
-        let step = std::f64::consts::FRAC_PI_2 / ANGLES as f64;
-        let weight = |i: usize| libm::sin((2 * i + 1) as f64 * step) * step;
-        let table = self.table();
-        let sum = |channel: usize| {
-            let terms = table[..ANGLES].iter().enumerate();
-            terms.map(|(i, seen)| weight(i) * seen[channel]).sum()
-        };
-        [0, 1, 2].map(sum)
-    }
-}
-
-/// The reflectance of each channel at a cosine, in the surface's gamut.
-pub fn seen(surface: &Surface, light: Light, cos_theta: f64) -> [f64; 3] {
-    let colour = reflected(surface, light, cos_theta);
-    surface.gamut.apply(colour).to_array()
-}
-
-/// The same before the gamut.
-fn reflected(surface: &Surface, light: Light, cos_theta: f64) -> DVec3 {
-    match light {
-        Light::Unpolarised => surface.unpolarised(cos_theta),
-        Light::S => surface.reflectance(cos_theta).s,
-        Light::P => surface.reflectance(cos_theta).p,
-    }
-}
 
 /// The model error of a function of `cos_theta` alone, or with the table that it reads.
 pub fn model_error(function: &Checked, truth: &Truth) -> ModelError {
@@ -167,13 +89,6 @@ pub fn error_from(
     let at = cosines(ANGLES);
     let want: Vec<[f64; 3]> = at.iter().map(|c| seen(*c)).collect();
     difference(&values(&at), &want, &at)
-}
-
-/// The middles of equal steps of angle, over which means are taken, and after them both ends and grazing cosines.
-pub(super) fn cosines(angles: usize) -> Vec<f64> {
-    let middles = (0..angles).map(|i| cosine(2 * i + 1, 2 * angles));
-    let grazing = (1..GRAZING).map(|i| libm::exp2(-(i as f64) / 4.0));
-    middles.chain([1.0, 0.0]).chain(grazing).collect()
 }
 
 /// Values at these cosines against the exact law; means are over the first [`ANGLES`], or all where there are fewer.
@@ -259,14 +174,5 @@ fn add_differences(got: &Value<f64>, want: &[[f64; 3]], sums: &mut [f64; 3]) {
         for (point, want) in want.iter().enumerate() {
             *sum += (got.at(point) - want[i]).abs() / want[i];
         }
-    }
-}
-
-/// cos of `part/whole` of a right angle, exactly 1 and 0 at the ends.
-fn cosine(part: usize, whole: usize) -> f64 {
-    if part == whole {
-        0.0
-    } else {
-        libm::cos(part as f64 / whole as f64 * std::f64::consts::FRAC_PI_2)
     }
 }

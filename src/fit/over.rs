@@ -4,9 +4,10 @@ use crate::ir::{Value, evaluate};
 use crate::materials::{Channels, Surface};
 use crate::methods::{Method, Over};
 
-use super::derive::{Derivation, values};
-use super::model_error::{ANGLES, ModelError, cosines, difference, seen};
+use super::derive::values;
+use super::model_error::{ModelError, difference};
 use super::texels::texels;
+use crate::reference::{ANGLES, Derivation, cosines, seen};
 
 /// Steps of eta, of n and of k, where model errors are taken over a set.
 const STEPS: usize = 24;

@@ -6,9 +6,7 @@ use crate::methods::{Input, KnownSurface, Light};
 use crate::optics;
 use crate::spectra::{Illuminant, Integration, colour_error};
 
-use super::derive::Derivation;
-use super::effective::{Effective, effective};
-use super::model_error::Truth;
+use crate::reference::{Derivation, Effective, Truth, effective};
 
 /// The parameters of a material in a medium, three channels each, as seen.
 #[derive(Clone, Debug, PartialEq)]

@@ -5,7 +5,7 @@ use glam::DVec3;
 use crate::ir::Value;
 use crate::spectra::{Lab, Space, ciede2000};
 
-use super::model_error::{ANGLES, Truth, cosines};
+use crate::reference::{ANGLES, Truth, cosines};
 
 /// Every how manieth of the angles is looked at: means and maxima are smooth.
 const EVERY: usize = 8;

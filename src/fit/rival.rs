@@ -195,10 +195,11 @@ fn most(missed: &[f64]) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::fit::{Derivation, values};
+    use crate::fit::values;
     use crate::materials::Channels;
     use crate::methods::{self, ALL};
     use crate::optics;
+    use crate::reference::Derivation;
 
     const GOLD: Channels = Channels {
         n: [0.18, 0.42, 1.37],

@@ -1,7 +1,8 @@
 //! The error of a table: its filtered lookup against the truth, between texels as well as on them.
 
-use crate::fit::{ModelError, Truth, error_of};
+use crate::fit::{ModelError, error_of};
 use crate::ir::{Column, Value};
+use crate::reference::Truth;
 
 use super::axis::Axis;
 use super::depth::Stored;

@@ -1,6 +1,6 @@
 //! The smallest table that is good enough.
 
-use crate::fit::Truth;
+use crate::reference::Truth;
 
 use super::axis::Axis;
 use super::depth::{Depth, Stored};

@@ -1,6 +1,6 @@
 //! A table: reflectance at the centres of texels, along an axis.
 
-use crate::fit::Truth;
+use crate::reference::Truth;
 
 use super::axis::Axis;
 use super::error::Error;

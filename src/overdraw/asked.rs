@@ -5,11 +5,12 @@ use crate::app::error::Error;
 use crate::app::precision::several;
 use crate::app::request::{Materials, Request, Source};
 use crate::cost::REFERENCE;
-use crate::emit::{Bounds, Emitted, Naming, Subject, library_functions, specialised_function};
-use crate::fit::table_of;
+use crate::emit::{Bounds, Emitted, Naming, library_functions, specialised_function};
+use crate::fit::{inputs_of, table_of};
 use crate::methods::{self, Class, Method, Values};
 use crate::num::Precision;
 use crate::overdraw::{Plan, Timed};
+use crate::reference::Subject;
 
 /// Materials that functions are specialised to where none is named: a metal and a dielectric.
 const USUAL: [&str; 2] = ["gold", "water"];
@@ -153,7 +154,7 @@ impl Library {
             Class::Dielectric => &self.dielectric,
             Class::Any => &self.metal,
         };
-        timed(emitted.clone(), subject.values(emitted.method), subject)
+        timed(emitted.clone(), inputs_of(subject, emitted.method), subject)
     }
 
     fn plan(&self, functions: &[Timed], evaluations: usize) -> Result<Plan, Error> {

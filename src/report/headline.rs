@@ -4,12 +4,12 @@
 //! A sphere is seen from afar in a room that is white everywhere, so that a pixel's colour is the reflectance at its angle:
 //! at r of the radius sin θ = r. The right half of a sphere shows the error in place of the colour.
 
-use crate::emit::{Bounds, Naming, Subject, specialised_function};
-use crate::fit::Derivation;
+use crate::emit::{Bounds, Naming, specialised_function};
 use crate::ir::{Value, evaluate};
 use crate::materials::{self, Sight};
 use crate::methods;
 use crate::optics::cosine;
+use crate::reference::{Derivation, Subject};
 use crate::spectra::srgb_byte;
 
 use super::chart::{

@@ -1,9 +1,9 @@
 //! The tables of the README, written from the registries so that they cannot drift.
 
-use crate::emit::{Bounds, Naming, Subject, half_record, specialised_function};
-use crate::fit::Derivation;
+use crate::emit::{Bounds, Naming, half_record, specialised_function};
 use crate::materials::{Material, Sight, Unseen};
 use crate::methods::{self, BY_CLASS, Contract, Method, Spread};
+use crate::reference::{Derivation, Subject};
 use crate::targets;
 
 /// Every method: what it takes, its cost in scalar operations for three channels, what it promises.

@@ -1,10 +1,11 @@
 //! The spaces that a method is scanned over.
 
-use crate::fit::{Derivation, values};
+use crate::fit::values;
 use crate::materials::Channels;
 use crate::methods::{Class, Input, Method};
 use crate::num::Precision;
 use crate::optics;
+use crate::reference::Derivation;
 
 use super::axis::{Axis, argument, cosines, extinction, index};
 use super::failure::is_flushed;

@@ -3,11 +3,12 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::fit::{Derivation, values};
+use crate::fit::values;
 use crate::ir::{Checked, Ty, Value, evaluate};
 use crate::materials::Channels;
 use crate::methods::{Class, Contract, Input, Method, Over};
 use crate::num::ulp_distance;
+use crate::reference::Derivation;
 
 use super::points::{Random, cosines};
 

@@ -3,8 +3,9 @@
 use serde_json::Value;
 
 use crate::app::error::Error;
-use crate::emit::{Emitted, Subject};
+use crate::emit::Emitted;
 use crate::fit::Measured;
+use crate::reference::Subject;
 use crate::verify::run::{Devices, Fault, Shown, Way};
 use crate::verify::{Trial, WITHIN, count, sweep};
 

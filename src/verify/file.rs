@@ -4,12 +4,13 @@ use std::cell::OnceCell;
 
 use serde_json::Value;
 
-use crate::emit::{CodeBound, Emitted, Subject};
-use crate::fit::{self, Measured, ModelError, Truth};
+use crate::emit::{CodeBound, Emitted};
+use crate::fit::{self, Measured, ModelError, inputs_in};
 use crate::ir::{Column, Ty};
 use crate::materials::Channels;
 use crate::methods::{Contract, Method};
 use crate::num::Precision;
+use crate::reference::{Subject, Truth};
 use crate::verify::compilers::{self, Verdict};
 use crate::verify::run::{Devices, Fault, Runnable, Shown, Way};
 use crate::verify::{
@@ -110,7 +111,7 @@ pub(super) fn specialised<'a>(subject: &'a Subject, emitted: &Emitted) -> Case<'
 }
 
 fn library<'a>(subject: &'a Subject, emitted: &Emitted) -> Case<'a> {
-    let values = subject.values_in(emitted.precision, emitted.method);
+    let values = inputs_in(emitted.precision, subject, emitted.method);
     let numbers = emitted
         .method
         .inputs

@@ -2,11 +2,12 @@
 //! same f16 inputs. Most graphics stacks of desktops compute in f32 whatever the text says, so that this emulation is
 //! the judge, at every f16 from 0 to 1.
 
-use crate::fit::{Derivation, values};
+use crate::fit::values;
 use crate::ir::{Checked, Param, Texels, Ty, Value, evaluate};
 use crate::materials::Channels;
 use crate::methods::Method;
 use crate::num::{Half, Num, Precision};
+use crate::reference::Derivation;
 
 use super::code_error::medium;
 use super::points::Random;

@@ -3,8 +3,9 @@
 
 use std::path::PathBuf;
 
-use crate::emit::{Emitted, Subject};
+use crate::emit::Emitted;
 use crate::num::Precision;
+use crate::reference::Subject;
 use crate::targets::Target;
 
 /// What is to be run.

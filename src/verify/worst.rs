@@ -1,9 +1,10 @@
 //! The worst inputs found so far, kept for ever: a line each, with how they were found.
 
-use crate::fit::{Derivation, values};
+use crate::fit::values;
 use crate::ir::Ty;
 use crate::materials::Channels;
 use crate::methods::Method;
+use crate::reference::Derivation;
 
 static LIBRARY: &str = include_str!("../../data/worst-cases/library-code-error.csv");
 static SPECIALISED: &str = include_str!("../../data/worst-cases/specialised-code-error.csv");

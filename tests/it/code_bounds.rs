@@ -5,9 +5,10 @@ use std::path::Path;
 
 use fresnel_gen::app::request::DEFAULT_MATERIALS;
 use fresnel_gen::app::{Materials, Request};
-use fresnel_gen::emit::{Bounds, Naming, PLAIN_ULP, Subject, fingerprint, specialised_function};
+use fresnel_gen::emit::{Bounds, Naming, PLAIN_ULP, fingerprint, specialised_function};
 use fresnel_gen::ir::Checked;
 use fresnel_gen::methods::{self, Class, Contract, Method};
+use fresnel_gen::reference::Subject;
 use fresnel_gen::verify::{code_error, digits_lost};
 
 /// Cosines tried for each function.

@@ -7,13 +7,14 @@ use std::sync::OnceLock;
 
 use fresnel_gen::app::{Materials, Request};
 use fresnel_gen::cost::records;
-use fresnel_gen::emit::{Bounds, Naming, Subject, missed, specialised_function};
-use fresnel_gen::fit::{Derivation, ModelError, model_error};
+use fresnel_gen::emit::{Bounds, Naming, missed, specialised_function};
+use fresnel_gen::fit::{ModelError, inputs_of, model_error};
 use fresnel_gen::ir::{Value, evaluate};
 use fresnel_gen::materials::{Kind, Material, Sight};
 use fresnel_gen::methods::{self, Method};
 use fresnel_gen::num::statistics::quantile;
 use fresnel_gen::num::{Legendre, Precision};
+use fresnel_gen::reference::{Derivation, Subject};
 
 /// Further measurements of metals and semiconductors, beside the 75 of the reference list that the promises are about: pages
 /// that another collection took, and those of the thesis, three wavelengths each.
@@ -58,7 +59,7 @@ struct Row<'a> {
 }
 
 fn error(subject: &Subject, method: &'static Method) -> ModelError {
-    let function = method.specialise(&subject.values(method));
+    let function = method.specialise(&inputs_of(subject, method));
     let function = function.expect("every method specialises to the catalogue");
     model_error(&function, &subject.truth_for(method))
 }
@@ -236,7 +237,7 @@ fn means(subject: &Subject, method: &'static Method) -> [(f64, f64, bool); 3] {
     let own = method.function(false).expect("well formed");
     let mean = method.average_in(Precision::F32, false);
     let mean = mean.expect("a fitted method has one").expect("well formed");
-    let values = subject.values(method);
+    let values = inputs_of(subject, method);
     let coefficients = || {
         method
             .inputs

@@ -5,10 +5,11 @@ use std::fmt::Write;
 use std::path::Path;
 
 use fresnel_gen::app::{Error, Materials, Request, Source, generate};
-use fresnel_gen::emit::{Bounds, Emitted, Naming, Subject, specialised_function};
+use fresnel_gen::emit::{Bounds, Emitted, Naming, specialised_function};
 use fresnel_gen::ir::Value;
 use fresnel_gen::methods::{self, Class, Contract, InHalf, Method};
 use fresnel_gen::num::{Half, Num, Precision};
+use fresnel_gen::reference::Subject;
 use fresnel_gen::verify::{HalfTrial, halves, library_half_error};
 
 /// Random media over which a library function's error is taken.

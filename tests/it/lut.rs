@@ -6,11 +6,11 @@ use std::process::Command;
 use fresnel_gen::app::args::Cli;
 use fresnel_gen::app::request::Materials;
 use fresnel_gen::bake::{Request, Shape, Wanted, bake, lit};
-use fresnel_gen::fit::Truth;
 use fresnel_gen::ir::Weights;
 use fresnel_gen::lut::{Axis, Between, Depth, Format, Stored, Table, table_error};
 use fresnel_gen::materials::{self, Sight, Surface};
 use fresnel_gen::methods::Light;
+use fresnel_gen::reference::Truth;
 use fresnel_gen::spectra::Gamut;
 
 use crate::not_checked;

@@ -53,7 +53,7 @@ mod tree;
 mod verify;
 
 use fresnel_gen::app::{Materials, Request, Source};
-use fresnel_gen::emit::Subject;
+use fresnel_gen::reference::Subject;
 
 /// Materials of the catalogue, seen as they are unless asked otherwise.
 pub fn subjects(names: &[&str]) -> Vec<Subject> {

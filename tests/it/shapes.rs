@@ -5,8 +5,8 @@ use std::collections::BTreeSet;
 use std::fmt::Write;
 use std::path::Path;
 
-use fresnel_gen::emit::Subject;
 use fresnel_gen::fit::{Aim, Candidate, Curve, Exact, Task, Tried, candidates, search};
+use fresnel_gen::reference::Subject;
 use fresnel_gen::report::search::{Errors, Figures};
 
 use super::fits::{catalogue, is_promised};
@@ -54,7 +54,10 @@ fn what_shapes_are_worth_is_recorded() {
     assert_eq!(subjects.len(), 75);
     let count = substances.iter().collect::<BTreeSet<_>>().len();
     println!("{count} substances");
-    let curves: Vec<Curve> = subjects.iter().map(|subject| subject.curve()).collect();
+    let curves: Vec<Curve> = subjects
+        .iter()
+        .map(|subject| Curve::unclipped(subject))
+        .collect();
     let mut record =
         String::from("what,shape,median,p90,worst,median_by_substance,p90_by_substance\n");
 

@@ -1,11 +1,12 @@
 //! The specialiser changes rounding and nothing else: a specialised function against the library function with the same
 //! values, over hard media, in f64 where rounding does not hide a wrong branch, and in f32 where it must stay small.
 
-use fresnel_gen::fit::{self, Derivation, values};
+use fresnel_gen::fit::{self, inputs_of, values};
 use fresnel_gen::ir::{Op, Texels, Value, evaluate};
 use fresnel_gen::materials::Channels;
 use fresnel_gen::methods::{self, Class, Contract, Method, Values};
 use fresnel_gen::num::Num;
+use fresnel_gen::reference::Derivation;
 
 /// Channels on both sides of every branch, equal and unequal, matched, barely absorbing, far from any material.
 const MEDIA: [([f64; 3], [f64; 3]); 12] = [
@@ -128,7 +129,7 @@ fn metals_have_no_branch_and_no_guard_left() {
             open += usize::from(greatest >= 0.0 && least < 0.0);
         }
         let function = method
-            .specialise(&subject.values(method))
+            .specialise(&inputs_of(&subject, method))
             .expect("it specialises");
         let left = [Op::Select, Op::Less, Op::Max].map(|op| function.count(op));
         assert_eq!(left[0], 2 * open, "{}: {channels:?}", subject.name);

@@ -6,6 +6,7 @@ use std::collections::BTreeMap;
 use fresnel_gen::fit;
 use fresnel_gen::materials::{self, Channels, Kind, Material, Sight, Surface, THESIS_NM};
 use fresnel_gen::optics::cosine;
+use fresnel_gen::reference;
 use fresnel_gen::spectra::{Adaptation, Gamut, Illuminant, Integration, Step};
 
 /// The catalogue by page, without `.yml`.
@@ -163,12 +164,12 @@ fn the_index_per_channel_stands_for_the_spectrum() {
         let Ok(surface) = Surface::new(&material, None, &Sight::default()) else {
             continue;
         };
-        let truth = fit::Truth::new(surface, fresnel_gen::methods::Light::Unpolarised);
-        let effective = fit::effective(&truth, material.kind);
-        let known = fit::known(&effective.channels, &fit::Derivation::default());
+        let truth = reference::Truth::new(surface, fresnel_gen::methods::Light::Unpolarised);
+        let effective = reference::effective(&truth, material.kind);
+        let known = fit::known(&effective.channels, &reference::Derivation::default());
         let seen = truth.at(1.0);
         for (by, (law, seen)) in effective.by.iter().zip(known.f0.iter().zip(seen)) {
-            let met = *by != fit::By::F0AndF82 || (law - seen).abs() < 1e-9;
+            let met = *by != reference::By::F0AndF82 || (law - seen).abs() < 1e-9;
             assert!(met, "{}: {known:?}", material.name);
         }
         let apart = (0..=90).flat_map(|degree| {

@@ -1,11 +1,11 @@
 //! The split-sum table: the albedo of a rough surface by it, filtered as GPUs do, against direct integration over GGX.
 
-use fresnel_gen::emit::Subject;
-use fresnel_gen::fit::seen;
+use fresnel_gen::fit::inputs_of;
 use fresnel_gen::ir::Weights;
 use fresnel_gen::lut::{Depth, SPLIT_SUM_SIZE, SplitSum, StoredSplitSum};
 use fresnel_gen::methods::{self, Input, Method, Shape};
 use fresnel_gen::optics::Ggx;
+use fresnel_gen::reference::{Subject, seen};
 use fresnel_gen::spectra::Gamut;
 
 /// What the table promises at every angle and roughness from .05 on, for the fitted reflectance.
@@ -41,7 +41,7 @@ struct Reflectance {
 
 impl Reflectance {
     fn new(name: &'static str, subject: &Subject, method: &Method) -> Reflectance {
-        let values = subject.values(method);
+        let values = inputs_of(subject, method);
         let coefficients = Input::COEFFICIENTS.iter();
         let mut surface = subject.truth.surface.clone();
         surface.gamut = Gamut::Keep;

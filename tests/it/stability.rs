@@ -193,9 +193,10 @@ method,failure,n,k,cos_theta
 
 /// What was known to fail may be mended; what keeps the contract stays a reflectance there.
 fn check_known(line: &str) {
-    use fresnel_gen::fit::{Derivation, values};
+    use fresnel_gen::fit::values;
     use fresnel_gen::ir::{Value, evaluate};
     use fresnel_gen::materials::Channels;
+    use fresnel_gen::reference::Derivation;
     let cells: Vec<&str> = line.split(',').collect();
     let method = methods::find(cells[0]).unwrap();
     let [n, k, cos_theta] = [2, 3, 4].map(|i| cells[i].parse::<f64>().unwrap());

@@ -13,7 +13,7 @@ use crate::app::source::{materials, shader, source};
 use crate::app::write::{try_places_of_ours, write_file};
 use crate::audit::{Audit, Given, Language, file_name, serve, text};
 use crate::cost::{FAMILIES, Family};
-use crate::emit::Subject;
+use crate::reference::Subject;
 use crate::report::Report;
 use crate::report::frontier::{CostAxis, OF, View, data, own};
 use crate::spectra::Space;

@@ -8,7 +8,7 @@ use crate::app::names::{flag, unknown};
 use crate::app::request::{Materials, Request};
 use crate::app::source::materials;
 use crate::app::write::{try_places_of_ours, write_report};
-use crate::emit::Subject;
+use crate::reference::Subject;
 use crate::report::Report;
 use crate::report::frontier::{CLASSES, Data, ERRORS, OF, View, cost_names, data, page, svg, text};
 

@@ -8,12 +8,13 @@ use crate::app::request::{Materials, Request};
 use crate::app::sight::{flags as sight_flags, sight};
 use crate::app::source::{materials, source};
 use crate::cost::{Family, library_cost, records};
-use crate::emit::{Subject, missed};
+use crate::emit::missed;
 use crate::fit::{
     Aim, Curve, Exact, Follows, ModelError, Weight, error_from, fitted_for, model_error, values_at,
 };
 use crate::methods::{ALL, Class, Method, Values};
 use crate::num::in_parallel;
+use crate::reference::Subject;
 use crate::report::Report;
 use crate::report::fits::{Row, text};
 
@@ -147,7 +148,7 @@ fn of_subject(
     aim: Aim,
     forms: &[Form],
 ) -> Vec<(Option<Row>, String, &'static str)> {
-    let curve = subject.curve();
+    let curve = Curve::unclipped(subject);
     // Promises of classes are of the usual fit.
     let promised = aim.weight == Weight::Absolute && !aim.exact.is_any();
     let row = |form: &Form| {

@@ -3,11 +3,11 @@
 use crate::app::args::FitFlags;
 use crate::app::error::Error;
 use crate::cost::{Family, library_cost, records};
-use crate::emit::Subject;
 use crate::fit::{Aim, Candidate, Curve, Task, candidates, search};
 use crate::materials::{Material, find};
 use crate::methods::Method;
 use crate::num::in_parallel;
+use crate::reference::Subject;
 use crate::report::Report;
 use crate::report::frontier::{CLASSES, class};
 use crate::report::search::{Errors, Told, json, text};
@@ -73,7 +73,7 @@ fn errors(
         .iter()
         .filter(|subject| class(subject) == Some(name));
     let own: Vec<&Subject> = own.collect();
-    let curve = |i: usize| own[i].curve();
+    let curve = |i: usize| Curve::unclipped(&own[i]);
     let curves: Vec<Curve> = in_parallel(own.len(), &curve, &mut |done, whole| {
         progress(done, whole, "materials");
     });

@@ -5,10 +5,11 @@ mod written;
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use crate::emit::{self, Bounds, Emitted, File, NAGA_VERSION, Naming, Place, Subject};
+use crate::emit::{self, Bounds, Emitted, File, NAGA_VERSION, Naming, Place};
 use crate::materials::Unseen;
 use crate::methods::{self, Method};
 use crate::num::Precision;
+use crate::reference::Subject;
 use crate::targets::Target;
 
 use super::artifact::{Artifact, sha256};

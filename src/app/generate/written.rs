@@ -2,8 +2,8 @@
 
 use crate::app::error::Error;
 use crate::app::request::Request;
-use crate::emit::Subject;
 use crate::methods::{self, InHalf, Method};
+use crate::reference::Subject;
 use crate::targets::Target;
 
 use super::{Kept, Run};

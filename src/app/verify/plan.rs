@@ -6,8 +6,9 @@ use crate::app::command::kept;
 use crate::app::error::Error;
 use crate::app::generate::{Kept, Made, Meant, generate_meant};
 use crate::app::request::{Materials, Request};
-use crate::emit::{Emitted, Subject};
+use crate::emit::Emitted;
 use crate::methods;
+use crate::reference::Subject;
 use crate::targets;
 use crate::verify::plan::{Page, Plan, Planned};
 

@@ -1,13 +1,13 @@
 //! What charts show: the error of every method for every material, with its intended inputs and with its best ones, and what an
 //! evaluation of its library function costs where that was recorded; a user's own function beside them.
 
-use crate::emit::Subject;
 use crate::fit::{
-    Curve, ModelError, Truth, best_inputs, error_of, model_error, perceived, values_at,
+    Curve, ModelError, best_inputs, error_of, inputs_of, model_error, perceived, values_at,
 };
 use crate::ir::{Checked, Value};
 use crate::methods::{ALL, Light, Method, Values};
 use crate::num::in_parallel;
+use crate::reference::{Subject, Truth};
 use crate::spectra::Space;
 
 use super::own::Own;
@@ -103,7 +103,7 @@ fn of_method(
     curve: &Curve,
     space: Space,
 ) -> [Option<f64>; 4] {
-    let values = subject.values(method);
+    let values = inputs_of(subject, method);
     if method.is_textured() {
         let function = method.specialise(&values).expect(BUILT);
         let error = model_error(&function, &subject.truth_for(method));

@@ -1,8 +1,8 @@
 //! What errors are of: a material alone, or a class with its materials taken together in some way.
 
-use crate::emit::{LEAST_FITTED_N, Subject};
 use crate::materials::Kind;
 use crate::num::statistics::{median, medians, quantile};
+use crate::reference::{LEAST_FITTED_N, Subject};
 use crate::report::class_title;
 
 use super::Set;

@@ -1,7 +1,8 @@
 //! The reflectance curves of figures 6 and 9 to 16: the exact law and what approximates it.
 
-use crate::fit::{self, Derivation};
+use crate::fit;
 use crate::methods::lambda;
+use crate::reference::Derivation;
 use crate::report::chart::{Axis, Chart, Mark, Series, Style, ticks};
 
 use super::angle::{cosine, exact, lowest};

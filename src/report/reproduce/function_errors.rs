@@ -1,8 +1,9 @@
 //! Tables 2 and 3: mean relative error of the approximations, by the thesis's measure (section 5.2).
 
-use crate::fit::{Derivation, THESIS_MATCHING_COS, thesis_errors};
+use crate::fit::thesis_errors;
 use crate::materials::Channels;
 use crate::methods::lambda;
+use crate::reference::{Derivation, THESIS_MATCHING_COS};
 
 use super::meter::Meter;
 use super::row::{Figure, Row, Verdict};

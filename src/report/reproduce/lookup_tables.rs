@@ -4,11 +4,11 @@
 //! The thesis measured its tables in rendered pictures only, of a cube and of a sculpture; the smaller of the two
 //! figures stands beside ours. Both are means of relative errors, but the pictures' angles are those that a camera saw.
 
-use crate::fit::{Truth, seen};
 use crate::ir::Weights;
 use crate::lut::{Axis, Depth, LEAST_TEXELS, Stored, Table};
 use crate::materials::Surface;
 use crate::methods::Light;
+use crate::reference::{Truth, seen};
 
 use super::meter::Meter;
 use super::row::{Figure, Row, Verdict};

@@ -2,9 +2,9 @@
 //! their difference and the sums. Over 10⁶ angles a sum has then lost its last digits, and the mean moves by some 10⁻⁴
 //! of its value: enough to turn a digit.
 
-use crate::fit::Derivation;
 use crate::ir::{Checked, Value, evaluate};
 use crate::materials::Channels;
+use crate::reference::Derivation;
 
 use super::specialised;
 

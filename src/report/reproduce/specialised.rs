@@ -1,9 +1,10 @@
 //! Methods specialised to the thesis's materials, or to one index of refraction.
 
-use crate::fit::{self, Derivation};
+use crate::fit;
 use crate::ir::{Checked, Value, evaluate};
 use crate::materials::{self, Channels, Material, THESIS_NM};
 use crate::methods::{self, Method};
+use crate::reference::Derivation;
 
 /// A method of the registry.
 pub fn method(name: &str) -> &'static Method {

@@ -1,8 +1,8 @@
 //! The formulas of the thesis, written by hand in each language, have the errors that our methods have.
 
-use fresnel_gen::emit::Subject;
-use fresnel_gen::fit::{ModelError, model_error};
+use fresnel_gen::fit::{ModelError, inputs_of, model_error};
 use fresnel_gen::methods;
+use fresnel_gen::reference::Subject;
 
 use super::{audit, rows};
 use crate::cli::Place;
@@ -34,7 +34,7 @@ pub fn place() -> Place {
 
 fn ours(method: &str, subject: &Subject) -> ModelError {
     let method = methods::find(method).unwrap();
-    let function = method.specialise(&subject.values(method)).unwrap();
+    let function = method.specialise(&inputs_of(subject, method)).unwrap();
     model_error(&function, &subject.truth_for(method))
 }
 

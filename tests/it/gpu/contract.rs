@@ -3,12 +3,13 @@
 //! promise that each file's reader relies on.
 
 use fresnel_gen::app::{Materials, Request, Source};
-use fresnel_gen::emit::{self, Bounds, Emitted, Naming, Subject};
+use fresnel_gen::emit::{self, Bounds, Emitted, Naming};
 use fresnel_gen::fit::{self, Measured};
 use fresnel_gen::gpu::Wanted;
 use fresnel_gen::ir::Ty;
 use fresnel_gen::methods::{self, Class, Contract, Method, find_input};
 use fresnel_gen::optics;
+use fresnel_gen::reference::Subject;
 use fresnel_gen::targets::{self, Finish};
 use fresnel_gen::verify::Trial;
 use fresnel_gen::verify::run::{Devices, Fault, Shown, Way};

@@ -2,11 +2,12 @@
 
 use std::fs;
 
-use fresnel_gen::fit::{Derivation, values};
+use fresnel_gen::fit::values;
 use fresnel_gen::ir::{Value, evaluate};
 use fresnel_gen::materials::Channels;
 use fresnel_gen::methods::{self, Class, Contract, Light, Method};
 use fresnel_gen::num::Precision;
+use fresnel_gen::reference::Derivation;
 use fresnel_gen::report::png::png;
 use fresnel_gen::report::stability::heat;
 use fresnel_gen::stability::{Axis, Cell, Map, maps};

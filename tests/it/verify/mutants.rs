@@ -1,11 +1,12 @@
 //! Mutants: functions with one thing wrong, written in every language and run. All must be caught, on every target; one
 //! that cannot be is named below, with the reason.
 
-use fresnel_gen::emit::{self, Emitted, Naming, Subject};
-use fresnel_gen::fit::{self, Measured};
+use fresnel_gen::emit::{self, Emitted, Naming};
+use fresnel_gen::fit::{self, Measured, inputs_of};
 use fresnel_gen::gpu::Wanted;
 use fresnel_gen::ir::{Checked, Function, Label, Node, NodeId, Op, Payload, Ty, check};
 use fresnel_gen::methods::{self, Class, Contract, Method};
+use fresnel_gen::reference::Subject;
 use fresnel_gen::targets;
 use fresnel_gen::verify::run::{Devices, Fault, Shown, Way};
 use fresnel_gen::verify::{ABSOLUTE_FLOOR, Trial, beyond, cosines_around};
@@ -209,7 +210,7 @@ fn well_formed(function: Function) -> Checked {
 
 /// The function of a method with a material's values.
 fn trial(emitted: &Emitted, subject: &Subject) -> Trial {
-    let values = subject.values(emitted.method);
+    let values = inputs_of(subject, emitted.method);
     let inputs = emitted
         .method
         .inputs

@@ -3,12 +3,11 @@
 use std::process::Command;
 
 use fresnel_gen::app::request::DEFAULT_MATERIALS as MATERIALS;
-use fresnel_gen::emit::{
-    Bounds, CodeBound, Emitted, Naming, Subject, fingerprint, specialised_function,
-};
+use fresnel_gen::emit::{Bounds, CodeBound, Emitted, Naming, fingerprint, specialised_function};
 use fresnel_gen::fit::Measured;
 use fresnel_gen::ir::Op;
 use fresnel_gen::methods::{self, Class, Contract, Method};
+use fresnel_gen::reference::Subject;
 
 use super::subjects;
 use crate::exhaustive::{Line, lines};

@@ -1,7 +1,7 @@
 //! Where metals reflect least (sections 3.2.3 and 3.2.4).
 
-use crate::fit::Derivation;
 use crate::materials::{Channels, THESIS_NM};
+use crate::reference::Derivation;
 use crate::report::reproduce::angle::{cosine, exact, highest, lowest};
 use crate::report::reproduce::row::{Figure, Row, Verdict};
 use crate::report::reproduce::specialised;

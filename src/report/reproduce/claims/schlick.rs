@@ -1,7 +1,8 @@
 //! Schlick's approximation (section 3.1.3, 3.2.2 and 5.3.1): its range of n, its two forms, its error for water.
 
-use crate::fit::{Derivation, thesis_errors};
+use crate::fit::thesis_errors;
 use crate::materials::Channels;
+use crate::reference::Derivation;
 use crate::report::reproduce::angle::{cosine, exact, highest};
 use crate::report::reproduce::meter::Meter;
 use crate::report::reproduce::row::{Figure, Row, Verdict};

@@ -8,7 +8,7 @@ use crate::materials::{Channels, Index, Kind};
 use crate::methods::Light;
 use crate::optics::{self, COS_82, index_from_f0_f82};
 
-use super::model_error::{Truth, seen};
+use super::truth::{Truth, seen};
 
 /// The index per channel, and how it was come by.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -1,0 +1,119 @@
+//! A material in its medium, as it is seen.
+
+use crate::materials::{Kind, Material, Sight, Surface, Unseen};
+use crate::methods::{Class, Light, Method};
+
+use super::derivation::Derivation;
+use super::effective::{Effective, effective};
+use super::truth::Truth;
+
+/// The least n of a dielectric that fitted methods follow.
+pub const LEAST_FITTED_N: f64 = 1.2;
+
+/// A material in its medium, as functions are specialised to it.
+#[derive(Clone, Debug)]
+pub struct Subject {
+    /// The material's name, with `_in_` and the medium's where there is one.
+    pub name: String,
+    /// What a user types to get it again: a name, or a file's name.
+    pub argument: String,
+    /// The record.
+    pub material: Material,
+    /// What a user types to get the medium again, and its record, where it is not air.
+    pub medium: Option<(String, Material)>,
+    /// What is seen of it, in unpolarised light.
+    pub truth: Truth,
+    /// The index per channel that stands for it.
+    pub effective: Effective,
+    /// How inputs are derived from it.
+    pub derivation: Derivation,
+}
+
+/// A material with what a user types to get it: a name, or a file's name.
+pub type Typed = (String, Material);
+
+impl Subject {
+    /// A material in air or in a medium, as it is seen.
+    pub fn new(
+        (argument, material): Typed,
+        medium: Option<Typed>,
+        sight: &Sight,
+        derivation: Derivation,
+    ) -> Result<Subject, Unseen> {
+        let around = medium.as_ref().map(|(_, medium)| medium);
+        let surface = Surface::new(&material, around, sight)?;
+        let truth = Truth::new(surface, Light::Unpolarised);
+        Ok(Subject {
+            name: match around {
+                Some(medium) => format!("{}_in_{}", material.name, medium.name),
+                None => material.name.clone(),
+            },
+            effective: effective(&truth, material.kind),
+            argument,
+            material,
+            medium,
+            truth,
+            derivation,
+        })
+    }
+
+    /// What a method's error is held against: the truth in its light; what reads a table keeps the table's colours.
+    pub fn truth_for(&self, method: &Method) -> Truth {
+        let truth = if method.light == self.truth.light {
+            self.truth.clone()
+        } else {
+            Truth::new(self.truth.surface.clone(), method.light)
+        };
+        if method.is_textured() {
+            truth.kept()
+        } else {
+            truth
+        }
+    }
+
+    /// Whether the exact law for dielectrics serves it.
+    fn is_glass(&self) -> bool {
+        self.material.kind == Kind::Dielectric && self.effective.channels.is_transparent()
+    }
+
+    /// Whether a method describes it: the exact laws for dielectrics take no k. Coefficients follow a dielectric that absorbs too.
+    pub fn is_described_by(&self, method: &Method) -> bool {
+        let is_followed = method.is_fitted() && self.material.kind == Kind::Dielectric;
+        method.class == Class::Any || is_followed || self.effective.channels.is_transparent()
+    }
+
+    /// The exact method of its class.
+    pub fn exact_method(&self) -> &'static str {
+        if self.is_glass() {
+            "dielectric_exact"
+        } else {
+            "conductor_exact"
+        }
+    }
+
+    /// The fitted method of its class with four coefficients, for arrays of materials. None follows a dielectric that is nearly
+    /// matched, or seen from a denser medium.
+    pub fn fitted_with_four(&self) -> Option<&'static str> {
+        let n = self.effective.channels.n;
+        match self.is_glass() {
+            false => Some("fitted"),
+            true if n.iter().all(|n| *n >= LEAST_FITTED_N) => Some("fitted_dielectric"),
+            true => None,
+        }
+    }
+
+    /// The fitted method that suits its class: a semiconductor's needs five coefficients, or errs eight times as much.
+    pub fn fitted_method(&self) -> Option<&'static str> {
+        match self.material.kind {
+            Kind::Semiconductor => Some("fitted_five"),
+            _ => self.fitted_with_four(),
+        }
+    }
+
+    /// The methods that its file holds unless others are asked for: the exact one first.
+    pub fn default_methods(&self) -> Vec<&'static str> {
+        let rest = ["schlick_rescaled", "schlick_corrected", "table"];
+        let exact = [self.exact_method()].into_iter();
+        exact.chain(self.fitted_method()).chain(rest).collect()
+    }
+}
