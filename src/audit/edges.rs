@@ -2,7 +2,7 @@
 
 use core::cell::RefCell;
 
-use serde_json::{Value, json};
+use serde::Serialize;
 
 /// A cosine that rendering brings about, by rounding if not otherwise.
 #[derive(Clone, Copy, Debug)]
@@ -63,11 +63,24 @@ pub fn shown([r, g, b]: [f32; 3]) -> String {
     }
 }
 
+/// What came at an edge.
+#[derive(Clone, Copy, Debug, Serialize)]
+pub struct EdgeRow {
+    /// The cosine, in words.
+    pub cos_theta: &'static str,
+    /// Each channel; none where it is not finite.
+    pub result: [Option<f64>; 3],
+    /// Whether a fault there is a finding.
+    pub counts: bool,
+    /// What is wrong.
+    pub fault: Option<&'static str>,
+}
+
 /// The edges as they came out.
 #[derive(Clone, Debug, Default)]
 pub struct Edges {
     /// A row each.
-    pub rows: Vec<Value>,
+    pub rows: Vec<EdgeRow>,
     /// What is wrong.
     pub findings: Vec<String>,
     /// What lies beyond the domain, where it is no reflectance.
@@ -84,10 +97,13 @@ pub fn judged(results: &[[f32; 3]], most: [f32; 3]) -> Edges {
     let mut edges = Edges::default();
     for (edge, rgb) in EDGES.iter().zip(results) {
         let fault = fault(*rgb, most);
-        let number = |value: f32| value.is_finite().then_some(value);
-        edges.rows.push(json!({
-            "cos_theta": edge.name, "result": rgb.map(number), "counts": edge.counts, "fault": fault,
-        }));
+        let number = |value: f32| value.is_finite().then_some(f64::from(value));
+        edges.rows.push(EdgeRow {
+            cos_theta: edge.name,
+            result: rgb.map(number),
+            counts: edge.counts,
+            fault,
+        });
         if let Some(fault) = fault {
             let words = format!("at cos_theta = {} it {fault}: {}", edge.name, shown(*rgb));
             let list = match edge.counts {

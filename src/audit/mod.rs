@@ -26,8 +26,6 @@ mod serve;
 use core::time::Duration;
 use std::path::PathBuf;
 
-use serde_json::Value;
-
 use crate::cost::Family;
 use crate::cost::Limits;
 use crate::gpu::Uniform;
@@ -39,14 +37,15 @@ use crate::app::error::Error;
 use crate::process::Surroundings;
 
 pub use bind::Given;
+pub use edges::EdgeRow;
 pub use language::Language;
-pub use row::{file_name, text};
+pub use row::{ArgumentValue, AuditRow, CostRow, Dominating, PerceivedFigures, file_name};
 pub use serve::serve;
 
 use bind::Bound;
 use compile::Compilers;
 use program::Program;
-use row::{Ran, Row};
+use row::{Audited, Ran};
 use runner::{Runner, Trouble};
 
 /// What is audited.
@@ -83,7 +82,7 @@ impl Audit {
         &self,
         subject: &Subject,
         progress: &mut dyn FnMut(u64, u64, &str),
-    ) -> Result<Value, Error> {
+    ) -> Result<AuditRow, Error> {
         program::check(&self.file, &self.text, self.language)?;
         let found = scan::functions(&self.text, self.language);
         let chosen = bind::choose(&self.file, found, self.function.as_deref())?;
@@ -110,7 +109,7 @@ impl Audit {
             Ok(_) => self.costs(&program, subject, &compilers, &surroundings, progress)?,
             Err(_) => (Vec::new(), Vec::new()),
         };
-        Ok(Row {
+        Ok(Audited {
             audit: self,
             bound: &bound,
             subject,
@@ -119,7 +118,7 @@ impl Audit {
             costs: &costs,
             ours: &rivals,
         }
-        .json())
+        .row())
     }
 
     fn limit(&self) -> Duration {
@@ -220,12 +219,12 @@ fn measured(
     let between = edges::Between::new(most);
     let error = runner.error(&subject.truth, &|cosines, got| between.look(cosines, got))?;
     edges.findings.extend(between.finding());
-    let seen = runner.perceived(&subject.truth, space)?;
+    let perceived = runner.perceived(&subject.truth, space)?;
     Ok(Ran {
         device: runner.device.clone(),
         points: runner.points.get(),
         edges,
         error,
-        seen,
+        perceived,
     })
 }

@@ -1,19 +1,154 @@
-//! The row of the report, and what people read of it.
+//! The row of the report: a user's function for a material.
 
-use serde_json::{Map, Value, json};
+use serde::Serialize;
 
-use crate::cost::CostAndError;
+use crate::cost::{CostAndError, Figures};
 use crate::fit::{ModelError, Perceived};
 use crate::reference::Subject;
 use crate::verify::compilers::Verdict;
+use crate::verify::{Answer, JunitCase, Status, as_object};
 
 use super::Audit;
-use super::bind::Bound;
+use super::bind::{Argument, Bound};
 use super::comparison::{Competitor, dominating, sentence};
 use super::cost::Cost;
-use super::edges::Edges;
+use super::edges::{EdgeRow, Edges};
 use super::ours::Ours;
 use super::runner::Trouble;
+
+/// A user's function with the values of a material: who accepts it, how far it is from the law, what it costs.
+#[derive(Clone, Debug, Serialize)]
+pub struct AuditRow {
+    /// The target of its language.
+    pub target: &'static str,
+    /// The function, where rows of our own have a method.
+    pub method: String,
+    /// The material, as a user types it.
+    pub material: String,
+    /// Always `user`.
+    pub form: &'static str,
+    /// What it computes in.
+    pub precision: &'static str,
+    /// The function.
+    pub function: String,
+    /// Its file, without folders.
+    pub file: String,
+    /// Its arguments, in order.
+    #[serde(serialize_with = "as_object")]
+    pub arguments: Vec<(String, ArgumentValue)>,
+    /// The arguments that have the material's values, in words.
+    pub filled: Vec<String>,
+    /// On what it ran.
+    pub device: Option<String>,
+    /// At how many cosines.
+    pub points: Option<usize>,
+    /// Always none.
+    pub code_error: Option<f64>,
+    /// Why there is no code error.
+    pub code_error_reason: &'static str,
+    /// Its distance from the law.
+    pub model_error: Option<ModelError>,
+    /// The same as it is seen.
+    pub perceived: Option<PerceivedFigures>,
+    /// What each compiler says of the file.
+    #[serde(serialize_with = "as_object")]
+    pub accepts: Vec<(String, Answer)>,
+    /// What came at the ends of the domain.
+    pub edges: Option<Vec<EdgeRow>>,
+    /// What came beyond the domain, where it is no reflectance, in words.
+    pub beyond: Option<Vec<String>>,
+    /// What it costs on each GPU.
+    pub cost: Vec<CostRow>,
+    /// The methods that dominate it.
+    pub dominated_by: Vec<Dominating>,
+    /// For each GPU whether a method dominates it, in words; none where the methods are not known there.
+    #[serde(serialize_with = "as_object")]
+    pub says: Vec<(String, Option<String>)>,
+    /// What to think of it.
+    pub status: Status,
+    /// Why it is not a pass.
+    pub reason: Option<String>,
+}
+
+/// The value of an argument.
+#[derive(Clone, Debug, Serialize)]
+pub struct ArgumentValue {
+    /// That of each channel.
+    pub value: [f64; 3],
+    /// `material` or `--arg`.
+    pub from: &'static str,
+}
+
+/// An error as it is seen.
+#[derive(Clone, Copy, Debug, Serialize)]
+pub struct PerceivedFigures {
+    /// Of luminance.
+    pub luminance: f64,
+    /// CIEDE2000.
+    pub de2000: f64,
+}
+
+/// What a function costs on a GPU.
+#[derive(Clone, Debug, Serialize)]
+pub struct CostRow {
+    /// The family of GPUs.
+    pub gpu: &'static str,
+    /// The compiler with its version, where one was asked.
+    pub compiler: Option<String>,
+    /// What is counted.
+    pub measure: &'static str,
+    /// Instructions of the whole shader.
+    pub instructions: Option<f64>,
+    /// Its latency.
+    pub latency: Option<f64>,
+    /// Its inverse throughput.
+    pub inverse_throughput: Option<f64>,
+    /// Instructions of one evaluation.
+    pub net_instructions: Option<f64>,
+    /// Inverse throughput of one evaluation.
+    pub net_inverse_throughput: Option<f64>,
+    /// The cost of one evaluation.
+    pub net: Option<f64>,
+    /// Why it is not known.
+    pub reason: Option<String>,
+}
+
+/// A method of ours that errs no more and costs no more on a GPU.
+#[derive(Clone, Debug, Serialize)]
+pub struct Dominating {
+    /// The method.
+    pub method: &'static str,
+    /// `library` or `specialised`.
+    pub form: &'static str,
+    /// The user's error over the method's.
+    pub error_times: f64,
+    /// The user's cost over the method's.
+    pub cost_times: f64,
+    /// The family of GPUs.
+    pub gpu: &'static str,
+}
+
+impl AuditRow {
+    /// The row as JUnit has it.
+    pub fn junit_case(&self) -> JunitCase<'_> {
+        JunitCase {
+            target: self.target,
+            device: self.device.as_deref(),
+            function: &self.function,
+            material: Some(&self.material),
+            form: self.form,
+            method: &self.method,
+            status: self.status,
+            reason: self.reason.as_deref(),
+        }
+    }
+
+    /// What is said of its cost on a GPU.
+    pub fn sentence_on(&self, gpu: &str) -> Option<&str> {
+        let (_, sentence) = self.says.iter().find(|(name, _)| name == gpu)?;
+        sentence.as_deref()
+    }
+}
 
 /// What came of running a function.
 #[derive(Debug)]
@@ -27,11 +162,11 @@ pub struct Ran {
     /// Against the truth.
     pub error: ModelError,
     /// The same, as it is seen.
-    pub seen: Perceived,
+    pub perceived: Perceived,
 }
 
-/// A row while it is made.
-pub struct Row<'a> {
+/// What is known of a function for a material.
+pub struct Audited<'a> {
     /// What was asked.
     pub audit: &'a Audit,
     /// The function with its arguments.
@@ -48,48 +183,48 @@ pub struct Row<'a> {
     pub ours: &'a [Ours],
 }
 
-impl Row<'_> {
+impl Audited<'_> {
     /// The row.
-    pub fn json(&self) -> Value {
+    pub fn row(&self) -> AuditRow {
         let function = &self.bound.function.name;
         let ran = self.ran.as_ref().ok();
         let (status, reasons) = self.judged();
-        let dominated: Vec<Value> = self
-            .costs
-            .iter()
-            .enumerate()
-            .flat_map(|(i, cost)| self.dominated(i, cost))
-            .collect();
-        json!({
-            "target": self.audit.language.target(), "method": function, "material": self.subject.argument,
-            "form": "user", "precision": "f32", "function": function, "file": file_name(&self.audit.file),
-            "arguments": self.arguments(), "filled": self.bound.filled(), "device": ran.map(|ran| &ran.device), "points": ran.map(|ran| ran.points),
-            "code_error": null, "code_error_reason": "there is no formula to hold it against but its own text",
-            "model_error": ran.map(|ran| ran.error), "perceived": ran.map(seen), "accepts": self.accepts(),
-            "edges": ran.map(|ran| &ran.edges.rows), "beyond": ran.map(|ran| &ran.edges.remarks),
-            "cost": self.costs.iter().map(costed).collect::<Vec<Value>>(),
-            "dominated_by": dominated, "says": self.sentences(), "status": status,
-            "reason": (!reasons.is_empty()).then(|| reasons.join("\n")),
-        })
-    }
-
-    fn arguments(&self) -> Value {
-        let value = |argument: &super::bind::Argument| {
-            let from = if argument.is_filled {
-                "material"
-            } else {
-                "--arg"
-            };
-            (
-                argument.name.clone(),
-                json!({ "value": argument.value, "from": from }),
-            )
-        };
-        Value::Object(self.bound.arguments.iter().map(value).collect())
+        let costs = self.costs.iter().enumerate();
+        let answer = |(name, verdict): &(String, Verdict)| (name.clone(), verdict.into());
+        AuditRow {
+            target: self.audit.language.target(),
+            method: function.clone(),
+            material: self.subject.argument.clone(),
+            form: "user",
+            precision: "f32",
+            function: function.clone(),
+            file: file_name(&self.audit.file).to_owned(),
+            arguments: self.bound.arguments.iter().map(argument_value).collect(),
+            filled: self.bound.filled(),
+            device: ran.map(|ran| ran.device.clone()),
+            points: ran.map(|ran| ran.points),
+            code_error: None,
+            code_error_reason: "there is no formula to hold it against but its own text",
+            model_error: ran.map(|ran| ran.error),
+            perceived: ran.map(|ran| PerceivedFigures {
+                luminance: ran.perceived.luminance,
+                de2000: ran.perceived.de2000,
+            }),
+            accepts: self.verdicts.iter().map(answer).collect(),
+            edges: ran.map(|ran| ran.edges.rows.clone()),
+            beyond: ran.map(|ran| ran.edges.remarks.clone()),
+            cost: self.costs.iter().map(cost_row).collect(),
+            dominated_by: costs
+                .flat_map(|(i, cost)| self.dominating(i, cost))
+                .collect(),
+            says: self.sentences(),
+            status,
+            reason: (!reasons.is_empty()).then(|| reasons.join("\n")),
+        }
     }
 
     /// What to think of it, and why.
-    fn judged(&self) -> (&'static str, Vec<String>) {
+    fn judged(&self) -> (Status, Vec<String>) {
         let place = format!("{}: {}", self.audit.file, self.bound.function.name);
         let mut reasons: Vec<String> = Vec::new();
         for (name, verdict) in self.verdicts {
@@ -111,22 +246,15 @@ impl Row<'_> {
             Err(Trouble::Failed(why)) => reasons.push(format!("{place}: {why}")),
             Err(Trouble::Refused(..)) => {}
             Err(Trouble::Absent(why)) if reasons.is_empty() => {
-                return ("not_checked", vec![why.clone()]);
+                return (Status::NotChecked, vec![why.clone()]);
             }
             Err(Trouble::Absent(_)) => {}
         }
-        (if reasons.is_empty() { "pass" } else { "fail" }, reasons)
-    }
-
-    fn accepts(&self) -> Value {
-        let word = |verdict: &Verdict| match verdict {
-            Verdict::Yes => "yes",
-            Verdict::No(_) => "no",
-            Verdict::NotChecked(_) => "not checked",
+        let status = match reasons.is_empty() {
+            true => Status::Pass,
+            false => Status::Fail,
         };
-        let each = self.verdicts.iter();
-        let each = each.map(|(name, verdict)| ((*name).to_owned(), json!(word(verdict))));
-        Value::Object(each.collect::<Map<String, Value>>())
+        (status, reasons)
     }
 
     fn competitors(&self, place: usize) -> Vec<Competitor> {
@@ -142,29 +270,30 @@ impl Row<'_> {
         })
     }
 
-    fn dominated(&self, place: usize, cost: &Cost) -> Vec<Value> {
+    fn dominating(&self, place: usize, cost: &Cost) -> Vec<Dominating> {
         let Some(own) = self.point(cost) else {
             return Vec::new();
         };
         let all = dominating(&own, &self.competitors(place)).into_iter();
-        all.map(|other| {
-            json!({
-                "method": other.method, "form": other.form, "error_times": other.times.error,
-                "cost_times": other.times.cost, "gpu": cost.family.name,
-            })
+        all.map(|other| Dominating {
+            method: other.method,
+            form: other.form,
+            error_times: other.times.error,
+            cost_times: other.times.cost,
+            gpu: cost.family.name,
         })
         .collect()
     }
 
-    /// The sentence that matters, for each GPU.
-    fn sentences(&self) -> Value {
+    /// For each GPU whether a method of ours dominates the function.
+    fn sentences(&self) -> Vec<(String, Option<String>)> {
         let each = self.costs.iter().enumerate().filter_map(|(place, cost)| {
             let own = self.point(cost)?;
             let others = self.competitors(place);
             let known = (!others.is_empty()).then(|| sentence(&own, &others));
-            Some((cost.family.name.to_owned(), json!(known)))
+            Some((cost.family.name.to_owned(), known))
         });
-        Value::Object(each.collect())
+        each.collect()
     }
 }
 
@@ -173,118 +302,29 @@ pub fn file_name(file: &str) -> &str {
     file.rsplit(['/', '\\']).next().unwrap_or(file)
 }
 
-fn seen(ran: &Ran) -> Value {
-    json!({ "luminance": ran.seen.luminance, "de2000": ran.seen.de2000 })
-}
-
-fn costed(cost: &Cost) -> Value {
-    let figures = cost.figures.as_ref().ok();
-    json!({
-        "gpu": cost.family.name, "compiler": cost.compiler, "measure": cost.family.columns.measure,
-        "instructions": figures.map(|figures| figures.shader.instructions),
-        "latency": figures.and_then(|figures| figures.shader.latency),
-        "inverse_throughput": figures.and_then(|figures| figures.shader.inverse_throughput),
-        "net_instructions": figures.map(|figures| figures.net.instructions),
-        "net_inverse_throughput": figures.and_then(|figures| figures.net.inverse_throughput),
-        "net": figures.map(crate::cost::Figures::cost),
-        "reason": cost.figures.as_ref().err(),
-    })
-}
-
-fn word<'a>(row: &'a Value, key: &str) -> &'a str {
-    row[key].as_str().unwrap_or_default()
-}
-
-/// A row for people.
-pub fn text(row: &Value) -> String {
-    let mut text = format!(
-        "{} in {}, {}\n",
-        word(row, "function"),
-        word(row, "file"),
-        word(row, "material")
-    );
-    for (head, line) in lines(row) {
-        text += &format!("  {head:<12} {line}\n");
-    }
-    text
-}
-
-fn lines(row: &Value) -> Vec<(&'static str, String)> {
-    let mut lines = Vec::new();
-    let filled: Vec<&str> = list(row, "filled")
-        .iter()
-        .filter_map(Value::as_str)
-        .collect();
-    if !filled.is_empty() {
-        lines.push((
-            "filled in",
-            format!("{}, as the material has it", filled.join("; ")),
-        ));
-    }
-    let accepts = row["accepts"].as_object().into_iter().flatten();
-    let accepts: Vec<String> = accepts
-        .map(|(name, verdict)| format!("{name}: {}", verdict.as_str().unwrap_or_default()))
-        .collect();
-    lines.push(("accepted", accepts.join("; ")));
-    if let Some(device) = row["device"].as_str() {
-        lines.push(("run on", format!("{device}, at {} cosines", row["points"])));
-        lines.push(("edges", edges(row)));
-        lines.push(("model error", model_error(&row["model_error"])));
-    }
-    let costs = list(row, "cost").iter();
-    lines.extend(costs.map(|cost| ("cost", costs_line(row, cost))));
-    lines.push(("status", word(row, "status").replace('_', " ")));
-    lines
-}
-
-fn list<'a>(row: &'a Value, key: &str) -> &'a [Value] {
-    row[key].as_array().map_or(&[], Vec::as_slice)
-}
-
-fn edges(row: &Value) -> String {
-    let edges = list(row, "edges");
-    let wrong = |edge: &&Value| edge["counts"] == true && edge["fault"].is_string();
-    let wrong = edges.iter().filter(wrong).count();
-    let beyond: Vec<&str> = list(row, "beyond")
-        .iter()
-        .filter_map(Value::as_str)
-        .collect();
-    let beyond = match beyond.is_empty() {
-        true => String::new(),
-        false => format!("; beyond them, {}", beyond.join(", ")),
+fn argument_value(argument: &Argument) -> (String, ArgumentValue) {
+    let value = ArgumentValue {
+        value: argument.value.map(f64::from),
+        from: match argument.is_filled {
+            true => "material",
+            false => "--arg",
+        },
     };
-    match wrong {
-        0 => format!("a reflectance at all of them{beyond}"),
-        _ => format!(
-            "{wrong} of {} results are no reflectance{beyond}",
-            edges.iter().filter(|edge| edge["counts"] == true).count()
-        ),
-    }
+    (argument.name.clone(), value)
 }
 
-fn model_error(error: &Value) -> String {
-    let number = |key: &str| error[key].as_f64();
-    let cos_theta = number("worst_cos").unwrap_or(0.0);
-    let mean = number("mean_rel").map_or("no mean".to_owned(), |mean| {
-        format!("{:.3} % in the mean", 100.0 * mean)
-    });
-    format!(
-        "{:.6} at most, at {:.1} degrees; {:.6} in the mean; relative {mean}",
-        number("max_abs").unwrap_or(f64::NAN),
-        libm::acos(cos_theta).to_degrees(),
-        number("mean_abs").unwrap_or(f64::NAN),
-    )
-}
-
-fn costs_line(row: &Value, cost: &Value) -> String {
-    let gpu = word(cost, "gpu");
-    match cost["net"].as_f64() {
-        None => format!("{gpu}: not checked: {}", word(cost, "reason")),
-        Some(net) => {
-            let says = row["says"][gpu]
-                .as_str()
-                .unwrap_or("ours are not known there");
-            format!("{gpu}: {net} ({}): {says}", word(cost, "measure"))
-        }
+fn cost_row(cost: &Cost) -> CostRow {
+    let figures = cost.figures.as_ref().ok();
+    CostRow {
+        gpu: cost.family.name,
+        compiler: cost.compiler.clone(),
+        measure: cost.family.columns.measure,
+        instructions: figures.map(|figures| figures.shader.instructions),
+        latency: figures.and_then(|figures| figures.shader.latency),
+        inverse_throughput: figures.and_then(|figures| figures.shader.inverse_throughput),
+        net_instructions: figures.map(|figures| figures.net.instructions),
+        net_inverse_throughput: figures.and_then(|figures| figures.net.inverse_throughput),
+        net: figures.map(Figures::cost),
+        reason: cost.figures.as_ref().err().cloned(),
     }
 }

@@ -1,5 +1,7 @@
 //! Reports: what people look at.
 
+#[cfg(all(feature = "cli", feature = "gpu"))]
+pub mod audit;
 pub mod card;
 pub mod chart;
 pub mod cost;
@@ -17,6 +19,8 @@ pub mod search;
 pub mod stability;
 pub mod survey;
 pub mod table;
+#[cfg(all(feature = "cli", feature = "gpu"))]
+pub mod verify;
 
 pub use envelope::{Origin, Report, SCHEMA, TOOL};
 

@@ -1,7 +1,5 @@
 //! Every f32 there is, all 2³² bit patterns, for functions specialised to materials, in WGSL: not a sample.
 
-use serde_json::Value;
-
 use crate::app::error::Error;
 use crate::emit::Emitted;
 use crate::fit::Measured;
@@ -10,9 +8,10 @@ use crate::verify::run::{Devices, Fault, Shown, Way};
 use crate::verify::{Trial, WITHIN, count, sweep};
 
 use super::file::specialised;
+use super::judge::{Ran, Run};
 use super::machine;
 use super::plan::{Plan, Planned};
-use super::row::{Row, Run};
+use super::row::VerifyRow;
 
 /// Hears how much is done, of how much, of what.
 type Progress<'a> = &'a mut dyn FnMut(u64, u64, &str);
@@ -21,11 +20,11 @@ type Progress<'a> = &'a mut dyn FnMut(u64, u64, &str);
 ///
 /// # Errors
 /// Nothing of the plan can be swept.
-pub fn rows(
+pub fn exhaustive_rows(
     plan: &Plan,
     devices: &Devices,
     progress: Progress,
-) -> Result<(Vec<Value>, Vec<String>), Error> {
+) -> Result<(Vec<VerifyRow>, Vec<String>), Error> {
     let (mut rows, mut speeds) = (Vec::new(), Vec::new());
     for file in plan.files.iter().filter(|file| file.target.name == "wgsl") {
         let Some(subject) = file.subject.map(|index| &plan.subjects[index]) else {
@@ -34,14 +33,14 @@ pub fn rows(
         for emitted in &file.functions {
             let (run, speed) = run(file, subject, emitted, devices, progress);
             let runs = [(Way::Own, run)];
-            let row = Row {
+            let ran = Ran {
                 file,
                 emitted,
                 material: &subject.argument,
                 accepts: &[],
                 runs: &runs,
             };
-            rows.push(row.json());
+            rows.push(ran.row());
             speeds.push(format!(
                 "{}: {speed:.1} million points a second",
                 emitted.name

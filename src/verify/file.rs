@@ -2,8 +2,6 @@
 
 use std::cell::OnceCell;
 
-use serde_json::Value;
-
 use crate::emit::{CodeBound, Emitted};
 use crate::fit::{self, Measured, ModelError, inputs_in};
 use crate::ir::{Column, Ty};
@@ -18,8 +16,9 @@ use crate::verify::{
 };
 
 use super::half_run;
+use super::judge::{Ran, Run};
 use super::plan::{Plan, Planned};
-use super::row::{self, Row, Run};
+use super::row::{self, VerifyRow};
 
 /// How a file is tried.
 #[derive(Clone, Copy, Debug)]
@@ -37,7 +36,7 @@ pub(super) struct Case<'a> {
 }
 
 /// The rows of a file.
-pub fn rows(plan: &Plan, file: &Planned, devices: &Devices, effort: Effort) -> Vec<Value> {
+pub fn file_rows(plan: &Plan, file: &Planned, devices: &Devices, effort: Effort) -> Vec<VerifyRow> {
     let accepts = accepts(file);
     let mut rows = Vec::new();
     for (index, emitted) in file.functions.iter().enumerate() {
@@ -238,7 +237,7 @@ impl<'a> Tried<'a> {
         }
     }
 
-    fn row(&self, case: &Case, accepts: &[(&'static str, Verdict)], is_first: bool) -> Value {
+    fn row(&self, case: &Case, accepts: &[(&'static str, Verdict)], is_first: bool) -> VerifyRow {
         let ways = Way::of(self.file.target.name, self.emitted.precision);
         // Other ways are second opinions on the text: one material tells.
         let ways = if is_first { ways } else { &ways[..1] };
@@ -246,14 +245,14 @@ impl<'a> Tried<'a> {
             .iter()
             .map(|way| (*way, self.run(case, *way)))
             .collect();
-        Row {
+        Ran {
             file: self.file,
             emitted: self.emitted,
             material: case.material,
             accepts,
             runs: &runs,
         }
-        .json()
+        .row()
     }
 
     fn run(&self, case: &Case, way: Way) -> Result<Run, Fault> {
@@ -281,7 +280,7 @@ impl<'a> Tried<'a> {
             &other
         };
         if self.emitted.precision.is_half() {
-            let ran = half_run::run(runnable, &shown, &case.trial)?;
+            let ran = half_run::run_in_half(runnable, &shown, &case.trial)?;
             let device = self.devices.of(shown.target, way)?.adapter.to_string();
             return Ok(Run { device, ..ran });
         }

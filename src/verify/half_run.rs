@@ -7,14 +7,14 @@ use crate::num::Num;
 use crate::verify::run::{Fault, Runnable, Shown};
 use crate::verify::{HalfError, HalfTrial, Outcome, Trial, halves, halves_beyond, result_range};
 
-use super::row::{HalfRun, Run};
+use super::judge::{HalfRun, Run};
 
 /// What a device may be further off than the emulation, which is what is promised: 2⁻¹¹, the last place below 1. A
 /// device may fuse, reorder, divide and take roots in two steps, and take numbers below the smallest normal one for 0.
 const FREEDOM: f64 = 1.0 / 2048.0;
 
 /// Runs it. A function that promises nothing may be twice as far off as its emulation.
-pub(super) fn run(runnable: &Runnable, shown: &Shown, trial: &Trial) -> Result<Run, Fault> {
+pub(super) fn run_in_half(runnable: &Runnable, shown: &Shown, trial: &Trial) -> Result<Run, Fault> {
     let emitted = shown.function;
     let meaning = emitted.meaning();
     let meaning = meaning.map_err(|fault| Fault::Failed(fault.to_string()))?;

@@ -12,7 +12,7 @@ mod code_error;
 pub mod compilers;
 pub mod drift;
 #[cfg(all(feature = "cli", feature = "gpu"))]
-pub mod exhaustive;
+mod exhaustive;
 #[cfg(all(feature = "cli", feature = "gpu"))]
 pub mod file;
 mod half;
@@ -20,6 +20,8 @@ mod half;
 mod half_run;
 #[cfg(feature = "gpu")]
 pub mod harness;
+#[cfg(all(feature = "cli", feature = "gpu"))]
+mod judge;
 #[cfg(all(feature = "cli", feature = "gpu"))]
 mod junit;
 #[cfg(all(feature = "cli", feature = "gpu"))]
@@ -47,15 +49,20 @@ mod worst;
 pub use code_error::{
     ABSOLUTE_FLOOR, CodeError, code_error, digits_lost, library_code_error, library_code_error_at,
 };
+#[cfg(all(feature = "cli", feature = "gpu"))]
+pub use exhaustive::exhaustive_rows;
 pub use half::{
     HalfError, HalfTrial, halves, halves_beyond, library_half_error, library_half_error_at,
     nearest_half,
 };
 #[cfg(all(feature = "cli", feature = "gpu"))]
-pub use junit::junit;
+pub use junit::{JunitCase, junit};
 pub use points::{WITHIN, beyond, cosines, cosines_around, limits, share};
 #[cfg(all(feature = "cli", feature = "gpu"))]
-pub use row::WORST;
+pub use row::{
+    AllowedError, Answer, CodeErrorFigures, Emulation, ModelErrorFigures, SecondOpinion, Status,
+    VerifyRow, WORST, as_object,
+};
 #[cfg(all(feature = "cli", feature = "gpu"))]
 pub use supervise::{Limits, supervise};
 #[cfg(feature = "gpu")]

@@ -1,296 +1,307 @@
-//! The rows of the report: both errors of a function on a target, never added, and who accepts its file.
+//! The rows of the report, and their parts. A worker hands them to its supervisor as JSON.
 
-use serde_json::{Map, Value, json};
+use serde::de::DeserializeOwned;
+use serde::{Deserialize, Deserializer, Serialize, Serializer};
+use serde_json::{Map, Value};
 
-use crate::emit::{CodeBound, Emitted, fingerprint};
-use crate::fit::{Measured, ModelError};
-use crate::num::Precision;
-use crate::verify::compilers::Verdict;
-use crate::verify::run::{Fault, Way};
-use crate::verify::{CodeError, HalfError, Miss, Outcome};
+use crate::fit::ModelError;
 
-use super::plan::Planned;
+use super::compilers::Verdict;
+use super::{CodeError, HalfError};
 
 /// Stands for a material where a function is run at the worst inputs known.
 pub const WORST: &str = "worst cases";
 
-/// What came of running a function in one way.
-#[derive(Clone, Debug)]
-pub struct Run {
-    /// At how many cosines.
-    pub points: usize,
-    /// What share of all numbers from 0 to 1 they are.
-    pub share: f64,
-    /// What it may differ by, in ulp; none where nothing is promised.
-    pub bound: Option<f64>,
-    /// What came of it.
-    pub outcome: Outcome,
-    /// In half precision: what came of it.
-    pub half: Option<HalfRun>,
-    /// Against the truth, where there is one.
-    pub model_error: Option<ModelError>,
-    /// On what.
-    pub device: String,
-}
-
-/// What came of running a function in half precision.
-#[derive(Clone, Copy, Debug)]
-pub struct HalfRun {
-    /// The device against f64.
-    pub error: HalfError,
-    /// The device against f16 rounded after every operation.
-    pub emulation: HalfError,
-    /// What it may differ by from f64: where nothing is promised, twice what its emulation does.
-    pub allowed: f64,
-}
-
-impl HalfRun {
-    /// What the device computes in, by what it gives: no f16 comes so near. Where nothing is rounded nothing is told.
-    fn computes_in(&self) -> Option<Precision> {
-        const NEARER: f64 = 1e-5;
-        let rounds = self.error.max_abs.max(self.emulation.max_abs) > 0.0;
-        rounds.then_some(if self.error.max_abs < NEARER {
-            Precision::F32
-        } else {
-            Precision::F16
-        })
-    }
-
-    fn json(&self) -> Value {
-        json!({
-            "max_abs": self.emulation.max_abs, "worst_cos": self.emulation.worst_cos,
-            "device_computes_in": self.computes_in().map(Precision::name),
-        })
-    }
-}
-
-/// A row while it is made.
-pub struct Row<'a> {
-    /// The file.
-    pub file: &'a Planned,
+/// A function on a target, with the values of a material: how far it is from what it means, and who accepts its file.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct VerifyRow {
+    /// The target.
+    pub target: String,
+    /// The method.
+    pub method: String,
+    /// The material, as a user types it; none where the run came to no end.
+    pub material: Option<String>,
+    /// `library` or `specialised`.
+    pub form: String,
+    /// What the function computes in.
+    pub precision: String,
     /// The function.
-    pub emitted: &'a Emitted,
-    /// The material, as a user types it.
-    pub material: &'a str,
-    /// What compilers say of the file.
-    pub accepts: &'a [(&'static str, Verdict)],
-    /// Each way of running it: its own first.
-    pub runs: &'a [(Way, Result<Run, Fault>)],
+    pub function: String,
+    /// Its file, relative to the output folder.
+    pub file: String,
+    /// The hash of the function's graph.
+    pub fingerprint: String,
+    /// Whether the file lies in the output folder.
+    pub shipped: bool,
+    /// Whether the file is what would be written today.
+    pub current: bool,
+    /// On what it ran.
+    pub device: Option<String>,
+    /// At how many cosines.
+    pub points: Option<usize>,
+    /// What share of all numbers from 0 to 1 they are.
+    pub share: Option<f64>,
+    /// What it may differ by.
+    pub bound: Option<AllowedError>,
+    /// What it differs by.
+    pub code_error: Option<CodeErrorFigures>,
+    /// The method's error as it ran, where there is a law.
+    pub model_error: Option<ModelErrorFigures>,
+    /// What each compiler says of the file.
+    #[serde(
+        serialize_with = "as_object_or_null",
+        deserialize_with = "from_object_or_null"
+    )]
+    pub accepts: Option<Vec<(String, Answer)>>,
+    /// Why compilers were not asked.
+    #[serde(serialize_with = "as_object", deserialize_with = "from_object")]
+    pub not_asked: Vec<(String, String)>,
+    /// What came of other ways to run the same text.
+    pub second_opinions: Vec<SecondOpinion>,
+    /// What to think of it.
+    pub status: Status,
+    /// Why it is not a pass.
+    pub reason: Option<String>,
+    /// What a reader should know of the file, and is no fault.
+    pub remark: Option<String>,
+    /// In half precision, how far it is from f16 rounded after every operation.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub emulation: Option<Emulation>,
 }
 
-impl Row<'_> {
-    /// The row.
-    pub fn json(&self) -> Value {
-        let (way, own) = &self.runs[0];
-        let mut row = self.head();
-        let (mut status, mut reasons) = self.judged(*way, own, &mut row);
-        for (way, run) in &self.runs[1..] {
-            let mut also = json!({ "way": way.name() });
-            let (other, why) = self.judged(*way, run, &mut also);
-            also["status"] = json!(other);
-            also["reason"] = json!(why.first());
-            if other == "fail" {
-                status = "fail";
-                reasons.extend(why);
-            }
-            if let Some(list) = row["second_opinions"].as_array_mut() {
-                list.push(also);
-            }
-        }
-        for (_, verdict) in self.accepts {
-            if let Verdict::No(words) = verdict {
-                status = "fail";
-                reasons.push(words.clone());
-            }
-        }
-        let findings: Vec<&String> = self
-            .file
-            .pages
-            .iter()
-            .flat_map(|page| &page.findings)
-            .collect();
-        if !findings.is_empty() {
-            status = "fail";
-            reasons.extend(findings.into_iter().cloned());
-        }
-        row["accepts"] = accepts(self.accepts);
-        row["not_asked"] = not_asked(self.accepts);
-        row["status"] = json!(status);
-        row["reason"] = if reasons.is_empty() {
-            Value::Null
-        } else {
-            json!(reasons.join("\n"))
-        };
-        row
-    }
+/// What to think of a function.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Status {
+    /// It does what it should.
+    Pass,
+    /// It does not.
+    Fail,
+    /// It was not run.
+    NotChecked,
+}
 
-    /// The keys in their order.
-    fn head(&self) -> Value {
-        let page = self.file.run_page();
-        json!({
-            "target": self.file.target.name, "method": self.emitted.method.name, "material": self.material,
-            "form": self.emitted.form, "precision": self.emitted.precision.name(), "function": self.emitted.name, "file": page.path,
-            "fingerprint": fingerprint(&self.emitted.function),
-            "shipped": page.is_shipped, "current": page.is_current, "device": null, "points": null, "share": null, "bound": null,
-            "code_error": null, "model_error": null, "accepts": null, "not_asked": {}, "second_opinions": [], "status": null,
-            "reason": null, "remark": self.file.pages.iter().find_map(|page| page.remark.as_ref()),
-        })
-    }
-
-    /// Enters a run, and says what to think of it.
-    fn judged(
-        &self,
-        way: Way,
-        run: &Result<Run, Fault>,
-        row: &mut Value,
-    ) -> (&'static str, Vec<String>) {
-        match run {
-            Err(Fault::Absent(why)) => ("not_checked", vec![why.clone()]),
-            Err(Fault::Failed(why)) => (
-                "fail",
-                vec![format!(
-                    "{}: {}: {why}",
-                    self.file.run_page().path,
-                    self.emitted.name
-                )],
-            ),
-            Ok(run) if run.half.is_some() => self.judged_in_half(run, row),
-            Ok(run) => {
-                row["device"] = json!(run.device);
-                row["points"] = json!(run.points);
-                row["share"] = json!(run.share);
-                row["bound"] = json!({ "ulp": run.bound, "text": self.bound_text() });
-                row["code_error"] = code_error(&run.outcome.error);
-                if let Some(error) = &run.model_error {
-                    row["model_error"] = json!(error);
-                }
-                match &run.outcome.miss {
-                    None => ("pass", Vec::new()),
-                    Some(miss) => ("fail", vec![self.missed(way, miss)]),
-                }
-            }
+impl Status {
+    /// In words.
+    pub fn words(self) -> &'static str {
+        match self {
+            Status::Pass => "pass",
+            Status::Fail => "fail",
+            Status::NotChecked => "not checked",
         }
-    }
-
-    /// Enters a run in half precision.
-    fn judged_in_half(&self, run: &Run, row: &mut Value) -> (&'static str, Vec<String>) {
-        let Some(half) = &run.half else {
-            return ("not_checked", Vec::new());
-        };
-        row["device"] = json!(run.device);
-        row["points"] = json!(run.points);
-        row["share"] = json!(run.share);
-        let promised = half.allowed.is_finite().then_some(half.allowed);
-        row["bound"] = json!({ "max_abs": promised, "text": self.bound_text() });
-        row["code_error"] = json!({
-            "max_ulp": null, "reason": "half precision is judged by the absolute error",
-            "max_abs": half.error.max_abs, "worst_cos": half.error.worst_cos,
-        });
-        row["emulation"] = half.json();
-        if let Some(error) = &run.model_error {
-            row["model_error"] = json!(error);
-        }
-        if half.error.max_abs <= half.allowed {
-            return ("pass", Vec::new());
-        }
-        let words = format!(
-            "{}: {}, {}: at cos_theta = {} it is {} off, and {} is allowed",
-            self.file.run_page().path,
-            self.emitted.name,
-            self.material,
-            half.error.worst_cos,
-            half.error.max_abs,
-            half.allowed
-        );
-        ("fail", vec![words])
-    }
-
-    /// What a function promises, in words.
-    fn bound_text(&self) -> String {
-        match &self.emitted.code {
-            Measured::Yes(CodeBound::Ulp(ulp)) => {
-                format!("{ulp} ulp or 2^-22; powers as Vulkan allows exp2 and log2")
-            }
-            Measured::Yes(CodeBound::Absolute(most)) => {
-                format!("{most} absolute, and 2^-11 for what a device is free to do")
-            }
-            Measured::No(why) => why.clone(),
-        }
-    }
-
-    /// A miss as people and editors read it.
-    fn missed(&self, way: Way, miss: &Miss) -> String {
-        let channel = ["red", "green", "blue"][miss.channel];
-        let way = if way == Way::Own {
-            String::new()
-        } else {
-            format!(", by {}", way.name())
-        };
-        let edited = if self.file.run_page().is_current {
-            ""
-        } else {
-            " The file is not what would be written today."
-        };
-        let expected = if miss.cos_theta.is_nan() {
-            "expected any reflectance, since the cosine is NaN".to_owned()
-        } else {
-            format!("expected {:?}: {:.1} ulp off", miss.expected, miss.ulp)
-        };
-        format!(
-            "{}: {}, {}{way}: at cos_theta = {:?} (0x{:08x}) {channel} is {:?} (0x{:08x}), {expected}.{edited}",
-            self.file.run_page().path,
-            self.emitted.name,
-            self.material,
-            miss.cos_theta,
-            miss.cos_theta.to_bits(),
-            miss.got,
-            miss.got.to_bits(),
-        )
     }
 }
 
-/// A code error as reports have it; what is not finite has no number in JSON.
-pub fn code_error(error: &CodeError) -> Value {
-    json!({ "max_ulp": error.max_ulp, "max_abs": error.max_abs, "worst_cos": error.worst_cos })
+/// Whether a compiler accepts a file.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Answer {
+    /// It does.
+    Yes,
+    /// It refuses it.
+    No,
+    /// It was not asked.
+    #[serde(rename = "not checked")]
+    NotChecked,
 }
 
-fn accepts(verdicts: &[(&'static str, Verdict)]) -> Value {
-    let mut all = Map::new();
-    for (name, verdict) in verdicts {
-        let word = match verdict {
-            Verdict::Yes => "yes",
-            Verdict::No(_) => "no",
-            Verdict::NotChecked(_) => "not checked",
-        };
-        all.insert((*name).to_owned(), json!(word));
+impl Answer {
+    /// In words.
+    pub fn words(self) -> &'static str {
+        match self {
+            Answer::Yes => "yes",
+            Answer::No => "no",
+            Answer::NotChecked => "not checked",
+        }
     }
-    Value::Object(all)
 }
 
-/// Why compilers were not asked.
-fn not_asked(verdicts: &[(&'static str, Verdict)]) -> Value {
-    let reason = |(name, verdict): &(&'static str, Verdict)| match verdict {
-        Verdict::NotChecked(why) => Some(((*name).to_owned(), json!(why))),
-        Verdict::Yes | Verdict::No(_) => None,
+impl From<&Verdict> for Answer {
+    fn from(verdict: &Verdict) -> Answer {
+        match verdict {
+            Verdict::Yes => Answer::Yes,
+            Verdict::No(_) => Answer::No,
+            Verdict::NotChecked(_) => Answer::NotChecked,
+        }
+    }
+}
+
+/// What a function may differ by.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(untagged)]
+pub enum AllowedError {
+    /// In units of the last place.
+    Ulp(AllowedUlp),
+    /// Absolutely: in half precision.
+    Absolute(AllowedAbsolute),
+}
+
+/// So many units of the last place.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct AllowedUlp {
+    /// How many; none where nothing is promised.
+    pub ulp: Option<f64>,
+    /// What is promised, in words.
+    pub text: String,
+}
+
+/// An absolute difference.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct AllowedAbsolute {
+    /// The difference; none where nothing is promised.
+    pub max_abs: Option<f64>,
+    /// What is promised, in words.
+    pub text: String,
+}
+
+/// A code error in a report; what is not finite is not there.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct CodeErrorFigures {
+    /// Largest distance in units of the last place.
+    pub max_ulp: Option<f64>,
+    /// Why there is no distance in units of the last place.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub reason: Option<String>,
+    /// Largest absolute difference.
+    pub max_abs: Option<f64>,
+    /// The cosine of the largest distance.
+    pub worst_cos: Option<f64>,
+}
+
+/// A model error in a report; what is not finite is not there.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct ModelErrorFigures {
+    /// Largest absolute difference.
+    pub max_abs: Option<f64>,
+    /// Mean absolute difference.
+    pub mean_abs: Option<f64>,
+    /// Mean relative difference.
+    pub mean_rel: Option<f64>,
+    /// The cosine of the largest difference.
+    pub worst_cos: Option<f64>,
+    /// At how many angles the function gave no number.
+    pub undefined: usize,
+}
+
+/// How far half precision on a device is from f16 rounded after every operation.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Emulation {
+    /// Largest absolute difference.
+    pub max_abs: Option<f64>,
+    /// The cosine of the largest difference.
+    pub worst_cos: Option<f64>,
+    /// What the device computes in, as far as its results tell.
+    pub device_computes_in: Option<String>,
+}
+
+/// The same text run in another way.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct SecondOpinion {
+    /// The way.
+    pub way: String,
+    /// On what it ran.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub device: Option<String>,
+    /// At how many cosines.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub points: Option<usize>,
+    /// What share of all numbers from 0 to 1 they are.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub share: Option<f64>,
+    /// What it may differ by.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub bound: Option<AllowedError>,
+    /// What it differs by.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub code_error: Option<CodeErrorFigures>,
+    /// In half precision, how far it is from f16 rounded after every operation.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub emulation: Option<Emulation>,
+    /// The method's error as it ran, where there is a law.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub model_error: Option<ModelErrorFigures>,
+    /// What to think of it.
+    pub status: Status,
+    /// Why it is not a pass.
+    pub reason: Option<String>,
+}
+
+/// What is not finite has no number in JSON.
+pub(super) fn finite(x: f64) -> Option<f64> {
+    x.is_finite().then_some(x)
+}
+
+/// Writes names with what is said of each as an object, in order.
+///
+/// # Errors
+/// The writer refuses.
+pub fn as_object<S: Serializer, T: Serialize>(
+    pairs: &[(String, T)],
+    serializer: S,
+) -> Result<S::Ok, S::Error> {
+    serializer.collect_map(pairs.iter().map(|(name, value)| (name, value)))
+}
+
+fn as_object_or_null<S: Serializer, T: Serialize>(
+    pairs: &Option<Vec<(String, T)>>,
+    serializer: S,
+) -> Result<S::Ok, S::Error> {
+    match pairs {
+        None => serializer.serialize_none(),
+        Some(pairs) => as_object(pairs, serializer),
+    }
+}
+
+fn from_object<'de, D: Deserializer<'de>, T: DeserializeOwned>(
+    deserializer: D,
+) -> Result<Vec<(String, T)>, D::Error> {
+    Ok(from_object_or_null(deserializer)?.unwrap_or_default())
+}
+
+fn from_object_or_null<'de, D: Deserializer<'de>, T: DeserializeOwned>(
+    deserializer: D,
+) -> Result<Option<Vec<(String, T)>>, D::Error> {
+    let object: Option<Map<String, Value>> = Option::deserialize(deserializer)?;
+    let pair = |(name, value)| {
+        let value = serde_json::from_value(value).map_err(serde::de::Error::custom)?;
+        Ok((name, value))
     };
-    Value::Object(verdicts.iter().filter_map(reason).collect())
+    let pairs = object.map(|object| object.into_iter().map(pair).collect());
+    pairs.transpose()
 }
 
-/// The rows of a file whose run came to no end.
-pub fn unfinished(file: &Planned, why: &str) -> Vec<Value> {
-    let row = |emitted: &Emitted| {
-        let mut row = Row {
-            file,
-            emitted,
-            material: "",
-            accepts: &[],
-            runs: &[],
+impl From<&CodeError> for CodeErrorFigures {
+    fn from(error: &CodeError) -> CodeErrorFigures {
+        CodeErrorFigures {
+            max_ulp: finite(error.max_ulp),
+            reason: None,
+            max_abs: finite(error.max_abs),
+            worst_cos: finite(error.worst_cos),
         }
-        .head();
-        row["material"] = Value::Null;
-        row["status"] = json!("fail");
-        row["reason"] = json!(format!("{}: {}: {why}", file.run_page().path, emitted.name));
-        row
-    };
-    file.functions.iter().map(row).collect()
+    }
+}
+
+impl From<&HalfError> for CodeErrorFigures {
+    fn from(error: &HalfError) -> CodeErrorFigures {
+        CodeErrorFigures {
+            max_ulp: None,
+            reason: Some("half precision is judged by the absolute error".to_owned()),
+            max_abs: finite(error.max_abs),
+            worst_cos: finite(error.worst_cos),
+        }
+    }
+}
+
+impl From<&ModelError> for ModelErrorFigures {
+    fn from(error: &ModelError) -> ModelErrorFigures {
+        ModelErrorFigures {
+            max_abs: finite(error.max_abs),
+            mean_abs: finite(error.mean_abs),
+            mean_rel: error.mean_rel.and_then(finite),
+            worst_cos: finite(error.worst_cos),
+            undefined: error.undefined,
+        }
+    }
 }

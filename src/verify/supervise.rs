@@ -7,13 +7,12 @@ use std::sync::mpsc::channel;
 use std::thread;
 use std::time::Duration;
 
-use serde_json::Value;
-
 use crate::process::{Error, Surroundings};
 use crate::process::{Silence, Worker, own_words};
 
+use super::judge::unfinished;
 use super::plan::Plan;
-use super::row::unfinished;
+use super::row::VerifyRow;
 
 /// How much a run may take.
 #[derive(Clone, Copy, Debug)]
@@ -33,14 +32,14 @@ pub fn supervise(
     limits: Limits,
     tools: Option<&Path>,
     progress: &mut dyn FnMut(u64, u64, &str),
-) -> Result<Vec<Value>, Error> {
+) -> Result<Vec<VerifyRow>, Error> {
     let time = Duration::from_secs(limits.seconds);
     let surroundings = Surroundings::new(tools)?;
     let mut words = own_words();
     words.push("--worker".into());
     let start = || Worker::start(&words, &[], &surroundings);
     let next = AtomicUsize::new(0);
-    let answers: Vec<Mutex<Vec<Value>>> = plan.files.iter().map(|_| Mutex::default()).collect();
+    let answers: Vec<Mutex<Vec<VerifyRow>>> = plan.files.iter().map(|_| Mutex::default()).collect();
     let (done, heard) = channel();
     thread::scope(|scope| {
         let work = || work(plan, time, &start, &next, &answers, &done.clone());
@@ -71,7 +70,7 @@ fn work(
     limit: Duration,
     start: &(dyn Fn() -> Result<Worker, Error> + Sync),
     next: &AtomicUsize,
-    answers: &[Mutex<Vec<Value>>],
+    answers: &[Mutex<Vec<VerifyRow>>],
     done: &std::sync::mpsc::Sender<usize>,
 ) -> Result<(), Error> {
     let mut worker = start()?;

@@ -2,12 +2,10 @@
 
 use std::io::{self, Write};
 
-use serde_json::Value;
-
 use crate::process::Inbox;
 use crate::verify::run::Devices;
 
-use super::file::{Effort, rows};
+use super::file::{Effort, file_rows};
 use super::plan::Plan;
 
 /// Serves until there is nothing more to read. Only numbers of the plan are answered.
@@ -25,8 +23,8 @@ pub fn serve(inbox: Inbox, plan: &Plan, devices: &Devices, effort: Effort) -> io
         else {
             continue;
         };
-        let answer = Value::Array(rows(plan, file, devices, effort));
-        writeln!(output, "{answer}")?;
+        let rows = file_rows(plan, file, devices, effort);
+        writeln!(output, "{}", serde_json::to_string(&rows)?)?;
         output.flush()?;
     }
     Ok(())

@@ -2,8 +2,6 @@
 
 use std::path::{Path, PathBuf};
 
-use serde_json::Value;
-
 use crate::app::args::AuditFlags;
 use crate::app::error::Error;
 use crate::app::names::{family, flag};
@@ -11,13 +9,14 @@ use crate::app::request::{Materials, Request};
 use crate::app::sight::{flags as sight_flags, sight};
 use crate::app::source::{materials, shader, source};
 use crate::app::write::{try_places_of_ours, write_file};
-use crate::audit::{Audit, Given, Language, file_name, serve, text};
+use crate::audit::{Audit, AuditRow, Given, Language, file_name, serve};
 use crate::cost::{FAMILIES, Family};
 use crate::reference::Subject;
 use crate::report::Report;
-use crate::report::frontier::{CostAxis, OF, View, data, own};
+use crate::report::audit::{audit_remarks, audit_text};
+use crate::report::frontier::{CostAxis, OF, View, charted_function, data};
 use crate::spectra::Space;
-use crate::verify::{junit, machine};
+use crate::verify::{Status, junit, machine};
 
 use super::{Output, Progress, chart, check_limit, report, try_files};
 
@@ -44,16 +43,15 @@ pub fn run(flags: &AuditFlags, progress: Progress) -> Result<Output, Error> {
     try_places_of_ours(&charts, flags.overwrite)?;
     let subjects: Vec<Subject> = subjects.ready.into_iter().map(|(one, _)| one).collect();
     let rows = subjects.iter().map(|one| audit.row(one, progress));
-    let rows: Vec<Value> = rows.collect::<Result<_, _>>()?;
+    let rows: Vec<AuditRow> = rows.collect::<Result<_, _>>()?;
     let command = canonical(flags, &request);
     if let Some(file) = &flags.junit {
-        let xml = junit("fresnel-gen audit", &rows).map_err(|what| Error::Usage { what })?;
+        let cases = rows.iter().map(AuditRow::junit_case);
+        let xml = junit("fresnel-gen audit", cases).map_err(|what| Error::Usage { what })?;
         write_file(file, xml.as_bytes())?;
     }
-    let full = Report::new(command.clone(), rows.clone()).with_device(
-        rows.first()
-            .and_then(|row| row["device"].as_str().map(str::to_owned)),
-    );
+    let device = rows.first().and_then(|row| row.device.clone());
+    let full = Report::new(command.clone(), rows.clone()).with_device(device);
     let charted = match &flags.out_dir {
         Some(folder) => {
             let place = (folder.as_path(), flags.overwrite);
@@ -61,9 +59,9 @@ pub fn run(flags: &AuditFlags, progress: Progress) -> Result<Output, Error> {
         }
         None => Vec::new(),
     };
-    let told: Vec<String> = rows.iter().map(text).collect();
-    let mut output = report(told.join("\n"), &full, flags.json.as_deref())?;
-    output.remarks = rows.iter().flat_map(remarks).chain(charted).collect();
+    let texts: Vec<String> = rows.iter().map(audit_text).collect();
+    let mut output = report(texts.join("\n"), &full, flags.json.as_deref())?;
+    output.remarks = rows.iter().flat_map(audit_remarks).chain(charted).collect();
     output.code = code(&rows);
     Ok(output)
 }
@@ -72,13 +70,13 @@ pub fn run(flags: &AuditFlags, progress: Progress) -> Result<Output, Error> {
 /// folder, and whether files of others are replaced there.
 fn charted(
     (folder, overwrite): (&Path, bool),
-    rows: &[Value],
+    rows: &[AuditRow],
     subjects: &[Subject],
     space: Space,
     command: String,
     progress: Progress,
 ) -> Result<Vec<String>, Error> {
-    let Some(own) = own(rows) else {
+    let Some(own) = charted_function(rows) else {
         return Ok(Vec::new());
     };
     let data = data(subjects, space, Some(&own), command, progress);
@@ -144,21 +142,10 @@ fn families(names: &[String]) -> Result<Vec<&'static Family>, Error> {
     names.into_iter().map(family).collect()
 }
 
-/// What is wrong, for stderr.
-fn remarks(row: &Value) -> Vec<String> {
-    let head = match row["status"].as_str() {
-        Some("fail") => "FAIL ",
-        Some("not_checked") => "not checked: ",
-        _ => "",
-    };
-    let reasons = row["reason"].as_str().unwrap_or_default().lines();
-    reasons.map(|reason| format!("{head}{reason}")).collect()
-}
-
 /// 1 for findings; 3 where nothing could be run.
-fn code(rows: &[Value]) -> u8 {
-    let any = |status: &str| rows.iter().any(|row| row["status"] == status);
-    match (any("fail"), any("not_checked")) {
+fn code(rows: &[AuditRow]) -> u8 {
+    let any = |status| rows.iter().any(|row| row.status == status);
+    match (any(Status::Fail), any(Status::NotChecked)) {
         (true, _) => 1,
         (_, true) => 3,
         _ => 0,

@@ -1,28 +1,28 @@
-//! A user's function as a point of charts, read from its rows.
+//! A user's function as a point of charts, from its rows.
 
 use std::collections::BTreeMap;
 
-use serde_json::Value;
-
 use super::{Own, User};
+use crate::audit::AuditRow;
+use crate::verify::Status;
 
 /// Errors leave out cosines at which it gives no number. Above this share they are no longer those of the function.
 const MOST_UNDEFINED: f64 = 0.01;
 
 /// The point, from the rows of all materials; none where there are no rows.
-pub fn own(rows: &[Value]) -> Option<Own> {
-    let text = |row: &Value, key: &str| row[key].as_str().unwrap_or_default().to_owned();
+pub fn charted_function(rows: &[AuditRow]) -> Option<Own> {
     let first = rows.first()?;
-    let about = match first["device"].as_str() {
-        Some(device) => format!("From {}, run on {device}", text(first, "file")),
-        None => format!("From {}", text(first, "file")),
+    let about = match &first.device {
+        Some(device) => format!("From {}, run on {device}", first.file),
+        None => format!("From {}", first.file),
     };
-    let failing = rows.iter().find(|row| row["status"] == "fail");
+    let failing = rows.iter().find(|row| row.status == Status::Fail);
+    let fault = |row: &AuditRow| row.reason.clone().unwrap_or_default().replace('\n', "; ");
     Some(Own {
         user: User {
-            name: text(first, "function"),
+            name: first.function.clone(),
             about,
-            fails: failing.map(|row| text(row, "reason").replace('\n', "; ")),
+            fails: failing.map(fault),
         },
         errors: rows.iter().map(errors).collect(),
         costs: costs(rows),
@@ -30,30 +30,29 @@ pub fn own(rows: &[Value]) -> Option<Own> {
 }
 
 /// Its error on each axis; none where it was not run, or gives no number too often.
-fn errors(row: &Value) -> [Option<f64>; 4] {
-    let (error, seen) = (&row["model_error"], &row["perceived"]);
-    let number = |value: &Value| value.as_f64().unwrap_or(0.0);
-    if number(&error["undefined"]) > MOST_UNDEFINED * number(&row["points"]) {
+fn errors(row: &AuditRow) -> [Option<f64>; 4] {
+    let (Some(error), Some(perceived)) = (&row.model_error, &row.perceived) else {
+        return [None; 4];
+    };
+    if error.undefined as f64 > MOST_UNDEFINED * row.points.unwrap_or(0) as f64 {
         return [None; 4];
     }
+    let known = |figure: f64| Some(figure).filter(|figure| figure.is_finite());
     [
-        error["max_abs"].as_f64(),
-        error["mean_rel"].as_f64(),
-        seen["luminance"].as_f64(),
-        seen["de2000"].as_f64(),
+        known(error.max_abs),
+        error.mean_rel.and_then(known),
+        known(perceived.luminance),
+        known(perceived.de2000),
     ]
 }
 
 /// The cost on each family where it is known: of materials, the most. A function of single numbers is called once where channels
 /// are the same.
-fn costs(rows: &[Value]) -> BTreeMap<String, f64> {
+fn costs(rows: &[AuditRow]) -> BTreeMap<String, f64> {
     let mut costs = BTreeMap::new();
-    let all = rows.iter().filter_map(|row| row["cost"].as_array());
-    for cost in all.flatten() {
-        let (Some(gpu), Some(net)) = (cost["gpu"].as_str(), cost["net"].as_f64()) else {
-            continue;
-        };
-        let most = costs.entry(gpu.to_owned()).or_insert(net);
+    for cost in rows.iter().flat_map(|row| &row.cost) {
+        let Some(net) = cost.net else { continue };
+        let most = costs.entry(cost.gpu.to_owned()).or_insert(net);
         *most = net.max(*most);
     }
     costs
@@ -62,28 +61,73 @@ fn costs(rows: &[Value]) -> BTreeMap<String, f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use serde_json::json;
+    use crate::audit::{CostRow, PerceivedFigures};
+    use crate::fit::ModelError;
+
+    fn cost(gpu: &'static str, net: Option<f64>) -> CostRow {
+        CostRow {
+            gpu,
+            compiler: None,
+            measure: "",
+            instructions: None,
+            latency: None,
+            inverse_throughput: None,
+            net_instructions: None,
+            net_inverse_throughput: None,
+            net,
+            reason: None,
+        }
+    }
+
+    fn row(undefined: usize, net: Option<f64>, status: Status) -> AuditRow {
+        AuditRow {
+            target: "wgsl",
+            method: "f".to_owned(),
+            material: "gold".to_owned(),
+            form: "user",
+            precision: "f32",
+            function: "f".to_owned(),
+            file: "f.wgsl".to_owned(),
+            arguments: Vec::new(),
+            filled: Vec::new(),
+            device: Some("a device".to_owned()),
+            points: Some(2000),
+            code_error: None,
+            code_error_reason: "",
+            model_error: Some(ModelError {
+                max_abs: 0.1,
+                mean_abs: 0.0,
+                mean_rel: None,
+                worst_cos: 0.0,
+                undefined,
+            }),
+            perceived: Some(PerceivedFigures {
+                luminance: 0.05,
+                de2000: 3.0,
+            }),
+            accepts: Vec::new(),
+            edges: None,
+            beyond: None,
+            cost: vec![cost("rdna2", net), cost("gcn4", None)],
+            dominated_by: Vec::new(),
+            says: Vec::new(),
+            status,
+            reason: Some("one\ntwo".to_owned()),
+        }
+    }
 
     #[test]
     fn a_point_is_read_from_rows() {
-        let row = |undefined: usize, net: Option<f64>, status: &str| {
-            json!({
-                "function": "f", "file": "f.wgsl", "device": "a device", "points": 2000, "status": status, "reason": "one\ntwo",
-                "model_error": { "max_abs": 0.1, "mean_rel": null, "undefined": undefined },
-                "perceived": { "luminance": 0.05, "de2000": 3.0 },
-                "cost": [{ "gpu": "rdna2", "net": net }, { "gpu": "gcn4", "net": null }],
-            })
-        };
         let known = [Some(0.1), None, Some(0.05), Some(3.0)];
         let rows = [
-            row(0, Some(20.0), "pass"),
-            row(1, Some(22.0), "fail"),
-            row(1000, None, "pass"),
+            row(0, Some(20.0), Status::Pass),
+            row(1, Some(22.0), Status::Fail),
+            row(1000, None, Status::Pass),
         ];
-        let own = own(&rows).unwrap();
+        let own = charted_function(&rows).unwrap();
         assert_eq!(own.errors, [known, known, [None; 4]]);
         assert_eq!(own.costs, BTreeMap::from([("rdna2".to_owned(), 22.0)]));
         assert_eq!(own.user.fails.as_deref(), Some("one; two"));
-        assert!(super::own(&[]).is_none());
+        assert!(charted_function(&[]).is_none());
     }
 }

@@ -1,5 +1,6 @@
 //! Error against cost: every method a point, and a user's function where there is one, and the frontier of those that nothing beats in both.
 
+#[cfg(all(feature = "cli", feature = "gpu"))]
 mod audited;
 mod costs;
 mod labels;
@@ -16,7 +17,8 @@ use serde_json::{Value, json};
 use crate::cost::{CostAndError, pareto_frontier};
 use crate::methods::{Contract, Method};
 
-pub use audited::own;
+#[cfg(all(feature = "cli", feature = "gpu"))]
+pub use audited::charted_function;
 pub use measure::{cost_names, data};
 pub use own::Own;
 #[cfg(feature = "cli")]

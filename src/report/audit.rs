@@ -1,0 +1,93 @@
+//! What an audit found of a user's function for a material, for people.
+
+use crate::audit::{AuditRow, CostRow};
+use crate::fit::ModelError;
+use crate::verify::Status;
+
+/// A row for people.
+pub fn audit_text(row: &AuditRow) -> String {
+    let mut text = format!("{} in {}, {}\n", row.function, row.file, row.material);
+    for (head, line) in lines(row) {
+        text += &format!("  {head:<12} {line}\n");
+    }
+    text
+}
+
+fn lines(row: &AuditRow) -> Vec<(&'static str, String)> {
+    let mut lines = Vec::new();
+    if !row.filled.is_empty() {
+        let filled = row.filled.join("; ");
+        lines.push(("filled in", format!("{filled}, as the material has it")));
+    }
+    let accepts = row.accepts.iter();
+    let accepts: Vec<String> = accepts
+        .map(|(name, answer)| format!("{name}: {}", answer.words()))
+        .collect();
+    lines.push(("accepted", accepts.join("; ")));
+    if let (Some(device), Some(points)) = (&row.device, row.points) {
+        lines.push(("run on", format!("{device}, at {points} cosines")));
+        lines.push(("edges", edges(row)));
+        lines.extend(
+            row.model_error
+                .iter()
+                .map(|error| ("model error", model_error(error))),
+        );
+    }
+    let costs = row.cost.iter();
+    lines.extend(costs.map(|cost| ("cost", cost_line(row, cost))));
+    lines.push(("status", row.status.words().to_owned()));
+    lines
+}
+
+fn edges(row: &AuditRow) -> String {
+    let counted = || row.edges.iter().flatten().filter(|edge| edge.counts);
+    let wrong = counted().filter(|edge| edge.fault.is_some()).count();
+    let beyond = match row.beyond.as_deref() {
+        None | Some([]) => String::new(),
+        Some(beyond) => format!("; beyond them, {}", beyond.join(", ")),
+    };
+    match wrong {
+        0 => format!("a reflectance at all of them{beyond}"),
+        _ => format!(
+            "{wrong} of {} results are no reflectance{beyond}",
+            counted().count()
+        ),
+    }
+}
+
+fn model_error(error: &ModelError) -> String {
+    let mean = error.mean_rel.map_or("no mean".to_owned(), |mean| {
+        format!("{:.3} % in the mean", 100.0 * mean)
+    });
+    format!(
+        "{:.6} at most, at {:.1} degrees; {:.6} in the mean; relative {mean}",
+        error.max_abs,
+        libm::acos(error.worst_cos).to_degrees(),
+        error.mean_abs,
+    )
+}
+
+fn cost_line(row: &AuditRow, cost: &CostRow) -> String {
+    let gpu = cost.gpu;
+    match cost.net {
+        None => {
+            let why = cost.reason.as_deref().unwrap_or_default();
+            format!("{gpu}: not checked: {why}")
+        }
+        Some(net) => {
+            let sentence = row.sentence_on(gpu).unwrap_or("ours are not known there");
+            format!("{gpu}: {net} ({}): {sentence}", cost.measure)
+        }
+    }
+}
+
+/// What is wrong, for stderr.
+pub fn audit_remarks(row: &AuditRow) -> Vec<String> {
+    let head = match row.status {
+        Status::Fail => "FAIL ",
+        Status::NotChecked => "not checked: ",
+        Status::Pass => "",
+    };
+    let reasons = row.reason.as_deref().unwrap_or_default().lines();
+    reasons.map(|reason| format!("{head}{reason}")).collect()
+}
