@@ -10,10 +10,10 @@ use crate::materials::{self, Sight};
 use crate::methods;
 use crate::optics::cosine;
 use crate::reference::{Derivation, Subject};
-use crate::spectra::srgb_byte;
 
-use super::chart::{
-    Axis, Chart, FOOT, Frame, HEADING, SUBTITLE, Series, Sheet, Style, TICK, ticks,
+use super::plot::{
+    Axis, FOOT, Frame, HEADING, Layout, LineChart, PANEL, SUBTITLE, Series, Style, TICK,
+    hex_colour, ticks,
 };
 
 /// The materials, with the lowest reflectance of each axis.
@@ -29,7 +29,7 @@ const ANGLES: u32 = 181;
 /// Of these angles a sphere's gradient takes each so many.
 const STOPS: usize = 4;
 
-const SHEET: Frame = Frame {
+const PICTURE: Frame = Frame {
     width: 1040.0,
     height: 700.0,
     margin: 24.0,
@@ -50,7 +50,7 @@ const CURVES: Frame = Frame {
 const RADIUS: f64 = 90.0;
 
 /// A reflectance at all angles, and what it is called.
-struct Curve {
+struct Reflectances {
     name: &'static str,
     colours: Vec<[f64; 3]>,
 }
@@ -60,24 +60,24 @@ struct Curve {
 /// # Errors
 /// A material or a method is not there, or cannot be seen.
 pub fn headline(command: &str) -> Result<String, String> {
-    let mut sheet = Sheet::new(SHEET);
+    let mut layout = Layout::new(PICTURE);
     let title = "Schlick's approximation, fitted, and the exact law";
-    sheet.paragraph(&HEADING, title);
+    layout.paragraph(&HEADING, title);
     let words = format!(
         "Spheres in a white room. Left half: the colour of the reflection. Right half: the error, {BRIGHTER} times \
          brighter; black is no error."
     );
-    sheet.paragraph(&SUBTITLE, &words);
+    layout.paragraph(&SUBTITLE, &words);
     for (material, low) in MATERIALS {
         let curves = curves(material)?;
         let (spheres, chart) = (spheres(material, &curves), chart(material, &curves, low));
-        sheet.row(
-            SHEET.margin - SPHERES.margin,
+        layout.side_by_side(
+            PICTURE.margin - SPHERES.margin,
             vec![spheres, chart.panel(CURVES, material)],
         );
     }
-    sheet.paragraph(&FOOT, command);
-    Ok(sheet.document(title, &words))
+    layout.paragraph(&FOOT, command);
+    Ok(layout.document(title, &words))
 }
 
 fn degrees() -> impl Iterator<Item = f64> {
@@ -85,7 +85,7 @@ fn degrees() -> impl Iterator<Item = f64> {
 }
 
 /// The methods' reflectance, and last that of the whole spectrum.
-fn curves(name: &str) -> Result<Vec<Curve>, String> {
+fn curves(name: &str) -> Result<Vec<Reflectances>, String> {
     let material = materials::find(name).ok_or_else(|| format!("there is no material {name}"))?;
     let material = material.map_err(|why| why.to_string())?;
     let typed = (name.to_owned(), material);
@@ -99,12 +99,12 @@ fn curves(name: &str) -> Result<Vec<Curve>, String> {
         let emitted = specialised_function(method, &subject, &naming, &bounds);
         let function = emitted.map_err(|why| why.to_string())?.function;
         let values = evaluate(&function, &[Value::each(cosines.clone())]);
-        curves.push(Curve {
+        curves.push(Reflectances {
             name: shown,
             colours: (0..cosines.len()).map(|i| values.at(i)).collect(),
         });
     }
-    curves.push(Curve {
+    curves.push(Reflectances {
         name: EXACT,
         colours: cosines.iter().map(|c| subject.truth.at(*c)).collect(),
     });
@@ -112,11 +112,11 @@ fn curves(name: &str) -> Result<Vec<Curve>, String> {
 }
 
 /// The spheres of a material side by side.
-fn spheres(material: &str, curves: &[Curve]) -> Sheet {
-    let mut sheet = Sheet::new(SPHERES);
-    sheet.paragraph(&super::chart::PANEL, material);
+fn spheres(material: &str, curves: &[Reflectances]) -> Layout {
+    let mut layout = Layout::new(SPHERES);
+    layout.paragraph(&PANEL, material);
     let exact = &curves[curves.len() - 1];
-    let (top, mut elements) = (sheet.bottom() + 18.0, Vec::new());
+    let (top, mut elements) = (layout.bottom() + 18.0, Vec::new());
     let step = SPHERES.room() / curves.len() as f64;
     for (i, curve) in curves.iter().enumerate() {
         let centre = [SPHERES.margin + step * (i as f64 + 0.5), top + RADIUS];
@@ -132,33 +132,32 @@ fn spheres(material: &str, curves: &[Curve]) -> Sheet {
             .collect();
         elements.extend(half_disc(&format!("{id}-error"), &errors, centre, 1));
         let below = centre[1] + RADIUS + 6.0;
-        let most = errors_of(curve, exact);
+        let most = largest_error(curve, exact);
         let words = match curve.name {
             EXACT => vec![EXACT.to_owned(), "of the whole spectrum".to_owned()],
             name => vec![name.to_owned(), format!("error at most {most:.4}")],
         };
         elements.extend(TICK.draw(&words, centre[0], below, "middle"));
     }
-    sheet.extend(elements, top + 2.0 * RADIUS + 6.0 + 2.0 * TICK.leading);
-    sheet
+    layout.extend(elements, top + 2.0 * RADIUS + 6.0 + 2.0 * TICK.leading);
+    layout
 }
 
 /// The largest error of the three channels, at each angle.
-fn errors<'a>(curve: &'a Curve, exact: &'a Curve) -> impl Iterator<Item = f64> + 'a {
+fn errors<'a>(curve: &'a Reflectances, exact: &'a Reflectances) -> impl Iterator<Item = f64> + 'a {
     let pairs = curve.colours.iter().zip(&exact.colours);
     pairs.map(|(a, b)| (0..3).map(|i| (a[i] - b[i]).abs()).fold(0.0, f64::max))
 }
 
-fn errors_of(curve: &Curve, exact: &Curve) -> f64 {
+fn largest_error(curve: &Reflectances, exact: &Reflectances) -> f64 {
     errors(curve, exact).fold(0.0, f64::max)
 }
 
 /// Half a disc, the left one (0) or the right one (1), with a colour for each angle.
 fn half_disc(id: &str, colours: &[[f64; 3]], [x, y]: [f64; 2], right: u8) -> Vec<String> {
     let stops = degrees().zip(colours).step_by(STOPS).map(|(at, colour)| {
-        let [red, green, blue] = colour.map(srgb_byte);
-        let offset = libm::sin(at.to_radians());
-        format!("<stop offset=\"{offset:.4}\" stop-color=\"#{red:02x}{green:02x}{blue:02x}\"/>")
+        let (offset, colour) = (libm::sin(at.to_radians()), hex_colour(*colour));
+        format!("<stop offset=\"{offset:.4}\" stop-color=\"{colour}\"/>")
     });
     let head = format!(
         "<radialGradient id=\"{id}\" gradientUnits=\"userSpaceOnUse\" cx=\"{x:.2}\" cy=\"{y:.2}\" r=\"{RADIUS}\">"
@@ -175,7 +174,7 @@ fn half_disc(id: &str, colours: &[[f64; 3]], [x, y]: [f64; 2], right: u8) -> Vec
 }
 
 /// The mean of the three channels against angle.
-fn chart(material: &str, curves: &[Curve], low: f64) -> Chart {
+fn chart(material: &str, curves: &[Reflectances], low: f64) -> LineChart {
     let mean = |colour: &[f64; 3]| colour.iter().sum::<f64>() / 3.0;
     let series = curves.iter().rev().enumerate().map(|(i, curve)| Series {
         name: curve.name.to_owned(),
@@ -185,7 +184,7 @@ fn chart(material: &str, curves: &[Curve], low: f64) -> Chart {
         },
         points: degrees().zip(curve.colours.iter().map(mean)).collect(),
     });
-    Chart {
+    LineChart {
         title: format!("{material}: mean of the channels"),
         subtitle: String::new(),
         x: Axis::angle_of_incidence(),

@@ -2,8 +2,6 @@
 
 #[cfg(all(feature = "cli", feature = "gpu"))]
 pub mod audit;
-pub mod card;
-pub mod chart;
 pub mod cost;
 mod envelope;
 pub mod fits;
@@ -12,6 +10,8 @@ pub mod headline;
 #[cfg(feature = "cli")]
 mod html;
 pub mod markdown;
+pub mod material_sheet;
+pub mod plot;
 #[cfg(feature = "pictures")]
 pub mod png;
 pub mod reproduce;

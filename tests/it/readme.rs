@@ -8,11 +8,11 @@ use fresnel_gen::app::generate::generate_single;
 use fresnel_gen::app::request::DEFAULT_MATERIALS;
 use fresnel_gen::app::{Materials, Request, Source};
 use fresnel_gen::materials::{self, Sight};
-use fresnel_gen::report::card::card;
 use fresnel_gen::report::headline::headline;
 use fresnel_gen::report::markdown::{
     classes_table, errors_table, half_table, methods_table, targets_table,
 };
+use fresnel_gen::report::material_sheet::material_sheet;
 
 fn example() -> String {
     let request = Request {
@@ -172,7 +172,8 @@ fn the_picture_is_what_the_program_draws() {
         .expect("it is there")
         .expect("it is good");
     let command = "fresnel-gen materials show gold --svg gold.svg";
-    let svg = card(&gold, None, &Sight::default(), command).expect("gold is known everywhere");
+    let svg =
+        material_sheet(&gold, None, &Sight::default(), command).expect("gold is known everywhere");
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("data/figures/material-gold.svg");
     super::bless::check(&path, svg.as_bytes());
 }

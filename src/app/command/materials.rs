@@ -12,7 +12,7 @@ use crate::app::sight::{flags, sight};
 use crate::app::source::source;
 use crate::app::write::write_file;
 use crate::materials::{self, Extrapolate, Kind, Material, Sight};
-use crate::report::card::card;
+use crate::report::material_sheet::material_sheet;
 use crate::report::table;
 use crate::report::{Report, SCHEMA};
 use crate::spectra::{FIRST_NM, LAST_NM};
@@ -131,7 +131,7 @@ fn drawn(flags: &ShowFlags, loaded: &Loaded, output: &mut Output) -> Result<(), 
         return Ok(());
     }
     let around = medium.as_ref().map(|medium| &medium.material);
-    let svg = card(
+    let svg = material_sheet(
         &loaded.material,
         around,
         &sight,

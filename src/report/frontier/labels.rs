@@ -1,8 +1,6 @@
 //! Where names stand beside points, so that none lies over another or over a point.
 
-/// A rectangle, as its left, top, right and bottom.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Area(pub [f64; 4]);
+use crate::report::plot::Area;
 
 /// A name's place: its left and its middle, and whether it stands so far off that a line leads to it.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -20,28 +18,26 @@ pub const DOT: f64 = 4.5;
 /// From a point to its name.
 const GAP: f64 = 3.0;
 
-impl Area {
-    fn meets(&self, other: &Area) -> bool {
-        let ([a, b, c, d], [e, f, g, h]) = (self.0, other.0);
-        a < g && e < c && b < h && f < d
-    }
-
-    fn lies_in(&self, other: &Area) -> bool {
-        let ([a, b, c, d], [e, f, g, h]) = (self.0, other.0);
-        a >= e && b >= f && c <= g && d <= h
+/// The area of this width and height around a point.
+fn around((x, y): (f64, f64), half_width: f64, half_height: f64) -> Area {
+    Area {
+        left: x - half_width,
+        top: y - half_height,
+        right: x + half_width,
+        bottom: y + half_height,
     }
 }
 
 /// A place for the name of each of these points, of this width and height, in their order, over none of all points; none where
 /// there is no room.
-pub fn places(
+pub fn place_names(
     points: &[(f64, f64)],
     widths: &[f64],
     height: f64,
     all: &[(f64, f64)],
     page: Area,
 ) -> Vec<Option<Place>> {
-    let dot = |(x, y): &(f64, f64)| Area([x - DOT, y - DOT, x + DOT, y + DOT]);
+    let dot = |point: &(f64, f64)| around(*point, DOT, DOT);
     let mut taken: Vec<Area> = all.iter().map(dot).collect();
     let mut places = Vec::new();
     for (point, width) in points.iter().zip(widths) {
@@ -51,6 +47,11 @@ pub fn places(
         places.push(free.map(|(_, place)| place));
     }
     places
+}
+
+/// The area of a name by its left end and the middle of its height.
+fn beside(left: f64, middle: f64, width: f64, height: f64) -> Area {
+    around((left + width / 2.0, middle), width / 2.0, height / 2.0)
 }
 
 /// Right, left, above and below, then the same further off.
@@ -78,8 +79,7 @@ fn candidates((x, y): (f64, f64), width: f64, height: f64) -> impl Iterator<Item
                 dx
             };
             let (left, middle) = (x + dx, y + dy * further);
-            let half = height / 2.0;
-            let area = Area([left, middle - half, left + width, middle + half]);
+            let area = beside(left, middle, width, height);
             let is_led = ring > 0;
             (
                 area,
@@ -107,20 +107,13 @@ mod tests {
                 )
             })
             .collect();
-        let page = Area([0.0, 0.0, 600.0, 400.0]);
+        let page = beside(0.0, 200.0, 600.0, 400.0);
         let widths = vec![60.0; points.len()];
-        let places = places(&points, &widths, 12.0, &points, page);
+        let places = place_names(&points, &widths, 12.0, &points, page);
         let areas: Vec<Area> = places
             .iter()
             .flatten()
-            .map(|place| {
-                Area([
-                    place.left,
-                    place.middle - 6.0,
-                    place.left + 60.0,
-                    place.middle + 6.0,
-                ])
-            })
+            .map(|place| beside(place.left, place.middle, 60.0, 12.0))
             .collect();
         assert!(areas.len() > 6, "{}", areas.len());
         for (i, one) in areas.iter().enumerate() {
@@ -131,9 +124,9 @@ mod tests {
 
     #[test]
     fn where_there_is_no_room_there_is_no_name() {
-        let page = Area([0.0, 0.0, 20.0, 20.0]);
+        let page = beside(0.0, 10.0, 20.0, 20.0);
         assert_eq!(
-            places(&[(10.0, 10.0)], &[100.0], 12.0, &[(10.0, 10.0)], page),
+            place_names(&[(10.0, 10.0)], &[100.0], 12.0, &[(10.0, 10.0)], page),
             [None]
         );
     }

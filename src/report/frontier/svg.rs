@@ -1,8 +1,11 @@
 //! The chart as a self-contained SVG: both axes in powers of ten.
 
-use crate::report::chart::{AXIS, FOOT, Font, Frame, SUBTITLE, Sheet, TICK, TITLE};
+use crate::report::plot::{
+    AXIS, Area, Axes, BLUE, FOOT, Font, Frame, GREEN, INK, Layout, SUBTITLE, Scale, TICK, TITLE,
+    Tick, VERMILION, log_ticks, plain_label,
+};
 
-use super::labels::{Area, DOT, Place, places};
+use super::labels::{DOT, Place, place_names};
 use super::{ERRORS, Entry, Point, View, capital, drawn};
 
 /// The size of the picture.
@@ -22,57 +25,60 @@ const FOOT_ROOM: f64 = 34.0;
 /// How much wider than the points the axes are.
 const SLACK: f64 = 1.25;
 
-/// Colours by Okabe and Ito, which colour-blind readers can tell apart.
-const OURS: &str = "#0072b2";
-const THEIRS: &str = "#d55e00";
-const YOURS: &str = "#009e73";
-const INK: &str = "#17202b";
-const GRID: &str = "#e4e8ed";
-const EDGE: &str = "#7d8794";
+const OURS: &str = BLUE;
+const THEIRS: &str = VERMILION;
+const YOURS: &str = GREEN;
 
-/// An axis in powers of ten, on the page.
-#[derive(Clone, Copy)]
-struct Scale {
-    low: f64,
-    high: f64,
-    from: f64,
-    to: f64,
+/// A chart's axes and their ticks.
+struct Plane {
+    axes: Axes,
+    x: Vec<Tick>,
+    y: Vec<Tick>,
 }
 
-impl Scale {
-    fn of(values: impl Iterator<Item = f64>, from: f64, to: f64) -> Scale {
-        let (low, high) = values.fold((f64::INFINITY, 0.0_f64), |(low, high), value| {
-            (low.min(value), high.max(value))
-        });
-        Scale {
-            low: libm::log10(low / SLACK),
-            high: libm::log10(high * SLACK),
-            from,
-            to,
+impl Plane {
+    /// The axes around these points, in powers of ten.
+    fn new(points: &[Point], area: Area) -> Plane {
+        let costs = ends(points.iter().map(|point| point.cost));
+        let errors = ends(points.iter().map(|point| drawn(point.error)));
+        Plane {
+            axes: Axes {
+                area,
+                x: Scale::log(costs, [area.left, area.right]),
+                y: Scale::log(errors, [area.bottom, area.top]),
+            },
+            x: power_ticks(costs),
+            y: power_ticks(errors),
         }
     }
 
-    fn at(&self, value: f64) -> f64 {
-        let share = (libm::log10(value) - self.low) / (self.high - self.low);
-        self.from + share * (self.to - self.from)
+    /// Where a point stands.
+    fn at(&self, point: &Point) -> (f64, f64) {
+        (
+            self.axes.x.at(point.cost),
+            self.axes.y.at(drawn(point.error)),
+        )
     }
+}
 
-    /// 1, 2 and 5 times the powers of ten on the axis; powers alone where those are many.
-    fn ticks(&self) -> Vec<f64> {
-        let powers = libm::floor(self.low) as i32..=libm::ceil(self.high) as i32;
-        let steps: &[f64] = if self.high - self.low > 2.5 {
-            &[1.0]
-        } else {
-            &[1.0, 2.0, 5.0]
-        };
-        let all = powers.flat_map(|power| {
-            steps
-                .iter()
-                .map(move |step| step * libm::exp10(f64::from(power)))
-        });
-        let holds = |value: &f64| (self.low..=self.high).contains(&libm::log10(*value));
-        all.filter(holds).collect()
-    }
+/// The ends of an axis that holds these values with some room.
+fn ends(values: impl Iterator<Item = f64>) -> [f64; 2] {
+    let (low, high) = values.fold((f64::INFINITY, 0.0_f64), |(low, high), value| {
+        (low.min(value), high.max(value))
+    });
+    [low / SLACK, high * SLACK]
+}
+
+/// 1, 2 and 5 times the powers of ten on the axis; powers alone where those are many.
+fn power_ticks([low, high]: [f64; 2]) -> Vec<Tick> {
+    let is_long = libm::log10(high) - libm::log10(low) > 2.5;
+    let multiples: &[f64] = if is_long { &[1.0] } else { &[1.0, 2.0, 5.0] };
+    let tick = |value| Tick {
+        value,
+        label: plain_label(value),
+    };
+    let ticks = log_ticks(low, high, multiples).into_iter();
+    ticks.map(tick).collect()
 }
 
 /// The picture of a view; none where nothing of it is known.
@@ -81,28 +87,32 @@ pub fn svg(view: &View) -> Option<String> {
     if points.is_empty() {
         return None;
     }
-    let mut sheet = Sheet::new(FRAME);
-    sheet.paragraph(&TITLE, &view.title());
+    let mut layout = Layout::new(FRAME);
+    layout.paragraph(&TITLE, &view.title());
     let key = key(view);
-    sheet.paragraph(&SUBTITLE, &key);
-    let top = sheet.bottom() + 12.0;
+    layout.paragraph(&SUBTITLE, &key);
+    let top = layout.bottom() + 12.0;
     let bottom = FRAME.height - BELOW - FOOT_ROOM;
-    let (left, right) = (FRAME.margin + LEFT - 30.0, FRAME.right() - 8.0);
-    let x = Scale::of(points.iter().map(|point| point.cost), left, right);
-    let y = Scale::of(points.iter().map(|point| drawn(point.error)), bottom, top);
-    let page = Area([left, top, right, bottom]);
-    let mut elements = grid(&x, &y, page);
-    elements.extend(names(view, page));
-    elements.push(staircase(&points, &x, &y, page));
-    elements.extend(pairs(&points, &x, &y));
+    let area = Area {
+        left: FRAME.margin + LEFT - 30.0,
+        top,
+        right: FRAME.right() - 8.0,
+        bottom,
+    };
+    let plane = Plane::new(&points, area);
+    let mut elements = plane.axes.grid(&plane.x, &plane.y);
+    elements.extend(plane.axes.tick_labels(&plane.x, &plane.y));
+    elements.extend(titles(view, &plane.axes));
+    elements.push(staircase(&points, &plane));
+    elements.extend(pairs(&points, &plane));
     // A full dot lies over its hollow one where they are the same, and a user's over all.
     let mut layers: Vec<&Point> = points.iter().collect();
     layers.sort_by_key(|point| (point.entry.user().is_some(), !point.entry.is_best));
-    elements.extend(layers.into_iter().map(|point| dot(point, &x, &y)));
-    elements.extend(labels(&points, &x, &y, page));
-    sheet.extend(elements, bottom + BELOW - 8.0);
-    sheet.paragraph(&FOOT, &format!("fresnel-gen {}", view.data.command));
-    Some(sheet.document(&view.title(), &key))
+    elements.extend(layers.into_iter().map(|point| dot(point, &plane)));
+    elements.extend(labels(&points, &plane));
+    layout.extend(elements, bottom + BELOW - 8.0);
+    layout.paragraph(&FOOT, &format!("fresnel-gen {}", view.data.command));
+    Some(layout.document(&view.title(), &key))
 }
 
 const KEY: &str = "Blue: fitted here. Orange: published; full with the inputs that its authors meant, hollow (*) with those whose \
@@ -118,50 +128,23 @@ fn key(view: &View) -> String {
     format!("{KEY}{}", own.unwrap_or_default())
 }
 
-fn grid(x: &Scale, y: &Scale, Area([left, top, right, bottom]): Area) -> Vec<String> {
-    let mut lines = String::new();
-    let mut elements = Vec::new();
-    for tick in x.ticks() {
-        let at = x.at(tick);
-        lines += &format!("M{at:.2} {top:.2}V{bottom:.2}");
-        elements.extend(TICK.draw(&[power(tick)], at, bottom + 5.0, "middle"));
-    }
-    for tick in y.ticks() {
-        let at = y.at(tick);
-        lines += &format!("M{left:.2} {at:.2}H{right:.2}");
-        elements.extend(TICK.draw(&[power(tick)], left - 7.0, at - TICK.leading / 2.0, "end"));
-    }
-    let axes = format!("M{left:.2} {top:.2}V{bottom:.2}H{right:.2}");
-    let path =
-        |stroke: &str, d: &str| format!("<path fill=\"none\" stroke=\"{stroke}\" d=\"{d}\"/>");
-    [path(GRID, &lines), path(EDGE, &axes)]
-        .into_iter()
-        .chain(elements)
-        .collect()
-}
-
-/// A tick's number, without needless digits.
-fn power(value: f64) -> String {
-    let digits = (-libm::floor(libm::log10(value * 1.000_001))).max(0.0) as usize;
-    format!("{value:.digits$}")
-}
-
-/// The names of the axes.
-fn names(view: &View, Area([left, top, right, bottom]): Area) -> Vec<String> {
-    let under = AXIS.wrap(&format!("Cost: {}", view.cost.title), right - left);
-    let mut elements = AXIS.draw(&under, (left + right) / 2.0, bottom + 24.0, "middle");
+/// The titles of the axes.
+fn titles(view: &View, axes: &Axes) -> Vec<String> {
+    let area = &axes.area;
+    let cost = format!("Cost: {}", view.cost.title);
+    let under = AXIS.wrap(&cost, area.right - area.left);
     let error = capital(ERRORS[view.error].short);
-    let beside = AXIS.wrap(&error, bottom - top);
-    elements.extend(AXIS.draw_upwards(&beside, FRAME.margin - 8.0, (top + bottom) / 2.0));
-    elements
+    let beside = AXIS.wrap(&error, area.bottom - area.top);
+    axes.titles(&under, 24.0, &beside, FRAME.margin - 8.0)
 }
 
 /// The frontier, as the least error that a cost buys.
-fn staircase(points: &[Point], x: &Scale, y: &Scale, Area([_, top, right, _]): Area) -> String {
+fn staircase(points: &[Point], plane: &Plane) -> String {
+    let Area { top, right, .. } = plane.axes.area;
     let best = points.iter().filter(|point| point.is_on_frontier);
     let mut line = String::new();
     for point in best {
-        let (across, down) = (x.at(point.cost), y.at(drawn(point.error)));
+        let (across, down) = plane.at(point);
         line += &if line.is_empty() {
             format!("M{across:.2} {top:.2}V{down:.2}")
         } else {
@@ -174,18 +157,14 @@ fn staircase(points: &[Point], x: &Scale, y: &Scale, Area([_, top, right, _]): A
 }
 
 /// A line from each method with its intended inputs to itself with its best ones.
-fn pairs(points: &[Point], x: &Scale, y: &Scale) -> Vec<String> {
+fn pairs(points: &[Point], plane: &Plane) -> Vec<String> {
     let best = points.iter().filter(|point| point.entry.is_best);
     let line = |best: &Point| {
         let is_same = |point: &&Point| {
             point.entry.inputs() == "intended" && point.entry.name() == best.entry.name()
         };
         let intended = points.iter().find(is_same)?;
-        let (across, from, to) = (
-            x.at(best.cost),
-            y.at(drawn(intended.error)),
-            y.at(drawn(best.error)),
-        );
+        let ((across, to), (_, from)) = (plane.at(best), plane.at(intended));
         Some(format!(
             "<path stroke=\"{THEIRS}\" stroke-opacity=\"0.5\" d=\"M{across:.2} {from:.2}V{to:.2}\"/>"
         ))
@@ -193,8 +172,8 @@ fn pairs(points: &[Point], x: &Scale, y: &Scale) -> Vec<String> {
     best.filter_map(line).collect()
 }
 
-fn dot(point: &Point, x: &Scale, y: &Scale) -> String {
-    let (x, y) = (x.at(point.cost), y.at(drawn(point.error)));
+fn dot(point: &Point, plane: &Plane) -> String {
+    let (x, y) = plane.at(point);
     if point.entry.user().is_some() {
         return diamond(x, y);
     }
@@ -235,7 +214,7 @@ fn diamond(x: f64, y: f64) -> String {
 }
 
 /// Names of points, a user's first, then those of the frontier. A method at its best, on a line with itself, has one only there.
-fn labels(points: &[Point], x: &Scale, y: &Scale, page: Area) -> Vec<String> {
+fn labels(points: &[Point], plane: &Plane) -> Vec<String> {
     const FONT: &Font = &TICK;
     let has_name = |point: &&Point| point.is_on_frontier || !point.entry.is_best;
     let mut order: Vec<&Point> = points.iter().filter(has_name).collect();
@@ -243,17 +222,11 @@ fn labels(points: &[Point], x: &Scale, y: &Scale, page: Area) -> Vec<String> {
         let entry = point.entry;
         (entry.user().is_none(), !point.is_on_frontier, entry.is_best)
     });
-    let all: Vec<(f64, f64)> = points
-        .iter()
-        .map(|point| (x.at(point.cost), y.at(drawn(point.error))))
-        .collect();
-    let at: Vec<(f64, f64)> = order
-        .iter()
-        .map(|point| (x.at(point.cost), y.at(drawn(point.error))))
-        .collect();
+    let all: Vec<(f64, f64)> = points.iter().map(|point| plane.at(point)).collect();
+    let at: Vec<(f64, f64)> = order.iter().map(|point| plane.at(point)).collect();
     let texts: Vec<String> = order.iter().map(|point| point.entry.label()).collect();
     let widths: Vec<f64> = texts.iter().map(|text| FONT.width(text)).collect();
-    let found = places(&at, &widths, FONT.leading - 3.0, &all, page);
+    let found = place_names(&at, &widths, FONT.leading - 3.0, &all, plane.axes.area);
     let draw = |(i, place): (usize, Option<Place>)| {
         let place = place?;
         let line = place.is_led.then(|| led(at[i], &place, widths[i]));

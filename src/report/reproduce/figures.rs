@@ -3,7 +3,7 @@
 use crate::fit;
 use crate::methods::lambda;
 use crate::reference::Derivation;
-use crate::report::chart::{Axis, Chart, Mark, Series, Style, ticks};
+use crate::report::plot::{Axis, LineChart, Mark, Series, Style, ticks};
 
 use super::angle::{cosine, exact, lowest};
 use super::row::{Figure, Row};
@@ -36,7 +36,7 @@ pub struct Drawing {
     /// Its file's name.
     pub file: String,
     /// What it shows.
-    pub chart: Chart,
+    pub chart: LineChart,
 }
 
 const SCHLICK: (&str, &str) = ("schlick_ior", "Schlick (eq. 7)");
@@ -221,7 +221,7 @@ impl Plan {
         })
     }
 
-    fn chart(&self) -> Chart {
+    fn chart(&self) -> LineChart {
         let (exact, curves) = (self.exact(), self.curves());
         let subtitle = self.subtitle(&exact, &curves);
         let mut drawn = vec![series(exact, Style::Exact)];
@@ -231,7 +231,7 @@ impl Plan {
                 .enumerate()
                 .map(|(i, curve)| series(curve, Style::Approximate(i))),
         );
-        Chart {
+        LineChart {
             title: format!("Figure {}: {}", self.number, self.subject),
             subtitle,
             x: Axis::angle_of_incidence(),

@@ -1,6 +1,9 @@
 //! A map as a picture: the formula's error on the left, that of its rounding on the right, each with its colour bar.
 
-use crate::report::chart::{Font, PANEL, SUBTITLE, TICK, escape};
+use crate::report::plot::{
+    Area, Axes, Font, PANEL, SHADES, SUBTITLE, Scale, TICK, Tick, escape, log_ticks, plain_label,
+    power_label, shade,
+};
 use crate::stability::{Cell, Map};
 
 const WIDTH: f64 = 920.0;
@@ -12,8 +15,6 @@ const TOP: f64 = 90.0;
 const LEFTS: [f64; 2] = [70.0, 540.0];
 /// From a plot to its colour bar, and how wide that is.
 const BAR: (f64, f64) = (14.0, 14.0);
-/// Steps of colour.
-const SHADES: usize = 48;
 /// Where a result is no reflectance at all.
 const BROKEN: &str = "#d7263d";
 
@@ -37,20 +38,6 @@ static PANELS: [Panel; 2] = [
         decades: (0, 8),
         value: |cell| cell.digits,
     },
-];
-
-/// Perceptually even and safe for the colour-blind: nine points of Matplotlib's viridis (CC0 1.0,
-/// <https://bids.github.io/colormap/>).
-const VIRIDIS: [[f64; 3]; 9] = [
-    [68.0, 1.0, 84.0],
-    [71.0, 45.0, 123.0],
-    [59.0, 82.0, 139.0],
-    [44.0, 114.0, 142.0],
-    [33.0, 145.0, 140.0],
-    [40.0, 174.0, 128.0],
-    [94.0, 201.0, 98.0],
-    [173.0, 220.0, 48.0],
-    [253.0, 231.0, 37.0],
 ];
 
 /// The picture of a map, as SVG.
@@ -83,37 +70,18 @@ pub fn heat(method: &str, map: &Map) -> String {
 
 impl Panel {
     fn draw(&self, map: &Map, left: f64) -> Vec<String> {
-        let middle = left + PLOT.0 / 2.0;
-        let mut parts = SUBTITLE.draw(
-            &[(self.title)(map.precision.name())],
-            middle,
-            TOP - 24.0,
-            "middle",
-        );
+        let axes = axes(map, left);
+        let title = [(self.title)(map.precision.name())];
+        let middle = axes.area.centre();
+        let mut parts = SUBTITLE.draw(&title, middle, TOP - 24.0, "middle");
         parts.extend(self.cells(map, left));
-        parts.push(frame(left, PLOT.0));
-        for degree in (0..=90).step_by(15) {
-            let x = left + PLOT.0 * column(map, f64::from(degree));
-            parts.push(tick(x, TOP + PLOT.1, 0.0, 4.0));
-            parts.extend(TICK.draw(&[format!("{degree}°")], x, TOP + PLOT.1 + 5.0, "middle"));
-        }
-        parts.extend(TICK.draw(
-            &["angle of incidence".to_owned()],
-            middle,
-            TOP + PLOT.1 + 21.0,
-            "middle",
-        ));
-        let (low, high) = ends(map);
-        for (value, label) in marks(low, high) {
-            let y = TOP + PLOT.1 * (1.0 - row(map, value));
-            parts.push(tick(left - 4.0, y, 4.0, 0.0));
-            parts.extend(TICK.draw(&[label], left - 7.0, y - TICK.leading / 2.0, "end"));
-        }
-        parts.extend(TICK.draw_upwards(
-            &[map.axis.name.to_owned()],
-            left - 60.0,
-            TOP + PLOT.1 / 2.0,
-        ));
+        let (x, y) = (angles(), values(map));
+        parts.extend(axes.outer_ticks(&x, &y));
+        parts.extend(axes.tick_labels(&x, &y));
+        let angle = ["angle of incidence".to_owned()];
+        parts.extend(TICK.draw(&angle, middle, axes.area.bottom + 21.0, "middle"));
+        let value = [map.axis.name.to_owned()];
+        parts.extend(TICK.draw_upwards(&value, left - 60.0, axes.area.middle()));
         parts.extend(self.bar(left + PLOT.0 + BAR.0));
         parts
     }
@@ -169,97 +137,80 @@ impl Panel {
             )
         };
         let mut parts: Vec<String> = (0..SHADES).map(step).collect();
-        parts.push(frame(left, BAR.1));
         let (low, high) = self.decades;
-        for decade in (low..=high).step_by(if high - low > 6 { 2 } else { 1 }) {
-            let y = TOP + PLOT.1 * (1.0 - f64::from(decade - low) / f64::from(high - low));
-            parts.push(tick(left + BAR.1, y, 4.0, 0.0));
-            parts.extend(TICK.draw(
-                &[power(decade)],
-                left + BAR.1 + 7.0,
-                y - TICK.leading / 2.0,
-                "start",
-            ));
-        }
+        let ends = [low, high].map(|decade| libm::exp10(f64::from(decade)));
+        let area = area(left, BAR.1);
+        let axes = Axes {
+            area,
+            x: Scale::linear([0.0, 1.0], [area.left, area.right]),
+            y: Scale::log(ends, [area.bottom, area.top]),
+        };
+        let tick = |decade: i32| Tick {
+            value: libm::exp10(f64::from(decade)),
+            label: power_label(decade),
+        };
+        let step = if high - low > 6 { 2 } else { 1 };
+        let ticks: Vec<Tick> = (low..=high).step_by(step).map(tick).collect();
+        parts.push(area.outline());
+        parts.extend(axes.right_ticks(&ticks));
         parts
     }
 }
 
-/// Where an angle lies from left to right, from 0 to 1: in the middle of its column.
-fn column(map: &Map, degrees: f64) -> f64 {
-    let (first, last) = (map.degrees[0], map.degrees[map.degrees.len() - 1]);
-    middle((degrees - first) / (last - first), map.degrees.len())
+/// The plot of a panel, or its colour bar.
+fn area(left: f64, width: f64) -> Area {
+    Area {
+        left,
+        top: TOP,
+        right: left + width,
+        bottom: TOP + PLOT.1,
+    }
 }
 
-/// Where a value lies from the bottom up, from 0 to 1: in the middle of its row.
-fn row(map: &Map, value: f64) -> f64 {
-    let (low, high) = ends(map);
-    middle(
-        libm::log(value / low) / libm::log(high / low),
-        map.axis.values.len(),
-    )
+/// The axes of a map: a value stands in the middle of its cell.
+fn axes(map: &Map, left: f64) -> Axes {
+    let area = area(left, PLOT.0);
+    let (degrees, values) = (&map.degrees, &map.axis.values);
+    let half = [
+        PLOT.0 / degrees.len() as f64 / 2.0,
+        PLOT.1 / values.len() as f64 / 2.0,
+    ];
+    Axes {
+        area,
+        x: Scale::linear(ends(degrees), [area.left + half[0], area.right - half[0]]),
+        y: Scale::log(ends(values), [area.bottom - half[1], area.top + half[1]]),
+    }
 }
 
-/// Of so many cells side by side, the middle of the first lies at 0 of the way and that of the last at 1.
-fn middle(share: f64, cells: usize) -> f64 {
-    (share * (cells - 1) as f64 + 0.5) / cells as f64
+fn ends(values: &[f64]) -> [f64; 2] {
+    [values[0], values[values.len() - 1]]
 }
 
-fn ends(map: &Map) -> (f64, f64) {
-    let values = &map.axis.values;
-    (values[0], values[values.len() - 1])
+fn angles() -> Vec<Tick> {
+    let tick = |degree: i32| Tick {
+        value: f64::from(degree),
+        label: format!("{degree}°"),
+    };
+    (0..=90).step_by(15).map(tick).collect()
 }
 
-/// Where a logarithmic axis is labelled: six times a decade, or once where there are many.
-fn marks(low: f64, high: f64) -> Vec<(f64, String)> {
-    let decades = libm::floor(libm::log10(low)) as i32..=libm::ceil(libm::log10(high)) as i32;
+/// The ticks of the values: six a decade, or one where there are many decades.
+fn values(map: &Map) -> Vec<Tick> {
+    let [low, high] = ends(&map.axis.values);
     let is_long = high / low > 1e4;
-    let digits: &[f64] = if is_long {
+    let multiples: &[f64] = if is_long {
         &[1.0]
     } else {
         &[1.0, 1.5, 2.0, 3.0, 5.0, 7.0]
     };
-    let mark = |decade: i32| {
-        digits.iter().map(move |digit| {
-            let value = digit * libm::exp10(f64::from(decade));
-            (
-                value,
-                if is_long {
-                    power(decade)
-                } else {
-                    format!("{}", value as f32)
-                },
-            )
-        })
+    let label = |value: f64| match is_long {
+        true => power_label(libm::round(libm::log10(value)) as i32),
+        false => plain_label(value),
     };
-    let inside = |(value, _): &(f64, String)| (low * 0.999..=high * 1.001).contains(value);
-    decades.flat_map(mark).filter(inside).collect()
-}
-
-/// A power of ten as people read it.
-fn power(decade: i32) -> String {
-    match decade {
-        -2..=3 => format!("{}", libm::exp10(f64::from(decade)) as f32),
-        _ => format!("1e{decade}"),
-    }
-}
-
-fn shade(step: usize) -> String {
-    let place = step as f64 / (SHADES - 1) as f64 * (VIRIDIS.len() - 1) as f64;
-    let at = (place as usize).min(VIRIDIS.len() - 2);
-    let share = place - at as f64;
-    let channel =
-        |i: usize| (VIRIDIS[at][i] + share * (VIRIDIS[at + 1][i] - VIRIDIS[at][i])).round() as u8;
-    format!("#{:02x}{:02x}{:02x}", channel(0), channel(1), channel(2))
-}
-
-fn frame(left: f64, width: f64) -> String {
-    format!(
-        "<rect x=\"{left:.2}\" y=\"{TOP}\" width=\"{width}\" height=\"{}\" fill=\"none\" stroke=\"#7d8794\"/>",
-        PLOT.1
-    )
-}
-
-fn tick(x: f64, y: f64, right: f64, down: f64) -> String {
-    format!("<path stroke=\"#7d8794\" d=\"M{x:.2} {y:.2}l{right} {down}\"/>")
+    let tick = |value| Tick {
+        value,
+        label: label(value),
+    };
+    let ticks = log_ticks(low, high, multiples).into_iter();
+    ticks.map(tick).collect()
 }

@@ -1,10 +1,10 @@
-//! Text in the chart: fonts, estimated widths, line breaks and escaping.
+//! Text in pictures: fonts, estimated widths, line breaks and escaping.
 
 /// The title of the chart.
 pub const TITLE: Font = Font::new(17.0, 23.0, "600", "#17202b");
-/// The title of a sheet of several charts.
+/// The title of a picture of several charts.
 pub const HEADING: Font = Font::new(23.0, 31.0, "600", "#17202b");
-/// The title of a chart on such a sheet.
+/// The title of a panel of such a picture.
 pub const PANEL: Font = Font::new(15.0, 21.0, "600", "#17202b");
 /// The line beneath the title.
 pub const SUBTITLE: Font = Font::new(12.0, 17.0, "400", "#556070");

@@ -1,14 +1,16 @@
 //! The plot itself: grid, guide lines, curves and axis labels.
 
-use super::sheet::{Frame, paragraph_height};
-use super::text::{AXIS, FOOT, MARK, TICK};
-use super::{Axis, Chart, Mark, Series, Style};
+use super::super::axes::{Area, Axes, TICK_GAP, Tick};
+use super::super::layout::{Frame, paragraph_height};
+use super::super::palette::Style;
+use super::super::scale::Scale;
+use super::super::text::{AXIS, FOOT, MARK, TICK};
+use super::{LineChart, Mark, Series};
 
-/// The least height of the plot; the sheet grows rather than go below it.
+/// The least height of the plot; the picture grows rather than go below it.
 const LEAST_HEIGHT: f64 = 210.0;
 /// From the end of the plot to the margin: half of the last tick's label.
 const RIGHT_GAP: f64 = 8.0;
-const TICK_GAP: f64 = 7.0;
 /// The height in which the line from a label slants to its place.
 const SLANT: f64 = 11.0;
 const LABEL_GAP: f64 = 10.0;
@@ -17,17 +19,16 @@ const EDGE: f64 = 1.5;
 
 /// The area of the plot, and the text around it broken into lines.
 pub(super) struct Plot<'a> {
-    chart: &'a Chart,
+    chart: &'a LineChart,
     frame: Frame,
     /// The name of the clip path, of which a document may hold several.
     clip: &'a str,
     labels: Vec<Label>,
     x_label: Vec<String>,
     y_label: Vec<String>,
-    left: f64,
-    right: f64,
-    top: f64,
-    bottom: f64,
+    x_ticks: Vec<Tick>,
+    y_ticks: Vec<Tick>,
+    axes: Axes,
 }
 
 /// The label of a guide line: `at` is where it points, `centre` where it is.
@@ -39,12 +40,14 @@ struct Label {
 
 impl<'a> Plot<'a> {
     /// Lays out the plot from `head` down, leaving room for the foot.
-    pub(super) fn below(chart: &'a Chart, frame: Frame, clip: &'a str, head: f64) -> Plot<'a> {
+    pub(super) fn below(chart: &'a LineChart, frame: Frame, clip: &'a str, head: f64) -> Plot<'a> {
+        let (x_ticks, y_ticks) = (chart.x.labelled_ticks(), chart.y.labelled_ticks());
         let y_label = AXIS.wrap(&chart.y.label, LEAST_HEIGHT + 20.0);
-        let left = frame.margin + left_of_plot(&chart.y, AXIS.height(&y_label));
+        let left = frame.margin + left_of_plot(&y_ticks, AXIS.height(&y_label));
         let right = frame.right() - RIGHT_GAP;
         let x_label = AXIS.wrap(&chart.x.label, right - left);
-        let labels = place_labels(&chart.marks, &chart.x, left, right);
+        let x = chart.x.scale([left, right]);
+        let labels = place_labels(&chart.marks, x, left, right);
         let top = head + 12.0 + labels_height(&labels);
         let foot = paragraph_height(&FOOT, &chart.foot, frame.room());
         let below = height_below(&x_label) + foot + frame.lower;
@@ -56,78 +59,49 @@ impl<'a> Plot<'a> {
             labels,
             x_label,
             y_label,
-            left,
-            right,
-            top,
-            bottom,
+            x_ticks,
+            y_ticks,
+            axes: Axes {
+                area: Area {
+                    left,
+                    top,
+                    right,
+                    bottom,
+                },
+                x,
+                y: chart.y.scale([bottom, top]),
+            },
         }
     }
 
     /// The lower edge of everything that belongs to the plot.
     pub(super) fn end(&self) -> f64 {
-        self.bottom + height_below(&self.x_label)
+        self.axes.area.bottom + height_below(&self.x_label)
     }
 
     /// All elements, from the back to the front.
     pub(super) fn draw(&self) -> Vec<String> {
+        let (axes, below) = (&self.axes, TICK_GAP + TICK.leading);
+        let left = self.frame.margin - 4.0;
         let parts = [
-            self.grid(),
-            self.tick_labels(),
-            self.axis_labels(),
+            axes.grid(&self.x_ticks, &self.y_ticks),
+            axes.tick_labels(&self.x_ticks, &self.y_ticks),
+            axes.titles(&self.x_label, below, &self.y_label, left),
             self.guides(),
             self.curves(),
         ];
         parts.concat()
     }
 
-    fn grid(&self) -> Vec<String> {
-        let (left, right, top, bottom) = (self.left, self.right, self.top, self.bottom);
-        let mut lines = String::new();
-        for (tick, _) in self.chart.x.labelled_ticks() {
-            lines += &format!("M{:.2} {top:.2}V{bottom:.2}", self.x(tick));
-        }
-        for (tick, _) in self.chart.y.labelled_ticks() {
-            lines += &format!("M{left:.2} {:.2}H{right:.2}", self.y(tick));
-        }
-        let axes = format!("M{left:.2} {top:.2}V{bottom:.2}H{right:.2}");
-        vec![
-            format!("<path fill=\"none\" stroke=\"#e4e8ed\" d=\"{lines}\"/>"),
-            format!("<path fill=\"none\" stroke=\"#7d8794\" d=\"{axes}\"/>"),
-        ]
-    }
-
-    fn tick_labels(&self) -> Vec<String> {
-        let mut elements = Vec::new();
-        for (tick, label) in self.chart.x.labelled_ticks() {
-            let top = self.bottom + TICK_GAP - 2.0;
-            elements.extend(TICK.draw(&[label], self.x(tick), top, "middle"));
-        }
-        for (tick, label) in self.chart.y.labelled_ticks() {
-            let top = self.y(tick) - TICK.leading / 2.0;
-            elements.extend(TICK.draw(&[label], self.left - TICK_GAP, top, "end"));
-        }
-        elements
-    }
-
-    fn axis_labels(&self) -> Vec<String> {
-        let (across, up) = (
-            (self.left + self.right) / 2.0,
-            (self.top + self.bottom) / 2.0,
-        );
-        let top = self.bottom + TICK_GAP + TICK.leading;
-        let mut elements = AXIS.draw(&self.x_label, across, top, "middle");
-        elements.extend(AXIS.draw_upwards(&self.y_label, self.frame.margin - 4.0, up));
-        elements
-    }
-
     fn guides(&self) -> Vec<String> {
-        let lines_end = self.top - SLANT;
+        let Area { top, bottom, .. } = self.axes.area;
+        let lines_end = top - SLANT;
         let mut elements = Vec::new();
         for label in &self.labels {
             elements.push(format!(
                 "<path fill=\"none\" stroke=\"#8b95a3\" \
                  d=\"M{:.2} {lines_end:.2}L{:.2} {:.2}V{:.2}\"/>",
-                label.centre, label.at, self.top, self.bottom
+                label.centre, label.at, top, bottom
             ));
             let top = lines_end - 1.0 - MARK.height(&label.lines);
             elements.extend(MARK.draw(&label.lines, label.centre, top, "middle"));
@@ -153,14 +127,15 @@ impl<'a> Plot<'a> {
     }
 
     fn clip_path(&self) -> String {
+        let area = &self.axes.area;
         format!(
             "<clipPath id=\"{}\"><rect x=\"{:.2}\" y=\"{:.2}\" \
              width=\"{:.2}\" height=\"{:.2}\"/></clipPath>",
             self.clip,
-            self.left - EDGE,
-            self.top - EDGE,
-            self.right - self.left + 2.0 * EDGE,
-            self.bottom - self.top + 2.0 * EDGE
+            area.left - EDGE,
+            area.top - EDGE,
+            area.right - area.left + 2.0 * EDGE,
+            area.bottom - area.top + 2.0 * EDGE
         )
     }
 
@@ -171,7 +146,7 @@ impl<'a> Plot<'a> {
             let finite = x.is_finite() && y.is_finite();
             if finite {
                 let command = if joined { 'L' } else { 'M' };
-                data += &format!("{command}{:.2} {:.2}", self.x(x), self.y(y));
+                data += &format!("{command}{:.2} {:.2}", self.axes.x.at(x), self.axes.y.at(y));
             }
             joined = finite;
         }
@@ -180,36 +155,19 @@ impl<'a> Plot<'a> {
 
     /// The dots of a curve, where its style has any: whole ones, on both axes.
     fn dots(&self, series: &Series) -> Vec<String> {
-        let (x, y) = (&self.chart.x, &self.chart.y);
+        let Axes { x, y, .. } = &self.axes;
         let points = series.points.iter();
         let inside = points.filter(|point| x.holds(point.0) && y.holds(point.1));
         inside
-            .filter_map(|point| series.style.dot(self.x(point.0), self.y(point.1)))
+            .filter_map(|point| series.style.dot(x.at(point.0), y.at(point.1)))
             .collect()
     }
-
-    fn x(&self, value: f64) -> f64 {
-        along(self.left, self.right, self.chart.x.fraction(value))
-    }
-
-    fn y(&self, value: f64) -> f64 {
-        along(self.bottom, self.top, self.chart.y.fraction(value))
-    }
-}
-
-/// A coordinate, held near the sheet since viewers fail on huge numbers.
-fn along(start: f64, end: f64, fraction: f64) -> f64 {
-    (start + (end - start) * fraction).clamp(-9999.0, 9999.0)
 }
 
 /// The room that an axis and its labels take on the left.
-fn left_of_plot(axis: &Axis, label_width: f64) -> f64 {
-    let ticks: Vec<String> = axis
-        .labelled_ticks()
-        .into_iter()
-        .map(|(_, label)| label)
-        .collect();
-    label_width + TICK.widest(&ticks) + TICK_GAP
+fn left_of_plot(ticks: &[Tick], label_width: f64) -> f64 {
+    let labels: Vec<String> = ticks.iter().map(|tick| tick.label.clone()).collect();
+    label_width + TICK.widest(&labels) + TICK_GAP
 }
 
 fn height_below(x_label: &[String]) -> f64 {
@@ -222,14 +180,14 @@ fn labels_height(labels: &[Label]) -> f64 {
 }
 
 /// The labels of the guide lines in one row, in order and clear of each other.
-fn place_labels(marks: &[Mark], axis: &Axis, left: f64, right: f64) -> Vec<Label> {
-    let shown = marks.iter().filter(|mark| axis.holds(mark.at));
+fn place_labels(marks: &[Mark], x: Scale, left: f64, right: f64) -> Vec<Label> {
+    let shown = marks.iter().filter(|mark| x.holds(mark.at));
     let mut shown: Vec<&Mark> = shown.collect();
-    shown.sort_by(|one, other| axis.fraction(one.at).total_cmp(&axis.fraction(other.at)));
+    shown.sort_by(|one, other| x.fraction(one.at).total_cmp(&x.fraction(other.at)));
     // With no more than an equal share each, the labels fit side by side.
     let share = (right - left) / shown.len().max(1) as f64 - LABEL_GAP;
     let label = |mark: &Mark| {
-        let at = along(left, right, axis.fraction(mark.at));
+        let at = x.at(mark.at);
         Label {
             lines: MARK.wrap(&mark.label, share),
             at,
@@ -262,19 +220,13 @@ mod tests {
     use super::*;
 
     fn placed(marks: &[(f64, &str)]) -> Vec<Label> {
-        let axis = Axis {
-            label: "Angle".into(),
-            low: 0.0,
-            high: 90.0,
-            ticks: vec![],
-            unit: "°",
-        };
+        let x = Scale::linear([0.0, 90.0], [80.0, 688.0]);
         let mark = |&(at, label): &(f64, &str)| Mark {
             at,
             label: label.into(),
         };
         let marks: Vec<Mark> = marks.iter().map(mark).collect();
-        place_labels(&marks, &axis, 80.0, 688.0)
+        place_labels(&marks, x, 80.0, 688.0)
     }
 
     fn edges(label: &Label) -> (f64, f64) {
@@ -298,12 +250,5 @@ mod tests {
         }
         assert!(edges(&labels[0]).0 >= 80.0);
         assert!(edges(&labels[3]).1 <= 688.0 + RIGHT_GAP);
-    }
-
-    #[test]
-    fn coordinates_stay_near_the_sheet() {
-        assert_eq!(along(10.0, 20.0, 0.5), 15.0);
-        assert_eq!(along(10.0, 20.0, 1e300), 9999.0);
-        assert_eq!(along(20.0, 10.0, f64::INFINITY), -9999.0);
     }
 }

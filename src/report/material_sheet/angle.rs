@@ -3,9 +3,9 @@
 use glam::DVec3;
 
 pub use crate::optics::cosine;
-use crate::report::chart::{Axis, Chart, Look, Series, Style};
+use crate::report::plot::{Axis, GREEN, LineChart, Look, Series, Style};
 
-use super::{Subject, axis};
+use super::{DrawnMaterial, axis};
 
 /// From 0 to 90 degrees, a quarter of a degree apart.
 const POINTS: u32 = 361;
@@ -13,7 +13,7 @@ const POINTS: u32 = 361;
 /// Solid below, dashed above with one period: where the three coincide, each still has a third of the line.
 const CHANNELS: [(&str, Look); 3] = [
     ("red", look("#d5432a", "", 3.6)),
-    ("green", look("#009e73", "14 7", 2.8)),
+    ("green", look(GREEN, "14 7", 2.8)),
     ("blue", look("#1f5fd0", "7 14", 2.8)),
 ];
 
@@ -27,7 +27,7 @@ const fn look(colour: &'static str, dashes: &'static str, width: f64) -> Look {
 }
 
 /// The reflected share of unpolarised light in each channel, by the exact law.
-pub(super) fn chart(subject: &Subject) -> Chart {
+pub(super) fn chart(subject: &DrawnMaterial) -> LineChart {
     let degrees: Vec<f64> = (0..POINTS)
         .map(|i| 90.0 * f64::from(i) / f64::from(POINTS - 1))
         .collect();
@@ -45,7 +45,7 @@ pub(super) fn chart(subject: &Subject) -> Chart {
             .collect(),
     };
     let series: Vec<Series> = CHANNELS.into_iter().enumerate().map(series).collect();
-    Chart {
+    LineChart {
         title: "Reflectance against angle".to_owned(),
         subtitle: subtitle(&series),
         x: Axis::angle_of_incidence(),

@@ -2,10 +2,10 @@
 
 use glam::DVec3;
 
-use crate::report::chart::{Font, Frame, PANEL, SUBTITLE, Sheet, TICK};
-use crate::spectra::{Space, bradford, srgb_byte};
+use crate::report::plot::{Area, Font, Frame, Layout, PANEL, SUBTITLE, TICK, hex_colour};
+use crate::spectra::{Space, bradford};
 
-use super::Subject;
+use super::DrawnMaterial;
 use super::angle::cosine;
 
 /// Angles in degrees; metals and glass change most beyond 75.
@@ -26,7 +26,7 @@ struct Swatch {
 }
 
 /// The panel, and what it says in words.
-pub(super) fn panel(subject: &Subject, frame: Frame) -> (Sheet, String) {
+pub(super) fn panel(subject: &DrawnMaterial, frame: Frame) -> (Layout, String) {
     let to_screen = to_screen(space(subject));
     let swatches = ANGLES.map(|degrees| {
         let linear = subject.surface.unpolarised(cosine(degrees));
@@ -37,16 +37,16 @@ pub(super) fn panel(subject: &Subject, frame: Frame) -> (Sheet, String) {
             screen,
         }
     });
-    let mut sheet = Sheet::new(frame);
-    sheet.paragraph(&PANEL, "Colour of the reflection, where a mirror is white");
-    sheet.paragraph(&SUBTITLE, &subtitle(subject, &swatches));
-    let (elements, bottom) = draw(&swatches, frame, sheet.bottom() + 8.0);
-    sheet.extend(elements, bottom);
-    (sheet, swatches.iter().map(Swatch::words).collect())
+    let mut layout = Layout::new(frame);
+    layout.paragraph(&PANEL, "Colour of the reflection, where a mirror is white");
+    layout.paragraph(&SUBTITLE, &subtitle(subject, &swatches));
+    let (elements, bottom) = draw(&swatches, frame, layout.bottom() + 8.0);
+    layout.extend(elements, bottom);
+    (layout, swatches.iter().map(Swatch::words).collect())
 }
 
 /// The space of the channels; three wavelengths are shown as if they were sRGB's.
-fn space(subject: &Subject) -> Space {
+fn space(subject: &DrawnMaterial) -> Space {
     match subject.surface.channels() {
         Some(_) => Space::Srgb,
         None => subject.sight.integration.space,
@@ -64,7 +64,7 @@ fn to_screen(space: Space) -> impl Fn(DVec3) -> DVec3 {
     }
 }
 
-fn subtitle(subject: &Subject, swatches: &[Swatch]) -> String {
+fn subtitle(subject: &DrawnMaterial, swatches: &[Swatch]) -> String {
     let numbers = match (subject.surface.channels(), space(subject)) {
         (Some(_), _) => {
             "Numbers: reflectance at the wavelengths of red, green and blue, shown as linear sRGB."
@@ -87,8 +87,7 @@ fn subtitle(subject: &Subject, swatches: &[Swatch]) -> String {
 impl Swatch {
     /// The colour of the swatch, as SVG writes it.
     fn fill(&self) -> String {
-        let [red, green, blue] = self.screen.to_array().map(srgb_byte);
-        format!("#{red:02x}{green:02x}{blue:02x}")
+        hex_colour(self.screen.to_array())
     }
 
     /// Which channels of the swatch were clipped.
@@ -138,10 +137,13 @@ fn draw(swatches: &[Swatch], frame: Frame, top: f64) -> (Vec<String>, f64) {
         elements.extend(TICK.draw(&angle, middle, top, "middle"));
         elements.extend(TICK.draw(&swatch.below(width), middle, numbers, "middle"));
     }
-    elements.push(format!(
-        "<rect x=\"{left:.2}\" y=\"{colours:.2}\" width=\"{:.2}\" height=\"{height:.2}\" fill=\"none\" stroke=\"#7d8794\"/>",
-        frame.right() - left
-    ));
+    let outline = Area {
+        left,
+        top: colours,
+        right: frame.right(),
+        bottom: colours + height,
+    };
+    elements.push(outline.outline());
     (elements, numbers + LINES_BELOW * TICK.leading)
 }
 

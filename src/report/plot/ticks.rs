@@ -17,6 +17,30 @@ pub fn ticks(low: f64, high: f64, about: usize) -> Vec<f64> {
     values
 }
 
+/// Ticks of an axis in powers of ten: these multiples of each, from `low` to `high`, give or take a thousandth.
+pub fn log_ticks(low: f64, high: f64, multiples: &[f64]) -> Vec<f64> {
+    let powers = libm::floor(libm::log10(low)) as i32..=libm::ceil(libm::log10(high)) as i32;
+    let all = powers.flat_map(|power| {
+        let power = libm::exp10(f64::from(power));
+        multiples.iter().map(move |multiple| multiple * power)
+    });
+    let is_inside = |value: &f64| (low * 0.999..=high * 1.001).contains(value);
+    all.filter(is_inside).collect()
+}
+
+/// A number without needless digits.
+pub fn plain_label(value: f64) -> String {
+    format!("{}", value as f32)
+}
+
+/// A power of ten: plain where that is short.
+pub fn power_label(exponent: i32) -> String {
+    match exponent {
+        -2..=3 => plain_label(libm::exp10(f64::from(exponent))),
+        _ => format!("1e{exponent}"),
+    }
+}
+
 /// The fewest decimals, up to six, that show all the ticks exactly.
 pub(super) fn decimals(ticks: &[f64]) -> usize {
     let exact = |places: &usize| ticks.iter().all(|tick| is_exact(*tick, *places));
@@ -126,6 +150,17 @@ mod tests {
             assert!(values.iter().all(|value| (low..=high).contains(value)));
             assert!(values.is_sorted_by(|before, after| before < after));
         }
+    }
+
+    #[test]
+    fn powers_of_ten_have_ticks() {
+        assert_eq!(
+            log_ticks(0.4, 20.0, &[1.0, 2.0, 5.0]),
+            [0.5, 1.0, 2.0, 5.0, 10.0, 20.0]
+        );
+        assert_eq!(log_ticks(0.4, 20.0, &[1.0]), [1.0, 10.0]);
+        assert_eq!([plain_label(0.002), plain_label(20.0)], ["0.002", "20"]);
+        assert_eq!([power_label(-2), power_label(-5)], ["0.01", "1e-5"]);
     }
 
     #[test]

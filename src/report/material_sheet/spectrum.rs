@@ -2,21 +2,21 @@
 
 use crate::materials::{Extrapolate, Index, Material};
 use crate::optics;
-use crate::report::chart::{Chart, Look, Series, Style};
+use crate::report::plot::{BLUE, INK, LineChart, Look, Series, Style, VERMILION};
 
 use super::angle::cosine;
-use super::{Subject, axis, window};
+use super::{DrawnMaterial, axis, window};
 
 /// Angles in degrees, from the flat ones to where metals are palest.
 const ANGLES: [(f64, &str, &str); 4] = [
-    (0.0, "#17202b", ""),
-    (45.0, "#0072b2", "9 4"),
-    (70.0, "#d55e00", "2.5 3"),
+    (0.0, INK, ""),
+    (45.0, BLUE, "9 4"),
+    (70.0, VERMILION, "2.5 3"),
     (82.0, "#8a4fb5", "10 3 2.5 3"),
 ];
 
 /// The reflected share of unpolarised light, by the exact law.
-pub(super) fn chart(subject: &Subject) -> Chart {
+pub(super) fn chart(subject: &DrawnMaterial) -> LineChart {
     let three = subject.three_nm();
     let (range, indices) = match three {
         Some(rgb) => (Some(window::around(rgb)), points(subject)),
@@ -40,7 +40,7 @@ pub(super) fn chart(subject: &Subject) -> Chart {
         (None, Some(_)) => "Unpolarised light, exact law.".to_owned(),
         (None, None) => "Not measured in visible light.".to_owned(),
     };
-    Chart {
+    LineChart {
         title: "Reflectance against wavelength".to_owned(),
         subtitle,
         x: window::axis(range),
@@ -55,7 +55,7 @@ pub(super) fn chart(subject: &Subject) -> Chart {
 type Indices = Vec<(f64, Index)>;
 
 /// What the surface is known by, where this is three wavelengths.
-fn points(subject: &Subject) -> Indices {
+fn points(subject: &DrawnMaterial) -> Indices {
     let surface = &subject.surface;
     let wavelengths = surface.integrator.wavelengths.iter().copied();
     let mut points: Indices = wavelengths.zip(surface.indices.iter().copied()).collect();
@@ -64,7 +64,7 @@ fn points(subject: &Subject) -> Indices {
 }
 
 /// The visible range in which all was measured, and the index in it.
-fn measured(subject: &Subject) -> (Option<(f64, f64)>, Indices) {
+fn measured(subject: &DrawnMaterial) -> (Option<(f64, f64)>, Indices) {
     let medium = subject.medium.map(Material::range_nm);
     let (from, to) = subject.material.range_nm();
     let (low, high) = medium.unwrap_or((from, to));

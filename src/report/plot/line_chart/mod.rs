@@ -1,26 +1,19 @@
-//! Line charts as self-contained SVG text.
-//!
-//! A chart is a pure function of its data: equal charts give equal bytes, with
-//! every coordinate at two decimals and nothing that depends on the time, the
-//! machine or the fonts installed. Text width is therefore estimated, on the
-//! generous side, and the plot gets whatever height the text leaves over.
+//! A line chart: curves over two axes, with a legend and guide lines.
 
-mod plot;
-mod sheet;
-mod text;
-mod ticks;
+mod drawing;
 
-pub(super) use sheet::{Frame, Sheet};
-#[cfg(feature = "cli")]
-pub(super) use text::escape;
-pub(super) use text::{AXIS, FOOT, Font, HEADING, PANEL, SUBTITLE, TICK, TITLE};
-pub use ticks::ticks;
+use super::axes::Tick;
+use super::layout::{ALONE, Frame, Layout};
+use super::palette::Style;
+use super::scale::Scale;
+use super::text::{FOOT, Font, PANEL, SUBTITLE, TITLE};
+use super::ticks::{decimals, label, ticks};
 
-use plot::Plot;
+use drawing::Plot;
 
 /// A line chart: the curves, and the words that say what they are.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Chart {
+pub struct LineChart {
     /// What the chart shows, in one line if possible.
     pub title: String,
     /// What is measured, and from how many points.
@@ -63,30 +56,6 @@ pub struct Series {
     pub points: Vec<(f64, f64)>,
 }
 
-/// How a curve is drawn.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Style {
-    /// The reference: solid, dark and thick, beneath all other curves.
-    Exact,
-    /// An approximation: dashed, with a colour and dash pattern by number.
-    Approximate(usize),
-    /// As the look says; later curves lie above earlier ones.
-    Own(Look),
-}
-
-/// A look that a caller chooses.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Look {
-    /// The colour, as SVG writes it.
-    pub colour: &'static str,
-    /// Lengths of dashes and gaps, as SVG writes them; none for a solid line.
-    pub dashes: &'static str,
-    /// The width of the line.
-    pub width: f64,
-    /// Whether each point on the axes is a dot too.
-    pub dots: bool,
-}
-
 /// A vertical guide line with a label above the plot.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Mark {
@@ -96,31 +65,31 @@ pub struct Mark {
     pub label: String,
 }
 
-impl Chart {
+impl LineChart {
     /// The chart as a complete SVG document that ends with a line feed.
     ///
     /// It is 720 wide and 440 high, or higher when long text would otherwise
     /// leave too little room for the plot.
     pub fn svg(&self) -> String {
-        let sheet = self.set(sheet::ALONE, &text::TITLE, "plot-area");
-        sheet.document(&self.title, &self.description())
+        let layout = self.set(ALONE, &TITLE, "plot-area");
+        layout.document(&self.title, &self.description())
     }
 
-    /// The chart as part of a larger sheet; `clip` is a name that no other
+    /// The chart as a panel of a larger picture; `clip` is a name that no other
     /// part of the document has.
-    pub(crate) fn panel(&self, frame: Frame, clip: &str) -> Sheet {
+    pub(crate) fn panel(&self, frame: Frame, clip: &str) -> Layout {
         self.set(frame, &PANEL, clip)
     }
 
-    fn set(&self, frame: Frame, title: &Font, clip: &str) -> Sheet {
-        let mut sheet = Sheet::new(frame);
-        sheet.paragraph(title, &self.title);
-        sheet.paragraph(&SUBTITLE, &self.subtitle);
-        sheet.legend(&self.series);
-        let plot = Plot::below(self, frame, clip, sheet.bottom());
-        sheet.extend(plot.draw(), plot.end());
-        sheet.paragraph(&FOOT, &self.foot);
-        sheet
+    fn set(&self, frame: Frame, title: &Font, clip: &str) -> Layout {
+        let mut layout = Layout::new(frame);
+        layout.paragraph(title, &self.title);
+        layout.paragraph(&SUBTITLE, &self.subtitle);
+        layout.legend(&self.series);
+        let plot = Plot::below(self, frame, clip, layout.bottom());
+        layout.extend(plot.draw(), plot.end());
+        layout.paragraph(&FOOT, &self.foot);
+        layout
     }
 
     /// What a reader who does not see the chart should hear.
@@ -153,27 +122,22 @@ impl Axis {
         }
     }
 
-    /// Where a value lies along the axis: 0 at the low end, 1 at the high end.
-    fn fraction(&self, value: f64) -> f64 {
-        let span = self.high - self.low;
-        if span == 0.0 {
-            return 0.5;
-        }
-        (value - self.low) / span
-    }
-
-    /// Whether a value lies on the axis, give or take rounding.
-    fn holds(&self, value: f64) -> bool {
-        (-1e-9..=1.0 + 1e-9).contains(&self.fraction(value))
+    /// Where its values lie between two coordinates.
+    fn scale(&self, coordinates: [f64; 2]) -> Scale {
+        Scale::linear([self.low, self.high], coordinates)
     }
 
     /// The ticks on the axis, each with its label.
-    fn labelled_ticks(&self) -> Vec<(f64, String)> {
+    fn labelled_ticks(&self) -> Vec<Tick> {
+        let scale = self.scale([0.0, 1.0]);
         let mut shown = self.ticks.clone();
-        shown.retain(|&tick| self.holds(tick));
-        let decimals = ticks::decimals(&shown);
-        let label = |tick| (tick, ticks::label(tick, decimals, self.unit));
-        shown.into_iter().map(label).collect()
+        shown.retain(|&tick| scale.holds(tick));
+        let decimals = decimals(&shown);
+        let tick = |value| Tick {
+            value,
+            label: label(value, decimals, self.unit),
+        };
+        shown.into_iter().map(tick).collect()
     }
 
     fn description(&self) -> String {
@@ -204,8 +168,8 @@ mod tests {
         }
     }
 
-    fn chart() -> Chart {
-        Chart {
+    fn chart() -> LineChart {
+        LineChart {
             title: "Water & <air>".into(),
             subtitle: "Two points".into(),
             x: axis("Angle", 90.0, "°"),

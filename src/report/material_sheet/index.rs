@@ -1,18 +1,18 @@
 //! n and k against wavelength, as measured.
 
 use crate::materials::{Curve, Extrapolate};
-use crate::report::chart::{Chart, Look, Series, Style};
+use crate::report::plot::{BLUE, LineChart, Look, Series, Style, VERMILION};
 
-use super::{Subject, axis, window};
+use super::{DrawnMaterial, axis, window};
 
 const N: Look = Look {
-    colour: "#0072b2",
+    colour: BLUE,
     dashes: "",
     width: 2.2,
     dots: false,
 };
 const K: Look = Look {
-    colour: "#d55e00",
+    colour: VERMILION,
     dashes: "9 4",
     ..N
 };
@@ -22,7 +22,7 @@ const JOINT: &str = "2 5";
 const LEAST_K: f64 = 1e-3;
 
 /// n and k of the material itself, whatever surrounds it.
-pub(super) fn chart(subject: &Subject) -> Chart {
+pub(super) fn chart(subject: &DrawnMaterial) -> LineChart {
     let material = subject.material;
     let three = material
         .rgb_nm
@@ -52,7 +52,7 @@ pub(super) fn chart(subject: &Subject) -> Chart {
     if y.low != 0.0 {
         subtitle += " The axis does not start at 0.";
     }
-    Chart {
+    LineChart {
         title: "Refractive index and extinction".to_owned(),
         subtitle,
         x: window::axis(range),

@@ -1,6 +1,6 @@
 //! Vertical axes that fit what is drawn on them.
 
-use crate::report::chart::{Axis, Series, ticks};
+use crate::report::plot::{Axis, Series, ticks};
 
 /// About how many intervals an axis has.
 const INTERVALS: usize = 5;

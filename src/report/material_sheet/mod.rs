@@ -14,10 +14,10 @@ mod window;
 use crate::materials::{Material, Sight, Surface};
 use crate::spectra::Gamut;
 
-use super::chart::{FOOT, Frame, HEADING, SUBTITLE, Sheet};
+use super::plot::{FOOT, Frame, HEADING, Layout, SUBTITLE};
 
 /// The sheet.
-const SHEET: Frame = Frame {
+const PICTURE: Frame = Frame {
     width: 1200.0,
     height: 900.0,
     margin: 28.0,
@@ -33,10 +33,10 @@ const PANEL: Frame = Frame {
     lower: 8.0,
 };
 /// Where the panels begin, so that their text stands under the sheet's.
-const LEFT: f64 = SHEET.margin - PANEL.margin;
+const LEFT: f64 = PICTURE.margin - PANEL.margin;
 
 /// A material that is drawn, and how it is seen.
-struct Subject<'a> {
+struct DrawnMaterial<'a> {
     material: &'a Material,
     medium: Option<&'a Material>,
     sight: Sight,
@@ -45,7 +45,7 @@ struct Subject<'a> {
 
 /// The picture of a material in air or in a medium, as SVG text; `command` is what makes it, for the foot of the sheet.
 /// Fails where the sight wants wavelengths at which the material or the medium was not measured.
-pub fn card(
+pub fn material_sheet(
     material: &Material,
     medium: Option<&Material>,
     sight: &Sight,
@@ -56,7 +56,7 @@ pub fn card(
         ..sight.clone()
     };
     let surface = Surface::new(material, medium, &sight).map_err(|unseen| unseen.to_string())?;
-    let subject = Subject {
+    let subject = DrawnMaterial {
         material,
         medium,
         sight,
@@ -65,27 +65,27 @@ pub fn card(
     Ok(subject.draw(command))
 }
 
-impl Subject<'_> {
+impl DrawnMaterial<'_> {
     fn draw(&self, command: &str) -> String {
         let (index, angle) = (index::chart(self), angle::chart(self));
         let spectrum = spectrum::chart(self);
         let (swatches, colours) = swatches::panel(self, PANEL);
-        let mut sheet = Sheet::new(SHEET);
-        sheet.paragraph(&HEADING, &self.title());
+        let mut layout = Layout::new(PICTURE);
+        layout.paragraph(&HEADING, &self.title());
         for line in self.sources() {
-            sheet.paragraph(&SUBTITLE, &line);
+            layout.paragraph(&SUBTITLE, &line);
         }
         let (index_panel, angle_panel) = (index.panel(PANEL, "index"), angle.panel(PANEL, "angle"));
-        sheet.row(LEFT, vec![index_panel, angle_panel]);
-        sheet.row(LEFT, vec![spectrum.panel(PANEL, "spectrum"), swatches]);
+        layout.side_by_side(LEFT, vec![index_panel, angle_panel]);
+        layout.side_by_side(LEFT, vec![spectrum.panel(PANEL, "spectrum"), swatches]);
         for line in [self.seen(), command.to_owned()] {
-            sheet.paragraph(&FOOT, &line);
+            layout.paragraph(&FOOT, &line);
         }
         let charts = [&index, &angle, &spectrum].map(|chart| chart.description());
         let mut parts = self.sources();
         parts.extend(charts);
         parts.extend([colours, self.seen()]);
-        sheet.document(&self.title(), &parts.join(" "))
+        layout.document(&self.title(), &parts.join(" "))
     }
 
     fn title(&self) -> String {
@@ -185,7 +185,7 @@ mod tests {
     }
 
     fn drawn(material: &Material, sight: &Sight) -> Result<String, String> {
-        card(material, None, sight, "fresnel-gen materials show it")
+        material_sheet(material, None, sight, "fresnel-gen materials show it")
     }
 
     fn hold() -> Sight {
@@ -251,7 +251,7 @@ mod tests {
     #[test]
     fn a_medium_is_named() {
         let (diamond, water) = (catalogued("diamond_thesis"), catalogued("water_thesis"));
-        let svg = card(&diamond, Some(&water), &Sight::default(), "").unwrap();
+        let svg = material_sheet(&diamond, Some(&water), &Sight::default(), "").unwrap();
         assert!(svg.contains("diamond_thesis in water_thesis"));
         assert!(svg.contains("Medium: water_thesis"));
     }

@@ -1,7 +1,7 @@
-//! The wavelengths that a card shows: the measured part of 360 to 830 nm, what an eye can see.
+//! The wavelengths that a material sheet shows: the measured part of 360 to 830 nm, what an eye can see.
 
 use crate::materials::{Curve, Material};
-use crate::report::chart::{Axis, ticks};
+use crate::report::plot::{Axis, ticks};
 use crate::spectra::OBSERVED_NM;
 
 /// Beside points that stand alone.

@@ -1,0 +1,26 @@
+//! Pictures as self-contained SVG text: what all of them share, and line charts.
+//!
+//! A picture is a pure function of its data: equal data give equal bytes, with every coordinate at two decimals and nothing
+//! that depends on the time, the machine or the fonts installed. Text width is therefore estimated, on the generous side, and
+//! a plot gets whatever height the text leaves over.
+
+mod axes;
+mod layout;
+mod legend;
+mod line_chart;
+mod palette;
+mod scale;
+mod text;
+mod ticks;
+
+pub(super) use axes::{Area, Axes, Tick};
+pub(super) use layout::{Frame, Layout};
+pub use line_chart::{Axis, LineChart, Mark, Series};
+pub(super) use palette::{BLUE, GREEN, INK, SHADES, VERMILION, hex_colour, shade};
+pub use palette::{Look, Style};
+pub(super) use scale::Scale;
+#[cfg(feature = "cli")]
+pub(super) use text::escape;
+pub(super) use text::{AXIS, FOOT, Font, HEADING, PANEL, SUBTITLE, TICK, TITLE};
+pub use ticks::ticks;
+pub(super) use ticks::{log_ticks, plain_label, power_label};

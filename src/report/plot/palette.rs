@@ -1,0 +1,146 @@
+//! Colours and dashes.
+
+use crate::spectra::srgb_byte;
+
+/// What text and the exact law are drawn in.
+pub const INK: &str = "#17202b";
+/// The lines of a grid.
+pub const GRID: &str = "#e4e8ed";
+/// Axes and outlines.
+pub const EDGE: &str = "#7d8794";
+
+/// Of the colours by Okabe and Ito, which colour-blind readers can tell apart.
+pub const VERMILION: &str = "#d55e00";
+/// Of the same.
+pub const BLUE: &str = "#0072b2";
+/// Of the same.
+pub const GREEN: &str = "#009e73";
+
+/// Those colours for curves, in their order.
+const COLOURS: [&str; 6] = [VERMILION, BLUE, GREEN, "#cc79a7", "#e69f00", "#56b4e9"];
+/// One more than the colours: grey is enough to tell the first seven curves
+/// apart, and no pair of colour and dashes repeats before forty-two.
+const DASHES: [&str; 7] = [
+    "8 4",
+    "2.5 2.5",
+    "10 3 2.5 3",
+    "14 5",
+    "6 2.5 2 2.5 2 2.5",
+    "3.5 7",
+    "13 2",
+];
+
+/// The radius of a dot.
+const DOT: f64 = 2.4;
+
+/// Steps of colour in a map.
+pub const SHADES: usize = 48;
+
+/// Perceptually even and safe for the colour-blind: nine points of Matplotlib's viridis (CC0 1.0,
+/// <https://bids.github.io/colormap/>).
+const VIRIDIS: [[f64; 3]; 9] = [
+    [68.0, 1.0, 84.0],
+    [71.0, 45.0, 123.0],
+    [59.0, 82.0, 139.0],
+    [44.0, 114.0, 142.0],
+    [33.0, 145.0, 140.0],
+    [40.0, 174.0, 128.0],
+    [94.0, 201.0, 98.0],
+    [173.0, 220.0, 48.0],
+    [253.0, 231.0, 37.0],
+];
+
+/// How a curve is drawn.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Style {
+    /// The reference: solid, dark and thick, beneath all other curves.
+    Exact,
+    /// An approximation: dashed, with a colour and dash pattern by number.
+    Approximate(usize),
+    /// As the look says; later curves lie above earlier ones.
+    Own(Look),
+}
+
+/// A look that a caller chooses.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Look {
+    /// The colour, as SVG writes it.
+    pub colour: &'static str,
+    /// Lengths of dashes and gaps, as SVG writes them; none for a solid line.
+    pub dashes: &'static str,
+    /// The width of the line.
+    pub width: f64,
+    /// Whether each point on the axes is a dot too.
+    pub dots: bool,
+}
+
+impl Style {
+    /// The attributes of a path in this style.
+    pub fn attributes(self) -> String {
+        match self {
+            Style::Exact => format!("fill=\"none\" stroke=\"{INK}\" stroke-width=\"3\""),
+            Style::Approximate(number) => format!(
+                "fill=\"none\" stroke=\"{}\" stroke-dasharray=\"{}\" stroke-width=\"2.2\"",
+                COLOURS[number % COLOURS.len()],
+                DASHES[number % DASHES.len()]
+            ),
+            Style::Own(look) => look.attributes(),
+        }
+    }
+
+    /// A dot of this style, where it has dots.
+    pub fn dot(self, x: f64, y: f64) -> Option<String> {
+        let Style::Own(Look {
+            colour, dots: true, ..
+        }) = self
+        else {
+            return None;
+        };
+        Some(format!(
+            "<circle cx=\"{x:.2}\" cy=\"{y:.2}\" r=\"{DOT}\" fill=\"{colour}\"/>"
+        ))
+    }
+}
+
+impl Look {
+    fn attributes(self) -> String {
+        let (colour, width) = (self.colour, self.width);
+        let dashes = match self.dashes {
+            "" => String::new(),
+            dashes => format!(" stroke-dasharray=\"{dashes}\""),
+        };
+        format!("fill=\"none\" stroke=\"{colour}\"{dashes} stroke-width=\"{width}\"")
+    }
+}
+
+/// A colour in linear sRGB as SVG writes it, what lies outside clipped.
+pub fn hex_colour(linear: [f64; 3]) -> String {
+    let [red, green, blue] = linear.map(srgb_byte);
+    format!("#{red:02x}{green:02x}{blue:02x}")
+}
+
+/// One of [`SHADES`] colours, from dark to bright.
+pub fn shade(step: usize) -> String {
+    let place = step as f64 / (SHADES - 1) as f64 * (VIRIDIS.len() - 1) as f64;
+    let at = (place as usize).min(VIRIDIS.len() - 2);
+    let share = place - at as f64;
+    let channel =
+        |i: usize| (VIRIDIS[at][i] + share * (VIRIDIS[at + 1][i] - VIRIDIS[at][i])).round() as u8;
+    format!("#{:02x}{:02x}{:02x}", channel(0), channel(1), channel(2))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn approximations_differ_without_colour() {
+        let all: Vec<String> = (0..42)
+            .map(|number| Style::Approximate(number).attributes())
+            .collect();
+        let mut distinct = all.clone();
+        distinct.sort();
+        distinct.dedup();
+        assert_eq!(distinct.len(), all.len());
+    }
+}
