@@ -1,5 +1,6 @@
 //! Evaluation of a function in any kind of number, node by node over whole columns of inputs.
 
+use std::borrow::Cow;
 use std::ops::Range;
 
 use crate::num::{Num, Truth};
@@ -50,7 +51,7 @@ impl<T: Copy> Column<T> {
 
     /// Whether this holds at every point for this and another column.
     pub fn all_with(&self, other: &Column<T>, holds: impl Fn(T, T) -> bool) -> bool {
-        self.zip(other, holds).all(|answer| answer)
+        self.zip(other, &holds).all(|answer| answer)
     }
 
     fn part(&self, range: &Range<usize>) -> Column<T> {
@@ -68,21 +69,51 @@ impl<T: Copy> Column<T> {
         self
     }
 
-    fn map<U>(&self, f: impl Fn(T) -> U) -> Column<U> {
+    /// How many points it has a number each for; nothing where it is the same at all.
+    fn points(&self) -> Option<usize> {
         match self {
-            Column::Same(value) => Column::Same(f(*value)),
-            Column::Each(values) => Column::Each(values.iter().map(|v| f(*v)).collect()),
+            Column::Same(_) => None,
+            Column::Each(values) => Some(values.len()),
         }
     }
 
-    fn zip<U: Copy, V>(&self, other: &Column<U>, f: impl Fn(T, U) -> V) -> Column<V> {
-        match (self, other) {
-            (_, Column::Same(b)) => self.map(|a| f(a, *b)),
-            (Column::Same(a), _) => other.map(|b| f(*a, b)),
-            (Column::Each(a), Column::Each(b)) => {
-                Column::Each(a.iter().zip(b).map(|(a, b)| f(*a, *b)).collect())
-            }
+    /// A number for each of so many points.
+    fn spread(&self, points: usize) -> Cow<'_, [T]> {
+        match self {
+            Column::Same(value) => Cow::Owned(vec![*value; points]),
+            Column::Each(values) => Cow::Borrowed(values),
         }
+    }
+
+    /// The loops of this and of `zip` name no iterator that holds `f`: each operation in each kind of number is compiled once.
+    fn map<U: Copy>(&self, f: &impl Fn(T) -> U) -> Column<U> {
+        let values = match self {
+            Column::Same(value) => return Column::Same(f(*value)),
+            Column::Each(values) => values,
+        };
+        let Some(first) = values.first() else {
+            return Column::Each(Vec::new());
+        };
+        let mut mapped = vec![f(*first); values.len()];
+        for (to, from) in mapped.iter_mut().zip(values) {
+            *to = f(*from);
+        }
+        Column::Each(mapped)
+    }
+
+    fn zip<U: Copy, V: Copy>(&self, other: &Column<U>, f: &impl Fn(T, U) -> V) -> Column<V> {
+        let Some(points) = self.points().or(other.points()) else {
+            return Column::Same(f(self.at(0), other.at(0)));
+        };
+        let (a, b) = (self.spread(points), other.spread(points));
+        if points == 0 {
+            return Column::Each(Vec::new());
+        }
+        let mut both = vec![f(a[0], b[0]); points];
+        for ((to, a), b) in both.iter_mut().zip(a.iter()).zip(b.iter()) {
+            *to = f(*a, *b);
+        }
+        Column::Each(both)
     }
 }
 
@@ -120,11 +151,7 @@ impl<N: Num> Value<N> {
             Value::Rgb(columns) => columns,
             Value::Bool(_) | Value::Texture(_) => &[],
         };
-        let lengths = columns.iter().filter_map(|column| match column {
-            Column::Same(_) => None,
-            Column::Each(values) => Some(values.len()),
-        });
-        lengths.max()
+        columns.iter().filter_map(Column::points).max()
     }
 
     fn part(&self, range: &Range<usize>) -> Value<N> {
@@ -153,24 +180,25 @@ impl<N: Num> Value<N> {
 
     fn map(&self, f: impl Fn(N) -> N) -> Value<N> {
         match self {
-            Value::Rgb(columns) => Value::Rgb([0, 1, 2].map(|i| columns[i].map(&f))),
-            _ => Value::Scalar(self.channel(0).map(f)),
+            Value::Rgb([r, g, b]) => Value::Rgb([r.map(&f), g.map(&f), b.map(&f)]),
+            _ => Value::Scalar(self.channel(0).map(&f)),
         }
     }
 
     fn zip(&self, other: &Value<N>, f: impl Fn(N, N) -> N) -> Value<N> {
-        if let (Value::Scalar(a), Value::Scalar(b)) = (self, other) {
-            return Value::Scalar(a.zip(b, f));
+        let channel = |index: usize| self.channel(index).zip(other.channel(index), &f);
+        if let (Value::Scalar(_), Value::Scalar(_)) = (self, other) {
+            return Value::Scalar(channel(0));
         }
-        Value::Rgb([0, 1, 2].map(|i| self.channel(i).zip(other.channel(i), &f)))
+        Value::Rgb([channel(0), channel(1), channel(2)])
     }
 
     fn choose(&self, yes: &Value<N>, no: &Value<N>) -> Value<N> {
         let Value::Bool(condition) = self else {
             unreachable!("a checked select starts with a Bool")
         };
-        let pairs = yes.channel(0).zip(no.channel(0), |yes, no| (yes, no));
-        Value::Scalar(condition.zip(&pairs, |truth, (yes, no)| match truth {
+        let pairs = yes.channel(0).zip(no.channel(0), &|yes, no| (yes, no));
+        Value::Scalar(condition.zip(&pairs, &|truth, (yes, no)| match truth {
             Truth::Yes => yes,
             Truth::No => no,
             Truth::Either => yes.either(no),
@@ -188,8 +216,8 @@ impl<N: Num> Value<N> {
             Some(texels) => texels.sample(Weights::Exact, u, v),
             None => [N::unknown(); 3],
         };
-        let mixed = u.channel(0).zip(v.channel(0), at);
-        Value::Rgb([0, 1, 2].map(|i| mixed.map(|colour| colour[i])))
+        let mixed = u.channel(0).zip(v.channel(0), &at);
+        Value::Rgb([0, 1, 2].map(|i| mixed.map(&|colour: [N; 3]| colour[i])))
     }
 }
 
@@ -253,7 +281,7 @@ pub(super) fn apply<N: Num>(node: &Node, values: &[Value<N>], arguments: &[Value
         (Op::InverseSqrt, _) => arg(0).map(N::inverse_sqrt),
         (Op::Exp2, _) => arg(0).map(N::exp2),
         (Op::Log2, _) => arg(0).map(N::log2),
-        (Op::Less, _) => Value::Bool(arg(0).channel(0).zip(arg(1).channel(0), N::less)),
+        (Op::Less, _) => Value::Bool(arg(0).channel(0).zip(arg(1).channel(0), &N::less)),
         (Op::Select, _) => arg(0).choose(arg(1), arg(2)),
         (Op::Sample, _) => arg(0).sample(arg(1), arg(2)),
         (Op::Number | Op::Param | Op::Channel, _) => {

@@ -1,7 +1,7 @@
 //! The same work many times, shared among the processor's cores. What comes of it does not depend on how many there are.
 
 use std::sync::atomic::{AtomicUsize, Ordering};
-use std::sync::mpsc;
+use std::sync::{Mutex, PoisonError, mpsc};
 use std::thread;
 
 /// The results of so many calls, in order. `progress` hears how many are done, of how many.
@@ -11,27 +11,30 @@ pub fn in_parallel<T: Send>(
     progress: &mut dyn FnMut(u64, u64),
 ) -> Vec<T> {
     let next = AtomicUsize::new(0);
+    let results: Vec<Mutex<Option<T>>> = (0..count).map(|_| Mutex::new(None)).collect();
     let (send, receive) = mpsc::channel();
-    let mut results: Vec<Option<T>> = (0..count).map(|_| None).collect();
     thread::scope(|scope| {
         for _ in 0..thread::available_parallelism().map_or(1, usize::from) {
-            let (send, next) = (send.clone(), &next);
+            let (send, next, results) = (send.clone(), &next, &results);
             scope.spawn(move || {
-                let own = std::iter::repeat_with(|| next.fetch_add(1, Ordering::Relaxed));
-                for i in own.take_while(|i| *i < count) {
-                    if send.send((i, one(i))).is_err() {
+                loop {
+                    let i = next.fetch_add(1, Ordering::Relaxed);
+                    let Some(slot) = results.get(i) else { break };
+                    let result = one(i);
+                    *slot.lock().unwrap_or_else(PoisonError::into_inner) = Some(result);
+                    if send.send(()).is_err() {
                         break;
                     }
                 }
             });
         }
         drop(send);
-        for (done, (i, result)) in receive.iter().enumerate() {
-            results[i] = Some(result);
+        for (done, ()) in receive.iter().enumerate() {
             progress(done as u64 + 1, count as u64);
         }
     });
-    results.into_iter().flatten().collect()
+    let result = |slot: Mutex<Option<T>>| slot.into_inner().unwrap_or_else(PoisonError::into_inner);
+    results.into_iter().filter_map(result).collect()
 }
 
 #[cfg(test)]

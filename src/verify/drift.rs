@@ -3,7 +3,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use similar::{Algorithm, DiffTag, capture_diff_slices};
+use similar::{DiffTag, TextDiff};
 
 use super::outline::{Item, Outline, function_name};
 
@@ -104,7 +104,7 @@ fn false_statements<'a>(found: &'a [Item], today: &'a [Item]) -> Vec<(&'a Item, 
     let words = |items: &[&'a Item]| items.iter().map(|item| item.words.as_str()).collect();
     let (old, new): (Vec<&str>, Vec<&str>) = (words(&today), words(&found));
     let mut changes: Vec<(Vec<&str>, Vec<&Item>)> = Vec::new();
-    for change in capture_diff_slices(Algorithm::Myers, &old, &new) {
+    for change in TextDiff::from_slices(&old, &new).ops() {
         if change.tag() != DiffTag::Equal {
             let (gone, added) = (&old[change.old_range()], &found[change.new_range()]);
             changes.push((gone.to_vec(), added.to_vec()));
