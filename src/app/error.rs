@@ -5,7 +5,7 @@ use std::path::PathBuf;
 
 use thiserror::Error;
 
-use crate::{emit, lut, materials, process};
+use crate::{emit, lut, materials, overdraw, process};
 
 /// A fault of the output folder, or of what was to be put there.
 #[derive(Debug, Error)]
@@ -57,6 +57,9 @@ pub enum Error {
     /// The processes of a run cannot be started.
     #[error(transparent)]
     Process(#[from] process::Error),
+    /// Nothing can be drawn.
+    #[error(transparent)]
+    Overdraw(#[from] overdraw::Error),
     /// An artifact's path cannot be used.
     #[error("the output path `{path}` cannot be used: {reason}")]
     Path {
@@ -153,6 +156,7 @@ impl Error {
         match self {
             Error::Lacking { .. } => 3,
             Error::Process(error) if error.is_lacking() => 3,
+            Error::Overdraw(error) if error.is_lacking() => 3,
             _ => 2,
         }
     }

@@ -28,6 +28,8 @@ pub mod request;
 pub mod scope;
 pub mod sight;
 pub mod source;
+#[cfg(all(feature = "cli", feature = "gpu"))]
+pub mod time_request;
 pub mod tree;
 #[cfg(all(feature = "cli", feature = "gpu"))]
 pub mod verify;

@@ -2,7 +2,7 @@
 
 use crate::app::error::Error;
 use crate::cost::{CostAndError, Family, Figures, records};
-use crate::cost::{Function, Limits, Told, ask, functions, rows};
+use crate::cost::{Function, Limits, Told, ask, cost_rows, functions};
 use crate::fit::{error_of, inputs_of};
 use crate::ir::{Column, Value, evaluate};
 use crate::methods::{self, Contract, Light, Method};
@@ -79,7 +79,7 @@ pub fn ours(
 
 /// The cost of each function that was asked for, in order.
 fn costs(family: &'static Family, told: Option<&Told>, functions: &[Function]) -> Vec<Option<f64>> {
-    let rows = rows(family, told, &records(family.name), functions);
+    let rows = cost_rows(family, told, &records(family.name), functions);
     let cost = |figures: Result<Figures, String>| figures.ok().map(|figures| figures.cost());
     rows.into_iter().map(|row| cost(row.figures)).collect()
 }

@@ -11,12 +11,13 @@ mod function;
 mod pareto;
 mod probe;
 mod record;
-#[cfg(all(feature = "cli", feature = "gpu"))]
 mod row;
 #[cfg(all(feature = "cli", feature = "gpu"))]
 mod serve;
 #[cfg(all(feature = "cli", feature = "gpu"))]
 mod session;
+#[cfg(all(feature = "cli", feature = "gpu"))]
+mod table;
 
 #[cfg(all(feature = "cli", feature = "gpu"))]
 pub use asked::{Limits, Told, ask};
@@ -27,12 +28,13 @@ pub use function::{Function, functions};
 pub use pareto::{CostAndError, Multiples, TIE, pareto_frontier};
 pub use probe::{BLOCKS, ENTRY, Probe, VERTEX, WGSL_VERTEX, gles_vertex};
 pub use record::{Record, function_cost, library_cost, records};
-#[cfg(all(feature = "cli", feature = "gpu"))]
-pub use row::rows;
+pub use row::{CostRow, CostSource};
 #[cfg(all(feature = "cli", feature = "gpu"))]
 pub use serve::serve;
 #[cfg(all(feature = "cli", feature = "gpu"))]
 pub use session::{Said, environment, reason};
+#[cfg(all(feature = "cli", feature = "gpu"))]
+pub use table::cost_rows;
 
 /// The method that others' costs and times are shares of, in its library form of three channels.
 pub const REFERENCE: &str = "dielectric_exact";

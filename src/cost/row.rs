@@ -1,113 +1,153 @@
-//! The rows of a family: from its compiler, from the record, or from the graph.
+//! What a function costs on a family of GPUs, as a row of reports.
 
-use crate::cost::{Compiler, Counts, Family, Figures, Record};
-use crate::report::cost::{Row, Source};
+use serde::Serialize;
 
-use super::asked::Told;
-use super::function::Function;
+use super::family::Family;
+use super::figures::{Counts, Figures};
 
-/// The rows of a family, in the functions' order.
-pub fn rows(
-    family: &'static Family,
-    told: Option<&Told>,
-    record: &Record,
-    functions: &[Function],
-) -> Vec<Row> {
-    let about = |place: usize, function: &Function| {
-        let row = bare(family, function);
-        if function.precision.is_half() && !family.half {
-            let why = "it has no 16-bit arithmetic (shaderFloat16)".to_owned();
-            return Row {
-                figures: Err(why),
-                ..row
-            };
-        }
-        match (family.compiler, told) {
-            (Compiler::Operations, _) => counted(row, function),
-            (Compiler::None(why), _) => Row {
-                figures: Err(why.to_owned()),
-                ..row
+/// A function on a family.
+#[derive(Clone, Debug, Serialize)]
+#[serde(into = "CostRowJson")]
+pub struct CostRow {
+    /// The method.
+    pub method: &'static str,
+    /// The material that it is specialised to.
+    pub material: Option<String>,
+    /// `library`, `scalar` or `specialised`.
+    pub form: &'static str,
+    /// How many channels it gives.
+    pub channels: usize,
+    /// What it computes in.
+    pub precision: &'static str,
+    /// Texture fetches.
+    pub fetches: usize,
+    /// The family.
+    pub family: &'static Family,
+    /// The compiler with its version, where one spoke.
+    pub compiler: Option<String>,
+    /// Who says it; nobody where nothing is known.
+    pub source: Option<CostSource>,
+    /// What is known, or why nothing is.
+    pub figures: Result<Figures, String>,
+    /// The cost over that of the reference.
+    pub share: Option<f64>,
+    /// The shader by its hash.
+    pub shader: Option<String>,
+}
+
+/// Who says what a function costs.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum CostSource {
+    /// The compiler, now.
+    Compiler,
+    /// The compiler, when it was recorded.
+    Record,
+    /// The graph.
+    Graph,
+}
+
+/// The row in a report's JSON.
+#[derive(Serialize)]
+struct CostRowJson {
+    method: &'static str,
+    material: Option<String>,
+    form: &'static str,
+    channels: usize,
+    precision: &'static str,
+    constants: &'static str,
+    gpu: &'static str,
+    vendor: &'static str,
+    compiler: Option<String>,
+    measure: &'static str,
+    instructions: Option<f64>,
+    latency: Option<f64>,
+    inverse_throughput: Option<f64>,
+    registers: Option<f64>,
+    fetches: usize,
+    net_instructions: Option<f64>,
+    net_latency: Option<f64>,
+    net_inverse_throughput: Option<f64>,
+    share: Option<f64>,
+    shader: Option<String>,
+    from: Option<CostSource>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    reason: Option<String>,
+}
+
+impl From<CostRow> for CostRowJson {
+    fn from(row: CostRow) -> CostRowJson {
+        let figures = row.figures.as_ref().ok();
+        let shader = figures.map(|figures| figures.shader);
+        let net = figures.map(|figures| figures.net);
+        let instructions = |counts: Counts| counts.instructions;
+        CostRowJson {
+            constants: if row.material.is_some() {
+                "folded"
+            } else {
+                "uniform"
             },
-            (_, Some(Told::Fresh(compiler, answers))) => Row {
-                compiler: Some(compiler.clone()),
-                source: Source::Compiler,
-                figures: answers[place].clone(),
-                ..row
-            },
-            (_, Some(Told::Absent(why))) => recorded(row, record, why),
-            (_, None) => recorded(row, record, "its compiler was not asked"),
+            gpu: row.family.name,
+            vendor: row.family.vendor,
+            measure: row.family.columns.measure,
+            instructions: shader.map(instructions),
+            latency: shader.and_then(|counts| counts.latency),
+            inverse_throughput: shader.and_then(|counts| counts.inverse_throughput),
+            registers: figures.and_then(|figures| figures.registers),
+            net_instructions: net.map(instructions),
+            net_latency: net.and_then(|counts| counts.latency),
+            net_inverse_throughput: net.and_then(|counts| counts.inverse_throughput),
+            reason: row.reason(),
+            method: row.method,
+            material: row.material,
+            form: row.form,
+            channels: row.channels,
+            precision: row.precision,
+            compiler: row.compiler,
+            fetches: row.fetches,
+            share: row.share,
+            shader: row.shader,
+            from: row.source,
         }
-    };
-    let all = functions.iter().enumerate();
-    let mut rows: Vec<Row> = all
-        .map(|(place, function)| about(place, function))
-        .collect();
-    let reference = functions.iter().position(Function::is_reference);
-    let whole = reference.and_then(|place| rows[place].figures.as_ref().ok().map(Figures::cost));
-    let mut asked = functions.iter().map(|function| function.is_asked);
-    rows.retain(|_| asked.next().unwrap_or(false));
-    for row in &mut rows {
-        let cost = row.figures.as_ref().ok().map(Figures::cost);
-        row.share = cost.zip(whole).map(|(cost, whole)| cost / whole);
-    }
-    rows
-}
-
-/// A row of which nothing is known yet.
-fn bare(family: &'static Family, function: &Function) -> Row {
-    let dialect = family.compiler.dialect();
-    Row {
-        method: function.method.name,
-        material: function.material.clone(),
-        form: function.form,
-        channels: function.channels(),
-        precision: function.precision.name(),
-        fetches: function.graph.fetches(),
-        family,
-        compiler: None,
-        source: Source::Nobody,
-        figures: Err(String::new()),
-        share: None,
-        shader: dialect.map(|dialect| function.hash(dialect).to_owned()),
     }
 }
 
-fn counted(row: Row, function: &Function) -> Row {
-    let counts = Counts {
-        instructions: function.graph.work() as f64,
-        ..Counts::default()
-    };
-    Row {
-        source: Source::Graph,
-        figures: Ok(Figures {
-            shader: counts,
-            registers: None,
-            net: counts,
-        }),
-        ..row
-    }
-}
-
-fn recorded(row: Row, record: &Record, absent: &str) -> Row {
-    let found = row
-        .shader
-        .as_ref()
-        .and_then(|hash| record.figures.get(hash));
-    if let Some(figures) = found {
-        return Row {
-            compiler: Some(record.compiler.clone()),
-            source: Source::Record,
-            figures: Ok(*figures),
-            ..row
+impl CostRow {
+    /// Why nothing is known, or which figures this compiler does not tell.
+    fn reason(&self) -> Option<String> {
+        let figures = match &self.figures {
+            Err(why) => return Some(why.clone()),
+            Ok(figures) => figures,
         };
+        let columns = [
+            ("latency", figures.shader.latency),
+            ("inverse_throughput", figures.shader.inverse_throughput),
+            ("registers", figures.registers),
+        ];
+        let missing = columns.into_iter().filter(|(_, figure)| figure.is_none());
+        let missing: Vec<&str> = missing.map(|(name, _)| name).collect();
+        (!missing.is_empty()).then(|| format!("not told here: {}", missing.join(", ")))
     }
-    let why = if record.functions.contains_key(&row.key()) {
-        "what was recorded is of another shader"
-    } else {
-        "it is not recorded"
-    };
-    Row {
-        figures: Err(format!("not measured: {absent}, and {why}")),
-        ..row
+
+    /// Which function it is, in a record: method, material, form, channels, precision.
+    pub fn key(&self) -> String {
+        let material = self.material.as_deref().unwrap_or("");
+        let (method, form) = (self.method, self.form);
+        format!(
+            "{method},{material},{form},{},{}",
+            self.channels, self.precision
+        )
+    }
+
+    /// The function for people: `schlick`, `schlick, one channel`, `gold: schlick, f16`.
+    pub fn label(&self) -> String {
+        let of = self.material.as_ref().map(|name| format!("{name}: "));
+        let channel = if self.channels == 1 {
+            ", one channel"
+        } else {
+            ""
+        };
+        let half = if self.precision == "f16" { ", f16" } else { "" };
+        format!("{}{}{channel}{half}", of.unwrap_or_default(), self.method)
     }
 }

@@ -1,5 +1,7 @@
 //! From readings to figures.
 
+use serde::Serialize;
+
 use crate::num::statistics::{interval, median, quantile, resamples, spread};
 
 use super::measure::{Clock, Measured};
@@ -34,7 +36,7 @@ pub struct Figure {
 }
 
 /// How much a machine disturbs: what the same shader takes each time.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Noise {
     /// Half of all readings lie within this share of the median.
     pub spread: f64,

@@ -33,7 +33,8 @@ pub struct Reading {
 }
 
 /// What a time was taken by.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "lowercase")]
 pub enum Clock {
     /// The device's timestamps.
     Gpu,

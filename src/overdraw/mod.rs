@@ -17,34 +17,34 @@
 //! worked for the process is taken, in which other programs are not: with four of them on two cores shares by timestamps
 //! are off by half.
 
-#[cfg(all(feature = "cli", feature = "gpu"))]
-mod artist;
-#[cfg(all(feature = "cli", feature = "gpu"))]
-mod asked;
 #[cfg(feature = "gpu")]
 mod clock;
 #[cfg(feature = "gpu")]
-mod easel;
+mod drawing_device;
+#[cfg(all(feature = "cli", feature = "gpu"))]
+mod drawing_worker;
+mod error;
 mod figure;
+mod functions;
 mod measure;
 mod plan;
-#[cfg(all(feature = "cli", feature = "gpu"))]
-mod report;
+#[cfg(feature = "gpu")]
+mod row;
 #[cfg(all(feature = "cli", feature = "gpu"))]
 mod serve;
 mod times;
 
-#[cfg(all(feature = "cli", feature = "gpu"))]
-pub use artist::Artist;
-#[cfg(all(feature = "cli", feature = "gpu"))]
-pub use asked::{Asked, Words};
 #[cfg(feature = "gpu")]
-pub use easel::{Easel, Hello};
+pub use drawing_device::{DeviceFacts, DrawingDevice};
+#[cfg(all(feature = "cli", feature = "gpu"))]
+pub use drawing_worker::DrawingWorker;
+pub use error::Error;
 pub use figure::{Figure, Noise};
+pub use functions::{LibraryMaterials, TimedFunctions};
 pub use measure::{Clock, Draw, Effort, Measured, Reading, Round, Stop, measure};
-pub use plan::{Drawing, Plan, Timed};
+pub use plan::{Drawing, Plan, TimedFunction};
+#[cfg(feature = "gpu")]
+pub use row::{TimeRow, time_rows};
 #[cfg(all(feature = "cli", feature = "gpu"))]
-pub use report::{Report, Row, text};
-#[cfg(all(feature = "cli", feature = "gpu"))]
-pub use serve::{Answer, serve};
+pub use serve::serve;
 pub use times::{Time, times};

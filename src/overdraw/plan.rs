@@ -10,9 +10,11 @@ use crate::num::Precision;
 
 /// A function that is to be timed.
 #[derive(Clone, Debug)]
-pub struct Timed {
+pub struct TimedFunction {
     /// The function.
     pub emitted: Emitted,
+    /// The material that it is specialised to, as a user types it.
+    pub material: Option<String>,
     /// What its arguments are; a specialised function has none.
     pub values: Values,
     /// The table that it reads, where it reads one.
@@ -49,7 +51,7 @@ pub struct Plan {
     places: Vec<(usize, usize)>,
 }
 
-impl Timed {
+impl TimedFunction {
     fn drawing(&self, evaluations: usize) -> Drawing {
         let probe = Probe::new(&self.emitted.function, self.emitted.precision);
         Drawing {
@@ -81,7 +83,12 @@ impl Plan {
     pub const EMPTY: usize = 2;
 
     /// What is drawn for these functions: `reference` is what shares are of, `heavy` lies below all.
-    pub fn new(heavy: &Timed, reference: &Timed, timed: &[Timed], evaluations: usize) -> Plan {
+    pub fn new(
+        heavy: &TimedFunction,
+        reference: &TimedFunction,
+        timed: &[TimedFunction],
+        evaluations: usize,
+    ) -> Plan {
         let heavy = Drawing {
             blends: false,
             ..heavy.drawing(1)

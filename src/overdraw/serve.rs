@@ -6,8 +6,11 @@ use std::io::{self, Write};
 use serde::{Deserialize, Serialize};
 
 use crate::gpu::{Fault, Wanted};
-use crate::overdraw::{Easel, Hello, Plan, Reading};
 use crate::process::Inbox;
+
+use super::drawing_device::{DeviceFacts, DrawingDevice};
+use super::measure::Reading;
+use super::plan::Plan;
 
 /// What it is asked first.
 pub const HELLO: &str = "hello";
@@ -16,7 +19,7 @@ pub const HELLO: &str = "hello";
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub enum Answer {
     /// What it draws on.
-    Hello(Hello),
+    DeviceFacts(DeviceFacts),
     /// A reading.
     Reading(Reading),
     /// Something is missing on this machine.
@@ -39,14 +42,14 @@ impl From<Fault> for Answer {
 /// # Errors
 /// The pipe is gone.
 pub fn serve(inbox: Inbox, plan: &Plan, wanted: &Wanted, size: Option<u32>) -> io::Result<()> {
-    let mut easel = Easel::open(plan, wanted, size);
+    let mut device = DrawingDevice::open(plan, wanted, size);
     for line in inbox {
-        let answer = match (&mut easel, job(&line, plan)) {
+        let answer = match (&mut device, job(&line, plan)) {
             (Err(fault), _) => fault.clone().into(),
-            (Ok(easel), Some((drawing, draws))) => easel
+            (Ok(device), Some((drawing, draws))) => device
                 .draw(drawing, draws)
                 .map_or_else(Answer::from, Answer::Reading),
-            (Ok(easel), None) => Answer::Hello(easel.hello()),
+            (Ok(device), None) => Answer::DeviceFacts(device.facts()),
         };
         let mut output = io::stdout().lock();
         writeln!(output, "{}", serde_json::to_string(&answer)?)?;

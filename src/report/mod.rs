@@ -20,6 +20,8 @@ pub mod stability;
 pub mod survey;
 pub mod table;
 #[cfg(all(feature = "cli", feature = "gpu"))]
+pub mod time;
+#[cfg(all(feature = "cli", feature = "gpu"))]
 pub mod verify;
 
 pub use envelope::{Origin, Report, SCHEMA, TOOL};

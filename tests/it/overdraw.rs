@@ -1,22 +1,24 @@
 //! Timing by overdraw, apart from any device: what is drawn is valid, and what is read becomes the figures that it should.
 
 use fresnel_gen::app::Materials;
+use fresnel_gen::app::time_request::TimeRequest;
 use fresnel_gen::emit::validate_wgsl;
-use fresnel_gen::overdraw::{Asked, Words};
-use fresnel_gen::overdraw::{Clock, Draw, Effort, Measured, Plan, Reading, Stop, measure};
+use fresnel_gen::overdraw::{
+    Clock, Draw, Effort, Measured, Plan, Reading, Stop, TimedFunctions, measure,
+};
 
 /// Pixels of the target that is made up here.
 const PIXELS: u64 = 1000;
 
-fn asked(methods: &[&str]) -> Asked {
+fn timed_functions(methods: &[&str]) -> TimedFunctions {
     let methods: Vec<String> = methods.iter().map(|name| (*name).to_owned()).collect();
-    Asked::new(&Words {
+    let request = TimeRequest {
         methods: &methods,
         materials: Materials::Default,
         precisions: &[],
         evaluations: 4,
-    })
-    .unwrap()
+    };
+    request.timed_functions().unwrap()
 }
 
 /// A device whose every draw takes what it should, but for a machine that is at times busy with something else.
@@ -81,14 +83,14 @@ fn effort(clock: Option<Clock>) -> Effort {
     }
 }
 
-fn measured(plan: &Plan, artist: &mut MadeUp, clock: Option<Clock>) -> Result<Measured, Stop> {
-    measure(plan, &effort(clock), artist, &mut |_, _, _| {})
+fn measured(plan: &Plan, device: &mut MadeUp, clock: Option<Clock>) -> Result<Measured, Stop> {
+    measure(plan, &effort(clock), device, &mut |_, _, _| {})
 }
 
 #[test]
 fn everything_that_is_drawn_is_valid() {
-    let asked = asked(&[]);
-    for drawing in &asked.plan.drawings {
+    let timed = timed_functions(&[]);
+    for drawing in &timed.plan.drawings {
         validate_wgsl(&drawing.text)
             .unwrap_or_else(|fault| panic!("{}: {fault}\n{}", drawing.name, drawing.text));
         let blocks = drawing.text.contains("var<uniform>");
@@ -100,13 +102,13 @@ fn everything_that_is_drawn_is_valid() {
             drawing.name
         );
     }
-    assert_eq!(asked.plan.places().len(), asked.functions.len());
+    assert_eq!(timed.plan.places().len(), timed.functions.len());
 }
 
 #[test]
 fn shares_are_found_again_through_noise() {
-    let asked = asked(&["schlick", "dielectric_exact", "table"]);
-    let plan = &asked.plan;
+    let timed = timed_functions(&["schlick", "dielectric_exact", "table"]);
+    let plan = &timed.plan;
     for clock in Clock::ALL {
         let measured = measured(plan, &mut MadeUp::new(plan), Some(clock)).unwrap();
         assert_eq!(measured.clock, clock);
@@ -136,24 +138,24 @@ fn shares_are_found_again_through_noise() {
 
 #[test]
 fn a_clock_that_stands_still_is_not_taken() {
-    let asked = asked(&["schlick"]);
-    let mut artist = MadeUp::new(&asked.plan);
-    artist.has_clock = false;
-    let found = measured(&asked.plan, &mut artist, None).unwrap();
+    let timed = timed_functions(&["schlick"]);
+    let mut device = MadeUp::new(&timed.plan);
+    device.has_clock = false;
+    let found = measured(&timed.plan, &mut device, None).unwrap();
     assert!(found.clock == Clock::Wall && !found.advances);
-    assert!(found.figures(&asked.plan, PIXELS)[0].is_ok());
-    let refused = measured(&asked.plan, &mut artist, Some(Clock::Gpu));
+    assert!(found.figures(&timed.plan, PIXELS)[0].is_ok());
+    let refused = measured(&timed.plan, &mut device, Some(Clock::Gpu));
     assert!(matches!(refused, Err(Stop::All(why)) if why.contains("do not advance")));
 }
 
 #[test]
 fn a_shader_that_hangs_takes_only_what_needs_it_along() {
-    let asked = asked(&["schlick", "schlick_ior"]);
-    let plan = &asked.plan;
+    let timed = timed_functions(&["schlick", "schlick_ior"]);
+    let plan = &timed.plan;
     let failing = |hangs: usize| {
-        let mut artist = MadeUp::new(plan);
-        artist.hangs = Some(hangs);
-        let measured = measured(plan, &mut artist, None).unwrap();
+        let mut device = MadeUp::new(plan);
+        device.hangs = Some(hangs);
+        let measured = measured(plan, &mut device, None).unwrap();
         let figures = measured.figures(plan, PIXELS).into_iter();
         let failed: Vec<String> = figures.filter_map(Result::err).collect();
         assert!(failed.iter().all(|why| why.contains("it never ends")));

@@ -7,12 +7,14 @@ use crate::app::precision::several;
 use crate::app::request::Request;
 use crate::app::source::materials;
 use crate::app::write::{try_places_of_ours, write_report};
-use crate::cost::{FAMILIES, Family, Figures, Record, records};
-use crate::cost::{Function, Limits, ask, functions, rows, serve};
+use crate::cost::{
+    CostRow, CostSource, FAMILIES, Family, Figures, Function, Limits, Record, ask, cost_rows,
+    functions, records, serve,
+};
 use crate::methods::{self, Method};
 use crate::process::Surroundings;
 use crate::report::Report;
-use crate::report::cost::{self as sheet, Row, Source};
+use crate::report::cost as cost_report;
 use crate::verify::machine;
 
 use super::{Output, Progress, check_limit, replaced, report, try_places};
@@ -32,7 +34,7 @@ pub fn run(flags: &CostFlags, progress: Progress) -> Result<Output, Error> {
     }
     check_limit(flags.limit)?;
     let families = families(&flags.gpu)?;
-    let (functions, left_out) = asked(flags)?;
+    let (functions, left_out) = requested(flags)?;
     let page = flags.out_dir.as_ref().map(|folder| folder.join(PAGE));
     try_places(flags.json.as_deref(), page.as_deref())?;
     try_places_of_ours(page.as_slice(), flags.overwrite)?;
@@ -42,19 +44,19 @@ pub fn run(flags: &CostFlags, progress: Progress) -> Result<Output, Error> {
     };
     let surroundings = Surroundings::new(flags.tools.as_deref())?;
     let told = ask(&families, &functions, limits, &surroundings, progress)?;
-    let table: Vec<Vec<Row>> = families
+    let table: Vec<Vec<CostRow>> = families
         .iter()
         .zip(&told)
-        .map(|(family, told)| rows(family, told.as_ref(), &records(family.name), &functions))
+        .map(|(family, told)| cost_rows(family, told.as_ref(), &records(family.name), &functions))
         .collect();
     let json = Report::new(
         canonical(flags),
-        table.iter().flatten().map(Row::json).collect(),
+        table.iter().flatten().collect::<Vec<&CostRow>>(),
     );
     let (text, checked) = if flags.check {
         check(&table)
     } else {
-        (sheet::text(&table), Checks::NONE)
+        (cost_report::text(&table), Checks::NONE)
     };
     let paged = paged(flags, &table)?;
     let mut output = report(text, &json, flags.json.as_deref())?;
@@ -65,8 +67,8 @@ pub fn run(flags: &CostFlags, progress: Progress) -> Result<Output, Error> {
 }
 
 /// 1 where a check found something, 3 where something that could be measured was not and all was required.
-fn ending(flags: &CostFlags, table: &[Vec<Row>], checked: &Checks) -> u8 {
-    let is_lacking = |row: &Row| {
+fn ending(flags: &CostFlags, table: &[Vec<CostRow>], checked: &Checks) -> u8 {
+    let is_lacking = |row: &CostRow| {
         let cannot = row.precision == "f16" && !row.family.half;
         row.family.compiler.dialect().is_some() && !cannot && row.figures.is_err()
     };
@@ -81,7 +83,7 @@ fn ending(flags: &CostFlags, table: &[Vec<Row>], checked: &Checks) -> u8 {
 }
 
 /// The functions of a request, and why some are left out.
-fn asked(flags: &CostFlags) -> Result<(Vec<Function>, Vec<String>), Error> {
+fn requested(flags: &CostFlags) -> Result<(Vec<Function>, Vec<String>), Error> {
     let request = Request {
         materials: materials(&flags.material)?,
         methods: flags.method.clone(),
@@ -113,7 +115,7 @@ fn asked(flags: &CostFlags) -> Result<(Vec<Function>, Vec<String>), Error> {
 }
 
 /// Fresh counts against the record: what differs, how much, and whether all that has a compiler was compared.
-fn check(table: &[Vec<Row>]) -> (String, Checks) {
+fn check(table: &[Vec<CostRow>]) -> (String, Checks) {
     let (mut text, mut all) = (String::new(), Checks::NONE);
     for rows in table {
         let Some(first) = rows.first() else { continue };
@@ -153,8 +155,10 @@ struct Checked {
 }
 
 impl Checked {
-    fn of(rows: &[Row], record: &Record) -> Checked {
-        let fresh = rows.iter().find(|row| row.source == Source::Compiler);
+    fn of(rows: &[CostRow], record: &Record) -> Checked {
+        let fresh = rows
+            .iter()
+            .find(|row| row.source == Some(CostSource::Compiler));
         let compiler = fresh.and_then(|row| row.compiler.as_deref());
         let mut checked = Checked::default();
         match compiler {
@@ -168,7 +172,7 @@ impl Checked {
         checked
     }
 
-    fn add(&mut self, row: &Row, record: &Record) {
+    fn add(&mut self, row: &CostRow, record: &Record) {
         let key = row.key();
         let Some(hash) = record.functions.get(&key) else {
             self.unknown += 1;
@@ -204,17 +208,17 @@ impl Checked {
 }
 
 /// Why a family has no fresh counts.
-fn unasked(rows: &[Row]) -> String {
+fn unasked(rows: &[CostRow]) -> String {
     let why = rows.iter().find_map(|row| row.figures.as_ref().err());
     why.cloned()
         .unwrap_or_else(|| "its compiler is not here".to_owned())
 }
 
-fn paged(flags: &CostFlags, table: &[Vec<Row>]) -> Result<Vec<String>, Error> {
+fn paged(flags: &CostFlags, table: &[Vec<CostRow>]) -> Result<Vec<String>, Error> {
     let Some(folder) = &flags.out_dir else {
         return Ok(Vec::new());
     };
-    let page = sheet::page(table, &canonical(flags)).map_err(|what| Error::Usage { what })?;
+    let page = cost_report::page(table, &canonical(flags)).map_err(|what| Error::Usage { what })?;
     let file = folder.join(PAGE);
     let old = write_report(&[(file.clone(), page.as_bytes())], flags.overwrite)?;
     let said = format!("{}: a page with all figures", file.display());

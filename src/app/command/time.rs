@@ -7,11 +7,15 @@ use crate::app::args::TimeFlags;
 use crate::app::error::Error;
 use crate::app::names::{flag, unknown};
 use crate::app::source::materials;
+use crate::app::time_request::TimeRequest;
 use crate::cost::BLOCKS;
 use crate::gpu::{Backend, Wanted};
-use crate::overdraw::{Artist, Asked, Report, Row, Words, serve, text};
-use crate::overdraw::{Clock, Effort, Hello, Measured, Stop, measure};
+use crate::overdraw::{
+    Clock, DeviceFacts, DrawingWorker, Effort, Measured, Stop, TimeRow, TimedFunctions, measure,
+    serve, time_rows,
+};
 use crate::process::Inbox;
+use crate::report::time::TimeReport;
 
 use super::{Output, Progress, report, try_places};
 
@@ -26,14 +30,15 @@ pub fn run(flags: &TimeFlags, progress: Progress) -> Result<Output, Error> {
     let inbox = flags.worker.then(Inbox::open);
     check(flags)?;
     let (wanted, clock) = (wanted(flags)?, clock(flags)?);
-    let asked = Asked::new(&Words {
+    let request = TimeRequest {
         methods: &flags.method,
         materials: materials(&flags.material)?,
         precisions: &flags.precision,
         evaluations: flags.evaluations,
-    })?;
+    };
+    let timed = request.timed_functions()?;
     if let Some(inbox) = inbox {
-        let served = serve(inbox, &asked.plan, &wanted, flags.size);
+        let served = serve(inbox, &timed.plan, &wanted, flags.size);
         // The supervisor has gone: nobody is there to be told.
         return Ok(Output {
             code: u8::from(served.is_err()),
@@ -42,12 +47,12 @@ pub fn run(flags: &TimeFlags, progress: Progress) -> Result<Output, Error> {
     }
     try_places(flags.json.as_deref(), None)?;
     let limit = Duration::from_secs_f64(flags.limit);
-    let mut artist = Artist::start(&asked.plan, limit)?;
-    if flags.hardware && artist.hello.is_software {
-        return Err(no_hardware(&artist.hello, &wanted));
+    let mut worker = DrawingWorker::start(&timed.plan, limit)?;
+    if flags.hardware && worker.device.is_software {
+        return Err(no_hardware(&worker.device, &wanted));
     }
-    if clock == Some(Clock::Cpu) && !artist.hello.is_software {
-        let device = &artist.hello.device;
+    if clock == Some(Clock::Cpu) && !worker.device.is_software {
+        let device = &worker.device.device;
         return Err(Error::Usage {
             what: format!(
                 "--clock cpu is for software; {device} does not compute on the processor"
@@ -57,23 +62,18 @@ pub fn run(flags: &TimeFlags, progress: Progress) -> Result<Output, Error> {
     let effort = Effort {
         rounds: flags.rounds,
         clock,
-        is_software: artist.hello.is_software,
+        is_software: worker.device.is_software,
         limit: limit.as_nanos() as f64,
     };
-    let measured = measure(&asked.plan, &effort, &mut artist, progress).map_err(|stop| {
+    let measured = measure(&timed.plan, &effort, &mut worker, progress).map_err(|stop| {
         let (Stop::One(why) | Stop::All(why)) = stop;
-        let what = format!("{}: {why}", artist.hello.device);
+        let what = format!("{}: {why}", worker.device.device);
         Error::Lacking { what }
     })?;
-    let told = Report {
-        asked: &asked,
-        hello: &artist.hello,
-        measured: &measured,
-    };
-    let rows = told.rows();
-    let json = told.json(&canonical(flags), &rows);
-    let mut output = report(text(&told, &rows), &json, flags.json.as_deref())?;
-    output.remarks = remarks(&asked, &measured, &rows, clock);
+    let rows = time_rows(&timed, &worker.device, &measured);
+    let times = TimeReport::new(canonical(flags), &timed, &worker.device, &measured, &rows);
+    let mut output = report(times.text(), &times, flags.json.as_deref())?;
+    output.remarks = remarks(&timed, &measured, &rows, clock);
     output.code = code(flags, &rows);
     Ok(output)
 }
@@ -123,8 +123,8 @@ fn clock(flags: &TimeFlags) -> Result<Option<Clock>, Error> {
     flags.clock.as_ref().map(find).transpose()
 }
 
-fn no_hardware(hello: &Hello, wanted: &Wanted) -> Error {
-    let device = &hello.device;
+fn no_hardware(facts: &DeviceFacts, wanted: &Wanted) -> Error {
+    let device = &facts.device;
     let what = if wanted.name.is_some() {
         format!(
             "no hardware adapter: what --adapter names is software, {device}; leave --adapter or --hardware out"
@@ -138,7 +138,12 @@ fn no_hardware(hello: &Hello, wanted: &Wanted) -> Error {
 }
 
 /// What failed, each reason once; what was left out; and how the time was taken where that was not asked for.
-fn remarks(asked: &Asked, measured: &Measured, rows: &[Row], clock: Option<Clock>) -> Vec<String> {
+fn remarks(
+    timed: &TimedFunctions,
+    measured: &Measured,
+    rows: &[TimeRow],
+    clock: Option<Clock>,
+) -> Vec<String> {
     let faults = |lacking: bool, word: &str| -> BTreeSet<String> {
         let wanted = rows.iter().filter(|row| row.is_lacking == lacking);
         let whys = wanted.filter_map(|row| row.figure.as_ref().err());
@@ -146,7 +151,7 @@ fn remarks(asked: &Asked, measured: &Measured, rows: &[Row], clock: Option<Clock
     };
     let mut remarks: Vec<String> = faults(false, "FAIL").into_iter().collect();
     remarks.extend(faults(true, "not measured"));
-    let left_out = asked.left_out.iter();
+    let left_out = timed.left_out.iter();
     remarks.extend(left_out.map(|why| format!("left out: {why}")));
     remarks.extend(clock.map_or_else(|| chosen(measured), |_| None));
     remarks
@@ -167,8 +172,8 @@ fn chosen(measured: &Measured) -> Option<String> {
 }
 
 /// 1 where a shader failed, 3 where this machine cannot run some and all was asked for.
-fn code(flags: &TimeFlags, rows: &[Row]) -> u8 {
-    let missing = |row: &&Row| row.figure.is_err();
+fn code(flags: &TimeFlags, rows: &[TimeRow]) -> u8 {
+    let missing = |row: &&TimeRow| row.figure.is_err();
     if rows.iter().filter(missing).any(|row| !row.is_lacking) {
         1
     } else if flags.require_all && rows.iter().any(|row| row.is_lacking) {

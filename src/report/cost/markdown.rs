@@ -2,7 +2,8 @@
 
 use std::fmt::Write;
 
-use super::{Row, percent, short};
+use super::{percent, short};
+use crate::cost::CostRow;
 
 const INTRODUCTION: &str = "\
 # What methods cost
@@ -30,7 +31,7 @@ same of every function, specialised ones too, and asks the compilers that are he
 
 /// The functions of three channels in single precision, all families side by side, and what the families are. All figures are in the
 /// record.
-pub fn markdown(families: &[Vec<Row>]) -> String {
+pub fn markdown(families: &[Vec<CostRow>]) -> String {
     let library = side_by_side(families, &|row| row.material.is_none());
     let materials = side_by_side(families, &|row| row.material.is_some());
     let mut introduction = INTRODUCTION.to_owned();
@@ -45,20 +46,20 @@ pub fn markdown(families: &[Vec<Row>]) -> String {
     )
 }
 
-fn is_shown(row: &Row) -> bool {
+fn is_shown(row: &CostRow) -> bool {
     row.precision == "f32" && row.channels == 3
 }
 
 /// Shares, a column for each family of which anything is known.
-fn side_by_side(families: &[Vec<Row>], is_wanted: &dyn Fn(&Row) -> bool) -> String {
-    let known: Vec<&Vec<Row>> = families.iter().filter(|rows| is_known(rows)).collect();
+fn side_by_side(families: &[Vec<CostRow>], is_wanted: &dyn Fn(&CostRow) -> bool) -> String {
+    let known: Vec<&Vec<CostRow>> = families.iter().filter(|rows| is_known(rows)).collect();
     let names: Vec<&str> = known.iter().map(|rows| rows[0].family.name).collect();
     let mut table = format!(
         "| function | {} |\n|---|{}\n",
         names.join(" | "),
         "---:|".repeat(names.len())
     );
-    let is_wanted = |row: &Row| is_shown(row) && is_wanted(row);
+    let is_wanted = |row: &CostRow| is_shown(row) && is_wanted(row);
     for (place, row) in known[0]
         .iter()
         .enumerate()
@@ -72,7 +73,7 @@ fn side_by_side(families: &[Vec<Row>], is_wanted: &dyn Fn(&Row) -> bool) -> Stri
 }
 
 /// The least and the largest share of a library function over all families that a compiler spoke for.
-fn range(families: &[Vec<Row>], method: &str) -> String {
+fn range(families: &[Vec<CostRow>], method: &str) -> String {
     let rows = families
         .iter()
         .flatten()
@@ -85,18 +86,18 @@ fn range(families: &[Vec<Row>], method: &str) -> String {
     format!("{:.0} to {:.0} %", 100.0 * ends.0, 100.0 * ends.1)
 }
 
-fn is_known(rows: &[Row]) -> bool {
+fn is_known(rows: &[CostRow]) -> bool {
     rows.iter().any(|row| row.figures.is_ok())
 }
 
 /// Which GPU each family is, who compiled, what the figure is, what one evaluation of the exact law for dielectrics costs by it.
-fn families_table(families: &[Vec<Row>]) -> String {
+fn families_table(families: &[Vec<CostRow>]) -> String {
     let mut table =
         "| family | GPU | compiler | figure | `dielectric_exact` | all figures |\n|---|---|---|---|---:|---|\n".to_owned();
     for rows in families.iter().filter(|rows| is_known(rows)) {
         let family = rows[0].family;
         let compiler = rows.iter().find_map(|row| row.compiler.as_deref());
-        let is_whole = |row: &&Row| {
+        let is_whole = |row: &&CostRow| {
             is_shown(row) && row.material.is_none() && row.method == "dielectric_exact"
         };
         let whole = rows

@@ -3,7 +3,8 @@
 use serde::Serialize;
 use tera::Context;
 
-use super::{Row, short};
+use super::short;
+use crate::cost::CostRow;
 use crate::report::html;
 
 static TEMPLATE: &str = include_str!("../../../templates/cost.html.tera");
@@ -35,7 +36,7 @@ struct Line {
 }
 
 /// The page of these rows, or why it cannot be made.
-pub fn page(families: &[Vec<Row>], command: &str) -> Result<String, String> {
+pub fn page(families: &[Vec<CostRow>], command: &str) -> Result<String, String> {
     let sections: Vec<Section> = families.iter().filter_map(|rows| section(rows)).collect();
     let mut context = Context::new();
     context.insert("sections", &sections);
@@ -43,7 +44,7 @@ pub fn page(families: &[Vec<Row>], command: &str) -> Result<String, String> {
     html::page(TEMPLATE, &context)
 }
 
-fn section(rows: &[Row]) -> Option<Section> {
+fn section(rows: &[CostRow]) -> Option<Section> {
     let family = rows.first()?.family;
     let known = rows.iter().find(|row| row.figures.is_ok());
     let reason = match known {
@@ -68,7 +69,7 @@ fn section(rows: &[Row]) -> Option<Section> {
     })
 }
 
-fn line(row: &Row, longest: f64) -> Line {
+fn line(row: &CostRow, longest: f64) -> Line {
     let figures = row.figures.as_ref().ok();
     let share = row.share.unwrap_or(0.0);
     Line {

@@ -1,10 +1,11 @@
 //! The report for a terminal: one family with all its figures, or several side by side.
 
-use super::{Row, Source, percent, short};
+use super::{percent, short};
+use crate::cost::{CostRow, CostSource};
 use crate::report::table;
 
 /// The rows of each family, all of the same functions in the same order.
-pub fn text(families: &[Vec<Row>]) -> String {
+pub fn text(families: &[Vec<CostRow>]) -> String {
     match families {
         [one] => format!(
             "{}\nThe shader's figures are of a chain of evaluations, four or, in GLSL ES 1.00, one.\n{}\n",
@@ -32,8 +33,8 @@ const ALONE: [&str; 8] = [
     "registers",
 ];
 
-fn alone(rows: &[Row]) -> Vec<Vec<String>> {
-    let cells = |row: &Row| match &row.figures {
+fn alone(rows: &[CostRow]) -> Vec<Vec<String>> {
+    let cells = |row: &CostRow| match &row.figures {
         Ok(figures) => vec![
             row.label(),
             short(Some(figures.cost())),
@@ -49,7 +50,7 @@ fn alone(rows: &[Row]) -> Vec<Vec<String>> {
     rows.iter().map(cells).collect()
 }
 
-fn beside(families: &[Vec<Row>]) -> String {
+fn beside(families: &[Vec<CostRow>]) -> String {
     let names = families.iter().filter_map(|rows| rows.first());
     let head: Vec<&str> = ["function"]
         .into_iter()
@@ -66,7 +67,7 @@ fn beside(families: &[Vec<Row>]) -> String {
 }
 
 /// Who said it, and what it is.
-fn about(rows: &[Row]) -> String {
+fn about(rows: &[CostRow]) -> String {
     let Some(first) = rows.first() else {
         return String::new();
     };
@@ -78,7 +79,9 @@ fn about(rows: &[Row]) -> String {
         family.name, family.gpu, family.columns.measure
     );
     match known.map(|row| (row.source, row.compiler.as_deref())) {
-        Some((Source::Record, Some(compiler))) => about += &format!("; recorded with {compiler}"),
+        Some((Some(CostSource::Record), Some(compiler))) => {
+            about += &format!("; recorded with {compiler}")
+        }
         Some((_, Some(compiler))) => about += &format!("; {compiler}"),
         _ => {}
     }

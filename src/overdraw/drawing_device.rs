@@ -1,12 +1,12 @@
-//! Who draws on a device: its target, and every shader compiled when it is first drawn.
+//! A device that draws: its target, and every shader compiled when it is first drawn.
 
 use serde::{Deserialize, Serialize};
 
 use crate::gpu::{
     Backend, Canvas, Device, Fault, Kind, Layer, Shader, Texture, TextureFormat, Wanted, Wrap,
 };
-use crate::overdraw::clock::timed;
 
+use super::clock::timed;
 use super::measure::Reading;
 use super::plan::{Drawing, Plan};
 
@@ -16,7 +16,7 @@ const ON_A_CARD: u32 = 1024;
 
 /// What the device is.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Hello {
+pub struct DeviceFacts {
     /// The device with its driver.
     pub device: String,
     /// Its name alone.
@@ -31,7 +31,7 @@ pub struct Hello {
     pub pixels: u64,
 }
 
-impl Hello {
+impl DeviceFacts {
     /// That it does not compute in 16 bits, in words.
     pub fn no_half(&self) -> String {
         format!(
@@ -56,24 +56,28 @@ fn open(wanted: &Wanted) -> Result<Device, Fault> {
 }
 
 /// A device that draws a plan.
-pub struct Easel<'a> {
+pub struct DrawingDevice<'a> {
     plan: &'a Plan,
     canvas: Canvas,
     layers: Vec<Option<Layer>>,
 }
 
-impl<'a> Easel<'a> {
+impl<'a> DrawingDevice<'a> {
     /// Opens the device that is wanted, with a target of so many pixels a side.
     ///
     /// # Errors
     /// There is none, or it draws no such target.
-    pub fn open(plan: &'a Plan, wanted: &Wanted, size: Option<u32>) -> Result<Easel<'a>, Fault> {
+    pub fn open(
+        plan: &'a Plan,
+        wanted: &Wanted,
+        size: Option<u32>,
+    ) -> Result<DrawingDevice<'a>, Fault> {
         let device = open(wanted)?;
         let usual = match device.adapter.kind {
             Kind::Software => ON_A_PROCESSOR,
             _ => ON_A_CARD,
         };
-        Ok(Easel {
+        Ok(DrawingDevice {
             plan,
             canvas: device.canvas(size.unwrap_or(usual))?,
             layers: plan.drawings.iter().map(|_| None).collect(),
@@ -81,9 +85,9 @@ impl<'a> Easel<'a> {
     }
 
     /// What it draws on.
-    pub fn hello(&self) -> Hello {
+    pub fn facts(&self) -> DeviceFacts {
         let adapter = self.canvas.adapter();
-        Hello {
+        DeviceFacts {
             device: adapter.to_string(),
             name: adapter.name.clone(),
             driver: adapter.driver.clone(),

@@ -3,11 +3,12 @@
 use core::time::Duration;
 use std::collections::BTreeSet;
 
-use crate::app::error::Error;
-use crate::overdraw::{Draw, Hello, Plan, Reading, Stop};
-use crate::process::Surroundings;
-use crate::process::{Silence, Worker, own_words};
+use crate::process::{Silence, Surroundings, Worker, own_words};
 
+use super::drawing_device::DeviceFacts;
+use super::error::Error;
+use super::measure::{Draw, Reading, Stop};
+use super::plan::Plan;
 use super::serve::{Answer, HELLO};
 
 /// How long opening a device and compiling a shader may take: both are seconds where they are slow.
@@ -20,31 +21,31 @@ const GRACE: Duration = Duration::from_secs(2);
 const ONE_THREAD: [(&str, &str); 1] = [("LP_NUM_THREADS", "1")];
 
 /// The process, and what it knows.
-pub struct Artist<'a> {
+pub struct DrawingWorker<'a> {
     plan: &'a Plan,
     worker: Worker,
     surroundings: Surroundings,
     limit: Duration,
     /// What it draws on.
-    pub hello: Hello,
+    pub device: DeviceFacts,
     /// What it has compiled.
     compiled: BTreeSet<usize>,
 }
 
-impl<'a> Artist<'a> {
+impl<'a> DrawingWorker<'a> {
     /// Starts it; one submission may take so long.
     ///
     /// # Errors
     /// There is no device, or it cannot be opened.
-    pub fn start(plan: &'a Plan, limit: Duration) -> Result<Artist<'a>, Error> {
+    pub fn start(plan: &'a Plan, limit: Duration) -> Result<DrawingWorker<'a>, Error> {
         let surroundings = Surroundings::new(None)?;
-        let (worker, hello) = open(&surroundings)?;
-        Ok(Artist {
+        let (worker, device) = open(&surroundings)?;
+        Ok(DrawingWorker {
             plan,
             worker,
             surroundings,
             limit,
-            hello,
+            device,
             compiled: BTreeSet::new(),
         })
     }
@@ -65,10 +66,10 @@ impl<'a> Artist<'a> {
     }
 }
 
-impl Draw for Artist<'_> {
+impl Draw for DrawingWorker<'_> {
     fn draw(&mut self, drawing: usize, draws: u32) -> Result<Reading, Stop> {
-        if self.plan.drawings[drawing].precision.is_half() && !self.hello.has_half {
-            return Err(Stop::One(self.hello.no_half()));
+        if self.plan.drawings[drawing].precision.is_half() && !self.device.has_half {
+            return Err(Stop::One(self.device.no_half()));
         }
         let patience = if self.compiled.contains(&drawing) {
             self.limit + GRACE
@@ -98,27 +99,21 @@ impl Draw for Artist<'_> {
                 self.restart()?;
                 Err(Stop::One(why))
             }
-            Answer::Hello(_) => Err(Stop::All("a process that only greets".to_owned())),
+            Answer::DeviceFacts(_) => Err(Stop::All("a process that only greets".to_owned())),
         }
     }
 }
 
-fn open(surroundings: &Surroundings) -> Result<(Worker, Hello), Error> {
+fn open(surroundings: &Surroundings) -> Result<(Worker, DeviceFacts), Error> {
     let mut words = own_words();
     words.push("--worker".into());
     let environment = ONE_THREAD.map(|(name, value)| (name.to_owned(), value.into()));
     let mut worker = Worker::start(&words, &environment, surroundings)?;
-    let lacking = |what: String| Error::Lacking { what };
     match worker.ask(HELLO, PATIENCE) {
-        Ok(Answer::Hello(hello)) => Ok((worker, hello)),
-        Ok(Answer::Absent(why) | Answer::Failed(why)) => Err(lacking(why)),
-        Ok(Answer::Reading(_)) => Err(lacking("a process that does not greet".to_owned())),
-        Err(Silence::TooLong) => Err(lacking(format!(
-            "no graphics device opened within {} s: its driver hangs",
-            PATIENCE.as_secs()
-        ))),
-        Err(Silence::Ended(status)) => Err(lacking(format!(
-            "the process that opens the graphics device ended ({status}): its driver failed"
-        ))),
+        Ok(Answer::DeviceFacts(device)) => Ok((worker, device)),
+        Ok(Answer::Absent(why) | Answer::Failed(why)) => Err(Error::Device(why)),
+        Ok(Answer::Reading(_)) => Err(Error::Protocol),
+        Err(Silence::TooLong) => Err(Error::Hangs(PATIENCE.as_secs())),
+        Err(Silence::Ended(status)) => Err(Error::Ended(status)),
     }
 }

@@ -1,0 +1,114 @@
+//! The rows of a family: from its compiler, from the record, or from the graph.
+
+use super::asked::Told;
+use super::family::{Compiler, Family};
+use super::figures::{Counts, Figures};
+use super::function::Function;
+use super::record::Record;
+use super::row::{CostRow, CostSource};
+
+/// The rows of a family, in the functions' order.
+pub fn cost_rows(
+    family: &'static Family,
+    told: Option<&Told>,
+    record: &Record,
+    functions: &[Function],
+) -> Vec<CostRow> {
+    let about = |place: usize, function: &Function| {
+        let row = bare(family, function);
+        if function.precision.is_half() && !family.half {
+            let why = "it has no 16-bit arithmetic (shaderFloat16)".to_owned();
+            return CostRow {
+                figures: Err(why),
+                ..row
+            };
+        }
+        match (family.compiler, told) {
+            (Compiler::Operations, _) => counted(row, function),
+            (Compiler::None(why), _) => CostRow {
+                figures: Err(why.to_owned()),
+                ..row
+            },
+            (_, Some(Told::Fresh(compiler, answers))) => CostRow {
+                compiler: Some(compiler.clone()),
+                source: Some(CostSource::Compiler),
+                figures: answers[place].clone(),
+                ..row
+            },
+            (_, Some(Told::Absent(why))) => recorded(row, record, why),
+            (_, None) => recorded(row, record, "its compiler was not asked"),
+        }
+    };
+    let all = functions.iter().enumerate();
+    let mut rows: Vec<CostRow> = all
+        .map(|(place, function)| about(place, function))
+        .collect();
+    let reference = functions.iter().position(Function::is_reference);
+    let whole = reference.and_then(|place| rows[place].figures.as_ref().ok().map(Figures::cost));
+    let mut asked = functions.iter().map(|function| function.is_asked);
+    rows.retain(|_| asked.next().unwrap_or(false));
+    for row in &mut rows {
+        let cost = row.figures.as_ref().ok().map(Figures::cost);
+        row.share = cost.zip(whole).map(|(cost, whole)| cost / whole);
+    }
+    rows
+}
+
+/// A row of which nothing is known yet.
+fn bare(family: &'static Family, function: &Function) -> CostRow {
+    let dialect = family.compiler.dialect();
+    CostRow {
+        method: function.method.name,
+        material: function.material.clone(),
+        form: function.form,
+        channels: function.channels(),
+        precision: function.precision.name(),
+        fetches: function.graph.fetches(),
+        family,
+        compiler: None,
+        source: None,
+        figures: Err(String::new()),
+        share: None,
+        shader: dialect.map(|dialect| function.hash(dialect).to_owned()),
+    }
+}
+
+fn counted(row: CostRow, function: &Function) -> CostRow {
+    let counts = Counts {
+        instructions: function.graph.work() as f64,
+        ..Counts::default()
+    };
+    CostRow {
+        source: Some(CostSource::Graph),
+        figures: Ok(Figures {
+            shader: counts,
+            registers: None,
+            net: counts,
+        }),
+        ..row
+    }
+}
+
+fn recorded(row: CostRow, record: &Record, absent: &str) -> CostRow {
+    let found = row
+        .shader
+        .as_ref()
+        .and_then(|hash| record.figures.get(hash));
+    if let Some(figures) = found {
+        return CostRow {
+            compiler: Some(record.compiler.clone()),
+            source: Some(CostSource::Record),
+            figures: Ok(*figures),
+            ..row
+        };
+    }
+    let why = if record.functions.contains_key(&row.key()) {
+        "what was recorded is of another shader"
+    } else {
+        "it is not recorded"
+    };
+    CostRow {
+        figures: Err(format!("not measured: {absent}, and {why}")),
+        ..row
+    }
+}
