@@ -59,11 +59,13 @@ fn model_error(error: &ModelError) -> String {
     let mean = error.mean_rel.map_or("no mean".to_owned(), |mean| {
         format!("{:.3} % in the mean", 100.0 * mean)
     });
+    // What is not finite is no number, here as in the JSON.
+    let number = |figure: f64| if figure.is_finite() { figure } else { f64::NAN };
     format!(
         "{:.6} at most, at {:.1} degrees; {:.6} in the mean; relative {mean}",
-        error.max_abs,
+        number(error.max_abs),
         libm::acos(error.worst_cos).to_degrees(),
-        error.mean_abs,
+        number(error.mean_abs),
     )
 }
 

@@ -8,11 +8,15 @@ mod axis;
 mod failure;
 mod map;
 mod region;
+mod row;
 mod scan;
 mod space;
+mod study;
 
 pub use axis::Axis;
 pub use failure::Failure;
 pub use map::{Cell, Map, maps};
 pub use region::short;
+pub use row::StabilityRow;
 pub use scan::{Code, Finding, Progress, Shown, scan, scan_specialised};
+pub use study::{Study, StudyProgress};

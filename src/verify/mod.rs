@@ -27,6 +27,7 @@ mod junit;
 #[cfg(all(feature = "cli", feature = "gpu"))]
 pub mod machine;
 pub mod module;
+mod object;
 pub mod outline;
 #[cfg(all(feature = "cli", feature = "gpu"))]
 pub mod plan;
@@ -57,11 +58,12 @@ pub use half::{
 };
 #[cfg(all(feature = "cli", feature = "gpu"))]
 pub use junit::{JunitCase, junit};
+pub use object::as_object;
 pub use points::{WITHIN, beyond, cosines, cosines_around, limits, share};
 #[cfg(all(feature = "cli", feature = "gpu"))]
 pub use row::{
     AllowedError, Answer, CodeErrorFigures, Emulation, ModelErrorFigures, SecondOpinion, Status,
-    VerifyRow, WORST, as_object,
+    VerifyRow, WORST,
 };
 #[cfg(all(feature = "cli", feature = "gpu"))]
 pub use supervise::{Limits, supervise};

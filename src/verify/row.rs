@@ -7,6 +7,7 @@ use serde_json::{Map, Value};
 use crate::fit::ModelError;
 
 use super::compilers::Verdict;
+use super::object::as_object;
 use super::{CodeError, HalfError};
 
 /// Stands for a material where a function is run at the worst inputs known.
@@ -231,17 +232,6 @@ pub struct SecondOpinion {
 /// What is not finite has no number in JSON.
 pub(super) fn finite(x: f64) -> Option<f64> {
     x.is_finite().then_some(x)
-}
-
-/// Writes names with what is said of each as an object, in order.
-///
-/// # Errors
-/// The writer refuses.
-pub fn as_object<S: Serializer, T: Serialize>(
-    pairs: &[(String, T)],
-    serializer: S,
-) -> Result<S::Ok, S::Error> {
-    serializer.collect_map(pairs.iter().map(|(name, value)| (name, value)))
 }
 
 fn as_object_or_null<S: Serializer, T: Serialize>(

@@ -8,15 +8,15 @@ use std::sync::LazyLock;
 use fresnel_gen::methods::{self, Class, Contract, Method, Over};
 use fresnel_gen::num::Precision;
 use fresnel_gen::report::png::png;
-use fresnel_gen::report::stability::{Row, heat, markdown};
-use fresnel_gen::stability::{Failure, maps, scan};
+use fresnel_gen::report::stability::{heat, markdown};
+use fresnel_gen::stability::{Failure, StabilityRow, maps, scan};
 
 /// All methods scanned, once for all tests.
-static ROWS: LazyLock<Vec<Row>> = LazyLock::new(|| scanned(Precision::F32));
+static ROWS: LazyLock<Vec<StabilityRow>> = LazyLock::new(|| scanned(Precision::F32));
 /// In half precision those that are written in it.
-static HALF: LazyLock<Vec<Row>> = LazyLock::new(|| scanned(Precision::F16));
+static HALF: LazyLock<Vec<StabilityRow>> = LazyLock::new(|| scanned(Precision::F16));
 
-fn scanned(precision: Precision) -> Vec<Row> {
+fn scanned(precision: Precision) -> Vec<StabilityRow> {
     let is_written = |method: &&&'static Method| {
         let refused = precision.is_half() && method.half.library_refusal().is_some();
         !method.is_textured() && !refused
@@ -24,7 +24,7 @@ fn scanned(precision: Precision) -> Vec<Row> {
     let mut rows = Vec::new();
     for method in methods::ALL.iter().filter(is_written) {
         let found = scan(method, precision, &mut |_, _| {});
-        rows.extend(found.into_iter().map(|finding| Row {
+        rows.extend(found.into_iter().map(|finding| StabilityRow {
             method: method.name,
             material: None,
             precision: precision.name(),
@@ -53,8 +53,8 @@ fn the_maps_of_the_document_are_what_is_drawn() {
     }
 }
 
-fn fails(rows: &[Row], method: &str, failure: Failure) -> bool {
-    let of = |row: &&Row| row.method == method;
+fn fails(rows: &[StabilityRow], method: &str, failure: Failure) -> bool {
+    let of = |row: &&StabilityRow| row.method == method;
     let mut findings = rows
         .iter()
         .filter(of)

@@ -3,9 +3,9 @@
 use std::collections::BTreeSet;
 use std::mem::{Discriminant, discriminant};
 
-use super::{Row, percent, worst};
+use super::{percent, worst};
 use crate::report::markdown::table;
-use crate::stability::{Failure, Finding};
+use crate::stability::{Failure, Finding, StabilityRow};
 
 const HEAD: &str = "# Where methods fail
 
@@ -27,7 +27,7 @@ A share says how much of a region fails. The methods marked *exempt* are textboo
 ";
 
 /// The document of a scan in single precision and of one in half.
-pub fn markdown(rows: &[Row], half: &[Row]) -> String {
+pub fn markdown(rows: &[StabilityRow], half: &[StabilityRow]) -> String {
     let head = ["method", "failure", "where", "worst"];
     let told = |rows, wanted| table(&head, grouped(rows, wanted).into_iter());
     let is_media = |finding: &Finding| finding.is_media;
@@ -52,7 +52,7 @@ absolute: 11 bits leave 0.0005 near 1. Methods that `--precision f16` refuses ar
 ";
 
 /// A line for each method: its gravest failures over media, with the first of their regions.
-fn summaries(rows: &[Row]) -> Vec<Vec<String>> {
+fn summaries(rows: &[StabilityRow]) -> Vec<Vec<String>> {
     let methods: BTreeSet<&'static str> = rows.iter().map(|row| row.method).collect();
     let summary = |method: &'static str| {
         let of_method = rows.iter().filter(|row| row.method == method);
@@ -78,7 +78,7 @@ fn summaries(rows: &[Row]) -> Vec<Vec<String>> {
 }
 
 /// A line for each method and failure, with all its regions.
-fn grouped(rows: &[Row], wanted: fn(&Finding) -> bool) -> Vec<Vec<String>> {
+fn grouped(rows: &[StabilityRow], wanted: fn(&Finding) -> bool) -> Vec<Vec<String>> {
     let mut lines: Vec<(&'static str, Vec<&Finding>)> = Vec::new();
     let found = rows
         .iter()

@@ -6,10 +6,8 @@ mod markdown;
 #[cfg(feature = "cli")]
 mod page;
 
-use serde_json::{Map, Value, json};
-
 use super::table;
-use crate::stability::{Failure, Finding, short};
+use crate::stability::{Failure, Finding, StabilityRow, short};
 
 #[cfg(feature = "cli")]
 pub use heat::heat;
@@ -17,80 +15,27 @@ pub use markdown::markdown;
 #[cfg(feature = "cli")]
 pub use page::page;
 
-/// A finding with what it is about.
-#[derive(Clone, Debug)]
-pub struct Row {
-    /// The method.
-    pub method: &'static str,
-    /// The material that it is specialised to, and the channel.
-    pub material: Option<(String, &'static str)>,
-    /// The kind of number.
-    pub precision: &'static str,
-    /// What goes wrong; none where nothing does.
-    pub finding: Option<Finding>,
-}
-
-impl Row {
-    /// The row as JSON.
-    pub fn json(&self) -> Value {
-        let (material, channel) = self.material.clone().unzip();
-        let mut row = json!({
-            "method": self.method, "material": material, "channel": channel, "precision": self.precision, "failure": null,
-            "fault_of": null, "points": null, "region": null, "share": null, "worst": null,
-        });
-        match &self.finding {
-            None => row["reason"] = json!("nothing was found"),
-            Some(finding) => {
-                row["failure"] = json!(finding.failure.text());
-                row["fault_of"] = json!(fault_of(finding.failure));
-                row["points"] = json!(points(finding));
-                row["region"] = json!(finding.region);
-                row["share"] = json!(finding.share);
-                row["worst"] = worst_json(finding);
-            }
-        }
-        row
+fn cells(row: &StabilityRow) -> Vec<String> {
+    let about = match &row.material {
+        None => String::new(),
+        Some((name, channel)) => format!("{name}, {channel}"),
+    };
+    let mut cells = vec![row.method.to_owned(), about];
+    match &row.finding {
+        None => cells.extend([
+            "none".to_owned(),
+            String::new(),
+            String::new(),
+            String::new(),
+        ]),
+        Some(finding) => cells.extend([
+            finding.failure.text(),
+            region(finding),
+            percent(finding.share),
+            worst(finding),
+        ]),
     }
-
-    fn cells(&self) -> Vec<String> {
-        let about = match &self.material {
-            None => String::new(),
-            Some((name, channel)) => format!("{name}, {channel}"),
-        };
-        let mut cells = vec![self.method.to_owned(), about];
-        match &self.finding {
-            None => cells.extend([
-                "none".to_owned(),
-                String::new(),
-                String::new(),
-                String::new(),
-            ]),
-            Some(finding) => cells.extend([
-                finding.failure.text(),
-                region(finding),
-                percent(finding.share),
-                worst(finding),
-            ]),
-        }
-        cells
-    }
-}
-
-/// Whose fault it is.
-fn fault_of(failure: Failure) -> &'static str {
-    if failure.is_of_the_model() {
-        "formula"
-    } else {
-        "rounding"
-    }
-}
-
-fn points(finding: &Finding) -> &'static str {
-    if finding.is_media {
-        "media"
-    } else {
-        "arguments"
-    }
+    cells
 }
 
 /// The region; of arguments that no medium has, with that said.
@@ -109,19 +54,6 @@ fn percent(share: f64) -> String {
     } else {
         format!("{} %", percent.clamp(1.0, 99.0))
     }
-}
-
-fn worst_json(finding: &Finding) -> Value {
-    let at: Map<String, Value> = finding
-        .worst
-        .iter()
-        .map(|(name, value)| ((*name).to_owned(), json!(value)))
-        .collect();
-    let shown = finding.point;
-    json!({
-        "at": at, "amount": finding.amount, "got": shown.map(|shown| shown.got), "expected": shown.map(|shown| shown.want),
-        "law": shown.and_then(|shown| shown.law),
-    })
 }
 
 /// Where it is worst, and what comes there.
@@ -168,9 +100,9 @@ fn rounded(x: f64) -> String {
 }
 
 /// All rows for people.
-pub fn text(rows: &[Row]) -> String {
+pub fn stability_text(rows: &[StabilityRow]) -> String {
     let head = ["method", "material", "failure", "where", "of it", "worst"];
-    let cells: Vec<Vec<String>> = rows.iter().map(Row::cells).collect();
+    let cells: Vec<Vec<String>> = rows.iter().map(cells).collect();
     let has_material = rows.iter().any(|row| row.material.is_some());
     let wanted = |(i, _): &(usize, String)| *i != 1 || has_material;
     let only = |cells: Vec<String>| -> Vec<String> {

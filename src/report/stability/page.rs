@@ -5,9 +5,9 @@ use base64::prelude::BASE64_STANDARD;
 use serde::Serialize;
 use tera::Context;
 
-use super::{Row, percent, worst};
+use super::{percent, worst};
 use crate::report::html;
-use crate::stability::Finding;
+use crate::stability::{Finding, StabilityRow};
 
 static TEMPLATE: &str = include_str!("../../../templates/stability.html.tera");
 
@@ -32,7 +32,7 @@ struct Picture {
 
 /// The page of these rows and pictures (method, what over, PNG), or why it cannot be made.
 pub fn page(
-    rows: &[Row],
+    rows: &[StabilityRow],
     pictures: &[(&'static str, &'static str, Vec<u8>)],
     command: &str,
 ) -> Result<String, String> {
@@ -51,7 +51,7 @@ pub fn page(
 
 fn section(
     method: &'static str,
-    rows: &[Row],
+    rows: &[StabilityRow],
     pictures: &[(&'static str, &'static str, Vec<u8>)],
 ) -> Section {
     let sentences = |wanted: fn(&Finding) -> bool| -> Vec<String> {
