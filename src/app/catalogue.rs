@@ -4,7 +4,9 @@
 use serde::Serialize;
 use serde_json::{Value, json};
 
-use crate::emit::{self, Average, Better, Bounds, CATALOGUE, Emitted, OUTPUT_LICENCE, Row};
+use crate::emit::{
+    self, Average, Better, Bounds, CATALOGUE, CommandLine, Emitted, Naming, OUTPUT_LICENCE, Row,
+};
 use crate::methods::{self, Method};
 use crate::num::in_parallel;
 use crate::reference::Subject;
@@ -13,10 +15,8 @@ use crate::report::{Origin, TOOL};
 use super::artifact::Artifact;
 use super::error::Error;
 use super::generate::Generated;
-use super::names::quoted;
 use super::recorded;
-use super::request::{Materials, Request};
-use super::sight;
+use super::request::{Materials, Request, Source};
 
 /// What stands for a target of the file that is for no language.
 pub const JSON: &str = "json";
@@ -142,17 +142,15 @@ fn seen(subjects: &[Subject]) -> &str {
 
 /// The command that writes a target's array among its part of the tree, or all.
 fn command(request: &Request, target: Option<&str>) -> Result<String, Error> {
-    let mut command = TOOL.to_owned();
-    if let Some(target) = target {
-        command += &format!(" --target {target}");
-    }
-    if let Some(medium) = &request.medium {
-        command += &format!(" --medium {}", quoted(&medium.argument()?));
-    }
-    if request.prefix != Request::default().prefix {
-        command += &format!(" --prefix {}", quoted(&request.prefix));
-    }
-    Ok(command + &sight::flags(&request.sight))
+    let medium = request.medium.as_ref();
+    let medium = medium.map(Source::argument).transpose()?;
+    let prefix = Some(&request.prefix).filter(|prefix| **prefix != Naming::default().prefix);
+    Ok(CommandLine::new(TOOL)
+        .list("target", target)
+        .list("medium", medium)
+        .list("prefix", prefix)
+        .seen_as(&request.sight)
+        .into())
 }
 
 /// `catalogue.json`: how its materials are seen, the methods, the materials with their coefficients.

@@ -1,4 +1,4 @@
-//! Names that are not there: what is, and which of it comes nearest; and names on a shell's command line.
+//! Names that are not there: what is, and which of it comes nearest.
 
 use crate::cost::{FAMILIES, Family, find};
 
@@ -50,24 +50,4 @@ pub fn nearest(name: &str, all: &[&str]) -> Vec<String> {
         .collect();
     alike.sort_by(|a, b| score(b).total_cmp(&score(a)));
     alike.into_iter().take(OFFERED).map(str::to_owned).collect()
-}
-
-/// A word of a shell's command line.
-pub fn quoted(word: &str) -> String {
-    let plain = |c: char| c.is_ascii_alphanumeric() || "_-./".contains(c);
-    if !word.is_empty() && word.chars().all(plain) {
-        word.to_owned()
-    } else {
-        format!("'{}'", word.replace('\'', "'\\''"))
-    }
-}
-
-/// A flag with its words as a shell's command line has it; nothing where there are no words.
-pub fn flag(name: &str, words: &[String]) -> String {
-    let words: Vec<String> = words.iter().map(|word| quoted(word)).collect();
-    if words.is_empty() {
-        String::new()
-    } else {
-        format!(" --{name} {}", words.join(","))
-    }
 }

@@ -26,13 +26,6 @@ impl PrecisionFlags {
     pub fn read(&self) -> Result<Precision, Error> {
         named(self.precision.as_deref())
     }
-
-    /// The same as words of a command.
-    pub fn words(&self) -> String {
-        let precision = self.precision.as_deref();
-        let force = if self.force { " --force" } else { "" };
-        precision.map_or_else(String::new, |name| format!(" --precision {name}{force}"))
-    }
 }
 
 /// The precision of a name, single where none is said.

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use crate::emit::Naming;
+use crate::emit::{Naming, file_name};
 use crate::materials::{self, Kind, Material, Sight, Unseen};
 use crate::methods::{self, Method};
 use crate::num::Precision;
@@ -317,7 +317,7 @@ fn argument(file: &str, page: &str) -> String {
     if !page.is_empty() && file.replace('\\', "/").ends_with(page) {
         page.to_owned()
     } else {
-        file.rsplit(['/', '\\']).next().unwrap_or(file).to_owned()
+        file_name(file).to_owned()
     }
 }
 

@@ -1,6 +1,6 @@
-//! How materials are looked at, as a user says it: from words to a [`Sight`], and back into the command of a header.
+//! How materials are looked at, as a user says it: from words to a [`Sight`].
 
-use crate::materials::{Extrapolate, Sight, Surface};
+use crate::materials::{Extrapolate, Sight};
 use crate::spectra::{Adaptation, Gamut, Illuminant, Integration, Observer, Space, Step};
 
 use super::error::Error;
@@ -145,62 +145,6 @@ fn wavelengths(words: &Words) -> Result<Option<[f64; 3]>, Error> {
         return Err(Error::Usage { what });
     }
     Ok(Some(three))
-}
-
-/// The flags that say again how a surface was seen, each with a space before it; nothing where all is as usual. Where each
-/// channel is one wavelength, the rest of the sight says nothing.
-pub fn flags_for(sight: &Sight, surface: &Surface) -> String {
-    if surface.channels().is_none() {
-        return flags(sight);
-    }
-    flags(&Sight {
-        wavelengths_nm: sight.wavelengths_nm,
-        beyond: sight.beyond,
-        ..Sight::default()
-    })
-}
-
-/// The flags that say this sight again.
-pub fn flags(sight: &Sight) -> String {
-    let Integration {
-        observer,
-        illuminant,
-        space,
-        adaptation,
-        step,
-    } = &sight.integration;
-    let usual = Sight::default();
-    let choices = [
-        ("space", space.name(), usual.integration.space.name()),
-        ("gamut", sight.gamut.name(), usual.gamut.name()),
-        (
-            "illuminant",
-            illuminant.name(),
-            usual.integration.illuminant.name(),
-        ),
-        (
-            "observer",
-            observer.name(),
-            usual.integration.observer.name(),
-        ),
-        (
-            "adaptation",
-            adaptation.name(),
-            usual.integration.adaptation.name(),
-        ),
-        ("step", step.name(), usual.integration.step.name()),
-    ];
-    let said = choices.iter().filter(|(_, value, usual)| value != usual);
-    let mut text: String = said
-        .map(|(flag, value, _)| format!(" --{flag} {}", super::names::quoted(value)))
-        .collect();
-    if let Some([red, green, blue]) = sight.wavelengths_nm {
-        text += &format!(" --wavelengths {red},{green},{blue}");
-    }
-    if sight.beyond == Extrapolate::Hold {
-        text += " --extrapolate hold";
-    }
-    text
 }
 
 /// The file that these words name, if any: one of a run's inputs.

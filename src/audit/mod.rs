@@ -39,7 +39,7 @@ use crate::process::Surroundings;
 pub use bind::Given;
 pub use edges::EdgeRow;
 pub use language::Language;
-pub use row::{ArgumentValue, AuditRow, CostRow, Dominating, PerceivedFigures, file_name};
+pub use row::{ArgumentValue, AuditRow, CostRow, Dominating, PerceivedFigures};
 pub use serve::serve;
 
 use bind::Bound;

@@ -198,7 +198,7 @@ impl Audited<'_> {
             form: "user",
             precision: "f32",
             function: function.clone(),
-            file: file_name(&self.audit.file).to_owned(),
+            file: crate::emit::file_name(&self.audit.file).to_owned(),
             arguments: self.bound.arguments.iter().map(argument_value).collect(),
             filled: self.bound.filled(),
             device: ran.map(|ran| ran.device.clone()),
@@ -295,11 +295,6 @@ impl Audited<'_> {
         });
         each.collect()
     }
-}
-
-/// A file without the folders of this machine.
-pub fn file_name(file: &str) -> &str {
-    file.rsplit(['/', '\\']).next().unwrap_or(file)
 }
 
 fn argument_value(argument: &Argument) -> (String, ArgumentValue) {

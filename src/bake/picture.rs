@@ -2,8 +2,7 @@
 
 use crate::app::artifact::TABLES;
 use crate::app::error::Error;
-use crate::app::names::quoted;
-use crate::emit::{MARK, comment_lines};
+use crate::emit::{MARK, comment_lines, quoted};
 use crate::fit::ModelError;
 use crate::ir::Weights;
 use crate::lut::{Axis, Between, Depth, Format, Picture, Stored, Table, table_error};

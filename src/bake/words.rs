@@ -1,8 +1,6 @@
 //! A bake as a user types it: its flags, each with a space before it.
 
-use crate::app::names::quoted;
-use crate::app::sight::flags as sight_flags;
-use crate::emit::Naming;
+use crate::emit::{Naming, quoted, sight_flags};
 use crate::materials::Sight;
 use crate::targets::Target;
 

@@ -6,6 +6,7 @@
 mod average;
 mod bounds;
 mod catalogue;
+mod command;
 mod comment;
 mod error;
 mod file;
@@ -19,6 +20,7 @@ mod wgsl;
 pub use average::{AVERAGE, Average, average_functions};
 pub use bounds::{Bounds, CodeBound, PLAIN_ULP, fingerprint, half_record, sha256};
 pub use catalogue::{Better, CATALOGUE, Row, catalogue, methods_of};
+pub use command::{CommandLine, file_name, quoted, sight_flags, surface_flags};
 pub use comment::lines as comment_lines;
 pub use error::Error;
 pub use file::{File, Place, library, lookup, material, single, uniform_offsets, written_for};

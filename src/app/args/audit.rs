@@ -4,6 +4,9 @@ use std::path::PathBuf;
 
 use clap::Args;
 
+use crate::emit::{CommandLine, file_name};
+use crate::materials::Sight;
+
 use super::SightFlags;
 
 /// The flags of `audit`.
@@ -65,4 +68,22 @@ pub struct AuditFlags {
     /// Compile and run what is handed over
     #[arg(long, hide = true)]
     pub worker: bool,
+}
+
+impl AuditFlags {
+    /// The command that reports this again under these viewing conditions, without places.
+    pub fn command_line(&self, sight: &Sight) -> CommandLine {
+        let file = self.file.as_deref().unwrap_or_default();
+        let command = CommandLine::new("audit")
+            .argument(file_name(file))
+            .list("language", &self.language)
+            .list("function", &self.function);
+        let arguments = self.arg.iter();
+        arguments
+            .fold(command, |command, one| command.list("arg", [one]))
+            .list("material", &self.material)
+            .list("medium", &self.medium)
+            .seen_as(sight)
+            .list("gpu", &self.gpu)
+    }
 }

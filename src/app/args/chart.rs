@@ -4,6 +4,8 @@ use std::path::PathBuf;
 
 use clap::Args;
 
+use crate::emit::CommandLine;
+
 /// The flags of charts.
 #[derive(Args, Debug)]
 #[command(
@@ -34,4 +36,18 @@ pub struct ChartFlags {
     /// Write the report as JSON to this file, or `-` for stdout
     #[arg(long, value_name = "FILE")]
     pub json: Option<PathBuf>,
+}
+
+impl ChartFlags {
+    /// The command that reports this again, without places.
+    pub fn command_line(&self) -> CommandLine {
+        let unless =
+            |value: &String, usual: &str| Some(value.clone()).filter(|value| value != usual);
+        CommandLine::new("chart")
+            .list("material", &self.material)
+            .list("show", &self.show)
+            .list("of", unless(&self.of, "median"))
+            .list("gpu", unless(&self.gpu, "rdna2"))
+            .list("error", unless(&self.error, "max"))
+    }
 }

@@ -4,6 +4,8 @@ use std::path::PathBuf;
 
 use clap::Args;
 
+use crate::emit::CommandLine;
+
 /// The flags of `cost`.
 #[derive(Args, Debug)]
 #[command(
@@ -46,4 +48,15 @@ pub struct CostFlags {
     /// Answer shaders with what this family's compiler says
     #[arg(long, hide = true, value_name = "NAME")]
     pub worker: Option<String>,
+}
+
+impl CostFlags {
+    /// The command that reports this again, without places.
+    pub fn command_line(&self) -> CommandLine {
+        CommandLine::new("cost")
+            .list("gpu", &self.gpu)
+            .list("method", &self.method)
+            .list("material", &self.material)
+            .list("precision", &self.precision)
+    }
 }

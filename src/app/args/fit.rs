@@ -4,6 +4,10 @@ use std::path::PathBuf;
 
 use clap::Args;
 
+use crate::emit::CommandLine;
+use crate::fit::Weight;
+use crate::materials::Sight;
+
 use super::SightFlags;
 
 /// The flags of fits.
@@ -52,4 +56,22 @@ pub struct FitFlags {
     /// Write the report as JSON to this file, or `-` for stdout
     #[arg(long, value_name = "FILE")]
     pub json: Option<PathBuf>,
+}
+
+impl FitFlags {
+    /// The command that reports this again under these viewing conditions, without places.
+    pub fn command_line(&self, sight: &Sight) -> CommandLine {
+        let weight = Some(&self.weight).filter(|name| *name != Weight::default().name());
+        CommandLine::new("fit")
+            .switch("search", self.search)
+            .list("material", &self.material)
+            .list("terms", self.terms)
+            .list("weight", weight)
+            .list("exact", &self.exact)
+            .list("precision", &self.precision)
+            .list("f0", &self.f0)
+            .list("f82", &self.f82)
+            .list("medium", &self.medium)
+            .seen_as(sight)
+    }
 }

@@ -4,6 +4,8 @@ use std::path::PathBuf;
 
 use clap::Args;
 
+use crate::emit::CommandLine;
+
 /// The flags of `stability`.
 #[derive(Args, Debug)]
 #[command(
@@ -28,4 +30,14 @@ pub struct StabilityFlags {
     /// Write the report as JSON to this file, or `-` for stdout
     #[arg(long, value_name = "FILE")]
     pub json: Option<PathBuf>,
+}
+
+impl StabilityFlags {
+    /// The command that reports this again, without places.
+    pub fn command_line(&self) -> CommandLine {
+        CommandLine::new("stability")
+            .list("method", &self.method)
+            .list("material", &self.material)
+            .list("precision", &self.precision)
+    }
 }

@@ -4,6 +4,8 @@ use std::path::PathBuf;
 
 use clap::Args;
 
+use crate::emit::CommandLine;
+
 /// The flags of `time`.
 #[derive(Args, Debug)]
 #[command(
@@ -52,4 +54,21 @@ pub struct TimeFlags {
     /// Draw what is asked for, and answer with readings
     #[arg(long, hide = true)]
     pub worker: bool,
+}
+
+impl TimeFlags {
+    /// The command that reports this again, without places.
+    pub fn command_line(&self) -> CommandLine {
+        CommandLine::new("time")
+            .list("method", &self.method)
+            .list("material", &self.material)
+            .list("precision", &self.precision)
+            .list("adapter", &self.adapter)
+            .list("backend", &self.backend)
+            .switch("hardware", self.hardware)
+            .list("clock", &self.clock)
+            .list("size", self.size)
+            .number("evaluations", self.evaluations)
+            .number("rounds", self.rounds)
+    }
 }

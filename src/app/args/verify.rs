@@ -4,6 +4,10 @@ use std::path::PathBuf;
 
 use clap::Args;
 
+use crate::emit::CommandLine;
+use crate::materials::Sight;
+use crate::num::Precision;
+
 use crate::app::precision::PrecisionFlags;
 
 use super::SightFlags;
@@ -74,4 +78,24 @@ pub struct VerifyFlags {
     /// Read numbers of files and answer with rows
     #[arg(long, hide = true)]
     pub worker: bool,
+}
+
+impl VerifyFlags {
+    /// The command that reports this again under these viewing conditions, without places.
+    pub fn command_line(&self, sight: &Sight) -> CommandLine {
+        let is_half = self.precision.precision.as_deref() == Some(Precision::F16.name());
+        let points = (!self.exhaustive && !is_half).then_some(self.points);
+        CommandLine::new("verify")
+            .list("target", &self.target)
+            .list("method", &self.method)
+            .list("material", &self.material)
+            .list("medium", &self.medium)
+            .seen_as(sight)
+            .list("precision", &self.precision.precision)
+            .switch("force", self.precision.force)
+            .list("adapter", &self.adapter)
+            .list("backend", &self.backend)
+            .switch("exhaustive", self.exhaustive)
+            .list("points", points)
+    }
 }

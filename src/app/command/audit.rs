@@ -4,12 +4,12 @@ use std::path::{Path, PathBuf};
 
 use crate::app::args::AuditFlags;
 use crate::app::error::Error;
-use crate::app::names::{family, flag};
+use crate::app::names::family;
 use crate::app::request::{Materials, Request};
-use crate::app::sight::{flags as sight_flags, sight};
+use crate::app::sight::sight;
 use crate::app::source::{materials, shader, source};
 use crate::app::write::{try_places_of_ours, write_file};
-use crate::audit::{Audit, AuditRow, Given, Language, file_name, serve};
+use crate::audit::{Audit, AuditRow, Given, Language, serve};
 use crate::cost::{FAMILIES, Family};
 use crate::reference::Subject;
 use crate::report::Report;
@@ -44,7 +44,7 @@ pub fn run(flags: &AuditFlags, progress: Progress) -> Result<Output, Error> {
     let subjects: Vec<Subject> = subjects.ready.into_iter().map(|(one, _)| one).collect();
     let rows = subjects.iter().map(|one| audit.row(one, progress));
     let rows: Vec<AuditRow> = rows.collect::<Result<_, _>>()?;
-    let command = canonical(flags, &request);
+    let command = String::from(flags.command_line(&request.sight));
     if let Some(file) = &flags.junit {
         let cases = rows.iter().map(AuditRow::junit_case);
         let xml = junit("fresnel-gen audit", cases).map_err(|what| Error::Usage { what })?;
@@ -150,24 +150,4 @@ fn code(rows: &[AuditRow]) -> u8 {
         (_, true) => 3,
         _ => 0,
     }
-}
-
-/// The run's flags in one order, without places.
-fn canonical(flags: &AuditFlags, request: &Request) -> String {
-    let one = |name: &str, word: &Option<String>| flag(name, word.as_slice());
-    let name = file_name(flags.file.as_deref().unwrap_or_default());
-    let arguments = flags.arg.iter();
-    let arguments: String = arguments
-        .map(|word| flag("arg", std::slice::from_ref(word)))
-        .collect();
-    format!(
-        "audit {}{}{}{arguments}{}{}{}{}",
-        crate::app::names::quoted(name),
-        one("language", &flags.language),
-        one("function", &flags.function),
-        flag("material", &flags.material),
-        one("medium", &flags.medium),
-        sight_flags(&request.sight),
-        flag("gpu", &flags.gpu)
-    )
 }

@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use crate::app::args::ChartFlags;
 use crate::app::error::Error;
-use crate::app::names::{flag, unknown};
+use crate::app::names::unknown;
 use crate::app::request::{Materials, Request};
 use crate::app::source::materials;
 use crate::app::write::{try_places_of_ours, write_report};
@@ -39,7 +39,13 @@ pub fn run(flags: &ChartFlags, progress: Progress) -> Result<Output, Error> {
         .collect();
     check_shown(flags, &subjects)?;
     let space = request.sight.integration.space;
-    let data = data(&subjects, space, None, canonical(flags), progress);
+    let data = data(
+        &subjects,
+        space,
+        None,
+        flags.command_line().into(),
+        progress,
+    );
     let set = set(flags, &data)?;
     let view = View {
         data: &data,
@@ -47,7 +53,7 @@ pub fn run(flags: &ChartFlags, progress: Progress) -> Result<Output, Error> {
         cost: &data.costs[cost],
         error,
     };
-    let json = Report::new(canonical(flags), view.json());
+    let json = Report::new(flags.command_line(), view.json());
     let drawn = match folder {
         Some(folder) => written(folder, flags.overwrite, &view, [set, cost, error])?,
         None => Vec::new(),
@@ -142,25 +148,4 @@ fn check_shown(flags: &ChartFlags, subjects: &[Subject]) -> Result<(), Error> {
     let alone = subjects.iter().map(|subject| subject.argument.as_str());
     let all: Vec<&str> = CLASSES.into_iter().chain(alone).collect();
     place("material", show, &all).map(|_| ())
-}
-
-/// The command without places, and without what stands there anyway.
-fn canonical(flags: &ChartFlags) -> String {
-    let one = |name: &str, value: &str, usual: &str| {
-        let words = if value == usual {
-            vec![]
-        } else {
-            vec![value.to_owned()]
-        };
-        flag(name, &words)
-    };
-    let show: Vec<String> = flags.show.iter().cloned().collect();
-    format!(
-        "chart{}{}{}{}{}",
-        flag("material", &flags.material),
-        flag("show", &show),
-        one("of", &flags.of, "median"),
-        one("gpu", &flags.gpu, "rdna2"),
-        one("error", &flags.error, "max"),
-    )
 }

@@ -2,7 +2,7 @@
 
 use crate::app::args::CostFlags;
 use crate::app::error::Error;
-use crate::app::names::{family, flag};
+use crate::app::names::family;
 use crate::app::precision::several;
 use crate::app::request::Request;
 use crate::app::source::materials;
@@ -50,7 +50,7 @@ pub fn run(flags: &CostFlags, progress: Progress) -> Result<Output, Error> {
         .map(|(family, told)| cost_rows(family, told.as_ref(), &records(family.name), &functions))
         .collect();
     let json = Report::new(
-        canonical(flags),
+        flags.command_line(),
         table.iter().flatten().collect::<Vec<&CostRow>>(),
     );
     let (text, checked) = if flags.check {
@@ -218,21 +218,12 @@ fn paged(flags: &CostFlags, table: &[Vec<CostRow>]) -> Result<Vec<String>, Error
     let Some(folder) = &flags.out_dir else {
         return Ok(Vec::new());
     };
-    let page = cost_report::page(table, &canonical(flags)).map_err(|what| Error::Usage { what })?;
+    let page = cost_report::page(table, &String::from(flags.command_line()))
+        .map_err(|what| Error::Usage { what })?;
     let file = folder.join(PAGE);
     let old = write_report(&[(file.clone(), page.as_bytes())], flags.overwrite)?;
     let said = format!("{}: a page with all figures", file.display());
     Ok(replaced(&old).chain([said]).collect())
-}
-
-fn canonical(flags: &CostFlags) -> String {
-    format!(
-        "cost{}{}{}{}",
-        flag("gpu", &flags.gpu),
-        flag("method", &flags.method),
-        flag("material", &flags.material),
-        flag("precision", &flags.precision)
-    )
 }
 
 fn families(names: &[String]) -> Result<Vec<&'static Family>, Error> {

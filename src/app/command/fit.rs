@@ -2,10 +2,10 @@
 
 use crate::app::args::FitFlags;
 use crate::app::error::Error;
-use crate::app::names::{family, flag, quoted, unknown};
+use crate::app::names::{family, unknown};
 use crate::app::precision::named;
 use crate::app::request::{Materials, Request};
-use crate::app::sight::{flags as sight_flags, sight};
+use crate::app::sight::sight;
 use crate::app::source::{materials, source};
 use crate::cost::{Family, library_cost, records};
 use crate::emit::missed;
@@ -34,7 +34,10 @@ pub fn run(flags: &FitFlags, progress: Progress) -> Result<Output, Error> {
     } else {
         (of_colours(flags, aim, &forms)?, Vec::new())
     };
-    let json = Report::new(canonical(flags)?, rows.iter().map(Row::json).collect());
+    let json = Report::new(
+        flags.command_line(&sight(&flags.sight.words(None))?),
+        rows.iter().map(Row::json).collect(),
+    );
     let mut output = report(text(&rows, &flags.gpu), &json, flags.json.as_deref())?;
     output.remarks = left_out;
     Ok(output)
@@ -247,36 +250,4 @@ fn colour(name: &str, numbers: &[f64]) -> Result<[f64; 3], Error> {
     three.ok_or_else(|| Error::Usage {
         what: format!("--{name} is three reflectances from 0 to 1, linear: --{name} 0.9,0.6,0.3"),
     })
-}
-
-pub(super) fn canonical(flags: &FitFlags) -> Result<String, Error> {
-    let terms: Vec<String> = flags.terms.iter().map(usize::to_string).collect();
-    let numbers = |numbers: &[f64]| {
-        let words: Vec<String> = numbers.iter().map(f64::to_string).collect();
-        if words.is_empty() {
-            vec![]
-        } else {
-            vec![words.join(",")]
-        }
-    };
-    let plain = |name: &str, words: Vec<String>| {
-        let words = words.first().map(|word| format!(" --{name} {word}"));
-        words.unwrap_or_default()
-    };
-    let weight = Some(flags.weight.clone()).filter(|name| name != Weight::default().name());
-    let weight = weight.into_iter().collect();
-    let medium = flags.medium.as_deref().map(quoted).into_iter().collect();
-    Ok(format!(
-        "fit{}{}{}{}{}{}{}{}{}{}",
-        if flags.search { " --search" } else { "" },
-        flag("material", &flags.material),
-        plain("terms", terms),
-        plain("weight", weight),
-        flag("exact", &flags.exact),
-        flag("precision", flags.precision.as_slice()),
-        plain("f0", numbers(&flags.f0)),
-        plain("f82", numbers(&flags.f82)),
-        plain("medium", medium),
-        sight_flags(&sight(&flags.sight.words(None))?),
-    ))
 }

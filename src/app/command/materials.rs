@@ -6,11 +6,12 @@ use serde_json::{Value, json};
 
 use crate::app::args::{FilterFlags, MaterialsCommand, MaterialsFlags, ShowFlags};
 use crate::app::error::Error;
-use crate::app::names::{quoted, unknown};
+use crate::app::names::unknown;
 use crate::app::request::{Loaded, check_transparent, load};
-use crate::app::sight::{flags, sight};
+use crate::app::sight::sight;
 use crate::app::source::source;
 use crate::app::write::write_file;
+use crate::emit::CommandLine;
 use crate::materials::{self, Extrapolate, Kind, Material, Sight};
 use crate::report::material_sheet::material_sheet;
 use crate::report::table;
@@ -188,16 +189,12 @@ const PNG_SCALE: f32 = 2.0;
 
 /// The command that draws it again, without the output's place.
 fn command(loaded: &Loaded, medium: Option<&Loaded>, sight: &Sight) -> String {
-    let name = &loaded.argument;
-    let medium = medium.map_or(String::new(), |medium| {
-        format!(" --medium {}", quoted(&medium.argument))
-    });
-    format!(
-        "fresnel-gen materials show {}{medium}{} --svg {}.svg",
-        quoted(name),
-        flags(sight),
-        loaded.material.name
-    )
+    CommandLine::new("fresnel-gen materials show")
+        .argument(&loaded.argument)
+        .list("medium", medium.map(|medium| &medium.argument))
+        .seen_as(sight)
+        .list("svg", [format!("{}.svg", loaded.material.name)])
+        .into()
 }
 
 /// A medium by its name or file, which must be transparent.

@@ -12,8 +12,9 @@ use crate::report::Report;
 use crate::report::frontier::{CLASSES, class};
 use crate::report::search::{Errors, Told, json, text};
 
-use super::fit::{canonical, subjects};
+use super::fit::subjects;
 use super::{Output, Progress, report, try_places};
+use crate::app::sight::sight;
 
 /// Searches.
 pub(super) fn run(
@@ -39,7 +40,10 @@ pub(super) fn run(
     }
     let record = records(gpu.name);
     let cost = |method: &Method| library_cost(method, gpu, &record);
-    let json = Report::new(canonical(flags)?, json(&told, &terms, aim, &cost));
+    let json = Report::new(
+        flags.command_line(&sight(&flags.sight.words(None))?),
+        json(&told, &terms, aim, &cost),
+    );
     let text = text(&told, &terms, gpu.name, &cost);
     let mut output = report(text, &json, flags.json.as_deref())?;
     output.remarks = remarks;

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use crate::app::args::StabilityFlags;
 use crate::app::error::Error;
-use crate::app::names::{flag, unknown};
+use crate::app::names::unknown;
 use crate::app::precision::named;
 use crate::app::request::Request;
 use crate::app::source::materials;
@@ -50,7 +50,7 @@ pub fn run(flags: &StabilityFlags, progress: Progress) -> Result<Output, Error> 
         let what = "there is nothing to scan: no such method for these materials".to_owned();
         return Err(Error::Usage { what });
     }
-    let json = Report::new(canonical(flags), rows.clone());
+    let json = Report::new(flags.command_line(), rows.clone());
     let drawn = asked.drawn(&rows, progress)?;
     let mut output = report(stability_text(&rows), &json, flags.json.as_deref())?;
     output.remarks.extend(left_out);
@@ -128,7 +128,8 @@ impl Asked<'_> {
                 pictures.push((method.name, map.axis.name, picture));
             }
         }
-        let page = page(rows, &pictures, &canonical(self.flags)).map_err(failed)?;
+        let page =
+            page(rows, &pictures, &String::from(self.flags.command_line())).map_err(failed)?;
         let suffix = self.study.precision.suffix();
         let path = |method: &str, over: &str| folder.join(format!("{method}_{over}{suffix}.png"));
         let mut files: Vec<(PathBuf, &[u8])> = pictures
@@ -145,13 +146,4 @@ impl Asked<'_> {
         );
         Ok(replaced(&old).chain([said]).collect())
     }
-}
-
-fn canonical(flags: &StabilityFlags) -> String {
-    format!(
-        "stability{}{}{}",
-        flag("method", &flags.method),
-        flag("material", &flags.material),
-        flag("precision", flags.precision.as_slice())
-    )
 }

@@ -6,8 +6,9 @@ use serde_json::Value;
 
 use crate::app::args::SurveyFlags;
 use crate::app::error::Error;
-use crate::app::sight::{flags as sight_flags, sight};
+use crate::app::sight::sight;
 use crate::app::source::{pages, read};
+use crate::emit::CommandLine;
 use crate::materials::Sight;
 use crate::report::Report;
 use crate::report::survey::{Outcome, Surveyed, survey, text};
@@ -33,7 +34,7 @@ pub fn run(flags: &SurveyFlags, json: Option<&Path>, progress: Progress) -> Resu
         all.push(surveyed(&flags.folder, file, &sight));
     }
     let rows: Vec<Value> = all.iter().map(Surveyed::json).collect();
-    let full = Report::new(format!("materials survey{}", sight_flags(&sight)), rows);
+    let full = Report::new(CommandLine::new("materials survey").seen_as(&sight), rows);
     report(text(&all), &full, json)
 }
 

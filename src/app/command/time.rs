@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 
 use crate::app::args::TimeFlags;
 use crate::app::error::Error;
-use crate::app::names::{flag, unknown};
+use crate::app::names::unknown;
 use crate::app::source::materials;
 use crate::app::time_request::TimeRequest;
 use crate::cost::BLOCKS;
@@ -71,7 +71,13 @@ pub fn run(flags: &TimeFlags, progress: Progress) -> Result<Output, Error> {
         Error::Lacking { what }
     })?;
     let rows = time_rows(&timed, &worker.device, &measured);
-    let times = TimeReport::new(canonical(flags), &timed, &worker.device, &measured, &rows);
+    let times = TimeReport::new(
+        flags.command_line().into(),
+        &timed,
+        &worker.device,
+        &measured,
+        &rows,
+    );
     let mut output = report(times.text(), &times, flags.json.as_deref())?;
     output.remarks = remarks(&timed, &measured, &rows, clock);
     output.code = code(flags, &rows);
@@ -181,22 +187,4 @@ fn code(flags: &TimeFlags, rows: &[TimeRow]) -> u8 {
     } else {
         0
     }
-}
-
-/// The run's flags in one order, without places.
-fn canonical(flags: &TimeFlags) -> String {
-    let one = |name: &str, word: &Option<String>| flag(name, word.as_slice());
-    let size = flags.size.map(|size| size.to_string());
-    let hardware = if flags.hardware { " --hardware" } else { "" };
-    let mut command = "time".to_owned();
-    command += &flag("method", &flags.method);
-    command += &flag("material", &flags.material);
-    command += &flag("precision", &flags.precision);
-    command += &one("adapter", &flags.adapter);
-    command += &one("backend", &flags.backend);
-    command += hardware;
-    command += &one("clock", &flags.clock);
-    command += &one("size", &size);
-    let (evaluations, rounds) = (flags.evaluations, flags.rounds);
-    command + &format!(" --evaluations {evaluations} --rounds {rounds}")
 }

@@ -4,9 +4,9 @@ use std::collections::BTreeSet;
 
 use crate::app::args::VerifyFlags;
 use crate::app::error::Error;
-use crate::app::names::{flag, unknown};
+use crate::app::names::unknown;
 use crate::app::request::Request;
-use crate::app::sight::{flags as sight_flags, sight};
+use crate::app::sight::sight;
 use crate::app::source::{materials, source};
 use crate::app::verify::plan_of_request;
 use crate::app::write::write_file;
@@ -130,7 +130,8 @@ fn reported(
         let xml = junit("fresnel-gen verify", cases).map_err(|what| Error::Usage { what })?;
         write_file(file, xml.as_bytes())?;
     }
-    let full = Report::new(canonical(flags, request), rows.to_vec()).with_device(devices(rows));
+    let full =
+        Report::new(flags.command_line(&request.sight), rows.to_vec()).with_device(devices(rows));
     let mut output = report(verify_text(rows), &full, flags.json.as_deref())?;
     output
         .remarks
@@ -157,26 +158,4 @@ fn code(flags: &VerifyFlags, rows: &[VerifyRow]) -> u8 {
     } else {
         0
     }
-}
-
-/// The run's flags in one order, without places.
-fn canonical(flags: &VerifyFlags, request: &Request) -> String {
-    let one = |name: &str, word: &Option<String>| flag(name, word.as_slice());
-    let mut command = "verify".to_owned();
-    command += &flag("target", &flags.target);
-    command += &flag("method", &flags.method);
-    command += &flag("material", &flags.material);
-    command += &one("medium", &flags.medium);
-    command += &sight_flags(&request.sight);
-    command += &flags.precision.words();
-    command += &one("adapter", &flags.adapter);
-    command += &one("backend", &flags.backend);
-    command
-        + &if flags.exhaustive {
-            " --exhaustive".to_owned()
-        } else if request.precision.is_half() {
-            String::new()
-        } else {
-            format!(" --points {}", flags.points)
-        }
 }

@@ -5,7 +5,7 @@ mod written;
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use crate::emit::{self, Bounds, Emitted, File, NAGA_VERSION, Naming, Place};
+use crate::emit::{self, Bounds, CommandLine, Emitted, File, NAGA_VERSION, Naming, Place};
 use crate::materials::Unseen;
 use crate::methods::{self, Method};
 use crate::num::Precision;
@@ -15,10 +15,8 @@ use crate::targets::Target;
 use super::artifact::{Artifact, sha256};
 use super::error::Error;
 use super::manifest::{Input, Provenance};
-use super::names::quoted;
 use super::request::{Materials, Request, Subjects};
 use super::scope::Scope;
-use super::sight;
 use owners::Owners;
 
 /// What a request comes to.
@@ -288,32 +286,27 @@ impl<'r> Run<'r> {
         methods: Option<&[&str]>,
         subject: Option<&Subject>,
     ) -> String {
-        let mut command = format!("fresnel-gen --target {}", target.name);
-        if let Some(methods) = methods {
-            command += &format!(" --method {}", methods.join(","));
-        }
-        if let Some(subject) = subject {
-            command += &format!(" --material {}", quoted(&subject.argument));
-            if let Some((argument, _)) = &subject.medium {
-                command += &format!(" --medium {}", quoted(argument));
-            }
-        }
-        if self.request.prefix != Naming::default().prefix {
-            command += &format!(" --prefix {}", quoted(&self.request.prefix));
-        }
-        if self.request.precision != Precision::default() {
-            command += &format!(" --precision {}", self.request.precision.name());
-        }
-        if self.request.force && self.request.precision.is_half() {
-            command += " --force";
-        }
-        if let Some(subject) = subject {
-            command += &sight::flags_for(&self.request.sight, &subject.truth.surface);
-        }
-        if let (Some(_), Some(degrees)) = (subject, self.request.matching_angle) {
-            command += &format!(" --matching-angle {degrees}");
-        }
-        command
+        let request = self.request;
+        let prefix = Some(&request.prefix).filter(|prefix| **prefix != Naming::default().prefix);
+        let precision =
+            Some(request.precision).filter(|precision| *precision != Precision::default());
+        let medium = subject.and_then(|subject| subject.medium.as_ref());
+        let seen =
+            subject.map(|subject| emit::surface_flags(&request.sight, &subject.truth.surface));
+        CommandLine::new("fresnel-gen")
+            .list("target", [target.name])
+            .list("method", methods.into_iter().flatten())
+            .list("material", subject.map(|subject| &subject.argument))
+            .list("medium", medium.map(|(argument, _)| argument))
+            .list("prefix", prefix)
+            .list("precision", precision.map(Precision::name))
+            .switch("force", request.force && request.precision.is_half())
+            .with(&seen.unwrap_or_default())
+            .list(
+                "matching-angle",
+                request.matching_angle.filter(|_| subject.is_some()),
+            )
+            .into()
     }
 
     fn scope(&self) -> Scope {
