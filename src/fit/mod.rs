@@ -10,6 +10,7 @@ mod derive;
 mod exact;
 mod fitted;
 mod measured;
+mod method_errors;
 mod minimax;
 mod model_error;
 mod over;
@@ -18,6 +19,7 @@ mod perceived;
 mod rival;
 mod rounded;
 mod search;
+mod shape_choice;
 mod texels;
 mod weight;
 
@@ -27,6 +29,7 @@ pub use derive::{fitted_for, fitted_values, inputs_in, inputs_of, known, values,
 pub use exact::Exact;
 pub use fitted::{Aim, Curve, Fit, Task, basis};
 pub use measured::Measured;
+pub use method_errors::{Inputs, MethodErrors};
 pub use minimax::{Minimax, minimax};
 pub use model_error::{
     ModelError, error_from, error_of, model_error, rounded_up, single_error, thesis_errors,
@@ -36,5 +39,6 @@ pub use params::{BOUNCES, Params, abbe, colour_errors, ior_d, params};
 pub use perceived::{Perceived, perceived};
 pub use rival::{best_inputs, values_at};
 pub use search::{Tried, search};
+pub use shape_choice::{ErrorQuantiles, LeaveOneOut, TriedShapes};
 pub use texels::{arguments, table_of, texels};
 pub use weight::Weight;

@@ -2,8 +2,7 @@
 
 use serde_json::{Value, json};
 
-use super::frontier::figure;
-use super::table;
+use super::table::{self, short_number};
 use crate::cost::{CostAndError, pareto_frontier};
 use crate::emit::Missed;
 use crate::fit::{Aim, Follows, Weight};
@@ -138,13 +137,13 @@ fn measure(aim: Aim) -> impl Iterator<Item = Column> {
 const SHOWN: usize = 6;
 
 fn cells(row: &Row, is_best: bool) -> Vec<String> {
-    let shown = |value: Option<f64>| value.map_or_else(String::new, figure);
+    let shown = |value: Option<f64>| value.map_or_else(String::new, short_number);
     let mut cells = vec![
         if is_best { "*" } else { "" }.to_owned(),
         row.name().to_owned(),
         row.method.name.to_owned(),
         row.coefficients.len().to_string(),
-        figure(row.max_abs),
+        short_number(row.max_abs),
     ];
     cells.extend(measure(row.aim).map(|(_, value)| shown(value(row))));
     cells.push(shown(row.mean_rel.map(|share| 100.0 * share)));

@@ -3,7 +3,7 @@
 use tera::{Context, Tera};
 
 /// A page, or why it cannot be made. What is put in is escaped.
-pub fn page(template: &str, context: &Context) -> Result<String, String> {
+pub fn fill(template: &str, context: &Context) -> Result<String, String> {
     let mut tera = Tera::new();
     tera.autoescape_on(vec![".tera"]);
     let rendered = tera

@@ -25,11 +25,3 @@ pub mod time;
 pub mod verify;
 
 pub use envelope::{Origin, Report, SCHEMA, TOOL};
-
-/// A class of materials in words: `metals`, with semiconductors, or `dielectrics`.
-pub fn class_title(class: &str) -> &'static str {
-    match class {
-        "metals" => "metals and semiconductors",
-        _ => "dielectrics, n of 1.2 and more",
-    }
-}

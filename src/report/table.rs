@@ -43,3 +43,39 @@ fn padded(cell: &str, width: usize) -> String {
         cell.to_owned() + &space
     }
 }
+
+/// Three digits that count.
+pub fn short_number(value: f64) -> String {
+    if value == 0.0 || !value.is_finite() {
+        return format!("{value}");
+    }
+    let digits = (2.0 - libm::floor(libm::log10(value.abs()))).clamp(0.0, 9.0) as usize;
+    let long = format!("{value:.digits$}");
+    let is_fraction = long.contains('.');
+    let short = if is_fraction {
+        long.trim_end_matches('0').trim_end_matches('.')
+    } else {
+        &long
+    };
+    short.to_owned()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::short_number;
+
+    #[test]
+    fn numbers_keep_three_digits() {
+        for (value, wanted) in [
+            (0.0019234, "0.00192"),
+            (21.0, "21"),
+            (146.25, "146"),
+            (0.5, "0.5"),
+            (62.345, "62.3"),
+            (1e-6, "0.000001"),
+            (120.0, "120"),
+        ] {
+            assert_eq!(short_number(value), wanted);
+        }
+    }
+}

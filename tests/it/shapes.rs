@@ -5,9 +5,10 @@ use std::collections::BTreeSet;
 use std::fmt::Write;
 use std::path::Path;
 
-use fresnel_gen::fit::{Aim, Candidate, Curve, Exact, Task, Tried, candidates, search};
+use fresnel_gen::fit::{
+    Aim, Candidate, Curve, ErrorQuantiles, Exact, Task, Tried, TriedShapes, candidates, search,
+};
 use fresnel_gen::reference::Subject;
-use fresnel_gen::report::search::{Errors, Figures};
 
 use super::fits::{catalogue, is_promised};
 
@@ -30,17 +31,17 @@ fn shipped() -> Vec<Candidate> {
     all.filter(metals).collect()
 }
 
-fn line(record: &mut String, what: &str, shape: &str, figures: &Figures) {
-    let Figures {
+fn line(record: &mut String, what: &str, shape: &str, figures: &ErrorQuantiles) {
+    let ErrorQuantiles {
         median,
         p90,
         worst,
-        median_vote,
-        p90_vote,
+        median_by_substance,
+        p90_by_substance,
     } = figures;
     let _ = writeln!(
         record,
-        "{what},{shape},{median:.3e},{p90:.3e},{worst:.3e},{median_vote:.3e},{p90_vote:.3e}"
+        "{what},{shape},{median:.3e},{p90:.3e},{worst:.3e},{median_by_substance:.3e},{p90_by_substance:.3e}"
     );
 }
 
@@ -76,16 +77,16 @@ fn what_shapes_are_worth_is_recorded() {
                 &mut record,
                 what,
                 name,
-                &Figures::of(&one.errors, &substances),
+                &ErrorQuantiles::new(&one.errors, &substances),
             );
         }
     }
     for terms in [4, 5] {
-        let errors = Errors {
+        let errors = TriedShapes {
             substances: substances.clone(),
             tried: tried(&candidates(terms), &curves, Aim::default()),
         };
-        let found = errors.left_out(terms).expect("many substances");
+        let found = errors.leave_one_out(terms).expect("many substances");
         let shape = found.choice.shape.to_string();
         line(
             &mut record,

@@ -14,7 +14,7 @@ use crate::cost::{FAMILIES, Family};
 use crate::reference::Subject;
 use crate::report::Report;
 use crate::report::audit::{audit_remarks, audit_text};
-use crate::report::frontier::{CostAxis, OF, View, charted_function, data};
+use crate::report::frontier::{CostAxis, STATISTICS, View, chart_data, charted_function};
 use crate::spectra::Space;
 use crate::verify::{Status, junit, machine};
 
@@ -79,11 +79,11 @@ fn charted(
     let Some(own) = charted_function(rows) else {
         return Ok(Vec::new());
     };
-    let data = data(subjects, space, Some(&own), command, progress);
+    let data = chart_data(subjects, space, Some(&own), command, progress);
     let is_known = |cost: &CostAxis| own.costs.contains_key(cost.name);
     let cost = data.costs.iter().position(is_known);
     let cost = cost.or_else(|| data.costs.iter().position(|cost| cost.name == USUAL[0]));
-    let (set, cost) = (chart::usual_set(&data, OF[0]), cost.unwrap_or(0));
+    let (set, cost) = (chart::usual_set(&data, STATISTICS[0]), cost.unwrap_or(0));
     let view = View {
         data: &data,
         set: &data.sets[set],

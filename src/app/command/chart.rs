@@ -8,9 +8,12 @@ use crate::app::names::unknown;
 use crate::app::request::{Materials, Request};
 use crate::app::source::materials;
 use crate::app::write::{try_places_of_ours, write_report};
-use crate::reference::Subject;
+use crate::reference::{MaterialClass, Subject};
 use crate::report::Report;
-use crate::report::frontier::{CLASSES, Data, ERRORS, OF, View, cost_names, data, page, svg, text};
+use crate::report::frontier::{
+    Data, ERRORS, STATISTICS, View, chart_data, chart_page, chart_svg, chart_text, cost_names,
+    set_name,
+};
 
 use super::{Output, Progress, replaced, report, try_files};
 
@@ -20,7 +23,7 @@ const PAGE: &str = "chart.html";
 /// Draws.
 pub fn run(flags: &ChartFlags, progress: Progress) -> Result<Output, Error> {
     let error = place("error", &flags.error, &ERRORS.map(|error| error.name))?;
-    place("way of taking a class together", &flags.of, &OF)?;
+    place("way of taking a class together", &flags.of, &STATISTICS)?;
     let cost = place("cost", &flags.gpu, &cost_names())?;
     let folder = flags.out_dir.as_deref();
     let files = files(folder);
@@ -39,13 +42,8 @@ pub fn run(flags: &ChartFlags, progress: Progress) -> Result<Output, Error> {
         .collect();
     check_shown(flags, &subjects)?;
     let space = request.sight.integration.space;
-    let data = data(
-        &subjects,
-        space,
-        None,
-        flags.command_line().into(),
-        progress,
-    );
+    let command = flags.command_line();
+    let data = chart_data(&subjects, space, None, command.clone().into(), progress);
     let set = set(flags, &data)?;
     let view = View {
         data: &data,
@@ -53,12 +51,12 @@ pub fn run(flags: &ChartFlags, progress: Progress) -> Result<Output, Error> {
         cost: &data.costs[cost],
         error,
     };
-    let json = Report::new(flags.command_line(), view.json());
+    let json = Report::new(command, view.rows());
     let drawn = match folder {
         Some(folder) => written(folder, flags.overwrite, &view, [set, cost, error])?,
         None => Vec::new(),
     };
-    let mut output = report(text(&view), &json, flags.json.as_deref())?;
+    let mut output = report(chart_text(&view), &json, flags.json.as_deref())?;
     let left_out = found.left_out.iter();
     let left_out = left_out.map(|unseen| format!("left out: {}", unseen.why));
     output.remarks = left_out.chain(drawn).collect();
@@ -92,8 +90,8 @@ pub(super) fn written(
     view: &View,
     first: [usize; 3],
 ) -> Result<Vec<String>, Error> {
-    let page = page(view.data, first).map_err(|what| Error::Usage { what })?;
-    let picture = svg(view).ok_or_else(|| Error::Usage {
+    let page = chart_page(view.data, first).map_err(|what| Error::Usage { what })?;
+    let picture = chart_svg(view).ok_or_else(|| Error::Usage {
         what: format!(
             "nothing is known of {} on {}: there is no picture to draw",
             view.set.title, view.cost.name
@@ -117,8 +115,8 @@ fn place(kind: &'static str, name: &str, all: &[&str]) -> Result<usize, Error> {
 
 /// The set that is shown unless another is asked for: the first class of which there are two, else the first material.
 pub(super) fn usual_set(data: &Data, of: &str) -> usize {
-    let class = CLASSES.iter().find_map(|class| {
-        let name = format!("{class}-{of}");
+    let class = MaterialClass::ALL.into_iter().find_map(|class| {
+        let name = set_name(class, of);
         data.sets.iter().position(|set| set.name == name)
     });
     class.unwrap_or(0)
@@ -129,8 +127,9 @@ fn set(flags: &ChartFlags, data: &Data) -> Result<usize, Error> {
     let Some(show) = &flags.show else {
         return Ok(usual_set(data, &flags.of));
     };
-    if CLASSES.contains(&show.as_str()) {
-        let name = format!("{show}-{}", flags.of);
+    let mut classes = MaterialClass::ALL.into_iter();
+    if let Some(class) = classes.find(|class| class.name() == show) {
+        let name = set_name(class, &flags.of);
         let found = names.iter().position(|other| *other == name);
         return found.ok_or_else(|| Error::Usage {
             what: format!("--show {show} needs two {show} or more among the materials"),
@@ -146,6 +145,10 @@ fn check_shown(flags: &ChartFlags, subjects: &[Subject]) -> Result<(), Error> {
         return Ok(());
     };
     let alone = subjects.iter().map(|subject| subject.argument.as_str());
-    let all: Vec<&str> = CLASSES.into_iter().chain(alone).collect();
+    let all: Vec<&str> = MaterialClass::ALL
+        .map(MaterialClass::name)
+        .into_iter()
+        .chain(alone)
+        .collect();
     place("material", show, &all).map(|_| ())
 }

@@ -3,14 +3,13 @@
 use crate::app::args::FitFlags;
 use crate::app::error::Error;
 use crate::cost::{Family, library_cost, records};
-use crate::fit::{Aim, Candidate, Curve, Task, candidates, search};
+use crate::fit::{Aim, Candidate, Curve, Task, TriedShapes, candidates, search};
 use crate::materials::{Material, find};
 use crate::methods::Method;
 use crate::num::in_parallel;
-use crate::reference::Subject;
+use crate::reference::{MaterialClass, Subject};
 use crate::report::Report;
-use crate::report::frontier::{CLASSES, class};
-use crate::report::search::{Errors, Told, json, text};
+use crate::report::search::{SearchResult, SearchRow, search_text};
 
 use super::fit::subjects;
 use super::{Output, Progress, report, try_places};
@@ -26,25 +25,27 @@ pub(super) fn run(
     let terms = terms(flags)?;
     try_places(flags.json.as_deref(), None)?;
     let (subjects, mut remarks) = subjects(flags)?;
-    let outside = subjects.iter().filter(|subject| class(subject).is_none());
+    let outside = subjects
+        .iter()
+        .filter(|subject| MaterialClass::containing(subject).is_none());
     remarks.extend(outside.map(|subject| format!("left out: {}: {OUTSIDE}", subject.argument)));
     let shapes: Vec<Candidate> = terms.iter().flat_map(|terms| candidates(*terms)).collect();
-    let mut told = Vec::new();
-    for class in CLASSES {
-        let errors = errors(class, &subjects, &shapes, aim, progress);
-        told.extend(errors.map(|errors| Told { class, errors }));
+    let record = records(gpu.name);
+    let cost = |method: &Method| library_cost(method, gpu, &record);
+    let mut results = Vec::new();
+    for class in MaterialClass::ALL {
+        let tried = tried_shapes(class, &subjects, &shapes, aim, progress);
+        let result = |tried| SearchResult::new(class, &tried, &terms, aim.weight, &cost);
+        results.extend(tried.map(result));
     }
-    if told.is_empty() {
+    if results.is_empty() {
         let what = format!("there is no material to search shapes for: {OUTSIDE}");
         return Err(Error::Usage { what });
     }
-    let record = records(gpu.name);
-    let cost = |method: &Method| library_cost(method, gpu, &record);
-    let json = Report::new(
-        flags.command_line(&sight(&flags.sight.words(None))?),
-        json(&told, &terms, aim, &cost),
-    );
-    let text = text(&told, &terms, gpu.name, &cost);
+    let rows: Vec<SearchRow> = results.iter().flat_map(SearchResult::rows).collect();
+    let command = flags.command_line(&sight(&flags.sight.words(None))?);
+    let json = Report::new(command, rows);
+    let text = search_text(&results, gpu.name);
     let mut output = report(text, &json, flags.json.as_deref())?;
     output.remarks = remarks;
     Ok(output)
@@ -65,17 +66,17 @@ fn terms(flags: &FitFlags) -> Result<Vec<usize>, Error> {
     }
 }
 
-/// The errors of all shapes for the materials of a class; none where there are none.
-fn errors(
-    name: &str,
+/// All shapes tried on the materials of a class; none where there are none.
+fn tried_shapes(
+    class: MaterialClass,
     subjects: &[Subject],
     shapes: &[Candidate],
     aim: Aim,
     progress: Progress,
-) -> Option<Errors> {
+) -> Option<TriedShapes> {
     let own = subjects
         .iter()
-        .filter(|subject| class(subject) == Some(name));
+        .filter(|subject| MaterialClass::containing(subject) == Some(class));
     let own: Vec<&Subject> = own.collect();
     let curve = |i: usize| Curve::unclipped(&own[i]);
     let curves: Vec<Curve> = in_parallel(own.len(), &curve, &mut |done, whole| {
@@ -85,7 +86,7 @@ fn errors(
     let tried = search(shapes, &tasks, &mut |done, whole| {
         progress(done, whole, "shapes");
     });
-    (!own.is_empty() && !tried.is_empty()).then(|| Errors {
+    (!own.is_empty() && !tried.is_empty()).then(|| TriedShapes {
         substances: own
             .iter()
             .map(|subject| substance(&subject.material))

@@ -41,7 +41,7 @@ pub fn page(families: &[Vec<CostRow>], command: &str) -> Result<String, String> 
     let mut context = Context::new();
     context.insert("sections", &sections);
     context.insert("command", command);
-    html::page(TEMPLATE, &context)
+    html::fill(TEMPLATE, &context)
 }
 
 fn section(rows: &[CostRow]) -> Option<Section> {

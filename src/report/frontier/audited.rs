@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 
 use super::{Own, User};
 use crate::audit::AuditRow;
+use crate::fit::MethodErrors;
 use crate::verify::Status;
 
 /// Errors leave out cosines at which it gives no number. Above this share they are no longer those of the function.
@@ -30,20 +31,20 @@ pub fn charted_function(rows: &[AuditRow]) -> Option<Own> {
 }
 
 /// Its error on each axis; none where it was not run, or gives no number too often.
-fn errors(row: &AuditRow) -> [Option<f64>; 4] {
+fn errors(row: &AuditRow) -> MethodErrors {
     let (Some(error), Some(perceived)) = (&row.model_error, &row.perceived) else {
-        return [None; 4];
+        return MethodErrors::default();
     };
     if error.undefined as f64 > MOST_UNDEFINED * row.points.unwrap_or(0) as f64 {
-        return [None; 4];
+        return MethodErrors::default();
     }
     let known = |figure: f64| Some(figure).filter(|figure| figure.is_finite());
-    [
-        known(error.max_abs),
-        error.mean_rel.and_then(known),
-        known(perceived.luminance),
-        known(perceived.de2000),
-    ]
+    MethodErrors {
+        max_abs: known(error.max_abs),
+        mean_rel: error.mean_rel.and_then(known),
+        luminance: known(perceived.luminance),
+        de2000: known(perceived.de2000),
+    }
 }
 
 /// The cost on each family where it is known: of materials, the most. A function of single numbers is called once where channels
@@ -118,14 +119,19 @@ mod tests {
 
     #[test]
     fn a_point_is_read_from_rows() {
-        let known = [Some(0.1), None, Some(0.05), Some(3.0)];
+        let known = MethodErrors {
+            max_abs: Some(0.1),
+            mean_rel: None,
+            luminance: Some(0.05),
+            de2000: Some(3.0),
+        };
         let rows = [
             row(0, Some(20.0), Status::Pass),
             row(1, Some(22.0), Status::Fail),
             row(1000, None, Status::Pass),
         ];
         let own = charted_function(&rows).unwrap();
-        assert_eq!(own.errors, [known, known, [None; 4]]);
+        assert_eq!(own.errors, [known, known, MethodErrors::default()]);
         assert_eq!(own.costs, BTreeMap::from([("rdna2".to_owned(), 22.0)]));
         assert_eq!(own.user.fails.as_deref(), Some("one; two"));
         assert!(charted_function(&[]).is_none());

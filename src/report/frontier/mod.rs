@@ -3,33 +3,33 @@
 #[cfg(all(feature = "cli", feature = "gpu"))]
 mod audited;
 mod costs;
-mod labels;
-mod measure;
-mod own;
+mod data;
 #[cfg(feature = "cli")]
-mod page;
+mod html;
+mod labels;
+mod own;
 mod sets;
 mod svg;
 mod text;
 
-use serde_json::{Value, json};
+use serde::Serialize;
 
 use crate::cost::{CostAndError, pareto_frontier};
+use crate::fit::MethodErrors;
 use crate::methods::{Contract, Method};
 
 #[cfg(all(feature = "cli", feature = "gpu"))]
 pub use audited::charted_function;
-pub use measure::{cost_names, data};
-pub use own::Own;
+pub use data::{chart_data, cost_names};
 #[cfg(feature = "cli")]
-pub use page::page;
-pub use sets::{CLASSES, OF, class};
-pub use svg::svg;
-pub(super) use text::figure;
-pub use text::{headline, text};
+pub use html::chart_page;
+pub use own::Own;
+pub use sets::{STATISTICS, set_name};
+pub use svg::chart_svg;
+pub use text::{chart_text, headline};
 
 /// How error is told.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug)]
 pub struct ErrorAxis {
     /// Its name on the command line and in reports.
     pub name: &'static str,
@@ -37,6 +37,8 @@ pub struct ErrorAxis {
     pub short: &'static str,
     /// What it is, in full.
     pub title: &'static str,
+    /// The error by this measure, where it is known.
+    pub value: fn(&MethodErrors) -> Option<f64>,
 }
 
 /// All of them; the first is the default.
@@ -45,21 +47,25 @@ pub static ERRORS: [ErrorAxis; 4] = [
         name: "max",
         short: "largest error",
         title: "largest error of reflectance, over angles and channels",
+        value: |errors| errors.max_abs,
     },
     ErrorAxis {
         name: "mean-rel",
         short: "mean relative error",
         title: "mean relative error, over angles and channels, as the thesis measures",
+        value: |errors| errors.mean_rel,
     },
     ErrorAxis {
         name: "luminance",
         short: "largest error of luminance",
         title: "largest error of luminance, over angles",
+        value: |errors| errors.luminance,
     },
     ErrorAxis {
         name: "de2000",
         short: "largest difference, CIEDE2000",
         title: "largest difference of colour, CIEDE2000, over angles",
+        value: |errors| errors.de2000,
     },
 ];
 
@@ -114,8 +120,8 @@ pub struct Set {
     pub name: String,
     /// In words.
     pub title: String,
-    /// For each entry the error on each of [`ERRORS`]; none where it is not known, or the method does not describe it.
-    pub errors: Vec<[Option<f64>; 4]>,
+    /// The errors of each entry; unknown where the method does not describe the material.
+    pub errors: Vec<MethodErrors>,
 }
 
 /// All that the charts show.
@@ -157,6 +163,21 @@ pub struct Point<'a> {
     pub is_on_frontier: bool,
 }
 
+/// A point in a JSON report.
+#[derive(Clone, Copy, Debug, Serialize)]
+pub struct PointRow<'a> {
+    material: &'a str,
+    method: &'a str,
+    inputs: &'static str,
+    gpu: &'static str,
+    cost: f64,
+    fetches: usize,
+    error: &'static str,
+    value: f64,
+    is_on_frontier: bool,
+    fails: Option<&'a str>,
+}
+
 /// What errs by less is drawn here, and is as good: no index was ever measured so well.
 const LEAST_ERROR: f64 = 1e-5;
 
@@ -166,7 +187,7 @@ impl<'a> View<'a> {
     pub fn points(&self) -> Vec<Point<'a>> {
         let rows = self.data.entries.iter().enumerate();
         let known = rows.filter_map(|(place, entry)| {
-            let error = self.set.errors[place][self.error]?;
+            let error = self.error_of(place)?;
             Some((entry, self.cost.costs[place]?, error))
         });
         let mut known: Vec<(&'a Entry, f64, f64)> = known.collect();
@@ -191,6 +212,11 @@ impl<'a> View<'a> {
         known.iter().enumerate().map(point).collect()
     }
 
+    /// The error of an entry by the measure that is shown.
+    fn error_of(&self, place: usize) -> Option<f64> {
+        (ERRORS[self.error].value)(&self.set.errors[place])
+    }
+
     fn compares(&self, entry: &Entry) -> bool {
         (entry.fetches == 0 || self.cost.holds_fetches) && entry.fails().is_none()
     }
@@ -200,7 +226,7 @@ impl<'a> View<'a> {
         let rows = self.data.entries.iter().enumerate();
         let mut own = rows.filter_map(|(place, entry)| Some((place, entry.user()?)));
         let (place, user) = own.next()?;
-        let what = match (self.set.errors[place][self.error], self.cost.costs[place]) {
+        let what = match (self.error_of(place), self.cost.costs[place]) {
             (None, _) => "error",
             (_, None) => "cost",
             _ => return None,
@@ -218,14 +244,18 @@ impl<'a> View<'a> {
     }
 
     /// A row of the report for each point.
-    pub fn json(&self) -> Vec<Value> {
-        let row = |point: &Point| {
-            json!({
-                "material": self.set.name, "method": point.entry.name(),
-                "inputs": point.entry.inputs(), "gpu": self.cost.name, "cost": point.cost,
-                "fetches": point.entry.fetches, "error": ERRORS[self.error].name, "value": point.error,
-                "is_on_frontier": point.is_on_frontier, "fails": point.entry.fails(),
-            })
+    pub fn rows(&self) -> Vec<PointRow<'a>> {
+        let row = |point: &Point<'a>| PointRow {
+            material: &self.set.name,
+            method: point.entry.name(),
+            inputs: point.entry.inputs(),
+            gpu: self.cost.name,
+            cost: point.cost,
+            fetches: point.entry.fetches,
+            error: ERRORS[self.error].name,
+            value: point.error,
+            is_on_frontier: point.is_on_frontier,
+            fails: point.entry.fails(),
         };
         self.points().iter().map(row).collect()
     }
@@ -316,6 +346,10 @@ mod tests {
             is_best: false,
             fetches,
         };
+        let largest = |error| MethodErrors {
+            max_abs: Some(error),
+            ..MethodErrors::default()
+        };
         let mut data = Data {
             entries: vec![entry("table", 1), entry("schlick", 0)],
             costs: vec![CostAxis {
@@ -327,7 +361,7 @@ mod tests {
             sets: vec![Set {
                 name: "gold".to_owned(),
                 title: "gold".to_owned(),
-                errors: vec![[Some(0.1); 4], [Some(0.2); 4]],
+                errors: [0.1, 0.2].map(largest).to_vec(),
             }],
             command: String::new(),
         };

@@ -2,7 +2,8 @@
 
 use std::collections::BTreeMap;
 
-use super::measure::Errors;
+use crate::fit::MethodErrors;
+
 use super::{CostAxis, Data, Entry, Function, User};
 
 /// What is known of a user's function.
@@ -11,14 +12,14 @@ pub struct Own {
     /// The function.
     pub user: User,
     /// For each material the error on each axis; none where it gave no number.
-    pub errors: Errors,
+    pub errors: Vec<MethodErrors>,
     /// What an evaluation costs, by the names of axes.
     pub costs: BTreeMap<String, f64>,
 }
 
 impl Own {
     /// Its errors behind those of all others.
-    pub fn join(&self, errors: &mut [Errors]) {
+    pub fn join(&self, errors: &mut [Vec<MethodErrors>]) {
         for (all, own) in errors.iter_mut().zip(&self.errors) {
             all.push(*own);
         }

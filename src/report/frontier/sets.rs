@@ -1,87 +1,77 @@
 //! What errors are of: a material alone, or a class with its materials taken together in some way.
 
-use crate::materials::Kind;
+use crate::fit::MethodErrors;
 use crate::num::statistics::{median, medians, quantile};
-use crate::reference::{LEAST_FITTED_N, Subject};
-use crate::report::class_title;
+use crate::reference::{MaterialClass, Subject};
 
 use super::Set;
-use super::measure::Errors;
 
-/// The classes, by the names of their sets.
-pub const CLASSES: [&str; 2] = ["metals", "dielectrics"];
 /// How a class is taken together: the middle of its materials, where nine of ten end, the worst, or the middle over substances,
 /// each with one vote however often it was measured.
-pub const OF: [&str; 4] = ["median", "p90", "worst", "substances"];
+pub const STATISTICS: [&str; 4] = ["median", "p90", "worst", "substances"];
 
 /// The sets of these materials: classes first, where they hold more than one, then each material.
-pub fn sets(subjects: &[Subject], errors: &[Errors]) -> Vec<Set> {
-    let together = CLASSES
-        .iter()
-        .flat_map(|class| together(class, subjects, errors));
+pub fn sets(subjects: &[Subject], errors: &[Vec<MethodErrors>]) -> Vec<Set> {
+    let classes = MaterialClass::ALL.into_iter();
+    let classes = classes.flat_map(|class| class_sets(class, subjects, errors));
     let alone = subjects.iter().zip(errors).map(|(subject, errors)| Set {
         name: subject.argument.clone(),
         title: subject.name.replace('_', " "),
         errors: errors.clone(),
     });
-    together.chain(alone).collect()
+    classes.chain(alone).collect()
 }
 
-/// The class that a material is in: none for gases, and for dielectrics that absorb.
-pub fn class(subject: &Subject) -> Option<&'static str> {
-    let n = subject.effective.channels.n;
-    let is_solid = n.iter().all(|n| *n >= LEAST_FITTED_N);
-    match subject.material.kind {
-        Kind::Metal | Kind::Semiconductor => Some(CLASSES[0]),
-        Kind::Dielectric if is_solid && subject.effective.channels.is_transparent() => {
-            Some(CLASSES[1])
-        }
-        Kind::Dielectric => None,
-    }
+/// The name of a class's set.
+pub fn set_name(class: MaterialClass, statistic: &str) -> String {
+    format!("{}-{statistic}", class.name())
 }
 
-fn together(class: &str, subjects: &[Subject], errors: &[Errors]) -> Vec<Set> {
-    let own: Vec<(&Subject, &Errors)> = subjects
+/// A class taken together in each way; nothing of fewer than two materials.
+fn class_sets(
+    class: MaterialClass,
+    subjects: &[Subject],
+    errors: &[Vec<MethodErrors>],
+) -> Vec<Set> {
+    let own: Vec<(&Subject, &Vec<MethodErrors>)> = subjects
         .iter()
         .zip(errors)
-        .filter(|(subject, _)| self::class(subject) == Some(class))
+        .filter(|(subject, _)| MaterialClass::containing(subject) == Some(class))
         .collect();
     if own.len() < 2 {
         return Vec::new();
     }
-    let set = |of: &&str| Set {
-        name: format!("{class}-{of}"),
-        title: title(class, of, own.len()),
-        errors: taken(of, &own),
+    let set = |statistic: &&str| Set {
+        name: set_name(class, statistic),
+        title: set_title(class, statistic, own.len()),
+        errors: together(statistic, &own),
     };
-    OF.iter().map(set).collect()
+    STATISTICS.iter().map(set).collect()
 }
 
-fn title(class: &str, of: &str, count: usize) -> String {
-    let class = class_title(class);
-    let of = match of {
+fn set_title(class: MaterialClass, statistic: &str, count: usize) -> String {
+    let statistic = match statistic {
         "median" => "the median of",
         "p90" => "nine of ten of",
         "worst" => "the worst of",
         _ => "one vote a substance over",
     };
-    format!("{of} {count} {class}")
+    format!("{statistic} {count} {}", class.title())
 }
 
-/// Each entry's error on each axis, of all materials together; none where it is not known of one of them.
-fn taken(of: &str, own: &[(&Subject, &Errors)]) -> Errors {
+/// Each entry's errors, of all materials together.
+fn together(statistic: &str, own: &[(&Subject, &Vec<MethodErrors>)]) -> Vec<MethodErrors> {
     let substances = || own.iter().map(|(subject, _)| &*subject.material.substance);
-    let entries = own.first().map_or(0, |(_, errors)| errors.len());
-    let figure = |entry: usize, axis: usize| -> Option<f64> {
-        let known: Option<Vec<f64>> = own.iter().map(|(_, errors)| errors[entry][axis]).collect();
-        let known = known?;
-        Some(match of {
-            "median" => median(&known),
-            "p90" => quantile(&known, 0.9),
-            "worst" => quantile(&known, 1.0),
-            _ => median(&medians(&known, substances())),
-        })
+    let taken = |errors: &[f64]| match statistic {
+        "median" => median(errors),
+        "p90" => quantile(errors, 0.9),
+        "worst" => quantile(errors, 1.0),
+        _ => median(&medians(errors, substances())),
     };
-    let axes = |entry: usize| [0, 1, 2, 3].map(|axis| figure(entry, axis));
-    (0..entries).map(axes).collect()
+    let entries = own.first().map_or(0, |(_, errors)| errors.len());
+    let entry = |place: usize| {
+        let all: Vec<MethodErrors> = own.iter().map(|(_, errors)| errors[place]).collect();
+        MethodErrors::together(&all, &taken)
+    };
+    (0..entries).map(entry).collect()
 }

@@ -82,7 +82,7 @@ fn power_ticks([low, high]: [f64; 2]) -> Vec<Tick> {
 }
 
 /// The picture of a view; none where nothing of it is known.
-pub fn svg(view: &View) -> Option<String> {
+pub fn chart_svg(view: &View) -> Option<String> {
     let points = view.points();
     if points.is_empty() {
         return None;

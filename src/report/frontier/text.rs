@@ -1,10 +1,10 @@
 //! The chart for a terminal: its points as a table, and what follows from them in a sentence each.
 
 use super::{ERRORS, Point, View};
-use crate::report::table;
+use crate::report::table::{self, short_number};
 
 /// The points by cost, the frontier marked, and the headline.
-pub fn text(view: &View) -> String {
+pub fn chart_text(view: &View) -> String {
     let head = [
         "",
         "method",
@@ -44,29 +44,13 @@ fn cells(point: &Point) -> Vec<String> {
         star.to_owned(),
         point.entry.name().to_owned(),
         point.entry.inputs().to_owned(),
-        figure(point.cost),
-        figure(point.error),
+        short_number(point.cost),
+        short_number(point.error),
         point.entry.fetches.to_string(),
     ]
 }
 
-/// Three digits that count.
-pub fn figure(value: f64) -> String {
-    if value == 0.0 || !value.is_finite() {
-        return format!("{value}");
-    }
-    let digits = (2.0 - libm::floor(libm::log10(value.abs()))).clamp(0.0, 9.0) as usize;
-    let long = format!("{value:.digits$}");
-    let is_fraction = long.contains('.');
-    let short = if is_fraction {
-        long.trim_end_matches('0').trim_end_matches('.')
-    } else {
-        &long
-    };
-    short.to_owned()
-}
-
-/// What a fitted method gains on a rival with its intended inputs and with its best ones, at which part of its cost: of each
+/// What a fitted method gains on a competitor with its intended inputs and with its best ones, at which part of its cost: of each
 /// fitted method against the nearest rival that is no cheaper than it by more than a tenth.
 pub fn headline(view: &View) -> String {
     let points = view.points();
@@ -75,7 +59,7 @@ pub fn headline(view: &View) -> String {
 }
 
 fn sentence(our: &Point, points: &[Point]) -> Option<String> {
-    let is_rival = |point: &&Point| {
+    let is_competitor = |point: &&Point| {
         let is_published = point
             .entry
             .method()
@@ -83,12 +67,12 @@ fn sentence(our: &Point, points: &[Point]) -> Option<String> {
         let is_cheap = our.cost <= 1.1 * point.cost && point.cost <= 2.0 * our.cost;
         is_published && point.entry.fetches == 0 && is_cheap && our.error < point.error
     };
-    let rivals: Vec<&Point> = points.iter().filter(is_rival).collect();
-    let intended = rivals.iter().filter(|point| !point.entry.is_best);
+    let competitors: Vec<&Point> = points.iter().filter(is_competitor).collect();
+    let intended = competitors.iter().filter(|point| !point.entry.is_best);
     let nearest = intended.min_by(|a, b| a.error.total_cmp(&b.error))?;
     let is_same =
         |point: &&&Point| point.entry.is_best && point.entry.name() == nearest.entry.name();
-    let best = rivals.iter().find(is_same);
+    let best = competitors.iter().find(is_same);
     let best = best.map_or(String::new(), |best| {
         format!(", {} with its best", times(best.error / our.error))
     });
@@ -97,30 +81,10 @@ fn sentence(our: &Point, points: &[Point]) -> Option<String> {
         our.entry.name(),
         times(nearest.error / our.error),
         nearest.entry.name(),
-        figure(our.cost / nearest.cost),
+        short_number(our.cost / nearest.cost),
     ))
 }
 
 fn times(ratio: f64) -> String {
-    format!("{} times", figure(ratio))
-}
-
-#[cfg(test)]
-mod tests {
-    use super::figure;
-
-    #[test]
-    fn figures_keep_three_digits() {
-        for (value, wanted) in [
-            (0.0019234, "0.00192"),
-            (21.0, "21"),
-            (146.25, "146"),
-            (0.5, "0.5"),
-            (62.345, "62.3"),
-            (1e-6, "0.000001"),
-            (120.0, "120"),
-        ] {
-            assert_eq!(figure(value), wanted);
-        }
-    }
+    format!("{} times", short_number(ratio))
 }

@@ -46,7 +46,7 @@ pub fn page(
     context.insert("sections", &sections);
     context.insert("command", command);
     context.insert("precision", rows.first().map_or("f32", |row| row.precision));
-    html::page(TEMPLATE, &context)
+    html::fill(TEMPLATE, &context)
 }
 
 fn section(

@@ -4,13 +4,14 @@ use serde::Serialize;
 use tera::Context;
 
 use super::{Data, ERRORS, Function, LEAST_ERROR};
+use crate::fit::MethodErrors;
 use crate::report::html;
 
 static TEMPLATE: &str = include_str!("../../../templates/chart.html.tera");
 
 /// What the page's script reads.
 #[derive(Serialize)]
-struct Told<'a> {
+struct ChartData<'a> {
     least_error: f64,
     as_near: f64,
     entries: Vec<Entry<'a>>,
@@ -45,19 +46,19 @@ struct Set<'a> {
 }
 
 /// The page; it opens with this set, cost and error. Or why it cannot be made.
-pub fn page(data: &Data, [set, cost, error]: [usize; 3]) -> Result<String, String> {
-    let told = serde_json::to_string(&told(data)).map_err(|why| why.to_string())?;
+pub fn chart_page(data: &Data, [set, cost, error]: [usize; 3]) -> Result<String, String> {
+    let json = serde_json::to_string(&chart_data(data)).map_err(|why| why.to_string())?;
     let mut context = Context::new();
     // A string of JSON may hold `</script>`; an escape of JSON's own keeps it from ending the script.
-    context.insert("data", &told.replace('<', "\\u003c"));
+    context.insert("data", &json.replace('<', "\\u003c"));
     context.insert("first", &[set, cost, error]);
     context.insert("command", &data.command);
     let user = data.entries.iter().find_map(super::Entry::user);
     context.insert("user", &user.map(|user| &user.name));
-    html::page(TEMPLATE, &context)
+    html::fill(TEMPLATE, &context)
 }
 
-fn told(data: &Data) -> Told<'_> {
+fn chart_data(data: &Data) -> ChartData<'_> {
     let costs = data.costs.iter().map(|cost| Cost {
         name: cost.name,
         title: &cost.title,
@@ -67,12 +68,12 @@ fn told(data: &Data) -> Told<'_> {
     let sets = data.sets.iter().map(|set| Set {
         name: &set.name,
         title: &set.title,
-        errors: set.errors.iter().map(|errors| errors.map(short)).collect(),
+        errors: set.errors.iter().map(four_digits).collect(),
     });
-    Told {
+    ChartData {
         least_error: LEAST_ERROR,
         as_near: crate::cost::TIE,
-        entries: data.entries.iter().map(of).collect(),
+        entries: data.entries.iter().map(entry).collect(),
         errors: ERRORS
             .iter()
             .map(|error| [error.short, error.title])
@@ -82,7 +83,7 @@ fn told(data: &Data) -> Told<'_> {
     }
 }
 
-fn of(entry: &super::Entry) -> Entry<'_> {
+fn entry(entry: &super::Entry) -> Entry<'_> {
     let (summary, source) = match &entry.function {
         Function::Method(method) => (method.summary, method.source.line()),
         Function::User(user) => (user.about.as_str(), String::new()),
@@ -97,7 +98,10 @@ fn of(entry: &super::Entry) -> Entry<'_> {
     }
 }
 
-/// Four digits that count: what is seen of a point on a page.
-fn short(error: Option<f64>) -> Option<f64> {
-    error.and_then(|error| format!("{error:.3e}").parse().ok())
+/// Each error with four digits that count: what is seen of a point on a page.
+fn four_digits(errors: &MethodErrors) -> [Option<f64>; 4] {
+    ERRORS.map(|axis| {
+        let error = (axis.value)(errors)?;
+        format!("{error:.3e}").parse().ok()
+    })
 }
