@@ -6,7 +6,7 @@
 #![cfg_attr(test, allow(clippy::print_stdout, clippy::unwrap_used))]
 
 // The rooms. A room imports only rooms to its left; rooms between the same two `<` do not import each other.
-// num, cite < ir, optics < spectra < materials, methods, targets < reference < fit < emit < lut < gpu, process < verify, cost < overdraw, stability < audit, budget, bake < scene, effects < report < app
+// num, cite, names < ir, optics < spectra < materials, methods, targets < reference < fit < emit < lut < gpu, process < verify, cost < overdraw, stability < audit, budget, bake < scene, effects < report < app
 
 pub mod app;
 #[cfg(all(feature = "cli", feature = "gpu"))]
@@ -24,6 +24,7 @@ pub mod ir;
 pub mod lut;
 pub mod materials;
 pub mod methods;
+pub mod names;
 pub mod num;
 pub mod optics;
 pub mod overdraw;

@@ -5,23 +5,15 @@ use std::path::PathBuf;
 
 use thiserror::Error;
 
+use crate::names::UnknownName;
 use crate::{emit, lut, materials, overdraw, process};
 
 /// A fault of the output folder, or of what was to be put there.
 #[derive(Debug, Error)]
 pub enum Error {
     /// A name that does not exist.
-    #[error("there is no {kind} `{name}`{}; there are {all}", offered(nearest))]
-    Unknown {
-        /// What was named: `method`, `material`, `target`.
-        kind: &'static str,
-        /// The name.
-        name: String,
-        /// The nearest right names.
-        nearest: Vec<String>,
-        /// All of them.
-        all: String,
-    },
+    #[error(transparent)]
+    Unknown(#[from] UnknownName),
     /// A request that contradicts itself or cannot be met.
     #[error("{what}")]
     Usage {
@@ -54,6 +46,14 @@ pub enum Error {
     /// A table cannot be made.
     #[error(transparent)]
     Lut(#[from] lut::Error),
+    /// A user's function cannot be audited.
+    #[cfg(all(feature = "cli", feature = "gpu"))]
+    #[error(transparent)]
+    Audit(#[from] crate::audit::Error),
+    /// Nothing can be verified as it was asked for.
+    #[cfg(all(feature = "cli", feature = "gpu"))]
+    #[error(transparent)]
+    Verify(#[from] crate::verify::Error),
     /// The processes of a run cannot be started.
     #[error(transparent)]
     Process(#[from] process::Error),
@@ -142,20 +142,14 @@ pub enum Error {
     },
 }
 
-fn offered(nearest: &[String]) -> String {
-    if nearest.is_empty() {
-        String::new()
-    } else {
-        format!(" (did you mean {}?)", nearest.join(" or "))
-    }
-}
-
 impl Error {
     /// The exit code of the program: faults of the input are 2, what is missing here is 3.
     pub fn exit_code(&self) -> u8 {
         match self {
             Error::Lacking { .. } => 3,
             Error::Process(error) if error.is_lacking() => 3,
+            #[cfg(all(feature = "cli", feature = "gpu"))]
+            Error::Audit(error) if error.is_lacking() => 3,
             Error::Overdraw(error) if error.is_lacking() => 3,
             _ => 2,
         }

@@ -1,11 +1,11 @@
 //! What each argument of a user's function is: the cosine, a value given with `--arg`, or one that the material has.
 
-use crate::app::error::Error;
-use crate::app::names::{nearest, unknown};
 use crate::fit::inputs_of;
 use crate::methods::{self, Class, Method, find_input};
+use crate::names::UnknownName;
 use crate::reference::Subject;
 
+use super::error::{Error, FunctionPlace, ValueFault};
 use super::scan::{Found, Shape};
 
 /// A function with all that it takes.
@@ -76,20 +76,21 @@ impl Given {
     /// # Errors
     /// It is not of that form.
     pub fn read(word: &str) -> Result<Given, Error> {
-        let usage = |why: String| Error::Usage {
-            what: format!("--arg {word}: {why}; it is name=number or name=number,number,number"),
+        let wrong = |fault: ValueFault| Error::Value {
+            word: word.to_owned(),
+            fault,
         };
         let (name, list) = word
             .split_once('=')
-            .ok_or_else(|| usage("it has no `=`".to_owned()))?;
+            .ok_or_else(|| wrong(ValueFault::NoName))?;
         let number = |text: &str| {
             let read = text.trim().parse::<f32>().ok();
             let read = read.filter(|value| value.is_finite());
-            read.ok_or_else(|| usage(format!("`{text}` is not a number")))
+            read.ok_or_else(|| wrong(ValueFault::NoNumber(text.to_owned())))
         };
         let values: Vec<f32> = list.split(',').map(number).collect::<Result<_, _>>()?;
         if ![1, 3].contains(&values.len()) {
-            return Err(usage(format!("it has {} numbers", values.len())));
+            return Err(wrong(ValueFault::Count(values.len())));
         }
         let name = name.trim().to_owned();
         Ok(Given { name, values })
@@ -101,40 +102,36 @@ impl Given {
 /// # Errors
 /// There is none of that name, or several where none is named, or it is no function of reflectance.
 pub fn choose(file: &str, found: Vec<Found>, name: Option<&str>) -> Result<Found, Error> {
-    let usage = |what: String| Error::Usage { what };
     if let Some(name) = name {
         let mut all: Vec<&str> = found.iter().map(|found| found.name.as_str()).collect();
         all.dedup();
         let missing = match all.is_empty() {
-            true => usage(format!("{file}: it holds no function")),
-            false => unknown("function", name, &all),
+            true => Error::NoFunction {
+                file: file.to_owned(),
+            },
+            false => UnknownName::new("function", name, &all).into(),
         };
         let mut named = found.iter().filter(|found| found.name == name);
         let first = named.next().cloned().ok_or(missing)?;
         let fits = first.is_candidate().then_some(&first);
         let fits = fits.or_else(|| named.find(|found| found.is_candidate()));
-        return fits.cloned().ok_or_else(|| usage(unfit(file, &first)));
+        return fits.cloned().ok_or_else(|| unfit(file, &first));
     }
     let candidates: Vec<Found> = found.into_iter().filter(Found::is_candidate).collect();
-    let names: Vec<&str> = candidates.iter().map(|found| found.name.as_str()).collect();
     match candidates.as_slice() {
-        [] => Err(usage(format!(
-            "{file}: it holds no function from a cosine to a reflectance: numbers or three of them in, the same out"
-        ))),
+        [] => Err(Error::NoReflectance {
+            file: file.to_owned(),
+        }),
         [one] => Ok(one.clone()),
-        _ => Err(usage(format!(
-            "{file}: it holds {} functions; say which with --function: {}",
-            names.len(),
-            names.join(", ")
-        ))),
+        _ => Err(Error::SeveralFunctions {
+            file: file.to_owned(),
+            names: candidates.iter().map(|found| found.name.clone()).collect(),
+        }),
     }
 }
 
 /// Why a function cannot be one of reflectance.
-fn unfit(file: &str, found: &Found) -> String {
-    let Found {
-        name, line, column, ..
-    } = found;
+fn unfit(file: &str, found: &Found) -> Error {
     let is_other = |shape: &Shape| matches!(shape, Shape::Other(_));
     let other = found.params.iter().find(|param| is_other(&param.shape));
     let why = if let Some(param) = other {
@@ -144,9 +141,19 @@ fn unfit(file: &str, found: &Found) -> String {
     } else {
         "it takes no single number, which the cosine is".to_owned()
     };
-    format!(
-        "{file}:{line}:{column}: `{name}`: {why}; arguments and result are one number or three (float, vec3), the cosine is one"
-    )
+    Error::Unfit {
+        place: place_of(file, found),
+        why,
+    }
+}
+
+fn place_of(file: &str, found: &Found) -> FunctionPlace {
+    FunctionPlace {
+        file: file.to_owned(),
+        line: found.line,
+        column: found.column,
+        name: found.name.clone(),
+    }
 }
 
 /// Binds all arguments of a function.
@@ -193,7 +200,9 @@ fn check_names(function: &Found, given: &[Given]) -> Result<(), Error> {
     let wrong = given
         .iter()
         .find(|given| !all.contains(&given.name.as_str()));
-    wrong.map_or(Ok(()), |given| Err(unknown("argument", &given.name, &all)))
+    wrong.map_or(Ok(()), |given| {
+        Err(UnknownName::new("argument", &given.name, &all).into())
+    })
 }
 
 /// The value of each channel.
@@ -201,12 +210,9 @@ fn spread(given: &Given, may_differ: bool) -> Result<[f32; 3], Error> {
     match given.values.as_slice() {
         [one] => Ok([*one; 3]),
         [r, g, b] if may_differ => Ok([*r, *g, *b]),
-        _ => Err(Error::Usage {
-            what: format!(
-                "--arg {}: it is one number in a function that gives three, and {} are given",
-                given.name,
-                given.values.len()
-            ),
+        _ => Err(Error::ValueCount {
+            name: given.name.clone(),
+            given: given.values.len(),
         }),
     }
 }
@@ -289,42 +295,16 @@ fn cosine(
         .collect();
     match (chosen, missing.as_slice()) {
         (Some(place), []) => Ok(place),
-        _ => Err(Error::Usage {
-            what: unbound(file, function, &missing, chosen.is_some(), subject),
+        (_, []) => Err(Error::NoCosine {
+            place: place_of(file, function),
+        }),
+        (_, missing) => Err(Error::Unbound {
+            place: place_of(file, function),
+            material: subject.argument.clone(),
+            missing: missing.iter().map(|name| (*name).to_owned()).collect(),
+            has_cosine: chosen.is_some(),
         }),
     }
-}
-
-fn unbound(
-    file: &str,
-    function: &Found,
-    missing: &[&str],
-    has_cosine: bool,
-    subject: &Subject,
-) -> String {
-    let Found {
-        name, line, column, ..
-    } = function;
-    let place = format!("{file}:{line}:{column}: `{name}`");
-    let Some(first) = missing.first() else {
-        return format!("{place}: no argument is left for the cosine; bind one fewer with --arg");
-    };
-    let names: Vec<String> = missing.iter().map(|name| format!("`{name}`")).collect();
-    let names = names.join(", ");
-    let inputs = ["eta", "n", "k", "f0", "f82", "tint", "lambda"];
-    let like = nearest(first, &inputs);
-    let like = match like.is_empty() {
-        true => String::new(),
-        false => format!(" (did you mean {}?)", like.join(" or ")),
-    };
-    let cosine = match has_cosine {
-        true => "",
-        false => ", and which of its arguments is the cosine is not clear: call it cos_theta",
-    };
-    format!(
-        "{place}: {} has no value for {names}{like}{cosine}; bind with --arg {first}=…",
-        subject.argument
-    )
 }
 
 #[cfg(test)]

@@ -4,12 +4,12 @@ use core::cell::RefCell;
 use core::time::Duration;
 use std::ffi::OsString;
 
-use crate::app::error::Error;
 use crate::process::Surroundings;
 use crate::process::{Silence, Worker};
 use crate::verify::compilers::{Fault, Verdict};
 
 use super::accept::Accepted;
+use super::error::Error;
 use super::job::{Asked, Said};
 use super::language::Language;
 

@@ -3,7 +3,6 @@
 use core::time::Duration;
 use std::ffi::OsString;
 
-use crate::app::error::Error;
 use crate::cost::{Compiler, Dialect, ENTRY, Family, Figures, Probe, Statistics, figures, foreign};
 use crate::cost::{Said, environment, reason};
 use crate::num::Precision;
@@ -13,6 +12,7 @@ use crate::verify::compilers::Fault;
 use crate::verify::second;
 
 use super::compile::Compilers;
+use super::error::Error;
 use super::language::Language;
 use super::place::placed;
 use super::program::Program;

@@ -2,10 +2,11 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::app::error::Error;
-use crate::app::names::unknown;
 use crate::ir::Ty;
+use crate::names::UnknownName;
 use crate::targets::{DXC, GLSLANG};
+
+use super::error::Error;
 
 /// A language of functions that users bring.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -53,15 +54,13 @@ impl Language {
         if let Some(name) = named {
             let found = find(name).filter(|_| LANGUAGES.contains(&name));
             let found = found.map(|(_, language)| *language);
-            return found.ok_or_else(|| unknown("language", name, &LANGUAGES));
+            return found.ok_or_else(|| UnknownName::new("language", name, &LANGUAGES).into());
         }
         let name = file.rsplit(['/', '\\']).next().unwrap_or(file);
         let ending = name.rsplit_once('.').map_or("", |(_, ending)| ending);
         let found = find(&ending.to_lowercase()).map(|(_, language)| *language);
-        found.ok_or_else(|| Error::Usage {
-            what: format!(
-                "{file}: its ending does not tell a language; say --language wgsl, glsl or hlsl"
-            ),
+        found.ok_or_else(|| Error::NoLanguage {
+            file: file.to_owned(),
         })
     }
 

@@ -12,6 +12,7 @@ mod compile;
 mod cost;
 mod directives;
 mod edges;
+mod error;
 mod job;
 mod language;
 mod loops;
@@ -33,11 +34,11 @@ use crate::reference::Subject;
 use crate::spectra::Space;
 use crate::verify::compilers::{Fault, Verdict};
 
-use crate::app::error::Error;
 use crate::process::Surroundings;
 
 pub use bind::Given;
 pub use edges::EdgeRow;
+pub use error::{Error, FunctionPlace, ValueFault};
 pub use language::Language;
 pub use row::{ArgumentValue, AuditRow, CostRow, Dominating, PerceivedFigures};
 pub use serve::serve;

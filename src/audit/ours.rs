@@ -1,6 +1,5 @@
 //! Our methods for the same material: how wrong in single precision, and how dear.
 
-use crate::app::error::Error;
 use crate::cost::{CostAndError, Family, Figures, records};
 use crate::cost::{Function, Limits, Told, ask, cost_rows, functions};
 use crate::fit::{error_of, inputs_of};
@@ -11,6 +10,7 @@ use crate::process::Surroundings;
 use crate::reference::Subject;
 
 use super::comparison::Competitor;
+use super::error::Error;
 
 /// A method with its error, and its cost on each family where it is known.
 #[derive(Clone, Debug)]

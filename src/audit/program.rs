@@ -1,6 +1,5 @@
 //! A user's text made a program: a function of ours around theirs, so that all that comes after knows one kind of call.
 
-use crate::app::error::Error;
 use crate::gpu::{Argument as Value, Uniform};
 use crate::ir::{Param, Ty};
 use crate::num::Precision;
@@ -9,6 +8,7 @@ use crate::verify::harness::{self, Call};
 use super::bind::{Argument, Bound};
 use super::code::{bare, tokens};
 use super::directives;
+use super::error::Error;
 use super::language::Language;
 use super::loops::{MARK, TURNS, counted, counter, is_in_macro};
 use super::scan::{Shape, without_stage};
@@ -251,8 +251,11 @@ fn nested(text: &str) -> Option<(usize, &'static str)> {
 /// A name that is ours, a file that asks for others, or signs that are no text.
 pub fn check(file: &str, text: &str, language: Language) -> Result<(), Error> {
     let refuse = |line: usize, column: usize, what: String| {
-        Err(Error::Usage {
-            what: format!("{file}:{line}:{column}: {what}"),
+        Err(Error::Text {
+            file: file.to_owned(),
+            line,
+            column,
+            what,
         })
     };
     for (number, line) in text.lines().enumerate() {
@@ -304,8 +307,11 @@ pub fn check_name(file: &str, text: &str, language: Language, name: &str) -> Res
         .then(|| directives::redefinition(text, name))
         .flatten();
     found.map_or(Ok(()), |(line, column, what)| {
-        Err(Error::Usage {
-            what: format!("{file}:{line}:{column}: {what}"),
+        Err(Error::Text {
+            file: file.to_owned(),
+            line,
+            column,
+            what,
         })
     })
 }

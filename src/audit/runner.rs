@@ -4,7 +4,6 @@ use core::cell::{Cell, OnceCell, RefCell};
 use core::time::Duration;
 use std::ffi::OsString;
 
-use crate::app::error::Error;
 use crate::fit::{ModelError, Perceived, error_of, perceived};
 use crate::gpu::Uniform;
 use crate::ir::{Column, Value};
@@ -13,6 +12,7 @@ use crate::process::{Silence, Worker};
 use crate::reference::Truth;
 use crate::spectra::Space;
 
+use super::error::Error;
 use super::job::{self, Asked, Code, Said};
 use super::loops::{MARK, TURNS};
 

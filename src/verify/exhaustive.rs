@@ -1,12 +1,12 @@
 //! Every f32 there is, all 2³² bit patterns, for functions specialised to materials, in WGSL: not a sample.
 
-use crate::app::error::Error;
 use crate::emit::Emitted;
 use crate::fit::Measured;
 use crate::reference::Subject;
 use crate::verify::run::{Devices, Fault, Shown, Way};
 use crate::verify::{Trial, WITHIN, count, sweep};
 
+use super::error::Error;
 use super::file::specialised;
 use super::judge::{Ran, Run};
 use super::machine;
@@ -48,9 +48,7 @@ pub fn exhaustive_rows(
         }
     }
     if rows.is_empty() {
-        return Err(Error::Usage {
-            what: "--exhaustive runs functions specialised to a material in WGSL: name both, and leave --target out or name wgsl".to_owned(),
-        });
+        return Err(Error::NothingExhaustive);
     }
     Ok((rows, speeds))
 }

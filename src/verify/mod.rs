@@ -12,6 +12,8 @@ mod code_error;
 pub mod compilers;
 pub mod drift;
 #[cfg(all(feature = "cli", feature = "gpu"))]
+mod error;
+#[cfg(all(feature = "cli", feature = "gpu"))]
 mod exhaustive;
 #[cfg(all(feature = "cli", feature = "gpu"))]
 pub mod file;
@@ -50,6 +52,8 @@ mod worst;
 pub use code_error::{
     ABSOLUTE_FLOOR, CodeError, code_error, digits_lost, library_code_error, library_code_error_at,
 };
+#[cfg(all(feature = "cli", feature = "gpu"))]
+pub use error::Error;
 #[cfg(all(feature = "cli", feature = "gpu"))]
 pub use exhaustive::exhaustive_rows;
 pub use half::{

@@ -1,0 +1,154 @@
+//! Why a user's function cannot be audited: each message names the file or the flag, the fault, and what is allowed.
+
+use thiserror::Error;
+
+use crate::names::{UnknownName, nearest_names, offered};
+use crate::{emit, process};
+
+/// Why a user's function cannot be audited.
+#[derive(Debug, Error)]
+pub enum Error {
+    /// A language, a function or an argument that does not exist.
+    #[error(transparent)]
+    Unknown(#[from] UnknownName),
+    /// The processes of a run cannot be started.
+    #[error(transparent)]
+    Process(#[from] process::Error),
+    /// A function of ours cannot be written.
+    #[error(transparent)]
+    Emit(#[from] emit::Error),
+    /// The ending of the file's name is none of a language's.
+    #[error("{file}: its ending does not tell a language; say --language wgsl, glsl or hlsl")]
+    NoLanguage {
+        /// The file.
+        file: String,
+    },
+    /// A value that is not of the form that values have.
+    #[error("--arg {word}: {fault}; it is name=number or name=number,number,number")]
+    Value {
+        /// The word after `--arg`.
+        word: String,
+        /// What is wrong with it.
+        fault: ValueFault,
+    },
+    /// Three values for an argument that takes one.
+    #[error("--arg {name}: it is one number in a function that gives three, and {given} are given")]
+    ValueCount {
+        /// The argument.
+        name: String,
+        /// How many are given.
+        given: usize,
+    },
+    /// The text holds no function at all.
+    #[error("{file}: it holds no function")]
+    NoFunction {
+        /// The file.
+        file: String,
+    },
+    /// None of its functions can be one of reflectance.
+    #[error(
+        "{file}: it holds no function from a cosine to a reflectance: numbers or three of them in, the same out"
+    )]
+    NoReflectance {
+        /// The file.
+        file: String,
+    },
+    /// Several of its functions can be one of reflectance, and none is named.
+    #[error("{file}: it holds {} functions; say which with --function: {}", names.len(), names.join(", "))]
+    SeveralFunctions {
+        /// The file.
+        file: String,
+        /// Their names.
+        names: Vec<String>,
+    },
+    /// The named function cannot be one of reflectance.
+    #[error(
+        "{place}: {why}; arguments and result are one number or three (float, vec3), the cosine is one"
+    )]
+    Unfit {
+        /// The function, with its place in the file.
+        place: FunctionPlace,
+        /// What is wrong with it.
+        why: String,
+    },
+    /// All arguments have values, and one must be the cosine.
+    #[error("{place}: no argument is left for the cosine; bind one fewer with --arg")]
+    NoCosine {
+        /// The function, with its place in the file.
+        place: FunctionPlace,
+    },
+    /// An argument without a value.
+    #[error("{place}: {}", unbound(material, missing, *has_cosine))]
+    Unbound {
+        /// The function, with its place in the file.
+        place: FunctionPlace,
+        /// The material.
+        material: String,
+        /// The arguments without a value.
+        missing: Vec<String>,
+        /// Whether it is clear which argument is the cosine.
+        has_cosine: bool,
+    },
+    /// Something in the text that no program can be made of.
+    #[error("{file}:{line}:{column}: {what}")]
+    Text {
+        /// The file.
+        file: String,
+        /// The line, from 1.
+        line: usize,
+        /// The column, from 1.
+        column: usize,
+        /// What stands there, and what is allowed.
+        what: String,
+    },
+}
+
+/// What is wrong with a value.
+#[derive(Clone, Debug, PartialEq, Eq, Error)]
+pub enum ValueFault {
+    /// Nothing tells the name from the value.
+    #[error("it has no `=`")]
+    NoName,
+    /// A number cannot be read.
+    #[error("`{0}` is not a number")]
+    NoNumber(String),
+    /// It is neither one number nor three.
+    #[error("it has {0} numbers")]
+    Count(usize),
+}
+
+/// A function and where its name stands.
+#[derive(Clone, Debug, PartialEq, Eq, Error)]
+#[error("{file}:{line}:{column}: `{name}`")]
+pub struct FunctionPlace {
+    /// The file.
+    pub file: String,
+    /// The line, from 1.
+    pub line: usize,
+    /// The column, from 1.
+    pub column: usize,
+    /// The function.
+    pub name: String,
+}
+
+impl Error {
+    /// Whether the machine lacks something; otherwise the user's words or text are at fault.
+    pub fn is_lacking(&self) -> bool {
+        matches!(self, Error::Process(error) if error.is_lacking())
+    }
+}
+
+fn unbound(material: &str, missing: &[String], has_cosine: bool) -> String {
+    let first = missing.first().map_or("", String::as_str);
+    let names: Vec<String> = missing.iter().map(|name| format!("`{name}`")).collect();
+    let inputs = ["eta", "n", "k", "f0", "f82", "tint", "lambda"];
+    let like = offered(&nearest_names(first, &inputs));
+    let cosine = match has_cosine {
+        true => "",
+        false => ", and which of its arguments is the cosine is not clear: call it cos_theta",
+    };
+    format!(
+        "{material} has no value for {}{like}{cosine}; bind with --arg {first}=…",
+        names.join(", ")
+    )
+}
