@@ -1,8 +1,57 @@
 //! fresnel-gen turns measured optical constants into Fresnel reflectance functions that a shader can afford.
 //!
+//! # In a build script
+//!
+//! ```toml
+//! [build-dependencies]
+//! fresnel-gen = { version = "0.1", default-features = false }
+//! ```
+//!
+//! A `build.rs` that writes gold from the catalogue and a material of its own as WGSL:
+//!
+//! ```no_run
+//! use std::path::Path;
+//!
+//! use fresnel_gen::{Materials, Request, Source, generate, write_file};
+//!
+//! fn main() -> Result<(), Box<dyn std::error::Error>> {
+//!     let file = "materials/brass.toml";
+//!     println!("cargo::rerun-if-changed={file}");
+//!     let request = Request {
+//!         targets: vec!["wgsl".into()],
+//!         methods: vec!["conductor_exact".into()],
+//!         materials: Materials::These(vec![
+//!             Source::Named("gold".into()),
+//!             Source::File {
+//!                 file: file.into(),
+//!                 text: std::fs::read_to_string(file)?,
+//!             },
+//!         ]),
+//!         ..Request::default()
+//!     };
+//!     let out_dir = std::env::var("OUT_DIR")?;
+//!     for artifact in generate(&request)?.artifacts {
+//!         // For example OUT_DIR/wgsl/materials/gold.wgsl. A file that is right already is left alone.
+//!         write_file(&Path::new(&out_dir).join(&artifact.path), &artifact.bytes)?;
+//!     }
+//!     Ok(())
+//! }
+//! ```
+//!
+//! # What is stable
+//!
+//! The names at the root of this crate: [`Request`], [`Materials`], [`Source`] and [`Precision`] say what is wanted;
+//! [`generate()`] and [`generate_single`] give [`Generated`], [`Artifact`]s or bytes; [`write_file`] writes them; [`Error`] says
+//! what was wrong. A change of them has an entry in the changelog. Fields and variants whose types are not among these names
+//! keep their default values, and are internal.
+//!
+//! All modules are internal. They are public for the program and its tests, and may change in any release.
+//!
+//! # Inside
+//!
 //! One description of each method ([`methods`]), an intermediate representation ([`ir`]) and a table per language
 //! ([`targets`]) give WGSL, GLSL ES 3.00, HLSL, SPIR-V, MSL and GLSL 450. The exact laws ([`optics`]) are written a
-//! second time without the IR, and all else is held against them.
+//! second time without the IR, and all else is held against them. ARCHITECTURE.md says more.
 #![cfg_attr(test, allow(clippy::print_stdout, clippy::unwrap_used))]
 
 // The rooms. A room imports only rooms to its left; rooms between the same two `<` do not import each other.
@@ -35,6 +84,14 @@ pub mod spectra;
 pub mod stability;
 pub mod targets;
 pub mod verify;
+
+// What build scripts use. The test `snapshots::api` lists it.
+pub use app::artifact::Artifact;
+pub use app::error::Error;
+pub use app::generate::{Generated, generate, generate_single};
+pub use app::request::{Materials, Request, Source};
+pub use app::write::write_file;
+pub use num::Precision;
 
 /// The documents' Rust is compiled as a test.
 #[cfg(doctest)]

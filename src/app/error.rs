@@ -10,6 +10,7 @@ use crate::{emit, lut, materials, overdraw, process};
 
 /// A fault of the output folder, or of what was to be put there.
 #[derive(Debug, Error)]
+#[non_exhaustive]
 pub enum Error {
     /// A name that does not exist.
     #[error(transparent)]

@@ -33,6 +33,7 @@ pub struct Request {
     /// Whether methods are written in half precision that cannot be saved there.
     pub force: bool,
     /// The one method of each material, by the material's name, where a budget chose them; empty where none did.
+    #[doc(hidden)]
     pub chosen: BTreeMap<String, &'static str>,
     /// How materials are seen: the whole spectrum in linear sRGB under D65, unless said otherwise.
     pub sight: Sight,
@@ -86,11 +87,13 @@ pub enum Source {
 
 impl Source {
     /// What a user types to name it again.
+    #[doc(hidden)]
     pub fn argument(&self) -> Result<String, Error> {
         Ok(load(self)?.argument)
     }
 
     /// All materials of the catalogue.
+    #[doc(hidden)]
     pub fn catalogue() -> impl Iterator<Item = Source> {
         materials::names()
             .into_iter()
@@ -114,6 +117,7 @@ pub struct Loaded {
 
 impl Request {
     /// The targets, sorted, each once.
+    #[doc(hidden)]
     pub fn resolved_targets(&self) -> Result<Vec<&'static Target>, Error> {
         let by_default = || {
             targets::ALL
@@ -143,6 +147,7 @@ impl Request {
     }
 
     /// The methods asked for by name, sorted, each once; nothing where all are meant.
+    #[doc(hidden)]
     pub fn resolved_methods(&self) -> Result<Option<Vec<&'static Method>>, Error> {
         let all: Vec<&str> = methods::ALL
             .iter()
@@ -162,6 +167,7 @@ impl Request {
     }
 
     /// The materials read, each in the medium, with the text of both files.
+    #[doc(hidden)]
     pub fn subjects(&self) -> Result<Subjects, Error> {
         let medium = self.medium.as_ref().map(load).transpose()?;
         let sources: Vec<Source> = match &self.materials {
@@ -198,6 +204,7 @@ impl Request {
     }
 
     /// How functions are named.
+    #[doc(hidden)]
     pub fn naming(&self) -> Naming {
         Naming {
             prefix: self.prefix.clone(),
@@ -207,11 +214,13 @@ impl Request {
 
     /// Whether it names neither methods nor materials, in single precision: the catalogue goes with such a run, and to a whole
     /// tree, where it names no targets either, tables do.
+    #[doc(hidden)]
     pub fn names_nothing(&self) -> bool {
         self.methods.is_empty() && self.materials == Materials::Default && !self.precision.is_half()
     }
 
     /// Why this method is not written in the request's precision, if it is not: its library function, or any.
+    #[doc(hidden)]
     pub fn refusal(&self, method: &Method, library: bool) -> Option<&'static str> {
         let refused = match library {
             true => method.half.library_refusal(),
@@ -221,6 +230,7 @@ impl Request {
     }
 
     /// How inputs are derived from a material.
+    #[doc(hidden)]
     pub fn derivation(&self) -> Result<Derivation, Error> {
         match self.matching_angle {
             None => Ok(Derivation::default()),

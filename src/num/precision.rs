@@ -32,6 +32,7 @@ impl Precision {
     }
 
     /// What the names of functions and files end in.
+    #[doc(hidden)]
     pub fn suffix(self) -> &'static str {
         match self {
             Precision::F32 => "",
@@ -45,6 +46,7 @@ impl Precision {
     }
 
     /// The smallest normal number: hardware may take what is smaller for 0.
+    #[doc(hidden)]
     pub fn smallest(self) -> f64 {
         match self {
             Precision::F32 => f64::from(f32::MIN_POSITIVE),
@@ -53,6 +55,7 @@ impl Precision {
     }
 
     /// The number that a constant becomes; infinite where it is too large.
+    #[doc(hidden)]
     pub fn rounded(self, x: f64) -> f64 {
         match self {
             Precision::F32 => f64::from(x as f32),

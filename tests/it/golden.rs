@@ -1,65 +1,71 @@
 //! Is `shaders-generated/` what the program writes today? The set of files, orphans included.
 
-use std::collections::BTreeSet;
-use std::path::Path;
-
-use fresnel_gen::app::catalogue::add_catalogue;
-use fresnel_gen::app::lock::Lock;
-use fresnel_gen::app::{Artifact, Request, check, generate, tree, write};
-use fresnel_gen::bake::{add_tables, as_tables_are_seen};
+use fresnel_gen::app::{Artifact, Request, generate};
 use fresnel_gen::methods;
 use fresnel_gen::num::Precision;
 
-/// All files below a folder, as paths in it.
-fn files(folder: &Path, below: &str, found: &mut BTreeSet<String>) {
-    for entry in std::fs::read_dir(folder.join(below)).into_iter().flatten() {
-        let entry = entry.expect("readable");
-        let name = format!("{below}{}", entry.file_name().to_string_lossy());
-        if entry.path().is_dir() {
-            files(folder, &format!("{name}/"), found);
-        } else {
-            found.insert(name);
+/// The tree as a whole. The library alone bakes no tables.
+#[cfg(feature = "cli")]
+mod tree_of_a_run {
+    use std::collections::BTreeSet;
+    use std::path::Path;
+
+    use fresnel_gen::app::catalogue::add_catalogue;
+    use fresnel_gen::app::lock::Lock;
+    use fresnel_gen::app::{Request, check, generate, tree, write};
+    use fresnel_gen::bake::{add_tables, as_tables_are_seen};
+
+    /// All files below a folder, as paths in it.
+    fn files(folder: &Path, below: &str, found: &mut BTreeSet<String>) {
+        for entry in std::fs::read_dir(folder.join(below)).into_iter().flatten() {
+            let entry = entry.expect("readable");
+            let name = format!("{below}{}", entry.file_name().to_string_lossy());
+            if entry.path().is_dir() {
+                files(folder, &format!("{name}/"), found);
+            } else {
+                found.insert(name);
+            }
         }
     }
-}
 
-#[test]
-fn the_committed_tree_is_what_a_run_into_an_empty_folder_writes() {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("shaders-generated");
-    let request = Request::default();
-    let mut generated = generate(&request).expect("the catalogue generates");
-    add_catalogue(&mut generated, &request).expect("the catalogue is fitted");
-    let sight = as_tables_are_seen(&request.sight, false);
-    add_tables(&mut generated, None, sight).expect("the tables are baked");
-    if super::bless::is_on() {
-        std::fs::remove_dir_all(&folder).expect("it is there");
+    #[test]
+    fn the_committed_tree_is_what_a_run_into_an_empty_folder_writes() {
+        let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("shaders-generated");
+        let request = Request::default();
+        let mut generated = generate(&request).expect("the catalogue generates");
+        add_catalogue(&mut generated, &request).expect("the catalogue is fitted");
+        let sight = as_tables_are_seen(&request.sight, false);
+        add_tables(&mut generated, None, sight).expect("the tables are baked");
+        if crate::bless::is_on() {
+            std::fs::remove_dir_all(&folder).expect("it is there");
+        }
+        let plan = tree::plan(
+            &folder,
+            &generated.artifacts,
+            &generated.scope,
+            &generated.provenance,
+        )
+        .expect("a plan");
+        if crate::bless::is_on() {
+            let mut lock = Lock::take(&folder, &|_| ());
+            write::write(&plan, false, &mut lock).expect("the repository can be written");
+            drop(lock);
+            return;
+        }
+        let (report, drift) = check::report(&plan);
+        assert!(!drift, "{report}\nBLESS=1 cargo test rewrites it");
+        let mut found = BTreeSet::new();
+        files(&folder, "", &mut found);
+        let paths = generated
+            .artifacts
+            .iter()
+            .map(|artifact| artifact.path.clone());
+        let wanted: BTreeSet<String> = paths.chain(["manifest.json".to_owned()]).collect();
+        assert_eq!(
+            found, wanted,
+            "a file too many, which BLESS=1 cargo test removes"
+        );
     }
-    let plan = tree::plan(
-        &folder,
-        &generated.artifacts,
-        &generated.scope,
-        &generated.provenance,
-    )
-    .expect("a plan");
-    if super::bless::is_on() {
-        let mut lock = Lock::take(&folder, &|_| ());
-        write::write(&plan, false, &mut lock).expect("the repository can be written");
-        drop(lock);
-        return;
-    }
-    let (report, drift) = check::report(&plan);
-    assert!(!drift, "{report}\nBLESS=1 cargo test rewrites it");
-    let mut found = BTreeSet::new();
-    files(&folder, "", &mut found);
-    let paths = generated
-        .artifacts
-        .iter()
-        .map(|artifact| artifact.path.clone());
-    let wanted: BTreeSet<String> = paths.chain(["manifest.json".to_owned()]).collect();
-    assert_eq!(
-        found, wanted,
-        "a file too many, which BLESS=1 cargo test removes"
-    );
 }
 
 #[test]

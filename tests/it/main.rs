@@ -7,7 +7,7 @@ mod audit;
 mod bless;
 mod bounds;
 mod catalogue;
-#[cfg(feature = "cli")]
+#[cfg(feature = "pictures")]
 mod chart_page;
 mod claims;
 #[cfg(feature = "cli")]
@@ -35,7 +35,7 @@ mod oracle;
 mod overdraw;
 mod pages;
 mod physics;
-#[cfg(feature = "cli")]
+#[cfg(feature = "pictures")]
 mod pictures;
 mod readme;
 mod reproduce;

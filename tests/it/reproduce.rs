@@ -6,10 +6,6 @@
 use std::path::Path;
 use std::sync::LazyLock;
 
-use clap::Parser;
-use fresnel_gen::app::Error;
-use fresnel_gen::app::args::Cli;
-use fresnel_gen::app::command::{self, Output};
 use fresnel_gen::report::reproduce::{Figure, Part, Report, Row, Verdict, reproduce, thesis};
 
 /// The thesis's million angles: the figures must come out to its printed digit.
@@ -318,30 +314,6 @@ fn figures_are_those_of_the_repository() {
     assert_eq!(figures.count(), 9, "a file too many");
 }
 
-fn command(arguments: &[&str]) -> Result<Output, Error> {
-    let start = ["fresnel-gen", "reproduce"];
-    let cli = Cli::parse_from(start.iter().chain(arguments));
-    command::run(&cli, &mut |_, _, _| {}, &|_| ())
-}
-
-#[test]
-fn json_stands_alone_and_has_its_shape() {
-    for name in ["table7", "7", "Table 7"] {
-        let output = command(&[name, "--json", "-"]).unwrap();
-        let json: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
-        assert_eq!(json["tool"], "fresnel-gen");
-        assert_eq!(json["command"], "reproduce table7");
-        assert!(json["device"].is_null());
-        let rows = json["rows"].as_array().unwrap();
-        assert_eq!(rows.len(), 35);
-        for key in [
-            "table", "row", "column", "thesis", "ours", "remark", "verdict",
-        ] {
-            assert!(rows.iter().all(|row| row.get(key).is_some()), "{key}");
-        }
-    }
-}
-
 #[test]
 fn a_missing_figure_is_null_with_a_reason() {
     for row in TABLES.rows().chain(CLAIMS.rows()).chain(LOOKUPS.rows()) {
@@ -351,59 +323,92 @@ fn a_missing_figure_is_null_with_a_reason() {
     }
 }
 
-#[test]
-fn figures_go_where_they_are_told() {
-    let folder = tempfile::tempdir().unwrap();
-    let out_dir = folder.path().join("new");
-    let output = command(&[
-        "figures",
-        "--out-dir",
-        out_dir.to_str().unwrap(),
-        "--json",
-        "-",
-    ])
-    .unwrap();
-    let json: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
-    for row in json["rows"].as_array().unwrap() {
-        assert!(out_dir.join(row["file"].as_str().unwrap()).is_file());
-    }
-    assert_eq!(output.code, 0);
-    assert!(output.remarks[0].contains("9 figures"));
-}
+/// The command `reproduce`.
+#[cfg(feature = "cli")]
+mod program {
+    use clap::Parser;
+    use fresnel_gen::app::Error;
+    use fresnel_gen::app::args::Cli;
+    use fresnel_gen::app::command::{self, Output};
 
-#[test]
-fn what_cannot_be_reproduced_is_said() {
-    let says = |name: &str| command(&[name]).unwrap_err().to_string();
-    assert!(
-        says("tabel2").contains("did you mean table2"),
-        "{}",
-        says("tabel2")
-    );
-    assert!(says("other").contains("need a renderer"));
-    assert!(says("").contains("there is no table"));
-}
+    fn command(arguments: &[&str]) -> Result<Output, Error> {
+        let start = ["fresnel-gen", "reproduce"];
+        let cli = Cli::parse_from(start.iter().chain(arguments));
+        command::run(&cli, &mut |_, _, _| {}, &|_| ())
+    }
 
-#[test]
-fn table_6_stands_beside_what_compilers_count() {
-    let output = command(&["6", "--json", "-"]).unwrap();
-    let json: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
-    let rows = json["rows"].as_array().unwrap();
-    let of = |device: &str, column: &str| {
-        let row = rows
-            .iter()
-            .find(|row| row["row"].as_str().unwrap().contains(device) && row["column"] == column);
-        row.unwrap()
-    };
-    for device in ["Adreno 320", "Adreno 330", "HD4000", "Mali 400"] {
-        assert!(of(device, "rank correlation")["ours"].as_f64().unwrap() > 0.8);
-        assert_eq!(of(device, "dielectric_exact")["ours"], 100.0);
+    #[test]
+    fn json_stands_alone_and_has_its_shape() {
+        for name in ["table7", "7", "Table 7"] {
+            let output = command(&[name, "--json", "-"]).unwrap();
+            let json: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
+            assert_eq!(json["tool"], "fresnel-gen");
+            assert_eq!(json["command"], "reproduce table7");
+            assert!(json["device"].is_null());
+            let rows = json["rows"].as_array().unwrap();
+            assert_eq!(rows.len(), 35);
+            for key in [
+                "table", "row", "column", "thesis", "ours", "remark", "verdict",
+            ] {
+                assert!(rows.iter().all(|row| row.get(key).is_some()), "{key}");
+            }
+        }
     }
-    for device in ["Adreno 320", "Adreno 330"] {
-        let corrected = of(device, "corrected");
-        let [ours, thesis] = ["ours", "thesis"].map(|key| corrected[key].as_f64().unwrap());
-        assert!((ours - thesis).abs() <= 15.0, "{corrected}");
-        let rescaled = of(device, "schlick_conductor")["remark"].as_str().unwrap();
-        assert!(rescaled.contains("as printed, with pow"), "{rescaled}");
+
+    #[test]
+    fn figures_go_where_they_are_told() {
+        let folder = tempfile::tempdir().unwrap();
+        let out_dir = folder.path().join("new");
+        let output = command(&[
+            "figures",
+            "--out-dir",
+            out_dir.to_str().unwrap(),
+            "--json",
+            "-",
+        ])
+        .unwrap();
+        let json: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
+        for row in json["rows"].as_array().unwrap() {
+            assert!(out_dir.join(row["file"].as_str().unwrap()).is_file());
+        }
+        assert_eq!(output.code, 0);
+        assert!(output.remarks[0].contains("9 figures"));
     }
-    assert!(of("PowerVR", "corrected")["ours"].is_null());
+
+    #[test]
+    fn what_cannot_be_reproduced_is_said() {
+        let says = |name: &str| command(&[name]).unwrap_err().to_string();
+        assert!(
+            says("tabel2").contains("did you mean table2"),
+            "{}",
+            says("tabel2")
+        );
+        assert!(says("other").contains("need a renderer"));
+        assert!(says("").contains("there is no table"));
+    }
+
+    #[test]
+    fn table_6_stands_beside_what_compilers_count() {
+        let output = command(&["6", "--json", "-"]).unwrap();
+        let json: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
+        let rows = json["rows"].as_array().unwrap();
+        let of = |device: &str, column: &str| {
+            let row = rows.iter().find(|row| {
+                row["row"].as_str().unwrap().contains(device) && row["column"] == column
+            });
+            row.unwrap()
+        };
+        for device in ["Adreno 320", "Adreno 330", "HD4000", "Mali 400"] {
+            assert!(of(device, "rank correlation")["ours"].as_f64().unwrap() > 0.8);
+            assert_eq!(of(device, "dielectric_exact")["ours"], 100.0);
+        }
+        for device in ["Adreno 320", "Adreno 330"] {
+            let corrected = of(device, "corrected");
+            let [ours, thesis] = ["ours", "thesis"].map(|key| corrected[key].as_f64().unwrap());
+            assert!((ours - thesis).abs() <= 15.0, "{corrected}");
+            let rescaled = of(device, "schlick_conductor")["remark"].as_str().unwrap();
+            assert!(rescaled.contains("as printed, with pow"), "{rescaled}");
+        }
+        assert!(of("PowerVR", "corrected")["ours"].is_null());
+    }
 }

@@ -7,9 +7,8 @@ use std::sync::LazyLock;
 
 use fresnel_gen::methods::{self, Class, Contract, Method, Over};
 use fresnel_gen::num::Precision;
-use fresnel_gen::report::png::png;
-use fresnel_gen::report::stability::{heat, markdown};
-use fresnel_gen::stability::{Failure, StabilityRow, maps, scan};
+use fresnel_gen::report::stability::markdown;
+use fresnel_gen::stability::{Failure, StabilityRow, scan};
 
 /// All methods scanned, once for all tests.
 static ROWS: LazyLock<Vec<StabilityRow>> = LazyLock::new(|| scanned(Precision::F32));
@@ -43,8 +42,13 @@ fn the_document_is_what_the_scan_says() {
     super::bless::check(&at("docs/stability.md"), markdown(&ROWS, &HALF).as_bytes());
 }
 
+#[cfg(feature = "pictures")]
 #[test]
 fn the_maps_of_the_document_are_what_is_drawn() {
+    use fresnel_gen::report::png::png;
+    use fresnel_gen::report::stability::heat;
+    use fresnel_gen::stability::maps;
+
     for (method, over) in [("schlick", "eta"), ("dielectric_textbook", "eta")] {
         let maps = maps(methods::find(method).unwrap(), Precision::F32);
         let map = maps.iter().find(|map| map.axis.name == over).unwrap();

@@ -25,8 +25,10 @@ pub struct Generated {
     /// The files, sorted by path.
     pub artifacts: Vec<Artifact>,
     /// What the run owns of an output folder.
+    #[doc(hidden)]
     pub scope: Scope,
     /// Versions and inputs, for the manifest.
+    #[doc(hidden)]
     pub provenance: Provenance,
     /// Why materials that `all` brings along are left out.
     pub left_out: Vec<Unseen>,

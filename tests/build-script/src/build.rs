@@ -1,6 +1,6 @@
 //! Generates a shader into OUT_DIR.
 
-use fresnel_gen::app::{Materials, Request, Source, generate, write};
+use fresnel_gen::{Materials, Request, Source, generate, write_file};
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let request = Request {
@@ -11,7 +11,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     };
     let out_dir = std::path::PathBuf::from(std::env::var("OUT_DIR")?);
     for artifact in generate(&request)?.artifacts {
-        write::write_file(&out_dir.join(&artifact.path), &artifact.bytes)?;
+        write_file(&out_dir.join(&artifact.path), &artifact.bytes)?;
     }
     Ok(())
 }

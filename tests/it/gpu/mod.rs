@@ -6,6 +6,7 @@ mod bounds;
 mod contract;
 mod faults;
 mod stream;
+#[cfg(feature = "cli")]
 mod table;
 mod texture;
 

@@ -1,5 +1,7 @@
 //! The output folder: what a run compares, writes, keeps and removes, and what is left when it fails or is killed.
 
+#[cfg(feature = "compilers")]
+mod depfile;
 mod failures;
 mod killed;
 mod runs;

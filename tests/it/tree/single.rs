@@ -2,7 +2,6 @@
 
 use std::fs;
 use std::path::Path;
-use std::process::Command;
 
 use fresnel_gen::app::Error;
 use fresnel_gen::app::depfile::depfile;
@@ -10,7 +9,6 @@ use fresnel_gen::app::write::write_file;
 use tempfile::TempDir;
 
 use super::{put, snapshot};
-use crate::compilers::Tool;
 
 #[test]
 fn a_single_file_is_written_if_it_differs() {
@@ -84,96 +82,4 @@ fn a_depfile_quotes_as_make_and_ninja_read() {
             assert!(fault.to_string().contains("--depfile: the path"), "{fault}");
         }
     }
-}
-
-/// A path with each sign that the depfile lets pass, as an output and as an input, read by both programs.
-#[test]
-fn make_and_ninja_read_what_the_depfile_spells() {
-    let make = Tool {
-        command: "make",
-        package: "make",
-    };
-    let ninja = Tool {
-        command: "ninja",
-        package: "ninja-build",
-    };
-    let (has_make, has_ninja) = (make.is_here("the depfile"), ninja.is_here("the depfile"));
-    for sign in "!#$%()+,-./@[]_{}~ :".chars() {
-        let name = format!("a{sign}b").replace('/', "_");
-        if has_make {
-            reads_as_make(&name);
-        }
-        if has_ninja {
-            reads_as_ninja(&name);
-        }
-    }
-}
-
-/// Make knows the rule whose target is this name, and the one whose prerequisite is.
-fn reads_as_make(name: &str) {
-    let dir = TempDir::new().unwrap();
-    let strings = |name: &str| [name.to_string()];
-    let rules = depfile(&strings(name), &strings("input")).unwrap()
-        + &depfile(&strings("output"), &strings(name)).unwrap();
-    fs::write(dir.path().join("Makefile"), format!(".SUFFIXES:\n{rules}")).unwrap();
-    fs::write(dir.path().join("input"), "").unwrap();
-    fs::write(dir.path().join(name), "").unwrap();
-    let folder = dir.path().to_str().unwrap();
-    let database = make_database(folder);
-    for rule in [format!("{name}: input"), format!("output: {name}")] {
-        // A pattern would be no target: Make says so above it.
-        let mut lines = database
-            .lines()
-            .skip_while(|line| !line.starts_with("# Files"));
-        assert!(
-            lines.any(|line| line == rule),
-            "{rule} is not in {database}"
-        );
-    }
-}
-
-fn make_database(folder: &str) -> String {
-    let arguments = ["-C", folder, "-rRpnq", "--no-print-directory"];
-    let output = Command::new("make").args(arguments).output().unwrap();
-    String::from_utf8_lossy(&output.stdout).into_owned()
-}
-
-/// Ninja's log of dependencies holds the name, and builds an output of that name.
-fn reads_as_ninja(name: &str) {
-    let dir = TempDir::new().unwrap();
-    let strings = |name: &str| [name.to_string()];
-    let put = |file: &str, text: &str| fs::write(dir.path().join(file), text).unwrap();
-    put(name, "");
-    put("one", &depfile(&strings(name), &strings("input")).unwrap());
-    put("two", &depfile(&strings("output"), &strings(name)).unwrap());
-    put("input", "");
-    let quoted = name
-        .replace('$', "$$")
-        .replace(' ', "$ ")
-        .replace(':', "$:");
-    put(
-        "build.ninja",
-        &format!(
-            "rule one\n  command = cp one one.d\n  depfile = one.d\n  deps = gcc\nrule two\n  command = cp two two.d && touch output\n  depfile = two.d\n  deps = gcc\nbuild {quoted}: one\nbuild output: two\n"
-        ),
-    );
-    let folder = dir.path().to_str().unwrap();
-    let ninja = Command::new("ninja").args(["-C", folder]).output().unwrap();
-    assert!(ninja.status.success(), "{name}: {ninja:?}");
-    let log = Command::new("ninja")
-        .args(["-C", folder, "-t", "deps"])
-        .output()
-        .unwrap();
-    let log = String::from_utf8_lossy(&log.stdout).into_owned();
-    let depends = |output: &str, input: &str| {
-        let mut lines = log
-            .lines()
-            .skip_while(|line| !line.starts_with(&format!("{output}: #deps")));
-        lines.next();
-        lines.next() == Some(&format!("    {input}"))
-    };
-    assert!(
-        depends(name, "input") && depends("output", name),
-        "{name}: {log}"
-    );
 }
