@@ -6,8 +6,8 @@ use crate::targets::{Compiler, DXC, GLSLANG, Target, find};
 use crate::verify::compilers::{Fault, HlslVersion, Verdict, compiled, hlsl_to_spirv};
 use crate::verify::harness::ENTRY;
 
-use super::job::Code;
 use super::language::Language;
+use super::protocol::Code;
 
 /// What compilers that run beside us say.
 #[derive(Debug, Serialize, Deserialize)]

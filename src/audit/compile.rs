@@ -2,31 +2,29 @@
 
 use core::cell::RefCell;
 use core::time::Duration;
-use std::ffi::OsString;
 
-use crate::process::Surroundings;
-use crate::process::{Silence, Worker};
+use crate::process::{Error, Launch, Silence, Surroundings, Worker};
 use crate::verify::compilers::{Fault, Verdict};
 
 use super::accept::Accepted;
-use super::error::Error;
-use super::job::{Asked, Said};
 use super::language::Language;
+use super::protocol::{AuditRequest, AuditResponse};
 
-/// The process, started when it is first needed and again after it has ended.
-pub struct Compilers<'a> {
+/// The process that asks them.
+pub struct Compilers {
     limit: Duration,
-    surroundings: &'a Surroundings,
-    worker: RefCell<Option<Worker>>,
+    worker: RefCell<Worker>,
 }
 
-impl Compilers<'_> {
+impl Compilers {
     /// Each step may take so long, however many compilers it asks.
-    pub fn new(limit: Duration, surroundings: &Surroundings) -> Compilers<'_> {
+    pub fn new(limit: Duration, surroundings: &Surroundings) -> Compilers {
         Compilers {
             limit,
-            surroundings,
-            worker: RefCell::new(None),
+            worker: RefCell::new(Worker::new(Launch::new(
+                &["audit", "--worker"],
+                surroundings,
+            ))),
         }
     }
 
@@ -35,13 +33,13 @@ impl Compilers<'_> {
     /// # Errors
     /// No process can be started.
     pub fn accepted(&self, language: Language, program: String) -> Result<Accepted, Error> {
-        let asked = Asked::Accept(language, program);
+        let request = AuditRequest::Accept(language, program);
         let silent = |words: String| Accepted {
             verdicts: vec![(language.compiler().to_owned(), Verdict::No(words.clone()))],
             code: Err(Fault::Refused(words)),
         };
-        Ok(match self.ask(&asked, language)? {
-            Ok(Said::Accepted(accepted)) => accepted,
+        Ok(match self.ask(&request, language)? {
+            Ok(AuditResponse::Accepted(accepted)) => accepted,
             Ok(_) => silent("the process answers another question".to_owned()),
             Err(words) => silent(words),
         })
@@ -57,8 +55,8 @@ impl Compilers<'_> {
         shader: String,
     ) -> Result<Result<Vec<u8>, Fault>, Error> {
         Ok(
-            match self.ask(&Asked::Module(language, shader), language)? {
-                Ok(Said::Module(made)) => made,
+            match self.ask(&AuditRequest::Module(language, shader), language)? {
+                Ok(AuditResponse::Module(made)) => made,
                 Ok(_) => Err(Fault::Refused(
                     "the process answers another question".to_owned(),
                 )),
@@ -67,24 +65,14 @@ impl Compilers<'_> {
         )
     }
 
-    /// The answer, or why there is none.
-    fn ask(&self, asked: &Asked, language: Language) -> Result<Result<Said, String>, Error> {
-        let line = serde_json::to_string(asked).expect("text and names alone");
-        let mut place = self.worker.borrow_mut();
-        let mut worker = match place.take() {
-            Some(worker) => worker,
-            None => {
-                let words = ["audit", "--worker"].map(OsString::from);
-                Worker::start(&words, &[], self.surroundings)?
-            }
-        };
-        Ok(match worker.ask(&line, self.limit) {
-            Ok(said) => {
-                *place = Some(worker);
-                Ok(said)
-            }
-            Err(silence) => Err(reason(&silence, self.limit, language)),
-        })
+    /// The response, or why there is none.
+    fn ask(
+        &self,
+        request: &AuditRequest,
+        language: Language,
+    ) -> Result<Result<AuditResponse, String>, Error> {
+        let response = self.worker.borrow_mut().ask(request, self.limit)?;
+        Ok(response.map_err(|silence| reason(&silence, self.limit, language)))
     }
 }
 

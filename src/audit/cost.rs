@@ -1,18 +1,17 @@
 //! What a user's function costs, by the compilers of GPUs: the slope of a chain of it, less the empty function's, as ours.
 
 use core::time::Duration;
-use std::ffi::OsString;
 
-use crate::cost::{Compiler, Dialect, ENTRY, Family, Figures, Probe, Statistics, figures, foreign};
-use crate::cost::{Said, environment, reason};
+use crate::cost::{
+    Compiler, Dialect, ENTRY, Family, Figures, FragmentShader, Probe, Session, Statistics,
+    Unmeasured, figures, foreign, launch,
+};
 use crate::num::Precision;
-use crate::process::Surroundings;
-use crate::process::Worker;
+use crate::process::{Error, Surroundings, Worker};
 use crate::verify::compilers::Fault;
 use crate::verify::second;
 
 use super::compile::Compilers;
-use super::error::Error;
 use super::language::Language;
 use super::place::placed;
 use super::program::Program;
@@ -27,9 +26,6 @@ pub struct Cost {
     /// What is known, or why nothing is.
     pub figures: Result<Figures, String>,
 }
-
-/// What a compiler is handed: a line of JSON.
-type Line = String;
 
 /// Asks the compiler of a family.
 ///
@@ -47,41 +43,43 @@ pub fn cost(
         compiler: None,
         figures: Err(why),
     };
-    let (Some(dialect), Ok(environment)) =
-        (family.compiler.dialect(), environment(family, surroundings))
+    let (Some(dialect), Ok(launch)) = (family.compiler.dialect(), launch(family, surroundings))
     else {
         return Ok(unknown(absent(family, surroundings)));
     };
-    let lines = match lines(program, dialect, compilers)? {
-        Ok(lines) => lines,
+    let shaders = match shaders(program, dialect, compilers)? {
+        Ok(shaders) => shaders,
         Err(why) => return Ok(unknown(why)),
     };
-    let words = ["cost", "--worker", family.name].map(OsString::from);
-    let mut worker = Worker::start(&words, &environment, surroundings)?;
-    let mut ask = |line: &str| {
-        let said = worker.ask::<Said>(line, limit);
-        said.map_err(|silence| reason(&silence, limit))
-    };
-    let compiler = match ask("").and_then(Said::compiler) {
+    let mut worker = Worker::new(launch);
+    let mut session = Session::new(family, dialect, limit, &mut worker);
+    let compiler = match session.compiler() {
         Ok(name) => name,
-        Err(why) => return Ok(unknown(why)),
+        Err(Unmeasured::Compiler(why)) => return Ok(unknown(why)),
+        Err(Unmeasured::Process(error)) => return Err(error),
     };
-    let told = lines
-        .iter()
-        .map(|line| ask(line).and_then(Said::statistics));
-    let told: Result<Vec<Statistics>, String> = told.collect();
+    let statistics = shaders.into_iter().map(|shader| session.statistics(shader));
+    let figures = match statistics.collect() {
+        Ok(statistics) => counted(family, dialect, statistics),
+        Err(Unmeasured::Compiler(why)) => Err(why),
+        Err(Unmeasured::Process(error)) => return Err(error),
+    };
     Ok(Cost {
         family,
         compiler: Some(compiler),
-        figures: told.and_then(|told| counted(family, dialect, told)),
+        figures,
     })
 }
 
 /// The figures of four shaders: both chains of the function, both of the empty one.
-fn counted(family: &Family, dialect: Dialect, told: Vec<Statistics>) -> Result<Figures, String> {
+fn counted(
+    family: &Family,
+    dialect: Dialect,
+    statistics: Vec<Statistics>,
+) -> Result<Figures, String> {
     let silent = || "the compiler does not tell instructions".to_owned();
     let [short, long, bare_short, bare_long] =
-        <[Statistics; 4]>::try_from(told).map_err(|_| silent())?;
+        <[Statistics; 4]>::try_from(statistics).map_err(|_| silent())?;
     let (own, bare) = ([short, long], [bare_short, bare_long]);
     figures(&family.columns, dialect.chains(), &own, &bare).ok_or_else(silent)
 }
@@ -90,60 +88,61 @@ fn absent(family: &Family, surroundings: &Surroundings) -> String {
     match family.compiler {
         Compiler::Operations => "operations are counted in formulas, and this is text".to_owned(),
         Compiler::None(why) => why.to_owned(),
-        _ => environment(family, surroundings).err().unwrap_or_default(),
+        _ => launch(family, surroundings).err().unwrap_or_default(),
     }
 }
 
 /// The four shaders as the worker takes them.
-fn lines(
+fn shaders(
     program: &Program,
     dialect: Dialect,
     compilers: &Compilers,
-) -> Result<Result<Vec<Line>, String>, Error> {
+) -> Result<Result<Vec<FragmentShader>, String>, Error> {
     let chains = dialect.chains();
     let own = chains.map(|evaluations| shader(program, dialect, evaluations));
     let bare = chains.map(|evaluations| empty(program.language, dialect, evaluations));
-    let mut lines = Vec::new();
+    let mut shaders = Vec::new();
     // What a compiler did not end for once is not asked again.
     for made in own.into_iter().chain(bare) {
         match made {
-            Ok(Shader::Line(line)) => lines.push(line),
-            Ok(Shader::Text(language, text)) => match module(compilers.module(language, text)?) {
-                Ok(line) => lines.push(line),
-                Err(why) => return Ok(Err(why)),
-            },
+            Ok(Measured::Ready(shader)) => shaders.push(shader),
+            Ok(Measured::Foreign(language, text)) => {
+                match module(compilers.module(language, text)?) {
+                    Ok(shader) => shaders.push(shader),
+                    Err(why) => return Ok(Err(why)),
+                }
+            }
             Err(why) => return Ok(Err(why)),
         }
     }
-    Ok(Ok(lines))
+    Ok(Ok(shaders))
 }
 
 /// A shader that is measured.
-enum Shader {
+enum Measured {
     /// As the worker takes it.
-    Line(Line),
+    Ready(FragmentShader),
     /// As a compiler makes a module of it.
-    Text(Language, String),
+    Foreign(Language, String),
 }
 
-fn text(shader: &str) -> Result<Shader, String> {
-    let line = serde_json::to_string(shader);
-    line.map(Shader::Line).map_err(|why| why.to_string())
+fn ready(shader: String) -> Measured {
+    Measured::Ready(FragmentShader::Text(shader))
 }
 
 /// A module, or why there is none.
-fn module(made: Result<Vec<u8>, Fault>) -> Result<Line, String> {
-    let bytes = made.map_err(|fault| match fault {
+fn module(made: Result<Vec<u8>, Fault>) -> Result<FragmentShader, String> {
+    let module = made.map_err(|fault| match fault {
         Fault::NotChecked(why) => why,
         Fault::Refused(words) => placed("the shader that is measured", usize::MAX, &words),
     })?;
-    serde_json::to_string(&bytes).map_err(|why| why.to_string())
+    Ok(FragmentShader::Module(module))
 }
 
 /// What stands before GLSL ES that may leave precision to the program around it.
 const PRECISION: &str = "precision highp float;\n";
 
-fn shader(program: &Program, dialect: Dialect, evaluations: usize) -> Result<Shader, String> {
+fn shader(program: &Program, dialect: Dialect, evaluations: usize) -> Result<Measured, String> {
     let Program {
         language,
         text: own,
@@ -158,14 +157,14 @@ fn shader(program: &Program, dialect: Dialect, evaluations: usize) -> Result<Sha
         (Language::Gles, Dialect::Wgsl) => {
             let own = format!("{PRECISION}{own}");
             let shader = foreign::glsl(&own, params, evaluations);
-            Ok(Shader::Text(Language::Gles, shader))
+            Ok(Measured::Foreign(Language::Gles, shader))
         }
         (Language::Gles, _) => {
             let own = format!("{PRECISION}{own}");
             let probe = Probe::of_text(params.clone(), String::new(), own);
-            text(&probe.text(evaluations, dialect))
+            Ok(ready(probe.text(evaluations, dialect)))
         }
-        (Language::Hlsl, Dialect::Wgsl) => Ok(Shader::Text(
+        (Language::Hlsl, Dialect::Wgsl) => Ok(Measured::Foreign(
             Language::Hlsl,
             foreign::hlsl(own, params, evaluations),
         )),
@@ -173,7 +172,7 @@ fn shader(program: &Program, dialect: Dialect, evaluations: usize) -> Result<Sha
     }
 }
 
-fn empty(language: Language, dialect: Dialect, evaluations: usize) -> Result<Shader, String> {
+fn empty(language: Language, dialect: Dialect, evaluations: usize) -> Result<Measured, String> {
     let probe = Probe::empty(false, Precision::F32);
     let none = [crate::ir::Param {
         name: "cos_theta".to_owned(),
@@ -181,28 +180,28 @@ fn empty(language: Language, dialect: Dialect, evaluations: usize) -> Result<Sha
     }];
     match (language, dialect) {
         (Language::Wgsl, _) => wgsl(&probe, dialect, evaluations),
-        (Language::Gles, Dialect::Wgsl) => Ok(Shader::Text(
+        (Language::Gles, Dialect::Wgsl) => Ok(Measured::Foreign(
             Language::Gles,
             foreign::glsl(foreign::EMPTY_GLSL, &none, evaluations),
         )),
-        (Language::Hlsl, Dialect::Wgsl) => Ok(Shader::Text(
+        (Language::Hlsl, Dialect::Wgsl) => Ok(Measured::Foreign(
             Language::Hlsl,
             foreign::hlsl(foreign::EMPTY_HLSL, &none, evaluations),
         )),
-        (Language::Gles | Language::Hlsl, _) => text(&probe.text(evaluations, dialect)),
+        (Language::Gles | Language::Hlsl, _) => Ok(ready(probe.text(evaluations, dialect))),
     }
 }
 
 /// WGSL itself, or naga's GLSL ES of it.
-fn wgsl(probe: &Probe, dialect: Dialect, evaluations: usize) -> Result<Shader, String> {
+fn wgsl(probe: &Probe, dialect: Dialect, evaluations: usize) -> Result<Measured, String> {
     let own = probe.text(evaluations, Dialect::Wgsl);
     match dialect {
-        Dialect::Wgsl => text(&own),
+        Dialect::Wgsl => Ok(ready(own)),
         Dialect::Es100 => Err("it takes GLSL ES 1.00, which nothing here makes of WGSL".to_owned()),
         Dialect::Es300 => {
             let made = second::to_gles(&own, ENTRY).map_err(|fault| fault.to_string())?;
             let input = made.inputs.get(&0).map_or("fg_in", String::as_str);
-            text(&unblocked(&made.text.replace(input, "fg_in")))
+            Ok(ready(unblocked(&made.text.replace(input, "fg_in"))))
         }
     }
 }

@@ -13,12 +13,12 @@ mod cost;
 mod directives;
 mod edges;
 mod error;
-mod job;
 mod language;
 mod loops;
 mod ours;
 mod place;
 mod program;
+mod protocol;
 mod row;
 mod runner;
 mod scan;
@@ -28,13 +28,12 @@ use core::time::Duration;
 use std::path::PathBuf;
 
 use crate::cost::Family;
-use crate::cost::Limits;
 use crate::gpu::Uniform;
 use crate::reference::Subject;
 use crate::spectra::Space;
 use crate::verify::compilers::{Fault, Verdict};
 
-use crate::process::Surroundings;
+use crate::process::{Pool, Surroundings};
 
 pub use bind::Given;
 pub use edges::EdgeRow;
@@ -129,7 +128,7 @@ impl Audit {
     /// The function run at the edges and over all angles.
     fn run(
         &self,
-        code: job::Code,
+        code: protocol::Code,
         program: &Program,
         bound: &Bound,
         subject: &Subject,
@@ -183,8 +182,8 @@ impl Audit {
         if costs.iter().all(|cost| cost.figures.is_err()) {
             return Ok((costs, Vec::new()));
         }
-        let limits = Limits {
-            seconds: self.seconds,
+        let pool = Pool {
+            limit: self.limit(),
             workers: self.workers,
         };
         let takes_arguments = program.params.len() > 1;
@@ -192,7 +191,7 @@ impl Audit {
             subject,
             takes_arguments,
             &self.families,
-            limits,
+            pool,
             surroundings,
             progress,
         )?;

@@ -1,12 +1,14 @@
 //! Our methods for the same material: how wrong in single precision, and how dear.
 
-use crate::cost::{CostAndError, Family, Figures, records};
-use crate::cost::{Function, Limits, Told, ask, cost_rows, functions};
+use crate::cost::{
+    CostAndError, Family, FamilyAnswers, Figures, Function, ask_compilers, cost_rows, functions,
+    records,
+};
 use crate::fit::{error_of, inputs_of};
 use crate::ir::{Column, Value, evaluate};
 use crate::methods::{self, Contract, Light, Method};
 use crate::num::Precision;
-use crate::process::Surroundings;
+use crate::process::{Pool, Surroundings};
 use crate::reference::Subject;
 
 use super::comparison::Competitor;
@@ -43,7 +45,7 @@ pub fn ours(
     subject: &Subject,
     takes_arguments: bool,
     families: &[&'static Family],
-    limits: Limits,
+    pool: Pool,
     surroundings: &Surroundings,
     progress: &mut dyn FnMut(u64, u64, &str),
 ) -> Result<Vec<Ours>, Error> {
@@ -60,10 +62,10 @@ pub fn ours(
     let methods: Vec<&'static Method> = methods::ALL.iter().filter(fits).copied().collect();
     let mut all = functions(&methods, std::slice::from_ref(subject), &[Precision::F32])?;
     all.retain(|function| function.is_asked && function.form == form || function.is_reference());
-    let told = ask(families, &all, limits, surroundings, progress)?;
-    let each = families.iter().zip(&told);
+    let answers = ask_compilers(families, &all, pool, surroundings, progress)?;
+    let each = families.iter().zip(&answers);
     let columns: Vec<Vec<Option<f64>>> = each
-        .map(|(family, told)| costs(family, told.as_ref(), &all))
+        .map(|(family, answers)| costs(family, answers.as_ref(), &all))
         .collect();
     let asked = all.iter().filter(|function| function.is_asked).enumerate();
     Ok(asked
@@ -78,8 +80,12 @@ pub fn ours(
 }
 
 /// The cost of each function that was asked for, in order.
-fn costs(family: &'static Family, told: Option<&Told>, functions: &[Function]) -> Vec<Option<f64>> {
-    let rows = cost_rows(family, told, &records(family.name), functions);
+fn costs(
+    family: &'static Family,
+    answers: Option<&FamilyAnswers>,
+    functions: &[Function],
+) -> Vec<Option<f64>> {
+    let rows = cost_rows(family, answers, &records(family.name), functions);
     let cost = |figures: Result<Figures, String>| figures.ok().map(|figures| figures.cost());
     rows.into_iter().map(|row| cost(row.figures)).collect()
 }

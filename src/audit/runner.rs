@@ -2,19 +2,16 @@
 
 use core::cell::{Cell, OnceCell, RefCell};
 use core::time::Duration;
-use std::ffi::OsString;
 
 use crate::fit::{ModelError, Perceived, error_of, perceived};
 use crate::gpu::Uniform;
 use crate::ir::{Column, Value};
-use crate::process::Surroundings;
-use crate::process::{Silence, Worker};
+use crate::process::{Error, Launch, Silence, Surroundings, Worker};
 use crate::reference::Truth;
 use crate::spectra::Space;
 
-use super::error::Error;
-use super::job::{self, Asked, Code, Said};
 use super::loops::{MARK, TURNS};
+use super::protocol::{AuditRequest, AuditResponse, Code, UniformBits};
 
 /// What sees cosines, and the result at each.
 pub type Look<'a> = &'a dyn Fn(&[f32], &[[f32; 3]]);
@@ -65,27 +62,28 @@ impl Runner {
         limit: Duration,
         surroundings: &Surroundings,
     ) -> Result<Result<Runner, Trouble>, Error> {
-        let words = ["audit", "--worker"].map(OsString::from);
-        let mut worker = Worker::start(&words, &[], surroundings)?;
-        let asked = Asked::Prepare(code, uniforms.iter().map(job::Value::of).collect());
-        Ok(match ask(&mut worker, &asked, limit) {
-            Ok(Said::Ready(device)) => Ok(Runner {
+        let mut worker = Worker::new(Launch::new(&["audit", "--worker"], surroundings));
+        let uniforms = uniforms.iter().map(UniformBits::new);
+        let request = AuditRequest::Prepare(code, uniforms.collect());
+        Ok(match worker.ask(&request, limit)? {
+            Ok(AuditResponse::Ready(device)) => Ok(Runner {
                 worker: RefCell::new(worker),
                 limit,
                 device,
                 points: Cell::new(0),
             }),
-            Ok(said) => Err(trouble(said)),
-            Err(trouble) => Err(trouble),
+            Ok(response) => Err(trouble(response)),
+            Err(silence) => Err(reason(&silence, limit)),
         })
     }
 
     /// The results at these cosines.
     pub fn run(&self, cosines: &[f32]) -> Result<Vec<[f32; 3]>, Trouble> {
-        let asked = Asked::Run(cosines.iter().map(|c| c.to_bits()).collect());
-        let said = ask(&mut self.worker.borrow_mut(), &asked, self.limit)?;
-        match said {
-            Said::Ran(results) if results.len() == cosines.len() => {
+        let request = AuditRequest::Run(cosines.iter().map(|c| c.to_bits()).collect());
+        let response = self.worker.borrow_mut().ask(&request, self.limit);
+        let response = response.map_err(|error| Trouble::Failed(error.to_string()))?;
+        match response.map_err(|silence| reason(&silence, self.limit))? {
+            AuditResponse::Ran(results) if results.len() == cosines.len() => {
                 self.points.set(self.points.get() + cosines.len());
                 let results = results.into_iter().map(|rgb| rgb.map(f32::from_bits));
                 ended(cosines, results.collect())
@@ -144,17 +142,10 @@ fn ended(cosines: &[f32], results: Vec<[f32; 3]>) -> Result<Vec<[f32; 3]>, Troub
     })
 }
 
-fn ask(worker: &mut Worker, asked: &Asked, limit: Duration) -> Result<Said, Trouble> {
-    let line = serde_json::to_string(asked).map_err(|why| Trouble::Failed(why.to_string()))?;
-    worker
-        .ask(&line, limit)
-        .map_err(|silence| reason(&silence, limit))
-}
-
-fn trouble(said: Said) -> Trouble {
-    match said {
-        Said::Absent(why) => Trouble::Absent(why),
-        Said::Refused(who, words) => Trouble::Refused(who, words),
+fn trouble(response: AuditResponse) -> Trouble {
+    match response {
+        AuditResponse::Absent(why) => Trouble::Absent(why),
+        AuditResponse::Refused(who, words) => Trouble::Refused(who, words),
         _ => Trouble::Failed("it answers another question".to_owned()),
     }
 }

@@ -2,7 +2,7 @@
 //! time.
 
 #[cfg(all(feature = "cli", feature = "gpu"))]
-mod asked;
+mod compilers;
 mod family;
 mod figures;
 pub mod foreign;
@@ -10,6 +10,8 @@ pub mod foreign;
 mod function;
 mod pareto;
 mod probe;
+#[cfg(all(feature = "cli", feature = "gpu"))]
+mod protocol;
 mod record;
 mod row;
 #[cfg(all(feature = "cli", feature = "gpu"))]
@@ -20,19 +22,21 @@ mod session;
 mod table;
 
 #[cfg(all(feature = "cli", feature = "gpu"))]
-pub use asked::{Limits, Told, ask};
+pub use compilers::{FamilyAnswers, ask_compilers};
 pub use family::{Compiler, Dialect, FAMILIES, Family, find};
 pub use figures::{Columns, Counts, Figures, Statistics, figures, remarked};
 #[cfg(all(feature = "cli", feature = "gpu"))]
 pub use function::{Function, functions};
 pub use pareto::{CostAndError, Multiples, TIE, pareto_frontier};
 pub use probe::{BLOCKS, ENTRY, Probe, VERTEX, WGSL_VERTEX, gles_vertex};
+#[cfg(all(feature = "cli", feature = "gpu"))]
+pub use protocol::FragmentShader;
 pub use record::{Record, function_cost, library_cost, records};
 pub use row::{CostRow, CostSource};
 #[cfg(all(feature = "cli", feature = "gpu"))]
 pub use serve::serve;
 #[cfg(all(feature = "cli", feature = "gpu"))]
-pub use session::{Said, environment, reason};
+pub use session::{Session, Unmeasured, launch};
 #[cfg(all(feature = "cli", feature = "gpu"))]
 pub use table::cost_rows;
 

@@ -1,16 +1,16 @@
-//! A worker: opens the compiler that its environment tells, and answers each shader with what the compiler says.
+//! A worker: opens the compiler that its environment tells, and answers who it is and what it says of shaders.
 
 use std::ffi::CString;
-use std::io::{self, Write};
+use std::io;
 
-use serde::Deserialize;
-use serde_json::json;
-
-use crate::cost::{Compiler, Dialect, ENTRY, Family, Statistics, VERTEX, WGSL_VERTEX};
-use crate::cost::{gles_vertex, remarked};
 use crate::emit::wgsl_to_spirv;
 use crate::gpu::{Entry, Fault, Node, Null};
 use crate::process::Inbox;
+
+use super::family::{Compiler, Dialect, Family};
+use super::figures::{Statistics, remarked};
+use super::probe::{ENTRY, VERTEX, WGSL_VERTEX, gles_vertex};
+use super::protocol::{CompilerRequest, CompilerResponse, FragmentShader};
 
 /// A compiler at work.
 enum Open {
@@ -18,45 +18,21 @@ enum Open {
     Mesa(Box<Node>, Dialect),
 }
 
-/// A fragment shader.
-#[derive(Deserialize)]
-#[serde(untagged)]
-enum Shader {
-    /// In the compiler's language, or in WGSL for one that takes SPIR-V.
-    Text(String),
-    /// A module of SPIR-V.
-    Module(Vec<u8>),
-}
-
-/// Serves until there is nothing more to read: a line of JSON, a fragment shader as text or as the bytes of a module, is
-/// answered by a line. The first line says who answers, whatever is asked.
+/// Serves until the supervisor is gone.
 ///
 /// # Errors
-/// The family has no compiler, or the pipe is gone.
+/// The pipe is gone.
 pub fn serve(family: &Family) -> io::Result<()> {
-    let (mut input, mut output) = (Inbox::open(), io::stdout().lock());
-    let mut answer = |value: serde_json::Value| {
-        writeln!(output, "{value}")?;
-        output.flush()
-    };
+    let inbox = Inbox::open();
     let opened = open(family);
-    let hello = match &opened {
-        Ok(open) => json!({ "compiler": open.compiler() }),
-        Err(fault) => json!({ "absent": fault.to_string() }),
-    };
-    let _ = input.next();
-    answer(hello)?;
-    let Ok(open) = opened else { return Ok(()) };
-    for line in input {
-        let told = serde_json::from_str::<Shader>(&line)
-            .map_err(|why| why.to_string())
-            .and_then(|shader| open.measure(&shader));
-        answer(match told {
-            Ok(statistics) => json!({ "told": statistics }),
-            Err(why) => json!({ "refused": why }),
-        })?;
-    }
-    Ok(())
+    inbox.serve(|request| match (&opened, request) {
+        (Err(fault), _) => CompilerResponse::Absent(fault.to_string()),
+        (Ok(open), CompilerRequest::Name) => CompilerResponse::Name(open.compiler()),
+        (Ok(open), CompilerRequest::Measure(shader)) => match open.measure(&shader) {
+            Ok(statistics) => CompilerResponse::Statistics(statistics),
+            Err(why) => CompilerResponse::Refused(why),
+        },
+    })
 }
 
 fn open(family: &Family) -> Result<Open, Fault> {
@@ -85,13 +61,13 @@ impl Open {
         }
     }
 
-    fn measure(&self, shader: &Shader) -> Result<Statistics, String> {
+    fn measure(&self, shader: &FragmentShader) -> Result<Statistics, String> {
         match (self, shader) {
             (Open::Radv(null, [vertex, entry]), shader) => {
                 let lowered;
                 let module = match shader {
-                    Shader::Module(module) => module,
-                    Shader::Text(text) => {
+                    FragmentShader::Module(module) => module,
+                    FragmentShader::Text(text) => {
                         lowered = wgsl_to_spirv(text)?;
                         &lowered
                     }
@@ -104,8 +80,10 @@ impl Open {
                 told.map(Statistics::from_iter)
                     .map_err(|why| why.to_string())
             }
-            (Open::Mesa(..), Shader::Module(_)) => Err("it takes GLSL ES, no SPIR-V".to_owned()),
-            (Open::Mesa(node, dialect), Shader::Text(text)) => {
+            (Open::Mesa(..), FragmentShader::Module(_)) => {
+                Err("it takes GLSL ES, no SPIR-V".to_owned())
+            }
+            (Open::Mesa(node, dialect), FragmentShader::Text(text)) => {
                 let remarks = node
                     .link(&gles_vertex(*dialect), text)
                     .map_err(|why| why.to_string())?;

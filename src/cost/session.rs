@@ -5,182 +5,142 @@ use std::collections::BTreeMap;
 use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 
-use serde::Deserialize;
+use crate::process::{Error, Launch, Silence, Surroundings, Worker, beside};
 
-use crate::cost::{Compiler, Dialect, Family, Figures, Statistics, figures};
-use crate::process::{Error, Silence, Surroundings, Worker, beside};
-
+use super::family::{Compiler, Dialect, Family};
+use super::figures::{Figures, Statistics, figures};
 use super::function::{Function, empty};
+use super::protocol::{CompilerRequest, CompilerResponse, FragmentShader};
 
 /// What a compiler says of a function, or why it says nothing.
 pub type Answer = Result<Figures, String>;
 
-/// What a worker answers.
-#[derive(Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub enum Said {
-    /// It is here: its name and version.
-    Compiler(String),
-    /// It is not, and why.
-    Absent(String),
-    /// What it says of a shader.
-    Told(Statistics),
-    /// It refuses a shader, and why.
-    Refused(String),
-}
-
-impl Said {
-    /// The compiler that a worker's first line names.
-    pub fn compiler(self) -> Result<String, String> {
-        match self {
-            Said::Compiler(name) => Ok(name),
-            Said::Absent(why) | Said::Refused(why) => Err(why),
-            Said::Told(_) => Err("it answers another question".to_owned()),
-        }
-    }
-
-    /// What it says of a shader.
-    pub fn statistics(self) -> Result<Statistics, String> {
-        match self {
-            Said::Told(statistics) => Ok(statistics),
-            Said::Refused(why) | Said::Absent(why) | Said::Compiler(why) => Err(why),
-        }
-    }
-}
-
-/// What came of a job.
-pub enum Done {
-    /// The compiler's name and version, and an answer for each function.
-    Fresh(String, Vec<Answer>),
-    /// There is no compiler, and why.
-    Absent(String),
-}
-
-/// Who asks one family's compiler.
-pub struct Asker<'a> {
-    pub family: &'static Family,
-    pub limit: Duration,
-    pub surroundings: &'a Surroundings,
-}
-
-impl Asker<'_> {
-    /// Asks about functions in one process; `tick` hears each answer.
-    ///
-    /// # Errors
+/// Why there is nothing that a compiler says.
+#[derive(Debug, thiserror::Error)]
+pub enum Unmeasured {
     /// No process can be started.
-    pub fn run(&self, functions: &[&Function], tick: &mut dyn FnMut()) -> Result<Done, Error> {
-        let Some(dialect) = self.family.compiler.dialect() else {
-            return Ok(Done::Absent("it has no compiler".to_owned()));
-        };
-        let environment = match environment(self.family, self.surroundings) {
-            Ok(environment) => environment,
-            Err(why) => return Ok(Done::Absent(why)),
-        };
-        let (worker, hello) = self.start(&environment)?;
-        let compiler = match hello.compiler() {
-            Ok(name) => name,
-            Err(why) => return Ok(Done::Absent(why)),
-        };
-        let mut session = Session {
-            asker: self,
-            dialect,
-            environment,
-            worker,
-            empty: BTreeMap::new(),
-            hangs: 0,
-            is_silent: false,
-        };
-        let mut answers = Vec::new();
-        for function in functions {
-            answers.push(session.answer(function)?);
-            tick();
-        }
-        Ok(Done::Fresh(compiler, answers))
-    }
-
-    fn start(&self, environment: &[(String, OsString)]) -> Result<(Worker, Said), Error> {
-        let words = ["cost", "--worker", self.family.name].map(OsString::from);
-        let mut worker = Worker::start(&words, environment, self.surroundings)?;
-        let hello = worker.ask::<Said>("", self.limit);
-        let hello = hello.unwrap_or_else(|silence| Said::Absent(reason(&silence, self.limit)));
-        Ok((worker, hello))
-    }
+    #[error(transparent)]
+    Process(#[from] Error),
+    /// The compiler is absent, hangs, fails or refuses the shader.
+    #[error("{0}")]
+    Compiler(String),
 }
 
-/// Hangs after which a process is asked no more.
+/// Hangs after which a compiler is asked no more.
 const HANGS: usize = 3;
 
 /// A compiler at work.
-struct Session<'a> {
-    asker: &'a Asker<'a>,
+pub struct Session<'a> {
+    family: &'static Family,
     dialect: Dialect,
-    environment: Vec<(String, OsString)>,
-    worker: Worker,
+    limit: Duration,
+    worker: &'a mut Worker,
     /// The chains of the empty function, of one channel or not, in each precision.
     empty: BTreeMap<(bool, bool), [Statistics; 2]>,
     hangs: usize,
-    is_silent: bool,
 }
 
-impl Session<'_> {
-    fn answer(&mut self, function: &Function) -> Result<Answer, Error> {
+impl<'a> Session<'a> {
+    /// A session with the compiler of a family that has one.
+    pub fn new(
+        family: &'static Family,
+        dialect: Dialect,
+        limit: Duration,
+        worker: &'a mut Worker,
+    ) -> Session<'a> {
+        Session {
+            family,
+            dialect,
+            limit,
+            worker,
+            empty: BTreeMap::new(),
+            hangs: 0,
+        }
+    }
+
+    /// The compiler's name and version.
+    ///
+    /// # Errors
+    /// It is absent.
+    pub fn compiler(&mut self) -> Result<String, Unmeasured> {
+        let response = self.ask(&CompilerRequest::Name)?;
+        response.name().map_err(Unmeasured::Compiler)
+    }
+
+    /// What the compiler says of a function.
+    ///
+    /// # Errors
+    /// No process can be started.
+    pub fn answer(&mut self, function: &Function) -> Result<Answer, Error> {
         if self.hangs >= HANGS {
             let why = format!("not asked: the compiler hung {HANGS} times before");
             return Ok(Err(why));
         }
-        if function.precision.is_half() && !self.asker.family.half {
+        if function.precision.is_half() && !self.family.half {
             return Ok(Err("it has no 16-bit arithmetic".to_owned()));
         }
-        let answer = self.figures(function);
-        if std::mem::take(&mut self.is_silent) {
-            // It is gone, or at work without end.
-            self.worker = self.asker.start(&self.environment)?.0;
+        match self.figures(function) {
+            Ok(figures) => Ok(Ok(figures)),
+            Err(Unmeasured::Compiler(why)) => Ok(Err(why)),
+            Err(Unmeasured::Process(error)) => Err(error),
         }
-        Ok(answer)
     }
 
-    fn figures(&mut self, function: &Function) -> Answer {
+    /// What the compiler says of a shader.
+    ///
+    /// # Errors
+    /// It says nothing.
+    pub fn statistics(&mut self, shader: FragmentShader) -> Result<Statistics, Unmeasured> {
+        let response = self.ask(&CompilerRequest::Measure(shader))?;
+        response.statistics().map_err(Unmeasured::Compiler)
+    }
+
+    fn ask(&mut self, request: &CompilerRequest) -> Result<CompilerResponse, Unmeasured> {
+        let response = self.worker.ask(request, self.limit)?;
+        response.map_err(|silence| {
+            self.hangs += usize::from(silence == Silence::TooLong);
+            Unmeasured::Compiler(reason(&silence, self.limit))
+        })
+    }
+
+    fn figures(&mut self, function: &Function) -> Result<Figures, Unmeasured> {
         let empty = self.empty(function)?;
         let chains = self.both(function.chains(self.dialect))?;
-        let columns = &self.asker.family.columns;
-        figures(columns, self.dialect.chains(), &chains, &empty)
-            .ok_or_else(|| "the compiler does not tell instructions".to_owned())
+        let columns = &self.family.columns;
+        figures(columns, self.dialect.chains(), &chains, &empty).ok_or_else(|| {
+            Unmeasured::Compiler("the compiler does not tell instructions".to_owned())
+        })
     }
 
-    fn empty(&mut self, function: &Function) -> Result<[Statistics; 2], String> {
+    fn empty(&mut self, function: &Function) -> Result<[Statistics; 2], Unmeasured> {
         let kind = (function.is_scalar(), function.precision.is_half());
         if let Some(known) = self.empty.get(&kind) {
             return Ok(known.clone());
         }
         let chains = empty(function.is_scalar(), function.precision, self.dialect);
-        let told = self.both(chains)?;
-        self.empty.insert(kind, told.clone());
-        Ok(told)
+        let found = self.both(chains)?;
+        self.empty.insert(kind, found.clone());
+        Ok(found)
     }
 
-    fn both(&mut self, [short, long]: [String; 2]) -> Result<[Statistics; 2], String> {
-        Ok([self.shader(&short)?, self.shader(&long)?])
-    }
-
-    fn shader(&mut self, text: &str) -> Result<Statistics, String> {
-        let line = serde_json::to_string(text).map_err(|why| why.to_string())?;
-        match self.worker.ask::<Said>(&line, self.asker.limit) {
-            Ok(said) => said.statistics(),
-            Err(silence) => {
-                self.is_silent = true;
-                self.hangs += usize::from(silence == Silence::TooLong);
-                Err(reason(&silence, self.asker.limit))
-            }
-        }
+    fn both(&mut self, [short, long]: [String; 2]) -> Result<[Statistics; 2], Unmeasured> {
+        let short = self.statistics(FragmentShader::Text(short))?;
+        Ok([short, self.statistics(FragmentShader::Text(long))?])
     }
 }
 
 /// Why a compiler gave no answer.
-pub fn reason(silence: &Silence, limit: Duration) -> String {
+fn reason(silence: &Silence, limit: Duration) -> String {
     match silence {
         Silence::TooLong => format!("the compiler did not end within {} s", limit.as_secs()),
         Silence::Ended(status) => format!("the process with the compiler ended ({status})"),
     }
+}
+
+/// How the process with a family's compiler is started, or why there is none.
+pub fn launch(family: &Family, surroundings: &Surroundings) -> Result<Launch, String> {
+    let launch = Launch::new(&["cost", "--worker", family.name], surroundings);
+    Ok(launch.with_environment(environment(family, surroundings)?))
 }
 
 /// The folder of a file among what tests/mesa-compilers builds: in the folder of tools that the user names, or beside this
@@ -193,7 +153,7 @@ fn built(file: &str, tools: Option<&Path>) -> Option<PathBuf> {
 }
 
 /// What a process needs in its environment to be that compiler, or why it cannot be.
-pub fn environment(
+fn environment(
     family: &Family,
     surroundings: &Surroundings,
 ) -> Result<Vec<(String, OsString)>, String> {
@@ -215,11 +175,8 @@ pub fn environment(
             all.push(pair("LD_PRELOAD", folder.join(shim).into()));
             all.push(pair("LIBGL_DRIVERS_PATH", folder.join("dri").into()));
             all.push(pair("LD_LIBRARY_PATH", folder.into()));
-            all.extend(
-                environment
-                    .iter()
-                    .map(|(name, value)| pair(name, value.into())),
-            );
+            let own = environment.iter();
+            all.extend(own.map(|(name, value)| pair(name, value.into())));
         }
         Compiler::Operations | Compiler::None(_) => {}
     }

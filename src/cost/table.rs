@@ -1,6 +1,6 @@
 //! The rows of a family: from its compiler, from the record, or from the graph.
 
-use super::asked::Told;
+use super::compilers::FamilyAnswers;
 use super::family::{Compiler, Family};
 use super::figures::{Counts, Figures};
 use super::function::Function;
@@ -10,7 +10,7 @@ use super::row::{CostRow, CostSource};
 /// The rows of a family, in the functions' order.
 pub fn cost_rows(
     family: &'static Family,
-    told: Option<&Told>,
+    answers: Option<&FamilyAnswers>,
     record: &Record,
     functions: &[Function],
 ) -> Vec<CostRow> {
@@ -23,19 +23,19 @@ pub fn cost_rows(
                 ..row
             };
         }
-        match (family.compiler, told) {
+        match (family.compiler, answers) {
             (Compiler::Operations, _) => counted(row, function),
             (Compiler::None(why), _) => CostRow {
                 figures: Err(why.to_owned()),
                 ..row
             },
-            (_, Some(Told::Fresh(compiler, answers))) => CostRow {
+            (_, Some(FamilyAnswers::Fresh(compiler, answers))) => CostRow {
                 compiler: Some(compiler.clone()),
                 source: Some(CostSource::Compiler),
                 figures: answers[place].clone(),
                 ..row
             },
-            (_, Some(Told::Absent(why))) => recorded(row, record, why),
+            (_, Some(FamilyAnswers::Absent(why))) => recorded(row, record, why),
             (_, None) => recorded(row, record, "its compiler was not asked"),
         }
     };

@@ -3,13 +3,13 @@
 use core::time::Duration;
 use std::collections::BTreeSet;
 
-use crate::process::{Silence, Surroundings, Worker, own_words};
+use crate::process::{Launch, Silence, Surroundings, Worker};
 
 use super::drawing_device::DeviceFacts;
 use super::error::Error;
 use super::measure::{Draw, Reading, Stop};
 use super::plan::Plan;
-use super::serve::{Answer, HELLO};
+use super::protocol::{DrawRequest, DrawResponse};
 
 /// How long opening a device and compiling a shader may take: both are seconds where they are slow.
 const PATIENCE: Duration = Duration::from_secs(30);
@@ -24,7 +24,8 @@ const ONE_THREAD: [(&str, &str); 1] = [("LP_NUM_THREADS", "1")];
 pub struct DrawingWorker<'a> {
     plan: &'a Plan,
     worker: Worker,
-    surroundings: Surroundings,
+    /// Removed after the process.
+    _surroundings: Surroundings,
     limit: Duration,
     /// What it draws on.
     pub device: DeviceFacts,
@@ -39,11 +40,14 @@ impl<'a> DrawingWorker<'a> {
     /// There is no device, or it cannot be opened.
     pub fn start(plan: &'a Plan, limit: Duration) -> Result<DrawingWorker<'a>, Error> {
         let surroundings = Surroundings::new(None)?;
-        let (worker, device) = open(&surroundings)?;
+        let environment = ONE_THREAD.map(|(name, value)| (name.to_owned(), value.into()));
+        let launch = Launch::with_own_words(&surroundings);
+        let mut worker = Worker::new(launch.with_environment(environment.into()));
+        let device = facts(&mut worker)?;
         Ok(DrawingWorker {
             plan,
             worker,
-            surroundings,
+            _surroundings: surroundings,
             limit,
             device,
             compiled: BTreeSet::new(),
@@ -52,10 +56,10 @@ impl<'a> DrawingWorker<'a> {
 
     /// Another process in place of one that is lost.
     fn restart(&mut self) -> Result<(), Stop> {
-        let (worker, _) = open(&self.surroundings).map_err(|why| Stop::All(why.to_string()))?;
-        self.worker = worker;
+        self.worker.end();
         self.compiled.clear();
-        Ok(())
+        let facts = facts(&mut self.worker);
+        facts.map(drop).map_err(|why| Stop::All(why.to_string()))
     }
 
     fn too_long(&self, seconds: f64) -> Stop {
@@ -76,8 +80,10 @@ impl Draw for DrawingWorker<'_> {
         } else {
             self.limit + GRACE + PATIENCE
         };
-        let answer = match self.worker.ask(&format!("{drawing} {draws}"), patience) {
-            Ok(answer) => answer,
+        let request = DrawRequest::Draw { drawing, draws };
+        let response = self.worker.ask(&request, patience);
+        let response = match response.map_err(|why| Stop::All(why.to_string()))? {
+            Ok(response) => response,
             Err(Silence::TooLong) => {
                 self.restart()?;
                 return Err(self.too_long(patience.as_secs_f64()));
@@ -89,30 +95,27 @@ impl Draw for DrawingWorker<'_> {
             }
         };
         self.compiled.insert(drawing);
-        match answer {
-            Answer::Reading(reading) if reading.wall > self.limit.as_nanos() as f64 => {
+        match response {
+            DrawResponse::Reading(reading) if reading.wall > self.limit.as_nanos() as f64 => {
                 Err(self.too_long(reading.wall / 1e9))
             }
-            Answer::Reading(reading) => Ok(reading),
-            Answer::Failed(why) | Answer::Absent(why) => {
+            DrawResponse::Reading(reading) => Ok(reading),
+            DrawResponse::Failed(why) | DrawResponse::Absent(why) => {
                 // A device that is lost draws nothing more.
                 self.restart()?;
                 Err(Stop::One(why))
             }
-            Answer::DeviceFacts(_) => Err(Stop::All("a process that only greets".to_owned())),
+            DrawResponse::Device(_) => Err(Stop::All("a process that only greets".to_owned())),
         }
     }
 }
 
-fn open(surroundings: &Surroundings) -> Result<(Worker, DeviceFacts), Error> {
-    let mut words = own_words();
-    words.push("--worker".into());
-    let environment = ONE_THREAD.map(|(name, value)| (name.to_owned(), value.into()));
-    let mut worker = Worker::start(&words, &environment, surroundings)?;
-    match worker.ask(HELLO, PATIENCE) {
-        Ok(Answer::DeviceFacts(device)) => Ok((worker, device)),
-        Ok(Answer::Absent(why) | Answer::Failed(why)) => Err(Error::Device(why)),
-        Ok(Answer::Reading(_)) => Err(Error::Protocol),
+/// What the process draws on.
+fn facts(worker: &mut Worker) -> Result<DeviceFacts, Error> {
+    match worker.ask(&DrawRequest::Device, PATIENCE)? {
+        Ok(DrawResponse::Device(device)) => Ok(device),
+        Ok(DrawResponse::Absent(why) | DrawResponse::Failed(why)) => Err(Error::Device(why)),
+        Ok(DrawResponse::Reading(_)) => Err(Error::Protocol),
         Err(Silence::TooLong) => Err(Error::Hangs(PATIENCE.as_secs())),
         Err(Silence::Ended(status)) => Err(Error::Ended(status)),
     }

@@ -28,6 +28,8 @@ mod figure;
 mod functions;
 mod measure;
 mod plan;
+#[cfg(all(feature = "cli", feature = "gpu"))]
+mod protocol;
 #[cfg(feature = "gpu")]
 mod row;
 #[cfg(all(feature = "cli", feature = "gpu"))]

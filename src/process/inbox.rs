@@ -1,21 +1,22 @@
-//! The worker's end of the pipe: what the supervisor asks, line by line.
+//! The worker's end of the pipe: it answers requests, line by line.
 //!
 //! Each line begins with the milliseconds that its answer may take. A worker ends with all processes that it has started when
 //! the supervisor is gone, which closes the pipe, and when an answer takes longer, in case the supervisor is stuck.
 
-use std::io;
+use std::io::{self, Write};
 use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender, channel};
 use std::thread;
 use std::time::Duration;
 
+use serde::{Serialize, de::DeserializeOwned};
+
 /// How much longer than it is allowed a worker may work on an answer: a supervisor that is well ends it before.
 const MARGIN: Duration = Duration::from_secs(5);
 
-/// The lines that a worker is asked. To take the next one is to have answered the last.
+/// The requests to a worker.
 pub struct Inbox {
     lines: Receiver<String>,
     work: Sender<Work>,
-    is_busy: bool,
 }
 
 /// What happens to a line.
@@ -53,24 +54,25 @@ impl Inbox {
             end();
         });
         thread::spawn(move || watch(&heard));
-        Inbox {
-            lines,
-            work,
-            is_busy: false,
-        }
+        Inbox { lines, work }
     }
-}
 
-impl Iterator for Inbox {
-    type Item = String;
-
-    fn next(&mut self) -> Option<String> {
-        if self.is_busy {
+    /// Answers each request until the supervisor is gone.
+    ///
+    /// # Errors
+    /// The pipe is gone, or a line is no request.
+    pub fn serve<Request: DeserializeOwned, Response: Serialize>(
+        self,
+        mut answer: impl FnMut(Request) -> Response,
+    ) -> io::Result<()> {
+        let mut output = io::stdout().lock();
+        for line in self.lines {
+            let response = answer(serde_json::from_str(&line)?);
+            writeln!(output, "{}", serde_json::to_string(&response)?)?;
+            output.flush()?;
             let _ = self.work.send(Work::Answered);
         }
-        let line = self.lines.recv().ok()?;
-        self.is_busy = true;
-        Some(line)
+        Ok(())
     }
 }
 

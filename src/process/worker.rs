@@ -7,17 +7,25 @@ use std::sync::mpsc::{Receiver, RecvTimeoutError, channel};
 use std::thread;
 use std::time::Duration;
 
-use serde::de::DeserializeOwned;
+use serde::{Serialize, de::DeserializeOwned};
 
 use super::error::Error;
 use super::inbox::framed;
 use super::surroundings::Surroundings;
 
-/// A process that answers. It ends when this is dropped, with all that it has started, and when this process ends.
+/// How a process of this program is started.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Launch {
+    words: Vec<OsString>,
+    /// Beside the environment of this process.
+    environment: Vec<(String, OsString)>,
+}
+
+/// A process that answers requests: started by the first, and anew by the one after a silence. It ends when this is dropped,
+/// with all that it has started, and when this process ends.
 pub struct Worker {
-    child: Child,
-    input: ChildStdin,
-    answers: Receiver<String>,
+    launch: Launch,
+    process: Option<Process>,
 }
 
 /// Why a worker gave no answer.
@@ -29,30 +37,89 @@ pub enum Silence {
     Ended(String),
 }
 
-impl Worker {
-    /// Starts this program with these words and this environment beside its own. What drivers print is not for users.
-    ///
-    /// # Errors
-    /// It cannot be started.
-    pub fn start(
-        words: &[OsString],
-        environment: &[(String, OsString)],
-        surroundings: &Surroundings,
-    ) -> Result<Worker, Error> {
-        spawn(words, environment, surroundings).map_err(Error::Start)
+impl Launch {
+    /// This program with these words, in the surroundings of a run.
+    pub fn new(words: &[&str], surroundings: &Surroundings) -> Launch {
+        Launch {
+            words: words.iter().map(OsString::from).collect(),
+            environment: surroundings.environment(),
+        }
     }
 
-    /// Asks a line, and waits for a line of JSON.
+    /// This program with the words that it was given itself, and `--worker`: so the worker comes to the same plan.
+    pub fn with_own_words(surroundings: &Surroundings) -> Launch {
+        let own = std::env::args_os().skip(1);
+        Launch {
+            words: own.chain(["--worker".into()]).collect(),
+            environment: surroundings.environment(),
+        }
+    }
+
+    /// The same with these variables too.
+    pub fn with_environment(mut self, variables: Vec<(String, OsString)>) -> Launch {
+        self.environment.extend(variables);
+        self
+    }
+}
+
+impl Worker {
+    /// A worker whose process is not yet started.
+    pub fn new(launch: Launch) -> Worker {
+        Worker {
+            launch,
+            process: None,
+        }
+    }
+
+    /// Sends a request and waits for the response: none came where the inner result says so, and then the process is ended.
     ///
     /// # Errors
-    /// None came.
-    pub fn ask<T: DeserializeOwned>(&mut self, line: &str, limit: Duration) -> Result<T, Silence> {
-        let asked =
+    /// No process can be started.
+    pub fn ask<Request: Serialize, Response: DeserializeOwned>(
+        &mut self,
+        request: &Request,
+        limit: Duration,
+    ) -> Result<Result<Response, Silence>, Error> {
+        let mut process = match self.process.take() {
+            Some(process) => process,
+            None => start(&self.launch).map_err(Error::Start)?,
+        };
+        let line = serde_json::to_string(request).expect("a request has only text keys");
+        let response = process.ask(&line, limit);
+        self.process = response.is_ok().then_some(process);
+        Ok(response)
+    }
+
+    /// Ends the process. The next request starts another.
+    pub fn end(&mut self) {
+        self.process = None;
+    }
+
+    /// Whether this is how it is started.
+    pub fn is_of(&self, launch: &Launch) -> bool {
+        self.launch == *launch
+    }
+}
+
+/// A process at work.
+struct Process {
+    child: Child,
+    input: ChildStdin,
+    responses: Receiver<String>,
+}
+
+impl Process {
+    fn ask<Response: DeserializeOwned>(
+        &mut self,
+        line: &str,
+        limit: Duration,
+    ) -> Result<Response, Silence> {
+        let sent =
             writeln!(self.input, "{}", framed(line, limit)).and_then(|()| self.input.flush());
-        if asked.is_err() {
+        if sent.is_err() {
             return Err(self.ended());
         }
-        match self.answers.recv_timeout(limit) {
+        match self.responses.recv_timeout(limit) {
             Ok(line) => serde_json::from_str(&line).map_err(|why| Silence::Ended(why.to_string())),
             Err(RecvTimeoutError::Timeout) => Err(Silence::TooLong),
             Err(RecvTimeoutError::Disconnected) => Err(self.ended()),
@@ -65,7 +132,7 @@ impl Worker {
     }
 }
 
-impl Drop for Worker {
+impl Drop for Process {
     fn drop(&mut self) {
         #[cfg(unix)]
         end_group(&self.child);
@@ -83,15 +150,12 @@ fn end_group(child: &Child) {
     let _ = group.map(|group| kill_process_group(group, Signal::KILL));
 }
 
-fn spawn(
-    words: &[OsString],
-    environment: &[(String, OsString)],
-    surroundings: &Surroundings,
-) -> io::Result<Worker> {
+/// Starts a process. What drivers print is not for users.
+fn start(launch: &Launch) -> io::Result<Process> {
     let mut command = Command::new(std::env::current_exe()?);
-    command.args(words);
-    command.envs(surroundings.environment());
-    command.envs(environment.iter().map(|(name, value)| (name, value)));
+    command.args(&launch.words);
+    let variables = launch.environment.iter();
+    command.envs(variables.map(|(name, value)| (name, value)));
     #[cfg(unix)]
     std::os::unix::process::CommandExt::process_group(&mut command, 0);
     command
@@ -102,7 +166,7 @@ fn spawn(
     let gone = || io::Error::other("a process without pipes");
     let input = child.stdin.take().ok_or_else(gone)?;
     let output = BufReader::new(child.stdout.take().ok_or_else(gone)?);
-    let (send, answers) = channel();
+    let (send, responses) = channel();
     thread::spawn(move || {
         // Ends with the process's output, or when nobody listens.
         for line in output.lines().map_while(Result::ok) {
@@ -111,14 +175,9 @@ fn spawn(
             }
         }
     });
-    Ok(Worker {
+    Ok(Process {
         child,
         input,
-        answers,
+        responses,
     })
-}
-
-/// The words that this program was given.
-pub fn own_words() -> Vec<OsString> {
-    std::env::args_os().skip(1).collect()
 }

@@ -70,7 +70,7 @@ pub use row::{
     VerifyRow, WORST,
 };
 #[cfg(all(feature = "cli", feature = "gpu"))]
-pub use supervise::{Limits, supervise};
+pub use supervise::supervise;
 #[cfg(feature = "gpu")]
 pub use sweep::{count, sweep};
 pub use trial::{Expected, Miss, Outcome, Trial, result_range};

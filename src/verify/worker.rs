@@ -1,31 +1,31 @@
-//! A worker: reads the numbers of files, a line each, and answers each with its rows, a line of JSON.
+//! A worker: answers the numbers of files with their rows.
 
-use std::io::{self, Write};
+use std::io;
+
+use serde::{Deserialize, Serialize};
 
 use crate::process::Inbox;
-use crate::verify::run::Devices;
 
 use super::file::{Effort, file_rows};
 use super::plan::Plan;
+use super::row::VerifyRow;
+use super::run::Devices;
 
-/// Serves until there is nothing more to read. Only numbers of the plan are answered.
+/// What a worker is asked: the rows of the file with this place in the plan.
+#[derive(Clone, Copy, Debug, Serialize, Deserialize)]
+pub struct FileRequest {
+    /// The place.
+    pub file: usize,
+}
+
+/// Serves until the supervisor is gone. Only files of the plan have rows.
 ///
 /// # Errors
 /// The pipe is gone.
 pub fn serve(inbox: Inbox, plan: &Plan, devices: &Devices, effort: Effort) -> io::Result<()> {
-    let mut output = io::stdout().lock();
-    for line in inbox {
-        let Some(file) = line
-            .trim()
-            .parse()
-            .ok()
-            .and_then(|index: usize| plan.files.get(index))
-        else {
-            continue;
-        };
-        let rows = file_rows(plan, file, devices, effort);
-        writeln!(output, "{}", serde_json::to_string(&rows)?)?;
-        output.flush()?;
-    }
-    Ok(())
+    inbox.serve(|request: FileRequest| -> Vec<VerifyRow> {
+        let file = plan.files.get(request.file);
+        file.map(|file| file_rows(plan, file, devices, effort))
+            .unwrap_or_default()
+    })
 }

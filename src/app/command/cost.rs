@@ -1,5 +1,7 @@
 //! `cost`: what compilers of real GPUs make of functions.
 
+use core::time::Duration;
+
 use crate::app::args::CostFlags;
 use crate::app::error::Error;
 use crate::app::names::family;
@@ -8,11 +10,11 @@ use crate::app::request::Request;
 use crate::app::source::materials;
 use crate::app::write::{try_places_of_ours, write_report};
 use crate::cost::{
-    CostRow, CostSource, FAMILIES, Family, Figures, Function, Limits, Record, ask, cost_rows,
+    CostRow, CostSource, FAMILIES, Family, Figures, Function, Record, ask_compilers, cost_rows,
     functions, records, serve,
 };
 use crate::methods::{self, Method};
-use crate::process::Surroundings;
+use crate::process::{Pool, Surroundings};
 use crate::report::Report;
 use crate::report::cost as cost_report;
 use crate::verify::machine;
@@ -38,16 +40,18 @@ pub fn run(flags: &CostFlags, progress: Progress) -> Result<Output, Error> {
     let page = flags.out_dir.as_ref().map(|folder| folder.join(PAGE));
     try_places(flags.json.as_deref(), page.as_deref())?;
     try_places_of_ours(page.as_slice(), flags.overwrite)?;
-    let limits = Limits {
-        seconds: flags.limit,
+    let pool = Pool {
+        limit: Duration::from_secs(flags.limit),
         workers: machine::cores(),
     };
     let surroundings = Surroundings::new(flags.tools.as_deref())?;
-    let told = ask(&families, &functions, limits, &surroundings, progress)?;
+    let answers = ask_compilers(&families, &functions, pool, &surroundings, progress)?;
     let table: Vec<Vec<CostRow>> = families
         .iter()
-        .zip(&told)
-        .map(|(family, told)| cost_rows(family, told.as_ref(), &records(family.name), &functions))
+        .zip(&answers)
+        .map(|(family, answers)| {
+            cost_rows(family, answers.as_ref(), &records(family.name), &functions)
+        })
         .collect();
     let json = Report::new(
         flags.command_line(),

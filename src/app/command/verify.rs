@@ -1,5 +1,6 @@
 //! `verify`: what is generated, run on every target and held against what it means.
 
+use core::time::Duration;
 use std::collections::BTreeSet;
 
 use crate::app::args::VerifyFlags;
@@ -11,13 +12,13 @@ use crate::app::source::{materials, source};
 use crate::app::verify::plan_of_request;
 use crate::app::write::write_file;
 use crate::gpu::{Backend, Wanted};
-use crate::process::Inbox;
+use crate::process::{Inbox, Pool};
 use crate::report::Report;
 use crate::report::verify::{devices, not_checked, verify_remarks, verify_text};
 use crate::verify::file::Effort;
 use crate::verify::plan::Plan;
 use crate::verify::run::Devices;
-use crate::verify::{Limits, Status, VerifyRow, exhaustive_rows, junit, machine, serve, supervise};
+use crate::verify::{Status, VerifyRow, exhaustive_rows, junit, machine, serve, supervise};
 
 use super::{Output, Progress, check_limit, refuse_place_of, report, try_places};
 
@@ -59,12 +60,12 @@ pub fn run(flags: &VerifyFlags, progress: Progress) -> Result<Output, Error> {
     let (rows, speeds) = if flags.exhaustive {
         exhaustive_rows(&plan, &Devices::new(wanted), progress)?
     } else {
-        let limits = Limits {
-            seconds: flags.limit,
+        let pool = Pool {
+            limit: Duration::from_secs(flags.limit),
             workers: machine::cores(),
         };
         (
-            supervise(&plan, limits, flags.tools.as_deref(), progress)?,
+            supervise(&plan, pool, flags.tools.as_deref(), progress)?,
             Vec::new(),
         )
     };

@@ -1,4 +1,4 @@
-//! What supervisor and worker say to each other, a line of JSON each. Numbers go as bits: what is run may give NaN.
+//! What a worker is asked about a user's function, and what it answers. Numbers go as bits: what is run may give NaN.
 
 use serde::{Deserialize, Serialize};
 
@@ -10,20 +10,20 @@ use super::language::Language;
 
 /// What a worker is asked.
 #[derive(Debug, Serialize, Deserialize)]
-pub enum Asked {
+pub enum AuditRequest {
     /// To ask the compilers of a language about a whole program.
     Accept(Language, String),
     /// To make SPIR-V of a shader.
     Module(Language, String),
     /// To compile a program.
-    Prepare(Code, Vec<Value>),
+    Prepare(Code, Vec<UniformBits>),
     /// To run it over cosines.
     Run(Vec<u32>),
 }
 
 /// What a worker answers.
 #[derive(Debug, Serialize, Deserialize)]
-pub enum Said {
+pub enum AuditResponse {
     /// What the compilers say.
     Accepted(Accepted),
     /// What the compiler has made, or why it has not.
@@ -49,22 +49,22 @@ pub enum Code {
     Spirv(Vec<u8>),
 }
 
-/// A value from a uniform.
+/// A uniform with its value as bits.
 #[derive(Debug, Serialize, Deserialize)]
-pub struct Value {
+pub struct UniformBits {
     name: String,
     is_rgb: bool,
     bits: [u32; 3],
 }
 
-impl Value {
-    /// As it is said.
-    pub fn of(uniform: &Uniform) -> Value {
+impl UniformBits {
+    /// As it is sent.
+    pub fn new(uniform: &Uniform) -> UniformBits {
         let (is_rgb, value) = match uniform.value {
             Argument::Rgb(value) => (true, value),
             Argument::Scalar(value) => (false, [value; 3]),
         };
-        Value {
+        UniformBits {
             name: uniform.name.clone(),
             is_rgb,
             bits: value.map(f32::to_bits),
