@@ -3,7 +3,8 @@
 
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 use fresnel_gen::app::request::Materials;
-use fresnel_gen::bake::{Request, Shape, Wanted, bake, lit};
+use fresnel_gen::app::tables::{WantedTables, table_materials};
+use fresnel_gen::bake::{Request, TableSize, bake};
 use fresnel_gen::lut::{Axis, Depth, Format, Table, smallest};
 use fresnel_gen::materials::{Sight, Surface, find};
 use fresnel_gen::methods::Light;
@@ -28,17 +29,17 @@ fn one(c: &mut Criterion) {
 }
 
 fn all_formats(c: &mut Criterion) {
-    let wanted = Wanted {
+    let wanted = WantedTables {
         materials: Materials::Default,
         medium: None,
         sight: Sight::default(),
     };
-    let (subjects, _) = lit(&wanted).expect("the four are seen");
+    let (subjects, _) = table_materials(&wanted).expect("the four are seen");
     let request = Request {
         subjects,
         typed: String::new(),
         formats: Format::ALL.to_vec(),
-        shape: Shape::Fixed {
+        shape: TableSize::Fixed {
             axis: Axis::Rational,
             texels: 256,
         },

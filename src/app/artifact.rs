@@ -9,9 +9,6 @@ use super::manifest;
 
 pub use crate::emit::sha256;
 
-/// The folder of lookup tables: those of a run without flags, and any that `bake` put beside them, which no manifest lists.
-pub const TABLES: &str = "lut";
-
 /// One output file, and what the manifest says about it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Artifact {

@@ -61,6 +61,10 @@ pub enum Error {
     /// Nothing can be drawn.
     #[error(transparent)]
     Overdraw(#[from] overdraw::Error),
+    /// A table cannot be baked.
+    #[cfg(feature = "cli")]
+    #[error(transparent)]
+    Bake(#[from] crate::bake::Error),
     /// An artifact's path cannot be used.
     #[error("the output path `{path}` cannot be used: {reason}")]
     Path {

@@ -28,6 +28,8 @@ pub mod request;
 pub mod scope;
 pub mod sight;
 pub mod source;
+#[cfg(feature = "cli")]
+pub mod tables;
 #[cfg(all(feature = "cli", feature = "gpu"))]
 pub mod time_request;
 pub mod tree;

@@ -6,11 +6,10 @@
 //! be written by anybody.
 
 use crate::emit::{MARK, sha256};
-use crate::lut::Format;
+use crate::lut::{Format, KTX2_MARK, TABLES};
 use crate::num::Precision;
-use crate::targets;
+use crate::targets::{self, Finish};
 
-use super::artifact::TABLES;
 use super::catalogue::JSON;
 use super::manifest::Entry;
 
@@ -22,13 +21,7 @@ const CATALOGUE: &str = "catalogue";
 const MARK_WITHIN: usize = 1024;
 
 /// How files begin that have no comments, and what their heads say then: JSON, KTX2.
-const WITHOUT_COMMENTS: [(&[u8], &[u8]); 2] = [
-    (b"{", b"\"tool\": \"fresnel-gen\""),
-    (b"\xABKTX 20", b"KTXwriter\0fresnel-gen\0"),
-];
-
-/// Formats of files that are no text.
-const BINARY: [&str; 4] = [".spv", ".exr", ".png", ".ktx2"];
+const WITHOUT_COMMENTS: [(&[u8], &[u8]); 2] = [(b"{", b"\"tool\": \"fresnel-gen\""), KTX2_MARK];
 
 /// The hash of a file as a manifest lists it. Ends of lines do not count in text: version control changes them.
 pub fn listed_hash(path: &str, bytes: &[u8]) -> String {
@@ -117,7 +110,12 @@ fn is_table(name: &str) -> bool {
 }
 
 fn is_binary(path: &str) -> bool {
-    BINARY.iter().any(|ending| path.ends_with(ending))
+    let is_module = |target: &&targets::Target| {
+        let stem = path.strip_suffix(target.extension);
+        target.finish == Finish::Spirv && stem.is_some_and(|stem| stem.ends_with('.'))
+    };
+    let mut tables = Format::ALL.into_iter().filter(|format| !format.is_text());
+    tables.any(|format| path.ends_with(format.ending())) || targets::ALL.iter().any(is_module)
 }
 
 fn without_carriage_returns(bytes: &[u8]) -> Vec<u8> {

@@ -69,6 +69,20 @@ pub enum Materials {
     These(Vec<Source>),
 }
 
+impl Materials {
+    /// Where each comes from.
+    pub fn sources(&self) -> Vec<Source> {
+        match self {
+            Materials::Default => DEFAULT_MATERIALS
+                .map(|name| Source::Named(name.to_owned()))
+                .to_vec(),
+            Materials::None => Vec::new(),
+            Materials::All => Source::catalogue().collect(),
+            Materials::These(sources) => sources.clone(),
+        }
+    }
+}
+
 /// Where a material comes from.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Source {
@@ -170,15 +184,7 @@ impl Request {
     #[doc(hidden)]
     pub fn subjects(&self) -> Result<Subjects, Error> {
         let medium = self.medium.as_ref().map(load).transpose()?;
-        let sources: Vec<Source> = match &self.materials {
-            Materials::Default => DEFAULT_MATERIALS
-                .iter()
-                .map(|name| Source::Named((*name).to_owned()))
-                .collect(),
-            Materials::None => Vec::new(),
-            Materials::All => Source::catalogue().collect(),
-            Materials::These(sources) => sources.clone(),
-        };
+        let sources = self.materials.sources();
         let mut subjects = Subjects::default();
         for source in &sources {
             let loaded = load(source)?;
@@ -277,16 +283,20 @@ impl Subjects {
             pair[0].0.name == pair[1].0.name && pair[0].1 != pair[1].1
         };
         if let Some(pair) = self.ready.windows(2).find(twice) {
-            let name = &pair[0].0.name;
-            return Err(Error::Usage {
-                what: format!("two different materials are named `{name}`; rename one in its file"),
-            });
+            return Err(same_name(&pair[0].0.name));
         }
         self.ready.dedup_by(|(a, _), (b, _)| a.name == b.name);
         match self.left_out.first() {
             Some(fault) if self.ready.is_empty() => Err(fault.clone().into()),
             _ => Ok(self),
         }
+    }
+}
+
+/// Two materials of one name.
+pub fn same_name(name: &str) -> Error {
+    Error::Usage {
+        what: format!("two different materials are named `{name}`; rename one in its file"),
     }
 }
 

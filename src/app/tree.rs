@@ -298,7 +298,7 @@ fn strangers(
     let mut folders: BTreeSet<String> = paths.filter_map(first).collect();
     folders.extend(scope.targets.iter().cloned());
     // `bake` puts tables there under any name.
-    folders.remove(artifact::TABLES);
+    folders.remove(crate::lut::TABLES);
     let mut present = folder::list(out_dir, &folders)?;
     present.retain(|path| {
         let is_known = expected.contains(path.as_str()) || listed.contains_key(path.as_str());

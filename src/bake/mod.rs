@@ -1,5 +1,6 @@
-//! Baking: materials become tables, tables become files and rows of a report. Pure; the command writes.
+//! Baking: materials become tables, tables become files and rows of a report. Pure; `app` lists the files and writes them.
 
+mod error;
 mod picture;
 mod row;
 mod shader;
@@ -8,32 +9,29 @@ mod subject;
 mod usual;
 mod words;
 
-use serde_json::{Value, json};
-
 use crate::lut::{Axis, Choice, Depth, Format, smallest};
-use crate::report::SCHEMA;
 use crate::targets::Target;
 
-use crate::app::artifact::{Artifact, TABLES};
-use crate::app::error::Error;
 use picture::Baking;
 
+pub use error::Error;
+pub use row::{BakeRow, SplitSumRow, TableRow};
 pub use split_sum::{SplitSumRequest, bake_split_sum};
-pub use subject::{Lit, Wanted, lit};
-pub use usual::{DEFAULT_AXIS, DEFAULT_FORMATS, add_tables, as_tables_are_seen};
-pub use words::{canonical, said, typed};
+pub use subject::TableMaterial;
+pub use usual::{DEFAULT_AXIS, DEFAULT_FORMATS, as_tables_are_seen, usual_request};
+pub use words::{material_words, viewing_flags};
 
 /// What is baked.
 #[derive(Clone, Debug)]
 pub struct Request {
     /// The materials, sorted by name.
-    pub subjects: Vec<Lit>,
+    pub subjects: Vec<TableMaterial>,
     /// What a user types to get all of them again: names with commas between, or `all`.
     pub typed: String,
     /// The files wanted.
     pub formats: Vec<Format>,
     /// How large.
-    pub shape: Shape,
+    pub shape: TableSize,
     /// All of them as the rows of one picture besides.
     pub atlas: bool,
     /// The languages that get a function for each picture.
@@ -46,7 +44,7 @@ pub struct Request {
 
 /// How large tables are.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Shape {
+pub enum TableSize {
     /// So many texels along this axis.
     Fixed {
         /// The axis.
@@ -63,34 +61,46 @@ pub enum Shape {
     },
 }
 
-/// Files in memory, and what is known of them.
-#[derive(Clone, Debug, Default)]
+/// A picture as files in memory, and what is known of them.
+#[derive(Clone, Debug, PartialEq)]
 pub struct Baked {
-    /// The files, as a manifest lists them.
-    pub files: Vec<Artifact>,
+    /// Its name, a material's or [`ATLAS`].
+    pub name: String,
+    /// What the files are of: `table`, or the method of a split-sum table.
+    pub method: &'static str,
+    /// The material, where it is one.
+    pub material: Option<String>,
+    /// The command that writes the files again.
+    pub command: String,
+    /// The files: path and bytes.
+    pub files: Vec<(String, Vec<u8>)>,
     /// A row for each material and format.
-    pub rows: Vec<Value>,
+    pub rows: Vec<BakeRow>,
 }
 
 /// The name of the picture of all.
 pub const ATLAS: &str = "atlas";
 
 /// Bakes. `progress` hears how many tables are done, of how many.
-pub fn bake(request: &Request, progress: &mut dyn FnMut(u64, u64, &str)) -> Result<Baked, Error> {
-    let mut baked = Baked::default();
+///
+/// # Errors
+/// No table is good enough, a format or a language refuses.
+pub fn bake(
+    request: &Request,
+    progress: &mut dyn FnMut(u64, u64, &str),
+) -> Result<Vec<Baked>, Error> {
     let pictures = request.pictures();
-    for (done, (name, subjects)) in pictures.iter().enumerate() {
-        progress(done as u64, pictures.len() as u64, name);
-        let one = picture(request, name, subjects)?;
-        baked.files.extend(one.files);
-        baked.rows.extend(one.rows);
-    }
-    Ok(baked)
+    let all = pictures.len() as u64;
+    let bake = |(done, (name, materials)): (usize, (&str, &[TableMaterial]))| {
+        progress(done as u64, all, name);
+        bake_picture(request, name, materials)
+    };
+    pictures.into_iter().enumerate().map(bake).collect()
 }
 
 impl Request {
     /// The pictures, each with its rows.
-    fn pictures(&self) -> Vec<(&str, &[Lit])> {
+    fn pictures(&self) -> Vec<(&str, &[TableMaterial])> {
         let subjects = self.subjects.iter();
         let alone = subjects.map(|one| (one.name.as_str(), std::slice::from_ref(one)));
         let atlas = self.atlas.then_some((ATLAS, self.subjects.as_slice()));
@@ -98,64 +108,40 @@ impl Request {
     }
 }
 
-/// The files of one picture, with functions that read it and a description beside them.
-fn picture(request: &Request, name: &str, subjects: &[Lit]) -> Result<Baked, Error> {
+/// The files of one picture, with the functions that read it.
+fn bake_picture(request: &Request, name: &str, subjects: &[TableMaterial]) -> Result<Baked, Error> {
     let (axis, texels, formats) = chosen(request, subjects)?;
     let baking = Baking::new(request, name, subjects, (axis, texels), formats)?;
     let functions = shader::files(&baking)?;
-    let beside: Vec<&str> = functions.iter().map(|(file, _)| file.as_str()).collect();
+    let beside: Vec<String> = functions.iter().map(|(file, _)| file.clone()).collect();
     let mut rows = Vec::new();
     let mut files = Vec::new();
     for (format, rounded) in baking.each() {
         let file = baking.file(format);
         let picture = baking.picture(format, rounded);
-        let own = row::rows(subjects, rounded, &picture, format, &file);
-        rows.extend(own.map(|mut row| {
-            row["lookup"]["functions"] = json!(beside);
-            row
-        }));
+        let own = row::table_rows(subjects, rounded, &picture, (format, &file), &beside);
+        rows.extend(own.map(|row| BakeRow::Table(Box::new(row))));
         files.push((file, format.encode(&picture)?));
     }
     files.extend(functions);
-    let command = baking.command(&baking.formats, &request.targets);
-    let material = (name != ATLAS).then_some(name);
-    let files = described(files, &rows, &command, name, ("table", material));
-    Ok(Baked { files, rows })
-}
-
-/// The files of a picture as a manifest lists them, and a description of all beside them.
-fn described(
-    mut files: Vec<(String, Vec<u8>)>,
-    rows: &[Value],
-    command: &str,
-    name: &str,
-    (method, material): (&str, Option<&str>),
-) -> Vec<Artifact> {
-    let full = serde_json::to_string_pretty(&report(command, rows));
-    let text = full.expect("a report has only text keys") + "\n";
-    let description = format!("{TABLES}/{name}.json");
-    files.push((description.clone(), text.into_bytes()));
-    let listed = |(path, bytes)| Artifact {
-        path,
-        bytes,
-        target: TABLES.to_owned(),
-        method: Some(method.to_owned()),
-        material: material.map(str::to_owned),
-        detail: json!({ "command": command, "description": description, "licence": "CC0-1.0" }),
-    };
-    files.into_iter().map(listed).collect()
-}
-
-/// A report in the shape that all have.
-pub fn report(command: &str, rows: &[Value]) -> Value {
-    json!({ "tool": "fresnel-gen", "schema": SCHEMA, "command": command, "device": null, "rows": rows })
+    Ok(Baked {
+        name: name.to_owned(),
+        method: "table",
+        material: (name != ATLAS).then(|| name.to_owned()),
+        command: baking.command(&baking.formats, &request.targets),
+        files,
+        rows,
+    })
 }
 
 /// Axis, size and formats: as asked for, or the smallest that is good enough in those of its depth.
-fn chosen(request: &Request, subjects: &[Lit]) -> Result<(Axis, usize, Vec<Format>), Error> {
+fn chosen(
+    request: &Request,
+    subjects: &[TableMaterial],
+) -> Result<(Axis, usize, Vec<Format>), Error> {
     let (budget, axes) = match &request.shape {
-        Shape::Fixed { axis, texels } => return Ok((*axis, *texels, request.formats.clone())),
-        Shape::Within { budget, axes } => (*budget, axes),
+        TableSize::Fixed { axis, texels } => return Ok((*axis, *texels, request.formats.clone())),
+        TableSize::Within { budget, axes } => (*budget, axes),
     };
     let truths: Vec<_> = subjects.iter().map(|subject| &subject.truth).collect();
     let depths = depths(&request.formats);

@@ -1,16 +1,13 @@
 //! One picture in all its formats: its tables in every depth, how wrong each is, and what its files say of themselves.
 
-use crate::app::artifact::TABLES;
-use crate::app::error::Error;
-use crate::emit::{MARK, comment_lines, quoted};
+use crate::emit::{CommandLine, MARK, comment_lines, quoted};
 use crate::fit::ModelError;
 use crate::ir::Weights;
-use crate::lut::{Axis, Between, Depth, Format, Picture, Stored, Table, table_error};
+use crate::lut::{Axis, Between, Depth, Format, Picture, Stored, TABLES, Table, table_error};
 use crate::targets::Target;
 
-use super::subject::Lit;
-use super::words::shaders;
-use super::{ATLAS, Request, depths, row};
+use super::words::with_functions;
+use super::{ATLAS, Error, Request, TableMaterial, depths, row};
 
 /// A picture while it is baked.
 pub struct Baking<'a> {
@@ -19,7 +16,7 @@ pub struct Baking<'a> {
     /// Its name, a material's or [`ATLAS`].
     pub name: &'a str,
     /// Its rows.
-    pub subjects: &'a [Lit],
+    pub subjects: &'a [TableMaterial],
     /// How cosines are spread.
     pub axis: Axis,
     /// Texels in a row.
@@ -42,7 +39,7 @@ impl<'a> Baking<'a> {
     pub fn new(
         request: &'a Request,
         name: &'a str,
-        subjects: &'a [Lit],
+        subjects: &'a [TableMaterial],
         (axis, texels): (Axis, usize),
         formats: Vec<Format>,
     ) -> Result<Baking<'a>, Error> {
@@ -124,16 +121,14 @@ impl<'a> Baking<'a> {
             [one] if self.name != ATLAS => quoted(&one.argument),
             _ => self.request.typed.clone(),
         };
-        let formats: Vec<&str> = formats.iter().map(|format| format.name()).collect();
-        let atlas = if self.name == ATLAS { " --atlas" } else { "" };
-        format!(
-            "fresnel-gen bake --material {typed}{} --size {} --axis {} --format {}{atlas}{}",
-            self.request.flags,
-            self.texels,
-            self.axis.name(),
-            formats.join(","),
-            shaders(targets, &self.request.prefix)
-        )
+        let command = CommandLine::new("fresnel-gen bake")
+            .number("material", typed)
+            .with(&self.request.flags)
+            .list("size", [self.texels])
+            .list("axis", [self.axis.name()])
+            .list("format", formats.iter().map(|format| format.name()))
+            .switch("atlas", self.name == ATLAS);
+        with_functions(command, targets, &self.request.prefix).into()
     }
 }
 
@@ -145,16 +140,21 @@ impl Rounded {
 }
 
 /// The tables in every depth that the formats have. Those of one picture share a scale.
-fn rounded(subjects: &[Lit], tables: &[Table], formats: &[Format], texels: usize) -> Vec<Rounded> {
+fn rounded(
+    subjects: &[TableMaterial],
+    tables: &[Table],
+    formats: &[Format],
+    texels: usize,
+) -> Vec<Rounded> {
     let axis = tables.first().map_or(Axis::Cos, |table| table.axis);
-    let between = |subject: &Lit| Between::new(&subject.truth, axis, texels);
+    let between = |subject: &TableMaterial| Between::new(&subject.truth, axis, texels);
     let between: Vec<Between> = subjects.iter().map(between).collect();
     let all: Vec<&Table> = tables.iter().collect();
-    let of = |depth: Depth| {
+    let in_depth = |depth: Depth| {
         let scale = depth.scale(&all);
         let stored = |table| Stored::scaled(table, depth, scale);
         let tables: Vec<Stored> = tables.iter().map(stored).collect();
-        let error = |((stored, subject), between): ((&Stored, &Lit), &Between)| {
+        let error = |((stored, subject), between): ((&Stored, &TableMaterial), &Between)| {
             [Weights::Steps256, Weights::Exact]
                 .map(|weights| table_error(stored, weights, &subject.truth, between))
         };
@@ -165,5 +165,5 @@ fn rounded(subjects: &[Lit], tables: &[Table], formats: &[Format], texels: usize
             tables,
         }
     };
-    depths(formats).into_iter().map(of).collect()
+    depths(formats).into_iter().map(in_depth).collect()
 }

@@ -1,11 +1,10 @@
 //! The functions that read a picture in a shader: a file a language.
 
-use crate::app::artifact::TABLES;
-use crate::app::error::Error;
 use crate::emit;
-use crate::lut::lookup;
+use crate::lut::{TABLES, lookup};
 use crate::targets::Target;
 
+use super::Error;
 use super::picture::Baking;
 use super::row;
 

@@ -1,18 +1,15 @@
 //! The split-sum table of a fitted method: its files and their rows.
 
-use serde_json::{Value, json};
-
-use crate::app::artifact::TABLES;
-use crate::app::error::Error;
-use crate::emit::{MARK, comment_lines};
+use crate::emit::{CommandLine, MARK, comment_lines};
 use crate::ir::Weights;
 use crate::lut::{
-    BetweenSplitSum, Format, LEAST_ROUGHNESS, Picture, SplitSum, StoredSplitSum, TERMS, check_side,
-    split_sum_roughness,
+    Axis, BetweenSplitSum, Format, LEAST_ROUGHNESS, Picture, SplitSum, StoredSplitSum, TABLES,
+    TERMS, check_side, split_sum_roughness,
 };
 use crate::methods::{Method, Shape};
 
-use super::{Baked, depths, described};
+use super::row::{BakeRow, ExactTermWeights, SplitSumLookup, SplitSumRow, WEIGHTS};
+use super::{Baked, Error, depths};
 
 /// What is baked.
 #[derive(Clone, Debug)]
@@ -30,18 +27,15 @@ const CHANNELS: &str = "red T0, green T1, blue T2, alpha T3: no colours, and no 
 
 impl SplitSumRequest {
     /// The command that writes the files again, from `bake` on.
-    pub fn command(&self) -> String {
+    pub fn command_line(&self) -> CommandLine {
         self.command_for(&self.formats)
     }
 
-    fn command_for(&self, formats: &[Format]) -> String {
-        let formats: Vec<&str> = formats.iter().map(|format| format.name()).collect();
-        format!(
-            "bake --dfg --method {} --size {} --format {}",
-            self.method.name,
-            self.size,
-            formats.join(",")
-        )
+    fn command_for(&self, formats: &[Format]) -> CommandLine {
+        CommandLine::new("bake --dfg")
+            .list("method", [self.method.name])
+            .list("size", [self.size])
+            .list("format", formats.iter().map(|format| format.name()))
     }
 
     fn name(&self) -> String {
@@ -59,12 +53,11 @@ pub fn bake_split_sum(
 ) -> Result<Baked, Error> {
     let name = request.name();
     check_side(request.size)?;
-    let shape = request.method.shape.as_ref().ok_or_else(|| Error::Usage {
-        what: format!(
-            "--dfg takes a method that is linear in its coefficients (fitted, fitted_dielectric), and `{}` is none",
-            request.method.name
-        ),
-    })?;
+    let method = request.method;
+    let fault = Error::NotFitted {
+        method: method.name,
+    };
+    let shape = method.shape.as_ref().ok_or(fault)?;
     let lines = request.size as u64;
     let all = 3 * lines - 1;
     let table = SplitSum::new(shape, request.size, &mut |done, _| {
@@ -81,24 +74,23 @@ pub fn bake_split_sum(
         for format in own.filter(|format| format.depth() == depth) {
             let file = format!("{TABLES}/{name}{}", format.ending());
             let picture = picture(request, *format, &stored, &errors);
-            rows.push(row(request, shape, *format, &file, &errors));
+            rows.push(row(request, shape, (*format, &file), &errors));
             files.push((file, format.encode(&picture)?));
         }
     }
-    let command = format!("fresnel-gen {}", request.command());
-    let files = described(files, &rows, &command, &name, (request.method.name, None));
-    Ok(Baked { files, rows })
+    Ok(Baked {
+        name,
+        method: method.name,
+        material: None,
+        command: format!("fresnel-gen {}", String::from(request.command_line())),
+        files,
+        rows,
+    })
 }
 
 /// The largest of some errors.
 fn most(errors: &[f64; TERMS]) -> f64 {
     errors.iter().copied().fold(0.0, f64::max)
-}
-
-/// The scale and the offset that leave half a texel at each end.
-fn half_texel(size: usize) -> (f64, f64) {
-    let size = size as f64;
-    ((size - 1.0) / size, 0.5 / size)
 }
 
 fn picture(
@@ -107,9 +99,12 @@ fn picture(
     stored: &StoredSplitSum,
     [steps, _]: &[[f64; TERMS]; 2],
 ) -> Picture {
-    let (scale, offset) = half_texel(request.size);
+    let (scale, offset) = Axis::half_texel(request.size);
     let about = vec![
-        format!("{MARK}: fresnel-gen {}", request.command_for(&[format])),
+        format!(
+            "{MARK}: fresnel-gen {}",
+            String::from(request.command_for(&[format]))
+        ),
         format!(
             "The split-sum table of {}: the directional albedo of a rough surface, GGX with height-correlated Smith masking, is \
              c0 T0 + c1 T1 + c2 T2 + c3 T3 for the coefficients c of any material. alpha = roughness^2.",
@@ -140,25 +135,46 @@ fn picture(
 fn row(
     request: &SplitSumRequest,
     shape: &Shape,
-    format: Format,
-    file: &str,
+    (format, file): (Format, &str),
     [steps, exact]: &[[f64; TERMS]; 2],
-) -> Value {
-    let (scale, offset) = half_texel(request.size);
-    json!({
-        "material": null, "medium": null, "reason": "one table serves every material; no mean is taken over angles",
-        "name": request.name(), "method": request.method.name, "formula": request.method.formula,
-        "format": format.name(), "texels": request.size, "rows": request.size, "axis": "fourth root", "file": file, "scale": 1.0,
-        "max_abs": most(steps), "mean_rel": null, "term_max_abs": steps, "weights": "steps of 1/256, as GPUs filter",
-        "exact_weights": { "max_abs": most(exact), "term_max_abs": exact }, "least_roughness": LEAST_ROUGHNESS,
-        "depth": format.depth().name(), "bytes": request.size * request.size * format.depth().bytes(),
-        "channels": CHANNELS, "averages": shape.averages(),
-        "albedo": "c0 T0 + c1 T1 + c2 T2 + c3 T3", "alpha": "roughness^2",
-        "distribution": "GGX, height-correlated Smith masking",
-        "lookup": {
-            "u": format!("sqrt(sqrt(clamp(cos_theta_v, 0.0, 1.0))) * {scale:?} + {offset:?}"),
-            "v": format!("sqrt(clamp(roughness, 0.0, 1.0)) * {scale:?} + {offset:?}"),
-            "wrap": "clamp to edge", "filter": "linear", "level": 0, "functions": [],
+) -> BakeRow {
+    let (scale, offset) = Axis::half_texel(request.size);
+    BakeRow::SplitSum(Box::new(SplitSumRow {
+        material: None,
+        medium: None,
+        reason: "one table serves every material; no mean is taken over angles",
+        name: request.name(),
+        method: request.method.name,
+        formula: request.method.formula,
+        format: format.name(),
+        texels: request.size,
+        rows: request.size,
+        axis: "fourth root",
+        file: file.to_owned(),
+        scale: 1.0,
+        max_abs: most(steps),
+        mean_rel: None,
+        term_max_abs: *steps,
+        weights: WEIGHTS,
+        exact_weights: ExactTermWeights {
+            max_abs: most(exact),
+            term_max_abs: *exact,
         },
-    })
+        least_roughness: LEAST_ROUGHNESS,
+        depth: format.depth().name(),
+        bytes: request.size * request.size * format.depth().bytes(),
+        channels: CHANNELS,
+        averages: shape.averages(),
+        albedo: "c0 T0 + c1 T1 + c2 T2 + c3 T3",
+        alpha: "roughness^2",
+        distribution: "GGX, height-correlated Smith masking",
+        lookup: SplitSumLookup {
+            u: format!("sqrt(sqrt(clamp(cos_theta_v, 0.0, 1.0))) * {scale:?} + {offset:?}"),
+            v: format!("sqrt(clamp(roughness, 0.0, 1.0)) * {scale:?} + {offset:?}"),
+            wrap: "clamp to edge",
+            filter: "linear",
+            level: 0,
+            functions: Vec::new(),
+        },
+    }))
 }

@@ -1,17 +1,13 @@
-//! What is baked unless asked otherwise; a run of the generator without flags writes it beside the shaders, so that what
-//! their functions called `table` read is there.
+//! What is baked unless asked otherwise.
 
-use crate::app::error::Error;
-use crate::app::generate::Generated;
-use crate::app::request::{Materials, Source};
 use crate::emit::Naming;
 use crate::lut::{Axis, Format};
 use crate::materials::Sight;
 use crate::methods::TEXELS;
 use crate::spectra::Gamut;
 
-use super::words::{said, typed};
-use super::{Request, Shape, Wanted, lit, picture};
+use super::words::{material_words, viewing_flags};
+use super::{Request, TableMaterial, TableSize};
 
 /// The axis: the one with the smallest errors at equal size.
 pub const DEFAULT_AXIS: Axis = Axis::Rational;
@@ -28,41 +24,19 @@ pub fn as_tables_are_seen(sight: &Sight, gamut_was_said: bool) -> Sight {
     sight
 }
 
-/// Adds the tables of the usual materials and their atlas to what a run without flags generates. They are not made the
-/// run's own: it replaces tables, and removes none, since `bake` writes others beside them.
-pub fn add_tables(
-    generated: &mut Generated,
-    medium: Option<Source>,
-    sight: Sight,
-) -> Result<(), Error> {
-    let request = request(medium, sight)?;
-    for (name, subjects) in request.pictures() {
-        generated
-            .artifacts
-            .extend(picture(&request, name, subjects)?.files);
-    }
-    generated.artifacts.sort_by(|a, b| a.path.cmp(&b.path));
-    Ok(())
-}
-
-fn request(medium: Option<Source>, sight: Sight) -> Result<Request, Error> {
-    let wanted = Wanted {
-        materials: Materials::Default,
-        medium,
-        sight,
-    };
-    let (subjects, _) = lit(&wanted)?;
-    Ok(Request {
-        typed: typed(&subjects),
-        flags: said(&subjects, &wanted.sight),
+/// The tables of these materials, and an atlas, as a run without flags writes them.
+pub fn usual_request(subjects: Vec<TableMaterial>, sight: &Sight) -> Request {
+    Request {
+        typed: material_words(&subjects),
+        flags: viewing_flags(&subjects, sight),
         subjects,
         formats: DEFAULT_FORMATS.to_vec(),
-        shape: Shape::Fixed {
+        shape: TableSize::Fixed {
             axis: DEFAULT_AXIS,
             texels: TEXELS,
         },
         atlas: true,
         targets: Vec::new(),
         prefix: Naming::default().prefix,
-    })
+    }
 }

@@ -1,54 +1,61 @@
-//! A bake as a user types it: its flags, each with a space before it.
+//! A bake as a user types it.
 
-use crate::emit::{Naming, quoted, sight_flags};
+use crate::emit::{CommandLine, Naming, quoted};
 use crate::materials::Sight;
 use crate::targets::Target;
 
-use super::{Lit, Request, Shape};
+use super::{Request, TableMaterial, TableSize};
 
-/// The materials by name.
-pub fn typed(subjects: &[Lit]) -> String {
+/// The materials as a user types them, commas between.
+pub fn material_words(subjects: &[TableMaterial]) -> String {
     let names: Vec<String> = subjects.iter().map(|one| quoted(&one.argument)).collect();
     names.join(",")
 }
 
-/// Medium and sight.
-pub fn said(subjects: &[Lit], sight: &Sight) -> String {
+/// The flags of the medium and the viewing conditions, each with a space before it.
+pub fn viewing_flags(subjects: &[TableMaterial], sight: &Sight) -> String {
     let medium = subjects.first().and_then(|subject| subject.medium.as_ref());
-    let medium = medium.map_or(String::new(), |name| format!(" --medium {}", quoted(name)));
-    medium + &sight_flags(sight)
+    CommandLine::new("")
+        .list("medium", medium)
+        .seen_as(sight)
+        .into()
 }
 
-/// All flags of a run in one order, without the output's place.
-pub fn canonical(request: &Request) -> String {
-    let formats: Vec<&str> = request.formats.iter().map(|format| format.name()).collect();
-    let shape = match &request.shape {
-        Shape::Fixed { axis, texels } => format!(" --size {texels} --axis {}", axis.name()),
-        Shape::Within { budget, axes } if axes.len() == 1 => {
-            format!(" --budget {budget:?} --axis {}", axes[0].name())
-        }
-        Shape::Within { budget, .. } => format!(" --budget {budget:?}"),
-    };
-    let atlas = if request.atlas { " --atlas" } else { "" };
-    format!(
-        " --material {}{}{shape} --format {}{atlas}{}",
-        request.typed,
-        request.flags,
-        formats.join(","),
-        shaders(&request.targets, &request.prefix)
-    )
-}
-
-/// What asks for functions beside tables.
-pub fn shaders(targets: &[&'static Target], prefix: &str) -> String {
-    if targets.is_empty() {
-        return String::new();
+impl Request {
+    /// The command that reports this again, without the output's place.
+    pub fn command_line(&self) -> CommandLine {
+        let command = CommandLine::new("bake")
+            .number("material", &self.typed)
+            .with(&self.flags);
+        let command = match &self.shape {
+            TableSize::Fixed { axis, texels } => {
+                command.list("size", [texels]).list("axis", [axis.name()])
+            }
+            TableSize::Within { budget, axes } => {
+                let only = axes.first().filter(|_| axes.len() == 1);
+                command
+                    .number("budget", format_args!("{budget:?}"))
+                    .list("axis", only.map(|axis| axis.name()))
+            }
+        };
+        let command = command
+            .list("format", self.formats.iter().map(|format| format.name()))
+            .switch("atlas", self.atlas);
+        with_functions(command, &self.targets, &self.prefix)
     }
-    let names: Vec<&str> = targets.iter().map(|target| target.name).collect();
-    let prefix = if prefix == Naming::default().prefix {
-        String::new()
-    } else {
-        format!(" --prefix {}", quoted(prefix))
-    };
-    format!(" --target {}{prefix}", names.join(","))
+}
+
+/// The same command, which writes functions beside the tables.
+pub fn with_functions(
+    command: CommandLine,
+    targets: &[&'static Target],
+    prefix: &str,
+) -> CommandLine {
+    if targets.is_empty() {
+        return command;
+    }
+    let own = Some(prefix).filter(|prefix| *prefix != Naming::default().prefix);
+    command
+        .list("target", targets.iter().map(|target| target.name))
+        .list("prefix", own)
 }

@@ -4,6 +4,10 @@ use super::depth::Depth;
 use super::error::Error;
 use super::picture::Picture;
 
+/// The folder of lookup tables in an output folder: those of a run without flags, and any that `bake` put beside them, which no
+/// manifest lists.
+pub const TABLES: &str = "lut";
+
 /// A kind of file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Format {
@@ -69,6 +73,11 @@ impl Format {
             Format::Rust => ".rs",
             Format::Js => ".js",
         }
+    }
+
+    /// Whether its files are text, as version control sees it.
+    pub fn is_text(self) -> bool {
+        matches!(self, Format::C | Format::Rust | Format::Js)
     }
 
     /// The kind of number in it.

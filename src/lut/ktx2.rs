@@ -13,6 +13,9 @@ use super::picture::Picture;
 const IDENTIFIER: [u8; 12] = [
     0xAB, b'K', b'T', b'X', b' ', b'2', b'0', 0xBB, b'\r', b'\n', 0x1A, b'\n',
 ];
+/// How a file begins, and what its head says where this program wrote it.
+pub const KTX2_MARK: (&[u8], &[u8]) = (b"\xABKTX 20", b"KTXwriter\0fresnel-gen\0");
+
 /// VK_FORMAT_R16G16B16A16_SFLOAT.
 const RGBA16F: u32 = 97;
 /// Where the header with its index and the one entry of the level index end: 12 + 9·4 + 4·4 + 2·8, and 3·8.

@@ -12,8 +12,9 @@ mod tree_of_a_run {
 
     use fresnel_gen::app::catalogue::add_catalogue;
     use fresnel_gen::app::lock::Lock;
+    use fresnel_gen::app::tables::add_tables;
     use fresnel_gen::app::{Request, check, generate, tree, write};
-    use fresnel_gen::bake::{add_tables, as_tables_are_seen};
+    use fresnel_gen::bake::as_tables_are_seen;
 
     /// All files below a folder, as paths in it.
     fn files(folder: &Path, below: &str, found: &mut BTreeSet<String>) {

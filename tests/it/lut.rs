@@ -5,7 +5,8 @@ use std::process::Command;
 
 use fresnel_gen::app::args::Cli;
 use fresnel_gen::app::request::Materials;
-use fresnel_gen::bake::{Request, Shape, Wanted, bake, lit};
+use fresnel_gen::app::tables::{WantedTables, artifacts, table_materials};
+use fresnel_gen::bake::{Request, TableMaterial, TableSize, bake};
 use fresnel_gen::ir::Weights;
 use fresnel_gen::lut::{Axis, Between, Depth, Format, Stored, Table, table_error};
 use fresnel_gen::materials::{self, Sight, Surface};
@@ -72,7 +73,7 @@ fn filtering_is_exact_at_both_ends() {
 
 fn request(names: &str, formats: &[Format], atlas: bool) -> Request {
     let names: Vec<String> = names.split(',').map(str::to_owned).collect();
-    let wanted = Wanted {
+    let wanted = WantedTables {
         materials: fresnel_gen::app::source::materials(&names).unwrap(),
         medium: None,
         sight: Sight {
@@ -81,10 +82,10 @@ fn request(names: &str, formats: &[Format], atlas: bool) -> Request {
         },
     };
     Request {
-        subjects: lit(&wanted).unwrap().0,
+        subjects: table_materials(&wanted).unwrap().0,
         typed: names.join(","),
         formats: formats.to_vec(),
-        shape: Shape::Fixed {
+        shape: TableSize::Fixed {
             axis: Axis::Rational,
             texels: 64,
         },
@@ -97,7 +98,7 @@ fn request(names: &str, formats: &[Format], atlas: bool) -> Request {
 
 fn files(request: &Request) -> Vec<(String, Vec<u8>)> {
     let baked = bake(request, &mut |_, _, _| {}).unwrap();
-    let files = baked.files.into_iter();
+    let files = baked.into_iter().flat_map(artifacts);
     files.map(|file| (file.path, file.bytes)).collect()
 }
 
@@ -119,7 +120,7 @@ fn equal_requests_give_equal_bytes() {
 
 /// The values that a picture of these rows has in a depth, row by row.
 fn expected(request: &Request, depth: Depth) -> (f32, Vec<[f32; 3]>) {
-    let table = |subject: &fresnel_gen::bake::Lit| {
+    let table = |subject: &TableMaterial| {
         Table::new(&subject.name, &subject.truth, Axis::Rational, 64).unwrap()
     };
     let tables: Vec<Table> = request.subjects.iter().map(table).collect();
@@ -359,12 +360,12 @@ fn others_find_no_fault_with_the_files() {
 
 #[test]
 fn the_default_materials_are_baked_without_flags() {
-    let wanted = Wanted {
+    let wanted = WantedTables {
         materials: Materials::Default,
         medium: None,
         sight: Sight::default(),
     };
-    let names: Vec<String> = lit(&wanted)
+    let names: Vec<String> = table_materials(&wanted)
         .unwrap()
         .0
         .into_iter()

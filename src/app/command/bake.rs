@@ -1,8 +1,7 @@
 //! `bake`: lookup tables as files, and how wrong each is.
 
-use serde_json::Value;
-
 use crate::app::args::BakeFlags;
+use crate::app::artifact::Artifact;
 use crate::app::error::Error;
 use crate::app::generate::provenance;
 use crate::app::lock::{Announce, Lock};
@@ -10,14 +9,17 @@ use crate::app::names::unknown;
 use crate::app::scope::Scope;
 use crate::app::sight::sight;
 use crate::app::source::{materials, source};
+use crate::app::tables::{WantedTables, artifacts, table_materials};
 use crate::app::tree::plan;
 use crate::app::write::write;
 use crate::bake::{
-    ATLAS, Baked, DEFAULT_AXIS, DEFAULT_FORMATS, Lit, Request, Shape, SplitSumRequest, Wanted,
-    as_tables_are_seen, bake, bake_split_sum, canonical, lit, report as full, said, typed,
+    ATLAS, BakeRow, Baked, DEFAULT_AXIS, DEFAULT_FORMATS, Request, SplitSumRequest, TableMaterial,
+    TableSize, as_tables_are_seen, bake, bake_split_sum, material_words, viewing_flags,
 };
+use crate::emit::CommandLine;
 use crate::lut::{Axis, Format, SPLIT_SUM_SIZE, check_size};
 use crate::methods::{self, Method, TEXELS};
+use crate::report::Report;
 use crate::report::table;
 use crate::targets::{self, Finish, Target};
 
@@ -41,20 +43,20 @@ pub fn run(flags: &BakeFlags, progress: Progress, announce: Announce) -> Result<
     let formats = formats(flags)?;
     let targets = targets(&flags.target)?;
     let sight = sight(&flags.sight.words(flags.gamut.as_deref()))?;
-    let wanted = Wanted {
+    let wanted = WantedTables {
         materials: materials(&flags.material)?,
         medium: flags.medium.as_deref().map(source).transpose()?,
         sight: as_tables_are_seen(&sight, flags.gamut.is_some()),
     };
-    let (subjects, left_out) = lit(&wanted)?;
+    let (subjects, left_out) = table_materials(&wanted)?;
     check_names(&subjects, flags.atlas)?;
     let request = Request {
         typed: if flags.material == ["all"] {
             "all".to_owned()
         } else {
-            typed(&subjects)
+            material_words(&subjects)
         },
-        flags: said(&subjects, &wanted.sight),
+        flags: viewing_flags(&subjects, &wanted.sight),
         subjects,
         formats,
         shape,
@@ -64,13 +66,7 @@ pub fn run(flags: &BakeFlags, progress: Progress, announce: Announce) -> Result<
     };
     try_places(flags.json.as_deref(), None)?;
     let baked = bake(&request, progress)?;
-    finished(
-        flags,
-        &format!("bake{}", canonical(&request)),
-        &baked,
-        &left_out,
-        announce,
-    )
+    finished(flags, request.command_line(), baked, &left_out, announce)
 }
 
 /// Bakes the split-sum table of a method.
@@ -85,33 +81,30 @@ fn split_sum(flags: &BakeFlags, progress: Progress, announce: Announce) -> Resul
     };
     try_places(flags.json.as_deref(), None)?;
     let baked = bake_split_sum(&request, progress)?;
-    finished(flags, &request.command(), &baked, &[], announce)
+    finished(flags, request.command_line(), vec![baked], &[], announce)
 }
 
 /// Writes what was baked, and tells of it.
 fn finished(
     flags: &BakeFlags,
-    command: &str,
-    baked: &Baked,
+    command: CommandLine,
+    baked: Vec<Baked>,
     left_out: &[String],
     announce: Announce,
 ) -> Result<Output, Error> {
     let out_dir = folder_or_current(&flags.out_dir);
+    let rows: Vec<BakeRow> = baked.iter().flat_map(|one| one.rows.clone()).collect();
+    let files: Vec<Artifact> = baked.into_iter().flat_map(artifacts).collect();
     let mut lock = Lock::take(out_dir, announce);
-    let plan = plan(
-        out_dir,
-        &baked.files,
-        &Scope::default(),
-        &provenance(Vec::new()),
-    )?;
+    let plan = plan(out_dir, &files, &Scope::default(), &provenance(Vec::new()))?;
     refuse_within_tree(&plan, flags.json.as_deref())?;
     let written = write(&plan, flags.overwrite, &mut lock)?;
     let text = if flags.quiet {
         String::new()
     } else {
-        text(&baked.rows)
+        bake_text(&rows)
     };
-    let mut output = report(text, &full(command, &baked.rows), flags.json.as_deref())?;
+    let mut output = report(text, &Report::new(command, rows), flags.json.as_deref())?;
     output
         .remarks
         .extend(named(&plan, flags.overwrite, "replaced"));
@@ -130,18 +123,18 @@ fn finished(
     Ok(output)
 }
 
-fn shape(flags: &BakeFlags) -> Result<Shape, Error> {
+fn shape(flags: &BakeFlags) -> Result<TableSize, Error> {
     let axis = flags.axis.as_deref().map(axis).transpose()?;
     match flags.budget {
         None => {
             let texels = flags.size.unwrap_or(TEXELS);
             check_size(texels)?;
-            Ok(Shape::Fixed {
+            Ok(TableSize::Fixed {
                 axis: axis.unwrap_or(DEFAULT_AXIS),
                 texels,
             })
         }
-        Some(budget) if budget > 0.0 && budget.is_finite() => Ok(Shape::Within {
+        Some(budget) if budget > 0.0 && budget.is_finite() => Ok(TableSize::Within {
             budget,
             axes: axis.map_or(Axis::ALL.to_vec(), |axis| vec![axis]),
         }),
@@ -227,7 +220,7 @@ fn is_split_sum(name: &str) -> bool {
 }
 
 /// There is something to bake, and no material bears the atlas's name.
-fn check_names(subjects: &[Lit], atlas: bool) -> Result<(), Error> {
+fn check_names(subjects: &[TableMaterial], atlas: bool) -> Result<(), Error> {
     let what = if subjects.is_empty() {
         "`--material none` leaves nothing to bake; name materials, or all"
     } else if atlas && subjects.iter().any(|subject| subject.name == ATLAS) {
@@ -243,19 +236,25 @@ fn check_names(subjects: &[Lit], atlas: bool) -> Result<(), Error> {
 }
 
 /// A line for each row.
-fn text(rows: &[Value]) -> String {
-    let cells = |row: &Value| {
-        let word = |key: &str| row[key].as_str().unwrap_or_default().to_owned();
-        let mean = row["mean_rel"].as_f64();
+fn bake_text(rows: &[BakeRow]) -> String {
+    let cells = |row: &BakeRow| {
+        let (name, format, texels, axis, file) = match row {
+            BakeRow::Table(row) => (&row.name, row.format, row.texels, row.axis, &row.file),
+            BakeRow::SplitSum(row) => (&row.name, row.format, row.texels, row.axis, &row.file),
+        };
+        let (scale, max_abs, mean_rel) = match row {
+            BakeRow::Table(row) => (row.scale, row.max_abs, row.mean_rel),
+            BakeRow::SplitSum(row) => (row.scale, row.max_abs, row.mean_rel),
+        };
         vec![
-            word("name"),
-            word("format"),
-            row["texels"].to_string(),
-            word("axis"),
-            word("file"),
-            row["scale"].to_string(),
-            format!("{:.6}", row["max_abs"].as_f64().unwrap_or_default()),
-            mean.map_or("none".to_owned(), |mean| format!("{:.4}", 100.0 * mean)),
+            name.clone(),
+            format.to_owned(),
+            texels.to_string(),
+            axis.to_owned(),
+            file.clone(),
+            format!("{scale:?}"),
+            format!("{max_abs:.6}"),
+            mean_rel.map_or("none".to_owned(), |mean| format!("{:.4}", 100.0 * mean)),
         ]
     };
     let head = [

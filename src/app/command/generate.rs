@@ -14,10 +14,11 @@ use crate::app::names::family;
 use crate::app::request::Request;
 use crate::app::sight::{input, sight};
 use crate::app::source::{is_path, materials, source};
+use crate::app::tables::add_tables;
 use crate::app::tree::{Plan, plan};
 use crate::app::write::{write, write_file, write_files};
 use crate::app::{check, depfile, folder};
-use crate::bake::{add_tables, as_tables_are_seen};
+use crate::bake::as_tables_are_seen;
 use crate::budget::{Budget, within};
 use crate::num::Precision;
 

@@ -2,7 +2,8 @@
 //! are computed with; and the usual mistakes, made on purpose, are each seen.
 
 use fresnel_gen::app::source::materials;
-use fresnel_gen::bake::{Lit, Wanted as Materials, lit};
+use fresnel_gen::app::tables::{WantedTables, table_materials};
+use fresnel_gen::bake::TableMaterial;
 use fresnel_gen::emit::{self, Emitted, Naming};
 use fresnel_gen::gpu::{
     Argument, Backend, Code, Fault, Program, Texture, TextureFormat, Uniform, Wrap,
@@ -23,13 +24,13 @@ const POINTS: usize = 100_000;
 const EIGHT_BITS: f32 = 0.5 / 255.0;
 
 /// The materials that are committed, unclipped as tables keep them.
-fn committed() -> Vec<Lit> {
-    let wanted = Materials {
+fn committed() -> Vec<TableMaterial> {
+    let wanted = WantedTables {
         materials: materials(&[]).unwrap(),
         medium: None,
         sight: Sight::default(),
     };
-    lit(&wanted).unwrap().0
+    table_materials(&wanted).unwrap().0
 }
 
 fn function() -> Emitted {
@@ -142,7 +143,7 @@ impl<'a> Put<'a> {
     }
 }
 
-fn stored(lit: &Lit, axis: Axis, texels: usize, depth: Depth) -> Stored {
+fn stored(lit: &TableMaterial, axis: Axis, texels: usize, depth: Depth) -> Stored {
     Stored::new(
         &Table::new(&lit.name, &lit.truth, axis, texels).unwrap(),
         depth,
