@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::targets::{Compiler, DXC, GLSLANG, Target, find};
+use crate::targets::{Compiler, DXC, GLSLANG, WGSL};
 use crate::verify::compilers::{Fault, HlslVersion, Verdict, compiled, hlsl_to_spirv};
 use crate::verify::harness::ENTRY;
 
@@ -38,8 +38,8 @@ pub fn accepted(language: Language, program: String) -> Accepted {
 
 /// Chrome's compiler, as the target knows it.
 fn tint(program: &str) -> Option<(String, Verdict)> {
-    let validators = find("wgsl").map_or(&[][..], |target: &Target| target.validators);
-    let tint = validators
+    let tint = WGSL
+        .validators
         .iter()
         .find(|one| one.compiler.command.is_some())?;
     let compiler: &Compiler = tint.compiler;

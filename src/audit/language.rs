@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::ir::Ty;
 use crate::names::UnknownName;
-use crate::targets::{DXC, GLSLANG};
+use crate::targets::{DXC, GLES, GLSLANG, HLSL, Target, WGSL};
 
 use super::error::Error;
 
@@ -65,11 +65,11 @@ impl Language {
     }
 
     /// The target of this language.
-    pub fn target(self) -> &'static str {
+    pub fn target(self) -> &'static Target {
         match self {
-            Language::Wgsl => "wgsl",
-            Language::Gles => "gles",
-            Language::Hlsl => "hlsl",
+            Language::Wgsl => &WGSL,
+            Language::Gles => &GLES,
+            Language::Hlsl => &HLSL,
         }
     }
 

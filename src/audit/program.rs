@@ -78,22 +78,17 @@ impl Program {
             is_scalar: false,
             precision: Precision::F32,
         };
-        match self.language {
-            Language::Wgsl => harness::wgsl(&self.text, &call),
-            Language::Gles => harness::gles(&self.text, &call),
-            Language::Hlsl => harness::hlsl(&self.text, &call),
-        }
+        harness::program(self.language.target(), &self.text, &call)
+            .expect("users' languages are run as text")
     }
 
     /// The arguments as the harness binds them.
     pub fn uniforms(&self) -> Vec<Uniform> {
-        let prefix = match self.language {
-            Language::Gles => "fg_",
-            _ => "",
-        };
+        let harness = self.language.target().stack.harness();
+        let named = harness.map_or("{name}", |harness| harness.uniform);
         let each = self.params[1..].iter().zip(&self.values);
         each.map(|(param, value)| Uniform {
-            name: format!("{prefix}{}", param.name),
+            name: named.replace("{name}", &param.name),
             value: match param.ty {
                 Ty::Rgb => Value::Rgb(*value),
                 _ => Value::Scalar(value[0]),

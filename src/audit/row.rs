@@ -192,7 +192,7 @@ impl Audited<'_> {
         let costs = self.costs.iter().enumerate();
         let answer = |(name, verdict): &(String, Verdict)| (name.clone(), verdict.into());
         AuditRow {
-            target: self.audit.language.target(),
+            target: self.audit.language.target().name,
             method: function.clone(),
             material: self.subject.argument.clone(),
             form: "user",

@@ -10,7 +10,7 @@
 use crate::emit::{bare, sha256};
 use crate::ir::{Checked, Param, Ty};
 use crate::num::Precision;
-use crate::targets::{self, Spelling};
+use crate::targets::{GLES, Target, WGSL};
 
 use super::family::Dialect;
 
@@ -50,12 +50,12 @@ fn fg_vertex(@builtin(vertex_index) i: u32) -> FgVertex {
 impl Probe {
     /// A function with its arguments, if it has any, from uniforms.
     pub fn new(function: &Checked, precision: Precision) -> Probe {
-        let text = |target: &str| bare(function, NAME, spelling(target, precision));
+        let text = |target: &Target| bare(function, NAME, target.spelling_in(precision));
         Probe {
             params: function.params.clone(),
             is_scalar: function.ty() == Ty::Scalar,
             precision,
-            texts: [text("wgsl"), text("gles")],
+            texts: [text(&WGSL), text(&GLES)],
         }
     }
 
@@ -72,8 +72,8 @@ impl Probe {
 
     /// What a chain costs where nothing is evaluated in it.
     pub fn empty(is_scalar: bool, precision: Precision) -> Probe {
-        let text = |target: &str| {
-            let spelling = spelling(target, precision);
+        let text = |target: &Target| {
+            let spelling = target.spelling_in(precision);
             let ty = spelling.ty(if is_scalar { Ty::Scalar } else { Ty::Rgb });
             let param = spelling.param.replace("{type}", spelling.scalar);
             let head = spelling.head.replace("{name}", NAME);
@@ -85,7 +85,7 @@ impl Probe {
             params: Vec::new(),
             is_scalar,
             precision,
-            texts: [text("wgsl"), text("gles")],
+            texts: [text(&WGSL), text(&GLES)],
         }
     }
 
@@ -117,7 +117,7 @@ impl Probe {
 
     /// The fragment shader in WGSL.
     pub fn wgsl(&self, evaluations: usize) -> String {
-        let spelling = spelling("wgsl", self.precision);
+        let spelling = WGSL.spelling_in(self.precision);
         let enable = if self.precision.is_half() {
             "enable f16;\n"
         } else {
@@ -162,7 +162,7 @@ impl Probe {
 
     /// The fragment shader in GLSL ES 3.00, or in GLSL ES 1.00 for what knows no other: the same text under other names.
     fn gles(&self, evaluations: usize, is_old: bool) -> String {
-        let spelling = spelling("gles", self.precision);
+        let spelling = GLES.spelling_in(self.precision);
         let uniform = |param: &Param| {
             let declared = spelling.param.replace("{type}", spelling.ty(param.ty));
             let name = format!("fg_{}[{BLOCKS}]", param.name);
@@ -272,11 +272,3 @@ const OLD_HEAD: &str = "#version 100
 varying highp vec4 fg_in;
 #define textureLod(table, at, level) texture2D(table, at)
 ";
-
-/// The spelling of a target that is always there.
-fn spelling(target: &str, precision: Precision) -> &'static Spelling {
-    let target = targets::find(target);
-    target
-        .expect("probes are in languages of ours; a test compiles them")
-        .spelling_in(precision)
-}

@@ -5,7 +5,7 @@
 
 use super::glsl;
 use super::spelling::Spelling;
-use super::target::{Finish, Frame, GLSLANG, HalfText, Page, Target, Validator};
+use super::target::{Finish, Frame, GLSLANG, HalfText, Harness, Page, Stack, Target, Validator};
 
 /// The record of this target.
 pub static TARGET: Target = Target {
@@ -36,6 +36,32 @@ pub static TARGET: Target = Target {
     catalogue: Some(include_str!("../../templates/catalogue.gles.tera")),
     finish: Finish::Text,
     validators: VALIDATORS,
+    nests_comments: false,
+    stack: Stack::OpenGlEs(&HARNESS),
+};
+
+/// OpenGL ES 3.0 has no compute shaders: a vertex shader gives its result to transform feedback, exact to the last bit.
+static HARNESS: Harness = Harness {
+    before: "#version 300 es\nprecision highp float;\n",
+    member: "uniform highp {type} fg_{name};\n",
+    block: "{members}",
+    argument: "fg_{name}",
+    uniform: "fg_{name}",
+    texture: "uniform highp sampler2D table;\n",
+    texture_argument: "table",
+    cosines: "",
+    count: "",
+    cosine: "cos_theta",
+    splat: "{value}",
+    converts: false,
+    after: "
+in highp float cos_theta;
+{block}{texture}out highp vec3 reflectance;
+void main() {
+    reflectance = vec3({value});
+    gl_Position = vec4(0.0);
+}
+",
 };
 
 const VALIDATORS: &[Validator] = &[Validator {

@@ -4,7 +4,7 @@ use crate::ir::Op;
 use crate::num::Precision;
 
 use super::spelling::{C_FAMILY, Form, Spelling};
-use super::target::{Finish, Frame, GLSLANG, HalfText, Page, Target, Validator};
+use super::target::{Finish, Frame, GLSLANG, HalfText, Page, Stack, Target, Validator};
 
 /// The record of this target.
 pub static TARGET: Target = Target {
@@ -29,6 +29,8 @@ pub static TARGET: Target = Target {
     catalogue: Some(include_str!("../../templates/catalogue.glsl.tera")),
     finish: Finish::Text,
     validators: VALIDATORS,
+    nests_comments: false,
+    stack: Stack::None,
 };
 
 const VALIDATORS: &[Validator] = &[Validator {

@@ -4,7 +4,9 @@ use crate::ir::Op;
 use crate::num::Precision;
 
 use super::spelling::{C_FAMILY, Form, Spelling};
-use super::target::{Compiler, Finish, Frame, GLSLANG, HalfText, Page, Target, Validator};
+use super::target::{
+    Compiler, Finish, Frame, GLSLANG, HalfText, Harness, Page, Stack, Target, Validator,
+};
 
 /// The record of this target.
 pub static TARGET: Target = Target {
@@ -61,6 +63,37 @@ pub static TARGET: Target = Target {
             frame: FRAME,
         },
     ],
+    nests_comments: false,
+    stack: Stack::DxcToVulkan(&HARNESS),
+};
+
+static HARNESS: Harness = Harness {
+    before: "",
+    member: "    [[vk::offset({offset})]] {type} {name};\n",
+    block: "struct FgParameters\n{\n{members}};\n[[vk::binding(0, 0)]] ConstantBuffer<FgParameters> fg_parameters;\n",
+    argument: "fg_parameters.{name}",
+    uniform: "{name}",
+    texture: "[[vk::binding(3, 0)]] Texture2D<float4> fg_table;\n[[vk::binding(4, 0)]] SamplerState fg_sampler;\n",
+    texture_argument: "fg_table, fg_sampler",
+    cosines: "",
+    count: "",
+    cosine: "fg_cosines[at.x]",
+    splat: "({value}).xxx",
+    converts: false,
+    after: "
+{block}{texture}[[vk::binding(1, 0)]] StructuredBuffer<float> fg_cosines;
+[[vk::binding(2, 0)]] RWStructuredBuffer<float4> fg_reflectances;
+[numthreads(64, 1, 1)]
+void fg_main(uint3 at : SV_DispatchThreadID)
+{
+    uint count, stride;
+    fg_cosines.GetDimensions(count, stride);
+    if (at.x < count)
+    {
+        fg_reflectances[at.x] = float4({value}, 1.0);
+    }
+}
+",
 };
 
 const GLSLANG_OPTIONS: &str = "-D -V -S frag -e main -o OUT FILE";

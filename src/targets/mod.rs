@@ -7,9 +7,13 @@
 mod spelling;
 mod target;
 
-pub use hlsl::DXC;
+pub use gles::TARGET as GLES;
+pub use hlsl::{DXC, TARGET as HLSL};
 pub use spelling::{Form, Spelling, precedence};
-pub use target::{Compiler, Finish, Frame, GLSLANG, HalfText, Page, Target, Validator};
+pub use target::{
+    Compiler, Finish, Frame, GLSLANG, HalfText, Harness, Page, Stack, Target, Validator,
+};
+pub use wgsl::{STREAM, TARGET as WGSL};
 
 // BEGIN targets (written by the test `tidy::lists_are_complete` with BLESS=1)
 mod gles;

@@ -5,7 +5,7 @@ use crate::ir::Op;
 use crate::num::Precision;
 
 use super::spelling::{C_FAMILY, Form, Spelling};
-use super::target::{Compiler, Finish, Frame, HalfText, Page, Target, Validator};
+use super::target::{Compiler, Finish, Frame, HalfText, Page, Stack, Target, Validator};
 
 /// The record of this target.
 pub static TARGET: Target = Target {
@@ -42,6 +42,8 @@ pub static TARGET: Target = Target {
     catalogue: Some(include_str!("../../templates/catalogue.msl.tera")),
     finish: Finish::Text,
     validators: VALIDATORS,
+    nests_comments: false,
+    stack: Stack::None,
 };
 
 const VALIDATORS: &[Validator] = &[Validator {

@@ -4,7 +4,7 @@
 //! forbids), so each method and material comes as two modules: a fragment shader that takes the normal and the view
 //! direction, and a compute shader that maps an array of cosines. The templates say their interfaces.
 
-use super::target::{Compiler, Finish, Frame, HalfText, Page, Target, Validator};
+use super::target::{Compiler, Finish, Frame, HalfText, Page, Stack, Target, Validator};
 use super::wgsl;
 
 /// The record of this target.
@@ -40,6 +40,8 @@ pub static TARGET: Target = Target {
     catalogue: None,
     finish: Finish::Spirv,
     validators: VALIDATORS,
+    nests_comments: true,
+    stack: Stack::SpirvModule,
 };
 
 const VALIDATORS: &[Validator] = &[Validator {

@@ -33,6 +33,60 @@ pub struct Target {
     pub finish: Finish,
     /// Compilers that are not ours and can judge it.
     pub validators: &'static [Validator],
+    /// Whether a comment may stand in a comment: the first end then ends the inner one only.
+    pub nests_comments: bool,
+    /// What runs its files on this machine.
+    pub stack: Stack,
+}
+
+/// What runs the files of a target. Text runs in a program around it.
+#[derive(Clone, Copy, Debug)]
+pub enum Stack {
+    /// wgpu, as a compute shader in WGSL.
+    Wgpu(&'static Harness),
+    /// OpenGL ES 3.0, as a vertex shader whose result transform feedback reads.
+    OpenGlEs(&'static Harness),
+    /// Vulkan, once DXC has made SPIR-V of a compute shader in HLSL.
+    DxcToVulkan(&'static Harness),
+    /// Vulkan, which takes the module as it is.
+    SpirvModule,
+    /// Nothing: its files are read again and compiled only.
+    None,
+}
+
+/// The text around a file that runs one of its functions over cosines.
+///
+/// All have one interface, that of our SPIR-V compute modules: group 0 with the run-time arguments in a uniform block at
+/// binding 0, cosines at 1, reflectances at 2, a texture and its sampler at 3 and 4. The entry point is `fg_main`, or `main`
+/// where the language has no other.
+#[derive(Debug)]
+pub struct Harness {
+    /// What stands before the file.
+    pub before: &'static str,
+    /// The declaration of a run-time argument: `{type}`, `{name}`, and its `{offset}` in the block.
+    pub member: &'static str,
+    /// The block of all `{members}`, where there are any.
+    pub block: &'static str,
+    /// The value of a run-time argument: `{name}`.
+    pub argument: &'static str,
+    /// The name by which a run-time argument is bound: `{name}`.
+    pub uniform: &'static str,
+    /// The declaration of a texture, where the function reads one.
+    pub texture: &'static str,
+    /// The texture as an argument.
+    pub texture_argument: &'static str,
+    /// The declaration of the cosines.
+    pub cosines: &'static str,
+    /// How many cosines there are.
+    pub count: &'static str,
+    /// The cosine of this invocation.
+    pub cosine: &'static str,
+    /// Three numbers of the `{value}` of a function that gives one.
+    pub splat: &'static str,
+    /// Whether a number of one precision must be converted to another in so many words.
+    pub converts: bool,
+    /// What stands behind the file: `{block}`, `{texture}`, `{cosines}`, `{count}`, and the function's `{value}`.
+    pub after: &'static str,
 }
 
 /// How a target writes half precision.
@@ -129,6 +183,18 @@ impl Validator {
             ", FILE in a program that calls its functions"
         };
         format!("{command} {}{frame}", self.options)
+    }
+}
+
+impl Stack {
+    /// The program around a file, where text is run.
+    pub fn harness(self) -> Option<&'static Harness> {
+        match self {
+            Stack::Wgpu(harness) | Stack::OpenGlEs(harness) | Stack::DxcToVulkan(harness) => {
+                Some(harness)
+            }
+            Stack::SpirvModule | Stack::None => None,
+        }
     }
 }
 

@@ -4,7 +4,7 @@ use crate::ir::Op;
 use crate::num::Precision;
 
 use super::spelling::{Form, Spelling};
-use super::target::{Compiler, Finish, Frame, HalfText, Page, Target, Validator};
+use super::target::{Compiler, Finish, Frame, HalfText, Harness, Page, Stack, Target, Validator};
 
 /// The record of this target.
 pub static TARGET: Target = Target {
@@ -33,6 +33,43 @@ pub static TARGET: Target = Target {
     catalogue: Some(include_str!("../../templates/catalogue.wgsl.tera")),
     finish: Finish::ValidWgsl,
     validators: &[NAGA_VALIDATOR, tint(ENDING)],
+    nests_comments: true,
+    stack: Stack::Wgpu(&HARNESS),
+};
+
+const PROGRAM: Harness = Harness {
+    before: "",
+    member: "    {name}: {type},\n",
+    block: "struct FgParameters {\n{members}}\n@group(0) @binding(0) var<uniform> fg_parameters: FgParameters;\n",
+    argument: "fg_parameters.{name}",
+    uniform: "{name}",
+    texture: "@group(0) @binding(3) var fg_table: texture_2d<f32>;\n@group(0) @binding(4) var fg_sampler: sampler;\n",
+    texture_argument: "fg_table, fg_sampler",
+    cosines: "@group(0) @binding(1) var<storage, read> fg_cosines: array<f32>;",
+    count: "arrayLength(&fg_cosines)",
+    cosine: "fg_cosines[i]",
+    splat: "{value}",
+    converts: true,
+    after: "
+{block}{texture}{cosines}
+@group(0) @binding(2) var<storage, read_write> fg_reflectances: array<vec4<f32>>;
+@compute @workgroup_size(64)
+fn fg_main(@builtin(global_invocation_id) at: vec3<u32>) {
+    let i = at.x;
+    if i < {count} {
+        fg_reflectances[i] = vec4<f32>(vec3<f32>({value}), 1.0);
+    }
+}
+",
+};
+static HARNESS: Harness = PROGRAM;
+
+/// The cosines are all f32 from a first one on, by their bits.
+pub static STREAM: Harness = Harness {
+    cosines: "@group(0) @binding(1) var<uniform> fg_first: u32;",
+    count: "arrayLength(&fg_reflectances)",
+    cosine: "bitcast<f32>(fg_first + i)",
+    ..PROGRAM
 };
 
 /// tint judges a file with calls of its functions behind it.

@@ -3,6 +3,7 @@
 use crate::emit::Emitted;
 use crate::fit::Measured;
 use crate::reference::Subject;
+use crate::targets::Stack;
 use crate::verify::run::{Devices, Fault, Shown, Way};
 use crate::verify::{Trial, WITHIN, count, sweep};
 
@@ -26,7 +27,11 @@ pub fn exhaustive_rows(
     progress: Progress,
 ) -> Result<(Vec<VerifyRow>, Vec<String>), Error> {
     let (mut rows, mut speeds) = (Vec::new(), Vec::new());
-    for file in plan.files.iter().filter(|file| file.target.name == "wgsl") {
+    for file in plan
+        .files
+        .iter()
+        .filter(|file| matches!(file.target.stack, Stack::Wgpu(_)))
+    {
         let Some(subject) = file.subject.map(|index| &plan.subjects[index]) else {
             continue;
         };
@@ -67,7 +72,7 @@ fn run(
         return (Err(Fault::Absent(why.to_owned())), 0.0);
     }
     let shown = Shown {
-        target: "wgsl",
+        target: file.target,
         bytes: &file.run_page().bytes,
         function: emitted,
         entry: "",
@@ -86,7 +91,7 @@ fn run(
             outcome,
             half: None,
             model_error: emitted.model_error,
-            device: devices.of("wgsl", Way::Own)?.adapter.to_string(),
+            device: devices.of(file.target, Way::Own)?.adapter.to_string(),
         })
     });
     (run, all as f64 / time.as_secs_f64() / 1e6)

@@ -9,6 +9,7 @@ use crate::materials::Channels;
 use crate::methods::{Contract, Method};
 use crate::num::Precision;
 use crate::reference::{Subject, Truth};
+use crate::targets::Stack;
 use crate::verify::compilers::{self, Verdict};
 use crate::verify::run::{Devices, Fault, Runnable, Shown, Way};
 use crate::verify::{
@@ -238,7 +239,7 @@ impl<'a> Tried<'a> {
     }
 
     fn row(&self, case: &Case, accepts: &[(&'static str, Verdict)], is_first: bool) -> VerifyRow {
-        let ways = Way::of(self.file.target.name, self.emitted.precision);
+        let ways = Way::of(self.file.target, self.emitted.precision);
         // Other ways are second opinions on the text: one material tells.
         let ways = if is_first { ways } else { &ways[..1] };
         let runs: Vec<(Way, Result<Run, Fault>)> = ways
@@ -265,7 +266,7 @@ impl<'a> Tried<'a> {
             return Err(Fault::Failed(why));
         }
         let shown = Shown {
-            target: self.file.target.name,
+            target: self.file.target,
             bytes: &page.bytes,
             function: self.emitted,
             entry: self.entry,
@@ -287,7 +288,7 @@ impl<'a> Tried<'a> {
         let mut points = cosines_around(self.effort.points, &case.limits);
         points.extend(beyond());
         let expected = case.trial.expected(&points);
-        let got = runnable.run(shown.target, &case.trial, &expected.cosines)?;
+        let got = runnable.run(&case.trial, &expected.cosines)?;
         let outcome: Outcome = expected.judge(&got);
         let model_error = match (&case.truth, way) {
             (Some(truth), Way::Own) => Some(self.model_error(runnable, case, truth)?),
@@ -307,7 +308,10 @@ impl<'a> Tried<'a> {
     /// A module that is not ours may do anything to a driver, unless a validator has looked at it.
     fn untrusted(&self) -> Option<Fault> {
         let page = self.file.run_page();
-        if self.file.target.name != "spirv" || page.is_current || !page.is_shipped {
+        if !matches!(self.file.target.stack, Stack::SpirvModule)
+            || page.is_current
+            || !page.is_shipped
+        {
             return None;
         }
         let verdicts = compilers::accepts_in(
@@ -337,7 +341,7 @@ impl<'a> Tried<'a> {
         let fault = OnceCell::new();
         let error = fit::error_of(truth, &|cosines| {
             let single: Vec<f32> = cosines.iter().map(|c| *c as f32).collect();
-            let got = runnable.run(self.file.target.name, &case.trial, &single);
+            let got = runnable.run(&case.trial, &single);
             let got = got.unwrap_or_else(|why| {
                 let _ = fault.set(why);
                 vec![[f32::NAN; 3]; single.len()]

@@ -30,7 +30,7 @@ pub(super) fn run_in_half(runnable: &Runnable, shown: &Shown, trial: &Trial) -> 
         // Nothing is promised at grazing, where most have no number.
         Contract::Exempt(_) => cosines.retain(|c| *c > 0.1),
     }
-    let got = runnable.run(shown.target, trial, &cosines)?;
+    let got = runnable.run(trial, &cosines)?;
     let (want, emulated) = (half.want(&cosines), half.emulated(&cosines));
     let mut result = HalfRun {
         error: HalfError::NONE,

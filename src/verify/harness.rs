@@ -1,14 +1,10 @@
 //! Harnesses: what is put around the text of a file so that one of its functions can be run over cosines. The text itself
-//! stays as it is, to the byte.
-//!
-//! All have one interface, that of our SPIR-V compute modules: group 0 with the run-time arguments in a uniform block at
-//! binding 0, cosines at 1, reflectances at 2, a texture and its sampler at 3 and 4. OpenGL ES 3.0 has no compute shaders:
-//! there a vertex shader gives its result to transform feedback, exact to the last bit.
+//! stays as it is, to the byte. What each language puts around it stands in its target's [`Harness`].
 
 use crate::emit::{Emitted, uniform_offsets};
 use crate::ir::{Param, Ty};
 use crate::num::Precision;
-use crate::targets::{self, Spelling};
+use crate::targets::{Harness, STREAM, Target, WGSL};
 
 use super::second::Gles;
 
@@ -44,131 +40,99 @@ impl Call<'_> {
         params.filter(|param| param.ty != Ty::Texture && !param.is_cosine())
     }
 
+    fn ty(&self) -> Ty {
+        match self.is_scalar {
+            true => Ty::Scalar,
+            false => Ty::Rgb,
+        }
+    }
+
     /// Whether it reads a texture.
     pub fn is_textured(&self) -> bool {
         self.params.iter().any(|param| param.ty == Ty::Texture)
     }
 
     /// The call, with each argument as this language has it.
-    fn text(&self, cos_theta: &str, texture: &str, number: impl Fn(&str) -> String) -> String {
+    fn text(&self, cos_theta: &str, texture: &str, number: impl Fn(&Param) -> String) -> String {
         let argument = |param: &Param| match param.ty {
             Ty::Texture => texture.to_owned(),
             _ if param.is_cosine() => cos_theta.to_owned(),
-            _ => number(&param.name),
+            _ => number(param),
         };
         let arguments: Vec<String> = self.params.iter().map(argument).collect();
         format!("{}({})", self.name, arguments.join(", "))
     }
 }
 
-/// A number as a function of WGSL takes it, which converts nothing by itself.
-fn narrowed(call: &Call, ty: Ty, value: String) -> String {
-    match call.precision {
-        Precision::F32 => value,
-        Precision::F16 => format!("{}({value})", HALF_WGSL[usize::from(ty == Ty::Rgb)]),
-    }
+/// A program around the text of a file of a target that is run as text: the text calls one function for each cosine.
+pub fn program(target: &Target, file: &str, call: &Call) -> Option<String> {
+    let harness = target.stack.harness()?;
+    Some(program_in(harness, target, file, call))
 }
 
-/// f32 of what a function of WGSL gives.
-fn widened(call: &Call, value: String) -> String {
-    match call.precision {
-        Precision::F32 => value,
-        Precision::F16 if call.is_scalar => format!("f32({value})"),
-        Precision::F16 => format!("vec3<f32>({value})"),
-    }
+/// The same around WGSL where the cosines are all f32 from a first one on.
+pub fn stream(file: &str, call: &Call) -> String {
+    program_in(&STREAM, &WGSL, file, call)
 }
 
-/// A number and a colour.
-const HALF_WGSL: [&str; 2] = ["f16", "vec3<f16>"];
-
-/// The spelling of a target that is always there.
-fn spelling(target: &str) -> &'static Spelling {
-    &targets::find(target)
-        .expect("the targets of harnesses exist; a test runs all")
-        .spelling
-}
-
-/// A compute module of a WGSL file.
-pub fn wgsl(file: &str, call: &Call) -> String {
-    let input = "@group(0) @binding(1) var<storage, read> fg_cosines: array<f32>;";
-    wgsl_over(
-        file,
-        call,
-        input,
-        "arrayLength(&fg_cosines)",
-        "fg_cosines[i]",
-    )
-}
-
-/// The same over all numbers from a first one on: `first` holds its bits, and each point has the next number.
-pub fn wgsl_stream(file: &str, call: &Call) -> String {
-    let input = "@group(0) @binding(1) var<uniform> fg_first: u32;";
-    wgsl_over(
-        file,
-        call,
-        input,
-        "arrayLength(&fg_reflectances)",
-        "bitcast<f32>(fg_first + i)",
-    )
-}
-
-fn wgsl_over(file: &str, call: &Call, input: &str, length: &str, cos_theta: &str) -> String {
-    let spelling = spelling("wgsl");
+fn program_in(harness: &Harness, target: &Target, file: &str, call: &Call) -> String {
+    let spelling = &target.spelling;
+    let offsets = uniform_offsets(call.params);
     let members: String = call
         .numbers()
-        .map(|param| format!("    {}: {},\n", param.name, spelling.ty(param.ty)))
+        .zip(offsets)
+        .map(|(param, offset)| {
+            let member = harness.member.replace("{type}", spelling.ty(param.ty));
+            let member = member.replace("{offset}", &offset.to_string());
+            member.replace("{name}", &param.name)
+        })
         .collect();
-    let block = if members.is_empty() {
-        String::new()
-    } else {
-        format!(
-            "struct FgParameters {{\n{members}}}\n@group(0) @binding(0) var<uniform> fg_parameters: FgParameters;\n"
-        )
+    let block = match members.is_empty() {
+        true => String::new(),
+        false => harness.block.replace("{members}", &members),
     };
-    let texture = if call.is_textured() {
-        "@group(0) @binding(3) var fg_table: texture_2d<f32>;\n@group(0) @binding(4) var fg_sampler: sampler;\n"
-    } else {
-        ""
+    let texture = match call.is_textured() {
+        true => harness.texture,
+        false => "",
     };
-    let cos_theta = narrowed(call, Ty::Scalar, cos_theta.to_owned());
-    let value = call.text(&cos_theta, "fg_table, fg_sampler", |name| {
-        let ty = call.numbers().find(|param| param.name == name);
-        let ty = ty.map_or(Ty::Scalar, |param| param.ty);
-        narrowed(call, ty, format!("fg_parameters.{name}"))
+    let converted = |ty: Ty, value: String, precision: Precision| match call.precision {
+        Precision::F16 if harness.converts => {
+            format!("{}({value})", target.spelling_in(precision).ty(ty))
+        }
+        _ => value,
+    };
+    let cosine = converted(Ty::Scalar, harness.cosine.to_owned(), Precision::F16);
+    let value = call.text(&cosine, harness.texture_argument, |param| {
+        let value = harness.argument.replace("{name}", &param.name);
+        converted(param.ty, value, Precision::F16)
     });
-    let value = widened(call, value);
-    format!(
-        "{file}
-{block}{texture}{input}
-@group(0) @binding(2) var<storage, read_write> fg_reflectances: array<vec4<f32>>;
-@compute @workgroup_size(64)
-fn {ENTRY}(@builtin(global_invocation_id) at: vec3<u32>) {{
-    let i = at.x;
-    if i < {length} {{
-        fg_reflectances[i] = vec4<f32>(vec3<f32>({value}), 1.0);
-    }}
-}}
-"
-    )
+    let value = converted(call.ty(), value, Precision::F32);
+    let value = match call.is_scalar {
+        true => harness.splat.replace("{value}", &value),
+        false => value,
+    };
+    let after = harness.after.replace("{block}", &block);
+    let after = after
+        .replace("{texture}", texture)
+        .replace("{cosines}", harness.cosines)
+        .replace("{count}", harness.count)
+        .replace("{value}", &value);
+    format!("{}{file}{after}", harness.before)
 }
 
 /// A vertex shader of a WGSL file, with the values of the arguments in it: naga makes GLSL ES of that.
 pub fn wgsl_vertex(file: &str, call: &Call, values: &[[f32; 3]]) -> String {
-    let texture = if call.is_textured() {
-        "@group(0) @binding(3) var fg_table: texture_2d<f32>;\n@group(0) @binding(4) var fg_sampler: sampler;\n"
-    } else {
-        ""
+    let texture = match call.is_textured() {
+        true => STREAM.texture,
+        false => "",
     };
-    let value = call.text("fg_cosine", "fg_table, fg_sampler", |name| {
-        let place = call.numbers().position(|param| param.name == name);
-        let is_rgb = call
-            .numbers()
-            .any(|param| param.name == name && param.ty == Ty::Rgb);
+    let value = call.text("fg_cosine", "fg_table, fg_sampler", |param| {
+        let place = call.numbers().position(|other| other.name == param.name);
         let [r, g, b] = place
             .and_then(|i| values.get(i))
             .copied()
             .unwrap_or_default();
-        if is_rgb {
+        if param.ty == Ty::Rgb {
             format!("vec3<f32>({r:?}f, {g:?}f, {b:?}f)")
         } else {
             format!("{r:?}f")
@@ -201,91 +165,4 @@ pub fn renamed(made: &Gles) -> String {
             Some(from) => text.replace(from.as_str(), to),
             None => text,
         })
-}
-
-/// A vertex shader of a GLSL ES file.
-pub fn gles(file: &str, call: &Call) -> String {
-    let spelling = spelling("gles");
-    let uniforms: String = call
-        .numbers()
-        .map(|param| {
-            format!(
-                "uniform highp {} fg_{};\n",
-                spelling.ty(param.ty),
-                param.name
-            )
-        })
-        .collect();
-    let texture = if call.is_textured() {
-        "uniform highp sampler2D table;\n"
-    } else {
-        ""
-    };
-    let value = call.text("cos_theta", "table", |name| format!("fg_{name}"));
-    format!(
-        "#version 300 es
-precision highp float;
-{file}
-in highp float cos_theta;
-{uniforms}{texture}out highp vec3 reflectance;
-void main() {{
-    reflectance = vec3({value});
-    gl_Position = vec4(0.0);
-}}
-"
-    )
-}
-
-/// A compute shader of an HLSL file. DXC places what stands in buffers by these marks.
-pub fn hlsl(file: &str, call: &Call) -> String {
-    let spelling = spelling("hlsl");
-    let params: Vec<&Param> = call.numbers().collect();
-    let offsets = uniform_offsets(call.params);
-    let members: String = params
-        .iter()
-        .zip(offsets)
-        .map(|(param, offset)| {
-            format!(
-                "    [[vk::offset({offset})]] {} {};\n",
-                spelling.ty(param.ty),
-                param.name
-            )
-        })
-        .collect();
-    let block = if members.is_empty() {
-        String::new()
-    } else {
-        format!(
-            "struct FgParameters\n{{\n{members}}};\n[[vk::binding(0, 0)]] ConstantBuffer<FgParameters> fg_parameters;\n"
-        )
-    };
-    let texture = if call.is_textured() {
-        "[[vk::binding(3, 0)]] Texture2D<float4> fg_table;\n[[vk::binding(4, 0)]] SamplerState fg_sampler;\n"
-    } else {
-        ""
-    };
-    let value = call.text("fg_cosines[at.x]", "fg_table, fg_sampler", |name| {
-        format!("fg_parameters.{name}")
-    });
-    let shown = if call.is_scalar {
-        format!("({value}).xxx")
-    } else {
-        value
-    };
-    format!(
-        "{file}
-{block}{texture}[[vk::binding(1, 0)]] StructuredBuffer<float> fg_cosines;
-[[vk::binding(2, 0)]] RWStructuredBuffer<float4> fg_reflectances;
-[numthreads(64, 1, 1)]
-void {ENTRY}(uint3 at : SV_DispatchThreadID)
-{{
-    uint count, stride;
-    fg_cosines.GetDimensions(count, stride);
-    if (at.x < count)
-    {{
-        fg_reflectances[at.x] = float4({shown}, 1.0);
-    }}
-}}
-"
-    )
 }

@@ -14,6 +14,7 @@ use std::cell::OnceCell;
 use crate::emit::Emitted;
 use crate::ir::{Param, Ty};
 use crate::num::Precision;
+use crate::targets::{Stack, Target};
 
 use super::compilers::{self, HlslVersion, hlsl_to_spirv, hlsl_to_spirv_in};
 use super::harness::{self, Call, ENTRY};
@@ -76,10 +77,10 @@ pub enum Way {
 
 impl Way {
     /// The ways of a target: its own first. Of half precision naga writes no GLSL, and HLSL for another shader model.
-    pub fn of(target: &str, precision: Precision) -> &'static [Way] {
-        match (target, precision) {
-            ("wgsl", Precision::F32) => &[Way::Own, Way::NagaGles, Way::NagaHlsl],
-            ("hlsl", _) => &[Way::Own, Way::Hlsl2021],
+    pub fn of(target: &Target, precision: Precision) -> &'static [Way] {
+        match (target.stack, precision) {
+            (Stack::Wgpu(_), Precision::F32) => &[Way::Own, Way::NagaGles, Way::NagaHlsl],
+            (Stack::DxcToVulkan(_), _) => &[Way::Own, Way::Hlsl2021],
             _ => &[Way::Own],
         }
     }
@@ -99,7 +100,7 @@ impl Way {
 #[derive(Clone, Copy, Debug)]
 pub struct Shown<'a> {
     /// The target's name.
-    pub target: &'a str,
+    pub target: &'static Target,
     /// The file.
     pub bytes: &'a [u8],
     /// The function.
@@ -110,6 +111,7 @@ pub struct Shown<'a> {
 
 /// A function ready to run.
 pub struct Runnable {
+    target: &'static Target,
     kernel: Kernel,
     params: Vec<Param>,
     /// Bound values stand in the text: naga's translation takes no arguments.
@@ -148,8 +150,8 @@ impl Devices {
     ///
     /// # Errors
     /// There is none.
-    pub fn of(&self, target: &str, way: Way) -> Result<&Device, Fault> {
-        if target == "gles" || way == Way::NagaGles {
+    pub fn of(&self, target: &Target, way: Way) -> Result<&Device, Fault> {
+        if matches!(target.stack, Stack::OpenGlEs(_)) || way == Way::NagaGles {
             self.gles()
         } else {
             self.compute()
@@ -180,42 +182,45 @@ impl Devices {
             };
             let (kernel, params) = (device.prepare(&program)?, params.clone());
             Ok(Runnable {
+                target: shown.target,
                 kernel,
                 params,
                 is_bound,
             })
         };
-        if shown.target == "spirv" {
+        if let Stack::SpirvModule = shown.target.stack {
             return ready(Code::Spirv(shown.bytes), shown.entry, false);
         }
         let text =
             std::str::from_utf8(shown.bytes).map_err(|fault| Fault::Failed(fault.to_string()))?;
-        match (shown.target, way) {
-            ("wgsl", Way::Own) => ready(Code::Wgsl(&harness::wgsl(text, &call)), ENTRY, false),
-            ("wgsl", Way::NagaGles) => {
+        let Some(shader) = harness::program(shown.target, text, &call) else {
+            return Err(Fault::Absent(format!(
+                "{} cannot be run here: it is read again and compiled only",
+                shown.target.name
+            )));
+        };
+        match (shown.target.stack, way) {
+            (Stack::Wgpu(_), Way::NagaGles) => {
                 let vertex = harness::wgsl_vertex(text, &call, &trial.values);
                 let made = second::to_gles(&vertex, ENTRY)?;
                 ready(Code::Gles(&harness::renamed(&made)), "main", true)
             }
-            ("wgsl", _) => {
-                let made = second::to_hlsl(&harness::wgsl(text, &call), ENTRY)?;
+            (Stack::Wgpu(_), Way::NagaHlsl) => {
+                let made = second::to_hlsl(&shader, ENTRY)?;
                 let code = hlsl_to_spirv(&made.text, &made.entry, HlslVersion::V2018)?;
                 ready(Code::Spirv(&code), &made.entry, false)
             }
-            ("gles", _) => ready(Code::Gles(&harness::gles(text, &call)), "main", false),
-            ("hlsl", _) => {
+            (Stack::OpenGlEs(_), _) => ready(Code::Gles(&shader), "main", false),
+            (Stack::DxcToVulkan(_), _) => {
                 let version = if way == Way::Hlsl2021 {
                     HlslVersion::V2021
                 } else {
                     HlslVersion::V2018
                 };
-                let shader = harness::hlsl(text, &call);
                 let code = hlsl_to_spirv_in(emitted.precision, &shader, ENTRY, version)?;
                 ready(Code::Spirv(&code), ENTRY, false)
             }
-            (other, _) => Err(Fault::Absent(format!(
-                "{other} cannot be run here: it is read again and compiled only"
-            ))),
+            _ => ready(Code::Wgsl(&shader), ENTRY, false),
         }
     }
 }
@@ -230,16 +235,16 @@ fn check_able(device: &Device, emitted: &Emitted) -> Result<(), Fault> {
 }
 
 /// The arguments of a trial by name, as a target's harness names them.
-fn uniforms(params: &[Param], trial: &Trial, target: &str) -> Vec<Uniform> {
+fn uniforms(params: &[Param], trial: &Trial, target: &Target) -> Vec<Uniform> {
+    let name = target
+        .stack
+        .harness()
+        .map_or("{name}", |harness| harness.uniform);
     let numbers = params
         .iter()
         .filter(|param| param.ty != Ty::Texture && !param.is_cosine());
     let uniform = |(param, value): (&Param, &[f32; 3])| Uniform {
-        name: if target == "gles" {
-            format!("fg_{}", param.name)
-        } else {
-            param.name.clone()
-        },
+        name: name.replace("{name}", &param.name),
         value: if param.ty == Ty::Rgb {
             Argument::Rgb(*value)
         } else {
@@ -254,16 +259,11 @@ impl Runnable {
     ///
     /// # Errors
     /// The device fails.
-    pub fn run(
-        &self,
-        target: &str,
-        trial: &Trial,
-        cosines: &[f32],
-    ) -> Result<Vec<[f32; 3]>, Fault> {
+    pub fn run(&self, trial: &Trial, cosines: &[f32]) -> Result<Vec<[f32; 3]>, Fault> {
         let uniforms = if self.is_bound {
             Vec::new()
         } else {
-            uniforms(&self.params, trial, target)
+            uniforms(&self.params, trial, self.target)
         };
         let texels: Option<Vec<[f32; 4]>> = trial.table.as_ref().map(|table| {
             table

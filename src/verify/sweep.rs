@@ -34,7 +34,7 @@ pub fn sweep(
     let text = std::str::from_utf8(shown.bytes).map_err(|why| Fault::Failed(why.to_string()))?;
     let call = harness::Call::of(shown.function);
     let stream = devices.compute()?.prepare_stream(&Program {
-        code: Code::Wgsl(&harness::wgsl_stream(text, &call)),
+        code: Code::Wgsl(&harness::stream(text, &call)),
         entry: harness::ENTRY,
         uniforms: &[],
         textured: false,

@@ -6,6 +6,7 @@ use crate::app::error::Error;
 use crate::app::folder;
 use crate::app::generate::Made;
 use crate::app::manifest::{self, Manifest};
+use crate::targets;
 use crate::verify::drift;
 use crate::verify::module;
 use crate::verify::outline::{Item, Outline, outline};
@@ -70,7 +71,7 @@ impl Folder<'_> {
         if path.ends_with(".spv") {
             return Ok(module::names(&bytes));
         }
-        let found = outline(&String::from_utf8_lossy(&bytes), path.ends_with(".wgsl"));
+        let found = outline(&String::from_utf8_lossy(&bytes), nests(path));
         Ok(found.functions())
     }
 
@@ -239,7 +240,7 @@ impl<'a> Today<'a> {
                 ..Outline::default()
             };
         }
-        let nests = self.made.artifact.target == "wgsl";
+        let nests = nests(&self.made.artifact.path);
         outline(&String::from_utf8_lossy(bytes), nests)
     }
 
@@ -279,4 +280,11 @@ impl<'a> Today<'a> {
             is_listed,
         )
     }
+}
+
+/// Whether comments of a file may stand in comments, by its ending.
+fn nests(path: &str) -> bool {
+    let ending = path.rsplit_once('.').map_or("", |(_, ending)| ending);
+    let mut targets = targets::ALL.iter();
+    targets.any(|target| target.extension == ending && target.nests_comments)
 }

@@ -19,7 +19,7 @@ fn check(name: &str, media: &[Medium]) {
     let emitted = &functions[0];
     let files = emit::library(targets::find("wgsl").unwrap(), method, &functions, "").unwrap();
     let shown = Shown {
-        target: "wgsl",
+        target: targets::find("wgsl").unwrap(),
         bytes: &files[0].bytes,
         function: emitted,
         entry: "main",
@@ -41,9 +41,7 @@ fn check(name: &str, media: &[Medium]) {
     };
     let points = cosines(1000);
     let around = |media: &[Medium; 3]| [points.clone(), beside(media)].concat();
-    let run = |media: &[Medium; 3], cosines: &[f32]| {
-        runnable.run("wgsl", &trial(media), cosines).unwrap()
-    };
+    let run = |media: &[Medium; 3], cosines: &[f32]| runnable.run(&trial(media), cosines).unwrap();
     worst(&emitted.function, media, &around, &run).check(&format!("{name} in WGSL"));
 }
 

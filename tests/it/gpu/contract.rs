@@ -210,7 +210,7 @@ fn broken(
     bytes: &[u8],
 ) -> Result<Vec<String>, Fault> {
     let shown = Shown {
-        target: target.name,
+        target,
         bytes,
         function: emitted,
         entry: "main",
@@ -230,7 +230,7 @@ fn broken(
     let mut faults = Vec::new();
     for row in rows {
         trial.values = row;
-        let got = runnable.run(target.name, &trial, &COSINES)?;
+        let got = runnable.run(&trial, &COSINES)?;
         faults.extend(judged(emitted, &trial, &got));
     }
     Ok(faults)

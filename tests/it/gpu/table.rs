@@ -87,11 +87,11 @@ impl<'a> Put<'a> {
         };
         let (file, emitted) = (text(target), function());
         let call = harness::Call::of(&emitted);
-        let wgsl = harness::wgsl(&file, &call);
-        let gles = harness::gles(&file, &call);
+        let target = targets::find(target).unwrap();
+        let program = harness::program(target, &file, &call).unwrap();
         let (code, prefix) = match backend {
-            Backend::Gles => (Code::Gles(&gles), "fg_"),
-            _ => (Code::Wgsl(&wgsl), ""),
+            Backend::Gles => (Code::Gles(&program), "fg_"),
+            _ => (Code::Wgsl(&program), ""),
         };
         let constant = self.stored.axis.constant().unwrap() as f32;
         let scalars = [

@@ -50,7 +50,7 @@ fn generated_signatures_are_the_committed_ones() {
 /// The names of the functions that a text declares.
 fn names(text: &[u8], target: &str) -> BTreeSet<String> {
     let text = String::from_utf8_lossy(text);
-    let declared = outline(&text, target == "wgsl").declared;
+    let declared = outline(&text, targets::find(target).unwrap().nests_comments).declared;
     let names = declared
         .iter()
         .filter_map(|item| function_name(&item.words));

@@ -241,14 +241,14 @@ fn is_caught(
     let target = targets::find(target).unwrap();
     let files = emit::library(target, emitted.method, std::slice::from_ref(emitted), "").unwrap();
     let shown = Shown {
-        target: target.name,
+        target,
         bytes: &files.last().unwrap().bytes,
         function: emitted,
         entry: "main",
     };
     let runnable = devices.prepare(&shown, Way::Own, trial)?;
     let expected = trial.expected(&points(trial));
-    let got = runnable.run(target.name, trial, &expected.cosines)?;
+    let got = runnable.run(trial, &expected.cosines)?;
     Ok(expected.judge(&got).miss.is_some())
 }
 
