@@ -7,8 +7,8 @@ use std::path::Path;
 
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 use fresnel_gen::app::source::pages;
+use fresnel_gen::fit::survey_page;
 use fresnel_gen::materials::{self, Extrapolate, Material, Sight};
-use fresnel_gen::report::survey::survey;
 
 /// All pages of the database, name and text; none where it is not there.
 fn database() -> Vec<(String, String)> {
@@ -59,7 +59,7 @@ fn read_and_see(c: &mut Criterion) {
         b.iter(|| {
             pages
                 .iter()
-                .map(|(file, text)| survey(file, text, &sight))
+                .map(|(file, text)| survey_page(file, text, &sight))
                 .collect::<Vec<_>>()
         });
     });

@@ -5,6 +5,7 @@
 //! the shapes among which one is chosen.
 
 mod candidates;
+mod coefficients;
 mod colours;
 mod derive;
 mod exact;
@@ -20,10 +21,12 @@ mod rival;
 mod rounded;
 mod search;
 mod shape_choice;
+mod survey;
 mod texels;
 mod weight;
 
 pub use candidates::{Candidate, candidates};
+pub use coefficients::Coefficients;
 pub use colours::{Follows, LARGEST_SOLVED_F0};
 pub use derive::{fitted_for, fitted_values, inputs_in, inputs_of, known, values, values_of};
 pub use exact::Exact;
@@ -40,5 +43,8 @@ pub use perceived::{Perceived, perceived};
 pub use rival::{best_inputs, values_at};
 pub use search::{Tried, search};
 pub use shape_choice::{ErrorQuantiles, LeaveOneOut, TriedShapes};
+pub use survey::{
+    PageFacts, PageOutcome, SURVEYED_ANGLES, SurveyedPage, VisibleColours, survey_page,
+};
 pub use texels::{arguments, table_of, texels};
 pub use weight::Weight;

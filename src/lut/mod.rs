@@ -27,6 +27,7 @@ mod search;
 mod split_sum;
 mod table;
 mod text;
+mod thesis_measure;
 
 pub use axis::Axis;
 pub use depth::{Depth, Stored};
@@ -42,3 +43,4 @@ pub use split_sum::{
     split_sum_cosine, split_sum_roughness, split_sum_terms,
 };
 pub use table::{LEAST_TEXELS, MOST_TEXELS, Table, check_size};
+pub use thesis_measure::{ThesisMeasure, thesis_table_errors};

@@ -51,6 +51,37 @@ pub fn interval(values: &[f64]) -> (f64, f64) {
     (quantile(values, 0.025), quantile(values, 0.975))
 }
 
+/// The line through these points by least squares: its height at 0, and how steep it is.
+pub fn least_squares(x: &[f64], y: &[f64]) -> (f64, f64) {
+    let mean = |values: &[f64]| values.iter().sum::<f64>() / values.len() as f64;
+    let (about, level) = (mean(x), mean(y));
+    let pairs = || x.iter().zip(y);
+    let across: f64 = pairs().map(|(x, y)| (x - about) * (y - level)).sum();
+    let square: f64 = x.iter().map(|x| (x - about).powi(2)).sum();
+    let rate = across / square;
+    (level - rate * about, rate)
+}
+
+/// Spearman's rank correlation: 1 where both are in the same order, -1 where in the opposite one.
+pub fn rank_correlation(a: &[f64], b: &[f64]) -> f64 {
+    let (a, b) = (ranks(a), ranks(b));
+    let mean = (a.len() as f64 + 1.0) / 2.0;
+    let product = |x: &[f64], y: &[f64]| -> f64 {
+        x.iter().zip(y).map(|(x, y)| (x - mean) * (y - mean)).sum()
+    };
+    product(&a, &b) / (product(&a, &a) * product(&b, &b)).sqrt()
+}
+
+/// The place of each value in order, from 1; equal values share the mean of their places.
+fn ranks(values: &[f64]) -> Vec<f64> {
+    let rank = |value: &f64| {
+        let below = values.iter().filter(|other| *other < value).count() as f64;
+        let equal = values.iter().filter(|other| *other == value).count() as f64;
+        below + (equal + 1.0) / 2.0
+    };
+    values.iter().map(rank).collect()
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -78,5 +109,18 @@ mod tests {
         };
         let held: usize = (0..200).map(holds).sum();
         assert!((180..=198).contains(&held), "{held} of 200");
+    }
+
+    #[test]
+    fn ranks_correlate_from_minus_one_to_one() {
+        assert_eq!(rank_correlation(&[1.0, 2.0, 9.0], &[0.1, 0.2, 0.3]), 1.0);
+        assert_eq!(rank_correlation(&[1.0, 2.0, 9.0], &[3.0, 2.0, 1.0]), -1.0);
+        assert_eq!(ranks(&[5.0, 1.0, 5.0]), [2.5, 1.0, 2.5]);
+    }
+
+    #[test]
+    fn a_line_is_found() {
+        let (fixed, rate) = least_squares(&[0.0, 50.0, 100.0], &[20.0, 60.0, 100.0]);
+        assert!((fixed - 20.0).abs() < 1e-9 && (rate - 0.8).abs() < 1e-9);
     }
 }

@@ -1,81 +1,138 @@
 //! Fits for people and for scripts: coefficients, and how near they come.
 
-use serde_json::{Value, json};
+use serde::{Serialize, Serializer};
 
 use super::table::{self, short_number};
 use crate::cost::{CostAndError, pareto_frontier};
 use crate::emit::Missed;
-use crate::fit::{Aim, Follows, Weight};
+use crate::fit::{Aim, Coefficients, Follows, ModelError, Weight};
 use crate::methods::Method;
+use crate::reference::Subject;
 
 /// A fitted method and what it was fitted to.
-#[derive(Clone, Debug)]
-pub struct Row {
+#[derive(Clone, Debug, Serialize)]
+pub struct FitRow {
     /// The material's name, where it is one.
-    pub material: Option<String>,
+    material: Option<String>,
     /// Its class.
-    pub class: Option<&'static str>,
-    /// What each channel follows, where two colours were given.
-    pub follows: Option<[Follows; 3]>,
+    class: Option<&'static str>,
     /// The working space.
-    pub space: &'static str,
-    /// The method.
-    pub method: &'static Method,
-    /// Each coefficient for three channels, as the aim's precision holds it.
-    pub coefficients: Vec<[f64; 3]>,
-    /// The largest error.
-    pub max_abs: f64,
-    /// The mean relative error; none where a channel reflects nothing.
-    pub mean_rel: Option<f64>,
-    /// What an evaluation of the library function costs, where that was recorded.
-    pub cost: Option<f64>,
-    /// What was minimised, and what is met exactly.
-    pub aim: Aim,
-    /// The largest error in the measure that was minimised, on paper and before the limit to [0, 1].
-    pub error: f64,
-    /// The same without the ends that are met exactly, where there are any.
-    pub free: Option<f64>,
+    space: &'static str,
+    method: &'static str,
+    terms: usize,
+    shape: &'static [&'static str],
+    /// Every shape is one for all materials.
+    shared: bool,
+    /// The coefficients of each channel.
+    coefficients: [Vec<f64>; 3],
+    max_abs: f64,
+    mean_rel: Option<f64>,
+    cost: Option<f64>,
+    weight: &'static str,
+    error: f64,
+    exact: Vec<u32>,
+    precision: &'static str,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    error_without_exact: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    reason: Option<String>,
     /// Whether it misses what its method promises of the material's class.
-    pub missed: Option<Missed>,
+    #[serde(
+        skip_serializing_if = "Option::is_none",
+        serialize_with = "missed_columns"
+    )]
+    misses_its_class: Option<Missed>,
+    /// What each channel follows, where two colours were given.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    follows: Option<[FollowedCurve; 3]>,
+    #[serde(skip)]
+    aim: Aim,
 }
 
-impl Row {
-    /// The row in a report's JSON.
-    pub fn json(&self) -> Value {
-        let mut row = json!({
-            "material": self.material, "class": self.class, "space": self.space, "method": self.method.name,
-            "terms": self.coefficients.len(), "shape": self.method.formula, "shared": true,
-            "coefficients": self.channels(), "max_abs": self.max_abs, "mean_rel": self.mean_rel, "cost": self.cost,
-            "weight": self.aim.weight.name(), "error": self.error, "exact": self.aim.exact.degrees(),
-            "precision": self.aim.precision.name(),
-        });
-        if let Some(free) = self.free {
-            row["error_without_exact"] = json!(free);
+/// What a channel follows between its two colours.
+#[derive(Clone, Copy, Debug, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum FollowedCurve {
+    /// The exact law of an index.
+    Law {
+        /// Its real part.
+        n: f64,
+        /// Its extinction coefficient.
+        k: f64,
+    },
+    /// The method `f82_tint`.
+    F82Tint {
+        /// The reflectance at 0 degrees.
+        f0: f64,
+        /// That at 81.79 degrees, over Schlick's value there.
+        tint: f64,
+    },
+}
+
+impl From<Follows> for FollowedCurve {
+    fn from(follows: Follows) -> FollowedCurve {
+        match follows {
+            Follows::Law(index) => FollowedCurve::Law {
+                n: index.n,
+                k: index.k,
+            },
+            Follows::Tint { f0, tint } => FollowedCurve::F82Tint { f0, tint },
         }
-        let reasons = [
-            (
-                self.mean_rel.is_none(),
-                "a channel that reflects nothing has no relative error",
-            ),
-            (self.cost.is_none(), "its cost is not recorded there"),
-        ];
-        let lacking = reasons.into_iter().filter(|(lacks, _)| *lacks);
-        let lacking: Vec<&str> = lacking.map(|(_, why)| why).collect();
-        if !lacking.is_empty() {
-            row["reason"] = json!(lacking.join("; "));
+    }
+}
+
+fn missed_columns<S: Serializer>(missed: &Option<Missed>, to: S) -> Result<S::Ok, S::Error> {
+    missed.as_ref().map(Missed::json).serialize(to)
+}
+
+impl FitRow {
+    /// The row of a method with these coefficients and errors, and with the cost of its library function where that was recorded.
+    /// It is of no material yet.
+    pub fn new(
+        method: &'static Method,
+        fitted: &Coefficients,
+        error: &ModelError,
+        cost: Option<f64>,
+        space: &'static str,
+    ) -> FitRow {
+        let inputs = || method.inputs.iter();
+        let channel = |i: usize| inputs().map(|input| fitted.values[input.name][i]).collect();
+        FitRow {
+            material: None,
+            class: None,
+            space,
+            method: method.name,
+            terms: method.inputs.len(),
+            shape: method.formula,
+            shared: true,
+            coefficients: [0, 1, 2].map(channel),
+            max_abs: error.max_abs,
+            mean_rel: error.mean_rel,
+            cost,
+            weight: fitted.aim.weight.name(),
+            error: fitted.error,
+            exact: fitted.aim.exact.degrees(),
+            precision: fitted.aim.precision.name(),
+            error_without_exact: fitted.error_without_exact,
+            reason: lacking(error.mean_rel, cost),
+            misses_its_class: None,
+            follows: None,
+            aim: fitted.aim,
         }
-        if let Some(missed) = &self.missed {
-            row["misses_its_class"] = missed.json();
-        }
-        if let Some(follows) = &self.follows {
-            row["follows"] = follows.iter().map(followed).collect();
-        }
-        row
     }
 
-    /// The coefficients of each channel.
-    fn channels(&self) -> [Vec<f64>; 3] {
-        [0, 1, 2].map(|i| self.coefficients.iter().map(|c| c[i]).collect())
+    /// The row of a material.
+    pub fn of_material(mut self, subject: &Subject, missed: Option<Missed>) -> FitRow {
+        self.material = Some(subject.argument.clone());
+        self.class = Some(subject.material.kind.name());
+        self.misses_its_class = missed;
+        self
+    }
+
+    /// The row of two colours, with what each channel follows between them.
+    pub fn of_colours(mut self, follows: [Follows; 3]) -> FitRow {
+        self.follows = Some(follows.map(FollowedCurve::from));
+        self
     }
 
     fn name(&self) -> &str {
@@ -83,22 +140,29 @@ impl Row {
     }
 }
 
-fn followed(follows: &Follows) -> Value {
-    match follows {
-        Follows::Law(index) => json!({ "law": { "n": index.n, "k": index.k } }),
-        Follows::Tint { f0, tint } => json!({ "f82_tint": { "f0": f0, "tint": tint } }),
-    }
+/// Why a figure is not known, where one is not.
+fn lacking(mean_rel: Option<f64>, cost: Option<f64>) -> Option<String> {
+    let reasons = [
+        (
+            mean_rel.is_none(),
+            "a channel that reflects nothing has no relative error",
+        ),
+        (cost.is_none(), "its cost is not recorded there"),
+    ];
+    let lacking = reasons.into_iter().filter(|(lacks, _)| *lacks);
+    let lacking: Vec<&str> = lacking.map(|(_, why)| why).collect();
+    (!lacking.is_empty()).then(|| lacking.join("; "))
 }
 
 /// The rows for a terminal; a star where no other of the same material is cheaper and as near.
-pub fn text(rows: &[Row], gpu: &str) -> String {
+pub fn fits_text(rows: &[FitRow], gpu: &str) -> String {
     let aim = rows.first().map_or(Aim::default(), |row| row.aim);
     let mut head = vec!["", "material", "method", "terms", "largest error"];
     head.extend(measure(aim).map(|(title, _)| title));
     head.extend(["mean relative, %", gpu]);
     let mut lines = Vec::new();
-    for of in rows.chunk_by(|a, b| a.material == b.material) {
-        let points: Vec<_> = of
+    for alike in rows.chunk_by(|a, b| a.material == b.material) {
+        let points: Vec<_> = alike
             .iter()
             .map(|row| {
                 let error = row.max_abs;
@@ -106,17 +170,17 @@ pub fn text(rows: &[Row], gpu: &str) -> String {
             })
             .collect();
         let best = pareto_frontier(&points);
-        let starred = of.iter().enumerate();
+        let starred = alike.iter().enumerate();
         lines.extend(starred.map(|(place, row)| cells(row, best.contains(&place))));
     }
     let table = table::text(&head, &lines);
     let few = rows.len() <= SHOWN;
-    let coefficients: String = rows.iter().filter(|_| few).map(listed).collect();
+    let coefficients: String = rows.iter().filter(|_| few).map(coefficient_lines).collect();
     format!("{table}\n{coefficients}{}", remarks(rows))
 }
 
 /// A column of a row's.
-type Column = (&'static str, fn(&Row) -> Option<f64>);
+type Column = (&'static str, fn(&FitRow) -> Option<f64>);
 
 /// What is told of the measure that was minimised, and of what an exact end costs, where that is asked for.
 fn measure(aim: Aim) -> impl Iterator<Item = Column> {
@@ -127,7 +191,7 @@ fn measure(aim: Aim) -> impl Iterator<Item = Column> {
         Weight::DeltaE => "largest CIEDE2000",
     };
     let error: Column = (title, |row| Some(row.error));
-    let free: Column = ("the same, no end exact", |row| row.free);
+    let free: Column = ("the same, no end exact", |row| row.error_without_exact);
     let is_any = aim.exact.is_any();
     let told = (is_any || aim.weight != Weight::Absolute).then_some(error);
     told.into_iter().chain(is_any.then_some(free))
@@ -136,13 +200,13 @@ fn measure(aim: Aim) -> impl Iterator<Item = Column> {
 /// Rows of which the coefficients are printed too.
 const SHOWN: usize = 6;
 
-fn cells(row: &Row, is_best: bool) -> Vec<String> {
+fn cells(row: &FitRow, is_best: bool) -> Vec<String> {
     let shown = |value: Option<f64>| value.map_or_else(String::new, short_number);
     let mut cells = vec![
         if is_best { "*" } else { "" }.to_owned(),
         row.name().to_owned(),
-        row.method.name.to_owned(),
-        row.coefficients.len().to_string(),
+        row.method.to_owned(),
+        row.terms.to_string(),
         short_number(row.max_abs),
     ];
     cells.extend(measure(row.aim).map(|(_, value)| shown(value(row))));
@@ -152,26 +216,24 @@ fn cells(row: &Row, is_best: bool) -> Vec<String> {
 }
 
 /// The coefficients as arguments, one after the other.
-fn listed(row: &Row) -> String {
-    let numbers = |c: &[f64; 3]| c.map(|value| (value as f32).to_string()).join(", ");
-    let lines = row.coefficients.iter().enumerate();
-    let lines = lines.map(|(i, c)| format!("  c{i} = {}\n", numbers(c)));
-    format!(
-        "\n{}, {}:\n{}",
-        row.name(),
-        row.method.name,
-        lines.collect::<String>()
-    )
+fn coefficient_lines(row: &FitRow) -> String {
+    let line = |i: usize| {
+        let channels = row.coefficients.iter();
+        let numbers: Vec<String> = channels.map(|c| (c[i] as f32).to_string()).collect();
+        format!("  c{i} = {}\n", numbers.join(", "))
+    };
+    let lines: String = (0..row.terms).map(line).collect();
+    format!("\n{}, {}:\n{lines}", row.name(), row.method)
 }
 
 /// What became of colours that no index has.
 const HALF: &str = "\ncoefficients are rounded to f16, errors are those of exact arithmetic with them, and costs those of single precision\n";
 
-fn remarks(rows: &[Row]) -> String {
+fn remarks(rows: &[FitRow]) -> String {
     let is_half = rows.first().is_some_and(|row| row.aim.precision.is_half());
     let half = if is_half { HALF } else { "" };
     let missed = rows.iter().filter_map(|row| {
-        let missed = row.missed.as_ref()?;
+        let missed = row.misses_its_class.as_ref()?;
         Some(format!("{}: {}\n", row.name(), missed.words()))
     });
     let half = half.to_owned() + &missed.collect::<String>();
@@ -179,9 +241,9 @@ fn remarks(rows: &[Row]) -> String {
         return half;
     };
     let channels = ["red", "green", "blue"].into_iter().zip(follows);
-    let remark = |(channel, follows): (&str, Follows)| match follows {
-        Follows::Law(index) => format!("{channel}: n {:.4}, k {:.4}\n", index.n, index.k),
-        Follows::Tint { tint, .. } => format!(
+    let remark = |(channel, follows): (&str, FollowedCurve)| match follows {
+        FollowedCurve::Law { n, k } => format!("{channel}: n {n:.4}, k {k:.4}\n"),
+        FollowedCurve::F82Tint { tint, .. } => format!(
             "{channel}: no index below an F0 of .985 has these colours; it follows f82_tint with a tint of {tint:.4}\n"
         ),
     };

@@ -1,155 +1,94 @@
-//! A survey of pages of refractiveindex.info: what each is, its colour, or why it cannot be used.
+//! A survey of pages of refractiveindex.info, for people and for scripts.
 
 use std::collections::BTreeMap;
 
-use serde_json::{Value, json};
+use serde::Serialize;
 
-use crate::fit::ior_d;
-use crate::materials::{Curve, Extrapolate, Material, Page, Sight, Surface};
-use crate::optics::{COS_82, cosine};
+use crate::fit::{PageFacts, PageOutcome, SURVEYED_ANGLES, SurveyedPage, VisibleColours};
 
-/// Angles at which each surface is seen: every degree from 0 to 90.
-pub const ANGLES: usize = 91;
-
-/// A page and what came of it.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Surveyed {
-    /// The page's file.
-    pub file: String,
-    /// What came of it.
-    pub outcome: Outcome,
+/// A page in a JSON report.
+#[derive(Clone, Debug, Serialize)]
+pub struct SurveyRow<'a> {
+    page: &'a str,
+    #[serde(flatten)]
+    colours: Option<ColourColumns<'a>>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    reason: Option<&'a str>,
+    status: &'static str,
+    #[serde(flatten)]
+    facts: Option<FactColumns>,
 }
 
-/// What came of a page.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Outcome {
-    /// n and k are known over the whole visible spectrum: its colours.
-    Seen(About, Colours),
-    /// n and k are known, but not everywhere in the visible spectrum.
-    Elsewhere(About, String),
-    /// It cannot be used, and why.
-    Refused(String),
+/// The colours of a page that is seen.
+#[derive(Clone, Debug, Serialize)]
+struct ColourColumns<'a> {
+    f0: [f64; 3],
+    f82: [f64; 3],
+    by_degree: &'a [[f64; 3]],
+    extrapolated: Option<&'a str>,
 }
 
-/// What is known of every page that can be used.
-#[derive(Clone, Debug, PartialEq)]
-pub struct About {
-    /// Class of the material.
-    pub class: &'static str,
-    /// The range of n and k together, in nanometres.
-    pub range_nm: (f64, f64),
-    /// The number of the formula that gives n; 0 for a table.
-    pub formula: u8,
-    /// The maker's index at the d line, and ours less it, where the page has one.
-    pub nd: Option<(f64, f64)>,
+/// What is known of a page that can be used.
+#[derive(Clone, Debug, Serialize)]
+struct FactColumns {
+    class: &'static str,
+    from_nm: f64,
+    to_nm: f64,
+    formula: u8,
+    nd: Option<f64>,
+    nd_difference: Option<f64>,
 }
 
-/// Unclipped colours of a surface in air.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Colours {
-    /// What was extrapolated, in words, where anything was.
-    pub held: Option<String>,
-    /// At each whole degree from 0 to 90.
-    pub by_degree: Vec<[f64; 3]>,
-    /// At 81.79 degrees.
-    pub f82: [f64; 3],
-}
-
-/// Reads a page and looks at it.
-pub fn survey(file: &str, text: &str, sight: &Sight) -> Surveyed {
-    let outcome = outcome(file, text, sight).unwrap_or_else(Outcome::Refused);
-    Surveyed {
-        file: file.to_owned(),
-        outcome,
-    }
-}
-
-fn outcome(file: &str, text: &str, sight: &Sight) -> Result<Outcome, String> {
-    let page =
-        Page::parse(file, text).map_err(|fault| format!("line {}: {}", fault.line, fault.what))?;
-    let material = page.material(None).map_err(|fault| fault.what)?;
-    let about = about(&page, &material)?;
-    Ok(match Surface::new(&material, None, sight) {
-        Ok(surface) => Outcome::Seen(about, colours(&surface)),
-        Err(unseen) => Outcome::Elsewhere(about, unseen.why),
-    })
-}
-
-/// What is known of a material; refused where it has no index in the middle of its own range.
-fn about(page: &Page, material: &Material) -> Result<About, String> {
-    let (from, to) = material.range_nm();
-    material.index(0.5 * (from + to), Extrapolate::Refuse)?;
-    let nd = page
-        .nd
-        .and_then(|printed| Some((printed, ior_d(material)? - printed)));
-    Ok(About {
-        class: material.kind.name(),
-        range_nm: (from, to),
-        formula: match &material.n {
-            Curve::Formula(formula) => formula.number,
-            Curve::Table(_) => 0,
-        },
-        nd,
-    })
-}
-
-fn colours(surface: &Surface) -> Colours {
-    Colours {
-        held: surface.held(),
-        by_degree: (0..ANGLES)
-            .map(|degree| surface.unpolarised(cosine(degree as f64)).to_array())
-            .collect(),
-        f82: surface.unpolarised(COS_82).to_array(),
-    }
-}
-
-impl Surveyed {
-    /// The row of a report.
-    pub fn json(&self) -> Value {
-        let mut row = json!({ "page": self.file });
-        let (status, about) = match &self.outcome {
-            Outcome::Seen(about, colours) => {
-                row["f0"] = json!(colours.by_degree[0]);
-                row["f82"] = json!(colours.f82);
-                row["by_degree"] = json!(colours.by_degree);
-                row["extrapolated"] = json!(colours.held);
-                ("seen", Some(about))
-            }
-            Outcome::Elsewhere(about, why) => {
-                row["reason"] = json!(why);
-                ("elsewhere", Some(about))
-            }
-            Outcome::Refused(why) => {
-                row["reason"] = json!(why);
-                ("refused", None)
-            }
+impl<'a> SurveyRow<'a> {
+    /// The row of a page.
+    pub fn new(surveyed: &'a SurveyedPage) -> SurveyRow<'a> {
+        let (status, colours, reason) = match &surveyed.outcome {
+            PageOutcome::Seen(_, colours) => ("seen", Some(colours), None),
+            PageOutcome::Elsewhere(_, why) => ("elsewhere", None, Some(why.as_str())),
+            PageOutcome::Refused(why) => ("refused", None, Some(why.as_str())),
         };
-        row["status"] = json!(status);
-        if let Some(about) = about {
-            row["class"] = json!(about.class);
-            (row["from_nm"], row["to_nm"]) = (json!(about.range_nm.0), json!(about.range_nm.1));
-            row["formula"] = json!(about.formula);
-            row["nd"] = json!(about.nd.map(|(printed, _)| printed));
-            row["nd_difference"] = json!(about.nd.map(|(_, difference)| difference));
+        SurveyRow {
+            page: &surveyed.file,
+            colours: colours.map(ColourColumns::new),
+            reason,
+            status,
+            facts: surveyed.facts().map(FactColumns::new),
         }
-        row
     }
+}
 
-    fn about(&self) -> Option<&About> {
-        match &self.outcome {
-            Outcome::Seen(about, _) | Outcome::Elsewhere(about, _) => Some(about),
-            Outcome::Refused(_) => None,
+impl ColourColumns<'_> {
+    fn new(colours: &VisibleColours) -> ColourColumns<'_> {
+        ColourColumns {
+            f0: colours.by_degree[0],
+            f82: colours.f82,
+            by_degree: &colours.by_degree,
+            extrapolated: colours.held.as_deref(),
+        }
+    }
+}
+
+impl FactColumns {
+    fn new(facts: &PageFacts) -> FactColumns {
+        FactColumns {
+            class: facts.class,
+            from_nm: facts.range_nm.0,
+            to_nm: facts.range_nm.1,
+            formula: facts.formula,
+            nd: facts.nd.map(|(printed, _)| printed),
+            nd_difference: facts.nd.map(|(_, difference)| difference),
         }
     }
 }
 
 /// The survey in words: counts, what was refused and why, how far glasses are from their makers' indices.
-pub fn text(all: &[Surveyed]) -> String {
-    let count = |wanted: fn(&Outcome) -> bool| all.iter().filter(|s| wanted(&s.outcome)).count();
-    let seen = count(|outcome| matches!(outcome, Outcome::Seen(..)));
-    let elsewhere = count(|outcome| matches!(outcome, Outcome::Elsewhere(..)));
+pub fn survey_text(all: &[SurveyedPage]) -> String {
+    let count =
+        |wanted: fn(&PageOutcome) -> bool| all.iter().filter(|s| wanted(&s.outcome)).count();
+    let seen = count(|outcome| matches!(outcome, PageOutcome::Seen(..)));
+    let elsewhere = count(|outcome| matches!(outcome, PageOutcome::Elsewhere(..)));
     let mut lines = vec![format!(
-        "{} pages: {seen} seen over the whole visible spectrum at {ANGLES} angles, {elsewhere} known elsewhere, {} refused",
+        "{} pages: {seen} seen over the whole visible spectrum at {SURVEYED_ANGLES} angles, {elsewhere} known elsewhere, {} refused",
         all.len(),
         all.len() - seen - elsewhere
     )];
@@ -160,9 +99,8 @@ pub fn text(all: &[Surveyed]) -> String {
 }
 
 /// How many colours rest on held ends.
-fn extrapolated(all: &[Surveyed]) -> Option<String> {
-    let is_held =
-        |s: &&Surveyed| matches!(&s.outcome, Outcome::Seen(_, colours) if colours.held.is_some());
+fn extrapolated(all: &[SurveyedPage]) -> Option<String> {
+    let is_held = |s: &&SurveyedPage| matches!(&s.outcome, PageOutcome::Seen(_, colours) if colours.held.is_some());
     let count = all.iter().filter(is_held).count();
     (count > 0).then(|| {
         format!(
@@ -172,10 +110,10 @@ fn extrapolated(all: &[Surveyed]) -> Option<String> {
 }
 
 /// Reasons with the number of pages, and the page where it is one alone.
-fn refusals(all: &[Surveyed]) -> Vec<String> {
+fn refusals(all: &[SurveyedPage]) -> Vec<String> {
     let mut reasons: BTreeMap<&str, Vec<&str>> = BTreeMap::new();
     for surveyed in all {
-        if let Outcome::Refused(why) = &surveyed.outcome {
+        if let PageOutcome::Refused(why) = &surveyed.outcome {
             let why = why
                 .split_once(": ")
                 .filter(|(line, _)| line.starts_with("line "))
@@ -191,9 +129,9 @@ fn refusals(all: &[Surveyed]) -> Vec<String> {
 }
 
 /// How far each formula is from the indices that glass makers print.
-fn glasses(all: &[Surveyed]) -> Vec<String> {
+fn glasses(all: &[SurveyedPage]) -> Vec<String> {
     let mut formulas: BTreeMap<u8, (usize, f64)> = BTreeMap::new();
-    for about in all.iter().filter_map(Surveyed::about) {
+    for about in all.iter().filter_map(SurveyedPage::facts) {
         if let Some((_, difference)) = about.nd {
             let (count, most) = formulas.entry(about.formula).or_default();
             *count += 1;

@@ -8,8 +8,8 @@ use std::path::{Path, PathBuf};
 use std::sync::OnceLock;
 
 use fresnel_gen::app::source;
+use fresnel_gen::fit::{PageOutcome, survey_page};
 use fresnel_gen::materials::{Curve, Extrapolate, Fault, Material, Page, Sight};
-use fresnel_gen::report::survey::{Outcome, survey};
 use fresnel_gen::spectra::Gamut;
 
 /// A page by its path from its shelf on, and what became of it.
@@ -283,8 +283,8 @@ fn every_page_is_seen_at_all_angles_or_it_is_said_why_not() {
     let mut counts = [0; 3];
     for file in source::pages(&data).expect("a folder of the database") {
         let text = fs::read_to_string(data.join(&file)).expect("a page in UTF-8");
-        match survey(&file, &text, &sight).outcome {
-            Outcome::Seen(_, colours) => {
+        match survey_page(&file, &text, &sight).outcome {
+            PageOutcome::Seen(_, colours) => {
                 let all = colours.by_degree.iter().flatten();
                 assert!(
                     all.into_iter().all(|colour| (-0.2..1.2).contains(colour)),
@@ -293,11 +293,11 @@ fn every_page_is_seen_at_all_angles_or_it_is_said_why_not() {
                 assert_eq!(colours.by_degree.len(), 91);
                 counts[0] += 1;
             }
-            Outcome::Elsewhere(_, why) => {
+            PageOutcome::Elsewhere(_, why) => {
                 assert!(why.contains("is known from"), "{file}: {why}");
                 counts[1] += 1;
             }
-            Outcome::Refused(why) => {
+            PageOutcome::Refused(why) => {
                 assert!(
                     why.contains("n2") || why.contains("k only"),
                     "{file}: {why}"

@@ -6,7 +6,9 @@
 use std::path::Path;
 use std::sync::LazyLock;
 
-use fresnel_gen::report::reproduce::{Figure, Part, Report, Row, Verdict, reproduce, thesis};
+use fresnel_gen::report::reproduce::{
+    ComparisonRow, Figure, Part, Report, Verdict, reproduce, thesis,
+};
 
 /// The thesis's million angles: the figures must come out to its printed digit.
 static TABLES: LazyLock<Report> =
@@ -21,7 +23,7 @@ fn run(parts: &[Part], angles: usize) -> Report {
 }
 
 #[track_caller]
-fn row<'a>(report: &'a Report, row: &str, column: &str) -> &'a Row {
+fn row<'a>(report: &'a Report, row: &str, column: &str) -> &'a ComparisonRow {
     let found = report
         .rows()
         .find(|one| one.row == row && one.column == column);
@@ -32,7 +34,7 @@ fn row<'a>(report: &'a Report, row: &str, column: &str) -> &'a Row {
 fn check(report: &Report, name: &str, column: &str, ours: &str, verdict: Verdict) {
     let row = row(report, name, column);
     assert_eq!(
-        (row.ours.text().as_str(), row.verdict),
+        (row.ours.in_words().as_str(), row.verdict),
         (ours, verdict),
         "{name}, {column}"
     );
@@ -215,9 +217,9 @@ fn claims_have_their_verdicts() {
         let row = claims.rows().find(|row| row.row == name).unwrap();
         assert_eq!(row.verdict, verdict, "{name}");
         assert!(
-            row.ours.text().contains(says),
+            row.ours.in_words().contains(says),
             "{name}: {}",
-            row.ours.text()
+            row.ours.in_words()
         );
     }
 }
@@ -317,7 +319,7 @@ fn figures_are_those_of_the_repository() {
 #[test]
 fn a_missing_figure_is_null_with_a_reason() {
     for row in TABLES.rows().chain(CLAIMS.rows()).chain(LOOKUPS.rows()) {
-        let json = row.json();
+        let json = serde_json::to_value(row).unwrap();
         let missing = json["thesis"].is_null() || json["ours"].is_null();
         assert_eq!(missing, json.get("reason").is_some(), "{json}");
     }

@@ -10,13 +10,13 @@ use crate::app::source::{materials, source};
 use crate::cost::{Family, library_cost, records};
 use crate::emit::missed;
 use crate::fit::{
-    Aim, Curve, Exact, Follows, ModelError, Weight, error_from, fitted_for, model_error, values_at,
+    Aim, Coefficients, Curve, Exact, Follows, Weight, error_from, model_error, values_at,
 };
-use crate::methods::{ALL, Class, Method, Values};
+use crate::methods::{ALL, Class, Method};
 use crate::num::in_parallel;
 use crate::reference::Subject;
 use crate::report::Report;
-use crate::report::fits::{Row, text};
+use crate::report::fits::{FitRow, fits_text};
 
 use super::{Output, Progress, report, search, try_places};
 
@@ -34,11 +34,9 @@ pub fn run(flags: &FitFlags, progress: Progress) -> Result<Output, Error> {
     } else {
         (of_colours(flags, aim, &forms)?, Vec::new())
     };
-    let json = Report::new(
-        flags.command_line(&sight(&flags.sight.words(None))?),
-        rows.iter().map(Row::json).collect(),
-    );
-    let mut output = report(text(&rows, &flags.gpu), &json, flags.json.as_deref())?;
+    let text = fits_text(&rows, &flags.gpu);
+    let json = Report::new(flags.command_line(&sight(&flags.sight.words(None))?), rows);
+    let mut output = report(text, &json, flags.json.as_deref())?;
     output.remarks = left_out;
     Ok(output)
 }
@@ -126,7 +124,7 @@ fn of_materials(
     aim: Aim,
     forms: &[Form],
     progress: Progress,
-) -> Result<(Vec<Row>, Vec<String>), Error> {
+) -> Result<(Vec<FitRow>, Vec<String>), Error> {
     let (subjects, mut remarks) = subjects(flags)?;
     let of = |i: usize| of_subject(&subjects[i], aim, forms);
     let found = in_parallel(subjects.len(), &of, &mut |done, whole| {
@@ -150,23 +148,18 @@ fn of_subject(
     subject: &Subject,
     aim: Aim,
     forms: &[Form],
-) -> Vec<(Option<Row>, String, &'static str)> {
+) -> Vec<(Option<FitRow>, String, &'static str)> {
     let curve = Curve::unclipped(subject);
     // Promises of classes are of the usual fit.
     let promised = aim.weight == Weight::Absolute && !aim.exact.is_any();
     let row = |form: &Form| {
-        let fitted = Fitted::new(form.method, &curve, aim)?;
+        let fitted = Coefficients::fit(form.method, &curve, aim)?;
         let function = form.method.specialise(&fitted.values);
         let function = function.expect("a test specialises every method");
         let error = model_error(&function, &subject.truth_for(form.method));
-        Some(Row {
-            material: Some(subject.argument.clone()),
-            class: Some(subject.material.kind.name()),
-            missed: promised
-                .then(|| missed(subject, form.method, error.max_abs))
-                .flatten(),
-            ..bare(form, &fitted, error, aim.space.name())
-        })
+        let missed = promised.then(|| missed(subject, form.method, error.max_abs));
+        let row = FitRow::new(form.method, &fitted, &error, form.cost, aim.space.name());
+        Some(row.of_material(subject, missed.flatten()))
     };
     let own = forms
         .iter()
@@ -175,58 +168,15 @@ fn of_subject(
         .collect()
 }
 
-/// Coefficients, and what they are worth in the measure that they minimise.
-struct Fitted {
-    values: Values,
-    aim: Aim,
-    error: f64,
-    free: Option<f64>,
-}
-
-impl Fitted {
-    fn new(method: &Method, curve: &Curve, aim: Aim) -> Option<Fitted> {
-        let (values, error) = fitted_for(method, curve, aim)?;
-        let exact = Exact::default();
-        let free = || fitted_for(method, curve, Aim { exact, ..aim });
-        let free = aim.exact.is_any().then(free).flatten();
-        let free = free.map(|(_, error)| error);
-        Some(Fitted {
-            values,
-            aim,
-            error,
-            free,
-        })
-    }
-}
-
-fn bare(form: &Form, fitted: &Fitted, error: ModelError, space: &'static str) -> Row {
-    let inputs = form.method.inputs.iter();
-    Row {
-        material: None,
-        class: None,
-        follows: None,
-        space,
-        method: form.method,
-        coefficients: inputs.map(|input| fitted.values[input.name]).collect(),
-        max_abs: error.max_abs,
-        mean_rel: error.mean_rel,
-        cost: form.cost,
-        aim: fitted.aim,
-        error: fitted.error,
-        free: fitted.free,
-        missed: None,
-    }
-}
-
 /// A row for each method, fitted to two colours.
-fn of_colours(flags: &FitFlags, aim: Aim, forms: &[Form]) -> Result<Vec<Row>, Error> {
+fn of_colours(flags: &FitFlags, aim: Aim, forms: &[Form]) -> Result<Vec<FitRow>, Error> {
     let (f0, f82) = (colour("f0", &flags.f0)?, colour("f82", &flags.f82)?);
     let follows = [0, 1, 2].map(|i| Follows::of(f0[i], f82[i]));
     let seen = |cos_theta: f64| follows.map(|channel| channel.at(cos_theta));
     let curve = Curve::new(seen);
     let row = |form: &Form| {
         let method = form.method;
-        let fitted = Fitted::new(method, &curve, aim).ok_or_else(|| Error::Usage {
+        let fitted = Coefficients::fit(method, &curve, aim).ok_or_else(|| Error::Usage {
             what: format!("{} has no fit to these colours: {NO_FIT}", method.name),
         })?;
         let function = method.function(false);
@@ -234,10 +184,8 @@ fn of_colours(flags: &FitFlags, aim: Aim, forms: &[Form]) -> Result<Vec<Row>, Er
         let error = error_from(seen, &|cosines| {
             values_at(&function, method.inputs, &fitted.values, cosines)
         });
-        Ok(Row {
-            follows: Some(follows),
-            ..bare(form, &fitted, error, "any")
-        })
+        let row = FitRow::new(method, &fitted, &error, form.cost, "any");
+        Ok(row.of_colours(follows))
     };
     let of_any = forms.iter().filter(|form| form.method.class == Class::Any);
     of_any.map(row).collect()

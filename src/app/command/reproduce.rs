@@ -2,14 +2,12 @@
 
 use std::path::PathBuf;
 
-use serde_json::Value;
-
 use crate::app::args::Reproduce;
 use crate::app::error::Error;
 use crate::app::names::unknown;
 use crate::app::write::write_report;
 use crate::report;
-use crate::report::reproduce::{NOT_MEASURED, Part, Report, Row, reproduce, thesis};
+use crate::report::reproduce::{ComparisonRow, NOT_MEASURED, Part, Report, reproduce, thesis};
 
 use super::{Output, Progress, replaced, report};
 
@@ -56,11 +54,11 @@ fn part(name: &str) -> Result<Part, Error> {
     }
 }
 
-fn json(reproduced: &Report, part: Option<Part>) -> report::Report<Value> {
+fn json(reproduced: &Report, part: Option<Part>) -> report::Report<ComparisonRow> {
     let command = part.map_or("reproduce".to_owned(), |part| {
         format!("reproduce {}", part.name())
     });
-    report::Report::new(command, reproduced.rows().map(Row::json).collect())
+    report::Report::new(command, reproduced.rows().cloned().collect())
 }
 
 /// Draws the figures, and says where.

@@ -2,16 +2,15 @@
 
 use std::path::Path;
 
-use serde_json::Value;
-
 use crate::app::args::SurveyFlags;
 use crate::app::error::Error;
 use crate::app::sight::sight;
 use crate::app::source::{pages, read};
 use crate::emit::CommandLine;
+use crate::fit::{PageOutcome, SurveyedPage, survey_page};
 use crate::materials::Sight;
 use crate::report::Report;
-use crate::report::survey::{Outcome, Surveyed, survey, text};
+use crate::report::survey::{SurveyRow, survey_text};
 use crate::spectra::Gamut;
 
 use super::{Output, Progress, report};
@@ -28,34 +27,34 @@ pub fn run(flags: &SurveyFlags, json: Option<&Path>, progress: Progress) -> Resu
             what: format!("there is no page (.yml) below {}", flags.folder.display()),
         });
     }
-    let mut all: Vec<Surveyed> = Vec::with_capacity(files.len());
+    let mut all: Vec<SurveyedPage> = Vec::with_capacity(files.len());
     for (done, file) in files.iter().enumerate() {
         progress(done as u64, files.len() as u64, "pages");
         all.push(surveyed(&flags.folder, file, &sight));
     }
-    let rows: Vec<Value> = all.iter().map(Surveyed::json).collect();
+    let rows: Vec<SurveyRow> = all.iter().map(SurveyRow::new).collect();
     let full = Report::new(CommandLine::new("materials survey").seen_as(&sight), rows);
-    report(text(&all), &full, json)
+    report(survey_text(&all), &full, json)
 }
 
 /// A page by its name below the folder, so that no report depends on where that lies. One that cannot be read is refused as
 /// one that cannot be understood is.
-fn surveyed(folder: &Path, file: &str, sight: &Sight) -> Surveyed {
+fn surveyed(folder: &Path, file: &str, sight: &Sight) -> SurveyedPage {
     let (path, named) = if file.is_empty() {
         (folder.to_owned(), folder.display().to_string())
     } else {
         (folder.join(file), file.to_owned())
     };
     match read(&path.display().to_string()) {
-        Ok(text) => survey(&named, &text, sight),
+        Ok(text) => survey_page(&named, &text, sight),
         Err(Error::Input { source, .. }) => refused(named, format!("cannot read it: {source}")),
         Err(other) => refused(named, other.to_string()),
     }
 }
 
-fn refused(file: String, why: String) -> Surveyed {
-    Surveyed {
+fn refused(file: String, why: String) -> SurveyedPage {
+    SurveyedPage {
         file,
-        outcome: Outcome::Refused(why),
+        outcome: PageOutcome::Refused(why),
     }
 }

@@ -6,9 +6,10 @@
 
 use crate::cost::{Compiler, find, records};
 use crate::methods;
+use crate::num::statistics::{least_squares, rank_correlation};
 use crate::overdraw::{Time, times};
 
-use super::row::{Figure, Row, Verdict};
+use super::comparison::{ComparisonRow, Figure, Verdict};
 use super::{Section, thesis};
 
 const TIMES: &str = "table6_relative_time_percent";
@@ -103,16 +104,16 @@ impl Pairs {
     }
 }
 
-fn of_device(device: &str, family: &str) -> Vec<Row> {
+fn of_device(device: &str, family: &str) -> Vec<ComparisonRow> {
     let names = thesis::names(&[TIMES, "columns"]);
     let Some(pairs) = Pairs::of(device, family) else {
         return unmeasured(device, family, &names);
     };
     let (counts, times) = pairs.arithmetic();
-    let (fixed, rate) = line(&counts, &times);
+    let (fixed, rate) = least_squares(&counts, &times);
     let row = |place: usize| {
         let (time, count) = (pairs.times[place], pairs.counts[place]);
-        let row = Row::new("table6", device, names[place])
+        let row = ComparisonRow::new("table6", device, names[place])
             .thesis(Figure::Number(time, 0, " %"))
             .ours(Figure::Number(count, 0, " %"));
         match place {
@@ -122,14 +123,20 @@ fn of_device(device: &str, family: &str) -> Vec<Row> {
             _ => apart(row, &pairs, place, fixed + rate * count, fixed),
         }
     };
-    let mut rows: Vec<Row> = (0..METHODS.len()).map(row).collect();
+    let mut rows: Vec<ComparisonRow> = (0..METHODS.len()).map(row).collect();
     rows.extend(statistics(device, &pairs));
     rows
 }
 
 /// A row whose count is far from its time. The line explains it where it begins at a price that a draw can have, and comes
 /// near; the formula as printed explains it where its own count comes near.
-fn apart(row: Row, pairs: &Pairs, place: usize, on_line: f64, fixed: f64) -> Row {
+fn apart(
+    row: ComparisonRow,
+    pairs: &Pairs,
+    place: usize,
+    on_line: f64,
+    fixed: f64,
+) -> ComparisonRow {
     let is_near = |value: f64| (value - pairs.times[place]).abs() <= NEAR;
     let printed = pairs.printed[place];
     let explains = fixed >= 0.0 && is_near(on_line);
@@ -151,14 +158,14 @@ fn apart(row: Row, pairs: &Pairs, place: usize, on_line: f64, fixed: f64) -> Row
         .remark(line + &as_printed.unwrap_or_default())
 }
 
-fn unmeasured(device: &str, family: &str, names: &[&'static str]) -> Vec<Row> {
+fn unmeasured(device: &str, family: &str, names: &[&'static str]) -> Vec<ComparisonRow> {
     let why = match find(family).map(|family| family.compiler) {
         Some(Compiler::None(why)) => why,
         _ => "nothing is recorded",
     };
     let times = thesis::numbers(&[TIMES, device]);
     let row = |(name, time): (&&'static str, &f64)| {
-        Row::new("table6", device, name)
+        ComparisonRow::new("table6", device, name)
             .thesis(Figure::Number(*time, 0, " %"))
             .remark(why)
     };
@@ -166,9 +173,9 @@ fn unmeasured(device: &str, family: &str, names: &[&'static str]) -> Vec<Row> {
 }
 
 /// What the counts of a device are worth.
-fn statistics(device: &str, pairs: &Pairs) -> Vec<Row> {
+fn statistics(device: &str, pairs: &Pairs) -> Vec<ComparisonRow> {
     let (counts, times) = pairs.arithmetic();
-    let (fixed, rate) = line(&counts, &times);
+    let (fixed, rate) = least_squares(&counts, &times);
     let differences = counts
         .iter()
         .zip(&times)
@@ -180,7 +187,7 @@ fn statistics(device: &str, pairs: &Pairs) -> Vec<Row> {
         .zip(&times)
         .map(|(count, time)| (fixed + rate * count - time).abs());
     let worst = off.fold(0.0, f64::max);
-    let row = |column: &str, figure| Row::new("table6", device, column).ours(figure);
+    let row = |column: &str, figure| ComparisonRow::new("table6", device, column).ours(figure);
     vec![
         row(
             "rank correlation",
@@ -201,7 +208,7 @@ fn statistics(device: &str, pairs: &Pairs) -> Vec<Row> {
 
 /// The devices that were timed by `fresnel-gen time`: the rank correlation of those times and of operations counted in the
 /// same functions. No GPU was both timed here and counted by its own compiler.
-fn timed_here() -> Vec<Row> {
+fn timed_here() -> Vec<ComparisonRow> {
     let times: Vec<Time> = times().collect();
     let mut devices: Vec<&str> = times.iter().map(|time| time.device).collect();
     devices.sort_unstable();
@@ -212,14 +219,14 @@ fn timed_here() -> Vec<Row> {
         .collect()
 }
 
-fn correlated(device: &str, times: &[Time]) -> Row {
+fn correlated(device: &str, times: &[Time]) -> ComparisonRow {
     let library = times.iter().filter(|time| {
         let is_plain = time.form == "library" && time.precision == "f32";
         is_plain && time.device == device && time.method != "table"
     });
     let pairs = library.filter_map(|time| Some((operations(time.method)?, time.share)));
     let (counts, shares): (Vec<f64>, Vec<f64>) = pairs.unzip();
-    Row::new("table6", device, "rank correlation")
+    ComparisonRow::new("table6", device, "rank correlation")
         .ours(Figure::Number(rank_correlation(&counts, &shares), 2, ""))
         .remark(format!(
             "of operations and times (data/records/times.csv) of {} library functions, without the table",
@@ -231,55 +238,4 @@ fn correlated(device: &str, times: &[Time]) -> Row {
 fn operations(method: &str) -> Option<f64> {
     let function = methods::find(method)?.function(false).ok()?;
     Some(function.work() as f64)
-}
-
-/// Least squares: where the line begins, and how steep it is.
-fn line(counts: &[f64], times: &[f64]) -> (f64, f64) {
-    let mean = |values: &[f64]| values.iter().sum::<f64>() / values.len() as f64;
-    let (about, level) = (mean(counts), mean(times));
-    let pairs = || counts.iter().zip(times);
-    let across: f64 = pairs()
-        .map(|(count, time)| (count - about) * (time - level))
-        .sum();
-    let square: f64 = counts.iter().map(|count| (count - about).powi(2)).sum();
-    let rate = across / square;
-    (level - rate * about, rate)
-}
-
-/// Spearman's rank correlation: 1 where both are in the same order, -1 where in the opposite one.
-pub fn rank_correlation(a: &[f64], b: &[f64]) -> f64 {
-    let (a, b) = (ranks(a), ranks(b));
-    let mean = (a.len() as f64 + 1.0) / 2.0;
-    let product = |x: &[f64], y: &[f64]| -> f64 {
-        x.iter().zip(y).map(|(x, y)| (x - mean) * (y - mean)).sum()
-    };
-    product(&a, &b) / (product(&a, &a) * product(&b, &b)).sqrt()
-}
-
-/// The place of each value in order, from 1; equal values share the mean of their places.
-fn ranks(values: &[f64]) -> Vec<f64> {
-    let rank = |value: &f64| {
-        let below = values.iter().filter(|other| *other < value).count() as f64;
-        let equal = values.iter().filter(|other| *other == value).count() as f64;
-        below + (equal + 1.0) / 2.0
-    };
-    values.iter().map(rank).collect()
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn ranks_correlate_from_minus_one_to_one() {
-        assert_eq!(rank_correlation(&[1.0, 2.0, 9.0], &[0.1, 0.2, 0.3]), 1.0);
-        assert_eq!(rank_correlation(&[1.0, 2.0, 9.0], &[3.0, 2.0, 1.0]), -1.0);
-        assert_eq!(ranks(&[5.0, 1.0, 5.0]), [2.5, 1.0, 2.5]);
-    }
-
-    #[test]
-    fn a_line_is_found() {
-        let (fixed, rate) = line(&[0.0, 50.0, 100.0], &[20.0, 60.0, 100.0]);
-        assert!((fixed - 20.0).abs() < 1e-9 && (rate - 0.8).abs() < 1e-9);
-    }
 }

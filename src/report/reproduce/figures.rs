@@ -6,7 +6,7 @@ use crate::reference::Derivation;
 use crate::report::plot::{Axis, LineChart, Mark, Series, Style, ticks};
 
 use super::angle::{cosine, exact, lowest};
-use super::row::{Figure, Row};
+use super::comparison::{ComparisonRow, Figure};
 use super::{Section, specialised};
 
 /// Angles drawn: a point each quarter of a degree.
@@ -199,7 +199,7 @@ impl Plan {
         self.methods.iter().map(curve).collect()
     }
 
-    fn rows(&self) -> Vec<Row> {
+    fn rows(&self) -> Vec<ComparisonRow> {
         let exact = self.exact();
         let pairs = self.curves().into_iter().zip(self.methods);
         pairs
@@ -207,7 +207,7 @@ impl Plan {
             .collect()
     }
 
-    fn row(&self, curve: &Curve, exact: &Curve, method: &str) -> [Row; 2] {
+    fn row(&self, curve: &Curve, exact: &Curve, method: &str) -> [ComparisonRow; 2] {
         let (at, apart) = largest_difference(curve, exact);
         let name = format!("figure {}, {method}", self.number);
         [
@@ -215,7 +215,7 @@ impl Plan {
             ("its angle", Figure::Number(at, 2, "°")),
         ]
         .map(|(column, ours)| {
-            let mut row = Row::new("figures", &name, column).ours(ours);
+            let mut row = ComparisonRow::new("figures", &name, column).ours(ours);
             row.file = Some(self.file.to_owned());
             row
         })

@@ -5,8 +5,8 @@ use crate::materials::Channels;
 use crate::methods::lambda;
 use crate::reference::{Derivation, THESIS_MATCHING_COS};
 
+use super::comparison::{ComparisonRow, Figure, Verdict};
 use super::meter::Meter;
-use super::row::{Figure, Row, Verdict};
 use super::{Section, single, specialised, thesis};
 
 const METALS: &str = "table2_function_error_metals_percent";
@@ -61,7 +61,7 @@ pub fn dielectrics(angles: usize, meter: &mut Meter) -> Section {
     }
 }
 
-fn metal(name: &str, angles: usize, meter: &mut Meter) -> Vec<Row> {
+fn metal(name: &str, angles: usize, meter: &mut Meter) -> Vec<ComparisonRow> {
     let channels = specialised::channels(name);
     let wanted = [
         ("schlick_rescaled", AT_81),
@@ -99,7 +99,7 @@ fn in_floats(
     thesis: f64,
     channels: &Channels,
     angles: usize,
-) -> Row {
+) -> ComparisonRow {
     let (method, exact) = match table {
         "table2" => ("schlick_rescaled", "conductor_textbook"),
         _ => ("schlick_ior", "dielectric_textbook"),
@@ -121,7 +121,7 @@ fn in_floats(
 }
 
 /// The rescaled Schlick must agree to the digit. Platinum's 5.3049 is excused for the 0.0001 that it lacks.
-fn rescaled_row(name: &str, thesis: f64, ours: f64) -> Row {
+fn rescaled_row(name: &str, thesis: f64, ours: f64) -> ComparisonRow {
     let row = must_agree("table2", name, "rescaled", thesis, ours);
     let is_borderline =
         row.verdict == Verdict::Differs && (thesis - ours).abs() < HALF_A_DIGIT + BORDERLINE;
@@ -138,7 +138,7 @@ fn rescaled_row(name: &str, thesis: f64, ours: f64) -> Row {
 }
 
 /// The same with the indices that Table 1 was rounded from.
-fn unrounded(name: &str, thesis: [f64; 2], angles: usize, meter: &mut Meter) -> [Row; 2] {
+fn unrounded(name: &str, thesis: [f64; 2], angles: usize, meter: &mut Meter) -> [ComparisonRow; 2] {
     let page = if name == "gold" {
         "gold_hagemann_2"
     } else {
@@ -155,7 +155,7 @@ fn unrounded(name: &str, thesis: [f64; 2], angles: usize, meter: &mut Meter) -> 
     })
 }
 
-fn dielectric(name: &str, angles: usize, meter: &mut Meter) -> [Row; 2] {
+fn dielectric(name: &str, angles: usize, meter: &mut Meter) -> [ComparisonRow; 2] {
     let channels = specialised::channels(name);
     let wanted = [("schlick_ior", Derivation::default())];
     let errors = percent(name, &channels, &wanted, angles, meter);
@@ -185,14 +185,20 @@ fn percent(
     errors.into_iter().map(mean).collect()
 }
 
-fn must_agree(table: &'static str, name: &str, column: &str, thesis: f64, ours: f64) -> Row {
-    Row::new(table, name, column)
+fn must_agree(
+    table: &'static str,
+    name: &str,
+    column: &str,
+    thesis: f64,
+    ours: f64,
+) -> ComparisonRow {
+    ComparisonRow::new(table, name, column)
         .thesis(Figure::percent(thesis))
         .ours(Figure::percent(ours))
         .verdict(Verdict::of_digits(thesis, ours, 2))
 }
 
-fn explained(name: &str, column: &str, thesis: f64, ours: f64, reason: &str) -> Row {
+fn explained(name: &str, column: &str, thesis: f64, ours: f64, reason: &str) -> ComparisonRow {
     let row = must_agree("table2", name, column, thesis, ours).remark(reason);
     match row.verdict {
         Verdict::Differs => row.verdict(Verdict::Explained),
@@ -205,13 +211,13 @@ fn lambdas(
     channels: &Channels,
     derivation: Derivation,
     angle: &str,
-) -> impl Iterator<Item = Row> {
+) -> impl Iterator<Item = ComparisonRow> {
     ["red", "green", "blue"]
         .into_iter()
         .enumerate()
         .map(move |(i, channel)| {
             let found = lambda(channels.n[i], channels.k[i], derivation.matching_cos);
-            let row = Row::new("table2", name, &format!("λ {channel} at {angle}"));
+            let row = ComparisonRow::new("table2", name, &format!("λ {channel} at {angle}"));
             match found {
                 Some(value) => row.ours(Figure::Number(value, 4, "")),
                 None => row.ours(Figure::Missing(NO_LAMBDA)).remark(NO_LAMBDA),

@@ -1,6 +1,6 @@
 //! Table 1: the indices of refraction, as our material files hold them.
 
-use super::row::{Figure, Row, Verdict};
+use super::comparison::{ComparisonRow, Figure, Verdict};
 use super::{Section, specialised, thesis};
 
 /// The materials in the order of the thesis.
@@ -31,7 +31,9 @@ pub fn section() -> Section {
 }
 
 /// The index as measured, beside what the thesis prints of it.
-fn unrounded((material, page): (&'static str, &'static str)) -> impl Iterator<Item = Row> {
+fn unrounded(
+    (material, page): (&'static str, &'static str),
+) -> impl Iterator<Item = ComparisonRow> {
     let ours = specialised::unrounded(page);
     let source = specialised::material(page).page;
     CHANNELS.into_iter().enumerate().map(move |(i, channel)| {
@@ -40,7 +42,7 @@ fn unrounded((material, page): (&'static str, &'static str)) -> impl Iterator<It
             .abs()
             .max((ours.k[i] - printed[1]).abs());
         let digits = |value: f64| (value * 1e4).round() / 1e4;
-        Row::new("table1", page, channel)
+        ComparisonRow::new("table1", page, channel)
             .thesis(Figure::Index([printed[0], printed[1]]))
             .ours(Figure::Index([digits(ours.n[i]), digits(ours.k[i])]))
             .verdict(if apart <= ROUNDED {
@@ -54,13 +56,13 @@ fn unrounded((material, page): (&'static str, &'static str)) -> impl Iterator<It
     })
 }
 
-fn rows(material: &'static str) -> impl Iterator<Item = Row> {
+fn rows(material: &'static str) -> impl Iterator<Item = ComparisonRow> {
     let ours = specialised::channels(material);
     CHANNELS.into_iter().enumerate().map(move |(i, channel)| {
         let printed = thesis::numbers(&["table1_index", material, channel]);
         let printed = [printed[0], printed[1]];
         let ours = [ours.n[i], ours.k[i]];
-        Row::new("table1", material, channel)
+        ComparisonRow::new("table1", material, channel)
             .thesis(Figure::Index(printed))
             .ours(Figure::Index(ours))
             .verdict(if printed == ours {

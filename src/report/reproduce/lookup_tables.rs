@@ -4,14 +4,13 @@
 //! The thesis measured its tables in rendered pictures only, of a cube and of a sculpture; the smaller of the two
 //! figures stands beside ours. Both are means of relative errors, but the pictures' angles are those that a camera saw.
 
-use crate::ir::Weights;
-use crate::lut::{Axis, Depth, LEAST_TEXELS, Stored, Table};
+use crate::lut::{Axis, Depth, LEAST_TEXELS, Stored, Table, ThesisMeasure, thesis_table_errors};
 use crate::materials::Surface;
 use crate::methods::Light;
-use crate::reference::{Truth, seen};
+use crate::reference::Truth;
 
+use super::comparison::{ComparisonRow, Figure, Verdict};
 use super::meter::Meter;
-use super::row::{Figure, Row, Verdict};
 use super::{Section, specialised, thesis};
 
 const METALS: &str = "table4_rendered_error_metals_percent";
@@ -96,8 +95,8 @@ impl Material<'_> {
         }
     }
 
-    fn rows(&self, angles: usize, meter: &mut Meter) -> Vec<Row> {
-        let coarse = Lit::new(&self.truth, angles.div_ceil(COARSER));
+    fn rows(&self, angles: usize, meter: &mut Meter) -> Vec<ComparisonRow> {
+        let coarse = ThesisMeasure::new(&self.truth, angles.div_ceil(COARSER));
         let error = |axis: &Axis| coarse.error(&self.stored(*axis, TEXELS, Depth::Float));
         let best = least(Axis::ALL, error);
         let kinds = [(Axis::Cos, "cos"), (best, "best axis")];
@@ -110,7 +109,7 @@ impl Material<'_> {
             .map(|((axis, _), (depth, _))| self.stored(*axis, TEXELS, *depth));
         let tables: Vec<Stored> = tables.collect();
         let mut progress = |done| meter.add(done, &format!("lookup tables of {}", self.name));
-        let errors = table_errors(&self.truth, &tables, angles, &mut progress);
+        let errors = thesis_table_errors(&self.truth, &tables, angles, &mut progress);
         let compared = each
             .iter()
             .zip(errors)
@@ -121,9 +120,9 @@ impl Material<'_> {
     }
 
     /// A table's error beside the thesis's.
-    fn compared(&self, column: &str, depth: Depth, error: f64) -> Row {
+    fn compared(&self, column: &str, depth: Depth, error: f64) -> ComparisonRow {
         let is_worse = error > self.printed && depth != Depth::Half;
-        Row::new(self.table, self.name, column)
+        ComparisonRow::new(self.table, self.name, column)
             .thesis(Figure::percent(self.printed))
             .ours(Figure::Number(error, 4, " %"))
             .remark(match depth {
@@ -139,11 +138,11 @@ impl Material<'_> {
     }
 
     /// What the thesis has no figures for: the best axis, and the smallest tables.
-    fn searched(&self, best: Axis, coarse: &Lit) -> [Row; 4] {
+    fn searched(&self, best: Axis, coarse: &ThesisMeasure) -> [ComparisonRow; 4] {
         let size = |axis: Axis| self.smallest(axis, coarse);
         let fewest = least(Axis::ALL, |axis| size(*axis).unwrap_or(usize::MAX) as f64);
         let ours = |column: &str, figure: Figure, remark: &str| {
-            let row = Row::new(self.table, self.name, column);
+            let row = ComparisonRow::new(self.table, self.name, column);
             row.thesis(Figure::Missing("the thesis has one table a material"))
                 .ours(figure)
                 .remark(remark)
@@ -162,7 +161,7 @@ impl Material<'_> {
     }
 
     /// The fewest texels with which a table errs less than the thesis's.
-    fn smallest(&self, axis: Axis, coarse: &Lit) -> Option<usize> {
+    fn smallest(&self, axis: Axis, coarse: &ThesisMeasure) -> Option<usize> {
         let beats =
             |texels: &usize| coarse.error(&self.stored(axis, *texels, Depth::Float)) < self.printed;
         let doubled = std::iter::successors(Some(LEAST_TEXELS), |texels| Some(2 * texels));
@@ -194,62 +193,4 @@ fn least(axes: [Axis; 6], figure: impl Fn(&Axis) -> f64) -> Axis {
     let figures = axes.map(|axis| (figure(&axis), axis));
     let least = figures.into_iter().min_by(|a, b| a.0.total_cmp(&b.0));
     least.map_or(first, |(_, axis)| axis)
-}
-
-/// The exact law at the middles of equal steps of angle.
-struct Lit(Vec<(f64, [f64; 3])>);
-
-impl Lit {
-    fn new(truth: &Truth, angles: usize) -> Lit {
-        Lit::part(truth, 0..angles, angles)
-    }
-
-    /// At some of these angles.
-    fn part(truth: &Truth, some: std::ops::Range<usize>, angles: usize) -> Lit {
-        let at = |i: usize| {
-            let theta = (i as f64 + 0.5) / angles as f64 * std::f64::consts::FRAC_PI_2;
-            let cos_theta = libm::cos(theta);
-            (cos_theta, seen(&truth.surface, truth.light, cos_theta))
-        };
-        Lit(some.map(at).collect())
-    }
-
-    /// The sum over angles and channels of relative differences.
-    fn sum(&self, stored: &Stored) -> f64 {
-        let differences = self.0.iter().map(|(cos_theta, want)| {
-            let got = stored.lookup(Weights::Steps256, *cos_theta as f32);
-            let relative = |i: usize| (f64::from(got[i]) - want[i]).abs() / want[i];
-            (0..3).map(relative).sum::<f64>()
-        });
-        differences.sum()
-    }
-
-    /// The mean, in per cent.
-    fn error(&self, stored: &Stored) -> f64 {
-        percent(self.sum(stored), self.0.len())
-    }
-}
-
-fn percent(sum: f64, angles: usize) -> f64 {
-    100.0 * sum / (3 * angles) as f64
-}
-
-/// The thesis's measure of several tables of one truth, in per cent: mean relative difference of the lookup at `angles`
-/// angles, even in angle, over three channels. `progress` hears how many angles are done.
-fn table_errors(
-    truth: &Truth,
-    tables: &[Stored],
-    angles: usize,
-    progress: &mut dyn FnMut(usize),
-) -> Vec<f64> {
-    const CHUNK: usize = 4096;
-    let mut sums = vec![0.0; tables.len()];
-    for start in (0..angles).step_by(CHUNK) {
-        let part = Lit::part(truth, start..(start + CHUNK).min(angles), angles);
-        for (sum, stored) in sums.iter_mut().zip(tables) {
-            *sum += part.sum(stored);
-        }
-        progress(part.0.len());
-    }
-    sums.into_iter().map(|sum| percent(sum, angles)).collect()
 }

@@ -7,13 +7,13 @@
 
 mod angle;
 mod claims;
+mod comparison;
 mod counts;
 mod figures;
 mod function_errors;
 mod indices;
 mod lookup_tables;
 mod meter;
-mod row;
 mod single;
 mod specialised;
 mod text;
@@ -21,8 +21,8 @@ pub mod thesis;
 mod three_wavelengths;
 mod times;
 
+pub use comparison::{ComparisonRow, Figure, Verdict};
 pub use figures::Drawing;
-pub use row::{Figure, Row, Verdict};
 
 use meter::Meter;
 
@@ -120,7 +120,7 @@ pub struct Section {
     /// What it is and how it is measured.
     pub title: String,
     /// The comparisons.
-    pub rows: Vec<Row>,
+    pub rows: Vec<ComparisonRow>,
 }
 
 /// Parts reproduced.
@@ -151,7 +151,7 @@ pub fn reproduce(parts: &[Part], angles: usize, say: &mut dyn FnMut(u64, u64, &s
 
 impl Report {
     /// All rows, part by part.
-    pub fn rows(&self) -> impl Iterator<Item = &Row> {
+    pub fn rows(&self) -> impl Iterator<Item = &ComparisonRow> {
         self.sections.iter().flat_map(|section| &section.rows)
     }
 

@@ -1,7 +1,7 @@
 //! The report for a terminal: claims in words as paragraphs, then figures beside the thesis's, then figures that
 //! the thesis does not give, then notes.
 
-use super::row::{Figure, Row};
+use super::comparison::{ComparisonRow, Figure};
 use super::{NOT_MEASURED, Section};
 use crate::report::table;
 
@@ -33,9 +33,9 @@ struct Notes<'a>(Vec<&'a str>);
 
 fn section(section: &Section) -> String {
     let mut notes = Notes::default();
-    let (statements, figures): (Vec<&Row>, Vec<&Row>) =
+    let (statements, figures): (Vec<&ComparisonRow>, Vec<&ComparisonRow>) =
         section.rows.iter().partition(|row| row.is_statement());
-    let (ours, both): (Vec<&Row>, Vec<&Row>) = figures
+    let (ours, both): (Vec<&ComparisonRow>, Vec<&ComparisonRow>) = figures
         .into_iter()
         .partition(|row| matches!(row.thesis, Figure::Missing(_)));
     let mut text = wrapped(&section.title, "", "  ");
@@ -45,24 +45,29 @@ fn section(section: &Section) -> String {
     text + &notes.text()
 }
 
-fn statement(row: &Row) -> String {
-    let head = format!("\n{} ({}): {}\n", row.row, row.column, row.verdict.text());
-    let thesis = wrapped(&row.thesis.text(), "  thesis  ", "          ");
-    head + &thesis + &wrapped(&row.ours.text(), "  ours    ", "          ")
+fn statement(row: &ComparisonRow) -> String {
+    let head = format!(
+        "\n{} ({}): {}\n",
+        row.row,
+        row.column,
+        row.verdict.in_words()
+    );
+    let thesis = wrapped(&row.thesis.in_words(), "  thesis  ", "          ");
+    head + &thesis + &wrapped(&row.ours.in_words(), "  ours    ", "          ")
 }
 
 /// Figures that the thesis gives too.
-fn beside<'a>(rows: &[&'a Row], notes: &mut Notes<'a>) -> String {
+fn beside<'a>(rows: &[&'a ComparisonRow], notes: &mut Notes<'a>) -> String {
     if rows.is_empty() {
         return String::new();
     }
-    let cells = |row: &&'a Row| {
-        let verdict = row.verdict.text().to_owned() + &notes.mark(&row.remark);
+    let cells = |row: &&'a ComparisonRow| {
+        let verdict = row.verdict.in_words().to_owned() + &notes.mark(&row.remark);
         vec![
             row.row.clone(),
             row.column.clone(),
-            row.thesis.text(),
-            row.ours.text(),
+            row.thesis.in_words(),
+            row.ours.in_words(),
             verdict,
         ]
     };
@@ -71,9 +76,9 @@ fn beside<'a>(rows: &[&'a Row], notes: &mut Notes<'a>) -> String {
 }
 
 /// Figures of ours alone: a line a subject, and a new table where the columns change.
-fn alone<'a>(rows: &[&'a Row], notes: &mut Notes<'a>) -> String {
-    let lines: Vec<&[&'a Row]> = rows.chunk_by(|a, b| a.row == b.row).collect();
-    let columns = |line: &[&'a Row]| {
+fn alone<'a>(rows: &[&'a ComparisonRow], notes: &mut Notes<'a>) -> String {
+    let lines: Vec<&[&'a ComparisonRow]> = rows.chunk_by(|a, b| a.row == b.row).collect();
+    let columns = |line: &[&'a ComparisonRow]| {
         line.iter()
             .map(|row| row.column.clone())
             .collect::<Vec<_>>()
@@ -85,10 +90,10 @@ fn alone<'a>(rows: &[&'a Row], notes: &mut Notes<'a>) -> String {
             .into_iter()
             .chain(head.iter().map(String::as_str))
             .collect();
-        let cells = |line: &&[&'a Row]| {
+        let cells = |line: &&[&'a ComparisonRow]| {
             let ours = line
                 .iter()
-                .map(|row| row.ours.text() + &notes.mark(&row.remark));
+                .map(|row| row.ours.in_words() + &notes.mark(&row.remark));
             [line[0].row.clone()].into_iter().chain(ours).collect()
         };
         let rows: Vec<Vec<String>> = lines.iter().map(cells).collect();

@@ -4,7 +4,7 @@ use crate::fit;
 use crate::materials::{Material, Sight, Surface, THESIS_NM};
 use crate::spectra::{Gamut, Illuminant, Integration, Step};
 
-use super::row::{Figure, Row, Verdict};
+use super::comparison::{ComparisonRow, Figure, Verdict};
 use super::{Section, specialised, thesis};
 
 const TABLE: &str = "table8_three_wavelength_colour_error_percent";
@@ -42,14 +42,14 @@ pub fn section() -> Section {
     }
 }
 
-fn row((metal, page): (&'static str, &'static str)) -> Row {
+fn row((metal, page): (&'static str, &'static str)) -> ComparisonRow {
     let printed = thesis::number(&[TABLE, metal]);
     let ours = 100.0 * three_against_all(&specialised::material(page));
     let verdict = match Verdict::of_digits(printed, ours, 2) {
         Verdict::Differs if (printed - ours).abs() < INFERRED => Verdict::Explained,
         other => other,
     };
-    Row::new("table8", metal, page)
+    ComparisonRow::new("table8", metal, page)
         .thesis(Figure::percent(printed))
         .ours(Figure::percent(ours))
         .verdict(verdict)
@@ -84,11 +84,11 @@ fn seen(material: &Material, wavelengths_nm: Option<[f64; 3]>) -> Surface {
 }
 
 /// A row a light, after one bounce, and after three under the first.
-fn colour_errors(page: &'static str) -> Vec<Row> {
+fn colour_errors(page: &'static str) -> Vec<ComparisonRow> {
     let surface = seen(&specialised::material(page), None);
     let errors = fit::colour_errors(&surface, &integration()).unwrap_or_default();
     let row = |column: String, error: f64| {
-        Row::new("table8", page, &column)
+        ComparisonRow::new("table8", page, &column)
             .thesis(Figure::Missing("the thesis does not measure it"))
             .ours(Figure::Number(error, 2, ""))
             .remark(COLOUR)

@@ -3,7 +3,7 @@
 //! Each of Table 7's seven columns, over the first, must be one of Table 6's. Which one is not taken from anywhere:
 //! it is the column with the least largest deviation over the five devices.
 
-use super::row::{Figure, Row, Verdict};
+use super::comparison::{ComparisonRow, Figure, Verdict};
 use super::{Section, thesis};
 
 const RELATIVE: &str = "table6_relative_time_percent";
@@ -56,12 +56,12 @@ fn share(device: &str, column: usize) -> f64 {
     100.0 * times[column] / times[0]
 }
 
-fn rows(device: &'static str, order: &[usize]) -> Vec<Row> {
+fn rows(device: &'static str, order: &[usize]) -> Vec<ComparisonRow> {
     let names = thesis::names(&[RELATIVE, "columns"]);
     let printed = thesis::numbers(&[RELATIVE, device]);
     let row = |(column, place): (usize, &usize)| {
         let ours = share(device, column);
-        let row = Row::new("table7", device, names[*place])
+        let row = ComparisonRow::new("table7", device, names[*place])
             .thesis(Figure::Number(printed[*place], 0, " %"))
             .ours(Figure::Number(ours, 0, " %"))
             .verdict(Verdict::of_digits(printed[*place], ours, 0));

@@ -1,7 +1,7 @@
 //! How much more the exact law for conductors computes than that for dielectrics (section 5.3.2).
 
 use crate::ir::{Checked, Op};
-use crate::report::reproduce::row::{Figure, Row, Verdict};
+use crate::report::reproduce::comparison::{ComparisonRow, Figure, Verdict};
 use crate::report::reproduce::specialised;
 
 use super::measured;
@@ -14,14 +14,14 @@ const HOW: &str = "section 5.3.2: about 90 % on Adreno, by its compiler. Ours: s
     those of eqs. 1 to 3 as printed (conductor_textbook, dielectric_textbook), before any compiler";
 
 /// The claims about instructions.
-pub fn rows() -> Vec<Row> {
+pub fn rows() -> Vec<ComparisonRow> {
     [(true, "one channel"), (false, "three channels")]
         .into_iter()
         .flat_map(|(scalar_form, form)| of_form(scalar_form, form))
         .collect()
 }
 
-fn of_form(scalar_form: bool, form: &str) -> Vec<Row> {
+fn of_form(scalar_form: bool, form: &str) -> Vec<ComparisonRow> {
     let [conductor, dielectric] =
         ["conductor_textbook", "dielectric_textbook"].map(|name| library(name, scalar_form));
     let more = 100.0 * (conductor.work() as f64 / dielectric.work() as f64 - 1.0);
@@ -31,7 +31,7 @@ fn of_form(scalar_form: bool, form: &str) -> Vec<Row> {
     let mut rows = vec![
         row("more operations", Figure::Number(more, 0, " %"))
             .thesis(Figure::Number(90.0, 0, " %"))
-            .verdict(Verdict::of(COMPARABLE.contains(&more)))
+            .verdict(Verdict::of_claim(COMPARABLE.contains(&more)))
             .remark(HOW),
         row("operations, conductor", count(conductor.work() as f64)),
         row("operations, dielectric", count(dielectric.work() as f64)),
@@ -40,7 +40,7 @@ fn of_form(scalar_form: bool, form: &str) -> Vec<Row> {
     ];
     if scalar_form {
         let claimed = row("more roots", count(more_roots)).thesis(count(2.0));
-        rows.insert(1, claimed.verdict(Verdict::of(more_roots == 2.0)));
+        rows.insert(1, claimed.verdict(Verdict::of_claim(more_roots == 2.0)));
     }
     rows
 }

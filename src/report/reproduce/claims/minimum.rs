@@ -3,7 +3,7 @@
 use crate::materials::{Channels, THESIS_NM};
 use crate::reference::Derivation;
 use crate::report::reproduce::angle::{cosine, exact, highest, lowest};
-use crate::report::reproduce::row::{Figure, Row, Verdict};
+use crate::report::reproduce::comparison::{ComparisonRow, Figure, Verdict};
 use crate::report::reproduce::specialised;
 
 use super::{measured, statement};
@@ -36,7 +36,7 @@ struct Curve {
 }
 
 /// The claims about the minimum.
-pub fn rows() -> Vec<Row> {
+pub fn rows() -> Vec<ComparisonRow> {
     let curves = curves();
     let worth: Vec<&Curve> = curves
         .iter()
@@ -86,7 +86,7 @@ fn curve(name: String, index: [f64; 2]) -> Curve {
     }
 }
 
-fn of_reflectance(curves: &[&Curve], all: usize) -> Row {
+fn of_reflectance(curves: &[&Curve], all: usize) -> ComparisonRow {
     let (inside, low, high) = within(curves, |curve| curve.minimum);
     let ours = format!(
         "{inside} of {} (those of {all} metal channels for which the rescaled Schlick is more than {WORTH_CORRECTING} \
@@ -95,10 +95,10 @@ fn of_reflectance(curves: &[&Curve], all: usize) -> Row {
     );
     let claim = "for most metals whose error is worth correcting, the local minimum lies between 81.37° and 84.26°";
     statement("minimum of metals", "section 3.2.4", claim, ours)
-        .verdict(Verdict::of(2 * inside > curves.len()))
+        .verdict(Verdict::of_claim(2 * inside > curves.len()))
 }
 
-fn of_difference(curves: &[&Curve], all: usize) -> Row {
+fn of_difference(curves: &[&Curve], all: usize) -> ComparisonRow {
     let (inside, low, high) = within(curves, |curve| curve.furthest);
     let ours = format!(
         "{inside} of the same {} (of {all}): the rescaled Schlick is furthest off at {low:.2}° to {high:.2}°",
@@ -106,7 +106,7 @@ fn of_difference(curves: &[&Curve], all: usize) -> Row {
     );
     let claim = "the same range, read as the place of the largest error, which is what the correction is made for";
     statement("largest error on metals", "section 3.2.4", claim, ours)
-        .verdict(Verdict::of(2 * inside > curves.len()))
+        .verdict(Verdict::of_claim(2 * inside > curves.len()))
 }
 
 /// How many lie in the claimed range, and from where to where all lie.
@@ -120,7 +120,7 @@ fn within(curves: &[&Curve], angle: fn(&Curve) -> f64) -> (usize, f64, f64) {
     (inside, low, angles.into_iter().fold(0.0, f64::max))
 }
 
-fn figures(curve: &Curve) -> [Row; 4] {
+fn figures(curve: &Curve) -> [ComparisonRow; 4] {
     let row = |column: &str, figure| measured(&curve.name, column, figure);
     [
         row("minimum", Figure::percent(100.0 * curve.least)),

@@ -7,8 +7,8 @@ mod schlick;
 mod speed;
 
 use super::Section;
+use super::comparison::{ComparisonRow, Figure};
 use super::meter::Meter;
-use super::row::{Figure, Row};
 
 /// How many angles the claims go through, for progress.
 pub fn work(angles: usize) -> usize {
@@ -31,13 +31,13 @@ pub fn section(angles: usize, meter: &mut Meter) -> Section {
 }
 
 /// A claim in words, beside what was found.
-fn statement(name: &str, section: &str, thesis: &str, ours: String) -> Row {
-    Row::new("claims", name, section)
+fn statement(name: &str, section: &str, thesis: &str, ours: String) -> ComparisonRow {
+    ComparisonRow::new("claims", name, section)
         .thesis(Figure::Words(thesis.to_owned()))
         .ours(Figure::Words(ours))
 }
 
 /// A figure behind a claim.
-fn measured(name: &str, column: &str, ours: Figure) -> Row {
-    Row::new("claims", name, column).ours(ours)
+fn measured(name: &str, column: &str, ours: Figure) -> ComparisonRow {
+    ComparisonRow::new("claims", name, column).ours(ours)
 }

@@ -4,8 +4,8 @@ use crate::fit::thesis_errors;
 use crate::materials::Channels;
 use crate::reference::Derivation;
 use crate::report::reproduce::angle::{cosine, exact, highest};
+use crate::report::reproduce::comparison::{ComparisonRow, Figure, Verdict};
 use crate::report::reproduce::meter::Meter;
-use crate::report::reproduce::row::{Figure, Row, Verdict};
 use crate::report::reproduce::specialised;
 
 use super::{measured, statement};
@@ -37,7 +37,7 @@ pub fn work(angles: usize) -> usize {
 }
 
 /// The claims about Schlick's approximation.
-pub fn rows(angles: usize, meter: &mut Meter) -> Vec<Row> {
+pub fn rows(angles: usize, meter: &mut Meter) -> Vec<ComparisonRow> {
     let errors: Vec<Error> = INDICES
         .iter()
         .flat_map(|n| errors(*n, angles, meter))
@@ -80,7 +80,7 @@ fn difference(n: f64) -> impl Fn(f64) -> f64 {
     }
 }
 
-fn range(errors: &[Error]) -> Row {
+fn range(errors: &[Error]) -> ComparisonRow {
     let worst_inside = |figure: fn(&Error) -> f64| {
         let inside = errors.iter().filter(|error| GOOD.contains(&error.n));
         inside.map(figure).fold(0.0, f64::max)
@@ -124,7 +124,7 @@ fn outside(errors: &[Error], figure: fn(&Error) -> f64, worst_inside: f64) -> St
     }
 }
 
-fn figures(error: &Error) -> [Row; 3] {
+fn figures(error: &Error) -> [ComparisonRow; 3] {
     let name = format!("Schlick, n = {}", error.n);
     [
         measured(
@@ -141,7 +141,7 @@ fn figures(error: &Error) -> [Row; 3] {
     ]
 }
 
-fn equal_forms() -> Row {
+fn equal_forms() -> ComparisonRow {
     let apart = |n: f64| {
         let channels = specialised::grey([n, 0.0]);
         let [a, b] = ["schlick", "schlick_ior"]
@@ -163,13 +163,13 @@ fn equal_forms() -> Row {
     };
     let claim = "for dielectrics the two forms, eq. 7 and eq. 13, are equivalent";
     statement("Schlick's two forms", "sections 3.1.3, 3.2.2", claim, ours)
-        .verdict(Verdict::of(apart < 1e-14))
+        .verdict(Verdict::of_claim(apart < 1e-14))
 }
 
 /// Middles of equal steps from 0 to 90 degrees, for a share of the interval to 0.01 %.
 const STEPS: u32 = 9000;
 
-fn water() -> Row {
+fn water() -> ComparisonRow {
     let difference = difference(1.33);
     let middles = (0..STEPS).map(|i| (f64::from(i) + 0.5) * 90.0 / f64::from(STEPS));
     let small = middles
@@ -184,5 +184,5 @@ fn water() -> Row {
     );
     // The claim has one digit: 75 to 85 is 80.
     statement("Schlick for water", "section 5.3.1", claim, ours)
-        .verdict(Verdict::of((75.0..85.0).contains(&share)))
+        .verdict(Verdict::of_claim((75.0..85.0).contains(&share)))
 }

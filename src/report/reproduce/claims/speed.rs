@@ -1,6 +1,6 @@
 //! What section 5.3.2 says of Table 6, tested by Table 6 itself. Our own times are another matter.
 
-use crate::report::reproduce::row::{Row, Verdict};
+use crate::report::reproduce::comparison::{ComparisonRow, Verdict};
 use crate::report::reproduce::thesis;
 
 use super::statement;
@@ -8,7 +8,7 @@ use super::statement;
 const TIMES: &str = "table6_relative_time_percent";
 
 /// The claims about speed.
-pub fn rows() -> Vec<Row> {
+pub fn rows() -> Vec<ComparisonRow> {
     vec![schlick(), table(), conductor()]
 }
 
@@ -22,7 +22,7 @@ fn ratios(method: &str, other: &str) -> Vec<f64> {
         .collect()
 }
 
-fn schlick() -> Row {
+fn schlick() -> ComparisonRow {
     let mut gains = ratios("dielectric_exact", "schlick_dielectric");
     gains.extend(ratios("conductor_exact", "schlick_conductor"));
     let twice = gains.iter().filter(|gain| **gain >= 2.0).count();
@@ -40,16 +40,16 @@ fn schlick() -> Row {
     statement("Schlick's speed", "section 5.3.2", claim, ours).verdict(verdict)
 }
 
-fn table() -> Row {
+fn table() -> ComparisonRow {
     let gains = ratios("dielectric_exact", "table");
     let (low, high) = (least(&gains), most(&gains));
     let ours = format!("by Table 6 {low:.1} to {high:.1} times");
     let claim = "the table lookup is 2 to 4 times as fast as the exact law for dielectrics";
     statement("the table's speed", "section 5.3.2", claim, ours)
-        .verdict(Verdict::of(low >= 2.0 && high < 4.0))
+        .verdict(Verdict::of_claim(low >= 2.0 && high < 4.0))
 }
 
-fn conductor() -> Row {
+fn conductor() -> ComparisonRow {
     let costs = ratios("conductor_exact", "dielectric_exact");
     let others: Vec<f64> = costs.iter().copied().filter(|cost| *cost < 2.0).collect();
     let ours = format!(

@@ -1,10 +1,10 @@
 //! One figure of the thesis beside ours, and what follows from the comparison.
 
-use serde_json::{Value, json};
+use serde::{Serialize, Serializer};
 
 /// A line of the report.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Row {
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct ComparisonRow {
     /// The part of the report: `table2`, `claims`, `figures`.
     pub table: &'static str,
     /// The material, device or claim.
@@ -15,11 +15,16 @@ pub struct Row {
     pub thesis: Figure,
     /// What we get.
     pub ours: Figure,
+    unit: Option<&'static str>,
     /// What follows.
     pub verdict: Verdict,
     /// How it was measured, and why it differs where it does.
     pub remark: String,
+    /// Why a figure is missing, where one is.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    reason: Option<&'static str>,
     /// The file that shows it, relative to the output folder.
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub file: Option<String>,
 }
 
@@ -37,89 +42,83 @@ pub enum Figure {
 }
 
 /// What follows from the comparison.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 pub enum Verdict {
     /// Equal to the last printed digit.
+    #[serde(rename = "agrees")]
     Agrees,
     /// Different, and the remark tells the reason.
+    #[serde(rename = "differs, explained")]
     Explained,
     /// Different where it must agree: a finding.
+    #[serde(rename = "differs")]
     Differs,
     /// A claim that is true.
+    #[serde(rename = "holds")]
     Holds,
     /// A claim that is true in one sense and not in another.
+    #[serde(rename = "holds in part")]
     InPart,
     /// A claim that is not true.
+    #[serde(rename = "does not hold")]
     Fails,
     /// Nothing to compare with.
+    #[serde(rename = "")]
     Open,
 }
 
-impl Row {
+impl ComparisonRow {
     /// A row that compares nothing yet.
-    pub fn new(table: &'static str, row: &str, column: &str) -> Row {
-        Row {
+    pub fn new(table: &'static str, row: &str, column: &str) -> ComparisonRow {
+        let open = ComparisonRow {
             table,
             row: row.to_owned(),
             column: column.to_owned(),
             thesis: Figure::Missing("the thesis gives no figure"),
             ours: Figure::Missing("not measured"),
+            unit: None,
             verdict: Verdict::Open,
             remark: String::new(),
+            reason: None,
             file: None,
-        }
+        };
+        open.with_reason()
     }
 
     /// With the thesis's figure.
-    pub fn thesis(mut self, figure: Figure) -> Row {
+    pub fn thesis(mut self, figure: Figure) -> ComparisonRow {
         self.thesis = figure;
-        self
+        self.with_reason()
     }
 
     /// With our figure.
-    pub fn ours(mut self, figure: Figure) -> Row {
+    pub fn ours(mut self, figure: Figure) -> ComparisonRow {
+        self.unit = figure.unit();
         self.ours = figure;
+        self.with_reason()
+    }
+
+    /// With the reason of the first figure that is missing.
+    fn with_reason(mut self) -> ComparisonRow {
+        self.reason = self.thesis.reason().or(self.ours.reason());
         self
     }
 
     /// With what follows.
-    pub fn verdict(mut self, verdict: Verdict) -> Row {
+    pub fn verdict(mut self, verdict: Verdict) -> ComparisonRow {
         self.verdict = verdict;
         self
     }
 
     /// With how, and why.
-    pub fn remark(mut self, remark: impl Into<String>) -> Row {
+    pub fn remark(mut self, remark: impl Into<String>) -> ComparisonRow {
         self.remark = remark.into();
         self
-    }
-
-    /// The row in a report's JSON.
-    pub fn json(&self) -> Value {
-        let mut row = json!({
-            "table": self.table, "row": self.row, "column": self.column, "thesis": self.thesis.json(),
-            "ours": self.ours.json(), "unit": self.unit(), "verdict": self.verdict.text(), "remark": self.remark,
-        });
-        let reasons = [&self.thesis, &self.ours].into_iter();
-        if let Some(reason) = reasons.filter_map(Figure::reason).next() {
-            row["reason"] = json!(reason);
-        }
-        if let Some(file) = &self.file {
-            row["file"] = json!(file);
-        }
-        row
     }
 
     /// Whether the row states a claim in words, which no column can hold.
     pub fn is_statement(&self) -> bool {
         matches!(self.thesis, Figure::Words(_))
-    }
-
-    fn unit(&self) -> Option<&'static str> {
-        match self.ours {
-            Figure::Number(_, _, unit) => Some(unit.trim()).filter(|unit| !unit.is_empty()),
-            _ => None,
-        }
     }
 }
 
@@ -130,7 +129,7 @@ impl Figure {
     }
 
     /// As people read it.
-    pub fn text(&self) -> String {
+    pub fn in_words(&self) -> String {
         match self {
             Figure::Number(value, decimals, unit) => format!("{value:.decimals$}{unit}"),
             Figure::Index([n, 0.0]) => n.to_string(),
@@ -140,13 +139,10 @@ impl Figure {
         }
     }
 
-    /// Numbers in full, whatever the text rounds them to.
-    pub fn json(&self) -> Value {
+    fn unit(&self) -> Option<&'static str> {
         match self {
-            Figure::Number(value, ..) => json!(value),
-            Figure::Index(index) => json!(index),
-            Figure::Words(words) => json!(words),
-            Figure::Missing(_) => Value::Null,
+            Figure::Number(_, _, unit) => Some(unit.trim()).filter(|unit| !unit.is_empty()),
+            _ => None,
         }
     }
 
@@ -158,9 +154,21 @@ impl Figure {
     }
 }
 
+impl Serialize for Figure {
+    /// Numbers in full, whatever the text rounds them to.
+    fn serialize<S: Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
+        match self {
+            Figure::Number(value, ..) => value.serialize(to),
+            Figure::Index(index) => index.serialize(to),
+            Figure::Words(words) => words.serialize(to),
+            Figure::Missing(_) => to.serialize_none(),
+        }
+    }
+}
+
 impl Verdict {
     /// In words.
-    pub fn text(self) -> &'static str {
+    pub fn in_words(self) -> &'static str {
         match self {
             Verdict::Agrees => "agrees",
             Verdict::Explained => "differs, explained",
@@ -182,7 +190,7 @@ impl Verdict {
     }
 
     /// A claim that holds or does not.
-    pub fn of(holds: bool) -> Verdict {
+    pub fn of_claim(holds: bool) -> Verdict {
         if holds {
             Verdict::Holds
         } else {

@@ -1,0 +1,38 @@
+//! Coefficients of a fitted method for a curve, and what they are worth in the measure that they minimise.
+
+use crate::methods::{Method, Values};
+
+use super::derive::fitted_for;
+use super::exact::Exact;
+use super::fitted::{Aim, Curve};
+
+/// Coefficients with their errors, on paper and before the limit to [0, 1].
+#[derive(Clone, Debug)]
+pub struct Coefficients {
+    /// The coefficients, by the names of inputs, as the aim's precision holds them.
+    pub values: Values,
+    /// What was minimised, and what is met exactly.
+    pub aim: Aim,
+    /// The largest error in the measure that was minimised.
+    pub error: f64,
+    /// The same without the ends that are met exactly, where there are any.
+    pub error_without_exact: Option<f64>,
+}
+
+impl Coefficients {
+    /// Fits a method; none where its terms do not tell the angles of the curve apart.
+    pub fn fit(method: &Method, curve: &Curve, aim: Aim) -> Option<Coefficients> {
+        let (values, error) = fitted_for(method, curve, aim)?;
+        let free = Aim {
+            exact: Exact::default(),
+            ..aim
+        };
+        let free = aim.exact.is_any().then(|| fitted_for(method, curve, free));
+        Some(Coefficients {
+            values,
+            aim,
+            error,
+            error_without_exact: free.flatten().map(|(_, error)| error),
+        })
+    }
+}
