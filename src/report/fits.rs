@@ -173,7 +173,7 @@ pub fn fits_text(rows: &[FitRow], gpu: &str) -> String {
         let starred = alike.iter().enumerate();
         lines.extend(starred.map(|(place, row)| cells(row, best.contains(&place))));
     }
-    let table = table::text(&head, &lines);
+    let table = table::text_table(&head, &lines);
     let few = rows.len() <= SHOWN;
     let coefficients: String = rows.iter().filter(|_| few).map(coefficient_lines).collect();
     format!("{table}\n{coefficients}{}", remarks(rows))

@@ -25,7 +25,7 @@ pub fn methods_table() -> String {
             source_cell(method),
         ]
     });
-    table(
+    markdown_table(
         &[
             "method",
             "what it is",
@@ -69,7 +69,7 @@ pub fn errors_table(materials: Vec<Material>) -> Result<String, Unseen> {
                 .chain(errors)
                 .collect()
         });
-    Ok(table(&head, rows))
+    Ok(markdown_table(&head, rows))
 }
 
 /// What fitted methods promise of classes of materials.
@@ -84,7 +84,7 @@ pub fn classes_table() -> String {
             row.limit.to_string(),
         ]
     });
-    table(
+    markdown_table(
         &[
             "method",
             "class",
@@ -112,7 +112,7 @@ pub fn targets_table() -> String {
             validators.join(", "),
         ]
     });
-    table(
+    markdown_table(
         &[
             "target",
             "what it is",
@@ -142,7 +142,7 @@ pub fn half_table() -> String {
     let rows = methods::ALL
         .iter()
         .map(|method| vec![format!("`{}`", method.name), library(method), worst(method)]);
-    table(
+    markdown_table(
         &[
             "method",
             "library function",
@@ -181,7 +181,7 @@ fn error_cell(method: &'static Method, subject: &Subject) -> String {
     }
 }
 
-pub(super) fn table(head: &[&str], rows: impl Iterator<Item = Vec<String>>) -> String {
+pub(super) fn markdown_table(head: &[&str], rows: impl Iterator<Item = Vec<String>>) -> String {
     let line = |cells: &[String]| format!("| {} |\n", cells.join(" | "));
     let head: Vec<String> = head.iter().map(|cell| (*cell).to_owned()).collect();
     let rule: Vec<String> = head.iter().map(|_| "---".to_owned()).collect();

@@ -104,7 +104,7 @@ mod tests {
         (info.width, info.height, pixels)
     }
 
-    fn text(words: &str) -> String {
+    fn drawn_text(words: &str) -> String {
         format!(
             "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"200\" height=\"40\" \
              font-family=\"system-ui, sans-serif\"><text x=\"4\" y=\"30\" font-size=\"20\">{words}</text></svg>"
@@ -113,19 +113,19 @@ mod tests {
 
     #[test]
     fn size_follows_the_scale_and_equal_text_gives_equal_bytes() {
-        let once = png(&text("n = 1.5"), 1.0).unwrap();
-        assert_eq!(once, png(&text("n = 1.5"), 1.0).unwrap());
+        let once = png(&drawn_text("n = 1.5"), 1.0).unwrap();
+        assert_eq!(once, png(&drawn_text("n = 1.5"), 1.0).unwrap());
         let (width, height, pixels) = decoded(&once);
         assert_eq!((width, height, pixels.len()), (200, 40, 3 * 200 * 40));
         assert!(pixels.iter().any(|value| *value < 60), "no ink");
-        let (width, height, _) = decoded(&png(&text("n"), 2.5).unwrap());
+        let (width, height, _) = decoded(&png(&drawn_text("n"), 2.5).unwrap());
         assert_eq!((width, height), (500, 100));
         assert!(once.windows(4).any(|name| name == b"sRGB"));
     }
 
     #[test]
     fn each_letter_has_its_own_shape() {
-        let picture = |letter: char| png(&text(&letter.to_string()), 1.0).unwrap();
+        let picture = |letter: char| png(&drawn_text(&letter.to_string()), 1.0).unwrap();
         // A character that no font has: Chinese.
         let missing = picture('\u{6c34}');
         for letter in "aZ9°θληΔµ×−–·…²³₀₂₈éáčćšžüöäøåłşğő".chars()
@@ -144,8 +144,8 @@ mod tests {
                 .map(|value| u64::from(255 - value))
                 .sum::<u64>()
         };
-        let bold = text("gold").replace("<text", "<text font-weight=\"600\"");
-        assert!(ink(&bold) > ink(&text("gold")) * 11 / 10);
+        let bold = drawn_text("gold").replace("<text", "<text font-weight=\"600\"");
+        assert!(ink(&bold) > ink(&drawn_text("gold")) * 11 / 10);
     }
 
     #[test]
@@ -153,11 +153,11 @@ mod tests {
         for (svg, scale) in [
             ("gold", 1.0),
             ("<svg", 1.0),
-            (&text("n"), 0.0),
-            (&text("n"), -1.0),
-            (&text("n"), f32::NAN),
-            (&text("n"), f32::INFINITY),
-            (&text("n"), 1e9),
+            (&drawn_text("n"), 0.0),
+            (&drawn_text("n"), -1.0),
+            (&drawn_text("n"), f32::NAN),
+            (&drawn_text("n"), f32::INFINITY),
+            (&drawn_text("n"), 1e9),
         ] {
             assert!(png(svg, scale).is_err(), "{svg} at {scale}");
         }

@@ -101,7 +101,7 @@ impl SearchResult {
     }
 
     /// The rows of the JSON report: shapes first, choices after.
-    pub fn rows(&self) -> impl Iterator<Item = SearchRow> {
+    pub fn search_rows(&self) -> impl Iterator<Item = SearchRow> {
         let choices = self.choices.iter().filter_map(|(_, choice)| choice.clone());
         let shapes = self.shapes.iter().cloned().map(SearchRow::Shape);
         shapes.chain(choices.map(SearchRow::Choice))
@@ -247,7 +247,7 @@ fn shapes_text(shapes: &[ShapeRow], gpu: &str) -> String {
         cells
     };
     let rows: Vec<_> = shapes.iter().map(cells).collect();
-    table::text(&head, &rows)
+    table::text_table(&head, &rows)
 }
 
 fn quantile_cells(errors: &ErrorQuantiles) -> [String; 5] {
@@ -285,7 +285,7 @@ fn choice_text(choice: &ChoiceRow) -> String {
     format!(
         "\n{} coefficients, the shape with the least 90th percentile over all others, for each substance:\n{}{}",
         choice.terms,
-        table::text(&head, &rows),
+        table::text_table(&head, &rows),
         chosen.collect::<String>()
     )
 }

@@ -1,7 +1,7 @@
 //! Tables as plain text: columns padded, numbers to the right.
 
 /// A table with a head and a line under it.
-pub fn text(head: &[&str], rows: &[Vec<String>]) -> String {
+pub fn text_table(head: &[&str], rows: &[Vec<String>]) -> String {
     let head: Vec<String> = head.iter().map(|cell| (*cell).to_owned()).collect();
     let widths: Vec<usize> = (0..head.len())
         .map(|column| {

@@ -69,7 +69,7 @@ impl<'a> TimeReport<'a> {
         let mut sorted: Vec<&TimeRow> = self.rows.iter().collect();
         sorted.sort_by(|a, b| share(a).total_cmp(&share(b)));
         let cells: Vec<Vec<String>> = sorted.into_iter().map(cells).collect();
-        self.head() + &table::text(&COLUMNS, &cells)
+        self.head() + &table::text_table(&COLUMNS, &cells)
     }
 
     /// What a reader must know of the table.

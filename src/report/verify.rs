@@ -22,7 +22,7 @@ pub fn verify_text(rows: &[VerifyRow]) -> String {
         "in the mean, %",
         "status",
     ];
-    table::text(&head, &rows.iter().map(cells).collect::<Vec<_>>()) + &covered(rows)
+    table::text_table(&head, &rows.iter().map(cells).collect::<Vec<_>>()) + &covered(rows)
 }
 
 fn cells(row: &VerifyRow) -> Vec<String> {

@@ -25,7 +25,7 @@ fn run(parts: &[Part], angles: usize) -> Report {
 #[track_caller]
 fn row<'a>(report: &'a Report, row: &str, column: &str) -> &'a ComparisonRow {
     let found = report
-        .rows()
+        .comparisons()
         .find(|one| one.row == row && one.column == column);
     found.unwrap_or_else(|| panic!("no row `{row}`, column `{column}`"))
 }
@@ -168,17 +168,25 @@ fn a_few_texels_are_enough_for_the_figures_of_the_thesis() {
 #[test]
 fn table_1_is_what_our_files_hold() {
     let report = run(&[Part::Table1], 0);
-    assert_eq!(report.rows().count(), 24);
-    assert!(report.rows().all(|row| row.verdict == Verdict::Agrees));
+    assert_eq!(report.comparisons().count(), 24);
+    assert!(
+        report
+            .comparisons()
+            .all(|row| row.verdict == Verdict::Agrees)
+    );
 }
 
 #[test]
 fn table_7_equals_table_6_once_its_head_is_right() {
     let report = run(&[Part::Table7], 0);
-    assert_eq!(report.rows().count(), 35);
-    assert!(report.rows().all(|row| row.verdict == Verdict::Agrees));
+    assert_eq!(report.comparisons().count(), 35);
+    assert!(
+        report
+            .comparisons()
+            .all(|row| row.verdict == Verdict::Agrees)
+    );
     let order: Vec<&str> = report
-        .rows()
+        .comparisons()
         .take(7)
         .map(|row| row.column.as_str())
         .collect();
@@ -214,7 +222,7 @@ fn claims_have_their_verdicts() {
         ("the conductor's speed", Verdict::InPart, "31 to 57 %"),
     ];
     for (name, verdict, says) in statements {
-        let row = claims.rows().find(|row| row.row == name).unwrap();
+        let row = claims.comparisons().find(|row| row.row == name).unwrap();
         assert_eq!(row.verdict, verdict, "{name}");
         assert!(
             row.ours.in_words().contains(says),
@@ -318,7 +326,11 @@ fn figures_are_those_of_the_repository() {
 
 #[test]
 fn a_missing_figure_is_null_with_a_reason() {
-    for row in TABLES.rows().chain(CLAIMS.rows()).chain(LOOKUPS.rows()) {
+    for row in TABLES
+        .comparisons()
+        .chain(CLAIMS.comparisons())
+        .chain(LOOKUPS.comparisons())
+    {
         let json = serde_json::to_value(row).unwrap();
         let missing = json["thesis"].is_null() || json["ours"].is_null();
         assert_eq!(missing, json.get("reason").is_some(), "{json}");

@@ -14,7 +14,7 @@ use crate::cost::{FAMILIES, Family};
 use crate::reference::Subject;
 use crate::report::Report;
 use crate::report::audit::{audit_remarks, audit_text};
-use crate::report::frontier::{CostAxis, STATISTICS, View, chart_data, charted_function};
+use crate::report::frontier::{ChartView, CostAxis, STATISTICS, chart_data, charted_function};
 use crate::spectra::Space;
 use crate::verify::{Status, junit, machine};
 
@@ -84,7 +84,7 @@ fn charted(
     let cost = data.costs.iter().position(is_known);
     let cost = cost.or_else(|| data.costs.iter().position(|cost| cost.name == USUAL[0]));
     let (set, cost) = (chart::usual_set(&data, STATISTICS[0]), cost.unwrap_or(0));
-    let view = View {
+    let view = ChartView {
         data: &data,
         set: &data.sets[set],
         cost: &data.costs[cost],

@@ -267,5 +267,5 @@ fn bake_text(rows: &[BakeRow]) -> String {
         "max error",
         "mean error, %",
     ];
-    table::text(&head, &rows.iter().map(cells).collect::<Vec<_>>())
+    table::text_table(&head, &rows.iter().map(cells).collect::<Vec<_>>())
 }

@@ -11,8 +11,8 @@ use crate::app::write::{try_places_of_ours, write_report};
 use crate::reference::{MaterialClass, Subject};
 use crate::report::Report;
 use crate::report::frontier::{
-    Data, ERRORS, STATISTICS, View, chart_data, chart_page, chart_svg, chart_text, cost_names,
-    set_name,
+    ChartData, ChartView, ERRORS, STATISTICS, chart_data, chart_page, chart_svg, chart_text,
+    cost_names, set_name,
 };
 
 use super::{Output, Progress, replaced, report, try_files};
@@ -45,13 +45,13 @@ pub fn run(flags: &ChartFlags, progress: Progress) -> Result<Output, Error> {
     let command = flags.command_line();
     let data = chart_data(&subjects, space, None, command.clone().into(), progress);
     let set = set(flags, &data)?;
-    let view = View {
+    let view = ChartView {
         data: &data,
         set: &data.sets[set],
         cost: &data.costs[cost],
         error,
     };
-    let json = Report::new(command, view.rows());
+    let json = Report::new(command, view.point_rows());
     let drawn = match folder {
         Some(folder) => written(folder, flags.overwrite, &view, [set, cost, error])?,
         None => Vec::new(),
@@ -87,7 +87,7 @@ pub(super) fn files(folder: Option<&Path>) -> Vec<PathBuf> {
 pub(super) fn written(
     folder: &Path,
     overwrite: bool,
-    view: &View,
+    view: &ChartView,
     first: [usize; 3],
 ) -> Result<Vec<String>, Error> {
     let page = chart_page(view.data, first).map_err(|what| Error::Usage { what })?;
@@ -114,7 +114,7 @@ fn place(kind: &'static str, name: &str, all: &[&str]) -> Result<usize, Error> {
 }
 
 /// The set that is shown unless another is asked for: the first class of which there are two, else the first material.
-pub(super) fn usual_set(data: &Data, of: &str) -> usize {
+pub(super) fn usual_set(data: &ChartData, of: &str) -> usize {
     let class = MaterialClass::ALL.into_iter().find_map(|class| {
         let name = set_name(class, of);
         data.sets.iter().position(|set| set.name == name)
@@ -122,7 +122,7 @@ pub(super) fn usual_set(data: &Data, of: &str) -> usize {
     class.unwrap_or(0)
 }
 
-fn set(flags: &ChartFlags, data: &Data) -> Result<usize, Error> {
+fn set(flags: &ChartFlags, data: &ChartData) -> Result<usize, Error> {
     let names: Vec<&str> = data.sets.iter().map(|set| set.name.as_str()).collect();
     let Some(show) = &flags.show else {
         return Ok(usual_set(data, &flags.of));

@@ -77,7 +77,7 @@ fn listing<T: Serialize>(
         Some(ListingCommand::List) | None => {
             let cells = |row: &NameRow| [row.name, row.summary].map(str::to_owned).to_vec();
             let cells: Vec<Vec<String>> = rows.iter().map(cells).collect();
-            let text = table::text(&["name", "summary"], &cells);
+            let text = table::text_table(&["name", "summary"], &cells);
             report(text, &Report::new(command, rows), file)
         }
     }

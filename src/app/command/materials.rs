@@ -49,7 +49,7 @@ fn list(filter: &FilterFlags, json: Option<&Path>) -> Result<Output, Error> {
     let wanted = |m: &&Material| kind.is_none_or(|kind| m.kind == kind) && admits(filter, m);
     let chosen: Vec<&Material> = all.iter().filter(wanted).collect();
     let rows: Vec<Vec<String>> = chosen.iter().map(|m| row(m)).collect();
-    let text = table::text(&["name", "class", "known in nm", "summary"], &rows);
+    let text = table::text_table(&["name", "class", "known in nm", "summary"], &rows);
     let rows: Vec<Value> = chosen.iter().map(|m| json_row(m)).collect();
     let full = Report::new("materials list", rows);
     report(text, &full, json)
@@ -230,7 +230,7 @@ fn text(m: &Material) -> String {
         .into_iter()
         .map(|sample| sample.map(|value| value.to_string()).to_vec())
         .collect();
-    lines.push(table::text(&["nm", "n", "k"], &rows));
+    lines.push(table::text_table(&["nm", "n", "k"], &rows));
     lines.join("\n")
 }
 

@@ -178,7 +178,7 @@ fn text(told: &Told) -> String {
     lines.extend(around.map(|medium| format!("in {}: n and k are relative to it", medium.name)));
     lines.extend(told.held.iter().map(|held| format!("extrapolated: {held}")));
     lines.push(String::new());
-    lines.push(table::text(&["", "red", "green", "blue", ""], &rows));
+    lines.push(table::text_table(&["", "red", "green", "blue", ""], &rows));
     let number =
         |value: Option<f64>| value.map_or("none".to_owned(), |value| format!("{value:.5}"));
     lines.push(format!(
@@ -204,7 +204,7 @@ fn colour_error_text(told: &Told) -> Vec<String> {
         String::new(),
         "Colour error, of three channels in place of a spectrum, in Delta E 2000 after 1, 2, 3 bounces under another light.".to_owned(),
         "More accuracy than this is not worth having:".to_owned(),
-        table::text(&["light", "1", "2", "3"], &rows),
+        table::text_table(&["light", "1", "2", "3"], &rows),
     ]
 }
 
@@ -224,6 +224,6 @@ fn spread_text(told: &Told) -> Vec<String> {
     rows.push(row("most of all", &most));
     vec![
         "How well it is known: F0 by the other measurements".to_owned(),
-        table::text(&["", "red", "green", "blue"], &rows),
+        table::text_table(&["", "red", "green", "blue"], &rows),
     ]
 }

@@ -20,7 +20,7 @@ pub fn run(flags: &Reproduce, progress: Progress) -> Result<Output, Error> {
     let reproduced = reproduce(parts, thesis::ANGLES, progress);
     let drawn = draw(flags, &reproduced)?;
     let mut output = report(
-        reproduced.text(),
+        reproduced.in_words(),
         &json(&reproduced, part),
         flags.json.as_deref(),
     )?;
@@ -58,7 +58,7 @@ fn json(reproduced: &Report, part: Option<Part>) -> report::Report<ComparisonRow
     let command = part.map_or("reproduce".to_owned(), |part| {
         format!("reproduce {}", part.name())
     });
-    report::Report::new(command, reproduced.rows().cloned().collect())
+    report::Report::new(command, reproduced.comparisons().cloned().collect())
 }
 
 /// Draws the figures, and says where.

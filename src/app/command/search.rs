@@ -42,7 +42,7 @@ pub(super) fn run(
         let what = format!("there is no material to search shapes for: {OUTSIDE}");
         return Err(Error::Usage { what });
     }
-    let rows: Vec<SearchRow> = results.iter().flat_map(SearchResult::rows).collect();
+    let rows: Vec<SearchRow> = results.iter().flat_map(SearchResult::search_rows).collect();
     let command = flags.command_line(&sight(&flags.sight.words(None))?);
     let json = Report::new(command, rows);
     let text = search_text(&results, gpu.name);

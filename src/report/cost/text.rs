@@ -9,7 +9,7 @@ pub fn text(families: &[Vec<CostRow>]) -> String {
     match families {
         [one] => format!(
             "{}\nThe shader's figures are of a chain of evaluations, four or, in GLSL ES 1.00, one.\n{}\n",
-            table::text(&ALONE, &alone(one)),
+            table::text_table(&ALONE, &alone(one)),
             about(one)
         ),
         several => {
@@ -63,7 +63,7 @@ fn beside(families: &[Vec<CostRow>]) -> String {
         [label].into_iter().chain(shares).collect()
     };
     let lines: Vec<Vec<String>> = (0..count).map(line).collect();
-    table::text(&head, &lines)
+    table::text_table(&head, &lines)
 }
 
 /// Who said it, and what it is.

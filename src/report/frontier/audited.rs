@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use super::{Own, User};
+use super::{ChartedFunction, UserFunction};
 use crate::audit::AuditRow;
 use crate::fit::MethodErrors;
 use crate::verify::Status;
@@ -11,7 +11,7 @@ use crate::verify::Status;
 const MOST_UNDEFINED: f64 = 0.01;
 
 /// The point, from the rows of all materials; none where there are no rows.
-pub fn charted_function(rows: &[AuditRow]) -> Option<Own> {
+pub fn charted_function(rows: &[AuditRow]) -> Option<ChartedFunction> {
     let first = rows.first()?;
     let about = match &first.device {
         Some(device) => format!("From {}, run on {device}", first.file),
@@ -19,8 +19,8 @@ pub fn charted_function(rows: &[AuditRow]) -> Option<Own> {
     };
     let failing = rows.iter().find(|row| row.status == Status::Fail);
     let fault = |row: &AuditRow| row.reason.clone().unwrap_or_default().replace('\n', "; ");
-    Some(Own {
-        user: User {
+    Some(ChartedFunction {
+        user: UserFunction {
             name: first.function.clone(),
             about,
             fails: failing.map(fault),

@@ -3,14 +3,14 @@
 use crate::cost::{Compiler, FAMILIES, Family, library_cost, records};
 use crate::overdraw::times;
 
-use super::{CostAxis, Entry};
+use super::{ChartEntry, CostAxis};
 
 /// An axis for each family of which anything is recorded, and one of times.
-pub fn axes(entries: &[Entry]) -> Vec<CostAxis> {
+pub fn axes(entries: &[ChartEntry]) -> Vec<CostAxis> {
     let mut axes = Vec::new();
     for family in FAMILIES.iter() {
         let record = records(family.name);
-        let cost = |entry: &Entry| library_cost(entry.method()?, family, &record);
+        let cost = |entry: &ChartEntry| library_cost(entry.method()?, family, &record);
         let costs: Vec<Option<f64>> = entries.iter().map(cost).collect();
         if costs.iter().any(Option::is_some) {
             axes.push(CostAxis {
@@ -37,12 +37,12 @@ fn title(family: &Family) -> String {
 }
 
 /// Shares of time on the device of the record.
-fn timed(entries: &[Entry]) -> Option<CostAxis> {
+fn timed(entries: &[ChartEntry]) -> Option<CostAxis> {
     let all: Vec<_> = times()
         .filter(|time| time.form == "library" && time.precision == "f32")
         .collect();
     let device = all.first()?.device;
-    let share = |entry: &Entry| {
+    let share = |entry: &ChartEntry| {
         let own = all
             .iter()
             .find(|time| time.method == entry.name() && time.device == device);

@@ -7,8 +7,8 @@ use crate::num::in_parallel;
 use crate::reference::Subject;
 use crate::spectra::Space;
 
-use super::own::Own;
-use super::{Data, Entry, Function, costs, sets};
+use super::own::ChartedFunction;
+use super::{ChartData, ChartEntry, FunctionOrigin, costs, sets};
 
 /// The names of all axes of cost.
 pub fn cost_names() -> Vec<&'static str> {
@@ -20,29 +20,29 @@ pub fn cost_names() -> Vec<&'static str> {
 pub fn chart_data(
     subjects: &[Subject],
     space: Space,
-    own: Option<&Own>,
+    own: Option<&ChartedFunction>,
     command: String,
     progress: &mut dyn FnMut(u64, u64, &str),
-) -> Data {
+) -> ChartData {
     let entries = entries();
     let mut errors = errors(&entries, subjects, space, progress);
     if let Some(own) = own {
         own.join(&mut errors);
     }
-    let data = Data {
+    let data = ChartData {
         costs: costs::axes(&entries),
         sets: sets::sets(subjects, &errors),
         entries,
         command,
     };
     match own {
-        Some(own) => own.beside(data),
+        Some(own) => own.with_function(data),
         None => data,
     }
 }
 
 /// Every method for unpolarised light, and beside it the same with its best inputs where it has inputs of its own to choose.
-fn entries() -> Vec<Entry> {
+fn entries() -> Vec<ChartEntry> {
     let mut entries = Vec::new();
     for method in ALL
         .iter()
@@ -50,13 +50,13 @@ fn entries() -> Vec<Entry> {
         .filter(|method| method.light == Light::Unpolarised)
     {
         let library = method.function(false).expect("a test builds every method");
-        let own = Entry {
-            function: Function::Method(method),
+        let own = ChartEntry {
+            function: FunctionOrigin::Method(method),
             is_best: false,
             fetches: library.fetches(),
         };
         let has_best = !method.is_fitted() && !method.is_textured();
-        let best = has_best.then_some(Entry {
+        let best = has_best.then_some(ChartEntry {
             is_best: true,
             ..own.clone()
         });
@@ -67,7 +67,7 @@ fn entries() -> Vec<Entry> {
 
 /// The errors of all entries for each material.
 fn errors(
-    entries: &[Entry],
+    entries: &[ChartEntry],
     subjects: &[Subject],
     space: Space,
     progress: &mut dyn FnMut(u64, u64, &str),
@@ -79,9 +79,9 @@ fn errors(
 }
 
 /// The errors of all entries for a material; unknown of methods that do not describe it.
-fn entry_errors(entries: &[Entry], subject: &Subject, space: Space) -> Vec<MethodErrors> {
+fn entry_errors(entries: &[ChartEntry], subject: &Subject, space: Space) -> Vec<MethodErrors> {
     let curve = Curve::new(|c| subject.truth.at(c));
-    let one = |entry: &Entry| match entry.method() {
+    let one = |entry: &ChartEntry| match entry.method() {
         Some(method) if subject.is_described_by(method) => {
             let inputs = match entry.is_best {
                 true => Inputs::Best,

@@ -3,7 +3,7 @@
 use serde::Serialize;
 use tera::Context;
 
-use super::{Data, ERRORS, Function, LEAST_ERROR};
+use super::{ChartData, ERRORS, FunctionOrigin, LEAST_ERROR};
 use crate::fit::MethodErrors;
 use crate::report::html;
 
@@ -11,17 +11,17 @@ static TEMPLATE: &str = include_str!("../../../templates/chart.html.tera");
 
 /// What the page's script reads.
 #[derive(Serialize)]
-struct ChartData<'a> {
+struct PageData<'a> {
     least_error: f64,
     as_near: f64,
-    entries: Vec<Entry<'a>>,
+    entries: Vec<EntryColumns<'a>>,
     errors: Vec<[&'static str; 2]>,
-    costs: Vec<Cost<'a>>,
-    sets: Vec<Set<'a>>,
+    costs: Vec<CostColumns<'a>>,
+    sets: Vec<SetColumns<'a>>,
 }
 
 #[derive(Serialize)]
-struct Entry<'a> {
+struct EntryColumns<'a> {
     label: String,
     inputs: &'static str,
     summary: &'a str,
@@ -31,7 +31,7 @@ struct Entry<'a> {
 }
 
 #[derive(Serialize)]
-struct Cost<'a> {
+struct CostColumns<'a> {
     name: &'a str,
     title: &'a str,
     holds_fetches: bool,
@@ -39,41 +39,41 @@ struct Cost<'a> {
 }
 
 #[derive(Serialize)]
-struct Set<'a> {
+struct SetColumns<'a> {
     name: &'a str,
     title: &'a str,
     errors: Vec<[Option<f64>; 4]>,
 }
 
 /// The page; it opens with this set, cost and error. Or why it cannot be made.
-pub fn chart_page(data: &Data, [set, cost, error]: [usize; 3]) -> Result<String, String> {
-    let json = serde_json::to_string(&chart_data(data)).map_err(|why| why.to_string())?;
+pub fn chart_page(data: &ChartData, [set, cost, error]: [usize; 3]) -> Result<String, String> {
+    let json = serde_json::to_string(&page_data(data)).map_err(|why| why.to_string())?;
     let mut context = Context::new();
     // A string of JSON may hold `</script>`; an escape of JSON's own keeps it from ending the script.
     context.insert("data", &json.replace('<', "\\u003c"));
     context.insert("first", &[set, cost, error]);
     context.insert("command", &data.command);
-    let user = data.entries.iter().find_map(super::Entry::user);
+    let user = data.entries.iter().find_map(super::ChartEntry::user);
     context.insert("user", &user.map(|user| &user.name));
     html::fill(TEMPLATE, &context)
 }
 
-fn chart_data(data: &Data) -> ChartData<'_> {
-    let costs = data.costs.iter().map(|cost| Cost {
+fn page_data(data: &ChartData) -> PageData<'_> {
+    let costs = data.costs.iter().map(|cost| CostColumns {
         name: cost.name,
         title: &cost.title,
         holds_fetches: cost.holds_fetches,
         costs: &cost.costs,
     });
-    let sets = data.sets.iter().map(|set| Set {
+    let sets = data.sets.iter().map(|set| SetColumns {
         name: &set.name,
         title: &set.title,
         errors: set.errors.iter().map(four_digits).collect(),
     });
-    ChartData {
+    PageData {
         least_error: LEAST_ERROR,
         as_near: crate::cost::TIE,
-        entries: data.entries.iter().map(entry).collect(),
+        entries: data.entries.iter().map(entry_columns).collect(),
         errors: ERRORS
             .iter()
             .map(|error| [error.short, error.title])
@@ -83,12 +83,12 @@ fn chart_data(data: &Data) -> ChartData<'_> {
     }
 }
 
-fn entry(entry: &super::Entry) -> Entry<'_> {
+fn entry_columns(entry: &super::ChartEntry) -> EntryColumns<'_> {
     let (summary, source) = match &entry.function {
-        Function::Method(method) => (method.summary, method.source.line()),
-        Function::User(user) => (user.about.as_str(), String::new()),
+        FunctionOrigin::Method(method) => (method.summary, method.source.line()),
+        FunctionOrigin::User(user) => (user.about.as_str(), String::new()),
     };
-    Entry {
+    EntryColumns {
         label: entry.label(),
         inputs: entry.inputs(),
         summary,

@@ -23,7 +23,7 @@ pub use audited::charted_function;
 pub use data::{chart_data, cost_names};
 #[cfg(feature = "cli")]
 pub use html::chart_page;
-pub use own::Own;
+pub use own::ChartedFunction;
 pub use sets::{STATISTICS, set_name};
 pub use svg::chart_svg;
 pub use text::{chart_text, headline};
@@ -71,9 +71,9 @@ pub static ERRORS: [ErrorAxis; 4] = [
 
 /// A function on the chart: a method with its intended inputs, or with those whose largest error is least; or a user's own.
 #[derive(Clone, Debug)]
-pub struct Entry {
+pub struct ChartEntry {
     /// Whose it is.
-    pub function: Function,
+    pub function: FunctionOrigin,
     /// Whether its inputs are the best ones, not those that it was meant to have.
     pub is_best: bool,
     /// Texture fetches, whose cost no count shows.
@@ -82,16 +82,16 @@ pub struct Entry {
 
 /// Whose a function is.
 #[derive(Clone, Debug)]
-pub enum Function {
+pub enum FunctionOrigin {
     /// A method's.
     Method(&'static Method),
     /// A user's.
-    User(User),
+    User(UserFunction),
 }
 
 /// A user's function.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct User {
+pub struct UserFunction {
     /// Its name.
     pub name: String,
     /// What it is, in a sentence without its full stop.
@@ -115,7 +115,7 @@ pub struct CostAxis {
 
 /// A material, or many of them taken together.
 #[derive(Clone, Debug)]
-pub struct Set {
+pub struct MaterialSet {
     /// Its name on the page: a material's, or a class with how it is taken together.
     pub name: String,
     /// In words.
@@ -126,24 +126,24 @@ pub struct Set {
 
 /// All that the charts show.
 #[derive(Clone, Debug)]
-pub struct Data {
+pub struct ChartData {
     /// The functions.
-    pub entries: Vec<Entry>,
+    pub entries: Vec<ChartEntry>,
     /// The axes of cost.
     pub costs: Vec<CostAxis>,
     /// What errors are of.
-    pub sets: Vec<Set>,
+    pub sets: Vec<MaterialSet>,
     /// The command that makes it.
     pub command: String,
 }
 
 /// One chart of them: which set, by which cost, by which error.
 #[derive(Clone, Copy, Debug)]
-pub struct View<'a> {
+pub struct ChartView<'a> {
     /// All data.
-    pub data: &'a Data,
+    pub data: &'a ChartData,
     /// The set.
-    pub set: &'a Set,
+    pub set: &'a MaterialSet,
     /// The cost.
     pub cost: &'a CostAxis,
     /// Which of [`ERRORS`].
@@ -152,9 +152,9 @@ pub struct View<'a> {
 
 /// A point of a chart.
 #[derive(Clone, Copy, Debug)]
-pub struct Point<'a> {
+pub struct ChartPoint<'a> {
     /// The function.
-    pub entry: &'a Entry,
+    pub entry: &'a ChartEntry,
     /// Its cost.
     pub cost: f64,
     /// Its error.
@@ -181,16 +181,16 @@ pub struct PointRow<'a> {
 /// What errs by less is drawn here, and is as good: no index was ever measured so well.
 const LEAST_ERROR: f64 = 1e-5;
 
-impl<'a> View<'a> {
+impl<'a> ChartView<'a> {
     /// The points, by cost, then by error. Where the figure does not hold what a fetch costs, what reads a texture is not on
     /// the frontier, and keeps nothing from it; nor does a method that fails inside its domain.
-    pub fn points(&self) -> Vec<Point<'a>> {
+    pub fn points(&self) -> Vec<ChartPoint<'a>> {
         let rows = self.data.entries.iter().enumerate();
         let known = rows.filter_map(|(place, entry)| {
             let error = self.error_of(place)?;
             Some((entry, self.cost.costs[place]?, error))
         });
-        let mut known: Vec<(&'a Entry, f64, f64)> = known.collect();
+        let mut known: Vec<(&'a ChartEntry, f64, f64)> = known.collect();
         known.sort_by(|a, b| {
             let order = a.1.total_cmp(&b.1).then(a.2.total_cmp(&b.2));
             order.then(a.0.label().cmp(&b.0.label()))
@@ -203,12 +203,13 @@ impl<'a> View<'a> {
             })
             .collect();
         let best = pareto_frontier(&compared);
-        let point = |(place, (entry, cost, error)): (usize, &(&'a Entry, f64, f64))| Point {
-            entry,
-            cost: *cost,
-            error: *error,
-            is_on_frontier: best.contains(&place),
-        };
+        let point =
+            |(place, (entry, cost, error)): (usize, &(&'a ChartEntry, f64, f64))| ChartPoint {
+                entry,
+                cost: *cost,
+                error: *error,
+                is_on_frontier: best.contains(&place),
+            };
         known.iter().enumerate().map(point).collect()
     }
 
@@ -217,7 +218,7 @@ impl<'a> View<'a> {
         (ERRORS[self.error].value)(&self.set.errors[place])
     }
 
-    fn compares(&self, entry: &Entry) -> bool {
+    fn compares(&self, entry: &ChartEntry) -> bool {
         (entry.fetches == 0 || self.cost.holds_fetches) && entry.fails().is_none()
     }
 
@@ -244,8 +245,8 @@ impl<'a> View<'a> {
     }
 
     /// A row of the report for each point.
-    pub fn rows(&self) -> Vec<PointRow<'a>> {
-        let row = |point: &Point<'a>| PointRow {
+    pub fn point_rows(&self) -> Vec<PointRow<'a>> {
+        let row = |point: &ChartPoint<'a>| PointRow {
             material: &self.set.name,
             method: point.entry.name(),
             inputs: point.entry.inputs(),
@@ -261,35 +262,35 @@ impl<'a> View<'a> {
     }
 }
 
-impl Entry {
+impl ChartEntry {
     /// Its method, unless it is a user's.
     pub fn method(&self) -> Option<&'static Method> {
         match self.function {
-            Function::Method(method) => Some(method),
-            Function::User(_) => None,
+            FunctionOrigin::Method(method) => Some(method),
+            FunctionOrigin::User(_) => None,
         }
     }
 
     /// What is known of it as a user's, if it is one.
-    pub fn user(&self) -> Option<&User> {
+    pub fn user(&self) -> Option<&UserFunction> {
         match &self.function {
-            Function::Method(_) => None,
-            Function::User(user) => Some(user),
+            FunctionOrigin::Method(_) => None,
+            FunctionOrigin::User(user) => Some(user),
         }
     }
 
     /// The name of its method, or its own.
     pub fn name(&self) -> &str {
         match &self.function {
-            Function::Method(method) => method.name,
-            Function::User(user) => &user.name,
+            FunctionOrigin::Method(method) => method.name,
+            FunctionOrigin::User(user) => &user.name,
         }
     }
 
     /// Its name on charts: a star where its inputs are the best ones, a word where it is a user's.
     pub fn label(&self) -> String {
         let mark = match (&self.function, self.is_best) {
-            (Function::User(_), _) => " (yours)",
+            (FunctionOrigin::User(_), _) => " (yours)",
             (_, true) => "*",
             (_, false) => "",
         };
@@ -299,8 +300,8 @@ impl Entry {
     /// Where it fails, if it breaks the contract of functions.
     pub fn fails(&self) -> Option<&str> {
         match &self.function {
-            Function::User(user) => user.fails.as_deref(),
-            Function::Method(method) => match method.contract {
+            FunctionOrigin::User(user) => user.fails.as_deref(),
+            FunctionOrigin::Method(method) => match method.contract {
                 Contract::Kept => None,
                 Contract::Exempt(why) => Some(why),
             },
@@ -315,8 +316,8 @@ impl Entry {
     /// Which inputs it has, or that it is a user's, in one word.
     pub fn inputs(&self) -> &'static str {
         match (&self.function, self.is_best) {
-            (Function::User(_), _) => "yours",
-            (Function::Method(method), _) if method.is_fitted() => "fitted",
+            (FunctionOrigin::User(_), _) => "yours",
+            (FunctionOrigin::Method(method), _) if method.is_fitted() => "fitted",
             (_, true) => "best",
             (_, false) => "intended",
         }
@@ -341,8 +342,8 @@ mod tests {
     #[test]
     fn a_texture_is_compared_only_where_its_fetch_is_counted() {
         let method = |name| crate::methods::find(name).expect("it is there");
-        let entry = |name, fetches| Entry {
-            function: Function::Method(method(name)),
+        let entry = |name, fetches| ChartEntry {
+            function: FunctionOrigin::Method(method(name)),
             is_best: false,
             fetches,
         };
@@ -350,7 +351,7 @@ mod tests {
             max_abs: Some(error),
             ..MethodErrors::default()
         };
-        let mut data = Data {
+        let mut data = ChartData {
             entries: vec![entry("table", 1), entry("schlick", 0)],
             costs: vec![CostAxis {
                 name: "rdna2",
@@ -358,16 +359,16 @@ mod tests {
                 holds_fetches: false,
                 costs: vec![Some(1.0), Some(2.0)],
             }],
-            sets: vec![Set {
+            sets: vec![MaterialSet {
                 name: "gold".to_owned(),
                 title: "gold".to_owned(),
                 errors: [0.1, 0.2].map(largest).to_vec(),
             }],
             command: String::new(),
         };
-        let best = |data: &Data| -> Vec<String> {
+        let best = |data: &ChartData| -> Vec<String> {
             let (set, cost) = (&data.sets[0], &data.costs[0]);
-            let view = View {
+            let view = ChartView {
                 data,
                 set,
                 cost,

@@ -4,20 +4,20 @@ use std::collections::BTreeMap;
 
 use crate::fit::MethodErrors;
 
-use super::{CostAxis, Data, Entry, Function, User};
+use super::{ChartData, ChartEntry, CostAxis, FunctionOrigin, UserFunction};
 
 /// What is known of a user's function.
 #[derive(Clone, Debug)]
-pub struct Own {
+pub struct ChartedFunction {
     /// The function.
-    pub user: User,
+    pub user: UserFunction,
     /// For each material the error on each axis; none where it gave no number.
     pub errors: Vec<MethodErrors>,
     /// What an evaluation costs, by the names of axes.
     pub costs: BTreeMap<String, f64>,
 }
 
-impl Own {
+impl ChartedFunction {
     /// Its errors behind those of all others.
     pub fn join(&self, errors: &mut [Vec<MethodErrors>]) {
         for (all, own) in errors.iter_mut().zip(&self.errors) {
@@ -26,12 +26,12 @@ impl Own {
     }
 
     /// The charts with it as their last entry; its errors have joined already.
-    pub fn beside(&self, mut data: Data) -> Data {
+    pub fn with_function(&self, mut data: ChartData) -> ChartData {
         for axis in &mut data.costs {
             axis.costs.push(self.cost(axis));
         }
-        data.entries.push(Entry {
-            function: Function::User(self.user.clone()),
+        data.entries.push(ChartEntry {
+            function: FunctionOrigin::User(self.user.clone()),
             is_best: false,
             fetches: 0,
         });

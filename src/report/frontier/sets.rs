@@ -4,21 +4,24 @@ use crate::fit::MethodErrors;
 use crate::num::statistics::{median, medians, quantile};
 use crate::reference::{MaterialClass, Subject};
 
-use super::Set;
+use super::MaterialSet;
 
 /// How a class is taken together: the middle of its materials, where nine of ten end, the worst, or the middle over substances,
 /// each with one vote however often it was measured.
 pub const STATISTICS: [&str; 4] = ["median", "p90", "worst", "substances"];
 
 /// The sets of these materials: classes first, where they hold more than one, then each material.
-pub fn sets(subjects: &[Subject], errors: &[Vec<MethodErrors>]) -> Vec<Set> {
+pub fn sets(subjects: &[Subject], errors: &[Vec<MethodErrors>]) -> Vec<MaterialSet> {
     let classes = MaterialClass::ALL.into_iter();
     let classes = classes.flat_map(|class| class_sets(class, subjects, errors));
-    let alone = subjects.iter().zip(errors).map(|(subject, errors)| Set {
-        name: subject.argument.clone(),
-        title: subject.name.replace('_', " "),
-        errors: errors.clone(),
-    });
+    let alone = subjects
+        .iter()
+        .zip(errors)
+        .map(|(subject, errors)| MaterialSet {
+            name: subject.argument.clone(),
+            title: subject.name.replace('_', " "),
+            errors: errors.clone(),
+        });
     classes.chain(alone).collect()
 }
 
@@ -32,7 +35,7 @@ fn class_sets(
     class: MaterialClass,
     subjects: &[Subject],
     errors: &[Vec<MethodErrors>],
-) -> Vec<Set> {
+) -> Vec<MaterialSet> {
     let own: Vec<(&Subject, &Vec<MethodErrors>)> = subjects
         .iter()
         .zip(errors)
@@ -41,7 +44,7 @@ fn class_sets(
     if own.len() < 2 {
         return Vec::new();
     }
-    let set = |statistic: &&str| Set {
+    let set = |statistic: &&str| MaterialSet {
         name: set_name(class, statistic),
         title: set_title(class, statistic, own.len()),
         errors: together(statistic, &own),

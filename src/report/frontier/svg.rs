@@ -6,7 +6,7 @@ use crate::report::plot::{
 };
 
 use super::labels::{DOT, Place, place_names};
-use super::{ERRORS, Entry, Point, View, capital, drawn};
+use super::{ChartEntry, ChartPoint, ChartView, ERRORS, capital, drawn};
 
 /// The size of the picture.
 const FRAME: Frame = Frame {
@@ -38,7 +38,7 @@ struct Plane {
 
 impl Plane {
     /// The axes around these points, in powers of ten.
-    fn new(points: &[Point], area: Area) -> Plane {
+    fn new(points: &[ChartPoint], area: Area) -> Plane {
         let costs = ends(points.iter().map(|point| point.cost));
         let errors = ends(points.iter().map(|point| drawn(point.error)));
         Plane {
@@ -53,7 +53,7 @@ impl Plane {
     }
 
     /// Where a point stands.
-    fn at(&self, point: &Point) -> (f64, f64) {
+    fn at(&self, point: &ChartPoint) -> (f64, f64) {
         (
             self.axes.x.at(point.cost),
             self.axes.y.at(drawn(point.error)),
@@ -82,7 +82,7 @@ fn power_ticks([low, high]: [f64; 2]) -> Vec<Tick> {
 }
 
 /// The picture of a view; none where nothing of it is known.
-pub fn chart_svg(view: &View) -> Option<String> {
+pub fn chart_svg(view: &ChartView) -> Option<String> {
     let points = view.points();
     if points.is_empty() {
         return None;
@@ -106,7 +106,7 @@ pub fn chart_svg(view: &View) -> Option<String> {
     elements.push(staircase(&points, &plane));
     elements.extend(pairs(&points, &plane));
     // A full dot lies over its hollow one where they are the same, and a user's over all.
-    let mut layers: Vec<&Point> = points.iter().collect();
+    let mut layers: Vec<&ChartPoint> = points.iter().collect();
     layers.sort_by_key(|point| (point.entry.user().is_some(), !point.entry.is_best));
     elements.extend(layers.into_iter().map(|point| dot(point, &plane)));
     elements.extend(labels(&points, &plane));
@@ -119,8 +119,8 @@ const KEY: &str = "Blue: fitted here. Orange: published; full with the inputs th
 largest error is least. Square: reads a texture, whose fetch no count holds. The line: nothing is cheaper and as near; what fails inside its domain has no part in it.";
 
 /// The key, with what is said of a user's function.
-fn key(view: &View) -> String {
-    let user = view.data.entries.iter().find_map(Entry::user);
+fn key(view: &ChartView) -> String {
+    let user = view.data.entries.iter().find_map(ChartEntry::user);
     let own = user.map(|user| match view.lacks() {
         None => format!(" Green diamond: {}, your own.", user.name),
         Some(lacks) => format!(" {lacks}"),
@@ -129,7 +129,7 @@ fn key(view: &View) -> String {
 }
 
 /// The titles of the axes.
-fn titles(view: &View, axes: &Axes) -> Vec<String> {
+fn titles(view: &ChartView, axes: &Axes) -> Vec<String> {
     let area = &axes.area;
     let cost = format!("Cost: {}", view.cost.title);
     let under = AXIS.wrap(&cost, area.right - area.left);
@@ -139,7 +139,7 @@ fn titles(view: &View, axes: &Axes) -> Vec<String> {
 }
 
 /// The frontier, as the least error that a cost buys.
-fn staircase(points: &[Point], plane: &Plane) -> String {
+fn staircase(points: &[ChartPoint], plane: &Plane) -> String {
     let Area { top, right, .. } = plane.axes.area;
     let best = points.iter().filter(|point| point.is_on_frontier);
     let mut line = String::new();
@@ -157,10 +157,10 @@ fn staircase(points: &[Point], plane: &Plane) -> String {
 }
 
 /// A line from each method with its intended inputs to itself with its best ones.
-fn pairs(points: &[Point], plane: &Plane) -> Vec<String> {
+fn pairs(points: &[ChartPoint], plane: &Plane) -> Vec<String> {
     let best = points.iter().filter(|point| point.entry.is_best);
-    let line = |best: &Point| {
-        let is_same = |point: &&Point| {
+    let line = |best: &ChartPoint| {
+        let is_same = |point: &&ChartPoint| {
             point.entry.inputs() == "intended" && point.entry.name() == best.entry.name()
         };
         let intended = points.iter().find(is_same)?;
@@ -172,7 +172,7 @@ fn pairs(points: &[Point], plane: &Plane) -> Vec<String> {
     best.filter_map(line).collect()
 }
 
-fn dot(point: &Point, plane: &Plane) -> String {
+fn dot(point: &ChartPoint, plane: &Plane) -> String {
     let (x, y) = plane.at(point);
     if point.entry.user().is_some() {
         return diamond(x, y);
@@ -214,10 +214,10 @@ fn diamond(x: f64, y: f64) -> String {
 }
 
 /// Names of points, a user's first, then those of the frontier. A method at its best, on a line with itself, has one only there.
-fn labels(points: &[Point], plane: &Plane) -> Vec<String> {
+fn labels(points: &[ChartPoint], plane: &Plane) -> Vec<String> {
     const FONT: &Font = &TICK;
-    let has_name = |point: &&Point| point.is_on_frontier || !point.entry.is_best;
-    let mut order: Vec<&Point> = points.iter().filter(has_name).collect();
+    let has_name = |point: &&ChartPoint| point.is_on_frontier || !point.entry.is_best;
+    let mut order: Vec<&ChartPoint> = points.iter().filter(has_name).collect();
     order.sort_by_key(|point| {
         let entry = point.entry;
         (entry.user().is_none(), !point.is_on_frontier, entry.is_best)

@@ -1,10 +1,10 @@
 //! The chart for a terminal: its points as a table, and what follows from them in a sentence each.
 
-use super::{ERRORS, Point, View};
+use super::{ChartPoint, ChartView, ERRORS};
 use crate::report::table::{self, short_number};
 
 /// The points by cost, the frontier marked, and the headline.
-pub fn chart_text(view: &View) -> String {
+pub fn chart_text(view: &ChartView) -> String {
     let head = [
         "",
         "method",
@@ -19,16 +19,16 @@ pub fn chart_text(view: &View) -> String {
         "{}\nCost: {}.\n\n{}\nA star before a row: nothing is cheaper and as near, or nearer and as cheap.\n{}\n{}",
         view.title(),
         view.cost.title,
-        table::text(&head, &rows),
+        table::text_table(&head, &rows),
         failing(&points),
         headline(view)
     )
 }
 
 /// A remark on each method that fails: the frontier is without it.
-fn failing(points: &[Point]) -> String {
+fn failing(points: &[ChartPoint]) -> String {
     let own = points.iter().filter(|point| !point.entry.is_best);
-    let remark = |point: &Point| {
+    let remark = |point: &ChartPoint| {
         let why = point.entry.fails()?;
         Some(format!(
             "{} fails, and takes no part in that: {why}.\n",
@@ -38,7 +38,7 @@ fn failing(points: &[Point]) -> String {
     own.filter_map(remark).collect()
 }
 
-fn cells(point: &Point) -> Vec<String> {
+fn cells(point: &ChartPoint) -> Vec<String> {
     let star = if point.is_on_frontier { "*" } else { "" };
     vec![
         star.to_owned(),
@@ -52,14 +52,14 @@ fn cells(point: &Point) -> Vec<String> {
 
 /// What a fitted method gains on a competitor with its intended inputs and with its best ones, at which part of its cost: of each
 /// fitted method against the nearest rival that is no cheaper than it by more than a tenth.
-pub fn headline(view: &View) -> String {
+pub fn headline(view: &ChartView) -> String {
     let points = view.points();
     let ours = points.iter().filter(|point| point.entry.is_fitted());
     ours.filter_map(|our| sentence(our, &points)).collect()
 }
 
-fn sentence(our: &Point, points: &[Point]) -> Option<String> {
-    let is_competitor = |point: &&Point| {
+fn sentence(our: &ChartPoint, points: &[ChartPoint]) -> Option<String> {
+    let is_competitor = |point: &&ChartPoint| {
         let is_published = point
             .entry
             .method()
@@ -67,11 +67,11 @@ fn sentence(our: &Point, points: &[Point]) -> Option<String> {
         let is_cheap = our.cost <= 1.1 * point.cost && point.cost <= 2.0 * our.cost;
         is_published && point.entry.fetches == 0 && is_cheap && our.error < point.error
     };
-    let competitors: Vec<&Point> = points.iter().filter(is_competitor).collect();
+    let competitors: Vec<&ChartPoint> = points.iter().filter(is_competitor).collect();
     let intended = competitors.iter().filter(|point| !point.entry.is_best);
     let nearest = intended.min_by(|a, b| a.error.total_cmp(&b.error))?;
     let is_same =
-        |point: &&&Point| point.entry.is_best && point.entry.name() == nearest.entry.name();
+        |point: &&&ChartPoint| point.entry.is_best && point.entry.name() == nearest.entry.name();
     let best = competitors.iter().find(is_same);
     let best = best.map_or(String::new(), |best| {
         format!(", {} with its best", times(best.error / our.error))

@@ -22,7 +22,7 @@ const JOINT: &str = "2 5";
 const LEAST_K: f64 = 1e-3;
 
 /// n and k of the material itself, whatever surrounds it.
-pub(super) fn chart(subject: &DrawnMaterial) -> LineChart {
+pub(super) fn index_chart(subject: &DrawnMaterial) -> LineChart {
     let material = subject.material;
     let three = material
         .rgb_nm
@@ -55,7 +55,7 @@ pub(super) fn chart(subject: &DrawnMaterial) -> LineChart {
     LineChart {
         title: "Refractive index and extinction".to_owned(),
         subtitle,
-        x: window::axis(range),
+        x: window::wavelength_axis(range),
         y,
         series,
         marks: Vec::new(),

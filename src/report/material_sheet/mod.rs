@@ -67,9 +67,9 @@ pub fn material_sheet(
 
 impl DrawnMaterial<'_> {
     fn draw(&self, command: &str) -> String {
-        let (index, angle) = (index::chart(self), angle::chart(self));
-        let spectrum = spectrum::chart(self);
-        let (swatches, colours) = swatches::panel(self, PANEL);
+        let (index, angle) = (index::index_chart(self), angle::angle_chart(self));
+        let spectrum = spectrum::spectrum_chart(self);
+        let (swatches, colours) = swatches::swatch_panel(self, PANEL);
         let mut layout = Layout::new(PICTURE);
         layout.paragraph(&HEADING, &self.title());
         for line in self.sources() {

@@ -16,7 +16,7 @@ const ANGLES: [(f64, &str, &str); 4] = [
 ];
 
 /// The reflected share of unpolarised light, by the exact law.
-pub(super) fn chart(subject: &DrawnMaterial) -> LineChart {
+pub(super) fn spectrum_chart(subject: &DrawnMaterial) -> LineChart {
     let three = subject.three_nm();
     let (range, indices) = match three {
         Some(rgb) => (Some(window::around(rgb)), points(subject)),
@@ -43,7 +43,7 @@ pub(super) fn chart(subject: &DrawnMaterial) -> LineChart {
     LineChart {
         title: "Reflectance against wavelength".to_owned(),
         subtitle,
-        x: window::axis(range),
+        x: window::wavelength_axis(range),
         y: axis::reflectance(&series),
         series: series.to_vec(),
         marks: Vec::new(),

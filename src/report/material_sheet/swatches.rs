@@ -26,7 +26,7 @@ struct Swatch {
 }
 
 /// The panel, and what it says in words.
-pub(super) fn panel(subject: &DrawnMaterial, frame: Frame) -> (Layout, String) {
+pub(super) fn swatch_panel(subject: &DrawnMaterial, frame: Frame) -> (Layout, String) {
     let to_screen = to_screen(space(subject));
     let swatches = ANGLES.map(|degrees| {
         let linear = subject.surface.unpolarised(cosine(degrees));

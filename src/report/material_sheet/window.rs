@@ -30,7 +30,7 @@ pub fn around(rgb: [f64; 3]) -> (f64, f64) {
 }
 
 /// The axis of a range, wide enough to look at; all that is visible where there is none.
-pub fn axis(range: Option<(f64, f64)>) -> Axis {
+pub fn wavelength_axis(range: Option<(f64, f64)>) -> Axis {
     let (mut low, mut high) = range.unwrap_or(OBSERVED_NM);
     if high - low < BESIDE_NM {
         (low, high) = (low - BESIDE_NM, high + BESIDE_NM);

@@ -49,7 +49,7 @@ pub fn section() -> Section {
             .to_owned(),
         rows: DEVICES
             .iter()
-            .flat_map(|(device, family)| of_device(device, family))
+            .flat_map(|(device, family)| device_rows(device, family))
             .chain(timed_here())
             .collect(),
     }
@@ -75,7 +75,7 @@ fn printed(family: &str, method: &str) -> Option<f64> {
 }
 
 impl Pairs {
-    fn of(device: &str, family: &str) -> Option<Pairs> {
+    fn recorded(device: &str, family: &str) -> Option<Pairs> {
         let record = records(family);
         let count = |method: &&str| Some(record.library(method)?.net.instructions);
         let counts: Option<Vec<f64>> = METHODS.iter().map(count).collect();
@@ -104,9 +104,9 @@ impl Pairs {
     }
 }
 
-fn of_device(device: &str, family: &str) -> Vec<ComparisonRow> {
+fn device_rows(device: &str, family: &str) -> Vec<ComparisonRow> {
     let names = thesis::names(&[TIMES, "columns"]);
-    let Some(pairs) = Pairs::of(device, family) else {
+    let Some(pairs) = Pairs::recorded(device, family) else {
         return unmeasured(device, family, &names);
     };
     let (counts, times) = pairs.arithmetic();

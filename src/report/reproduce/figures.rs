@@ -13,7 +13,7 @@ use super::{Section, specialised};
 const POINTS: u32 = 361;
 
 /// A figure of the thesis.
-struct Plan {
+struct FigurePlan {
     number: u32,
     file: &'static str,
     /// What the thesis's caption names.
@@ -44,8 +44,8 @@ const RESCALED: (&str, &str) = ("schlick_rescaled", "rescaled Schlick (eq. 14)")
 const EXACT_ALONE: &str = "The thesis draws the exact law alone.";
 
 /// The nine. n and k are those of the captions and of Table 1; platinum's are those of 685 nm.
-const PLANS: [Plan; 9] = [
-    Plan {
+const PLANS: [FigurePlan; 9] = [
+    FigurePlan {
         number: 6,
         file: "figure-06-water.svg",
         subject: "water, n = 1.33",
@@ -56,7 +56,7 @@ const PLANS: [Plan; 9] = [
         shows_minimum: false,
         note: EXACT_ALONE,
     },
-    Plan {
+    FigurePlan {
         number: 9,
         file: "figure-09-gold-685nm.svg",
         subject: "gold at 685 nm, n = 0.23, k = 3.94",
@@ -67,7 +67,7 @@ const PLANS: [Plan; 9] = [
         shows_minimum: true,
         note: EXACT_ALONE,
     },
-    Plan {
+    FigurePlan {
         number: 10,
         file: "figure-10-gold-475nm.svg",
         subject: "gold at 475 nm, n = 1.39, k = 1.72",
@@ -78,7 +78,7 @@ const PLANS: [Plan; 9] = [
         shows_minimum: false,
         note: EXACT_ALONE,
     },
-    Plan {
+    FigurePlan {
         number: 11,
         file: "figure-11-water-empirical.svg",
         subject: "water, n = 1.33",
@@ -89,7 +89,7 @@ const PLANS: [Plan; 9] = [
         shows_minimum: false,
         note: "",
     },
-    Plan {
+    FigurePlan {
         number: 12,
         file: "figure-12-hydrogen.svg",
         subject: "hydrogen, n = 1.001",
@@ -100,7 +100,7 @@ const PLANS: [Plan; 9] = [
         shows_minimum: false,
         note: "",
     },
-    Plan {
+    FigurePlan {
         number: 13,
         file: "figure-13-arsenic-trisulphide.svg",
         subject: "arsenic trisulphide, n = 2.04",
@@ -111,7 +111,7 @@ const PLANS: [Plan; 9] = [
         shows_minimum: false,
         note: "",
     },
-    Plan {
+    FigurePlan {
         number: 14,
         file: "figure-14-germanium.svg",
         subject: "germanium, n = 4.01",
@@ -122,7 +122,7 @@ const PLANS: [Plan; 9] = [
         shows_minimum: false,
         note: "",
     },
-    Plan {
+    FigurePlan {
         number: 15,
         file: "figure-15-platinum-schlick.svg",
         subject: "platinum at 685 nm, n = 2.49, k = 4.44",
@@ -136,7 +136,7 @@ const PLANS: [Plan; 9] = [
         shows_minimum: false,
         note: "",
     },
-    Plan {
+    FigurePlan {
         number: 16,
         file: "figure-16-platinum-corrected.svg",
         subject: "platinum at 685 nm, n = 2.49, k = 4.44",
@@ -153,7 +153,7 @@ const PLANS: [Plan; 9] = [
 ];
 
 /// One curve of a figure.
-struct Curve {
+struct DrawnCurve {
     name: &'static str,
     /// Reflectance in per cent, angle by angle.
     points: Vec<(f64, f64)>,
@@ -163,35 +163,35 @@ struct Curve {
 pub fn section() -> Section {
     Section {
         title: format!("Figures: reflectance at {POINTS} angles, exact and approximate"),
-        rows: PLANS.iter().flat_map(Plan::rows).collect(),
+        rows: PLANS.iter().flat_map(FigurePlan::figure_rows).collect(),
     }
 }
 
 /// The charts.
 pub fn drawings() -> Vec<Drawing> {
-    let drawing = |plan: &Plan| Drawing {
+    let drawing = |plan: &FigurePlan| Drawing {
         file: plan.file.to_owned(),
         chart: plan.chart(),
     };
     PLANS.iter().map(drawing).collect()
 }
 
-impl Plan {
-    fn exact(&self) -> Curve {
+impl FigurePlan {
+    fn exact(&self) -> DrawnCurve {
         let reflectance = |degrees| 100.0 * exact(self.index, degrees).unpolarised();
-        Curve {
+        DrawnCurve {
             name: "exact law",
             points: degrees().map(|at| (at, reflectance(at))).collect(),
         }
     }
 
-    fn curves(&self) -> Vec<Curve> {
+    fn curves(&self) -> Vec<DrawnCurve> {
         let channels = specialised::grey(self.index);
         let curve = |(method, name): &(&str, &'static str)| {
             let function = specialised::function(method, &channels, &Derivation::default());
             let values = specialised::curve(&function, degrees().map(cosine).collect());
             let percent = values.into_iter().map(|value| 100.0 * value);
-            Curve {
+            DrawnCurve {
                 name,
                 points: degrees().zip(percent).collect(),
             }
@@ -199,15 +199,20 @@ impl Plan {
         self.methods.iter().map(curve).collect()
     }
 
-    fn rows(&self) -> Vec<ComparisonRow> {
+    fn figure_rows(&self) -> Vec<ComparisonRow> {
         let exact = self.exact();
         let pairs = self.curves().into_iter().zip(self.methods);
         pairs
-            .flat_map(|(curve, (method, _))| self.row(&curve, &exact, method))
+            .flat_map(|(curve, (method, _))| self.curve_rows(&curve, &exact, method))
             .collect()
     }
 
-    fn row(&self, curve: &Curve, exact: &Curve, method: &str) -> [ComparisonRow; 2] {
+    fn curve_rows(
+        &self,
+        curve: &DrawnCurve,
+        exact: &DrawnCurve,
+        method: &str,
+    ) -> [ComparisonRow; 2] {
         let (at, apart) = largest_difference(curve, exact);
         let name = format!("figure {}, {method}", self.number);
         [
@@ -242,8 +247,8 @@ impl Plan {
         }
     }
 
-    fn subtitle(&self, exact: &Curve, curves: &[Curve]) -> String {
-        let difference = |curve: &Curve| {
+    fn subtitle(&self, exact: &DrawnCurve, curves: &[DrawnCurve]) -> String {
+        let difference = |curve: &DrawnCurve| {
             let (at, apart) = largest_difference(curve, exact);
             format!("{} {apart:.2} percentage points at {at}°", curve.name)
         };
@@ -309,7 +314,7 @@ fn degrees() -> impl Iterator<Item = f64> {
 }
 
 /// Where a curve is furthest from the exact law, and by how many percentage points.
-fn largest_difference(curve: &Curve, exact: &Curve) -> (f64, f64) {
+fn largest_difference(curve: &DrawnCurve, exact: &DrawnCurve) -> (f64, f64) {
     let pairs = curve.points.iter().zip(&exact.points);
     let differences = pairs.map(|((at, value), (_, exact))| (*at, (value - exact).abs()));
     differences.fold(
@@ -318,7 +323,7 @@ fn largest_difference(curve: &Curve, exact: &Curve) -> (f64, f64) {
     )
 }
 
-fn series(curve: Curve, style: Style) -> Series {
+fn series(curve: DrawnCurve, style: Style) -> Series {
     Series {
         name: curve.name.to_owned(),
         style,

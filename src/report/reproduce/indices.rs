@@ -24,7 +24,7 @@ pub fn section() -> Section {
             .to_owned(),
         rows: MATERIALS
             .into_iter()
-            .flat_map(rows)
+            .flat_map(channel_rows)
             .chain(PAGES.into_iter().flat_map(unrounded))
             .collect(),
     }
@@ -56,7 +56,7 @@ fn unrounded(
     })
 }
 
-fn rows(material: &'static str) -> impl Iterator<Item = ComparisonRow> {
+fn channel_rows(material: &'static str) -> impl Iterator<Item = ComparisonRow> {
     let ours = specialised::channels(material);
     CHANNELS.into_iter().enumerate().map(move |(i, channel)| {
         let printed = thesis::numbers(&["table1_index", material, channel]);

@@ -64,7 +64,7 @@ fn section(
     let mut rows = Vec::new();
     for name in names {
         let material = Material::new(table, record, name);
-        rows.extend(material.rows(angles, meter));
+        rows.extend(material.material_rows(angles, meter));
     }
     Section {
         title: format!(
@@ -95,7 +95,7 @@ impl Material<'_> {
         }
     }
 
-    fn rows(&self, angles: usize, meter: &mut Meter) -> Vec<ComparisonRow> {
+    fn material_rows(&self, angles: usize, meter: &mut Meter) -> Vec<ComparisonRow> {
         let coarse = ThesisMeasure::new(&self.truth, angles.div_ceil(COARSER));
         let error = |axis: &Axis| coarse.error(&self.stored(*axis, TEXELS, Depth::Float));
         let best = least(Axis::ALL, error);

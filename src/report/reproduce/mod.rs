@@ -151,18 +151,19 @@ pub fn reproduce(parts: &[Part], angles: usize, say: &mut dyn FnMut(u64, u64, &s
 
 impl Report {
     /// All rows, part by part.
-    pub fn rows(&self) -> impl Iterator<Item = &ComparisonRow> {
+    pub fn comparisons(&self) -> impl Iterator<Item = &ComparisonRow> {
         self.sections.iter().flat_map(|section| &section.rows)
     }
 
     /// Whether a figure that must agree does not.
     pub fn has_findings(&self) -> bool {
-        self.rows().any(|row| row.verdict == Verdict::Differs)
+        self.comparisons()
+            .any(|row| row.verdict == Verdict::Differs)
     }
 
     /// The report for a terminal. A report of all parts also says what is not among them.
-    pub fn text(&self) -> String {
-        let text = text::text(&self.sections);
+    pub fn in_words(&self) -> String {
+        let text = text::sections_text(&self.sections);
         if self.sections.len() == Part::ALL.len() {
             text + "\n" + &text::not_measured()
         } else {

@@ -9,7 +9,7 @@ use crate::report::table;
 const WIDTH: usize = 110;
 
 /// All sections.
-pub fn text(sections: &[Section]) -> String {
+pub fn sections_text(sections: &[Section]) -> String {
     let texts: Vec<String> = sections.iter().map(section).collect();
     texts.join("\n")
 }
@@ -42,7 +42,7 @@ fn section(section: &Section) -> String {
     text.extend(statements.into_iter().map(statement));
     text += &beside(&both, &mut notes);
     text += &alone(&ours, &mut notes);
-    text + &notes.text()
+    text + &notes.in_words()
 }
 
 fn statement(row: &ComparisonRow) -> String {
@@ -72,7 +72,7 @@ fn beside<'a>(rows: &[&'a ComparisonRow], notes: &mut Notes<'a>) -> String {
         ]
     };
     let rows: Vec<Vec<String>> = rows.iter().map(cells).collect();
-    "\n".to_owned() + &table::text(&["", "", "thesis", "ours", ""], &rows)
+    "\n".to_owned() + &table::text_table(&["", "", "thesis", "ours", ""], &rows)
 }
 
 /// Figures of ours alone: a line a subject, and a new table where the columns change.
@@ -98,7 +98,7 @@ fn alone<'a>(rows: &[&'a ComparisonRow], notes: &mut Notes<'a>) -> String {
         };
         let rows: Vec<Vec<String>> = lines.iter().map(cells).collect();
         text += "\n";
-        text += &table::text(&head, &rows);
+        text += &table::text_table(&head, &rows);
     }
     text
 }
@@ -117,7 +117,7 @@ impl<'a> Notes<'a> {
         format!(" ({})", place + 1)
     }
 
-    fn text(&self) -> String {
+    fn in_words(&self) -> String {
         let lines = self.0.iter().enumerate();
         lines
             .map(|(i, note)| wrapped(note, &format!("  ({}) ", i + 1), "      "))

@@ -36,13 +36,13 @@ pub fn section() -> Section {
         title: "Table 8: three wavelengths in place of the spectrum".to_owned(),
         rows: METALS
             .into_iter()
-            .map(row)
+            .map(page_row)
             .chain(colour.flat_map(colour_errors))
             .collect(),
     }
 }
 
-fn row((metal, page): (&'static str, &'static str)) -> ComparisonRow {
+fn page_row((metal, page): (&'static str, &'static str)) -> ComparisonRow {
     let printed = thesis::number(&[TABLE, metal]);
     let ours = 100.0 * three_against_all(&specialised::material(page));
     let verdict = match Verdict::of_digits(printed, ours, 2) {

@@ -28,7 +28,7 @@ pub fn section() -> Section {
         ),
         rows: devices
             .into_iter()
-            .flat_map(|device| rows(device, &order))
+            .flat_map(|device| device_rows(device, &order))
             .collect(),
     }
 }
@@ -56,7 +56,7 @@ fn share(device: &str, column: usize) -> f64 {
     100.0 * times[column] / times[0]
 }
 
-fn rows(device: &'static str, order: &[usize]) -> Vec<ComparisonRow> {
+fn device_rows(device: &'static str, order: &[usize]) -> Vec<ComparisonRow> {
     let names = thesis::names(&[RELATIVE, "columns"]);
     let printed = thesis::numbers(&[RELATIVE, device]);
     let row = |(column, place): (usize, &usize)| {

@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 use std::mem::{Discriminant, discriminant};
 
 use super::{percent, worst};
-use crate::report::markdown::table;
+use crate::report::markdown::markdown_table;
 use crate::stability::{Failure, Finding, StabilityRow};
 
 const HEAD: &str = "# Where methods fail
@@ -29,12 +29,12 @@ A share says how much of a region fails. The methods marked *exempt* are textboo
 /// The document of a scan in single precision and of one in half.
 pub fn markdown(rows: &[StabilityRow], half: &[StabilityRow]) -> String {
     let head = ["method", "failure", "where", "worst"];
-    let told = |rows, wanted| table(&head, grouped(rows, wanted).into_iter());
+    let told = |rows, wanted| markdown_table(&head, grouped(rows, wanted).into_iter());
     let is_media = |finding: &Finding| finding.is_media;
     let of_media = |finding: &Finding| finding.is_media && !finding.failure.is_of_the_model();
     format!(
         "{HEAD}\n## Each method in a line\n\n{}\n## Media\n\n{}\n## Arguments that no medium has\n\n{}\n## Half precision\n\n{HALF}\n{}",
-        table(
+        markdown_table(
             &[
                 "method",
                 "its failures in f32, each with its largest region; all regions stand below"

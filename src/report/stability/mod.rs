@@ -115,5 +115,5 @@ pub fn stability_text(rows: &[StabilityRow]) -> String {
     };
     let head = only(head.iter().map(|cell| (*cell).to_owned()).collect());
     let head: Vec<&str> = head.iter().map(String::as_str).collect();
-    table::text(&head, &cells.into_iter().map(only).collect::<Vec<_>>())
+    table::text_table(&head, &cells.into_iter().map(only).collect::<Vec<_>>())
 }

@@ -12,7 +12,7 @@ const ABOUT: f64 = 1.0;
 const A_LITTLE: f64 = 5.0;
 
 /// The claims about gold.
-pub fn rows() -> Vec<ComparisonRow> {
+pub fn gold_claims() -> Vec<ComparisonRow> {
     let channels = specialised::channels("gold");
     let index = |i: usize| [channels.n[i], channels.k[i]];
     let (red, blue) = (index(0), index(2));

@@ -14,7 +14,7 @@ const HOW: &str = "section 5.3.2: about 90 % on Adreno, by its compiler. Ours: s
     those of eqs. 1 to 3 as printed (conductor_textbook, dielectric_textbook), before any compiler";
 
 /// The claims about instructions.
-pub fn rows() -> Vec<ComparisonRow> {
+pub fn instruction_claims() -> Vec<ComparisonRow> {
     [(true, "one channel"), (false, "three channels")]
         .into_iter()
         .flat_map(|(scalar_form, form)| of_form(scalar_form, form))

@@ -36,7 +36,7 @@ struct Curve {
 }
 
 /// The claims about the minimum.
-pub fn rows() -> Vec<ComparisonRow> {
+pub fn minimum_claims() -> Vec<ComparisonRow> {
     let curves = curves();
     let worth: Vec<&Curve> = curves
         .iter()

@@ -18,11 +18,11 @@ pub fn work(angles: usize) -> usize {
 /// All claims.
 pub fn section(angles: usize, meter: &mut Meter) -> Section {
     let rows = [
-        schlick::rows(angles, meter),
-        minimum::rows(),
-        gold::rows(),
-        instructions::rows(),
-        speed::rows(),
+        schlick::schlick_claims(angles, meter),
+        minimum::minimum_claims(),
+        gold::gold_claims(),
+        instructions::instruction_claims(),
+        speed::speed_claims(),
     ];
     Section {
         title: "Claims of the text".to_owned(),

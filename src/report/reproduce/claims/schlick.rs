@@ -37,7 +37,7 @@ pub fn work(angles: usize) -> usize {
 }
 
 /// The claims about Schlick's approximation.
-pub fn rows(angles: usize, meter: &mut Meter) -> Vec<ComparisonRow> {
+pub fn schlick_claims(angles: usize, meter: &mut Meter) -> Vec<ComparisonRow> {
     let errors: Vec<Error> = INDICES
         .iter()
         .flat_map(|n| errors(*n, angles, meter))

@@ -8,7 +8,7 @@ use super::statement;
 const TIMES: &str = "table6_relative_time_percent";
 
 /// The claims about speed.
-pub fn rows() -> Vec<ComparisonRow> {
+pub fn speed_claims() -> Vec<ComparisonRow> {
     vec![schlick(), table(), conductor()]
 }
 
