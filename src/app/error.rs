@@ -65,6 +65,9 @@ pub enum Error {
     #[cfg(feature = "cli")]
     #[error(transparent)]
     Bake(#[from] crate::bake::Error),
+    /// No function can be chosen within a budget.
+    #[error(transparent)]
+    Budget(#[from] crate::budget::Error),
     /// An artifact's path cannot be used.
     #[error("the output path `{path}` cannot be used: {reason}")]
     Path {

@@ -2,6 +2,7 @@
 //! Pure: nothing is measured here.
 
 mod choice;
+mod error;
 mod spread;
 mod text;
 
@@ -11,123 +12,100 @@ use crate::cost::{Compiler, Family, Record, function_cost, library_cost, records
 use crate::emit::{Bounds, specialised_graph};
 use crate::fit::single_error;
 use crate::ir::Checked;
-use crate::materials::{self, Material};
-use crate::methods::{self, Contract, Light, Method};
+use crate::materials::{self, Material, Sight};
+use crate::methods::{Contract, Light, Method};
 use crate::num::{Precision, in_parallel};
 use crate::reference::Subject;
 
-use crate::app::error::Error;
-use crate::app::request::{DEFAULT_MATERIALS, Materials, Request, Source};
 use choice::{Candidate, cheapest, nearest};
+
+pub use error::Error;
 use spread::spread;
 use text::Measured;
 
 /// What is asked for.
 #[derive(Clone, Copy, Debug)]
 pub struct Budget {
-    /// The largest error of reflectance, over angles and channels; above 0.
-    pub most: f64,
-    /// Whose costs decide.
-    pub family: &'static Family,
+    most: f64,
+    family: &'static Family,
 }
 
-/// The request with one method for each material, and what is said of each choice.
+impl Budget {
+    /// The largest error of reflectance, over angles and channels, and the GPUs whose costs decide.
+    ///
+    /// # Errors
+    /// It is no error of reflectance, or no costs are recorded of these GPUs.
+    pub fn new(most: f64, family: &'static Family) -> Result<Budget, Error> {
+        if !(most > 0.0 && most.is_finite()) {
+            return Err(Error::OutOfRange { most });
+        }
+        if let Compiler::None(reason) = family.compiler {
+            let gpu = family.name;
+            return Err(Error::NoCosts { gpu, reason });
+        }
+        Ok(Budget { most, family })
+    }
+}
+
+/// The method of each material, by the material's name, and what is said of each choice.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct BudgetChoice {
+    /// The methods.
+    pub methods: BTreeMap<String, &'static str>,
+    /// A sentence or two each.
+    pub remarks: Vec<String>,
+}
+
+/// Chooses one of these methods for each material.
 ///
 /// # Errors
-/// The budget is no error, no costs are recorded, or a material has no function within it.
-pub fn within(request: Request, budget: Budget) -> Result<(Request, Vec<String>), Error> {
-    check(&request, budget)?;
-    let mut request = request;
-    if request.materials == Materials::Default {
-        let named = DEFAULT_MATERIALS.map(|name| Source::Named(name.to_owned()));
-        request.materials = Materials::These(named.to_vec());
-    }
-    let subjects: Vec<Subject> = request
-        .subjects()?
-        .ready
-        .into_iter()
-        .map(|(s, _)| s)
-        .collect();
+/// None of the methods is for unpolarised light and keeps the contract, or a material has no function within the budget.
+pub fn choose_within(
+    budget: Budget,
+    methods: Vec<&'static Method>,
+    subjects: &[Subject],
+    sight: &Sight,
+) -> Result<BudgetChoice, Error> {
     let search = Search {
-        methods: candidates(&request)?,
-        catalogue: materials::list()?,
+        methods: candidate_methods(methods)?,
+        catalogue: materials::list().map_err(Error::Material)?,
         record: records(budget.family.name),
         bounds: Bounds::recorded(),
-        request: &request,
+        sight,
         budget,
     };
-    let of = |i: usize| search.of(&subjects[i]);
-    let found = in_parallel(subjects.len(), &of, &mut |_, _| {});
-    let (mut chosen, mut lines, mut faults) = (BTreeMap::new(), Vec::new(), Vec::new());
+    let choose = |i: usize| search.choice_for(&subjects[i]);
+    let found = in_parallel(subjects.len(), &choose, &mut |_, _| {});
+    let (mut choice, mut faults) = (BudgetChoice::default(), Vec::new());
     for (subject, found) in subjects.iter().zip(found) {
         match found? {
-            Ok((method, said)) => {
-                chosen.insert(subject.name.clone(), method);
-                lines.extend(said);
+            Ok((method, remarks)) => {
+                choice.methods.insert(subject.name.clone(), method);
+                choice.remarks.extend(remarks);
             }
             Err(why) => faults.push(why),
         }
     }
-    if !faults.is_empty() {
-        return Err(refused(budget, &faults));
+    if faults.is_empty() {
+        return Ok(choice);
     }
-    request.chosen = chosen;
-    Ok((request, lines))
-}
-
-/// How many materials without a function an error names.
-const NAMED: usize = 3;
-
-fn refused(budget: Budget, faults: &[String]) -> Error {
-    let more = match faults.len().saturating_sub(NAMED) {
-        0 => String::new(),
-        more => format!("; and {more} more"),
-    };
-    let named: Vec<&str> = faults.iter().take(NAMED).map(String::as_str).collect();
-    let what = format!(
-        "nothing is within --budget {}; {}{more}",
-        budget.most,
-        named.join("; ")
-    );
-    Error::Usage { what }
-}
-
-fn check(request: &Request, budget: Budget) -> Result<(), Error> {
     let most = budget.most;
-    let family = budget.family;
-    let what = if !(most > 0.0 && most.is_finite()) {
-        format!("--budget is {most}; it is an error of reflectance, above 0, such as 0.001")
-    } else if request.precision.is_half() {
-        "--budget is of functions in single precision; leave --precision f16 out".to_owned()
-    } else if request.materials == Materials::None {
-        "--budget chooses for materials; `none` leaves none to choose for".to_owned()
-    } else if let Compiler::None(why) = family.compiler {
-        format!(
-            "no costs are recorded of {}: {why}; name another --gpu",
-            family.name
-        )
-    } else {
-        return Ok(());
-    };
-    Err(Error::Usage { what })
+    Err(Error::NothingWithin { most, faults })
 }
 
-/// The methods among which a budget chooses: those named, or all, for unpolarised light, that keep the contract.
-fn candidates(request: &Request) -> Result<Vec<&'static Method>, Error> {
-    let named = request.resolved_methods()?;
-    let mut methods = named.unwrap_or_else(|| methods::ALL.to_vec());
+/// The methods among which a budget chooses: those for unpolarised light that keep the contract.
+fn candidate_methods(mut methods: Vec<&'static Method>) -> Result<Vec<&'static Method>, Error> {
     methods
         .retain(|method| method.light == Light::Unpolarised && method.contract == Contract::Kept);
-    if methods.is_empty() {
-        let what = "--budget chooses among methods for unpolarised light that keep the contract; none of --method is one".to_owned();
-        return Err(Error::Usage { what });
+    match methods.is_empty() {
+        true => Err(Error::NoMethod),
+        false => Ok(methods),
     }
-    Ok(methods)
 }
 
 /// What is the same for all materials.
 struct Search<'a> {
-    request: &'a Request,
+    sight: &'a Sight,
     budget: Budget,
     methods: Vec<&'static Method>,
     catalogue: Vec<Material>,
@@ -139,16 +117,17 @@ struct Search<'a> {
 type Found = Result<(&'static str, Vec<String>), String>;
 
 impl Search<'_> {
-    fn of(&self, subject: &Subject) -> Result<Found, Error> {
+    fn choice_for(&self, subject: &Subject) -> Result<Found, Error> {
         let (candidates, form) = self.candidates(subject)?;
         let family = self.budget.family;
         let Some(choice) = cheapest(&candidates, self.budget.most) else {
             let best = nearest(candidates.iter());
-            return Ok(Err(text::nothing(&subject.name, best.as_ref(), family)));
+            return Ok(Err(text::no_choice(&subject.name, best.as_ref(), family)));
         };
-        let spread = spread(subject, &self.catalogue, &self.request.sight);
+        let spread = spread(subject, &self.catalogue, self.sight);
         let measured = Measured { family, form };
-        let lines = text::lines(&subject.name, &choice, spread, self.budget.most, measured);
+        let lines =
+            text::choice_remarks(&subject.name, &choice, spread, self.budget.most, measured);
         Ok(Ok((choice.chosen.method, lines)))
     }
 

@@ -25,13 +25,10 @@ pub fn spread(subject: &Subject, catalogue: &[Material], sight: &Sight) -> Optio
     if medium.is_some_and(|medium| medium.substance == own.substance) {
         return None;
     }
-    let is_page = |other: &&Material| other.is_spectrum_of(&own.substance);
-    let curve = |other: &Material| {
-        let surface = Surface::new(other, medium, sight).ok()?;
-        Some(Curve::new(|c| seen(&surface, Light::Unpolarised, c)).seen)
-    };
-    let pages = catalogue.iter().filter(is_page);
-    let curves: Vec<Vec<[f64; 3]>> = pages.filter_map(curve).collect();
+    let curve =
+        |(_, surface): (_, Surface)| Curve::new(|c| seen(&surface, Light::Unpolarised, c)).seen;
+    let pages = materials::surfaces_of(&own.substance, catalogue, medium, sight);
+    let curves: Vec<Vec<[f64; 3]>> = pages.map(curve).collect();
     (curves.len() > 1).then(|| Spread {
         most: apart(&curves),
         sources: curves.len(),

@@ -19,7 +19,7 @@ pub struct Measured {
 }
 
 /// What is said of a material's choice, a line each.
-pub fn lines(
+pub fn choice_remarks(
     name: &str,
     choice: &Choice,
     spread: Option<Spread>,
@@ -84,7 +84,7 @@ fn known(error_made: f64, spread: Option<Spread>) -> String {
 }
 
 /// Why nothing is chosen.
-pub fn nothing(name: &str, best: Option<&Candidate>, family: &Family) -> String {
+pub fn no_choice(name: &str, best: Option<&Candidate>, family: &Family) -> String {
     let Some(best) = best else {
         return format!(
             "{name}: no method describes it whose cost on {} is known",

@@ -232,3 +232,15 @@ fn held(
     };
     (outside(from, &|nm| nm < from), outside(to, &|nm| nm > to))
 }
+/// The materials that are spectra of this substance and can be seen so, each with its surface.
+pub fn surfaces_of<'a>(
+    substance: &'a str,
+    catalogue: &'a [Material],
+    medium: Option<&'a Material>,
+    sight: &'a Sight,
+) -> impl Iterator<Item = (&'a Material, Surface)> {
+    let same = catalogue
+        .iter()
+        .filter(|other| other.is_spectrum_of(substance));
+    same.filter_map(move |other| Some((other, Surface::new(other, medium, sight).ok()?)))
+}

@@ -11,7 +11,7 @@ use crate::app::generate::{Generated, Kept, generate_beside, generate_single};
 use crate::app::lock::{Announce, Lock};
 use crate::app::manifest::{self, Manifest};
 use crate::app::names::family;
-use crate::app::request::Request;
+use crate::app::request::{Materials, Request};
 use crate::app::sight::{input, sight};
 use crate::app::source::{is_path, materials, source};
 use crate::app::tables::add_tables;
@@ -19,8 +19,10 @@ use crate::app::tree::{Plan, plan};
 use crate::app::write::{write, write_file, write_files};
 use crate::app::{check, depfile, folder};
 use crate::bake::as_tables_are_seen;
-use crate::budget::{Budget, within};
+use crate::budget::{Budget, choose_within};
+use crate::methods;
 use crate::num::Precision;
+use crate::reference::Subject;
 
 use super::{Output, folder_or_current, refuse_within_tree};
 
@@ -89,7 +91,40 @@ fn chosen(flags: &Generate, request: Request) -> Result<(Request, Vec<String>), 
         return Ok((request, Vec::new()));
     };
     let family = family(flags.gpu.as_deref().unwrap_or(USUAL_GPU))?;
-    within(request, Budget { most, family })
+    let budget = Budget::new(most, family)?;
+    let what = if request.precision.is_half() {
+        "--budget is of functions in single precision; leave --precision f16 out"
+    } else if request.materials == Materials::None {
+        "--budget chooses for materials; `none` leaves none to choose for"
+    } else {
+        return within(budget, request);
+    };
+    Err(Error::Usage {
+        what: what.to_owned(),
+    })
+}
+
+/// The request with one method for each material.
+fn within(budget: Budget, request: Request) -> Result<(Request, Vec<String>), Error> {
+    // A run with a budget names its materials, so that no catalogue and no tables go with it.
+    let materials = match request.materials {
+        Materials::Default => Materials::These(Materials::Default.sources()),
+        named => named,
+    };
+    let request = Request {
+        materials,
+        ..request
+    };
+    let subjects = request.subjects()?.ready.into_iter();
+    let subjects: Vec<Subject> = subjects.map(|(subject, _)| subject).collect();
+    let methods = request.resolved_methods()?;
+    let methods = methods.unwrap_or_else(|| methods::ALL.to_vec());
+    let choice = choose_within(budget, methods, &subjects, &request.sight)?;
+    let request = Request {
+        chosen: choice.methods,
+        ..request
+    };
+    Ok((request, choice.remarks))
 }
 
 /// Whose costs decide where none is named.

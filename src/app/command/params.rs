@@ -73,17 +73,13 @@ fn others(
     medium: Option<&Material>,
     sight: &Sight,
 ) -> Result<Vec<(String, [f64; 3])>, Error> {
-    let same =
-        |other: &Material| other.is_spectrum_of(&material.substance) && other.name != material.name;
-    let f0 = |other: Material| {
-        let surface = Surface::new(&other, medium, sight).ok()?;
-        Some((other.name, surface.unpolarised(1.0).to_array()))
+    let catalogue = materials::list()?;
+    let measured = materials::surfaces_of(&material.substance, &catalogue, medium, sight);
+    let f0 = |(other, surface): (&Material, Surface)| {
+        (other.name.clone(), surface.unpolarised(1.0).to_array())
     };
-    Ok(materials::list()?
-        .into_iter()
-        .filter(same)
-        .filter_map(f0)
-        .collect())
+    let others = measured.filter(|(other, _)| other.name != material.name);
+    Ok(others.map(f0).collect())
 }
 
 /// Smallest and largest F0 of all measurements, this one among them.
