@@ -23,6 +23,7 @@ mod search;
 mod shape_choice;
 mod survey;
 mod texels;
+mod thesis_in_floats;
 mod weight;
 
 pub use candidates::{Candidate, candidates};
@@ -47,4 +48,5 @@ pub use survey::{
     PageFacts, PageOutcome, SURVEYED_ANGLES, SurveyedPage, VisibleColours, survey_page,
 };
 pub use texels::{arguments, table_of, texels};
+pub use thesis_in_floats::thesis_error_in_floats;
 pub use weight::Weight;

@@ -158,7 +158,7 @@ fn lacking(mean_rel: Option<f64>, cost: Option<f64>) -> Option<String> {
 pub fn fits_text(rows: &[FitRow], gpu: &str) -> String {
     let aim = rows.first().map_or(Aim::default(), |row| row.aim);
     let mut head = vec!["", "material", "method", "terms", "largest error"];
-    head.extend(measure(aim).map(|(title, _)| title));
+    head.extend(measure_columns(aim).map(|(title, _)| title));
     head.extend(["mean relative, %", gpu]);
     let mut lines = Vec::new();
     for alike in rows.chunk_by(|a, b| a.material == b.material) {
@@ -182,8 +182,8 @@ pub fn fits_text(rows: &[FitRow], gpu: &str) -> String {
 /// A column of a row's.
 type Column = (&'static str, fn(&FitRow) -> Option<f64>);
 
-/// What is told of the measure that was minimised, and of what an exact end costs, where that is asked for.
-fn measure(aim: Aim) -> impl Iterator<Item = Column> {
+/// The columns of the measure that was minimised, and of what an exact end costs.
+fn measure_columns(aim: Aim) -> impl Iterator<Item = Column> {
     let title = match aim.weight {
         Weight::Absolute => "largest on paper",
         Weight::Relative => "largest relative",
@@ -193,8 +193,8 @@ fn measure(aim: Aim) -> impl Iterator<Item = Column> {
     let error: Column = (title, |row| Some(row.error));
     let free: Column = ("the same, no end exact", |row| row.error_without_exact);
     let is_any = aim.exact.is_any();
-    let told = (is_any || aim.weight != Weight::Absolute).then_some(error);
-    told.into_iter().chain(is_any.then_some(free))
+    let column = (is_any || aim.weight != Weight::Absolute).then_some(error);
+    column.into_iter().chain(is_any.then_some(free))
 }
 
 /// Rows of which the coefficients are printed too.
@@ -209,7 +209,7 @@ fn cells(row: &FitRow, is_best: bool) -> Vec<String> {
         row.terms.to_string(),
         short_number(row.max_abs),
     ];
-    cells.extend(measure(row.aim).map(|(_, value)| shown(value(row))));
+    cells.extend(measure_columns(row.aim).map(|(_, value)| shown(value(row))));
     cells.push(shown(row.mean_rel.map(|share| 100.0 * share)));
     cells.push(shown(row.cost));
     cells

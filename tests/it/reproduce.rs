@@ -7,23 +7,24 @@ use std::path::Path;
 use std::sync::LazyLock;
 
 use fresnel_gen::report::reproduce::{
-    ComparisonRow, Figure, Part, Report, Verdict, reproduce, thesis,
+    ComparisonRow, Figure, Part, Reproduction, Verdict, reproduce, thesis,
 };
 
 /// The thesis's million angles: the figures must come out to its printed digit.
-static TABLES: LazyLock<Report> =
+static TABLES: LazyLock<Reproduction> =
     LazyLock::new(|| run(&[Part::Table2, Part::Table3], thesis::ANGLES));
-static LOOKUPS: LazyLock<Report> =
+static LOOKUPS: LazyLock<Reproduction> =
     LazyLock::new(|| run(&[Part::Table4, Part::Table5], thesis::ANGLES));
 /// The claims stand or fall by far more than what a hundredth of the angles leaves open.
-static CLAIMS: LazyLock<Report> = LazyLock::new(|| run(&[Part::Claims], thesis::ANGLES / 100));
+static CLAIMS: LazyLock<Reproduction> =
+    LazyLock::new(|| run(&[Part::Claims], thesis::ANGLES / 100));
 
-fn run(parts: &[Part], angles: usize) -> Report {
+fn run(parts: &[Part], angles: usize) -> Reproduction {
     reproduce(parts, angles, &mut |_, _, _| {})
 }
 
 #[track_caller]
-fn row<'a>(report: &'a Report, row: &str, column: &str) -> &'a ComparisonRow {
+fn row<'a>(report: &'a Reproduction, row: &str, column: &str) -> &'a ComparisonRow {
     let found = report
         .comparisons()
         .find(|one| one.row == row && one.column == column);
@@ -31,7 +32,7 @@ fn row<'a>(report: &'a Report, row: &str, column: &str) -> &'a ComparisonRow {
 }
 
 #[track_caller]
-fn check(report: &Report, name: &str, column: &str, ours: &str, verdict: Verdict) {
+fn check(report: &Reproduction, name: &str, column: &str, ours: &str, verdict: Verdict) {
     let row = row(report, name, column);
     assert_eq!(
         (row.ours.in_words().as_str(), row.verdict),

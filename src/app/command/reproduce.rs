@@ -6,8 +6,10 @@ use crate::app::args::Reproduce;
 use crate::app::error::Error;
 use crate::app::names::unknown;
 use crate::app::write::write_report;
-use crate::report;
-use crate::report::reproduce::{ComparisonRow, NOT_MEASURED, Part, Report, reproduce, thesis};
+use crate::report::Report;
+use crate::report::reproduce::{
+    ComparisonRow, NOT_MEASURED, Part, Reproduction, reproduce, thesis,
+};
 
 use super::{Output, Progress, replaced, report};
 
@@ -54,15 +56,15 @@ fn part(name: &str) -> Result<Part, Error> {
     }
 }
 
-fn json(reproduced: &Report, part: Option<Part>) -> report::Report<ComparisonRow> {
+fn json(reproduced: &Reproduction, part: Option<Part>) -> Report<ComparisonRow> {
     let command = part.map_or("reproduce".to_owned(), |part| {
         format!("reproduce {}", part.name())
     });
-    report::Report::new(command, reproduced.comparisons().cloned().collect())
+    Report::new(command, reproduced.comparisons().cloned().collect())
 }
 
 /// Draws the figures, and says where.
-fn draw(flags: &Reproduce, reproduced: &Report) -> Result<Vec<String>, Error> {
+fn draw(flags: &Reproduce, reproduced: &Reproduction) -> Result<Vec<String>, Error> {
     let pictures: Vec<(PathBuf, String)> = (reproduced.drawings.iter())
         .map(|drawing| (flags.out_dir.join(&drawing.file), drawing.chart.svg()))
         .collect();

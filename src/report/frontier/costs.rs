@@ -1,4 +1,4 @@
-//! The axes of cost: what compilers said of library functions, the graph's own operations, and times.
+//! The axes of cost: what compilers count in library functions, the graph's own operations, and times.
 
 use crate::cost::{Compiler, FAMILIES, Family, library_cost, records};
 use crate::overdraw::times;

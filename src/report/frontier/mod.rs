@@ -26,9 +26,9 @@ pub use html::chart_page;
 pub use own::ChartedFunction;
 pub use sets::{STATISTICS, set_name};
 pub use svg::chart_svg;
-pub use text::{chart_text, headline};
+pub use text::chart_text;
 
-/// How error is told.
+/// A measure of error.
 #[derive(Clone, Copy, Debug)]
 pub struct ErrorAxis {
     /// Its name on the command line and in reports.

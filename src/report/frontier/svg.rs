@@ -118,7 +118,7 @@ pub fn chart_svg(view: &ChartView) -> Option<String> {
 const KEY: &str = "Blue: fitted here. Orange: published; full with the inputs that its authors meant, hollow (*) with those whose \
 largest error is least. Square: reads a texture, whose fetch no count holds. The line: nothing is cheaper and as near; what fails inside its domain has no part in it.";
 
-/// The key, with what is said of a user's function.
+/// The key, with a sentence on a user's function.
 fn key(view: &ChartView) -> String {
     let user = view.data.entries.iter().find_map(ChartEntry::user);
     let own = user.map(|user| match view.lacks() {

@@ -21,7 +21,7 @@ pub fn chart_text(view: &ChartView) -> String {
         view.cost.title,
         table::text_table(&head, &rows),
         failing(&points),
-        headline(view)
+        fitted_gains(view)
     )
 }
 
@@ -51,8 +51,8 @@ fn cells(point: &ChartPoint) -> Vec<String> {
 }
 
 /// What a fitted method gains on a competitor with its intended inputs and with its best ones, at which part of its cost: of each
-/// fitted method against the nearest rival that is no cheaper than it by more than a tenth.
-pub fn headline(view: &ChartView) -> String {
+/// fitted method against the nearest competitor that is no cheaper than it by more than a tenth.
+fn fitted_gains(view: &ChartView) -> String {
     let points = view.points();
     let ours = points.iter().filter(|point| point.entry.is_fitted());
     ours.filter_map(|our| sentence(our, &points)).collect()

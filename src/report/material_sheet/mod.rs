@@ -99,7 +99,7 @@ impl DrawnMaterial<'_> {
     /// Who measured it, where it stands, under which conditions; in lines.
     fn sources(&self) -> Vec<String> {
         let material = self.material;
-        let told = |what: &str, text: &str| match text.trim() {
+        let labelled = |what: &str, text: &str| match text.trim() {
             "" => String::new(),
             text => format!("{what}: {text}. "),
         };
@@ -114,8 +114,8 @@ impl DrawnMaterial<'_> {
             format!("{} {}", material.reference, material.link),
             format!(
                 "{}{}{}, known {}. Licence of the numbers: {}.",
-                told("Page", &material.page),
-                told("Conditions", &material.conditions),
+                labelled("Page", &material.page),
+                labelled("Conditions", &material.conditions),
                 capital(material.kind.name()),
                 window::words(material.range_nm()),
                 material.licence
@@ -258,7 +258,7 @@ mod tests {
 
     #[test]
     fn what_was_not_measured_is_refused_or_held() {
-        for (nm, told) in [
+        for (nm, words) in [
             (vec![589], "known at 589 nm"),
             (vec![400, 700], "known from 400 to 700 nm"),
             (vec![1000, 2000], "Not measured in visible light."),
@@ -267,7 +267,7 @@ mod tests {
             let why = drawn(&material, &Sight::default()).unwrap_err();
             assert!(why.contains("--extrapolate hold"), "{why}");
             let svg = check(&material, &hold());
-            assert!(svg.contains(told) && svg.contains("is held"), "{told}");
+            assert!(svg.contains(words) && svg.contains("is held"), "{words}");
         }
     }
 

@@ -1,13 +1,13 @@
 //! Tables 2 and 3: mean relative error of the approximations, by the thesis's measure (section 5.2).
 
-use crate::fit::thesis_errors;
+use crate::fit::{thesis_error_in_floats, thesis_errors};
 use crate::materials::Channels;
 use crate::methods::lambda;
 use crate::reference::{Derivation, THESIS_MATCHING_COS};
 
 use super::comparison::{ComparisonRow, Figure, Verdict};
 use super::meter::Meter;
-use super::{Section, single, specialised, thesis};
+use super::{Section, specialised, thesis};
 
 const METALS: &str = "table2_function_error_metals_percent";
 const DIELECTRICS: &str = "table3_function_error_dielectrics_percent";
@@ -104,7 +104,9 @@ fn in_floats(
         "table2" => ("schlick_rescaled", "conductor_textbook"),
         _ => ("schlick_ior", "dielectric_textbook"),
     };
-    let ours = single::percent(method, exact, channels, angles);
+    let function = |name| specialised::function(name, channels, &Derivation::default());
+    let error = thesis_error_in_floats(&function(method), &function(exact), angles);
+    let ours = f64::from(100.0 * error);
     let row = must_agree(
         table,
         name,

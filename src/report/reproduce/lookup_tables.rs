@@ -63,7 +63,7 @@ fn section(
     let number = table.trim_start_matches("table");
     let mut rows = Vec::new();
     for name in names {
-        let material = Material::new(table, record, name);
+        let material = ThesisMaterial::new(table, record, name);
         rows.extend(material.material_rows(angles, meter));
     }
     Section {
@@ -75,7 +75,7 @@ fn section(
 }
 
 /// A material of the thesis, and what its table says.
-struct Material<'a> {
+struct ThesisMaterial<'a> {
     table: &'static str,
     name: &'a str,
     /// The smaller figure of both objects, in per cent.
@@ -83,11 +83,11 @@ struct Material<'a> {
     truth: Truth,
 }
 
-impl Material<'_> {
-    fn new<'a>(table: &'static str, record: &str, name: &'a str) -> Material<'a> {
+impl ThesisMaterial<'_> {
+    fn new<'a>(table: &'static str, record: &str, name: &'a str) -> ThesisMaterial<'a> {
         let printed = |object| thesis::number(&[record, name, object, "table"]);
         let surface = Surface::of_channels(&specialised::channels(name));
-        Material {
+        ThesisMaterial {
             table,
             name,
             printed: printed("cube").min(printed("sculpture")),

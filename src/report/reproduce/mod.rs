@@ -14,7 +14,6 @@ mod function_errors;
 mod indices;
 mod lookup_tables;
 mod meter;
-mod single;
 mod specialised;
 mod text;
 pub mod thesis;
@@ -125,7 +124,7 @@ pub struct Section {
 
 /// Parts reproduced.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Report {
+pub struct Reproduction {
     /// In the order asked for.
     pub sections: Vec<Section>,
     /// The curves, where they were asked for.
@@ -134,7 +133,11 @@ pub struct Report {
 
 /// Reproduces parts; function errors are taken at `angles` angles ([`thesis::ANGLES`] in the thesis).
 /// `say` hears how far the work is: done, of how much, what.
-pub fn reproduce(parts: &[Part], angles: usize, say: &mut dyn FnMut(u64, u64, &str)) -> Report {
+pub fn reproduce(
+    parts: &[Part],
+    angles: usize,
+    say: &mut dyn FnMut(u64, u64, &str),
+) -> Reproduction {
     let whole = parts.iter().map(|part| part.work(angles)).sum();
     let mut meter = Meter::new(whole, say);
     let sections = parts
@@ -146,10 +149,10 @@ pub fn reproduce(parts: &[Part], angles: usize, say: &mut dyn FnMut(u64, u64, &s
     } else {
         Vec::new()
     };
-    Report { sections, drawings }
+    Reproduction { sections, drawings }
 }
 
-impl Report {
+impl Reproduction {
     /// All rows, part by part.
     pub fn comparisons(&self) -> impl Iterator<Item = &ComparisonRow> {
         self.sections.iter().flat_map(|section| &section.rows)
