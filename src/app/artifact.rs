@@ -27,6 +27,9 @@ pub struct Artifact {
 }
 
 /// Refuses paths that leave the output folder, meet each other, or take the manifest's place.
+///
+/// # Errors
+/// A path breaks a rule of [`check_path`], is the manifest's, is another artifact's, or is a folder that another one needs.
 pub fn check_paths(artifacts: &[Artifact]) -> Result<(), Error> {
     let mut seen = BTreeSet::new();
     for artifact in artifacts {
@@ -46,6 +49,9 @@ pub fn check_paths(artifacts: &[Artifact]) -> Result<(), Error> {
 }
 
 /// Is this a path that stays inside its folder, on every system?
+///
+/// # Errors
+/// The path holds `\\`, `:` or a control character, is absolute, or has a part that is empty, `.` or `..`.
 pub fn check_path(path: &str) -> Result<(), &'static str> {
     if path.contains(|c: char| c == '\\' || c == ':' || c.is_control()) {
         return Err("`\\`, `:` and control characters are not allowed");

@@ -17,6 +17,9 @@ const TEMPORARY_DIGITS: usize = 16;
 
 /// The files right in `root` and at any depth of these folders in it, as paths relative to `root` with `/`.
 /// A link is listed as one file.
+///
+/// # Errors
+/// A folder cannot be read. A folder that does not exist has no files, and is no error.
 pub fn list(root: &Path, folders: &BTreeSet<String>) -> Result<BTreeSet<String>, Error> {
     let mut files = BTreeSet::new();
     let top = list_one(root, "", &mut files)?;
@@ -28,6 +31,9 @@ pub fn list(root: &Path, folders: &BTreeSet<String>) -> Result<BTreeSet<String>,
 }
 
 /// The content of a file, None if nothing is there.
+///
+/// # Errors
+/// What lies there is not a file, or cannot be read.
 pub fn read(path: &Path) -> Result<Option<Vec<u8>>, Error> {
     match fs::metadata(path) {
         // Opening a pipe would wait for ever.

@@ -90,6 +90,9 @@ pub struct Provenance {
 
 impl Manifest {
     /// Reads a manifest; `path` is for the message only.
+    ///
+    /// # Errors
+    /// The text is not JSON, not a manifest of this program, or holds the marks of a merge conflict.
     pub fn parse(path: &Path, text: &[u8]) -> Result<Manifest, Error> {
         serde_json::from_slice(text).map_err(|fault| match conflict(text) {
             Some(line) => Error::Manifest {

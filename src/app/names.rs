@@ -11,6 +11,9 @@ pub fn unknown(kind: &'static str, name: &str, all: &[&str]) -> Error {
 }
 
 /// The family of GPUs of this name.
+///
+/// # Errors
+/// There is no family of this name.
 pub fn family(name: &str) -> Result<&'static Family, Error> {
     let all: Vec<&str> = FAMILIES.iter().map(|family| family.name).collect();
     find(name).ok_or_else(|| unknown("GPU family", name, &all))

@@ -101,6 +101,9 @@ pub enum Source {
 
 impl Source {
     /// What a user types to name it again.
+    ///
+    /// # Errors
+    /// As [`load`].
     #[doc(hidden)]
     pub fn argument(&self) -> Result<String, Error> {
         Ok(load(self)?.argument)
@@ -131,6 +134,9 @@ pub struct Loaded {
 
 impl Request {
     /// The targets, sorted, each once.
+    ///
+    /// # Errors
+    /// A name is no target.
     #[doc(hidden)]
     pub fn resolved_targets(&self) -> Result<Vec<&'static Target>, Error> {
         let by_default = || {
@@ -161,6 +167,9 @@ impl Request {
     }
 
     /// The methods asked for by name, sorted, each once; nothing where all are meant.
+    ///
+    /// # Errors
+    /// A name is no method.
     #[doc(hidden)]
     pub fn resolved_methods(&self) -> Result<Option<Vec<&'static Method>>, Error> {
         let all: Vec<&str> = methods::ALL
@@ -181,6 +190,9 @@ impl Request {
     }
 
     /// The materials read, each in the medium, with the text of both files.
+    ///
+    /// # Errors
+    /// A material cannot be read or is not measured over the spectrum, the medium absorbs, or two materials have one name.
     #[doc(hidden)]
     pub fn subjects(&self) -> Result<Subjects, Error> {
         let medium = self.medium.as_ref().map(load).transpose()?;
@@ -236,6 +248,9 @@ impl Request {
     }
 
     /// How inputs are derived from a material.
+    ///
+    /// # Errors
+    /// The matching angle does not lie between 0 and 90 degrees.
     #[doc(hidden)]
     pub fn derivation(&self) -> Result<Derivation, Error> {
         match self.matching_angle {
@@ -319,6 +334,9 @@ fn check_not_a_method(name: &str) -> Result<(), Error> {
 }
 
 /// Through a metal or a semiconductor no light comes to reflect.
+///
+/// # Errors
+/// The medium is a metal or a semiconductor.
 pub fn check_transparent(medium: &Material) -> Result<(), Error> {
     if medium.kind == Kind::Dielectric {
         return Ok(());
@@ -342,6 +360,9 @@ fn argument(file: &str, page: &str) -> String {
 }
 
 /// Reads a material from the catalogue, or from a text at hand.
+///
+/// # Errors
+/// The catalogue has no material of this name, or the text is not a material.
 pub fn load(source: &Source) -> Result<Loaded, Error> {
     match source {
         Source::Named(name) | Source::BroughtAlong(name) => {

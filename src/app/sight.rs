@@ -29,6 +29,9 @@ pub struct Words<'a> {
 }
 
 /// The sight that these words mean. Reads the illuminant's file where one is named.
+///
+/// # Errors
+/// A word names nothing, wavelengths are not three numbers in range, or the illuminant's file cannot be read or has a fault.
 pub fn sight(words: &Words) -> Result<Sight, Error> {
     Ok(Sight {
         integration: Integration {

@@ -16,6 +16,9 @@ const LARGEST: u64 = 64 << 20;
 const LARGEST_SHADER: u64 = 1 << 20;
 
 /// The choice that `--material` makes: names, files and `all` together, or `none` alone.
+///
+/// # Errors
+/// `none` stands beside another name, or a named file cannot be read.
 pub fn materials(names: &[String]) -> Result<Materials, Error> {
     if names.is_empty() {
         return Ok(Materials::Default);
@@ -40,6 +43,9 @@ pub fn materials(names: &[String]) -> Result<Materials, Error> {
 }
 
 /// A name of the catalogue, or a file read.
+///
+/// # Errors
+/// A named file cannot be read.
 pub fn source(name: &str) -> Result<Source, Error> {
     if materials::source(name).is_some() || !is_path(name) {
         return Ok(Source::Named(name.to_owned()));
@@ -56,11 +62,17 @@ pub fn is_path(name: &str) -> bool {
 }
 
 /// The text of a file that a user names.
+///
+/// # Errors
+/// The file is not there, not an ordinary file, too large, or not UTF-8.
 pub fn read(name: &str) -> Result<String, Error> {
     read_within(LARGEST, name)
 }
 
 /// The text of a file with a function of a user's.
+///
+/// # Errors
+/// The file is not there, not an ordinary file, too large, or not UTF-8.
 pub fn shader(name: &str) -> Result<String, Error> {
     let text = read_within(LARGEST_SHADER, name)?;
     // Some editors begin a file with a mark of its bytes' order.
@@ -103,6 +115,9 @@ fn read_within(largest: u64, name: &str) -> Result<String, Error> {
 /// The pages below a folder, by their paths in it with `/`, sorted; links to
 /// folders are not followed. A file is its own and only
 /// page, whose path in itself is empty.
+///
+/// # Errors
+/// A folder cannot be read, or the path does not exist.
 pub fn pages(folder: &Path) -> Result<Vec<String>, Error> {
     if folder.is_file() {
         return Ok(vec![String::new()]);

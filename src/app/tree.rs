@@ -86,6 +86,9 @@ pub enum State {
 }
 
 /// Compares the artifacts with the folder, which need not exist yet.
+///
+/// # Errors
+/// An artifact's path cannot be used, the manifest is not one of ours, or a file of the folder cannot be read.
 pub fn plan(
     out_dir: &Path,
     artifacts: &[Artifact],

@@ -147,12 +147,18 @@ fn not_ours(out_dir: &Path, obstacle: &Obstacle, others: usize) -> Error {
 
 /// Writes a single file whole or not at all, with the folders above it. False: it was right already.
 /// A link is followed; a device or pipe (`/dev/null`) is written to, because renaming would destroy it.
+///
+/// # Errors
+/// A folder stands in the file's place, or the disk refuses. The old file is then as it was.
 pub fn write_file(path: &Path, bytes: &[u8]) -> Result<bool, Error> {
     Ok(write_files(&[(path.to_path_buf(), bytes)])? == 1)
 }
 
 /// Writes files, each whole or not at all, with the folders above them; a fault before all are staged changes nothing.
 /// How many were written: the others were right already. Links are followed, and devices are written to.
+///
+/// # Errors
+/// A folder stands in a file's place, or the disk refuses.
 pub fn write_files(files: &[(PathBuf, &[u8])]) -> Result<usize, Error> {
     let (mut pending, mut devices) = (Vec::new(), Vec::new());
     for (path, bytes) in files {

@@ -30,6 +30,9 @@ pub struct File {
 }
 
 /// The library files of a method: one, or one for each page of a target that writes modules.
+///
+/// # Errors
+/// A function's name is a reserved word of a target, or naga refuses the text.
 pub fn library(
     target: &'static Target,
     method: &'static Method,
@@ -58,6 +61,9 @@ pub fn written_for(target: &Target, functions: Vec<Emitted>) -> impl Iterator<It
 }
 
 /// The files of a material: its functions together.
+///
+/// # Errors
+/// A function's name is a reserved word of a target, or naga refuses the text.
 pub fn material(
     target: &'static Target,
     subject: &Subject,
@@ -118,6 +124,9 @@ impl Place {
 }
 
 /// One function with a short head, to be pasted: no guard, no includes.
+///
+/// # Errors
+/// The function's name is a reserved word of a target, or naga refuses the text.
 pub fn single(
     target: &'static Target,
     emitted: &Emitted,
@@ -154,6 +163,9 @@ fn without(bytes: Vec<u8>, directive: &str) -> Vec<u8> {
 }
 
 /// The file of a function that reads a baked table, below a head made of what the table says of itself.
+///
+/// # Errors
+/// The function's name is a reserved word of a target, or naga refuses the text.
 pub fn lookup(
     target: &'static Target,
     name: String,

@@ -90,6 +90,9 @@ impl Emitted {
 }
 
 /// The functions of a method's library file.
+///
+/// # Errors
+/// The method's graph breaks a rule of [`crate::ir::RULES`].
 pub fn library_functions(method: &'static Method, naming: &Naming) -> Result<Vec<Emitted>, Error> {
     let forms: &[(bool, &str, &'static str)] =
         &[(false, "", "library"), (true, "_scalar", "scalar")];
@@ -154,6 +157,10 @@ pub struct Specialised {
 }
 
 /// A method's formula specialised to a material, without what is known of its errors.
+///
+/// # Errors
+/// The method describes dielectrics only and this absorbs, or the graph with these constants breaks a rule of
+/// [`crate::ir::RULES`].
 pub fn specialised_graph(
     method: &Method,
     subject: &Subject,
@@ -201,6 +208,9 @@ fn refused(method: &Method, subject: &Subject, what: &str) -> Error {
 }
 
 /// A method specialised to a material.
+///
+/// # Errors
+/// As [`specialised_graph`].
 pub fn specialised_function(
     method: &'static Method,
     subject: &Subject,

@@ -4,6 +4,9 @@ use naga::back::spv;
 use naga::valid::{Capabilities, ModuleInfo, ValidationFlags, Validator};
 
 /// Parses and validates a module; on failure says what naga said, with the line.
+///
+/// # Errors
+/// The text is not valid WGSL.
 pub fn validate(text: &str) -> Result<(naga::Module, ModuleInfo), String> {
     let module = naga::front::wgsl::parse_str(text).map_err(|error| error.emit_to_string(text))?;
     // f16 is there for files that say `enable f16;`, and for no others.
@@ -20,6 +23,9 @@ pub fn spirv(text: &str) -> Result<Vec<u8>, String> {
 }
 
 /// The same for a module that keeps 16-bit numbers in buffers.
+///
+/// # Errors
+/// The text is not valid WGSL, or naga cannot write SPIR-V of it.
 pub fn spirv_with_storage(text: &str) -> Result<Vec<u8>, String> {
     Ok(bytes(&words(text)?))
 }

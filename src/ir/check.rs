@@ -58,11 +58,17 @@ impl Deref for Checked {
 }
 
 /// Checks a function against all rules, for code in single precision.
+///
+/// # Errors
+/// A node, or the function as a whole, breaks one of [`RULES`](super::RULES).
 pub fn check(function: Function) -> Result<Checked, Fault> {
     check_in(Precision::F32, function)
 }
 
 /// Checks a function against all rules, for code in this precision.
+///
+/// # Errors
+/// A node, or the function as a whole, breaks one of [`RULES`](super::RULES).
 pub fn check_in(precision: Precision, function: Function) -> Result<Checked, Fault> {
     for (id, node) in function.nodes.iter().enumerate() {
         check_node(precision, &function, id, node).map_err(|(rule, what)| Fault {

@@ -78,6 +78,9 @@ fn names(function: &Function) -> Vec<String> {
 }
 
 /// Parses a function. Types are derived; [`super::check`] looks at the rest.
+///
+/// # Errors
+/// A line is not the text form of a head, a node or a return, or names what no earlier line defines.
 pub fn parse(text: &str) -> Result<Function, ParseError> {
     let mut lines = text
         .lines()

@@ -31,6 +31,9 @@ pub fn find(name: &str) -> Option<Result<Material, Fault>> {
 }
 
 /// All materials of the catalogue, by name.
+///
+/// # Errors
+/// A file of the catalogue has a fault; a test holds that none has.
 pub fn list() -> Result<Vec<Material>, Fault> {
     names().into_iter().filter_map(find).collect()
 }

@@ -17,6 +17,9 @@ pub struct Channels {
 
 impl Material {
     /// n and k at three wavelengths, linearly interpolated. Outside the measured range this fails and says so.
+    ///
+    /// # Errors
+    /// A wavelength lies outside the measured range, or an index outside its limits.
     pub fn channels(&self, wavelengths_nm: [f64; 3]) -> Result<Channels, String> {
         let [red, green, blue] = wavelengths_nm.map(|nm| self.index(nm, Extrapolate::Refuse));
         Ok(Channels::of([red?, green?, blue?]))

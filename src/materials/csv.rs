@@ -21,6 +21,9 @@ const ALLOWED: &str =
 
 impl Page {
     /// Reads tables of n and k from comma-separated values. `file` is for messages, and for the page's own name.
+    ///
+    /// # Errors
+    /// The text has no table, a row is not numbers, or a wavelength or an index lies outside its limits.
     pub fn parse_csv(file: &str, text: &str) -> Result<Page, Fault> {
         check_text(file, text)?;
         let mut page = Page {

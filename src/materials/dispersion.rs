@@ -54,6 +54,9 @@ impl Curve {
     }
 
     /// The value at a wavelength, or why there is none.
+    ///
+    /// # Errors
+    /// The wavelength lies outside the measured range and may not be extrapolated, or the formula has no value there.
     pub fn at(&self, nm: f64, beyond: Extrapolate) -> Result<f64, String> {
         let (from, to) = self.range_nm();
         if !self.covers(nm) && beyond == Extrapolate::Refuse {

@@ -104,6 +104,9 @@ struct Place<'a> {
 
 impl Material {
     /// Reads a material file. `file` is only for messages.
+    ///
+    /// # Errors
+    /// The text is not TOML, a field is missing or unknown, or a value lies outside its limits.
     pub fn parse(file: &str, text: &str) -> Result<Material, Fault> {
         let place = Place { file, text };
         let raw: Raw = toml::from_str(text).map_err(|error| place.syntax(&error))?;

@@ -74,6 +74,9 @@ impl Length for Interval {
 
 impl Formula {
     /// n at a wavelength, or what the formula gives instead of a refractive index.
+    ///
+    /// # Errors
+    /// There is no formula of this number, or its value is no refractive index.
     pub fn n(&self, nm: f64) -> Result<f64, String> {
         if !NUMBERS.contains(&self.number) {
             return Err(format!(

@@ -90,6 +90,9 @@ impl Index {
 
 impl Material {
     /// The index at a wavelength, or why there is none, with the material's name.
+    ///
+    /// # Errors
+    /// The wavelength lies outside the measured range and may not be extrapolated, or n or k lies outside its limits.
     pub fn index(&self, nm: f64, beyond: Extrapolate) -> Result<Index, String> {
         let value = |curve: &Curve, letter: &str| {
             let named = |why: String| format!("material `{}`: {letter} {why}", self.name);

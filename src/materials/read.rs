@@ -5,6 +5,9 @@ use super::{Fault, Material, Page};
 impl Material {
     /// Reads a file by what its name ends in: `.yml` and `.yaml` are pages of refractiveindex.info, `.csv` are tables,
     /// all else is our own format.
+    ///
+    /// # Errors
+    /// The text is not what the file's name says, or not a material.
     pub fn read(file: &str, text: &str) -> Result<Material, Fault> {
         match page(file, text) {
             Some(page) => page?.material(None),

@@ -77,6 +77,9 @@ pub struct Unseen {
 
 impl Surface {
     /// The surface of a material in air or in a medium. Where either is known at three wavelengths only, these are taken.
+    ///
+    /// # Errors
+    /// The material or the medium was not measured at a wavelength of these conditions, or the light has no white in the space.
     pub fn new(
         material: &Material,
         medium: Option<&Material>,

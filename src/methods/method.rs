@@ -211,11 +211,17 @@ impl Over {
 
 impl Method {
     /// The library function: three channels, or the scalar form, with run-time arguments.
+    ///
+    /// # Errors
+    /// The method's graph breaks a rule of [`crate::ir::RULES`]; tests hold that none does.
     pub fn function(&self, scalar_form: bool) -> Result<Checked, Fault> {
         self.function_in(Precision::F32, scalar_form)
     }
 
     /// The same as it is computed in this precision.
+    ///
+    /// # Errors
+    /// The method's graph breaks a rule of [`crate::ir::RULES`]; tests hold that none does.
     pub fn function_in(&self, precision: Precision, scalar_form: bool) -> Result<Checked, Fault> {
         self.built(self.build, precision, scalar_form)
     }
@@ -251,11 +257,17 @@ impl Method {
     }
 
     /// The function with these constants folded in; inputs that have no value stay arguments.
+    ///
+    /// # Errors
+    /// With these constants the graph breaks a rule of [`crate::ir::RULES`]: one is not finite in f32, for example.
     pub fn specialise(&self, values: &Values) -> Result<Checked, Fault> {
         self.specialise_in(Precision::F32, values)
     }
 
     /// The same as it is computed in this precision.
+    ///
+    /// # Errors
+    /// With these constants the graph breaks a rule of [`crate::ir::RULES`]: one is not finite in this precision, for example.
     pub fn specialise_in(&self, precision: Precision, values: &Values) -> Result<Checked, Fault> {
         if let Some((method, values)) = self.better(values) {
             return method.specialise_in(precision, &values);

@@ -34,6 +34,9 @@ pub type Typed = (String, Material);
 
 impl Subject {
     /// A material in air or in a medium, as it is seen.
+    ///
+    /// # Errors
+    /// The material or the medium was not measured at a wavelength of these conditions, or the light has no white in the space.
     pub fn new(
         (argument, material): Typed,
         medium: Option<Typed>,

@@ -48,6 +48,9 @@ fn source_cell(method: &Method) -> String {
 
 /// Model error of every method on these materials in air, as they are seen by default: largest absolute, and mean
 /// relative in per cent.
+///
+/// # Errors
+/// A material was not measured over the whole visible spectrum.
 pub fn errors_table(materials: Vec<Material>) -> Result<String, Unseen> {
     let subject = |material: Material| {
         let typed = (material.name.clone(), material);

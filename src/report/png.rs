@@ -21,6 +21,9 @@ const FAMILY: &str = "DejaVu Sans";
 const MOST_PIXELS: f32 = 16_384.0;
 
 /// A self-contained SVG document as PNG, `scale` pixels to each of its units, on white; or why it cannot be drawn.
+///
+/// # Errors
+/// The text is not SVG, or the picture is too large.
 pub fn png(svg: &str, scale: f32) -> Result<Vec<u8>, String> {
     let tree = parse(svg)?;
     let width = pixels(tree.size().width(), scale)?;

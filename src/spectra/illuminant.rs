@@ -76,6 +76,9 @@ impl Illuminant {
 
     /// A light from a user's table: wavelength in nm and power in any unit, 0 to 1e30, in two columns. It must cover
     /// 380 to 780 nm and shine somewhere in there. `file` is its name, for messages and for [`Illuminant::name`].
+    ///
+    /// # Errors
+    /// The text is not a table of two columns, a value lies outside its limits, or the table does not cover 380 to 780 nm.
     pub fn parse(file: &str, text: &str) -> Result<Illuminant, Fault> {
         let rows = rows(file, text, COLUMNS)?;
         if let Some((line, what)) = range_fault(&rows) {

@@ -45,6 +45,9 @@ pub struct NoWhite {
 impl Integrator {
     /// The table for these choices. All named illuminants have one in all spaces; a user's light of nearly one
     /// wavelength may have none.
+    ///
+    /// # Errors
+    /// A mirror has a channel near zero under this light, so that weights cannot be divided by it.
     pub fn new(choices: &Integration) -> Result<Integrator, NoWhite> {
         let wavelengths = choices.step.wavelengths();
         let weights = xyz_weights(choices.observer, &choices.illuminant, &wavelengths);

@@ -45,6 +45,9 @@ pub struct Hlsl {
 }
 
 /// WGSL's entry point of this name, of a vertex or fragment shader, in GLSL ES 3.00.
+///
+/// # Errors
+/// The text is not valid WGSL, has no such entry point, or naga cannot write it.
 pub fn to_gles(wgsl: &str, entry: &str) -> Result<Gles, Fault> {
     let (module, info) = validate_wgsl(wgsl).map_err(Fault::Refused)?;
     let pipeline = glsl::PipelineOptions {
@@ -67,6 +70,9 @@ pub fn to_gles(wgsl: &str, entry: &str) -> Result<Gles, Fault> {
 }
 
 /// WGSL's entry point of this name, of a compute shader, in HLSL 2018 for shader model 6.0.
+///
+/// # Errors
+/// The text is not valid WGSL, has no such entry point, or samples a texture.
 pub fn to_hlsl(wgsl: &str, entry: &str) -> Result<Hlsl, Fault> {
     let (module, info) = validate_wgsl(wgsl).map_err(Fault::Refused)?;
     let has_sampler = module

@@ -263,10 +263,12 @@ fn only_the_writer_and_the_program_touch_the_machine() {
             "println!",
             "eprintln!",
         ] {
-            assert!(
-                !before_tests(&text).contains(touch),
-                "{inside} uses {touch}"
-            );
+            // The example of a build script in the crate's documentation does not run.
+            let code = before_tests(&text).lines();
+            let uses = code
+                .filter(|line| !line.starts_with("//!"))
+                .any(|line| line.contains(touch));
+            assert!(!uses, "{inside} uses {touch}");
         }
     }
 }

@@ -56,6 +56,9 @@ pub type Progress<'a> = &'a mut dyn FnMut(u64, u64, &str);
 /// Runs what the command line asks for.
 ///
 /// `progress` hears how far long work is; `announce` hears what a person should know before the run ends.
+///
+/// # Errors
+/// Flags contradict each other or name what does not exist, a file cannot be read or written, or something needed is missing.
 pub fn run(cli: &Cli, progress: Progress, announce: Announce) -> Result<Output, Error> {
     refuse_clashes(&cli.named_files())?;
     match &cli.command {

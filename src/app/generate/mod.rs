@@ -41,11 +41,18 @@ pub struct Generated {
 pub type Kept = BTreeMap<(String, String), BTreeSet<String>>;
 
 /// Generates everything that the request asks for.
+///
+/// # Errors
+/// The request names what does not exist or contradicts itself, a material's file has a fault, a material was not measured over the
+/// whole spectrum, or two functions would have one name.
 pub fn generate(request: &Request) -> Result<Generated, Error> {
     generate_beside(request, &Kept::new())
 }
 
 /// The same, for a folder whose material files hold these methods already.
+///
+/// # Errors
+/// As [`generate()`].
 pub fn generate_beside(request: &Request, kept: &Kept) -> Result<Generated, Error> {
     let run = Run::new(request)?;
     let mut artifacts: Vec<Artifact> = made(&run, kept)?
@@ -86,6 +93,9 @@ pub struct Meant {
 
 /// Generates everything that the request asks for, and keeps the graphs of what is generated. Material files that `exactly`
 /// names hold its methods and no others.
+///
+/// # Errors
+/// As [`generate()`].
 pub fn generate_meant<'r>(
     request: &'r Request,
     kept: &Kept,
@@ -119,6 +129,9 @@ fn made(run: &Run, kept: &Kept) -> Result<Vec<Made>, Error> {
 }
 
 /// One function as text for pasting, or, without a material, the functions of a library file: for `-o`.
+///
+/// # Errors
+/// As [`generate()`]; also where the request has several targets.
 pub fn generate_single(request: &Request) -> Result<Vec<u8>, Error> {
     let mut request = request.clone();
     if request.targets.is_empty() {

@@ -18,6 +18,9 @@ const NOT_GIVEN: &str = "not given";
 impl Page {
     /// The material of this page, under a name of yours or else [`Page::default_name`]. The fields are public: what you
     /// know better, put in its place.
+    ///
+    /// # Errors
+    /// The name is not a legal one, the page gives no n, or n and k share no range.
     pub fn material(&self, name: Option<&str>) -> Result<Material, Fault> {
         let name = name.map_or_else(|| self.default_name(), str::to_owned);
         if let Some(why) = name_fault(&name) {

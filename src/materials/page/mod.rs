@@ -65,6 +65,9 @@ pub(super) const MOST_BYTES: usize = 64 << 20;
 
 impl Page {
     /// Reads a page. `file` is for messages, and for the page's own name.
+    ///
+    /// # Errors
+    /// The text is not YAML, or its data are of a kind that is not read.
     pub fn parse(file: &str, text: &str) -> Result<Page, Fault> {
         check_text(file, text)?;
         let raw = yaml::read(file, text)?;

@@ -36,6 +36,9 @@ struct Line {
 }
 
 /// The page of these rows, or why it cannot be made.
+///
+/// # Errors
+/// The page's template cannot be filled.
 pub fn page(families: &[Vec<CostRow>], command: &str) -> Result<String, String> {
     let sections: Vec<Section> = families.iter().filter_map(|rows| section(rows)).collect();
     let mut context = Context::new();

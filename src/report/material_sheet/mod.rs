@@ -45,6 +45,9 @@ struct DrawnMaterial<'a> {
 
 /// The picture of a material in air or in a medium, as SVG text; `command` is what makes it, for the foot of the sheet.
 /// Fails where the sight wants wavelengths at which the material or the medium was not measured.
+///
+/// # Errors
+/// The material or the medium was not measured at a wavelength of these conditions.
 pub fn material_sheet(
     material: &Material,
     medium: Option<&Material>,

@@ -31,6 +31,9 @@ struct Picture {
 }
 
 /// The page of these rows and pictures (method, what over, PNG), or why it cannot be made.
+///
+/// # Errors
+/// The page's template cannot be filled.
 pub fn page(
     rows: &[StabilityRow],
     pictures: &[(&'static str, &'static str, Vec<u8>)],

@@ -95,11 +95,17 @@ pub fn verdict(validator: &Validator, name: &str, bytes: &[u8]) -> Verdict {
 
 /// A compute shader in HLSL as DXC makes SPIR-V of it for Vulkan 1.1: register numbers become bindings, spaces become
 /// sets.
+///
+/// # Errors
+/// DXC refuses the text, or is not here.
 pub fn hlsl_to_spirv(text: &str, entry: &str, version: HlslVersion) -> Result<Vec<u8>, Fault> {
     hlsl_to_spirv_in(Precision::F32, text, entry, version)
 }
 
 /// The same where `half` has as many bits as this precision: 16, or 32.
+///
+/// # Errors
+/// DXC refuses the text, or is not here.
 pub fn hlsl_to_spirv_in(
     precision: Precision,
     text: &str,
@@ -125,6 +131,9 @@ pub fn hlsl_to_spirv_in(
 }
 
 /// What a compiler makes of a text under this name. Its options are as a [`Validator`]'s.
+///
+/// # Errors
+/// The compiler refuses the text, or is not here.
 pub fn compiled(
     compiler: &Compiler,
     options: &str,
