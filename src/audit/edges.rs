@@ -4,6 +4,8 @@ use core::cell::RefCell;
 
 use serde::Serialize;
 
+use crate::stability::Failure;
+
 /// A cosine that rendering brings about, by rounding if not otherwise.
 #[derive(Clone, Copy, Debug)]
 pub struct Edge {
@@ -38,20 +40,9 @@ pub const EDGES: [Edge; 12] = [
 /// How far beyond [0, 1] rounding may bring a result.
 const ROUNDING: f32 = 1e-6;
 
-/// What a result is not, as a reflectance; nothing where it is one.
-pub fn fault(rgb: [f32; 3], most: [f32; 3]) -> Option<&'static str> {
-    let any = |holds: &dyn Fn(usize) -> bool| (0..3).any(holds);
-    if any(&|i| rgb[i].is_nan()) {
-        Some("is NaN")
-    } else if any(&|i| rgb[i].is_infinite()) {
-        Some("is infinite")
-    } else if any(&|i| rgb[i] < -ROUNDING) {
-        Some("is below 0")
-    } else if any(&|i| rgb[i] > most[i] + ROUNDING) {
-        Some("is above 1")
-    } else {
-        None
-    }
+/// What is wrong with a result as a reflectance; nothing where it is one.
+fn fault(rgb: [f32; 3], most: [f32; 3]) -> Option<&'static str> {
+    Failure::of_result(rgb, most, ROUNDING)?.predicate()
 }
 
 /// Three numbers for people; a sign of zero is told.

@@ -5,6 +5,7 @@ use serde::{Deserialize, Serialize};
 use crate::ir::Ty;
 use crate::names::UnknownName;
 use crate::targets::{DXC, GLES, GLSLANG, HLSL, Target, WGSL};
+use crate::verify::text::{Hidden, code_alone};
 
 use super::error::Error;
 
@@ -89,6 +90,13 @@ impl Language {
             (Language::Hlsl, true) => "float3",
         }
     }
+}
+
+/// A user's text without comments, and without directives where those are to be passed over. A comment in a comment is passed
+/// over in every language: where its end is not clear the text is refused before.
+pub fn bare(text: &str, directives: bool) -> String {
+    let nests = true;
+    code_alone(text, Hidden { directives, nests })
 }
 
 #[cfg(test)]

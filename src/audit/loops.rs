@@ -1,8 +1,9 @@
 //! Adds a counter to the loops of a user's text: it counts iterations, so that an infinite loop terminates and is reported. A device
 //! could hang in one, and a software driver leaves it after a number of iterations without a message, with a result that means nothing.
 
-use super::code::{Token, bare, tokens};
-use super::language::Language;
+use crate::verify::text::{Token, tokens};
+
+use super::language::{Language, bare};
 
 /// Turns that all loops of one evaluation may take together.
 pub const TURNS: usize = 10_000;

@@ -6,7 +6,6 @@
 
 mod accept;
 mod bind;
-mod code;
 mod comparison;
 mod compile;
 mod cost;

@@ -4,12 +4,12 @@ use crate::gpu::{Argument as Value, Uniform};
 use crate::ir::{Param, Ty};
 use crate::num::Precision;
 use crate::verify::harness::{self, Call};
+use crate::verify::text::tokens;
 
 use super::bind::{Argument, Bound};
-use super::code::{bare, tokens};
 use super::directives;
 use super::error::Error;
-use super::language::Language;
+use super::language::{Language, bare};
 use super::loops::{MARK, TURNS, counted, counter, is_in_macro};
 use super::scan::{Shape, without_stage};
 

@@ -1,7 +1,8 @@
 //! The functions of a user's file, by their heads. What stands in their bodies is for compilers to judge.
 
-use super::code::{Token, bare, tokens};
-use super::language::Language;
+use crate::verify::text::{Token, tokens};
+
+use super::language::{Language, bare};
 
 /// A function as its head tells.
 #[derive(Clone, Debug, PartialEq, Eq)]

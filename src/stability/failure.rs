@@ -62,6 +62,33 @@ impl Failure {
         }
     }
 
+    /// As the end of a sentence about a result: only for what a result is by itself, without others to compare it with.
+    pub fn predicate(self) -> Option<&'static str> {
+        match self {
+            Failure::NotANumber => Some("is NaN"),
+            Failure::Infinite => Some("is infinite"),
+            Failure::Negative => Some("is below 0"),
+            Failure::AboveOne => Some("is above 1"),
+            _ => None,
+        }
+    }
+
+    /// What three channels are by themselves, where they are no reflectance: the gravest of their failures. `most` is what
+    /// each channel may reach, and `rounding` how far beyond its range it may lie.
+    pub fn of_result(rgb: [f32; 3], most: [f32; 3], rounding: f32) -> Option<Failure> {
+        let holds = |failure: &&Failure| {
+            let mut channels = rgb.into_iter().zip(most);
+            channels.any(|(value, most)| match failure {
+                Failure::NotANumber => value.is_nan(),
+                Failure::Infinite => value.is_infinite(),
+                Failure::Negative => value < -rounding,
+                Failure::AboveOne => value > most + rounding,
+                _ => false,
+            })
+        };
+        Failure::ALL.iter().find(holds).copied()
+    }
+
     /// Whether it is the formula's fault, not that of its rounding. It is then told of whole curves: where a formula is off, its
     /// medium says most.
     pub fn is_of_the_model(self) -> bool {

@@ -44,6 +44,7 @@ pub mod second;
 mod supervise;
 #[cfg(feature = "gpu")]
 mod sweep;
+pub mod text;
 mod trial;
 #[cfg(all(feature = "cli", feature = "gpu"))]
 mod worker;

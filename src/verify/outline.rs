@@ -4,6 +4,8 @@
 //! The outline errs on the safe side: what our own text never holds (a quote, a backslash, a digraph) counts as a
 //! declaration, because compilers disagree about what it hides.
 
+use super::text::{block_comment, is_name_part};
+
 /// What a file declares and says.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Outline {
@@ -106,8 +108,8 @@ impl<'a> Reader<'a> {
             let end = rest.find(LINE_ENDS).unwrap_or(rest.len());
             let end = rest[..end].find("//").unwrap_or(end);
             self.directive(end);
-        } else if is_part(first) {
-            let end = rest.find(|c| !is_part(c)).unwrap_or(rest.len());
+        } else if is_name_part(first) {
+            let end = rest.find(|c| !is_name_part(c)).unwrap_or(rest.len());
             self.word(end);
         } else {
             self.sign(first);
@@ -128,7 +130,7 @@ impl<'a> Reader<'a> {
     fn directive(&mut self, bytes: usize) {
         let line = self.line;
         let text = self.take(bytes);
-        let held = text.split(|c| !is_part(c));
+        let held = text.split(|c| !is_name_part(c));
         held.for_each(|word| self.note(line, word));
         let words: Vec<&str> = text.split_whitespace().collect();
         self.declare(line, words.join(" "));
@@ -188,29 +190,6 @@ impl<'a> Reader<'a> {
     fn declare(&mut self, line: usize, words: String) {
         self.found.declared.push(Item { line, words });
     }
-}
-
-fn is_part(c: char) -> bool {
-    c.is_alphanumeric() || c == '_'
-}
-
-/// How many bytes of a comment begin here; one without an end takes the rest.
-pub(super) fn block_comment(rest: &str, nests: bool) -> usize {
-    let (mut at, mut depth) = (2, 1);
-    while depth > 0 {
-        let Some(next) = rest[at..].find(['/', '*']).map(|next| at + next) else {
-            return rest.len();
-        };
-        let opens = nests && rest[next..].starts_with("/*");
-        let closes = rest[next..].starts_with("*/");
-        depth = if opens {
-            depth + 1
-        } else {
-            depth - usize::from(closes)
-        };
-        at = next + if opens || closes { 2 } else { 1 };
-    }
-    at
 }
 
 /// The name of the function that a declaration declares.

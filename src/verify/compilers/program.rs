@@ -7,7 +7,7 @@ use std::str::Utf8Error;
 use crate::targets::Frame;
 
 use super::call::File;
-use crate::verify::outline::block_comment;
+use crate::verify::text::{Hidden, code_alone};
 
 /// The programs of a file, one for each beginning.
 pub fn framed(frame: &Frame, bytes: &[u8]) -> Result<Vec<Vec<u8>>, Utf8Error> {
@@ -51,12 +51,10 @@ pub fn calls(text: &str, nests: bool) -> String {
 
 /// What stands before each outermost brace, in one line each: the heads of functions, in all our languages.
 fn heads(text: &str, nests: bool) -> Vec<String> {
-    let text = without_comments(text, nests);
-    let code = text
-        .lines()
-        .filter(|line| !line.trim_start().starts_with('#'));
+    let directives = true;
+    let code = code_alone(text, Hidden { directives, nests });
     let (mut heads, mut depth, mut head) = (Vec::new(), 0, String::new());
-    for character in code.flat_map(|line| line.chars().chain([' '])) {
+    for character in code.lines().flat_map(|line| line.chars().chain([' '])) {
         match character {
             '{' if depth == 0 => heads.push(std::mem::take(&mut head)),
             ';' if depth == 0 => head.clear(),
@@ -70,25 +68,6 @@ fn heads(text: &str, nests: bool) -> Vec<String> {
         };
     }
     heads
-}
-
-/// A text without its comments.
-fn without_comments(text: &str, nests: bool) -> String {
-    let (mut rest, mut kept) = (text, String::new());
-    while let Some(at) = rest.find('/') {
-        kept += &rest[..at];
-        let comment = &rest[at..];
-        let length = match comment.as_bytes().get(1) {
-            Some(b'/') => comment.find('\n').unwrap_or(comment.len()),
-            Some(b'*') => block_comment(comment, nests),
-            _ => {
-                kept.push('/');
-                1
-            }
-        };
-        rest = &comment[length..];
-    }
-    kept + rest
 }
 
 /// The call of a function of this head: `type name(type argument, …)` or `fn name(argument: type, …) -> type`.

@@ -54,6 +54,15 @@ fn every_function_is_called() {
     }
 }
 
+/// Targets with a test of their own below, so that they are checked side by side.
+const OWN: [&str; 6] = ["gles", "glsl", "hlsl", "msl", "spirv", "wgsl"];
+
+#[test]
+fn all_other_targets_are_accepted() {
+    let names = targets::ALL.iter().map(|target| target.name);
+    names.filter(|name| !OWN.contains(name)).for_each(check);
+}
+
 #[test]
 fn gles_is_accepted() {
     check("gles");

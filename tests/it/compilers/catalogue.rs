@@ -17,18 +17,15 @@ fn users(target: &str) -> String {
     let constant = format!("fresnel_fitted(c, {})", arguments("FRESNEL_GOLD"));
     let any = format!("fresnel_fitted_dielectric(c, {})", arguments("row"));
     let first = "FRESNEL_FIRST_DIELECTRIC";
-    match target {
-        "wgsl" => format!(
+    let target = targets::find(target).unwrap();
+    match target.finish {
+        Finish::ValidWgsl => format!(
             "fn gold(c: f32) -> vec3<f32> {{\n    return {constant};\n}}\nfn any(c: f32) -> vec3<f32> {{\n    let row = {first} + 4u * \
              u32(30.0 * c);\n    return {any};\n}}\n"
         ),
         _ => {
-            let (rgb, highp) = match target {
-                "hlsl" => ("float3", ""),
-                "msl" => ("metal::float3", ""),
-                "gles" => ("vec3", "highp "),
-                _ => ("vec3", ""),
-            };
+            let rgb = target.spelling.rgb;
+            let (highp, _) = target.spelling.param.split_once("{type}").unwrap();
             format!(
                 "{highp}{rgb} gold({highp}float c) {{\n    return {constant};\n}}\n{highp}{rgb} any_of({highp}float c) {{\n    {highp}int \
                  row = {first} + 4 * int(c);\n    return {any};\n}}\n"

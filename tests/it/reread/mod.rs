@@ -193,7 +193,10 @@ fn specialised_functions_in_half_precision_read_as_they_were_meant() {
 #[test]
 fn every_specialised_function_reads_as_it_was_meant() {
     let request = Request {
-        targets: vec!["all".into(), "msl".into(), "glsl".into()],
+        targets: targets::ALL
+            .iter()
+            .map(|target| target.name.into())
+            .collect(),
         materials: Materials::All,
         ..Request::default()
     };

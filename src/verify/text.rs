@@ -1,4 +1,4 @@
-//! Text as words with their places: comments are passed over, and lines of the preprocessor.
+//! Shader text as words with their places: comments are passed over, and lines of the preprocessor.
 
 /// A word or a sign, with its place from 1.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -19,12 +19,21 @@ impl Token<'_> {
     }
 }
 
-/// The text with spaces in place of comments, and of lines that begin with `#` where those are to be passed over.
-pub fn bare(text: &str, skips_directives: bool) -> String {
+/// What counts as no code.
+#[derive(Clone, Copy, Debug)]
+pub struct Hidden {
+    /// Whether lines that begin with `#` are passed over.
+    pub directives: bool,
+    /// Whether a comment may stand in a comment.
+    pub nests: bool,
+}
+
+/// The text with spaces in place of what counts as no code: comments, and directives where those are to be passed over.
+pub fn code_alone(text: &str, hides: Hidden) -> String {
     let mut out = String::with_capacity(text.len());
     let (mut rest, mut begins_line) = (text, true);
     while let Some(first) = rest.chars().next() {
-        let hidden = hidden(rest, skips_directives && begins_line);
+        let hidden = hidden(rest, begins_line, hides);
         if hidden > 0 {
             let (comment, after) = rest.split_at(hidden);
             out.extend(comment.chars().map(|c| if c == '\n' { c } else { ' ' }));
@@ -39,15 +48,15 @@ pub fn bare(text: &str, skips_directives: bool) -> String {
 }
 
 /// How many bytes of a comment or a directive begin here.
-fn hidden(rest: &str, may_be_directive: bool) -> usize {
-    if may_be_directive && rest.starts_with('#') {
+fn hidden(rest: &str, begins_line: bool, hides: Hidden) -> usize {
+    if hides.directives && begins_line && rest.starts_with('#') {
         return directive(rest);
     }
     if rest.starts_with("//") {
         return rest.find('\n').unwrap_or(rest.len());
     }
     if rest.starts_with("/*") {
-        return comment(rest);
+        return block_comment(rest, hides.nests);
     }
     0
 }
@@ -65,25 +74,28 @@ fn directive(rest: &str) -> usize {
     end
 }
 
-/// Comments of WGSL nest; those of others do not hold a second beginning in practice.
-fn comment(rest: &str) -> usize {
-    let (mut depth, mut at) = (0usize, 0);
-    while at < rest.len() {
-        let here = &rest.as_bytes()[at..];
-        if here.starts_with(b"/*") {
-            depth += 1;
-            at += 2;
-        } else if here.starts_with(b"*/") {
-            depth -= 1;
-            at += 2;
-            if depth == 0 {
-                return at;
-            }
+/// How many bytes of a comment begin here; one without an end takes the rest. `nests`: whether a comment may stand in a comment.
+pub fn block_comment(rest: &str, nests: bool) -> usize {
+    let (mut at, mut depth) = (2, 1);
+    while depth > 0 {
+        let Some(next) = rest[at..].find(['/', '*']).map(|next| at + next) else {
+            return rest.len();
+        };
+        let opens = nests && rest[next..].starts_with("/*");
+        let closes = rest[next..].starts_with("*/");
+        depth = if opens {
+            depth + 1
         } else {
-            at += 1;
-        }
+            depth - usize::from(closes)
+        };
+        at = next + if opens || closes { 2 } else { 1 };
     }
-    rest.len()
+    at
+}
+
+/// Whether a letter may stand in a name.
+pub fn is_name_part(c: char) -> bool {
+    c.is_alphanumeric() || c == '_'
 }
 
 /// The words and signs of a text.
@@ -92,9 +104,8 @@ pub fn tokens(bare: &str) -> Vec<Token<'_>> {
     for (number, line) in bare.lines().enumerate() {
         let (mut rest, mut column) = (line, 1);
         while let Some(first) = rest.chars().next() {
-            let is_part = |c: char| c.is_alphanumeric() || c == '_';
-            let length = match is_part(first) {
-                true => rest.find(|c| !is_part(c)).unwrap_or(rest.len()),
+            let length = match is_name_part(first) {
+                true => rest.find(|c| !is_name_part(c)).unwrap_or(rest.len()),
                 false => first.len_utf8(),
             };
             let (text, after) = rest.split_at(length);
@@ -115,6 +126,11 @@ pub fn tokens(bare: &str) -> Vec<Token<'_>> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    fn bare(text: &str, directives: bool) -> String {
+        let nests = true;
+        code_alone(text, Hidden { directives, nests })
+    }
 
     #[test]
     fn comments_and_directives_keep_their_room() {
