@@ -8,7 +8,7 @@ use fresnel_gen::app::{Materials, Request};
 use fresnel_gen::cost::{CostRow, CostSource, FAMILIES, Function, cost_rows, functions, records};
 use fresnel_gen::methods;
 use fresnel_gen::num::Precision;
-use fresnel_gen::report::cost::{markdown, page};
+use fresnel_gen::report::cost::{cost_document, cost_page};
 
 /// What is recorded: all methods, the committed materials, both precisions.
 static FUNCTIONS: LazyLock<Vec<Function>> = LazyLock::new(|| {
@@ -100,12 +100,12 @@ fn costs_are_in_the_order_that_formulas_suggest() {
 #[test]
 fn the_document_is_what_is_recorded() {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/cost.md");
-    super::bless::check(&path, markdown(&TABLE).as_bytes());
+    super::bless::check(&path, cost_document(&TABLE).as_bytes());
 }
 
 #[test]
 fn the_page_shows_every_family() {
-    let page = page(&TABLE, "cost").unwrap();
+    let page = cost_page(&TABLE, "cost").unwrap();
     for family in FAMILIES {
         assert!(
             page.contains(&format!("id=\"{}\"", family.name)),

@@ -7,7 +7,7 @@ use std::sync::LazyLock;
 
 use fresnel_gen::methods::{self, Class, Contract, Method, Over};
 use fresnel_gen::num::Precision;
-use fresnel_gen::report::stability::markdown;
+use fresnel_gen::report::stability::stability_document;
 use fresnel_gen::stability::{Failure, StabilityRow, scan};
 
 /// All methods scanned, once for all tests.
@@ -39,20 +39,23 @@ fn at(path: &str) -> PathBuf {
 
 #[test]
 fn the_document_is_what_the_scan_says() {
-    super::bless::check(&at("docs/stability.md"), markdown(&ROWS, &HALF).as_bytes());
+    super::bless::check(
+        &at("docs/stability.md"),
+        stability_document(&ROWS, &HALF).as_bytes(),
+    );
 }
 
 #[cfg(feature = "pictures")]
 #[test]
 fn the_maps_of_the_document_are_what_is_drawn() {
     use fresnel_gen::report::png::png;
-    use fresnel_gen::report::stability::heat;
+    use fresnel_gen::report::stability::heat_map;
     use fresnel_gen::stability::maps;
 
     for (method, over) in [("schlick", "eta"), ("dielectric_textbook", "eta")] {
         let maps = maps(methods::find(method).unwrap(), Precision::F32);
         let map = maps.iter().find(|map| map.axis.name == over).unwrap();
-        let picture = png(&heat(method, map), 1.0).unwrap();
+        let picture = png(&heat_map(method, map), 1.0).unwrap();
         super::bless::check(&at(&format!("docs/{method}_{over}.png")), &picture);
     }
 }

@@ -16,7 +16,7 @@ use crate::cost::{
 use crate::methods::{self, Method};
 use crate::process::{Pool, Surroundings};
 use crate::report::Report;
-use crate::report::cost as cost_report;
+use crate::report::cost::{cost_page, cost_text};
 use crate::verify::machine;
 
 use super::{Output, Progress, check_limit, replaced, report, try_places};
@@ -60,7 +60,7 @@ pub fn run(flags: &CostFlags, progress: Progress) -> Result<Output, Error> {
     let (text, checked) = if flags.check {
         check(&table)
     } else {
-        (cost_report::text(&table), Checks::NONE)
+        (cost_text(&table), Checks::NONE)
     };
     let paged = paged(flags, &table)?;
     let mut output = report(text, &json, flags.json.as_deref())?;
@@ -222,7 +222,7 @@ fn paged(flags: &CostFlags, table: &[Vec<CostRow>]) -> Result<Vec<String>, Error
     let Some(folder) = &flags.out_dir else {
         return Ok(Vec::new());
     };
-    let page = cost_report::page(table, &String::from(flags.command_line()))
+    let page = cost_page(table, &String::from(flags.command_line()))
         .map_err(|what| Error::Usage { what })?;
     let file = folder.join(PAGE);
     let old = write_report(&[(file.clone(), page.as_bytes())], flags.overwrite)?;

@@ -78,7 +78,7 @@ fn tried_shapes(
         .iter()
         .filter(|subject| MaterialClass::containing(subject) == Some(class));
     let own: Vec<&Subject> = own.collect();
-    let curve = |i: usize| Curve::unclipped(&own[i]);
+    let curve = |i: usize| Curve::unclipped(own[i]);
     let curves: Vec<Curve> = in_parallel(own.len(), &curve, &mut |done, whole| {
         progress(done, whole, "materials");
     });

@@ -13,7 +13,7 @@ use crate::methods::{self, Method};
 use crate::num::Precision;
 use crate::reference::Subject;
 use crate::report::Report;
-use crate::report::stability::{heat, page, stability_text};
+use crate::report::stability::{heat_map, stability_page, stability_text};
 use crate::stability::{StabilityRow, Study, maps};
 
 use super::{Output, Progress, png, replaced, report, try_places};
@@ -124,12 +124,12 @@ impl Asked<'_> {
         for (i, method) in self.study.methods.iter().enumerate() {
             progress(i as u64, self.study.methods.len() as u64, "maps");
             for map in maps(method, self.study.precision) {
-                let picture = png(&heat(method.name, &map), SCALE)?;
+                let picture = png(&heat_map(method.name, &map), SCALE)?;
                 pictures.push((method.name, map.axis.name, picture));
             }
         }
-        let page =
-            page(rows, &pictures, &String::from(self.flags.command_line())).map_err(failed)?;
+        let page = stability_page(rows, &pictures, &String::from(self.flags.command_line()))
+            .map_err(failed)?;
         let suffix = self.study.precision.suffix();
         let path = |method: &str, over: &str| folder.join(format!("{method}_{over}{suffix}.png"));
         let mut files: Vec<(PathBuf, &[u8])> = pictures

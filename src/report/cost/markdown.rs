@@ -31,7 +31,7 @@ same of every function, specialised ones too, and asks the compilers that are he
 
 /// The functions of three channels in single precision, all families side by side, and what the families are. All figures are in the
 /// record.
-pub fn markdown(families: &[Vec<CostRow>]) -> String {
+pub fn cost_document(families: &[Vec<CostRow>]) -> String {
     let library = side_by_side(families, &|row| row.material.is_none());
     let materials = side_by_side(families, &|row| row.material.is_some());
     let mut introduction = INTRODUCTION.to_owned();

@@ -7,12 +7,12 @@ mod text;
 
 use crate::cost::CostRow;
 
-pub use markdown::markdown;
+pub use markdown::cost_document;
 #[cfg(feature = "cli")]
-pub use page::page;
-pub use text::text;
+pub use page::cost_page;
+pub use text::cost_text;
 
-/// A figure as short as it can be told.
+/// A figure with at most two decimals.
 fn short(value: Option<f64>) -> String {
     value.map_or_else(String::new, |value| {
         let rounded = (100.0 * value).round() / 100.0;

@@ -39,7 +39,7 @@ struct Line {
 ///
 /// # Errors
 /// The page's template cannot be filled.
-pub fn page(families: &[Vec<CostRow>], command: &str) -> Result<String, String> {
+pub fn cost_page(families: &[Vec<CostRow>], command: &str) -> Result<String, String> {
     let sections: Vec<Section> = families.iter().filter_map(|rows| section(rows)).collect();
     let mut context = Context::new();
     context.insert("sections", &sections);

@@ -5,7 +5,7 @@ use crate::cost::{CostRow, CostSource};
 use crate::report::table;
 
 /// The rows of each family, all of the same functions in the same order.
-pub fn text(families: &[Vec<CostRow>]) -> String {
+pub fn cost_text(families: &[Vec<CostRow>]) -> String {
     match families {
         [one] => format!(
             "{}\nThe shader's figures are of a chain of evaluations, four or, in GLSL ES 1.00, one.\n{}\n",
@@ -14,9 +14,9 @@ pub fn text(families: &[Vec<CostRow>]) -> String {
         ),
         several => {
             let body = beside(several);
-            let told: String = several.iter().map(|rows| about(rows) + "\n").collect();
+            let sources: String = several.iter().map(|rows| about(rows) + "\n").collect();
             format!(
-                "{body}\nIn per cent of dielectric_exact, its argument from a uniform; a + is a texture fetch.\n{told}"
+                "{body}\nIn per cent of dielectric_exact, its argument from a uniform; a + is a texture fetch.\n{sources}"
             )
         }
     }

@@ -17,6 +17,7 @@ use serde::Serialize;
 use crate::cost::{CostAndError, pareto_frontier};
 use crate::fit::MethodErrors;
 use crate::methods::{Contract, Method};
+use crate::report::plot::capital;
 
 #[cfg(all(feature = "cli", feature = "gpu"))]
 pub use audited::charted_function;
@@ -327,12 +328,6 @@ impl ChartEntry {
 /// Where an error is drawn.
 fn drawn(error: f64) -> f64 {
     error.max(LEAST_ERROR)
-}
-
-fn capital(text: &str) -> String {
-    let mut letters = text.chars();
-    let first = letters.next().map(|first| first.to_ascii_uppercase());
-    first.into_iter().chain(letters).collect()
 }
 
 #[cfg(test)]

@@ -2,11 +2,11 @@
 
 use crate::report::plot::{
     AXIS, Area, Axes, BLUE, FOOT, Font, Frame, GREEN, INK, Layout, SUBTITLE, Scale, TICK, TITLE,
-    Tick, VERMILION, log_ticks, plain_label,
+    Tick, VERMILION, capital, log_ticks, plain_label,
 };
 
 use super::labels::{DOT, Place, place_names};
-use super::{ChartEntry, ChartPoint, ChartView, ERRORS, capital, drawn};
+use super::{ChartEntry, ChartPoint, ChartView, ERRORS, drawn};
 
 /// The size of the picture.
 const FRAME: Frame = Frame {

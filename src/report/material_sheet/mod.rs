@@ -14,7 +14,7 @@ mod window;
 use crate::materials::{Material, Sight, Surface};
 use crate::spectra::Gamut;
 
-use super::plot::{FOOT, Frame, HEADING, Layout, SUBTITLE};
+use super::plot::{FOOT, Frame, HEADING, Layout, SUBTITLE, capital};
 
 /// The sheet.
 const PICTURE: Frame = Frame {
@@ -140,13 +140,6 @@ impl DrawnMaterial<'_> {
         let known = self.material.rgb_nm.or(medium);
         known.map(|rgb| self.sight.wavelengths_nm.unwrap_or(rgb))
     }
-}
-
-fn capital(word: &str) -> String {
-    let mut letters = word.chars();
-    letters.next().map_or(String::new(), |first| {
-        first.to_uppercase().chain(letters).collect()
-    })
 }
 
 #[cfg(test)]

@@ -21,6 +21,6 @@ pub use palette::{Look, Style};
 pub(super) use scale::Scale;
 #[cfg(feature = "cli")]
 pub(super) use text::escape;
-pub(super) use text::{AXIS, FOOT, Font, HEADING, PANEL, SUBTITLE, TICK, TITLE};
+pub(super) use text::{AXIS, FOOT, Font, HEADING, PANEL, SUBTITLE, TICK, TITLE, capital};
 pub use ticks::ticks;
 pub(super) use ticks::{log_ticks, plain_label, power_label};

@@ -149,6 +149,14 @@ pub fn escape(text: &str) -> String {
     safe
 }
 
+/// Words that begin with a capital.
+pub fn capital(words: &str) -> String {
+    let mut letters = words.chars();
+    letters.next().map_or(String::new(), |first| {
+        first.to_uppercase().chain(letters).collect()
+    })
+}
+
 /// The width of a character as a part of the font size, after wide sans fonts.
 fn advance(letter: char) -> f64 {
     match letter {

@@ -41,7 +41,7 @@ static PANELS: [Panel; 2] = [
 ];
 
 /// The picture of a map, as SVG.
-pub fn heat(method: &str, map: &Map) -> String {
+pub fn heat_map(method: &str, map: &Map) -> String {
     let mut parts = vec![format!(
         "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {WIDTH} {HEIGHT}\" width=\"{WIDTH}\" height=\"{HEIGHT}\" \
          font-family=\"system-ui, sans-serif\"><title>{}</title><rect width=\"100%\" height=\"100%\" fill=\"#fff\"/>",

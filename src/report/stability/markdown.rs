@@ -27,9 +27,9 @@ A share says how much of a region fails. The methods marked *exempt* are textboo
 ";
 
 /// The document of a scan in single precision and of one in half.
-pub fn markdown(rows: &[StabilityRow], half: &[StabilityRow]) -> String {
+pub fn stability_document(rows: &[StabilityRow], half: &[StabilityRow]) -> String {
     let head = ["method", "failure", "where", "worst"];
-    let told = |rows, wanted| markdown_table(&head, grouped(rows, wanted).into_iter());
+    let findings_table = |rows, wanted| markdown_table(&head, grouped(rows, wanted).into_iter());
     let is_media = |finding: &Finding| finding.is_media;
     let of_media = |finding: &Finding| finding.is_media && !finding.failure.is_of_the_model();
     format!(
@@ -41,9 +41,9 @@ pub fn markdown(rows: &[StabilityRow], half: &[StabilityRow]) -> String {
             ],
             summaries(rows).into_iter()
         ),
-        told(rows, is_media),
-        told(rows, |finding| !finding.is_media),
-        told(half, of_media),
+        findings_table(rows, is_media),
+        findings_table(rows, |finding| !finding.is_media),
+        findings_table(half, of_media),
     )
 }
 
@@ -58,19 +58,19 @@ fn summaries(rows: &[StabilityRow]) -> Vec<Vec<String>> {
         let of_method = rows.iter().filter(|row| row.method == method);
         let findings = of_method.filter_map(|row| row.finding.as_ref());
         let findings: Vec<&Finding> = findings.filter(|finding| finding.is_media).collect();
-        let mut told: Vec<String> = Vec::new();
+        let mut failures: Vec<String> = Vec::new();
         let mut kinds: Vec<Discriminant<Failure>> = Vec::new();
         for finding in &findings {
             // Of errors above several limits, and of several distances in ulp, the largest says enough.
             let kind = discriminant(&finding.failure);
             if !kinds.contains(&kind) {
                 kinds.push(kind);
-                told.push(format!("{}: {}", finding.failure.text(), finding.region));
+                failures.push(format!("{}: {}", finding.failure.text(), finding.region));
             }
         }
-        let words = match told.is_empty() {
+        let words = match failures.is_empty() {
             true => "no failure found".to_owned(),
-            false => told.join("; "),
+            false => failures.join("; "),
         };
         vec![format!("`{method}`{}", exempt(method)), words]
     };

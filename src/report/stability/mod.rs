@@ -10,10 +10,10 @@ use super::table;
 use crate::stability::{Failure, Finding, StabilityRow, short};
 
 #[cfg(feature = "cli")]
-pub use heat::heat;
-pub use markdown::markdown;
+pub use heat::heat_map;
+pub use markdown::stability_document;
 #[cfg(feature = "cli")]
-pub use page::page;
+pub use page::stability_page;
 
 fn cells(row: &StabilityRow) -> Vec<String> {
     let about = match &row.material {

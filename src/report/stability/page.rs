@@ -34,7 +34,7 @@ struct Picture {
 ///
 /// # Errors
 /// The page's template cannot be filled.
-pub fn page(
+pub fn stability_page(
     rows: &[StabilityRow],
     pictures: &[(&'static str, &'static str, Vec<u8>)],
     command: &str,

@@ -9,7 +9,7 @@ use fresnel_gen::methods::{self, Class, Contract, Light, Method};
 use fresnel_gen::num::Precision;
 use fresnel_gen::reference::Derivation;
 use fresnel_gen::report::png::png;
-use fresnel_gen::report::stability::heat;
+use fresnel_gen::report::stability::heat_map;
 use fresnel_gen::stability::{Axis, Cell, Map, maps};
 use roxmltree::Document;
 use tempfile::TempDir;
@@ -102,7 +102,7 @@ impl Read {
         let over = if name.ends_with("_k") { "k" } else { "eta" };
         let method = name.trim_end_matches(over).trim_end_matches('_');
         let pixels = Pixels::new(&shown.bytes());
-        let svg = heat(method, &empty(over, precision));
+        let svg = heat_map(method, &empty(over, precision));
         let document = Document::parse(&svg).unwrap();
         let words: Vec<Word> = words(document.root_element());
         let left: Vec<Word> = words.into_iter().filter(|word| word.x < MIDDLE).collect();
@@ -414,7 +414,7 @@ fn maps_show_total_reflection_beyond_the_critical_angle() {
                     map.axis.name,
                     precision.suffix()
                 );
-                let picture = png(&heat(method.name, &map), 1.0).unwrap();
+                let picture = png(&heat_map(method.name, &map), 1.0).unwrap();
                 fs::write(folder.path().join(name), picture).unwrap();
             }
         }
