@@ -27,13 +27,13 @@ const fn look(colour: &'static str, dashes: &'static str, width: f64) -> Look {
 }
 
 /// The reflected share of unpolarised light in each channel, by the exact law.
-pub(super) fn angle_chart(subject: &DrawnMaterial) -> LineChart {
+pub(super) fn angle_chart(drawn: &DrawnMaterial) -> LineChart {
     let degrees: Vec<f64> = (0..POINTS)
         .map(|i| 90.0 * f64::from(i) / f64::from(POINTS - 1))
         .collect();
     let colours: Vec<DVec3> = degrees
         .iter()
-        .map(|at| subject.surface.unpolarised(cosine(*at)))
+        .map(|at| drawn.surface.unpolarised(cosine(*at)))
         .collect();
     let series = |(channel, (name, look)): (usize, (&str, Look))| Series {
         name: name.to_owned(),

@@ -22,24 +22,24 @@ const JOINT: &str = "2 5";
 const LEAST_K: f64 = 1e-3;
 
 /// n and k of the material itself, whatever surrounds it.
-pub(super) fn index_chart(subject: &DrawnMaterial) -> LineChart {
-    let material = subject.material;
+pub(super) fn index_chart(drawn: &DrawnMaterial) -> LineChart {
+    let material = drawn.material;
     let three = material
         .rgb_nm
-        .map(|rgb| subject.sight.wavelengths_nm.unwrap_or(rgb));
+        .map(|rgb| drawn.sight.wavelengths_nm.unwrap_or(rgb));
     let range = match three {
         Some(rgb) => Some(window::around(rgb)),
         None => window::either(material),
     };
-    let drawn = |name: &str, curve: &Curve, look: Look| match three {
-        Some(rgb) => joined(name, curve, look, rgb, subject.sight.beyond),
+    let curve_series = |name: &str, curve: &Curve, look: Look| match three {
+        Some(rgb) => joined(name, curve, look, rgb, drawn.sight.beyond),
         None => whole(name, curve, look, range),
     };
-    let n = drawn("n", &material.n, N);
-    let k = material.k.as_ref().map(|curve| drawn("k", curve, K));
+    let n = curve_series("n", &material.n, N);
+    let k = material.k.as_ref().map(|curve| curve_series("k", curve, K));
     let mut subtitle = origin(&n, &material.n, three, range);
     subtitle += &without_k(k.as_ref());
-    if subject.medium.is_some() {
+    if drawn.medium.is_some() {
         subtitle += " Its own, not divided by the medium's.";
     }
     let k = k.filter(is_seen);

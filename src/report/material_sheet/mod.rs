@@ -59,13 +59,13 @@ pub fn material_sheet(
         ..sight.clone()
     };
     let surface = Surface::new(material, medium, &sight).map_err(|unseen| unseen.to_string())?;
-    let subject = DrawnMaterial {
+    let drawn = DrawnMaterial {
         material,
         medium,
         sight,
         surface,
     };
-    Ok(subject.draw(command))
+    Ok(drawn.draw(command))
 }
 
 impl DrawnMaterial<'_> {

@@ -16,11 +16,11 @@ const ANGLES: [(f64, &str, &str); 4] = [
 ];
 
 /// The reflected share of unpolarised light, by the exact law.
-pub(super) fn spectrum_chart(subject: &DrawnMaterial) -> LineChart {
-    let three = subject.three_nm();
+pub(super) fn spectrum_chart(drawn: &DrawnMaterial) -> LineChart {
+    let three = drawn.three_nm();
     let (range, indices) = match three {
-        Some(rgb) => (Some(window::around(rgb)), points(subject)),
-        None => measured(subject),
+        Some(rgb) => (Some(window::around(rgb)), points(drawn)),
+        None => measured(drawn),
     };
     let alone = three.is_some() || indices.len() == 1;
     let series = ANGLES.map(|(degrees, colour, dashes)| Series {
@@ -55,8 +55,8 @@ pub(super) fn spectrum_chart(subject: &DrawnMaterial) -> LineChart {
 type Indices = Vec<(f64, Index)>;
 
 /// What the surface is known by, where this is three wavelengths.
-fn points(subject: &DrawnMaterial) -> Indices {
-    let surface = &subject.surface;
+fn points(drawn: &DrawnMaterial) -> Indices {
+    let surface = &drawn.surface;
     let wavelengths = surface.integrator.wavelengths.iter().copied();
     let mut points: Indices = wavelengths.zip(surface.indices.iter().copied()).collect();
     points.sort_by(|one, other| one.0.total_cmp(&other.0));
@@ -64,15 +64,15 @@ fn points(subject: &DrawnMaterial) -> Indices {
 }
 
 /// The visible range in which all was measured, and the index in it.
-fn measured(subject: &DrawnMaterial) -> (Option<(f64, f64)>, Indices) {
-    let medium = subject.medium.map(Material::range_nm);
-    let (from, to) = subject.material.range_nm();
+fn measured(drawn: &DrawnMaterial) -> (Option<(f64, f64)>, Indices) {
+    let medium = drawn.medium.map(Material::range_nm);
+    let (from, to) = drawn.material.range_nm();
     let (low, high) = medium.unwrap_or((from, to));
     let range = window::shown((from.max(low), to.min(high)));
     let samples = range.map_or(Vec::new(), window::samples);
     let index = |nm: f64| {
-        let own = subject.material.index(nm, Extrapolate::Refuse).ok()?;
-        let Some(medium) = subject.medium else {
+        let own = drawn.material.index(nm, Extrapolate::Refuse).ok()?;
+        let Some(medium) = drawn.medium else {
             return Some((nm, own));
         };
         let around = medium.index(nm, Extrapolate::Refuse).ok()?;

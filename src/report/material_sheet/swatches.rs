@@ -26,10 +26,10 @@ struct Swatch {
 }
 
 /// The panel, and what it says in words.
-pub(super) fn swatch_panel(subject: &DrawnMaterial, frame: Frame) -> (Layout, String) {
-    let to_screen = to_screen(space(subject));
+pub(super) fn swatch_panel(drawn: &DrawnMaterial, frame: Frame) -> (Layout, String) {
+    let to_screen = to_screen(space(drawn));
     let swatches = ANGLES.map(|degrees| {
-        let linear = subject.surface.unpolarised(cosine(degrees));
+        let linear = drawn.surface.unpolarised(cosine(degrees));
         let screen = to_screen(linear);
         Swatch {
             degrees,
@@ -39,17 +39,17 @@ pub(super) fn swatch_panel(subject: &DrawnMaterial, frame: Frame) -> (Layout, St
     });
     let mut layout = Layout::new(frame);
     layout.paragraph(&PANEL, "Colour of the reflection, where a mirror is white");
-    layout.paragraph(&SUBTITLE, &subtitle(subject, &swatches));
+    layout.paragraph(&SUBTITLE, &subtitle(drawn, &swatches));
     let (elements, bottom) = draw(&swatches, frame, layout.bottom() + 8.0);
     layout.extend(elements, bottom);
     (layout, swatches.iter().map(Swatch::words).collect())
 }
 
 /// The space of the channels; three wavelengths are shown as if they were sRGB's.
-fn space(subject: &DrawnMaterial) -> Space {
-    match subject.surface.channels() {
+fn space(drawn: &DrawnMaterial) -> Space {
+    match drawn.surface.channels() {
         Some(_) => Space::Srgb,
-        None => subject.sight.integration.space,
+        None => drawn.sight.integration.space,
     }
 }
 
@@ -64,8 +64,8 @@ fn to_screen(space: Space) -> impl Fn(DVec3) -> DVec3 {
     }
 }
 
-fn subtitle(subject: &DrawnMaterial, swatches: &[Swatch]) -> String {
-    let numbers = match (subject.surface.channels(), space(subject)) {
+fn subtitle(drawn: &DrawnMaterial, swatches: &[Swatch]) -> String {
+    let numbers = match (drawn.surface.channels(), space(drawn)) {
         (Some(_), _) => {
             "Numbers: reflectance at the wavelengths of red, green and blue, shown as linear sRGB."
                 .to_owned()
