@@ -11,7 +11,7 @@ mod stability;
 mod time;
 mod verify;
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use clap::{Args, Parser, Subcommand};
 
@@ -83,6 +83,51 @@ pub enum Command {
     Audit(Box<AuditFlags>),
     /// Recompute the tables, figures and claims of the thesis (Štetić-Kozić 2014) and print both side by side
     Reproduce(Reproduce),
+}
+
+impl Cli {
+    /// The files that it names.
+    pub fn named_files(&self) -> NamedFiles<'_> {
+        let mut named = NamedFiles::default();
+        let Some(command) = &self.command else {
+            let flags = &self.generate;
+            named.read(flags.material.iter().chain(&flags.medium));
+            named.seen(&flags.sight);
+            named.write(flags.output.iter().chain(&flags.depfile));
+            return named;
+        };
+        match command {
+            Command::Methods(flags) | Command::Targets(flags) => named.write(&flags.json),
+            Command::Materials(flags) => named.materials(flags),
+            Command::Bake(flags) => {
+                named.read(flags.material.iter().chain(&flags.medium));
+                named.seen(&flags.sight);
+                named.write(&flags.json);
+            }
+            Command::Verify(flags) => {
+                named.read(flags.material.iter().chain(&flags.medium));
+                named.seen(&flags.sight);
+                named.write(flags.json.iter().chain(&flags.junit));
+            }
+            Command::Audit(flags) => {
+                named.inputs.extend(flags.file.iter().map(Path::new));
+                named.read(flags.material.iter().chain(&flags.medium));
+                named.seen(&flags.sight);
+                named.write(flags.json.iter().chain(&flags.junit));
+            }
+            Command::Fit(flags) => {
+                named.read(flags.material.iter().chain(&flags.medium));
+                named.seen(&flags.sight);
+                named.write(&flags.json);
+            }
+            Command::Cost(flags) => named.report(&flags.material, &flags.json),
+            Command::Time(flags) => named.report(&flags.material, &flags.json),
+            Command::Chart(flags) => named.report(&flags.material, &flags.json),
+            Command::Stability(flags) => named.report(&flags.material, &flags.json),
+            Command::Reproduce(flags) => named.write(&flags.json),
+        }
+        named
+    }
 }
 
 /// The flags of generation.

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use crate::app::sight;
 use crate::app::source::is_path;
 
-use super::{Cli, Command, MaterialsCommand, MaterialsFlags, SightFlags};
+use super::{MaterialsCommand, MaterialsFlags, SightFlags};
 
 /// The files of a run that stand on its command line.
 #[derive(Debug, Default)]
@@ -17,22 +17,22 @@ pub struct NamedFiles<'a> {
 }
 
 impl<'a> NamedFiles<'a> {
-    fn read(&mut self, names: impl IntoIterator<Item = &'a String>) {
+    pub(super) fn read(&mut self, names: impl IntoIterator<Item = &'a String>) {
         let paths = names.into_iter().filter(|name| is_path(name));
         self.inputs.extend(paths.map(Path::new));
     }
 
-    fn seen(&mut self, flags: &'a SightFlags) {
+    pub(super) fn seen(&mut self, flags: &'a SightFlags) {
         self.inputs
             .extend(sight::input(&flags.words(None)).map(Path::new));
     }
 
-    fn report(&mut self, materials: &'a [String], json: &'a Option<PathBuf>) {
+    pub(super) fn report(&mut self, materials: &'a [String], json: &'a Option<PathBuf>) {
         self.read(materials);
         self.write(json);
     }
 
-    fn materials(&mut self, flags: &'a MaterialsFlags) {
+    pub(super) fn materials(&mut self, flags: &'a MaterialsFlags) {
         self.write(&flags.json);
         match &flags.what {
             Some(MaterialsCommand::Show(show)) => {
@@ -53,54 +53,9 @@ impl<'a> NamedFiles<'a> {
         }
     }
 
-    fn write<P: AsRef<Path> + 'a>(&mut self, files: impl IntoIterator<Item = &'a P>) {
+    pub(super) fn write<P: AsRef<Path> + 'a>(&mut self, files: impl IntoIterator<Item = &'a P>) {
         let files = files.into_iter().map(AsRef::as_ref);
         self.outputs
             .extend(files.filter(|file| *file != Path::new("-")));
-    }
-}
-
-impl Cli {
-    /// The files that it names.
-    pub fn named_files(&self) -> NamedFiles<'_> {
-        let mut named = NamedFiles::default();
-        let Some(command) = &self.command else {
-            let flags = &self.generate;
-            named.read(flags.material.iter().chain(&flags.medium));
-            named.seen(&flags.sight);
-            named.write(flags.output.iter().chain(&flags.depfile));
-            return named;
-        };
-        match command {
-            Command::Methods(flags) | Command::Targets(flags) => named.write(&flags.json),
-            Command::Materials(flags) => named.materials(flags),
-            Command::Bake(flags) => {
-                named.read(flags.material.iter().chain(&flags.medium));
-                named.seen(&flags.sight);
-                named.write(&flags.json);
-            }
-            Command::Verify(flags) => {
-                named.read(flags.material.iter().chain(&flags.medium));
-                named.seen(&flags.sight);
-                named.write(flags.json.iter().chain(&flags.junit));
-            }
-            Command::Audit(flags) => {
-                named.inputs.extend(flags.file.iter().map(Path::new));
-                named.read(flags.material.iter().chain(&flags.medium));
-                named.seen(&flags.sight);
-                named.write(flags.json.iter().chain(&flags.junit));
-            }
-            Command::Fit(flags) => {
-                named.read(flags.material.iter().chain(&flags.medium));
-                named.seen(&flags.sight);
-                named.write(&flags.json);
-            }
-            Command::Cost(flags) => named.report(&flags.material, &flags.json),
-            Command::Time(flags) => named.report(&flags.material, &flags.json),
-            Command::Chart(flags) => named.report(&flags.material, &flags.json),
-            Command::Stability(flags) => named.report(&flags.material, &flags.json),
-            Command::Reproduce(flags) => named.write(&flags.json),
-        }
-        named
     }
 }
