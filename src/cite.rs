@@ -23,4 +23,9 @@ impl Citation {
             self.authors, self.title, self.place, self.year, self.link
         )
     }
+
+    /// The same in short: authors, year, link.
+    pub fn short(&self) -> String {
+        format!("{}, {}, {}", self.authors, self.year, self.link)
+    }
 }

@@ -36,7 +36,7 @@ pub fn add_catalogue(generated: &mut Generated, request: &Request) -> Result<(),
         let file = emit::catalogue(target, &rows, &request.naming(), seen, &command)?;
         generated.artifacts.extend(file.map(|file| {
             let path = format!("{}/{}", target.name, file.name);
-            artifact(path, file.bytes, target.name, file.detail)
+            artifact(path, file.bytes, target.name, json!(file.detail))
         }));
     }
     if generated.scope.whole {

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use crate::emit::{Naming, file_name};
+use crate::emit::{HeaderForm, Naming, file_name};
 use crate::materials::{self, Kind, Material, Sight, Unseen};
 use crate::methods::{self, Method};
 use crate::num::Precision;
@@ -37,6 +37,8 @@ pub struct Request {
     pub chosen: BTreeMap<String, &'static str>,
     /// How materials are seen: the whole spectrum in linear sRGB under D65, unless said otherwise.
     pub sight: Sight,
+    /// How much the comments of files say.
+    pub header: HeaderForm,
 }
 
 impl Default for Request {
@@ -52,6 +54,7 @@ impl Default for Request {
             force: false,
             chosen: BTreeMap::new(),
             sight: Sight::default(),
+            header: HeaderForm::default(),
         }
     }
 }

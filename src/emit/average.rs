@@ -57,7 +57,7 @@ pub(super) fn mean_line(emitted: &Emitted) -> Option<String> {
 }
 
 /// Whether a function is a mean.
-fn is_mean(emitted: &Emitted) -> bool {
+pub(super) fn is_mean(emitted: &Emitted) -> bool {
     [AVERAGE, AVERAGE_SCALAR].contains(&emitted.form)
 }
 

@@ -2,7 +2,6 @@
 //! library functions `fitted` and `fitted_dielectric` take, four colours a material.
 
 use serde::Serialize;
-use serde_json::json;
 
 use crate::fit::{ModelError, rounded_up};
 use crate::methods::Method;
@@ -10,10 +9,12 @@ use crate::targets::{self, Target};
 
 use super::average::Average;
 use super::comment;
+use super::detail::{CatalogueDetail, Detail};
 use super::error::Error;
+use super::figures::at_most;
 use super::file::File;
 use super::function::Naming;
-use super::header::{OUTPUT_LICENCE, at_most, formula, source, start};
+use super::header::{OUTPUT_LICENCE, formula, source, start};
 use super::page::{comments, finished, guard};
 
 /// The name of the file and of the array.
@@ -111,9 +112,13 @@ pub fn catalogue(
     Ok(Some(File {
         bytes: finished(template, &view, target.finish, &name)?,
         name,
-        detail: json!({
-            "command": command, "array": view.name, "materials": rows.len(), "rows": view.size, "seen": seen,
-            "licence": OUTPUT_LICENCE,
+        detail: Detail::Catalogue(CatalogueDetail {
+            command: command.to_owned(),
+            array: view.name,
+            materials: rows.len(),
+            rows: view.size,
+            seen: seen.to_owned(),
+            licence: OUTPUT_LICENCE,
         }),
     }))
 }

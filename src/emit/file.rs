@@ -1,22 +1,20 @@
 //! Files: which functions stand together, under which name, with which details for the manifest.
 
-use serde_json::{Value, json};
-
 use crate::fit::Measured;
 use crate::ir::{Checked, Param, Ty};
 use crate::methods::{self, Method, Values};
 use crate::num::Precision;
-use crate::reference::By;
+use crate::reference::Subject;
 use crate::targets::{self, Finish, Page, Target};
 
-use super::average::Average;
-use super::bounds::CodeBound;
 use super::comment;
+use super::detail::{Detail, FunctionsDetail, functions_detail};
 use super::error::Error;
+use super::figures::FILTERED;
 use super::function::{Emitted, Naming};
-use super::page::{Request, comments, entry_point, guard, render};
-use super::{header, print};
-use crate::reference::Subject;
+use super::header::OUTPUT_LICENCE;
+use super::heading::Heading;
+use super::page::{Request, comments, guard, render};
 
 /// A file of one target, in memory.
 #[derive(Clone, Debug, PartialEq)]
@@ -26,7 +24,7 @@ pub struct File {
     /// Its bytes.
     pub bytes: Vec<u8>,
     /// What the manifest says of it.
-    pub detail: Value,
+    pub detail: Detail,
 }
 
 /// The library files of a method: one, or one for each page of a target that writes modules.
@@ -37,10 +35,10 @@ pub fn library(
     target: &'static Target,
     method: &'static Method,
     functions: &[Emitted],
-    command: &str,
+    heading: Heading,
 ) -> Result<Vec<File>, Error> {
     check_names(functions)?;
-    let head = comments(target, &header::library(target, method, functions, command));
+    let head = comments(target, &heading.library(target, method, functions));
     let plain: Vec<(Vec<String>, Emitted)> = written_for(target, functions.to_vec())
         .map(|f| (Vec::new(), f))
         .collect();
@@ -48,7 +46,15 @@ pub fn library(
     target
         .pages
         .iter()
-        .map(|page| file(target, page, &stem, &stem, &head, &plain, command))
+        .map(|page| {
+            let (name, bytes) = rendered(target, page, &stem, &stem, &head, &plain)?;
+            let detail = Detail::Functions(Box::new(listed(target, &plain, heading)));
+            Ok(File {
+                name,
+                bytes,
+                detail,
+            })
+        })
         .collect()
 }
 
@@ -69,39 +75,31 @@ pub fn material(
     subject: &Subject,
     functions: &[Emitted],
     naming: &Naming,
-    command: &str,
+    heading: Heading,
 ) -> Result<Vec<File>, Error> {
     check_names(functions)?;
-    let head = comments(
-        target,
-        &header::material(target, subject, naming.precision, command),
-    );
+    let head = comments(target, &heading.material(target, subject, naming.precision));
     let documented: Vec<(Vec<String>, Emitted)> = functions
         .iter()
-        .map(|f| (comments(target, &header::specialised(f)), f.clone()))
+        .map(|f| (comments(target, &heading.specialised(f)), f.clone()))
         .collect();
-    let name = format!("{}{}", subject.name, naming.precision.suffix());
+    let name = naming.material(subject);
     let stem = format!("materials/{name}");
     let unique = format!("{}{name}_material", naming.prefix);
     target
         .pages
         .iter()
         .map(|page| {
-            let mut file = file(target, page, &stem, &unique, &head, &documented, command)?;
-            file.detail["seen"] = seen(subject);
-            Ok(file)
+            let (name, bytes) = rendered(target, page, &stem, &unique, &head, &documented)?;
+            let detail = listed(target, &documented, heading).of_material(subject);
+            let detail = Detail::Functions(Box::new(detail));
+            Ok(File {
+                name,
+                bytes,
+                detail,
+            })
         })
         .collect()
-}
-
-/// What the manifest says of how a material is seen: its modules have no head to say it in.
-fn seen(subject: &Subject) -> Value {
-    let surface = &subject.truth.surface;
-    let effective = &subject.effective;
-    json!({
-        "truth": surface.seen, "extrapolated": surface.held(),
-        "n": effective.channels.n, "k": effective.channels.k, "nk_by": effective.by.map(By::text),
-    })
 }
 
 /// Where a function stands in a text of several. Directives such as `enable f16;` stand in the first only: no code may be before them.
@@ -123,7 +121,7 @@ impl Place {
     }
 }
 
-/// One function with a short head, to be pasted: no guard, no includes.
+/// One function, to be pasted: no guard, no includes.
 ///
 /// # Errors
 /// The function's name is a reserved word of a target, or naga refuses the text.
@@ -131,11 +129,11 @@ pub fn single(
     target: &'static Target,
     emitted: &Emitted,
     subject: Option<&Subject>,
-    command: &str,
+    heading: Heading,
     place: Place,
 ) -> Result<Vec<u8>, Error> {
     check_names(std::slice::from_ref(emitted))?;
-    let head = comments(target, &header::brief(target, emitted, subject, command));
+    let head = comments(target, &heading.pasted(target, emitted, subject));
     let functions = [(Vec::new(), emitted.clone())];
     let request = Request {
         target,
@@ -180,13 +178,13 @@ pub fn lookup(
         function,
         constants: Values::new(),
         model_error: None,
-        code: Measured::No(header::FILTERED.to_owned()),
+        code: Measured::No(FILTERED.to_owned()),
         plain_for: None,
         written_as: None,
         missed: None,
     };
     check_names(std::slice::from_ref(&emitted))?;
-    let licence = format!("Licence of this file: {}", header::OUTPUT_LICENCE);
+    let licence = format!("Licence of this file: {}", OUTPUT_LICENCE);
     let about = about.into_iter().chain([licence]).collect();
     let head = comments(target, &comment::lines(about));
     let guard = guard(target, &emitted.name);
@@ -201,15 +199,15 @@ pub fn lookup(
     })
 }
 
-fn file(
+/// The name and the bytes of a file.
+fn rendered(
     target: &'static Target,
     page: &'static Page,
     stem: &str,
     unique: &str,
     head: &[String],
     functions: &[(Vec<String>, Emitted)],
-    command: &str,
-) -> Result<File, Error> {
+) -> Result<(String, Vec<u8>), Error> {
     let name = format!("{stem}{}.{}", page.suffix, target.extension);
     let guard = guard(target, unique);
     let bytes = render(&Request {
@@ -220,96 +218,17 @@ fn file(
         functions,
         file: &name,
     })?;
-    let details: Vec<Value> = functions
-        .iter()
-        .enumerate()
-        .map(|(i, (_, f))| detail(target, i, f))
-        .collect();
-    let mut about = json!({ "command": command, "functions": details });
-    let precision = functions[0].1.precision;
-    if precision.is_half() {
-        about["precision"] = json!(precision.name());
-    }
-    Ok(File {
-        name,
-        bytes,
-        detail: about,
-    })
+    Ok((name, bytes))
 }
 
-/// What the manifest says of a function.
-fn detail(target: &Target, index: usize, emitted: &Emitted) -> Value {
-    let mut value = json!({
-        "name": emitted.name,
-        "method": emitted.method.name,
-        "form": emitted.form,
-        "signature": print::head(&emitted.function, &emitted.name, target.spelling_in(emitted.precision)),
-        "parameters": parameters(emitted),
-        "operations": emitted.function.work(),
-        "fetches": emitted.function.fetches(),
-        "code_error": match &emitted.code {
-            Measured::Yes(CodeBound::Ulp(ulp)) => json!({ "max_ulp": ulp }),
-            Measured::Yes(CodeBound::Absolute(most)) => json!({ "max_abs": most }),
-            Measured::No(reason) if emitted.precision.is_half() => {
-                json!({ "max_abs": null, "reason": reason })
-            }
-            Measured::No(reason) => json!({ "max_ulp": null, "reason": reason }),
-        },
-        "licence": header::OUTPUT_LICENCE,
-    });
-    if let Some(error) = &emitted.model_error {
-        value["model_error"] = json!(error);
-        if error.mean_rel.is_none() {
-            value["model_error"]["reason"] =
-                json!("a channel reflects nothing, so that no relative error is defined");
-        }
-    }
-    if let Some(missed) = &emitted.missed {
-        value["misses_its_class"] = missed.json();
-    }
-    if let Some(average) = Average::of(emitted) {
-        value["average"] = json!(average.given);
-        value["average_unlimited"] = json!(average.unlimited);
-    }
-    if target.finish == Finish::Spirv {
-        value["entry_point"] = json!(entry_point(index, emitted));
-        value["uniforms"] = uniforms(emitted);
-    }
-    value
-}
-
-/// A library function's run-time arguments with what they are; a specialised one's constants per channel, null where a
-/// channel has none (gold's green has no lambda).
-fn parameters(emitted: &Emitted) -> Value {
-    if emitted.constants.is_empty() {
-        let rows = emitted.method.inputs.iter();
-        let domain = |i| emitted.method.range(i, emitted.precision).words();
-        return rows
-            .map(|i| json!({ "name": i.name, "meaning": i.meaning, "domain": domain(i) }))
-            .collect();
-    }
-    let cell = |name: &str, value: f64| {
-        if name == "lambda" && value <= 0.0 {
-            Value::Null
-        } else {
-            json!(value)
-        }
-    };
-    let row = |(name, values): (&String, &[f64; 3])| {
-        (name.clone(), json!(values.map(|value| cell(name, value))))
-    };
-    Value::Object(emitted.constants.iter().map(row).collect())
-}
-
-/// The uniform block of a module: name, type and offset in bytes of each run-time argument.
-fn uniforms(emitted: &Emitted) -> Value {
-    let params = &emitted.function.params;
-    let numbers = params.iter().filter(|param| is_number(param));
-    let row = |(param, offset): (&Param, usize)| {
-        let ty = if param.ty == Ty::Rgb { "vec3" } else { "float" };
-        json!({ "name": param.name, "type": ty, "offset": offset })
-    };
-    numbers.zip(uniform_offsets(params)).map(row).collect()
+/// What the manifest says of these functions.
+fn listed(
+    target: &Target,
+    functions: &[(Vec<String>, Emitted)],
+    heading: Heading,
+) -> FunctionsDetail {
+    let functions: Vec<&Emitted> = functions.iter().map(|(_, emitted)| emitted).collect();
+    functions_detail(target, &functions, heading.command)
 }
 
 /// Where the numbers that a function takes after `cos_theta` lie in its uniform block, in bytes: WGSL's layout, which is
@@ -331,7 +250,7 @@ pub fn uniform_offsets(params: &[Param]) -> Vec<usize> {
 }
 
 /// Whether it stands in the uniform block of a module: it is neither the cosine nor a texture.
-fn is_number(param: &Param) -> bool {
+pub(super) fn is_number(param: &Param) -> bool {
     param.ty != Ty::Texture && !param.is_cosine()
 }
 

@@ -9,7 +9,7 @@ use crate::reference::Subject;
 use super::average;
 use super::bounds::{Bounds, CodeBound, PLAIN_ULP};
 use super::error::Error;
-use super::header::FILTERED;
+use super::figures::FILTERED;
 use super::missed::{Missed, missed};
 
 /// How functions are named, by what they compute in: half precision is told by the name.
@@ -38,6 +38,11 @@ impl Naming {
         } else {
             self.name(&subject.name, &format!("_{}", method.name))
         }
+    }
+
+    /// The name of a material's file.
+    pub fn material(&self, subject: &Subject) -> String {
+        format!("{}{}", subject.name, self.precision.suffix())
     }
 
     /// The name of a function, of a method or a material and a variant of it.

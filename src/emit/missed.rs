@@ -1,6 +1,6 @@
 //! A fit that misses what its method promises of the material's class, and the method that keeps within it.
 
-use serde_json::{Value, json};
+use serde::Serialize;
 
 use crate::fit::{model_error, rounded_up};
 use crate::methods::{self, ALL, Method, by_class};
@@ -25,6 +25,14 @@ pub struct Missed {
     pub error: f64,
 }
 
+/// The same as reports have it: what the class keeps, the method that serves and its error.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct MissedDetail {
+    limit: f64,
+    method: &'static str,
+    max_abs: f64,
+}
+
 impl Missed {
     /// In words, for headers and reports.
     pub fn words(&self) -> String {
@@ -39,8 +47,12 @@ impl Missed {
     }
 
     /// For reports.
-    pub fn json(&self) -> Value {
-        json!({ "limit": self.limit, "method": self.serves.name, "max_abs": self.error })
+    pub fn detail(&self) -> MissedDetail {
+        MissedDetail {
+            limit: self.limit,
+            method: self.serves.name,
+            max_abs: self.error,
+        }
     }
 }
 

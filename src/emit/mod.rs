@@ -8,13 +8,17 @@ mod bounds;
 mod catalogue;
 mod command;
 mod comment;
+mod detail;
 mod error;
+mod figures;
 mod file;
 mod function;
 mod header;
+mod heading;
 mod missed;
 mod page;
 mod print;
+mod short;
 mod wgsl;
 
 pub use average::{AVERAGE, Average, average_functions};
@@ -22,12 +26,15 @@ pub use bounds::{Bounds, CodeBound, PLAIN_ULP, fingerprint, half_record, sha256}
 pub use catalogue::{Better, CATALOGUE, Row, catalogue, methods_of};
 pub use command::{CommandLine, file_name, quoted, sight_flags, surface_flags};
 pub use comment::lines as comment_lines;
+pub use detail::Detail;
 pub use error::Error;
+pub use figures::{half_promise, promises};
 pub use file::{File, Place, library, lookup, material, single, uniform_offsets, written_for};
 pub use function::{
     Emitted, Naming, Specialised, library_functions, specialised_function, specialised_graph,
 };
-pub use header::{MARK, OUTPUT_LICENCE, half_promise, promises};
+pub use header::{MARK, OUTPUT_LICENCE};
+pub use heading::{HeaderForm, Heading};
 pub use missed::{Missed, missed};
 pub use print::bare;
 pub use wgsl::{spirv_with_storage as wgsl_to_spirv, validate as validate_wgsl};

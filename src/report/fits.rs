@@ -82,7 +82,7 @@ impl From<Follows> for FollowedCurve {
 }
 
 fn missed_columns<S: Serializer>(missed: &Option<Missed>, to: S) -> Result<S::Ok, S::Error> {
-    missed.as_ref().map(Missed::json).serialize(to)
+    missed.as_ref().map(Missed::detail).serialize(to)
 }
 
 impl FitRow {

@@ -15,6 +15,8 @@ use std::path::{Path, PathBuf};
 
 use clap::{Args, Parser, Subcommand};
 
+use crate::emit::HeaderForm;
+
 use super::precision::PrecisionFlags;
 use super::sight::Words;
 
@@ -160,6 +162,9 @@ pub struct Generate {
     /// Degrees at which the corrected Schlick meets the exact law [default: that of cosine 0.15, 81.373]
     #[arg(long, value_name = "DEGREES", allow_negative_numbers = true)]
     pub matching_angle: Option<f64>,
+    /// Comments of generated files; what short ones leave out stands in manifest.json
+    #[arg(long, value_enum, value_name = "FORM", default_value_t)]
+    pub header: HeaderForm,
     /// Write one function per material: the cheapest whose largest error over angles and channels is at most this
     #[arg(long, value_name = "ERR", allow_negative_numbers = true)]
     pub budget: Option<f64>,

@@ -142,6 +142,7 @@ fn request(flags: &Generate) -> Result<Request, Error> {
         force: flags.precision.force,
         chosen: BTreeMap::new(),
         sight: sight(&flags.sight.words(flags.gamut.as_deref()))?,
+        header: flags.header,
     })
 }
 

@@ -1,16 +1,21 @@
 //! Generation: a request becomes artifacts in memory. Pure: nothing is read, nothing is written.
 
 mod owners;
+mod single;
 mod written;
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use crate::emit::{self, Bounds, CommandLine, Emitted, File, NAGA_VERSION, Naming, Place};
+use crate::emit::{
+    self, Bounds, CommandLine, Emitted, File, HeaderForm, Heading, NAGA_VERSION, Naming,
+};
 use crate::materials::Unseen;
 use crate::methods::{self, Method};
 use crate::num::Precision;
 use crate::reference::Subject;
-use crate::targets::Target;
+use crate::targets::{Finish, Target};
+
+use serde_json::json;
 
 use super::artifact::{Artifact, sha256};
 use super::error::Error;
@@ -18,6 +23,8 @@ use super::manifest::{Input, Provenance};
 use super::request::{Materials, Request, Subjects};
 use super::scope::Scope;
 use owners::Owners;
+
+pub use single::generate_single;
 
 /// What a request comes to.
 #[derive(Clone, Debug)]
@@ -91,18 +98,27 @@ pub struct Meant {
     pub left_out: Vec<Unseen>,
 }
 
-/// Generates everything that the request asks for, and keeps the graphs of what is generated. Material files that `exactly`
-/// names hold its methods and no others.
+/// What the files of a folder hold.
+#[derive(Clone, Debug, Default)]
+pub struct Held {
+    /// The methods of material files, which hold these and no others.
+    pub methods: Kept,
+    /// The files whose comments have the full form, with their folder and without their ending.
+    pub full_headers: BTreeSet<String>,
+}
+
+/// Generates everything that the request asks for, and keeps the graphs of what is generated. Files that are `held` have its
+/// methods and its form of comments.
 ///
 /// # Errors
 /// As [`generate()`].
 pub fn generate_meant<'r>(
     request: &'r Request,
     kept: &Kept,
-    exactly: &'r Kept,
+    held: &'r Held,
 ) -> Result<Meant, Error> {
     let mut run = Run::new(request)?;
-    run.exactly = Some(exactly);
+    run.held = Some(held);
     Ok(Meant {
         files: made(&run, kept)?,
         subjects: run
@@ -128,59 +144,6 @@ fn made(run: &Run, kept: &Kept) -> Result<Vec<Made>, Error> {
     Ok(files)
 }
 
-/// One function as text for pasting, or, without a material, the functions of a library file: for `-o`.
-///
-/// # Errors
-/// As [`generate()`]; also where the request has several targets.
-pub fn generate_single(request: &Request) -> Result<Vec<u8>, Error> {
-    let mut request = request.clone();
-    if request.targets.is_empty() {
-        request.targets = vec!["wgsl".to_owned()];
-    }
-    if request.materials == Materials::Default {
-        request.materials = Materials::None;
-    }
-    let run = Run::new(&request)?;
-    let [target] = run.targets.as_slice() else {
-        return Err(Error::Usage {
-            what: "-o takes one --target".to_owned(),
-        });
-    };
-    let (mut pages, mut owners) = (Vec::new(), Owners::default());
-    for (subject, _) in &run.subjects {
-        let methods = written::named_or(&run, &subject.name, &[subject.exact_method()]);
-        for emitted in run.specialised(&methods, subject, &mut BTreeMap::new())? {
-            owners.claim(&emitted.name, &format!("material {}", subject.name))?;
-            let (place, of) = (Place::behind(&pages), Some(subject));
-            let command = run.command(target, Some(&[emitted.method.name]), of) + " -o -";
-            pages.push(emit::single(target, &emitted, of, &command, place)?);
-        }
-    }
-    if run.subjects.is_empty() {
-        for method in written::library_methods(run.request, run.named.as_deref()) {
-            // Of a module one function can be put out, the method's own.
-            let functions = match target.pages.len() {
-                1 => run.library_functions(method)?,
-                _ => emit::library_functions(method, &run.naming)?,
-            };
-            for emitted in emit::written_for(target, functions) {
-                let command = run.command(target, Some(&[method.name]), None) + " -o -";
-                let place = Place::behind(&pages);
-                pages.push(emit::single(target, &emitted, None, &command, place)?);
-            }
-        }
-    }
-    if target.pages.len() > 1 && pages.len() > 1 {
-        return Err(Error::Usage {
-            what: format!(
-                "-o takes one function for {}: name one --method",
-                target.name
-            ),
-        });
-    }
-    Ok(pages.join(&b"\n"[..]))
-}
-
 /// A request with its names resolved.
 struct Run<'r> {
     request: &'r Request,
@@ -191,8 +154,8 @@ struct Run<'r> {
     left_out: Vec<Unseen>,
     naming: Naming,
     bounds: Bounds,
-    /// The methods of material files that hold these and no others.
-    exactly: Option<&'r Kept>,
+    /// What files hold that are compared with what would be written.
+    held: Option<&'r Held>,
 }
 
 impl<'r> Run<'r> {
@@ -215,7 +178,7 @@ impl<'r> Run<'r> {
             named,
             naming: request.naming(),
             bounds: Bounds::recorded(),
-            exactly: None,
+            held: None,
         })
     }
 
@@ -234,8 +197,13 @@ impl<'r> Run<'r> {
         }
         let mut files = Vec::new();
         for target in &self.targets {
-            let command = self.command(target, Some(&[method.name]), None);
-            for file in emit::library(target, method, &functions, &command)? {
+            let form = self.form(target, &functions[0].name);
+            let command = self.command(target, Some(&[method.name]), None, form);
+            let heading = Heading {
+                form,
+                command: &command,
+            };
+            for file in emit::library(target, method, &functions, heading)? {
                 files.push(Made {
                     artifact: artifact(target, file, Some(method.name), None),
                     functions: emit::written_for(target, functions.clone()).collect(),
@@ -260,8 +228,17 @@ impl<'r> Run<'r> {
             let methods = written::methods_of(self, target, subject, kept);
             let functions = self.specialised(&methods, subject, &mut ready)?;
             let usual = methods == written::usual(self.request, subject);
-            let command = self.command(target, (!usual).then_some(&methods), Some(subject));
-            for file in emit::material(target, subject, &functions, &self.naming, &command)? {
+            let (named, of) = ((!usual).then_some(&methods[..]), Some(subject));
+            let form = self.form(
+                target,
+                &format!("materials/{}", self.naming.material(subject)),
+            );
+            let command = self.command(target, named, of, form);
+            let heading = Heading {
+                form,
+                command: &command,
+            };
+            for file in emit::material(target, subject, &functions, &self.naming, heading)? {
                 files.push(Made {
                     artifact: artifact(target, file, None, Some(&subject.name)),
                     functions: functions.clone(),
@@ -294,12 +271,24 @@ impl<'r> Run<'r> {
         Ok(functions)
     }
 
+    /// The form of the comments of a file, named without its ending. Modules have no comments.
+    fn form(&self, target: &Target, stem: &str) -> HeaderForm {
+        let held = self.held.map(|held| &held.full_headers);
+        let is_full = held.is_some_and(|full| full.contains(&format!("{}/{stem}", target.name)));
+        match target.finish {
+            Finish::Spirv => HeaderForm::Short,
+            _ if is_full => HeaderForm::Full,
+            _ => self.request.header,
+        }
+    }
+
     /// The command that makes a file again.
     fn command(
         &self,
         target: &Target,
         methods: Option<&[&str]>,
         subject: Option<&Subject>,
+        form: HeaderForm,
     ) -> String {
         let request = self.request;
         let prefix = Some(&request.prefix).filter(|prefix| **prefix != Naming::default().prefix);
@@ -321,6 +310,7 @@ impl<'r> Run<'r> {
                 "matching-angle",
                 request.matching_angle.filter(|_| subject.is_some()),
             )
+            .list("header", form.flag())
             .into()
     }
 
@@ -378,6 +368,6 @@ fn artifact(target: &Target, file: File, method: Option<&str>, material: Option<
         target: target.name.to_owned(),
         method: method.map(str::to_owned),
         material: material.map(str::to_owned),
-        detail: file.detail,
+        detail: json!(file.detail),
     }
 }

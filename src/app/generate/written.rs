@@ -53,7 +53,7 @@ pub fn named_or(run: &Run, material: &str, usual: &[&'static str]) -> Vec<&'stat
 pub fn methods_of(run: &Run, target: &Target, subject: &Subject, kept: &Kept) -> Vec<&'static str> {
     let usual = usual(run.request, subject);
     let file = (target.name.to_owned(), subject.name.clone());
-    let exactly = run.exactly.and_then(|exactly| exactly.get(&file));
+    let exactly = run.held.and_then(|held| held.methods.get(&file));
     let mut chosen = match exactly {
         Some(_) => Vec::new(),
         None => named_or(run, &subject.name, &usual),

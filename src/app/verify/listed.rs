@@ -76,21 +76,28 @@ impl<'a> Listed<'a> {
                 Some(right) => found.extend(self.claims(name, function, right)),
             }
         }
-        if let Some(seen) = self
+        found.extend(
+            ["seen", "data"]
+                .into_iter()
+                .filter_map(|claim| self.of_material(claim, &today)),
+        );
+        found
+    }
+
+    /// What it says of the material's viewing conditions or source and is not so.
+    fn of_material(&self, claim: &str, today: &Value) -> Option<String> {
+        let said = self
             .entry
             .detail
-            .get("seen")
-            .filter(|seen| **seen != today["seen"])
-        {
-            found.push(format!(
-                "{}:{}: of {} it says `seen` is {seen}, and right is {}",
-                manifest::FILE,
-                self.line(&["\"seen\":"]),
-                self.entry.file,
-                today["seen"]
-            ));
-        }
-        found
+            .get(claim)
+            .filter(|said| **said != today[claim])?;
+        Some(format!(
+            "{}:{}: of {} it says `{claim}` is {said}, and right is {}",
+            manifest::FILE,
+            self.line(&[&format!("\"{claim}\":")]),
+            self.entry.file,
+            today[claim]
+        ))
     }
 
     /// Of the functions that the file holds those that it does not list.

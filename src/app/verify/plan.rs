@@ -1,12 +1,13 @@
 //! The plan of a verification from a request, and from what an output folder and its manifest hold.
 
+use std::collections::BTreeSet;
 use std::path::Path;
 
 use crate::app::command::kept;
 use crate::app::error::Error;
-use crate::app::generate::{Kept, Made, Meant, generate_meant};
+use crate::app::generate::{Held, Kept, Made, Meant, generate_meant};
 use crate::app::request::{Materials, Request};
-use crate::emit::Emitted;
+use crate::emit::{Emitted, HeaderForm};
 use crate::methods;
 use crate::reference::Subject;
 use crate::targets;
@@ -21,9 +22,12 @@ use super::shipped::{Folder, replace_with_today};
 pub fn plan_of_request(request: &Request, folder: &Path) -> Result<Plan, Error> {
     // What earlier runs put into a material's file belongs to it: it would be written again.
     let kept = kept(folder, request.precision)?;
-    let meant = generate_meant(request, &kept, &Kept::new())?;
+    let meant = generate_meant(request, &kept, &Held::default())?;
     let shipped = Folder::new(folder)?;
-    let held = held(request, &meant, &shipped, &kept)?;
+    let held = Held {
+        methods: held_methods(request, &meant, &shipped, &kept)?,
+        full_headers: full_headers(&meant, &shipped)?,
+    };
     let exact = match is_as_meant(&meant, &held) {
         true => meant.files.clone(),
         false => generate_meant(request, &kept, &held)?.files,
@@ -61,7 +65,12 @@ pub fn plan_of_request(request: &Request, folder: &Path) -> Result<Plan, Error> 
 
 /// The methods that material files in the folder hold, by the manifest and by the names of the functions in them: what such a
 /// file is held against has these and no others.
-fn held(request: &Request, meant: &Meant, shipped: &Folder, kept: &Kept) -> Result<Kept, Error> {
+fn held_methods(
+    request: &Request,
+    meant: &Meant,
+    shipped: &Folder,
+    kept: &Kept,
+) -> Result<Kept, Error> {
     let naming = request.naming();
     let mut held = Kept::new();
     for made in &meant.files {
@@ -82,6 +91,21 @@ fn held(request: &Request, meant: &Meant, shipped: &Folder, kept: &Kept) -> Resu
     Ok(held)
 }
 
+/// The files of the folder whose comments have the full form: what such a file is held against has it too.
+fn full_headers(meant: &Meant, shipped: &Folder) -> Result<BTreeSet<String>, Error> {
+    let mut full = BTreeSet::new();
+    for made in &meant.files {
+        let path = &made.artifact.path;
+        if shipped.header_form(path)? == HeaderForm::Full {
+            let stem = path
+                .rsplit_once('.')
+                .map_or(path.as_str(), |(stem, _)| stem);
+            full.insert(stem.to_owned());
+        }
+    }
+    Ok(full)
+}
+
 /// The target and the material that a material's file is kept under, and the material.
 fn material_file<'a>(meant: &'a Meant, made: &Made) -> Option<((String, String), &'a Subject)> {
     let subject = &meant.subjects[made.subject?];
@@ -89,14 +113,16 @@ fn material_file<'a>(meant: &'a Meant, made: &Made) -> Option<((String, String),
     Some((file, subject))
 }
 
-/// Whether files that hold something hold the very methods that would be written: nothing need be generated again then.
-fn is_as_meant(meant: &Meant, held: &Kept) -> bool {
-    meant.files.iter().all(|made| {
-        let file = material_file(meant, made);
-        let held = file.and_then(|(file, _)| held.get(&file));
-        let methods = || made.functions.iter().map(|one| one.method.name.to_owned());
-        held.is_none_or(|held| *held == methods().collect())
-    })
+/// Whether files that hold something hold the very methods that would be written, in the usual form: nothing need be generated
+/// again then.
+fn is_as_meant(meant: &Meant, held: &Held) -> bool {
+    held.full_headers.is_empty()
+        && meant.files.iter().all(|made| {
+            let file = material_file(meant, made);
+            let held = file.and_then(|(file, _)| held.methods.get(&file));
+            let methods = || made.functions.iter().map(|one| one.method.name.to_owned());
+            held.is_none_or(|held| *held == methods().collect())
+        })
 }
 
 /// The page of a file, and what is run of it: `exact` is what the file should be, `meant` has what was asked for too.

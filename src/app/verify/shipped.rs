@@ -6,6 +6,7 @@ use crate::app::error::Error;
 use crate::app::folder;
 use crate::app::generate::Made;
 use crate::app::manifest::{self, Manifest};
+use crate::emit::HeaderForm;
 use crate::targets;
 use crate::verify::drift;
 use crate::verify::module;
@@ -73,6 +74,13 @@ impl Folder<'_> {
         }
         let found = outline(&String::from_utf8_lossy(&bytes), nests(path));
         Ok(found.functions())
+    }
+
+    /// The form of the comments of a file of the folder. Modules have no comments, and what is not there has the usual form.
+    pub fn header_form(&self, path: &str) -> Result<HeaderForm, Error> {
+        let bytes = folder::read(&self.path.join(path))?.filter(|_| !path.ends_with(".spv"));
+        let text = bytes.unwrap_or_default();
+        Ok(HeaderForm::in_text(&String::from_utf8_lossy(&text)))
     }
 
     /// The page of a file; `asked` says which of its functions are to be run.

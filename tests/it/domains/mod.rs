@@ -256,7 +256,8 @@ fn headers_state_both_ends_of_every_argument_in_either_precision() {
             };
             let functions = emit::library_functions(method, &naming).unwrap();
             let target = targets::find("hlsl").unwrap();
-            let pages = emit::library(target, method, &functions, "").unwrap();
+            let pages =
+                emit::library(target, method, &functions, emit::Heading::default()).unwrap();
             let text = String::from_utf8(pages[0].bytes.clone())
                 .unwrap()
                 .replace("\n//      ", "");

@@ -17,7 +17,13 @@ fn check(name: &str, media: &[Medium]) {
     let method = methods::find(name).unwrap();
     let functions = emit::library_functions(method, &Naming::default()).unwrap();
     let emitted = &functions[0];
-    let files = emit::library(targets::find("wgsl").unwrap(), method, &functions, "").unwrap();
+    let files = emit::library(
+        targets::find("wgsl").unwrap(),
+        method,
+        &functions,
+        emit::Heading::default(),
+    )
+    .unwrap();
     let shown = Shown {
         target: targets::find("wgsl").unwrap(),
         bytes: &files[0].bytes,

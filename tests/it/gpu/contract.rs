@@ -288,7 +288,7 @@ fn files(target: &'static targets::Target) -> Vec<(Emitted, Vec<u8>)> {
             let one = std::slice::from_ref(&emitted);
             // A module returns a colour: it has no scalar form.
             if target.finish != Finish::Spirv || emitted.form != "scalar" {
-                let pages = emit::library(target, method, one, "").unwrap();
+                let pages = emit::library(target, method, one, emit::Heading::default()).unwrap();
                 files.push((emitted, pages.into_iter().next_back().unwrap().bytes));
             }
         }
@@ -300,7 +300,8 @@ fn files(target: &'static targets::Target) -> Vec<(Emitted, Vec<u8>)> {
             let emitted =
                 emit::specialised_function(method, &subject, &naming, &Bounds::default()).unwrap();
             let one = std::slice::from_ref(&emitted);
-            let pages = emit::material(target, &subject, one, &naming, "").unwrap();
+            let pages =
+                emit::material(target, &subject, one, &naming, emit::Heading::default()).unwrap();
             files.push((emitted, pages.into_iter().next_back().unwrap().bytes));
         }
     }

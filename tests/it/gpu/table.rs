@@ -44,7 +44,7 @@ fn function() -> Emitted {
 fn text(target: &str) -> String {
     let target = targets::find(target).unwrap();
     let method = methods::find("table").unwrap();
-    let mut files = emit::library(target, method, &[function()], "").unwrap();
+    let mut files = emit::library(target, method, &[function()], emit::Heading::default()).unwrap();
     String::from_utf8(files.remove(0).bytes).unwrap()
 }
 

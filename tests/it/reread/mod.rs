@@ -131,7 +131,9 @@ fn every_library_function_reads_as_it_was_meant() {
     for method in methods::ALL {
         let functions = library(method, &emit::Naming::default());
         for target in text_targets() {
-            for file in emit::library(target, method, &functions, "").expect("it prints") {
+            for file in emit::library(target, method, &functions, emit::Heading::default())
+                .expect("it prints")
+            {
                 let text = String::from_utf8(file.bytes).expect("text");
                 for emitted in &functions {
                     for inputs in rows_of(&emitted.function) {
@@ -152,7 +154,9 @@ fn every_library_function_in_half_precision_reads_as_it_was_meant() {
     for method in methods::ALL.iter().filter(|method| !method.is_textured()) {
         let functions = library(method, &naming);
         for target in text_targets() {
-            for file in emit::library(target, method, &functions, "").expect("it prints") {
+            for file in emit::library(target, method, &functions, emit::Heading::default())
+                .expect("it prints")
+            {
                 let text = String::from_utf8(file.bytes).expect("text");
                 for emitted in &functions {
                     for inputs in rows_of(&emitted.function) {
@@ -181,8 +185,14 @@ fn specialised_functions_in_half_precision_read_as_they_were_meant() {
             let emitted = emit::specialised_function(method, &subject, &request.naming(), &bounds)
                 .expect("it specialises");
             for target in text_targets() {
-                let text = emit::single(target, &emitted, Some(&subject), "", emit::Place::First)
-                    .expect("it prints");
+                let text = emit::single(
+                    target,
+                    &emitted,
+                    Some(&subject),
+                    emit::Heading::default(),
+                    emit::Place::First,
+                )
+                .expect("it prints");
                 let text = String::from_utf8(text).expect("text");
                 check_half(&text, &emitted.name, &emitted.function, &[]);
             }
@@ -254,7 +264,7 @@ fn a_wrong_number_in_the_text_is_seen() {
     let method = methods::find("schlick").expect("it is there");
     let functions = emit::library_functions(method, &emit::Naming::default()).expect("well formed");
     let target = targets::find("gles").expect("it is there");
-    let file = emit::library(target, method, &functions, "")
+    let file = emit::library(target, method, &functions, emit::Heading::default())
         .expect("it prints")
         .remove(0);
     let text = String::from_utf8(file.bytes)

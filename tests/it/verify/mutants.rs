@@ -239,7 +239,13 @@ fn is_caught(
     emitted: &Emitted,
 ) -> Result<bool, Fault> {
     let target = targets::find(target).unwrap();
-    let files = emit::library(target, emitted.method, std::slice::from_ref(emitted), "").unwrap();
+    let files = emit::library(
+        target,
+        emitted.method,
+        std::slice::from_ref(emitted),
+        emit::Heading::default(),
+    )
+    .unwrap();
     let shown = Shown {
         target,
         bytes: &files.last().unwrap().bytes,

@@ -1,0 +1,75 @@
+//! One file of functions to be pasted: what `-o` puts out.
+
+use std::collections::BTreeMap;
+
+use crate::app::error::Error;
+use crate::app::request::{Materials, Request};
+use crate::emit::{self, Heading, Place};
+
+use super::owners::Owners;
+use super::{Run, written};
+
+/// One function as text for pasting, or, without a material, the functions of a library file: for `-o`.
+///
+/// # Errors
+/// As [`generate()`](super::generate); also where the request has several targets.
+pub fn generate_single(request: &Request) -> Result<Vec<u8>, Error> {
+    let mut request = request.clone();
+    if request.targets.is_empty() {
+        request.targets = vec!["wgsl".to_owned()];
+    }
+    if request.materials == Materials::Default {
+        request.materials = Materials::None;
+    }
+    let run = Run::new(&request)?;
+    let [target] = run.targets.as_slice() else {
+        return Err(Error::Usage {
+            what: "-o takes one --target".to_owned(),
+        });
+    };
+    let (mut pages, mut owners) = (Vec::new(), Owners::default());
+    for (subject, _) in &run.subjects {
+        let methods = written::named_or(&run, &subject.name, &[subject.exact_method()]);
+        for emitted in run.specialised(&methods, subject, &mut BTreeMap::new())? {
+            owners.claim(&emitted.name, &format!("material {}", subject.name))?;
+            let (place, of) = (Place::behind(&pages), Some(subject));
+            let form = run.form(target, "");
+            let command = run.command(target, Some(&[emitted.method.name]), of, form) + " -o -";
+            let heading = Heading {
+                form,
+                command: &command,
+            };
+            pages.push(emit::single(target, &emitted, of, heading, place)?);
+        }
+    }
+    if run.subjects.is_empty() {
+        for method in written::library_methods(run.request, run.named.as_deref()) {
+            // Of a module one function can be put out, the method's own.
+            let functions = match target.pages.len() {
+                1 => run.library_functions(method)?,
+                _ => emit::library_functions(method, &run.naming)?,
+            };
+            for emitted in emit::written_for(target, functions) {
+                let form = run.form(target, "");
+                let command = run.command(target, Some(&[method.name]), None, form) + " -o -";
+                let (place, heading) = (
+                    Place::behind(&pages),
+                    Heading {
+                        form,
+                        command: &command,
+                    },
+                );
+                pages.push(emit::single(target, &emitted, None, heading, place)?);
+            }
+        }
+    }
+    if target.pages.len() > 1 && pages.len() > 1 {
+        return Err(Error::Usage {
+            what: format!(
+                "-o takes one function for {}: name one --method",
+                target.name
+            ),
+        });
+    }
+    Ok(pages.join(&b"\n"[..]))
+}

@@ -1,0 +1,327 @@
+//! What the manifest says of a file: its command, its functions, and of a material how it is seen.
+
+use std::collections::BTreeMap;
+
+use serde::Serialize;
+
+use crate::fit::{Measured, ModelError};
+use crate::ir::{Param, Ty};
+use crate::materials::Material;
+use crate::methods::{Contract, Input};
+use crate::reference::{By, Subject};
+use crate::targets::{Finish, Target};
+
+use super::average::{self, Average};
+use super::bounds::CodeBound;
+use super::figures::promises_in;
+use super::file::{is_number, uniform_offsets};
+use super::function::Emitted;
+use super::header::{OUTPUT_LICENCE, source, table_line};
+use super::missed::MissedDetail;
+use super::page::entry_point;
+use super::print;
+
+/// What the manifest says of a file.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[serde(untagged)]
+pub enum Detail {
+    /// Of a file of functions.
+    Functions(Box<FunctionsDetail>),
+    /// Of a catalogue's array.
+    Catalogue(CatalogueDetail),
+}
+
+/// What the manifest says of a file of functions.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct FunctionsDetail {
+    command: String,
+    functions: Vec<FunctionDetail>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    precision: Option<&'static str>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    seen: Option<SeenDetail>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    data: Option<DataDetail>,
+}
+
+/// What the manifest says of the array of a catalogue.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct CatalogueDetail {
+    /// The command that writes it.
+    pub command: String,
+    /// The array's name.
+    pub array: String,
+    /// How many materials it has.
+    pub materials: usize,
+    /// How many rows.
+    pub rows: usize,
+    /// How the materials are seen, in words.
+    pub seen: String,
+    /// The licence of the file.
+    pub licence: &'static str,
+}
+
+/// How a material is seen: its modules have no head to say it in.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+struct SeenDetail {
+    truth: String,
+    extrapolated: Option<String>,
+    n: [f64; 3],
+    k: [f64; 3],
+    nk_by: [&'static str; 3],
+}
+
+/// Where a material's indices come from.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+struct DataDetail {
+    reference: String,
+    link: String,
+    licence: String,
+    conditions: String,
+}
+
+/// What the manifest says of a function.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+struct FunctionDetail {
+    name: String,
+    method: &'static str,
+    form: &'static str,
+    signature: String,
+    parameters: Parameters,
+    operations: usize,
+    fetches: usize,
+    code_error: CodeErrorDetail,
+    licence: &'static str,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    model_error: Option<ModelErrorDetail>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    misses_its_class: Option<MissedDetail>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    average: Option<[f64; 3]>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    average_unlimited: Option<[f64; 3]>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    entry_point: Option<String>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    uniforms: Option<Vec<UniformDetail>>,
+    #[serde(flatten)]
+    notes: Notes,
+}
+
+/// What full headers say of a function besides, and short ones do not.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+struct Notes {
+    formula: &'static [&'static str],
+    source: String,
+    domain: &'static str,
+    /// Where it fails, of a method that is exempt from the contract of the others.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    fails: Option<&'static str>,
+    /// What a library function promises, a sentence each.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    promises: Vec<String>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    mean: Option<String>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    table: Option<String>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    written_as: Option<&'static str>,
+    /// Of a plain form: the operations of the stable one.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    stable_operations: Option<usize>,
+}
+
+/// A library function's run-time arguments; or a specialised one's constants per channel, null where a channel has none (gold's
+/// green has no lambda).
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[serde(untagged)]
+enum Parameters {
+    Arguments(Vec<ArgumentDetail>),
+    Constants(BTreeMap<String, [Option<f64>; 3]>),
+}
+
+#[derive(Clone, Debug, PartialEq, Serialize)]
+struct ArgumentDetail {
+    name: &'static str,
+    meaning: &'static str,
+    domain: String,
+}
+
+/// A code error, or null with the reason why there is none.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[serde(untagged)]
+enum CodeErrorDetail {
+    Ulp { max_ulp: f64 },
+    Absolute { max_abs: f64 },
+    NoUlp { max_ulp: (), reason: String },
+    NoAbsolute { max_abs: (), reason: String },
+}
+
+#[derive(Clone, Debug, PartialEq, Serialize)]
+struct ModelErrorDetail {
+    #[serde(flatten)]
+    error: ModelError,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    reason: Option<&'static str>,
+}
+
+/// A run-time argument in the uniform block of a module, with its offset in bytes.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+struct UniformDetail {
+    name: String,
+    #[serde(rename = "type")]
+    ty: &'static str,
+    offset: usize,
+}
+
+/// What the manifest says of a file of these functions.
+pub(super) fn functions_detail(
+    target: &Target,
+    functions: &[&Emitted],
+    command: &str,
+) -> FunctionsDetail {
+    let precision = functions[0].precision;
+    FunctionsDetail {
+        command: command.to_owned(),
+        functions: functions
+            .iter()
+            .enumerate()
+            .map(|(i, emitted)| function_detail(target, i, emitted))
+            .collect(),
+        precision: precision.is_half().then(|| precision.name()),
+        seen: None,
+        data: None,
+    }
+}
+
+impl FunctionsDetail {
+    /// The same of a material's file.
+    pub(super) fn of_material(self, subject: &Subject) -> FunctionsDetail {
+        FunctionsDetail {
+            seen: Some(seen_detail(subject)),
+            data: Some(data_detail(&subject.material)),
+            ..self
+        }
+    }
+}
+
+fn seen_detail(subject: &Subject) -> SeenDetail {
+    let surface = &subject.truth.surface;
+    let effective = &subject.effective;
+    SeenDetail {
+        truth: surface.seen.clone(),
+        extrapolated: surface.held(),
+        n: effective.channels.n,
+        k: effective.channels.k,
+        nk_by: effective.by.map(By::text),
+    }
+}
+
+fn data_detail(material: &Material) -> DataDetail {
+    DataDetail {
+        reference: material.reference.clone(),
+        link: material.link.clone(),
+        licence: material.licence.clone(),
+        conditions: material.conditions.clone(),
+    }
+}
+
+fn function_detail(target: &Target, index: usize, emitted: &Emitted) -> FunctionDetail {
+    let average = Average::of(emitted);
+    let is_module = target.finish == Finish::Spirv;
+    FunctionDetail {
+        name: emitted.name.clone(),
+        method: emitted.method.name,
+        form: emitted.form,
+        signature: print::head(
+            &emitted.function,
+            &emitted.name,
+            target.spelling_in(emitted.precision),
+        ),
+        parameters: parameters(emitted),
+        operations: emitted.function.work(),
+        fetches: emitted.function.fetches(),
+        code_error: code_error(emitted),
+        licence: OUTPUT_LICENCE,
+        model_error: emitted.model_error.map(model_error),
+        misses_its_class: emitted.missed.as_ref().map(|missed| missed.detail()),
+        average: average.map(|average| average.given),
+        average_unlimited: average.map(|average| average.unlimited),
+        entry_point: is_module.then(|| entry_point(index, emitted)),
+        uniforms: is_module.then(|| uniforms(emitted)),
+        notes: notes(emitted),
+    }
+}
+
+fn notes(emitted: &Emitted) -> Notes {
+    let method = emitted.method;
+    let is_specialised = emitted.form == "specialised";
+    Notes {
+        formula: method.formula,
+        source: source(method),
+        domain: method.domain,
+        fails: match method.contract {
+            Contract::Kept => None,
+            Contract::Exempt(why) => Some(why),
+        },
+        promises: match is_specialised {
+            true => Vec::new(),
+            false => promises_in(emitted.precision, method),
+        },
+        mean: average::mean_line(emitted),
+        table: table_line(emitted),
+        written_as: emitted.written_as.map(|method| method.name),
+        stable_operations: emitted.plain_for,
+    }
+}
+
+fn code_error(emitted: &Emitted) -> CodeErrorDetail {
+    match &emitted.code {
+        Measured::Yes(CodeBound::Ulp(ulp)) => CodeErrorDetail::Ulp { max_ulp: *ulp },
+        Measured::Yes(CodeBound::Absolute(most)) => CodeErrorDetail::Absolute { max_abs: *most },
+        Measured::No(reason) if emitted.precision.is_half() => CodeErrorDetail::NoAbsolute {
+            max_abs: (),
+            reason: reason.clone(),
+        },
+        Measured::No(reason) => CodeErrorDetail::NoUlp {
+            max_ulp: (),
+            reason: reason.clone(),
+        },
+    }
+}
+
+fn model_error(error: ModelError) -> ModelErrorDetail {
+    let undefined = "a channel reflects nothing, so that no relative error is defined";
+    ModelErrorDetail {
+        reason: error.mean_rel.is_none().then_some(undefined),
+        error,
+    }
+}
+
+fn parameters(emitted: &Emitted) -> Parameters {
+    if emitted.constants.is_empty() {
+        let argument = |input: &Input| ArgumentDetail {
+            name: input.name,
+            meaning: input.meaning,
+            domain: emitted.method.range(input, emitted.precision).words(),
+        };
+        return Parameters::Arguments(emitted.method.inputs.iter().map(argument).collect());
+    }
+    let cell = |name: &str, value: f64| (name != "lambda" || value > 0.0).then_some(value);
+    let row = |(name, values): (&String, &[f64; 3])| {
+        (name.clone(), values.map(|value| cell(name, value)))
+    };
+    Parameters::Constants(emitted.constants.iter().map(row).collect())
+}
+
+/// The uniform block of a module: name, type and offset in bytes of each run-time argument.
+fn uniforms(emitted: &Emitted) -> Vec<UniformDetail> {
+    let params = &emitted.function.params;
+    let numbers = params.iter().filter(|param| is_number(param));
+    let row = |(param, offset): (&Param, usize)| UniformDetail {
+        name: param.name.clone(),
+        ty: if param.ty == Ty::Rgb { "vec3" } else { "float" },
+        offset,
+    };
+    numbers.zip(uniform_offsets(params)).map(row).collect()
+}
