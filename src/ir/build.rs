@@ -155,6 +155,12 @@ impl<'b> Expr<'b> {
         self
     }
 
+    /// The same, whatever name it has.
+    pub(super) fn renamed(self, label: Label) -> Expr<'b> {
+        self.builder.state.borrow_mut().nodes[self.id].label = Some(label);
+        self
+    }
+
     /// |x|
     pub fn abs(self) -> Expr<'b> {
         self.unary(Op::Abs)

@@ -1,4 +1,4 @@
-//! `F = (c² g² + s⁴) k²`, with `s² = 1 - c²`, `τ = η² - 1`, `g = √(τ + c²)`, `k = τ / (c (η² (g + c) + g) + g²)`:
+//! `F = (c² g² + s⁴) q²`, with `s² = 1 - c²`, `τ = η² - 1`, `g = √(τ + c²)`, `q = τ / (c (η² (g + c) + g) + g²)`:
 //! the exact law for dielectrics by one quotient and one root, stable near η = 1.
 //!
 //! Source: Fresnel 1823 in the g-form of Cook and Torrance, "A Reflectance Model for Computer Graphics", 1982,
@@ -39,7 +39,7 @@ pub static METHOD: Method = Method {
     summary: "the exact law for dielectrics, stable near eta = 1, total reflection included",
     formula: &[
         "s2 = 1 - c^2, t = eta^2 - 1, g = sqrt(max(t + c^2, 1e-18))",
-        "F = min((c^2 g^2 + s2^2) k^2, 1), k = t / (c (eta^2 (g + c) + g) + g^2)",
+        "F = min((c^2 g^2 + s2^2) q^2, 1), q = t / (c (eta^2 (g + c) + g) + g^2)",
     ],
     source: COOK_TORRANCE_1982,
     inputs: &[Input::ETA],
@@ -85,12 +85,12 @@ fn build<'b>(x: &Inputs<'b>) -> Expr<'b> {
         "square of eta cos theta_t; next to 0 past the critical angle",
     );
     let g = g2.sqrt().named("g", "");
-    let k = tau / (c * ((tau + 1.0) * (g + c) + g) + g2);
-    let k = k.named("k", "");
-    ((c2 * g2 + s4) * k.squared()).at_most(1.0)
+    let q = tau / (c * ((tau + 1.0) * (g + c) + g) + g2);
+    let q = q.named("q", "");
+    ((c2 * g2 + s4) * q.squared()).at_most(1.0)
 }
 
-/// Where eta is well above 1 nothing cancels: `k = (g - c) / (g + η² c)`.
+/// Where eta is well above 1 nothing cancels: `q = (g - c) / (g + η² c)`.
 fn plain<'b>(x: &Inputs<'b>) -> Expr<'b> {
     let (c, eta) = (x.cosine(), x.get(Input::ETA));
     let (c2, s4) = squares(c);
@@ -99,8 +99,8 @@ fn plain<'b>(x: &Inputs<'b>) -> Expr<'b> {
     let g = g2
         .sqrt()
         .named("g", "eta times the cosine of the refracted ray");
-    let k = ((g - c) / (g + eta.squared() * c)).named("k", "");
-    (c2 * g2 + s4) * k.squared()
+    let q = ((g - c) / (g + eta.squared() * c)).named("q", "");
+    (c2 * g2 + s4) * q.squared()
 }
 
 /// `cos² θ` and `sin⁴ θ`.
@@ -165,14 +165,14 @@ impl<'b> Steps<'b> {
     /// The same; r_s and r_p lie in [-1, 1] by their form, and are ±1 and not 0 at 90 degrees where η = 1.
     fn reflected_in_half(&self, reflectance: Expr<'b>) -> Expr<'b> {
         let number = |value: f64| self.g2.builder().number(value);
-        let f = reflectance.named("f", "");
-        let total = self.g2.choose_below(number(0.0), number(1.0), f);
-        let total = total.named("total", "1 past the critical angle");
+        let refracted = reflectance.named("f_refracted", "");
+        let f = self.g2.choose_below(number(0.0), number(1.0), refracted);
+        let f = f.named("f", "");
         let apart = self
             .tau
             .abs()
             .named("apart", "0 where there is no interface");
-        apart.choose_below(number(Precision::F16.smallest()), number(0.0), total)
+        apart.choose_below(number(Precision::F16.smallest()), number(0.0), f)
     }
 }
 

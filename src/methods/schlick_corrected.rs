@@ -96,10 +96,10 @@ fn build<'b>(x: &Inputs<'b>) -> Expr<'b> {
         .rgb()
         .power(lambda, x.precision())
         .named("fall", "(1 - c)^lambda");
-    let dip = (2.0 * n * (c * fall)).named("dip", "what the minimum takes away");
+    let dip = (2.0 * n * (c * fall)).named("dip", "where lambda is above 0");
     let dip = zero
         .choose_below(lambda, dip, zero)
-        .named("correction", "none where lambda <= 0");
+        .named("correction", "what the minimum takes away");
     (base - dip).saturate()
 }
 

@@ -1,6 +1,7 @@
 //! Is `shaders-generated/` what the program writes today? The set of files, orphans included.
 
 use fresnel_gen::app::{Artifact, Request, generate};
+use fresnel_gen::emit::HeaderForm;
 use fresnel_gen::methods;
 use fresnel_gen::num::Precision;
 
@@ -71,7 +72,8 @@ mod tree_of_a_run {
 
 #[test]
 fn generated_text_is_plain() {
-    for artifact in in_both_precisions() {
+    let forms = [HeaderForm::Short, HeaderForm::Full];
+    for artifact in forms.into_iter().flat_map(in_both_precisions) {
         if artifact.path.ends_with(".spv") {
             continue;
         }
@@ -106,18 +108,90 @@ fn generated_text_is_plain() {
     }
 }
 
-/// What each head must say, as the beginning of a comment line.
+/// Whether a line of a text's comments begins so.
+fn says(text: &str, what: &str) -> bool {
+    text.lines()
+        .any(|line| line.trim_start_matches("//").trim_start().starts_with(what))
+}
+
+/// What each short head must say; what it leaves out stands in the manifest.
+#[test]
+fn short_heads_say_what_is_needed_and_the_manifest_says_the_rest() {
+    for artifact in in_both_precisions(HeaderForm::Short) {
+        let (path, text) = (&artifact.path, String::from_utf8_lossy(&artifact.bytes));
+        let argument = match artifact.method {
+            Some(_) => "Arguments: cos_theta",
+            None => "Argument: cos_theta",
+        };
+        for what in [
+            "Regenerate: fresnel-gen --target ",
+            "Licence of this file: ",
+            "Source: ",
+            "Model error",
+            "Cost: ",
+            argument,
+        ] {
+            let is_module = path.ends_with(".spv");
+            assert!(
+                is_module || says(&text, what),
+                "{path}: no line begins with `{what}`"
+            );
+        }
+        assert!(
+            !text.contains("--header full\n"),
+            "{path}: the usual form is in no command"
+        );
+        for function in artifact.detail["functions"]
+            .as_array()
+            .expect("a file has functions")
+        {
+            let method =
+                methods::find(function["method"].as_str().expect("it has one")).expect("a method");
+            assert_eq!(function["domain"], method.domain, "{path}");
+            assert_eq!(
+                function["formula"],
+                serde_json::json!(method.formula),
+                "{path}"
+            );
+            let source = function["source"].as_str().expect("a source");
+            assert!(source.contains(method.source.title), "{path}: {source}");
+            assert!(function["code_error"].is_object(), "{path}");
+            let fails = matches!(method.contract, methods::Contract::Exempt(_));
+            assert_eq!(function["fails"].is_string(), fails, "{path}");
+            assert_eq!(
+                function["promises"].is_array(),
+                function["form"] != "specialised",
+                "{path}"
+            );
+        }
+        let data = artifact.detail["data"]["reference"].is_string();
+        assert_eq!(data, artifact.material.is_some(), "{path}");
+    }
+}
+
+/// Above a function of a material stand at most six lines, links and what is broken over two lines included.
+#[test]
+fn short_heads_are_short() {
+    for artifact in in_both_precisions(HeaderForm::Short) {
+        let text = String::from_utf8_lossy(&artifact.bytes);
+        if artifact.material.is_none() || artifact.path.ends_with(".spv") {
+            continue;
+        }
+        for block in text.split("\n\n").skip(1) {
+            let above = block.lines().take_while(|line| line.starts_with("//"));
+            assert!(above.count() <= 6, "{}: {block}", artifact.path);
+        }
+    }
+}
+
+/// What each full head must say, as the beginning of a comment line.
 #[test]
 fn heads_say_all_that_they_must() {
-    for artifact in in_both_precisions()
+    for artifact in in_both_precisions(HeaderForm::Full)
         .iter()
         .filter(|artifact| !artifact.path.ends_with(".spv"))
     {
         let text = String::from_utf8_lossy(&artifact.bytes);
-        let says = |what: &str| {
-            text.lines()
-                .any(|line| line.trim_start_matches("//").trim_start().starts_with(what))
-        };
         let mut wanted = vec![
             "Regenerate: fresnel-gen --target ",
             "Source: ",
@@ -133,7 +207,7 @@ fn heads_say_all_that_they_must() {
         });
         for what in wanted {
             assert!(
-                says(what),
+                says(&text, what),
                 "{}: no line begins with `{what}`",
                 artifact.path
             );
@@ -155,12 +229,13 @@ fn heads_say_all_that_they_must() {
     }
 }
 
-/// The tree of all targets.
-fn in_both_precisions() -> Vec<Artifact> {
+/// The tree of all targets, its comments in this form.
+fn in_both_precisions(header: HeaderForm) -> Vec<Artifact> {
     let one = |precision| {
         let request = Request {
             targets: all(),
             precision,
+            header,
             ..Request::default()
         };
         generate(&request).expect("it generates").artifacts

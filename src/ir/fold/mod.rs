@@ -144,7 +144,7 @@ fn rebuild<'b>(
             _ => rewrite(id, node, &args).unwrap_or_else(|| copy(builder, node, &args)),
         };
         if let Some(label) = &node.label {
-            name(builder, expr, label);
+            name(builder, expr, label, node.op);
         }
         exprs.push(expr);
     }
@@ -152,15 +152,23 @@ fn rebuild<'b>(
 }
 
 /// Gives a step its name. Where the channels have become equal the name goes to the scalar that is left of them; a
-/// constant that is one number needs none.
-fn name(builder: &Builder, expr: Expr, label: &Label) {
+/// constant that is one number needs none. What is left of a choice bears the choice's name: its own speaks of branches that
+/// are gone.
+fn name(builder: &Builder, expr: Expr, label: &Label, op: Op) {
     let node = builder.node(expr.id());
     let scalar = if node.op == Op::Splat {
         builder.expr(node.args[0])
     } else {
         expr
     };
-    if !builder.node(scalar.id()).is_leaf() {
+    let left = builder.node(scalar.id());
+    if left.is_leaf() {
+        return;
+    }
+    // A choice stands for all channels, or is made for each of them.
+    if matches!(op, Op::Select | Op::Compose) && left.op != op {
+        scalar.renamed(label.clone());
+    } else {
         scalar.named(&label.name, &label.why);
     }
 }

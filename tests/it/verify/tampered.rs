@@ -182,40 +182,82 @@ fn all_of(text: &str, edits: &[(&str, &str, &str)]) -> String {
     })
 }
 
+/// Each of these edits of gold's file is seen, which was made with these flags; `verify` is not told the form of its headers.
+#[track_caller]
+fn all_are_seen(flags: &str, file: &str, edits: &[(&str, &str, &str)]) {
+    let place = Place::new();
+    place.done(flags);
+    let path = place.path(&format!("{OUT}/{file}"));
+    let text = fs::read_to_string(&path).unwrap();
+    fs::write(&path, all_of(&text, edits)).unwrap();
+    let untold = flags.replace(" --header full", "");
+    let ran = verify(&place, &format!("{untold} --points 500 --json -"));
+    let says: Vec<&str> = edits.iter().map(|(_, _, says)| *says).collect();
+    fails(ran, &[&says[..], &[&format!("{file}:")]].concat());
+}
+
+/// False numbers in what both forms of a header say.
+const IN_BOTH_FORMS: [(&str, &str, &str); 4] = [
+    (
+        "Model error: at most 0.00445",
+        "Model error: at most 0.00045",
+        "0.00045",
+    ),
+    (
+        "Model error: at most 0.00193",
+        "Model error: none, it is the exact law",
+        "exact law",
+    ),
+    ("Cost: 64 scalar", "Cost: 16 scalar", "Cost: 16"),
+    (
+        "Truth: reflectance integrated over 380",
+        "Truth: reflectance integrated over 360",
+        "360",
+    ),
+];
+
 #[test]
-fn false_numbers_in_a_header_are_seen() {
-    let edits = [
-        (
-            "Model error: at most 0.00445",
-            "Model error: at most 0.00045",
-            "0.00045",
-        ),
-        (
-            "Model error: at most 0.00193",
-            "Model error: none, it is the exact law",
-            "exact law",
-        ),
+fn false_numbers_in_a_short_header_are_seen() {
+    let short = [("Stiefel, 1959", "Stiefel, 1859", "1859")];
+    let edits = [&IN_BOTH_FORMS[..], &short].concat();
+    all_are_seen(
+        &format!("--target wgsl {GOLD}"),
+        "wgsl/materials/gold.wgsl",
+        &edits,
+    );
+}
+
+#[test]
+fn false_numbers_in_a_full_header_are_seen() {
+    let full = [
         (
             "Code error: at most 4.5 ulp",
             "Code error: at most 1.5 ulp",
             "1.5 ulp",
         ),
         ("by cosine: (0.999366,", "by cosine: (0.899366,", "0.899366"),
-        ("Cost: 64 scalar", "Cost: 16 scalar", "Cost: 16"),
-        (
-            "Truth: reflectance integrated over 380",
-            "Truth: reflectance integrated over 360",
-            "360",
-        ),
     ];
-    let edit = |text: &str| all_of(text, &edits);
-    let ran = edited(
-        &format!("--target wgsl {GOLD}"),
-        "wgsl/materials/gold.wgsl",
-        edit,
-    );
-    let says: Vec<&str> = edits.iter().map(|(_, _, says)| *says).collect();
-    fails(ran, &[&says[..], &["wgsl/materials/gold.wgsl:"]].concat());
+    let edits = [&IN_BOTH_FORMS[..], &full].concat();
+    let flags = format!("--target wgsl {GOLD} --header full");
+    all_are_seen(&flags, "wgsl/materials/gold.wgsl", &edits);
+}
+
+/// A folder with files of both forms is as it should be, and so is each file for the run that writes it.
+#[test]
+fn files_of_both_forms_stand_beside_each_other() {
+    let place = Place::new();
+    let lines = [
+        format!("--target wgsl {GOLD}"),
+        format!("--target gles {GOLD} --header full"),
+    ];
+    for line in &lines {
+        place.done(line);
+        place.done(&format!("{line} --check"));
+    }
+    let both = format!("--target wgsl,gles {GOLD} --points 500 --json -");
+    for file in ["wgsl/materials/gold.wgsl", "gles/materials/gold.glsl"] {
+        passes(verify(&place, &both), file, None);
+    }
 }
 
 #[test]
@@ -225,6 +267,13 @@ fn false_numbers_in_the_manifest_are_seen() {
         ("\"operations\": 64", "\"operations\": 16", "`operations`"),
         ("\"max_abs\": 0.004", "\"max_abs\": 0.001", "`model_error`"),
         ("0.9993", "0.8993", "`average`"),
+        ("b = 2^(-6.5 c)", "b = 2^(-5.5 c)", "`formula`"),
+        (
+            "coefficients by exchange",
+            "coefficients by luck",
+            "`source`",
+        ),
+        ("R. L. Olmon", "R. L. Nobody", "`data`"),
     ];
     let edit = |text: &str| all_of(text, &edits);
     let ran = edited(&format!("--target wgsl {GOLD}"), "manifest.json", edit);
@@ -340,9 +389,8 @@ fn a_swapped_fragment_module_is_seen() {
 /// Words that state something false: terms, labels, a bound that nobody gives, fewer bits.
 #[test]
 fn false_words_are_seen() {
-    let edits = [
+    let both = [
         ("Licence CC0-1.0", "Licence GPL-3.0", "GPL-3.0"),
-        ("red as its curve", "blue as its curve", "blue as its curve"),
         ("clamped to [0, 1]", "not clamped", "not clamped"),
         ("gold: Gold,", "gold: Silver,", "gold: Silver"),
         (
@@ -358,11 +406,19 @@ fn false_words_are_seen() {
         ),
         ("highp float c = ", "mediump float c = ", "`mediump`"),
     ];
-    let file = "gles/materials/gold.glsl";
-    let edit = |text: &str| all_of(text, &edits);
-    let ran = edited(&format!("--target gles {GOLD}"), file, edit);
-    let says: Vec<&str> = edits.iter().map(|(_, _, says)| *says).collect();
-    fails(ran, &[&says[..], &[file]].concat());
+    let short = [("Source: Glassner", "Source: Nobody", "Nobody")];
+    let full = [("red as its curve", "blue as its curve", "blue as its curve")];
+    let line = format!("--target gles {GOLD}");
+    for (flags, own) in [
+        (line.clone(), short),
+        (format!("{line} --header full"), full),
+    ] {
+        all_are_seen(
+            &flags,
+            "gles/materials/gold.glsl",
+            &[&both[..], &own].concat(),
+        );
+    }
 }
 
 /// A file is held against what it should hold: one with fewer functions than the usual, by --method or a budget, with its
