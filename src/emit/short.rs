@@ -2,7 +2,7 @@
 //! source. Warnings stay. The rest stands in the manifest, and in the full form.
 
 use crate::fit::Measured;
-use crate::methods::Method;
+use crate::methods::{Method, TEXELS};
 use crate::num::Precision;
 use crate::reference::Subject;
 use crate::targets::Target;
@@ -104,7 +104,12 @@ fn banner(command: &str) -> Vec<String> {
 
 /// Of a specialised function its largest error with its warnings, its cost and its source.
 fn known_of(emitted: &Emitted) -> Vec<String> {
-    let mut lines: Vec<String> = table_line(emitted).into_iter().collect();
+    let mut lines: Vec<String> = Vec::new();
+    if table_line(emitted).is_some() {
+        lines.push(format!(
+            "Table: as `fresnel-gen bake` writes it unless asked otherwise, {TEXELS} texels"
+        ));
+    }
     lines.extend(emitted.model_error.iter().map(model_line));
     lines.extend(missed_line(emitted));
     let is_warning = match &emitted.code {

@@ -91,12 +91,23 @@ pub static METHOD: Method = Method {
         code_ulp: 9.5,
         code_over: Over::Metals,
         colours: Colours::within(8e-6),
+        by_class: &[],
     },
     contract: Contract::Kept,
     half: InHalf::within_over(
         0.0035,
         Over::Metals,
         "for what is nearly matched, where weights are large, off by .008",
+    )
+    .materials_within(
+        0.0036,
+        &[
+            ("air", 0.0086),
+            ("hydrogen", 0.0086),
+            ("germanium", 0.004),
+            ("molybdenum", 0.0038),
+            ("zinc_querry", 0.0054),
+        ],
     ),
     build,
     plain: None,

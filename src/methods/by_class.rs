@@ -1,9 +1,10 @@
 //! How well fitted methods follow classes of materials: metals, semiconductors, and dielectrics of n 1.2 or more, in air.
 //!
 //! The largest error over all angles and channels of each material, as median and 90th percentile: over the pages of the
-//! catalogue, and over the pages of `data/outside.csv`, which had no part in any choice of a shape. The test
-//! `fits::classes_are_followed_as_promised` holds each figure in both directions.
+//! catalogue, and over the pages of `data/outside.csv`, which had no part in any choice of a shape. The figures stand in the
+//! methods' own files. The test `fits::classes_are_followed_as_promised` holds each in both directions.
 
+use super::ALL;
 use super::method::Method;
 
 /// Median and 90th percentile of the largest errors of some materials.
@@ -18,8 +19,6 @@ pub struct Spread {
 /// What a fitted method promises of a class.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ByClass {
-    /// The method's name.
-    pub method: &'static str,
     /// `metal`, `semiconductor` or `dielectric`.
     pub class: &'static str,
     /// Over the catalogue.
@@ -30,56 +29,50 @@ pub struct ByClass {
     pub limit: f64,
 }
 
-const fn row(
-    method: &'static str,
-    class: &'static str,
-    catalogue: [f64; 2],
-    outside: [f64; 2],
-    limit: f64,
-) -> ByClass {
-    let [median, ninth] = catalogue;
-    let catalogue = Spread { median, ninth };
-    let [median, ninth] = outside;
-    let outside = Spread { median, ninth };
-    ByClass {
-        method,
-        class,
-        catalogue,
-        outside,
-        limit,
+impl ByClass {
+    /// A promise of a class: median and 90th percentile over the catalogue and outside it, and what nine of ten of both err at
+    /// most.
+    pub(super) const fn of_class(
+        class: &'static str,
+        catalogue: [f64; 2],
+        outside: [f64; 2],
+        limit: f64,
+    ) -> ByClass {
+        ByClass {
+            class,
+            catalogue: Spread::new(catalogue),
+            outside: Spread::new(outside),
+            limit,
+        }
     }
 }
 
-/// Every promise, by method and class.
-#[rustfmt::skip]
-pub static BY_CLASS: [ByClass; 10] = [
-    row("fitted", "metal", [0.0020, 0.0030], [0.0019, 0.0118], 0.0032),
-    row("fitted", "semiconductor", [0.0040, 0.0052], [0.0036, 0.0066], 0.0064),
-    row("fitted", "dielectric", [0.0036, 0.0038], [0.0030, 0.0037], 0.0038),
-    row("fitted_rational", "metal", [0.0022, 0.0036], [0.0023, 0.0100], 0.0037),
-    row("fitted_rational", "semiconductor", [0.0027, 0.0039], [0.0026, 0.0056], 0.0054),
-    row("fitted_rational", "dielectric", [0.0030, 0.0033], [0.0030, 0.0033], 0.0033),
-    row("fitted_five", "metal", [0.0006, 0.0011], [0.0006, 0.0071], 0.0012),
-    row("fitted_five", "semiconductor", [0.0005, 0.0005], [0.0006, 0.0008], 0.0008),
-    row("fitted_five", "dielectric", [0.0015, 0.0015], [0.0013, 0.0015], 0.0015),
-    row("fitted_dielectric", "dielectric", [0.0007, 0.0011], [0.0011, 0.0012], 0.0012),
-];
+impl Spread {
+    const fn new([median, ninth]: [f64; 2]) -> Spread {
+        Spread { median, ninth }
+    }
+}
+
+/// Every promise with its method.
+pub fn promises_by_class() -> impl Iterator<Item = (&'static Method, &'static ByClass)> {
+    let own = |method: &'static Method| method.claims.by_class.iter().map(move |row| (method, row));
+    ALL.iter().copied().flat_map(own)
+}
 
 /// What a method promises of a class, where it promises anything.
 pub fn by_class(method: &Method, class: &str) -> Option<&'static ByClass> {
-    let is_it = |row: &&ByClass| row.method == method.name && row.class == class;
-    BY_CLASS.iter().find(is_it)
+    let mut own = method.claims.by_class.iter();
+    own.find(|row| row.class == class)
 }
 
 #[cfg(test)]
 mod tests {
-    use super::super::ALL;
-    use super::BY_CLASS;
+    use super::ALL;
 
     #[test]
     fn every_fitted_method_promises_something_of_a_class() {
         for method in ALL {
-            let promises = BY_CLASS.iter().any(|row| row.method == method.name);
+            let promises = !method.claims.by_class.is_empty();
             assert_eq!(promises, method.is_fitted(), "{}", method.name);
         }
     }

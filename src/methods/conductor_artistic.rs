@@ -89,6 +89,7 @@ pub static METHOD: Method = Method {
             )],
             beyond: "below, where n is next to 1, digits go as those of n - 1 do",
         }),
+        by_class: &[],
     },
     contract: Contract::Kept,
     half: InHalf::Specialised(

@@ -53,6 +53,7 @@ pub static METHOD: Method = Method {
         code_ulp: 5.5,
         code_over: Over::Wide,
         colours: None,
+        by_class: &[],
     },
     contract: Contract::Kept,
     half: InHalf::within_but(0.0015, "for n below 1 with k near 0 see dielectric_exact")

@@ -77,6 +77,7 @@ pub static METHOD: Method = Method {
             ],
             beyond: "of other pairs f32 may be off by 0.3",
         }),
+        by_class: &[],
     },
     contract: Contract::Kept,
     half: InHalf::Specialised(

@@ -48,6 +48,7 @@ pub static METHOD: Method = Method {
         code_ulp: 6700.0,
         code_over: Over::Wide,
         colours: None,
+        by_class: &[],
     },
     contract: Contract::Exempt(
         "NaN at exactly 90 degrees and for cos_theta above 1; thousands of ulp where k is small; no clamp",

@@ -58,6 +58,7 @@ pub static METHOD: Method = Method {
         code_ulp: 6.6,
         code_over: Over::Wide,
         colours: None,
+        by_class: &[],
     },
     contract: Contract::Kept,
     half: InHalf::within_but(0.0015, BELOW_ONE).ending(&[("eta", 180.0)]),

@@ -35,6 +35,7 @@ pub static METHOD: Method = Method {
         code_ulp: 13.5,
         code_over: Over::Wide,
         colours: None,
+        by_class: &[],
     },
     contract: Contract::Kept,
     half: InHalf::within_but(0.0022, BELOW_ONE).ending(&[("eta", 180.0)]),

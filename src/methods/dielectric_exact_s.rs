@@ -32,6 +32,7 @@ pub static METHOD: Method = Method {
         code_ulp: 0.0,
         code_over: Over::Wide,
         colours: None,
+        by_class: &[],
     },
     contract: Contract::Kept,
     half: InHalf::within_but(0.0012, BELOW_ONE).ending(&[("eta", 255.0)]),

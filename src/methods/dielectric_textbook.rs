@@ -46,6 +46,7 @@ pub static METHOD: Method = Method {
         code_ulp: 11000.0,
         code_over: Over::Wide,
         colours: None,
+        by_class: &[],
     },
     contract: Contract::Exempt(
         "NaN past the critical angle; thousands of ulp as eta tends to 1; no clamp; NaN, not 0, at eta = 1 and 90 degrees",

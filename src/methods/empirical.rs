@@ -9,7 +9,7 @@
 use crate::cite::Citation;
 use crate::ir::Expr;
 
-use super::half::InHalf;
+use super::half::{HALF_AIM, InHalf};
 use super::input::{Input, Inputs, POWERS, POWERS_AND_BEYOND, SHARES, SHARES_AND_BEYOND};
 use super::known::{COS_60, mean};
 use super::method::{Claim, Claims, Class, Contract, Forms, Light, Method, Over};
@@ -85,9 +85,11 @@ pub static METHOD: Method = Method {
         code_ulp: 9.0,
         code_over: Over::Wide,
         colours: None,
+        by_class: &[],
     },
     contract: Contract::Kept,
-    half: InHalf::within(0.0017),
+    half: InHalf::within(0.0017)
+        .materials_within(HALF_AIM, &[("air", 0.0056), ("hydrogen", 0.0061)]),
     build,
     plain: None,
     specialised: None,

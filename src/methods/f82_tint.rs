@@ -72,6 +72,7 @@ pub static METHOD: Method = Method {
         code_ulp: 6.5,
         code_over: Over::Wide,
         colours: Colours::within(6e-7),
+        by_class: &[],
     },
     contract: Contract::Kept,
     half: InHalf::within(0.0016),

@@ -11,7 +11,8 @@
 use crate::cite::Citation;
 use crate::ir::Expr;
 
-use super::half::InHalf;
+use super::by_class::ByClass;
+use super::half::{HALF_AIM, InHalf};
 use super::input::{Input, Inputs};
 use super::method::{Claim, Claims, Class, Contract, Forms, Light, Method, Over};
 use super::shape::{Factor, Shape};
@@ -60,9 +61,21 @@ pub static METHOD: Method = Method {
         code_ulp: 0.0,
         code_over: Over::Metals,
         colours: None,
+        by_class: &[
+            ByClass::of_class("metal", [0.0020, 0.0030], [0.0019, 0.0118], 0.0032),
+            ByClass::of_class("semiconductor", [0.0040, 0.0052], [0.0036, 0.0066], 0.0064),
+            ByClass::of_class("dielectric", [0.0036, 0.0038], [0.0030, 0.0037], 0.0038),
+        ],
     },
     contract: Contract::Kept,
-    half: InHalf::within_over(0.0013, Over::Metals, FLOOR),
+    half: InHalf::within_over(0.0013, Over::Metals, FLOOR).materials_within(
+        HALF_AIM,
+        &[
+            ("zinc_querry", 0.00205),
+            ("air", 0.0072),
+            ("hydrogen", 0.0072),
+        ],
+    ),
     build,
     plain: None,
     specialised: None,

@@ -8,8 +8,9 @@
 
 use crate::ir::Expr;
 
+use super::by_class::ByClass;
 use super::fitted::{FLOOR, STIEFEL_1959};
-use super::half::InHalf;
+use super::half::{HALF_AIM, InHalf};
 use super::input::{Input, Inputs};
 use super::method::{Claim, Claims, Class, Contract, Forms, Light, Method, Over};
 use super::shape::{Factor, Shape};
@@ -39,9 +40,16 @@ pub static METHOD: Method = Method {
         code_ulp: 7.0,
         code_over: Over::Dielectrics,
         colours: None,
+        by_class: &[ByClass::of_class(
+            "dielectric",
+            [0.0007, 0.0011],
+            [0.0011, 0.0012],
+            0.0012,
+        )],
     },
     contract: Contract::Kept,
-    half: InHalf::within_over(0.0015, Over::Dielectrics, FLOOR),
+    half: InHalf::within_over(0.0015, Over::Dielectrics, FLOOR)
+        .materials_within(HALF_AIM, &[("air", 0.0045), ("hydrogen", 0.005)]),
     build,
     plain: None,
     specialised: None,

@@ -8,6 +8,7 @@
 
 use crate::ir::Expr;
 
+use super::by_class::ByClass;
 use super::fitted::{FLOOR, STIEFEL_1959};
 use super::half::InHalf;
 use super::input::{Input, Inputs};
@@ -54,9 +55,17 @@ pub static METHOD: Method = Method {
         code_ulp: 6.0,
         code_over: Over::Metals,
         colours: None,
+        by_class: &[
+            ByClass::of_class("metal", [0.0006, 0.0011], [0.0006, 0.0071], 0.0012),
+            ByClass::of_class("semiconductor", [0.0005, 0.0005], [0.0006, 0.0008], 0.0008),
+            ByClass::of_class("dielectric", [0.0015, 0.0015], [0.0013, 0.0015], 0.0015),
+        ],
     },
     contract: Contract::Kept,
-    half: InHalf::within_over(0.0028, Over::Metals, FLOOR),
+    half: InHalf::within_over(0.0028, Over::Metals, FLOOR).materials_within(
+        0.0026,
+        &[("zinc_querry", 0.0136), ("air", 0.058), ("hydrogen", 0.103)],
+    ),
     build,
     plain: None,
     specialised: None,

@@ -8,6 +8,7 @@
 
 use crate::ir::Expr;
 
+use super::by_class::ByClass;
 use super::fitted::{FLOOR, STIEFEL_1959};
 use super::half::InHalf;
 use super::input::{Input, Inputs};
@@ -53,9 +54,24 @@ pub static METHOD: Method = Method {
         code_ulp: 6.0,
         code_over: Over::Metals,
         colours: None,
+        by_class: &[
+            ByClass::of_class("metal", [0.0022, 0.0036], [0.0023, 0.0100], 0.0037),
+            ByClass::of_class("semiconductor", [0.0027, 0.0039], [0.0026, 0.0056], 0.0054),
+            ByClass::of_class("dielectric", [0.0030, 0.0033], [0.0030, 0.0033], 0.0033),
+        ],
     },
     contract: Contract::Kept,
-    half: InHalf::within_over(0.0025, Over::Metals, FLOOR),
+    half: InHalf::within_over(0.0025, Over::Metals, FLOOR).materials_within(
+        0.003,
+        &[
+            ("zinc_querry", 0.0058),
+            ("air", 0.0145),
+            ("hydrogen", 0.0155),
+            ("silver", 0.0041),
+            ("silver_babar", 0.0034),
+            ("silver_mcpeak", 0.004),
+        ],
+    ),
     build,
     plain: None,
     specialised: None,

@@ -8,6 +8,7 @@ use crate::ir::{
 };
 use crate::num::{Num, Precision};
 
+use super::by_class::ByClass;
 use super::half::InHalf;
 use super::input::{Input, Inputs, Range};
 use super::shape::Shape;
@@ -110,6 +111,8 @@ pub struct Claims {
     pub code_over: Over,
     /// The code error over all that artists feed, where a method takes colours.
     pub colours: Option<Colours>,
+    /// How well a fitted method follows classes of materials.
+    pub by_class: &'static [ByClass],
 }
 
 /// A promised code error of a method that artists feed.

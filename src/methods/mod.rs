@@ -14,8 +14,8 @@ mod method;
 mod renamed;
 mod shape;
 
-pub use by_class::{BY_CLASS, ByClass, Spread, by_class};
-pub use half::{HalfClaim, InHalf};
+pub use by_class::{ByClass, Spread, by_class, promises_by_class};
+pub use half::{HALF_AIM, HalfClaim, InHalf};
 pub use input::{Input, Inputs, Range, find_input};
 pub use known::KnownSurface;
 pub use method::{

@@ -12,7 +12,7 @@
 use crate::ir::Expr;
 use crate::optics;
 
-use super::half::InHalf;
+use super::half::{HALF_AIM, InHalf};
 use super::input::{Input, Inputs};
 use super::known::each;
 use super::method::{Claim, Claims, Class, Contract, Forms, Light, Method, Over};
@@ -79,9 +79,12 @@ pub static METHOD: Method = Method {
         code_ulp: 15.5,
         code_over: Over::Wide,
         colours: None,
+        by_class: &[],
     },
     contract: Contract::Kept,
-    half: InHalf::within(0.0024).ending(&[("n", 180.0), ("k", 180.0)]),
+    half: InHalf::within(0.0024)
+        .ending(&[("n", 180.0), ("k", 180.0)])
+        .materials_within(HALF_AIM, &[("zinc_querry", 0.0036)]),
     build,
     plain: None,
     specialised: None,

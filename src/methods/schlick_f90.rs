@@ -46,6 +46,7 @@ pub static METHOD: Method = Method {
         code_ulp: 6.0,
         code_over: Over::Wide,
         colours: Colours::within(3e-7),
+        by_class: &[],
     },
     contract: Contract::Kept,
     half: InHalf::within(0.0013),

@@ -8,7 +8,7 @@
 use crate::cite::Citation;
 use crate::ir::Expr;
 
-use super::half::InHalf;
+use super::half::{HALF_AIM, InHalf};
 use super::input::{Input, Inputs, POWERS, POWERS_AND_BEYOND};
 use super::method::{Claim, Claims, Class, Contract, Forms, Light, Method, Over};
 
@@ -57,9 +57,10 @@ pub static METHOD: Method = Method {
         code_ulp: 5.0,
         code_over: Over::Wide,
         colours: None,
+        by_class: &[],
     },
     contract: Contract::Kept,
-    half: InHalf::within(0.0017),
+    half: InHalf::within(0.0017).materials_within(HALF_AIM, &[("ice", 0.0021)]),
     build,
     plain: None,
     specialised: None,

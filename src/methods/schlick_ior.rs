@@ -31,6 +31,7 @@ pub static METHOD: Method = Method {
         code_ulp: 10.5,
         code_over: Over::Wide,
         colours: None,
+        by_class: &[],
     },
     contract: Contract::Kept,
     half: InHalf::within(0.0013).ending(&[("eta", 65504.0)]),

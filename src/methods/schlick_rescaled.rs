@@ -48,6 +48,7 @@ pub static METHOD: Method = Method {
         code_ulp: 10.5,
         code_over: Over::Wide,
         colours: None,
+        by_class: &[],
     },
     contract: Contract::Kept,
     half: InHalf::within(0.0024).ending(&[("n", 180.0), ("k", 180.0)]),

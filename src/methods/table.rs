@@ -115,6 +115,7 @@ pub static METHOD: Method = Method {
         code_ulp: 0.0,
         code_over: Over::Wide,
         colours: None,
+        by_class: &[],
     },
     contract: Contract::Kept,
     half: InHalf::Refused("11 bits of a coordinate do not tell the texels of a table apart"),

@@ -2,7 +2,7 @@
 
 use crate::emit::{Bounds, Naming, half_record, specialised_function};
 use crate::materials::{Material, Sight, Unseen};
-use crate::methods::{self, BY_CLASS, Contract, Method, Spread};
+use crate::methods::{self, Contract, Method, Spread};
 use crate::reference::{Derivation, Subject};
 use crate::targets;
 
@@ -78,9 +78,9 @@ pub fn errors_table(materials: Vec<Material>) -> Result<String, Unseen> {
 /// What fitted methods promise of classes of materials.
 pub fn classes_table() -> String {
     let spread = |spread: Spread| format!("{}, {}", spread.median, spread.ninth);
-    let rows = BY_CLASS.iter().map(|row| {
+    let rows = methods::promises_by_class().map(|(method, row)| {
         vec![
-            format!("`{}`", row.method),
+            format!("`{}`", method.name),
             format!("{}s", row.class),
             spread(row.catalogue),
             spread(row.outside),

@@ -124,8 +124,7 @@ fn classes_are_followed_as_promised() {
         .map(|(class, subject)| (*class, subject))
         .collect();
     let mut faults = String::new();
-    for promise in &methods::BY_CLASS {
-        let method = methods::find(promise.method).expect("it is registered");
+    for (method, promise) in methods::promises_by_class() {
         let errors = |set: &[(&str, &Subject)]| -> Vec<f64> {
             let own = set.iter().filter(|(class, subject)| {
                 *class == promise.class && subject.is_described_by(method)
@@ -153,7 +152,7 @@ fn classes_are_followed_as_promised() {
             if measured > promised || measured <= promised - 1.01e-4 {
                 faults += &format!(
                     "{}, {}s ({} and {}): {what} {measured:.6}, promised {promised}\n",
-                    promise.method,
+                    method.name,
                     promise.class,
                     within.len(),
                     without.len()
