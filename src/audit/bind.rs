@@ -6,13 +6,13 @@ use crate::names::UnknownName;
 use crate::reference::Subject;
 
 use super::error::{Error, FunctionPlace, ValueFault};
-use super::scan::{Found, Shape};
+use super::scan::{FoundFunction, NumberShape};
 
 /// A function with all that it takes.
 #[derive(Clone, Debug)]
 pub struct Bound {
     /// The function.
-    pub function: Found,
+    pub function: FoundFunction,
     /// The place of the cosine among its arguments.
     pub cosine: usize,
     /// The others, in order.
@@ -101,7 +101,11 @@ impl Given {
 ///
 /// # Errors
 /// There is none of that name, or several where none is named, or it is no function of reflectance.
-pub fn choose(file: &str, found: Vec<Found>, name: Option<&str>) -> Result<Found, Error> {
+pub fn choose(
+    file: &str,
+    found: Vec<FoundFunction>,
+    name: Option<&str>,
+) -> Result<FoundFunction, Error> {
     if let Some(name) = name {
         let mut all: Vec<&str> = found.iter().map(|found| found.name.as_str()).collect();
         all.dedup();
@@ -117,7 +121,10 @@ pub fn choose(file: &str, found: Vec<Found>, name: Option<&str>) -> Result<Found
         let fits = fits.or_else(|| named.find(|found| found.is_candidate()));
         return fits.cloned().ok_or_else(|| unfit(file, &first));
     }
-    let candidates: Vec<Found> = found.into_iter().filter(Found::is_candidate).collect();
+    let candidates: Vec<FoundFunction> = found
+        .into_iter()
+        .filter(FoundFunction::is_candidate)
+        .collect();
     match candidates.as_slice() {
         [] => Err(Error::NoReflectance {
             file: file.to_owned(),
@@ -131,13 +138,13 @@ pub fn choose(file: &str, found: Vec<Found>, name: Option<&str>) -> Result<Found
 }
 
 /// Why a function cannot be one of reflectance.
-fn unfit(file: &str, found: &Found) -> Error {
-    let is_other = |shape: &Shape| matches!(shape, Shape::Other(_));
+fn unfit(file: &str, found: &FoundFunction) -> Error {
+    let is_other = |shape: &NumberShape| matches!(shape, NumberShape::Other(_));
     let other = found.params.iter().find(|param| is_other(&param.shape));
     let why = if let Some(param) = other {
-        format!("its argument `{}` is `{}`", param.name, param.shape.text())
+        format!("its argument `{}` is `{}`", param.name, param.shape.words())
     } else if is_other(&found.result) {
-        format!("it gives `{}`", found.result.text())
+        format!("it gives `{}`", found.result.words())
     } else {
         "it takes no single number, which the cosine is".to_owned()
     };
@@ -147,7 +154,7 @@ fn unfit(file: &str, found: &Found) -> Error {
     }
 }
 
-fn place_of(file: &str, found: &Found) -> FunctionPlace {
+fn place_of(file: &str, found: &FoundFunction) -> FunctionPlace {
     FunctionPlace {
         file: file.to_owned(),
         line: found.line,
@@ -162,15 +169,15 @@ fn place_of(file: &str, found: &Found) -> FunctionPlace {
 /// A value is given for what it does not take, or in the wrong count, or one is missing.
 pub fn bind(
     file: &str,
-    function: Found,
+    function: FoundFunction,
     given: &[Given],
     subject: &Subject,
 ) -> Result<Bound, Error> {
     check_names(&function, given)?;
-    let is_per_channel = function.result == Shape::Scalar;
+    let is_per_channel = function.result == NumberShape::Scalar;
     let mut values = Vec::new();
     for param in &function.params {
-        let is_rgb = param.shape == Shape::Rgb;
+        let is_rgb = param.shape == NumberShape::Rgb;
         let own = given.iter().rfind(|given| given.name == param.name);
         let value = match own {
             Some(given) => Some((spread(given, is_rgb || is_per_channel)?, false)),
@@ -194,7 +201,7 @@ pub fn bind(
     })
 }
 
-fn check_names(function: &Found, given: &[Given]) -> Result<(), Error> {
+fn check_names(function: &FoundFunction, given: &[Given]) -> Result<(), Error> {
     let params = function.params.iter();
     let all: Vec<&str> = params.map(|param| param.name.as_str()).collect();
     let wrong = given
@@ -274,13 +281,14 @@ const COSINES: [&str; 25] = [
 /// The place of the cosine: by its name, or what alone is left.
 fn cosine(
     file: &str,
-    function: &Found,
+    function: &FoundFunction,
     values: &[Option<Argument>],
     subject: &Subject,
 ) -> Result<usize, Error> {
     let plain = |name: &str| name.to_lowercase().replace('_', "");
-    let is_open =
-        |place: &usize| values[*place].is_none() && function.params[*place].shape == Shape::Scalar;
+    let is_open = |place: &usize| {
+        values[*place].is_none() && function.params[*place].shape == NumberShape::Scalar
+    };
     let is_named = |place: &usize| COSINES.contains(&plain(&function.params[*place].name).as_str());
     let open: Vec<usize> = (0..values.len()).filter(is_open).collect();
     let named: Vec<usize> = open.iter().copied().filter(is_named).collect();

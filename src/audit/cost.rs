@@ -9,7 +9,7 @@ use crate::cost::{
 use crate::num::Precision;
 use crate::process::{Error, Surroundings, Worker};
 use crate::verify::compilers::Fault;
-use crate::verify::second;
+use crate::verify::naga_translation;
 
 use super::compile::Compilers;
 use super::language::Language;
@@ -199,7 +199,7 @@ fn wgsl(probe: &Probe, dialect: Dialect, evaluations: usize) -> Result<Measured,
         Dialect::Wgsl => Ok(ready(own)),
         Dialect::Es100 => Err("it takes GLSL ES 1.00, which nothing here makes of WGSL".to_owned()),
         Dialect::Es300 => {
-            let made = second::to_gles(&own, ENTRY).map_err(|fault| fault.to_string())?;
+            let made = naga_translation::to_gles(&own, ENTRY).map_err(|fault| fault.to_string())?;
             let input = made.inputs.get(&0).map_or("fg_in", String::as_str);
             Ok(ready(unblocked(&made.text.replace(input, "fg_in"))))
         }

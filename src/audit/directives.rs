@@ -38,17 +38,17 @@ const PRAGMAS: [&str; 8] = [
 ];
 
 /// A fault in a text: line, column, what.
-pub type Found = (usize, usize, String);
+pub type TextFault = (usize, usize, String);
 
 /// The first thing in a text that could read another file, or be read in two ways.
-pub fn fault(text: &str) -> Option<Found> {
+pub fn fault(text: &str) -> Option<TextFault> {
     let code = bare(text, false);
     let tokens = tokens(&code);
     each_line(&tokens).find_map(|line| directive(line).or_else(|| line.windows(2).find_map(pair)))
 }
 
 /// The directive that gives or takes a meaning of this name.
-pub fn redefinition(text: &str, name: &str) -> Option<Found> {
+pub fn redefinition(text: &str, name: &str) -> Option<TextFault> {
     let code = bare(text, false);
     let tokens = tokens(&code);
     each_line(&tokens).find_map(|line| {
@@ -86,7 +86,7 @@ fn each_line<'t, 'a>(tokens: &'t [Token<'a>]) -> impl Iterator<Item = &'t [Token
 }
 
 /// What is wrong with a line as a directive.
-fn directive(line: &[Token]) -> Option<Found> {
+fn directive(line: &[Token]) -> Option<TextFault> {
     let found = |token: &Token, what: String| Some((token.line, token.column, what));
     let [first, rest @ ..] = line else {
         return None;
@@ -125,7 +125,7 @@ fn directive(line: &[Token]) -> Option<Found> {
 }
 
 /// What is wrong with two neighbours, or with the first of them: signs that compilers read as others, and questions about files.
-fn pair(pair: &[Token]) -> Option<Found> {
+fn pair(pair: &[Token]) -> Option<TextFault> {
     let [first, second] = pair else { return None };
     let together = first.column + first.text.chars().count() == second.column;
     let asks = |token: &&Token| {

@@ -111,12 +111,12 @@ pub fn judged(results: &[[f32; 3]], most: [f32; 3]) -> Edges {
 #[derive(Debug)]
 pub struct Between {
     most: [f32; 3],
-    first: RefCell<Option<Seen>>,
+    first: RefCell<Option<FirstFault>>,
 }
 
 /// The first of its kind.
 #[derive(Clone, Copy, Debug)]
-struct Seen {
+struct FirstFault {
     cosine: f32,
     rgb: [f32; 3],
     fault: &'static str,
@@ -140,7 +140,7 @@ impl Between {
             let Some(fault) = fault(*rgb, self.most).filter(|_| !is_end) else {
                 continue;
             };
-            let seen = first.get_or_insert(Seen {
+            let seen = first.get_or_insert(FirstFault {
                 cosine: *cosine,
                 rgb: *rgb,
                 fault,
@@ -152,7 +152,7 @@ impl Between {
 
     /// What was seen, for people.
     pub fn finding(&self) -> Option<String> {
-        let Seen {
+        let FirstFault {
             cosine,
             rgb,
             fault,

@@ -50,7 +50,7 @@ impl Language {
     ///
     /// # Errors
     /// There is none of that name, or the ending tells nothing.
-    pub fn of(file: &str, named: Option<&str>) -> Result<Language, Error> {
+    pub fn named(file: &str, named: Option<&str>) -> Result<Language, Error> {
         let find = |word: &str| NAMES.iter().find(|(name, _)| *name == word);
         if let Some(name) = named {
             let found = find(name).filter(|_| LANGUAGES.contains(&name));
@@ -105,7 +105,7 @@ mod tests {
 
     #[test]
     fn an_ending_or_a_flag_tells_the_language() {
-        let of = |file, named| Language::of(file, named).ok();
+        let of = |file, named| Language::named(file, named).ok();
         assert_eq!(of("a/b.WGSL", None), Some(Language::Wgsl));
         assert_eq!(of("b.frag", None), Some(Language::Gles));
         assert_eq!(of("b.fx", None), Some(Language::Hlsl));

@@ -77,7 +77,7 @@ impl Audit {
     ///
     /// # Errors
     /// The file does not hold the function, or its arguments are not bound.
-    pub fn row(
+    pub fn audit_row(
         &self,
         subject: &Subject,
         progress: &mut dyn FnMut(u64, u64, &str),
@@ -117,7 +117,7 @@ impl Audit {
             costs: &costs,
             ours: &rivals,
         }
-        .row())
+        .audit_row())
     }
 
     fn limit(&self) -> Duration {

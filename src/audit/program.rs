@@ -11,7 +11,7 @@ use super::directives;
 use super::error::Error;
 use super::language::{Language, bare};
 use super::loops::{MARK, TURNS, counted, counter, is_in_macro};
-use super::scan::{Shape, without_stage};
+use super::scan::{NumberShape, without_stage};
 
 /// What our function around theirs is called: as [`crate::cost::Probe`] calls what it measures.
 pub const NAME: &str = "fg_measured";
@@ -147,7 +147,7 @@ fn wrapper(language: Language, bound: &Bound, params: &[Param], counts: bool) ->
     let value = if bound.is_per_channel() {
         let calls = ["x", "y", "z"].map(|channel| call(bound, channel));
         format!("{constructor}({})", calls.join(", "))
-    } else if bound.function.result == Shape::Scalar {
+    } else if bound.function.result == NumberShape::Scalar {
         let one = call(bound, "x");
         match language {
             Language::Hlsl => format!("({one}).xxx"),

@@ -185,7 +185,7 @@ pub struct Audited<'a> {
 
 impl Audited<'_> {
     /// The row.
-    pub fn row(&self) -> AuditRow {
+    pub fn audit_row(&self) -> AuditRow {
         let function = &self.bound.function.name;
         let ran = self.ran.as_ref().ok();
         let (status, reasons) = self.judged();

@@ -6,7 +6,7 @@ use super::language::{Language, bare};
 
 /// A function as its head tells.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Found {
+pub struct FoundFunction {
     /// Its name.
     pub name: String,
     /// The line of its name, from 1.
@@ -16,7 +16,7 @@ pub struct Found {
     /// What it takes.
     pub params: Vec<Parameter>,
     /// What it gives.
-    pub result: Shape,
+    pub result: NumberShape,
 }
 
 /// What a function takes.
@@ -25,12 +25,12 @@ pub struct Parameter {
     /// Its name.
     pub name: String,
     /// Its type.
-    pub shape: Shape,
+    pub shape: NumberShape,
 }
 
 /// A type as far as it matters here.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub enum Shape {
+pub enum NumberShape {
     /// One number.
     Scalar,
     /// Three.
@@ -39,23 +39,23 @@ pub enum Shape {
     Other(String),
 }
 
-impl Shape {
+impl NumberShape {
     /// For messages.
-    pub fn text(&self) -> &str {
+    pub fn words(&self) -> &str {
         match self {
-            Shape::Scalar => "one number",
-            Shape::Rgb => "three numbers",
-            Shape::Other(written) if written.is_empty() => "nothing",
-            Shape::Other(written) => written,
+            NumberShape::Scalar => "one number",
+            NumberShape::Rgb => "three numbers",
+            NumberShape::Other(written) if written.is_empty() => "nothing",
+            NumberShape::Other(written) => written,
         }
     }
 }
 
-impl Found {
+impl FoundFunction {
     /// Whether it can be one of reflectance: numbers in, numbers out, one of them the cosine.
     pub fn is_candidate(&self) -> bool {
-        let known = |shape: &Shape| !matches!(shape, Shape::Other(_));
-        let scalar = |param: &Parameter| param.shape == Shape::Scalar;
+        let known = |shape: &NumberShape| !matches!(shape, NumberShape::Other(_));
+        let scalar = |param: &Parameter| param.shape == NumberShape::Scalar;
         known(&self.result)
             && self.params.iter().all(|param| known(&param.shape))
             && self.params.iter().any(scalar)
@@ -63,7 +63,7 @@ impl Found {
 }
 
 /// The functions of a text in order.
-pub fn functions(text: &str, language: Language) -> Vec<Found> {
+pub fn functions(text: &str, language: Language) -> Vec<FoundFunction> {
     let code = bare(text, language.has_preprocessor());
     let tokens = tokens(&code);
     let bodies = declarations(&tokens).into_iter().filter(|one| one.has_body);
@@ -154,7 +154,7 @@ fn behind(tokens: &[Token], open: usize) -> usize {
 }
 
 /// The function of a head, where it is one of a function.
-fn function(head: &[Token], language: Language) -> Option<Found> {
+fn function(head: &[Token], language: Language) -> Option<FoundFunction> {
     let head = without_attributes(head);
     let name = match language {
         Language::Wgsl => head.iter().position(|token| token.text == "fn")? + 1,
@@ -178,7 +178,7 @@ fn function(head: &[Token], language: Language) -> Option<Found> {
             shape(&without_qualifiers(&head[..name])),
         ),
     };
-    Some(Found {
+    Some(FoundFunction {
         name: head[name].text.to_owned(),
         line: head[name].line,
         column: head[name].column,
@@ -239,7 +239,7 @@ fn wgsl_parameter(part: &[Token]) -> Parameter {
 }
 
 /// `-> type`, attributes before it.
-fn wgsl_result(after: &[Token]) -> Shape {
+fn wgsl_result(after: &[Token]) -> NumberShape {
     let arrow = after.iter().position(|token| token.text == ">");
     let written = arrow.map_or(&[][..], |arrow| &after[arrow + 1..]);
     shape(&joined(written))
@@ -285,11 +285,11 @@ fn without_qualifiers(tokens: &[Token]) -> String {
     kept.filter(|word| !QUALIFIERS.contains(word)).collect()
 }
 
-fn shape(written: &str) -> Shape {
+fn shape(written: &str) -> NumberShape {
     match written {
-        "f32" | "float" | "half" | "min16float" => Shape::Scalar,
-        "vec3<f32>" | "vec3f" | "vec3" | "float3" | "half3" | "min16float3" => Shape::Rgb,
-        other => Shape::Other(other.to_owned()),
+        "f32" | "float" | "half" | "min16float" => NumberShape::Scalar,
+        "vec3<f32>" | "vec3f" | "vec3" | "float3" | "half3" | "min16float3" => NumberShape::Rgb,
+        other => NumberShape::Other(other.to_owned()),
     }
 }
 
@@ -299,11 +299,11 @@ mod tests {
 
     #[track_caller]
     fn check(text: &str, language: Language, expected: &[&str]) {
-        let shown = |found: &Found| {
+        let shown = |found: &FoundFunction| {
             let params: Vec<String> = found
                 .params
                 .iter()
-                .map(|param| format!("{} {}", param.name, param.shape.text()))
+                .map(|param| format!("{} {}", param.name, param.shape.words()))
                 .collect();
             format!(
                 "{}:{} {}({}) {}",
@@ -311,7 +311,7 @@ mod tests {
                 found.column,
                 found.name,
                 params.join(", "),
-                found.result.text()
+                found.result.words()
             )
         };
         let found: Vec<String> = functions(text, language).iter().map(shown).collect();

@@ -9,22 +9,22 @@ mod dd;
 mod half;
 mod interval;
 mod legendre;
-mod loose;
 mod native;
 mod parallel;
 mod precision;
 pub mod statistics;
 mod ulp;
+mod vulkan_tolerance;
 
 pub use complex::Complex;
 pub use dd::Dd;
 pub use half::Half;
 pub use interval::Interval;
 pub use legendre::Legendre;
-pub use loose::Loose;
 pub use parallel::in_parallel;
 pub use precision::Precision;
 pub use ulp::{ulp_distance, ulp_of};
+pub use vulkan_tolerance::VulkanTolerance;
 
 use std::fmt::Debug;
 use std::ops::{Add, Div, Mul, Neg, Sub};

@@ -102,7 +102,7 @@ pub fn not_checked(rows: &[VerifyRow]) -> BTreeSet<String> {
         let opinions = row.second_opinions.iter();
         for opinion in opinions.filter(|opinion| opinion.status == Status::NotChecked) {
             let why = reason(&opinion.reason);
-            all.insert(format!("{target} by {}: {why}", opinion.way));
+            all.insert(format!("{target} by {}: {why}", opinion.execution_path));
         }
         for (name, why) in &row.not_asked {
             all.insert(format!("{target} by {name}: {why}"));

@@ -47,7 +47,7 @@ impl Failure {
     ];
 
     /// In words.
-    pub fn text(self) -> String {
+    pub fn words(self) -> String {
         match self {
             Failure::NotANumber => "NaN".to_owned(),
             Failure::Infinite => "infinity".to_owned(),

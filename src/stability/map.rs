@@ -63,7 +63,7 @@ pub fn maps(method: &'static Method, precision: Precision) -> Vec<Map> {
 fn map(method: &'static Method, precision: Precision, axes: Vec<Axis>, held: &'static str) -> Map {
     let rounded = |axis: Axis| axis.each_rounded(precision);
     let axes: Vec<Axis> = axes.into_iter().map(rounded).collect();
-    let code = Code::of(method, precision);
+    let code = Code::library(method, precision);
     let degrees: Vec<f64> = (0..=90).map(f64::from).collect();
     let cosines = degrees
         .iter()

@@ -209,7 +209,7 @@ fn region(points: &[Point]) -> Region {
 
 impl Region {
     /// The inequalities, joined by "and"; nothing where it is all of the grid.
-    pub fn text(&self, axes: &[Axis]) -> String {
+    pub fn inequalities(&self, axes: &[Axis]) -> String {
         let words = self
             .extent
             .iter()
@@ -352,7 +352,7 @@ mod tests {
         field
             .regions()
             .iter()
-            .map(|region| region.text(axes))
+            .map(|region| region.inequalities(axes))
             .collect()
     }
 

@@ -57,7 +57,7 @@ impl From<StabilityRow> for FlatRow {
             material,
             channel,
             precision: row.precision,
-            failure: finding.map(|finding| finding.failure.text()),
+            failure: finding.map(|finding| finding.failure.words()),
             fault_of: finding.map(|finding| fault_of(finding.failure)),
             points: finding.map(kind_of_points),
             region: finding.map(|finding| finding.region.clone()),

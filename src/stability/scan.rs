@@ -24,14 +24,14 @@ pub struct Finding {
     /// Where it is worst: names and values.
     pub worst: Vec<(&'static str, f64)>,
     /// What comes there, what the formula means, and what the law says.
-    pub point: Option<Shown>,
+    pub point: Option<WorstPoint>,
     /// How bad it is there.
     pub amount: f64,
 }
 
 /// A result as it is shown.
 #[derive(Clone, Copy, Debug)]
-pub struct Shown {
+pub struct WorstPoint {
     /// What came.
     pub got: f64,
     /// What the formula means.
@@ -69,7 +69,7 @@ pub type Progress<'a> = &'a mut dyn FnMut(usize, usize);
 
 /// Scans a method.
 pub fn scan(method: &'static Method, precision: Precision, progress: Progress) -> Vec<Finding> {
-    let code = Code::of(method, precision);
+    let code = Code::library(method, precision);
     let spaces = spaces(method, precision);
     let total: usize = spaces.iter().map(Space::count).sum();
     let mut before = 0;
@@ -107,7 +107,7 @@ pub struct Code {
 
 impl Code {
     /// A method's library function of scalars.
-    pub(super) fn of(method: &Method, precision: Precision) -> Code {
+    pub(super) fn library(method: &Method, precision: Precision) -> Code {
         let built = |precision| {
             let function = method.function_in(precision, true);
             function.expect("every method's function is well formed; a test builds all")
@@ -155,7 +155,7 @@ pub(super) struct Scan<'a> {
 }
 
 /// By how much a point of a space fails in each way: at each cosine, and as a whole curve with its worst cosine.
-struct Row {
+struct CurveAmounts {
     at: Vec<Amounts>,
     whole: Amounts,
     worst: f64,
@@ -166,7 +166,7 @@ type Amounts = [f32; Failure::ALL.len()];
 
 impl Scan<'_> {
     fn findings(&self, done: &mut dyn FnMut(usize)) -> Vec<Finding> {
-        let rows = self.rows(done);
+        let rows = self.amounts_of_curves(done);
         let mut with_cosine = self.space.axes.clone();
         with_cosine.push(self.space.cosines.clone());
         let mut findings = Vec::new();
@@ -177,7 +177,8 @@ impl Scan<'_> {
                     rows.iter().map(|row| row.whole[kind]).collect(),
                 )
             } else {
-                let at = |row: &Row| row.at.iter().map(|at| at[kind]).collect::<Vec<f32>>();
+                let at =
+                    |row: &CurveAmounts| row.at.iter().map(|at| at[kind]).collect::<Vec<f32>>();
                 (&with_cosine, rows.iter().flat_map(at).collect())
             };
             let regions = Field { axes, amounts }.regions();
@@ -190,7 +191,13 @@ impl Scan<'_> {
         told_once(findings)
     }
 
-    fn finding(&self, failure: Failure, axes: &[Axis], region: &Region, rows: &[Row]) -> Finding {
+    fn finding(
+        &self,
+        failure: Failure,
+        axes: &[Axis],
+        region: &Region,
+        rows: &[CurveAmounts],
+    ) -> Finding {
         let (given, cosine) = region.worst.split_at(self.space.axes.len());
         let sizes = self.space.axes.iter().map(|axis| axis.values.len());
         let index = given
@@ -207,7 +214,7 @@ impl Scan<'_> {
         Finding {
             failure,
             is_media: self.space.is_media,
-            region: region.text(axes),
+            region: region.inequalities(axes),
             share: region.share(),
             worst: names
                 .zip(values)
@@ -218,9 +225,9 @@ impl Scan<'_> {
         }
     }
 
-    fn shown(&self, index: usize, cosine: f64) -> Shown {
+    fn shown(&self, index: usize, cosine: f64) -> WorstPoint {
         let point = self.points(&(self.given)(index), &[cosine])[0];
-        Shown {
+        WorstPoint {
             got: point.got,
             want: point.want,
             law: point.law,
@@ -228,8 +235,8 @@ impl Scan<'_> {
     }
 
     /// All points of the space, shared among the processor's cores.
-    fn rows(&self, done: &mut dyn FnMut(usize)) -> Vec<Row> {
-        let row = |index| self.row(index);
+    fn amounts_of_curves(&self, done: &mut dyn FnMut(usize)) -> Vec<CurveAmounts> {
+        let row = |index| self.amounts_of_curve(index);
         in_parallel(self.space.count(), &row, &mut |count, _| {
             done(count as usize)
         })
@@ -240,7 +247,7 @@ impl Scan<'_> {
         self.points(&(self.given)(index), &self.space.cosines.values)
     }
 
-    fn row(&self, index: usize) -> Row {
+    fn amounts_of_curve(&self, index: usize) -> CurveAmounts {
         let cosines = &self.space.cosines.values;
         let given = (self.given)(index);
         let points = self.points(&given, cosines);
@@ -249,7 +256,7 @@ impl Scan<'_> {
         let all = points.iter().chain(&between);
         let worst = all.reduce(|a, b| if b.error() > a.error() { b } else { a });
         let worst = worst.expect("a curve has points");
-        Row {
+        CurveAmounts {
             at: points.iter().map(amounts).collect(),
             whole: whole(cosines, &points, worst),
             worst: worst.cos_theta,

@@ -4,7 +4,7 @@ use crate::emit::Emitted;
 use crate::fit::Measured;
 use crate::reference::Subject;
 use crate::targets::Stack;
-use crate::verify::run::{Devices, Fault, Shown, Way};
+use crate::verify::run::{Devices, ExecutionPath, Fault, ShippedFunction};
 use crate::verify::{Trial, WITHIN, count, sweep};
 
 use super::error::Error;
@@ -37,7 +37,7 @@ pub fn exhaustive_rows(
         };
         for emitted in &file.functions {
             let (run, speed) = run(file, subject, emitted, devices, progress);
-            let runs = [(Way::Own, run)];
+            let runs = [(ExecutionPath::Own, run)];
             let ran = Ran {
                 file,
                 emitted,
@@ -45,7 +45,7 @@ pub fn exhaustive_rows(
                 accepts: &[],
                 runs: &runs,
             };
-            rows.push(ran.row());
+            rows.push(ran.verify_row());
             speeds.push(format!(
                 "{}: {speed:.1} million points a second",
                 emitted.name
@@ -71,7 +71,7 @@ fn run(
         let why = "a texture is filtered in steps: a sample tells all";
         return (Err(Fault::Absent(why.to_owned())), 0.0);
     }
-    let shown = Shown {
+    let shown = ShippedFunction {
         target: file.target,
         bytes: &file.run_page().bytes,
         function: emitted,
@@ -91,7 +91,10 @@ fn run(
             outcome,
             half: None,
             model_error: emitted.model_error,
-            device: devices.of(file.target, Way::Own)?.adapter.to_string(),
+            device: devices
+                .device_for(file.target, ExecutionPath::Own)?
+                .adapter
+                .to_string(),
         })
     });
     (run, all as f64 / time.as_secs_f64() / 1e6)

@@ -11,7 +11,7 @@ use crate::num::Precision;
 use crate::reference::{Subject, Truth};
 use crate::targets::Stack;
 use crate::verify::compilers::{self, Verdict};
-use crate::verify::run::{Devices, Fault, Runnable, Shown, Way};
+use crate::verify::run::{Devices, ExecutionPath, Fault, Runnable, ShippedFunction};
 use crate::verify::{
     Outcome, Trial, beyond, cosines_around, limits, nearest_half, share, worst_cases, worst_cosines,
 };
@@ -44,7 +44,7 @@ pub fn file_rows(plan: &Plan, file: &Planned, devices: &Devices, effort: Effort)
         let cases = cases(plan, file, emitted);
         let tried = Tried::new(file, index, emitted, devices, effort);
         for (place, case) in cases.iter().enumerate() {
-            rows.push(tried.row(case, &accepts, place == 0));
+            rows.push(tried.case_row(case, &accepts, place == 0));
         }
     }
     rows
@@ -238,13 +238,18 @@ impl<'a> Tried<'a> {
         }
     }
 
-    fn row(&self, case: &Case, accepts: &[(&'static str, Verdict)], is_first: bool) -> VerifyRow {
-        let ways = Way::of(self.file.target, self.emitted.precision);
-        // Other ways are second opinions on the text: one material tells.
-        let ways = if is_first { ways } else { &ways[..1] };
-        let runs: Vec<(Way, Result<Run, Fault>)> = ways
+    fn case_row(
+        &self,
+        case: &Case,
+        accepts: &[(&'static str, Verdict)],
+        is_first: bool,
+    ) -> VerifyRow {
+        let paths = ExecutionPath::all_for(self.file.target, self.emitted.precision);
+        // Other paths are second opinions on the text: one material tells.
+        let paths = if is_first { paths } else { &paths[..1] };
+        let runs: Vec<(ExecutionPath, Result<Run, Fault>)> = paths
             .iter()
-            .map(|way| (*way, self.run(case, *way)))
+            .map(|path| (*path, self.run(case, *path)))
             .collect();
         Ran {
             file: self.file,
@@ -253,36 +258,40 @@ impl<'a> Tried<'a> {
             accepts,
             runs: &runs,
         }
-        .row()
+        .verify_row()
     }
 
-    fn run(&self, case: &Case, way: Way) -> Result<Run, Fault> {
+    fn run(&self, case: &Case, path: ExecutionPath) -> Result<Run, Fault> {
         let page = self.file.run_page();
-        if let (Some(fault), true) = (self.untrusted(), way == Way::Own) {
+        if let (Some(fault), true) = (self.untrusted(), path == ExecutionPath::Own) {
             return Err(fault);
         }
         if let Some(holds_loop) = &page.holds_loop {
             let why = format!("{holds_loop}, which no function of ours does, and is not run");
             return Err(Fault::Failed(why));
         }
-        let shown = Shown {
+        let shown = ShippedFunction {
             target: self.file.target,
             bytes: &page.bytes,
             function: self.emitted,
             entry: self.entry,
         };
         let other;
-        let runnable = if way == Way::Own {
-            let compiled = || self.devices.prepare(&shown, way, &case.trial);
+        let runnable = if path == ExecutionPath::Own {
+            let compiled = || self.devices.prepare(&shown, path, &case.trial);
             let own = self.own.get_or_init(compiled);
             own.as_ref().map_err(Fault::clone)?
         } else {
-            other = self.devices.prepare(&shown, way, &case.trial)?;
+            other = self.devices.prepare(&shown, path, &case.trial)?;
             &other
         };
         if self.emitted.precision.is_half() {
             let ran = half_run::run_in_half(runnable, &shown, &case.trial)?;
-            let device = self.devices.of(shown.target, way)?.adapter.to_string();
+            let device = self
+                .devices
+                .device_for(shown.target, path)?
+                .adapter
+                .to_string();
             return Ok(Run { device, ..ran });
         }
         let mut points = cosines_around(self.effort.points, &case.limits);
@@ -290,8 +299,8 @@ impl<'a> Tried<'a> {
         let expected = case.trial.expected(&points);
         let got = runnable.run(&case.trial, &expected.cosines)?;
         let outcome: Outcome = expected.judge(&got);
-        let model_error = match (&case.truth, way) {
-            (Some(truth), Way::Own) => Some(self.model_error(runnable, case, truth)?),
+        let model_error = match (&case.truth, path) {
+            (Some(truth), ExecutionPath::Own) => Some(self.model_error(runnable, case, truth)?),
             _ => None,
         };
         Ok(Run {
@@ -301,7 +310,11 @@ impl<'a> Tried<'a> {
             outcome,
             half: None,
             model_error,
-            device: self.devices.of(shown.target, way)?.adapter.to_string(),
+            device: self
+                .devices
+                .device_for(shown.target, path)?
+                .adapter
+                .to_string(),
         })
     }
 

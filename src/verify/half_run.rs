@@ -4,7 +4,7 @@
 use crate::fit::Measured;
 use crate::methods::Contract;
 use crate::num::Num;
-use crate::verify::run::{Fault, Runnable, Shown};
+use crate::verify::run::{Fault, Runnable, ShippedFunction};
 use crate::verify::{HalfError, HalfTrial, Outcome, Trial, halves, halves_beyond, result_range};
 
 use super::judge::{HalfRun, Run};
@@ -14,7 +14,11 @@ use super::judge::{HalfRun, Run};
 const FREEDOM: f64 = 1.0 / 2048.0;
 
 /// Runs it. A function that promises nothing may be twice as far off as its emulation.
-pub(super) fn run_in_half(runnable: &Runnable, shown: &Shown, trial: &Trial) -> Result<Run, Fault> {
+pub(super) fn run_in_half(
+    runnable: &Runnable,
+    shown: &ShippedFunction,
+    trial: &Trial,
+) -> Result<Run, Fault> {
     let emitted = shown.function;
     let meaning = emitted.meaning();
     let meaning = meaning.map_err(|fault| Fault::Failed(fault.to_string()))?;

@@ -6,7 +6,7 @@ use crate::ir::{Param, Ty};
 use crate::num::Precision;
 use crate::targets::{Harness, STREAM, Target, WGSL};
 
-use super::second::Gles;
+use super::naga_translation::Gles;
 
 /// A function as a harness calls it.
 #[derive(Clone, Copy, Debug)]
@@ -26,7 +26,7 @@ pub const ENTRY: &str = "fg_main";
 
 impl Call<'_> {
     /// The call of a function.
-    pub fn of(emitted: &Emitted) -> Call<'_> {
+    pub fn to_emitted(emitted: &Emitted) -> Call<'_> {
         Call {
             name: &emitted.name,
             params: &emitted.function.params,
@@ -53,7 +53,12 @@ impl Call<'_> {
     }
 
     /// The call, with each argument as this language has it.
-    fn text(&self, cos_theta: &str, texture: &str, number: impl Fn(&Param) -> String) -> String {
+    fn call_text(
+        &self,
+        cos_theta: &str,
+        texture: &str,
+        number: impl Fn(&Param) -> String,
+    ) -> String {
         let argument = |param: &Param| match param.ty {
             Ty::Texture => texture.to_owned(),
             _ if param.is_cosine() => cos_theta.to_owned(),
@@ -102,7 +107,7 @@ fn program_in(harness: &Harness, target: &Target, file: &str, call: &Call) -> St
         _ => value,
     };
     let cosine = converted(Ty::Scalar, harness.cosine.to_owned(), Precision::F16);
-    let value = call.text(&cosine, harness.texture_argument, |param| {
+    let value = call.call_text(&cosine, harness.texture_argument, |param| {
         let value = harness.argument.replace("{name}", &param.name);
         converted(param.ty, value, Precision::F16)
     });
@@ -126,7 +131,7 @@ pub fn wgsl_vertex(file: &str, call: &Call, values: &[[f32; 3]]) -> String {
         true => STREAM.texture,
         false => "",
     };
-    let value = call.text("fg_cosine", "fg_table, fg_sampler", |param| {
+    let value = call.call_text("fg_cosine", "fg_table, fg_sampler", |param| {
         let place = call.numbers().position(|other| other.name == param.name);
         let [r, g, b] = place
             .and_then(|i| values.get(i))

@@ -5,15 +5,15 @@ use crate::fit::{Measured, ModelError};
 use crate::num::Precision;
 
 use super::compilers::Verdict;
-use super::plan::{Page, Planned};
+use super::plan::{Planned, ShippedPage};
 use super::row::{
     AllowedAbsolute, AllowedError, AllowedUlp, Answer, CodeErrorFigures, Emulation,
     ModelErrorFigures, SecondOpinion, Status, VerifyRow, finite,
 };
-use super::run::{Fault, Way};
+use super::run::{ExecutionPath, Fault};
 use super::{HalfError, Miss, Outcome};
 
-/// What came of running a function in one way.
+/// What came of running a function by one execution path.
 #[derive(Clone, Debug)]
 pub struct Run {
     /// At how many cosines.
@@ -76,8 +76,8 @@ pub struct Ran<'a> {
     pub material: &'a str,
     /// What compilers say of the file.
     pub accepts: &'a [(&'static str, Verdict)],
-    /// Each way of running it: its own first.
-    pub runs: &'a [(Way, Result<Run, Fault>)],
+    /// Each execution path: its own first.
+    pub runs: &'a [(ExecutionPath, Result<Run, Fault>)],
 }
 
 /// What a run came to.
@@ -100,9 +100,9 @@ struct Figures {
 
 impl Ran<'_> {
     /// The row.
-    pub fn row(&self) -> VerifyRow {
-        let (way, own) = &self.runs[0];
-        let own = self.judged(*way, own);
+    pub fn verify_row(&self) -> VerifyRow {
+        let (path, own) = &self.runs[0];
+        let own = self.judged(*path, own);
         let (mut status, mut reasons) = (own.status, own.reasons);
         let mut row = row_without_run(self.file, self.emitted);
         row.material = Some(self.material.to_owned());
@@ -115,9 +115,9 @@ impl Ran<'_> {
             row.model_error = figures.model_error;
             row.emulation = figures.emulation;
         }
-        for (way, run) in &self.runs[1..] {
-            let judged = self.judged(*way, run);
-            row.second_opinions.push(second_opinion(*way, &judged));
+        for (path, run) in &self.runs[1..] {
+            let judged = self.judged(*path, run);
+            row.second_opinions.push(second_opinion(*path, &judged));
             if judged.status == Status::Fail {
                 status = Status::Fail;
                 reasons.extend(judged.reasons);
@@ -144,7 +144,7 @@ impl Ran<'_> {
     }
 
     /// A run, and what to think of it.
-    fn judged(&self, way: Way, run: &Result<Run, Fault>) -> Judged {
+    fn judged(&self, path: ExecutionPath, run: &Result<Run, Fault>) -> Judged {
         let run = match run {
             Err(Fault::Absent(why)) => {
                 return Judged::without_figures(Status::NotChecked, why.clone());
@@ -157,7 +157,11 @@ impl Ran<'_> {
         };
         let fault = match &run.half {
             Some(half) => self.fault_in_half(half),
-            None => run.outcome.miss.as_ref().map(|miss| self.missed(way, miss)),
+            None => run
+                .outcome
+                .miss
+                .as_ref()
+                .map(|miss| self.missed(path, miss)),
         };
         Judged {
             status: match fault {
@@ -194,7 +198,7 @@ impl Ran<'_> {
         }
     }
 
-    fn page(&self) -> &Page {
+    fn page(&self) -> &ShippedPage {
         self.file.run_page()
     }
 
@@ -216,12 +220,12 @@ impl Ran<'_> {
     }
 
     /// A miss as people and editors read it.
-    fn missed(&self, way: Way, miss: &Miss) -> String {
+    fn missed(&self, path: ExecutionPath, miss: &Miss) -> String {
         let channel = ["red", "green", "blue"][miss.channel];
-        let way = if way == Way::Own {
+        let path = if path == ExecutionPath::Own {
             String::new()
         } else {
-            format!(", by {}", way.name())
+            format!(", by {}", path.name())
         };
         let edited = if self.page().is_current {
             ""
@@ -234,7 +238,7 @@ impl Ran<'_> {
             format!("expected {:?}: {:.1} ulp off", miss.expected, miss.ulp)
         };
         format!(
-            "{}: {}, {}{way}: at cos_theta = {:?} (0x{:08x}) {channel} is {:?} (0x{:08x}), {expected}.{edited}",
+            "{}: {}, {}{path}: at cos_theta = {:?} (0x{:08x}) {channel} is {:?} (0x{:08x}), {expected}.{edited}",
             self.page().path,
             self.emitted.name,
             self.material,
@@ -256,10 +260,10 @@ impl Judged {
     }
 }
 
-fn second_opinion(way: Way, judged: &Judged) -> SecondOpinion {
+fn second_opinion(path: ExecutionPath, judged: &Judged) -> SecondOpinion {
     let figures = judged.figures.as_ref();
     SecondOpinion {
-        way: way.name().to_owned(),
+        execution_path: path.name().to_owned(),
         device: figures.map(|one| one.device.clone()),
         points: figures.map(|one| one.points),
         share: figures.and_then(|one| finite(one.share)),

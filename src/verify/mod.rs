@@ -29,6 +29,8 @@ mod junit;
 #[cfg(all(feature = "cli", feature = "gpu"))]
 pub mod machine;
 pub mod module;
+#[cfg(feature = "compilers")]
+pub mod naga_translation;
 mod object;
 pub mod outline;
 #[cfg(all(feature = "cli", feature = "gpu"))]
@@ -38,8 +40,6 @@ mod points;
 mod row;
 #[cfg(feature = "gpu")]
 pub mod run;
-#[cfg(feature = "compilers")]
-pub mod second;
 #[cfg(all(feature = "cli", feature = "gpu"))]
 mod supervise;
 #[cfg(feature = "gpu")]

@@ -29,7 +29,7 @@ pub struct Planned {
     /// Its target.
     pub target: &'static Target,
     /// Its pages: that which is run comes last.
-    pub pages: Vec<Page>,
+    pub pages: Vec<ShippedPage>,
     /// Its functions in order.
     pub functions: Vec<Emitted>,
     /// The place of its material among the subjects, where it has one.
@@ -56,20 +56,20 @@ impl Planned {
     }
 
     /// The page that is run.
-    pub fn run_page(&self) -> &Page {
+    pub fn run_page(&self) -> &ShippedPage {
         self.pages.last().expect("a planned file has a page")
     }
 
     /// Adds a page; compute modules are run, so that they come last.
-    pub fn add(&mut self, page: Page) {
+    pub fn add(&mut self, page: ShippedPage) {
         self.pages.push(page);
-        self.pages.sort_by_key(Page::is_run);
+        self.pages.sort_by_key(ShippedPage::is_run);
     }
 }
 
 /// A file as it is shipped.
 #[derive(Debug)]
-pub struct Page {
+pub struct ShippedPage {
     /// Relative to the output folder.
     pub path: String,
     /// Its bytes: those in the output folder, or, where it is not there, what would be written.
@@ -88,7 +88,7 @@ pub struct Page {
     pub findings: Vec<String>,
 }
 
-impl Page {
+impl ShippedPage {
     /// Whether its functions are run: of modules those of compute shaders are.
     pub fn is_run(&self) -> bool {
         !self.path.ends_with(".spv") || self.path.contains(".comp.")

@@ -57,7 +57,7 @@ pub struct VerifyRow {
     /// Why compilers were not asked.
     #[serde(serialize_with = "as_object", deserialize_with = "from_object")]
     pub not_asked: Vec<(String, String)>,
-    /// What came of other ways to run the same text.
+    /// What came of other execution paths of the same text.
     pub second_opinions: Vec<SecondOpinion>,
     /// What to think of it.
     pub status: Status,
@@ -200,8 +200,9 @@ pub struct Emulation {
 /// The same text run in another way.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct SecondOpinion {
-    /// The way.
-    pub way: String,
+    /// The execution path.
+    #[serde(rename = "way")]
+    pub execution_path: String,
     /// On what it ran.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub device: Option<String>,

@@ -18,7 +18,7 @@ use crate::targets::{Stack, Target};
 
 use super::compilers::{self, HlslVersion, hlsl_to_spirv, hlsl_to_spirv_in};
 use super::harness::{self, Call, ENTRY};
-use super::second;
+use super::naga_translation;
 use super::trial::Trial;
 use crate::gpu::{
     self, Argument, Code, Device, Kernel, Program, Texture, TextureFormat, Uniform, Wanted, Wrap,
@@ -62,9 +62,9 @@ pub struct Devices {
     gles: OnceCell<Result<Device, gpu::Fault>>,
 }
 
-/// A way to run a target's text.
+/// How a target's text is run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Way {
+pub enum ExecutionPath {
     /// As the target's language says.
     Own,
     /// HLSL as of 2021.
@@ -75,30 +75,34 @@ pub enum Way {
     NagaHlsl,
 }
 
-impl Way {
-    /// The ways of a target: its own first. Of half precision naga writes no GLSL, and HLSL for another shader model.
-    pub fn of(target: &Target, precision: Precision) -> &'static [Way] {
+impl ExecutionPath {
+    /// The paths of a target: its own first. Of half precision naga writes no GLSL, and HLSL for another shader model.
+    pub fn all_for(target: &Target, precision: Precision) -> &'static [ExecutionPath] {
         match (target.stack, precision) {
-            (Stack::Wgpu(_), Precision::F32) => &[Way::Own, Way::NagaGles, Way::NagaHlsl],
-            (Stack::DxcToVulkan(_), _) => &[Way::Own, Way::Hlsl2021],
-            _ => &[Way::Own],
+            (Stack::Wgpu(_), Precision::F32) => &[
+                ExecutionPath::Own,
+                ExecutionPath::NagaGles,
+                ExecutionPath::NagaHlsl,
+            ],
+            (Stack::DxcToVulkan(_), _) => &[ExecutionPath::Own, ExecutionPath::Hlsl2021],
+            _ => &[ExecutionPath::Own],
         }
     }
 
     /// The name in reports.
     pub fn name(self) -> &'static str {
         match self {
-            Way::Own => "as it is",
-            Way::Hlsl2021 => "HLSL 2021",
-            Way::NagaGles => "naga's GLSL ES",
-            Way::NagaHlsl => "naga's HLSL",
+            ExecutionPath::Own => "as it is",
+            ExecutionPath::Hlsl2021 => "HLSL 2021",
+            ExecutionPath::NagaGles => "naga's GLSL ES",
+            ExecutionPath::NagaHlsl => "naga's HLSL",
         }
     }
 }
 
 /// A function of a file.
 #[derive(Clone, Copy, Debug)]
-pub struct Shown<'a> {
+pub struct ShippedFunction<'a> {
     /// The target's name.
     pub target: &'static Target,
     /// The file.
@@ -146,12 +150,12 @@ impl Devices {
         opened.as_ref().map_err(|fault| fault.clone().into())
     }
 
-    /// The device that runs a target's text in a way.
+    /// The device that runs a target's text by an execution path.
     ///
     /// # Errors
     /// There is none.
-    pub fn of(&self, target: &Target, way: Way) -> Result<&Device, Fault> {
-        if matches!(target.stack, Stack::OpenGlEs(_)) || way == Way::NagaGles {
+    pub fn device_for(&self, target: &Target, path: ExecutionPath) -> Result<&Device, Fault> {
+        if matches!(target.stack, Stack::OpenGlEs(_)) || path == ExecutionPath::NagaGles {
             self.gles()
         } else {
             self.compute()
@@ -162,10 +166,15 @@ impl Devices {
     ///
     /// # Errors
     /// A compiler refuses the text, or what it takes is not here.
-    pub fn prepare(&self, shown: &Shown, way: Way, trial: &Trial) -> Result<Runnable, Fault> {
+    pub fn prepare(
+        &self,
+        shown: &ShippedFunction,
+        path: ExecutionPath,
+        trial: &Trial,
+    ) -> Result<Runnable, Fault> {
         let emitted = shown.function;
-        let call = Call::of(emitted);
-        let device = self.of(shown.target, way)?;
+        let call = Call::to_emitted(emitted);
+        let device = self.device_for(shown.target, path)?;
         check_able(device, emitted)?;
         let ready = |code: Code, entry: &str, is_bound: bool| {
             let params = &emitted.function.params;
@@ -199,20 +208,20 @@ impl Devices {
                 shown.target.name
             )));
         };
-        match (shown.target.stack, way) {
-            (Stack::Wgpu(_), Way::NagaGles) => {
+        match (shown.target.stack, path) {
+            (Stack::Wgpu(_), ExecutionPath::NagaGles) => {
                 let vertex = harness::wgsl_vertex(text, &call, &trial.values);
-                let made = second::to_gles(&vertex, ENTRY)?;
+                let made = naga_translation::to_gles(&vertex, ENTRY)?;
                 ready(Code::Gles(&harness::renamed(&made)), "main", true)
             }
-            (Stack::Wgpu(_), Way::NagaHlsl) => {
-                let made = second::to_hlsl(&shader, ENTRY)?;
+            (Stack::Wgpu(_), ExecutionPath::NagaHlsl) => {
+                let made = naga_translation::to_hlsl(&shader, ENTRY)?;
                 let code = hlsl_to_spirv(&made.text, &made.entry, HlslVersion::V2018)?;
                 ready(Code::Spirv(&code), &made.entry, false)
             }
             (Stack::OpenGlEs(_), _) => ready(Code::Gles(&shader), "main", false),
             (Stack::DxcToVulkan(_), _) => {
-                let version = if way == Way::Hlsl2021 {
+                let version = if path == ExecutionPath::Hlsl2021 {
                     HlslVersion::V2021
                 } else {
                     HlslVersion::V2018

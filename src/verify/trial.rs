@@ -4,7 +4,7 @@ use serde::Serialize;
 
 use crate::fit::Measured;
 use crate::ir::{Checked, Column, Op, Param, Texels, Ty, Value, evaluate};
-use crate::num::{Loose, Num, ulp_distance};
+use crate::num::{Num, VulkanTolerance, ulp_distance};
 
 use super::code_error::{ABSOLUTE_FLOOR, CodeError};
 
@@ -152,10 +152,10 @@ impl Trial {
             .any(|op| self.function.count(*op) > 0);
         has_power.then(|| {
             let off = [
-                self.off::<Loose<1, 1>>(cosines, want),
-                self.off::<Loose<1, -1>>(cosines, want),
-                self.off::<Loose<-1, 1>>(cosines, want),
-                self.off::<Loose<-1, -1>>(cosines, want),
+                self.off::<VulkanTolerance<1, 1>>(cosines, want),
+                self.off::<VulkanTolerance<1, -1>>(cosines, want),
+                self.off::<VulkanTolerance<-1, 1>>(cosines, want),
+                self.off::<VulkanTolerance<-1, -1>>(cosines, want),
             ];
             each(cosines.len(), |i| {
                 off.iter().fold([0.0; 3], |most, off| {

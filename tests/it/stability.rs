@@ -84,7 +84,7 @@ fn what_keeps_the_contract_is_a_reflectance_everywhere() {
         .filter(|method| method.contract == Contract::Kept);
     for method in kept {
         for failure in BROKEN {
-            let what = failure.text();
+            let what = failure.words();
             assert!(
                 !fails(&ROWS, method.name, failure),
                 "{}: {what}",
@@ -108,7 +108,7 @@ fn half_precision_is_a_reflectance_for_the_media_that_it_is_meant_for() {
         let n = value("n").max(value("eta"));
         let what = format!(
             "{method}: {} where {}",
-            finding.failure.text(),
+            finding.failure.words(),
             finding.region
         );
         assert!(!Over::Half.holds(n, value("k")), "{what}");
@@ -132,7 +132,7 @@ fn what_fails_is_seen() {
         assert!(
             fails(&ROWS, method, failure),
             "{method}: no {}",
-            failure.text()
+            failure.words()
         );
     }
     // The exact laws fail nowhere as formulas.
@@ -175,7 +175,7 @@ fn the_worst_inputs_known_get_no_worse() {
                         .map(|(_, value)| *value)
                 };
                 let (n, k) = (of("n").or(of("eta"))?, of("k").unwrap_or(0.0));
-                let what = finding.failure.text();
+                let what = finding.failure.words();
                 (!finding.failure.is_of_the_model()).then_some(format!(
                     "{},{what},{n:e},{k:e},{:e}",
                     row.method,

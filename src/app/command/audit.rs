@@ -42,7 +42,7 @@ pub fn run(flags: &AuditFlags, progress: Progress) -> Result<Output, Error> {
     try_files(&all.map(PathBuf::as_path).collect::<Vec<_>>())?;
     try_places_of_ours(&charts, flags.overwrite)?;
     let subjects: Vec<Subject> = subjects.ready.into_iter().map(|(one, _)| one).collect();
-    let rows = subjects.iter().map(|one| audit.row(one, progress));
+    let rows = subjects.iter().map(|one| audit.audit_row(one, progress));
     let rows: Vec<AuditRow> = rows.collect::<Result<_, _>>()?;
     let command = String::from(flags.command_line(&request.sight));
     if let Some(file) = &flags.junit {
@@ -111,7 +111,7 @@ fn request(flags: &AuditFlags) -> Result<Request, Error> {
 
 fn audit(flags: &AuditFlags, space: Space) -> Result<Audit, Error> {
     let file = flags.file.clone().unwrap_or_default();
-    let language = Language::of(&file, flags.language.as_deref())?;
+    let language = Language::named(&file, flags.language.as_deref())?;
     let given = flags.arg.iter().map(|word| Given::read(word));
     Ok(Audit {
         given: given.collect::<Result<_, _>>()?,

@@ -11,7 +11,7 @@ use crate::emit::{Emitted, HeaderForm};
 use crate::methods;
 use crate::reference::Subject;
 use crate::targets;
-use crate::verify::plan::{Page, Plan, Planned};
+use crate::verify::plan::{Plan, Planned, ShippedPage};
 
 use super::shipped::{Folder, replace_with_today};
 
@@ -131,7 +131,7 @@ fn page(
     shipped: &Folder,
     meant: Made,
     exact: Made,
-) -> Result<(Made, Page), Error> {
+) -> Result<(Made, ShippedPage), Error> {
     let asked_in = |made: &Made| -> Vec<bool> {
         let asked = made.functions.iter();
         asked.map(|one| is_asked_for(request, one)).collect()
@@ -168,7 +168,7 @@ fn usual_subjects(request: &Request) -> Result<Vec<Subject>, Error> {
     Ok(ready.into_iter().map(|(subject, _)| subject).collect())
 }
 
-fn planned(made: Made, page: Page) -> Result<Planned, Error> {
+fn planned(made: Made, page: ShippedPage) -> Result<Planned, Error> {
     let target = targets::find(&made.artifact.target).ok_or_else(|| Error::Usage {
         what: format!("there is no target `{}`", made.artifact.target),
     })?;

@@ -11,7 +11,7 @@ use crate::targets;
 use crate::verify::drift;
 use crate::verify::module;
 use crate::verify::outline::{Item, Outline, outline};
-use crate::verify::plan::Page;
+use crate::verify::plan::ShippedPage;
 
 use super::listed::{self, Listed};
 
@@ -23,7 +23,12 @@ fn loop_found(found: &Item) -> String {
 }
 
 /// Lets what would be written today be run in place of the file, which lacks some of its functions.
-pub(super) fn replace_with_today(page: &mut Page, made: &Made, asked: &[bool], lacks: &[&str]) {
+pub(super) fn replace_with_today(
+    page: &mut ShippedPage,
+    made: &Made,
+    asked: &[bool],
+    lacks: &[&str],
+) {
     page.is_shipped = false;
     page.holds_loop = None;
     page.bytes.clone_from(&made.artifact.bytes);
@@ -84,7 +89,7 @@ impl Folder<'_> {
     }
 
     /// The page of a file; `asked` says which of its functions are to be run.
-    pub fn page(&self, made: &Made, asked: &[bool]) -> Result<Page, Error> {
+    pub fn page(&self, made: &Made, asked: &[bool]) -> Result<ShippedPage, Error> {
         let path = made.artifact.path.clone();
         let lying = folder::read(&self.path.join(&path))?;
         let today = Today::new(made, asked);
@@ -92,7 +97,7 @@ impl Folder<'_> {
             .manifest
             .as_ref()
             .and_then(|(manifest, text)| Listed::new(manifest, text, &path));
-        let mut page = Page {
+        let mut page = ShippedPage {
             is_shipped: lying.is_some(),
             is_current: true,
             holds_loop: None,
@@ -163,7 +168,7 @@ impl<'a> Today<'a> {
     }
 
     /// Enters what lies there. Where it lacks a function that is to be run, what would be written is run.
-    fn compare(&self, page: &mut Page, bytes: Vec<u8>, listed: Option<&Listed>) {
+    fn compare(&self, page: &mut ShippedPage, bytes: Vec<u8>, listed: Option<&Listed>) {
         page.is_current = self.is_current(&bytes);
         if page.is_current {
             let hash = listed.and_then(|listed| listed.hash_finding(&bytes));

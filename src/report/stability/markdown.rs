@@ -65,7 +65,7 @@ fn summaries(rows: &[StabilityRow]) -> Vec<Vec<String>> {
             let kind = discriminant(&finding.failure);
             if !kinds.contains(&kind) {
                 kinds.push(kind);
-                failures.push(format!("{}: {}", finding.failure.text(), finding.region));
+                failures.push(format!("{}: {}", finding.failure.words(), finding.region));
             }
         }
         let words = match failures.is_empty() {
@@ -116,7 +116,7 @@ fn line(method: &str, findings: &[&Finding]) -> Vec<String> {
         .reduce(|a, b| if b.amount > a.amount { b } else { a });
     vec![
         format!("`{method}`{}", exempt(method)),
-        findings[0].failure.text(),
+        findings[0].failure.words(),
         regions.join("; "),
         gravest.map_or_else(String::new, |finding| worst(finding)),
     ]

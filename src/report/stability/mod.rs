@@ -29,7 +29,7 @@ fn cells(row: &StabilityRow) -> Vec<String> {
             String::new(),
         ]),
         Some(finding) => cells.extend([
-            finding.failure.text(),
+            finding.failure.words(),
             region(finding),
             percent(finding.share),
             worst(finding),

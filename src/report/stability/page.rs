@@ -93,7 +93,7 @@ fn sentence(finding: &Finding) -> String {
     format!(
         "{}: {}{share}; worst at {}",
         finding.region,
-        finding.failure.text(),
+        finding.failure.words(),
         worst(finding)
     )
 }

@@ -5,7 +5,7 @@ use std::fs;
 use fresnel_gen::app::Artifact;
 use fresnel_gen::targets;
 use fresnel_gen::verify::compilers::{Fault, HlslVersion, Verdict, accepts, hlsl_to_spirv};
-use fresnel_gen::verify::second::{to_gles, to_hlsl};
+use fresnel_gen::verify::naga_translation::{to_gles, to_hlsl};
 use tempfile::TempDir;
 
 use super::{Judgement, Tool, accepted, text, tree};

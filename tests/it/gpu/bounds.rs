@@ -4,7 +4,7 @@
 use fresnel_gen::emit::{self, Naming};
 use fresnel_gen::fit::Measured;
 use fresnel_gen::gpu::Wanted;
-use fresnel_gen::verify::run::{Devices, Fault, Shown, Way};
+use fresnel_gen::verify::run::{Devices, ExecutionPath, Fault, ShippedFunction};
 use fresnel_gen::verify::{Trial, cosines};
 use fresnel_gen::{methods, targets};
 
@@ -24,7 +24,7 @@ fn check(name: &str, media: &[Medium]) {
         emit::Heading::default(),
     )
     .unwrap();
-    let shown = Shown {
+    let shown = ShippedFunction {
         target: targets::find("wgsl").unwrap(),
         bytes: &files[0].bytes,
         function: emitted,
@@ -37,7 +37,7 @@ fn check(name: &str, media: &[Medium]) {
         bound: Measured::Yes(method.claims.code_ulp),
         is_guarded: true,
     };
-    let runnable = match devices.prepare(&shown, Way::Own, &trial(&[(1.5, 0.0); 3])) {
+    let runnable = match devices.prepare(&shown, ExecutionPath::Own, &trial(&[(1.5, 0.0); 3])) {
         Err(Fault::Absent(why)) => {
             let remark = format!("digits of {name} on a device: {why}");
             assert!(std::env::var_os("CI").is_none(), "not checked: {remark}");

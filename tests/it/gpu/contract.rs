@@ -12,7 +12,7 @@ use fresnel_gen::optics;
 use fresnel_gen::reference::Subject;
 use fresnel_gen::targets::{self, Finish};
 use fresnel_gen::verify::Trial;
-use fresnel_gen::verify::run::{Devices, Fault, Shown, Way};
+use fresnel_gen::verify::run::{Devices, ExecutionPath, Fault, ShippedFunction};
 
 use crate::not_checked;
 
@@ -205,11 +205,11 @@ fn inputs<'a>(emitted: &'a Emitted, row: &[[f32; 3]], channel: usize) -> Vec<(&'
 /// A file with one function, run over the whole table. Says what breaks a rule.
 fn broken(
     devices: &Devices,
-    (target, way): (&'static targets::Target, Way),
+    (target, way): (&'static targets::Target, ExecutionPath),
     emitted: &Emitted,
     bytes: &[u8],
 ) -> Result<Vec<String>, Fault> {
-    let shown = Shown {
+    let shown = ShippedFunction {
         target,
         bytes,
         function: emitted,
@@ -309,7 +309,7 @@ fn files(target: &'static targets::Target) -> Vec<(Emitted, Vec<u8>)> {
 }
 
 #[track_caller]
-fn check(target: &str, way: Way) {
+fn check(target: &str, way: ExecutionPath) {
     let devices = Devices::new(Wanted::default());
     let target = targets::find(target).unwrap();
     let mut faults = Vec::new();
@@ -338,25 +338,25 @@ fn check(target: &str, way: Way) {
 
 #[test]
 fn the_contract_holds_in_wgsl() {
-    check("wgsl", Way::Own);
+    check("wgsl", ExecutionPath::Own);
 }
 
 #[test]
 fn the_contract_holds_in_spirv() {
-    check("spirv", Way::Own);
+    check("spirv", ExecutionPath::Own);
 }
 
 #[test]
 fn the_contract_holds_in_gles() {
-    check("gles", Way::Own);
+    check("gles", ExecutionPath::Own);
 }
 
 #[test]
 fn the_contract_holds_in_hlsl() {
-    check("hlsl", Way::Own);
+    check("hlsl", ExecutionPath::Own);
 }
 
 #[test]
 fn the_contract_holds_in_hlsl_2021() {
-    check("hlsl", Way::Hlsl2021);
+    check("hlsl", ExecutionPath::Hlsl2021);
 }

@@ -86,7 +86,7 @@ impl<'a> Put<'a> {
             "wgsl"
         };
         let (file, emitted) = (text(target), function());
-        let call = harness::Call::of(&emitted);
+        let call = harness::Call::to_emitted(&emitted);
         let target = targets::find(target).unwrap();
         let program = harness::program(target, &file, &call).unwrap();
         let (code, prefix) = match backend {

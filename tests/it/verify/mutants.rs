@@ -8,7 +8,7 @@ use fresnel_gen::ir::{Checked, Function, Label, Node, NodeId, Op, Payload, Ty, c
 use fresnel_gen::methods::{self, Class, Contract, Method};
 use fresnel_gen::reference::Subject;
 use fresnel_gen::targets;
-use fresnel_gen::verify::run::{Devices, Fault, Shown, Way};
+use fresnel_gen::verify::run::{Devices, ExecutionPath, Fault, ShippedFunction};
 use fresnel_gen::verify::{ABSOLUTE_FLOOR, Trial, beyond, cosines_around};
 
 use super::subjects;
@@ -246,13 +246,13 @@ fn is_caught(
         emit::Heading::default(),
     )
     .unwrap();
-    let shown = Shown {
+    let shown = ShippedFunction {
         target,
         bytes: &files.last().unwrap().bytes,
         function: emitted,
         entry: "main",
     };
-    let runnable = devices.prepare(&shown, Way::Own, trial)?;
+    let runnable = devices.prepare(&shown, ExecutionPath::Own, trial)?;
     let expected = trial.expected(&points(trial));
     let got = runnable.run(trial, &expected.cosines)?;
     Ok(expected.judge(&got).miss.is_some())

@@ -10,7 +10,7 @@ use super::{Num, Truth, ulp_of};
 
 /// A number; `LOG` and `EXP` are -1, 0 or 1: which way logarithms and exponentials err.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Loose<const LOG: i8, const EXP: i8>(f64);
+pub struct VulkanTolerance<const LOG: i8, const EXP: i8>(f64);
 
 /// 2⁻²¹: the error of log2 between 0.5 and 2.
 const LOG_NEAR_ONE: f64 = 1.0 / 2_097_152.0;
@@ -19,11 +19,11 @@ const LOG_ULP: f64 = 3.0;
 
 macro_rules! operator {
     ($trait:ident, $name:ident, $sign:tt) => {
-        impl<const LOG: i8, const EXP: i8> $trait for Loose<LOG, EXP> {
+        impl<const LOG: i8, const EXP: i8> $trait for VulkanTolerance<LOG, EXP> {
             type Output = Self;
 
             fn $name(self, other: Self) -> Self {
-                Loose(self.0 $sign other.0)
+                VulkanTolerance(self.0 $sign other.0)
             }
         }
     };
@@ -34,19 +34,19 @@ operator!(Sub, sub, -);
 operator!(Mul, mul, *);
 operator!(Div, div, /);
 
-impl<const LOG: i8, const EXP: i8> Neg for Loose<LOG, EXP> {
+impl<const LOG: i8, const EXP: i8> Neg for VulkanTolerance<LOG, EXP> {
     type Output = Self;
 
     fn neg(self) -> Self {
-        Loose(-self.0)
+        VulkanTolerance(-self.0)
     }
 }
 
-impl<const LOG: i8, const EXP: i8> Num for Loose<LOG, EXP> {
+impl<const LOG: i8, const EXP: i8> Num for VulkanTolerance<LOG, EXP> {
     const NAME: &'static str = "loose";
 
     fn from_f64(x: f64) -> Self {
-        Loose(x)
+        VulkanTolerance(x)
     }
 
     fn to_f64(self) -> f64 {
@@ -54,25 +54,25 @@ impl<const LOG: i8, const EXP: i8> Num for Loose<LOG, EXP> {
     }
 
     fn abs(self) -> Self {
-        Loose(self.0.abs())
+        VulkanTolerance(self.0.abs())
     }
 
     fn min(self, other: Self) -> Self {
-        Loose(self.0.min(other.0))
+        VulkanTolerance(self.0.min(other.0))
     }
 
     fn max(self, other: Self) -> Self {
-        Loose(self.0.max(other.0))
+        VulkanTolerance(self.0.max(other.0))
     }
 
     fn sqrt(self) -> Self {
-        Loose(self.0.sqrt())
+        VulkanTolerance(self.0.sqrt())
     }
 
     fn exp2(self) -> Self {
         let exact = libm::exp2(self.0);
         let ulp = 3.0 + 2.0 * self.0.abs();
-        Loose(exact + f64::from(EXP) * ulp * ulp_of(exact))
+        VulkanTolerance(exact + f64::from(EXP) * ulp * ulp_of(exact))
     }
 
     fn log2(self) -> Self {
@@ -82,7 +82,7 @@ impl<const LOG: i8, const EXP: i8> Num for Loose<LOG, EXP> {
         } else {
             LOG_ULP * ulp_of(exact)
         };
-        Loose(exact + f64::from(LOG) * error)
+        VulkanTolerance(exact + f64::from(LOG) * error)
     }
 
     fn less(self, other: Self) -> Truth {
@@ -96,11 +96,11 @@ mod tests {
 
     #[test]
     fn it_errs_by_what_the_specification_allows() {
-        let up = Loose::<1, 1>::from_f64;
+        let up = VulkanTolerance::<1, 1>::from_f64;
         assert_eq!(up(8.0).log2().to_f64(), 3.0 + 3.0 * ulp_of(3.0));
         assert_eq!(up(1.0).log2().to_f64(), LOG_NEAR_ONE);
         assert_eq!(up(-2.0).exp2().to_f64(), 0.25 + 7.0 * ulp_of(0.25));
-        let exact = Loose::<0, 0>::from_f64;
+        let exact = VulkanTolerance::<0, 0>::from_f64;
         assert_eq!(exact(8.0).log2().to_f64(), 3.0);
         assert_eq!(exact(3.0).squared().to_f64(), 9.0);
         assert_eq!(exact(3.0).less(exact(4.0)), Truth::Yes);
