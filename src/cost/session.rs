@@ -138,6 +138,9 @@ fn reason(silence: &Silence, limit: Duration) -> String {
 }
 
 /// How the process with a family's compiler is started, or why there is none.
+///
+/// # Errors
+/// The family's compiler was not built here.
 pub fn launch(family: &Family, surroundings: &Surroundings) -> Result<Launch, String> {
     let launch = Launch::new(&["cost", "--worker", family.name], surroundings);
     Ok(launch.with_environment(environment(family, surroundings)?))

@@ -46,6 +46,9 @@ struct SetColumns<'a> {
 }
 
 /// The page; it opens with this set, cost and error. Or why it cannot be made.
+///
+/// # Errors
+/// The page's template cannot be filled.
 pub fn chart_page(data: &ChartData, [set, cost, error]: [usize; 3]) -> Result<String, String> {
     let json = serde_json::to_string(&page_data(data)).map_err(|why| why.to_string())?;
     let mut context = Context::new();
