@@ -229,9 +229,8 @@ fn only_the_writer_and_the_program_touch_the_machine() {
         "app/source.rs",
         "app/tree.rs",
         "build.rs",
-        // Workers: processes of this program, with a time limit.
         "verify/machine.rs",
-        "verify/supervise.rs",
+        // Workers: processes of this program, with a time limit.
         "process/worker.rs",
         "process/inbox.rs",
         "process/tools.rs",
