@@ -5,6 +5,7 @@ use std::path::PathBuf;
 
 use thiserror::Error;
 
+use super::fault::RequestFault;
 use crate::names::UnknownName;
 use crate::{emit, lut, materials, overdraw, process};
 
@@ -15,6 +16,9 @@ pub enum Error {
     /// A name that does not exist.
     #[error(transparent)]
     Unknown(#[from] UnknownName),
+    /// A fault of the request that several commands know.
+    #[error(transparent)]
+    Request(#[from] RequestFault),
     /// A request that contradicts itself or cannot be met.
     #[error("{what}")]
     Usage {

@@ -13,6 +13,7 @@ pub mod check;
 pub mod command;
 pub mod depfile;
 pub mod error;
+pub mod fault;
 pub mod folder;
 pub mod generate;
 #[cfg(feature = "cli")]

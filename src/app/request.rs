@@ -11,6 +11,7 @@ use crate::spectra::Illuminant;
 use crate::targets::{self, Target};
 
 use super::error::Error;
+use super::fault::RequestFault;
 use super::names::unknown;
 
 /// What to generate. `Request::default()` is what the program does without flags.
@@ -261,11 +262,12 @@ impl Request {
             Some(degrees) if degrees > 0.0 && degrees < 90.0 => Ok(Derivation {
                 matching_cos: libm::cos(degrees.to_radians()),
             }),
-            Some(degrees) => Err(Error::Usage {
-                what: format!(
-                    "--matching-angle is {degrees}; it must lie between 0 and 90 degrees"
-                ),
-            }),
+            Some(degrees) => Err(RequestFault::OutOfRange {
+                flag: "matching-angle",
+                value: degrees.to_string(),
+                allowed: "must lie between 0 and 90 degrees".to_owned(),
+            }
+            .into()),
         }
     }
 
@@ -313,27 +315,32 @@ impl Subjects {
 
 /// Two materials of one name.
 pub fn same_name(name: &str) -> Error {
-    Error::Usage {
-        what: format!("two different materials are named `{name}`; rename one in its file"),
+    RequestFault::SameName {
+        name: name.to_owned(),
     }
+    .into()
 }
 
 /// The exact function of a material bears its name alone, where a method's function bears the method's.
 fn check_not_a_method(name: &str) -> Result<(), Error> {
     let stem = name.strip_suffix("_scalar").unwrap_or(name);
     if name.ends_with(Precision::F16.suffix()) {
-        let what = format!(
-            "the material `{name}` has the name of a function in half precision; choose another `name` in its file"
-        );
-        return Err(Error::Usage { what });
+        let meaning = "a function in half precision";
+        return Err(RequestFault::NameTaken {
+            name: name.to_owned(),
+            meaning,
+        }
+        .into());
     }
     if methods::find(stem).is_none() {
         return Ok(());
     }
-    let what = format!(
-        "the material `{name}` has the name of a method's function; choose another `name` in its file"
-    );
-    Err(Error::Usage { what })
+    let meaning = "a method's function";
+    Err(RequestFault::NameTaken {
+        name: name.to_owned(),
+        meaning,
+    }
+    .into())
 }
 
 /// Through a metal or a semiconductor no light comes to reflect.

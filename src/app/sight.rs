@@ -4,6 +4,7 @@ use crate::materials::{Extrapolate, Sight};
 use crate::spectra::{Adaptation, Gamut, Illuminant, Integration, Observer, Space, Step};
 
 use super::error::Error;
+use super::fault::RequestFault;
 use super::names::unknown;
 use super::source::{is_path, read};
 
@@ -144,8 +145,7 @@ fn wavelengths(words: &Words) -> Result<Option<[f64; 3]>, Error> {
         words.step,
     ];
     if spectral.iter().any(Option::is_some) {
-        let what = "--wavelengths takes one wavelength a channel, so that observer, illuminant, space, gamut, adaptation and step say nothing beside it; leave one or the other out".to_owned();
-        return Err(Error::Usage { what });
+        return Err(RequestFault::Conflict { flag: "wavelengths", with: "space", why: "--wavelengths takes one wavelength a channel, so that observer, illuminant, space, gamut, adaptation and step say nothing beside it; leave one or the other out" }.into());
     }
     Ok(Some(three))
 }

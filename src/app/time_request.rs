@@ -5,6 +5,7 @@ use crate::overdraw::{LibraryMaterials, TimedFunctions};
 use crate::reference::Subject;
 
 use super::error::Error;
+use super::fault::RequestFault;
 use super::precision::several;
 use super::request::{Materials, Request, Source};
 
@@ -56,10 +57,11 @@ impl TimeRequest<'_> {
             self.evaluations,
         )?;
         if timed.functions.is_empty() {
-            let what = "there is nothing to measure: no such method in this precision, or for these materials";
-            return Err(Error::Usage {
-                what: what.to_owned(),
-            });
+            return Err(RequestFault::NothingToDo {
+                work: "measure",
+                why: "no such method in this precision, or for these materials",
+            }
+            .into());
         }
         let unseen = subjects.left_out.into_iter().map(|unseen| unseen.why);
         Ok(TimedFunctions {

@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 
 use crate::app::args::AuditFlags;
 use crate::app::error::Error;
+use crate::app::fault::RequestFault;
 use crate::app::names::family;
 use crate::app::request::{Materials, Request};
 use crate::app::sight::sight;
@@ -18,7 +19,7 @@ use crate::report::frontier::{ChartView, CostAxis, STATISTICS, chart_data, chart
 use crate::spectra::Space;
 use crate::verify::{Status, junit, machine};
 
-use super::{Output, Progress, chart, check_limit, report, try_files};
+use super::{Output, Progress, chart, check_limit, not_drawn, report, try_files};
 
 /// The GPUs that are asked unless others are named: one of a desktop, one of a phone.
 const USUAL: [&str; 2] = ["rdna2", "adreno330"];
@@ -47,7 +48,7 @@ pub fn run(flags: &AuditFlags, progress: Progress) -> Result<Output, Error> {
     let command = String::from(flags.command_line(&request.sight));
     if let Some(file) = &flags.junit {
         let cases = rows.iter().map(AuditRow::junit_case);
-        let xml = junit("fresnel-gen audit", cases).map_err(|what| Error::Usage { what })?;
+        let xml = junit("fresnel-gen audit", cases).map_err(not_drawn)?;
         write_file(file, xml.as_bytes())?;
     }
     let device = rows.first().and_then(|row| row.device.clone());
@@ -98,8 +99,10 @@ fn charted(
 fn request(flags: &AuditFlags) -> Result<Request, Error> {
     let materials = materials(&flags.material)?;
     if materials == Materials::None {
-        let what = "--material is none; an audit holds a function against a material".to_owned();
-        return Err(Error::Usage { what });
+        return Err(RequestFault::NoMaterial {
+            why: "--material is none; an audit holds a function against a material",
+        }
+        .into());
     }
     Ok(Request {
         materials,

@@ -3,6 +3,7 @@
 use crate::app::args::BakeFlags;
 use crate::app::artifact::Artifact;
 use crate::app::error::Error;
+use crate::app::fault::RequestFault;
 use crate::app::generate::provenance;
 use crate::app::lock::{Announce, Lock};
 use crate::app::names::unknown;
@@ -138,11 +139,12 @@ fn shape(flags: &BakeFlags) -> Result<TableSize, Error> {
             budget,
             axes: axis.map_or(Axis::ALL.to_vec(), |axis| vec![axis]),
         }),
-        Some(budget) => Err(Error::Usage {
-            what: format!(
-                "--budget is {budget}; it is an error of reflectance, above 0, such as 0.001"
-            ),
-        }),
+        Some(budget) => Err(RequestFault::OutOfRange {
+            flag: "budget",
+            value: budget.to_string(),
+            allowed: "is an error of reflectance, above 0, such as 0.001".to_owned(),
+        }
+        .into()),
     }
 }
 

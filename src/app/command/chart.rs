@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 
 use crate::app::args::ChartFlags;
 use crate::app::error::Error;
+use crate::app::fault::RequestFault;
 use crate::app::names::unknown;
 use crate::app::request::{Materials, Request};
 use crate::app::source::materials;
@@ -15,7 +16,7 @@ use crate::report::frontier::{
     cost_names, set_name,
 };
 
-use super::{Output, Progress, replaced, report, try_files};
+use super::{Output, Progress, not_drawn, replaced, report, try_files};
 
 const PICTURE: &str = "chart.svg";
 const PAGE: &str = "chart.html";
@@ -67,9 +68,10 @@ pub fn run(flags: &ChartFlags, progress: Progress) -> Result<Output, Error> {
 fn chosen(flags: &ChartFlags) -> Result<Materials, Error> {
     match materials(&flags.material)? {
         Materials::Default => Ok(Materials::All),
-        Materials::None => Err(Error::Usage {
-            what: "a chart is of materials; `none` leaves nothing to show".to_owned(),
-        }),
+        Materials::None => Err(RequestFault::NoMaterial {
+            why: "a chart is of materials; `none` leaves nothing to show",
+        }
+        .into()),
         named => Ok(named),
     }
 }
@@ -90,7 +92,7 @@ pub(super) fn written(
     view: &ChartView,
     first: [usize; 3],
 ) -> Result<Vec<String>, Error> {
-    let page = chart_page(view.data, first).map_err(|what| Error::Usage { what })?;
+    let page = chart_page(view.data, first).map_err(not_drawn)?;
     let picture = chart_svg(view).ok_or_else(|| Error::Usage {
         what: format!(
             "nothing is known of {} on {}: there is no picture to draw",

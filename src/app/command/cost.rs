@@ -4,6 +4,7 @@ use core::time::Duration;
 
 use crate::app::args::CostFlags;
 use crate::app::error::Error;
+use crate::app::fault::RequestFault;
 use crate::app::names::family;
 use crate::app::precision::several;
 use crate::app::request::Request;
@@ -19,7 +20,7 @@ use crate::report::Report;
 use crate::report::cost::{cost_page, cost_text};
 use crate::verify::machine;
 
-use super::{Output, Progress, check_limit, replaced, report, try_places};
+use super::{Output, Progress, check_limit, not_drawn, replaced, report, try_places};
 
 /// The page in the folder asked for.
 const PAGE: &str = "cost.html";
@@ -109,11 +110,11 @@ fn requested(flags: &CostFlags) -> Result<(Vec<Function>, Vec<String>), Error> {
         .collect();
     let functions = functions(&methods, &subjects, &precisions)?;
     if !functions.iter().any(|function| function.is_asked) {
-        let what =
-            "there is nothing to measure: no such method for these materials in this precision";
-        return Err(Error::Usage {
-            what: what.to_owned(),
-        });
+        return Err(RequestFault::NothingToDo {
+            work: "measure",
+            why: "no such method for these materials in this precision",
+        }
+        .into());
     }
     Ok((functions, left_out))
 }
@@ -222,8 +223,7 @@ fn paged(flags: &CostFlags, table: &[Vec<CostRow>]) -> Result<Vec<String>, Error
     let Some(folder) = &flags.out_dir else {
         return Ok(Vec::new());
     };
-    let page = cost_page(table, &String::from(flags.command_line()))
-        .map_err(|what| Error::Usage { what })?;
+    let page = cost_page(table, &String::from(flags.command_line())).map_err(not_drawn)?;
     let file = folder.join(PAGE);
     let old = write_report(&[(file.clone(), page.as_bytes())], flags.overwrite)?;
     let said = format!("{}: a page with all figures", file.display());

@@ -2,6 +2,7 @@
 
 use crate::app::args::FitFlags;
 use crate::app::error::Error;
+use crate::app::fault::RequestFault;
 use crate::app::names::{family, unknown};
 use crate::app::precision::named;
 use crate::app::request::{Materials, Request};
@@ -102,8 +103,10 @@ pub(super) fn subjects(flags: &FitFlags) -> Result<(Vec<Subject>, Vec<String>), 
         false => materials(&flags.material)?,
     };
     if materials == Materials::None {
-        let what = "a fit is of materials; `none` leaves nothing to fit".to_owned();
-        return Err(Error::Usage { what });
+        return Err(RequestFault::NoMaterial {
+            why: "a fit is of materials; `none` leaves nothing to fit",
+        }
+        .into());
     }
     let request = Request {
         materials,

@@ -7,6 +7,7 @@ use crate::app::args::Generate;
 use crate::app::artifact::Artifact;
 use crate::app::catalogue::add_catalogue;
 use crate::app::error::Error;
+use crate::app::fault::RequestFault;
 use crate::app::generate::{Generated, Kept, generate_beside, generate_single};
 use crate::app::lock::{Announce, Lock};
 use crate::app::manifest::{self, Manifest};
@@ -92,16 +93,19 @@ fn chosen(flags: &Generate, request: Request) -> Result<(Request, Vec<String>), 
     };
     let family = family(flags.gpu.as_deref().unwrap_or(USUAL_GPU))?;
     let budget = Budget::new(most, family)?;
-    let what = if request.precision.is_half() {
-        "--budget is of functions in single precision; leave --precision f16 out"
-    } else if request.materials == Materials::None {
-        "--budget chooses for materials; `none` leaves none to choose for"
-    } else {
-        return within(budget, request);
-    };
-    Err(Error::Usage {
-        what: what.to_owned(),
-    })
+    if request.precision.is_half() {
+        return Err(RequestFault::Conflict {
+            flag: "budget",
+            with: "precision",
+            why: "--budget is of functions in single precision; leave --precision f16 out",
+        }
+        .into());
+    }
+    if request.materials == Materials::None {
+        let why = "--budget chooses for materials; `none` leaves none to choose for";
+        return Err(RequestFault::NoMaterial { why }.into());
+    }
+    within(budget, request)
 }
 
 /// The request with one method for each material.

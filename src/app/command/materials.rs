@@ -18,7 +18,7 @@ use crate::report::table;
 use crate::report::{Report, SCHEMA};
 use crate::spectra::{FIRST_NM, LAST_NM};
 
-use super::{Output, Progress, import, params, png, report, survey};
+use super::{Output, Progress, import, not_drawn, params, png, report, survey};
 
 /// `fresnel-gen materials`.
 pub fn run(flags: &MaterialsFlags, progress: Progress) -> Result<Output, Error> {
@@ -138,7 +138,7 @@ fn drawn(flags: &ShowFlags, loaded: &Loaded, output: &mut Output) -> Result<(), 
         &sight,
         &command(loaded, medium.as_ref(), &sight),
     )
-    .map_err(|what| Error::Usage { what })?;
+    .map_err(not_drawn)?;
     let bytes = flags
         .png
         .as_ref()

@@ -30,6 +30,7 @@ use serde::Serialize;
 
 use super::args::{Cli, Command, NamedFiles};
 use super::error::Error;
+use super::fault::RequestFault;
 use super::folder::{is_below, is_plain_file, is_same_file, read, resolved};
 use super::lock::Announce;
 use super::manifest::{self, Manifest};
@@ -112,12 +113,11 @@ fn refuse_clashes(named: &NamedFiles) -> Result<(), Error> {
                 || is_page(output) && input.is_dir() && is_below(input, output)
         };
         if named.inputs.iter().any(is_read) {
-            return Err(Error::Usage {
-                what: format!(
-                    "{}: this run reads that file; write to another place",
-                    output.display()
-                ),
-            });
+            return Err(RequestFault::Place {
+                place: output.to_path_buf(),
+                why: "this run reads that file; write to another place",
+            }
+            .into());
         }
     }
     refuse_one_place(&named.outputs)?;
@@ -160,12 +160,11 @@ fn refuse_listed(named: &Path) -> Result<(), Error> {
 fn refuse_one_place(files: &[&Path]) -> Result<(), Error> {
     for (i, file) in files.iter().enumerate() {
         if files[..i].iter().any(|other| is_same_file(other, file)) {
-            return Err(Error::Usage {
-                what: format!(
-                    "{}: two outputs of this run would be written there; give each a place of its own",
-                    file.display()
-                ),
-            });
+            return Err(RequestFault::Place {
+                place: file.to_path_buf(),
+                why: "two outputs of this run would be written there; give each a place of its own",
+            }
+            .into());
         }
     }
     Ok(())
@@ -189,12 +188,11 @@ fn refuse_place_of(places: &[PathBuf], named: &Path) -> Result<(), Error> {
     if !places.iter().any(is_taken) {
         return Ok(());
     }
-    Err(Error::Usage {
-        what: format!(
-            "{}: a file of the generated tree lies there; write to another place",
-            named.display()
-        ),
-    })
+    Err(RequestFault::Place {
+        place: named.to_path_buf(),
+        why: "a file of the generated tree lies there; write to another place",
+    }
+    .into())
 }
 
 /// Refuses a time limit of 0, and one that no clock can add.
@@ -204,15 +202,23 @@ fn check_limit(seconds: u64) -> Result<(), Error> {
     if (1..=MOST_SECONDS).contains(&seconds) {
         return Ok(());
     }
-    Err(Error::Usage {
-        what: format!("--limit is {seconds} seconds; it is 1 to {MOST_SECONDS}"),
-    })
+    Err(RequestFault::OutOfRange {
+        flag: "limit",
+        value: format!("{seconds} seconds"),
+        allowed: format!("is 1 to {MOST_SECONDS}"),
+    }
+    .into())
+}
+
+/// What could not be drawn, for this reason.
+fn not_drawn(reason: String) -> Error {
+    RequestFault::NotDrawn { reason }.into()
 }
 
 /// An SVG document as PNG.
 #[cfg(feature = "pictures")]
 fn png(svg: &str, scale: f32) -> Result<Vec<u8>, Error> {
-    crate::report::png::png(svg, scale).map_err(|what| Error::Usage { what })
+    crate::report::png::png(svg, scale).map_err(not_drawn)
 }
 
 /// An SVG document as PNG, which this program cannot draw.

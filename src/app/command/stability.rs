@@ -4,6 +4,7 @@ use std::path::PathBuf;
 
 use crate::app::args::StabilityFlags;
 use crate::app::error::Error;
+use crate::app::fault::RequestFault;
 use crate::app::names::unknown;
 use crate::app::precision::named;
 use crate::app::request::Request;
@@ -16,7 +17,7 @@ use crate::report::Report;
 use crate::report::stability::{heat_map, stability_page, stability_text};
 use crate::stability::{StabilityRow, Study, maps};
 
-use super::{Output, Progress, png, replaced, report, try_places};
+use super::{Output, Progress, not_drawn, png, replaced, report, try_places};
 
 /// Pixels of a map to a unit of its drawing.
 const SCALE: f32 = 1.0;
@@ -47,8 +48,11 @@ pub fn run(flags: &StabilityFlags, progress: Progress) -> Result<Output, Error> 
     try_places_of_ours(page.as_slice(), flags.overwrite)?;
     let rows = asked.rows(progress)?;
     if rows.is_empty() {
-        let what = "there is nothing to scan: no such method for these materials".to_owned();
-        return Err(Error::Usage { what });
+        return Err(RequestFault::NothingToDo {
+            work: "scan",
+            why: "no such method for these materials",
+        }
+        .into());
     }
     let json = Report::new(flags.command_line(), rows.clone());
     let drawn = asked.drawn(&rows, progress)?;
@@ -119,7 +123,7 @@ impl Asked<'_> {
         let Some(folder) = &self.flags.out_dir else {
             return Ok(Vec::new());
         };
-        let failed = |what: String| Error::Usage { what };
+        let failed = not_drawn;
         let mut pictures = Vec::new();
         for (i, method) in self.study.methods.iter().enumerate() {
             progress(i as u64, self.study.methods.len() as u64, "maps");

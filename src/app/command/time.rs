@@ -1,10 +1,12 @@
 //! `time`: what functions cost on the device at hand.
 
+use core::fmt::Display;
 use core::time::Duration;
 use std::collections::BTreeSet;
 
 use crate::app::args::TimeFlags;
 use crate::app::error::Error;
+use crate::app::fault::RequestFault;
 use crate::app::names::unknown;
 use crate::app::source::materials;
 use crate::app::time_request::TimeRequest;
@@ -85,24 +87,29 @@ pub fn run(flags: &TimeFlags, progress: Progress) -> Result<Output, Error> {
 }
 
 fn check(flags: &TimeFlags) -> Result<(), Error> {
-    let usage = |what: String| Err(Error::Usage { what });
     if let Some(size) = flags.size.filter(|size| !SIZES.contains(size)) {
-        return usage(format!("--size is {size}; it is 16 to 8192 pixels a side"));
+        return out_of_range("size", size, "is 16 to 8192 pixels a side");
     }
     if !ROUNDS.contains(&flags.rounds) {
-        return usage(format!("--rounds is {}; it is 1 to 1000", flags.rounds));
+        return out_of_range("rounds", flags.rounds, "is 1 to 1000");
     }
     if !(1..=BLOCKS).contains(&flags.evaluations) {
-        let given = flags.evaluations;
-        return usage(format!("--evaluations is {given}; it is 1 to {BLOCKS}"));
+        let allowed = format!("is 1 to {BLOCKS}");
+        return out_of_range("evaluations", flags.evaluations, &allowed);
     }
     if !SECONDS.contains(&flags.limit) {
-        let given = flags.limit;
-        return usage(format!(
-            "--limit is {given}; it is 0.000001 to 3600 seconds"
-        ));
+        return out_of_range("limit", flags.limit, "is 0.000001 to 3600 seconds");
     }
     Ok(())
+}
+
+fn out_of_range(flag: &'static str, value: impl Display, allowed: &str) -> Result<(), Error> {
+    Err(RequestFault::OutOfRange {
+        flag,
+        value: value.to_string(),
+        allowed: allowed.to_owned(),
+    }
+    .into())
 }
 
 fn wanted(flags: &TimeFlags) -> Result<Wanted, Error> {

@@ -5,6 +5,7 @@ use std::collections::BTreeSet;
 
 use crate::app::args::VerifyFlags;
 use crate::app::error::Error;
+use crate::app::fault::RequestFault;
 use crate::app::names::unknown;
 use crate::app::request::Request;
 use crate::app::sight::sight;
@@ -20,7 +21,7 @@ use crate::verify::plan::Plan;
 use crate::verify::run::Devices;
 use crate::verify::{Status, VerifyRow, exhaustive_rows, junit, machine, serve, supervise};
 
-use super::{Output, Progress, check_limit, refuse_place_of, report, try_places};
+use super::{Output, Progress, check_limit, not_drawn, refuse_place_of, report, try_places};
 
 /// Cosines that a run may ask for.
 const POINTS: std::ops::RangeInclusive<usize> = 100..=10_000_000;
@@ -35,9 +36,11 @@ pub fn run(flags: &VerifyFlags, progress: Progress) -> Result<Output, Error> {
     let effort = effort(flags)?;
     let plan = plan_of_request(&request, &flags.out_dir)?;
     if plan.files.is_empty() {
-        return Err(Error::Usage {
-            what: "there is nothing to run: name a method or a material".to_owned(),
-        });
+        return Err(RequestFault::NothingToDo {
+            work: "run",
+            why: "name a method or a material",
+        }
+        .into());
     }
     if let Some(inbox) = inbox {
         let served = serve(inbox, &plan, &Devices::new(wanted), effort);
@@ -48,10 +51,12 @@ pub fn run(flags: &VerifyFlags, progress: Progress) -> Result<Output, Error> {
         });
     }
     if flags.exhaustive && request.precision.is_half() {
-        let what = "--exhaustive runs every f32; a run of --precision f16 tries every f16 already";
-        return Err(Error::Usage {
-            what: what.to_owned(),
-        });
+        return Err(RequestFault::Conflict {
+            flag: "exhaustive",
+            with: "precision",
+            why: "--exhaustive runs every f32; a run of --precision f16 tries every f16 already",
+        }
+        .into());
     }
     for report in flags.json.iter().chain(&flags.junit) {
         refuse_place_of(&plan.places, report)?;
@@ -111,8 +116,12 @@ fn wanted(flags: &VerifyFlags) -> Result<Wanted, Error> {
 
 fn effort(flags: &VerifyFlags) -> Result<Effort, Error> {
     if !POINTS.contains(&flags.points) {
-        let what = format!("--points is {}; it is 100 to 10000000", flags.points);
-        return Err(Error::Usage { what });
+        return Err(RequestFault::OutOfRange {
+            flag: "points",
+            value: flags.points.to_string(),
+            allowed: "is 100 to 10000000".to_owned(),
+        }
+        .into());
     }
     Ok(Effort {
         points: flags.points,
@@ -128,7 +137,7 @@ fn reported(
 ) -> Result<Output, Error> {
     if let Some(file) = &flags.junit {
         let cases = rows.iter().map(VerifyRow::junit_case);
-        let xml = junit("fresnel-gen verify", cases).map_err(|what| Error::Usage { what })?;
+        let xml = junit("fresnel-gen verify", cases).map_err(not_drawn)?;
         write_file(file, xml.as_bytes())?;
     }
     let full =

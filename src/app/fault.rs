@@ -1,0 +1,73 @@
+//! What is wrong with a request, by kind: each says what was given, what is allowed, and where.
+
+use std::path::PathBuf;
+
+use thiserror::Error;
+
+/// What is wrong with a request.
+#[derive(Clone, Debug, PartialEq, Eq, Error)]
+#[non_exhaustive]
+pub enum RequestFault {
+    /// A flag's number beyond its limits.
+    #[error("--{flag} is {value}; it {allowed}")]
+    OutOfRange {
+        /// The flag.
+        flag: &'static str,
+        /// What was given.
+        value: String,
+        /// What is allowed: `is 1 to 1000`.
+        allowed: String,
+    },
+    /// Two flags that contradict each other.
+    #[error("{why}")]
+    Conflict {
+        /// A flag.
+        flag: &'static str,
+        /// The other.
+        with: &'static str,
+        /// Why they do, and what to leave out.
+        why: &'static str,
+    },
+    /// A command of materials, and `--material none`.
+    #[error("{why}")]
+    NoMaterial {
+        /// What the command wants of materials.
+        why: &'static str,
+    },
+    /// Names that leave nothing to do.
+    #[error("there is nothing to {work}: {why}")]
+    NothingToDo {
+        /// What the command does: `run`, `scan`, `measure`.
+        work: &'static str,
+        /// Why nothing is left.
+        why: &'static str,
+    },
+    /// Two materials of one name.
+    #[error("two different materials are named `{name}`; rename one in its file")]
+    SameName {
+        /// The name.
+        name: String,
+    },
+    /// A material whose name means something else.
+    #[error("the material `{name}` has the name of {meaning}; choose another `name` in its file")]
+    NameTaken {
+        /// The name.
+        name: String,
+        /// What it means.
+        meaning: &'static str,
+    },
+    /// An output that cannot lie where it should.
+    #[error("{}: {why}", place.display())]
+    Place {
+        /// The output.
+        place: PathBuf,
+        /// What lies there, and the way out.
+        why: &'static str,
+    },
+    /// A picture, a page or a report that cannot be made.
+    #[error("{reason}")]
+    NotDrawn {
+        /// The reason of whatever makes it.
+        reason: String,
+    },
+}
