@@ -44,7 +44,7 @@ fn an_unknown_name_is_answered_with_the_nearest() {
         ),
         ("methods show shlick", "(did you mean schlick"),
         ("materials show gold_tesis", "(did you mean gold_thesis"),
-        ("targets show glsles", "(did you mean glsl or gles"),
+        ("targets show spirw", "(did you mean spirv?)"),
         ("method", "'methods'"),
         ("--targets gles", "'--target'"),
     ] {
