@@ -6,16 +6,16 @@ use fresnel_gen::app::request::Materials;
 use fresnel_gen::app::tables::{WantedTables, table_materials};
 use fresnel_gen::bake::{Request, TableSize, bake};
 use fresnel_gen::lut::{Axis, Depth, Format, Table, smallest};
-use fresnel_gen::materials::{Sight, Surface, find};
+use fresnel_gen::materials::{Surface, ViewingConditions, find};
 use fresnel_gen::methods::Light;
-use fresnel_gen::reference::Truth;
+use fresnel_gen::reference::ReferenceCurve;
 
-fn gold() -> Truth {
+fn gold() -> ReferenceCurve {
     let gold = find("gold")
         .expect("it is there")
         .expect("it is well formed");
-    let surface = Surface::new(&gold, None, &Sight::default()).expect("gold is seen");
-    Truth::new(surface, Light::Unpolarised)
+    let surface = Surface::new(&gold, None, &ViewingConditions::default()).expect("gold is seen");
+    ReferenceCurve::new(surface, Light::Unpolarised)
 }
 
 fn one(c: &mut Criterion) {
@@ -32,7 +32,7 @@ fn all_formats(c: &mut Criterion) {
     let wanted = WantedTables {
         materials: Materials::Default,
         medium: None,
-        sight: Sight::default(),
+        sight: ViewingConditions::default(),
     };
     let (subjects, _) = table_materials(&wanted).expect("the four are seen");
     let request = Request {

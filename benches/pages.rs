@@ -8,7 +8,7 @@ use std::path::Path;
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 use fresnel_gen::app::source::pages;
 use fresnel_gen::fit::survey_page;
-use fresnel_gen::materials::{self, Extrapolate, Material, Sight};
+use fresnel_gen::materials::{self, Extrapolate, Material, ViewingConditions};
 
 /// All pages of the database, name and text; none where it is not there.
 fn database() -> Vec<(String, String)> {
@@ -51,7 +51,7 @@ fn all() -> Vec<(String, String)> {
 
 fn read_and_see(c: &mut Criterion) {
     let pages = all();
-    let sight = Sight::default();
+    let sight = ViewingConditions::default();
     let mut group = c.benchmark_group("pages");
     group.throughput(Throughput::Elements(pages.len() as u64));
     group.sample_size(10);

@@ -5,11 +5,12 @@ use serde::Serialize;
 use serde_json::{Value, json};
 
 use crate::emit::{
-    self, Average, Better, Bounds, CATALOGUE, CommandLine, Emitted, Naming, OUTPUT_LICENCE, Row,
+    self, Average, Bounds, CATALOGUE, CatalogueRow, CloserFit, CommandLine, Emitted, Naming,
+    OUTPUT_LICENCE,
 };
 use crate::methods::{self, Method};
 use crate::num::in_parallel;
-use crate::reference::Subject;
+use crate::reference::MaterialInMedium;
 use crate::report::{Origin, TOOL};
 
 use super::artifact::Artifact;
@@ -49,9 +50,10 @@ pub fn add_catalogue(generated: &mut Generated, request: &Request) -> Result<(),
 }
 
 /// The materials that can be seen as the request wants. What is known at three wavelengths only has no spectrum.
-fn subjects(request: &Request) -> Result<Vec<Subject>, Error> {
+fn subjects(request: &Request) -> Result<Vec<MaterialInMedium>, Error> {
     let ready = request.subjects()?.ready;
-    let mut subjects: Vec<Subject> = ready.into_iter().map(|(subject, _)| subject).collect();
+    let mut subjects: Vec<MaterialInMedium> =
+        ready.into_iter().map(|(subject, _)| subject).collect();
     let of_spectra = request.sight.wavelengths_nm.is_none();
     subjects.retain(|subject| !of_spectra || subject.material.rgb_nm.is_none());
     Ok(subjects)
@@ -61,7 +63,7 @@ fn subjects(request: &Request) -> Result<Vec<Subject>, Error> {
 ///
 /// # Errors
 /// A material cannot be seen as the request wants.
-pub fn derived_rows(request: &Request) -> Result<(Vec<Row>, String), Error> {
+pub fn derived_rows(request: &Request) -> Result<(Vec<CatalogueRow>, String), Error> {
     let request = Request {
         materials: Materials::All,
         ..request.clone()
@@ -72,7 +74,7 @@ pub fn derived_rows(request: &Request) -> Result<(Vec<Row>, String), Error> {
 }
 
 /// The rows of those that a fitted method follows: first those of `fitted`, then those of `fitted_dielectric`, each by name.
-fn rows(subjects: &[Subject], request: &Request) -> Result<Vec<Row>, Error> {
+fn rows(subjects: &[MaterialInMedium], request: &Request) -> Result<Vec<CatalogueRow>, Error> {
     let bounds = Bounds::recorded();
     let row = |i: usize| {
         let subject = &subjects[i];
@@ -89,14 +91,14 @@ fn rows(subjects: &[Subject], request: &Request) -> Result<Vec<Row>, Error> {
 }
 
 fn row(
-    subject: &Subject,
+    subject: &MaterialInMedium,
     method: &'static Method,
     request: &Request,
     bounds: &Bounds,
-) -> Result<Row, Error> {
+) -> Result<CatalogueRow, Error> {
     let emitted = emit::specialised_function(method, subject, &request.naming(), bounds)?;
     let value = |input: &methods::Input| emitted.constants[input.name];
-    Ok(Row {
+    Ok(CatalogueRow {
         name: subject.name.clone(),
         argument: subject.argument.clone(),
         class: subject.material.kind.name(),
@@ -114,11 +116,11 @@ fn row(
 /// The method that follows a material more closely than its four coefficients do: the one of its class, or what serves where the
 /// fit misses its class.
 fn better(
-    subject: &Subject,
+    subject: &MaterialInMedium,
     emitted: &Emitted,
     bounds: &Bounds,
     request: &Request,
-) -> Result<Option<Better>, Error> {
+) -> Result<Option<CloserFit>, Error> {
     let own = subject.fitted_method().and_then(methods::find);
     let own = own.filter(|own| own.name != emitted.method.name);
     let serves = emitted.missed.as_ref().map(|missed| missed.serves);
@@ -127,7 +129,7 @@ fn better(
     };
     let made = emit::specialised_function(method, subject, &request.naming(), bounds)?;
     let fitted = method.inputs.iter().filter(|_| method.is_fitted());
-    Ok(Some(Better {
+    Ok(Some(CloserFit {
         method,
         coefficients: fitted.map(|input| made.constants[input.name]).collect(),
         max_abs: made.model_error.map_or(0.0, |error| error.max_abs),
@@ -135,7 +137,7 @@ fn better(
 }
 
 /// What the truth is: the same for all; which ones hold a value beyond their range stands beside each.
-fn seen(subjects: &[Subject]) -> &str {
+fn seen(subjects: &[MaterialInMedium]) -> &str {
     let first = subjects.first();
     first.map_or("", |subject| &subject.truth.surface.seen)
 }
@@ -165,7 +167,7 @@ struct Listed<'a> {
     materials: Vec<Value>,
 }
 
-fn as_json(rows: &[Row], seen: &str, request: &Request) -> Result<Artifact, Error> {
+fn as_json(rows: &[CatalogueRow], seen: &str, request: &Request) -> Result<Artifact, Error> {
     let command = command(request, None)?;
     let about = |method: &Method| json!({ "name": method.name, "formula": method.formula, "source": method.source.line() });
     let is_spectral = request.sight.wavelengths_nm.is_none();
@@ -184,7 +186,7 @@ fn as_json(rows: &[Row], seen: &str, request: &Request) -> Result<Artifact, Erro
 }
 
 /// A material: a list of coefficients for each channel.
-fn object(row: &Row) -> Value {
+fn object(row: &CatalogueRow) -> Value {
     let better = row.better.as_ref().map(|better| {
         let own = Some(&better.coefficients).filter(|own| !own.is_empty());
         json!({

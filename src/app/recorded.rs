@@ -6,9 +6,9 @@ use std::collections::BTreeMap;
 
 use serde::{Deserialize, Serialize};
 
-use crate::emit::{Average, Better, Row, fingerprint, sha256};
+use crate::emit::{Average, CatalogueRow, CloserFit, fingerprint, sha256};
 use crate::fit::ModelError;
-use crate::materials::{self, Kind, Sight};
+use crate::materials::{self, Kind, ViewingConditions};
 use crate::methods::{self, Method};
 
 use super::request::Request;
@@ -47,8 +47,8 @@ struct RecordedBetter {
 
 /// The rows of a request as they are recorded; nothing where it wants other viewing conditions, or where a material's file or a
 /// fitted method has changed since.
-pub fn recorded_rows(request: &Request) -> Option<Vec<Row>> {
-    if request.medium.is_some() || request.sight != Sight::default() {
+pub fn recorded_rows(request: &Request) -> Option<Vec<CatalogueRow>> {
+    if request.medium.is_some() || request.sight != ViewingConditions::default() {
         return None;
     }
     let record: Record = serde_json::from_str(RECORD).ok()?;
@@ -59,7 +59,7 @@ pub fn recorded_rows(request: &Request) -> Option<Vec<Row>> {
 }
 
 /// The text of the record of these rows.
-pub fn record(rows: &[Row]) -> String {
+pub fn record(rows: &[CatalogueRow]) -> String {
     let record = Record {
         methods: fitted_methods(),
         files: files(),
@@ -96,7 +96,7 @@ fn files() -> BTreeMap<String, String> {
 }
 
 impl Recorded {
-    fn from_row(row: &Row) -> Recorded {
+    fn from_row(row: &CatalogueRow) -> Recorded {
         let better = row.better.as_ref().map(|better| RecordedBetter {
             method: better.method.name.to_owned(),
             coefficients: better.coefficients.clone(),
@@ -114,17 +114,17 @@ impl Recorded {
         }
     }
 
-    fn row(self) -> Option<Row> {
+    fn row(self) -> Option<CatalogueRow> {
         let class = Kind::ALL.iter().find(|kind| kind.name() == self.class)?;
         let better = match self.better {
-            Some(better) => Some(Better {
+            Some(better) => Some(CloserFit {
                 method: methods::find(&better.method)?,
                 coefficients: better.coefficients,
                 max_abs: better.max_abs,
             }),
             None => None,
         };
-        Some(Row {
+        Some(CatalogueRow {
             argument: self.name.clone(),
             name: self.name,
             class: class.name(),

@@ -3,10 +3,10 @@
 use std::collections::BTreeMap;
 
 use crate::emit::{HeaderForm, Naming, file_name};
-use crate::materials::{self, Kind, Material, Sight, Unseen};
+use crate::materials::{self, Kind, Material, Unseen, ViewingConditions};
 use crate::methods::{self, Method};
 use crate::num::Precision;
-use crate::reference::{Derivation, Subject};
+use crate::reference::{Derivation, MaterialInMedium};
 use crate::spectra::Illuminant;
 use crate::targets::{self, Target};
 
@@ -37,7 +37,7 @@ pub struct Request {
     #[doc(hidden)]
     pub chosen: BTreeMap<String, &'static str>,
     /// How materials are seen: the whole spectrum in linear sRGB under D65, unless said otherwise.
-    pub sight: Sight,
+    pub sight: ViewingConditions,
     /// How much the comments of files say.
     pub header: HeaderForm,
 }
@@ -54,7 +54,7 @@ impl Default for Request {
             precision: Precision::F32,
             force: false,
             chosen: BTreeMap::new(),
-            sight: Sight::default(),
+            sight: ViewingConditions::default(),
             header: HeaderForm::default(),
         }
     }
@@ -271,12 +271,12 @@ impl Request {
         }
     }
 
-    fn subject(&self, loaded: Loaded, medium: Option<&Loaded>) -> Result<Subject, Error> {
+    fn subject(&self, loaded: Loaded, medium: Option<&Loaded>) -> Result<MaterialInMedium, Error> {
         if let Some(medium) = medium {
             check_transparent(&medium.material)?;
         }
         let typed = |loaded: &Loaded| (loaded.argument.clone(), loaded.material.clone());
-        let subject = Subject::new(
+        let subject = MaterialInMedium::new(
             typed(&loaded),
             medium.map(typed),
             &self.sight,
@@ -291,7 +291,7 @@ impl Request {
 #[derive(Clone, Debug, Default)]
 pub struct Subjects {
     /// Each in its medium, with the text of both files; sorted by name, each once.
-    pub ready: Vec<(Subject, String)>,
+    pub ready: Vec<(MaterialInMedium, String)>,
     /// Why some of those that `all` brings along are left out.
     pub left_out: Vec<Unseen>,
 }
@@ -299,7 +299,7 @@ pub struct Subjects {
 impl Subjects {
     fn sorted(mut self) -> Result<Subjects, Error> {
         self.ready.sort_by(|(a, _), (b, _)| a.name.cmp(&b.name));
-        let twice = |pair: &&[(Subject, String)]| {
+        let twice = |pair: &&[(MaterialInMedium, String)]| {
             pair[0].0.name == pair[1].0.name && pair[0].1 != pair[1].1
         };
         if let Some(pair) = self.ready.windows(2).find(twice) {

@@ -1,6 +1,6 @@
-//! How materials are looked at, as a user says it: from words to a [`Sight`].
+//! How materials are looked at, as a user says it: from words to a [`ViewingConditions`].
 
-use crate::materials::{Extrapolate, Sight};
+use crate::materials::{Extrapolate, ViewingConditions};
 use crate::spectra::{Adaptation, Gamut, Illuminant, Integration, Observer, Space, Step};
 
 use super::error::Error;
@@ -33,8 +33,8 @@ pub struct Words<'a> {
 ///
 /// # Errors
 /// A word names nothing, wavelengths are not three numbers in range, or the illuminant's file cannot be read or has a fault.
-pub fn sight(words: &Words) -> Result<Sight, Error> {
-    Ok(Sight {
+pub fn sight(words: &Words) -> Result<ViewingConditions, Error> {
+    Ok(ViewingConditions {
         integration: Integration {
             observer: choice(
                 "observer",

@@ -8,7 +8,7 @@ use serde_json::json;
 use crate::bake::{self, Baked, TableMaterial, usual_request};
 use crate::emit::OUTPUT_LICENCE;
 use crate::lut::TABLES;
-use crate::materials::Sight;
+use crate::materials::ViewingConditions;
 use crate::reference::Typed;
 use crate::report::Report;
 
@@ -25,7 +25,7 @@ pub struct WantedTables {
     /// What the light comes from; air where there is none.
     pub medium: Option<Source>,
     /// How they are seen.
-    pub sight: Sight,
+    pub sight: ViewingConditions,
 }
 
 /// The materials, sorted by name, each once; and why some that `all` brings along are left out.
@@ -74,7 +74,7 @@ pub fn table_materials(wanted: &WantedTables) -> Result<(Vec<TableMaterial>, Vec
 pub fn add_tables(
     generated: &mut Generated,
     medium: Option<Source>,
-    sight: Sight,
+    sight: ViewingConditions,
 ) -> Result<(), Error> {
     let wanted = WantedTables {
         materials: Materials::Default,

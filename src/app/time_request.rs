@@ -2,7 +2,7 @@
 
 use crate::methods;
 use crate::overdraw::{LibraryMaterials, TimedFunctions};
-use crate::reference::Subject;
+use crate::reference::MaterialInMedium;
 
 use super::error::Error;
 use super::fault::RequestFault;
@@ -48,7 +48,7 @@ impl TimeRequest<'_> {
             dielectric: subject(DIELECTRIC)?,
         };
         let ready = subjects.ready.into_iter();
-        let materials: Vec<Subject> = ready.map(|(subject, _)| subject).collect();
+        let materials: Vec<MaterialInMedium> = ready.map(|(subject, _)| subject).collect();
         let timed = TimedFunctions::new(
             chosen.as_deref().unwrap_or(methods::ALL),
             &several(self.precisions)?,
@@ -75,7 +75,7 @@ fn named_source(name: &str) -> Source {
     Source::Named(name.to_owned())
 }
 
-fn subject(name: &str) -> Result<Subject, Error> {
+fn subject(name: &str) -> Result<MaterialInMedium, Error> {
     let request = Request {
         materials: Materials::These(vec![named_source(name)]),
         ..Request::default()

@@ -3,7 +3,7 @@
 use crate::fit::inputs_of;
 use crate::methods::{self, Class, Method, find_input};
 use crate::names::UnknownName;
-use crate::reference::Subject;
+use crate::reference::MaterialInMedium;
 
 use super::error::{Error, FunctionPlace, ValueFault};
 use super::scan::{FoundFunction, NumberShape};
@@ -171,7 +171,7 @@ pub fn bind(
     file: &str,
     function: FoundFunction,
     given: &[Given],
-    subject: &Subject,
+    subject: &MaterialInMedium,
 ) -> Result<Bound, Error> {
     check_names(&function, given)?;
     let is_per_channel = function.result == NumberShape::Scalar;
@@ -229,7 +229,7 @@ fn same(value: &[f64; 3]) -> bool {
 }
 
 /// What the material has for an argument of this name: the same value that our methods take.
-fn material_value(subject: &Subject, name: &str) -> Option<[f64; 3]> {
+fn material_value(subject: &MaterialInMedium, name: &str) -> Option<[f64; 3]> {
     let lower = name.to_lowercase();
     // A letter alone may be a vector of the scene: N.
     let name = if name.len() > 1 { lower.as_str() } else { name };
@@ -283,7 +283,7 @@ fn cosine(
     file: &str,
     function: &FoundFunction,
     values: &[Option<Argument>],
-    subject: &Subject,
+    subject: &MaterialInMedium,
 ) -> Result<usize, Error> {
     let plain = |name: &str| name.to_lowercase().replace('_', "");
     let is_open = |place: &usize| {

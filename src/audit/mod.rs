@@ -28,7 +28,7 @@ use std::path::PathBuf;
 
 use crate::cost::Family;
 use crate::gpu::Uniform;
-use crate::reference::Subject;
+use crate::reference::MaterialInMedium;
 use crate::spectra::Space;
 use crate::verify::compilers::{Fault, Verdict};
 
@@ -79,7 +79,7 @@ impl Audit {
     /// The file does not hold the function, or its arguments are not bound.
     pub fn audit_row(
         &self,
-        subject: &Subject,
+        subject: &MaterialInMedium,
         progress: &mut dyn FnMut(u64, u64, &str),
     ) -> Result<AuditRow, Error> {
         program::check(&self.file, &self.text, self.language)?;
@@ -130,7 +130,7 @@ impl Audit {
         code: protocol::Code,
         program: &Program,
         bound: &Bound,
-        subject: &Subject,
+        subject: &MaterialInMedium,
         surroundings: &Surroundings,
     ) -> Result<Result<Ran, Trouble>, Error> {
         let uniforms: Vec<Uniform> = program.uniforms();
@@ -169,7 +169,7 @@ impl Audit {
     fn costs(
         &self,
         program: &Program,
-        subject: &Subject,
+        subject: &MaterialInMedium,
         compilers: &Compilers,
         surroundings: &Surroundings,
         progress: &mut dyn FnMut(u64, u64, &str),
@@ -209,7 +209,7 @@ fn most(bound: &Bound) -> [f32; 3] {
 
 fn measured(
     runner: &Runner,
-    subject: &Subject,
+    subject: &MaterialInMedium,
     space: Space,
     most: [f32; 3],
 ) -> Result<Ran, Trouble> {

@@ -9,7 +9,7 @@ use crate::ir::{Column, Value, evaluate};
 use crate::methods::{self, Contract, Light, Method};
 use crate::num::Precision;
 use crate::process::{Pool, Surroundings};
-use crate::reference::Subject;
+use crate::reference::MaterialInMedium;
 
 use super::comparison::Competitor;
 use super::error::Error;
@@ -42,7 +42,7 @@ impl Ours {
 /// # Errors
 /// No process can be started.
 pub fn ours(
-    subject: &Subject,
+    subject: &MaterialInMedium,
     takes_arguments: bool,
     families: &[&'static Family],
     pool: Pool,
@@ -91,7 +91,7 @@ fn costs(
 }
 
 /// The largest error in single precision, as a user's function has it.
-fn error(function: &Function, subject: &Subject) -> f64 {
+fn error(function: &Function, subject: &MaterialInMedium) -> f64 {
     let others: Vec<Value<f32>> = match function.form {
         "library" => function
             .method

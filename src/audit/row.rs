@@ -4,7 +4,7 @@ use serde::Serialize;
 
 use crate::cost::{CostAndError, Figures};
 use crate::fit::{ModelError, Perceived};
-use crate::reference::Subject;
+use crate::reference::MaterialInMedium;
 use crate::verify::compilers::Verdict;
 use crate::verify::{Answer, JunitCase, Status, as_object};
 
@@ -172,7 +172,7 @@ pub struct Audited<'a> {
     /// The function with its arguments.
     pub bound: &'a Bound,
     /// The material.
-    pub subject: &'a Subject,
+    pub subject: &'a MaterialInMedium,
     /// What compilers say.
     pub verdicts: &'a [(String, Verdict)],
     /// What came of running it.

@@ -7,7 +7,7 @@ use crate::fit::{ModelError, Perceived, error_of, perceived};
 use crate::gpu::Uniform;
 use crate::ir::{Column, Value};
 use crate::process::{Error, Launch, Silence, Surroundings, Worker};
-use crate::reference::Truth;
+use crate::reference::ReferenceCurve;
 use crate::spectra::Space;
 
 use super::loops::{MARK, TURNS};
@@ -93,12 +93,12 @@ impl Runner {
     }
 
     /// The error against the truth. `look` sees every cosine with its result.
-    pub fn error(&self, truth: &Truth, look: Look) -> Result<ModelError, Trouble> {
+    pub fn error(&self, truth: &ReferenceCurve, look: Look) -> Result<ModelError, Trouble> {
         self.measured(look, |values| error_of(truth, values))
     }
 
     /// The error as it is seen.
-    pub fn perceived(&self, truth: &Truth, space: Space) -> Result<Perceived, Trouble> {
+    pub fn perceived(&self, truth: &ReferenceCurve, space: Space) -> Result<Perceived, Trouble> {
         self.measured(&|_, _| {}, |values| perceived(truth, space, values))
     }
 

@@ -1,8 +1,8 @@
 //! A material in its medium, as a table holds it.
 
-use crate::materials::{Material, Sight, Surface, Unseen};
+use crate::materials::{Material, Surface, Unseen, ViewingConditions};
 use crate::methods::Light;
-use crate::reference::{Truth, Typed};
+use crate::reference::{ReferenceCurve, Typed};
 use crate::spectra::Space;
 
 /// A material in its medium, as it is seen.
@@ -15,7 +15,7 @@ pub struct TableMaterial {
     /// What a user types to get the medium again, where it is not air.
     pub medium: Option<String>,
     /// What is seen of it.
-    pub truth: Truth,
+    pub truth: ReferenceCurve,
     /// The working space; none where a channel is one wavelength.
     pub space: Option<Space>,
 }
@@ -28,7 +28,7 @@ impl TableMaterial {
     pub fn new(
         (argument, material): (&str, &Material),
         medium: Option<&Typed>,
-        sight: &Sight,
+        sight: &ViewingConditions,
     ) -> Result<TableMaterial, Unseen> {
         let surface = Surface::new(material, medium.map(|(_, medium)| medium), sight)?;
         let name = &material.name;
@@ -40,7 +40,7 @@ impl TableMaterial {
             argument: argument.to_owned(),
             medium: medium.map(|(argument, _)| argument.clone()),
             space: is_spectral.then_some(sight.integration.space),
-            truth: Truth::new(surface, Light::Unpolarised),
+            truth: ReferenceCurve::new(surface, Light::Unpolarised),
         })
     }
 

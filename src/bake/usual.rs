@@ -2,7 +2,7 @@
 
 use crate::emit::Naming;
 use crate::lut::{Axis, Format};
-use crate::materials::Sight;
+use crate::materials::ViewingConditions;
 use crate::methods::TEXELS;
 use crate::spectra::Gamut;
 
@@ -15,7 +15,7 @@ pub const DEFAULT_AXIS: Axis = Axis::Rational;
 pub const DEFAULT_FORMATS: [Format; 3] = [Format::ExrHalf, Format::Png16, Format::Ktx2];
 
 /// How materials are seen: colours outside the working space stay in a table, unless another policy was asked for.
-pub fn as_tables_are_seen(sight: &Sight, gamut_was_said: bool) -> Sight {
+pub fn as_tables_are_seen(sight: &ViewingConditions, gamut_was_said: bool) -> ViewingConditions {
     let mut sight = sight.clone();
     // Where a channel is one wavelength there is no space to be outside of.
     if !gamut_was_said && sight.wavelengths_nm.is_none() {
@@ -25,7 +25,7 @@ pub fn as_tables_are_seen(sight: &Sight, gamut_was_said: bool) -> Sight {
 }
 
 /// The tables of these materials, and an atlas, as a run without flags writes them.
-pub fn usual_request(subjects: Vec<TableMaterial>, sight: &Sight) -> Request {
+pub fn usual_request(subjects: Vec<TableMaterial>, sight: &ViewingConditions) -> Request {
     Request {
         typed: material_words(&subjects),
         flags: viewing_flags(&subjects, sight),

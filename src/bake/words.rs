@@ -1,7 +1,7 @@
 //! A bake as a user types it.
 
 use crate::emit::{CommandLine, Naming, quoted};
-use crate::materials::Sight;
+use crate::materials::ViewingConditions;
 use crate::targets::Target;
 
 use super::{Request, TableMaterial, TableSize};
@@ -13,7 +13,7 @@ pub fn material_words(subjects: &[TableMaterial]) -> String {
 }
 
 /// The flags of the medium and the viewing conditions, each with a space before it.
-pub fn viewing_flags(subjects: &[TableMaterial], sight: &Sight) -> String {
+pub fn viewing_flags(subjects: &[TableMaterial], sight: &ViewingConditions) -> String {
     let medium = subjects.first().and_then(|subject| subject.medium.as_ref());
     CommandLine::new("")
         .list("medium", medium)

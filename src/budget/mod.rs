@@ -12,10 +12,10 @@ use crate::cost::{Compiler, Family, Record, function_cost, library_cost, records
 use crate::emit::{Bounds, specialised_graph};
 use crate::fit::single_error;
 use crate::ir::Checked;
-use crate::materials::{self, Material, Sight};
+use crate::materials::{self, Material, ViewingConditions};
 use crate::methods::{Contract, Light, Method};
 use crate::num::{Precision, in_parallel};
-use crate::reference::Subject;
+use crate::reference::MaterialInMedium;
 
 use choice::{Candidate, cheapest, nearest};
 
@@ -63,8 +63,8 @@ pub struct BudgetChoice {
 pub fn choose_within(
     budget: Budget,
     methods: Vec<&'static Method>,
-    subjects: &[Subject],
-    sight: &Sight,
+    subjects: &[MaterialInMedium],
+    sight: &ViewingConditions,
 ) -> Result<BudgetChoice, Error> {
     let search = Search {
         methods: candidate_methods(methods)?,
@@ -105,7 +105,7 @@ fn candidate_methods(mut methods: Vec<&'static Method>) -> Result<Vec<&'static M
 
 /// What is the same for all materials.
 struct Search<'a> {
-    sight: &'a Sight,
+    sight: &'a ViewingConditions,
     budget: Budget,
     methods: Vec<&'static Method>,
     catalogue: Vec<Material>,
@@ -117,7 +117,7 @@ struct Search<'a> {
 type Found = Result<(&'static str, Vec<String>), String>;
 
 impl Search<'_> {
-    fn choice_for(&self, subject: &Subject) -> Result<Found, Error> {
+    fn choice_for(&self, subject: &MaterialInMedium) -> Result<Found, Error> {
         let (candidates, form) = self.candidates(subject)?;
         let family = self.budget.family;
         let Some(choice) = cheapest(&candidates, self.budget.most) else {
@@ -133,7 +133,10 @@ impl Search<'_> {
 
     /// The functions that could be taken, and the form whose costs are theirs: the specialised one's where all are recorded, else
     /// the library's, since costs of two forms cannot be compared.
-    fn candidates(&self, subject: &Subject) -> Result<(Vec<Candidate>, &'static str), Error> {
+    fn candidates(
+        &self,
+        subject: &MaterialInMedium,
+    ) -> Result<(Vec<Candidate>, &'static str), Error> {
         let methods = self.methods.iter().copied();
         let functions = methods
             .filter(|method| subject.is_described_by(method))
@@ -169,7 +172,7 @@ impl Search<'_> {
         ))
     }
 
-    fn function(&self, method: &Method, subject: &Subject) -> Result<Checked, Error> {
+    fn function(&self, method: &Method, subject: &MaterialInMedium) -> Result<Checked, Error> {
         let made = specialised_graph(method, subject, Precision::F32, &self.bounds)?;
         Ok(made.function)
     }

@@ -1,9 +1,9 @@
 //! How far published measurements of a material lie apart: what no function of one of them can be better than.
 
 use crate::fit::Curve;
-use crate::materials::{self, Material, Sight, Surface};
+use crate::materials::{self, Material, Surface, ViewingConditions};
 use crate::methods::Light;
-use crate::reference::{Subject, seen};
+use crate::reference::{MaterialInMedium, seen};
 
 /// How far they lie apart.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -16,7 +16,11 @@ pub struct Spread {
 
 /// The spread of the catalogue's pages of a material's substance that can be seen so. None for a user's own file, for what is known
 /// at three wavelengths only, seen from itself, and where there is one page.
-pub fn spread(subject: &Subject, catalogue: &[Material], sight: &Sight) -> Option<Spread> {
+pub fn spread(
+    subject: &MaterialInMedium,
+    catalogue: &[Material],
+    sight: &ViewingConditions,
+) -> Option<Spread> {
     let own = &subject.material;
     if materials::source(&subject.argument).is_none() || own.rgb_nm.is_some() {
         return None;

@@ -7,7 +7,7 @@ use crate::emit::{Bounds, Emitted, Error, Naming, library_functions, specialised
 use crate::ir::{Checked, Ty};
 use crate::methods::{self, Method};
 use crate::num::Precision;
-use crate::reference::Subject;
+use crate::reference::MaterialInMedium;
 
 /// A function as it is measured.
 #[derive(Clone, Debug)]
@@ -36,7 +36,7 @@ pub struct Function {
 /// A function cannot be made.
 pub fn functions(
     methods: &[&'static Method],
-    subjects: &[Subject],
+    subjects: &[MaterialInMedium],
     precisions: &[Precision],
 ) -> Result<Vec<Function>, Error> {
     let bounds = Bounds::recorded();

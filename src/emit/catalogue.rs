@@ -26,7 +26,7 @@ const ROWS: usize = 4;
 
 /// A material of the catalogue.
 #[derive(Clone, Debug)]
-pub struct Row {
+pub struct CatalogueRow {
     /// Its name, with the medium's.
     pub name: String,
     /// What a user types to get it again.
@@ -42,14 +42,14 @@ pub struct Row {
     /// The mean of that function over the hemisphere.
     pub average: Average,
     /// A method that follows it more closely, of a semiconductor, or where the fit misses its class.
-    pub better: Option<Better>,
+    pub better: Option<CloserFit>,
     /// Beyond which wavelengths its index was held, in words, where it was.
     pub held: Option<String>,
 }
 
 /// A method that follows a material of the catalogue more closely than its four coefficients do.
 #[derive(Clone, Debug)]
-pub struct Better {
+pub struct CloserFit {
     /// The method.
     pub method: &'static Method,
     /// Its coefficients in order, three channels each; none of the exact law.
@@ -98,7 +98,7 @@ struct RowView {
 /// A name is a word of the language, or a text is refused by it.
 pub fn catalogue(
     target: &'static Target,
-    rows: &[Row],
+    rows: &[CatalogueRow],
     naming: &Naming,
     seen: &str,
     command: &str,
@@ -123,7 +123,13 @@ pub fn catalogue(
     }))
 }
 
-fn view(target: &Target, rows: &[Row], naming: &Naming, seen: &str, command: &str) -> View {
+fn view(
+    target: &Target,
+    rows: &[CatalogueRow],
+    naming: &Naming,
+    seen: &str,
+    command: &str,
+) -> View {
     let dielectrics = rows.partition_point(|row| row.method.name == rows[0].method.name);
     let is_last = |i: usize| i + 1 == rows.len();
     let all = rows.iter().enumerate();
@@ -152,7 +158,7 @@ fn material(
     target: &Target,
     naming: &Naming,
     place: usize,
-    row: &Row,
+    row: &CatalogueRow,
     is_last: bool,
 ) -> MaterialView {
     let coefficient = |(i, values): (usize, &[f64; 3])| RowView {
@@ -177,7 +183,7 @@ fn material(
     }
 }
 
-fn remark(row: &Row) -> String {
+fn remark(row: &CatalogueRow) -> String {
     let held = row
         .held
         .iter()
@@ -199,13 +205,13 @@ fn colour(target: &Target, values: [f64; 3]) -> String {
 }
 
 /// The methods of the rows, each once: rows of one stand together.
-pub fn methods_of(rows: &[Row]) -> Vec<&'static Method> {
+pub fn methods_of(rows: &[CatalogueRow]) -> Vec<&'static Method> {
     let mut methods: Vec<&'static Method> = rows.iter().map(|row| row.method).collect();
     methods.dedup_by_key(|method| method.name);
     methods
 }
 
-fn where_methods_change(rows: &[Row]) -> String {
+fn where_methods_change(rows: &[CatalogueRow]) -> String {
     match methods_of(rows).as_slice() {
         [first, then, ..] => format!(
             "From this row on the method is {}, before it {}.",
@@ -215,7 +221,7 @@ fn where_methods_change(rows: &[Row]) -> String {
     }
 }
 
-fn header(rows: &[Row], naming: &Naming, seen: &str, command: &str) -> Vec<String> {
+fn header(rows: &[CatalogueRow], naming: &Naming, seen: &str, command: &str) -> Vec<String> {
     let mut lines = start(command);
     let array = constant(naming, CATALOGUE);
     let row = constant(naming, &rows[0].name);
@@ -252,8 +258,9 @@ fn header(rows: &[Row], naming: &Naming, seen: &str, command: &str) -> Vec<Strin
 }
 
 /// The model error of the worst, and where each one's stands.
-fn worst(rows: &[Row]) -> String {
-    let by_error = |a: &&Row, b: &&Row| a.error.max_abs.total_cmp(&b.error.max_abs);
+fn worst(rows: &[CatalogueRow]) -> String {
+    let by_error =
+        |a: &&CatalogueRow, b: &&CatalogueRow| a.error.max_abs.total_cmp(&b.error.max_abs);
     let worst = rows.iter().max_by(by_error).expect("there are rows");
     let degrees = libm::acos(worst.error.worst_cos).to_degrees();
     format!(

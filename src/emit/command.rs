@@ -2,7 +2,7 @@
 
 use core::fmt::Display;
 
-use crate::materials::{Extrapolate, Sight, Surface};
+use crate::materials::{Extrapolate, Surface, ViewingConditions};
 use crate::spectra::Integration;
 
 /// A command that grows flag by flag, in the order in which its flags are given here.
@@ -51,7 +51,7 @@ impl CommandLine {
 
     /// The flags of these viewing conditions.
     #[must_use]
-    pub fn seen_as(self, sight: &Sight) -> CommandLine {
+    pub fn seen_as(self, sight: &ViewingConditions) -> CommandLine {
         CommandLine(self.0 + &sight_flags(sight))
     }
 
@@ -85,23 +85,27 @@ pub fn file_name(file: &str) -> &str {
 
 /// The flags that say again how a surface was seen, each with a space before it; nothing where all is as usual. Where each
 /// channel is one wavelength, the rest of the viewing conditions says nothing.
-pub fn surface_flags(sight: &Sight, surface: &Surface) -> String {
+pub fn surface_flags(sight: &ViewingConditions, surface: &Surface) -> String {
     if surface.channels().is_none() {
         return sight_flags(sight);
     }
-    sight_flags(&Sight {
+    sight_flags(&ViewingConditions {
         wavelengths_nm: sight.wavelengths_nm,
         beyond: sight.beyond,
-        ..Sight::default()
+        ..ViewingConditions::default()
     })
 }
 
 /// The flags that say these viewing conditions again, each with a space before it.
-pub fn sight_flags(sight: &Sight) -> String {
+pub fn sight_flags(sight: &ViewingConditions) -> String {
     let (own, usual) = (&sight.integration, Integration::default());
     let choices = [
         ("space", own.space.name(), usual.space.name()),
-        ("gamut", sight.gamut.name(), Sight::default().gamut.name()),
+        (
+            "gamut",
+            sight.gamut.name(),
+            ViewingConditions::default().gamut.name(),
+        ),
         ("illuminant", own.illuminant.name(), usual.illuminant.name()),
         ("observer", own.observer.name(), usual.observer.name()),
         ("adaptation", own.adaptation.name(), usual.adaptation.name()),
@@ -138,6 +142,6 @@ mod tests {
 
     #[test]
     fn usual_viewing_conditions_need_no_flags() {
-        assert_eq!(sight_flags(&Sight::default()), "");
+        assert_eq!(sight_flags(&ViewingConditions::default()), "");
     }
 }

@@ -8,7 +8,7 @@ use crate::fit::{Measured, ModelError};
 use crate::ir::{Param, Ty};
 use crate::materials::Material;
 use crate::methods::{Contract, Input};
-use crate::reference::{By, Subject};
+use crate::reference::{By, MaterialInMedium};
 use crate::targets::{Finish, Target};
 
 use super::average::{self, Average};
@@ -196,7 +196,7 @@ pub(super) fn functions_detail(
 
 impl FunctionsDetail {
     /// The same of a material's file.
-    pub(super) fn of_material(self, subject: &Subject) -> FunctionsDetail {
+    pub(super) fn of_material(self, subject: &MaterialInMedium) -> FunctionsDetail {
         FunctionsDetail {
             seen: Some(seen_detail(subject)),
             data: Some(data_detail(&subject.material)),
@@ -205,7 +205,7 @@ impl FunctionsDetail {
     }
 }
 
-fn seen_detail(subject: &Subject) -> SeenDetail {
+fn seen_detail(subject: &MaterialInMedium) -> SeenDetail {
     let surface = &subject.truth.surface;
     let effective = &subject.effective;
     SeenDetail {

@@ -4,7 +4,7 @@ use crate::fit::Measured;
 use crate::ir::{Checked, Param, Ty};
 use crate::methods::{self, Method, Values};
 use crate::num::Precision;
-use crate::reference::Subject;
+use crate::reference::MaterialInMedium;
 use crate::targets::{self, Finish, Page, Target};
 
 use super::comment;
@@ -72,7 +72,7 @@ pub fn written_for(target: &Target, functions: Vec<Emitted>) -> impl Iterator<It
 /// A function's name is a reserved word of a target, or naga refuses the text.
 pub fn material(
     target: &'static Target,
-    subject: &Subject,
+    subject: &MaterialInMedium,
     functions: &[Emitted],
     naming: &Naming,
     heading: Heading,
@@ -128,7 +128,7 @@ impl Place {
 pub fn single(
     target: &'static Target,
     emitted: &Emitted,
-    subject: Option<&Subject>,
+    subject: Option<&MaterialInMedium>,
     heading: Heading,
     place: Place,
 ) -> Result<Vec<u8>, Error> {

@@ -4,7 +4,7 @@ use crate::fit::{Measured, ModelError, inputs_in, model_error};
 use crate::ir::{Checked, Fault};
 use crate::methods::{Method, Values};
 use crate::num::Precision;
-use crate::reference::Subject;
+use crate::reference::MaterialInMedium;
 
 use super::average;
 use super::bounds::{Bounds, CodeBound, PLAIN_ULP};
@@ -32,7 +32,7 @@ impl Default for Naming {
 
 impl Naming {
     /// The name of a method's function for a material: the exact law bears the material's name alone.
-    pub fn specialised(&self, method: &Method, subject: &Subject) -> String {
+    pub fn specialised(&self, method: &Method, subject: &MaterialInMedium) -> String {
         if method.name == subject.exact_method() {
             self.name(&subject.name, "")
         } else {
@@ -41,7 +41,7 @@ impl Naming {
     }
 
     /// The name of a material's file.
-    pub fn material(&self, subject: &Subject) -> String {
+    pub fn material(&self, subject: &MaterialInMedium) -> String {
         format!("{}{}", subject.name, self.precision.suffix())
     }
 
@@ -168,7 +168,7 @@ pub struct Specialised {
 /// [`crate::ir::RULES`].
 pub fn specialised_graph(
     method: &Method,
-    subject: &Subject,
+    subject: &MaterialInMedium,
     precision: Precision,
     bounds: &Bounds,
 ) -> Result<Specialised, Error> {
@@ -196,7 +196,7 @@ pub fn specialised_graph(
 
 fn specialise(
     method: &Method,
-    subject: &Subject,
+    subject: &MaterialInMedium,
     precision: Precision,
     constants: &Values,
 ) -> Result<Checked, Error> {
@@ -204,7 +204,7 @@ fn specialise(
     function.map_err(|fault| refused(method, subject, &fault.to_string()))
 }
 
-fn refused(method: &Method, subject: &Subject, what: &str) -> Error {
+fn refused(method: &Method, subject: &MaterialInMedium, what: &str) -> Error {
     Error::Specialise {
         method: method.name.to_owned(),
         material: subject.name.clone(),
@@ -218,7 +218,7 @@ fn refused(method: &Method, subject: &Subject, what: &str) -> Error {
 /// As [`specialised_graph`].
 pub fn specialised_function(
     method: &'static Method,
-    subject: &Subject,
+    subject: &MaterialInMedium,
     naming: &Naming,
     bounds: &Bounds,
 ) -> Result<Emitted, Error> {

@@ -4,7 +4,7 @@
 use crate::materials::Material;
 use crate::methods::{Contract, Method, TEXELS};
 use crate::num::Precision;
-use crate::reference::{By, Subject};
+use crate::reference::{By, MaterialInMedium};
 use crate::targets::Target;
 
 use super::average::{self, Average};
@@ -55,7 +55,7 @@ pub fn library(
 /// The head of a material's file.
 pub fn material(
     target: &Target,
-    subject: &Subject,
+    subject: &MaterialInMedium,
     precision: Precision,
     command: &str,
 ) -> Vec<String> {
@@ -105,7 +105,7 @@ pub fn specialised(emitted: &Emitted) -> Vec<String> {
 pub fn pasted(
     target: &Target,
     emitted: &Emitted,
-    subject: Option<&Subject>,
+    subject: Option<&MaterialInMedium>,
     command: &str,
 ) -> Vec<String> {
     let of = subject.map_or(String::new(), |subject| format!(", for {}", subject.name));
@@ -169,7 +169,7 @@ pub(super) fn formula(method: &Method) -> impl Iterator<Item = String> {
     method.formula.iter().map(|line| format!("  {line}"))
 }
 
-fn about(subject: &Subject) -> Vec<String> {
+fn about(subject: &MaterialInMedium) -> Vec<String> {
     let material = &subject.material;
     let mut lines = vec![
         format!("{}: {}", subject.name, material.summary),
@@ -198,18 +198,18 @@ pub(super) fn data_line(material: &Material) -> String {
 }
 
 /// What the reference is that model errors are held against.
-pub(super) fn viewing_conditions(subject: &Subject) -> Vec<String> {
+pub(super) fn viewing_conditions(subject: &MaterialInMedium) -> Vec<String> {
     let truth = format!("Truth: {}", subject.truth.surface.seen);
     [truth].into_iter().chain(extrapolated(subject)).collect()
 }
 
 /// Beyond which wavelengths an index was held, where it was.
-pub(super) fn extrapolated(subject: &Subject) -> Option<String> {
+pub(super) fn extrapolated(subject: &MaterialInMedium) -> Option<String> {
     let held = subject.truth.surface.held();
     held.map(|held| format!("Extrapolated: {held}"))
 }
 
-fn medium(subject: &Subject) -> &str {
+fn medium(subject: &MaterialInMedium) -> &str {
     subject
         .medium
         .as_ref()
@@ -217,7 +217,7 @@ fn medium(subject: &Subject) -> &str {
 }
 
 /// How the index stands for the spectrum, where it is not the index itself.
-fn how_found(subject: &Subject) -> Option<String> {
+fn how_found(subject: &MaterialInMedium) -> Option<String> {
     let named = |by: By| {
         let channels = ["red", "green", "blue"]
             .into_iter()

@@ -2,7 +2,7 @@
 
 use crate::methods::Method;
 use crate::num::Precision;
-use crate::reference::Subject;
+use crate::reference::MaterialInMedium;
 use crate::targets::Target;
 
 use super::function::Emitted;
@@ -68,7 +68,7 @@ impl Heading<'_> {
     pub(super) fn material(
         &self,
         target: &Target,
-        subject: &Subject,
+        subject: &MaterialInMedium,
         precision: Precision,
     ) -> Vec<String> {
         match self.form {
@@ -90,7 +90,7 @@ impl Heading<'_> {
         &self,
         target: &Target,
         emitted: &Emitted,
-        subject: Option<&Subject>,
+        subject: Option<&MaterialInMedium>,
     ) -> Vec<String> {
         match self.form {
             HeaderForm::Short => short::pasted(target, emitted, subject, self.command),

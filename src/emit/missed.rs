@@ -8,7 +8,7 @@ use crate::num::Precision;
 
 use super::bounds::Bounds;
 use super::function::specialised_graph;
-use crate::reference::{LEAST_FITTED_N, Subject};
+use crate::reference::{LEAST_FITTED_N, MaterialInMedium};
 
 /// What is missed, and what serves.
 #[derive(Clone, Debug)]
@@ -65,7 +65,7 @@ fn plural(class: &str) -> &'static str {
 }
 
 /// Whether a fit with this error misses its class. Gases have no class: no fitted method is meant for them.
-pub fn missed(subject: &Subject, method: &'static Method, max_abs: f64) -> Option<Missed> {
+pub fn missed(subject: &MaterialInMedium, method: &'static Method, max_abs: f64) -> Option<Missed> {
     let class = subject.material.kind.name();
     let n = subject.effective.channels.n;
     let is_gas = class == "dielectric" && n.iter().any(|n| *n < LEAST_FITTED_N);
@@ -94,7 +94,7 @@ pub fn missed(subject: &Subject, method: &'static Method, max_abs: f64) -> Optio
 }
 
 /// What a method errs for a material.
-fn error(subject: &Subject, method: &'static Method) -> Option<f64> {
+fn error(subject: &MaterialInMedium, method: &'static Method) -> Option<f64> {
     let made = specialised_graph(method, subject, Precision::F32, &Bounds::default()).ok()?;
     Some(model_error(&made.function, &subject.truth_for(method)).max_abs)
 }

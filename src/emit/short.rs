@@ -4,7 +4,7 @@
 use crate::fit::Measured;
 use crate::methods::{Method, TEXELS};
 use crate::num::Precision;
-use crate::reference::Subject;
+use crate::reference::MaterialInMedium;
 use crate::targets::Target;
 
 use super::comment;
@@ -38,7 +38,7 @@ pub fn library(
 /// The head of a material's file.
 pub fn material(
     target: &Target,
-    subject: &Subject,
+    subject: &MaterialInMedium,
     precision: Precision,
     command: &str,
 ) -> Vec<String> {
@@ -63,7 +63,7 @@ pub fn specialised(emitted: &Emitted) -> Vec<String> {
 pub fn pasted(
     target: &Target,
     emitted: &Emitted,
-    subject: Option<&Subject>,
+    subject: Option<&MaterialInMedium>,
     command: &str,
 ) -> Vec<String> {
     let method = emitted.method;

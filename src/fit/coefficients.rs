@@ -4,7 +4,7 @@ use crate::methods::{Method, Values};
 
 use super::derive::fitted_for;
 use super::exact::Exact;
-use super::fitted::{Aim, Curve};
+use super::problem::{Curve, FitObjective};
 
 /// Coefficients with their errors, on paper and before the limit to [0, 1].
 #[derive(Clone, Debug)]
@@ -12,7 +12,7 @@ pub struct Coefficients {
     /// The coefficients, by the names of inputs, as the aim's precision holds them.
     pub values: Values,
     /// What was minimised, and what is met exactly.
-    pub aim: Aim,
+    pub aim: FitObjective,
     /// The largest error in the measure that was minimised.
     pub error: f64,
     /// The same without the ends that are met exactly, where there are any.
@@ -21,9 +21,9 @@ pub struct Coefficients {
 
 impl Coefficients {
     /// Fits a method; none where its terms do not tell the angles of the curve apart.
-    pub fn fit(method: &Method, curve: &Curve, aim: Aim) -> Option<Coefficients> {
+    pub fn fit(method: &Method, curve: &Curve, aim: FitObjective) -> Option<Coefficients> {
         let (values, error) = fitted_for(method, curve, aim)?;
-        let free = Aim {
+        let free = FitObjective {
             exact: Exact::default(),
             ..aim
         };

@@ -5,9 +5,9 @@ use crate::materials::Channels;
 use crate::methods::{Input, KnownSurface, Method, Values};
 use crate::num::Precision;
 use crate::optics;
-use crate::reference::{Derivation, Subject};
+use crate::reference::{Derivation, MaterialInMedium};
 
-use super::fitted::{Aim, Curve, Task, basis};
+use super::problem::{Curve, FitObjective, FitProblem, basis};
 
 /// What is known of a surface by its channels alone.
 pub fn known(channels: &Channels, derivation: &Derivation) -> KnownSurface {
@@ -25,12 +25,12 @@ pub fn values(method: &Method, channels: &Channels, derivation: &Derivation) -> 
 }
 
 /// What a method's inputs are for a material as it is seen.
-pub fn inputs_of(subject: &Subject, method: &Method) -> Values {
+pub fn inputs_of(subject: &MaterialInMedium, method: &Method) -> Values {
     inputs_in(Precision::F32, subject, method)
 }
 
 /// The same, with coefficients that are fitted as this precision holds them.
-pub fn inputs_in(precision: Precision, subject: &Subject, method: &Method) -> Values {
+pub fn inputs_in(precision: Precision, subject: &MaterialInMedium, method: &Method) -> Values {
     if method.is_fitted() {
         return fitted_values(method, precision, &Curve::unclipped(subject));
     }
@@ -42,9 +42,9 @@ pub fn inputs_in(precision: Precision, subject: &Subject, method: &Method) -> Va
 
 /// The coefficients of a fitted method for a curve, as a precision holds them.
 pub fn fitted_values(method: &Method, precision: Precision, curve: &Curve) -> Values {
-    let aim = Aim {
+    let aim = FitObjective {
         precision,
-        ..Aim::default()
+        ..FitObjective::default()
     };
     let fitted = fitted_for(method, curve, aim);
     let fitted = fitted.expect("a fitted method's terms tell angles apart; a test fits them all");
@@ -53,8 +53,8 @@ pub fn fitted_values(method: &Method, precision: Precision, curve: &Curve) -> Va
 
 /// The coefficients of a fitted method for a curve with an aim, and the largest error in its measure on paper. None where the
 /// method is not fitted, or its terms do not tell angles apart under such weights.
-pub fn fitted_for(method: &Method, curve: &Curve, aim: Aim) -> Option<(Values, f64)> {
-    let fit = Task::new(curve, aim).fit(&basis(&method.shape?))?;
+pub fn fitted_for(method: &Method, curve: &Curve, aim: FitObjective) -> Option<(Values, f64)> {
+    let fit = FitProblem::new(curve, aim).fit(&basis(&method.shape?))?;
     let names = Input::COEFFICIENTS.map(|input| input.name.to_owned());
     Some((names.into_iter().zip(fit.coefficients).collect(), fit.error))
 }

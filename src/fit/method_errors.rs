@@ -2,14 +2,14 @@
 
 use crate::ir::{Checked, Value};
 use crate::methods::{Method, Values};
-use crate::reference::Subject;
+use crate::reference::MaterialInMedium;
 use crate::spectra::Space;
 
+use super::best_inputs::{best_inputs, values_at};
 use super::derive::inputs_of;
-use super::fitted::Curve;
 use super::model_error::{error_of, model_error};
 use super::perceived::perceived;
-use super::rival::{best_inputs, values_at};
+use super::problem::Curve;
 
 /// Errors over all angles; each is none where it is not known.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -41,7 +41,7 @@ impl MethodErrors {
     pub fn new(
         method: &Method,
         inputs: Inputs,
-        subject: &Subject,
+        subject: &MaterialInMedium,
         curve: &Curve,
         space: Space,
     ) -> MethodErrors {
@@ -67,7 +67,7 @@ impl MethodErrors {
     }
 
     /// What is seen of a function that reads a texture is not measured.
-    fn of_texture(method: &Method, values: &Values, subject: &Subject) -> MethodErrors {
+    fn of_texture(method: &Method, values: &Values, subject: &MaterialInMedium) -> MethodErrors {
         let function = method.specialise(values).expect(BUILT);
         let error = model_error(&function, &subject.truth_for(method));
         MethodErrors {

@@ -4,12 +4,12 @@
 //! exact law. Minimax fits: the coefficients of fitted methods, for a measure of error, and exact where that is asked for;
 //! the shapes among which one is chosen.
 
+mod best_inputs;
 mod candidates;
 mod coefficients;
 mod colours;
 mod derive;
 mod exact;
-mod fitted;
 mod measured;
 mod method_errors;
 mod minimax;
@@ -17,7 +17,7 @@ mod model_error;
 mod over;
 mod params;
 mod perceived;
-mod rival;
+mod problem;
 mod rounded;
 mod search;
 mod shape_choice;
@@ -26,12 +26,12 @@ mod texels;
 mod thesis_in_floats;
 mod weight;
 
+pub use best_inputs::{best_inputs, values_at};
 pub use candidates::{Candidate, candidates};
 pub use coefficients::Coefficients;
 pub use colours::{Follows, LARGEST_SOLVED_F0};
 pub use derive::{fitted_for, fitted_values, inputs_in, inputs_of, known, values, values_of};
 pub use exact::Exact;
-pub use fitted::{Aim, Curve, Fit, Task, basis};
 pub use measured::Measured;
 pub use method_errors::{Inputs, MethodErrors};
 pub use minimax::{Minimax, minimax};
@@ -41,7 +41,7 @@ pub use model_error::{
 pub use over::model_error_over;
 pub use params::{BOUNCES, Params, abbe, colour_errors, ior_d, params};
 pub use perceived::{Perceived, perceived};
-pub use rival::{best_inputs, values_at};
+pub use problem::{Curve, Fit, FitObjective, FitProblem, basis};
 pub use search::{Tried, search};
 pub use shape_choice::{ErrorQuantiles, LeaveOneOut, TriedShapes};
 pub use survey::{

@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 use crate::ir::{Checked, Column, Value, evaluate};
 use crate::materials::{Channels, Surface};
 use crate::methods::Light;
-use crate::reference::{ANGLES, Truth, cosine, cosines, seen};
+use crate::reference::{ANGLES, ReferenceCurve, cosine, cosines, seen};
 
 use super::texels::{arguments, table_of};
 
@@ -36,7 +36,7 @@ const REFINEMENTS: usize = 6;
 const STEPS: usize = 32;
 
 /// The model error of a function of `cos_theta` alone, or with the table that it reads.
-pub fn model_error(function: &Checked, truth: &Truth) -> ModelError {
+pub fn model_error(function: &Checked, truth: &ReferenceCurve) -> ModelError {
     let table = table_of(function, |cos_theta| truth.at(cos_theta));
     error_of(truth, &|cosines| {
         evaluate(function, &arguments(cosines.to_vec(), table.as_ref()))
@@ -44,7 +44,7 @@ pub fn model_error(function: &Checked, truth: &Truth) -> ModelError {
 }
 
 /// The same of the function as f32 computes it, each operation rounded.
-pub fn single_error(function: &Checked, truth: &Truth) -> ModelError {
+pub fn single_error(function: &Checked, truth: &ReferenceCurve) -> ModelError {
     let table = table_of(function, |cos_theta| truth.at(cos_theta));
     error_of(truth, &|cosines| {
         let single: Vec<f32> = cosines.iter().map(|c| *c as f32).collect();
@@ -58,7 +58,7 @@ pub fn single_error(function: &Checked, truth: &Truth) -> ModelError {
 }
 
 /// The error of whatever gives three channels at each of some cosines.
-pub fn error_of(truth: &Truth, values: &dyn Fn(&[f64]) -> Value<f64>) -> ModelError {
+pub fn error_of(truth: &ReferenceCurve, values: &dyn Fn(&[f64]) -> Value<f64>) -> ModelError {
     let run = |cosines: &[f64], want: &[[f64; 3]]| difference(&values(cosines), want, cosines);
     let mut error = run(&cosines(ANGLES), &truth.table());
     let mut reach = libm::acos(error.worst_cos).max(1e-3) / 8.0;

@@ -6,7 +6,7 @@ use crate::methods::{Input, KnownSurface, Light};
 use crate::optics;
 use crate::spectra::{Illuminant, Integration, colour_error};
 
-use crate::reference::{Derivation, Effective, Truth, effective};
+use crate::reference::{Derivation, Effective, ReferenceCurve, effective};
 
 /// The parameters of a material in a medium, three channels each, as seen.
 #[derive(Clone, Debug, PartialEq)]
@@ -31,7 +31,7 @@ pub struct Params {
 
 /// The parameters of a surface. Its gamut should keep colours as they are.
 pub fn params(surface: Surface, kind: Kind) -> Params {
-    let truth = Truth::new(surface, Light::Unpolarised);
+    let truth = ReferenceCurve::new(surface, Light::Unpolarised);
     let effective = effective(&truth, kind);
     let matching_cos = Derivation::default().matching_cos;
     let Channels { n, k } = effective.channels;

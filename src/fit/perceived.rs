@@ -5,7 +5,7 @@ use glam::DVec3;
 use crate::ir::Value;
 use crate::spectra::{Lab, Space, ciede2000};
 
-use crate::reference::{ANGLES, Truth, cosines};
+use crate::reference::{ANGLES, ReferenceCurve, cosines};
 
 /// Every how manieth of the angles is looked at: means and maxima are smooth.
 const EVERY: usize = 8;
@@ -20,7 +20,11 @@ pub struct Perceived {
 }
 
 /// How far whatever gives three channels at some cosines looks from the truth. What is no number is left out.
-pub fn perceived(truth: &Truth, space: Space, values: &dyn Fn(&[f64]) -> Value<f64>) -> Perceived {
+pub fn perceived(
+    truth: &ReferenceCurve,
+    space: Space,
+    values: &dyn Fn(&[f64]) -> Value<f64>,
+) -> Perceived {
     let at: Vec<f64> = cosines(ANGLES)[..ANGLES]
         .iter()
         .copied()
@@ -69,7 +73,7 @@ mod tests {
             n: [n; 3],
             k: [0.0; 3],
         };
-        let truth = Truth::new(Surface::of_channels(&channels), Light::Unpolarised);
+        let truth = ReferenceCurve::new(Surface::of_channels(&channels), Light::Unpolarised);
         let darker = |cosines: &[f64]| {
             let at = cosines.iter().map(|c| truth.at(*c)[0] - 0.02);
             Value::each(at.collect())

@@ -3,7 +3,7 @@
 use crate::num::in_parallel;
 
 use super::candidates::Candidate;
-use super::fitted::{Task, basis};
+use super::problem::{FitProblem, basis};
 
 /// A candidate, and its largest error for each of the curves, in the measure of their aim.
 #[derive(Clone, Debug)]
@@ -18,7 +18,7 @@ pub struct Tried {
 /// many are done, of how many; what comes of it does not depend on how many processors there are.
 pub fn search(
     candidates: &[Candidate],
-    tasks: &[Task],
+    tasks: &[FitProblem],
     progress: &mut dyn FnMut(u64, u64),
 ) -> Vec<Tried> {
     let one = |i: usize| tried(&candidates[i], tasks);
@@ -26,7 +26,7 @@ pub fn search(
     all.into_iter().flatten().collect()
 }
 
-fn tried(candidate: &Candidate, tasks: &[Task]) -> Option<Tried> {
+fn tried(candidate: &Candidate, tasks: &[FitProblem]) -> Option<Tried> {
     let basis = basis(&candidate.shape);
     let errors = tasks.iter().map(|task| Some(task.fit(&basis)?.error));
     Some(Tried {

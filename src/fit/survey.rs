@@ -1,6 +1,6 @@
 //! A survey of pages of refractiveindex.info: what each is, its colour, or why it cannot be used.
 
-use crate::materials::{Curve, Extrapolate, Material, Page, Sight, Surface};
+use crate::materials::{Curve, Extrapolate, Material, Page, Surface, ViewingConditions};
 use crate::optics::{COS_82, cosine};
 
 use super::params::ior_d;
@@ -53,7 +53,7 @@ pub struct VisibleColours {
 }
 
 /// Reads a page and looks at it.
-pub fn survey_page(file: &str, text: &str, sight: &Sight) -> SurveyedPage {
+pub fn survey_page(file: &str, text: &str, sight: &ViewingConditions) -> SurveyedPage {
     let outcome = page_outcome(file, text, sight).unwrap_or_else(PageOutcome::Refused);
     SurveyedPage {
         file: file.to_owned(),
@@ -61,7 +61,7 @@ pub fn survey_page(file: &str, text: &str, sight: &Sight) -> SurveyedPage {
     }
 }
 
-fn page_outcome(file: &str, text: &str, sight: &Sight) -> Result<PageOutcome, String> {
+fn page_outcome(file: &str, text: &str, sight: &ViewingConditions) -> Result<PageOutcome, String> {
     let page =
         Page::parse(file, text).map_err(|fault| format!("line {}: {}", fault.line, fault.what))?;
     let material = page.material(None).map_err(|fault| fault.what)?;

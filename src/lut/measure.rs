@@ -2,7 +2,7 @@
 
 use crate::fit::{ModelError, error_of};
 use crate::ir::{Column, Value};
-use crate::reference::Truth;
+use crate::reference::ReferenceCurve;
 
 use super::axis::Axis;
 use super::depth::Stored;
@@ -26,7 +26,7 @@ const SHARES: [f64; 4] = [
 
 impl Between {
     /// The truth between the texels of tables of this size.
-    pub fn new(truth: &Truth, axis: Axis, texels: usize) -> Between {
+    pub fn new(truth: &ReferenceCurve, axis: Axis, texels: usize) -> Between {
         let place = |i: usize| SHARES.map(|share| centre(axis, i as f64 + share, texels));
         let places = (0..texels.saturating_sub(1)).flat_map(place);
         Between {
@@ -40,7 +40,7 @@ impl Between {
 pub fn table_error(
     stored: &Stored,
     weights: Weights,
-    truth: &Truth,
+    truth: &ReferenceCurve,
     between: &Between,
 ) -> ModelError {
     let mut error = error_of(truth, &|cosines| looked_up(stored, weights, cosines));

@@ -1,6 +1,6 @@
 //! The smallest table that is good enough.
 
-use crate::reference::Truth;
+use crate::reference::ReferenceCurve;
 
 use super::axis::Axis;
 use super::depth::{Depth, Stored};
@@ -36,7 +36,7 @@ const BELOW: usize = 8;
 /// # Errors
 /// None is good enough.
 pub fn smallest(
-    truths: &[&Truth],
+    truths: &[&ReferenceCurve],
     budget: f64,
     axes: &[Axis],
     depths: &[Depth],
@@ -74,7 +74,7 @@ fn tried(axes: &[Axis], depths: &[Depth]) -> String {
 
 /// Tables that differ in size only.
 struct Kind<'a> {
-    truths: &'a [&'a Truth],
+    truths: &'a [&'a ReferenceCurve],
     axis: Axis,
     depth: Depth,
 }
@@ -130,7 +130,7 @@ impl Kind<'_> {
 
     /// The largest error over all truths, which share a scale; once it is past the budget, of those looked at.
     fn error(&self, texels: usize, budget: f64) -> f64 {
-        let made = |truth: &&Truth| Table::new("", truth, self.axis, texels).ok();
+        let made = |truth: &&ReferenceCurve| Table::new("", truth, self.axis, texels).ok();
         let Some(tables) = self.truths.iter().map(made).collect::<Option<Vec<Table>>>() else {
             return f64::INFINITY;
         };

@@ -1,6 +1,6 @@
 //! A table: reflectance at the centres of texels, along an axis.
 
-use crate::reference::Truth;
+use crate::reference::ReferenceCurve;
 
 use super::axis::Axis;
 use super::error::Error;
@@ -38,7 +38,12 @@ impl Table {
     ///
     /// # Errors
     /// A size that no texture has: see [`check_size`].
-    pub fn new(name: &str, truth: &Truth, axis: Axis, texels: usize) -> Result<Table, Error> {
+    pub fn new(
+        name: &str,
+        truth: &ReferenceCurve,
+        axis: Axis,
+        texels: usize,
+    ) -> Result<Table, Error> {
         check_size(texels)?;
         let texel = |i: usize| truth.at(centre(axis, i as f64, texels));
         Ok(Table {
@@ -66,7 +71,7 @@ mod tests {
             n: [1.5; 3],
             k: [0.0; 3],
         };
-        let truth = Truth::new(Surface::of_channels(&glass), Light::Unpolarised);
+        let truth = ReferenceCurve::new(Surface::of_channels(&glass), Light::Unpolarised);
         for axis in Axis::ALL {
             let table = Table::new("glass", &truth, axis, 5).unwrap();
             assert_eq!(table.texels.len(), 5);

@@ -2,7 +2,7 @@
 //! that are even from 0 to 90 degrees.
 
 use crate::ir::Weights;
-use crate::reference::{Truth, seen};
+use crate::reference::{ReferenceCurve, seen};
 
 use super::depth::Stored;
 
@@ -11,12 +11,12 @@ pub struct ThesisMeasure(Vec<(f64, [f64; 3])>);
 
 impl ThesisMeasure {
     /// At so many angles.
-    pub fn new(truth: &Truth, angles: usize) -> ThesisMeasure {
+    pub fn new(truth: &ReferenceCurve, angles: usize) -> ThesisMeasure {
         ThesisMeasure::part(truth, 0..angles, angles)
     }
 
     /// At some of these angles.
-    fn part(truth: &Truth, some: std::ops::Range<usize>, angles: usize) -> ThesisMeasure {
+    fn part(truth: &ReferenceCurve, some: std::ops::Range<usize>, angles: usize) -> ThesisMeasure {
         let at = |i: usize| {
             let theta = (i as f64 + 0.5) / angles as f64 * std::f64::consts::FRAC_PI_2;
             let cos_theta = libm::cos(theta);
@@ -48,7 +48,7 @@ fn percent(sum: f64, angles: usize) -> f64 {
 /// The thesis's measure of several tables of one truth, in per cent: mean relative difference of the lookup at `angles`
 /// angles, even in angle, over three channels. `progress` hears how many angles are done.
 pub fn thesis_table_errors(
-    truth: &Truth,
+    truth: &ReferenceCurve,
     tables: &[Stored],
     angles: usize,
     progress: &mut dyn FnMut(usize),

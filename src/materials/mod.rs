@@ -28,6 +28,6 @@ pub use hidden::{escaped, is_hidden};
 pub use material::{Index, Kind, Material};
 pub use page::Page;
 pub use read::page;
-pub use surface::{Sight, Surface, Unseen, surfaces_of};
+pub use surface::{Surface, Unseen, ViewingConditions, surfaces_of};
 
 pub use crate::spectra::Fault;

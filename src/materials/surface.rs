@@ -17,7 +17,7 @@ use crate::spectra::{FIRST_NM, Gamut, Integration, Integrator, LAST_NM};
 
 /// How materials are looked at.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Sight {
+pub struct ViewingConditions {
     /// Observer, illuminant, working space, adaptation, step.
     pub integration: Integration,
     /// What becomes of colours outside the working space.
@@ -28,9 +28,9 @@ pub struct Sight {
     pub beyond: Extrapolate,
 }
 
-impl Default for Sight {
-    fn default() -> Sight {
-        Sight {
+impl Default for ViewingConditions {
+    fn default() -> ViewingConditions {
+        ViewingConditions {
             integration: Integration::default(),
             gamut: Gamut::Clip,
             wavelengths_nm: None,
@@ -39,7 +39,7 @@ impl Default for Sight {
     }
 }
 
-impl Sight {
+impl ViewingConditions {
     /// What is seen of a spectrum, in words.
     pub fn reference_in_words(&self) -> String {
         format!(
@@ -83,7 +83,7 @@ impl Surface {
     pub fn new(
         material: &Material,
         medium: Option<&Material>,
-        sight: &Sight,
+        sight: &ViewingConditions,
     ) -> Result<Surface, Unseen> {
         let three = sight
             .wavelengths_nm
@@ -240,7 +240,7 @@ pub fn surfaces_of<'a>(
     substance: &'a str,
     catalogue: &'a [Material],
     medium: Option<&'a Material>,
-    sight: &'a Sight,
+    sight: &'a ViewingConditions,
 ) -> impl Iterator<Item = (&'a Material, Surface)> {
     let same = catalogue
         .iter()

@@ -6,7 +6,7 @@ use crate::emit::{Bounds, Emitted, Error, Naming, library_functions, specialised
 use crate::fit::{inputs_of, table_of};
 use crate::methods::{self, Class, Method, Values};
 use crate::num::Precision;
-use crate::reference::Subject;
+use crate::reference::MaterialInMedium;
 
 use super::plan::{Plan, TimedFunction};
 
@@ -26,9 +26,9 @@ pub struct TimedFunctions {
 /// With whose numbers library functions are run: what absorbs, and what does not.
 pub struct LibraryMaterials {
     /// What absorbs.
-    pub metal: Subject,
+    pub metal: MaterialInMedium,
     /// What does not.
-    pub dielectric: Subject,
+    pub dielectric: MaterialInMedium,
 }
 
 impl TimedFunctions {
@@ -40,7 +40,7 @@ impl TimedFunctions {
         methods: &[&'static Method],
         precisions: &[Precision],
         library: &LibraryMaterials,
-        materials: &[Subject],
+        materials: &[MaterialInMedium],
         evaluations: usize,
     ) -> Result<TimedFunctions, Error> {
         let mut timed = TimedFunctions {
@@ -79,7 +79,7 @@ impl TimedFunctions {
         &mut self,
         methods: &[&'static Method],
         precision: Precision,
-        material: &Subject,
+        material: &MaterialInMedium,
     ) -> Result<(), Error> {
         let fits = |method: &&&'static Method| material.is_described_by(method);
         for method in methods.iter().filter(fits) {
@@ -138,7 +138,7 @@ impl LibraryMaterials {
     }
 }
 
-fn timed(emitted: Emitted, values: Values, material: &Subject) -> TimedFunction {
+fn timed(emitted: Emitted, values: Values, material: &MaterialInMedium) -> TimedFunction {
     let reflectance = material.truth_for(emitted.method);
     TimedFunction {
         table: table_of(&emitted.function, |cos_theta| reflectance.at(cos_theta)),

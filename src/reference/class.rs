@@ -2,7 +2,7 @@
 
 use crate::materials::Kind;
 
-use super::subject::{LEAST_FITTED_N, Subject};
+use super::material_in_medium::{LEAST_FITTED_N, MaterialInMedium};
 
 /// A class of materials. Gases are in none, nor are dielectrics that absorb.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -34,7 +34,7 @@ impl MaterialClass {
     }
 
     /// The class that a material in its medium is in.
-    pub fn containing(subject: &Subject) -> Option<MaterialClass> {
+    pub fn containing(subject: &MaterialInMedium) -> Option<MaterialClass> {
         let channels = &subject.effective.channels;
         let is_solid = channels.n.iter().all(|n| *n >= LEAST_FITTED_N);
         match subject.material.kind {

@@ -8,7 +8,7 @@ use crate::materials::{Channels, Index, Kind};
 use crate::methods::Light;
 use crate::optics::{self, COS_82, index_from_f0_f82};
 
-use super::truth::{Truth, seen};
+use super::reference_curve::{ReferenceCurve, seen};
 
 /// The index per channel, and how it was come by.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -63,7 +63,7 @@ const SECTIONS: usize = 24;
 const GOLDEN: f64 = 0.618_033_988_749_894_9;
 
 /// The index per channel for what is seen of a surface in unpolarised light.
-pub fn effective(truth: &Truth, kind: Kind) -> Effective {
+pub fn effective(truth: &ReferenceCurve, kind: Kind) -> Effective {
     if let Some(channels) = truth.surface.channels() {
         return Effective {
             channels,
@@ -99,7 +99,7 @@ pub fn effective(truth: &Truth, kind: Kind) -> Effective {
 
 /// Cosines and what is seen there, between 0 and 1: no index reflects more than all, so that of saturated gold's red the
 /// part below 1 is what an index can follow.
-fn curve(truth: &Truth, angles: usize) -> Vec<(f64, [f64; 3])> {
+fn curve(truth: &ReferenceCurve, angles: usize) -> Vec<(f64, [f64; 3])> {
     let even = (0..angles).map(|i| i as f64 / angles as f64 * std::f64::consts::FRAC_PI_2);
     let grazing = (2..GRAZING).map(|i| libm::exp2(-f64::from(i)));
     let cosines = even.map(libm::cos).chain(grazing);
@@ -172,14 +172,18 @@ fn distance(index: Index, curve: &[(f64, f64)]) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::materials::{self, Sight, Surface};
+    use crate::materials::{self, Surface, ViewingConditions};
 
-    fn truth(name: &str) -> (Truth, Kind) {
+    fn truth(name: &str) -> (ReferenceCurve, Kind) {
         let material = materials::find(name)
             .expect("it is there")
             .expect("it is good");
-        let surface = Surface::new(&material, None, &Sight::default()).expect("it is full");
-        (Truth::new(surface, Light::Unpolarised), material.kind)
+        let surface =
+            Surface::new(&material, None, &ViewingConditions::default()).expect("it is full");
+        (
+            ReferenceCurve::new(surface, Light::Unpolarised),
+            material.kind,
+        )
     }
 
     /// No index of a dense grid around, and of a coarse one over the whole box, comes nearer.
@@ -232,7 +236,7 @@ mod tests {
                 .indices
                 .iter_mut()
                 .for_each(|index| *index = Index { n, k });
-            let truth = Truth::new(truth.surface, Light::Unpolarised);
+            let truth = ReferenceCurve::new(truth.surface, Light::Unpolarised);
             let found = effective(&truth, kind);
             for i in 0..3 {
                 let apart = (found.channels.n[i] - n).abs() / n + (found.channels.k[i] - k).abs();
@@ -248,7 +252,7 @@ mod tests {
         let of = |index: Index| {
             let mut surface = truth.surface.clone();
             surface.indices.iter_mut().for_each(|own| *own = index);
-            Truth::new(surface, Light::Unpolarised).average()[1]
+            ReferenceCurve::new(surface, Light::Unpolarised).average()[1]
         };
         let mirror = of(Index { n: 1.0, k: 1e9 });
         assert!((mirror - 1.0).abs() < 1e-6, "{mirror}");

@@ -4,11 +4,11 @@
 mod class;
 mod derivation;
 mod effective;
-mod subject;
-mod truth;
+mod material_in_medium;
+mod reference_curve;
 
 pub use class::MaterialClass;
 pub use derivation::{Derivation, THESIS_MATCHING_COS};
 pub use effective::{By, Effective, effective};
-pub use subject::{LEAST_FITTED_N, Subject, Typed};
-pub use truth::{ANGLES, Truth, cosine, cosines, seen};
+pub use material_in_medium::{LEAST_FITTED_N, MaterialInMedium, Typed};
+pub use reference_curve::{ANGLES, ReferenceCurve, cosine, cosines, seen};

@@ -5,9 +5,9 @@ use serde::{Serialize, Serializer};
 use super::table::{self, short_number};
 use crate::cost::{CostAndError, pareto_frontier};
 use crate::emit::Missed;
-use crate::fit::{Aim, Coefficients, Follows, ModelError, Weight};
+use crate::fit::{Coefficients, FitObjective, Follows, ModelError, Weight};
 use crate::methods::Method;
-use crate::reference::Subject;
+use crate::reference::MaterialInMedium;
 
 /// A fitted method and what it was fitted to.
 #[derive(Clone, Debug, Serialize)]
@@ -46,7 +46,7 @@ pub struct FitRow {
     #[serde(skip_serializing_if = "Option::is_none")]
     follows: Option<[FollowedCurve; 3]>,
     #[serde(skip)]
-    aim: Aim,
+    aim: FitObjective,
 }
 
 /// What a channel follows between its two colours.
@@ -122,7 +122,7 @@ impl FitRow {
     }
 
     /// The row of a material.
-    pub fn of_material(mut self, subject: &Subject, missed: Option<Missed>) -> FitRow {
+    pub fn of_material(mut self, subject: &MaterialInMedium, missed: Option<Missed>) -> FitRow {
         self.material = Some(subject.argument.clone());
         self.class = Some(subject.material.kind.name());
         self.misses_its_class = missed;
@@ -156,7 +156,7 @@ fn lacking(mean_rel: Option<f64>, cost: Option<f64>) -> Option<String> {
 
 /// The rows for a terminal; a star where no other of the same material is cheaper and as near.
 pub fn fits_text(rows: &[FitRow], gpu: &str) -> String {
-    let aim = rows.first().map_or(Aim::default(), |row| row.aim);
+    let aim = rows.first().map_or(FitObjective::default(), |row| row.aim);
     let mut head = vec!["", "material", "method", "terms", "largest error"];
     head.extend(measure_columns(aim).map(|(title, _)| title));
     head.extend(["mean relative, %", gpu]);
@@ -183,7 +183,7 @@ pub fn fits_text(rows: &[FitRow], gpu: &str) -> String {
 type Column = (&'static str, fn(&FitRow) -> Option<f64>);
 
 /// The columns of the measure that was minimised, and of what an exact end costs.
-fn measure_columns(aim: Aim) -> impl Iterator<Item = Column> {
+fn measure_columns(aim: FitObjective) -> impl Iterator<Item = Column> {
     let title = match aim.weight {
         Weight::Absolute => "largest on paper",
         Weight::Relative => "largest relative",

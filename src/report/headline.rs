@@ -6,10 +6,10 @@
 
 use crate::emit::{Bounds, Naming, specialised_function};
 use crate::ir::{Value, evaluate};
-use crate::materials::{self, Sight};
+use crate::materials::{self, ViewingConditions};
 use crate::methods;
 use crate::optics::cosine;
-use crate::reference::{Derivation, Subject};
+use crate::reference::{Derivation, MaterialInMedium};
 
 use super::plot::{
     Axis, FOOT, Frame, HEADING, Layout, LineChart, PANEL, SUBTITLE, Series, Style, TICK,
@@ -89,7 +89,12 @@ fn curves(name: &str) -> Result<Vec<Reflectances>, String> {
     let material = materials::find(name).ok_or_else(|| format!("there is no material {name}"))?;
     let material = material.map_err(|why| why.to_string())?;
     let typed = (name.to_owned(), material);
-    let subject = Subject::new(typed, None, &Sight::default(), Derivation::default());
+    let subject = MaterialInMedium::new(
+        typed,
+        None,
+        &ViewingConditions::default(),
+        Derivation::default(),
+    );
     let subject = subject.map_err(|why| why.to_string())?;
     let cosines: Vec<f64> = degrees().map(cosine).collect();
     let mut curves = Vec::new();

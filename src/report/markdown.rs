@@ -1,9 +1,9 @@
 //! The tables of the README, written from the registries so that they cannot drift.
 
 use crate::emit::{Bounds, Naming, half_record, specialised_function};
-use crate::materials::{Material, Sight, Unseen};
+use crate::materials::{Material, Unseen, ViewingConditions};
 use crate::methods::{self, Contract, Method, Spread};
-use crate::reference::{Derivation, Subject};
+use crate::reference::{Derivation, MaterialInMedium};
 use crate::targets;
 
 /// Every method: what it takes, its cost in scalar operations for three channels, what it promises.
@@ -54,9 +54,14 @@ fn source_cell(method: &Method) -> String {
 pub fn errors_table(materials: Vec<Material>) -> Result<String, Unseen> {
     let subject = |material: Material| {
         let typed = (material.name.clone(), material);
-        Subject::new(typed, None, &Sight::default(), Derivation::default())
+        MaterialInMedium::new(
+            typed,
+            None,
+            &ViewingConditions::default(),
+            Derivation::default(),
+        )
     };
-    let subjects: Vec<Subject> = materials
+    let subjects: Vec<MaterialInMedium> = materials
         .into_iter()
         .map(subject)
         .collect::<Result<_, _>>()?;
@@ -167,7 +172,7 @@ fn code_cell(method: &Method) -> String {
     }
 }
 
-fn error_cell(method: &'static Method, subject: &Subject) -> String {
+fn error_cell(method: &'static Method, subject: &MaterialInMedium) -> String {
     let (naming, bounds) = (Naming::default(), Bounds::default());
     let Ok(emitted) = specialised_function(method, subject, &naming, &bounds) else {
         return "dielectrics only".to_owned();

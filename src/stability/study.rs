@@ -3,7 +3,7 @@
 use crate::emit::{self, Bounds, Naming, specialised_function};
 use crate::methods::Method;
 use crate::num::Precision;
-use crate::reference::Subject;
+use crate::reference::MaterialInMedium;
 
 use super::row::StabilityRow;
 use super::scan::{Code, Finding, scan, scan_specialised};
@@ -44,7 +44,7 @@ impl Study {
     /// A method cannot be specialised to a material.
     pub fn specialised_rows(
         &self,
-        subjects: &[Subject],
+        subjects: &[MaterialInMedium],
         progress: StudyProgress,
     ) -> Result<Vec<StabilityRow>, emit::Error> {
         let mut rows = Vec::new();
@@ -61,7 +61,7 @@ impl Study {
     fn channel_rows(
         &self,
         method: &'static Method,
-        subject: &Subject,
+        subject: &MaterialInMedium,
     ) -> Result<Vec<StabilityRow>, emit::Error> {
         let function = |precision: Precision| {
             let naming = Naming {

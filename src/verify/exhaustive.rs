@@ -2,7 +2,7 @@
 
 use crate::emit::Emitted;
 use crate::fit::Measured;
-use crate::reference::Subject;
+use crate::reference::MaterialInMedium;
 use crate::targets::Stack;
 use crate::verify::run::{Devices, ExecutionPath, Fault, ShippedFunction};
 use crate::verify::{Trial, WITHIN, count, sweep};
@@ -61,7 +61,7 @@ pub fn exhaustive_rows(
 /// A function at all numbers, and the millions of them a second.
 fn run(
     file: &Planned,
-    subject: &Subject,
+    subject: &MaterialInMedium,
     emitted: &Emitted,
     devices: &Devices,
     progress: Progress,

@@ -8,7 +8,7 @@ use crate::ir::{Column, Ty};
 use crate::materials::Channels;
 use crate::methods::{Contract, Method};
 use crate::num::Precision;
-use crate::reference::{Subject, Truth};
+use crate::reference::{MaterialInMedium, ReferenceCurve};
 use crate::targets::Stack;
 use crate::verify::compilers::{self, Verdict};
 use crate::verify::run::{Devices, ExecutionPath, Fault, Runnable, ShippedFunction};
@@ -33,7 +33,7 @@ pub(super) struct Case<'a> {
     material: &'a str,
     pub trial: Trial,
     limits: Vec<f32>,
-    truth: Option<Truth>,
+    truth: Option<ReferenceCurve>,
 }
 
 /// The rows of a file.
@@ -79,7 +79,7 @@ fn cases<'a>(plan: &'a Plan, file: &Planned, emitted: &Emitted) -> Vec<Case<'a>>
         return vec![specialised(&plan.subjects[index], emitted)];
     }
     let method = emitted.method;
-    let fits = |subject: &&Subject| subject.is_described_by(method);
+    let fits = |subject: &&MaterialInMedium| subject.is_described_by(method);
     let mut cases: Vec<Case> = plan
         .trial_subjects()
         .iter()
@@ -92,7 +92,7 @@ fn cases<'a>(plan: &'a Plan, file: &Planned, emitted: &Emitted) -> Vec<Case<'a>>
     cases
 }
 
-pub(super) fn specialised<'a>(subject: &'a Subject, emitted: &Emitted) -> Case<'a> {
+pub(super) fn specialised<'a>(subject: &'a MaterialInMedium, emitted: &Emitted) -> Case<'a> {
     let bound = match &emitted.code {
         Measured::Yes(CodeBound::Ulp(bound) | CodeBound::Absolute(bound)) => Measured::Yes(*bound),
         Measured::No(why) => Measured::No(why.clone()),
@@ -110,7 +110,7 @@ pub(super) fn specialised<'a>(subject: &'a Subject, emitted: &Emitted) -> Case<'
     }
 }
 
-fn library<'a>(subject: &'a Subject, emitted: &Emitted) -> Case<'a> {
+fn library<'a>(subject: &'a MaterialInMedium, emitted: &Emitted) -> Case<'a> {
     let values = inputs_in(emitted.precision, subject, emitted.method);
     let numbers = emitted
         .method
@@ -349,7 +349,7 @@ impl<'a> Tried<'a> {
         &self,
         runnable: &Runnable,
         case: &Case,
-        truth: &Truth,
+        truth: &ReferenceCurve,
     ) -> Result<ModelError, Fault> {
         let fault = OnceCell::new();
         let error = fit::error_of(truth, &|cosines| {

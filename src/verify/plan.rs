@@ -5,7 +5,7 @@ use std::path::PathBuf;
 
 use crate::emit::Emitted;
 use crate::num::Precision;
-use crate::reference::Subject;
+use crate::reference::MaterialInMedium;
 use crate::targets::Target;
 
 /// What is to be run.
@@ -14,9 +14,9 @@ pub struct Plan {
     /// The files in order.
     pub files: Vec<Planned>,
     /// The materials.
-    pub subjects: Vec<Subject>,
+    pub subjects: Vec<MaterialInMedium>,
     /// The materials with whose values library functions are run, where it is not those.
-    pub others: Vec<Subject>,
+    pub others: Vec<MaterialInMedium>,
     /// Why some are left out.
     pub left_out: Vec<String>,
     /// The files that are read or listed in the folder: no report may take the place of one.
@@ -38,7 +38,7 @@ pub struct Planned {
 
 impl Plan {
     /// The materials with whose values library functions are run.
-    pub fn trial_subjects(&self) -> &[Subject] {
+    pub fn trial_subjects(&self) -> &[MaterialInMedium] {
         if self.others.is_empty() {
             &self.subjects
         } else {

@@ -8,14 +8,14 @@ use fresnel_gen::app::{Materials, Request};
 use fresnel_gen::emit::{Bounds, Naming, PLAIN_ULP, fingerprint, specialised_function};
 use fresnel_gen::ir::Checked;
 use fresnel_gen::methods::{self, Class, Contract, Method};
-use fresnel_gen::reference::Subject;
+use fresnel_gen::reference::MaterialInMedium;
 use fresnel_gen::verify::{code_error, digits_lost};
 
 /// Cosines tried for each function.
 const POINTS: usize = 200_000;
 
 /// All methods for the materials that are committed, the usual ones for the others.
-fn methods_of(subject: &Subject) -> Vec<&'static Method> {
+fn methods_of(subject: &MaterialInMedium) -> Vec<&'static Method> {
     let transparent = subject.effective.channels.is_transparent();
     let name = subject.name.trim_end_matches("_thesis");
     let committed = DEFAULT_MATERIALS.contains(&name);
@@ -41,7 +41,7 @@ fn promised(sampled: f64, fingerprint: &str) -> f64 {
 }
 
 /// The line of a method's function for a material, and of its plain form where that keeps its digits.
-fn lines(method: &'static Method, subject: &Subject) -> Vec<String> {
+fn lines(method: &'static Method, subject: &MaterialInMedium) -> Vec<String> {
     let stable = specialised_function(method, subject, &Naming::default(), &Bounds::default());
     let stable = stable.expect("every method specialises to the catalogue");
     let line = |function: &Checked, form: &str| {

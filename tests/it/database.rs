@@ -9,7 +9,7 @@ use std::sync::OnceLock;
 
 use fresnel_gen::app::source;
 use fresnel_gen::fit::{PageOutcome, survey_page};
-use fresnel_gen::materials::{Curve, Extrapolate, Fault, Material, Page, Sight};
+use fresnel_gen::materials::{Curve, Extrapolate, Fault, Material, Page, ViewingConditions};
 use fresnel_gen::spectra::Gamut;
 
 /// A page by its path from its shelf on, and what became of it.
@@ -276,9 +276,9 @@ fn every_page_is_seen_at_all_angles_or_it_is_said_why_not() {
     let Some(data) = data_folder(&root(), 6) else {
         return;
     };
-    let sight = Sight {
+    let sight = ViewingConditions {
         gamut: Gamut::Keep,
-        ..Sight::default()
+        ..ViewingConditions::default()
     };
     let mut counts = [0; 3];
     for file in source::pages(&data).expect("a folder of the database") {

@@ -10,11 +10,11 @@ use fresnel_gen::cost::records;
 use fresnel_gen::emit::{Bounds, Naming, missed, specialised_function};
 use fresnel_gen::fit::{ModelError, inputs_of, model_error};
 use fresnel_gen::ir::{Value, evaluate};
-use fresnel_gen::materials::{Kind, Material, Sight};
+use fresnel_gen::materials::{Kind, Material, ViewingConditions};
 use fresnel_gen::methods::{self, Method};
 use fresnel_gen::num::statistics::quantile;
 use fresnel_gen::num::{Legendre, Precision};
-use fresnel_gen::reference::{Derivation, Subject};
+use fresnel_gen::reference::{Derivation, MaterialInMedium};
 
 /// Further measurements of metals and semiconductors, beside the 75 of the reference list that the promises are about: pages
 /// that another collection took, and those of the thesis, three wavelengths each.
@@ -47,28 +47,28 @@ const BESIDE: [&str; 22] = [
 const LEAST_N: f64 = 1.2;
 
 /// Whether it is one of the 75 that promises are about.
-pub fn is_promised(subject: &Subject) -> bool {
+pub fn is_promised(subject: &MaterialInMedium) -> bool {
     subject.material.kind != Kind::Dielectric && !BESIDE.contains(&&*subject.name)
 }
 
 /// The error of a method for a material.
 struct Row<'a> {
-    subject: &'a Subject,
+    subject: &'a MaterialInMedium,
     method: &'static Method,
     error: ModelError,
 }
 
-fn error(subject: &Subject, method: &'static Method) -> ModelError {
+fn error(subject: &MaterialInMedium, method: &'static Method) -> ModelError {
     let function = method.specialise(&inputs_of(subject, method));
     let function = function.expect("every method specialises to the catalogue");
     model_error(&function, &subject.truth_for(method))
 }
 
 /// Every fitted method, and Schlick's beside them, for every material of the catalogue that is known over the whole spectrum.
-fn rows(subjects: &[Subject]) -> Vec<Row<'_>> {
+fn rows(subjects: &[MaterialInMedium]) -> Vec<Row<'_>> {
     let is_shown = |method: &&&Method| method.is_fitted() || method.name == "schlick";
     let of = |subject| {
-        let transparent = Subject::exact_method(subject) == "dielectric_exact";
+        let transparent = MaterialInMedium::exact_method(subject) == "dielectric_exact";
         let fits = move |method: &&&Method| transparent || method.class == methods::Class::Any;
         let methods = methods::ALL.iter().filter(is_shown).filter(fits);
         methods.map(move |method| Row {
@@ -86,7 +86,7 @@ fn most(rows: &[&Row], share: f64) -> f64 {
 }
 
 /// The pages of `data/outside.csv` with their class, as they are seen; none where the database is not there.
-fn outside() -> Option<Vec<(&'static str, Subject)>> {
+fn outside() -> Option<Vec<(&'static str, MaterialInMedium)>> {
     let text = include_str!("../../data/outside.csv");
     let lines = text.lines().filter(|line| !line.starts_with('#')).skip(1);
     let seen = lines.map(|line| {
@@ -97,7 +97,12 @@ fn outside() -> Option<Vec<(&'static str, Subject)>> {
             .find(|kind| kind.name() == class)
             .expect("a class");
         let typed = (path.to_owned(), material);
-        let subject = Subject::new(typed, None, &Sight::default(), Derivation::default());
+        let subject = MaterialInMedium::new(
+            typed,
+            None,
+            &ViewingConditions::default(),
+            Derivation::default(),
+        );
         Some((
             class,
             subject.unwrap_or_else(|why| panic!("{path}: {why:?}")),
@@ -110,22 +115,22 @@ fn outside() -> Option<Vec<(&'static str, Subject)>> {
 #[test]
 fn classes_are_followed_as_promised() {
     let Some(outside) = outside() else { return };
-    let has_class = |subject: &&Subject| {
+    let has_class = |subject: &&MaterialInMedium| {
         let is_gas =
             subject.material.kind == Kind::Dielectric && subject.effective.channels.n[1] < LEAST_N;
         subject.material.rgb_nm.is_none() && !is_gas
     };
     let inside = catalogue().iter().filter(has_class);
-    let inside: Vec<(&str, &Subject)> = inside
+    let inside: Vec<(&str, &MaterialInMedium)> = inside
         .map(|subject| (subject.material.kind.name(), subject))
         .collect();
-    let outside: Vec<(&str, &Subject)> = outside
+    let outside: Vec<(&str, &MaterialInMedium)> = outside
         .iter()
         .map(|(class, subject)| (*class, subject))
         .collect();
     let mut faults = String::new();
     for (method, promise) in methods::promises_by_class() {
-        let errors = |set: &[(&str, &Subject)]| -> Vec<f64> {
+        let errors = |set: &[(&str, &MaterialInMedium)]| -> Vec<f64> {
             let own = set.iter().filter(|(class, subject)| {
                 *class == promise.class && subject.is_described_by(method)
             });
@@ -204,7 +209,13 @@ fn what_absorbs_a_little_is_fitted_or_told_what_serves() {
                 ..material.clone()
             },
         );
-        Subject::new(typed, None, &Sight::default(), Derivation::default()).expect("it is seen")
+        MaterialInMedium::new(
+            typed,
+            None,
+            &ViewingConditions::default(),
+            Derivation::default(),
+        )
+        .expect("it is seen")
     };
     let method = methods::find("fitted_dielectric").expect("it is registered");
     let made =
@@ -218,8 +229,8 @@ fn what_absorbs_a_little_is_fitted_or_told_what_serves() {
 }
 
 /// The catalogue as it is seen.
-pub fn catalogue() -> &'static [Subject] {
-    static CATALOGUE: OnceLock<Vec<Subject>> = OnceLock::new();
+pub fn catalogue() -> &'static [MaterialInMedium] {
+    static CATALOGUE: OnceLock<Vec<MaterialInMedium>> = OnceLock::new();
     CATALOGUE.get_or_init(|| {
         let request = Request {
             materials: Materials::All,
@@ -232,7 +243,7 @@ pub fn catalogue() -> &'static [Subject] {
 
 /// The mean over the hemisphere of what a library function gives in f32, what the function beside it gives in f32, and whether
 /// the limit to [0, 1] acts, in each channel.
-fn means(subject: &Subject, method: &'static Method) -> [(f64, f64, bool); 3] {
+fn means(subject: &MaterialInMedium, method: &'static Method) -> [(f64, f64, bool); 3] {
     let own = method.function(false).expect("well formed");
     let mean = method.average_in(Precision::F32, false);
     let mean = mean.expect("a fitted method has one").expect("well formed");
@@ -269,7 +280,7 @@ fn means(subject: &Subject, method: &'static Method) -> [(f64, f64, bool); 3] {
 fn means_over_the_hemisphere_are_the_functions_own() {
     let (mut same, mut free, mut limited) = (0.0f64, 0, (0.0f64, String::new()));
     for method in methods::ALL.iter().filter(|method| method.is_fitted()) {
-        let fits = |subject: &&Subject| {
+        let fits = |subject: &&MaterialInMedium| {
             let n = subject.effective.channels.n[1];
             let transparent = subject.effective.channels.is_transparent();
             match transparent {

@@ -9,7 +9,7 @@ use fresnel_gen::emit::{Bounds, Emitted, Naming, specialised_function};
 use fresnel_gen::ir::Value;
 use fresnel_gen::methods::{self, Class, Contract, HALF_AIM, InHalf, Method};
 use fresnel_gen::num::{Half, Num, Precision};
-use fresnel_gen::reference::Subject;
+use fresnel_gen::reference::MaterialInMedium;
 use fresnel_gen::verify::{HalfTrial, halves, library_half_error};
 
 /// Random media over which a library function's error is taken.
@@ -65,7 +65,7 @@ fn library_functions_keep_what_they_promise() {
 }
 
 /// All methods that are written for a material.
-fn methods_of(subject: &Subject) -> impl Iterator<Item = &'static Method> {
+fn methods_of(subject: &MaterialInMedium) -> impl Iterator<Item = &'static Method> {
     let transparent = subject.effective.channels.is_transparent();
     let fits = move |method: &&&Method| {
         method.half.refusal().is_none() && (method.class == Class::Any || transparent)
@@ -74,7 +74,11 @@ fn methods_of(subject: &Subject) -> impl Iterator<Item = &'static Method> {
 }
 
 /// The row of a function, and what is wrong with its numbers.
-fn measured(emitted: &Emitted, subject: &Subject, cosines: &[f32]) -> (String, Option<String>) {
+fn measured(
+    emitted: &Emitted,
+    subject: &MaterialInMedium,
+    cosines: &[f32],
+) -> (String, Option<String>) {
     let meaning = emitted.meaning().expect("it is well formed");
     let trial = HalfTrial {
         function: &emitted.function,
@@ -135,7 +139,7 @@ fn the_catalogue_keeps_within_the_aim_and_is_recorded() {
     };
     let subjects = request.subjects().expect("the catalogue is good").ready;
     let cosines = halves();
-    let of = |subject: &Subject| -> Vec<(String, Option<String>)> {
+    let of = |subject: &MaterialInMedium| -> Vec<(String, Option<String>)> {
         let emitted = methods_of(subject).map(|method| {
             specialised_function(method, subject, &naming(), &Bounds::default())
                 .expect("every method specialises to the catalogue")

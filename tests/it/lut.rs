@@ -9,25 +9,25 @@ use fresnel_gen::app::tables::{WantedTables, artifacts, table_materials};
 use fresnel_gen::bake::{Request, TableMaterial, TableSize, bake};
 use fresnel_gen::ir::Weights;
 use fresnel_gen::lut::{Axis, Between, Depth, Format, Stored, Table, table_error};
-use fresnel_gen::materials::{self, Sight, Surface};
+use fresnel_gen::materials::{self, Surface, ViewingConditions};
 use fresnel_gen::methods::Light;
-use fresnel_gen::reference::Truth;
+use fresnel_gen::reference::ReferenceCurve;
 use fresnel_gen::spectra::Gamut;
 
 use crate::not_checked;
 
-fn truth(name: &str) -> Option<Truth> {
-    let sight = Sight {
+fn truth(name: &str) -> Option<ReferenceCurve> {
+    let sight = ViewingConditions {
         gamut: Gamut::Keep,
-        ..Sight::default()
+        ..ViewingConditions::default()
     };
     let material = materials::find(name).unwrap().unwrap();
     let surface = Surface::new(&material, None, &sight).ok()?;
-    Some(Truth::new(surface, Light::Unpolarised))
+    Some(ReferenceCurve::new(surface, Light::Unpolarised))
 }
 
 /// Whether one of the axes is good enough, and the least error of all.
-fn least_error(truth: &Truth, texels: usize, axes: &[Axis]) -> f64 {
+fn least_error(truth: &ReferenceCurve, texels: usize, axes: &[Axis]) -> f64 {
     let error = |axis: &Axis| {
         let table = Table::new("", truth, *axis, texels).unwrap();
         let between = Between::new(truth, *axis, texels);
@@ -76,9 +76,9 @@ fn request(names: &str, formats: &[Format], atlas: bool) -> Request {
     let wanted = WantedTables {
         materials: fresnel_gen::app::source::materials(&names).unwrap(),
         medium: None,
-        sight: Sight {
+        sight: ViewingConditions {
             gamut: Gamut::Keep,
-            ..Sight::default()
+            ..ViewingConditions::default()
         },
     };
     Request {
@@ -363,7 +363,7 @@ fn the_default_materials_are_baked_without_flags() {
     let wanted = WantedTables {
         materials: Materials::Default,
         medium: None,
-        sight: Sight::default(),
+        sight: ViewingConditions::default(),
     };
     let names: Vec<String> = table_materials(&wanted)
         .unwrap()

@@ -53,10 +53,10 @@ mod tree;
 mod verify;
 
 use fresnel_gen::app::{Materials, Request, Source};
-use fresnel_gen::reference::Subject;
+use fresnel_gen::reference::MaterialInMedium;
 
 /// Materials of the catalogue, seen as they are unless asked otherwise.
-pub fn subjects(names: &[&str]) -> Vec<Subject> {
+pub fn subjects(names: &[&str]) -> Vec<MaterialInMedium> {
     let named = |name: &&str| Source::Named((*name).to_owned());
     let request = Request {
         materials: Materials::These(names.iter().map(named).collect()),

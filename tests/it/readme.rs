@@ -7,7 +7,7 @@ use std::path::Path;
 use fresnel_gen::app::generate::generate_single;
 use fresnel_gen::app::request::DEFAULT_MATERIALS;
 use fresnel_gen::app::{Materials, Request, Source};
-use fresnel_gen::materials::{self, Sight};
+use fresnel_gen::materials::{self, ViewingConditions};
 use fresnel_gen::report::headline::headline;
 use fresnel_gen::report::markdown::{
     classes_table, errors_table, half_table, methods_table, targets_table,
@@ -172,8 +172,8 @@ fn the_picture_is_what_the_program_draws() {
         .expect("it is there")
         .expect("it is good");
     let command = "fresnel-gen materials show gold --svg gold.svg";
-    let svg =
-        material_sheet(&gold, None, &Sight::default(), command).expect("gold is known everywhere");
+    let svg = material_sheet(&gold, None, &ViewingConditions::default(), command)
+        .expect("gold is known everywhere");
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("data/figures/material-gold.svg");
     super::bless::check(&path, svg.as_bytes());
 }

@@ -6,19 +6,23 @@ use std::fmt::Write;
 use std::path::Path;
 
 use fresnel_gen::fit::{
-    Aim, Candidate, Curve, ErrorQuantiles, Exact, Task, Tried, TriedShapes, candidates, search,
+    Candidate, Curve, ErrorQuantiles, Exact, FitObjective, FitProblem, Tried, TriedShapes,
+    candidates, search,
 };
-use fresnel_gen::reference::Subject;
+use fresnel_gen::reference::MaterialInMedium;
 
 use super::fits::{catalogue, is_promised};
 
-fn promised() -> Vec<&'static Subject> {
+fn promised() -> Vec<&'static MaterialInMedium> {
     let own = catalogue().iter().filter(|subject| is_promised(subject));
     own.collect()
 }
 
-fn tried(shapes: &[Candidate], curves: &[Curve], aim: Aim) -> Vec<Tried> {
-    let tasks: Vec<Task> = curves.iter().map(|curve| Task::new(curve, aim)).collect();
+fn tried(shapes: &[Candidate], curves: &[Curve], aim: FitObjective) -> Vec<Tried> {
+    let tasks: Vec<FitProblem> = curves
+        .iter()
+        .map(|curve| FitProblem::new(curve, aim))
+        .collect();
     search(shapes, &tasks, &mut |_, _| ())
 }
 
@@ -67,9 +71,9 @@ fn what_shapes_are_worth_is_recorded() {
         grazing: true,
     };
     for (what, exact) in [("free", Exact::default()), ("exact at 90", at_90)] {
-        let aim = Aim {
+        let aim = FitObjective {
             exact,
-            ..Aim::default()
+            ..FitObjective::default()
         };
         for one in tried(&shipped(), &curves, aim) {
             let name = one.candidate.method.expect("it is shipped").name;
@@ -84,7 +88,7 @@ fn what_shapes_are_worth_is_recorded() {
     for terms in [4, 5] {
         let errors = TriedShapes {
             substances: substances.clone(),
-            tried: tried(&candidates(terms), &curves, Aim::default()),
+            tried: tried(&candidates(terms), &curves, FitObjective::default()),
         };
         let found = errors.leave_one_out(terms).expect("many substances");
         let shape = found.choice.shape.to_string();

@@ -4,7 +4,9 @@
 use std::collections::BTreeMap;
 
 use fresnel_gen::fit;
-use fresnel_gen::materials::{self, Channels, Kind, Material, Sight, Surface, THESIS_NM};
+use fresnel_gen::materials::{
+    self, Channels, Kind, Material, Surface, THESIS_NM, ViewingConditions,
+};
 use fresnel_gen::optics::cosine;
 use fresnel_gen::reference;
 use fresnel_gen::spectra::{Adaptation, Gamut, Illuminant, Integration, Step};
@@ -18,11 +20,11 @@ fn by_page() -> BTreeMap<String, Material> {
         .collect()
 }
 
-fn unclipped(integration: Integration) -> Sight {
-    Sight {
+fn unclipped(integration: Integration) -> ViewingConditions {
+    ViewingConditions {
         integration,
         gamut: Gamut::Keep,
-        ..Sight::default()
+        ..ViewingConditions::default()
     }
 }
 
@@ -161,10 +163,11 @@ fn table_1_comes_out_of_its_pages() {
 fn the_index_per_channel_stands_for_the_spectrum() {
     let mut worst: Vec<(f64, String)> = Vec::new();
     for material in materials::list().expect("the catalogue is good") {
-        let Ok(surface) = Surface::new(&material, None, &Sight::default()) else {
+        let Ok(surface) = Surface::new(&material, None, &ViewingConditions::default()) else {
             continue;
         };
-        let truth = reference::Truth::new(surface, fresnel_gen::methods::Light::Unpolarised);
+        let truth =
+            reference::ReferenceCurve::new(surface, fresnel_gen::methods::Light::Unpolarised);
         let effective = reference::effective(&truth, material.kind);
         let known = fit::known(&effective.channels, &reference::Derivation::default());
         let seen = truth.at(1.0);
@@ -195,9 +198,9 @@ fn the_index_per_channel_stands_for_the_spectrum() {
 #[test]
 fn dielectrics_hardly_absorb() {
     for material in materials::list().expect("the catalogue is good") {
-        let sight = Sight {
+        let sight = ViewingConditions {
             beyond: materials::Extrapolate::Hold,
-            ..Sight::default()
+            ..ViewingConditions::default()
         };
         let surface = Surface::new(&material, None, &sight).expect("held where it is not known");
         let most = surface.most_k();

@@ -5,7 +5,7 @@ use fresnel_gen::ir::Weights;
 use fresnel_gen::lut::{Depth, SPLIT_SUM_SIZE, SplitSum, StoredSplitSum};
 use fresnel_gen::methods::{self, Input, Method, Shape};
 use fresnel_gen::optics::Ggx;
-use fresnel_gen::reference::{Subject, seen};
+use fresnel_gen::reference::{MaterialInMedium, seen};
 use fresnel_gen::spectra::Gamut;
 
 /// What the table promises at every angle and roughness from .05 on, for the fitted reflectance.
@@ -40,7 +40,7 @@ struct Reflectance {
 }
 
 impl Reflectance {
-    fn new(name: &'static str, subject: &Subject, method: &Method) -> Reflectance {
+    fn new(name: &'static str, subject: &MaterialInMedium, method: &Method) -> Reflectance {
         let values = inputs_of(subject, method);
         let coefficients = Input::COEFFICIENTS.iter();
         let mut surface = subject.truth.surface.clone();

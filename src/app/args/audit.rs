@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use clap::Args;
 
 use crate::emit::{CommandLine, file_name};
-use crate::materials::Sight;
+use crate::materials::ViewingConditions;
 
 use super::SightFlags;
 
@@ -72,7 +72,7 @@ pub struct AuditFlags {
 
 impl AuditFlags {
     /// The command that reports this again under these viewing conditions, without places.
-    pub fn command_line(&self, sight: &Sight) -> CommandLine {
+    pub fn command_line(&self, sight: &ViewingConditions) -> CommandLine {
         let file = self.file.as_deref().unwrap_or_default();
         let command = CommandLine::new("audit")
             .argument(file_name(file))

@@ -6,7 +6,7 @@ use clap::Args;
 
 use crate::emit::CommandLine;
 use crate::fit::Weight;
-use crate::materials::Sight;
+use crate::materials::ViewingConditions;
 
 use super::SightFlags;
 
@@ -60,7 +60,7 @@ pub struct FitFlags {
 
 impl FitFlags {
     /// The command that reports this again under these viewing conditions, without places.
-    pub fn command_line(&self, sight: &Sight) -> CommandLine {
+    pub fn command_line(&self, sight: &ViewingConditions) -> CommandLine {
         let weight = Some(&self.weight).filter(|name| *name != Weight::default().name());
         CommandLine::new("fit")
             .switch("search", self.search)

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use clap::Args;
 
 use crate::emit::CommandLine;
-use crate::materials::Sight;
+use crate::materials::ViewingConditions;
 use crate::num::Precision;
 
 use crate::app::precision::PrecisionFlags;
@@ -82,7 +82,7 @@ pub struct VerifyFlags {
 
 impl VerifyFlags {
     /// The command that reports this again under these viewing conditions, without places.
-    pub fn command_line(&self, sight: &Sight) -> CommandLine {
+    pub fn command_line(&self, sight: &ViewingConditions) -> CommandLine {
         let is_half = self.precision.precision.as_deref() == Some(Precision::F16.name());
         let points = (!self.exhaustive && !is_half).then_some(self.points);
         CommandLine::new("verify")

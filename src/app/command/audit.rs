@@ -12,7 +12,7 @@ use crate::app::source::{materials, shader, source};
 use crate::app::write::{try_places_of_ours, write_file};
 use crate::audit::{Audit, AuditRow, Given, Language, serve};
 use crate::cost::{FAMILIES, Family};
-use crate::reference::Subject;
+use crate::reference::MaterialInMedium;
 use crate::report::Report;
 use crate::report::audit::{audit_remarks, audit_text};
 use crate::report::frontier::{ChartView, CostAxis, STATISTICS, chart_data, charted_function};
@@ -42,7 +42,7 @@ pub fn run(flags: &AuditFlags, progress: Progress) -> Result<Output, Error> {
     let all = flags.json.iter().chain(&flags.junit).chain(&charts);
     try_files(&all.map(PathBuf::as_path).collect::<Vec<_>>())?;
     try_places_of_ours(&charts, flags.overwrite)?;
-    let subjects: Vec<Subject> = subjects.ready.into_iter().map(|(one, _)| one).collect();
+    let subjects: Vec<MaterialInMedium> = subjects.ready.into_iter().map(|(one, _)| one).collect();
     let rows = subjects.iter().map(|one| audit.audit_row(one, progress));
     let rows: Vec<AuditRow> = rows.collect::<Result<_, _>>()?;
     let command = String::from(flags.command_line(&request.sight));
@@ -72,7 +72,7 @@ pub fn run(flags: &AuditFlags, progress: Progress) -> Result<Output, Error> {
 fn charted(
     (folder, overwrite): (&Path, bool),
     rows: &[AuditRow],
-    subjects: &[Subject],
+    subjects: &[MaterialInMedium],
     space: Space,
     command: String,
     progress: Progress,

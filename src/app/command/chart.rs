@@ -9,7 +9,7 @@ use crate::app::names::unknown;
 use crate::app::request::{Materials, Request};
 use crate::app::source::materials;
 use crate::app::write::{try_places_of_ours, write_report};
-use crate::reference::{MaterialClass, Subject};
+use crate::reference::{MaterialClass, MaterialInMedium};
 use crate::report::Report;
 use crate::report::frontier::{
     ChartData, ChartView, ERRORS, STATISTICS, chart_data, chart_page, chart_svg, chart_text,
@@ -36,7 +36,7 @@ pub fn run(flags: &ChartFlags, progress: Progress) -> Result<Output, Error> {
         ..Request::default()
     };
     let found = request.subjects()?;
-    let subjects: Vec<Subject> = found
+    let subjects: Vec<MaterialInMedium> = found
         .ready
         .into_iter()
         .map(|(subject, _)| subject)
@@ -142,7 +142,7 @@ fn set(flags: &ChartFlags, data: &ChartData) -> Result<usize, Error> {
 }
 
 /// Refuses, before the work, to show what is not among the materials.
-fn check_shown(flags: &ChartFlags, subjects: &[Subject]) -> Result<(), Error> {
+fn check_shown(flags: &ChartFlags, subjects: &[MaterialInMedium]) -> Result<(), Error> {
     let Some(show) = &flags.show else {
         return Ok(());
     };

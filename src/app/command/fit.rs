@@ -11,11 +11,11 @@ use crate::app::source::{materials, source};
 use crate::cost::{Family, library_cost, records};
 use crate::emit::missed;
 use crate::fit::{
-    Aim, Coefficients, Curve, Exact, Follows, Weight, error_from, model_error, values_at,
+    Coefficients, Curve, Exact, FitObjective, Follows, Weight, error_from, model_error, values_at,
 };
 use crate::methods::{ALL, Class, Method};
 use crate::num::in_parallel;
-use crate::reference::Subject;
+use crate::reference::MaterialInMedium;
 use crate::report::Report;
 use crate::report::fits::{FitRow, fits_text};
 
@@ -43,7 +43,7 @@ pub fn run(flags: &FitFlags, progress: Progress) -> Result<Output, Error> {
 }
 
 /// What is to be minimised and met.
-fn aim(flags: &FitFlags) -> Result<Aim, Error> {
+fn aim(flags: &FitFlags) -> Result<FitObjective, Error> {
     let names = Weight::ALL.map(Weight::name);
     let weight = Weight::find(&flags.weight);
     let weight = weight.ok_or_else(|| unknown("weight", &flags.weight, &names))?;
@@ -59,7 +59,7 @@ fn aim(flags: &FitFlags) -> Result<Aim, Error> {
         let what = format!("`{other}` is no end of the right angle; --exact is 0, 90, or 0,90");
         return Err(Error::Usage { what });
     }
-    Ok(Aim {
+    Ok(FitObjective {
         weight,
         precision: named(flags.precision.as_deref())?,
         exact: Exact {
@@ -97,7 +97,7 @@ fn forms(terms: Option<usize>, gpu: &Family) -> Result<Vec<Form>, Error> {
 }
 
 /// The materials that are meant, as they are seen, with what was left out; a search is of all unless some are named.
-pub(super) fn subjects(flags: &FitFlags) -> Result<(Vec<Subject>, Vec<String>), Error> {
+pub(super) fn subjects(flags: &FitFlags) -> Result<(Vec<MaterialInMedium>, Vec<String>), Error> {
     let materials = match flags.search && flags.material.is_empty() {
         true => Materials::All,
         false => materials(&flags.material)?,
@@ -124,7 +124,7 @@ pub(super) fn subjects(flags: &FitFlags) -> Result<(Vec<Subject>, Vec<String>), 
 /// A row for each material and method that describes it, and what was left out.
 fn of_materials(
     flags: &FitFlags,
-    aim: Aim,
+    aim: FitObjective,
     forms: &[Form],
     progress: Progress,
 ) -> Result<(Vec<FitRow>, Vec<String>), Error> {
@@ -148,8 +148,8 @@ const NO_FIT: &str = "under these weights its terms do not tell angles apart";
 
 /// A row for each form that describes a material, none where it has no fit, with the names of both.
 fn of_subject(
-    subject: &Subject,
-    aim: Aim,
+    subject: &MaterialInMedium,
+    aim: FitObjective,
     forms: &[Form],
 ) -> Vec<(Option<FitRow>, String, &'static str)> {
     let curve = Curve::unclipped(subject);
@@ -172,7 +172,7 @@ fn of_subject(
 }
 
 /// A row for each method, fitted to two colours.
-fn of_colours(flags: &FitFlags, aim: Aim, forms: &[Form]) -> Result<Vec<FitRow>, Error> {
+fn of_colours(flags: &FitFlags, aim: FitObjective, forms: &[Form]) -> Result<Vec<FitRow>, Error> {
     let (f0, f82) = (colour("f0", &flags.f0)?, colour("f82", &flags.f82)?);
     let follows = [0, 1, 2].map(|i| Follows::of(f0[i], f82[i]));
     let seen = |cos_theta: f64| follows.map(|channel| channel.at(cos_theta));

@@ -23,7 +23,7 @@ use crate::bake::as_tables_are_seen;
 use crate::budget::{Budget, choose_within};
 use crate::methods;
 use crate::num::Precision;
-use crate::reference::Subject;
+use crate::reference::MaterialInMedium;
 
 use super::{Output, folder_or_current, refuse_within_tree};
 
@@ -120,7 +120,7 @@ fn within(budget: Budget, request: Request) -> Result<(Request, Vec<String>), Er
         ..request
     };
     let subjects = request.subjects()?.ready.into_iter();
-    let subjects: Vec<Subject> = subjects.map(|(subject, _)| subject).collect();
+    let subjects: Vec<MaterialInMedium> = subjects.map(|(subject, _)| subject).collect();
     let methods = request.resolved_methods()?;
     let methods = methods.unwrap_or_else(|| methods::ALL.to_vec());
     let choice = choose_within(budget, methods, &subjects, &request.sight)?;

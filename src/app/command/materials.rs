@@ -12,7 +12,7 @@ use crate::app::sight::sight;
 use crate::app::source::source;
 use crate::app::write::write_file;
 use crate::emit::CommandLine;
-use crate::materials::{self, Extrapolate, Kind, Material, Sight};
+use crate::materials::{self, Extrapolate, Kind, Material, ViewingConditions};
 use crate::report::material_sheet::material_sheet;
 use crate::report::table;
 use crate::report::{Report, SCHEMA};
@@ -188,7 +188,7 @@ fn check_places(flags: &ShowFlags, json: Option<&Path>) -> Result<(), Error> {
 const PNG_SCALE: f32 = 2.0;
 
 /// The command that draws it again, without the output's place.
-fn command(loaded: &Loaded, medium: Option<&Loaded>, sight: &Sight) -> String {
+fn command(loaded: &Loaded, medium: Option<&Loaded>, sight: &ViewingConditions) -> String {
     CommandLine::new("fresnel-gen materials show")
         .argument(&loaded.argument)
         .list("medium", medium.map(|medium| &medium.argument))

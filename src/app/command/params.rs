@@ -8,7 +8,7 @@ use crate::app::request::load;
 use crate::app::sight::sight;
 use crate::app::source::source;
 use crate::fit::{BOUNCES, Params, abbe, colour_errors, ior_d, params};
-use crate::materials::{self, Kind, Material, Sight, Surface};
+use crate::materials::{self, Kind, Material, Surface, ViewingConditions};
 use crate::reference::By;
 use crate::report::SCHEMA;
 use crate::report::table;
@@ -21,7 +21,7 @@ use super::{Output, report};
 struct Told {
     material: Material,
     medium: Option<Material>,
-    sight: Sight,
+    sight: ViewingConditions,
     params: Params,
     held: Option<String>,
     seen: String,
@@ -35,7 +35,7 @@ struct Told {
 pub fn run(flags: &ParamsFlags, json: Option<&std::path::Path>) -> Result<Output, Error> {
     let material = load(&source(&flags.name)?)?.material;
     let medium = medium(flags.medium.as_deref())?;
-    let sight = Sight {
+    let sight = ViewingConditions {
         gamut: Gamut::Keep,
         ..sight(&flags.sight.words(None))?
     };
@@ -43,13 +43,17 @@ pub fn run(flags: &ParamsFlags, json: Option<&std::path::Path>) -> Result<Output
     report(text(&told), &object(&told), json)
 }
 
-fn told(material: Material, medium: Option<Material>, sight: Sight) -> Result<Told, Error> {
+fn told(
+    material: Material,
+    medium: Option<Material>,
+    sight: ViewingConditions,
+) -> Result<Told, Error> {
     // What is known at three wavelengths is compared with others at the same.
     let own = [Some(&material), medium.as_ref()]
         .into_iter()
         .flatten()
         .find_map(|m| m.rgb_nm);
-    let sight = Sight {
+    let sight = ViewingConditions {
         wavelengths_nm: sight.wavelengths_nm.or(own),
         ..sight
     };
@@ -71,7 +75,7 @@ fn told(material: Material, medium: Option<Material>, sight: Sight) -> Result<To
 fn others(
     material: &Material,
     medium: Option<&Material>,
-    sight: &Sight,
+    sight: &ViewingConditions,
 ) -> Result<Vec<(String, [f64; 3])>, Error> {
     let catalogue = materials::list()?;
     let measured = materials::surfaces_of(&material.substance, &catalogue, medium, sight);

@@ -3,11 +3,11 @@
 use crate::app::args::FitFlags;
 use crate::app::error::Error;
 use crate::cost::{Family, library_cost, records};
-use crate::fit::{Aim, Candidate, Curve, Task, TriedShapes, candidates, search};
+use crate::fit::{Candidate, Curve, FitObjective, FitProblem, TriedShapes, candidates, search};
 use crate::materials::{Material, find};
 use crate::methods::Method;
 use crate::num::in_parallel;
-use crate::reference::{MaterialClass, Subject};
+use crate::reference::{MaterialClass, MaterialInMedium};
 use crate::report::Report;
 use crate::report::search::{SearchResult, SearchRow, search_text};
 
@@ -18,7 +18,7 @@ use crate::app::sight::sight;
 /// Searches.
 pub(super) fn run(
     flags: &FitFlags,
-    aim: Aim,
+    aim: FitObjective,
     gpu: &Family,
     progress: Progress,
 ) -> Result<Output, Error> {
@@ -69,20 +69,23 @@ fn terms(flags: &FitFlags) -> Result<Vec<usize>, Error> {
 /// All shapes tried on the materials of a class; none where there are none.
 fn tried_shapes(
     class: MaterialClass,
-    subjects: &[Subject],
+    subjects: &[MaterialInMedium],
     shapes: &[Candidate],
-    aim: Aim,
+    aim: FitObjective,
     progress: Progress,
 ) -> Option<TriedShapes> {
     let own = subjects
         .iter()
         .filter(|subject| MaterialClass::containing(subject) == Some(class));
-    let own: Vec<&Subject> = own.collect();
+    let own: Vec<&MaterialInMedium> = own.collect();
     let curve = |i: usize| Curve::unclipped(own[i]);
     let curves: Vec<Curve> = in_parallel(own.len(), &curve, &mut |done, whole| {
         progress(done, whole, "materials");
     });
-    let tasks: Vec<Task> = curves.iter().map(|curve| Task::new(curve, aim)).collect();
+    let tasks: Vec<FitProblem> = curves
+        .iter()
+        .map(|curve| FitProblem::new(curve, aim))
+        .collect();
     let tried = search(shapes, &tasks, &mut |done, whole| {
         progress(done, whole, "shapes");
     });

@@ -8,7 +8,7 @@ use crate::app::sight::sight;
 use crate::app::source::{pages, read};
 use crate::emit::CommandLine;
 use crate::fit::{PageOutcome, SurveyedPage, survey_page};
-use crate::materials::Sight;
+use crate::materials::ViewingConditions;
 use crate::report::Report;
 use crate::report::survey::{SurveyRow, survey_text};
 use crate::spectra::Gamut;
@@ -17,7 +17,7 @@ use super::{Output, Progress, report};
 
 /// `fresnel-gen materials survey FOLDER`.
 pub fn run(flags: &SurveyFlags, json: Option<&Path>, progress: Progress) -> Result<Output, Error> {
-    let sight = Sight {
+    let sight = ViewingConditions {
         gamut: Gamut::Keep,
         ..sight(&flags.sight.words(None))?
     };
@@ -39,7 +39,7 @@ pub fn run(flags: &SurveyFlags, json: Option<&Path>, progress: Progress) -> Resu
 
 /// A page by its name below the folder, so that no report depends on where that lies. One that cannot be read is refused as
 /// one that cannot be understood is.
-fn surveyed(folder: &Path, file: &str, sight: &Sight) -> SurveyedPage {
+fn surveyed(folder: &Path, file: &str, sight: &ViewingConditions) -> SurveyedPage {
     let (path, named) = if file.is_empty() {
         (folder.to_owned(), folder.display().to_string())
     } else {

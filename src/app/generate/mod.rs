@@ -12,7 +12,7 @@ use crate::emit::{
 use crate::materials::Unseen;
 use crate::methods::{self, Method};
 use crate::num::Precision;
-use crate::reference::Subject;
+use crate::reference::MaterialInMedium;
 use crate::targets::{Finish, Target};
 
 use serde_json::json;
@@ -93,7 +93,7 @@ pub struct Meant {
     /// The files.
     pub files: Vec<Made>,
     /// The materials.
-    pub subjects: Vec<Subject>,
+    pub subjects: Vec<MaterialInMedium>,
     /// Why materials that `all` brings along are left out.
     pub left_out: Vec<Unseen>,
 }
@@ -150,7 +150,7 @@ struct Run<'r> {
     targets: Vec<&'static Target>,
     /// The methods asked for by name; nothing where all are meant.
     named: Option<Vec<&'static Method>>,
-    subjects: Vec<(Subject, String)>,
+    subjects: Vec<(MaterialInMedium, String)>,
     left_out: Vec<Unseen>,
     naming: Naming,
     bounds: Bounds,
@@ -218,7 +218,7 @@ impl<'r> Run<'r> {
     fn material(
         &self,
         index: usize,
-        subject: &Subject,
+        subject: &MaterialInMedium,
         kept: &Kept,
         owners: &mut Owners,
     ) -> Result<Vec<Made>, Error> {
@@ -255,7 +255,7 @@ impl<'r> Run<'r> {
     fn specialised<'a>(
         &self,
         methods: &[&'a str],
-        subject: &Subject,
+        subject: &MaterialInMedium,
         ready: &mut BTreeMap<&'a str, Emitted>,
     ) -> Result<Vec<Emitted>, Error> {
         let mut functions = Vec::new();
@@ -287,7 +287,7 @@ impl<'r> Run<'r> {
         &self,
         target: &Target,
         methods: Option<&[&str]>,
-        subject: Option<&Subject>,
+        subject: Option<&MaterialInMedium>,
         form: HeaderForm,
     ) -> String {
         let request = self.request;
@@ -344,7 +344,7 @@ impl<'r> Run<'r> {
     }
 
     fn provenance(&self) -> Provenance {
-        let input = |(subject, text): &(Subject, String)| Input {
+        let input = |(subject, text): &(MaterialInMedium, String)| Input {
             name: subject.name.clone(),
             sha256: sha256(text.as_bytes()),
         };

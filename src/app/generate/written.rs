@@ -3,7 +3,7 @@
 use crate::app::error::Error;
 use crate::app::request::Request;
 use crate::methods::{self, InHalf, Method};
-use crate::reference::Subject;
+use crate::reference::MaterialInMedium;
 use crate::targets::Target;
 
 use super::{Kept, Run};
@@ -32,7 +32,7 @@ pub fn refused(request: &Request, named: Named) -> Vec<String> {
 }
 
 /// The methods that a material's file holds unless others are asked for.
-pub fn usual(request: &Request, subject: &Subject) -> Vec<&'static str> {
+pub fn usual(request: &Request, subject: &MaterialInMedium) -> Vec<&'static str> {
     let mut usual = subject.default_methods();
     usual.retain(|name| is_written(request, name));
     usual
@@ -50,7 +50,12 @@ pub fn named_or(run: &Run, material: &str, usual: &[&'static str]) -> Vec<&'stat
 }
 
 /// The methods of a material's file, the exact one first.
-pub fn methods_of(run: &Run, target: &Target, subject: &Subject, kept: &Kept) -> Vec<&'static str> {
+pub fn methods_of(
+    run: &Run,
+    target: &Target,
+    subject: &MaterialInMedium,
+    kept: &Kept,
+) -> Vec<&'static str> {
     let usual = usual(run.request, subject);
     let file = (target.name.to_owned(), subject.name.clone());
     let exactly = run.held.and_then(|held| held.methods.get(&file));

@@ -9,7 +9,7 @@ use crate::app::generate::{Held, Kept, Made, Meant, generate_meant};
 use crate::app::request::{Materials, Request};
 use crate::emit::{Emitted, HeaderForm};
 use crate::methods;
-use crate::reference::Subject;
+use crate::reference::MaterialInMedium;
 use crate::targets;
 use crate::verify::plan::{Plan, Planned, ShippedPage};
 
@@ -107,7 +107,10 @@ fn full_headers(meant: &Meant, shipped: &Folder) -> Result<BTreeSet<String>, Err
 }
 
 /// The target and the material that a material's file is kept under, and the material.
-fn material_file<'a>(meant: &'a Meant, made: &Made) -> Option<((String, String), &'a Subject)> {
+fn material_file<'a>(
+    meant: &'a Meant,
+    made: &Made,
+) -> Option<((String, String), &'a MaterialInMedium)> {
     let subject = &meant.subjects[made.subject?];
     let file = (made.artifact.target.clone(), subject.name.clone());
     Some((file, subject))
@@ -159,7 +162,7 @@ fn is_asked_for(request: &Request, emitted: &Emitted) -> bool {
     request.methods.is_empty() || request.methods.iter().any(named)
 }
 
-fn usual_subjects(request: &Request) -> Result<Vec<Subject>, Error> {
+fn usual_subjects(request: &Request) -> Result<Vec<MaterialInMedium>, Error> {
     let usual = Request {
         materials: Materials::Default,
         ..request.clone()

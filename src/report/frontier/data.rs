@@ -4,7 +4,7 @@
 use crate::fit::{Curve, Inputs, MethodErrors};
 use crate::methods::{ALL, Light};
 use crate::num::in_parallel;
-use crate::reference::Subject;
+use crate::reference::MaterialInMedium;
 use crate::spectra::Space;
 
 use super::own::ChartedFunction;
@@ -18,7 +18,7 @@ pub fn cost_names() -> Vec<&'static str> {
 
 /// The data of charts of these materials, with a user's function as one more entry. `progress` hears how many are done.
 pub fn chart_data(
-    subjects: &[Subject],
+    subjects: &[MaterialInMedium],
     space: Space,
     own: Option<&ChartedFunction>,
     command: String,
@@ -68,7 +68,7 @@ fn entries() -> Vec<ChartEntry> {
 /// The errors of all entries for each material.
 fn errors(
     entries: &[ChartEntry],
-    subjects: &[Subject],
+    subjects: &[MaterialInMedium],
     space: Space,
     progress: &mut dyn FnMut(u64, u64, &str),
 ) -> Vec<Vec<MethodErrors>> {
@@ -79,7 +79,11 @@ fn errors(
 }
 
 /// The errors of all entries for a material; unknown of methods that do not describe it.
-fn entry_errors(entries: &[ChartEntry], subject: &Subject, space: Space) -> Vec<MethodErrors> {
+fn entry_errors(
+    entries: &[ChartEntry],
+    subject: &MaterialInMedium,
+    space: Space,
+) -> Vec<MethodErrors> {
     let curve = Curve::new(|c| subject.truth.at(c));
     let one = |entry: &ChartEntry| match entry.method() {
         Some(method) if subject.is_described_by(method) => {

@@ -2,7 +2,7 @@
 
 use crate::fit::MethodErrors;
 use crate::num::statistics::{median, medians, quantile};
-use crate::reference::{MaterialClass, Subject};
+use crate::reference::{MaterialClass, MaterialInMedium};
 
 use super::MaterialSet;
 
@@ -11,7 +11,7 @@ use super::MaterialSet;
 pub const STATISTICS: [&str; 4] = ["median", "p90", "worst", "substances"];
 
 /// The sets of these materials: classes first, where they hold more than one, then each material.
-pub fn sets(subjects: &[Subject], errors: &[Vec<MethodErrors>]) -> Vec<MaterialSet> {
+pub fn sets(subjects: &[MaterialInMedium], errors: &[Vec<MethodErrors>]) -> Vec<MaterialSet> {
     let classes = MaterialClass::ALL.into_iter();
     let classes = classes.flat_map(|class| class_sets(class, subjects, errors));
     let alone = subjects
@@ -33,10 +33,10 @@ pub fn set_name(class: MaterialClass, statistic: &str) -> String {
 /// A class taken together in each way; nothing of fewer than two materials.
 fn class_sets(
     class: MaterialClass,
-    subjects: &[Subject],
+    subjects: &[MaterialInMedium],
     errors: &[Vec<MethodErrors>],
 ) -> Vec<MaterialSet> {
-    let own: Vec<(&Subject, &Vec<MethodErrors>)> = subjects
+    let own: Vec<(&MaterialInMedium, &Vec<MethodErrors>)> = subjects
         .iter()
         .zip(errors)
         .filter(|(subject, _)| MaterialClass::containing(subject) == Some(class))
@@ -63,7 +63,7 @@ fn set_title(class: MaterialClass, statistic: &str, count: usize) -> String {
 }
 
 /// Each entry's errors, of all materials together.
-fn together(statistic: &str, own: &[(&Subject, &Vec<MethodErrors>)]) -> Vec<MethodErrors> {
+fn together(statistic: &str, own: &[(&MaterialInMedium, &Vec<MethodErrors>)]) -> Vec<MethodErrors> {
     let substances = || own.iter().map(|(subject, _)| &*subject.material.substance);
     let taken = |errors: &[f64]| match statistic {
         "median" => median(errors),

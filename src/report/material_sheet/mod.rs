@@ -11,7 +11,7 @@ mod spectrum;
 mod swatches;
 mod window;
 
-use crate::materials::{Material, Sight, Surface};
+use crate::materials::{Material, Surface, ViewingConditions};
 use crate::spectra::Gamut;
 
 use super::plot::{FOOT, Frame, HEADING, Layout, SUBTITLE, capital};
@@ -39,7 +39,7 @@ const LEFT: f64 = PICTURE.margin - PANEL.margin;
 struct DrawnMaterial<'a> {
     material: &'a Material,
     medium: Option<&'a Material>,
-    sight: Sight,
+    sight: ViewingConditions,
     surface: Surface,
 }
 
@@ -51,10 +51,10 @@ struct DrawnMaterial<'a> {
 pub fn material_sheet(
     material: &Material,
     medium: Option<&Material>,
-    sight: &Sight,
+    sight: &ViewingConditions,
     command: &str,
 ) -> Result<String, String> {
-    let sight = Sight {
+    let sight = ViewingConditions {
         gamut: Gamut::Keep,
         ..sight.clone()
     };
@@ -180,20 +180,20 @@ mod tests {
         find(name).unwrap().unwrap()
     }
 
-    fn drawn(material: &Material, sight: &Sight) -> Result<String, String> {
+    fn drawn(material: &Material, sight: &ViewingConditions) -> Result<String, String> {
         material_sheet(material, None, sight, "fresnel-gen materials show it")
     }
 
-    fn hold() -> Sight {
-        Sight {
+    fn hold() -> ViewingConditions {
+        ViewingConditions {
             beyond: Extrapolate::Hold,
-            ..Sight::default()
+            ..ViewingConditions::default()
         }
     }
 
     /// A sheet that any viewer reads: no number is missing, no markup escapes, equal cards are equal text.
     #[track_caller]
-    fn check(material: &Material, sight: &Sight) -> String {
+    fn check(material: &Material, sight: &ViewingConditions) -> String {
         let svg = drawn(material, sight).unwrap();
         assert_eq!(Ok(&svg), drawn(material, sight).as_ref());
         assert!(!svg.contains("NaN"), "{svg}");
@@ -219,7 +219,10 @@ mod tests {
 
     #[test]
     fn a_full_spectrum_has_dots_and_escapes_its_names() {
-        let svg = check(&brass((380..=780).step_by(10)), &Sight::default());
+        let svg = check(
+            &brass((380..=780).step_by(10)),
+            &ViewingConditions::default(),
+        );
         assert!(svg.contains("Brass &lt;polished&gt; &amp; &quot;bright&quot;"));
         assert!(svg.contains("41 measured points"));
         assert!(svg.contains("red clipped"), "yellow is outside sRGB");
@@ -234,7 +237,7 @@ mod tests {
             ("platinum_thesis", 2),
             ("water_thesis", 1),
         ] {
-            let svg = check(&catalogued(name), &Sight::default());
+            let svg = check(&catalogued(name), &ViewingConditions::default());
             assert!(svg.contains("685, 535 and 475 nm"), "{name}");
             assert_eq!(
                 svg.matches("<circle").count(),
@@ -247,7 +250,8 @@ mod tests {
     #[test]
     fn a_medium_is_named() {
         let (diamond, water) = (catalogued("diamond_thesis"), catalogued("water_thesis"));
-        let svg = material_sheet(&diamond, Some(&water), &Sight::default(), "").unwrap();
+        let svg =
+            material_sheet(&diamond, Some(&water), &ViewingConditions::default(), "").unwrap();
         assert!(svg.contains("diamond_thesis in water_thesis"));
         assert!(svg.contains("Medium: water_thesis"));
     }
@@ -260,7 +264,7 @@ mod tests {
             (vec![1000, 2000], "Not measured in visible light."),
         ] {
             let material = brass(nm);
-            let why = drawn(&material, &Sight::default()).unwrap_err();
+            let why = drawn(&material, &ViewingConditions::default()).unwrap_err();
             assert!(why.contains("--extrapolate hold"), "{why}");
             let svg = check(&material, &hold());
             assert!(svg.contains(words) && svg.contains("is held"), "{words}");
@@ -271,10 +275,10 @@ mod tests {
     fn odd_values_are_drawn_or_refused() {
         let mut material = brass((380..=780).step_by(10));
         material.k = None;
-        let svg = check(&material, &Sight::default());
+        let svg = check(&material, &ViewingConditions::default());
         assert!(svg.contains("k is 0."));
         material.k = Some(table([(500.0, 2.0)]));
-        assert!(drawn(&material, &Sight::default()).is_err());
+        assert!(drawn(&material, &ViewingConditions::default()).is_err());
         check(&material, &hold());
         for value in [f64::NAN, f64::INFINITY, -1.0, 0.0, 1e300] {
             material.k = Some(table([(380.0, value), (780.0, value)]));

@@ -7,7 +7,7 @@
 use crate::lut::{Axis, Depth, LEAST_TEXELS, Stored, Table, ThesisMeasure, thesis_table_errors};
 use crate::materials::Surface;
 use crate::methods::Light;
-use crate::reference::Truth;
+use crate::reference::ReferenceCurve;
 
 use super::comparison::{ComparisonRow, Figure, Verdict};
 use super::meter::Meter;
@@ -80,7 +80,7 @@ struct ThesisMaterial<'a> {
     name: &'a str,
     /// The smaller figure of both objects, in per cent.
     printed: f64,
-    truth: Truth,
+    truth: ReferenceCurve,
 }
 
 impl ThesisMaterial<'_> {
@@ -91,7 +91,7 @@ impl ThesisMaterial<'_> {
             table,
             name,
             printed: printed("cube").min(printed("sculpture")),
-            truth: Truth::new(surface, Light::Unpolarised),
+            truth: ReferenceCurve::new(surface, Light::Unpolarised),
         }
     }
 

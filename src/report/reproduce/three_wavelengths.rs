@@ -1,7 +1,7 @@
 //! Table 8: what it costs to take three wavelengths for a spectrum; and the third error, of three channels of colour.
 
 use crate::fit;
-use crate::materials::{Material, Sight, Surface, THESIS_NM};
+use crate::materials::{Material, Surface, THESIS_NM, ViewingConditions};
 use crate::spectra::{Gamut, Illuminant, Integration, Step};
 
 use super::comparison::{ComparisonRow, Figure, Verdict};
@@ -73,11 +73,11 @@ fn integration() -> Integration {
 }
 
 fn seen(material: &Material, wavelengths_nm: Option<[f64; 3]>) -> Surface {
-    let sight = Sight {
+    let sight = ViewingConditions {
         integration: integration(),
         gamut: Gamut::Keep,
         wavelengths_nm,
-        ..Sight::default()
+        ..ViewingConditions::default()
     };
     Surface::new(material, None, &sight)
         .expect("the metals are known over the whole spectrum; a test sees them")

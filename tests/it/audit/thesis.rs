@@ -2,7 +2,7 @@
 
 use fresnel_gen::fit::{ModelError, inputs_of, model_error};
 use fresnel_gen::methods;
-use fresnel_gen::reference::Subject;
+use fresnel_gen::reference::MaterialInMedium;
 
 use super::{audit, rows};
 use crate::cli::Place;
@@ -32,7 +32,7 @@ pub fn place() -> Place {
     place
 }
 
-fn ours(method: &str, subject: &Subject) -> ModelError {
+fn ours(method: &str, subject: &MaterialInMedium) -> ModelError {
     let method = methods::find(method).unwrap();
     let function = method.specialise(&inputs_of(subject, method)).unwrap();
     model_error(&function, &subject.truth_for(method))

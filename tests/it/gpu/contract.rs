@@ -9,7 +9,7 @@ use fresnel_gen::gpu::Wanted;
 use fresnel_gen::ir::Ty;
 use fresnel_gen::methods::{self, Class, Contract, Method, find_input};
 use fresnel_gen::optics;
-use fresnel_gen::reference::Subject;
+use fresnel_gen::reference::MaterialInMedium;
 use fresnel_gen::targets::{self, Finish};
 use fresnel_gen::verify::Trial;
 use fresnel_gen::verify::run::{Devices, ExecutionPath, Fault, ShippedFunction};
@@ -265,7 +265,7 @@ fn judged(emitted: &Emitted, trial: &Trial, got: &[[f32; 3]]) -> Vec<String> {
 }
 
 /// The materials of specialised functions: a metal, what absorbs a little, a liquid, and that seen from within a diamond.
-fn subjects() -> Vec<Subject> {
+fn subjects() -> Vec<MaterialInMedium> {
     let named = |name: &str| Source::Named(name.to_owned());
     let inside = Request {
         materials: Materials::These(vec![named("water")]),

@@ -10,7 +10,7 @@ use fresnel_gen::gpu::{
 };
 use fresnel_gen::ir::Weights;
 use fresnel_gen::lut::{Axis, Depth, Stored, Table};
-use fresnel_gen::materials::Sight;
+use fresnel_gen::materials::ViewingConditions;
 use fresnel_gen::methods;
 use fresnel_gen::targets;
 use fresnel_gen::verify::{cosines, harness};
@@ -28,7 +28,7 @@ fn committed() -> Vec<TableMaterial> {
     let wanted = WantedTables {
         materials: materials(&[]).unwrap(),
         medium: None,
-        sight: Sight::default(),
+        sight: ViewingConditions::default(),
     };
     table_materials(&wanted).unwrap().0
 }

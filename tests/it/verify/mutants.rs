@@ -6,7 +6,7 @@ use fresnel_gen::fit::{self, Measured, inputs_of};
 use fresnel_gen::gpu::Wanted;
 use fresnel_gen::ir::{Checked, Function, Label, Node, NodeId, Op, Payload, Ty, check};
 use fresnel_gen::methods::{self, Class, Contract, Method};
-use fresnel_gen::reference::Subject;
+use fresnel_gen::reference::MaterialInMedium;
 use fresnel_gen::targets;
 use fresnel_gen::verify::run::{Devices, ExecutionPath, Fault, ShippedFunction};
 use fresnel_gen::verify::{ABSOLUTE_FLOOR, Trial, beyond, cosines_around};
@@ -209,7 +209,7 @@ fn well_formed(function: Function) -> Checked {
 }
 
 /// The function of a method with a material's values.
-fn trial(emitted: &Emitted, subject: &Subject) -> Trial {
+fn trial(emitted: &Emitted, subject: &MaterialInMedium) -> Trial {
     let values = inputs_of(subject, emitted.method);
     let inputs = emitted
         .method

@@ -7,12 +7,12 @@ use fresnel_gen::emit::{Bounds, CodeBound, Emitted, Naming, fingerprint, special
 use fresnel_gen::fit::Measured;
 use fresnel_gen::ir::Op;
 use fresnel_gen::methods::{self, Class, Contract, Method};
-use fresnel_gen::reference::Subject;
+use fresnel_gen::reference::MaterialInMedium;
 
 use super::subjects;
 use crate::exhaustive::{Line, lines};
 
-fn emitted(method: &'static Method, subject: &Subject) -> Emitted {
+fn emitted(method: &'static Method, subject: &MaterialInMedium) -> Emitted {
     specialised_function(method, subject, &Naming::default(), &Bounds::recorded()).unwrap()
 }
 

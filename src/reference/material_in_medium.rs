@@ -1,18 +1,18 @@
 //! A material in its medium, as it is seen.
 
-use crate::materials::{Kind, Material, Sight, Surface, Unseen};
+use crate::materials::{Kind, Material, Surface, Unseen, ViewingConditions};
 use crate::methods::{Class, Light, Method};
 
 use super::derivation::Derivation;
 use super::effective::{Effective, effective};
-use super::truth::Truth;
+use super::reference_curve::ReferenceCurve;
 
 /// The least n of a dielectric that fitted methods follow.
 pub const LEAST_FITTED_N: f64 = 1.2;
 
 /// A material in its medium, as functions are specialised to it.
 #[derive(Clone, Debug)]
-pub struct Subject {
+pub struct MaterialInMedium {
     /// The material's name, with `_in_` and the medium's where there is one.
     pub name: String,
     /// What a user types to get it again: a name, or a file's name.
@@ -22,7 +22,7 @@ pub struct Subject {
     /// What a user types to get the medium again, and its record, where it is not air.
     pub medium: Option<(String, Material)>,
     /// What is seen of it, in unpolarised light.
-    pub truth: Truth,
+    pub truth: ReferenceCurve,
     /// The index per channel that stands for it.
     pub effective: Effective,
     /// How inputs are derived from it.
@@ -32,7 +32,7 @@ pub struct Subject {
 /// A material with what a user types to get it: a name, or a file's name.
 pub type Typed = (String, Material);
 
-impl Subject {
+impl MaterialInMedium {
     /// A material in air or in a medium, as it is seen.
     ///
     /// # Errors
@@ -40,13 +40,13 @@ impl Subject {
     pub fn new(
         (argument, material): Typed,
         medium: Option<Typed>,
-        sight: &Sight,
+        sight: &ViewingConditions,
         derivation: Derivation,
-    ) -> Result<Subject, Unseen> {
+    ) -> Result<MaterialInMedium, Unseen> {
         let around = medium.as_ref().map(|(_, medium)| medium);
         let surface = Surface::new(&material, around, sight)?;
-        let truth = Truth::new(surface, Light::Unpolarised);
-        Ok(Subject {
+        let truth = ReferenceCurve::new(surface, Light::Unpolarised);
+        Ok(MaterialInMedium {
             name: match around {
                 Some(medium) => format!("{}_in_{}", material.name, medium.name),
                 None => material.name.clone(),
@@ -61,11 +61,11 @@ impl Subject {
     }
 
     /// What a method's error is held against: the truth in its light; what reads a table keeps the table's colours.
-    pub fn truth_for(&self, method: &Method) -> Truth {
+    pub fn truth_for(&self, method: &Method) -> ReferenceCurve {
         let truth = if method.light == self.truth.light {
             self.truth.clone()
         } else {
-            Truth::new(self.truth.surface.clone(), method.light)
+            ReferenceCurve::new(self.truth.surface.clone(), method.light)
         };
         if method.is_textured() {
             truth.kept()

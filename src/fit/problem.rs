@@ -1,9 +1,9 @@
 //! The coefficients of a fitted method for what is seen of a material: those with the least largest error over all angles,
-//! without the clip to [0, 1] that comes after. Which error, and what is met exactly, is an [`Aim`].
+//! without the clip to [0, 1] that comes after. Which error, and what is met exactly, is a [`FitObjective`].
 
 use crate::methods::{Light, Shape, unwarped};
 use crate::num::Precision;
-use crate::reference::{Subject, seen};
+use crate::reference::{MaterialInMedium, seen};
 use crate::spectra::{Gamut, Space};
 
 use super::exact::{Exact, fit_meeting, held};
@@ -35,7 +35,7 @@ pub struct Fit {
 
 /// What coefficients are to be: the best in which measure, exact where.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Aim {
+pub struct FitObjective {
     /// The measure that is minimised, at its largest over all angles.
     pub weight: Weight,
     /// Where what is seen is met exactly: within 1e-7, of the coefficients as f32 holds them. In half precision nothing is.
@@ -48,9 +48,9 @@ pub struct Aim {
 
 /// A curve with the weights of an aim, computed once for all shapes that are fitted to it.
 #[derive(Clone, Debug)]
-pub struct Task<'a> {
+pub struct FitProblem<'a> {
     curve: &'a Curve,
-    aim: Aim,
+    aim: FitObjective,
     wanted: [Vec<f64>; 3],
     weights: [Vec<f64>; 3],
 }
@@ -67,7 +67,7 @@ impl Curve {
 
     /// What coefficients are fitted to, in unpolarised light: colours as they are before they are clipped. A clipped curve has a
     /// corner, and the function clips by itself.
-    pub fn unclipped(subject: &Subject) -> Curve {
+    pub fn unclipped(subject: &MaterialInMedium) -> Curve {
         let mut surface = subject.truth.surface.clone();
         if surface.gamut == Gamut::Clip {
             surface.gamut = Gamut::Keep;
@@ -92,13 +92,13 @@ pub fn basis(shape: &Shape) -> Vec<Vec<f64>> {
     cosines().into_iter().map(row).collect()
 }
 
-impl Task<'_> {
+impl FitProblem<'_> {
     /// What is to be fitted to a curve.
-    pub fn new(curve: &Curve, aim: Aim) -> Task<'_> {
+    pub fn new(curve: &Curve, aim: FitObjective) -> FitProblem<'_> {
         let of = |seen: &[f64; 3]| aim.weight.of_channels(*seen, aim.space);
         let weights: Vec<[f64; 3]> = curve.seen.iter().map(of).collect();
         let channel = |all: &[[f64; 3]], i: usize| all.iter().map(|three| three[i]).collect();
-        Task {
+        FitProblem {
             curve,
             aim,
             wanted: [0, 1, 2].map(|i| channel(&curve.seen, i)),
@@ -169,7 +169,7 @@ impl Task<'_> {
 
     /// The largest error of these coefficients, in the measure that is minimised.
     fn error(&self, basis: &[Vec<f64>], coefficients: &[[f64; 3]]) -> f64 {
-        let Aim { weight, space, .. } = self.aim;
+        let FitObjective { weight, space, .. } = self.aim;
         let points = basis.iter().zip(&self.curve.seen);
         let errors = points.map(|(row, seen)| {
             let terms = row.iter().zip(coefficients);
@@ -201,15 +201,15 @@ mod tests {
         let shape = find(name)
             .and_then(|method| method.shape)
             .expect("a fitted method");
-        let aim = |weight| Aim {
+        let aim = |weight| FitObjective {
             weight,
-            ..Aim::default()
+            ..FitObjective::default()
         };
         let basis = basis(&shape);
-        let fit = Task::new(curve, aim(fitted_for))
+        let fit = FitProblem::new(curve, aim(fitted_for))
             .fit(&basis)
             .expect("it is fitted");
-        Task::new(curve, aim(weight)).error(&basis, &fit.coefficients)
+        FitProblem::new(curve, aim(weight)).error(&basis, &fit.coefficients)
     }
 
     #[test]
@@ -249,17 +249,19 @@ mod tests {
             for (normal, grazing) in [(true, false), (false, true), (true, true)] {
                 for weight in Weight::ALL {
                     let exact = Exact { normal, grazing };
-                    let aim = Aim {
+                    let aim = FitObjective {
                         weight,
                         exact,
-                        ..Aim::default()
+                        ..FitObjective::default()
                     };
-                    let fit = Task::new(&curve, aim).fit(&basis).expect("it is fitted");
-                    let free = Task::new(
+                    let fit = FitProblem::new(&curve, aim)
+                        .fit(&basis)
+                        .expect("it is fitted");
+                    let free = FitProblem::new(
                         &curve,
-                        Aim {
+                        FitObjective {
                             weight,
-                            ..Aim::default()
+                            ..FitObjective::default()
                         },
                     );
                     let free = free.fit(&basis).expect("it is fitted");

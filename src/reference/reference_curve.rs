@@ -12,7 +12,7 @@ pub const ANGLES: usize = 2048;
 const GRAZING: usize = 120;
 /// What a method is held against: a surface as it is seen, in one kind of light.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Truth {
+pub struct ReferenceCurve {
     /// The surface.
     pub surface: Surface,
     /// Polarised or not.
@@ -21,14 +21,14 @@ pub struct Truth {
     unclipped: Vec<DVec3>,
 }
 
-impl Truth {
+impl ReferenceCurve {
     /// The truth about a surface in this light.
-    pub fn new(surface: Surface, light: Light) -> Truth {
+    pub fn new(surface: Surface, light: Light) -> ReferenceCurve {
         let unclipped = cosines(ANGLES)
             .into_iter()
             .map(|cos_theta| reflected(&surface, light, cos_theta))
             .collect();
-        Truth {
+        ReferenceCurve {
             surface,
             light,
             unclipped,
@@ -36,7 +36,7 @@ impl Truth {
     }
 
     /// The same, with colours outside the working space kept as they are.
-    pub fn kept(mut self) -> Truth {
+    pub fn kept(mut self) -> ReferenceCurve {
         self.surface.gamut = Gamut::Keep;
         self
     }

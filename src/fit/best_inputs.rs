@@ -10,8 +10,8 @@
 use crate::ir::{Checked, Ty, Value, evaluate};
 use crate::methods::{Input, Method, Values};
 
-use super::fitted::Curve;
 use super::minimax::minimax;
+use super::problem::Curve;
 
 /// Rounds after which an input moves by nothing that shows.
 const ROUNDS: usize = 40;
@@ -23,7 +23,7 @@ const STEP: f64 = 1e-5;
 const GAIN: f64 = 1e-6;
 
 /// A method whose inputs are sought, for a curve.
-struct Rival<'a> {
+struct Competitor<'a> {
     function: Checked,
     inputs: &'static [Input],
     curve: &'a Curve,
@@ -41,7 +41,7 @@ pub fn best_inputs(method: &Method, intended: &Values, curve: &Curve) -> Option<
     if method.is_textured() {
         return None;
     }
-    let rival = Rival {
+    let rival = Competitor {
         function: method.function(false).ok()?,
         inputs: method.inputs,
         curve,
@@ -68,7 +68,7 @@ pub fn values_at(
 /// Inputs, and by how much a curve is missed with them at each point.
 type Trial = (Values, Vec<f64>);
 
-impl Rival<'_> {
+impl Competitor<'_> {
     /// Better inputs of each channel for itself.
     fn by_channel(&self, start: Values) -> Values {
         (0..3).fold(start, |best, channel| self.of_channel(best, channel))
