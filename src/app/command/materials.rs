@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use serde_json::{Value, json};
+use serde::Serialize;
 
 use crate::app::args::{FilterFlags, MaterialsCommand, MaterialsFlags, ShowFlags};
 use crate::app::error::Error;
@@ -50,7 +50,7 @@ fn list(filter: &FilterFlags, json: Option<&Path>) -> Result<Output, Error> {
     let chosen: Vec<&Material> = all.iter().filter(wanted).collect();
     let rows: Vec<Vec<String>> = chosen.iter().map(|m| row(m)).collect();
     let text = table::text_table(&["name", "class", "known in nm", "summary"], &rows);
-    let rows: Vec<Value> = chosen.iter().map(|m| json_row(m)).collect();
+    let rows: Vec<MaterialRow> = chosen.iter().map(|m| MaterialRow::new(m)).collect();
     let full = Report::new("materials list", rows);
     report(text, &full, json)
 }
@@ -107,19 +107,62 @@ fn origin(m: &Material) -> String {
     format!("{}. {}", m.reference, m.link)
 }
 
-fn json_row(m: &Material) -> Value {
-    let (from, to) = m.range_nm();
-    json!({
-        "name": m.name, "summary": m.summary, "source": origin(m), "class": m.kind.name(), "substance": m.substance,
-        "recommended": m.is_recommended(), "licence": m.licence, "page": m.page, "from_nm": from, "to_nm": to,
-        "full": is_full(m), "rgb_nm": m.rgb_nm,
-    })
+/// A material of a list.
+#[derive(Serialize)]
+struct MaterialRow<'a> {
+    name: &'a str,
+    summary: &'a str,
+    source: String,
+    class: &'static str,
+    substance: &'a str,
+    recommended: bool,
+    licence: &'a str,
+    page: &'a str,
+    from_nm: f64,
+    to_nm: f64,
+    full: bool,
+    rgb_nm: Option<[f64; 3]>,
+}
+
+impl MaterialRow<'_> {
+    fn new(m: &Material) -> MaterialRow<'_> {
+        let (from_nm, to_nm) = m.range_nm();
+        MaterialRow {
+            name: &m.name,
+            summary: &m.summary,
+            source: origin(m),
+            class: m.kind.name(),
+            substance: &m.substance,
+            recommended: m.is_recommended(),
+            licence: &m.licence,
+            page: &m.page,
+            from_nm,
+            to_nm,
+            full: is_full(m),
+            rgb_nm: m.rgb_nm,
+        }
+    }
+}
+
+/// A material with its data: wavelength, n and k.
+#[derive(Serialize)]
+struct MaterialRecord<'a> {
+    #[serde(flatten)]
+    row: MaterialRow<'a>,
+    schema: u32,
+    conditions: &'a str,
+    note: &'a str,
+    data: Vec<[f64; 3]>,
 }
 
 fn shown(flags: &ShowFlags, json: Option<&Path>) -> Result<Output, Error> {
     check_places(flags, json)?;
     let loaded = load(&source(&flags.of.name)?)?;
-    let mut output = report(text(&loaded.material), &json_of(&loaded.material), json)?;
+    let mut output = report(
+        text(&loaded.material),
+        &material_record(&loaded.material),
+        json,
+    )?;
     drawn(flags, &loaded, &mut output)?;
     Ok(output)
 }
@@ -234,13 +277,14 @@ fn text(m: &Material) -> String {
     lines.join("\n")
 }
 
-fn json_of(m: &Material) -> Value {
-    let mut row = json_row(m);
-    row["schema"] = json!(SCHEMA);
-    row["conditions"] = json!(m.conditions);
-    row["note"] = json!(m.note);
-    row["data"] = samples(m).iter().map(|sample| json!(sample)).collect();
-    row
+fn material_record(m: &Material) -> MaterialRecord<'_> {
+    MaterialRecord {
+        row: MaterialRow::new(m),
+        schema: SCHEMA,
+        conditions: &m.conditions,
+        note: &m.note,
+        data: samples(m),
+    }
 }
 
 /// Wavelength, n and k wherever one of them was measured; every 10 nm of the visible range for a formula.
