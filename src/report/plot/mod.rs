@@ -19,8 +19,6 @@ pub use line_chart::{Axis, LineChart, Mark, Series};
 pub(super) use palette::{BLUE, GREEN, INK, SHADES, VERMILION, hex_colour, shade};
 pub use palette::{Look, Style};
 pub(super) use scale::Scale;
-#[cfg(feature = "cli")]
-pub(super) use text::escape;
-pub(super) use text::{AXIS, FOOT, Font, HEADING, PANEL, SUBTITLE, TICK, TITLE, capital};
+pub(super) use text::{AXIS, FOOT, Font, HEADING, PANEL, SUBTITLE, TICK, TITLE, capital, escape};
 pub use ticks::ticks;
 pub(super) use ticks::{log_ticks, plain_label, power_label};

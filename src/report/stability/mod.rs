@@ -1,6 +1,5 @@
 //! What a scan found, as rows: for people, for scripts, and as the table of the documents.
 
-#[cfg(feature = "cli")]
 mod heat;
 mod markdown;
 #[cfg(feature = "cli")]
@@ -9,7 +8,6 @@ mod page;
 use super::table;
 use crate::stability::{Failure, Finding, StabilityRow, short};
 
-#[cfg(feature = "cli")]
 pub use heat::heat_map;
 pub use markdown::stability_document;
 #[cfg(feature = "cli")]
