@@ -8,6 +8,10 @@ use crate::spectra::Fault;
 static FILES: Dir = include_dir!("$CARGO_MANIFEST_DIR/data/materials");
 
 /// The names of all materials in the catalogue, sorted.
+///
+/// ```
+/// assert!(fresnel_gen::materials::names().contains(&"gold"));
+/// ```
 pub fn names() -> Vec<&'static str> {
     let mut names: Vec<&str> = FILES
         .files()
@@ -23,6 +27,13 @@ pub fn source(name: &str) -> Option<&'static str> {
 }
 
 /// The material of this name, if the catalogue has it.
+///
+/// ```
+/// use fresnel_gen::materials::{Extrapolate, find};
+///
+/// let water = find("water").expect("the catalogue has it").expect("its file is right");
+/// assert_eq!(water.index(550.0, Extrapolate::Refuse).map(|index| index.n), Ok(1.333));
+/// ```
 pub fn find(name: &str) -> Option<Result<Material, Fault>> {
     Some(Material::parse(
         &format!("data/materials/{name}.toml"),

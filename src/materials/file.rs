@@ -105,6 +105,13 @@ struct Place<'a> {
 impl Material {
     /// Reads a material file. `file` is only for messages.
     ///
+    /// ```
+    /// use fresnel_gen::materials::{Material, source};
+    ///
+    /// let text = source("water").expect("the catalogue has it");
+    /// assert_eq!(Material::parse("water.toml", text).map(|water| water.name), Ok("water".to_owned()));
+    /// ```
+    ///
     /// # Errors
     /// The text is not TOML, a field is missing or unknown, or a value lies outside its limits.
     pub fn parse(file: &str, text: &str) -> Result<Material, Fault> {

@@ -85,6 +85,11 @@ pub use schlick_corrected::lambda;
 pub use table::{ONLY_ROW, TEXELS, WARP, fetch, unwarped, warped, warped_step};
 
 /// The method of this name, or of this old name.
+///
+/// ```
+/// let schlick = fresnel_gen::methods::find("schlick").expect("it is a method");
+/// assert_eq!(schlick.source.year, 1994);
+/// ```
 pub fn find(name: &str) -> Option<&'static Method> {
     let found = ALL.iter().find(|method| method.name == name).copied();
     found.or_else(|| renamed::find_renamed(name))

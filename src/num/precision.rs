@@ -25,6 +25,12 @@ impl Precision {
     }
 
     /// The precision of this name.
+    ///
+    /// ```
+    /// use fresnel_gen::Precision;
+    ///
+    /// assert_eq!(Precision::find("f16"), Some(Precision::F16));
+    /// ```
     pub fn find(name: &str) -> Option<Precision> {
         Precision::ALL
             .into_iter()

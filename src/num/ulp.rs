@@ -12,6 +12,12 @@ pub fn ulp_of(x: f64) -> f64 {
 /// |got − want| in units of [`ulp_of`]`(want)`.
 ///
 /// Where either is infinite or a NaN: 0 if `got` is what `want` rounds to (any NaN for a NaN), else infinity.
+///
+/// ```
+/// use fresnel_gen::num::ulp_distance;
+///
+/// assert_eq!(ulp_distance(1.0 + f32::EPSILON, 1.0), 1.0);
+/// ```
 pub fn ulp_distance(got: f32, want: f64) -> f64 {
     if got.is_finite() && want.is_finite() {
         return (f64::from(got) - want).abs() / ulp_of(want);

@@ -19,6 +19,13 @@ use super::Reflectance;
 use crate::num::{Complex, Num, Truth};
 
 /// Reflectance of the surface of m = n + ik.
+///
+/// ```
+/// use fresnel_gen::optics::conductor;
+///
+/// let silver = conductor(0.06, 3.6, 1.0).unpolarised();
+/// assert!(silver > 0.98);
+/// ```
 pub fn conductor<N: Num>(n: N, k: N, cos_theta: N) -> Reflectance<N> {
     let zero = N::from_f64(0.0);
     if is_zero(n - N::from_f64(1.0)) && is_zero(k) {
@@ -33,21 +40,50 @@ pub fn conductor<N: Num>(n: N, k: N, cos_theta: N) -> Reflectance<N> {
 }
 
 /// Reflectance of the surface between two transparent media; `eta` = n_t/n_i > 0.
+///
+/// ```
+/// use fresnel_gen::optics::dielectric;
+///
+/// let glass: f64 = dielectric(1.5, 1.0).unpolarised();
+/// assert!((glass - 0.04).abs() < 1e-12);
+/// ```
 pub fn dielectric<N: Num>(eta: N, cos_theta: N) -> Reflectance<N> {
     conductor(eta, N::from_f64(0.0), cos_theta)
 }
 
 /// R at cos θ = 1: ((n − 1)² + k²) / ((n + 1)² + k²).
+///
+/// ```
+/// use fresnel_gen::optics::normal_incidence;
+///
+/// let diamond: f64 = normal_incidence(2.42, 0.0);
+/// assert!((diamond - 0.1724).abs() < 1e-4);
+/// ```
 pub fn normal_incidence<N: Num>(n: N, k: N) -> N {
     power_ratio(Complex::real(N::from_f64(1.0)), Complex::new(n, k))
 }
 
 /// The cosine of Brewster's angle, where R_p = 0 and tan θ = η: 1/√(1 + η²).
+///
+/// ```
+/// use fresnel_gen::optics::{brewster_cos, dielectric};
+///
+/// let reflected: f64 = dielectric(1.5, brewster_cos(1.5)).p;
+/// assert!(reflected < 1e-12);
+/// ```
 pub fn brewster_cos<N: Num>(eta: N) -> N {
     (N::from_f64(1.0) + eta * eta).inverse_sqrt()
 }
 
 /// The cosine of the critical angle, where sin θ = η: √(1 − η²). None for η ≥ 1.
+///
+/// ```
+/// use fresnel_gen::optics::critical_cos;
+///
+/// let inside: f64 = critical_cos(0.5).expect("light leaves the denser medium");
+/// assert!((inside - 0.75f64.sqrt()).abs() < 1e-12);
+/// assert_eq!(critical_cos(1.5), None);
+/// ```
 pub fn critical_cos<N: Num>(eta: N) -> Option<N> {
     let one = N::from_f64(1.0);
     (eta.less(one) == Truth::Yes).then(|| ((one - eta) * (one + eta)).sqrt())

@@ -43,6 +43,14 @@ pub struct EffectiveIndex {
 }
 
 /// The n and k ≥ 0 with normal-incidence reflectance `f0` and unpolarised reflectance `f82` at cos θ = 1/7.
+///
+/// ```
+/// use fresnel_gen::optics::{COS_82, conductor, index_from_f0_f82, normal_incidence};
+///
+/// let f82 = conductor(0.2, 3.0, COS_82).unpolarised();
+/// let found = index_from_f0_f82(normal_incidence(0.2, 3.0), f82);
+/// assert!((found.n - 0.2).abs() < 1e-6 && (found.k - 3.0).abs() < 1e-6);
+/// ```
 pub fn index_from_f0_f82(f0: f64, f82: f64) -> EffectiveIndex {
     // Not `clamp`: a NaN becomes 0.
     let reachable_f0 = if f0 > 0.0 { f0.min(LARGEST_F0) } else { 0.0 };

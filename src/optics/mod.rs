@@ -21,6 +21,13 @@ use crate::num::Num;
 pub const COS_82: f64 = 1.0 / 7.0;
 
 /// The cosine of an angle in degrees, exactly 0 at 90.
+///
+/// ```
+/// use fresnel_gen::optics::cosine;
+///
+/// assert!((cosine(60.0) - 0.5).abs() < 1e-15);
+/// assert_eq!(cosine(90.0), 0.0);
+/// ```
 pub fn cosine(degrees: f64) -> f64 {
     if degrees == 90.0 {
         0.0

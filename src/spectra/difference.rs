@@ -43,6 +43,13 @@ impl Lab {
 }
 
 /// The difference ΔE₀₀ of two colours.
+///
+/// ```
+/// use fresnel_gen::spectra::{Lab, ciede2000};
+///
+/// let grey = Lab { l: 50.0, a: 0.0, b: 0.0 };
+/// assert_eq!(ciede2000(grey, grey), 0.0);
+/// ```
 pub fn ciede2000(one: Lab, other: Lab) -> f64 {
     let [one, other] = [one, other].map(|lab| palette::Lab::<E, f64>::new(lab.l, lab.a, lab.b));
     Ciede2000::difference(one, other)

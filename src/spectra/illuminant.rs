@@ -68,6 +68,12 @@ impl Illuminant {
     }
 
     /// The illuminant of this name, in capitals or small letters.
+    ///
+    /// ```
+    /// use fresnel_gen::spectra::Illuminant;
+    ///
+    /// assert_eq!(Illuminant::find("d65"), Some(Illuminant::D65));
+    /// ```
     pub fn find(name: &str) -> Option<Illuminant> {
         Illuminant::NAMED
             .into_iter()

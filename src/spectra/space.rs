@@ -100,6 +100,12 @@ fn xyz_of([x, y]: [f64; 2]) -> DVec3 {
 }
 
 /// A linear channel, limited to [0, 1], as a byte of sRGB: IEC 61966-2-1:1999.
+///
+/// ```
+/// use fresnel_gen::spectra::srgb_byte;
+///
+/// assert_eq!([0.0, 0.214, 1.0].map(srgb_byte), [0, 127, 255]);
+/// ```
 pub fn srgb_byte(linear: f64) -> u8 {
     let linear = linear.clamp(0.0, 1.0);
     let encoded = if linear <= 0.003_130_8 {

@@ -36,11 +36,23 @@ pub static ALL: &[&Target] = &[
 // END targets
 
 /// Why a name cannot be used in one of the languages, if it cannot.
+///
+/// ```
+/// use fresnel_gen::targets::name_fault;
+///
+/// assert_eq!(name_fault("fresnel_brass"), None);
+/// assert!(name_fault("while").is_some());
+/// ```
 pub fn name_fault(name: &str) -> Option<String> {
     ALL.iter().find_map(|target| target.name_fault(name))
 }
 
 /// The target of this name.
+///
+/// ```
+/// let target = fresnel_gen::targets::find("gles").expect("it is a target");
+/// assert_eq!(target.name, "gles");
+/// ```
 pub fn find(name: &str) -> Option<&'static Target> {
     ALL.iter().find(|target| target.name == name).copied()
 }

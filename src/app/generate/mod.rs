@@ -49,6 +49,20 @@ pub type Kept = BTreeMap<(String, String), BTreeSet<String>>;
 
 /// Generates everything that the request asks for.
 ///
+/// ```
+/// use fresnel_gen::{Materials, Request, generate};
+///
+/// let request = Request {
+///     targets: vec!["wgsl".into()],
+///     methods: vec!["schlick".into()],
+///     materials: Materials::None,
+///     ..Request::default()
+/// };
+/// let files = generate(&request)?.artifacts;
+/// assert_eq!(files[0].path, "wgsl/fresnel_schlick.wgsl");
+/// # Ok::<(), fresnel_gen::Error>(())
+/// ```
+///
 /// # Errors
 /// The request names what does not exist or contradicts itself, a material's file has a fault, a material was not measured over the
 /// whole spectrum, or two functions would have one name.

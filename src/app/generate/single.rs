@@ -11,6 +11,19 @@ use super::{Run, written};
 
 /// One function as text for pasting, or, without a material, the functions of a library file: for `-o`.
 ///
+/// ```
+/// use fresnel_gen::{Materials, Request, Source, generate_single};
+///
+/// let request = Request {
+///     targets: vec!["gles".into()],
+///     materials: Materials::These(vec![Source::Named("gold".into())]),
+///     ..Request::default()
+/// };
+/// let text = String::from_utf8(generate_single(&request)?).expect("UTF-8");
+/// assert!(text.contains("vec3 fresnel_gold("));
+/// # Ok::<(), fresnel_gen::Error>(())
+/// ```
+///
 /// # Errors
 /// As [`generate()`](super::generate); also where the request has several targets.
 pub fn generate_single(request: &Request) -> Result<Vec<u8>, Error> {
