@@ -89,6 +89,14 @@ impl ExecutionPath {
         }
     }
 
+    /// The version of HLSL that DXC is told.
+    fn hlsl_version(self) -> HlslVersion {
+        match self {
+            ExecutionPath::Hlsl2021 => HlslVersion::V2021,
+            _ => HlslVersion::V2018,
+        }
+    }
+
     /// The name in reports.
     pub fn name(self) -> &'static str {
         match self {
@@ -202,12 +210,8 @@ impl Devices {
         }
         let text =
             std::str::from_utf8(shown.bytes).map_err(|fault| Fault::Failed(fault.to_string()))?;
-        let Some(shader) = harness::program(shown.target, text, &call) else {
-            return Err(Fault::Absent(format!(
-                "{} cannot be run here: it is read again and compiled only",
-                shown.target.name
-            )));
-        };
+        let shader = harness::program(shown.target, text, &call);
+        let shader = shader.ok_or_else(|| not_run(shown.target))?;
         match (shown.target.stack, path) {
             (Stack::Wgpu(_), ExecutionPath::NagaGles) => {
                 let vertex = harness::wgsl_vertex(text, &call, &trial.values);
@@ -221,11 +225,7 @@ impl Devices {
             }
             (Stack::OpenGlEs(_), _) => ready(Code::Gles(&shader), "main", false),
             (Stack::DxcToVulkan(_), _) => {
-                let version = if path == ExecutionPath::Hlsl2021 {
-                    HlslVersion::V2021
-                } else {
-                    HlslVersion::V2018
-                };
+                let version = path.hlsl_version();
                 let code = hlsl_to_spirv_in(emitted.precision, &shader, ENTRY, version)?;
                 ready(Code::Spirv(&code), ENTRY, false)
             }
@@ -235,6 +235,13 @@ impl Devices {
 }
 
 /// Whether a device computes in what a function asks for.
+fn not_run(target: &Target) -> Fault {
+    let name = target.name;
+    Fault::Absent(format!(
+        "{name} cannot be run here: it is read again and compiled only"
+    ))
+}
+
 fn check_able(device: &Device, emitted: &Emitted) -> Result<(), Fault> {
     if !emitted.precision.is_half() || device.has_half() {
         return Ok(());
