@@ -235,10 +235,10 @@ mod tests {
     }
 
     #[test]
-    fn a_comparison_that_always_holds_is_dropped() {
+    fn a_comparison_that_always_holds_is_dropped_and_its_choice_gives_the_name() {
         check(
             "fn f(x: scalar) -> scalar\n  c = saturate x\n  t = sub c 2\n  l = less t 0\n  s = select l c t\n  return s",
-            "fn f(x: scalar) -> scalar\n  c = saturate x\n  return c",
+            "fn f(x: scalar) -> scalar\n  s = saturate x\n  return s",
         );
     }
 
