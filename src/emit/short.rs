@@ -45,10 +45,18 @@ pub fn material(
     let mut lines = banner(command);
     lines.push(format!("{}: {}", subject.name, subject.material.summary));
     lines.push(data_line(&subject.material));
+    lines.extend(medium_line(subject));
     lines.extend(viewing_conditions(subject));
     lines.extend(half_line(target, precision));
     lines.push(cosine_line());
     comment::lines(lines)
+}
+
+/// Where light comes from, if not from air.
+fn medium_line(subject: &MaterialInMedium) -> Option<String> {
+    let (_, medium) = subject.medium.as_ref()?;
+    let name = &medium.name;
+    Some(format!("Medium: {name}; the index is relative to {name}"))
 }
 
 /// What stands above one specialised function in a material's file.

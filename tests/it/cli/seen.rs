@@ -96,7 +96,7 @@ fn spaces_lights_and_gamut_are_told_in_the_head() {
     let flags = "--space acescg --illuminant a --observer cie2015 --adaptation bradford --step 1nm --gamut scale";
     let text = place
         .done(&format!(
-            "--material copper_babar {flags} --target wgsl -o -"
+            "--material copper_babar {flags} --target wgsl --header full -o -"
         ))
         .out;
     let joined = text.replace("\n//    ", "");
