@@ -4,7 +4,7 @@
 mod arithmetic;
 mod halves;
 
-use fresnel_gen::emit::{self, Naming};
+use fresnel_gen::emit::{self, HeaderForm, Heading, Naming};
 use fresnel_gen::ir::{Checked, Ty, Value, evaluate};
 use fresnel_gen::methods::{self, Colours, Contract, Input, Method, Range};
 use fresnel_gen::num::{Num, Precision};
@@ -256,18 +256,22 @@ fn headers_state_both_ends_of_every_argument_in_either_precision() {
             };
             let functions = emit::library_functions(method, &naming).unwrap();
             let target = targets::find("hlsl").unwrap();
-            let pages =
-                emit::library(target, method, &functions, emit::Heading::default()).unwrap();
-            let text = String::from_utf8(pages[0].bytes.clone())
-                .unwrap()
-                .replace("\n//      ", "");
-            for input in method.inputs {
-                let range = method.range(input, precision).words();
-                let line = text
-                    .lines()
-                    .find(|line| line.starts_with(&format!("//   {}: ", input.name)));
-                let line = line.unwrap_or_else(|| panic!("{}: {}", method.name, input.name));
-                assert!(line.ends_with(&range), "{}: {line}", method.name);
+            for form in [HeaderForm::Short, HeaderForm::Full] {
+                let heading = Heading {
+                    form,
+                    ..Heading::default()
+                };
+                let pages = emit::library(target, method, &functions, heading).unwrap();
+                let text = String::from_utf8(pages[0].bytes.clone()).unwrap();
+                let text = text.replace("\n//      ", "").replace("\n//    ", "");
+                for input in method.inputs {
+                    let range = method.range(input, precision).words();
+                    let said = match form {
+                        HeaderForm::Short => format!("{}, {}, {range}", input.name, input.meaning),
+                        HeaderForm::Full => format!("{}: {}, {range}", input.name, input.meaning),
+                    };
+                    assert!(text.contains(&said), "{}: {said}\n{text}", method.name);
+                }
             }
         }
     }
