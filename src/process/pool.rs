@@ -17,6 +17,10 @@ pub struct Pool {
     pub workers: usize,
 }
 
+/// Does a job in a process, and calls its last argument whenever there is progress.
+pub type Work<'a, Job, Done> =
+    dyn Fn(&mut Worker, &Job, &dyn Fn()) -> Result<Done, Error> + Sync + 'a;
+
 /// What is done, and how.
 pub struct Task<'a, Job, Done> {
     /// All jobs.
@@ -24,7 +28,7 @@ pub struct Task<'a, Job, Done> {
     /// How the process of a job is started. A thread keeps its process while jobs want the same.
     pub launch: &'a (dyn Fn(&Job) -> Launch + Sync),
     /// Does a job. It calls the last argument whenever there is progress.
-    pub work: &'a (dyn Fn(&mut Worker, &Job, &dyn Fn()) -> Result<Done, Error> + Sync),
+    pub work: &'a Work<'a, Job, Done>,
 }
 
 impl Pool {
