@@ -4,7 +4,7 @@ use std::ffi::CString;
 use std::io;
 
 use crate::emit::wgsl_to_spirv;
-use crate::gpu::{Entry, Fault, Node, Null};
+use crate::gpu::{Entry, Fault, GlesCompiler, VulkanCompiler};
 use crate::process::Inbox;
 
 use super::family::{Compiler, Dialect, Family};
@@ -14,8 +14,8 @@ use super::protocol::{CompilerRequest, CompilerResponse, FragmentShader};
 
 /// A compiler at work.
 enum Open {
-    Radv(Box<Null>, [CString; 2]),
-    Mesa(Box<Node>, Dialect),
+    Radv(Box<VulkanCompiler>, [CString; 2]),
+    Mesa(Box<GlesCompiler>, Dialect),
 }
 
 /// Serves until the supervisor is gone.
@@ -40,11 +40,11 @@ fn open(family: &Family) -> Result<Open, Fault> {
         Compiler::Radv(_) => {
             let vertex = wgsl_to_spirv(WGSL_VERTEX).expect("the vertex shader is a constant");
             let names = [VERTEX, ENTRY].map(|name| CString::new(name).unwrap_or_default());
-            Ok(Open::Radv(Box::new(Null::open(&vertex)?), names))
+            Ok(Open::Radv(Box::new(VulkanCompiler::open(&vertex)?), names))
         }
         Compiler::Mesa { dialect, .. } => {
             let major = if dialect == Dialect::Es100 { 2 } else { 3 };
-            Ok(Open::Mesa(Box::new(Node::open(major)?), dialect))
+            Ok(Open::Mesa(Box::new(GlesCompiler::open(major)?), dialect))
         }
         Compiler::Operations | Compiler::None(_) => Err(Fault::Absent {
             what: format!("{} has no compiler", family.name),

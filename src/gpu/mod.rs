@@ -13,24 +13,24 @@ mod draw;
 mod egl;
 mod fault;
 mod gles;
+mod gles_compiler;
 mod kernel;
-mod node;
-mod null;
 mod passthrough;
 mod program;
 mod quiet;
 mod slot;
 mod stream;
 mod texture;
+mod vulkan_compiler;
 
 pub use adapter::{Adapter, Backend, Kind, Wanted, adapters};
 pub use draw::{Canvas, Layer, Shader};
 pub use fault::Fault;
-pub use node::Node;
-pub use null::{Entry, Null};
+pub use gles_compiler::GlesCompiler;
 pub use program::{Argument, Code, Program, Uniform};
 pub use stream::Stream;
 pub use texture::{Texture, TextureFormat, Wrap};
+pub use vulkan_compiler::{Entry, VulkanCompiler};
 
 use std::rc::Rc;
 

@@ -15,7 +15,7 @@ use super::fault::Fault;
 use super::gles::build;
 
 /// A context on a render node. It lives as long as the process.
-pub struct Node {
+pub struct GlesCompiler {
     /// What the driver calls the device.
     pub name: String,
     /// The version of OpenGL ES, and the driver's.
@@ -35,12 +35,12 @@ const DEBUG_BIT: egl::Int = 1;
 /// The attribute that the vertices come by.
 const CORNER: u32 = 0;
 
-impl Node {
+impl GlesCompiler {
     /// Opens the node with a context of this version of OpenGL ES, or a later one that takes its shaders.
     ///
     /// # Errors
     /// There is none, or its driver gives no context.
-    pub fn open(major: i32) -> Result<Node, Fault> {
+    pub fn open(major: i32) -> Result<GlesCompiler, Fault> {
         let egl = library()?;
         let display = display(egl)?;
         egl.initialize(display).map_err(absent)?;
@@ -53,7 +53,7 @@ impl Node {
         listen(&mut gl, remarks.clone());
         // SAFETY: the context is current.
         let text = |name| unsafe { gl.get_parameter_string(name) };
-        Ok(Node {
+        Ok(GlesCompiler {
             name: text(glow::RENDERER),
             driver: text(glow::VERSION),
             gl,

@@ -11,7 +11,7 @@ use ash::{khr, vk};
 use super::fault::Fault;
 
 /// A device that compiles. It lives as long as the process: drivers leave threads behind.
-pub struct Null {
+pub struct VulkanCompiler {
     /// The device that the driver plays, as it names it.
     pub name: String,
     /// The driver and its version.
@@ -35,12 +35,12 @@ const PACKAGES: &str = "on Debian install mesa-vulkan-drivers libvulkan1";
 /// What colours are written to: as in a renderer that works in linear light.
 const FORMAT: vk::Format = vk::Format::R16G16B16A16_SFLOAT;
 
-impl Null {
+impl VulkanCompiler {
     /// Opens the device; the environment says which family. All pipelines have this vertex shader.
     ///
     /// # Errors
     /// There is none.
-    pub fn open(vertex: &[u8]) -> Result<Null, Fault> {
+    pub fn open(vertex: &[u8]) -> Result<VulkanCompiler, Fault> {
         let failed = |result: vk::Result| absent(&result.to_string());
         // SAFETY: a library of this name is the Vulkan loader, and what is called through it follows Vulkan: all structures
         // live to the end of the calls that take them, and handles are those of this device.
@@ -57,7 +57,7 @@ impl Null {
                 .next()
                 .ok_or_else(|| absent("it offers no device of this family"))?;
             let device = create(&instance, physical).map_err(failed)?;
-            let null = Null {
+            let compiler = VulkanCompiler {
                 name,
                 driver,
                 executables: khr::pipeline_executable_properties::Device::new(&instance, &device),
@@ -67,7 +67,7 @@ impl Null {
             };
             // Never unloaded, as the device is never destroyed.
             std::mem::forget(entry);
-            Ok(null)
+            Ok(compiler)
         }
     }
 
