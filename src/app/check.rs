@@ -6,12 +6,12 @@ use std::collections::BTreeMap;
 use similar::TextDiff;
 
 use super::artifact::sha256;
-use super::tree::{Plan, Planned, State};
+use super::tree::{Planned, State, TreePlan};
 
 const CONTEXT_LINES: usize = 3;
 
 /// The report, sorted by path, and whether there is anything in it.
-pub fn report(plan: &Plan) -> (String, bool) {
+pub fn report(plan: &TreePlan) -> (String, bool) {
     let mut parts = BTreeMap::new();
     for file in plan.all() {
         parts.insert(&file.path, report_file(file));

@@ -20,7 +20,7 @@ use crate::num::Precision;
 
 /// The difference between the artifacts and the folder.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Plan {
+pub struct TreePlan {
     /// The output folder.
     pub out_dir: PathBuf,
     /// The artifacts, sorted by path.
@@ -94,7 +94,7 @@ pub fn plan(
     artifacts: &[Artifact],
     scope: &Scope,
     provenance: &Provenance,
-) -> Result<Plan, Error> {
+) -> Result<TreePlan, Error> {
     artifact::check_paths(artifacts)?;
     let old_text = folder::read(&out_dir.join(manifest::FILE))?;
     let old = old_manifest(out_dir, old_text.as_deref(), scope)?;
@@ -126,7 +126,7 @@ pub fn plan(
         let mut removed = orphans.iter().map(|entry| entry.file.as_str());
         linked = removed.find_map(|path| folder::linked_folder(out_dir, path));
     }
-    Ok(Plan {
+    Ok(TreePlan {
         out_dir: out_dir.to_path_buf(),
         interim: interim(&merged, &files, &orphans, &listed),
         files,
@@ -207,7 +207,7 @@ fn refuse_meeting_names(artifacts: &[Artifact], merged: &Manifest) -> Result<(),
     Ok(())
 }
 
-impl Plan {
+impl TreePlan {
     /// All files that a write puts in place, the manifest last.
     pub fn all(&self) -> impl Iterator<Item = &Planned> {
         self.files.iter().chain([&self.manifest])

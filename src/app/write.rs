@@ -17,7 +17,7 @@ use super::folder;
 use super::lock::{Lock, create_held};
 use super::manifest::{self, Entry};
 use super::ours::{bears_mark, is_listed};
-use super::tree::{Obstacle, Plan, Planned, State};
+use super::tree::{Obstacle, Planned, State, TreePlan};
 
 /// What a write did, in files, the manifest included.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -35,7 +35,7 @@ pub struct Written {
 ///
 /// # Errors
 /// A file of others lies where one is to be written, a folder of the tree is a link, or the disk refuses.
-pub fn write(plan: &Plan, overwrite: bool, lock: &mut Lock) -> Result<Written, Error> {
+pub fn write(plan: &TreePlan, overwrite: bool, lock: &mut Lock) -> Result<Written, Error> {
     if let Some((link, leads_to)) = &plan.linked {
         return Err(Error::Linked {
             link: link.clone(),

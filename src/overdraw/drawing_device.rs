@@ -8,7 +8,7 @@ use crate::gpu::{
 
 use super::clock::timed;
 use super::measure::Reading;
-use super::plan::{Drawing, Plan};
+use super::plan::{Drawing, DrawingPlan};
 
 /// Pixels a side where nothing is said: a processor is busy with little, a card is not.
 const ON_A_PROCESSOR: u32 = 256;
@@ -57,7 +57,7 @@ fn open(wanted: &Wanted) -> Result<Device, Fault> {
 
 /// A device that draws a plan.
 pub struct DrawingDevice<'a> {
-    plan: &'a Plan,
+    plan: &'a DrawingPlan,
     canvas: Canvas,
     layers: Vec<Option<Layer>>,
 }
@@ -68,7 +68,7 @@ impl<'a> DrawingDevice<'a> {
     /// # Errors
     /// There is none, or it draws no such target.
     pub fn open(
-        plan: &'a Plan,
+        plan: &'a DrawingPlan,
         wanted: &Wanted,
         size: Option<u32>,
     ) -> Result<DrawingDevice<'a>, Fault> {
@@ -102,11 +102,11 @@ impl<'a> DrawingDevice<'a> {
     /// # Errors
     /// The device does not take it, or is lost.
     pub fn draw(&mut self, drawing: usize, draws: u32) -> Result<Reading, Fault> {
-        self.compile(Plan::HEAVY)?;
+        self.compile(DrawingPlan::HEAVY)?;
         self.compile(drawing)?;
         let layer = |place: usize| self.layers[place].as_ref();
-        let over = layer(drawing).filter(|_| drawing != Plan::HEAVY);
-        let below = layer(Plan::HEAVY).map(|heavy| (heavy, 1));
+        let over = layer(drawing).filter(|_| drawing != DrawingPlan::HEAVY);
+        let below = layer(DrawingPlan::HEAVY).map(|heavy| (heavy, 1));
         let layers: Vec<(&Layer, u32)> =
             below.into_iter().chain(over.map(|l| (l, draws))).collect();
         let recorded = self.canvas.record(&layers)?;

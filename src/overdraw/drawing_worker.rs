@@ -8,7 +8,7 @@ use crate::process::{Launch, Silence, Surroundings, Worker};
 use super::drawing_device::DeviceFacts;
 use super::error::Error;
 use super::measure::{Draw, Reading, Stop};
-use super::plan::Plan;
+use super::plan::DrawingPlan;
 use super::protocol::{DrawRequest, DrawResponse};
 
 /// How long opening a device and compiling a shader may take: both are seconds where they are slow.
@@ -22,7 +22,7 @@ const ONE_THREAD: [(&str, &str); 1] = [("LP_NUM_THREADS", "1")];
 
 /// The process, and what it knows.
 pub struct DrawingWorker<'a> {
-    plan: &'a Plan,
+    plan: &'a DrawingPlan,
     worker: Worker,
     /// Removed after the process.
     _surroundings: Surroundings,
@@ -38,7 +38,7 @@ impl<'a> DrawingWorker<'a> {
     ///
     /// # Errors
     /// There is no device, or it cannot be opened.
-    pub fn start(plan: &'a Plan, limit: Duration) -> Result<DrawingWorker<'a>, Error> {
+    pub fn start(plan: &'a DrawingPlan, limit: Duration) -> Result<DrawingWorker<'a>, Error> {
         let surroundings = Surroundings::new(None)?;
         let environment = ONE_THREAD.map(|(name, value)| (name.to_owned(), value.into()));
         let launch = Launch::with_own_words(&surroundings);

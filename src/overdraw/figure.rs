@@ -4,8 +4,8 @@ use serde::Serialize;
 
 use crate::num::statistics::{interval, median, quantile, resamples, spread};
 
-use super::measure::{Clock, Measured};
-use super::plan::Plan;
+use super::measure::{Clock, MeasuredDrawings};
+use super::plan::DrawingPlan;
 
 /// Interference only lengthens a reading, so we take the 10th percentile: the very quickest reading is a matter of luck.
 const QUICK: f64 = 0.1;
@@ -79,10 +79,10 @@ struct Times {
     anew: Vec<Vec<f64>>,
 }
 
-impl Measured {
+impl MeasuredDrawings {
     /// What each of the plan's functions costs on a target of so many pixels, or why that is not known: it was given up, or
     /// what it is held against was.
-    pub fn figures(&self, plan: &Plan, pixels: u64) -> Vec<Result<Figure, String>> {
+    pub fn figures(&self, plan: &DrawingPlan, pixels: u64) -> Vec<Result<Figure, String>> {
         let rounds: Vec<usize> = (0..self.rounds.len()).collect();
         let anew = if rounds.len() < FEWEST {
             vec![rounds.clone()]
@@ -106,13 +106,19 @@ impl Measured {
 
     fn figure(
         &self,
-        plan: &Plan,
+        plan: &DrawingPlan,
         function: usize,
         pixels: u64,
         times: &Times,
     ) -> Result<Figure, String> {
         let (own, empty) = plan.places()[function];
-        for needed in [Plan::HEAVY, own, empty, Plan::REFERENCE, Plan::EMPTY] {
+        for needed in [
+            DrawingPlan::HEAVY,
+            own,
+            empty,
+            DrawingPlan::REFERENCE,
+            DrawingPlan::EMPTY,
+        ] {
             if let Some(why) = &self.failed[needed] {
                 return Err(why.clone());
             }
@@ -149,7 +155,7 @@ impl Measured {
     /// The noise of the heavy shader alone, and of the empty one over it.
     pub fn noise(&self) -> [Noise; 2] {
         let rounds: Vec<usize> = (0..self.rounds.len()).collect();
-        [Plan::HEAVY, Plan::EMPTY].map(|drawing| {
+        [DrawingPlan::HEAVY, DrawingPlan::EMPTY].map(|drawing| {
             let readings = self.readings(self.clock, drawing, &rounds);
             Noise::of(&readings)
         })
@@ -171,19 +177,19 @@ impl Measured {
 
     fn costs(
         &self,
-        plan: &Plan,
+        plan: &DrawingPlan,
         times: &[f64],
         (own, empty): (usize, usize),
         pixels: u64,
     ) -> Costs {
         let draw = |drawing: usize| {
             let draws = f64::from(self.draws[drawing]) * pixels as f64;
-            (times[drawing] - times[Plan::HEAVY]) / draws
+            (times[drawing] - times[DrawingPlan::HEAVY]) / draws
         };
         let net = |own: usize, empty: usize| (draw(own) - draw(empty)) / plan.evaluations as f64;
         Costs {
             net: net(own, empty),
-            reference: net(Plan::REFERENCE, Plan::EMPTY),
+            reference: net(DrawingPlan::REFERENCE, DrawingPlan::EMPTY),
             empty: draw(empty),
         }
     }

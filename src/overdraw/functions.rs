@@ -8,7 +8,7 @@ use crate::methods::{self, Class, Method, Values};
 use crate::num::Precision;
 use crate::reference::MaterialInMedium;
 
-use super::plan::{Plan, TimedFunction};
+use super::plan::{DrawingPlan, TimedFunction};
 
 /// What lies below everything: the dearest of the library.
 const HEAVY: &str = "conductor_from_f0_f82";
@@ -18,7 +18,7 @@ pub struct TimedFunctions {
     /// The functions.
     pub functions: Vec<TimedFunction>,
     /// What is drawn for them.
-    pub plan: Plan,
+    pub plan: DrawingPlan,
     /// Why some are left out.
     pub left_out: Vec<String>,
 }
@@ -125,9 +125,14 @@ impl LibraryMaterials {
         )
     }
 
-    fn plan(&self, functions: &[TimedFunction], evaluations: usize) -> Result<Plan, Error> {
+    fn plan(&self, functions: &[TimedFunction], evaluations: usize) -> Result<DrawingPlan, Error> {
         let [heavy, reference] = [HEAVY, REFERENCE].map(|name| self.single(name));
-        Ok(Plan::new(&heavy?, &reference?, functions, evaluations))
+        Ok(DrawingPlan::new(
+            &heavy?,
+            &reference?,
+            functions,
+            evaluations,
+        ))
     }
 
     /// The three-channel function of a method in single precision.

@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::num::statistics::{median, quantile};
 
-use super::plan::Plan;
+use super::plan::DrawingPlan;
 
 /// Readings that choose how often a shader is drawn, and the clock.
 const TRIALS: usize = 3;
@@ -55,7 +55,7 @@ pub enum Stop {
 
 /// Who draws.
 pub trait Draw {
-    /// Draws the heavy shader, and over it a drawing so many times; [`Plan::HEAVY`] is drawn alone.
+    /// Draws the heavy shader, and over it a drawing so many times; [`DrawingPlan::HEAVY`] is drawn alone.
     ///
     /// # Errors
     /// It cannot be drawn, or not within its time.
@@ -77,7 +77,7 @@ pub struct Effort {
 
 /// What was read.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Measured {
+pub struct MeasuredDrawings {
     /// What counts.
     pub clock: Clock,
     /// Whether the device's own clock advances.
@@ -128,7 +128,7 @@ impl Clock {
 
 /// A measurement under way.
 struct Session<'a> {
-    plan: &'a Plan,
+    plan: &'a DrawingPlan,
     artist: &'a mut dyn Draw,
     clock: Clock,
     draws: Vec<u32>,
@@ -140,11 +140,11 @@ struct Session<'a> {
 /// # Errors
 /// Nothing can be drawn, or the clock that was asked for does not advance.
 pub fn measure(
-    plan: &Plan,
+    plan: &DrawingPlan,
     effort: &Effort,
     artist: &mut dyn Draw,
     progress: &mut dyn FnMut(u64, u64, &str),
-) -> Result<Measured, Stop> {
+) -> Result<MeasuredDrawings, Stop> {
     let count = plan.drawings.len();
     let mut session = Session {
         plan,
@@ -167,7 +167,7 @@ pub fn measure(
         let mut told = |done: usize| progress(before + done as u64, whole, &what);
         rounds.push(session.round(round, &mut told)?);
     }
-    Ok(Measured {
+    Ok(MeasuredDrawings {
         clock: session.clock,
         advances,
         draws: session.draws,
@@ -202,7 +202,7 @@ impl Session<'_> {
     fn give_up(&mut self, drawing: usize, why: &str) {
         let name = &self.plan.drawings[drawing].name;
         self.failed[drawing] = Some(format!("{name}: {why}"));
-        if drawing == Plan::HEAVY {
+        if drawing == DrawingPlan::HEAVY {
             let why = format!("the heavy shader below it, {name}: {why}");
             self.failed.fill(Some(why));
         }
@@ -212,7 +212,7 @@ impl Session<'_> {
     fn choose_clock(&mut self, effort: &Effort) -> Result<bool, Stop> {
         let mut advances = Clock::ALL.map(|_| true);
         for _ in 0..TRIALS {
-            let Some(reading) = self.read_draws(Plan::HEAVY, 0)? else {
+            let Some(reading) = self.read_draws(DrawingPlan::HEAVY, 0)? else {
                 break;
             };
             for (advances, clock) in advances.iter_mut().zip(Clock::ALL) {
@@ -243,7 +243,7 @@ impl Session<'_> {
         const ENOUGH: usize = 15;
         let mut readings = Vec::new();
         for _ in 0..ENOUGH {
-            let reading = self.read_draws(Plan::HEAVY, 0)?;
+            let reading = self.read_draws(DrawingPlan::HEAVY, 0)?;
             readings.extend(reading.map(|reading| self.clock.of(&reading)));
         }
         Ok(readings)

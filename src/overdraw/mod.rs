@@ -43,8 +43,8 @@ pub use drawing_worker::DrawingWorker;
 pub use error::Error;
 pub use figure::{Figure, Noise};
 pub use functions::{LibraryMaterials, TimedFunctions};
-pub use measure::{Clock, Draw, Effort, Measured, Reading, Round, Stop, measure};
-pub use plan::{Drawing, Plan, TimedFunction};
+pub use measure::{Clock, Draw, Effort, MeasuredDrawings, Reading, Round, Stop, measure};
+pub use plan::{Drawing, DrawingPlan, TimedFunction};
 #[cfg(feature = "gpu")]
 pub use row::{TimeRow, time_rows};
 #[cfg(all(feature = "cli", feature = "gpu"))]

@@ -40,7 +40,7 @@ pub struct Drawing {
 
 /// Everything that is drawn: what functions are held against first, then the functions.
 #[derive(Clone, Debug)]
-pub struct Plan {
+pub struct DrawingPlan {
     /// All of it.
     pub drawings: Vec<Drawing>,
     /// How often a draw evaluates its function.
@@ -74,7 +74,7 @@ impl Drawing {
     pub const FRAGMENT: &str = ENTRY;
 }
 
-impl Plan {
+impl DrawingPlan {
     /// The heavy shader's place among the drawings.
     pub const HEAVY: usize = 0;
     /// That of the function whose cost is 1.
@@ -88,7 +88,7 @@ impl Plan {
         reference: &TimedFunction,
         timed: &[TimedFunction],
         evaluations: usize,
-    ) -> Plan {
+    ) -> DrawingPlan {
         let heavy = Drawing {
             blends: false,
             ..heavy.drawing(1)
@@ -106,16 +106,16 @@ impl Plan {
         let mut places = Vec::new();
         for timed in timed {
             let half = usize::from(timed.emitted.precision.is_half());
-            let empty = Plan::EMPTY + 2 * half + usize::from(timed.is_scalar());
+            let empty = DrawingPlan::EMPTY + 2 * half + usize::from(timed.is_scalar());
             let own = timed.drawing(evaluations);
-            if own == drawings[Plan::REFERENCE] {
-                places.push((Plan::REFERENCE, empty));
+            if own == drawings[DrawingPlan::REFERENCE] {
+                places.push((DrawingPlan::REFERENCE, empty));
             } else {
                 places.push((drawings.len(), empty));
                 drawings.push(own);
             }
         }
-        Plan {
+        DrawingPlan {
             drawings,
             evaluations,
             fixed,

@@ -7,7 +7,7 @@ use crate::ir::Ty;
 use super::drawing_device::DeviceFacts;
 use super::figure::Figure;
 use super::functions::TimedFunctions;
-use super::measure::{Clock, Measured};
+use super::measure::{Clock, MeasuredDrawings};
 use super::plan::TimedFunction;
 
 /// A function and what it costs.
@@ -40,7 +40,7 @@ pub struct TimeRow {
 pub fn time_rows(
     timed: &TimedFunctions,
     device: &DeviceFacts,
-    measured: &Measured,
+    measured: &MeasuredDrawings,
 ) -> Vec<TimeRow> {
     let figures = measured.figures(&timed.plan, device.pixels);
     let functions = timed.functions.iter().zip(figures);

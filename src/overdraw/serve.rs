@@ -6,14 +6,19 @@ use crate::gpu::Wanted;
 use crate::process::Inbox;
 
 use super::drawing_device::DrawingDevice;
-use super::plan::Plan;
+use super::plan::DrawingPlan;
 use super::protocol::{DrawRequest, DrawResponse};
 
 /// Serves until the supervisor is gone. Only drawings of the plan are drawn.
 ///
 /// # Errors
 /// The pipe is gone.
-pub fn serve(inbox: Inbox, plan: &Plan, wanted: &Wanted, size: Option<u32>) -> io::Result<()> {
+pub fn serve(
+    inbox: Inbox,
+    plan: &DrawingPlan,
+    wanted: &Wanted,
+    size: Option<u32>,
+) -> io::Result<()> {
     let mut device = DrawingDevice::open(plan, wanted, size);
     inbox.serve(|request| match (&mut device, request) {
         (Err(fault), _) => fault.clone().into(),

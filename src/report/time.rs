@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-use crate::overdraw::{Clock, DeviceFacts, Measured, Noise, TimeRow, TimedFunctions};
+use crate::overdraw::{Clock, DeviceFacts, MeasuredDrawings, Noise, TimeRow, TimedFunctions};
 
 use super::Origin;
 use super::table;
@@ -40,7 +40,7 @@ impl<'a> TimeReport<'a> {
         command: String,
         timed: &'a TimedFunctions,
         device: &'a DeviceFacts,
-        measured: &Measured,
+        measured: &MeasuredDrawings,
         rows: &'a [TimeRow],
     ) -> TimeReport<'a> {
         let [heavy, empty] = measured.noise();

@@ -11,7 +11,7 @@ use super::error::Error;
 use super::file::specialised;
 use super::judge::{Ran, Run};
 use super::machine;
-use super::plan::{Plan, Planned};
+use super::plan::{PlannedFile, VerifyPlan};
 use super::row::VerifyRow;
 
 /// Hears how much is done, of how much, of what.
@@ -22,7 +22,7 @@ type Progress<'a> = &'a mut dyn FnMut(u64, u64, &str);
 /// # Errors
 /// Nothing of the plan can be swept.
 pub fn exhaustive_rows(
-    plan: &Plan,
+    plan: &VerifyPlan,
     devices: &Devices,
     progress: Progress,
 ) -> Result<(Vec<VerifyRow>, Vec<String>), Error> {
@@ -60,7 +60,7 @@ pub fn exhaustive_rows(
 
 /// A function at all numbers, and the millions of them a second.
 fn run(
-    file: &Planned,
+    file: &PlannedFile,
     subject: &MaterialInMedium,
     emitted: &Emitted,
     devices: &Devices,

@@ -18,7 +18,7 @@ use crate::verify::{
 
 use super::half_run;
 use super::judge::{Ran, Run};
-use super::plan::{Plan, Planned};
+use super::plan::{PlannedFile, VerifyPlan};
 use super::row::{self, VerifyRow};
 
 /// How a file is tried.
@@ -37,7 +37,12 @@ pub(super) struct Case<'a> {
 }
 
 /// The rows of a file.
-pub fn file_rows(plan: &Plan, file: &Planned, devices: &Devices, effort: Effort) -> Vec<VerifyRow> {
+pub fn file_rows(
+    plan: &VerifyPlan,
+    file: &PlannedFile,
+    devices: &Devices,
+    effort: Effort,
+) -> Vec<VerifyRow> {
     let accepts = accepts(file);
     let mut rows = Vec::new();
     for (index, emitted) in file.functions.iter().enumerate() {
@@ -51,7 +56,7 @@ pub fn file_rows(plan: &Plan, file: &Planned, devices: &Devices, effort: Effort)
 }
 
 /// What compilers say of all pages of a file: a refusal of one is a refusal, and says which page it is.
-fn accepts(file: &Planned) -> Vec<(&'static str, Verdict)> {
+fn accepts(file: &PlannedFile) -> Vec<(&'static str, Verdict)> {
     let mut all: Vec<(&'static str, Verdict)> = Vec::new();
     for page in &file.pages {
         for (name, verdict) in
@@ -74,7 +79,7 @@ fn accepts(file: &Planned) -> Vec<(&'static str, Verdict)> {
 }
 
 /// The trials of a function: a library function with each material's values, and where it was worst so far.
-fn cases<'a>(plan: &'a Plan, file: &Planned, emitted: &Emitted) -> Vec<Case<'a>> {
+fn cases<'a>(plan: &'a VerifyPlan, file: &PlannedFile, emitted: &Emitted) -> Vec<Case<'a>> {
     if let Some(index) = file.subject {
         return vec![specialised(&plan.subjects[index], emitted)];
     }
@@ -206,7 +211,7 @@ fn limits_of(channels: &Channels) -> Vec<f32> {
 
 /// A function, and how it is run.
 struct Tried<'a> {
-    file: &'a Planned,
+    file: &'a PlannedFile,
     emitted: &'a Emitted,
     entry: &'a str,
     devices: &'a Devices,
@@ -217,7 +222,7 @@ struct Tried<'a> {
 
 impl<'a> Tried<'a> {
     fn new(
-        file: &'a Planned,
+        file: &'a PlannedFile,
         index: usize,
         emitted: &'a Emitted,
         devices: &'a Devices,

@@ -5,7 +5,7 @@ use crate::fit::{Measured, ModelError};
 use crate::num::Precision;
 
 use super::compilers::Verdict;
-use super::plan::{Planned, ShippedPage};
+use super::plan::{PlannedFile, ShippedPage};
 use super::row::{
     AllowedAbsolute, AllowedError, AllowedUlp, Answer, CodeErrorFigures, Emulation,
     ModelErrorFigures, SecondOpinion, Status, VerifyRow, finite,
@@ -69,7 +69,7 @@ impl HalfRun {
 /// A function of a file, run.
 pub struct Ran<'a> {
     /// The file.
-    pub file: &'a Planned,
+    pub file: &'a PlannedFile,
     /// The function.
     pub emitted: &'a Emitted,
     /// The material, as a user types it.
@@ -304,7 +304,7 @@ fn not_asked(verdicts: &[(&'static str, Verdict)]) -> Vec<(String, String)> {
 }
 
 /// What is known of a function before it is run.
-fn row_without_run(file: &Planned, emitted: &Emitted) -> VerifyRow {
+fn row_without_run(file: &PlannedFile, emitted: &Emitted) -> VerifyRow {
     let page = file.run_page();
     VerifyRow {
         target: file.target.name.to_owned(),
@@ -334,7 +334,7 @@ fn row_without_run(file: &Planned, emitted: &Emitted) -> VerifyRow {
 }
 
 /// The rows of a file whose run came to no end.
-pub fn unfinished(file: &Planned, why: &str) -> Vec<VerifyRow> {
+pub fn unfinished(file: &PlannedFile, why: &str) -> Vec<VerifyRow> {
     let row = |emitted: &Emitted| VerifyRow {
         reason: Some(format!("{}: {}: {why}", file.run_page().path, emitted.name)),
         ..row_without_run(file, emitted)

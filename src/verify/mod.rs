@@ -5,7 +5,7 @@
 //! text itself runs, on a real graphics stack.
 //!
 //! Shaders run in processes of their own, so that one that never ends, or that takes its driver down, is a row of the
-//! report and no more. All processes make the same [`Plan`](plan::Plan) from the same flags; a number names a file of it.
+//! report and no more. All processes make the same [`VerifyPlan`](plan::VerifyPlan) from the same flags; a number names a file of it.
 
 mod code_error;
 #[cfg(feature = "compilers")]

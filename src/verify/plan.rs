@@ -10,9 +10,9 @@ use crate::targets::Target;
 
 /// What is to be run.
 #[derive(Debug)]
-pub struct Plan {
+pub struct VerifyPlan {
     /// The files in order.
-    pub files: Vec<Planned>,
+    pub files: Vec<PlannedFile>,
     /// The materials.
     pub subjects: Vec<MaterialInMedium>,
     /// The materials with whose values library functions are run, where it is not those.
@@ -25,7 +25,7 @@ pub struct Plan {
 
 /// A file, or the modules that stand for one.
 #[derive(Debug)]
-pub struct Planned {
+pub struct PlannedFile {
     /// Its target.
     pub target: &'static Target,
     /// Its pages: that which is run comes last.
@@ -36,7 +36,7 @@ pub struct Planned {
     pub subject: Option<usize>,
 }
 
-impl Plan {
+impl VerifyPlan {
     /// The materials with whose values library functions are run.
     pub fn trial_subjects(&self) -> &[MaterialInMedium] {
         if self.others.is_empty() {
@@ -47,7 +47,7 @@ impl Plan {
     }
 }
 
-impl Planned {
+impl PlannedFile {
     /// What its functions compute in.
     pub fn precision(&self) -> Precision {
         self.functions

@@ -6,7 +6,7 @@ use std::path::Path;
 use crate::process::{Error, Launch, Pool, Silence, Surroundings, Task};
 
 use super::judge::unfinished;
-use super::plan::Plan;
+use super::plan::VerifyPlan;
 use super::row::VerifyRow;
 use super::worker::FileRequest;
 
@@ -15,7 +15,7 @@ use super::worker::FileRequest;
 /// # Errors
 /// No process can be started.
 pub fn supervise(
-    plan: &Plan,
+    plan: &VerifyPlan,
     pool: Pool,
     tools: Option<&Path>,
     progress: &mut dyn FnMut(u64, u64, &str),

@@ -4,7 +4,7 @@ use fresnel_gen::app::Materials;
 use fresnel_gen::app::time_request::TimeRequest;
 use fresnel_gen::emit::validate_wgsl;
 use fresnel_gen::overdraw::{
-    Clock, Draw, Effort, Measured, Plan, Reading, Stop, TimedFunctions, measure,
+    Clock, Draw, DrawingPlan, Effort, MeasuredDrawings, Reading, Stop, TimedFunctions, measure,
 };
 
 /// Pixels of the target that is made up here.
@@ -33,9 +33,9 @@ struct MadeUp {
 
 impl MadeUp {
     /// An evaluation takes a hundred nanoseconds times the drawing's number, an empty draw a thousand.
-    fn new(plan: &Plan) -> MadeUp {
+    fn new(plan: &DrawingPlan) -> MadeUp {
         let cost = |i: usize| match i {
-            Plan::HEAVY => 1e6,
+            DrawingPlan::HEAVY => 1e6,
             i if plan.drawings[i].name == "the empty shader" => 1e3,
             i => 1e3 + 100.0 * i as f64 * plan.evaluations as f64,
         };
@@ -54,12 +54,12 @@ impl Draw for MadeUp {
             return Err(Stop::One("it never ends".to_owned()));
         }
         self.calls += 1;
-        let over = if drawing == Plan::HEAVY {
+        let over = if drawing == DrawingPlan::HEAVY {
             0.0
         } else {
             self.costs[drawing]
         };
-        let time = self.costs[Plan::HEAVY] + over * f64::from(draws);
+        let time = self.costs[DrawingPlan::HEAVY] + over * f64::from(draws);
         // One reading in seven is anything.
         let busy = if self.calls.is_multiple_of(7) {
             3.0
@@ -83,7 +83,11 @@ fn effort(clock: Option<Clock>) -> Effort {
     }
 }
 
-fn measured(plan: &Plan, device: &mut MadeUp, clock: Option<Clock>) -> Result<Measured, Stop> {
+fn measured(
+    plan: &DrawingPlan,
+    device: &mut MadeUp,
+    clock: Option<Clock>,
+) -> Result<MeasuredDrawings, Stop> {
     measure(plan, &effort(clock), device, &mut |_, _, _| {})
 }
 
@@ -115,7 +119,7 @@ fn shares_are_found_again_through_noise() {
         let figures = measured.figures(plan, PIXELS);
         for ((own, _), figure) in plan.places().iter().zip(figures) {
             let figure = figure.unwrap();
-            let share = *own as f64 / Plan::REFERENCE as f64;
+            let share = *own as f64 / DrawingPlan::REFERENCE as f64;
             assert!(
                 (figure.share / share - 1.0).abs() < 1e-9,
                 "{own}: {figure:?}"
@@ -162,6 +166,6 @@ fn a_shader_that_hangs_takes_only_what_needs_it_along() {
         failed.len()
     };
     assert_eq!(failing(plan.places()[0].0), 1);
-    assert_eq!(failing(Plan::REFERENCE), plan.places().len());
-    assert_eq!(failing(Plan::HEAVY), plan.places().len());
+    assert_eq!(failing(DrawingPlan::REFERENCE), plan.places().len());
+    assert_eq!(failing(DrawingPlan::HEAVY), plan.places().len());
 }

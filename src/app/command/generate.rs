@@ -16,7 +16,7 @@ use crate::app::request::{Materials, Request};
 use crate::app::sight::{input, sight};
 use crate::app::source::{is_path, materials, source};
 use crate::app::tables::add_tables;
-use crate::app::tree::{Plan, plan};
+use crate::app::tree::{TreePlan, plan};
 use crate::app::write::{write, write_file, write_files};
 use crate::app::{check, depfile, folder};
 use crate::bake::as_tables_are_seen;
@@ -170,7 +170,7 @@ fn single(flags: &Generate, request: &Request, file: &Path) -> Result<Output, Er
     })
 }
 
-fn checked(flags: &Generate, plan: &Plan) -> Output {
+fn checked(flags: &Generate, plan: &TreePlan) -> Output {
     let (text, drift) = check::report(plan);
     let mut output = Output {
         stdout: text.into_bytes(),
@@ -188,7 +188,7 @@ fn checked(flags: &Generate, plan: &Plan) -> Output {
 }
 
 /// What a person should know of files that stay, or that are not as this program left them.
-pub(super) fn named(plan: &Plan, overwrite: bool, replaced: &str) -> Vec<String> {
+pub(super) fn named(plan: &TreePlan, overwrite: bool, replaced: &str) -> Vec<String> {
     let stays = plan.stays.iter();
     let stays = stays.map(|stay| format!("left alone: {}: {}", stay.path, stay.why));
     let edited = plan.edited.iter();
@@ -227,7 +227,7 @@ pub(super) fn named(plan: &Plan, overwrite: bool, replaced: &str) -> Vec<String>
 fn written(
     flags: &Generate,
     generated: &Generated,
-    plan: &Plan,
+    plan: &TreePlan,
     lock: &mut Lock,
 ) -> Result<Output, Error> {
     let out_dir = &plan.out_dir;

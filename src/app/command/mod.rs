@@ -34,7 +34,7 @@ use super::fault::RequestFault;
 use super::folder::{is_below, is_plain_file, is_same_file, read, resolved};
 use super::lock::Announce;
 use super::manifest::{self, Manifest};
-use super::tree::Plan;
+use super::tree::TreePlan;
 use super::write::{try_file, write_file};
 use crate::materials::escaped;
 
@@ -171,7 +171,7 @@ fn refuse_one_place(files: &[&Path]) -> Result<(), Error> {
 }
 
 /// Refuses a file that the user names in the place of one of the tree.
-fn refuse_within_tree(plan: &Plan, named: Option<&Path>) -> Result<(), Error> {
+fn refuse_within_tree(plan: &TreePlan, named: Option<&Path>) -> Result<(), Error> {
     let Some(named) = named else {
         return Ok(());
     };

@@ -13,8 +13,8 @@ use crate::app::time_request::TimeRequest;
 use crate::cost::BLOCKS;
 use crate::gpu::{Backend, Wanted};
 use crate::overdraw::{
-    Clock, DeviceFacts, DrawingWorker, Effort, Measured, Stop, TimeRow, TimedFunctions, measure,
-    serve, time_rows,
+    Clock, DeviceFacts, DrawingWorker, Effort, MeasuredDrawings, Stop, TimeRow, TimedFunctions,
+    measure, serve, time_rows,
 };
 use crate::process::Inbox;
 use crate::report::time::TimeReport;
@@ -153,7 +153,7 @@ fn no_hardware(facts: &DeviceFacts, wanted: &Wanted) -> Error {
 /// What failed, each reason once; what was left out; and how the time was taken where that was not asked for.
 fn remarks(
     timed: &TimedFunctions,
-    measured: &Measured,
+    measured: &MeasuredDrawings,
     rows: &[TimeRow],
     clock: Option<Clock>,
 ) -> Vec<String> {
@@ -171,7 +171,7 @@ fn remarks(
 }
 
 /// What the time was taken by, where that was not asked for and is not the device's own clock.
-fn chosen(measured: &Measured) -> Option<String> {
+fn chosen(measured: &MeasuredDrawings) -> Option<String> {
     let why = match measured.clock {
         Clock::Gpu => return None,
         Clock::Cpu => {

@@ -17,7 +17,7 @@ use crate::process::{Inbox, Pool};
 use crate::report::Report;
 use crate::report::verify::{devices, not_checked, verify_remarks, verify_text};
 use crate::verify::file::Effort;
-use crate::verify::plan::Plan;
+use crate::verify::plan::VerifyPlan;
 use crate::verify::run::Devices;
 use crate::verify::{Status, VerifyRow, exhaustive_rows, junit, machine, serve, supervise};
 
@@ -132,7 +132,7 @@ fn effort(flags: &VerifyFlags) -> Result<Effort, Error> {
 fn reported(
     flags: &VerifyFlags,
     request: &Request,
-    plan: &Plan,
+    plan: &VerifyPlan,
     rows: &[VerifyRow],
 ) -> Result<Output, Error> {
     if let Some(file) = &flags.junit {

@@ -11,7 +11,7 @@ use crate::emit::{Emitted, HeaderForm};
 use crate::methods;
 use crate::reference::MaterialInMedium;
 use crate::targets;
-use crate::verify::plan::{Plan, Planned, ShippedPage};
+use crate::verify::plan::{PlannedFile, ShippedPage, VerifyPlan};
 
 use super::shipped::{Folder, replace_with_today};
 
@@ -19,7 +19,7 @@ use super::shipped::{Folder, replace_with_today};
 ///
 /// # Errors
 /// The request cannot be met, or a file cannot be read.
-pub fn plan_of_request(request: &Request, folder: &Path) -> Result<Plan, Error> {
+pub fn plan_of_request(request: &Request, folder: &Path) -> Result<VerifyPlan, Error> {
     // What earlier runs put into a material's file belongs to it: it would be written again.
     let kept = kept(folder, request.precision)?;
     let meant = generate_meant(request, &kept, &Held::default())?;
@@ -32,7 +32,7 @@ pub fn plan_of_request(request: &Request, folder: &Path) -> Result<Plan, Error> 
         true => meant.files.clone(),
         false => generate_meant(request, &kept, &held)?.files,
     };
-    let mut files: Vec<Planned> = Vec::new();
+    let mut files: Vec<PlannedFile> = Vec::new();
     for (meant, exact) in meant.files.into_iter().zip(exact) {
         let (made, page) = page(request, &shipped, meant, exact)?;
         let stem = |path: &str| path.split('.').next().unwrap_or("").to_owned();
@@ -50,7 +50,7 @@ pub fn plan_of_request(request: &Request, folder: &Path) -> Result<Plan, Error> 
     let pages = files.iter().flat_map(|file| &file.pages);
     let mut places = shipped.files();
     places.extend(pages.map(|page| folder.join(&page.path)));
-    Ok(Plan {
+    Ok(VerifyPlan {
         places,
         files,
         others,
@@ -171,11 +171,11 @@ fn usual_subjects(request: &Request) -> Result<Vec<MaterialInMedium>, Error> {
     Ok(ready.into_iter().map(|(subject, _)| subject).collect())
 }
 
-fn planned(made: Made, page: ShippedPage) -> Result<Planned, Error> {
+fn planned(made: Made, page: ShippedPage) -> Result<PlannedFile, Error> {
     let target = targets::find(&made.artifact.target).ok_or_else(|| Error::Usage {
         what: format!("there is no target `{}`", made.artifact.target),
     })?;
-    Ok(Planned {
+    Ok(PlannedFile {
         target,
         pages: vec![page],
         functions: made.functions,

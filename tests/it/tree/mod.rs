@@ -17,14 +17,14 @@ use fresnel_gen::app::artifact::Artifact;
 use fresnel_gen::app::lock::Lock;
 use fresnel_gen::app::manifest::{Input, Provenance};
 use fresnel_gen::app::scope::Scope;
-use fresnel_gen::app::tree::{Plan, plan};
+use fresnel_gen::app::tree::{TreePlan, plan};
 use fresnel_gen::app::write::{self, Written};
 use fresnel_gen::num::Precision;
 use serde_json::json;
 
 /// A run without flags: two targets with two methods, two materials and a catalogue each,
 /// a file without a comment and one that lies beside the targets' folders.
-pub fn whole(out: &Path) -> Plan {
+pub fn whole(out: &Path) -> TreePlan {
     let (mut artifacts, scope) = run(&["gles", "wgsl"], &["gold", "water"], None);
     artifacts.push(artifact("spirv/materials/gold.spv", "spirv", 1));
     artifacts.last_mut().unwrap().material = Some("gold".to_string());
@@ -38,12 +38,12 @@ pub fn whole(out: &Path) -> Plan {
 }
 
 /// Writes as a run does that replaces nothing of others.
-pub fn write(plan: &Plan) -> Result<Written, Error> {
+pub fn write(plan: &TreePlan) -> Result<Written, Error> {
     write::write(plan, false, &mut Lock::take(&plan.out_dir, &|_| ()))
 }
 
 /// `--material silver`: no library, no catalogue.
-pub fn silver(out: &Path) -> Plan {
+pub fn silver(out: &Path) -> TreePlan {
     let (mut artifacts, mut scope) = run(&["gles", "wgsl"], &["silver"], None);
     artifacts.retain(|artifact| artifact.material.is_some());
     scope.methods = Some(BTreeSet::new());

@@ -10,7 +10,7 @@ use fresnel_gen::app::check::report;
 use fresnel_gen::app::lock::Lock;
 use fresnel_gen::app::manifest::FILE;
 use fresnel_gen::app::scope::Scope;
-use fresnel_gen::app::tree::{Plan, State, plan};
+use fresnel_gen::app::tree::{State, TreePlan, plan};
 use fresnel_gen::app::write as writer;
 use tempfile::TempDir;
 
@@ -247,7 +247,7 @@ fn the_tree_does_not_depend_on_the_order_of_runs() {
         let (artifacts, scope) = run(&["gles"], &["gold", "water"], None);
         plan(out, &artifacts, &scope, &provenance()).unwrap()
     };
-    let runs: [&dyn Fn(&Path) -> Plan; 4] = [&whole, &silver, &only_schlick, &gles];
+    let runs: [&dyn Fn(&Path) -> TreePlan; 4] = [&whole, &silver, &only_schlick, &gles];
     let mut results = BTreeSet::new();
     for order in 0..256 {
         let order = [order & 3, order >> 2 & 3, order >> 4 & 3, order >> 6];
