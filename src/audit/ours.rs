@@ -4,6 +4,7 @@ use crate::cost::{
     CostAndError, Family, FamilyAnswers, Figures, Function, ask_compilers, cost_rows, functions,
     records,
 };
+use crate::emit::FunctionForm;
 use crate::fit::{error_of, inputs_of};
 use crate::ir::{Column, Value, evaluate};
 use crate::methods::{self, Contract, Light, Method};
@@ -50,8 +51,8 @@ pub fn ours(
     progress: &mut dyn FnMut(u64, u64, &str),
 ) -> Result<Vec<Ours>, Error> {
     let form = match takes_arguments {
-        true => "library",
-        false => "specialised",
+        true => FunctionForm::Library,
+        false => FunctionForm::Specialised,
     };
     let fits = |method: &&&'static Method| {
         subject.is_described_by(method)
@@ -72,7 +73,7 @@ pub fn ours(
         .filter(|(_, function)| function.form == form)
         .map(|(place, function)| Ours {
             method: function.method.name,
-            form,
+            form: form.name(),
             error: error(function, subject),
             costs: columns.iter().map(|column| column[place]).collect(),
         })
@@ -93,7 +94,7 @@ fn costs(
 /// The largest error in single precision, as a user's function has it.
 fn error(function: &Function, subject: &MaterialInMedium) -> f64 {
     let others: Vec<Value<f32>> = match function.form {
-        "library" => function
+        FunctionForm::Library => function
             .method
             .arguments(&inputs_of(subject, function.method), None),
         _ => Vec::new(),

@@ -3,7 +3,9 @@
 use std::sync::OnceLock;
 
 use crate::cost::{Dialect, Probe, REFERENCE};
-use crate::emit::{Bounds, Emitted, Error, Naming, library_functions, specialised_graph};
+use crate::emit::{
+    Bounds, Emitted, Error, FunctionForm, Naming, library_functions, specialised_graph,
+};
 use crate::ir::{Checked, Ty};
 use crate::methods::{self, Method};
 use crate::num::Precision;
@@ -18,8 +20,8 @@ pub struct Function {
     pub material: Option<String>,
     /// Its method.
     pub method: &'static Method,
-    /// `library`, `scalar` or `specialised`.
-    pub form: &'static str,
+    /// What it takes and gives.
+    pub form: FunctionForm,
     /// What it computes in.
     pub precision: Precision,
     /// The graph.
@@ -59,7 +61,7 @@ pub fn functions(
                     let made = specialised_graph(method, subject, precision, &bounds)?;
                     found.push(Function {
                         material: Some(subject.argument.clone()),
-                        ..Function::new(method, "specialised", precision, made.function)
+                        ..Function::new(method, FunctionForm::Specialised, precision, made.function)
                     });
                 }
             }
@@ -97,7 +99,7 @@ impl Function {
 
     fn new(
         method: &'static Method,
-        form: &'static str,
+        form: FunctionForm,
         precision: Precision,
         graph: Checked,
     ) -> Function {
@@ -115,7 +117,9 @@ impl Function {
 
     /// The function with which others are compared: the exact law for dielectrics, its arguments from uniforms.
     pub fn is_reference(&self) -> bool {
-        self.method.name == REFERENCE && self.form == "library" && !self.precision.is_half()
+        self.method.name == REFERENCE
+            && self.form == FunctionForm::Library
+            && !self.precision.is_half()
     }
 
     /// How many channels it gives.

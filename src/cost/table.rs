@@ -60,7 +60,7 @@ fn bare(family: &'static Family, function: &Function) -> CostRow {
     CostRow {
         method: function.method.name,
         material: function.material.clone(),
-        form: function.form,
+        form: function.form.name(),
         channels: function.channels(),
         precision: function.precision.name(),
         fetches: function.graph.fetches(),

@@ -3,45 +3,33 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::ir::{Checked, Fault, Value, evaluate};
+use crate::ir::{Checked, Value, evaluate};
 use crate::methods::Method;
-use crate::num::{Legendre, Precision};
+use crate::num::Legendre;
 
 use super::error::Error;
+use super::form::FunctionForm;
 use super::function::{Emitted, Naming, library_function};
-
-/// The form of a mean, three channels.
-pub const AVERAGE: &str = "average";
-/// The same for one channel.
-const AVERAGE_SCALAR: &str = "average_scalar";
 
 /// The means of a fitted method's library file: three channels, and one. None for other methods.
 ///
 /// # Errors
 /// A graph breaks a rule of the representation: a bug.
 pub fn average_functions(method: &'static Method, naming: &Naming) -> Result<Vec<Emitted>, Error> {
-    let forms = [(false, AVERAGE), (true, AVERAGE_SCALAR)];
-    let functions = forms.into_iter().filter_map(|(is_scalar, form)| {
+    let forms = [
+        (FunctionForm::Average, false),
+        (FunctionForm::AverageScalar, true),
+    ];
+    let functions = forms.into_iter().filter_map(|(form, is_scalar)| {
         let function = method.average_in(naming.precision, is_scalar)?;
-        let suffix = format!("_{form}");
-        Some(library_function(method, naming, &suffix, form, function))
+        Some(library_function(method, naming, form, function))
     });
     functions.collect()
 }
 
-/// What a mean of this form means; none where the form is no mean.
-pub(super) fn meaning(method: &Method, form: &str) -> Option<Result<Checked, Fault>> {
-    let is_scalar = match form {
-        AVERAGE => false,
-        AVERAGE_SCALAR => true,
-        _ => return None,
-    };
-    method.average_in(Precision::F32, is_scalar)
-}
-
 /// What the head of a file says about a mean; nothing of other functions.
 pub(super) fn mean_line(emitted: &Emitted) -> Option<String> {
-    let shape = emitted.method.shape.filter(|_| is_mean(emitted))?;
+    let shape = emitted.method.shape.filter(|_| emitted.form.is_mean())?;
     let averages = shape.averages();
     let term = |(i, average): (usize, &f64)| match i {
         0 => "c0".to_owned(),
@@ -54,11 +42,6 @@ pub(super) fn mean_line(emitted: &Emitted) -> Option<String> {
         emitted.name,
         terms.join(" + ")
     ))
-}
-
-/// Whether a function is a mean.
-pub(super) fn is_mean(emitted: &Emitted) -> bool {
-    [AVERAGE, AVERAGE_SCALAR].contains(&emitted.form)
 }
 
 /// The mean over the hemisphere of a material's fitted function, its limit to [0, 1] included, and before that limit; none for

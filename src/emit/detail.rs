@@ -15,6 +15,7 @@ use super::average::{self, Average};
 use super::bounds::CodeBound;
 use super::figures::promises_in;
 use super::file::{is_number, uniform_offsets};
+use super::form::FunctionForm;
 use super::function::Emitted;
 use super::header::{OUTPUT_LICENCE, source, table_line};
 use super::missed::MissedDetail;
@@ -85,7 +86,7 @@ struct DataDetail {
 struct FunctionDetail {
     name: String,
     method: &'static str,
-    form: &'static str,
+    form: FunctionForm,
     signature: String,
     parameters: Parameters,
     operations: usize,
@@ -255,7 +256,7 @@ fn function_detail(target: &Target, index: usize, emitted: &Emitted) -> Function
 
 fn notes(emitted: &Emitted) -> Notes {
     let method = emitted.method;
-    let is_specialised = emitted.form == "specialised";
+    let is_specialised = emitted.form == FunctionForm::Specialised;
     Notes {
         formula: method.formula,
         source: source(method),

@@ -11,6 +11,7 @@ use super::comment;
 use super::detail::{Detail, FunctionsDetail, functions_detail};
 use super::error::Error;
 use super::figures::FILTERED;
+use super::form::FunctionForm;
 use super::function::{Emitted, Naming};
 use super::header::OUTPUT_LICENCE;
 use super::heading::Heading;
@@ -173,7 +174,7 @@ pub fn lookup(
     let emitted = Emitted {
         name,
         method: methods::find("table").expect("the method of every table is registered"),
-        form: "lookup",
+        form: FunctionForm::Library,
         precision: Precision::F32,
         function,
         constants: Values::new(),

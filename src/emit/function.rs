@@ -6,10 +6,10 @@ use crate::methods::{Method, Values};
 use crate::num::Precision;
 use crate::reference::MaterialInMedium;
 
-use super::average;
 use super::bounds::{Bounds, CodeBound, PLAIN_ULP};
 use super::error::Error;
 use super::figures::FILTERED;
+use super::form::FunctionForm;
 use super::missed::{Missed, missed};
 
 /// How functions are named, by what they compute in: half precision is told by the name.
@@ -58,8 +58,8 @@ pub struct Emitted {
     pub name: String,
     /// Its method.
     pub method: &'static Method,
-    /// `library`, `scalar`, `specialised`, `average` or `average_scalar`.
-    pub form: &'static str,
+    /// What it takes and gives.
+    pub form: FunctionForm,
     /// What it computes in.
     pub precision: Precision,
     /// The graph.
@@ -85,11 +85,20 @@ impl Emitted {
     /// # Errors
     /// The graph breaks a rule of the representation: a bug.
     pub fn meaning(&self) -> Result<Checked, Fault> {
-        match (self.precision, self.form) {
-            (Precision::F32, _) => Ok(self.function.clone()),
-            (Precision::F16, "specialised") => self.method.specialise(&self.constants),
-            (Precision::F16, form) => average::meaning(self.method, form)
-                .unwrap_or_else(|| self.method.function(form == "scalar")),
+        let (method, single) = (self.method, Precision::F32);
+        if self.precision == single {
+            return Ok(self.function.clone());
+        }
+        let average = |is_scalar| {
+            let average = method.average_in(single, is_scalar);
+            average.expect("what has a mean in half precision has it in single precision")
+        };
+        match self.form {
+            FunctionForm::Library => method.function(false),
+            FunctionForm::Scalar => method.function(true),
+            FunctionForm::Specialised => method.specialise(&self.constants),
+            FunctionForm::Average => average(false),
+            FunctionForm::AverageScalar => average(true),
         }
     }
 }
@@ -99,15 +108,14 @@ impl Emitted {
 /// # Errors
 /// The method's graph breaks a rule of [`crate::ir::RULES`].
 pub fn library_functions(method: &'static Method, naming: &Naming) -> Result<Vec<Emitted>, Error> {
-    let forms: &[(bool, &str, &'static str)] =
-        &[(false, "", "library"), (true, "_scalar", "scalar")];
+    let forms = [(FunctionForm::Library, false), (FunctionForm::Scalar, true)];
     let wanted = forms
-        .iter()
-        .take(if method.has_scalar_form() { 2 } else { 1 });
+        .into_iter()
+        .filter(|(_, is_scalar)| !is_scalar || method.has_scalar_form());
     wanted
-        .map(|(scalar, suffix, form)| {
-            let function = method.function_in(naming.precision, *scalar);
-            library_function(method, naming, suffix, form, function)
+        .map(|(form, is_scalar)| {
+            let function = method.function_in(naming.precision, is_scalar);
+            library_function(method, naming, form, function)
         })
         .collect()
 }
@@ -116,8 +124,7 @@ pub fn library_functions(method: &'static Method, naming: &Naming) -> Result<Vec
 pub(super) fn library_function(
     method: &'static Method,
     naming: &Naming,
-    suffix: &str,
-    form: &'static str,
+    form: FunctionForm,
     function: Result<Checked, Fault>,
 ) -> Result<Emitted, Error> {
     let function = function.map_err(|fault| Error::Generated {
@@ -125,7 +132,7 @@ pub(super) fn library_function(
         what: fault.to_string(),
     })?;
     Ok(Emitted {
-        name: naming.name(method.name, suffix),
+        name: naming.name(method.name, &form.suffix()),
         method,
         form,
         precision: naming.precision,
@@ -235,7 +242,7 @@ pub fn specialised_function(
     Ok(Emitted {
         name: naming.specialised(method, subject),
         method,
-        form: "specialised",
+        form: FunctionForm::Specialised,
         precision: naming.precision,
         missed: missed(subject, method, error.max_abs),
         model_error: Some(error),

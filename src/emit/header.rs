@@ -10,6 +10,7 @@ use crate::targets::Target;
 use super::average::{self, Average};
 use super::comment;
 use super::figures::{code_line, missed_line, model_line, operations, promises_in};
+use super::form::FunctionForm;
 use super::function::Emitted;
 
 /// The text in the first line of every file, where the language has comments: files are recognised by it.
@@ -249,7 +250,7 @@ fn triple(values: [f64; 3]) -> String {
 
 /// Which table a specialised function reads.
 pub(super) fn table_line(emitted: &Emitted) -> Option<String> {
-    let reads = emitted.function.fetches() > 0 && emitted.form == "specialised";
+    let reads = emitted.function.fetches() > 0 && emitted.form == FunctionForm::Specialised;
     reads.then(|| {
         format!(
             "Table: as `fresnel-gen bake` writes it unless asked otherwise: {TEXELS} texels, axis rational, one row, half \

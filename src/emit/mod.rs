@@ -12,6 +12,7 @@ mod detail;
 mod error;
 mod figures;
 mod file;
+mod form;
 mod function;
 mod header;
 mod heading;
@@ -21,7 +22,7 @@ mod print;
 mod short;
 mod wgsl;
 
-pub use average::{AVERAGE, Average, average_functions};
+pub use average::{Average, average_functions};
 pub use bounds::{Bounds, CodeBound, PLAIN_ULP, fingerprint, half_record, sha256};
 pub use catalogue::{CATALOGUE, CatalogueRow, CloserFit, catalogue, methods_of};
 pub use command::{CommandLine, file_name, quoted, sight_flags, surface_flags};
@@ -30,6 +31,7 @@ pub use detail::Detail;
 pub use error::Error;
 pub use figures::{half_promise, promises};
 pub use file::{File, Place, library, lookup, material, single, uniform_offsets, written_for};
+pub use form::FunctionForm;
 pub use function::{
     Emitted, Naming, Specialised, library_functions, specialised_function, specialised_graph,
 };

@@ -9,8 +9,8 @@ use crate::ir::{Param, Ty};
 use crate::num::Precision;
 use crate::targets::{Finish, Page, Target};
 
-use super::average::AVERAGE;
 use super::error::Error;
+use super::form::FunctionForm;
 use super::function::Emitted;
 use super::{print, wgsl};
 
@@ -174,7 +174,7 @@ fn function(target: &Target, index: usize, doc: &[String], emitted: &Emitted) ->
 pub fn entry_point(index: usize, emitted: &Emitted) -> String {
     match emitted.form {
         _ if index == 0 => "main".to_owned(),
-        AVERAGE => AVERAGE.to_owned(),
+        FunctionForm::Average => emitted.form.name().to_owned(),
         _ => emitted.method.name.to_owned(),
     }
 }

@@ -175,9 +175,7 @@ fn costs(functions: &[Emitted]) -> String {
 
 /// What a mean over the hemisphere is, where there is one among the functions.
 fn mean_line(functions: &[Emitted]) -> Option<String> {
-    let mean = functions
-        .iter()
-        .find(|emitted| super::average::is_mean(emitted))?;
+    let mean = functions.iter().find(|emitted| emitted.form.is_mean())?;
     Some(format!(
         "{}: the mean of F over the hemisphere, weighted by cosine, as compensation of multiple scattering takes it",
         mean.name

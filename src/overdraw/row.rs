@@ -51,7 +51,7 @@ pub fn time_rows(
         TimeRow {
             method: emitted.method.name,
             material: function.material.clone(),
-            form: emitted.form,
+            form: emitted.form.name(),
             channels: if is_scalar { 1 } else { 3 },
             precision: emitted.precision.name(),
             figure: if is_lacking {

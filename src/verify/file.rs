@@ -2,7 +2,7 @@
 
 use std::cell::OnceCell;
 
-use crate::emit::{CodeBound, Emitted};
+use crate::emit::{CodeBound, Emitted, FunctionForm};
 use crate::fit::{self, Measured, ModelError, inputs_in};
 use crate::ir::{Column, Ty};
 use crate::materials::Channels;
@@ -134,7 +134,7 @@ fn library<'a>(subject: &'a MaterialInMedium, emitted: &Emitted) -> Case<'a> {
             promised_for(emitted, &subject.effective.channels),
         ),
         limits: limits_of(&subject.effective.channels),
-        truth: (emitted.form == "library").then_some(truth),
+        truth: (emitted.form == FunctionForm::Library).then_some(truth),
     }
 }
 

@@ -310,7 +310,7 @@ fn row_without_run(file: &PlannedFile, emitted: &Emitted) -> VerifyRow {
         target: file.target.name.to_owned(),
         method: emitted.method.name.to_owned(),
         material: None,
-        form: emitted.form.to_owned(),
+        form: emitted.form.name().to_owned(),
         precision: emitted.precision.name().to_owned(),
         function: emitted.name.clone(),
         file: page.path.clone(),

@@ -287,7 +287,7 @@ fn files(target: &'static targets::Target) -> Vec<(Emitted, Vec<u8>)> {
         for emitted in emit::library_functions(method, &naming).unwrap() {
             let one = std::slice::from_ref(&emitted);
             // A module returns a colour: it has no scalar form.
-            if target.finish != Finish::Spirv || emitted.form != "scalar" {
+            if target.finish != Finish::Spirv || emitted.form != emit::FunctionForm::Scalar {
                 let pages = emit::library(target, method, one, emit::Heading::default()).unwrap();
                 files.push((emitted, pages.into_iter().next_back().unwrap().bytes));
             }
