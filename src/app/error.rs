@@ -44,7 +44,7 @@ pub enum Error {
     },
     /// A material file with a fault.
     #[error(transparent)]
-    Material(#[from] materials::Fault),
+    Material(#[from] materials::FileFault),
     /// Emission refused.
     #[error(transparent)]
     Emit(#[from] emit::Error),

@@ -4,7 +4,7 @@ use std::fs;
 use std::io;
 use std::path::Path;
 
-use crate::materials::{self, Fault};
+use crate::materials::{self, FileFault};
 
 use super::error::Error;
 use super::request::{Materials, Source};
@@ -103,7 +103,7 @@ fn read_within(largest: u64, name: &str) -> Result<String, Error> {
         let good = &error.as_bytes()[..error.utf8_error().valid_up_to()];
         let line = good.iter().filter(|byte| **byte == b'\n').count() + 1;
         let column = good.iter().rev().take_while(|byte| **byte != b'\n').count() + 1;
-        Error::Material(Fault {
+        Error::Material(FileFault {
             file: name.to_owned(),
             line,
             column,

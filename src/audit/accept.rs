@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use crate::targets::{Compiler, DXC, GLSLANG, WGSL};
-use crate::verify::compilers::{Fault, HlslVersion, Verdict, compiled, hlsl_to_spirv};
+use crate::verify::compilers::{CompilerFault, HlslVersion, Verdict, compiled, hlsl_to_spirv};
 use crate::verify::harness::ENTRY;
 
 use super::language::Language;
@@ -15,7 +15,7 @@ pub struct Accepted {
     /// Each with its verdict.
     pub verdicts: Vec<(String, Verdict)>,
     /// What is run, where there is something to run; else why not.
-    pub code: Result<Code, Fault>,
+    pub code: Result<Code, CompilerFault>,
 }
 
 /// Asks the compilers about a whole program.
@@ -66,7 +66,7 @@ fn hlsl(program: &str) -> Accepted {
 ///
 /// # Errors
 /// The compiler is not here, or refuses it.
-pub fn module(language: Language, text: &str) -> Result<Vec<u8>, Fault> {
+pub fn module(language: Language, text: &str) -> Result<Vec<u8>, CompilerFault> {
     match language {
         Language::Hlsl => pixel(text),
         Language::Gles | Language::Wgsl => fragment(text),
@@ -77,7 +77,7 @@ pub fn module(language: Language, text: &str) -> Result<Vec<u8>, Fault> {
 ///
 /// # Errors
 /// DXC is not here, or refuses it.
-fn pixel(text: &str) -> Result<Vec<u8>, Fault> {
+fn pixel(text: &str) -> Result<Vec<u8>, CompilerFault> {
     let made = |version: usize| {
         let options = format!(
             "-T ps_6_0 -E {ENTRY} -HV {version} -spirv -fspv-target-env=vulkan1.1 -Fo OUT FILE"
@@ -91,7 +91,7 @@ fn pixel(text: &str) -> Result<Vec<u8>, Fault> {
 ///
 /// # Errors
 /// glslang is not here, or refuses it.
-fn fragment(text: &str) -> Result<Vec<u8>, Fault> {
+fn fragment(text: &str) -> Result<Vec<u8>, CompilerFault> {
     let options = format!("-V -S frag -e {ENTRY} --source-entrypoint main -o OUT FILE");
     compiled(&GLSLANG, &options, "shader.frag", text)
 }

@@ -4,7 +4,7 @@ use core::cell::RefCell;
 use core::time::Duration;
 
 use crate::process::{Error, Launch, Silence, Surroundings, Worker};
-use crate::verify::compilers::{Fault, Verdict};
+use crate::verify::compilers::{CompilerFault, Verdict};
 
 use super::accept::Accepted;
 use super::language::Language;
@@ -36,7 +36,7 @@ impl Compilers {
         let request = AuditRequest::Accept(language, program);
         let silent = |words: String| Accepted {
             verdicts: vec![(language.compiler().to_owned(), Verdict::No(words.clone()))],
-            code: Err(Fault::Refused(words)),
+            code: Err(CompilerFault::Refused(words)),
         };
         Ok(match self.ask(&request, language)? {
             Ok(AuditResponse::Accepted(accepted)) => accepted,
@@ -53,14 +53,14 @@ impl Compilers {
         &self,
         language: Language,
         shader: String,
-    ) -> Result<Result<Vec<u8>, Fault>, Error> {
+    ) -> Result<Result<Vec<u8>, CompilerFault>, Error> {
         Ok(
             match self.ask(&AuditRequest::Module(language, shader), language)? {
                 Ok(AuditResponse::Module(made)) => made,
-                Ok(_) => Err(Fault::Refused(
+                Ok(_) => Err(CompilerFault::Refused(
                     "the process answers another question".to_owned(),
                 )),
-                Err(words) => Err(Fault::Refused(words)),
+                Err(words) => Err(CompilerFault::Refused(words)),
             },
         )
     }

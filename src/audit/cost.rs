@@ -8,7 +8,7 @@ use crate::cost::{
 };
 use crate::num::Precision;
 use crate::process::{Error, Surroundings, Worker};
-use crate::verify::compilers::Fault;
+use crate::verify::compilers::CompilerFault;
 use crate::verify::naga_translation;
 
 use super::compile::Compilers;
@@ -131,10 +131,10 @@ fn ready(shader: String) -> Measured {
 }
 
 /// A module, or why there is none.
-fn module(made: Result<Vec<u8>, Fault>) -> Result<FragmentShader, String> {
+fn module(made: Result<Vec<u8>, CompilerFault>) -> Result<FragmentShader, String> {
     let module = made.map_err(|fault| match fault {
-        Fault::NotChecked(why) => why,
-        Fault::Refused(words) => placed("the shader that is measured", usize::MAX, &words),
+        CompilerFault::NotChecked(why) => why,
+        CompilerFault::Refused(words) => placed("the shader that is measured", usize::MAX, &words),
     })?;
     Ok(FragmentShader::Module(module))
 }

@@ -30,7 +30,7 @@ use crate::cost::Family;
 use crate::gpu::Uniform;
 use crate::reference::MaterialInMedium;
 use crate::spectra::Space;
-use crate::verify::compilers::{Fault, Verdict};
+use crate::verify::compilers::{CompilerFault, Verdict};
 
 use crate::process::{Pool, Surroundings};
 
@@ -100,8 +100,8 @@ impl Audit {
         };
         let ran = match code {
             Ok(code) => self.run(code, &run, &bound, subject, &surroundings)?,
-            Err(Fault::NotChecked(why)) => Err(Trouble::Absent(why)),
-            Err(Fault::Refused(words)) => Err(Trouble::Refused(String::new(), words)),
+            Err(CompilerFault::NotChecked(why)) => Err(Trouble::Absent(why)),
+            Err(CompilerFault::Refused(words)) => Err(Trouble::Refused(String::new(), words)),
         };
         self.accept(&mut accepted.verdicts, &ran);
         let (costs, rivals) = match &ran {

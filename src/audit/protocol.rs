@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use crate::gpu::{Argument, Uniform};
-use crate::verify::compilers::Fault;
+use crate::verify::compilers::CompilerFault;
 
 use super::accept::Accepted;
 use super::language::Language;
@@ -27,7 +27,7 @@ pub enum AuditResponse {
     /// What the compilers say.
     Accepted(Accepted),
     /// What the compiler has made, or why it has not.
-    Module(Result<Vec<u8>, Fault>),
+    Module(Result<Vec<u8>, CompilerFault>),
     /// It is compiled, for this device.
     Ready(String),
     /// Something is missing here.

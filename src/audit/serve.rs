@@ -70,9 +70,9 @@ fn prepare(
     }
 }
 
-fn refusal(who: &str, fault: &gpu::Fault) -> AuditResponse {
+fn refusal(who: &str, fault: &gpu::DeviceFault) -> AuditResponse {
     match fault {
-        gpu::Fault::Absent { .. } | gpu::Fault::Unable { .. } => {
+        gpu::DeviceFault::Absent { .. } | gpu::DeviceFault::Unable { .. } => {
             AuditResponse::Absent(fault.to_string())
         }
         _ => AuditResponse::Refused(who.to_owned(), fault.to_string()),

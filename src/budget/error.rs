@@ -40,7 +40,7 @@ pub enum Error {
     Function(#[from] emit::Error),
     /// A material of the catalogue has a fault.
     #[error(transparent)]
-    Material(materials::Fault),
+    Material(materials::FileFault),
 }
 
 /// The first faults, and how many more there are.

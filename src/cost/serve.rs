@@ -4,7 +4,7 @@ use std::ffi::CString;
 use std::io;
 
 use crate::emit::wgsl_to_spirv;
-use crate::gpu::{Entry, Fault, GlesCompiler, VulkanCompiler};
+use crate::gpu::{DeviceFault, Entry, GlesCompiler, VulkanCompiler};
 use crate::process::Inbox;
 
 use super::family::{Compiler, Dialect, Family};
@@ -35,7 +35,7 @@ pub fn serve(family: &Family) -> io::Result<()> {
     })
 }
 
-fn open(family: &Family) -> Result<Open, Fault> {
+fn open(family: &Family) -> Result<Open, DeviceFault> {
     match family.compiler {
         Compiler::Radv(_) => {
             let vertex = wgsl_to_spirv(WGSL_VERTEX).expect("the vertex shader is a constant");
@@ -46,7 +46,7 @@ fn open(family: &Family) -> Result<Open, Fault> {
             let major = if dialect == Dialect::Es100 { 2 } else { 3 };
             Ok(Open::Mesa(Box::new(GlesCompiler::open(major)?), dialect))
         }
-        Compiler::Operations | Compiler::None(_) => Err(Fault::Absent {
+        Compiler::Operations | Compiler::None(_) => Err(DeviceFault::Absent {
             what: format!("{} has no compiler", family.name),
             get: "none is needed".to_owned(),
         }),

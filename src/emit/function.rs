@@ -1,7 +1,7 @@
 //! A function ready to be printed: its name, its graph, and what is known of its errors.
 
 use crate::fit::{Measured, ModelError, inputs_in, model_error};
-use crate::ir::{Checked, Fault};
+use crate::ir::{BrokenRule, Checked};
 use crate::methods::{Method, Values};
 use crate::num::Precision;
 use crate::reference::MaterialInMedium;
@@ -84,7 +84,7 @@ impl Emitted {
     ///
     /// # Errors
     /// The graph breaks a rule of the representation: a bug.
-    pub fn meaning(&self) -> Result<Checked, Fault> {
+    pub fn meaning(&self) -> Result<Checked, BrokenRule> {
         let (method, single) = (self.method, Precision::F32);
         if self.precision == single {
             return Ok(self.function.clone());
@@ -125,7 +125,7 @@ pub(super) fn library_function(
     method: &'static Method,
     naming: &Naming,
     form: FunctionForm,
-    function: Result<Checked, Fault>,
+    function: Result<Checked, BrokenRule>,
 ) -> Result<Emitted, Error> {
     let function = function.map_err(|fault| Error::Generated {
         file: method.name.to_owned(),

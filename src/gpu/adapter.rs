@@ -4,7 +4,7 @@ use std::fmt;
 use std::sync::OnceLock;
 
 use super::egl;
-use super::fault::Fault;
+use super::fault::DeviceFault;
 use super::quiet::hush;
 
 /// What a device is.
@@ -134,7 +134,7 @@ fn found() -> &'static [wgpu::Adapter] {
 }
 
 /// The first adapter that is wanted.
-pub(super) fn choose(wanted: &Wanted) -> Result<&'static wgpu::Adapter, Fault> {
+pub(super) fn choose(wanted: &Wanted) -> Result<&'static wgpu::Adapter, DeviceFault> {
     let found = found();
     let there: Vec<String> = found.iter().map(|a| describe(a).to_string()).collect();
     let fits = |adapter: &wgpu::Adapter| wanted.fits(&describe(adapter));
@@ -159,7 +159,7 @@ impl Wanted {
     }
 }
 
-fn absent(wanted: &Wanted, there: &[String]) -> Fault {
+fn absent(wanted: &Wanted, there: &[String]) -> DeviceFault {
     let mut what = match &wanted.name {
         Some(name) => format!("no graphics adapter named `{name}`"),
         None => "no graphics adapter".to_owned(),
@@ -187,7 +187,7 @@ fn absent(wanted: &Wanted, there: &[String]) -> Fault {
         _ if wanted.name.is_some() => format!("there is {listed}"),
         _ => format!("there is {listed}; {install}"),
     };
-    Fault::Absent { what, get }
+    DeviceFault::Absent { what, get }
 }
 
 /// An adapter of wgpu in our words.

@@ -6,7 +6,7 @@ use pollster::block_on;
 use wgpu::{ErrorFilter, Features, PollType};
 
 use super::adapter::{Adapter, Kind, describe};
-use super::fault::Fault;
+use super::fault::DeviceFault;
 
 /// A device and its queue.
 pub(super) struct Compute {
@@ -30,13 +30,14 @@ const PATIENCE: core::time::Duration = core::time::Duration::from_secs(120);
 
 impl Compute {
     /// Opens a device on an adapter.
-    pub fn open(adapter: &wgpu::Adapter) -> Result<Compute, Fault> {
+    pub fn open(adapter: &wgpu::Adapter) -> Result<Compute, DeviceFault> {
         let descriptor = wgpu::DeviceDescriptor {
             required_features: adapter.features() & FEATURES,
             required_limits: adapter.limits(),
             ..Default::default()
         };
-        let (device, queue) = block_on(adapter.request_device(&descriptor)).map_err(Fault::lost)?;
+        let (device, queue) =
+            block_on(adapter.request_device(&descriptor)).map_err(DeviceFault::lost)?;
         let lost = Arc::new(Mutex::new(None));
         let (of_loss, of_error) = (lost.clone(), lost.clone());
         device.set_device_lost_callback(move |_, why| note(&of_loss, why));
@@ -63,7 +64,7 @@ impl Compute {
     }
 
     /// Does something, and takes up every error that it raised.
-    pub fn guarded<T>(&self, work: impl FnOnce() -> T) -> Result<T, Fault> {
+    pub fn guarded<T>(&self, work: impl FnOnce() -> T) -> Result<T, DeviceFault> {
         let filters = [
             ErrorFilter::OutOfMemory,
             ErrorFilter::Internal,
@@ -75,17 +76,17 @@ impl Compute {
         let mut errors = scopes.into_iter().rev().map(|scope| block_on(scope.pop()));
         let [validation, internal, memory] = [(); 3].map(|()| errors.next().flatten());
         if let Some(why) = memory {
-            return Err(Fault::lost(why));
+            return Err(DeviceFault::lost(why));
         }
         self.check_alive()?;
         match validation.or(internal) {
-            Some(error) => Err(Fault::refused(error)),
+            Some(error) => Err(DeviceFault::refused(error)),
             None => Ok(done),
         }
     }
 
     /// Waits for what was submitted.
-    pub fn wait(&self, submission: wgpu::SubmissionIndex) -> Result<(), Fault> {
+    pub fn wait(&self, submission: wgpu::SubmissionIndex) -> Result<(), DeviceFault> {
         let wait = PollType::Wait {
             submission_index: Some(submission),
             timeout: Some(PATIENCE),
@@ -96,15 +97,18 @@ impl Compute {
                 // Dropping them would wait for ever.
                 std::mem::forget((self.device.clone(), self.queue.clone()));
                 let seconds = PATIENCE.as_secs();
-                Err(Fault::lost(format!("no end within {seconds} seconds")))
+                Err(DeviceFault::lost(format!(
+                    "no end within {seconds} seconds"
+                )))
             }
-            Err(error) => Err(Fault::lost(error)),
+            Err(error) => Err(DeviceFault::lost(error)),
         }
     }
 
-    fn check_alive(&self) -> Result<(), Fault> {
+    fn check_alive(&self) -> Result<(), DeviceFault> {
         let lost = self.lost.lock().unwrap_or_else(PoisonError::into_inner);
-        lost.as_ref().map_or(Ok(()), |why| Err(Fault::lost(why)))
+        lost.as_ref()
+            .map_or(Ok(()), |why| Err(DeviceFault::lost(why)))
     }
 }
 

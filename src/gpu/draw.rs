@@ -10,7 +10,7 @@ use wgpu::{BufferUsages, Features};
 
 use super::adapter::Adapter;
 use super::compute::Compute;
-use super::fault::Fault;
+use super::fault::DeviceFault;
 use super::kernel;
 use super::texture::Texture;
 
@@ -59,11 +59,11 @@ struct Stamps {
 }
 
 impl Canvas {
-    pub(super) fn new(compute: &Rc<Compute>, pixels: u32) -> Result<Canvas, Fault> {
+    pub(super) fn new(compute: &Rc<Compute>, pixels: u32) -> Result<Canvas, DeviceFault> {
         let most = compute.device.limits().max_texture_dimension_2d;
         if pixels == 0 || pixels > most {
             let what = format!("a target of {pixels} pixels a side; at most {most}");
-            return Err(Fault::unable(&compute.adapter.name, what));
+            return Err(DeviceFault::unable(&compute.adapter.name, what));
         }
         let (view, stamps) = compute.guarded(|| {
             let stamps = compute.has(Features::TIMESTAMP_QUERY);
@@ -99,7 +99,7 @@ impl Canvas {
     ///
     /// # Errors
     /// It does not compile, or not for this device.
-    pub fn layer(&self, shader: &Shader) -> Result<Layer, Fault> {
+    pub fn layer(&self, shader: &Shader) -> Result<Layer, DeviceFault> {
         let compute = &*self.compute;
         let table = shader
             .texture
@@ -116,7 +116,7 @@ impl Canvas {
     ///
     /// # Errors
     /// The device does not take it.
-    pub fn record(&self, layers: &[(&Layer, u32)]) -> Result<wgpu::CommandBuffer, Fault> {
+    pub fn record(&self, layers: &[(&Layer, u32)]) -> Result<wgpu::CommandBuffer, DeviceFault> {
         let device = &self.compute.device;
         self.compute.guarded(|| {
             let mut encoder = device.create_command_encoder(&Default::default());
@@ -132,7 +132,7 @@ impl Canvas {
     ///
     /// # Errors
     /// The device is lost.
-    pub fn draw(&self, recorded: wgpu::CommandBuffer) -> Result<(), Fault> {
+    pub fn draw(&self, recorded: wgpu::CommandBuffer) -> Result<(), DeviceFault> {
         let submission = self
             .compute
             .guarded(|| self.compute.queue.submit([recorded]))?;
@@ -143,7 +143,7 @@ impl Canvas {
     ///
     /// # Errors
     /// The device is lost.
-    pub fn nanoseconds(&self) -> Result<Option<f64>, Fault> {
+    pub fn nanoseconds(&self) -> Result<Option<f64>, DeviceFault> {
         let read = |stamps: &Stamps| stamps.read(&self.compute);
         self.stamps.as_ref().map(read).transpose()
     }
@@ -205,15 +205,15 @@ impl Stamps {
     }
 
     /// The time between both; 0 where the clock stands still or runs backwards.
-    fn read(&self, compute: &Compute) -> Result<f64, Fault> {
+    fn read(&self, compute: &Compute) -> Result<f64, DeviceFault> {
         let whole = self.read.slice(..);
         compute.guarded(|| whole.map_async(wgpu::MapMode::Read, |_| {}))?;
         compute
             .device
             .poll(wgpu::PollType::Poll)
-            .map_err(Fault::lost)?;
+            .map_err(DeviceFault::lost)?;
         let ticks = {
-            let bytes = whole.get_mapped_range().map_err(Fault::lost)?;
+            let bytes = whole.get_mapped_range().map_err(DeviceFault::lost)?;
             let stamps: Vec<u64> = bytemuck::pod_collect_to_vec(&bytes);
             stamps[1].saturating_sub(stamps[0])
         };

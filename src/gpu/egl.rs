@@ -7,7 +7,7 @@ use glow::HasContext;
 use khronos_egl as egl;
 
 use super::adapter::{Adapter, Backend, Kind, OPENGL_PACKAGES};
-use super::fault::Fault;
+use super::fault::DeviceFault;
 use super::quiet::hush;
 
 pub(super) type Egl = egl::DynamicInstance<egl::EGL1_5>;
@@ -27,7 +27,7 @@ const SURFACELESS: egl::Enum = 0x31DD;
 
 impl Context {
     /// Opens a context.
-    pub fn open() -> Result<Context, Fault> {
+    pub fn open() -> Result<Context, DeviceFault> {
         hush();
         let egl = library()?;
         let display = display(egl)?;
@@ -47,9 +47,11 @@ impl Context {
     }
 
     /// Makes it current on this thread, which another may have left.
-    pub fn enter(&self) -> Result<&glow::Context, Fault> {
-        self.egl.bind_api(egl::OPENGL_ES_API).map_err(Fault::lost)?;
-        enter(self.egl, self.display, self.context).map_err(Fault::lost)?;
+    pub fn enter(&self) -> Result<&glow::Context, DeviceFault> {
+        self.egl
+            .bind_api(egl::OPENGL_ES_API)
+            .map_err(DeviceFault::lost)?;
+        enter(self.egl, self.display, self.context).map_err(DeviceFault::lost)?;
         Ok(&self.gl)
     }
 }
@@ -65,7 +67,7 @@ impl Drop for Context {
 }
 
 /// The library, loaded once and never unloaded: drivers leave handlers behind that run when the program ends.
-pub(super) fn library() -> Result<&'static Egl, Fault> {
+pub(super) fn library() -> Result<&'static Egl, DeviceFault> {
     static LIBRARY: OnceLock<Result<Egl, String>> = OnceLock::new();
     // SAFETY: a library of this name is EGL; loading it runs its initialisers.
     let load = || unsafe { Egl::load_required().map_err(|error| error.to_string()) };
@@ -73,7 +75,7 @@ pub(super) fn library() -> Result<&'static Egl, Fault> {
 }
 
 /// The display without windows, or else the default one.
-fn display(egl: &Egl) -> Result<egl::Display, Fault> {
+fn display(egl: &Egl) -> Result<egl::Display, DeviceFault> {
     let none = [egl::ATTRIB_NONE];
     // SAFETY: these displays take no pointer; that of the platform must be the default.
     unsafe {
@@ -85,7 +87,7 @@ fn display(egl: &Egl) -> Result<egl::Display, Fault> {
 }
 
 /// A context of version 3.0: without a configuration, which only surfaces need, or else with the first that fits.
-fn create(egl: &Egl, display: egl::Display) -> Result<egl::Context, Fault> {
+fn create(egl: &Egl, display: egl::Display) -> Result<egl::Context, DeviceFault> {
     let version = [
         egl::CONTEXT_MAJOR_VERSION,
         3,
@@ -107,7 +109,11 @@ fn create(egl: &Egl, display: egl::Display) -> Result<egl::Context, Fault> {
         .map_err(absent)
 }
 
-pub(super) fn enter(egl: &Egl, display: egl::Display, context: egl::Context) -> Result<(), Fault> {
+pub(super) fn enter(
+    egl: &Egl,
+    display: egl::Display,
+    context: egl::Context,
+) -> Result<(), DeviceFault> {
     egl.make_current(display, None, None, Some(context))
         .map_err(absent)
 }
@@ -136,8 +142,8 @@ pub(super) fn address(egl: &Egl, name: &str) -> *const std::ffi::c_void {
         .map_or(std::ptr::null(), |function| function as *const _)
 }
 
-pub(super) fn absent(why: impl ToString) -> Fault {
-    Fault::Absent {
+pub(super) fn absent(why: impl ToString) -> DeviceFault {
+    DeviceFault::Absent {
         what: format!("no OpenGL ES 3.0 ({})", why.to_string()),
         get: format!("on Debian install {OPENGL_PACKAGES}"),
     }

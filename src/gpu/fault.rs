@@ -2,7 +2,7 @@
 
 /// Why a shader gave no results.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
-pub enum Fault {
+pub enum DeviceFault {
     /// There is nothing to run on.
     #[error("{what}; {get}")]
     Absent {
@@ -33,22 +33,22 @@ pub enum Fault {
     },
 }
 
-impl Fault {
+impl DeviceFault {
     /// A refusal in these words.
-    pub(super) fn refused(log: impl ToString) -> Fault {
+    pub(super) fn refused(log: impl ToString) -> DeviceFault {
         let log = log.to_string().trim_end().to_owned();
-        Fault::Refused { log }
+        DeviceFault::Refused { log }
     }
 
     /// A loss for this reason.
-    pub(super) fn lost(why: impl ToString) -> Fault {
+    pub(super) fn lost(why: impl ToString) -> DeviceFault {
         let why = why.to_string();
-        Fault::Lost { why }
+        DeviceFault::Lost { why }
     }
 
     /// Something that this device lacks.
-    pub(super) fn unable(device: &str, what: impl ToString) -> Fault {
+    pub(super) fn unable(device: &str, what: impl ToString) -> DeviceFault {
         let (device, what) = (device.to_owned(), what.to_string());
-        Fault::Unable { device, what }
+        DeviceFault::Unable { device, what }
     }
 }

@@ -6,7 +6,7 @@ use std::rc::Rc;
 use glow::{HasContext, PixelUnpackData};
 
 use super::egl::Context;
-use super::fault::Fault;
+use super::fault::DeviceFault;
 use super::program::{Argument, Code, Program, Uniform, check_fit};
 use super::texture::{Texture, TextureFormat, Wrap};
 
@@ -44,10 +44,13 @@ struct Objects<'a> {
 
 impl Kernel {
     /// Compiles and links a program.
-    pub fn new(context: &Rc<Context>, program: &Program) -> Result<Kernel, Fault> {
+    pub fn new(context: &Rc<Context>, program: &Program) -> Result<Kernel, DeviceFault> {
         let Code::Gles(text) = program.code else {
             let name = &context.adapter.name;
-            return Err(Fault::unable(name, "anything but GLSL ES in OpenGL ES"));
+            return Err(DeviceFault::unable(
+                name,
+                "anything but GLSL ES in OpenGL ES",
+            ));
         };
         let gl = context.enter()?;
         Ok(Kernel {
@@ -64,10 +67,10 @@ impl Kernel {
         cosines: &[f32],
         uniforms: &[Uniform],
         texture: Option<&Texture>,
-    ) -> Result<Vec<[f32; 3]>, Fault> {
+    ) -> Result<Vec<[f32; 3]>, DeviceFault> {
         check_fit(&self.uniforms, uniforms, self.textured, texture.is_some())?;
         let gl = self.context.enter()?;
-        let objects = Objects::new(gl, cosines.len().min(BLOCK)).map_err(Fault::lost)?;
+        let objects = Objects::new(gl, cosines.len().min(BLOCK)).map_err(DeviceFault::lost)?;
         // SAFETY: the context is current, and so are all names below.
         unsafe {
             gl.use_program(Some(self.program));
@@ -145,7 +148,7 @@ impl<'a> Objects<'a> {
     }
 
     /// The same with a texture in unit 0, which is where a sampler looks unless told otherwise.
-    fn with(mut self, texture: &Texture, context: &Context) -> Result<Objects<'a>, Fault> {
+    fn with(mut self, texture: &Texture, context: &Context) -> Result<Objects<'a>, DeviceFault> {
         let gl = self.gl;
         let (internal, ty, needed) = match texture.format {
             TextureFormat::Half => (glow::RGBA16F, glow::HALF_FLOAT, None),
@@ -159,7 +162,7 @@ impl<'a> Objects<'a> {
             TextureFormat::Srgb8 => (glow::SRGB8_ALPHA8, glow::UNSIGNED_BYTE, None),
         };
         if let Some(needed) = needed.filter(|needed| !gl.supported_extensions().contains(*needed)) {
-            return Err(Fault::unable(&context.adapter.name, needed));
+            return Err(DeviceFault::unable(&context.adapter.name, needed));
         }
         let (width, height) = (texture.width as i32, texture.height()? as i32);
         let bytes = texture.bytes();
@@ -169,7 +172,7 @@ impl<'a> Objects<'a> {
         };
         // SAFETY: the context is current. Rows are whole multiples of 4 bytes, so that the bytes are as many as are read.
         unsafe {
-            let table = gl.create_texture().map_err(Fault::lost)?;
+            let table = gl.create_texture().map_err(DeviceFault::lost)?;
             self.table = Some(table);
             gl.active_texture(glow::TEXTURE0);
             gl.bind_texture(glow::TEXTURE_2D, Some(table));
@@ -239,10 +242,10 @@ impl Drop for Objects<'_> {
     }
 }
 
-fn link(gl: &glow::Context, vertex: &str) -> Result<glow::Program, Fault> {
+fn link(gl: &glow::Context, vertex: &str) -> Result<glow::Program, DeviceFault> {
     // SAFETY: the caller has made the context current.
     unsafe {
-        let program = gl.create_program().map_err(Fault::lost)?;
+        let program = gl.create_program().map_err(DeviceFault::lost)?;
         let linked = build(gl, program, vertex, FRAGMENT, || {
             gl.bind_attrib_location(program, COS_THETA, "cos_theta");
             gl.transform_feedback_varyings(program, &["reflectance"], glow::INTERLEAVED_ATTRIBS);
@@ -261,21 +264,21 @@ pub(super) unsafe fn build(
     vertex: &str,
     fragment: &str,
     bind: impl FnOnce(),
-) -> Result<(), Fault> {
+) -> Result<(), DeviceFault> {
     // SAFETY: the caller has made the context current.
     unsafe {
         for (ty, text) in [
             (glow::VERTEX_SHADER, vertex),
             (glow::FRAGMENT_SHADER, fragment),
         ] {
-            let shader = gl.create_shader(ty).map_err(Fault::lost)?;
+            let shader = gl.create_shader(ty).map_err(DeviceFault::lost)?;
             gl.attach_shader(program, shader);
             // It goes with the program.
             gl.delete_shader(shader);
             gl.shader_source(shader, text);
             gl.compile_shader(shader);
             if !gl.get_shader_compile_status(shader) {
-                return Err(Fault::refused(gl.get_shader_info_log(shader)));
+                return Err(DeviceFault::refused(gl.get_shader_info_log(shader)));
             }
         }
         bind();
@@ -283,19 +286,19 @@ pub(super) unsafe fn build(
         if gl.get_program_link_status(program) {
             Ok(())
         } else {
-            Err(Fault::refused(gl.get_program_info_log(program)))
+            Err(DeviceFault::refused(gl.get_program_info_log(program)))
         }
     }
 }
 
 /// Takes up the first error since the last time.
-fn check(gl: &glow::Context) -> Result<(), Fault> {
+fn check(gl: &glow::Context) -> Result<(), DeviceFault> {
     // SAFETY: the caller has made the context current.
     match unsafe { gl.get_error() } {
         glow::NO_ERROR => Ok(()),
-        glow::OUT_OF_MEMORY => Err(Fault::lost("out of memory")),
-        CONTEXT_LOST => Err(Fault::lost("the context was lost")),
-        error => Err(Fault::refused(format!(
+        glow::OUT_OF_MEMORY => Err(DeviceFault::lost("out of memory")),
+        CONTEXT_LOST => Err(DeviceFault::lost("the context was lost")),
+        error => Err(DeviceFault::refused(format!(
             "OpenGL ES gives error {error:#06x}"
         ))),
     }

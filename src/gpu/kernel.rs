@@ -5,7 +5,7 @@ use std::rc::Rc;
 use wgpu::{BindingType, BufferBindingType, BufferUsages, Features};
 
 use super::compute::Compute;
-use super::fault::Fault;
+use super::fault::DeviceFault;
 use super::passthrough;
 use super::program::{Code, Inputs, Program, Uniform, block, check_fit};
 use super::slot::{BLOCK, Block, Slot};
@@ -30,7 +30,11 @@ pub(super) struct Resources {
 
 impl Kernel {
     /// Compiles a program.
-    pub fn new(compute: &Rc<Compute>, program: &Program, inputs: Inputs) -> Result<Kernel, Fault> {
+    pub fn new(
+        compute: &Rc<Compute>,
+        program: &Program,
+        inputs: Inputs,
+    ) -> Result<Kernel, DeviceFault> {
         let module = module(compute, program)?;
         let (pipeline, layout) =
             compute.guarded(|| pipeline(&compute.device, &module, program, inputs))?;
@@ -52,7 +56,7 @@ impl Kernel {
         uniforms: &[Uniform],
         texture: Option<&Texture>,
         take: impl FnMut(&[[f32; 4]]),
-    ) -> Result<(), Fault> {
+    ) -> Result<(), DeviceFault> {
         let blocks = cosines.chunks(BLOCK).map(Block::Cosines);
         self.pump(blocks, uniforms, texture, take)
     }
@@ -64,7 +68,7 @@ impl Kernel {
         uniforms: &[Uniform],
         texture: Option<&Texture>,
         mut take: impl FnMut(&[[f32; 4]]),
-    ) -> Result<(), Fault> {
+    ) -> Result<(), DeviceFault> {
         check_fit(&self.uniforms, uniforms, self.textured, texture.is_some())?;
         let compute = &*self.compute;
         let resources = self.resources(uniforms, texture)?;
@@ -86,7 +90,7 @@ impl Kernel {
         &self,
         uniforms: &[Uniform],
         texture: Option<&Texture>,
-    ) -> Result<Resources, Fault> {
+    ) -> Result<Resources, DeviceFault> {
         let compute = &*self.compute;
         let block = || compute.guarded(|| uniform_block(compute, &block(uniforms)));
         let table = texture.map(|texture| table(compute, texture));
@@ -134,7 +138,7 @@ impl Kernel {
     }
 }
 
-fn module(compute: &Compute, program: &Program) -> Result<wgpu::ShaderModule, Fault> {
+fn module(compute: &Compute, program: &Program) -> Result<wgpu::ShaderModule, DeviceFault> {
     match program.code {
         Code::Wgsl(text) => compute.guarded(|| {
             compute
@@ -145,7 +149,10 @@ fn module(compute: &Compute, program: &Program) -> Result<wgpu::ShaderModule, Fa
                 })
         }),
         Code::Spirv(bytes) => passthrough::module(compute, bytes, program.entry),
-        Code::Gles(_) => Err(Fault::unable(&compute.adapter.name, "GLSL ES in compute")),
+        Code::Gles(_) => Err(DeviceFault::unable(
+            &compute.adapter.name,
+            "GLSL ES in compute",
+        )),
     }
 }
 
@@ -234,7 +241,7 @@ pub(super) fn uniform_block(compute: &Compute, bytes: &[u8]) -> wgpu::Buffer {
 pub(super) fn table(
     compute: &Compute,
     texture: &Texture,
-) -> Result<(wgpu::TextureView, wgpu::Sampler), Fault> {
+) -> Result<(wgpu::TextureView, wgpu::Sampler), DeviceFault> {
     let (format, needed) = match texture.format {
         TextureFormat::Half => (wgpu::TextureFormat::Rgba16Float, Features::empty()),
         TextureFormat::Float => (
@@ -250,7 +257,7 @@ pub(super) fn table(
     };
     if !compute.has(needed) {
         let what = format!("filter a texture of {format:?}");
-        return Err(Fault::unable(&compute.adapter.name, what));
+        return Err(DeviceFault::unable(&compute.adapter.name, what));
     }
     let size = wgpu::Extent3d {
         width: texture.width as u32,

@@ -5,7 +5,7 @@
 //! compute shaders through wgpu (Vulkan, Metal, Direct3D 12, OpenGL); GLSL ES 3.00 runs as a vertex shader in a context
 //! of just that version, with its results caught by transform feedback, exact to the bit.
 //!
-//! Nothing is linked. What is not there is a [`Fault`] that says what to install, never a result.
+//! Nothing is linked. What is not there is a [`DeviceFault`] that says what to install, never a result.
 
 mod adapter;
 mod compute;
@@ -25,7 +25,7 @@ mod vulkan_compiler;
 
 pub use adapter::{Adapter, Backend, Kind, Wanted, adapters};
 pub use draw::{Canvas, Layer, Shader};
-pub use fault::Fault;
+pub use fault::DeviceFault;
 pub use gles_compiler::GlesCompiler;
 pub use program::{Argument, Code, Program, Uniform};
 pub use stream::Stream;
@@ -61,7 +61,7 @@ impl Device {
     ///
     /// # Errors
     /// There is none, and the fault says what there is, or what to install.
-    pub fn open(wanted: &Wanted) -> Result<Device, Fault> {
+    pub fn open(wanted: &Wanted) -> Result<Device, DeviceFault> {
         if wanted.backend == Some(Backend::Gles) {
             return Device::gles();
         }
@@ -77,7 +77,7 @@ impl Device {
     ///
     /// # Errors
     /// There is none, and the fault says what to install.
-    pub fn gles() -> Result<Device, Fault> {
+    pub fn gles() -> Result<Device, DeviceFault> {
         let context = egl::Context::open()?;
         Ok(Device {
             adapter: context.adapter.clone(),
@@ -97,10 +97,13 @@ impl Device {
     ///
     /// # Errors
     /// It is larger than the device allows, or the device does not draw here: OpenGL ES does not.
-    pub fn canvas(&self, pixels: u32) -> Result<Canvas, Fault> {
+    pub fn canvas(&self, pixels: u32) -> Result<Canvas, DeviceFault> {
         match &self.stack {
             Stack::Compute(compute) => Canvas::new(compute, pixels),
-            Stack::Gles(_) => Err(Fault::unable(&self.adapter.name, "drawing in OpenGL ES")),
+            Stack::Gles(_) => Err(DeviceFault::unable(
+                &self.adapter.name,
+                "drawing in OpenGL ES",
+            )),
         }
     }
 
@@ -108,7 +111,7 @@ impl Device {
     ///
     /// # Errors
     /// It does not compile, or not for this device.
-    pub fn prepare(&self, program: &Program) -> Result<Kernel, Fault> {
+    pub fn prepare(&self, program: &Program) -> Result<Kernel, DeviceFault> {
         let prepared = match &self.stack {
             Stack::Compute(compute) => {
                 Prepared::Compute(kernel::Kernel::new(compute, program, Inputs::Cosines)?)
@@ -122,13 +125,16 @@ impl Device {
     ///
     /// # Errors
     /// It does not compile, or not for this device: OpenGL ES has no streams.
-    pub fn prepare_stream(&self, program: &Program) -> Result<Stream, Fault> {
+    pub fn prepare_stream(&self, program: &Program) -> Result<Stream, DeviceFault> {
         match &self.stack {
             Stack::Compute(compute) => {
                 let kernel = kernel::Kernel::new(compute, program, Inputs::Bits)?;
                 Ok(Stream(kernel))
             }
-            Stack::Gles(_) => Err(Fault::unable(&self.adapter.name, "a stream in OpenGL ES")),
+            Stack::Gles(_) => Err(DeviceFault::unable(
+                &self.adapter.name,
+                "a stream in OpenGL ES",
+            )),
         }
     }
 }
@@ -143,7 +149,7 @@ impl Kernel {
         cosines: &[f32],
         uniforms: &[Uniform],
         texture: Option<&Texture>,
-    ) -> Result<Vec<[f32; 3]>, Fault> {
+    ) -> Result<Vec<[f32; 3]>, DeviceFault> {
         match &self.0 {
             Prepared::Compute(kernel) => {
                 let mut results = Vec::with_capacity(cosines.len());

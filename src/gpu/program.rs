@@ -1,6 +1,6 @@
 //! What is run: one shape of program, and what it is run with.
 
-use super::Fault;
+use super::DeviceFault;
 
 /// A shader as it will be run.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -88,7 +88,7 @@ pub(super) fn check_fit(
     given: &[Uniform],
     wants_texture: bool,
     has_texture: bool,
-) -> Result<(), Fault> {
+) -> Result<(), DeviceFault> {
     let shape = |uniform: &Uniform| match uniform.value {
         Argument::Scalar(_) => format!("{}: scalar", uniform.name),
         Argument::Rgb(_) => format!("{}: rgb", uniform.name),
@@ -96,13 +96,17 @@ pub(super) fn check_fit(
     let shapes = |uniforms: &[Uniform]| uniforms.iter().map(shape).collect::<Vec<_>>().join(", ");
     let (want, got) = (shapes(wanted), shapes(given));
     if want != got {
-        return Err(Fault::refused(format!(
+        return Err(DeviceFault::refused(format!(
             "its arguments are ({want}), and it is run with ({got})"
         )));
     }
     match (wants_texture, has_texture) {
-        (true, false) => Err(Fault::refused("it reads a texture and is run with none")),
-        (false, true) => Err(Fault::refused("it reads no texture and is run with one")),
+        (true, false) => Err(DeviceFault::refused(
+            "it reads a texture and is run with none",
+        )),
+        (false, true) => Err(DeviceFault::refused(
+            "it reads no texture and is run with one",
+        )),
         _ => Ok(()),
     }
 }

@@ -5,7 +5,7 @@ use std::sync::mpsc::{Receiver, channel};
 use wgpu::{BufferUsages, CommandEncoderDescriptor, MapMode};
 
 use super::compute::Compute;
-use super::fault::Fault;
+use super::fault::DeviceFault;
 use super::kernel::{Kernel, Resources};
 use super::program::Inputs;
 
@@ -100,7 +100,7 @@ impl Slot {
         kernel: &Kernel,
         resources: &Resources,
         block: &Block,
-    ) -> Result<Flight, Fault> {
+    ) -> Result<Flight, DeviceFault> {
         let inputs = block.bytes();
         let bytes = block.points() as u64 * RESULT;
         compute.guarded(|| {
@@ -139,13 +139,15 @@ impl Slot {
         compute: &Compute,
         flight: Flight,
         take: &mut impl FnMut(&[[f32; 4]]),
-    ) -> Result<(), Fault> {
+    ) -> Result<(), DeviceFault> {
         compute.wait(flight.submission)?;
         let mapped = flight.mapped.try_recv();
-        mapped.map_err(Fault::lost)?.map_err(Fault::lost)?;
+        mapped
+            .map_err(DeviceFault::lost)?
+            .map_err(DeviceFault::lost)?;
         let view = self.readable().get_mapped_range(..flight.bytes);
-        let view = view.map_err(Fault::lost)?;
-        take(bytemuck::try_cast_slice(&view).map_err(Fault::lost)?);
+        let view = view.map_err(DeviceFault::lost)?;
+        take(bytemuck::try_cast_slice(&view).map_err(DeviceFault::lost)?);
         drop(view);
         self.readable().unmap();
         Ok(())

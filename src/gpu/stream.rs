@@ -3,7 +3,7 @@
 //! The program makes its own point, `bitcast<f32>(first + index)`, from the uniform `first` in binding 1. Two blocks are
 //! in flight: the device computes one while the other is read where it lies.
 
-use super::fault::Fault;
+use super::fault::DeviceFault;
 use super::kernel::Kernel;
 use super::program::Uniform;
 use super::slot::{BLOCK, Block};
@@ -26,7 +26,7 @@ impl Stream {
         uniforms: &[Uniform],
         texture: Option<&Texture>,
         mut take: impl FnMut(u32, &[[f32; 4]]),
-    ) -> Result<(), Fault> {
+    ) -> Result<(), DeviceFault> {
         let at = |done: u64| first.wrapping_add(done as u32);
         let blocks = (0..count).step_by(BLOCK).map(|done| Block::Bits {
             first: at(done),

@@ -2,7 +2,7 @@
 
 use half::f16;
 
-use super::Fault;
+use super::DeviceFault;
 
 /// The texels and how they are sampled.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -46,10 +46,10 @@ impl Texture<'_> {
     ///
     /// # Errors
     /// The texels are no whole rows.
-    pub(super) fn height(&self) -> Result<usize, Fault> {
+    pub(super) fn height(&self) -> Result<usize, DeviceFault> {
         let (texels, width) = (self.texels.len(), self.width);
         if width == 0 || texels == 0 || !texels.is_multiple_of(width) {
-            return Err(Fault::refused(format!(
+            return Err(DeviceFault::refused(format!(
                 "a texture of {texels} texels has no whole rows of {width}"
             )));
         }

@@ -8,7 +8,7 @@ use std::ffi::CStr;
 
 use ash::{khr, vk};
 
-use super::fault::Fault;
+use super::fault::DeviceFault;
 
 /// A device that compiles. It lives as long as the process: drivers leave threads behind.
 pub struct VulkanCompiler {
@@ -40,7 +40,7 @@ impl VulkanCompiler {
     ///
     /// # Errors
     /// There is none.
-    pub fn open(vertex: &[u8]) -> Result<VulkanCompiler, Fault> {
+    pub fn open(vertex: &[u8]) -> Result<VulkanCompiler, DeviceFault> {
         let failed = |result: vk::Result| absent(&result.to_string());
         // SAFETY: a library of this name is the Vulkan loader, and what is called through it follows Vulkan: all structures
         // live to the end of the calls that take them, and handles are those of this device.
@@ -75,10 +75,14 @@ impl VulkanCompiler {
     ///
     /// # Errors
     /// The driver refuses it, in its words.
-    pub fn measure(&self, vertex: &CStr, fragment: Entry) -> Result<Vec<(String, f64)>, Fault> {
+    pub fn measure(
+        &self,
+        vertex: &CStr,
+        fragment: Entry,
+    ) -> Result<Vec<(String, f64)>, DeviceFault> {
         // SAFETY: as in `open`; the module and the pipeline are destroyed once, when they are no longer needed.
         let told = unsafe {
-            let module = module(&self.device, fragment.module).map_err(Fault::refused)?;
+            let module = module(&self.device, fragment.module).map_err(DeviceFault::refused)?;
             let told = self
                 .pipeline(vertex, module, fragment.name)
                 .and_then(|pipeline| {
@@ -89,7 +93,7 @@ impl VulkanCompiler {
             self.device.destroy_shader_module(module, None);
             told
         };
-        told.map_err(Fault::refused)
+        told.map_err(DeviceFault::refused)
     }
 
     unsafe fn pipeline(
@@ -265,8 +269,8 @@ unsafe fn module(device: &ash::Device, bytes: &[u8]) -> Result<vk::ShaderModule,
     unsafe { device.create_shader_module(&wanted, None) }
 }
 
-fn absent(why: &str) -> Fault {
-    Fault::Absent {
+fn absent(why: &str) -> DeviceFault {
+    DeviceFault::Absent {
         what: format!("no Vulkan driver RADV ({why})"),
         get: PACKAGES.to_owned(),
     }

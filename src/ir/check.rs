@@ -34,7 +34,7 @@ pub const RULES: [&str; 9] = [
 /// A broken rule.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[error("function `{function}`, {place}: rule {rule} ({}) is broken: {what}", RULES[*rule - 1])]
-pub struct Fault {
+pub struct BrokenRule {
     /// The function.
     pub function: String,
     /// The node, argument or result.
@@ -61,7 +61,7 @@ impl Deref for Checked {
 ///
 /// # Errors
 /// A node, or the function as a whole, breaks one of [`RULES`](super::RULES).
-pub fn check(function: Function) -> Result<Checked, Fault> {
+pub fn check(function: Function) -> Result<Checked, BrokenRule> {
     check_in(Precision::F32, function)
 }
 
@@ -69,16 +69,16 @@ pub fn check(function: Function) -> Result<Checked, Fault> {
 ///
 /// # Errors
 /// A node, or the function as a whole, breaks one of [`RULES`](super::RULES).
-pub fn check_in(precision: Precision, function: Function) -> Result<Checked, Fault> {
+pub fn check_in(precision: Precision, function: Function) -> Result<Checked, BrokenRule> {
     for (id, node) in function.nodes.iter().enumerate() {
-        check_node(precision, &function, id, node).map_err(|(rule, what)| Fault {
+        check_node(precision, &function, id, node).map_err(|(rule, what)| BrokenRule {
             function: function.name.clone(),
             place: format!("node {id} ({})", node.op.info().name),
             rule,
             what,
         })?;
     }
-    check_whole(&function).map_err(|(rule, what)| Fault {
+    check_whole(&function).map_err(|(rule, what)| BrokenRule {
         function: function.name.clone(),
         place: "as a whole".to_owned(),
         rule,

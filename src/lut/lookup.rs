@@ -4,7 +4,7 @@
 //! cosine, the texture, and the row where there are several. [`Stored::lookup`](super::Stored::lookup) is what it
 //! gives.
 
-use crate::ir::{Builder, Checked, Expr, Fault, check, fold};
+use crate::ir::{BrokenRule, Builder, Checked, Expr, check, fold};
 use crate::methods::{Input, Inputs, ONLY_ROW, fetch, warped_step};
 use crate::num::Precision;
 
@@ -22,7 +22,7 @@ pub fn lookup(
     texels: usize,
     scale: Option<f32>,
     rows: usize,
-) -> Result<Checked, Fault> {
+) -> Result<Checked, BrokenRule> {
     let builder = Builder::new();
     let inputs = [
         Some(Input::TABLE),

@@ -3,7 +3,7 @@
 use include_dir::{Dir, include_dir};
 
 use super::material::Material;
-use crate::spectra::Fault;
+use crate::spectra::FileFault;
 
 static FILES: Dir = include_dir!("$CARGO_MANIFEST_DIR/data/materials");
 
@@ -34,7 +34,7 @@ pub fn source(name: &str) -> Option<&'static str> {
 /// let water = find("water").expect("the catalogue has it").expect("its file is right");
 /// assert_eq!(water.index(550.0, Extrapolate::Refuse).map(|index| index.n), Ok(1.333));
 /// ```
-pub fn find(name: &str) -> Option<Result<Material, Fault>> {
+pub fn find(name: &str) -> Option<Result<Material, FileFault>> {
     Some(Material::parse(
         &format!("data/materials/{name}.toml"),
         source(name)?,
@@ -45,6 +45,6 @@ pub fn find(name: &str) -> Option<Result<Material, Fault>> {
 ///
 /// # Errors
 /// A file of the catalogue has a fault; a test holds that none has.
-pub fn list() -> Result<Vec<Material>, Fault> {
+pub fn list() -> Result<Vec<Material>, FileFault> {
     names().into_iter().filter_map(find).collect()
 }

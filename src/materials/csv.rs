@@ -12,7 +12,7 @@
 //! or `um`, and after it come `n`, `k`, or `n,k`. A header begins a table; semicolons and tabs do for commas.
 
 use super::decimal::{Unit, clipped};
-use super::file::Fault;
+use super::file::FileFault;
 use super::page::{Page, check_text};
 use super::rows::{Columns, RowFault, Rows};
 
@@ -24,7 +24,7 @@ impl Page {
     ///
     /// # Errors
     /// The text has no table, a row is not numbers, or a wavelength or an index lies outside its limits.
-    pub fn parse_csv(file: &str, text: &str) -> Result<Page, Fault> {
+    pub fn parse_csv(file: &str, text: &str) -> Result<Page, FileFault> {
         check_text(file, text)?;
         let mut page = Page {
             file: file.to_owned(),
@@ -66,7 +66,7 @@ impl Page {
         Ok(page)
     }
 
-    fn add_table(&mut self, table: Option<Table>) -> Result<(), Fault> {
+    fn add_table(&mut self, table: Option<Table>) -> Result<(), FileFault> {
         let Some(table) = table else { return Ok(()) };
         if table.rows.is_empty() {
             let line = Line {
@@ -157,20 +157,20 @@ struct Line<'a> {
 }
 
 impl Line<'_> {
-    fn no_header(&self) -> Fault {
+    fn no_header(&self) -> FileFault {
         let found = clipped(self.text.trim());
         let what = format!("`{found}` stands before any header, which names the unit; {ALLOWED}");
         self.fault(0, what)
     }
 
-    fn in_row(&self, fault: RowFault, separator: char) -> Fault {
+    fn in_row(&self, fault: RowFault, separator: char) -> FileFault {
         let cells = self.text.split(separator).take(fault.column);
         let column = cells.map(|cell| cell.chars().count() + 1).sum();
         self.fault(column, fault.what)
     }
 
-    fn fault(&self, column: usize, what: String) -> Fault {
-        Fault {
+    fn fault(&self, column: usize, what: String) -> FileFault {
+        FileFault {
             file: self.file.to_owned(),
             line: self.number,
             column: column + 1,

@@ -34,7 +34,7 @@ use super::dispersion::Curve;
 use super::formula::{Formula, NUMBERS};
 use super::hidden::is_hidden;
 use super::material::{GREATEST, Kind, LEAST_N, Material};
-pub use crate::spectra::Fault;
+pub use crate::spectra::FileFault;
 
 type Row = Spanned<Vec<Spanned<f64>>>;
 type Rows = Spanned<Vec<Row>>;
@@ -114,7 +114,7 @@ impl Material {
     ///
     /// # Errors
     /// The text is not TOML, a field is missing or unknown, or a value lies outside its limits.
-    pub fn parse(file: &str, text: &str) -> Result<Material, Fault> {
+    pub fn parse(file: &str, text: &str) -> Result<Material, FileFault> {
         let place = Place { file, text };
         let raw: Raw = toml::from_str(text).map_err(|error| place.syntax(&error))?;
         check_name("name", &raw.name, &place)?;
@@ -222,7 +222,7 @@ fn formula_fault(formula: &Formula) -> Option<String> {
     }
 }
 
-fn check_name(field: &str, name: &Spanned<String>, place: &Place) -> Result<(), Fault> {
+fn check_name(field: &str, name: &Spanned<String>, place: &Place) -> Result<(), FileFault> {
     match name_fault(name.get_ref()) {
         None => Ok(()),
         Some(why) => {
@@ -256,7 +256,7 @@ fn is_device(name: &str) -> bool {
 }
 
 /// n and k: together in `data`, or apart.
-fn curves(raw: &Raw, place: &Place) -> Result<(Curve, Option<Curve>), Fault> {
+fn curves(raw: &Raw, place: &Place) -> Result<(Curve, Option<Curve>), FileFault> {
     let table = |rows: &Rows, field, column| Ok(pick(&place.rows(rows, field, &[NM, column])?, 1));
     let k = || raw.k.as_ref().map(|k| table(k, "k", K)).transpose();
     match (&raw.data, &raw.n, &raw.n_formula) {
@@ -281,7 +281,12 @@ fn pick(rows: &[Vec<f64>], column: usize) -> Curve {
 
 impl Place<'_> {
     /// Rows of numbers inside their columns' limits, by ascending wavelength.
-    fn rows(&self, rows: &Rows, field: &str, columns: &[Column]) -> Result<Vec<Vec<f64>>, Fault> {
+    fn rows(
+        &self,
+        rows: &Rows,
+        field: &str,
+        columns: &[Column],
+    ) -> Result<Vec<Vec<f64>>, FileFault> {
         let wanted = columns
             .iter()
             .map(|(name, ..)| *name)
@@ -312,7 +317,7 @@ impl Place<'_> {
         field: &str,
         columns: &[Column],
         wanted: &str,
-    ) -> Result<Vec<f64>, Fault> {
+    ) -> Result<Vec<f64>, FileFault> {
         if row.get_ref().len() != columns.len() {
             let found = row.get_ref().len();
             let what = format!("field `{field}`: a row of {found} numbers; it wants [{wanted}]");
@@ -331,7 +336,7 @@ impl Place<'_> {
     }
 
     /// A field without line breaks, and without what a terminal obeys.
-    fn one_line(&self, name: &str, field: &Spanned<String>) -> Result<(), Fault> {
+    fn one_line(&self, name: &str, field: &Spanned<String>) -> Result<(), FileFault> {
         let Some(hidden) = field.get_ref().chars().find(|c| is_hidden(*c)) else {
             return Ok(());
         };
@@ -346,7 +351,7 @@ impl Place<'_> {
     }
 
     /// A formula whose numbers are all there.
-    fn formula(&self, raw: &Spanned<RawFormula>) -> Result<Formula, Fault> {
+    fn formula(&self, raw: &Spanned<RawFormula>) -> Result<Formula, FileFault> {
         let fields = raw.get_ref();
         let formula = Formula {
             number: fields.number,
@@ -361,7 +366,7 @@ impl Place<'_> {
     }
 
     /// Three wavelengths in their limits.
-    fn three(&self, rgb: &Spanned<[f64; 3]>) -> Result<[f64; 3], Fault> {
+    fn three(&self, rgb: &Spanned<[f64; 3]>) -> Result<[f64; 3], FileFault> {
         let (_, low, high) = NM;
         if rgb.get_ref().iter().all(|nm| (low..=high).contains(nm)) {
             return Ok(*rgb.get_ref());
@@ -370,7 +375,7 @@ impl Place<'_> {
         Err(self.fault(rgb.span().start, what))
     }
 
-    fn syntax(&self, error: &toml::de::Error) -> Fault {
+    fn syntax(&self, error: &toml::de::Error) -> FileFault {
         let mut what = error.message().trim().replace('\n', "; ");
         if let Some(unknown) = what
             .strip_prefix("unknown field `")
@@ -384,8 +389,8 @@ impl Place<'_> {
         self.fault(error.span().map_or(0, |span| span.start), what)
     }
 
-    fn fault(&self, offset: usize, what: String) -> Fault {
-        Fault::at(self.file, self.text, offset, what)
+    fn fault(&self, offset: usize, what: String) -> FileFault {
+        FileFault::at(self.file, self.text, offset, what)
     }
 }
 

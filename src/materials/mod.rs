@@ -30,4 +30,4 @@ pub use page::Page;
 pub use read::page;
 pub use surface::{Surface, Unseen, ViewingConditions, surfaces_of};
 
-pub use crate::spectra::Fault;
+pub use crate::spectra::FileFault;

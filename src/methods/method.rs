@@ -4,7 +4,8 @@ use std::collections::BTreeMap;
 
 use crate::cite::Citation;
 use crate::ir::{
-    Builder, Checked, Expr, Fault, Function, Texels, Ty, Value, check_in, fold_in, specialise_in,
+    BrokenRule, Builder, Checked, Expr, Function, Texels, Ty, Value, check_in, fold_in,
+    specialise_in,
 };
 use crate::num::{Num, Precision};
 
@@ -217,7 +218,7 @@ impl Method {
     ///
     /// # Errors
     /// The method's graph breaks a rule of [`crate::ir::RULES`]; tests hold that none does.
-    pub fn function(&self, scalar_form: bool) -> Result<Checked, Fault> {
+    pub fn function(&self, scalar_form: bool) -> Result<Checked, BrokenRule> {
         self.function_in(Precision::F32, scalar_form)
     }
 
@@ -225,7 +226,11 @@ impl Method {
     ///
     /// # Errors
     /// The method's graph breaks a rule of [`crate::ir::RULES`]; tests hold that none does.
-    pub fn function_in(&self, precision: Precision, scalar_form: bool) -> Result<Checked, Fault> {
+    pub fn function_in(
+        &self,
+        precision: Precision,
+        scalar_form: bool,
+    ) -> Result<Checked, BrokenRule> {
         self.built(self.build, precision, scalar_form)
     }
 
@@ -234,7 +239,7 @@ impl Method {
         build: Build,
         precision: Precision,
         scalar_form: bool,
-    ) -> Result<Checked, Fault> {
+    ) -> Result<Checked, BrokenRule> {
         let builder = Builder::new();
         let inputs = Inputs::declare(&builder, self.inputs, scalar_form, precision);
         let result = build(&inputs);
@@ -249,7 +254,7 @@ impl Method {
         &self,
         precision: Precision,
         scalar_form: bool,
-    ) -> Option<Result<Checked, Fault>> {
+    ) -> Option<Result<Checked, BrokenRule>> {
         let shape = self.shape?;
         let builder = Builder::new();
         let ty = if scalar_form { Ty::Scalar } else { Ty::Rgb };
@@ -263,7 +268,7 @@ impl Method {
     ///
     /// # Errors
     /// With these constants the graph breaks a rule of [`crate::ir::RULES`]: one is not finite in f32, for example.
-    pub fn specialise(&self, values: &Values) -> Result<Checked, Fault> {
+    pub fn specialise(&self, values: &Values) -> Result<Checked, BrokenRule> {
         self.specialise_in(Precision::F32, values)
     }
 
@@ -271,7 +276,11 @@ impl Method {
     ///
     /// # Errors
     /// With these constants the graph breaks a rule of [`crate::ir::RULES`]: one is not finite in this precision, for example.
-    pub fn specialise_in(&self, precision: Precision, values: &Values) -> Result<Checked, Fault> {
+    pub fn specialise_in(
+        &self,
+        precision: Precision,
+        values: &Values,
+    ) -> Result<Checked, BrokenRule> {
         if let Some((method, values)) = self.better(values) {
             return method.specialise_in(precision, &values);
         }
@@ -280,7 +289,7 @@ impl Method {
     }
 
     /// The plain form with these constants folded in, where the method has one; single precision.
-    pub fn specialise_plain(&self, values: &Values) -> Option<Result<Checked, Fault>> {
+    pub fn specialise_plain(&self, values: &Values) -> Option<Result<Checked, BrokenRule>> {
         if let Some((method, values)) = self.better(values) {
             return method.specialise_plain(&values);
         }

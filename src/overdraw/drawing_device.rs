@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use crate::gpu::{
-    Backend, Canvas, Device, Fault, Kind, Layer, Shader, Texture, TextureFormat, Wanted, Wrap,
+    Backend, Canvas, Device, DeviceFault, Kind, Layer, Shader, Texture, TextureFormat, Wanted, Wrap,
 };
 
 use super::clock::timed;
@@ -42,13 +42,13 @@ impl DeviceFacts {
 }
 
 /// The device that is wanted. OpenGL draws as well as the others, so it is taken where nothing else is there.
-fn open(wanted: &Wanted) -> Result<Device, Fault> {
+fn open(wanted: &Wanted) -> Result<Device, DeviceFault> {
     let opengl = Wanted {
         backend: Some(Backend::OpenGl),
         ..wanted.clone()
     };
     match Device::open(wanted) {
-        Err(fault @ Fault::Absent { .. }) if wanted.backend.is_none() => {
+        Err(fault @ DeviceFault::Absent { .. }) if wanted.backend.is_none() => {
             Device::open(&opengl).map_err(|_| fault)
         }
         opened => opened,
@@ -71,7 +71,7 @@ impl<'a> DrawingDevice<'a> {
         plan: &'a DrawingPlan,
         wanted: &Wanted,
         size: Option<u32>,
-    ) -> Result<DrawingDevice<'a>, Fault> {
+    ) -> Result<DrawingDevice<'a>, DeviceFault> {
         let device = open(wanted)?;
         let usual = match device.adapter.kind {
             Kind::Software => ON_A_PROCESSOR,
@@ -101,7 +101,7 @@ impl<'a> DrawingDevice<'a> {
     ///
     /// # Errors
     /// The device does not take it, or is lost.
-    pub fn draw(&mut self, drawing: usize, draws: u32) -> Result<Reading, Fault> {
+    pub fn draw(&mut self, drawing: usize, draws: u32) -> Result<Reading, DeviceFault> {
         self.compile(DrawingPlan::HEAVY)?;
         self.compile(drawing)?;
         let layer = |place: usize| self.layers[place].as_ref();
@@ -119,7 +119,7 @@ impl<'a> DrawingDevice<'a> {
         })
     }
 
-    fn compile(&mut self, place: usize) -> Result<(), Fault> {
+    fn compile(&mut self, place: usize) -> Result<(), DeviceFault> {
         if self.layers[place].is_none() {
             self.layers[place] = Some(layer(&self.canvas, &self.plan.drawings[place])?);
         }
@@ -127,7 +127,7 @@ impl<'a> DrawingDevice<'a> {
     }
 }
 
-fn layer(canvas: &Canvas, drawing: &Drawing) -> Result<Layer, Fault> {
+fn layer(canvas: &Canvas, drawing: &Drawing) -> Result<Layer, DeviceFault> {
     let texels: Option<Vec<[f32; 4]>> = drawing.table.as_ref().map(|table| {
         let texels = table.texels.iter();
         texels.map(|[r, g, b]| [*r, *g, *b, 1.0]).collect()

@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::gpu::Fault;
+use crate::gpu::DeviceFault;
 
 use super::drawing_device::DeviceFacts;
 use super::measure::Reading;
@@ -34,10 +34,12 @@ pub enum DrawResponse {
     Failed(String),
 }
 
-impl From<Fault> for DrawResponse {
-    fn from(fault: Fault) -> DrawResponse {
+impl From<DeviceFault> for DrawResponse {
+    fn from(fault: DeviceFault) -> DrawResponse {
         match fault {
-            Fault::Absent { .. } | Fault::Unable { .. } => DrawResponse::Absent(fault.to_string()),
+            DeviceFault::Absent { .. } | DeviceFault::Unable { .. } => {
+                DrawResponse::Absent(fault.to_string())
+            }
             _ => DrawResponse::Failed(fault.to_string()),
         }
     }

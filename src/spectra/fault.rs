@@ -3,7 +3,7 @@
 /// A fault in a file, as `file:line:column: what`.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("{file}:{line}:{column}: {what}")]
-pub struct Fault {
+pub struct FileFault {
     /// The file, as the user named it.
     pub file: String,
     /// From 1.
@@ -14,11 +14,11 @@ pub struct Fault {
     pub what: String,
 }
 
-impl Fault {
+impl FileFault {
     /// A fault at an offset of a text, in bytes: line and column are counted there.
-    pub fn at(file: &str, text: &str, offset: usize, what: String) -> Fault {
+    pub fn at(file: &str, text: &str, offset: usize, what: String) -> FileFault {
         let before = text.get(..offset).unwrap_or("");
-        Fault {
+        FileFault {
             file: file.to_owned(),
             line: before.matches('\n').count() + 1,
             column: before.rsplit('\n').next().unwrap_or("").chars().count() + 1,

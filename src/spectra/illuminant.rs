@@ -10,7 +10,7 @@
 
 use std::sync::LazyLock;
 
-use super::fault::Fault;
+use super::fault::FileFault;
 use super::spectrum::Spectrum;
 use super::table::{Row, rows};
 use super::wavelength::{FIRST_NM, LAST_NM, Step};
@@ -85,10 +85,10 @@ impl Illuminant {
     ///
     /// # Errors
     /// The text is not a table of two columns, a value lies outside its limits, or the table does not cover 380 to 780 nm.
-    pub fn parse(file: &str, text: &str) -> Result<Illuminant, Fault> {
+    pub fn parse(file: &str, text: &str) -> Result<Illuminant, FileFault> {
         let rows = rows(file, text, COLUMNS)?;
         if let Some((line, what)) = range_fault(&rows) {
-            return Err(Fault {
+            return Err(FileFault {
                 file: file.to_owned(),
                 line,
                 column: 1,

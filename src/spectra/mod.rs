@@ -27,7 +27,7 @@ mod wavelength;
 pub use adaptation::{Adaptation, bradford};
 pub use colour_error::colour_error;
 pub use difference::{Lab, ciede2000};
-pub use fault::Fault;
+pub use fault::FileFault;
 pub use gamut::Gamut;
 pub use illuminant::Illuminant;
 pub use integration::Integration;

@@ -9,7 +9,7 @@
 //! Numbers are separated by semicolons, or by commas, or by spaces and tabs: by the first of the three that stands in
 //! the line, so that a decimal comma beside semicolons is found and told.
 
-use super::fault::Fault;
+use super::fault::FileFault;
 
 /// The wavelengths that a table may hold, in nm: 1 nm to 1 mm covers all of optics.
 const LEAST_NM: f64 = 1.0;
@@ -31,7 +31,7 @@ pub(super) fn rows<const N: usize>(
     file: &str,
     text: &str,
     columns: [&str; N],
-) -> Result<Vec<Row<N>>, Fault> {
+) -> Result<Vec<Row<N>>, FileFault> {
     let mut rows: Vec<Row<N>> = Vec::new();
     let mut names_seen = false;
     for (index, line) in text.trim_start_matches('\u{feff}').lines().enumerate() {
@@ -44,7 +44,7 @@ pub(super) fn rows<const N: usize>(
             continue;
         }
         let before = rows.last().map(|row| row.values[0]);
-        let values = numbers(&fields, columns, before).map_err(|(offset, what)| Fault {
+        let values = numbers(&fields, columns, before).map_err(|(offset, what)| FileFault {
             file: file.to_owned(),
             line: index + 1,
             column: line[..offset].chars().count() + 1,
@@ -56,7 +56,7 @@ pub(super) fn rows<const N: usize>(
         });
     }
     if rows.is_empty() {
-        return Err(Fault {
+        return Err(FileFault {
             file: file.to_owned(),
             line: text.lines().count().max(1),
             column: 1,
@@ -157,7 +157,7 @@ fn number(text: &str, name: &str, is_wavelength: bool) -> Result<f64, String> {
 mod tests {
     use super::*;
 
-    fn read(text: &str) -> Result<Vec<[f64; 2]>, Fault> {
+    fn read(text: &str) -> Result<Vec<[f64; 2]>, FileFault> {
         let rows = rows("lamp.csv", text, ["nm", "power"])?;
         Ok(rows.into_iter().map(|row| row.values).collect())
     }

@@ -4,7 +4,7 @@ use crate::emit::Emitted;
 use crate::fit::Measured;
 use crate::reference::MaterialInMedium;
 use crate::targets::Stack;
-use crate::verify::run::{Devices, ExecutionPath, Fault, ShippedFunction};
+use crate::verify::run::{Devices, ExecutionPath, RunFault, ShippedFunction};
 use crate::verify::{Trial, WITHIN, count, sweep};
 
 use super::error::Error;
@@ -65,11 +65,11 @@ fn run(
     emitted: &Emitted,
     devices: &Devices,
     progress: Progress,
-) -> (Result<Run, Fault>, f64) {
+) -> (Result<Run, RunFault>, f64) {
     let trial: Trial = specialised(subject, emitted).trial;
     if trial.table.is_some() {
         let why = "a texture is filtered in steps: a sample tells all";
-        return (Err(Fault::Absent(why.to_owned())), 0.0);
+        return (Err(RunFault::Absent(why.to_owned())), 0.0);
     }
     let shown = ShippedFunction {
         target: file.target,

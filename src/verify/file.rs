@@ -11,7 +11,7 @@ use crate::num::Precision;
 use crate::reference::{MaterialInMedium, ReferenceCurve};
 use crate::targets::Stack;
 use crate::verify::compilers::{self, Verdict};
-use crate::verify::run::{Devices, ExecutionPath, Fault, Runnable, ShippedFunction};
+use crate::verify::run::{Devices, ExecutionPath, RunFault, Runnable, ShippedFunction};
 use crate::verify::{
     Outcome, Trial, beyond, cosines_around, limits, nearest_half, share, worst_cases, worst_cosines,
 };
@@ -217,7 +217,7 @@ struct Tried<'a> {
     devices: &'a Devices,
     effort: Effort,
     /// The text compiled for running, once for all cases.
-    own: OnceCell<Result<Runnable, Fault>>,
+    own: OnceCell<Result<Runnable, RunFault>>,
 }
 
 impl<'a> Tried<'a> {
@@ -252,7 +252,7 @@ impl<'a> Tried<'a> {
         let paths = ExecutionPath::all_for(self.file.target, self.emitted.precision);
         // Other paths are second opinions on the text: one material tells.
         let paths = if is_first { paths } else { &paths[..1] };
-        let runs: Vec<(ExecutionPath, Result<Run, Fault>)> = paths
+        let runs: Vec<(ExecutionPath, Result<Run, RunFault>)> = paths
             .iter()
             .map(|path| (*path, self.run(case, *path)))
             .collect();
@@ -266,14 +266,14 @@ impl<'a> Tried<'a> {
         .verify_row()
     }
 
-    fn run(&self, case: &Case, path: ExecutionPath) -> Result<Run, Fault> {
+    fn run(&self, case: &Case, path: ExecutionPath) -> Result<Run, RunFault> {
         let page = self.file.run_page();
         if let (Some(fault), true) = (self.untrusted(), path == ExecutionPath::Own) {
             return Err(fault);
         }
         if let Some(holds_loop) = &page.holds_loop {
             let why = format!("{holds_loop}, which no function of ours does, and is not run");
-            return Err(Fault::Failed(why));
+            return Err(RunFault::Failed(why));
         }
         let shown = ShippedFunction {
             target: self.file.target,
@@ -285,7 +285,7 @@ impl<'a> Tried<'a> {
         let runnable = if path == ExecutionPath::Own {
             let compiled = || self.devices.prepare(&shown, path, &case.trial);
             let own = self.own.get_or_init(compiled);
-            own.as_ref().map_err(Fault::clone)?
+            own.as_ref().map_err(RunFault::clone)?
         } else {
             other = self.devices.prepare(&shown, path, &case.trial)?;
             &other
@@ -324,7 +324,7 @@ impl<'a> Tried<'a> {
     }
 
     /// A module that is not ours may do anything to a driver, unless a validator has looked at it.
-    fn untrusted(&self) -> Option<Fault> {
+    fn untrusted(&self) -> Option<RunFault> {
         let page = self.file.run_page();
         if !matches!(self.file.target.stack, Stack::SpirvModule)
             || page.is_current
@@ -342,8 +342,8 @@ impl<'a> Tried<'a> {
             .iter()
             .find(|(_, verdict)| *verdict != Verdict::Yes)?;
         Some(match refusal {
-            (name, Verdict::No(words)) => Fault::Failed(format!("{name}: {words}")),
-            (name, _) => Fault::Absent(format!(
+            (name, Verdict::No(words)) => RunFault::Failed(format!("{name}: {words}")),
+            (name, _) => RunFault::Absent(format!(
                 "it is not what would be written today, and no {name} is here to say that it is safe to run"
             )),
         })
@@ -355,7 +355,7 @@ impl<'a> Tried<'a> {
         runnable: &Runnable,
         case: &Case,
         truth: &ReferenceCurve,
-    ) -> Result<ModelError, Fault> {
+    ) -> Result<ModelError, RunFault> {
         let fault = OnceCell::new();
         let error = fit::error_of(truth, &|cosines| {
             let single: Vec<f32> = cosines.iter().map(|c| *c as f32).collect();

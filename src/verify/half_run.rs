@@ -4,7 +4,7 @@
 use crate::fit::Measured;
 use crate::methods::Contract;
 use crate::num::Num;
-use crate::verify::run::{Fault, Runnable, ShippedFunction};
+use crate::verify::run::{RunFault, Runnable, ShippedFunction};
 use crate::verify::{HalfError, HalfTrial, Outcome, Trial, halves, halves_beyond, result_range};
 
 use super::judge::{HalfRun, Run};
@@ -18,10 +18,10 @@ pub(super) fn run_in_half(
     runnable: &Runnable,
     shown: &ShippedFunction,
     trial: &Trial,
-) -> Result<Run, Fault> {
+) -> Result<Run, RunFault> {
     let emitted = shown.function;
     let meaning = emitted.meaning();
-    let meaning = meaning.map_err(|fault| Fault::Failed(fault.to_string()))?;
+    let meaning = meaning.map_err(|fault| RunFault::Failed(fault.to_string()))?;
     let half = HalfTrial {
         function: &emitted.function,
         meaning: &meaning,

@@ -10,7 +10,7 @@ use super::row::{
     AllowedAbsolute, AllowedError, AllowedUlp, Answer, CodeErrorFigures, Emulation,
     ModelErrorFigures, SecondOpinion, Status, VerifyRow, finite,
 };
-use super::run::{ExecutionPath, Fault};
+use super::run::{ExecutionPath, RunFault};
 use super::{HalfError, Miss, Outcome};
 
 /// What came of running a function by one execution path.
@@ -77,7 +77,7 @@ pub struct Ran<'a> {
     /// What compilers say of the file.
     pub accepts: &'a [(&'static str, Verdict)],
     /// Each execution path: its own first.
-    pub runs: &'a [(ExecutionPath, Result<Run, Fault>)],
+    pub runs: &'a [(ExecutionPath, Result<Run, RunFault>)],
 }
 
 /// What a run came to.
@@ -144,12 +144,12 @@ impl Ran<'_> {
     }
 
     /// A run, and what to think of it.
-    fn judged(&self, path: ExecutionPath, run: &Result<Run, Fault>) -> Judged {
+    fn judged(&self, path: ExecutionPath, run: &Result<Run, RunFault>) -> Judged {
         let run = match run {
-            Err(Fault::Absent(why)) => {
+            Err(RunFault::Absent(why)) => {
                 return Judged::without_figures(Status::NotChecked, why.clone());
             }
-            Err(Fault::Failed(why)) => {
+            Err(RunFault::Failed(why)) => {
                 let why = format!("{}: {}: {why}", self.page().path, self.emitted.name);
                 return Judged::without_figures(Status::Fail, why);
             }

@@ -26,7 +26,7 @@ use crate::gpu::{
 
 /// Why nothing was run.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
-pub enum Fault {
+pub enum RunFault {
     /// Something is missing here: not checked.
     #[error("{0}")]
     Absent(String),
@@ -35,22 +35,22 @@ pub enum Fault {
     Failed(String),
 }
 
-impl From<gpu::Fault> for Fault {
-    fn from(fault: gpu::Fault) -> Fault {
+impl From<gpu::DeviceFault> for RunFault {
+    fn from(fault: gpu::DeviceFault) -> RunFault {
         match fault {
-            gpu::Fault::Absent { .. } | gpu::Fault::Unable { .. } => {
-                Fault::Absent(fault.to_string())
+            gpu::DeviceFault::Absent { .. } | gpu::DeviceFault::Unable { .. } => {
+                RunFault::Absent(fault.to_string())
             }
-            _ => Fault::Failed(fault.to_string()),
+            _ => RunFault::Failed(fault.to_string()),
         }
     }
 }
 
-impl From<compilers::Fault> for Fault {
-    fn from(fault: compilers::Fault) -> Fault {
+impl From<compilers::CompilerFault> for RunFault {
+    fn from(fault: compilers::CompilerFault) -> RunFault {
         match fault {
-            compilers::Fault::NotChecked(why) => Fault::Absent(why),
-            compilers::Fault::Refused(words) => Fault::Failed(words),
+            compilers::CompilerFault::NotChecked(why) => RunFault::Absent(why),
+            compilers::CompilerFault::Refused(words) => RunFault::Failed(words),
         }
     }
 }
@@ -58,8 +58,8 @@ impl From<compilers::Fault> for Fault {
 /// The devices of a run, each opened when it is first needed.
 pub struct Devices {
     wanted: Wanted,
-    compute: OnceCell<Result<Device, gpu::Fault>>,
-    gles: OnceCell<Result<Device, gpu::Fault>>,
+    compute: OnceCell<Result<Device, gpu::DeviceFault>>,
+    gles: OnceCell<Result<Device, gpu::DeviceFault>>,
 }
 
 /// How a target's text is run.
@@ -144,7 +144,7 @@ impl Devices {
     ///
     /// # Errors
     /// There is none.
-    pub fn compute(&self) -> Result<&Device, Fault> {
+    pub fn compute(&self) -> Result<&Device, RunFault> {
         let opened = self.compute.get_or_init(|| Device::open(&self.wanted));
         opened.as_ref().map_err(|fault| fault.clone().into())
     }
@@ -153,7 +153,7 @@ impl Devices {
     ///
     /// # Errors
     /// There is none.
-    pub fn gles(&self) -> Result<&Device, Fault> {
+    pub fn gles(&self) -> Result<&Device, RunFault> {
         let opened = self.gles.get_or_init(Device::gles);
         opened.as_ref().map_err(|fault| fault.clone().into())
     }
@@ -162,7 +162,7 @@ impl Devices {
     ///
     /// # Errors
     /// There is none.
-    pub fn device_for(&self, target: &Target, path: ExecutionPath) -> Result<&Device, Fault> {
+    pub fn device_for(&self, target: &Target, path: ExecutionPath) -> Result<&Device, RunFault> {
         if matches!(target.stack, Stack::OpenGlEs(_)) || path == ExecutionPath::NagaGles {
             self.gles()
         } else {
@@ -179,7 +179,7 @@ impl Devices {
         shown: &ShippedFunction,
         path: ExecutionPath,
         trial: &Trial,
-    ) -> Result<Runnable, Fault> {
+    ) -> Result<Runnable, RunFault> {
         let emitted = shown.function;
         let call = Call::to_emitted(emitted);
         let device = self.device_for(shown.target, path)?;
@@ -208,8 +208,8 @@ impl Devices {
         if let Stack::SpirvModule = shown.target.stack {
             return ready(Code::Spirv(shown.bytes), shown.entry, false);
         }
-        let text =
-            std::str::from_utf8(shown.bytes).map_err(|fault| Fault::Failed(fault.to_string()))?;
+        let text = std::str::from_utf8(shown.bytes)
+            .map_err(|fault| RunFault::Failed(fault.to_string()))?;
         let shader = harness::program(shown.target, text, &call);
         let shader = shader.ok_or_else(|| not_run(shown.target))?;
         match (shown.target.stack, path) {
@@ -235,19 +235,19 @@ impl Devices {
 }
 
 /// Whether a device computes in what a function asks for.
-fn not_run(target: &Target) -> Fault {
+fn not_run(target: &Target) -> RunFault {
     let name = target.name;
-    Fault::Absent(format!(
+    RunFault::Absent(format!(
         "{name} cannot be run here: it is read again and compiled only"
     ))
 }
 
-fn check_able(device: &Device, emitted: &Emitted) -> Result<(), Fault> {
+fn check_able(device: &Device, emitted: &Emitted) -> Result<(), RunFault> {
     if !emitted.precision.is_half() || device.has_half() {
         return Ok(());
     }
     let lacks = "has no 16-bit arithmetic in shaders (shader-f16, shaderFloat16)";
-    Err(Fault::Absent(format!("{} {lacks}", device.adapter)))
+    Err(RunFault::Absent(format!("{} {lacks}", device.adapter)))
 }
 
 /// The arguments of a trial by name, as a target's harness names them.
@@ -275,7 +275,7 @@ impl Runnable {
     ///
     /// # Errors
     /// The device fails.
-    pub fn run(&self, trial: &Trial, cosines: &[f32]) -> Result<Vec<[f32; 3]>, Fault> {
+    pub fn run(&self, trial: &Trial, cosines: &[f32]) -> Result<Vec<[f32; 3]>, RunFault> {
         let uniforms = if self.is_bound {
             Vec::new()
         } else {

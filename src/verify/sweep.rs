@@ -10,7 +10,7 @@ use std::sync::Mutex;
 use super::code_error::{ABSOLUTE_FLOOR, CodeError};
 use super::harness;
 use super::points::{WITHIN, cosines};
-use super::run::{Devices, Fault, ShippedFunction};
+use super::run::{Devices, RunFault, ShippedFunction};
 use super::trial::{Outcome, TEXTBOOK_FROM, Trial, result_range};
 use crate::fit::Measured;
 use crate::gpu::{Code, Program};
@@ -30,8 +30,8 @@ pub fn sweep(
     shown: &ShippedFunction,
     trial: &Trial,
     progress: &mut dyn FnMut(u64),
-) -> Result<Outcome, Fault> {
-    let text = std::str::from_utf8(shown.bytes).map_err(|why| Fault::Failed(why.to_string()))?;
+) -> Result<Outcome, RunFault> {
+    let text = std::str::from_utf8(shown.bytes).map_err(|why| RunFault::Failed(why.to_string()))?;
     let call = harness::Call::to_emitted(shown.function);
     let stream = devices.compute()?.prepare_stream(&Program {
         code: Code::Wgsl(&harness::stream(text, &call)),

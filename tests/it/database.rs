@@ -9,13 +9,13 @@ use std::sync::OnceLock;
 
 use fresnel_gen::app::source;
 use fresnel_gen::fit::{PageOutcome, survey_page};
-use fresnel_gen::materials::{Curve, Extrapolate, Fault, Material, Page, ViewingConditions};
+use fresnel_gen::materials::{Curve, Extrapolate, FileFault, Material, Page, ViewingConditions};
 use fresnel_gen::spectra::Gamut;
 
 /// A page by its path from its shelf on, and what became of it.
 struct Read {
     path: String,
-    page: Result<Page, Fault>,
+    page: Result<Page, FileFault>,
 }
 
 fn root() -> PathBuf {
@@ -88,7 +88,7 @@ fn every_page_is_read_or_refused_with_its_reason() {
     let Some(pages) = pages() else { return };
     let mut reasons: BTreeMap<String, usize> = BTreeMap::new();
     for Read { path, page } in pages {
-        let read = page.as_ref().map_err(Fault::clone);
+        let read = page.as_ref().map_err(FileFault::clone);
         let what = match read.and_then(|page| page.material(None)) {
             Ok(_) => "read".to_owned(),
             Err(fault) => fault.what,

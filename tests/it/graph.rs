@@ -2,7 +2,7 @@
 
 use fresnel_gen::fit;
 use fresnel_gen::ir::{
-    Checked, Fault, Function, Label, Op, Payload, Ty, Value, check, evaluate, parse, print,
+    BrokenRule, Checked, Function, Label, Op, Payload, Ty, Value, check, evaluate, parse, print,
 };
 use fresnel_gen::methods;
 use fresnel_gen::num::{Dd, Half, Num, Precision};
@@ -101,7 +101,7 @@ fn a_text_that_is_wrong_names_its_line() {
     }
 }
 
-fn mutated(change: impl Fn(&mut Function)) -> Fault {
+fn mutated(change: impl Fn(&mut Function)) -> BrokenRule {
     let good = parse(
         "fn f(x: scalar, y: rgb) -> rgb\n  a = add x 1\n  b = mul a y\n  c = div b a\n  return c",
     )

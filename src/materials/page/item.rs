@@ -4,7 +4,7 @@ use serde_saphyr::{Location, Spanned};
 
 use super::material::GUESS_NM;
 use super::yaml::{self, RawItem};
-use crate::materials::Fault;
+use crate::materials::FileFault;
 use crate::materials::decimal::{self, Unit, clipped};
 use crate::materials::dispersion::Curve;
 use crate::materials::file::MOST_COEFFICIENTS;
@@ -27,8 +27,8 @@ pub fn read(
     file: &str,
     text: &str,
     data: Option<Vec<Spanned<RawItem>>>,
-) -> Result<Vec<Item>, Fault> {
-    let whole = |what: &str| Fault {
+) -> Result<Vec<Item>, FileFault> {
+    let whole = |what: &str| FileFault {
         file: file.to_owned(),
         line: 1,
         column: 1,
@@ -53,7 +53,7 @@ struct Source<'a> {
 type Field<'a> = Option<&'a Spanned<String>>;
 
 impl Source<'_> {
-    fn item(&self, item: &Spanned<RawItem>) -> Result<Item, Fault> {
+    fn item(&self, item: &Spanned<RawItem>) -> Result<Item, FileFault> {
         let raw = &item.value;
         let Some(kind) = &raw.kind else {
             let what = format!("an item of DATA without `type`; allowed: {ALLOWED}");
@@ -74,7 +74,7 @@ impl Source<'_> {
         self.table(columns, kind, raw)
     }
 
-    fn unknown(&self, kind: &Spanned<String>) -> Fault {
+    fn unknown(&self, kind: &Spanned<String>) -> FileFault {
         let found = clipped(&kind.value);
         self.fault(
             kind.defined,
@@ -87,7 +87,7 @@ impl Source<'_> {
         columns: Columns,
         kind: &Spanned<String>,
         raw: &RawItem,
-    ) -> Result<Item, Fault> {
+    ) -> Result<Item, FileFault> {
         let mut rows = Rows::new(columns, Unit::Um);
         if let Some(data) = &raw.data {
             let lines = data.value.lines().enumerate();
@@ -113,7 +113,12 @@ impl Source<'_> {
         Ok(Item { n, k, remarks })
     }
 
-    fn formula(&self, kind: &Spanned<String>, number: &str, raw: &RawItem) -> Result<Item, Fault> {
+    fn formula(
+        &self,
+        kind: &Spanned<String>,
+        number: &str,
+        raw: &RawItem,
+    ) -> Result<Item, FileFault> {
         let Some(number) = number
             .parse()
             .ok()
@@ -140,7 +145,7 @@ impl Source<'_> {
         })
     }
 
-    fn range(&self, kind: &Spanned<String>, field: Field) -> Result<(f64, f64), Fault> {
+    fn range(&self, kind: &Spanned<String>, field: Field) -> Result<(f64, f64), FileFault> {
         let wanted = "the shortest and the longest wavelength in micrometres";
         let missing = format!("`{}` without `wavelength_range`: {wanted}", kind.value);
         let field = field.ok_or_else(|| self.fault(kind.defined, missing))?;
@@ -164,7 +169,7 @@ impl Source<'_> {
         Err(self.fault(field.defined, what))
     }
 
-    fn coefficients(&self, kind: &Spanned<String>, field: Field) -> Result<Vec<f64>, Fault> {
+    fn coefficients(&self, kind: &Spanned<String>, field: Field) -> Result<Vec<f64>, FileFault> {
         let missing = format!("`{}` without `coefficients`", kind.value);
         let field = field.ok_or_else(|| self.fault(kind.defined, missing))?;
         let said = |why| self.fault(field.defined, format!("`coefficients`: {why}"));
@@ -180,7 +185,7 @@ impl Source<'_> {
     }
 
     /// The place of a fault in a row of a block of text, where the block's lines are the file's; else the block's own.
-    fn in_row(&self, data: &Spanned<String>, at: usize, row: &str, fault: RowFault) -> Fault {
+    fn in_row(&self, data: &Spanned<String>, at: usize, row: &str, fault: RowFault) -> FileFault {
         // The block is placed at its first line that is not empty.
         let empty = data.value.lines().take_while(|line| line.trim().is_empty());
         let number = (data.defined.line() as usize + at).saturating_sub(empty.count());
@@ -194,7 +199,7 @@ impl Source<'_> {
         }
         let token = line.split_whitespace().nth(fault.column).unwrap_or(line);
         let before = token.as_ptr() as usize - line.as_ptr() as usize;
-        Fault {
+        FileFault {
             file: self.file.to_owned(),
             line: number,
             column: line[..before].chars().count() + 1,
@@ -202,7 +207,7 @@ impl Source<'_> {
         }
     }
 
-    fn fault(&self, at: Location, what: String) -> Fault {
+    fn fault(&self, at: Location, what: String) -> FileFault {
         yaml::fault(self.file, at, what)
     }
 }

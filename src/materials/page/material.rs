@@ -3,7 +3,7 @@
 use super::Page;
 use crate::materials::decimal::short;
 use crate::materials::dispersion::{Curve, Extrapolate};
-use crate::materials::{Fault, Index, Kind, Material, name_fault};
+use crate::materials::{FileFault, Index, Kind, Material, name_fault};
 
 /// Where the class is guessed: near the middle of the visible range.
 pub(super) const GUESS_NM: f64 = 580.0;
@@ -21,7 +21,7 @@ impl Page {
     ///
     /// # Errors
     /// The name is not a legal one, the page gives no n, or n and k share no range.
-    pub fn material(&self, name: Option<&str>) -> Result<Material, Fault> {
+    pub fn material(&self, name: Option<&str>) -> Result<Material, FileFault> {
         let name = name.map_or_else(|| self.default_name(), str::to_owned);
         if let Some(why) = name_fault(&name) {
             return Err(self.fault(format!("`{name}` is no name: {why}")));
@@ -84,8 +84,8 @@ impl Page {
         }
     }
 
-    fn fault(&self, what: String) -> Fault {
-        Fault {
+    fn fault(&self, what: String) -> FileFault {
+        FileFault {
             file: self.file.clone(),
             line: 1,
             column: 1,

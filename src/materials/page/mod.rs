@@ -30,7 +30,7 @@ mod plain;
 mod yaml;
 
 use super::dispersion::Curve;
-use super::file::Fault;
+use super::file::FileFault;
 
 /// What a page of refractiveindex.info says, or a table that someone measured.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -68,7 +68,7 @@ impl Page {
     ///
     /// # Errors
     /// The text is not YAML, or its data are of a kind that is not read.
-    pub fn parse(file: &str, text: &str) -> Result<Page, Fault> {
+    pub fn parse(file: &str, text: &str) -> Result<Page, FileFault> {
         check_text(file, text)?;
         let raw = yaml::read(file, text)?;
         let mut page = Page {
@@ -105,8 +105,8 @@ impl Page {
 }
 
 /// Whether a text can be read at all.
-pub(super) fn check_text(file: &str, text: &str) -> Result<(), Fault> {
-    let fault = |at: usize, what: String| Fault::at(file, text, at, what);
+pub(super) fn check_text(file: &str, text: &str) -> Result<(), FileFault> {
+    let fault = |at: usize, what: String| FileFault::at(file, text, at, what);
     if text.len() > MOST_BYTES {
         let what = format!(
             "the file has {} bytes; at most {MOST_BYTES} are read",

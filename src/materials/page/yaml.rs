@@ -8,7 +8,7 @@ use serde_saphyr::budget::BudgetBreach;
 use serde_saphyr::{Error, Location, Options, Spanned};
 
 use super::MOST_BYTES;
-use crate::materials::Fault;
+use crate::materials::FileFault;
 
 #[derive(Deserialize)]
 pub struct Raw {
@@ -83,8 +83,8 @@ impl<'de> Visitor<'de> for PairsVisitor {
 }
 
 /// The fields of a page.
-pub fn read(file: &str, text: &str) -> Result<Raw, Fault> {
-    serde_saphyr::from_str_with_options(text, options()).map_err(|error| Fault {
+pub fn read(file: &str, text: &str) -> Result<Raw, FileFault> {
+    serde_saphyr::from_str_with_options(text, options()).map_err(|error| FileFault {
         file: file.to_owned(),
         line: error.location().map_or(1, |at| at.line() as usize).max(1),
         column: error.location().map_or(1, |at| at.column() as usize).max(1),
@@ -137,8 +137,8 @@ fn beyond(breach: &BudgetBreach) -> &'static str {
 }
 
 /// The place of a fault in a field.
-pub fn fault(file: &str, at: Location, what: String) -> Fault {
-    Fault {
+pub fn fault(file: &str, at: Location, what: String) -> FileFault {
+    FileFault {
         file: file.to_owned(),
         line: at.line() as usize,
         column: at.column() as usize,

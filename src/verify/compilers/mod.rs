@@ -28,7 +28,7 @@ pub enum Verdict {
 
 /// Why a compiler has made nothing of a text.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error, Serialize, Deserialize)]
-pub enum Fault {
+pub enum CompilerFault {
     /// It refuses it, in these words: the first lines.
     #[error("{0}")]
     Refused(String),
@@ -37,12 +37,12 @@ pub enum Fault {
     NotChecked(String),
 }
 
-impl<T> From<Result<T, Fault>> for Verdict {
-    fn from(made: Result<T, Fault>) -> Verdict {
+impl<T> From<Result<T, CompilerFault>> for Verdict {
+    fn from(made: Result<T, CompilerFault>) -> Verdict {
         match made {
             Ok(_) => Verdict::Yes,
-            Err(Fault::Refused(words)) => Verdict::No(words),
-            Err(Fault::NotChecked(reason)) => Verdict::NotChecked(reason),
+            Err(CompilerFault::Refused(words)) => Verdict::No(words),
+            Err(CompilerFault::NotChecked(reason)) => Verdict::NotChecked(reason),
         }
     }
 }
@@ -86,7 +86,7 @@ pub fn verdict(validator: &Validator, name: &str, bytes: &[u8]) -> Verdict {
     if validator.compiler.command.is_none() {
         let text = String::from_utf8_lossy(bytes);
         return validate_wgsl(&text)
-            .map_err(|words| Fault::Refused(first_lines(&words)))
+            .map_err(|words| CompilerFault::Refused(first_lines(&words)))
             .into();
     }
     let files: Vec<File> = program::named(name, framed);
@@ -98,7 +98,11 @@ pub fn verdict(validator: &Validator, name: &str, bytes: &[u8]) -> Verdict {
 ///
 /// # Errors
 /// DXC refuses the text, or is not here.
-pub fn hlsl_to_spirv(text: &str, entry: &str, version: HlslVersion) -> Result<Vec<u8>, Fault> {
+pub fn hlsl_to_spirv(
+    text: &str,
+    entry: &str,
+    version: HlslVersion,
+) -> Result<Vec<u8>, CompilerFault> {
     hlsl_to_spirv_in(Precision::F32, text, entry, version)
 }
 
@@ -111,7 +115,7 @@ pub fn hlsl_to_spirv_in(
     text: &str,
     entry: &str,
     version: HlslVersion,
-) -> Result<Vec<u8>, Fault> {
+) -> Result<Vec<u8>, CompilerFault> {
     let model = match precision {
         Precision::F32 => "cs_6_0",
         Precision::F16 => "cs_6_2 -enable-16bit-types",
@@ -139,7 +143,7 @@ pub fn compiled(
     options: &str,
     name: &str,
     text: &str,
-) -> Result<Vec<u8>, Fault> {
+) -> Result<Vec<u8>, CompilerFault> {
     let file = File {
         name: name.to_owned(),
         bytes: text.as_bytes().to_vec(),
@@ -166,21 +170,21 @@ pub fn version(compiler: &Compiler) -> Measured<String> {
 }
 
 /// What a compiler makes of these.
-fn run(compiler: &Compiler, options: &str, files: &[File]) -> Result<Vec<u8>, Fault> {
+fn run(compiler: &Compiler, options: &str, files: &[File]) -> Result<Vec<u8>, CompilerFault> {
     let called = called(compiler, options, files)?;
     if called.ok {
         return Ok(called.made);
     }
-    Err(Fault::Refused(first_lines(&called.said)))
+    Err(CompilerFault::Refused(first_lines(&called.said)))
 }
 
-fn called(compiler: &Compiler, options: &str, files: &[File]) -> Result<Called, Fault> {
+fn called(compiler: &Compiler, options: &str, files: &[File]) -> Result<Called, CompilerFault> {
     let Compiler { name, get, .. } = compiler;
-    let absent = || Fault::NotChecked(format!("no {name} here ({get})"));
+    let absent = || CompilerFault::NotChecked(format!("no {name} here ({get})"));
     let command = compiler.command.ok_or_else(absent)?;
     let path = call::find(command).ok_or_else(absent)?;
     call::call(&path, options, files)
-        .map_err(|silent| Fault::NotChecked(format!("{name} was not asked: {silent}")))
+        .map_err(|silent| CompilerFault::NotChecked(format!("{name} was not asked: {silent}")))
 }
 
 fn first_line(words: &str) -> String {

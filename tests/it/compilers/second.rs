@@ -4,7 +4,7 @@ use std::fs;
 
 use fresnel_gen::app::Artifact;
 use fresnel_gen::targets;
-use fresnel_gen::verify::compilers::{Fault, HlslVersion, Verdict, accepts, hlsl_to_spirv};
+use fresnel_gen::verify::compilers::{CompilerFault, HlslVersion, Verdict, accepts, hlsl_to_spirv};
 use fresnel_gen::verify::naga_translation::{to_gles, to_hlsl};
 use tempfile::TempDir;
 
@@ -74,8 +74,8 @@ fn nagas_hlsl_and_ours_become_valid_spirv() {
 #[test]
 fn what_dxc_refuses_is_told() {
     match hlsl_to_spirv("float f(", "f", HlslVersion::V2021) {
-        Err(Fault::Refused(words)) => assert!(words.contains("shader.hlsl:1:"), "{words}"),
-        Err(Fault::NotChecked(reason)) => not_checked(&format!("DXC's SPIR-V: {reason}")),
+        Err(CompilerFault::Refused(words)) => assert!(words.contains("shader.hlsl:1:"), "{words}"),
+        Err(CompilerFault::NotChecked(reason)) => not_checked(&format!("DXC's SPIR-V: {reason}")),
         Ok(_) => panic!("it is no HLSL"),
     }
 }
@@ -93,11 +93,11 @@ fn within(file: &Artifact, function: &str, entry: &str) -> String {
 }
 
 /// What is not checked here, another test of these compilers names.
-fn valid(spirv: Result<Vec<u8>, Fault>) -> Judgement {
+fn valid(spirv: Result<Vec<u8>, CompilerFault>) -> Judgement {
     let bytes = match spirv {
         Ok(bytes) => bytes,
-        Err(Fault::NotChecked(_)) => return Ok(String::new()),
-        Err(Fault::Refused(words)) => return Err(words),
+        Err(CompilerFault::NotChecked(_)) => return Ok(String::new()),
+        Err(CompilerFault::Refused(words)) => return Err(words),
     };
     assert!(bytes.starts_with(&[3, 2, 35, 7]), "SPIR-V's magic number");
     let target = targets::find("spirv").unwrap();

@@ -4,7 +4,7 @@
 use fresnel_gen::emit::{self, Naming};
 use fresnel_gen::fit::Measured;
 use fresnel_gen::gpu::Wanted;
-use fresnel_gen::verify::run::{Devices, ExecutionPath, Fault, ShippedFunction};
+use fresnel_gen::verify::run::{Devices, ExecutionPath, RunFault, ShippedFunction};
 use fresnel_gen::verify::{Trial, cosines};
 use fresnel_gen::{methods, targets};
 
@@ -38,7 +38,7 @@ fn check(name: &str, media: &[Medium]) {
         is_guarded: true,
     };
     let runnable = match devices.prepare(&shown, ExecutionPath::Own, &trial(&[(1.5, 0.0); 3])) {
-        Err(Fault::Absent(why)) => {
+        Err(RunFault::Absent(why)) => {
             let remark = format!("digits of {name} on a device: {why}");
             assert!(std::env::var_os("CI").is_none(), "not checked: {remark}");
             return not_checked(&remark);

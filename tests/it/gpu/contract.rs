@@ -12,7 +12,7 @@ use fresnel_gen::optics;
 use fresnel_gen::reference::MaterialInMedium;
 use fresnel_gen::targets::{self, Finish};
 use fresnel_gen::verify::Trial;
-use fresnel_gen::verify::run::{Devices, ExecutionPath, Fault, ShippedFunction};
+use fresnel_gen::verify::run::{Devices, ExecutionPath, RunFault, ShippedFunction};
 
 use crate::not_checked;
 
@@ -208,7 +208,7 @@ fn broken(
     (target, way): (&'static targets::Target, ExecutionPath),
     emitted: &Emitted,
     bytes: &[u8],
-) -> Result<Vec<String>, Fault> {
+) -> Result<Vec<String>, RunFault> {
     let shown = ShippedFunction {
         target,
         bytes,
@@ -317,7 +317,7 @@ fn check(target: &str, way: ExecutionPath) {
     assert!(files.len() > 70, "{} functions", files.len());
     for (emitted, bytes) in &files {
         match broken(&devices, (target, way), emitted, bytes) {
-            Err(Fault::Absent(why)) => {
+            Err(RunFault::Absent(why)) => {
                 let remark = format!("the contract in {} ({}): {why}", target.name, way.name());
                 assert!(std::env::var_os("CI").is_none(), "not checked: {remark}");
                 return not_checked(&remark);

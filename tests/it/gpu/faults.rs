@@ -1,7 +1,8 @@
 //! What cannot run says why, in the words of what refused it.
 
 use fresnel_gen::gpu::{
-    Argument, Backend, Code, Device, Fault, Texture, TextureFormat, Uniform, Wanted, Wrap, adapters,
+    Argument, Backend, Code, Device, DeviceFault, Texture, TextureFormat, Uniform, Wanted, Wrap,
+    adapters,
 };
 
 use super::{device, gles, program, wgsl};
@@ -11,7 +12,7 @@ use super::{device, gles, program, wgsl};
 fn refused(backend: Backend, code: Code) -> Option<String> {
     let device = device(backend)?;
     match device.prepare(&program(code, &[])) {
-        Err(Fault::Refused { log }) => Some(log),
+        Err(DeviceFault::Refused { log }) => Some(log),
         Err(fault) => panic!("{fault}"),
         Ok(_) => panic!("it was accepted"),
     }
@@ -90,7 +91,10 @@ fn a_language_on_the_wrong_stack() {
     ] {
         if let Some(device) = device(backend) {
             let fault = device.prepare(&program(code, &[])).err();
-            assert!(matches!(fault, Some(Fault::Unable { .. })), "{fault:?}");
+            assert!(
+                matches!(fault, Some(DeviceFault::Unable { .. })),
+                "{fault:?}"
+            );
         }
     }
 }
@@ -146,7 +150,7 @@ fn an_adapter_that_is_not_there() {
         backend: None,
         name: Some("abacus".to_owned()),
     };
-    let Err(Fault::Absent { what, get }) = Device::open(&wanted) else {
+    let Err(DeviceFault::Absent { what, get }) = Device::open(&wanted) else {
         panic!("there is an abacus");
     };
     assert!(what.contains("`abacus`"), "{what}");

@@ -10,7 +10,7 @@ mod stream;
 mod table;
 mod texture;
 
-use fresnel_gen::gpu::{Backend, Code, Device, Fault, Program, Uniform, Wanted};
+use fresnel_gen::gpu::{Backend, Code, Device, DeviceFault, Program, Uniform, Wanted};
 
 use super::not_checked;
 
@@ -23,7 +23,7 @@ fn device(backend: Backend) -> Option<Device> {
     };
     match Device::open(&wanted) {
         Ok(device) => Some(device),
-        Err(fault @ Fault::Absent { .. }) => {
+        Err(fault @ DeviceFault::Absent { .. }) => {
             let remark = format!("shaders on {}: {fault}", backend.name());
             assert!(std::env::var_os("CI").is_none(), "not checked: {remark}");
             not_checked(&remark);

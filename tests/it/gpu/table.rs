@@ -6,7 +6,7 @@ use fresnel_gen::app::tables::{WantedTables, table_materials};
 use fresnel_gen::bake::TableMaterial;
 use fresnel_gen::emit::{self, Emitted, Naming};
 use fresnel_gen::gpu::{
-    Argument, Backend, Code, Fault, Program, Texture, TextureFormat, Uniform, Wrap,
+    Argument, Backend, Code, DeviceFault, Program, Texture, TextureFormat, Uniform, Wrap,
 };
 use fresnel_gen::ir::Weights;
 use fresnel_gen::lut::{Axis, Depth, Stored, Table};
@@ -128,7 +128,7 @@ impl<'a> Put<'a> {
             wrap: self.wrap,
         };
         let got = match kernel.run(at, &uniforms, Some(&texture)) {
-            Err(Fault::Unable { .. }) => return None,
+            Err(DeviceFault::Unable { .. }) => return None,
             got => got.unwrap(),
         };
         let off = |(c, got): (&f32, &[f32; 3])| {

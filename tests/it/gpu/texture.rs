@@ -1,6 +1,6 @@
 //! A texture is sampled as the filter of the tables says: linear between the centres of texels.
 
-use fresnel_gen::gpu::{Backend, Code, Fault, Program, Texture, TextureFormat, Wrap};
+use fresnel_gen::gpu::{Backend, Code, DeviceFault, Program, Texture, TextureFormat, Wrap};
 
 use super::device;
 
@@ -75,7 +75,7 @@ fn check(backend: Backend, format: TextureFormat, wrap: Wrap, curve: fn(f32) -> 
     let points: Vec<f32> = (0..=256).map(|i| i as f32 / 256.0).collect();
     let got = match kernel.run(&points, &[], Some(&texture)) {
         // Two formats are not everywhere.
-        Err(fault @ Fault::Unable { .. }) => return super::not_checked(&fault.to_string()),
+        Err(fault @ DeviceFault::Unable { .. }) => return super::not_checked(&fault.to_string()),
         got => got.unwrap(),
     };
     for (u, [ramp, half, quarter]) in points.iter().zip(got) {

@@ -8,7 +8,7 @@ use fresnel_gen::ir::{Checked, Function, Label, Node, NodeId, Op, Payload, Ty, c
 use fresnel_gen::methods::{self, Class, Contract, Method};
 use fresnel_gen::reference::MaterialInMedium;
 use fresnel_gen::targets;
-use fresnel_gen::verify::run::{Devices, ExecutionPath, Fault, ShippedFunction};
+use fresnel_gen::verify::run::{Devices, ExecutionPath, RunFault, ShippedFunction};
 use fresnel_gen::verify::{ABSOLUTE_FLOOR, Trial, beyond, cosines_around};
 
 use super::subjects;
@@ -237,7 +237,7 @@ fn is_caught(
     target: &str,
     trial: &Trial,
     emitted: &Emitted,
-) -> Result<bool, Fault> {
+) -> Result<bool, RunFault> {
     let target = targets::find(target).unwrap();
     let files = emit::library(
         target,
@@ -280,7 +280,7 @@ fn check_target(target: &str) {
         let right = emitted(method);
         let trial = trial(&right, subject);
         match is_caught(&devices, target, &trial, &right) {
-            Err(Fault::Absent(why)) => {
+            Err(RunFault::Absent(why)) => {
                 assert!(
                     std::env::var_os("CI").is_none(),
                     "not checked: mutants in {target}: {why}"
