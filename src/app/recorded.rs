@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::emit::{Average, CatalogueRow, CloserFit, fingerprint, sha256};
 use crate::fit::ModelError;
-use crate::materials::{self, Kind, ViewingConditions};
+use crate::materials::{self, MaterialKind, ViewingConditions};
 use crate::methods::{self, Method};
 
 use super::request::Request;
@@ -115,7 +115,9 @@ impl Recorded {
     }
 
     fn row(self) -> Option<CatalogueRow> {
-        let class = Kind::ALL.iter().find(|kind| kind.name() == self.class)?;
+        let class = MaterialKind::ALL
+            .iter()
+            .find(|kind| kind.name() == self.class)?;
         let better = match self.better {
             Some(better) => Some(CloserFit {
                 method: methods::find(&better.method)?,

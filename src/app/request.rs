@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use crate::emit::{HeaderForm, Naming, file_name};
-use crate::materials::{self, Kind, Material, Unseen, ViewingConditions};
+use crate::materials::{self, Material, MaterialKind, Unseen, ViewingConditions};
 use crate::methods::{self, Method};
 use crate::num::Precision;
 use crate::reference::{Derivation, MaterialInMedium};
@@ -348,7 +348,7 @@ fn check_not_a_method(name: &str) -> Result<(), Error> {
 /// # Errors
 /// The medium is a metal or a semiconductor.
 pub fn check_transparent(medium: &Material) -> Result<(), Error> {
-    if medium.kind == Kind::Dielectric {
+    if medium.kind == MaterialKind::Dielectric {
         return Ok(());
     }
     let what = format!(

@@ -7,7 +7,7 @@ use crate::verify::compilers::{CompilerFault, HlslVersion, Verdict, compiled, hl
 use crate::verify::harness::ENTRY;
 
 use super::language::Language;
-use super::protocol::Code;
+use super::protocol::ProgramCode;
 
 /// What compilers that run beside us say.
 #[derive(Debug, Serialize, Deserialize)]
@@ -15,7 +15,7 @@ pub struct Accepted {
     /// Each with its verdict.
     pub verdicts: Vec<(String, Verdict)>,
     /// What is run, where there is something to run; else why not.
-    pub code: Result<Code, CompilerFault>,
+    pub code: Result<ProgramCode, CompilerFault>,
 }
 
 /// Asks the compilers about a whole program.
@@ -23,13 +23,13 @@ pub fn accepted(language: Language, program: String) -> Accepted {
     match language {
         Language::Wgsl => Accepted {
             verdicts: tint(&program).into_iter().collect(),
-            code: Ok(Code::Wgsl(program)),
+            code: Ok(ProgramCode::Wgsl(program)),
         },
         Language::Gles => {
             let made = compiled(&GLSLANG, "-S vert FILE", "shader.vert", &program);
             Accepted {
                 verdicts: vec![(GLSLANG.name.to_owned(), made.into())],
-                code: Ok(Code::Gles(program)),
+                code: Ok(ProgramCode::Gles(program)),
             }
         }
         Language::Hlsl => hlsl(&program),
@@ -58,7 +58,7 @@ fn hlsl(program: &str) -> Accepted {
     let code = old.or_else(|fault| new.map_err(|_| fault));
     Accepted {
         verdicts,
-        code: code.map(Code::Spirv),
+        code: code.map(ProgramCode::Spirv),
     }
 }
 

@@ -127,7 +127,7 @@ impl Audit {
     /// The function run at the edges and over all angles.
     fn run(
         &self,
-        code: protocol::Code,
+        code: protocol::ProgramCode,
         program: &Program,
         bound: &Bound,
         subject: &MaterialInMedium,

@@ -16,7 +16,7 @@ pub enum AuditRequest {
     /// To make SPIR-V of a shader.
     Module(Language, String),
     /// To compile a program.
-    Prepare(Code, Vec<UniformBits>),
+    Prepare(ProgramCode, Vec<UniformBits>),
     /// To run it over cosines.
     Run(Vec<u32>),
 }
@@ -40,7 +40,7 @@ pub enum AuditResponse {
 
 /// A program.
 #[derive(Debug, Serialize, Deserialize)]
-pub enum Code {
+pub enum ProgramCode {
     /// In WGSL.
     Wgsl(String),
     /// In GLSL ES 3.00.

@@ -11,7 +11,7 @@ use crate::reference::ReferenceCurve;
 use crate::spectra::Space;
 
 use super::loops::{MARK, TURNS};
-use super::protocol::{AuditRequest, AuditResponse, Code, UniformBits};
+use super::protocol::{AuditRequest, AuditResponse, ProgramCode, UniformBits};
 
 /// What sees cosines, and the result at each.
 pub type Look<'a> = &'a dyn Fn(&[f32], &[[f32; 3]]);
@@ -57,7 +57,7 @@ impl Runner {
     /// # Errors
     /// No process can be started.
     pub fn start(
-        code: Code,
+        code: ProgramCode,
         uniforms: &[Uniform],
         limit: Duration,
         surroundings: &Surroundings,

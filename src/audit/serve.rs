@@ -9,7 +9,7 @@ use crate::verify::harness::ENTRY;
 use crate::verify::run::Devices;
 
 use super::accept;
-use super::protocol::{AuditRequest, AuditResponse, Code, UniformBits};
+use super::protocol::{AuditRequest, AuditResponse, ProgramCode, UniformBits};
 
 /// Serves until the supervisor is gone.
 ///
@@ -41,21 +41,21 @@ pub fn serve() -> io::Result<()> {
 
 fn prepare(
     devices: &Devices,
-    code: &Code,
+    code: &ProgramCode,
     uniforms: &[Uniform],
 ) -> Result<(Kernel, String), AuditResponse> {
-    if let Code::Wgsl(text) = code {
+    if let ProgramCode::Wgsl(text) = code {
         validate_wgsl(text).map_err(|words| AuditResponse::Refused("naga".to_owned(), words))?;
     }
     let device = match code {
-        Code::Gles(_) => devices.gles(),
-        Code::Wgsl(_) | Code::Spirv(_) => devices.compute(),
+        ProgramCode::Gles(_) => devices.gles(),
+        ProgramCode::Wgsl(_) | ProgramCode::Spirv(_) => devices.compute(),
     };
     let device = device.map_err(|fault| AuditResponse::Absent(fault.to_string()))?;
     let (code, entry) = match code {
-        Code::Wgsl(text) => (gpu::Code::Wgsl(text), ENTRY),
-        Code::Gles(text) => (gpu::Code::Gles(text), "main"),
-        Code::Spirv(bytes) => (gpu::Code::Spirv(bytes), ENTRY),
+        ProgramCode::Wgsl(text) => (gpu::ShaderCode::Wgsl(text), ENTRY),
+        ProgramCode::Gles(text) => (gpu::ShaderCode::Gles(text), "main"),
+        ProgramCode::Spirv(bytes) => (gpu::ShaderCode::Spirv(bytes), ENTRY),
     };
     let program = Program {
         code,

@@ -1,7 +1,7 @@
 //! What an engine wants to know of a material: colours, index per channel, averages, and how well each is known.
 //! Colours are unclipped: saturated gold has F0 above 1 in linear sRGB.
 
-use crate::materials::{Channels, Extrapolate, Index, Kind, Material, Surface};
+use crate::materials::{Channels, Extrapolate, Index, Material, MaterialKind, Surface};
 use crate::methods::{Input, KnownSurface, Light};
 use crate::optics;
 use crate::spectra::{Illuminant, Integration, colour_error};
@@ -30,7 +30,7 @@ pub struct Params {
 }
 
 /// The parameters of a surface. Its gamut should keep colours as they are.
-pub fn params(surface: Surface, kind: Kind) -> Params {
+pub fn params(surface: Surface, kind: MaterialKind) -> Params {
     let truth = ReferenceCurve::new(surface, Light::Unpolarised);
     let effective = effective(&truth, kind);
     let matching_cos = Derivation::default().matching_cos;

@@ -17,7 +17,7 @@ pub struct Adapter {
     /// The interface that it is spoken to by.
     pub backend: Backend,
     /// What stands behind it.
-    pub kind: Kind,
+    pub kind: AdapterKind,
 }
 
 /// A graphics interface.
@@ -37,7 +37,7 @@ pub enum Backend {
 
 /// What stands behind an adapter, the fastest first.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Kind {
+pub enum AdapterKind {
     /// A card.
     Discrete,
     /// A part of the processor.
@@ -212,12 +212,12 @@ fn backend(backend: wgpu::Backend) -> Backend {
     }
 }
 
-fn kind(kind: wgpu::DeviceType) -> Kind {
+fn kind(kind: wgpu::DeviceType) -> AdapterKind {
     match kind {
-        wgpu::DeviceType::DiscreteGpu => Kind::Discrete,
-        wgpu::DeviceType::IntegratedGpu => Kind::Integrated,
-        wgpu::DeviceType::VirtualGpu => Kind::Virtual,
-        wgpu::DeviceType::Other => Kind::Unknown,
-        wgpu::DeviceType::Cpu => Kind::Software,
+        wgpu::DeviceType::DiscreteGpu => AdapterKind::Discrete,
+        wgpu::DeviceType::IntegratedGpu => AdapterKind::Integrated,
+        wgpu::DeviceType::VirtualGpu => AdapterKind::Virtual,
+        wgpu::DeviceType::Other => AdapterKind::Unknown,
+        wgpu::DeviceType::Cpu => AdapterKind::Software,
     }
 }

@@ -5,7 +5,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 use pollster::block_on;
 use wgpu::{ErrorFilter, Features, PollType};
 
-use super::adapter::{Adapter, Kind, describe};
+use super::adapter::{Adapter, AdapterKind, describe};
 use super::fault::DeviceFault;
 
 /// A device and its queue.
@@ -59,7 +59,10 @@ impl Compute {
 
     /// Whether its memory is the processor's, so that results can be read where the shader wrote them.
     pub fn shares_memory(&self) -> bool {
-        let shared = matches!(self.adapter.kind, Kind::Software | Kind::Integrated);
+        let shared = matches!(
+            self.adapter.kind,
+            AdapterKind::Software | AdapterKind::Integrated
+        );
         shared && self.has(Features::MAPPABLE_PRIMARY_BUFFERS)
     }
 

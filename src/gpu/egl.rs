@@ -6,7 +6,7 @@ use std::sync::OnceLock;
 use glow::HasContext;
 use khronos_egl as egl;
 
-use super::adapter::{Adapter, Backend, Kind, OPENGL_PACKAGES};
+use super::adapter::{Adapter, AdapterKind, Backend, OPENGL_PACKAGES};
 use super::fault::DeviceFault;
 use super::quiet::hush;
 
@@ -125,9 +125,9 @@ fn describe(gl: &glow::Context) -> Adapter {
     let name = text(glow::RENDERER);
     let software = ["llvmpipe", "softpipe", "SwiftShader"];
     let kind = if software.iter().any(|part| name.contains(part)) {
-        Kind::Software
+        AdapterKind::Software
     } else {
-        Kind::Unknown
+        AdapterKind::Unknown
     };
     Adapter {
         name,

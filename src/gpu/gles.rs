@@ -7,7 +7,7 @@ use glow::{HasContext, PixelUnpackData};
 
 use super::egl::Context;
 use super::fault::DeviceFault;
-use super::program::{Argument, Code, Program, Uniform, check_fit};
+use super::program::{Argument, Program, ShaderCode, Uniform, check_fit};
 use super::texture::{Texture, TextureFormat, Wrap};
 
 /// Cosines of a draw.
@@ -45,7 +45,7 @@ struct Objects<'a> {
 impl Kernel {
     /// Compiles and links a program.
     pub fn new(context: &Rc<Context>, program: &Program) -> Result<Kernel, DeviceFault> {
-        let Code::Gles(text) = program.code else {
+        let ShaderCode::Gles(text) = program.code else {
             let name = &context.adapter.name;
             return Err(DeviceFault::unable(
                 name,

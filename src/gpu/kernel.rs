@@ -7,7 +7,7 @@ use wgpu::{BindingType, BufferBindingType, BufferUsages, Features};
 use super::compute::Compute;
 use super::fault::DeviceFault;
 use super::passthrough;
-use super::program::{Code, Inputs, Program, Uniform, block, check_fit};
+use super::program::{PointInputs, Program, ShaderCode, Uniform, block, check_fit};
 use super::slot::{BLOCK, Block, Slot};
 use super::texture::{Texture, TextureFormat, Wrap};
 
@@ -16,7 +16,7 @@ pub(super) struct Kernel {
     compute: Rc<Compute>,
     pipeline: wgpu::ComputePipeline,
     layout: wgpu::BindGroupLayout,
-    inputs: Inputs,
+    inputs: PointInputs,
     uniforms: Vec<Uniform>,
     textured: bool,
     has_block: bool,
@@ -33,7 +33,7 @@ impl Kernel {
     pub fn new(
         compute: &Rc<Compute>,
         program: &Program,
-        inputs: Inputs,
+        inputs: PointInputs,
     ) -> Result<Kernel, DeviceFault> {
         let module = module(compute, program)?;
         let (pipeline, layout) =
@@ -140,7 +140,7 @@ impl Kernel {
 
 fn module(compute: &Compute, program: &Program) -> Result<wgpu::ShaderModule, DeviceFault> {
     match program.code {
-        Code::Wgsl(text) => compute.guarded(|| {
+        ShaderCode::Wgsl(text) => compute.guarded(|| {
             compute
                 .device
                 .create_shader_module(wgpu::ShaderModuleDescriptor {
@@ -148,8 +148,8 @@ fn module(compute: &Compute, program: &Program) -> Result<wgpu::ShaderModule, De
                     source: wgpu::ShaderSource::Wgsl(text.into()),
                 })
         }),
-        Code::Spirv(bytes) => passthrough::module(compute, bytes, program.entry),
-        Code::Gles(_) => Err(DeviceFault::unable(
+        ShaderCode::Spirv(bytes) => passthrough::module(compute, bytes, program.entry),
+        ShaderCode::Gles(_) => Err(DeviceFault::unable(
             &compute.adapter.name,
             "GLSL ES in compute",
         )),
@@ -161,7 +161,7 @@ fn pipeline(
     device: &wgpu::Device,
     module: &wgpu::ShaderModule,
     program: &Program,
-    inputs: Inputs,
+    inputs: PointInputs,
 ) -> (wgpu::ComputePipeline, wgpu::BindGroupLayout) {
     let layout = device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
         label: None,
@@ -186,11 +186,11 @@ fn pipeline(
 /// Whether binding 0 is there. wgpu numbers the bindings of a layout anew for Vulkan, without gaps, and shaders that it
 /// has not compiled do not hear of it (<https://github.com/gfx-rs/wgpu/issues/9326>): for SPIR-V it is always there.
 fn has_block(program: &Program) -> bool {
-    !program.uniforms.is_empty() || matches!(program.code, Code::Spirv(_))
+    !program.uniforms.is_empty() || matches!(program.code, ShaderCode::Spirv(_))
 }
 
 /// In the order of their numbers, for the same reason.
-fn entries(program: &Program, inputs: Inputs) -> Vec<wgpu::BindGroupLayoutEntry> {
+fn entries(program: &Program, inputs: PointInputs) -> Vec<wgpu::BindGroupLayoutEntry> {
     let entry = |binding, ty| wgpu::BindGroupLayoutEntry {
         binding,
         visibility: wgpu::ShaderStages::COMPUTE,
@@ -205,8 +205,8 @@ fn entries(program: &Program, inputs: Inputs) -> Vec<wgpu::BindGroupLayoutEntry>
     let read_only = |read_only| buffer(BufferBindingType::Storage { read_only });
     let uniform = buffer(BufferBindingType::Uniform);
     let first = match inputs {
-        Inputs::Cosines => read_only(true),
-        Inputs::Bits => uniform,
+        PointInputs::Cosines => read_only(true),
+        PointInputs::Bits => uniform,
     };
     let mut entries = Vec::new();
     if has_block(program) {

@@ -23,18 +23,18 @@ mod stream;
 mod texture;
 mod vulkan_compiler;
 
-pub use adapter::{Adapter, Backend, Kind, Wanted, adapters};
+pub use adapter::{Adapter, AdapterKind, Backend, Wanted, adapters};
 pub use draw::{Canvas, Layer, Shader};
 pub use fault::DeviceFault;
 pub use gles_compiler::GlesCompiler;
-pub use program::{Argument, Code, Program, Uniform};
+pub use program::{Argument, Program, ShaderCode, Uniform};
 pub use stream::Stream;
 pub use texture::{Texture, TextureFormat, Wrap};
 pub use vulkan_compiler::{Entry, VulkanCompiler};
 
 use std::rc::Rc;
 
-use program::Inputs;
+use program::PointInputs;
 
 /// What shaders are run on. It stays on its thread.
 pub struct Device {
@@ -114,7 +114,7 @@ impl Device {
     pub fn prepare(&self, program: &Program) -> Result<Kernel, DeviceFault> {
         let prepared = match &self.stack {
             Stack::Compute(compute) => {
-                Prepared::Compute(kernel::Kernel::new(compute, program, Inputs::Cosines)?)
+                Prepared::Compute(kernel::Kernel::new(compute, program, PointInputs::Cosines)?)
             }
             Stack::Gles(context) => Prepared::Gles(gles::Kernel::new(context, program)?),
         };
@@ -128,7 +128,7 @@ impl Device {
     pub fn prepare_stream(&self, program: &Program) -> Result<Stream, DeviceFault> {
         match &self.stack {
             Stack::Compute(compute) => {
-                let kernel = kernel::Kernel::new(compute, program, Inputs::Bits)?;
+                let kernel = kernel::Kernel::new(compute, program, PointInputs::Bits)?;
                 Ok(Stream(kernel))
             }
             Stack::Gles(_) => Err(DeviceFault::unable(

@@ -59,7 +59,7 @@ fn pass(compute: &Compute, words: &[u32], entry: &str) -> wgpu::ShaderModule {
         ..Default::default()
     };
     // SAFETY: the driver takes the words unseen. The header is checked above, and so is the entry point; that modules be
-    // valid is what `Code::Spirv` demands of its caller.
+    // valid is what `ShaderCode::Spirv` demands of its caller.
     unsafe { compute.device.create_shader_module_passthrough(descriptor) }
 }
 

@@ -4,7 +4,7 @@ use super::DeviceFault;
 
 /// A shader as it will be run.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Code<'a> {
+pub enum ShaderCode<'a> {
     /// A WGSL module with a compute entry point.
     Wgsl(&'a str),
     /// A SPIR-V module with a compute entry point, handed to the driver as it is. Whoever makes one up must validate
@@ -26,7 +26,7 @@ pub enum Code<'a> {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Program<'a> {
     /// The shader.
-    pub code: Code<'a>,
+    pub code: ShaderCode<'a>,
     /// The entry point; in GLSL ES it is `main`, whatever stands here.
     pub entry: &'a str,
     /// The run-time arguments in the order of the block. Only names and shapes matter here.
@@ -37,7 +37,7 @@ pub struct Program<'a> {
 
 /// What binding 1 of a compute program is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Inputs {
+pub(super) enum PointInputs {
     /// `var<storage, read> cosines: array<f32>`.
     Cosines,
     /// `var<uniform> first: u32`: point i has the bits `first + i`.

@@ -7,7 +7,7 @@ use wgpu::{BufferUsages, CommandEncoderDescriptor, MapMode};
 use super::compute::Compute;
 use super::fault::DeviceFault;
 use super::kernel::{Kernel, Resources};
-use super::program::Inputs;
+use super::program::PointInputs;
 
 /// Points of a block.
 pub(super) const BLOCK: usize = 1 << 18;
@@ -58,7 +58,7 @@ impl Block<'_> {
 
 impl Slot {
     /// Buffers for whole blocks.
-    pub fn new(compute: &Compute, inputs: Inputs) -> Slot {
+    pub fn new(compute: &Compute, inputs: PointInputs) -> Slot {
         let buffer = |size, usage| {
             compute.device.create_buffer(&wgpu::BufferDescriptor {
                 label: None,
@@ -69,8 +69,8 @@ impl Slot {
         };
         let points = BLOCK as u64;
         let (size, usage) = match inputs {
-            Inputs::Cosines => (points * INPUT, BufferUsages::STORAGE),
-            Inputs::Bits => (UNIFORM, BufferUsages::UNIFORM),
+            PointInputs::Cosines => (points * INPUT, BufferUsages::STORAGE),
+            PointInputs::Bits => (UNIFORM, BufferUsages::UNIFORM),
         };
         let inputs = buffer(size, usage | BufferUsages::COPY_DST);
         let results = |usage| buffer(points * RESULT, usage);

@@ -45,7 +45,7 @@ pub fn smallest(
     let mut least = f64::INFINITY;
     for axis in axes {
         for depth in depths {
-            let kind = Kind {
+            let kind = TableFamily {
                 truths,
                 axis: *axis,
                 depth: *depth,
@@ -73,13 +73,13 @@ fn tried(axes: &[Axis], depths: &[Depth]) -> String {
 }
 
 /// Tables that differ in size only.
-struct Kind<'a> {
+struct TableFamily<'a> {
     truths: &'a [&'a ReferenceCurve],
     axis: Axis,
     depth: Depth,
 }
 
-impl Kind<'_> {
+impl TableFamily<'_> {
     fn of(&self, texels: usize) -> Choice {
         Choice {
             axis: self.axis,

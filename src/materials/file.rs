@@ -33,7 +33,7 @@ use super::decimal::short;
 use super::dispersion::Curve;
 use super::formula::{Formula, NUMBERS};
 use super::hidden::is_hidden;
-use super::material::{GREATEST, Kind, LEAST_N, Material};
+use super::material::{GREATEST, LEAST_N, Material, MaterialKind};
 pub use crate::spectra::FileFault;
 
 type Row = Spanned<Vec<Spanned<f64>>>;
@@ -44,7 +44,7 @@ type Rows = Spanned<Vec<Row>>;
 struct Raw {
     name: Spanned<String>,
     summary: Spanned<String>,
-    class: Kind,
+    class: MaterialKind,
     licence: Spanned<String>,
     reference: Spanned<String>,
     link: Spanned<String>,
@@ -411,7 +411,7 @@ mod tests {
     fn a_good_file_is_read() {
         let material = Material::parse("m.toml", GOOD).expect("it is good");
         assert_eq!(material.range_nm(), (475.0, 685.0));
-        assert_eq!(material.kind, Kind::Metal);
+        assert_eq!(material.kind, MaterialKind::Metal);
         assert_eq!(material.substance, "m");
         assert_eq!(Material::parse("m.toml", &material.to_toml()), Ok(material));
     }

@@ -18,7 +18,7 @@ pub struct Material {
     /// One line.
     pub summary: String,
     /// Metal, semiconductor or dielectric.
-    pub kind: Kind,
+    pub kind: MaterialKind,
     /// What it is whoever measured it: alternatives share it, and the recommended one bears it as its name.
     pub substance: String,
     /// The licence of the numbers.
@@ -44,7 +44,7 @@ pub struct Material {
 /// The class of a material.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "snake_case")]
-pub enum Kind {
+pub enum MaterialKind {
     /// It conducts, and k is large.
     Metal,
     /// In between.
@@ -53,16 +53,20 @@ pub enum Kind {
     Dielectric,
 }
 
-impl Kind {
+impl MaterialKind {
     /// All classes.
-    pub const ALL: [Kind; 3] = [Kind::Metal, Kind::Semiconductor, Kind::Dielectric];
+    pub const ALL: [MaterialKind; 3] = [
+        MaterialKind::Metal,
+        MaterialKind::Semiconductor,
+        MaterialKind::Dielectric,
+    ];
 
     /// The name in files and reports.
     pub fn name(self) -> &'static str {
         match self {
-            Kind::Metal => "metal",
-            Kind::Semiconductor => "semiconductor",
-            Kind::Dielectric => "dielectric",
+            MaterialKind::Metal => "metal",
+            MaterialKind::Semiconductor => "semiconductor",
+            MaterialKind::Dielectric => "dielectric",
         }
     }
 }

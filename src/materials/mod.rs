@@ -25,7 +25,7 @@ pub use dispersion::{Curve, Extrapolate};
 pub use file::name_fault;
 pub use formula::Formula;
 pub use hidden::{escaped, is_hidden};
-pub use material::{Index, Kind, Material};
+pub use material::{Index, Material, MaterialKind};
 pub use page::Page;
 pub use read::page;
 pub use surface::{Surface, Unseen, ViewingConditions, surfaces_of};

@@ -3,7 +3,8 @@
 use serde::{Deserialize, Serialize};
 
 use crate::gpu::{
-    Backend, Canvas, Device, DeviceFault, Kind, Layer, Shader, Texture, TextureFormat, Wanted, Wrap,
+    AdapterKind, Backend, Canvas, Device, DeviceFault, Layer, Shader, Texture, TextureFormat,
+    Wanted, Wrap,
 };
 
 use super::clock::timed;
@@ -74,7 +75,7 @@ impl<'a> DrawingDevice<'a> {
     ) -> Result<DrawingDevice<'a>, DeviceFault> {
         let device = open(wanted)?;
         let usual = match device.adapter.kind {
-            Kind::Software => ON_A_PROCESSOR,
+            AdapterKind::Software => ON_A_PROCESSOR,
             _ => ON_A_CARD,
         };
         Ok(DrawingDevice {
@@ -91,7 +92,7 @@ impl<'a> DrawingDevice<'a> {
             device: adapter.to_string(),
             name: adapter.name.clone(),
             driver: adapter.driver.clone(),
-            is_software: adapter.kind == Kind::Software,
+            is_software: adapter.kind == AdapterKind::Software,
             has_half: self.canvas.has_half(),
             pixels: self.canvas.pixels(),
         }

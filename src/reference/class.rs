@@ -1,6 +1,6 @@
 //! The classes of materials that are taken together.
 
-use crate::materials::Kind;
+use crate::materials::MaterialKind;
 
 use super::material_in_medium::{LEAST_FITTED_N, MaterialInMedium};
 
@@ -38,11 +38,11 @@ impl MaterialClass {
         let channels = &subject.effective.channels;
         let is_solid = channels.n.iter().all(|n| *n >= LEAST_FITTED_N);
         match subject.material.kind {
-            Kind::Metal | Kind::Semiconductor => Some(MaterialClass::Metals),
-            Kind::Dielectric if is_solid && channels.is_transparent() => {
+            MaterialKind::Metal | MaterialKind::Semiconductor => Some(MaterialClass::Metals),
+            MaterialKind::Dielectric if is_solid && channels.is_transparent() => {
                 Some(MaterialClass::Dielectrics)
             }
-            Kind::Dielectric => None,
+            MaterialKind::Dielectric => None,
         }
     }
 }

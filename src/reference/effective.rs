@@ -4,7 +4,7 @@
 //! No index has an F0 above 1 (the red of saturated gold), and the mean of several dielectrics is not quite a
 //! dielectric. There the largest absolute difference over the angles is minimised. A dielectric keeps k = 0, so that the cheaper exact law serves it.
 
-use crate::materials::{Channels, Index, Kind};
+use crate::materials::{Channels, Index, MaterialKind};
 use crate::methods::Light;
 use crate::optics::{self, COS_82, index_from_f0_f82};
 
@@ -63,14 +63,14 @@ const SECTIONS: usize = 24;
 const GOLDEN: f64 = 0.618_033_988_749_894_9;
 
 /// The index per channel for what is seen of a surface in unpolarised light.
-pub fn effective(truth: &ReferenceCurve, kind: Kind) -> Effective {
+pub fn effective(truth: &ReferenceCurve, kind: MaterialKind) -> Effective {
     if let Some(channels) = truth.surface.channels() {
         return Effective {
             channels,
             by: [By::Itself; 3],
         };
     }
-    let transparent = kind == Kind::Dielectric && truth.surface.most_k() < FAINT_K;
+    let transparent = kind == MaterialKind::Dielectric && truth.surface.most_k() < FAINT_K;
     let curve = curve(truth, if transparent { FINE } else { ANGLES });
     let at = |c: f64| seen(&truth.surface, Light::Unpolarised, c);
     let (f0, f82) = (at(1.0), at(COS_82));
@@ -174,7 +174,7 @@ mod tests {
     use super::*;
     use crate::materials::{self, Surface, ViewingConditions};
 
-    fn truth(name: &str) -> (ReferenceCurve, Kind) {
+    fn truth(name: &str) -> (ReferenceCurve, MaterialKind) {
         let material = materials::find(name)
             .expect("it is there")
             .expect("it is good");
@@ -204,7 +204,7 @@ mod tests {
                 .collect();
             let (n, k) = (found.channels.n[channel], found.channels.k[channel]);
             let error = distance(Index { n, k }, &curve);
-            let glass = kind == Kind::Dielectric;
+            let glass = kind == MaterialKind::Dielectric;
             for i in -50..=50 {
                 for j in -50..=50 {
                     let near = Index {
@@ -226,9 +226,9 @@ mod tests {
     #[test]
     fn grey_media_come_back() {
         for (n, k, kind) in [
-            (1.5, 0.0, Kind::Dielectric),
-            (0.2, 3.5, Kind::Metal),
-            (4.0, 0.1, Kind::Semiconductor),
+            (1.5, 0.0, MaterialKind::Dielectric),
+            (0.2, 3.5, MaterialKind::Metal),
+            (4.0, 0.1, MaterialKind::Semiconductor),
         ] {
             let (mut truth, _) = truth("silver");
             truth

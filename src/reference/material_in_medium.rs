@@ -1,6 +1,6 @@
 //! A material in its medium, as it is seen.
 
-use crate::materials::{Kind, Material, Surface, Unseen, ViewingConditions};
+use crate::materials::{Material, MaterialKind, Surface, Unseen, ViewingConditions};
 use crate::methods::{Class, Light, Method};
 
 use super::derivation::Derivation;
@@ -76,12 +76,12 @@ impl MaterialInMedium {
 
     /// Whether the exact law for dielectrics serves it.
     fn is_glass(&self) -> bool {
-        self.material.kind == Kind::Dielectric && self.effective.channels.is_transparent()
+        self.material.kind == MaterialKind::Dielectric && self.effective.channels.is_transparent()
     }
 
     /// Whether a method describes it: the exact laws for dielectrics take no k. Coefficients follow a dielectric that absorbs too.
     pub fn is_described_by(&self, method: &Method) -> bool {
-        let is_followed = method.is_fitted() && self.material.kind == Kind::Dielectric;
+        let is_followed = method.is_fitted() && self.material.kind == MaterialKind::Dielectric;
         method.class == Class::Any || is_followed || self.effective.channels.is_transparent()
     }
 
@@ -108,7 +108,7 @@ impl MaterialInMedium {
     /// The fitted method that suits its class: a semiconductor's needs five coefficients, or errs eight times as much.
     pub fn fitted_method(&self) -> Option<&'static str> {
         match self.material.kind {
-            Kind::Semiconductor => Some("fitted_five"),
+            MaterialKind::Semiconductor => Some("fitted_five"),
             _ => self.fitted_with_four(),
         }
     }

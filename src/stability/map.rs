@@ -5,7 +5,7 @@ use crate::num::Precision;
 
 use super::axis::{Axis, logarithmic};
 use super::failure::{Failure, Point};
-use super::scan::{Code, Scan};
+use super::scan::{Scan, ScannedFunction};
 use super::space::{Space, law};
 
 /// Errors over angle and index.
@@ -63,7 +63,7 @@ pub fn maps(method: &'static Method, precision: Precision) -> Vec<Map> {
 fn map(method: &'static Method, precision: Precision, axes: Vec<Axis>, held: &'static str) -> Map {
     let rounded = |axis: Axis| axis.each_rounded(precision);
     let axes: Vec<Axis> = axes.into_iter().map(rounded).collect();
-    let code = Code::library(method, precision);
+    let code = ScannedFunction::library(method, precision);
     let degrees: Vec<f64> = (0..=90).map(f64::from).collect();
     let cosines = degrees
         .iter()

@@ -69,7 +69,7 @@ pub type Progress<'a> = &'a mut dyn FnMut(usize, usize);
 
 /// Scans a method.
 pub fn scan(method: &'static Method, precision: Precision, progress: Progress) -> Vec<Finding> {
-    let code = Code::library(method, precision);
+    let code = ScannedFunction::library(method, precision);
     let spaces = spaces(method, precision);
     let total: usize = spaces.iter().map(Space::count).sum();
     let mut before = 0;
@@ -96,7 +96,7 @@ pub fn scan(method: &'static Method, precision: Precision, progress: Progress) -
 
 /// A function, and what it means.
 #[derive(Clone, Debug)]
-pub struct Code {
+pub struct ScannedFunction {
     /// What its text says.
     pub function: Checked,
     /// What it means: in half precision some formulas are written otherwise.
@@ -105,14 +105,14 @@ pub struct Code {
     pub precision: Precision,
 }
 
-impl Code {
+impl ScannedFunction {
     /// A method's library function of scalars.
-    pub(super) fn library(method: &Method, precision: Precision) -> Code {
+    pub(super) fn library(method: &Method, precision: Precision) -> ScannedFunction {
         let built = |precision| {
             let function = method.function_in(precision, true);
             function.expect("every method's function is well formed; a test builds all")
         };
-        Code {
+        ScannedFunction {
             function: built(precision),
             meaning: built(Precision::F32),
             precision,
@@ -122,7 +122,7 @@ impl Code {
 
 /// Scans one channel of a function of the cosine alone, against what the law says of it.
 pub fn scan_specialised(
-    code: &Code,
+    code: &ScannedFunction,
     channel: usize,
     law: &(dyn Fn(f64) -> f64 + Sync),
 ) -> Vec<Finding> {
@@ -147,7 +147,7 @@ pub fn scan_specialised(
 }
 
 pub(super) struct Scan<'a> {
-    pub code: &'a Code,
+    pub code: &'a ScannedFunction,
     pub channel: usize,
     pub space: &'a Space,
     pub given: &'a (dyn Fn(usize) -> Given + Sync),

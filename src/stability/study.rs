@@ -6,7 +6,7 @@ use crate::num::Precision;
 use crate::reference::MaterialInMedium;
 
 use super::row::StabilityRow;
-use super::scan::{Code, Finding, scan, scan_specialised};
+use super::scan::{Finding, ScannedFunction, scan, scan_specialised};
 
 /// Hears how much is done, of how much, of what.
 pub type StudyProgress<'a> = &'a mut dyn FnMut(u64, u64, &str);
@@ -70,7 +70,7 @@ impl Study {
             };
             specialised_function(method, subject, &naming, &Bounds::recorded())
         };
-        let code = Code {
+        let code = ScannedFunction {
             function: function(self.precision)?.function,
             meaning: function(Precision::F32)?.function,
             precision: self.precision,

@@ -21,7 +21,8 @@ use super::harness::{self, Call, ENTRY};
 use super::naga_translation;
 use super::trial::Trial;
 use crate::gpu::{
-    self, Argument, Code, Device, Kernel, Program, Texture, TextureFormat, Uniform, Wanted, Wrap,
+    self, Argument, Device, Kernel, Program, ShaderCode, Texture, TextureFormat, Uniform, Wanted,
+    Wrap,
 };
 
 /// Why nothing was run.
@@ -184,7 +185,7 @@ impl Devices {
         let call = Call::to_emitted(emitted);
         let device = self.device_for(shown.target, path)?;
         check_able(device, emitted)?;
-        let ready = |code: Code, entry: &str, is_bound: bool| {
+        let ready = |code: ShaderCode, entry: &str, is_bound: bool| {
             let params = &emitted.function.params;
             let uniforms = if is_bound {
                 Vec::new()
@@ -206,7 +207,7 @@ impl Devices {
             })
         };
         if let Stack::SpirvModule = shown.target.stack {
-            return ready(Code::Spirv(shown.bytes), shown.entry, false);
+            return ready(ShaderCode::Spirv(shown.bytes), shown.entry, false);
         }
         let text = std::str::from_utf8(shown.bytes)
             .map_err(|fault| RunFault::Failed(fault.to_string()))?;
@@ -216,20 +217,20 @@ impl Devices {
             (Stack::Wgpu(_), ExecutionPath::NagaGles) => {
                 let vertex = harness::wgsl_vertex(text, &call, &trial.values);
                 let made = naga_translation::to_gles(&vertex, ENTRY)?;
-                ready(Code::Gles(&harness::renamed(&made)), "main", true)
+                ready(ShaderCode::Gles(&harness::renamed(&made)), "main", true)
             }
             (Stack::Wgpu(_), ExecutionPath::NagaHlsl) => {
                 let made = naga_translation::to_hlsl(&shader, ENTRY)?;
                 let code = hlsl_to_spirv(&made.text, &made.entry, HlslVersion::V2018)?;
-                ready(Code::Spirv(&code), &made.entry, false)
+                ready(ShaderCode::Spirv(&code), &made.entry, false)
             }
-            (Stack::OpenGlEs(_), _) => ready(Code::Gles(&shader), "main", false),
+            (Stack::OpenGlEs(_), _) => ready(ShaderCode::Gles(&shader), "main", false),
             (Stack::DxcToVulkan(_), _) => {
                 let version = path.hlsl_version();
                 let code = hlsl_to_spirv_in(emitted.precision, &shader, ENTRY, version)?;
-                ready(Code::Spirv(&code), ENTRY, false)
+                ready(ShaderCode::Spirv(&code), ENTRY, false)
             }
-            _ => ready(Code::Wgsl(&shader), ENTRY, false),
+            _ => ready(ShaderCode::Wgsl(&shader), ENTRY, false),
         }
     }
 }

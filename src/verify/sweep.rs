@@ -13,7 +13,7 @@ use super::points::{WITHIN, cosines};
 use super::run::{Devices, RunFault, ShippedFunction};
 use super::trial::{Outcome, TEXTBOOK_FROM, Trial, result_range};
 use crate::fit::Measured;
-use crate::gpu::{Code, Program};
+use crate::gpu::{Program, ShaderCode};
 use crate::ir::Value;
 
 /// How many bit patterns there are.
@@ -34,7 +34,7 @@ pub fn sweep(
     let text = std::str::from_utf8(shown.bytes).map_err(|why| RunFault::Failed(why.to_string()))?;
     let call = harness::Call::to_emitted(shown.function);
     let stream = devices.compute()?.prepare_stream(&Program {
-        code: Code::Wgsl(&harness::stream(text, &call)),
+        code: ShaderCode::Wgsl(&harness::stream(text, &call)),
         entry: harness::ENTRY,
         uniforms: &[],
         textured: false,

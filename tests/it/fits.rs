@@ -10,7 +10,7 @@ use fresnel_gen::cost::records;
 use fresnel_gen::emit::{Bounds, Naming, missed, specialised_function};
 use fresnel_gen::fit::{ModelError, inputs_of, model_error};
 use fresnel_gen::ir::{Value, evaluate};
-use fresnel_gen::materials::{Kind, Material, ViewingConditions};
+use fresnel_gen::materials::{Material, MaterialKind, ViewingConditions};
 use fresnel_gen::methods::{self, Method};
 use fresnel_gen::num::statistics::quantile;
 use fresnel_gen::num::{Legendre, Precision};
@@ -48,7 +48,7 @@ const LEAST_N: f64 = 1.2;
 
 /// Whether it is one of the 75 that promises are about.
 pub fn is_promised(subject: &MaterialInMedium) -> bool {
-    subject.material.kind != Kind::Dielectric && !BESIDE.contains(&&*subject.name)
+    subject.material.kind != MaterialKind::Dielectric && !BESIDE.contains(&&*subject.name)
 }
 
 /// The error of a method for a material.
@@ -92,7 +92,7 @@ fn outside() -> Option<Vec<(&'static str, MaterialInMedium)>> {
     let seen = lines.map(|line| {
         let (class, path) = line.split_once(',').expect("a class and a page");
         let mut material = super::database::material(path)?;
-        material.kind = Kind::ALL
+        material.kind = MaterialKind::ALL
             .into_iter()
             .find(|kind| kind.name() == class)
             .expect("a class");
@@ -116,8 +116,8 @@ fn outside() -> Option<Vec<(&'static str, MaterialInMedium)>> {
 fn classes_are_followed_as_promised() {
     let Some(outside) = outside() else { return };
     let has_class = |subject: &&MaterialInMedium| {
-        let is_gas =
-            subject.material.kind == Kind::Dielectric && subject.effective.channels.n[1] < LEAST_N;
+        let is_gas = subject.material.kind == MaterialKind::Dielectric
+            && subject.effective.channels.n[1] < LEAST_N;
         subject.material.rgb_nm.is_none() && !is_gas
     };
     let inside = catalogue().iter().filter(has_class);
@@ -220,9 +220,9 @@ fn what_absorbs_a_little_is_fitted_or_told_what_serves() {
     let method = methods::find("fitted_dielectric").expect("it is registered");
     let made =
         |kind| specialised_function(method, &seen(kind), &Naming::default(), &Bounds::default());
-    let dielectric = made(Kind::Dielectric).expect("it is fitted");
+    let dielectric = made(MaterialKind::Dielectric).expect("it is fitted");
     assert!(dielectric.model_error.expect("it is measured").max_abs < 0.002);
-    let refused = made(Kind::Semiconductor)
+    let refused = made(MaterialKind::Semiconductor)
         .expect_err("it is refused")
         .to_string();
     assert!(refused.contains("fitted_five serves it"), "{refused}");
@@ -327,7 +327,7 @@ fn the_catalogue_is_followed_as_promised_and_recorded() {
 
     let absorbs = |row: &&Row| is_promised(row.subject);
     let glass = |row: &&Row| {
-        row.subject.material.kind == Kind::Dielectric
+        row.subject.material.kind == MaterialKind::Dielectric
             && row.subject.effective.channels.n[1] >= LEAST_N
     };
     let of = |name: &str, class: &dyn Fn(&&Row) -> bool| -> Vec<&Row> {

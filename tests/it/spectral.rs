@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 
 use fresnel_gen::fit;
 use fresnel_gen::materials::{
-    self, Channels, Kind, Material, Surface, THESIS_NM, ViewingConditions,
+    self, Channels, Material, MaterialKind, Surface, THESIS_NM, ViewingConditions,
 };
 use fresnel_gen::optics::cosine;
 use fresnel_gen::reference;
@@ -205,9 +205,9 @@ fn dielectrics_hardly_absorb() {
         let surface = Surface::new(&material, None, &sight).expect("held where it is not known");
         let most = surface.most_k();
         match material.kind {
-            Kind::Dielectric => assert!(most < 0.6, "{}: {most}", material.name),
-            Kind::Metal => assert!(most > 1.0, "{}: {most}", material.name),
-            Kind::Semiconductor => {}
+            MaterialKind::Dielectric => assert!(most < 0.6, "{}: {most}", material.name),
+            MaterialKind::Metal => assert!(most > 1.0, "{}: {most}", material.name),
+            MaterialKind::Semiconductor => {}
         }
     }
 }

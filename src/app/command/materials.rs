@@ -12,7 +12,7 @@ use crate::app::sight::sight;
 use crate::app::source::source;
 use crate::app::write::write_file;
 use crate::emit::CommandLine;
-use crate::materials::{self, Extrapolate, Kind, Material, ViewingConditions};
+use crate::materials::{self, Extrapolate, Material, MaterialKind, ViewingConditions};
 use crate::report::material_sheet::material_sheet;
 use crate::report::table;
 use crate::report::{Report, SCHEMA};
@@ -37,9 +37,11 @@ pub fn run(flags: &MaterialsFlags, progress: Progress) -> Result<Output, Error> 
 }
 
 /// The class of this name.
-pub fn class(name: &str) -> Result<Kind, Error> {
-    let found = Kind::ALL.into_iter().find(|kind| kind.name() == name);
-    found.ok_or_else(|| unknown("class", name, &Kind::ALL.map(Kind::name)))
+pub fn class(name: &str) -> Result<MaterialKind, Error> {
+    let found = MaterialKind::ALL
+        .into_iter()
+        .find(|kind| kind.name() == name);
+    found.ok_or_else(|| unknown("class", name, &MaterialKind::ALL.map(MaterialKind::name)))
 }
 
 fn list(filter: &FilterFlags, json: Option<&Path>) -> Result<Output, Error> {

@@ -8,7 +8,7 @@ use crate::app::request::load;
 use crate::app::sight::sight;
 use crate::app::source::source;
 use crate::fit::{BOUNCES, Params, abbe, colour_errors, ior_d, params};
-use crate::materials::{self, Kind, Material, Surface, ViewingConditions};
+use crate::materials::{self, Material, MaterialKind, Surface, ViewingConditions};
 use crate::reference::By;
 use crate::report::SCHEMA;
 use crate::report::table;
@@ -140,7 +140,7 @@ fn colour_error_json(told: &Told) -> Value {
 
 /// Abbe's number, of what is clear enough to have one.
 fn dispersion(material: &Material) -> Option<f64> {
-    abbe(material).filter(|_| material.kind == Kind::Dielectric)
+    abbe(material).filter(|_| material.kind == MaterialKind::Dielectric)
 }
 
 fn text(told: &Told) -> String {

@@ -3,7 +3,7 @@
 use super::Page;
 use crate::materials::decimal::short;
 use crate::materials::dispersion::{Curve, Extrapolate};
-use crate::materials::{FileFault, Index, Kind, Material, name_fault};
+use crate::materials::{FileFault, Index, Material, MaterialKind, name_fault};
 
 /// Where the class is guessed: near the middle of the visible range.
 pub(super) const GUESS_NM: f64 = 580.0;
@@ -34,7 +34,7 @@ impl Page {
             substance: name.clone(),
             name,
             summary: self.summary(),
-            kind: Kind::Dielectric,
+            kind: MaterialKind::Dielectric,
             licence: or(&self.licence, NOT_GIVEN),
             reference: or(&self.reference, NOT_GIVEN),
             link: or(&self.link, NOT_GIVEN),
@@ -107,7 +107,7 @@ fn or(text: &str, other: &str) -> String {
 }
 
 /// The class that n and k speak for, and the remark that says so.
-fn guessed(material: &Material) -> (Kind, String) {
+fn guessed(material: &Material) -> (MaterialKind, String) {
     let (from, to) = material.range_nm();
     let middle = (from + to) / 2.0;
     let index = |nm: f64| {
@@ -123,17 +123,20 @@ fn guessed(material: &Material) -> (Kind, String) {
             let guess = format!("class {name} guessed from n = {n}, k = {k} at {nm} nm");
             (kind, guess)
         }
-        None => (Kind::Dielectric, "class dielectric guessed".to_owned()),
+        None => (
+            MaterialKind::Dielectric,
+            "class dielectric guessed".to_owned(),
+        ),
     }
 }
 
 /// A negative real part of the permittivity is a metal's.
-fn kind(n: f64, k: f64) -> Kind {
+fn kind(n: f64, k: f64) -> MaterialKind {
     if n < k {
-        Kind::Metal
+        MaterialKind::Metal
     } else if k > ABSORBING_K {
-        Kind::Semiconductor
+        MaterialKind::Semiconductor
     } else {
-        Kind::Dielectric
+        MaterialKind::Dielectric
     }
 }

@@ -123,7 +123,7 @@ pub(super) fn check_text(file: &str, text: &str) -> Result<(), FileFault> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::materials::{Extrapolate, Formula, Kind, Material};
+    use crate::materials::{Extrapolate, Formula, Material, MaterialKind};
 
     const GOOD: &str = "\
 # a comment
@@ -186,7 +186,7 @@ PROPERTIES:
         assert_eq!(material.name, "au_mine");
         assert_eq!(material.summary, "Au, Mine: Room temperature");
         assert_eq!(material.page, "main/Au/nk/Mine.yml");
-        assert_eq!(material.kind, Kind::Semiconductor);
+        assert_eq!(material.kind, MaterialKind::Semiconductor);
         assert_eq!(
             material.note,
             "class semiconductor guessed from n = 1.39, k = 0.719 at 363.05 nm"
@@ -515,10 +515,10 @@ PROPERTIES:
     #[test]
     fn the_class_is_guessed() {
         for (row, kind) in [
-            ("0.58 0.3 2.8", Kind::Metal),
-            ("0.58 4 0.02", Kind::Semiconductor),
-            ("0.58 1.5 0.0001", Kind::Dielectric),
-            ("0.58 -1 1", Kind::Dielectric),
+            ("0.58 0.3 2.8", MaterialKind::Metal),
+            ("0.58 4 0.02", MaterialKind::Semiconductor),
+            ("0.58 1.5 0.0001", MaterialKind::Dielectric),
+            ("0.58 -1 1", MaterialKind::Dielectric),
         ] {
             let material = read(&table("nk", row)).material(None).expect("it has n");
             assert_eq!(material.kind, kind, "{row}");

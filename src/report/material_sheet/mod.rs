@@ -145,7 +145,7 @@ impl DrawnMaterial<'_> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::materials::{Curve, Extrapolate, Kind, find};
+    use crate::materials::{Curve, Extrapolate, MaterialKind, find};
 
     fn table(points: impl IntoIterator<Item = (f64, f64)>) -> Curve {
         Curve::table(points.into_iter().collect()).expect("they ascend")
@@ -162,7 +162,7 @@ mod tests {
         Material {
             name: "brass".to_owned(),
             summary: "Brass <polished> & \"bright\"".to_owned(),
-            kind: Kind::Metal,
+            kind: MaterialKind::Metal,
             substance: "brass".to_owned(),
             licence: "CC0-1.0".to_owned(),
             reference: "Ångström & Šimon <1900>".to_owned(),

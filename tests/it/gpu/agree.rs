@@ -5,7 +5,7 @@ use std::path::Path;
 
 use fresnel_gen::app::{Materials, Request, request};
 use fresnel_gen::emit::{self, Bounds, Naming};
-use fresnel_gen::gpu::{Argument, Backend, Code, Uniform};
+use fresnel_gen::gpu::{Argument, Backend, ShaderCode, Uniform};
 use fresnel_gen::ir::{Checked, Value, evaluate};
 use fresnel_gen::methods;
 use fresnel_gen::num::ulp_distance;
@@ -35,7 +35,7 @@ fn uniforms(arguments: &[(&str, [f32; 3])]) -> Vec<Uniform> {
 }
 
 #[track_caller]
-fn check(backend: Backend, code: Code, function: &Checked, arguments: &[(&str, [f32; 3])]) {
+fn check(backend: Backend, code: ShaderCode, function: &Checked, arguments: &[(&str, [f32; 3])]) {
     let Some(device) = device(backend) else {
         return;
     };
@@ -83,45 +83,55 @@ const METAL: [(&str, [f32; 3]); 2] = [("n", [0.17, 0.42, 1.37]), ("k", [3.1, 2.3
 #[test]
 fn a_material_in_wgsl() {
     let text = wgsl(&text("wgsl/materials/gold.wgsl"), "fresnel_gold", &[]);
-    check(Backend::Vulkan, Code::Wgsl(&text), &gold(), &[]);
+    check(Backend::Vulkan, ShaderCode::Wgsl(&text), &gold(), &[]);
 }
 
 #[test]
 fn a_material_in_wgsl_on_opengl() {
     let text = wgsl(&text("wgsl/materials/gold.wgsl"), "fresnel_gold", &[]);
-    check(Backend::OpenGl, Code::Wgsl(&text), &gold(), &[]);
+    check(Backend::OpenGl, ShaderCode::Wgsl(&text), &gold(), &[]);
 }
 
 #[test]
 fn a_material_in_spirv() {
     let bytes = shader("spirv/materials/gold.comp.spv");
-    check(Backend::Vulkan, Code::Spirv(&bytes), &gold(), &[]);
+    check(Backend::Vulkan, ShaderCode::Spirv(&bytes), &gold(), &[]);
 }
 
 #[test]
 fn a_material_in_gles() {
     let text = gles(&text("gles/materials/gold.glsl"), "fresnel_gold", &[]);
-    check(Backend::Gles, Code::Gles(&text), &gold(), &[]);
+    check(Backend::Gles, ShaderCode::Gles(&text), &gold(), &[]);
 }
 
 #[test]
 fn the_library_in_wgsl() {
     let text = text("wgsl/fresnel_conductor_exact.wgsl");
     let text = wgsl(&text, "fresnel_conductor_exact", &["n", "k"]);
-    check(Backend::Vulkan, Code::Wgsl(&text), &conductor(), &METAL);
+    check(
+        Backend::Vulkan,
+        ShaderCode::Wgsl(&text),
+        &conductor(),
+        &METAL,
+    );
 }
 
 #[test]
 fn the_library_in_spirv() {
     let bytes = shader("spirv/fresnel_conductor_exact.comp.spv");
-    check(Backend::Vulkan, Code::Spirv(&bytes), &conductor(), &METAL);
+    check(
+        Backend::Vulkan,
+        ShaderCode::Spirv(&bytes),
+        &conductor(),
+        &METAL,
+    );
 }
 
 #[test]
 fn the_library_in_gles() {
     let text = text("gles/fresnel_conductor_exact.glsl");
     let text = gles(&text, "fresnel_conductor_exact", &["n", "k"]);
-    check(Backend::Gles, Code::Gles(&text), &conductor(), &METAL);
+    check(Backend::Gles, ShaderCode::Gles(&text), &conductor(), &METAL);
 }
 
 #[test]
@@ -144,8 +154,8 @@ fn more_than_a_block_comes_back_in_order() {
             continue;
         };
         let code = match backend {
-            Backend::Gles => Code::Gles(text),
-            _ => Code::Wgsl(text),
+            Backend::Gles => ShaderCode::Gles(text),
+            _ => ShaderCode::Wgsl(text),
         };
         let kernel = device.prepare(&program(code, &[])).unwrap();
         let got = kernel.run(&points, &[], None).unwrap();

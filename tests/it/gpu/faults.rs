@@ -1,15 +1,15 @@
 //! What cannot run says why, in the words of what refused it.
 
 use fresnel_gen::gpu::{
-    Argument, Backend, Code, Device, DeviceFault, Texture, TextureFormat, Uniform, Wanted, Wrap,
-    adapters,
+    Argument, Backend, Device, DeviceFault, ShaderCode, Texture, TextureFormat, Uniform, Wanted,
+    Wrap, adapters,
 };
 
 use super::{device, gles, program, wgsl};
 
 /// The log of a refusal, or nothing where there is no device.
 #[track_caller]
-fn refused(backend: Backend, code: Code) -> Option<String> {
+fn refused(backend: Backend, code: ShaderCode) -> Option<String> {
     let device = device(backend)?;
     match device.prepare(&program(code, &[])) {
         Err(DeviceFault::Refused { log }) => Some(log),
@@ -33,7 +33,7 @@ fn broken_wgsl() {
     ] {
         let text = wgsl(source, "f", &[]);
         for backend in [Backend::Vulkan, Backend::OpenGl] {
-            if let Some(log) = refused(backend, Code::Wgsl(&text)) {
+            if let Some(log) = refused(backend, ShaderCode::Wgsl(&text)) {
                 assert!(log.contains(word), "{log}");
             }
         }
@@ -45,7 +45,7 @@ fn a_layout_that_does_not_fit() {
     let source = "fn f(x: f32, n: vec3<f32>) -> vec3<f32> { return n * x; }";
     // The program says that it has no arguments, and the text has a block of them.
     let text = wgsl(source, "f", &["n"]);
-    if let Some(log) = refused(Backend::Vulkan, Code::Wgsl(&text)) {
+    if let Some(log) = refused(Backend::Vulkan, ShaderCode::Wgsl(&text)) {
         assert!(log.contains("binding"), "{log}");
     }
 }
@@ -59,12 +59,12 @@ fn broken_gles() {
         ),
         ("highp vec3 f(highp float x) { return wrong; }", "wrong"),
     ] {
-        if let Some(log) = refused(Backend::Gles, Code::Gles(&gles(source, "f", &[]))) {
+        if let Some(log) = refused(Backend::Gles, ShaderCode::Gles(&gles(source, "f", &[]))) {
             assert!(log.contains(word), "{log}");
         }
     }
     let unnamed = "#version 300 es\nin highp float cos_theta;\nvoid main() { gl_Position = vec4(cos_theta); }\n";
-    if let Some(log) = refused(Backend::Gles, Code::Gles(unnamed)) {
+    if let Some(log) = refused(Backend::Gles, ShaderCode::Gles(unnamed)) {
         assert!(log.contains("reflectance"), "{log}");
     }
 }
@@ -77,7 +77,7 @@ fn broken_spirv() {
         (b"text", "no SPIR-V"),
         (&fragment[..fragment.len() - 1], "no SPIR-V"),
     ] {
-        if let Some(log) = refused(Backend::Vulkan, Code::Spirv(bytes)) {
+        if let Some(log) = refused(Backend::Vulkan, ShaderCode::Spirv(bytes)) {
             assert!(log.contains(word), "{log}");
         }
     }
@@ -86,8 +86,8 @@ fn broken_spirv() {
 #[test]
 fn a_language_on_the_wrong_stack() {
     for (backend, code) in [
-        (Backend::Vulkan, Code::Gles("")),
-        (Backend::Gles, Code::Wgsl("")),
+        (Backend::Vulkan, ShaderCode::Gles("")),
+        (Backend::Gles, ShaderCode::Wgsl("")),
     ] {
         if let Some(device) = device(backend) {
             let fault = device.prepare(&program(code, &[])).err();
@@ -124,8 +124,8 @@ fn arguments_and_textures_that_do_not_fit() {
         &["n"],
     );
     for (backend, code) in [
-        (Backend::Vulkan, Code::Wgsl(&wgsl)),
-        (Backend::Gles, Code::Gles(&gles)),
+        (Backend::Vulkan, ShaderCode::Wgsl(&wgsl)),
+        (Backend::Gles, ShaderCode::Gles(&gles)),
     ] {
         let Some(device) = device(backend) else {
             continue;

@@ -10,7 +10,7 @@ mod stream;
 mod table;
 mod texture;
 
-use fresnel_gen::gpu::{Backend, Code, Device, DeviceFault, Program, Uniform, Wanted};
+use fresnel_gen::gpu::{Backend, Device, DeviceFault, Program, ShaderCode, Uniform, Wanted};
 
 use super::not_checked;
 
@@ -33,7 +33,7 @@ fn device(backend: Backend) -> Option<Device> {
     }
 }
 
-fn program<'a>(code: Code<'a>, uniforms: &'a [Uniform]) -> Program<'a> {
+fn program<'a>(code: ShaderCode<'a>, uniforms: &'a [Uniform]) -> Program<'a> {
     Program {
         code,
         entry: "main",

@@ -1,6 +1,6 @@
 //! A stream gives each number of a range once, in order.
 
-use fresnel_gen::gpu::{Backend, Code};
+use fresnel_gen::gpu::{Backend, ShaderCode};
 
 use super::{device, program};
 
@@ -22,7 +22,7 @@ fn every_number_comes_once() {
         let Some(device) = device(backend) else {
             continue;
         };
-        let stream = device.prepare_stream(&program(Code::Wgsl(IDENTITY), &[]));
+        let stream = device.prepare_stream(&program(ShaderCode::Wgsl(IDENTITY), &[]));
         let stream = stream.unwrap();
         let (from, count) = (0x3F00_0001, 1_000_001);
         let mut bits = from;

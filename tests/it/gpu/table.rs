@@ -6,7 +6,7 @@ use fresnel_gen::app::tables::{WantedTables, table_materials};
 use fresnel_gen::bake::TableMaterial;
 use fresnel_gen::emit::{self, Emitted, Naming};
 use fresnel_gen::gpu::{
-    Argument, Backend, Code, DeviceFault, Program, Texture, TextureFormat, Uniform, Wrap,
+    Argument, Backend, DeviceFault, Program, ShaderCode, Texture, TextureFormat, Uniform, Wrap,
 };
 use fresnel_gen::ir::Weights;
 use fresnel_gen::lut::{Axis, Depth, Stored, Table};
@@ -90,8 +90,8 @@ impl<'a> Put<'a> {
         let target = targets::find(target).unwrap();
         let program = harness::program(target, &file, &call).unwrap();
         let (code, prefix) = match backend {
-            Backend::Gles => (Code::Gles(&program), "fg_"),
-            _ => (Code::Wgsl(&program), ""),
+            Backend::Gles => (ShaderCode::Gles(&program), "fg_"),
+            _ => (ShaderCode::Wgsl(&program), ""),
         };
         let constant = self.stored.axis.constant().unwrap() as f32;
         let scalars = [

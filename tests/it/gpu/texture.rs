@@ -1,6 +1,6 @@
 //! A texture is sampled as the filter of the tables says: linear between the centres of texels.
 
-use fresnel_gen::gpu::{Backend, Code, DeviceFault, Program, Texture, TextureFormat, Wrap};
+use fresnel_gen::gpu::{Backend, DeviceFault, Program, ShaderCode, Texture, TextureFormat, Wrap};
 
 use super::device;
 
@@ -52,8 +52,8 @@ fn check(backend: Backend, format: TextureFormat, wrap: Wrap, curve: fn(f32) -> 
         return;
     };
     let code = match backend {
-        Backend::Gles => Code::Gles(GLES),
-        _ => Code::Wgsl(WGSL),
+        Backend::Gles => ShaderCode::Gles(GLES),
+        _ => ShaderCode::Wgsl(WGSL),
     };
     let kernel = device
         .prepare(&Program {
