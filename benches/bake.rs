@@ -5,7 +5,7 @@ use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 use fresnel_gen::app::request::Materials;
 use fresnel_gen::app::tables::{WantedTables, table_materials};
 use fresnel_gen::bake::{Request, TableSize, bake};
-use fresnel_gen::lut::{Axis, Depth, Format, Table, smallest};
+use fresnel_gen::lut::{Depth, Format, Table, TableAxis, smallest};
 use fresnel_gen::materials::{Surface, ViewingConditions, find};
 use fresnel_gen::methods::Light;
 use fresnel_gen::reference::ReferenceCurve;
@@ -23,7 +23,7 @@ fn one(c: &mut Criterion) {
     let mut group = c.benchmark_group("tables");
     group.throughput(Throughput::Elements(1));
     group.bench_function("256 texels of gold", |b| {
-        b.iter(|| Table::new("gold", &gold, Axis::Rational, 256))
+        b.iter(|| Table::new("gold", &gold, TableAxis::Rational, 256))
     });
     group.finish();
 }
@@ -40,7 +40,7 @@ fn all_formats(c: &mut Criterion) {
         typed: String::new(),
         formats: Format::ALL.to_vec(),
         shape: TableSize::Fixed {
-            axis: Axis::Rational,
+            axis: TableAxis::Rational,
             texels: 256,
         },
         atlas: false,
@@ -59,7 +59,7 @@ fn all_formats(c: &mut Criterion) {
 fn search(c: &mut Criterion) {
     let gold = gold();
     c.bench_function("the smallest table of gold within 0.001", |b| {
-        b.iter(|| smallest(&[&gold], 0.001, &Axis::ALL, &Depth::ALL))
+        b.iter(|| smallest(&[&gold], 0.001, &TableAxis::ALL, &Depth::ALL))
     });
 }
 

@@ -109,7 +109,7 @@ pub fn judged(results: &[[f32; 3]], most: [f32; 3]) -> Edges {
 
 /// The first result between the edges that is no reflectance, and how many there are.
 #[derive(Debug)]
-pub struct Between {
+pub struct FaultBetweenEdges {
     most: [f32; 3],
     first: RefCell<Option<FirstFault>>,
 }
@@ -123,10 +123,10 @@ struct FirstFault {
     count: usize,
 }
 
-impl Between {
+impl FaultBetweenEdges {
     /// Nothing is seen yet.
-    pub fn new(most: [f32; 3]) -> Between {
-        Between {
+    pub fn new(most: [f32; 3]) -> FaultBetweenEdges {
+        FaultBetweenEdges {
             most,
             first: RefCell::new(None),
         }

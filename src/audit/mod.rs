@@ -215,7 +215,7 @@ fn measured(
 ) -> Result<Ran, Trouble> {
     let results = runner.run(&edges::cosines())?;
     let mut edges = edges::judged(&results, most);
-    let between = edges::Between::new(most);
+    let between = edges::FaultBetweenEdges::new(most);
     let error = runner.error(&subject.truth, &|cosines, got| between.look(cosines, got))?;
     edges.findings.extend(between.finding());
     let perceived = runner.perceived(&subject.truth, space)?;

@@ -9,7 +9,7 @@ mod subject;
 mod usual;
 mod words;
 
-use crate::lut::{Axis, Choice, Depth, Format, smallest};
+use crate::lut::{Choice, Depth, Format, TableAxis, smallest};
 use crate::targets::Target;
 
 use picture::Baking;
@@ -48,7 +48,7 @@ pub enum TableSize {
     /// So many texels along this axis.
     Fixed {
         /// The axis.
-        axis: Axis,
+        axis: TableAxis,
         /// The number of texels.
         texels: usize,
     },
@@ -57,7 +57,7 @@ pub enum TableSize {
         /// The largest error of the filtered lookup.
         budget: f64,
         /// The axes.
-        axes: Vec<Axis>,
+        axes: Vec<TableAxis>,
     },
 }
 
@@ -138,7 +138,7 @@ fn bake_picture(request: &Request, name: &str, subjects: &[TableMaterial]) -> Re
 fn chosen(
     request: &Request,
     subjects: &[TableMaterial],
-) -> Result<(Axis, usize, Vec<Format>), Error> {
+) -> Result<(TableAxis, usize, Vec<Format>), Error> {
     let (budget, axes) = match &request.shape {
         TableSize::Fixed { axis, texels } => return Ok((*axis, *texels, request.formats.clone())),
         TableSize::Within { budget, axes } => (*budget, axes),

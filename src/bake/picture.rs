@@ -3,7 +3,9 @@
 use crate::emit::{CommandLine, MARK, comment_lines, quoted};
 use crate::fit::ModelError;
 use crate::ir::Weights;
-use crate::lut::{Axis, Between, Depth, Format, Picture, Stored, TABLES, Table, table_error};
+use crate::lut::{
+    BetweenTexels, Depth, Format, Picture, Stored, TABLES, Table, TableAxis, table_error,
+};
 use crate::targets::Target;
 
 use super::words::with_functions;
@@ -18,7 +20,7 @@ pub struct Baking<'a> {
     /// Its rows.
     pub subjects: &'a [TableMaterial],
     /// How cosines are spread.
-    pub axis: Axis,
+    pub axis: TableAxis,
     /// Texels in a row.
     pub texels: usize,
     /// Its files.
@@ -40,7 +42,7 @@ impl<'a> Baking<'a> {
         request: &'a Request,
         name: &'a str,
         subjects: &'a [TableMaterial],
-        (axis, texels): (Axis, usize),
+        (axis, texels): (TableAxis, usize),
         formats: Vec<Format>,
     ) -> Result<Baking<'a>, Error> {
         let tables = subjects
@@ -146,15 +148,15 @@ fn rounded(
     formats: &[Format],
     texels: usize,
 ) -> Vec<Rounded> {
-    let axis = tables.first().map_or(Axis::Cos, |table| table.axis);
-    let between = |subject: &TableMaterial| Between::new(&subject.truth, axis, texels);
-    let between: Vec<Between> = subjects.iter().map(between).collect();
+    let axis = tables.first().map_or(TableAxis::Cos, |table| table.axis);
+    let between = |subject: &TableMaterial| BetweenTexels::new(&subject.truth, axis, texels);
+    let between: Vec<BetweenTexels> = subjects.iter().map(between).collect();
     let all: Vec<&Table> = tables.iter().collect();
     let in_depth = |depth: Depth| {
         let scale = depth.scale(&all);
         let stored = |table| Stored::scaled(table, depth, scale);
         let tables: Vec<Stored> = tables.iter().map(stored).collect();
-        let error = |((stored, subject), between): ((&Stored, &TableMaterial), &Between)| {
+        let error = |((stored, subject), between): ((&Stored, &TableMaterial), &BetweenTexels)| {
             [Weights::Steps256, Weights::Exact]
                 .map(|weights| table_error(stored, weights, &subject.truth, between))
         };

@@ -3,7 +3,7 @@
 use serde::Serialize;
 
 use crate::fit::ModelError;
-use crate::lut::{Axis, Format, Picture, TERMS};
+use crate::lut::{Format, Picture, TERMS, TableAxis};
 
 use super::picture::Rounded;
 use super::subject::TableMaterial;
@@ -200,7 +200,7 @@ impl ExactWeights {
 
 impl TableLookup {
     fn new(picture: &Picture, functions: &[String]) -> TableLookup {
-        let (scale, offset) = Axis::half_texel(picture.width);
+        let (scale, offset) = TableAxis::half_texel(picture.width);
         let warp = picture.axis.constant();
         TableLookup {
             c: "clamp(cos_theta, 0.0, 1.0)",

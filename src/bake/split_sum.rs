@@ -3,8 +3,8 @@
 use crate::emit::{CommandLine, MARK, comment_lines};
 use crate::ir::Weights;
 use crate::lut::{
-    Axis, BetweenSplitSum, Format, LEAST_ROUGHNESS, Picture, SplitSum, StoredSplitSum, TABLES,
-    TERMS, check_side, split_sum_roughness,
+    BetweenSplitSum, Format, LEAST_ROUGHNESS, Picture, SplitSum, StoredSplitSum, TABLES, TERMS,
+    TableAxis, check_side, split_sum_roughness,
 };
 use crate::methods::{Method, Shape};
 
@@ -99,7 +99,7 @@ fn picture(
     stored: &StoredSplitSum,
     [steps, _]: &[[f64; TERMS]; 2],
 ) -> Picture {
-    let (scale, offset) = Axis::half_texel(request.size);
+    let (scale, offset) = TableAxis::half_texel(request.size);
     let about = vec![
         format!(
             "{MARK}: fresnel-gen {}",
@@ -138,7 +138,7 @@ fn row(
     (format, file): (Format, &str),
     [steps, exact]: &[[f64; TERMS]; 2],
 ) -> BakeRow {
-    let (scale, offset) = Axis::half_texel(request.size);
+    let (scale, offset) = TableAxis::half_texel(request.size);
     BakeRow::SplitSum(Box::new(SplitSumRow {
         material: None,
         medium: None,

@@ -1,7 +1,7 @@
 //! What is baked unless asked otherwise.
 
 use crate::emit::Naming;
-use crate::lut::{Axis, Format};
+use crate::lut::{Format, TableAxis};
 use crate::materials::ViewingConditions;
 use crate::methods::TEXELS;
 use crate::spectra::Gamut;
@@ -10,7 +10,7 @@ use super::words::{material_words, viewing_flags};
 use super::{Request, TableMaterial, TableSize};
 
 /// The axis: the one with the smallest errors at equal size.
-pub const DEFAULT_AXIS: Axis = Axis::Rational;
+pub const DEFAULT_AXIS: TableAxis = TableAxis::Rational;
 /// The files: what most programs read, what engines without float textures read, and what GPUs take.
 pub const DEFAULT_FORMATS: [Format; 3] = [Format::ExrHalf, Format::Png16, Format::Ktx2];
 

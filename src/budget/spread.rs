@@ -1,6 +1,6 @@
 //! How far published measurements of a material lie apart: what no function of one of them can be better than.
 
-use crate::fit::Curve;
+use crate::fit::FitCurve;
 use crate::materials::{self, Material, Surface, ViewingConditions};
 use crate::methods::Light;
 use crate::reference::{MaterialInMedium, seen};
@@ -30,7 +30,7 @@ pub fn spread(
         return None;
     }
     let curve =
-        |(_, surface): (_, Surface)| Curve::new(|c| seen(&surface, Light::Unpolarised, c)).seen;
+        |(_, surface): (_, Surface)| FitCurve::new(|c| seen(&surface, Light::Unpolarised, c)).seen;
     let pages = materials::surfaces_of(&own.substance, catalogue, medium, sight);
     let curves: Vec<Vec<[f64; 3]>> = pages.map(curve).collect();
     (curves.len() > 1).then(|| Spread {

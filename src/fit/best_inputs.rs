@@ -11,7 +11,7 @@ use crate::ir::{Checked, Ty, Value, evaluate};
 use crate::methods::{Input, Method, Values};
 
 use super::minimax::minimax;
-use super::problem::Curve;
+use super::problem::FitCurve;
 
 /// Rounds after which an input moves by nothing that shows.
 const ROUNDS: usize = 40;
@@ -26,7 +26,7 @@ const GAIN: f64 = 1e-6;
 struct Competitor<'a> {
     function: Checked,
     inputs: &'static [Input],
-    curve: &'a Curve,
+    curve: &'a FitCurve,
 }
 
 /// One number that may move: a channel of an input, or all its channels together.
@@ -37,7 +37,7 @@ struct Free {
 }
 
 /// The inputs, near the intended ones, with which the largest error is least. None for a method that reads a texture.
-pub fn best_inputs(method: &Method, intended: &Values, curve: &Curve) -> Option<Values> {
+pub fn best_inputs(method: &Method, intended: &Values, curve: &FitCurve) -> Option<Values> {
     if method.is_textured() {
         return None;
     }
@@ -206,8 +206,10 @@ mod tests {
         k: [3.43, 2.35, 1.77],
     };
 
-    fn curve() -> Curve {
-        Curve::new(|c| [0, 1, 2].map(|i| optics::conductor(GOLD.n[i], GOLD.k[i], c).unpolarised()))
+    fn curve() -> FitCurve {
+        FitCurve::new(|c| {
+            [0, 1, 2].map(|i| optics::conductor(GOLD.n[i], GOLD.k[i], c).unpolarised())
+        })
     }
 
     fn largest(method: &Method, values: &Values) -> f64 {

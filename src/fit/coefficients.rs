@@ -4,7 +4,7 @@ use crate::methods::{Method, Values};
 
 use super::derive::fitted_for;
 use super::exact::Exact;
-use super::problem::{Curve, FitObjective};
+use super::problem::{FitCurve, FitObjective};
 
 /// Coefficients with their errors, on paper and before the limit to [0, 1].
 #[derive(Clone, Debug)]
@@ -21,7 +21,7 @@ pub struct Coefficients {
 
 impl Coefficients {
     /// Fits a method; none where its terms do not tell the angles of the curve apart.
-    pub fn fit(method: &Method, curve: &Curve, aim: FitObjective) -> Option<Coefficients> {
+    pub fn fit(method: &Method, curve: &FitCurve, aim: FitObjective) -> Option<Coefficients> {
         let (values, error) = fitted_for(method, curve, aim)?;
         let free = FitObjective {
             exact: Exact::default(),

@@ -7,7 +7,7 @@ use crate::num::Precision;
 use crate::optics;
 use crate::reference::{Derivation, MaterialInMedium};
 
-use super::problem::{Curve, FitObjective, FitProblem, basis};
+use super::problem::{FitCurve, FitObjective, FitProblem, basis};
 
 /// What is known of a surface by its channels alone.
 pub fn known(channels: &Channels, derivation: &Derivation) -> KnownSurface {
@@ -18,7 +18,7 @@ pub fn known(channels: &Channels, derivation: &Derivation) -> KnownSurface {
 pub fn values(method: &Method, channels: &Channels, derivation: &Derivation) -> Values {
     if method.is_fitted() {
         let Channels { n, k } = *channels;
-        let curve = Curve::new(|c| [0, 1, 2].map(|i| exact(n[i], k[i], c)));
+        let curve = FitCurve::new(|c| [0, 1, 2].map(|i| exact(n[i], k[i], c)));
         return fitted_values(method, Precision::F32, &curve);
     }
     values_of(method, &known(channels, derivation))
@@ -32,7 +32,7 @@ pub fn inputs_of(subject: &MaterialInMedium, method: &Method) -> Values {
 /// The same, with coefficients that are fitted as this precision holds them.
 pub fn inputs_in(precision: Precision, subject: &MaterialInMedium, method: &Method) -> Values {
     if method.is_fitted() {
-        return fitted_values(method, precision, &Curve::unclipped(subject));
+        return fitted_values(method, precision, &FitCurve::unclipped(subject));
     }
     let seen = |cos_theta| subject.truth.at(cos_theta);
     let Channels { n, k } = subject.effective.channels;
@@ -41,7 +41,7 @@ pub fn inputs_in(precision: Precision, subject: &MaterialInMedium, method: &Meth
 }
 
 /// The coefficients of a fitted method for a curve, as a precision holds them.
-pub fn fitted_values(method: &Method, precision: Precision, curve: &Curve) -> Values {
+pub fn fitted_values(method: &Method, precision: Precision, curve: &FitCurve) -> Values {
     let aim = FitObjective {
         precision,
         ..FitObjective::default()
@@ -53,7 +53,7 @@ pub fn fitted_values(method: &Method, precision: Precision, curve: &Curve) -> Va
 
 /// The coefficients of a fitted method for a curve with an aim, and the largest error in its measure on paper. None where the
 /// method is not fitted, or its terms do not tell angles apart under such weights.
-pub fn fitted_for(method: &Method, curve: &Curve, aim: FitObjective) -> Option<(Values, f64)> {
+pub fn fitted_for(method: &Method, curve: &FitCurve, aim: FitObjective) -> Option<(Values, f64)> {
     let fit = FitProblem::new(curve, aim).fit(&basis(&method.shape?))?;
     let names = Input::COEFFICIENTS.map(|input| input.name.to_owned());
     Some((names.into_iter().zip(fit.coefficients).collect(), fit.error))

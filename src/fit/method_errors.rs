@@ -9,7 +9,7 @@ use super::best_inputs::{best_inputs, values_at};
 use super::derive::inputs_of;
 use super::model_error::{error_of, model_error};
 use super::perceived::perceived;
-use super::problem::Curve;
+use super::problem::FitCurve;
 
 /// Errors over all angles; each is none where it is not known.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -26,7 +26,7 @@ pub struct MethodErrors {
 
 /// With which inputs a method is measured.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Inputs {
+pub enum InputChoice {
     /// Those that its authors meant.
     Intended,
     /// Those whose largest error is least.
@@ -40,9 +40,9 @@ impl MethodErrors {
     /// reflectance of the material.
     pub fn new(
         method: &Method,
-        inputs: Inputs,
+        inputs: InputChoice,
         subject: &MaterialInMedium,
-        curve: &Curve,
+        curve: &FitCurve,
         space: Space,
     ) -> MethodErrors {
         let values = inputs_of(subject, method);
@@ -50,7 +50,7 @@ impl MethodErrors {
             return MethodErrors::of_texture(method, &values, subject);
         }
         let best = || best_inputs(method, &values, curve);
-        let best = (inputs == Inputs::Best).then(best).flatten();
+        let best = (inputs == InputChoice::Best).then(best).flatten();
         let values = best.unwrap_or(values);
         let function: Checked = method.function(false).expect(BUILT);
         let run = |cosines: &[f64]| -> Value<f64> {

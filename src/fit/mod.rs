@@ -33,7 +33,7 @@ pub use colours::{Follows, LARGEST_SOLVED_F0};
 pub use derive::{fitted_for, fitted_values, inputs_in, inputs_of, known, values, values_of};
 pub use exact::Exact;
 pub use measured::Measured;
-pub use method_errors::{Inputs, MethodErrors};
+pub use method_errors::{InputChoice, MethodErrors};
 pub use minimax::{Minimax, minimax};
 pub use model_error::{
     ModelError, error_from, error_of, model_error, rounded_up, single_error, thesis_errors,
@@ -41,7 +41,7 @@ pub use model_error::{
 pub use over::model_error_over;
 pub use params::{BOUNCES, Params, abbe, colour_errors, ior_d, params};
 pub use perceived::{Perceived, perceived};
-pub use problem::{Curve, Fit, FitObjective, FitProblem, basis};
+pub use problem::{Fit, FitCurve, FitObjective, FitProblem, basis};
 pub use search::{Tried, search};
 pub use shape_choice::{ErrorQuantiles, LeaveOneOut, TriedShapes};
 pub use survey::{

@@ -17,7 +17,7 @@ const DENSE: f64 = 8.0;
 
 /// What is seen of a material, at the cosines at which forms are fitted.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Curve {
+pub struct FitCurve {
     /// The cosines, 0 first.
     pub cosines: Vec<f64>,
     /// What is seen there.
@@ -49,17 +49,17 @@ pub struct FitObjective {
 /// A curve with the weights of an aim, computed once for all shapes that are fitted to it.
 #[derive(Clone, Debug)]
 pub struct FitProblem<'a> {
-    curve: &'a Curve,
+    curve: &'a FitCurve,
     aim: FitObjective,
     wanted: [Vec<f64>; 3],
     weights: [Vec<f64>; 3],
 }
 
-impl Curve {
+impl FitCurve {
     /// The curve of what is seen at a cosine.
-    pub fn new(seen: impl Fn(f64) -> [f64; 3]) -> Curve {
+    pub fn new(seen: impl Fn(f64) -> [f64; 3]) -> FitCurve {
         let cosines = cosines();
-        Curve {
+        FitCurve {
             seen: cosines.iter().map(|c| seen(*c)).collect(),
             cosines,
         }
@@ -67,12 +67,12 @@ impl Curve {
 
     /// What coefficients are fitted to, in unpolarised light: colours as they are before they are clipped. A clipped curve has a
     /// corner, and the function clips by itself.
-    pub fn unclipped(subject: &MaterialInMedium) -> Curve {
+    pub fn unclipped(subject: &MaterialInMedium) -> FitCurve {
         let mut surface = subject.truth.surface.clone();
         if surface.gamut == Gamut::Clip {
             surface.gamut = Gamut::Keep;
         }
-        Curve::new(|c| seen(&surface, Light::Unpolarised, c))
+        FitCurve::new(|c| seen(&surface, Light::Unpolarised, c))
     }
 }
 
@@ -94,7 +94,7 @@ pub fn basis(shape: &Shape) -> Vec<Vec<f64>> {
 
 impl FitProblem<'_> {
     /// What is to be fitted to a curve.
-    pub fn new(curve: &Curve, aim: FitObjective) -> FitProblem<'_> {
+    pub fn new(curve: &FitCurve, aim: FitObjective) -> FitProblem<'_> {
         let of = |seen: &[f64; 3]| aim.weight.of_channels(*seen, aim.space);
         let weights: Vec<[f64; 3]> = curve.seen.iter().map(of).collect();
         let channel = |all: &[[f64; 3]], i: usize| all.iter().map(|three| three[i]).collect();
@@ -187,17 +187,17 @@ mod tests {
     use crate::optics;
 
     /// Gold at three wavelengths, as the thesis has it.
-    fn gold() -> Curve {
+    fn gold() -> FitCurve {
         let index = [(0.15, 3.7), (0.45, 2.4), (1.35, 1.85)];
-        Curve::new(|c| index.map(|(n, k)| optics::conductor(n, k, c).unpolarised()))
+        FitCurve::new(|c| index.map(|(n, k)| optics::conductor(n, k, c).unpolarised()))
     }
 
-    fn water() -> Curve {
-        Curve::new(|c| [1.331, 1.333, 1.337].map(|n| optics::conductor(n, 0.0, c).unpolarised()))
+    fn water() -> FitCurve {
+        FitCurve::new(|c| [1.331, 1.333, 1.337].map(|n| optics::conductor(n, 0.0, c).unpolarised()))
     }
 
     /// The largest error in a measure of what was fitted for another.
-    fn error(curve: &Curve, name: &str, weight: Weight, fitted_for: Weight) -> f64 {
+    fn error(curve: &FitCurve, name: &str, weight: Weight, fitted_for: Weight) -> f64 {
         let shape = find(name)
             .and_then(|method| method.shape)
             .expect("a fitted method");

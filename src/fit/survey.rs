@@ -1,6 +1,6 @@
 //! A survey of pages of refractiveindex.info: what each is, its colour, or why it cannot be used.
 
-use crate::materials::{Curve, Extrapolate, Material, Page, Surface, ViewingConditions};
+use crate::materials::{DispersionCurve, Extrapolate, Material, Page, Surface, ViewingConditions};
 use crate::optics::{COS_82, cosine};
 
 use super::params::ior_d;
@@ -83,8 +83,8 @@ fn page_facts(page: &Page, material: &Material) -> Result<PageFacts, String> {
         class: material.kind.name(),
         range_nm: (from, to),
         formula: match &material.n {
-            Curve::Formula(formula) => formula.number,
-            Curve::Table(_) => 0,
+            DispersionCurve::Formula(formula) => formula.number,
+            DispersionCurve::Table(_) => 0,
         },
         nd,
     })

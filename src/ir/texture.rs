@@ -29,7 +29,7 @@ pub struct Texels {
 }
 
 /// The texels before and after a place, and how far it lies between them.
-struct Between<N> {
+struct TexelPair<N> {
     before: usize,
     after: usize,
     share: N,
@@ -81,7 +81,7 @@ fn mixed<N: Num>(a: [N; 3], b: [N; 3], share: N) -> [N; 3] {
 }
 
 /// Where a coordinate lies among so many centres.
-fn between<N: Num>(weights: Weights, coordinate: N, count: usize) -> Between<N> {
+fn between<N: Num>(weights: Weights, coordinate: N, count: usize) -> TexelPair<N> {
     let last = count.saturating_sub(1);
     let number = |value: usize| N::from_f64(value as f64);
     let place = coordinate * number(count) - N::from_f64(0.5);
@@ -92,7 +92,7 @@ fn between<N: Num>(weights: Weights, coordinate: N, count: usize) -> Between<N> 
     // The smaller and the larger of a NaN and a number are the number.
     let place = place.max(number(0)).min(number(last));
     let before = place.to_f64().floor() as usize;
-    Between {
+    TexelPair {
         before,
         after: (before + 1).min(last),
         share: place - number(before),

@@ -31,7 +31,7 @@ use crate::num::Num;
 
 /// How cosines are spread over a table.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Axis {
+pub enum TableAxis {
     /// w = c: the thesis's. Nothing to compute.
     Cos,
     /// w = c (2 - c) = 1 - (1 - c)²: two operations, no division.
@@ -46,63 +46,63 @@ pub enum Axis {
     Grazing,
 }
 
-impl Axis {
+impl TableAxis {
     /// All of them, the cheapest in a shader first.
-    pub const ALL: [Axis; 6] = [
-        Axis::Cos,
-        Axis::Square,
-        Axis::Sqrt,
-        Axis::Rational,
-        Axis::Steep,
-        Axis::Grazing,
+    pub const ALL: [TableAxis; 6] = [
+        TableAxis::Cos,
+        TableAxis::Square,
+        TableAxis::Sqrt,
+        TableAxis::Rational,
+        TableAxis::Steep,
+        TableAxis::Grazing,
     ];
 
     /// The name on the command line.
     pub fn name(self) -> &'static str {
         match self {
-            Axis::Cos => "cos",
-            Axis::Square => "square",
-            Axis::Sqrt => "sqrt",
-            Axis::Rational => "rational",
-            Axis::Steep => "steep",
-            Axis::Grazing => "grazing",
+            TableAxis::Cos => "cos",
+            TableAxis::Square => "square",
+            TableAxis::Sqrt => "sqrt",
+            TableAxis::Rational => "rational",
+            TableAxis::Steep => "steep",
+            TableAxis::Grazing => "grazing",
         }
     }
 
     /// The axis of this name.
-    pub fn find(name: &str) -> Option<Axis> {
-        Axis::ALL.into_iter().find(|axis| axis.name() == name)
+    pub fn find(name: &str) -> Option<TableAxis> {
+        TableAxis::ALL.into_iter().find(|axis| axis.name() == name)
     }
 
     /// w of c, as every shading language writes it.
     pub fn formula(self) -> &'static str {
         match self {
-            Axis::Cos => "c",
-            Axis::Square => "c * (2.0 - c)",
-            Axis::Sqrt => "sqrt(c)",
-            Axis::Rational => "5.0 * c / (4.0 * c + 1.0)",
-            Axis::Steep => "9.0 * c / (8.0 * c + 1.0)",
-            Axis::Grazing => "65.0 * c / (64.0 * c + 1.0)",
+            TableAxis::Cos => "c",
+            TableAxis::Square => "c * (2.0 - c)",
+            TableAxis::Sqrt => "sqrt(c)",
+            TableAxis::Rational => "5.0 * c / (4.0 * c + 1.0)",
+            TableAxis::Steep => "9.0 * c / (8.0 * c + 1.0)",
+            TableAxis::Grazing => "65.0 * c / (64.0 * c + 1.0)",
         }
     }
 
     /// The constant k of the axes w = (1 + k) c / (1 + k c), which the method `table` takes as `warp`.
     pub fn constant(self) -> Option<f64> {
         match self {
-            Axis::Cos => Some(0.0),
-            Axis::Square | Axis::Sqrt => None,
-            Axis::Rational => Some(WARP),
-            Axis::Steep => Some(8.0),
-            Axis::Grazing => Some(64.0),
+            TableAxis::Cos => Some(0.0),
+            TableAxis::Square | TableAxis::Sqrt => None,
+            TableAxis::Rational => Some(WARP),
+            TableAxis::Steep => Some(8.0),
+            TableAxis::Grazing => Some(64.0),
         }
     }
 
     /// w of a cosine in [0, 1], in any kind of number: 0 at 0 and 1 at 1, exactly.
     pub fn warp<N: Num>(self, c: N) -> N {
         match (self, self.constant()) {
-            (Axis::Cos, _) => c,
+            (TableAxis::Cos, _) => c,
             (_, Some(constant)) => warped(constant, c),
-            (Axis::Sqrt, None) => c.sqrt(),
+            (TableAxis::Sqrt, None) => c.sqrt(),
             (_, None) => c * (N::from_f64(2.0) - c),
         }
     }
@@ -111,7 +111,7 @@ impl Axis {
     pub fn cosine(self, w: f64) -> f64 {
         match (self, self.constant()) {
             (_, Some(constant)) => unwarped(constant, w),
-            (Axis::Sqrt, None) => w * w,
+            (TableAxis::Sqrt, None) => w * w,
             (_, None) => 1.0 - (1.0 - w).sqrt(),
         }
     }
@@ -130,8 +130,8 @@ mod tests {
 
     #[test]
     fn ends_are_exact_and_each_warp_is_undone() {
-        for axis in Axis::ALL {
-            assert_eq!(Axis::find(axis.name()), Some(axis));
+        for axis in TableAxis::ALL {
+            assert_eq!(TableAxis::find(axis.name()), Some(axis));
             assert_eq!((axis.warp(0.0), axis.warp(1.0)), (0.0, 1.0), "{axis:?}");
             assert_eq!((axis.warp(0f32), axis.warp(1f32)), (0.0, 1.0), "{axis:?}");
             assert_eq!(axis.warp(Half::from_f32(1.0)).to_f32(), 1.0, "{axis:?}");
@@ -145,12 +145,12 @@ mod tests {
                 last = w;
             }
         }
-        assert_eq!(Axis::find("cosine"), None);
+        assert_eq!(TableAxis::find("cosine"), None);
     }
 
     #[test]
     fn half_a_texel_stays_at_each_end() {
-        let (scale, offset) = Axis::half_texel(64);
+        let (scale, offset) = TableAxis::half_texel(64);
         assert_eq!(offset * 64.0, 0.5);
         assert_eq!((scale + offset) * 64.0, 63.5);
     }

@@ -2,7 +2,7 @@
 
 use crate::num::{Half, Num};
 
-use super::axis::Axis;
+use super::axis::TableAxis;
 use super::table::Table;
 
 /// The kind of number.
@@ -84,7 +84,7 @@ impl Depth {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Stored {
     /// How cosines are spread.
-    pub axis: Axis,
+    pub axis: TableAxis,
     /// The kind of number.
     pub depth: Depth,
     /// value = texel × scale.
@@ -122,7 +122,7 @@ mod tests {
     fn table(texels: &[[f64; 3]]) -> Table {
         Table {
             name: "invented".to_owned(),
-            axis: Axis::Cos,
+            axis: TableAxis::Cos,
             texels: texels.to_vec(),
         }
     }

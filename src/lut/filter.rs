@@ -5,7 +5,7 @@
 use crate::ir::{Weights, filtered};
 use crate::num::Num;
 
-use super::axis::Axis;
+use super::axis::TableAxis;
 use super::depth::Stored;
 
 impl Stored {
@@ -17,7 +17,7 @@ impl Stored {
 
     /// u of a cosine: clamped, warped, and half a texel left at each end.
     pub fn coordinate(&self, cos_theta: f32) -> f32 {
-        let (scale, offset) = Axis::half_texel(self.texels.len());
+        let (scale, offset) = TableAxis::half_texel(self.texels.len());
         self.axis.warp(cos_theta.saturate()) * scale as f32 + offset as f32
     }
 
@@ -32,7 +32,7 @@ mod tests {
     use super::*;
     use crate::lut::depth::Depth;
 
-    fn ramp(axis: Axis, texels: usize) -> Stored {
+    fn ramp(axis: TableAxis, texels: usize) -> Stored {
         let value = |i: usize| [i as f32, 2.0 * i as f32, 1.0];
         Stored {
             axis,
@@ -44,7 +44,7 @@ mod tests {
 
     #[test]
     fn ends_and_centres_are_hit() {
-        for axis in Axis::ALL {
+        for axis in TableAxis::ALL {
             for texels in [2, 3, 64, 255, 256, 1000, 16_384] {
                 let ramp = ramp(axis, texels);
                 for weights in [Weights::Exact, Weights::Steps256] {
@@ -66,7 +66,7 @@ mod tests {
 
     #[test]
     fn between_centres_it_mixes() {
-        let ramp = ramp(Axis::Cos, 5);
+        let ramp = ramp(TableAxis::Cos, 5);
         let at = |weights, c| ramp.lookup(weights, c)[0];
         assert!((at(Weights::Exact, 0.3) - 1.2).abs() < 1e-6);
         // 1.2 lies between 307/256 and 308/256.
@@ -75,13 +75,16 @@ mod tests {
 
     #[test]
     fn an_empty_table_is_black() {
-        assert_eq!(ramp(Axis::Cos, 0).lookup(Weights::Exact, 0.5), [0.0; 3]);
+        assert_eq!(
+            ramp(TableAxis::Cos, 0).lookup(Weights::Exact, 0.5),
+            [0.0; 3]
+        );
     }
 
     #[test]
     fn the_usual_mistakes_are_seen() {
         // A table whose ends differ: without the half texel, and with repeat in place of clamp, its ends are wrong.
-        let ramp = ramp(Axis::Cos, 8);
+        let ramp = ramp(TableAxis::Cos, 8);
         let naive = ramp.sample(Weights::Exact, 0.25)[0];
         assert!((naive - 7.0 * 0.25).abs() > 0.2, "{naive}");
         let flipped = ramp.lookup(Weights::Exact, 1.0 - 0.25)[0];

@@ -8,7 +8,7 @@ use crate::ir::{BrokenRule, Builder, Checked, Expr, check, fold};
 use crate::methods::{Input, Inputs, ONLY_ROW, fetch, warped_step};
 use crate::num::Precision;
 
-use super::axis::Axis;
+use super::axis::TableAxis;
 
 /// The function that reads a table of so many texels along an axis.
 ///
@@ -18,7 +18,7 @@ use super::axis::Axis;
 /// # Errors
 /// The graph breaks a rule of the representation: a bug.
 pub fn lookup(
-    axis: Axis,
+    axis: TableAxis,
     texels: usize,
     scale: Option<f32>,
     rows: usize,
@@ -43,13 +43,13 @@ pub fn lookup(
     check(fold(&builder.finish("lookup", reflectance)))
 }
 
-/// w of a clamped cosine, [`Axis::warp`] as steps of a graph.
-fn warp(axis: Axis, c: Expr) -> Expr {
+/// w of a clamped cosine, [`TableAxis::warp`] as steps of a graph.
+fn warp(axis: TableAxis, c: Expr) -> Expr {
     let why = "0 at grazing, 1 at normal incidence; dense near grazing";
     match (axis, axis.constant()) {
-        (Axis::Cos, _) => c,
+        (TableAxis::Cos, _) => c,
         (_, Some(constant)) => warped_step(c.builder().number(constant), c),
-        (Axis::Sqrt, None) => c.sqrt().named("w", why),
+        (TableAxis::Sqrt, None) => c.sqrt().named("w", why),
         (_, None) => (c * (2.0 - c)).named("w", why),
     }
 }
@@ -61,7 +61,7 @@ mod tests {
     use crate::lut::{Depth, Stored};
 
     /// A table whose texels all differ.
-    fn stored(axis: Axis, texels: usize, scale: f32) -> Stored {
+    fn stored(axis: TableAxis, texels: usize, scale: f32) -> Stored {
         let value = |i: usize| [i as f32, 1.0 / (1.0 + i as f32), 0.25];
         Stored {
             axis,
@@ -73,7 +73,7 @@ mod tests {
 
     #[test]
     fn it_gives_what_the_model_of_the_filter_gives() {
-        for axis in Axis::ALL {
+        for axis in TableAxis::ALL {
             for (texels, scale) in [(2, 1.0), (64, 1.0), (255, 1.058_7)] {
                 let stored = stored(axis, texels, scale);
                 let function = lookup(axis, texels, Some(scale), 1).unwrap();
@@ -105,7 +105,7 @@ mod tests {
             (None, 1, &["cos_theta", "table", "table_scale"]),
             (None, 4, &["cos_theta", "table", "row", "table_scale"]),
         ] {
-            let function = lookup(Axis::Rational, 64, scale, rows).unwrap();
+            let function = lookup(TableAxis::Rational, 64, scale, rows).unwrap();
             let names: Vec<&str> = function.params.iter().map(|p| p.name.as_str()).collect();
             assert_eq!(names, want);
             assert_eq!((function.ty(), function.fetches()), (Ty::Rgb, 1));
@@ -123,7 +123,7 @@ mod tests {
         ];
         let values = values.map(|(input, value)| (input.name.to_owned(), [value; 3]));
         let specialised = method.specialise(&values.into_iter().collect()).unwrap();
-        let own = lookup(Axis::Rational, crate::methods::TEXELS, Some(1.0), 1).unwrap();
+        let own = lookup(TableAxis::Rational, crate::methods::TEXELS, Some(1.0), 1).unwrap();
         assert_eq!(specialised.nodes, own.nodes);
     }
 }

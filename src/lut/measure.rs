@@ -4,14 +4,14 @@ use crate::fit::{ModelError, error_of};
 use crate::ir::{Column, Value};
 use crate::reference::ReferenceCurve;
 
-use super::axis::Axis;
+use super::axis::TableAxis;
 use super::depth::Stored;
 use super::table::centre;
 use crate::ir::Weights;
 
 /// Places between texels at which the truth is known: filtering errs most there.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Between {
+pub struct BetweenTexels {
     points: Vec<(f64, [f64; 3])>,
 }
 
@@ -24,12 +24,12 @@ const SHARES: [f64; 4] = [
     0.75 - 1.0 / 512.1,
 ];
 
-impl Between {
+impl BetweenTexels {
     /// The truth between the texels of tables of this size.
-    pub fn new(truth: &ReferenceCurve, axis: Axis, texels: usize) -> Between {
+    pub fn new(truth: &ReferenceCurve, axis: TableAxis, texels: usize) -> BetweenTexels {
         let place = |i: usize| SHARES.map(|share| centre(axis, i as f64 + share, texels));
         let places = (0..texels.saturating_sub(1)).flat_map(place);
-        Between {
+        BetweenTexels {
             points: places.map(|c| (c, truth.at(c))).collect(),
         }
     }
@@ -41,7 +41,7 @@ pub fn table_error(
     stored: &Stored,
     weights: Weights,
     truth: &ReferenceCurve,
-    between: &Between,
+    between: &BetweenTexels,
 ) -> ModelError {
     let mut error = error_of(truth, &|cosines| looked_up(stored, weights, cosines));
     for (c, want) in &between.points {

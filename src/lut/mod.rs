@@ -1,6 +1,6 @@
 //! Lookup tables: reflectance by cos θ as a texture, and how wrong the filtered lookup is.
 //!
-//! The way of a table, one file a step: [`Axis`] says where a cosine lies; [`Table`] is the truth at the centres of
+//! The way of a table, one file a step: [`TableAxis`] says where a cosine lies; [`Table`] is the truth at the centres of
 //! texels; [`Stored`] is it in a [`Depth`]; [`Stored::lookup`] is what a sampler gives back, and [`table_error`] holds
 //! that against the truth; [`smallest`] looks for the table with the fewest bytes within an error; a [`Picture`] of one
 //! or more rows becomes a file in a [`Format`]; [`lookup()`] is the function that reads it in a shader.
@@ -29,13 +29,13 @@ mod table;
 mod text;
 mod thesis_measure;
 
-pub use axis::Axis;
+pub use axis::TableAxis;
 pub use depth::{Depth, Stored};
 pub use error::Error;
 pub use format::{Format, TABLES};
 pub use ktx2::KTX2_MARK;
 pub use lookup::lookup;
-pub use measure::{Between, table_error};
+pub use measure::{BetweenTexels, table_error};
 pub use picture::Picture;
 pub use search::{Choice, smallest};
 pub use split_sum::{

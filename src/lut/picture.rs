@@ -2,7 +2,7 @@
 
 use crate::spectra::Space;
 
-use super::axis::Axis;
+use super::axis::TableAxis;
 use super::depth::{Depth, Stored};
 use super::split_sum::StoredSplitSum;
 
@@ -12,7 +12,7 @@ pub struct Picture {
     /// Its name, which is that of its file and of the array in a text form: a material's, or `atlas`.
     pub name: String,
     /// How cosines are spread along x.
-    pub axis: Axis,
+    pub axis: TableAxis,
     /// The kind of number.
     pub depth: Depth,
     /// value = texel × scale.
@@ -42,7 +42,7 @@ impl Picture {
         });
         Picture {
             name: name.to_owned(),
-            axis: first.map_or(Axis::Cos, |stored| stored.axis),
+            axis: first.map_or(TableAxis::Cos, |stored| stored.axis),
             depth: first.map_or(Depth::Float, |stored| stored.depth),
             scale: first.map_or(1.0, |stored| stored.scale),
             width,
@@ -64,7 +64,7 @@ impl Picture {
         let texels = stored.texels.iter();
         Picture {
             name: name.to_owned(),
-            axis: Axis::Cos,
+            axis: TableAxis::Cos,
             depth: stored.depth,
             scale: 1.0,
             width: stored.size,
@@ -83,7 +83,7 @@ impl Picture {
 
     /// How a shader looks a cosine up, in words and formulas, but for the scale.
     pub fn lookup(&self) -> Vec<String> {
-        let (scale, offset) = Axis::half_texel(self.width);
+        let (scale, offset) = TableAxis::half_texel(self.width);
         let mut lines = vec![
             format!(
                 "Row of {} texels by cos theta, 0 first; linear; wrap: clamp to edge; filter: linear; no mipmaps, level 0.",

@@ -2,10 +2,10 @@
 
 use crate::reference::ReferenceCurve;
 
-use super::axis::Axis;
+use super::axis::TableAxis;
 use super::depth::{Depth, Stored};
 use super::error::Error;
-use super::measure::{Between, table_error};
+use super::measure::{BetweenTexels, table_error};
 use super::table::{LEAST_TEXELS, MOST_TEXELS, Table};
 use crate::ir::Weights;
 
@@ -13,7 +13,7 @@ use crate::ir::Weights;
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Choice {
     /// How cosines are spread.
-    pub axis: Axis,
+    pub axis: TableAxis,
     /// The kind of number.
     pub depth: Depth,
     /// How many texels.
@@ -38,7 +38,7 @@ const BELOW: usize = 8;
 pub fn smallest(
     truths: &[&ReferenceCurve],
     budget: f64,
-    axes: &[Axis],
+    axes: &[TableAxis],
     depths: &[Depth],
 ) -> Result<Choice, Error> {
     let mut best: Option<Choice> = None;
@@ -66,7 +66,7 @@ pub fn smallest(
     })
 }
 
-fn tried(axes: &[Axis], depths: &[Depth]) -> String {
+fn tried(axes: &[TableAxis], depths: &[Depth]) -> String {
     let axes: Vec<&str> = axes.iter().map(|axis| axis.name()).collect();
     let depths: Vec<&str> = depths.iter().map(|depth| depth.name()).collect();
     format!("{} in {}", axes.join(", "), depths.join(", "))
@@ -75,7 +75,7 @@ fn tried(axes: &[Axis], depths: &[Depth]) -> String {
 /// Tables that differ in size only.
 struct TableFamily<'a> {
     truths: &'a [&'a ReferenceCurve],
-    axis: Axis,
+    axis: TableAxis,
     depth: Depth,
 }
 
@@ -138,7 +138,7 @@ impl TableFamily<'_> {
         let mut worst = 0.0f64;
         for (truth, table) in self.truths.iter().zip(&tables) {
             let stored = Stored::scaled(table, self.depth, scale);
-            let between = Between::new(truth, self.axis, texels);
+            let between = BetweenTexels::new(truth, self.axis, texels);
             let error = table_error(&stored, Weights::Steps256, truth, &between);
             worst = worst.max(error.max_abs);
             if worst > budget {

@@ -62,7 +62,7 @@ pub struct StoredSplitSum {
 }
 
 /// How much of a run is done: rows, of how many.
-pub type Rows<'a> = &'a mut dyn FnMut(u64, u64);
+pub type RowProgress<'a> = &'a mut dyn FnMut(u64, u64);
 
 /// The cosine at a place of the axis, from 0 to 1: its fourth power.
 pub fn split_sum_cosine(w: f64) -> f64 {
@@ -88,7 +88,7 @@ impl SplitSum {
     ///
     /// # Errors
     /// A shape of more terms than a texture has channels, a size that no texture has.
-    pub fn new(shape: &Shape, size: usize, progress: Rows) -> Result<SplitSum, Error> {
+    pub fn new(shape: &Shape, size: usize, progress: RowProgress) -> Result<SplitSum, Error> {
         check_side(size)?;
         check_terms(shape)?;
         let rule = Ggx::default();
@@ -179,7 +179,7 @@ pub struct BetweenSplitSum {
 
 impl BetweenSplitSum {
     /// The middles of all cells and of their sides, for tables of this size, from [`LEAST_ROUGHNESS`] on.
-    pub fn new(shape: &Shape, size: usize, progress: Rows) -> BetweenSplitSum {
+    pub fn new(shape: &Shape, size: usize, progress: RowProgress) -> BetweenSplitSum {
         let rule = Ggx::default();
         let halves = 2 * size - 1;
         let place = |half: usize| half as f64 / (halves - 1) as f64;

@@ -2,7 +2,7 @@
 
 use crate::reference::ReferenceCurve;
 
-use super::axis::Axis;
+use super::axis::TableAxis;
 use super::error::Error;
 
 /// Reflectance along an axis, cos θ = 0 first.
@@ -11,7 +11,7 @@ pub struct Table {
     /// The material, with `_in_` and the medium's name where there is one.
     pub name: String,
     /// How cosines are spread.
-    pub axis: Axis,
+    pub axis: TableAxis,
     /// Red, green and blue at each texel's centre, linear, in the gamut of the truth.
     pub texels: Vec<[f64; 3]>,
 }
@@ -41,7 +41,7 @@ impl Table {
     pub fn new(
         name: &str,
         truth: &ReferenceCurve,
-        axis: Axis,
+        axis: TableAxis,
         texels: usize,
     ) -> Result<Table, Error> {
         check_size(texels)?;
@@ -55,7 +55,7 @@ impl Table {
 }
 
 /// The cosine at the centre of a texel, or between two.
-pub(super) fn centre(axis: Axis, texel: f64, texels: usize) -> f64 {
+pub(super) fn centre(axis: TableAxis, texel: f64, texels: usize) -> f64 {
     axis.cosine(texel / (texels - 1) as f64)
 }
 
@@ -72,14 +72,14 @@ mod tests {
             k: [0.0; 3],
         };
         let truth = ReferenceCurve::new(Surface::of_channels(&glass), Light::Unpolarised);
-        for axis in Axis::ALL {
+        for axis in TableAxis::ALL {
             let table = Table::new("glass", &truth, axis, 5).unwrap();
             assert_eq!(table.texels.len(), 5);
             assert_eq!(table.texels[0], [1.0; 3]);
             assert!((table.texels[4][0] - 0.04).abs() < 1e-15);
         }
         for texels in [0, 1, MOST_TEXELS + 1, usize::MAX] {
-            let error = Table::new("glass", &truth, Axis::Cos, texels).unwrap_err();
+            let error = Table::new("glass", &truth, TableAxis::Cos, texels).unwrap_err();
             assert!(error.to_string().contains("2 to 16384"), "{error}");
         }
     }

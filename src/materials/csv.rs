@@ -182,10 +182,10 @@ impl Line<'_> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::materials::Curve;
+    use crate::materials::DispersionCurve;
 
-    fn table(points: &[(f64, f64)]) -> Option<Curve> {
-        Curve::table(points.to_vec())
+    fn table(points: &[(f64, f64)]) -> Option<DispersionCurve> {
+        DispersionCurve::table(points.to_vec())
     }
 
     #[track_caller]

@@ -5,7 +5,7 @@ use crate::spectra::Spectrum;
 
 /// n(λ) or k(λ).
 #[derive(Clone, Debug, PartialEq)]
-pub enum Curve {
+pub enum DispersionCurve {
     /// Measured points by wavelength in nm; linear between them.
     Table(Spectrum<f64>),
     /// A fitted formula.
@@ -25,17 +25,17 @@ pub enum Extrapolate {
 /// The ends of a range count as inside in spite of rounding: as a share of the wavelength.
 const END: f64 = 1e-9;
 
-impl Curve {
+impl DispersionCurve {
     /// A table of pairs of wavelength in nm and value; none where they do not ascend.
-    pub fn table(points: Vec<(f64, f64)>) -> Option<Curve> {
-        Spectrum::new(points).map(Curve::Table)
+    pub fn table(points: Vec<(f64, f64)>) -> Option<DispersionCurve> {
+        Spectrum::new(points).map(DispersionCurve::Table)
     }
 
     /// The shortest and the longest wavelength, in nanometres.
     pub fn range_nm(&self) -> (f64, f64) {
         match self {
-            Curve::Table(table) => table.range(),
-            Curve::Formula(formula) => (formula.from_nm, formula.to_nm),
+            DispersionCurve::Table(table) => table.range(),
+            DispersionCurve::Formula(formula) => (formula.from_nm, formula.to_nm),
         }
     }
 
@@ -48,8 +48,8 @@ impl Curve {
     /// The wavelengths of its measured points; none for a formula.
     pub fn measured_nm(&self) -> Vec<f64> {
         match self {
-            Curve::Table(table) => table.points().iter().map(|(nm, _)| *nm).collect(),
-            Curve::Formula(_) => Vec::new(),
+            DispersionCurve::Table(table) => table.points().iter().map(|(nm, _)| *nm).collect(),
+            DispersionCurve::Formula(_) => Vec::new(),
         }
     }
 
@@ -67,10 +67,10 @@ impl Curve {
         // Not `clamp`, which panics where the range is empty: a file's range is checked, a value made in Rust is not.
         let inside = nm.max(from).min(to);
         match self {
-            Curve::Table(table) => table
+            DispersionCurve::Table(table) => table
                 .at(inside)
                 .ok_or_else(|| format!("has no value at {nm} nm")),
-            Curve::Formula(formula) => formula
+            DispersionCurve::Formula(formula) => formula
                 .n(inside)
                 .map_err(|why| format!("has no value at {nm} nm: {why}")),
         }
@@ -81,8 +81,8 @@ impl Curve {
 mod tests {
     use super::*;
 
-    fn table() -> Curve {
-        Curve::table(vec![(400.0, 1.0), (500.0, 3.0)]).expect("it ascends")
+    fn table() -> DispersionCurve {
+        DispersionCurve::table(vec![(400.0, 1.0), (500.0, 3.0)]).expect("it ascends")
     }
 
     #[test]
@@ -104,7 +104,7 @@ mod tests {
 
     #[test]
     fn one_point_is_a_range_of_its_own() {
-        let one = Curve::table(vec![(589.0, 1.5)]).expect("it ascends");
+        let one = DispersionCurve::table(vec![(589.0, 1.5)]).expect("it ascends");
         assert_eq!(one.at(589.0, Extrapolate::Refuse), Ok(1.5));
         assert!(one.at(590.0, Extrapolate::Refuse).is_err());
     }

@@ -30,7 +30,7 @@ use toml::Spanned;
 use crate::ir::identifier_fault;
 
 use super::decimal::short;
-use super::dispersion::Curve;
+use super::dispersion::DispersionCurve;
 use super::formula::{Formula, NUMBERS};
 use super::hidden::is_hidden;
 use super::material::{GREATEST, LEAST_N, Material, MaterialKind};
@@ -167,12 +167,12 @@ impl Material {
 impl Material {
     /// What in its numbers a material file does not allow, if anything.
     pub fn limits_fault(&self) -> Option<String> {
-        let curve = |curve: &Curve, column| match curve {
-            Curve::Table(table) => table
+        let curve = |curve: &DispersionCurve, column| match curve {
+            DispersionCurve::Table(table) => table
                 .points()
                 .iter()
                 .find_map(|point| point_fault(*point, column)),
-            Curve::Formula(formula) => formula_fault(formula),
+            DispersionCurve::Formula(formula) => formula_fault(formula),
         };
         curve(&self.n, N).or_else(|| curve(self.k.as_ref()?, K))
     }
@@ -256,7 +256,10 @@ fn is_device(name: &str) -> bool {
 }
 
 /// n and k: together in `data`, or apart.
-fn curves(raw: &Raw, place: &Place) -> Result<(Curve, Option<Curve>), FileFault> {
+fn curves(
+    raw: &Raw,
+    place: &Place,
+) -> Result<(DispersionCurve, Option<DispersionCurve>), FileFault> {
     let table = |rows: &Rows, field, column| Ok(pick(&place.rows(rows, field, &[NM, column])?, 1));
     let k = || raw.k.as_ref().map(|k| table(k, "k", K)).transpose();
     match (&raw.data, &raw.n, &raw.n_formula) {
@@ -265,7 +268,9 @@ fn curves(raw: &Raw, place: &Place) -> Result<(Curve, Option<Curve>), FileFault>
             Ok((pick(&rows, 1), Some(pick(&rows, 2))))
         }
         (None, Some(n), None) => Ok((table(n, "n", N)?, k()?)),
-        (None, None, Some(formula)) => Ok((Curve::Formula(place.formula(formula)?), k()?)),
+        (None, None, Some(formula)) => {
+            Ok((DispersionCurve::Formula(place.formula(formula)?), k()?))
+        }
         _ => {
             let what = "the index is wanted once: `data` alone, or one of `n` and `n_formula`, with `k` where it absorbs";
             Err(place.fault(0, what.to_owned()))
@@ -274,9 +279,9 @@ fn curves(raw: &Raw, place: &Place) -> Result<(Curve, Option<Curve>), FileFault>
 }
 
 /// One column of checked rows, by wavelength.
-fn pick(rows: &[Vec<f64>], column: usize) -> Curve {
+fn pick(rows: &[Vec<f64>], column: usize) -> DispersionCurve {
     let points = rows.iter().map(|row| (row[0], row[column])).collect();
-    Curve::table(points).expect("rows are checked to ascend")
+    DispersionCurve::table(points).expect("rows are checked to ascend")
 }
 
 impl Place<'_> {

@@ -3,7 +3,7 @@
 use serde::Deserialize;
 
 use super::decimal::short;
-use super::dispersion::{Curve, Extrapolate};
+use super::dispersion::{DispersionCurve, Extrapolate};
 
 /// The least n. Below it the exact forms lose their last digits in f32.
 pub const LEAST_N: f64 = 1e-3;
@@ -36,9 +36,9 @@ pub struct Material {
     /// Red, green and blue where it is known at these wavelengths only, as in the thesis.
     pub rgb_nm: Option<[f64; 3]>,
     /// Refractive index by wavelength.
-    pub n: Curve,
+    pub n: DispersionCurve,
     /// Extinction coefficient by wavelength; 0 where there is none.
-    pub k: Option<Curve>,
+    pub k: Option<DispersionCurve>,
 }
 
 /// The class of a material.
@@ -98,7 +98,7 @@ impl Material {
     /// # Errors
     /// The wavelength lies outside the measured range and may not be extrapolated, or n or k lies outside its limits.
     pub fn index(&self, nm: f64, beyond: Extrapolate) -> Result<Index, String> {
-        let value = |curve: &Curve, letter: &str| {
+        let value = |curve: &DispersionCurve, letter: &str| {
             let named = |why: String| format!("material `{}`: {letter} {why}", self.name);
             curve.at(nm, beyond).map_err(named)
         };
@@ -120,7 +120,7 @@ impl Material {
     /// The wavelengths at which both n and k are known, in nanometres; the first is above the second where there is none.
     pub fn range_nm(&self) -> (f64, f64) {
         let (from, to) = self.n.range_nm();
-        match self.k.as_ref().map(Curve::range_nm) {
+        match self.k.as_ref().map(DispersionCurve::range_nm) {
             Some((k_from, k_to)) => (from.max(k_from), to.min(k_to)),
             None => (from, to),
         }
@@ -128,14 +128,14 @@ impl Material {
 
     /// Whether n and k are known over a range of wavelengths.
     pub fn covers(&self, from_nm: f64, to_nm: f64) -> bool {
-        let whole = |curve: &Curve| curve.covers(from_nm) && curve.covers(to_nm);
+        let whole = |curve: &DispersionCurve| curve.covers(from_nm) && curve.covers(to_nm);
         whole(&self.n) && self.k.as_ref().is_none_or(whole)
     }
 
     /// The wavelengths at which n or k was measured, ascending; none for formulas.
     pub fn measured_nm(&self) -> Vec<f64> {
         let curves = [Some(&self.n), self.k.as_ref()].into_iter().flatten();
-        let mut places: Vec<f64> = curves.flat_map(Curve::measured_nm).collect();
+        let mut places: Vec<f64> = curves.flat_map(DispersionCurve::measured_nm).collect();
         places.sort_by(f64::total_cmp);
         places.dedup();
         places

@@ -21,7 +21,7 @@ mod trim;
 
 pub use catalogue::{find, list, names, source};
 pub use channels::{Channels, THESIS_NM};
-pub use dispersion::{Curve, Extrapolate};
+pub use dispersion::{DispersionCurve, Extrapolate};
 pub use file::name_fault;
 pub use formula::Formula;
 pub use hidden::{escaped, is_hidden};

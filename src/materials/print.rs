@@ -1,6 +1,6 @@
 //! A material as the text of its file.
 
-use super::dispersion::Curve;
+use super::dispersion::DispersionCurve;
 use super::formula::Formula;
 use super::hidden::escaped;
 use super::material::Material;
@@ -40,8 +40,8 @@ fn text(name: &str, value: &str) -> String {
     format!("{name} = {}", escaped(&quoted))
 }
 
-fn index(n: &Curve, k: Option<&Curve>) -> Vec<String> {
-    if let (Curve::Table(n), Some(Curve::Table(k))) = (n, k)
+fn index(n: &DispersionCurve, k: Option<&DispersionCurve>) -> Vec<String> {
+    if let (DispersionCurve::Table(n), Some(DispersionCurve::Table(k))) = (n, k)
         && n.points().len() == k.points().len()
         && n.points().iter().zip(k.points()).all(|(n, k)| n.0 == k.0)
     {
@@ -57,13 +57,13 @@ fn index(n: &Curve, k: Option<&Curve>) -> Vec<String> {
     lines
 }
 
-fn curve(name: &str, curve: &Curve) -> Vec<String> {
+fn curve(name: &str, curve: &DispersionCurve) -> Vec<String> {
     match curve {
-        Curve::Table(table) => {
+        DispersionCurve::Table(table) => {
             let row = |(nm, value): &(f64, f64)| vec![*nm, *value];
             rows(name, name, table.points().iter().map(row))
         }
-        Curve::Formula(formula) => vec![formula_line(name, formula)],
+        DispersionCurve::Formula(formula) => vec![formula_line(name, formula)],
     }
 }
 

@@ -5,7 +5,7 @@
 //! noise of the measurement, is 0, since a passive medium has no gain.
 
 use super::decimal::{self, Unit};
-use super::dispersion::Curve;
+use super::dispersion::DispersionCurve;
 
 /// The k that is still taken for noise. The worst page of refractiveindex.info that is right elsewhere has -0.148.
 const LEAST_K: f64 = -0.2;
@@ -115,7 +115,10 @@ impl Rows {
     }
 
     /// The curves of n and of k, as far as the table has them, with what was done to it. It has a row.
-    pub fn curves(mut self, remarks: &mut Vec<String>) -> (Option<Curve>, Option<Curve>) {
+    pub fn curves(
+        mut self,
+        remarks: &mut Vec<String>,
+    ) -> (Option<DispersionCurve>, Option<DispersionCurve>) {
         if self.gains > 0 {
             remarks.push(format!(
                 "k was below 0 in {}, at worst {}: taken as 0",
@@ -130,7 +133,7 @@ impl Rows {
         let rows = each_wavelength_once(self.rows, remarks);
         let column = |at: usize| {
             let point = |row: &Row| (row.nm, row.values[at]);
-            Curve::table(rows.iter().map(point).collect())
+            DispersionCurve::table(rows.iter().map(point).collect())
         };
         match self.columns {
             Columns::N => (column(0), None),
@@ -206,8 +209,8 @@ mod tests {
         assert_eq!(said, remarks);
     }
 
-    fn table(points: &[(f64, f64)]) -> Option<Curve> {
-        Curve::table(points.to_vec())
+    fn table(points: &[(f64, f64)]) -> Option<DispersionCurve> {
+        DispersionCurve::table(points.to_vec())
     }
 
     #[test]

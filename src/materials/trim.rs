@@ -1,6 +1,6 @@
 //! A material cut down to a range of wavelengths.
 
-use super::dispersion::Curve;
+use super::dispersion::DispersionCurve;
 use super::material::Material;
 
 impl Material {
@@ -8,12 +8,12 @@ impl Material {
     /// first at or above its end, so that every index inside stays what it was. A formula stays whole.
     #[must_use]
     pub fn trimmed(&self, from_nm: f64, to_nm: f64) -> Material {
-        let cut = |curve: &Curve| match curve {
-            Curve::Table(table) => {
+        let cut = |curve: &DispersionCurve| match curve {
+            DispersionCurve::Table(table) => {
                 let kept = within(table.points(), from_nm, to_nm).to_vec();
-                Curve::table(kept).unwrap_or_else(|| curve.clone())
+                DispersionCurve::table(kept).unwrap_or_else(|| curve.clone())
             }
-            Curve::Formula(_) => curve.clone(),
+            DispersionCurve::Formula(_) => curve.clone(),
         };
         Material {
             n: cut(&self.n),

@@ -12,7 +12,7 @@ use crate::optics::cosine;
 use crate::reference::{Derivation, MaterialInMedium};
 
 use super::plot::{
-    Axis, FOOT, Frame, HEADING, Layout, LineChart, PANEL, SUBTITLE, Series, Style, TICK,
+    ChartAxis, FOOT, Frame, HEADING, Layout, LineChart, PANEL, SUBTITLE, Series, Style, TICK,
     hex_colour, ticks,
 };
 
@@ -192,8 +192,8 @@ fn chart(material: &str, curves: &[Reflectances], low: f64) -> LineChart {
     LineChart {
         title: format!("{material}: mean of the channels"),
         subtitle: String::new(),
-        x: Axis::angle_of_incidence(),
-        y: Axis {
+        x: ChartAxis::angle_of_incidence(),
+        y: ChartAxis {
             label: "reflectance".to_owned(),
             low,
             high: 1.0,

@@ -5,28 +5,28 @@ use crate::num::Precision;
 
 /// A quantity and the values at which it is tried, in order.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Axis {
+pub struct ScanAxis {
     /// Its name, as functions have it.
     pub name: &'static str,
     /// The values, each once; numbers first, in order.
     pub values: Vec<f64>,
 }
 
-impl Axis {
-    fn new(name: &'static str, mut values: Vec<f64>) -> Axis {
+impl ScanAxis {
+    fn new(name: &'static str, mut values: Vec<f64>) -> ScanAxis {
         values.sort_by(f64::total_cmp);
         values.dedup_by(|a, b| a.to_bits() == b.to_bits());
-        Axis { name, values }
+        ScanAxis { name, values }
     }
 
     /// The values as a precision has them, without those that it has not.
-    pub fn rounded(&self, precision: Precision) -> Axis {
+    pub fn rounded(&self, precision: Precision) -> ScanAxis {
         let all = self.values.iter().map(|x| precision.rounded(*x));
-        Axis::new(self.name, all.filter(|x| x.is_finite()).collect())
+        ScanAxis::new(self.name, all.filter(|x| x.is_finite()).collect())
     }
 
     /// The same values, as many, each as a precision has it.
-    pub fn each_rounded(mut self, precision: Precision) -> Axis {
+    pub fn each_rounded(mut self, precision: Precision) -> ScanAxis {
         self.values
             .iter_mut()
             .for_each(|x| *x = precision.rounded(*x));
@@ -35,7 +35,7 @@ impl Axis {
 }
 
 /// From -1 to 8 ulp above 1: the edges with their neighbours, even in angle, logarithmic towards 0 and 1.
-pub fn cosines() -> Axis {
+pub fn cosines() -> ScanAxis {
     let mut values: Vec<f64> = vec![-1.0, -0.5, -0.1, -1e-3, -1e-6, 0.5, 1.0 / 7.0];
     let ulp = f64::from(f32::EPSILON);
     values.extend((-8..=8).map(|step| 1.0 + ulp * f64::from(step)));
@@ -47,14 +47,14 @@ pub fn cosines() -> Axis {
     values.extend((1..=30).map(|i| libm::exp2(-f64::from(i))));
     // Dense towards 1: the critical angle of a small index lies there.
     values.extend((8..=92).map(|i| 1.0 - libm::exp2(-0.25 * f64::from(i))));
-    Axis::new("cos_theta", values)
+    ScanAxis::new("cos_theta", values)
 }
 
 /// The same with thousands between them, for a function of the cosine alone.
-pub fn dense() -> Axis {
+pub fn dense() -> ScanAxis {
     let mut values = cosines().values;
     values.extend(crate::verify::cosines(DENSE).into_iter().map(f64::from));
-    Axis::new("cos_theta", values)
+    ScanAxis::new("cos_theta", values)
 }
 
 /// How many those are.
@@ -67,7 +67,7 @@ pub(super) fn logarithmic(low: f64, high: f64, steps: u32) -> impl Iterator<Item
 }
 
 /// An index from 1e-3 to 1e3: around 1 its neighbours and distances from 1e-7 to 0.3.
-pub fn index(name: &'static str, decade: u32) -> Axis {
+pub fn index(name: &'static str, decade: u32) -> ScanAxis {
     let ulp = f64::from(f32::EPSILON);
     let mut values = vec![1.0];
     values.extend((1..=2).flat_map(|step| {
@@ -79,11 +79,11 @@ pub fn index(name: &'static str, decade: u32) -> Axis {
     values.extend(logarithmic(1e-3, 1e3, 6 * decade));
     let near: Vec<f64> = logarithmic(1e-6, 0.3, 6 * decade / 2).collect();
     values.extend(near.iter().flat_map(|d| [1.0 + d, 1.0 - d]));
-    Axis::new(name, values)
+    ScanAxis::new(name, values)
 }
 
 /// An extinction coefficient above 0: subnormal, and from 1e-30 to 1e4.
-pub fn extinction() -> Axis {
+pub fn extinction() -> ScanAxis {
     let mut values = vec![
         f64::from(f32::from_bits(1)),
         1e-41,
@@ -94,12 +94,12 @@ pub fn extinction() -> Axis {
         1e-8,
     ];
     values.extend(logarithmic(1e-6, 1e4, 40));
-    Axis::new("k", values)
+    ScanAxis::new("k", values)
 }
 
 /// What a method's argument may be given, within its domain and past it.
-pub fn argument(input: &Input) -> Axis {
-    Axis::new(input.name, input.scanned.to_vec())
+pub fn argument(input: &Input) -> ScanAxis {
+    ScanAxis::new(input.name, input.scanned.to_vec())
 }
 
 #[cfg(test)]

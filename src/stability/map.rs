@@ -3,7 +3,7 @@
 use crate::methods::{Class, Method};
 use crate::num::Precision;
 
-use super::axis::{Axis, logarithmic};
+use super::axis::{ScanAxis, logarithmic};
 use super::failure::{Failure, Point};
 use super::scan::{Scan, ScannedFunction};
 use super::space::{Space, law};
@@ -12,7 +12,7 @@ use super::space::{Space, law};
 #[derive(Clone, Debug)]
 pub struct Map {
     /// What varies besides the angle, and its values in order.
-    pub axis: Axis,
+    pub axis: ScanAxis,
     /// What functions compute in.
     pub precision: Precision,
     /// What is held.
@@ -41,17 +41,17 @@ const N: f64 = 1.5;
 
 /// The maps of a method: over eta, and over k where it describes what absorbs.
 pub fn maps(method: &'static Method, precision: Precision) -> Vec<Map> {
-    let eta = Axis {
+    let eta = ScanAxis {
         name: "eta",
         values: logarithmic(0.3, 10.0, ROWS).collect(),
     };
     let mut all = vec![map(method, precision, vec![eta], "k = 0")];
     if method.class == Class::Any {
-        let n = Axis {
+        let n = ScanAxis {
             name: "n",
             values: vec![N],
         };
-        let k = Axis {
+        let k = ScanAxis {
             name: "k",
             values: logarithmic(1e-6, 100.0, ROWS).collect(),
         };
@@ -60,9 +60,14 @@ pub fn maps(method: &'static Method, precision: Precision) -> Vec<Map> {
     all
 }
 
-fn map(method: &'static Method, precision: Precision, axes: Vec<Axis>, held: &'static str) -> Map {
-    let rounded = |axis: Axis| axis.each_rounded(precision);
-    let axes: Vec<Axis> = axes.into_iter().map(rounded).collect();
+fn map(
+    method: &'static Method,
+    precision: Precision,
+    axes: Vec<ScanAxis>,
+    held: &'static str,
+) -> Map {
+    let rounded = |axis: ScanAxis| axis.each_rounded(precision);
+    let axes: Vec<ScanAxis> = axes.into_iter().map(rounded).collect();
     let code = ScannedFunction::library(method, precision);
     let degrees: Vec<f64> = (0..=90).map(f64::from).collect();
     let cosines = degrees
@@ -72,7 +77,7 @@ fn map(method: &'static Method, precision: Precision, axes: Vec<Axis>, held: &'s
     let space = Space {
         is_media: true,
         axes,
-        cosines: Axis {
+        cosines: ScanAxis {
             name: "cos_theta",
             values: cosines,
         }

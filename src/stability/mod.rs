@@ -13,7 +13,7 @@ mod scan;
 mod space;
 mod study;
 
-pub use axis::Axis;
+pub use axis::ScanAxis;
 pub use failure::Failure;
 pub use map::{Cell, Map, maps};
 pub use region::short;

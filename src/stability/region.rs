@@ -2,13 +2,13 @@
 
 use std::ops::Range;
 
-use super::axis::Axis;
+use super::axis::ScanAxis;
 
 /// A grid of up to four axes, and at each point by how much it fails; 0 where it does not.
 #[derive(Clone, Debug)]
 pub struct Field<'a> {
     /// The axes; the last one varies fastest.
-    pub axes: &'a [Axis],
+    pub axes: &'a [ScanAxis],
     /// The amounts.
     pub amounts: Vec<f32>,
 }
@@ -209,7 +209,7 @@ fn region(points: &[Point]) -> Region {
 
 impl Region {
     /// The inequalities, joined by "and"; nothing where it is all of the grid.
-    pub fn inequalities(&self, axes: &[Axis]) -> String {
+    pub fn inequalities(&self, axes: &[ScanAxis]) -> String {
         let words = self
             .extent
             .iter()
@@ -230,7 +230,7 @@ impl Region {
 }
 
 /// What a range says of an axis; nothing where it is all of it.
-fn inequality(axis: &Axis, range: &Range<usize>) -> Option<String> {
+fn inequality(axis: &ScanAxis, range: &Range<usize>) -> Option<String> {
     let (name, values) = (axis.name, &axis.values);
     let low =
         (range.start > 0).then(|| between(values[range.start - 1], values[range.start], true));
@@ -252,7 +252,7 @@ fn inequality(axis: &Axis, range: &Range<usize>) -> Option<String> {
 }
 
 /// One value: where it stands for those around it, the roundest of them.
-fn single(axis: &Axis, place: usize) -> String {
+fn single(axis: &ScanAxis, place: usize) -> String {
     let (name, value) = (axis.name, axis.values[place]);
     let neighbour = |place: Option<usize>| place.and_then(|place| axis.values.get(place)).copied();
     let (below, above) = (neighbour(place.checked_sub(1)), neighbour(Some(place + 1)));
@@ -327,14 +327,14 @@ pub fn short(x: f64) -> String {
 mod tests {
     use super::*;
 
-    fn axis(name: &'static str, values: &[f64]) -> Axis {
-        Axis {
+    fn axis(name: &'static str, values: &[f64]) -> ScanAxis {
+        ScanAxis {
             name,
             values: values.to_vec(),
         }
     }
 
-    fn field(axes: &[Axis], fails: impl Fn(&[f64]) -> bool) -> Vec<String> {
+    fn field(axes: &[ScanAxis], fails: impl Fn(&[f64]) -> bool) -> Vec<String> {
         let points: usize = axes.iter().map(|axis| axis.values.len()).product();
         let mut field = Field {
             axes,
@@ -356,7 +356,7 @@ mod tests {
             .collect()
     }
 
-    fn grid() -> [Axis; 2] {
+    fn grid() -> [ScanAxis; 2] {
         let cosines: Vec<f64> = (0..=100).map(|i| f64::from(i) / 100.0).collect();
         let etas: Vec<f64> = (0..=400).map(|i| 0.5 + f64::from(i) / 200.0).collect();
         [axis("eta", &etas), axis("cos_theta", &cosines)]

@@ -4,7 +4,7 @@ use crate::ir::{Checked, Value, evaluate};
 use crate::methods::Method;
 use crate::num::{Half, Num, Precision, in_parallel};
 
-use super::axis::{Axis, dense};
+use super::axis::{ScanAxis, dense};
 use super::failure::{Failure, NEAR, Point, is_flushed};
 use super::region::{Field, Region};
 use super::space::{Given, Space, is_lawful, law, spaces};
@@ -171,7 +171,7 @@ impl Scan<'_> {
         with_cosine.push(self.space.cosines.clone());
         let mut findings = Vec::new();
         for (kind, failure) in Failure::ALL.into_iter().enumerate() {
-            let (axes, amounts): (&[Axis], Vec<f32>) = if failure.is_of_the_model() {
+            let (axes, amounts): (&[ScanAxis], Vec<f32>) = if failure.is_of_the_model() {
                 (
                     &self.space.axes,
                     rows.iter().map(|row| row.whole[kind]).collect(),
@@ -194,7 +194,7 @@ impl Scan<'_> {
     fn finding(
         &self,
         failure: Failure,
-        axes: &[Axis],
+        axes: &[ScanAxis],
         region: &Region,
         rows: &[CurveAmounts],
     ) -> Finding {

@@ -7,7 +7,7 @@ use crate::num::Precision;
 use crate::optics;
 use crate::reference::Derivation;
 
-use super::axis::{Axis, argument, cosines, extinction, index};
+use super::axis::{ScanAxis, argument, cosines, extinction, index};
 use super::failure::is_flushed;
 
 /// A space: its axes, and what a point of it means to a method.
@@ -16,9 +16,9 @@ pub struct Space {
     /// Whether its points are media, which have a law; else they are the method's arguments themselves.
     pub is_media: bool,
     /// The axes of what a method is given; the cosines are apart.
-    pub axes: Vec<Axis>,
+    pub axes: Vec<ScanAxis>,
     /// The cosines.
-    pub cosines: Axis,
+    pub cosines: ScanAxis,
 }
 
 /// The spaces of a method, with numbers of a precision.
@@ -35,7 +35,7 @@ pub fn spaces(method: &Method, precision: Precision) -> Vec<Space> {
             is_media,
             axes: axes
                 .iter()
-                .map(|axis: &Axis| axis.rounded(precision))
+                .map(|axis: &ScanAxis| axis.rounded(precision))
                 .collect(),
             cosines: cosines().rounded(precision),
         })

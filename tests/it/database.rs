@@ -9,7 +9,9 @@ use std::sync::OnceLock;
 
 use fresnel_gen::app::source;
 use fresnel_gen::fit::{PageOutcome, survey_page};
-use fresnel_gen::materials::{Curve, Extrapolate, FileFault, Material, Page, ViewingConditions};
+use fresnel_gen::materials::{
+    DispersionCurve, Extrapolate, FileFault, Material, Page, ViewingConditions,
+};
 use fresnel_gen::spectra::Gamut;
 
 /// A page by its path from its shelf on, and what became of it.
@@ -216,10 +218,10 @@ fn an_index_that_is_none_is_refused_and_the_pages_are_known() {
 }
 
 /// A table's own wavelengths, and 1001 in the range of a formula.
-fn places(n: &Curve) -> Vec<f64> {
+fn places(n: &DispersionCurve) -> Vec<f64> {
     match n {
-        Curve::Table(_) => n.measured_nm(),
-        Curve::Formula(formula) => {
+        DispersionCurve::Table(_) => n.measured_nm(),
+        DispersionCurve::Formula(formula) => {
             let step = (formula.to_nm - formula.from_nm) / 1000.0;
             let place = |i| formula.from_nm + f64::from(i) * step;
             (0..=1000).map(place).collect()
@@ -233,7 +235,7 @@ fn glasses_have_the_index_that_their_makers_print() {
     let Some(pages) = pages() else { return };
     let (mut count, mut worst) = ([0; 10], [0.0_f64; 10]);
     for page in pages.iter().filter_map(|read| read.page.as_ref().ok()) {
-        if let (Some(nd), Some(Curve::Formula(formula))) = (page.nd, &page.n) {
+        if let (Some(nd), Some(DispersionCurve::Formula(formula))) = (page.nd, &page.n) {
             let n = formula
                 .n(587.5618)
                 .unwrap_or_else(|why| panic!("{}: {why}", page.file));

@@ -8,7 +8,7 @@ use fresnel_gen::app::request::Materials;
 use fresnel_gen::app::tables::{WantedTables, artifacts, table_materials};
 use fresnel_gen::bake::{Request, TableMaterial, TableSize, bake};
 use fresnel_gen::ir::Weights;
-use fresnel_gen::lut::{Axis, Between, Depth, Format, Stored, Table, table_error};
+use fresnel_gen::lut::{BetweenTexels, Depth, Format, Stored, Table, TableAxis, table_error};
 use fresnel_gen::materials::{self, Surface, ViewingConditions};
 use fresnel_gen::methods::Light;
 use fresnel_gen::reference::ReferenceCurve;
@@ -27,10 +27,10 @@ fn truth(name: &str) -> Option<ReferenceCurve> {
 }
 
 /// Whether one of the axes is good enough, and the least error of all.
-fn least_error(truth: &ReferenceCurve, texels: usize, axes: &[Axis]) -> f64 {
-    let error = |axis: &Axis| {
+fn least_error(truth: &ReferenceCurve, texels: usize, axes: &[TableAxis]) -> f64 {
+    let error = |axis: &TableAxis| {
         let table = Table::new("", truth, *axis, texels).unwrap();
-        let between = Between::new(truth, *axis, texels);
+        let between = BetweenTexels::new(truth, *axis, texels);
         let stored = Stored::new(&table, Depth::Half);
         table_error(&stored, Weights::Steps256, truth, &between).max_abs
     };
@@ -43,8 +43,8 @@ fn every_material_has_a_table_of_64_texels() {
     let mut more = Vec::new();
     for name in materials::names() {
         let Some(truth) = truth(name) else { continue };
-        let error = least_error(&truth, 64, &[Axis::Rational]);
-        if error > 1.0 / 1023.0 && least_error(&truth, 64, &Axis::ALL) > 1.0 / 1023.0 {
+        let error = least_error(&truth, 64, &[TableAxis::Rational]);
+        if error > 1.0 / 1023.0 && least_error(&truth, 64, &TableAxis::ALL) > 1.0 / 1023.0 {
             more.push(name);
         }
     }
@@ -58,7 +58,7 @@ const MORE_THAN_64: [&str; 0] = [];
 fn filtering_is_exact_at_both_ends() {
     for name in ["gold", "water"] {
         let truth = truth(name).unwrap();
-        for axis in Axis::ALL {
+        for axis in TableAxis::ALL {
             for texels in [2, 3, 64, 1000] {
                 let table = Table::new(name, &truth, axis, texels).unwrap();
                 let stored = Stored::new(&table, Depth::Float);
@@ -86,7 +86,7 @@ fn request(names: &str, formats: &[Format], atlas: bool) -> Request {
         typed: names.join(","),
         formats: formats.to_vec(),
         shape: TableSize::Fixed {
-            axis: Axis::Rational,
+            axis: TableAxis::Rational,
             texels: 64,
         },
         atlas,
@@ -121,7 +121,7 @@ fn equal_requests_give_equal_bytes() {
 /// The values that a picture of these rows has in a depth, row by row.
 fn expected(request: &Request, depth: Depth) -> (f32, Vec<[f32; 3]>) {
     let table = |subject: &TableMaterial| {
-        Table::new(&subject.name, &subject.truth, Axis::Rational, 64).unwrap()
+        Table::new(&subject.name, &subject.truth, TableAxis::Rational, 64).unwrap()
     };
     let tables: Vec<Table> = request.subjects.iter().map(table).collect();
     let scale = depth.scale(&tables.iter().collect::<Vec<_>>());

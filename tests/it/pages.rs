@@ -1,6 +1,6 @@
 //! Whatever a page or a table holds: no panic, and what was read is written and read again as the same material.
 
-use fresnel_gen::materials::{Curve, Extrapolate, Material, Page};
+use fresnel_gen::materials::{DispersionCurve, Extrapolate, Material, Page};
 use proptest::prelude::*;
 use proptest::test_runner::RngSeed;
 
@@ -93,12 +93,12 @@ fn check(page: Page) {
 
 /// The limits of a material's file, written a second time.
 fn is_within_limits(material: &Material) -> bool {
-    let inside = |curve: &Curve, low: f64, high: f64| match curve {
-        Curve::Table(table) => table
+    let inside = |curve: &DispersionCurve, low: f64, high: f64| match curve {
+        DispersionCurve::Table(table) => table
             .points()
             .iter()
             .all(|(nm, value)| (1.0..=1e6).contains(nm) && (low..=high).contains(value)),
-        Curve::Formula(formula) => formula.from_nm >= 1.0 && formula.to_nm <= 1e6,
+        DispersionCurve::Formula(formula) => formula.from_nm >= 1.0 && formula.to_nm <= 1e6,
     };
     inside(&material.n, 1e-3, 1e4) && material.k.as_ref().is_none_or(|k| inside(k, 0.0, 1e4))
 }

@@ -6,7 +6,7 @@ use std::fmt::Write;
 use std::path::Path;
 
 use fresnel_gen::fit::{
-    Candidate, Curve, ErrorQuantiles, Exact, FitObjective, FitProblem, Tried, TriedShapes,
+    Candidate, ErrorQuantiles, Exact, FitCurve, FitObjective, FitProblem, Tried, TriedShapes,
     candidates, search,
 };
 use fresnel_gen::reference::MaterialInMedium;
@@ -18,7 +18,7 @@ fn promised() -> Vec<&'static MaterialInMedium> {
     own.collect()
 }
 
-fn tried(shapes: &[Candidate], curves: &[Curve], aim: FitObjective) -> Vec<Tried> {
+fn tried(shapes: &[Candidate], curves: &[FitCurve], aim: FitObjective) -> Vec<Tried> {
     let tasks: Vec<FitProblem> = curves
         .iter()
         .map(|curve| FitProblem::new(curve, aim))
@@ -59,9 +59,9 @@ fn what_shapes_are_worth_is_recorded() {
     assert_eq!(subjects.len(), 75);
     let count = substances.iter().collect::<BTreeSet<_>>().len();
     println!("{count} substances");
-    let curves: Vec<Curve> = subjects
+    let curves: Vec<FitCurve> = subjects
         .iter()
-        .map(|subject| Curve::unclipped(subject))
+        .map(|subject| FitCurve::unclipped(subject))
         .collect();
     let mut record =
         String::from("what,shape,median,p90,worst,median_by_substance,p90_by_substance\n");

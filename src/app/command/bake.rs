@@ -18,7 +18,7 @@ use crate::bake::{
     TableSize, as_tables_are_seen, bake, bake_split_sum, material_words, viewing_flags,
 };
 use crate::emit::CommandLine;
-use crate::lut::{Axis, Format, SPLIT_SUM_SIZE, check_size};
+use crate::lut::{Format, SPLIT_SUM_SIZE, TableAxis, check_size};
 use crate::methods::{self, Method, TEXELS};
 use crate::report::Report;
 use crate::report::table;
@@ -137,7 +137,7 @@ fn shape(flags: &BakeFlags) -> Result<TableSize, Error> {
         }
         Some(budget) if budget > 0.0 && budget.is_finite() => Ok(TableSize::Within {
             budget,
-            axes: axis.map_or(Axis::ALL.to_vec(), |axis| vec![axis]),
+            axes: axis.map_or(TableAxis::ALL.to_vec(), |axis| vec![axis]),
         }),
         Some(budget) => Err(RequestFault::OutOfRange {
             flag: "budget",
@@ -148,9 +148,9 @@ fn shape(flags: &BakeFlags) -> Result<TableSize, Error> {
     }
 }
 
-fn axis(name: &str) -> Result<Axis, Error> {
-    let found = Axis::find(&name.to_lowercase());
-    found.ok_or_else(|| unknown("axis", name, &Axis::ALL.map(Axis::name)))
+fn axis(name: &str) -> Result<TableAxis, Error> {
+    let found = TableAxis::find(&name.to_lowercase());
+    found.ok_or_else(|| unknown("axis", name, &TableAxis::ALL.map(TableAxis::name)))
 }
 
 /// The formats, in the order of the list, each once.

@@ -11,7 +11,8 @@ use crate::app::source::{materials, source};
 use crate::cost::{Family, library_cost, records};
 use crate::emit::missed;
 use crate::fit::{
-    Coefficients, Curve, Exact, FitObjective, Follows, Weight, error_from, model_error, values_at,
+    Coefficients, Exact, FitCurve, FitObjective, Follows, Weight, error_from, model_error,
+    values_at,
 };
 use crate::methods::{ALL, Class, Method};
 use crate::num::in_parallel;
@@ -152,7 +153,7 @@ fn of_subject(
     aim: FitObjective,
     forms: &[Form],
 ) -> Vec<(Option<FitRow>, String, &'static str)> {
-    let curve = Curve::unclipped(subject);
+    let curve = FitCurve::unclipped(subject);
     // Promises of classes are of the usual fit.
     let promised = aim.weight == Weight::Absolute && !aim.exact.is_any();
     let row = |form: &Form| {
@@ -176,7 +177,7 @@ fn of_colours(flags: &FitFlags, aim: FitObjective, forms: &[Form]) -> Result<Vec
     let (f0, f82) = (colour("f0", &flags.f0)?, colour("f82", &flags.f82)?);
     let follows = [0, 1, 2].map(|i| Follows::of(f0[i], f82[i]));
     let seen = |cos_theta: f64| follows.map(|channel| channel.at(cos_theta));
-    let curve = Curve::new(seen);
+    let curve = FitCurve::new(seen);
     let row = |form: &Form| {
         let method = form.method;
         let fitted = Coefficients::fit(method, &curve, aim).ok_or_else(|| Error::Usage {

@@ -3,7 +3,7 @@
 use crate::app::args::FitFlags;
 use crate::app::error::Error;
 use crate::cost::{Family, library_cost, records};
-use crate::fit::{Candidate, Curve, FitObjective, FitProblem, TriedShapes, candidates, search};
+use crate::fit::{Candidate, FitCurve, FitObjective, FitProblem, TriedShapes, candidates, search};
 use crate::materials::{Material, find};
 use crate::methods::Method;
 use crate::num::in_parallel;
@@ -78,8 +78,8 @@ fn tried_shapes(
         .iter()
         .filter(|subject| MaterialClass::containing(subject) == Some(class));
     let own: Vec<&MaterialInMedium> = own.collect();
-    let curve = |i: usize| Curve::unclipped(own[i]);
-    let curves: Vec<Curve> = in_parallel(own.len(), &curve, &mut |done, whole| {
+    let curve = |i: usize| FitCurve::unclipped(own[i]);
+    let curves: Vec<FitCurve> = in_parallel(own.len(), &curve, &mut |done, whole| {
         progress(done, whole, "materials");
     });
     let tasks: Vec<FitProblem> = curves

@@ -6,7 +6,7 @@ use super::material::GUESS_NM;
 use super::yaml::{self, RawItem};
 use crate::materials::FileFault;
 use crate::materials::decimal::{self, Unit, clipped};
-use crate::materials::dispersion::Curve;
+use crate::materials::dispersion::DispersionCurve;
 use crate::materials::file::MOST_COEFFICIENTS;
 use crate::materials::formula::{Formula, NUMBERS};
 use crate::materials::material::{GREATEST, LEAST_N};
@@ -15,8 +15,8 @@ use crate::materials::rows::{Columns, RowFault, Rows};
 /// What an item gives.
 #[derive(Default)]
 pub struct Item {
-    pub n: Option<Curve>,
-    pub k: Option<Curve>,
+    pub n: Option<DispersionCurve>,
+    pub k: Option<DispersionCurve>,
     pub remarks: Vec<String>,
 }
 
@@ -139,7 +139,7 @@ impl Source<'_> {
         };
         let (formula, cut) = cut(formula).map_err(|what| self.fault(kind.defined, what))?;
         Ok(Item {
-            n: Some(Curve::Formula(formula)),
+            n: Some(DispersionCurve::Formula(formula)),
             k: None,
             remarks: remarks.into_iter().chain(cut).collect(),
         })

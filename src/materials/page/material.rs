@@ -2,7 +2,7 @@
 
 use super::Page;
 use crate::materials::decimal::short;
-use crate::materials::dispersion::{Curve, Extrapolate};
+use crate::materials::dispersion::{DispersionCurve, Extrapolate};
 use crate::materials::{FileFault, Index, Material, MaterialKind, name_fault};
 
 /// Where the class is guessed: near the middle of the visible range.
@@ -94,10 +94,10 @@ impl Page {
     }
 }
 
-fn is_zero(curve: &Curve) -> bool {
+fn is_zero(curve: &DispersionCurve) -> bool {
     match curve {
-        Curve::Table(table) => table.points().iter().all(|(_, value)| *value == 0.0),
-        Curve::Formula(_) => false,
+        DispersionCurve::Table(table) => table.points().iter().all(|(_, value)| *value == 0.0),
+        DispersionCurve::Formula(_) => false,
     }
 }
 

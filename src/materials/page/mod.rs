@@ -29,7 +29,7 @@ mod name;
 mod plain;
 mod yaml;
 
-use super::dispersion::Curve;
+use super::dispersion::DispersionCurve;
 use super::file::FileFault;
 
 /// What a page of refractiveindex.info says, or a table that someone measured.
@@ -38,9 +38,9 @@ pub struct Page {
     /// The file, as the user named it.
     pub file: String,
     /// Refractive index by wavelength.
-    pub n: Option<Curve>,
+    pub n: Option<DispersionCurve>,
     /// Extinction coefficient by wavelength, not below 0.
-    pub k: Option<Curve>,
+    pub k: Option<DispersionCurve>,
     /// The licence of the numbers: CC0-1.0 for a page of the database; empty where nothing says it.
     pub licence: String,
     /// Who measured it, as one line of plain text; may be empty.
@@ -89,15 +89,21 @@ impl Page {
 
     /// Adds what one table or formula gives. Where two give the same quantity, the first counts: on the one page that
     /// does so (PVP, Konig) the formula goes before a table that was computed from it.
-    pub(super) fn add(&mut self, n: Option<Curve>, k: Option<Curve>, remarks: Vec<String>) {
-        let mut take = |own: &mut Option<Curve>, curve: Option<Curve>, letter: &str| {
-            if own.is_some() && curve.is_some() {
-                let what = format!("{letter} is given twice: the first was taken");
-                self.remarks.push(what);
-            } else if curve.is_some() {
-                *own = curve;
-            }
-        };
+    pub(super) fn add(
+        &mut self,
+        n: Option<DispersionCurve>,
+        k: Option<DispersionCurve>,
+        remarks: Vec<String>,
+    ) {
+        let mut take =
+            |own: &mut Option<DispersionCurve>, curve: Option<DispersionCurve>, letter: &str| {
+                if own.is_some() && curve.is_some() {
+                    let what = format!("{letter} is given twice: the first was taken");
+                    self.remarks.push(what);
+                } else if curve.is_some() {
+                    *own = curve;
+                }
+            };
         take(&mut self.n, n, "n");
         take(&mut self.k, k, "k");
         self.remarks.extend(remarks);
@@ -167,8 +173,8 @@ PROPERTIES:
         Page::parse("main/Au/nk/Mine.yml", text).expect("it is good")
     }
 
-    fn curve(points: &[(f64, f64)]) -> Option<Curve> {
-        Curve::table(points.to_vec())
+    fn curve(points: &[(f64, f64)]) -> Option<DispersionCurve> {
+        DispersionCurve::table(points.to_vec())
     }
 
     #[test]
@@ -205,7 +211,7 @@ PROPERTIES:
             from_nm: 300.0,
             to_nm: 2500.0,
         };
-        assert_eq!(page.n, Some(Curve::Formula(expected)));
+        assert_eq!(page.n, Some(DispersionCurve::Formula(expected)));
         for number in 1..=9 {
             // A share of 1.5 would be a negative n² in formula 8.
             let page = read(&formula(&number.to_string(), "0.3 2.5", "0.25"));
@@ -245,7 +251,9 @@ PROPERTIES:
         let twice =
             formula("5", "0.3 2.5", "1.5") + "- type: tabulated nk\n  data: |\n    0.4 1 0.5\n";
         let page = remarks(&twice, &["n is given twice: the first was taken"]);
-        assert!(matches!(page.n, Some(Curve::Formula(_))) && page.k == curve(&[(400.0, 0.5)]));
+        assert!(
+            matches!(page.n, Some(DispersionCurve::Formula(_))) && page.k == curve(&[(400.0, 0.5)])
+        );
     }
 
     /// The pole of the first lies at 0.6 um, beside the middle of the visible range, that of the second at 0.4 um.
@@ -256,7 +264,7 @@ PROPERTIES:
             ("1.5 0.01 0.16", 401.0, 2500.0, "formula 2 gives n^2 = "),
         ] {
             let page = read(&formula("2", "0.3 2.5", coefficients));
-            let Some(Curve::Formula(cut)) = &page.n else {
+            let Some(DispersionCurve::Formula(cut)) = &page.n else {
                 panic!("{page:?}");
             };
             assert_eq!((cut.from_nm, cut.to_nm), (from_nm, to_nm), "{page:?}");

@@ -1,7 +1,7 @@
 //! What charts show: the error of every method for every material, with its intended inputs and with its best ones, and what an
 //! evaluation of its library function costs where that was recorded; a user's own function beside them.
 
-use crate::fit::{Curve, Inputs, MethodErrors};
+use crate::fit::{FitCurve, InputChoice, MethodErrors};
 use crate::methods::{ALL, Light};
 use crate::num::in_parallel;
 use crate::reference::MaterialInMedium;
@@ -84,12 +84,12 @@ fn entry_errors(
     subject: &MaterialInMedium,
     space: Space,
 ) -> Vec<MethodErrors> {
-    let curve = Curve::new(|c| subject.truth.at(c));
+    let curve = FitCurve::new(|c| subject.truth.at(c));
     let one = |entry: &ChartEntry| match entry.method() {
         Some(method) if subject.is_described_by(method) => {
             let inputs = match entry.is_best {
-                true => Inputs::Best,
-                false => Inputs::Intended,
+                true => InputChoice::Best,
+                false => InputChoice::Intended,
             };
             MethodErrors::new(method, inputs, subject, &curve, space)
         }

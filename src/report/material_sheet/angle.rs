@@ -3,7 +3,7 @@
 use glam::DVec3;
 
 pub use crate::optics::cosine;
-use crate::report::plot::{Axis, GREEN, LineChart, Look, Series, Style};
+use crate::report::plot::{ChartAxis, GREEN, LineChart, Look, Series, Style};
 
 use super::{DrawnMaterial, axis};
 
@@ -48,7 +48,7 @@ pub(super) fn angle_chart(drawn: &DrawnMaterial) -> LineChart {
     LineChart {
         title: "Reflectance against angle".to_owned(),
         subtitle: subtitle(&series),
-        x: Axis::angle_of_incidence(),
+        x: ChartAxis::angle_of_incidence(),
         y: axis::reflectance(&series),
         series,
         marks: Vec::new(),

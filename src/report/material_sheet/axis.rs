@@ -1,6 +1,6 @@
 //! Vertical axes that fit what is drawn on them.
 
-use crate::report::plot::{Axis, Series, ticks};
+use crate::report::plot::{ChartAxis, Series, ticks};
 
 /// About how many intervals an axis has.
 const INTERVALS: usize = 5;
@@ -8,7 +8,7 @@ const INTERVALS: usize = 5;
 const LEAST_SPAN: f64 = 1e-5;
 
 /// An axis that holds these values, its ends rounded outwards.
-pub fn holding(label: &str, values: impl IntoIterator<Item = f64>) -> Axis {
+pub fn holding(label: &str, values: impl IntoIterator<Item = f64>) -> ChartAxis {
     let finite = values.into_iter().filter(|value| value.is_finite());
     let (low, high) = finite.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), value| {
         (low.min(value), high.max(value))
@@ -26,7 +26,7 @@ pub fn holding(label: &str, values: impl IntoIterator<Item = f64>) -> Axis {
     };
     let low = (low / step + 1e-9).floor() * step;
     let high = (high / step - 1e-9).ceil() * step;
-    Axis {
+    ChartAxis {
         label: label.to_owned(),
         low,
         high,
@@ -36,7 +36,7 @@ pub fn holding(label: &str, values: impl IntoIterator<Item = f64>) -> Axis {
 }
 
 /// The axis of reflectance: 0 to 1, and further where a curve goes further.
-pub fn reflectance(series: &[Series]) -> Axis {
+pub fn reflectance(series: &[Series]) -> ChartAxis {
     holding("reflectance", values(series).chain([0.0, 1.0]))
 }
 

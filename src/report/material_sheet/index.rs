@@ -1,6 +1,6 @@
 //! n and k against wavelength, as measured.
 
-use crate::materials::{Curve, Extrapolate};
+use crate::materials::{DispersionCurve, Extrapolate};
 use crate::report::plot::{BLUE, LineChart, Look, Series, Style, VERMILION};
 
 use super::{DrawnMaterial, axis, window};
@@ -31,7 +31,7 @@ pub(super) fn index_chart(drawn: &DrawnMaterial) -> LineChart {
         Some(rgb) => Some(window::around(rgb)),
         None => window::either(material),
     };
-    let curve_series = |name: &str, curve: &Curve, look: Look| match three {
+    let curve_series = |name: &str, curve: &DispersionCurve, look: Look| match three {
         Some(rgb) => joined(name, curve, look, rgb, drawn.sight.beyond),
         None => whole(name, curve, look, range),
     };
@@ -85,7 +85,13 @@ fn without_k(k: Option<&Series>) -> String {
 }
 
 /// Three points, and dashes to guide the eye.
-fn joined(name: &str, curve: &Curve, look: Look, rgb: [f64; 3], beyond: Extrapolate) -> Series {
+fn joined(
+    name: &str,
+    curve: &DispersionCurve,
+    look: Look,
+    rgb: [f64; 3],
+    beyond: Extrapolate,
+) -> Series {
     let mut rgb = rgb;
     rgb.sort_by(f64::total_cmp);
     let value = |nm: f64| curve.at(nm, beyond).unwrap_or(f64::NAN);
@@ -102,18 +108,18 @@ fn joined(name: &str, curve: &Curve, look: Look, rgb: [f64; 3], beyond: Extrapol
 }
 
 /// A table with its points as dots, or a formula.
-fn whole(name: &str, curve: &Curve, look: Look, range: Option<(f64, f64)>) -> Series {
+fn whole(name: &str, curve: &DispersionCurve, look: Look, range: Option<(f64, f64)>) -> Series {
     let points = match (curve, range) {
         (_, None) => Vec::new(),
-        (Curve::Table(table), Some(range)) => within(table.points(), range),
-        (Curve::Formula(formula), Some(_)) => {
+        (DispersionCurve::Table(table), Some(range)) => within(table.points(), range),
+        (DispersionCurve::Formula(formula), Some(_)) => {
             let own = window::shown((formula.from_nm, formula.to_nm));
             let at = |nm: f64| (nm, formula.n(nm).unwrap_or(f64::NAN));
             let samples = own.map_or(Vec::new(), window::samples);
             samples.into_iter().map(at).collect()
         }
     };
-    let dots = matches!(curve, Curve::Table(_));
+    let dots = matches!(curve, DispersionCurve::Table(_));
     Series {
         name: name.to_owned(),
         style: Style::Own(Look { dots, ..look }),
@@ -130,7 +136,12 @@ fn within(points: &[(f64, f64)], (from, to): (f64, f64)) -> Vec<(f64, f64)> {
 }
 
 /// What the line stands on.
-fn origin(n: &Series, curve: &Curve, three: Option<[f64; 3]>, range: Option<(f64, f64)>) -> String {
+fn origin(
+    n: &Series,
+    curve: &DispersionCurve,
+    three: Option<[f64; 3]>,
+    range: Option<(f64, f64)>,
+) -> String {
     if let Some([red, green, blue]) = three {
         return format!("Taken at {red}, {green} and {blue} nm; the dashes only join the points.");
     }
@@ -138,8 +149,8 @@ fn origin(n: &Series, curve: &Curve, three: Option<[f64; 3]>, range: Option<(f64
         return "Not measured in visible light.".to_owned();
     };
     match curve {
-        Curve::Formula(formula) => format!("n by dispersion formula {}.", formula.number),
-        Curve::Table(_) => {
+        DispersionCurve::Formula(formula) => format!("n by dispersion formula {}.", formula.number),
+        DispersionCurve::Table(_) => {
             let inside = |point: &&(f64, f64)| (from..=to).contains(&point.0);
             let count = n.points.iter().filter(inside).count();
             match count {

@@ -145,10 +145,10 @@ impl DrawnMaterial<'_> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::materials::{Curve, Extrapolate, MaterialKind, find};
+    use crate::materials::{DispersionCurve, Extrapolate, MaterialKind, find};
 
-    fn table(points: impl IntoIterator<Item = (f64, f64)>) -> Curve {
-        Curve::table(points.into_iter().collect()).expect("they ascend")
+    fn table(points: impl IntoIterator<Item = (f64, f64)>) -> DispersionCurve {
+        DispersionCurve::table(points.into_iter().collect()).expect("they ascend")
     }
 
     /// A metal that shines yellow, known at each of these wavelengths.

@@ -1,7 +1,7 @@
 //! The wavelengths that a material sheet shows: the measured part of 360 to 830 nm, what an eye can see.
 
-use crate::materials::{Curve, Material};
-use crate::report::plot::{Axis, ticks};
+use crate::materials::{DispersionCurve, Material};
+use crate::report::plot::{ChartAxis, ticks};
 use crate::spectra::OBSERVED_NM;
 
 /// Beside points that stand alone.
@@ -16,7 +16,11 @@ pub fn shown((from, to): (f64, f64)) -> Option<(f64, f64)> {
 /// The part that is shown where n or k is known.
 pub fn either(material: &Material) -> Option<(f64, f64)> {
     let n = shown(material.n.range_nm());
-    let k = material.k.as_ref().map(Curve::range_nm).and_then(shown);
+    let k = material
+        .k
+        .as_ref()
+        .map(DispersionCurve::range_nm)
+        .and_then(shown);
     match (n, k) {
         (Some(n), Some(k)) => Some((n.0.min(k.0), n.1.max(k.1))),
         (one, other) => one.or(other),
@@ -30,12 +34,12 @@ pub fn around(rgb: [f64; 3]) -> (f64, f64) {
 }
 
 /// The axis of a range, wide enough to look at; all that is visible where there is none.
-pub fn wavelength_axis(range: Option<(f64, f64)>) -> Axis {
+pub fn wavelength_axis(range: Option<(f64, f64)>) -> ChartAxis {
     let (mut low, mut high) = range.unwrap_or(OBSERVED_NM);
     if high - low < BESIDE_NM {
         (low, high) = (low - BESIDE_NM, high + BESIDE_NM);
     }
-    Axis {
+    ChartAxis {
         label: "wavelength in vacuum (nm)".to_owned(),
         low,
         high,

@@ -15,7 +15,7 @@ mod ticks;
 
 pub(super) use axes::{Area, Axes, Tick};
 pub(super) use layout::{Frame, Layout};
-pub use line_chart::{Axis, LineChart, Mark, Series};
+pub use line_chart::{ChartAxis, LineChart, Mark, Series};
 pub(super) use palette::{BLUE, GREEN, INK, SHADES, VERMILION, hex_colour, shade};
 pub use palette::{Look, Style};
 pub(super) use scale::Scale;

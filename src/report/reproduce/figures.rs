@@ -3,7 +3,7 @@
 use crate::fit;
 use crate::methods::lambda;
 use crate::reference::Derivation;
-use crate::report::plot::{Axis, LineChart, Mark, Series, Style, ticks};
+use crate::report::plot::{ChartAxis, LineChart, Mark, Series, Style, ticks};
 
 use super::angle::{cosine, exact, lowest};
 use super::comparison::{ComparisonRow, Figure};
@@ -239,7 +239,7 @@ impl FigurePlan {
         LineChart {
             title: format!("Figure {}: {}", self.number, self.subject),
             subtitle,
-            x: Axis::angle_of_incidence(),
+            x: ChartAxis::angle_of_incidence(),
             y: axis("unpolarised reflectance", self.low, 100.0, 5, "%"),
             series: drawn,
             marks: self.marks(),
@@ -331,8 +331,8 @@ fn series(curve: DrawnCurve, style: Style) -> Series {
     }
 }
 
-fn axis(label: &str, low: f64, high: f64, about: usize, unit: &'static str) -> Axis {
-    Axis {
+fn axis(label: &str, low: f64, high: f64, about: usize, unit: &'static str) -> ChartAxis {
+    ChartAxis {
         label: label.to_owned(),
         low,
         high,

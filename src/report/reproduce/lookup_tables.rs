@@ -4,7 +4,9 @@
 //! The thesis measured its tables in rendered pictures only, of a cube and of a sculpture; the smaller of the two
 //! figures stands beside ours. Both are means of relative errors, but the pictures' angles are those that a camera saw.
 
-use crate::lut::{Axis, Depth, LEAST_TEXELS, Stored, Table, ThesisMeasure, thesis_table_errors};
+use crate::lut::{
+    Depth, LEAST_TEXELS, Stored, Table, TableAxis, ThesisMeasure, thesis_table_errors,
+};
 use crate::materials::Surface;
 use crate::methods::Light;
 use crate::reference::ReferenceCurve;
@@ -97,9 +99,9 @@ impl ThesisMaterial<'_> {
 
     fn material_rows(&self, angles: usize, meter: &mut Meter) -> Vec<ComparisonRow> {
         let coarse = ThesisMeasure::new(&self.truth, angles.div_ceil(COARSER));
-        let error = |axis: &Axis| coarse.error(&self.stored(*axis, TEXELS, Depth::Float));
-        let best = least(Axis::ALL, error);
-        let kinds = [(Axis::Cos, "cos"), (best, "best axis")];
+        let error = |axis: &TableAxis| coarse.error(&self.stored(*axis, TEXELS, Depth::Float));
+        let best = least(TableAxis::ALL, error);
+        let kinds = [(TableAxis::Cos, "cos"), (best, "best axis")];
         let each = kinds
             .into_iter()
             .flat_map(|kind| DEPTHS.map(|depth| (kind, depth)));
@@ -138,30 +140,32 @@ impl ThesisMaterial<'_> {
     }
 
     /// What the thesis has no figures for: the best axis, and the smallest tables.
-    fn searched(&self, best: Axis, coarse: &ThesisMeasure) -> [ComparisonRow; 4] {
-        let size = |axis: Axis| self.smallest(axis, coarse);
-        let fewest = least(Axis::ALL, |axis| size(*axis).unwrap_or(usize::MAX) as f64);
+    fn searched(&self, best: TableAxis, coarse: &ThesisMeasure) -> [ComparisonRow; 4] {
+        let size = |axis: TableAxis| self.smallest(axis, coarse);
+        let fewest = least(TableAxis::ALL, |axis| {
+            size(*axis).unwrap_or(usize::MAX) as f64
+        });
         let ours = |column: &str, figure: Figure, remark: &str| {
             let row = ComparisonRow::new(self.table, self.name, column);
             row.thesis(Figure::Missing("the thesis has one table a material"))
                 .ours(figure)
                 .remark(remark)
         };
-        let texels = |axis: Axis| match size(axis) {
+        let texels = |axis: TableAxis| match size(axis) {
             Some(texels) => Figure::Number(texels as f64, 0, " texels"),
             None => Figure::Missing("no table of up to 4096 texels errs less"),
         };
-        let named = |axis: Axis| Figure::Words(axis.name().to_owned());
+        let named = |axis: TableAxis| Figure::Words(axis.name().to_owned());
         [
             ours("best axis", named(best), BETTER),
-            ours("enough on cos", texels(Axis::Cos), SMALLEST),
+            ours("enough on cos", texels(TableAxis::Cos), SMALLEST),
             ours("fewest", texels(fewest), SMALLEST),
             ours("on the axis", named(fewest), SMALLEST),
         ]
     }
 
     /// The fewest texels with which a table errs less than the thesis's.
-    fn smallest(&self, axis: Axis, coarse: &ThesisMeasure) -> Option<usize> {
+    fn smallest(&self, axis: TableAxis, coarse: &ThesisMeasure) -> Option<usize> {
         let beats =
             |texels: &usize| coarse.error(&self.stored(axis, *texels, Depth::Float)) < self.printed;
         let doubled = std::iter::successors(Some(LEAST_TEXELS), |texels| Some(2 * texels));
@@ -181,14 +185,14 @@ impl ThesisMaterial<'_> {
         below.find(beats).or(Some(enough))
     }
 
-    fn stored(&self, axis: Axis, texels: usize, depth: Depth) -> Stored {
+    fn stored(&self, axis: TableAxis, texels: usize, depth: Depth) -> Stored {
         let table = Table::new(self.name, &self.truth, axis, texels);
         Stored::new(&table.expect("these sizes are sizes of textures"), depth)
     }
 }
 
 /// The first of these with the least figure.
-fn least(axes: [Axis; 6], figure: impl Fn(&Axis) -> f64) -> Axis {
+fn least(axes: [TableAxis; 6], figure: impl Fn(&TableAxis) -> f64) -> TableAxis {
     let [first, ..] = axes;
     let figures = axes.map(|axis| (figure(&axis), axis));
     let least = figures.into_iter().min_by(|a, b| a.0.total_cmp(&b.0));

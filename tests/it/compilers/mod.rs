@@ -13,7 +13,7 @@ use std::sync::{LazyLock, Mutex};
 
 use fresnel_gen::app::request::DEFAULT_MATERIALS;
 use fresnel_gen::app::{Artifact, Materials, Request, Source, generate};
-use fresnel_gen::lut::{self, Axis};
+use fresnel_gen::lut::{self, TableAxis};
 use fresnel_gen::num::Precision;
 use fresnel_gen::targets::Target;
 use fresnel_gen::verify::compilers::Verdict;
@@ -166,13 +166,13 @@ fn lookups() -> Vec<Artifact> {
     let text = targets::ALL.iter().copied();
     let text = text.filter(|target| target.finish != targets::Finish::Spirv);
     let kinds = [(Some(1.0), 1), (Some(1.058_7), 4), (None, 1), (None, 4)];
-    let every = text.flat_map(|target| Axis::ALL.map(|axis| (target, axis)));
+    let every = text.flat_map(|target| TableAxis::ALL.map(|axis| (target, axis)));
     every
         .flat_map(|(target, axis)| kinds.map(|(scale, rows)| lookup(target, axis, scale, rows)))
         .collect()
 }
 
-fn lookup(target: &'static Target, axis: Axis, scale: Option<f32>, rows: usize) -> Artifact {
+fn lookup(target: &'static Target, axis: TableAxis, scale: Option<f32>, rows: usize) -> Artifact {
     let name = format!("fresnel_{}_{rows}_{}_table", axis.name(), scale.is_some());
     let function = lut::lookup(axis, 64, scale, rows).unwrap();
     let bytes = emit::lookup(target, name.clone(), function, Vec::new()).unwrap();

@@ -9,7 +9,7 @@ use fresnel_gen::gpu::{
     Argument, Backend, DeviceFault, Program, ShaderCode, Texture, TextureFormat, Uniform, Wrap,
 };
 use fresnel_gen::ir::Weights;
-use fresnel_gen::lut::{Axis, Depth, Stored, Table};
+use fresnel_gen::lut::{Depth, Stored, Table, TableAxis};
 use fresnel_gen::materials::ViewingConditions;
 use fresnel_gen::methods;
 use fresnel_gen::targets;
@@ -143,7 +143,7 @@ impl<'a> Put<'a> {
     }
 }
 
-fn stored(lit: &TableMaterial, axis: Axis, texels: usize, depth: Depth) -> Stored {
+fn stored(lit: &TableMaterial, axis: TableAxis, texels: usize, depth: Depth) -> Stored {
     Stored::new(
         &Table::new(&lit.name, &lit.truth, axis, texels).unwrap(),
         depth,
@@ -161,7 +161,11 @@ fn samplers_agree_with_the_model_of_filtering() {
     let at = at();
     let mut tried = 0;
     for lit in committed() {
-        for (axis, texels) in [(Axis::Rational, 64), (Axis::Cos, 256), (Axis::Steep, 37)] {
+        for (axis, texels) in [
+            (TableAxis::Rational, 64),
+            (TableAxis::Cos, 256),
+            (TableAxis::Steep, 37),
+        ] {
             for depth in Depth::ALL {
                 for backend in [Backend::Vulkan, Backend::OpenGl, Backend::Gles] {
                     let stored = stored(&lit, axis, texels, depth);
@@ -190,8 +194,8 @@ fn samplers_agree_with_the_model_of_filtering() {
 fn each_mistake_is_seen() {
     let at = at();
     for lit in committed() {
-        let table = stored(&lit, Axis::Rational, 64, Depth::Half);
-        let bytes = stored(&lit, Axis::Rational, 64, Depth::Unorm8);
+        let table = stored(&lit, TableAxis::Rational, 64, Depth::Half);
+        let bytes = stored(&lit, TableAxis::Rational, 64, Depth::Unorm8);
         let right = Put::right(&table);
         for backend in [Backend::Vulkan, Backend::Gles] {
             let mistakes = [

@@ -10,7 +10,7 @@ use fresnel_gen::num::Precision;
 use fresnel_gen::reference::Derivation;
 use fresnel_gen::report::png::png;
 use fresnel_gen::report::stability::heat_map;
-use fresnel_gen::stability::{Axis, Cell, Map, maps};
+use fresnel_gen::stability::{Cell, Map, ScanAxis, maps};
 use roxmltree::Document;
 use tempfile::TempDir;
 
@@ -151,7 +151,7 @@ fn empty(over: &'static str, precision: Precision) -> Map {
         (1e-6, 100.0)
     };
     let values = (0..=96).map(|i| low * (high / low).powf(f64::from(i) / 96.0));
-    let axis = Axis {
+    let axis = ScanAxis {
         name: over,
         values: values.map(|value| precision.rounded(value)).collect(),
     };

@@ -243,7 +243,7 @@ fn every_specialised_function_reads_as_it_was_meant() {
 
 #[test]
 fn every_lookup_reads_as_it_was_meant() {
-    for axis in lut::Axis::ALL {
+    for axis in lut::TableAxis::ALL {
         for (scale, rows) in [(Some(1.0), 1), (Some(1.058_7), 4), (None, 1), (None, 4)] {
             let function = lut::lookup(axis, 64, scale, rows).expect("well formed");
             for target in text_targets() {

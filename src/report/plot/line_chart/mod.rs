@@ -19,9 +19,9 @@ pub struct LineChart {
     /// What is measured, and from how many points.
     pub subtitle: String,
     /// The horizontal axis.
-    pub x: Axis,
+    pub x: ChartAxis,
     /// The vertical axis.
-    pub y: Axis,
+    pub y: ChartAxis,
     /// The curves, in legend order.
     pub series: Vec<Series>,
     /// Vertical guide lines; those outside the horizontal axis are left out.
@@ -32,7 +32,7 @@ pub struct LineChart {
 
 /// The range of one axis and where it is labelled.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Axis {
+pub struct ChartAxis {
     /// The quantity along the axis.
     pub label: String,
     /// The value at the left or bottom end; like `high`, finite.
@@ -110,10 +110,10 @@ impl LineChart {
     }
 }
 
-impl Axis {
+impl ChartAxis {
     /// The angle of incidence, in degrees.
-    pub fn angle_of_incidence() -> Axis {
-        Axis {
+    pub fn angle_of_incidence() -> ChartAxis {
+        ChartAxis {
             label: "angle of incidence".to_owned(),
             low: 0.0,
             high: 90.0,
@@ -150,8 +150,8 @@ impl Axis {
 mod tests {
     use super::*;
 
-    fn axis(label: &str, high: f64, unit: &'static str) -> Axis {
-        Axis {
+    fn axis(label: &str, high: f64, unit: &'static str) -> ChartAxis {
+        ChartAxis {
             label: label.into(),
             low: 0.0,
             high,

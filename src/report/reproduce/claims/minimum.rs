@@ -25,7 +25,7 @@ const OTHERS: [&str; 6] = [
 ];
 
 /// One metal at one wavelength.
-struct Curve {
+struct MetalAtWavelength {
     name: String,
     /// The angle of the least reflectance.
     minimum: f64,
@@ -38,7 +38,7 @@ struct Curve {
 /// The claims about the minimum.
 pub fn minimum_claims() -> Vec<ComparisonRow> {
     let curves = curves();
-    let worth: Vec<&Curve> = curves
+    let worth: Vec<&MetalAtWavelength> = curves
         .iter()
         .filter(|c| c.apart > WORTH_CORRECTING)
         .collect();
@@ -50,7 +50,7 @@ pub fn minimum_claims() -> Vec<ComparisonRow> {
     rows
 }
 
-fn curves() -> Vec<Curve> {
+fn curves() -> Vec<MetalAtWavelength> {
     let thesis =
         ["gold", "platinum"].map(|name| (format!("thesis {name}"), specialised::channels(name)));
     let others = OTHERS.map(|name| (name.to_owned(), specialised::unrounded(name)));
@@ -59,14 +59,14 @@ fn curves() -> Vec<Curve> {
         .collect()
 }
 
-fn three(name: &str, channels: &Channels) -> [Curve; 3] {
+fn three(name: &str, channels: &Channels) -> [MetalAtWavelength; 3] {
     [0, 1, 2].map(|i| {
         let name = format!("{name}, {} nm", THESIS_NM[i]);
         curve(name, [channels.n[i], channels.k[i]])
     })
 }
 
-fn curve(name: String, index: [f64; 2]) -> Curve {
+fn curve(name: String, index: [f64; 2]) -> MetalAtWavelength {
     let function = specialised::function(
         "schlick_rescaled",
         &specialised::grey(index),
@@ -77,7 +77,7 @@ fn curve(name: String, index: [f64; 2]) -> Curve {
     let (furthest, apart) = highest(|degrees| {
         (specialised::at(&function, cosine(degrees)) - reflectance(degrees)).abs()
     });
-    Curve {
+    MetalAtWavelength {
         name,
         minimum,
         least,
@@ -86,7 +86,7 @@ fn curve(name: String, index: [f64; 2]) -> Curve {
     }
 }
 
-fn of_reflectance(curves: &[&Curve], all: usize) -> ComparisonRow {
+fn of_reflectance(curves: &[&MetalAtWavelength], all: usize) -> ComparisonRow {
     let (inside, low, high) = within(curves, |curve| curve.minimum);
     let ours = format!(
         "{inside} of {} (those of {all} metal channels for which the rescaled Schlick is more than {WORTH_CORRECTING} \
@@ -98,7 +98,7 @@ fn of_reflectance(curves: &[&Curve], all: usize) -> ComparisonRow {
         .verdict(Verdict::of_claim(2 * inside > curves.len()))
 }
 
-fn of_difference(curves: &[&Curve], all: usize) -> ComparisonRow {
+fn of_difference(curves: &[&MetalAtWavelength], all: usize) -> ComparisonRow {
     let (inside, low, high) = within(curves, |curve| curve.furthest);
     let ours = format!(
         "{inside} of the same {} (of {all}): the rescaled Schlick is furthest off at {low:.2}° to {high:.2}°",
@@ -110,7 +110,10 @@ fn of_difference(curves: &[&Curve], all: usize) -> ComparisonRow {
 }
 
 /// How many lie in the claimed range, and from where to where all lie.
-fn within(curves: &[&Curve], angle: fn(&Curve) -> f64) -> (usize, f64, f64) {
+fn within(
+    curves: &[&MetalAtWavelength],
+    angle: fn(&MetalAtWavelength) -> f64,
+) -> (usize, f64, f64) {
     let angles: Vec<f64> = curves.iter().map(|curve| angle(curve)).collect();
     let inside = angles
         .iter()
@@ -120,7 +123,7 @@ fn within(curves: &[&Curve], angle: fn(&Curve) -> f64) -> (usize, f64, f64) {
     (inside, low, angles.into_iter().fold(0.0, f64::max))
 }
 
-fn figures(curve: &Curve) -> [ComparisonRow; 4] {
+fn figures(curve: &MetalAtWavelength) -> [ComparisonRow; 4] {
     let row = |column: &str, figure| measured(&curve.name, column, figure);
     [
         row("minimum", Figure::percent(100.0 * curve.least)),
