@@ -4,7 +4,7 @@
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 use fresnel_gen::app::request::Materials;
 use fresnel_gen::app::tables::{WantedTables, table_materials};
-use fresnel_gen::bake::{Request, TableSize, bake};
+use fresnel_gen::bake::{BakeRequest, TableSize, bake};
 use fresnel_gen::lut::{Depth, Format, Table, TableAxis, smallest};
 use fresnel_gen::materials::{Surface, ViewingConditions, find};
 use fresnel_gen::methods::Light;
@@ -35,7 +35,7 @@ fn all_formats(c: &mut Criterion) {
         sight: ViewingConditions::default(),
     };
     let (subjects, _) = table_materials(&wanted).expect("the four are seen");
-    let request = Request {
+    let request = BakeRequest {
         subjects,
         typed: String::new(),
         formats: Format::ALL.to_vec(),

@@ -105,8 +105,8 @@ fn shaders(
     // What a compiler did not end for once is not asked again.
     for made in own.into_iter().chain(bare) {
         match made {
-            Ok(Measured::Ready(shader)) => shaders.push(shader),
-            Ok(Measured::Foreign(language, text)) => {
+            Ok(MeasuredShader::Ready(shader)) => shaders.push(shader),
+            Ok(MeasuredShader::Foreign(language, text)) => {
                 match module(compilers.module(language, text)?) {
                     Ok(shader) => shaders.push(shader),
                     Err(why) => return Ok(Err(why)),
@@ -119,15 +119,15 @@ fn shaders(
 }
 
 /// A shader that is measured.
-enum Measured {
+enum MeasuredShader {
     /// As the worker takes it.
     Ready(FragmentShader),
     /// As a compiler makes a module of it.
     Foreign(Language, String),
 }
 
-fn ready(shader: String) -> Measured {
-    Measured::Ready(FragmentShader::Text(shader))
+fn ready(shader: String) -> MeasuredShader {
+    MeasuredShader::Ready(FragmentShader::Text(shader))
 }
 
 /// A module, or why there is none.
@@ -142,7 +142,11 @@ fn module(made: Result<Vec<u8>, CompilerFault>) -> Result<FragmentShader, String
 /// What stands before GLSL ES that may leave precision to the program around it.
 const PRECISION: &str = "precision highp float;\n";
 
-fn shader(program: &Program, dialect: Dialect, evaluations: usize) -> Result<Measured, String> {
+fn shader(
+    program: &Program,
+    dialect: Dialect,
+    evaluations: usize,
+) -> Result<MeasuredShader, String> {
     let Program {
         language,
         text: own,
@@ -157,14 +161,14 @@ fn shader(program: &Program, dialect: Dialect, evaluations: usize) -> Result<Mea
         (Language::Gles, Dialect::Wgsl) => {
             let own = format!("{PRECISION}{own}");
             let shader = foreign::glsl(&own, params, evaluations);
-            Ok(Measured::Foreign(Language::Gles, shader))
+            Ok(MeasuredShader::Foreign(Language::Gles, shader))
         }
         (Language::Gles, _) => {
             let own = format!("{PRECISION}{own}");
             let probe = Probe::of_text(params.clone(), String::new(), own);
             Ok(ready(probe.text(evaluations, dialect)))
         }
-        (Language::Hlsl, Dialect::Wgsl) => Ok(Measured::Foreign(
+        (Language::Hlsl, Dialect::Wgsl) => Ok(MeasuredShader::Foreign(
             Language::Hlsl,
             foreign::hlsl(own, params, evaluations),
         )),
@@ -172,7 +176,11 @@ fn shader(program: &Program, dialect: Dialect, evaluations: usize) -> Result<Mea
     }
 }
 
-fn empty(language: Language, dialect: Dialect, evaluations: usize) -> Result<Measured, String> {
+fn empty(
+    language: Language,
+    dialect: Dialect,
+    evaluations: usize,
+) -> Result<MeasuredShader, String> {
     let probe = Probe::empty(false, Precision::F32);
     let none = [crate::ir::Param {
         name: "cos_theta".to_owned(),
@@ -180,11 +188,11 @@ fn empty(language: Language, dialect: Dialect, evaluations: usize) -> Result<Mea
     }];
     match (language, dialect) {
         (Language::Wgsl, _) => wgsl(&probe, dialect, evaluations),
-        (Language::Gles, Dialect::Wgsl) => Ok(Measured::Foreign(
+        (Language::Gles, Dialect::Wgsl) => Ok(MeasuredShader::Foreign(
             Language::Gles,
             foreign::glsl(foreign::EMPTY_GLSL, &none, evaluations),
         )),
-        (Language::Hlsl, Dialect::Wgsl) => Ok(Measured::Foreign(
+        (Language::Hlsl, Dialect::Wgsl) => Ok(MeasuredShader::Foreign(
             Language::Hlsl,
             foreign::hlsl(foreign::EMPTY_HLSL, &none, evaluations),
         )),
@@ -193,7 +201,7 @@ fn empty(language: Language, dialect: Dialect, evaluations: usize) -> Result<Mea
 }
 
 /// WGSL itself, or naga's GLSL ES of it.
-fn wgsl(probe: &Probe, dialect: Dialect, evaluations: usize) -> Result<Measured, String> {
+fn wgsl(probe: &Probe, dialect: Dialect, evaluations: usize) -> Result<MeasuredShader, String> {
     let own = probe.text(evaluations, Dialect::Wgsl);
     match dialect {
         Dialect::Wgsl => Ok(ready(own)),

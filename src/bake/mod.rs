@@ -23,7 +23,7 @@ pub use words::{material_words, viewing_flags};
 
 /// What is baked.
 #[derive(Clone, Debug)]
-pub struct Request {
+pub struct BakeRequest {
     /// The materials, sorted by name.
     pub subjects: Vec<TableMaterial>,
     /// What a user types to get all of them again: names with commas between, or `all`.
@@ -86,7 +86,7 @@ pub const ATLAS: &str = "atlas";
 /// # Errors
 /// No table is good enough, a format or a language refuses.
 pub fn bake(
-    request: &Request,
+    request: &BakeRequest,
     progress: &mut dyn FnMut(u64, u64, &str),
 ) -> Result<Vec<Baked>, Error> {
     let pictures = request.pictures();
@@ -98,7 +98,7 @@ pub fn bake(
     pictures.into_iter().enumerate().map(bake).collect()
 }
 
-impl Request {
+impl BakeRequest {
     /// The pictures, each with its rows.
     fn pictures(&self) -> Vec<(&str, &[TableMaterial])> {
         let subjects = self.subjects.iter();
@@ -109,7 +109,11 @@ impl Request {
 }
 
 /// The files of one picture, with the functions that read it.
-fn bake_picture(request: &Request, name: &str, subjects: &[TableMaterial]) -> Result<Baked, Error> {
+fn bake_picture(
+    request: &BakeRequest,
+    name: &str,
+    subjects: &[TableMaterial],
+) -> Result<Baked, Error> {
     let (axis, texels, formats) = chosen(request, subjects)?;
     let baking = Baking::new(request, name, subjects, (axis, texels), formats)?;
     let functions = shader::files(&baking)?;
@@ -136,7 +140,7 @@ fn bake_picture(request: &Request, name: &str, subjects: &[TableMaterial]) -> Re
 
 /// Axis, size and formats: as asked for, or the smallest that is good enough in those of its depth.
 fn chosen(
-    request: &Request,
+    request: &BakeRequest,
     subjects: &[TableMaterial],
 ) -> Result<(TableAxis, usize, Vec<Format>), Error> {
     let (budget, axes) = match &request.shape {

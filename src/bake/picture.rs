@@ -9,12 +9,12 @@ use crate::lut::{
 use crate::targets::Target;
 
 use super::words::with_functions;
-use super::{ATLAS, Error, Request, TableMaterial, depths, row};
+use super::{ATLAS, BakeRequest, Error, TableMaterial, depths, row};
 
 /// A picture while it is baked.
 pub struct Baking<'a> {
     /// The run that it belongs to.
-    pub request: &'a Request,
+    pub request: &'a BakeRequest,
     /// Its name, a material's or [`ATLAS`].
     pub name: &'a str,
     /// Its rows.
@@ -39,7 +39,7 @@ pub struct Rounded {
 impl<'a> Baking<'a> {
     /// Computes the tables and their errors.
     pub fn new(
-        request: &'a Request,
+        request: &'a BakeRequest,
         name: &'a str,
         subjects: &'a [TableMaterial],
         (axis, texels): (TableAxis, usize),

@@ -7,7 +7,7 @@ use crate::methods::TEXELS;
 use crate::spectra::Gamut;
 
 use super::words::{material_words, viewing_flags};
-use super::{Request, TableMaterial, TableSize};
+use super::{BakeRequest, TableMaterial, TableSize};
 
 /// The axis: the one with the smallest errors at equal size.
 pub const DEFAULT_AXIS: TableAxis = TableAxis::Rational;
@@ -25,8 +25,8 @@ pub fn as_tables_are_seen(sight: &ViewingConditions, gamut_was_said: bool) -> Vi
 }
 
 /// The tables of these materials, and an atlas, as a run without flags writes them.
-pub fn usual_request(subjects: Vec<TableMaterial>, sight: &ViewingConditions) -> Request {
-    Request {
+pub fn usual_request(subjects: Vec<TableMaterial>, sight: &ViewingConditions) -> BakeRequest {
+    BakeRequest {
         typed: material_words(&subjects),
         flags: viewing_flags(&subjects, sight),
         subjects,

@@ -4,7 +4,7 @@ use crate::emit::{CommandLine, Naming, quoted};
 use crate::materials::ViewingConditions;
 use crate::targets::Target;
 
-use super::{Request, TableMaterial, TableSize};
+use super::{BakeRequest, TableMaterial, TableSize};
 
 /// The materials as a user types them, commas between.
 pub fn material_words(subjects: &[TableMaterial]) -> String {
@@ -21,7 +21,7 @@ pub fn viewing_flags(subjects: &[TableMaterial], sight: &ViewingConditions) -> S
         .into()
 }
 
-impl Request {
+impl BakeRequest {
     /// The command that reports this again, without the output's place.
     pub fn command_line(&self) -> CommandLine {
         let command = CommandLine::new("bake")

@@ -21,7 +21,7 @@ use choice::{Candidate, cheapest, nearest};
 
 pub use error::Error;
 use spread::spread;
-use text::Measured;
+use text::CostSource;
 
 /// What is asked for.
 #[derive(Clone, Copy, Debug)]
@@ -125,7 +125,7 @@ impl Search<'_> {
             return Ok(Err(text::no_choice(&subject.name, best.as_ref(), family)));
         };
         let spread = spread(subject, &self.catalogue, self.sight);
-        let measured = Measured { family, form };
+        let measured = CostSource { family, form };
         let lines =
             text::choice_remarks(&subject.name, &choice, spread, self.budget.most, measured);
         Ok(Ok((choice.chosen.method, lines)))

@@ -11,7 +11,7 @@ const POINTLESS: f64 = 0.1;
 
 /// Where figures come from.
 #[derive(Clone, Copy, Debug)]
-pub struct Measured {
+pub struct CostSource {
     /// On which GPUs.
     pub family: &'static Family,
     /// `specialised`, or `library` where the record has no specialised functions of the material.
@@ -24,7 +24,7 @@ pub fn choice_remarks(
     choice: &Choice,
     spread: Option<Spread>,
     budget: f64,
-    measured: Measured,
+    measured: CostSource,
 ) -> Vec<String> {
     let chosen = &choice.chosen;
     let fetch = if chosen.is_textured {

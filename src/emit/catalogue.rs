@@ -60,7 +60,7 @@ pub struct CloserFit {
 
 /// What a template sees.
 #[derive(Serialize)]
-struct View {
+struct CatalogueView {
     header: Vec<String>,
     guard: String,
     name: String,
@@ -129,11 +129,11 @@ fn view(
     naming: &Naming,
     seen: &str,
     command: &str,
-) -> View {
+) -> CatalogueView {
     let dielectrics = rows.partition_point(|row| row.method.name == rows[0].method.name);
     let is_last = |i: usize| i + 1 == rows.len();
     let all = rows.iter().enumerate();
-    View {
+    CatalogueView {
         header: comments(target, &header(rows, naming, seen, command)),
         guard: guard(target, &constant(naming, CATALOGUE)),
         name: constant(naming, CATALOGUE),
@@ -271,7 +271,7 @@ fn worst(rows: &[CatalogueRow]) -> String {
 }
 
 /// A constant must be free in every language, as functions are.
-fn check_names(view: &View) -> Result<(), Error> {
+fn check_names(view: &CatalogueView) -> Result<(), Error> {
     let materials = view.materials.iter().map(|material| &material.constant);
     let mut names = materials.chain([&view.name, &view.dielectrics.constant]);
     match names.find_map(|name| targets::name_fault(name)) {

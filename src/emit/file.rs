@@ -15,7 +15,7 @@ use super::form::FunctionForm;
 use super::function::{Emitted, Naming};
 use super::header::OUTPUT_LICENCE;
 use super::heading::Heading;
-use super::page::{Request, comments, guard, render};
+use super::page::{PageRequest, comments, guard, render};
 
 /// A file of one target, in memory.
 #[derive(Clone, Debug, PartialEq)]
@@ -105,19 +105,19 @@ pub fn material(
 
 /// Where a function stands in a text of several. Directives such as `enable f16;` stand in the first only: no code may be before them.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Place {
+pub enum FunctionPlace {
     /// At its beginning.
     First,
     /// After another function.
     Later,
 }
 
-impl Place {
+impl FunctionPlace {
     /// The place behind these pages.
-    pub fn behind(pages: &[Vec<u8>]) -> Place {
+    pub fn behind(pages: &[Vec<u8>]) -> FunctionPlace {
         match pages {
-            [] => Place::First,
-            _ => Place::Later,
+            [] => FunctionPlace::First,
+            _ => FunctionPlace::Later,
         }
     }
 }
@@ -131,12 +131,12 @@ pub fn single(
     emitted: &Emitted,
     subject: Option<&MaterialInMedium>,
     heading: Heading,
-    place: Place,
+    place: FunctionPlace,
 ) -> Result<Vec<u8>, Error> {
     check_names(std::slice::from_ref(emitted))?;
     let head = comments(target, &heading.pasted(target, emitted, subject));
     let functions = [(Vec::new(), emitted.clone())];
-    let request = Request {
+    let request = PageRequest {
         target,
         page: &target.pages[0],
         header: &head,
@@ -146,8 +146,8 @@ pub fn single(
     };
     let bytes = render(&request)?;
     Ok(match place {
-        Place::First => bytes,
-        Place::Later => without(bytes, target.directive_in(emitted.precision)),
+        FunctionPlace::First => bytes,
+        FunctionPlace::Later => without(bytes, target.directive_in(emitted.precision)),
     })
 }
 
@@ -190,7 +190,7 @@ pub fn lookup(
     let head = comments(target, &comment::lines(about));
     let guard = guard(target, &emitted.name);
     let file = emitted.name.clone();
-    render(&Request {
+    render(&PageRequest {
         target,
         page: &target.pages[0],
         header: &head,
@@ -211,7 +211,7 @@ fn rendered(
 ) -> Result<(String, Vec<u8>), Error> {
     let name = format!("{stem}{}.{}", page.suffix, target.extension);
     let guard = guard(target, unique);
-    let bytes = render(&Request {
+    let bytes = render(&PageRequest {
         target,
         page,
         header: head,

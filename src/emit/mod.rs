@@ -30,7 +30,9 @@ pub use comment::lines as comment_lines;
 pub use detail::Detail;
 pub use error::Error;
 pub use figures::{half_promise, promises};
-pub use file::{File, Place, library, lookup, material, single, uniform_offsets, written_for};
+pub use file::{
+    File, FunctionPlace, library, lookup, material, single, uniform_offsets, written_for,
+};
 pub use form::FunctionForm;
 pub use function::{
     Emitted, Naming, Specialised, library_functions, specialised_function, specialised_graph,

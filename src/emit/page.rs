@@ -16,7 +16,7 @@ use super::{print, wgsl};
 
 /// What a template sees.
 #[derive(Serialize)]
-struct View<'a> {
+struct PageView<'a> {
     header: &'a [String],
     guard: &'a str,
     /// What must stand before all code.
@@ -47,7 +47,7 @@ struct ParameterView {
 }
 
 /// A page to render.
-pub struct Request<'a> {
+pub struct PageRequest<'a> {
     /// The language.
     pub target: &'static Target,
     /// Which of its pages.
@@ -63,7 +63,7 @@ pub struct Request<'a> {
 }
 
 /// The bytes of a file.
-pub fn render(request: &Request) -> Result<Vec<u8>, Error> {
+pub fn render(request: &PageRequest) -> Result<Vec<u8>, Error> {
     let template = request.page.template;
     finished(
         template,
@@ -101,12 +101,12 @@ pub fn finished(
     }
 }
 
-fn view<'a>(request: &'a Request) -> View<'a> {
+fn view<'a>(request: &'a PageRequest) -> PageView<'a> {
     let functions = request.functions.iter().enumerate();
     let first = &request.functions[0].1.function;
     let is_number = |param: &&Param| !is_texture(param) && !param.is_cosine();
     let numbers = first.params.iter().filter(is_number);
-    View {
+    PageView {
         header: request.header,
         guard: request.guard,
         directive: request
@@ -130,7 +130,7 @@ fn is_texture(param: &Param) -> bool {
 }
 
 /// The names of the textures of a file, each once.
-fn textures(request: &Request) -> Vec<String> {
+fn textures(request: &PageRequest) -> Vec<String> {
     let functions = request.functions.iter();
     let params = functions.flat_map(|(_, emitted)| &emitted.function.params);
     let names = params.filter(|param| is_texture(param));

@@ -14,7 +14,7 @@
 use super::decimal::{Unit, clipped};
 use super::file::FileFault;
 use super::page::{Page, check_text};
-use super::rows::{Columns, RowFault, Rows};
+use super::rows::{Columns, RowFault, TableReader};
 
 const ALLOWED: &str =
     "allowed are wavelength_nm, wavelength_um, nm, um or wl (um), and then n, k or n,k";
@@ -85,7 +85,7 @@ impl Page {
 
 /// A table that is being read, and where its header stands.
 struct Table {
-    rows: Rows,
+    rows: TableReader,
     separator: char,
     line: usize,
 }
@@ -93,7 +93,7 @@ struct Table {
 impl Table {
     fn new(header: Header, line: usize) -> Table {
         Table {
-            rows: Rows::new(header.columns, header.unit),
+            rows: TableReader::new(header.columns, header.unit),
             separator: header.separator,
             line,
         }

@@ -36,8 +36,8 @@ use super::hidden::is_hidden;
 use super::material::{GREATEST, LEAST_N, Material, MaterialKind};
 pub use crate::spectra::FileFault;
 
-type Row = Spanned<Vec<Spanned<f64>>>;
-type Rows = Spanned<Vec<Row>>;
+type SpannedRow = Spanned<Vec<Spanned<f64>>>;
+type SpannedRows = Spanned<Vec<SpannedRow>>;
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -53,9 +53,9 @@ struct Raw {
     conditions: Option<Spanned<String>>,
     note: Option<Spanned<String>>,
     rgb_nm: Option<Spanned<[f64; 3]>>,
-    data: Option<Rows>,
-    n: Option<Rows>,
-    k: Option<Rows>,
+    data: Option<SpannedRows>,
+    n: Option<SpannedRows>,
+    k: Option<SpannedRows>,
     n_formula: Option<Spanned<RawFormula>>,
 }
 
@@ -97,7 +97,7 @@ const K: Column = ("k", 0.0, GREATEST);
 pub const MOST_COEFFICIENTS: usize = 64;
 
 /// Where in a text a fault stands: made once, so that every check is short.
-struct Place<'a> {
+struct FileText<'a> {
     file: &'a str,
     text: &'a str,
 }
@@ -115,7 +115,7 @@ impl Material {
     /// # Errors
     /// The text is not TOML, a field is missing or unknown, or a value lies outside its limits.
     pub fn parse(file: &str, text: &str) -> Result<Material, FileFault> {
-        let place = Place { file, text };
+        let place = FileText { file, text };
         let raw: Raw = toml::from_str(text).map_err(|error| place.syntax(&error))?;
         check_name("name", &raw.name, &place)?;
         if let Some(substance) = &raw.substance {
@@ -222,7 +222,7 @@ fn formula_fault(formula: &Formula) -> Option<String> {
     }
 }
 
-fn check_name(field: &str, name: &Spanned<String>, place: &Place) -> Result<(), FileFault> {
+fn check_name(field: &str, name: &Spanned<String>, place: &FileText) -> Result<(), FileFault> {
     match name_fault(name.get_ref()) {
         None => Ok(()),
         Some(why) => {
@@ -258,9 +258,10 @@ fn is_device(name: &str) -> bool {
 /// n and k: together in `data`, or apart.
 fn curves(
     raw: &Raw,
-    place: &Place,
+    place: &FileText,
 ) -> Result<(DispersionCurve, Option<DispersionCurve>), FileFault> {
-    let table = |rows: &Rows, field, column| Ok(pick(&place.rows(rows, field, &[NM, column])?, 1));
+    let table =
+        |rows: &SpannedRows, field, column| Ok(pick(&place.rows(rows, field, &[NM, column])?, 1));
     let k = || raw.k.as_ref().map(|k| table(k, "k", K)).transpose();
     match (&raw.data, &raw.n, &raw.n_formula) {
         (Some(data), None, None) if raw.k.is_none() => {
@@ -284,11 +285,11 @@ fn pick(rows: &[Vec<f64>], column: usize) -> DispersionCurve {
     DispersionCurve::table(points).expect("rows are checked to ascend")
 }
 
-impl Place<'_> {
+impl FileText<'_> {
     /// Rows of numbers inside their columns' limits, by ascending wavelength.
     fn rows(
         &self,
-        rows: &Rows,
+        rows: &SpannedRows,
         field: &str,
         columns: &[Column],
     ) -> Result<Vec<Vec<f64>>, FileFault> {
@@ -318,7 +319,7 @@ impl Place<'_> {
 
     fn row(
         &self,
-        row: &Row,
+        row: &SpannedRow,
         field: &str,
         columns: &[Column],
         wanted: &str,

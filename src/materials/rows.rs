@@ -33,16 +33,16 @@ impl Columns {
 
 /// A wavelength in nanometres, and the columns after it; with one column the second value is 0.
 #[derive(Clone, Copy, PartialEq)]
-struct Row {
+struct WavelengthRow {
     nm: f64,
     values: [f64; 2],
 }
 
 /// A table that is being read.
-pub struct Rows {
+pub struct TableReader {
     columns: Columns,
     unit: Unit,
-    rows: Vec<Row>,
+    rows: Vec<WavelengthRow>,
     gains: usize,
     least_k: f64,
 }
@@ -55,10 +55,10 @@ pub struct RowFault {
     pub what: String,
 }
 
-impl Rows {
+impl TableReader {
     /// A table without rows yet.
-    pub fn new(columns: Columns, unit: Unit) -> Rows {
-        Rows {
+    pub fn new(columns: Columns, unit: Unit) -> TableReader {
+        TableReader {
             columns,
             unit,
             rows: Vec::new(),
@@ -75,7 +75,7 @@ impl Rows {
     /// Reads a row.
     pub fn push<'a>(&mut self, tokens: impl Iterator<Item = &'a str>) -> Result<(), RowFault> {
         let names = self.columns.names();
-        let mut row = Row {
+        let mut row = WavelengthRow {
             nm: 0.0,
             values: [0.0; 2],
         };
@@ -132,7 +132,7 @@ impl Rows {
         }
         let rows = each_wavelength_once(self.rows, remarks);
         let column = |at: usize| {
-            let point = |row: &Row| (row.nm, row.values[at]);
+            let point = |row: &WavelengthRow| (row.nm, row.values[at]);
             DispersionCurve::table(rows.iter().map(point).collect())
         };
         match self.columns {
@@ -144,8 +144,8 @@ impl Rows {
 }
 
 /// Equal rows become one; different rows of one wavelength become their mean.
-fn each_wavelength_once(rows: Vec<Row>, remarks: &mut Vec<String>) -> Vec<Row> {
-    let mut once: Vec<Row> = Vec::with_capacity(rows.len());
+fn each_wavelength_once(rows: Vec<WavelengthRow>, remarks: &mut Vec<String>) -> Vec<WavelengthRow> {
+    let mut once: Vec<WavelengthRow> = Vec::with_capacity(rows.len());
     let mut differing = Vec::new();
     for same in rows.chunk_by(|a, b| a.nm == b.nm) {
         let mut same = same.to_vec();
@@ -169,15 +169,15 @@ fn each_wavelength_once(rows: Vec<Row>, remarks: &mut Vec<String>) -> Vec<Row> {
 }
 
 /// The mean of rows of one wavelength. Each is divided before they are added, so that the sum is finite.
-fn mean(same: &[Row]) -> Row {
+fn mean(same: &[WavelengthRow]) -> WavelengthRow {
     let mean = |at: usize| match same {
         [one] => one.values[at],
         _ => {
-            let share = |row: &Row| row.values[at] / same.len() as f64;
+            let share = |row: &WavelengthRow| row.values[at] / same.len() as f64;
             same.iter().map(share).sum()
         }
     };
-    Row {
+    WavelengthRow {
         nm: same[0].nm,
         values: [mean(0), mean(1)],
     }
@@ -194,7 +194,7 @@ mod tests {
 
     #[track_caller]
     fn check(columns: Columns, text: &str, n: &[(f64, f64)], k: &[(f64, f64)], remarks: &[&str]) {
-        let mut rows = Rows::new(columns, Unit::Nm);
+        let mut rows = TableReader::new(columns, Unit::Nm);
         for line in text.split(';') {
             let fault = rows.push(line.split_whitespace()).err();
             assert!(
@@ -257,7 +257,7 @@ mod tests {
 
     #[track_caller]
     fn refused(columns: Columns, row: &str, column: usize, says: &str) {
-        let fault = Rows::new(columns, Unit::Nm).push(row.split_whitespace());
+        let fault = TableReader::new(columns, Unit::Nm).push(row.split_whitespace());
         let fault = fault.expect_err("it is refused");
         assert_eq!((fault.column, fault.what.as_str()), (column, says));
     }

@@ -50,7 +50,7 @@ impl Ggx {
         if alpha == 0.0 {
             return take(cos_v, 1.0);
         }
-        let view = View::new(cos_v, alpha);
+        let view = Viewer::new(cos_v, alpha);
         let [first, last] = view.breaks();
         for (from, to) in [(0.0, first), (first, last)] {
             for (x, weight) in self.polar.over(0.0, 1.0).filter(|_| to > from) {
@@ -63,7 +63,7 @@ impl Ggx {
     }
 
     /// The points on the arc of one circle.
-    fn circle(&self, view: &View, t: f64, weight: f64, take: &mut impl FnMut(f64, f64)) {
+    fn circle(&self, view: &Viewer, t: f64, weight: f64, take: &mut impl FnMut(f64, f64)) {
         let circle = (libm::sin(t), libm::cos(t));
         let Some((from, to)) = view.arc(circle) else {
             return;
@@ -78,7 +78,7 @@ impl Ggx {
 }
 
 /// The viewer: v = (s, 0, c), and v' = (along, 0, up).
-struct View {
+struct Viewer {
     alpha: f64,
     s: f64,
     c: f64,
@@ -86,11 +86,11 @@ struct View {
     up: f64,
 }
 
-impl View {
-    fn new(c: f64, alpha: f64) -> View {
+impl Viewer {
+    fn new(c: f64, alpha: f64) -> Viewer {
         let s = (1.0 - c * c).max(0.0).sqrt();
         let length = (alpha * alpha * s * s + c * c).sqrt();
-        View {
+        Viewer {
             alpha,
             s,
             c,

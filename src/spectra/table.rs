@@ -19,7 +19,7 @@ const GREATEST_NM: f64 = 1e6;
 const GREATEST_VALUE: f64 = 1e30;
 
 /// One row, and where it stood.
-pub(super) struct Row<const N: usize> {
+pub(super) struct TableRow<const N: usize> {
     /// From 1.
     pub line: usize,
     /// Wavelength in nm, then the other columns.
@@ -31,8 +31,8 @@ pub(super) fn rows<const N: usize>(
     file: &str,
     text: &str,
     columns: [&str; N],
-) -> Result<Vec<Row<N>>, FileFault> {
-    let mut rows: Vec<Row<N>> = Vec::new();
+) -> Result<Vec<TableRow<N>>, FileFault> {
+    let mut rows: Vec<TableRow<N>> = Vec::new();
     let mut names_seen = false;
     for (index, line) in text.trim_start_matches('\u{feff}').lines().enumerate() {
         let fields = fields(line.split('#').next().unwrap_or(""));
@@ -50,7 +50,7 @@ pub(super) fn rows<const N: usize>(
             column: line[..offset].chars().count() + 1,
             what,
         })?;
-        rows.push(Row {
+        rows.push(TableRow {
             line: index + 1,
             values,
         });

@@ -6,7 +6,7 @@ use std::process::Command;
 use fresnel_gen::app::args::Cli;
 use fresnel_gen::app::request::Materials;
 use fresnel_gen::app::tables::{WantedTables, artifacts, table_materials};
-use fresnel_gen::bake::{Request, TableMaterial, TableSize, bake};
+use fresnel_gen::bake::{BakeRequest, TableMaterial, TableSize, bake};
 use fresnel_gen::ir::Weights;
 use fresnel_gen::lut::{BetweenTexels, Depth, Format, Stored, Table, TableAxis, table_error};
 use fresnel_gen::materials::{self, Surface, ViewingConditions};
@@ -71,7 +71,7 @@ fn filtering_is_exact_at_both_ends() {
     }
 }
 
-fn request(names: &str, formats: &[Format], atlas: bool) -> Request {
+fn request(names: &str, formats: &[Format], atlas: bool) -> BakeRequest {
     let names: Vec<String> = names.split(',').map(str::to_owned).collect();
     let wanted = WantedTables {
         materials: fresnel_gen::app::source::materials(&names).unwrap(),
@@ -81,7 +81,7 @@ fn request(names: &str, formats: &[Format], atlas: bool) -> Request {
             ..ViewingConditions::default()
         },
     };
-    Request {
+    BakeRequest {
         subjects: table_materials(&wanted).unwrap().0,
         typed: names.join(","),
         formats: formats.to_vec(),
@@ -96,7 +96,7 @@ fn request(names: &str, formats: &[Format], atlas: bool) -> Request {
     }
 }
 
-fn files(request: &Request) -> Vec<(String, Vec<u8>)> {
+fn files(request: &BakeRequest) -> Vec<(String, Vec<u8>)> {
     let baked = bake(request, &mut |_, _, _| {}).unwrap();
     let files = baked.into_iter().flat_map(artifacts);
     files.map(|file| (file.path, file.bytes)).collect()
@@ -119,7 +119,7 @@ fn equal_requests_give_equal_bytes() {
 }
 
 /// The values that a picture of these rows has in a depth, row by row.
-fn expected(request: &Request, depth: Depth) -> (f32, Vec<[f32; 3]>) {
+fn expected(request: &BakeRequest, depth: Depth) -> (f32, Vec<[f32; 3]>) {
     let table = |subject: &TableMaterial| {
         Table::new(&subject.name, &subject.truth, TableAxis::Rational, 64).unwrap()
     };

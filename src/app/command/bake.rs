@@ -14,8 +14,9 @@ use crate::app::tables::{WantedTables, artifacts, table_materials};
 use crate::app::tree::plan;
 use crate::app::write::write;
 use crate::bake::{
-    ATLAS, BakeRow, Baked, DEFAULT_AXIS, DEFAULT_FORMATS, Request, SplitSumRequest, TableMaterial,
-    TableSize, as_tables_are_seen, bake, bake_split_sum, material_words, viewing_flags,
+    ATLAS, BakeRequest, BakeRow, Baked, DEFAULT_AXIS, DEFAULT_FORMATS, SplitSumRequest,
+    TableMaterial, TableSize, as_tables_are_seen, bake, bake_split_sum, material_words,
+    viewing_flags,
 };
 use crate::emit::CommandLine;
 use crate::lut::{Format, SPLIT_SUM_SIZE, TableAxis, check_size};
@@ -51,7 +52,7 @@ pub fn run(flags: &BakeFlags, progress: Progress, announce: Announce) -> Result<
     };
     let (subjects, left_out) = table_materials(&wanted)?;
     check_names(&subjects, flags.atlas)?;
-    let request = Request {
+    let request = BakeRequest {
         typed: if flags.material == ["all"] {
             "all".to_owned()
         } else {

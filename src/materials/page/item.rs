@@ -10,7 +10,7 @@ use crate::materials::dispersion::DispersionCurve;
 use crate::materials::file::MOST_COEFFICIENTS;
 use crate::materials::formula::{Formula, NUMBERS};
 use crate::materials::material::{GREATEST, LEAST_N};
-use crate::materials::rows::{Columns, RowFault, Rows};
+use crate::materials::rows::{Columns, RowFault, TableReader};
 
 /// What an item gives.
 #[derive(Default)]
@@ -88,7 +88,7 @@ impl Source<'_> {
         kind: &Spanned<String>,
         raw: &RawItem,
     ) -> Result<Item, FileFault> {
-        let mut rows = Rows::new(columns, Unit::Um);
+        let mut rows = TableReader::new(columns, Unit::Um);
         if let Some(data) = &raw.data {
             let lines = data.value.lines().enumerate();
             for (at, line) in lines.filter(|(_, line)| !line.trim().is_empty()) {

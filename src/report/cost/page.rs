@@ -11,7 +11,7 @@ static TEMPLATE: &str = include_str!("../../../templates/cost.html.tera");
 
 /// A family on the page.
 #[derive(Serialize)]
-struct Section {
+struct FamilySection {
     name: &'static str,
     gpu: &'static str,
     vendor: &'static str,
@@ -40,14 +40,14 @@ struct Line {
 /// # Errors
 /// The page's template cannot be filled.
 pub fn cost_page(families: &[Vec<CostRow>], command: &str) -> Result<String, String> {
-    let sections: Vec<Section> = families.iter().filter_map(|rows| section(rows)).collect();
+    let sections: Vec<FamilySection> = families.iter().filter_map(|rows| section(rows)).collect();
     let mut context = Context::new();
     context.insert("sections", &sections);
     context.insert("command", command);
     html::fill(TEMPLATE, &context)
 }
 
-fn section(rows: &[CostRow]) -> Option<Section> {
+fn section(rows: &[CostRow]) -> Option<FamilySection> {
     let family = rows.first()?.family;
     let known = rows.iter().find(|row| row.figures.is_ok());
     let reason = match known {
@@ -55,7 +55,7 @@ fn section(rows: &[CostRow]) -> Option<Section> {
         None => rows[0].figures.clone().err(),
     };
     let longest = rows.iter().filter_map(|row| row.share).fold(0.0, f64::max);
-    Some(Section {
+    Some(FamilySection {
         name: family.name,
         gpu: family.gpu,
         vendor: family.vendor,

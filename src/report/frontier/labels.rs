@@ -4,7 +4,7 @@ use crate::report::plot::Area;
 
 /// A name's place: its left and its middle, and whether it stands so far off that a line leads to it.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Place {
+pub struct LabelPlace {
     /// The left end.
     pub left: f64,
     /// The middle of its height.
@@ -36,7 +36,7 @@ pub fn place_names(
     height: f64,
     all: &[(f64, f64)],
     page: Area,
-) -> Vec<Option<Place>> {
+) -> Vec<Option<LabelPlace>> {
     let dot = |point: &(f64, f64)| around(*point, DOT, DOT);
     let mut taken: Vec<Area> = all.iter().map(dot).collect();
     let mut places = Vec::new();
@@ -55,7 +55,11 @@ fn beside(left: f64, middle: f64, width: f64, height: f64) -> Area {
 }
 
 /// Right, left, above and below, then the same further off.
-fn candidates((x, y): (f64, f64), width: f64, height: f64) -> impl Iterator<Item = (Area, Place)> {
+fn candidates(
+    (x, y): (f64, f64),
+    width: f64,
+    height: f64,
+) -> impl Iterator<Item = (Area, LabelPlace)> {
     let near = DOT + GAP;
     let sides = [
         (near, 0.0),
@@ -83,7 +87,7 @@ fn candidates((x, y): (f64, f64), width: f64, height: f64) -> impl Iterator<Item
             let is_led = ring > 0;
             (
                 area,
-                Place {
+                LabelPlace {
                     left,
                     middle,
                     is_led,

@@ -5,7 +5,7 @@ use crate::report::plot::{
     Tick, VERMILION, capital, log_ticks, plain_label,
 };
 
-use super::labels::{DOT, Place, place_names};
+use super::labels::{DOT, LabelPlace, place_names};
 use super::{ChartEntry, ChartPoint, ChartView, ERRORS, drawn};
 
 /// The size of the picture.
@@ -227,7 +227,7 @@ fn labels(points: &[ChartPoint], plane: &Plane) -> Vec<String> {
     let texts: Vec<String> = order.iter().map(|point| point.entry.label()).collect();
     let widths: Vec<f64> = texts.iter().map(|text| FONT.width(text)).collect();
     let found = place_names(&at, &widths, FONT.leading - 3.0, &all, plane.axes.area);
-    let draw = |(i, place): (usize, Option<Place>)| {
+    let draw = |(i, place): (usize, Option<LabelPlace>)| {
         let place = place?;
         let line = place.is_led.then(|| led(at[i], &place, widths[i]));
         let top = place.middle - FONT.leading / 2.0;
@@ -239,7 +239,7 @@ fn labels(points: &[ChartPoint], plane: &Plane) -> Vec<String> {
 }
 
 /// A thin line from a point to its name.
-fn led((x, y): (f64, f64), place: &Place, width: f64) -> String {
+fn led((x, y): (f64, f64), place: &LabelPlace, width: f64) -> String {
     let nearest = x.clamp(place.left, place.left + width);
     format!(
         "<path stroke=\"{INK}\" stroke-opacity=\"0.3\" stroke-width=\"1\" d=\"M{x:.2} {y:.2}L{nearest:.2} {:.2}\"/>",

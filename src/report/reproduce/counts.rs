@@ -10,7 +10,7 @@ use crate::num::statistics::{least_squares, rank_correlation};
 use crate::overdraw::{Time, times};
 
 use super::comparison::{ComparisonRow, Figure, Verdict};
-use super::{Section, thesis};
+use super::{ThesisSection, thesis};
 
 const TIMES: &str = "table6_relative_time_percent";
 
@@ -41,8 +41,8 @@ const TABLE: usize = 5;
 const NEAR: f64 = 15.0;
 
 /// Table 6 and the counts.
-pub fn section() -> Section {
-    Section {
+pub fn section() -> ThesisSection {
+    ThesisSection {
         title: "Table 6: shares of the time of dielectric_exact on five devices, beside shares of the instructions that \
             Mesa's compilers for these GPUs make of our textbook formulas (data/records/costs), net of an empty shader. A count \
             holds where it is within 15 points"

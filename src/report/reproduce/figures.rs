@@ -7,7 +7,7 @@ use crate::report::plot::{ChartAxis, LineChart, Mark, Series, Style, ticks};
 
 use super::angle::{cosine, exact, lowest};
 use super::comparison::{ComparisonRow, Figure};
-use super::{Section, specialised};
+use super::{ThesisSection, specialised};
 
 /// Angles drawn: a point each quarter of a degree.
 const POINTS: u32 = 361;
@@ -160,8 +160,8 @@ struct DrawnCurve {
 }
 
 /// What is drawn, in numbers.
-pub fn section() -> Section {
-    Section {
+pub fn section() -> ThesisSection {
+    ThesisSection {
         title: format!("Figures: reflectance at {POINTS} angles, exact and approximate"),
         rows: PLANS.iter().flat_map(FigurePlan::figure_rows).collect(),
     }

@@ -7,7 +7,7 @@ use crate::reference::{Derivation, THESIS_MATCHING_COS};
 
 use super::comparison::{ComparisonRow, Figure, Verdict};
 use super::meter::Meter;
-use super::{Section, specialised, thesis};
+use super::{ThesisSection, specialised, thesis};
 
 const METALS: &str = "table2_function_error_metals_percent";
 const DIELECTRICS: &str = "table3_function_error_dielectrics_percent";
@@ -38,9 +38,9 @@ const AT_84: Derivation = Derivation {
 };
 
 /// Table 2.
-pub fn metals(angles: usize, meter: &mut Meter) -> Section {
+pub fn metals(angles: usize, meter: &mut Meter) -> ThesisSection {
     let rows = ["gold", "platinum"].into_iter();
-    Section {
+    ThesisSection {
         title: format!(
             "Table 2: function error for metals, mean over {angles} angles and three channels"
         ),
@@ -49,9 +49,9 @@ pub fn metals(angles: usize, meter: &mut Meter) -> Section {
 }
 
 /// Table 3.
-pub fn dielectrics(angles: usize, meter: &mut Meter) -> Section {
+pub fn dielectrics(angles: usize, meter: &mut Meter) -> ThesisSection {
     let rows = ["water", "diamond"].into_iter();
-    Section {
+    ThesisSection {
         title: format!(
             "Table 3: function error for dielectrics, mean over {angles} angles and three channels"
         ),

@@ -1,7 +1,7 @@
 //! Table 1: the indices of refraction, as our material files hold them.
 
 use super::comparison::{ComparisonRow, Figure, Verdict};
-use super::{Section, specialised, thesis};
+use super::{ThesisSection, specialised, thesis};
 
 /// The materials in the order of the thesis.
 const MATERIALS: [&str; 4] = ["gold", "platinum", "water", "diamond"];
@@ -18,8 +18,8 @@ const ROUNDED: f64 = 0.0065;
 const CHANNELS: [&str; 3] = ["red", "green", "blue"];
 
 /// Table 1 beside our files.
-pub fn section() -> Section {
-    Section {
+pub fn section() -> ThesisSection {
+    ThesisSection {
         title: "Table 1: indices of refraction at 685, 535 and 475 nm, from data/materials/*_thesis.toml"
             .to_owned(),
         rows: MATERIALS

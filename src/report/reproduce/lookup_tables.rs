@@ -13,7 +13,7 @@ use crate::reference::ReferenceCurve;
 
 use super::comparison::{ComparisonRow, Figure, Verdict};
 use super::meter::Meter;
-use super::{Section, specialised, thesis};
+use super::{ThesisSection, specialised, thesis};
 
 const METALS: &str = "table4_rendered_error_metals_percent";
 const DIELECTRICS: &str = "table5_rendered_error_dielectrics_percent";
@@ -46,12 +46,12 @@ const SMALLEST: &str = "in floats; the fewest texels with an error below the the
     angles";
 
 /// Table 4.
-pub fn metals(angles: usize, meter: &mut Meter) -> Section {
+pub fn metals(angles: usize, meter: &mut Meter) -> ThesisSection {
     section("table4", METALS, ["gold", "platinum"], angles, meter)
 }
 
 /// Table 5.
-pub fn dielectrics(angles: usize, meter: &mut Meter) -> Section {
+pub fn dielectrics(angles: usize, meter: &mut Meter) -> ThesisSection {
     section("table5", DIELECTRICS, ["water", "diamond"], angles, meter)
 }
 
@@ -61,14 +61,14 @@ fn section(
     names: [&str; 2],
     angles: usize,
     meter: &mut Meter,
-) -> Section {
+) -> ThesisSection {
     let number = table.trim_start_matches("table");
     let mut rows = Vec::new();
     for name in names {
         let material = ThesisMaterial::new(table, record, name);
         rows.extend(material.material_rows(angles, meter));
     }
-    Section {
+    ThesisSection {
         title: format!(
             "Table {number}: error of a lookup table, mean over {angles} angles and three channels"
         ),

@@ -97,7 +97,7 @@ impl Part {
         }
     }
 
-    fn section(self, angles: usize, meter: &mut Meter) -> Section {
+    fn section(self, angles: usize, meter: &mut Meter) -> ThesisSection {
         match self {
             Part::Table1 => indices::section(),
             Part::Table2 => function_errors::metals(angles, meter),
@@ -115,7 +115,7 @@ impl Part {
 
 /// A part reproduced.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Section {
+pub struct ThesisSection {
     /// What it is and how it is measured.
     pub title: String,
     /// The comparisons.
@@ -126,7 +126,7 @@ pub struct Section {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Reproduction {
     /// In the order asked for.
-    pub sections: Vec<Section>,
+    pub sections: Vec<ThesisSection>,
     /// The curves, where they were asked for.
     pub drawings: Vec<Drawing>,
 }

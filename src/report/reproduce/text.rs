@@ -2,14 +2,14 @@
 //! the thesis does not give, then notes.
 
 use super::comparison::{ComparisonRow, Figure};
-use super::{NOT_MEASURED, Section};
+use super::{NOT_MEASURED, ThesisSection};
 use crate::report::table;
 
 /// How wide a paragraph is.
 const WIDTH: usize = 110;
 
 /// All sections.
-pub fn sections_text(sections: &[Section]) -> String {
+pub fn sections_text(sections: &[ThesisSection]) -> String {
     let texts: Vec<String> = sections.iter().map(section).collect();
     texts.join("\n")
 }
@@ -31,7 +31,7 @@ pub fn not_measured() -> String {
 #[derive(Default)]
 struct Notes<'a>(Vec<&'a str>);
 
-fn section(section: &Section) -> String {
+fn section(section: &ThesisSection) -> String {
     let mut notes = Notes::default();
     let (statements, figures): (Vec<&ComparisonRow>, Vec<&ComparisonRow>) =
         section.rows.iter().partition(|row| row.is_statement());

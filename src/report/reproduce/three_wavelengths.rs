@@ -5,7 +5,7 @@ use crate::materials::{Material, Surface, THESIS_NM, ViewingConditions};
 use crate::spectra::{Gamut, Illuminant, Integration, Step};
 
 use super::comparison::{ComparisonRow, Figure, Verdict};
-use super::{Section, specialised, thesis};
+use super::{ThesisSection, specialised, thesis};
 
 const TABLE: &str = "table8_three_wavelength_colour_error_percent";
 /// The thesis's metals, and the pages that it most probably took: gold and platinum are those of Table 1, aluminium
@@ -30,9 +30,9 @@ const COLOUR: &str = "Not an error of Table 8 and not to be added to it: three c
     light, against the whole spectrum under that light, in Delta E 2000. It bounds how much accuracy is worth having";
 
 /// Table 8, and the colour error below it.
-pub fn section() -> Section {
+pub fn section() -> ThesisSection {
     let colour = METALS.iter().map(|(_, page)| *page).chain(ALSO);
-    Section {
+    ThesisSection {
         title: "Table 8: three wavelengths in place of the spectrum".to_owned(),
         rows: METALS
             .into_iter()

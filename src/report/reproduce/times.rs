@@ -4,13 +4,13 @@
 //! it is the column with the least largest deviation over the five devices.
 
 use super::comparison::{ComparisonRow, Figure, Verdict};
-use super::{Section, thesis};
+use super::{ThesisSection, thesis};
 
 const RELATIVE: &str = "table6_relative_time_percent";
 const ABSOLUTE: &str = "table7_absolute_ms";
 
 /// Table 7 over its first column, beside Table 6.
-pub fn section() -> Section {
+pub fn section() -> ThesisSection {
     let order = order();
     let devices = thesis::devices(ABSOLUTE);
     let worst = |places: &[usize]| {
@@ -19,7 +19,7 @@ pub fn section() -> Section {
         all.fold(0.0, f64::max)
     };
     let printed: Vec<usize> = (0..order.len()).collect();
-    Section {
+    ThesisSection {
         title: format!(
             "Table 7: each device's times over dielectric_exact, against Table 6. Under the printed head they are up to \
              {:.0} percentage points off; with the columns in the order below, up to {:.2}",

@@ -13,7 +13,7 @@ static TEMPLATE: &str = include_str!("../../../templates/stability.html.tera");
 
 /// A method on the page.
 #[derive(Serialize)]
-struct Section {
+struct MethodSection {
     method: &'static str,
     summary: &'static str,
     /// What goes wrong where, a sentence each.
@@ -41,7 +41,7 @@ pub fn stability_page(
 ) -> Result<String, String> {
     let mut methods: Vec<&'static str> = rows.iter().map(|row| row.method).collect();
     methods.dedup();
-    let sections: Vec<Section> = methods
+    let sections: Vec<MethodSection> = methods
         .into_iter()
         .map(|method| section(method, rows, pictures))
         .collect();
@@ -56,7 +56,7 @@ fn section(
     method: &'static str,
     rows: &[StabilityRow],
     pictures: &[(&'static str, &'static str, Vec<u8>)],
-) -> Section {
+) -> MethodSection {
     let sentences = |wanted: fn(&Finding) -> bool| -> Vec<String> {
         let findings = rows
             .iter()
@@ -68,7 +68,7 @@ fn section(
             .collect()
     };
     let own = pictures.iter().filter(|(of, _, _)| *of == method);
-    Section {
+    MethodSection {
         method,
         summary: crate::methods::find(method).map_or("", |method| method.summary),
         formula: sentences(|finding| finding.is_media && finding.failure.is_of_the_model()),

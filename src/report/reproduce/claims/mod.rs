@@ -6,7 +6,7 @@ mod minimum;
 mod schlick;
 mod speed;
 
-use super::Section;
+use super::ThesisSection;
 use super::comparison::{ComparisonRow, Figure};
 use super::meter::Meter;
 
@@ -16,7 +16,7 @@ pub fn work(angles: usize) -> usize {
 }
 
 /// All claims.
-pub fn section(angles: usize, meter: &mut Meter) -> Section {
+pub fn section(angles: usize, meter: &mut Meter) -> ThesisSection {
     let rows = [
         schlick::schlick_claims(angles, meter),
         minimum::minimum_claims(),
@@ -24,7 +24,7 @@ pub fn section(angles: usize, meter: &mut Meter) -> Section {
         instructions::instruction_claims(),
         speed::speed_claims(),
     ];
-    Section {
+    ThesisSection {
         title: "Claims of the text".to_owned(),
         rows: rows.concat(),
     }
