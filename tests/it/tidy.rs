@@ -182,7 +182,11 @@ fn rooms_import_only_to_their_left() {
             .as_os_str()
             .to_string_lossy();
         let room = room.trim_end_matches(".rs").to_owned();
-        let Some(own) = rank(&room) else { continue };
+        if ["build", "lib", "main"].contains(&&*room) {
+            continue;
+        }
+        let own = rank(&room);
+        let own = own.unwrap_or_else(|| panic!("src/lib.rs does not name `{room}` as a room"));
         for imported in imports(&text, &all) {
             let other = rank(&imported).expect("it is a room");
             assert!(
