@@ -1,5 +1,7 @@
 //! What each argument of a user's function is: the cosine, a value given with `--arg`, or one that the material has.
 
+use std::collections::BTreeSet;
+
 use crate::fit::inputs_of;
 use crate::methods::{self, Class, Method, find_input};
 use crate::names::UnknownName;
@@ -237,8 +239,7 @@ fn material_value(subject: &MaterialInMedium, name: &str) -> Option<[f64; 3]> {
     let takes = |method: &&&Method| method.inputs.iter().any(|input| input.name == name);
     let fits = |method: &&&Method| {
         let is_usual = !method.is_fitted() || subject.default_methods().contains(&method.name);
-        let is_told = method.specialised.is_none() || method.class == Class::Dielectric;
-        is_usual && is_told && !method.is_textured() && subject.is_described_by(method)
+        is_usual && is_given(method) && !method.is_textured() && subject.is_described_by(method)
     };
     let exact = methods::find(subject.exact_method()).into_iter();
     let exact: Vec<&'static Method> = exact.collect();
@@ -247,6 +248,22 @@ fn material_value(subject: &MaterialInMedium, name: &str) -> Option<[f64; 3]> {
         .chain(methods::ALL.iter().filter(takes).filter(fits))
         .next()?;
     inputs_of(subject, method).get(name).copied()
+}
+
+/// Whether a material's value of an input is the one that the method was given: others replace colours by those of an index.
+fn is_given(method: &Method) -> bool {
+    method.specialised.is_none() || method.class == Class::Dielectric
+}
+
+/// The names of all arguments that a material has a value for.
+pub fn material_inputs() -> Vec<&'static str> {
+    let given = methods::ALL.iter().filter(|method| is_given(method));
+    let inputs = given.flat_map(|method| method.inputs);
+    let own = inputs.filter(|input| input.is_of_material());
+    own.map(|input| input.name)
+        .collect::<BTreeSet<_>>()
+        .into_iter()
+        .collect()
 }
 
 /// Names that mean the cosine, in small letters without `_`.

@@ -5,6 +5,8 @@ use thiserror::Error;
 use crate::names::{UnknownName, nearest_names, offered};
 use crate::{emit, process};
 
+use super::bind::material_inputs;
+
 /// Why a user's function cannot be audited.
 #[derive(Debug, Error)]
 pub enum Error {
@@ -141,8 +143,7 @@ impl Error {
 fn unbound(material: &str, missing: &[String], has_cosine: bool) -> String {
     let first = missing.first().map_or("", String::as_str);
     let names: Vec<String> = missing.iter().map(|name| format!("`{name}`")).collect();
-    let inputs = ["eta", "n", "k", "f0", "f82", "tint", "lambda"];
-    let like = offered(&nearest_names(first, &inputs));
+    let like = offered(&nearest_names(first, &material_inputs()));
     let cosine = match has_cosine {
         true => "",
         false => ", and which of its arguments is the cosine is not clear: call it cos_theta",

@@ -28,6 +28,7 @@ use std::path::PathBuf;
 
 use crate::cost::Family;
 use crate::gpu::Uniform;
+use crate::methods::find_input;
 use crate::reference::MaterialInMedium;
 use crate::spectra::Space;
 use crate::verify::compilers::{CompilerFault, Verdict};
@@ -41,7 +42,7 @@ pub use language::Language;
 pub use row::{ArgumentValue, AuditRow, CostRow, Dominating, PerceivedFigures};
 pub use serve::serve;
 
-use bind::Bound;
+use bind::{Argument, Bound};
 use compile::Compilers;
 use program::Program;
 use row::{Audited, Ran};
@@ -200,11 +201,17 @@ impl Audit {
 
 /// What a result may reach: 1, or an F0 that is given above it, as our own functions take it.
 fn most(bound: &Bound) -> [f32; 3] {
-    let f0 = bound.arguments.iter();
-    let f0 = f0.filter(|argument| argument.name.eq_ignore_ascii_case("f0"));
-    f0.fold([1.0; 3], |most, argument| {
-        [0, 1, 2].map(|i| most[i].max(argument.value[i]))
-    })
+    let raises = |argument: &&Argument| {
+        let input = find_input(&argument.name.to_lowercase());
+        input.is_some_and(|input| input.raises_limit)
+    };
+    bound
+        .arguments
+        .iter()
+        .filter(raises)
+        .fold([1.0; 3], |most, argument| {
+            [0, 1, 2].map(|i| most[i].max(argument.value[i]))
+        })
 }
 
 fn measured(

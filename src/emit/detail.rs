@@ -308,11 +308,12 @@ fn parameters(emitted: &Emitted) -> Parameters {
         };
         return Parameters::Arguments(emitted.method.inputs.iter().map(argument).collect());
     }
-    let cell = |name: &str, value: f64| (name != "lambda" || value > 0.0).then_some(value);
-    let row = |(name, values): (&String, &[f64; 3])| {
-        (name.clone(), values.map(|value| cell(name, value)))
+    let row = |input: &Input| {
+        let values = emitted.constants.get(input.name)?;
+        let present = values.map(|value| input.present(value));
+        Some((input.name.to_owned(), present))
     };
-    Parameters::Constants(emitted.constants.iter().map(row).collect())
+    Parameters::Constants(emitted.method.inputs.iter().filter_map(row).collect())
 }
 
 /// The uniform block of a module: name, type and offset in bytes of each run-time argument.

@@ -1,6 +1,5 @@
 //! What a method's inputs are for a material: those of fitted methods by a fit, all others as each input says.
 
-use crate::ir::Ty;
 use crate::materials::Channels;
 use crate::methods::{Input, KnownSurface, Method, Values};
 use crate::num::Precision;
@@ -59,8 +58,8 @@ pub fn fitted_for(method: &Method, curve: &FitCurve, aim: FitObjective) -> Optio
     Some((names.into_iter().zip(fit.coefficients).collect(), fit.error))
 }
 
-/// The values of all inputs of a method but a texture. A λ that does not exist is 0, which drops the term. A method that solves its
-/// colours for an index gets colours that an index has.
+/// The values of all inputs of a method but a texture. A method that solves its colours for an index gets colours that an index
+/// has.
 pub fn values_of(method: &Method, surface: &KnownSurface) -> Values {
     assert!(!method.is_fitted(), "coefficients come of a fit: a bug");
     let solvable;
@@ -70,9 +69,8 @@ pub fn values_of(method: &Method, surface: &KnownSurface) -> Values {
     } else {
         surface
     };
-    let numbers = method.inputs.iter().filter(|input| input.ty != Ty::Texture);
-    let value = |input: &Input| (input.name.to_owned(), (input.of)(surface));
-    numbers.map(value).collect()
+    let value = |input: &Input| Some((input.name.to_owned(), input.value(surface)?));
+    method.inputs.iter().filter_map(value).collect()
 }
 
 fn exact(n: f64, k: f64, cos_theta: f64) -> f64 {

@@ -36,7 +36,7 @@ pub fn params(surface: Surface, kind: MaterialKind) -> Params {
     let matching_cos = Derivation::default().matching_cos;
     let Channels { n, k } = effective.channels;
     let known = KnownSurface::with(n, k, |cos_theta| truth.at(cos_theta), matching_cos);
-    let value = |input: Input| (input.of)(&known);
+    let value = |input: Input| input.value(&known).expect("a surface gives it");
     Params {
         f0: known.f0,
         f82: known.f82,

@@ -13,7 +13,7 @@ use crate::cite::Citation;
 use crate::ir::Expr;
 
 use super::half::InHalf;
-use super::input::{Input, Inputs};
+use super::input::{Input, InputSource, Inputs};
 use super::known::{KnownSurface, each};
 use super::method::{Claim, Claims, Class, Colours, Contract, Forms, Light, Method, Over};
 
@@ -36,7 +36,7 @@ impl Input {
         "b2_weight",
         "weight of the second curve, solved at 82.64 degrees",
         [-1000.0, 1000.0],
-        |known| each(|i| weights_of(known, i)[0]),
+        InputSource::Material(|known| each(|i| weights_of(known, i)[0])),
     )
     .tried(&[0.0, -0.3, 0.2])
     .scanned(&[-1.0, -0.3, -0.05, 0.0, 0.05, 0.3, 1.0]);
@@ -45,7 +45,7 @@ impl Input {
         "b3_weight",
         "weight of the third curve, solved at 64.38 degrees",
         [-1000.0, 1000.0],
-        |known| each(|i| weights_of(known, i)[1]),
+        InputSource::Material(|known| each(|i| weights_of(known, i)[1])),
     )
     .tried(Input::B2_WEIGHT.tried)
     .scanned(Input::B2_WEIGHT.scanned);

@@ -14,7 +14,7 @@ use crate::optics;
 
 use super::conductor_exact::{self, conductor, least_squared, root_or_zero};
 use super::half::InHalf;
-use super::input::{Input, Inputs, Range, SHARES, SHARES_AND_BEYOND};
+use super::input::{Input, InputSource, Inputs, Range, SHARES, SHARES_AND_BEYOND};
 use super::known::each;
 use super::method::{Claim, Claims, Class, Colours, Contract, Forms, Light, Method, Over, Values};
 
@@ -24,7 +24,7 @@ impl Input {
         "reflectivity",
         "reflectance at normal incidence, linear",
         [0.0, 1.0],
-        |known| each(|i| optics::normal_incidence(known.n[i], known.k[i])),
+        InputSource::Material(|known| each(|i| optics::normal_incidence(known.n[i], known.k[i]))),
     )
     .tried(&[0.04, 0.0, 1e-6, 0.5, 0.98, 1.0])
     .scanned(Input::F0.scanned);
@@ -33,7 +33,7 @@ impl Input {
         "edge_tint",
         "1 for the least n that the reflectivity allows, 0 for the most",
         [0.0, 1.0],
-        |known| each(|i| edge_tint(known.n[i], known.k[i])),
+        InputSource::Material(|known| each(|i| edge_tint(known.n[i], known.k[i]))),
     )
     .tried(SHARES)
     .scanned(SHARES_AND_BEYOND);

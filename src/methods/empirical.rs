@@ -10,7 +10,9 @@ use crate::cite::Citation;
 use crate::ir::Expr;
 
 use super::half::{HALF_AIM, InHalf};
-use super::input::{Input, Inputs, POWERS, POWERS_AND_BEYOND, SHARES, SHARES_AND_BEYOND};
+use super::input::{
+    Input, InputSource, Inputs, POWERS, POWERS_AND_BEYOND, SHARES, SHARES_AND_BEYOND,
+};
 use super::known::{COS_60, mean};
 use super::method::{Claim, Claims, Class, Contract, Forms, Light, Method, Over};
 
@@ -20,7 +22,7 @@ impl Input {
         "bias",
         "reflectance at normal incidence",
         [0.0, 1.0],
-        |known| [mean(known.f0); 3],
+        InputSource::Material(|known| [mean(known.f0); 3]),
     )
     .tried(SHARES)
     .scanned(SHARES_AND_BEYOND);
@@ -29,17 +31,19 @@ impl Input {
         "scale",
         "what grazing incidence adds",
         [0.0, 1.0],
-        |known| [1.0 - mean(known.f0); 3],
+        InputSource::Material(|known| [1.0 - mean(known.f0); 3]),
     )
     .tried(SHARES)
     .scanned(SHARES_AND_BEYOND);
 
-    pub const POWER: Input =
-        Input::scalar("power", "how late it is added", [0.2, 1000.0], |known| {
-            [power(mean(known.f0), mean(known.f60)); 3]
-        })
-        .tried(POWERS)
-        .scanned(POWERS_AND_BEYOND);
+    pub const POWER: Input = Input::scalar(
+        "power",
+        "how late it is added",
+        [0.2, 1000.0],
+        InputSource::Material(|known| [power(mean(known.f0), mean(known.f60)); 3]),
+    )
+    .tried(POWERS)
+    .scanned(POWERS_AND_BEYOND);
 }
 
 /// The power with which bias + (1 - bias) (1-c)^power meets `target` at 60 degrees; Schlick's 5 where none does.

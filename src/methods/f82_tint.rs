@@ -12,7 +12,7 @@ use crate::ir::Expr;
 
 use super::half::InHalf;
 use super::hoffman_f82::dip;
-use super::input::{Input, Inputs};
+use super::input::{Input, InputSource, Inputs};
 use super::known::each;
 use super::method::{Claim, Claims, Class, Colours, Contract, Forms, Light, Method, Over};
 use super::schlick::grazing_weight;
@@ -23,7 +23,7 @@ impl Input {
         "tint",
         "reflectance at 81.79 degrees over Schlick's value there",
         [0.0, 2.0],
-        |known| each(|i| known.f82[i] / schlick_82(known.f0[i])),
+        InputSource::Material(|known| each(|i| known.f82[i] / schlick_82(known.f0[i]))),
     )
     .tried(&[1.0, 0.0, 0.4, 1.4])
     .scanned(&[

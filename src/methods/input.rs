@@ -1,5 +1,5 @@
-//! The inputs of methods: one vocabulary with units, domain, derivation from a surface, and the values that they are tried
-//! with. One that a single method takes stands in that method's file.
+//! The inputs of methods: one vocabulary with units, domain, where their values come from, and the values that they are
+//! tried with. One that a single method takes stands in that method's file.
 
 use crate::ir::{Builder, COSINE, Expr, Ty};
 use crate::num::Precision;
@@ -17,13 +17,32 @@ pub struct Input {
     pub meaning: &'static str,
     /// Where it lies in single precision.
     pub range: Range,
-    /// What it is for a surface.
-    pub of: fn(&KnownSurface) -> [f64; 3],
+    /// Where its value comes from.
+    pub source: InputSource,
+    /// Whether a result may reach its value where that exceeds 1: F0 of a colour beyond the gamut. Other results end at 1.
+    pub raises_limit: bool,
     /// Values within reason that tests try, in all combinations with those of other inputs: a usual one first, then the
     /// ends of what people give and what is hard.
     pub tried: &'static [f64],
     /// Values within its range and past it, ascending, where the scan for failures looks.
     pub scanned: &'static [f64],
+}
+
+/// Where the value of an input comes from.
+#[derive(Clone, Copy, Debug)]
+pub enum InputSource {
+    /// The material: its index, or what it reflects.
+    Material(fn(&KnownSurface) -> [f64; 3]),
+    /// The material, in channels that have a value; 0 stands for none.
+    MaterialOrNone(fn(&KnownSurface) -> [Option<f64>; 3]),
+    /// The artist. Functions of materials take this value.
+    Artist(f64),
+    /// A fit to the material's reflectance over all angles.
+    Fit,
+    /// The texture of a lookup table, which is no number.
+    Texture,
+    /// The layout of that texture. This is what `bake` writes unless asked otherwise.
+    TextureLayout(f64),
 }
 
 /// Where an argument lies, both ends included. Within its arguments' ranges a function gives a number.
@@ -57,14 +76,15 @@ impl Input {
         name: &'static str,
         meaning: &'static str,
         [least, most]: [f64; 2],
-        of: fn(&KnownSurface) -> [f64; 3],
+        source: InputSource,
     ) -> Input {
         Input {
             name,
             ty: Ty::Rgb,
             meaning,
             range: Range { least, most },
-            of,
+            source,
+            raises_limit: false,
             tried: &[0.0, 1.0],
             scanned: &[0.0, 1.0],
         }
@@ -75,12 +95,36 @@ impl Input {
         name: &'static str,
         meaning: &'static str,
         range: [f64; 2],
-        of: fn(&KnownSurface) -> [f64; 3],
+        source: InputSource,
     ) -> Input {
         Input {
             ty: Ty::Scalar,
-            ..Input::rgb(name, meaning, range, of)
+            ..Input::rgb(name, meaning, range, source)
         }
+    }
+
+    /// Its value for a surface; none where the surface alone does not give one.
+    pub fn value(&self, surface: &KnownSurface) -> Option<[f64; 3]> {
+        match self.source {
+            InputSource::Material(derived) => Some(derived(surface)),
+            InputSource::MaterialOrNone(derived) => {
+                Some(derived(surface).map(|value| value.unwrap_or(0.0)))
+            }
+            InputSource::Artist(value) | InputSource::TextureLayout(value) => Some([value; 3]),
+            InputSource::Fit | InputSource::Texture => None,
+        }
+    }
+
+    /// Whether a material has a value of its own for it.
+    pub fn is_of_material(&self) -> bool {
+        use InputSource::{Material, MaterialOrNone};
+        matches!(self.source, Material(_) | MaterialOrNone(_))
+    }
+
+    /// A value of a channel; none where 0 stands for none.
+    pub fn present(&self, value: f64) -> Option<f64> {
+        let may_lack = matches!(self.source, InputSource::MaterialOrNone(_));
+        (!may_lack || value > 0.0).then_some(value)
     }
 
     pub(super) const fn tried(self, tried: &'static [f64]) -> Input {
@@ -132,7 +176,7 @@ impl Input {
         "eta",
         "relative index of refraction, transmitted over incident (n_t / n_i)",
         [0.001, 1e12],
-        |known| known.n,
+        InputSource::Material(|known| known.n),
     )
     .tried(INDICES)
     .scanned(&[0.0, 1e-30, 1e4, 1e6]);
@@ -141,7 +185,7 @@ impl Input {
         "n",
         "real part of the relative index of refraction",
         [0.001, 1e9],
-        |known| known.n,
+        InputSource::Material(|known| known.n),
     )
     .tried(INDICES)
     .scanned(&[0.0, 1e-30, 1e4, 1e6]);
@@ -150,33 +194,40 @@ impl Input {
         "k",
         "extinction coefficient, the imaginary part of the relative index",
         [0.0, 1e9],
-        |known| known.k,
+        InputSource::Material(|known| known.k),
     )
     .tried(&[1.0, 0.0, 1e-41, 1e-20, 1e-3, 4.0, 13.0, 1e4])
     .scanned(&[0.0, 1e-41, 1.0, 1e4, 1e6]);
 
-    pub const F0: Input = Input::rgb(
-        "f0",
-        "reflectance at normal incidence, linear",
-        [0.0, 1.0],
-        |known| known.f0,
-    )
-    .tried(REFLECTANCES)
-    .scanned(REFLECTANCES_AND_BEYOND);
+    pub const F0: Input = Input {
+        raises_limit: true,
+        ..Input::rgb(
+            "f0",
+            "reflectance at normal incidence, linear",
+            [0.0, 1.0],
+            InputSource::Material(|known| known.f0),
+        )
+        .tried(REFLECTANCES)
+        .scanned(REFLECTANCES_AND_BEYOND)
+    };
 
     pub const F82: Input = Input::rgb(
         "f82",
         "reflectance at cos_theta = 1/7 (81.79 degrees), linear",
         [0.0, 1.0],
-        |known| known.f82,
+        InputSource::Material(|known| known.f82),
     )
     .tried(REFLECTANCES)
     .scanned(REFLECTANCES_AND_BEYOND);
 
-    pub const F90: Input =
-        Input::scalar("f90", "reflectance at 90 degrees", [0.0, 1.0], |_| [1.0; 3])
-            .tried(SHARES)
-            .scanned(SHARES_AND_BEYOND);
+    pub const F90: Input = Input::scalar(
+        "f90",
+        "reflectance at 90 degrees",
+        [0.0, 1.0],
+        InputSource::Artist(1.0),
+    )
+    .tried(SHARES)
+    .scanned(SHARES_AND_BEYOND);
 }
 
 /// The input of this name, of whichever method takes it.

@@ -16,7 +16,7 @@ mod shape;
 
 pub use by_class::{ByClass, Spread, by_class, promises_by_class};
 pub use half::{HALF_AIM, HalfClaim, InHalf};
-pub use input::{Input, Inputs, Range, find_input};
+pub use input::{Input, InputSource, Inputs, Range, find_input};
 pub use known::KnownSurface;
 pub use method::{
     Better, Claim, Claims, Class, Colours, Contract, Forms, Light, Method, Over, Values,

@@ -13,8 +13,8 @@ use crate::ir::Expr;
 use crate::optics;
 
 use super::half::{HALF_AIM, InHalf};
-use super::input::{Input, Inputs};
-use super::known::each;
+use super::input::{Input, InputSource, Inputs};
+use super::known::KnownSurface;
 use super::method::{Claim, Claims, Class, Contract, Forms, Light, Method, Over};
 use super::schlick_rescaled::{LAZANYI_2005, rescaled};
 
@@ -24,17 +24,16 @@ impl Input {
         "lambda",
         "exponent of the correction; 0 or less where there is none",
         [-1000.0, 1000.0],
-        |known| {
-            each(|i| {
-                lambda_for(
-                    known.n[i],
-                    known.k[i],
-                    known.matching_cos,
-                    known.matching[i],
-                )
-                .unwrap_or(0.0)
-            })
-        },
+        InputSource::MaterialOrNone(|known| {
+            let KnownSurface {
+                n,
+                k,
+                matching_cos,
+                matching,
+                ..
+            } = *known;
+            [0, 1, 2].map(|i| lambda_for(n[i], k[i], matching_cos, matching[i]))
+        }),
     )
     .tried(&[7.0, -1.0, 0.0, 0.5, 60.0])
     .scanned(&[-5.0, 0.0, 0.2, 0.5, 1.0, 3.0, 5.0, 8.0, 20.0, 100.0, 1000.0]);

@@ -9,7 +9,7 @@ use crate::cite::Citation;
 use crate::ir::Expr;
 
 use super::half::{HALF_AIM, InHalf};
-use super::input::{Input, Inputs, POWERS, POWERS_AND_BEYOND};
+use super::input::{Input, InputSource, Inputs, POWERS, POWERS_AND_BEYOND};
 use super::method::{Claim, Claims, Class, Contract, Forms, Light, Method, Over};
 
 #[allow(missing_docs)] // each says what it is
@@ -18,7 +18,7 @@ impl Input {
         "exponent",
         "how late the curve rises to f90; 5 is Schlick's",
         [0.2, 1000.0],
-        |_| [5.0; 3],
+        InputSource::Artist(5.0),
     )
     .tried(POWERS)
     .scanned(POWERS_AND_BEYOND);

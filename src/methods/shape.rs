@@ -15,7 +15,7 @@ use std::sync::LazyLock;
 use crate::ir::Expr;
 use crate::num::Legendre;
 
-use super::input::{Input, Inputs};
+use super::input::{Input, InputSource, Inputs};
 
 /// A factor, for a cosine c in [0, 1].
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -251,9 +251,8 @@ impl Input {
     pub const COEFFICIENTS: [Input; 5] = [Input::C0, Input::C1, Input::C2, Input::C3, Input::C4];
 }
 
-/// A fitted method's values come of a fit to the whole curve, and of no surface's numbers.
 const fn coefficient(name: &'static str, meaning: &'static str) -> Input {
-    Input::rgb(name, meaning, [-1000.0, 1000.0], |_| [f64::NAN; 3]).tried(&[0.3, -2.0, 1.0])
+    Input::rgb(name, meaning, [-1000.0, 1000.0], InputSource::Fit).tried(&[0.3, -2.0, 1.0])
 }
 
 #[cfg(test)]

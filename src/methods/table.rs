@@ -12,7 +12,7 @@ use crate::ir::{Expr, Ty};
 use crate::num::Num;
 
 use super::half::InHalf;
-use super::input::{Input, Inputs};
+use super::input::{Input, InputSource, Inputs};
 use super::method::{Claim, Claims, Class, Contract, Forms, Light, Method, Over};
 
 /// Texels of a table where no size is asked for. In half precision the rounding of texels is then what errs most: more
@@ -31,7 +31,7 @@ impl Input {
             "table",
             "the texture, and after it the sampler: reflectance along x, cos theta = 0 first, linear and not sRGB; the sampler filters linearly and clamps to the edge",
             [0.0, 1.0],
-            |_| [f64::NAN; 3],
+            InputSource::Texture,
         )
         // A table of a dielectric stands for all; its number is not looked at.
         .tried(&[0.0])
@@ -41,7 +41,7 @@ impl Input {
         "texels",
         "texels in a row of the table",
         [2.0, 16384.0],
-        |_| [TEXELS as f64; 3],
+        InputSource::TextureLayout(TEXELS as f64),
     )
     .tried(&[64.0, 2.0, 16_384.0]);
 
@@ -49,7 +49,7 @@ impl Input {
         "warp",
         "how dense the axis is near grazing: 0 for cos theta itself, 4 for `--axis rational`",
         [0.0, 100.0],
-        |_| [WARP; 3],
+        InputSource::TextureLayout(WARP),
     )
     .tried(&[4.0, 0.0, 64.0]);
 
@@ -57,7 +57,7 @@ impl Input {
         "row",
         "where the row's middle lies: (index + 0.5) / rows, 0.5 for a table of its own",
         [0.0, 1.0],
-        |_| [ONLY_ROW; 3],
+        InputSource::TextureLayout(ONLY_ROW),
     )
     .tried(&[0.5, 0.0, 1.0]);
 
@@ -65,7 +65,7 @@ impl Input {
         "table_scale",
         "reflectance of a texel of 1: the `scale` beside the table",
         [1.0, 100.0],
-        |_| [1.0; 3],
+        InputSource::TextureLayout(1.0),
     )
     .tried(&[1.0]);
 }

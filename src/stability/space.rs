@@ -107,10 +107,13 @@ fn arguments(method: &Method, (n, k): (f64, f64)) -> Vec<f64> {
         .collect()
 }
 
-/// The function contract: results lie in [0, max(1, f0)].
+/// The function contract: results lie between 0 and 1, or an F0 above it.
 fn limit(inputs: &[Input], at: &[f64]) -> f64 {
-    let f0 = inputs.iter().zip(at).find(|(input, _)| input.name == "f0");
-    f0.map_or(1.0, |(_, value)| value.max(1.0))
+    let raised = inputs
+        .iter()
+        .zip(at)
+        .filter(|(input, _)| input.raises_limit);
+    raised.fold(1.0, |most, (_, value)| most.max(*value))
 }
 
 /// Below this k a medium reflects as if it absorbed nothing, and an approximation has been held against the law already.

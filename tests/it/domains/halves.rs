@@ -1,7 +1,7 @@
 //! Where half precision overflows: up to the ends that headers state it is as near as it promises, and beyond it is not.
 
 use fresnel_gen::ir::{Ty, Value, evaluate};
-use fresnel_gen::methods::{Input, Method};
+use fresnel_gen::methods::{Input, InputSource, Method};
 use fresnel_gen::num::{Half, Num, Precision};
 use fresnel_gen::verify::nearest_half;
 
@@ -73,9 +73,9 @@ fn half_precision_overflows_where_headers_say() {
             continue;
         };
         let end = |input: &Input| method.range(input, Precision::F16).most;
-        let own = |input: &Input, beyond: f64| match input.name {
+        let own = |input: &Input, beyond: f64| match input.source {
             // Without the correction, whose power has errors of its own.
-            "lambda" => vec![0.0],
+            InputSource::MaterialOrNone(_) => vec![0.0],
             _ => steps(input, end(input) * beyond),
         };
         let [inside, beyond] = [1.0, 1.02].map(|share| {

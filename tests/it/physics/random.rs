@@ -103,7 +103,7 @@ proptest! {
         let method = KEPT[which];
         let given = method.inputs.iter().zip(shares);
         let arguments: Vec<f32> = given.map(|(input, (share, pick))| value(input, share, pick)).collect();
-        let f0 = method.inputs.iter().position(|input| input.name == "f0");
+        let f0 = method.inputs.iter().position(|input| input.raises_limit);
         let most = f0.map_or(1.0, |place| arguments[place].max(1.0));
         let f = single(method.name, cos_theta, &arguments);
         prop_assert!((0.0..=most).contains(&f), "{}({cos_theta:e}, {arguments:?}) = {f:e}", method.name);
