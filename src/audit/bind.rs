@@ -18,12 +18,12 @@ pub struct Bound {
     /// The place of the cosine among its arguments.
     pub cosine: usize,
     /// The others, in order.
-    pub arguments: Vec<Argument>,
+    pub arguments: Vec<BoundArgument>,
 }
 
 /// An argument with its value.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Argument {
+pub struct BoundArgument {
     /// Its name in the text.
     pub name: String,
     /// Whether the function takes three numbers.
@@ -37,7 +37,7 @@ pub struct Argument {
 impl Bound {
     /// Whether the function is called once for each channel: it takes one number where the channels differ.
     pub fn is_per_channel(&self) -> bool {
-        self.arguments.iter().any(Argument::is_split)
+        self.arguments.iter().any(BoundArgument::is_split)
     }
 
     /// What was filled in, for people.
@@ -49,7 +49,7 @@ impl Bound {
     }
 }
 
-impl Argument {
+impl BoundArgument {
     /// Whether it is one number in the text and has another for each channel.
     pub fn is_split(&self) -> bool {
         let [r, g, b] = self.value;
@@ -187,7 +187,7 @@ pub fn bind(
                 .filter(|value| is_rgb || is_per_channel || same(value))
                 .map(|value| (value.map(|v| v as f32), true)),
         };
-        values.push(value.map(|(value, is_filled)| Argument {
+        values.push(value.map(|(value, is_filled)| BoundArgument {
             name: param.name.clone(),
             is_rgb,
             value,
@@ -299,7 +299,7 @@ const COSINES: [&str; 25] = [
 fn cosine(
     file: &str,
     function: &FoundFunction,
-    values: &[Option<Argument>],
+    values: &[Option<BoundArgument>],
     subject: &MaterialInMedium,
 ) -> Result<usize, Error> {
     let plain = |name: &str| name.to_lowercase().replace('_', "");

@@ -3,8 +3,8 @@
 use core::time::Duration;
 
 use crate::cost::{
-    Compiler, Dialect, ENTRY, Family, Figures, FragmentShader, Probe, Session, Statistics,
-    Unmeasured, figures, foreign, launch,
+    CompilerSession, CostFigures, Dialect, ENTRY, Family, FragmentShader, GpuCompiler, Probe,
+    Statistics, Unmeasured, figures, foreign, launch,
 };
 use crate::num::Precision;
 use crate::process::{Error, Surroundings, Worker};
@@ -14,7 +14,7 @@ use crate::verify::naga_translation;
 use super::compile::Compilers;
 use super::language::Language;
 use super::place::placed;
-use super::program::Program;
+use super::program::AuditProgram;
 
 /// The cost of a function on a family, or why it is not known.
 #[derive(Clone, Debug)]
@@ -24,7 +24,7 @@ pub struct Cost {
     /// The compiler with its version, where one spoke.
     pub compiler: Option<String>,
     /// What is known, or why nothing is.
-    pub figures: Result<Figures, String>,
+    pub figures: Result<CostFigures, String>,
 }
 
 /// Asks the compiler of a family.
@@ -32,7 +32,7 @@ pub struct Cost {
 /// # Errors
 /// No process can be started.
 pub fn cost(
-    program: &Program,
+    program: &AuditProgram,
     family: &'static Family,
     compilers: &Compilers,
     limit: Duration,
@@ -52,7 +52,7 @@ pub fn cost(
         Err(why) => return Ok(unknown(why)),
     };
     let mut worker = Worker::new(launch);
-    let mut session = Session::new(family, dialect, limit, &mut worker);
+    let mut session = CompilerSession::new(family, dialect, limit, &mut worker);
     let compiler = match session.compiler() {
         Ok(name) => name,
         Err(Unmeasured::Compiler(why)) => return Ok(unknown(why)),
@@ -76,7 +76,7 @@ fn counted(
     family: &Family,
     dialect: Dialect,
     statistics: Vec<Statistics>,
-) -> Result<Figures, String> {
+) -> Result<CostFigures, String> {
     let silent = || "the compiler does not tell instructions".to_owned();
     let [short, long, bare_short, bare_long] =
         <[Statistics; 4]>::try_from(statistics).map_err(|_| silent())?;
@@ -86,15 +86,17 @@ fn counted(
 
 fn absent(family: &Family, surroundings: &Surroundings) -> String {
     match family.compiler {
-        Compiler::Operations => "operations are counted in formulas, and this is text".to_owned(),
-        Compiler::None(why) => why.to_owned(),
+        GpuCompiler::Operations => {
+            "operations are counted in formulas, and this is text".to_owned()
+        }
+        GpuCompiler::None(why) => why.to_owned(),
         _ => launch(family, surroundings).err().unwrap_or_default(),
     }
 }
 
 /// The four shaders as the worker takes them.
 fn shaders(
-    program: &Program,
+    program: &AuditProgram,
     dialect: Dialect,
     compilers: &Compilers,
 ) -> Result<Result<Vec<FragmentShader>, String>, Error> {
@@ -143,11 +145,11 @@ fn module(made: Result<Vec<u8>, CompilerFault>) -> Result<FragmentShader, String
 const PRECISION: &str = "precision highp float;\n";
 
 fn shader(
-    program: &Program,
+    program: &AuditProgram,
     dialect: Dialect,
     evaluations: usize,
 ) -> Result<MeasuredShader, String> {
-    let Program {
+    let AuditProgram {
         language,
         text: own,
         params,

@@ -39,12 +39,12 @@ pub use bind::Given;
 pub use edges::EdgeRow;
 pub use error::{Error, FunctionPlace, ValueFault};
 pub use language::Language;
-pub use row::{ArgumentValue, AuditRow, CostRow, Dominating, PerceivedFigures};
+pub use row::{ArgumentValue, AuditCostRow, AuditRow, Dominating, PerceivedFigures};
 pub use serve::serve;
 
 use bind::{Argument, Bound};
 use compile::Compilers;
-use program::Program;
+use program::AuditProgram;
 use row::{Audited, Ran};
 use runner::{Runner, Trouble};
 
@@ -88,7 +88,7 @@ impl Audit {
         let chosen = bind::choose(&self.file, found, self.function.as_deref())?;
         program::check_name(&self.file, &self.text, self.language, &chosen.name)?;
         let bound = bind::bind(&self.file, chosen, &self.given, subject)?;
-        let (program, run) = Program::pair(self.language, &self.text, &bound);
+        let (program, run) = AuditProgram::pair(self.language, &self.text, &bound);
         let surroundings = Surroundings::new(self.tools.as_deref())?;
         let compilers = Compilers::new(self.limit(), &surroundings);
         let mut accepted = compilers.accepted(self.language, program.harnessed())?;
@@ -129,7 +129,7 @@ impl Audit {
     fn run(
         &self,
         code: protocol::ProgramCode,
-        program: &Program,
+        program: &AuditProgram,
         bound: &Bound,
         subject: &MaterialInMedium,
         surroundings: &Surroundings,
@@ -169,7 +169,7 @@ impl Audit {
     /// The cost of the function and of ours.
     fn costs(
         &self,
-        program: &Program,
+        program: &AuditProgram,
         subject: &MaterialInMedium,
         compilers: &Compilers,
         surroundings: &Surroundings,

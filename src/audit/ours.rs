@@ -1,8 +1,8 @@
 //! Our methods for the same material: how wrong in single precision, and how dear.
 
 use crate::cost::{
-    CostAndError, Family, FamilyAnswers, Figures, Function, ask_compilers, cost_rows, functions,
-    records,
+    CostAndError, CostFigures, CostedFunction, Family, FamilyAnswers, ask_compilers, cost_rows,
+    functions, records,
 };
 use crate::emit::FunctionForm;
 use crate::fit::{error_of, inputs_of};
@@ -84,15 +84,15 @@ pub fn ours(
 fn costs(
     family: &'static Family,
     answers: Option<&FamilyAnswers>,
-    functions: &[Function],
+    functions: &[CostedFunction],
 ) -> Vec<Option<f64>> {
     let rows = cost_rows(family, answers, &records(family.name), functions);
-    let cost = |figures: Result<Figures, String>| figures.ok().map(|figures| figures.cost());
+    let cost = |figures: Result<CostFigures, String>| figures.ok().map(|figures| figures.cost());
     rows.into_iter().map(|row| cost(row.figures)).collect()
 }
 
 /// The largest error in single precision, as a user's function has it.
-fn error(function: &Function, subject: &MaterialInMedium) -> f64 {
+fn error(function: &CostedFunction, subject: &MaterialInMedium) -> f64 {
     let others: Vec<Value<f32>> = match function.form {
         FunctionForm::Library => function
             .method

@@ -6,7 +6,7 @@ use crate::num::Precision;
 use crate::verify::harness::{self, Call};
 use crate::verify::text::tokens;
 
-use super::bind::{Argument, Bound};
+use super::bind::{Bound, BoundArgument};
 use super::directives;
 use super::error::Error;
 use super::language::{Language, bare};
@@ -22,7 +22,7 @@ const THEIRS: &str = "fg_their_";
 
 /// A text with our function behind it.
 #[derive(Clone, Debug)]
-pub struct Program {
+pub struct AuditProgram {
     /// Its language.
     pub language: Language,
     /// The text. The lines of theirs keep their numbers.
@@ -33,20 +33,20 @@ pub struct Program {
     pub values: Vec<[f32; 3]>,
 }
 
-impl Program {
+impl AuditProgram {
     /// The program of a text, and the one that is run: its loops count their turns.
-    pub fn pair(language: Language, text: &str, bound: &Bound) -> (Program, Program) {
-        let plain = Program::new(language, text, bound, false);
+    pub fn pair(language: Language, text: &str, bound: &Bound) -> (AuditProgram, AuditProgram) {
+        let plain = AuditProgram::new(language, text, bound, false);
         let run = match counted(text, language) {
-            Some(counted) => Program::new(language, &counted, bound, true),
+            Some(counted) => AuditProgram::new(language, &counted, bound, true),
             None => plain.clone(),
         };
         (plain, run)
     }
 
-    fn new(language: Language, text: &str, bound: &Bound, counts: bool) -> Program {
+    fn new(language: Language, text: &str, bound: &Bound, counts: bool) -> AuditProgram {
         let mut params = vec![param("cos_theta", Ty::Scalar)];
-        let ty = |argument: &Argument| match argument.is_rgb || argument.is_split() {
+        let ty = |argument: &BoundArgument| match argument.is_rgb || argument.is_split() {
             true => Ty::Rgb,
             false => Ty::Scalar,
         };
@@ -62,7 +62,7 @@ impl Program {
             (Language::Hlsl, true) => format!("{counter}#line 1\n{text}\n{wrapper}"),
             _ => format!("{text}\n{wrapper}{counter}"),
         };
-        Program {
+        AuditProgram {
             language,
             text,
             params,

@@ -2,14 +2,14 @@
 
 use serde::Serialize;
 
-use crate::cost::{CostAndError, Figures};
+use crate::cost::{CostAndError, CostFigures};
 use crate::fit::{ModelError, Perceived};
 use crate::reference::MaterialInMedium;
 use crate::verify::compilers::Verdict;
 use crate::verify::{Answer, JunitCase, Status, as_object};
 
 use super::Audit;
-use super::bind::{Argument, Bound};
+use super::bind::{Bound, BoundArgument};
 use super::comparison::{Competitor, dominating, sentence};
 use super::cost::Cost;
 use super::edges::{EdgeRow, Edges};
@@ -58,7 +58,7 @@ pub struct AuditRow {
     /// What came beyond the domain, where it is no reflectance, in words.
     pub beyond: Option<Vec<String>>,
     /// What it costs on each GPU.
-    pub cost: Vec<CostRow>,
+    pub cost: Vec<AuditCostRow>,
     /// The methods that dominate it.
     pub dominated_by: Vec<Dominating>,
     /// For each GPU whether a method dominates it, in words; none where the methods are not known there.
@@ -90,7 +90,7 @@ pub struct PerceivedFigures {
 
 /// What a function costs on a GPU.
 #[derive(Clone, Debug, Serialize)]
-pub struct CostRow {
+pub struct AuditCostRow {
     /// The family of GPUs.
     pub gpu: &'static str,
     /// The compiler with its version, where one was asked.
@@ -297,7 +297,7 @@ impl Audited<'_> {
     }
 }
 
-fn argument_value(argument: &Argument) -> (String, ArgumentValue) {
+fn argument_value(argument: &BoundArgument) -> (String, ArgumentValue) {
     let value = ArgumentValue {
         value: argument.value.map(f64::from),
         from: match argument.is_filled {
@@ -308,9 +308,9 @@ fn argument_value(argument: &Argument) -> (String, ArgumentValue) {
     (argument.name.clone(), value)
 }
 
-fn cost_row(cost: &Cost) -> CostRow {
+fn cost_row(cost: &Cost) -> AuditCostRow {
     let figures = cost.figures.as_ref().ok();
-    CostRow {
+    AuditCostRow {
         gpu: cost.family.name,
         compiler: cost.compiler.clone(),
         measure: cost.family.columns.measure,
@@ -319,7 +319,7 @@ fn cost_row(cost: &Cost) -> CostRow {
         inverse_throughput: figures.and_then(|figures| figures.shader.inverse_throughput),
         net_instructions: figures.map(|figures| figures.net.instructions),
         net_inverse_throughput: figures.and_then(|figures| figures.net.inverse_throughput),
-        net: figures.map(Figures::cost),
+        net: figures.map(CostFigures::cost),
         reason: cost.figures.as_ref().err().cloned(),
     }
 }

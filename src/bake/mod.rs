@@ -9,7 +9,7 @@ mod subject;
 mod usual;
 mod words;
 
-use crate::lut::{Choice, Depth, Format, TableAxis, smallest};
+use crate::lut::{Depth, Format, TableAxis, TableKind, smallest};
 use crate::targets::Target;
 
 use picture::Baking;
@@ -149,7 +149,7 @@ fn chosen(
     };
     let truths: Vec<_> = subjects.iter().map(|subject| &subject.truth).collect();
     let depths = depths(&request.formats);
-    let Choice {
+    let TableKind {
         axis,
         depth,
         texels,

@@ -2,7 +2,7 @@
 
 /// A function that could be taken.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Candidate {
+pub struct BudgetCandidate {
     /// Its method.
     pub method: &'static str,
     /// Its largest error.
@@ -15,17 +15,17 @@ pub struct Candidate {
 
 /// What comes of a choice.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Choice {
+pub struct BudgetChoice {
     /// The cheapest within the budget; of equal ones the one that errs least.
-    pub chosen: Candidate,
+    pub chosen: BudgetCandidate,
     /// Of those that cost less, the one that errs least.
-    pub cheaper: Option<Candidate>,
+    pub cheaper: Option<BudgetCandidate>,
     /// One that counts as cheaper and is within the budget, but reads a texture, which no count holds.
-    pub textured: Option<Candidate>,
+    pub textured: Option<BudgetCandidate>,
 }
 
 /// Chooses. What reads a texture is taken only where nothing else is within the budget, because no count holds what a fetch costs.
-pub fn cheapest(candidates: &[Candidate], budget: f64) -> Option<Choice> {
+pub fn cheapest(candidates: &[BudgetCandidate], budget: f64) -> Option<BudgetChoice> {
     let within = |is_textured: bool| {
         let own = candidates
             .iter()
@@ -38,7 +38,7 @@ pub fn cheapest(candidates: &[Candidate], budget: f64) -> Option<Choice> {
     let cheaper = candidates
         .iter()
         .filter(|c| c.cost < chosen.cost && c.is_textured == chosen.is_textured);
-    Some(Choice {
+    Some(BudgetChoice {
         cheaper: nearest(cheaper),
         textured: textured
             .filter(|c| !chosen.is_textured && c.cost < chosen.cost)
@@ -48,8 +48,10 @@ pub fn cheapest(candidates: &[Candidate], budget: f64) -> Option<Choice> {
 }
 
 /// The one that errs least; of equal ones the cheapest.
-pub fn nearest<'a>(candidates: impl Iterator<Item = &'a Candidate>) -> Option<Candidate> {
-    let order = |a: &&Candidate, b: &&Candidate| {
+pub fn nearest<'a>(
+    candidates: impl Iterator<Item = &'a BudgetCandidate>,
+) -> Option<BudgetCandidate> {
+    let order = |a: &&BudgetCandidate, b: &&BudgetCandidate| {
         a.error.total_cmp(&b.error).then(a.cost.total_cmp(&b.cost))
     };
     candidates.min_by(order).copied()
@@ -59,7 +61,7 @@ pub fn nearest<'a>(candidates: impl Iterator<Item = &'a Candidate>) -> Option<Ca
 mod tests {
     use super::*;
 
-    const ALL: [Candidate; 6] = [
+    const ALL: [BudgetCandidate; 6] = [
         of("gaussian", 0.024, 10.0, false),
         of("schlick", 0.022, 12.0, false),
         of("rescaled", 0.021, 12.0, false),
@@ -68,8 +70,8 @@ mod tests {
         of("table", 0.0005, 18.0, true),
     ];
 
-    const fn of(method: &'static str, error: f64, cost: f64, is_textured: bool) -> Candidate {
-        Candidate {
+    const fn of(method: &'static str, error: f64, cost: f64, is_textured: bool) -> BudgetCandidate {
+        BudgetCandidate {
             method,
             error,
             cost,
@@ -80,7 +82,7 @@ mod tests {
     #[track_caller]
     fn check(budget: f64, chosen: &str, cheaper: Option<&str>, textured: Option<&str>) {
         let choice = cheapest(&ALL, budget).unwrap();
-        let name = |candidate: Option<Candidate>| candidate.map(|c| c.method);
+        let name = |candidate: Option<BudgetCandidate>| candidate.map(|c| c.method);
         assert_eq!(choice.chosen.method, chosen);
         assert_eq!(name(choice.cheaper), cheaper);
         assert_eq!(name(choice.textured), textured);

@@ -8,7 +8,7 @@ mod text;
 
 use std::collections::BTreeMap;
 
-use crate::cost::{Compiler, Family, Record, function_cost, library_cost, records};
+use crate::cost::{CostRecord, Family, GpuCompiler, function_cost, library_cost, records};
 use crate::emit::{Bounds, specialised_graph};
 use crate::fit::single_error;
 use crate::ir::Checked;
@@ -17,11 +17,11 @@ use crate::methods::{Contract, Light, Method};
 use crate::num::{Precision, in_parallel};
 use crate::reference::MaterialInMedium;
 
-use choice::{Candidate, cheapest, nearest};
+use choice::{BudgetCandidate, cheapest, nearest};
 
 pub use error::Error;
 use spread::spread;
-use text::CostSource;
+use text::CostBasis;
 
 /// What is asked for.
 #[derive(Clone, Copy, Debug)]
@@ -39,7 +39,7 @@ impl Budget {
         if !(most > 0.0 && most.is_finite()) {
             return Err(Error::OutOfRange { most });
         }
-        if let Compiler::None(reason) = family.compiler {
+        if let GpuCompiler::None(reason) = family.compiler {
             let gpu = family.name;
             return Err(Error::NoCosts { gpu, reason });
         }
@@ -109,7 +109,7 @@ struct Search<'a> {
     budget: Budget,
     methods: Vec<&'static Method>,
     catalogue: Vec<Material>,
-    record: Record,
+    record: CostRecord,
     bounds: Bounds,
 }
 
@@ -125,7 +125,7 @@ impl Search<'_> {
             return Ok(Err(text::no_choice(&subject.name, best.as_ref(), family)));
         };
         let spread = spread(subject, &self.catalogue, self.sight);
-        let measured = CostSource { family, form };
+        let measured = CostBasis { family, form };
         let lines =
             text::choice_remarks(&subject.name, &choice, spread, self.budget.most, measured);
         Ok(Ok((choice.chosen.method, lines)))
@@ -136,7 +136,7 @@ impl Search<'_> {
     fn candidates(
         &self,
         subject: &MaterialInMedium,
-    ) -> Result<(Vec<Candidate>, &'static str), Error> {
+    ) -> Result<(Vec<BudgetCandidate>, &'static str), Error> {
         let methods = self.methods.iter().copied();
         let functions = methods
             .filter(|method| subject.is_described_by(method))
@@ -159,7 +159,7 @@ impl Search<'_> {
         };
         let candidate = |((method, function), cost): (&(&'static Method, Checked), Option<f64>)| {
             let error = single_error(function, &subject.truth_for(method));
-            Some(Candidate {
+            Some(BudgetCandidate {
                 method: method.name,
                 error: error.max_abs,
                 cost: cost.filter(|_| error.undefined == 0)?,

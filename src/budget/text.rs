@@ -3,7 +3,7 @@
 use crate::cost::Family;
 use crate::fit::rounded_up;
 
-use super::choice::{Candidate, Choice};
+use super::choice::{BudgetCandidate, BudgetChoice};
 use super::spread::Spread;
 
 /// An error below this share of what measurements differ by is not worth making smaller.
@@ -11,7 +11,7 @@ const POINTLESS: f64 = 0.1;
 
 /// Where figures come from.
 #[derive(Clone, Copy, Debug)]
-pub struct CostSource {
+pub struct CostBasis {
     /// On which GPUs.
     pub family: &'static Family,
     /// `specialised`, or `library` where the record has no specialised functions of the material.
@@ -21,10 +21,10 @@ pub struct CostSource {
 /// What is said of a material's choice, a line each.
 pub fn choice_remarks(
     name: &str,
-    choice: &Choice,
+    choice: &BudgetChoice,
     spread: Option<Spread>,
     budget: f64,
-    measured: CostSource,
+    measured: CostBasis,
 ) -> Vec<String> {
     let chosen = &choice.chosen;
     let fetch = if chosen.is_textured {
@@ -57,7 +57,7 @@ pub fn choice_remarks(
     lines
 }
 
-fn figures(candidate: &Candidate) -> String {
+fn figures(candidate: &BudgetCandidate) -> String {
     format!(
         "{} errs least, by {}, at {}",
         candidate.method,
@@ -84,7 +84,7 @@ fn known(error_made: f64, spread: Option<Spread>) -> String {
 }
 
 /// Why nothing is chosen.
-pub fn no_choice(name: &str, best: Option<&Candidate>, family: &Family) -> String {
+pub fn no_choice(name: &str, best: Option<&BudgetCandidate>, family: &Family) -> String {
     let Some(best) = best else {
         return format!(
             "{name}: no method describes it whose cost on {} is known",

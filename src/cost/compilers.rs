@@ -5,14 +5,14 @@ use std::collections::BTreeMap;
 use crate::process::{Error, Launch, Pool, Surroundings, Task, Worker};
 
 use super::family::{Dialect, Family};
-use super::function::Function;
-use super::session::{Answer, Session, Unmeasured, launch};
+use super::function::CostedFunction;
+use super::session::{CompilerFigures, CompilerSession, Unmeasured, launch};
 
 /// What came of asking a family's compiler.
 #[derive(Clone, Debug)]
 pub enum FamilyAnswers {
     /// It is here: its name and version, and an answer for each function.
-    Fresh(String, Vec<Answer>),
+    Fresh(String, Vec<CompilerFigures>),
     /// It is not, and why.
     Absent(String),
 }
@@ -27,7 +27,7 @@ struct Job {
 /// What is asked of whom.
 struct Questions<'a> {
     families: &'a [&'static Family],
-    functions: &'a [&'a Function],
+    functions: &'a [&'a CostedFunction],
 }
 
 /// Functions of one job: enough that starting a process, which takes as long as ten functions, does not count, and few
@@ -43,7 +43,7 @@ fn job_size(functions: usize, workers: usize) -> usize {
 /// No process can be started.
 pub fn ask_compilers(
     families: &[&'static Family],
-    functions: &[Function],
+    functions: &[CostedFunction],
     pool: Pool,
     surroundings: &Surroundings,
     progress: &mut dyn FnMut(u64, u64, &str),
@@ -102,7 +102,7 @@ impl Questions<'_> {
         let Some(dialect) = family.compiler.dialect() else {
             return Ok(FamilyAnswers::Absent("it has no compiler".to_owned()));
         };
-        let mut session = Session::new(family, dialect, pool.limit, worker);
+        let mut session = CompilerSession::new(family, dialect, pool.limit, worker);
         let compiler = match session.compiler() {
             Ok(name) => name,
             Err(Unmeasured::Compiler(why)) => return Ok(FamilyAnswers::Absent(why)),
@@ -118,7 +118,7 @@ impl Questions<'_> {
 }
 
 /// Functions whose shaders are different, and for each function which of them is its own.
-fn once_each(functions: &[Function]) -> (Vec<&Function>, Vec<usize>) {
+fn once_each(functions: &[CostedFunction]) -> (Vec<&CostedFunction>, Vec<usize>) {
     let mut known: BTreeMap<&str, usize> = BTreeMap::new();
     let mut different = Vec::new();
     let mut places = Vec::new();
@@ -175,7 +175,7 @@ fn gathered(
         Err(why.unwrap_or_else(|| "it was not asked".to_owned()))
     };
     let mut compilers: Vec<Option<String>> = vec![None; launches.len()];
-    let mut answers: Vec<Vec<Answer>> = launches
+    let mut answers: Vec<Vec<CompilerFigures>> = launches
         .iter()
         .map(|launch| vec![unknown(launch); count])
         .collect();
@@ -202,7 +202,7 @@ fn gathered(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::cost::Figures;
+    use crate::cost::CostFigures;
 
     const JOB: usize = 60;
 
@@ -211,7 +211,7 @@ mod tests {
         let launches = [Ok(Launch::default()), Err("elsewhere".to_owned())];
         let jobs: Vec<Job> = jobs(&launches, 2 * JOB + 5, JOB);
         let fresh =
-            |count| FamilyAnswers::Fresh("X".to_owned(), vec![Ok(Figures::default()); count]);
+            |count| FamilyAnswers::Fresh("X".to_owned(), vec![Ok(CostFigures::default()); count]);
         let absent = FamilyAnswers::Absent("gone".to_owned());
         let done = vec![fresh(JOB), absent, fresh(5)];
         let all = gathered(&launches, 2 * JOB + 5, &jobs, done);

@@ -1,6 +1,6 @@
 //! The families of GPUs whose compilers can be asked, and those that cannot.
 
-use super::figures::Columns;
+use super::figures::StatisticNames;
 
 /// A family of GPUs.
 #[derive(Debug)]
@@ -12,16 +12,16 @@ pub struct Family {
     /// The part that stands for it.
     pub gpu: &'static str,
     /// Who compiles for it.
-    pub compiler: Compiler,
+    pub compiler: GpuCompiler,
     /// Under which names the compiler tells its figures.
-    pub columns: Columns,
+    pub columns: StatisticNames,
     /// Whether it computes in 16 bits where a text says so; in OpenGL ES that is left to the driver.
     pub half: bool,
 }
 
 /// Who compiles.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Compiler {
+pub enum GpuCompiler {
     /// Nobody: the operations of the function are counted.
     Operations,
     /// Mesa's driver for AMD's cards, as distributions package it, playing this family.
@@ -61,13 +61,13 @@ impl Dialect {
     }
 }
 
-impl Compiler {
+impl GpuCompiler {
     /// The language that it is given, where there is one to give to.
     pub fn dialect(self) -> Option<Dialect> {
         match self {
-            Compiler::Radv(_) => Some(Dialect::Wgsl),
-            Compiler::Mesa { dialect, .. } => Some(dialect),
-            Compiler::Operations | Compiler::None(_) => None,
+            GpuCompiler::Radv(_) => Some(Dialect::Wgsl),
+            GpuCompiler::Mesa { dialect, .. } => Some(dialect),
+            GpuCompiler::Operations | GpuCompiler::None(_) => None,
         }
     }
 }
@@ -77,7 +77,7 @@ pub fn find(name: &str) -> Option<&'static Family> {
     FAMILIES.iter().find(|family| family.name == name)
 }
 
-const RADV: Columns = Columns {
+const RADV: StatisticNames = StatisticNames {
     instructions: "Instructions",
     latency: Some("Latency"),
     inverse_throughput: &["Inverse Throughput"],
@@ -90,7 +90,7 @@ const fn amd(name: &'static str, gpu: &'static str, chip: &'static str) -> Famil
         name,
         vendor: "AMD",
         gpu,
-        compiler: Compiler::Radv(chip),
+        compiler: GpuCompiler::Radv(chip),
         columns: RADV,
         half: true,
     }
@@ -101,13 +101,13 @@ const fn mesa(
     shim: &'static str,
     environment: &'static [(&'static str, &'static str)],
     dialect: Dialect,
-    columns: Columns,
+    columns: StatisticNames,
 ) -> Family {
     Family {
         name,
         vendor,
         gpu,
-        compiler: Compiler::Mesa {
+        compiler: GpuCompiler::Mesa {
             shim,
             environment,
             dialect,
@@ -118,7 +118,7 @@ const fn mesa(
 }
 
 /// What every driver of Mesa's tells.
-const INSTRUCTIONS: Columns = Columns {
+const INSTRUCTIONS: StatisticNames = StatisticNames {
     instructions: "inst",
     latency: None,
     inverse_throughput: &[],
@@ -130,7 +130,7 @@ const fn adreno(
     (name, gpu): (&'static str, &'static str),
     environment: &'static [(&'static str, &'static str)],
 ) -> Family {
-    let columns = Columns {
+    let columns = StatisticNames {
         registers: Some("full"),
         ..INSTRUCTIONS
     };
@@ -142,7 +142,7 @@ const fn intel(
     (name, gpu): (&'static str, &'static str),
     environment: &'static [(&'static str, &'static str)],
 ) -> Family {
-    let columns = Columns {
+    let columns = StatisticNames {
         latency: Some("cycles"),
         ..INSTRUCTIONS
     };
@@ -154,7 +154,7 @@ const fn nvidia(
     (name, gpu): (&'static str, &'static str),
     environment: &'static [(&'static str, &'static str)],
 ) -> Family {
-    let columns = Columns {
+    let columns = StatisticNames {
         registers: Some("gpr"),
         ..INSTRUCTIONS
     };
@@ -168,8 +168,8 @@ pub static FAMILIES: &[Family] = &[
         name: "operations",
         vendor: "none",
         gpu: "scalar operations of the formula, before any compiler",
-        compiler: Compiler::Operations,
-        columns: Columns {
+        compiler: GpuCompiler::Operations,
+        columns: StatisticNames {
             measure: "operations",
             ..INSTRUCTIONS
         },
@@ -214,7 +214,7 @@ pub static FAMILIES: &[Family] = &[
         "panfrost",
         &[("PAN_GPU_ID", "860"), ("PAN_MESA_DEBUG", "precompile")],
         Dialect::Es300,
-        Columns {
+        StatisticNames {
             inverse_throughput: &["bundles"],
             registers: Some("registers"),
             measure: "bundles",
@@ -226,7 +226,7 @@ pub static FAMILIES: &[Family] = &[
         "panfrost",
         &[("PAN_GPU_ID", "6221"), ("BIFROST_MESA_DEBUG", "shaderdb")],
         Dialect::Es300,
-        Columns {
+        StatisticNames {
             inverse_throughput: &["arith"],
             measure: "cycles of arithmetic",
             ..INSTRUCTIONS
@@ -237,7 +237,7 @@ pub static FAMILIES: &[Family] = &[
         "panfrost",
         &[("PAN_GPU_ID", "9093"), ("BIFROST_MESA_DEBUG", "shaderdb")],
         Dialect::Es300,
-        Columns {
+        StatisticNames {
             inverse_throughput: &["fma", "cvt", "sfu", "t", "ls"],
             measure: "cycles of the busiest pipe",
             ..INSTRUCTIONS
@@ -262,7 +262,7 @@ pub static FAMILIES: &[Family] = &[
         "v3d",
         &[("V3D_DEBUG", "precompile,shaderdb")],
         Dialect::Es300,
-        Columns {
+        StatisticNames {
             registers: Some("max-temps"),
             ..INSTRUCTIONS
         },
@@ -272,7 +272,7 @@ pub static FAMILIES: &[Family] = &[
         "etnaviv",
         &[("ETNA_SHIM_GPU", "GC2000"), ("ETNA_MESA_DEBUG", "shaderdb")],
         Dialect::Es100,
-        Columns {
+        StatisticNames {
             instructions: "instructions",
             registers: Some("temps"),
             ..INSTRUCTIONS
@@ -282,7 +282,7 @@ pub static FAMILIES: &[Family] = &[
         name: "powervr",
         vendor: "Imagination",
         gpu: "PowerVR G6430, Rogue",
-        compiler: Compiler::None(
+        compiler: GpuCompiler::None(
             "Mesa has no compiler for this generation of PowerVR, and the vendor's own is not free to run in a build",
         ),
         columns: INSTRUCTIONS,

@@ -7,7 +7,7 @@ pub type Statistics = BTreeMap<String, f64>;
 
 /// Under which names a compiler tells what is reported.
 #[derive(Debug)]
-pub struct Columns {
+pub struct StatisticNames {
     /// Instructions.
     pub instructions: &'static str,
     /// Cycles from the first instruction to the last.
@@ -34,7 +34,7 @@ pub struct Counts {
 
 /// What is known of a function on a GPU.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Figures {
+pub struct CostFigures {
     /// The fragment shader with the shorter chain of it.
     pub shader: Counts,
     /// Registers of that shader.
@@ -43,7 +43,7 @@ pub struct Figures {
     pub net: Counts,
 }
 
-impl Figures {
+impl CostFigures {
     /// All of them, for a message.
     pub fn text(&self) -> String {
         let shown = |value: Option<f64>| value.map_or("none".to_owned(), |value| value.to_string());
@@ -64,7 +64,7 @@ impl Figures {
 }
 
 /// A compiler's words in our columns.
-fn counts(columns: &Columns, told: &Statistics) -> Option<Counts> {
+fn counts(columns: &StatisticNames, told: &Statistics) -> Option<Counts> {
     let of = |name: Option<&str>| name.and_then(|name| told.get(name).copied());
     Some(Counts {
         instructions: *told.get(columns.instructions)?,
@@ -76,11 +76,11 @@ fn counts(columns: &Columns, told: &Statistics) -> Option<Counts> {
 /// The figures of a function: what the shorter and the longer chain of it are, of these lengths, and of the empty
 /// function.
 pub fn figures(
-    columns: &Columns,
+    columns: &StatisticNames,
     lengths: [usize; 2],
     chains: &[Statistics; 2],
     empty: &[Statistics; 2],
-) -> Option<Figures> {
+) -> Option<CostFigures> {
     let more = (lengths[1] - lengths[0]) as f64;
     let [short, long] = chains.each_ref().map(|told| counts(columns, told));
     let [bare_short, bare_long] = empty.each_ref().map(|told| counts(columns, told));
@@ -95,7 +95,7 @@ pub fn figures(
     };
     let busy = busiest(columns.inverse_throughput.iter().map(of_unit));
     let registers = columns.registers;
-    Some(Figures {
+    Some(CostFigures {
         shader: short?,
         registers: registers.and_then(|name| chains[0].get(name).copied()),
         net: Counts {
@@ -189,7 +189,7 @@ mod tests {
 
     #[test]
     fn an_evaluation_is_the_slope_net_of_the_empty_chain() {
-        let columns = Columns {
+        let columns = StatisticNames {
             instructions: "inst",
             latency: None,
             inverse_throughput: &[],

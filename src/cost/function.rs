@@ -13,7 +13,7 @@ use crate::reference::MaterialInMedium;
 
 /// A function as it is measured.
 #[derive(Clone, Debug)]
-pub struct Function {
+pub struct CostedFunction {
     /// Whether it was asked for, or is here as the reference only.
     pub is_asked: bool,
     /// The material that it is specialised to.
@@ -40,7 +40,7 @@ pub fn functions(
     methods: &[&'static Method],
     subjects: &[MaterialInMedium],
     precisions: &[Precision],
-) -> Result<Vec<Function>, Error> {
+) -> Result<Vec<CostedFunction>, Error> {
     let bounds = Bounds::recorded();
     let mut found = Vec::new();
     for precision in precisions.iter().copied() {
@@ -51,7 +51,7 @@ pub fn functions(
         for method in methods.iter().copied() {
             if !(precision.is_half() && method.half.library_refusal().is_some()) {
                 let library = library_functions(method, &naming)?;
-                found.extend(library.into_iter().map(Function::library));
+                found.extend(library.into_iter().map(CostedFunction::library));
             }
         }
         for subject in subjects {
@@ -59,37 +59,42 @@ pub fn functions(
                 let refused = precision.is_half() && method.half.refusal().is_some();
                 if subject.is_described_by(method) && !refused {
                     let made = specialised_graph(method, subject, precision, &bounds)?;
-                    found.push(Function {
+                    found.push(CostedFunction {
                         material: Some(subject.argument.clone()),
-                        ..Function::new(method, FunctionForm::Specialised, precision, made.function)
+                        ..CostedFunction::new(
+                            method,
+                            FunctionForm::Specialised,
+                            precision,
+                            made.function,
+                        )
                     });
                 }
             }
         }
     }
-    if !found.iter().any(Function::is_reference) {
+    if !found.iter().any(CostedFunction::is_reference) {
         found.push(reference()?);
     }
     Ok(found)
 }
 
 /// The function with which others are compared, where nobody asked for it.
-fn reference() -> Result<Function, Error> {
+fn reference() -> Result<CostedFunction, Error> {
     let method = methods::find(REFERENCE).expect("a test asks for its cost");
     let functions = library_functions(method, &Naming::default())?;
     let emitted = functions
         .into_iter()
         .next()
         .expect("it has a form of three channels");
-    Ok(Function {
+    Ok(CostedFunction {
         is_asked: false,
-        ..Function::library(emitted)
+        ..CostedFunction::library(emitted)
     })
 }
 
-impl Function {
-    fn library(emitted: Emitted) -> Function {
-        Function::new(
+impl CostedFunction {
+    fn library(emitted: Emitted) -> CostedFunction {
+        CostedFunction::new(
             emitted.method,
             emitted.form,
             emitted.precision,
@@ -102,8 +107,8 @@ impl Function {
         form: FunctionForm,
         precision: Precision,
         graph: Checked,
-    ) -> Function {
-        Function {
+    ) -> CostedFunction {
+        CostedFunction {
             is_asked: true,
             material: None,
             probe: Probe::new(&graph, precision),

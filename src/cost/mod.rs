@@ -23,20 +23,20 @@ mod table;
 
 #[cfg(all(feature = "cli", feature = "gpu"))]
 pub use compilers::{FamilyAnswers, ask_compilers};
-pub use family::{Compiler, Dialect, FAMILIES, Family, find};
-pub use figures::{Columns, Counts, Figures, Statistics, figures, remarked};
+pub use family::{Dialect, FAMILIES, Family, GpuCompiler, find};
+pub use figures::{CostFigures, Counts, StatisticNames, Statistics, figures, remarked};
 #[cfg(all(feature = "cli", feature = "gpu"))]
-pub use function::{Function, functions};
+pub use function::{CostedFunction, functions};
 pub use pareto::{CostAndError, Multiples, TIE, pareto_frontier};
 pub use probe::{BLOCKS, ENTRY, Probe, VERTEX, WGSL_VERTEX, gles_vertex};
 #[cfg(all(feature = "cli", feature = "gpu"))]
 pub use protocol::FragmentShader;
-pub use record::{Record, function_cost, library_cost, records};
+pub use record::{CostRecord, function_cost, library_cost, records};
 pub use row::{CostRow, CostSource};
 #[cfg(all(feature = "cli", feature = "gpu"))]
 pub use serve::serve;
 #[cfg(all(feature = "cli", feature = "gpu"))]
-pub use session::{Session, Unmeasured, launch};
+pub use session::{CompilerSession, Unmeasured, launch};
 #[cfg(all(feature = "cli", feature = "gpu"))]
 pub use table::cost_rows;
 

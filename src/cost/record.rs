@@ -9,26 +9,26 @@ use crate::ir::Checked;
 use crate::methods::Method;
 use crate::num::Precision;
 
-use super::family::{Compiler, Family};
-use super::figures::{Counts, Figures};
+use super::family::{Family, GpuCompiler};
+use super::figures::{CostFigures, Counts};
 use super::probe::Probe;
 
 static FOLDER: Dir = include_dir!("$CARGO_MANIFEST_DIR/data/records/costs");
 
 /// What was recorded of a family.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Record {
+pub struct CostRecord {
     /// The compiler with its version.
     pub compiler: String,
     /// The figures of each shader by its hash.
-    pub figures: BTreeMap<String, Figures>,
+    pub figures: BTreeMap<String, CostFigures>,
     /// The hash of each function by its other cells, to tell a shader that changed from one that was never measured.
     pub functions: BTreeMap<String, String>,
 }
 
-impl Record {
+impl CostRecord {
     /// What was recorded of a library function of three channels in single precision.
-    pub fn library(&self, method: &str) -> Option<Figures> {
+    pub fn library(&self, method: &str) -> Option<CostFigures> {
         let shader = self.functions.get(&format!("{method},,library,3,f32"))?;
         self.figures.get(shader).copied()
     }
@@ -36,8 +36,8 @@ impl Record {
 
 /// What an evaluation of a method's library function, three channels, costs on a family: its operations where those are counted,
 /// else what was recorded.
-pub fn library_cost(method: &Method, family: &Family, record: &Record) -> Option<f64> {
-    if family.compiler == Compiler::Operations {
+pub fn library_cost(method: &Method, family: &Family, record: &CostRecord) -> Option<f64> {
+    if family.compiler == GpuCompiler::Operations {
         let function = method.function(false);
         return Some(function.expect("a test builds every method").work() as f64);
     }
@@ -46,13 +46,13 @@ pub fn library_cost(method: &Method, family: &Family, record: &Record) -> Option
 
 /// What an evaluation of a function of `cos_theta` costs on a family: its operations where those are counted, else what was
 /// recorded of the same shader.
-pub fn function_cost(function: &Checked, family: &Family, record: &Record) -> Option<f64> {
-    if family.compiler == Compiler::Operations {
+pub fn function_cost(function: &Checked, family: &Family, record: &CostRecord) -> Option<f64> {
+    if family.compiler == GpuCompiler::Operations {
         return Some(function.work() as f64);
     }
     let dialect = family.compiler.dialect()?;
     let shader = Probe::new(function, Precision::F32).hash(dialect);
-    record.figures.get(&shader).map(Figures::cost)
+    record.figures.get(&shader).map(CostFigures::cost)
 }
 
 /// The columns of a file.
@@ -64,15 +64,15 @@ const KEYS: usize = 5;
 const COMPILER: &str = "# compiler: ";
 
 /// The record of a family, empty where there is none.
-pub fn records(family: &str) -> Record {
+pub fn records(family: &str) -> CostRecord {
     let file = FOLDER.get_file(format!("{family}.csv"));
     let text = file.and_then(|file| file.contents_utf8());
     text.map(parse).unwrap_or_default()
 }
 
-/// A file as [`Record`].
-fn parse(text: &str) -> Record {
-    let mut record = Record::default();
+/// A file as [`CostRecord`].
+fn parse(text: &str) -> CostRecord {
+    let mut record = CostRecord::default();
     for line in text.lines() {
         if let Some(compiler) = line.strip_prefix(COMPILER) {
             compiler.clone_into(&mut record.compiler);
@@ -84,14 +84,14 @@ fn parse(text: &str) -> Record {
     record
 }
 
-fn row(line: &str) -> Option<(String, String, Figures)> {
+fn row(line: &str) -> Option<(String, String, CostFigures)> {
     let cells: Vec<&str> = line.split(',').collect();
     let number = |place: usize| cells.get(place)?.parse::<f64>().ok();
     let first = KEYS + 1;
     Some((
         cells.get(..KEYS)?.join(","),
         (*cells.get(KEYS)?).to_owned(),
-        Figures {
+        CostFigures {
             shader: Counts {
                 instructions: number(first)?,
                 latency: number(first + 1),

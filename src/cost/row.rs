@@ -3,7 +3,7 @@
 use serde::Serialize;
 
 use super::family::Family;
-use super::figures::{Counts, Figures};
+use super::figures::{CostFigures, Counts};
 
 /// A function on a family.
 #[derive(Clone, Debug, Serialize)]
@@ -28,7 +28,7 @@ pub struct CostRow {
     /// Who says it; nobody where nothing is known.
     pub source: Option<CostSource>,
     /// What is known, or why nothing is.
-    pub figures: Result<Figures, String>,
+    pub figures: Result<CostFigures, String>,
     /// The cost over that of the reference.
     pub share: Option<f64>,
     /// The shader by its hash.

@@ -4,10 +4,10 @@ use std::ffi::CString;
 use std::io;
 
 use crate::emit::wgsl_to_spirv;
-use crate::gpu::{DeviceFault, Entry, GlesCompiler, VulkanCompiler};
+use crate::gpu::{DeviceFault, GlesCompiler, ModuleEntry, VulkanCompiler};
 use crate::process::Inbox;
 
-use super::family::{Compiler, Dialect, Family};
+use super::family::{Dialect, Family, GpuCompiler};
 use super::figures::{Statistics, remarked};
 use super::probe::{ENTRY, VERTEX, WGSL_VERTEX, gles_vertex};
 use super::protocol::{CompilerRequest, CompilerResponse, FragmentShader};
@@ -37,16 +37,16 @@ pub fn serve(family: &Family) -> io::Result<()> {
 
 fn open(family: &Family) -> Result<Open, DeviceFault> {
     match family.compiler {
-        Compiler::Radv(_) => {
+        GpuCompiler::Radv(_) => {
             let vertex = wgsl_to_spirv(WGSL_VERTEX).expect("the vertex shader is a constant");
             let names = [VERTEX, ENTRY].map(|name| CString::new(name).unwrap_or_default());
             Ok(Open::Radv(Box::new(VulkanCompiler::open(&vertex)?), names))
         }
-        Compiler::Mesa { dialect, .. } => {
+        GpuCompiler::Mesa { dialect, .. } => {
             let major = if dialect == Dialect::Es100 { 2 } else { 3 };
             Ok(Open::Mesa(Box::new(GlesCompiler::open(major)?), dialect))
         }
-        Compiler::Operations | Compiler::None(_) => Err(DeviceFault::Absent {
+        GpuCompiler::Operations | GpuCompiler::None(_) => Err(DeviceFault::Absent {
             what: format!("{} has no compiler", family.name),
             get: "none is needed".to_owned(),
         }),
@@ -72,7 +72,7 @@ impl Open {
                         &lowered
                     }
                 };
-                let fragment = Entry {
+                let fragment = ModuleEntry {
                     module,
                     name: entry,
                 };

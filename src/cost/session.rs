@@ -7,13 +7,13 @@ use std::path::{Path, PathBuf};
 
 use crate::process::{Error, Launch, Silence, Surroundings, Worker, beside};
 
-use super::family::{Compiler, Dialect, Family};
-use super::figures::{Figures, Statistics, figures};
-use super::function::{Function, empty};
+use super::family::{Dialect, Family, GpuCompiler};
+use super::figures::{CostFigures, Statistics, figures};
+use super::function::{CostedFunction, empty};
 use super::protocol::{CompilerRequest, CompilerResponse, FragmentShader};
 
 /// What a compiler says of a function, or why it says nothing.
-pub type Answer = Result<Figures, String>;
+pub type CompilerFigures = Result<CostFigures, String>;
 
 /// Why there is nothing that a compiler says.
 #[derive(Debug, thiserror::Error)]
@@ -30,7 +30,7 @@ pub enum Unmeasured {
 const HANGS: usize = 3;
 
 /// A compiler at work.
-pub struct Session<'a> {
+pub struct CompilerSession<'a> {
     family: &'static Family,
     dialect: Dialect,
     limit: Duration,
@@ -40,15 +40,15 @@ pub struct Session<'a> {
     hangs: usize,
 }
 
-impl<'a> Session<'a> {
+impl<'a> CompilerSession<'a> {
     /// A session with the compiler of a family that has one.
     pub fn new(
         family: &'static Family,
         dialect: Dialect,
         limit: Duration,
         worker: &'a mut Worker,
-    ) -> Session<'a> {
-        Session {
+    ) -> CompilerSession<'a> {
+        CompilerSession {
             family,
             dialect,
             limit,
@@ -71,7 +71,7 @@ impl<'a> Session<'a> {
     ///
     /// # Errors
     /// No process can be started.
-    pub fn answer(&mut self, function: &Function) -> Result<Answer, Error> {
+    pub fn answer(&mut self, function: &CostedFunction) -> Result<CompilerFigures, Error> {
         if self.hangs >= HANGS {
             let why = format!("not asked: the compiler hung {HANGS} times before");
             return Ok(Err(why));
@@ -103,7 +103,7 @@ impl<'a> Session<'a> {
         })
     }
 
-    fn figures(&mut self, function: &Function) -> Result<Figures, Unmeasured> {
+    fn figures(&mut self, function: &CostedFunction) -> Result<CostFigures, Unmeasured> {
         let empty = self.empty(function)?;
         let chains = self.both(function.chains(self.dialect))?;
         let columns = &self.family.columns;
@@ -112,7 +112,7 @@ impl<'a> Session<'a> {
         })
     }
 
-    fn empty(&mut self, function: &Function) -> Result<[Statistics; 2], Unmeasured> {
+    fn empty(&mut self, function: &CostedFunction) -> Result<[Statistics; 2], Unmeasured> {
         let kind = (function.is_scalar(), function.precision.is_half());
         if let Some(known) = self.empty.get(&kind) {
             return Ok(known.clone());
@@ -167,8 +167,8 @@ fn environment(
         pair("GALLIUM_THREAD", "0".into()),
     ];
     match family.compiler {
-        Compiler::Radv(chip) => all.push(pair("RADV_FORCE_FAMILY", chip.into())),
-        Compiler::Mesa {
+        GpuCompiler::Radv(chip) => all.push(pair("RADV_FORCE_FAMILY", chip.into())),
+        GpuCompiler::Mesa {
             shim, environment, ..
         } => {
             let shim = format!("lib{shim}_noop_drm_shim.so");
@@ -181,7 +181,7 @@ fn environment(
             let own = environment.iter();
             all.extend(own.map(|(name, value)| pair(name, value.into())));
         }
-        Compiler::Operations | Compiler::None(_) => {}
+        GpuCompiler::Operations | GpuCompiler::None(_) => {}
     }
     Ok(all)
 }

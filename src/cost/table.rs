@@ -1,20 +1,20 @@
 //! The rows of a family: from its compiler, from the record, or from the graph.
 
 use super::compilers::FamilyAnswers;
-use super::family::{Compiler, Family};
-use super::figures::{Counts, Figures};
-use super::function::Function;
-use super::record::Record;
+use super::family::{Family, GpuCompiler};
+use super::figures::{CostFigures, Counts};
+use super::function::CostedFunction;
+use super::record::CostRecord;
 use super::row::{CostRow, CostSource};
 
 /// The rows of a family, in the functions' order.
 pub fn cost_rows(
     family: &'static Family,
     answers: Option<&FamilyAnswers>,
-    record: &Record,
-    functions: &[Function],
+    record: &CostRecord,
+    functions: &[CostedFunction],
 ) -> Vec<CostRow> {
-    let about = |place: usize, function: &Function| {
+    let about = |place: usize, function: &CostedFunction| {
         let row = bare(family, function);
         if function.precision.is_half() && !family.half {
             let why = "it has no 16-bit arithmetic (shaderFloat16)".to_owned();
@@ -24,8 +24,8 @@ pub fn cost_rows(
             };
         }
         match (family.compiler, answers) {
-            (Compiler::Operations, _) => counted(row, function),
-            (Compiler::None(why), _) => CostRow {
+            (GpuCompiler::Operations, _) => counted(row, function),
+            (GpuCompiler::None(why), _) => CostRow {
                 figures: Err(why.to_owned()),
                 ..row
             },
@@ -43,19 +43,20 @@ pub fn cost_rows(
     let mut rows: Vec<CostRow> = all
         .map(|(place, function)| about(place, function))
         .collect();
-    let reference = functions.iter().position(Function::is_reference);
-    let whole = reference.and_then(|place| rows[place].figures.as_ref().ok().map(Figures::cost));
+    let reference = functions.iter().position(CostedFunction::is_reference);
+    let whole =
+        reference.and_then(|place| rows[place].figures.as_ref().ok().map(CostFigures::cost));
     let mut asked = functions.iter().map(|function| function.is_asked);
     rows.retain(|_| asked.next().unwrap_or(false));
     for row in &mut rows {
-        let cost = row.figures.as_ref().ok().map(Figures::cost);
+        let cost = row.figures.as_ref().ok().map(CostFigures::cost);
         row.share = cost.zip(whole).map(|(cost, whole)| cost / whole);
     }
     rows
 }
 
 /// A row of which nothing is known yet.
-fn bare(family: &'static Family, function: &Function) -> CostRow {
+fn bare(family: &'static Family, function: &CostedFunction) -> CostRow {
     let dialect = family.compiler.dialect();
     CostRow {
         method: function.method.name,
@@ -73,14 +74,14 @@ fn bare(family: &'static Family, function: &Function) -> CostRow {
     }
 }
 
-fn counted(row: CostRow, function: &Function) -> CostRow {
+fn counted(row: CostRow, function: &CostedFunction) -> CostRow {
     let counts = Counts {
         instructions: function.graph.work() as f64,
         ..Counts::default()
     };
     CostRow {
         source: Some(CostSource::Graph),
-        figures: Ok(Figures {
+        figures: Ok(CostFigures {
             shader: counts,
             registers: None,
             net: counts,
@@ -89,7 +90,7 @@ fn counted(row: CostRow, function: &Function) -> CostRow {
     }
 }
 
-fn recorded(row: CostRow, record: &Record, absent: &str) -> CostRow {
+fn recorded(row: CostRow, record: &CostRecord, absent: &str) -> CostRow {
     let found = row
         .shader
         .as_ref()

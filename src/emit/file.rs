@@ -105,19 +105,19 @@ pub fn material(
 
 /// Where a function stands in a text of several. Directives such as `enable f16;` stand in the first only: no code may be before them.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum FunctionPlace {
+pub enum PlaceInFile {
     /// At its beginning.
     First,
     /// After another function.
     Later,
 }
 
-impl FunctionPlace {
+impl PlaceInFile {
     /// The place behind these pages.
-    pub fn behind(pages: &[Vec<u8>]) -> FunctionPlace {
+    pub fn behind(pages: &[Vec<u8>]) -> PlaceInFile {
         match pages {
-            [] => FunctionPlace::First,
-            _ => FunctionPlace::Later,
+            [] => PlaceInFile::First,
+            _ => PlaceInFile::Later,
         }
     }
 }
@@ -131,7 +131,7 @@ pub fn single(
     emitted: &Emitted,
     subject: Option<&MaterialInMedium>,
     heading: Heading,
-    place: FunctionPlace,
+    place: PlaceInFile,
 ) -> Result<Vec<u8>, Error> {
     check_names(std::slice::from_ref(emitted))?;
     let head = comments(target, &heading.pasted(target, emitted, subject));
@@ -146,8 +146,8 @@ pub fn single(
     };
     let bytes = render(&request)?;
     Ok(match place {
-        FunctionPlace::First => bytes,
-        FunctionPlace::Later => without(bytes, target.directive_in(emitted.precision)),
+        PlaceInFile::First => bytes,
+        PlaceInFile::Later => without(bytes, target.directive_in(emitted.precision)),
     })
 }
 

@@ -31,7 +31,7 @@ pub use detail::Detail;
 pub use error::Error;
 pub use figures::{half_promise, promises};
 pub use file::{
-    File, FunctionPlace, library, lookup, material, single, uniform_offsets, written_for,
+    File, PlaceInFile, library, lookup, material, single, uniform_offsets, written_for,
 };
 pub use form::FunctionForm;
 pub use function::{

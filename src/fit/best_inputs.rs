@@ -23,7 +23,7 @@ const STEP: f64 = 1e-5;
 const GAIN: f64 = 1e-6;
 
 /// A method whose inputs are sought, for a curve.
-struct Competitor<'a> {
+struct InputSearch<'a> {
     function: Checked,
     inputs: &'static [Input],
     curve: &'a FitCurve,
@@ -41,7 +41,7 @@ pub fn best_inputs(method: &Method, intended: &Values, curve: &FitCurve) -> Opti
     if method.is_textured() {
         return None;
     }
-    let rival = Competitor {
+    let rival = InputSearch {
         function: method.function(false).ok()?,
         inputs: method.inputs,
         curve,
@@ -66,9 +66,9 @@ pub fn values_at(
 }
 
 /// Inputs, and by how much a curve is missed with them at each point.
-type Trial = (Values, Vec<f64>);
+type TriedInputs = (Values, Vec<f64>);
 
-impl Competitor<'_> {
+impl InputSearch<'_> {
     /// Better inputs of each channel for itself.
     fn by_channel(&self, start: Values) -> Values {
         (0..3).fold(start, |best, channel| self.of_channel(best, channel))
@@ -132,7 +132,7 @@ impl Competitor<'_> {
 }
 
 /// Better values of some numbers: rounds of the exchange on what derivatives tell, until none gains.
-fn improved(start: Values, free: &[Free], trial: &dyn Fn(Values) -> Trial) -> Values {
+fn improved(start: Values, free: &[Free], trial: &dyn Fn(Values) -> TriedInputs) -> Values {
     let (mut best, mut missed) = trial(start);
     let ones = vec![1.0; missed.len()];
     for _ in 0..ROUNDS {
@@ -152,7 +152,7 @@ fn improved(start: Values, free: &[Free], trial: &dyn Fn(Values) -> Trial) -> Va
 }
 
 /// What each number that may move does to each point, by central differences.
-fn slopes(values: &Values, free: &[Free], trial: &dyn Fn(Values) -> Trial) -> Vec<Vec<f64>> {
+fn slopes(values: &Values, free: &[Free], trial: &dyn Fn(Values) -> TriedInputs) -> Vec<Vec<f64>> {
     let column = |one: &Free| -> Vec<f64> {
         let step = STEP * (1.0 + values[one.name][one.channel.unwrap_or(0)].abs());
         let at = |sign: f64| trial(moved(values, &[*one], &[sign * step], 1.0)).1;

@@ -18,7 +18,7 @@ const NEIGHBOUR: f64 = 0.6 / 1024.0;
 pub fn rounded(rows: &[Vec<f64>], wanted: &[f64], weights: &[f64]) -> Option<Minimax> {
     let terms = rows.first()?.len();
     let first = |terms: usize| rows.iter().map(|row| row[..terms].to_vec()).collect();
-    let search = Search {
+    let search = RoundingSearch {
         shorter: (0..=terms).map(first).collect(),
         weights,
     };
@@ -26,13 +26,13 @@ pub fn rounded(rows: &[Vec<f64>], wanted: &[f64], weights: &[f64]) -> Option<Min
 }
 
 /// What all paths share.
-struct Search<'a> {
+struct RoundingSearch<'a> {
     /// The rows with no term, with the first one, and so on.
     shorter: Vec<Vec<Vec<f64>>>,
     weights: &'a [f64],
 }
 
-impl Search<'_> {
+impl RoundingSearch<'_> {
     /// The best of the first terms for what is wanted of them. None where nothing is better than `bound`.
     fn best(&self, terms: usize, wanted: &[f64], bound: f64) -> Option<Minimax> {
         let free = self.free(terms, wanted)?;

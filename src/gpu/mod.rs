@@ -30,7 +30,7 @@ pub use gles_compiler::GlesCompiler;
 pub use program::{Argument, Program, ShaderCode, Uniform};
 pub use stream::Stream;
 pub use texture::{Texture, TextureFormat, Wrap};
-pub use vulkan_compiler::{Entry, VulkanCompiler};
+pub use vulkan_compiler::{ModuleEntry, VulkanCompiler};
 
 use std::rc::Rc;
 

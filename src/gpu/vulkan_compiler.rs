@@ -24,7 +24,7 @@ pub struct VulkanCompiler {
 
 /// A module of SPIR-V and an entry point of it.
 #[derive(Clone, Copy, Debug)]
-pub struct Entry<'a> {
+pub struct ModuleEntry<'a> {
     /// The module.
     pub module: &'a [u8],
     /// The entry point.
@@ -78,7 +78,7 @@ impl VulkanCompiler {
     pub fn measure(
         &self,
         vertex: &CStr,
-        fragment: Entry,
+        fragment: ModuleEntry,
     ) -> Result<Vec<(String, f64)>, DeviceFault> {
         // SAFETY: as in `open`; the module and the pipeline are destroyed once, when they are no longer needed.
         let told = unsafe {

@@ -37,7 +37,7 @@ pub use ktx2::KTX2_MARK;
 pub use lookup::lookup;
 pub use measure::{BetweenTexels, table_error};
 pub use picture::Picture;
-pub use search::{Choice, smallest};
+pub use search::{TableKind, smallest};
 pub use split_sum::{
     BetweenSplitSum, LEAST_ROUGHNESS, SPLIT_SUM_SIZE, SplitSum, StoredSplitSum, TERMS, check_side,
     split_sum_cosine, split_sum_roughness, split_sum_terms,

@@ -11,7 +11,7 @@ use crate::ir::Weights;
 
 /// A kind of table.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Choice {
+pub struct TableKind {
     /// How cosines are spread.
     pub axis: TableAxis,
     /// The kind of number.
@@ -20,7 +20,7 @@ pub struct Choice {
     pub texels: usize,
 }
 
-impl Choice {
+impl TableKind {
     /// Bytes of a row in the memory of a GPU.
     pub fn bytes(self) -> usize {
         self.texels * self.depth.bytes()
@@ -40,8 +40,8 @@ pub fn smallest(
     budget: f64,
     axes: &[TableAxis],
     depths: &[Depth],
-) -> Result<Choice, Error> {
-    let mut best: Option<Choice> = None;
+) -> Result<TableKind, Error> {
+    let mut best: Option<TableKind> = None;
     let mut least = f64::INFINITY;
     for axis in axes {
         for depth in depths {
@@ -80,8 +80,8 @@ struct TableFamily<'a> {
 }
 
 impl TableFamily<'_> {
-    fn of(&self, texels: usize) -> Choice {
-        Choice {
+    fn of(&self, texels: usize) -> TableKind {
+        TableKind {
             axis: self.axis,
             depth: self.depth,
             texels,

@@ -14,7 +14,7 @@ const FEWEST: usize = 29;
 
 /// What a function costs.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Figure {
+pub struct OverdrawFigure {
     /// Nanoseconds a pixel of a draw that evaluates it once: the empty draw, and one evaluation.
     pub ns_per_pixel: f64,
     /// Nanoseconds a pixel of one evaluation.
@@ -82,7 +82,7 @@ struct Times {
 impl MeasuredDrawings {
     /// What each of the plan's functions costs on a target of so many pixels, or why that is not known: it was given up, or
     /// what it is held against was.
-    pub fn figures(&self, plan: &DrawingPlan, pixels: u64) -> Vec<Result<Figure, String>> {
+    pub fn figures(&self, plan: &DrawingPlan, pixels: u64) -> Vec<Result<OverdrawFigure, String>> {
         let rounds: Vec<usize> = (0..self.rounds.len()).collect();
         let anew = if rounds.len() < FEWEST {
             vec![rounds.clone()]
@@ -110,7 +110,7 @@ impl MeasuredDrawings {
         function: usize,
         pixels: u64,
         times: &Times,
-    ) -> Result<Figure, String> {
+    ) -> Result<OverdrawFigure, String> {
         let (own, empty) = plan.places()[function];
         for needed in [
             DrawingPlan::HEAVY,
@@ -135,7 +135,7 @@ impl MeasuredDrawings {
             let why = "dielectric_exact is not told apart from the empty shader: noise; take more --rounds or a larger --size";
             return Err(why.to_owned());
         }
-        Ok(Figure {
+        Ok(OverdrawFigure {
             ns_per_pixel: empty + net,
             net_ns_per_pixel: net,
             empty_ns_per_pixel: empty,

@@ -64,7 +64,7 @@ pub trait Draw {
 
 /// How much is done.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Effort {
+pub struct DrawingEffort {
     /// Rounds.
     pub rounds: usize,
     /// The clock; none: of software the processor's work, else the device's timestamps, where they advance, else the wall.
@@ -127,7 +127,7 @@ impl Clock {
 }
 
 /// A measurement under way.
-struct Session<'a> {
+struct DrawingSession<'a> {
     plan: &'a DrawingPlan,
     artist: &'a mut dyn Draw,
     clock: Clock,
@@ -141,12 +141,12 @@ struct Session<'a> {
 /// Nothing can be drawn, or the clock that was asked for does not advance.
 pub fn measure(
     plan: &DrawingPlan,
-    effort: &Effort,
+    effort: &DrawingEffort,
     artist: &mut dyn Draw,
     progress: &mut dyn FnMut(u64, u64, &str),
 ) -> Result<MeasuredDrawings, Stop> {
     let count = plan.drawings.len();
-    let mut session = Session {
+    let mut session = DrawingSession {
         plan,
         artist,
         clock: Clock::Wall,
@@ -176,7 +176,7 @@ pub fn measure(
     })
 }
 
-impl Session<'_> {
+impl DrawingSession<'_> {
     /// A reading; nothing where the drawing is given up.
     fn read(&mut self, drawing: usize) -> Result<Reading, Stop> {
         let reading = self.read_draws(drawing, self.draws[drawing])?;
@@ -209,7 +209,7 @@ impl Session<'_> {
     }
 
     /// Takes the clock that is asked for, or the best there is; says whether the device's own advances.
-    fn choose_clock(&mut self, effort: &Effort) -> Result<bool, Stop> {
+    fn choose_clock(&mut self, effort: &DrawingEffort) -> Result<bool, Stop> {
         let mut advances = Clock::ALL.map(|_| true);
         for _ in 0..TRIALS {
             let Some(reading) = self.read_draws(DrawingPlan::HEAVY, 0)? else {

@@ -41,9 +41,9 @@ pub use drawing_device::{DeviceFacts, DrawingDevice};
 #[cfg(all(feature = "cli", feature = "gpu"))]
 pub use drawing_worker::DrawingWorker;
 pub use error::Error;
-pub use figure::{Figure, Noise};
+pub use figure::{Noise, OverdrawFigure};
 pub use functions::{LibraryMaterials, TimedFunctions};
-pub use measure::{Clock, Draw, Effort, MeasuredDrawings, Reading, Round, Stop, measure};
+pub use measure::{Clock, Draw, DrawingEffort, MeasuredDrawings, Reading, Round, Stop, measure};
 pub use plan::{Drawing, DrawingPlan, TimedFunction};
 #[cfg(feature = "gpu")]
 pub use row::{TimeRow, time_rows};

@@ -5,7 +5,7 @@ use serde::Serialize;
 use crate::ir::Ty;
 
 use super::drawing_device::DeviceFacts;
-use super::figure::Figure;
+use super::figure::OverdrawFigure;
 use super::functions::TimedFunctions;
 use super::measure::{Clock, MeasuredDrawings};
 use super::plan::TimedFunction;
@@ -25,7 +25,7 @@ pub struct TimeRow {
     /// What it computes in.
     pub precision: &'static str,
     /// What it costs, or why that is not known.
-    pub figure: Result<Figure, String>,
+    pub figure: Result<OverdrawFigure, String>,
     /// Whether this machine cannot do it at all.
     pub is_lacking: bool,
     /// What the time was taken by.
@@ -95,7 +95,8 @@ struct TimeRowJson {
 impl From<TimeRow> for TimeRowJson {
     fn from(row: TimeRow) -> TimeRowJson {
         let figure = row.figure.as_ref().ok();
-        let number = |one: fn(&Figure) -> f64| figure.map(one).filter(|value| value.is_finite());
+        let number =
+            |one: fn(&OverdrawFigure) -> f64| figure.map(one).filter(|value| value.is_finite());
         let interval = figure.and_then(|figure| figure.interval);
         TimeRowJson {
             ns_per_pixel: number(|f| f.ns_per_pixel),

@@ -16,11 +16,11 @@ const MARGIN: Duration = Duration::from_secs(5);
 /// The requests to a worker.
 pub struct Inbox {
     lines: Receiver<String>,
-    work: Sender<Work>,
+    work: Sender<LineEvent>,
 }
 
 /// What happens to a line.
-enum Work {
+enum LineEvent {
     /// It is here, and its answer may take so long.
     Arrived(Duration),
     /// It is answered.
@@ -47,7 +47,7 @@ impl Inbox {
         thread::spawn(move || {
             for line in io::stdin().lines().map_while(Result::ok) {
                 if let Some((limit, line)) = read(&line) {
-                    let _ = arrived.send(Work::Arrived(limit.saturating_add(MARGIN)));
+                    let _ = arrived.send(LineEvent::Arrived(limit.saturating_add(MARGIN)));
                     let _ = send.send(line);
                 }
             }
@@ -70,21 +70,21 @@ impl Inbox {
             let response = answer(serde_json::from_str(&line)?);
             writeln!(output, "{}", serde_json::to_string(&response)?)?;
             output.flush()?;
-            let _ = self.work.send(Work::Answered);
+            let _ = self.work.send(LineEvent::Answered);
         }
         Ok(())
     }
 }
 
 /// Ends this process when an answer is overdue.
-fn watch(work: &Receiver<Work>) {
+fn watch(work: &Receiver<LineEvent>) {
     // The next line may arrive before the answer to the last one is entered here.
     let (mut waiting, mut limit) = (0usize, Duration::MAX);
     loop {
         let wait = if waiting > 0 { limit } else { Duration::MAX };
         match work.recv_timeout(wait) {
-            Ok(Work::Arrived(allowed)) => (waiting, limit) = (waiting + 1, allowed),
-            Ok(Work::Answered) => waiting = waiting.saturating_sub(1),
+            Ok(LineEvent::Arrived(allowed)) => (waiting, limit) = (waiting + 1, allowed),
+            Ok(LineEvent::Answered) => waiting = waiting.saturating_sub(1),
             Err(RecvTimeoutError::Timeout) => end(),
             Err(RecvTimeoutError::Disconnected) => return,
         }

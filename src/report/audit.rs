@@ -1,6 +1,6 @@
 //! What an audit found of a user's function for a material, for people.
 
-use crate::audit::{AuditRow, CostRow};
+use crate::audit::{AuditCostRow, AuditRow};
 use crate::fit::ModelError;
 use crate::verify::Status;
 
@@ -69,7 +69,7 @@ fn model_error(error: &ModelError) -> String {
     )
 }
 
-fn cost_line(row: &AuditRow, cost: &CostRow) -> String {
+fn cost_line(row: &AuditRow, cost: &AuditCostRow) -> String {
     let gpu = cost.gpu;
     match cost.net {
         None => {

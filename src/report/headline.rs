@@ -12,7 +12,7 @@ use crate::optics::cosine;
 use crate::reference::{Derivation, MaterialInMedium};
 
 use super::plot::{
-    ChartAxis, FOOT, Frame, HEADING, Layout, LineChart, PANEL, SUBTITLE, Series, Style, TICK,
+    ChartAxis, FOOT, HEADING, Layout, LineChart, PANEL, PanelFrame, SUBTITLE, Series, Style, TICK,
     hex_colour, ticks,
 };
 
@@ -29,21 +29,21 @@ const ANGLES: u32 = 181;
 /// Of these angles a sphere's gradient takes each so many.
 const STOPS: usize = 4;
 
-const PICTURE: Frame = Frame {
+const PICTURE: PanelFrame = PanelFrame {
     width: 1040.0,
     height: 700.0,
     margin: 24.0,
     upper: 20.0,
     lower: 14.0,
 };
-const SPHERES: Frame = Frame {
+const SPHERES: PanelFrame = PanelFrame {
     width: 580.0,
     height: 310.0,
     margin: 8.0,
     upper: 12.0,
     lower: 8.0,
 };
-const CURVES: Frame = Frame {
+const CURVES: PanelFrame = PanelFrame {
     width: 420.0,
     ..SPHERES
 };

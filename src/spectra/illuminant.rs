@@ -12,7 +12,7 @@ use std::sync::LazyLock;
 
 use super::fault::FileFault;
 use super::spectrum::Spectrum;
-use super::table::{TableRow, rows};
+use super::table::{SpectrumRow, rows};
 use super::wavelength::{FIRST_NM, LAST_NM, Step};
 
 /// A light.
@@ -126,7 +126,7 @@ fn incandescent(nm: f64) -> f64 {
 }
 
 /// The line and what is wrong, when the rows do not light what is summed.
-fn range_fault(rows: &[TableRow<2>]) -> Option<(usize, String)> {
+fn range_fault(rows: &[SpectrumRow<2>]) -> Option<(usize, String)> {
     let (first, last) = (rows.first()?, rows.last()?);
     let (from, to) = (first.values[0], last.values[0]);
     if from > FIRST_NM || to < LAST_NM {
@@ -153,7 +153,7 @@ fn range_fault(rows: &[TableRow<2>]) -> Option<(usize, String)> {
 /// A light that is nowhere brighter is none: products with it would lose their digits.
 const LEAST_POWER: f64 = 1e-30;
 
-fn spectrum(rows: &[TableRow<2>]) -> Spectrum<f64> {
+fn spectrum(rows: &[SpectrumRow<2>]) -> Spectrum<f64> {
     let points = rows.iter().map(|row| (row.values[0], row.values[1]));
     Spectrum::new(points.collect()).expect("the reader checks that it ascends")
 }

@@ -19,7 +19,7 @@ const GREATEST_NM: f64 = 1e6;
 const GREATEST_VALUE: f64 = 1e30;
 
 /// One row, and where it stood.
-pub(super) struct TableRow<const N: usize> {
+pub(super) struct SpectrumRow<const N: usize> {
     /// From 1.
     pub line: usize,
     /// Wavelength in nm, then the other columns.
@@ -31,8 +31,8 @@ pub(super) fn rows<const N: usize>(
     file: &str,
     text: &str,
     columns: [&str; N],
-) -> Result<Vec<TableRow<N>>, FileFault> {
-    let mut rows: Vec<TableRow<N>> = Vec::new();
+) -> Result<Vec<SpectrumRow<N>>, FileFault> {
+    let mut rows: Vec<SpectrumRow<N>> = Vec::new();
     let mut names_seen = false;
     for (index, line) in text.trim_start_matches('\u{feff}').lines().enumerate() {
         let fields = fields(line.split('#').next().unwrap_or(""));
@@ -50,7 +50,7 @@ pub(super) fn rows<const N: usize>(
             column: line[..offset].chars().count() + 1,
             what,
         })?;
-        rows.push(TableRow {
+        rows.push(SpectrumRow {
             line: index + 1,
             values,
         });

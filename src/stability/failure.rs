@@ -101,7 +101,7 @@ impl Failure {
 
 /// A result at a cosine and at the next one, and what it should be.
 #[derive(Clone, Copy, Debug)]
-pub struct Point {
+pub struct ResultPoint {
     /// The cosine.
     pub cos_theta: f64,
     /// What came.
@@ -130,7 +130,7 @@ const HALF_STEP: f64 = 1e-2;
 /// Below this a reflectance is nothing, and has no digits to lose.
 const LEAST: f64 = 1e-20;
 
-impl Point {
+impl ResultPoint {
     /// By how much it fails in this way; 0 where it does not.
     pub fn amount(&self, failure: Failure) -> f64 {
         let above = |x: f64, level: f64| if x > level { x } else { 0.0 };

@@ -4,9 +4,9 @@ use crate::methods::{Class, Method};
 use crate::num::Precision;
 
 use super::axis::{ScanAxis, logarithmic};
-use super::failure::{Failure, Point};
+use super::failure::{Failure, ResultPoint};
 use super::scan::{Scan, ScannedFunction};
-use super::space::{Space, law};
+use super::space::{ScanSpace, law};
 
 /// Errors over angle and index.
 #[derive(Clone, Debug)]
@@ -74,7 +74,7 @@ fn map(
         .iter()
         .map(|degree| crate::optics::cosine(*degree))
         .collect();
-    let space = Space {
+    let space = ScanSpace {
         is_media: true,
         axes,
         cosines: ScanAxis {
@@ -101,7 +101,7 @@ fn map(
     }
 }
 
-fn cell(point: &Point) -> Cell {
+fn cell(point: &ResultPoint) -> Cell {
     let broken = [
         Failure::NotANumber,
         Failure::Infinite,

@@ -18,5 +18,5 @@ pub use failure::Failure;
 pub use map::{Cell, Map, maps};
 pub use region::short;
 pub use row::StabilityRow;
-pub use scan::{Finding, Progress, ScannedFunction, WorstPoint, scan, scan_specialised};
+pub use scan::{Finding, ScanProgress, ScannedFunction, WorstPoint, scan, scan_specialised};
 pub use study::{Study, StudyProgress};

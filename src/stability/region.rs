@@ -6,7 +6,7 @@ use super::axis::ScanAxis;
 
 /// A grid of up to four axes, and at each point by how much it fails; 0 where it does not.
 #[derive(Clone, Debug)]
-pub struct Field<'a> {
+pub struct FailureGrid<'a> {
     /// The axes; the last one varies fastest.
     pub axes: &'a [ScanAxis],
     /// The amounts.
@@ -35,7 +35,7 @@ const GAIN: f64 = 1.5;
 /// What is this full needs no cut.
 const FULL: f64 = 0.9;
 
-impl Field<'_> {
+impl FailureGrid<'_> {
     fn places(&self, mut index: usize) -> Vec<usize> {
         let mut places = vec![0; self.axes.len()];
         for (place, axis) in places.iter_mut().zip(self.axes).rev() {
@@ -52,8 +52,8 @@ impl Field<'_> {
             .iter()
             .enumerate()
             .filter(|(_, amount)| **amount > 0.0);
-        let points: Vec<Point> = failing
-            .map(|(i, amount)| Point {
+        let points: Vec<FailingPoint> = failing
+            .map(|(i, amount)| FailingPoint {
                 places: self.places(i),
                 amount: *amount,
             })
@@ -76,10 +76,10 @@ impl Field<'_> {
     }
 
     /// Points in parts whose boxes are as tight as a few cuts make them.
-    fn cut(&self, points: Vec<Point>) -> Vec<Vec<Point>> {
+    fn cut(&self, points: Vec<FailingPoint>) -> Vec<Vec<FailingPoint>> {
         let mut parts = vec![points];
         while parts.len() < MOST {
-            let cut = |(i, part): (usize, &Vec<Point>)| {
+            let cut = |(i, part): (usize, &Vec<FailingPoint>)| {
                 let (axis, at, gain) = self.best_cut(part)?;
                 Some((i, axis, at, gain * part.len() as f64))
             };
@@ -97,7 +97,7 @@ impl Field<'_> {
     }
 
     /// The cut of a set of points that makes their boxes tightest, where one is worth it.
-    fn best_cut(&self, points: &[Point]) -> Option<(usize, usize, f64)> {
+    fn best_cut(&self, points: &[FailingPoint]) -> Option<(usize, usize, f64)> {
         let whole = bounds(points.iter());
         let volume = size(&whole);
         if points.len() as f64 >= FULL * volume as f64 {
@@ -117,14 +117,14 @@ impl Field<'_> {
 }
 
 /// The points of one axis in runs, divided at the widest gaps.
-fn runs(points: Vec<Point>) -> Vec<Vec<Point>> {
-    let place = |point: &Point| point.places[0];
+fn runs(points: Vec<FailingPoint>) -> Vec<Vec<FailingPoint>> {
+    let place = |point: &FailingPoint| point.places[0];
     let mut gaps: Vec<usize> = (1..points.len())
         .filter(|i| place(&points[*i]) > place(&points[i - 1]) + 1)
         .collect();
     gaps.sort_by_key(|i| std::cmp::Reverse(place(&points[*i]) - place(&points[i - 1])));
     gaps.truncate(MOST - 1);
-    let mut parts: Vec<Vec<Point>> = vec![Vec::new()];
+    let mut parts: Vec<Vec<FailingPoint>> = vec![Vec::new()];
     for (i, point) in points.into_iter().enumerate() {
         if gaps.contains(&i) {
             parts.push(Vec::new());
@@ -135,7 +135,7 @@ fn runs(points: Vec<Point>) -> Vec<Vec<Point>> {
 }
 
 #[derive(Clone, Debug)]
-struct Point {
+struct FailingPoint {
     places: Vec<usize>,
     amount: f32,
 }
@@ -146,9 +146,10 @@ fn size(extent: &Extent) -> usize {
     extent.iter().map(ExactSizeIterator::len).product()
 }
 
-fn bounds<'a>(points: impl Iterator<Item = &'a Point>) -> Extent {
-    let one =
-        |point: &Point| -> Extent { point.places.iter().map(|place| *place..place + 1).collect() };
+fn bounds<'a>(points: impl Iterator<Item = &'a FailingPoint>) -> Extent {
+    let one = |point: &FailingPoint| -> Extent {
+        point.places.iter().map(|place| *place..place + 1).collect()
+    };
     points
         .map(one)
         .reduce(|a, b| joined(&a, &b))
@@ -163,7 +164,11 @@ fn joined(a: &Extent, b: &Extent) -> Extent {
 }
 
 /// The boxes on both sides of every cut of an axis.
-fn halves(points: &[Point], axis: usize, range: &Range<usize>) -> Vec<(usize, Extent, Extent)> {
+fn halves(
+    points: &[FailingPoint],
+    axis: usize,
+    range: &Range<usize>,
+) -> Vec<(usize, Extent, Extent)> {
     let mut slices: Vec<Option<Extent>> = vec![None; range.len()];
     for point in points {
         let slice = &mut slices[point.places[axis] - range.start];
@@ -192,7 +197,7 @@ fn halves(points: &[Point], axis: usize, range: &Range<usize>) -> Vec<(usize, Ex
     (1..range.len()).filter_map(cut).collect()
 }
 
-fn region(points: &[Point]) -> Region {
+fn region(points: &[FailingPoint]) -> Region {
     let extent = bounds(points.iter());
     let worst = points
         .iter()
@@ -336,7 +341,7 @@ mod tests {
 
     fn field(axes: &[ScanAxis], fails: impl Fn(&[f64]) -> bool) -> Vec<String> {
         let points: usize = axes.iter().map(|axis| axis.values.len()).product();
-        let mut field = Field {
+        let mut field = FailureGrid {
             axes,
             amounts: vec![0.0; points],
         };

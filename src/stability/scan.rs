@@ -5,9 +5,9 @@ use crate::methods::Method;
 use crate::num::{Half, Num, Precision, in_parallel};
 
 use super::axis::{ScanAxis, dense};
-use super::failure::{Failure, NEAR, Point, is_flushed};
-use super::region::{Field, Region};
-use super::space::{Given, Space, is_lawful, law, spaces};
+use super::failure::{Failure, NEAR, ResultPoint, is_flushed};
+use super::region::{FailureGrid, Region};
+use super::space::{ScanPoint, ScanSpace, is_lawful, law, spaces};
 use crate::verify::limits;
 
 /// A failure of a method, and where it happens.
@@ -65,13 +65,13 @@ fn spacing(precision: Precision) -> f64 {
 }
 
 /// Hears how many points are done, of how many.
-pub type Progress<'a> = &'a mut dyn FnMut(usize, usize);
+pub type ScanProgress<'a> = &'a mut dyn FnMut(usize, usize);
 
 /// Scans a method.
-pub fn scan(method: &'static Method, precision: Precision, progress: Progress) -> Vec<Finding> {
+pub fn scan(method: &'static Method, precision: Precision, progress: ScanProgress) -> Vec<Finding> {
     let code = ScannedFunction::library(method, precision);
     let spaces = spaces(method, precision);
-    let total: usize = spaces.iter().map(Space::count).sum();
+    let total: usize = spaces.iter().map(ScanSpace::count).sum();
     let mut before = 0;
     let mut findings = Vec::new();
     for space in &spaces {
@@ -126,12 +126,12 @@ pub fn scan_specialised(
     channel: usize,
     law: &(dyn Fn(f64) -> f64 + Sync),
 ) -> Vec<Finding> {
-    let space = Space {
+    let space = ScanSpace {
         is_media: true,
         axes: Vec::new(),
         cosines: dense().rounded(code.precision),
     };
-    let given = Given {
+    let given = ScanPoint {
         arguments: Vec::new(),
         medium: None,
         limit: 1.0,
@@ -149,9 +149,9 @@ pub fn scan_specialised(
 pub(super) struct Scan<'a> {
     pub code: &'a ScannedFunction,
     pub channel: usize,
-    pub space: &'a Space,
-    pub given: &'a (dyn Fn(usize) -> Given + Sync),
-    pub law: &'a (dyn Fn(&Given, f64) -> Option<f64> + Sync),
+    pub space: &'a ScanSpace,
+    pub given: &'a (dyn Fn(usize) -> ScanPoint + Sync),
+    pub law: &'a (dyn Fn(&ScanPoint, f64) -> Option<f64> + Sync),
 }
 
 /// By how much a point of a space fails in each way: at each cosine, and as a whole curve with its worst cosine.
@@ -181,7 +181,7 @@ impl Scan<'_> {
                     |row: &CurveAmounts| row.at.iter().map(|at| at[kind]).collect::<Vec<f32>>();
                 (&with_cosine, rows.iter().flat_map(at).collect())
             };
-            let regions = Field { axes, amounts }.regions();
+            let regions = FailureGrid { axes, amounts }.regions();
             findings.extend(
                 regions
                     .iter()
@@ -243,7 +243,7 @@ impl Scan<'_> {
     }
 
     /// A point of the space, at all cosines.
-    pub fn curve(&self, index: usize) -> Vec<Point> {
+    pub fn curve(&self, index: usize) -> Vec<ResultPoint> {
         self.points(&(self.given)(index), &self.space.cosines.values)
     }
 
@@ -251,7 +251,8 @@ impl Scan<'_> {
         let cosines = &self.space.cosines.values;
         let given = (self.given)(index);
         let points = self.points(&given, cosines);
-        let amounts = |point: &Point| Failure::ALL.map(|failure| point.amount(failure) as f32);
+        let amounts =
+            |point: &ResultPoint| Failure::ALL.map(|failure| point.amount(failure) as f32);
         let between = self.at_limits(&given);
         let all = points.iter().chain(&between);
         let worst = all.reduce(|a, b| if b.error() > a.error() { b } else { a });
@@ -265,7 +266,7 @@ impl Scan<'_> {
 
     /// At the critical angle, at Brewster's and next to them, where an index far from 1 has all that it has: no axis of
     /// cosines meets them.
-    fn at_limits(&self, given: &Given) -> Vec<Point> {
+    fn at_limits(&self, given: &ScanPoint) -> Vec<ResultPoint> {
         let Some((n, _)) = given.medium else {
             return Vec::new();
         };
@@ -277,7 +278,7 @@ impl Scan<'_> {
         self.points(given, &cosines)
     }
 
-    fn points(&self, given: &Given, cosines: &[f64]) -> Vec<Point> {
+    fn points(&self, given: &ScanPoint, cosines: &[f64]) -> Vec<ResultPoint> {
         let (code, arguments) = (self.code, &given.arguments);
         let beside = |steps: i32| -> Vec<f64> {
             let step = |c: &f64| stepped(code.precision, *c, steps);
@@ -294,7 +295,7 @@ impl Scan<'_> {
             let is_inside = (0.0..=1.0).contains(&c) && !is_flushed(c);
             is_inside.then(|| (self.law)(given, c)).flatten()
         };
-        let point = |i: usize| Point {
+        let point = |i: usize| ResultPoint {
             cos_theta: cosines[i],
             got: got[i],
             next: next[i],
@@ -338,7 +339,7 @@ const SEEN: f64 = 0.002;
 const DEPTH: f64 = 0.005;
 
 /// What a whole curve does wrong.
-fn whole(cosines: &[f64], points: &[Point], worst: &Point) -> Amounts {
+fn whole(cosines: &[f64], points: &[ResultPoint], worst: &ResultPoint) -> Amounts {
     let inside = (0..cosines.len()).filter(|i| (0.0..=1.0).contains(&cosines[*i]));
     let curve: Vec<(f64, f64)> = inside
         .filter_map(|i| Some((points[i].want, points[i].law?)))

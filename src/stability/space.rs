@@ -12,7 +12,7 @@ use super::failure::is_flushed;
 
 /// A space: its axes, and what a point of it means to a method.
 #[derive(Clone, Debug)]
-pub struct Space {
+pub struct ScanSpace {
     /// Whether its points are media, which have a law; else they are the method's arguments themselves.
     pub is_media: bool,
     /// The axes of what a method is given; the cosines are apart.
@@ -22,7 +22,7 @@ pub struct Space {
 }
 
 /// The spaces of a method, with numbers of a precision.
-pub fn spaces(method: &Method, precision: Precision) -> Vec<Space> {
+pub fn spaces(method: &Method, precision: Precision) -> Vec<ScanSpace> {
     let mut all = vec![vec![index("eta", 40)]];
     if method.class == Class::Any {
         all.push(vec![index("n", 12), extinction()]);
@@ -31,7 +31,7 @@ pub fn spaces(method: &Method, precision: Precision) -> Vec<Space> {
     let given = method.inputs.iter().map(argument).collect();
     media
         .chain([(false, given)])
-        .map(|(is_media, axes)| Space {
+        .map(|(is_media, axes)| ScanSpace {
             is_media,
             axes: axes
                 .iter()
@@ -44,7 +44,7 @@ pub fn spaces(method: &Method, precision: Precision) -> Vec<Space> {
 
 /// A point of a space without the cosine.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Given {
+pub struct ScanPoint {
     /// The method's arguments after the cosine, rounded.
     pub arguments: Vec<f64>,
     /// The medium, where there is one.
@@ -53,7 +53,7 @@ pub struct Given {
     pub limit: f64,
 }
 
-impl Space {
+impl ScanSpace {
     /// How many points it has, without the cosines.
     pub fn count(&self) -> usize {
         self.axes.iter().map(|axis| axis.values.len()).product()
@@ -70,11 +70,11 @@ impl Space {
     }
 
     /// What a method is given there.
-    pub fn given(&self, method: &Method, index: usize, precision: Precision) -> Given {
+    pub fn given(&self, method: &Method, index: usize, precision: Precision) -> ScanPoint {
         let at = self.at(index);
         if !self.is_media {
             let limit = limit(method.inputs, &at);
-            return Given {
+            return ScanPoint {
                 arguments: at,
                 medium: None,
                 limit,
@@ -85,7 +85,7 @@ impl Space {
             .into_iter()
             .map(|x| precision.rounded(x))
             .collect();
-        Given {
+        ScanPoint {
             arguments,
             medium: Some(medium),
             limit: 1.0,

@@ -9,7 +9,7 @@ use crate::verify::{Trial, WITHIN, count, sweep};
 
 use super::error::Error;
 use super::file::specialised;
-use super::judge::{Ran, Run};
+use super::judge::{PathRun, RanFunction};
 use super::machine;
 use super::plan::{PlannedFile, VerifyPlan};
 use super::row::VerifyRow;
@@ -38,7 +38,7 @@ pub fn exhaustive_rows(
         for emitted in &file.functions {
             let (run, speed) = run(file, subject, emitted, devices, progress);
             let runs = [(ExecutionPath::Own, run)];
-            let ran = Ran {
+            let ran = RanFunction {
                 file,
                 emitted,
                 material: &subject.argument,
@@ -65,7 +65,7 @@ fn run(
     emitted: &Emitted,
     devices: &Devices,
     progress: Progress,
-) -> (Result<Run, RunFault>, f64) {
+) -> (Result<PathRun, RunFault>, f64) {
     let trial: Trial = specialised(subject, emitted).trial;
     if trial.table.is_some() {
         let why = "a texture is filtered in steps: a sample tells all";
@@ -81,7 +81,7 @@ fn run(
     let told = &mut |done: u64| progress(done / 1024, all / 1024, &emitted.name);
     let (swept, time) = machine::timed(|| sweep(devices, &shown, &trial, told));
     let run = swept.and_then(|outcome| {
-        Ok(Run {
+        Ok(PathRun {
             points: all as usize,
             share: (all as f64 / WITHIN as f64).min(1.0),
             bound: match trial.bound {

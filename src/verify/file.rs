@@ -17,19 +17,19 @@ use crate::verify::{
 };
 
 use super::half_run;
-use super::judge::{Ran, Run};
+use super::judge::{PathRun, RanFunction};
 use super::plan::{PlannedFile, VerifyPlan};
 use super::row::{self, VerifyRow};
 
 /// How a file is tried.
 #[derive(Clone, Copy, Debug)]
-pub struct Effort {
+pub struct VerifyEffort {
     /// Cosines for each function and material.
     pub points: usize,
 }
 
 /// A trial of a function, with what it is about.
-pub(super) struct Case<'a> {
+pub(super) struct TrialCase<'a> {
     material: &'a str,
     pub trial: Trial,
     limits: Vec<f32>,
@@ -41,13 +41,13 @@ pub fn file_rows(
     plan: &VerifyPlan,
     file: &PlannedFile,
     devices: &Devices,
-    effort: Effort,
+    effort: VerifyEffort,
 ) -> Vec<VerifyRow> {
     let accepts = accepts(file);
     let mut rows = Vec::new();
     for (index, emitted) in file.functions.iter().enumerate() {
         let cases = cases(plan, file, emitted);
-        let tried = Tried::new(file, index, emitted, devices, effort);
+        let tried = FileTrial::new(file, index, emitted, devices, effort);
         for (place, case) in cases.iter().enumerate() {
             rows.push(tried.case_row(case, &accepts, place == 0));
         }
@@ -79,13 +79,13 @@ fn accepts(file: &PlannedFile) -> Vec<(&'static str, Verdict)> {
 }
 
 /// The trials of a function: a library function with each material's values, and where it was worst so far.
-fn cases<'a>(plan: &'a VerifyPlan, file: &PlannedFile, emitted: &Emitted) -> Vec<Case<'a>> {
+fn cases<'a>(plan: &'a VerifyPlan, file: &PlannedFile, emitted: &Emitted) -> Vec<TrialCase<'a>> {
     if let Some(index) = file.subject {
         return vec![specialised(&plan.subjects[index], emitted)];
     }
     let method = emitted.method;
     let fits = |subject: &&MaterialInMedium| subject.is_described_by(method);
-    let mut cases: Vec<Case> = plan
+    let mut cases: Vec<TrialCase> = plan
         .trial_subjects()
         .iter()
         .filter(fits)
@@ -97,14 +97,14 @@ fn cases<'a>(plan: &'a VerifyPlan, file: &PlannedFile, emitted: &Emitted) -> Vec
     cases
 }
 
-pub(super) fn specialised<'a>(subject: &'a MaterialInMedium, emitted: &Emitted) -> Case<'a> {
+pub(super) fn specialised<'a>(subject: &'a MaterialInMedium, emitted: &Emitted) -> TrialCase<'a> {
     let bound = match &emitted.code {
         Measured::Yes(CodeBound::Ulp(bound) | CodeBound::Absolute(bound)) => Measured::Yes(*bound),
         Measured::No(why) => Measured::No(why.clone()),
     };
     let truth = subject.truth_for(emitted.method);
     let table = fit::table_of(&emitted.function, |c| truth.at(c));
-    Case {
+    TrialCase {
         material: &subject.argument,
         trial: trial(emitted, Vec::new(), table, bound),
         limits: limits_of(&subject.effective.channels)
@@ -115,7 +115,7 @@ pub(super) fn specialised<'a>(subject: &'a MaterialInMedium, emitted: &Emitted) 
     }
 }
 
-fn library<'a>(subject: &'a MaterialInMedium, emitted: &Emitted) -> Case<'a> {
+fn library<'a>(subject: &'a MaterialInMedium, emitted: &Emitted) -> TrialCase<'a> {
     let values = inputs_in(emitted.precision, subject, emitted.method);
     let numbers = emitted
         .method
@@ -125,7 +125,7 @@ fn library<'a>(subject: &'a MaterialInMedium, emitted: &Emitted) -> Case<'a> {
     let single = numbers.map(|input| values[input.name].map(|value| value as f32));
     let truth = subject.truth_for(emitted.method);
     let table = fit::table_of(&emitted.function, |c| truth.at(c));
-    Case {
+    TrialCase {
         material: &subject.argument,
         trial: trial(
             emitted,
@@ -139,8 +139,8 @@ fn library<'a>(subject: &'a MaterialInMedium, emitted: &Emitted) -> Case<'a> {
 }
 
 /// The worst inputs known of a method, kept for ever.
-fn known_worst(emitted: &Emitted) -> Vec<Case<'static>> {
-    let case = |(values, cos_theta): (Vec<[f32; 3]>, f32)| Case {
+fn known_worst(emitted: &Emitted) -> Vec<TrialCase<'static>> {
+    let case = |(values, cos_theta): (Vec<[f32; 3]>, f32)| TrialCase {
         material: row::WORST,
         trial: trial(emitted, values, None, promised(emitted.method)),
         limits: vec![cos_theta],
@@ -210,30 +210,30 @@ fn limits_of(channels: &Channels) -> Vec<f32> {
 }
 
 /// A function, and how it is run.
-struct Tried<'a> {
+struct FileTrial<'a> {
     file: &'a PlannedFile,
     emitted: &'a Emitted,
     entry: &'a str,
     devices: &'a Devices,
-    effort: Effort,
+    effort: VerifyEffort,
     /// The text compiled for running, once for all cases.
     own: OnceCell<Result<Runnable, RunFault>>,
 }
 
-impl<'a> Tried<'a> {
+impl<'a> FileTrial<'a> {
     fn new(
         file: &'a PlannedFile,
         index: usize,
         emitted: &'a Emitted,
         devices: &'a Devices,
-        effort: Effort,
-    ) -> Tried<'a> {
+        effort: VerifyEffort,
+    ) -> FileTrial<'a> {
         let entry = file
             .run_page()
             .entries
             .get(index)
             .map_or("main", String::as_str);
-        Tried {
+        FileTrial {
             file,
             emitted,
             entry,
@@ -245,18 +245,18 @@ impl<'a> Tried<'a> {
 
     fn case_row(
         &self,
-        case: &Case,
+        case: &TrialCase,
         accepts: &[(&'static str, Verdict)],
         is_first: bool,
     ) -> VerifyRow {
         let paths = ExecutionPath::all_for(self.file.target, self.emitted.precision);
         // Other paths are second opinions on the text: one material tells.
         let paths = if is_first { paths } else { &paths[..1] };
-        let runs: Vec<(ExecutionPath, Result<Run, RunFault>)> = paths
+        let runs: Vec<(ExecutionPath, Result<PathRun, RunFault>)> = paths
             .iter()
             .map(|path| (*path, self.run(case, *path)))
             .collect();
-        Ran {
+        RanFunction {
             file: self.file,
             emitted: self.emitted,
             material: case.material,
@@ -266,7 +266,7 @@ impl<'a> Tried<'a> {
         .verify_row()
     }
 
-    fn run(&self, case: &Case, path: ExecutionPath) -> Result<Run, RunFault> {
+    fn run(&self, case: &TrialCase, path: ExecutionPath) -> Result<PathRun, RunFault> {
         let page = self.file.run_page();
         if let (Some(fault), true) = (self.untrusted(), path == ExecutionPath::Own) {
             return Err(fault);
@@ -297,7 +297,7 @@ impl<'a> Tried<'a> {
                 .device_for(shown.target, path)?
                 .adapter
                 .to_string();
-            return Ok(Run { device, ..ran });
+            return Ok(PathRun { device, ..ran });
         }
         let mut points = cosines_around(self.effort.points, &case.limits);
         points.extend(beyond());
@@ -308,7 +308,7 @@ impl<'a> Tried<'a> {
             (Some(truth), ExecutionPath::Own) => Some(self.model_error(runnable, case, truth)?),
             _ => None,
         };
-        Ok(Run {
+        Ok(PathRun {
             points: expected.cosines.len(),
             share: share(&expected.cosines),
             bound: Some(expected.bound),
@@ -353,7 +353,7 @@ impl<'a> Tried<'a> {
     fn model_error(
         &self,
         runnable: &Runnable,
-        case: &Case,
+        case: &TrialCase,
         truth: &ReferenceCurve,
     ) -> Result<ModelError, RunFault> {
         let fault = OnceCell::new();

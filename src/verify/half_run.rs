@@ -7,7 +7,7 @@ use crate::num::Num;
 use crate::verify::run::{RunFault, Runnable, ShippedFunction};
 use crate::verify::{HalfError, HalfTrial, Outcome, Trial, halves, halves_beyond, result_range};
 
-use super::judge::{HalfRun, Run};
+use super::judge::{HalfRun, PathRun};
 
 /// What a device may be further off than the emulation, which is what is promised: 2⁻¹¹, the last place below 1. A
 /// device may fuse, reorder, divide and take roots in two steps, and take numbers below the smallest normal one for 0.
@@ -18,7 +18,7 @@ pub(super) fn run_in_half(
     runnable: &Runnable,
     shown: &ShippedFunction,
     trial: &Trial,
-) -> Result<Run, RunFault> {
+) -> Result<PathRun, RunFault> {
     let emitted = shown.function;
     let meaning = emitted.meaning();
     let meaning = meaning.map_err(|fault| RunFault::Failed(fault.to_string()))?;
@@ -61,7 +61,7 @@ pub(super) fn run_in_half(
             result.emulation.include(got, rounded, *cos_theta);
         }
     }
-    Ok(Run {
+    Ok(PathRun {
         points: cosines.len(),
         share: 1.0,
         bound: None,

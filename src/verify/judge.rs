@@ -15,7 +15,7 @@ use super::{HalfError, Miss, Outcome};
 
 /// What came of running a function by one execution path.
 #[derive(Clone, Debug)]
-pub struct Run {
+pub struct PathRun {
     /// At how many cosines.
     pub points: usize,
     /// What share of all numbers from 0 to 1 they are.
@@ -67,7 +67,7 @@ impl HalfRun {
 }
 
 /// A function of a file, run.
-pub struct Ran<'a> {
+pub struct RanFunction<'a> {
     /// The file.
     pub file: &'a PlannedFile,
     /// The function.
@@ -77,18 +77,18 @@ pub struct Ran<'a> {
     /// What compilers say of the file.
     pub accepts: &'a [(&'static str, Verdict)],
     /// Each execution path: its own first.
-    pub runs: &'a [(ExecutionPath, Result<Run, RunFault>)],
+    pub runs: &'a [(ExecutionPath, Result<PathRun, RunFault>)],
 }
 
 /// What a run came to.
 struct Judged {
     status: Status,
     reasons: Vec<String>,
-    figures: Option<Figures>,
+    figures: Option<RunFigures>,
 }
 
 /// What was measured in a run.
-struct Figures {
+struct RunFigures {
     device: String,
     points: usize,
     share: f64,
@@ -98,7 +98,7 @@ struct Figures {
     emulation: Option<Emulation>,
 }
 
-impl Ran<'_> {
+impl RanFunction<'_> {
     /// The row.
     pub fn verify_row(&self) -> VerifyRow {
         let (path, own) = &self.runs[0];
@@ -144,7 +144,7 @@ impl Ran<'_> {
     }
 
     /// A run, and what to think of it.
-    fn judged(&self, path: ExecutionPath, run: &Result<Run, RunFault>) -> Judged {
+    fn judged(&self, path: ExecutionPath, run: &Result<PathRun, RunFault>) -> Judged {
         let run = match run {
             Err(RunFault::Absent(why)) => {
                 return Judged::without_figures(Status::NotChecked, why.clone());
@@ -173,7 +173,7 @@ impl Ran<'_> {
         }
     }
 
-    fn figures(&self, run: &Run) -> Figures {
+    fn figures(&self, run: &PathRun) -> RunFigures {
         let text = bound_text(self.emitted);
         let (bound, code_error) = match &run.half {
             Some(half) => {
@@ -187,7 +187,7 @@ impl Ran<'_> {
                 (bound, CodeErrorFigures::from(&run.outcome.error))
             }
         };
-        Figures {
+        RunFigures {
             device: run.device.clone(),
             points: run.points,
             share: run.share,

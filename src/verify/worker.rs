@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::process::Inbox;
 
-use super::file::{Effort, file_rows};
+use super::file::{VerifyEffort, file_rows};
 use super::plan::VerifyPlan;
 use super::row::VerifyRow;
 use super::run::Devices;
@@ -22,7 +22,12 @@ pub struct FileRequest {
 ///
 /// # Errors
 /// The pipe is gone.
-pub fn serve(inbox: Inbox, plan: &VerifyPlan, devices: &Devices, effort: Effort) -> io::Result<()> {
+pub fn serve(
+    inbox: Inbox,
+    plan: &VerifyPlan,
+    devices: &Devices,
+    effort: VerifyEffort,
+) -> io::Result<()> {
     inbox.serve(|request: FileRequest| -> Vec<VerifyRow> {
         let file = plan.files.get(request.file);
         file.map(|file| file_rows(plan, file, devices, effort))

@@ -5,13 +5,15 @@ use std::path::Path;
 use std::sync::LazyLock;
 
 use fresnel_gen::app::{Materials, Request};
-use fresnel_gen::cost::{CostRow, CostSource, FAMILIES, Function, cost_rows, functions, records};
+use fresnel_gen::cost::{
+    CostRow, CostSource, CostedFunction, FAMILIES, cost_rows, functions, records,
+};
 use fresnel_gen::methods;
 use fresnel_gen::num::Precision;
 use fresnel_gen::report::cost::{cost_document, cost_page};
 
 /// What is recorded: all methods, the committed materials, both precisions.
-static FUNCTIONS: LazyLock<Vec<Function>> = LazyLock::new(|| {
+static FUNCTIONS: LazyLock<Vec<CostedFunction>> = LazyLock::new(|| {
     let request = Request {
         materials: Materials::Default,
         ..Request::default()

@@ -4,7 +4,8 @@ use fresnel_gen::app::Materials;
 use fresnel_gen::app::time_request::TimeRequest;
 use fresnel_gen::emit::validate_wgsl;
 use fresnel_gen::overdraw::{
-    Clock, Draw, DrawingPlan, Effort, MeasuredDrawings, Reading, Stop, TimedFunctions, measure,
+    Clock, Draw, DrawingEffort, DrawingPlan, MeasuredDrawings, Reading, Stop, TimedFunctions,
+    measure,
 };
 
 /// Pixels of the target that is made up here.
@@ -74,8 +75,8 @@ impl Draw for MadeUp {
     }
 }
 
-fn effort(clock: Option<Clock>) -> Effort {
-    Effort {
+fn effort(clock: Option<Clock>) -> DrawingEffort {
+    DrawingEffort {
         rounds: 29,
         clock,
         is_software: false,

@@ -7,7 +7,7 @@ use std::path::Path;
 use std::sync::LazyLock;
 
 use fresnel_gen::report::reproduce::{
-    ComparisonRow, Figure, Part, Reproduction, Verdict, reproduce, thesis,
+    ComparisonRow, ComparisonVerdict, Figure, Part, Reproduction, reproduce, thesis,
 };
 
 /// The thesis's million angles: the figures must come out to its printed digit.
@@ -32,7 +32,7 @@ fn row<'a>(report: &'a Reproduction, row: &str, column: &str) -> &'a ComparisonR
 }
 
 #[track_caller]
-fn check(report: &Reproduction, name: &str, column: &str, ours: &str, verdict: Verdict) {
+fn check(report: &Reproduction, name: &str, column: &str, ours: &str, verdict: ComparisonVerdict) {
     let row = row(report, name, column);
     assert_eq!(
         (row.ours.in_words().as_str(), row.verdict),
@@ -44,15 +44,33 @@ fn check(report: &Reproduction, name: &str, column: &str, ours: &str, verdict: V
 #[test]
 fn function_errors_come_out_to_the_printed_digit() {
     let tables = &TABLES;
-    check(tables, "gold", "rescaled", "0.98 %", Verdict::Agrees);
-    check(tables, "water", "schlick", "8.68 %", Verdict::Agrees);
-    check(tables, "diamond", "schlick", "3.80 %", Verdict::Agrees);
+    check(
+        tables,
+        "gold",
+        "rescaled",
+        "0.98 %",
+        ComparisonVerdict::Agrees,
+    );
+    check(
+        tables,
+        "water",
+        "schlick",
+        "8.68 %",
+        ComparisonVerdict::Agrees,
+    );
+    check(
+        tables,
+        "diamond",
+        "schlick",
+        "3.80 %",
+        ComparisonVerdict::Agrees,
+    );
     check(
         tables,
         "platinum",
         "rescaled, unrounded indices",
         "5.31 %",
-        Verdict::Agrees,
+        ComparisonVerdict::Agrees,
     );
     for (name, column, ours) in [
         ("gold", "rescaled", "0.98 %"),
@@ -60,7 +78,7 @@ fn function_errors_come_out_to_the_printed_digit() {
         ("diamond", "schlick", "3.80 %"),
     ] {
         let column = format!("{column}, in 32-bit floats");
-        check(tables, name, &column, ours, Verdict::Agrees);
+        check(tables, name, &column, ours, ComparisonVerdict::Agrees);
     }
     assert!(!tables.has_findings());
 }
@@ -73,49 +91,61 @@ fn platinum_rescaled_lacks_a_ten_thousandth() {
         panic!("{platinum:?}")
     };
     assert!((ours - 5.304_894).abs() < 1e-6, "{ours}");
-    assert_eq!(platinum.verdict, Verdict::Explained);
+    assert_eq!(platinum.verdict, ComparisonVerdict::Explained);
     assert!(platinum.remark.contains("5.3049"));
 }
 
 #[test]
 fn the_corrected_method_comes_near_with_its_factor_and_one_angle() {
     let tables = &TABLES;
-    check(tables, "gold", "corrected", "0.83 %", Verdict::Explained);
+    check(
+        tables,
+        "gold",
+        "corrected",
+        "0.83 %",
+        ComparisonVerdict::Explained,
+    );
     check(
         tables,
         "gold",
         "corrected, λ at 84.26°",
         "0.88 %",
-        Verdict::Explained,
+        ComparisonVerdict::Explained,
     );
     check(
         tables,
         "gold",
         "corrected, unrounded indices",
         "0.82 %",
-        Verdict::Agrees,
+        ComparisonVerdict::Agrees,
     );
     check(
         tables,
         "platinum",
         "corrected",
         "2.07 %",
-        Verdict::Explained,
+        ComparisonVerdict::Explained,
     );
     check(
         tables,
         "platinum",
         "corrected, λ at 84.26°",
         "2.65 %",
-        Verdict::Explained,
+        ComparisonVerdict::Explained,
     );
-    check(tables, "gold", "λ green at 81.37°", "none", Verdict::Open);
+    check(
+        tables,
+        "gold",
+        "λ green at 81.37°",
+        "none",
+        ComparisonVerdict::Open,
+    );
     check(
         tables,
         "platinum",
         "λ red at 81.37°",
         "8.7809",
-        Verdict::Open,
+        ComparisonVerdict::Open,
     );
     let remark = &row(tables, "gold", "corrected").remark;
     assert!(remark.contains("cos θ") && remark.contains("81.37°"));
@@ -135,7 +165,7 @@ fn tables_of_256_texels_beat_those_of_the_thesis() {
         for format in ["float", "half", "png16"] {
             let ours = |axis: &str| {
                 let row = row(&LOOKUPS, name, &format!("256 texels, {axis}, {format}"));
-                assert_eq!(row.verdict, Verdict::Explained, "{row:?}");
+                assert_eq!(row.verdict, ComparisonVerdict::Explained, "{row:?}");
                 match row.ours {
                     Figure::Number(ours, ..) => ours,
                     _ => panic!("{row:?}"),
@@ -158,7 +188,8 @@ fn a_few_texels_are_enough_for_the_figures_of_the_thesis() {
         ("water", "cos", 19, 19),
         ("diamond", "square", 29, 21),
     ] {
-        let check = |column: &str, ours: &str| check(&LOOKUPS, name, column, ours, Verdict::Open);
+        let check =
+            |column: &str, ours: &str| check(&LOOKUPS, name, column, ours, ComparisonVerdict::Open);
         check("best axis", best);
         check("enough on cos", &format!("{on_cos} texels"));
         check("fewest", &format!("{fewest} texels"));
@@ -173,7 +204,7 @@ fn table_1_is_what_our_files_hold() {
     assert!(
         report
             .comparisons()
-            .all(|row| row.verdict == Verdict::Agrees)
+            .all(|row| row.verdict == ComparisonVerdict::Agrees)
     );
 }
 
@@ -184,7 +215,7 @@ fn table_7_equals_table_6_once_its_head_is_right() {
     assert!(
         report
             .comparisons()
-            .all(|row| row.verdict == Verdict::Agrees)
+            .all(|row| row.verdict == ComparisonVerdict::Agrees)
     );
     let order: Vec<&str> = report
         .comparisons()
@@ -207,20 +238,28 @@ fn claims_have_their_verdicts() {
     let statements = [
         (
             "Schlick by n",
-            Verdict::InPart,
+            ComparisonVerdict::InPart,
             "at most 0.058 inside, more at all other n",
         ),
-        ("Schlick's two forms", Verdict::Holds, "by rounding only"),
-        ("Schlick for water", Verdict::Holds, "in 78.9 %"),
-        ("minimum of metals", Verdict::Fails, "1 of 17"),
+        (
+            "Schlick's two forms",
+            ComparisonVerdict::Holds,
+            "by rounding only",
+        ),
+        ("Schlick for water", ComparisonVerdict::Holds, "in 78.9 %"),
+        ("minimum of metals", ComparisonVerdict::Fails, "1 of 17"),
         (
             "largest error on metals",
-            Verdict::Holds,
+            ComparisonVerdict::Holds,
             "12 of the same 17",
         ),
-        ("Schlick's speed", Verdict::InPart, "8 of 10"),
-        ("the table's speed", Verdict::Holds, "2.0 to 3.7"),
-        ("the conductor's speed", Verdict::InPart, "31 to 57 %"),
+        ("Schlick's speed", ComparisonVerdict::InPart, "8 of 10"),
+        ("the table's speed", ComparisonVerdict::Holds, "2.0 to 3.7"),
+        (
+            "the conductor's speed",
+            ComparisonVerdict::InPart,
+            "31 to 57 %",
+        ),
     ];
     for (name, verdict, says) in statements {
         let row = claims.comparisons().find(|row| row.row == name).unwrap();
@@ -237,49 +276,55 @@ fn claims_have_their_verdicts() {
 fn claims_have_their_figures() {
     let claims = &CLAIMS;
     let one = "conductor against dielectric, one channel";
-    check(claims, one, "more operations", "106 %", Verdict::Holds);
-    check(claims, one, "more roots", "2", Verdict::Holds);
+    check(
+        claims,
+        one,
+        "more operations",
+        "106 %",
+        ComparisonVerdict::Holds,
+    );
+    check(claims, one, "more roots", "2", ComparisonVerdict::Holds);
     check(
         claims,
         "gold at 685 nm",
         "angle of the minimum",
         "72.59°",
-        Verdict::Fails,
+        ComparisonVerdict::Fails,
     );
     check(
         claims,
         "gold at 685 nm",
         "least reflectance",
         "93.46 %",
-        Verdict::Holds,
+        ComparisonVerdict::Holds,
     );
     check(
         claims,
         "gold at 475 nm",
         "least reflectance",
         "35.87 %",
-        Verdict::Fails,
+        ComparisonVerdict::Fails,
     );
     check(
         claims,
         "thesis platinum, 685 nm",
         "its angle",
         "76.25°",
-        Verdict::Open,
+        ComparisonVerdict::Open,
     );
     check(
         claims,
         "Schlick, n = 1.4",
         "mean relative error",
         "8.25 %",
-        Verdict::Open,
+        ComparisonVerdict::Open,
     );
     check(
         claims,
         "Schlick, n = 4.01",
         "largest difference",
         "0.2015",
-        Verdict::Open,
+        ComparisonVerdict::Open,
     );
 }
 
@@ -292,7 +337,7 @@ fn table_8_comes_out_by_the_one_definition_that_fits() {
         ("platinum", "platinum", "2.01 %"),
         ("gold", "gold_hagemann_2", "8.70 %"),
     ] {
-        check(&report, metal, page, ours, Verdict::Explained);
+        check(&report, metal, page, ours, ComparisonVerdict::Explained);
     }
     assert!(!report.has_findings());
     let worst = row(&report, "gold_hagemann_2", "colour error under A");

@@ -11,8 +11,8 @@ use crate::app::request::Request;
 use crate::app::source::materials;
 use crate::app::write::{try_places_of_ours, write_report};
 use crate::cost::{
-    CostRow, CostSource, FAMILIES, Family, Figures, Function, Record, ask_compilers, cost_rows,
-    functions, records, serve,
+    CostFigures, CostRecord, CostRow, CostSource, CostedFunction, FAMILIES, Family, ask_compilers,
+    cost_rows, functions, records, serve,
 };
 use crate::methods::{self, Method};
 use crate::process::{Pool, Surroundings};
@@ -88,7 +88,7 @@ fn ending(flags: &CostFlags, table: &[Vec<CostRow>], checked: &Checks) -> u8 {
 }
 
 /// The functions of a request, and why some are left out.
-fn requested(flags: &CostFlags) -> Result<(Vec<Function>, Vec<String>), Error> {
+fn requested(flags: &CostFlags) -> Result<(Vec<CostedFunction>, Vec<String>), Error> {
     let request = Request {
         materials: materials(&flags.material)?,
         methods: flags.method.clone(),
@@ -160,7 +160,7 @@ struct Checked {
 }
 
 impl Checked {
-    fn of(rows: &[CostRow], record: &Record) -> Checked {
+    fn of(rows: &[CostRow], record: &CostRecord) -> Checked {
         let fresh = rows
             .iter()
             .find(|row| row.source == Some(CostSource::Compiler));
@@ -177,7 +177,7 @@ impl Checked {
         checked
     }
 
-    fn add(&mut self, row: &CostRow, record: &Record) {
+    fn add(&mut self, row: &CostRow, record: &CostRecord) {
         let key = row.key();
         let Some(hash) = record.functions.get(&key) else {
             self.unknown += 1;
@@ -188,8 +188,9 @@ impl Checked {
             self.differences
                 .push(format!("{key}: the shader is another one"));
         } else if row.figures.as_ref().ok() != known {
-            let told =
-                |figures: Option<&Figures>| figures.map_or("nothing".to_owned(), Figures::text);
+            let told = |figures: Option<&CostFigures>| {
+                figures.map_or("nothing".to_owned(), CostFigures::text)
+            };
             let (now, then) = (told(row.figures.as_ref().ok()), told(known));
             self.differences
                 .push(format!("{key}: recorded is {then}, and now it is {now}"));

@@ -13,8 +13,8 @@ use crate::app::time_request::TimeRequest;
 use crate::cost::BLOCKS;
 use crate::gpu::{Backend, Wanted};
 use crate::overdraw::{
-    Clock, DeviceFacts, DrawingWorker, Effort, MeasuredDrawings, Stop, TimeRow, TimedFunctions,
-    measure, serve, time_rows,
+    Clock, DeviceFacts, DrawingEffort, DrawingWorker, MeasuredDrawings, Stop, TimeRow,
+    TimedFunctions, measure, serve, time_rows,
 };
 use crate::process::Inbox;
 use crate::report::time::TimeReport;
@@ -61,7 +61,7 @@ pub fn run(flags: &TimeFlags, progress: Progress) -> Result<Output, Error> {
             ),
         });
     }
-    let effort = Effort {
+    let effort = DrawingEffort {
         rounds: flags.rounds,
         clock,
         is_software: worker.device.is_software,

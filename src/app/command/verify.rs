@@ -16,7 +16,7 @@ use crate::gpu::{Backend, Wanted};
 use crate::process::{Inbox, Pool};
 use crate::report::Report;
 use crate::report::verify::{devices, not_checked, verify_remarks, verify_text};
-use crate::verify::file::Effort;
+use crate::verify::file::VerifyEffort;
 use crate::verify::plan::VerifyPlan;
 use crate::verify::run::Devices;
 use crate::verify::{Status, VerifyRow, exhaustive_rows, junit, machine, serve, supervise};
@@ -114,7 +114,7 @@ fn wanted(flags: &VerifyFlags) -> Result<Wanted, Error> {
     })
 }
 
-fn effort(flags: &VerifyFlags) -> Result<Effort, Error> {
+fn effort(flags: &VerifyFlags) -> Result<VerifyEffort, Error> {
     if !POINTS.contains(&flags.points) {
         return Err(RequestFault::OutOfRange {
             flag: "points",
@@ -123,7 +123,7 @@ fn effort(flags: &VerifyFlags) -> Result<Effort, Error> {
         }
         .into());
     }
-    Ok(Effort {
+    Ok(VerifyEffort {
         points: flags.points,
     })
 }

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use crate::app::error::Error;
 use crate::app::request::{Materials, Request};
-use crate::emit::{self, FunctionPlace, Heading};
+use crate::emit::{self, Heading, PlaceInFile};
 
 use super::owners::Owners;
 use super::{Run, written};
@@ -45,7 +45,7 @@ pub fn generate_single(request: &Request) -> Result<Vec<u8>, Error> {
         let methods = written::named_or(&run, &subject.name, &[subject.exact_method()]);
         for emitted in run.specialised(&methods, subject, &mut BTreeMap::new())? {
             owners.claim(&emitted.name, &format!("material {}", subject.name))?;
-            let (place, of) = (FunctionPlace::behind(&pages), Some(subject));
+            let (place, of) = (PlaceInFile::behind(&pages), Some(subject));
             let form = run.form(target, "");
             let command = run.command(target, Some(&[emitted.method.name]), of, form) + " -o -";
             let heading = Heading {
@@ -66,7 +66,7 @@ pub fn generate_single(request: &Request) -> Result<Vec<u8>, Error> {
                 let form = run.form(target, "");
                 let command = run.command(target, Some(&[method.name]), None, form) + " -o -";
                 let (place, heading) = (
-                    FunctionPlace::behind(&pages),
+                    PlaceInFile::behind(&pages),
                     Heading {
                         form,
                         command: &command,

@@ -62,11 +62,11 @@ fn costs(rows: &[AuditRow]) -> BTreeMap<String, f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::audit::{CostRow, PerceivedFigures};
+    use crate::audit::{AuditCostRow, PerceivedFigures};
     use crate::fit::ModelError;
 
-    fn cost(gpu: &'static str, net: Option<f64>) -> CostRow {
-        CostRow {
+    fn cost(gpu: &'static str, net: Option<f64>) -> AuditCostRow {
+        AuditCostRow {
             gpu,
             compiler: None,
             measure: "",

@@ -1,6 +1,6 @@
 //! The axes of cost: what compilers count in library functions, the graph's own operations, and times.
 
-use crate::cost::{Compiler, FAMILIES, Family, library_cost, records};
+use crate::cost::{FAMILIES, Family, GpuCompiler, library_cost, records};
 use crate::overdraw::times;
 
 use super::{ChartEntry, CostAxis};
@@ -28,7 +28,7 @@ pub fn axes(entries: &[ChartEntry]) -> Vec<CostAxis> {
 fn title(family: &Family) -> String {
     let measure = family.columns.measure;
     match family.compiler {
-        Compiler::Operations => format!("{measure} in the function itself, before any compiler"),
+        GpuCompiler::Operations => format!("{measure} in the function itself, before any compiler"),
         _ => format!(
             "{measure} of an evaluation on {} ({}), by its compiler",
             family.gpu, family.vendor

@@ -1,15 +1,15 @@
 //! The chart as a self-contained SVG: both axes in powers of ten.
 
 use crate::report::plot::{
-    AXIS, Area, Axes, BLUE, FOOT, Font, Frame, GREEN, INK, Layout, SUBTITLE, Scale, TICK, TITLE,
-    Tick, VERMILION, capital, log_ticks, plain_label,
+    AXIS, Area, Axes, BLUE, FOOT, Font, GREEN, INK, Layout, PanelFrame, SUBTITLE, Scale, TICK,
+    TITLE, Tick, VERMILION, capital, log_ticks, plain_label,
 };
 
 use super::labels::{DOT, LabelPlace, place_names};
 use super::{ChartEntry, ChartPoint, ChartView, ERRORS, drawn};
 
 /// The size of the picture.
-const FRAME: Frame = Frame {
+const FRAME: PanelFrame = PanelFrame {
     width: 860.0,
     height: 600.0,
     margin: 24.0,

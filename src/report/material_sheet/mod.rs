@@ -14,10 +14,10 @@ mod window;
 use crate::materials::{Material, Surface, ViewingConditions};
 use crate::spectra::Gamut;
 
-use super::plot::{FOOT, Frame, HEADING, Layout, SUBTITLE, capital};
+use super::plot::{FOOT, HEADING, Layout, PanelFrame, SUBTITLE, capital};
 
 /// The sheet.
-const PICTURE: Frame = Frame {
+const PICTURE: PanelFrame = PanelFrame {
     width: 1200.0,
     height: 900.0,
     margin: 28.0,
@@ -25,7 +25,7 @@ const PICTURE: Frame = Frame {
     lower: 16.0,
 };
 /// One of four panels.
-const PANEL: Frame = Frame {
+const PANEL: PanelFrame = PanelFrame {
     width: 586.0,
     height: 392.0,
     margin: 14.0,

@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use crate::report::plot::{Area, Font, Frame, Layout, PANEL, SUBTITLE, TICK, hex_colour};
+use crate::report::plot::{Area, Font, Layout, PANEL, PanelFrame, SUBTITLE, TICK, hex_colour};
 use crate::spectra::{Space, bradford};
 
 use super::DrawnMaterial;
@@ -26,7 +26,7 @@ struct Swatch {
 }
 
 /// The panel, and what it says in words.
-pub(super) fn swatch_panel(drawn: &DrawnMaterial, frame: Frame) -> (Layout, String) {
+pub(super) fn swatch_panel(drawn: &DrawnMaterial, frame: PanelFrame) -> (Layout, String) {
     let to_screen = to_screen(space(drawn));
     let swatches = ANGLES.map(|degrees| {
         let linear = drawn.surface.unpolarised(cosine(degrees));
@@ -113,7 +113,7 @@ impl Swatch {
 }
 
 /// All swatches in a row from `top` down, and where they end.
-fn draw(swatches: &[Swatch], frame: Frame, top: f64) -> (Vec<String>, f64) {
+fn draw(swatches: &[Swatch], frame: PanelFrame, top: f64) -> (Vec<String>, f64) {
     let names = f64::ceil(widest(&TICK, &CHANNELS)) + 10.0;
     let left = frame.margin + names;
     let width = (frame.right() - left) / swatches.len() as f64;

@@ -6,7 +6,7 @@ use super::text::{Font, escape};
 
 /// The size of a picture or a panel, and its margins.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Frame {
+pub struct PanelFrame {
     /// The width.
     pub width: f64,
     /// The usual height, and the least.
@@ -20,7 +20,7 @@ pub struct Frame {
 }
 
 /// The frame of a chart that stands alone.
-pub const ALONE: Frame = Frame {
+pub const ALONE: PanelFrame = PanelFrame {
     width: 720.0,
     height: 440.0,
     margin: 24.0,
@@ -28,7 +28,7 @@ pub const ALONE: Frame = Frame {
     lower: 18.0,
 };
 
-impl Frame {
+impl PanelFrame {
     /// The width inside the margins.
     pub fn room(&self) -> f64 {
         self.width - 2.0 * self.margin
@@ -44,14 +44,14 @@ impl Frame {
 const PARAGRAPH_GAP: f64 = 2.0;
 /// What has been set so far, and where the next thing goes.
 pub struct Layout {
-    frame: Frame,
+    frame: PanelFrame,
     elements: Vec<String>,
     bottom: f64,
 }
 
 impl Layout {
     /// An empty layout.
-    pub fn new(frame: Frame) -> Layout {
+    pub fn new(frame: PanelFrame) -> Layout {
         Layout {
             frame,
             elements: Vec::new(),
@@ -60,7 +60,7 @@ impl Layout {
     }
 
     /// The size and the margins.
-    pub fn frame(&self) -> Frame {
+    pub fn frame(&self) -> PanelFrame {
         self.frame
     }
 

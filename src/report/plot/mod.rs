@@ -14,7 +14,7 @@ mod text;
 mod ticks;
 
 pub(super) use axes::{Area, Axes, Tick};
-pub(super) use layout::{Frame, Layout};
+pub(super) use layout::{Layout, PanelFrame};
 pub use line_chart::{ChartAxis, LineChart, Mark, Series};
 pub(super) use palette::{BLUE, GREEN, INK, SHADES, VERMILION, hex_colour, shade};
 pub use palette::{Look, Style};

@@ -17,7 +17,7 @@ pub struct ComparisonRow {
     pub ours: Figure,
     unit: Option<&'static str>,
     /// What follows.
-    pub verdict: Verdict,
+    pub verdict: ComparisonVerdict,
     /// How it was measured, and why it differs where it does.
     pub remark: String,
     /// Why a figure is missing, where one is.
@@ -43,7 +43,7 @@ pub enum Figure {
 
 /// What follows from the comparison.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
-pub enum Verdict {
+pub enum ComparisonVerdict {
     /// Equal to the last printed digit.
     #[serde(rename = "agrees")]
     Agrees,
@@ -77,7 +77,7 @@ impl ComparisonRow {
             thesis: Figure::Missing("the thesis gives no figure"),
             ours: Figure::Missing("not measured"),
             unit: None,
-            verdict: Verdict::Open,
+            verdict: ComparisonVerdict::Open,
             remark: String::new(),
             reason: None,
             file: None,
@@ -105,7 +105,7 @@ impl ComparisonRow {
     }
 
     /// With what follows.
-    pub fn verdict(mut self, verdict: Verdict) -> ComparisonRow {
+    pub fn verdict(mut self, verdict: ComparisonVerdict) -> ComparisonRow {
         self.verdict = verdict;
         self
     }
@@ -166,35 +166,35 @@ impl Serialize for Figure {
     }
 }
 
-impl Verdict {
+impl ComparisonVerdict {
     /// In words.
     pub fn in_words(self) -> &'static str {
         match self {
-            Verdict::Agrees => "agrees",
-            Verdict::Explained => "differs, explained",
-            Verdict::Differs => "differs",
-            Verdict::Holds => "holds",
-            Verdict::InPart => "holds in part",
-            Verdict::Fails => "does not hold",
-            Verdict::Open => "",
+            ComparisonVerdict::Agrees => "agrees",
+            ComparisonVerdict::Explained => "differs, explained",
+            ComparisonVerdict::Differs => "differs",
+            ComparisonVerdict::Holds => "holds",
+            ComparisonVerdict::InPart => "holds in part",
+            ComparisonVerdict::Fails => "does not hold",
+            ComparisonVerdict::Open => "",
         }
     }
 
     /// Agreement to the printed digit, or a finding.
-    pub fn of_digits(thesis: f64, ours: f64, decimals: usize) -> Verdict {
+    pub fn of_digits(thesis: f64, ours: f64, decimals: usize) -> ComparisonVerdict {
         if format!("{thesis:.decimals$}") == format!("{ours:.decimals$}") {
-            Verdict::Agrees
+            ComparisonVerdict::Agrees
         } else {
-            Verdict::Differs
+            ComparisonVerdict::Differs
         }
     }
 
     /// A claim that holds or does not.
-    pub fn of_claim(holds: bool) -> Verdict {
+    pub fn of_claim(holds: bool) -> ComparisonVerdict {
         if holds {
-            Verdict::Holds
+            ComparisonVerdict::Holds
         } else {
-            Verdict::Fails
+            ComparisonVerdict::Fails
         }
     }
 }

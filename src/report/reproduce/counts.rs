@@ -4,12 +4,12 @@
 //! thesis did not subtract; so beside each share stands what it becomes on the line `time = fixed + rate * count` that fits
 //! the device best.
 
-use crate::cost::{Compiler, find, records};
+use crate::cost::{GpuCompiler, find, records};
 use crate::methods;
 use crate::num::statistics::{least_squares, rank_correlation};
 use crate::overdraw::{Time, times};
 
-use super::comparison::{ComparisonRow, Figure, Verdict};
+use super::comparison::{ComparisonRow, ComparisonVerdict, Figure};
 use super::{ThesisSection, thesis};
 
 const TIMES: &str = "table6_relative_time_percent";
@@ -119,7 +119,7 @@ fn device_rows(device: &str, family: &str) -> Vec<ComparisonRow> {
         match place {
             0 => row.remark("what the others are shares of"),
             TABLE => row.remark("and a texture fetch, which no count shows"),
-            _ if (count - time).abs() <= NEAR => row.verdict(Verdict::Holds),
+            _ if (count - time).abs() <= NEAR => row.verdict(ComparisonVerdict::Holds),
             _ => apart(row, &pairs, place, fixed + rate * count, fixed),
         }
     };
@@ -150,9 +150,9 @@ fn apart(
     let as_printed = printed
         .map(|count| format!("; as printed, with pow, it counts {count:.0} % (data/thesis-forms)"));
     let verdict = if explains || printed.is_some_and(is_near) {
-        Verdict::Explained
+        ComparisonVerdict::Explained
     } else {
-        Verdict::Fails
+        ComparisonVerdict::Fails
     };
     row.verdict(verdict)
         .remark(line + &as_printed.unwrap_or_default())
@@ -160,7 +160,7 @@ fn apart(
 
 fn unmeasured(device: &str, family: &str, names: &[&'static str]) -> Vec<ComparisonRow> {
     let why = match find(family).map(|family| family.compiler) {
-        Some(Compiler::None(why)) => why,
+        Some(GpuCompiler::None(why)) => why,
         _ => "nothing is recorded",
     };
     let times = thesis::numbers(&[TIMES, device]);

@@ -32,7 +32,7 @@ struct FigurePlan {
 
 /// A figure drawn.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Drawing {
+pub struct DrawnFigure {
     /// Its file's name.
     pub file: String,
     /// What it shows.
@@ -168,8 +168,8 @@ pub fn section() -> ThesisSection {
 }
 
 /// The charts.
-pub fn drawings() -> Vec<Drawing> {
-    let drawing = |plan: &FigurePlan| Drawing {
+pub fn drawings() -> Vec<DrawnFigure> {
+    let drawing = |plan: &FigurePlan| DrawnFigure {
         file: plan.file.to_owned(),
         chart: plan.chart(),
     };

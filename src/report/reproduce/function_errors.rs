@@ -5,7 +5,7 @@ use crate::materials::Channels;
 use crate::methods::lambda;
 use crate::reference::{Derivation, THESIS_MATCHING_COS};
 
-use super::comparison::{ComparisonRow, Figure, Verdict};
+use super::comparison::{ComparisonRow, ComparisonVerdict, Figure};
 use super::meter::Meter;
 use super::{ThesisSection, specialised, thesis};
 
@@ -115,8 +115,8 @@ fn in_floats(
         ours,
     )
     .remark(IN_FLOATS);
-    if row.verdict == Verdict::Differs {
-        row.verdict(Verdict::Explained)
+    if row.verdict == ComparisonVerdict::Differs {
+        row.verdict(ComparisonVerdict::Explained)
     } else {
         row
     }
@@ -125,15 +125,15 @@ fn in_floats(
 /// The rescaled Schlick must agree to the digit. Platinum's 5.3049 is excused for the 0.0001 that it lacks.
 fn rescaled_row(name: &str, thesis: f64, ours: f64) -> ComparisonRow {
     let row = must_agree("table2", name, "rescaled", thesis, ours);
-    let is_borderline =
-        row.verdict == Verdict::Differs && (thesis - ours).abs() < HALF_A_DIGIT + BORDERLINE;
+    let is_borderline = row.verdict == ComparisonVerdict::Differs
+        && (thesis - ours).abs() < HALF_A_DIGIT + BORDERLINE;
     if is_borderline {
         let remark = format!(
             "{ours:.4} with the indices as Table 1 prints them, {:.4} short of what rounds to the printed digit; in \
              32-bit floats, as the thesis computes, and with the indices that Table 1 rounds, it does (below)",
             thesis - HALF_A_DIGIT - ours
         );
-        row.verdict(Verdict::Explained).remark(remark)
+        row.verdict(ComparisonVerdict::Explained).remark(remark)
     } else {
         row
     }
@@ -197,13 +197,13 @@ fn must_agree(
     ComparisonRow::new(table, name, column)
         .thesis(Figure::percent(thesis))
         .ours(Figure::percent(ours))
-        .verdict(Verdict::of_digits(thesis, ours, 2))
+        .verdict(ComparisonVerdict::of_digits(thesis, ours, 2))
 }
 
 fn explained(name: &str, column: &str, thesis: f64, ours: f64, reason: &str) -> ComparisonRow {
     let row = must_agree("table2", name, column, thesis, ours).remark(reason);
     match row.verdict {
-        Verdict::Differs => row.verdict(Verdict::Explained),
+        ComparisonVerdict::Differs => row.verdict(ComparisonVerdict::Explained),
         _ => row,
     }
 }

@@ -1,6 +1,6 @@
 //! Table 1: the indices of refraction, as our material files hold them.
 
-use super::comparison::{ComparisonRow, Figure, Verdict};
+use super::comparison::{ComparisonRow, ComparisonVerdict, Figure};
 use super::{ThesisSection, specialised, thesis};
 
 /// The materials in the order of the thesis.
@@ -46,9 +46,9 @@ fn unrounded(
             .thesis(Figure::Index([printed[0], printed[1]]))
             .ours(Figure::Index([digits(ours.n[i]), digits(ours.k[i])]))
             .verdict(if apart <= ROUNDED {
-                Verdict::Agrees
+                ComparisonVerdict::Agrees
             } else {
-                Verdict::Differs
+                ComparisonVerdict::Differs
             })
             .remark(format!(
                 "refractiveindex.info's page {source}, linearly interpolated; the thesis rounds or cuts it"
@@ -66,9 +66,9 @@ fn channel_rows(material: &'static str) -> impl Iterator<Item = ComparisonRow> {
             .thesis(Figure::Index(printed))
             .ours(Figure::Index(ours))
             .verdict(if printed == ours {
-                Verdict::Agrees
+                ComparisonVerdict::Agrees
             } else {
-                Verdict::Differs
+                ComparisonVerdict::Differs
             })
     })
 }

@@ -11,7 +11,7 @@ use crate::materials::Surface;
 use crate::methods::Light;
 use crate::reference::ReferenceCurve;
 
-use super::comparison::{ComparisonRow, Figure, Verdict};
+use super::comparison::{ComparisonRow, ComparisonVerdict, Figure};
 use super::meter::Meter;
 use super::{ThesisSection, specialised, thesis};
 
@@ -133,9 +133,9 @@ impl ThesisMaterial<'_> {
                 Depth::Unorm8 | Depth::Unorm16 => INTEGERS,
             })
             .verdict(if is_worse {
-                Verdict::Differs
+                ComparisonVerdict::Differs
             } else {
-                Verdict::Explained
+                ComparisonVerdict::Explained
             })
     }
 

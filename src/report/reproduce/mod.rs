@@ -20,8 +20,8 @@ pub mod thesis;
 mod three_wavelengths;
 mod times;
 
-pub use comparison::{ComparisonRow, Figure, Verdict};
-pub use figures::Drawing;
+pub use comparison::{ComparisonRow, ComparisonVerdict, Figure};
+pub use figures::DrawnFigure;
 
 use meter::Meter;
 
@@ -128,7 +128,7 @@ pub struct Reproduction {
     /// In the order asked for.
     pub sections: Vec<ThesisSection>,
     /// The curves, where they were asked for.
-    pub drawings: Vec<Drawing>,
+    pub drawings: Vec<DrawnFigure>,
 }
 
 /// Reproduces parts; function errors are taken at `angles` angles ([`thesis::ANGLES`] in the thesis).
@@ -161,7 +161,7 @@ impl Reproduction {
     /// Whether a figure that must agree does not.
     pub fn has_findings(&self) -> bool {
         self.comparisons()
-            .any(|row| row.verdict == Verdict::Differs)
+            .any(|row| row.verdict == ComparisonVerdict::Differs)
     }
 
     /// The report for a terminal. A report of all parts also says what is not among them.

@@ -4,7 +4,7 @@ use crate::fit;
 use crate::materials::{Material, Surface, THESIS_NM, ViewingConditions};
 use crate::spectra::{Gamut, Illuminant, Integration, Step};
 
-use super::comparison::{ComparisonRow, Figure, Verdict};
+use super::comparison::{ComparisonRow, ComparisonVerdict, Figure};
 use super::{ThesisSection, specialised, thesis};
 
 const TABLE: &str = "table8_three_wavelength_colour_error_percent";
@@ -45,8 +45,10 @@ pub fn section() -> ThesisSection {
 fn page_row((metal, page): (&'static str, &'static str)) -> ComparisonRow {
     let printed = thesis::number(&[TABLE, metal]);
     let ours = 100.0 * three_against_all(&specialised::material(page));
-    let verdict = match Verdict::of_digits(printed, ours, 2) {
-        Verdict::Differs if (printed - ours).abs() < INFERRED => Verdict::Explained,
+    let verdict = match ComparisonVerdict::of_digits(printed, ours, 2) {
+        ComparisonVerdict::Differs if (printed - ours).abs() < INFERRED => {
+            ComparisonVerdict::Explained
+        }
         other => other,
     };
     ComparisonRow::new("table8", metal, page)

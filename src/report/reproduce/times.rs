@@ -3,7 +3,7 @@
 //! Each of Table 7's seven columns, over the first, must be one of Table 6's. Which one is not taken from anywhere:
 //! it is the column with the least largest deviation over the five devices.
 
-use super::comparison::{ComparisonRow, Figure, Verdict};
+use super::comparison::{ComparisonRow, ComparisonVerdict, Figure};
 use super::{ThesisSection, thesis};
 
 const RELATIVE: &str = "table6_relative_time_percent";
@@ -64,7 +64,7 @@ fn device_rows(device: &'static str, order: &[usize]) -> Vec<ComparisonRow> {
         let row = ComparisonRow::new("table7", device, names[*place])
             .thesis(Figure::Number(printed[*place], 0, " %"))
             .ours(Figure::Number(ours, 0, " %"))
-            .verdict(Verdict::of_digits(printed[*place], ours, 0));
+            .verdict(ComparisonVerdict::of_digits(printed[*place], ours, 0));
         if *place == column {
             return row;
         }

@@ -23,7 +23,7 @@ const PROBE: usize = 1 << 18;
 const NOT_RUN: [i32; 2] = [126, 127];
 
 /// A file for a compiler to read.
-pub struct File {
+pub struct CompilerInput {
     /// Its name, without a folder.
     pub name: String,
     /// What it holds.
@@ -76,7 +76,7 @@ fn path() -> Vec<PathBuf> {
 }
 
 /// Calls a command with options, in which `FILE` stands for all the files and `OUT` for what it writes.
-pub fn call(command: &Path, options: &str, files: &[File]) -> Result<Called, Silent> {
+pub fn call(command: &Path, options: &str, files: &[CompilerInput]) -> Result<Called, Silent> {
     call_within(LIMIT, command, options, files)
 }
 
@@ -84,7 +84,7 @@ fn call_within(
     limit: Duration,
     command: &Path,
     options: &str,
-    files: &[File],
+    files: &[CompilerInput],
 ) -> Result<Called, Silent> {
     let folder = TempDir::new()?;
     for file in files {
@@ -125,7 +125,7 @@ fn call_within(
     Ok(Called { ok, said, made })
 }
 
-fn arguments<'a>(options: &'a str, files: &'a [File], made: &'a str) -> Vec<&'a str> {
+fn arguments<'a>(options: &'a str, files: &'a [CompilerInput], made: &'a str) -> Vec<&'a str> {
     let expanded = |word: &'a str| match word {
         "FILE" => files.iter().map(|file| file.name.as_str()).collect(),
         "OUT" => vec![made],
@@ -158,7 +158,7 @@ mod tests {
     use super::*;
 
     fn shell(script: &str, limit: Duration) -> Called {
-        let file = File {
+        let file = CompilerInput {
             name: "script".to_owned(),
             bytes: script.as_bytes().to_vec(),
         };

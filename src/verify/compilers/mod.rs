@@ -11,7 +11,7 @@ use crate::fit::Measured;
 use crate::num::Precision;
 use crate::targets::{Compiler, DXC, Target, Validator};
 
-use call::{Called, File};
+use call::{Called, CompilerInput};
 
 pub use program::calls;
 
@@ -89,7 +89,7 @@ pub fn verdict(validator: &Validator, name: &str, bytes: &[u8]) -> Verdict {
             .map_err(|words| CompilerFault::Refused(first_lines(&words)))
             .into();
     }
-    let files: Vec<File> = program::named(name, framed);
+    let files: Vec<CompilerInput> = program::named(name, framed);
     run(validator.compiler, validator.options, &files).into()
 }
 
@@ -127,7 +127,7 @@ pub fn hlsl_to_spirv_in(
     let options = format!(
         "-T {model} -E {entry} -HV {version} -spirv -fspv-target-env=vulkan1.1 -Fo OUT FILE"
     );
-    let file = File {
+    let file = CompilerInput {
         name: "shader.hlsl".to_owned(),
         bytes: text.as_bytes().to_vec(),
     };
@@ -144,7 +144,7 @@ pub fn compiled(
     name: &str,
     text: &str,
 ) -> Result<Vec<u8>, CompilerFault> {
-    let file = File {
+    let file = CompilerInput {
         name: name.to_owned(),
         bytes: text.as_bytes().to_vec(),
     };
@@ -170,7 +170,11 @@ pub fn version(compiler: &Compiler) -> Measured<String> {
 }
 
 /// What a compiler makes of these.
-fn run(compiler: &Compiler, options: &str, files: &[File]) -> Result<Vec<u8>, CompilerFault> {
+fn run(
+    compiler: &Compiler,
+    options: &str,
+    files: &[CompilerInput],
+) -> Result<Vec<u8>, CompilerFault> {
     let called = called(compiler, options, files)?;
     if called.ok {
         return Ok(called.made);
@@ -178,7 +182,11 @@ fn run(compiler: &Compiler, options: &str, files: &[File]) -> Result<Vec<u8>, Co
     Err(CompilerFault::Refused(first_lines(&called.said)))
 }
 
-fn called(compiler: &Compiler, options: &str, files: &[File]) -> Result<Called, CompilerFault> {
+fn called(
+    compiler: &Compiler,
+    options: &str,
+    files: &[CompilerInput],
+) -> Result<Called, CompilerFault> {
     let Compiler { name, get, .. } = compiler;
     let absent = || CompilerFault::NotChecked(format!("no {name} here ({get})"));
     let command = compiler.command.ok_or_else(absent)?;

@@ -6,7 +6,7 @@ use std::str::Utf8Error;
 
 use crate::targets::Frame;
 
-use super::call::File;
+use super::call::CompilerInput;
 use crate::verify::text::{Hidden, code_alone};
 
 /// The programs of a file, one for each beginning.
@@ -23,10 +23,10 @@ pub fn framed(frame: &Frame, bytes: &[u8]) -> Result<Vec<Vec<u8>>, Utf8Error> {
 }
 
 /// The programs as files, under the file's own name as far as that tells them apart.
-pub fn named(name: &str, programs: Vec<Vec<u8>>) -> Vec<File> {
+pub fn named(name: &str, programs: Vec<Vec<u8>>) -> Vec<CompilerInput> {
     let name = name.rsplit(['/', '\\']).next().unwrap_or(name);
     let several = programs.len() > 1;
-    let file = |(index, bytes)| File {
+    let file = |(index, bytes)| CompilerInput {
         name: if several {
             format!("{index}-{name}")
         } else {

@@ -190,7 +190,7 @@ fn specialised_functions_in_half_precision_read_as_they_were_meant() {
                     &emitted,
                     Some(&subject),
                     emit::Heading::default(),
-                    emit::FunctionPlace::First,
+                    emit::PlaceInFile::First,
                 )
                 .expect("it prints");
                 let text = String::from_utf8(text).expect("text");

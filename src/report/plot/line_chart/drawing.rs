@@ -1,7 +1,7 @@
 //! The plot itself: grid, guide lines, curves and axis labels.
 
 use super::super::axes::{Area, Axes, TICK_GAP, Tick};
-use super::super::layout::{Frame, paragraph_height};
+use super::super::layout::{PanelFrame, paragraph_height};
 use super::super::palette::Style;
 use super::super::scale::Scale;
 use super::super::text::{AXIS, FOOT, MARK, TICK};
@@ -20,7 +20,7 @@ const EDGE: f64 = 1.5;
 /// The area of the plot, and the text around it broken into lines.
 pub(super) struct Plot<'a> {
     chart: &'a LineChart,
-    frame: Frame,
+    frame: PanelFrame,
     /// The name of the clip path, of which a document may hold several.
     clip: &'a str,
     labels: Vec<Label>,
@@ -40,7 +40,12 @@ struct Label {
 
 impl<'a> Plot<'a> {
     /// Lays out the plot from `head` down, leaving room for the foot.
-    pub(super) fn below(chart: &'a LineChart, frame: Frame, clip: &'a str, head: f64) -> Plot<'a> {
+    pub(super) fn below(
+        chart: &'a LineChart,
+        frame: PanelFrame,
+        clip: &'a str,
+        head: f64,
+    ) -> Plot<'a> {
         let (x_ticks, y_ticks) = (chart.x.labelled_ticks(), chart.y.labelled_ticks());
         let y_label = AXIS.wrap(&chart.y.label, LEAST_HEIGHT + 20.0);
         let left = frame.margin + left_of_plot(&y_ticks, AXIS.height(&y_label));

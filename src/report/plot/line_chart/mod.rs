@@ -3,7 +3,7 @@
 mod drawing;
 
 use super::axes::Tick;
-use super::layout::{ALONE, Frame, Layout};
+use super::layout::{ALONE, Layout, PanelFrame};
 use super::palette::Style;
 use super::scale::Scale;
 use super::text::{FOOT, Font, PANEL, SUBTITLE, TITLE};
@@ -77,11 +77,11 @@ impl LineChart {
 
     /// The chart as a panel of a larger picture; `clip` is a name that no other
     /// part of the document has.
-    pub(crate) fn panel(&self, frame: Frame, clip: &str) -> Layout {
+    pub(crate) fn panel(&self, frame: PanelFrame, clip: &str) -> Layout {
         self.set(frame, &PANEL, clip)
     }
 
-    fn set(&self, frame: Frame, title: &Font, clip: &str) -> Layout {
+    fn set(&self, frame: PanelFrame, title: &Font, clip: &str) -> Layout {
         let mut layout = Layout::new(frame);
         layout.paragraph(title, &self.title);
         layout.paragraph(&SUBTITLE, &self.subtitle);

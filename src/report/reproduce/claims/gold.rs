@@ -1,7 +1,7 @@
 //! Gold at 685 and 475 nm (section 2.2, beside figures 9 and 10).
 
 use crate::report::reproduce::angle::{exact, lowest};
-use crate::report::reproduce::comparison::{ComparisonRow, Figure, Verdict};
+use crate::report::reproduce::comparison::{ComparisonRow, ComparisonVerdict, Figure};
 use crate::report::reproduce::specialised;
 
 use super::measured;
@@ -26,14 +26,14 @@ fn at_685(index: [f64; 2]) -> Vec<ComparisonRow> {
     vec![
         measured(name, "angle of the minimum", degrees(minimum))
             .thesis(Figure::Number(77.0, 0, "°"))
-            .verdict(Verdict::of_claim((minimum - 77.0).abs() <= ABOUT))
+            .verdict(ComparisonVerdict::of_claim((minimum - 77.0).abs() <= ABOUT))
             .remark(
                 "section 2.2: about 77°. Even the p-polarised light alone has its minimum lower",
             ),
         measured(name, "angle of p's minimum", degrees(minimum_p)),
         measured(name, "least reflectance", Figure::percent(100.0 * least))
             .thesis(Figure::Number(92.0, 0, " %"))
-            .verdict(Verdict::of_claim(least > 0.92))
+            .verdict(ComparisonVerdict::of_claim(least > 0.92))
             .remark("section 2.2: more than 92 % at every angle"),
         measured(
             name,
@@ -51,7 +51,9 @@ fn at_475(index: [f64; 2]) -> Vec<ComparisonRow> {
     vec![
         measured(name, "least reflectance", Figure::percent(100.0 * least))
             .thesis(Figure::Number(20.0, 0, " %"))
-            .verdict(Verdict::of_claim((0.0..=A_LITTLE).contains(&above)))
+            .verdict(ComparisonVerdict::of_claim(
+                (0.0..=A_LITTLE).contains(&above),
+            ))
             .remark(
                 "section 2.2: a little over 20 %. The unpolarised curve only rises; \
                  the p-polarised light alone falls below 20 %",

@@ -1,7 +1,7 @@
 //! How much more the exact law for conductors computes than that for dielectrics (section 5.3.2).
 
 use crate::ir::{Checked, Op};
-use crate::report::reproduce::comparison::{ComparisonRow, Figure, Verdict};
+use crate::report::reproduce::comparison::{ComparisonRow, ComparisonVerdict, Figure};
 use crate::report::reproduce::specialised;
 
 use super::measured;
@@ -31,7 +31,7 @@ fn of_form(scalar_form: bool, form: &str) -> Vec<ComparisonRow> {
     let mut rows = vec![
         row("more operations", Figure::Number(more, 0, " %"))
             .thesis(Figure::Number(90.0, 0, " %"))
-            .verdict(Verdict::of_claim(COMPARABLE.contains(&more)))
+            .verdict(ComparisonVerdict::of_claim(COMPARABLE.contains(&more)))
             .remark(HOW),
         row("operations, conductor", count(conductor.work() as f64)),
         row("operations, dielectric", count(dielectric.work() as f64)),
@@ -40,7 +40,10 @@ fn of_form(scalar_form: bool, form: &str) -> Vec<ComparisonRow> {
     ];
     if scalar_form {
         let claimed = row("more roots", count(more_roots)).thesis(count(2.0));
-        rows.insert(1, claimed.verdict(Verdict::of_claim(more_roots == 2.0)));
+        rows.insert(
+            1,
+            claimed.verdict(ComparisonVerdict::of_claim(more_roots == 2.0)),
+        );
     }
     rows
 }

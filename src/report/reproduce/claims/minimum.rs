@@ -3,7 +3,7 @@
 use crate::materials::{Channels, THESIS_NM};
 use crate::reference::Derivation;
 use crate::report::reproduce::angle::{cosine, exact, highest, lowest};
-use crate::report::reproduce::comparison::{ComparisonRow, Figure, Verdict};
+use crate::report::reproduce::comparison::{ComparisonRow, ComparisonVerdict, Figure};
 use crate::report::reproduce::specialised;
 
 use super::{measured, statement};
@@ -95,7 +95,7 @@ fn of_reflectance(curves: &[&MetalAtWavelength], all: usize) -> ComparisonRow {
     );
     let claim = "for most metals whose error is worth correcting, the local minimum lies between 81.37° and 84.26°";
     statement("minimum of metals", "section 3.2.4", claim, ours)
-        .verdict(Verdict::of_claim(2 * inside > curves.len()))
+        .verdict(ComparisonVerdict::of_claim(2 * inside > curves.len()))
 }
 
 fn of_difference(curves: &[&MetalAtWavelength], all: usize) -> ComparisonRow {
@@ -106,7 +106,7 @@ fn of_difference(curves: &[&MetalAtWavelength], all: usize) -> ComparisonRow {
     );
     let claim = "the same range, read as the place of the largest error, which is what the correction is made for";
     statement("largest error on metals", "section 3.2.4", claim, ours)
-        .verdict(Verdict::of_claim(2 * inside > curves.len()))
+        .verdict(ComparisonVerdict::of_claim(2 * inside > curves.len()))
 }
 
 /// How many lie in the claimed range, and from where to where all lie.

@@ -4,7 +4,7 @@ use crate::fit::thesis_errors;
 use crate::materials::Channels;
 use crate::reference::Derivation;
 use crate::report::reproduce::angle::{cosine, exact, highest};
-use crate::report::reproduce::comparison::{ComparisonRow, Figure, Verdict};
+use crate::report::reproduce::comparison::{ComparisonRow, ComparisonVerdict, Figure};
 use crate::report::reproduce::meter::Meter;
 use crate::report::reproduce::specialised;
 
@@ -93,9 +93,9 @@ fn range(errors: &[Error]) -> ComparisonRow {
         all_outside_are_worse(|e| e.largest),
         all_outside_are_worse(|e| e.mean_percent),
     ) {
-        (true, true) => Verdict::Holds,
-        (false, false) => Verdict::Fails,
-        _ => Verdict::InPart,
+        (true, true) => ComparisonVerdict::Holds,
+        (false, false) => ComparisonVerdict::Fails,
+        _ => ComparisonVerdict::InPart,
     };
     let ours = format!(
         "by the largest difference: at most {:.3} inside, {}. By the thesis's own measure: at most {:.2} % inside, {}. \
@@ -163,7 +163,7 @@ fn equal_forms() -> ComparisonRow {
     };
     let claim = "for dielectrics the two forms, eq. 7 and eq. 13, are equivalent";
     statement("Schlick's two forms", "sections 3.1.3, 3.2.2", claim, ours)
-        .verdict(Verdict::of_claim(apart < 1e-14))
+        .verdict(ComparisonVerdict::of_claim(apart < 1e-14))
 }
 
 /// Middles of equal steps from 0 to 90 degrees, for a share of the interval to 0.01 %.
@@ -184,5 +184,5 @@ fn water() -> ComparisonRow {
     );
     // The claim has one digit: 75 to 85 is 80.
     statement("Schlick for water", "section 5.3.1", claim, ours)
-        .verdict(Verdict::of_claim((75.0..85.0).contains(&share)))
+        .verdict(ComparisonVerdict::of_claim((75.0..85.0).contains(&share)))
 }

@@ -1,6 +1,6 @@
 //! What section 5.3.2 says of Table 6, tested by Table 6 itself. Our own times are another matter.
 
-use crate::report::reproduce::comparison::{ComparisonRow, Verdict};
+use crate::report::reproduce::comparison::{ComparisonRow, ComparisonVerdict};
 use crate::report::reproduce::thesis;
 
 use super::statement;
@@ -33,9 +33,9 @@ fn schlick() -> ComparisonRow {
     );
     let claim = "Schlick is at least twice as fast as the exact law it stands for, in all cases";
     let verdict = if twice == gains.len() {
-        Verdict::Holds
+        ComparisonVerdict::Holds
     } else {
-        Verdict::InPart
+        ComparisonVerdict::InPart
     };
     statement("Schlick's speed", "section 5.3.2", claim, ours).verdict(verdict)
 }
@@ -46,7 +46,7 @@ fn table() -> ComparisonRow {
     let ours = format!("by Table 6 {low:.1} to {high:.1} times");
     let claim = "the table lookup is 2 to 4 times as fast as the exact law for dielectrics";
     statement("the table's speed", "section 5.3.2", claim, ours)
-        .verdict(Verdict::of_claim(low >= 2.0 && high < 4.0))
+        .verdict(ComparisonVerdict::of_claim(low >= 2.0 && high < 4.0))
 }
 
 fn conductor() -> ComparisonRow {
@@ -64,9 +64,9 @@ fn conductor() -> ComparisonRow {
         .filter(|cost| (1.4..=1.6).contains(*cost))
         .count();
     let verdict = match near {
-        0 => Verdict::Fails,
-        near if near == others.len() => Verdict::Holds,
-        _ => Verdict::InPart,
+        0 => ComparisonVerdict::Fails,
+        near if near == others.len() => ComparisonVerdict::Holds,
+        _ => ComparisonVerdict::InPart,
     };
     let claim = "the exact law for metals is only 50 % slower than that for dielectrics, except on the Mali 400";
     statement("the conductor's speed", "section 5.3.2", claim, ours).verdict(verdict)
