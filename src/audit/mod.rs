@@ -42,7 +42,7 @@ pub use language::Language;
 pub use row::{ArgumentValue, AuditCostRow, AuditRow, Dominating, PerceivedFigures};
 pub use serve::serve;
 
-use bind::{Argument, Bound};
+use bind::{Bound, BoundArgument};
 use compile::Compilers;
 use program::AuditProgram;
 use row::{Audited, Ran};
@@ -201,7 +201,7 @@ impl Audit {
 
 /// What a result may reach: 1, or an F0 that is given above it, as our own functions take it.
 fn most(bound: &Bound) -> [f32; 3] {
-    let raises = |argument: &&Argument| {
+    let raises = |argument: &&BoundArgument| {
         let input = find_input(&argument.name.to_lowercase());
         input.is_some_and(|input| input.raises_limit)
     };

@@ -15,7 +15,7 @@ pub struct BudgetCandidate {
 
 /// What comes of a choice.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct BudgetChoice {
+pub struct CheapestFunction {
     /// The cheapest within the budget; of equal ones the one that errs least.
     pub chosen: BudgetCandidate,
     /// Of those that cost less, the one that errs least.
@@ -25,7 +25,7 @@ pub struct BudgetChoice {
 }
 
 /// Chooses. What reads a texture is taken only where nothing else is within the budget, because no count holds what a fetch costs.
-pub fn cheapest(candidates: &[BudgetCandidate], budget: f64) -> Option<BudgetChoice> {
+pub fn cheapest(candidates: &[BudgetCandidate], budget: f64) -> Option<CheapestFunction> {
     let within = |is_textured: bool| {
         let own = candidates
             .iter()
@@ -38,7 +38,7 @@ pub fn cheapest(candidates: &[BudgetCandidate], budget: f64) -> Option<BudgetCho
     let cheaper = candidates
         .iter()
         .filter(|c| c.cost < chosen.cost && c.is_textured == chosen.is_textured);
-    Some(BudgetChoice {
+    Some(CheapestFunction {
         cheaper: nearest(cheaper),
         textured: textured
             .filter(|c| !chosen.is_textured && c.cost < chosen.cost)

@@ -3,7 +3,7 @@
 use crate::cost::Family;
 use crate::fit::rounded_up;
 
-use super::choice::{BudgetCandidate, BudgetChoice};
+use super::choice::{BudgetCandidate, CheapestFunction};
 use super::spread::Spread;
 
 /// An error below this share of what measurements differ by is not worth making smaller.
@@ -21,7 +21,7 @@ pub struct CostBasis {
 /// What is said of a material's choice, a line each.
 pub fn choice_remarks(
     name: &str,
-    choice: &BudgetChoice,
+    choice: &CheapestFunction,
     spread: Option<Spread>,
     budget: f64,
     measured: CostBasis,
