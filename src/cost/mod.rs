@@ -31,7 +31,7 @@ pub use pareto::{CostAndError, Multiples, TIE, pareto_frontier};
 pub use probe::{BLOCKS, ENTRY, Probe, VERTEX, WGSL_VERTEX, gles_vertex};
 #[cfg(all(feature = "cli", feature = "gpu"))]
 pub use protocol::FragmentShader;
-pub use record::{CostRecord, function_cost, library_cost, records};
+pub use record::{CostRecord, FunctionKey, function_cost, library_cost, records};
 pub use row::{CostRow, CostSource};
 #[cfg(all(feature = "cli", feature = "gpu"))]
 pub use serve::serve;

@@ -1,13 +1,16 @@
 //! What compilers said, kept in `data/records/costs/`, a file for each family, keyed by the hash of the shader: it serves
 //! where a compiler is absent.
 
+use core::fmt;
 use std::collections::BTreeMap;
 
 use include_dir::{Dir, include_dir};
+use serde::Deserialize;
 
 use crate::ir::Checked;
 use crate::methods::Method;
 use crate::num::Precision;
+use crate::records;
 
 use super::family::{Family, GpuCompiler};
 use super::figures::{CostFigures, Counts};
@@ -22,15 +25,49 @@ pub struct CostRecord {
     pub compiler: String,
     /// The figures of each shader by its hash.
     pub figures: BTreeMap<String, CostFigures>,
-    /// The hash of each function by its other cells, to tell a shader that changed from one that was never measured.
-    pub functions: BTreeMap<String, String>,
+    /// The hash of each function's shader, to tell a shader that changed from one that was never measured.
+    pub functions: BTreeMap<FunctionKey, String>,
+}
+
+/// Which function a row of a record is about.
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub struct FunctionKey {
+    /// The method.
+    pub method: String,
+    /// The material that it is specialised to; empty for the library.
+    pub material: String,
+    /// `library`, `scalar` or `specialised`.
+    pub form: String,
+    /// How many channels it gives.
+    pub channels: usize,
+    /// What it computes in.
+    pub precision: String,
+}
+
+impl fmt::Display for FunctionKey {
+    fn fmt(&self, to: &mut fmt::Formatter) -> fmt::Result {
+        let FunctionKey {
+            method,
+            material,
+            form,
+            channels,
+            precision,
+        } = self;
+        write!(to, "{method},{material},{form},{channels},{precision}")
+    }
 }
 
 impl CostRecord {
     /// What was recorded of a library function of three channels in single precision.
     pub fn library(&self, method: &str) -> Option<CostFigures> {
-        let shader = self.functions.get(&format!("{method},,library,3,f32"))?;
-        self.figures.get(shader).copied()
+        let key = FunctionKey {
+            method: method.to_owned(),
+            material: String::new(),
+            form: "library".to_owned(),
+            channels: 3,
+            precision: Precision::F32.name().to_owned(),
+        };
+        self.figures.get(self.functions.get(&key)?).copied()
     }
 }
 
@@ -55,13 +92,26 @@ pub fn function_cost(function: &Checked, family: &Family, record: &CostRecord) -
     record.figures.get(&shader).map(CostFigures::cost)
 }
 
-/// The columns of a file.
-#[cfg(test)]
-const HEAD: &str = "method,material,form,channels,precision,shader,instructions,latency,inverse_throughput,registers,net_instructions,net_latency,net_inverse_throughput";
-/// How many of them say which function it is.
-const KEYS: usize = 5;
 /// What stands before the compiler's name.
 const COMPILER: &str = "# compiler: ";
+
+/// A row of a file.
+#[derive(Deserialize)]
+struct RecordedCost {
+    method: String,
+    material: String,
+    form: String,
+    channels: usize,
+    precision: String,
+    shader: String,
+    instructions: f64,
+    latency: Option<f64>,
+    inverse_throughput: Option<f64>,
+    registers: Option<f64>,
+    net_instructions: f64,
+    net_latency: Option<f64>,
+    net_inverse_throughput: Option<f64>,
+}
 
 /// The record of a family, empty where there is none.
 pub fn records(family: &str) -> CostRecord {
@@ -72,39 +122,45 @@ pub fn records(family: &str) -> CostRecord {
 
 /// A file as [`CostRecord`].
 fn parse(text: &str) -> CostRecord {
-    let mut record = CostRecord::default();
-    for line in text.lines() {
-        if let Some(compiler) = line.strip_prefix(COMPILER) {
-            compiler.clone_into(&mut record.compiler);
-        } else if let Some((function, shader, figures)) = row(line) {
-            record.functions.insert(function, shader.clone());
-            record.figures.insert(shader, figures);
-        }
+    let compiler = text.lines().find_map(|line| line.strip_prefix(COMPILER));
+    let mut record = CostRecord {
+        compiler: compiler.unwrap_or_default().to_owned(),
+        ..CostRecord::default()
+    };
+    for row in records::rows::<RecordedCost>(text) {
+        record.figures.insert(row.shader.clone(), row.figures());
+        let shader = row.shader.clone();
+        record.functions.insert(row.key(), shader);
     }
     record
 }
 
-fn row(line: &str) -> Option<(String, String, CostFigures)> {
-    let cells: Vec<&str> = line.split(',').collect();
-    let number = |place: usize| cells.get(place)?.parse::<f64>().ok();
-    let first = KEYS + 1;
-    Some((
-        cells.get(..KEYS)?.join(","),
-        (*cells.get(KEYS)?).to_owned(),
+impl RecordedCost {
+    fn figures(&self) -> CostFigures {
         CostFigures {
             shader: Counts {
-                instructions: number(first)?,
-                latency: number(first + 1),
-                inverse_throughput: number(first + 2),
+                instructions: self.instructions,
+                latency: self.latency,
+                inverse_throughput: self.inverse_throughput,
             },
-            registers: number(first + 3),
+            registers: self.registers,
             net: Counts {
-                instructions: number(first + 4)?,
-                latency: number(first + 5),
-                inverse_throughput: number(first + 6),
+                instructions: self.net_instructions,
+                latency: self.net_latency,
+                inverse_throughput: self.net_inverse_throughput,
             },
-        },
-    ))
+        }
+    }
+
+    fn key(self) -> FunctionKey {
+        FunctionKey {
+            method: self.method,
+            material: self.material,
+            form: self.form,
+            channels: self.channels,
+            precision: self.precision,
+        }
+    }
 }
 
 #[cfg(test)]
@@ -113,17 +169,14 @@ mod tests {
 
     #[test]
     fn a_record_is_read() {
-        let text = format!(
-            "{COMPILER}X 1.0\n{HEAD}\nschlick,,library,3,f32,0123456789abcdef,57,,28,8,9,,7\n"
-        );
+        let head = "method,material,form,channels,precision,shader,instructions,latency,inverse_throughput,registers,net_instructions,net_latency,net_inverse_throughput";
+        let row = "schlick,,library,3,f32,0123456789abcdef,57,,28,8,9,,7";
+        let text = format!("{COMPILER}X 1.0\n{head}\n{row}\n");
         let record = parse(&text);
         assert_eq!(record.compiler, "X 1.0");
         let figures = record.figures["0123456789abcdef"];
         assert_eq!(figures.cost(), 7.0);
         assert_eq!(figures.shader.latency, None);
-        assert_eq!(
-            record.functions["schlick,,library,3,f32"],
-            "0123456789abcdef"
-        );
+        assert_eq!(record.library("schlick"), Some(figures));
     }
 }

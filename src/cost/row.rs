@@ -4,6 +4,7 @@ use serde::Serialize;
 
 use super::family::Family;
 use super::figures::{CostFigures, Counts};
+use super::record::FunctionKey;
 
 /// A function on a family.
 #[derive(Clone, Debug, Serialize)]
@@ -129,14 +130,15 @@ impl CostRow {
         (!missing.is_empty()).then(|| format!("not told here: {}", missing.join(", ")))
     }
 
-    /// Which function it is, in a record: method, material, form, channels, precision.
-    pub fn key(&self) -> String {
-        let material = self.material.as_deref().unwrap_or("");
-        let (method, form) = (self.method, self.form);
-        format!(
-            "{method},{material},{form},{},{}",
-            self.channels, self.precision
-        )
+    /// Which function it is, in a record.
+    pub fn key(&self) -> FunctionKey {
+        FunctionKey {
+            method: self.method.to_owned(),
+            material: self.material.clone().unwrap_or_default(),
+            form: self.form.to_owned(),
+            channels: self.channels,
+            precision: self.precision.to_owned(),
+        }
     }
 
     /// The function for people: `schlick`, `schlick, one channel`, `gold: schlick, f16`.

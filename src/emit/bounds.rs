@@ -4,11 +4,13 @@
 
 use std::collections::BTreeMap;
 
+use serde::Deserialize;
 use sha2::{Digest, Sha256};
 
 use crate::fit::Measured;
 use crate::ir::{Checked, Function, print};
 use crate::num::Precision;
+use crate::records;
 
 static RECORD: &str = include_str!("../../data/code-bounds.csv");
 static HALF_RECORD: &str = include_str!("../../data/code-bounds-f16.csv");
@@ -35,9 +37,14 @@ pub struct Bounds {
 impl Bounds {
     /// The record that is part of the program.
     pub fn recorded() -> Bounds {
+        let single: Vec<SingleBound> = records::rows(RECORD);
+        let half = half_bounds().into_iter();
         Bounds {
-            ulp: column(RECORD),
-            absolute: column(HALF_RECORD),
+            ulp: single
+                .into_iter()
+                .map(|row| (row.fingerprint, row.max_ulp))
+                .collect(),
+            absolute: half.map(|row| (row.fingerprint, row.max_abs)).collect(),
         }
     }
 
@@ -53,21 +60,29 @@ impl Bounds {
     }
 }
 
-/// The record of half precision: material, method and bound of each row.
-pub fn half_record() -> impl Iterator<Item = (&'static str, &'static str, f64)> {
-    HALF_RECORD.lines().skip(1).filter_map(|line| {
-        let mut cells = line.split(',').skip(1);
-        Some((cells.next()?, cells.next()?, cells.next()?.parse().ok()?))
-    })
+/// The bound of a specialised function in half precision.
+#[derive(Clone, Debug, Deserialize)]
+pub struct HalfBound {
+    /// What the function computes.
+    pub fingerprint: String,
+    /// Its material.
+    pub material: String,
+    /// Its method.
+    pub method: String,
+    /// The largest difference from its meaning.
+    pub max_abs: f64,
 }
 
-/// The bounds of a record: the column after fingerprint, material and method.
-fn column(record: &str) -> BTreeMap<String, f64> {
-    let row = |line: &str| {
-        let mut cells = line.split(',');
-        Some((cells.next()?.to_owned(), cells.nth(2)?.parse().ok()?))
-    };
-    record.lines().skip(1).filter_map(row).collect()
+/// The bound of a specialised function in single precision.
+#[derive(Deserialize)]
+struct SingleBound {
+    fingerprint: String,
+    max_ulp: f64,
+}
+
+/// The record of half precision.
+pub fn half_bounds() -> Vec<HalfBound> {
+    records::rows(HALF_RECORD)
 }
 
 /// What a function computes, in 16 hexadecimal digits: names of steps and reasons do not count.

@@ -23,7 +23,7 @@ mod short;
 mod wgsl;
 
 pub use average::{Average, average_functions};
-pub use bounds::{Bounds, CodeBound, PLAIN_ULP, fingerprint, half_record, sha256};
+pub use bounds::{Bounds, CodeBound, HalfBound, PLAIN_ULP, fingerprint, half_bounds, sha256};
 pub use catalogue::{CATALOGUE, CatalogueRow, CloserFit, catalogue, methods_of};
 pub use command::{CommandLine, file_name, quoted, sight_flags, surface_flags};
 pub use comment::lines as comment_lines;

@@ -1,6 +1,6 @@
 //! The tables of the README, written from the registries so that they cannot drift.
 
-use crate::emit::{Bounds, Naming, half_record, specialised_function};
+use crate::emit::{Bounds, Naming, half_bounds, specialised_function};
 use crate::materials::{Material, Unseen, ViewingConditions};
 use crate::methods::{self, Contract, Method, Spread};
 use crate::reference::{Derivation, MaterialInMedium};
@@ -133,11 +133,12 @@ pub fn targets_table() -> String {
 
 /// Half precision: what each method promises, and the largest error over the catalogue's specialised functions.
 pub fn half_table() -> String {
+    let bounds = half_bounds();
     let worst = |method: &Method| {
-        let rows = half_record().filter(|(_, name, _)| *name == method.name);
-        let largest = rows.max_by(|a, b| a.2.total_cmp(&b.2));
-        largest.map_or("not written".to_owned(), |(material, _, most)| {
-            format!("{most:.5} ({material})")
+        let rows = bounds.iter().filter(|row| row.method == method.name);
+        let largest = rows.max_by(|a, b| a.max_abs.total_cmp(&b.max_abs));
+        largest.map_or("not written".to_owned(), |row| {
+            format!("{:.5} ({})", row.max_abs, row.material)
         })
     };
     let library = |method: &Method| match method.half.claim() {

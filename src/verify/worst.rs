@@ -1,22 +1,38 @@
 //! The worst inputs found so far, kept for ever: a line each, with how they were found.
 
+use serde::Deserialize;
+
 use crate::fit::values;
 use crate::ir::Ty;
 use crate::materials::Channels;
 use crate::methods::Method;
+use crate::records;
 use crate::reference::Derivation;
 
 static LIBRARY: &str = include_str!("../../data/worst-cases/library-code-error.csv");
 static SPECIALISED: &str = include_str!("../../data/worst-cases/specialised-code-error.csv");
 
+/// A line of the library functions' record.
+#[derive(Deserialize)]
+struct WorstMedium {
+    method: String,
+    n: f64,
+    k: f64,
+    cos_theta: f64,
+}
+
+/// A line of the specialised functions' record.
+#[derive(Deserialize)]
+struct WorstCosine {
+    method: String,
+    cos_theta: f32,
+}
+
 /// The cosines at which the specialised functions of a method were worst, whatever the material.
 pub fn worst_cosines(method: &'static Method) -> impl Iterator<Item = f32> {
-    SPECIALISED.lines().filter_map(|line| {
-        let (name, rest) = line.split_once(',')?;
-        let (_, cos_theta) = rest.split_once(',')?;
-        let cos_theta = cos_theta.parse().ok()?;
-        (name == method.name).then_some(cos_theta)
-    })
+    let rows: Vec<WorstCosine> = records::rows(SPECIALISED);
+    let own = rows.into_iter().filter(|row| row.method == method.name);
+    own.map(|row| row.cos_theta)
 }
 
 /// The values of a library function's arguments, in f32, and the cosine.
@@ -26,22 +42,14 @@ pub fn worst_cases(method: &'static Method) -> impl Iterator<Item = (Vec<[f32; 3
 
 /// The media and the cosine.
 pub fn worst_media(method: &'static Method) -> impl Iterator<Item = (Channels, f32)> {
-    LIBRARY.lines().filter_map(|line| {
-        let (name, numbers) = line.split_once(',')?;
-        let numbers: Vec<f64> = numbers
-            .split(',')
-            .filter_map(|cell| cell.parse().ok())
-            .collect();
-        match (name == method.name, numbers.as_slice()) {
-            (true, [n, k, cos_theta]) => Some((
-                Channels {
-                    n: [*n; 3],
-                    k: [*k; 3],
-                },
-                *cos_theta as f32,
-            )),
-            _ => None,
-        }
+    let rows: Vec<WorstMedium> = records::rows(LIBRARY);
+    let own = rows.into_iter().filter(|row| row.method == method.name);
+    own.map(|row| {
+        let channels = Channels {
+            n: [row.n; 3],
+            k: [row.k; 3],
+        };
+        (channels, row.cos_theta as f32)
     })
 }
 

@@ -2,9 +2,8 @@
 //! below nine tenths of it.
 
 use fresnel_gen::fit::model_error_over;
-use fresnel_gen::materials::Channels;
 use fresnel_gen::methods::{self, Contract};
-use fresnel_gen::verify::{library_code_error, library_code_error_at};
+use fresnel_gen::verify::{library_code_error, library_code_error_at, worst_media};
 
 /// Random media over which a library function's code error is taken, and cosines for each.
 const MEDIA: usize = 6000;
@@ -41,25 +40,6 @@ fn model_errors_are_what_methods_promise() {
     }
 }
 
-/// The worst inputs found so far: media and a cosine for each method.
-fn worst_cases(method: &'static str) -> impl Iterator<Item = (Channels, f32)> {
-    let text = include_str!("../../data/worst-cases/library-code-error.csv");
-    text.lines().filter_map(move |line| {
-        let mut cells = line.strip_prefix(method)?.strip_prefix(',')?.split(',');
-        let mut number = || {
-            cells
-                .next()
-                .and_then(|cell| cell.parse::<f64>().ok())
-                .expect("three numbers a line")
-        };
-        let channels = Channels {
-            n: [number(); 3],
-            k: [number(); 3],
-        };
-        Some((channels, number() as f32))
-    })
-}
-
 /// The promises stand for the worst of a large search, kept in the file, rounded up.
 #[test]
 fn code_errors_are_what_methods_promise() {
@@ -67,7 +47,7 @@ fn code_errors_are_what_methods_promise() {
     let numeric = methods::ALL.iter().filter(|method| !method.is_textured());
     for method in numeric {
         let searched = library_code_error(method, MEDIA, POINTS).max_ulp;
-        let known = worst_cases(method.name).map(|(channels, cos_theta)| {
+        let known = worst_media(method).map(|(channels, cos_theta)| {
             library_code_error_at(method, &channels, &[cos_theta]).max_ulp
         });
         let (promised, measured) = (method.claims.code_ulp, known.fold(searched, f64::max));

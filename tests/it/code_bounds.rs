@@ -40,31 +40,44 @@ fn promised(sampled: f64, fingerprint: &str) -> f64 {
     (ulp * 2.0).ceil() / 2.0
 }
 
-/// The line of a method's function for a material, and of its plain form where that keeps its digits.
-fn lines(method: &'static Method, subject: &MaterialInMedium) -> Vec<String> {
+/// The columns of the record.
+const HEAD: [&str; 6] = [
+    "fingerprint",
+    "material",
+    "method",
+    "max_ulp",
+    "max_abs",
+    "worst_cos",
+];
+
+/// The row of a method's function for a material, and of its plain form where that keeps its digits.
+fn rows(method: &'static Method, subject: &MaterialInMedium) -> Vec<[String; 6]> {
     let stable = specialised_function(method, subject, &Naming::default(), &Bounds::default());
     let stable = stable.expect("every method specialises to the catalogue");
-    let line = |function: &Checked, form: &str| {
+    let row = |function: &Checked, form: &str| {
         let error = code_error(function, POINTS);
         let mark = fingerprint(function);
         let ulp = promised(error.max_ulp, &mark);
-        let (name, method) = (&subject.name, method.name);
-        let text = format!(
-            "{mark},{name},{method}{form},{ulp},{:e},{:e}\n",
-            error.max_abs, error.worst_cos
-        );
-        (ulp, text)
+        let cells = [
+            mark,
+            subject.name.clone(),
+            format!("{}{form}", method.name),
+            ulp.to_string(),
+            format!("{:e}", error.max_abs),
+            format!("{:e}", error.worst_cos),
+        ];
+        (ulp, cells)
     };
-    let (_, first) = line(&stable.function, "");
+    let (_, first) = row(&stable.function, "");
     let plain = method
         .specialise_plain(&stable.constants)
         .and_then(Result::ok);
     // Near eta = 1 it stays within 2^-22 and yet loses all digits of so small a reflectance.
     let plain = plain
         .filter(|plain| digits_lost(plain, POINTS) <= PLAIN_ULP)
-        .map(|plain| line(&plain, " plain"))
+        .map(|plain| row(&plain, " plain"))
         .filter(|(ulp, _)| *ulp <= PLAIN_ULP);
-    [Some(first), plain.map(|(_, text)| text)]
+    [Some(first), plain.map(|(_, cells)| cells)]
         .into_iter()
         .flatten()
         .collect()
@@ -76,14 +89,14 @@ fn the_record_is_what_is_measured() {
         materials: Materials::All,
         ..Request::default()
     };
-    let mut record = String::from("fingerprint,material,method,max_ulp,max_abs,worst_cos\n");
+    let mut record = Vec::new();
     for (subject, _) in request.subjects().expect("the catalogue is good").ready {
         for method in methods_of(&subject) {
-            record.extend(lines(method, &subject));
+            record.extend(rows(method, &subject));
         }
     }
     super::bless::check(
         &Path::new(env!("CARGO_MANIFEST_DIR")).join("data/code-bounds.csv"),
-        record.as_bytes(),
+        super::records::text(HEAD, &record).as_bytes(),
     );
 }

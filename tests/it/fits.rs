@@ -1,12 +1,11 @@
 //! How well fitted methods follow the catalogue: the record of every material's errors, and what is promised of the whole.
 //! Errors are those of the specialised graph with its coefficients as f32 holds them; `verify` runs the same on devices.
 
-use std::fmt::Write;
 use std::path::Path;
 use std::sync::OnceLock;
 
 use fresnel_gen::app::{Materials, Request};
-use fresnel_gen::cost::records;
+use fresnel_gen::cost;
 use fresnel_gen::emit::{Bounds, Naming, missed, specialised_function};
 use fresnel_gen::fit::{ModelError, inputs_of, model_error};
 use fresnel_gen::ir::{Value, evaluate};
@@ -14,6 +13,7 @@ use fresnel_gen::materials::{Material, MaterialKind, ViewingConditions};
 use fresnel_gen::methods::{self, Method};
 use fresnel_gen::num::statistics::quantile;
 use fresnel_gen::num::{Legendre, Precision};
+use fresnel_gen::records;
 use fresnel_gen::reference::{Derivation, MaterialInMedium};
 
 /// Further measurements of metals and semiconductors, beside the 75 of the reference list that the promises are about: pages
@@ -88,15 +88,15 @@ fn most(rows: &[&Row], share: f64) -> f64 {
 /// The pages of `data/outside.csv` with their class, as they are seen; none where the database is not there.
 fn outside() -> Option<Vec<(&'static str, MaterialInMedium)>> {
     let text = include_str!("../../data/outside.csv");
-    let lines = text.lines().filter(|line| !line.starts_with('#')).skip(1);
-    let seen = lines.map(|line| {
-        let (class, path) = line.split_once(',').expect("a class and a page");
-        let mut material = super::database::material(path)?;
-        material.kind = MaterialKind::ALL
+    let rows: Vec<(String, String)> = records::rows(text);
+    let seen = rows.into_iter().map(|(class, path)| {
+        let mut material = super::database::material(&path)?;
+        let kind = MaterialKind::ALL
             .into_iter()
-            .find(|kind| kind.name() == class)
-            .expect("a class");
-        let typed = (path.to_owned(), material);
+            .find(|kind| kind.name() == class);
+        material.kind = kind.expect("a class");
+        let class = material.kind.name();
+        let typed = (path.clone(), material);
         let subject = MaterialInMedium::new(
             typed,
             None,
@@ -308,20 +308,19 @@ fn means_over_the_hemisphere_are_the_functions_own() {
 fn the_catalogue_is_followed_as_promised_and_recorded() {
     let subjects = catalogue();
     let rows = rows(subjects);
-    let mut record = String::from("material,method,max_abs,at_degrees,mean_rel\n");
-    for row in &rows {
+    let head = ["material", "method", "max_abs", "at_degrees", "mean_rel"];
+    let record = rows.iter().map(|row| {
         let degrees = row.error.worst_cos.acos().to_degrees();
-        let relative = row
-            .error
-            .mean_rel
-            .map_or(String::new(), |r| format!("{r:.3e}"));
-        let (name, method) = (&row.subject.name, row.method.name);
-        let _ = writeln!(
-            record,
-            "{name},{method},{:.3e},{degrees:.1},{relative}",
-            row.error.max_abs
-        );
-    }
+        let relative = row.error.mean_rel.map(|mean| format!("{mean:.3e}"));
+        [
+            row.subject.name.clone(),
+            row.method.name.to_owned(),
+            format!("{:.3e}", row.error.max_abs),
+            format!("{degrees:.1}"),
+            relative.unwrap_or_default(),
+        ]
+    });
+    let record = super::records::text(head, &record.collect::<Vec<_>>());
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("data/records/fits.csv");
     super::bless::check(&path, record.as_bytes());
 
@@ -378,7 +377,7 @@ fn each_is_as_cheap_as_was_promised() {
         ("rdna2", "fitted_five", "f82_tint", 1.6),
         ("rdna2", "fitted_five", "schlick_rescaled", 1.0),
     ] {
-        let record = records(gpu);
+        let record = cost::records(gpu);
         let cost = |name: &str| record.library(name).expect("it is recorded").cost();
         let share = cost(method) / cost(rival);
         assert!(share <= most, "{method} on {gpu}: {share} of {rival}");

@@ -73,12 +73,15 @@ fn methods_of(subject: &MaterialInMedium) -> impl Iterator<Item = &'static Metho
     methods::ALL.iter().filter(fits).copied()
 }
 
+/// The columns of the record.
+const HEAD: [&str; 5] = ["fingerprint", "material", "method", "max_abs", "worst_cos"];
+
 /// The row of a function, and what is wrong with its numbers.
 fn measured(
     emitted: &Emitted,
     subject: &MaterialInMedium,
     cosines: &[f32],
-) -> (String, Option<String>) {
+) -> ([String; 5], Option<String>) {
     let meaning = emitted.meaning().expect("it is well formed");
     let trial = HalfTrial {
         function: &emitted.function,
@@ -89,10 +92,13 @@ fn measured(
     let error = trial.error(cosines);
     let mark = fresnel_gen::emit::fingerprint(&emitted.function);
     let (material, method) = (&subject.name, emitted.method.name);
-    let row = format!(
-        "{mark},{material},{method},{:e},{:e}\n",
-        error.max_abs, error.worst_cos
-    );
+    let row = [
+        mark,
+        material.clone(),
+        method.to_owned(),
+        format!("{:e}", error.max_abs),
+        format!("{:e}", error.worst_cos),
+    ];
     let what = format!("{}: {error:?}", emitted.name);
     let (most, is_named) = promised(emitted.method, material);
     let fault = if error.max_abs > most {
@@ -139,7 +145,7 @@ fn the_catalogue_keeps_within_the_aim_and_is_recorded() {
     };
     let subjects = request.subjects().expect("the catalogue is good").ready;
     let cosines = halves();
-    let of = |subject: &MaterialInMedium| -> Vec<(String, Option<String>)> {
+    let of = |subject: &MaterialInMedium| -> Vec<([String; 5], Option<String>)> {
         let emitted = methods_of(subject).map(|method| {
             specialised_function(method, subject, &naming(), &Bounds::default())
                 .expect("every method specialises to the catalogue")
@@ -149,28 +155,28 @@ fn the_catalogue_keeps_within_the_aim_and_is_recorded() {
             .collect()
     };
     let share = subjects.len().div_ceil(2);
-    let rows: Vec<(String, Option<String>)> = std::thread::scope(|scope| {
+    let rows: Vec<([String; 5], Option<String>)> = std::thread::scope(|scope| {
         let parts = subjects.chunks(share);
         let threads: Vec<_> = parts
             .map(|part| scope.spawn(|| part.iter().flat_map(|(subject, _)| of(subject)).collect()))
             .collect();
         let joined = threads.into_iter().map(|thread| {
-            let rows: Vec<(String, Option<String>)> = thread.join().expect("no thread panics");
+            let rows: Vec<([String; 5], Option<String>)> = thread.join().expect("no thread panics");
             rows
         });
         joined.flatten().collect()
     });
-    let mut record = String::from("fingerprint,material,method,max_abs,worst_cos\n");
     let mut faults = String::new();
+    let mut record = Vec::new();
     for (row, fault) in rows {
-        record += &row;
+        record.push(row);
         if let Some(fault) = fault {
             let _ = writeln!(faults, "{fault}");
         }
     }
     super::bless::check(
         &Path::new(env!("CARGO_MANIFEST_DIR")).join("data/code-bounds-f16.csv"),
-        record.as_bytes(),
+        super::records::text(HEAD, &record).as_bytes(),
     );
     assert!(faults.is_empty(), "{faults}");
 }

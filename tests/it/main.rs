@@ -38,6 +38,7 @@ mod physics;
 #[cfg(feature = "pictures")]
 mod pictures;
 mod readme;
+mod records;
 mod reproduce;
 mod reread;
 mod shapes;

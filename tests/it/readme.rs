@@ -7,6 +7,7 @@ use std::path::Path;
 use fresnel_gen::app::generate::generate_single;
 use fresnel_gen::app::request::DEFAULT_MATERIALS;
 use fresnel_gen::app::{Materials, Request, Source};
+use fresnel_gen::cost::records;
 use fresnel_gen::materials::{self, ViewingConditions};
 use fresnel_gen::report::headline::headline;
 use fresnel_gen::report::markdown::{
@@ -184,12 +185,8 @@ fn published_work_is_cited_beside_our_own_figures() {
     let text = page("docs/accuracy-and-cost.md");
     let words: Vec<&str> = text.split_whitespace().collect();
     let section = words.join(" ");
-    let record = page("data/records/costs/rdna2.csv");
-    let units = |method: &str| {
-        let start = format!("{method},,library,3,f32,");
-        let row = record.lines().find(|line| line.starts_with(&start));
-        row.and_then(|row| row.rsplit(',').next()).expect("a cost")
-    };
+    let record = records("rdna2");
+    let units = |method: &str| record.library(method).expect("a cost").cost();
     let costs = format!(
         "one of `dielectric_exact` takes {} units on RDNA 2, one of `schlick` {}.",
         units("dielectric_exact"),

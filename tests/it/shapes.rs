@@ -2,7 +2,6 @@
 //! substance that they are judged by. Errors are on paper, over the 75 measurements that promises are about.
 
 use std::collections::BTreeSet;
-use std::fmt::Write;
 use std::path::Path;
 
 use fresnel_gen::fit::{
@@ -35,7 +34,18 @@ fn shipped() -> Vec<Candidate> {
     all.filter(metals).collect()
 }
 
-fn line(record: &mut String, what: &str, shape: &str, figures: &ErrorQuantiles) {
+/// The columns of the record.
+const HEAD: [&str; 7] = [
+    "what",
+    "shape",
+    "median",
+    "p90",
+    "worst",
+    "median_by_substance",
+    "p90_by_substance",
+];
+
+fn row(what: &str, shape: &str, figures: &ErrorQuantiles) -> [String; 7] {
     let ErrorQuantiles {
         median,
         p90,
@@ -43,10 +53,16 @@ fn line(record: &mut String, what: &str, shape: &str, figures: &ErrorQuantiles) 
         median_by_substance,
         p90_by_substance,
     } = figures;
-    let _ = writeln!(
-        record,
-        "{what},{shape},{median:.3e},{p90:.3e},{worst:.3e},{median_by_substance:.3e},{p90_by_substance:.3e}"
-    );
+    let digits = |figure: &f64| format!("{figure:.3e}");
+    [
+        what.to_owned(),
+        shape.to_owned(),
+        digits(median),
+        digits(p90),
+        digits(worst),
+        digits(median_by_substance),
+        digits(p90_by_substance),
+    ]
 }
 
 #[test]
@@ -63,8 +79,7 @@ fn what_shapes_are_worth_is_recorded() {
         .iter()
         .map(|subject| FitCurve::unclipped(subject))
         .collect();
-    let mut record =
-        String::from("what,shape,median,p90,worst,median_by_substance,p90_by_substance\n");
+    let mut record = Vec::new();
 
     let at_90 = Exact {
         normal: false,
@@ -77,12 +92,8 @@ fn what_shapes_are_worth_is_recorded() {
         };
         for one in tried(&shipped(), &curves, aim) {
             let name = one.candidate.method.expect("it is shipped").name;
-            line(
-                &mut record,
-                what,
-                name,
-                &ErrorQuantiles::new(&one.errors, &substances),
-            );
+            let quantiles = ErrorQuantiles::new(&one.errors, &substances);
+            record.push(row(what, name, &quantiles));
         }
     }
     for terms in [4, 5] {
@@ -92,20 +103,15 @@ fn what_shapes_are_worth_is_recorded() {
         };
         let found = errors.leave_one_out(terms).expect("many substances");
         let shape = found.choice.shape.to_string();
-        line(
-            &mut record,
-            &format!("chosen of {terms}"),
-            &shape,
-            &found.seen,
-        );
+        record.push(row(&format!("chosen of {terms}"), &shape, &found.seen));
         let (most, times) = found.chosen[0];
         let votes = format!("left out of {terms} ({times} of {count} choose this)");
-        line(&mut record, &votes, &most.shape.to_string(), &found.unseen);
+        record.push(row(&votes, &most.shape.to_string(), &found.unseen));
         assert!(
             found.unseen.p90 < 2.0 * found.seen.p90,
             "the choice does not carry over"
         );
     }
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("data/records/shapes.csv");
-    super::bless::check(&path, record.as_bytes());
+    super::bless::check(&path, super::records::text(HEAD, &record).as_bytes());
 }

@@ -1,14 +1,15 @@
 //! Where methods fail: the document is what a scan says, what keeps the contract keeps it, and what is known as worst gets no worse.
 
-use std::fmt::Write;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::LazyLock;
 
 use fresnel_gen::methods::{self, Class, Contract, Method, Over};
 use fresnel_gen::num::Precision;
+use fresnel_gen::records;
 use fresnel_gen::report::stability::stability_document;
 use fresnel_gen::stability::{Failure, StabilityRow, scan};
+use serde::Deserialize;
 
 /// All methods scanned, once for all tests.
 static ROWS: LazyLock<Vec<StabilityRow>> = LazyLock::new(|| scanned(Precision::F32));
@@ -153,60 +154,73 @@ fn what_fails_is_seen() {
 fn the_worst_inputs_known_get_no_worse() {
     let path = at("data/worst-cases/stability.csv");
     let known = fs::read_to_string(&path).unwrap_or_default();
-    let mut lines: Vec<String> = known
-        .lines()
-        .filter(|line| !line.starts_with(['#', 'm']))
-        .map(str::to_owned)
-        .collect();
-    for line in &lines {
-        check_known(line);
+    let mut known: Vec<WorstInput> = records::rows(&known);
+    for row in &known {
+        check_known(row);
     }
-    for row in ROWS.iter() {
-        let line = row
-            .finding
-            .as_ref()
-            .filter(|finding| finding.is_media)
-            .and_then(|finding| {
-                let of = |name: &str| {
-                    finding
-                        .worst
-                        .iter()
-                        .find(|(of, _)| *of == name)
-                        .map(|(_, value)| *value)
-                };
-                let (n, k) = (of("n").or(of("eta"))?, of("k").unwrap_or(0.0));
-                let what = finding.failure.words();
-                (!finding.failure.is_of_the_model()).then_some(format!(
-                    "{},{what},{n:e},{k:e},{:e}",
-                    row.method,
-                    of("cos_theta")?
-                ))
-            });
-        lines.extend(line.filter(|line| !lines.contains(line)));
+    for found in ROWS.iter().filter_map(worst_input) {
+        if !known.contains(&found) {
+            known.push(found);
+        }
     }
-    lines.sort();
-    let mut text = String::from(ABOUT);
-    lines
-        .iter()
-        .for_each(|line| writeln!(text, "{line}").unwrap());
+    let mut rows: Vec<[String; 5]> = known.iter().map(WorstInput::cells).collect();
+    rows.sort();
+    let text = ABOUT.to_owned() + &super::records::text(HEAD, &rows);
     super::bless::check(&path, text.as_bytes());
 }
 
 const ABOUT: &str = "\
 # The worst input of each region in which a method's rounding fails, for media n + ik (k = 0 where the scan was over eta):
 # `fresnel-gen stability`, unfused f32. Lines are added, never removed.
-method,failure,n,k,cos_theta
 ";
 
+/// The columns of the record.
+const HEAD: [&str; 5] = ["method", "failure", "n", "k", "cos_theta"];
+
+/// A row of the record.
+#[derive(Debug, PartialEq, Deserialize)]
+struct WorstInput {
+    method: String,
+    failure: String,
+    n: f64,
+    k: f64,
+    cos_theta: f64,
+}
+
+impl WorstInput {
+    fn cells(&self) -> [String; 5] {
+        let [n, k, cos_theta] = [self.n, self.k, self.cos_theta].map(|value| format!("{value:e}"));
+        [self.method.clone(), self.failure.clone(), n, k, cos_theta]
+    }
+}
+
+/// The worst input of a failure of rounding over media.
+fn worst_input(row: &StabilityRow) -> Option<WorstInput> {
+    let finding = row.finding.as_ref()?;
+    if !finding.is_media || finding.failure.is_of_the_model() {
+        return None;
+    }
+    let worst = |name: &str| {
+        let mut inputs = finding.worst.iter();
+        inputs.find(|(of, _)| *of == name).map(|(_, value)| *value)
+    };
+    Some(WorstInput {
+        method: row.method.to_owned(),
+        failure: finding.failure.words().to_string(),
+        n: worst("n").or(worst("eta"))?,
+        k: worst("k").unwrap_or(0.0),
+        cos_theta: worst("cos_theta")?,
+    })
+}
+
 /// What was known to fail may be mended; what keeps the contract stays a reflectance there.
-fn check_known(line: &str) {
+fn check_known(row: &WorstInput) {
     use fresnel_gen::fit::values;
     use fresnel_gen::ir::{Value, evaluate};
     use fresnel_gen::materials::Channels;
     use fresnel_gen::reference::Derivation;
-    let cells: Vec<&str> = line.split(',').collect();
-    let method = methods::find(cells[0]).unwrap();
-    let [n, k, cos_theta] = [2, 3, 4].map(|i| cells[i].parse::<f64>().unwrap());
+    let method = methods::find(&row.method).unwrap();
+    let (n, k, cos_theta) = (row.n, row.k, row.cos_theta);
     if method.contract != Contract::Kept || method.class == Class::Dielectric && k > 0.0 {
         return;
     }
@@ -221,5 +235,5 @@ fn check_known(line: &str) {
     let mut arguments = vec![Value::each(vec![cos_theta as f32])];
     arguments.extend(method.arguments(&values, None));
     let [got, _, _] = evaluate::<f32>(&method.function(false).unwrap(), &arguments).at(0);
-    assert!((0.0..=1.0).contains(&got), "{line}: {got}");
+    assert!((0.0..=1.0).contains(&got), "{row:?}: {got}");
 }

@@ -39,9 +39,10 @@ fn title(family: &Family) -> String {
 /// Shares of time on the device of the record.
 fn timed(entries: &[ChartEntry]) -> Option<CostAxis> {
     let all: Vec<_> = times()
+        .into_iter()
         .filter(|time| time.form == "library" && time.precision == "f32")
         .collect();
-    let device = all.first()?.device;
+    let device = all.first()?.device.clone();
     let share = |entry: &ChartEntry| {
         let own = all
             .iter()

@@ -4,10 +4,13 @@
 //! thesis did not subtract; so beside each share stands what it becomes on the line `time = fixed + rate * count` that fits
 //! the device best.
 
-use crate::cost::{GpuCompiler, find, records};
+use serde::Deserialize;
+
+use crate::cost::{self, GpuCompiler, find};
 use crate::methods;
 use crate::num::statistics::{least_squares, rank_correlation};
 use crate::overdraw::{Time, times};
+use crate::records;
 
 use super::comparison::{ComparisonRow, ComparisonVerdict, Figure};
 use super::{ThesisSection, thesis};
@@ -63,20 +66,27 @@ struct Pairs {
     printed: Vec<Option<f64>>,
 }
 
-/// Those counts: GPU, method, instructions.
+/// Those counts.
 static PRINTED: &str = include_str!("../../../data/records/thesis-forms.csv");
+
+/// A formula as the thesis prints it, counted.
+#[derive(Deserialize)]
+struct PrintedForm {
+    gpu: String,
+    method: String,
+    net_instructions: f64,
+}
 
 /// Instructions of a formula as the thesis prints it.
 fn printed(family: &str, method: &str) -> Option<f64> {
-    let key = format!("{family},{method},");
-    PRINTED
-        .lines()
-        .find_map(|line| line.strip_prefix(&key)?.parse().ok())
+    let rows: Vec<PrintedForm> = records::rows(PRINTED);
+    let own = |row: &PrintedForm| row.gpu == family && row.method == method;
+    Some(rows.into_iter().find(own)?.net_instructions)
 }
 
 impl Pairs {
     fn recorded(device: &str, family: &str) -> Option<Pairs> {
-        let record = records(family);
+        let record = cost::records(family);
         let count = |method: &&str| Some(record.library(method)?.net.instructions);
         let counts: Option<Vec<f64>> = METHODS.iter().map(count).collect();
         let counts = counts?;
@@ -209,8 +219,8 @@ fn statistics(device: &str, pairs: &Pairs) -> Vec<ComparisonRow> {
 /// The devices that were timed by `fresnel-gen time`: the rank correlation of those times and of operations counted in the
 /// same functions. No GPU was both timed here and counted by its own compiler.
 fn timed_here() -> Vec<ComparisonRow> {
-    let times: Vec<Time> = times().collect();
-    let mut devices: Vec<&str> = times.iter().map(|time| time.device).collect();
+    let times = times();
+    let mut devices: Vec<&str> = times.iter().map(|time| time.device.as_str()).collect();
     devices.sort_unstable();
     devices.dedup();
     devices
@@ -224,7 +234,7 @@ fn correlated(device: &str, times: &[Time]) -> ComparisonRow {
         let is_plain = time.form == "library" && time.precision == "f32";
         is_plain && time.device == device && time.method != "table"
     });
-    let pairs = library.filter_map(|time| Some((operations(time.method)?, time.share)));
+    let pairs = library.filter_map(|time| Some((operations(&time.method)?, time.share)));
     let (counts, shares): (Vec<f64>, Vec<f64>) = pairs.unzip();
     ComparisonRow::new("table6", device, "rank correlation")
         .ours(Figure::Number(rank_correlation(&counts, &shares), 2, ""))

@@ -2,6 +2,9 @@
 
 use fresnel_gen::methods::{self, Method};
 
+use fresnel_gen::records;
+use serde::Deserialize;
+
 use super::{Medium, exact, unfused, worst};
 
 /// The most that a function specialised to a material of the catalogue may be off, in ulp.
@@ -15,38 +18,51 @@ const POWER: f64 = 17.0;
 /// ulp of nearly nothing say nothing.
 const FITTED: f64 = 2e-6;
 
+/// A row of the code bounds.
+#[derive(Deserialize)]
+struct BoundRow {
+    material: String,
+    method: String,
+    max_ulp: f64,
+    max_abs: f64,
+}
+
+/// A row of the worst inputs of exact forms.
+#[derive(Debug, Deserialize)]
+struct WorstInput {
+    method: String,
+    n: f32,
+    k: f32,
+    cos_theta: f32,
+}
+
 /// A material whose shader is further from its formula than its page lets one think.
 #[test]
 fn no_specialised_function_loses_more_than_ten_ulp() {
     let text = include_str!("../../../data/code-bounds.csv");
-    let mut count = 0;
-    for line in text.lines().skip(1) {
-        let cells: Vec<&str> = line.split(',').collect();
-        let (material, method) = (cells[1], cells[2]);
-        let ulp: f64 = cells[3].parse().unwrap();
+    let rows: Vec<BoundRow> = records::rows(text);
+    for row in &rows {
+        let (material, method, ulp) = (&row.material, row.method.as_str(), row.max_ulp);
         let is_power = POWERS.contains(&method);
         let most = if is_power { POWER } else { SPECIALISED };
         let is_fitted = methods::find(method).is_some_and(Method::is_fitted);
-        let is_close = is_fitted && cells[4].parse::<f64>().unwrap() <= FITTED;
+        let is_close = is_fitted && row.max_abs <= FITTED;
         let what = format!("{method} of {material}: {ulp} ulp");
         assert!(ulp <= most || is_close, "{what}");
-        count += 1;
     }
-    assert!(count > 400, "{count} bounds");
+    assert!(rows.len() > 400, "{} bounds", rows.len());
 }
 
 /// An input that once was the worst has become worse.
 #[test]
 fn the_worst_inputs_known_stay_within_their_bounds() {
     let text = include_str!("../../../data/worst-cases/exact-forms.csv");
-    let mut count = 0;
-    for line in text.lines().filter(|line| line.contains("_exact,")) {
-        let cells: Vec<&str> = line.split(',').collect();
-        let [n, k, c] = [1, 2, 3].map(|i| cells[i].parse::<f32>().unwrap());
-        let function = exact(cells[0]);
+    let rows: Vec<WorstInput> = records::rows(text);
+    for row in &rows {
+        let function = exact(&row.method);
         let run = |media: &[Medium; 3], cosines: &[f32]| unfused(&function, media, cosines);
-        worst(&function, &[(n, k)], &|_| vec![c], &run).check(line);
-        count += 1;
+        let found = worst(&function, &[(row.n, row.k)], &|_| vec![row.cos_theta], &run);
+        found.check(&format!("{row:?}"));
     }
-    assert!(count > 5, "{count} inputs");
+    assert!(rows.len() > 5, "{} inputs", rows.len());
 }

@@ -30,7 +30,7 @@ fn pairs() -> Vec<(Emitted, &'static str)> {
     all
 }
 
-fn line(emitted: &Emitted, material: &str) -> Line {
+fn line(emitted: &Emitted, material: &str) -> &'static Line {
     let name = emitted.method.name;
     let found = lines().find(|line| line.method == name && line.material == material);
     found.unwrap_or_else(|| panic!("{name} for {material} is not in the record"))
