@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use serde_json::Value;
+use crate::emit::Detail;
 
 use super::error::Error;
 use super::manifest;
@@ -22,8 +22,8 @@ pub struct Artifact {
     pub method: Option<String>,
     /// The material of a specialised file.
     pub material: Option<String>,
-    /// Functions, parameters, errors: an object that goes into the manifest as it is.
-    pub detail: Value,
+    /// Functions, parameters, errors.
+    pub detail: Detail,
 }
 
 /// Refuses paths that leave the output folder, meet each other, or take the manifest's place.

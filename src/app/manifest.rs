@@ -72,7 +72,7 @@ pub struct Entry {
     /// killed leaves no file unlisted.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub was: Option<String>,
-    /// Functions, parameters, errors.
+    /// Functions, parameters, errors: [`Detail`](crate::emit::Detail), or what another version wrote, which stays.
     #[serde(flatten)]
     pub detail: Map<String, Value>,
 }
@@ -152,15 +152,34 @@ impl Entry {
         said.unwrap_or(Precision::F32.name())
     }
 
-    /// The entry of an artifact. A detail that is no object stands under `detail`;
-    /// one that has a name of the entry's own fields is left out, because a name can stand only once.
+    /// Its functions. What another version wrote need not be as this one writes it: what is not counts as not said.
+    pub fn functions(&self) -> &[Value] {
+        let functions = self.detail.get("functions").and_then(Value::as_array);
+        functions.map_or(&[], Vec::as_slice)
+    }
+
+    /// The names of its functions.
+    pub fn function_names(&self) -> impl Iterator<Item = &str> {
+        let functions = self.functions().iter();
+        functions.filter_map(|function| function["name"].as_str())
+    }
+
+    /// The methods of its functions.
+    pub fn function_methods(&self) -> impl Iterator<Item = &str> {
+        let functions = self.functions().iter();
+        functions.filter_map(|function| function["method"].as_str())
+    }
+
+    /// How its material is seen, in words.
+    pub fn truth(&self) -> Option<&str> {
+        self.detail.get("seen")?["truth"].as_str()
+    }
+
+    /// The entry of an artifact.
     pub fn of(artifact: &Artifact) -> Entry {
-        let mut detail = match artifact.detail.clone() {
-            Value::Object(detail) => detail,
-            Value::Null => Map::new(),
-            other => Map::from_iter([("detail".to_string(), other)]),
+        let Ok(Value::Object(detail)) = serde_json::to_value(&artifact.detail) else {
+            unreachable!("a detail is a structure of text keys")
         };
-        detail.retain(|name, _| !OWN_FIELDS.contains(&name.as_str()));
         Entry {
             file: artifact.path.clone(),
             target: artifact.target.clone(),
@@ -172,8 +191,6 @@ impl Entry {
         }
     }
 }
-
-const OWN_FIELDS: [&str; 6] = ["file", "target", "method", "material", "sha256", "was"];
 
 fn merge_inputs(old: Option<&Manifest>, new: &[Input], files: &[Entry]) -> Vec<Input> {
     let named: BTreeSet<_> = files.iter().filter_map(|e| e.material.as_ref()).collect();

@@ -24,7 +24,6 @@ pub mod names;
 pub mod ours;
 #[cfg(feature = "cli")]
 pub mod precision;
-pub mod recorded;
 pub mod request;
 pub mod scope;
 pub mod sight;

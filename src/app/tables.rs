@@ -3,10 +3,9 @@
 use std::collections::BTreeMap;
 
 use serde::Serialize;
-use serde_json::json;
 
 use crate::bake::{self, Baked, TableMaterial, usual_request};
-use crate::emit::OUTPUT_LICENCE;
+use crate::emit::{Detail, OUTPUT_LICENCE, TableDetail};
 use crate::lut::TABLES;
 use crate::materials::ViewingConditions;
 use crate::reference::Typed;
@@ -103,7 +102,11 @@ pub fn artifacts(baked: Baked) -> Vec<Artifact> {
         target: TABLES.to_owned(),
         method: Some(baked.method.to_owned()),
         material: baked.material.clone(),
-        detail: json!({ "command": baked.command, "description": description, "licence": OUTPUT_LICENCE }),
+        detail: Detail::Table(TableDetail {
+            command: baked.command.clone(),
+            description: description.clone(),
+            licence: OUTPUT_LICENCE,
+        }),
     };
     files.into_iter().map(listed).collect()
 }

@@ -8,14 +8,13 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use serde_json::Value;
-
 use super::artifact::{self, Artifact};
 use super::error::Error;
 use super::folder;
 use super::manifest::{self, Entry, Manifest, Provenance};
 use super::ours::{bears_mark, could_be_written, is_listed, is_same, listed_hash};
 use super::scope::Scope;
+use crate::emit::FunctionDetail;
 use crate::num::Precision;
 
 /// The difference between the artifacts and the folder.
@@ -141,13 +140,6 @@ pub fn plan(
     })
 }
 
-/// The names of the functions that a file's detail lists.
-fn functions(detail: Option<&Value>) -> Vec<&str> {
-    let functions = detail.and_then(Value::as_array).into_iter().flatten();
-    let names = functions.filter_map(|function| function["name"].as_str());
-    names.collect()
-}
-
 /// Functions that the manifest lists of a file and the artifact does not hold.
 fn dropped_functions(
     artifacts: &[Artifact],
@@ -155,10 +147,10 @@ fn dropped_functions(
 ) -> Vec<(String, Vec<String>)> {
     let dropped = |artifact: &Artifact| {
         let entry = listed.get(artifact.path.as_str())?;
-        let kept = functions(artifact.detail.get("functions"));
-        let mut lost = functions(entry.detail.get("functions"));
-        lost.retain(|name| !kept.contains(name));
-        let lost: Vec<String> = lost.into_iter().map(str::to_owned).collect();
+        let kept = artifact.detail.functions();
+        let is_lost = |name: &&str| !kept.iter().any(|function| function.name == *name);
+        let lost = entry.function_names().filter(is_lost);
+        let lost: Vec<String> = lost.map(str::to_owned).collect();
         (!lost.is_empty()).then(|| (artifact.path.clone(), lost))
     };
     artifacts.iter().filter_map(dropped).collect()
@@ -168,9 +160,9 @@ fn dropped_functions(
 /// that it keeps from earlier runs change with it.
 fn reseen(artifacts: &[Artifact], listed: &BTreeMap<&str, &Entry>) -> Vec<(String, [String; 2])> {
     let changed = |artifact: &Artifact| {
-        let old = listed.get(artifact.path.as_str())?.detail.get("seen")?["truth"].as_str()?;
-        let new = artifact.detail["seen"]["truth"].as_str()?;
-        (old != new).then(|| (artifact.path.clone(), [old.to_owned(), new.to_owned()]))
+        let old = listed.get(artifact.path.as_str())?.truth()?;
+        let new = &artifact.detail.seen()?.truth;
+        (old != new).then(|| (artifact.path.clone(), [old.to_owned(), new.clone()]))
     };
     artifacts.iter().filter_map(changed).collect()
 }
@@ -188,13 +180,13 @@ fn refuse_meeting_names(artifacts: &[Artifact], merged: &Manifest) -> Result<(),
         .filter(|entry| !made.contains(entry.file.as_str()));
     let mut owners: BTreeMap<(&str, &str), &str> = BTreeMap::new();
     for entry in others {
-        for name in functions(entry.detail.get("functions")) {
+        for name in entry.function_names() {
             owners.insert((&entry.target, name), &entry.file);
         }
     }
     for artifact in artifacts {
-        for name in functions(artifact.detail.get("functions")) {
-            if let Some(other) = owners.get(&(artifact.target.as_str(), name)) {
+        for FunctionDetail { name, .. } in artifact.detail.functions() {
+            if let Some(other) = owners.get(&(artifact.target.as_str(), name.as_str())) {
                 return Err(Error::Usage {
                     what: format!(
                         "`{name}` would stand in {} and stands in {other}; rename a material, or choose another --prefix",

@@ -1,4 +1,5 @@
-//! What the manifest says of a file: its command, its functions, and of a material how it is seen.
+//! What the manifest says of a file: its command, its functions, and of a material how it is seen. Typed rows: the manifest alone
+//! is JSON.
 
 use std::collections::BTreeMap;
 
@@ -28,66 +29,115 @@ use super::print;
 pub enum Detail {
     /// Of a file of functions.
     Functions(Box<FunctionsDetail>),
-    /// Of a catalogue's array.
+    /// Of a file of the catalogue.
     Catalogue(CatalogueDetail),
+    /// Of a lookup table, or of its description.
+    Table(TableDetail),
+}
+
+impl Detail {
+    /// The functions of the file.
+    pub fn functions(&self) -> &[FunctionDetail] {
+        match self {
+            Detail::Functions(file) => &file.functions,
+            Detail::Catalogue(_) | Detail::Table(_) => &[],
+        }
+    }
+
+    /// How the material of a file of functions is seen.
+    pub fn seen(&self) -> Option<&SeenDetail> {
+        match self {
+            Detail::Functions(file) => file.seen.as_ref(),
+            Detail::Catalogue(_) | Detail::Table(_) => None,
+        }
+    }
 }
 
 /// What the manifest says of a file of functions.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct FunctionsDetail {
-    command: String,
-    functions: Vec<FunctionDetail>,
+    /// The command that writes it.
+    pub command: String,
+    /// Its functions in order.
+    pub functions: Vec<FunctionDetail>,
+    /// What they compute in; nothing for single precision.
     #[serde(skip_serializing_if = "Option::is_none")]
-    precision: Option<&'static str>,
+    pub precision: Option<&'static str>,
+    /// How the material is seen.
     #[serde(skip_serializing_if = "Option::is_none")]
-    seen: Option<SeenDetail>,
+    pub seen: Option<SeenDetail>,
+    /// Where the material's indices come from.
     #[serde(skip_serializing_if = "Option::is_none")]
-    data: Option<DataDetail>,
+    pub data: Option<DataDetail>,
 }
 
-/// What the manifest says of the array of a catalogue.
+/// What the manifest says of a file of the catalogue: an array of a language, or `catalogue.json`.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct CatalogueDetail {
     /// The command that writes it.
     pub command: String,
     /// The array's name.
-    pub array: String,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub array: Option<String>,
     /// How many materials it has.
     pub materials: usize,
-    /// How many rows.
-    pub rows: usize,
+    /// How many rows the array has.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub rows: Option<usize>,
     /// How the materials are seen, in words.
     pub seen: String,
     /// The licence of the file.
     pub licence: &'static str,
 }
 
+/// What the manifest says of a lookup table.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct TableDetail {
+    /// The command that writes it.
+    pub command: String,
+    /// The file that describes it.
+    pub description: String,
+    /// The licence of the file.
+    pub licence: &'static str,
+}
+
 /// How a material is seen: its modules have no head to say it in.
 #[derive(Clone, Debug, PartialEq, Serialize)]
-struct SeenDetail {
-    truth: String,
-    extrapolated: Option<String>,
-    n: [f64; 3],
-    k: [f64; 3],
-    nk_by: [&'static str; 3],
+pub struct SeenDetail {
+    /// What the reference reflectance is, in words.
+    pub truth: String,
+    /// Beyond which wavelengths its index was held, in words, where it was.
+    pub extrapolated: Option<String>,
+    /// The effective n of each channel.
+    pub n: [f64; 3],
+    /// The effective k of each channel.
+    pub k: [f64; 3],
+    /// How they were found.
+    pub nk_by: [&'static str; 3],
 }
 
 /// Where a material's indices come from.
 #[derive(Clone, Debug, PartialEq, Serialize)]
-struct DataDetail {
-    reference: String,
-    link: String,
-    licence: String,
-    conditions: String,
+pub struct DataDetail {
+    /// The publication.
+    pub reference: String,
+    /// Where it is found.
+    pub link: String,
+    /// The licence of the data.
+    pub licence: String,
+    /// How it was measured.
+    pub conditions: String,
 }
 
 /// What the manifest says of a function.
 #[derive(Clone, Debug, PartialEq, Serialize)]
-struct FunctionDetail {
-    name: String,
+pub struct FunctionDetail {
+    /// Its name.
+    pub name: String,
     method: &'static str,
     form: FunctionForm,
-    signature: String,
+    /// Its head, as the file has it.
+    pub signature: String,
     parameters: Parameters,
     operations: usize,
     fetches: usize,
@@ -101,8 +151,9 @@ struct FunctionDetail {
     average: Option<[f64; 3]>,
     #[serde(skip_serializing_if = "Option::is_none")]
     average_unlimited: Option<[f64; 3]>,
+    /// Of a function of a module: its entry point.
     #[serde(skip_serializing_if = "Option::is_none")]
-    entry_point: Option<String>,
+    pub entry_point: Option<String>,
     #[serde(skip_serializing_if = "Option::is_none")]
     uniforms: Option<Vec<UniformDetail>>,
     #[serde(flatten)]

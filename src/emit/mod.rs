@@ -24,10 +24,15 @@ mod wgsl;
 
 pub use average::{Average, average_functions};
 pub use bounds::{Bounds, CodeBound, HalfBound, PLAIN_ULP, fingerprint, half_bounds, sha256};
-pub use catalogue::{CATALOGUE, CatalogueRow, CloserFit, catalogue, methods_of};
+pub use catalogue::{
+    CATALOGUE, CatalogueMaterial, CatalogueMethod, CatalogueRow, CloserFit, catalogue_array,
+    catalogue_record, catalogue_rows, recorded_catalogue,
+};
 pub use command::{CommandLine, file_name, quoted, sight_flags, surface_flags};
 pub use comment::lines as comment_lines;
-pub use detail::Detail;
+pub use detail::{
+    CatalogueDetail, Detail, FunctionDetail, FunctionsDetail, SeenDetail, TableDetail,
+};
 pub use error::Error;
 pub use figures::{half_promise, promises};
 pub use file::{

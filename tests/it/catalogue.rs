@@ -3,8 +3,8 @@
 use std::path::Path;
 
 use fresnel_gen::app::catalogue::{add_catalogue, derived_rows};
-use fresnel_gen::app::recorded;
 use fresnel_gen::app::{Artifact, Request, generate};
+use fresnel_gen::emit::{catalogue_record, recorded_catalogue};
 use fresnel_gen::fit::inputs_of;
 use fresnel_gen::methods;
 use fresnel_gen::records;
@@ -117,11 +117,11 @@ fn it_holds_what_the_fit_gives_and_what_it_errs() {
 fn the_record_is_what_the_spectra_give() {
     let (rows, seen) = derived_rows(&Request::default()).unwrap();
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("data/records/catalogue.json");
-    super::bless::check(&path, recorded::record(&rows).as_bytes());
-    let taken = recorded::recorded_rows(&Request::default()).expect("the record is true");
-    assert_eq!(recorded::record(&taken), recorded::record(&rows));
+    super::bless::check(&path, catalogue_record(&rows).as_bytes());
+    let taken = recorded_catalogue(&Request::default().sight).expect("the record is true");
+    assert_eq!(catalogue_record(&taken), catalogue_record(&rows));
     assert_eq!(Request::default().sight.reference_in_words(), seen);
     let mut other = Request::default();
     other.sight.gamut = Gamut::Keep;
-    assert!(recorded::recorded_rows(&other).is_none());
+    assert!(recorded_catalogue(&other.sight).is_none());
 }

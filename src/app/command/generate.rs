@@ -275,23 +275,18 @@ fn written(
 }
 
 /// After the first run in a folder: one of the functions, and what to do next.
-fn first_steps(generated: &Generated, out_dir: &Path) -> Vec<String> {
-    let function = |artifact: &&Artifact| artifact.detail["functions"][0]["signature"].is_string();
-    let mut artifacts = generated.artifacts.iter().filter(function);
-    let of_material = artifacts
+fn first_steps<'g>(generated: &'g Generated, out_dir: &Path) -> Vec<String> {
+    let first = |artifact: &'g Artifact| Some((artifact, artifact.detail.functions().first()?));
+    let mut functions = generated.artifacts.iter().filter_map(first);
+    let of_material = functions
         .clone()
-        .find(|artifact| artifact.material.is_some());
-    let Some(artifact) = of_material.or_else(|| artifacts.next()) else {
+        .find(|(artifact, _)| artifact.material.is_some());
+    let Some((artifact, function)) = of_material.or_else(|| functions.next()) else {
         return Vec::new();
     };
-    let signature = artifact.detail["functions"][0]["signature"].as_str();
     let file = out_dir.join(&artifact.path);
     vec![
-        format!(
-            "for example {}: {}",
-            file.display(),
-            signature.unwrap_or_default()
-        ),
+        format!("for example {}: {}", file.display(), function.signature),
         match cfg!(feature = "gpu") {
             true => {
                 "next: use it; `fresnel-gen verify` with the same flags runs it on this machine"
@@ -334,21 +329,12 @@ pub fn kept(out_dir: &Path, precision: Precision) -> Result<Kept, Error> {
     let mut entries = Manifest::parse(&path, &text)?.files;
     entries.retain(|entry| entry.precision() == precision.name());
     for entry in entries {
-        let Some(material) = entry.material else {
+        let Some(material) = &entry.material else {
             continue;
         };
-        let functions = entry
-            .detail
-            .get("functions")
-            .and_then(|value| value.as_array())
-            .cloned()
-            .unwrap_or_default();
-        let methods = functions
-            .iter()
-            .filter_map(|function| Some(function.get("method")?.as_str()?.to_owned()));
-        kept.entry((entry.target, material))
+        kept.entry((entry.target.clone(), material.clone()))
             .or_default()
-            .extend(methods);
+            .extend(entry.function_methods().map(str::to_owned));
     }
     Ok(kept)
 }

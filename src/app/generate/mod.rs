@@ -15,8 +15,6 @@ use crate::num::Precision;
 use crate::reference::MaterialInMedium;
 use crate::targets::{Finish, Target};
 
-use serde_json::json;
-
 use super::artifact::{Artifact, sha256};
 use super::error::Error;
 use super::manifest::{Input, Provenance};
@@ -382,6 +380,6 @@ fn artifact(target: &Target, file: File, method: Option<&str>, material: Option<
         target: target.name.to_owned(),
         method: method.map(str::to_owned),
         material: material.map(str::to_owned),
-        detail: json!(file.detail),
+        detail: file.detail,
     }
 }

@@ -1,10 +1,11 @@
 //! What the manifest says of a file, against what is true of it today: functions, signatures, errors, costs.
 
-use serde_json::Value;
+use serde_json::{Value, json};
 
 use crate::app::artifact::Artifact;
 use crate::app::manifest::{self, Entry, Manifest};
 use crate::app::ours::is_listed;
+use crate::emit::Detail;
 
 /// The manifest's entry of a file.
 pub(super) struct Listed<'a> {
@@ -25,22 +26,13 @@ impl<'a> Listed<'a> {
         })
     }
 
-    fn functions(&self) -> &'a [Value] {
-        let functions = self.entry.detail.get("functions").and_then(Value::as_array);
-        functions.map_or(&[], Vec::as_slice)
-    }
-
     /// Whether it lists a function.
     pub fn has(&self, name: &str) -> bool {
-        self.functions()
-            .iter()
-            .any(|function| function["name"] == name)
+        self.entry.function_names().any(|listed| listed == name)
     }
 
     /// What it says and is not so, against what would be listed today.
     pub fn findings(&self, artifact: &Artifact) -> Vec<String> {
-        // As it would be read again: numbers compare by their digits.
-        let today: Value = serde_json::from_str(&artifact.detail.to_string()).unwrap_or_default();
         let mut found = Vec::new();
         if self.times > 1 {
             found.push(format!(
@@ -65,38 +57,33 @@ impl<'a> Listed<'a> {
                 ));
             }
         }
-        for function in self.functions() {
+        let today = artifact.detail.functions();
+        for function in self.entry.functions() {
             let name = function["name"].as_str().unwrap_or_default();
-            match functions(&today).iter().find(|other| other["name"] == name) {
+            match today.iter().find(|other| other.name == name) {
                 None => found.push(self.finding(
                     name,
                     "name",
                     "lists it, and fresnel-gen does not write it",
                 )),
-                Some(right) => found.extend(self.claims(name, function, right)),
+                Some(right) => found.extend(self.claims(name, function, &json!(right))),
             }
         }
-        found.extend(
-            ["seen", "data"]
-                .into_iter()
-                .filter_map(|claim| self.of_material(claim, &today)),
-        );
+        if let Detail::Functions(today) = &artifact.detail {
+            found.extend(self.of_material("seen", &json!(today.seen)));
+            found.extend(self.of_material("data", &json!(today.data)));
+        }
         found
     }
 
     /// What it says of the material's viewing conditions or source and is not so.
-    fn of_material(&self, claim: &str, today: &Value) -> Option<String> {
-        let said = self
-            .entry
-            .detail
-            .get(claim)
-            .filter(|said| **said != today[claim])?;
+    fn of_material(&self, claim: &str, right: &Value) -> Option<String> {
+        let said = self.entry.detail.get(claim).filter(|said| *said != right)?;
         Some(format!(
-            "{}:{}: of {} it says `{claim}` is {said}, and right is {}",
+            "{}:{}: of {} it says `{claim}` is {said}, and right is {right}",
             manifest::FILE,
             self.line(&[&format!("\"{claim}\":")]),
             self.entry.file,
-            today[claim]
         ))
     }
 
@@ -169,9 +156,4 @@ impl<'a> Listed<'a> {
         }
         at
     }
-}
-
-/// The functions that a file's detail names.
-pub(super) fn functions(detail: &Value) -> &[Value] {
-    detail["functions"].as_array().map_or(&[], Vec::as_slice)
 }

@@ -13,7 +13,7 @@ use crate::verify::module;
 use crate::verify::outline::{Item, Outline, outline};
 use crate::verify::plan::ShippedPage;
 
-use super::listed::{self, Listed};
+use super::listed::Listed;
 
 fn loop_found(found: &Item) -> String {
     match found.line {
@@ -143,14 +143,14 @@ impl<'a> Today<'a> {
 
     /// The entry points of the functions that are to be run.
     fn entries(&self) -> Vec<String> {
-        let functions = listed::functions(&self.made.artifact.detail);
-        let entry =
-            |function: &serde_json::Value| function["entry_point"].as_str().map(str::to_owned);
+        let functions = self.made.artifact.detail.functions();
         let wanted = functions
             .iter()
             .zip(self.asked)
             .filter(|(_, asked)| **asked);
-        wanted.filter_map(|(function, _)| entry(function)).collect()
+        wanted
+            .filter_map(|(function, _)| function.entry_point.clone())
+            .collect()
     }
 
     /// The names by which a file holds the functions that are to be run.
@@ -212,16 +212,12 @@ impl<'a> Today<'a> {
 
     /// Functions by the name that stands in the file: of a module the entry point.
     fn functions(&self) -> impl Iterator<Item = (&str, &str)> {
-        let word = if self.is_module() {
-            "entry_point"
-        } else {
-            "name"
-        };
-        listed::functions(&self.made.artifact.detail)
-            .iter()
-            .filter_map(move |function| {
-                Some((function[word].as_str()?, function["name"].as_str()?))
-            })
+        let functions = self.made.artifact.detail.functions().iter();
+        functions.map(|function| {
+            let entry_point = function.entry_point.as_ref();
+            let in_file = entry_point.unwrap_or(&function.name);
+            (in_file.as_str(), function.name.as_str())
+        })
     }
 
     fn entries_of_all(&self) -> Vec<String> {
@@ -277,10 +273,10 @@ impl<'a> Today<'a> {
                 .made
                 .functions
                 .iter()
-                .zip(listed::functions(&self.made.artifact.detail));
+                .zip(self.made.artifact.detail.functions());
             let lost = pairs.filter(|(emitted, function)| {
-                let entry = function["entry_point"].as_str().unwrap_or_default();
-                lacks.iter().any(|name| name == entry) && is_listed(&emitted.name)
+                let entry = function.entry_point.as_ref();
+                entry.is_some_and(|entry| lacks.contains(entry)) && is_listed(&emitted.name)
             });
             return lost
                 .map(|(emitted, _)| format!("{path}: it lacks `{}`", emitted.name))

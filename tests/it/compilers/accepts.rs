@@ -42,12 +42,12 @@ fn compilers_that_are_not_here_are_named() {
 fn every_function_is_called() {
     for target in targets::ALL.iter().filter(|t| t.finish != Finish::Spirv) {
         for file in files(target.name) {
-            let functions = file.detail["functions"].as_array().unwrap();
+            let functions = file.detail.functions();
             let calls = calls(text(file), false);
             assert_eq!(calls.lines().count(), functions.len(), "{}", file.path);
             for function in functions {
                 // A mean over the hemisphere takes no angle: its first argument is a coefficient.
-                let call = format!("    sum += {}(at", function["name"].as_str().unwrap());
+                let call = format!("    sum += {}(at", function.name);
                 assert!(calls.contains(&call), "{}: no {call}", file.path);
             }
         }

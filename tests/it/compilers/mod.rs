@@ -13,6 +13,7 @@ use std::sync::{LazyLock, Mutex};
 
 use fresnel_gen::app::request::DEFAULT_MATERIALS;
 use fresnel_gen::app::{Artifact, Materials, Request, Source, generate};
+use fresnel_gen::emit::Detail;
 use fresnel_gen::lut::{self, TableAxis};
 use fresnel_gen::num::Precision;
 use fresnel_gen::targets::Target;
@@ -129,7 +130,7 @@ fn all_files() -> Vec<Artifact> {
     };
     files.extend(made(&unprefixed, "unprefixed/"));
     files.extend(in_half());
-    files.extend(lookups());
+    files.extend(lookups(&files[0].detail));
     files
 }
 
@@ -157,31 +158,45 @@ fn in_half() -> Vec<Artifact> {
 
 /// What a file's functions compute in.
 pub fn precision(file: &Artifact) -> Precision {
-    let said = file.detail["precision"].as_str();
+    let detail = json!(file.detail);
+    let said = detail["precision"].as_str();
     said.map_or(Precision::F32, |name| Precision::find(name).unwrap())
 }
 
 /// Functions that read baked tables: along every axis, with row and scale as constants and as arguments.
-fn lookups() -> Vec<Artifact> {
+fn lookups(detail: &Detail) -> Vec<Artifact> {
     let text = targets::ALL.iter().copied();
     let text = text.filter(|target| target.finish != targets::Finish::Spirv);
     let kinds = [(Some(1.0), 1), (Some(1.058_7), 4), (None, 1), (None, 4)];
     let every = text.flat_map(|target| TableAxis::ALL.map(|axis| (target, axis)));
     every
-        .flat_map(|(target, axis)| kinds.map(|(scale, rows)| lookup(target, axis, scale, rows)))
+        .flat_map(|(target, axis)| {
+            kinds.map(|(scale, rows)| lookup(target, axis, (scale, rows), detail))
+        })
         .collect()
 }
 
-fn lookup(target: &'static Target, axis: TableAxis, scale: Option<f32>, rows: usize) -> Artifact {
+/// A file with the detail of another, which tells the name of the function.
+fn lookup(
+    target: &'static Target,
+    axis: TableAxis,
+    (scale, rows): (Option<f32>, usize),
+    detail: &Detail,
+) -> Artifact {
     let name = format!("fresnel_{}_{rows}_{}_table", axis.name(), scale.is_some());
     let function = lut::lookup(axis, 64, scale, rows).unwrap();
     let bytes = emit::lookup(target, name.clone(), function, Vec::new()).unwrap();
+    let mut detail = detail.clone();
+    if let Detail::Functions(file) = &mut detail {
+        file.functions.truncate(1);
+        file.functions[0].name.clone_from(&name);
+    }
     Artifact {
         path: format!("lookups/{name}.{}", target.extension),
         target: target.name.to_owned(),
         method: None,
         material: None,
-        detail: json!({ "functions": [{ "name": name }] }),
+        detail,
         bytes,
     }
 }

@@ -84,7 +84,7 @@ fn what_dxc_refuses_is_told() {
 fn materials(target: &str) -> Vec<(&'static Artifact, &'static str)> {
     let mut files = tree(target);
     files.retain(|file| file.material.is_some());
-    let first = |file: &&'static Artifact| file.detail["functions"][0]["name"].as_str().unwrap();
+    let first = |file: &&'static Artifact| file.detail.functions()[0].name.as_str();
     files.iter().map(|file| (*file, first(file))).collect()
 }
 

@@ -41,7 +41,8 @@ fn on_file(bytes: &[u8], judge: impl Fn(&str) -> Judgement) -> Judgement {
 
 /// What the manifest and the template's head say of a module.
 fn promise(file: &Artifact) -> Value {
-    let functions = file.detail["functions"].as_array().unwrap();
+    let detail = json!(file.detail);
+    let functions = detail["functions"].as_array().unwrap();
     let uniforms = functions[0]["uniforms"].as_array().unwrap();
     // Entry points of a module share its block.
     let is_shared = |f: &serde_json::Value| f["uniforms"].as_array() == Some(uniforms);

@@ -21,7 +21,8 @@ fn artifacts(precision: Precision) -> Vec<Artifact> {
 }
 
 fn lines(artifact: &Artifact) -> Vec<String> {
-    let functions = artifact.detail["functions"].as_array().unwrap();
+    let detail = serde_json::json!(artifact.detail);
+    let functions = detail["functions"].as_array().unwrap();
     let line = |function: &serde_json::Value| {
         let text = |key: &str| function[key].as_str().unwrap_or_default().to_owned();
         let module = match function.get("entry_point") {

@@ -19,8 +19,8 @@ use fresnel_gen::app::manifest::{Input, Provenance};
 use fresnel_gen::app::scope::Scope;
 use fresnel_gen::app::tree::{TreePlan, plan};
 use fresnel_gen::app::write::{self, Written};
+use fresnel_gen::emit::{Detail, FunctionsDetail, SeenDetail};
 use fresnel_gen::num::Precision;
-use serde_json::json;
 
 /// A run without flags: two targets with two methods, two materials and a catalogue each,
 /// a file without a comment and one that lies beside the targets' folders.
@@ -112,8 +112,24 @@ pub fn artifact(path: &str, target: &str, edition: usize) -> Artifact {
         target: target.to_string(),
         method: None,
         material: None,
-        // These digits change when a float is read carelessly, and the names are not in order.
-        detail: json!({"worst": 0.009647566461334507, "errors": [1.7976931348623157e308, 2.2250738585072014e-308]}),
+        detail: Detail::Functions(Box::new(FunctionsDetail {
+            command: "fresnel-gen".to_string(),
+            functions: Vec::new(),
+            precision: None,
+            // These digits change when a float is read carelessly, and the names are not in order.
+            seen: Some(SeenDetail {
+                truth: "as measured".to_string(),
+                extrapolated: None,
+                n: [
+                    0.009647566461334507,
+                    1.7976931348623157e308,
+                    2.2250738585072014e-308,
+                ],
+                k: [0.0; 3],
+                nk_by: [""; 3],
+            }),
+            data: None,
+        })),
     }
 }
 

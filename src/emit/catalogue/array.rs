@@ -3,60 +3,23 @@
 
 use serde::Serialize;
 
-use crate::fit::{ModelError, rounded_up};
-use crate::methods::Method;
+use crate::fit::rounded_up;
 use crate::targets::{self, Target};
 
-use super::average::Average;
-use super::comment;
-use super::detail::{CatalogueDetail, Detail};
-use super::error::Error;
-use super::figures::at_most;
-use super::file::File;
-use super::function::Naming;
-use super::header::{OUTPUT_LICENCE, formula, source, start};
-use super::page::{comments, finished, guard};
+use super::{CATALOGUE, CatalogueRow, methods_of};
+use crate::emit::comment;
+use crate::emit::detail::{CatalogueDetail, Detail};
+use crate::emit::error::Error;
+use crate::emit::figures::at_most;
+use crate::emit::file::File;
+use crate::emit::function::Naming;
+use crate::emit::header::{OUTPUT_LICENCE, formula, source, start};
+use crate::emit::page::{comments, finished, guard};
 
-/// The name of the file and of the array.
-pub const CATALOGUE: &str = "catalogue";
 /// The constant that says where the methods change.
 const DIELECTRICS: &str = "first_dielectric";
 /// Rows of the array that a material has: its coefficients.
 const ROWS: usize = 4;
-
-/// A material of the catalogue.
-#[derive(Clone, Debug)]
-pub struct CatalogueRow {
-    /// Its name, with the medium's.
-    pub name: String,
-    /// What a user types to get it again.
-    pub argument: String,
-    /// `metal`, `semiconductor` or `dielectric`.
-    pub class: &'static str,
-    /// The fitted method of its class.
-    pub method: &'static Method,
-    /// Its coefficients in order, three channels each, as f32 holds them.
-    pub coefficients: Vec<[f64; 3]>,
-    /// How far the function with these coefficients is from the exact law.
-    pub error: ModelError,
-    /// The mean of that function over the hemisphere.
-    pub average: Average,
-    /// A method that follows it more closely, of a semiconductor, or where the fit misses its class.
-    pub better: Option<CloserFit>,
-    /// Beyond which wavelengths its index was held, in words, where it was.
-    pub held: Option<String>,
-}
-
-/// A method that follows a material of the catalogue more closely than its four coefficients do.
-#[derive(Clone, Debug)]
-pub struct CloserFit {
-    /// The method.
-    pub method: &'static Method,
-    /// Its coefficients in order, three channels each; none of the exact law.
-    pub coefficients: Vec<[f64; 3]>,
-    /// The largest error.
-    pub max_abs: f64,
-}
 
 /// What a template sees.
 #[derive(Serialize)]
@@ -96,7 +59,7 @@ struct RowView {
 ///
 /// # Errors
 /// A name is a word of the language, or a text is refused by it.
-pub fn catalogue(
+pub fn catalogue_array(
     target: &'static Target,
     rows: &[CatalogueRow],
     naming: &Naming,
@@ -114,9 +77,9 @@ pub fn catalogue(
         name,
         detail: Detail::Catalogue(CatalogueDetail {
             command: command.to_owned(),
-            array: view.name,
+            array: Some(view.name),
             materials: rows.len(),
-            rows: view.size,
+            rows: Some(view.size),
             seen: seen.to_owned(),
             licence: OUTPUT_LICENCE,
         }),
@@ -202,13 +165,6 @@ fn colour(target: &Target, values: [f64; 3]) -> String {
     let spelling = &target.spelling;
     let numbers = values.map(|value| spelling.number(value));
     format!("{}({})", spelling.rgb, numbers.join(", "))
-}
-
-/// The methods of the rows, each once: rows of one stand together.
-pub fn methods_of(rows: &[CatalogueRow]) -> Vec<&'static Method> {
-    let mut methods: Vec<&'static Method> = rows.iter().map(|row| row.method).collect();
-    methods.dedup_by_key(|method| method.name);
-    methods
 }
 
 fn where_methods_change(rows: &[CatalogueRow]) -> String {

@@ -6,14 +6,13 @@ use std::collections::BTreeMap;
 
 use serde::{Deserialize, Serialize};
 
-use crate::emit::{Average, CatalogueRow, CloserFit, fingerprint, sha256};
+use super::{CatalogueRow, CloserFit};
+use crate::emit::{Average, fingerprint, sha256};
 use crate::fit::ModelError;
 use crate::materials::{self, MaterialKind, ViewingConditions};
 use crate::methods::{self, Method};
 
-use super::request::Request;
-
-static RECORD: &str = include_str!("../../data/records/catalogue.json");
+static RECORD: &str = include_str!("../../../data/records/catalogue.json");
 
 #[derive(Debug, PartialEq, Serialize, Deserialize)]
 struct Record {
@@ -45,10 +44,10 @@ struct RecordedBetter {
     max_abs: f64,
 }
 
-/// The rows of a request as they are recorded; nothing where it wants other viewing conditions, or where a material's file or a
-/// fitted method has changed since.
-pub fn recorded_rows(request: &Request) -> Option<Vec<CatalogueRow>> {
-    if request.medium.is_some() || request.sight != ViewingConditions::default() {
+/// The rows in air as they are recorded; nothing for other viewing conditions, or where a material's file or a fitted method has
+/// changed since.
+pub fn recorded_catalogue(sight: &ViewingConditions) -> Option<Vec<CatalogueRow>> {
+    if *sight != ViewingConditions::default() {
         return None;
     }
     let record: Record = serde_json::from_str(RECORD).ok()?;
@@ -59,7 +58,7 @@ pub fn recorded_rows(request: &Request) -> Option<Vec<CatalogueRow>> {
 }
 
 /// The text of the record of these rows.
-pub fn record(rows: &[CatalogueRow]) -> String {
+pub fn catalogue_record(rows: &[CatalogueRow]) -> String {
     let record = Record {
         methods: fitted_methods(),
         files: files(),

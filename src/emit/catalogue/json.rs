@@ -1,0 +1,106 @@
+//! The catalogue as `catalogue.json` has it.
+
+use serde::Serialize;
+
+use super::{CatalogueRow, CloserFit, methods_of};
+
+/// A method of the catalogue.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct CatalogueMethod {
+    name: &'static str,
+    formula: &'static [&'static str],
+    source: String,
+}
+
+impl CatalogueMethod {
+    /// The methods of these rows.
+    pub fn all(rows: &[CatalogueRow]) -> Vec<CatalogueMethod> {
+        let methods = methods_of(rows).into_iter();
+        let about = methods.map(|method| CatalogueMethod {
+            name: method.name,
+            formula: method.formula,
+            source: method.source.line(),
+        });
+        about.collect()
+    }
+}
+
+/// A material of the catalogue: a list of coefficients for each channel.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct CatalogueMaterial<'a> {
+    name: &'a str,
+    class: &'static str,
+    method: &'static str,
+    coefficients: [Vec<f64>; 3],
+    better: Option<CloserFitDetail>,
+    max_abs: f64,
+    worst_cos: f64,
+    mean_rel: Option<f64>,
+    average: [f64; 3],
+    average_unlimited: [f64; 3],
+    extrapolated: Option<&'a str>,
+}
+
+/// The method that follows it more closely; the exact law has no coefficients.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+struct CloserFitDetail {
+    method: &'static str,
+    max_abs: f64,
+    coefficients: Option<[Vec<f64>; 3]>,
+}
+
+impl CatalogueMaterial<'_> {
+    /// The material of a row.
+    pub fn new(row: &CatalogueRow) -> CatalogueMaterial<'_> {
+        CatalogueMaterial {
+            name: &row.name,
+            class: row.class,
+            method: row.method.name,
+            coefficients: by_channel(&row.coefficients),
+            better: row.better.as_ref().map(CloserFitDetail::new),
+            max_abs: row.error.max_abs,
+            worst_cos: row.error.worst_cos,
+            mean_rel: row.error.mean_rel,
+            average: row.average.given,
+            average_unlimited: row.average.unlimited,
+            extrapolated: row.held.as_deref(),
+        }
+    }
+}
+
+impl CloserFitDetail {
+    fn new(closer: &CloserFit) -> CloserFitDetail {
+        let coefficients = &closer.coefficients;
+        CloserFitDetail {
+            method: closer.method.name,
+            max_abs: closer.max_abs,
+            coefficients: (!coefficients.is_empty()).then(|| by_channel(coefficients)),
+        }
+    }
+}
+
+/// A list of coefficients for each channel.
+fn by_channel(coefficients: &[[f64; 3]]) -> [Vec<f64>; 3] {
+    let channel = |i: usize| coefficients.iter().map(|c| shortest(c[i])).collect();
+    [0, 1, 2].map(channel)
+}
+
+/// The number that prints with the fewest digits of those that are the same in f32.
+fn shortest(value: f64) -> f64 {
+    let digits = (value as f32).to_string();
+    digits.parse().expect("what is printed of a number is one")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn digits_give_the_same_f32_back() {
+        for value in [1.041_579_5_f32, -0.112_050_526, 1e-9, 0.1] {
+            let short = shortest(f64::from(value));
+            assert_eq!(short as f32, value);
+            assert_eq!(short.to_string(), value.to_string());
+        }
+    }
+}
