@@ -3,8 +3,8 @@
 use core::time::Duration;
 
 use crate::cost::{
-    CompilerSession, CostFigures, Dialect, ENTRY, Family, FragmentShader, GpuCompiler, Probe,
-    Statistics, Unmeasured, figures, foreign, launch,
+    CompilerSession, Dialect, ENTRY, Family, FragmentShader, GpuCompiler, Probe, foreign, launch,
+    told,
 };
 use crate::num::Precision;
 use crate::process::{Error, Surroundings, Worker};
@@ -15,17 +15,7 @@ use super::compile::Compilers;
 use super::language::Language;
 use super::place::placed;
 use super::program::AuditProgram;
-
-/// The cost of a function on a family, or why it is not known.
-#[derive(Clone, Debug)]
-pub struct Cost {
-    /// The family.
-    pub family: &'static Family,
-    /// The compiler with its version, where one spoke.
-    pub compiler: Option<String>,
-    /// What is known, or why nothing is.
-    pub figures: Result<CostFigures, String>,
-}
+use super::row::AuditCost;
 
 /// Asks the compiler of a family.
 ///
@@ -37,8 +27,8 @@ pub fn cost(
     compilers: &Compilers,
     limit: Duration,
     surroundings: &Surroundings,
-) -> Result<Cost, Error> {
-    let unknown = |why: String| Cost {
+) -> Result<AuditCost, Error> {
+    let unknown = |why: String| AuditCost {
         family,
         compiler: None,
         figures: Err(why),
@@ -53,35 +43,15 @@ pub fn cost(
     };
     let mut worker = Worker::new(launch);
     let mut session = CompilerSession::new(family, dialect, limit, &mut worker);
-    let compiler = match session.compiler() {
+    let compiler = match told(session.compiler())? {
         Ok(name) => name,
-        Err(Unmeasured::Compiler(why)) => return Ok(unknown(why)),
-        Err(Unmeasured::Process(error)) => return Err(error),
+        Err(why) => return Ok(unknown(why)),
     };
-    let statistics = shaders.into_iter().map(|shader| session.statistics(shader));
-    let figures = match statistics.collect() {
-        Ok(statistics) => counted(family, dialect, statistics),
-        Err(Unmeasured::Compiler(why)) => Err(why),
-        Err(Unmeasured::Process(error)) => return Err(error),
-    };
-    Ok(Cost {
+    Ok(AuditCost {
         family,
         compiler: Some(compiler),
-        figures,
+        figures: told(session.figures_of_shaders(shaders))?,
     })
-}
-
-/// The figures of four shaders: both chains of the function, both of the empty one.
-fn counted(
-    family: &Family,
-    dialect: Dialect,
-    statistics: Vec<Statistics>,
-) -> Result<CostFigures, String> {
-    let silent = || "the compiler does not tell instructions".to_owned();
-    let [short, long, bare_short, bare_long] =
-        <[Statistics; 4]>::try_from(statistics).map_err(|_| silent())?;
-    let (own, bare) = ([short, long], [bare_short, bare_long]);
-    figures(&family.columns, dialect.chains(), &own, &bare).ok_or_else(silent)
 }
 
 fn absent(family: &Family, surroundings: &Surroundings) -> String {
@@ -94,30 +64,31 @@ fn absent(family: &Family, surroundings: &Surroundings) -> String {
     }
 }
 
-/// The four shaders as the worker takes them.
+/// The shaders with both chains of the function and of the empty one, as the worker takes them.
 fn shaders(
     program: &AuditProgram,
     dialect: Dialect,
     compilers: &Compilers,
-) -> Result<Result<Vec<FragmentShader>, String>, Error> {
-    let chains = dialect.chains();
-    let own = chains.map(|evaluations| shader(program, dialect, evaluations));
-    let bare = chains.map(|evaluations| empty(program.language, dialect, evaluations));
+) -> Result<Result<[FragmentShader; 4], String>, Error> {
+    let [short, long] = dialect.chains();
+    let chain = |evaluations| shader(program, dialect, evaluations);
+    let empty = |evaluations| empty(program.language, dialect, evaluations);
     let mut shaders = Vec::new();
-    // What a compiler did not end for once is not asked again.
-    for made in own.into_iter().chain(bare) {
-        match made {
-            Ok(MeasuredShader::Ready(shader)) => shaders.push(shader),
+    // A compiler that timed out once is not asked again.
+    for made in [chain(short), chain(long), empty(short), empty(long)] {
+        let made = match made {
+            Ok(MeasuredShader::Ready(shader)) => Ok(shader),
             Ok(MeasuredShader::Foreign(language, text)) => {
-                match module(compilers.module(language, text)?) {
-                    Ok(shader) => shaders.push(shader),
-                    Err(why) => return Ok(Err(why)),
-                }
+                module(compilers.module(language, text)?)
             }
+            Err(why) => Err(why),
+        };
+        match made {
+            Ok(shader) => shaders.push(shader),
             Err(why) => return Ok(Err(why)),
         }
     }
-    Ok(Ok(shaders))
+    Ok(Ok(shaders.try_into().expect("there are four")))
 }
 
 /// A shader that is measured.

@@ -39,7 +39,7 @@ pub use bind::Given;
 pub use edges::EdgeRow;
 pub use error::{Error, FunctionPlace, ValueFault};
 pub use language::Language;
-pub use row::{ArgumentValue, AuditCostRow, AuditRow, Dominating, PerceivedFigures};
+pub use row::{ArgumentValue, AuditCost, AuditRow, Dominating, PerceivedFigures};
 pub use serve::serve;
 
 use bind::{Bound, BoundArgument};
@@ -174,11 +174,11 @@ impl Audit {
         compilers: &Compilers,
         surroundings: &Surroundings,
         progress: &mut dyn FnMut(u64, u64, &str),
-    ) -> Result<(Vec<cost::Cost>, Vec<ours::Ours>), Error> {
+    ) -> Result<(Vec<AuditCost>, Vec<ours::Ours>), Error> {
         let each = self.families.iter();
         let limit = self.limit();
         let each = each.map(|family| cost::cost(program, family, compilers, limit, surroundings));
-        let costs: Vec<cost::Cost> = each.collect::<Result<_, _>>()?;
+        let costs: Vec<AuditCost> = each.collect::<Result<_, _>>()?;
         if costs.iter().all(|cost| cost.figures.is_err()) {
             return Ok((costs, Vec::new()));
         }

@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-use crate::cost::{CostAndError, CostFigures};
+use crate::cost::{CostAndError, CostFigures, Family};
 use crate::fit::{ModelError, Perceived};
 use crate::reference::MaterialInMedium;
 use crate::verify::compilers::Verdict;
@@ -11,7 +11,6 @@ use crate::verify::{Answer, JunitCase, Status, as_object};
 use super::Audit;
 use super::bind::{Bound, BoundArgument};
 use super::comparison::{Competitor, dominating, sentence};
-use super::cost::Cost;
 use super::edges::{EdgeRow, Edges};
 use super::ours::Ours;
 use super::runner::Trouble;
@@ -58,7 +57,7 @@ pub struct AuditRow {
     /// What came beyond the domain, where it is no reflectance, in words.
     pub beyond: Option<Vec<String>>,
     /// What it costs on each GPU.
-    pub cost: Vec<AuditCostRow>,
+    pub cost: Vec<AuditCost>,
     /// The methods that dominate it.
     pub dominated_by: Vec<Dominating>,
     /// For each GPU whether a method dominates it, in words; none where the methods are not known there.
@@ -88,29 +87,49 @@ pub struct PerceivedFigures {
     pub de2000: f64,
 }
 
-/// What a function costs on a GPU.
+/// What a function costs on a family of GPUs, or why that is not known.
 #[derive(Clone, Debug, Serialize)]
-pub struct AuditCostRow {
-    /// The family of GPUs.
-    pub gpu: &'static str,
+#[serde(into = "AuditCostJson")]
+pub struct AuditCost {
+    /// The family.
+    pub family: &'static Family,
     /// The compiler with its version, where one was asked.
     pub compiler: Option<String>,
-    /// What is counted.
-    pub measure: &'static str,
-    /// Instructions of the whole shader.
-    pub instructions: Option<f64>,
-    /// Its latency.
-    pub latency: Option<f64>,
-    /// Its inverse throughput.
-    pub inverse_throughput: Option<f64>,
-    /// Instructions of one evaluation.
-    pub net_instructions: Option<f64>,
-    /// Inverse throughput of one evaluation.
-    pub net_inverse_throughput: Option<f64>,
-    /// The cost of one evaluation.
-    pub net: Option<f64>,
-    /// Why it is not known.
-    pub reason: Option<String>,
+    /// What is known, or why nothing is.
+    pub figures: Result<CostFigures, String>,
+}
+
+/// The cost in a report's JSON.
+#[derive(Serialize)]
+struct AuditCostJson {
+    gpu: &'static str,
+    compiler: Option<String>,
+    measure: &'static str,
+    instructions: Option<f64>,
+    latency: Option<f64>,
+    inverse_throughput: Option<f64>,
+    net_instructions: Option<f64>,
+    net_inverse_throughput: Option<f64>,
+    net: Option<f64>,
+    reason: Option<String>,
+}
+
+impl From<AuditCost> for AuditCostJson {
+    fn from(cost: AuditCost) -> AuditCostJson {
+        let figures = cost.figures.as_ref().ok();
+        AuditCostJson {
+            gpu: cost.family.name,
+            compiler: cost.compiler,
+            measure: cost.family.columns.measure,
+            instructions: figures.map(|figures| figures.shader.instructions),
+            latency: figures.and_then(|figures| figures.shader.latency),
+            inverse_throughput: figures.and_then(|figures| figures.shader.inverse_throughput),
+            net_instructions: figures.map(|figures| figures.net.instructions),
+            net_inverse_throughput: figures.and_then(|figures| figures.net.inverse_throughput),
+            net: figures.map(CostFigures::cost),
+            reason: cost.figures.err(),
+        }
+    }
 }
 
 /// A method of ours that errs no more and costs no more on a GPU.
@@ -178,7 +197,7 @@ pub struct Audited<'a> {
     /// What came of running it.
     pub ran: &'a Result<Ran, Trouble>,
     /// What it costs.
-    pub costs: &'a [Cost],
+    pub costs: &'a [AuditCost],
     /// Our methods.
     pub ours: &'a [Ours],
 }
@@ -213,7 +232,7 @@ impl Audited<'_> {
             accepts: self.verdicts.iter().map(answer).collect(),
             edges: ran.map(|ran| ran.edges.rows.clone()),
             beyond: ran.map(|ran| ran.edges.remarks.clone()),
-            cost: self.costs.iter().map(cost_row).collect(),
+            cost: self.costs.to_vec(),
             dominated_by: costs
                 .flat_map(|(i, cost)| self.dominating(i, cost))
                 .collect(),
@@ -263,14 +282,14 @@ impl Audited<'_> {
     }
 
     /// The cost on the family of this place and the error, where both are known.
-    fn point(&self, cost: &Cost) -> Option<CostAndError> {
+    fn point(&self, cost: &AuditCost) -> Option<CostAndError> {
         Some(CostAndError {
             error: self.ran.as_ref().ok()?.error.max_abs,
             cost: cost.figures.as_ref().ok()?.cost(),
         })
     }
 
-    fn dominating(&self, place: usize, cost: &Cost) -> Vec<Dominating> {
+    fn dominating(&self, place: usize, cost: &AuditCost) -> Vec<Dominating> {
         let Some(own) = self.point(cost) else {
             return Vec::new();
         };
@@ -306,20 +325,4 @@ fn argument_value(argument: &BoundArgument) -> (String, ArgumentValue) {
         },
     };
     (argument.name.clone(), value)
-}
-
-fn cost_row(cost: &Cost) -> AuditCostRow {
-    let figures = cost.figures.as_ref().ok();
-    AuditCostRow {
-        gpu: cost.family.name,
-        compiler: cost.compiler.clone(),
-        measure: cost.family.columns.measure,
-        instructions: figures.map(|figures| figures.shader.instructions),
-        latency: figures.and_then(|figures| figures.shader.latency),
-        inverse_throughput: figures.and_then(|figures| figures.shader.inverse_throughput),
-        net_instructions: figures.map(|figures| figures.net.instructions),
-        net_inverse_throughput: figures.and_then(|figures| figures.net.inverse_throughput),
-        net: figures.map(CostFigures::cost),
-        reason: cost.figures.as_ref().err().cloned(),
-    }
 }

@@ -6,7 +6,7 @@ use crate::process::{Error, Launch, Pool, Surroundings, Task, Worker};
 
 use super::family::{Dialect, Family};
 use super::function::CostedFunction;
-use super::session::{CompilerFigures, CompilerSession, Unmeasured, launch};
+use super::session::{CompilerFigures, CompilerSession, launch, told};
 
 /// What came of asking a family's compiler.
 #[derive(Clone, Debug)]
@@ -103,10 +103,9 @@ impl Questions<'_> {
             return Ok(FamilyAnswers::Absent("it has no compiler".to_owned()));
         };
         let mut session = CompilerSession::new(family, dialect, pool.limit, worker);
-        let compiler = match session.compiler() {
+        let compiler = match told(session.compiler())? {
             Ok(name) => name,
-            Err(Unmeasured::Compiler(why)) => return Ok(FamilyAnswers::Absent(why)),
-            Err(Unmeasured::Process(error)) => return Err(error),
+            Err(why) => return Ok(FamilyAnswers::Absent(why)),
         };
         let mut answers = Vec::new();
         for function in &self.functions[job.functions.clone()] {

@@ -36,7 +36,7 @@ pub use row::{CostRow, CostSource};
 #[cfg(all(feature = "cli", feature = "gpu"))]
 pub use serve::serve;
 #[cfg(all(feature = "cli", feature = "gpu"))]
-pub use session::{CompilerSession, Unmeasured, launch};
+pub use session::{CompilerSession, launch, told};
 #[cfg(all(feature = "cli", feature = "gpu"))]
 pub use table::cost_rows;
 

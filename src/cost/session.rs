@@ -26,6 +26,18 @@ pub enum Unmeasured {
     Compiler(String),
 }
 
+/// What a compiler told, or why it told nothing.
+///
+/// # Errors
+/// No process can be started.
+pub fn told<T>(asked: Result<T, Unmeasured>) -> Result<Result<T, String>, Error> {
+    match asked {
+        Ok(told) => Ok(Ok(told)),
+        Err(Unmeasured::Compiler(why)) => Ok(Err(why)),
+        Err(Unmeasured::Process(error)) => Err(error),
+    }
+}
+
 /// Hangs after which a compiler is asked no more.
 const HANGS: usize = 3;
 
@@ -79,18 +91,23 @@ impl<'a> CompilerSession<'a> {
         if function.precision.is_half() && !self.family.half {
             return Ok(Err("it has no 16-bit arithmetic".to_owned()));
         }
-        match self.figures(function) {
-            Ok(figures) => Ok(Ok(figures)),
-            Err(Unmeasured::Compiler(why)) => Ok(Err(why)),
-            Err(Unmeasured::Process(error)) => Err(error),
-        }
+        told(self.figures(function))
     }
 
-    /// What the compiler says of a shader.
+    /// What the compiler says of shaders with the shorter and the longer chain of a function, then of the empty function.
     ///
     /// # Errors
-    /// It says nothing.
-    pub fn statistics(&mut self, shader: FragmentShader) -> Result<Statistics, Unmeasured> {
+    /// It says nothing of one of them.
+    pub fn figures_of_shaders(
+        &mut self,
+        [short, long, empty_short, empty_long]: [FragmentShader; 4],
+    ) -> Result<CostFigures, Unmeasured> {
+        let chains = self.both([short, long])?;
+        let empty = self.both([empty_short, empty_long])?;
+        self.net_figures(&chains, &empty)
+    }
+
+    fn statistics(&mut self, shader: FragmentShader) -> Result<Statistics, Unmeasured> {
         let response = self.ask(&CompilerRequest::Measure(shader))?;
         response.statistics().map_err(Unmeasured::Compiler)
     }
@@ -105,11 +122,18 @@ impl<'a> CompilerSession<'a> {
 
     fn figures(&mut self, function: &CostedFunction) -> Result<CostFigures, Unmeasured> {
         let empty = self.empty(function)?;
-        let chains = self.both(function.chains(self.dialect))?;
-        let columns = &self.family.columns;
-        figures(columns, self.dialect.chains(), &chains, &empty).ok_or_else(|| {
-            Unmeasured::Compiler("the compiler does not tell instructions".to_owned())
-        })
+        let chains = self.both(function.chains(self.dialect).map(FragmentShader::Text))?;
+        self.net_figures(&chains, &empty)
+    }
+
+    fn net_figures(
+        &self,
+        chains: &[Statistics; 2],
+        empty: &[Statistics; 2],
+    ) -> Result<CostFigures, Unmeasured> {
+        let figures = figures(&self.family.columns, self.dialect.chains(), chains, empty);
+        let silent = "the compiler does not tell instructions";
+        figures.ok_or_else(|| Unmeasured::Compiler(silent.to_owned()))
     }
 
     fn empty(&mut self, function: &CostedFunction) -> Result<[Statistics; 2], Unmeasured> {
@@ -118,14 +142,13 @@ impl<'a> CompilerSession<'a> {
             return Ok(known.clone());
         }
         let chains = empty(function.is_scalar(), function.precision, self.dialect);
-        let found = self.both(chains)?;
+        let found = self.both(chains.map(FragmentShader::Text))?;
         self.empty.insert(kind, found.clone());
         Ok(found)
     }
 
-    fn both(&mut self, [short, long]: [String; 2]) -> Result<[Statistics; 2], Unmeasured> {
-        let short = self.statistics(FragmentShader::Text(short))?;
-        Ok([short, self.statistics(FragmentShader::Text(long))?])
+    fn both(&mut self, [short, long]: [FragmentShader; 2]) -> Result<[Statistics; 2], Unmeasured> {
+        Ok([self.statistics(short)?, self.statistics(long)?])
     }
 }
 

@@ -1,6 +1,6 @@
 //! What an audit found of a user's function for a material, for people.
 
-use crate::audit::{AuditCostRow, AuditRow};
+use crate::audit::{AuditCost, AuditRow};
 use crate::fit::ModelError;
 use crate::verify::Status;
 
@@ -69,16 +69,14 @@ fn model_error(error: &ModelError) -> String {
     )
 }
 
-fn cost_line(row: &AuditRow, cost: &AuditCostRow) -> String {
-    let gpu = cost.gpu;
-    match cost.net {
-        None => {
-            let why = cost.reason.as_deref().unwrap_or_default();
-            format!("{gpu}: not checked: {why}")
-        }
-        Some(net) => {
+fn cost_line(row: &AuditRow, cost: &AuditCost) -> String {
+    let gpu = cost.family.name;
+    match &cost.figures {
+        Err(why) => format!("{gpu}: not checked: {why}"),
+        Ok(figures) => {
+            let (net, measure) = (figures.cost(), cost.family.columns.measure);
             let sentence = row.sentence_on(gpu).unwrap_or("ours are not known there");
-            format!("{gpu}: {net} ({}): {sentence}", cost.measure)
+            format!("{gpu}: {net} ({measure}): {sentence}")
         }
     }
 }

@@ -52,8 +52,9 @@ fn errors(row: &AuditRow) -> MethodErrors {
 fn costs(rows: &[AuditRow]) -> BTreeMap<String, f64> {
     let mut costs = BTreeMap::new();
     for cost in rows.iter().flat_map(|row| &row.cost) {
-        let Some(net) = cost.net else { continue };
-        let most = costs.entry(cost.gpu.to_owned()).or_insert(net);
+        let Ok(figures) = &cost.figures else { continue };
+        let net = figures.cost();
+        let most = costs.entry(cost.family.name.to_owned()).or_insert(net);
         *most = net.max(*most);
     }
     costs
@@ -62,21 +63,23 @@ fn costs(rows: &[AuditRow]) -> BTreeMap<String, f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::audit::{AuditCostRow, PerceivedFigures};
+    use crate::audit::{AuditCost, PerceivedFigures};
+    use crate::cost::{CostFigures, Counts, find};
     use crate::fit::ModelError;
 
-    fn cost(gpu: &'static str, net: Option<f64>) -> AuditCostRow {
-        AuditCostRow {
-            gpu,
+    fn cost(gpu: &str, net: Option<f64>) -> AuditCost {
+        let counts = |instructions| Counts {
+            instructions,
+            ..Counts::default()
+        };
+        let figures = |net| CostFigures {
+            net: counts(net),
+            ..CostFigures::default()
+        };
+        AuditCost {
+            family: find(gpu).unwrap(),
             compiler: None,
-            measure: "",
-            instructions: None,
-            latency: None,
-            inverse_throughput: None,
-            net_instructions: None,
-            net_inverse_throughput: None,
-            net,
-            reason: None,
+            figures: net.map(figures).ok_or_else(String::new),
         }
     }
 
