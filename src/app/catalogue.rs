@@ -46,9 +46,7 @@ pub fn add_catalogue(generated: &mut Generated, request: &Request) -> Result<(),
 
 /// The materials that can be seen as the request wants. What is known at three wavelengths only has no spectrum.
 fn subjects(request: &Request) -> Result<Vec<MaterialInMedium>, Error> {
-    let ready = request.subjects()?.ready;
-    let mut subjects: Vec<MaterialInMedium> =
-        ready.into_iter().map(|(subject, _)| subject).collect();
+    let mut subjects = request.subjects()?.materials();
     let of_spectra = request.sight.wavelengths_nm.is_none();
     subjects.retain(|subject| !of_spectra || subject.material.rgb_nm.is_none());
     Ok(subjects)

@@ -297,6 +297,21 @@ pub struct Subjects {
 }
 
 impl Subjects {
+    /// The materials alone.
+    pub fn materials(self) -> Vec<MaterialInMedium> {
+        self.ready
+            .into_iter()
+            .map(|(material, _)| material)
+            .collect()
+    }
+
+    /// A line for each material that is left out.
+    pub fn left_out_lines(&self) -> Vec<String> {
+        let each = self.left_out.iter();
+        each.map(|unseen| format!("left out: {}", unseen.why))
+            .collect()
+    }
+
     fn sorted(mut self) -> Result<Subjects, Error> {
         self.ready.sort_by(|(a, _), (b, _)| a.name.cmp(&b.name));
         let twice = |pair: &&[(MaterialInMedium, String)]| {

@@ -43,17 +43,17 @@ impl TimeRequest<'_> {
         };
         let chosen = request.resolved_methods()?;
         let subjects = request.subjects()?;
+        let unseen = subjects.left_out.iter();
+        let mut left_out: Vec<String> = unseen.map(|unseen| unseen.why.clone()).collect();
         let library = LibraryMaterials {
             metal: subject(METAL)?,
             dielectric: subject(DIELECTRIC)?,
         };
-        let ready = subjects.ready.into_iter();
-        let materials: Vec<MaterialInMedium> = ready.map(|(subject, _)| subject).collect();
         let timed = TimedFunctions::new(
             chosen.as_deref().unwrap_or(methods::ALL),
             &several(self.precisions)?,
             &library,
-            &materials,
+            &subjects.materials(),
             self.evaluations,
         )?;
         if timed.functions.is_empty() {
@@ -63,11 +63,8 @@ impl TimeRequest<'_> {
             }
             .into());
         }
-        let unseen = subjects.left_out.into_iter().map(|unseen| unseen.why);
-        Ok(TimedFunctions {
-            left_out: unseen.chain(timed.left_out).collect(),
-            ..timed
-        })
+        left_out.extend(timed.left_out);
+        Ok(TimedFunctions { left_out, ..timed })
     }
 }
 
@@ -80,6 +77,5 @@ fn subject(name: &str) -> Result<MaterialInMedium, Error> {
         materials: Materials::These(vec![named_source(name)]),
         ..Request::default()
     };
-    let mut ready = request.subjects()?.ready;
-    Ok(ready.swap_remove(0).0)
+    Ok(request.subjects()?.materials().swap_remove(0))
 }

@@ -1,14 +1,16 @@
 //! The cheapest function within a budget, and what the cheaper ones would cost in error. Pure.
 
+use core::cmp::Ordering;
+
+use crate::cost::CostAndError;
+
 /// A function that could be taken.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct BudgetCandidate {
     /// Its method.
     pub method: &'static str,
-    /// Its largest error.
-    pub error: f64,
-    /// What an evaluation costs, without what a texture fetch does.
-    pub cost: f64,
+    /// What an evaluation costs, without its texture fetches, and its largest error.
+    pub point: CostAndError,
     /// Whether it reads a texture.
     pub is_textured: bool,
 }
@@ -16,45 +18,48 @@ pub struct BudgetCandidate {
 /// What comes of a choice.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CheapestFunction {
-    /// The cheapest within the budget; of equal ones the one that errs least.
+    /// The cheapest function within the budget; of equally cheap ones the most accurate.
     pub chosen: BudgetCandidate,
-    /// Of those that cost less, the one that errs least.
+    /// The most accurate of those that cost less.
     pub cheaper: Option<BudgetCandidate>,
-    /// One that counts as cheaper and is within the budget, but reads a texture, which no count holds.
+    /// A function within the budget that reads a texture, and costs less apart from its texture fetch, which no count includes.
     pub textured: Option<BudgetCandidate>,
 }
 
-/// Chooses. What reads a texture is taken only where nothing else is within the budget, because no count holds what a fetch costs.
+/// Chooses. A function that reads a texture is taken only where no other is within the budget, because counts do not include the
+/// texture fetch.
 pub fn cheapest(candidates: &[BudgetCandidate], budget: f64) -> Option<CheapestFunction> {
     let within = |is_textured: bool| {
         let own = candidates
             .iter()
-            .filter(move |c| c.is_textured == is_textured);
-        own.filter(|c| c.error <= budget)
-            .min_by(|a, b| a.cost.total_cmp(&b.cost).then(a.error.total_cmp(&b.error)))
+            .filter(|one| one.is_textured == is_textured && one.point.error <= budget);
+        first(own, CostAndError::by_cost)
     };
     let (plain, textured) = (within(false), within(true));
-    let chosen = *plain.or(textured)?;
+    let chosen = plain.or(textured)?;
+    let costs_less = |one: &BudgetCandidate| one.point.cost < chosen.point.cost;
     let cheaper = candidates
         .iter()
-        .filter(|c| c.cost < chosen.cost && c.is_textured == chosen.is_textured);
+        .filter(|one| costs_less(one) && one.is_textured == chosen.is_textured);
     Some(CheapestFunction {
-        cheaper: nearest(cheaper),
-        textured: textured
-            .filter(|c| !chosen.is_textured && c.cost < chosen.cost)
-            .copied(),
+        cheaper: most_accurate(cheaper),
+        textured: textured.filter(|one| !chosen.is_textured && costs_less(one)),
         chosen,
     })
 }
 
-/// The one that errs least; of equal ones the cheapest.
-pub fn nearest<'a>(
+/// The candidate with the smallest error; of equal ones the cheapest.
+pub fn most_accurate<'a>(
     candidates: impl Iterator<Item = &'a BudgetCandidate>,
 ) -> Option<BudgetCandidate> {
-    let order = |a: &&BudgetCandidate, b: &&BudgetCandidate| {
-        a.error.total_cmp(&b.error).then(a.cost.total_cmp(&b.cost))
-    };
-    candidates.min_by(order).copied()
+    first(candidates, CostAndError::by_error)
+}
+
+fn first<'a>(
+    candidates: impl Iterator<Item = &'a BudgetCandidate>,
+    order: fn(&CostAndError, &CostAndError) -> Ordering,
+) -> Option<BudgetCandidate> {
+    candidates.min_by(|a, b| order(&a.point, &b.point)).copied()
 }
 
 #[cfg(test)]
@@ -73,8 +78,7 @@ mod tests {
     const fn of(method: &'static str, error: f64, cost: f64, is_textured: bool) -> BudgetCandidate {
         BudgetCandidate {
             method,
-            error,
-            cost,
+            point: CostAndError { cost, error },
             is_textured,
         }
     }
@@ -103,7 +107,7 @@ mod tests {
     fn where_nothing_is_within_the_budget_nothing_is_chosen() {
         assert_eq!(cheapest(&ALL, 1e-6), None);
         assert_eq!(cheapest(&[], 1.0), None);
-        assert_eq!(nearest(ALL.iter()).map(|c| c.method), Some("table"));
-        assert_eq!(nearest([].iter()), None);
+        assert_eq!(most_accurate(ALL.iter()).map(|c| c.method), Some("table"));
+        assert_eq!(most_accurate([].iter()), None);
     }
 }

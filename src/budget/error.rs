@@ -1,6 +1,11 @@
 //! Why no function can be chosen.
 
+use core::fmt;
+
+use crate::fit::rounded_up;
 use crate::{emit, materials};
+
+use super::choice::BudgetCandidate;
 
 /// How many materials without a function an error names.
 const NAMED: usize = 3;
@@ -32,8 +37,8 @@ pub enum Error {
     NothingWithin {
         /// The budget.
         most: f64,
-        /// Why, a material each.
-        faults: Vec<String>,
+        /// The materials.
+        faults: Vec<NoFunction>,
     },
     /// A function cannot be made.
     #[error(transparent)]
@@ -43,12 +48,66 @@ pub enum Error {
     Material(materials::FileFault),
 }
 
+/// A material of which no function is within the budget.
+#[derive(Clone, Debug)]
+pub struct NoFunction {
+    /// The material's name.
+    pub material: String,
+    /// The GPUs whose costs decide.
+    pub gpu: &'static str,
+    /// The function with the smallest error; none where no cost is known.
+    pub best: Option<BudgetCandidate>,
+}
+
+impl fmt::Display for NoFunction {
+    fn fmt(&self, to: &mut fmt::Formatter) -> fmt::Result {
+        let NoFunction {
+            material,
+            gpu,
+            best,
+        } = self;
+        match best {
+            None => write!(
+                to,
+                "{material}: no method that describes it has a known cost on {gpu}"
+            ),
+            Some(best) => write!(
+                to,
+                "{material}: {} has the smallest error, {}, and costs {} on {gpu}",
+                best.method,
+                rounded_error(best.point.error),
+                best.point.cost
+            ),
+        }
+    }
+}
+
+/// An error rounded up, or with two digits where it is below 1e-4.
+pub fn rounded_error(error: f64) -> String {
+    match error < 1e-4 {
+        true => format!("{error:.1e}"),
+        false => rounded_up(error),
+    }
+}
+
 /// The first faults, and how many more there are.
-fn named(faults: &[String]) -> String {
-    let named: Vec<&str> = faults.iter().take(NAMED).map(String::as_str).collect();
+fn named(faults: &[NoFunction]) -> String {
+    let named = faults.iter().take(NAMED);
+    let named: Vec<String> = named.map(NoFunction::to_string).collect();
     let more = match faults.len().saturating_sub(NAMED) {
         0 => String::new(),
         more => format!("; and {more} more"),
     };
     named.join("; ") + &more
+}
+
+#[cfg(test)]
+mod tests {
+    use super::rounded_error;
+
+    #[test]
+    fn an_error_is_not_rounded_down() {
+        assert_eq!(rounded_error(0.001_931), "0.00194");
+        assert_eq!(rounded_error(6.0e-8), "6.0e-8");
+    }
 }

@@ -4,11 +4,10 @@
 mod choice;
 mod error;
 mod spread;
-mod text;
 
-use std::collections::BTreeMap;
-
-use crate::cost::{CostRecord, Family, GpuCompiler, function_cost, library_cost, records};
+use crate::cost::{
+    CostAndError, CostRecord, Family, GpuCompiler, function_cost, library_cost, records,
+};
 use crate::emit::{Bounds, specialised_graph};
 use crate::fit::single_error;
 use crate::ir::Checked;
@@ -17,24 +16,27 @@ use crate::methods::{Contract, Light, Method};
 use crate::num::{Precision, in_parallel};
 use crate::reference::MaterialInMedium;
 
-use choice::{BudgetCandidate, cheapest, nearest};
-
-pub use error::Error;
+use choice::{cheapest, most_accurate};
 use spread::spread;
-use text::CostBasis;
+
+pub use choice::{BudgetCandidate, CheapestFunction};
+pub use error::{Error, NoFunction, rounded_error};
+pub use spread::Spread;
 
 /// What is asked for.
 #[derive(Clone, Copy, Debug)]
 pub struct Budget {
-    most: f64,
-    family: &'static Family,
+    /// The largest error of reflectance, over angles and channels.
+    pub most: f64,
+    /// The GPUs whose recorded costs decide.
+    pub family: &'static Family,
 }
 
 impl Budget {
-    /// The largest error of reflectance, over angles and channels, and the GPUs whose costs decide.
+    /// A budget of this error on these GPUs.
     ///
     /// # Errors
-    /// It is no error of reflectance, or no costs are recorded of these GPUs.
+    /// The error is no error of reflectance, or no costs are recorded of these GPUs.
     pub fn new(most: f64, family: &'static Family) -> Result<Budget, Error> {
         if !(most > 0.0 && most.is_finite()) {
             return Err(Error::OutOfRange { most });
@@ -47,13 +49,19 @@ impl Budget {
     }
 }
 
-/// The method of each material, by the material's name, and what is said of each choice.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub struct BudgetChoice {
-    /// The methods.
-    pub methods: BTreeMap<String, &'static str>,
-    /// A sentence or two each.
-    pub remarks: Vec<String>,
+/// The function that is chosen for a material.
+#[derive(Clone, Debug)]
+pub struct BudgetRow {
+    /// The material's name.
+    pub material: String,
+    /// What was asked for.
+    pub budget: Budget,
+    /// The function, and what stands beside it.
+    pub choice: CheapestFunction,
+    /// The form whose costs decided: `specialised`, or `library` where the record lacks a specialised function of the material.
+    pub form: &'static str,
+    /// How far published measurements of the material differ, where that is known.
+    pub spread: Option<Spread>,
 }
 
 /// Chooses one of these methods for each material.
@@ -65,7 +73,7 @@ pub fn choose_within(
     methods: Vec<&'static Method>,
     subjects: &[MaterialInMedium],
     sight: &ViewingConditions,
-) -> Result<BudgetChoice, Error> {
+) -> Result<Vec<BudgetRow>, Error> {
     let search = Search {
         methods: candidate_methods(methods)?,
         catalogue: materials::list().map_err(Error::Material)?,
@@ -76,18 +84,15 @@ pub fn choose_within(
     };
     let choose = |i: usize| search.choice_for(&subjects[i]);
     let found = in_parallel(subjects.len(), &choose, &mut |_, _| {});
-    let (mut choice, mut faults) = (BudgetChoice::default(), Vec::new());
-    for (subject, found) in subjects.iter().zip(found) {
-        match found? {
-            Ok((method, remarks)) => {
-                choice.methods.insert(subject.name.clone(), method);
-                choice.remarks.extend(remarks);
-            }
-            Err(why) => faults.push(why),
+    let (mut rows, mut faults) = (Vec::new(), Vec::new());
+    for row in found {
+        match row? {
+            Ok(row) => rows.push(row),
+            Err(fault) => faults.push(fault),
         }
     }
     if faults.is_empty() {
-        return Ok(choice);
+        return Ok(rows);
     }
     let most = budget.most;
     Err(Error::NothingWithin { most, faults })
@@ -113,22 +118,27 @@ struct Search<'a> {
     bounds: Bounds,
 }
 
-/// A material's method with what is said of it, or why it has none.
-type Found = Result<(&'static str, Vec<String>), String>;
-
 impl Search<'_> {
-    fn choice_for(&self, subject: &MaterialInMedium) -> Result<Found, Error> {
+    fn choice_for(
+        &self,
+        subject: &MaterialInMedium,
+    ) -> Result<Result<BudgetRow, NoFunction>, Error> {
         let (candidates, form) = self.candidates(subject)?;
-        let family = self.budget.family;
+        let material = subject.name.clone();
         let Some(choice) = cheapest(&candidates, self.budget.most) else {
-            let best = nearest(candidates.iter());
-            return Ok(Err(text::no_choice(&subject.name, best.as_ref(), family)));
+            return Ok(Err(NoFunction {
+                material,
+                gpu: self.budget.family.name,
+                best: most_accurate(candidates.iter()),
+            }));
         };
-        let spread = spread(subject, &self.catalogue, self.sight);
-        let measured = CostBasis { family, form };
-        let lines =
-            text::choice_remarks(&subject.name, &choice, spread, self.budget.most, measured);
-        Ok(Ok((choice.chosen.method, lines)))
+        Ok(Ok(BudgetRow {
+            material,
+            budget: self.budget,
+            choice,
+            form,
+            spread: spread(subject, &self.catalogue, self.sight),
+        }))
     }
 
     /// The functions that could be taken, and the form whose costs are theirs: the specialised one's where all are recorded, else
@@ -161,8 +171,10 @@ impl Search<'_> {
             let error = single_error(function, &subject.truth_for(method));
             Some(BudgetCandidate {
                 method: method.name,
-                error: error.max_abs,
-                cost: cost.filter(|_| error.undefined == 0)?,
+                point: CostAndError {
+                    cost: cost.filter(|_| error.undefined == 0)?,
+                    error: error.max_abs,
+                },
                 is_textured: method.is_textured(),
             })
         };

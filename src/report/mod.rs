@@ -2,6 +2,7 @@
 
 #[cfg(all(feature = "cli", feature = "gpu"))]
 pub mod audit;
+pub mod budget;
 pub mod cost;
 mod envelope;
 pub mod fits;

@@ -90,7 +90,11 @@ fn the_record_is_what_is_measured() {
         ..Request::default()
     };
     let mut record = Vec::new();
-    for (subject, _) in request.subjects().expect("the catalogue is good").ready {
+    for subject in request
+        .subjects()
+        .expect("the catalogue is good")
+        .materials()
+    {
         for method in methods_of(&subject) {
             record.extend(rows(method, &subject));
         }

@@ -18,8 +18,7 @@ static FUNCTIONS: LazyLock<Vec<CostedFunction>> = LazyLock::new(|| {
         materials: Materials::Default,
         ..Request::default()
     };
-    let ready = request.subjects().unwrap().ready.into_iter();
-    let subjects: Vec<_> = ready.map(|(subject, _)| subject).collect();
+    let subjects = request.subjects().unwrap().materials();
     functions(methods::ALL, &subjects, &Precision::ALL).unwrap()
 });
 

@@ -236,8 +236,8 @@ pub fn catalogue() -> &'static [MaterialInMedium] {
             materials: Materials::All,
             ..Request::default()
         };
-        let ready = request.subjects().expect("the catalogue is good").ready;
-        ready.into_iter().map(|(subject, _)| subject).collect()
+        let subjects = request.subjects().expect("the catalogue is good");
+        subjects.materials()
     })
 }
 

@@ -143,7 +143,10 @@ fn the_catalogue_keeps_within_the_aim_and_is_recorded() {
         materials: Materials::All,
         ..Request::default()
     };
-    let subjects = request.subjects().expect("the catalogue is good").ready;
+    let subjects = request
+        .subjects()
+        .expect("the catalogue is good")
+        .materials();
     let cosines = halves();
     let of = |subject: &MaterialInMedium| -> Vec<([String; 5], Option<String>)> {
         let emitted = methods_of(subject).map(|method| {
@@ -158,7 +161,7 @@ fn the_catalogue_keeps_within_the_aim_and_is_recorded() {
     let rows: Vec<([String; 5], Option<String>)> = std::thread::scope(|scope| {
         let parts = subjects.chunks(share);
         let threads: Vec<_> = parts
-            .map(|part| scope.spawn(|| part.iter().flat_map(|(subject, _)| of(subject)).collect()))
+            .map(|part| scope.spawn(|| part.iter().flat_map(&of).collect()))
             .collect();
         let joined = threads.into_iter().map(|thread| {
             let rows: Vec<([String; 5], Option<String>)> = thread.join().expect("no thread panics");

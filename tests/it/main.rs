@@ -63,8 +63,7 @@ pub fn subjects(names: &[&str]) -> Vec<MaterialInMedium> {
         materials: Materials::These(names.iter().map(named).collect()),
         ..Request::default()
     };
-    let ready = request.subjects().unwrap().ready;
-    ready.into_iter().map(|(subject, _)| subject).collect()
+    request.subjects().unwrap().materials()
 }
 
 /// Says what could not be checked here, and how to check it. Unlike what the macros print, this is seen of a test that passes.

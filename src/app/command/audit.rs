@@ -37,12 +37,11 @@ pub fn run(flags: &AuditFlags, progress: Progress) -> Result<Output, Error> {
     check_limit(flags.limit)?;
     let request = request(flags)?;
     let audit = audit(flags, request.sight.integration.space)?;
-    let subjects = request.subjects()?;
+    let subjects = request.subjects()?.materials();
     let charts = chart::files(flags.out_dir.as_deref());
     let all = flags.json.iter().chain(&flags.junit).chain(&charts);
     try_files(&all.map(PathBuf::as_path).collect::<Vec<_>>())?;
     try_places_of_ours(&charts, flags.overwrite)?;
-    let subjects: Vec<MaterialInMedium> = subjects.ready.into_iter().map(|(one, _)| one).collect();
     let rows = subjects.iter().map(|one| audit.audit_row(one, progress));
     let rows: Vec<AuditRow> = rows.collect::<Result<_, _>>()?;
     let command = String::from(flags.command_line(&request.sight));

@@ -36,11 +36,8 @@ pub fn run(flags: &ChartFlags, progress: Progress) -> Result<Output, Error> {
         ..Request::default()
     };
     let found = request.subjects()?;
-    let subjects: Vec<MaterialInMedium> = found
-        .ready
-        .into_iter()
-        .map(|(subject, _)| subject)
-        .collect();
+    let mut remarks = found.left_out_lines();
+    let subjects = found.materials();
     check_shown(flags, &subjects)?;
     let space = request.sight.integration.space;
     let command = flags.command_line();
@@ -58,9 +55,8 @@ pub fn run(flags: &ChartFlags, progress: Progress) -> Result<Output, Error> {
         None => Vec::new(),
     };
     let mut output = report(chart_text(&view), &json, flags.json.as_deref())?;
-    let left_out = found.left_out.iter();
-    let left_out = left_out.map(|unseen| format!("left out: {}", unseen.why));
-    output.remarks = left_out.chain(drawn).collect();
+    remarks.extend(drawn);
+    output.remarks = remarks;
     Ok(output)
 }
 

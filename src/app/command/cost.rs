@@ -99,16 +99,8 @@ fn requested(flags: &CostFlags) -> Result<(Vec<CostedFunction>, Vec<String>), Er
         .unwrap_or_else(|| methods::ALL.to_vec());
     let precisions = several(&flags.precision)?;
     let subjects = request.subjects()?;
-    let left_out = subjects.left_out.iter();
-    let left_out = left_out
-        .map(|unseen| format!("left out: {}", unseen.why))
-        .collect();
-    let subjects: Vec<_> = subjects
-        .ready
-        .into_iter()
-        .map(|(subject, _)| subject)
-        .collect();
-    let functions = functions(&methods, &subjects, &precisions)?;
+    let left_out = subjects.left_out_lines();
+    let functions = functions(&methods, &subjects.materials(), &precisions)?;
     if !functions.iter().any(|function| function.is_asked) {
         return Err(RequestFault::NothingToDo {
             work: "measure",

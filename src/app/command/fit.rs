@@ -116,10 +116,8 @@ pub(super) fn subjects(flags: &FitFlags) -> Result<(Vec<MaterialInMedium>, Vec<S
         ..Request::default()
     };
     let found = request.subjects()?;
-    let ready = found.ready.into_iter().map(|(subject, _)| subject);
-    let left_out = found.left_out.iter();
-    let left_out = left_out.map(|unseen| format!("left out: {}", unseen.why));
-    Ok((ready.collect(), left_out.collect()))
+    let left_out = found.left_out_lines();
+    Ok((found.materials(), left_out))
 }
 
 /// A row for each material and method that describes it, and what was left out.

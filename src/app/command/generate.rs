@@ -20,10 +20,10 @@ use crate::app::tree::{TreePlan, plan};
 use crate::app::write::{write, write_file, write_files};
 use crate::app::{check, depfile, folder};
 use crate::bake::as_tables_are_seen;
-use crate::budget::{Budget, choose_within};
+use crate::budget::{Budget, BudgetRow, choose_within};
 use crate::methods;
 use crate::num::Precision;
-use crate::reference::MaterialInMedium;
+use crate::report::budget::budget_remarks;
 
 use super::{Output, folder_or_current, refuse_within_tree};
 
@@ -119,16 +119,16 @@ fn within(budget: Budget, request: Request) -> Result<(Request, Vec<String>), Er
         materials,
         ..request
     };
-    let subjects = request.subjects()?.ready.into_iter();
-    let subjects: Vec<MaterialInMedium> = subjects.map(|(subject, _)| subject).collect();
+    let subjects = request.subjects()?.materials();
     let methods = request.resolved_methods()?;
     let methods = methods.unwrap_or_else(|| methods::ALL.to_vec());
-    let choice = choose_within(budget, methods, &subjects, &request.sight)?;
+    let rows = choose_within(budget, methods, &subjects, &request.sight)?;
+    let chosen = |row: &BudgetRow| (row.material.clone(), row.choice.chosen.method);
     let request = Request {
-        chosen: choice.methods,
+        chosen: rows.iter().map(chosen).collect(),
         ..request
     };
-    Ok((request, choice.remarks))
+    Ok((request, rows.iter().flat_map(budget_remarks).collect()))
 }
 
 /// Whose costs decide where none is named.

@@ -12,7 +12,6 @@ use crate::app::source::materials;
 use crate::app::write::{try_places_of_ours, write_report};
 use crate::methods::{self, Method};
 use crate::num::Precision;
-use crate::reference::MaterialInMedium;
 use crate::report::Report;
 use crate::report::stability::{heat_map, stability_page, stability_text};
 use crate::stability::{StabilityRow, Study, maps};
@@ -113,8 +112,7 @@ impl Asked<'_> {
             materials: materials(&self.flags.material)?,
             ..Request::default()
         };
-        let ready = request.subjects()?.ready.into_iter();
-        let subjects: Vec<MaterialInMedium> = ready.map(|(subject, _)| subject).collect();
+        let subjects = request.subjects()?.materials();
         Ok(self.study.specialised_rows(&subjects, progress)?)
     }
 

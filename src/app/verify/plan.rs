@@ -167,8 +167,7 @@ fn usual_subjects(request: &Request) -> Result<Vec<MaterialInMedium>, Error> {
         materials: Materials::Default,
         ..request.clone()
     };
-    let ready = usual.subjects()?.ready;
-    Ok(ready.into_iter().map(|(subject, _)| subject).collect())
+    Ok(usual.subjects()?.materials())
 }
 
 fn planned(made: Made, page: ShippedPage) -> Result<PlannedFile, Error> {

@@ -65,7 +65,7 @@ fn gold() -> Checked {
         materials: Materials::These(vec![request::Source::Named("gold".to_owned())]),
         ..Request::default()
     };
-    let subject = &request.subjects().unwrap().ready[0].0;
+    let subject = &request.subjects().unwrap().materials()[0];
     let method = methods::find("conductor_exact").unwrap();
     emit::specialised_function(method, subject, &Naming::default(), &Bounds::default())
         .unwrap()

@@ -272,9 +272,8 @@ fn subjects() -> Vec<MaterialInMedium> {
         medium: Some(named("diamond")),
         ..Request::default()
     };
-    let inside = inside.subjects().unwrap().ready;
     let mut all = crate::subjects(&["gold", "silicon", "water"]);
-    all.extend(inside.into_iter().map(|(subject, _)| subject));
+    all.extend(inside.subjects().unwrap().materials());
     all
 }
 

@@ -174,7 +174,11 @@ fn specialised_functions_in_half_precision_read_as_they_were_meant() {
         precision: Precision::F16,
         ..Request::default()
     };
-    for (subject, _) in request.subjects().expect("the catalogue is good").ready {
+    for subject in request
+        .subjects()
+        .expect("the catalogue is good")
+        .materials()
+    {
         for name in subject
             .default_methods()
             .iter()
@@ -213,7 +217,11 @@ fn every_specialised_function_reads_as_it_was_meant() {
     let artifacts = generate(&request)
         .expect("the catalogue generates")
         .artifacts;
-    for (subject, _) in request.subjects().expect("the catalogue is good").ready {
+    for subject in request
+        .subjects()
+        .expect("the catalogue is good")
+        .materials()
+    {
         for name in subject.default_methods() {
             let method = methods::find(name).expect("it is there");
             let (naming, bounds) = (emit::Naming::default(), emit::Bounds::recorded());
