@@ -178,7 +178,7 @@ pub fn table_rows<'a>(
             space: subject.space.map(|space| space.name()),
             gamut: surface.gamut.name(),
             truth: surface.seen.clone(),
-            extrapolated: surface.held(),
+            extrapolated: surface.extrapolation(),
             weights: WEIGHTS,
             reason: steps.mean_rel.is_none().then_some(
                 "a channel reflects nothing at some angle, so that no relative error can be taken there",

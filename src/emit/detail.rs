@@ -262,7 +262,7 @@ fn seen_detail(subject: &MaterialInMedium) -> SeenDetail {
     let effective = &subject.effective;
     SeenDetail {
         truth: surface.seen.clone(),
-        extrapolated: surface.held(),
+        extrapolated: surface.extrapolation(),
         n: effective.channels.n,
         k: effective.channels.k,
         nk_by: effective.by.map(By::text),

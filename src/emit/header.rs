@@ -206,7 +206,7 @@ pub(super) fn viewing_conditions(subject: &MaterialInMedium) -> Vec<String> {
 
 /// Beyond which wavelengths an index was held, where it was.
 pub(super) fn extrapolated(subject: &MaterialInMedium) -> Option<String> {
-    let held = subject.truth.surface.held();
+    let held = subject.truth.surface.extrapolation();
     held.map(|held| format!("Extrapolated: {held}"))
 }
 

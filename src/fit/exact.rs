@@ -1,14 +1,14 @@
-//! Coefficients that meet what is true at an end exactly: one condition takes one coefficient out of the fit.
+//! Coefficients of forms that are exact at an end, 0 or 90 degrees. Each end removes one coefficient from the fit.
 //!
-//! `Σ cᵢ bᵢ(e) = F(e)` at an end e gives `cⱼ = (F(e) - Σ cᵢ bᵢ(e)) / bⱼ(e)`, the sum over all others, with j the one whose
-//! `bⱼ(e)` is largest; put into the form, the others are fitted by exchange to what is left, and the optimum is that of all
-//! forms that meet the end.
+//! At an end e, `Σ cᵢ bᵢ(e) = F(e)` gives `cⱼ = (F(e) - Σ cᵢ bᵢ(e)) / bⱼ(e)`, with the sum over all other i. We choose the j
+//! with the largest `|bⱼ(e)|` and substitute its `cⱼ`. The exchange then fits the other coefficients to the rest of F. The
+//! result is the best of all forms that are exact at the end.
 
 use crate::num::Precision;
 
 use super::minimax::minimax;
 
-/// At which ends of the right angle what is true is met exactly.
+/// At which ends, 0 and 90 degrees, a form equals the reference exactly.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Exact {
     /// At normal incidence, 0 degrees.
@@ -17,9 +17,9 @@ pub struct Exact {
     pub grazing: bool,
 }
 
-/// Steps of a coefficient's last digit, down and up, among which f32 coefficients are sought that meet the ends.
+/// The search for f32 coefficients that are exact at the ends moves a coefficient by up to so many units of its last place.
 const STEPS: i32 = 24;
-/// As near as an end is sought: half a digit of f32 below 1.
+/// The search stops at this error at the ends: half a unit of the last place of f32 below 1.
 const CLOSE: f64 = 3e-8;
 
 impl Exact {
@@ -44,7 +44,7 @@ impl Exact {
     }
 }
 
-/// Fits as [`minimax`] does, among the forms that meet what is wanted at these points, the last of them first.
+/// Fits like [`minimax`], but only among forms that are exact at the points `ends`, given in descending order.
 pub(super) fn fit_meeting(
     rows: &[Vec<f64>],
     wanted: &[f64],
@@ -74,44 +74,48 @@ pub(super) fn fit_meeting(
     Some(found)
 }
 
-/// These coefficients as a precision holds them. Those of f32 are so that what is wanted at the ends is still met, where that can be had within some
-/// steps of the last digits. Each end is a row of the basis and what is wanted there.
-pub(super) fn held(coefficients: &[f64], ends: &[(&[f64], f64)], precision: Precision) -> Vec<f64> {
+/// The coefficients rounded to a precision. Those of f32 are moved by some units of the last place, if that makes the form
+/// exact at the ends again. Each end is a row of the basis and the value that the form should have there.
+pub(super) fn rounded_coefficients(
+    coefficients: &[f64],
+    ends: &[(&[f64], f64)],
+    precision: Precision,
+) -> Vec<f64> {
     let nearest: Vec<f64> = coefficients.iter().map(|c| precision.rounded(*c)).collect();
     if ends.is_empty() {
         return nearest;
     }
     let around = |steps: (i32, i32)| {
-        let mut held = nearest.clone();
-        held[1] = stepped(held[1], steps.0);
-        held[2] = stepped(held[2], steps.1);
+        let mut moved = nearest.clone();
+        moved[1] = stepped(moved[1], steps.0);
+        moved[2] = stepped(moved[2], steps.1);
         let missed: f64 = ends
             .iter()
-            .map(|(row, value)| value - sum(row, &held))
+            .map(|(row, value)| value - sum(row, &moved))
             .sum();
-        held[0] = Precision::F32.rounded(held[0] + missed / ends.len() as f64);
-        held
+        moved[0] = Precision::F32.rounded(moved[0] + missed / ends.len() as f64);
+        moved
     };
-    let missed = |held: &Vec<f64>| {
-        let all = ends
+    let error_at_ends = |coefficients: &Vec<f64>| {
+        let errors = ends
             .iter()
-            .map(|(row, value)| (value - sum(row, held)).abs());
-        all.fold(0.0, f64::max)
+            .map(|(row, value)| (value - sum(row, coefficients)).abs());
+        errors.fold(0.0, f64::max)
     };
     let mut best = nearest.clone();
     for steps in (0..=STEPS).flat_map(ring) {
         let next = around(steps);
-        if missed(&next) < missed(&best) {
+        if error_at_ends(&next) < error_at_ends(&best) {
             best = next;
         }
-        if missed(&best) <= CLOSE {
+        if error_at_ends(&best) <= CLOSE {
             break;
         }
     }
     best
 }
 
-/// All pairs of steps of which the larger is so large.
+/// All pairs of steps whose larger magnitude is `size`.
 fn ring(size: i32) -> impl Iterator<Item = (i32, i32)> {
     let all = (-size..=size).flat_map(move |a| (-size..=size).map(move |b| (a, b)));
     all.filter(move |(a, b)| a.abs().max(b.abs()) == size)
@@ -121,7 +125,7 @@ fn sum(row: &[f64], coefficients: &[f64]) -> f64 {
     row.iter().zip(coefficients).map(|(b, c)| b * c).sum()
 }
 
-/// A number so many f32 further from 0, or nearer.
+/// The f32 that lies `steps` further from 0; nearer if negative.
 fn stepped(value: f64, steps: i32) -> f64 {
     let bits = (value as f32).to_bits().saturating_add_signed(steps);
     let moved = f64::from(f32::from_bits(bits));
@@ -165,7 +169,7 @@ mod tests {
         let coefficients = [0.91 + 1e-9, 31.000_000_7, -401.123_456_789, 90.3, -2.0];
         let ends = [grazing, normal].map(|row| (row, sum(&row, &coefficients)));
         let ends = [(&ends[0].0[..], ends[0].1), (&ends[1].0[..], ends[1].1)];
-        let found = held(&coefficients, &ends, Precision::F32);
+        let found = rounded_coefficients(&coefficients, &ends, Precision::F32);
         for (row, value) in ends {
             assert!((sum(row, &found) - value).abs() < 1e-7, "{found:?}");
         }
@@ -174,7 +178,7 @@ mod tests {
             "{found:?}"
         );
         assert_eq!(
-            held(&[0.1, 0.2, 0.3], &[], Precision::F32)[0],
+            rounded_coefficients(&[0.1, 0.2, 0.3], &[], Precision::F32)[0],
             f64::from(0.1f32)
         );
     }

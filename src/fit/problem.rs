@@ -6,7 +6,7 @@ use crate::num::Precision;
 use crate::reference::{MaterialInMedium, seen};
 use crate::spectra::{Gamut, Space};
 
-use super::exact::{Exact, fit_meeting, held};
+use super::exact::{Exact, fit_meeting, rounded_coefficients};
 use super::rounded::rounded;
 use super::weight::{Weight, luminance, shares};
 
@@ -139,11 +139,11 @@ impl FitProblem<'_> {
                 .iter()
                 .map(|end| (&basis[*end][..], self.wanted[i][*end]))
                 .collect();
-            held(found, &met, self.aim.precision)
+            rounded_coefficients(found, &met, self.aim.precision)
         };
-        let held = [single(0, &red), single(1, &green), single(2, &blue)];
+        let rounded = [single(0, &red), single(1, &green), single(2, &blue)];
         let coefficients: Vec<[f64; 3]> = (0..red.len())
-            .map(|term| [0, 1, 2].map(|i| held[i][term]))
+            .map(|term| [0, 1, 2].map(|i| rounded[i][term]))
             .collect();
         Some(Fit {
             error: self.error(basis, &coefficients),

@@ -92,7 +92,7 @@ fn page_facts(page: &Page, material: &Material) -> Result<PageFacts, String> {
 
 fn colours(surface: &Surface) -> VisibleColours {
     VisibleColours {
-        held: surface.held(),
+        held: surface.extrapolation(),
         by_degree: (0..SURVEYED_ANGLES)
             .map(|degree| surface.unpolarised(cosine(degree as f64)).to_array())
             .collect(),

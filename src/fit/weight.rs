@@ -1,5 +1,5 @@
-//! What of an error counts where coefficients are fitted: all of it alike, its share of what is true, what it does to
-//! luminance, or how much of it is seen.
+//! The measure of error that a fit minimises: the absolute error, the relative error, the error of luminance, or the visible
+//! difference of colour.
 
 use glam::DVec3;
 
@@ -55,34 +55,38 @@ impl Weight {
         Weight::ALL.into_iter().find(|weight| weight.name() == name)
     }
 
-    /// Whether it is of colours in a working space, not of channels alone.
+    /// Whether it needs the working space of the colours, and not only single channels.
     pub fn is_of_colours(self) -> bool {
         matches!(self, Weight::Luminance | Weight::DeltaE)
     }
 
-    /// By what the error of each channel is multiplied where this is true.
-    pub(super) fn of_channels(self, truth: [f64; 3], space: Space) -> [f64; 3] {
+    /// The factors of the errors of each channel, near a reference reflectance.
+    pub(super) fn of_channels(self, reference: [f64; 3], space: Space) -> [f64; 3] {
         match self {
             Weight::Absolute | Weight::Luminance => [1.0; 3],
-            Weight::Relative => truth.map(|truth| 1.0 / truth.abs().max(LEAST)),
+            Weight::Relative => reference.map(|reflectance| 1.0 / reflectance.abs().max(LEAST)),
             Weight::DeltaE => [0, 1, 2].map(|channel| {
-                let mut moved = truth;
+                let mut moved = reference;
                 moved[channel] += STEP;
-                self.error(moved, truth, space) / STEP
+                self.error(moved, reference, space) / STEP
             }),
         }
     }
 
-    /// The error in this measure of three channels where others are true. Unit: reflectance, a share, or ΔE₀₀.
-    pub fn error(self, given: [f64; 3], truth: [f64; 3], space: Space) -> f64 {
-        let off = (DVec3::from(given) - DVec3::from(truth)).abs();
+    /// The error of a reflectance against the reference, in this measure. Unit: reflectance, a ratio, or ΔE₀₀.
+    pub fn error(self, reflectance: [f64; 3], reference: [f64; 3], space: Space) -> f64 {
+        let difference = (DVec3::from(reflectance) - DVec3::from(reference)).abs();
         match self {
-            Weight::Absolute => off.max_element(),
+            Weight::Absolute => difference.max_element(),
             Weight::Relative => {
-                (off / DVec3::from(truth).abs().max(DVec3::splat(LEAST))).max_element()
+                (difference / DVec3::from(reference).abs().max(DVec3::splat(LEAST))).max_element()
             }
-            Weight::Luminance => (luminance(given, space) - luminance(truth, space)).abs(),
-            Weight::DeltaE => ciede2000(lab(given.into(), space), lab(truth.into(), space)),
+            Weight::Luminance => {
+                (luminance(reflectance, space) - luminance(reference, space)).abs()
+            }
+            Weight::DeltaE => {
+                ciede2000(lab(reflectance.into(), space), lab(reference.into(), space))
+            }
         }
     }
 }

@@ -62,7 +62,7 @@ pub struct Surface {
     /// What is seen, in words.
     pub seen: String,
     /// Wavelengths in nanometres beyond which the nearest measured index was held: lowest and highest, where so.
-    pub held_nm: (Option<f64>, Option<f64>),
+    pub extrapolated_nm: (Option<f64>, Option<f64>),
 }
 
 /// A material that is not known where it is looked at.
@@ -108,7 +108,7 @@ impl Surface {
             .iter()
             .map(index)
             .collect::<Result<_, String>>();
-        let held_nm = held(material, medium, &integrator.wavelengths);
+        let extrapolated_nm = extrapolated_beyond(material, medium, &integrator.wavelengths);
         let gamut = if three.is_some() {
             Gamut::Keep
         } else {
@@ -117,9 +117,9 @@ impl Surface {
         Ok(Surface {
             indices: indices.map_err(|why| Unseen {
                 why,
-                advice: advice(held_nm, three.is_some()),
+                advice: advice(extrapolated_nm, three.is_some()),
             })?,
-            held_nm,
+            extrapolated_nm,
             integrator,
             gamut,
             seen: match three {
@@ -140,7 +140,7 @@ impl Surface {
             integrator: Integrator::three_wavelengths(super::THESIS_NM),
             gamut: Gamut::Keep,
             seen: "one index a channel".to_owned(),
-            held_nm: (None, None),
+            extrapolated_nm: (None, None),
         }
     }
 
@@ -174,10 +174,10 @@ impl Surface {
             .colour(&self.indices.iter().map(law).collect::<Vec<f64>>())
     }
 
-    /// What was extrapolated, in words, where anything was.
-    pub fn held(&self) -> Option<String> {
-        let below = self.held_nm.0.map(|nm| format!("below {nm} nm"));
-        let above = self.held_nm.1.map(|nm| format!("above {nm} nm"));
+    /// The wavelengths at which an index is extrapolated, in words; none if there are none.
+    pub fn extrapolation(&self) -> Option<String> {
+        let below = self.extrapolated_nm.0.map(|nm| format!("below {nm} nm"));
+        let above = self.extrapolated_nm.1.map(|nm| format!("above {nm} nm"));
         let ends: Vec<String> = below.into_iter().chain(above).collect();
         (!ends.is_empty())
             .then(|| format!("{} the last measured index is held", ends.join(" and ")))
@@ -202,9 +202,9 @@ fn three_in_words([red, green, blue]: [f64; 3]) -> String {
 }
 
 /// What to do about a material, or a medium, that is not known everywhere: nothing where the fault lies elsewhere.
-fn advice(held: (Option<f64>, Option<f64>), three: bool) -> String {
+fn advice(extrapolated: (Option<f64>, Option<f64>), three: bool) -> String {
     let hold = "to hold the last value beyond what was measured, add --extrapolate hold";
-    match (held, three) {
+    match (extrapolated, three) {
         ((None, None), _) => String::new(),
         (_, true) => format!("; {hold}"),
         (_, false) => format!(
@@ -214,8 +214,8 @@ fn advice(held: (Option<f64>, Option<f64>), three: bool) -> String {
     }
 }
 
-/// Beyond which wavelengths an index was held.
-fn held(
+/// The ends of the measured range beyond which an index is extrapolated.
+fn extrapolated_beyond(
     material: &Material,
     medium: Option<&Material>,
     wavelengths: &[f64],

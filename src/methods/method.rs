@@ -25,38 +25,38 @@ pub struct Method {
     pub formula: &'static [&'static str],
     /// Who published it.
     pub source: Citation,
-    /// What it takes after `cos_theta`, in the order of all methods that take these.
+    /// The arguments after `cos_theta`. Methods with the same arguments have them in the same order.
     pub inputs: &'static [Input],
     /// Which forms it has.
     pub forms: Forms,
     /// Which media it describes.
     pub class: Class,
-    /// Which light it describes.
+    /// The polarisation that it describes.
     pub light: Light,
-    /// Where it holds, and what it does outside.
+    /// The domain in which it holds, and what it does outside.
     pub domain: &'static str,
     /// What it promises.
     pub claims: Claims,
     /// Whether it keeps the function contract.
     pub contract: Contract,
-    /// What becomes of it in half precision.
+    /// How it is written in half precision, or why it is not.
     pub half: InHalf,
     /// Builds the formula.
     pub build: Build,
-    /// The same formula without what keeps it stable everywhere, where that costs something: a material for which the
-    /// record of code bounds says that it keeps its digits gets this form.
+    /// The formula without the steps that keep it stable for every argument, if these steps cost something. A material gets
+    /// this form if the record of code bounds says that its function loses no digits without them.
     pub plain: Option<Build>,
-    /// Where a material's constants allow something better than folding them in: another method and its inputs,
+    /// A better method for a material with these constants, if there is one: the other method and the values of its inputs,
     /// from the values of this method's inputs.
     pub specialised: Option<Better>,
-    /// What a fitted method's coefficients multiply.
+    /// The shape of a fitted method: the functions that its coefficients multiply.
     pub shape: Option<Shape>,
 }
 
 /// From arguments to a formula.
 pub type Build = for<'b> fn(&Inputs<'b>) -> Expr<'b>;
 
-/// Another method, and the values of its inputs, that do a specialised method's work better.
+/// Gives the method, and the values of its inputs, that a specialised function is made of instead.
 pub type Better = fn(&Values) -> Option<(&'static Method, Values)>;
 
 /// Values of inputs by name; a scalar input uses the first number.

@@ -35,20 +35,20 @@ pub struct OverdrawFigure {
     pub draws: u32,
 }
 
-/// How much a machine disturbs: what the same shader takes each time.
+/// How much the time of one shader varies from reading to reading.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Noise {
-    /// Half of all readings lie within this share of the median.
+    /// The width of the middle half of the readings, over their median.
     pub spread: f64,
-    /// The slowest of twenty, over the median.
+    /// The 95th percentile of the readings, over their median.
     pub slowest: f64,
-    /// How many readings that is.
+    /// How many readings there are.
     pub readings: usize,
 }
 
 impl Noise {
-    /// The noise of these readings.
-    pub fn of(readings: &[f64]) -> Noise {
+    /// Of these readings.
+    pub fn from_readings(readings: &[f64]) -> Noise {
         Noise {
             spread: spread(readings),
             slowest: quantile(readings, 0.95) / median(readings),
@@ -157,7 +157,7 @@ impl MeasuredDrawings {
         let rounds: Vec<usize> = (0..self.rounds.len()).collect();
         [DrawingPlan::HEAVY, DrawingPlan::EMPTY].map(|drawing| {
             let readings = self.readings(self.clock, drawing, &rounds);
-            Noise::of(&readings)
+            Noise::from_readings(&readings)
         })
     }
 
@@ -166,7 +166,7 @@ impl MeasuredDrawings {
         let readings = rounds
             .iter()
             .flat_map(|round| &self.rounds[*round][drawing]);
-        readings.map(|reading| clock.of(reading)).collect()
+        readings.map(|reading| clock.nanoseconds(reading)).collect()
     }
 
     /// The time of each drawing in these rounds.

@@ -1,5 +1,5 @@
-//! The measurement: how often each shader is drawn, in what order, and what was read. It draws through [`Draw`] and
-//! touches no device itself.
+//! The measurement: how often each shader is drawn, in which order, and the readings. It draws through [`Draw`] and uses no
+//! device itself.
 
 use core::ops::Range;
 
@@ -9,16 +9,17 @@ use crate::num::statistics::{median, quantile};
 
 use super::plan::DrawingPlan;
 
-/// Readings that choose how often a shader is drawn, and the clock.
+/// How many readings decide how often a shader is drawn, and by which clock.
 const TRIALS: usize = 3;
-/// Nanoseconds that the draws of a reading should take: some hundred times what a clock can tell apart.
+/// Nanoseconds that the draws of a reading should take: some hundred times the resolution of a clock.
 const LONG_ENOUGH: f64 = 4e6;
-/// How far the draws of a reading stand above what the heavy shader alone varies by; and nanoseconds that are spent at most.
+/// How many times longer the draws of a reading should take than the time of the heavy shader alone varies.
 const ABOVE_NOISE: f64 = 20.0;
+/// Nanoseconds that the draws of a reading may take at most for that.
 const TOO_LONG: f64 = 16e6;
 /// Most draws in a reading.
 const MOST_DRAWS: u32 = 4096;
-/// Shaders between two readings of what all are held against.
+/// Shaders between two readings of the reference shaders.
 const STRIDE: usize = 6;
 
 /// Nanoseconds that a drawing took.
@@ -26,19 +27,19 @@ const STRIDE: usize = 6;
 pub struct Reading {
     /// By the device's timestamps, where it has them.
     pub gpu: Option<f64>,
-    /// By the processor's work for the process that draws, where the system tells: what a software device computes with.
+    /// By the processor time of the process that draws, where the system reports it: a software device computes there.
     pub cpu: Option<f64>,
-    /// By the wall, from the submission to its end.
+    /// By the wall clock, from the submission to its end.
     pub wall: f64,
 }
 
-/// What a time was taken by.
+/// How a time was measured.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Clock {
     /// The device's timestamps.
     Gpu,
-    /// The processor's work.
+    /// The processor time of the process that draws.
     Cpu,
     /// The wall clock.
     Wall,
@@ -67,35 +68,36 @@ pub trait Draw {
 pub struct DrawingEffort {
     /// Rounds.
     pub rounds: usize,
-    /// The clock; none: of software the processor's work, else the device's timestamps, where they advance, else the wall.
+    /// The clock. If none is given: the processor time for a software device, else the device's timestamps if they advance,
+    /// else the wall clock.
     pub clock: Option<Clock>,
-    /// Whether the device is software: its timestamps count what other programs do as well.
+    /// Whether the device is software: its timestamps include the time of other programs.
     pub is_software: bool,
     /// Nanoseconds that a reading may take.
     pub limit: f64,
 }
 
-/// What was read.
+/// The readings of all drawings.
 #[derive(Clone, Debug, PartialEq)]
 pub struct MeasuredDrawings {
-    /// What counts.
+    /// The clock by which times count.
     pub clock: Clock,
-    /// Whether the device's own clock advances.
+    /// Whether the device's timestamps advance.
     pub advances: bool,
     /// How often each drawing is drawn in a reading.
     pub draws: Vec<u32>,
-    /// Why a drawing was given up.
+    /// For each drawing: why it was given up, if it was.
     pub failed: Vec<Option<String>>,
     /// All readings.
     pub rounds: Vec<Round>,
 }
 
-/// The readings of each drawing in a round: one, and of what all are held against one beside every few others. NaN where it
+/// The readings of each drawing in a round: one each; of a reference shader one after every few others. NaN if the drawing
 /// was given up.
 pub type Round = Vec<Vec<Reading>>;
 
 impl Reading {
-    /// Nothing was read.
+    /// There is no reading.
     const NONE: Reading = Reading {
         gpu: None,
         cpu: None,
@@ -116,8 +118,8 @@ impl Clock {
         }
     }
 
-    /// What a reading says by this clock.
-    pub fn of(self, reading: &Reading) -> f64 {
+    /// The nanoseconds of a reading by this clock.
+    pub fn nanoseconds(self, reading: &Reading) -> f64 {
         match self {
             Clock::Gpu => reading.gpu.unwrap_or(f64::NAN),
             Clock::Cpu => reading.cpu.unwrap_or(f64::NAN),
@@ -216,7 +218,7 @@ impl DrawingSession<'_> {
                 break;
             };
             for (advances, clock) in advances.iter_mut().zip(Clock::ALL) {
-                *advances &= clock.of(&reading) > 0.0;
+                *advances &= clock.nanoseconds(&reading) > 0.0;
             }
         }
         let [gpu, cpu, _] = advances;
@@ -244,7 +246,7 @@ impl DrawingSession<'_> {
         let mut readings = Vec::new();
         for _ in 0..ENOUGH {
             let reading = self.read_draws(DrawingPlan::HEAVY, 0)?;
-            readings.extend(reading.map(|reading| self.clock.of(&reading)));
+            readings.extend(reading.map(|reading| self.clock.nanoseconds(&reading)));
         }
         Ok(readings)
     }
@@ -262,7 +264,7 @@ impl DrawingSession<'_> {
             let mut times = Vec::new();
             for _ in 0..TRIALS {
                 let reading = self.read_draws(drawing, draws)?;
-                times.extend(reading.map(|reading| self.clock.of(&reading) - alone));
+                times.extend(reading.map(|reading| self.clock.nanoseconds(&reading) - alone));
             }
             let time = median(&times);
             if times.is_empty() || draws >= MOST_DRAWS || time >= wanted / 4.0 {

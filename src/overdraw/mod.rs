@@ -1,21 +1,20 @@
-//! What a function costs by overdraw: a heavy full-screen shader is drawn alone, then with the measured shader over it N
-//! times; the difference over N is a draw's cost. The heavy one keeps the device at work, so that what a frame costs anyway
-//! is in both.
+//! The cost of a function, measured by overdraw. A heavy full-screen shader is drawn alone, then with the measured shader
+//! over it N times; the difference divided by N is the cost of a draw. The heavy shader keeps the device busy, so that both
+//! times contain the fixed cost of a frame.
 //!
-//! The measured shader is blended, so that no draw can be left out. A draw's own price, blending above all, would hide a
-//! cheap function on any large device; so each draw evaluates the function several times, each from the result
-//! before ([`Probe`](crate::cost::Probe)), and the shader that evaluates nothing, the empty one, is taken off:
+//! The measured shader is blended, so that the device cannot skip a draw. On a large device the cost of the draw itself,
+//! mostly blending, would hide the cost of a cheap function. So each draw evaluates the function several times, each from the
+//! result before ([`Probe`](crate::cost::Probe)), and the cost of the empty shader, which evaluates nothing, is subtracted:
 //!
 //! `net = ((T(heavy + N draws) - T(heavy)) / N - the same of the empty shader) / evaluations`.
 //!
-//! All shaders are drawn in turn in every round, in an order that changes, and beside each few of them what they are held
-//! against, so that a machine that is busy for a while is busy for both. Interference only lengthens a reading, so a
-//! shader's time is the 10th percentile of its readings over all rounds. How sure a share of `dielectric_exact` is, rounds drawn anew from the rounds
-//! tell (the bootstrap): it is the median of what they give, between the limits within which 95 % of them lie.
+//! Every round draws all shaders once, in an order that changes. The reference shaders are drawn again after every few of
+//! them, so that other load on the machine affects both. Interference only lengthens a reading, so a shader's time is the
+//! 10th percentile of its readings over all rounds. The share of `dielectric_exact` is a bootstrap estimate: rounds are drawn
+//! with replacement, the share is the median of the results, and the limits contain 95 % of them.
 //!
-//! A software device shares the processor with everything else that runs. There the processor's own count of what it
-//! worked for the process is taken, in which other programs are not: with four of them on two cores shares by timestamps
-//! are off by half.
+//! A software device shares the processor with all other programs. There the clock is the processor time of the process,
+//! which does not include other programs: with four busy programs on two cores, shares by timestamps are wrong by half.
 
 #[cfg(feature = "gpu")]
 mod clock;

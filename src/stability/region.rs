@@ -213,18 +213,15 @@ fn region(points: &[FailingPoint]) -> Region {
 }
 
 impl Region {
-    /// The inequalities, joined by "and"; nothing where it is all of the grid.
+    /// The inequalities, separated by commas; `everywhere` if the region spans the whole grid.
     pub fn inequalities(&self, axes: &[ScanAxis]) -> String {
-        let words = self
-            .extent
-            .iter()
-            .zip(axes)
-            .filter_map(|(range, axis)| inequality(axis, range));
-        let words: Vec<String> = words.collect();
-        if words.is_empty() {
-            "everywhere".to_owned()
-        } else {
-            words.join(", ")
+        let ranges = self.extent.iter().zip(axes);
+        let inequalities: Vec<String> = ranges
+            .filter_map(|(range, axis)| inequality(axis, range))
+            .collect();
+        match inequalities.is_empty() {
+            true => "everywhere".to_owned(),
+            false => inequalities.join(", "),
         }
     }
 
@@ -234,29 +231,29 @@ impl Region {
     }
 }
 
-/// What a range says of an axis; nothing where it is all of it.
+/// The inequality of a range on its axis; none if the range is the whole axis.
 fn inequality(axis: &ScanAxis, range: &Range<usize>) -> Option<String> {
     let (name, values) = (axis.name, &axis.values);
-    let low =
-        (range.start > 0).then(|| between(values[range.start - 1], values[range.start], true));
-    let high = (range.end < values.len())
-        .then(|| between(values[range.end - 1], values[range.end], false));
     if range.len() == 1 {
         return Some(single(axis, range.start));
     }
+    let low = (range.start > 0).then(|| bound(values[range.start], values[range.start - 1]));
+    let high = (range.end < values.len()).then(|| bound(values[range.end - 1], values[range.end]));
     match (low, high) {
         (None, None) => None,
-        (Some(low), None) => Some(format!("{name} {low}")),
-        (None, Some(high)) => Some(format!("{name} {high}")),
-        (Some(low), Some(high)) => {
-            let turned = low.replacen(">=", "<=", 1).replacen('>', "<", 1);
-            let (sign, bound) = turned.split_once(' ').unwrap_or(("<", ""));
-            Some(format!("{bound} {sign} {name} {high}"))
-        }
+        (Some(low), None) => Some(format!("{name} {} {}", low.sign('>'), low.text())),
+        (None, Some(high)) => Some(format!("{name} {} {}", high.sign('<'), high.text())),
+        (Some(low), Some(high)) => Some(format!(
+            "{} {} {name} {} {}",
+            low.text(),
+            low.sign('<'),
+            high.sign('<'),
+            high.text()
+        )),
     }
 }
 
-/// One value: where it stands for those around it, the roundest of them.
+/// A single value of an axis. A value with many digits is given as the roundest number between its two neighbours.
 fn single(axis: &ScanAxis, place: usize) -> String {
     let (name, value) = (axis.name, axis.values[place]);
     let neighbour = |place: Option<usize>| place.and_then(|place| axis.values.get(place)).copied();
@@ -271,39 +268,56 @@ fn single(axis: &ScanAxis, place: usize) -> String {
     format!("{name} near {}", short(rounded.unwrap_or(value)))
 }
 
-/// The roundest bound between a value that is outside and one that is inside, with its sign.
-fn between(a: f64, b: f64, is_low: bool) -> String {
-    let (inside, outside) = if is_low { (b, a) } else { (a, b) };
-    let strict = if is_low { ">" } else { "<" };
-    // What a person would name: 0 and 1 themselves.
+/// An end of a range.
+struct Bound {
+    value: f64,
+    /// Whether the value itself belongs to the range.
+    is_inside: bool,
+}
+
+impl Bound {
+    /// `<` or `>`, with `=` where the value belongs to the range.
+    fn sign(&self, strict: char) -> String {
+        let equal = if self.is_inside { "=" } else { "" };
+        format!("{strict}{equal}")
+    }
+
+    fn text(&self) -> String {
+        short(self.value)
+    }
+}
+
+/// The roundest bound between the last value inside a range and the first one outside.
+fn bound(inside: f64, outside: f64) -> Bound {
+    // A reader expects 0 and 1 themselves, not a number near them.
     for plain in [0.0, 1.0] {
-        if outside == plain {
-            return format!("{strict} {plain}");
-        }
-        if inside == plain {
-            return format!("{strict}= {plain}");
+        if outside == plain || inside == plain {
+            return Bound {
+                value: plain,
+                is_inside: outside != plain,
+            };
         }
     }
-    let side = if is_low { -1.0 } else { 1.0 };
+    let side = (outside - inside).signum();
     let same = |x: f64, y: f64| (x - y).abs() <= SAME * y.abs();
     let lies_between = |x: &f64| {
         let beyond_inside = side * (*x - inside) > 0.0 || same(*x, inside);
         beyond_inside && side * (outside - *x) > 0.0 && !same(*x, outside)
     };
     let rounded = |digits: i32| {
-        let loose = round_bounds(inside, digits).into_iter().find(lies_between);
-        let tight = || {
-            round_bounds(outside, digits)
-                .into_iter()
+        let near = |x: f64| round_bounds(x, digits).into_iter();
+        let at_inside = near(inside).find(lies_between).map(|x| (x, true));
+        at_inside.or_else(|| {
+            near(outside)
                 .find(|x| same(*x, outside))
-        };
-        loose.map(|x| ("=", x)).or_else(|| tight().map(|x| ("", x)))
+                .map(|x| (x, false))
+        })
     };
-    let (equal, bound) = (0..8).find_map(rounded).unwrap_or(("=", inside));
-    format!("{strict}{equal} {}", short(bound))
+    let (value, is_inside) = (0..8).find_map(rounded).unwrap_or((inside, true));
+    Bound { value, is_inside }
 }
 
-/// Numbers that differ by less are read as one.
+/// Numbers whose relative difference is at most this count as equal.
 const SAME: f64 = 1e-7;
 
 /// A number with so many digits after the first, from below and from above.
@@ -368,7 +382,7 @@ mod tests {
     }
 
     #[test]
-    fn a_extentis_told_in_its_roundest_bounds() {
+    fn an_extent_is_given_by_its_roundest_bounds() {
         assert_eq!(field(&grid(), |at| at[0] < 1.088), ["eta < 1.09"]);
         assert_eq!(
             field(&grid(), |at| at[0] > 1.0 && at[1] < 0.203),

@@ -264,8 +264,8 @@ impl Scan<'_> {
         }
     }
 
-    /// At the critical angle, at Brewster's and next to them, where an index far from 1 has all that it has: no axis of
-    /// cosines meets them.
+    /// Points at the critical angle, at Brewster's angle and next to them. Far from an index of 1 the curve changes only
+    /// there, and the axis of cosines has no value there.
     fn at_limits(&self, given: &ScanPoint) -> Vec<ResultPoint> {
         let Some((n, _)) = given.medium else {
             return Vec::new();

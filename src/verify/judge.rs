@@ -39,12 +39,13 @@ pub struct HalfRun {
     pub error: HalfError,
     /// The device against f16 rounded after every operation.
     pub emulation: HalfError,
-    /// What it may differ by from f64: where nothing is promised, twice what its emulation does.
+    /// The allowed difference from f64; without a promise it is twice the error of the emulation.
     pub allowed: f64,
 }
 
 impl HalfRun {
-    /// What the device computes in, by what it gives: no f16 comes so near. Where nothing is rounded nothing is told.
+    /// The precision in which the device computes. A result nearer to f64 than f16 can be was computed in f32. If no result
+    /// was rounded, the precision is not known.
     fn computes_in(&self) -> Option<Precision> {
         const NEARER: f64 = 1e-5;
         let rounds = self.error.max_abs.max(self.emulation.max_abs) > 0.0;

@@ -60,7 +60,7 @@ fn told(
     let surface = Surface::new(&material, medium.as_ref(), &sight)?;
     let colour_errors = colour_errors(&surface, &sight.integration);
     Ok(Told {
-        held: surface.held(),
+        held: surface.extrapolation(),
         seen: surface.seen.clone(),
         colour_errors,
         others: others(&material, medium.as_ref(), &sight)?,

@@ -31,7 +31,7 @@ impl<'a> Listed<'a> {
         self.entry.function_names().any(|listed| listed == name)
     }
 
-    /// What it says and is not so, against what would be listed today.
+    /// The entries that differ from those that a run would write today.
     pub fn findings(&self, artifact: &Artifact) -> Vec<String> {
         let mut found = Vec::new();
         if self.times > 1 {
@@ -76,7 +76,7 @@ impl<'a> Listed<'a> {
         found
     }
 
-    /// What it says of the material's viewing conditions or source and is not so.
+    /// A wrong entry of the material's viewing conditions or source.
     fn of_material(&self, claim: &str, right: &Value) -> Option<String> {
         let said = self.entry.detail.get(claim).filter(|said| *said != right)?;
         Some(format!(
@@ -87,9 +87,9 @@ impl<'a> Listed<'a> {
         ))
     }
 
-    /// Of the functions that the file holds those that it does not list.
-    pub fn unlisted(&self, held: &[&str]) -> Vec<String> {
-        let missing = held.iter().filter(|name| !self.has(name));
+    /// The functions of the file that the entry does not list.
+    pub fn unlisted(&self, in_file: &[&str]) -> Vec<String> {
+        let missing = in_file.iter().filter(|name| !self.has(name));
         let finding = |name: &&str| {
             format!(
                 "{}:{}: of {} it does not list {name}",
@@ -101,7 +101,7 @@ impl<'a> Listed<'a> {
         missing.map(finding).collect()
     }
 
-    /// Whether the file is as it is listed.
+    /// Whether the file has the listed hash.
     pub fn is_of(&self, bytes: &[u8]) -> bool {
         is_listed(self.entry, bytes)
     }
@@ -119,7 +119,7 @@ impl<'a> Listed<'a> {
         claims.filter(is_false).map(words).collect()
     }
 
-    /// What is false of the hash of a file that is what would be written today.
+    /// A wrong hash, for a file whose bytes are those that a run would write today.
     pub fn hash_finding(&self, bytes: &[u8]) -> Option<String> {
         (!is_listed(self.entry, bytes)).then(|| {
             format!(
@@ -140,7 +140,7 @@ impl<'a> Listed<'a> {
         )
     }
 
-    /// The line of a claim: below that of the file, and of what stands between.
+    /// The line of a claim in the manifest: the last of these marks, each looked for after the one before.
     fn line(&self, marks: &[&str]) -> usize {
         let file = format!("\"file\": \"{}\"", self.entry.file);
         let mut lines = self.text.lines().enumerate().peekable();

@@ -129,7 +129,7 @@ impl DrawnMaterial<'_> {
 
     /// What is seen, in a sentence.
     fn seen(&self) -> String {
-        let held = self.surface.held();
+        let held = self.surface.extrapolation();
         let held = held.map_or(String::new(), |held| format!(" Extrapolated: {held}."));
         format!("Seen: {}.{held}", self.surface.seen)
     }
