@@ -115,8 +115,8 @@ fn nearest(curve: &[(f64, f64)]) -> Index {
         n: LEAST_N * libm::pow(MOST_N / LEAST_N, n),
         k: MOST_K * k * k,
     };
-    let best_n = |k: f64| least(STEPS_N, |n| distance(of(k, n), curve));
-    let (k, _) = least(STEPS_K, |k| best_n(k).1);
+    let best_n = |k: f64| least(STEPS_N, |n, limit| distance(of(k, n), curve, limit));
+    let (k, _) = least(STEPS_K, |k, _| best_n(k).1);
     of(k, best_n(k).0)
 }
 
@@ -126,9 +126,9 @@ fn nearest_transparent(curve: &[(f64, f64)]) -> Index {
     let root = curve[0].1.clamp(0.0, MOST_F0).sqrt();
     let q = |share: f64| (root * libm::exp2(2.0 * share - 1.0)).min(MOST_F0);
     let above = |share: f64| (1.0 + q(share)) / (1.0 - q(share));
-    let error = |n: f64| distance(Index { n, k: 0.0 }, curve);
-    let (glass, glass_error) = least(STEPS_N, |share| error(above(share)));
-    let (gas, gas_error) = least(STEPS_N, |share| error(1.0 / above(share)));
+    let error = |n: f64, limit: f64| distance(Index { n, k: 0.0 }, curve, limit);
+    let (glass, glass_error) = least(STEPS_N, |share, limit| error(above(share), limit));
+    let (gas, gas_error) = least(STEPS_N, |share, limit| error(1.0 / above(share), limit));
     let n = if gas_error < glass_error {
         1.0 / above(gas)
     } else {
@@ -138,35 +138,46 @@ fn nearest_transparent(curve: &[(f64, f64)]) -> Index {
 }
 
 /// Where in [0, 1] a function is least, and its value: the best of even steps, then a golden section between its
-/// neighbours.
-fn least(steps: usize, f: impl Fn(f64) -> f64) -> (f64, f64) {
+/// neighbours. The function also takes a limit: where its value is above it, it may return any number above it.
+fn least(steps: usize, f: impl Fn(f64, f64) -> f64) -> (f64, f64) {
     let at = |i: usize| i as f64 / steps as f64;
-    let values: Vec<f64> = (0..=steps).map(|i| f(at(i))).collect();
-    let best = (0..=steps)
-        .min_by(|a, b| values[*a].total_cmp(&values[*b]))
-        .unwrap_or(0);
+    let (mut best, mut value) = (0, f64::INFINITY);
+    for i in 0..=steps {
+        let here = f(at(i), value);
+        if here < value {
+            (best, value) = (i, here);
+        }
+    }
     let (mut low, mut high) = (at(best.saturating_sub(1)), at((best + 1).min(steps)));
     for _ in 0..SECTIONS {
         let [left, right] = [high - GOLDEN * (high - low), low + GOLDEN * (high - low)];
-        if f(left) <= f(right) {
+        let left_value = f(left, f64::INFINITY);
+        if left_value <= f(right, left_value) {
             high = right;
         } else {
             low = left;
         }
     }
     let middle = 0.5 * (low + high);
-    let found = (middle, f(middle));
-    if found.1 <= values[best] {
+    let found = (middle, f(middle, value));
+    if found.1 <= value {
         found
     } else {
-        (at(best), values[best])
+        (at(best), value)
     }
 }
 
-fn distance(index: Index, curve: &[(f64, f64)]) -> f64 {
-    let difference =
-        |(c, r): &(f64, f64)| (optics::conductor(index.n, index.k, *c).unpolarised() - r).abs();
-    curve.iter().map(difference).fold(0.0, f64::max)
+/// The largest difference between an index's curve and this one, or the first that is above the limit.
+fn distance(index: Index, curve: &[(f64, f64)], limit: f64) -> f64 {
+    let mut largest: f64 = 0.0;
+    for (cos_theta, reflectance) in curve {
+        let law = optics::conductor(index.n, index.k, *cos_theta).unpolarised();
+        largest = largest.max((law - reflectance).abs());
+        if largest > limit {
+            break;
+        }
+    }
+    largest
 }
 
 #[cfg(test)]
@@ -203,7 +214,7 @@ mod tests {
                 .map(|(c, r)| (*c, r[channel]))
                 .collect();
             let (n, k) = (found.channels.n[channel], found.channels.k[channel]);
-            let error = distance(Index { n, k }, &curve);
+            let error = distance(Index { n, k }, &curve, f64::INFINITY);
             let glass = kind == MaterialKind::Dielectric;
             for i in -50..=50 {
                 for j in -50..=50 {
@@ -215,7 +226,11 @@ mod tests {
                         n: 0.002 * libm::pow(2e3, f64::from(i + 50) / 100.0),
                         k: if glass { 0.0 } else { 0.6 * f64::from(j + 51) },
                     };
-                    let least = distance(near, &curve).min(distance(far, &curve));
+                    let least = distance(near, &curve, f64::INFINITY).min(distance(
+                        far,
+                        &curve,
+                        f64::INFINITY,
+                    ));
                     assert!(least > error - 1e-5, "{name}: {least} is less than {error}");
                 }
             }

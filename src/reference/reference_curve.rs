@@ -1,5 +1,7 @@
 //! The reference reflectance: what the exact law gives of a surface in one kind of light, which methods are held against.
 
+use std::sync::OnceLock;
+
 use glam::DVec3;
 
 use crate::materials::Surface;
@@ -11,28 +13,33 @@ pub const ANGLES: usize = 2048;
 /// Cosines close to grazing, besides: 2⁻ⁱᐟ⁴, where indices far from 1 have their largest errors.
 const GRAZING: usize = 120;
 /// What a method is held against: a surface as it is seen, in one kind of light.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug)]
 pub struct ReferenceCurve {
     /// The surface.
     pub surface: Surface,
     /// Polarised or not.
     pub light: Light,
-    /// Its reflectance at [`cosines`] of [`ANGLES`], before the gamut: what takes the time, and is wanted for every method.
-    unclipped: Vec<DVec3>,
+    /// Its reflectance at [`cosines`] of [`ANGLES`], before the gamut. It is expensive: computed once, when something asks.
+    unclipped: OnceLock<Vec<DVec3>>,
 }
 
 impl ReferenceCurve {
     /// The truth about a surface in this light.
     pub fn new(surface: Surface, light: Light) -> ReferenceCurve {
-        let unclipped = cosines(ANGLES)
-            .into_iter()
-            .map(|cos_theta| reflected(&surface, light, cos_theta))
-            .collect();
         ReferenceCurve {
             surface,
             light,
-            unclipped,
+            unclipped: OnceLock::new(),
         }
+    }
+
+    fn unclipped(&self) -> &[DVec3] {
+        self.unclipped.get_or_init(|| {
+            let cosines = cosines(ANGLES).into_iter();
+            cosines
+                .map(|cos_theta| reflected(&self.surface, self.light, cos_theta))
+                .collect()
+        })
     }
 
     /// The same, with colours outside the working space kept as they are.
@@ -43,7 +50,7 @@ impl ReferenceCurve {
 
     /// The reflectance at [`cosines`] of [`ANGLES`].
     pub fn table(&self) -> Vec<[f64; 3]> {
-        let colours = self.unclipped.iter();
+        let colours = self.unclipped().iter();
         colours
             .map(|colour| self.surface.gamut.apply(*colour).to_array())
             .collect()
