@@ -6,6 +6,8 @@ use thiserror::Error;
 const ALIKE: f64 = 0.7;
 /// How many are offered at most.
 const OFFERED: usize = 3;
+/// More names than this are not listed.
+const MANY: usize = 40;
 
 /// A name that does not exist.
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
@@ -44,7 +46,6 @@ pub fn offered(nearest: &[String]) -> String {
 
 /// All names, or where to find them where they are many.
 fn listed(kind: &str, all: &[&str]) -> String {
-    const MANY: usize = 40;
     if all.len() > MANY {
         let see = if kind == "substance" {
             "material"
@@ -57,14 +58,55 @@ fn listed(kind: &str, all: &[&str]) -> String {
     }
 }
 
-/// The names most like this one, best first.
+/// The names most like this one, best first: all that are alike, or that hold the name. Of a short list where none is, the best
+/// that shares a letter with it.
 pub fn nearest_names(name: &str, all: &[&str]) -> Vec<String> {
-    let score = |other: &str| strsim::jaro_winkler(&name.to_lowercase(), &other.to_lowercase());
-    let mut alike: Vec<&str> = all
-        .iter()
-        .copied()
-        .filter(|other| score(other) >= ALIKE)
-        .collect();
-    alike.sort_by(|a, b| score(b).total_cmp(&score(a)));
-    alike.into_iter().take(OFFERED).map(str::to_owned).collect()
+    let name = name.to_lowercase();
+    let score = |other: &str| {
+        let other = other.to_lowercase();
+        let score = strsim::jaro_winkler(&name, &other);
+        let holds = !name.is_empty() && other.contains(&name);
+        if holds { score.max(ALIKE) } else { score }
+    };
+    let mut scored: Vec<(f64, &str)> = all.iter().map(|other| (score(other), *other)).collect();
+    scored.sort_by(|(a, _), (b, _)| b.total_cmp(a));
+    let alike = scored.iter().take_while(|(score, _)| *score >= ALIKE);
+    let count = alike.count().min(OFFERED);
+    let shares = scored.first().is_some_and(|(score, _)| *score > 0.0);
+    let is_short = all.len() <= MANY;
+    scored.truncate(count.max(usize::from(is_short && shares)));
+    scored
+        .into_iter()
+        .map(|(_, other)| other.to_owned())
+        .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[track_caller]
+    fn check(name: &str, all: &[&str], nearest: &[&str]) {
+        assert_eq!(nearest_names(name, all), nearest, "{name}");
+    }
+
+    #[test]
+    fn a_wrong_name_is_answered_with_the_nearest() {
+        check("shlick", &["exact", "schlick"], &["schlick"]);
+        check("GLES", &["gles", "wgsl"], &["gles"]);
+    }
+
+    #[test]
+    fn a_short_name_is_answered_too() {
+        check("1931", &["cie2015", "cie1931"], &["cie1931"]);
+        check("f64", &["f32", "f16"], &["f32"]);
+        check("2nm", &["5nm", "1nm"], &["5nm", "1nm"]);
+        check("exr", &["png8", "exr-half"], &["exr-half"]);
+    }
+
+    #[test]
+    fn what_is_like_nothing_is_answered_with_nothing() {
+        check("", &["gles", "wgsl"], &[]);
+        check("zzz", &["gold", "silver"], &[]);
+    }
 }

@@ -18,15 +18,11 @@ pub enum RequestFault {
         /// What is allowed: `is 1 to 1000`.
         allowed: String,
     },
-    /// Two flags that contradict each other.
+    /// Flags, or values of one, that contradict each other.
     #[error("{why}")]
     Conflict {
-        /// A flag.
-        flag: &'static str,
-        /// The other.
-        with: &'static str,
         /// Why they do, and what to leave out.
-        why: &'static str,
+        why: String,
     },
     /// A command of materials, and `--material none`.
     #[error("{why}")]
@@ -56,6 +52,12 @@ pub enum RequestFault {
         /// What it means.
         meaning: &'static str,
     },
+    /// A light's file whose name is that of a standard light.
+    #[error("the light's file is named `{name}`, as a standard light is; rename it")]
+    LightNameTaken {
+        /// The name.
+        name: String,
+    },
     /// An output that cannot lie where it should.
     #[error("{}: {why}", place.display())]
     Place {
@@ -70,4 +72,11 @@ pub enum RequestFault {
         /// The reason of whatever makes it.
         reason: String,
     },
+}
+
+impl RequestFault {
+    /// Flags, or values of one, that contradict each other, and why.
+    pub fn conflict(why: impl Into<String>) -> RequestFault {
+        RequestFault::Conflict { why: why.into() }
+    }
 }

@@ -22,11 +22,8 @@ pub mod lock;
 pub mod manifest;
 pub mod names;
 pub mod ours;
-#[cfg(feature = "cli")]
-pub mod precision;
 pub mod request;
 pub mod scope;
-pub mod sight;
 pub mod source;
 #[cfg(feature = "cli")]
 pub mod tables;

@@ -1,60 +1,18 @@
-//! Reading what a user names: a material of the catalogue, or a file.
+//! Reading the files that a user names.
 
 use std::fs;
 use std::io;
 use std::path::Path;
 
-use crate::materials::{self, FileFault};
+use crate::materials::FileFault;
 
 use super::error::Error;
-use super::request::{Materials, Source};
 
 /// A material file has at most this many bytes: 10⁶ rows fit.
 const LARGEST: u64 = 64 << 20;
 
 /// A file with a function of a user's has at most this many bytes.
 const LARGEST_SHADER: u64 = 1 << 20;
-
-/// The choice that `--material` makes: names, files and `all` together, or `none` alone.
-///
-/// # Errors
-/// `none` stands beside another name, or a named file cannot be read.
-pub fn materials(names: &[String]) -> Result<Materials, Error> {
-    if names.is_empty() {
-        return Ok(Materials::Default);
-    }
-    if names.iter().any(|name| name == "none") {
-        let what =
-            "`none` leaves all materials out, so that no other can be named beside it".to_owned();
-        return if names.len() == 1 {
-            Ok(Materials::None)
-        } else {
-            Err(Error::Usage { what })
-        };
-    }
-    let mut sources = Vec::new();
-    for name in names {
-        match name.as_str() {
-            "all" => sources.extend(Source::catalogue()),
-            _ => sources.push(source(name)?),
-        }
-    }
-    Ok(Materials::These(sources))
-}
-
-/// A name of the catalogue, or a file read.
-///
-/// # Errors
-/// A named file cannot be read.
-pub fn source(name: &str) -> Result<Source, Error> {
-    if materials::source(name).is_some() || !is_path(name) {
-        return Ok(Source::Named(name.to_owned()));
-    }
-    Ok(Source::File {
-        file: name.to_owned(),
-        text: read(name)?,
-    })
-}
 
 /// Whether a name means a file: names of the catalogue have neither dots nor slashes.
 pub fn is_path(name: &str) -> bool {

@@ -1,12 +1,12 @@
 //! What `time` is asked for: from the names of methods and materials to the functions that are drawn.
 
-use crate::methods;
+use crate::methods::Method;
+use crate::num::Precision;
 use crate::overdraw::{LibraryMaterials, TimedFunctions};
 use crate::reference::MaterialInMedium;
 
 use super::error::Error;
 use super::fault::RequestFault;
-use super::precision::several;
 use super::request::{Materials, Request, Source};
 
 /// Materials that functions are specialised to where none is named: a metal and a dielectric.
@@ -16,32 +16,30 @@ const METAL: &str = "gold";
 const DIELECTRIC: &str = "water";
 
 /// What `time` is asked for.
-pub struct TimeRequest<'a> {
-    /// Names of methods; none: all.
-    pub methods: &'a [String],
+pub struct TimeRequest {
+    /// The methods.
+    pub methods: Vec<&'static Method>,
     /// The materials.
     pub materials: Materials,
-    /// Names of precisions; none: both.
-    pub precisions: &'a [String],
+    /// What functions compute in.
+    pub precisions: Vec<Precision>,
     /// Evaluations in a draw.
     pub evaluations: usize,
 }
 
-impl TimeRequest<'_> {
+impl TimeRequest {
     /// The functions, and what is drawn for them.
     ///
     /// # Errors
     /// A name that is none, or nothing to measure.
     pub fn timed_functions(&self) -> Result<TimedFunctions, Error> {
         let request = Request {
-            methods: self.methods.to_vec(),
             materials: match &self.materials {
                 Materials::Default => Materials::These(USUAL.map(named_source).to_vec()),
                 other => other.clone(),
             },
             ..Request::default()
         };
-        let chosen = request.resolved_methods()?;
         let subjects = request.subjects()?;
         let unseen = subjects.left_out.iter();
         let mut left_out: Vec<String> = unseen.map(|unseen| unseen.why.clone()).collect();
@@ -50,8 +48,8 @@ impl TimeRequest<'_> {
             dielectric: subject(DIELECTRIC)?,
         };
         let timed = TimedFunctions::new(
-            chosen.as_deref().unwrap_or(methods::ALL),
-            &several(self.precisions)?,
+            &self.methods,
+            &self.precisions,
             &library,
             &subjects.materials(),
             self.evaluations,

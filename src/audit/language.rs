@@ -3,7 +3,6 @@
 use serde::{Deserialize, Serialize};
 
 use crate::ir::Ty;
-use crate::names::UnknownName;
 use crate::targets::{DXC, GLES, GLSLANG, HLSL, Target, WGSL};
 use crate::verify::text::{Hidden, code_alone};
 
@@ -20,8 +19,8 @@ pub enum Language {
     Hlsl,
 }
 
-/// Names of languages, and endings of files.
-const NAMES: [(&str, Language); 10] = [
+/// Endings of files.
+const ENDINGS: [(&str, Language); 10] = [
     ("wgsl", Language::Wgsl),
     ("glsl", Language::Gles),
     ("gles", Language::Gles),
@@ -33,10 +32,16 @@ const NAMES: [(&str, Language); 10] = [
     ("hlsli", Language::Hlsl),
     ("fx", Language::Hlsl),
 ];
-/// How many of them are names of languages.
-const LANGUAGES: [&str; 4] = ["wgsl", "glsl", "gles", "hlsl"];
 
 impl Language {
+    /// All of them by their names on the command line; one has two.
+    pub const NAMED: [(&'static str, Language); 4] = [
+        ("wgsl", Language::Wgsl),
+        ("glsl", Language::Gles),
+        ("gles", Language::Gles),
+        ("hlsl", Language::Hlsl),
+    ];
+
     /// The compiler beside us that is asked about it.
     pub fn compiler(self) -> &'static str {
         match self {
@@ -46,20 +51,16 @@ impl Language {
         }
     }
 
-    /// The language that is named, or that the file's ending tells.
+    /// The language that the file's ending tells.
     ///
     /// # Errors
-    /// There is none of that name, or the ending tells nothing.
-    pub fn named(file: &str, named: Option<&str>) -> Result<Language, Error> {
-        let find = |word: &str| NAMES.iter().find(|(name, _)| *name == word);
-        if let Some(name) = named {
-            let found = find(name).filter(|_| LANGUAGES.contains(&name));
-            let found = found.map(|(_, language)| *language);
-            return found.ok_or_else(|| UnknownName::new("language", name, &LANGUAGES).into());
-        }
+    /// The ending tells nothing.
+    pub fn of_file(file: &str) -> Result<Language, Error> {
         let name = file.rsplit(['/', '\\']).next().unwrap_or(file);
         let ending = name.rsplit_once('.').map_or("", |(_, ending)| ending);
-        let found = find(&ending.to_lowercase()).map(|(_, language)| *language);
+        let ending = ending.to_lowercase();
+        let found = ENDINGS.iter().find(|(name, _)| *name == ending);
+        let found = found.map(|(_, language)| *language);
         found.ok_or_else(|| Error::NoLanguage {
             file: file.to_owned(),
         })
@@ -104,14 +105,12 @@ mod tests {
     use super::*;
 
     #[test]
-    fn an_ending_or_a_flag_tells_the_language() {
-        let of = |file, named| Language::named(file, named).ok();
-        assert_eq!(of("a/b.WGSL", None), Some(Language::Wgsl));
-        assert_eq!(of("b.frag", None), Some(Language::Gles));
-        assert_eq!(of("b.fx", None), Some(Language::Hlsl));
-        assert_eq!(of("b.txt", Some("hlsl")), Some(Language::Hlsl));
-        assert_eq!(of("b.txt", None), None);
-        assert_eq!(of("wgsl", None), None);
-        assert_eq!(of("b.wgsl", Some("fx")), None);
+    fn an_ending_tells_the_language() {
+        let of = |file| Language::of_file(file).ok();
+        assert_eq!(of("a/b.WGSL"), Some(Language::Wgsl));
+        assert_eq!(of("b.frag"), Some(Language::Gles));
+        assert_eq!(of("b.fx"), Some(Language::Hlsl));
+        assert_eq!(of("b.txt"), None);
+        assert_eq!(of("wgsl"), None);
     }
 }

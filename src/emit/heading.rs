@@ -10,7 +10,6 @@ use super::{header, short};
 
 /// How much the comments of a file say.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-#[cfg_attr(feature = "cli", derive(clap::ValueEnum))]
 pub enum HeaderForm {
     /// What a function is, its largest error, its cost, its source, and warnings; the rest stands in the manifest
     #[default]
@@ -20,6 +19,17 @@ pub enum HeaderForm {
 }
 
 impl HeaderForm {
+    /// Both; the first is the default.
+    pub const ALL: [HeaderForm; 2] = [HeaderForm::Short, HeaderForm::Full];
+
+    /// The name on the command line.
+    pub fn name(self) -> &'static str {
+        match self {
+            HeaderForm::Short => "short",
+            HeaderForm::Full => "full",
+        }
+    }
+
     /// What `--header` says in a command, where it must be said.
     pub fn flag(self) -> Option<&'static str> {
         match self {

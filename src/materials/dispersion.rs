@@ -22,6 +22,19 @@ pub enum Extrapolate {
     Hold,
 }
 
+impl Extrapolate {
+    /// Both; the first is the default.
+    pub const ALL: [Extrapolate; 2] = [Extrapolate::Refuse, Extrapolate::Hold];
+
+    /// The name on the command line.
+    pub fn name(self) -> &'static str {
+        match self {
+            Extrapolate::Refuse => "refuse",
+            Extrapolate::Hold => "hold",
+        }
+    }
+}
+
 /// The ends of a range count as inside in spite of rounding: as a share of the wavelength.
 const END: f64 = 1e-9;
 

@@ -4,7 +4,7 @@ use std::fs;
 use std::process::Command;
 
 use fresnel_gen::app::args::Cli;
-use fresnel_gen::app::request::Materials;
+use fresnel_gen::app::request::{Materials, Source};
 use fresnel_gen::app::tables::{WantedTables, artifacts, table_materials};
 use fresnel_gen::bake::{BakeRequest, TableMaterial, TableSize, bake};
 use fresnel_gen::ir::Weights;
@@ -72,9 +72,9 @@ fn filtering_is_exact_at_both_ends() {
 }
 
 fn request(names: &str, formats: &[Format], atlas: bool) -> BakeRequest {
-    let names: Vec<String> = names.split(',').map(str::to_owned).collect();
+    let sources = names.split(',').map(|name| Source::Named(name.to_owned()));
     let wanted = WantedTables {
-        materials: fresnel_gen::app::source::materials(&names).unwrap(),
+        materials: Materials::These(sources.collect()),
         medium: None,
         sight: ViewingConditions {
             gamut: Gamut::Keep,
@@ -83,7 +83,7 @@ fn request(names: &str, formats: &[Format], atlas: bool) -> BakeRequest {
     };
     BakeRequest {
         subjects: table_materials(&wanted).unwrap().0,
-        typed: names.join(","),
+        typed: names.to_owned(),
         formats: formats.to_vec(),
         shape: TableSize::Fixed {
             axis: TableAxis::Rational,

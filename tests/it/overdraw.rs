@@ -3,6 +3,8 @@
 use fresnel_gen::app::Materials;
 use fresnel_gen::app::time_request::TimeRequest;
 use fresnel_gen::emit::validate_wgsl;
+use fresnel_gen::methods::{ALL, find};
+use fresnel_gen::num::Precision;
 use fresnel_gen::overdraw::{
     Clock, Draw, DrawingEffort, DrawingPlan, MeasuredDrawings, Reading, Stop, TimedFunctions,
     measure,
@@ -12,11 +14,14 @@ use fresnel_gen::overdraw::{
 const PIXELS: u64 = 1000;
 
 fn timed_functions(methods: &[&str]) -> TimedFunctions {
-    let methods: Vec<String> = methods.iter().map(|name| (*name).to_owned()).collect();
+    let named = methods.iter().filter_map(|name| find(name));
     let request = TimeRequest {
-        methods: &methods,
+        methods: match methods {
+            [] => ALL.to_vec(),
+            _ => named.collect(),
+        },
         materials: Materials::Default,
-        precisions: &[],
+        precisions: Precision::ALL.to_vec(),
         evaluations: 4,
     };
     request.timed_functions().unwrap()

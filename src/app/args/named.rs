@@ -1,11 +1,11 @@
 //! The files that a command line names: what a run reads, and what it writes by name.
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
-use crate::app::sight;
-use crate::app::source::is_path;
-
-use super::{MaterialsCommand, MaterialsFlags, SightFlags};
+use super::{
+    MaterialFlags, MaterialsCommand, MaterialsFlags, MediumFlags, ParamsFlags, ReportFlags,
+    ViewingFlags,
+};
 
 /// The files of a run that stand on its command line.
 #[derive(Debug, Default)]
@@ -17,33 +17,41 @@ pub struct NamedFiles<'a> {
 }
 
 impl<'a> NamedFiles<'a> {
-    pub(super) fn read(&mut self, names: impl IntoIterator<Item = &'a String>) {
-        let paths = names.into_iter().filter(|name| is_path(name));
-        self.inputs.extend(paths.map(Path::new));
+    fn read(&mut self, paths: impl IntoIterator<Item = &'a str>) {
+        self.inputs.extend(paths.into_iter().map(Path::new));
     }
 
-    pub(super) fn seen(&mut self, flags: &'a SightFlags) {
-        self.inputs
-            .extend(sight::input(&flags.words(None)).map(Path::new));
+    pub(super) fn seen(
+        &mut self,
+        materials: &'a MaterialFlags,
+        medium: &'a MediumFlags,
+        viewing: &'a ViewingFlags,
+    ) {
+        self.read(materials.paths().chain(medium.path()).chain(viewing.path()));
     }
 
-    pub(super) fn report(&mut self, materials: &'a [String], json: &'a Option<PathBuf>) {
-        self.read(materials);
-        self.write(json);
+    pub(super) fn report(&mut self, materials: &'a MaterialFlags, report: &'a ReportFlags) {
+        self.read(materials.paths());
+        self.write(&report.json);
+    }
+
+    fn params(&mut self, flags: &'a ParamsFlags) {
+        let material = flags.name.path().into_iter();
+        self.read(
+            material
+                .chain(flags.medium.path())
+                .chain(flags.viewing.path()),
+        );
     }
 
     pub(super) fn materials(&mut self, flags: &'a MaterialsFlags) {
-        self.write(&flags.json);
+        self.write(&flags.report.json);
         match &flags.what {
             Some(MaterialsCommand::Show(show)) => {
-                self.read([&show.of.name].into_iter().chain(&show.of.medium));
-                self.seen(&show.of.sight);
+                self.params(&show.of);
                 self.write(show.svg.iter().chain(&show.png));
             }
-            Some(MaterialsCommand::Params(params)) => {
-                self.read([&params.name].into_iter().chain(&params.medium));
-                self.seen(&params.sight);
-            }
+            Some(MaterialsCommand::Params(params)) => self.params(params),
             Some(MaterialsCommand::Import(import)) => {
                 self.inputs.push(Path::new(&import.page));
                 self.write(&import.output);

@@ -1,38 +1,55 @@
 //! The flags of `time`.
 
-use std::path::PathBuf;
-
 use clap::Args;
 
 use crate::emit::CommandLine;
+#[cfg(feature = "gpu")]
+use crate::gpu::Backend;
+use crate::methods::Method;
+use crate::num::Precision;
+use crate::overdraw::Clock;
+
+use super::choice::{Choice, method_or_all, one_of, precision};
+use super::{MaterialFlags, ReportFlags};
+
+/// OpenGL ES runs vertex shaders here, and draws nothing.
+#[cfg(feature = "gpu")]
+const DRAWING_BACKENDS: [Backend; 4] = [
+    Backend::Vulkan,
+    Backend::Metal,
+    Backend::Direct3d12,
+    Backend::OpenGl,
+];
 
 /// The flags of `time`.
 #[derive(Args, Debug)]
 #[command(
+    mut_arg("material", |arg| arg.help("Materials that methods are specialised to, beside the library: names, paths of files, all, or none [default: gold, water]")),
     after_help = "Examples:\n  fresnel-gen time\n  fresnel-gen time --method schlick,conductor_exact --material gold --json times.json\n  fresnel-gen time --hardware --size 2048\n\nA share is the cost of one evaluation over that of dielectric_exact's library function, both net of the empty shader. Exit codes: 0 done, 1 a shader failed or took longer than --limit, 2 wrong input, 3 something is missing here."
 )]
 pub struct TimeFlags {
     /// Method, see `fresnel-gen methods` [default: all]
-    #[arg(long, value_delimiter = ',', value_name = "NAME")]
-    pub method: Vec<String>,
-    /// Materials that methods are specialised to, beside the library: names, paths of files, all, or none [default: gold, water]
-    #[arg(long, value_delimiter = ',', value_name = "NAME")]
-    pub material: Vec<String>,
+    #[arg(long, value_delimiter = ',', value_name = "NAME", value_parser = method_or_all())]
+    pub method: Vec<Choice<&'static Method>>,
+    /// Which materials.
+    #[command(flatten)]
+    pub materials: MaterialFlags,
     /// What functions compute in: f32, f16, or both [default: both]
-    #[arg(long, value_delimiter = ',', value_name = "NAME")]
-    pub precision: Vec<String>,
+    #[arg(long, value_delimiter = ',', value_name = "NAME", value_parser = precision())]
+    pub precision: Vec<Precision>,
     /// The graphics card, by a part of its name [default: the fastest there is]
     #[arg(long, value_name = "NAME")]
     pub adapter: Option<String>,
     /// The interface: vulkan, metal, dx12 or gl [default: the first of these that is there]
-    #[arg(long, value_name = "NAME")]
-    pub backend: Option<String>,
+    #[cfg(feature = "gpu")]
+    #[arg(long, value_name = "NAME", value_parser = one_of("backend", DRAWING_BACKENDS, Backend::name))]
+    pub backend: Option<Backend>,
     /// Refuse an adapter that is software
     #[arg(long)]
     pub hardware: bool,
     /// Clock: gpu (the device's timestamps), cpu (CPU time, for software renderers) or wall [default: cpu of software, else gpu where its timestamps advance, else wall]
-    #[arg(long, value_name = "NAME")]
-    pub clock: Option<String>,
+    #[arg(long, value_name = "NAME", value_parser = one_of("clock", Clock::ALL, Clock::name))]
+    pub clock: Option<Clock>,
     /// Pixels a side of the square target, 16 to 8192 [default: 256 in software, else 1024]
     #[arg(long, value_name = "PIXELS")]
     pub size: Option<u32>,
@@ -48,25 +65,29 @@ pub struct TimeFlags {
     /// Exit with 3 where anything could not be measured here
     #[arg(long)]
     pub require_all: bool,
-    /// Write the report as JSON to this file, or `-` for stdout
-    #[arg(long, value_name = "FILE")]
-    pub json: Option<PathBuf>,
+    /// The report.
+    #[command(flatten)]
+    pub report: ReportFlags,
     /// Draw what is asked for, and answer with readings
     #[arg(long, hide = true)]
     pub worker: bool,
 }
 
+#[cfg(feature = "gpu")]
 impl TimeFlags {
     /// The command that reports this again, without places.
     pub fn command_line(&self) -> CommandLine {
         CommandLine::new("time")
             .list("method", &self.method)
-            .list("material", &self.material)
-            .list("precision", &self.precision)
+            .list("material", &self.materials.material)
+            .list(
+                "precision",
+                self.precision.iter().map(|precision| precision.name()),
+            )
             .list("adapter", &self.adapter)
-            .list("backend", &self.backend)
+            .list("backend", self.backend.map(Backend::name))
             .switch("hardware", self.hardware)
-            .list("clock", &self.clock)
+            .list("clock", self.clock.map(Clock::name))
             .list("size", self.size)
             .number("evaluations", self.evaluations)
             .number("rounds", self.rounds)

@@ -5,12 +5,15 @@ use std::path::PathBuf;
 use clap::Args;
 
 use crate::emit::CommandLine;
+#[cfg(feature = "gpu")]
+use crate::gpu::Backend;
 use crate::materials::ViewingConditions;
+use crate::methods::Method;
 use crate::num::Precision;
+use crate::targets::Target;
 
-use crate::app::precision::PrecisionFlags;
-
-use super::SightFlags;
+use super::choice::{Choice, method_or_all, one_of, target_or_all};
+use super::{CheckReportFlags, GamutFlags, MaterialFlags, MediumFlags, PrecisionFlags};
 
 /// The flags of `verify`.
 #[derive(Args, Debug)]
@@ -19,23 +22,20 @@ use super::SightFlags;
 )]
 pub struct VerifyFlags {
     /// Output language, see `fresnel-gen targets`; all means those written by default [default: all]
-    #[arg(long, value_delimiter = ',', value_name = "NAME")]
-    pub target: Vec<String>,
+    #[arg(long, value_delimiter = ',', value_name = "NAME", value_parser = target_or_all())]
+    pub target: Vec<Choice<&'static Target>>,
     /// Method, see `fresnel-gen methods` [default: all; of a material's file those that it holds]
-    #[arg(long, value_delimiter = ',', value_name = "NAME")]
-    pub method: Vec<String>,
-    /// Names, paths of material files, all, or none [default: gold, platinum, water, diamond]
-    #[arg(long, value_delimiter = ',', value_name = "NAME")]
-    pub material: Vec<String>,
-    /// Medium on the incident side: name or file of a transparent material [default: air]
-    #[arg(long, value_name = "NAME")]
-    pub medium: Option<String>,
-    /// How the material is seen.
+    #[arg(long, value_delimiter = ',', value_name = "NAME", value_parser = method_or_all())]
+    pub method: Vec<Choice<&'static Method>>,
+    /// Which materials.
     #[command(flatten)]
-    pub sight: SightFlags,
-    /// Colours outside the working space: keep, clip to [0, 1], or scale [default: clip]
-    #[arg(long, value_name = "NAME")]
-    pub gamut: Option<String>,
+    pub materials: MaterialFlags,
+    /// The medium.
+    #[command(flatten)]
+    pub medium: MediumFlags,
+    /// How materials are looked at.
+    #[command(flatten)]
+    pub viewing: GamutFlags,
     /// Goes before every function's name
     #[arg(long, value_name = "TEXT", default_value = "fresnel_")]
     pub prefix: String,
@@ -52,8 +52,9 @@ pub struct VerifyFlags {
     #[arg(long, value_name = "NAME")]
     pub adapter: Option<String>,
     /// What WGSL and SPIR-V run on: vulkan or gl (gl has no SPIR-V) [default: vulkan]
-    #[arg(long, value_name = "NAME")]
-    pub backend: Option<String>,
+    #[cfg(feature = "gpu")]
+    #[arg(long, value_name = "NAME", value_parser = one_of("backend", [Backend::Vulkan, Backend::OpenGl], Backend::name))]
+    pub backend: Option<Backend>,
     /// Cosines for each function and material, 100 to 10000000
     #[arg(long, value_name = "N", default_value_t = 20_000)]
     pub points: usize,
@@ -69,32 +70,30 @@ pub struct VerifyFlags {
     /// Exit with 3 where anything could not be checked
     #[arg(long)]
     pub require_all: bool,
-    /// Write the report as JSON to this file, or `-` for stdout
-    #[arg(long, value_name = "FILE")]
-    pub json: Option<PathBuf>,
-    /// Write the report as JUnit's XML to this file
-    #[arg(long, value_name = "FILE")]
-    pub junit: Option<PathBuf>,
+    /// The report.
+    #[command(flatten)]
+    pub report: CheckReportFlags,
     /// Read numbers of files and answer with rows
     #[arg(long, hide = true)]
     pub worker: bool,
 }
 
+#[cfg(feature = "gpu")]
 impl VerifyFlags {
     /// The command that reports this again under these viewing conditions, without places.
-    pub fn command_line(&self, sight: &ViewingConditions) -> CommandLine {
-        let is_half = self.precision.precision.as_deref() == Some(Precision::F16.name());
+    pub fn command_line(&self, viewing: &ViewingConditions) -> CommandLine {
+        let is_half = self.precision.precision == Some(Precision::F16);
         let points = (!self.exhaustive && !is_half).then_some(self.points);
         CommandLine::new("verify")
             .list("target", &self.target)
             .list("method", &self.method)
-            .list("material", &self.material)
-            .list("medium", &self.medium)
-            .seen_as(sight)
-            .list("precision", &self.precision.precision)
+            .list("material", &self.materials.material)
+            .list("medium", &self.medium.medium)
+            .seen_as(viewing)
+            .list("precision", self.precision.precision.map(Precision::name))
             .switch("force", self.precision.force)
             .list("adapter", &self.adapter)
-            .list("backend", &self.backend)
+            .list("backend", self.backend.map(Backend::name))
             .switch("exhaustive", self.exhaustive)
             .list("points", points)
     }

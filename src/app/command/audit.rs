@@ -2,16 +2,14 @@
 
 use std::path::{Path, PathBuf};
 
-use crate::app::args::AuditFlags;
+use crate::app::args::{AuditFlags, Choice};
 use crate::app::error::Error;
 use crate::app::fault::RequestFault;
-use crate::app::names::family;
 use crate::app::request::{Materials, Request};
-use crate::app::sight::sight;
-use crate::app::source::{materials, shader, source};
+use crate::app::source::shader;
 use crate::app::write::{try_places_of_ours, write_file};
 use crate::audit::{Audit, AuditRow, Given, Language, serve};
-use crate::cost::{FAMILIES, Family};
+use crate::cost::{self, FAMILIES, Family};
 use crate::reference::MaterialInMedium;
 use crate::report::Report;
 use crate::report::audit::{audit_remarks, audit_text};
@@ -38,29 +36,29 @@ pub fn run(flags: &AuditFlags, progress: Progress) -> Result<Output, Error> {
     let request = request(flags)?;
     let audit = audit(flags, request.sight.integration.space)?;
     let subjects = request.subjects()?.materials();
-    let charts = chart::files(flags.out_dir.as_deref());
-    let all = flags.json.iter().chain(&flags.junit).chain(&charts);
+    let charts = chart::files(flags.pictures.folder());
+    let all = flags.report.files().chain(&charts);
     try_files(&all.map(PathBuf::as_path).collect::<Vec<_>>())?;
-    try_places_of_ours(&charts, flags.overwrite)?;
+    try_places_of_ours(&charts, flags.pictures.overwrite)?;
     let rows = subjects.iter().map(|one| audit.audit_row(one, progress));
     let rows: Vec<AuditRow> = rows.collect::<Result<_, _>>()?;
     let command = String::from(flags.command_line(&request.sight));
-    if let Some(file) = &flags.junit {
+    if let Some(file) = &flags.report.junit {
         let cases = rows.iter().map(AuditRow::junit_case);
         let xml = junit("fresnel-gen audit", cases).map_err(not_drawn)?;
         write_file(file, xml.as_bytes())?;
     }
     let device = rows.first().and_then(|row| row.device.clone());
     let full = Report::new(command.clone(), rows.clone()).with_device(device);
-    let charted = match &flags.out_dir {
+    let charted = match flags.pictures.folder() {
         Some(folder) => {
-            let place = (folder.as_path(), flags.overwrite);
+            let place = (folder, flags.pictures.overwrite);
             charted(place, &rows, &subjects, audit.space, command, progress)?
         }
         None => Vec::new(),
     };
     let texts: Vec<String> = rows.iter().map(audit_text).collect();
-    let mut output = report(texts.join("\n"), &full, flags.json.as_deref())?;
+    let mut output = report(texts.join("\n"), &full, flags.report.report.json())?;
     output.remarks = rows.iter().flat_map(audit_remarks).chain(charted).collect();
     output.code = code(&rows);
     Ok(output)
@@ -96,7 +94,7 @@ fn charted(
 }
 
 fn request(flags: &AuditFlags) -> Result<Request, Error> {
-    let materials = materials(&flags.material)?;
+    let materials = flags.materials.materials()?;
     if materials == Materials::None {
         return Err(RequestFault::NoMaterial {
             why: "--material is none; an audit holds a function against a material",
@@ -105,15 +103,18 @@ fn request(flags: &AuditFlags) -> Result<Request, Error> {
     }
     Ok(Request {
         materials,
-        medium: flags.medium.as_deref().map(source).transpose()?,
-        sight: sight(&flags.sight.words(flags.gamut.as_deref()))?,
+        medium: flags.medium.source()?,
+        sight: flags.viewing.conditions()?,
         ..Request::default()
     })
 }
 
 fn audit(flags: &AuditFlags, space: Space) -> Result<Audit, Error> {
     let file = flags.file.clone().unwrap_or_default();
-    let language = Language::named(&file, flags.language.as_deref())?;
+    let language = match flags.language {
+        Some((_, language)) => language,
+        None => Language::of_file(&file)?,
+    };
     let given = flags.arg.iter().map(|word| Given::read(word));
     Ok(Audit {
         given: given.collect::<Result<_, _>>()?,
@@ -129,19 +130,18 @@ fn audit(flags: &AuditFlags, space: Space) -> Result<Audit, Error> {
     })
 }
 
-fn families(names: &[String]) -> Result<Vec<&'static Family>, Error> {
-    let names: Vec<&str> = names.iter().map(String::as_str).collect();
-    match names.as_slice() {
-        ["none"] => return Ok(Vec::new()),
-        ["all"] => return Ok(FAMILIES.iter().collect()),
-        _ => {}
+fn families(asked: &[Choice<&'static Family>]) -> Result<Vec<&'static Family>, Error> {
+    if asked.is_empty() {
+        return Ok(USUAL.into_iter().filter_map(cost::find).collect());
     }
-    let names = if names.is_empty() {
-        USUAL.to_vec()
-    } else {
-        names
-    };
-    names.into_iter().map(family).collect()
+    if Choice::is_none(asked, "families")? {
+        return Ok(Vec::new());
+    }
+    if Choice::is_all(asked) {
+        return Ok(FAMILIES.iter().collect());
+    }
+    let named = asked.iter().filter_map(Choice::named);
+    Ok(named.copied().collect())
 }
 
 /// 1 for findings; 3 where nothing could be run.

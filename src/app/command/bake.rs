@@ -1,15 +1,12 @@
 //! `bake`: lookup tables as files, and how wrong each is.
 
-use crate::app::args::BakeFlags;
+use crate::app::args::{BakeFlags, Choice};
 use crate::app::artifact::Artifact;
 use crate::app::error::Error;
 use crate::app::fault::RequestFault;
 use crate::app::generate::provenance;
 use crate::app::lock::{Announce, Lock};
-use crate::app::names::unknown;
 use crate::app::scope::Scope;
-use crate::app::sight::sight;
-use crate::app::source::{materials, source};
 use crate::app::tables::{WantedTables, artifacts, table_materials};
 use crate::app::tree::plan;
 use crate::app::write::write;
@@ -42,46 +39,41 @@ pub fn run(flags: &BakeFlags, progress: Progress, announce: Announce) -> Result<
         return split_sum(flags, progress, announce);
     }
     let shape = shape(flags)?;
-    let formats = formats(flags)?;
-    let targets = targets(&flags.target)?;
-    let sight = sight(&flags.sight.words(flags.gamut.as_deref()))?;
+    let viewing = flags.viewing.conditions()?;
     let wanted = WantedTables {
-        materials: materials(&flags.material)?,
-        medium: flags.medium.as_deref().map(source).transpose()?,
-        sight: as_tables_are_seen(&sight, flags.gamut.is_some()),
+        materials: flags.materials.materials()?,
+        medium: flags.medium.source()?,
+        sight: as_tables_are_seen(&viewing, flags.viewing.gamut.is_some()),
     };
     let (subjects, left_out) = table_materials(&wanted)?;
     check_names(&subjects, flags.atlas)?;
     let request = BakeRequest {
-        typed: if flags.material == ["all"] {
+        typed: if flags.materials.material == [Choice::All] {
             "all".to_owned()
         } else {
             material_words(&subjects)
         },
         flags: viewing_flags(&subjects, &wanted.sight),
         subjects,
-        formats,
+        formats: formats(flags),
         shape,
         atlas: flags.atlas,
-        targets,
+        targets: targets(&flags.target),
         prefix: flags.prefix.clone(),
     };
-    try_places(flags.json.as_deref(), None)?;
+    try_places(flags.report.json(), None)?;
     let baked = bake(&request, progress)?;
     finished(flags, request.command_line(), baked, &left_out, announce)
 }
 
 /// Bakes the split-sum table of a method.
 fn split_sum(flags: &BakeFlags, progress: Progress, announce: Announce) -> Result<Output, Error> {
-    let name = flags.method.as_deref().unwrap_or("fitted");
-    let all = || methods::ALL.iter().filter(|method| method.is_fitted());
-    let names: Vec<&str> = all().map(|method| method.name).collect();
     let request = SplitSumRequest {
-        method: methods::find(name).ok_or_else(|| unknown("method", name, &names))?,
+        method: flags.method,
         size: flags.size.unwrap_or(SPLIT_SUM_SIZE),
-        formats: formats(flags)?,
+        formats: formats(flags),
     };
-    try_places(flags.json.as_deref(), None)?;
+    try_places(flags.report.json(), None)?;
     let baked = bake_split_sum(&request, progress)?;
     finished(flags, request.command_line(), vec![baked], &[], announce)
 }
@@ -94,22 +86,22 @@ fn finished(
     left_out: &[String],
     announce: Announce,
 ) -> Result<Output, Error> {
-    let out_dir = folder_or_current(&flags.out_dir);
+    let out_dir = folder_or_current(&flags.tree.out_dir);
     let rows: Vec<BakeRow> = baked.iter().flat_map(|one| one.rows.clone()).collect();
     let files: Vec<Artifact> = baked.into_iter().flat_map(artifacts).collect();
     let mut lock = Lock::take(out_dir, announce);
     let plan = plan(out_dir, &files, &Scope::default(), &provenance(Vec::new()))?;
-    refuse_within_tree(&plan, flags.json.as_deref())?;
-    let written = write(&plan, flags.overwrite, &mut lock)?;
+    refuse_within_tree(&plan, flags.report.json())?;
+    let written = write(&plan, flags.tree.overwrite, &mut lock)?;
     let text = if flags.quiet {
         String::new()
     } else {
         bake_text(&rows)
     };
-    let mut output = report(text, &Report::new(command, rows), flags.json.as_deref())?;
+    let mut output = report(text, &Report::new(command, rows), flags.report.json())?;
     output
         .remarks
-        .extend(named(&plan, flags.overwrite, "replaced"));
+        .extend(named(&plan, flags.tree.overwrite, "replaced"));
     if flags.quiet {
         return Ok(output);
     }
@@ -126,19 +118,20 @@ fn finished(
 }
 
 fn shape(flags: &BakeFlags) -> Result<TableSize, Error> {
-    let axis = flags.axis.as_deref().map(axis).transpose()?;
     match flags.budget {
         None => {
             let texels = flags.size.unwrap_or(TEXELS);
             check_size(texels)?;
             Ok(TableSize::Fixed {
-                axis: axis.unwrap_or(DEFAULT_AXIS),
+                axis: flags.axis.unwrap_or(DEFAULT_AXIS),
                 texels,
             })
         }
         Some(budget) if budget > 0.0 && budget.is_finite() => Ok(TableSize::Within {
             budget,
-            axes: axis.map_or(TableAxis::ALL.to_vec(), |axis| vec![axis]),
+            axes: flags
+                .axis
+                .map_or(TableAxis::ALL.to_vec(), |axis| vec![axis]),
         }),
         Some(budget) => Err(RequestFault::OutOfRange {
             flag: "budget",
@@ -149,71 +142,26 @@ fn shape(flags: &BakeFlags) -> Result<TableSize, Error> {
     }
 }
 
-fn axis(name: &str) -> Result<TableAxis, Error> {
-    let found = TableAxis::find(&name.to_lowercase());
-    found.ok_or_else(|| unknown("axis", name, &TableAxis::ALL.map(TableAxis::name)))
-}
-
 /// The formats, in the order of the list, each once.
-fn formats(flags: &BakeFlags) -> Result<Vec<Format>, Error> {
-    let mut chosen = Vec::new();
-    for name in &flags.format {
-        let name = name.to_lowercase();
-        match Format::find(&name) {
-            Some(format) => chosen.push(format),
-            None if name == "all" => chosen.extend(Format::ALL),
-            None => {
-                let all: Vec<&str> = Format::ALL
-                    .map(Format::name)
-                    .into_iter()
-                    .chain(["all"])
-                    .collect();
-                return Err(unknown("format", &name, &all));
-            }
-        }
+fn formats(flags: &BakeFlags) -> Vec<Format> {
+    match (flags.format.is_empty(), flags.budget) {
+        (true, Some(_)) => SEARCHED_FORMATS.to_vec(),
+        (true, None) => DEFAULT_FORMATS.to_vec(),
+        (false, _) => Choice::chosen(&flags.format, Format::ALL, |format| format.name()),
     }
-    if chosen.is_empty() {
-        let usual: &[Format] = if flags.budget.is_some() {
-            &SEARCHED_FORMATS
-        } else {
-            &DEFAULT_FORMATS
-        };
-        chosen.extend(usual);
-    }
-    chosen.sort_unstable();
-    chosen.dedup();
-    Ok(chosen)
 }
 
-/// The languages that get functions, sorted, each once; `all` is those that are written by default.
-fn targets(names: &[String]) -> Result<Vec<&'static Target>, Error> {
-    let text = || {
-        let all = targets::ALL.iter().copied();
-        all.filter(|target| target.finish != Finish::Spirv)
+/// The languages that get functions, each once; `all` is those that are written by default.
+fn targets(words: &[Choice<&'static Target>]) -> Vec<&'static Target> {
+    let is_text = |target: &&Target| target.finish != Finish::Spirv;
+    let is_chosen = |target: &&Target| {
+        words.iter().any(|word| match word {
+            Choice::One(name, _) => name == target.name,
+            Choice::All | Choice::None => target.by_default,
+        })
     };
-    let mut chosen: Vec<&Target> = Vec::new();
-    for name in names {
-        match targets::find(name) {
-            Some(target) if target.finish == Finish::Spirv => return Err(no_function(name)),
-            Some(target) => chosen.push(target),
-            None if name == "all" => chosen.extend(text().filter(|target| target.by_default)),
-            None => {
-                let all: Vec<&str> = text().map(|target| target.name).chain(["all"]).collect();
-                return Err(unknown("target", name, &all));
-            }
-        }
-    }
-    chosen.sort_by_key(|target| target.name);
-    chosen.dedup_by_key(|target| target.name);
-    Ok(chosen)
-}
-
-fn no_function(name: &str) -> Error {
-    Error::Usage {
-        what: format!(
-            "--target {name}: a module is not a function that a shader could call; take wgsl, and compile it with your shader"
-        ),
-    }
+    let text = targets::ALL.iter().copied().filter(is_text);
+    text.filter(is_chosen).collect()
 }
 
 /// Whether a table of `--dfg` has this name.
@@ -224,9 +172,11 @@ fn is_split_sum(name: &str) -> bool {
 
 /// There is something to bake, and no material bears the atlas's name.
 fn check_names(subjects: &[TableMaterial], atlas: bool) -> Result<(), Error> {
-    let what = if subjects.is_empty() {
-        "`--material none` leaves nothing to bake; name materials, or all"
-    } else if atlas && subjects.iter().any(|subject| subject.name == ATLAS) {
+    if subjects.is_empty() {
+        let why = "`--material none` leaves nothing to bake; name materials, or all";
+        return Err(RequestFault::NoMaterial { why }.into());
+    }
+    let what = if atlas && subjects.iter().any(|subject| subject.name == ATLAS) {
         "a material is named `atlas`, as is the picture of all; choose another `name` in its file"
     } else if subjects.iter().any(|subject| is_split_sum(&subject.name)) {
         "a material is named as a table of `bake --dfg` is; choose another `name` in its file"

@@ -7,13 +7,12 @@ use crate::app::error::Error;
 use crate::app::fault::RequestFault;
 use crate::app::names::unknown;
 use crate::app::request::{Materials, Request};
-use crate::app::source::materials;
 use crate::app::write::{try_places_of_ours, write_report};
 use crate::reference::{MaterialClass, MaterialInMedium};
 use crate::report::Report;
 use crate::report::frontier::{
-    ChartData, ChartView, ERRORS, STATISTICS, chart_data, chart_page, chart_svg, chart_text,
-    cost_names, set_name,
+    ChartData, ChartView, ERRORS, chart_data, chart_page, chart_svg, chart_text, cost_names,
+    set_name,
 };
 
 use super::{Output, Progress, not_drawn, replaced, report, try_files};
@@ -23,14 +22,15 @@ const PAGE: &str = "chart.html";
 
 /// Draws.
 pub fn run(flags: &ChartFlags, progress: Progress) -> Result<Output, Error> {
-    let error = place("error", &flags.error, &ERRORS.map(|error| error.name))?;
-    place("way of taking a class together", &flags.of, &STATISTICS)?;
-    let cost = place("cost", &flags.gpu, &cost_names())?;
-    let folder = flags.out_dir.as_deref();
+    let place = |all: &[&str], name: &str| all.iter().position(|other| *other == name);
+    let place = |all: &[&str], name| place(all, name).expect("the command line has names of these");
+    let error = place(&ERRORS.map(|error| error.name), flags.error.name);
+    let cost = place(&cost_names(), flags.gpu);
+    let folder = flags.pictures.folder();
     let files = files(folder);
-    let all = flags.json.iter().chain(&files);
+    let all = flags.report.json.iter().chain(&files);
     try_files(&all.map(PathBuf::as_path).collect::<Vec<_>>())?;
-    try_places_of_ours(&files, flags.overwrite)?;
+    try_places_of_ours(&files, flags.pictures.overwrite)?;
     let request = Request {
         materials: chosen(flags)?,
         ..Request::default()
@@ -51,10 +51,10 @@ pub fn run(flags: &ChartFlags, progress: Progress) -> Result<Output, Error> {
     };
     let json = Report::new(command, view.point_rows());
     let drawn = match folder {
-        Some(folder) => written(folder, flags.overwrite, &view, [set, cost, error])?,
+        Some(folder) => written(folder, flags.pictures.overwrite, &view, [set, cost, error])?,
         None => Vec::new(),
     };
-    let mut output = report(chart_text(&view), &json, flags.json.as_deref())?;
+    let mut output = report(chart_text(&view), &json, flags.report.json())?;
     remarks.extend(drawn);
     output.remarks = remarks;
     Ok(output)
@@ -62,7 +62,7 @@ pub fn run(flags: &ChartFlags, progress: Progress) -> Result<Output, Error> {
 
 /// Materials to chart: the whole catalogue unless others are asked for.
 fn chosen(flags: &ChartFlags) -> Result<Materials, Error> {
-    match materials(&flags.material)? {
+    match flags.materials.materials()? {
         Materials::Default => Ok(Materials::All),
         Materials::None => Err(RequestFault::NoMaterial {
             why: "a chart is of materials; `none` leaves nothing to show",
@@ -89,11 +89,11 @@ pub(super) fn written(
     first: [usize; 3],
 ) -> Result<Vec<String>, Error> {
     let page = chart_page(view.data, first).map_err(not_drawn)?;
-    let picture = chart_svg(view).ok_or_else(|| Error::Usage {
-        what: format!(
+    let picture = chart_svg(view).ok_or_else(|| {
+        not_drawn(format!(
             "nothing is known of {} on {}: there is no picture to draw",
             view.set.title, view.cost.name
-        ),
+        ))
     })?;
     let files = files(Some(folder));
     let texts = [picture.as_bytes(), page.as_bytes()];
@@ -103,12 +103,6 @@ pub(super) fn written(
     let remark = |(file, about): (&PathBuf, &str)| format!("{}: {about}", file.display());
     let written = files.iter().zip(about).map(remark);
     Ok(replaced(&old).chain(written).collect())
-}
-
-/// The place of a name among those that there are.
-fn place(kind: &'static str, name: &str, all: &[&str]) -> Result<usize, Error> {
-    let found = all.iter().position(|other| *other == name);
-    found.ok_or_else(|| unknown(kind, name, all))
 }
 
 /// The set that is shown unless another is asked for: the first class of which there are two, else the first material.
@@ -123,11 +117,11 @@ pub(super) fn usual_set(data: &ChartData, of: &str) -> usize {
 fn set(flags: &ChartFlags, data: &ChartData) -> Result<usize, Error> {
     let names: Vec<&str> = data.sets.iter().map(|set| set.name.as_str()).collect();
     let Some(show) = &flags.show else {
-        return Ok(usual_set(data, &flags.of));
+        return Ok(usual_set(data, flags.of));
     };
     let mut classes = MaterialClass::ALL.into_iter();
     if let Some(class) = classes.find(|class| class.name() == show) {
-        let name = set_name(class, &flags.of);
+        let name = set_name(class, flags.of);
         let found = names.iter().position(|other| *other == name);
         return found.ok_or_else(|| Error::Usage {
             what: format!("--show {show} needs two {show} or more among the materials"),
@@ -148,5 +142,8 @@ fn check_shown(flags: &ChartFlags, subjects: &[MaterialInMedium]) -> Result<(), 
         .into_iter()
         .chain(alone)
         .collect();
-    place("material", show, &all).map(|_| ())
+    if all.contains(&show.as_str()) {
+        return Ok(());
+    }
+    Err(unknown("material", show, &all))
 }

@@ -2,19 +2,15 @@
 
 use core::time::Duration;
 
-use crate::app::args::CostFlags;
+use crate::app::args::{Choice, CostFlags, each_once};
 use crate::app::error::Error;
 use crate::app::fault::RequestFault;
-use crate::app::names::family;
-use crate::app::precision::several;
 use crate::app::request::Request;
-use crate::app::source::materials;
 use crate::app::write::{try_places_of_ours, write_report};
 use crate::cost::{
-    CostFigures, CostRecord, CostRow, CostSource, CostedFunction, FAMILIES, Family, ask_compilers,
+    CostFigures, CostRecord, CostRow, CostSource, CostedFunction, FAMILIES, ask_compilers,
     cost_rows, functions, records, serve,
 };
-use crate::methods::{self, Method};
 use crate::process::{Pool, Surroundings};
 use crate::report::Report;
 use crate::report::cost::{cost_page, cost_text};
@@ -27,8 +23,8 @@ const PAGE: &str = "cost.html";
 
 /// Measures.
 pub fn run(flags: &CostFlags, progress: Progress) -> Result<Output, Error> {
-    if let Some(name) = &flags.worker {
-        let served = serve(family(name)?);
+    if let Some(family) = flags.worker {
+        let served = serve(family);
         // The supervisor has gone: nobody is there to be told.
         return Ok(Output {
             code: u8::from(served.is_err()),
@@ -36,11 +32,11 @@ pub fn run(flags: &CostFlags, progress: Progress) -> Result<Output, Error> {
         });
     }
     check_limit(flags.limit)?;
-    let families = families(&flags.gpu)?;
+    let families = Choice::chosen(&flags.gpu, FAMILIES, |family| family.name);
     let (functions, left_out) = requested(flags)?;
-    let page = flags.out_dir.as_ref().map(|folder| folder.join(PAGE));
-    try_places(flags.json.as_deref(), page.as_deref())?;
-    try_places_of_ours(page.as_slice(), flags.overwrite)?;
+    let page = flags.pictures.folder().map(|folder| folder.join(PAGE));
+    try_places(flags.report.json(), page.as_deref())?;
+    try_places_of_ours(page.as_slice(), flags.pictures.overwrite)?;
     let pool = Pool {
         limit: Duration::from_secs(flags.limit),
         workers: machine::cores(),
@@ -64,7 +60,7 @@ pub fn run(flags: &CostFlags, progress: Progress) -> Result<Output, Error> {
         (cost_text(&table), Checks::NONE)
     };
     let paged = paged(flags, &table)?;
-    let mut output = report(text, &json, flags.json.as_deref())?;
+    let mut output = report(text, &json, flags.report.json())?;
     output.remarks.extend(left_out);
     output.remarks.extend(paged);
     output.code = ending(flags, &table, &checked);
@@ -90,14 +86,11 @@ fn ending(flags: &CostFlags, table: &[Vec<CostRow>], checked: &Checks) -> u8 {
 /// The functions of a request, and why some are left out.
 fn requested(flags: &CostFlags) -> Result<(Vec<CostedFunction>, Vec<String>), Error> {
     let request = Request {
-        materials: materials(&flags.material)?,
-        methods: flags.method.clone(),
+        materials: flags.materials.materials()?,
         ..Request::default()
     };
-    let methods: Vec<&'static Method> = request
-        .resolved_methods()?
-        .unwrap_or_else(|| methods::ALL.to_vec());
-    let precisions = several(&flags.precision)?;
+    let methods = Choice::methods(&flags.method);
+    let precisions = each_once(&flags.precision);
     let subjects = request.subjects()?;
     let left_out = subjects.left_out_lines();
     let functions = functions(&methods, &subjects.materials(), &precisions)?;
@@ -180,10 +173,10 @@ impl Checked {
             self.differences
                 .push(format!("{key}: the shader is another one"));
         } else if row.figures.as_ref().ok() != known {
-            let told = |figures: Option<&CostFigures>| {
+            let text = |figures: Option<&CostFigures>| {
                 figures.map_or("nothing".to_owned(), CostFigures::text)
             };
-            let (now, then) = (told(row.figures.as_ref().ok()), told(known));
+            let (now, then) = (text(row.figures.as_ref().ok()), text(known));
             self.differences
                 .push(format!("{key}: recorded is {then}, and now it is {now}"));
         } else {
@@ -213,22 +206,12 @@ fn unasked(rows: &[CostRow]) -> String {
 }
 
 fn paged(flags: &CostFlags, table: &[Vec<CostRow>]) -> Result<Vec<String>, Error> {
-    let Some(folder) = &flags.out_dir else {
+    let Some(folder) = flags.pictures.folder() else {
         return Ok(Vec::new());
     };
     let page = cost_page(table, &String::from(flags.command_line())).map_err(not_drawn)?;
     let file = folder.join(PAGE);
-    let old = write_report(&[(file.clone(), page.as_bytes())], flags.overwrite)?;
+    let old = write_report(&[(file.clone(), page.as_bytes())], flags.pictures.overwrite)?;
     let said = format!("{}: a page with all figures", file.display());
     Ok(replaced(&old).chain([said]).collect())
-}
-
-fn families(names: &[String]) -> Result<Vec<&'static Family>, Error> {
-    if names.is_empty() || names.iter().any(|name| name == "all") {
-        return Ok(FAMILIES.iter().collect());
-    }
-    let chosen: Result<Vec<&Family>, Error> = names.iter().map(|name| family(name)).collect();
-    let chosen = chosen?;
-    let is_asked = |family: &&Family| chosen.iter().any(|other| other.name == family.name);
-    Ok(FAMILIES.iter().filter(is_asked).collect())
 }

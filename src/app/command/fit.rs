@@ -1,14 +1,10 @@
 //! `fit`: the coefficients of fitted methods.
 
-use crate::app::args::FitFlags;
+use crate::app::args::{End, FitFlags};
 use crate::app::error::Error;
 use crate::app::fault::RequestFault;
-use crate::app::names::{family, unknown};
-use crate::app::precision::named;
 use crate::app::request::{Materials, Request};
-use crate::app::sight::sight;
-use crate::app::source::{materials, source};
-use crate::cost::{Family, library_cost, records};
+use crate::cost::{library_cost, records};
 use crate::emit::missed;
 use crate::fit::{
     Coefficients, Exact, FitCurve, FitObjective, Follows, Weight, error_from, model_error,
@@ -24,50 +20,40 @@ use super::{Output, Progress, report, search, try_places};
 
 /// Fits.
 pub fn run(flags: &FitFlags, progress: Progress) -> Result<Output, Error> {
-    let gpu = family(&flags.gpu)?;
     let aim = aim(flags)?;
     if flags.search {
-        return search::run(flags, aim, gpu, progress);
+        return search::run(flags, aim, progress);
     }
-    let forms = forms(flags.terms, gpu)?;
-    try_places(flags.json.as_deref(), None)?;
-    let (rows, left_out) = if flags.f0.is_empty() {
-        of_materials(flags, aim, &forms, progress)?
-    } else {
-        (of_colours(flags, aim, &forms)?, Vec::new())
+    let forms = forms(flags);
+    try_places(flags.report.json(), None)?;
+    let (rows, left_out) = match flags.f0.zip(flags.f82) {
+        None => of_materials(flags, aim, &forms, progress)?,
+        Some(colours) => (of_colours(colours, aim, &forms)?, Vec::new()),
     };
-    let text = fits_text(&rows, &flags.gpu);
-    let json = Report::new(flags.command_line(&sight(&flags.sight.words(None))?), rows);
-    let mut output = report(text, &json, flags.json.as_deref())?;
+    let text = fits_text(&rows, flags.gpu.name);
+    let json = Report::new(flags.command_line(&flags.viewing.conditions()?), rows);
+    let mut output = report(text, &json, flags.report.json())?;
     output.remarks = left_out;
     Ok(output)
 }
 
 /// What is to be minimised and met.
 fn aim(flags: &FitFlags) -> Result<FitObjective, Error> {
-    let names = Weight::ALL.map(Weight::name);
-    let weight = Weight::find(&flags.weight);
-    let weight = weight.ok_or_else(|| unknown("weight", &flags.weight, &names))?;
-    if weight.is_of_colours() && !flags.f0.is_empty() {
-        let what = format!(
+    if flags.weight.is_of_colours() && flags.f0.is_some() {
+        let why = format!(
             "--weight {} wants a space, which --f0 and --f82 have not; absolute and relative go with them",
-            weight.name()
+            flags.weight.name()
         );
-        return Err(Error::Usage { what });
-    }
-    let end = |end: &str| flags.exact.iter().any(|given| given == end);
-    if let Some(other) = flags.exact.iter().find(|end| *end != "0" && *end != "90") {
-        let what = format!("`{other}` is no end of the right angle; --exact is 0, 90, or 0,90");
-        return Err(Error::Usage { what });
+        return Err(RequestFault::conflict(why).into());
     }
     Ok(FitObjective {
-        weight,
-        precision: named(flags.precision.as_deref())?,
+        weight: flags.weight,
+        precision: flags.precision.unwrap_or_default(),
         exact: Exact {
-            normal: end("0"),
-            grazing: end("90"),
+            normal: flags.exact.contains(&End::Normal),
+            grazing: flags.exact.contains(&End::Grazing),
         },
-        space: sight(&flags.sight.words(None))?.integration.space,
+        space: flags.viewing.space.unwrap_or_default(),
     })
 }
 
@@ -78,30 +64,26 @@ struct Form {
 }
 
 /// The fitted methods with so many coefficients, the fewest first.
-fn forms(terms: Option<usize>, gpu: &Family) -> Result<Vec<Form>, Error> {
+fn forms(flags: &FitFlags) -> Vec<Form> {
     let fitted = ALL.iter().copied().filter(|method| method.is_fitted());
     let mut chosen: Vec<&Method> = fitted
-        .filter(|method| terms.is_none_or(|terms| method.inputs.len() == terms))
+        .filter(|method| flags.terms.is_none_or(|terms| method.inputs.len() == terms))
         .collect();
-    if chosen.is_empty() {
-        let what = "no form has so many coefficients; --terms is 4 or 5".to_owned();
-        return Err(Error::Usage { what });
-    }
     chosen.sort_by_key(|method| (method.inputs.len(), method.name));
-    let record = records(gpu.name);
-    let cost = |method| library_cost(method, gpu, &record);
+    let record = records(flags.gpu.name);
+    let cost = |method| library_cost(method, flags.gpu, &record);
     let form = |method: &'static Method| Form {
         method,
         cost: cost(method),
     };
-    Ok(chosen.into_iter().map(form).collect())
+    chosen.into_iter().map(form).collect()
 }
 
 /// The materials that are meant, as they are seen, with what was left out; a search is of all unless some are named.
 pub(super) fn subjects(flags: &FitFlags) -> Result<(Vec<MaterialInMedium>, Vec<String>), Error> {
-    let materials = match flags.search && flags.material.is_empty() {
+    let materials = match flags.search && flags.materials.material.is_empty() {
         true => Materials::All,
-        false => materials(&flags.material)?,
+        false => flags.materials.materials()?,
     };
     if materials == Materials::None {
         return Err(RequestFault::NoMaterial {
@@ -111,8 +93,8 @@ pub(super) fn subjects(flags: &FitFlags) -> Result<(Vec<MaterialInMedium>, Vec<S
     }
     let request = Request {
         materials,
-        medium: flags.medium.as_deref().map(source).transpose()?,
-        sight: sight(&flags.sight.words(None))?,
+        medium: flags.medium.source()?,
+        sight: flags.viewing.conditions()?,
         ..Request::default()
     };
     let found = request.subjects()?;
@@ -171,8 +153,11 @@ fn of_subject(
 }
 
 /// A row for each method, fitted to two colours.
-fn of_colours(flags: &FitFlags, aim: FitObjective, forms: &[Form]) -> Result<Vec<FitRow>, Error> {
-    let (f0, f82) = (colour("f0", &flags.f0)?, colour("f82", &flags.f82)?);
+fn of_colours(
+    (f0, f82): ([f64; 3], [f64; 3]),
+    aim: FitObjective,
+    forms: &[Form],
+) -> Result<Vec<FitRow>, Error> {
     let follows = [0, 1, 2].map(|i| Follows::of(f0[i], f82[i]));
     let seen = |cos_theta: f64| follows.map(|channel| channel.at(cos_theta));
     let curve = FitCurve::new(seen);
@@ -191,13 +176,4 @@ fn of_colours(flags: &FitFlags, aim: FitObjective, forms: &[Form]) -> Result<Vec
     };
     let of_any = forms.iter().filter(|form| form.method.class == Class::Any);
     of_any.map(row).collect()
-}
-
-fn colour(name: &str, numbers: &[f64]) -> Result<[f64; 3], Error> {
-    let is_reflectance = |number: &f64| (0.0..=1.0).contains(number);
-    let three = <[f64; 3]>::try_from(numbers).ok();
-    let three = three.filter(|numbers| numbers.iter().all(is_reflectance));
-    three.ok_or_else(|| Error::Usage {
-        what: format!("--{name} is three reflectances from 0 to 1, linear: --{name} 0.9,0.6,0.3"),
-    })
 }

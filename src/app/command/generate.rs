@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
-use crate::app::args::Generate;
+use crate::app::args::GenerateFlags;
 use crate::app::artifact::Artifact;
 use crate::app::catalogue::add_catalogue;
 use crate::app::error::Error;
@@ -11,16 +11,14 @@ use crate::app::fault::RequestFault;
 use crate::app::generate::{Generated, Kept, generate_beside, generate_single};
 use crate::app::lock::{Announce, Lock};
 use crate::app::manifest::{self, Manifest};
-use crate::app::names::family;
 use crate::app::request::{Materials, Request};
-use crate::app::sight::{input, sight};
-use crate::app::source::{is_path, materials, source};
 use crate::app::tables::add_tables;
 use crate::app::tree::{TreePlan, plan};
 use crate::app::write::{write, write_file, write_files};
 use crate::app::{check, depfile, folder};
 use crate::bake::as_tables_are_seen;
 use crate::budget::{Budget, BudgetRow, choose_within};
+use crate::cost;
 use crate::methods;
 use crate::num::Precision;
 use crate::report::budget::budget_remarks;
@@ -28,13 +26,8 @@ use crate::report::budget::budget_remarks;
 use super::{Output, folder_or_current, refuse_within_tree};
 
 /// Generates. `announce` hears what a person should know before the run ends.
-pub fn run(flags: &Generate, announce: Announce) -> Result<Output, Error> {
+pub fn run(flags: &GenerateFlags, announce: Announce) -> Result<Output, Error> {
     let (request, said) = chosen(flags, request(flags)?)?;
-    if flags.depfile.as_deref() == Some(Path::new("-")) {
-        return Err(Error::Usage {
-            what: "--depfile takes a file; stdout is not one of its places".to_owned(),
-        });
-    }
     let mut output = match &flags.output {
         Some(file) => single(flags, &request, file)?,
         None => tree(flags, &request, announce)?,
@@ -45,8 +38,8 @@ pub fn run(flags: &Generate, announce: Announce) -> Result<Output, Error> {
 }
 
 /// The tree of files: listed, compared or written.
-fn tree(flags: &Generate, request: &Request, announce: Announce) -> Result<Output, Error> {
-    let out_dir = folder_or_current(&flags.out_dir);
+fn tree(flags: &GenerateFlags, request: &Request, announce: Announce) -> Result<Output, Error> {
+    let out_dir = folder_or_current(&flags.tree.out_dir);
     let changes_nothing = flags.check || flags.list;
     let mut lock = (!changes_nothing).then(|| Lock::take(out_dir, announce));
     // Only a run that names methods adds to what a material's file holds.
@@ -60,8 +53,8 @@ fn tree(flags: &Generate, request: &Request, announce: Announce) -> Result<Outpu
         add_catalogue(&mut generated, request)?;
     }
     if generated.scope.whole {
-        let sight = as_tables_are_seen(&request.sight, flags.gamut.is_some());
-        add_tables(&mut generated, request.medium.clone(), sight)?;
+        let viewing = as_tables_are_seen(&request.sight, flags.viewing.gamut.is_some());
+        add_tables(&mut generated, request.medium.clone(), viewing)?;
     }
     if flags.list {
         let names: Vec<String> = generated
@@ -87,19 +80,15 @@ fn tree(flags: &Generate, request: &Request, announce: Announce) -> Result<Outpu
 }
 
 /// The request with the methods that a budget chooses, where one is given, and what is said of the choice.
-fn chosen(flags: &Generate, request: Request) -> Result<(Request, Vec<String>), Error> {
+fn chosen(flags: &GenerateFlags, request: Request) -> Result<(Request, Vec<String>), Error> {
     let Some(most) = flags.budget else {
         return Ok((request, Vec::new()));
     };
-    let family = family(flags.gpu.as_deref().unwrap_or(USUAL_GPU))?;
-    let budget = Budget::new(most, family)?;
+    let usual = || cost::find(USUAL_GPU).expect("a test names it");
+    let budget = Budget::new(most, flags.gpu.unwrap_or_else(usual))?;
     if request.precision.is_half() {
-        return Err(RequestFault::Conflict {
-            flag: "budget",
-            with: "precision",
-            why: "--budget is of functions in single precision; leave --precision f16 out",
-        }
-        .into());
+        let why = "--budget is of functions in single precision; leave --precision f16 out";
+        return Err(RequestFault::conflict(why).into());
     }
     if request.materials == Materials::None {
         let why = "--budget chooses for materials; `none` leaves none to choose for";
@@ -134,23 +123,23 @@ fn within(budget: Budget, request: Request) -> Result<(Request, Vec<String>), Er
 /// Whose costs decide where none is named.
 const USUAL_GPU: &str = "rdna2";
 
-fn request(flags: &Generate) -> Result<Request, Error> {
+fn request(flags: &GenerateFlags) -> Result<Request, Error> {
     Ok(Request {
-        targets: flags.target.clone(),
-        methods: flags.method.clone(),
-        materials: materials(&flags.material)?,
-        medium: flags.medium.as_deref().map(source).transpose()?,
+        targets: flags.target.iter().map(ToString::to_string).collect(),
+        methods: flags.method.iter().map(ToString::to_string).collect(),
+        materials: flags.materials.materials()?,
+        medium: flags.medium.source()?,
         prefix: flags.prefix.clone(),
         matching_angle: flags.matching_angle,
-        precision: flags.precision.read()?,
+        precision: flags.precision.precision(),
         force: flags.precision.force,
         chosen: BTreeMap::new(),
-        sight: sight(&flags.sight.words(flags.gamut.as_deref()))?,
+        sight: flags.viewing.conditions()?,
         header: flags.header,
     })
 }
 
-fn single(flags: &Generate, request: &Request, file: &Path) -> Result<Output, Error> {
+fn single(flags: &GenerateFlags, request: &Request, file: &Path) -> Result<Output, Error> {
     let bytes = generate_single(request)?;
     let rule = rule(flags, &[file.display().to_string()])?;
     let mut files: Vec<(PathBuf, &[u8])> = Vec::new();
@@ -170,14 +159,14 @@ fn single(flags: &Generate, request: &Request, file: &Path) -> Result<Output, Er
     })
 }
 
-fn checked(flags: &Generate, plan: &TreePlan) -> Output {
+fn checked(flags: &GenerateFlags, plan: &TreePlan) -> Output {
     let (text, drift) = check::report(plan);
     let mut output = Output {
         stdout: text.into_bytes(),
         code: u8::from(drift),
         ..Output::default()
     };
-    output.remarks = named(plan, flags.overwrite, "to be replaced");
+    output.remarks = named(plan, flags.tree.overwrite, "to be replaced");
     if drift && !flags.quiet {
         output.remarks.push(
             "the folder differs from what this run would write; run without --check to write it"
@@ -225,7 +214,7 @@ pub(super) fn named(plan: &TreePlan, overwrite: bool, replaced: &str) -> Vec<Str
 }
 
 fn written(
-    flags: &Generate,
+    flags: &GenerateFlags,
     generated: &Generated,
     plan: &TreePlan,
     lock: &mut Lock,
@@ -243,7 +232,7 @@ fn written(
         .collect();
     refuse_within_tree(plan, flags.depfile.as_deref())?;
     let rule = rule(flags, &outputs)?;
-    let counts = write(plan, flags.overwrite, lock)?;
+    let counts = write(plan, flags.tree.overwrite, lock)?;
     write_depfile(flags, rule)?;
     let mut output = Output::default();
     for why in generated.left_out.iter().filter(|_| !flags.quiet) {
@@ -260,7 +249,7 @@ fn written(
     }
     output
         .remarks
-        .extend(named(plan, flags.overwrite, "replaced"));
+        .extend(named(plan, flags.tree.overwrite, "replaced"));
     if !flags.quiet {
         let folder = out_dir.display();
         output.remarks.push(format!(
@@ -298,21 +287,17 @@ fn first_steps<'g>(generated: &'g Generated, out_dir: &Path) -> Vec<String> {
 }
 
 /// The rule of the depfile, where one is asked for: made before anything is written, since it can be refused.
-fn rule(flags: &Generate, outputs: &[String]) -> Result<Option<String>, Error> {
+fn rule(flags: &GenerateFlags, outputs: &[String]) -> Result<Option<String>, Error> {
     if flags.depfile.is_none() {
         return Ok(None);
     }
-    let named = flags.material.iter().chain(&flags.medium);
-    let light = input(&flags.sight.words(None)).map(str::to_owned);
-    let inputs: Vec<String> = named
-        .filter(|name| is_path(name))
-        .cloned()
-        .chain(light)
-        .collect();
+    let paths = flags.materials.paths().chain(flags.medium.path());
+    let paths = paths.chain(flags.viewing.viewing.path());
+    let inputs: Vec<String> = paths.map(str::to_owned).collect();
     depfile::depfile(outputs, &inputs).map(Some)
 }
 
-fn write_depfile(flags: &Generate, rule: Option<String>) -> Result<(), Error> {
+fn write_depfile(flags: &GenerateFlags, rule: Option<String>) -> Result<(), Error> {
     if let (Some(file), Some(rule)) = (&flags.depfile, rule) {
         write_file(file, rule.as_bytes())?;
     }

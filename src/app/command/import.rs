@@ -10,7 +10,6 @@ use crate::materials::{Material, page};
 use crate::spectra::{FIRST_NM, LAST_NM, OBSERVED_NM};
 
 use super::Output;
-use super::materials::class;
 
 /// `fresnel-gen materials import PAGE`.
 pub fn run(flags: &ImportFlags) -> Result<Output, Error> {
@@ -19,9 +18,8 @@ pub fn run(flags: &ImportFlags) -> Result<Output, Error> {
         what: format!("`{}` ends in neither .yml nor .csv: a page of refractiveindex.info or a table is wanted", flags.page),
     })??;
     let own = found.material(flags.name.as_deref())?;
-    let kind = flags.class.as_deref().map(class).transpose()?;
     let whole = Material {
-        kind: kind.unwrap_or(own.kind),
+        kind: flags.class.unwrap_or(own.kind),
         ..own
     };
     let mut output = Output::default();

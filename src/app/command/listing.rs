@@ -1,10 +1,11 @@
 //! `methods` and `targets`: list and show.
 
+use std::path::Path;
+
 use serde::Serialize;
 
-use crate::app::args::{Listing, ListingCommand};
+use crate::app::args::{MethodsCommand, MethodsFlags, TargetsCommand, TargetsFlags};
 use crate::app::error::Error;
-use crate::app::names::unknown;
 use crate::emit;
 use crate::methods::{self, Contract, Method};
 use crate::report::table;
@@ -14,43 +15,31 @@ use crate::targets::{self, Target};
 use super::{Output, report};
 
 /// `fresnel-gen methods`.
-pub fn methods(flags: &Listing) -> Result<Output, Error> {
+pub fn methods(flags: &MethodsFlags) -> Result<Output, Error> {
+    let file = flags.report.json();
+    if let Some(MethodsCommand::Show { name: method }) = flags.what {
+        return report(method_text(method), &MethodSheet::new(method), file);
+    }
     let row = |method: &&'static Method| NameRow {
         name: method.name,
         summary: method.summary,
         source: method.source.line(),
     };
-    let show = |name: &str| {
-        let all: Vec<&str> = methods::ALL.iter().map(|method| method.name).collect();
-        let method = methods::find(name).ok_or_else(|| unknown("method", name, &all))?;
-        Ok((method_text(method), MethodSheet::new(method)))
-    };
-    listing(
-        flags,
-        "methods",
-        methods::ALL.iter().map(row).collect(),
-        show,
-    )
+    listed("methods", methods::ALL.iter().map(row).collect(), file)
 }
 
 /// `fresnel-gen targets`.
-pub fn targets(flags: &Listing) -> Result<Output, Error> {
+pub fn targets(flags: &TargetsFlags) -> Result<Output, Error> {
+    let file = flags.report.json();
+    if let Some(TargetsCommand::Show { name: target }) = flags.what {
+        return report(target_text(target), &TargetSheet::new(target), file);
+    }
     let row = |target: &&'static Target| NameRow {
         name: target.name,
         summary: target.summary,
         source: target.source.to_owned(),
     };
-    let show = |name: &str| {
-        let all: Vec<&str> = targets::ALL.iter().map(|target| target.name).collect();
-        let target = targets::find(name).ok_or_else(|| unknown("target", name, &all))?;
-        Ok((target_text(target), TargetSheet::new(target)))
-    };
-    listing(
-        flags,
-        "targets",
-        targets::ALL.iter().map(row).collect(),
-        show,
-    )
+    listed("targets", targets::ALL.iter().map(row).collect(), file)
 }
 
 /// A name of a list, with what it stands for.
@@ -61,26 +50,12 @@ struct NameRow {
     source: String,
 }
 
-/// One name is shown, or all are listed.
-fn listing<T: Serialize>(
-    flags: &Listing,
-    command: &str,
-    rows: Vec<NameRow>,
-    show: impl Fn(&str) -> Result<(String, T), Error>,
-) -> Result<Output, Error> {
-    let file = flags.json.as_deref();
-    match &flags.what {
-        Some(ListingCommand::Show { name }) => {
-            let (text, sheet) = show(name)?;
-            report(text, &sheet, file)
-        }
-        Some(ListingCommand::List) | None => {
-            let cells = |row: &NameRow| [row.name, row.summary].map(str::to_owned).to_vec();
-            let cells: Vec<Vec<String>> = rows.iter().map(cells).collect();
-            let text = table::text_table(&["name", "summary"], &cells);
-            report(text, &Report::new(command, rows), file)
-        }
-    }
+/// All names.
+fn listed(command: &str, rows: Vec<NameRow>, file: Option<&Path>) -> Result<Output, Error> {
+    let cells = |row: &NameRow| [row.name, row.summary].map(str::to_owned).to_vec();
+    let cells: Vec<Vec<String>> = rows.iter().map(cells).collect();
+    let text = table::text_table(&["name", "summary"], &cells);
+    report(text, &Report::new(command, rows), file)
 }
 
 fn method_text(method: &Method) -> String {

@@ -4,15 +4,14 @@ use std::path::Path;
 
 use serde::Serialize;
 
-use crate::app::args::{FilterFlags, MaterialsCommand, MaterialsFlags, ShowFlags};
+use crate::app::args::{FilterFlags, MaterialsCommand, MaterialsFlags, MediumFlags, ShowFlags};
 use crate::app::error::Error;
+use crate::app::fault::RequestFault;
 use crate::app::names::unknown;
 use crate::app::request::{Loaded, check_transparent, load};
-use crate::app::sight::sight;
-use crate::app::source::source;
 use crate::app::write::write_file;
 use crate::emit::CommandLine;
-use crate::materials::{self, Extrapolate, Material, MaterialKind, ViewingConditions};
+use crate::materials::{self, Extrapolate, Material, ViewingConditions};
 use crate::report::material_sheet::material_sheet;
 use crate::report::table;
 use crate::report::{Report, SCHEMA};
@@ -22,33 +21,26 @@ use super::{Output, Progress, import, not_drawn, params, png, report, survey};
 
 /// `fresnel-gen materials`.
 pub fn run(flags: &MaterialsFlags, progress: Progress) -> Result<Output, Error> {
-    let json = flags.json.as_deref();
+    let json = flags.report.json();
     match &flags.what {
         None => list(&FilterFlags::default(), json),
         Some(MaterialsCommand::List(filter)) => list(filter, json),
         Some(MaterialsCommand::Show(show)) => shown(show, json),
         Some(MaterialsCommand::Params(params)) => params::run(params, json),
-        Some(MaterialsCommand::Import(_)) if json.is_some() => Err(Error::Usage {
-            what: "import writes a material file and no JSON; leave --json out".to_owned(),
-        }),
+        Some(MaterialsCommand::Import(_)) if json.is_some() => Err(RequestFault::conflict(
+            "import writes a material file and no JSON; leave --json out",
+        )
+        .into()),
         Some(MaterialsCommand::Import(import)) => import::run(import),
         Some(MaterialsCommand::Survey(survey)) => survey::run(survey, json, progress),
     }
 }
 
-/// The class of this name.
-pub fn class(name: &str) -> Result<MaterialKind, Error> {
-    let found = MaterialKind::ALL
-        .into_iter()
-        .find(|kind| kind.name() == name);
-    found.ok_or_else(|| unknown("class", name, &MaterialKind::ALL.map(MaterialKind::name)))
-}
-
 fn list(filter: &FilterFlags, json: Option<&Path>) -> Result<Output, Error> {
-    let kind = filter.class.as_deref().map(class).transpose()?;
     let all = materials::list()?;
     check_substance(filter, &all)?;
-    let wanted = |m: &&Material| kind.is_none_or(|kind| m.kind == kind) && admits(filter, m);
+    let wanted =
+        |m: &&Material| filter.class.is_none_or(|kind| m.kind == kind) && admits(filter, m);
     let chosen: Vec<&Material> = all.iter().filter(wanted).collect();
     let rows: Vec<Vec<String>> = chosen.iter().map(|m| row(m)).collect();
     let text = table::text_table(&["name", "class", "known in nm", "summary"], &rows);
@@ -159,7 +151,7 @@ struct MaterialRecord<'a> {
 
 fn shown(flags: &ShowFlags, json: Option<&Path>) -> Result<Output, Error> {
     check_places(flags, json)?;
-    let loaded = load(&source(&flags.of.name)?)?;
+    let loaded = load(&flags.of.name.source()?)?;
     let mut output = report(
         text(&loaded.material),
         &material_record(&loaded.material),
@@ -171,8 +163,8 @@ fn shown(flags: &ShowFlags, json: Option<&Path>) -> Result<Output, Error> {
 
 /// Draws the material where that was asked for.
 fn drawn(flags: &ShowFlags, loaded: &Loaded, output: &mut Output) -> Result<(), Error> {
-    let medium = medium(flags.of.medium.as_deref())?;
-    let sight = sight(&flags.of.sight.words(None))?;
+    let medium = medium(&flags.of.medium)?;
+    let viewing = flags.of.viewing.conditions()?;
     if flags.svg.is_none() && flags.png.is_none() {
         return Ok(());
     }
@@ -180,8 +172,8 @@ fn drawn(flags: &ShowFlags, loaded: &Loaded, output: &mut Output) -> Result<(), 
     let svg = material_sheet(
         &loaded.material,
         around,
-        &sight,
-        &command(loaded, medium.as_ref(), &sight),
+        &viewing,
+        &command(loaded, medium.as_ref(), &viewing),
     )
     .map_err(not_drawn)?;
     let bytes = flags
@@ -220,12 +212,11 @@ fn check_places(flags: &ShowFlags, json: Option<&Path>) -> Result<(), Error> {
         .find(|(i, place)| given[..*i].contains(place));
     match twice {
         None => Ok(()),
-        Some((_, place)) => Err(Error::Usage {
-            what: format!(
-                "--svg, --png and --json want different places, and `{}` is named twice",
-                place.display()
-            ),
-        }),
+        Some((_, place)) => Err(RequestFault::conflict(format!(
+            "--svg, --png and --json want different places, and `{}` is named twice",
+            place.display()
+        ))
+        .into()),
     }
 }
 
@@ -233,18 +224,18 @@ fn check_places(flags: &ShowFlags, json: Option<&Path>) -> Result<(), Error> {
 const PNG_SCALE: f32 = 2.0;
 
 /// The command that draws it again, without the output's place.
-fn command(loaded: &Loaded, medium: Option<&Loaded>, sight: &ViewingConditions) -> String {
+fn command(loaded: &Loaded, medium: Option<&Loaded>, viewing: &ViewingConditions) -> String {
     CommandLine::new("fresnel-gen materials show")
         .argument(&loaded.argument)
         .list("medium", medium.map(|medium| &medium.argument))
-        .seen_as(sight)
+        .seen_as(viewing)
         .list("svg", [format!("{}.svg", loaded.material.name)])
         .into()
 }
 
 /// A medium by its name or file, which must be transparent.
-pub fn medium(name: Option<&str>) -> Result<Option<Loaded>, Error> {
-    let medium = name.map(source).transpose()?;
+pub fn medium(flags: &MediumFlags) -> Result<Option<Loaded>, Error> {
+    let medium = flags.source()?;
     let medium = medium.map(|medium| load(&medium)).transpose()?;
     if let Some(medium) = &medium {
         check_transparent(&medium.material)?;

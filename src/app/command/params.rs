@@ -5,8 +5,6 @@ use serde_json::{Value, json};
 use crate::app::args::ParamsFlags;
 use crate::app::error::Error;
 use crate::app::request::load;
-use crate::app::sight::sight;
-use crate::app::source::source;
 use crate::fit::{BOUNCES, Params, abbe, colour_errors, ior_d, params};
 use crate::materials::{self, Material, MaterialKind, Surface, ViewingConditions};
 use crate::reference::By;
@@ -33,11 +31,11 @@ struct Told {
 
 /// `fresnel-gen materials params NAME`.
 pub fn run(flags: &ParamsFlags, json: Option<&std::path::Path>) -> Result<Output, Error> {
-    let material = load(&source(&flags.name)?)?.material;
-    let medium = medium(flags.medium.as_deref())?;
+    let material = load(&flags.name.source()?)?.material;
+    let medium = medium(&flags.medium)?;
     let sight = ViewingConditions {
         gamut: Gamut::Keep,
-        ..sight(&flags.sight.words(None))?
+        ..flags.viewing.conditions()?
     };
     let told = told(material, medium.map(|medium| medium.material), sight)?;
     report(text(&told), &object(&told), json)

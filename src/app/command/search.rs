@@ -2,7 +2,7 @@
 
 use crate::app::args::FitFlags;
 use crate::app::error::Error;
-use crate::cost::{Family, library_cost, records};
+use crate::cost::{library_cost, records};
 use crate::fit::{Candidate, FitCurve, FitObjective, FitProblem, TriedShapes, candidates, search};
 use crate::materials::{Material, find};
 use crate::methods::Method;
@@ -13,25 +13,23 @@ use crate::report::search::{SearchResult, SearchRow, search_text};
 
 use super::fit::subjects;
 use super::{Output, Progress, report, try_places};
-use crate::app::sight::sight;
 
 /// Searches.
 pub(super) fn run(
     flags: &FitFlags,
     aim: FitObjective,
-    gpu: &Family,
     progress: Progress,
 ) -> Result<Output, Error> {
-    let terms = terms(flags)?;
-    try_places(flags.json.as_deref(), None)?;
+    let terms = flags.terms.map_or(vec![4, 5], |terms| vec![terms]);
+    try_places(flags.report.json(), None)?;
     let (subjects, mut remarks) = subjects(flags)?;
     let outside = subjects
         .iter()
         .filter(|subject| MaterialClass::containing(subject).is_none());
     remarks.extend(outside.map(|subject| format!("left out: {}: {OUTSIDE}", subject.argument)));
     let shapes: Vec<Candidate> = terms.iter().flat_map(|terms| candidates(*terms)).collect();
-    let record = records(gpu.name);
-    let cost = |method: &Method| library_cost(method, gpu, &record);
+    let record = records(flags.gpu.name);
+    let cost = |method: &Method| library_cost(method, flags.gpu, &record);
     let mut results = Vec::new();
     for class in MaterialClass::ALL {
         let tried = tried_shapes(class, &subjects, &shapes, aim, progress);
@@ -43,28 +41,16 @@ pub(super) fn run(
         return Err(Error::Usage { what });
     }
     let rows: Vec<SearchRow> = results.iter().flat_map(SearchResult::search_rows).collect();
-    let command = flags.command_line(&sight(&flags.sight.words(None))?);
+    let command = flags.command_line(&flags.viewing.conditions()?);
     let json = Report::new(command, rows);
-    let text = search_text(&results, gpu.name);
-    let mut output = report(text, &json, flags.json.as_deref())?;
+    let text = search_text(&results, flags.gpu.name);
+    let mut output = report(text, &json, flags.report.json())?;
     output.remarks = remarks;
     Ok(output)
 }
 
 /// Why a material takes no part.
 const OUTSIDE: &str = "gases, and dielectrics that absorb, are in no class that shapes are for";
-
-/// The numbers of coefficients that are asked for.
-fn terms(flags: &FitFlags) -> Result<Vec<usize>, Error> {
-    match flags.terms {
-        None => Ok(vec![4, 5]),
-        Some(terms @ (4 | 5)) => Ok(vec![terms]),
-        Some(_) => Err(Error::Usage {
-            what: "shapes are searched among those with 4 or 5 coefficients; --terms is 4 or 5"
-                .to_owned(),
-        }),
-    }
-}
 
 /// All shapes tried on the materials of a class; none where there are none.
 fn tried_shapes(

@@ -2,13 +2,10 @@
 
 use std::path::PathBuf;
 
-use crate::app::args::StabilityFlags;
+use crate::app::args::{Choice, StabilityFlags};
 use crate::app::error::Error;
 use crate::app::fault::RequestFault;
-use crate::app::names::unknown;
-use crate::app::precision::named;
 use crate::app::request::Request;
-use crate::app::source::materials;
 use crate::app::write::{try_places_of_ours, write_report};
 use crate::methods::{self, Method};
 use crate::num::Precision;
@@ -34,17 +31,17 @@ fn index(precision: Precision) -> String {
 
 /// Scans.
 pub fn run(flags: &StabilityFlags, progress: Progress) -> Result<Output, Error> {
-    let precision = named(flags.precision.as_deref())?;
-    let is_library = flags.material.is_empty();
-    let (methods, left_out) = methods_of(&flags.method, precision, is_library)?;
+    let precision = flags.precision.unwrap_or_default();
+    let is_library = flags.materials.material.is_empty();
+    let (methods, left_out) = methods_of(&flags.method, precision, is_library);
     let study = Study { methods, precision };
     let asked = Asked { flags, study };
     let page = flags
-        .out_dir
-        .as_ref()
+        .pictures
+        .folder()
         .map(|folder| folder.join(index(precision)));
-    try_places(flags.json.as_deref(), page.as_deref())?;
-    try_places_of_ours(page.as_slice(), flags.overwrite)?;
+    try_places(flags.report.json(), page.as_deref())?;
+    try_places_of_ours(page.as_slice(), flags.pictures.overwrite)?;
     let rows = asked.rows(progress)?;
     if rows.is_empty() {
         return Err(RequestFault::NothingToDo {
@@ -55,7 +52,7 @@ pub fn run(flags: &StabilityFlags, progress: Progress) -> Result<Output, Error> 
     }
     let json = Report::new(flags.command_line(), rows.clone());
     let drawn = asked.drawn(&rows, progress)?;
-    let mut output = report(stability_text(&rows), &json, flags.json.as_deref())?;
+    let mut output = report(stability_text(&rows), &json, flags.report.json())?;
     output.remarks.extend(left_out);
     output.remarks.extend(drawn);
     Ok(output)
@@ -64,52 +61,37 @@ pub fn run(flags: &StabilityFlags, progress: Progress) -> Result<Output, Error> 
 /// The methods asked for, and why others are left out. What reads a texture is as stable as its sampler; what is not
 /// written in this precision is scanned where it is named.
 fn methods_of(
-    names: &[String],
+    words: &[Choice<&'static Method>],
     precision: Precision,
     is_library: bool,
-) -> Result<(Vec<&'static Method>, Vec<String>), Error> {
+) -> (Vec<&'static Method>, Vec<String>) {
     let numeric = methods::ALL.iter().copied();
-    let scanned: Vec<&'static Method> = numeric.filter(|method| !method.is_textured()).collect();
-    if names.is_empty() || names.iter().any(|name| name == "all") {
-        let refusal = |method: &&'static Method| {
-            let why = if is_library {
-                method.half.library_refusal()
-            } else {
-                method.half.refusal()
-            };
-            why.filter(|_| precision.is_half())
-        };
-        let told = |method: &&'static Method| {
-            refusal(method).map(|why| format!("left out: {}: {why}", method.name))
-        };
-        let left_out = scanned.iter().filter_map(told).collect();
-        let kept = scanned.iter().filter(|method| refusal(method).is_none());
-        return Ok((kept.copied().collect(), left_out));
-    }
-    let all: Vec<&str> = scanned.iter().map(|method| method.name).collect();
-    let find = |name: &String| {
-        if methods::find(name).is_some_and(Method::is_textured) {
-            let what =
-                format!("`{name}` reads a texture, and is as stable as its sampler: not scanned");
-            return Err(Error::Usage { what });
-        }
-        let found = scanned.iter().find(|method| method.name == name);
-        found.copied().ok_or_else(|| unknown("method", name, &all))
+    let numeric = numeric.filter(|method| !method.is_textured());
+    let chosen = Choice::chosen(words, numeric, |method| method.name);
+    let refusal = |method: &Method| match is_library {
+        true => method.half.library_refusal(),
+        false => method.half.refusal(),
     };
-    let found: Result<Vec<&'static Method>, Error> = names.iter().map(find).collect();
-    let mut found = found?;
-    found.sort_by_key(|method| method.name);
-    found.dedup_by_key(|method| method.name);
-    Ok((found, Vec::new()))
+    if !Choice::is_all(words) || !precision.is_half() {
+        return (chosen, Vec::new());
+    }
+    let left_out = chosen.iter().filter_map(|method| {
+        refusal(method).map(|why| format!("left out: {}: {why}", method.name))
+    });
+    let left_out = left_out.collect();
+    let kept = chosen
+        .into_iter()
+        .filter(|method| refusal(method).is_none());
+    (kept.collect(), left_out)
 }
 
 impl Asked<'_> {
     fn rows(&self, progress: Progress) -> Result<Vec<StabilityRow>, Error> {
-        if self.flags.material.is_empty() {
+        if self.flags.materials.material.is_empty() {
             return Ok(self.study.library_rows(progress));
         }
         let request = Request {
-            materials: materials(&self.flags.material)?,
+            materials: self.flags.materials.materials()?,
             ..Request::default()
         };
         let subjects = request.subjects()?.materials();
@@ -118,7 +100,7 @@ impl Asked<'_> {
 
     /// Draws the maps and the page into the folder asked for.
     fn drawn(&self, rows: &[StabilityRow], progress: Progress) -> Result<Vec<String>, Error> {
-        let Some(folder) = &self.flags.out_dir else {
+        let Some(folder) = self.flags.pictures.folder() else {
             return Ok(Vec::new());
         };
         let failed = not_drawn;
@@ -140,7 +122,7 @@ impl Asked<'_> {
             .collect();
         let index = index(self.study.precision);
         files.push((folder.join(&index), page.as_bytes()));
-        let old = write_report(&files, self.flags.overwrite)?;
+        let old = write_report(&files, self.flags.pictures.overwrite)?;
         let said = format!(
             "{}: {} maps, and {index} that shows them",
             folder.display(),

@@ -4,7 +4,6 @@ use std::path::Path;
 
 use crate::app::args::SurveyFlags;
 use crate::app::error::Error;
-use crate::app::sight::sight;
 use crate::app::source::{pages, read};
 use crate::emit::CommandLine;
 use crate::fit::{PageOutcome, SurveyedPage, survey_page};
@@ -17,9 +16,9 @@ use super::{Output, Progress, report};
 
 /// `fresnel-gen materials survey FOLDER`.
 pub fn run(flags: &SurveyFlags, json: Option<&Path>, progress: Progress) -> Result<Output, Error> {
-    let sight = ViewingConditions {
+    let viewing = ViewingConditions {
         gamut: Gamut::Keep,
-        ..sight(&flags.sight.words(None))?
+        ..flags.viewing.conditions()?
     };
     let files = pages(&flags.folder)?;
     if files.is_empty() {
@@ -30,23 +29,23 @@ pub fn run(flags: &SurveyFlags, json: Option<&Path>, progress: Progress) -> Resu
     let mut all: Vec<SurveyedPage> = Vec::with_capacity(files.len());
     for (done, file) in files.iter().enumerate() {
         progress(done as u64, files.len() as u64, "pages");
-        all.push(surveyed(&flags.folder, file, &sight));
+        all.push(surveyed(&flags.folder, file, &viewing));
     }
     let rows: Vec<SurveyRow> = all.iter().map(SurveyRow::new).collect();
-    let full = Report::new(CommandLine::new("materials survey").seen_as(&sight), rows);
+    let full = Report::new(CommandLine::new("materials survey").seen_as(&viewing), rows);
     report(survey_text(&all), &full, json)
 }
 
 /// A page by its name below the folder, so that no report depends on where that lies. One that cannot be read is refused as
 /// one that cannot be understood is.
-fn surveyed(folder: &Path, file: &str, sight: &ViewingConditions) -> SurveyedPage {
+fn surveyed(folder: &Path, file: &str, viewing: &ViewingConditions) -> SurveyedPage {
     let (path, named) = if file.is_empty() {
         (folder.to_owned(), folder.display().to_string())
     } else {
         (folder.join(file), file.to_owned())
     };
     match read(&path.display().to_string()) {
-        Ok(text) => survey_page(&named, &text, sight),
+        Ok(text) => survey_page(&named, &text, viewing),
         Err(Error::Input { source, .. }) => refused(named, format!("cannot read it: {source}")),
         Err(other) => refused(named, other.to_string()),
     }

@@ -4,14 +4,12 @@ use core::fmt::Display;
 use core::time::Duration;
 use std::collections::BTreeSet;
 
-use crate::app::args::TimeFlags;
+use crate::app::args::{Choice, TimeFlags, each_once};
 use crate::app::error::Error;
 use crate::app::fault::RequestFault;
-use crate::app::names::unknown;
-use crate::app::source::materials;
 use crate::app::time_request::TimeRequest;
 use crate::cost::BLOCKS;
-use crate::gpu::{Backend, Wanted};
+use crate::gpu::Wanted;
 use crate::overdraw::{
     Clock, DeviceFacts, DrawingEffort, DrawingWorker, MeasuredDrawings, Stop, TimeRow,
     TimedFunctions, measure, serve, time_rows,
@@ -31,11 +29,14 @@ pub fn run(flags: &TimeFlags, progress: Progress) -> Result<Output, Error> {
     // Before the work begins, so that a worker ends with its supervisor at any time.
     let inbox = flags.worker.then(Inbox::open);
     check(flags)?;
-    let (wanted, clock) = (wanted(flags)?, clock(flags)?);
+    let wanted = Wanted {
+        backend: flags.backend,
+        name: flags.adapter.clone(),
+    };
     let request = TimeRequest {
-        methods: &flags.method,
-        materials: materials(&flags.material)?,
-        precisions: &flags.precision,
+        methods: Choice::methods(&flags.method),
+        materials: flags.materials.materials()?,
+        precisions: each_once(&flags.precision),
         evaluations: flags.evaluations,
     };
     let timed = request.timed_functions()?;
@@ -47,23 +48,21 @@ pub fn run(flags: &TimeFlags, progress: Progress) -> Result<Output, Error> {
             ..Output::default()
         });
     }
-    try_places(flags.json.as_deref(), None)?;
+    try_places(flags.report.json(), None)?;
     let limit = Duration::from_secs_f64(flags.limit);
     let mut worker = DrawingWorker::start(&timed.plan, limit)?;
     if flags.hardware && worker.device.is_software {
         return Err(no_hardware(&worker.device, &wanted));
     }
-    if clock == Some(Clock::Cpu) && !worker.device.is_software {
+    if flags.clock == Some(Clock::Cpu) && !worker.device.is_software {
         let device = &worker.device.device;
-        return Err(Error::Usage {
-            what: format!(
-                "--clock cpu is for software; {device} does not compute on the processor"
-            ),
-        });
+        let why =
+            format!("--clock cpu is for software; {device} does not compute on the processor");
+        return Err(RequestFault::conflict(why).into());
     }
     let effort = DrawingEffort {
         rounds: flags.rounds,
-        clock,
+        clock: flags.clock,
         is_software: worker.device.is_software,
         limit: limit.as_nanos() as f64,
     };
@@ -80,8 +79,8 @@ pub fn run(flags: &TimeFlags, progress: Progress) -> Result<Output, Error> {
         &measured,
         &rows,
     );
-    let mut output = report(times.text(), &times, flags.json.as_deref())?;
-    output.remarks = remarks(&timed, &measured, &rows, clock);
+    let mut output = report(times.text(), &times, flags.report.json())?;
+    output.remarks = remarks(&timed, &measured, &rows, flags.clock);
     output.code = code(flags, &rows);
     Ok(output)
 }
@@ -110,30 +109,6 @@ fn out_of_range(flag: &'static str, value: impl Display, allowed: &str) -> Resul
         allowed: allowed.to_owned(),
     }
     .into())
-}
-
-fn wanted(flags: &TimeFlags) -> Result<Wanted, Error> {
-    // OpenGL ES runs vertex shaders here, and draws nothing.
-    let draws = Backend::ALL
-        .into_iter()
-        .filter(|backend| *backend != Backend::Gles);
-    let names: Vec<&str> = draws.clone().map(Backend::name).collect();
-    let find = |name: &String| {
-        let found = draws.clone().find(|backend| backend.name() == name);
-        found.ok_or_else(|| unknown("backend", name, &names))
-    };
-    Ok(Wanted {
-        backend: flags.backend.as_ref().map(find).transpose()?,
-        name: flags.adapter.clone(),
-    })
-}
-
-fn clock(flags: &TimeFlags) -> Result<Option<Clock>, Error> {
-    let find = |name: &String| {
-        let found = Clock::ALL.into_iter().find(|clock| clock.name() == name);
-        found.ok_or_else(|| unknown("clock", name, &Clock::ALL.map(Clock::name)))
-    };
-    flags.clock.as_ref().map(find).transpose()
 }
 
 fn no_hardware(facts: &DeviceFacts, wanted: &Wanted) -> Error {

@@ -6,13 +6,10 @@ use std::collections::BTreeSet;
 use crate::app::args::VerifyFlags;
 use crate::app::error::Error;
 use crate::app::fault::RequestFault;
-use crate::app::names::unknown;
 use crate::app::request::Request;
-use crate::app::sight::sight;
-use crate::app::source::{materials, source};
 use crate::app::verify::plan_of_request;
 use crate::app::write::write_file;
-use crate::gpu::{Backend, Wanted};
+use crate::gpu::Wanted;
 use crate::process::{Inbox, Pool};
 use crate::report::Report;
 use crate::report::verify::{devices, not_checked, verify_remarks, verify_text};
@@ -32,7 +29,10 @@ pub fn run(flags: &VerifyFlags, progress: Progress) -> Result<Output, Error> {
     let inbox = flags.worker.then(Inbox::open);
     check_limit(flags.limit)?;
     let request = request(flags)?;
-    let wanted = wanted(flags)?;
+    let wanted = Wanted {
+        backend: flags.backend,
+        name: flags.adapter.clone(),
+    };
     let effort = effort(flags)?;
     let plan = plan_of_request(&request, &flags.out_dir)?;
     if plan.files.is_empty() {
@@ -51,17 +51,13 @@ pub fn run(flags: &VerifyFlags, progress: Progress) -> Result<Output, Error> {
         });
     }
     if flags.exhaustive && request.precision.is_half() {
-        return Err(RequestFault::Conflict {
-            flag: "exhaustive",
-            with: "precision",
-            why: "--exhaustive runs every f32; a run of --precision f16 tries every f16 already",
-        }
-        .into());
+        let why = "--exhaustive runs every f32; a run of --precision f16 tries every f16 already";
+        return Err(RequestFault::conflict(why).into());
     }
-    for report in flags.json.iter().chain(&flags.junit) {
+    for report in flags.report.files() {
         refuse_place_of(&plan.places, report)?;
     }
-    try_places(flags.json.as_deref(), flags.junit.as_deref())?;
+    try_places(flags.report.report.json(), flags.report.junit.as_deref())?;
     let (rows, speeds) = if flags.exhaustive {
         exhaustive_rows(&plan, &Devices::new(wanted), progress)?
     } else {
@@ -86,31 +82,17 @@ pub fn run(flags: &VerifyFlags, progress: Progress) -> Result<Output, Error> {
 }
 
 fn request(flags: &VerifyFlags) -> Result<Request, Error> {
-    let sight = sight(&flags.sight.words(flags.gamut.as_deref()))?;
     Ok(Request {
-        targets: flags.target.clone(),
-        methods: flags.method.clone(),
-        materials: materials(&flags.material)?,
-        medium: flags.medium.as_deref().map(source).transpose()?,
-        sight,
+        targets: flags.target.iter().map(ToString::to_string).collect(),
+        methods: flags.method.iter().map(ToString::to_string).collect(),
+        materials: flags.materials.materials()?,
+        medium: flags.medium.source()?,
+        sight: flags.viewing.conditions()?,
         prefix: flags.prefix.clone(),
         matching_angle: flags.matching_angle,
-        precision: flags.precision.read()?,
+        precision: flags.precision.precision(),
         force: flags.precision.force,
         ..Request::default()
-    })
-}
-
-fn wanted(flags: &VerifyFlags) -> Result<Wanted, Error> {
-    let backend = match flags.backend.as_deref() {
-        None => None,
-        Some("vulkan") => Some(Backend::Vulkan),
-        Some("gl") => Some(Backend::OpenGl),
-        Some(name) => return Err(unknown("backend", name, &["vulkan", "gl"])),
-    };
-    Ok(Wanted {
-        backend,
-        name: flags.adapter.clone(),
     })
 }
 
@@ -135,14 +117,14 @@ fn reported(
     plan: &VerifyPlan,
     rows: &[VerifyRow],
 ) -> Result<Output, Error> {
-    if let Some(file) = &flags.junit {
+    if let Some(file) = &flags.report.junit {
         let cases = rows.iter().map(VerifyRow::junit_case);
         let xml = junit("fresnel-gen verify", cases).map_err(not_drawn)?;
         write_file(file, xml.as_bytes())?;
     }
     let full =
         Report::new(flags.command_line(&request.sight), rows.to_vec()).with_device(devices(rows));
-    let mut output = report(verify_text(rows), &full, flags.json.as_deref())?;
+    let mut output = report(verify_text(rows), &full, flags.report.report.json())?;
     output
         .remarks
         .extend(plan.left_out.iter().map(|why| format!("left out: {why}")));

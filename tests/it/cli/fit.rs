@@ -77,8 +77,8 @@ fn names_and_numbers_that_make_no_sense_are_refused() {
         ("--material none", "nothing to fit"),
         ("--weight relativ", "did you mean relative"),
         ("--weight deltae", "did you mean delta-e"),
-        ("--exact 45", "--exact is 0, 90, or 0,90"),
-        ("--exact 0,nan", "`nan` is no end"),
+        ("--exact 45", "there are 0, 90"),
+        ("--exact 0,nan", "no end of the right angle `nan`"),
         ("--f0 0.5,0.5,0.5 --f82 0.5,0.5,0.5 --search", "--search"),
         (
             "--f0 0.5,0.5,0.5 --f82 0.5,0.5,0.5 --weight luminance",

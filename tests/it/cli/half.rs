@@ -50,7 +50,10 @@ fn what_cannot_be_saved_is_refused_unless_forced() {
         "--precision f16 --method conductor_artistic --target hlsl",
         &["conductor_artistic", "--material"],
     );
-    place.refused("--precision f64", &["no precision `f64`", "f32, f16"]);
+    place.refused(
+        "--precision f64",
+        &["no precision `f64`", "did you mean f32", "f32, f16"],
+    );
     place.done(&format!("{line} --force"));
     let text = place.read(&format!("{OUT}/hlsl/fresnel_conductor_textbook_f16.hlsl"));
     assert!(text.contains("--precision f16 --force\n") && text.contains("nothing is promised"));

@@ -176,8 +176,14 @@ fn bad_choices_are_answered_with_what_is_allowed() {
     let place = Place::new();
     for (line, says) in [
         ("--space sgrb", "no space `sgrb` (did you mean srgb"),
-        ("--gamut clamp", "there are keep, clip, scale"),
-        ("--observer 1931", "there are cie1931, cie2015"),
+        (
+            "--gamut clamp",
+            "(did you mean clip?); there are keep, clip, scale",
+        ),
+        (
+            "--observer 1931",
+            "(did you mean cie1931?); there are cie1931, cie2015",
+        ),
         ("--adaptation cat02", "there are scale, bradford"),
         ("--step 2nm", "there are 5nm, 1nm"),
         ("--extrapolate linear", "there are refuse, hold"),
@@ -189,7 +195,7 @@ fn bad_choices_are_answered_with_what_is_allowed() {
         ("--wavelengths 685,535,nan", "between 1 and 1000000"),
         (
             "--wavelengths 685,535,475 --space p3",
-            "leave one or the other out",
+            "cannot be used with",
         ),
     ] {
         place.refused(&format!("--material gold {line}"), &[says]);

@@ -1,7 +1,7 @@
 //! Tables as GPUs sample them: the lookup that is generated, on real stacks, against the filter that errors of tables
 //! are computed with; and the usual mistakes, made on purpose, are each seen.
 
-use fresnel_gen::app::source::materials;
+use fresnel_gen::app::request::Materials;
 use fresnel_gen::app::tables::{WantedTables, table_materials};
 use fresnel_gen::bake::TableMaterial;
 use fresnel_gen::emit::{self, Emitted, Naming};
@@ -26,7 +26,7 @@ const EIGHT_BITS: f32 = 0.5 / 255.0;
 /// The materials that are committed, unclipped as tables keep them.
 fn committed() -> Vec<TableMaterial> {
     let wanted = WantedTables {
-        materials: materials(&[]).unwrap(),
+        materials: Materials::Default,
         medium: None,
         sight: ViewingConditions::default(),
     };

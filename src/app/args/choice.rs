@@ -1,0 +1,147 @@
+//! Names on the command line, parsed to what they name.
+
+use core::fmt;
+
+use crate::app::fault::RequestFault;
+use crate::cost::{FAMILIES, Family};
+use crate::methods::{self, Method};
+use crate::names::UnknownName;
+use crate::num::Precision;
+use crate::targets::{self, Target};
+
+/// A word of a list of names.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Choice<T> {
+    /// `all` that there are.
+    All,
+    /// `none`, where nothing can be chosen too.
+    None,
+    /// A name, and what it names.
+    One(String, T),
+}
+
+impl<T> Choice<T> {
+    /// Whether these words mean all that there are: `all`, or nothing was said.
+    pub fn is_all(words: &[Choice<T>]) -> bool {
+        words.is_empty() || words.iter().any(|word| matches!(word, Choice::All))
+    }
+
+    /// Whether these words mean none of what they choose.
+    ///
+    /// # Errors
+    /// `none` stands beside another word.
+    pub fn is_none(words: &[Choice<T>], what: &str) -> Result<bool, RequestFault> {
+        let is_none = words.iter().any(|word| matches!(word, Choice::None));
+        if is_none && words.len() > 1 {
+            return Err(RequestFault::conflict(format!(
+                "`none` leaves all {what} out, so that no other can be named beside it"
+            )));
+        }
+        Ok(is_none)
+    }
+
+    /// What it names, where it is a name.
+    pub fn named(&self) -> Option<&T> {
+        match self {
+            Choice::One(_, named) => Some(named),
+            Choice::All | Choice::None => None,
+        }
+    }
+
+    /// Those of a list that these words mean, in the list's order.
+    pub fn chosen(
+        words: &[Choice<T>],
+        list: impl IntoIterator<Item = T>,
+        name: fn(&T) -> &'static str,
+    ) -> Vec<T> {
+        let is_named = |one: &T| {
+            let mut words = words.iter();
+            words.any(|word| matches!(word, Choice::One(word, _) if word == name(one)))
+        };
+        let is_all = Choice::is_all(words);
+        let list = list.into_iter();
+        list.filter(|one| is_all || is_named(one)).collect()
+    }
+}
+
+impl Choice<&'static Method> {
+    /// The methods that these words mean, sorted by name.
+    pub fn methods(words: &[Choice<&'static Method>]) -> Vec<&'static Method> {
+        Choice::chosen(words, methods::ALL.iter().copied(), |method| method.name)
+    }
+}
+
+impl<T> fmt::Display for Choice<T> {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        f.write_str(match self {
+            Choice::All => "all",
+            Choice::None => "none",
+            Choice::One(name, _) => name,
+        })
+    }
+}
+
+/// The parser of a flag whose values are names of a list.
+pub fn one_of<T: Copy>(
+    kind: &'static str,
+    list: impl IntoIterator<Item = T>,
+    name: fn(T) -> &'static str,
+) -> impl Fn(&str) -> Result<T, UnknownName> + Clone {
+    let list: Vec<(&str, T)> = list.into_iter().map(|one| (name(one), one)).collect();
+    move |word: &str| {
+        let found = list.iter().find(|(name, _)| *name == word);
+        let names = || list.iter().map(|(name, _)| *name).collect::<Vec<_>>();
+        found
+            .map(|(_, one)| *one)
+            .ok_or_else(|| UnknownName::new(kind, word, &names()))
+    }
+}
+
+/// The parser of a flag whose values are names of a list, or `all`.
+pub fn one_or_all<T: Copy>(
+    kind: &'static str,
+    list: impl IntoIterator<Item = T>,
+    name: fn(T) -> &'static str,
+) -> impl Fn(&str) -> Result<Choice<T>, UnknownName> + Clone {
+    let named = list.into_iter().map(|one| (name(one), Some(one)));
+    let words: Vec<(&str, Option<T>)> = named.chain([("all", None)]).collect();
+    let parse = one_of(kind, words, |(name, _)| name);
+    move |word: &str| {
+        Ok(match parse(word)? {
+            (name, Some(one)) => Choice::One(name.to_owned(), one),
+            (_, None) => Choice::All,
+        })
+    }
+}
+
+/// A parser that takes capitals for small letters.
+pub fn in_any_case<T, E>(
+    parse: impl Fn(&str) -> Result<T, E> + Clone,
+) -> impl Fn(&str) -> Result<T, E> + Clone {
+    move |word: &str| parse(&word.to_lowercase())
+}
+
+/// The parser of a method's name, or `all`.
+pub fn method_or_all() -> impl Fn(&str) -> Result<Choice<&'static Method>, UnknownName> + Clone {
+    one_or_all("method", methods::ALL.iter().copied(), |method| method.name)
+}
+
+/// The parser of a target's name, or `all`.
+pub fn target_or_all() -> impl Fn(&str) -> Result<Choice<&'static Target>, UnknownName> + Clone {
+    one_or_all("target", targets::ALL.iter().copied(), |target| target.name)
+}
+
+/// The parser of a precision's name.
+pub fn precision() -> impl Fn(&str) -> Result<Precision, UnknownName> + Clone {
+    one_of("precision", Precision::ALL, Precision::name)
+}
+
+/// The parser of the name of a family of GPUs.
+pub fn family() -> impl Fn(&str) -> Result<&'static Family, UnknownName> + Clone {
+    one_of("GPU family", FAMILIES, |family| family.name)
+}
+
+/// The parser of the name of a family of GPUs, or `all`.
+pub fn family_or_all() -> impl Fn(&str) -> Result<Choice<&'static Family>, UnknownName> + Clone {
+    one_or_all("GPU family", FAMILIES, |family| family.name)
+}

@@ -1,0 +1,78 @@
+//! The flags of generation.
+
+use std::path::PathBuf;
+
+use clap::Args;
+
+use crate::cost::Family;
+use crate::emit::HeaderForm;
+use crate::methods::Method;
+use crate::targets::Target;
+
+use super::choice::{Choice, family, method_or_all, one_of, target_or_all};
+use super::{GamutFlags, MaterialFlags, MediumFlags, PrecisionFlags, TreeFlags};
+
+/// The flags of generation.
+#[derive(Args, Debug)]
+#[command(mut_arg("material", |arg| arg.help("Material to specialise to: names, paths of material files, all; or none [default: gold, platinum, water, diamond]")))]
+pub struct GenerateFlags {
+    /// Output language, see `fresnel-gen targets`; all means those written by default [default: all]
+    #[arg(long, value_delimiter = ',', value_name = "NAME", value_parser = target_or_all())]
+    pub target: Vec<Choice<&'static Target>>,
+    /// Method, see `fresnel-gen methods` [default: all; for a material: exact, fitted, two Schlick variants and table]
+    #[arg(long, value_delimiter = ',', value_name = "NAME", value_parser = method_or_all())]
+    pub method: Vec<Choice<&'static Method>>,
+    /// Which materials.
+    #[command(flatten)]
+    pub materials: MaterialFlags,
+    /// The medium.
+    #[command(flatten)]
+    pub medium: MediumFlags,
+    /// How materials are looked at.
+    #[command(flatten)]
+    pub viewing: GamutFlags,
+    /// Goes before every function's name
+    #[arg(long, value_name = "TEXT", default_value = "fresnel_")]
+    pub prefix: String,
+    /// What functions compute in.
+    #[command(flatten)]
+    pub precision: PrecisionFlags,
+    /// Degrees at which the corrected Schlick meets the exact law [default: that of cosine 0.15, 81.373]
+    #[arg(long, value_name = "DEGREES", allow_negative_numbers = true)]
+    pub matching_angle: Option<f64>,
+    /// Comments of generated files: short or full; what short ones leave out stands in manifest.json
+    #[arg(long, value_name = "FORM", default_value = "short", value_parser = one_of("form of comments", HeaderForm::ALL, HeaderForm::name))]
+    pub header: HeaderForm,
+    /// Write one function per material: the cheapest whose largest error over angles and channels is at most this
+    #[arg(long, value_name = "ERR", allow_negative_numbers = true)]
+    pub budget: Option<f64>,
+    /// GPU family whose recorded costs --budget compares: rdna2, adreno330 ... as for `cost` [default: rdna2]
+    #[arg(long, value_name = "NAME", requires = "budget", value_parser = family())]
+    pub gpu: Option<&'static Family>,
+    /// The folder for the generated tree.
+    #[command(flatten)]
+    pub tree: TreeFlags,
+    /// Write the functions asked for into this one file, or `-` for stdout; one target [default: wgsl]
+    #[arg(short = 'o', value_name = "FILE", conflicts_with_all = ["check", "list", "out_dir"])]
+    pub output: Option<PathBuf>,
+    /// Write nothing: compare with the folder, print a diff, exit 1 where it differs
+    #[arg(long, conflicts_with_all = ["list", "depfile"])]
+    pub check: bool,
+    /// Write the run's outputs and inputs as a Makefile rule
+    #[arg(long, value_name = "FILE", value_parser = file, conflicts_with = "list")]
+    pub depfile: Option<PathBuf>,
+    /// Print the names of the files that would be written, and write nothing
+    #[arg(long)]
+    pub list: bool,
+    /// No summary on success
+    #[arg(long, short)]
+    pub quiet: bool,
+}
+
+/// A file, and not stdout.
+fn file(word: &str) -> Result<PathBuf, &'static str> {
+    match word {
+        "-" => Err("--depfile takes a file; stdout is not one of its places"),
+        path => Ok(path.into()),
+    }
+}

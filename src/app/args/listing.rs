@@ -1,0 +1,59 @@
+//! The flags of `methods` and `targets`.
+
+use clap::{Args, Subcommand};
+
+use crate::methods::{self, Method};
+use crate::targets::{self, Target};
+
+use super::ReportFlags;
+use super::choice::one_of;
+
+/// The flags of `methods`.
+#[derive(Args, Debug)]
+#[command(mut_arg("json", |arg| arg.global(true)))]
+pub struct MethodsFlags {
+    /// `list`, or `show NAME`
+    #[command(subcommand)]
+    pub what: Option<MethodsCommand>,
+    /// The report.
+    #[command(flatten)]
+    pub report: ReportFlags,
+}
+
+/// What is listed of methods.
+#[derive(Clone, Copy, Debug, Subcommand)]
+pub enum MethodsCommand {
+    /// Name, summary and source of each
+    List,
+    /// All that is known of one
+    Show {
+        /// Its name
+        #[arg(value_parser = one_of("method", methods::ALL.iter().copied(), |method| method.name))]
+        name: &'static Method,
+    },
+}
+
+/// The flags of `targets`.
+#[derive(Args, Debug)]
+#[command(mut_arg("json", |arg| arg.global(true)))]
+pub struct TargetsFlags {
+    /// `list`, or `show NAME`
+    #[command(subcommand)]
+    pub what: Option<TargetsCommand>,
+    /// The report.
+    #[command(flatten)]
+    pub report: ReportFlags,
+}
+
+/// What is listed of targets.
+#[derive(Clone, Copy, Debug, Subcommand)]
+pub enum TargetsCommand {
+    /// Name, summary and source of each
+    List,
+    /// All that is known of one
+    Show {
+        /// Its name
+        #[arg(value_parser = one_of("target", targets::ALL.iter().copied(), |target| target.name))]
+        name: &'static Target,
+    },
+}

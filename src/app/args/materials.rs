@@ -1,0 +1,121 @@
+//! The flags of `materials`.
+
+use std::path::PathBuf;
+
+use clap::{Args, Subcommand};
+
+use crate::materials::MaterialKind;
+use crate::names::UnknownName;
+
+use super::choice::one_of;
+use super::{MaterialName, MediumFlags, ReportFlags, ViewingFlags};
+
+/// The flags of `materials`.
+#[derive(Args, Debug)]
+#[command(mut_arg("json", |arg| arg.global(true)))]
+pub struct MaterialsFlags {
+    /// What to do [default: list]
+    #[command(subcommand)]
+    pub what: Option<MaterialsCommand>,
+    /// The report.
+    #[command(flatten)]
+    pub report: ReportFlags,
+}
+
+/// What is done with materials.
+#[derive(Debug, Subcommand)]
+pub enum MaterialsCommand {
+    /// Name, class, measured range and summary of each
+    List(FilterFlags),
+    /// All that is known of one, as text, and as a picture
+    Show(ShowFlags),
+    /// The numbers that an engine wants: F0, F82, n and k per channel, averages, and how well they are known
+    #[command(after_help = "Example:\n  fresnel-gen materials params gold --space acescg --json -")]
+    Params(ParamsFlags),
+    /// Turn a page of refractiveindex.info or a CSV table into a material file
+    #[command(
+        after_help = "Example:\n  fresnel-gen materials import main/Au/nk/Johnson.yml --name my_gold -o my_gold.toml"
+    )]
+    Import(ImportFlags),
+    /// Read every page of refractiveindex.info below a folder: what it is, its colour, or why it cannot be used
+    #[command(
+        after_help = "Example:\n  fresnel-gen materials survey refractiveindex.info-database/database/data --json pages.json"
+    )]
+    Survey(SurveyFlags),
+}
+
+/// Which materials are listed.
+#[derive(Args, Debug, Default)]
+pub struct FilterFlags {
+    /// Only metal, semiconductor or dielectric
+    #[arg(long, value_name = "NAME", value_parser = class())]
+    pub class: Option<MaterialKind>,
+    /// Only measurements of this substance, such as gold
+    #[arg(long, value_name = "NAME")]
+    pub substance: Option<String>,
+    /// Only those whose name, summary or source holds this text
+    #[arg(long, value_name = "TEXT")]
+    pub search: Option<String>,
+    /// Only those known over the whole visible spectrum
+    #[arg(long)]
+    pub full: bool,
+}
+
+/// The flags of `materials show`.
+#[derive(Args, Debug)]
+pub struct ShowFlags {
+    /// Which material, and how it is looked at.
+    #[command(flatten)]
+    pub of: ParamsFlags,
+    /// Draw n, k, reflectance and colour as SVG into this file, or `-` for stdout
+    #[arg(long, value_name = "FILE")]
+    pub svg: Option<PathBuf>,
+    /// Draw them as PNG into this file, or `-` for stdout
+    #[arg(long, value_name = "FILE")]
+    pub png: Option<PathBuf>,
+}
+
+/// The flags of `materials params`.
+#[derive(Args, Debug)]
+pub struct ParamsFlags {
+    /// A name, or the path of a material file, page or table
+    #[arg(value_parser = MaterialName::parse)]
+    pub name: MaterialName,
+    /// The medium.
+    #[command(flatten)]
+    pub medium: MediumFlags,
+    /// How it is looked at.
+    #[command(flatten)]
+    pub viewing: ViewingFlags,
+}
+
+/// The flags of `materials import`.
+#[derive(Args, Debug)]
+pub struct ImportFlags {
+    /// The page (.yml) or table (.csv)
+    pub page: String,
+    /// The material's name [default: made of the file's path]
+    #[arg(long, value_name = "NAME")]
+    pub name: Option<String>,
+    /// metal, semiconductor or dielectric [default: guessed from n and k]
+    #[arg(long, value_name = "NAME", value_parser = class())]
+    pub class: Option<MaterialKind>,
+    /// Write the material file here, or `-` for stdout [default: stdout]
+    #[arg(short = 'o', value_name = "FILE")]
+    pub output: Option<PathBuf>,
+}
+
+/// The flags of `materials survey`.
+#[derive(Args, Debug)]
+pub struct SurveyFlags {
+    /// A folder of pages, or one page
+    pub folder: PathBuf,
+    /// How they are looked at.
+    #[command(flatten)]
+    pub viewing: ViewingFlags,
+}
+
+/// The parser of a class's name.
+fn class() -> impl Fn(&str) -> Result<MaterialKind, UnknownName> + Clone {
+    one_of("class", MaterialKind::ALL, MaterialKind::name)
+}
