@@ -3,8 +3,9 @@
 //!
 //! The function is `fg_measured`, with its cosine first and three channels out.
 
-use crate::ir::{Param, Ty};
+use crate::ir::Param;
 
+use super::chain::{Chain, ChainLanguage};
 use super::probe::{BLOCKS, ENTRY};
 
 /// A function that gives its cosine: what a chain costs where nothing is evaluated in it.
@@ -14,84 +15,78 @@ pub const EMPTY_GLSL: &str = "vec3 fg_measured(float c) { return vec3(c); }\n";
 
 /// A pixel shader in HLSL.
 pub fn hlsl(text: &str, params: &[Param], evaluations: usize) -> String {
-    let block = block(params, "float4");
-    let block = match block.is_empty() {
-        true => block,
-        false => format!(
-            "{block}[[vk::binding(0, 0)]] cbuffer FgBlock {{ FgArguments fg_arguments[{BLOCKS}]; }};\n"
-        ),
-    };
-    let steps = steps(params, evaluations, "float3");
-    format!(
-        "{text}
-{block}float4 {ENTRY}([[vk::location(0)]] float4 fg_in : TEXCOORD0) : SV_Target0
+    let block = format!(
+        "struct FgArguments {{\n{{members}}}};\n[[vk::binding(0, 0)]] cbuffer FgBlock {{ FgArguments fg_arguments[{BLOCKS}]; }};\n"
+    );
+    let shader = format!(
+        "{{function}}
+{{arguments}}float4 {ENTRY}([[vk::location(0)]] float4 fg_in : TEXCOORD0) : SV_Target0
 {{
-    float3 fg_w = fg_in.xyz;
-    float fg_c0 = fg_in.w;
-{steps}    return float4(fg_r{}, 1.0);
+{{chain}}    return float4({{last}}, 1.0);
 }}
-",
-        evaluations - 1
-    )
+"
+    );
+    let language = ChainLanguage {
+        types: ["float", "float3"],
+        member: "    float4 {name};\n",
+        block: &block,
+        shader: &shader,
+        ..C_LIKE
+    };
+    chain(text, params, evaluations).shader(&language)
 }
 
 /// A fragment shader in GLSL 4.50 for Vulkan.
 pub fn glsl(text: &str, params: &[Param], evaluations: usize) -> String {
-    let block = block(params, "vec4");
-    let block = match block.is_empty() {
-        true => block,
-        false => format!(
-            "{block}layout(std140, set = 0, binding = 0) uniform FgBlock {{ FgArguments fg_arguments[{BLOCKS}]; }};\n"
-        ),
-    };
-    let steps = steps(params, evaluations, "vec3");
-    format!(
-        "#version 450
-{text}
+    let block = format!(
+        "struct FgArguments {{\n{{members}}}};\nlayout(std140, set = 0, binding = 0) uniform FgBlock {{ FgArguments fg_arguments[{BLOCKS}]; }};\n"
+    );
+    let language = ChainLanguage {
+        types: ["float", "vec3"],
+        member: "    vec4 {name};\n",
+        block: &block,
+        shader: "#version 450
+{function}
 layout(location = 0) in vec4 fg_in;
 layout(location = 0) out vec4 fg_colour;
-{block}void main()
-{{
-    vec3 fg_w = fg_in.xyz;
-    float fg_c0 = fg_in.w;
-{steps}    fg_colour = vec4(fg_r{}, 1.0);
-}}
+{arguments}void main()
+{
+{chain}    fg_colour = vec4({last}, 1.0);
+}
 ",
-        evaluations - 1
-    )
-}
-
-/// The arguments of an evaluation; nothing where there are none.
-fn block(params: &[Param], four: &str) -> String {
-    let member = |param: &Param| format!("    {four} {};\n", param.name);
-    let members: String = params.iter().skip(1).map(member).collect();
-    match members.is_empty() {
-        true => members,
-        false => format!("struct FgArguments {{\n{members}}};\n"),
-    }
-}
-
-fn steps(params: &[Param], evaluations: usize, rgb: &str) -> String {
-    let step = |i: usize| {
-        let argument = |param: &Param| {
-            let parts = if param.ty == Ty::Rgb { "xyz" } else { "x" };
-            format!("fg_arguments[{i}].{}.{parts}", param.name)
-        };
-        let others = params.iter().skip(1).map(argument);
-        let all: Vec<String> = [format!("fg_c{i}")].into_iter().chain(others).collect();
-        let call = format!("    {rgb} fg_r{i} = fg_measured({});\n", all.join(", "));
-        match i.checked_sub(1) {
-            None => call,
-            Some(p) => {
-                format!("    float fg_c{i} = fg_r{p}.x * fg_r{p}.y - fg_r{p}.z + fg_w.z;\n{call}")
-            }
-        }
+        ..C_LIKE
     };
-    (0..evaluations).map(step).collect()
+    chain(text, params, evaluations).shader(&language)
+}
+
+/// What HLSL and GLSL share. No function of a user's reads a texture. Locals have a prefix, because the text may define names
+/// of its own.
+const C_LIKE: ChainLanguage = ChainLanguage {
+    types: ["", ""],
+    member: "",
+    block: "",
+    argument: "fg_arguments[{i}].{name}.{parts}",
+    texture: "",
+    texture_argument: "",
+    local: "{type} {name} = {value};",
+    input: "{value}",
+    prefix: "fg_",
+    shader: "",
+};
+
+fn chain<'a>(function: &'a str, params: &'a [Param], evaluations: usize) -> Chain<'a> {
+    Chain {
+        function,
+        params,
+        is_scalar: false,
+        evaluations,
+    }
 }
 
 #[cfg(test)]
 mod tests {
+    use crate::ir::Ty;
+
     use super::*;
 
     #[test]

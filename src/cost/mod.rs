@@ -1,6 +1,7 @@
 //! Cost: a function measured, always with the device or compiler named. By its own compiler, as counts; by overdraw, as
 //! time.
 
+mod chain;
 #[cfg(all(feature = "cli", feature = "gpu"))]
 mod compilers;
 mod family;

@@ -12,6 +12,7 @@ use crate::ir::{Checked, Param, Ty};
 use crate::num::Precision;
 use crate::targets::{GLES, Target, WGSL};
 
+use super::chain::{Chain, ChainLanguage, MEASURED, uniforms};
 use super::family::Dialect;
 
 /// Most evaluations in one shader.
@@ -20,9 +21,6 @@ pub const BLOCKS: usize = 8;
 pub const ENTRY: &str = "fg_main";
 /// The entry point of the vertex shader.
 pub const VERTEX: &str = "fg_vertex";
-
-/// What every function is called in a probe, so that equal functions have equal shaders.
-const NAME: &str = "fg_measured";
 
 /// A function as it is measured.
 #[derive(Clone, Debug)]
@@ -50,7 +48,7 @@ fn fg_vertex(@builtin(vertex_index) i: u32) -> FgVertex {
 impl Probe {
     /// A function with its arguments, if it has any, from uniforms.
     pub fn new(function: &Checked, precision: Precision) -> Probe {
-        let text = |target: &Target| bare(function, NAME, target.spelling_in(precision));
+        let text = |target: &Target| bare(function, MEASURED, target.spelling_in(precision));
         Probe {
             params: function.params.clone(),
             is_scalar: function.ty() == Ty::Scalar,
@@ -76,7 +74,7 @@ impl Probe {
             let spelling = target.spelling_in(precision);
             let ty = spelling.ty(if is_scalar { Ty::Scalar } else { Ty::Rgb });
             let param = spelling.param.replace("{type}", spelling.scalar);
-            let head = spelling.head.replace("{name}", NAME);
+            let head = spelling.head.replace("{name}", MEASURED);
             let head = head.replace("{type}", ty);
             let head = head.replace("{params}", &param.replace("{name}", "c"));
             format!("{head} {{\n    return {ty}(c);\n}}\n")
@@ -89,10 +87,9 @@ impl Probe {
         }
     }
 
-    /// What it takes from uniforms after `cos_theta`, in order.
+    /// The arguments that it takes from uniforms, in order.
     pub fn uniforms(&self) -> impl Iterator<Item = &Param> {
-        let params = self.params.iter().skip(1);
-        params.filter(|param| param.ty != Ty::Texture)
+        uniforms(&self.params)
     }
 
     /// Whether it reads a texture.
@@ -118,129 +115,71 @@ impl Probe {
     /// The fragment shader in WGSL.
     pub fn wgsl(&self, evaluations: usize) -> String {
         let spelling = WGSL.spelling_in(self.precision);
-        let enable = if self.precision.is_half() {
-            "enable f16;\n"
-        } else {
-            ""
+        let enable = match self.precision.is_half() {
+            true => "enable f16;\n",
+            false => "",
         };
-        // Elements of an array in uniforms lie 16 bytes apart, or a multiple of it.
-        let member = |param: &Param| {
-            let ty = spelling.ty(param.ty);
-            format!("    @align(16) {}: {ty},\n", param.name)
-        };
-        let members: String = self.uniforms().map(member).collect();
-        let block = if members.is_empty() {
-            String::new()
-        } else {
-            format!(
-                "struct FgArguments {{\n{members}}}\n@group(0) @binding(0) var<uniform> fg_arguments: array<FgArguments, {BLOCKS}>;\n"
-            )
-        };
-        let texture = if self.is_textured() {
-            "@group(0) @binding(3) var fg_table: texture_2d<f32>;\n@group(0) @binding(4) var fg_sampler: sampler;\n"
-        } else {
-            ""
-        };
-        let call = |i: usize| {
-            self.call("fg_table, fg_sampler", |name| {
-                format!("fg_arguments[{i}].{name}")
-            })
-        };
-        let (scalar, rgb) = (spelling.scalar, spelling.rgb);
-        let steps = self.steps(evaluations, "let {name} = {value};", &call);
-        format!(
-            "{enable}{}{block}{texture}@fragment fn {ENTRY}(@location(0) fg_in: vec4<f32>) -> @location(0) vec4<f32> {{
-    let w = {rgb}(fg_in.xyz);
-    let c0 = {scalar}(fg_in.w);
-{steps}    return vec4<f32>(vec3<f32>({rgb}(r{})), 1.0);
+        let language = ChainLanguage {
+            types: [spelling.scalar, spelling.rgb],
+            // Elements of an array in uniforms lie 16 bytes apart, or a multiple of it.
+            member: "    @align(16) {name}: {type},\n",
+            block: &format!(
+                "struct FgArguments {{\n{{members}}}}\n@group(0) @binding(0) var<uniform> fg_arguments: array<FgArguments, {BLOCKS}>;\n"
+            ),
+            argument: "fg_arguments[{i}].{name}",
+            texture: "@group(0) @binding(3) var fg_table: texture_2d<f32>;\n@group(0) @binding(4) var fg_sampler: sampler;\n",
+            texture_argument: "fg_table, fg_sampler",
+            local: spelling.local,
+            input: "{type}({value})",
+            prefix: "",
+            shader: &format!(
+                "{enable}{{function}}{{arguments}}@fragment fn {ENTRY}(@location(0) fg_in: vec4<f32>) -> @location(0) vec4<f32> {{
+{{chain}}    return vec4<f32>(vec3<f32>({}({{last}})), 1.0);
 }}
 ",
-            self.texts[0],
-            evaluations - 1
-        )
+                spelling.rgb
+            ),
+        };
+        self.chain(0, evaluations).shader(&language)
     }
 
-    /// The fragment shader in GLSL ES 3.00, or in GLSL ES 1.00 for what knows no other: the same text under other names.
+    /// The fragment shader in GLSL ES 3.00, or in GLSL ES 1.00 for compilers that support no other: only names differ.
     fn gles(&self, evaluations: usize, is_old: bool) -> String {
         let spelling = GLES.spelling_in(self.precision);
-        let uniform = |param: &Param| {
-            let declared = spelling.param.replace("{type}", spelling.ty(param.ty));
-            let name = format!("fg_{}[{BLOCKS}]", param.name);
-            format!("uniform {};\n", declared.replace("{name}", &name))
+        let uniform = spelling
+            .param
+            .replace("{name}", &format!("fg_{{name}}[{BLOCKS}]"));
+        let (head, colour) = match is_old {
+            true => (OLD_HEAD, "gl_FragColor"),
+            false => (NEW_HEAD, "fg_colour"),
         };
-        let uniforms: String = self.uniforms().map(uniform).collect();
-        let texture = if self.is_textured() {
-            "uniform highp sampler2D fg_table;\n"
-        } else {
-            ""
-        };
-        let call = |i: usize| self.call("fg_table", |name| format!("fg_{name}[{i}]"));
-        let head = if is_old { OLD_HEAD } else { NEW_HEAD };
-        let colour = if is_old { "gl_FragColor" } else { "fg_colour" };
-        let local = |ty| spelling.local.replace("{type}", spelling.ty(ty));
-        let ty = if self.is_scalar { Ty::Scalar } else { Ty::Rgb };
-        let cosine = local(Ty::Scalar);
-        let result = local(ty);
-        let steps = self.typed_steps(evaluations, &cosine, &result, &call);
-        let weights = local(Ty::Rgb)
-            .replace("{name}", "w")
-            .replace("{value}", "fg_in.xyz");
-        let first = cosine.replace("{name}", "c0").replace("{value}", "fg_in.w");
-        format!(
-            "{head}{}{uniforms}{texture}void main() {{
-    {weights}
-    {first}
-{steps}    {colour} = vec4(vec3(r{}), 1.0);
+        let language = ChainLanguage {
+            types: [spelling.scalar, spelling.rgb],
+            member: &format!("uniform {uniform};\n"),
+            block: "{members}",
+            argument: "fg_{name}[{i}]",
+            texture: "uniform highp sampler2D fg_table;\n",
+            texture_argument: "fg_table",
+            local: spelling.local,
+            input: "{value}",
+            prefix: "",
+            shader: &format!(
+                "{head}{{function}}{{arguments}}void main() {{
+{{chain}}    {colour} = vec4(vec3({{last}}), 1.0);
 }}
-",
-            self.texts[1],
-            evaluations - 1
-        )
+"
+            ),
+        };
+        self.chain(1, evaluations).shader(&language)
     }
 
-    fn steps(&self, evaluations: usize, local: &str, call: &dyn Fn(usize) -> String) -> String {
-        self.typed_steps(evaluations, local, local, call)
-    }
-
-    /// `r0 = f(c0); c1 = weighted r0; r1 = f(c1); ...`
-    fn typed_steps(
-        &self,
-        evaluations: usize,
-        cosine: &str,
-        result: &str,
-        call: &dyn Fn(usize) -> String,
-    ) -> String {
-        let line = |pattern: &str, name: String, value: String| {
-            let filled = pattern.replace("{name}", &name).replace("{value}", &value);
-            format!("    {filled}\n")
-        };
-        let step = |i: usize| {
-            let r = format!("r{}", i.saturating_sub(1));
-            let next = if self.is_scalar {
-                format!("{r} * w.x + w.y")
-            } else {
-                format!("{r}.x * {r}.y - {r}.z + w.z")
-            };
-            let chained = if i == 0 {
-                String::new()
-            } else {
-                line(cosine, format!("c{i}"), next)
-            };
-            let called = call(i).replace("fg_cosine", &format!("c{i}"));
-            chained + &line(result, format!("r{i}"), called)
-        };
-        (0..evaluations).map(step).collect()
-    }
-
-    /// The call: its cosine is `fg_cosine`.
-    fn call(&self, texture: &str, uniform: impl Fn(&str) -> String) -> String {
-        let argument = |param: &Param| match param.ty {
-            Ty::Texture => texture.to_owned(),
-            _ => uniform(&param.name),
-        };
-        let rest = self.params.iter().skip(1).map(argument);
-        let arguments: Vec<String> = ["fg_cosine".to_owned()].into_iter().chain(rest).collect();
-        format!("{NAME}({})", arguments.join(", "))
+    fn chain(&self, text: usize, evaluations: usize) -> Chain<'_> {
+        Chain {
+            function: &self.texts[text],
+            params: &self.params,
+            is_scalar: self.is_scalar,
+            evaluations,
+        }
     }
 }
 
