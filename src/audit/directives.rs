@@ -4,7 +4,7 @@
 //! Comments are passed over before this, and lines that go on behind their end are refused before it. So a directive is what
 //! begins a line with `#`, and a `#` anywhere else is refused.
 
-use crate::verify::text::{Token, tokens};
+use crate::emit::shader_words::{Token, tokens};
 
 use super::language::bare;
 

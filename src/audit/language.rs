@@ -2,9 +2,9 @@
 
 use serde::{Deserialize, Serialize};
 
+use crate::emit::shader_words::{Hidden, code_alone};
 use crate::ir::Ty;
 use crate::targets::{DXC, GLES, GLSLANG, HLSL, Target, WGSL};
-use crate::verify::text::{Hidden, code_alone};
 
 use super::error::Error;
 

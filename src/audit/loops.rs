@@ -1,7 +1,7 @@
 //! Adds a counter to the loops of a user's text: it counts iterations, so that an infinite loop terminates and is reported. A device
 //! could hang in one, and a software driver leaves it after a number of iterations without a message, with a result that means nothing.
 
-use crate::verify::text::{Token, tokens};
+use crate::emit::shader_words::{Token, tokens};
 
 use super::language::{Language, bare};
 

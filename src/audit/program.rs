@@ -1,10 +1,10 @@
 //! A user's text made a program: a function of ours around theirs, so that all that comes after knows one kind of call.
 
+use crate::emit::shader_words::tokens;
 use crate::gpu::{Argument as Value, Uniform};
 use crate::ir::{Param, Ty};
 use crate::num::Precision;
 use crate::verify::harness::{self, Call};
-use crate::verify::text::tokens;
 
 use super::bind::{Bound, BoundArgument};
 use super::directives;

@@ -1,6 +1,6 @@
 //! The functions of a user's file, by their heads. What stands in their bodies is for compilers to judge.
 
-use crate::verify::text::{Token, tokens};
+use crate::emit::shader_words::{Token, tokens};
 
 use super::language::{Language, bare};
 

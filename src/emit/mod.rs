@@ -19,6 +19,7 @@ mod heading;
 mod missed;
 mod page;
 mod print;
+pub mod shader_words;
 mod short;
 mod wgsl;
 

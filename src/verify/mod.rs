@@ -44,7 +44,6 @@ pub mod run;
 mod supervise;
 #[cfg(feature = "gpu")]
 mod sweep;
-pub mod text;
 mod trial;
 #[cfg(all(feature = "cli", feature = "gpu"))]
 mod worker;

@@ -4,7 +4,7 @@
 //! The outline errs on the safe side: what our own text never holds (a quote, a backslash, a digraph) counts as a
 //! declaration, because compilers disagree about what it hides.
 
-use super::text::{block_comment, is_name_part};
+use crate::emit::shader_words::{block_comment, is_name_part};
 
 /// What a file declares and says.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]

@@ -7,7 +7,7 @@ use std::str::Utf8Error;
 use crate::targets::Frame;
 
 use super::call::CompilerInput;
-use crate::verify::text::{Hidden, code_alone};
+use crate::emit::shader_words::{Hidden, code_alone};
 
 /// The programs of a file, one for each beginning.
 pub fn framed(frame: &Frame, bytes: &[u8]) -> Result<Vec<Vec<u8>>, Utf8Error> {
