@@ -1,6 +1,6 @@
 //! The reference reflectance: what the exact law gives of a surface in one kind of light, which methods are held against.
 
-use std::sync::OnceLock;
+use std::sync::{Arc, OnceLock};
 
 use glam::DVec3;
 
@@ -19,8 +19,9 @@ pub struct ReferenceCurve {
     pub surface: Surface,
     /// Polarised or not.
     pub light: Light,
-    /// Its reflectance at [`cosines`] of [`ANGLES`], before the gamut. It is expensive: computed once, when something asks.
-    unclipped: OnceLock<Vec<DVec3>>,
+    /// Its reflectance at [`cosines`] of [`ANGLES`], before the gamut. It is expensive: computed once, when something
+    /// asks, for all clones.
+    unclipped: Arc<OnceLock<Vec<DVec3>>>,
 }
 
 impl ReferenceCurve {
@@ -29,7 +30,7 @@ impl ReferenceCurve {
         ReferenceCurve {
             surface,
             light,
-            unclipped: OnceLock::new(),
+            unclipped: Arc::default(),
         }
     }
 
