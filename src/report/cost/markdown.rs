@@ -20,7 +20,7 @@ same of every function, specialised ones too, and asks the compilers that are he
 - **The figure** is what the compiler itself takes for the cost: RADV's inverse throughput, bundles on
   the Mali-T860, cycles of arithmetic on the Mali-G72 and of the busiest unit on the Mali-G57, instructions everywhere else. Adreno's counts
   include the nops that wait for a result; in a larger shader other work can fill them.
-- **A texture fetch** costs what latency and bandwidth cost, which no count shows: a column of its own.
+- **A texture fetch** costs latency and bandwidth, which instruction counts do not include: it has a column of its own.
 - **Where a count is no time:** it says nothing of memory, of the unit that divides and takes roots beside the others (on
   RDNA that is in the inverse throughput, on Adreno it is not), of how many registers leave how many waves, of what a draw
   costs whatever its formula. The Adreno 630 computes what depends only on uniforms once per draw, before the

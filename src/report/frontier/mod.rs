@@ -77,7 +77,7 @@ pub struct ChartEntry {
     pub function: FunctionOrigin,
     /// Whether its inputs are the best ones, not those that it was meant to have.
     pub is_best: bool,
-    /// Texture fetches, whose cost no count shows.
+    /// Texture fetches, which instruction counts do not include.
     pub fetches: usize,
 }
 

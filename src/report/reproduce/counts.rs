@@ -37,7 +37,7 @@ const METHODS: [&str; 7] = [
     "empirical",
 ];
 
-/// The place of the table: it fetches, which no count shows, and it is left out of all statistics.
+/// The place of the table: counts do not include its texture fetch, and it is left out of all statistics.
 const TABLE: usize = 5;
 
 /// Percentage points within which a count stands for a time.
@@ -128,7 +128,7 @@ fn device_rows(device: &str, family: &str) -> Vec<ComparisonRow> {
             .ours(Figure::Number(count, 0, " %"));
         match place {
             0 => row.remark("what the others are shares of"),
-            TABLE => row.remark("and a texture fetch, which no count shows"),
+            TABLE => row.remark("the count does not include the texture fetch"),
             _ if (count - time).abs() <= NEAR => row.verdict(ComparisonVerdict::Holds),
             _ => apart(row, &pairs, place, fixed + rate * count, fixed),
         }
