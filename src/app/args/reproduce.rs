@@ -3,7 +3,7 @@
 use clap::Args;
 
 use crate::names::UnknownName;
-use crate::report::reproduce::{NOT_MEASURED, Part};
+use crate::reproduce::{NOT_MEASURED, Part};
 
 use super::{ReportFlags, TreeFlags};
 

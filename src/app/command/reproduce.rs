@@ -6,7 +6,8 @@ use crate::app::args::ReproduceFlags;
 use crate::app::error::Error;
 use crate::app::write::write_report;
 use crate::report::Report;
-use crate::report::reproduce::{ComparisonRow, Part, Reproduction, reproduce, thesis};
+use crate::report::reproduce::{figure_chart, reproduction_text};
+use crate::reproduce::{ComparisonRow, Part, Reproduction, reproduce, thesis};
 
 use super::{Output, Progress, replaced, report};
 
@@ -19,7 +20,7 @@ pub fn run(flags: &ReproduceFlags, progress: Progress) -> Result<Output, Error> 
     let reproduced = reproduce(parts, thesis::ANGLES, progress);
     let drawn = draw(flags, &reproduced)?;
     let mut output = report(
-        reproduced.in_words(),
+        reproduction_text(&reproduced),
         &json(&reproduced, flags.table),
         flags.report.json(),
     )?;
@@ -37,20 +38,15 @@ fn json(reproduced: &Reproduction, part: Option<Part>) -> Report<ComparisonRow> 
 
 /// Draws the figures, and says where.
 fn draw(flags: &ReproduceFlags, reproduced: &Reproduction) -> Result<Vec<String>, Error> {
-    let pictures: Vec<(PathBuf, String)> = (reproduced.drawings.iter())
-        .map(|drawing| {
-            (
-                flags.figures.out_dir.join(&drawing.file),
-                drawing.chart.svg(),
-            )
-        })
+    let folder = &flags.figures.out_dir;
+    let pictures: Vec<(PathBuf, String)> = (reproduced.figures.iter())
+        .map(|figure| (folder.join(figure.file), figure_chart(figure).svg()))
         .collect();
     let files: Vec<(PathBuf, &[u8])> = (pictures.iter())
         .map(|(path, text)| (path.clone(), text.as_bytes()))
         .collect();
     let old = write_report(&files, flags.figures.overwrite)?;
     let count = files.len();
-    let folder = flags.figures.out_dir.display();
-    let said = (count > 0).then(|| format!("{folder}: {count} figures"));
+    let said = (count > 0).then(|| format!("{}: {count} figures", folder.display()));
     Ok(replaced(&old).chain(said).collect())
 }

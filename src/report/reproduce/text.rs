@@ -1,21 +1,24 @@
 //! The report for a terminal: claims in words as paragraphs, then figures beside the thesis's, then figures that
 //! the thesis does not give, then notes.
 
-use super::comparison::{ComparisonRow, Figure};
-use super::{NOT_MEASURED, ThesisSection};
 use crate::report::table;
+use crate::reproduce::{ComparisonRow, Figure, NOT_MEASURED, Part, Reproduction, ThesisSection};
 
 /// How wide a paragraph is.
 const WIDTH: usize = 110;
 
-/// All sections.
-pub fn sections_text(sections: &[ThesisSection]) -> String {
-    let texts: Vec<String> = sections.iter().map(section).collect();
+/// The report. Where it has all parts it also says what is not among them.
+pub fn reproduction_text(reproduced: &Reproduction) -> String {
+    let sections = &reproduced.sections;
+    let mut texts: Vec<String> = sections.iter().map(section).collect();
+    if sections.len() == Part::ALL.len() {
+        texts.push(not_measured());
+    }
     texts.join("\n")
 }
 
 /// The tables that have no section, and why.
-pub fn not_measured() -> String {
+fn not_measured() -> String {
     let reasons: Vec<String> = NOT_MEASURED
         .iter()
         .map(|(tables, why)| format!("{tables} ({why})"))

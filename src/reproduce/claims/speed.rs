@@ -1,7 +1,7 @@
 //! What section 5.3.2 says of Table 6, tested by Table 6 itself. Our own times are another matter.
 
-use crate::report::reproduce::comparison::{ComparisonRow, ComparisonVerdict};
-use crate::report::reproduce::thesis;
+use crate::reproduce::comparison::{ComparisonRow, ComparisonVerdict};
+use crate::reproduce::thesis;
 
 use super::statement;
 

@@ -8,7 +8,7 @@ use std::sync::LazyLock;
 use serde_json::Value;
 
 static RECORD: LazyLock<Value> = LazyLock::new(|| {
-    serde_json::from_str(include_str!("../../../data/thesis-tables.json"))
+    serde_json::from_str(include_str!("../../data/thesis-tables.json"))
         .expect("the record is part of the program, and a test reads it")
 });
 

@@ -2,9 +2,9 @@
 
 use crate::materials::{Channels, THESIS_NM};
 use crate::reference::Derivation;
-use crate::report::reproduce::angle::{cosine, exact, highest, lowest};
-use crate::report::reproduce::comparison::{ComparisonRow, ComparisonVerdict, Figure};
-use crate::report::reproduce::specialised;
+use crate::reproduce::angle::{cosine, exact, highest, lowest};
+use crate::reproduce::comparison::{ComparisonRow, ComparisonVerdict, Figure};
+use crate::reproduce::specialised;
 
 use super::{measured, statement};
 

@@ -3,10 +3,10 @@
 use crate::fit::thesis_errors;
 use crate::materials::Channels;
 use crate::reference::Derivation;
-use crate::report::reproduce::angle::{cosine, exact, highest};
-use crate::report::reproduce::comparison::{ComparisonRow, ComparisonVerdict, Figure};
-use crate::report::reproduce::meter::Meter;
-use crate::report::reproduce::specialised;
+use crate::reproduce::angle::{cosine, exact, highest};
+use crate::reproduce::comparison::{ComparisonRow, ComparisonVerdict, Figure};
+use crate::reproduce::meter::Meter;
+use crate::reproduce::specialised;
 
 use super::{measured, statement};
 

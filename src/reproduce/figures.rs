@@ -3,14 +3,13 @@
 use crate::fit;
 use crate::methods::lambda;
 use crate::reference::Derivation;
-use crate::report::plot::{ChartAxis, LineChart, Mark, Series, Style, ticks};
 
 use super::angle::{cosine, exact, lowest};
 use super::comparison::{ComparisonRow, Figure};
 use super::{ThesisSection, specialised};
 
 /// Angles drawn: a point each quarter of a degree.
-const POINTS: u32 = 361;
+pub const POINTS: u32 = 361;
 
 /// A figure of the thesis.
 struct FigurePlan {
@@ -30,13 +29,27 @@ struct FigurePlan {
     note: &'static str,
 }
 
-/// A figure drawn.
+/// A figure of the thesis, computed.
 #[derive(Clone, Debug, PartialEq)]
-pub struct DrawnFigure {
-    /// Its file's name.
-    pub file: String,
-    /// What it shows.
-    pub chart: LineChart,
+pub struct ThesisFigure {
+    /// Its number in the thesis.
+    pub number: u32,
+    /// The name of its file.
+    pub file: &'static str,
+    /// What the thesis's caption names.
+    pub subject: &'static str,
+    /// The exact law.
+    pub exact: DrawnCurve,
+    /// What approximates it.
+    pub curves: Vec<DrawnCurve>,
+    /// Lowest reflectance on the axis, in per cent.
+    pub low: f64,
+    /// Marked angles, in degrees, and their labels.
+    pub marks: Vec<(f64, String)>,
+    /// What was derived from n and k, for methods that need more than these, in words.
+    pub derived: String,
+    /// What a reader should know besides.
+    pub note: &'static str,
 }
 
 const SCHLICK: (&str, &str) = ("schlick_ior", "Schlick (eq. 7)");
@@ -153,10 +166,12 @@ const PLANS: [FigurePlan; 9] = [
 ];
 
 /// One curve of a figure.
-struct DrawnCurve {
-    name: &'static str,
+#[derive(Clone, Debug, PartialEq)]
+pub struct DrawnCurve {
+    /// What the legend calls it.
+    pub name: &'static str,
     /// Reflectance in per cent, angle by angle.
-    points: Vec<(f64, f64)>,
+    pub points: Vec<(f64, f64)>,
 }
 
 /// What is drawn, in numbers.
@@ -167,13 +182,9 @@ pub fn section() -> ThesisSection {
     }
 }
 
-/// The charts.
-pub fn drawings() -> Vec<DrawnFigure> {
-    let drawing = |plan: &FigurePlan| DrawnFigure {
-        file: plan.file.to_owned(),
-        chart: plan.chart(),
-    };
-    PLANS.iter().map(drawing).collect()
+/// The figures.
+pub fn figures() -> Vec<ThesisFigure> {
+    PLANS.iter().map(FigurePlan::figure).collect()
 }
 
 impl FigurePlan {
@@ -213,7 +224,7 @@ impl FigurePlan {
         exact: &DrawnCurve,
         method: &str,
     ) -> [ComparisonRow; 2] {
-        let (at, apart) = largest_difference(curve, exact);
+        let (at, apart) = curve.largest_difference(exact);
         let name = format!("figure {}, {method}", self.number);
         [
             ("largest difference", Figure::Number(apart / 100.0, 4, "")),
@@ -226,47 +237,18 @@ impl FigurePlan {
         })
     }
 
-    fn chart(&self) -> LineChart {
-        let (exact, curves) = (self.exact(), self.curves());
-        let subtitle = self.subtitle(&exact, &curves);
-        let mut drawn = vec![series(exact, Style::Exact)];
-        drawn.extend(
-            curves
-                .into_iter()
-                .enumerate()
-                .map(|(i, curve)| series(curve, Style::Approximate(i))),
-        );
-        LineChart {
-            title: format!("Figure {}: {}", self.number, self.subject),
-            subtitle,
-            x: ChartAxis::angle_of_incidence(),
-            y: axis("unpolarised reflectance", self.low, 100.0, 5, "%"),
-            series: drawn,
+    fn figure(&self) -> ThesisFigure {
+        ThesisFigure {
+            number: self.number,
+            file: self.file,
+            subject: self.subject,
+            exact: self.exact(),
+            curves: self.curves(),
+            low: self.low,
             marks: self.marks(),
-            foot: "fresnel-gen reproduce figures".to_owned(),
+            derived: self.derived(),
+            note: self.note,
         }
-    }
-
-    fn subtitle(&self, exact: &DrawnCurve, curves: &[DrawnCurve]) -> String {
-        let difference = |curve: &DrawnCurve| {
-            let (at, apart) = largest_difference(curve, exact);
-            format!("{} {apart:.2} percentage points at {at}°", curve.name)
-        };
-        let differences: Vec<String> = curves.iter().map(difference).collect();
-        let mut parts = vec![
-            format!("Reflectance computed at {POINTS} angles, a quarter of a degree apart."),
-            format!(
-                "Largest difference from the exact law: {}.",
-                differences.join("; ")
-            ),
-            self.derived(),
-            self.note.to_owned(),
-        ];
-        if self.low > 0.0 {
-            parts.push(format!("The axis starts at {} %.", self.low));
-        }
-        parts.retain(|part| !part.is_empty());
-        parts.join(" ")
     }
 
     /// What was derived from n and k, for methods that need more than these.
@@ -295,16 +277,11 @@ impl FigurePlan {
         }
     }
 
-    fn marks(&self) -> Vec<Mark> {
-        let fixed = self.marks.iter().map(|(at, label)| Mark {
-            at: *at,
-            label: (*label).to_owned(),
-        });
+    fn marks(&self) -> Vec<(f64, String)> {
+        let fixed = self.marks.iter();
+        let fixed = fixed.map(|(at, label)| (*at, (*label).to_owned()));
         let (at, _) = lowest(|degrees| exact(self.index, degrees).unpolarised());
-        let minimum = Mark {
-            at,
-            label: format!("minimum {at:.2}°"),
-        };
+        let minimum = (at, format!("minimum {at:.2}°"));
         fixed.chain(self.shows_minimum.then_some(minimum)).collect()
     }
 }
@@ -313,30 +290,14 @@ fn degrees() -> impl Iterator<Item = f64> {
     (0..POINTS).map(|i| 90.0 * f64::from(i) / f64::from(POINTS - 1))
 }
 
-/// Where a curve is furthest from the exact law, and by how many percentage points.
-fn largest_difference(curve: &DrawnCurve, exact: &DrawnCurve) -> (f64, f64) {
-    let pairs = curve.points.iter().zip(&exact.points);
-    let differences = pairs.map(|((at, value), (_, exact))| (*at, (value - exact).abs()));
-    differences.fold(
-        (0.0, 0.0),
-        |most, one| if one.1 > most.1 { one } else { most },
-    )
-}
-
-fn series(curve: DrawnCurve, style: Style) -> Series {
-    Series {
-        name: curve.name.to_owned(),
-        style,
-        points: curve.points,
-    }
-}
-
-fn axis(label: &str, low: f64, high: f64, about: usize, unit: &'static str) -> ChartAxis {
-    ChartAxis {
-        label: label.to_owned(),
-        low,
-        high,
-        ticks: ticks(low, high, about),
-        unit,
+impl DrawnCurve {
+    /// Where it is furthest from the exact law, and by how many percentage points.
+    pub fn largest_difference(&self, exact: &DrawnCurve) -> (f64, f64) {
+        let pairs = self.points.iter().zip(&exact.points);
+        let differences = pairs.map(|((at, value), (_, exact))| (*at, (value - exact).abs()));
+        differences.fold(
+            (0.0, 0.0),
+            |most, one| if one.1 > most.1 { one } else { most },
+        )
     }
 }

@@ -67,7 +67,7 @@ struct Pairs {
 }
 
 /// Those counts.
-static PRINTED: &str = include_str!("../../../data/records/thesis-forms.csv");
+static PRINTED: &str = include_str!("../../data/records/thesis-forms.csv");
 
 /// A formula as the thesis prints it, counted.
 #[derive(Deserialize)]

@@ -1,8 +1,8 @@
 //! How much more the exact law for conductors computes than that for dielectrics (section 5.3.2).
 
 use crate::ir::{Checked, Op};
-use crate::report::reproduce::comparison::{ComparisonRow, ComparisonVerdict, Figure};
-use crate::report::reproduce::specialised;
+use crate::reproduce::comparison::{ComparisonRow, ComparisonVerdict, Figure};
+use crate::reproduce::specialised;
 
 use super::measured;
 

@@ -1,8 +1,8 @@
 //! Gold at 685 and 475 nm (section 2.2, beside figures 9 and 10).
 
-use crate::report::reproduce::angle::{exact, lowest};
-use crate::report::reproduce::comparison::{ComparisonRow, ComparisonVerdict, Figure};
-use crate::report::reproduce::specialised;
+use crate::reproduce::angle::{exact, lowest};
+use crate::reproduce::comparison::{ComparisonRow, ComparisonVerdict, Figure};
+use crate::reproduce::specialised;
 
 use super::measured;
 
