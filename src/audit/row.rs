@@ -6,7 +6,7 @@ use crate::cost::{CostAndError, CostFigures, Family};
 use crate::fit::{ModelError, Perceived};
 use crate::reference::MaterialInMedium;
 use crate::verify::compilers::Verdict;
-use crate::verify::{Answer, JunitCase, Status, as_object};
+use crate::verify::{Answer, Status, as_object};
 
 use super::Audit;
 use super::bind::{Bound, BoundArgument};
@@ -148,20 +148,6 @@ pub struct Dominating {
 }
 
 impl AuditRow {
-    /// The row as JUnit has it.
-    pub fn junit_case(&self) -> JunitCase<'_> {
-        JunitCase {
-            target: self.target,
-            device: self.device.as_deref(),
-            function: &self.function,
-            material: Some(&self.material),
-            form: self.form,
-            method: &self.method,
-            status: self.status,
-            reason: self.reason.as_deref(),
-        }
-    }
-
     /// What is said of its cost on a GPU.
     pub fn sentence_on(&self, gpu: &str) -> Option<&str> {
         let (_, sentence) = self.says.iter().find(|(name, _)| name == gpu)?;

@@ -1,5 +1,4 @@
-//! Cost: a function measured, always with the device or compiler named. By its own compiler, as counts; by overdraw, as
-//! time.
+//! Cost: what a function costs by the compilers of GPUs, asked here or recorded, and what a method costs beside its error.
 
 mod chain;
 #[cfg(all(feature = "cli", feature = "gpu"))]
@@ -19,6 +18,7 @@ mod row;
 mod serve;
 #[cfg(all(feature = "cli", feature = "gpu"))]
 mod session;
+mod shapes;
 #[cfg(all(feature = "cli", feature = "gpu"))]
 mod table;
 
@@ -38,6 +38,7 @@ pub use row::{CostRow, CostSource};
 pub use serve::serve;
 #[cfg(all(feature = "cli", feature = "gpu"))]
 pub use session::{CompilerSession, launch, told};
+pub use shapes::{ChoiceRow, ChosenShape, SearchResult, SearchRow, ShapeRow};
 #[cfg(all(feature = "cli", feature = "gpu"))]
 pub use table::cost_rows;
 

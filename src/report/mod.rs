@@ -10,6 +10,8 @@ pub mod frontier;
 pub mod headline;
 #[cfg(feature = "cli")]
 mod html;
+#[cfg(all(feature = "cli", feature = "gpu"))]
+pub mod junit;
 pub mod markdown;
 pub mod material_sheet;
 pub mod plot;

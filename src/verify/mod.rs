@@ -25,8 +25,6 @@ pub mod harness;
 #[cfg(all(feature = "cli", feature = "gpu"))]
 mod judge;
 #[cfg(all(feature = "cli", feature = "gpu"))]
-mod junit;
-#[cfg(all(feature = "cli", feature = "gpu"))]
 pub mod machine;
 pub mod module;
 #[cfg(feature = "compilers")]
@@ -60,8 +58,6 @@ pub use half::{
     HalfError, HalfTrial, halves, halves_beyond, library_half_error, library_half_error_at,
     nearest_half,
 };
-#[cfg(all(feature = "cli", feature = "gpu"))]
-pub use junit::{JunitCase, junit};
 pub use object::as_object;
 pub use points::{WITHIN, beyond, cosines, cosines_around, limits, share};
 #[cfg(all(feature = "cli", feature = "gpu"))]

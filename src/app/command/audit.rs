@@ -14,8 +14,9 @@ use crate::reference::MaterialInMedium;
 use crate::report::Report;
 use crate::report::audit::{audit_remarks, audit_text};
 use crate::report::frontier::{ChartView, CostAxis, STATISTICS, chart_data, charted_function};
+use crate::report::junit::audit_junit;
 use crate::spectra::Space;
-use crate::verify::{Status, junit, machine};
+use crate::verify::{Status, machine};
 
 use super::{Output, Progress, chart, check_limit, not_drawn, report, try_files};
 
@@ -44,8 +45,7 @@ pub fn run(flags: &AuditFlags, progress: Progress) -> Result<Output, Error> {
     let rows: Vec<AuditRow> = rows.collect::<Result<_, _>>()?;
     let command = String::from(flags.command_line(&request.sight));
     if let Some(file) = &flags.report.junit {
-        let cases = rows.iter().map(AuditRow::junit_case);
-        let xml = junit("fresnel-gen audit", cases).map_err(not_drawn)?;
+        let xml = audit_junit(&rows).map_err(not_drawn)?;
         write_file(file, xml.as_bytes())?;
     }
     let device = rows.first().and_then(|row| row.device.clone());

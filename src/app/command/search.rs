@@ -2,14 +2,14 @@
 
 use crate::app::args::FitFlags;
 use crate::app::error::Error;
-use crate::cost::{library_cost, records};
+use crate::cost::{SearchResult, SearchRow, library_cost, records};
 use crate::fit::{Candidate, FitCurve, FitObjective, FitProblem, TriedShapes, candidates, search};
 use crate::materials::{Material, find};
 use crate::methods::Method;
 use crate::num::in_parallel;
 use crate::reference::{MaterialClass, MaterialInMedium};
 use crate::report::Report;
-use crate::report::search::{SearchResult, SearchRow, search_text};
+use crate::report::search::search_text;
 
 use super::fit::subjects;
 use super::{Output, Progress, report, try_places};

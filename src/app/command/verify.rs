@@ -12,11 +12,12 @@ use crate::app::write::write_file;
 use crate::gpu::Wanted;
 use crate::process::{Inbox, Pool};
 use crate::report::Report;
+use crate::report::junit::verify_junit;
 use crate::report::verify::{devices, not_checked, verify_remarks, verify_text};
 use crate::verify::file::VerifyEffort;
 use crate::verify::plan::VerifyPlan;
 use crate::verify::run::Devices;
-use crate::verify::{Status, VerifyRow, exhaustive_rows, junit, machine, serve, supervise};
+use crate::verify::{Status, VerifyRow, exhaustive_rows, machine, serve, supervise};
 
 use super::{Output, Progress, check_limit, not_drawn, refuse_place_of, report, try_places};
 
@@ -118,8 +119,7 @@ fn reported(
     rows: &[VerifyRow],
 ) -> Result<Output, Error> {
     if let Some(file) = &flags.report.junit {
-        let cases = rows.iter().map(VerifyRow::junit_case);
-        let xml = junit("fresnel-gen verify", cases).map_err(not_drawn)?;
+        let xml = verify_junit(&rows).map_err(not_drawn)?;
         write_file(file, xml.as_bytes())?;
     }
     let full =

@@ -2,53 +2,61 @@
 
 use quick_junit::{NonSuccessKind, Report, TestCase, TestCaseStatus, TestSuite};
 
-use super::row::{Status, VerifyRow};
+use crate::audit::AuditRow;
+use crate::verify::{Status, VerifyRow};
 
 /// A row as a case of JUnit's.
-#[derive(Clone, Copy, Debug)]
-pub struct JunitCase<'a> {
-    /// The target.
-    pub target: &'a str,
-    /// On what it ran.
-    pub device: Option<&'a str>,
-    /// The function.
-    pub function: &'a str,
-    /// The material.
-    pub material: Option<&'a str>,
-    /// `library`, `specialised` or `user`.
-    pub form: &'a str,
-    /// The method.
-    pub method: &'a str,
-    /// What to think of it.
-    pub status: Status,
-    /// Why it is not a pass.
-    pub reason: Option<&'a str>,
-}
-
-impl VerifyRow {
-    /// The row as JUnit has it.
-    pub fn junit_case(&self) -> JunitCase<'_> {
-        JunitCase {
-            target: &self.target,
-            device: self.device.as_deref(),
-            function: &self.function,
-            material: self.material.as_deref(),
-            form: &self.form,
-            method: &self.method,
-            status: self.status,
-            reason: self.reason.as_deref(),
-        }
-    }
+struct JunitCase<'a> {
+    target: &'a str,
+    device: Option<&'a str>,
+    function: &'a str,
+    material: Option<&'a str>,
+    form: &'a str,
+    method: &'a str,
+    status: Status,
+    reason: Option<&'a str>,
 }
 
 /// What stands where nothing is known.
 const NONE: &str = "none";
 
-/// The cases as JUnit's XML under a name; a suite for each target and device.
+/// A verification as JUnit's XML; a suite for each target and device.
 ///
 /// # Errors
 /// The writer refuses.
-pub fn junit<'a>(name: &str, cases: impl Iterator<Item = JunitCase<'a>>) -> Result<String, String> {
+pub fn verify_junit(rows: &[VerifyRow]) -> Result<String, String> {
+    let cases = rows.iter().map(|row| JunitCase {
+        target: &row.target,
+        device: row.device.as_deref(),
+        function: &row.function,
+        material: row.material.as_deref(),
+        form: &row.form,
+        method: &row.method,
+        status: row.status,
+        reason: row.reason.as_deref(),
+    });
+    junit("fresnel-gen verify", cases)
+}
+
+/// An audit as JUnit's XML; a suite for each target and device.
+///
+/// # Errors
+/// The writer refuses.
+pub fn audit_junit(rows: &[AuditRow]) -> Result<String, String> {
+    let cases = rows.iter().map(|row| JunitCase {
+        target: row.target,
+        device: row.device.as_deref(),
+        function: &row.function,
+        material: Some(&row.material),
+        form: row.form,
+        method: &row.method,
+        status: row.status,
+        reason: row.reason.as_deref(),
+    });
+    junit("fresnel-gen audit", cases)
+}
+
+fn junit<'a>(name: &str, cases: impl Iterator<Item = JunitCase<'a>>) -> Result<String, String> {
     let mut report = Report::new(name);
     let mut suites: Vec<(String, TestSuite)> = Vec::new();
     for case in cases {
