@@ -32,7 +32,7 @@ fn all_formats(c: &mut Criterion) {
     let wanted = WantedTables {
         materials: Materials::Default,
         medium: None,
-        sight: ViewingConditions::default(),
+        viewing: ViewingConditions::default(),
     };
     let (subjects, _) = table_materials(&wanted).expect("the four are seen");
     let request = BakeRequest {

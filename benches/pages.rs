@@ -51,7 +51,7 @@ fn all() -> Vec<(String, String)> {
 
 fn read_and_see(c: &mut Criterion) {
     let pages = all();
-    let sight = ViewingConditions::default();
+    let viewing = ViewingConditions::default();
     let mut group = c.benchmark_group("pages");
     group.throughput(Throughput::Elements(pages.len() as u64));
     group.sample_size(10);
@@ -59,7 +59,7 @@ fn read_and_see(c: &mut Criterion) {
         b.iter(|| {
             pages
                 .iter()
-                .map(|(file, text)| survey_page(file, text, &sight))
+                .map(|(file, text)| survey_page(file, text, &viewing))
                 .collect::<Vec<_>>()
         });
     });

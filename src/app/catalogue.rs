@@ -24,7 +24,7 @@ pub const JSON: &str = "json";
 /// A material cannot be seen as the request wants, or a language refuses a name.
 pub fn add_catalogue(generated: &mut Generated, request: &Request) -> Result<(), Error> {
     let (rows, truth) = match recorded_rows(request) {
-        Some(rows) => (rows, request.sight.reference_in_words()),
+        Some(rows) => (rows, request.viewing.reference_in_words()),
         None => derived_rows(request)?,
     };
     for target in request.resolved_targets()? {
@@ -47,7 +47,7 @@ pub fn add_catalogue(generated: &mut Generated, request: &Request) -> Result<(),
 /// The materials that can be seen as the request wants. What is known at three wavelengths only has no spectrum.
 fn subjects(request: &Request) -> Result<Vec<MaterialInMedium>, Error> {
     let mut subjects = request.subjects()?.materials();
-    let of_spectra = request.sight.wavelengths_nm.is_none();
+    let of_spectra = request.viewing.wavelengths_nm.is_none();
     subjects.retain(|subject| !of_spectra || subject.material.rgb_nm.is_none());
     Ok(subjects)
 }
@@ -55,7 +55,7 @@ fn subjects(request: &Request) -> Result<Vec<MaterialInMedium>, Error> {
 /// The rows of a request, where they are recorded.
 fn recorded_rows(request: &Request) -> Option<Vec<CatalogueRow>> {
     match request.medium {
-        None => emit::recorded_catalogue(&request.sight),
+        None => emit::recorded_catalogue(&request.viewing),
         Some(_) => None,
     }
 }
@@ -86,7 +86,7 @@ fn command(request: &Request, target: Option<&str>) -> Result<String, Error> {
         .list("target", target)
         .list("medium", medium)
         .list("prefix", prefix)
-        .seen_as(&request.sight)
+        .seen_as(&request.viewing)
         .into())
 }
 
@@ -104,11 +104,11 @@ struct CatalogueFile<'a> {
 
 fn as_json(rows: &[CatalogueRow], truth: &str, request: &Request) -> Result<Artifact, Error> {
     let command = command(request, None)?;
-    let is_spectral = request.sight.wavelengths_nm.is_none();
+    let is_spectral = request.viewing.wavelengths_nm.is_none();
     let file = CatalogueFile {
         origin: Origin::new(command.clone()),
         truth,
-        space: is_spectral.then(|| request.sight.integration.space.name()),
+        space: is_spectral.then(|| request.viewing.integration.space.name()),
         licence: OUTPUT_LICENCE,
         methods: CatalogueMethod::all(rows),
         materials: rows.iter().map(CatalogueMaterial::new).collect(),

@@ -52,6 +52,14 @@ pub enum RequestFault {
         /// What it means.
         meaning: &'static str,
     },
+    /// A medium that no light comes through.
+    #[error("the medium `{name}` is a {class}; a medium must be transparent: a dielectric")]
+    OpaqueMedium {
+        /// The medium.
+        name: String,
+        /// Its class.
+        class: &'static str,
+    },
     /// A light's file whose name is that of a standard light.
     #[error("the light's file is named `{name}`, as a standard light is; rename it")]
     LightNameTaken {

@@ -37,7 +37,7 @@ pub struct Request {
     #[doc(hidden)]
     pub chosen: BTreeMap<String, &'static str>,
     /// How materials are seen: the whole spectrum in linear sRGB under D65, unless said otherwise.
-    pub sight: ViewingConditions,
+    pub viewing: ViewingConditions,
     /// How much the comments of files say.
     pub header: HeaderForm,
 }
@@ -54,7 +54,7 @@ impl Default for Request {
             precision: Precision::F32,
             force: false,
             chosen: BTreeMap::new(),
-            sight: ViewingConditions::default(),
+            viewing: ViewingConditions::default(),
             header: HeaderForm::default(),
         }
     }
@@ -219,7 +219,7 @@ impl Request {
 
     /// A user's light as text: it is an input, and its name does not tell its numbers.
     fn light(&self) -> String {
-        match &self.sight.integration.illuminant {
+        match &self.viewing.integration.illuminant {
             Illuminant::Table { power, .. } => format!("{:?}", power.points()),
             _ => String::new(),
         }
@@ -279,7 +279,7 @@ impl Request {
         let subject = MaterialInMedium::new(
             typed(&loaded),
             medium.map(typed),
-            &self.sight,
+            &self.viewing,
             self.derivation()?,
         )?;
         check_not_a_method(&subject.name)?;
@@ -366,12 +366,11 @@ pub fn check_transparent(medium: &Material) -> Result<(), Error> {
     if medium.kind == MaterialKind::Dielectric {
         return Ok(());
     }
-    let what = format!(
-        "the medium `{}` is a {}; a medium must be transparent: a dielectric",
-        medium.name,
-        medium.kind.name()
-    );
-    Err(Error::Usage { what })
+    Err(RequestFault::OpaqueMedium {
+        name: medium.name.clone(),
+        class: medium.kind.name(),
+    }
+    .into())
 }
 
 /// What a user types to name a file again, without the folders of this machine: its place in the database for a page that

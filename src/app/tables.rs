@@ -24,7 +24,7 @@ pub struct WantedTables {
     /// What the light comes from; air where there is none.
     pub medium: Option<Source>,
     /// How they are seen.
-    pub sight: ViewingConditions,
+    pub viewing: ViewingConditions,
 }
 
 /// The materials, sorted by name, each once; and why some that `all` brings along are left out.
@@ -45,7 +45,7 @@ pub fn table_materials(wanted: &WantedTables) -> Result<(Vec<TableMaterial>, Vec
             argument,
             text,
         } = load(&source)?;
-        let found = TableMaterial::new((&argument, &material), medium.as_ref(), &wanted.sight);
+        let found = TableMaterial::new((&argument, &material), medium.as_ref(), &wanted.viewing);
         match (found, source) {
             (Err(fault), Source::BroughtAlong(_)) => left_out.push(fault.why),
             (Err(fault), _) => return Err(fault.into()),
@@ -73,15 +73,15 @@ pub fn table_materials(wanted: &WantedTables) -> Result<(Vec<TableMaterial>, Vec
 pub fn add_tables(
     generated: &mut Generated,
     medium: Option<Source>,
-    sight: ViewingConditions,
+    viewing: ViewingConditions,
 ) -> Result<(), Error> {
     let wanted = WantedTables {
         materials: Materials::Default,
         medium,
-        sight,
+        viewing,
     };
     let (materials, _) = table_materials(&wanted)?;
-    let request = usual_request(materials, &wanted.sight);
+    let request = usual_request(materials, &wanted.viewing);
     let baked = bake::bake(&request, &mut |_, _, _| {})?;
     generated
         .artifacts

@@ -38,7 +38,7 @@ pub struct BakeRequest {
     pub targets: Vec<&'static Target>,
     /// Goes before the names of these functions.
     pub prefix: String,
-    /// The flags of the sight and the medium, each with a space before it.
+    /// The flags of the viewing conditions and the medium, each with a space before it.
     pub flags: String,
 }
 

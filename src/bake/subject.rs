@@ -28,9 +28,9 @@ impl TableMaterial {
     pub fn new(
         (argument, material): (&str, &Material),
         medium: Option<&Typed>,
-        sight: &ViewingConditions,
+        viewing: &ViewingConditions,
     ) -> Result<TableMaterial, Unseen> {
-        let surface = Surface::new(material, medium.map(|(_, medium)| medium), sight)?;
+        let surface = Surface::new(material, medium.map(|(_, medium)| medium), viewing)?;
         let name = &material.name;
         let is_spectral = surface.channels().is_none();
         Ok(TableMaterial {
@@ -39,7 +39,7 @@ impl TableMaterial {
             }),
             argument: argument.to_owned(),
             medium: medium.map(|(argument, _)| argument.clone()),
-            space: is_spectral.then_some(sight.integration.space),
+            space: is_spectral.then_some(viewing.integration.space),
             truth: ReferenceCurve::new(surface, Light::Unpolarised),
         })
     }

@@ -15,20 +15,20 @@ pub const DEFAULT_AXIS: TableAxis = TableAxis::Rational;
 pub const DEFAULT_FORMATS: [Format; 3] = [Format::ExrHalf, Format::Png16, Format::Ktx2];
 
 /// How materials are seen: colours outside the working space stay in a table, unless another policy was asked for.
-pub fn as_tables_are_seen(sight: &ViewingConditions, gamut_was_said: bool) -> ViewingConditions {
-    let mut sight = sight.clone();
+pub fn as_tables_are_seen(viewing: &ViewingConditions, gamut_was_said: bool) -> ViewingConditions {
+    let mut viewing = viewing.clone();
     // Where a channel is one wavelength there is no space to be outside of.
-    if !gamut_was_said && sight.wavelengths_nm.is_none() {
-        sight.gamut = Gamut::Keep;
+    if !gamut_was_said && viewing.wavelengths_nm.is_none() {
+        viewing.gamut = Gamut::Keep;
     }
-    sight
+    viewing
 }
 
 /// The tables of these materials, and an atlas, as a run without flags writes them.
-pub fn usual_request(subjects: Vec<TableMaterial>, sight: &ViewingConditions) -> BakeRequest {
+pub fn usual_request(subjects: Vec<TableMaterial>, viewing: &ViewingConditions) -> BakeRequest {
     BakeRequest {
         typed: material_words(&subjects),
-        flags: viewing_flags(&subjects, sight),
+        flags: viewing_flags(&subjects, viewing),
         subjects,
         formats: DEFAULT_FORMATS.to_vec(),
         shape: TableSize::Fixed {

@@ -13,11 +13,11 @@ pub fn material_words(subjects: &[TableMaterial]) -> String {
 }
 
 /// The flags of the medium and the viewing conditions, each with a space before it.
-pub fn viewing_flags(subjects: &[TableMaterial], sight: &ViewingConditions) -> String {
+pub fn viewing_flags(subjects: &[TableMaterial], viewing: &ViewingConditions) -> String {
     let medium = subjects.first().and_then(|subject| subject.medium.as_ref());
     CommandLine::new("")
         .list("medium", medium)
-        .seen_as(sight)
+        .seen_as(viewing)
         .into()
 }
 

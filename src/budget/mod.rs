@@ -72,14 +72,14 @@ pub fn choose_within(
     budget: Budget,
     methods: Vec<&'static Method>,
     subjects: &[MaterialInMedium],
-    sight: &ViewingConditions,
+    viewing: &ViewingConditions,
 ) -> Result<Vec<BudgetRow>, Error> {
     let search = Search {
         methods: candidate_methods(methods)?,
         catalogue: materials::list().map_err(Error::Material)?,
         record: records(budget.family.name),
         bounds: Bounds::recorded(),
-        sight,
+        viewing,
         budget,
     };
     let choose = |i: usize| search.choice_for(&subjects[i]);
@@ -110,7 +110,7 @@ fn candidate_methods(mut methods: Vec<&'static Method>) -> Result<Vec<&'static M
 
 /// What is the same for all materials.
 struct Search<'a> {
-    sight: &'a ViewingConditions,
+    viewing: &'a ViewingConditions,
     budget: Budget,
     methods: Vec<&'static Method>,
     catalogue: Vec<Material>,
@@ -137,7 +137,7 @@ impl Search<'_> {
             budget: self.budget,
             choice,
             form,
-            spread: spread(subject, &self.catalogue, self.sight),
+            spread: spread(subject, &self.catalogue, self.viewing),
         }))
     }
 

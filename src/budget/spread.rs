@@ -19,7 +19,7 @@ pub struct Spread {
 pub fn spread(
     subject: &MaterialInMedium,
     catalogue: &[Material],
-    sight: &ViewingConditions,
+    viewing: &ViewingConditions,
 ) -> Option<Spread> {
     let own = &subject.material;
     if materials::source(&subject.argument).is_none() || own.rgb_nm.is_some() {
@@ -31,7 +31,7 @@ pub fn spread(
     }
     let curve =
         |(_, surface): (_, Surface)| FitCurve::new(|c| seen(&surface, Light::Unpolarised, c)).seen;
-    let pages = materials::surfaces_of(&own.substance, catalogue, medium, sight);
+    let pages = materials::surfaces_of(&own.substance, catalogue, medium, viewing);
     let curves: Vec<Vec<[f64; 3]>> = pages.map(curve).collect();
     (curves.len() > 1).then(|| Spread {
         most: apart(&curves),

@@ -51,8 +51,8 @@ impl CommandLine {
 
     /// The flags of these viewing conditions.
     #[must_use]
-    pub fn seen_as(self, sight: &ViewingConditions) -> CommandLine {
-        CommandLine(self.0 + &sight_flags(sight))
+    pub fn seen_as(self, viewing: &ViewingConditions) -> CommandLine {
+        CommandLine(self.0 + &viewing_condition_flags(viewing))
     }
 
     /// The same command with more flags, each with a space before it.
@@ -85,25 +85,25 @@ pub fn file_name(file: &str) -> &str {
 
 /// The flags that say again how a surface was seen, each with a space before it; nothing where all is as usual. Where each
 /// channel is one wavelength, the rest of the viewing conditions says nothing.
-pub fn surface_flags(sight: &ViewingConditions, surface: &Surface) -> String {
+pub fn surface_flags(viewing: &ViewingConditions, surface: &Surface) -> String {
     if surface.channels().is_none() {
-        return sight_flags(sight);
+        return viewing_condition_flags(viewing);
     }
-    sight_flags(&ViewingConditions {
-        wavelengths_nm: sight.wavelengths_nm,
-        beyond: sight.beyond,
+    viewing_condition_flags(&ViewingConditions {
+        wavelengths_nm: viewing.wavelengths_nm,
+        beyond: viewing.beyond,
         ..ViewingConditions::default()
     })
 }
 
 /// The flags that say these viewing conditions again, each with a space before it.
-pub fn sight_flags(sight: &ViewingConditions) -> String {
-    let (own, usual) = (&sight.integration, Integration::default());
+fn viewing_condition_flags(viewing: &ViewingConditions) -> String {
+    let (own, usual) = (&viewing.integration, Integration::default());
     let choices = [
         ("space", own.space.name(), usual.space.name()),
         (
             "gamut",
-            sight.gamut.name(),
+            viewing.gamut.name(),
             ViewingConditions::default().gamut.name(),
         ),
         ("illuminant", own.illuminant.name(), usual.illuminant.name()),
@@ -115,11 +115,12 @@ pub fn sight_flags(sight: &ViewingConditions) -> String {
     for (flag, value, usual) in choices {
         command = command.list(flag, (value != usual).then_some(value));
     }
-    if let Some([red, green, blue]) = sight.wavelengths_nm {
+    if let Some([red, green, blue]) = viewing.wavelengths_nm {
         command = command.number("wavelengths", format!("{red},{green},{blue}"));
     }
-    let holds = sight.beyond == Extrapolate::Hold;
-    command.list("extrapolate", holds.then_some("hold")).into()
+    let holds = viewing.beyond == Extrapolate::Hold;
+    let hold = holds.then_some(viewing.beyond.name());
+    command.list("extrapolate", hold).into()
 }
 
 #[cfg(test)]
@@ -142,6 +143,6 @@ mod tests {
 
     #[test]
     fn usual_viewing_conditions_need_no_flags() {
-        assert_eq!(sight_flags(&ViewingConditions::default()), "");
+        assert_eq!(viewing_condition_flags(&ViewingConditions::default()), "");
     }
 }

@@ -29,7 +29,7 @@ pub use catalogue::{
     CATALOGUE, CatalogueMaterial, CatalogueMethod, CatalogueRow, CloserFit, catalogue_array,
     catalogue_record, catalogue_rows, recorded_catalogue,
 };
-pub use command::{CommandLine, file_name, quoted, sight_flags, surface_flags};
+pub use command::{CommandLine, file_name, quoted, surface_flags};
 pub use comment::lines as comment_lines;
 pub use detail::{
     CatalogueDetail, Detail, FunctionDetail, FunctionsDetail, SeenDetail, TableDetail,

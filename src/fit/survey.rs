@@ -53,20 +53,24 @@ pub struct VisibleColours {
 }
 
 /// Reads a page and looks at it.
-pub fn survey_page(file: &str, text: &str, sight: &ViewingConditions) -> SurveyedPage {
-    let outcome = page_outcome(file, text, sight).unwrap_or_else(PageOutcome::Refused);
+pub fn survey_page(file: &str, text: &str, viewing: &ViewingConditions) -> SurveyedPage {
+    let outcome = page_outcome(file, text, viewing).unwrap_or_else(PageOutcome::Refused);
     SurveyedPage {
         file: file.to_owned(),
         outcome,
     }
 }
 
-fn page_outcome(file: &str, text: &str, sight: &ViewingConditions) -> Result<PageOutcome, String> {
+fn page_outcome(
+    file: &str,
+    text: &str,
+    viewing: &ViewingConditions,
+) -> Result<PageOutcome, String> {
     let page =
         Page::parse(file, text).map_err(|fault| format!("line {}: {}", fault.line, fault.what))?;
     let material = page.material(None).map_err(|fault| fault.what)?;
     let about = page_facts(&page, &material)?;
-    Ok(match Surface::new(&material, None, sight) {
+    Ok(match Surface::new(&material, None, viewing) {
         Ok(surface) => PageOutcome::Seen(about, colours(&surface)),
         Err(unseen) => PageOutcome::Elsewhere(about, unseen.why),
     })

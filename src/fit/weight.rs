@@ -50,11 +50,6 @@ impl Weight {
         }
     }
 
-    /// The weight of this name.
-    pub fn find(name: &str) -> Option<Weight> {
-        Weight::ALL.into_iter().find(|weight| weight.name() == name)
-    }
-
     /// Whether it needs the working space of the colours, and not only single channels.
     pub fn is_of_colours(self) -> bool {
         matches!(self, Weight::Luminance | Weight::DeltaE)
@@ -117,7 +112,6 @@ mod tests {
         ] {
             let found = weight.error(given, GOLD, Space::Srgb);
             assert!((found - wanted).abs() < 1e-5, "{weight:?}: {found}");
-            assert_eq!(Weight::find(weight.name()), Some(weight));
         }
     }
 

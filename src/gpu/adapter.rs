@@ -86,13 +86,6 @@ impl Backend {
             Backend::Gles => "gles",
         }
     }
-
-    /// The backend of this name.
-    pub fn find(name: &str) -> Option<Backend> {
-        Backend::ALL
-            .into_iter()
-            .find(|backend| backend.name() == name)
-    }
 }
 
 impl fmt::Display for Adapter {

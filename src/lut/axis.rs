@@ -69,11 +69,6 @@ impl TableAxis {
         }
     }
 
-    /// The axis of this name.
-    pub fn find(name: &str) -> Option<TableAxis> {
-        TableAxis::ALL.into_iter().find(|axis| axis.name() == name)
-    }
-
     /// w of c, as every shading language writes it.
     pub fn formula(self) -> &'static str {
         match self {
@@ -131,7 +126,6 @@ mod tests {
     #[test]
     fn ends_are_exact_and_each_warp_is_undone() {
         for axis in TableAxis::ALL {
-            assert_eq!(TableAxis::find(axis.name()), Some(axis));
             assert_eq!((axis.warp(0.0), axis.warp(1.0)), (0.0, 1.0), "{axis:?}");
             assert_eq!((axis.warp(0f32), axis.warp(1f32)), (0.0, 1.0), "{axis:?}");
             assert_eq!(axis.warp(Half::from_f32(1.0)).to_f32(), 1.0, "{axis:?}");
@@ -145,7 +139,6 @@ mod tests {
                 last = w;
             }
         }
-        assert_eq!(TableAxis::find("cosine"), None);
     }
 
     #[test]

@@ -56,11 +56,6 @@ impl Format {
         }
     }
 
-    /// The format of this name.
-    pub fn find(name: &str) -> Option<Format> {
-        Format::ALL.into_iter().find(|format| format.name() == name)
-    }
-
     /// What its files end in: no two formats write the same file.
     pub fn ending(self) -> &'static str {
         match self {

@@ -83,23 +83,23 @@ impl Surface {
     pub fn new(
         material: &Material,
         medium: Option<&Material>,
-        sight: &ViewingConditions,
+        viewing: &ViewingConditions,
     ) -> Result<Surface, Unseen> {
-        let three = sight
+        let three = viewing
             .wavelengths_nm
             .or(material.rgb_nm)
             .or(medium.and_then(|medium| medium.rgb_nm));
         let integrator = match three {
             Some(rgb) => Integrator::three_wavelengths(rgb),
-            None => Integrator::new(&sight.integration).map_err(|fault| Unseen {
+            None => Integrator::new(&viewing.integration).map_err(|fault| Unseen {
                 why: fault.to_string(),
                 advice: String::new(),
             })?,
         };
         let index = |nm: &f64| {
-            let own = material.index(*nm, sight.beyond)?;
+            let own = material.index(*nm, viewing.beyond)?;
             let around = medium
-                .map(|medium| medium.index(*nm, sight.beyond))
+                .map(|medium| medium.index(*nm, viewing.beyond))
                 .transpose()?;
             Ok(around.map_or(own, |around| own.relative_to(around)))
         };
@@ -112,7 +112,7 @@ impl Surface {
         let gamut = if three.is_some() {
             Gamut::Keep
         } else {
-            sight.gamut
+            viewing.gamut
         };
         Ok(Surface {
             indices: indices.map_err(|why| Unseen {
@@ -124,7 +124,7 @@ impl Surface {
             gamut,
             seen: match three {
                 Some(rgb) => three_in_words(rgb),
-                None => sight.reference_in_words(),
+                None => viewing.reference_in_words(),
             },
         })
     }
@@ -240,10 +240,10 @@ pub fn surfaces_of<'a>(
     substance: &'a str,
     catalogue: &'a [Material],
     medium: Option<&'a Material>,
-    sight: &'a ViewingConditions,
+    viewing: &'a ViewingConditions,
 ) -> impl Iterator<Item = (&'a Material, Surface)> {
     let same = catalogue
         .iter()
         .filter(|other| other.is_spectrum_of(substance));
-    same.filter_map(move |other| Some((other, Surface::new(other, medium, sight).ok()?)))
+    same.filter_map(move |other| Some((other, Surface::new(other, medium, viewing).ok()?)))
 }

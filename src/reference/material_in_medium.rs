@@ -40,11 +40,11 @@ impl MaterialInMedium {
     pub fn new(
         (argument, material): Typed,
         medium: Option<Typed>,
-        sight: &ViewingConditions,
+        viewing: &ViewingConditions,
         derivation: Derivation,
     ) -> Result<MaterialInMedium, Unseen> {
         let around = medium.as_ref().map(|(_, medium)| medium);
-        let surface = Surface::new(&material, around, sight)?;
+        let surface = Surface::new(&material, around, viewing)?;
         let truth = ReferenceCurve::new(surface, Light::Unpolarised);
         Ok(MaterialInMedium {
             name: match around {

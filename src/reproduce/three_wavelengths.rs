@@ -75,13 +75,13 @@ fn integration() -> Integration {
 }
 
 fn seen(material: &Material, wavelengths_nm: Option<[f64; 3]>) -> Surface {
-    let sight = ViewingConditions {
+    let viewing = ViewingConditions {
         integration: integration(),
         gamut: Gamut::Keep,
         wavelengths_nm,
         ..ViewingConditions::default()
     };
-    Surface::new(material, None, &sight)
+    Surface::new(material, None, &viewing)
         .expect("the metals are known over the whole spectrum; a test sees them")
 }
 

@@ -34,13 +34,6 @@ impl Adaptation {
         }
     }
 
-    /// The adaptation of this name.
-    pub fn find(name: &str) -> Option<Adaptation> {
-        Adaptation::ALL
-            .into_iter()
-            .find(|adaptation| adaptation.name() == name)
-    }
-
     /// The matrix on XYZ that this adaptation applies to a light of white `from`, seen in a space of white `to`.
     pub fn matrix(self, from: DVec3, to: DVec3) -> DMat3 {
         match self {
@@ -83,8 +76,6 @@ mod tests {
                 assert!(back.abs_diff_eq(DMat3::IDENTITY, 1e-14), "{light:?}");
             }
         }
-        assert_eq!(Adaptation::find("bradford"), Some(Adaptation::Bradford));
-        assert_eq!(Adaptation::find("none"), None);
     }
 
     #[test]

@@ -44,11 +44,6 @@ impl Space {
         }
     }
 
-    /// The space of this name.
-    pub fn find(name: &str) -> Option<Space> {
-        Space::ALL.into_iter().find(|space| space.name() == name)
-    }
-
     /// In words, for headers of files.
     pub fn title(self) -> &'static str {
         match self {
@@ -147,9 +142,7 @@ mod tests {
                 (space.xyz_to_rgb() * space.white()).abs_diff_eq(DVec3::ONE, 1e-14),
                 "{space:?}"
             );
-            assert_eq!(Space::find(space.name()), Some(space));
         }
-        assert_eq!(Space::find("sRGB"), None);
     }
 
     /// The matrices that the standards print, row by row, to the digits that they print.

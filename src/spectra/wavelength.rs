@@ -34,11 +34,6 @@ impl Step {
         }
     }
 
-    /// The step of this name.
-    pub fn find(name: &str) -> Option<Step> {
-        Step::ALL.into_iter().find(|step| step.name() == name)
-    }
-
     /// Its width in nm.
     pub fn nm(self) -> u16 {
         match self {
@@ -69,8 +64,6 @@ mod tests {
                 (wavelengths[0], wavelengths[count - 1]),
                 (FIRST_NM, LAST_NM)
             );
-            assert_eq!(Step::find(step.name()), Some(step));
         }
-        assert_eq!(Step::find("2nm"), None);
     }
 }

@@ -118,10 +118,10 @@ fn the_record_is_what_the_spectra_give() {
     let (rows, seen) = derived_rows(&Request::default()).unwrap();
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("data/records/catalogue.json");
     super::bless::check(&path, catalogue_record(&rows).as_bytes());
-    let taken = recorded_catalogue(&Request::default().sight).expect("the record is true");
+    let taken = recorded_catalogue(&Request::default().viewing).expect("the record is true");
     assert_eq!(catalogue_record(&taken), catalogue_record(&rows));
-    assert_eq!(Request::default().sight.reference_in_words(), seen);
+    assert_eq!(Request::default().viewing.reference_in_words(), seen);
     let mut other = Request::default();
-    other.sight.gamut = Gamut::Keep;
-    assert!(recorded_catalogue(&other.sight).is_none());
+    other.viewing.gamut = Gamut::Keep;
+    assert!(recorded_catalogue(&other.viewing).is_none());
 }

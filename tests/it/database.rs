@@ -278,14 +278,14 @@ fn every_page_is_seen_at_all_angles_or_it_is_said_why_not() {
     let Some(data) = data_folder(&root(), 6) else {
         return;
     };
-    let sight = ViewingConditions {
+    let viewing = ViewingConditions {
         gamut: Gamut::Keep,
         ..ViewingConditions::default()
     };
     let mut counts = [0; 3];
     for file in source::pages(&data).expect("a folder of the database") {
         let text = fs::read_to_string(data.join(&file)).expect("a page in UTF-8");
-        match survey_page(&file, &text, &sight).outcome {
+        match survey_page(&file, &text, &viewing).outcome {
             PageOutcome::Seen(_, colours) => {
                 let all = colours.by_degree.iter().flatten();
                 assert!(

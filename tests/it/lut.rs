@@ -17,12 +17,12 @@ use fresnel_gen::spectra::Gamut;
 use crate::not_checked;
 
 fn truth(name: &str) -> Option<ReferenceCurve> {
-    let sight = ViewingConditions {
+    let viewing = ViewingConditions {
         gamut: Gamut::Keep,
         ..ViewingConditions::default()
     };
     let material = materials::find(name).unwrap().unwrap();
-    let surface = Surface::new(&material, None, &sight).ok()?;
+    let surface = Surface::new(&material, None, &viewing).ok()?;
     Some(ReferenceCurve::new(surface, Light::Unpolarised))
 }
 
@@ -76,7 +76,7 @@ fn request(names: &str, formats: &[Format], atlas: bool) -> BakeRequest {
     let wanted = WantedTables {
         materials: Materials::These(sources.collect()),
         medium: None,
-        sight: ViewingConditions {
+        viewing: ViewingConditions {
             gamut: Gamut::Keep,
             ..ViewingConditions::default()
         },
@@ -363,7 +363,7 @@ fn the_default_materials_are_baked_without_flags() {
     let wanted = WantedTables {
         materials: Materials::Default,
         medium: None,
-        sight: ViewingConditions::default(),
+        viewing: ViewingConditions::default(),
     };
     let names: Vec<String> = table_materials(&wanted)
         .unwrap()

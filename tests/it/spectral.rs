@@ -52,12 +52,12 @@ fn rows(text: &str) -> impl Iterator<Item = (&str, Vec<f64>)> {
 /// The largest difference to three columns of the oracle, from this one on.
 fn worst(integration: Integration, first: usize) -> f64 {
     let oracle = include_str!("../reference/spectral_rgb_oracle.csv");
-    let (pages, sight) = (by_page(), unclipped(integration));
+    let (pages, viewing) = (by_page(), unclipped(integration));
     let mut worst: f64 = 0.0;
     let mut count = 0;
     for (page, numbers) in rows(oracle) {
         let surface =
-            Surface::new(&pages[page], None, &sight).expect("known over the whole spectrum");
+            Surface::new(&pages[page], None, &viewing).expect("known over the whole spectrum");
         let degrees = numbers[0];
         let cos_theta = cosine(degrees);
         let got = surface.unpolarised(cos_theta).to_array();
@@ -100,7 +100,7 @@ fn integrated_colours_are_those_of_the_oracle() {
 /// F0 of all pages of the catalogue, by an independent reader, rounded to four digits.
 #[test]
 fn every_metal_has_its_colour() {
-    let (pages, sight) = (
+    let (pages, viewing) = (
         by_page(),
         unclipped(integration(Illuminant::D65, Adaptation::Scale, Step::Nm1)),
     );
@@ -109,7 +109,8 @@ fn every_metal_has_its_colour() {
         let Some(material) = pages.get(page) else {
             continue;
         };
-        let surface = Surface::new(material, None, &sight).expect("known over the whole spectrum");
+        let surface =
+            Surface::new(material, None, &viewing).expect("known over the whole spectrum");
         let got = surface.unpolarised(1.0).to_array();
         for (got, want) in got.iter().zip(want) {
             assert!((got - want).abs() < 5.1e-5, "{page}: {got} is not {want}");
@@ -198,11 +199,11 @@ fn the_index_per_channel_stands_for_the_spectrum() {
 #[test]
 fn dielectrics_hardly_absorb() {
     for material in materials::list().expect("the catalogue is good") {
-        let sight = ViewingConditions {
+        let viewing = ViewingConditions {
             beyond: materials::Extrapolate::Hold,
             ..ViewingConditions::default()
         };
-        let surface = Surface::new(&material, None, &sight).expect("held where it is not known");
+        let surface = Surface::new(&material, None, &viewing).expect("held where it is not known");
         let most = surface.most_k();
         match material.kind {
             MaterialKind::Dielectric => assert!(most < 0.6, "{}: {most}", material.name),

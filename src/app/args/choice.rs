@@ -145,3 +145,52 @@ pub fn family() -> impl Fn(&str) -> Result<&'static Family, UnknownName> + Clone
 pub fn family_or_all() -> impl Fn(&str) -> Result<Choice<&'static Family>, UnknownName> + Clone {
     one_or_all("GPU family", FAMILIES, |family| family.name)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::lut::{Format, TableAxis};
+    use crate::spectra::{Gamut, Observer, Space};
+
+    #[track_caller]
+    fn check<T: Copy + PartialEq + fmt::Debug, const N: usize>(
+        all: [T; N],
+        name: fn(T) -> &'static str,
+    ) {
+        let parse = one_of("name", all, name);
+        for one in all {
+            assert_eq!(parse(name(one)), Ok(one));
+        }
+        assert!(parse("other").is_err());
+    }
+
+    #[test]
+    fn names_are_found_again() {
+        check(Space::ALL, Space::name);
+        check(Observer::ALL, Observer::name);
+        check(Gamut::ALL, Gamut::name);
+        check(TableAxis::ALL, TableAxis::name);
+        check(Format::ALL, Format::name);
+        check(Precision::ALL, Precision::name);
+    }
+
+    #[test]
+    fn all_and_nothing_mean_all() {
+        let parse = one_or_all("precision", Precision::ALL, Precision::name);
+        let chosen = |words: &[&str]| {
+            let words: Vec<_> = words.iter().map(|word| parse(word).unwrap()).collect();
+            Choice::chosen(&words, Precision::ALL, |one| one.name())
+        };
+        assert_eq!(chosen(&[]), Precision::ALL);
+        assert_eq!(chosen(&["f16", "all"]), Precision::ALL);
+        assert_eq!(chosen(&["f16", "f32", "f16"]), Precision::ALL);
+        assert_eq!(chosen(&["f16"]), [Precision::F16]);
+    }
+
+    #[test]
+    fn none_stands_alone() {
+        let none: [Choice<()>; 2] = [Choice::None, Choice::All];
+        assert_eq!(Choice::is_none(&none[..1], "materials"), Ok(true));
+        assert!(Choice::is_none(&none, "materials").is_err());
+    }
+}

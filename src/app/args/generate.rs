@@ -40,7 +40,7 @@ pub struct GenerateFlags {
     /// Degrees at which the corrected Schlick meets the exact law [default: that of cosine 0.15, 81.373]
     #[arg(long, value_name = "DEGREES", allow_negative_numbers = true)]
     pub matching_angle: Option<f64>,
-    /// Comments of generated files: short or full; what short ones leave out stands in manifest.json
+    /// Comments of generated files: short (what a function is, its largest error, its cost, its source, and warnings; the rest stands in manifest.json) or full
     #[arg(long, value_name = "FORM", default_value = "short", value_parser = one_of("form of comments", HeaderForm::ALL, HeaderForm::name))]
     pub header: HeaderForm,
     /// Write one function per material: the cheapest whose largest error over angles and channels is at most this

@@ -35,7 +35,7 @@ pub fn run(flags: &AuditFlags, progress: Progress) -> Result<Output, Error> {
     }
     check_limit(flags.limit)?;
     let request = request(flags)?;
-    let audit = audit(flags, request.sight.integration.space)?;
+    let audit = audit(flags, request.viewing.integration.space)?;
     let subjects = request.subjects()?.materials();
     let charts = chart::files(flags.pictures.folder());
     let all = flags.report.files().chain(&charts);
@@ -43,7 +43,7 @@ pub fn run(flags: &AuditFlags, progress: Progress) -> Result<Output, Error> {
     try_places_of_ours(&charts, flags.pictures.overwrite)?;
     let rows = subjects.iter().map(|one| audit.audit_row(one, progress));
     let rows: Vec<AuditRow> = rows.collect::<Result<_, _>>()?;
-    let command = String::from(flags.command_line(&request.sight));
+    let command = String::from(flags.command_line(&request.viewing));
     if let Some(file) = &flags.report.junit {
         let xml = audit_junit(&rows).map_err(not_drawn)?;
         write_file(file, xml.as_bytes())?;
@@ -104,7 +104,7 @@ fn request(flags: &AuditFlags) -> Result<Request, Error> {
     Ok(Request {
         materials,
         medium: flags.medium.source()?,
-        sight: flags.viewing.conditions()?,
+        viewing: flags.viewing.conditions()?,
         ..Request::default()
     })
 }

@@ -43,7 +43,7 @@ pub fn run(flags: &BakeFlags, progress: Progress, announce: Announce) -> Result<
     let wanted = WantedTables {
         materials: flags.materials.materials()?,
         medium: flags.medium.source()?,
-        sight: as_tables_are_seen(&viewing, flags.viewing.gamut.is_some()),
+        viewing: as_tables_are_seen(&viewing, flags.viewing.gamut.is_some()),
     };
     let (subjects, left_out) = table_materials(&wanted)?;
     check_names(&subjects, flags.atlas)?;
@@ -53,7 +53,7 @@ pub fn run(flags: &BakeFlags, progress: Progress, announce: Announce) -> Result<
         } else {
             material_words(&subjects)
         },
-        flags: viewing_flags(&subjects, &wanted.sight),
+        flags: viewing_flags(&subjects, &wanted.viewing),
         subjects,
         formats: formats(flags),
         shape,
@@ -176,16 +176,22 @@ fn check_names(subjects: &[TableMaterial], atlas: bool) -> Result<(), Error> {
         let why = "`--material none` leaves nothing to bake; name materials, or all";
         return Err(RequestFault::NoMaterial { why }.into());
     }
-    let what = if atlas && subjects.iter().any(|subject| subject.name == ATLAS) {
-        "a material is named `atlas`, as is the picture of all; choose another `name` in its file"
-    } else if subjects.iter().any(|subject| is_split_sum(&subject.name)) {
-        "a material is named as a table of `bake --dfg` is; choose another `name` in its file"
-    } else {
-        return Ok(());
+    let taken = |subject: &TableMaterial| match subject.name.as_str() {
+        ATLAS if atlas => Some("the picture of all"),
+        name if is_split_sum(name) => Some("a table of `bake --dfg`"),
+        _ => None,
     };
-    Err(Error::Usage {
-        what: what.to_owned(),
-    })
+    match subjects
+        .iter()
+        .find_map(|subject| Some((&subject.name, taken(subject)?)))
+    {
+        None => Ok(()),
+        Some((name, meaning)) => Err(RequestFault::NameTaken {
+            name: name.clone(),
+            meaning,
+        }
+        .into()),
+    }
 }
 
 /// A line for each row.

@@ -39,7 +39,7 @@ pub fn run(flags: &ChartFlags, progress: Progress) -> Result<Output, Error> {
     let mut remarks = found.left_out_lines();
     let subjects = found.materials();
     check_shown(flags, &subjects)?;
-    let space = request.sight.integration.space;
+    let space = request.viewing.integration.space;
     let command = flags.command_line();
     let data = chart_data(&subjects, space, None, command.clone().into(), progress);
     let set = set(flags, &data)?;

@@ -94,7 +94,7 @@ pub(super) fn subjects(flags: &FitFlags) -> Result<(Vec<MaterialInMedium>, Vec<S
     let request = Request {
         materials,
         medium: flags.medium.source()?,
-        sight: flags.viewing.conditions()?,
+        viewing: flags.viewing.conditions()?,
         ..Request::default()
     };
     let found = request.subjects()?;

@@ -53,7 +53,7 @@ fn tree(flags: &GenerateFlags, request: &Request, announce: Announce) -> Result<
         add_catalogue(&mut generated, request)?;
     }
     if generated.scope.whole {
-        let viewing = as_tables_are_seen(&request.sight, flags.viewing.gamut.is_some());
+        let viewing = as_tables_are_seen(&request.viewing, flags.viewing.gamut.is_some());
         add_tables(&mut generated, request.medium.clone(), viewing)?;
     }
     if flags.list {
@@ -111,7 +111,7 @@ fn within(budget: Budget, request: Request) -> Result<(Request, Vec<String>), Er
     let subjects = request.subjects()?.materials();
     let methods = request.resolved_methods()?;
     let methods = methods.unwrap_or_else(|| methods::ALL.to_vec());
-    let rows = choose_within(budget, methods, &subjects, &request.sight)?;
+    let rows = choose_within(budget, methods, &subjects, &request.viewing)?;
     let chosen = |row: &BudgetRow| (row.material.clone(), row.choice.chosen.method);
     let request = Request {
         chosen: rows.iter().map(chosen).collect(),
@@ -134,7 +134,7 @@ fn request(flags: &GenerateFlags) -> Result<Request, Error> {
         precision: flags.precision.precision(),
         force: flags.precision.force,
         chosen: BTreeMap::new(),
-        sight: flags.viewing.conditions()?,
+        viewing: flags.viewing.conditions()?,
         header: flags.header,
     })
 }

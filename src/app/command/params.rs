@@ -19,7 +19,7 @@ use super::{Output, report};
 struct Told {
     material: Material,
     medium: Option<Material>,
-    sight: ViewingConditions,
+    viewing: ViewingConditions,
     params: Params,
     held: Option<String>,
     seen: String,
@@ -33,39 +33,39 @@ struct Told {
 pub fn run(flags: &ParamsFlags, json: Option<&std::path::Path>) -> Result<Output, Error> {
     let material = load(&flags.name.source()?)?.material;
     let medium = medium(&flags.medium)?;
-    let sight = ViewingConditions {
+    let viewing = ViewingConditions {
         gamut: Gamut::Keep,
         ..flags.viewing.conditions()?
     };
-    let told = told(material, medium.map(|medium| medium.material), sight)?;
+    let told = told(material, medium.map(|medium| medium.material), viewing)?;
     report(text(&told), &object(&told), json)
 }
 
 fn told(
     material: Material,
     medium: Option<Material>,
-    sight: ViewingConditions,
+    viewing: ViewingConditions,
 ) -> Result<Told, Error> {
     // What is known at three wavelengths is compared with others at the same.
     let own = [Some(&material), medium.as_ref()]
         .into_iter()
         .flatten()
         .find_map(|m| m.rgb_nm);
-    let sight = ViewingConditions {
-        wavelengths_nm: sight.wavelengths_nm.or(own),
-        ..sight
+    let viewing = ViewingConditions {
+        wavelengths_nm: viewing.wavelengths_nm.or(own),
+        ..viewing
     };
-    let surface = Surface::new(&material, medium.as_ref(), &sight)?;
-    let colour_errors = colour_errors(&surface, &sight.integration);
+    let surface = Surface::new(&material, medium.as_ref(), &viewing)?;
+    let colour_errors = colour_errors(&surface, &viewing.integration);
     Ok(Told {
         held: surface.extrapolation(),
         seen: surface.seen.clone(),
         colour_errors,
-        others: others(&material, medium.as_ref(), &sight)?,
+        others: others(&material, medium.as_ref(), &viewing)?,
         params: params(surface, material.kind),
         material,
         medium,
-        sight,
+        viewing,
     })
 }
 
@@ -73,10 +73,10 @@ fn told(
 fn others(
     material: &Material,
     medium: Option<&Material>,
-    sight: &ViewingConditions,
+    viewing: &ViewingConditions,
 ) -> Result<Vec<(String, [f64; 3])>, Error> {
     let catalogue = materials::list()?;
-    let measured = materials::surfaces_of(&material.substance, &catalogue, medium, sight);
+    let measured = materials::surfaces_of(&material.substance, &catalogue, medium, viewing);
     let f0 = |(other, surface): (&Material, Surface)| {
         (other.name.clone(), surface.unpolarised(1.0).to_array())
     };
@@ -97,19 +97,19 @@ fn spread(told: &Told) -> ([f64; 3], [f64; 3]) {
 }
 
 fn object(told: &Told) -> Value {
-    let (params, integration) = (&told.params, &told.sight.integration);
+    let (params, integration) = (&told.params, &told.viewing.integration);
     let mut object = json!({
         "schema": SCHEMA, "name": told.material.name, "class": told.material.kind.name(),
         "medium": told.medium.as_ref().map_or("air", |medium| &medium.name),
         "space": integration.space.name(), "illuminant": integration.illuminant.name(),
         "observer": integration.observer.name(), "adaptation": integration.adaptation.name(),
-        "step_nm": integration.step.nm(), "gamut": told.sight.gamut.name(), "truth": told.seen, "extrapolated": told.held,
+        "step_nm": integration.step.nm(), "gamut": told.viewing.gamut.name(), "truth": told.seen, "extrapolated": told.held,
         "f0": params.f0, "f82": params.f82, "f82_tint": params.f82_tint, "f90": params.f90,
         "reflectivity": params.reflectivity, "edge_tint": params.edge_tint,
         "n": params.effective.channels.n, "k": params.effective.channels.k, "nk_by": params.effective.by.map(By::text),
         "average": params.average, "ior_d": ior_d(&told.material), "abbe": dispersion(&told.material),
     });
-    if told.sight.wavelengths_nm.is_some() {
+    if told.viewing.wavelengths_nm.is_some() {
         for key in ["space", "illuminant", "observer", "adaptation", "step_nm"] {
             object[key] = Value::Null;
         }

@@ -88,7 +88,7 @@ fn request(flags: &VerifyFlags) -> Result<Request, Error> {
         methods: flags.method.iter().map(ToString::to_string).collect(),
         materials: flags.materials.materials()?,
         medium: flags.medium.source()?,
-        sight: flags.viewing.conditions()?,
+        viewing: flags.viewing.conditions()?,
         prefix: flags.prefix.clone(),
         matching_angle: flags.matching_angle,
         precision: flags.precision.precision(),
@@ -123,7 +123,7 @@ fn reported(
         write_file(file, xml.as_bytes())?;
     }
     let full =
-        Report::new(flags.command_line(&request.sight), rows.to_vec()).with_device(devices(rows));
+        Report::new(flags.command_line(&request.viewing), rows.to_vec()).with_device(devices(rows));
     let mut output = report(verify_text(rows), &full, flags.report.report.json())?;
     output
         .remarks

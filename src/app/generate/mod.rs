@@ -308,7 +308,7 @@ impl<'r> Run<'r> {
             Some(request.precision).filter(|precision| *precision != Precision::default());
         let medium = subject.and_then(|subject| subject.medium.as_ref());
         let seen =
-            subject.map(|subject| emit::surface_flags(&request.sight, &subject.truth.surface));
+            subject.map(|subject| emit::surface_flags(&request.viewing, &subject.truth.surface));
         CommandLine::new("fresnel-gen")
             .list("target", [target.name])
             .list("method", methods.into_iter().flatten())

@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 
 use crate::app::error::Error;
+use crate::app::fault::RequestFault;
 use crate::app::request::{Materials, Request};
 use crate::emit::{self, Heading, PlaceInFile};
 
@@ -36,9 +37,7 @@ pub fn generate_single(request: &Request) -> Result<Vec<u8>, Error> {
     }
     let run = Run::new(&request)?;
     let [target] = run.targets.as_slice() else {
-        return Err(Error::Usage {
-            what: "-o takes one --target".to_owned(),
-        });
+        return Err(RequestFault::conflict("-o takes one --target").into());
     };
     let (mut pages, mut owners) = (Vec::new(), Owners::default());
     for (subject, _) in &run.subjects {
@@ -77,12 +76,9 @@ pub fn generate_single(request: &Request) -> Result<Vec<u8>, Error> {
         }
     }
     if target.pages.len() > 1 && pages.len() > 1 {
-        return Err(Error::Usage {
-            what: format!(
-                "-o takes one function for {}: name one --method",
-                target.name
-            ),
-        });
+        let target = target.name;
+        let why = format!("-o takes one function for {target}: name one --method");
+        return Err(RequestFault::conflict(why).into());
     }
     Ok(pages.join(&b"\n"[..]))
 }

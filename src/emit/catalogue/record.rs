@@ -46,8 +46,8 @@ struct RecordedBetter {
 
 /// The rows in air as they are recorded; nothing for other viewing conditions, or where a material's file or a fitted method has
 /// changed since.
-pub fn recorded_catalogue(sight: &ViewingConditions) -> Option<Vec<CatalogueRow>> {
-    if *sight != ViewingConditions::default() {
+pub fn recorded_catalogue(viewing: &ViewingConditions) -> Option<Vec<CatalogueRow>> {
+    if *viewing != ViewingConditions::default() {
         return None;
     }
     let record: Record = serde_json::from_str(RECORD).ok()?;

@@ -26,13 +26,13 @@ pub(super) fn index_chart(drawn: &DrawnMaterial) -> LineChart {
     let material = drawn.material;
     let three = material
         .rgb_nm
-        .map(|rgb| drawn.sight.wavelengths_nm.unwrap_or(rgb));
+        .map(|rgb| drawn.viewing.wavelengths_nm.unwrap_or(rgb));
     let range = match three {
         Some(rgb) => Some(window::around(rgb)),
         None => window::either(material),
     };
     let curve_series = |name: &str, curve: &DispersionCurve, look: Look| match three {
-        Some(rgb) => joined(name, curve, look, rgb, drawn.sight.beyond),
+        Some(rgb) => joined(name, curve, look, rgb, drawn.viewing.beyond),
         None => whole(name, curve, look, range),
     };
     let n = curve_series("n", &material.n, N);

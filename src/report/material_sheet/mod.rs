@@ -39,30 +39,30 @@ const LEFT: f64 = PICTURE.margin - PANEL.margin;
 struct DrawnMaterial<'a> {
     material: &'a Material,
     medium: Option<&'a Material>,
-    sight: ViewingConditions,
+    viewing: ViewingConditions,
     surface: Surface,
 }
 
 /// The picture of a material in air or in a medium, as SVG text; `command` is what makes it, for the foot of the sheet.
-/// Fails where the sight wants wavelengths at which the material or the medium was not measured.
+/// Fails where the viewing conditions want wavelengths at which the material or the medium was not measured.
 ///
 /// # Errors
 /// The material or the medium was not measured at a wavelength of these conditions.
 pub fn material_sheet(
     material: &Material,
     medium: Option<&Material>,
-    sight: &ViewingConditions,
+    viewing: &ViewingConditions,
     command: &str,
 ) -> Result<String, String> {
-    let sight = ViewingConditions {
+    let viewing = ViewingConditions {
         gamut: Gamut::Keep,
-        ..sight.clone()
+        ..viewing.clone()
     };
-    let surface = Surface::new(material, medium, &sight).map_err(|unseen| unseen.to_string())?;
+    let surface = Surface::new(material, medium, &viewing).map_err(|unseen| unseen.to_string())?;
     let drawn = DrawnMaterial {
         material,
         medium,
-        sight,
+        viewing,
         surface,
     };
     Ok(drawn.draw(command))
@@ -138,7 +138,7 @@ impl DrawnMaterial<'_> {
     fn three_nm(&self) -> Option<[f64; 3]> {
         let medium = self.medium.and_then(|medium| medium.rgb_nm);
         let known = self.material.rgb_nm.or(medium);
-        known.map(|rgb| self.sight.wavelengths_nm.unwrap_or(rgb))
+        known.map(|rgb| self.viewing.wavelengths_nm.unwrap_or(rgb))
     }
 }
 
@@ -180,8 +180,8 @@ mod tests {
         find(name).unwrap().unwrap()
     }
 
-    fn drawn(material: &Material, sight: &ViewingConditions) -> Result<String, String> {
-        material_sheet(material, None, sight, "fresnel-gen materials show it")
+    fn drawn(material: &Material, viewing: &ViewingConditions) -> Result<String, String> {
+        material_sheet(material, None, viewing, "fresnel-gen materials show it")
     }
 
     fn hold() -> ViewingConditions {
@@ -193,9 +193,9 @@ mod tests {
 
     /// A sheet that any viewer reads: no number is missing, no markup escapes, equal cards are equal text.
     #[track_caller]
-    fn check(material: &Material, sight: &ViewingConditions) -> String {
-        let svg = drawn(material, sight).unwrap();
-        assert_eq!(Ok(&svg), drawn(material, sight).as_ref());
+    fn check(material: &Material, viewing: &ViewingConditions) -> String {
+        let svg = drawn(material, viewing).unwrap();
+        assert_eq!(Ok(&svg), drawn(material, viewing).as_ref());
         assert!(!svg.contains("NaN"), "{svg}");
         for clip in ["index", "angle", "spectrum"] {
             assert_eq!(svg.matches(&format!("<clipPath id=\"{clip}\">")).count(), 1);

@@ -49,7 +49,7 @@ pub(super) fn swatch_panel(drawn: &DrawnMaterial, frame: PanelFrame) -> (Layout,
 fn space(drawn: &DrawnMaterial) -> Space {
     match drawn.surface.channels() {
         Some(_) => Space::Srgb,
-        None => drawn.sight.integration.space,
+        None => drawn.viewing.integration.space,
     }
 }
 

@@ -162,10 +162,3 @@ fn an_adapter_that_is_not_there() {
         assert!(get.contains("mesa-vulkan-drivers"), "{get}");
     }
 }
-
-#[test]
-fn every_backend_has_a_name() {
-    for backend in Backend::ALL {
-        assert_eq!(Backend::find(backend.name()), Some(backend));
-    }
-}

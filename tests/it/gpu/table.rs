@@ -28,7 +28,7 @@ fn committed() -> Vec<TableMaterial> {
     let wanted = WantedTables {
         materials: Materials::Default,
         medium: None,
-        sight: ViewingConditions::default(),
+        viewing: ViewingConditions::default(),
     };
     table_materials(&wanted).unwrap().0
 }
