@@ -75,7 +75,6 @@ mod tests {
             (CIE_2015.range(), CIE_2015.points().len()),
             ((390.0, 830.0), 441)
         );
-        for observer in Observer::ALL {}
     }
 
     #[test]
