@@ -1,4 +1,4 @@
-//! The word of every compiler of a language on a program around a user's text.
+//! The verdict of every compiler of a language on a program around a user's text.
 
 use serde::{Deserialize, Serialize};
 

@@ -1,4 +1,4 @@
-//! The compilers of a user's text, asked in a process of their own: one that does not end, ends with it.
+//! The compilers of a user's text, run by a worker: ending the worker ends a compiler that hangs.
 
 use core::cell::RefCell;
 use core::time::Duration;

@@ -1,4 +1,5 @@
-//! What a user's function costs, by the compilers of GPUs: the slope of a chain of it, less the empty function's, as ours.
+//! What a user's function costs by the compilers of GPUs, measured as for our functions: what further evaluations in a chain
+//! add, less what they add for the empty function.
 
 use core::time::Duration;
 

@@ -6,7 +6,7 @@ use serde::Serialize;
 
 use crate::stability::Failure;
 
-/// A cosine that rendering brings about, by rounding if not otherwise.
+/// A cosine that occurs in rendering, if only by rounding.
 #[derive(Clone, Copy, Debug)]
 pub struct Edge {
     /// In reports.

@@ -1,8 +1,8 @@
-//! Audit: a user's own function held against the truth about a material, and against our methods.
+//! Audit: a user's own function compared with the reference reflectance of a material, and with our methods.
 //!
-//! The text is read for heads of functions only (`scan`), and for loops (`loops`); all else is left to compilers. Ours goes around
-//! theirs (`program`), runs in a process of its own (`runner`, `serve`), so that one that never ends, or takes a driver
-//! down, is a line of the report. Compilers run in such a process too (`compile`).
+//! This room reads only heads of functions (`scan`) and loops (`loops`) of the text; compilers read the rest. A program of ours
+//! goes around the user's function (`program`). It runs in a worker (`runner`, `serve`), so that a function that hangs or
+//! crashes a driver is a line of the report. Compilers run in workers too (`compile`).
 
 mod accept;
 mod bind;
@@ -142,7 +142,7 @@ impl Audit {
         Ok(measured(&runner, subject, self.space, most(bound)))
     }
 
-    /// The word of the compiler that ran it, and all words with places in the user's file.
+    /// Adds the verdict of the compiler that ran it, and puts places in the user's file before all messages.
     fn accept(&self, verdicts: &mut Vec<(String, Verdict)>, ran: &Result<Ran, Trouble>) {
         let own = match self.language {
             Language::Wgsl => "naga",

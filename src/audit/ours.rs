@@ -1,4 +1,4 @@
-//! Our methods for the same material: how wrong in single precision, and how dear.
+//! Our methods for the same material: their errors in single precision, and their costs.
 
 use crate::cost::{
     CostAndError, CostFigures, CostedFunction, Family, FamilyAnswers, ask_compilers, cost_rows,
@@ -36,9 +36,9 @@ impl Ours {
     }
 }
 
-/// The methods that a shader may take in place of a user's function for a material: in their library form where it takes
-/// arguments, else specialised. Those that read a texture cost another kind of work, and those for one
-/// polarisation tell another thing.
+/// The methods that can replace a user's function for a material: in their library form where it takes arguments, else
+/// specialised. Methods that read a texture are left out, because counts do not include the fetch; so are those for one
+/// polarisation, because they compute something else.
 ///
 /// # Errors
 /// No process can be started.

@@ -1,8 +1,8 @@
-//! Words of compilers with the place in the user's file before them.
+//! Messages of compilers, with the place in the user's file before them.
 
 use super::program::own_names;
 
-/// The words of a refusal, the place of the first fault before them: `FILE:LINE:COL: what`.
+/// A compiler's message with the place of its first fault before it: `FILE:LINE:COL: what`.
 pub fn placed(file: &str, lines: usize, words: &str) -> String {
     let words = own_names(words);
     let first = words.lines().enumerate().find_map(|(i, line)| {

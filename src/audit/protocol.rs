@@ -32,7 +32,7 @@ pub enum AuditResponse {
     Ready(String),
     /// Something is missing here.
     Absent(String),
-    /// A compiler refuses it, or the device failed: who, and in which words.
+    /// A compiler refused it, or the device failed: its name, and its message.
     Refused(String, String),
     /// The results.
     Ran(Vec<[u32; 3]>),

@@ -1,4 +1,4 @@
-//! A worker: compiles the program that it is handed, and runs it. What a user's text does to a driver ends with it.
+//! A worker: compiles the program that it is handed, and runs it. A driver that crashes ends only this process.
 
 use std::io;
 

@@ -138,7 +138,7 @@ fn bake_picture(
     })
 }
 
-/// Axis, size and formats: as asked for, or the smallest that is good enough in those of its depth.
+/// Axis, size and formats: those asked for, or the smallest table within the error, in the formats of its depth.
 fn chosen(
     request: &BakeRequest,
     subjects: &[TableMaterial],

@@ -1,4 +1,4 @@
-//! One picture in all its formats: its tables in every depth, how wrong each is, and what its files say of themselves.
+//! One picture in all its formats: its tables in every depth, their errors, and what the heads of its files say.
 
 use crate::emit::{CommandLine, MARK, comment_lines, quoted};
 use crate::fit::ModelError;

@@ -1,4 +1,4 @@
-//! The rows of the report: what a file is, how to look it up, how wrong that is.
+//! The rows of the report: what a file is, how to look it up, and the error of the lookup.
 
 use serde::Serialize;
 

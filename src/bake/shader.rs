@@ -1,4 +1,4 @@
-//! The functions that read a picture in a shader: a file a language.
+//! The functions that read a picture in a shader: one file for each language.
 
 use crate::emit;
 use crate::lut::{TABLES, lookup};

@@ -43,7 +43,7 @@ impl SplitSumRequest {
     }
 }
 
-/// Bakes. `progress` hears how many rows of texels, and of places between them, are done, of how many.
+/// Bakes. `progress` gets the number of finished rows (of texels and of places between them), and of all rows.
 ///
 /// # Errors
 /// A method that is not fitted, or of more coefficients than a texture has channels; a size that no texture has.

@@ -14,7 +14,7 @@ pub const DEFAULT_AXIS: TableAxis = TableAxis::Rational;
 /// The files: what most programs read, what engines without float textures read, and what GPUs take.
 pub const DEFAULT_FORMATS: [Format; 3] = [Format::ExrHalf, Format::Png16, Format::Ktx2];
 
-/// How materials are seen: colours outside the working space stay in a table, unless another policy was asked for.
+/// The viewing conditions: a table keeps colours outside the working space, unless another policy was asked for.
 pub fn as_tables_are_seen(viewing: &ViewingConditions, gamut_was_said: bool) -> ViewingConditions {
     let mut viewing = viewing.clone();
     // Where a channel is one wavelength there is no space to be outside of.

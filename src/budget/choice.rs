@@ -1,4 +1,4 @@
-//! The cheapest function within a budget, and what the cheaper ones would cost in error. Pure.
+//! The cheapest function within a budget, and the errors of cheaper ones. Pure.
 
 use core::cmp::Ordering;
 

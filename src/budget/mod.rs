@@ -1,4 +1,4 @@
-//! The budget: the one cheapest function of each material that errs no more than it may, on the recorded costs of a family of GPUs.
+//! The budget: for each material the cheapest function whose error is within a limit, by the recorded costs of a family of GPUs.
 //! Pure: nothing is measured here.
 
 mod choice;

@@ -1,11 +1,11 @@
-//! How far published measurements of a material lie apart: what no function of one of them can be better than.
+//! How far published measurements of a material differ: fitting one of them better than this gains nothing.
 
 use crate::fit::FitCurve;
 use crate::materials::{self, Material, Surface, ViewingConditions};
 use crate::methods::Light;
 use crate::reference::{MaterialInMedium, seen};
 
-/// How far they lie apart.
+/// How far measurements differ.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Spread {
     /// The largest difference of two at one angle in one channel.

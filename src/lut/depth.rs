@@ -19,7 +19,7 @@ pub enum Depth {
 }
 
 impl Depth {
-    /// All of them, the smallest first; of equal size what more devices can filter first.
+    /// All depths, the smallest first; of equal sizes, the one that more devices can filter comes first.
     pub const ALL: [Depth; 4] = [Depth::Unorm8, Depth::Half, Depth::Unorm16, Depth::Float];
 
     /// The name in reports.

@@ -1,4 +1,4 @@
-//! Lookup tables: reflectance by cos θ as a texture, and how wrong the filtered lookup is.
+//! Lookup tables: reflectance by cos θ as a texture, and the error of the filtered lookup.
 //!
 //! The way of a table, one file a step: [`TableAxis`] says where a cosine lies; [`Table`] is the truth at the centres of
 //! texels; [`Stored`] is it in a [`Depth`]; [`Stored::lookup`] is what a sampler gives back, and [`table_error`] holds

@@ -27,7 +27,7 @@ impl TableKind {
     }
 }
 
-/// How many sizes below the first that is good enough are tried as well: the error falls with the size but for ripples.
+/// The error mostly falls as the size grows, but ripples. So this many sizes below the first good one are tried too.
 const BELOW: usize = 8;
 
 /// The choice with the fewest bytes of which the filtered lookup, with weights of 1/256, errs by at most `budget` for
@@ -128,7 +128,7 @@ impl TableFamily<'_> {
         error <= budget
     }
 
-    /// The largest error over all truths, which share a scale; once it is past the budget, of those looked at.
+    /// The largest error over all truths, which share a scale. It stops at the first error above the budget.
     fn error(&self, texels: usize, budget: f64) -> f64 {
         let made = |truth: &&ReferenceCurve| Table::new("", truth, self.axis, texels).ok();
         let Some(tables) = self.truths.iter().map(made).collect::<Option<Vec<Table>>>() else {

@@ -1,4 +1,4 @@
-//! Fits for people and for scripts: coefficients, and how near they come.
+//! Fits for people and for scripts: coefficients, and their errors.
 
 use serde::{Serialize, Serializer};
 

@@ -131,7 +131,7 @@ pub fn targets_table() -> String {
     )
 }
 
-/// Half precision: what each method promises, and the largest error over the catalogue's specialised functions.
+/// Half precision: what each method promises, and the largest error of its specialised functions over the catalogue.
 pub fn half_table() -> String {
     let bounds = half_bounds();
     let worst = |method: &Method| {

@@ -1,4 +1,4 @@
-//! Reports: what people look at.
+//! Reports: views of typed rows, for people and for scripts. What computes the rows stands in other rooms.
 
 #[cfg(all(feature = "cli", feature = "gpu"))]
 pub mod audit;
