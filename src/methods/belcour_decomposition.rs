@@ -99,16 +99,7 @@ pub static METHOD: Method = Method {
         Over::Metals,
         "for what is nearly matched, where weights are large, off by .008",
     )
-    .materials_within(
-        0.0036,
-        &[
-            ("air", 0.0086),
-            ("hydrogen", 0.0086),
-            ("germanium", 0.004),
-            ("molybdenum", 0.0038),
-            ("zinc_querry", 0.0054),
-        ],
-    ),
+    .materials_within(0.0036),
     build,
     plain: None,
     specialised: None,

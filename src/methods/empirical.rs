@@ -9,7 +9,7 @@
 use crate::cite::Citation;
 use crate::ir::Expr;
 
-use super::half::{HALF_AIM, InHalf};
+use super::half::InHalf;
 use super::input::{
     Input, InputSource, Inputs, POWERS, POWERS_AND_BEYOND, SHARES, SHARES_AND_BEYOND,
 };
@@ -92,8 +92,7 @@ pub static METHOD: Method = Method {
         by_class: &[],
     },
     contract: Contract::Kept,
-    half: InHalf::within(0.0017)
-        .materials_within(HALF_AIM, &[("air", 0.0056), ("hydrogen", 0.0061)]),
+    half: InHalf::within(0.0017),
     build,
     plain: None,
     specialised: None,

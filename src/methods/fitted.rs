@@ -12,7 +12,7 @@ use crate::cite::Citation;
 use crate::ir::Expr;
 
 use super::by_class::ByClass;
-use super::half::{HALF_AIM, InHalf};
+use super::half::InHalf;
 use super::input::{Input, Inputs};
 use super::method::{Claim, Claims, Class, Contract, Forms, Light, Method, Over};
 use super::shape::{Factor, Shape};
@@ -68,14 +68,7 @@ pub static METHOD: Method = Method {
         ],
     },
     contract: Contract::Kept,
-    half: InHalf::within_over(0.0013, Over::Metals, FLOOR).materials_within(
-        HALF_AIM,
-        &[
-            ("zinc_querry", 0.00205),
-            ("air", 0.0072),
-            ("hydrogen", 0.0072),
-        ],
-    ),
+    half: InHalf::within_over(0.0013, Over::Metals, FLOOR),
     build,
     plain: None,
     specialised: None,

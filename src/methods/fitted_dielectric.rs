@@ -10,7 +10,7 @@ use crate::ir::Expr;
 
 use super::by_class::ByClass;
 use super::fitted::{FLOOR, STIEFEL_1959};
-use super::half::{HALF_AIM, InHalf};
+use super::half::InHalf;
 use super::input::{Input, Inputs};
 use super::method::{Claim, Claims, Class, Contract, Forms, Light, Method, Over};
 use super::shape::{Factor, Shape};
@@ -48,8 +48,7 @@ pub static METHOD: Method = Method {
         )],
     },
     contract: Contract::Kept,
-    half: InHalf::within_over(0.0015, Over::Dielectrics, FLOOR)
-        .materials_within(HALF_AIM, &[("air", 0.0045), ("hydrogen", 0.005)]),
+    half: InHalf::within_over(0.0015, Over::Dielectrics, FLOOR),
     build,
     plain: None,
     specialised: None,

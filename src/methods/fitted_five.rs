@@ -62,10 +62,7 @@ pub static METHOD: Method = Method {
         ],
     },
     contract: Contract::Kept,
-    half: InHalf::within_over(0.0028, Over::Metals, FLOOR).materials_within(
-        0.0026,
-        &[("zinc_querry", 0.0136), ("air", 0.058), ("hydrogen", 0.103)],
-    ),
+    half: InHalf::within_over(0.0028, Over::Metals, FLOOR).materials_within(0.0026),
     build,
     plain: None,
     specialised: None,

@@ -61,17 +61,7 @@ pub static METHOD: Method = Method {
         ],
     },
     contract: Contract::Kept,
-    half: InHalf::within_over(0.0025, Over::Metals, FLOOR).materials_within(
-        0.003,
-        &[
-            ("zinc_querry", 0.0058),
-            ("air", 0.0145),
-            ("hydrogen", 0.0155),
-            ("silver", 0.0041),
-            ("silver_babar", 0.0034),
-            ("silver_mcpeak", 0.004),
-        ],
-    ),
+    half: InHalf::within_over(0.0025, Over::Metals, FLOOR).materials_within(0.003),
     build,
     plain: None,
     specialised: None,

@@ -31,11 +31,9 @@ pub struct HalfClaim {
     pub over: Over,
     /// What is promised less of other media; may be empty.
     pub beyond: &'static str,
-    /// The most by which functions of materials differ so.
+    /// The most by which functions of materials differ so, but for those of `data/records/half.csv`: a power of a rounded 1 - c is as
+    /// many roundings off as its exponent says, and large coefficients cancel.
     pub of_materials: f64,
-    /// Materials whose functions differ more, by name, and by how much: a power of a rounded 1 - c is as many roundings off as its
-    /// exponent says, and large coefficients cancel.
-    pub beyond_of_materials: &'static [(&'static str, f64)],
     /// The largest values of arguments, by name, where half precision overflows beyond and single precision does not.
     pub ends: &'static [(&'static str, f64)],
 }
@@ -58,21 +56,15 @@ impl InHalf {
             over,
             beyond,
             of_materials: HALF_AIM,
-            beyond_of_materials: &[],
             ends: &[],
         })
     }
 
-    /// The same where functions of materials differ by at most this, but for these materials.
-    pub const fn materials_within(
-        self,
-        of_materials: f64,
-        beyond_of_materials: &'static [(&'static str, f64)],
-    ) -> InHalf {
+    /// The same where functions of materials differ by at most this.
+    pub const fn materials_within(self, of_materials: f64) -> InHalf {
         match self {
             InHalf::Kept(claim) => InHalf::Kept(HalfClaim {
                 of_materials,
-                beyond_of_materials,
                 ..claim
             }),
             other => other,

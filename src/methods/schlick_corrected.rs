@@ -12,7 +12,7 @@
 use crate::ir::Expr;
 use crate::optics;
 
-use super::half::{HALF_AIM, InHalf};
+use super::half::InHalf;
 use super::input::{Input, InputSource, Inputs};
 use super::known::KnownSurface;
 use super::method::{Claim, Claims, Class, Contract, Forms, Light, Method, Over};
@@ -81,9 +81,7 @@ pub static METHOD: Method = Method {
         by_class: &[],
     },
     contract: Contract::Kept,
-    half: InHalf::within(0.0024)
-        .ending(&[("n", 180.0), ("k", 180.0)])
-        .materials_within(HALF_AIM, &[("zinc_querry", 0.0036)]),
+    half: InHalf::within(0.0024).ending(&[("n", 180.0), ("k", 180.0)]),
     build,
     plain: None,
     specialised: None,

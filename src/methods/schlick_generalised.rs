@@ -8,7 +8,7 @@
 use crate::cite::Citation;
 use crate::ir::Expr;
 
-use super::half::{HALF_AIM, InHalf};
+use super::half::InHalf;
 use super::input::{Input, InputSource, Inputs, POWERS, POWERS_AND_BEYOND};
 use super::method::{Claim, Claims, Class, Contract, Forms, Light, Method, Over};
 
@@ -60,7 +60,7 @@ pub static METHOD: Method = Method {
         by_class: &[],
     },
     contract: Contract::Kept,
-    half: InHalf::within(0.0017).materials_within(HALF_AIM, &[("ice", 0.0021)]),
+    half: InHalf::within(0.0017),
     build,
     plain: None,
     specialised: None,

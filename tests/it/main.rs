@@ -41,6 +41,7 @@ mod readme;
 mod records;
 mod reproduce;
 mod reread;
+mod samples;
 mod shapes;
 mod snapshots;
 mod specialise;

@@ -1,6 +1,7 @@
 //! The tables, examples and pictures of README and of `docs/` are what the program says today; `BLESS=1` rewrites them. Their
 //! Rust is compiled by rustdoc, and their links lead somewhere.
 
+use std::collections::BTreeSet;
 use std::fs;
 use std::path::Path;
 
@@ -86,6 +87,67 @@ fn tables_are_what_the_program_says() {
             .fold(page(path), |text, (name, new)| replaced(&text, name, &new));
         let whole = Path::new(env!("CARGO_MANIFEST_DIR")).join(path);
         super::bless::check(&whole, text.as_bytes());
+    }
+}
+
+/// Counts in the pages' own sentences: a page, the words before and after, and the count.
+fn counts() -> [(&'static str, &'static str, &'static str, usize); 5] {
+    let all = materials::names();
+    let found = all.iter().filter_map(|name| materials::find(name)?.ok());
+    let spectra = found.filter(|material| material.rgb_nm.is_none()).count();
+    let catalogue: serde_json::Value =
+        serde_json::from_str(&page("data/records/catalogue.json")).expect("it is JSON");
+    let rows = catalogue["rows"].as_array().map_or(0, Vec::len);
+    let sample = super::samples::shapes();
+    let substances = sample.iter().map(|subject| &subject.material.substance);
+    let substances = substances.collect::<BTreeSet<_>>().len();
+    [
+        (
+            "docs/materials.md",
+            "\n",
+            " measured spectra come along",
+            spectra,
+        ),
+        (
+            "docs/materials.md",
+            "The catalogue has ",
+            " spectra: ",
+            spectra,
+        ),
+        (
+            "docs/shaders.md",
+            "fitted coefficients of ",
+            " materials as",
+            rows,
+        ),
+        (
+            "docs/methods.md",
+            "What choosing a form is worth, on ",
+            " measurements of ",
+            sample.len(),
+        ),
+        (
+            "docs/methods.md",
+            " measurements of ",
+            " metals and semiconductors (",
+            substances,
+        ),
+    ]
+}
+
+#[test]
+fn counts_are_those_of_the_catalogue() {
+    for (path, before, after, count) in counts() {
+        let text = page(path);
+        let counted = text.match_indices(before).find_map(|(place, before)| {
+            let (head, rest) = text.split_at(place + before.len());
+            let rest = rest.trim_start_matches(|c: char| c.is_ascii_digit());
+            rest.starts_with(after)
+                .then(|| format!("{head}{count}{rest}"))
+        });
+        let counted = counted.unwrap_or_else(|| panic!("{path}: no number before `{after}`"));
+        let whole = Path::new(env!("CARGO_MANIFEST_DIR")).join(path);
+        super::bless::check(&whole, counted.as_bytes());
     }
 }
 

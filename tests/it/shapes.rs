@@ -1,5 +1,5 @@
 //! What the shapes of fitted methods are worth: with one vote a substance, met exactly at 90 degrees, and chosen without the
-//! substance that they are judged by. Errors are on paper, over the 75 measurements that promises are about.
+//! substance that they are judged by. Errors are on paper, over the measurements that `data/records/samples.csv` names.
 
 use std::collections::BTreeSet;
 use std::path::Path;
@@ -8,14 +8,8 @@ use fresnel_gen::fit::{
     Candidate, ErrorQuantiles, Exact, FitCurve, FitObjective, FitProblem, Tried, TriedShapes,
     candidates, search,
 };
-use fresnel_gen::reference::MaterialInMedium;
 
-use super::fits::{catalogue, is_promised};
-
-fn promised() -> Vec<&'static MaterialInMedium> {
-    let own = catalogue().iter().filter(|subject| is_promised(subject));
-    own.collect()
-}
+use super::samples;
 
 fn tried(shapes: &[Candidate], curves: &[FitCurve], aim: FitObjective) -> Vec<Tried> {
     let tasks: Vec<FitProblem> = curves
@@ -67,12 +61,11 @@ fn row(what: &str, shape: &str, figures: &ErrorQuantiles) -> [String; 7] {
 
 #[test]
 fn what_shapes_are_worth_is_recorded() {
-    let subjects = promised();
+    let subjects = samples::shapes();
     let substances: Vec<String> = subjects
         .iter()
         .map(|subject| subject.material.substance.clone())
         .collect();
-    assert_eq!(subjects.len(), 75);
     let count = substances.iter().collect::<BTreeSet<_>>().len();
     println!("{count} substances");
     let curves: Vec<FitCurve> = subjects
