@@ -7,7 +7,9 @@ use clap::Args;
 #[cfg(feature = "gpu")]
 use crate::audit::Language;
 use crate::cost::Family;
+#[cfg(feature = "gpu")]
 use crate::emit::{CommandLine, file_name};
+#[cfg(feature = "gpu")]
 use crate::materials::ViewingConditions;
 use crate::names::UnknownName;
 

@@ -2,6 +2,7 @@
 
 use clap::Args;
 
+#[cfg(feature = "gpu")]
 use crate::emit::CommandLine;
 #[cfg(feature = "gpu")]
 use crate::gpu::Backend;

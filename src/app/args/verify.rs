@@ -4,15 +4,20 @@ use std::path::PathBuf;
 
 use clap::Args;
 
+#[cfg(feature = "gpu")]
 use crate::emit::CommandLine;
 #[cfg(feature = "gpu")]
 use crate::gpu::Backend;
+#[cfg(feature = "gpu")]
 use crate::materials::ViewingConditions;
 use crate::methods::Method;
+#[cfg(feature = "gpu")]
 use crate::num::Precision;
 use crate::targets::Target;
 
-use super::choice::{Choice, method_or_all, one_of, target_or_all};
+#[cfg(feature = "gpu")]
+use super::choice::one_of;
+use super::choice::{Choice, method_or_all, target_or_all};
 use super::{CheckReportFlags, GamutFlags, MaterialFlags, MediumFlags, PrecisionFlags};
 
 /// The flags of `verify`.
