@@ -10,6 +10,7 @@ mod coefficients;
 mod colours;
 mod derive;
 mod exact;
+mod material_params;
 mod measured;
 mod method_errors;
 mod minimax;
@@ -32,6 +33,9 @@ pub use coefficients::Coefficients;
 pub use colours::{Follows, LARGEST_SOLVED_F0};
 pub use derive::{fitted_for, fitted_values, inputs_in, inputs_of, known, values, values_of};
 pub use exact::Exact;
+pub use material_params::{
+    ColourErrorRow, ColourErrors, MaterialParams, MeasuredSpread, OtherMeasurement, material_params,
+};
 pub use measured::Measured;
 pub use method_errors::{InputChoice, MethodErrors};
 pub use minimax::{Minimax, minimax};
@@ -39,7 +43,7 @@ pub use model_error::{
     ModelError, error_from, error_of, model_error, rounded_up, single_error, thesis_errors,
 };
 pub use over::model_error_over;
-pub use params::{BOUNCES, Params, abbe, colour_errors, ior_d, params};
+pub use params::{Params, colour_errors};
 pub use perceived::{Perceived, perceived};
 pub use problem::{Fit, FitCurve, FitObjective, FitProblem, basis};
 pub use search::{Tried, search};

@@ -1,15 +1,17 @@
 //! What an engine wants to know of a material: colours, index per channel, averages, and how well each is known.
 //! Colours are unclipped: saturated gold has F0 above 1 in linear sRGB.
 
+use serde::Serialize;
+
 use crate::materials::{Channels, Extrapolate, Index, Material, MaterialKind, Surface};
 use crate::methods::{Input, KnownSurface, Light};
 use crate::optics;
 use crate::spectra::{Illuminant, Integration, colour_error};
 
-use crate::reference::{Derivation, Effective, ReferenceCurve, effective};
+use crate::reference::{By, Derivation, ReferenceCurve, effective};
 
 /// The parameters of a material in a medium, three channels each, as seen.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Params {
     /// Reflectance at 0 degrees.
     pub f0: [f64; 3],
@@ -19,18 +21,22 @@ pub struct Params {
     pub f82_tint: [f64; 3],
     /// Reflectance at 90 degrees.
     pub f90: [f64; 3],
-    /// n and k per channel, and how they were found.
-    pub effective: Effective,
     /// Gulbrandsen's reflectivity r of that index: F0 where the index has it, and never above 1.
     pub reflectivity: [f64; 3],
     /// Gulbrandsen's edge tint g of that index.
     pub edge_tint: [f64; 3],
+    /// The effective n of each channel.
+    pub n: [f64; 3],
+    /// The effective k of each channel.
+    pub k: [f64; 3],
+    /// How they were found.
+    pub nk_by: [&'static str; 3],
     /// Hemispherical reflectance: 2 ∫ R cos θ d(cos θ).
     pub average: [f64; 3],
 }
 
 /// The parameters of a surface. Its gamut should keep colours as they are.
-pub fn params(surface: Surface, kind: MaterialKind) -> Params {
+pub(super) fn params(surface: Surface, kind: MaterialKind) -> Params {
     let truth = ReferenceCurve::new(surface, Light::Unpolarised);
     let effective = effective(&truth, kind);
     let matching_cos = Derivation::default().matching_cos;
@@ -42,9 +48,11 @@ pub fn params(surface: Surface, kind: MaterialKind) -> Params {
         f82: known.f82,
         f82_tint: value(Input::TINT),
         f90: truth.at(0.0),
-        effective,
         reflectivity: value(Input::REFLECTIVITY),
         edge_tint: value(Input::EDGE_TINT),
+        n,
+        k,
+        nk_by: effective.by.map(By::text),
         average: truth.average(),
     }
 }
@@ -70,7 +78,7 @@ pub fn colour_errors(
 }
 
 /// Reflections one after the other, for which the colour error is told.
-pub const BOUNCES: [u32; 3] = [1, 2, 3];
+pub(super) const BOUNCES: [u32; 3] = [1, 2, 3];
 
 /// Helium's d line and hydrogen's F and C in nanometres, as glass catalogues have them (ISO 7944).
 const D_NM: f64 = 587.561_8;
@@ -78,12 +86,12 @@ const F_NM: f64 = 486.132_7;
 const C_NM: f64 = 656.272_5;
 
 /// n at the d line, where it is known.
-pub fn ior_d(material: &Material) -> Option<f64> {
+pub(super) fn ior_d(material: &Material) -> Option<f64> {
     n_at(material, D_NM)
 }
 
 /// Abbe's number (n_d - 1)/(n_F - n_C), where all three are known and differ.
-pub fn abbe(material: &Material) -> Option<f64> {
+pub(super) fn abbe(material: &Material) -> Option<f64> {
     let dispersion = n_at(material, F_NM)? - n_at(material, C_NM)?;
     let number = (n_at(material, D_NM)? - 1.0) / dispersion;
     number.is_finite().then_some(number)

@@ -14,6 +14,7 @@ mod html;
 pub mod junit;
 pub mod markdown;
 pub mod material_sheet;
+pub mod params;
 pub mod plot;
 #[cfg(feature = "pictures")]
 pub mod png;
