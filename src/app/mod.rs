@@ -26,6 +26,7 @@ pub mod request;
 pub mod scope;
 pub mod source;
 #[cfg(feature = "cli")]
+pub mod subjects;
 pub mod tables;
 #[cfg(all(feature = "cli", feature = "gpu"))]
 pub mod time_request;

@@ -14,7 +14,8 @@ use crate::report::Report;
 use super::artifact::Artifact;
 use super::error::Error;
 use super::generate::Generated;
-use super::request::{Loaded, Materials, Source, check_transparent, load, same_name};
+use super::request::{Loaded, Materials, Source, check_transparent, load};
+use super::subjects::same_name;
 
 /// The tables that are wanted, of which materials.
 #[derive(Clone, Debug)]

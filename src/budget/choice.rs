@@ -22,7 +22,7 @@ pub struct CheapestFunction {
     pub chosen: BudgetCandidate,
     /// The most accurate of those that cost less.
     pub cheaper: Option<BudgetCandidate>,
-    /// A function within the budget that reads a texture, and costs less without its texture fetch, which instruction counts do not include.
+    /// A function within the budget that reads a texture and costs less, not counting the texture fetch.
     pub textured: Option<BudgetCandidate>,
 }
 

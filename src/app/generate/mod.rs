@@ -18,8 +18,9 @@ use crate::targets::{Finish, Target};
 use super::artifact::{Artifact, sha256};
 use super::error::Error;
 use super::manifest::{Input, Provenance};
-use super::request::{Materials, Request, Subjects};
+use super::request::{Materials, Request};
 use super::scope::Scope;
+use super::subjects::Subjects;
 use owners::Owners;
 
 pub use single::generate_single;
