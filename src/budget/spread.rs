@@ -3,7 +3,7 @@
 use crate::fit::FitCurve;
 use crate::materials::{self, Material, Surface, ViewingConditions};
 use crate::methods::Light;
-use crate::reference::{MaterialInMedium, seen};
+use crate::reference::{MaterialInMedium, reference_reflectance};
 
 /// How far measurements differ.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -29,8 +29,9 @@ pub fn spread(
     if medium.is_some_and(|medium| medium.substance == own.substance) {
         return None;
     }
-    let curve =
-        |(_, surface): (_, Surface)| FitCurve::new(|c| seen(&surface, Light::Unpolarised, c)).seen;
+    let curve = |(_, surface): (_, Surface)| {
+        FitCurve::new(|c| reference_reflectance(&surface, Light::Unpolarised, c)).seen
+    };
     let pages = materials::surfaces_of(&own.substance, catalogue, medium, viewing);
     let curves: Vec<Vec<[f64; 3]>> = pages.map(curve).collect();
     (curves.len() > 1).then(|| Spread {

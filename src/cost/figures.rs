@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 /// What a compiler says of a shader, under its own names.
 pub type Statistics = BTreeMap<String, f64>;
 
-/// Under which names a compiler tells what is reported.
+/// The names of the reported quantities among a compiler's statistics.
 #[derive(Debug)]
 pub struct StatisticNames {
     /// Instructions.
@@ -63,38 +63,45 @@ impl CostFigures {
     }
 }
 
-/// A compiler's words in our columns.
-fn counts(columns: &StatisticNames, told: &Statistics) -> Option<Counts> {
-    let of = |name: Option<&str>| name.and_then(|name| told.get(name).copied());
+/// The counts among a compiler's statistics; none without a count of instructions.
+fn counts(names: &StatisticNames, statistics: &Statistics) -> Option<Counts> {
+    let value = |name: Option<&str>| name.and_then(|name| statistics.get(name).copied());
     Some(Counts {
-        instructions: *told.get(columns.instructions)?,
-        latency: of(columns.latency),
-        inverse_throughput: busiest(columns.inverse_throughput.iter().map(|unit| of(Some(unit)))),
+        instructions: *statistics.get(names.instructions)?,
+        latency: value(names.latency),
+        inverse_throughput: busiest(
+            names
+                .inverse_throughput
+                .iter()
+                .map(|unit| value(Some(unit))),
+        ),
     })
 }
 
-/// The figures of a function: what the shorter and the longer chain of it are, of these lengths, and of the empty
-/// function.
+/// The figures of a function, from the statistics of its shorter and its longer chain, and of both chains of the empty
+/// function. `lengths`: the evaluations in each chain.
 pub fn figures(
-    columns: &StatisticNames,
+    names: &StatisticNames,
     lengths: [usize; 2],
     chains: &[Statistics; 2],
     empty: &[Statistics; 2],
 ) -> Option<CostFigures> {
     let more = (lengths[1] - lengths[0]) as f64;
-    let [short, long] = chains.each_ref().map(|told| counts(columns, told));
-    let [bare_short, bare_long] = empty.each_ref().map(|told| counts(columns, told));
+    let [short, long] = chains
+        .each_ref()
+        .map(|statistics| counts(names, statistics));
+    let [bare_short, bare_long] = empty.each_ref().map(|statistics| counts(names, statistics));
     let (own, bare) = (
         slope(short?, long?, more),
         slope(bare_short?, bare_long?, more),
     );
     let of_unit = |unit: &&str| {
-        let told = |of: &Statistics| of.get(*unit).copied();
-        let [[a, b], [c, d]] = [chains, empty].map(|pair| pair.each_ref().map(told));
+        let value = |statistics: &Statistics| statistics.get(*unit).copied();
+        let [[a, b], [c, d]] = [chains, empty].map(|pair| pair.each_ref().map(value));
         Some(rounded((b? - a? - (d? - c?)) / more))
     };
-    let busy = busiest(columns.inverse_throughput.iter().map(of_unit));
-    let registers = columns.registers;
+    let busy = busiest(names.inverse_throughput.iter().map(of_unit));
+    let registers = names.registers;
     Some(CostFigures {
         shader: short?,
         registers: registers.and_then(|name| chains[0].get(name).copied()),
@@ -105,7 +112,7 @@ pub fn figures(
     })
 }
 
-/// What one more evaluation costs, where the longer chain has so many more.
+/// The cost of one evaluation: the difference of two chains, divided by how many evaluations the longer one has more.
 fn slope(short: Counts, long: Counts, more: f64) -> Counts {
     let difference = less(long, short);
     Counts {
@@ -115,12 +122,12 @@ fn slope(short: Counts, long: Counts, more: f64) -> Counts {
     }
 }
 
-/// The most that a unit is busy.
+/// The cycles of the busiest unit.
 fn busiest(units: impl Iterator<Item = Option<f64>>) -> Option<f64> {
     units.flatten().reduce(f64::max)
 }
 
-/// To the sixth decimal, as compilers tell cycles, so that a record says the same.
+/// Rounds to six decimals, as compilers print cycles, so that fresh and recorded figures are equal.
 fn rounded(value: f64) -> f64 {
     (1e6 * value).round() / 1e6
 }
@@ -137,16 +144,18 @@ fn less(counts: Counts, other: Counts) -> Counts {
 /// What a driver of OpenGL remarked of the fragment shader: `FRAG shader: 30 inst, 4 nops, …` or `type: 4, inst: 30, …`.
 pub fn remarked(remarks: &[String]) -> Option<Statistics> {
     let of_fragment = remarks.iter().rev().filter_map(|remark| {
-        let told = remark.split_once("shader:");
-        let (head, list) = told.unwrap_or(("", remark));
+        let parts = remark.split_once("shader:");
+        let (head, list) = parts.unwrap_or(("", remark));
         let head = head.to_lowercase();
         let is_fragment = ["frag", "fs"].iter().any(|word| head.contains(word));
         // NVIDIA's says the stage as a number; Intel's speaks of each width, of which every shader has the first.
-        let is_numbered = told.is_none() && remark.starts_with("type: 4,");
+        let is_numbered = parts.is_none() && remark.starts_with("type: 4,");
         let is_wide = head.contains("simd") && !head.contains("simd8");
         ((is_fragment && !is_wide) || is_numbered).then(|| pairs(list))
     });
-    of_fragment.into_iter().find(|told| !told.is_empty())
+    of_fragment
+        .into_iter()
+        .find(|statistics| !statistics.is_empty())
 }
 
 /// `30 inst` or `inst: 30`, between commas.

@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 use crate::ir::{Checked, Column, Value, evaluate};
 use crate::materials::{Channels, Surface};
 use crate::methods::Light;
-use crate::reference::{ANGLES, ReferenceCurve, cosine, cosines, seen};
+use crate::reference::{ANGLES, ReferenceCurve, cosine, cosines, reference_reflectance};
 
 use super::texels::{arguments, table_of};
 
@@ -154,7 +154,7 @@ pub fn thesis_errors(
             .collect();
         let want: Vec<[f64; 3]> = cosines
             .iter()
-            .map(|c| seen(&surface, Light::Unpolarised, *c))
+            .map(|c| reference_reflectance(&surface, Light::Unpolarised, *c))
             .collect();
         let points = cosines.len();
         let arguments = [Value::each(cosines)];

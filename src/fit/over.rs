@@ -7,7 +7,7 @@ use crate::methods::{Method, Over};
 use super::derive::values;
 use super::model_error::{ModelError, difference};
 use super::texels::texels;
-use crate::reference::{ANGLES, Derivation, cosines, seen};
+use crate::reference::{ANGLES, Derivation, cosines, reference_reflectance};
 
 /// Steps of eta, of n and of k, where model errors are taken over a set.
 const STEPS: usize = 24;
@@ -46,11 +46,11 @@ pub fn model_error_over(method: &Method, over: Over) -> ModelError {
         let constants = values(method, channels, &Derivation::default());
         let mut arguments = vec![Value::each(cosines.clone())];
         let surface = Surface::of_channels(channels);
-        let table = texels(|c| seen(&surface, method.light, c));
+        let table = texels(|c| reference_reflectance(&surface, method.light, c));
         arguments.extend(method.arguments(&constants, Some(&table)));
         let want: Vec<[f64; 3]> = cosines
             .iter()
-            .map(|c| seen(&surface, method.light, *c))
+            .map(|c| reference_reflectance(&surface, method.light, *c))
             .collect();
         difference(&evaluate(&function, &arguments), &want, &cosines)
     });

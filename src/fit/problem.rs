@@ -3,7 +3,7 @@
 
 use crate::methods::{Light, Shape, unwarped};
 use crate::num::Precision;
-use crate::reference::{MaterialInMedium, seen};
+use crate::reference::{MaterialInMedium, reference_reflectance};
 use crate::spectra::{Gamut, Space};
 
 use super::exact::{Exact, fit_meeting, rounded_coefficients};
@@ -72,7 +72,7 @@ impl FitCurve {
         if surface.gamut == Gamut::Clip {
             surface.gamut = Gamut::Keep;
         }
-        FitCurve::new(|c| seen(&surface, Light::Unpolarised, c))
+        FitCurve::new(|c| reference_reflectance(&surface, Light::Unpolarised, c))
     }
 }
 

@@ -2,7 +2,7 @@
 //! that are even from 0 to 90 degrees.
 
 use crate::ir::Weights;
-use crate::reference::{ReferenceCurve, seen};
+use crate::reference::{ReferenceCurve, reference_reflectance};
 
 use super::depth::Stored;
 
@@ -20,7 +20,10 @@ impl ThesisMeasure {
         let at = |i: usize| {
             let theta = (i as f64 + 0.5) / angles as f64 * std::f64::consts::FRAC_PI_2;
             let cos_theta = libm::cos(theta);
-            (cos_theta, seen(&truth.surface, truth.light, cos_theta))
+            (
+                cos_theta,
+                reference_reflectance(&truth.surface, truth.light, cos_theta),
+            )
         };
         ThesisMeasure(some.map(at).collect())
     }

@@ -15,10 +15,10 @@ pub fn finite(token: &str) -> Result<f64, String> {
         Ok(number) if number.is_finite() => Ok(number),
         Ok(_) => Err(format!("`{}` is not a finite number", clipped(token))),
         Err(_) => {
-            let meant = meant(token)
-                .map(|meant| format!("; did you mean {}?", clipped(&meant)))
+            let suggestion = likely_number(token)
+                .map(|number| format!("; did you mean {}?", clipped(&number)))
                 .unwrap_or_default();
-            Err(format!("`{}` is no number{meant}", clipped(token)))
+            Err(format!("`{}` is no number{suggestion}", clipped(token)))
         }
     }
 }
@@ -54,7 +54,7 @@ fn thousandfold(token: &str) -> Option<f64> {
 }
 
 /// The number that a text is nearly: a comma for a point, an exponent without its letter or with Fortran's.
-fn meant(token: &str) -> Option<String> {
+fn likely_number(token: &str) -> Option<String> {
     let is_number = |text: &String| text.parse::<f64>().is_ok_and(f64::is_finite);
     let sign = token
         .char_indices()

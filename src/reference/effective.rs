@@ -8,7 +8,7 @@ use crate::materials::{Channels, Index, MaterialKind};
 use crate::methods::Light;
 use crate::optics::{self, COS_82, index_from_f0_f82};
 
-use super::reference_curve::{ReferenceCurve, seen};
+use super::reference_curve::{ReferenceCurve, reference_reflectance};
 
 /// The index per channel, and how it was come by.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -72,7 +72,7 @@ pub fn effective(truth: &ReferenceCurve, kind: MaterialKind) -> Effective {
     }
     let transparent = kind == MaterialKind::Dielectric && truth.surface.most_k() < FAINT_K;
     let curve = curve(truth, if transparent { FINE } else { ANGLES });
-    let at = |c: f64| seen(&truth.surface, Light::Unpolarised, c);
+    let at = |c: f64| reference_reflectance(&truth.surface, Light::Unpolarised, c);
     let (f0, f82) = (at(1.0), at(COS_82));
     let each = [0, 1, 2].map(|i| {
         let found = index_from_f0_f82(f0[i], f82[i]);

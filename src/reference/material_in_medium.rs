@@ -68,7 +68,7 @@ impl MaterialInMedium {
             ReferenceCurve::new(self.truth.surface.clone(), method.light)
         };
         if method.is_textured() {
-            truth.kept()
+            truth.before_gamut()
         } else {
             truth
         }

@@ -1,4 +1,5 @@
-//! The reference reflectance: what the exact law gives of a surface in one kind of light, which methods are held against.
+//! The reference reflectance: the exact law of a surface, in light of one polarisation. Errors of methods are measured
+//! against it.
 
 use std::sync::{Arc, OnceLock};
 
@@ -12,20 +13,20 @@ use crate::spectra::Gamut;
 pub const ANGLES: usize = 2048;
 /// Cosines close to grazing, besides: 2⁻ⁱᐟ⁴, where indices far from 1 have their largest errors.
 const GRAZING: usize = 120;
-/// What a method is held against: a surface as it is seen, in one kind of light.
+/// The reference of methods: a surface under viewing conditions, in light of one polarisation.
 #[derive(Clone, Debug)]
 pub struct ReferenceCurve {
     /// The surface.
     pub surface: Surface,
-    /// Polarised or not.
+    /// The polarisation.
     pub light: Light,
-    /// Its reflectance at [`cosines`] of [`ANGLES`], before the gamut. It is expensive: computed once, when something
-    /// asks, for all clones.
+    /// Its reflectance at [`cosines`] of [`ANGLES`], before the gamut. It is expensive, so it is computed once, at the first use,
+    /// for all clones.
     unclipped: Arc<OnceLock<Vec<DVec3>>>,
 }
 
 impl ReferenceCurve {
-    /// The truth about a surface in this light.
+    /// The reference of a surface in this light.
     pub fn new(surface: Surface, light: Light) -> ReferenceCurve {
         ReferenceCurve {
             surface,
@@ -43,8 +44,8 @@ impl ReferenceCurve {
         })
     }
 
-    /// The same, with colours outside the working space kept as they are.
-    pub fn kept(mut self) -> ReferenceCurve {
+    /// The same reference without a gamut: colours outside the working space stay as they are.
+    pub fn before_gamut(mut self) -> ReferenceCurve {
         self.surface.gamut = Gamut::Keep;
         self
     }
@@ -59,7 +60,7 @@ impl ReferenceCurve {
 
     /// The reflectance of each channel at a cosine, in the gamut.
     pub fn at(&self, cos_theta: f64) -> [f64; 3] {
-        seen(&self.surface, self.light, cos_theta)
+        reference_reflectance(&self.surface, self.light, cos_theta)
     }
 
     /// The hemispherical reflectance of each channel, 2 ∫ R cos θ d(cos θ), by the middles of equal steps of angle:
@@ -70,14 +71,16 @@ impl ReferenceCurve {
         let table = self.table();
         let sum = |channel: usize| {
             let terms = table[..ANGLES].iter().enumerate();
-            terms.map(|(i, seen)| weight(i) * seen[channel]).sum()
+            terms
+                .map(|(i, reflectance)| weight(i) * reflectance[channel])
+                .sum()
         };
         [0, 1, 2].map(sum)
     }
 }
 
 /// The reflectance of each channel at a cosine, in the surface's gamut.
-pub fn seen(surface: &Surface, light: Light, cos_theta: f64) -> [f64; 3] {
+pub fn reference_reflectance(surface: &Surface, light: Light, cos_theta: f64) -> [f64; 3] {
     let colour = reflected(surface, light, cos_theta);
     surface.gamut.apply(colour).to_array()
 }

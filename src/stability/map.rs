@@ -87,7 +87,7 @@ fn map(
         code: &code,
         channel: 0,
         space: &space,
-        given: &|index| space.given(method, index, precision),
+        point: &|index| space.point(method, index, precision),
         law: &|given, c| Some(law(method, given.medium?, c)),
     };
     // Cosines stand as angles do, from 0 degrees on.

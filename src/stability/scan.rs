@@ -79,11 +79,11 @@ pub fn scan(method: &'static Method, precision: Precision, progress: ScanProgres
             code: &code,
             channel: 0,
             space,
-            given: &|index| space.given(method, index, precision),
-            law: &|given, c| {
+            point: &|index| space.point(method, index, precision),
+            law: &|point, c| {
                 Some(law(
                     method,
-                    given.medium.filter(|medium| is_lawful(method, *medium))?,
+                    point.medium.filter(|medium| is_lawful(method, *medium))?,
                     c,
                 ))
             },
@@ -131,7 +131,7 @@ pub fn scan_specialised(
         axes: Vec::new(),
         cosines: dense().rounded(code.precision),
     };
-    let given = ScanPoint {
+    let point = ScanPoint {
         arguments: Vec::new(),
         medium: None,
         limit: 1.0,
@@ -140,7 +140,7 @@ pub fn scan_specialised(
         code,
         channel,
         space: &space,
-        given: &|_| given.clone(),
+        point: &|_| point.clone(),
         law: &|_, c| Some(law(c)),
     };
     scan.findings(&mut |_| {})
@@ -150,14 +150,14 @@ pub(super) struct Scan<'a> {
     pub code: &'a ScannedFunction,
     pub channel: usize,
     pub space: &'a ScanSpace,
-    pub given: &'a (dyn Fn(usize) -> ScanPoint + Sync),
+    pub point: &'a (dyn Fn(usize) -> ScanPoint + Sync),
     pub law: &'a (dyn Fn(&ScanPoint, f64) -> Option<f64> + Sync),
 }
 
 /// By how much a point of a space fails in each way: at each cosine, and as a whole curve with its worst cosine.
 struct CurveAmounts {
     at: Vec<Amounts>,
-    whole: Amounts,
+    of_curve: Amounts,
     worst: f64,
 }
 
@@ -174,7 +174,7 @@ impl Scan<'_> {
             let (axes, amounts): (&[ScanAxis], Vec<f32>) = if failure.is_of_the_model() {
                 (
                     &self.space.axes,
-                    rows.iter().map(|row| row.whole[kind]).collect(),
+                    rows.iter().map(|row| row.of_curve[kind]).collect(),
                 )
             } else {
                 let at =
@@ -226,7 +226,7 @@ impl Scan<'_> {
     }
 
     fn shown(&self, index: usize, cosine: f64) -> WorstPoint {
-        let point = self.points(&(self.given)(index), &[cosine])[0];
+        let point = self.points(&(self.point)(index), &[cosine])[0];
         WorstPoint {
             got: point.got,
             want: point.want,
@@ -244,30 +244,30 @@ impl Scan<'_> {
 
     /// A point of the space, at all cosines.
     pub fn curve(&self, index: usize) -> Vec<ResultPoint> {
-        self.points(&(self.given)(index), &self.space.cosines.values)
+        self.points(&(self.point)(index), &self.space.cosines.values)
     }
 
     fn amounts_of_curve(&self, index: usize) -> CurveAmounts {
         let cosines = &self.space.cosines.values;
-        let given = (self.given)(index);
-        let points = self.points(&given, cosines);
+        let place = (self.point)(index);
+        let points = self.points(&place, cosines);
         let amounts =
             |point: &ResultPoint| Failure::ALL.map(|failure| point.amount(failure) as f32);
-        let between = self.at_limits(&given);
+        let between = self.at_limits(&place);
         let all = points.iter().chain(&between);
         let worst = all.reduce(|a, b| if b.error() > a.error() { b } else { a });
         let worst = worst.expect("a curve has points");
         CurveAmounts {
             at: points.iter().map(amounts).collect(),
-            whole: whole(cosines, &points, worst),
+            of_curve: curve_amounts(cosines, &points, worst),
             worst: worst.cos_theta,
         }
     }
 
     /// Points at the critical angle, at Brewster's angle and next to them. Far from an index of 1 the curve changes only
     /// there, and the axis of cosines has no value there.
-    fn at_limits(&self, given: &ScanPoint) -> Vec<ResultPoint> {
-        let Some((n, _)) = given.medium else {
+    fn at_limits(&self, place: &ScanPoint) -> Vec<ResultPoint> {
+        let Some((n, _)) = place.medium else {
             return Vec::new();
         };
         let near = |cosine: f32| {
@@ -275,11 +275,11 @@ impl Scan<'_> {
             beside.into_iter().filter(|c| (0.0..=1.0).contains(c))
         };
         let cosines: Vec<f64> = limits(n).into_iter().flat_map(near).collect();
-        self.points(given, &cosines)
+        self.points(place, &cosines)
     }
 
-    fn points(&self, given: &ScanPoint, cosines: &[f64]) -> Vec<ResultPoint> {
-        let (code, arguments) = (self.code, &given.arguments);
+    fn points(&self, place: &ScanPoint, cosines: &[f64]) -> Vec<ResultPoint> {
+        let (code, arguments) = (self.code, &place.arguments);
         let beside = |steps: i32| -> Vec<f64> {
             let step = |c: &f64| stepped(code.precision, *c, steps);
             cosines.iter().map(step).collect()
@@ -293,7 +293,7 @@ impl Scan<'_> {
         let (below, want, above) = (mean(&beside(-NEAR)), mean(cosines), mean(&beside(NEAR)));
         let law = |c: f64| {
             let is_inside = (0.0..=1.0).contains(&c) && !is_flushed(c);
-            is_inside.then(|| (self.law)(given, c)).flatten()
+            is_inside.then(|| (self.law)(place, c)).flatten()
         };
         let point = |i: usize| ResultPoint {
             cos_theta: cosines[i],
@@ -305,7 +305,7 @@ impl Scan<'_> {
                 below[i].max(want[i]).max(above[i]),
             ),
             law: law(cosines[i]),
-            limit: given.limit,
+            limit: place.limit,
             spacing: spacing(code.precision),
         };
         (0..cosines.len()).map(point).collect()
@@ -338,8 +338,8 @@ const SEEN: f64 = 0.002;
 /// How deep the law's minimum must be.
 const DEPTH: f64 = 0.005;
 
-/// What a whole curve does wrong.
-fn whole(cosines: &[f64], points: &[ResultPoint], worst: &ResultPoint) -> Amounts {
+/// By how much a whole curve fails in each way.
+fn curve_amounts(cosines: &[f64], points: &[ResultPoint], worst: &ResultPoint) -> Amounts {
     let inside = (0..cosines.len()).filter(|i| (0.0..=1.0).contains(&cosines[*i]));
     let curve: Vec<(f64, f64)> = inside
         .filter_map(|i| Some((points[i].want, points[i].law?)))

@@ -28,9 +28,9 @@ pub fn spaces(method: &Method, precision: Precision) -> Vec<ScanSpace> {
         all.push(vec![index("n", 12), extinction()]);
     }
     let media = all.into_iter().map(|axes| (true, axes));
-    let given = method.inputs.iter().map(argument).collect();
+    let arguments = method.inputs.iter().map(argument).collect();
     media
-        .chain([(false, given)])
+        .chain([(false, arguments)])
         .map(|(is_media, axes)| ScanSpace {
             is_media,
             axes: axes
@@ -69,8 +69,8 @@ impl ScanSpace {
         values
     }
 
-    /// What a method is given there.
-    pub fn given(&self, method: &Method, index: usize, precision: Precision) -> ScanPoint {
+    /// The point at an index, for a method.
+    pub fn point(&self, method: &Method, index: usize, precision: Precision) -> ScanPoint {
         let at = self.at(index);
         if !self.is_media {
             let limit = limit(method.inputs, &at);

@@ -209,7 +209,7 @@ impl Expected {
             for channel in 0..3 {
                 let (got, want) = (
                     got[channel],
-                    self.meant(*cos_theta, got[channel], want[channel]),
+                    self.expected_value(*cos_theta, got[channel], want[channel]),
                 );
                 outcome.error.include(got, want, *cos_theta, ABSOLUTE_FLOOR);
                 if !self.allows(got, want, slack[channel]) {
@@ -226,8 +226,8 @@ impl Expected {
         outcome
     }
 
-    /// What should have come: for a cosine that is NaN the nearest of all right values.
-    fn meant(&self, cos_theta: f32, got: f32, want: f64) -> f64 {
+    /// The expected value. For a cosine that is NaN every value of the range is right, and the nearest one is expected.
+    fn expected_value(&self, cos_theta: f32, got: f32, want: f64) -> f64 {
         let [least, most] = self.range;
         match (cos_theta.is_nan(), got.is_nan()) {
             (false, _) => want,

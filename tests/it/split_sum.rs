@@ -5,7 +5,7 @@ use fresnel_gen::ir::Weights;
 use fresnel_gen::lut::{Depth, SPLIT_SUM_SIZE, SplitSum, StoredSplitSum};
 use fresnel_gen::methods::{self, Input, Method, Shape};
 use fresnel_gen::optics::Ggx;
-use fresnel_gen::reference::{MaterialInMedium, seen};
+use fresnel_gen::reference::{MaterialInMedium, reference_reflectance};
 use fresnel_gen::spectra::Gamut;
 
 /// What the table promises at every angle and roughness from .05 on, for the fitted reflectance.
@@ -46,7 +46,7 @@ impl Reflectance {
         let mut surface = subject.truth.surface.clone();
         surface.gamut = Gamut::Keep;
         let at = |i: usize| {
-            seen(
+            reference_reflectance(
                 &surface,
                 method.light,
                 (i as f64 / (POINTS - 1) as f64).powi(2),

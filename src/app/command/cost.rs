@@ -109,7 +109,7 @@ fn check(table: &[Vec<CostRow>]) -> (String, Checks) {
     let (mut text, mut all) = (String::new(), Checks::NONE);
     for rows in table {
         let Some(first) = rows.first() else { continue };
-        let found = Checked::of(rows, &records(first.family.name));
+        let found = RecordComparison::new(rows, &records(first.family.name));
         all.agree += found.agree;
         all.differ += found.differences.len();
         all.whole &= found.unchecked.is_none() || first.family.compiler.dialect().is_none();
@@ -137,20 +137,20 @@ impl Checks {
 
 /// A family's fresh counts against its record.
 #[derive(Default)]
-struct Checked {
+struct RecordComparison {
     agree: usize,
     unknown: usize,
     differences: Vec<String>,
     unchecked: Option<String>,
 }
 
-impl Checked {
-    fn of(rows: &[CostRow], record: &CostRecord) -> Checked {
+impl RecordComparison {
+    fn new(rows: &[CostRow], record: &CostRecord) -> RecordComparison {
         let fresh = rows
             .iter()
             .find(|row| row.source == Some(CostSource::Compiler));
         let compiler = fresh.and_then(|row| row.compiler.as_deref());
-        let mut checked = Checked::default();
+        let mut checked = RecordComparison::default();
         match compiler {
             None => checked.unchecked = Some(unasked(rows)),
             Some(compiler) if compiler != record.compiler => {
