@@ -36,8 +36,9 @@ use super::hidden::is_hidden;
 use super::material::{GREATEST, LEAST_N, Material, MaterialKind};
 pub use crate::spectra::FileFault;
 
-type SpannedRow = Spanned<Vec<Spanned<f64>>>;
-type SpannedRows = Spanned<Vec<SpannedRow>>;
+type RawRow = Spanned<Vec<Spanned<f64>>>;
+type RawRows = Spanned<Vec<RawRow>>;
+type Curves = (DispersionCurve, Option<DispersionCurve>);
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -53,9 +54,9 @@ struct Raw {
     conditions: Option<Spanned<String>>,
     note: Option<Spanned<String>>,
     rgb_nm: Option<Spanned<[f64; 3]>>,
-    data: Option<SpannedRows>,
-    n: Option<SpannedRows>,
-    k: Option<SpannedRows>,
+    data: Option<RawRows>,
+    n: Option<RawRows>,
+    k: Option<RawRows>,
     n_formula: Option<Spanned<RawFormula>>,
 }
 
@@ -256,12 +257,9 @@ fn is_device(name: &str) -> bool {
 }
 
 /// n and k: together in `data`, or apart.
-fn curves(
-    raw: &Raw,
-    place: &FileText,
-) -> Result<(DispersionCurve, Option<DispersionCurve>), FileFault> {
+fn curves(raw: &Raw, place: &FileText) -> Result<Curves, FileFault> {
     let table =
-        |rows: &SpannedRows, field, column| Ok(pick(&place.rows(rows, field, &[NM, column])?, 1));
+        |rows: &RawRows, field, column| Ok(pick(&place.rows(rows, field, &[NM, column])?, 1));
     let k = || raw.k.as_ref().map(|k| table(k, "k", K)).transpose();
     match (&raw.data, &raw.n, &raw.n_formula) {
         (Some(data), None, None) if raw.k.is_none() => {
@@ -289,7 +287,7 @@ impl FileText<'_> {
     /// Rows of numbers inside their columns' limits, by ascending wavelength.
     fn rows(
         &self,
-        rows: &SpannedRows,
+        rows: &RawRows,
         field: &str,
         columns: &[Column],
     ) -> Result<Vec<Vec<f64>>, FileFault> {
@@ -319,7 +317,7 @@ impl FileText<'_> {
 
     fn row(
         &self,
-        row: &SpannedRow,
+        row: &RawRow,
         field: &str,
         columns: &[Column],
         wanted: &str,
