@@ -438,7 +438,10 @@ mod program {
 
     #[test]
     fn what_cannot_be_reproduced_is_said() {
-        let says = |name: &str| command(&[name]).unwrap_err().to_string();
+        let says = |name: &str| match Cli::try_parse_from(["fresnel-gen", "reproduce", name]) {
+            Ok(_) => panic!("`{name}` is taken"),
+            Err(error) => error.to_string(),
+        };
         assert!(
             says("tabel2").contains("did you mean table2"),
             "{}",

@@ -1,6 +1,6 @@
 //! Is the house in order? Headers, rooms, lists, lengths, names, tables in README. Compares; `BLESS=1` rewrites lists.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::{Path, PathBuf};
 
@@ -444,6 +444,48 @@ fn check_list(room: &str, others: &[&str], item: &str, ty: &str, word: &str) {
     let (before, rest) = text.split_once(&begin).expect("the list begins");
     let (_, after) = rest.split_once(&end).expect("the list ends");
     super::bless::check(&path, format!("{before}{list}{after}").as_bytes());
+}
+
+/// A name in backquotes is a word of the code, and a path is the end of a path of a file or a folder.
+#[test]
+fn what_architecture_names_is_there() {
+    let text = fs::read_to_string(root().join("ARCHITECTURE.md")).expect("it is there");
+    let code: String = ["src", "tests"]
+        .iter()
+        .flat_map(|folder| sources(folder).into_values())
+        .collect();
+    let is_part = |c: char| c.is_alphanumeric() || c == '_';
+    let words: BTreeSet<&str> = code.split(|c| !is_part(c)).collect();
+    let mut paths = Vec::new();
+    for folder in ["src", "tests", "data", "docs", "templates", "benches"] {
+        visit_all(&root().join(folder), &mut paths);
+    }
+    let named = text.split('`').skip(1).step_by(2);
+    let names = named.filter(|name| {
+        !name.contains("NAME") && name.chars().all(|c| is_part(c) || "/.:-".contains(c))
+    });
+    for name in names {
+        let is_there = if name.contains('/') || name.contains('.') {
+            root().join(name).exists() || paths.iter().any(|path| path.ends_with(name))
+        } else {
+            let last = name.rsplit("::").next().unwrap_or(name);
+            words.contains(last) || last.contains('-')
+        };
+        assert!(
+            is_there,
+            "ARCHITECTURE.md names `{name}`, which is not there"
+        );
+    }
+}
+
+fn visit_all(folder: &Path, found: &mut Vec<PathBuf>) {
+    for entry in fs::read_dir(folder).expect("a folder of the repository") {
+        let path = entry.expect("readable").path();
+        if path.is_dir() {
+            visit_all(&path, found);
+        }
+        found.push(path);
+    }
 }
 
 #[test]
