@@ -23,20 +23,22 @@ pub const JSON: &str = "json";
 /// # Errors
 /// A material cannot be seen as the request wants, or a language refuses a name.
 pub fn add_catalogue(generated: &mut Generated, request: &Request) -> Result<(), Error> {
-    let (rows, truth) = match recorded_rows(request) {
+    let (rows, reference) = match recorded_rows(request) {
         Some(rows) => (rows, request.viewing.reference_in_words()),
         None => derived_rows(request)?,
     };
     for target in request.resolved_targets()? {
         let command = command(request, Some(target.name))?;
-        let file = emit::catalogue_array(target, &rows, &request.naming(), &truth, &command)?;
+        let file = emit::catalogue_array(target, &rows, &request.naming(), &reference, &command)?;
         generated.artifacts.extend(file.map(|file| {
             let path = format!("{}/{}", target.name, file.name);
             artifact(path, file.bytes, target.name, file.detail)
         }));
     }
     if generated.scope.whole {
-        generated.artifacts.push(as_json(&rows, &truth, request)?);
+        generated
+            .artifacts
+            .push(as_json(&rows, &reference, request)?);
         generated.scope.targets.insert(JSON.to_owned());
     }
     generated.artifacts.sort_by(|a, b| a.path.cmp(&b.path));
@@ -60,7 +62,7 @@ fn recorded_rows(request: &Request) -> Option<Vec<CatalogueRow>> {
     }
 }
 
-/// The rows of a request and what the truth is, derived from the spectra. The truth is the same for all; which ones hold a value
+/// The rows of a request and what the reference is, derived from the spectra. The reference is the same for all; which ones hold a value
 /// beyond their range stands beside each.
 ///
 /// # Errors
@@ -73,8 +75,8 @@ pub fn derived_rows(request: &Request) -> Result<(Vec<CatalogueRow>, String), Er
     let subjects = subjects(&request)?;
     let rows = emit::catalogue_rows(&subjects, &request.naming())?;
     let first = subjects.first();
-    let truth = first.map(|subject| subject.truth.surface.seen.clone());
-    Ok((rows, truth.unwrap_or_default()))
+    let reference = first.map(|subject| subject.reference.surface.seen.clone());
+    Ok((rows, reference.unwrap_or_default()))
 }
 
 /// The command that writes a target's array among its part of the tree, or all.
@@ -95,19 +97,19 @@ fn command(request: &Request, target: Option<&str>) -> Result<String, Error> {
 struct CatalogueFile<'a> {
     #[serde(flatten)]
     origin: Origin,
-    truth: &'a str,
+    reference: &'a str,
     space: Option<&'static str>,
     licence: &'static str,
     methods: Vec<CatalogueMethod>,
     materials: Vec<CatalogueMaterial<'a>>,
 }
 
-fn as_json(rows: &[CatalogueRow], truth: &str, request: &Request) -> Result<Artifact, Error> {
+fn as_json(rows: &[CatalogueRow], reference: &str, request: &Request) -> Result<Artifact, Error> {
     let command = command(request, None)?;
     let is_spectral = request.viewing.wavelengths_nm.is_none();
     let file = CatalogueFile {
         origin: Origin::new(command.clone()),
-        truth,
+        reference,
         space: is_spectral.then(|| request.viewing.integration.space.name()),
         licence: OUTPUT_LICENCE,
         methods: CatalogueMethod::all(rows),
@@ -119,7 +121,7 @@ fn as_json(rows: &[CatalogueRow], truth: &str, request: &Request) -> Result<Arti
         array: None,
         materials: rows.len(),
         rows: None,
-        seen: truth.to_owned(),
+        seen: reference.to_owned(),
         licence: OUTPUT_LICENCE,
     });
     let path = format!("{CATALOGUE}.{JSON}");

@@ -171,7 +171,7 @@ impl Entry {
     }
 
     /// How its material is seen, in words.
-    pub fn truth(&self) -> Option<&str> {
+    pub fn reference(&self) -> Option<&str> {
         self.detail.get("seen")?["truth"].as_str()
     }
 

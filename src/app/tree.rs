@@ -160,7 +160,7 @@ fn dropped_functions(
 /// that it keeps from earlier runs change with it.
 fn reseen(artifacts: &[Artifact], listed: &BTreeMap<&str, &Entry>) -> Vec<(String, [String; 2])> {
     let changed = |artifact: &Artifact| {
-        let old = listed.get(artifact.path.as_str())?.truth()?;
+        let old = listed.get(artifact.path.as_str())?.reference()?;
         let new = &artifact.detail.seen()?.truth;
         (old != new).then(|| (artifact.path.clone(), [old.to_owned(), new.clone()]))
     };

@@ -223,9 +223,11 @@ fn measured(
     let results = runner.run(&edges::cosines())?;
     let mut edges = edges::judged(&results, most);
     let between = edges::FaultBetweenEdges::new(most);
-    let error = runner.error(&subject.truth, &|cosines, got| between.look(cosines, got))?;
+    let error = runner.error(&subject.reference, &|cosines, got| {
+        between.look(cosines, got)
+    })?;
     edges.findings.extend(between.finding());
-    let perceived = runner.perceived(&subject.truth, space)?;
+    let perceived = runner.perceived(&subject.reference, space)?;
     Ok(Ran {
         device: runner.device.clone(),
         points: runner.points.get(),

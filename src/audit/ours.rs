@@ -99,7 +99,7 @@ fn error(function: &CostedFunction, subject: &MaterialInMedium) -> f64 {
             .arguments(&inputs_of(subject, function.method), None),
         _ => Vec::new(),
     };
-    let error = error_of(&subject.truth, &|cosines| {
+    let error = error_of(&subject.reference, &|cosines| {
         let single = cosines.iter().map(|c| *c as f32).collect();
         let arguments: Vec<Value<f32>> = [Value::each(single)]
             .into_iter()

@@ -164,7 +164,7 @@ pub struct Ran {
     pub points: usize,
     /// The ends of the domain.
     pub edges: Edges,
-    /// Against the truth.
+    /// Against the reference.
     pub error: ModelError,
     /// The same, as it is seen.
     pub perceived: Perceived,

@@ -92,14 +92,18 @@ impl Runner {
         }
     }
 
-    /// The error against the truth. `look` sees every cosine with its result.
-    pub fn error(&self, truth: &ReferenceCurve, look: Look) -> Result<ModelError, Trouble> {
-        self.measured(look, |values| error_of(truth, values))
+    /// The error against the reference. `look` sees every cosine with its result.
+    pub fn error(&self, reference: &ReferenceCurve, look: Look) -> Result<ModelError, Trouble> {
+        self.measured(look, |values| error_of(reference, values))
     }
 
     /// The error as it is seen.
-    pub fn perceived(&self, truth: &ReferenceCurve, space: Space) -> Result<Perceived, Trouble> {
-        self.measured(&|_, _| {}, |values| perceived(truth, space, values))
+    pub fn perceived(
+        &self,
+        reference: &ReferenceCurve,
+        space: Space,
+    ) -> Result<Perceived, Trouble> {
+        self.measured(&|_, _| {}, |values| perceived(reference, space, values))
     }
 
     /// What is measured of its values.

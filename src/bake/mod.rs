@@ -147,7 +147,7 @@ fn chosen(
         TableSize::Fixed { axis, texels } => return Ok((*axis, *texels, request.formats.clone())),
         TableSize::Within { budget, axes } => (*budget, axes),
     };
-    let truths: Vec<_> = subjects.iter().map(|subject| &subject.truth).collect();
+    let truths: Vec<_> = subjects.iter().map(|subject| &subject.reference).collect();
     let depths = depths(&request.formats);
     let TableKind {
         axis,

@@ -47,7 +47,7 @@ impl<'a> Baking<'a> {
     ) -> Result<Baking<'a>, Error> {
         let tables = subjects
             .iter()
-            .map(|subject| Table::new(&subject.name, &subject.truth, axis, texels))
+            .map(|subject| Table::new(&subject.name, &subject.reference, axis, texels))
             .collect::<Result<Vec<_>, _>>()?;
         Ok(Baking {
             rounded: rounded(subjects, &tables, &formats, texels),
@@ -149,7 +149,7 @@ fn rounded(
     texels: usize,
 ) -> Vec<Rounded> {
     let axis = tables.first().map_or(TableAxis::Cos, |table| table.axis);
-    let between = |subject: &TableMaterial| BetweenTexels::new(&subject.truth, axis, texels);
+    let between = |subject: &TableMaterial| BetweenTexels::new(&subject.reference, axis, texels);
     let between: Vec<BetweenTexels> = subjects.iter().map(between).collect();
     let all: Vec<&Table> = tables.iter().collect();
     let in_depth = |depth: Depth| {
@@ -158,7 +158,7 @@ fn rounded(
         let tables: Vec<Stored> = tables.iter().map(stored).collect();
         let error = |((stored, subject), between): ((&Stored, &TableMaterial), &BetweenTexels)| {
             [Weights::Steps256, Weights::Exact]
-                .map(|weights| table_error(stored, weights, &subject.truth, between))
+                .map(|weights| table_error(stored, weights, &subject.reference, between))
         };
         let errors = tables.iter().zip(subjects).zip(&between).map(error);
         Rounded {

@@ -153,7 +153,7 @@ pub fn table_rows<'a>(
 ) -> impl Iterator<Item = TableRow> + 'a {
     let all = subjects.iter().zip(&rounded.errors).enumerate();
     all.map(move |(row, (subject, [steps, exact]))| {
-        let surface = &subject.truth.surface;
+        let surface = &subject.reference.surface;
         TableRow {
             material: subject.argument.clone(),
             medium: subject.medium.clone().unwrap_or_else(|| "air".to_owned()),

@@ -15,7 +15,7 @@ pub struct TableMaterial {
     /// What a user types to get the medium again, where it is not air.
     pub medium: Option<String>,
     /// What is seen of it.
-    pub truth: ReferenceCurve,
+    pub reference: ReferenceCurve,
     /// The working space; none where a channel is one wavelength.
     pub space: Option<Space>,
 }
@@ -40,12 +40,12 @@ impl TableMaterial {
             argument: argument.to_owned(),
             medium: medium.map(|(argument, _)| argument.clone()),
             space: is_spectral.then_some(viewing.integration.space),
-            truth: ReferenceCurve::new(surface, Light::Unpolarised),
+            reference: ReferenceCurve::new(surface, Light::Unpolarised),
         })
     }
 
     /// What is seen, in words.
     pub fn seen(&self) -> &str {
-        &self.truth.surface.seen
+        &self.reference.surface.seen
     }
 }

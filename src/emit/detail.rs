@@ -258,7 +258,7 @@ impl FunctionsDetail {
 }
 
 fn seen_detail(subject: &MaterialInMedium) -> SeenDetail {
-    let surface = &subject.truth.surface;
+    let surface = &subject.reference.surface;
     let effective = &subject.effective;
     SeenDetail {
         truth: surface.seen.clone(),

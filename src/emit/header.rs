@@ -200,13 +200,13 @@ pub(super) fn data_line(material: &Material) -> String {
 
 /// What the reference is that model errors are held against.
 pub(super) fn viewing_conditions(subject: &MaterialInMedium) -> Vec<String> {
-    let truth = format!("Truth: {}", subject.truth.surface.seen);
+    let truth = format!("Truth: {}", subject.reference.surface.seen);
     [truth].into_iter().chain(extrapolated(subject)).collect()
 }
 
 /// Beyond which wavelengths an index was held, where it was.
 pub(super) fn extrapolated(subject: &MaterialInMedium) -> Option<String> {
-    let held = subject.truth.surface.extrapolation();
+    let held = subject.reference.surface.extrapolation();
     held.map(|held| format!("Extrapolated: {held}"))
 }
 

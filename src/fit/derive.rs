@@ -33,7 +33,7 @@ pub fn inputs_in(precision: Precision, subject: &MaterialInMedium, method: &Meth
     if method.is_fitted() {
         return fitted_values(method, precision, &FitCurve::unclipped(subject));
     }
-    let seen = |cos_theta| subject.truth.at(cos_theta);
+    let seen = |cos_theta| subject.reference.at(cos_theta);
     let Channels { n, k } = subject.effective.channels;
     let known = KnownSurface::with(n, k, seen, subject.derivation.matching_cos);
     values_of(method, &known)

@@ -56,8 +56,8 @@ impl MethodErrors {
         let run = |cosines: &[f64]| -> Value<f64> {
             values_at(&function, method.inputs, &values, cosines)
         };
-        let error = error_of(&subject.truth, &run);
-        let perceived = perceived(&subject.truth, space, &run);
+        let error = error_of(&subject.reference, &run);
+        let perceived = perceived(&subject.reference, space, &run);
         MethodErrors {
             max_abs: Some(error.max_abs),
             mean_rel: error.mean_rel,

@@ -36,17 +36,17 @@ const REFINEMENTS: usize = 6;
 const STEPS: usize = 32;
 
 /// The model error of a function of `cos_theta` alone, or with the table that it reads.
-pub fn model_error(function: &Checked, truth: &ReferenceCurve) -> ModelError {
-    let table = table_of(function, |cos_theta| truth.at(cos_theta));
-    error_of(truth, &|cosines| {
+pub fn model_error(function: &Checked, reference: &ReferenceCurve) -> ModelError {
+    let table = table_of(function, |cos_theta| reference.at(cos_theta));
+    error_of(reference, &|cosines| {
         evaluate(function, &arguments(cosines.to_vec(), table.as_ref()))
     })
 }
 
 /// The same of the function as f32 computes it, each operation rounded.
-pub fn single_error(function: &Checked, truth: &ReferenceCurve) -> ModelError {
-    let table = table_of(function, |cos_theta| truth.at(cos_theta));
-    error_of(truth, &|cosines| {
+pub fn single_error(function: &Checked, reference: &ReferenceCurve) -> ModelError {
+    let table = table_of(function, |cos_theta| reference.at(cos_theta));
+    error_of(reference, &|cosines| {
         let single: Vec<f32> = cosines.iter().map(|c| *c as f32).collect();
         let got = evaluate(function, &arguments(single, table.as_ref()));
         let channel = |i: usize| {
@@ -58,9 +58,9 @@ pub fn single_error(function: &Checked, truth: &ReferenceCurve) -> ModelError {
 }
 
 /// The error of whatever gives three channels at each of some cosines.
-pub fn error_of(truth: &ReferenceCurve, values: &dyn Fn(&[f64]) -> Value<f64>) -> ModelError {
+pub fn error_of(reference: &ReferenceCurve, values: &dyn Fn(&[f64]) -> Value<f64>) -> ModelError {
     let run = |cosines: &[f64], want: &[[f64; 3]]| difference(&values(cosines), want, cosines);
-    let mut error = run(&cosines(ANGLES), &truth.table());
+    let mut error = run(&cosines(ANGLES), &reference.table());
     let mut reach = libm::acos(error.worst_cos).max(1e-3) / 8.0;
     for _ in 0..REFINEMENTS {
         let theta = libm::acos(error.worst_cos);
@@ -71,7 +71,7 @@ pub fn error_of(truth: &ReferenceCurve, values: &dyn Fn(&[f64]) -> Value<f64>) -
             .filter(inside)
             .map(libm::cos)
             .collect();
-        let want: Vec<[f64; 3]> = close.iter().map(|c| truth.at(*c)).collect();
+        let want: Vec<[f64; 3]> = close.iter().map(|c| reference.at(*c)).collect();
         let again = run(&close, &want);
         if again.max_abs > error.max_abs {
             (error.max_abs, error.worst_cos) = (again.max_abs, again.worst_cos);

@@ -37,23 +37,23 @@ pub struct Params {
 
 /// The parameters of a surface. Its gamut should keep colours as they are.
 pub(super) fn params(surface: Surface, kind: MaterialKind) -> Params {
-    let truth = ReferenceCurve::new(surface, Light::Unpolarised);
-    let effective = effective(&truth, kind);
+    let reference = ReferenceCurve::new(surface, Light::Unpolarised);
+    let effective = effective(&reference, kind);
     let matching_cos = Derivation::default().matching_cos;
     let Channels { n, k } = effective.channels;
-    let known = KnownSurface::with(n, k, |cos_theta| truth.at(cos_theta), matching_cos);
+    let known = KnownSurface::with(n, k, |cos_theta| reference.at(cos_theta), matching_cos);
     let value = |input: Input| input.value(&known).expect("a surface gives it");
     Params {
         f0: known.f0,
         f82: known.f82,
         f82_tint: value(Input::TINT),
-        f90: truth.at(0.0),
+        f90: reference.at(0.0),
         reflectivity: value(Input::REFLECTIVITY),
         edge_tint: value(Input::EDGE_TINT),
         n,
         k,
         nk_by: effective.by.map(By::text),
-        average: truth.average(),
+        average: reference.average(),
     }
 }
 

@@ -19,9 +19,9 @@ pub struct Perceived {
     pub de2000: f64,
 }
 
-/// How far whatever gives three channels at some cosines looks from the truth. What is no number is left out.
+/// How far whatever gives three channels at some cosines looks from the reference. What is no number is left out.
 pub fn perceived(
-    truth: &ReferenceCurve,
+    reference: &ReferenceCurve,
     space: Space,
     values: &dyn Fn(&[f64]) -> Value<f64>,
 ) -> Perceived {
@@ -30,7 +30,7 @@ pub fn perceived(
         .copied()
         .step_by(EVERY)
         .collect();
-    let table = truth.table();
+    let table = reference.table();
     let wanted = table[..ANGLES].iter().step_by(EVERY);
     let given = values(&at);
     let mut largest = Perceived::default();
@@ -73,18 +73,18 @@ mod tests {
             n: [n; 3],
             k: [0.0; 3],
         };
-        let truth = ReferenceCurve::new(Surface::of_channels(&channels), Light::Unpolarised);
+        let reference = ReferenceCurve::new(Surface::of_channels(&channels), Light::Unpolarised);
         let darker = |cosines: &[f64]| {
-            let at = cosines.iter().map(|c| truth.at(*c)[0] - 0.02);
+            let at = cosines.iter().map(|c| reference.at(*c)[0] - 0.02);
             Value::each(at.collect())
         };
-        let found = perceived(&truth, Space::Srgb, &darker);
+        let found = perceived(&reference, Space::Srgb, &darker);
         assert!((found.luminance - 0.02).abs() < 1e-9, "{found:?}");
         // The darkest angle, where the law's Brewster dip lies, weighs most; at normal incidence it is the figure above.
         assert!(found.de2000 > 0.864 && found.de2000 < 1.1, "{found:?}");
         assert_eq!(
-            perceived(&truth, Space::Srgb, &|cosines| {
-                let at = cosines.iter().map(|c| truth.at(*c)[0]);
+            perceived(&reference, Space::Srgb, &|cosines| {
+                let at = cosines.iter().map(|c| reference.at(*c)[0]);
                 Value::each(at.collect())
             }),
             Perceived::default()

@@ -68,7 +68,7 @@ impl FitCurve {
     /// What coefficients are fitted to, in unpolarised light: colours as they are before they are clipped. A clipped curve has a
     /// corner, and the function clips by itself.
     pub fn unclipped(subject: &MaterialInMedium) -> FitCurve {
-        let mut surface = subject.truth.surface.clone();
+        let mut surface = subject.reference.surface.clone();
         if surface.gamut == Gamut::Clip {
             surface.gamut = Gamut::Keep;
         }

@@ -198,11 +198,13 @@ impl<N: Num> Value<N> {
             unreachable!("a checked select starts with a Bool")
         };
         let pairs = yes.channel(0).zip(no.channel(0), &|yes, no| (yes, no));
-        Value::Scalar(condition.zip(&pairs, &|truth, (yes, no)| match truth {
-            Truth::Yes => yes,
-            Truth::No => no,
-            Truth::Either => yes.either(no),
-        }))
+        Value::Scalar(
+            condition.zip(&pairs, &|reference, (yes, no)| match reference {
+                Truth::Yes => yes,
+                Truth::No => no,
+                Truth::Either => yes.either(no),
+            }),
+        )
     }
 }
 

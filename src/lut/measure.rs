@@ -1,4 +1,4 @@
-//! The error of a table: its filtered lookup against the truth, between texels as well as on them.
+//! The error of a table: its filtered lookup against the reference, between texels as well as on them.
 
 use crate::fit::{ModelError, error_of};
 use crate::ir::{Column, Value};
@@ -9,7 +9,7 @@ use super::depth::Stored;
 use super::table::centre;
 use crate::ir::Weights;
 
-/// Places between texels at which the truth is known: filtering errs most there.
+/// Places between texels at which the reference is known: the error of filtering is largest there.
 #[derive(Clone, Debug, PartialEq)]
 pub struct BetweenTexels {
     points: Vec<(f64, [f64; 3])>,
@@ -25,12 +25,12 @@ const SHARES: [f64; 4] = [
 ];
 
 impl BetweenTexels {
-    /// The truth between the texels of tables of this size.
-    pub fn new(truth: &ReferenceCurve, axis: TableAxis, texels: usize) -> BetweenTexels {
+    /// The reference between the texels of tables of this size.
+    pub fn new(reference: &ReferenceCurve, axis: TableAxis, texels: usize) -> BetweenTexels {
         let place = |i: usize| SHARES.map(|share| centre(axis, i as f64 + share, texels));
         let places = (0..texels.saturating_sub(1)).flat_map(place);
         BetweenTexels {
-            points: places.map(|c| (c, truth.at(c))).collect(),
+            points: places.map(|c| (c, reference.at(c))).collect(),
         }
     }
 }
@@ -40,10 +40,10 @@ impl BetweenTexels {
 pub fn table_error(
     stored: &Stored,
     weights: Weights,
-    truth: &ReferenceCurve,
+    reference: &ReferenceCurve,
     between: &BetweenTexels,
 ) -> ModelError {
-    let mut error = error_of(truth, &|cosines| looked_up(stored, weights, cosines));
+    let mut error = error_of(reference, &|cosines| looked_up(stored, weights, cosines));
     for (c, want) in &between.points {
         let got = stored.lookup(weights, *c as f32).map(f64::from);
         for (got, want) in got.iter().zip(want) {

@@ -1,8 +1,8 @@
 //! Lookup tables: reflectance by cos θ as a texture, and the error of the filtered lookup.
 //!
-//! The way of a table, one file a step: [`TableAxis`] says where a cosine lies; [`Table`] is the truth at the centres of
+//! The way of a table, one file a step: [`TableAxis`] says where a cosine lies; [`Table`] is the reference at the centres of
 //! texels; [`Stored`] is it in a [`Depth`]; [`Stored::lookup`] is what a sampler gives back, and [`table_error`] holds
-//! that against the truth; [`smallest`] looks for the table with the fewest bytes within an error; a [`Picture`] of one
+//! that against the reference; [`smallest`] looks for the table with the fewest bytes within an error; a [`Picture`] of one
 //! or more rows becomes a file in a [`Format`]; [`lookup()`] is the function that reads it in a shader.
 //!
 //! [`SplitSum`] is a table of another kind, by angle and roughness, of what a rough surface reflects.

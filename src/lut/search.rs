@@ -130,16 +130,16 @@ impl TableFamily<'_> {
 
     /// The largest error over all truths, which share a scale. It stops at the first error above the budget.
     fn error(&self, texels: usize, budget: f64) -> f64 {
-        let made = |truth: &&ReferenceCurve| Table::new("", truth, self.axis, texels).ok();
+        let made = |reference: &&ReferenceCurve| Table::new("", reference, self.axis, texels).ok();
         let Some(tables) = self.truths.iter().map(made).collect::<Option<Vec<Table>>>() else {
             return f64::INFINITY;
         };
         let scale = self.depth.scale(&tables.iter().collect::<Vec<_>>());
         let mut worst = 0.0f64;
-        for (truth, table) in self.truths.iter().zip(&tables) {
+        for (reference, table) in self.truths.iter().zip(&tables) {
             let stored = Stored::scaled(table, self.depth, scale);
-            let between = BetweenTexels::new(truth, self.axis, texels);
-            let error = table_error(&stored, Weights::Steps256, truth, &between);
+            let between = BetweenTexels::new(reference, self.axis, texels);
+            let error = table_error(&stored, Weights::Steps256, reference, &between);
             worst = worst.max(error.max_abs);
             if worst > budget {
                 break;

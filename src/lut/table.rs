@@ -12,7 +12,7 @@ pub struct Table {
     pub name: String,
     /// How cosines are spread.
     pub axis: TableAxis,
-    /// Red, green and blue at each texel's centre, linear, in the gamut of the truth.
+    /// Red, green and blue at each texel's centre, linear, in the gamut of the reference.
     pub texels: Vec<[f64; 3]>,
 }
 
@@ -34,18 +34,18 @@ pub fn check_size(texels: usize) -> Result<(), Error> {
 }
 
 impl Table {
-    /// The table of a truth.
+    /// The table of a reference.
     ///
     /// # Errors
     /// A size that no texture has: see [`check_size`].
     pub fn new(
         name: &str,
-        truth: &ReferenceCurve,
+        reference: &ReferenceCurve,
         axis: TableAxis,
         texels: usize,
     ) -> Result<Table, Error> {
         check_size(texels)?;
-        let texel = |i: usize| truth.at(centre(axis, i as f64, texels));
+        let texel = |i: usize| reference.at(centre(axis, i as f64, texels));
         Ok(Table {
             name: name.to_owned(),
             axis,
@@ -71,15 +71,15 @@ mod tests {
             n: [1.5; 3],
             k: [0.0; 3],
         };
-        let truth = ReferenceCurve::new(Surface::of_channels(&glass), Light::Unpolarised);
+        let reference = ReferenceCurve::new(Surface::of_channels(&glass), Light::Unpolarised);
         for axis in TableAxis::ALL {
-            let table = Table::new("glass", &truth, axis, 5).unwrap();
+            let table = Table::new("glass", &reference, axis, 5).unwrap();
             assert_eq!(table.texels.len(), 5);
             assert_eq!(table.texels[0], [1.0; 3]);
             assert!((table.texels[4][0] - 0.04).abs() < 1e-15);
         }
         for texels in [0, 1, MOST_TEXELS + 1, usize::MAX] {
-            let error = Table::new("glass", &truth, TableAxis::Cos, texels).unwrap_err();
+            let error = Table::new("glass", &reference, TableAxis::Cos, texels).unwrap_err();
             assert!(error.to_string().contains("2 to 16384"), "{error}");
         }
     }

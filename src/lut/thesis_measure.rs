@@ -11,18 +11,22 @@ pub struct ThesisMeasure(Vec<(f64, [f64; 3])>);
 
 impl ThesisMeasure {
     /// At so many angles.
-    pub fn new(truth: &ReferenceCurve, angles: usize) -> ThesisMeasure {
-        ThesisMeasure::part(truth, 0..angles, angles)
+    pub fn new(reference: &ReferenceCurve, angles: usize) -> ThesisMeasure {
+        ThesisMeasure::part(reference, 0..angles, angles)
     }
 
     /// At some of these angles.
-    fn part(truth: &ReferenceCurve, some: std::ops::Range<usize>, angles: usize) -> ThesisMeasure {
+    fn part(
+        reference: &ReferenceCurve,
+        some: std::ops::Range<usize>,
+        angles: usize,
+    ) -> ThesisMeasure {
         let at = |i: usize| {
             let theta = (i as f64 + 0.5) / angles as f64 * std::f64::consts::FRAC_PI_2;
             let cos_theta = libm::cos(theta);
             (
                 cos_theta,
-                reference_reflectance(&truth.surface, truth.light, cos_theta),
+                reference_reflectance(&reference.surface, reference.light, cos_theta),
             )
         };
         ThesisMeasure(some.map(at).collect())
@@ -48,10 +52,10 @@ fn percent(sum: f64, angles: usize) -> f64 {
     100.0 * sum / (3 * angles) as f64
 }
 
-/// The thesis's measure of several tables of one truth, in per cent: mean relative difference of the lookup at `angles`
+/// The thesis's measure of several tables of one reference, in per cent: mean relative difference of the lookup at `angles`
 /// angles, even in angle, over three channels. `progress` hears how many angles are done.
 pub fn thesis_table_errors(
-    truth: &ReferenceCurve,
+    reference: &ReferenceCurve,
     tables: &[Stored],
     angles: usize,
     progress: &mut dyn FnMut(usize),
@@ -59,7 +63,7 @@ pub fn thesis_table_errors(
     const CHUNK: usize = 4096;
     let mut sums = vec![0.0; tables.len()];
     for start in (0..angles).step_by(CHUNK) {
-        let part = ThesisMeasure::part(truth, start..(start + CHUNK).min(angles), angles);
+        let part = ThesisMeasure::part(reference, start..(start + CHUNK).min(angles), angles);
         for (sum, stored) in sums.iter_mut().zip(tables) {
             *sum += part.sum(stored);
         }

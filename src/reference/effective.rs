@@ -63,16 +63,16 @@ const SECTIONS: usize = 24;
 const GOLDEN: f64 = 0.618_033_988_749_894_9;
 
 /// The index per channel for what is seen of a surface in unpolarised light.
-pub fn effective(truth: &ReferenceCurve, kind: MaterialKind) -> Effective {
-    if let Some(channels) = truth.surface.channels() {
+pub fn effective(reference: &ReferenceCurve, kind: MaterialKind) -> Effective {
+    if let Some(channels) = reference.surface.channels() {
         return Effective {
             channels,
             by: [By::Itself; 3],
         };
     }
-    let transparent = kind == MaterialKind::Dielectric && truth.surface.most_k() < FAINT_K;
-    let curve = curve(truth, if transparent { FINE } else { ANGLES });
-    let at = |c: f64| reference_reflectance(&truth.surface, Light::Unpolarised, c);
+    let transparent = kind == MaterialKind::Dielectric && reference.surface.most_k() < FAINT_K;
+    let curve = curve(reference, if transparent { FINE } else { ANGLES });
+    let at = |c: f64| reference_reflectance(&reference.surface, Light::Unpolarised, c);
     let (f0, f82) = (at(1.0), at(COS_82));
     let each = [0, 1, 2].map(|i| {
         let found = index_from_f0_f82(f0[i], f82[i]);
@@ -99,12 +99,12 @@ pub fn effective(truth: &ReferenceCurve, kind: MaterialKind) -> Effective {
 
 /// Cosines and what is seen there, between 0 and 1: no index reflects more than all, so that of saturated gold's red the
 /// part below 1 is what an index can follow.
-fn curve(truth: &ReferenceCurve, angles: usize) -> Vec<(f64, [f64; 3])> {
+fn curve(reference: &ReferenceCurve, angles: usize) -> Vec<(f64, [f64; 3])> {
     let even = (0..angles).map(|i| i as f64 / angles as f64 * std::f64::consts::FRAC_PI_2);
     let grazing = (2..GRAZING).map(|i| libm::exp2(-f64::from(i)));
     let cosines = even.map(libm::cos).chain(grazing);
     cosines
-        .map(|c| (c, truth.at(c).map(|r| r.clamp(0.0, 1.0))))
+        .map(|c| (c, reference.at(c).map(|r| r.clamp(0.0, 1.0))))
         .collect()
 }
 
@@ -185,7 +185,7 @@ mod tests {
     use super::*;
     use crate::materials::{self, Surface, ViewingConditions};
 
-    fn truth(name: &str) -> (ReferenceCurve, MaterialKind) {
+    fn reference(name: &str) -> (ReferenceCurve, MaterialKind) {
         let material = materials::find(name)
             .expect("it is there")
             .expect("it is good");
@@ -206,10 +206,10 @@ mod tests {
             ("copper_babar", 0),
             ("water", 1),
         ] {
-            let (truth, kind) = truth(name);
-            let found = effective(&truth, kind);
+            let (reference, kind) = reference(name);
+            let found = effective(&reference, kind);
             assert_eq!(found.by[channel], By::Nearest, "{name}");
-            let curve: Vec<(f64, f64)> = curve(&truth, ANGLES)
+            let curve: Vec<(f64, f64)> = curve(&reference, ANGLES)
                 .iter()
                 .map(|(c, r)| (*c, r[channel]))
                 .collect();
@@ -245,14 +245,14 @@ mod tests {
             (0.2, 3.5, MaterialKind::Metal),
             (4.0, 0.1, MaterialKind::Semiconductor),
         ] {
-            let (mut truth, _) = truth("silver");
-            truth
+            let (mut reference, _) = reference("silver");
+            reference
                 .surface
                 .indices
                 .iter_mut()
                 .for_each(|index| *index = Index { n, k });
-            let truth = ReferenceCurve::new(truth.surface, Light::Unpolarised);
-            let found = effective(&truth, kind);
+            let reference = ReferenceCurve::new(reference.surface, Light::Unpolarised);
+            let found = effective(&reference, kind);
             for i in 0..3 {
                 let apart = (found.channels.n[i] - n).abs() / n + (found.channels.k[i] - k).abs();
                 assert!(apart < 1e-6, "{found:?}");
@@ -263,9 +263,9 @@ mod tests {
     /// 2 ∫ R cos θ d(cos θ): 1 for a mirror, and known in closed form for glass (Walsh 1926; n = 1.5: .0918).
     #[test]
     fn averages_are_hemispherical() {
-        let (truth, _) = truth("silver");
+        let (reference, _) = reference("silver");
         let of = |index: Index| {
-            let mut surface = truth.surface.clone();
+            let mut surface = reference.surface.clone();
             surface.indices.iter_mut().for_each(|own| *own = index);
             ReferenceCurve::new(surface, Light::Unpolarised).average()[1]
         };

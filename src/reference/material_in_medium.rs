@@ -22,7 +22,7 @@ pub struct MaterialInMedium {
     /// What a user types to get the medium again, and its record, where it is not air.
     pub medium: Option<(String, Material)>,
     /// What is seen of it, in unpolarised light.
-    pub truth: ReferenceCurve,
+    pub reference: ReferenceCurve,
     /// The index per channel that stands for it.
     pub effective: Effective,
     /// How inputs are derived from it.
@@ -45,32 +45,32 @@ impl MaterialInMedium {
     ) -> Result<MaterialInMedium, Unseen> {
         let around = medium.as_ref().map(|(_, medium)| medium);
         let surface = Surface::new(&material, around, viewing)?;
-        let truth = ReferenceCurve::new(surface, Light::Unpolarised);
+        let reference = ReferenceCurve::new(surface, Light::Unpolarised);
         Ok(MaterialInMedium {
             name: match around {
                 Some(medium) => format!("{}_in_{}", material.name, medium.name),
                 None => material.name.clone(),
             },
-            effective: effective(&truth, material.kind),
+            effective: effective(&reference, material.kind),
             argument,
             material,
             medium,
-            truth,
+            reference,
             derivation,
         })
     }
 
-    /// What a method's error is held against: the truth in its light; what reads a table keeps the table's colours.
+    /// What a method's error is held against: the reference in its light; what reads a table keeps the table's colours.
     pub fn truth_for(&self, method: &Method) -> ReferenceCurve {
-        let truth = if method.light == self.truth.light {
-            self.truth.clone()
+        let reference = if method.light == self.reference.light {
+            self.reference.clone()
         } else {
-            ReferenceCurve::new(self.truth.surface.clone(), method.light)
+            ReferenceCurve::new(self.reference.surface.clone(), method.light)
         };
         if method.is_textured() {
-            truth.before_gamut()
+            reference.before_gamut()
         } else {
-            truth
+            reference
         }
     }
 

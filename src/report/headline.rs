@@ -111,7 +111,7 @@ fn curves(name: &str) -> Result<Vec<Reflectances>, String> {
     }
     curves.push(Reflectances {
         name: EXACT,
-        colours: cosines.iter().map(|c| subject.truth.at(*c)).collect(),
+        colours: cosines.iter().map(|c| subject.reference.at(*c)).collect(),
     });
     Ok(curves)
 }

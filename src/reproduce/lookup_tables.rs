@@ -82,7 +82,7 @@ struct ThesisMaterial<'a> {
     name: &'a str,
     /// The smaller figure of both objects, in per cent.
     printed: f64,
-    truth: ReferenceCurve,
+    reference: ReferenceCurve,
 }
 
 impl ThesisMaterial<'_> {
@@ -93,12 +93,12 @@ impl ThesisMaterial<'_> {
             table,
             name,
             printed: printed("cube").min(printed("sculpture")),
-            truth: ReferenceCurve::new(surface, Light::Unpolarised),
+            reference: ReferenceCurve::new(surface, Light::Unpolarised),
         }
     }
 
     fn material_rows(&self, angles: usize, meter: &mut Meter) -> Vec<ComparisonRow> {
-        let coarse = ThesisMeasure::new(&self.truth, angles.div_ceil(COARSER));
+        let coarse = ThesisMeasure::new(&self.reference, angles.div_ceil(COARSER));
         let error = |axis: &TableAxis| coarse.error(&self.stored(*axis, TEXELS, Depth::Float));
         let best = least(TableAxis::ALL, error);
         let kinds = [(TableAxis::Cos, "cos"), (best, "best axis")];
@@ -111,7 +111,7 @@ impl ThesisMaterial<'_> {
             .map(|((axis, _), (depth, _))| self.stored(*axis, TEXELS, *depth));
         let tables: Vec<Stored> = tables.collect();
         let mut progress = |done| meter.add(done, &format!("lookup tables of {}", self.name));
-        let errors = thesis_table_errors(&self.truth, &tables, angles, &mut progress);
+        let errors = thesis_table_errors(&self.reference, &tables, angles, &mut progress);
         let compared = each
             .iter()
             .zip(errors)
@@ -186,7 +186,7 @@ impl ThesisMaterial<'_> {
     }
 
     fn stored(&self, axis: TableAxis, texels: usize, depth: Depth) -> Stored {
-        let table = Table::new(self.name, &self.truth, axis, texels);
+        let table = Table::new(self.name, &self.reference, axis, texels);
         Stored::new(&table.expect("these sizes are sizes of textures"), depth)
     }
 }

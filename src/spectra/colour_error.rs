@@ -43,11 +43,11 @@ pub fn colour_error(
     let bounced = |share: f64| libm::pow(share, f64::from(bounces));
     let weights = xyz_weights(integration.observer, other, &wavelengths);
     let light = weighted_sum(&weights, wavelengths.iter().map(|_| 1.0));
-    let truth = weighted_sum(&weights, reflectance.iter().map(|share| bounced(*share)));
+    let reference = weighted_sum(&weights, reflectance.iter().map(|share| bounced(*share)));
     let rendered = space.rgb_to_xyz() * (space.xyz_to_rgb() * light * rgb.map(bounced));
     let adapt = bradford(light, space.white());
     let seen = |xyz| Lab::from_xyz(adapt * xyz, space.white());
-    ciede2000(seen(truth), seen(rendered))
+    ciede2000(seen(reference), seen(rendered))
 }
 
 #[cfg(test)]

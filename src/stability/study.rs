@@ -75,9 +75,9 @@ impl Study {
             meaning: function(Precision::F32)?.function,
             precision: self.precision,
         };
-        let truth = subject.truth_for(method);
+        let reference = subject.truth_for(method);
         let channel = |(channel, name): (usize, &'static str)| {
-            let found = scan_specialised(&code, channel, &|c| truth.at(c)[channel]);
+            let found = scan_specialised(&code, channel, &|c| reference.at(c)[channel]);
             self.rows_of(method, Some((subject.argument.clone(), name)), found)
         };
         let names = ["red", "green", "blue"].into_iter().enumerate();

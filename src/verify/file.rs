@@ -33,7 +33,7 @@ pub(super) struct TrialCase<'a> {
     material: &'a str,
     pub trial: Trial,
     limits: Vec<f32>,
-    truth: Option<ReferenceCurve>,
+    reference: Option<ReferenceCurve>,
 }
 
 /// The rows of a file.
@@ -102,8 +102,8 @@ pub(super) fn specialised<'a>(subject: &'a MaterialInMedium, emitted: &Emitted) 
         Measured::Yes(CodeBound::Ulp(bound) | CodeBound::Absolute(bound)) => Measured::Yes(*bound),
         Measured::No(why) => Measured::No(why.clone()),
     };
-    let truth = subject.truth_for(emitted.method);
-    let table = fit::table_of(&emitted.function, |c| truth.at(c));
+    let reference = subject.truth_for(emitted.method);
+    let table = fit::table_of(&emitted.function, |c| reference.at(c));
     TrialCase {
         material: &subject.argument,
         trial: trial(emitted, Vec::new(), table, bound),
@@ -111,7 +111,7 @@ pub(super) fn specialised<'a>(subject: &'a MaterialInMedium, emitted: &Emitted) 
             .into_iter()
             .chain(worst_cosines(emitted.method))
             .collect(),
-        truth: Some(truth),
+        reference: Some(reference),
     }
 }
 
@@ -123,8 +123,8 @@ fn library<'a>(subject: &'a MaterialInMedium, emitted: &Emitted) -> TrialCase<'a
         .iter()
         .filter(|input| input.ty != Ty::Texture);
     let single = numbers.map(|input| values[input.name].map(|value| value as f32));
-    let truth = subject.truth_for(emitted.method);
-    let table = fit::table_of(&emitted.function, |c| truth.at(c));
+    let reference = subject.truth_for(emitted.method);
+    let table = fit::table_of(&emitted.function, |c| reference.at(c));
     TrialCase {
         material: &subject.argument,
         trial: trial(
@@ -134,7 +134,7 @@ fn library<'a>(subject: &'a MaterialInMedium, emitted: &Emitted) -> TrialCase<'a
             promised_for(emitted, &subject.effective.channels),
         ),
         limits: limits_of(&subject.effective.channels),
-        truth: (emitted.form == FunctionForm::Library).then_some(truth),
+        reference: (emitted.form == FunctionForm::Library).then_some(reference),
     }
 }
 
@@ -144,7 +144,7 @@ fn known_worst(emitted: &Emitted) -> Vec<TrialCase<'static>> {
         material: row::WORST,
         trial: trial(emitted, values, None, promised(emitted.method)),
         limits: vec![cos_theta],
-        truth: None,
+        reference: None,
     };
     worst_cases(emitted.method).map(case).collect()
 }
@@ -304,8 +304,10 @@ impl<'a> FileTrial<'a> {
         let expected = case.trial.expected(&points);
         let got = runnable.run(&case.trial, &expected.cosines)?;
         let outcome: Outcome = expected.judge(&got);
-        let model_error = match (&case.truth, path) {
-            (Some(truth), ExecutionPath::Own) => Some(self.model_error(runnable, case, truth)?),
+        let model_error = match (&case.reference, path) {
+            (Some(reference), ExecutionPath::Own) => {
+                Some(self.model_error(runnable, case, reference)?)
+            }
             _ => None,
         };
         Ok(PathRun {
@@ -349,15 +351,15 @@ impl<'a> FileTrial<'a> {
         })
     }
 
-    /// The error of the method as it runs, against the truth.
+    /// The error of the method as it runs, against the reference.
     fn model_error(
         &self,
         runnable: &Runnable,
         case: &TrialCase,
-        truth: &ReferenceCurve,
+        reference: &ReferenceCurve,
     ) -> Result<ModelError, RunFault> {
         let fault = OnceCell::new();
-        let error = fit::error_of(truth, &|cosines| {
+        let error = fit::error_of(reference, &|cosines| {
             let single: Vec<f32> = cosines.iter().map(|c| *c as f32).collect();
             let got = runnable.run(&case.trial, &single);
             let got = got.unwrap_or_else(|why| {

@@ -26,7 +26,7 @@ pub struct PathRun {
     pub outcome: Outcome,
     /// In half precision: what came of it.
     pub half: Option<HalfRun>,
-    /// Against the truth, where there is one.
+    /// Against the reference, where there is one.
     pub model_error: Option<ModelError>,
     /// On what.
     pub device: String,

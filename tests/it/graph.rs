@@ -202,8 +202,8 @@ fn half_form(function: &Checked) -> Checked {
 fn every_kind_of_number_agrees_within_its_precision() {
     for function in all_functions() {
         for cos_theta in [0.25, 0.5, 0.75, 1.0] {
-            let truth = run::<Dd>(&function, cos_theta);
-            let close = |value: f64, tolerance: f64| (value - truth).abs() <= tolerance;
+            let reference = run::<Dd>(&function, cos_theta);
+            let close = |value: f64, tolerance: f64| (value - reference).abs() <= tolerance;
             let name = &function.name;
             assert!(
                 close(run::<f64>(&function, cos_theta), 1e-14),

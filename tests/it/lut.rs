@@ -16,7 +16,7 @@ use fresnel_gen::spectra::Gamut;
 
 use crate::not_checked;
 
-fn truth(name: &str) -> Option<ReferenceCurve> {
+fn reference(name: &str) -> Option<ReferenceCurve> {
     let viewing = ViewingConditions {
         gamut: Gamut::Keep,
         ..ViewingConditions::default()
@@ -27,12 +27,12 @@ fn truth(name: &str) -> Option<ReferenceCurve> {
 }
 
 /// Whether one of the axes is good enough, and the least error of all.
-fn least_error(truth: &ReferenceCurve, texels: usize, axes: &[TableAxis]) -> f64 {
+fn least_error(reference: &ReferenceCurve, texels: usize, axes: &[TableAxis]) -> f64 {
     let error = |axis: &TableAxis| {
-        let table = Table::new("", truth, *axis, texels).unwrap();
-        let between = BetweenTexels::new(truth, *axis, texels);
+        let table = Table::new("", reference, *axis, texels).unwrap();
+        let between = BetweenTexels::new(reference, *axis, texels);
         let stored = Stored::new(&table, Depth::Half);
-        table_error(&stored, Weights::Steps256, truth, &between).max_abs
+        table_error(&stored, Weights::Steps256, reference, &between).max_abs
     };
     axes.iter().map(error).fold(f64::INFINITY, f64::min)
 }
@@ -42,9 +42,11 @@ fn least_error(truth: &ReferenceCurve, texels: usize, axes: &[TableAxis]) -> f64
 fn every_material_has_a_table_of_64_texels() {
     let mut more = Vec::new();
     for name in materials::names() {
-        let Some(truth) = truth(name) else { continue };
-        let error = least_error(&truth, 64, &[TableAxis::Rational]);
-        if error > 1.0 / 1023.0 && least_error(&truth, 64, &TableAxis::ALL) > 1.0 / 1023.0 {
+        let Some(reference) = reference(name) else {
+            continue;
+        };
+        let error = least_error(&reference, 64, &[TableAxis::Rational]);
+        if error > 1.0 / 1023.0 && least_error(&reference, 64, &TableAxis::ALL) > 1.0 / 1023.0 {
             more.push(name);
         }
     }
@@ -57,10 +59,10 @@ const MORE_THAN_64: [&str; 0] = [];
 #[test]
 fn filtering_is_exact_at_both_ends() {
     for name in ["gold", "water"] {
-        let truth = truth(name).unwrap();
+        let reference = reference(name).unwrap();
         for axis in TableAxis::ALL {
             for texels in [2, 3, 64, 1000] {
-                let table = Table::new(name, &truth, axis, texels).unwrap();
+                let table = Table::new(name, &reference, axis, texels).unwrap();
                 let stored = Stored::new(&table, Depth::Float);
                 for (c, texel) in [(0.0, 0), (1.0, texels - 1)] {
                     let got = stored.lookup(Weights::Steps256, c);
@@ -121,7 +123,7 @@ fn equal_requests_give_equal_bytes() {
 /// The values that a picture of these rows has in a depth, row by row.
 fn expected(request: &BakeRequest, depth: Depth) -> (f32, Vec<[f32; 3]>) {
     let table = |subject: &TableMaterial| {
-        Table::new(&subject.name, &subject.truth, TableAxis::Rational, 64).unwrap()
+        Table::new(&subject.name, &subject.reference, TableAxis::Rational, 64).unwrap()
     };
     let tables: Vec<Table> = request.subjects.iter().map(table).collect();
     let scale = depth.scale(&tables.iter().collect::<Vec<_>>());

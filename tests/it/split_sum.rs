@@ -43,7 +43,7 @@ impl Reflectance {
     fn new(name: &'static str, subject: &MaterialInMedium, method: &Method) -> Reflectance {
         let values = inputs_of(subject, method);
         let coefficients = Input::COEFFICIENTS.iter();
-        let mut surface = subject.truth.surface.clone();
+        let mut surface = subject.reference.surface.clone();
         surface.gamut = Gamut::Keep;
         let at = |i: usize| {
             reference_reflectance(

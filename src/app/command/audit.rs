@@ -1,4 +1,4 @@
-//! `audit`: a user's own function held against the truth and against ours.
+//! `audit`: a user's own function held against the exact law and against ours.
 
 use std::path::{Path, PathBuf};
 

@@ -308,8 +308,8 @@ impl<'r> Run<'r> {
         let precision =
             Some(request.precision).filter(|precision| *precision != Precision::default());
         let medium = subject.and_then(|subject| subject.medium.as_ref());
-        let seen =
-            subject.map(|subject| emit::surface_flags(&request.viewing, &subject.truth.surface));
+        let seen = subject
+            .map(|subject| emit::surface_flags(&request.viewing, &subject.reference.surface));
         CommandLine::new("fresnel-gen")
             .list("target", [target.name])
             .list("method", methods.into_iter().flatten())

@@ -55,7 +55,7 @@ struct RowView {
 }
 
 /// The file of a target; none where it has no constants, or there is no material. The rows of one method stand together; `seen`
-/// says what the truth is.
+/// says what the reference is.
 ///
 /// # Errors
 /// A name is a word of the language, or a text is refused by it.

@@ -97,7 +97,7 @@ fn catalogue_row(
             .expect("a specialised function has its model error"),
         average: Average::of(&emitted).expect("a fitted method has a mean"),
         better: closer_fit(subject, &emitted, naming, bounds)?,
-        held: subject.truth.surface.extrapolation(),
+        held: subject.reference.surface.extrapolation(),
     })
 }
 

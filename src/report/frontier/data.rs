@@ -84,7 +84,7 @@ fn entry_errors(
     subject: &MaterialInMedium,
     space: Space,
 ) -> Vec<MethodErrors> {
-    let curve = FitCurve::new(|c| subject.truth.at(c));
+    let curve = FitCurve::new(|c| subject.reference.at(c));
     let one = |entry: &ChartEntry| match entry.method() {
         Some(method) if subject.is_described_by(method) => {
             let inputs = match entry.is_best {

@@ -54,7 +54,7 @@ fn both(name: &str, other: fn(f32, f32, f32) -> f32, media: &[Medium]) -> (f64, 
 /// The indices of a material at every wavelength.
 fn spectrum(name: &str) -> Vec<Medium> {
     let subject = &subjects(&[name])[0];
-    let indices = subject.truth.surface.indices.iter();
+    let indices = subject.reference.surface.indices.iter();
     indices
         .map(|index| (index.n as f32, index.k as f32))
         .collect()

@@ -145,7 +145,7 @@ impl<'a> Put<'a> {
 
 fn stored(lit: &TableMaterial, axis: TableAxis, texels: usize, depth: Depth) -> Stored {
     Stored::new(
-        &Table::new(&lit.name, &lit.truth, axis, texels).unwrap(),
+        &Table::new(&lit.name, &lit.reference, axis, texels).unwrap(),
         depth,
     )
 }

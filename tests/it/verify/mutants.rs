@@ -222,7 +222,7 @@ fn trial(emitted: &Emitted, subject: &MaterialInMedium) -> Trial {
         values: inputs
             .map(|input| values[input.name].map(|value| value as f32))
             .collect(),
-        table: fit::table_of(&emitted.function, |c| subject.truth.at(c)),
+        table: fit::table_of(&emitted.function, |c| subject.reference.at(c)),
         bound: match guarded {
             true => Measured::Yes(emitted.method.claims.code_ulp),
             false => Measured::No("it promises nothing".to_owned()),
