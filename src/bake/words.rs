@@ -2,6 +2,7 @@
 
 use crate::emit::{CommandLine, Naming, quoted};
 use crate::materials::ViewingConditions;
+use crate::spectra::Gamut;
 use crate::targets::Target;
 
 use super::{BakeRequest, TableMaterial, TableSize};
@@ -15,9 +16,12 @@ pub fn material_words(subjects: &[TableMaterial]) -> String {
 /// The flags of the medium and the viewing conditions, each with a space before it.
 pub fn viewing_flags(subjects: &[TableMaterial], viewing: &ViewingConditions) -> String {
     let medium = subjects.first().and_then(|subject| subject.medium.as_ref());
+    // Tables keep colours outside the space unless asked otherwise; for functions it is the other way round.
+    let clips = viewing.gamut == Gamut::Clip && viewing.wavelengths_nm.is_none();
     CommandLine::new("")
         .list("medium", medium)
         .seen_as(viewing)
+        .list("gamut", clips.then_some(Gamut::Clip.name()))
         .into()
 }
 

@@ -28,7 +28,7 @@ pub struct CostFlags {
     /// Which materials.
     #[command(flatten)]
     pub materials: MaterialFlags,
-    /// What functions compute in: f32 or f16 [default: both]
+    /// What functions compute in: f32, f16 [default: each]
     #[arg(long, value_delimiter = ',', value_name = "NAME", value_parser = precision())]
     pub precision: Vec<Precision>,
     /// Compare what compilers say now with what was recorded; exit 1 where it differs

@@ -52,7 +52,7 @@ pub struct GenerateFlags {
     /// The folder for the generated tree.
     #[command(flatten)]
     pub tree: TreeFlags,
-    /// Write the functions asked for into this one file, or `-` for stdout; one target [default: wgsl]
+    /// Write the functions asked for into this one file, or `-` for stdout; one target [default: by the file's ending; wgsl for `-`]
     #[arg(short = 'o', value_name = "FILE", conflicts_with_all = ["check", "list", "out_dir"])]
     pub output: Option<PathBuf>,
     /// Write nothing: compare with the folder, print a diff, exit 1 where it differs
@@ -72,7 +72,7 @@ pub struct GenerateFlags {
 /// A file, and not stdout.
 fn file(word: &str) -> Result<PathBuf, &'static str> {
     match word {
-        "-" => Err("--depfile takes a file; stdout is not one of its places"),
+        "-" => Err("--depfile takes a file, and not stdout"),
         path => Ok(path.into()),
     }
 }

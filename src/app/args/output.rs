@@ -26,7 +26,7 @@ pub struct CheckReportFlags {
     #[command(flatten)]
     pub report: ReportFlags,
     /// Write the report as JUnit's XML to this file
-    #[arg(long, value_name = "FILE")]
+    #[arg(long, value_name = "FILE", value_parser = file_only)]
     pub junit: Option<PathBuf>,
 }
 
@@ -34,6 +34,17 @@ impl CheckReportFlags {
     /// The files of the report.
     pub fn files(&self) -> impl Iterator<Item = &PathBuf> {
         self.report.json.iter().chain(&self.junit)
+    }
+}
+
+/// A file, and not stdout.
+///
+/// # Errors
+/// The word is `-`.
+pub fn file_only(word: &str) -> Result<PathBuf, &'static str> {
+    match word {
+        "-" => Err("--junit takes a file, and not stdout"),
+        path => Ok(path.into()),
     }
 }
 

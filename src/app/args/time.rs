@@ -35,7 +35,7 @@ pub struct TimeFlags {
     /// Which materials.
     #[command(flatten)]
     pub materials: MaterialFlags,
-    /// What functions compute in: f32, f16, or both [default: both]
+    /// What functions compute in: f32, f16 [default: each]
     #[arg(long, value_delimiter = ',', value_name = "NAME", value_parser = precision())]
     pub precision: Vec<Precision>,
     /// The graphics card, by a part of its name [default: the fastest there is]

@@ -1,6 +1,6 @@
 //! `fresnel-gen` without a subcommand: generate, check, list.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 
 use crate::app::args::GenerateFlags;
@@ -22,6 +22,7 @@ use crate::cost;
 use crate::methods;
 use crate::num::Precision;
 use crate::report::budget::budget_remarks;
+use crate::targets;
 
 use super::{Output, folder_or_current, refuse_within_tree};
 
@@ -125,7 +126,7 @@ const USUAL_GPU: &str = "rdna2";
 
 fn request(flags: &GenerateFlags) -> Result<Request, Error> {
     Ok(Request {
-        targets: flags.target.iter().map(ToString::to_string).collect(),
+        targets: target_words(flags)?,
         methods: flags.method.iter().map(ToString::to_string).collect(),
         materials: flags.materials.materials()?,
         medium: flags.medium.source()?,
@@ -137,6 +138,48 @@ fn request(flags: &GenerateFlags) -> Result<Request, Error> {
         viewing: flags.viewing.conditions()?,
         header: flags.header,
     })
+}
+
+/// The targets as a request names them: those of `--target`, or the language of the ending of `-o`.
+fn target_words(flags: &GenerateFlags) -> Result<Vec<String>, Error> {
+    let named: Vec<String> = flags.target.iter().map(ToString::to_string).collect();
+    let file = flags
+        .output
+        .as_deref()
+        .filter(|file| *file != Path::new("-"));
+    let Some(file) = file else {
+        return Ok(named);
+    };
+    let ending = file.extension().and_then(|ending| ending.to_str());
+    let of_ending = || {
+        targets::ALL
+            .iter()
+            .filter(|target| Some(target.extension) == ending)
+    };
+    let first = of_ending()
+        .find(|target| target.by_default)
+        .or_else(|| of_ending().next());
+    let file = file.display();
+    match (first, named.as_slice()) {
+        (Some(first), []) => Ok(vec![first.name.to_owned()]),
+        (None, []) if ending.is_some() => {
+            let endings: BTreeSet<&str> = targets::ALL.iter().map(|one| one.extension).collect();
+            let endings: Vec<String> = endings.iter().map(|ending| format!(".{ending}")).collect();
+            let why = format!(
+                "`{file}` says no language by its ending; name one with --target, or end the file in {}",
+                endings.join(", ")
+            );
+            Err(RequestFault::conflict(why).into())
+        }
+        (Some(first), [one]) if one != "all" && of_ending().all(|target| target.name != one) => {
+            let why = format!(
+                "`{file}` ends as a file of {}, and --target is {one}",
+                first.name
+            );
+            Err(RequestFault::conflict(why).into())
+        }
+        _ => Ok(named),
+    }
 }
 
 fn single(flags: &GenerateFlags, request: &Request, file: &Path) -> Result<Output, Error> {

@@ -51,6 +51,29 @@ fn a_file_gets_what_stdout_gets() {
 }
 
 #[test]
+fn the_ending_names_the_language() {
+    let place = Place::new();
+    for (file, target) in [
+        ("a.hlsl", "hlsl"),
+        ("a.glsl", "gles"),
+        ("a.metal", "msl"),
+        ("a.wgsl", "wgsl"),
+        ("a", "wgsl"),
+    ] {
+        place.done(&format!("--method schlick -o {file}"));
+        let out = place.done(&format!("--method schlick --target {target} -o -"));
+        assert_eq!(place.read(file), out.out, "{file}");
+    }
+    place.done("--method schlick --target glsl -o b.glsl");
+    place.done("--method schlick --target hlsl -o b.ush");
+    place.refused("--method schlick -o c.ush", &["c.ush", "--target", ".hlsl"]);
+    place.refused(
+        "--method schlick --target gles -o c.hlsl",
+        &["c.hlsl", "hlsl", "--target is gles"],
+    );
+}
+
+#[test]
 fn modules_come_alone() {
     let place = Place::new();
     for line in [
