@@ -97,7 +97,7 @@ fn command(request: &Request, target: Option<&str>) -> Result<String, Error> {
 struct CatalogueFile<'a> {
     #[serde(flatten)]
     origin: Origin,
-    reference: &'a str,
+    truth: &'a str,
     space: Option<&'static str>,
     licence: &'static str,
     methods: Vec<CatalogueMethod>,
@@ -109,7 +109,7 @@ fn as_json(rows: &[CatalogueRow], reference: &str, request: &Request) -> Result<
     let is_spectral = request.viewing.wavelengths_nm.is_none();
     let file = CatalogueFile {
         origin: Origin::new(command.clone()),
-        reference,
+        truth: reference,
         space: is_spectral.then(|| request.viewing.integration.space.name()),
         licence: OUTPUT_LICENCE,
         methods: CatalogueMethod::all(rows),

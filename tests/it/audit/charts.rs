@@ -83,7 +83,7 @@ fn places_that_cannot_be_written_or_are_one_are_refused() {
         ("--out-dir c --json c/chart.svg", "two outputs"),
         ("--out-dir . --junit chart.html", "two outputs"),
         ("--json a.xml --junit ./a.xml", "two outputs"),
-        ("--json - --junit -", "two outputs"),
+        ("--json - --junit -", "--junit takes a file"),
     ] {
         let line = format!("audit thesis.wgsl --function schlick --material gold {flags}");
         place.refused(&line, &[says]);
