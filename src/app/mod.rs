@@ -25,8 +25,8 @@ pub mod ours;
 pub mod request;
 pub mod scope;
 pub mod source;
-#[cfg(feature = "cli")]
 pub mod subjects;
+#[cfg(feature = "cli")]
 pub mod tables;
 #[cfg(all(feature = "cli", feature = "gpu"))]
 pub mod time_request;

@@ -119,7 +119,7 @@ fn reported(
     rows: &[VerifyRow],
 ) -> Result<Output, Error> {
     if let Some(file) = &flags.report.junit {
-        let xml = verify_junit(&rows).map_err(not_drawn)?;
+        let xml = verify_junit(rows).map_err(not_drawn)?;
         write_file(file, xml.as_bytes())?;
     }
     let full =
