@@ -10,6 +10,7 @@ use crate::methods::Method;
 use crate::targets::Target;
 
 use super::choice::{Choice, family, method_or_all, one_of, target_or_all};
+use super::output::file_only;
 use super::{GamutFlags, MaterialFlags, MediumFlags, PrecisionFlags, TreeFlags};
 
 /// The flags of generation.
@@ -59,7 +60,7 @@ pub struct GenerateFlags {
     #[arg(long, conflicts_with_all = ["list", "depfile"])]
     pub check: bool,
     /// Write the run's outputs and inputs as a Makefile rule
-    #[arg(long, value_name = "FILE", value_parser = file, conflicts_with = "list")]
+    #[arg(long, value_name = "FILE", value_parser = file_only("--depfile"), conflicts_with = "list")]
     pub depfile: Option<PathBuf>,
     /// Print the names of the files that would be written, and write nothing
     #[arg(long)]
@@ -67,12 +68,4 @@ pub struct GenerateFlags {
     /// No summary on success
     #[arg(long, short)]
     pub quiet: bool,
-}
-
-/// A file, and not stdout.
-fn file(word: &str) -> Result<PathBuf, &'static str> {
-    match word {
-        "-" => Err("--depfile takes a file, and not stdout"),
-        path => Ok(path.into()),
-    }
 }

@@ -26,7 +26,7 @@ pub struct CheckReportFlags {
     #[command(flatten)]
     pub report: ReportFlags,
     /// Write the report as JUnit's XML to this file
-    #[arg(long, value_name = "FILE", value_parser = file_only)]
+    #[arg(long, value_name = "FILE", value_parser = file_only("--junit"))]
     pub junit: Option<PathBuf>,
 }
 
@@ -37,13 +37,10 @@ impl CheckReportFlags {
     }
 }
 
-/// A file, and not stdout.
-///
-/// # Errors
-/// The word is `-`.
-pub fn file_only(word: &str) -> Result<PathBuf, &'static str> {
-    match word {
-        "-" => Err("--junit takes a file, and not stdout"),
+/// The parser of a flag that takes a file, and not `-` for stdout.
+pub fn file_only(flag: &'static str) -> impl Fn(&str) -> Result<PathBuf, String> + Clone {
+    move |word: &str| match word {
+        "-" => Err(format!("{flag} takes a file, and not stdout")),
         path => Ok(path.into()),
     }
 }
