@@ -29,6 +29,7 @@ use std::path::PathBuf;
 use crate::cost::Family;
 use crate::gpu::Uniform;
 use crate::methods::find_input;
+use crate::num::each_channel;
 use crate::reference::MaterialInMedium;
 use crate::spectra::Space;
 use crate::verify::compilers::{CompilerFault, Verdict};
@@ -210,7 +211,7 @@ fn most(bound: &Bound) -> [f32; 3] {
         .iter()
         .filter(raises)
         .fold([1.0; 3], |most, argument| {
-            [0, 1, 2].map(|i| most[i].max(argument.value[i]))
+            each_channel(|i| most[i].max(argument.value[i]))
         })
 }
 

@@ -8,7 +8,7 @@ use crate::emit::FunctionForm;
 use crate::fit::{error_of, inputs_of};
 use crate::ir::{Column, Value, evaluate};
 use crate::methods::{self, Contract, Light, Method};
-use crate::num::Precision;
+use crate::num::{Precision, each_channel};
 use crate::process::{Pool, Surroundings};
 use crate::reference::MaterialInMedium;
 
@@ -114,7 +114,7 @@ fn error(function: &CostedFunction, subject: &MaterialInMedium) -> f64 {
                     .collect(),
             )
         };
-        Value::Rgb([0, 1, 2].map(channel))
+        Value::Rgb(each_channel(channel))
     });
     error.max_abs
 }

@@ -6,6 +6,7 @@ use core::time::Duration;
 use crate::fit::{ModelError, Perceived, error_of, perceived};
 use crate::gpu::Uniform;
 use crate::ir::{Column, Value};
+use crate::num::each_channel;
 use crate::process::{Error, Launch, Silence, Surroundings, Worker};
 use crate::reference::ReferenceCurve;
 use crate::spectra::Space;
@@ -129,7 +130,7 @@ impl Runner {
             }
             let channel =
                 |i: usize| Column::Each(got.iter().map(|rgb| f64::from(rgb[i])).collect());
-            Value::Rgb([0, 1, 2].map(channel))
+            Value::Rgb(each_channel(channel))
         });
         failed.into_inner().map_or(Ok(measured), Err)
     }

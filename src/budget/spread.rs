@@ -3,6 +3,7 @@
 use crate::fit::FitCurve;
 use crate::materials::{self, Material, Surface, ViewingConditions};
 use crate::methods::Light;
+use crate::num::each_channel;
 use crate::reference::{MaterialInMedium, reference_reflectance};
 
 /// How far measurements differ.
@@ -50,7 +51,7 @@ fn apart(curves: &[Vec<[f64; 3]>]) -> f64 {
         });
         most - least
     };
-    let all = (0..points).flat_map(|point| [0, 1, 2].map(|channel| at(point, channel)));
+    let all = (0..points).flat_map(|point| each_channel(|channel| at(point, channel)));
     all.fold(0.0, f64::max)
 }
 

@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::ir::{Checked, Value, evaluate};
 use crate::methods::Method;
-use crate::num::Legendre;
+use crate::num::{Legendre, each_channel};
 
 use super::error::Error;
 use super::form::FunctionForm;
@@ -74,7 +74,7 @@ impl Average {
         };
         Some(Average {
             given: hemispherical(&emitted.function),
-            unlimited: [0, 1, 2].map(sum),
+            unlimited: each_channel(sum),
         })
     }
 
@@ -115,6 +115,6 @@ fn hemispherical(function: &Checked) -> [f64; 3] {
     let weighed = cosines.iter().zip(weights).enumerate();
     weighed.fold([0.0; 3], |sum, (i, (c, weight))| {
         let value = values.at(i);
-        [0, 1, 2].map(|channel| sum[channel] + 2.0 * c * weight * value[channel])
+        each_channel(|channel| sum[channel] + 2.0 * c * weight * value[channel])
     })
 }

@@ -121,13 +121,12 @@ impl InputSearch<'_> {
     fn missed(&self, values: &Values, channel: Option<usize>) -> Vec<f64> {
         let given = values_at(&self.function, self.inputs, values, &self.curve.cosines);
         let channels = channel.map_or(0..3, |channel| channel..channel + 1);
-        let seen = self.curve.seen.iter().enumerate();
-        let at = |(point, seen): (usize, &[f64; 3])| {
+        let mut missed = Vec::with_capacity(self.curve.seen.len() * channels.len());
+        for (point, seen) in self.curve.seen.iter().enumerate() {
             let given = given.at(point);
-            let missed = channels.clone().map(|i| seen[i] - given[i]);
-            missed.collect::<Vec<f64>>()
-        };
-        seen.flat_map(at).collect()
+            missed.extend(channels.clone().map(|i| seen[i] - given[i]));
+        }
+        missed
     }
 }
 

@@ -2,7 +2,7 @@
 
 use crate::materials::Channels;
 use crate::methods::{Input, KnownSurface, Method, Values};
-use crate::num::Precision;
+use crate::num::{Precision, each_channel};
 use crate::optics;
 use crate::reference::{Derivation, MaterialInMedium};
 
@@ -17,7 +17,7 @@ pub fn known(channels: &Channels, derivation: &Derivation) -> KnownSurface {
 pub fn values(method: &Method, channels: &Channels, derivation: &Derivation) -> Values {
     if method.is_fitted() {
         let Channels { n, k } = *channels;
-        let curve = FitCurve::new(|c| [0, 1, 2].map(|i| exact(n[i], k[i], c)));
+        let curve = FitCurve::new(|c| each_channel(|i| exact(n[i], k[i], c)));
         return fitted_values(method, Precision::F32, &curve);
     }
     values_of(method, &known(channels, derivation))

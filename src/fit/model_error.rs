@@ -5,6 +5,7 @@ use serde::{Deserialize, Serialize};
 use crate::ir::{Checked, Column, Value, evaluate};
 use crate::materials::{Channels, Surface};
 use crate::methods::Light;
+use crate::num::each_channel;
 use crate::reference::{ANGLES, ReferenceCurve, cosine, cosines, reference_reflectance};
 
 use super::texels::{arguments, table_of};
@@ -53,7 +54,7 @@ pub fn single_error(function: &Checked, reference: &ReferenceCurve) -> ModelErro
             let values = (0..cosines.len()).map(|point| f64::from(got.at(point)[i]));
             Column::Each(values.collect())
         };
-        Value::Rgb([0, 1, 2].map(channel))
+        Value::Rgb(each_channel(channel))
     })
 }
 

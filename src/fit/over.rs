@@ -3,6 +3,7 @@
 use crate::ir::{Value, evaluate};
 use crate::materials::{Channels, Surface};
 use crate::methods::{Method, Over};
+use crate::num::each_channel;
 
 use super::derive::values;
 use super::model_error::{ModelError, difference};
@@ -30,8 +31,8 @@ fn media(over: Over) -> Vec<Channels> {
 fn channels(three: &[(f64, f64)]) -> Channels {
     let point = |i: usize| three[i.min(three.len() - 1)];
     Channels {
-        n: [0, 1, 2].map(|i| point(i).0),
-        k: [0, 1, 2].map(|i| point(i).1),
+        n: each_channel(|i| point(i).0),
+        k: each_channel(|i| point(i).1),
     }
 }
 

@@ -2,7 +2,7 @@
 //! without the clip to [0, 1] that comes after. Which error, and what is met exactly, is a [`FitObjective`].
 
 use crate::methods::{Light, Shape, unwarped};
-use crate::num::Precision;
+use crate::num::{Precision, each_channel};
 use crate::reference::{MaterialInMedium, reference_reflectance};
 use crate::spectra::{Gamut, Space};
 
@@ -101,8 +101,8 @@ impl FitProblem<'_> {
         FitProblem {
             curve,
             aim,
-            wanted: [0, 1, 2].map(|i| channel(&curve.seen, i)),
-            weights: [0, 1, 2].map(|i| channel(&weights, i)),
+            wanted: each_channel(|i| channel(&curve.seen, i)),
+            weights: each_channel(|i| channel(&weights, i)),
         }
     }
 
@@ -113,7 +113,7 @@ impl FitProblem<'_> {
         if self.aim.weight != Weight::DeltaE {
             return Some(weighed);
         }
-        let even = self.fit_by(&[0, 1, 2].map(|_| vec![1.0; basis.len()]), basis);
+        let even = self.fit_by(&each_channel(|_| vec![1.0; basis.len()]), basis);
         let better = even.filter(|even| even.error < weighed.error);
         Some(better.unwrap_or(weighed))
     }
@@ -143,7 +143,7 @@ impl FitProblem<'_> {
         };
         let rounded = [single(0, &red), single(1, &green), single(2, &blue)];
         let coefficients: Vec<[f64; 3]> = (0..red.len())
-            .map(|term| [0, 1, 2].map(|i| rounded[i][term]))
+            .map(|term| each_channel(|i| rounded[i][term]))
             .collect();
         Some(Fit {
             error: self.error(basis, &coefficients),
@@ -173,7 +173,7 @@ impl FitProblem<'_> {
         let points = basis.iter().zip(&self.curve.seen);
         let errors = points.map(|(row, seen)| {
             let terms = row.iter().zip(coefficients);
-            let given = terms.fold([0.0; 3], |sum, (b, c)| [0, 1, 2].map(|i| sum[i] + b * c[i]));
+            let given = terms.fold([0.0; 3], |sum, (b, c)| each_channel(|i| sum[i] + b * c[i]));
             weight.error(given, *seen, space)
         });
         errors.fold(0.0, f64::max)

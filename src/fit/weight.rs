@@ -3,6 +3,7 @@
 
 use glam::DVec3;
 
+use crate::num::each_channel;
 use crate::spectra::{Space, ciede2000};
 
 use super::perceived::lab;
@@ -60,7 +61,7 @@ impl Weight {
         match self {
             Weight::Absolute | Weight::Luminance => [1.0; 3],
             Weight::Relative => reference.map(|reflectance| 1.0 / reflectance.abs().max(LEAST)),
-            Weight::DeltaE => [0, 1, 2].map(|channel| {
+            Weight::DeltaE => each_channel(|channel| {
                 let mut moved = reference;
                 moved[channel] += STEP;
                 self.error(moved, reference, space) / STEP

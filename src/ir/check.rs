@@ -185,6 +185,9 @@ fn is_name_only(function: &Function, node: &Node) -> bool {
                 .all(|a| is_name_only(function, &function.nodes[*a]))
 }
 
+/// File systems allow 255 bytes, and endings follow.
+const LONGEST_NAME: usize = 200;
+
 /// What is wrong with a name, if anything: it must be legal in every language.
 pub fn identifier_fault(name: &str) -> Option<&'static str> {
     let legal = |c: char| c.is_ascii_alphanumeric() || c == '_';
@@ -196,6 +199,8 @@ pub fn identifier_fault(name: &str) -> Option<&'static str> {
         Some("two underscores in a row are reserved in GLSL")
     } else if name.ends_with('_') {
         Some("a name must not end in an underscore")
+    } else if name.len() > LONGEST_NAME {
+        Some("a name must not have more than 200 characters: files are named after functions")
     } else {
         None
     }

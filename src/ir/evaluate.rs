@@ -1,9 +1,8 @@
 //! Evaluation of a function in any kind of number, node by node over whole columns of inputs.
 
-use std::borrow::Cow;
 use std::ops::Range;
 
-use crate::num::{Num, Truth};
+use crate::num::{Num, Truth, each_channel};
 
 use super::check::Checked;
 use super::graph::{Function, Node};
@@ -34,6 +33,7 @@ pub enum Value<N> {
 
 impl<T: Copy> Column<T> {
     /// The value at a point.
+    #[inline]
     pub fn at(&self, point: usize) -> T {
         match self {
             Column::Same(value) => *value,
@@ -42,6 +42,7 @@ impl<T: Copy> Column<T> {
     }
 
     /// Whether this holds at every point.
+    #[inline]
     pub fn all(&self, holds: impl Fn(T) -> bool) -> bool {
         match self {
             Column::Same(value) => holds(*value),
@@ -50,10 +51,12 @@ impl<T: Copy> Column<T> {
     }
 
     /// Whether this holds at every point for this and another column.
+    #[inline]
     pub fn all_with(&self, other: &Column<T>, holds: impl Fn(T, T) -> bool) -> bool {
         self.zip(other, &holds).all(|answer| answer)
     }
 
+    #[inline]
     fn part(&self, range: &Range<usize>) -> Column<T> {
         match self {
             Column::Same(value) => Column::Same(*value),
@@ -62,6 +65,7 @@ impl<T: Copy> Column<T> {
     }
 
     /// This column with the points of the next chunk behind its own.
+    #[inline]
     fn joined(mut self, next: Column<T>) -> Column<T> {
         if let (Column::Each(values), Column::Each(next)) = (&mut self, next) {
             values.extend(next);
@@ -70,6 +74,7 @@ impl<T: Copy> Column<T> {
     }
 
     /// How many points it has a number each for; nothing where it is the same at all.
+    #[inline]
     fn points(&self) -> Option<usize> {
         match self {
             Column::Same(_) => None,
@@ -77,15 +82,8 @@ impl<T: Copy> Column<T> {
         }
     }
 
-    /// A number for each of so many points.
-    fn spread(&self, points: usize) -> Cow<'_, [T]> {
-        match self {
-            Column::Same(value) => Cow::Owned(vec![*value; points]),
-            Column::Each(values) => Cow::Borrowed(values),
-        }
-    }
-
     /// The loops of this and of `zip` name no iterator that holds `f`: each operation in each kind of number is compiled once.
+    #[inline]
     fn map<U: Copy>(&self, f: &impl Fn(T) -> U) -> Column<U> {
         let values = match self {
             Column::Same(value) => return Column::Same(f(*value)),
@@ -101,17 +99,20 @@ impl<T: Copy> Column<T> {
         Column::Each(mapped)
     }
 
+    #[inline]
     fn zip<U: Copy, V: Copy>(&self, other: &Column<U>, f: &impl Fn(T, U) -> V) -> Column<V> {
-        let Some(points) = self.points().or(other.points()) else {
-            return Column::Same(f(self.at(0), other.at(0)));
+        let (ours, theirs) = match (self, other) {
+            (Column::Same(one), Column::Same(other)) => return Column::Same(f(*one, *other)),
+            (Column::Same(one), Column::Each(_)) => return other.map(&|other| f(*one, other)),
+            (Column::Each(_), Column::Same(other)) => return self.map(&|one| f(one, *other)),
+            (Column::Each(ours), Column::Each(theirs)) => (ours, theirs),
         };
-        let (a, b) = (self.spread(points), other.spread(points));
-        if points == 0 {
+        let (Some(one), Some(other)) = (ours.first(), theirs.first()) else {
             return Column::Each(Vec::new());
-        }
-        let mut both = vec![f(a[0], b[0]); points];
-        for ((to, a), b) in both.iter_mut().zip(a.iter()).zip(b.iter()) {
-            *to = f(*a, *b);
+        };
+        let mut both = vec![f(*one, *other); ours.len()];
+        for ((to, one), other) in both.iter_mut().zip(ours).zip(theirs) {
+            *to = f(*one, *other);
         }
         Column::Each(both)
     }
@@ -119,21 +120,25 @@ impl<T: Copy> Column<T> {
 
 impl<N: Num> Value<N> {
     /// The same scalar at every point.
+    #[inline]
     pub fn scalar(value: f64) -> Value<N> {
         Value::Scalar(Column::Same(N::from_f64(value)))
     }
 
     /// The same colour at every point.
+    #[inline]
     pub fn rgb(value: [f64; 3]) -> Value<N> {
         Value::Rgb(value.map(|channel| Column::Same(N::from_f64(channel))))
     }
 
     /// A scalar for each point.
+    #[inline]
     pub fn each(values: Vec<N>) -> Value<N> {
         Value::Scalar(Column::Each(values))
     }
 
     /// One channel; a scalar is the same in all three.
+    #[inline]
     pub fn channel(&self, index: usize) -> &Column<N> {
         match self {
             Value::Scalar(column) => column,
@@ -145,6 +150,7 @@ impl<N: Num> Value<N> {
     }
 
     /// How many points it has a number each for; nothing where it is the same at all.
+    #[inline]
     fn points(&self) -> Option<usize> {
         let columns = match self {
             Value::Scalar(column) => std::slice::from_ref(column),
@@ -154,15 +160,17 @@ impl<N: Num> Value<N> {
         columns.iter().filter_map(Column::points).max()
     }
 
+    #[inline]
     fn part(&self, range: &Range<usize>) -> Value<N> {
         match self {
             Value::Scalar(column) => Value::Scalar(column.part(range)),
-            Value::Rgb(columns) => Value::Rgb([0, 1, 2].map(|i| columns[i].part(range))),
+            Value::Rgb(columns) => Value::Rgb(each_channel(|i| columns[i].part(range))),
             Value::Bool(_) => unreachable!("no argument is an answer"),
             Value::Texture(texels) => Value::Texture(texels.clone()),
         }
     }
 
+    #[inline]
     fn joined(self, next: Value<N>) -> Value<N> {
         match (self, next) {
             (Value::Scalar(column), Value::Scalar(next)) => Value::Scalar(column.joined(next)),
@@ -174,10 +182,12 @@ impl<N: Num> Value<N> {
     }
 
     /// The three channels at a point.
+    #[inline]
     pub fn at(&self, point: usize) -> [N; 3] {
-        [0, 1, 2].map(|index| self.channel(index).at(point))
+        each_channel(|index| self.channel(index).at(point))
     }
 
+    #[inline]
     fn map(&self, f: impl Fn(N) -> N) -> Value<N> {
         match self {
             Value::Rgb([r, g, b]) => Value::Rgb([r.map(&f), g.map(&f), b.map(&f)]),
@@ -185,6 +195,7 @@ impl<N: Num> Value<N> {
         }
     }
 
+    #[inline]
     fn zip(&self, other: &Value<N>, f: impl Fn(N, N) -> N) -> Value<N> {
         let channel = |index: usize| self.channel(index).zip(other.channel(index), &f);
         if let (Value::Scalar(_), Value::Scalar(_)) = (self, other) {
@@ -193,6 +204,7 @@ impl<N: Num> Value<N> {
         Value::Rgb([channel(0), channel(1), channel(2)])
     }
 
+    #[inline]
     fn choose(&self, yes: &Value<N>, no: &Value<N>) -> Value<N> {
         let Value::Bool(condition) = self else {
             unreachable!("a checked select starts with a Bool")
@@ -210,6 +222,7 @@ impl<N: Num> Value<N> {
 
 impl<N: Num> Value<N> {
     /// Exact weights: what a GPU's eight bits make of them is no rounding of numbers.
+    #[inline]
     fn sample(&self, u: &Value<N>, v: &Value<N>) -> Value<N> {
         let Value::Texture(texels) = self else {
             unreachable!("a checked sample starts with a texture")
@@ -219,7 +232,7 @@ impl<N: Num> Value<N> {
             None => [N::unknown(); 3],
         };
         let mixed = u.channel(0).zip(v.channel(0), &at);
-        Value::Rgb([0, 1, 2].map(|i| mixed.map(&|colour: [N; 3]| colour[i])))
+        Value::Rgb(each_channel(|i| mixed.map(&|colour: [N; 3]| colour[i])))
     }
 }
 
@@ -228,6 +241,7 @@ const CHUNK: usize = 1024;
 
 /// Evaluates a function for these arguments, in the order of its parameters. Columns with a number for each point have the
 /// same length.
+#[inline]
 pub fn evaluate<N: Num>(function: &Checked, arguments: &[Value<N>]) -> Value<N> {
     let whole = |arguments: &[Value<N>]| {
         let mut values = evaluate_nodes(function, arguments);
@@ -251,6 +265,7 @@ pub fn evaluate<N: Num>(function: &Checked, arguments: &[Value<N>]) -> Value<N> 
 }
 
 /// The values of all nodes, for whoever wants to know more than the result.
+#[inline]
 pub(super) fn evaluate_nodes<N: Num>(function: &Function, arguments: &[Value<N>]) -> Vec<Value<N>> {
     let mut values: Vec<Value<N>> = Vec::with_capacity(function.nodes.len());
     for node in &function.nodes {
@@ -261,14 +276,15 @@ pub(super) fn evaluate_nodes<N: Num>(function: &Function, arguments: &[Value<N>]
 }
 
 /// What each operation does.
+#[inline]
 pub(super) fn apply<N: Num>(node: &Node, values: &[Value<N>], arguments: &[Value<N>]) -> Value<N> {
     let arg = |i: usize| &values[node.args[i]];
     match (node.op, node.payload) {
         (Op::Number, Payload::Number(value)) => Value::scalar(value),
         (Op::Param, Payload::Index(index)) => arguments[index].clone(),
         (Op::Channel, Payload::Index(index)) => Value::Scalar(arg(0).channel(index).clone()),
-        (Op::Splat, _) => Value::Rgb([0, 1, 2].map(|_| arg(0).channel(0).clone())),
-        (Op::Compose, _) => Value::Rgb([0, 1, 2].map(|i| arg(i).channel(0).clone())),
+        (Op::Splat, _) => Value::Rgb(each_channel(|_| arg(0).channel(0).clone())),
+        (Op::Compose, _) => Value::Rgb(each_channel(|i| arg(i).channel(0).clone())),
         (Op::Add, _) => arg(0).zip(arg(1), |a, b| a + b),
         (Op::Sub, _) => arg(0).zip(arg(1), |a, b| a - b),
         (Op::Mul, _) if node.args[0] == node.args[1] => arg(0).map(N::squared),

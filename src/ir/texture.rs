@@ -8,7 +8,7 @@
 
 use std::sync::Arc;
 
-use crate::num::Num;
+use crate::num::{Num, each_channel};
 
 /// How finely the place between two texels is known.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -37,6 +37,7 @@ struct TexelPair<N> {
 
 impl Texels {
     /// One row.
+    #[inline]
     pub fn row(texels: &[[f32; 3]]) -> Texels {
         Texels {
             width: texels.len(),
@@ -45,11 +46,13 @@ impl Texels {
     }
 
     /// How many rows there are.
+    #[inline]
     pub fn height(&self) -> usize {
         self.texels.len().checked_div(self.width).unwrap_or(0)
     }
 
     /// What a sampler gives at (u, v). A NaN is the first texel; where there are no texels all is black.
+    #[inline]
     pub fn sample<N: Num>(&self, weights: Weights, u: N, v: N) -> [N; 3] {
         let row = |row: usize| {
             let start = row * self.width;
@@ -65,22 +68,25 @@ impl Texels {
 }
 
 /// What a sampler gives at u in one row of texels.
+#[inline]
 pub fn filtered<N: Num>(texels: &[[f32; 3]], weights: Weights, u: N) -> [N; 3] {
     let across = between(weights, u, texels.len());
     let texel = |column: usize| {
         let texel = texels.get(column).copied().unwrap_or_default();
-        texel.map(|channel| N::from_f64(f64::from(channel)))
+        each_channel(|i| N::from_f64(f64::from(texel[i])))
     };
     mixed(texel(across.before), texel(across.after), across.share)
 }
 
 /// a (1 - share) + b share
+#[inline]
 fn mixed<N: Num>(a: [N; 3], b: [N; 3], share: N) -> [N; 3] {
     let rest = N::from_f64(1.0) - share;
-    [0, 1, 2].map(|i| a[i] * rest + b[i] * share)
+    each_channel(|i| a[i] * rest + b[i] * share)
 }
 
 /// Where a coordinate lies among so many centres.
+#[inline]
 fn between<N: Num>(weights: Weights, coordinate: N, count: usize) -> TexelPair<N> {
     let last = count.saturating_sub(1);
     let number = |value: usize| N::from_f64(value as f64);

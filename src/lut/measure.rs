@@ -2,6 +2,7 @@
 
 use crate::fit::{ModelError, error_of};
 use crate::ir::{Column, Value};
+use crate::num::each_channel;
 use crate::reference::ReferenceCurve;
 
 use super::axis::TableAxis;
@@ -62,5 +63,5 @@ fn looked_up(stored: &Stored, weights: Weights, cosines: &[f64]) -> Value<f64> {
         .map(|c| stored.lookup(weights, *c as f32))
         .collect();
     let channel = |i: usize| values.iter().map(|value| f64::from(value[i])).collect();
-    Value::Rgb([0, 1, 2].map(|i| Column::Each(channel(i))))
+    Value::Rgb(each_channel(|i| Column::Each(channel(i))))
 }

@@ -12,6 +12,7 @@ use glam::DVec3;
 use super::channels::Channels;
 use super::dispersion::Extrapolate;
 use super::material::{Index, Material};
+use crate::num::each_channel;
 use crate::optics::{self, Reflectance};
 use crate::spectra::{FIRST_NM, Gamut, Integration, Integrator, LAST_NM};
 
@@ -136,7 +137,7 @@ impl Surface {
             k: channels.k[i],
         };
         Surface {
-            indices: [0, 1, 2].map(index).to_vec(),
+            indices: each_channel(index).to_vec(),
             integrator: Integrator::three_wavelengths(super::THESIS_NM),
             gamut: Gamut::Keep,
             seen: "one index a channel".to_owned(),

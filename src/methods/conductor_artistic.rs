@@ -10,6 +10,7 @@
 
 use crate::cite::Citation;
 use crate::ir::Expr;
+use crate::num::each_channel;
 use crate::optics;
 
 use super::conductor_exact::{self, conductor, least_squared, root_or_zero};
@@ -134,7 +135,7 @@ fn solved(values: &Values) -> Option<(&'static Method, Values)> {
         let gap = 2.0 * r.sqrt() / (most * (1.0 + r));
         (least + above, (g * (most - least) * (above + gap)).sqrt())
     };
-    let index = [0, 1, 2].map(index);
+    let index = each_channel(index);
     Some(conductor_exact::with(
         index.map(|(n, _)| n),
         index.map(|(_, k)| k),

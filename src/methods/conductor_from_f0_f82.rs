@@ -14,6 +14,7 @@
 
 use crate::cite::Citation;
 use crate::ir::Expr;
+use crate::num::each_channel;
 use crate::optics::index_from_f0_f82;
 
 use super::conductor_exact::{self, conductor, least_squared, root_or_zero};
@@ -178,7 +179,7 @@ fn deficit<'b>(circle: &Circle<'b>, n: Expr<'b>, tiny: f64) -> Expr<'b> {
 fn solved(values: &Values) -> Option<(&'static Method, Values)> {
     let colour = |name: &str| values.get(name).copied().unwrap_or([0.0; 3]);
     let (f0, f82) = (colour("f0"), colour("f82"));
-    let index = [0, 1, 2].map(|i| index_from_f0_f82(f0[i], f82[i]));
+    let index = each_channel(|i| index_from_f0_f82(f0[i], f82[i]));
     Some(conductor_exact::with(
         index.map(|index| index.n),
         index.map(|index| index.k),

@@ -1,5 +1,6 @@
 //! What is known of a surface that inputs are derived from.
 
+use crate::num::each_channel;
 use crate::optics::{self, COS_82};
 
 use super::belcour_decomposition::BELCOUR_COSINES;
@@ -61,7 +62,7 @@ impl KnownSurface {
 
 /// A value for each channel.
 pub fn each(value: impl Fn(usize) -> f64) -> [f64; 3] {
-    [0, 1, 2].map(value)
+    each_channel(value)
 }
 
 /// The mean of the channels.

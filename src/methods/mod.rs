@@ -24,7 +24,7 @@ pub use method::{
 pub use renamed::{RENAMED, Renamed, renamed};
 pub use shape::{Factor, Shape};
 
-// BEGIN methods (written by the test `tidy::lists_are_complete` with BLESS=1)
+// BEGIN methods (written by tests/lists)
 mod belcour_decomposition;
 mod conductor_artistic;
 mod conductor_exact;

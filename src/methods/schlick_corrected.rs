@@ -10,6 +10,7 @@
 //! Domain: n from 0.001 to 1e9, k from 0 to 1e9; clamped to [0, 1]. Error: [`METHOD`]'s claims.
 
 use crate::ir::Expr;
+use crate::num::each_channel;
 use crate::optics;
 
 use super::half::InHalf;
@@ -32,7 +33,7 @@ impl Input {
                 matching,
                 ..
             } = *known;
-            [0, 1, 2].map(|i| lambda_for(n[i], k[i], matching_cos, matching[i]))
+            each_channel(|i| lambda_for(n[i], k[i], matching_cos, matching[i]))
         }),
     )
     .tried(&[7.0, -1.0, 0.0, 0.5, 60.0])

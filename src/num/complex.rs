@@ -17,21 +17,25 @@ pub struct Complex<N> {
 
 impl<N: Num> Complex<N> {
     /// re + i·im
+    #[inline]
     pub fn new(re: N, im: N) -> Self {
         Complex { re, im }
     }
 
     /// A real number as a complex one.
+    #[inline]
     pub fn real(re: N) -> Self {
         Complex::new(re, N::from_f64(0.0))
     }
 
     /// |z|² = re² + im², for |z| from 1e-150 to 1e150.
+    #[inline]
     pub fn norm_sqr(self) -> N {
         self.re * self.re + self.im * self.im
     }
 
     /// |z|, without overflow or underflow of the squares.
+    #[inline]
     pub fn modulus(self) -> N {
         let large = self.re.abs().max(self.im.abs());
         let small = self.re.abs().min(self.im.abs());
@@ -45,6 +49,7 @@ impl<N: Num> Complex<N> {
     /// The principal square root: re ≥ 0, and on the cut (z real and negative) im ≥ 0.
     ///
     /// The larger part is √((|z| + |re|)/2), where nothing cancels; the other is im divided by twice that.
+    #[inline]
     pub fn sqrt(self) -> Self {
         let half = N::from_f64(0.5);
         let zero = N::from_f64(0.0);
@@ -61,11 +66,13 @@ impl<N: Num> Complex<N> {
     }
 
     /// The product with a real number.
+    #[inline]
     pub fn scale(self, factor: N) -> Self {
         Complex::new(self.re * factor, self.im * factor)
     }
 }
 
+#[inline]
 fn negative<N: Num>(x: N) -> bool {
     x.less(N::from_f64(0.0)) == Truth::Yes
 }
@@ -73,6 +80,7 @@ fn negative<N: Num>(x: N) -> bool {
 impl<N: Num> Add for Complex<N> {
     type Output = Self;
 
+    #[inline]
     fn add(self, other: Self) -> Self {
         Complex::new(self.re + other.re, self.im + other.im)
     }
@@ -81,6 +89,7 @@ impl<N: Num> Add for Complex<N> {
 impl<N: Num> Sub for Complex<N> {
     type Output = Self;
 
+    #[inline]
     fn sub(self, other: Self) -> Self {
         Complex::new(self.re - other.re, self.im - other.im)
     }
@@ -89,6 +98,7 @@ impl<N: Num> Sub for Complex<N> {
 impl<N: Num> Mul for Complex<N> {
     type Output = Self;
 
+    #[inline]
     fn mul(self, other: Self) -> Self {
         Complex::new(
             self.re * other.re - self.im * other.im,

@@ -32,17 +32,20 @@ pub struct Dd {
 
 impl Dd {
     /// The leading part: the nearest `f64`.
+    #[inline]
     pub fn hi(self) -> f64 {
         self.hi
     }
 
     /// The rest.
+    #[inline]
     pub fn lo(self) -> f64 {
         self.lo
     }
 
     /// (sin θ, cos θ) for θ from 0 to 90 degrees, the degrees taken as exact. Relative error below 1e-30 in both,
     /// also where they tend to 0; exact at 0 and 90.
+    #[inline]
     pub fn sin_cos_degrees(theta_degrees: f64) -> (Dd, Dd) {
         if theta_degrees > 45.0 {
             // Exact, as both lie within a factor of two (Sterbenz).
@@ -58,28 +61,33 @@ impl Dd {
     }
 
     /// A result whose low part is meaningless when the high part is infinite or a NaN.
+    #[inline]
     fn finite_or_high(hi: f64, lo: f64) -> Dd {
         let lo = if hi.is_finite() { lo } else { 0.0 };
         Dd { hi, lo }
     }
 
     /// hi + lo where |hi| ≥ |lo| ("Fast2Sum").
+    #[inline]
     fn from_ordered(hi: f64, lo: f64) -> Dd {
         let sum = hi + lo;
         Dd::finite_or_high(sum, lo - (sum - hi))
     }
 
+    #[inline]
     fn is_finite(self) -> bool {
         self.hi.is_finite()
     }
 
     /// The value times 2^power; exact unless it leaves the range.
+    #[inline]
     fn scaled(self, power: i32) -> Dd {
         Dd::finite_or_high(libm::ldexp(self.hi, power), libm::ldexp(self.lo, power))
     }
 }
 
 /// The rounded sum and its exact error ("2Sum").
+#[inline]
 fn two_sum(a: f64, b: f64) -> (f64, f64) {
     let sum = a + b;
     let rest = sum - a;
@@ -87,12 +95,14 @@ fn two_sum(a: f64, b: f64) -> (f64, f64) {
 }
 
 /// The rounded product and its exact error.
+#[inline]
 fn two_product(a: f64, b: f64) -> (f64, f64) {
     let product = a * b;
     (product, a.mul_add(b, -product))
 }
 
 /// Algorithm 6, `AccurateDWPlusDW`.
+#[inline]
 fn sum(a: Dd, b: Dd) -> Dd {
     let (high, high_error) = two_sum(a.hi, b.hi);
     if !high.is_finite() {
@@ -104,6 +114,7 @@ fn sum(a: Dd, b: Dd) -> Dd {
 }
 
 /// Algorithm 12, `DWTimesDW3`.
+#[inline]
 fn product(a: Dd, b: Dd) -> Dd {
     let (high, error) = two_product(a.hi, b.hi);
     if !high.is_finite() {
@@ -114,6 +125,7 @@ fn product(a: Dd, b: Dd) -> Dd {
 }
 
 /// Algorithm 7, `DWTimesFP1`.
+#[inline]
 fn product_with_f64(a: Dd, b: f64) -> Dd {
     let (high, error) = two_product(a.hi, b);
     let partial = Dd::from_ordered(high, a.lo * b);
@@ -121,6 +133,7 @@ fn product_with_f64(a: Dd, b: f64) -> Dd {
 }
 
 /// Algorithm 17, `DWDivDW2`.
+#[inline]
 fn quotient(a: Dd, b: Dd) -> Dd {
     let high = a.hi / b.hi;
     if !high.is_finite() || !b.is_finite() {
@@ -133,6 +146,7 @@ fn quotient(a: Dd, b: Dd) -> Dd {
 
 /// Σ (−square)ⁱ / (2i + first)! · first!, i from 0: cos x for `first` = 0 and sin x / x for `first` = 1, with
 /// square = x². Sixteen terms leave less than 1e-38 for x ≤ π/4.
+#[inline]
 fn alternating_series(square: Dd, first: u32) -> Dd {
     let one = Dd::from(1.0);
     (1..=16).rev().fold(one, |total, i| {
@@ -142,6 +156,7 @@ fn alternating_series(square: Dd, first: u32) -> Dd {
 }
 
 /// eˣ for |x| ≤ ln 2 / 2: 26 terms of the Taylor series leave less than 1e-39.
+#[inline]
 fn exp_near_zero(x: Dd) -> Dd {
     let one = Dd::from(1.0);
     (1..=26)
@@ -151,6 +166,7 @@ fn exp_near_zero(x: Dd) -> Dd {
 
 /// ln x = 2 artanh((x − 1)/(x + 1)) for x from 1/√2 to √2: 24 terms of the series leave less than 1e-37,
 /// relative to the result.
+#[inline]
 fn ln_near_one(x: Dd) -> Dd {
     let one = Dd::from(1.0);
     let z = (x - one) / (x + one);
@@ -162,6 +178,7 @@ fn ln_near_one(x: Dd) -> Dd {
 }
 
 impl From<f64> for Dd {
+    #[inline]
     fn from(x: f64) -> Dd {
         Dd { hi: x, lo: 0.0 }
     }
@@ -170,6 +187,7 @@ impl From<f64> for Dd {
 impl Add for Dd {
     type Output = Dd;
 
+    #[inline]
     fn add(self, other: Dd) -> Dd {
         sum(self, other)
     }
@@ -178,6 +196,7 @@ impl Add for Dd {
 impl Sub for Dd {
     type Output = Dd;
 
+    #[inline]
     fn sub(self, other: Dd) -> Dd {
         sum(self, -other)
     }
@@ -186,6 +205,7 @@ impl Sub for Dd {
 impl Mul for Dd {
     type Output = Dd;
 
+    #[inline]
     fn mul(self, other: Dd) -> Dd {
         product(self, other)
     }
@@ -194,6 +214,7 @@ impl Mul for Dd {
 impl Div for Dd {
     type Output = Dd;
 
+    #[inline]
     fn div(self, other: Dd) -> Dd {
         quotient(self, other)
     }
@@ -202,6 +223,7 @@ impl Div for Dd {
 impl Neg for Dd {
     type Output = Dd;
 
+    #[inline]
     fn neg(self) -> Dd {
         Dd {
             hi: -self.hi,
@@ -213,14 +235,17 @@ impl Neg for Dd {
 impl Num for Dd {
     const NAME: &'static str = "double-double";
 
+    #[inline]
     fn from_f64(x: f64) -> Dd {
         Dd::from(x)
     }
 
+    #[inline]
     fn to_f64(self) -> f64 {
         self.hi
     }
 
+    #[inline]
     fn abs(self) -> Dd {
         if self.hi.is_sign_negative() {
             -self
@@ -229,6 +254,7 @@ impl Num for Dd {
         }
     }
 
+    #[inline]
     fn min(self, other: Dd) -> Dd {
         if other < self || self.hi.is_nan() {
             other
@@ -237,6 +263,7 @@ impl Num for Dd {
         }
     }
 
+    #[inline]
     fn max(self, other: Dd) -> Dd {
         if other > self || self.hi.is_nan() {
             other
@@ -246,6 +273,7 @@ impl Num for Dd {
     }
 
     /// Algorithm 8, `SQRTDWtoDW`.
+    #[inline]
     fn sqrt(self) -> Dd {
         let high = self.hi.sqrt();
         if high == 0.0 || !high.is_finite() {
@@ -256,6 +284,7 @@ impl Num for Dd {
     }
 
     /// 2ˣ = 2ⁱ e^(f ln 2), x = i + f.
+    #[inline]
     fn exp2(self) -> Dd {
         // Outside the range of f64 the native function already gives 0, ∞ or NaN.
         if self.hi.abs() >= 1100.0 || self.hi.is_nan() {
@@ -266,6 +295,7 @@ impl Num for Dd {
     }
 
     /// log₂ x = i + ln(x / 2ⁱ) / ln 2. The result keeps its relative accuracy near x = 1.
+    #[inline]
     fn log2(self) -> Dd {
         if self.hi <= 0.0 || !self.is_finite() {
             return Dd::from(libm::log2(self.hi));
@@ -275,6 +305,7 @@ impl Num for Dd {
         Dd::from(f64::from(power)) + ln_near_one(self.scaled(-power)) / LN_2
     }
 
+    #[inline]
     fn less(self, other: Dd) -> Truth {
         (self < other).into()
     }

@@ -30,6 +30,7 @@ impl Interval {
     };
 
     /// The numbers between two ends, given in either order; everything, when an end is a NaN.
+    #[inline]
     pub fn new(one_end: f64, other_end: f64) -> Interval {
         if one_end.is_nan() || other_end.is_nan() {
             return Interval::EVERYTHING;
@@ -41,16 +42,19 @@ impl Interval {
     }
 
     /// The lower end.
+    #[inline]
     pub fn lo(self) -> f64 {
         self.lo
     }
 
     /// The upper end.
+    #[inline]
     pub fn hi(self) -> f64 {
         self.hi
     }
 
     /// Whether `x` lies in it; a NaN lies in none.
+    #[inline]
     pub fn contains(self, x: f64) -> bool {
         self.lo <= x && x <= self.hi
     }
@@ -65,6 +69,7 @@ struct End {
 
 impl End {
     /// A result with its exact error. The error of an infinite result is a NaN, hence not exact.
+    #[inline]
     fn new(value: f64, error: f64) -> End {
         End {
             value,
@@ -72,6 +77,7 @@ impl End {
         }
     }
 
+    #[inline]
     fn lower(self) -> f64 {
         if self.exact {
             self.value
@@ -80,6 +86,7 @@ impl End {
         }
     }
 
+    #[inline]
     fn upper(self) -> f64 {
         if self.exact {
             self.value
@@ -89,6 +96,7 @@ impl End {
     }
 }
 
+#[inline]
 fn sum(a: f64, b: f64) -> End {
     let sum = a + b;
     let rest = sum - a;
@@ -96,6 +104,7 @@ fn sum(a: f64, b: f64) -> End {
 }
 
 /// 0 · ∞ is 0: an infinite end stands for arbitrarily large numbers.
+#[inline]
 fn product(a: f64, b: f64) -> End {
     if a == 0.0 || b == 0.0 {
         return End::new(0.0, 0.0);
@@ -108,6 +117,7 @@ fn product(a: f64, b: f64) -> End {
 }
 
 /// ∞ / ∞ is 0: the quotients of the other ends already span what lies between.
+#[inline]
 fn quotient(a: f64, b: f64) -> End {
     if a == 0.0 {
         return End::new(0.0, 0.0);
@@ -122,6 +132,7 @@ fn quotient(a: f64, b: f64) -> End {
     End::new(quotient, (-quotient).mul_add(b, a))
 }
 
+#[inline]
 fn root(x: f64) -> End {
     let root = x.max(0.0).sqrt();
     if x <= 0.0 {
@@ -134,6 +145,7 @@ fn root(x: f64) -> End {
 }
 
 /// The interval between the least and the largest of four results.
+#[inline]
 fn hull(ends: [End; 4]) -> Interval {
     Interval {
         lo: ends
@@ -147,6 +159,7 @@ fn hull(ends: [End; 4]) -> Interval {
     }
 }
 
+#[inline]
 fn widened(lo: f64, hi: f64) -> Interval {
     let margin = |x: f64| {
         if x.is_finite() {
@@ -161,6 +174,7 @@ fn widened(lo: f64, hi: f64) -> Interval {
 impl Add for Interval {
     type Output = Interval;
 
+    #[inline]
     fn add(self, other: Interval) -> Interval {
         let (lo, hi) = (sum(self.lo, other.lo), sum(self.hi, other.hi));
         Interval::new(lo.lower(), hi.upper())
@@ -170,6 +184,7 @@ impl Add for Interval {
 impl Sub for Interval {
     type Output = Interval;
 
+    #[inline]
     fn sub(self, other: Interval) -> Interval {
         let (lo, hi) = (sum(self.lo, -other.hi), sum(self.hi, -other.lo));
         Interval::new(lo.lower(), hi.upper())
@@ -179,6 +194,7 @@ impl Sub for Interval {
 impl Mul for Interval {
     type Output = Interval;
 
+    #[inline]
     fn mul(self, other: Interval) -> Interval {
         hull([
             product(self.lo, other.lo),
@@ -193,6 +209,7 @@ impl Div for Interval {
     type Output = Interval;
 
     /// Everything, when the divisor contains 0.
+    #[inline]
     fn div(self, other: Interval) -> Interval {
         if other.contains(0.0) {
             return Interval::EVERYTHING;
@@ -209,6 +226,7 @@ impl Div for Interval {
 impl Neg for Interval {
     type Output = Interval;
 
+    #[inline]
     fn neg(self) -> Interval {
         Interval {
             lo: -self.hi,
@@ -221,11 +239,13 @@ impl Num for Interval {
     const NAME: &'static str = "interval";
 
     /// The point x; everything, for a NaN.
+    #[inline]
     fn from_f64(x: f64) -> Interval {
         Interval::new(x, x)
     }
 
     /// The midpoint; 0 for everything.
+    #[inline]
     fn to_f64(self) -> f64 {
         if self == Interval::EVERYTHING {
             return 0.0;
@@ -233,6 +253,7 @@ impl Num for Interval {
         0.5 * self.lo + 0.5 * self.hi
     }
 
+    #[inline]
     fn abs(self) -> Interval {
         if self.contains(0.0) {
             Interval::new(0.0, self.hi.max(-self.lo))
@@ -241,6 +262,7 @@ impl Num for Interval {
         }
     }
 
+    #[inline]
     fn min(self, other: Interval) -> Interval {
         Interval {
             lo: self.lo.min(other.lo),
@@ -248,6 +270,7 @@ impl Num for Interval {
         }
     }
 
+    #[inline]
     fn max(self, other: Interval) -> Interval {
         Interval {
             lo: self.lo.max(other.lo),
@@ -256,21 +279,25 @@ impl Num for Interval {
     }
 
     /// The negative part counts as 0.
+    #[inline]
     fn sqrt(self) -> Interval {
         Interval::new(root(self.lo).lower().max(0.0), root(self.hi).upper())
     }
 
+    #[inline]
     fn exp2(self) -> Interval {
         let wide = widened(libm::exp2(self.lo), libm::exp2(self.hi));
         Interval::new(wide.lo.max(0.0), wide.hi)
     }
 
     /// The part at or below 0 counts as 0, whose logarithm is −∞.
+    #[inline]
     fn log2(self) -> Interval {
         widened(libm::log2(self.lo.max(0.0)), libm::log2(self.hi.max(0.0)))
     }
 
     /// Yes or No when it holds or fails for every pair of members.
+    #[inline]
     fn less(self, other: Interval) -> Truth {
         if self.hi < other.lo {
             Truth::Yes
@@ -282,12 +309,14 @@ impl Num for Interval {
     }
 
     /// Tighter than `self * self`, which takes the two factors for independent.
+    #[inline]
     fn squared(self) -> Interval {
         let size = self.abs();
         size * size
     }
 
     /// Decreasing, so the ends change places; from an interval that reaches 0 it reaches +∞.
+    #[inline]
     fn inverse_sqrt(self) -> Interval {
         let root = self.sqrt();
         let (lo, hi) = (quotient(1.0, root.hi), quotient(1.0, root.lo));
@@ -295,6 +324,7 @@ impl Num for Interval {
     }
 
     /// The smallest interval that contains both.
+    #[inline]
     fn either(self, other: Interval) -> Interval {
         Interval {
             lo: self.lo.min(other.lo),

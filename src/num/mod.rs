@@ -41,9 +41,16 @@ pub enum Truth {
 }
 
 impl From<bool> for Truth {
+    #[inline]
     fn from(value: bool) -> Truth {
         if value { Truth::Yes } else { Truth::No }
     }
+}
+
+/// The same for each of three channels. It is inlined where [`array::map`] is not.
+#[inline]
+pub fn each_channel<T>(mut of: impl FnMut(usize) -> T) -> [T; 3] {
+    [of(0), of(1), of(2)]
 }
 
 /// A number that a formula computes with.
@@ -84,26 +91,31 @@ pub trait Num:
     fn less(self, other: Self) -> Truth;
 
     /// x²; an interval knows that both factors are the same.
+    #[inline]
     fn squared(self) -> Self {
         self * self
     }
 
     /// 1/√x
+    #[inline]
     fn inverse_sqrt(self) -> Self {
         Self::from_f64(1.0) / self.sqrt()
     }
 
     /// x limited to [0, 1]; a NaN becomes 0.
+    #[inline]
     fn saturate(self) -> Self {
         self.max(Self::from_f64(0.0)).min(Self::from_f64(1.0))
     }
 
     /// A value of which nothing is known: a NaN, or everything.
+    #[inline]
     fn unknown() -> Self {
         Self::from_f64(f64::NAN)
     }
 
     /// A value that covers both, for a choice that a comparison left open. Only intervals leave one open.
+    #[inline]
     fn either(self, _other: Self) -> Self {
         self
     }

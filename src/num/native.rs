@@ -10,38 +10,47 @@ macro_rules! native {
         impl Num for $float {
             const NAME: &'static str = $name;
 
+            #[inline]
             fn from_f64(x: f64) -> Self {
                 x as $float
             }
 
+            #[inline]
             fn to_f64(self) -> f64 {
                 f64::from(self)
             }
 
+            #[inline]
             fn abs(self) -> Self {
                 <$float>::abs(self)
             }
 
+            #[inline]
             fn min(self, other: Self) -> Self {
                 <$float>::min(self, other)
             }
 
+            #[inline]
             fn max(self, other: Self) -> Self {
                 <$float>::max(self, other)
             }
 
+            #[inline]
             fn sqrt(self) -> Self {
                 <$float>::sqrt(self)
             }
 
+            #[inline]
             fn exp2(self) -> Self {
                 $exp2(self)
             }
 
+            #[inline]
             fn log2(self) -> Self {
                 $log2(self)
             }
 
+            #[inline]
             fn less(self, other: Self) -> Truth {
                 (self < other).into()
             }

@@ -26,6 +26,7 @@ use crate::num::{Complex, Num, Truth};
 /// let silver = conductor(0.06, 3.6, 1.0).unpolarised();
 /// assert!(silver > 0.98);
 /// ```
+#[inline]
 pub fn conductor<N: Num>(n: N, k: N, cos_theta: N) -> Reflectance<N> {
     let zero = N::from_f64(0.0);
     if is_zero(n - N::from_f64(1.0)) && is_zero(k) {
@@ -47,6 +48,7 @@ pub fn conductor<N: Num>(n: N, k: N, cos_theta: N) -> Reflectance<N> {
 /// let glass: f64 = dielectric(1.5, 1.0).unpolarised();
 /// assert!((glass - 0.04).abs() < 1e-12);
 /// ```
+#[inline]
 pub fn dielectric<N: Num>(eta: N, cos_theta: N) -> Reflectance<N> {
     conductor(eta, N::from_f64(0.0), cos_theta)
 }
@@ -59,6 +61,7 @@ pub fn dielectric<N: Num>(eta: N, cos_theta: N) -> Reflectance<N> {
 /// let diamond: f64 = normal_incidence(2.42, 0.0);
 /// assert!((diamond - 0.1724).abs() < 1e-4);
 /// ```
+#[inline]
 pub fn normal_incidence<N: Num>(n: N, k: N) -> N {
     power_ratio(Complex::real(N::from_f64(1.0)), Complex::new(n, k))
 }
@@ -71,6 +74,7 @@ pub fn normal_incidence<N: Num>(n: N, k: N) -> N {
 /// let reflected: f64 = dielectric(1.5, brewster_cos(1.5)).p;
 /// assert!(reflected < 1e-12);
 /// ```
+#[inline]
 pub fn brewster_cos<N: Num>(eta: N) -> N {
     (N::from_f64(1.0) + eta * eta).inverse_sqrt()
 }
@@ -84,6 +88,7 @@ pub fn brewster_cos<N: Num>(eta: N) -> N {
 /// assert!((inside - 0.75f64.sqrt()).abs() < 1e-12);
 /// assert_eq!(critical_cos(1.5), None);
 /// ```
+#[inline]
 pub fn critical_cos<N: Num>(eta: N) -> Option<N> {
     let one = N::from_f64(1.0);
     (eta.less(one) == Truth::Yes).then(|| ((one - eta) * (one + eta)).sqrt())
@@ -93,6 +98,7 @@ pub fn critical_cos<N: Num>(eta: N) -> Option<N> {
 ///
 /// At large angles as (m² − 1) + cos²θ, which keeps the digits of n near 1; at small ones as m² − sin²θ, which
 /// keeps those of a small m.
+#[inline]
 fn normal_component<N: Num>(n: N, k: N, cos_theta: N) -> Complex<N> {
     let one = N::from_f64(1.0);
     let cos_squared = cos_theta * cos_theta;
@@ -105,11 +111,13 @@ fn normal_component<N: Num>(n: N, k: N, cos_theta: N) -> Complex<N> {
 }
 
 /// |(a − b)/(a + b)|². Taken as a ratio of two squares, it is exactly 1 for real a and imaginary b, and for a = 0.
+#[inline]
 fn power_ratio<N: Num>(a: Complex<N>, b: Complex<N>) -> N {
     (a - b).norm_sqr() / (a + b).norm_sqr()
 }
 
 /// Through `f64`, because it must also be right where a comparison with a NaN says no.
+#[inline]
 fn is_zero<N: Num>(x: N) -> bool {
     x.to_f64() == 0.0
 }

@@ -28,6 +28,7 @@ pub const COS_82: f64 = 1.0 / 7.0;
 /// assert!((cosine(60.0) - 0.5).abs() < 1e-15);
 /// assert_eq!(cosine(90.0), 0.0);
 /// ```
+#[inline]
 pub fn cosine(degrees: f64) -> f64 {
     if degrees == 90.0 {
         0.0
@@ -47,6 +48,7 @@ pub struct Reflectance<N> {
 
 impl<N: Num> Reflectance<N> {
     /// The reflectance of unpolarised light: (s + p)/2.
+    #[inline]
     pub fn unpolarised(self) -> N {
         N::from_f64(0.5) * (self.s + self.p)
     }

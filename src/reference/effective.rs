@@ -6,6 +6,7 @@
 
 use crate::materials::{Channels, Index, MaterialKind};
 use crate::methods::Light;
+use crate::num::each_channel;
 use crate::optics::{self, COS_82, index_from_f0_f82};
 
 use super::reference_curve::{ReferenceCurve, reference_reflectance};
@@ -74,7 +75,7 @@ pub fn effective(reference: &ReferenceCurve, kind: MaterialKind) -> Effective {
     let curve = curve(reference, if transparent { FINE } else { ANGLES });
     let at = |c: f64| reference_reflectance(&reference.surface, Light::Unpolarised, c);
     let (f0, f82) = (at(1.0), at(COS_82));
-    let each = [0, 1, 2].map(|i| {
+    let each = each_channel(|i| {
         let found = index_from_f0_f82(f0[i], f82[i]);
         if !transparent && found.exact && found.n >= LEAST_N {
             let index = Index {

@@ -7,6 +7,7 @@ use glam::DVec3;
 
 use crate::materials::Surface;
 use crate::methods::Light;
+use crate::num::each_channel;
 use crate::spectra::Gamut;
 
 /// Angles between 0 and 90 degrees over which means are taken.
@@ -75,7 +76,7 @@ impl ReferenceCurve {
                 .map(|(i, reflectance)| weight(i) * reflectance[channel])
                 .sum()
         };
-        [0, 1, 2].map(sum)
+        each_channel(sum)
     }
 }
 

@@ -7,6 +7,7 @@ use crate::cost::{CostAndError, pareto_frontier};
 use crate::emit::Missed;
 use crate::fit::{Coefficients, FitObjective, Follows, ModelError, Weight};
 use crate::methods::Method;
+use crate::num::each_channel;
 use crate::reference::MaterialInMedium;
 
 /// A fitted method and what it was fitted to.
@@ -105,7 +106,7 @@ impl FitRow {
             terms: method.inputs.len(),
             shape: method.formula,
             shared: true,
-            coefficients: [0, 1, 2].map(channel),
+            coefficients: each_channel(channel),
             max_abs: error.max_abs,
             mean_rel: error.mean_rel,
             cost,

@@ -13,6 +13,7 @@ use super::illuminant::Illuminant;
 use super::observer::Observer;
 
 /// How much reflectance at each wavelength (nm, in equal steps) adds to X, Y and Z: x̄ȳz̄ S / Σ ȳ S.
+#[inline]
 pub fn xyz_weights(observer: Observer, light: &Illuminant, wavelengths: &[f64]) -> Vec<DVec3> {
     let products = wavelengths
         .iter()
@@ -23,6 +24,7 @@ pub fn xyz_weights(observer: Observer, light: &Illuminant, wavelengths: &[f64]) 
 }
 
 /// Σ weight · value, from the first to the last.
+#[inline]
 pub fn weighted_sum(weights: &[DVec3], values: impl IntoIterator<Item = f64>) -> DVec3 {
     weights
         .iter()

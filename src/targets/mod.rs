@@ -15,7 +15,7 @@ pub use target::{
 };
 pub use wgsl::{STREAM, TARGET as WGSL};
 
-// BEGIN targets (written by the test `tidy::lists_are_complete` with BLESS=1)
+// BEGIN targets (written by tests/lists)
 mod gles;
 mod glsl;
 mod hlsl;

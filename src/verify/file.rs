@@ -7,7 +7,7 @@ use crate::fit::{self, Measured, ModelError, inputs_in};
 use crate::ir::{Column, Ty};
 use crate::materials::Channels;
 use crate::methods::{Contract, Method};
-use crate::num::Precision;
+use crate::num::{Precision, each_channel};
 use crate::reference::{MaterialInMedium, ReferenceCurve};
 use crate::targets::Stack;
 use crate::verify::compilers::{self, Verdict};
@@ -368,7 +368,7 @@ impl<'a> FileTrial<'a> {
             });
             let channel =
                 |i: usize| Column::Each(got.iter().map(|rgb| f64::from(rgb[i])).collect());
-            crate::ir::Value::Rgb([0, 1, 2].map(channel))
+            crate::ir::Value::Rgb(each_channel(channel))
         });
         fault.into_inner().map_or(Ok(error), Err)
     }

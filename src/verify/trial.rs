@@ -4,7 +4,7 @@ use serde::Serialize;
 
 use crate::fit::Measured;
 use crate::ir::{Checked, Column, Op, Param, Texels, Ty, Value, evaluate};
-use crate::num::{Num, VulkanTolerance, ulp_distance};
+use crate::num::{Num, VulkanTolerance, each_channel, ulp_distance};
 
 use super::code_error::{ABSOLUTE_FLOOR, CodeError};
 
@@ -159,7 +159,7 @@ impl Trial {
             ];
             each(cosines.len(), |i| {
                 off.iter().fold([0.0; 3], |most, off| {
-                    [0, 1, 2].map(|channel| f64::max(most[channel], off[i][channel]))
+                    each_channel(|channel| f64::max(most[channel], off[i][channel]))
                 })
             })
         })
@@ -170,7 +170,7 @@ impl Trial {
         let got = self.run::<N>(cosines);
         let off = |i: usize| {
             let (got, want) = (got.at(i), want.at(i));
-            [0, 1, 2].map(|channel| (got[channel].to_f64() - want[channel]).abs())
+            each_channel(|channel| (got[channel].to_f64() - want[channel]).abs())
         };
         (0..cosines.len()).map(off).collect()
     }
@@ -182,7 +182,7 @@ fn steps(table: &Texels) -> Texels {
     let step = |at: usize| {
         let (row, i) = (at / table.width, at % table.width);
         let (here, before, after) = (texel(row, i), texel(row, i.max(1) - 1), texel(row, i + 1));
-        [0, 1, 2].map(|c: usize| (here[c] - before[c]).abs().max((here[c] - after[c]).abs()))
+        each_channel(|c: usize| (here[c] - before[c]).abs().max((here[c] - after[c]).abs()))
     };
     Texels {
         width: table.width,
@@ -193,7 +193,7 @@ fn steps(table: &Texels) -> Texels {
 fn each(points: usize, at: impl Fn(usize) -> [f64; 3]) -> Value<f64> {
     let values: Vec<[f64; 3]> = (0..points).map(at).collect();
     let channel = |i: usize| Column::Each(values.iter().map(|value| value[i]).collect());
-    Value::Rgb([0, 1, 2].map(channel))
+    Value::Rgb(each_channel(channel))
 }
 
 impl Expected {

@@ -11,7 +11,7 @@ use crate::fit::{
     values_at,
 };
 use crate::methods::{ALL, Class, Method};
-use crate::num::in_parallel;
+use crate::num::{each_channel, in_parallel};
 use crate::reference::MaterialInMedium;
 use crate::report::Report;
 use crate::report::fits::{FitRow, fits_text};
@@ -158,7 +158,7 @@ fn of_colours(
     aim: FitObjective,
     forms: &[Form],
 ) -> Result<Vec<FitRow>, Error> {
-    let follows = [0, 1, 2].map(|i| Follows::of(f0[i], f82[i]));
+    let follows = each_channel(|i| Follows::of(f0[i], f82[i]));
     let seen = |cos_theta: f64| follows.map(|channel| channel.at(cos_theta));
     let curve = FitCurve::new(seen);
     let row = |form: &Form| {

@@ -3,6 +3,7 @@
 use serde::Serialize;
 
 use super::{CatalogueRow, CloserFit, methods_of};
+use crate::num::each_channel;
 
 /// A method of the catalogue.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -82,7 +83,7 @@ impl CloserFitDetail {
 /// A list of coefficients for each channel.
 fn by_channel(coefficients: &[[f64; 3]]) -> [Vec<f64>; 3] {
     let channel = |i: usize| coefficients.iter().map(|c| shortest(c[i])).collect();
-    [0, 1, 2].map(channel)
+    each_channel(channel)
 }
 
 /// The number that prints with the fewest digits of those that are the same in f32.

@@ -4,6 +4,7 @@ use crate::ir::build::{Builder, Expr};
 use crate::ir::evaluate::Value;
 use crate::ir::graph::{Function, Node, NodeId, Ty};
 use crate::ir::op::{Op, Payload, Signature};
+use crate::num::each_channel;
 
 use super::copy;
 
@@ -75,7 +76,7 @@ fn whole<'b>(builder: &'b Builder, args: &[Expr<'b>]) -> Option<Expr<'b>> {
     if args[0].id() == args[1].id() && args[1].id() == args[2].id() {
         return Some(args[0].rgb());
     }
-    let nodes = [0, 1, 2].map(|i| builder.node(args[i].id()));
+    let nodes = each_channel(|i| builder.node(args[i].id()));
     let channels =
         (0..3).all(|i| nodes[i].op == Op::Channel && nodes[i].payload == Payload::Index(i));
     let source = nodes[0].args.first().copied()?;

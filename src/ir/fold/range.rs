@@ -4,7 +4,7 @@ use crate::ir::build::Expr;
 use crate::ir::evaluate::{Column, Value, evaluate_nodes};
 use crate::ir::graph::{Function, Node, Ty};
 use crate::ir::op::Op;
-use crate::num::{Interval, Precision};
+use crate::num::{Interval, Precision, each_channel};
 
 /// A guard or a comparison is dropped only where the ranges are apart by this share of the largest number in either,
 /// so that rounding, even of a difference whose terms nearly cancel, cannot bring the other side about in f32 (6e-8).
@@ -18,7 +18,7 @@ const PIECES: usize = 64;
 /// so that what depends on it twice (`r c² + (1-c²)²`) keeps a narrow range in each piece.
 pub fn ranges(function: &Function) -> Vec<Value<Interval>> {
     let whole = |ty: Ty| match ty {
-        Ty::Rgb => Value::Rgb([0, 1, 2].map(|_| Column::Same(Interval::EVERYTHING))),
+        Ty::Rgb => Value::Rgb(each_channel(|_| Column::Same(Interval::EVERYTHING))),
         Ty::Texture => Value::Texture(None),
         _ => Value::Scalar(Column::Same(Interval::EVERYTHING)),
     };

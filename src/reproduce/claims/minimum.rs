@@ -1,6 +1,7 @@
 //! Where metals reflect least (sections 3.2.3 and 3.2.4).
 
 use crate::materials::{Channels, THESIS_NM};
+use crate::num::each_channel;
 use crate::reference::Derivation;
 use crate::reproduce::angle::{cosine, exact, highest, lowest};
 use crate::reproduce::comparison::{ComparisonRow, ComparisonVerdict, Figure};
@@ -60,7 +61,7 @@ fn curves() -> Vec<MetalAtWavelength> {
 }
 
 fn three(name: &str, channels: &Channels) -> [MetalAtWavelength; 3] {
-    [0, 1, 2].map(|i| {
+    each_channel(|i| {
         let name = format!("{name}, {} nm", THESIS_NM[i]);
         curve(name, [channels.n[i], channels.k[i]])
     })

@@ -75,6 +75,8 @@ fn a_prefix_must_make_good_names_in_every_language() {
         let says = ["--prefix", prefix.trim()];
         place.refused_with(&["--prefix", prefix], &says[..1]);
     }
+    let long = "a".repeat(250);
+    place.refused_with(&["--prefix", &long], &["more than 200 characters"]);
     for prefix in ["brdf_", "f", ""] {
         place.run_with(&["--prefix", prefix, "--list"]).ends(0);
     }
