@@ -55,7 +55,7 @@
 #![cfg_attr(test, allow(clippy::print_stdout, clippy::unwrap_used))]
 
 // The rooms. A room imports only rooms to its left; rooms between the same two `<` do not import each other.
-// num, cite, names, records < ir, optics < spectra < materials, methods, targets < reference < fit < emit < lut < gpu, process < verify, cost < overdraw, stability < audit, budget, bake, reproduce < scene, effects < report < app
+// num, cite, names, records < ir, optics < spectra < materials, methods, targets < effects, reference < fit < emit < lut < gpu, process < verify, cost < overdraw, stability < audit, budget, bake, reproduce < scene < report < app
 
 pub mod app;
 #[cfg(all(feature = "cli", feature = "gpu"))]
@@ -65,6 +65,7 @@ pub mod bake;
 pub mod budget;
 pub mod cite;
 pub mod cost;
+pub mod effects;
 pub mod emit;
 pub mod fit;
 #[cfg(feature = "gpu")]

@@ -1,8 +1,8 @@
 //! The program without its terminal: a request becomes artifacts, artifacts meet an output folder.
 //!
 //! The way through: [`Request`] → [`generate()`] → artifacts → [`tree::plan`] → [`check::report`] or [`write::write`].
-//! Only [`tree`], [`folder`], [`lock`] and [`write`](mod@write) touch the disk, and only [`write`](mod@write) changes it, but
-//! for the lock's own file.
+//! [`source`] reads the files that a user names; [`tree`], [`folder`] and [`lock`] look at the output folder. Only
+//! [`write`](mod@write) changes the disk, but for the lock's own file.
 
 #[cfg(feature = "cli")]
 pub mod args;

@@ -9,6 +9,7 @@ mod catalogue;
 mod command;
 mod comment;
 mod detail;
+mod effect_file;
 mod error;
 mod figures;
 mod file;
@@ -34,6 +35,7 @@ pub use comment::lines as comment_lines;
 pub use detail::{
     CatalogueDetail, Detail, FunctionDetail, FunctionsDetail, SeenDetail, TableDetail,
 };
+pub use effect_file::{EffectRequest, effect_file, effect_functions};
 pub use error::Error;
 pub use figures::{half_promise, promises};
 pub use file::{

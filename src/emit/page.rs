@@ -16,32 +16,37 @@ use super::{print, wgsl};
 
 /// What a template sees.
 #[derive(Serialize)]
-struct PageView<'a> {
-    header: &'a [String],
-    guard: &'a str,
+pub(super) struct PageView<'a> {
+    /// Lines of the head.
+    pub(super) header: &'a [String],
+    /// The include guard's name, or nothing.
+    pub(super) guard: &'a str,
     /// What must stand before all code.
-    directive: &'a str,
-    functions: Vec<FunctionView>,
+    pub(super) directive: &'a str,
+    /// The functions in their order.
+    pub(super) functions: Vec<FunctionView>,
     /// The numbers that a library method takes after `cos_theta`.
-    parameters: Vec<ParameterView>,
+    pub(super) parameters: Vec<ParameterView>,
     /// The textures that the functions read.
-    textures: Vec<String>,
+    pub(super) textures: Vec<String>,
 }
 
 #[derive(Serialize)]
-struct FunctionView {
+pub(super) struct FunctionView {
     /// Comments above it.
-    doc: Vec<String>,
-    head: String,
-    body: Vec<String>,
+    pub(super) doc: Vec<String>,
+    /// Its head, without a brace.
+    pub(super) head: String,
+    /// The lines of its body.
+    pub(super) body: Vec<String>,
     /// The entry point of a module that calls it.
-    entry: String,
+    pub(super) entry: String,
     /// How a module calls it: `cos_theta` and what its block holds are f32, and so is the result.
-    call: String,
+    pub(super) call: String,
 }
 
 #[derive(Serialize)]
-struct ParameterView {
+pub(super) struct ParameterView {
     name: String,
     ty: &'static str,
 }

@@ -47,6 +47,7 @@ pub fn head(function: &Checked, name: &str, spelling: &Spelling) -> String {
         .map(|param| {
             let pattern = match param.ty {
                 Ty::Texture => spelling.texture,
+                Ty::Cube => spelling.cube,
                 _ => spelling.param,
             };
             pattern
@@ -197,7 +198,7 @@ impl Printer<'_> {
                 Text::tight(format!(
                     "{}.{}",
                     arg(0, precedence::TIGHT),
-                    ["r", "g", "b"][index]
+                    self.letter(node, index)
                 ))
             }
             Form::Pattern(pattern) => self.filled(pattern, node),
@@ -216,8 +217,17 @@ impl Printer<'_> {
         let fill = |text: String, (i, arg): (usize, &NodeId)| {
             text.replace(&format!("{{{i}}}"), &self.expression(*arg).text)
         };
+        let pattern = match node.payload {
+            Payload::Index(row) => pattern.replace("{w}", ["x", "y", "z", "w"][row]),
+            _ => pattern.to_owned(),
+        };
         let args = node.args.iter().enumerate();
-        Text::tight(args.fold(pattern.to_owned(), fill))
+        Text::tight(args.fold(pattern, fill))
+    }
+
+    fn letter(&self, node: &Node, channel: usize) -> &'static str {
+        let of = self.function.nodes[node.args[0]].ty;
+        self.function.letters.letter(of, channel)
     }
 
     fn leaf(&self, node: &Node) -> Text {

@@ -18,8 +18,8 @@ pub struct TriedShapes {
     pub tried: Vec<Tried>,
 }
 
-/// TriedShapes taken together: each measurement once, and each substance once, by the median of its measurements, however often it
-/// was measured.
+/// Errors of a shape over all that it was tried on, once with each measurement counted and once with each substance counted. A
+/// substance counts by the median of its measurements.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct ErrorQuantiles {
     /// The median over measurements.

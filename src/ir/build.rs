@@ -4,7 +4,7 @@ use std::cell::RefCell;
 use std::collections::BTreeMap;
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
-use super::graph::{Function, Label, Node, NodeId, Param, Ty};
+use super::graph::{Function, Label, Letters, Node, NodeId, Param, Ty};
 use super::op::{Op, Payload, Signature};
 use crate::num::Precision;
 
@@ -19,6 +19,7 @@ struct State {
     params: Vec<Param>,
     nodes: Vec<Node>,
     known: BTreeMap<(Op, Vec<NodeId>, u64), NodeId>,
+    letters: Letters,
 }
 
 /// A value under construction.
@@ -32,6 +33,17 @@ impl Builder {
     /// An empty builder.
     pub fn new() -> Builder {
         Builder::default()
+    }
+
+    /// An empty builder of a function whose channels are called so.
+    pub fn with_letters(letters: Letters) -> Builder {
+        let state = State {
+            letters,
+            ..State::default()
+        };
+        Builder {
+            state: RefCell::new(state),
+        }
     }
 
     /// Adds an argument of the function.
@@ -71,6 +83,7 @@ impl Builder {
             params: state.params.clone(),
             nodes: state.nodes.clone(),
             result: result.id,
+            letters: state.letters,
         };
         whole.compact()
     }
@@ -212,6 +225,30 @@ impl<'b> Expr<'b> {
     pub fn sample(self, u: Expr<'b>, v: Expr<'b>) -> Expr<'b> {
         let args = [self.id, u.id, v.id];
         self.builder.push(Op::Sample, &args, Payload::None)
+    }
+
+    /// The fourth channel of this texture at (u, v).
+    pub fn sample_alpha(self, u: Expr<'b>, v: Expr<'b>) -> Expr<'b> {
+        let args = [self.id, u.id, v.id];
+        self.builder.push(Op::SampleAlpha, &args, Payload::None)
+    }
+
+    /// This cube in a direction.
+    pub fn sample_cube(self, direction: Expr<'b>) -> Expr<'b> {
+        let args = [self.id, direction.id];
+        self.builder.push(Op::SampleCube, &args, Payload::None)
+    }
+
+    /// The scalar product of two vectors.
+    pub fn dot(self, other: Expr<'b>) -> Expr<'b> {
+        self.builder
+            .push(Op::Dot, &[self.id, other.id], Payload::None)
+    }
+
+    /// A row of this matrix times the column of a place and 1.
+    pub fn transform(self, row: usize, place: Expr<'b>) -> Expr<'b> {
+        let args = [self.id, place.id];
+        self.builder.push(Op::Transform, &args, Payload::Index(row))
     }
 
     /// The larger of this and a number.

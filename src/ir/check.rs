@@ -7,7 +7,7 @@
 //! 4. constants are finite in the precision of the code;
 //! 5. names are identifiers in every language: a letter, then letters, digits and single underscores, none last;
 //! 6. names of arguments and steps are unique in the function;
-//! 7. arguments are numbers or textures, and the result is a number;
+//! 7. arguments are numbers or textures, and the result is one number or three;
 //! 8. the result depends on every node: nothing is computed for nothing;
 //! 9. a step that is used twice has a name, unless it is a comparison, or only names a constant or an argument.
 
@@ -129,8 +129,14 @@ fn check_payload(
             ensure(index < function.params.len(), 3, what)?;
             Ok(Some(function.params[index].ty))
         }
-        (Signature::Channel, Payload::Index(index)) => ensure(index < 3, 3, what).map(|()| None),
-        (Signature::Number | Signature::Param | Signature::Channel, _) => Err((3, what())),
+        (Signature::Channel | Signature::Transform, Payload::Index(index)) => {
+            let types: Vec<Ty> = node.args.iter().map(|a| function.nodes[*a].ty).collect();
+            let indices = node.op.info().signature.indices(&types);
+            ensure(indices.is_some_and(|count| index < count), 3, what).map(|()| None)
+        }
+        (Signature::Number | Signature::Param | Signature::Channel | Signature::Transform, _) => {
+            Err((3, what()))
+        }
         (_, payload) => ensure(payload == Payload::None, 3, what).map(|()| None),
     }
 }
@@ -174,15 +180,14 @@ pub(super) fn wants_name(function: &Function, id: NodeId, uses: usize) -> bool {
     uses > 1 && node.label.is_none() && node.ty != Ty::Bool && !is_name_only(function, node)
 }
 
-/// Constants, arguments, their channels, and constant colours: nothing is computed there.
+/// Constants, arguments, channels of these and of named steps, and constant colours: nothing is computed there.
 fn is_name_only(function: &Function, node: &Node) -> bool {
+    let is_name = |a: &NodeId| {
+        let of = &function.nodes[*a];
+        node.op == Op::Channel && of.label.is_some() || is_name_only(function, of)
+    };
     node.is_leaf()
-        || node.op.info().work == 0
-            && node.op != Op::Sample
-            && node
-                .args
-                .iter()
-                .all(|a| is_name_only(function, &function.nodes[*a]))
+        || node.op.info().work == 0 && !node.op.is_fetch() && node.args.iter().all(is_name)
 }
 
 /// File systems allow 255 bytes, and endings follow.

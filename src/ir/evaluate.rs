@@ -7,7 +7,7 @@ use crate::num::{Num, Truth, each_channel};
 use super::check::Checked;
 use super::graph::{Function, Node};
 use super::op::{Op, Payload};
-use super::texture::{Texels, Weights};
+use super::texture::{CubeTexels, Texels, Weights};
 
 /// A number for each point: the same for all, or one each.
 #[derive(Clone, Debug, PartialEq)]
@@ -29,6 +29,10 @@ pub enum Value<N> {
     Bool(Column<Truth>),
     /// The texels of a texture; none where nothing is known of them.
     Texture(Option<Texels>),
+    /// Those of a cube.
+    Cube(Option<CubeTexels>),
+    /// Two, four or sixteen numbers a point.
+    Many(Vec<Column<N>>),
 }
 
 impl<T: Copy> Column<T> {
@@ -143,7 +147,8 @@ impl<N: Num> Value<N> {
         match self {
             Value::Scalar(column) => column,
             Value::Rgb(columns) => &columns[index],
-            Value::Bool(_) | Value::Texture(_) => {
+            Value::Many(columns) => &columns[index],
+            Value::Bool(_) | Value::Texture(_) | Value::Cube(_) => {
                 unreachable!("a checked function gives no other type where a number is wanted")
             }
         }
@@ -155,7 +160,8 @@ impl<N: Num> Value<N> {
         let columns = match self {
             Value::Scalar(column) => std::slice::from_ref(column),
             Value::Rgb(columns) => columns,
-            Value::Bool(_) | Value::Texture(_) => &[],
+            Value::Many(columns) => columns,
+            Value::Bool(_) | Value::Texture(_) | Value::Cube(_) => &[],
         };
         columns.iter().filter_map(Column::points).max()
     }
@@ -167,6 +173,10 @@ impl<N: Num> Value<N> {
             Value::Rgb(columns) => Value::Rgb(each_channel(|i| columns[i].part(range))),
             Value::Bool(_) => unreachable!("no argument is an answer"),
             Value::Texture(texels) => Value::Texture(texels.clone()),
+            Value::Cube(texels) => Value::Cube(texels.clone()),
+            Value::Many(columns) => {
+                Value::Many(columns.iter().map(|column| column.part(range)).collect())
+            }
         }
     }
 
@@ -233,6 +243,47 @@ impl<N: Num> Value<N> {
         };
         let mixed = u.channel(0).zip(v.channel(0), &at);
         Value::Rgb(each_channel(|i| mixed.map(&|colour: [N; 3]| colour[i])))
+    }
+
+    fn sample_alpha(&self, u: &Value<N>, v: &Value<N>) -> Value<N> {
+        let Value::Texture(texels) = self else {
+            unreachable!("a checked sample starts with a texture")
+        };
+        let at = |u, v| match texels {
+            Some(texels) => texels.sample_alpha(Weights::Exact, u, v),
+            None => N::unknown(),
+        };
+        Value::Scalar(u.channel(0).zip(v.channel(0), &at))
+    }
+
+    fn sample_cube(&self, direction: &Value<N>) -> Value<N> {
+        let Value::Cube(texels) = self else {
+            unreachable!("a checked sample of a cube starts with a cube")
+        };
+        let at = |direction: [N; 3]| match texels {
+            Some(texels) => texels.sample(direction),
+            None => [N::unknown(); 3],
+        };
+        let [x, y, z] = each_channel(|i| direction.channel(i));
+        let xy = x.zip(y, &|x, y| (x, y));
+        let fetched = xy.zip(z, &|(x, y), z| at([x, y, z]));
+        Value::Rgb(each_channel(|i| fetched.map(&|colour: [N; 3]| colour[i])))
+    }
+
+    /// The sum of products of channels, from the first on.
+    fn dot(&self, other: &Value<N>) -> Value<N> {
+        let product = |i: usize| self.channel(i).zip(other.channel(i), &|a, b| a * b);
+        let [x, y, z] = each_channel(product);
+        let sum = |a: Column<N>, b: Column<N>| a.zip(&b, &|a, b| a + b);
+        Value::Scalar(sum(sum(x, y), z))
+    }
+
+    /// A row of this matrix times the column of a place and 1.
+    fn transform(&self, row: usize, place: &Value<N>) -> Value<N> {
+        let entry = |column: usize| self.channel(4 * column + row);
+        let of_row = Value::Rgb(each_channel(|i| entry(i).clone()));
+        let moved = of_row.dot(place);
+        Value::Scalar(moved.channel(0).zip(entry(3), &|a, b| a + b))
     }
 }
 
@@ -301,8 +352,12 @@ pub(super) fn apply<N: Num>(node: &Node, values: &[Value<N>], arguments: &[Value
         (Op::Log2, _) => arg(0).map(N::log2),
         (Op::Less, _) => Value::Bool(arg(0).channel(0).zip(arg(1).channel(0), &N::less)),
         (Op::Select, _) => arg(0).choose(arg(1), arg(2)),
+        (Op::Dot, _) => arg(0).dot(arg(1)),
+        (Op::Transform, Payload::Index(row)) => arg(0).transform(row, arg(1)),
         (Op::Sample, _) => arg(0).sample(arg(1), arg(2)),
-        (Op::Number | Op::Param | Op::Channel, _) => {
+        (Op::SampleAlpha, _) => arg(0).sample_alpha(arg(1), arg(2)),
+        (Op::SampleCube, _) => arg(0).sample_cube(arg(1)),
+        (Op::Number | Op::Param | Op::Channel | Op::Transform, _) => {
             unreachable!("a checked node carries its payload")
         }
     }

@@ -7,18 +7,37 @@ use super::op::{Op, Payload, Signature};
 pub enum Ty {
     /// One number.
     Scalar,
-    /// Three channels.
+    /// Three channels: a colour, or a place or a direction in space.
     Rgb,
     /// The answer to a comparison.
     Bool,
     /// A texture with the sampler that filters it: an argument only.
     Texture,
+    /// A cube of textures with its sampler: an argument only.
+    Cube,
+    /// Two numbers: an argument only.
+    Vec2,
+    /// Four numbers: an argument only.
+    Vec4,
+    /// A matrix of 4 by 4 numbers, column after column, which is applied to columns: an argument only.
+    Mat4,
 }
 
 impl Ty {
     /// How many channels a value of this type has.
     pub fn channels(self) -> usize {
-        if self == Ty::Rgb { 3 } else { 1 }
+        match self {
+            Ty::Rgb => 3,
+            Ty::Vec2 => 2,
+            Ty::Vec4 => 4,
+            Ty::Mat4 => 16,
+            Ty::Scalar | Ty::Bool | Ty::Texture | Ty::Cube => 1,
+        }
+    }
+
+    /// Whether it is read by a fetch.
+    pub fn is_sampled(self) -> bool {
+        matches!(self, Ty::Texture | Ty::Cube)
     }
 
     /// The name in the text form.
@@ -28,7 +47,32 @@ impl Ty {
             Ty::Rgb => "rgb",
             Ty::Bool => "bool",
             Ty::Texture => "texture",
+            Ty::Cube => "cube",
+            Ty::Vec2 => "vec2",
+            Ty::Vec4 => "vec4",
+            Ty::Mat4 => "mat4",
         }
+    }
+}
+
+/// What the channels of three numbers are called.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Letters {
+    /// r, g, b: the function is of colours.
+    #[default]
+    Rgb,
+    /// x, y, z: it is of places and directions.
+    Xyz,
+}
+
+impl Letters {
+    /// The letter of a channel of this type.
+    pub fn letter(self, ty: Ty, channel: usize) -> &'static str {
+        let letters = match (self, ty) {
+            (Letters::Rgb, Ty::Rgb) => ["r", "g", "b", "a"],
+            _ => ["x", "y", "z", "w"],
+        };
+        letters[channel]
     }
 }
 
@@ -99,6 +143,8 @@ pub struct Function {
     pub nodes: Vec<Node>,
     /// Which node is returned.
     pub result: NodeId,
+    /// What channels are called.
+    pub letters: Letters,
 }
 
 impl Function {
@@ -122,7 +168,7 @@ impl Function {
         let channels = |node: &Node| {
             node.args
                 .iter()
-                .map(|a| self.nodes[*a].ty.channels())
+                .map(|a| self.nodes[*a].ty.channels().min(3))
                 .max()
                 .unwrap_or(1)
         };
@@ -143,7 +189,7 @@ impl Function {
 
     /// How often an evaluation reads a texture.
     pub fn fetches(&self) -> usize {
-        let is_fetch = |node: &&Node| node.op == Op::Sample;
+        let is_fetch = |node: &&Node| node.op.is_fetch();
         self.nodes.iter().filter(is_fetch).count()
     }
 
@@ -176,6 +222,7 @@ impl Function {
             params: self.params.clone(),
             nodes,
             result: place[self.result],
+            letters: self.letters,
         }
     }
 

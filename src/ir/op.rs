@@ -27,7 +27,11 @@ pub enum Op {
     Log2,
     Less,
     Select,
+    Dot,
+    Transform,
     Sample,
+    SampleAlpha,
+    SampleCube,
 }
 
 /// What a node carries beside its arguments.
@@ -37,7 +41,7 @@ pub enum Payload {
     None,
     /// The value of a `number`.
     Number(f64),
-    /// Which parameter (`param`) or which channel (`channel`, 0 to 2).
+    /// Which parameter (`param`), which channel (`channel`), or which row (`transform`).
     Index(usize),
 }
 
@@ -52,7 +56,7 @@ pub enum Signature {
     Splat,
     /// `(scalar, scalar, scalar) -> rgb`
     Compose,
-    /// `(rgb) -> scalar`, with a channel as payload.
+    /// `(rgb, vec2 or vec4) -> scalar`, with a channel as payload.
     Channel,
     /// `(T) -> T`, T scalar or rgb.
     Unary,
@@ -64,8 +68,16 @@ pub enum Signature {
     Compare,
     /// `(bool, scalar, scalar) -> scalar`
     Choose,
+    /// `(rgb, rgb) -> scalar`
+    Dot,
+    /// `(mat4, rgb) -> scalar`, with a row, 0 to 3, as payload.
+    Transform,
     /// `(texture, scalar, scalar) -> rgb`
     Fetch,
+    /// `(texture, scalar, scalar) -> scalar`
+    FetchAlpha,
+    /// `(cube, rgb) -> rgb`
+    FetchCube,
 }
 
 impl Signature {
@@ -75,26 +87,41 @@ impl Signature {
             Signature::Number | Signature::Param => 0,
             Signature::Splat | Signature::Channel | Signature::Unary => 1,
             Signature::Alike | Signature::Mixed | Signature::Compare => 2,
-            Signature::Compose | Signature::Choose | Signature::Fetch => 3,
+            Signature::Dot | Signature::Transform | Signature::FetchCube => 2,
+            Signature::Compose | Signature::Choose => 3,
+            Signature::Fetch | Signature::FetchAlpha => 3,
+        }
+    }
+
+    /// How many values the index that a node carries can have; none where it carries none, or the function's arguments decide.
+    pub fn indices(self, arguments: &[Ty]) -> Option<usize> {
+        match (self, arguments) {
+            (Signature::Channel, [ty]) => Some(ty.channels()),
+            (Signature::Transform, _) => Some(4),
+            _ => None,
         }
     }
 
     /// The result type for these argument types, or nothing where they do not fit. A parameter's type is not
     /// known here and comes back as a scalar.
     pub fn result(self, arguments: &[Ty]) -> Option<Ty> {
-        use Ty::{Bool, Rgb, Scalar, Texture};
+        use Ty::{Bool, Cube, Mat4, Rgb, Scalar, Texture, Vec2, Vec4};
         match (self, arguments) {
             (Signature::Number | Signature::Param, []) => Some(Scalar),
             (Signature::Splat, [Scalar]) => Some(Rgb),
             (Signature::Compose, [Scalar, Scalar, Scalar]) => Some(Rgb),
-            (Signature::Channel, [Rgb]) => Some(Scalar),
+            (Signature::Channel, [Rgb | Vec2 | Vec4]) => Some(Scalar),
             (Signature::Unary, [t @ (Scalar | Rgb)]) => Some(*t),
             (Signature::Alike, [a @ (Scalar | Rgb), b]) if a == b => Some(*a),
             (Signature::Mixed, [Scalar, Scalar]) => Some(Scalar),
             (Signature::Mixed, [Scalar | Rgb, Scalar | Rgb]) => Some(Rgb),
             (Signature::Compare, [Scalar, Scalar]) => Some(Bool),
             (Signature::Choose, [Bool, Scalar, Scalar]) => Some(Scalar),
+            (Signature::Dot, [Rgb, Rgb]) => Some(Scalar),
+            (Signature::Transform, [Mat4, Rgb]) => Some(Scalar),
             (Signature::Fetch, [Texture, Scalar, Scalar]) => Some(Rgb),
+            (Signature::FetchAlpha, [Texture, Scalar, Scalar]) => Some(Scalar),
+            (Signature::FetchCube, [Cube, Rgb]) => Some(Rgb),
             _ => None,
         }
     }
@@ -133,7 +160,7 @@ const fn row(
 
 /// Every operation, in the order of [`Op`].
 #[rustfmt::skip]
-pub static OPS: [OpInfo; 21] = [
+pub static OPS: [OpInfo; 25] = [
     row(Op::Number,      "number",       Signature::Number,  0, "a constant"),
     row(Op::Param,       "param",        Signature::Param,   0, "an argument of the function"),
     row(Op::Splat,       "splat",        Signature::Splat,   0, "the same scalar in each channel"),
@@ -154,10 +181,19 @@ pub static OPS: [OpInfo; 21] = [
     row(Op::Log2,        "log2",         Signature::Unary,   1, "the logarithm to base 2"),
     row(Op::Less,        "less",         Signature::Compare, 1, "a < b"),
     row(Op::Select,      "select",       Signature::Choose,  1, "b where a holds, else c"),
+    row(Op::Dot,         "dot",          Signature::Dot,     2, "the scalar product: a.x b.x + a.y b.y + a.z b.z"),
+    row(Op::Transform,   "transform",    Signature::Transform, 2, "a row of the matrix a times the column (b, 1)"),
     row(Op::Sample,      "sample",       Signature::Fetch,   0, "the texture a at (b, c), filtered linearly, level 0"),
+    row(Op::SampleAlpha, "sample_alpha", Signature::FetchAlpha, 0, "its fourth channel"),
+    row(Op::SampleCube,  "sample_cube",  Signature::FetchCube, 0, "the cube a in the direction b, filtered linearly, level 0"),
 ];
 
 impl Op {
+    /// Whether it reads a texture or a cube.
+    pub fn is_fetch(self) -> bool {
+        matches!(self, Op::Sample | Op::SampleAlpha | Op::SampleCube)
+    }
+
     /// The row of this operation.
     pub fn info(self) -> &'static OpInfo {
         &OPS[self as usize]

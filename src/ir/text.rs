@@ -13,7 +13,7 @@
 use std::collections::BTreeMap;
 use std::fmt::Write;
 
-use super::graph::{Function, Label, Node, NodeId, Param, Ty};
+use super::graph::{Function, Label, Letters, Node, NodeId, Param, Ty};
 use super::op::{Op, Payload, Signature};
 
 /// A line that does not parse.
@@ -31,13 +31,13 @@ pub fn print(function: &Function) -> String {
     let params: Vec<String> = function
         .params
         .iter()
-        .map(|p| format!("{}: {}", p.name, p.ty.name()))
+        .map(|p| format!("{}: {}", p.name, type_name(function.letters, p.ty)))
         .collect();
     let mut out = format!(
         "fn {}({}) -> {}\n",
         function.name,
         params.join(", "),
-        function.ty().name()
+        type_name(function.letters, function.ty())
     );
     let names = names(function);
     for (id, node) in function
@@ -61,6 +61,14 @@ pub fn print(function: &Function) -> String {
     }
     let _ = writeln!(out, "  return {}", names[function.result]);
     out
+}
+
+/// Three numbers that are no colour are a `vec3`.
+fn type_name(letters: Letters, ty: Ty) -> &'static str {
+    match (letters, ty) {
+        (Letters::Xyz, Ty::Rgb) => "vec3",
+        _ => ty.name(),
+    }
 }
 
 fn names(function: &Function) -> Vec<String> {
@@ -91,6 +99,10 @@ pub fn parse(text: &str) -> Result<Function, ParseError> {
         .next()
         .ok_or_else(|| fault(1, "an empty text; expected `fn name(...) -> type`"))?;
     let (name, params, ty) = parse_head(line, head)?;
+    let letters = match head.contains("vec3") {
+        true => Letters::Xyz,
+        false => Letters::Rgb,
+    };
     let mut parser = Parser {
         known: BTreeMap::new(),
         nodes: Vec::new(),
@@ -112,6 +124,7 @@ pub fn parse(text: &str) -> Result<Function, ParseError> {
                 params: parser.params,
                 nodes: parser.nodes,
                 result,
+                letters,
             };
             return Ok(whole.compact());
         }
@@ -143,9 +156,20 @@ fn parse_head(line: usize, head: &str) -> Result<(String, Vec<Param>, Ty), Parse
         .ok_or_else(wrong)?;
     let (inside, returned) = rest.split_once(") -> ").ok_or_else(wrong)?;
     let number = |name: &str| {
-        [Ty::Scalar, Ty::Rgb, Ty::Texture]
-            .into_iter()
-            .find(|t| t.name() == name.trim())
+        let arguments = [
+            Ty::Scalar,
+            Ty::Rgb,
+            Ty::Texture,
+            Ty::Cube,
+            Ty::Vec2,
+            Ty::Vec4,
+            Ty::Mat4,
+        ];
+        let mut types = arguments.into_iter();
+        match name.trim() {
+            "vec3" => Some(Ty::Rgb),
+            name => types.find(|ty| ty.name() == name),
+        }
     };
     let param = |text: &str| {
         let (name, ty) = text.split_once(':').ok_or_else(wrong)?;
@@ -188,7 +212,7 @@ impl Parser {
             )
         })?;
         let payload = match op.info().signature {
-            Signature::Channel => Payload::Index(channel(line, words.next())?),
+            Signature::Channel | Signature::Transform => Payload::Index(index(line, words.next())?),
             _ => Payload::None,
         };
         let args = words
@@ -247,9 +271,8 @@ impl Parser {
     }
 }
 
-fn channel(line: usize, word: Option<&str>) -> Result<usize, ParseError> {
-    let index = word
-        .and_then(|word| word.parse().ok())
-        .filter(|index| *index < 3);
-    index.ok_or_else(|| fault(line, "`channel` wants 0, 1 or 2 and a colour"))
+fn index(line: usize, word: Option<&str>) -> Result<usize, ParseError> {
+    let index = word.and_then(|word| word.parse().ok());
+    let index = index.filter(|index| *index < 4);
+    index.ok_or_else(|| fault(line, "expected a channel or a row, from 0 to 3"))
 }

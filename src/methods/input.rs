@@ -268,6 +268,21 @@ impl<'b> Inputs<'b> {
         }
     }
 
+    /// These expressions as `cos_theta` and these inputs, in their order: the formula becomes part of another function.
+    pub fn given(
+        cos_theta: Expr<'b>,
+        inputs: &[Input],
+        values: &[Expr<'b>],
+        precision: Precision,
+    ) -> Inputs<'b> {
+        let names = inputs.iter().map(|input| input.name);
+        Inputs {
+            cos_theta,
+            given: names.zip(values.iter().copied()).collect(),
+            precision,
+        }
+    }
+
     /// What the formula is computed in: one that overflows or cancels in half precision is built otherwise there.
     pub fn precision(&self) -> Precision {
         self.precision

@@ -7,9 +7,8 @@ use super::method::Method;
 
 /// What the library function gives in f64; each argument is the same in all channels.
 pub fn value(method: &Method, cos_theta: f64, arguments: &[f64]) -> f64 {
-    let function = method
-        .function(false)
-        .expect("a method's function is well formed");
+    let function = method.function(false);
+    let function = function.unwrap_or_else(|fault| panic!("{fault}"));
     let mut values = vec![Value::<f64>::scalar(cos_theta)];
     for (param, argument) in function.params.iter().skip(1).zip(arguments) {
         let colour = param.ty.channels() == 3;

@@ -1,7 +1,7 @@
 //! The methods, one file each: a formula for reflectance with its source, inputs, domain and promised errors.
 //!
 //! To add one, write its file: a `//!` header with formula and source, a `pub static METHOD: Method`, a `build`
-//! function and its limit tests. Then run the tests with `BLESS=1`: they rewrite the list below.
+//! function and its limit tests. Then run `tests/lists`, which writes the list below. ARCHITECTURE.md says the next steps.
 //! Fitted methods take their place here like all others, with their coefficients as inputs.
 //! The room knows no target.
 

@@ -9,7 +9,8 @@ use super::plan::DrawingPlan;
 
 /// Interference only lengthens a reading, so we take the 10th percentile: the very quickest reading is a matter of luck.
 const QUICK: f64 = 0.1;
-/// Fewest rounds of which others are drawn: of fewer not one in ten is quick with a chance of 95 %, 1 - 0.9^29.
+/// Fewest rounds from which others are drawn anew: with 29 the chance is 95 % that one of them is among the quickest tenth,
+/// 1 - 0.9^29.
 const FEWEST: usize = 29;
 
 /// What a function costs.

@@ -276,8 +276,8 @@ impl DrawingSession<'_> {
         }
     }
 
-    /// A round: every drawing, and every few of them what all are held against, so that a machine that is busy for a while
-    /// is busy for both.
+    /// A round: every drawing once. The drawing that all are compared with comes again after every few of them, so that a machine that
+    /// is busy for a while slows both.
     fn round(&mut self, round: usize, told: &mut dyn FnMut(usize)) -> Result<Round, Stop> {
         let (count, fixed) = (self.plan.drawings.len(), self.plan.fixed());
         let mut all: Round = vec![Vec::new(); count];

@@ -27,7 +27,8 @@ pub fn number(keys: &[&str]) -> f64 {
 /// A row of figures.
 pub fn numbers(keys: &[&str]) -> Vec<f64> {
     let row = at(keys).as_array().into_iter().flatten();
-    row.filter_map(Value::as_f64).collect()
+    row.map(|value| value.as_f64().expect("a row of figures holds figures"))
+        .collect()
 }
 
 /// A row of names.

@@ -17,6 +17,7 @@ pub static TARGET: Target = Target {
     spelling: Spelling {
         param: "highp {type} {name}",
         texture: "highp sampler2D {name}",
+        cube: "highp samplerCube {name}",
         local: "highp {type} {name} = {value};",
         head: "highp {type} {name}({params})",
         ..glsl::SPELLING

@@ -18,9 +18,25 @@ pub static TARGET: Target = Target {
     spelling: Spelling {
         rgb: "float3",
         texture: "Texture2D<float4> {name}, SamplerState {name}_sampler",
+        cube: "TextureCube<float4> {name}, SamplerState {name}_sampler",
+        vec2: "float2",
+        vec4: "float4",
+        mat4: "float4x4",
         differs: &[
             (Op::Splat, Form::Postfix(".xxx")),
             (Op::Compose, Form::Call("float3")),
+            (
+                Op::Transform,
+                Form::Pattern("mul({0}, float4({1}, 1.0)).{w}"),
+            ),
+            (
+                Op::SampleAlpha,
+                Form::Pattern("{0}.SampleLevel({0}_sampler, float2({1}, {2}), 0.0).a"),
+            ),
+            (
+                Op::SampleCube,
+                Form::Pattern("{0}.SampleLevel({0}_sampler, {1}, 0.0).rgb"),
+            ),
             (
                 Op::Sample,
                 Form::Pattern("{0}.SampleLevel({0}_sampler, float2({1}, {2}), 0.0).rgb"),

@@ -1,7 +1,8 @@
 //! The targets, one file each: how a language spells the operations, which words it reserves, how a page of it
 //! looks, who validates it.
 //!
-//! To add one, write its file and its template, then run the tests with `BLESS=1`: they rewrite the list below.
+//! To add one, write its file and its templates, then run `tests/lists`, which writes the list below. ARCHITECTURE.md says the
+//! next steps.
 //! The room knows no method.
 
 mod spelling;

@@ -56,23 +56,27 @@ const VALIDATORS: &[Validator] = &[Validator {
 /// What both precisions share.
 const SHARED: Spelling = Spelling {
     texture: "metal::texture2d<float> {name}, metal::sampler {name}_sampler",
+    cube: "metal::texturecube<float> {name}, metal::sampler {name}_sampler",
+    vec2: "metal::float2",
+    vec4: "metal::float4",
+    mat4: "metal::float4x4",
     head: "inline {type} {name}({params})",
     mixed_min_max: false,
     ..C_FAMILY
 };
 
-const FORMS: [(Op, Form); 11] = forms(
+const FORMS: [(Op, Form); 15] = forms(
     "metal::float3",
     "{0}.sample({0}_sampler, metal::float2({1}, {2}), metal::level(0.0f)).rgb",
 );
 
-const HALF_FORMS: [(Op, Form); 11] = forms(
+const HALF_FORMS: [(Op, Form); 15] = forms(
     "metal::half3",
     "metal::half3({0}.sample({0}_sampler, metal::float2({1}, {2}), metal::level(0.0f)).rgb)",
 );
 
 /// The library's functions take both kinds of number.
-const fn forms(rgb: &'static str, sample: &'static str) -> [(Op, Form); 11] {
+const fn forms(rgb: &'static str, sample: &'static str) -> [(Op, Form); 15] {
     [
         (Op::Splat, Form::Call(rgb)),
         (Op::Compose, Form::Call(rgb)),
@@ -84,7 +88,20 @@ const fn forms(rgb: &'static str, sample: &'static str) -> [(Op, Form); 11] {
         (Op::InverseSqrt, Form::Call("metal::rsqrt")),
         (Op::Exp2, Form::Call("metal::exp2")),
         (Op::Log2, Form::Call("metal::log2")),
+        (Op::Dot, Form::Call("metal::dot")),
+        (
+            Op::Transform,
+            Form::Pattern("({0} * metal::float4({1}, 1.0f)).{w}"),
+        ),
         (Op::Sample, Form::Pattern(sample)),
+        (
+            Op::SampleAlpha,
+            Form::Pattern("{0}.sample({0}_sampler, metal::float2({1}, {2}), metal::level(0.0f)).a"),
+        ),
+        (
+            Op::SampleCube,
+            Form::Pattern("{0}.sample({0}_sampler, {1}, metal::level(0.0f)).rgb"),
+        ),
     ]
 }
 

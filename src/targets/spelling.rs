@@ -22,7 +22,7 @@ pub enum Form {
     Ternary,
     /// `name(no, yes, condition)`
     CallSelect(&'static str),
-    /// This, with `{0}` and so on for the arguments.
+    /// This, with `{0}` and so on for the arguments, and `{w}` for the letter of a row.
     Pattern(&'static str),
     /// Not written as an operation: constants and arguments.
     Leaf,
@@ -59,6 +59,14 @@ pub struct Spelling {
     pub param: &'static str,
     /// An argument that is a texture, with its sampler where the language has one apart: `{name}_sampler`.
     pub texture: &'static str,
+    /// An argument that is a cube of textures, likewise.
+    pub cube: &'static str,
+    /// The types of two and of four numbers, and of a matrix of 4 by 4.
+    pub vec2: &'static str,
+    /// See `vec2`.
+    pub vec4: &'static str,
+    /// See `vec2`.
+    pub mat4: &'static str,
     /// A named step.
     pub local: &'static str,
     /// The head of a function, without its brace.
@@ -81,6 +89,10 @@ pub(super) const C_FAMILY: Spelling = Spelling {
     rgb: "vec3",
     param: "{type} {name}",
     texture: "sampler2D {name}",
+    cube: "samplerCube {name}",
+    vec2: "vec2",
+    vec4: "vec4",
+    mat4: "mat4",
     local: "{type} {name} = {value};",
     head: "{type} {name}({params})",
     suffix: "",
@@ -98,7 +110,13 @@ impl Spelling {
 
     /// The name of a type.
     pub fn ty(&self, ty: Ty) -> &'static str {
-        if ty == Ty::Rgb { self.rgb } else { self.scalar }
+        match ty {
+            Ty::Rgb => self.rgb,
+            Ty::Vec2 => self.vec2,
+            Ty::Vec4 => self.vec4,
+            Ty::Mat4 => self.mat4,
+            Ty::Scalar | Ty::Bool | Ty::Texture | Ty::Cube => self.scalar,
+        }
     }
 
     /// A number: the shortest digits that give back the same in this precision, always with a point.
@@ -148,7 +166,11 @@ fn c_family(op: Op) -> Form {
         Op::Log2 => Form::Call("log2"),
         Op::Less => Form::Infix("<", precedence::COMPARE),
         Op::Select => Form::Ternary,
+        Op::Dot => Form::Call("dot"),
+        Op::Transform => Form::Pattern("({0} * vec4({1}, 1.0)).{w}"),
         Op::Sample => Form::Pattern("textureLod({0}, vec2({1}, {2}), 0.0).rgb"),
+        Op::SampleAlpha => Form::Pattern("textureLod({0}, vec2({1}, {2}), 0.0).a"),
+        Op::SampleCube => Form::Pattern("textureLod({0}, {1}, 0.0).rgb"),
     }
 }
 

@@ -163,6 +163,10 @@ pub(super) const SPELLING: Spelling = Spelling {
     rgb: "vec3<f32>",
     param: "{name}: {type}",
     texture: "{name}: texture_2d<f32>, {name}_sampler: sampler",
+    cube: "{name}: texture_cube<f32>, {name}_sampler: sampler",
+    vec2: "vec2<f32>",
+    vec4: "vec4<f32>",
+    mat4: "mat4x4<f32>",
     local: "let {name} = {value};",
     head: "fn {name}({params}) -> {type}",
     suffix: "",
@@ -176,6 +180,18 @@ pub(super) const SPELLING: Spelling = Spelling {
         (
             Op::Sample,
             Form::Pattern("textureSampleLevel({0}, {0}_sampler, vec2<f32>({1}, {2}), 0.0).rgb"),
+        ),
+        (
+            Op::Transform,
+            Form::Pattern("({0} * vec4<f32>({1}, 1.0)).{w}"),
+        ),
+        (
+            Op::SampleAlpha,
+            Form::Pattern("textureSampleLevel({0}, {0}_sampler, vec2<f32>({1}, {2}), 0.0).a"),
+        ),
+        (
+            Op::SampleCube,
+            Form::Pattern("textureSampleLevel({0}, {0}_sampler, {1}, 0.0).rgb"),
         ),
     ],
 };

@@ -55,7 +55,8 @@ pub fn file_rows(
     rows
 }
 
-/// What compilers say of all pages of a file: a refusal of one is a refusal, and says which page it is.
+/// What compilers say of all pages of a file: a refusal of one is a refusal, and says which page it is; without one a page that could
+/// not be checked leaves the file unchecked.
 fn accepts(file: &PlannedFile) -> Vec<(&'static str, Verdict)> {
     let mut all: Vec<(&'static str, Verdict)> = Vec::new();
     for page in &file.pages {
@@ -69,7 +70,10 @@ fn accepts(file: &PlannedFile) -> Vec<(&'static str, Verdict)> {
                 other => other,
             };
             match all.iter_mut().find(|(other, _)| *other == name) {
-                Some((_, known)) if *known == Verdict::Yes => *known = verdict,
+                Some((_, Verdict::No(_))) => {}
+                Some((_, known)) if *known == Verdict::Yes || matches!(verdict, Verdict::No(_)) => {
+                    *known = verdict
+                }
                 Some(_) => {}
                 None => all.push((name, verdict)),
             }

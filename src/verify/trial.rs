@@ -187,6 +187,8 @@ fn steps(table: &Texels) -> Texels {
     Texels {
         width: table.width,
         texels: (0..table.texels.len()).map(step).collect(),
+        alpha: None,
+        filter: table.filter,
     }
 }
 

@@ -19,6 +19,7 @@ mod compilers;
 mod costs;
 mod database;
 mod domains;
+mod effects;
 mod exhaustive;
 mod fits;
 mod golden;

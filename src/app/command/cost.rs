@@ -153,8 +153,10 @@ impl RecordComparison {
         let mut checked = RecordComparison::default();
         match compiler {
             _ if record.compiler.is_empty() => {
-                checked.unchecked =
-                    Some("nothing is recorded of it: `tests/costs` does".to_owned());
+                checked.unchecked = Some(
+                    "this program holds no record of it: run `tests/costs`, then build it again"
+                        .to_owned(),
+                );
             }
             None => checked.unchecked = Some(unasked(rows)),
             Some(compiler) if compiler != record.compiler => {

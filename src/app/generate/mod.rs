@@ -120,8 +120,8 @@ pub struct Held {
     pub full_headers: BTreeSet<String>,
 }
 
-/// Generates everything that the request asks for, and keeps the graphs of what is generated. Files that are `held` have its
-/// methods and its form of comments.
+/// Generates everything that the request asks for, and keeps the graphs of what is generated. For a file that is in `held`, methods and
+/// form of comments are taken from there.
 ///
 /// # Errors
 /// As [`generate()`].

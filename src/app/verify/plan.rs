@@ -128,7 +128,8 @@ fn is_as_meant(meant: &Meant, held: &Held) -> bool {
         })
 }
 
-/// The page of a file, and what is run of it: `exact` is what the file should be, `meant` has what was asked for too.
+/// A file as it lies in the folder, and what is run of it. `exact` is what the file should hold; `meant` also holds what this run asks
+/// for.
 fn page(
     request: &Request,
     shipped: &Folder,

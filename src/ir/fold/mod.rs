@@ -36,7 +36,7 @@ pub fn specialise_in(
     function: &Function,
     constants: &BTreeMap<String, [f64; 3]>,
 ) -> Function {
-    let builder = Builder::new();
+    let builder = Builder::with_letters(function.letters);
     let arguments: Vec<Expr> = function
         .params
         .iter()
@@ -114,7 +114,7 @@ fn flush(precision: Precision, function: &mut Function) -> bool {
 fn pass(precision: Precision, function: &Function) -> Function {
     let ranges = ranges(function);
     let uses = function.uses();
-    let builder = Builder::new();
+    let builder = Builder::with_letters(function.letters);
     let params: Vec<Expr> = function
         .params
         .iter()

@@ -20,6 +20,10 @@ pub fn ranges(function: &Function) -> Vec<Value<Interval>> {
     let whole = |ty: Ty| match ty {
         Ty::Rgb => Value::Rgb(each_channel(|_| Column::Same(Interval::EVERYTHING))),
         Ty::Texture => Value::Texture(None),
+        Ty::Cube => Value::Cube(None),
+        Ty::Vec2 | Ty::Vec4 | Ty::Mat4 => {
+            Value::Many(vec![Column::Same(Interval::EVERYTHING); ty.channels()])
+        }
         _ => Value::Scalar(Column::Same(Interval::EVERYTHING)),
     };
     let mut arguments: Vec<Value<Interval>> = function

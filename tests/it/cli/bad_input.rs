@@ -56,7 +56,7 @@ fn an_unknown_name_is_answered_with_the_nearest() {
 fn an_empty_name_is_a_name_that_does_not_exist() {
     let place = Place::new();
     for (flag, says) in [
-        ("--target", "there is no target ``; there are gles, "),
+        ("--target", "there is no target ``; there are "),
         ("--method", "there is no method ``"),
         ("--material", "there is no material ``"),
         ("--medium", "there is no material ``"),

@@ -386,6 +386,8 @@ fn call(name: &str, arguments: &[Term]) -> Term {
         ("min", [a, b]) => a.zip(*b, f32::min),
         ("max", [a, b]) => a.zip(*b, f32::max),
         ("select", [no, yes, condition]) => choose(*condition, *yes, *no),
-        _ => panic!("no function {name} of {arguments:?}"),
+        _ => panic!(
+            "this reader knows no function {name} of {arguments:?}: tests/it/reread/language.rs"
+        ),
     }
 }
