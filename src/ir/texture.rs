@@ -126,30 +126,40 @@ impl Texels {
     }
 }
 
-/// For each face: which axis it lies on, its sign there, and the axes with their signs along which s and t grow.
-const FACES: [(usize, f64, (usize, f64), (usize, f64)); 6] = [
-    (0, 1.0, (2, -1.0), (1, -1.0)),
-    (0, -1.0, (2, 1.0), (1, -1.0)),
-    (1, 1.0, (0, 1.0), (2, 1.0)),
-    (1, -1.0, (0, 1.0), (2, -1.0)),
-    (2, 1.0, (0, 1.0), (1, -1.0)),
-    (2, -1.0, (0, -1.0), (1, -1.0)),
+/// A face of a cube: the axis that it lies on with its sign, and the axes with their signs along which s and t grow.
+struct Face {
+    lies: (usize, f64),
+    s: (usize, f64),
+    t: (usize, f64),
+}
+
+const fn face(lies: (usize, f64), s: (usize, f64), t: (usize, f64)) -> Face {
+    Face { lies, s, t }
+}
+
+const FACES: [Face; 6] = [
+    face((0, 1.0), (2, -1.0), (1, -1.0)),
+    face((0, -1.0), (2, 1.0), (1, -1.0)),
+    face((1, 1.0), (0, 1.0), (2, 1.0)),
+    face((1, -1.0), (0, 1.0), (2, -1.0)),
+    face((2, 1.0), (0, 1.0), (1, -1.0)),
+    face((2, -1.0), (0, -1.0), (1, -1.0)),
 ];
 
 impl CubeTexels {
     /// What a sampler gives in a direction of any length, filtered across the edges of faces. A NaN or a zero vector gives a texel.
     pub fn sample<N: Num>(&self, direction: [N; 3]) -> [N; 3] {
         let face = face_of(direction.map(N::to_f64));
-        let (axis, _, (s_axis, s_sign), (t_axis, t_sign)) = FACES[face];
+        let Face { lies, s, t } = &FACES[face];
         let half = N::from_f64(0.5);
         let size = N::from_f64(self.size as f64);
-        let place = |axis_of: usize, sign: f64| {
-            let along = N::from_f64(sign) * direction[axis_of] / direction[axis].abs();
+        let place = |(axis, sign): (usize, f64)| {
+            let along = N::from_f64(sign) * direction[axis] / direction[lies.0].abs();
             let place = (along + N::from_f64(1.0)) * half * size - half;
             // The smaller and the larger of a NaN and a number are the number.
             place.max(N::from_f64(-1.0)).min(size)
         };
-        let (s, t) = (place(s_axis, s_sign), place(t_axis, t_sign));
+        let (s, t) = (place(*s), place(*t));
         let [left, top] = [s, t].map(|place| place.to_f64().floor());
         let texel = |right: f64, down: f64| {
             let texel = self.texel(face, left + right, top + down);
@@ -163,12 +173,12 @@ impl CubeTexels {
 
     /// The direction through the centre of a texel of a face; it may lie beyond the face's edges.
     pub fn direction(&self, face: usize, column: f64, row: f64) -> [f64; 3] {
-        let (axis, sign, (s_axis, s_sign), (t_axis, t_sign)) = FACES[face];
+        let Face { lies, s, t } = &FACES[face];
         let along = |place: f64| 2.0 * (place + 0.5) / self.size as f64 - 1.0;
         let mut direction = [0.0; 3];
-        direction[axis] = sign;
-        direction[s_axis] = s_sign * along(column);
-        direction[t_axis] = t_sign * along(row);
+        direction[lies.0] = lies.1;
+        direction[s.0] = s.1 * along(column);
+        direction[t.0] = t.1 * along(row);
         direction
     }
 
@@ -188,13 +198,13 @@ impl CubeTexels {
     /// The texel that a direction meets.
     fn nearest(&self, direction: [f64; 3]) -> (usize, f64, f64) {
         let face = face_of(direction);
-        let (axis, _, (s_axis, s_sign), (t_axis, t_sign)) = FACES[face];
-        let place = |axis_of: usize, sign: f64| {
-            let along = sign * direction[axis_of] / direction[axis].abs();
+        let Face { lies, s, t } = &FACES[face];
+        let place = |(axis, sign): (usize, f64)| {
+            let along = sign * direction[axis] / direction[lies.0].abs();
             let place = ((along + 1.0) / 2.0 * self.size as f64).floor();
             place.max(0.0).min(self.size as f64 - 1.0)
         };
-        (face, place(s_axis, s_sign), place(t_axis, t_sign))
+        (face, place(*s), place(*t))
     }
 }
 
