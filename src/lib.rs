@@ -55,7 +55,7 @@
 #![cfg_attr(test, allow(clippy::print_stdout, clippy::unwrap_used))]
 
 // The rooms. A room imports only rooms to its left; rooms between the same two `<` do not import each other.
-// num, cite, names, records < ir, optics < spectra < materials, methods, targets < effects, reference < fit < emit < lut < gpu, process < verify, cost < overdraw, stability < audit, budget, bake, reproduce < scene < report < app
+// num, cite, names, records, digest < ir, optics < spectra < materials, methods, targets < effects, reference, command_line < fit < emit < lut < gpu, process < verify, cost < overdraw, stability < audit, budget, bake, reproduce < chart < scene < report < app
 
 pub mod app;
 #[cfg(all(feature = "cli", feature = "gpu"))]
@@ -63,8 +63,11 @@ pub mod audit;
 #[cfg(feature = "cli")]
 pub mod bake;
 pub mod budget;
+pub mod chart;
 pub mod cite;
+pub mod command_line;
 pub mod cost;
+pub mod digest;
 pub mod effects;
 pub mod emit;
 pub mod fit;

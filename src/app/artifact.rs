@@ -7,7 +7,7 @@ use crate::emit::Detail;
 use super::error::Error;
 use super::manifest;
 
-pub use crate::emit::sha256;
+pub use crate::digest::sha256;
 
 /// One output file, and what the manifest says about it.
 #[derive(Clone, Debug, PartialEq)]

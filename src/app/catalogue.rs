@@ -3,9 +3,10 @@
 
 use serde::Serialize;
 
+use crate::command_line::CommandLine;
 use crate::emit::{
-    self, CATALOGUE, CatalogueDetail, CatalogueMaterial, CatalogueMethod, CatalogueRow,
-    CommandLine, Detail, Naming, OUTPUT_LICENCE,
+    self, CATALOGUE, CatalogueDetail, CatalogueMaterial, CatalogueMethod, CatalogueRow, Detail,
+    Naming, OUTPUT_LICENCE,
 };
 use crate::reference::MaterialInMedium;
 use crate::report::{Origin, TOOL};

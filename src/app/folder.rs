@@ -6,7 +6,7 @@ use std::io::{self, ErrorKind};
 use std::path::{Component, Path, PathBuf};
 
 use super::error::Error;
-use crate::emit::sha256;
+use crate::digest::sha256;
 
 /// The beginning of a temporary file's name.
 const TEMPORARY_PREFIX: &str = ".fresnel-gen-";

@@ -5,7 +5,8 @@
 //! it is listed and this program could have written that path for that entry: a mark can be pasted, and a manifest can
 //! be written by anybody.
 
-use crate::emit::{MARK, sha256};
+use crate::digest::sha256;
+use crate::emit::MARK;
 use crate::lut::{Format, KTX2_MARK, TABLES};
 use crate::num::Precision;
 use crate::targets::{self, Finish};

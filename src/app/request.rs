@@ -2,7 +2,8 @@
 
 use std::collections::BTreeMap;
 
-use crate::emit::{HeaderForm, Naming, file_name};
+use crate::command_line::file_name;
+use crate::emit::{HeaderForm, Naming};
 use crate::materials::{self, Material, MaterialKind, ViewingConditions};
 use crate::methods::{self, Method};
 use crate::num::Precision;

@@ -203,7 +203,7 @@ impl Audited<'_> {
             form: "user",
             precision: "f32",
             function: function.clone(),
-            file: crate::emit::file_name(&self.audit.file).to_owned(),
+            file: crate::command_line::file_name(&self.audit.file).to_owned(),
             arguments: self.bound.arguments.iter().map(argument_value).collect(),
             filled: self.bound.filled(),
             device: ran.map(|ran| ran.device.clone()),

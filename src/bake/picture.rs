@@ -1,6 +1,7 @@
 //! One picture in all its formats: its tables in every depth, their errors, and what the heads of its files say.
 
-use crate::emit::{CommandLine, MARK, comment_lines, quoted};
+use crate::command_line::{CommandLine, quoted};
+use crate::emit::{MARK, comment_lines};
 use crate::fit::ModelError;
 use crate::ir::Weights;
 use crate::lut::{

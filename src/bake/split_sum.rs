@@ -1,6 +1,7 @@
 //! The split-sum table of a fitted method: its files and their rows.
 
-use crate::emit::{CommandLine, MARK, comment_lines};
+use crate::command_line::CommandLine;
+use crate::emit::{MARK, comment_lines};
 use crate::ir::Weights;
 use crate::lut::{
     BetweenSplitSum, Format, LEAST_ROUGHNESS, Picture, SplitSum, StoredSplitSum, TABLES, TERMS,

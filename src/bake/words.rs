@@ -1,6 +1,7 @@
 //! A bake as a user types it.
 
-use crate::emit::{CommandLine, Naming, quoted};
+use crate::command_line::{CommandLine, quoted};
+use crate::emit::Naming;
 use crate::materials::ViewingConditions;
 use crate::spectra::Gamut;
 use crate::targets::Target;

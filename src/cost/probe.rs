@@ -7,7 +7,8 @@
 //! Interface: location 0 holds weights and the first cosine; group 0 has the arguments at binding 0 (one block for each
 //! evaluation, [`BLOCKS`] in all), a texture at 3 and its sampler at 4, as in our SPIR-V modules.
 
-use crate::emit::{bare, sha256};
+use crate::digest::sha256;
+use crate::emit::bare;
 use crate::ir::{Checked, Param, Ty};
 use crate::num::Precision;
 use crate::targets::{GLES, Target, WGSL};

@@ -5,8 +5,8 @@
 use std::collections::BTreeMap;
 
 use serde::Deserialize;
-use sha2::{Digest, Sha256};
 
+use crate::digest::sha256;
 use crate::fit::Measured;
 use crate::ir::{Checked, Function, print};
 use crate::num::Precision;
@@ -91,10 +91,4 @@ pub fn fingerprint(function: &Checked) -> String {
     bare.name = "f".to_owned();
     bare.nodes.iter_mut().for_each(|node| node.label = None);
     sha256(print(&bare).as_bytes())[..16].to_owned()
-}
-
-/// The SHA-256 of these bytes in hexadecimal digits.
-pub fn sha256(bytes: &[u8]) -> String {
-    let digest = Sha256::digest(bytes);
-    digest.iter().map(|byte| format!("{byte:02x}")).collect()
 }

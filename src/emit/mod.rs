@@ -6,7 +6,6 @@
 mod average;
 mod bounds;
 mod catalogue;
-mod command;
 mod comment;
 mod detail;
 mod effect_file;
@@ -25,12 +24,11 @@ mod short;
 mod wgsl;
 
 pub use average::{Average, average_functions};
-pub use bounds::{Bounds, CodeBound, HalfBound, PLAIN_ULP, fingerprint, half_bounds, sha256};
+pub use bounds::{Bounds, CodeBound, HalfBound, PLAIN_ULP, fingerprint, half_bounds};
 pub use catalogue::{
     CATALOGUE, CatalogueMaterial, CatalogueMethod, CatalogueRow, CloserFit, catalogue_array,
     catalogue_record, catalogue_rows, recorded_catalogue,
 };
-pub use command::{CommandLine, file_name, quoted, surface_flags};
 pub use comment::lines as comment_lines;
 pub use detail::{
     CatalogueDetail, Detail, FunctionDetail, FunctionsDetail, SeenDetail, TableDetail,

@@ -4,12 +4,7 @@
 //! A sphere is seen from afar in a room that is white everywhere, so that a pixel's colour is the reflectance at its angle:
 //! at r of the radius sin θ = r. The right half of a sphere shows the error in place of the colour.
 
-use crate::emit::{Bounds, Naming, specialised_function};
-use crate::ir::{Value, evaluate};
-use crate::materials::{self, ViewingConditions};
-use crate::methods;
-use crate::optics::cosine;
-use crate::reference::{Derivation, MaterialInMedium};
+use crate::chart::exact_and_approximated;
 
 use super::plot::{
     ChartAxis, FOOT, HEADING, Layout, LineChart, PANEL, PanelFrame, SUBTITLE, Series, Style, TICK,
@@ -50,7 +45,7 @@ const CURVES: PanelFrame = PanelFrame {
 const RADIUS: f64 = 90.0;
 
 /// A reflectance at all angles, and what it is called.
-struct Reflectances {
+struct Curve {
     name: &'static str,
     colours: Vec<[f64; 3]>,
 }
@@ -85,39 +80,17 @@ fn degrees() -> impl Iterator<Item = f64> {
 }
 
 /// The methods' reflectance, and last that of the whole spectrum.
-fn curves(name: &str) -> Result<Vec<Reflectances>, String> {
-    let material = materials::find(name).ok_or_else(|| format!("there is no material {name}"))?;
-    let material = material.map_err(|why| why.to_string())?;
-    let typed = (name.to_owned(), material);
-    let subject = MaterialInMedium::new(
-        typed,
-        None,
-        &ViewingConditions::default(),
-        Derivation::default(),
-    );
-    let subject = subject.map_err(|why| why.to_string())?;
-    let cosines: Vec<f64> = degrees().map(cosine).collect();
-    let mut curves = Vec::new();
-    for (method, shown) in METHODS {
-        let method = methods::find(method).ok_or_else(|| format!("there is no method {method}"))?;
-        let (naming, bounds) = (Naming::default(), Bounds::recorded());
-        let emitted = specialised_function(method, &subject, &naming, &bounds);
-        let function = emitted.map_err(|why| why.to_string())?.function;
-        let values = evaluate(&function, &[Value::each(cosines.clone())]);
-        curves.push(Reflectances {
-            name: shown,
-            colours: (0..cosines.len()).map(|i| values.at(i)).collect(),
-        });
-    }
-    curves.push(Reflectances {
-        name: EXACT,
-        colours: cosines.iter().map(|c| subject.reference.at(*c)).collect(),
-    });
-    Ok(curves)
+fn curves(material: &str) -> Result<Vec<Curve>, String> {
+    let degrees: Vec<f64> = degrees().collect();
+    let found = exact_and_approximated(material, &METHODS.map(|(method, _)| method), &degrees)?;
+    let names = METHODS.map(|(_, shown)| shown).into_iter().chain([EXACT]);
+    let colours = found.by_methods.into_iter().chain([found.exact]);
+    let curve = |(name, colours)| Curve { name, colours };
+    Ok(names.zip(colours).map(curve).collect())
 }
 
 /// The spheres of a material side by side.
-fn spheres(material: &str, curves: &[Reflectances]) -> Layout {
+fn spheres(material: &str, curves: &[Curve]) -> Layout {
     let mut layout = Layout::new(SPHERES);
     layout.paragraph(&PANEL, material);
     let exact = &curves[curves.len() - 1];
@@ -149,12 +122,12 @@ fn spheres(material: &str, curves: &[Reflectances]) -> Layout {
 }
 
 /// The largest error of the three channels, at each angle.
-fn errors<'a>(curve: &'a Reflectances, exact: &'a Reflectances) -> impl Iterator<Item = f64> + 'a {
+fn errors<'a>(curve: &'a Curve, exact: &'a Curve) -> impl Iterator<Item = f64> + 'a {
     let pairs = curve.colours.iter().zip(&exact.colours);
     pairs.map(|(a, b)| (0..3).map(|i| (a[i] - b[i]).abs()).fold(0.0, f64::max))
 }
 
-fn largest_error(curve: &Reflectances, exact: &Reflectances) -> f64 {
+fn largest_error(curve: &Curve, exact: &Curve) -> f64 {
     errors(curve, exact).fold(0.0, f64::max)
 }
 
@@ -179,7 +152,7 @@ fn half_disc(id: &str, colours: &[[f64; 3]], [x, y]: [f64; 2], right: u8) -> Vec
 }
 
 /// The mean of the three channels against angle.
-fn chart(material: &str, curves: &[Reflectances], low: f64) -> LineChart {
+fn chart(material: &str, curves: &[Curve], low: f64) -> LineChart {
     let mean = |colour: &[f64; 3]| colour.iter().sum::<f64>() / 3.0;
     let series = curves.iter().rev().enumerate().map(|(i, curve)| Series {
         name: curve.name.to_owned(),

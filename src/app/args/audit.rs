@@ -6,9 +6,9 @@ use clap::Args;
 
 #[cfg(feature = "gpu")]
 use crate::audit::Language;
-use crate::cost::Family;
 #[cfg(feature = "gpu")]
-use crate::emit::{CommandLine, file_name};
+use crate::command_line::{CommandLine, file_name};
+use crate::cost::Family;
 #[cfg(feature = "gpu")]
 use crate::materials::ViewingConditions;
 use crate::names::UnknownName;

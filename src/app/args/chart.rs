@@ -2,9 +2,9 @@
 
 use clap::Args;
 
-use crate::emit::CommandLine;
+use crate::chart::{ERRORS, ErrorAxis, STATISTICS, cost_names};
+use crate::command_line::CommandLine;
 use crate::names::UnknownName;
-use crate::report::frontier::{ERRORS, ErrorAxis, STATISTICS, cost_names};
 
 use super::choice::one_of;
 use super::{MaterialFlags, PictureFlags, ReportFlags};

@@ -4,8 +4,8 @@ use std::path::PathBuf;
 
 use clap::Args;
 
+use crate::command_line::CommandLine;
 use crate::cost::Family;
-use crate::emit::CommandLine;
 use crate::methods::Method;
 use crate::num::Precision;
 

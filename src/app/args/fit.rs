@@ -2,8 +2,8 @@
 
 use clap::Args;
 
+use crate::command_line::CommandLine;
 use crate::cost::Family;
-use crate::emit::CommandLine;
 use crate::fit::Weight;
 use crate::materials::ViewingConditions;
 use crate::num::Precision;

@@ -2,7 +2,7 @@
 
 use clap::Args;
 
-use crate::emit::CommandLine;
+use crate::command_line::CommandLine;
 use crate::methods::{self, Method};
 use crate::num::Precision;
 

@@ -3,7 +3,7 @@
 use clap::Args;
 
 #[cfg(feature = "gpu")]
-use crate::emit::CommandLine;
+use crate::command_line::CommandLine;
 #[cfg(feature = "gpu")]
 use crate::gpu::Backend;
 use crate::methods::Method;

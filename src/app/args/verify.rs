@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use clap::Args;
 
 #[cfg(feature = "gpu")]
-use crate::emit::CommandLine;
+use crate::command_line::CommandLine;
 #[cfg(feature = "gpu")]
 use crate::gpu::Backend;
 #[cfg(feature = "gpu")]

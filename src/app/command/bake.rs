@@ -15,7 +15,7 @@ use crate::bake::{
     TableMaterial, TableSize, as_tables_are_seen, bake, bake_split_sum, material_words,
     viewing_flags,
 };
-use crate::emit::CommandLine;
+use crate::command_line::CommandLine;
 use crate::lut::{Format, SPLIT_SUM_SIZE, TableAxis, check_size};
 use crate::methods::{self, Method, TEXELS};
 use crate::report::Report;

@@ -8,12 +8,10 @@ use crate::app::fault::RequestFault;
 use crate::app::names::unknown;
 use crate::app::request::{Materials, Request};
 use crate::app::write::{try_places_of_ours, write_report};
+use crate::chart::{ChartData, ChartView, ERRORS, chart_data, cost_names, set_name};
 use crate::reference::{MaterialClass, MaterialInMedium};
 use crate::report::Report;
-use crate::report::frontier::{
-    ChartData, ChartView, ERRORS, chart_data, chart_page, chart_svg, chart_text, cost_names,
-    set_name,
-};
+use crate::report::frontier::{chart_page, chart_svg, chart_text};
 
 use super::{Output, Progress, not_drawn, replaced, report, try_files};
 

@@ -10,7 +10,7 @@ use crate::app::fault::RequestFault;
 use crate::app::names::unknown;
 use crate::app::request::{Loaded, check_transparent, load};
 use crate::app::write::write_file;
-use crate::emit::CommandLine;
+use crate::command_line::CommandLine;
 use crate::materials::{self, Extrapolate, Material, ViewingConditions};
 use crate::report::material_sheet::material_sheet;
 use crate::report::table;

@@ -5,7 +5,7 @@ use std::path::Path;
 use crate::app::args::SurveyFlags;
 use crate::app::error::Error;
 use crate::app::source::{pages, read};
-use crate::emit::CommandLine;
+use crate::command_line::CommandLine;
 use crate::fit::{PageOutcome, SurveyedPage, survey_page};
 use crate::materials::ViewingConditions;
 use crate::report::Report;

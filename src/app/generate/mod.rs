@@ -6,9 +6,8 @@ mod written;
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use crate::emit::{
-    self, Bounds, CommandLine, Emitted, File, HeaderForm, Heading, NAGA_VERSION, Naming,
-};
+use crate::command_line::CommandLine;
+use crate::emit::{self, Bounds, Emitted, File, HeaderForm, Heading, NAGA_VERSION, Naming};
 use crate::materials::Unseen;
 use crate::methods::{self, Method};
 use crate::num::Precision;
@@ -308,8 +307,9 @@ impl<'r> Run<'r> {
         let precision =
             Some(request.precision).filter(|precision| *precision != Precision::default());
         let medium = subject.and_then(|subject| subject.medium.as_ref());
-        let seen = subject
-            .map(|subject| emit::surface_flags(&request.viewing, &subject.reference.surface));
+        let seen = subject.map(|subject| {
+            crate::command_line::surface_flags(&request.viewing, &subject.reference.surface)
+        });
         CommandLine::new("fresnel-gen")
             .list("target", [target.name])
             .list("method", methods.into_iter().flatten())

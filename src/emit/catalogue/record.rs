@@ -7,7 +7,8 @@ use std::collections::BTreeMap;
 use serde::{Deserialize, Serialize};
 
 use super::{CatalogueRow, CloserFit};
-use crate::emit::{Average, fingerprint, sha256};
+use crate::digest::sha256;
+use crate::emit::{Average, fingerprint};
 use crate::fit::ModelError;
 use crate::materials::{self, MaterialKind, ViewingConditions};
 use crate::methods::{self, Method};

@@ -3,7 +3,7 @@
 use serde::Serialize;
 use tera::Context;
 
-use super::{ChartData, ERRORS, FunctionOrigin, LEAST_ERROR};
+use crate::chart::{ChartData, ChartEntry, ERRORS, FunctionOrigin, LEAST_ERROR};
 use crate::fit::MethodErrors;
 use crate::report::html;
 
@@ -56,7 +56,7 @@ pub fn chart_page(data: &ChartData, [set, cost, error]: [usize; 3]) -> Result<St
     context.insert("data", &json.replace('<', "\\u003c"));
     context.insert("first", &[set, cost, error]);
     context.insert("command", &data.command);
-    let user = data.entries.iter().find_map(super::ChartEntry::user);
+    let user = data.entries.iter().find_map(ChartEntry::user);
     context.insert("user", &user.map(|user| &user.name));
     html::fill(TEMPLATE, &context)
 }
@@ -86,7 +86,7 @@ fn page_data(data: &ChartData) -> PageData<'_> {
     }
 }
 
-fn entry_columns(entry: &super::ChartEntry) -> EntryColumns<'_> {
+fn entry_columns(entry: &ChartEntry) -> EntryColumns<'_> {
     let (summary, source) = match &entry.function {
         FunctionOrigin::Method(method) => (method.summary, method.source.line()),
         FunctionOrigin::User(user) => (user.about.as_str(), String::new()),

@@ -6,7 +6,7 @@ use crate::report::plot::{
 };
 
 use super::labels::{DOT, LabelPlace, place_names};
-use super::{ChartEntry, ChartPoint, ChartView, ERRORS, drawn};
+use crate::chart::{ChartEntry, ChartPoint, ChartView, ERRORS, drawn};
 
 /// The size of the picture.
 const FRAME: PanelFrame = PanelFrame {
@@ -88,7 +88,8 @@ pub fn chart_svg(view: &ChartView) -> Option<String> {
         return None;
     }
     let mut layout = Layout::new(FRAME);
-    layout.paragraph(&TITLE, &view.title());
+    let title = capital(&view.title());
+    layout.paragraph(&TITLE, &title);
     let key = key(view);
     layout.paragraph(&SUBTITLE, &key);
     let top = layout.bottom() + 12.0;
@@ -112,7 +113,7 @@ pub fn chart_svg(view: &ChartView) -> Option<String> {
     elements.extend(labels(&points, &plane));
     layout.extend(elements, bottom + BELOW - 8.0);
     layout.paragraph(&FOOT, &format!("fresnel-gen {}", view.data.command));
-    Some(layout.document(&view.title(), &key))
+    Some(layout.document(&title, &key))
 }
 
 const KEY: &str = "Blue: fitted here. Orange: published; full with the inputs that its authors meant, hollow (*) with those whose \

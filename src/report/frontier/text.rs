@@ -1,6 +1,7 @@
 //! The chart for a terminal: its points as a table, and what follows from them in a sentence each.
 
-use super::{ChartPoint, ChartView, ERRORS};
+use crate::chart::{ChartPoint, ChartView, ERRORS};
+use crate::report::plot::capital;
 use crate::report::table::{self, short_number};
 
 /// The points by cost, the frontier marked, and the headline.
@@ -17,7 +18,7 @@ pub fn chart_text(view: &ChartView) -> String {
     let rows: Vec<Vec<String>> = points.iter().map(cells).collect();
     format!(
         "{}\nCost: {}.\n\n{}\nA star before a row: nothing is cheaper and as near, or nearer and as cheap.\n{}\n{}",
-        view.title(),
+        capital(&view.title()),
         view.cost.title,
         table::text_table(&head, &rows),
         failing(&points),
