@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use crate::fit::inputs_of;
+use crate::fit::values_for_material;
 use crate::methods::{self, Class, Method, find_input};
 use crate::names::UnknownName;
 use crate::reference::MaterialInMedium;
@@ -247,12 +247,12 @@ fn material_value(subject: &MaterialInMedium, name: &str) -> Option<[f64; 3]> {
     let method = exact
         .chain(methods::ALL.iter().filter(takes).filter(fits))
         .next()?;
-    inputs_of(subject, method).get(name).copied()
+    values_for_material(subject, method).get(name).copied()
 }
 
 /// Whether a material's value of an input is the one that the method was given: others replace colours by those of an index.
 fn is_given(method: &Method) -> bool {
-    method.specialised.is_none() || method.class == Class::Dielectric
+    method.replacement.is_none() || method.class == Class::Dielectric
 }
 
 /// The names of all arguments that a material has a value for.

@@ -5,7 +5,7 @@ use crate::cost::{
     functions, records,
 };
 use crate::emit::FunctionForm;
-use crate::fit::{error_of, inputs_of};
+use crate::fit::{error_of, values_for_material};
 use crate::ir::{Column, Value, evaluate};
 use crate::methods::{self, Contract, Light, Method};
 use crate::num::{Precision, each_channel};
@@ -96,7 +96,7 @@ fn error(function: &CostedFunction, subject: &MaterialInMedium) -> f64 {
     let others: Vec<Value<f32>> = match function.form {
         FunctionForm::Library => function
             .method
-            .arguments(&inputs_of(subject, function.method), None),
+            .arguments(&values_for_material(subject, function.method), None),
         _ => Vec::new(),
     };
     let error = error_of(&subject.reference, &|cosines| {

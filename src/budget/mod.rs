@@ -8,6 +8,7 @@ mod spread;
 use crate::cost::{
     CostAndError, CostRecord, Family, GpuCompiler, function_cost, library_cost, records,
 };
+use crate::emit::FunctionForm;
 use crate::emit::{Bounds, specialised_graph};
 use crate::fit::single_error;
 use crate::ir::Checked;
@@ -59,7 +60,7 @@ pub struct BudgetRow {
     /// The function, and what stands beside it.
     pub choice: CheapestFunction,
     /// The form whose costs decided: `specialised`, or `library` where the record lacks a specialised function of the material.
-    pub form: &'static str,
+    pub form: FunctionForm,
     /// How far published measurements of the material differ, where that is known.
     pub spread: Option<Spread>,
 }
@@ -146,7 +147,7 @@ impl Search<'_> {
     fn candidates(
         &self,
         subject: &MaterialInMedium,
-    ) -> Result<(Vec<BudgetCandidate>, &'static str), Error> {
+    ) -> Result<(Vec<BudgetCandidate>, FunctionForm), Error> {
         let methods = self.methods.iter().copied();
         let functions = methods
             .filter(|method| subject.is_described_by(method))
@@ -158,13 +159,16 @@ impl Search<'_> {
         let specialised: Option<Vec<f64>> = functions.iter().map(own).collect();
         let library = |method| library_cost(method, self.budget.family, &self.record);
         let (costs, form): (Vec<Option<f64>>, _) = match specialised {
-            Some(costs) => (costs.into_iter().map(Some).collect(), "specialised"),
+            Some(costs) => (
+                costs.into_iter().map(Some).collect(),
+                FunctionForm::Specialised,
+            ),
             None => (
                 functions
                     .iter()
                     .map(|(method, _)| library(method))
                     .collect(),
-                "library",
+                FunctionForm::Library,
             ),
         };
         let candidate = |((method, function), cost): (&(&'static Method, Checked), Option<f64>)| {

@@ -1,6 +1,8 @@
 //! The axes of cost: what compilers count in library functions, the graph's own operations, and times.
 
 use crate::cost::{FAMILIES, Family, GpuCompiler, library_cost, records};
+use crate::emit::FunctionForm;
+use crate::num::Precision;
 use crate::overdraw::times;
 
 use super::{ChartEntry, CostAxis};
@@ -40,7 +42,7 @@ fn title(family: &Family) -> String {
 fn timed(entries: &[ChartEntry]) -> Option<CostAxis> {
     let all: Vec<_> = times()
         .into_iter()
-        .filter(|time| time.form == "library" && time.precision == "f32")
+        .filter(|time| time.form == FunctionForm::Library && time.precision == Precision::F32)
         .collect();
     let device = all.first()?.device.clone();
     let share = |entry: &ChartEntry| {

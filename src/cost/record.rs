@@ -7,6 +7,7 @@ use std::collections::BTreeMap;
 use include_dir::{Dir, include_dir};
 use serde::Deserialize;
 
+use crate::emit::FunctionForm;
 use crate::ir::Checked;
 use crate::methods::Method;
 use crate::num::Precision;
@@ -36,12 +37,12 @@ pub struct FunctionKey {
     pub method: String,
     /// The material that it is specialised to; empty for the library.
     pub material: String,
-    /// `library`, `scalar` or `specialised`.
-    pub form: String,
+    /// What it takes and gives.
+    pub form: FunctionForm,
     /// How many channels it gives.
     pub channels: usize,
     /// What it computes in.
-    pub precision: String,
+    pub precision: Precision,
 }
 
 impl fmt::Display for FunctionKey {
@@ -53,6 +54,7 @@ impl fmt::Display for FunctionKey {
             channels,
             precision,
         } = self;
+        let (form, precision) = (form.name(), precision.name());
         write!(to, "{method},{material},{form},{channels},{precision}")
     }
 }
@@ -63,9 +65,9 @@ impl CostRecord {
         let key = FunctionKey {
             method: method.to_owned(),
             material: String::new(),
-            form: "library".to_owned(),
+            form: FunctionForm::Library,
             channels: 3,
-            precision: Precision::F32.name().to_owned(),
+            precision: Precision::F32,
         };
         self.figures.get(self.functions.get(&key)?).copied()
     }
@@ -100,9 +102,9 @@ const COMPILER: &str = "# compiler: ";
 struct RecordedCost {
     method: String,
     material: String,
-    form: String,
+    form: FunctionForm,
     channels: usize,
-    precision: String,
+    precision: Precision,
     shader: String,
     instructions: f64,
     latency: Option<f64>,

@@ -5,6 +5,8 @@ use serde::Serialize;
 use super::family::Family;
 use super::figures::{CostFigures, Counts};
 use super::record::FunctionKey;
+use crate::emit::FunctionForm;
+use crate::num::Precision;
 
 /// A function on a family.
 #[derive(Clone, Debug, Serialize)]
@@ -14,12 +16,12 @@ pub struct CostRow {
     pub method: &'static str,
     /// The material that it is specialised to.
     pub material: Option<String>,
-    /// `library`, `scalar` or `specialised`.
-    pub form: &'static str,
+    /// What it takes and gives.
+    pub form: FunctionForm,
     /// How many channels it gives.
     pub channels: usize,
     /// What it computes in.
-    pub precision: &'static str,
+    pub precision: Precision,
     /// Texture fetches.
     pub fetches: usize,
     /// The family.
@@ -53,9 +55,9 @@ pub enum CostSource {
 struct CostRowJson {
     method: &'static str,
     material: Option<String>,
-    form: &'static str,
+    form: FunctionForm,
     channels: usize,
-    precision: &'static str,
+    precision: Precision,
     constants: &'static str,
     gpu: &'static str,
     vendor: &'static str,
@@ -135,9 +137,9 @@ impl CostRow {
         FunctionKey {
             method: self.method.to_owned(),
             material: self.material.clone().unwrap_or_default(),
-            form: self.form.to_owned(),
+            form: self.form,
             channels: self.channels,
-            precision: self.precision.to_owned(),
+            precision: self.precision,
         }
     }
 
@@ -149,7 +151,11 @@ impl CostRow {
         } else {
             ""
         };
-        let half = if self.precision == "f16" { ", f16" } else { "" };
+        let half = if self.precision.is_half() {
+            ", f16"
+        } else {
+            ""
+        };
         format!("{}{}{channel}{half}", of.unwrap_or_default(), self.method)
     }
 }

@@ -61,9 +61,9 @@ fn bare(family: &'static Family, function: &CostedFunction) -> CostRow {
     CostRow {
         method: function.method.name,
         material: function.material.clone(),
-        form: function.form.name(),
+        form: function.form,
         channels: function.channels(),
-        precision: function.precision.name(),
+        precision: function.precision,
         fetches: function.graph.fetches(),
         family,
         compiler: None,

@@ -1,9 +1,10 @@
 //! The forms in which a method's functions are written.
 
-use serde::{Serialize, Serializer};
+use serde::{Deserialize, Serialize};
 
 /// What a function of a method takes and gives.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
 pub enum FunctionForm {
     /// It takes its arguments at run time, and gives three channels.
     Library,
@@ -40,11 +41,5 @@ impl FunctionForm {
     /// Whether it gives the mean over the hemisphere.
     pub fn is_mean(self) -> bool {
         matches!(self, FunctionForm::Average | FunctionForm::AverageScalar)
-    }
-}
-
-impl Serialize for FunctionForm {
-    fn serialize<S: Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
-        to.serialize_str(self.name())
     }
 }

@@ -1,6 +1,6 @@
 //! A function ready to be printed: its name, its graph, and what is known of its errors.
 
-use crate::fit::{Measured, ModelError, inputs_in, model_error};
+use crate::fit::{Measured, ModelError, model_error, values_for_material_in};
 use crate::ir::{BrokenRule, Checked};
 use crate::methods::{Method, Values};
 use crate::num::Precision;
@@ -188,7 +188,7 @@ pub fn specialised_graph(
             format!("it describes dielectrics only, and this absorbs (k > 0); {serves} serves it");
         return Err(refused(method, subject, &what));
     }
-    let constants = inputs_in(precision, subject, method);
+    let constants = values_for_material_in(precision, subject, method);
     let stable = specialise(method, subject, precision, &constants)?;
     let plain = match precision {
         Precision::F32 => plain(method, &constants, &stable, bounds),

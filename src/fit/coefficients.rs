@@ -2,7 +2,7 @@
 
 use crate::methods::{Method, Values};
 
-use super::derive::fitted_for;
+use super::derive::coefficients_and_error;
 use super::exact::Exact;
 use super::problem::{FitCurve, FitObjective};
 
@@ -22,12 +22,15 @@ pub struct Coefficients {
 impl Coefficients {
     /// Fits a method; none where its terms do not tell the angles of the curve apart.
     pub fn fit(method: &Method, curve: &FitCurve, aim: FitObjective) -> Option<Coefficients> {
-        let (values, error) = fitted_for(method, curve, aim)?;
+        let (values, error) = coefficients_and_error(method, curve, aim)?;
         let free = FitObjective {
             exact: Exact::default(),
             ..aim
         };
-        let free = aim.exact.is_any().then(|| fitted_for(method, curve, free));
+        let free = aim
+            .exact
+            .is_any()
+            .then(|| coefficients_and_error(method, curve, free));
         Some(Coefficients {
             values,
             aim,

@@ -18,20 +18,24 @@ pub fn values(method: &Method, channels: &Channels, derivation: &Derivation) -> 
     if method.is_fitted() {
         let Channels { n, k } = *channels;
         let curve = FitCurve::new(|c| each_channel(|i| exact(n[i], k[i], c)));
-        return fitted_values(method, Precision::F32, &curve);
+        return fitted_coefficients(method, Precision::F32, &curve);
     }
     values_of(method, &known(channels, derivation))
 }
 
 /// What a method's inputs are for a material as it is seen.
-pub fn inputs_of(subject: &MaterialInMedium, method: &Method) -> Values {
-    inputs_in(Precision::F32, subject, method)
+pub fn values_for_material(subject: &MaterialInMedium, method: &Method) -> Values {
+    values_for_material_in(Precision::F32, subject, method)
 }
 
 /// The same, with coefficients that are fitted as this precision holds them.
-pub fn inputs_in(precision: Precision, subject: &MaterialInMedium, method: &Method) -> Values {
+pub fn values_for_material_in(
+    precision: Precision,
+    subject: &MaterialInMedium,
+    method: &Method,
+) -> Values {
     if method.is_fitted() {
-        return fitted_values(method, precision, &FitCurve::unclipped(subject));
+        return fitted_coefficients(method, precision, &FitCurve::unclipped(subject));
     }
     let seen = |cos_theta| subject.reference.at(cos_theta);
     let Channels { n, k } = subject.effective.channels;
@@ -40,19 +44,23 @@ pub fn inputs_in(precision: Precision, subject: &MaterialInMedium, method: &Meth
 }
 
 /// The coefficients of a fitted method for a curve, as a precision holds them.
-pub fn fitted_values(method: &Method, precision: Precision, curve: &FitCurve) -> Values {
+pub fn fitted_coefficients(method: &Method, precision: Precision, curve: &FitCurve) -> Values {
     let aim = FitObjective {
         precision,
         ..FitObjective::default()
     };
-    let fitted = fitted_for(method, curve, aim);
+    let fitted = coefficients_and_error(method, curve, aim);
     let fitted = fitted.expect("a fitted method's terms tell angles apart; a test fits them all");
     fitted.0
 }
 
 /// The coefficients of a fitted method for a curve with an aim, and the largest error in its measure on paper. None where the
 /// method is not fitted, or its terms do not tell angles apart under such weights.
-pub fn fitted_for(method: &Method, curve: &FitCurve, aim: FitObjective) -> Option<(Values, f64)> {
+pub fn coefficients_and_error(
+    method: &Method,
+    curve: &FitCurve,
+    aim: FitObjective,
+) -> Option<(Values, f64)> {
     let fit = FitProblem::new(curve, aim).fit(&basis(&method.shape?))?;
     let names = Input::COEFFICIENTS.map(|input| input.name.to_owned());
     Some((names.into_iter().zip(fit.coefficients).collect(), fit.error))
@@ -63,7 +71,7 @@ pub fn fitted_for(method: &Method, curve: &FitCurve, aim: FitObjective) -> Optio
 pub fn values_of(method: &Method, surface: &KnownSurface) -> Values {
     assert!(!method.is_fitted(), "coefficients come of a fit: a bug");
     let solvable;
-    let surface = if method.specialised.is_some() {
+    let surface = if method.replacement.is_some() {
         solvable = KnownSurface::of_index(surface.n, surface.k, surface.matching_cos);
         &solvable
     } else {

@@ -6,7 +6,7 @@ use crate::reference::MaterialInMedium;
 use crate::spectra::Space;
 
 use super::best_inputs::{best_inputs, values_at};
-use super::derive::inputs_of;
+use super::derive::values_for_material;
 use super::model_error::{error_of, model_error};
 use super::perceived::perceived;
 use super::problem::FitCurve;
@@ -45,7 +45,7 @@ impl MethodErrors {
         curve: &FitCurve,
         space: Space,
     ) -> MethodErrors {
-        let values = inputs_of(subject, method);
+        let values = values_for_material(subject, method);
         if method.is_textured() {
             return MethodErrors::of_texture(method, &values, subject);
         }

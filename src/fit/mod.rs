@@ -31,7 +31,10 @@ pub use best_inputs::{best_inputs, values_at};
 pub use candidates::{Candidate, candidates};
 pub use coefficients::Coefficients;
 pub use colours::{Follows, LARGEST_SOLVED_F0};
-pub use derive::{fitted_for, fitted_values, inputs_in, inputs_of, known, values, values_of};
+pub use derive::{
+    coefficients_and_error, fitted_coefficients, known, values, values_for_material,
+    values_for_material_in, values_of,
+};
 pub use exact::Exact;
 pub use material_params::{
     ColourErrorRow, ColourErrors, MaterialParams, MeasuredSpread, OtherMeasurement, material_params,

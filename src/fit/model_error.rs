@@ -6,7 +6,7 @@ use crate::ir::{Checked, Column, Value, evaluate};
 use crate::materials::{Channels, Surface};
 use crate::methods::Light;
 use crate::num::each_channel;
-use crate::reference::{ANGLES, ReferenceCurve, cosine, cosines, reference_reflectance};
+use crate::reference::{ANGLES, ReferenceCurve, cosine_of_part, cosines, reference_reflectance};
 
 use super::texels::{arguments, table_of};
 
@@ -151,7 +151,7 @@ pub fn thesis_errors(
     let mut sums = vec![[0.0; 3]; functions.len()];
     for start in (0..angles).step_by(CHUNK) {
         let cosines: Vec<f64> = (start..(start + CHUNK).min(angles))
-            .map(|i| cosine(2 * i + 1, 2 * angles))
+            .map(|i| cosine_of_part(2 * i + 1, 2 * angles))
             .collect();
         let want: Vec<[f64; 3]> = cosines
             .iter()

@@ -197,7 +197,7 @@ mod tests {
     }
 
     /// The largest error in a measure of what was fitted for another.
-    fn error(curve: &FitCurve, name: &str, weight: Weight, fitted_for: Weight) -> f64 {
+    fn error(curve: &FitCurve, name: &str, weight: Weight, coefficients_and_error: Weight) -> f64 {
         let shape = find(name)
             .and_then(|method| method.shape)
             .expect("a fitted method");
@@ -206,7 +206,7 @@ mod tests {
             ..FitObjective::default()
         };
         let basis = basis(&shape);
-        let fit = FitProblem::new(curve, aim(fitted_for))
+        let fit = FitProblem::new(curve, aim(coefficients_and_error))
             .fit(&basis)
             .expect("it is fitted");
         FitProblem::new(curve, aim(weight)).error(&basis, &fit.coefficients)

@@ -226,6 +226,17 @@ impl Parser {
                 format!("`{}` does not take {types:?}", op.info().name),
             )
         })?;
+        let indices = op.info().signature.indices(&types);
+        if let (Payload::Index(index), Some(count)) = (payload, indices)
+            && index >= count
+        {
+            let last = count - 1;
+            let what = format!(
+                "`{}` has no {index} here; the last is {last}",
+                op.info().name
+            );
+            return Err(fault(line, what));
+        }
         let name = name.trim().to_owned();
         let label = (!name.starts_with('%')).then(|| Label {
             name: name.clone(),
@@ -273,6 +284,10 @@ impl Parser {
 
 fn index(line: usize, word: Option<&str>) -> Result<usize, ParseError> {
     let index = word.and_then(|word| word.parse().ok());
-    let index = index.filter(|index| *index < 4);
-    index.ok_or_else(|| fault(line, "expected a channel or a row, from 0 to 3"))
+    index.ok_or_else(|| {
+        fault(
+            line,
+            "expected a channel or a row: 0, 1 or 2, and 3 of four",
+        )
+    })
 }

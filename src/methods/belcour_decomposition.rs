@@ -102,7 +102,7 @@ pub static METHOD: Method = Method {
     .materials_within(0.0036),
     build,
     plain: None,
-    specialised: None,
+    replacement: None,
     shape: None,
 };
 

@@ -98,7 +98,7 @@ pub static METHOD: Method = Method {
     ),
     build,
     plain: None,
-    specialised: Some(solved),
+    replacement: Some(solved),
     shape: None,
 };
 

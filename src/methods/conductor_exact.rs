@@ -60,7 +60,7 @@ pub static METHOD: Method = Method {
         .ending(&[("n", 180.0), ("k", 180.0)]),
     build,
     plain: Some(plain),
-    specialised: Some(clear),
+    replacement: Some(clear),
     shape: None,
 };
 

@@ -58,7 +58,7 @@ pub static METHOD: Method = Method {
     ),
     build,
     plain: None,
-    specialised: None,
+    replacement: None,
     shape: None,
 };
 

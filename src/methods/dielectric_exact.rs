@@ -64,7 +64,7 @@ pub static METHOD: Method = Method {
     half: InHalf::within_but(0.0015, BELOW_ONE).ending(&[("eta", 180.0)]),
     build,
     plain: Some(plain),
-    specialised: None,
+    replacement: None,
     shape: None,
 };
 

@@ -41,7 +41,7 @@ pub static METHOD: Method = Method {
     half: InHalf::within_but(0.0022, BELOW_ONE).ending(&[("eta", 180.0)]),
     build,
     plain: None,
-    specialised: None,
+    replacement: None,
     shape: None,
 };
 

@@ -38,7 +38,7 @@ pub static METHOD: Method = Method {
     half: InHalf::within_but(0.0012, BELOW_ONE).ending(&[("eta", 255.0)]),
     build,
     plain: None,
-    specialised: None,
+    replacement: None,
     shape: None,
 };
 

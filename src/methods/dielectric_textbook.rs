@@ -56,7 +56,7 @@ pub static METHOD: Method = Method {
     ),
     build,
     plain: None,
-    specialised: None,
+    replacement: None,
     shape: None,
 };
 

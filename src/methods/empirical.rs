@@ -95,7 +95,7 @@ pub static METHOD: Method = Method {
     half: InHalf::within(0.0017),
     build,
     plain: None,
-    specialised: None,
+    replacement: None,
     shape: None,
 };
 

@@ -78,7 +78,7 @@ pub static METHOD: Method = Method {
     half: InHalf::within(0.0016),
     build,
     plain: None,
-    specialised: None,
+    replacement: None,
     shape: None,
 };
 

@@ -71,7 +71,7 @@ pub static METHOD: Method = Method {
     half: InHalf::within_over(0.0013, Over::Metals, FLOOR),
     build,
     plain: None,
-    specialised: None,
+    replacement: None,
     shape: Some(SHAPE),
 };
 

@@ -51,7 +51,7 @@ pub static METHOD: Method = Method {
     half: InHalf::within_over(0.0015, Over::Dielectrics, FLOOR),
     build,
     plain: None,
-    specialised: None,
+    replacement: None,
     shape: Some(SHAPE),
 };
 

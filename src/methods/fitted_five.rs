@@ -65,7 +65,7 @@ pub static METHOD: Method = Method {
     half: InHalf::within_over(0.0028, Over::Metals, FLOOR).materials_within(0.0026),
     build,
     plain: None,
-    specialised: None,
+    replacement: None,
     shape: Some(SHAPE),
 };
 

@@ -64,7 +64,7 @@ pub static METHOD: Method = Method {
     half: InHalf::within_over(0.0025, Over::Metals, FLOOR).materials_within(0.003),
     build,
     plain: None,
-    specialised: None,
+    replacement: None,
     shape: Some(SHAPE),
 };
 

@@ -48,7 +48,7 @@ pub struct Method {
     pub plain: Option<Build>,
     /// A better method for a material with these constants, if there is one: the other method and the values of its inputs,
     /// from the values of this method's inputs.
-    pub specialised: Option<Better>,
+    pub replacement: Option<Better>,
     /// The shape of a fitted method: the functions that its coefficients multiply.
     pub shape: Option<Shape>,
 }
@@ -313,7 +313,7 @@ impl Method {
     fn better(&self, values: &Values) -> Option<(&'static Method, Values)> {
         let mut names = self.inputs.iter().map(|input| input.name);
         let complete = names.all(|name| values.contains_key(name));
-        let better = self.specialised.filter(|_| complete)?;
+        let better = self.replacement.filter(|_| complete)?;
         better(values)
     }
 

@@ -85,7 +85,7 @@ pub static METHOD: Method = Method {
     half: InHalf::within(0.0024).ending(&[("n", 180.0), ("k", 180.0)]),
     build,
     plain: None,
-    specialised: None,
+    replacement: None,
     shape: None,
 };
 

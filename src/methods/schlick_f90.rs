@@ -52,7 +52,7 @@ pub static METHOD: Method = Method {
     half: InHalf::within(0.0013),
     build,
     plain: None,
-    specialised: None,
+    replacement: None,
     shape: None,
 };
 

@@ -37,7 +37,7 @@ pub static METHOD: Method = Method {
     half: InHalf::within(0.0013).ending(&[("eta", 65504.0)]),
     build,
     plain: None,
-    specialised: None,
+    replacement: None,
     shape: None,
 };
 

@@ -51,7 +51,7 @@ pub static METHOD: Method = Method {
     half: InHalf::within(0.0009),
     build,
     plain: None,
-    specialised: None,
+    replacement: None,
     shape: None,
 };
 

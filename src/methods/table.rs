@@ -121,7 +121,7 @@ pub static METHOD: Method = Method {
     half: InHalf::Refused("11 bits of a coordinate do not tell the texels of a table apart"),
     build,
     plain: None,
-    specialised: None,
+    replacement: None,
     shape: None,
 };
 

@@ -3,7 +3,7 @@
 
 use crate::cost::REFERENCE;
 use crate::emit::{Bounds, Emitted, Error, Naming, library_functions, specialised_function};
-use crate::fit::{inputs_of, table_of};
+use crate::fit::{table_of, values_for_material};
 use crate::methods::{self, Class, Method, Values};
 use crate::num::Precision;
 use crate::reference::MaterialInMedium;
@@ -120,7 +120,7 @@ impl LibraryMaterials {
         };
         timed(
             emitted.clone(),
-            inputs_of(material, emitted.method),
+            values_for_material(material, emitted.method),
             material,
         )
     }

@@ -2,7 +2,9 @@
 
 use serde::Serialize;
 
+use crate::emit::FunctionForm;
 use crate::ir::Ty;
+use crate::num::Precision;
 
 use super::drawing_device::DeviceFacts;
 use super::figure::OverdrawFigure;
@@ -18,12 +20,12 @@ pub struct TimeRow {
     pub method: &'static str,
     /// The material that it is specialised to, as a user types it.
     pub material: Option<String>,
-    /// `library`, `scalar` or `specialised`.
-    pub form: &'static str,
+    /// What it takes and gives.
+    pub form: FunctionForm,
     /// 1 or 3.
     pub channels: u8,
     /// What it computes in.
-    pub precision: &'static str,
+    pub precision: Precision,
     /// What it costs, or why that is not known.
     pub figure: Result<OverdrawFigure, String>,
     /// Whether this machine cannot do it at all.
@@ -51,9 +53,9 @@ pub fn time_rows(
         TimeRow {
             method: emitted.method.name,
             material: function.material.clone(),
-            form: emitted.form.name(),
+            form: emitted.form,
             channels: if is_scalar { 1 } else { 3 },
-            precision: emitted.precision.name(),
+            precision: emitted.precision,
             figure: if is_lacking {
                 Err(device.no_half())
             } else {
@@ -73,9 +75,9 @@ pub fn time_rows(
 struct TimeRowJson {
     method: &'static str,
     material: Option<String>,
-    form: &'static str,
+    form: FunctionForm,
     channels: u8,
-    precision: &'static str,
+    precision: Precision,
     ns_per_pixel: Option<f64>,
     share: Option<f64>,
     spread: Option<f64>,

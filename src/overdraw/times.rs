@@ -2,6 +2,8 @@
 
 use serde::Deserialize;
 
+use crate::emit::FunctionForm;
+use crate::num::Precision;
 use crate::records;
 
 static RECORD: &str = include_str!("../../data/records/times.csv");
@@ -13,12 +15,12 @@ pub struct Time {
     pub method: String,
     /// The material that it is specialised to; empty for the library.
     pub material: String,
-    /// `library`, `scalar` or `specialised`.
-    pub form: String,
+    /// What it takes and gives.
+    pub form: FunctionForm,
     /// 1 or 3.
     pub channels: u8,
-    /// `f32` or `f16`.
-    pub precision: String,
+    /// What it computes in.
+    pub precision: Precision,
     /// Nanoseconds a pixel of a draw that evaluates it once.
     pub ns_per_pixel: f64,
     /// Its net cost over that of `dielectric_exact`.
@@ -45,7 +47,11 @@ mod tests {
     fn every_line_of_the_record_is_read() {
         for time in times() {
             assert!(methods::find(&time.method).is_some(), "{time:?}");
-            assert_eq!(time.channels == 1, time.form == "scalar", "{time:?}");
+            assert_eq!(
+                time.channels == 1,
+                time.form == FunctionForm::Scalar,
+                "{time:?}"
+            );
             assert!(time.share > 0.0 && time.spread >= 0.0, "{time:?}");
         }
     }

@@ -11,4 +11,4 @@ pub use class::MaterialClass;
 pub use derivation::{Derivation, THESIS_MATCHING_COS};
 pub use effective::{By, Effective, effective};
 pub use material_in_medium::{LEAST_FITTED_N, MaterialInMedium, Typed};
-pub use reference_curve::{ANGLES, ReferenceCurve, cosine, cosines, reference_reflectance};
+pub use reference_curve::{ANGLES, ReferenceCurve, cosine_of_part, cosines, reference_reflectance};

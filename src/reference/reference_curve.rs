@@ -97,13 +97,13 @@ fn reflected(surface: &Surface, light: Light, cos_theta: f64) -> DVec3 {
 
 /// The middles of equal steps of angle, over which means are taken, and after them both ends and grazing cosines.
 pub fn cosines(angles: usize) -> Vec<f64> {
-    let middles = (0..angles).map(|i| cosine(2 * i + 1, 2 * angles));
+    let middles = (0..angles).map(|i| cosine_of_part(2 * i + 1, 2 * angles));
     let grazing = (1..GRAZING).map(|i| libm::exp2(-(i as f64) / 4.0));
     middles.chain([1.0, 0.0]).chain(grazing).collect()
 }
 
 /// cos of `part/whole` of a right angle, exactly 1 and 0 at the ends.
-pub fn cosine(part: usize, whole: usize) -> f64 {
+pub fn cosine_of_part(part: usize, whole: usize) -> f64 {
     if part == whole {
         0.0
     } else {

@@ -15,7 +15,7 @@ pub fn budget_remarks(row: &BudgetRow) -> Vec<String> {
         error_and_cost(&choice.chosen),
         row.budget.family.columns.measure,
         row.budget.family.name,
-        row.form
+        row.form.name()
     )];
     lines.push(match &choice.cheaper {
         Some(cheaper) => format!(

@@ -30,7 +30,7 @@ pub fn verify_junit(rows: &[VerifyRow]) -> Result<String, String> {
         device: row.device.as_deref(),
         function: &row.function,
         material: row.material.as_deref(),
-        form: &row.form,
+        form: row.form.name(),
         method: &row.method,
         status: row.status,
         reason: row.reason.as_deref(),

@@ -128,9 +128,9 @@ fn cells(row: &TimeRow) -> Vec<String> {
     let mut cells = vec![
         row.method.to_owned(),
         row.material.as_deref().unwrap_or("-").to_owned(),
-        row.form.to_owned(),
+        row.form.name().to_owned(),
         row.channels.to_string(),
-        row.precision.to_owned(),
+        row.precision.name().to_owned(),
     ];
     match &row.figure {
         Ok(figure) => cells.extend([

@@ -3,6 +3,7 @@
 use std::collections::BTreeSet;
 
 use super::table;
+use crate::num::Precision;
 use crate::verify::{AllowedError, Status, VerifyRow, WITHIN};
 
 /// How many findings are shown in full; the JSON has all.
@@ -34,7 +35,7 @@ fn cells(row: &VerifyRow) -> Vec<String> {
         row.target.clone(),
         row.method.clone(),
         row.material.clone().unwrap_or_default(),
-        row.form.clone(),
+        row.form.name().to_owned(),
         shown(row.points.map(|points| points.to_string())),
         shown(code_error(row)),
         shown(allowed(row)),
@@ -49,7 +50,7 @@ fn code_error(row: &VerifyRow) -> Option<String> {
     let error = row.code_error.as_ref()?;
     match (error.max_ulp, error.max_abs) {
         (Some(ulp), _) => Some(format!("{ulp:.2}")),
-        (None, Some(most)) if row.precision == "f16" => Some(format!("{most:.5} abs")),
+        (None, Some(most)) if row.precision.is_half() => Some(format!("{most:.5} abs")),
         _ => None,
     }
 }
@@ -64,12 +65,12 @@ fn allowed(row: &VerifyRow) -> Option<String> {
 
 /// What share of all numbers was tried: a sample finds what is wrong at a single number by luck only.
 fn covered(rows: &[VerifyRow]) -> String {
-    let shares = |precision: &str| {
+    let shares = |precision: Precision| {
         let rows = rows.iter().filter(move |row| row.precision == precision);
         rows.filter_map(|row| row.share).reduce(f64::max)
     };
     let mut text = String::new();
-    if let Some(share) = shares("f32") {
+    if let Some(share) = shares(Precision::F32) {
         text += "\nA difference within 2^-22 passes, however many ulp it is.";
         let cosines = (share * WITHIN as f64).round();
         let percent = 100.0 * share;
@@ -80,7 +81,7 @@ fn covered(rows: &[VerifyRow]) -> String {
             text += "A result that is wrong at a single f32 is found by luck only; --exhaustive tries all of them.\n";
         }
     }
-    if shares("f16").is_some() {
+    if shares(Precision::F16).is_some() {
         text += "\nIn half precision each function was run at every f16 from 0 to 1.\n";
     }
     text

@@ -7,7 +7,9 @@
 use serde::Deserialize;
 
 use crate::cost::{self, GpuCompiler, find};
+use crate::emit::FunctionForm;
 use crate::methods;
+use crate::num::Precision;
 use crate::num::statistics::{least_squares, rank_correlation};
 use crate::overdraw::{Time, times};
 use crate::records;
@@ -231,7 +233,7 @@ fn timed_here() -> Vec<ComparisonRow> {
 
 fn correlated(device: &str, times: &[Time]) -> ComparisonRow {
     let library = times.iter().filter(|time| {
-        let is_plain = time.form == "library" && time.precision == "f32";
+        let is_plain = time.form == FunctionForm::Library && time.precision == Precision::F32;
         is_plain && time.device == device && time.method != "table"
     });
     let pairs = library.filter_map(|time| Some((operations(&time.method)?, time.share)));

@@ -3,7 +3,7 @@
 use std::cell::OnceCell;
 
 use crate::emit::{CodeBound, Emitted, FunctionForm};
-use crate::fit::{self, Measured, ModelError, inputs_in};
+use crate::fit::{self, Measured, ModelError, values_for_material_in};
 use crate::ir::{Column, Ty};
 use crate::materials::Channels;
 use crate::methods::{Contract, Method};
@@ -120,7 +120,7 @@ pub(super) fn specialised<'a>(subject: &'a MaterialInMedium, emitted: &Emitted) 
 }
 
 fn library<'a>(subject: &'a MaterialInMedium, emitted: &Emitted) -> TrialCase<'a> {
-    let values = inputs_in(emitted.precision, subject, emitted.method);
+    let values = values_for_material_in(emitted.precision, subject, emitted.method);
     let numbers = emitted
         .method
         .inputs

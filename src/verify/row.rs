@@ -9,6 +9,8 @@ use crate::fit::ModelError;
 use super::compilers::Verdict;
 use super::object::as_object;
 use super::{CodeError, HalfError};
+use crate::emit::FunctionForm;
+use crate::num::Precision;
 
 /// Stands for a material where a function is run at the worst inputs known.
 pub const WORST: &str = "worst cases";
@@ -22,10 +24,10 @@ pub struct VerifyRow {
     pub method: String,
     /// The material, as a user types it; none where the run came to no end.
     pub material: Option<String>,
-    /// `library` or `specialised`.
-    pub form: String,
+    /// What it takes and gives.
+    pub form: FunctionForm,
     /// What the function computes in.
-    pub precision: String,
+    pub precision: Precision,
     /// The function.
     pub function: String,
     /// Its file, relative to the output folder.

@@ -5,7 +5,7 @@ use std::path::Path;
 use fresnel_gen::app::catalogue::{add_catalogue, derived_rows};
 use fresnel_gen::app::{Artifact, Request, generate};
 use fresnel_gen::emit::{catalogue_record, recorded_catalogue};
-use fresnel_gen::fit::inputs_of;
+use fresnel_gen::fit::values_for_material;
 use fresnel_gen::methods;
 use fresnel_gen::records;
 use fresnel_gen::spectra::Gamut;
@@ -91,7 +91,7 @@ fn it_holds_what_the_fit_gives_and_what_it_errs() {
         assert_eq!(row["method"], method);
         let subject = &super::subjects(&[name])[0];
         let method = methods::find(method).unwrap();
-        let values = inputs_of(subject, method);
+        let values = values_for_material(subject, method);
         let inputs = method.inputs.iter().map(|input| values[input.name]);
         let expected: Vec<f32> = inputs.flatten().map(|value| value as f32).collect();
         assert_eq!(coefficients(row), expected, "{name}");

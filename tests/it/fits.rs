@@ -7,7 +7,7 @@ use std::sync::OnceLock;
 use fresnel_gen::app::{Materials, Request};
 use fresnel_gen::cost;
 use fresnel_gen::emit::{Bounds, Naming, missed, specialised_function};
-use fresnel_gen::fit::{ModelError, inputs_of, model_error};
+use fresnel_gen::fit::{ModelError, model_error, values_for_material};
 use fresnel_gen::ir::{Value, evaluate};
 use fresnel_gen::materials::{Material, MaterialKind, ViewingConditions};
 use fresnel_gen::methods::{self, Method};
@@ -29,7 +29,7 @@ struct Row<'a> {
 }
 
 fn error(subject: &MaterialInMedium, method: &'static Method) -> ModelError {
-    let function = method.specialise(&inputs_of(subject, method));
+    let function = method.specialise(&values_for_material(subject, method));
     let function = function.expect("every method specialises to the catalogue");
     model_error(&function, &subject.truth_for(method))
 }
@@ -214,7 +214,7 @@ fn means(subject: &MaterialInMedium, method: &'static Method) -> [(f64, f64, boo
     let own = method.function(false).expect("well formed");
     let mean = method.average_in(Precision::F32, false);
     let mean = mean.expect("a fitted method has one").expect("well formed");
-    let values = inputs_of(subject, method);
+    let values = values_for_material(subject, method);
     let coefficients = || {
         method
             .inputs

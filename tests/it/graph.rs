@@ -79,7 +79,7 @@ fn a_text_that_is_wrong_names_its_line() {
         (
             "fn f(x: rgb) -> scalar\n  y = channel 3 x\n  return y",
             2,
-            "0, 1 or 2",
+            "the last is 2",
         ),
         (
             "fn f(x: rgb) -> scalar\n  y = add x 1\n  return y",

@@ -1,7 +1,7 @@
 //! The specialiser changes rounding and nothing else: a specialised function against the library function with the same
 //! values, over hard media, in f64 where rounding does not hide a wrong branch, and in f32 where it must stay small.
 
-use fresnel_gen::fit::{self, inputs_of, values};
+use fresnel_gen::fit::{self, values, values_for_material};
 use fresnel_gen::ir::{Op, Texels, Value, evaluate};
 use fresnel_gen::materials::Channels;
 use fresnel_gen::methods::{self, Class, Contract, Method, Values};
@@ -60,7 +60,7 @@ fn only_rounding_changes() {
         .collect();
     let kept = methods::ALL
         .iter()
-        .filter(|method| method.contract == Contract::Kept && method.specialised.is_none());
+        .filter(|method| method.contract == Contract::Kept && method.replacement.is_none());
     for method in kept {
         for (n, k) in MEDIA {
             if method.class == Class::Dielectric && k != [0.0; 3] {
@@ -129,7 +129,7 @@ fn metals_have_no_branch_and_no_guard_left() {
             open += usize::from(greatest >= 0.0 && least < 0.0);
         }
         let function = method
-            .specialise(&inputs_of(&subject, method))
+            .specialise(&values_for_material(&subject, method))
             .expect("it specialises");
         let left = [Op::Select, Op::Less, Op::Max].map(|op| function.count(op));
         assert_eq!(left[0], 2 * open, "{}: {channels:?}", subject.name);

@@ -1,6 +1,6 @@
 //! The split-sum table: the albedo of a rough surface by it, filtered as GPUs do, against direct integration over GGX.
 
-use fresnel_gen::fit::inputs_of;
+use fresnel_gen::fit::values_for_material;
 use fresnel_gen::ir::Weights;
 use fresnel_gen::lut::{Depth, SPLIT_SUM_SIZE, SplitSum, StoredSplitSum};
 use fresnel_gen::methods::{self, Input, Method, Shape};
@@ -41,7 +41,7 @@ struct Reflectance {
 
 impl Reflectance {
     fn new(name: &'static str, subject: &MaterialInMedium, method: &Method) -> Reflectance {
-        let values = inputs_of(subject, method);
+        let values = values_for_material(subject, method);
         let coefficients = Input::COEFFICIENTS.iter();
         let mut surface = subject.reference.surface.clone();
         surface.gamut = Gamut::Keep;

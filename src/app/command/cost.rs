@@ -70,7 +70,7 @@ pub fn run(flags: &CostFlags, progress: Progress) -> Result<Output, Error> {
 /// 1 where a check found something, 3 where something that could be measured was not and all was required.
 fn ending(flags: &CostFlags, table: &[Vec<CostRow>], checked: &Checks) -> u8 {
     let is_lacking = |row: &CostRow| {
-        let cannot = row.precision == "f16" && !row.family.half;
+        let cannot = row.precision.is_half() && !row.family.half;
         row.family.compiler.dialect().is_some() && !cannot && row.figures.is_err()
     };
     let is_lacking = !checked.whole || table.iter().flatten().any(is_lacking);

@@ -4,6 +4,7 @@ use std::fmt::Write;
 
 use super::{percent, short};
 use crate::cost::CostRow;
+use crate::num::Precision;
 
 const INTRODUCTION: &str = "\
 # What methods cost
@@ -47,7 +48,7 @@ pub fn cost_document(families: &[Vec<CostRow>]) -> String {
 }
 
 fn is_shown(row: &CostRow) -> bool {
-    row.precision == "f32" && row.channels == 3
+    row.precision == Precision::F32 && row.channels == 3
 }
 
 /// Shares, a column for each family of which anything is known.

@@ -1,6 +1,6 @@
 //! The formulas of the thesis, written by hand in each language, have the errors that our methods have.
 
-use fresnel_gen::fit::{ModelError, inputs_of, model_error};
+use fresnel_gen::fit::{ModelError, model_error, values_for_material};
 use fresnel_gen::methods;
 use fresnel_gen::reference::MaterialInMedium;
 
@@ -34,7 +34,9 @@ pub fn place() -> Place {
 
 fn ours(method: &str, subject: &MaterialInMedium) -> ModelError {
     let method = methods::find(method).unwrap();
-    let function = method.specialise(&inputs_of(subject, method)).unwrap();
+    let function = method
+        .specialise(&values_for_material(subject, method))
+        .unwrap();
     model_error(&function, &subject.truth_for(method))
 }
 

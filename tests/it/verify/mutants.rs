@@ -2,7 +2,7 @@
 //! that cannot be is named below, with the reason.
 
 use fresnel_gen::emit::{self, Emitted, Naming};
-use fresnel_gen::fit::{self, Measured, inputs_of};
+use fresnel_gen::fit::{self, Measured, values_for_material};
 use fresnel_gen::gpu::Wanted;
 use fresnel_gen::ir::{Checked, Function, Label, Node, NodeId, Op, Payload, Ty, check};
 use fresnel_gen::methods::{self, Class, Contract, Method};
@@ -210,7 +210,7 @@ fn well_formed(function: Function) -> Checked {
 
 /// The function of a method with a material's values.
 fn trial(emitted: &Emitted, subject: &MaterialInMedium) -> Trial {
-    let values = inputs_of(subject, emitted.method);
+    let values = values_for_material(subject, emitted.method);
     let inputs = emitted
         .method
         .inputs
