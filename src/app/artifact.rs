@@ -18,7 +18,9 @@ pub struct Artifact {
     pub bytes: Vec<u8>,
     /// The target that it is written for.
     pub target: String,
-    /// The method of a library file.
+    /// The effect of a file of effects.
+    pub effect: Option<String>,
+    /// The method of a library file; of an effect's file the method that computes R, where it is not the usual one.
     pub method: Option<String>,
     /// The material of a specialised file.
     pub material: Option<String>,

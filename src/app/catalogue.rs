@@ -134,6 +134,7 @@ fn artifact(path: String, bytes: Vec<u8>, target: &str, detail: Detail) -> Artif
         path,
         bytes,
         target: target.to_owned(),
+        effect: None,
         method: None,
         material: None,
         detail,

@@ -62,7 +62,10 @@ pub struct Entry {
     pub file: String,
     /// The target that it is written for.
     pub target: String,
-    /// The method of a library file.
+    /// The effect of a file of effects.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub effect: Option<String>,
+    /// The method of a library file; of an effect's file the method that computes R, where it is not the usual one.
     pub method: Option<String>,
     /// The material of a specialised file.
     pub material: Option<String>,
@@ -183,6 +186,7 @@ impl Entry {
         Entry {
             file: artifact.path.clone(),
             target: artifact.target.clone(),
+            effect: artifact.effect.clone(),
             method: artifact.method.clone(),
             material: artifact.material.clone(),
             sha256: listed_hash(&artifact.path, &artifact.bytes),

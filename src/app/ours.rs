@@ -6,7 +6,7 @@
 //! be written by anybody.
 
 use crate::digest::sha256;
-use crate::emit::MARK;
+use crate::emit::{EFFECTS, MARK};
 use crate::lut::{Format, KTX2_MARK, TABLES};
 use crate::num::Precision;
 use crate::targets::{self, Finish};
@@ -75,6 +75,12 @@ pub fn could_be_written(entry: &Entry) -> bool {
                 _ => false,
             }
         }
+        [folder, EFFECTS, name] if *folder == entry.target => {
+            let parts = [&entry.effect, &entry.material, &entry.method];
+            let parts: Vec<&str> = parts.into_iter().flatten().map(String::as_str).collect();
+            entry.effect.is_some() && stem(entry, name) == Some(parts.join("_").as_str())
+        }
+        _ if entry.effect.is_some() => false,
         [folder, "materials", name] if *folder == entry.target => entry
             .material
             .as_deref()

@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 
 use crate::command_line::file_name;
+use crate::effects::{self, Effect};
 use crate::emit::{HeaderForm, Naming};
 use crate::materials::{self, Material, MaterialKind, ViewingConditions};
 use crate::methods::{self, Method};
@@ -23,6 +24,9 @@ pub struct Request {
     pub targets: Vec<String>,
     /// Names of methods, or `all`. Empty: all, and materials get their usual four.
     pub methods: Vec<String>,
+    /// Names of effects, or `all`: then their files are written and no others, with R by the one method that is named, specialised to
+    /// the materials that are named. Empty: all in their usual form where neither methods nor materials are named, else none.
+    pub effects: Vec<String>,
     /// Which materials functions are specialised to.
     pub materials: Materials,
     /// The medium that the light comes from; air where there is none.
@@ -49,6 +53,7 @@ impl Default for Request {
         Request {
             targets: Vec::new(),
             methods: Vec::new(),
+            effects: Vec::new(),
             materials: Materials::Default,
             medium: None,
             prefix: Naming::default().prefix,
@@ -195,6 +200,27 @@ impl Request {
         )
     }
 
+    /// The effects asked for by name, sorted, each once.
+    ///
+    /// # Errors
+    /// A name is no effect.
+    #[doc(hidden)]
+    pub fn resolved_effects(&self) -> Result<Vec<&'static Effect>, Error> {
+        let names = effects::ALL.iter().map(|effect| effect.name);
+        let all: Vec<&str> = names.chain(["all"]).collect();
+        let mut chosen: Vec<&Effect> = Vec::new();
+        for name in &self.effects {
+            match effects::find(name) {
+                Some(effect) => chosen.push(effect),
+                None if name == "all" => chosen.extend(effects::ALL),
+                None => return Err(unknown("effect", name, &all)),
+            }
+        }
+        chosen.sort_by_key(|effect| effect.name);
+        chosen.dedup_by_key(|effect| effect.name);
+        Ok(chosen)
+    }
+
     /// The materials read, each in the medium, with the text of both files.
     ///
     /// # Errors
@@ -236,11 +262,14 @@ impl Request {
         }
     }
 
-    /// Whether it names neither methods nor materials, in single precision: the catalogue goes with such a run, and to a whole
+    /// Whether it names neither methods nor effects nor materials, in single precision: effects and the catalogue go with such a run, and to a whole
     /// tree, where it names no targets either, tables do.
     #[doc(hidden)]
     pub fn names_nothing(&self) -> bool {
-        self.methods.is_empty() && self.materials == Materials::Default && !self.precision.is_half()
+        self.methods.is_empty()
+            && self.effects.is_empty()
+            && self.materials == Materials::Default
+            && !self.precision.is_half()
     }
 
     /// Why this method is not written in the request's precision, if it is not: its library function, or any.

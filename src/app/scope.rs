@@ -22,15 +22,26 @@ pub struct Scope {
     pub materials: BTreeSet<String>,
     /// Does the run make the files that name neither method nor material, such as the catalogue?
     pub shared: bool,
+    /// The files of effects that the run makes: the effect, the material, the method where it is not the usual one.
+    pub effects: BTreeSet<EffectKey>,
     /// What the run's functions compute in: files of the other precision are not its own.
     pub precision: Precision,
-    /// None of the three flags was given: the run also removes orphans.
+    /// None of the flags that choose was given: the run also removes orphans.
     pub whole: bool,
 }
+
+/// What tells files of effects apart in a target's folder.
+pub type EffectKey = (String, Option<String>, Option<String>);
 
 impl Scope {
     /// May this run replace or remove the entry?
     pub fn owns(&self, entry: &Entry) -> bool {
+        if let Some(effect) = &entry.effect {
+            let key = (effect.clone(), entry.material.clone(), entry.method.clone());
+            let is_usual = entry.material.is_none() && entry.method.is_none();
+            return self.targets.contains(&entry.target)
+                && (self.effects.contains(&key) || self.whole && is_usual);
+        }
         let method = |name: &String| self.methods.as_ref().is_none_or(|all| all.contains(name));
         let named = entry.method.is_some() || entry.material.is_some();
         self.targets.contains(&entry.target)

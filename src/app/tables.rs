@@ -101,6 +101,7 @@ pub fn artifacts(baked: Baked) -> Vec<Artifact> {
         path,
         bytes,
         target: TABLES.to_owned(),
+        effect: None,
         method: Some(baked.method.to_owned()),
         material: baked.material.clone(),
         detail: Detail::Table(TableDetail {

@@ -61,7 +61,7 @@ fn prepare(
         code,
         entry,
         uniforms,
-        textured: false,
+        texture: None,
     };
     let name = device.adapter.to_string();
     match device.prepare(&program) {

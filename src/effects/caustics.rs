@@ -5,7 +5,7 @@
 //! <https://doi.org/10.1145/97879.97902>. The splat is Epanechnikov's kernel.
 
 use crate::cite::Citation;
-use crate::ir::{Expr, Letters, Ty};
+use crate::ir::{Expr, Letters};
 
 use super::effect::{Argument, Arguments, Effect, EffectFunction, Reflectance};
 use super::vectors::{cross, length};
@@ -13,28 +13,37 @@ use super::vectors::{cross, length};
 const T_ENTRY: Argument = Argument::vector(
     "t_entry",
     "the transmitted share 1 - R at the first surface",
+    0.0,
+    1.0,
 );
 const T_EXIT: Argument = Argument::vector(
     "t_exit",
     "the same at the second; for a caustic by reflection 1, with R in the place of t_entry",
+    0.0,
+    1.0,
 );
 const AREA: Argument = Argument::scalar(
     "area",
     "of the photon's share of the light's cross-section, in square units of the world",
+    0.0,
+    1.0,
 );
 const FLUX: Argument = Argument::vector(
     "flux",
     "of three photons: the mean of their energies times the area of their triangle before the body",
+    0.0,
+    1.0,
 );
-const A: Argument = Argument::vector("a", "where the first photon lands, in the world");
-const B: Argument = Argument::vector("b", "where the second lands");
-const C: Argument = Argument::vector("c", "where the third lands");
-const OFFSET: Argument = Argument::of(
+const A: Argument = Argument::vector("a", "where the first photon lands, in the world", -1.0, 1.0);
+const B: Argument = Argument::vector("b", "where the second lands", -1.0, 1.0);
+const C: Argument = Argument::vector("c", "where the third lands", -1.0, 1.0);
+const OFFSET: Argument = Argument::pair(
     "offset",
     "from the splat's centre, in units of the world",
-    Ty::Vec2,
+    -1.0,
+    1.0,
 );
-const RADIUS: Argument = Argument::scalar("radius", "of the splat, above 0");
+const RADIUS: Argument = Argument::scalar("radius", "of the splat, above 0", 0.5, 2.0);
 
 /// A triangle of less area, in square units of the world, is none.
 const SMALLEST: f64 = 1e-20;
@@ -69,6 +78,7 @@ pub static EFFECT: Effect = Effect {
             gives: "the flux of a photon, for light of irradiance 1",
             arguments: &[T_ENTRY, T_EXIT, AREA],
             reflectance: Reflectance::Unused,
+            code_abs: 2e-7,
             letters: Letters::Rgb,
             build: |with| with.get(T_ENTRY) * with.get(T_EXIT) * with.get(AREA),
         },
@@ -77,6 +87,7 @@ pub static EFFECT: Effect = Effect {
             gives: "the irradiance inside the triangle; 0 where it has no area",
             arguments: &[FLUX, A, B, C],
             reflectance: Reflectance::Unused,
+            code_abs: 2e-7,
             letters: Letters::Xyz,
             build: triangle_irradiance,
         },
@@ -85,6 +96,7 @@ pub static EFFECT: Effect = Effect {
             gives: "the share of a photon's flux per square unit at an offset from where it lands",
             arguments: &[OFFSET, RADIUS],
             reflectance: Reflectance::Unused,
+            code_abs: 2e-7,
             letters: Letters::Xyz,
             build: splat_weight,
         },

@@ -11,8 +11,10 @@ use super::effect::{Argument, Arguments, Effect, EffectFunction, Reflectance};
 const N: Argument = Argument::vector(
     "n",
     "refractive index, relative to the medium before the surface",
+    0.05,
+    5.0,
 );
-const K: Argument = Argument::vector("k", "extinction coefficient, relative likewise");
+const K: Argument = Argument::vector("k", "extinction coefficient, relative likewise", 0.0, 8.0);
 
 /// The record of this effect.
 pub static EFFECT: Effect = Effect {
@@ -37,6 +39,7 @@ pub static EFFECT: Effect = Effect {
         gives: "F0 of each channel, 0 to 1",
         arguments: &[N, K],
         reflectance: Reflectance::Unused,
+        code_abs: 2e-7,
         letters: Letters::Rgb,
         build: complex_f0,
     }],

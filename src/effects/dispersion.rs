@@ -12,11 +12,20 @@ use super::vectors::{INCIDENT, NORMAL, refraction};
 const ETAS: Argument = Argument::vector(
     "etas",
     "n_t / n_i for red, green and blue, each above 0; GLSL's refract takes the inverse",
+    0.4,
+    2.5,
 );
-const INDEX: Argument = Argument::scalar("index", "which sample, 0 to count - 1, from red to blue");
+const INDEX: Argument = Argument::scalar(
+    "index",
+    "which sample, 0 to count - 1, from red to blue",
+    0.0,
+    15.0,
+);
 const COUNT: Argument = Argument::scalar(
     "count",
     "how many samples, 1 or more: as many as red and blue lie pixels apart are enough",
+    1.0,
+    16.0,
 );
 
 /// The record of this effect.
@@ -35,10 +44,10 @@ pub static EFFECT: Effect = Effect {
         link: "https://doi.org/10.1017/CBO9781139644181",
     },
     conventions: &[
-        "Look up red along the first ray, green along the second, blue along the third; or take more samples, with etas mixed \
-         between the three, and add weight * look-up.",
-        "One R serves all channels of a real medium (interface_reflectance_scalar): the difference is half a step of 255 for \
-         water and BK7, .8 for diamond.",
+        "Look up red along the first ray, green along the second, blue along the third; or take N samples: sample i has the \
+         index of refraction mix(etas.x, etas.z, (i + 1/2) / N), and weights its look-up by spectral_weight(i, N).",
+        "One R serves all channels of a real medium (interface_reflectance_scalar): in steps of 255 the difference is .4 for \
+         water and BK7, .7 for diamond.",
     ],
     fails: &["Three samples show three edges where they lie more than a pixel apart."],
     functions: &[
@@ -47,6 +56,7 @@ pub static EFFECT: Effect = Effect {
             gives: "the red ray; zero past its critical angle",
             arguments: &[INCIDENT, NORMAL, ETAS],
             reflectance: Reflectance::Unused,
+            code_abs: 2e-7,
             letters: Letters::Xyz,
             build: |with| of_channel(with, 0),
         },
@@ -55,6 +65,7 @@ pub static EFFECT: Effect = Effect {
             gives: "the green ray; zero past its critical angle",
             arguments: &[INCIDENT, NORMAL, ETAS],
             reflectance: Reflectance::Unused,
+            code_abs: 2e-7,
             letters: Letters::Xyz,
             build: |with| of_channel(with, 1),
         },
@@ -63,6 +74,7 @@ pub static EFFECT: Effect = Effect {
             gives: "the blue ray; zero past its critical angle",
             arguments: &[INCIDENT, NORMAL, ETAS],
             reflectance: Reflectance::Unused,
+            code_abs: 2e-7,
             letters: Letters::Xyz,
             build: |with| of_channel(with, 2),
         },
@@ -71,6 +83,7 @@ pub static EFFECT: Effect = Effect {
             gives: "the weight of a sample in red, green and blue; over all samples each sums to 1",
             arguments: &[INDEX, COUNT],
             reflectance: Reflectance::Unused,
+            code_abs: 2e-7,
             letters: Letters::Rgb,
             build: spectral_weight,
         },

@@ -1,12 +1,10 @@
 //! What an effect is: a plain record in a static table, with its functions.
 
-use std::collections::BTreeMap;
-
 use crate::cite::Citation;
 use crate::ir::{
     BrokenRule, Builder, Checked, Expr, Letters, Ty, check, identifier_fault, specialise,
 };
-use crate::methods::{Forms, Inputs, Method};
+use crate::methods::{Forms, Inputs, Method, Values};
 use crate::num::Precision;
 
 /// Something that Fresnel's equations make visible, as functions that an application calls.
@@ -39,6 +37,9 @@ pub struct EffectFunction {
     pub arguments: &'static [Argument],
     /// Whether it asks for the reflectance, so that a Fresnel method is part of it.
     pub reflectance: Reflectance,
+    /// How far single precision may be from f64, of results above 1 as a share of them, beyond what a last bit of the arguments turns, and
+    /// without what the method of R adds. Tests hold it in both directions.
+    pub code_abs: f64,
     /// Whether its numbers are colours, or places and directions.
     pub letters: Letters,
     /// Builds the formula.
@@ -52,6 +53,15 @@ pub enum Reflectance {
     Unused,
     /// One for each channel; where the method has a scalar form there is a second function with one for all.
     EachChannel,
+    /// The same, of light that leaves a body: a material's index counts inverted.
+    FromWithin,
+}
+
+impl Reflectance {
+    /// Whether a Fresnel method is part of the function.
+    pub fn is_used(self) -> bool {
+        self != Reflectance::Unused
+    }
 }
 
 /// An argument of an effect's function.
@@ -63,22 +73,100 @@ pub struct Argument {
     pub meaning: &'static str,
     /// Its type.
     pub ty: Ty,
+    /// Where the function's error is stated.
+    pub domain: Domain,
+}
+
+/// The values of an argument for which a function states its error. It gives numbers for others too.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Domain {
+    /// Vectors of length 1.
+    UnitLength,
+    /// From the first number to the second, each component.
+    Within(f64, f64),
+    /// A camera's matrix, the map to texture coordinates, a texture: what the argument means.
+    Whole,
+}
+
+impl Domain {
+    /// In words.
+    pub fn words(self) -> String {
+        match self {
+            Domain::UnitLength => "of unit length".to_owned(),
+            Domain::Within(least, most) => format!("{least} to {most}"),
+            Domain::Whole => "any".to_owned(),
+        }
+    }
 }
 
 impl Argument {
-    /// A number.
-    pub const fn scalar(name: &'static str, meaning: &'static str) -> Argument {
-        Argument::of(name, meaning, Ty::Scalar)
+    /// A number from the first to the second.
+    pub const fn scalar(
+        name: &'static str,
+        meaning: &'static str,
+        least: f64,
+        most: f64,
+    ) -> Argument {
+        let domain = Domain::Within(least, most);
+        Argument {
+            name,
+            meaning,
+            ty: Ty::Scalar,
+            domain,
+        }
     }
 
-    /// A place, a direction or a colour.
-    pub const fn vector(name: &'static str, meaning: &'static str) -> Argument {
-        Argument::of(name, meaning, Ty::Rgb)
+    /// A place or a colour, with components from the first number to the second.
+    pub const fn vector(
+        name: &'static str,
+        meaning: &'static str,
+        least: f64,
+        most: f64,
+    ) -> Argument {
+        let domain = Domain::Within(least, most);
+        Argument {
+            name,
+            meaning,
+            ty: Ty::Rgb,
+            domain,
+        }
     }
 
-    /// Of any type.
-    pub const fn of(name: &'static str, meaning: &'static str, ty: Ty) -> Argument {
-        Argument { name, meaning, ty }
+    /// A direction.
+    pub const fn direction(name: &'static str, meaning: &'static str) -> Argument {
+        let domain = Domain::UnitLength;
+        Argument {
+            name,
+            meaning,
+            ty: Ty::Rgb,
+            domain,
+        }
+    }
+
+    /// Two numbers from the first to the second.
+    pub const fn pair(
+        name: &'static str,
+        meaning: &'static str,
+        least: f64,
+        most: f64,
+    ) -> Argument {
+        let domain = Domain::Within(least, most);
+        Argument {
+            name,
+            meaning,
+            ty: Ty::Vec2,
+            domain,
+        }
+    }
+
+    /// A matrix, a map of texture coordinates or a texture.
+    pub const fn whole(name: &'static str, meaning: &'static str, ty: Ty) -> Argument {
+        Argument {
+            name,
+            meaning,
+            ty,
+            domain: Domain::Whole,
+        }
     }
 }
 
@@ -133,8 +221,7 @@ impl EffectFunction {
     /// # Errors
     /// The graph breaks a rule of [`crate::ir::RULES`]; tests hold that none does.
     pub fn built(&'static self, method: &'static Method) -> Result<Vec<BuiltEffect>, BrokenRule> {
-        let has_scalar_form =
-            self.reflectance == Reflectance::EachChannel && method.forms == Forms::ColourAndScalar;
+        let has_scalar_form = self.reflectance.is_used() && method.forms == Forms::ColourAndScalar;
         let forms = [(false, ""), (true, "_scalar")];
         let forms = forms
             .into_iter()
@@ -144,20 +231,42 @@ impl EffectFunction {
                 Ok(BuiltEffect {
                     name: format!("{}{suffix}", self.name),
                     record: self,
-                    function: self.graph(method, is_scalar)?,
+                    function: self.graph(method, is_scalar, &Values::new())?,
                 })
             })
             .collect()
     }
 
-    fn graph(&self, method: &'static Method, is_scalar: bool) -> Result<Checked, BrokenRule> {
+    /// This function with the arguments that have a value fixed; nothing where it has none of them.
+    ///
+    /// # Errors
+    /// With these constants the graph breaks a rule of [`crate::ir::RULES`]: one is not finite in single precision, for example.
+    pub fn specialised(
+        &self,
+        method: &'static Method,
+        values: &Values,
+    ) -> Option<Result<Checked, BrokenRule>> {
+        let own = self.arguments.iter().map(|argument| argument.name);
+        let inputs = method.inputs.iter().map(|input| input.name);
+        let inputs = inputs.filter(|_| self.reflectance.is_used());
+        let mut names = own.chain(inputs);
+        let has_one = names.any(|name| values.contains_key(name));
+        has_one.then(|| self.graph(method, false, values))
+    }
+
+    fn graph(
+        &self,
+        method: &'static Method,
+        is_scalar: bool,
+        values: &Values,
+    ) -> Result<Checked, BrokenRule> {
         let builder = Builder::with_letters(self.letters);
         let declare = |argument: &Argument| {
             debug_assert_eq!(identifier_fault(argument.name), None);
             (argument.name, builder.param(argument.name, argument.ty))
         };
         let given = self.arguments.iter().map(declare).collect();
-        let fresnel = (self.reflectance == Reflectance::EachChannel).then(|| {
+        let fresnel = (self.reflectance.is_used()).then(|| {
             let ty = |ty: Ty| if is_scalar { Ty::Scalar } else { ty };
             let declare = |input: &crate::methods::Input| builder.param(input.name, ty(input.ty));
             (method, method.inputs.iter().map(declare).collect())
@@ -169,6 +278,6 @@ impl EffectFunction {
         };
         let result = (self.build)(&arguments);
         let whole = builder.finish(self.name, result);
-        check(specialise(&whole, &BTreeMap::new()))
+        check(specialise(&whole, values))
     }
 }

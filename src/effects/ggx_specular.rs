@@ -10,16 +10,21 @@ use crate::ir::{Expr, Letters};
 
 use super::effect::{Argument, Arguments, Effect, EffectFunction, Reflectance};
 
-const N_DOT_V: Argument = Argument::scalar("n_dot_v", "cosine between normal and view");
-const N_DOT_L: Argument = Argument::scalar("n_dot_l", "cosine between normal and light");
-const N_DOT_H: Argument = Argument::scalar("n_dot_h", "cosine between normal and half vector");
+const N_DOT_V: Argument = Argument::scalar("n_dot_v", "cosine between normal and view", -1.0, 1.0);
+const N_DOT_L: Argument = Argument::scalar("n_dot_l", "cosine between normal and light", -1.0, 1.0);
+const N_DOT_H: Argument =
+    Argument::scalar("n_dot_h", "cosine between normal and half vector", 0.0, 1.0);
 const V_DOT_H: Argument = Argument::scalar(
     "v_dot_h",
     "cosine between view and half vector: the angle that F is taken at",
+    0.0,
+    1.0,
 );
 const ALPHA: Argument = Argument::scalar(
     "alpha",
-    "roughness squared, .001 to 1; smaller counts as .001",
+    "roughness squared; below .001 it counts as .001",
+    0.0,
+    1.0,
 );
 
 /// The record of this effect.
@@ -47,6 +52,7 @@ pub static EFFECT: Effect = Effect {
         gives: "the BRDF, per steradian; 0 where light or view is below the surface",
         arguments: &[N_DOT_V, N_DOT_L, N_DOT_H, V_DOT_H, ALPHA],
         reflectance: Reflectance::EachChannel,
+        code_abs: 2e-7,
         letters: Letters::Rgb,
         build: ggx_specular,
     }],

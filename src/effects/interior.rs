@@ -10,18 +10,25 @@ use crate::ir::{Expr, Letters, Ty, USED_TWICE};
 use super::effect::{Argument, Arguments, Effect, EffectFunction, Reflectance};
 use super::vectors::{ETA, UV_SCALE_BIAS, VIEW_PROJECTION, length, mirrored, refraction};
 
-const ENTRY: Argument = Argument::vector("entry", "where the ray enters, or starts, in the world");
-const DIRECTION: Argument = Argument::vector("direction", "of the ray, of unit length");
+const ENTRY: Argument = Argument::vector(
+    "entry",
+    "where the ray enters, or starts, in the world",
+    -1.0,
+    1.0,
+);
+const DIRECTION: Argument = Argument::direction("direction", "of the ray, of unit length");
 const DISTANCE: Argument = Argument::scalar(
     "distance",
     "the estimate so far, in units of the world: begin with the body's size; the sign is not read",
+    -4.0,
+    4.0,
 );
-const POSITIONS: Argument = Argument::of(
+const POSITIONS: Argument = Argument::whole(
     "positions",
     "places of the back as that camera sees them, in the world, with 1 in alpha; all 0 where it sees nothing",
     Ty::Texture,
 );
-const NORMAL_OUT: Argument = Argument::vector("normal_out", "of unit length, out of the body");
+const NORMAL_OUT: Argument = Argument::direction("normal_out", "of unit length, out of the body");
 
 /// After a miss the next estimate is this share of the last: the ray left the silhouette, so that it was too long.
 const AFTER_A_MISS: f64 = 0.7;
@@ -33,7 +40,7 @@ pub static EFFECT: Effect = Effect {
     formula: &[
         "p1 = positions at the texture coordinates of entry + |distance| direction",
         "distance' = |p1 - entry|, or -.7 |distance| where that camera sees nothing there",
-        "exit_direction = refracted(direction, -normal_out, eta), or reflected past the critical angle;  T = 1 - R",
+        "exit direction: direction refracted at -normal_out, or reflected past the critical angle;  T = 1 - R",
     ],
     source: Citation {
         authors: "Wyman",
@@ -45,10 +52,13 @@ pub static EFFECT: Effect = Effect {
     conventions: &[
         "Draw the back of the body into `positions` (and its normals beside) with the camera of `view_projection`. Call the step \
          three or four times, each with the distance that the last one gave. A negative last distance is a miss.",
-        "The ray leaves at entry + distance direction; look up the normal there with planar_uv (water).",
+        "The ray leaves at entry + |distance| direction; look up the normal there, at planar_uv of the effect water, and make it of unit \
+         length.",
         "eta at the exit is n_outside / n_inside: the inverse of that at the entry.",
         "The same step finds other objects in a picture of theirs, for rays that left and for photons.",
         "What is seen is T_entry T_exit environment(exit_direction): radiance is not scaled by n^2 across both surfaces.",
+        "Past the critical angle T is 0, since all light stays inside: search once more, from there along exit_direction. The tutorial's \
+         shortcut takes that ray as outside with T = 1.",
     ],
     fails: &[
         "A ray past the critical angle is reflected once and then taken as outside.",
@@ -68,22 +78,26 @@ pub static EFFECT: Effect = Effect {
                 POSITIONS,
             ],
             reflectance: Reflectance::Unused,
+            code_abs: 2e-7,
             letters: Letters::Xyz,
             build: interior_search_step,
         },
         EffectFunction {
             name: "exit_direction",
-            gives: "the direction outside, or inside after total reflection; zero for a zero direction",
+            gives: "the direction outside, or inside after total reflection, where exit_transmittance is 0; zero for a zero direction, unchanged for \
+                    a zero normal",
             arguments: &[DIRECTION, NORMAL_OUT, ETA],
             reflectance: Reflectance::Unused,
+            code_abs: 2e-7,
             letters: Letters::Xyz,
             build: exit_direction,
         },
         EffectFunction {
             name: "exit_transmittance",
-            gives: "the transmitted share T = 1 - R",
+            gives: "the transmitted share T = 1 - R, 0 past the critical angle",
             arguments: &[DIRECTION, NORMAL_OUT],
-            reflectance: Reflectance::EachChannel,
+            reflectance: Reflectance::FromWithin,
+            code_abs: 2e-7,
             letters: Letters::Rgb,
             build: exit_transmittance,
         },
@@ -112,7 +126,8 @@ fn interior_search_step<'b>(with: &Arguments<'b>) -> Expr<'b> {
     let share = positions
         .sample_alpha(u, v)
         .named("share", "of the texels that show the body");
-    let seen = positions.sample(u, v) / share.at_least(0.5);
+    let texel = positions.sample(u, v).named("texel", "");
+    let seen = texel / share.at_least(0.5);
     let found = length((seen - entry).named("to_seen", "by the texels that show the body alone"));
     let missed =
         (distance * -AFTER_A_MISS).named("missed", "shorter, for the ray left the silhouette");

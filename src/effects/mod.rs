@@ -9,7 +9,7 @@
 mod effect;
 mod vectors;
 
-pub use effect::{Argument, BuiltEffect, Effect, EffectFunction, Reflectance};
+pub use effect::{Argument, BuiltEffect, Domain, Effect, EffectFunction, Reflectance};
 
 // BEGIN effects (written by tests/lists)
 mod caustics;

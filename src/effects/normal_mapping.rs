@@ -10,14 +10,16 @@ use crate::ir::{Expr, Letters};
 use super::effect::{Argument, Arguments, Effect, EffectFunction, Reflectance};
 use super::vectors::{NORMAL, cross, unit_or_zero};
 
-const TANGENT_NORMAL: Argument = Argument::vector(
+const TANGENT_NORMAL: Argument = Argument::direction(
     "tangent_normal",
     "the map's normal, 2 texel - 1: x along the tangent, y along the bitangent, z along the normal",
 );
-const TANGENT: Argument = Argument::vector("tangent", "of unit length, along growing u");
+const TANGENT: Argument = Argument::direction("tangent", "of unit length, along growing u");
 const BITANGENT_SIGN: Argument = Argument::scalar(
     "bitangent_sign",
     "1, or -1 where the texture is mirrored: bitangent = sign cross(normal, tangent)",
+    -1.0,
+    1.0,
 );
 
 /// The record of this effect.
@@ -43,6 +45,7 @@ pub static EFFECT: Effect = Effect {
         gives: "the mapped normal, of unit length, in the space of tangent and normal; zero where these are zero",
         arguments: &[TANGENT_NORMAL, TANGENT, BITANGENT_SIGN, NORMAL],
         reflectance: Reflectance::Unused,
+        code_abs: 2e-7,
         letters: Letters::Xyz,
         build: normal_to_world,
     }],
@@ -54,7 +57,11 @@ fn normal_to_world<'b>(with: &Arguments<'b>) -> Expr<'b> {
         with.get(TANGENT),
         with.get(NORMAL),
     );
-    let bitangent = cross(with, normal, tangent) * with.get(BITANGENT_SIGN);
+    let square = cross(with, normal, tangent);
+    let [x, y, z] = ["square_x", "square_y", "square_z"];
+    let [x, y, z] = [(0, x), (1, y), (2, z)].map(|(i, name)| square.channel(i).named(name, ""));
+    let bitangent = with.vector(x, y, z) * with.get(BITANGENT_SIGN);
+    let bitangent = bitangent.named("bitangent", "along growing v");
     let sum =
         tangent * mapped.channel(0) + bitangent * mapped.channel(1) + normal * mapped.channel(2);
     unit_or_zero(sum.named(

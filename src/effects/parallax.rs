@@ -15,21 +15,34 @@ use super::vectors::{length, unit_or_zero};
 const POSITION: Argument = Argument::vector(
     "position",
     "where the ray starts, inside the room, in the world",
+    -1.0,
+    1.0,
 );
-const DIRECTION: Argument = Argument::vector(
+const DIRECTION: Argument = Argument::direction(
     "direction",
     "of the ray, of any length for the box, of unit length for the search",
 );
-const BOX_MIN: Argument =
-    Argument::vector("box_min", "the room's corner with the smallest coordinates");
-const BOX_MAX: Argument =
-    Argument::vector("box_max", "the room's corner with the largest coordinates");
-const CUBE_CENTRE: Argument = Argument::vector("cube_centre", "where the cube map was taken");
+const BOX_MIN: Argument = Argument::vector(
+    "box_min",
+    "the room's corner with the smallest coordinates",
+    -4.0,
+    -1.0,
+);
+const BOX_MAX: Argument = Argument::vector(
+    "box_max",
+    "the room's corner with the largest coordinates",
+    1.0,
+    4.0,
+);
+const CUBE_CENTRE: Argument =
+    Argument::vector("cube_centre", "where the cube map was taken", -1.0, 1.0);
 const DISTANCE: Argument = Argument::scalar(
     "distance",
     "the estimate so far, in units of the world: begin with the room's size",
+    0.0,
+    4.0,
 );
-const DISTANCE_CUBE: Argument = Argument::of(
+const DISTANCE_CUBE: Argument = Argument::whole(
     "distance_cube",
     "the distance from cube_centre to the room in each direction, in red",
     Ty::Cube,
@@ -68,6 +81,7 @@ pub static EFFECT: Effect = Effect {
             gives: "the direction of the look-up, of the length from cube_centre to the wall; zero for a zero direction",
             arguments: &[POSITION, DIRECTION, BOX_MIN, BOX_MAX, CUBE_CENTRE],
             reflectance: Reflectance::Unused,
+            code_abs: 2e-7,
             letters: Letters::Xyz,
             build: box_parallax,
         },
@@ -76,6 +90,7 @@ pub static EFFECT: Effect = Effect {
             gives: "a better distance",
             arguments: &[POSITION, DIRECTION, DISTANCE, CUBE_CENTRE, DISTANCE_CUBE],
             reflectance: Reflectance::Unused,
+            code_abs: 2e-7,
             letters: Letters::Xyz,
             build: cube_search_step,
         },
@@ -113,6 +128,7 @@ fn cube_search_step<'b>(with: &Arguments<'b>) -> Expr<'b> {
     let reached = position + with.get(DIRECTION) * with.get(DISTANCE) - centre;
     let reached = reached.named("reached", "as far as the estimate goes, from the centre");
     let seen = with.get(DISTANCE_CUBE).sample_cube(reached).channel(0);
+    let seen = seen.named("seen", "from the centre to the room, in that direction");
     let surface = centre + unit_or_zero(reached) * seen;
     length((surface - position).named("to_surface", "to what the centre sees there"))
 }

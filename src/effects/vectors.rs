@@ -1,6 +1,6 @@
 //! What several effects do with vectors, and arguments that several take.
 
-use crate::ir::{Expr, Ty};
+use crate::ir::{Expr, Ty, USED_TWICE};
 
 use super::effect::{Argument, Arguments};
 
@@ -8,12 +8,12 @@ use super::effect::{Argument, Arguments};
 const SHORTEST: f64 = 1e-30;
 
 /// The direction of arriving light.
-pub const INCIDENT: Argument = Argument::vector(
+pub const INCIDENT: Argument = Argument::direction(
     "incident",
     "direction of travel, of unit length, toward the surface",
 );
 /// The surface's normal, as all but exits take it.
-pub const NORMAL: Argument = Argument::vector(
+pub const NORMAL: Argument = Argument::direction(
     "normal",
     "of unit length, on the side that the light comes from; the function never flips it",
 );
@@ -21,15 +21,17 @@ pub const NORMAL: Argument = Argument::vector(
 pub const ETA: Argument = Argument::scalar(
     "eta",
     "n_t / n_i, the index behind the surface by that before it, above 0; GLSL's refract takes the inverse",
+    0.4,
+    2.5,
 );
 /// A matrix from the world to clip space.
-pub const VIEW_PROJECTION: Argument = Argument::of(
+pub const VIEW_PROJECTION: Argument = Argument::whole(
     "view_projection",
     "from world to clip space, applied to columns",
     Ty::Mat4,
 );
 /// From normalised device coordinates to texture coordinates.
-pub const UV_SCALE_BIAS: Argument = Argument::of(
+pub const UV_SCALE_BIAS: Argument = Argument::whole(
     "uv_scale_bias",
     "uv = ndc.xy * this.xy + this.zw: (.5, .5, .5, .5) where v points up, (.5, -.5, .5, .5) where it points down",
     Ty::Vec4,
@@ -76,9 +78,10 @@ pub fn refraction<'b>(
         .saturate()
         .named("c", "clamp: a rounded dot product may exceed 1");
     let r = (1.0 / eta).named("r", "sin theta_t = r sin theta_i");
-    let squared = (1.0 - r * r * (1.0 - c * c)).named(
+    let along_normal = (r * c).named("rc", USED_TWICE);
+    let squared = ((1.0 - r) * (1.0 + r) + along_normal * along_normal).named(
         "cos2_t",
-        "the squared cosine behind the surface; negative past the critical angle",
+        "1 - r^2 (1 - c^2), the squared cosine behind the surface; negative past the critical angle",
     );
     let meets = with.number(0.0).choose_below(c, squared, with.number(-1.0));
     let passes = with

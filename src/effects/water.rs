@@ -10,14 +10,15 @@ use crate::ir::{Expr, Letters, Ty};
 use super::effect::{Argument, Arguments, Effect, EffectFunction, Reflectance};
 use super::vectors::{UV_SCALE_BIAS, VIEW_PROJECTION};
 
-const POSITION: Argument = Argument::vector("position", "in the world");
-const UV: Argument = Argument::of("uv", "of the pixel in the picture", Ty::Vec2);
-const DISTORTION: Argument = Argument::of(
+const POSITION: Argument = Argument::vector("position", "in the world", -1.0, 1.0);
+const UV: Argument = Argument::pair("uv", "of the pixel in the picture", 0.0, 1.0);
+const DISTORTION: Argument = Argument::pair(
     "distortion",
     "by how much the waves bend it, in texture coordinates",
-    Ty::Vec2,
+    -0.1,
+    0.1,
 );
-const MAP: Argument = Argument::of(
+const MAP: Argument = Argument::whole(
     "map",
     "the picture of what lies below the water, with 1 in alpha; what stands before the water has 0 there",
     Ty::Texture,
@@ -55,6 +56,7 @@ pub static EFFECT: Effect = Effect {
             gives: "texture coordinates in x and y, and w in z: 0 or less is behind the camera",
             arguments: &[POSITION, VIEW_PROJECTION, UV_SCALE_BIAS],
             reflectance: Reflectance::Unused,
+            code_abs: 2e-7,
             letters: Letters::Xyz,
             build: planar_uv,
         },
@@ -63,6 +65,7 @@ pub static EFFECT: Effect = Effect {
             gives: "the colour below the water, never one from before it",
             arguments: &[UV, DISTORTION, MAP],
             reflectance: Reflectance::Unused,
+            code_abs: 2e-7,
             letters: Letters::Rgb,
             build: water_refraction,
         },
@@ -95,5 +98,5 @@ fn water_refraction<'b>(with: &Arguments<'b>) -> Expr<'b> {
             "the bent sample is the mask: what it shows must be below the water",
         );
     let [u, v] = [0, 1].map(|i| uv.channel(i) + distortion.channel(i) * below);
-    map.sample(u, v)
+    map.sample(u.named("read_u", "bent or not"), v.named("read_v", ""))
 }

@@ -24,6 +24,15 @@ pub enum CodeBound {
     Absolute(f64),
 }
 
+impl CodeBound {
+    /// The number.
+    pub fn value(self) -> f64 {
+        match self {
+            CodeBound::Ulp(value) | CodeBound::Absolute(value) => value,
+        }
+    }
+}
+
 /// The most that a plain form may be off to be written in place of the stable one.
 pub const PLAIN_ULP: f64 = 10.0;
 

@@ -8,18 +8,19 @@ use serde::Serialize;
 use crate::fit::{Measured, ModelError};
 use crate::ir::{Param, Ty};
 use crate::materials::Material;
-use crate::methods::{Contract, Input};
+use crate::methods::Input;
 use crate::reference::{By, MaterialInMedium};
 use crate::targets::{Finish, Target};
 
-use super::average::{self, Average};
+use super::average::Average;
 use super::bounds::CodeBound;
-use super::figures::promises_in;
+use super::effect_file::EffectPart;
 use super::file::{is_number, uniform_offsets};
 use super::form::FunctionForm;
 use super::function::Emitted;
-use super::header::{OUTPUT_LICENCE, source, table_line};
+use super::header::OUTPUT_LICENCE;
 use super::missed::MissedDetail;
+use super::notes::Notes;
 use super::page::entry_point;
 use super::print;
 
@@ -134,7 +135,8 @@ pub struct DataDetail {
 pub struct FunctionDetail {
     /// Its name.
     pub name: String,
-    method: &'static str,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    method: Option<&'static str>,
     form: FunctionForm,
     /// Its head, as the file has it.
     pub signature: String,
@@ -158,29 +160,6 @@ pub struct FunctionDetail {
     uniforms: Option<Vec<UniformDetail>>,
     #[serde(flatten)]
     notes: Notes,
-}
-
-/// What full headers say of a function besides, and short ones do not.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-struct Notes {
-    formula: &'static [&'static str],
-    source: String,
-    domain: &'static str,
-    /// Where it fails, of a method that is exempt from the contract of the others.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    fails: Option<&'static str>,
-    /// What a library function promises, a sentence each.
-    #[serde(skip_serializing_if = "Vec::is_empty")]
-    promises: Vec<String>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    mean: Option<String>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    table: Option<String>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    written_as: Option<&'static str>,
-    /// Of a plain form: the operations of the stable one.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    stable_operations: Option<usize>,
 }
 
 /// A library function's run-time arguments; or a specialised one's constants per channel, null where a channel has none (gold's
@@ -279,11 +258,17 @@ fn data_detail(material: &Material) -> DataDetail {
 }
 
 fn function_detail(target: &Target, index: usize, emitted: &Emitted) -> FunctionDetail {
-    let average = Average::of(emitted);
+    let average = match emitted.effect {
+        None => Average::of(emitted),
+        Some(_) => None,
+    };
     let is_module = target.finish == Finish::Spirv;
     FunctionDetail {
         name: emitted.name.clone(),
-        method: emitted.method.name,
+        method: match emitted.effect {
+            Some(part) if !part.function.reflectance.is_used() => None,
+            _ => Some(emitted.method.name),
+        },
         form: emitted.form,
         signature: print::head(
             &emitted.function,
@@ -300,30 +285,8 @@ fn function_detail(target: &Target, index: usize, emitted: &Emitted) -> Function
         average: average.map(|average| average.given),
         average_unlimited: average.map(|average| average.unlimited),
         entry_point: is_module.then(|| entry_point(index, emitted)),
-        uniforms: is_module.then(|| uniforms(emitted)),
-        notes: notes(emitted),
-    }
-}
-
-fn notes(emitted: &Emitted) -> Notes {
-    let method = emitted.method;
-    let is_specialised = emitted.form == FunctionForm::Specialised;
-    Notes {
-        formula: method.formula,
-        source: source(method),
-        domain: method.domain,
-        fails: match method.contract {
-            Contract::Kept => None,
-            Contract::Exempt(why) => Some(why),
-        },
-        promises: match is_specialised {
-            true => Vec::new(),
-            false => promises_in(emitted.precision, method),
-        },
-        mean: average::mean_line(emitted),
-        table: table_line(emitted),
-        written_as: emitted.written_as.map(|method| method.name),
-        stable_operations: emitted.plain_for,
+        uniforms: (is_module && emitted.effect.is_none()).then(|| uniforms(emitted)),
+        notes: Notes::of(emitted),
     }
 }
 
@@ -351,6 +314,9 @@ fn model_error(error: ModelError) -> ModelErrorDetail {
 }
 
 fn parameters(emitted: &Emitted) -> Parameters {
+    if let Some(part) = emitted.effect {
+        return Parameters::Arguments(arguments_of_effect(part, emitted));
+    }
     if emitted.constants.is_empty() {
         let argument = |input: &Input| ArgumentDetail {
             name: input.name,
@@ -365,6 +331,23 @@ fn parameters(emitted: &Emitted) -> Parameters {
         Some((input.name.to_owned(), present))
     };
     Parameters::Constants(emitted.method.inputs.iter().filter_map(row).collect())
+}
+
+/// The arguments of an effect's function, as many as are left at run time.
+fn arguments_of_effect(part: EffectPart, emitted: &Emitted) -> Vec<ArgumentDetail> {
+    let own = part.function.arguments.iter().map(|one| ArgumentDetail {
+        name: one.name,
+        meaning: one.meaning,
+        domain: one.domain.words(),
+    });
+    let inputs = emitted.method.inputs.iter().map(|input| ArgumentDetail {
+        name: input.name,
+        meaning: input.meaning,
+        domain: input.range.words(),
+    });
+    let params = &emitted.function.params;
+    let is_left = |one: &ArgumentDetail| params.iter().any(|param| param.name == one.name);
+    own.chain(inputs).filter(is_left).collect()
 }
 
 /// The uniform block of a module: name, type and offset in bytes of each run-time argument.

@@ -174,6 +174,7 @@ pub fn lookup(
     let emitted = Emitted {
         name,
         method: methods::find("table").expect("the method of every table is registered"),
+        effect: None,
         form: FunctionForm::Library,
         precision: Precision::F32,
         function,
@@ -256,7 +257,7 @@ pub(super) fn is_number(param: &Param) -> bool {
 }
 
 /// A name is whole here, with its prefix, and must be free in every language: the same function has one name in all.
-fn check_names(functions: &[Emitted]) -> Result<(), Error> {
+pub(super) fn check_names(functions: &[Emitted]) -> Result<(), Error> {
     for emitted in functions {
         let fault = crate::ir::identifier_fault(&emitted.name)
             .map(|why| format!("`{}` is no name: {why}", emitted.name))

@@ -7,6 +7,7 @@ use crate::num::Precision;
 use crate::reference::MaterialInMedium;
 
 use super::bounds::{Bounds, CodeBound, PLAIN_ULP};
+use super::effect_file::EffectPart;
 use super::error::Error;
 use super::figures::FILTERED;
 use super::form::FunctionForm;
@@ -56,8 +57,10 @@ impl Naming {
 pub struct Emitted {
     /// Its name in the language.
     pub name: String,
-    /// Its method.
+    /// Its method; of an effect's function the method that computes R.
     pub method: &'static Method,
+    /// Of an effect's function: which one.
+    pub effect: Option<EffectPart>,
     /// What it takes and gives.
     pub form: FunctionForm,
     /// What it computes in.
@@ -134,6 +137,7 @@ pub(super) fn library_function(
     Ok(Emitted {
         name: naming.name(method.name, &form.suffix()),
         method,
+        effect: None,
         form,
         precision: naming.precision,
         function,
@@ -242,6 +246,7 @@ pub fn specialised_function(
     Ok(Emitted {
         name: naming.specialised(method, subject),
         method,
+        effect: None,
         form: FunctionForm::Specialised,
         precision: naming.precision,
         missed: missed(subject, method, error.max_abs),

@@ -4,6 +4,7 @@
 //! and SPIR-V is lowered from WGSL by naga. Library files hold functions only.
 
 mod average;
+mod batch;
 mod bounds;
 mod catalogue;
 mod comment;
@@ -17,6 +18,7 @@ mod function;
 mod header;
 mod heading;
 mod missed;
+mod notes;
 mod page;
 mod print;
 pub mod shader_words;
@@ -24,6 +26,7 @@ mod short;
 mod wgsl;
 
 pub use average::{Average, average_functions};
+pub use batch::{batch_entry, batch_program, places};
 pub use bounds::{Bounds, CodeBound, HalfBound, PLAIN_ULP, fingerprint, half_bounds};
 pub use catalogue::{
     CATALOGUE, CatalogueMaterial, CatalogueMethod, CatalogueRow, CloserFit, catalogue_array,
@@ -33,7 +36,7 @@ pub use comment::lines as comment_lines;
 pub use detail::{
     CatalogueDetail, Detail, FunctionDetail, FunctionsDetail, SeenDetail, TableDetail,
 };
-pub use effect_file::{EffectRequest, effect_file, effect_functions};
+pub use effect_file::{EFFECTS, EffectPart, EffectRequest, effect_file, effect_text};
 pub use error::Error;
 pub use figures::{half_promise, promises};
 pub use file::{

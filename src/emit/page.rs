@@ -9,6 +9,7 @@ use crate::ir::{Param, Ty};
 use crate::num::Precision;
 use crate::targets::{Finish, Page, Target};
 
+use super::batch::batch_entry;
 use super::error::Error;
 use super::form::FunctionForm;
 use super::function::Emitted;
@@ -175,9 +176,10 @@ fn function(target: &Target, index: usize, doc: &[String], emitted: &Emitted) ->
 }
 
 /// A module's entry points: `main` for its first function, `average` for a mean over the hemisphere, the method's name for
-/// others.
+/// others; an effect's are named after its functions.
 pub fn entry_point(index: usize, emitted: &Emitted) -> String {
     match emitted.form {
+        _ if emitted.effect.is_some() => batch_entry(&emitted.name),
         _ if index == 0 => "main".to_owned(),
         FunctionForm::Average => emitted.form.name().to_owned(),
         _ => emitted.method.name.to_owned(),

@@ -7,8 +7,8 @@ use glow::{HasContext, PixelUnpackData};
 
 use super::egl::Context;
 use super::fault::DeviceFault;
-use super::program::{Argument, Program, ShaderCode, Uniform, check_fit};
-use super::texture::{Texture, TextureFormat, Wrap};
+use super::program::{Argument, PointInputs, Program, ShaderCode, Uniform, check_fit};
+use super::texture::{Texture, TextureFilter, TextureFormat, TextureShape, Wrap};
 
 /// Cosines of a draw.
 const BLOCK: usize = 1 << 18;
@@ -16,8 +16,8 @@ const BLOCK: usize = 1 << 18;
 const RESULT: usize = 12;
 /// Nothing is rasterised, and yet a program has two shaders.
 const FRAGMENT: &str = "#version 300 es\nvoid main() {}\n";
-/// The place of `cos_theta`.
-const COS_THETA: u32 = 0;
+/// Bytes of four numbers.
+const PLACE: usize = 16;
 /// GL_RGBA16_EXT, of the extension GL_EXT_texture_norm16.
 const RGBA16: u32 = 0x805B;
 /// GL_CONTEXT_LOST, of the extension GL_KHR_robustness.
@@ -28,14 +28,42 @@ pub(super) struct Kernel {
     context: Rc<Context>,
     program: glow::Program,
     uniforms: Vec<Uniform>,
-    textured: bool,
+    texture: Option<TextureShape>,
+    attributes: Attributes,
+}
+
+/// The arguments of a point.
+#[derive(Clone, Copy)]
+enum Attributes {
+    /// `cos_theta`, a number.
+    Cosine,
+    /// `fg_0`, `fg_1` and so on, so many, four numbers each.
+    Places(usize),
+}
+
+impl Attributes {
+    /// The attributes' names in the order of their places, and how many numbers each has.
+    fn names(self) -> (Vec<String>, usize) {
+        match self {
+            Attributes::Cosine => (vec!["cos_theta".to_owned()], 1),
+            Attributes::Places(places) => ((0..places).map(|at| format!("fg_{at}")).collect(), 4),
+        }
+    }
+
+    /// The bytes of a point.
+    fn stride(self) -> usize {
+        match self {
+            Attributes::Cosine => size_of::<f32>(),
+            Attributes::Places(places) => places * PLACE,
+        }
+    }
 }
 
 /// What a run needs on the device, taken down when the run ends.
 struct Objects<'a> {
     gl: &'a glow::Context,
     array: glow::VertexArray,
-    cosines: glow::Buffer,
+    points: glow::Buffer,
     results: glow::Buffer,
     target: glow::Framebuffer,
     pixels: glow::Renderbuffer,
@@ -44,7 +72,19 @@ struct Objects<'a> {
 
 impl Kernel {
     /// Compiles and links a program.
-    pub fn new(context: &Rc<Context>, program: &Program) -> Result<Kernel, DeviceFault> {
+    pub fn new(
+        context: &Rc<Context>,
+        program: &Program,
+        inputs: PointInputs,
+    ) -> Result<Kernel, DeviceFault> {
+        let attributes = match inputs {
+            PointInputs::Cosines => Attributes::Cosine,
+            PointInputs::Places(places) => Attributes::Places(places),
+            PointInputs::Bits => {
+                let name = &context.adapter.name;
+                return Err(DeviceFault::unable(name, "a stream in OpenGL ES"));
+            }
+        };
         let ShaderCode::Gles(text) = program.code else {
             let name = &context.adapter.name;
             return Err(DeviceFault::unable(
@@ -54,23 +94,26 @@ impl Kernel {
         };
         let gl = context.enter()?;
         Ok(Kernel {
-            program: link(gl, text)?,
+            program: link(gl, text, attributes)?,
             context: context.clone(),
             uniforms: program.uniforms.to_vec(),
-            textured: program.textured,
+            texture: program.texture,
+            attributes,
         })
     }
 
-    /// Runs over cosines.
+    /// Runs over points: the numbers of each behind those of the one before.
     pub fn run(
         &self,
-        cosines: &[f32],
+        points: &[f32],
         uniforms: &[Uniform],
         texture: Option<&Texture>,
     ) -> Result<Vec<[f32; 3]>, DeviceFault> {
-        check_fit(&self.uniforms, uniforms, self.textured, texture.is_some())?;
+        check_fit(&self.uniforms, uniforms, self.texture, texture)?;
         let gl = self.context.enter()?;
-        let objects = Objects::new(gl, cosines.len().min(BLOCK)).map_err(DeviceFault::lost)?;
+        let each = self.attributes.stride() / size_of::<f32>();
+        let most = (points.len() / each).min(BLOCK);
+        let objects = Objects::new(gl, most, self.attributes).map_err(DeviceFault::lost)?;
         // SAFETY: the context is current, and so are all names below.
         unsafe {
             gl.use_program(Some(self.program));
@@ -80,9 +123,9 @@ impl Kernel {
             Some(texture) => objects.with(texture, &self.context)?,
             None => objects,
         };
-        let mut results = Vec::with_capacity(cosines.len());
-        for block in cosines.chunks(BLOCK) {
-            objects.draw(block, &mut results);
+        let mut results = Vec::with_capacity(points.len() / each);
+        for block in points.chunks(BLOCK * each) {
+            objects.draw(block, block.len() / each, &mut results);
             check(gl)?;
         }
         Ok(results)
@@ -113,14 +156,20 @@ impl Drop for Kernel {
 }
 
 impl<'a> Objects<'a> {
-    /// Buffers for blocks of so many cosines, and a target to draw to, without which every draw is an error.
-    fn new(gl: &'a glow::Context, points: usize) -> Result<Objects<'a>, String> {
+    /// Buffers for blocks of so many points, and a target to draw to, without which every draw is an error.
+    fn new(
+        gl: &'a glow::Context,
+        points: usize,
+        attributes: Attributes,
+    ) -> Result<Objects<'a>, String> {
+        let (names, numbers) = attributes.names();
+        let stride = attributes.stride() as i32;
         // SAFETY: the caller has made the context current. All sizes are those of the buffers they are for.
         unsafe {
             let objects = Objects {
                 gl,
                 array: gl.create_vertex_array()?,
-                cosines: gl.create_buffer()?,
+                points: gl.create_buffer()?,
                 results: gl.create_buffer()?,
                 target: gl.create_framebuffer()?,
                 pixels: gl.create_renderbuffer()?,
@@ -136,9 +185,13 @@ impl<'a> Objects<'a> {
                 Some(objects.pixels),
             );
             gl.bind_vertex_array(Some(objects.array));
-            gl.bind_buffer(glow::ARRAY_BUFFER, Some(objects.cosines));
-            gl.enable_vertex_attrib_array(COS_THETA);
-            gl.vertex_attrib_pointer_f32(COS_THETA, 1, glow::FLOAT, false, 4, 0);
+            gl.bind_buffer(glow::ARRAY_BUFFER, Some(objects.points));
+            for at in 0..names.len() {
+                let (place, size) = (at as u32, numbers as i32);
+                gl.enable_vertex_attrib_array(place);
+                let offset = (at * PLACE) as i32;
+                gl.vertex_attrib_pointer_f32(place, size, glow::FLOAT, false, stride, offset);
+            }
             gl.bind_buffer_base(glow::TRANSFORM_FEEDBACK_BUFFER, 0, Some(objects.results));
             let size = (points * RESULT) as i32;
             gl.buffer_data_size(glow::TRANSFORM_FEEDBACK_BUFFER, size, glow::STREAM_READ);
@@ -164,7 +217,15 @@ impl<'a> Objects<'a> {
         if let Some(needed) = needed.filter(|needed| !gl.supported_extensions().contains(*needed)) {
             return Err(DeviceFault::unable(&context.adapter.name, needed));
         }
-        let (width, height) = (texture.width as i32, texture.height()? as i32);
+        let (width, rows) = (texture.width as i32, texture.height()? as i32);
+        let (kind, sides, height) = match texture.shape {
+            TextureShape::Flat => (glow::TEXTURE_2D, vec![glow::TEXTURE_2D], rows),
+            TextureShape::Cube => (glow::TEXTURE_CUBE_MAP, cube_sides(), width),
+        };
+        let filter = match texture.filter {
+            TextureFilter::Linear => glow::LINEAR,
+            TextureFilter::Nearest => glow::NEAREST,
+        };
         let bytes = texture.bytes();
         let wrap = match texture.wrap {
             Wrap::Clamp => glow::CLAMP_TO_EDGE,
@@ -175,45 +236,37 @@ impl<'a> Objects<'a> {
             let table = gl.create_texture().map_err(DeviceFault::lost)?;
             self.table = Some(table);
             gl.active_texture(glow::TEXTURE0);
-            gl.bind_texture(glow::TEXTURE_2D, Some(table));
-            let pixels = PixelUnpackData::Slice(Some(&bytes));
-            let internal = internal as i32;
-            gl.tex_image_2d(
-                glow::TEXTURE_2D,
-                0,
-                internal,
-                width,
-                height,
-                0,
-                glow::RGBA,
-                ty,
-                pixels,
-            );
+            gl.bind_texture(kind, Some(table));
+            for (side, rows) in sides.iter().zip(bytes.chunks(bytes.len() / sides.len())) {
+                let pixels = PixelUnpackData::Slice(Some(rows));
+                let internal = internal as i32;
+                gl.tex_image_2d(*side, 0, internal, width, height, 0, glow::RGBA, ty, pixels);
+            }
             for (name, value) in [
-                (glow::TEXTURE_MIN_FILTER, glow::LINEAR),
-                (glow::TEXTURE_MAG_FILTER, glow::LINEAR),
+                (glow::TEXTURE_MIN_FILTER, filter),
+                (glow::TEXTURE_MAG_FILTER, filter),
                 (glow::TEXTURE_WRAP_S, wrap),
                 (glow::TEXTURE_WRAP_T, wrap),
                 (glow::TEXTURE_MAX_LEVEL, 0),
             ] {
-                gl.tex_parameter_i32(glow::TEXTURE_2D, name, value as i32);
+                gl.tex_parameter_i32(kind, name, value as i32);
             }
         }
         check(gl).map(|()| self)
     }
 
-    /// Draws one point for each cosine and reads what was caught.
-    fn draw(&self, cosines: &[f32], results: &mut Vec<[f32; 3]>) {
+    /// Draws so many points and reads what was caught.
+    fn draw(&self, numbers: &[f32], points: usize, results: &mut Vec<[f32; 3]>) {
         let gl = self.gl;
-        let bytes = bytemuck::cast_slice(cosines);
-        let size = (cosines.len() * RESULT) as i32;
+        let bytes = bytemuck::cast_slice(numbers);
+        let size = (points * RESULT) as i32;
         let caught = glow::TRANSFORM_FEEDBACK_BUFFER;
         // SAFETY: the context is current and the buffers are bound. What is mapped is as long as what was drawn, is read
         // before it is unmapped, and is looked at only where the driver gave an address.
         unsafe {
             gl.buffer_data_u8_slice(glow::ARRAY_BUFFER, bytes, glow::STREAM_DRAW);
             gl.begin_transform_feedback(glow::POINTS);
-            gl.draw_arrays(glow::POINTS, 0, cosines.len() as i32);
+            gl.draw_arrays(glow::POINTS, 0, points as i32);
             gl.end_transform_feedback();
             let mapped = gl.map_buffer_range(caught, 0, size, glow::MAP_READ_BIT);
             if !mapped.is_null() {
@@ -231,7 +284,7 @@ impl Drop for Objects<'_> {
         // SAFETY: the context is current for as long as a run lasts, and the names are its own.
         unsafe {
             gl.delete_vertex_array(self.array);
-            gl.delete_buffer(self.cosines);
+            gl.delete_buffer(self.points);
             gl.delete_buffer(self.results);
             gl.delete_framebuffer(self.target);
             gl.delete_renderbuffer(self.pixels);
@@ -242,12 +295,19 @@ impl Drop for Objects<'_> {
     }
 }
 
-fn link(gl: &glow::Context, vertex: &str) -> Result<glow::Program, DeviceFault> {
+fn link(
+    gl: &glow::Context,
+    vertex: &str,
+    attributes: Attributes,
+) -> Result<glow::Program, DeviceFault> {
+    let (names, _) = attributes.names();
     // SAFETY: the caller has made the context current.
     unsafe {
         let program = gl.create_program().map_err(DeviceFault::lost)?;
         let linked = build(gl, program, vertex, FRAGMENT, || {
-            gl.bind_attrib_location(program, COS_THETA, "cos_theta");
+            for (place, name) in names.iter().enumerate() {
+                gl.bind_attrib_location(program, place as u32, name);
+            }
             gl.transform_feedback_varyings(program, &["reflectance"], glow::INTERLEAVED_ATTRIBS);
         });
         if linked.is_err() {
@@ -289,6 +349,13 @@ pub(super) unsafe fn build(
             Err(DeviceFault::refused(gl.get_program_info_log(program)))
         }
     }
+}
+
+/// The sides of a cube, in the order in which a texture has them.
+fn cube_sides() -> Vec<u32> {
+    (0..6)
+        .map(|side| glow::TEXTURE_CUBE_MAP_POSITIVE_X + side)
+        .collect()
 }
 
 /// Takes up the first error since the last time.

@@ -8,8 +8,8 @@ use super::compute::Compute;
 use super::fault::DeviceFault;
 use super::passthrough;
 use super::program::{PointInputs, Program, ShaderCode, Uniform, block, check_fit};
-use super::slot::{BLOCK, Block, Slot};
-use super::texture::{Texture, TextureFormat, Wrap};
+use super::slot::{BATCH, BLOCK, Block, Slot};
+use super::texture::{Texture, TextureFilter, TextureFormat, TextureShape, Wrap};
 
 /// A pipeline on its device.
 pub(super) struct Kernel {
@@ -18,7 +18,7 @@ pub(super) struct Kernel {
     layout: wgpu::BindGroupLayout,
     inputs: PointInputs,
     uniforms: Vec<Uniform>,
-    textured: bool,
+    texture: Option<TextureShape>,
     has_block: bool,
 }
 
@@ -44,7 +44,7 @@ impl Kernel {
             layout,
             inputs,
             uniforms: program.uniforms.to_vec(),
-            textured: program.textured,
+            texture: program.texture,
             has_block: has_block(program),
         })
     }
@@ -61,6 +61,19 @@ impl Kernel {
         self.pump(blocks, uniforms, texture, take)
     }
 
+    /// Runs over points of so many places, block by block, and hands the results of each over in order.
+    pub fn run_batch(
+        &self,
+        points: &[[f32; 4]],
+        places: usize,
+        texture: Option<&Texture>,
+        take: impl FnMut(&[[f32; 4]]),
+    ) -> Result<(), DeviceFault> {
+        let blocks = points.chunks(BATCH * places);
+        let blocks = blocks.map(|points| Block::Places { points, places });
+        self.pump(blocks, &[], texture, take)
+    }
+
     /// Runs over blocks: while one is read, the device computes the next.
     pub fn pump<'a>(
         &self,
@@ -69,7 +82,7 @@ impl Kernel {
         texture: Option<&Texture>,
         mut take: impl FnMut(&[[f32; 4]]),
     ) -> Result<(), DeviceFault> {
-        check_fit(&self.uniforms, uniforms, self.textured, texture.is_some())?;
+        check_fit(&self.uniforms, uniforms, self.texture, texture)?;
         let compute = &*self.compute;
         let resources = self.resources(uniforms, texture)?;
         let slots = compute.guarded(|| [(); 2].map(|()| Slot::new(compute, self.inputs)))?;
@@ -205,7 +218,7 @@ fn entries(program: &Program, inputs: PointInputs) -> Vec<wgpu::BindGroupLayoutE
     let read_only = |read_only| buffer(BufferBindingType::Storage { read_only });
     let uniform = buffer(BufferBindingType::Uniform);
     let first = match inputs {
-        PointInputs::Cosines => read_only(true),
+        PointInputs::Cosines | PointInputs::Places(_) => read_only(true),
         PointInputs::Bits => uniform,
     };
     let mut entries = Vec::new();
@@ -213,10 +226,10 @@ fn entries(program: &Program, inputs: PointInputs) -> Vec<wgpu::BindGroupLayoutE
         entries.push(entry(0, uniform));
     }
     entries.extend([entry(1, first), entry(2, read_only(false))]);
-    if program.textured {
+    if let Some(shape) = program.texture {
         let table = BindingType::Texture {
             sample_type: wgpu::TextureSampleType::Float { filterable: true },
-            view_dimension: wgpu::TextureViewDimension::D2,
+            view_dimension: view_dimension(shape),
             multisampled: false,
         };
         let sampler = BindingType::Sampler(wgpu::SamplerBindingType::Filtering);
@@ -259,10 +272,16 @@ pub(super) fn table(
         let what = format!("filter a texture of {format:?}");
         return Err(DeviceFault::unable(&compute.adapter.name, what));
     }
+    let rows = texture.height()? as u32;
+    let width = texture.width as u32;
+    let (height, layers) = match texture.shape {
+        TextureShape::Flat => (rows, 1),
+        TextureShape::Cube => (width, 6),
+    };
     let size = wgpu::Extent3d {
-        width: texture.width as u32,
-        height: texture.height()? as u32,
-        depth_or_array_layers: 1,
+        width,
+        height,
+        depth_or_array_layers: layers,
     };
     compute.guarded(|| {
         (
@@ -291,12 +310,22 @@ fn upload(
     let layout = wgpu::TexelCopyBufferLayout {
         offset: 0,
         bytes_per_row: Some(texture.row_bytes() as u32),
-        rows_per_image: None,
+        rows_per_image: Some(size.height),
     };
     compute
         .queue
         .write_texture(made.as_image_copy(), &texture.bytes(), layout, size);
-    made.create_view(&wgpu::TextureViewDescriptor::default())
+    made.create_view(&wgpu::TextureViewDescriptor {
+        dimension: Some(view_dimension(texture.shape)),
+        ..Default::default()
+    })
+}
+
+fn view_dimension(shape: TextureShape) -> wgpu::TextureViewDimension {
+    match shape {
+        TextureShape::Flat => wgpu::TextureViewDimension::D2,
+        TextureShape::Cube => wgpu::TextureViewDimension::Cube,
+    }
 }
 
 fn sampler(compute: &Compute, texture: &Texture) -> wgpu::Sampler {
@@ -304,11 +333,15 @@ fn sampler(compute: &Compute, texture: &Texture) -> wgpu::Sampler {
         Wrap::Clamp => wgpu::AddressMode::ClampToEdge,
         Wrap::Repeat => wgpu::AddressMode::Repeat,
     };
+    let filter = match texture.filter {
+        TextureFilter::Linear => wgpu::FilterMode::Linear,
+        TextureFilter::Nearest => wgpu::FilterMode::Nearest,
+    };
     compute.device.create_sampler(&wgpu::SamplerDescriptor {
         address_mode_u: address,
         address_mode_v: address,
-        mag_filter: wgpu::FilterMode::Linear,
-        min_filter: wgpu::FilterMode::Linear,
+        mag_filter: filter,
+        min_filter: filter,
         ..Default::default()
     })
 }

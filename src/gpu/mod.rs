@@ -29,7 +29,7 @@ pub use fault::DeviceFault;
 pub use gles_compiler::GlesCompiler;
 pub use program::{Argument, Program, ShaderCode, Uniform};
 pub use stream::Stream;
-pub use texture::{Texture, TextureFormat, Wrap};
+pub use texture::{Texture, TextureFilter, TextureFormat, TextureShape, Wrap};
 pub use vulkan_compiler::{ModuleEntry, VulkanCompiler};
 
 use std::rc::Rc;
@@ -50,6 +50,12 @@ enum Stack {
 
 /// A program ready to run.
 pub struct Kernel(Prepared);
+
+/// A program of many arguments, ready to run.
+pub struct Batch {
+    prepared: Prepared,
+    places: usize,
+}
 
 enum Prepared {
     Compute(kernel::Kernel),
@@ -116,9 +122,27 @@ impl Device {
             Stack::Compute(compute) => {
                 Prepared::Compute(kernel::Kernel::new(compute, program, PointInputs::Cosines)?)
             }
-            Stack::Gles(context) => Prepared::Gles(gles::Kernel::new(context, program)?),
+            Stack::Gles(context) => {
+                Prepared::Gles(gles::Kernel::new(context, program, PointInputs::Cosines)?)
+            }
         };
         Ok(Kernel(prepared))
+    }
+
+    /// Compiles a program of many arguments: so many places of four numbers a point, in binding 1 as
+    /// `var<storage, read> points: array<vec4<f32>>`, in OpenGL ES as attributes `fg_0`, `fg_1` and so on.
+    ///
+    /// # Errors
+    /// It does not compile, or not for this device.
+    pub fn prepare_batch(&self, program: &Program, places: usize) -> Result<Batch, DeviceFault> {
+        let inputs = PointInputs::Places(places);
+        let prepared = match &self.stack {
+            Stack::Compute(compute) => {
+                Prepared::Compute(kernel::Kernel::new(compute, program, inputs)?)
+            }
+            Stack::Gles(context) => Prepared::Gles(gles::Kernel::new(context, program, inputs)?),
+        };
+        Ok(Batch { prepared, places })
     }
 
     /// Compiles a program whose binding 1 is `var<uniform> first: u32`, the bits of the block's first number.
@@ -159,6 +183,29 @@ impl Kernel {
                 Ok(results)
             }
             Prepared::Gles(kernel) => kernel.run(cosines, uniforms, texture),
+        }
+    }
+}
+
+impl Batch {
+    /// The result at each point: the places of its arguments stand behind those of the point before.
+    ///
+    /// # Errors
+    /// The texture does not fit the program or the device, or the device is lost.
+    pub fn run(
+        &self,
+        points: &[[f32; 4]],
+        texture: Option<&Texture>,
+    ) -> Result<Vec<[f32; 3]>, DeviceFault> {
+        match &self.prepared {
+            Prepared::Compute(kernel) => {
+                let mut results = Vec::with_capacity(points.len() / self.places);
+                kernel.run_batch(points, self.places, texture, |block| {
+                    results.extend(block.iter().map(|&[x, y, z, _]| [x, y, z]));
+                })?;
+                Ok(results)
+            }
+            Prepared::Gles(kernel) => kernel.run(bytemuck::cast_slice(points), &[], texture),
         }
     }
 }

@@ -1,6 +1,7 @@
 //! What is run: one shape of program, and what it is run with.
 
 use super::DeviceFault;
+use super::texture::{Texture, TextureShape};
 
 /// A shader as it will be run.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -31,8 +32,8 @@ pub struct Program<'a> {
     pub entry: &'a str,
     /// The run-time arguments in the order of the block. Only names and shapes matter here.
     pub uniforms: &'a [Uniform],
-    /// Whether it reads a texture.
-    pub textured: bool,
+    /// The texture that it reads.
+    pub texture: Option<TextureShape>,
 }
 
 /// What binding 1 of a compute program is.
@@ -42,6 +43,8 @@ pub(super) enum PointInputs {
     Cosines,
     /// `var<uniform> first: u32`: point i has the bits `first + i`.
     Bits,
+    /// `var<storage, read> points: array<vec4<f32>>`, so many places of four numbers a point.
+    Places(usize),
 }
 
 /// A run-time argument.
@@ -86,8 +89,8 @@ pub(super) fn block(uniforms: &[Uniform]) -> Vec<u8> {
 pub(super) fn check_fit(
     wanted: &[Uniform],
     given: &[Uniform],
-    wants_texture: bool,
-    has_texture: bool,
+    wanted_texture: Option<TextureShape>,
+    texture: Option<&Texture>,
 ) -> Result<(), DeviceFault> {
     let shape = |uniform: &Uniform| match uniform.value {
         Argument::Scalar(_) => format!("{}: scalar", uniform.name),
@@ -100,13 +103,16 @@ pub(super) fn check_fit(
             "its arguments are ({want}), and it is run with ({got})"
         )));
     }
-    match (wants_texture, has_texture) {
-        (true, false) => Err(DeviceFault::refused(
+    match (wanted_texture, texture.map(|texture| texture.shape)) {
+        (Some(_), None) => Err(DeviceFault::refused(
             "it reads a texture and is run with none",
         )),
-        (false, true) => Err(DeviceFault::refused(
+        (None, Some(_)) => Err(DeviceFault::refused(
             "it reads no texture and is run with one",
         )),
+        (Some(want), Some(got)) if want != got => Err(DeviceFault::refused(format!(
+            "it reads a texture that is {want:?}, and is run with one that is {got:?}"
+        ))),
         _ => Ok(()),
     }
 }

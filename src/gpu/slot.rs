@@ -11,6 +11,8 @@ use super::program::PointInputs;
 
 /// Points of a block.
 pub(super) const BLOCK: usize = 1 << 18;
+/// Points of a block whose points have many arguments.
+pub(super) const BATCH: usize = 1 << 14;
 /// Bytes of a result.
 const RESULT: u64 = 16;
 /// Bytes of an input, and of a uniform.
@@ -23,6 +25,11 @@ pub(super) enum Block<'a> {
     Cosines(&'a [f32]),
     /// So many numbers, from that with these bits on.
     Bits { first: u32, count: usize },
+    /// These points, of so many places each.
+    Places {
+        points: &'a [[f32; 4]],
+        places: usize,
+    },
 }
 
 /// The buffers of one block.
@@ -45,12 +52,14 @@ impl Block<'_> {
         match self {
             Block::Cosines(cosines) => cosines.len(),
             Block::Bits { count, .. } => *count,
+            Block::Places { points, places } => points.len() / places,
         }
     }
 
     fn bytes(&self) -> Vec<u8> {
         match self {
             Block::Cosines(cosines) => bytemuck::cast_slice(cosines).to_vec(),
+            Block::Places { points, .. } => bytemuck::cast_slice(points).to_vec(),
             Block::Bits { first, .. } => bytemuck::cast_slice(&[*first, 0, 0, 0]).to_vec(),
         }
     }
@@ -67,8 +76,12 @@ impl Slot {
                 mapped_at_creation: false,
             })
         };
-        let points = BLOCK as u64;
+        let points = match inputs {
+            PointInputs::Places(_) => BATCH as u64,
+            PointInputs::Cosines | PointInputs::Bits => BLOCK as u64,
+        };
         let (size, usage) = match inputs {
+            PointInputs::Places(places) => (points * places as u64 * RESULT, BufferUsages::STORAGE),
             PointInputs::Cosines => (points * INPUT, BufferUsages::STORAGE),
             PointInputs::Bits => (UNIFORM, BufferUsages::UNIFORM),
         };

@@ -1,4 +1,4 @@
-//! A texture as a program reads it: two dimensions, one level, linear filtering.
+//! A texture as a program reads it: a picture or the six sides of a cube, one level.
 
 use half::f16;
 
@@ -15,6 +15,28 @@ pub struct Texture<'a> {
     pub format: TextureFormat,
     /// What lies beyond the edge.
     pub wrap: Wrap,
+    /// What the rows are.
+    pub shape: TextureShape,
+    /// What lies between texels.
+    pub filter: TextureFilter,
+}
+
+/// What the rows of a texture are.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum TextureShape {
+    /// A picture.
+    Flat,
+    /// The sides of a cube, one below the other, as OpenGL and Vulkan order and turn them: +x, -x, +y, -y, +z, -z.
+    Cube,
+}
+
+/// What a sampler gives between texels.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum TextureFilter {
+    /// A mixture of neighbours.
+    Linear,
+    /// The nearest texel.
+    Nearest,
 }
 
 /// The kind of number that a texel holds. What is given is rounded to the nearest.
@@ -53,7 +75,14 @@ impl Texture<'_> {
                 "a texture of {texels} texels has no whole rows of {width}"
             )));
         }
-        Ok(texels / width)
+        let rows = texels / width;
+        if self.shape == TextureShape::Cube && rows != 6 * width {
+            return Err(DeviceFault::refused(format!(
+                "a cube of sides of {width} has {} rows, not {rows}",
+                6 * width
+            )));
+        }
+        Ok(rows)
     }
 
     /// The bytes of a row.

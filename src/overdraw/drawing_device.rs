@@ -3,8 +3,8 @@
 use serde::{Deserialize, Serialize};
 
 use crate::gpu::{
-    AdapterKind, Backend, Canvas, Device, DeviceFault, Layer, Shader, Texture, TextureFormat,
-    Wanted, Wrap,
+    AdapterKind, Backend, Canvas, Device, DeviceFault, Layer, Shader, Texture, TextureFilter,
+    TextureFormat, TextureShape, Wanted, Wrap,
 };
 
 use super::clock::timed;
@@ -139,6 +139,8 @@ fn layer(canvas: &Canvas, drawing: &Drawing) -> Result<Layer, DeviceFault> {
         texels,
         format: TextureFormat::Half,
         wrap: Wrap::Clamp,
+        shape: TextureShape::Flat,
+        filter: TextureFilter::Linear,
     });
     canvas.layer(&Shader {
         text: &drawing.text,

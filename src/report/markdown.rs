@@ -1,10 +1,38 @@
 //! The tables of the README, written from the registries so that they cannot drift.
 
+use crate::effects;
 use crate::emit::{Bounds, Naming, half_bounds, specialised_function};
 use crate::materials::{Material, Unseen, ViewingConditions};
 use crate::methods::{self, Contract, Method, Spread};
 use crate::reference::{Derivation, MaterialInMedium};
 use crate::targets;
+
+/// The effects with their functions; `...` stands for what the method of R takes.
+pub fn effects_table() -> String {
+    let rows = effects::ALL.iter().flat_map(|effect| {
+        effect
+            .functions
+            .iter()
+            .enumerate()
+            .map(|(place, function)| {
+                let mut arguments: Vec<&str> =
+                    function.arguments.iter().map(|one| one.name).collect();
+                if function.reflectance.is_used() {
+                    arguments.push("...");
+                }
+                vec![
+                    if place == 0 {
+                        format!("`{}`", effect.name)
+                    } else {
+                        String::new()
+                    },
+                    format!("`{}({})`", function.name, arguments.join(", ")),
+                    function.gives.to_owned(),
+                ]
+            })
+    });
+    markdown_table(&["effect", "function", "gives"], rows)
+}
 
 /// Every method: what it takes, its cost in scalar operations for three channels, what it promises.
 pub fn methods_table() -> String {

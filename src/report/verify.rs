@@ -33,7 +33,10 @@ fn cells(row: &VerifyRow) -> Vec<String> {
     let shown = |cell: Option<String>| cell.unwrap_or_else(|| "-".to_owned());
     vec![
         row.target.clone(),
-        row.method.clone(),
+        match &row.effect {
+            Some(_) => row.function.clone(),
+            None => row.method.clone(),
+        },
         row.material.clone().unwrap_or_default(),
         row.form.name().to_owned(),
         shown(row.points.map(|points| points.to_string())),
@@ -50,6 +53,7 @@ fn code_error(row: &VerifyRow) -> Option<String> {
     let error = row.code_error.as_ref()?;
     match (error.max_ulp, error.max_abs) {
         (Some(ulp), _) => Some(format!("{ulp:.2}")),
+        (None, Some(most)) if row.effect.is_some() => Some(format!("{most:.1e} abs")),
         (None, Some(most)) if row.precision.is_half() => Some(format!("{most:.5} abs")),
         _ => None,
     }
@@ -59,6 +63,9 @@ fn allowed(row: &VerifyRow) -> Option<String> {
     match row.bound.as_ref()? {
         AllowedError::Ulp(allowed) if allowed.ulp == Some(0.0) => Some("2^-22".to_owned()),
         AllowedError::Ulp(allowed) => allowed.ulp.map(|ulp| format!("{ulp:.1}")),
+        AllowedError::Absolute(allowed) if row.effect.is_some() => {
+            allowed.max_abs.map(|most| format!("{most:.0e} abs"))
+        }
         AllowedError::Absolute(allowed) => allowed.max_abs.map(|most| format!("{most:.5} abs")),
     }
 }
@@ -80,6 +87,10 @@ fn covered(rows: &[VerifyRow]) -> String {
         if share < 0.5 {
             text += "A result that is wrong at a single f32 is found by luck only; --exhaustive tries all of them.\n";
         }
+    }
+    if rows.iter().any(|row| row.effect.is_some()) {
+        text += "\nFunctions of effects were run at points of their domains and at their ends. Their error is what lies beyond what the \
+                 last bits of the arguments and the steps of a sampler's weights turn.\n";
     }
     if shares(Precision::F16).is_some() {
         text += "\nIn half precision each function was run at every f16 from 0 to 1.\n";

@@ -46,6 +46,7 @@ const VALIDATORS: &[Validator] = &[Validator {
 /// Shared with GLSL ES.
 pub(super) const ENDING: &str = "
 uniform highp sampler2D a_texture;
+uniform highp samplerCube a_cube;
 in highp vec3 at;
 out highp vec4 colour;
 void main() {

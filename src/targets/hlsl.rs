@@ -5,7 +5,7 @@ use crate::num::Precision;
 
 use super::spelling::{C_FAMILY, Form, Spelling};
 use super::target::{
-    Compiler, Finish, Frame, GLSLANG, HalfText, Harness, Page, Stack, Target, Validator,
+    Batch, Compiler, Finish, Frame, GLSLANG, HalfText, Harness, Page, Stack, Target, Validator,
 };
 
 /// The record of this target.
@@ -96,6 +96,7 @@ static HARNESS: Harness = Harness {
     cosine: "fg_cosines[at.x]",
     splat: "({value}).xxx",
     converts: false,
+    batch: &BATCH,
     after: "
 {block}{texture}[[vk::binding(1, 0)]] StructuredBuffer<float> fg_cosines;
 [[vk::binding(2, 0)]] RWStructuredBuffer<float4> fg_reflectances;
@@ -107,6 +108,31 @@ void fg_main(uint3 at : SV_DispatchThreadID)
     if (at.x < count)
     {
         fg_reflectances[at.x] = float4({value}, 1.0);
+    }
+}
+",
+};
+
+/// A matrix of HLSL is made of rows.
+static BATCH: Batch = Batch {
+    input: "",
+    place: "fg_points[at.x * {stride} + {at}]",
+    matrix: "transpose({type}({columns}))",
+    cube: "[[vk::binding(3, 0)]] TextureCube<float4> fg_cube;\n[[vk::binding(4, 0)]] SamplerState fg_sampler;\n",
+    cube_argument: "fg_cube, fg_sampler",
+    declarations: "
+{texture}[[vk::binding(1, 0)]] StructuredBuffer<float4> fg_points;
+[[vk::binding(2, 0)]] RWStructuredBuffer<float4> fg_results;
+",
+    entry: "
+[numthreads(64, 1, 1)]
+void {entry}(uint3 at : SV_DispatchThreadID)
+{
+    uint count, stride;
+    fg_results.GetDimensions(count, stride);
+    if (at.x < count)
+    {
+        fg_results[at.x] = float4({value}, 1.0);
     }
 }
 ",
@@ -169,10 +195,11 @@ const FRAME: Frame = Frame {
     beginnings: &[""],
     ending: "
 Texture2D<float4> a_texture;
+TextureCube<float4> a_cube;
 SamplerState a_sampler;
 float4 main(float3 at : TEXCOORD0) : SV_Target
 {
-    float3 sum = 0.0;
+    float3 sum = at;
 CALLS
     return float4(sum, 1.0);
 }

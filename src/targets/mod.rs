@@ -12,7 +12,7 @@ pub use gles::TARGET as GLES;
 pub use hlsl::{DXC, TARGET as HLSL};
 pub use spelling::{Form, Spelling, precedence};
 pub use target::{
-    Compiler, Finish, Frame, GLSLANG, HalfText, Harness, Page, Stack, Target, Validator,
+    Batch, Compiler, Finish, Frame, GLSLANG, HalfText, Harness, Page, Stack, Target, Validator,
 };
 pub use wgsl::{STREAM, TARGET as WGSL};
 

@@ -85,8 +85,30 @@ pub struct Harness {
     pub splat: &'static str,
     /// Whether a number of one precision must be converted to another in so many words.
     pub converts: bool,
+    /// How functions of many arguments are called.
+    pub batch: &'static Batch,
     /// What stands behind the file: `{block}`, `{texture}`, `{cosines}`, `{count}`, and the function's `{value}`.
     pub after: &'static str,
+}
+
+/// The text behind a file that calls its functions at points, whose arguments stand in a buffer of four numbers a place. The bindings
+/// are those of [`Harness`], with places in the place of cosines; in GLSL ES places are attributes.
+#[derive(Debug)]
+pub struct Batch {
+    /// The declaration of a place as an attribute: `{at}`; nothing where there is a buffer.
+    pub input: &'static str,
+    /// A place of the point at hand: `{at}` of `{stride}`.
+    pub place: &'static str,
+    /// A matrix of `{type}` from its four `{columns}`.
+    pub matrix: &'static str,
+    /// The declaration of a cube of textures.
+    pub cube: &'static str,
+    /// The cube as an argument.
+    pub cube_argument: &'static str,
+    /// All declarations: `{inputs}` and the `{texture}`.
+    pub declarations: &'static str,
+    /// An entry point: its name `{entry}` and the `{value}`, three numbers.
+    pub entry: &'static str,
 }
 
 /// How a target writes half precision.

@@ -4,7 +4,9 @@ use crate::ir::Op;
 use crate::num::Precision;
 
 use super::spelling::{Form, Spelling};
-use super::target::{Compiler, Finish, Frame, HalfText, Harness, Page, Stack, Target, Validator};
+use super::target::{
+    Batch, Compiler, Finish, Frame, HalfText, Harness, Page, Stack, Target, Validator,
+};
 
 /// The record of this target.
 pub static TARGET: Target = Target {
@@ -50,6 +52,7 @@ const PROGRAM: Harness = Harness {
     cosine: "fg_cosines[i]",
     splat: "{value}",
     converts: true,
+    batch: &BATCH,
     after: "
 {block}{texture}{cosines}
 @group(0) @binding(2) var<storage, read_write> fg_reflectances: array<vec4<f32>>;
@@ -63,6 +66,27 @@ fn fg_main(@builtin(global_invocation_id) at: vec3<u32>) {
 ",
 };
 static HARNESS: Harness = PROGRAM;
+
+static BATCH: Batch = Batch {
+    input: "",
+    place: "fg_points[i * {stride}u + {at}u]",
+    matrix: "{type}({columns})",
+    cube: "@group(0) @binding(3) var fg_cube: texture_cube<f32>;\n@group(0) @binding(4) var fg_sampler: sampler;\n",
+    cube_argument: "fg_cube, fg_sampler",
+    declarations: "
+{texture}@group(0) @binding(1) var<storage, read> fg_points: array<vec4<f32>>;
+@group(0) @binding(2) var<storage, read_write> fg_results: array<vec4<f32>>;
+",
+    entry: "
+@compute @workgroup_size(64)
+fn {entry}(@builtin(global_invocation_id) at: vec3<u32>) {
+    let i = at.x;
+    if i < arrayLength(&fg_results) {
+        fg_results[i] = vec4<f32>(vec3<f32>({value}), 1.0);
+    }
+}
+",
+};
 
 /// The cosines are all f32 from a first one on, by their bits.
 pub static STREAM: Harness = Harness {
@@ -111,6 +135,7 @@ static TINT: Compiler = Compiler {
 const ENDING: &str = "
 @group(0) @binding(0) var a_texture: texture_2d<f32>;
 @group(0) @binding(1) var a_sampler: sampler;
+@group(0) @binding(2) var a_cube: texture_cube<f32>;
 @fragment
 fn main(@location(0) at: vec3<f32>) -> @location(0) vec4<f32> {
     var sum = vec3<f32>();

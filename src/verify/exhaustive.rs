@@ -90,6 +90,7 @@ fn run(
             },
             outcome,
             half: None,
+            effect: None,
             model_error: emitted.model_error,
             device: devices
                 .device_for(file.target, ExecutionPath::Own)?

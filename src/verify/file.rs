@@ -46,6 +46,11 @@ pub fn file_rows(
     let accepts = accepts(file);
     let mut rows = Vec::new();
     for (index, emitted) in file.functions.iter().enumerate() {
+        if let Some(part) = emitted.effect {
+            let tried = FileTrial::new(file, index, emitted, devices, effort);
+            rows.push(tried.effect_row(plan, part, &accepts));
+            continue;
+        }
         let cases = cases(plan, file, emitted);
         let tried = FileTrial::new(file, index, emitted, devices, effort);
         for (place, case) in cases.iter().enumerate() {
@@ -214,11 +219,11 @@ fn limits_of(channels: &Channels) -> Vec<f32> {
 }
 
 /// A function, and how it is run.
-struct FileTrial<'a> {
-    file: &'a PlannedFile,
-    emitted: &'a Emitted,
+pub(super) struct FileTrial<'a> {
+    pub file: &'a PlannedFile,
+    pub emitted: &'a Emitted,
     entry: &'a str,
-    devices: &'a Devices,
+    pub devices: &'a Devices,
     effort: VerifyEffort,
     /// The text compiled for running, once for all cases.
     own: OnceCell<Result<Runnable, RunFault>>,
@@ -270,7 +275,11 @@ impl<'a> FileTrial<'a> {
         .verify_row()
     }
 
-    fn run(&self, case: &TrialCase, path: ExecutionPath) -> Result<PathRun, RunFault> {
+    /// The function as it may be run: a module that is not ours, and a text that holds a loop, may not.
+    pub(super) fn shown_safely(
+        &self,
+        path: ExecutionPath,
+    ) -> Result<ShippedFunction<'_>, RunFault> {
         let page = self.file.run_page();
         if let (Some(fault), true) = (self.untrusted(), path == ExecutionPath::Own) {
             return Err(fault);
@@ -279,12 +288,16 @@ impl<'a> FileTrial<'a> {
             let why = format!("{holds_loop}, which no function of ours does, and is not run");
             return Err(RunFault::Failed(why));
         }
-        let shown = ShippedFunction {
+        Ok(ShippedFunction {
             target: self.file.target,
             bytes: &page.bytes,
             function: self.emitted,
             entry: self.entry,
-        };
+        })
+    }
+
+    fn run(&self, case: &TrialCase, path: ExecutionPath) -> Result<PathRun, RunFault> {
+        let shown = self.shown_safely(path)?;
         let other;
         let runnable = if path == ExecutionPath::Own {
             let compiled = || self.devices.prepare(&shown, path, &case.trial);
@@ -320,6 +333,7 @@ impl<'a> FileTrial<'a> {
             bound: Some(expected.bound),
             outcome,
             half: None,
+            effect: None,
             model_error,
             device: self
                 .devices

@@ -66,6 +66,7 @@ pub(super) fn run_in_half(
         share: 1.0,
         bound: None,
         outcome: Outcome::NONE,
+        effect: None,
         half: Some(result),
         model_error: emitted.model_error,
         device: String::new(),

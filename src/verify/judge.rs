@@ -5,6 +5,7 @@ use crate::fit::{Measured, ModelError};
 use crate::num::Precision;
 
 use super::compilers::Verdict;
+use super::effect_trial::EffectOutcome;
 use super::plan::{PlannedFile, ShippedPage};
 use super::row::{
     AllowedAbsolute, AllowedError, AllowedUlp, Answer, CodeErrorFigures, Emulation,
@@ -26,10 +27,21 @@ pub struct PathRun {
     pub outcome: Outcome,
     /// In half precision: what came of it.
     pub half: Option<HalfRun>,
+    /// Of an effect's function: what came of it.
+    pub effect: Option<EffectRun>,
     /// Against the reference, where there is one.
     pub model_error: Option<ModelError>,
     /// On what.
     pub device: String,
+}
+
+/// What came of running an effect's function.
+#[derive(Clone, Debug)]
+pub struct EffectRun {
+    /// The device against f64.
+    pub outcome: EffectOutcome,
+    /// The allowed error.
+    pub allowed: f64,
 }
 
 /// What came of running a function in half precision.
@@ -106,7 +118,7 @@ impl RanFunction<'_> {
         let own = self.judged(*path, own);
         let (mut status, mut reasons) = (own.status, own.reasons);
         let mut row = row_without_run(self.file, self.emitted);
-        row.material = Some(self.material.to_owned());
+        row.material = Some(self.material.to_owned()).filter(|name| !name.is_empty());
         if let Some(figures) = own.figures {
             row.device = Some(figures.device);
             row.points = Some(figures.points);
@@ -156,9 +168,10 @@ impl RanFunction<'_> {
             }
             Ok(run) => run,
         };
-        let fault = match &run.half {
-            Some(half) => self.fault_in_half(half),
-            None => run
+        let fault = match (&run.half, &run.effect) {
+            (_, Some(effect)) => self.fault_of_effect(path, effect),
+            (Some(half), _) => self.fault_in_half(half),
+            (None, None) => run
                 .outcome
                 .miss
                 .as_ref()
@@ -176,13 +189,18 @@ impl RanFunction<'_> {
 
     fn figures(&self, run: &PathRun) -> RunFigures {
         let text = bound_text(self.emitted);
-        let (bound, code_error) = match &run.half {
-            Some(half) => {
+        let (bound, code_error) = match (&run.half, &run.effect) {
+            (_, Some(effect)) => {
+                let max_abs = finite(effect.allowed);
+                let bound = AllowedError::Absolute(AllowedAbsolute { max_abs, text });
+                (bound, CodeErrorFigures::from(&effect.outcome))
+            }
+            (Some(half), _) => {
                 let max_abs = finite(half.allowed);
                 let bound = AllowedError::Absolute(AllowedAbsolute { max_abs, text });
                 (bound, CodeErrorFigures::from(&half.error))
             }
-            None => {
+            (None, None) => {
                 let ulp = run.bound.and_then(finite);
                 let bound = AllowedError::Ulp(AllowedUlp { ulp, text });
                 (bound, CodeErrorFigures::from(&run.outcome.error))
@@ -216,6 +234,25 @@ impl RanFunction<'_> {
                 half.error.worst_cos,
                 half.error.max_abs,
                 half.allowed
+            )
+        })
+    }
+
+    /// What is wrong with an effect's function.
+    fn fault_of_effect(&self, path: ExecutionPath, effect: &EffectRun) -> Option<String> {
+        let EffectRun { outcome, allowed } = effect;
+        let is_right = outcome.max_abs <= *allowed;
+        let path = match path {
+            ExecutionPath::Own => String::new(),
+            path => format!(", by {}", path.name()),
+        };
+        (!is_right).then(|| {
+            format!(
+                "{}: {}{path}: {}: {:e} off, and {allowed:e} is allowed",
+                self.page().path,
+                self.emitted.name,
+                outcome.worst,
+                outcome.max_abs,
             )
         })
     }
@@ -283,6 +320,11 @@ fn bound_text(emitted: &Emitted) -> String {
         Measured::Yes(CodeBound::Ulp(ulp)) => {
             format!("{ulp} ulp or 2^-22; powers as Vulkan allows exp2 and log2")
         }
+        Measured::Yes(CodeBound::Absolute(most)) if emitted.effect.is_some() => {
+            format!(
+                "{most:e} beyond what the last bits of the arguments and a sampler's weights turn"
+            )
+        }
         Measured::Yes(CodeBound::Absolute(most)) => {
             format!("{most} absolute, and 2^-11 for what a device is free to do")
         }
@@ -309,6 +351,7 @@ fn row_without_run(file: &PlannedFile, emitted: &Emitted) -> VerifyRow {
     let page = file.run_page();
     VerifyRow {
         target: file.target.name.to_owned(),
+        effect: emitted.effect.map(|part| part.effect.name.to_owned()),
         method: emitted.method.name.to_owned(),
         material: None,
         form: emitted.form,

@@ -11,6 +11,10 @@ mod code_error;
 #[cfg(feature = "compilers")]
 pub mod compilers;
 pub mod drift;
+pub mod effect_points;
+#[cfg(all(feature = "cli", feature = "gpu"))]
+mod effect_run;
+pub mod effect_trial;
 #[cfg(all(feature = "cli", feature = "gpu"))]
 mod error;
 #[cfg(all(feature = "cli", feature = "gpu"))]

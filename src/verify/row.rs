@@ -7,6 +7,7 @@ use serde_json::{Map, Value};
 use crate::fit::ModelError;
 
 use super::compilers::Verdict;
+use super::effect_trial::EffectOutcome;
 use super::object::as_object;
 use super::{CodeError, HalfError};
 use crate::emit::FunctionForm;
@@ -20,9 +21,12 @@ pub const WORST: &str = "worst cases";
 pub struct VerifyRow {
     /// The target.
     pub target: String,
-    /// The method.
+    /// Of an effect's function: the effect.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub effect: Option<String>,
+    /// The method; of an effect's function the one that computes R.
     pub method: String,
-    /// The material, as a user types it; none where the run came to no end.
+    /// The material, as a user types it; none where the run came to no end, and of an effect's function.
     pub material: Option<String>,
     /// What it takes and gives.
     pub form: FunctionForm,
@@ -283,6 +287,17 @@ impl From<&HalfError> for CodeErrorFigures {
             reason: Some("half precision is judged by the absolute error".to_owned()),
             max_abs: finite(error.max_abs),
             worst_cos: finite(error.worst_cos),
+        }
+    }
+}
+
+impl From<&EffectOutcome> for CodeErrorFigures {
+    fn from(outcome: &EffectOutcome) -> CodeErrorFigures {
+        CodeErrorFigures {
+            max_ulp: None,
+            reason: Some("an effect's function is judged by the absolute error".to_owned()),
+            max_abs: finite(outcome.max_abs),
+            worst_cos: None,
         }
     }
 }

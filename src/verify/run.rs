@@ -11,18 +11,20 @@
 
 use std::cell::OnceCell;
 
-use crate::emit::Emitted;
+use crate::emit::{Emitted, batch_entry, batch_program, places};
 use crate::ir::{Param, Ty};
 use crate::num::Precision;
 use crate::targets::{Stack, Target};
 
 use super::compilers::{self, HlslVersion, hlsl_to_spirv, hlsl_to_spirv_in};
+use super::effect_points::TEXELS;
+use super::effect_trial::EffectTrial;
 use super::harness::{self, Call, ENTRY};
 use super::naga_translation;
 use super::trial::Trial;
 use crate::gpu::{
-    self, Argument, Device, Kernel, Program, ShaderCode, Texture, TextureFormat, Uniform, Wanted,
-    Wrap,
+    self, Argument, Device, Kernel, Program, ShaderCode, Texture, TextureFilter, TextureFormat,
+    TextureShape, Uniform, Wanted, Wrap,
 };
 
 /// Why nothing was run.
@@ -86,6 +88,14 @@ impl ExecutionPath {
                 ExecutionPath::NagaHlsl,
             ],
             (Stack::DxcToVulkan(_), _) => &[ExecutionPath::Own, ExecutionPath::Hlsl2021],
+            _ => &[ExecutionPath::Own],
+        }
+    }
+
+    /// The paths of an effect's function: naga's translations are made for functions of a cosine.
+    pub fn all_for_effect(target: &Target) -> &'static [ExecutionPath] {
+        match target.stack {
+            Stack::DxcToVulkan(_) => &[ExecutionPath::Own, ExecutionPath::Hlsl2021],
             _ => &[ExecutionPath::Own],
         }
     }
@@ -196,7 +206,7 @@ impl Devices {
                 code,
                 entry,
                 uniforms: &uniforms,
-                textured: call.is_textured(),
+                texture: call.is_textured().then_some(TextureShape::Flat),
             };
             let (kernel, params) = (device.prepare(&program)?, params.clone());
             Ok(Runnable {
@@ -231,6 +241,63 @@ impl Devices {
                 ready(ShaderCode::Spirv(&code), ENTRY, false)
             }
             _ => ready(ShaderCode::Wgsl(&shader), ENTRY, false),
+        }
+    }
+}
+
+impl Devices {
+    /// Runs a function of an effect at the points of a trial.
+    ///
+    /// # Errors
+    /// A compiler refuses the text, what it takes is not here, or the device fails.
+    pub fn run_effect(
+        &self,
+        shown: &ShippedFunction,
+        path: ExecutionPath,
+        trial: &EffectTrial,
+    ) -> Result<Vec<[f32; 3]>, RunFault> {
+        let emitted = shown.function;
+        let device = self.device_for(shown.target, path)?;
+        let params = &emitted.function.params;
+        let reads = |ty: Ty| params.iter().any(|param| param.ty == ty);
+        let shape = match (reads(Ty::Texture), reads(Ty::Cube)) {
+            (true, _) => Some(TextureShape::Flat),
+            (_, true) => Some(TextureShape::Cube),
+            _ => None,
+        };
+        let run = |code: ShaderCode, entry: &str| -> Result<Vec<[f32; 3]>, RunFault> {
+            let program = Program {
+                code,
+                entry,
+                uniforms: &[],
+                texture: shape,
+            };
+            let batch = device.prepare_batch(&program, places(params))?;
+            let texture = shape.map(|shape| Texture {
+                width: TEXELS,
+                texels: &trial.texels,
+                format: TextureFormat::Half,
+                wrap: Wrap::Clamp,
+                shape,
+                filter: TextureFilter::Linear,
+            });
+            Ok(batch.run(&trial.places(), texture.as_ref())?)
+        };
+        if let Stack::SpirvModule = shown.target.stack {
+            return run(ShaderCode::Spirv(shown.bytes), shown.entry);
+        }
+        let text = std::str::from_utf8(shown.bytes)
+            .map_err(|fault| RunFault::Failed(fault.to_string()))?;
+        let program = batch_program(shown.target, text, &[emitted]);
+        let program = program.ok_or_else(|| not_run(shown.target))?;
+        let entry = batch_entry(&emitted.name);
+        match shown.target.stack {
+            Stack::OpenGlEs(_) => run(ShaderCode::Gles(&program), "main"),
+            Stack::DxcToVulkan(_) => {
+                let code = hlsl_to_spirv(&program, &entry, path.hlsl_version())?;
+                run(ShaderCode::Spirv(&code), &entry)
+            }
+            _ => run(ShaderCode::Wgsl(&program), &entry),
         }
     }
 }
@@ -297,6 +364,8 @@ impl Runnable {
                 texels,
                 format: TextureFormat::Half,
                 wrap: Wrap::Clamp,
+                shape: TextureShape::Flat,
+                filter: TextureFilter::Linear,
             });
         Ok(self.kernel.run(cosines, &uniforms, texture.as_ref())?)
     }

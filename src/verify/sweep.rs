@@ -37,7 +37,7 @@ pub fn sweep(
         code: ShaderCode::Wgsl(&harness::stream(text, &call)),
         entry: harness::ENTRY,
         uniforms: &[],
-        textured: false,
+        texture: None,
     })?;
     let bound = match trial.bound {
         Measured::Yes(ulp) => ulp,

@@ -117,7 +117,7 @@ fn says(text: &str, what: &str) -> bool {
 /// What each short head must say; what it leaves out stands in the manifest.
 #[test]
 fn short_heads_say_what_is_needed_and_the_manifest_says_the_rest() {
-    for artifact in in_both_precisions(HeaderForm::Short) {
+    for artifact in of_functions(HeaderForm::Short) {
         let (path, text) = (&artifact.path, String::from_utf8_lossy(&artifact.bytes));
         let argument = match artifact.method {
             Some(_) => "Arguments: cos_theta",
@@ -171,7 +171,7 @@ fn short_heads_say_what_is_needed_and_the_manifest_says_the_rest() {
 /// Above a function of a material stand at most six lines, links and what is broken over two lines included.
 #[test]
 fn short_heads_are_short() {
-    for artifact in in_both_precisions(HeaderForm::Short) {
+    for artifact in of_functions(HeaderForm::Short) {
         let text = String::from_utf8_lossy(&artifact.bytes);
         if artifact.material.is_none() || artifact.path.ends_with(".spv") {
             continue;
@@ -186,7 +186,7 @@ fn short_heads_are_short() {
 /// What each full head must say, as the beginning of a comment line.
 #[test]
 fn heads_say_all_that_they_must() {
-    for artifact in in_both_precisions(HeaderForm::Full)
+    for artifact in of_functions(HeaderForm::Full)
         .iter()
         .filter(|artifact| !artifact.path.ends_with(".spv"))
     {
@@ -224,6 +224,39 @@ fn heads_say_all_that_they_must() {
             let words: Vec<&str> = formula.split_whitespace().collect();
             let all = words.iter().all(|word| text.contains(word));
             assert!(all, "{}: the formula is not there", artifact.path);
+        }
+    }
+}
+
+/// Of the tree of all targets the files of methods and materials.
+fn of_functions(header: HeaderForm) -> Vec<Artifact> {
+    let mut all = in_both_precisions(header);
+    all.retain(|artifact| artifact.effect.is_none());
+    all
+}
+
+/// What the head of an effect must say, and the comments above each of its functions.
+#[test]
+fn heads_of_effects_say_what_they_must() {
+    let all = in_both_precisions(HeaderForm::Short);
+    let mut of_effects = all
+        .iter()
+        .filter(|one| one.effect.is_some() && !one.path.ends_with(".spv"));
+    assert!(of_effects.clone().count() >= 5 * fresnel_gen::effects::ALL.len());
+    for artifact in &mut of_effects {
+        let (path, text) = (&artifact.path, String::from_utf8_lossy(&artifact.bytes));
+        let command = "Regenerate: fresnel-gen --target ";
+        for what in [command, "Licence of this file: ", "Source: ", "Wrong: "] {
+            assert!(says(&text, what), "{path}: no line begins with `{what}`");
+        }
+        let functions = artifact.detail.functions();
+        let stated = text.lines().filter(|line| line.contains("Code error: "));
+        assert_eq!(stated.count(), functions.len(), "{path}");
+        let detail = serde_json::json!(artifact.detail);
+        for function in detail["functions"].as_array().expect("functions") {
+            for key in ["gives", "source", "signature", "code_error"] {
+                assert!(!function[key].is_null(), "{path}: {key}");
+            }
         }
     }
 }

@@ -4,6 +4,7 @@ use core::fmt;
 
 use crate::app::fault::RequestFault;
 use crate::cost::{FAMILIES, Family};
+use crate::effects::{self, Effect};
 use crate::methods::{self, Method};
 use crate::names::UnknownName;
 use crate::num::Precision;
@@ -124,6 +125,11 @@ pub fn in_any_case<T, E>(
 /// The parser of a method's name, or `all`.
 pub fn method_or_all() -> impl Fn(&str) -> Result<Choice<&'static Method>, UnknownName> + Clone {
     one_or_all("method", methods::ALL.iter().copied(), |method| method.name)
+}
+
+/// The parser of an effect's name, or `all`.
+pub fn effect_or_all() -> impl Fn(&str) -> Result<Choice<&'static Effect>, UnknownName> + Clone {
+    one_or_all("effect", effects::ALL.iter().copied(), |effect| effect.name)
 }
 
 /// The parser of a target's name, or `all`.

@@ -5,11 +5,12 @@ use std::path::PathBuf;
 use clap::Args;
 
 use crate::cost::Family;
+use crate::effects::Effect;
 use crate::emit::HeaderForm;
 use crate::methods::Method;
 use crate::targets::Target;
 
-use super::choice::{Choice, family, method_or_all, one_of, target_or_all};
+use super::choice::{Choice, effect_or_all, family, method_or_all, one_of, target_or_all};
 use super::output::file_only;
 use super::{GamutFlags, MaterialFlags, MediumFlags, PrecisionFlags, TreeFlags};
 
@@ -23,6 +24,9 @@ pub struct GenerateFlags {
     /// Method, see `fresnel-gen methods` [default: all; for a material: exact, fitted, two Schlick variants and table]
     #[arg(long, value_delimiter = ',', value_name = "NAME", value_parser = method_or_all())]
     pub method: Vec<Choice<&'static Method>>,
+    /// Effect, see `fresnel-gen effects`, or all: write its functions and nothing else, with R by --method, specialised to --material [default: all where nothing is named]
+    #[arg(long, value_delimiter = ',', value_name = "NAME", value_parser = effect_or_all(), conflicts_with = "budget")]
+    pub effect: Vec<Choice<&'static Effect>>,
     /// Which materials.
     #[command(flatten)]
     pub materials: MaterialFlags,

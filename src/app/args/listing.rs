@@ -1,7 +1,8 @@
-//! The flags of `methods` and `targets`.
+//! The flags of `methods`, `effects` and `targets`.
 
 use clap::{Args, Subcommand};
 
+use crate::effects::{self, Effect};
 use crate::methods::{self, Method};
 use crate::targets::{self, Target};
 
@@ -30,6 +31,31 @@ pub enum MethodsCommand {
         /// Its name
         #[arg(value_parser = one_of("method", methods::ALL.iter().copied(), |method| method.name))]
         name: &'static Method,
+    },
+}
+
+/// The flags of `effects`.
+#[derive(Args, Debug)]
+#[command(mut_arg("json", |arg| arg.global(true)))]
+pub struct EffectsFlags {
+    /// `list`, or `show NAME`
+    #[command(subcommand)]
+    pub what: Option<EffectsCommand>,
+    /// The report.
+    #[command(flatten)]
+    pub report: ReportFlags,
+}
+
+/// What is listed of effects.
+#[derive(Clone, Copy, Debug, Subcommand)]
+pub enum EffectsCommand {
+    /// Name, summary and source of each
+    List,
+    /// All that is known of one
+    Show {
+        /// Its name
+        #[arg(value_parser = one_of("effect", effects::ALL.iter().copied(), |effect| effect.name))]
+        name: &'static Effect,
     },
 }
 

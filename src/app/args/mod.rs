@@ -31,7 +31,9 @@ pub use choice::Choice;
 pub use cost::CostFlags;
 pub use fit::{End, FitFlags};
 pub use generate::GenerateFlags;
-pub use listing::{MethodsCommand, MethodsFlags, TargetsCommand, TargetsFlags};
+pub use listing::{
+    EffectsCommand, EffectsFlags, MethodsCommand, MethodsFlags, TargetsCommand, TargetsFlags,
+};
 pub use material::{MaterialFlags, MaterialName, MediumFlags};
 pub use materials::{
     FilterFlags, ImportFlags, MaterialsCommand, MaterialsFlags, ParamsFlags, ShowFlags, SurveyFlags,
@@ -76,6 +78,9 @@ pub enum Command {
         after_help = "Examples:\n  fresnel-gen materials list --class metal\n  fresnel-gen materials params gold --space acescg --json -\n  fresnel-gen materials show gold --svg gold.svg\n  fresnel-gen materials import main/Au/nk/Johnson.yml --name my_gold -o my_gold.toml"
     )]
     Materials(Box<MaterialsFlags>),
+    /// List the effects, or show one with its functions, their arguments, and where it must be wrong
+    #[command(after_help = "Example:\n  fresnel-gen effects show interior")]
+    Effects(EffectsFlags),
     /// List the targets, or show one with its validators
     #[command(after_help = "Example:\n  fresnel-gen targets show gles")]
     Targets(TargetsFlags),
@@ -114,6 +119,7 @@ impl Cli {
         };
         match command {
             Command::Methods(flags) => named.write(&flags.report.json),
+            Command::Effects(flags) => named.write(&flags.report.json),
             Command::Targets(flags) => named.write(&flags.report.json),
             Command::Materials(flags) => named.materials(flags),
             Command::Bake(flags) => {

@@ -6,6 +6,7 @@ use clap::Args;
 
 #[cfg(feature = "gpu")]
 use crate::command_line::CommandLine;
+use crate::effects::Effect;
 #[cfg(feature = "gpu")]
 use crate::gpu::Backend;
 #[cfg(feature = "gpu")]
@@ -17,7 +18,7 @@ use crate::targets::Target;
 
 #[cfg(feature = "gpu")]
 use super::choice::one_of;
-use super::choice::{Choice, method_or_all, target_or_all};
+use super::choice::{Choice, effect_or_all, method_or_all, target_or_all};
 use super::{CheckReportFlags, GamutFlags, MaterialFlags, MediumFlags, PrecisionFlags};
 
 /// The flags of `verify`.
@@ -32,6 +33,9 @@ pub struct VerifyFlags {
     /// Method, see `fresnel-gen methods` [default: all; of a material's file those that it holds]
     #[arg(long, value_delimiter = ',', value_name = "NAME", value_parser = method_or_all())]
     pub method: Vec<Choice<&'static Method>>,
+    /// Effect, see `fresnel-gen effects`, or all: run its functions and nothing else, with R by --method, specialised to --material [default: all where nothing is named]
+    #[arg(long, value_delimiter = ',', value_name = "NAME", value_parser = effect_or_all(), conflicts_with = "exhaustive")]
+    pub effect: Vec<Choice<&'static Effect>>,
     /// Which materials.
     #[command(flatten)]
     pub materials: MaterialFlags,
@@ -91,6 +95,7 @@ impl VerifyFlags {
         let points = (!self.exhaustive && !is_half).then_some(self.points);
         CommandLine::new("verify")
             .list("target", &self.target)
+            .list("effect", &self.effect)
             .list("method", &self.method)
             .list("material", &self.materials.material)
             .list("medium", &self.medium.medium)

@@ -128,6 +128,7 @@ fn request(flags: &GenerateFlags) -> Result<Request, Error> {
     Ok(Request {
         targets: target_words(flags)?,
         methods: flags.method.iter().map(ToString::to_string).collect(),
+        effects: flags.effect.iter().map(ToString::to_string).collect(),
         materials: flags.materials.materials()?,
         medium: flags.medium.source()?,
         prefix: flags.prefix.clone(),
@@ -355,7 +356,7 @@ pub fn kept(out_dir: &Path, precision: Precision) -> Result<Kept, Error> {
     };
     let mut kept = Kept::new();
     let mut entries = Manifest::parse(&path, &text)?.files;
-    entries.retain(|entry| entry.precision() == precision.name());
+    entries.retain(|entry| entry.effect.is_none() && entry.precision() == precision.name());
     for entry in entries {
         let Some(material) = &entry.material else {
             continue;

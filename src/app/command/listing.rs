@@ -1,11 +1,14 @@
-//! `methods` and `targets`: list and show.
+//! `methods`, `effects` and `targets`: list and show.
 
 use std::path::Path;
 
 use serde::Serialize;
 
-use crate::app::args::{MethodsCommand, MethodsFlags, TargetsCommand, TargetsFlags};
+use crate::app::args::{
+    EffectsCommand, EffectsFlags, MethodsCommand, MethodsFlags, TargetsCommand, TargetsFlags,
+};
 use crate::app::error::Error;
+use crate::effects::{self, Effect, EffectFunction};
 use crate::emit;
 use crate::methods::{self, Contract, Method};
 use crate::report::table;
@@ -26,6 +29,20 @@ pub fn methods(flags: &MethodsFlags) -> Result<Output, Error> {
         source: method.source.line(),
     };
     listed("methods", methods::ALL.iter().map(row).collect(), file)
+}
+
+/// `fresnel-gen effects`.
+pub fn effects(flags: &EffectsFlags) -> Result<Output, Error> {
+    let file = flags.report.json();
+    if let Some(EffectsCommand::Show { name: effect }) = flags.what {
+        return report(effect_text(effect), &EffectSheet::new(effect), file);
+    }
+    let row = |effect: &&'static Effect| NameRow {
+        name: effect.name,
+        summary: effect.summary,
+        source: effect.source.line(),
+    };
+    listed("effects", effects::ALL.iter().map(row).collect(), file)
 }
 
 /// `fresnel-gen targets`.
@@ -147,6 +164,100 @@ impl MethodSheet {
                 reason: method.half.library_refusal(),
                 specialised: method.half.refusal().is_none(),
             },
+        }
+    }
+}
+
+fn effect_text(effect: &Effect) -> String {
+    let mut lines = vec![
+        format!("{}: {}", effect.name, effect.summary),
+        String::new(),
+    ];
+    lines.extend(effect.formula.iter().map(|line| format!("  {line}")));
+    lines.push(String::new());
+    lines.push(format!("source      {}", effect.source.line()));
+    for (title, said) in [("use", effect.conventions), ("fails", effect.fails)] {
+        lines.extend(said.iter().map(|line| format!("{title:<12}{line}")));
+    }
+    for function in effect.functions {
+        lines.push(String::new());
+        lines.push(format!("{}: {}", function.name, function.gives));
+        for argument in effect_arguments(function) {
+            let ArgumentRow {
+                name,
+                meaning,
+                domain,
+            } = argument;
+            lines.push(
+                match domain.starts_with(|c: char| c.is_ascii_digit() || c == '-') {
+                    true => format!("  {name}: {meaning} (error stated for {domain})"),
+                    false => format!("  {name}: {meaning}"),
+                },
+            );
+        }
+    }
+    lines.join("\n") + "\n"
+}
+
+/// What a function takes; behind these stand the inputs of the method, where it asks for R.
+fn effect_arguments(function: &EffectFunction) -> Vec<ArgumentRow> {
+    let row = |argument: &effects::Argument| ArgumentRow {
+        name: argument.name,
+        meaning: argument.meaning,
+        domain: argument.domain.words(),
+    };
+    let mut rows: Vec<ArgumentRow> = function.arguments.iter().map(row).collect();
+    if function.reflectance.is_used() {
+        rows.push(ArgumentRow {
+            name: "...",
+            meaning: "what the method of R takes after cos_theta: eta for dielectric_exact",
+            domain: "as for the method".to_owned(),
+        });
+    }
+    rows
+}
+
+/// What is known of an effect.
+#[derive(Serialize)]
+struct EffectSheet {
+    schema: u32,
+    name: &'static str,
+    summary: &'static str,
+    source: String,
+    formula: &'static [&'static str],
+    conventions: &'static [&'static str],
+    fails: &'static [&'static str],
+    functions: Vec<EffectFunctionRow>,
+}
+
+/// A function of an effect.
+#[derive(Serialize)]
+struct EffectFunctionRow {
+    name: &'static str,
+    gives: &'static str,
+    arguments: Vec<ArgumentRow>,
+    asks_for_reflectance: bool,
+    code_abs: f64,
+}
+
+impl EffectSheet {
+    fn new(effect: &'static Effect) -> EffectSheet {
+        let row = |function: &EffectFunction| EffectFunctionRow {
+            name: function.name,
+            gives: function.gives,
+            arguments: effect_arguments(function),
+            asks_for_reflectance: function.reflectance.is_used(),
+            code_abs: function.code_abs,
+        };
+        EffectSheet {
+            schema: SCHEMA,
+            name: effect.name,
+            summary: effect.summary,
+            source: effect.source.line(),
+            formula: effect.formula,
+            conventions: effect.conventions,
+            fails: effect.fails,
+            functions: effect.functions.iter().map(row).collect(),
         }
     }
 }

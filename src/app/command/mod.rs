@@ -66,6 +66,7 @@ pub fn run(cli: &Cli, progress: Progress, announce: Announce) -> Result<Output, 
         None => generate::run(&cli.generate, announce),
         Some(Command::Methods(listing)) => listing::methods(listing),
         Some(Command::Materials(listing)) => materials::run(listing, progress),
+        Some(Command::Effects(listing)) => listing::effects(listing),
         Some(Command::Targets(listing)) => listing::targets(listing),
         Some(Command::Bake(flags)) => bake::run(flags, progress, announce),
         #[cfg(feature = "gpu")]

@@ -86,6 +86,7 @@ fn request(flags: &VerifyFlags) -> Result<Request, Error> {
     Ok(Request {
         targets: flags.target.iter().map(ToString::to_string).collect(),
         methods: flags.method.iter().map(ToString::to_string).collect(),
+        effects: flags.effect.iter().map(ToString::to_string).collect(),
         materials: flags.materials.materials()?,
         medium: flags.medium.source()?,
         viewing: flags.viewing.conditions()?,

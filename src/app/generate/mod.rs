@@ -1,5 +1,6 @@
 //! Generation: a request becomes artifacts in memory. Pure: nothing is read, nothing is written.
 
+mod effects;
 mod owners;
 mod single;
 mod written;
@@ -20,6 +21,7 @@ use super::manifest::{Input, Provenance};
 use super::request::{Materials, Request};
 use super::scope::Scope;
 use super::subjects::Subjects;
+use effects::WantedEffects;
 use owners::Owners;
 
 pub use single::generate_single;
@@ -83,7 +85,10 @@ pub fn generate_beside(request: &Request, kept: &Kept) -> Result<Generated, Erro
         artifacts,
         scope: run.scope(),
         provenance: run.provenance(),
-        refused: written::refused(request, run.named.as_deref()),
+        refused: written::refused(request, run.named.as_deref())
+            .into_iter()
+            .chain(run.unchanged_effects())
+            .collect(),
         left_out: run.left_out,
     })
 }
@@ -143,8 +148,11 @@ pub fn generate_meant<'r>(
 }
 
 fn made(run: &Run, kept: &Kept) -> Result<Vec<Made>, Error> {
-    let mut files = Vec::new();
     let mut owners = Owners::default();
+    if run.is_of_effects() {
+        return run.effect_files(&mut owners);
+    }
+    let mut files = Vec::new();
     let mut library = written::library_methods(run.request, run.named.as_deref());
     library.retain(|_| run.request.chosen.is_empty());
     for method in library {
@@ -153,6 +161,7 @@ fn made(run: &Run, kept: &Kept) -> Result<Vec<Made>, Error> {
     for (index, (subject, _)) in run.subjects.iter().enumerate() {
         files.extend(run.material(index, subject, kept, &mut owners)?);
     }
+    files.extend(run.effect_files(&mut owners)?);
     Ok(files)
 }
 
@@ -162,6 +171,7 @@ struct Run<'r> {
     targets: Vec<&'static Target>,
     /// The methods asked for by name; nothing where all are meant.
     named: Option<Vec<&'static Method>>,
+    effects: WantedEffects,
     subjects: Vec<(MaterialInMedium, String)>,
     left_out: Vec<Unseen>,
     naming: Naming,
@@ -174,7 +184,8 @@ impl<'r> Run<'r> {
     fn new(request: &'r Request) -> Result<Run<'r>, Error> {
         let named = request.resolved_methods()?;
         request.derivation()?;
-        let no_materials = named.is_some() && request.materials == Materials::Default
+        let names_others = named.is_some() || !request.effects.is_empty();
+        let no_materials = names_others && request.materials == Materials::Default
             || request.materials == Materials::None;
         written::check(request, named.as_deref(), no_materials)?;
         let subjects = if no_materials {
@@ -187,6 +198,7 @@ impl<'r> Run<'r> {
             targets: request.resolved_targets()?,
             subjects: subjects.ready,
             left_out: subjects.left_out,
+            effects: effects::wanted(request, named.as_deref())?,
             named,
             naming: request.naming(),
             bounds: Bounds::recorded(),
@@ -335,21 +347,20 @@ impl<'r> Run<'r> {
                 .collect()
         };
         let request = self.request;
+        let is_of_effects = self.is_of_effects();
+        let subjects = self.subjects.iter().filter(|_| !is_of_effects);
         Scope {
             targets: self
                 .targets
                 .iter()
                 .map(|target| target.name.to_owned())
                 .collect(),
-            methods: match request.chosen.is_empty() {
+            methods: match request.chosen.is_empty() && !is_of_effects {
                 true => self.named.as_ref().map(names),
                 false => Some(BTreeSet::new()),
             },
-            materials: self
-                .subjects
-                .iter()
-                .map(|(subject, _)| subject.name.clone())
-                .collect(),
+            materials: subjects.map(|(subject, _)| subject.name.clone()).collect(),
+            effects: self.effect_keys().into_iter().collect(),
             shared: false,
             precision: request.precision,
             whole: request.targets.is_empty() && request.names_nothing(),
@@ -379,6 +390,7 @@ fn artifact(target: &Target, file: File, method: Option<&str>, material: Option<
         path: format!("{}/{}", target.name, file.name),
         bytes: file.bytes,
         target: target.name.to_owned(),
+        effect: None,
         method: method.map(str::to_owned),
         material: material.map(str::to_owned),
         detail: file.detail,

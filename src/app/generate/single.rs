@@ -6,6 +6,7 @@ use crate::app::error::Error;
 use crate::app::fault::RequestFault;
 use crate::app::request::{Materials, Request};
 use crate::emit::{self, Heading, PlaceInFile};
+use crate::targets::{Finish, Target};
 
 use super::owners::Owners;
 use super::{Run, written};
@@ -39,6 +40,9 @@ pub fn generate_single(request: &Request) -> Result<Vec<u8>, Error> {
     let [target] = run.targets.as_slice() else {
         return Err(RequestFault::conflict("-o takes one --target").into());
     };
+    if run.is_of_effects() {
+        return effects(&run, target);
+    }
     let (mut pages, mut owners) = (Vec::new(), Owners::default());
     for (subject, _) in &run.subjects {
         let methods = written::named_or(&run, &subject.name, &[subject.exact_method()]);
@@ -79,6 +83,21 @@ pub fn generate_single(request: &Request) -> Result<Vec<u8>, Error> {
         let target = target.name;
         let why = format!("-o takes one function for {target}: name one --method");
         return Err(RequestFault::conflict(why).into());
+    }
+    Ok(pages.join(&b"\n"[..]))
+}
+
+/// The functions of effects, one behind the other; what the method and the material do not change in its usual form.
+fn effects(run: &Run, target: &'static Target) -> Result<Vec<u8>, Error> {
+    let all = run.whole_effects()?;
+    if target.finish == Finish::Spirv && all.len() > 1 {
+        let why = format!("-o takes one effect for {}: name one --effect", target.name);
+        return Err(RequestFault::conflict(why).into());
+    }
+    let mut pages = Vec::new();
+    for (request, functions) in &all {
+        let command = run.effect_command(target, request) + " -o -";
+        pages.push(emit::effect_text(target, request, functions, &command)?);
     }
     Ok(pages.join(&b"\n"[..]))
 }

@@ -160,7 +160,7 @@ fn page(
 /// Whether a function's method was asked for: by name, or because none was named.
 fn is_asked_for(request: &Request, emitted: &Emitted) -> bool {
     let named = |name: &String| name == "all" || name == emitted.method.name;
-    request.methods.is_empty() || request.methods.iter().any(named)
+    emitted.effect.is_some() || request.methods.is_empty() || request.methods.iter().any(named)
 }
 
 fn usual_subjects(request: &Request) -> Result<Vec<MaterialInMedium>, Error> {

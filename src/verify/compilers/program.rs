@@ -75,27 +75,47 @@ fn call(head: &str) -> Option<String> {
     let (before, rest) = head.split_once('(')?;
     let (parameters, _) = rest.split_once(')')?;
     let name = before.split_whitespace().last()?;
-    let arguments: Vec<&str> = parameters
+    let arguments: Vec<String> = parameters
         .split(',')
-        .map(|parameter| argument(parameter.trim()))
+        .map(str::trim)
+        .filter(|parameter| !parameter.is_empty())
+        .map(argument)
         .collect();
     Some(format!("    sum += {name}({});\n", arguments.join(", ")))
 }
 
-fn argument(parameter: &str) -> &'static str {
+fn argument(parameter: &str) -> String {
     let is_wgsl = parameter.split_once(": ").map(|(_, ty)| ty);
     let is_c = || parameter.rsplit_once(' ').map(|(ty, _)| ty);
     let ty = is_wgsl.or_else(is_c).unwrap_or(parameter);
+    // Without a precision before it.
+    let ty = ty.split_whitespace().last().unwrap_or(ty);
+    let lower = ty.to_lowercase();
     // GLSL has its texture and its sampler in one.
-    if ty.contains("sampler2D") || ty.to_lowercase().contains("texture") {
+    let known = if lower.contains("cube") {
+        "a_cube"
+    } else if lower.contains("sampler2d") || lower.contains("texture") {
         "a_texture"
-    } else if ty.to_lowercase().contains("sampler") {
+    } else if lower.contains("sampler") {
         "a_sampler"
-    } else if ty.ends_with('3') || ty.starts_with("vec3") {
-        "at"
+    } else if lower.contains("4x4") || lower == "mat4" {
+        return format!("{ty}(at.xyzx, at.xyzx, at.xyzx, at.xyzx)");
     } else {
-        "at.x"
-    }
+        match ty.find(['2', '3', '4']).map(|place| &ty[place..=place]) {
+            Some("4") if is_vector(ty) => "at.xyzx",
+            Some("3") if is_vector(ty) => "at",
+            Some("2") if is_vector(ty) => "at.xy",
+            _ => "at.x",
+        }
+    };
+    known.to_owned()
+}
+
+/// Whether a type has several numbers, by its name: `vec3<f32>`, `vec3`, `float3`, `half3`; `f32` has one.
+fn is_vector(ty: &str) -> bool {
+    ["vec", "float", "half"]
+        .iter()
+        .any(|start| ty.starts_with(start))
 }
 
 #[cfg(test)]
@@ -124,6 +144,22 @@ mod tests {
         check(
             "float f(Texture2D<float4> t, SamplerState t_sampler)\n{}\n",
             "    sum += f(a_texture, a_sampler);\n",
+        );
+        check(
+            "fn f(a: vec2<f32>, b: vec4<f32>, c: texture_cube<f32>, c_sampler: sampler) -> f32 {}\n",
+            "    sum += f(at.xy, at.xyzx, a_cube, a_sampler);\n",
+        );
+        check(
+            "mediump vec3 f(mediump float c, mediump vec3 f0) {}\n",
+            "    sum += f(at.x, at);\n",
+        );
+        check(
+            "highp float f(highp mat4 m, highp samplerCube c, highp vec2 v) {}\n",
+            "    sum += f(mat4(at.xyzx, at.xyzx, at.xyzx, at.xyzx), a_cube, at.xy);\n",
+        );
+        check(
+            "float f(float4x4 m, TextureCube<float4> c, SamplerState c_sampler) {}\n",
+            "    sum += f(float4x4(at.xyzx, at.xyzx, at.xyzx, at.xyzx), a_cube, a_sampler);\n",
         );
     }
 

@@ -2,7 +2,7 @@
 
 use std::fs;
 
-use fresnel_gen::{methods, targets};
+use fresnel_gen::{effects, methods, targets};
 
 use super::{MY_METAL, OUT, Place, contents};
 
@@ -60,6 +60,12 @@ fn the_tree_is_the_documented_one() {
             };
             expected.extend(target.pages.iter().map(name));
         }
+        let last = target.pages.last().expect("a target has a page").suffix;
+        let effect = |effect: &&'static effects::Effect| {
+            let (target, ending) = (target.name, target.extension);
+            format!("{target}/effects/{}{last}.{ending}", effect.name)
+        };
+        expected.extend(effects::ALL.iter().map(effect));
         let array = format!("{}/catalogue.{}", target.name, target.extension);
         expected.extend(target.catalogue.map(|_| array));
     }

@@ -12,6 +12,7 @@ mod cost;
 mod determinism;
 #[cfg(unix)]
 mod disk;
+mod effects;
 mod files;
 mod fit;
 mod generation;

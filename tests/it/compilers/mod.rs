@@ -18,7 +18,7 @@ use fresnel_gen::lut::{self, TableAxis};
 use fresnel_gen::num::Precision;
 use fresnel_gen::targets::Target;
 use fresnel_gen::verify::compilers::Verdict;
-use fresnel_gen::{emit, methods, targets};
+use fresnel_gen::{effects, emit, methods, targets};
 use serde_json::json;
 
 use crate::not_checked;
@@ -73,7 +73,8 @@ pub fn tree(target: &str) -> Vec<&'static Artifact> {
     let folder = format!("{target}/");
     let mut files = files(target);
     files.retain(|file| file.path.starts_with(&folder));
-    assert_eq!(files.len(), methods::ALL.len() + DEFAULT_MATERIALS.len());
+    let count = methods::ALL.len() + DEFAULT_MATERIALS.len() + effects::ALL.len();
+    assert_eq!(files.len(), count);
     files
 }
 
@@ -194,6 +195,7 @@ fn lookup(
     Artifact {
         path: format!("lookups/{name}.{}", target.extension),
         target: target.name.to_owned(),
+        effect: None,
         method: None,
         material: None,
         detail,

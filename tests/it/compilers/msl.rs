@@ -29,7 +29,7 @@ half operator/(half, half);
 bool operator<(half, half);
 namespace metal {
 struct float3 {
-    float r, g, b;
+    float r, g, b, x, y, z;
     explicit float3(float);
     float3(float, float, float);
 };
@@ -53,11 +53,15 @@ HALF_OPERATOR(+) HALF_OPERATOR(-) HALF_OPERATOR(*) HALF_OPERATOR(/)
 HALF_ONE(abs) HALF_ONE(exp2) HALF_ONE(log2) HALF_ONE(rsqrt) HALF_ONE(saturate) HALF_ONE(sqrt)
 #define HALF_TWO(f) half f(half, half); half3 f(half3, half3);
 HALF_TWO(max) HALF_TWO(min)
-struct float2 { float2(float, float); explicit float2(half, half); };
-struct float4 { float3 rgb; };
+float dot(float3, float3);
+struct float2 { float x, y; float2(float, float); explicit float2(half, half); };
+struct float4 { float3 rgb; float a, x, y, z, w; float4(float3, float); };
+struct float4x4 {};
+float4 operator*(float4x4, float4);
 struct sampler {};
 struct level { explicit level(float); };
 template <typename T> struct texture2d { float4 sample(sampler, float2, level) const; };
+template <typename T> struct texturecube { float4 sample(sampler, float3, level) const; };
 }
 ";
 

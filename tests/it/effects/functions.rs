@@ -452,3 +452,31 @@ fn a_rough_mirror_keeps_nearly_all_light_and_never_gains() {
         }
     }
 }
+
+/// Light that leaves diamond is reflected totally from 24.4 degrees on: a function of the material has the inverse index.
+#[test]
+fn an_exit_from_a_material_reflects_totally() {
+    let subjects = crate::subjects(&["diamond"]);
+    let request = fresnel_gen::emit::EffectRequest {
+        effect: fresnel_gen::effects::find("interior").expect("an effect"),
+        method: fresnel_gen::methods::find("dielectric_exact").expect("a method"),
+        subject: Some(&subjects[0]),
+    };
+    let functions = request.functions(&Default::default()).expect("well formed");
+    let names: Vec<&str> = functions.iter().map(|one| one.name.as_str()).collect();
+    assert_eq!(names, ["fresnel_exit_transmittance_diamond"]);
+    for (degrees, passes) in [
+        (0.0, true),
+        (20.0, true),
+        (24.0, true),
+        (25.0, false),
+        (60.0, false),
+    ] {
+        let theta = f64::to_radians(degrees);
+        let direction = [theta.sin(), 0.0, theta.cos()];
+        let t: [f64; 3] = evaluate(&functions[0].function, &[vector(direction), vector(UP)]).at(0);
+        let want = 1.0 - optics::dielectric(1.0 / 2.4229, theta.cos()).unpolarised();
+        assert_eq!(t[1] > 1e-7, passes, "{degrees}: {t:?}");
+        assert!((t[1] - want).abs() < 1e-3, "{degrees}: {t:?} {want}");
+    }
+}

@@ -1,31 +1,38 @@
 //! The files of effects in every language.
 
-use fresnel_gen::emit::{EffectRequest, effect_file};
+use fresnel_gen::emit::{self, EffectRequest, Naming};
 use fresnel_gen::{effects, methods, targets};
 
 /// WGSL and SPIR-V are parsed and validated by naga; the other languages have validators of their own.
 #[test]
 fn every_effect_is_written_in_every_language_by_every_method() {
+    let naming = Naming::default();
     for effect in effects::ALL {
-        for method in methods::ALL {
-            for target in targets::ALL.iter().filter(|target| target.name != "spirv") {
-                let request = EffectRequest {
-                    effect,
-                    method,
-                    prefix: "fresnel_",
-                    command: "fresnel-gen",
-                };
-                let text = effect_file(target, &request)
+        for method in methods::ALL.iter().filter(|method| !method.is_textured()) {
+            let request = EffectRequest {
+                effect,
+                method,
+                subject: None,
+            };
+            let functions = request.functions(&naming).expect("well formed");
+            let asks = effect
+                .functions
+                .iter()
+                .any(|one| one.reflectance != effects::Reflectance::Unused);
+            let is_usual = method.name == effects::USUAL_METHOD;
+            assert_eq!(functions.is_empty(), !asks && !is_usual, "{}", effect.name);
+            if functions.is_empty() {
+                continue;
+            }
+            for target in targets::ALL {
+                let file = emit::effect_file(target, &request, &functions, &naming, "fresnel-gen")
                     .unwrap_or_else(|fault| panic!("{} {}: {fault}", effect.name, target.name));
-                let text = String::from_utf8(text).expect("text");
-                for function in effect.functions {
-                    assert!(
-                        text.contains(&format!("fresnel_{}(", function.name)),
-                        "{text}"
-                    );
-                }
-                if std::env::var_os("SHOW").is_some() && method.name == effects::USUAL_METHOD {
-                    println!("{text}");
+                let suffix = request.unusual_method().map(|method| format!("_{method}"));
+                let stem = format!("effects/{}{}", effect.name, suffix.unwrap_or_default());
+                assert!(file.name.starts_with(&stem), "{}", file.name);
+                let text = String::from_utf8_lossy(&file.bytes);
+                for emitted in functions.iter().filter(|_| target.name != "spirv") {
+                    assert!(text.contains(&format!("{}(", emitted.name)), "{text}");
                 }
             }
         }

@@ -1,8 +1,8 @@
 //! What cannot run says why, in the words of what refused it.
 
 use fresnel_gen::gpu::{
-    Argument, Backend, Device, DeviceFault, ShaderCode, Texture, TextureFormat, Uniform, Wanted,
-    Wrap, adapters,
+    Argument, Backend, Device, DeviceFault, ShaderCode, Texture, TextureFilter, TextureFormat,
+    TextureShape, Uniform, Wanted, Wrap, adapters,
 };
 
 use super::{device, gles, program, wgsl};
@@ -112,6 +112,8 @@ fn arguments_and_textures_that_do_not_fit() {
         texels: &texels,
         format: TextureFormat::Half,
         wrap: Wrap::Clamp,
+        shape: TextureShape::Flat,
+        filter: TextureFilter::Linear,
     };
     let wgsl = wgsl(
         "fn f(x: f32, n: vec3<f32>) -> vec3<f32> { return n * x; }",

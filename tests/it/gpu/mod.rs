@@ -38,7 +38,7 @@ fn program<'a>(code: ShaderCode<'a>, uniforms: &'a [Uniform]) -> Program<'a> {
         code,
         entry: "main",
         uniforms,
-        textured: false,
+        texture: None,
     }
 }
 

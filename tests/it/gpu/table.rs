@@ -6,7 +6,8 @@ use fresnel_gen::app::tables::{WantedTables, table_materials};
 use fresnel_gen::bake::TableMaterial;
 use fresnel_gen::emit::{self, Emitted, Naming};
 use fresnel_gen::gpu::{
-    Argument, Backend, DeviceFault, Program, ShaderCode, Texture, TextureFormat, Uniform, Wrap,
+    Argument, Backend, DeviceFault, Program, ShaderCode, Texture, TextureFilter, TextureFormat,
+    TextureShape, Uniform, Wrap,
 };
 use fresnel_gen::ir::Weights;
 use fresnel_gen::lut::{Depth, Stored, Table, TableAxis};
@@ -109,7 +110,7 @@ impl<'a> Put<'a> {
                 code,
                 entry: harness::ENTRY,
                 uniforms: &uniforms,
-                textured: true,
+                texture: Some(TextureShape::Flat),
             })
             .unwrap();
         let mut texels: Vec<[f32; 4]> = self
@@ -126,6 +127,8 @@ impl<'a> Put<'a> {
             texels: &texels,
             format: self.format,
             wrap: self.wrap,
+            shape: TextureShape::Flat,
+            filter: TextureFilter::Linear,
         };
         let got = match kernel.run(at, &uniforms, Some(&texture)) {
             Err(DeviceFault::Unable { .. }) => return None,

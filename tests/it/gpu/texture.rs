@@ -1,6 +1,9 @@
 //! A texture is sampled as the filter of the tables says: linear between the centres of texels.
 
-use fresnel_gen::gpu::{Backend, DeviceFault, Program, ShaderCode, Texture, TextureFormat, Wrap};
+use fresnel_gen::gpu::{
+    Backend, DeviceFault, Program, ShaderCode, Texture, TextureFilter, TextureFormat, TextureShape,
+    Wrap,
+};
 
 use super::device;
 
@@ -60,7 +63,7 @@ fn check(backend: Backend, format: TextureFormat, wrap: Wrap, curve: fn(f32) -> 
             code,
             entry: "main",
             uniforms: &[],
-            textured: true,
+            texture: Some(TextureShape::Flat),
         })
         .unwrap();
     let texels: Vec<[f32; 4]> = (0..TEXELS)
@@ -71,6 +74,8 @@ fn check(backend: Backend, format: TextureFormat, wrap: Wrap, curve: fn(f32) -> 
         texels: &texels,
         format,
         wrap,
+        shape: TextureShape::Flat,
+        filter: TextureFilter::Linear,
     };
     let points: Vec<f32> = (0..=256).map(|i| i as f32 / 256.0).collect();
     let got = match kernel.run(&points, &[], Some(&texture)) {

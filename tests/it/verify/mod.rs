@@ -1,6 +1,7 @@
 //! The verifier verified: what is right passes, what is wrong is seen, on every target.
 
 mod command;
+mod effects;
 mod half;
 #[cfg(unix)]
 mod machine;
