@@ -15,7 +15,7 @@ pub const ERROR_SCALE: f64 = 20.0;
 pub fn render_text(row: &RenderedRow, adapter: &str) -> String {
     let percent = |share: f64| format!("{:.2} %", 100.0 * share);
     let error = |of: Difference| format!("mean {:.2}, 99th percentile {:.2}", of.mean, of.p99);
-    let lines = [
+    let mut lines = vec![
         ("effect", row.effect.to_owned()),
         (
             "body",
@@ -48,6 +48,10 @@ pub fn render_text(row: &RenderedRow, adapter: &str) -> String {
         ),
         ("wrong", row.wrong.to_owned()),
     ];
+    if let (Some(l1), Some(energy)) = (row.l1, row.energy) {
+        let light = format!("relative L1 {}, energy {}", percent(l1), percent(energy));
+        lines.insert(5, ("light", light));
+    }
     let line = |(name, value): &(&str, String)| format!("{name:11}{value}\n");
     lines.iter().map(line).collect()
 }

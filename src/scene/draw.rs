@@ -105,7 +105,7 @@ impl PassRow {
 }
 
 /// The module: the functions as users import them, the frame, the row's own passes.
-fn text(row: &RenderRow) -> Result<String, emit::Error> {
+pub(super) fn text(row: &RenderRow) -> Result<String, emit::Error> {
     let wgsl = targets::find("wgsl").expect("a target");
     let method = methods::find(row.method).expect("a row names a method");
     let mut text = String::new();
@@ -134,7 +134,8 @@ fn frame(camera: &Camera, body: &Body, glass: &Glass) -> Vec<u8> {
     numbers.into_iter().flat_map(f32::to_ne_bytes).collect()
 }
 
-fn floats(vertex: &Vertex) -> [f32; VERTEX_FLOATS] {
+/// A vertex as the device takes it.
+pub(super) fn floats(vertex: &Vertex) -> [f32; VERTEX_FLOATS] {
     let (p, n, t, uv) = (vertex.position, vertex.normal, vertex.tangent, vertex.uv);
     let all = [p.x, p.y, p.z, n.x, n.y, n.z, t.x, t.y, t.z, t.w, uv.x, uv.y];
     all.map(|value| value as f32)

@@ -27,6 +27,8 @@ pub enum EnvironmentFault {
     Shape(usize, usize),
 }
 
+/// Texels of a row that a picture of a user may have.
+#[cfg(feature = "gpu")]
 const LARGEST: usize = 16384;
 
 impl Environment {

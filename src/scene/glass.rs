@@ -3,6 +3,7 @@
 use glam::DVec3;
 
 use crate::materials::{Index, Surface};
+use crate::optics::{COS_82, index_from_f0_f82};
 
 /// A material as a tracer takes it.
 #[derive(Clone, Debug, PartialEq)]
@@ -24,6 +25,8 @@ pub struct Ray {
     pub weight: DVec3,
 }
 
+/// A medium with less is seen through.
+const TRANSPARENT_K: f64 = 0.1;
 /// Wavelengths of the integrator that are followed as one ray.
 const TOGETHER: usize = 5;
 
@@ -64,11 +67,21 @@ impl Glass {
                 weight: weights.iter().map(|weight| *weight / sum).sum(),
             }
         });
-        Glass {
+        let mut glass = Glass {
             rays: rays.collect(),
             n: mean(|index| index.n),
             k: mean(|index| index.k),
+        };
+        if surface.most_k() > TRANSPARENT_K {
+            // The index whose colours are the metal's own at two angles: means of a curved spectrum have others.
+            let colours = [1.0, COS_82]
+                .map(|cosine| surface.unpolarised(cosine).clamp(DVec3::ZERO, DVec3::ONE));
+            let pairs = colours[0].to_array().into_iter().zip(colours[1].to_array());
+            let found: Vec<_> = pairs.map(|(f0, f82)| index_from_f0_f82(f0, f82)).collect();
+            glass.n = DVec3::new(found[0].n, found[1].n, found[2].n);
+            glass.k = DVec3::new(found[0].k, found[1].k, found[2].k);
         }
+        glass
     }
 
     /// Without dispersion, at green's index.

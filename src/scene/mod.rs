@@ -3,6 +3,8 @@
 
 mod body;
 mod camera;
+#[cfg(feature = "gpu")]
+mod caustics;
 mod compare;
 #[cfg(feature = "gpu")]
 mod draw;
@@ -18,6 +20,8 @@ mod trace;
 
 pub use body::{Body, Crossing, Vertex};
 pub use camera::Camera;
+#[cfg(feature = "gpu")]
+pub use caustics::{Gathering, Window, caustic_error, caustics, exact_caustics};
 pub use compare::{Comparison, Difference, compare};
 #[cfg(feature = "gpu")]
 pub use draw::{DrawFault, Drawn, draw};

@@ -7,6 +7,7 @@ use crate::gpu::Device;
 
 use super::SAMPLES;
 use super::camera::Camera;
+use super::caustics::{Gathering, Window, caustic_error, caustics, exact_caustics};
 use super::compare::{Comparison, Difference, compare};
 use super::draw::{DrawFault, Drawn, draw};
 use super::environment::Environment;
@@ -76,6 +77,10 @@ pub struct RenderedRow {
     pub false_total: f64,
     /// Rays that are reflected totally and are not drawn so.
     pub missed_total: f64,
+    /// Of light on a receiver: the sum of absolute differences, as a share of the sum of the truth.
+    pub l1: Option<f64>,
+    /// Of light on a receiver: the sum, as a share of that of the truth.
+    pub energy: Option<f64>,
     /// Where it must be wrong.
     pub wrong: &'static str,
 }
@@ -94,6 +99,10 @@ pub fn render(
     progress: &mut dyn FnMut(u64, u64, &str),
 ) -> Result<Picture, DrawFault> {
     let row = order.row;
+    if let Some([below, half]) = row.receiver {
+        progress(0, 1, "drawing");
+        return received(device, order, material, (below, half));
+    }
     let body = row.body.body();
     let flat = order.glass.at_one_index();
     let things = Things {
@@ -142,6 +151,49 @@ pub fn render(
     })
 }
 
+/// Light on a receiver beside the exact map.
+fn received(
+    device: &Device,
+    order: &Order,
+    material: &str,
+    (below, half): (f64, f64),
+) -> Result<Picture, DrawFault> {
+    let window = Window {
+        below,
+        half,
+        pixels: order.size,
+    };
+    let n = order.glass.n.y;
+    let (drawn, hits) = caustics(device, n, &window, Gathering::Triangles)?;
+    let exact = exact_caustics(n, &window);
+    let (l1, energy) = caustic_error(&drawn, &exact);
+    let grey = |map: &[f64]| map.iter().map(|light| DVec3::splat(*light)).collect();
+    let (drawn, truth): (Vec<DVec3>, Vec<DVec3>) = (grey(&drawn), grey(&exact));
+    let all = vec![true; exact.len()];
+    let Comparison { map, difference } = compare(&drawn, &truth, &all, &order.display);
+    let nothing = Drawn {
+        samples: Vec::new(),
+    };
+    Ok(Picture {
+        row: RenderedRow {
+            n,
+            material: material.to_owned(),
+            size: order.size,
+            metric: "CIEDE2000 over all pixels",
+            error: difference,
+            own_error: difference,
+            hits,
+            misses: 1.0 - hits,
+            l1: Some(l1),
+            energy: Some(energy),
+            ..shares(order.row, &nothing, &[])
+        },
+        drawn,
+        truth,
+        map,
+    })
+}
+
 /// The row with its shares, the rest empty.
 fn shares(row: &'static RenderRow, drawn: &Drawn, truth: &[Traced]) -> RenderedRow {
     let seen = drawn.samples.iter().zip(truth);
@@ -175,6 +227,8 @@ fn shares(row: &'static RenderRow, drawn: &Drawn, truth: &[Traced]) -> RenderedR
         true_total: share(&|_, traced| traced.is_total),
         false_total: share(&|what, traced| is_total(what) && !traced.is_total),
         missed_total: share(&|what, traced| !is_total(what) && traced.is_total),
+        l1: None,
+        energy: None,
         wrong: row.wrong,
     }
 }

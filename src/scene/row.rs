@@ -30,6 +30,8 @@ pub struct RenderRow {
     pub true_paths: Paths,
     /// Where the eye is.
     pub eye: [f64; 3],
+    /// Light on a receiver in place of what an eye sees: how far that lies below the body's centre, and half its width.
+    pub receiver: Option<[f64; 2]>,
     /// Where it must be wrong, in one line.
     pub wrong: &'static str,
 }
@@ -118,6 +120,14 @@ const THROUGH: PassRow = PassRow {
     reads: &[Slot::BackPositions, Slot::BackNormals],
 };
 
+/// The body over the sky, by its front alone.
+const FRONT: PassRow = PassRow {
+    fragment: "fs_front",
+    place: Place::Front,
+    writes: &[Slot::Colour],
+    reads: &[],
+};
+
 const FROM_THE_SIDE: [f64; 3] = [0.0, 0.75, 2.9];
 const FROM_ABOVE: [f64; 3] = [0.0, 2.6, 3.0];
 
@@ -136,6 +146,7 @@ pub static ALL: &[RenderRow] = &[
         own_paths: Paths::TwoSurfaces,
         true_paths: Paths::All,
         eye: FROM_THE_SIDE,
+        receiver: None,
         wrong: "light that is reflected inside is missing; the rim",
     },
     RenderRow {
@@ -151,7 +162,88 @@ pub static ALL: &[RenderRow] = &[
         own_paths: Paths::TwoSurfaces,
         true_paths: Paths::All,
         eye: FROM_ABOVE,
+        receiver: None,
         wrong: "rays that are reflected totally leave after one reflection; edges between facets",
+    },
+    RenderRow {
+        name: "reflection_refraction",
+        summary: "A ball of glass by one look-up along the reflected ray and one along the refracted",
+        effects: &["interface"],
+        method: "dielectric_exact",
+        text: include_str!("passes/reflection_refraction.wgsl"),
+        passes: &[SKY, FRONT],
+        body: BodyName::Ball,
+        material: "bk7",
+        disperses: false,
+        own_paths: Paths::OneSurface,
+        true_paths: Paths::All,
+        eye: FROM_THE_SIDE,
+        receiver: None,
+        wrong: "the second surface is missing: the world stands upright where it should be upside down",
+    },
+    RenderRow {
+        name: "caustics",
+        summary: "Light that a ball of glass gathers on a receiver: 256 x 256 photons as triangles",
+        effects: &["interface", "interior", "water", "caustics"],
+        method: "dielectric_exact",
+        text: include_str!("passes/caustics.wgsl"),
+        passes: &[],
+        body: BodyName::Ball,
+        material: "bk7",
+        disperses: false,
+        own_paths: Paths::TwoSurfaces,
+        true_paths: Paths::TwoSurfaces,
+        eye: FROM_ABOVE,
+        receiver: Some([1.2, 1.0]),
+        wrong: "the edge, where photons fold over each other; light that is reflected inside",
+    },
+    RenderRow {
+        name: "dispersion",
+        summary: "A ball of dense flint glass by one refracted ray for each of red, green and blue",
+        effects: &["interface", "dispersion"],
+        method: "dielectric_exact",
+        text: include_str!("passes/dispersion.wgsl"),
+        passes: &[SKY, FRONT],
+        body: BodyName::Ball,
+        material: "sf11",
+        disperses: true,
+        own_paths: Paths::OneSurface,
+        true_paths: Paths::All,
+        eye: FROM_THE_SIDE,
+        receiver: None,
+        wrong: "the second surface is missing, and three samples of the spectrum make three edges",
+    },
+    RenderRow {
+        name: "double_refraction_dispersion",
+        summary: "A ball of dense flint glass: the search for each of eight samples of the spectrum",
+        effects: &["interface", "interior", "water", "dispersion"],
+        method: "dielectric_exact",
+        text: include_str!("passes/double_refraction_dispersion.wgsl"),
+        passes: &[SKY, BACK, THROUGH],
+        body: BodyName::Ball,
+        material: "sf11",
+        disperses: true,
+        own_paths: Paths::TwoSurfaces,
+        true_paths: Paths::All,
+        eye: FROM_THE_SIDE,
+        receiver: None,
+        wrong: "light that is reflected inside is missing; three indices stand for a spectrum",
+    },
+    RenderRow {
+        name: "complex_f0",
+        summary: "A ball of gold by Schlick's approximation, F0 from its complex index",
+        effects: &["interface", "complex_f0"],
+        method: "schlick",
+        text: include_str!("passes/complex_f0.wgsl"),
+        passes: &[SKY, FRONT],
+        body: BodyName::Ball,
+        material: "gold",
+        disperses: true,
+        own_paths: Paths::Mirror,
+        true_paths: Paths::Mirror,
+        eye: FROM_THE_SIDE,
+        receiver: None,
+        wrong: "Schlick's approximation, near the rim",
     },
 ];
 

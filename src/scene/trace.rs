@@ -14,7 +14,7 @@ use super::glass::Glass;
 /// How far light is followed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Paths {
-    /// Until a thousandth of a thousandth is left, or 64 reflections inside.
+    /// Until a ten-thousandth is left, or 64 reflections inside.
     All,
     /// What is refracted once is taken as outside.
     OneSurface,
@@ -53,7 +53,7 @@ struct Scene<'a> {
 }
 
 const MOST_REFLECTIONS: usize = 64;
-const LEAST: f64 = 1e-6;
+const LEAST: f64 = 1e-4;
 
 /// A square picture of so many samples a side, row after row. `progress` hears how many rows are done.
 pub fn trace(

@@ -1,7 +1,9 @@
 //! Effects as they are drawn: what physics says of pixels, the truth beside them, and the command.
 
+mod caustics;
 mod command;
 mod glass;
+mod one_surface;
 mod recorded;
 
 use fresnel_gen::gpu::{Device, DeviceFault, Wanted};
