@@ -152,6 +152,10 @@ fn uniforms(n: f64, window: &Window, finer: u32) -> Vec<u8> {
         DVec4::new(window.below, window.half, f64::from(PHOTONS), 1.0),
         DVec4::splat(n),
         DVec4::new(0.0, 0.0, pixel / f64::from(finer), pixel),
+        // There is no room.
+        DVec4::ZERO,
+        DVec4::ZERO,
+        DVec4::ZERO,
     ];
     let matrices = [camera, camera.inverse()].map(|matrix| matrix.to_cols_array());
     let numbers = matrices.concat().into_iter();

@@ -6,18 +6,22 @@ use glam::{DMat4, DVec3};
 
 use crate::effects;
 use crate::emit::{self, EffectRequest, effect_file};
-use crate::gpu::{Depth, Device, DeviceFault, Draw, Image, VERTEX_FLOATS};
+use crate::gpu::{Depth, Device, DeviceFault, Draw, Image, Offscreen, VERTEX_FLOATS};
 use crate::methods;
 use crate::targets;
 
 use super::body::{Body, Vertex};
 use super::camera::Camera;
+use super::environment::Environment;
 use super::glass::Glass;
+use super::room::{CUBE_CENTRE, ROOM_MAX, ROOM_MIN, room_cube};
 use super::row::{PassRow, Place, RenderRow, Slot};
 use super::trace::Things;
 
 /// What goes before the names of generated functions in the passes.
 const PREFIX: &str = "fresnel_";
+/// Texels of a side of the room's cube map.
+const CUBE: usize = 1024;
 const FRAME: &str = include_str!("passes/frame.wgsl");
 
 /// A picture as the device drew it.
@@ -45,27 +49,33 @@ pub enum DrawFault {
 pub fn draw(
     device: &Device,
     row: &RenderRow,
-    Things {
-        body,
-        glass,
-        environment,
-    }: Things,
+    things: Things,
+    environment: &Environment,
     camera: &Camera,
     side: u32,
 ) -> Result<Drawn, DrawFault> {
+    let Things {
+        body,
+        glass,
+        relief,
+        ..
+    } = things;
     let text = text(row).map_err(|fault| DrawFault::Text(fault.to_string()))?;
     let offscreen = device.offscreen()?;
     let [width, height] = environment.size();
-    let texels: Vec<[f32; 4]> = environment
-        .texels()
-        .iter()
-        .map(|[r, g, b]| [*r, *g, *b, 1.0])
-        .collect();
-    let around = offscreen.upload([width as u32, height as u32, 1], &texels)?;
+    let around = upload(&offscreen, [width, height], environment.texels())?;
     let vertices: Vec<_> = body.triangles().concat().iter().map(floats).collect();
     let mesh = offscreen.mesh(&vertices)?;
     let uniforms = frame(camera, body, glass);
     let mut slots: BTreeMap<Slot, Image> = BTreeMap::new();
+    if row.in_room {
+        let cube = offscreen.upload([CUBE as u32, CUBE as u32, 6], &room_cube(CUBE))?;
+        slots.insert(Slot::Room, cube);
+    }
+    if let Some(relief) = relief {
+        let image = upload(&offscreen, [relief.side(); 2], relief.texels())?;
+        slots.insert(Slot::Relief, image);
+    }
     for pass in row.passes {
         let clears = !pass.writes.iter().any(|slot| slots.contains_key(slot));
         for slot in pass.writes.iter().filter(|_| clears) {
@@ -92,6 +102,15 @@ pub fn draw(
     }
     let samples = offscreen.read(&slots[&Slot::Colour])?;
     Ok(Drawn { samples })
+}
+
+fn upload(
+    offscreen: &Offscreen,
+    [width, height]: [usize; 2],
+    texels: &[[f32; 3]],
+) -> Result<Image, DeviceFault> {
+    let texels: Vec<[f32; 4]> = texels.iter().map(|[x, y, z]| [*x, *y, *z, 1.0]).collect();
+    offscreen.upload([width as u32, height as u32, 1], &texels)
 }
 
 impl PassRow {
@@ -131,6 +150,9 @@ fn frame(camera: &Camera, body: &Body, glass: &Glass) -> Vec<u8> {
     numbers.extend(four(camera.eye, body.radius()));
     numbers.extend(four(glass.n, 0.0));
     numbers.extend(four(glass.k, 0.0));
+    for corner in [ROOM_MIN, ROOM_MAX, CUBE_CENTRE] {
+        numbers.extend(four(corner, 0.0));
+    }
     numbers.into_iter().flat_map(f32::to_ne_bytes).collect()
 }
 

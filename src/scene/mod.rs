@@ -13,6 +13,8 @@ mod gem;
 mod glass;
 #[cfg(feature = "gpu")]
 mod picture;
+mod relief;
+mod room;
 mod row;
 mod sky;
 mod tone;
@@ -29,10 +31,12 @@ pub use environment::{Environment, EnvironmentFault};
 pub use glass::{Glass, Ray};
 #[cfg(feature = "gpu")]
 pub use picture::{Order, Picture, RenderedRow, render};
+pub use relief::Relief;
+pub use room::{CUBE_CENTRE, ROOM_MAX, ROOM_MIN, room_cube, room_radiance};
 pub use row::{ALL, BodyName, PassRow, Place, RenderRow, Slot, find};
 pub use sky::sky;
 pub use tone::{Display, TONE_CURVES, ToneCurve};
-pub use trace::{Paths, Things, Traced, trace};
+pub use trace::{Around, Paths, Things, Traced, trace};
 
 /// Samples of a pixel along each side, in what is drawn and in its truth.
 pub const SAMPLES: u32 = 2;

@@ -12,9 +12,10 @@ use super::compare::{Comparison, Difference, compare};
 use super::draw::{DrawFault, Drawn, draw};
 use super::environment::Environment;
 use super::glass::Glass;
+use super::relief::Relief;
 use super::row::RenderRow;
 use super::tone::Display;
-use super::trace::{Paths, Things, Traced, trace};
+use super::trace::{Around, Paths, Things, Traced, trace};
 
 /// What is to be drawn.
 #[derive(Clone, Copy, Debug)]
@@ -104,36 +105,32 @@ pub fn render(
         return received(device, order, material, (below, half));
     }
     let body = row.body.body();
+    let relief = row.is_hammered.then(Relief::hammered);
     let flat = order.glass.at_one_index();
     let things = Things {
         body: &body,
         glass: if row.disperses { order.glass } else { &flat },
-        environment: order.environment,
+        around: match row.in_room {
+            true => Around::Room,
+            false => Around::Far(order.environment),
+        },
+        relief: relief.as_ref(),
     };
     let camera = Camera::around(DVec3::from_array(row.eye), body.radius());
     let side = order.size * SAMPLES;
     progress(0, 1, "drawing");
-    let drawn = draw(device, row, things, &camera, side)?;
+    let drawn = draw(device, row, things, order.environment, &camera, side)?;
     let mut traced = |paths: Paths| {
         let mut hear = |done, whole| progress(done, whole, "tracing rays");
         trace(things, &camera, side as usize, paths, &mut hear)
     };
     let (own, truth) = (traced(row.own_paths), traced(row.true_paths));
-    let picture = |samples: &[DVec3]| averaged(samples, side as usize);
-    let colour = |of: &[Traced]| picture(&of.iter().map(|one| one.colour).collect::<Vec<_>>());
-    let shown = drawn.samples.iter();
-    let shown: Vec<DVec3> = shown
-        .map(|[r, g, b, _]| DVec3::new((*r).into(), (*g).into(), (*b).into()))
-        .collect();
-    let shown = picture(&shown);
-    let is_body: Vec<DVec3> = truth
-        .iter()
-        .map(|one| DVec3::splat(f64::from(u8::from(one.is_body))))
-        .collect();
-    let counts: Vec<bool> = picture(&is_body)
-        .iter()
-        .map(|share| share.x > 0.0)
-        .collect();
+    let pixels = |samples: Vec<DVec3>| averaged(&samples, side as usize);
+    let colour = |of: &[Traced]| pixels(of.iter().map(|one| one.colour).collect());
+    let shown = pixels(drawn.samples.iter().map(radiance).collect());
+    let is_body = |one: &Traced| DVec3::splat(f64::from(u8::from(one.is_body)));
+    let shares_of_body = pixels(truth.iter().map(is_body).collect());
+    let counts: Vec<bool> = shares_of_body.iter().map(|share| share.x > 0.0).collect();
     let against = |other: &[Traced]| compare(&shown, &colour(other), &counts, &order.display);
     let Comparison { map, difference } = against(&truth);
     Ok(Picture {
@@ -149,6 +146,11 @@ pub fn render(
         drawn: shown,
         map,
     })
+}
+
+/// A sample without what it says of itself.
+fn radiance([red, green, blue, _]: &[f32; 4]) -> DVec3 {
+    DVec3::new((*red).into(), (*green).into(), (*blue).into())
 }
 
 /// Light on a receiver beside the exact map.

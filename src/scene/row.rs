@@ -30,6 +30,10 @@ pub struct RenderRow {
     pub true_paths: Paths,
     /// Where the eye is.
     pub eye: [f64; 3],
+    /// Whether it stands in the room, and not under the sky.
+    pub in_room: bool,
+    /// Whether its surface is hammered.
+    pub is_hammered: bool,
     /// Light on a receiver in place of what an eye sees: how far that lies below the body's centre, and half its width.
     pub receiver: Option<[f64; 2]>,
     /// Where it must be wrong, in one line.
@@ -72,6 +76,10 @@ pub enum Slot {
     BackPositions,
     /// Its normals.
     BackNormals,
+    /// The cube map of the room.
+    Room,
+    /// The normal map.
+    Relief,
 }
 
 /// What a pass draws.
@@ -146,6 +154,8 @@ pub static ALL: &[RenderRow] = &[
         own_paths: Paths::TwoSurfaces,
         true_paths: Paths::All,
         eye: FROM_THE_SIDE,
+        in_room: false,
+        is_hammered: false,
         receiver: None,
         wrong: "light that is reflected inside is missing; the rim",
     },
@@ -162,6 +172,8 @@ pub static ALL: &[RenderRow] = &[
         own_paths: Paths::TwoSurfaces,
         true_paths: Paths::All,
         eye: FROM_ABOVE,
+        in_room: false,
+        is_hammered: false,
         receiver: None,
         wrong: "rays that are reflected totally leave after one reflection; edges between facets",
     },
@@ -178,6 +190,8 @@ pub static ALL: &[RenderRow] = &[
         own_paths: Paths::OneSurface,
         true_paths: Paths::All,
         eye: FROM_THE_SIDE,
+        in_room: false,
+        is_hammered: false,
         receiver: None,
         wrong: "the second surface is missing: the world stands upright where it should be upside down",
     },
@@ -194,6 +208,8 @@ pub static ALL: &[RenderRow] = &[
         own_paths: Paths::TwoSurfaces,
         true_paths: Paths::TwoSurfaces,
         eye: FROM_ABOVE,
+        in_room: false,
+        is_hammered: false,
         receiver: Some([1.2, 1.0]),
         wrong: "the edge, where photons fold over each other; light that is reflected inside",
     },
@@ -210,6 +226,8 @@ pub static ALL: &[RenderRow] = &[
         own_paths: Paths::OneSurface,
         true_paths: Paths::All,
         eye: FROM_THE_SIDE,
+        in_room: false,
+        is_hammered: false,
         receiver: None,
         wrong: "the second surface is missing, and three samples of the spectrum make three edges",
     },
@@ -226,6 +244,8 @@ pub static ALL: &[RenderRow] = &[
         own_paths: Paths::TwoSurfaces,
         true_paths: Paths::All,
         eye: FROM_THE_SIDE,
+        in_room: false,
+        is_hammered: false,
         receiver: None,
         wrong: "light that is reflected inside is missing; three indices stand for a spectrum",
     },
@@ -242,8 +262,62 @@ pub static ALL: &[RenderRow] = &[
         own_paths: Paths::Mirror,
         true_paths: Paths::Mirror,
         eye: FROM_THE_SIDE,
+        in_room: false,
+        is_hammered: false,
         receiver: None,
         wrong: "Schlick's approximation, near the rim",
+    },
+    RenderRow {
+        name: "normal_mapped",
+        summary: "A hammered ball of silver by a normal map",
+        effects: &["interface", "normal_mapping"],
+        method: "conductor_exact",
+        text: include_str!("passes/normal_mapped.wgsl"),
+        passes: &[
+            SKY,
+            PassRow {
+                reads: &[Slot::Relief],
+                ..FRONT
+            },
+        ],
+        body: BodyName::Ball,
+        material: "silver",
+        disperses: true,
+        own_paths: Paths::Mirror,
+        true_paths: Paths::Mirror,
+        eye: FROM_THE_SIDE,
+        in_room: false,
+        is_hammered: true,
+        receiver: None,
+        wrong: "dents cast no shadow and do not mirror each other, here and in the truth",
+    },
+    RenderRow {
+        name: "parallax_corrected",
+        summary: "A ball of silver in a room, by one cube map that was taken beside it",
+        effects: &["interface", "parallax"],
+        method: "conductor_exact",
+        text: include_str!("passes/parallax_corrected.wgsl"),
+        passes: &[
+            PassRow {
+                fragment: "fs_room",
+                reads: &[Slot::Room],
+                ..SKY
+            },
+            PassRow {
+                reads: &[Slot::Room],
+                ..FRONT
+            },
+        ],
+        body: BodyName::Ball,
+        material: "silver",
+        disperses: true,
+        own_paths: Paths::Mirror,
+        true_paths: Paths::Mirror,
+        eye: FROM_THE_SIDE,
+        in_room: true,
+        is_hammered: false,
+        receiver: None,
+        wrong: "texels of the cube map; what stands in the room would be drawn on its walls",
     },
 ];
 

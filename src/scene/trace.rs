@@ -10,6 +10,8 @@ use super::body::Body;
 use super::camera::Camera;
 use super::environment::Environment;
 use super::glass::Glass;
+use super::relief::Relief;
+use super::room::room_radiance;
 
 /// How far light is followed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -43,7 +45,27 @@ pub struct Things<'a> {
     /// What it is made of.
     pub glass: &'a Glass,
     /// What is around it.
-    pub environment: &'a Environment,
+    pub around: Around<'a>,
+    /// Dents of its surface, where it is a ball.
+    pub relief: Option<&'a Relief>,
+}
+
+/// What is around a body.
+#[derive(Clone, Copy, Debug)]
+pub enum Around<'a> {
+    /// Radiance by direction alone.
+    Far(&'a Environment),
+    /// The room.
+    Room,
+}
+
+impl Around<'_> {
+    fn radiance(&self, place: DVec3, direction: DVec3) -> DVec3 {
+        match self {
+            Around::Far(environment) => environment.radiance(direction),
+            Around::Room => room_radiance(place, direction),
+        }
+    }
 }
 
 /// What is seen of it.
@@ -78,17 +100,19 @@ impl Scene<'_> {
         let crossing = self.things.body.crossing(eye, direction);
         let Some(crossing) = crossing.filter(|crossing| crossing.entry.0 > 0.0) else {
             return Traced {
-                colour: self.things.environment.radiance(direction),
+                colour: self.things.around.radiance(eye, direction),
                 ..Traced::default()
             };
         };
         let (distance, normal) = crossing.entry;
         let place = eye + distance * direction;
-        let cosine = -direction.dot(normal);
+        let dented = |relief: &Relief| relief.on_ball(normal);
+        let normal = self.things.relief.map_or(normal, dented);
+        let cosine = (-direction.dot(normal)).clamp(0.0, 1.0);
         let mirrored = self
             .things
-            .environment
-            .radiance(mirrored(direction, normal));
+            .around
+            .radiance(place, mirrored(direction, normal));
         let mut seen = Traced {
             is_body: true,
             ..Traced::default()
@@ -113,7 +137,7 @@ impl Scene<'_> {
     /// What comes along a ray inside, and whether it is reflected totally at first.
     fn inside(&self, mut place: DVec3, mut direction: DVec3, n: f64) -> (DVec3, bool) {
         if self.paths == Paths::OneSurface {
-            return (self.things.environment.radiance(direction), false);
+            return (self.things.around.radiance(place, direction), false);
         }
         let (mut colour, mut left, mut is_total) = (DVec3::ZERO, 1.0, false);
         for turn in 0..MOST_REFLECTIONS {
@@ -128,11 +152,11 @@ impl Scene<'_> {
             direction = mirrored(direction, normal);
             is_total |= turn == 0 && out.is_none();
             if let Some(out) = out {
-                colour += left * (1.0 - r) * self.things.environment.radiance(out);
+                colour += left * (1.0 - r) * self.things.around.radiance(place, out);
             }
             if self.paths == Paths::TwoSurfaces {
                 if out.is_none() {
-                    colour = self.things.environment.radiance(direction);
+                    colour = self.things.around.radiance(place, direction);
                 }
                 break;
             }

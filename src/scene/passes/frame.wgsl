@@ -8,6 +8,9 @@ struct Frame {
     // of red, green and blue
     n: vec4<f32>,
     k: vec4<f32>,
+    room_min: vec4<f32>,
+    room_max: vec4<f32>,
+    room_centre: vec4<f32>,
 }
 
 struct Surface {

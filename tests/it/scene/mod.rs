@@ -3,13 +3,14 @@
 mod caustics;
 mod command;
 mod glass;
+mod mirror;
 mod one_surface;
 mod recorded;
 
 use fresnel_gen::gpu::{Device, DeviceFault, Wanted};
 use fresnel_gen::scene::{
-    self, Camera, Display, Environment, Glass, Order, Paths, Picture, RenderRow, TONE_CURVES,
-    Things,
+    self, Around, Camera, Display, Environment, Glass, Order, Paths, Picture, RenderRow,
+    TONE_CURVES, Things,
 };
 use glam::DVec3;
 
@@ -77,7 +78,8 @@ fn traced(name: &str, n: f64, environment: &Environment, side: usize, paths: Pat
     let things = Things {
         body: &body,
         glass: &glass,
-        environment,
+        around: Around::Far(environment),
+        relief: None,
     };
     let camera = Camera::around(DVec3::from_array(row(name).eye), body.radius());
     let seen = scene::trace(things, &camera, side, paths, &mut |_, _| {});

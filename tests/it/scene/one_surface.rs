@@ -7,7 +7,7 @@ use glam::DVec3;
 
 use super::{around, at, device, pictured, row, traced};
 
-fn glass_of(material: &str) -> Glass {
+pub fn glass_of(material: &str) -> Glass {
     let material = materials::find(material).unwrap().unwrap();
     Glass::of_surface(&Surface::new(&material, None, &ViewingConditions::default()).unwrap())
 }
