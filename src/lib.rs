@@ -86,6 +86,8 @@ pub mod records;
 pub mod reference;
 pub mod report;
 pub mod reproduce;
+#[cfg(feature = "cli")]
+pub mod scene;
 pub mod spectra;
 pub mod stability;
 pub mod targets;

@@ -14,6 +14,9 @@ const LARGEST: u64 = 64 << 20;
 /// A file with a function of a user's has at most this many bytes.
 const LARGEST_SHADER: u64 = 1 << 20;
 
+/// A picture has at most this many bytes: 8192 x 4096 pixels of four floats fit.
+const LARGEST_PICTURE: u64 = 1 << 30;
+
 /// Whether a name means a file: names of the catalogue have neither dots nor slashes.
 pub fn is_path(name: &str) -> bool {
     name.contains(['.', '/', '\\'])
@@ -40,8 +43,15 @@ pub fn shader(name: &str) -> Result<String, Error> {
         .unwrap_or(text))
 }
 
-fn read_within(largest: u64, name: &str) -> Result<String, Error> {
-    let path = Path::new(name);
+/// The bytes of a picture that a user names.
+///
+/// # Errors
+/// The file is not there, not an ordinary file, or too large.
+pub fn picture(path: &Path) -> Result<Vec<u8>, Error> {
+    bytes_within(LARGEST_PICTURE, path)
+}
+
+fn bytes_within(largest: u64, path: &Path) -> Result<Vec<u8>, Error> {
     let fail = |source: io::Error| Error::Input {
         path: path.to_owned(),
         source,
@@ -56,7 +66,11 @@ fn read_within(largest: u64, name: &str) -> Result<String, Error> {
             about.len()
         ))));
     }
-    let bytes = fs::read(path).map_err(fail)?;
+    fs::read(path).map_err(fail)
+}
+
+fn read_within(largest: u64, name: &str) -> Result<String, Error> {
+    let bytes = bytes_within(largest, Path::new(name))?;
     String::from_utf8(bytes).map_err(|error| {
         let good = &error.as_bytes()[..error.utf8_error().valid_up_to()];
         let line = good.iter().filter(|byte| **byte == b'\n').count() + 1;

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use crate::effects::{Effect, EffectFunction, Reflectance, USUAL_METHOD};
 use crate::fit::{Measured, values_for_material};
 use crate::ir::{BrokenRule, Checked, Param};
-use crate::methods::{Contract, Method, Values};
+use crate::methods::{self, Contract, Method, Values};
 use crate::num::Precision;
 use crate::reference::MaterialInMedium;
 use crate::targets::{Finish, Target};
@@ -84,6 +84,24 @@ impl EffectRequest<'_> {
         }
         check_names(&functions)?;
         Ok(functions)
+    }
+
+    /// All functions of the effect: those that another method or a material changes, behind the others in their usual form.
+    ///
+    /// # Errors
+    /// As [`EffectRequest::functions`].
+    pub fn whole(&self, naming: &Naming) -> Result<Vec<Emitted>, Error> {
+        let usual = EffectRequest {
+            effect: self.effect,
+            method: methods::find(USUAL_METHOD).expect("the usual method is registered"),
+            subject: None,
+        };
+        let changed = self.functions(naming)?;
+        let part = |emitted: &Emitted| emitted.effect.map(|part| part.function.name);
+        let mut all = usual.functions(naming)?;
+        all.retain(|one| !changed.iter().any(|other| part(other) == part(one)));
+        all.extend(changed);
+        Ok(all)
     }
 
     fn of_any_material(&self, part: EffectPart, naming: &Naming) -> Result<Vec<Emitted>, Error> {

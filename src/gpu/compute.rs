@@ -19,6 +19,7 @@ pub(super) struct Compute {
 
 /// What is used of an adapter where it has it.
 const FEATURES: Features = Features::PASSTHROUGH_SHADERS
+    .union(Features::FLOAT32_BLENDABLE)
     .union(Features::FLOAT32_FILTERABLE)
     .union(Features::TEXTURE_FORMAT_16BIT_NORM)
     .union(Features::MAPPABLE_PRIMARY_BUFFERS)

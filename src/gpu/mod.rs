@@ -15,6 +15,7 @@ mod fault;
 mod gles;
 mod gles_compiler;
 mod kernel;
+mod offscreen;
 mod passthrough;
 mod program;
 mod quiet;
@@ -27,6 +28,7 @@ pub use adapter::{Adapter, AdapterKind, Backend, Wanted, adapters};
 pub use draw::{Canvas, Layer, Shader};
 pub use fault::DeviceFault;
 pub use gles_compiler::GlesCompiler;
+pub use offscreen::{Depth, Draw, Image, Mesh, Offscreen, VERTEX_FLOATS};
 pub use program::{Argument, Program, ShaderCode, Uniform};
 pub use stream::Stream;
 pub use texture::{Texture, TextureFilter, TextureFormat, TextureShape, Wrap};
@@ -106,6 +108,20 @@ impl Device {
     pub fn canvas(&self, pixels: u32) -> Result<Canvas, DeviceFault> {
         match &self.stack {
             Stack::Compute(compute) => Canvas::new(compute, pixels),
+            Stack::Gles(_) => Err(DeviceFault::unable(
+                &self.adapter.name,
+                "drawing in OpenGL ES",
+            )),
+        }
+    }
+
+    /// Drawing to textures of floats, which are read back.
+    ///
+    /// # Errors
+    /// The device does not draw here: OpenGL ES does not.
+    pub fn offscreen(&self) -> Result<Offscreen, DeviceFault> {
+        match &self.stack {
+            Stack::Compute(compute) => Offscreen::new(compute),
             Stack::Gles(_) => Err(DeviceFault::unable(
                 &self.adapter.name,
                 "drawing in OpenGL ES",

@@ -18,6 +18,8 @@ pub mod params;
 pub mod plot;
 #[cfg(feature = "pictures")]
 pub mod png;
+#[cfg(all(feature = "cli", feature = "gpu"))]
+pub mod render;
 pub mod reproduce;
 pub mod search;
 pub mod stability;

@@ -43,6 +43,8 @@ mod records;
 mod reproduce;
 mod reread;
 mod samples;
+#[cfg(all(feature = "cli", feature = "gpu"))]
+mod scene;
 mod shapes;
 mod snapshots;
 mod specialise;

@@ -14,6 +14,7 @@ mod named;
 mod output;
 mod precision;
 mod renamed;
+mod render;
 mod reproduce;
 mod stability;
 mod time;
@@ -42,6 +43,7 @@ pub use named::NamedFiles;
 pub use output::{CheckReportFlags, PictureFlags, ReportFlags, TreeFlags};
 pub use precision::{PrecisionFlags, each_once};
 pub use renamed::with_names_of_today;
+pub use render::RenderFlags;
 pub use reproduce::ReproduceFlags;
 pub use stability::StabilityFlags;
 pub use time::TimeFlags;
@@ -105,6 +107,8 @@ pub enum Command {
     Audit(Box<AuditFlags>),
     /// Recompute the tables, figures and claims of the thesis (Štetić-Kozić 2014) and print both side by side
     Reproduce(ReproduceFlags),
+    /// Draw an effect with the functions that engines import, beside what a ray tracer sees, and state the difference
+    Render(RenderFlags),
 }
 
 impl Cli {
@@ -144,6 +148,12 @@ impl Cli {
             Command::Chart(flags) => named.report(&flags.materials, &flags.report),
             Command::Stability(flags) => named.report(&flags.materials, &flags.report),
             Command::Reproduce(flags) => named.write(&flags.report.json),
+            Command::Render(flags) => {
+                let material = flags.material.iter().filter_map(MaterialName::path);
+                named.inputs.extend(material.map(Path::new));
+                named.inputs.extend(flags.environment.as_deref());
+                named.write(flags.report.json.iter().chain(&flags.output));
+            }
         }
         named
     }

@@ -12,6 +12,8 @@ mod import;
 mod listing;
 mod materials;
 mod params;
+#[cfg(feature = "gpu")]
+mod render;
 mod reproduce;
 mod search;
 mod stability;
@@ -77,13 +79,19 @@ pub fn run(cli: &Cli, progress: Progress, announce: Announce) -> Result<Output, 
         Some(Command::Time(flags)) => time::run(flags, progress),
         #[cfg(feature = "gpu")]
         Some(Command::Audit(flags)) => audit::run(flags, progress),
+        #[cfg(feature = "gpu")]
+        Some(Command::Render(flags)) => render::run(flags, progress),
         #[cfg(not(feature = "gpu"))]
-        Some(Command::Verify(_) | Command::Cost(_) | Command::Time(_) | Command::Audit(_)) => {
-            Err(Error::Lacking {
-                what: "this program was built without the feature `gpu`, and runs no shaders"
-                    .to_owned(),
-            })
-        }
+        Some(
+            Command::Verify(_)
+            | Command::Cost(_)
+            | Command::Time(_)
+            | Command::Audit(_)
+            | Command::Render(_),
+        ) => Err(Error::Lacking {
+            what: "this program was built without the feature `gpu`, and runs no shaders"
+                .to_owned(),
+        }),
         Some(Command::Chart(flags)) => chart::run(flags, progress),
         Some(Command::Fit(flags)) => fit::run(flags, progress),
         Some(Command::Stability(flags)) => stability::run(flags, progress),

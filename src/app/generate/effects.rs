@@ -169,26 +169,16 @@ impl Run<'_> {
         without.map(|effect| self.unchanged(effect.name)).collect()
     }
 
-    /// The effects with all of their functions: those that the method or the material changes, and the others in their usual form.
+    /// The effects with all of their functions, what several materials share once.
     pub fn whole_effects(&self) -> Result<Vec<(EffectRequest<'_>, Vec<Emitted>)>, Error> {
-        let usual = methods::find(USUAL_METHOD).expect("the usual methods are registered");
         let mut all = Vec::new();
         for effect in &self.effects.effects {
-            let usual = EffectRequest {
-                effect,
-                method: usual,
-                subject: None,
-            };
-            let usual = usual.functions(&self.naming)?;
             for (place, subject) in self.effect_subjects().into_iter().enumerate() {
                 let (request, changed) = self.effect(effect, subject)?;
-                let part = |emitted: &Emitted| emitted.effect.map(|part| part.function.name);
-                let is_changed =
-                    |one: &&Emitted| changed.iter().any(|other| part(other) == part(one));
-                // The usual form stands there once.
-                let kept = usual.iter().filter(|one| place == 0 && !is_changed(one));
-                let functions: Vec<Emitted> =
-                    kept.cloned().chain(changed.iter().cloned()).collect();
+                let functions = match place {
+                    0 => request.whole(&self.naming)?,
+                    _ => changed,
+                };
                 all.push((request, functions));
             }
         }

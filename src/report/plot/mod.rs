@@ -16,6 +16,8 @@ mod ticks;
 pub(super) use axes::{Area, Axes, Tick};
 pub(super) use layout::{Layout, PanelFrame};
 pub use line_chart::{ChartAxis, LineChart, Mark, Series};
+#[cfg(all(feature = "cli", feature = "gpu"))]
+pub(super) use palette::shade_bytes;
 pub(super) use palette::{BLUE, GREEN, INK, SHADES, VERMILION, hex_colour, shade};
 pub use palette::{Look, Style};
 pub(super) use scale::Scale;

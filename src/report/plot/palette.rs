@@ -121,12 +121,18 @@ pub fn hex_colour(linear: [f64; 3]) -> String {
 
 /// One of [`SHADES`] colours, from dark to bright.
 pub fn shade(step: usize) -> String {
-    let place = step as f64 / (SHADES - 1) as f64 * (VIRIDIS.len() - 1) as f64;
+    let [red, green, blue] = shade_bytes(step as f64 / (SHADES - 1) as f64);
+    format!("#{red:02x}{green:02x}{blue:02x}")
+}
+
+/// The colour of a share, 0 dark to 1 bright, in bytes of sRGB.
+pub fn shade_bytes(share: f64) -> [u8; 3] {
+    let place = share.clamp(0.0, 1.0) * (VIRIDIS.len() - 1) as f64;
     let at = (place as usize).min(VIRIDIS.len() - 2);
     let share = place - at as f64;
     let channel =
         |i: usize| (VIRIDIS[at][i] + share * (VIRIDIS[at + 1][i] - VIRIDIS[at][i])).round() as u8;
-    format!("#{:02x}{:02x}{:02x}", channel(0), channel(1), channel(2))
+    [channel(0), channel(1), channel(2)]
 }
 
 #[cfg(test)]

@@ -9,7 +9,7 @@ use crate::cli::{OUT, Place, Ran};
 use crate::not_checked;
 
 /// A name in the list, and a command whose stdout is the report.
-const REPORTS: [(&str, &str); 16] = [
+const REPORTS: [(&str, &str); 17] = [
     ("methods", "methods --json -"),
     ("methods show", "methods show fitted --json -"),
     ("targets", "targets --json -"),
@@ -34,6 +34,7 @@ const REPORTS: [(&str, &str); 16] = [
         "time",
         "time --method schlick --material none --precision f32 --size 32 --evaluations 2 --rounds 5 --json -",
     ),
+    ("render", "render double_refraction --size 16 --json -"),
     (
         "audit",
         "audit mine.wgsl --function schlick --material gold --gpu rdna2 --json -",

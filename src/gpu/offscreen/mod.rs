@@ -1,0 +1,158 @@
+//! Pictures drawn to textures of floats and read back: meshes with a depth, or triangles that cover the target.
+//!
+//! Every draw sees its uniforms at binding 0, a sampler that clamps at 1, one that repeats along u at 2, and images from 3 on.
+//! There is no state beside that: a draw names all that it reads and writes.
+
+mod image;
+mod pass;
+
+use std::rc::Rc;
+
+use wgpu::{BufferUsages, Features, TextureFormat, TextureUsages, TextureViewDimension};
+
+use super::compute::Compute;
+use super::fault::DeviceFault;
+use pass::{DEPTH_FORMAT, kinds, pass};
+
+/// Numbers of a vertex: position, normal, tangent with the bitangent's sign, texture coordinates.
+pub const VERTEX_FLOATS: usize = 12;
+
+/// What the first image is bound to.
+const FIRST_IMAGE: u32 = 3;
+
+/// A device that draws to images.
+pub struct Offscreen {
+    compute: Rc<Compute>,
+    /// binary32 where the device filters and blends it, else binary16.
+    format: TextureFormat,
+    samplers: [wgpu::Sampler; 2],
+}
+
+/// A texture of four floats.
+pub struct Image {
+    texture: wgpu::Texture,
+    dimension: TextureViewDimension,
+}
+
+/// Triangles, three vertices each.
+pub struct Mesh {
+    buffer: wgpu::Buffer,
+    vertices: u32,
+}
+
+/// Which of several surfaces a pixel shows.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Depth {
+    /// The one that is drawn last.
+    Unused,
+    /// The nearest.
+    Nearest,
+    /// The farthest: the back of a body.
+    Farthest,
+}
+
+/// A draw.
+pub struct Draw<'a> {
+    /// The module in WGSL.
+    pub text: &'a str,
+    /// The entry point for vertices.
+    pub vertex: &'a str,
+    /// The entry point for pixels.
+    pub fragment: &'a str,
+    /// The bytes of the block at binding 0.
+    pub uniforms: &'a [u8],
+    /// What it reads.
+    pub images: &'a [&'a Image],
+    /// What it draws; without a mesh so many vertices that the entry point makes itself.
+    pub mesh: Result<&'a Mesh, u32>,
+    /// What it writes, all of one size.
+    pub targets: &'a [&'a Image],
+    /// Whether the targets are set to zero before.
+    pub clears: bool,
+    /// Which surface is seen.
+    pub depth: Depth,
+    /// Whether it is added to what is there.
+    pub adds: bool,
+}
+
+impl Offscreen {
+    pub(super) fn new(compute: &Rc<Compute>) -> Result<Offscreen, DeviceFault> {
+        let all = Features::FLOAT32_FILTERABLE | Features::FLOAT32_BLENDABLE;
+        let format = match compute.has(all) {
+            true => TextureFormat::Rgba32Float,
+            false => TextureFormat::Rgba16Float,
+        };
+        let along_u = [wgpu::AddressMode::ClampToEdge, wgpu::AddressMode::Repeat];
+        let sampler = |address_mode_u| {
+            compute.device.create_sampler(&wgpu::SamplerDescriptor {
+                address_mode_u,
+                mag_filter: wgpu::FilterMode::Linear,
+                min_filter: wgpu::FilterMode::Linear,
+                ..Default::default()
+            })
+        };
+        let samplers = compute.guarded(|| along_u.map(sampler))?;
+        Ok(Offscreen {
+            compute: compute.clone(),
+            format,
+            samplers,
+        })
+    }
+
+    /// Triangles of vertices of [`VERTEX_FLOATS`] numbers.
+    ///
+    /// # Errors
+    /// The device does not take them.
+    pub fn mesh(&self, vertices: &[[f32; VERTEX_FLOATS]]) -> Result<Mesh, DeviceFault> {
+        let bytes: &[u8] = bytemuck::cast_slice(vertices);
+        let buffer = self.buffer(bytes, BufferUsages::VERTEX)?;
+        let vertices = u32::try_from(vertices.len()).map_err(DeviceFault::refused)?;
+        Ok(Mesh { buffer, vertices })
+    }
+
+    fn buffer(&self, bytes: &[u8], usage: BufferUsages) -> Result<wgpu::Buffer, DeviceFault> {
+        let compute = &self.compute;
+        compute.guarded(|| {
+            let buffer = compute.device.create_buffer(&wgpu::BufferDescriptor {
+                label: None,
+                size: bytes.len().max(16) as u64,
+                usage: usage | BufferUsages::COPY_DST,
+                mapped_at_creation: false,
+            });
+            compute.queue.write_buffer(&buffer, 0, bytes);
+            buffer
+        })
+    }
+
+    /// Draws, and waits for it.
+    ///
+    /// # Errors
+    /// The text does not compile or does not fit what it reads, or the device is lost.
+    pub fn draw(&self, draw: &Draw) -> Result<(), DeviceFault> {
+        let (compute, device) = (&self.compute, &self.compute.device);
+        let block = self.buffer(draw.uniforms, BufferUsages::UNIFORM)?;
+        let kinds = kinds(draw);
+        let layout = compute.guarded(|| {
+            device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
+                label: None,
+                entries: &kinds,
+            })
+        })?;
+        let pipeline = compute.guarded(|| self.pipeline(draw, &layout))?;
+        let depth = match (draw.depth, draw.targets.first()) {
+            (Depth::Unused, _) | (_, None) => None,
+            (_, Some(target)) => {
+                let size = target.texture.size();
+                let usage = TextureUsages::RENDER_ATTACHMENT;
+                Some(self.image([size.width, size.height, 1], DEPTH_FORMAT, usage)?)
+            }
+        };
+        let submission = compute.guarded(|| {
+            let group = self.group(draw, &layout, &block);
+            let mut encoder = device.create_command_encoder(&Default::default());
+            pass(&mut encoder, draw, depth.as_ref(), &pipeline, &group);
+            compute.queue.submit([encoder.finish()])
+        })?;
+        compute.wait(submission)
+    }
+}

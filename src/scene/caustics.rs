@@ -1,0 +1,233 @@
+//! Light that a ball gathers: photons drawn through it onto a receiver, and the exact map beside them.
+//!
+//! Light of irradiance 1 falls along -z on the ball of radius 1; the receiver lies square to it below.
+
+use glam::{DMat4, DVec4};
+
+use crate::gpu::{Depth, Device, Draw, Image, Offscreen};
+use crate::optics;
+
+use super::body::Body;
+use super::draw::{DrawFault, floats, text};
+use super::row::find;
+
+/// A window of the receiver.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Window {
+    /// How far it lies below the ball's centre.
+    pub below: f64,
+    /// Half its width.
+    pub half: f64,
+    /// Pixels a side.
+    pub pixels: u32,
+}
+
+/// What becomes of photons on the receiver.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Gathering {
+    /// Triangles between neighbours.
+    Triangles,
+    /// A smooth spot each.
+    Splats,
+    /// The pixel that each lands in.
+    Points,
+}
+
+/// The photons of a row, and the picture of the back that is searched.
+const PHOTONS: u32 = 256;
+const BACK: u32 = 1024;
+/// Triangles are drawn finer than the window, to about so many samples a side, and at most so many times as fine.
+const FINE: u32 = 1024;
+const FINEST: u32 = 8;
+
+/// The irradiance of each pixel, and the share of the photons on the ball that land.
+///
+/// # Errors
+/// The device does not draw it.
+pub fn caustics(
+    device: &Device,
+    n: f64,
+    window: &Window,
+    gathering: Gathering,
+) -> Result<(Vec<f64>, f64), DrawFault> {
+    let row = find("caustics").expect("a row");
+    let text = text(row).map_err(|fault| DrawFault::Text(fault.to_string()))?;
+    let finer = match gathering {
+        Gathering::Triangles => (FINE / window.pixels.max(1)).clamp(1, FINEST),
+        Gathering::Splats | Gathering::Points => 1,
+    };
+    let light = Light {
+        offscreen: device.offscreen()?,
+        text,
+        uniforms: uniforms(n, window, finer),
+    };
+    let front = light.side(PHOTONS, Depth::Nearest)?;
+    let back = light.side(BACK, Depth::Farthest)?;
+    let nothing = light.offscreen.upload([1, 1, 1], &[[0.0; 4]])?;
+    let photons = light.pair(PHOTONS)?;
+    let reads = [&nothing, &front[0], &front[1], &back[0], &back[1]];
+    let all = ("vs_cover", "fs_photon", 3);
+    light.draw(all, &reads, &[&photons[0], &photons[1]], false)?;
+    let (vertex, fragment, count) = match gathering {
+        Gathering::Triangles => ("vs_triangle", "fs_lit", (PHOTONS - 1).pow(2)),
+        Gathering::Splats => ("vs_splat", "fs_splat", PHOTONS.pow(2)),
+        Gathering::Points => ("vs_point", "fs_lit", PHOTONS.pow(2)),
+    };
+    let side = window.pixels * finer;
+    let map = light.offscreen.target(side, side)?;
+    let reads = [&nothing, &photons[0], &photons[1], &back[0], &back[1]];
+    light.draw((vertex, fragment, 6 * count), &reads, &[&map], true)?;
+    let read = |image: &Image| light.offscreen.read(image);
+    let (entered, landed) = (read(&front[0])?, read(&photons[0])?);
+    let count = |of: &[[f32; 4]]| of.iter().filter(|texel| texel[3] > 0.0).count() as f64;
+    let hits = count(&landed) / count(&entered).max(1.0);
+    Ok((means(&read(&map)?, side as usize, finer as usize), hits))
+}
+
+struct Light {
+    offscreen: Offscreen,
+    text: String,
+    uniforms: Vec<u8>,
+}
+
+impl Light {
+    fn pair(&self, side: u32) -> Result<[Image; 2], DrawFault> {
+        let target = || self.offscreen.target(side, side);
+        Ok([target()?, target()?])
+    }
+
+    /// Places and normals of the side of the ball that is nearest to the light, or farthest.
+    fn side(&self, side: u32, depth: Depth) -> Result<[Image; 2], DrawFault> {
+        let vertices: Vec<_> = Body::Ball.triangles().concat().iter().map(floats).collect();
+        let mesh = self.offscreen.mesh(&vertices)?;
+        let targets = self.pair(side)?;
+        self.offscreen.draw(&Draw {
+            text: &self.text,
+            vertex: "vs_body",
+            fragment: "fs_side",
+            uniforms: &self.uniforms,
+            images: &[],
+            mesh: Ok(&mesh),
+            targets: &[&targets[0], &targets[1]],
+            clears: true,
+            depth,
+            adds: false,
+        })?;
+        Ok(targets)
+    }
+
+    fn draw(
+        &self,
+        (vertex, fragment, vertices): (&str, &str, u32),
+        images: &[&Image],
+        targets: &[&Image],
+        adds: bool,
+    ) -> Result<(), DrawFault> {
+        self.offscreen.draw(&Draw {
+            text: &self.text,
+            vertex,
+            fragment,
+            uniforms: &self.uniforms,
+            images,
+            mesh: Err(vertices),
+            targets,
+            clears: true,
+            depth: Depth::Unused,
+            adds,
+        })?;
+        Ok(())
+    }
+}
+
+/// The frame: the light's camera sees [-1, 1]^2 from +z.
+fn uniforms(n: f64, window: &Window, finer: u32) -> Vec<u8> {
+    let camera = DMat4::from_cols(
+        DVec4::X,
+        DVec4::Y,
+        DVec4::new(0.0, 0.0, -0.25, 0.0),
+        DVec4::new(0.0, 0.0, 0.5, 1.0),
+    );
+    let pixel = 2.0 * window.half / f64::from(window.pixels);
+    let fours = [
+        DVec4::new(window.below, window.half, f64::from(PHOTONS), 1.0),
+        DVec4::splat(n),
+        DVec4::new(0.0, 0.0, pixel / f64::from(finer), pixel),
+        // There is no room.
+        DVec4::ZERO,
+        DVec4::ZERO,
+        DVec4::ZERO,
+    ];
+    let matrices = [camera, camera.inverse()].map(|matrix| matrix.to_cols_array());
+    let numbers = matrices.concat().into_iter();
+    let numbers = numbers.chain(fours.iter().flat_map(|four| four.to_array()));
+    numbers
+        .flat_map(|value| (value as f32).to_ne_bytes())
+        .collect()
+}
+
+/// The mean of each pixel's samples.
+fn means(samples: &[[f32; 4]], side: usize, finer: usize) -> Vec<f64> {
+    let pixels = side / finer;
+    let pixel = |i: usize| {
+        let (x, y) = (i % pixels * finer, i / pixels * finer);
+        let rows = (y..y + finer).flat_map(|y| &samples[y * side + x..][..finer]);
+        rows.map(|sample| f64::from(sample[0])).sum::<f64>() / (finer * finer) as f64
+    };
+    (0..pixels * pixels).map(pixel).collect()
+}
+
+/// Rings of the ball's disc, and places of an eighth of each.
+const RINGS: usize = 8000;
+const PLACES: usize = 1024;
+
+/// The exact map: rings of light follow Snell's and Fresnel's laws to where they land.
+pub fn exact_caustics(n: f64, window: &Window) -> Vec<f64> {
+    let side = window.pixels as usize;
+    let pixel = 2.0 * window.half / side as f64;
+    let mut map = vec![0.0; side * side];
+    let eighth = std::f64::consts::FRAC_PI_4;
+    let angle = |i: usize| libm::sincos((i as f64 + 0.5) / PLACES as f64 * eighth);
+    let angles: Vec<(f64, f64)> = (0..PLACES).map(angle).collect();
+    for ring in 0..RINGS {
+        let height = (ring as f64 + 0.5) / RINGS as f64;
+        let Some((radius, share)) = landing(n, height, window.below) else {
+            continue;
+        };
+        let flux = share * 2.0 * std::f64::consts::PI * height / RINGS as f64;
+        let each = flux / (8 * PLACES) as f64 / (pixel * pixel);
+        for (sin, cos) in &angles {
+            let place = |along: f64| ((along * radius + window.half) / pixel).floor();
+            for (x, y) in [(*cos, *sin), (*sin, *cos)] {
+                for (x, y) in [(x, y), (-x, y), (x, -y), (-x, -y)] {
+                    let (x, y) = (place(x), place(y));
+                    if (0.0..side as f64).contains(&x) && (0.0..side as f64).contains(&y) {
+                        map[y as usize * side + x as usize] += each;
+                    }
+                }
+            }
+        }
+    }
+    map
+}
+
+/// How far from the axis light lands that enters so far from it, and the share that is left of it.
+fn landing(n: f64, height: f64, below: f64) -> Option<(f64, f64)> {
+    let (theta_i, theta_t) = (libm::asin(height), libm::asin(height / n));
+    // From the entry's azimuth the exit lies on by the angle that the chord spans.
+    let exit = theta_i + std::f64::consts::PI - 2.0 * theta_t;
+    let (x, z) = (libm::sin(exit), libm::cos(exit));
+    let turned = 2.0 * (theta_i - theta_t);
+    let (sin, cos) = libm::sincos(turned);
+    let drop = below + z;
+    (cos > 1e-3 && drop > 0.0).then(|| {
+        let r = optics::dielectric(n, libm::cos(theta_i)).unpolarised();
+        ((x - sin / cos * drop).abs(), (1.0 - r) * (1.0 - r))
+    })
+}
+
+/// The sum of absolute differences, as a share of the exact map's sum; and the drawn sum as a share of it.
+pub fn caustic_error(drawn: &[f64], exact: &[f64]) -> (f64, f64) {
+    let sum: f64 = exact.iter().sum();
+    let apart = drawn.iter().zip(exact).map(|(a, b)| (a - b).abs());
+    (apart.sum::<f64>() / sum, drawn.iter().sum::<f64>() / sum)
+}

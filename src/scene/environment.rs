@@ -1,0 +1,162 @@
+//! What surrounds a scene: radiance by direction, in a table that both the tracer and the device look up.
+//!
+//! Longitude lies along the rows, -z in the middle and +x to the right of it; latitude along the columns, +y on top.
+
+use glam::DVec3;
+use half::f16;
+
+/// Radiance by direction.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Environment {
+    width: usize,
+    height: usize,
+    /// Rounded to binary16, as the device holds them.
+    texels: Vec<[f32; 3]>,
+}
+
+/// Why a picture is no environment.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum EnvironmentFault {
+    /// It cannot be read.
+    #[error("{0}")]
+    Unreadable(String),
+    /// It has another shape.
+    #[error(
+        "it has {0} x {1} pixels; an environment is twice as wide as high, 2 to 16384 pixels wide"
+    )]
+    Shape(usize, usize),
+}
+
+/// Texels of a row that a picture of a user may have.
+#[cfg(feature = "gpu")]
+const LARGEST: usize = 16384;
+
+impl Environment {
+    /// From a function of the direction, so many texels high and twice as many wide.
+    pub fn baked(height: usize, radiance: impl Fn(DVec3) -> DVec3 + Sync) -> Environment {
+        let width = 2 * height;
+        // Four samples a texel: edges are as smooth as the table is fine.
+        let at = |row: usize, column: usize, (down, right): (f64, f64)| {
+            let v = (row as f64 + down) / height as f64;
+            radiance(direction((column as f64 + right) / width as f64, v))
+        };
+        let places = [(0.25, 0.25), (0.25, 0.75), (0.75, 0.25), (0.75, 0.75)];
+        let row = |row: usize| -> Vec<[f32; 3]> {
+            let mean = |column| {
+                places
+                    .map(|place| at(row, column, place))
+                    .iter()
+                    .sum::<DVec3>()
+            };
+            let texel = |column| rounded((mean(column) / 4.0).to_array());
+            (0..width).map(texel).collect()
+        };
+        let rows = crate::num::in_parallel(height, &row, &mut |_, _| {});
+        Environment {
+            width,
+            height,
+            texels: rows.concat(),
+        }
+    }
+
+    /// From the bytes of a picture: Radiance HDR and OpenEXR are linear, PNG and JPEG are sRGB.
+    ///
+    /// # Errors
+    /// The picture cannot be read, or is not twice as wide as high.
+    #[cfg(feature = "gpu")]
+    pub fn read(bytes: &[u8]) -> Result<Environment, EnvironmentFault> {
+        let unreadable = |why: image::ImageError| EnvironmentFault::Unreadable(why.to_string());
+        let picture = image::load_from_memory(bytes).map_err(unreadable)?;
+        let is_linear = matches!(
+            picture.color(),
+            image::ColorType::Rgb32F | image::ColorType::Rgba32F
+        );
+        let picture = picture.into_rgb32f();
+        let (width, height) = (picture.width() as usize, picture.height() as usize);
+        if width != 2 * height || !(2..=LARGEST).contains(&width) {
+            return Err(EnvironmentFault::Shape(width, height));
+        }
+        let linear = |value: f32| match is_linear {
+            true => f64::from(value).clamp(0.0, f64::from(f16::MAX)),
+            false => decoded(f64::from(value)),
+        };
+        let texel = |pixel: &image::Rgb<f32>| rounded(pixel.0.map(linear));
+        Ok(Environment {
+            width,
+            height,
+            texels: picture.pixels().map(texel).collect(),
+        })
+    }
+
+    /// The same as a picture of 8 bits holds it: nothing is brighter than white.
+    pub fn clamped(&self) -> Environment {
+        let texels = self.texels.iter();
+        Environment {
+            texels: texels.map(|texel| texel.map(|x| x.min(1.0))).collect(),
+            ..*self
+        }
+    }
+
+    /// Its width and height.
+    pub fn size(&self) -> [usize; 2] {
+        [self.width, self.height]
+    }
+
+    /// Its texels, row after row.
+    pub fn texels(&self) -> &[[f32; 3]] {
+        &self.texels
+    }
+
+    /// The radiance from a direction of any length: linear between texels.
+    pub fn radiance(&self, direction: DVec3) -> DVec3 {
+        let direction = direction.normalize_or_zero();
+        let u = libm::atan2(direction.x, -direction.z) / std::f64::consts::TAU + 0.5;
+        let v = libm::acos(direction.y.clamp(-1.0, 1.0)) / std::f64::consts::PI;
+        let (x, y) = (u * self.width as f64 - 0.5, v * self.height as f64 - 0.5);
+        let (left, top) = (x.floor(), y.floor());
+        let column = |x: f64| (x as i64).rem_euclid(self.width as i64) as usize;
+        let row = |y: f64| y.clamp(0.0, self.height as f64 - 1.0) as usize;
+        let texel = |x: f64, y: f64| {
+            let [r, g, b] = self.texels[row(y) * self.width + column(x)];
+            DVec3::new(r.into(), g.into(), b.into())
+        };
+        let along = |y: f64| texel(left, y).lerp(texel(left + 1.0, y), x - left);
+        along(top).lerp(along(top + 1.0), y - top)
+    }
+}
+
+/// The direction of texture coordinates.
+fn direction(u: f64, v: f64) -> DVec3 {
+    let (sin_u, cos_u) = libm::sincos(std::f64::consts::TAU * (u - 0.5));
+    let (sin_v, cos_v) = libm::sincos(std::f64::consts::PI * v);
+    DVec3::new(sin_u * sin_v, cos_v, -cos_u * sin_v)
+}
+
+fn rounded(texel: [f64; 3]) -> [f32; 3] {
+    texel.map(|value| f16::from_f64(value).to_f32())
+}
+
+/// A channel of sRGB, linear: IEC 61966-2-1:1999.
+#[cfg(feature = "gpu")]
+fn decoded(value: f64) -> f64 {
+    if value <= 0.040_45 {
+        value / 12.92
+    } else {
+        libm::pow((value + 0.055) / 1.055, 2.4)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_table_gives_back_what_it_was_baked_from() {
+        let environment = Environment::baked(64, |direction| direction.abs());
+        for direction in [DVec3::X, DVec3::NEG_Z, DVec3::Z, DVec3::new(0.3, -0.8, 0.2)] {
+            let direction = direction.normalize();
+            let error = environment.radiance(direction) - direction.abs();
+            assert!(error.length() < 0.05, "{direction} {error}");
+        }
+    }
+}

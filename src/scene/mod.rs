@@ -1,0 +1,42 @@
+//! Pictures of the effects, and their truth: what a row of the table draws with the functions that users import, and what a
+//! tracer in f64 sees, which shares no line with them.
+
+mod body;
+mod camera;
+#[cfg(feature = "gpu")]
+mod caustics;
+mod compare;
+#[cfg(feature = "gpu")]
+mod draw;
+mod environment;
+mod gem;
+mod glass;
+#[cfg(feature = "gpu")]
+mod picture;
+mod relief;
+mod room;
+mod row;
+mod sky;
+mod tone;
+mod trace;
+
+pub use body::{Body, Crossing, Vertex};
+pub use camera::Camera;
+#[cfg(feature = "gpu")]
+pub use caustics::{Gathering, Window, caustic_error, caustics, exact_caustics};
+pub use compare::{Comparison, Difference, compare};
+#[cfg(feature = "gpu")]
+pub use draw::{DrawFault, Drawn, draw};
+pub use environment::{Environment, EnvironmentFault};
+pub use glass::{Glass, Ray};
+#[cfg(feature = "gpu")]
+pub use picture::{Order, Picture, RenderedRow, render};
+pub use relief::Relief;
+pub use room::{CUBE_CENTRE, ROOM_MAX, ROOM_MIN, room_cube, room_radiance};
+pub use row::{ALL, BodyName, PassRow, Place, RenderRow, Slot, find};
+pub use sky::sky;
+pub use tone::{Display, TONE_CURVES, ToneCurve};
+pub use trace::{Around, Paths, Things, Traced, trace};
+
+/// Samples of a pixel along each side, in what is drawn and in its truth.
+pub const SAMPLES: u32 = 2;

@@ -1,0 +1,99 @@
+//! Effects as they are drawn: what physics says of pixels, the truth beside them, and the command.
+
+mod caustics;
+mod command;
+mod glass;
+mod mirror;
+mod one_surface;
+mod recorded;
+
+use fresnel_gen::gpu::{Device, DeviceFault, Wanted};
+use fresnel_gen::scene::{
+    self, Around, Camera, Display, Environment, Glass, Order, Paths, Picture, RenderRow,
+    TONE_CURVES, Things,
+};
+use glam::DVec3;
+
+use super::not_checked;
+
+/// The device at hand, or a word that there is none.
+#[track_caller]
+fn device() -> Option<Device> {
+    match Device::open(&Wanted::default()) {
+        Ok(device) => Some(device),
+        Err(fault @ DeviceFault::Absent { .. }) => {
+            assert!(std::env::var_os("CI").is_none(), "not checked: {fault}");
+            not_checked(&format!("effects as they are drawn: {fault}"));
+            None
+        }
+        Err(fault) => panic!("{fault}"),
+    }
+}
+
+/// Shown as it is.
+fn plain() -> Display {
+    Display {
+        exposure: 0.0,
+        curve: TONE_CURVES[0],
+    }
+}
+
+fn row(name: &str) -> &'static RenderRow {
+    scene::find(name).expect("a row")
+}
+
+/// A picture of a row in an environment.
+fn pictured(
+    device: &Device,
+    name: &str,
+    glass: &Glass,
+    environment: &Environment,
+    size: u32,
+) -> Picture {
+    pictured_in(device, name, glass, (environment, false), size)
+}
+
+/// The same, drawn with the environment as it is or clamped to white.
+fn pictured_in(
+    device: &Device,
+    name: &str,
+    glass: &Glass,
+    (environment, is_ldr): (&Environment, bool),
+    size: u32,
+) -> Picture {
+    let order = Order {
+        row: row(name),
+        glass,
+        environment,
+        is_ldr,
+        size,
+        display: plain(),
+    };
+    scene::render(device, &order, "a test", &mut |_, _, _| {}).expect("it is drawn")
+}
+
+/// An environment from a formula.
+fn around(radiance: impl Fn(DVec3) -> DVec3 + Sync) -> Environment {
+    Environment::baked(256, radiance)
+}
+
+/// Radiance of the pixel at this place, 0 to 1 from left to right and from top to bottom.
+fn at(picture: &[DVec3], x: f64, y: f64) -> DVec3 {
+    let size = (picture.len() as f64).sqrt();
+    let place = |share: f64| (share * size) as usize;
+    picture[place(y) * size as usize + place(x)]
+}
+
+/// What is seen of a ball by a tracer along the picture's pixels.
+fn traced(name: &str, n: f64, environment: &Environment, side: usize, paths: Paths) -> Vec<DVec3> {
+    let (body, glass) = (row(name).body.body(), Glass::of_index(n));
+    let things = Things {
+        body: &body,
+        glass: &glass,
+        around: Around::Far(environment),
+        relief: None,
+    };
+    let camera = Camera::around(DVec3::from_array(row(name).eye), body.radius());
+    let seen = scene::trace(things, &camera, side, [paths; 2], &mut |_, _| {});
+    seen.iter().map(|one| one.colour).collect()
+}
