@@ -30,7 +30,7 @@ const AREA: Argument = Argument::scalar(
 );
 const FLUX: Argument = Argument::vector(
     "flux",
-    "of three photons: the mean of their energies times the area of their triangle before the body",
+    "of the triangle: the mean of t_entry t_exit at its corners, times its area before the body",
     0.0,
     1.0,
 );
@@ -75,7 +75,7 @@ pub static EFFECT: Effect = Effect {
     functions: &[
         EffectFunction {
             name: "photon_energy",
-            gives: "the flux of a photon, for light of irradiance 1",
+            gives: "the flux (power) of a photon, for light of irradiance 1; area is in it",
             arguments: &[T_ENTRY, T_EXIT, AREA],
             reflectance: Reflectance::Unused,
             code_abs: 2e-7,

@@ -45,9 +45,10 @@ pub static EFFECT: Effect = Effect {
     },
     conventions: &[
         "Look up red along the first ray, green along the second, blue along the third; or take N samples: sample i has the \
-         index of refraction mix(etas.x, etas.z, (i + 1/2) / N), and weights its look-up by spectral_weight(i, N).",
-        "One R serves all channels of a real medium (interface_reflectance_scalar): in steps of 255 the difference is .4 for \
-         water and BK7, .7 for diamond.",
+         index etas.x + (etas.z - etas.x) (2 t - 1/2) with t = (i + 1/2) / N, and weights its look-up by spectral_weight(i, N), whose red \
+         and blue have their middles at t = 1/4 and 3/4.",
+        "One R serves all channels of a real medium (interface_reflectance_scalar): in steps of 255 the difference is a \
+         third for water and BK7, .7 for diamond.",
     ],
     fails: &["Three samples show three edges where they lie more than a pixel apart."],
     functions: &[

@@ -1,7 +1,8 @@
 //! `d' = |P(p + d v) - p|`: a step of the search for where a ray inside a body leaves it, in a picture of its back.
 //!
-//! Source: the fixed-point iteration is that of Wyman, *An Approximate Image-Space Approach for Interactive Refraction*, ACM Transactions
-//! on Graphics 24, 2005, <https://doi.org/10.1145/1073204.1073310>, and of a tutorial that calls it Newton and Raphson's.
+//! Source: the iteration is that of Shah, Konttinen, Pattanaik, *Caustics Mapping*, IEEE Transactions on Visualization and Computer Graphics
+//! 13(2), 2007, <https://doi.org/10.1109/TVCG.2007.32>; a tutorial calls it Newton and Raphson's, and it is a fixed-point iteration.
+//! Refraction at two surfaces in pictures is Wyman's (2005, <https://doi.org/10.1145/1073204.1073310>).
 //! It converges fast on convex bodies. It also finds total reflection where there is none.
 
 use crate::cite::Citation;
@@ -43,11 +44,11 @@ pub static EFFECT: Effect = Effect {
         "exit direction: direction refracted at -normal_out, or reflected past the critical angle;  T = 1 - R",
     ],
     source: Citation {
-        authors: "Wyman",
-        title: "An Approximate Image-Space Approach for Interactive Refraction",
-        place: "ACM Transactions on Graphics 24",
-        year: 2005,
-        link: "https://doi.org/10.1145/1073204.1073310",
+        authors: "Shah, Konttinen, Pattanaik",
+        title: "Caustics Mapping: An Image-Space Technique for Real-Time Caustics",
+        place: "IEEE Transactions on Visualization and Computer Graphics 13(2), 272-280",
+        year: 2007,
+        link: "https://doi.org/10.1109/TVCG.2007.32",
     },
     conventions: &[
         "Draw the back of the body into `positions` (and its normals beside) with the camera of `view_projection`. Call the step \

@@ -18,7 +18,7 @@
 #ifndef FRESNEL_EFFECTS_CAUSTICS_EFFECT_GLES
 #define FRESNEL_EFFECTS_CAUSTICS_EFFECT_GLES
 
-// fresnel_photon_energy: the flux of a photon, for light of irradiance 1
+// fresnel_photon_energy: the flux (power) of a photon, for light of irradiance 1; area is in it
 //   t_entry: the transmitted share 1 - R at the first surface
 //   t_exit: the same at the second; for a caustic by reflection 1, with R in the place of t_entry
 //   area: of the photon's share of the light's cross-section, in square units of the world
@@ -29,7 +29,7 @@ highp vec3 fresnel_photon_energy(highp vec3 t_entry, highp vec3 t_exit, highp fl
 }
 
 // fresnel_triangle_irradiance: the irradiance inside the triangle; 0 where it has no area
-//   flux: of three photons: the mean of their energies times the area of their triangle before the body
+//   flux: of the triangle: the mean of t_entry t_exit at its corners, times its area before the body
 //   a: where the first photon lands, in the world
 //   b: where the second lands
 //   c: where the third lands

@@ -7,8 +7,9 @@
 //     p1 = positions at the texture coordinates of entry + |distance| direction
 //     distance' = |p1 - entry|, or -.7 |distance| where that camera sees nothing there
 //     exit direction: direction refracted at -normal_out, or reflected past the critical angle; T = 1 - R
-// Source: Wyman, "An Approximate Image-Space Approach for Interactive Refraction", ACM Transactions on Graphics
-//     24, 2005. https://doi.org/10.1145/1073204.1073310
+// Source: Shah, Konttinen, Pattanaik, "Caustics Mapping: An Image-Space Technique for Real-Time Caustics", IEEE
+//     Transactions on Visualization and Computer Graphics 13(2), 272-280, 2007.
+//     https://doi.org/10.1109/TVCG.2007.32
 // R by dielectric_exact: the exact law for dielectrics, stable near eta = 1, total reflection included. Cook,
 //     Torrance, "A Reflectance Model for Computer Graphics", ACM Transactions on Graphics 1(1), 7-24, 1982.
 //     https://doi.org/10.1145/357290.357293

@@ -10,7 +10,7 @@
 //     https://developer.nvidia.com/gpugems/gpugems2/part-ii-shading-lighting-and-shadows/chapter-19-generic-refraction-simulation
 // Draw the mirrored scene with a camera mirrored in the water's plane and an oblique near plane in it; read it
 //     with planar_uv of that camera.
-// A planar reflection plus (1 - R) water_refraction, with R of interface at eta = 1.333.
+// R times the planar reflection, plus (1 - R) water_refraction, with R of interface at eta = 1.333.
 // Wrong: What the picture does not show, beyond its edge or behind what stands before the water, cannot be
 //     refracted.
 

@@ -46,8 +46,11 @@ fn fs_front(front: Surface) -> @location(0) vec4<f32> {
     var what = FOUND;
     for (var i = 0; i < COUNT; i += 1) {
         let t = (f32(i) + 0.5) / f32(COUNT);
-        let to_green = mix(frame.n.x, frame.n.y, min(2.0 * t, 1.0));
-        let eta = mix(to_green, frame.n.z, max(2.0 * t - 1.0, 0.0));
+        // The weights of red and blue have their middles at 1/4 and 3/4, where their indices are.
+        let s = 2.0 * t - 0.5;
+        let reddish = frame.n.x + (frame.n.y - frame.n.x) * 2.0 * s;
+        let bluish = frame.n.y + (frame.n.z - frame.n.y) * (2.0 * s - 1.0);
+        let eta = select(bluish, reddish, s < 0.5);
         let seen = through(front.position, fresnel_refracted(incident, normal, eta), eta);
         refraction += fresnel_spectral_weight(f32(i), f32(COUNT)) * seen.rgb;
         if (i == COUNT / 2) {

@@ -8,6 +8,7 @@ mod chart;
 mod headline;
 mod map;
 pub mod reader;
+mod renders;
 mod sheet;
 mod thesis;
 
@@ -33,11 +34,12 @@ struct Shown {
     file: String,
 }
 
-static FACTS: [&[Fact]; 6] = [
+static FACTS: [&[Fact]; 7] = [
     baked::FACTS,
     chart::FACTS,
     headline::FACTS,
     map::FACTS,
+    renders::FACTS,
     sheet::FACTS,
     thesis::FACTS,
 ];

@@ -1,0 +1,148 @@
+//! Effects as they are drawn, beside their truth: what a physicist sees in the panels of the committed pictures.
+
+use super::reader::Pixels;
+use super::{Fact, Shown};
+
+pub static FACTS: &[Fact] = &[
+    Fact {
+        pictures: "*renders/double_refraction*.png",
+        says: "drawn and true alike, glass is blue of the sky below and not above; a brilliant mirrors the sky from inside",
+        holds: |shown| {
+            let read = Panels::new(shown);
+            for panel in [0, 1] {
+                let place = if shown.file.contains("gem") {
+                    MIDDLE
+                } else {
+                    BOTTOM
+                };
+                assert!(read.blueness(panel, place) > 15.0);
+                assert!(read.blueness(panel, TOP) < 0.0);
+            }
+        },
+    },
+    Fact {
+        pictures: "*renders/double_refraction_ldr.png",
+        says: "the sun's glint is white in truth, and not where the sky is clamped",
+        holds: |shown| {
+            let read = Panels::new(shown);
+            assert!(read.brightest(1) > 220.0 && read.brightest(0) < 150.0);
+        },
+    },
+    Fact {
+        pictures: "*renders/reflection_refraction.png",
+        says: "one refraction leaves the world upright, two turn it over",
+        holds: one_surface_is_upright,
+    },
+    Fact {
+        pictures: "*renders/dispersion.png",
+        says: "one refraction leaves the world upright, two turn it over",
+        holds: one_surface_is_upright,
+    },
+    Fact {
+        pictures: "*renders/complex_f0.png",
+        says: "gold reflects red more than green, and green more than blue",
+        holds: |shown| {
+            let read = Panels::new(shown);
+            for panel in [0, 1] {
+                let [red, green, blue] = read.mean(panel, BOTTOM);
+                assert!(red > green + 20.0 && green > blue + 20.0);
+            }
+        },
+    },
+    Fact {
+        pictures: "*renders/normal_mapped.png",
+        says: "silver mirrors the sky above and the ground below, dents or not",
+        holds: |shown| {
+            let read = Panels::new(shown);
+            assert!(read.blueness(0, TOP) > 50.0 && read.blueness(0, BOTTOM) < -10.0);
+        },
+    },
+    Fact {
+        pictures: "*renders/parallax_corrected.png",
+        says: "a mirror keeps left on the left: the red wall is there, the green one on the right",
+        holds: |shown| {
+            let read = Panels::new(shown);
+            for panel in [0, 1] {
+                let [red, green, _] = read.mean(panel, LEFT);
+                assert!(red > green + 50.0);
+                let [red, green, _] = read.mean(panel, RIGHT);
+                assert!(green > red + 50.0);
+            }
+        },
+    },
+    Fact {
+        pictures: "*renders/caustics.png",
+        says: "light is gathered in the middle, and the less the further out",
+        holds: |shown| {
+            let read = Panels::new(shown);
+            for panel in [0, 1] {
+                let light = [0, 20, 40, 80, 120].map(|far| read.mean(panel, ring(far))[0]);
+                assert!(light[0] > 240.0, "{light:?}");
+                assert!(light.is_sorted_by(|near, far| near > far), "{light:?}");
+            }
+        },
+    },
+];
+
+fn one_surface_is_upright(shown: &Shown) {
+    let read = Panels::new(shown);
+    assert!(read.blueness(1, BOTTOM) > read.blueness(0, BOTTOM) + 15.0);
+}
+
+/// From left, to right, from top and to bottom of a panel, in 256ths.
+type Part = [usize; 4];
+
+const TOP: Part = [108, 148, 30, 50];
+const MIDDLE: Part = [98, 158, 100, 150];
+const BOTTOM: Part = [108, 148, 205, 225];
+const LEFT: Part = [20, 40, 118, 138];
+const RIGHT: Part = [216, 236, 118, 138];
+
+/// A part so far right of the middle.
+fn ring(far: usize) -> Part {
+    [125 + far, 131 + far, 125, 131]
+}
+
+/// Three panels side by side: drawn, truth, error.
+struct Panels {
+    pixels: Pixels,
+    size: usize,
+}
+
+impl Panels {
+    fn new(shown: &Shown) -> Panels {
+        let pixels = Pixels::new(&shown.bytes());
+        let size = pixels.height;
+        assert_eq!(pixels.width, 3 * size);
+        Panels { pixels, size }
+    }
+
+    fn colours(&self, panel: usize, [left, right, top, bottom]: Part) -> Vec<[f64; 3]> {
+        let scaled = |part: usize| part * self.size / 256;
+        let rows = scaled(top)..scaled(bottom);
+        let colours = rows.flat_map(|y| {
+            let columns = scaled(left)..scaled(right);
+            columns.map(move |x| {
+                let x = (panel * self.size + x) as f64;
+                self.pixels.at(x, y as f64).map(f64::from)
+            })
+        });
+        colours.collect()
+    }
+
+    fn mean(&self, panel: usize, part: Part) -> [f64; 3] {
+        let colours = self.colours(panel, part);
+        [0, 1, 2]
+            .map(|i| colours.iter().map(|colour| colour[i]).sum::<f64>() / colours.len() as f64)
+    }
+
+    fn blueness(&self, panel: usize, part: Part) -> f64 {
+        let [red, _, blue] = self.mean(panel, part);
+        blue - red
+    }
+
+    fn brightest(&self, panel: usize) -> f64 {
+        let all = self.colours(panel, [0, 256, 0, 256]);
+        all.iter().map(|colour| colour[1]).fold(0.0, f64::max)
+    }
+}
