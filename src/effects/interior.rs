@@ -58,7 +58,7 @@ pub static EFFECT: Effect = Effect {
         "eta at the exit is n_outside / n_inside: the inverse of that at the entry.",
         "The same step finds other objects in a picture of theirs, for rays that left and for photons.",
         "What is seen is T_entry T_exit environment(exit_direction): radiance is not scaled by n^2 across both surfaces.",
-        "Past the critical angle T is 0, since all light stays inside: search once more, from there along exit_direction. The tutorial's \
+        "Past the critical angle T is 0, since all light stays inside: search once more, from there along exit_direction. A common \
          shortcut takes that ray as outside with T = 1.",
     ],
     fails: &[

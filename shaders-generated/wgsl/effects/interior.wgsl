@@ -22,7 +22,7 @@
 // The same step finds other objects in a picture of theirs, for rays that left and for photons.
 // What is seen is T_entry T_exit environment(exit_direction): radiance is not scaled by n^2 across both surfaces.
 // Past the critical angle T is 0, since all light stays inside: search once more, from there along exit_direction.
-//     The tutorial's shortcut takes that ray as outside with T = 1.
+//     A common shortcut takes that ray as outside with T = 1.
 // Wrong: A ray past the critical angle is reflected once and then taken as outside.
 // Wrong: Concave bodies have more than one back, and the picture holds one.
 // Wrong: At silhouettes the normal of the picture is that of the other side.
