@@ -6,6 +6,7 @@ use crate::emit::Detail;
 
 use super::error::Error;
 use super::manifest;
+use super::scope::EffectKey;
 
 pub use crate::digest::sha256;
 
@@ -26,6 +27,14 @@ pub struct Artifact {
     pub material: Option<String>,
     /// Functions, parameters, errors.
     pub detail: Detail,
+}
+
+impl Artifact {
+    /// What tells a file of an effect from others in its target's folder.
+    pub(super) fn effect_key(&self) -> Option<EffectKey> {
+        let effect = self.effect.clone()?;
+        Some((effect, self.material.clone(), self.method.clone()))
+    }
 }
 
 /// Refuses paths that leave the output folder, meet each other, or take the manifest's place.

@@ -118,7 +118,7 @@ impl EffectRequest<'_> {
                 _ => FunctionForm::Scalar,
             };
             let name = format!("{}{}{scalar}", part.function.name, self.suffix());
-            self.emitted(part, (naming, name), form, built.function, Values::new())
+            self.emitted(part, (naming, name), form, built.function)
         };
         Ok(built.into_iter().map(emitted).collect())
     }
@@ -141,19 +141,9 @@ impl EffectRequest<'_> {
             None => return Ok(None),
             Some(built) => built.map_err(|fault| self.refused(subject, &fault.to_string()))?,
         };
-        let left: Vec<&str> = function.params.iter().map(|p| p.name.as_str()).collect();
-        values.retain(|name, _| {
-            is_taken(part.function, self.method, name) && !left.contains(&&**name)
-        });
         let name = format!("{}{}", part.function.name, self.suffix());
         let form = FunctionForm::Specialised;
-        Ok(Some(self.emitted(
-            part,
-            (naming, name),
-            form,
-            function,
-            values,
-        )))
+        Ok(Some(self.emitted(part, (naming, name), form, function)))
     }
 
     /// The values of the method's inputs for a material; none where light leaves a body and the method takes more than its index.
@@ -177,7 +167,6 @@ impl EffectRequest<'_> {
         (naming, name): (&Naming, String),
         form: FunctionForm,
         function: Checked,
-        constants: Values,
     ) -> Emitted {
         Emitted {
             name: format!("{}{name}", naming.prefix),
@@ -186,7 +175,7 @@ impl EffectRequest<'_> {
             form,
             precision: Precision::F32,
             function,
-            constants,
+            constants: Values::new(),
             model_error: None,
             code: stated(part.function, self.method),
             plain_for: None,
@@ -234,13 +223,6 @@ fn index_values(subject: &MaterialInMedium) -> BTreeMap<String, [f64; 3]> {
     let etas = (!absorbs).then(|| ("etas".to_owned(), channels.n));
     let complex = [("n".to_owned(), channels.n), ("k".to_owned(), channels.k)];
     etas.into_iter().chain(complex).collect()
-}
-
-/// Whether a function takes an argument of this name.
-fn is_taken(function: &EffectFunction, method: &Method, name: &str) -> bool {
-    let own = function.arguments.iter().any(|one| one.name == name);
-    let asks = function.reflectance.is_used();
-    own || asks && method.inputs.iter().any(|input| input.name == name)
 }
 
 /// The file of an effect in a language; `command` writes it again.

@@ -4,7 +4,6 @@ use crate::app::artifact::Artifact;
 use crate::app::error::Error;
 use crate::app::fault::RequestFault;
 use crate::app::request::Request;
-use crate::app::scope::EffectKey;
 use crate::command_line::CommandLine;
 use crate::effects::{self, Effect, USUAL_METHOD};
 use crate::emit::{self, EffectRequest, Emitted, Naming};
@@ -112,15 +111,14 @@ impl Run<'_> {
                 let command = self.effect_command(target, &request);
                 let naming = &self.naming;
                 let file = emit::effect_file(target, &request, &functions, naming, &command)?;
-                let (effect, material, method) = key(&request);
                 files.push(Made {
                     artifact: Artifact {
                         path: format!("{}/{}", target.name, file.name),
                         bytes: file.bytes,
                         target: target.name.to_owned(),
-                        effect: Some(effect),
-                        method,
-                        material,
+                        effect: Some(request.effect.name.to_owned()),
+                        method: request.unusual_method().map(str::to_owned),
+                        material: request.subject.map(|subject| subject.name.clone()),
                         detail: file.detail,
                     },
                     functions: functions.clone(),
@@ -160,10 +158,12 @@ impl Run<'_> {
         format!("{what} changes nothing of {effect}, whose usual form serves")
     }
 
-    /// Which effects that were named have no file, and why.
-    pub fn unchanged_effects(&self) -> Vec<String> {
-        let made = self.effect_functions().unwrap_or_default();
-        let has = |effect: &Effect| made.iter().any(|(one, _)| one.effect.name == effect.name);
+    /// Which effects that were named have none of these files, and why.
+    pub fn unchanged_effects(&self, artifacts: &[Artifact]) -> Vec<String> {
+        let has = |effect: &Effect| {
+            let mut made = artifacts.iter();
+            made.any(|artifact| artifact.effect.as_deref() == Some(effect.name))
+        };
         let all = self.effects.effects.iter();
         let without = all.filter(|effect| self.is_of_effects() && !has(effect));
         without.map(|effect| self.unchanged(effect.name)).collect()
@@ -186,12 +186,6 @@ impl Run<'_> {
         Ok(all)
     }
 
-    /// The files of effects that the run makes.
-    pub fn effect_keys(&self) -> Vec<EffectKey> {
-        let all = self.effect_functions().unwrap_or_default();
-        all.iter().map(|(request, _)| key(request)).collect()
-    }
-
     /// The command that writes a file of an effect again.
     pub fn effect_command(&self, target: &Target, effect: &EffectRequest) -> String {
         let request = self.request;
@@ -210,12 +204,4 @@ impl Run<'_> {
             .with(&seen.unwrap_or_default())
             .into()
     }
-}
-
-fn key(request: &EffectRequest) -> EffectKey {
-    (
-        request.effect.name.to_owned(),
-        request.subject.map(|subject| subject.name.clone()),
-        request.unusual_method().map(str::to_owned),
-    )
 }

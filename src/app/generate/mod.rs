@@ -82,14 +82,14 @@ pub fn generate_beside(request: &Request, kept: &Kept) -> Result<Generated, Erro
         .collect();
     artifacts.sort_by(|a, b| a.path.cmp(&b.path));
     Ok(Generated {
-        artifacts,
-        scope: run.scope(),
+        scope: run.scope(&artifacts),
         provenance: run.provenance(),
         refused: written::refused(request, run.named.as_deref())
             .into_iter()
-            .chain(run.unchanged_effects())
+            .chain(run.unchanged_effects(&artifacts))
             .collect(),
         left_out: run.left_out,
+        artifacts,
     })
 }
 
@@ -339,7 +339,8 @@ impl<'r> Run<'r> {
             .into()
     }
 
-    fn scope(&self) -> Scope {
+    /// What the run owns; of effects the files that it made.
+    fn scope(&self, artifacts: &[Artifact]) -> Scope {
         let names = |methods: &Vec<&'static Method>| {
             methods
                 .iter()
@@ -360,7 +361,7 @@ impl<'r> Run<'r> {
                 false => Some(BTreeSet::new()),
             },
             materials: subjects.map(|(subject, _)| subject.name.clone()).collect(),
-            effects: self.effect_keys().into_iter().collect(),
+            effects: artifacts.iter().filter_map(Artifact::effect_key).collect(),
             shared: false,
             precision: request.precision,
             whole: request.targets.is_empty() && request.names_nothing(),
