@@ -9,7 +9,7 @@ use crate::optics;
 
 use super::body::Body;
 use super::draw::{DrawFault, floats, text};
-use super::row::find;
+use super::table::find;
 
 /// A window of the receiver.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -15,7 +15,7 @@ use super::camera::Camera;
 use super::environment::Environment;
 use super::glass::Glass;
 use super::room::{CUBE_CENTRE, ROOM_MAX, ROOM_MIN, room_cube};
-use super::row::{PassRow, Place, RenderRow, Slot};
+use super::row::{PassRow, Place, RenderRow, Slot, View};
 use super::trace::Things;
 
 /// Texels of a side of the room's cube map.
@@ -64,7 +64,6 @@ pub fn draw(
     let around = upload(&offscreen, [width, height], environment.texels())?;
     let vertices: Vec<_> = body.triangles().concat().iter().map(floats).collect();
     let mesh = offscreen.mesh(&vertices)?;
-    let uniforms = frame(camera, body, glass);
     let mut slots: BTreeMap<Slot, Image> = BTreeMap::new();
     if row.in_room {
         let cube = offscreen.upload([CUBE as u32, CUBE as u32, 6], &room_cube(CUBE))?;
@@ -82,6 +81,7 @@ pub fn draw(
         let (vertex, depth) = pass.drawn_by();
         let images: Vec<&Image> = pass.reads.iter().map(|slot| &slots[slot]).collect();
         let targets: Vec<&Image> = pass.writes.iter().map(|slot| &slots[slot]).collect();
+        let uniforms = frame(&pass.view.camera(camera), camera, body, glass);
         offscreen.draw(&Draw {
             text: &text,
             vertex,
@@ -139,8 +139,19 @@ pub(super) fn text(row: &RenderRow) -> Result<String, emit::Error> {
     Ok(text + FRAME + row.text)
 }
 
-/// The bytes of the frame.
-fn frame(camera: &Camera, body: &Body, glass: &Glass) -> Vec<u8> {
+impl View {
+    /// The camera of a pass, by that of the eye.
+    fn camera(self, eye: &Camera) -> Camera {
+        match self {
+            View::Eye => *eye,
+            View::Mirrored => eye.mirrored().clipped_below(),
+            View::MirroredUnclipped => eye.mirrored(),
+        }
+    }
+}
+
+/// The bytes of the frame of a pass that this camera draws.
+fn frame(camera: &Camera, eye: &Camera, body: &Body, glass: &Glass) -> Vec<u8> {
     let four = |v: DVec3, w: f64| [v.x as f32, v.y as f32, v.z as f32, w as f32];
     let matrix = |m: DMat4| m.to_cols_array().map(|value| value as f32);
     let mut numbers = Vec::new();
@@ -152,6 +163,8 @@ fn frame(camera: &Camera, body: &Body, glass: &Glass) -> Vec<u8> {
     for corner in [ROOM_MIN, ROOM_MAX, CUBE_CENTRE] {
         numbers.extend(four(corner, 0.0));
     }
+    numbers.extend(matrix(eye.mirrored().view_projection));
+    numbers.extend(four(glass.absorption(), 0.0));
     numbers.into_iter().flat_map(f32::to_ne_bytes).collect()
 }
 

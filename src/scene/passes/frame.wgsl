@@ -1,5 +1,6 @@
 // What every pass sees: the frame, the environment, the entry points for vertices.
 
+// Matrices and the eye are those of the pass's view.
 struct Frame {
     view_projection: mat4x4<f32>,
     inverse: mat4x4<f32>,
@@ -11,6 +12,10 @@ struct Frame {
     room_min: vec4<f32>,
     room_max: vec4<f32>,
     room_centre: vec4<f32>,
+    // of the eye mirrored in y = 0
+    mirrored: mat4x4<f32>,
+    // of the body's material, of red, green and blue, per unit of length
+    absorption: vec4<f32>,
 }
 
 struct Surface {
