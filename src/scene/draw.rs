@@ -16,6 +16,7 @@ use super::environment::Environment;
 use super::glass::Glass;
 use super::room::{CUBE_CENTRE, ROOM_MAX, ROOM_MIN, room_cube};
 use super::row::{PassRow, Place, RenderRow, Slot, View};
+use super::texels::Texels;
 use super::trace::Things;
 
 /// Texels of a side of the room's cube map.
@@ -62,8 +63,11 @@ pub fn draw(
     let offscreen = device.offscreen()?;
     let [width, height] = environment.size();
     let around = upload(&offscreen, [width, height], environment.texels())?;
-    let vertices: Vec<_> = body.triangles().concat().iter().map(floats).collect();
-    let mesh = offscreen.mesh(&vertices)?;
+    let [body_mesh, water_mesh] = [body.triangles(), body.water()].map(|triangles| {
+        let vertices: Vec<_> = triangles.concat().iter().map(floats).collect();
+        offscreen.mesh(&vertices)
+    });
+    let (body_mesh, water_mesh) = (body_mesh?, water_mesh?);
     let mut slots: BTreeMap<Slot, Image> = BTreeMap::new();
     if row.in_room {
         let cube = offscreen.upload([CUBE as u32, CUBE as u32, 6], &room_cube(CUBE))?;
@@ -72,6 +76,10 @@ pub fn draw(
     if let Some(relief) = relief {
         let image = upload(&offscreen, [relief.side(); 2], relief.texels())?;
         slots.insert(Slot::Relief, image);
+    }
+    for (slot, table) in tables(body) {
+        let [width, height] = table.size().map(|texels| texels as u32);
+        slots.insert(slot, offscreen.upload([width, height, 1], table.texels())?);
     }
     for pass in row.passes {
         let clears = !pass.writes.iter().any(|slot| slots.contains_key(slot));
@@ -90,7 +98,8 @@ pub fn draw(
             images: &[&[&around], images.as_slice()].concat(),
             mesh: match pass.place {
                 Place::Everywhere => Err(3),
-                Place::Front | Place::Back => Ok(&mesh),
+                Place::Front | Place::Back => Ok(&body_mesh),
+                Place::Water => Ok(&water_mesh),
             },
             targets: &targets,
             clears,
@@ -100,6 +109,18 @@ pub fn draw(
     }
     let samples = offscreen.read(&slots[&Slot::Colour])?;
     Ok(Drawn { samples })
+}
+
+/// The tables that belong to a body.
+fn tables(body: &Body) -> Vec<(Slot, &Texels)> {
+    match body {
+        Body::Ball | Body::Gem(_) => Vec::new(),
+        Body::Pool(pool) => vec![(Slot::Paint, &pool.paint), (Slot::Relief, &pool.normals)],
+        Body::Window(window) => vec![
+            (Slot::Paint, &window.paint),
+            (Slot::Relief, &window.normals),
+        ],
+    }
 }
 
 fn upload(
@@ -117,6 +138,7 @@ impl PassRow {
             Place::Everywhere => ("vs_cover", Depth::Unused),
             Place::Front => ("vs_body", Depth::Nearest),
             Place::Back => ("vs_body", Depth::Farthest),
+            Place::Water => ("vs_body", Depth::Unused),
         }
     }
 }

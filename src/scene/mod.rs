@@ -13,13 +13,16 @@ mod gem;
 mod glass;
 #[cfg(feature = "gpu")]
 mod picture;
+mod pool;
 mod relief;
 mod room;
 mod row;
 mod sky;
 mod table;
+mod texels;
 mod tone;
 mod trace;
+mod window;
 
 pub use body::{Body, Crossing, Vertex};
 pub use camera::Camera;

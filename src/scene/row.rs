@@ -1,7 +1,9 @@
 //! What a row of the table of pictures says: its passes, what they read and write, and its scene.
 
 use super::body::Body;
+use super::pool::pool;
 use super::trace::Paths;
+use super::window::window;
 
 /// A picture that is drawn.
 #[derive(Clone, Copy, Debug)]
@@ -47,6 +49,10 @@ pub enum BodyName {
     Ball,
     /// The brilliant.
     Gem,
+    /// The pool.
+    Pool,
+    /// The window of stained glass.
+    Window,
 }
 
 impl BodyName {
@@ -55,6 +61,8 @@ impl BodyName {
         match self {
             BodyName::Ball => Body::Ball,
             BodyName::Gem => Body::gem(),
+            BodyName::Pool => Body::Pool(pool()),
+            BodyName::Window => Body::Window(window()),
         }
     }
 
@@ -63,6 +71,8 @@ impl BodyName {
         match self {
             BodyName::Ball => "ball",
             BodyName::Gem => "gem",
+            BodyName::Pool => "pool",
+            BodyName::Window => "window",
         }
     }
 }
@@ -76,10 +86,20 @@ pub enum Slot {
     BackPositions,
     /// Its normals.
     BackNormals,
+    /// What lies below the water, with 1 in alpha; 0 for what stands before it.
+    Below,
+    /// Where that is.
+    BelowPositions,
+    /// The scene above the water, mirrored in it.
+    Mirror,
+    /// Where that is, with 1 in alpha; 0 where nothing but the sky is.
+    MirrorPositions,
     /// The cube map of the room.
     Room,
     /// The normal map.
     Relief,
+    /// The radiance of solid things, by their texture coordinates; of a window the colours of glass, with 1 in alpha, and of lead and stone, with 0.
+    Paint,
 }
 
 /// What a pass draws.
@@ -91,6 +111,8 @@ pub enum Place {
     Front,
     /// The side that does not.
     Back,
+    /// The water's surface, over what is there: what stands before it is for the pass to say.
+    Water,
 }
 
 /// Where a pass is drawn from.
@@ -120,10 +142,16 @@ pub struct PassRow {
 }
 
 impl RenderRow {
-    /// Whether it searches for the second surface in a picture of the body's back.
+    /// Whether it searches for the end of a refracted ray in a picture of what is there.
     pub fn searches(&self) -> bool {
+        let positions = [Slot::BackPositions, Slot::BelowPositions];
         let mut passes = self.passes.iter();
-        passes.any(|pass| pass.reads.contains(&Slot::BackPositions))
+        passes.any(|pass| positions.iter().any(|slot| pass.reads.contains(slot)))
+    }
+
+    /// Whether there is water in it.
+    pub fn has_water(&self) -> bool {
+        self.body == BodyName::Pool
     }
 
     /// Whether the environment is seen in it.

@@ -34,6 +34,50 @@ const FRONT: PassRow = PassRow {
 const FROM_THE_SIDE: [f64; 3] = [0.0, 0.75, 2.9];
 const FROM_ABOVE: [f64; 3] = [0.0, 2.6, 3.0];
 
+const OVER_THE_POOL: [f64; 3] = [0.0, 1.5, 4.0];
+const BEFORE_THE_WINDOW: [f64; 3] = [1.329, -1.3, -1.516];
+
+/// Solid things mirrored in the water under the mirrored sky; what lies below it; both as the eye sees them; the water over that.
+const WATER: [PassRow; 6] = [
+    PassRow {
+        fragment: "fs_mirror_sky",
+        view: View::Mirrored,
+        writes: &[Slot::Mirror, Slot::MirrorPositions],
+        ..SKY
+    },
+    PassRow {
+        fragment: "fs_mirror",
+        view: View::Mirrored,
+        writes: &[Slot::Mirror, Slot::MirrorPositions],
+        reads: &[Slot::Paint],
+        ..FRONT
+    },
+    PassRow {
+        fragment: "fs_below",
+        writes: &[Slot::Below, Slot::BelowPositions],
+        reads: &[Slot::Paint],
+        ..FRONT
+    },
+    SKY,
+    PassRow {
+        fragment: "fs_solid",
+        reads: &[Slot::Paint],
+        ..FRONT
+    },
+    PassRow {
+        fragment: "fs_water",
+        place: Place::Water,
+        reads: &[
+            Slot::Below,
+            Slot::BelowPositions,
+            Slot::Mirror,
+            Slot::MirrorPositions,
+            Slot::Relief,
+        ],
+        ..SKY
+    },
+];
+
 /// A ball of glass under the sky, seen from the side.
 const BALL: RenderRow = RenderRow {
     name: "",
@@ -176,6 +220,38 @@ pub static ALL: &[RenderRow] = &[
         in_room: true,
         wrong: "texels of the cube map; what stands in the room would be drawn on its walls",
         ..METAL
+    },
+    RenderRow {
+        name: "water",
+        summary: "A pool with waves: a mirrored and clipped picture, and a masked one of what lies below",
+        effects: &["interface", "interior", "water", "normal_mapping"],
+        text: include_str!("passes/water.wgsl"),
+        passes: &WATER,
+        body: BodyName::Pool,
+        material: "water",
+        own_paths: Paths::OneSurface,
+        true_paths: Paths::OneSurface,
+        eye: OVER_THE_POOL,
+        wrong: "waves have no height; what the eye does not see, below or mirrored, cannot be looked up; waves do not mirror each other",
+        ..BALL
+    },
+    RenderRow {
+        name: "stained_glass",
+        summary: "A rose window: tinted panes with a normal map, before the sky",
+        effects: &["interface", "interior", "water", "normal_mapping"],
+        text: include_str!("passes/stained_glass.wgsl"),
+        passes: &[
+            SKY,
+            PassRow {
+                reads: &[Slot::Paint, Slot::Relief],
+                ..FRONT
+            },
+        ],
+        body: BodyName::Window,
+        material: "soda_lime_glass",
+        eye: BEFORE_THE_WINDOW,
+        wrong: "glass has no thickness: light that is reflected in it is missing, and leads hide nothing behind them",
+        ..BALL
     },
 ];
 

@@ -44,6 +44,7 @@ const SKY = 0.0;
 const FOUND = 1.0;
 const MISSED = 2.0;
 const TOTAL = 3.0;
+const LEAKED = 4.0;
 
 @vertex
 fn vs_body(
