@@ -42,6 +42,17 @@ impl Camera {
         }
     }
 
+    /// The same camera for a picture of the same pixels and a margin around them: this many pixels a side, of so many with the margin.
+    pub fn with_margin(&self, side: u32, whole: u32) -> Camera {
+        let share = f64::from(side) / f64::from(whole);
+        let smaller = DVec3::new(share, share, 1.0);
+        Camera {
+            eye: self.eye,
+            view_projection: DMat4::from_scale(smaller) * self.view_projection,
+            inverse: self.inverse * DMat4::from_scale(smaller.recip()),
+        }
+    }
+
     /// The same camera with another near plane: what lies below the plane y = 0 is clipped.
     pub fn clipped_below(&self) -> Camera {
         Camera {

@@ -84,12 +84,13 @@ pub fn draw(
     for pass in row.passes {
         let clears = !pass.writes.iter().any(|slot| slots.contains_key(slot));
         for slot in pass.writes.iter().filter(|_| clears) {
+            let side = pass.view.side(side);
             slots.insert(*slot, offscreen.target(side, side)?);
         }
         let (vertex, depth) = pass.drawn_by();
         let images: Vec<&Image> = pass.reads.iter().map(|slot| &slots[slot]).collect();
         let targets: Vec<&Image> = pass.writes.iter().map(|slot| &slots[slot]).collect();
-        let uniforms = frame(&pass.view.camera(camera), camera, body, glass);
+        let uniforms = frame(pass.view, camera, side, body, glass);
         offscreen.draw(&Draw {
             text: &text,
             vertex,
@@ -161,19 +162,32 @@ pub(super) fn text(row: &RenderRow) -> Result<String, emit::Error> {
     Ok(text + FRAME + row.text)
 }
 
+/// A margin of a picture is this part of its side.
+const MARGIN: u32 = 5;
+
 impl View {
-    /// The camera of a pass, by that of the eye.
-    fn camera(self, eye: &Camera) -> Camera {
+    /// Pixels a side of what is drawn, where the picture has so many.
+    fn side(self, side: u32) -> u32 {
         match self {
-            View::Eye => *eye,
+            View::Eye => side,
+            View::Margin | View::Mirrored | View::MirroredUnclipped => side + 2 * (side / MARGIN),
+        }
+    }
+
+    /// The camera of a pass, by that of the eye.
+    fn camera(self, eye: &Camera, side: u32) -> Camera {
+        let camera = match self {
+            View::Eye | View::Margin => *eye,
             View::Mirrored => eye.mirrored().clipped_below(),
             View::MirroredUnclipped => eye.mirrored(),
-        }
+        };
+        camera.with_margin(side, self.side(side))
     }
 }
 
-/// The bytes of the frame of a pass that this camera draws.
-fn frame(camera: &Camera, eye: &Camera, body: &Body, glass: &Glass) -> Vec<u8> {
+/// The bytes of the frame of a pass.
+fn frame(view: View, eye: &Camera, side: u32, body: &Body, glass: &Glass) -> Vec<u8> {
+    let camera = view.camera(eye, side);
     let four = |v: DVec3, w: f64| [v.x as f32, v.y as f32, v.z as f32, w as f32];
     let matrix = |m: DMat4| m.to_cols_array().map(|value| value as f32);
     let mut numbers = Vec::new();
@@ -185,7 +199,9 @@ fn frame(camera: &Camera, eye: &Camera, body: &Body, glass: &Glass) -> Vec<u8> {
     for corner in [ROOM_MIN, ROOM_MAX, CUBE_CENTRE] {
         numbers.extend(four(corner, 0.0));
     }
-    numbers.extend(matrix(eye.mirrored().view_projection));
+    for view in [View::Margin, View::Mirrored] {
+        numbers.extend(matrix(view.camera(eye, side).view_projection));
+    }
     numbers.extend(four(glass.absorption(), 0.0));
     numbers.into_iter().flat_map(f32::to_ne_bytes).collect()
 }

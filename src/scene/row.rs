@@ -120,7 +120,9 @@ pub enum Place {
 pub enum View {
     /// The eye.
     Eye,
-    /// The eye mirrored in the plane y = 0. What lies below the plane is clipped.
+    /// The eye, in a picture with a margin: for look-ups beyond the edge.
+    Margin,
+    /// The eye mirrored in the plane y = 0, with that margin. What lies below the plane is clipped.
     Mirrored,
     /// The same without clipping, to show what clipping is for.
     MirroredUnclipped,

@@ -34,7 +34,7 @@ const FRONT: PassRow = PassRow {
 const FROM_THE_SIDE: [f64; 3] = [0.0, 0.75, 2.9];
 const FROM_ABOVE: [f64; 3] = [0.0, 2.6, 3.0];
 
-const OVER_THE_POOL: [f64; 3] = [0.0, 1.5, 4.0];
+const OVER_THE_POOL: [f64; 3] = [0.0, 1.2, 4.0];
 const BEFORE_THE_WINDOW: [f64; 3] = [1.329, -1.3, -1.516];
 
 /// Solid things mirrored in the water under the mirrored sky; what lies below it; both as the eye sees them; the water over that.
@@ -54,6 +54,7 @@ const WATER: [PassRow; 6] = [
     },
     PassRow {
         fragment: "fs_below",
+        view: View::Margin,
         writes: &[Slot::Below, Slot::BelowPositions],
         reads: &[Slot::Paint],
         ..FRONT

@@ -12,7 +12,8 @@ struct Frame {
     room_min: vec4<f32>,
     room_max: vec4<f32>,
     room_centre: vec4<f32>,
-    // of the eye mirrored in y = 0
+    // of the eye and of the eye mirrored in y = 0, in pictures with a margin
+    margin: mat4x4<f32>,
     mirrored: mat4x4<f32>,
     // of the body's material, of red, green and blue, per unit of length
     absorption: vec4<f32>,

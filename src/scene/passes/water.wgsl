@@ -2,6 +2,7 @@
 
 const BELOW_STEPS = 4;
 const MIRROR_STEPS = 3;
+const MASK_STEPS = 6;
 // What the mirrored ray goes to where it meets nothing.
 const FAR = 100.0;
 
@@ -51,17 +52,41 @@ struct Found {
     leaks: bool,
 }
 
+// Whether the picture has what the whole bend leads to: else the function shows what is straight behind the water.
+fn is_shown(uv: vec2<f32>, bend: vec2<f32>) -> bool {
+    let place = fresnel_water_refraction(uv, bend, below_positions, clamped);
+    let shown = fresnel_planar_uv(place, frame.margin, UV_SCALE_BIAS).xy;
+    return distance(shown, uv + bend) < distance(shown, uv);
+}
+
+// The largest share of the bend that leads to something below the water, so that shores of the mask do not show.
+fn shown_bend(uv: vec2<f32>, bend: vec2<f32>) -> vec2<f32> {
+    var least = 0.0;
+    var most = 1.0;
+    for (var i = 0; i < MASK_STEPS; i += 1) {
+        let middle = 0.5 * (least + most);
+        let shows = is_shown(uv, middle * bend);
+        least = select(least, middle, shows);
+        most = select(middle, most, shows);
+    }
+    return least * bend;
+}
+
 // What lies along the refracted ray: searched for from what is straight behind the water, and masked.
 fn refraction(position: vec3<f32>, uv: vec2<f32>, straight: vec3<f32>, inside: vec3<f32>) -> Found {
     var distance = length(straight - position);
     for (var i = 0; i < BELOW_STEPS; i += 1) {
-        distance = fresnel_interior_search_step(position, inside, distance, frame.view_projection, UV_SCALE_BIAS, below_positions, clamped);
+        distance = fresnel_interior_search_step(position, inside, distance, frame.margin, UV_SCALE_BIAS, below_positions, clamped);
     }
-    let bent = fresnel_planar_uv(position + inside * abs(distance), frame.view_projection, UV_SCALE_BIAS).xy;
-    let colour = fresnel_water_refraction(uv, bent - uv, below, clamped);
-    let place = fresnel_water_refraction(uv, bent - uv, below_positions, clamped);
+    var bend = fresnel_planar_uv(position + inside * abs(distance), frame.margin, UV_SCALE_BIAS).xy - uv;
+    let found = is_shown(uv, bend);
+    if (!found) {
+        bend = shown_bend(uv, bend);
+    }
+    let colour = fresnel_water_refraction(uv, bend, below, clamped);
+    let place = fresnel_water_refraction(uv, bend, below_positions, clamped);
     let dimmed = exp(-frame.absorption.xyz * length(place - position));
-    return Found(colour * dimmed, distance > 0.0, place.y > 0.002);
+    return Found(colour * dimmed, found, place.y > 0.002);
 }
 
 // What lies along the mirrored ray, looked up in the mirrored scene; beyond its edge there is only the sky.
@@ -83,7 +108,7 @@ fn reflection(position: vec3<f32>, uv: vec2<f32>, direction: vec3<f32>) -> Found
 
 @fragment
 fn fs_water(water: Surface) -> @location(0) vec4<f32> {
-    let uv = fresnel_planar_uv(water.position, frame.view_projection, UV_SCALE_BIAS).xy;
+    let uv = fresnel_planar_uv(water.position, frame.margin, UV_SCALE_BIAS).xy;
     let straight = textureSampleLevel(below_positions, clamped, uv, 0.0);
     if (straight.a < 0.5) {
         // Something stands before the water.

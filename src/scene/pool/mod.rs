@@ -20,8 +20,8 @@ use waves::Waves;
 pub use solids::quad;
 
 /// The basin: its floor, and the edge of the court.
-const BASIN_MIN: DVec3 = DVec3::new(-3.0, -1.1, -4.0);
-const BASIN_MAX: DVec3 = DVec3::new(3.0, 0.12, 3.0);
+const BASIN_MIN: DVec3 = DVec3::new(-3.0, -1.4, -4.0);
+const BASIN_MAX: DVec3 = DVec3::new(3.0, 0.12, 4.0);
 
 /// Texels of a side of the normal map.
 const SIDE: usize = 512;

@@ -23,10 +23,10 @@ const SKY: DVec3 = DVec3::new(0.3, 0.36, 0.45);
 const WATER: f64 = 1.333;
 const ABSORPTION: DVec3 = DVec3::new(0.25, 0.045, 0.027);
 /// Cells of the floor that photons are counted in, and photons of a cell along each side.
-const CELLS: [usize; 2] = [448, 384];
+const CELLS: [usize; 2] = [512, 384];
 const PHOTONS: usize = 3;
-/// How often neighbouring cells are averaged: as the sun is wide.
-const BLURS: usize = 2;
+/// How often neighbouring cells are averaged, as the sun has a width.
+const BLURS: usize = 1;
 const TILE: f64 = 0.25;
 const GROUT: f64 = 0.014;
 
@@ -85,6 +85,7 @@ fn albedo(part: Part, at: DVec2, place: DVec3) -> DVec3 {
             tile(DVec2::new(along, place.y), 1.0 + place.y)
         }
         Part::Wall(_) | Part::Court => stone(at, part),
+        Part::Garden => garden(at, place),
         Part::Post => post(at, place.y),
         Part::Top => DVec3::new(0.85, 0.6, 0.2),
         Part::Ball => ball(at),
@@ -97,14 +98,14 @@ fn tile(place: DVec2, to_edge: f64) -> DVec3 {
     let within = place - TILE * number;
     let to_grout = within.min(TILE - within).min_element();
     if to_grout < GROUT / 2.0 {
-        return DVec3::new(0.72, 0.76, 0.74);
+        return DVec3::new(0.5, 0.56, 0.55);
     }
     let (i, j) = (number.x as i64, number.y as i64);
     let shade = 0.8 + 0.35 * scattered(i, j);
     let is_band = (TILE..2.0 * TILE).contains(&to_edge);
     let colour = match is_band {
         true => DVec3::new(0.05, 0.14, 0.36),
-        false => DVec3::new(0.34, 0.62, 0.64).lerp(DVec3::new(0.2, 0.5, 0.6), scattered(j, i)),
+        false => DVec3::new(0.16, 0.4, 0.44).lerp(DVec3::new(0.07, 0.28, 0.4), scattered(j, i)),
     };
     (colour * shade).min(DVec3::splat(0.9))
 }
@@ -120,7 +121,21 @@ fn stone(at: DVec2, part: Part) -> DVec3 {
     colour * (0.82 + 0.12 * grain)
 }
 
-/// Stripes that wind around it, with weed below the water line.
+/// Plaster under a coping, with leaves that climb it.
+fn garden(at: DVec2, place: DVec3) -> DVec3 {
+    let flat = DVec2::new(place.x, place.y);
+    if at.y < 0.07 {
+        return DVec3::new(0.8, 0.76, 0.68);
+    }
+    let climbs = smooth_noise(flat * DVec2::new(0.9, 0.7)) + 0.35 * smooth_noise(6.0 * flat);
+    if climbs > 0.72 + 0.25 * at.y {
+        let leaf = smooth_noise(22.0 * flat);
+        return DVec3::new(0.05, 0.14, 0.04).lerp(DVec3::new(0.22, 0.36, 0.1), leaf);
+    }
+    DVec3::new(0.78, 0.45, 0.25) * (0.8 + 0.2 * smooth_noise(9.0 * flat))
+}
+
+/// Stripes that wind around it, with weed at the water line.
 fn post(at: DVec2, y: f64) -> DVec3 {
     let turns = at.x + 2.2 * y;
     let is_white = turns - turns.floor() < 0.5;
@@ -128,8 +143,8 @@ fn post(at: DVec2, y: f64) -> DVec3 {
         true => DVec3::new(0.86, 0.84, 0.8),
         false => DVec3::new(0.55, 0.05, 0.06),
     };
-    let weed = ((0.04 - y) / 0.1).clamp(0.0, 1.0) * 0.45;
-    colour.lerp(DVec3::new(0.12, 0.2, 0.08), weed)
+    let weed = (1.0 - (y + 0.05).abs() / 0.09).clamp(0.0, 1.0) * 0.6;
+    colour.lerp(DVec3::new(0.1, 0.16, 0.06), weed)
 }
 
 fn ball(at: DVec2) -> DVec3 {

@@ -7,7 +7,7 @@ use crate::scene::body::{Vertex, ball_triangles};
 use super::{BASIN_MAX, BASIN_MIN};
 
 /// The court around the basin, in squares of a metre.
-const COURT_MIN: DVec2 = DVec2::new(-12.0, -14.0);
+const COURT_MIN: DVec2 = DVec2::new(-12.0, -9.0);
 const COURT_MAX: DVec2 = DVec2::new(12.0, 6.0);
 /// Posts: x, z, and the height of their top.
 const POSTS: [[f64; 3]; 4] = [
@@ -18,7 +18,9 @@ const POSTS: [[f64; 3]; 4] = [
 ];
 const POST_RADIUS: f64 = 0.1;
 /// The heights between which posts are painted.
-const PAINTED: [f64; 2] = [-1.1, 1.1];
+const PAINTED: [f64; 2] = [-1.4, 1.1];
+/// The top of the garden wall behind the court.
+const GARDEN_WALL: f64 = 1.55;
 const BALL_CENTRE: DVec3 = DVec3::new(0.8, 0.12, 0.75);
 const BALL_RADIUS: f64 = 0.36;
 /// Columns of a post, and rows of the ball.
@@ -34,6 +36,8 @@ pub enum Part {
     Wall(usize),
     /// A square of the court.
     Court,
+    /// The garden wall.
+    Garden,
     /// A post's side.
     Post,
     /// A post's top.
@@ -43,12 +47,13 @@ pub enum Part {
 }
 
 /// All parts.
-pub const PARTS: [Part; 9] = [
+pub const PARTS: [Part; 10] = [
     Part::Floor,
     Part::Wall(0),
     Part::Wall(1),
     Part::Wall(2),
     Part::Wall(3),
+    Part::Garden,
     Part::Court,
     Part::Post,
     Part::Top,
@@ -79,6 +84,7 @@ impl Part {
             Part::Ball => [256, 928, 512, 256],
             Part::Court => [768, 928, 128, 128],
             Part::Top => [896, 928, 128, 128],
+            Part::Garden => [256, 1184, 768, 96],
         }
     }
 
@@ -107,6 +113,11 @@ impl Part {
             Part::Wall(2) => (DVec3::new(along(at.x).x, y, BASIN_MIN.z), DVec3::Z),
             Part::Wall(_) => (DVec3::new(along(at.x).x, y, BASIN_MAX.z), DVec3::NEG_Z),
             Part::Court => (DVec3::new(at.x, BASIN_MAX.y, at.y), DVec3::Y),
+            Part::Garden => {
+                let x = COURT_MIN.x + at.x * (COURT_MAX.x - COURT_MIN.x);
+                let y = GARDEN_WALL + at.y * (BASIN_MAX.y - GARDEN_WALL);
+                (DVec3::new(x, y, COURT_MIN.y), DVec3::Z)
+            }
             Part::Top => (DVec3::new(x, top, z), DVec3::Y),
             Part::Post => {
                 let y = PAINTED[1] + at.y * (PAINTED[0] - PAINTED[1]);
@@ -139,6 +150,8 @@ pub fn hit(origin: DVec3, direction: DVec3) -> Option<Hit> {
     }
     let distance = (BASIN_MAX.y - origin.y) / direction.y;
     hits.extend(on_court(distance, origin + distance * direction));
+    let distance = (COURT_MIN.y - origin.z) / direction.z;
+    hits.extend(on_garden_wall(distance, origin + distance * direction));
     for post in POSTS {
         hits.extend(on_post(post, origin, direction));
     }
@@ -176,6 +189,19 @@ fn on_court(distance: f64, place: DVec3) -> Option<Hit> {
         distance,
         part: Part::Court,
         at: DVec2::new(x - x.floor(), z - z.floor()),
+    })
+}
+
+fn on_garden_wall(distance: f64, place: DVec3) -> Option<Hit> {
+    let at = DVec2::new(
+        (place.x - COURT_MIN.x) / (COURT_MAX.x - COURT_MIN.x),
+        (place.y - GARDEN_WALL) / (BASIN_MAX.y - GARDEN_WALL),
+    );
+    let is_wall = (0.0..=1.0).contains(&at.x) && (0.0..=1.0).contains(&at.y);
+    (distance.is_finite() && is_wall).then_some(Hit {
+        distance,
+        part: Part::Garden,
+        at,
     })
 }
 
@@ -230,7 +256,7 @@ fn around(place: DVec2) -> f64 {
 pub fn triangles() -> Vec<[Vertex; 3]> {
     let mut all = Vec::new();
     let square = [DVec2::ZERO, DVec2::X, DVec2::ONE, DVec2::Y];
-    for part in PARTS.into_iter().take(5) {
+    for part in PARTS.into_iter().take(6) {
         let corners = square.map(|at| part.in_world(at).0);
         all.extend(flat(part, corners, square));
     }

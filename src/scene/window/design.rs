@@ -27,6 +27,9 @@ const SEEDS: [[f64; 2]; 11] = [
 /// Half the width of leads: between pieces, and around medallions.
 const LEAD: f64 = 0.0075;
 const THICK_LEAD: f64 = 0.012;
+/// How far the stone's rim is rounded, and how far the room's light reaches.
+const RIM: f64 = 0.08;
+const REACH: f64 = 0.7;
 /// The hub of a medallion, as a share of its radius.
 const HUB: f64 = 0.52;
 
@@ -73,7 +76,7 @@ pub fn paint(place: DVec2) -> DVec4 {
 pub fn slope(place: DVec2) -> DVec2 {
     let radius = place.length();
     if radius > ROSE {
-        let rim = ((radius - ROSE) / 0.08).min(1.0);
+        let rim = ((radius - ROSE) / RIM).min(1.0);
         let rounded = 1.6 * (2.0 * rim - 1.0) * f64::from(u8::from(rim < 1.0));
         return -rounded * place / radius + 0.25 * grain(place);
     }
@@ -115,16 +118,23 @@ fn grain(place: DVec2) -> DVec2 {
     )
 }
 
-/// Blocks around the rose, lit by it less the farther they are.
+/// Blocks around the rose, lit by the room less the farther they are, and by the panes beside them.
 fn stone(place: DVec2) -> DVec3 {
     let radius = place.length();
-    let far = (radius - ROSE) / (super::HALF - 0.02 - ROSE);
+    let far = (radius - ROSE) / REACH;
     let lit = (1.0 - far).clamp(0.0, 1.0);
-    let turn = place.to_angle() / std::f64::consts::TAU * 2.0 * PARTS;
-    let to_joint = (turn - turn.round()).abs() * std::f64::consts::TAU * radius / (2.0 * PARTS);
-    let is_joint = radius > ROSE + 0.085 && to_joint < 0.004;
+    let blocks = 2.0 * PARTS;
+    let turn = place.to_angle() / std::f64::consts::TAU * blocks;
+    let to_joint = (turn - turn.round()).abs() * std::f64::consts::TAU * radius / blocks;
+    let is_joint = radius > ROSE + RIM && to_joint < 0.004;
     let mottled = 0.75 + 0.3 * smooth_noise(24.0 * place) + 0.2 * smooth_noise(110.0 * place);
-    let colour = DVec3::new(0.62, 0.57, 0.5) * mottled * lit * lit;
+    let mut panes = DVec3::ZERO;
+    for turned in [-0.06, 0.0, 0.06] {
+        let beside = DVec2::from_angle(turned).rotate(place / radius);
+        panes += piece((ROSE - 0.06) * beside).colour / 3.0;
+    }
+    let light = DVec3::splat(1.5 * lit * lit) + 5.0 * libm::exp(-(radius - ROSE) / 0.045) * panes;
+    let colour = DVec3::new(0.8, 0.74, 0.66) * mottled * light;
     if is_joint { 0.45 * colour } else { colour }
 }
 

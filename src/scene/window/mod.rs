@@ -14,9 +14,11 @@ use super::pool::quad;
 use super::texels::Texels;
 
 /// Texels of a side of the tables.
-const SIDE: usize = 1280;
+const SIDE: usize = 1600;
 /// Half the width of what they hold. The wall is black beyond.
-const HALF: f64 = 1.4;
+const HALF: f64 = 1.9;
+/// The middle of the rose.
+const CENTRE: DVec2 = DVec2::new(0.0, 0.17);
 /// Half the width of the wall.
 const WALL: f64 = 4.0;
 
@@ -35,7 +37,7 @@ pub fn window() -> &'static Window {
     WINDOW.get_or_init(|| {
         let place = |column: usize, row: usize| {
             let share = DVec2::new(column as f64 + 0.5, row as f64 + 0.5) / SIDE as f64;
-            DVec2::new(2.0 * share.x - 1.0, 1.0 - 2.0 * share.y) * HALF
+            DVec2::new(2.0 * share.x - 1.0, 1.0 - 2.0 * share.y) * HALF - CENTRE
         };
         let normal = |column, row| {
             let slope = design::slope(place(column, row));
