@@ -4,6 +4,8 @@ use glam::{DVec2, DVec3, DVec4};
 
 use super::gem::{Facets, brilliant};
 use super::pool::Pool;
+use super::row::Slot;
+use super::texels::Texels;
 use super::window::Window;
 
 /// What a picture shows, around the origin.
@@ -84,6 +86,20 @@ impl Body {
         match self {
             Body::Pool(pool) => pool.surface(),
             Body::Ball | Body::Gem(_) | Body::Window(_) => Vec::new(),
+        }
+    }
+}
+
+impl Body {
+    /// The tables that belong to it.
+    pub fn tables(&self) -> Vec<(Slot, &Texels)> {
+        match self {
+            Body::Ball | Body::Gem(_) => Vec::new(),
+            Body::Pool(pool) => vec![(Slot::Paint, &pool.paint), (Slot::Relief, &pool.normals)],
+            Body::Window(window) => vec![
+                (Slot::Paint, &window.paint),
+                (Slot::Relief, &window.normals),
+            ],
         }
     }
 }

@@ -8,8 +8,10 @@ use crate::gpu::{Depth, Device, Draw, Image, Offscreen};
 use crate::optics;
 
 use super::body::Body;
-use super::draw::{DrawFault, floats, text};
+use super::draw::{DrawFault, floats};
+use super::glass::Glass;
 use super::table::find;
+use super::text::RowText;
 
 /// A window of the receiver.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -51,7 +53,9 @@ pub fn caustics(
     gathering: Gathering,
 ) -> Result<(Vec<f64>, f64), DrawFault> {
     let row = find("caustics").expect("a row");
-    let text = text(row).map_err(|fault| DrawFault::Text(fault.to_string()))?;
+    let by = RowText::usual(row);
+    let text = by.module();
+    let text = text.map_err(|fault| DrawFault::Text(fault.to_string()))?;
     let finer = match gathering {
         Gathering::Triangles => (FINE / window.pixels.max(1)).clamp(1, FINEST),
         Gathering::Splats | Gathering::Points => 1,
@@ -59,7 +63,7 @@ pub fn caustics(
     let light = Light {
         offscreen: device.offscreen()?,
         text,
-        uniforms: uniforms(n, window, finer),
+        uniforms: uniforms(n, window, finer, &by),
     };
     let front = light.side(PHOTONS, Depth::Nearest)?;
     let back = light.side(BACK, Depth::Farthest)?;
@@ -140,7 +144,7 @@ impl Light {
 }
 
 /// The frame: the light's camera sees [-1, 1]^2 from +z.
-fn uniforms(n: f64, window: &Window, finer: u32) -> Vec<u8> {
+fn uniforms(n: f64, window: &Window, finer: u32, by: &RowText) -> Vec<u8> {
     let camera = DMat4::from_cols(
         DVec4::X,
         DVec4::Y,
@@ -152,16 +156,22 @@ fn uniforms(n: f64, window: &Window, finer: u32) -> Vec<u8> {
         DVec4::new(window.below, window.half, f64::from(PHOTONS), 1.0),
         DVec4::splat(n),
         DVec4::new(0.0, 0.0, pixel / f64::from(finer), pixel),
-        // There is no room.
-        DVec4::ZERO,
-        DVec4::ZERO,
-        DVec4::ZERO,
     ];
+    // There is no room, no mirror and no absorption.
+    let nothing = [DVec4::ZERO; 12];
     let matrices = [camera, camera.inverse()].map(|matrix| matrix.to_cols_array());
     let numbers = matrices.concat().into_iter();
-    let numbers = numbers.chain(fours.iter().flat_map(|four| four.to_array()));
+    let numbers = numbers.chain(
+        fours
+            .iter()
+            .chain(&nothing)
+            .flat_map(|four| four.to_array()),
+    );
+    let inputs = by.inputs_for(&Glass::of_index(n)).concat();
     numbers
-        .flat_map(|value| (value as f32).to_ne_bytes())
+        .map(|value| value as f32)
+        .chain(inputs)
+        .flat_map(f32::to_ne_bytes)
         .collect()
 }
 

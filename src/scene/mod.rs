@@ -9,6 +9,7 @@ mod compare;
 #[cfg(feature = "gpu")]
 mod draw;
 mod environment;
+mod frame;
 mod gem;
 mod glass;
 #[cfg(feature = "gpu")]
@@ -20,6 +21,7 @@ mod row;
 mod sky;
 mod table;
 mod texels;
+mod text;
 mod tone;
 mod trace;
 mod window;
@@ -32,6 +34,7 @@ pub use compare::{Comparison, Difference, compare};
 #[cfg(feature = "gpu")]
 pub use draw::{DrawFault, Drawn, draw};
 pub use environment::{Environment, EnvironmentFault};
+pub use frame::{ABSORPTION_AT, INDEX_AT, INPUTS_AT, frame};
 pub use glass::{Glass, Ray};
 #[cfg(feature = "gpu")]
 pub use picture::{Order, Picture, RenderedRow, render};
@@ -40,6 +43,7 @@ pub use room::{CUBE_CENTRE, ROOM_MAX, ROOM_MIN, room_cube, room_radiance};
 pub use row::{BodyName, PassRow, Place, RenderRow, Slot, View};
 pub use sky::sky;
 pub use table::{ALL, find};
+pub use text::{FRAME, INPUTS, RowText};
 pub use tone::{Display, TONE_CURVES, ToneCurve};
 pub use trace::{Around, Paths, Things, Traced, trace};
 

@@ -14,6 +14,7 @@ use super::environment::Environment;
 use super::glass::Glass;
 use super::relief::Relief;
 use super::row::RenderRow;
+use super::text::RowText;
 use super::tone::Display;
 use super::trace::{Around, Things, Traced, trace};
 
@@ -128,7 +129,9 @@ pub fn render(
     progress(0, 1, "drawing");
     let clamped = order.is_ldr.then(|| order.environment.clamped());
     let environment = clamped.as_ref().unwrap_or(order.environment);
-    let drawn = draw(device, row, things, environment, &camera, side)?;
+    let text = RowText::usual(row);
+    let by = (&text, text.inputs_for(things.glass));
+    let drawn = draw(device, by, things, environment, &camera, side)?;
     let mut hear = |done, whole| progress(done, whole, "tracing rays");
     let paths = [row.true_paths, row.own_paths];
     let truth = trace(things, &camera, side as usize, paths, &mut hear);

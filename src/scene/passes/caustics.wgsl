@@ -61,9 +61,9 @@ fn fs_photon(at: Cover) -> Pair {
     if (dot(out, normal_out) <= 0.0 || out.z >= -1e-3) {
         return nowhere;
     }
-    let t_entry = 1.0 - fresnel_interface_reflectance_scalar(ALONG, normal, eta);
-    let t_exit = fresnel_exit_transmittance_scalar(inside, normal_out, 1.0 / eta);
-    let energy = fresnel_photon_energy(vec3<f32>(t_entry), vec3<f32>(t_exit), cell() * cell());
+    let t_entry = 1.0 - reflectance(ALONG, normal);
+    let t_exit = transmittance_out(inside, normal_out, 1.0 / eta);
+    let energy = fresnel_photon_energy(t_entry, vec3<f32>(t_exit), cell() * cell());
     let land = exit + out * ((-frame.eye.x - exit.z) / out.z);
     return Pair(vec4<f32>(land, 1.0), vec4<f32>(energy, 1.0));
 }

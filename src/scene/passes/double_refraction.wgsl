@@ -20,7 +20,7 @@ fn fs_front(front: Surface) -> @location(0) vec4<f32> {
     let incident = normalize(front.position - frame.eye.xyz);
     let normal = normalize(front.normal);
     let eta = frame.n.y;
-    let r = fresnel_interface_reflectance_scalar(incident, normal, eta);
+    let r = reflectance(incident, normal);
     let inside = fresnel_refracted(incident, normal, eta);
     var distance = frame.eye.w;
     for (var i = 0; i < STEPS; i += 1) {
@@ -35,7 +35,7 @@ fn fs_front(front: Surface) -> @location(0) vec4<f32> {
     if (distance > 0.0 && seen.a > 0.0) {
         let normal_out = normalize(seen.xyz);
         out = fresnel_exit_direction(inside, normal_out, 1.0 / eta);
-        t = fresnel_exit_transmittance_scalar(inside, normal_out, 1.0 / eta);
+        t = transmittance_out(inside, normal_out, 1.0 / eta);
         what = FOUND;
         if (dot(out, normal_out) < 0.0) {
             // Reflected totally: all of it goes on, and is taken as outside.

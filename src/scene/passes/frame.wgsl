@@ -17,6 +17,8 @@ struct Frame {
     mirrored: mat4x4<f32>,
     // of the body's material, of red, green and blue, per unit of length
     absorption: vec4<f32>,
+    // of the method, in its order
+    inputs: array<vec4<f32>, 8>,
 }
 
 struct Surface {

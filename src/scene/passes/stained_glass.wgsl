@@ -19,11 +19,11 @@ fn fs_front(front: Surface) -> @location(0) vec4<f32> {
         return vec4<f32>(colour.rgb * room(normal), SKY);
     }
     let eta = frame.n.y;
-    let r = fresnel_interface_reflectance_scalar(incident, normal, eta);
+    let r = reflectance(incident, normal);
     let inside = fresnel_refracted(incident, normal, eta);
     let outward = -front.normal;
     let out = fresnel_exit_direction(inside, outward, 1.0 / eta);
-    let t = fresnel_exit_transmittance_scalar(inside, outward, 1.0 / eta);
+    let t = transmittance_out(inside, outward, 1.0 / eta);
     let tint = pow(colour.rgb, vec3<f32>(1.0 / dot(inside, outward)));
     let light = t * tint * look_up(out);
     return vec4<f32>(r * room(fresnel_reflected(incident, normal)) + (1.0 - r) * light, FOUND);

@@ -118,7 +118,7 @@ fn fs_water(water: Surface) -> @location(0) vec4<f32> {
     let mapped = textureSampleLevel(waves, clamped, water.uv, 0.0).xyz;
     let normal = fresnel_normal_to_world(mapped, water.tangent.xyz, water.tangent.w, water.normal);
     let eta = frame.n.y;
-    let r = fresnel_interface_reflectance_scalar(incident, normal, eta);
+    let r = reflectance(incident, normal);
     let through = refraction(water.position, uv, straight.xyz, fresnel_refracted(incident, normal, eta));
     let mirrored = reflection(water.position, uv, fresnel_reflected(incident, normal));
     var what = select(MISSED, FOUND, through.found);
