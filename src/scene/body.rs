@@ -43,6 +43,15 @@ pub struct Vertex {
     pub uv: DVec2,
 }
 
+impl Vertex {
+    /// Its numbers: position, normal, tangent with the bitangent's sign, texture coordinates.
+    pub fn numbers(&self) -> [f32; 12] {
+        let (p, n, t, uv) = (self.position, self.normal, self.tangent, self.uv);
+        let all = [p.x, p.y, p.z, n.x, n.y, n.z, t.x, t.y, t.z, t.w, uv.x, uv.y];
+        all.map(|value| value as f32)
+    }
+}
+
 /// Rows of triangles from pole to pole, and half the columns around.
 const ROWS: usize = 256;
 

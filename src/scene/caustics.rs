@@ -7,8 +7,8 @@ use glam::{DMat4, DVec4};
 use crate::gpu::{Depth, Device, Draw, Image, Offscreen};
 use crate::optics;
 
-use super::body::Body;
-use super::draw::{DrawFault, floats};
+use super::body::{Body, Vertex};
+use super::draw::DrawFault;
 use super::glass::Glass;
 use super::table::find;
 use super::text::RowText;
@@ -102,7 +102,12 @@ impl Light {
 
     /// Places and normals of the side of the ball that is nearest to the light, or farthest.
     fn side(&self, side: u32, depth: Depth) -> Result<[Image; 2], DrawFault> {
-        let vertices: Vec<_> = Body::Ball.triangles().concat().iter().map(floats).collect();
+        let vertices: Vec<_> = Body::Ball
+            .triangles()
+            .concat()
+            .iter()
+            .map(Vertex::numbers)
+            .collect();
         let mesh = self.offscreen.mesh(&vertices)?;
         let targets = self.pair(side)?;
         self.offscreen.draw(&Draw {

@@ -1,5 +1,6 @@
 //! A row drawn on a device: the text that users import, the row's own text below it, pass after pass.
 
+use std::borrow::Cow;
 use std::collections::BTreeMap;
 
 use crate::gpu::{Depth, Device, DeviceFault, Draw, Image, Offscreen};
@@ -9,7 +10,8 @@ use super::camera::Camera;
 use super::environment::Environment;
 use super::frame::frame;
 use super::room::room_cube;
-use super::row::{PassRow, Place, Slot};
+use super::row::{PassRow, Place, RenderRow, Slot};
+use super::texels::Texels;
 use super::text::{INPUTS, RowText};
 use super::trace::Things;
 
@@ -34,6 +36,34 @@ pub enum DrawFault {
     Text(String),
 }
 
+/// What is drawn besides the passes: things, what is around them, and the tables that passes read.
+#[derive(Clone, Debug)]
+pub struct Scenery<'a> {
+    /// The body, its material, its surface.
+    pub things: Things<'a>,
+    /// The sky.
+    pub environment: &'a Environment,
+    /// The tables of the body.
+    pub tables: Vec<(Slot, Cow<'a, Texels>)>,
+    /// Texels of a side of the room's cube map.
+    pub cube: usize,
+}
+
+impl<'a> Scenery<'a> {
+    /// Everything as fine as it is.
+    pub fn of(things: Things<'a>, environment: &'a Environment) -> Scenery<'a> {
+        let tables = things.body.tables().into_iter();
+        Scenery {
+            things,
+            environment,
+            tables: tables
+                .map(|(slot, table)| (slot, Cow::Borrowed(table)))
+                .collect(),
+            cube: CUBE,
+        }
+    }
+}
+
 /// Draws a row by a method with these values of its inputs, so many samples a side.
 ///
 /// # Errors
@@ -41,41 +71,23 @@ pub enum DrawFault {
 pub fn draw(
     device: &Device,
     (text, inputs): (&RowText, [[f32; 4]; INPUTS]),
-    things: Things,
-    environment: &Environment,
+    scenery: &Scenery,
     camera: &Camera,
     side: u32,
 ) -> Result<Drawn, DrawFault> {
-    let Things {
-        body,
-        glass,
-        relief,
-        ..
-    } = things;
+    let Things { body, glass, .. } = scenery.things;
     let row = text.row;
     let module = text.module();
     let module = module.map_err(|fault| DrawFault::Text(fault.to_string()))?;
     let offscreen = device.offscreen()?;
-    let [width, height] = environment.size();
-    let around = upload(&offscreen, [width, height], environment.texels())?;
+    let [width, height] = scenery.environment.size();
+    let around = upload(&offscreen, [width, height], scenery.environment.texels())?;
     let [body_mesh, water_mesh] = [body.triangles(), body.water()].map(|triangles| {
         let vertices: Vec<_> = triangles.concat().iter().map(Vertex::numbers).collect();
         offscreen.mesh(&vertices)
     });
     let (body_mesh, water_mesh) = (body_mesh?, water_mesh?);
-    let mut slots: BTreeMap<Slot, Image> = BTreeMap::new();
-    if row.in_room {
-        let cube = offscreen.upload([CUBE as u32, CUBE as u32, 6], &room_cube(CUBE))?;
-        slots.insert(Slot::Room, cube);
-    }
-    if let Some(relief) = relief {
-        let image = upload(&offscreen, [relief.side(); 2], relief.texels())?;
-        slots.insert(Slot::Relief, image);
-    }
-    for (slot, table) in body.tables() {
-        let [width, height] = table.size().map(|texels| texels as u32);
-        slots.insert(slot, offscreen.upload([width, height, 1], table.texels())?);
-    }
+    let mut slots = tables(&offscreen, row, scenery)?;
     for pass in row.passes {
         let clears = !pass.writes.iter().any(|slot| slots.contains_key(slot));
         for slot in pass.writes.iter().filter(|_| clears) {
@@ -106,6 +118,29 @@ pub fn draw(
     }
     let samples = offscreen.read(&slots[&Slot::Colour])?;
     Ok(Drawn { samples })
+}
+
+/// The tables that passes read.
+fn tables(
+    offscreen: &Offscreen,
+    row: &RenderRow,
+    scenery: &Scenery,
+) -> Result<BTreeMap<Slot, Image>, DeviceFault> {
+    let mut slots = BTreeMap::new();
+    if row.in_room {
+        let size = [scenery.cube as u32, scenery.cube as u32, 6];
+        let cube = offscreen.upload(size, &room_cube(scenery.cube))?;
+        slots.insert(Slot::Room, cube);
+    }
+    if let Some(relief) = scenery.things.relief {
+        let image = upload(offscreen, [relief.side(); 2], relief.texels())?;
+        slots.insert(Slot::Relief, image);
+    }
+    for (slot, table) in &scenery.tables {
+        let [width, height] = table.size().map(|texels| texels as u32);
+        slots.insert(*slot, offscreen.upload([width, height, 1], table.texels())?);
+    }
+    Ok(slots)
 }
 
 fn upload(

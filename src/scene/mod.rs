@@ -32,17 +32,18 @@ pub use camera::Camera;
 pub use caustics::{Gathering, Window, caustic_error, caustics, exact_caustics};
 pub use compare::{Comparison, Difference, compare};
 #[cfg(feature = "gpu")]
-pub use draw::{DrawFault, Drawn, draw};
+pub use draw::{DrawFault, Drawn, Scenery, draw};
 pub use environment::{Environment, EnvironmentFault};
-pub use frame::{ABSORPTION_AT, INDEX_AT, INPUTS_AT, frame};
+pub use frame::{ABSORPTION_AT, INDEX_AT, INPUTS_AT, MARGIN, frame};
 pub use glass::{Glass, Ray};
 #[cfg(feature = "gpu")]
 pub use picture::{Order, Picture, RenderedRow, render};
 pub use relief::Relief;
 pub use room::{CUBE_CENTRE, ROOM_MAX, ROOM_MIN, room_cube, room_radiance};
 pub use row::{BodyName, PassRow, Place, RenderRow, Slot, View};
-pub use sky::sky;
+pub use sky::{sky, sky_of};
 pub use table::{ALL, find};
+pub use texels::Texels;
 pub use text::{FRAME, INPUTS, RowText};
 pub use tone::{Display, TONE_CURVES, ToneCurve};
 pub use trace::{Around, Paths, Things, Traced, trace};

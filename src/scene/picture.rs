@@ -9,7 +9,7 @@ use super::SAMPLES;
 use super::camera::Camera;
 use super::caustics::{Gathering, Window, caustic_error, caustics, exact_caustics};
 use super::compare::{Comparison, Difference, compare};
-use super::draw::{DrawFault, Drawn, draw};
+use super::draw::{DrawFault, Drawn, Scenery, draw};
 use super::environment::Environment;
 use super::glass::Glass;
 use super::relief::Relief;
@@ -131,7 +131,7 @@ pub fn render(
     let environment = clamped.as_ref().unwrap_or(order.environment);
     let text = RowText::usual(row);
     let by = (&text, text.inputs_for(things.glass));
-    let drawn = draw(device, by, things, environment, &camera, side)?;
+    let drawn = draw(device, by, &Scenery::of(things, environment), &camera, side)?;
     let mut hear = |done, whole| progress(done, whole, "tracing rays");
     let paths = [row.true_paths, row.own_paths];
     let truth = trace(things, &camera, side as usize, paths, &mut hear);

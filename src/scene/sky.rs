@@ -20,7 +20,12 @@ const POST_TOP: f64 = 0.3;
 
 /// That sky.
 pub fn sky() -> Environment {
-    Environment::baked(HEIGHT, radiance)
+    sky_of(HEIGHT)
+}
+
+/// The same sky, so many texels from pole to pole.
+pub fn sky_of(height: usize) -> Environment {
+    Environment::baked(height, radiance)
 }
 
 /// The direction of the sun's middle.

@@ -41,6 +41,20 @@ impl Texels {
         &self.texels
     }
 
+    /// The means of squares of so many texels a side, rounded to binary16.
+    pub fn reduced(&self, by: usize) -> Texels {
+        Texels::baked([self.width / by, self.height / by], |column, row| {
+            let mut sum = DVec4::ZERO;
+            for y in row * by..(row + 1) * by {
+                for x in column * by..(column + 1) * by {
+                    let [a, b, c, d] = self.texels[y * self.width + x];
+                    sum += DVec4::new(a.into(), b.into(), c.into(), d.into());
+                }
+            }
+            sum / (by * by) as f64
+        })
+    }
+
     /// At texture coordinates, (0, 0) in the corner of the first texel: linear between texels, and beyond the edge as at the
     /// edge.
     pub fn at(&self, uv: DVec2) -> DVec4 {

@@ -6,6 +6,7 @@ mod chart;
 mod choice;
 mod cost;
 mod fit;
+mod gallery;
 mod generate;
 mod listing;
 mod material;
@@ -31,6 +32,7 @@ pub use chart::ChartFlags;
 pub use choice::Choice;
 pub use cost::CostFlags;
 pub use fit::{End, FitFlags};
+pub use gallery::GalleryFlags;
 pub use generate::GenerateFlags;
 pub use listing::{
     EffectsCommand, EffectsFlags, MethodsCommand, MethodsFlags, TargetsCommand, TargetsFlags,
@@ -109,6 +111,8 @@ pub enum Command {
     Reproduce(ReproduceFlags),
     /// Draw an effect with the functions that engines import, beside what a ray tracer sees, and state the difference
     Render(RenderFlags),
+    /// Write a page that draws every effect live, beside the exact law, with the functions to copy
+    Gallery(GalleryFlags),
 }
 
 impl Cli {
@@ -148,6 +152,7 @@ impl Cli {
             Command::Chart(flags) => named.report(&flags.materials, &flags.report),
             Command::Stability(flags) => named.report(&flags.materials, &flags.report),
             Command::Reproduce(flags) => named.write(&flags.report.json),
+            Command::Gallery(flags) => named.inputs.extend(flags.materials.paths().map(Path::new)),
             Command::Render(flags) => {
                 let material = flags.material.iter().filter_map(MaterialName::path);
                 named.inputs.extend(material.map(Path::new));
