@@ -6,7 +6,7 @@ const DEGREES = 360 / data.azimuths, DRAG = 12, IDLE = 120;
 const named = (list, name) => list.find(one => one.name === name);
 const texts = new Map(data.functions.map(one => [one.name, one]));
 const wanted = new URLSearchParams(location.search);
-const figure = value => value === 0 ? "0" : String(Number(value.toPrecision(3)));
+const figure = value => value && Math.abs(value) < 1e-4 ? value.toExponential(2) : String(Number(value.toPrecision(3)));
 const OWN = "";
 
 // What is unpacked once: textures' bytes, meshes, blocks of cameras, inputs of indices.
@@ -387,7 +387,7 @@ async function changed(event) {
 }
 
 async function begin() {
-  fill($("effect"), data.rows.map(({ name, summary }) => ({ value: name, text: name.replaceAll("_", " ") + ": " + summary })), wanted.get("effect") ?? data.rows[0].name);
+  fill($("effect"), data.rows.map(({ name }) => ({ value: name, text: name.replaceAll("_", " ") })), wanted.get("effect") ?? data.rows[0].name);
   fill($("backend"), [["auto", "WebGPU, else WebGL 2"], ["webgpu", "WebGPU"], ["webgl2", "WebGL 2"]].map(([value, text]) => ({ value, text })), wanted.get("backend") ?? "auto");
   fill($("cost"), data.costs.map(([name, title], i) => ({ value: String(i), text: name === "time" ? title : name })), String(Math.max(data.costs.findIndex(([name]) => name === "rdna2"), 0)));
   if (typeof DecompressionStream === "undefined") return say("This browser cannot unpack the page: it knows no DecompressionStream.");

@@ -92,7 +92,8 @@ impl Orbit {
 
 fn elevation(eye: [f64; 3], step: usize) -> f64 {
     let own = libm::asin(eye[1] / DVec3::from_array(eye).length()).to_degrees();
-    (own + STEPS[step]).clamp(LOWEST, HIGHEST)
+    // One that looks up from below stays where it is.
+    (own + STEPS[step]).clamp(own.min(LOWEST), HIGHEST)
 }
 
 /// The eye at a place of the orbit of this one.

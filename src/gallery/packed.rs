@@ -50,11 +50,11 @@ pub struct PackedTexture {
 /// The sky's name among textures.
 pub const SKY: &str = "Sky";
 /// Texels from pole to pole, and of a side of the room's cube map: fewer than in pictures, since every reader loads them.
-const SKY_HEIGHT: usize = 512;
+const SKY_HEIGHT: usize = 1024;
 /// Of a side of the room's cube map.
 pub const CUBE: usize = 512;
-/// Tables of bodies are reduced until they are at most so wide.
-const WIDEST: usize = 512;
+/// Tables of bodies are reduced until they are at most so wide: colours, and others, which deflate badly.
+const WIDEST: [usize; 2] = [512, 320];
 
 /// The sky as a texture.
 pub fn sky_texture() -> PackedTexture {
@@ -83,8 +83,7 @@ pub fn textures_of(row: &RenderRow) -> BTreeMap<Slot, PackedTexture> {
     for (slot, table) in reduced_tables(&body) {
         let name = format!("{} {slot:?}", row.body.name());
         let [width, height] = table.size();
-        let is_opaque = |[r, g, b, a]: &[f32; 4]| *a == 1.0 && r.min(*g).min(*b) >= 0.0;
-        let packed = match table.texels().iter().all(is_opaque) {
+        let packed = match is_opaque(&table) {
             true => {
                 let colours = table.texels().iter().map(|[r, g, b, _]| [*r, *g, *b]);
                 shared(name, [width, height], colours)
@@ -103,10 +102,33 @@ pub fn textures_of(row: &RenderRow) -> BTreeMap<Slot, PackedTexture> {
 /// The tables of a body as the page has them.
 pub fn reduced_tables(body: &Body) -> Vec<(Slot, Cow<'_, Texels>)> {
     let reduced = |(slot, table): (Slot, &Texels)| {
-        let by = table.size()[0].div_ceil(WIDEST);
-        (slot, Cow::Owned(table.reduced(by)))
+        let [colours, others] = WIDEST;
+        let is_opaque = is_opaque(table);
+        let widest = if is_opaque { colours } else { others };
+        let table = table.reduced(table.size()[0].div_ceil(widest));
+        let coarse = match is_opaque {
+            true => table.mapped(|[r, g, b, _]| {
+                let [r, g, b] = from_shared_exponent(shared_exponent([r, g, b]));
+                [r, g, b, 1.0]
+            }),
+            false => table.mapped(|texel| texel.map(coarse)),
+        };
+        (slot, Cow::Owned(coarse))
     };
     body.tables().into_iter().map(reduced).collect()
+}
+
+/// Whether a table holds colours alone.
+fn is_opaque(table: &Texels) -> bool {
+    let is_colour = |[r, g, b, a]: &[f32; 4]| *a == 1.0 && r.min(*g).min(*b) >= 0.0;
+    table.texels().iter().all(is_colour)
+}
+
+/// A number with 7 bits that count: what is finer deflates badly, and turns a normal by less than a part in a hundred of its slope.
+fn coarse(value: f32) -> f32 {
+    const DROPPED: u32 = 23 - 6;
+    let half = 1 << (DROPPED - 1);
+    f32::from_bits((value.to_bits() + half) >> DROPPED << DROPPED)
 }
 
 fn shared(

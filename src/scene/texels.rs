@@ -41,6 +41,15 @@ impl Texels {
         &self.texels
     }
 
+    /// The same with other texels in the place of each.
+    pub fn mapped(&self, change: impl Fn([f32; 4]) -> [f32; 4]) -> Texels {
+        let texels = self.texels.iter();
+        Texels {
+            texels: texels.map(|texel| change(*texel)).collect(),
+            ..*self
+        }
+    }
+
     /// The means of squares of so many texels a side, rounded to binary16.
     pub fn reduced(&self, by: usize) -> Texels {
         Texels::baked([self.width / by, self.height / by], |column, row| {
