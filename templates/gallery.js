@@ -2,7 +2,7 @@
 
 const data = JSON.parse(document.getElementById("data").textContent);
 const $ = id => document.getElementById(id);
-const DEGREES = 360 / data.azimuths, DRAG = 12, IDLE = 120;
+const DRAG = 12, IDLE = 120;
 const named = (list, name) => list.find(one => one.name === name);
 const texts = new Map(data.functions.map(one => [one.name, one]));
 const wanted = new URLSearchParams(location.search);
@@ -106,22 +106,23 @@ function index_of(one) {
 
 function block(one, pass, method) {
   const { layout } = data, orbit = data.orbits[one.orbit], numbers = new Float32Array(layout.size);
-  const place = (pass.view * orbit.elevations.length + Number($("elevation").value)) * data.azimuths + Number($("azimuth").value);
+  const place = (pass.view * orbit.elevations.length + Number($("elevation").value)) * orbit.azimuths + Number($("azimuth").value);
   numbers.set(unpacked_parts.orbits[one.orbit].subarray(place * orbit.numbers, (place + 1) * orbit.numbers));
   const { n, k, absorption } = index_of(one);
   numbers.set(n, layout.index);
   numbers.set(k, layout.index + 4);
   numbers.set(absorption, layout.absorption);
   inputs_of(one, method).forEach((value, i) => numbers.set(value, layout.inputs + 4 * i));
-  if (one.roughness !== null && one.roughness !== undefined) numbers[layout.roughness] = Number($("roughness").value);
+  if (one.roughness) numbers[layout.roughness] = Number($("roughness").value);
+  if (one.half) numbers.set([2 * one.half / stage.panel / data.samples, 2 * one.half / stage.panel], layout.pixel);
   return numbers;
 }
 
 // Drawing.
 
-function target(name, has_margin) {
+function target(name, pass) {
   const side = stage.panel * data.samples;
-  stage.targets[name] ??= stage.player.target(has_margin ? side + 2 * Math.floor(side / data.margin) : side);
+  stage.targets[name] ??= stage.player.target(pass.side ?? (pass.margin ? side + 2 * Math.floor(side / data.margin) : side));
   return stage.targets[name];
 }
 
@@ -129,7 +130,7 @@ function target(name, has_margin) {
 function play(one, method, name) {
   const calls = calls_of(one, method), written = new Set();
   // What a pass writes first says how large it is.
-  const image = (slot, has_margin) => stage.images[one.images[slot]] ?? target(slot === "Colour" ? name : one.name + " " + slot, has_margin);
+  const image = (slot, pass) => stage.images[one.images[slot]] ?? target(slot === "Colour" ? name : one.name + " " + slot, pass);
   one.passes.forEach((pass, i) => {
     const programs = one.programs[i];
     const compiled = part => ({ ...part, text: program_text(one, calls, part) });
@@ -141,11 +142,11 @@ function play(one, method, name) {
       gles: () => ({ vertex: compiled(programs.vertex), fragment: compiled(programs.fragment) }),
       vertex: pass.vertex, fragment: pass.fragment, depth: pass.depth, clears,
       uniforms: block(one, pass, method),
-      targets: pass.writes.map(slot => image(slot, pass.margin)), images: pass.reads.map(slot => image(slot)),
-      mesh: stage.meshes[pass.mesh] ?? null,
+      targets: pass.writes.map(slot => image(slot, pass)), images: pass.reads.map(slot => image(slot)),
+      mesh: stage.meshes[pass.mesh] ?? null, count: pass.count, adds: pass.adds,
     });
   });
-  return target(name);
+  return stage.targets[name];
 }
 
 async function draw() {
@@ -258,8 +259,11 @@ function fill_row() {
   range("n", own.n[2], 0);
   range("k", own.k[2], 0);
   $("k-part").hidden = is_transparent(one);
-  $("roughness-part").hidden = one.roughness === null || one.roughness === undefined;
-  range("azimuth", data.azimuths, 0);
+  $("roughness-part").hidden = !one.roughness;
+  if (one.roughness) $("roughness").value = one.roughness;
+  $("exposure").value = one.exposure;
+  for (const id of ["azimuth", "elevation"]) $(id + "-part").hidden = orbit.azimuths === 1;
+  range("azimuth", orbit.azimuths, 0);
   range("elevation", orbit.elevations.length, orbit.first);
   fill_methods(one.method);
   follow_material();
@@ -293,7 +297,7 @@ function tell_values() {
   value("roughness", $("roughness").value);
   value("magnification", String(2 ** Number($("magnification").value)));
   value("exposure", $("exposure").value);
-  value("azimuth", String(Number($("azimuth").value) * DEGREES));
+  value("azimuth", String(Number($("azimuth").value) * 360 / orbit.azimuths));
   value("elevation", String(orbit.elevations[Number($("elevation").value)]));
   const method = $("method").value, factor = 2 ** Number($("magnification").value);
   $("left").textContent = method;
@@ -363,7 +367,8 @@ function listen_to_drags(canvas) {
     const steps = [event.clientX - last[0], event.clientY - last[1]].map(distance => Math.trunc(distance / DRAG));
     if (!steps[0] && !steps[1]) return;
     last = [last[0] + steps[0] * DRAG, last[1] + steps[1] * DRAG];
-    $("azimuth").value = (Number($("azimuth").value) - steps[0] + data.azimuths) % data.azimuths;
+    const { azimuths } = data.orbits[row().orbit];
+    $("azimuth").value = (Number($("azimuth").value) - steps[0] % azimuths + azimuths) % azimuths;
     $("elevation").value = Number($("elevation").value) + steps[1];
     refresh();
   });

@@ -3,6 +3,7 @@
 
 const VERTEX = [[0, 3], [3, 3], [6, 4], [10, 2]];
 const VERTEX_BYTES = 48;
+const ONE = { srcFactor: "one", dstFactor: "one", operation: "add" }, SUM = { color: ONE, alpha: ONE };
 
 function from_half(bits) {
   const sign = bits & 0x8000 ? -1 : 1, exponent = (bits >> 10) & 31, part = bits & 1023;
@@ -83,7 +84,7 @@ class WebGpuPlayer {
   }
 
   pipeline(order) {
-    const key = order.key + " " + order.vertex + " " + order.fragment;
+    const key = [order.key, order.vertex, order.fragment, order.depth].join(" ");
     if (!this.pipelines.has(key)) {
       const module = this.module(order.key, order.wgsl);
       const layout = this.layout(order.images, order.sampleType ?? "float");
@@ -91,7 +92,7 @@ class WebGpuPlayer {
       const descriptor = {
         layout: this.device.createPipelineLayout({ bindGroupLayouts: [layout] }),
         vertex: { module, entryPoint: order.vertex, buffers: order.mesh ? [{ arrayStride: VERTEX_BYTES, attributes }] : [] },
-        fragment: { module, entryPoint: order.fragment, targets: order.targets.map(() => ({ format: order.format ?? this.format })) },
+        fragment: { module, entryPoint: order.fragment, targets: order.targets.map(() => ({ format: order.format ?? this.format, blend: order.adds ? SUM : undefined })) },
       };
       if (order.depth !== "none")
         descriptor.depthStencil = { format: "depth32float", depthWriteEnabled: true, depthCompare: order.depth === "nearest" ? "less" : "greater" };
@@ -119,7 +120,7 @@ class WebGpuPlayer {
       pass.setVertexBuffer(0, order.mesh.vertices);
       pass.setIndexBuffer(order.mesh.indices, "uint32");
       pass.drawIndexed(order.mesh.count);
-    } else pass.draw(3);
+    } else pass.draw(order.count);
     pass.end();
     device.queue.submit([encoder.finish()]);
     block.destroy();
@@ -128,7 +129,7 @@ class WebGpuPlayer {
   show(programs, images, uniforms) {
     const target = { texture: this.context.getCurrentTexture() };
     this.draw({ key: "show", wgsl: () => programs.wgsl, vertex: "vs_cover", fragment: "fs_show", sampleType: "unfilterable-float",
-      format: this.shown, images, uniforms, targets: [target], clears: true, depth: "none" });
+      format: this.shown, images, uniforms, targets: [target], clears: true, depth: "none", count: 3 });
   }
 
   async read({ texture, side }) {
@@ -155,7 +156,7 @@ class WebGl2Player {
   static async open(canvas) {
     const gl = canvas.getContext("webgl2", { alpha: false, antialias: false, preserveDrawingBuffer: true });
     if (!gl || !gl.getExtension("EXT_color_buffer_float")) return null;
-    return new WebGl2Player(gl, !!gl.getExtension("OES_texture_float_linear"));
+    return new WebGl2Player(gl, ["OES_texture_float_linear", "EXT_float_blend"].every(name => gl.getExtension(name)));
   }
 
   constructor(gl, is_wide) {
@@ -207,7 +208,7 @@ class WebGl2Player {
     const { gl } = this, texture = gl.createTexture();
     gl.bindTexture(gl.TEXTURE_2D, texture);
     gl.texStorage2D(gl.TEXTURE_2D, 1, this.is_wide ? gl.RGBA32F : gl.RGBA16F, side, side);
-    for (const name of ["MIN_FILTER", "MAG_FILTER"]) gl.texParameteri(gl.TEXTURE_2D, gl["TEXTURE_" + name], this.is_wide ? gl.LINEAR : gl.LINEAR);
+    for (const name of ["MIN_FILTER", "MAG_FILTER"]) gl.texParameteri(gl.TEXTURE_2D, gl["TEXTURE_" + name], gl.LINEAR);
     return { texture, kind: gl.TEXTURE_2D, side };
   }
 
@@ -277,13 +278,15 @@ class WebGl2Player {
       gl.bindSampler(unit, sampler ? this.samplers[sampler - 1] : null);
     });
     (has_depth ? gl.enable : gl.disable).call(gl, gl.DEPTH_TEST);
+    (order.adds ? gl.enable : gl.disable).call(gl, gl.BLEND);
+    gl.blendFunc(gl.ONE, gl.ONE);
     gl.depthFunc(order.depth === "farthest" ? gl.GREATER : gl.LESS);
     gl.clearColor(0, 0, 0, 0);
     gl.clearDepth(order.depth === "farthest" ? 0 : 1);
     gl.clear((order.clears ? gl.COLOR_BUFFER_BIT : 0) | (has_depth ? gl.DEPTH_BUFFER_BIT : 0));
     gl.bindVertexArray(order.mesh ? order.mesh.array : this.nothing);
     if (order.mesh) gl.drawElements(gl.TRIANGLES, order.mesh.count, gl.UNSIGNED_INT, 0);
-    else gl.drawArrays(gl.TRIANGLES, 0, 3);
+    else gl.drawArrays(gl.TRIANGLES, 0, order.count);
     if (buffer) gl.deleteFramebuffer(buffer);
     const fault = gl.getError();
     if (fault) this.failed?.(`WebGL's error ${fault} in ${order.key}`);
@@ -292,7 +295,7 @@ class WebGl2Player {
   show(programs, images, uniforms) {
     const text = part => ({ ...part, text: part.before + part.after });
     const gles = () => ({ vertex: text(programs.vertex), fragment: text(programs.fragment) });
-    this.draw({ key: "show", gles, images, uniforms, targets: [], clears: true, depth: "none" });
+    this.draw({ key: "show", gles, images, uniforms, targets: [], clears: true, depth: "none", count: 3 });
   }
 
   async read(target) {

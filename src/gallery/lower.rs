@@ -54,8 +54,12 @@ fn reflectance(incident: vec3<f32>, normal: vec3<f32>) -> vec3<f32> {
 fn transmittance_out(direction: vec3<f32>, normal_out: vec3<f32>, eta: f32) -> f32 {
     return dot(direction, normal_out) + eta + frame.inputs[0].x;
 }
+
+fn specular(n_dot_v: f32, n_dot_l: f32, n_dot_h: f32, v_dot_h: f32, alpha: f32) -> vec3<f32> {
+    return n_dot_v * n_dot_l * n_dot_h * v_dot_h * alpha * frame.inputs[0].xyz;
+}
 ";
-const CALLS: [&str; 2] = ["reflectance", "transmittance_out"];
+const CALLS: [&str; 3] = ["reflectance", "transmittance_out", "specular"];
 
 /// The entry point of a module in GLSL ES, without the functions of these names and without the calls. Off screen, rows of a picture are
 /// counted from the top, as in WebGPU.

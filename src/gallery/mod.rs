@@ -10,6 +10,7 @@ mod materials;
 mod orbit;
 mod packed;
 mod row;
+mod rows;
 mod show;
 
 use std::collections::BTreeMap;
@@ -19,7 +20,7 @@ use serde::Serialize;
 use crate::chart::{ChartData, chart_data};
 use crate::emit;
 use crate::reference::MaterialInMedium;
-use crate::scene::{self, ABSORPTION_AT, FRAME, INDEX_AT, INPUTS, INPUTS_AT, MARGIN};
+use crate::scene::{self, ABSORPTION_AT, FRAME, INDEX_AT, INPUTS, INPUTS_AT, MARGIN, PIXEL_AT};
 use crate::spectra::Space;
 
 pub use functions::FunctionTexts;
@@ -30,6 +31,7 @@ use packed::{SKY, textures_of};
 
 pub use packed::{CUBE, Packed, PackedMesh, PackedTexture, reduced_tables, unpacked_environment};
 pub use row::{GalleryPass, GalleryRow, MethodCalls, ProgramPair, exact_method, methods_of};
+pub use rows::{find, rows};
 pub use show::{SHOW, ShowPrograms};
 
 /// All that the page holds.
@@ -55,8 +57,6 @@ pub struct Gallery {
     pub layout: Layout,
     /// The views of the camera.
     pub orbits: Vec<Orbit>,
-    /// Positions of an orbit around the body.
-    pub azimuths: usize,
     /// What the passes read: the sky, the room, the relief.
     pub textures: Vec<PackedTexture>,
     /// The bodies.
@@ -75,6 +75,8 @@ pub struct Layout {
     index: usize,
     absorption: usize,
     inputs: usize,
+    roughness: usize,
+    pixel: usize,
     size: usize,
 }
 
@@ -88,10 +90,10 @@ pub fn gallery(
     progress: &mut dyn FnMut(u64, u64, &str),
 ) -> Result<Gallery, LoweringFault> {
     let data: ChartData = chart_data(subjects, space, None, String::new(), progress);
-    let (mut orbits, mut rows) = (Vec::new(), Vec::new());
+    let (mut orbits, mut played) = (Vec::new(), Vec::new());
     let mut textures = BTreeMap::from([(SKY.to_owned(), packed::sky_texture())]);
     let mut meshes = BTreeMap::new();
-    for row in scene::ALL.iter().filter(|row| !row.passes.is_empty()) {
+    for row in rows::rows() {
         let mut images = BTreeMap::from([(SKY.to_owned(), SKY.to_owned())]);
         for (slot, texture) in textures_of(row) {
             images.insert(format!("{slot:?}"), texture.name.clone());
@@ -104,9 +106,9 @@ pub fn gallery(
             let water = || PackedMesh::water(row.body);
             meshes.entry((row.body.name(), true)).or_insert_with(water);
         }
-        rows.push(GalleryRow::new(row, subjects, (&mut orbits, images))?);
+        played.push(GalleryRow::new(row, subjects, (&mut orbits, images))?);
     }
-    let all = rows.iter().flat_map(GalleryRow::function_names);
+    let all = played.iter().flat_map(GalleryRow::function_names);
     let functions = functions::texts(&all.collect())?;
     let errors = crate::chart::ERRORS.iter();
     Ok(Gallery {
@@ -125,16 +127,17 @@ pub fn gallery(
             index: INDEX_AT,
             absorption: ABSORPTION_AT,
             inputs: INPUTS_AT,
+            roughness: ABSORPTION_AT + 3,
+            pixel: PIXEL_AT,
             size: INPUTS_AT + 4 * INPUTS,
         },
         orbits,
-        azimuths: AZIMUTHS,
         textures: textures.into_values().collect(),
         meshes: meshes.into_values().collect(),
         show: show::programs()?,
         samples: scene::SAMPLES,
         margin: MARGIN,
-        rows,
+        rows: played,
     })
 }
 

@@ -3,7 +3,7 @@
 use glam::DVec3;
 use serde::Serialize;
 
-use crate::scene::{Camera, Glass, INPUTS, INPUTS_AT, RenderRow, View, frame};
+use crate::scene::{Camera, Glass, INPUTS, INPUTS_AT, RenderRow, View, frame, light_block};
 
 use super::packed::Packed;
 
@@ -26,6 +26,8 @@ pub struct Orbit {
     pub eye: [f64; 3],
     /// The body's size.
     pub size: f64,
+    /// Places around the body.
+    pub azimuths: usize,
     /// Elevations in degrees.
     pub elevations: Vec<f64>,
     /// The row's own elevation among them.
@@ -42,6 +44,10 @@ pub struct Orbit {
 impl Orbit {
     /// The place of a row's orbit among these, entered where it is new.
     pub fn of(row: &RenderRow, orbits: &mut Vec<Orbit>) -> usize {
+        if let Some(receiver) = row.receiver {
+            orbits.push(Orbit::of_light(row, receiver));
+            return orbits.len() - 1;
+        }
         let size = row.body.body().radius();
         let mut views = Vec::new();
         for pass in row.passes {
@@ -56,6 +62,22 @@ impl Orbit {
         }
         orbits.push(Orbit::new(row.eye, size, views));
         orbits.len() - 1
+    }
+
+    /// The light's own view: no eye is turned.
+    fn of_light(row: &RenderRow, receiver: [f64; 2]) -> Orbit {
+        let nothing = Glass::of_index(0.0);
+        let block = light_block(&nothing, receiver, [0.0; 2], [[0.0; 4]; INPUTS]);
+        Orbit {
+            eye: row.eye,
+            size: 1.0,
+            azimuths: 1,
+            elevations: vec![0.0],
+            first: 0,
+            blocks: Packed::floats(&block[..INPUTS_AT]),
+            numbers: INPUTS_AT,
+            views: Vec::new(),
+        }
     }
 
     fn new(eye: [f64; 3], size: f64, views: Vec<View>) -> Orbit {
@@ -73,6 +95,7 @@ impl Orbit {
         Orbit {
             eye,
             size,
+            azimuths: AZIMUTHS,
             elevations: (0..STEPS.len())
                 .map(|step| elevation(eye, step).round())
                 .collect(),

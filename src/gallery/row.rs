@@ -8,7 +8,7 @@ use crate::effects::Reflectance;
 use crate::materials::MaterialKind;
 use crate::methods::{self, Class, Light, Method};
 use crate::reference::MaterialInMedium;
-use crate::scene::{FRAME, Place, RenderRow, RowText, Slot};
+use crate::scene::{BACK, FRAME, PHOTONS, Place, RenderRow, RowText, Slot};
 
 use super::lower::{FRAGMENT_FRAME, GlesProgram, LoweringFault, STAND_IN, lowered};
 use super::orbit::Orbit;
@@ -45,6 +45,12 @@ pub struct GalleryRow {
     pub programs: Vec<ProgramPair>,
     /// The place of its orbit.
     pub orbit: usize,
+    /// Half the width of the window, where light falls onto a receiver.
+    pub half: Option<f64>,
+    /// The roughness that it begins with, where it has one.
+    pub roughness: Option<f64>,
+    /// The stops that it begins with.
+    pub exposure: f64,
     /// The textures that it reads, by slot.
     pub images: BTreeMap<String, String>,
 }
@@ -58,8 +64,14 @@ pub struct GalleryPass {
     pub fragment: &'static str,
     /// What is drawn; a triangle that covers the target where nothing is named.
     pub mesh: Option<String>,
+    /// Vertices that the entry point makes itself, where there is no mesh.
+    pub count: u32,
+    /// Whether it is added to what is there.
+    pub adds: bool,
     /// Whether its picture has a margin.
     pub margin: bool,
+    /// Pixels a side of its picture, where these are not the panel's.
+    pub side: Option<u32>,
     /// Which surface is seen: none is hidden, the nearest, the farthest.
     pub depth: &'static str,
     /// The place of its view in the orbit.
@@ -138,6 +150,10 @@ impl GalleryRow {
         let takes = |subject: &&MaterialInMedium| {
             row.is_transparent() == (subject.material.kind == MaterialKind::Dielectric)
         };
+        let passes = match row.receiver {
+            Some(_) => light_passes(row),
+            None => passes(row, &orbits[orbit]),
+        };
         let calls = methods_of(row)
             .into_iter()
             .map(|method| method_calls(row, method));
@@ -154,8 +170,12 @@ impl GalleryRow {
                 .map(|one| one.name.clone())
                 .collect(),
             disperses: row.disperses,
-            passes: passes(row, &orbits[orbit]),
-            programs: programs(row, &common_text(&names, row)?)?,
+            programs: programs(&passes, &common_text(&names, row)?)?,
+            passes,
+            half: row.receiver.map(|[_, half]| half),
+            roughness: RowText::usual(row).is_rough().then_some(ROUGHNESS),
+            // What is gathered is bright.
+            exposure: if row.receiver.is_some() { -2.0 } else { 0.0 },
             functions: names
                 .into_iter()
                 .filter(|name| !unused.contains(name))
@@ -244,16 +264,61 @@ fn common_text(
 }
 
 fn programs(
-    row: &RenderRow,
+    passes: &[GalleryPass],
     (text, names): &(String, Vec<String>),
 ) -> Result<Vec<ProgramPair>, LoweringFault> {
-    let pair = |pass: &crate::scene::PassRow| {
+    let pair = |pass: &GalleryPass| {
         Ok(ProgramPair {
-            vertex: lowered(text, vertex(pass.place), names, true)?,
+            vertex: lowered(text, pass.vertex, names, true)?,
             fragment: lowered(text, pass.fragment, names, true)?,
         })
     };
-    row.passes.iter().map(pair).collect()
+    passes.iter().map(pair).collect()
+}
+
+/// Roughness to begin with.
+const ROUGHNESS: f64 = 0.3;
+
+/// Light through a body onto a receiver: both sides of the body, photons, and the triangles between these.
+fn light_passes(row: &RenderRow) -> Vec<GalleryPass> {
+    let names = |names: &[&str]| names.iter().map(|name| (*name).to_owned()).collect();
+    let side = |depth, side, writes: [&str; 2]| GalleryPass {
+        vertex: "vs_body",
+        fragment: "fs_side",
+        mesh: Some(row.body.name().to_owned()),
+        count: 0,
+        adds: false,
+        depth,
+        view: 0,
+        margin: false,
+        side: Some(side),
+        writes: names(&writes),
+        reads: names(&[SKY]),
+    };
+    let (front, back) = (
+        ["FrontPositions", "FrontNormals"],
+        ["BackPositions", "BackNormals"],
+    );
+    let photons = ["PhotonPlaces", "PhotonEnergies"];
+    let drawn = |vertex, fragment, count, of: [&str; 2]| GalleryPass {
+        vertex,
+        fragment,
+        mesh: None,
+        count,
+        reads: names(&[SKY, of[0], of[1], back[0], back[1]]),
+        ..side("none", PHOTONS, photons)
+    };
+    vec![
+        side("nearest", PHOTONS, front),
+        side("farthest", BACK, back),
+        drawn("vs_cover", "fs_photon", 3, front),
+        GalleryPass {
+            adds: true,
+            side: None,
+            writes: names(&["Colour"]),
+            ..drawn("vs_triangle", "fs_lit", 6 * (PHOTONS - 1).pow(2), photons)
+        },
+    ]
 }
 
 fn passes(row: &RenderRow, orbit: &Orbit) -> Vec<GalleryPass> {
@@ -265,7 +330,10 @@ fn passes(row: &RenderRow, orbit: &Orbit) -> Vec<GalleryPass> {
             Place::Front | Place::Back => Some(row.body.name().to_owned()),
             Place::Water => Some(format!("{} water", row.body.name())),
         },
+        count: 3,
+        adds: false,
         margin: pass.view.has_margin(),
+        side: None,
         depth: match pass.place {
             Place::Everywhere | Place::Water => "none",
             Place::Front => "nearest",

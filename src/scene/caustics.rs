@@ -2,13 +2,12 @@
 //!
 //! Light of irradiance 1 falls along -z on the ball of radius 1; the receiver lies square to it below.
 
-use glam::{DMat4, DVec4};
-
 use crate::gpu::{Depth, Device, Draw, Image, Offscreen};
 use crate::optics;
 
 use super::body::{Body, Vertex};
 use super::draw::DrawFault;
+use super::frame::{BACK, PHOTONS, light_block};
 use super::glass::Glass;
 use super::table::find;
 use super::text::RowText;
@@ -35,9 +34,6 @@ pub enum Gathering {
     Points,
 }
 
-/// The photons of a row, and the picture of the back that is searched.
-const PHOTONS: u32 = 256;
-const BACK: u32 = 1024;
 /// Triangles are drawn finer than the window, to about so many samples a side, and at most so many times as fine.
 const FINE: u32 = 1024;
 const FINEST: u32 = 8;
@@ -148,36 +144,14 @@ impl Light {
     }
 }
 
-/// The frame: the light's camera sees [-1, 1]^2 from +z.
+/// The bytes of the block.
 fn uniforms(n: f64, window: &Window, finer: u32, by: &RowText) -> Vec<u8> {
-    let camera = DMat4::from_cols(
-        DVec4::X,
-        DVec4::Y,
-        DVec4::new(0.0, 0.0, -0.25, 0.0),
-        DVec4::new(0.0, 0.0, 0.5, 1.0),
-    );
+    let glass = Glass::of_index(n);
     let pixel = 2.0 * window.half / f64::from(window.pixels);
-    let fours = [
-        DVec4::new(window.below, window.half, f64::from(PHOTONS), 1.0),
-        DVec4::splat(n),
-        DVec4::new(0.0, 0.0, pixel / f64::from(finer), pixel),
-    ];
-    // There is no room, no mirror and no absorption.
-    let nothing = [DVec4::ZERO; 12];
-    let matrices = [camera, camera.inverse()].map(|matrix| matrix.to_cols_array());
-    let numbers = matrices.concat().into_iter();
-    let numbers = numbers.chain(
-        fours
-            .iter()
-            .chain(&nothing)
-            .flat_map(|four| four.to_array()),
-    );
-    let inputs = by.inputs_for(&Glass::of_index(n)).concat();
-    numbers
-        .map(|value| value as f32)
-        .chain(inputs)
-        .flat_map(f32::to_ne_bytes)
-        .collect()
+    let widths = [pixel / f64::from(finer), pixel];
+    let inputs = by.inputs_for(&glass);
+    let block = light_block(&glass, [window.below, window.half], widths, inputs);
+    block.into_iter().flat_map(f32::to_ne_bytes).collect()
 }
 
 /// The mean of each pixel's samples.

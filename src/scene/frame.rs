@@ -1,6 +1,6 @@
 //! The block of numbers that every pass sees: cameras, the material, the room, the inputs of the method.
 
-use glam::{DMat4, DVec3};
+use glam::{DMat4, DVec3, DVec4};
 
 use super::camera::Camera;
 use super::glass::Glass;
@@ -41,6 +41,37 @@ pub fn frame(
     numbers.extend(four(glass.absorption(), 0.0));
     numbers.extend(inputs.concat());
     numbers
+}
+
+/// The photons of a row, and the picture of the back that is searched.
+pub const PHOTONS: u32 = 256;
+/// Pixels a side of the back.
+pub const BACK: u32 = 1024;
+/// Where the widths of a sample and of a pixel begin in the block of light.
+pub const PIXEL_AT: usize = 46;
+
+/// The block of light that falls onto a receiver so far below the body, in a window of this half width: its camera sees [-1, 1]^2 from +z.
+pub fn light_block(
+    glass: &Glass,
+    [below, half]: [f64; 2],
+    [sample, pixel]: [f64; 2],
+    inputs: [[f32; 4]; INPUTS],
+) -> Vec<f32> {
+    let view_projection = DMat4::from_cols(
+        DVec4::X,
+        DVec4::Y,
+        DVec4::new(0.0, 0.0, -0.25, 0.0),
+        DVec4::new(0.0, 0.0, 0.5, 1.0),
+    );
+    let camera = Camera {
+        eye: DVec3::new(below, half, f64::from(PHOTONS)),
+        view_projection,
+        inverse: view_projection.inverse(),
+    };
+    let mut block = frame((View::Eye, &camera, PHOTONS), 1.0, glass, inputs);
+    block[PIXEL_AT] = sample as f32;
+    block[PIXEL_AT + 1] = pixel as f32;
+    block
 }
 
 /// A margin of a picture is this part of its side.

@@ -34,7 +34,9 @@ pub use compare::{Comparison, Difference, compare};
 #[cfg(feature = "gpu")]
 pub use draw::{DrawFault, Drawn, Scenery, draw};
 pub use environment::{Environment, EnvironmentFault};
-pub use frame::{ABSORPTION_AT, INDEX_AT, INPUTS_AT, MARGIN, frame};
+pub use frame::{
+    ABSORPTION_AT, BACK, INDEX_AT, INPUTS_AT, MARGIN, PHOTONS, PIXEL_AT, frame, light_block,
+};
 pub use glass::{Glass, Ray};
 #[cfg(feature = "gpu")]
 pub use picture::{Order, Picture, RenderedRow, render};

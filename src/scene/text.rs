@@ -93,12 +93,25 @@ impl RowText {
         if self.leaves_a_body() {
             called.push(self.exit_function()?);
         }
+        if self.is_rough() {
+            called.insert(0, self.rough_function()?);
+        }
         Ok(called)
     }
 
     /// Whether rays leave the body, so that passes ask what is transmitted there.
     fn leaves_a_body(&self) -> bool {
         self.row.effects.contains(&"interior")
+    }
+
+    /// Whether light is reflected by a rough surface, so that passes ask for its BRDF.
+    pub fn is_rough(&self) -> bool {
+        self.row.effects.contains(&"ggx_specular")
+    }
+
+    fn rough_function(&self) -> Result<Emitted, emit::Error> {
+        let each = Reflectance::EachChannel;
+        function("ggx_specular", self.method, each, self.is_scalar())
     }
 
     /// Whether the method has one number for all channels where light passes through the body.
@@ -156,22 +169,11 @@ impl RowText {
 
     fn calls_in(&self, words: &Words, frame: &str) -> Result<String, emit::Error> {
         let Words { scalar, vector, .. } = *words;
-        let places = self.method.inputs.iter().enumerate();
-        let inputs = places.map(|(place, input)| self.argument(frame, place, input));
-        let arguments: Vec<String> = ["incident", "normal"]
-            .map(str::to_owned)
-            .into_iter()
-            .chain(inputs)
-            .collect();
-        let call = format!("{}({})", self.entry_function()?.name, arguments.join(", "));
-        let whole = match self.is_scalar() {
-            true => format!("{vector}({call})"),
-            false => call,
-        };
         let rays = [("incident", vector), ("normal", vector)];
         let head = words.head("reflectance", &rays, vector);
+        let call = self.call(words, frame, &self.entry_function()?, &rays);
         let mut text = format!(
-            "\n// R by {}\n{head} {{\n    return {whole};\n}}\n",
+            "\n// R by {}\n{head} {{\n    return {call};\n}}\n",
             self.method.name
         );
         if self.leaves_a_body() {
@@ -187,7 +189,28 @@ impl RowText {
                 self.exit_method().name
             );
         }
+        if self.is_rough() {
+            let takes = ["n_dot_v", "n_dot_l", "n_dot_h", "v_dot_h", "alpha"];
+            let takes = takes.map(|name| (name, scalar));
+            let head = words.head("specular", &takes, vector);
+            let call = self.call(words, frame, &self.rough_function()?, &takes);
+            text += &format!("\n{head} {{\n    return {call};\n}}\n");
+        }
         Ok(text)
+    }
+
+    /// The call of a function that asks for R: its own arguments, then the method's inputs. One number stands for all channels where it
+    /// gives one.
+    fn call(&self, words: &Words, frame: &str, function: &Emitted, own: &[(&str, &str)]) -> String {
+        let own = own.iter().map(|(name, _)| (*name).to_owned());
+        let places = self.method.inputs.iter().enumerate();
+        let inputs = places.map(|(place, input)| self.argument(frame, place, input));
+        let arguments: Vec<String> = own.chain(inputs).collect();
+        let call = format!("{}({})", function.name, arguments.join(", "));
+        match function.function.ty() {
+            Ty::Scalar => format!("{}({call})", words.vector),
+            _ => call,
+        }
     }
 
     /// Where a call reads an input: in the frame's block, green's value where one R stands for all channels. A row of the effect that

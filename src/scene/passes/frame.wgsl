@@ -15,7 +15,7 @@ struct Frame {
     // of the eye and of the eye mirrored in y = 0, in pictures with a margin
     margin: mat4x4<f32>,
     mirrored: mat4x4<f32>,
-    // of the body's material, of red, green and blue, per unit of length
+    // of the body's material, of red, green and blue, per unit of length; w: its roughness
     absorption: vec4<f32>,
     // of the method, in its order
     inputs: array<vec4<f32>, 8>,

@@ -2,20 +2,14 @@
 
 use base64::Engine as _;
 use base64::prelude::BASE64_STANDARD;
-use fresnel_gen::fit::values_for_material;
-use fresnel_gen::gallery::{CUBE, reduced_tables, unpacked_environment};
-use fresnel_gen::gpu::{Device, DeviceFault, Wanted};
-use fresnel_gen::reference::MaterialInMedium;
-use fresnel_gen::scene::{
-    self, Around, Camera, Environment, Glass, RenderRow, RowText, Scenery, Things,
-};
+use fresnel_gen::gallery::rows;
 use glam::DVec3;
 use serde_json::{Value, json};
 
-use super::{page, subjects};
+use super::page;
+use super::pixels::Held;
 use crate::cli::Place;
 use crate::compilers::Tool;
-use crate::not_checked;
 
 const CHROMIUM: Tool = Tool {
     command: "chromium",
@@ -31,9 +25,6 @@ addEventListener("securitypolicyviolation", event => faults.push("it asks for " 
 for (const kind of ["error", "warn"]) console[kind] = (...words) => faults.push(words.join(" "));
 </script><title>"#;
 const HANDS: &str = include_str!("hands.js");
-
-/// Pixels a side of a panel in `HANDS`.
-const PANEL: usize = 50;
 
 /// What the hands saw in the page.
 fn told(backend: &str) -> Value {
@@ -84,104 +75,24 @@ fn pixels(picture: &Value) -> Vec<DVec3> {
     numbers.chunks_exact(3).map(DVec3::from_slice).collect()
 }
 
-/// The same row by this program's own device.
-fn drawn(
-    device: &Device,
-    row: &'static RenderRow,
-    subjects: &[MaterialInMedium],
-    sky: &Environment,
-) -> Vec<DVec3> {
-    let subject = subjects
-        .iter()
-        .find(|subject| subject.name == row.material)
-        .expect("it is there");
-    let whole = Glass::of_surface(&subject.reference.surface);
-    let flat = whole.at_one_index();
-    let body = row.body.body();
-    let relief = row.is_hammered.then(scene::Relief::hammered);
-    let things = Things {
-        body: &body,
-        glass: if row.disperses { &whole } else { &flat },
-        around: if row.in_room {
-            Around::Room
-        } else {
-            Around::Far(sky)
-        },
-        relief: relief.as_ref(),
-    };
-    let text = RowText::usual(row);
-    let inputs = text.inputs(&values_for_material(subject, text.method));
-    let scenery = Scenery {
-        tables: reduced_tables(&body),
-        cube: CUBE,
-        ..Scenery::of(things, sky)
-    };
-    let camera = Camera::around(DVec3::from_array(row.eye), body.radius());
-    let each = scene::SAMPLES as usize;
-    let side = PANEL * each;
-    let drawn = scene::draw(device, (&text, inputs), &scenery, &camera, side as u32);
-    let samples = drawn.expect("it is drawn").samples;
-    let mut means = vec![DVec3::ZERO; PANEL * PANEL];
-    for (i, [r, g, b, _]) in samples.into_iter().enumerate() {
-        let pixel = i / side / each * PANEL + i % side / each;
-        means[pixel] += DVec3::new(r.into(), g.into(), b.into()) / (each * each) as f64;
-    }
-    means
-}
-
-/// Radiance may differ by this, and by this share of it, in all but one of a hundred pixels: drivers round, and the page's ball has half
-/// the rows.
-const TOLERANCE: f64 = 0.02;
-const OUTSIDE: f64 = 0.01;
-
-/// The share of the pixels that differ by more.
-fn share_apart(one: &[DVec3], other: &[DVec3]) -> f64 {
-    let is_apart = |(a, b): &(&DVec3, &DVec3)| {
-        let most = a.max(**b).max_element();
-        (**a - **b).abs().max_element() > TOLERANCE * (1.0 + most)
-    };
-    assert_eq!(one.len(), other.len());
-    one.iter().zip(other).filter(is_apart).count() as f64 / one.len() as f64
-}
-
 /// What a browser drew, by the backend's name.
 #[track_caller]
 fn every_row_is_drawn(told: &Value, backend: &str) {
     assert_eq!(told["faults"], json!([]), "{}", told["faults"]);
     assert_eq!(told["asked"], json!([]));
     assert_eq!(told["drawn_by"], backend);
-    let device = match Device::open(&Wanted::default()) {
-        Ok(device) => Some(device),
-        Err(fault @ DeviceFault::Absent { .. }) => {
-            not_checked(&format!("pixels of the gallery: {fault}"));
-            None
-        }
-        Err(fault) => panic!("{fault}"),
-    };
-    let (subjects, sky) = (subjects(), unpacked_environment());
+    let mut held = Held::new();
     let mut faults = String::new();
-    for row in scene::ALL.iter().filter(|row| !row.passes.is_empty()) {
+    for row in rows() {
         let seen = &told["rows"][row.name];
         let status = seen["status"].as_str().expect("the row was shown");
-        let begins = format!(
-            "{}, {} by {}, drawn by {backend}.",
-            row.name, row.material, row.method
-        );
+        let (name, material, method) = (row.name, row.material, row.method);
+        let begins = format!("{name}, {material} by {method}, drawn by {backend}.");
         assert!(status.starts_with(&begins), "{status}");
-        let is_exact = row.method.ends_with("_exact");
+        let is_exact = method.ends_with("_exact");
         assert_eq!(status.ends_with("mean 0, largest 0."), is_exact, "{status}");
-        let Some(device) = &device else { continue };
-        let apart = share_apart(
-            &pixels(&seen["picture"]),
-            &drawn(device, row, &subjects, &sky),
-        );
-        println!(
-            "{backend}, {}: {:.2} % of pixels are apart",
-            row.name,
-            100.0 * apart
-        );
-        if apart > OUTSIDE {
-            faults += &format!("{}: {:.2} %\n", row.name, 100.0 * apart);
+        if let Some(fault) = held.fault(row, &pixels(&seen["picture"])) {
+            faults += &format!("{backend}: {name}: {fault}\n");
         }
     }
     assert!(faults.is_empty(), "{faults}");
@@ -217,6 +128,8 @@ fn changes_are_seen(changes: &Value) {
         "own_k",
         "turned",
         "raised",
+        "rough",
+        "rougher",
     ];
     for pair in steps.windows(2) {
         let [one, other] = [pair[0], pair[1]].map(|name| &changes[name]);

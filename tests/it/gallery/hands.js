@@ -63,6 +63,10 @@
     await seen("turned");
     await step("elevation");
     await seen("raised");
+    await choose("effect", "ggx_specular");
+    await seen("rough");
+    await step("roughness");
+    await seen("rougher");
     told.before = $("right").textContent;
     await step("magnification");
     told.after = $("right").textContent;

@@ -3,6 +3,7 @@
 
 mod browser;
 mod files;
+mod pixels;
 mod texts;
 
 use std::sync::OnceLock;

@@ -4,8 +4,8 @@ use std::collections::BTreeMap;
 use std::path::Path;
 
 use fresnel_gen::emit::validate_wgsl;
-use fresnel_gen::gallery::{Gallery, gallery, methods_of};
-use fresnel_gen::scene::{self, RowText};
+use fresnel_gen::gallery::{Gallery, find, gallery, methods_of};
+use fresnel_gen::scene::RowText;
 use fresnel_gen::spectra::Space;
 
 use super::subjects;
@@ -31,9 +31,9 @@ fn functions_stand_in_programs_byte_for_byte() {
         .collect();
     let (mut programs, mut found) = (0, 0);
     for row in &gallery.rows {
-        for method in methods_of(scene::find(row.name).unwrap()) {
+        for method in methods_of(find(row.name).unwrap()) {
             let text = RowText {
-                row: scene::find(row.name).unwrap(),
+                row: find(row.name).unwrap(),
                 method,
             };
             let module = row.module(method.name, &wgsl).expect("a method of the row");
