@@ -36,8 +36,8 @@ fn leaks(device: &Device, row: &'static RenderRow) -> u64 {
 }
 
 /// Posts and a ball stand in the water, the floor and the walls lie below it. As it is drawn, nothing leaks. Without the mask, with bent
-/// look-ups wherever they lead, posts and ball leak into what lies below. Without the clipping plane, walls and floor leak into the
-/// mirror.
+/// look-ups wherever they lead, posts and ball leak into what lies below. Without the clipping plane, what stands below the surface leaks
+/// into the mirror.
 #[test]
 fn nothing_leaks_through_the_surface() {
     let Some(device) = device() else { return };
@@ -59,7 +59,7 @@ fn nothing_leaks_through_the_surface() {
     println!("leaks: {real}; without the mask {without_mask}; without the plane {without_plane}");
     assert_eq!(real, 0);
     assert!(without_mask > 50, "{without_mask}");
-    assert!(without_plane > 1000, "{without_plane}");
+    assert!(without_plane > 50, "{without_plane}");
 }
 
 /// What a white world adds to a black one is what is mirrored: R, row by row, from looking down to looking along the water.
