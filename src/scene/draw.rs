@@ -53,12 +53,7 @@ pub fn draw(
     camera: &Camera,
     side: u32,
 ) -> Result<Drawn, DrawFault> {
-    let Things {
-        body,
-        glass,
-        relief,
-        ..
-    } = things;
+    let Things { body, glass, .. } = things;
     let text = text(row).map_err(|fault| DrawFault::Text(fault.to_string()))?;
     let offscreen = device.offscreen()?;
     let [width, height] = environment.size();
@@ -68,19 +63,7 @@ pub fn draw(
         offscreen.mesh(&vertices)
     });
     let (body_mesh, water_mesh) = (body_mesh?, water_mesh?);
-    let mut slots: BTreeMap<Slot, Image> = BTreeMap::new();
-    if row.in_room {
-        let cube = offscreen.upload([CUBE as u32, CUBE as u32, 6], &room_cube(CUBE))?;
-        slots.insert(Slot::Room, cube);
-    }
-    if let Some(relief) = relief {
-        let image = upload(&offscreen, [relief.side(); 2], relief.texels())?;
-        slots.insert(Slot::Relief, image);
-    }
-    for (slot, table) in tables(body) {
-        let [width, height] = table.size().map(|texels| texels as u32);
-        slots.insert(slot, offscreen.upload([width, height, 1], table.texels())?);
-    }
+    let mut slots = tables_of(&offscreen, row, things)?;
     for pass in row.passes {
         let clears = !pass.writes.iter().any(|slot| slots.contains_key(slot));
         for slot in pass.writes.iter().filter(|_| clears) {
@@ -112,8 +95,30 @@ pub fn draw(
     Ok(Drawn { samples })
 }
 
+/// What passes read that is not drawn.
+fn tables_of(
+    offscreen: &Offscreen,
+    row: &RenderRow,
+    things: Things,
+) -> Result<BTreeMap<Slot, Image>, DeviceFault> {
+    let mut slots: BTreeMap<Slot, Image> = BTreeMap::new();
+    if row.in_room {
+        let cube = offscreen.upload([CUBE as u32, CUBE as u32, 6], &room_cube(CUBE))?;
+        slots.insert(Slot::Room, cube);
+    }
+    if let Some(relief) = things.relief {
+        let image = upload(&offscreen, [relief.side(); 2], relief.texels())?;
+        slots.insert(Slot::Relief, image);
+    }
+    for (slot, table) in body_tables(things.body) {
+        let [width, height] = table.size().map(|texels| texels as u32);
+        slots.insert(slot, offscreen.upload([width, height, 1], table.texels())?);
+    }
+    Ok(slots)
+}
+
 /// The tables that belong to a body.
-fn tables(body: &Body) -> Vec<(Slot, &Texels)> {
+fn body_tables(body: &Body) -> Vec<(Slot, &Texels)> {
     match body {
         Body::Ball | Body::Gem(_) => Vec::new(),
         Body::Pool(pool) => vec![(Slot::Paint, &pool.paint), (Slot::Relief, &pool.normals)],
