@@ -115,8 +115,10 @@ fn the_image_of_a_post_hangs_from_its_water_line() {
     };
     for seen in [&picture.drawn, &picture.truth] {
         let image = mean(seen, -0.1, -0.8 * POST_TOP);
+        let foot = mean(seen, -0.02, -0.1);
         let beyond = mean(seen, -1.25 * POST_TOP, -1.5 * POST_TOP);
-        println!("image {image}, beyond {beyond}");
+        println!("image {image}, at the foot {foot}, beyond {beyond}");
+        assert!(image.min_element() > 0.01 && foot.min_element() > 0.01);
         assert!(image.x > 4.0 * beyond.x, "{image} {beyond}");
         assert!(
             image.x > 1.2 * image.z,
