@@ -107,7 +107,7 @@ fn tables_of(
         slots.insert(Slot::Room, cube);
     }
     if let Some(relief) = things.relief {
-        let image = upload(&offscreen, [relief.side(); 2], relief.texels())?;
+        let image = upload(offscreen, [relief.side(); 2], relief.texels())?;
         slots.insert(Slot::Relief, image);
     }
     for (slot, table) in body_tables(things.body) {
