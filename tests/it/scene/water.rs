@@ -36,8 +36,8 @@ fn leaks(device: &Device, row: &'static RenderRow) -> u64 {
 }
 
 /// Posts and a ball stand in the water, the floor and the walls lie below it. As it is drawn, nothing leaks. Without the mask, with bent
-/// look-ups wherever they lead, posts and ball leak into what lies below. Without the clipping plane, walls and floor leak into the
-/// mirror.
+/// look-ups wherever they lead, posts and ball leak into what lies below. Without the clipping plane, what stands below the surface leaks
+/// into the mirror.
 #[test]
 fn nothing_leaks_through_the_surface() {
     let Some(device) = device() else { return };
@@ -59,7 +59,7 @@ fn nothing_leaks_through_the_surface() {
     println!("leaks: {real}; without the mask {without_mask}; without the plane {without_plane}");
     assert_eq!(real, 0);
     assert!(without_mask > 50, "{without_mask}");
-    assert!(without_plane > 1000, "{without_plane}");
+    assert!(without_plane > 50, "{without_plane}");
 }
 
 /// What a white world adds to a black one is what is mirrored: R, row by row, from looking down to looking along the water.
@@ -115,8 +115,10 @@ fn the_image_of_a_post_hangs_from_its_water_line() {
     };
     for seen in [&picture.drawn, &picture.truth] {
         let image = mean(seen, -0.1, -0.8 * POST_TOP);
+        let foot = mean(seen, -0.02, -0.1);
         let beyond = mean(seen, -1.25 * POST_TOP, -1.5 * POST_TOP);
-        println!("image {image}, beyond {beyond}");
+        println!("image {image}, at the foot {foot}, beyond {beyond}");
+        assert!(image.min_element() > 0.01 && foot.min_element() > 0.01);
         assert!(image.x > 4.0 * beyond.x, "{image} {beyond}");
         assert!(
             image.x > 1.2 * image.z,
