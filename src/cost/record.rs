@@ -33,7 +33,9 @@ pub struct CostRecord {
 /// Which function a row of a record is about.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct FunctionKey {
-    /// The method.
+    /// The function of an effect by its name after the prefix; empty for methods.
+    pub effect: String,
+    /// The method; empty for a function of an effect that asks for no R.
     pub method: String,
     /// The material that it is specialised to; empty for the library.
     pub material: String,
@@ -48,6 +50,7 @@ pub struct FunctionKey {
 impl fmt::Display for FunctionKey {
     fn fmt(&self, to: &mut fmt::Formatter) -> fmt::Result {
         let FunctionKey {
+            effect,
             method,
             material,
             form,
@@ -55,7 +58,10 @@ impl fmt::Display for FunctionKey {
             precision,
         } = self;
         let (form, precision) = (form.name(), precision.name());
-        write!(to, "{method},{material},{form},{channels},{precision}")
+        write!(
+            to,
+            "{effect},{method},{material},{form},{channels},{precision}"
+        )
     }
 }
 
@@ -63,6 +69,7 @@ impl CostRecord {
     /// What was recorded of a library function of three channels in single precision.
     pub fn library(&self, method: &str) -> Option<CostFigures> {
         let key = FunctionKey {
+            effect: String::new(),
             method: method.to_owned(),
             material: String::new(),
             form: FunctionForm::Library,
@@ -100,6 +107,7 @@ const COMPILER: &str = "# compiler: ";
 /// A row of a file.
 #[derive(Deserialize)]
 struct RecordedCost {
+    effect: String,
     method: String,
     material: String,
     form: FunctionForm,
@@ -156,6 +164,7 @@ impl RecordedCost {
 
     fn key(self) -> FunctionKey {
         FunctionKey {
+            effect: self.effect,
             method: self.method,
             material: self.material,
             form: self.form,
@@ -171,8 +180,8 @@ mod tests {
 
     #[test]
     fn a_record_is_read() {
-        let head = "method,material,form,channels,precision,shader,instructions,latency,inverse_throughput,registers,net_instructions,net_latency,net_inverse_throughput";
-        let row = "schlick,,library,3,f32,0123456789abcdef,57,,28,8,9,,7";
+        let head = "effect,method,material,form,channels,precision,shader,instructions,latency,inverse_throughput,registers,net_instructions,net_latency,net_inverse_throughput";
+        let row = ",schlick,,library,3,f32,0123456789abcdef,57,,28,8,9,,7";
         let text = format!("{COMPILER}X 1.0\n{head}\n{row}\n");
         let record = parse(&text);
         assert_eq!(record.compiler, "X 1.0");
