@@ -7,6 +7,7 @@ use std::collections::BTreeMap;
 use include_dir::{Dir, include_dir};
 use serde::Deserialize;
 
+use crate::effects::USUAL_METHOD;
 use crate::emit::FunctionForm;
 use crate::ir::Checked;
 use crate::methods::Method;
@@ -77,6 +78,16 @@ impl CostRecord {
             precision: Precision::F32,
         };
         self.figures.get(self.functions.get(&key)?).copied()
+    }
+
+    /// What was recorded of a function of an effect, with three channels of R by the usual method where it asks for R.
+    pub fn effect(&self, function: &str) -> Option<CostFigures> {
+        let is_it = |key: &&FunctionKey| {
+            let is_usual = key.method.is_empty() || key.method == USUAL_METHOD;
+            key.effect == function && key.form == FunctionForm::Library && is_usual
+        };
+        let key = self.functions.keys().find(is_it)?;
+        self.figures.get(&self.functions[key]).copied()
     }
 }
 

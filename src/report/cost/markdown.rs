@@ -44,8 +44,10 @@ pub fn cost_document(families: &[Vec<CostRow>]) -> String {
     format!(
         "{introduction}\n## Library functions\n\nShares in per cent; `+` is a texture fetch, `?` is not measured.\n\n{library}\n\
          ## Functions of materials\n\n{materials}\n\
-         ## Functions of effects\n\nWith R by `dielectric_exact` where a function asks for it. A vector that comes first is three weights times the number that the chain hands \
-         on: two of these products count as the function's where it gives one number.\n\n{effects}\n## Families\n\n{}",
+         ## Functions of effects\n\nWith R by `dielectric_exact` where a function asks for it. Each evaluation has a matrix of its own here, where an application has one for \
+         all. On the Mali-G57 eight matrices are too many for the registers of uniforms, and the figures are those of loading them. \
+         A vector that comes first is three weights times the number that the chain hands on; \
+         where a function gives one number, two of these products count as its own.\n\n{effects}\n## Families\n\n{}",
         families_table(families)
     )
 }
