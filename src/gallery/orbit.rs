@@ -3,7 +3,7 @@
 use glam::DVec3;
 use serde::Serialize;
 
-use crate::scene::{Camera, Glass, INPUTS, INPUTS_AT, RenderRow, View, frame, light_block};
+use crate::scene::{Camera, Glass, INPUTS, INPUTS_AT, LightBlock, PHOTONS, RenderRow, View, frame};
 
 use super::packed::Packed;
 
@@ -67,7 +67,13 @@ impl Orbit {
     /// The light's own view: no eye is turned.
     fn of_light(row: &RenderRow, receiver: [f64; 2]) -> Orbit {
         let nothing = Glass::of_index(0.0);
-        let block = light_block(&nothing, receiver, [0.0; 2], [[0.0; 4]; INPUTS]);
+        let light = LightBlock {
+            window: receiver,
+            widths: [0.0; 2],
+            photons: PHOTONS,
+            shift: [0.0; 2],
+        };
+        let block = light.numbers(&nothing, [[0.0; 4]; INPUTS]);
         Orbit {
             eye: row.eye,
             size: 1.0,

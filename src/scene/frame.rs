@@ -43,35 +43,47 @@ pub fn frame(
     numbers
 }
 
-/// The photons of a row, and the picture of the back that is searched.
+/// The photons of a row, unless more are asked for.
 pub const PHOTONS: u32 = 256;
-/// Pixels a side of the back.
+/// Pixels a side of the picture of the back that photons are searched in.
 pub const BACK: u32 = 1024;
 /// Where the widths of a sample and of a pixel begin in the block of light.
 pub const PIXEL_AT: usize = 46;
 
-/// The block of light that falls onto a receiver so far below the body, in a window of this half width: its camera sees [-1, 1]^2 from +z.
-pub fn light_block(
-    glass: &Glass,
-    [below, half]: [f64; 2],
-    [sample, pixel]: [f64; 2],
-    inputs: [[f32; 4]; INPUTS],
-) -> Vec<f32> {
-    let view_projection = DMat4::from_cols(
-        DVec4::X,
-        DVec4::Y,
-        DVec4::new(0.0, 0.0, -0.25, 0.0),
-        DVec4::new(0.0, 0.0, 0.5, 1.0),
-    );
-    let camera = Camera {
-        eye: DVec3::new(below, half, f64::from(PHOTONS)),
-        view_projection,
-        inverse: view_projection.inverse(),
-    };
-    let mut block = frame((View::Eye, &camera, PHOTONS), 1.0, glass, inputs);
-    block[PIXEL_AT] = sample as f32;
-    block[PIXEL_AT + 1] = pixel as f32;
-    block
+/// Light that falls along -z through a body onto a receiver.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LightBlock {
+    /// How far the receiver lies below the body's centre, and half the width of its window.
+    pub window: [f64; 2],
+    /// The widths of a sample and of a pixel.
+    pub widths: [f64; 2],
+    /// The photons of a row.
+    pub photons: u32,
+    /// How far the light is moved.
+    pub shift: [f64; 2],
+}
+
+impl LightBlock {
+    /// The block: the light's camera sees [-1, 1]^2 from +z, moved a little.
+    pub fn numbers(&self, glass: &Glass, inputs: [[f32; 4]; INPUTS]) -> Vec<f32> {
+        let [x, y] = self.shift;
+        let view_projection = DMat4::from_cols(
+            DVec4::X,
+            DVec4::Y,
+            DVec4::new(0.0, 0.0, -0.25, 0.0),
+            DVec4::new(-x, -y, 0.5, 1.0),
+        );
+        let [below, half] = self.window;
+        let camera = Camera {
+            eye: DVec3::new(below, half, f64::from(self.photons)),
+            view_projection,
+            inverse: view_projection.inverse(),
+        };
+        let mut block = frame((View::Eye, &camera, self.photons), 1.0, glass, inputs);
+        let widths = self.widths.map(|width| width as f32);
+        block[PIXEL_AT..PIXEL_AT + 2].copy_from_slice(&widths);
+        block
+    }
 }
 
 /// A margin of a picture is this part of its side.

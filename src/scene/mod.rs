@@ -29,13 +29,15 @@ mod window;
 pub use body::{Body, Crossing, Vertex};
 pub use camera::Camera;
 #[cfg(feature = "gpu")]
-pub use caustics::{Gathering, Window, caustic_error, caustics, exact_caustics};
+pub use caustics::{
+    FOUR_PICTURES, Gathering, ONE_PICTURE, Photons, Window, caustic_error, caustics, exact_caustics,
+};
 pub use compare::{Comparison, Difference, compare};
 #[cfg(feature = "gpu")]
 pub use draw::{DrawFault, Drawn, Scenery, draw};
 pub use environment::{Environment, EnvironmentFault};
 pub use frame::{
-    ABSORPTION_AT, BACK, INDEX_AT, INPUTS_AT, MARGIN, PHOTONS, PIXEL_AT, frame, light_block,
+    ABSORPTION_AT, BACK, INDEX_AT, INPUTS_AT, LightBlock, MARGIN, PHOTONS, PIXEL_AT, frame,
 };
 pub use glass::{Glass, Ray};
 #[cfg(feature = "gpu")]
