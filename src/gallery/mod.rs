@@ -9,6 +9,7 @@ mod lower;
 mod materials;
 mod orbit;
 mod packed;
+mod passes;
 mod row;
 mod rows;
 mod show;
@@ -30,7 +31,8 @@ pub use orbit::{AZIMUTHS, Orbit, eye_at};
 use packed::{SKY, textures_of};
 
 pub use packed::{CUBE, Packed, PackedMesh, PackedTexture, reduced_tables, unpacked_environment};
-pub use row::{GalleryPass, GalleryRow, MethodCalls, ProgramPair, exact_method, methods_of};
+pub use passes::GalleryPass;
+pub use row::{GalleryRow, MethodCalls, ProgramPair, exact_method, methods_of};
 pub use rows::{find, rows};
 pub use show::{SHOW, ShowPrograms};
 

@@ -5,14 +5,15 @@ use std::collections::{BTreeMap, BTreeSet};
 use serde::Serialize;
 
 use crate::effects::Reflectance;
+use crate::emit::Emitted;
 use crate::materials::MaterialKind;
 use crate::methods::{self, Class, Light, Method};
 use crate::reference::MaterialInMedium;
-use crate::scene::{BACK, FRAME, PHOTONS, Place, RenderRow, RowText, Slot};
+use crate::scene::{FRAME, RenderRow, RowText};
 
 use super::lower::{FRAGMENT_FRAME, GlesProgram, LoweringFault, STAND_IN, lowered};
 use super::orbit::Orbit;
-use super::packed::SKY;
+use super::passes::{GalleryPass, passes_of};
 
 /// A row.
 #[derive(Clone, Debug, Serialize)]
@@ -53,33 +54,6 @@ pub struct GalleryRow {
     pub exposure: f64,
     /// The textures that it reads, by slot.
     pub images: BTreeMap<String, String>,
-}
-
-/// A pass.
-#[derive(Clone, Debug, Serialize)]
-pub struct GalleryPass {
-    /// The entry point for vertices.
-    pub vertex: &'static str,
-    /// The entry point for pixels.
-    pub fragment: &'static str,
-    /// What is drawn; a triangle that covers the target where nothing is named.
-    pub mesh: Option<String>,
-    /// Vertices that the entry point makes itself, where there is no mesh.
-    pub count: u32,
-    /// Whether it is added to what is there.
-    pub adds: bool,
-    /// Whether its picture has a margin.
-    pub margin: bool,
-    /// Pixels a side of its picture, where these are not the panel's.
-    pub side: Option<u32>,
-    /// Which surface is seen: none is hidden, the nearest, the farthest.
-    pub depth: &'static str,
-    /// The place of its view in the orbit.
-    pub view: usize,
-    /// What it writes.
-    pub writes: Vec<String>,
-    /// What it reads, from binding 3 on.
-    pub reads: Vec<String>,
 }
 
 /// What a method adds to a row.
@@ -135,25 +109,11 @@ impl GalleryRow {
         (orbits, images): (&mut Vec<Orbit>, BTreeMap<String, String>),
     ) -> Result<GalleryRow, LoweringFault> {
         let orbit = Orbit::of(row, orbits);
-        let common = RowText::usual(row).common_functions()?;
-        let asks = |emitted: &&crate::emit::Emitted| {
-            let part = emitted.effect.map(|part| part.function.reflectance);
-            part != Some(Reflectance::Unused) && !row.text.contains(&format!("{}(", emitted.name))
-        };
-        // What asks for R stands among each method's own functions, unless passes call it themselves.
-        let unused: Vec<String> = common
-            .iter()
-            .filter(asks)
-            .map(|one| one.name.clone())
-            .collect();
-        let names: Vec<String> = common.iter().map(|one| one.name.clone()).collect();
+        let (names, unused) = common_names(row)?;
         let takes = |subject: &&MaterialInMedium| {
             row.is_transparent() == (subject.material.kind == MaterialKind::Dielectric)
         };
-        let passes = match row.receiver {
-            Some(_) => light_passes(row),
-            None => passes(row, &orbits[orbit]),
-        };
+        let passes = passes_of(row, &orbits[orbit]);
         let calls = methods_of(row)
             .into_iter()
             .map(|method| method_calls(row, method));
@@ -237,6 +197,22 @@ impl GalleryRow {
     }
 }
 
+/// The names of the functions of a row's effects; and of those among them that ask for R and that no pass calls itself: each method has
+/// its own.
+fn common_names(row: &'static RenderRow) -> Result<(Vec<String>, Vec<String>), LoweringFault> {
+    let common = RowText::usual(row).common_functions()?;
+    let asks = |emitted: &&Emitted| {
+        let part = emitted.effect.map(|part| part.function.reflectance);
+        part != Some(Reflectance::Unused) && !row.text.contains(&format!("{}(", emitted.name))
+    };
+    let unused = common.iter().filter(asks).map(|one| one.name.clone());
+    let unused = unused.collect();
+    Ok((common.into_iter().map(|one| one.name).collect(), unused))
+}
+
+/// Roughness to begin with.
+const ROUGHNESS: f64 = 0.3;
+
 fn method_calls(
     row: &'static RenderRow,
     method: &'static Method,
@@ -275,88 +251,4 @@ fn programs(
         })
     };
     passes.iter().map(pair).collect()
-}
-
-/// Roughness to begin with.
-const ROUGHNESS: f64 = 0.3;
-
-/// Light through a body onto a receiver: both sides of the body, photons, and the triangles between these.
-fn light_passes(row: &RenderRow) -> Vec<GalleryPass> {
-    let names = |names: &[&str]| names.iter().map(|name| (*name).to_owned()).collect();
-    let side = |depth, side, writes: [&str; 2]| GalleryPass {
-        vertex: "vs_body",
-        fragment: "fs_side",
-        mesh: Some(row.body.name().to_owned()),
-        count: 0,
-        adds: false,
-        depth,
-        view: 0,
-        margin: false,
-        side: Some(side),
-        writes: names(&writes),
-        reads: names(&[SKY]),
-    };
-    let (front, back) = (
-        ["FrontPositions", "FrontNormals"],
-        ["BackPositions", "BackNormals"],
-    );
-    let photons = ["PhotonPlaces", "PhotonEnergies"];
-    let drawn = |vertex, fragment, count, of: [&str; 2]| GalleryPass {
-        vertex,
-        fragment,
-        mesh: None,
-        count,
-        reads: names(&[SKY, of[0], of[1], back[0], back[1]]),
-        ..side("none", PHOTONS, photons)
-    };
-    vec![
-        side("nearest", PHOTONS, front),
-        side("farthest", BACK, back),
-        drawn("vs_cover", "fs_photon", 3, front),
-        GalleryPass {
-            adds: true,
-            side: None,
-            writes: names(&["Colour"]),
-            ..drawn("vs_triangle", "fs_lit", 6 * (PHOTONS - 1).pow(2), photons)
-        },
-    ]
-}
-
-fn passes(row: &RenderRow, orbit: &Orbit) -> Vec<GalleryPass> {
-    let pass = |pass: &crate::scene::PassRow| GalleryPass {
-        vertex: vertex(pass.place),
-        fragment: pass.fragment,
-        mesh: match pass.place {
-            Place::Everywhere => None,
-            Place::Front | Place::Back => Some(row.body.name().to_owned()),
-            Place::Water => Some(format!("{} water", row.body.name())),
-        },
-        count: 3,
-        adds: false,
-        margin: pass.view.has_margin(),
-        side: None,
-        depth: match pass.place {
-            Place::Everywhere | Place::Water => "none",
-            Place::Front => "nearest",
-            Place::Back => "farthest",
-        },
-        view: orbit.view(pass.view),
-        writes: pass.writes.iter().map(slot).collect(),
-        reads: [SKY.to_owned()]
-            .into_iter()
-            .chain(pass.reads.iter().map(slot))
-            .collect(),
-    };
-    row.passes.iter().map(pass).collect()
-}
-
-fn slot(slot: &Slot) -> String {
-    format!("{slot:?}")
-}
-
-fn vertex(place: Place) -> &'static str {
-    match place {
-        Place::Everywhere => "vs_cover",
-        Place::Front | Place::Back | Place::Water => "vs_body",
-    }
 }
