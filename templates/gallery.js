@@ -180,7 +180,7 @@ async function measure() {
   const [chosen, exact] = [await player.read(drawn.chosen), await player.read(drawn.exact)];
   if (stage.drawn !== drawn) return;
   const { mean, most } = apart(chosen, exact);
-  say(`${subject()} by ${$("method").value}, drawn by ${player.name}. Difference of radiance from the exact law over the body: mean ${figure(mean)}, largest ${figure(most)}.`);
+  say(`${subject()} by ${$("method").value}, drawn by ${player.name}. Difference from the exact law, in linear light: mean ${figure(mean)}, largest ${figure(most)}.`);
 }
 
 const subject = () => `${row().name}, ${material()?.name ?? "an index of your own"}`;
@@ -267,7 +267,6 @@ function fill_row() {
   range("elevation", orbit.elevations.length, orbit.first);
   fill_methods(one.method);
   follow_material();
-  $("about").textContent = `${one.summary}. Wrong by design: ${one.wrong}.`;
 }
 
 function fill_methods(wish) {
@@ -327,8 +326,9 @@ function tell_figures() {
   const cost = name => named(data.methods, name).costs[place];
   rows_of($("costs"), [...new Set([method, one.exact])].map(name => [name, cost(name) == null ? "not recorded" : figure(cost(name))]));
   const known = named(data.methods, method), exit = calls_of(one, method).exit;
-  $("about").textContent = `${one.summary}. Wrong by design: ${one.wrong}. ${method}: ${known.summary}. ${known.source}`
-    + (known.fails ? ` It fails: ${known.fails}.` : "") + (exit && exit !== method ? ` Light that leaves the body: by ${exit}, since only an index says where it is reflected totally.` : "");
+  $("about").textContent = `${one.summary}. Wrong by design: ${one.wrong}.`
+    + (exit ? ` Light that leaves the body: by ${exit}, since only an index says where it is reflected totally.` : "");
+  $("about-method").textContent = `${method}: ${known.summary}.` + (known.fails ? ` It fails: ${known.fails}.` : "") + ` ${known.source}`;
 }
 
 function fill_functions() {

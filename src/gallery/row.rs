@@ -219,14 +219,14 @@ fn method_calls(
 ) -> Result<MethodCalls, LoweringFault> {
     let text = RowText { row, method };
     let functions = text.called_functions()?;
-    let leaves = functions.len() > 1;
+    let asks_for_exit = row.text.contains("transmittance_out(");
     let exit = text.exit_method().name;
     Ok(MethodCalls {
         method: method.name,
         functions: functions.into_iter().map(|one| one.name).collect(),
         wgsl: text.calls()?,
         gles: text.calls_in_gles(FRAGMENT_FRAME)?,
-        exit: (leaves && exit != method.name).then_some(exit),
+        exit: (asks_for_exit && exit != method.name).then_some(exit),
     })
 }
 
