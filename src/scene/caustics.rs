@@ -9,7 +9,7 @@ use crate::optics;
 
 use super::body::Body;
 use super::draw::{DrawFault, floats, text};
-use super::row::find;
+use super::table::find;
 
 /// A window of the receiver.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -206,14 +206,12 @@ fn uniforms(n: f64, window: &Window, finer: u32, photons: u32, [x, y]: [f64; 2])
         DVec4::new(window.below, window.half, f64::from(photons), 1.0),
         DVec4::splat(n),
         DVec4::new(0.0, 0.0, pixel / f64::from(finer), pixel),
-        // There is no room.
-        DVec4::ZERO,
-        DVec4::ZERO,
-        DVec4::ZERO,
     ];
+    // There is no room, and no water.
+    let rest = [DVec4::ZERO; 12];
     let matrices = [camera, camera.inverse()].map(|matrix| matrix.to_cols_array());
     let numbers = matrices.concat().into_iter();
-    let numbers = numbers.chain(fours.iter().flat_map(|four| four.to_array()));
+    let numbers = numbers.chain(fours.iter().chain(&rest).flat_map(|four| four.to_array()));
     numbers
         .flat_map(|value| (value as f32).to_ne_bytes())
         .collect()

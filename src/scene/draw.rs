@@ -15,7 +15,8 @@ use super::camera::Camera;
 use super::environment::Environment;
 use super::glass::Glass;
 use super::room::{CUBE_CENTRE, ROOM_MAX, ROOM_MIN, room_cube};
-use super::row::{PassRow, Place, RenderRow, Slot};
+use super::row::{PassRow, Place, RenderRow, Slot, View};
+use super::texels::Texels;
 use super::trace::Things;
 
 /// Texels of a side of the room's cube map.
@@ -52,36 +53,27 @@ pub fn draw(
     camera: &Camera,
     side: u32,
 ) -> Result<Drawn, DrawFault> {
-    let Things {
-        body,
-        glass,
-        relief,
-        ..
-    } = things;
+    let Things { body, glass, .. } = things;
     let text = text(row).map_err(|fault| DrawFault::Text(fault.to_string()))?;
     let offscreen = device.offscreen()?;
     let [width, height] = environment.size();
     let around = upload(&offscreen, [width, height], environment.texels())?;
-    let vertices: Vec<_> = body.triangles().concat().iter().map(floats).collect();
-    let mesh = offscreen.mesh(&vertices)?;
-    let uniforms = frame(camera, body, glass);
-    let mut slots: BTreeMap<Slot, Image> = BTreeMap::new();
-    if row.in_room {
-        let cube = offscreen.upload([CUBE as u32, CUBE as u32, 6], &room_cube(CUBE))?;
-        slots.insert(Slot::Room, cube);
-    }
-    if let Some(relief) = relief {
-        let image = upload(&offscreen, [relief.side(); 2], relief.texels())?;
-        slots.insert(Slot::Relief, image);
-    }
+    let [body_mesh, water_mesh] = [body.triangles(), body.water()].map(|triangles| {
+        let vertices: Vec<_> = triangles.concat().iter().map(floats).collect();
+        offscreen.mesh(&vertices)
+    });
+    let (body_mesh, water_mesh) = (body_mesh?, water_mesh?);
+    let mut slots = tables_of(&offscreen, row, things)?;
     for pass in row.passes {
         let clears = !pass.writes.iter().any(|slot| slots.contains_key(slot));
         for slot in pass.writes.iter().filter(|_| clears) {
+            let side = pass.view.side(side);
             slots.insert(*slot, offscreen.target(side, side)?);
         }
         let (vertex, depth) = pass.drawn_by();
         let images: Vec<&Image> = pass.reads.iter().map(|slot| &slots[slot]).collect();
         let targets: Vec<&Image> = pass.writes.iter().map(|slot| &slots[slot]).collect();
+        let uniforms = frame(pass.view, camera, side, body, glass);
         offscreen.draw(&Draw {
             text: &text,
             vertex,
@@ -90,7 +82,8 @@ pub fn draw(
             images: &[&[&around], images.as_slice()].concat(),
             mesh: match pass.place {
                 Place::Everywhere => Err(3),
-                Place::Front | Place::Back => Ok(&mesh),
+                Place::Front | Place::Back => Ok(&body_mesh),
+                Place::Water => Ok(&water_mesh),
             },
             targets: &targets,
             clears,
@@ -100,6 +93,40 @@ pub fn draw(
     }
     let samples = offscreen.read(&slots[&Slot::Colour])?;
     Ok(Drawn { samples })
+}
+
+/// What passes read that is not drawn.
+fn tables_of(
+    offscreen: &Offscreen,
+    row: &RenderRow,
+    things: Things,
+) -> Result<BTreeMap<Slot, Image>, DeviceFault> {
+    let mut slots: BTreeMap<Slot, Image> = BTreeMap::new();
+    if row.in_room {
+        let cube = offscreen.upload([CUBE as u32, CUBE as u32, 6], &room_cube(CUBE))?;
+        slots.insert(Slot::Room, cube);
+    }
+    if let Some(relief) = things.relief {
+        let image = upload(offscreen, [relief.side(); 2], relief.texels())?;
+        slots.insert(Slot::Relief, image);
+    }
+    for (slot, table) in body_tables(things.body) {
+        let [width, height] = table.size().map(|texels| texels as u32);
+        slots.insert(slot, offscreen.upload([width, height, 1], table.texels())?);
+    }
+    Ok(slots)
+}
+
+/// The tables that belong to a body.
+fn body_tables(body: &Body) -> Vec<(Slot, &Texels)> {
+    match body {
+        Body::Ball | Body::Gem(_) => Vec::new(),
+        Body::Pool(pool) => vec![(Slot::Paint, &pool.paint), (Slot::Relief, &pool.normals)],
+        Body::Window(window) => vec![
+            (Slot::Paint, &window.paint),
+            (Slot::Relief, &window.normals),
+        ],
+    }
 }
 
 fn upload(
@@ -117,6 +144,7 @@ impl PassRow {
             Place::Everywhere => ("vs_cover", Depth::Unused),
             Place::Front => ("vs_body", Depth::Nearest),
             Place::Back => ("vs_body", Depth::Farthest),
+            Place::Water => ("vs_body", Depth::Unused),
         }
     }
 }
@@ -139,8 +167,32 @@ pub(super) fn text(row: &RenderRow) -> Result<String, emit::Error> {
     Ok(text + FRAME + row.text)
 }
 
-/// The bytes of the frame.
-fn frame(camera: &Camera, body: &Body, glass: &Glass) -> Vec<u8> {
+/// A margin of a picture is this part of its side.
+const MARGIN: u32 = 5;
+
+impl View {
+    /// Pixels a side of what is drawn, where the picture has so many.
+    fn side(self, side: u32) -> u32 {
+        match self {
+            View::Eye => side,
+            View::Margin | View::Mirrored | View::MirroredUnclipped => side + 2 * (side / MARGIN),
+        }
+    }
+
+    /// The camera of a pass, by that of the eye.
+    fn camera(self, eye: &Camera, side: u32) -> Camera {
+        let camera = match self {
+            View::Eye | View::Margin => *eye,
+            View::Mirrored => eye.mirrored().clipped_below(),
+            View::MirroredUnclipped => eye.mirrored(),
+        };
+        camera.with_margin(side, self.side(side))
+    }
+}
+
+/// The bytes of the frame of a pass.
+fn frame(view: View, eye: &Camera, side: u32, body: &Body, glass: &Glass) -> Vec<u8> {
+    let camera = view.camera(eye, side);
     let four = |v: DVec3, w: f64| [v.x as f32, v.y as f32, v.z as f32, w as f32];
     let matrix = |m: DMat4| m.to_cols_array().map(|value| value as f32);
     let mut numbers = Vec::new();
@@ -152,6 +204,10 @@ fn frame(camera: &Camera, body: &Body, glass: &Glass) -> Vec<u8> {
     for corner in [ROOM_MIN, ROOM_MAX, CUBE_CENTRE] {
         numbers.extend(four(corner, 0.0));
     }
+    for view in [View::Margin, View::Mirrored] {
+        numbers.extend(matrix(view.camera(eye, side).view_projection));
+    }
+    numbers.extend(four(glass.absorption(), 0.0));
     numbers.into_iter().flat_map(f32::to_ne_bytes).collect()
 }
 

@@ -86,6 +86,15 @@ impl Glass {
 
     /// Without dispersion, at green's index.
     pub fn at_one_index(&self) -> Glass {
-        Glass::of_index(self.n.y)
+        Glass {
+            k: self.k,
+            ..Glass::of_index(self.n.y)
+        }
+    }
+
+    /// How light dies away along its path, of red, green and blue, per metre: 4 pi k / lambda.
+    pub fn absorption(&self) -> DVec3 {
+        let wavelengths = DVec3::new(610.0, 550.0, 460.0) * 1e-9;
+        4.0 * std::f64::consts::PI * self.k / wavelengths
     }
 }

@@ -13,12 +13,16 @@ mod gem;
 mod glass;
 #[cfg(feature = "gpu")]
 mod picture;
+mod pool;
 mod relief;
 mod room;
 mod row;
 mod sky;
+mod table;
+mod texels;
 mod tone;
 mod trace;
+mod window;
 
 pub use body::{Body, Crossing, Vertex};
 pub use camera::Camera;
@@ -35,8 +39,9 @@ pub use glass::{Glass, Ray};
 pub use picture::{Order, Picture, RenderedRow, render};
 pub use relief::Relief;
 pub use room::{CUBE_CENTRE, ROOM_MAX, ROOM_MIN, room_cube, room_radiance};
-pub use row::{ALL, BodyName, PassRow, Place, RenderRow, Slot, find};
+pub use row::{BodyName, PassRow, Place, RenderRow, Slot, View};
 pub use sky::sky;
+pub use table::{ALL, find};
 pub use tone::{Display, TONE_CURVES, ToneCurve};
 pub use trace::{Around, Paths, Things, Traced, trace};
 

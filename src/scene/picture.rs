@@ -87,6 +87,8 @@ pub struct RenderedRow {
     pub l1: Option<f64>,
     /// Of light on a receiver: the sum, as a share of that of the truth.
     pub energy: Option<f64>,
+    /// Of water: samples whose refraction shows what is above it, or whose mirror shows what is below it.
+    pub leaks: Option<u64>,
     /// Where it must be wrong.
     pub wrong: &'static str,
 }
@@ -214,7 +216,8 @@ fn shares(row: &'static RenderRow, drawn: &Drawn, truth: &[Traced]) -> RenderedR
         let holds = seen.iter().filter(|(what, traced)| of(*what, traced));
         holds.count() as f64 / seen.len().max(1) as f64
     };
-    let is_total = |what: f32| what > 2.5;
+    let is_total = |what: f32| (2.5..3.5).contains(&what);
+    let leaks = seen.iter().filter(|(what, _)| *what > 3.5).count() as u64;
     let misses = share(&|what, _| (1.5..2.5).contains(&what));
     let none = Difference {
         mean: 0.0,
@@ -239,6 +242,7 @@ fn shares(row: &'static RenderRow, drawn: &Drawn, truth: &[Traced]) -> RenderedR
         missed_total: share(&|what, traced| !is_total(what) && traced.is_total),
         l1: None,
         energy: None,
+        leaks: row.has_water().then_some(leaks),
         wrong: row.wrong,
     }
 }

@@ -23,6 +23,11 @@ pub fn sky() -> Environment {
     Environment::baked(HEIGHT, radiance)
 }
 
+/// The direction of the sun's middle.
+pub(super) fn to_sun() -> DVec3 {
+    DVec3::new(-0.45, 0.62, 0.4).normalize()
+}
+
 fn radiance(direction: DVec3) -> DVec3 {
     let horizon = DVec3::new(0.75, 0.82, 0.9);
     let azimuth = libm::atan2(direction.x, -direction.z) / std::f64::consts::TAU + 0.5;
@@ -37,8 +42,7 @@ fn radiance(direction: DVec3) -> DVec3 {
         return ground(direction, horizon);
     }
     let zenith = DVec3::new(0.12, 0.28, 0.68);
-    let to_sun = DVec3::new(-0.45, 0.62, 0.4).normalize();
-    let near = direction.dot(to_sun);
+    let near = direction.dot(to_sun());
     let disc = smooth((near - SUN_OUTSIDE) / (SUN_INSIDE - SUN_OUTSIDE)) * SUN;
     let glow = 0.6 * libm::pow(near.max(0.0), 64.0);
     let blue = horizon.lerp(zenith, libm::sqrt(direction.y));

@@ -62,7 +62,8 @@ pub enum Around<'a> {
 }
 
 impl Around<'_> {
-    fn radiance(&self, place: DVec3, direction: DVec3) -> DVec3 {
+    /// What comes to a place along a direction that points away from it.
+    pub(super) fn radiance(&self, place: DVec3, direction: DVec3) -> DVec3 {
         match self {
             Around::Far(environment) => environment.radiance(direction),
             Around::Room => room_radiance(place, direction),
@@ -99,6 +100,16 @@ pub fn trace(
 impl Scene<'_> {
     /// What a ray from the eye shows.
     fn seen(&self, eye: DVec3, direction: DVec3) -> Traced {
+        let (glass, around) = (self.things.glass, self.things.around);
+        match *self.things.body {
+            Body::Pool(pool) => pool.seen(glass, around, eye, direction),
+            Body::Window(window) => window.seen(glass, around, eye, direction),
+            Body::Ball | Body::Gem(_) => self.convex(eye, direction),
+        }
+    }
+
+    /// The same of a convex body.
+    fn convex(&self, eye: DVec3, direction: DVec3) -> Traced {
         let crossing = self.things.body.crossing(eye, direction);
         let Some(crossing) = crossing.filter(|crossing| crossing.entry.0 > 0.0) else {
             let colour = self.things.around.radiance(eye, direction);
@@ -189,12 +200,12 @@ impl Scene<'_> {
 }
 
 /// The mirror's law.
-fn mirrored(direction: DVec3, normal: DVec3) -> DVec3 {
+pub(super) fn mirrored(direction: DVec3, normal: DVec3) -> DVec3 {
     direction - 2.0 * direction.dot(normal) * normal
 }
 
 /// Snell's law: the part along the surface is divided by the index. None past the critical angle.
-fn refracted(direction: DVec3, normal: DVec3, eta: f64) -> Option<DVec3> {
+pub(super) fn refracted(direction: DVec3, normal: DVec3, eta: f64) -> Option<DVec3> {
     let along = (direction - direction.dot(normal) * normal) / eta;
     let rest = 1.0 - along.length_squared();
     (rest > 0.0).then(|| along - rest.sqrt() * normal)

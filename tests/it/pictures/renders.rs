@@ -82,6 +82,39 @@ pub static FACTS: &[Fact] = &[
             }
         },
     },
+    Fact {
+        pictures: "*renders/water.png",
+        says: "water takes red from light: tiles under it are blue, the stones above are not",
+        holds: |shown| {
+            let read = Panels::new(shown);
+            for panel in [0, 1] {
+                assert!(read.blueness(panel, BOTTOM) > 50.0);
+                assert!(read.blueness(panel, [120, 130, 84, 90]) < -10.0);
+            }
+            for part in [BOTTOM, [40, 80, 190, 230], [180, 220, 190, 230]] {
+                let [drawn, truth] = [0, 1].map(|panel| read.mean(panel, part));
+                let apart = [0, 1, 2].map(|i| f64::abs(drawn[i] - truth[i]));
+                assert!(
+                    apart.iter().all(|apart| *apart < 4.0),
+                    "{drawn:?} {truth:?}"
+                );
+            }
+        },
+    },
+    Fact {
+        pictures: "*renders/stained_glass.png",
+        says: "the hub is gold, the wall lets nothing through, and where the sun stands behind the glass it is white",
+        holds: |shown| {
+            let read = Panels::new(shown);
+            for panel in [0, 1] {
+                let [red, green, blue] = read.mean(panel, [122, 134, 108, 118]);
+                assert!(red > green + 5.0 && green > blue + 30.0);
+                let corner = read.mean(panel, [0, 30, 0, 30]);
+                assert!(corner[0] < 15.0, "{corner:?}");
+                assert!(read.brightest(panel) > 240.0);
+            }
+        },
+    },
 ];
 
 fn one_surface_is_upright(shown: &Shown) {
