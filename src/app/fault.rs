@@ -4,6 +4,8 @@ use std::path::PathBuf;
 
 use thiserror::Error;
 
+use crate::methods::Method;
+
 /// What is wrong with a request.
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
 #[non_exhaustive]
@@ -86,5 +88,13 @@ impl RequestFault {
     /// Flags, or values of one, that contradict each other, and why.
     pub fn conflict(why: impl Into<String>) -> RequestFault {
         RequestFault::Conflict { why: why.into() }
+    }
+
+    /// A method that an effect cannot take R from.
+    pub fn textured_reflectance(method: &Method) -> RequestFault {
+        RequestFault::conflict(format!(
+            "method `{}` reads a texture of its own, which effects do not pass on; name another --method",
+            method.name
+        ))
     }
 }

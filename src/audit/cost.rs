@@ -7,6 +7,7 @@ use crate::cost::{
     CompilerSession, Dialect, ENTRY, Family, FragmentShader, GpuCompiler, Probe, foreign, launch,
     told,
 };
+use crate::ir::{Param, Ty};
 use crate::num::Precision;
 use crate::process::{Error, Surroundings, Worker};
 use crate::verify::compilers::CompilerFault;
@@ -155,10 +156,10 @@ fn empty(
     dialect: Dialect,
     evaluations: usize,
 ) -> Result<MeasuredShader, String> {
-    let probe = Probe::empty(false, Precision::F32);
-    let none = [crate::ir::Param {
+    let probe = Probe::empty(Ty::Scalar, Ty::Rgb, Precision::F32);
+    let none = [Param {
         name: "cos_theta".to_owned(),
-        ty: crate::ir::Ty::Scalar,
+        ty: Ty::Scalar,
     }];
     match (language, dialect) {
         (Language::Wgsl, _) => wgsl(&probe, dialect, evaluations),

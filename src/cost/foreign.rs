@@ -4,6 +4,8 @@
 //! The function is `fg_measured`, with its cosine first and three channels out.
 
 use crate::ir::Param;
+use crate::num::Precision;
+use crate::targets::{GLES, HLSL};
 
 use super::chain::{Chain, ChainLanguage};
 use super::probe::{BLOCKS, ENTRY};
@@ -27,7 +29,7 @@ pub fn hlsl(text: &str, params: &[Param], evaluations: usize) -> String {
 "
     );
     let language = ChainLanguage {
-        types: ["float", "float3"],
+        spelling: HLSL.spelling_in(Precision::F32),
         member: "    float4 {name};\n",
         block: &block,
         shader: &shader,
@@ -42,7 +44,7 @@ pub fn glsl(text: &str, params: &[Param], evaluations: usize) -> String {
         "struct FgArguments {{\n{{members}}}};\nlayout(std140, set = 0, binding = 0) uniform FgBlock {{ FgArguments fg_arguments[{BLOCKS}]; }};\n"
     );
     let language = ChainLanguage {
-        types: ["float", "vec3"],
+        spelling: GLES.spelling_in(Precision::F32),
         member: "    vec4 {name};\n",
         block: &block,
         shader: "#version 450
@@ -62,11 +64,12 @@ layout(location = 0) out vec4 fg_colour;
 /// What HLSL and GLSL share. No function of a user's reads a texture. Locals have a prefix, because the text may define names
 /// of its own.
 const C_LIKE: ChainLanguage = ChainLanguage {
-    types: ["", ""],
+    spelling: &HLSL.spelling,
     member: "",
     block: "",
     argument: "fg_arguments[{i}].{name}.{parts}",
     texture: "",
+    cube: "",
     texture_argument: "",
     local: "{type} {name} = {value};",
     input: "{value}",

@@ -3,8 +3,10 @@
 use std::sync::OnceLock;
 
 use crate::cost::{Dialect, Probe, REFERENCE};
+use crate::effects::{Effect, EffectFunction};
 use crate::emit::{
-    Bounds, Emitted, Error, FunctionForm, Naming, library_functions, specialised_graph,
+    Bounds, EffectRequest, Emitted, Error, FunctionForm, Naming, library_functions,
+    specialised_graph,
 };
 use crate::ir::{Checked, Ty};
 use crate::methods::{self, Method};
@@ -16,9 +18,11 @@ use crate::reference::MaterialInMedium;
 pub struct CostedFunction {
     /// Whether it was asked for, or is here as the reference only.
     pub is_asked: bool,
+    /// The function of an effect that it is.
+    pub effect: Option<&'static EffectFunction>,
     /// The material that it is specialised to.
     pub material: Option<String>,
-    /// Its method.
+    /// Its method; of a function of an effect the one that R is by.
     pub method: &'static Method,
     /// What it takes and gives.
     pub form: FunctionForm,
@@ -78,6 +82,27 @@ pub fn functions(
     Ok(found)
 }
 
+/// The functions of an effect for any material, with R by a method: all, or by an unusual method those that ask for R.
+///
+/// # Errors
+/// A function cannot be made.
+pub fn functions_of_effect(
+    effect: &'static Effect,
+    method: &'static Method,
+) -> Result<Vec<CostedFunction>, Error> {
+    let request = EffectRequest {
+        effect,
+        method,
+        subject: None,
+    };
+    let functions = request.functions(&Naming::default())?;
+    let costed = |emitted: Emitted| CostedFunction {
+        effect: emitted.effect.map(|part| part.function),
+        ..CostedFunction::library(emitted)
+    };
+    Ok(functions.into_iter().map(costed).collect())
+}
+
 /// The function with which others are compared, where nobody asked for it.
 fn reference() -> Result<CostedFunction, Error> {
     let method = methods::find(REFERENCE).expect("a test asks for its cost");
@@ -110,6 +135,7 @@ impl CostedFunction {
     ) -> CostedFunction {
         CostedFunction {
             is_asked: true,
+            effect: None,
             material: None,
             probe: Probe::new(&graph, precision),
             hashes: Default::default(),
@@ -122,7 +148,8 @@ impl CostedFunction {
 
     /// The function with which others are compared: the exact law for dielectrics, its arguments from uniforms.
     pub fn is_reference(&self) -> bool {
-        self.method.name == REFERENCE
+        self.effect.is_none()
+            && self.method.name == REFERENCE
             && self.form == FunctionForm::Library
             && !self.precision.is_half()
     }
@@ -137,6 +164,20 @@ impl CostedFunction {
         self.graph.ty() == Ty::Scalar
     }
 
+    /// The types of its first argument and of its result.
+    pub fn ends(&self) -> (Ty, Ty) {
+        let first = self.graph.params.first();
+        (first.map_or(Ty::Scalar, |param| param.ty), self.graph.ty())
+    }
+
+    /// The method, where it is part of the function.
+    pub fn method_by_name(&self) -> Option<&'static str> {
+        let has_method = self
+            .effect
+            .is_none_or(|effect| effect.reflectance.is_used());
+        has_method.then_some(self.method.name)
+    }
+
     /// The shader of the longer chain by its hash: what a record belongs to.
     pub fn hash(&self, dialect: Dialect) -> &str {
         self.hashes[dialect as usize].get_or_init(|| self.probe.hash(dialect))
@@ -148,12 +189,13 @@ impl CostedFunction {
             .chains()
             .map(|evaluations| self.probe.text(evaluations, dialect))
     }
-}
 
-/// The chains of the empty function.
-pub fn empty(is_scalar: bool, precision: Precision, dialect: Dialect) -> [String; 2] {
-    let probe = Probe::empty(is_scalar, precision);
-    dialect
-        .chains()
-        .map(|evaluations| probe.text(evaluations, dialect))
+    /// The same of the empty function in its place.
+    pub fn empty_chains(&self, dialect: Dialect) -> [String; 2] {
+        let (first, result) = self.ends();
+        let probe = Probe::empty(first, result, self.precision);
+        dialect
+            .chains()
+            .map(|evaluations| probe.text(evaluations, dialect))
+    }
 }

@@ -27,7 +27,7 @@ pub use compilers::{FamilyAnswers, ask_compilers};
 pub use family::{Dialect, FAMILIES, Family, GpuCompiler, find};
 pub use figures::{CostFigures, Counts, StatisticNames, Statistics, figures, remarked};
 #[cfg(all(feature = "cli", feature = "gpu"))]
-pub use function::{CostedFunction, functions};
+pub use function::{CostedFunction, functions, functions_of_effect};
 pub use pareto::{CostAndError, Multiples, TIE, pareto_frontier};
 pub use probe::{BLOCKS, ENTRY, Probe, VERTEX, WGSL_VERTEX, gles_vertex};
 #[cfg(all(feature = "cli", feature = "gpu"))]

@@ -1,6 +1,6 @@
 //! The shaders that are measured: a function in a fragment shader, evaluated once or several times in a chain.
 //!
-//! Each evaluation takes its cosine from the result before it, `r g - b` and what comes from the vertices, so that no channel
+//! Each evaluation takes its first argument from the result before it, `r g - b` and what comes from the vertices, so that no channel
 //! can be left out, no compiler can make it simpler, and cosines stay spread where the shader is run; and each has arguments of its own, so that nothing computed from
 //! arguments is shared. The chain's own price is that of the [empty](Probe::empty) function in it.
 //!
@@ -69,20 +69,30 @@ impl Probe {
         }
     }
 
-    /// What a chain costs where nothing is evaluated in it.
-    pub fn empty(is_scalar: bool, precision: Precision) -> Probe {
+    /// What a chain costs where nothing is evaluated in it: of functions with such a first argument and such a result.
+    pub fn empty(first: Ty, result: Ty, precision: Precision) -> Probe {
         let text = |target: &Target| {
             let spelling = target.spelling_in(precision);
-            let ty = spelling.ty(if is_scalar { Ty::Scalar } else { Ty::Rgb });
-            let param = spelling.param.replace("{type}", spelling.scalar);
+            let ty = spelling.ty(result);
+            let value = match (first, result) {
+                (Ty::Rgb, Ty::Rgb) => "c".to_owned(),
+                (Ty::Vec2, Ty::Rgb) => "c.xyx".to_owned(),
+                (Ty::Rgb | Ty::Vec2, _) => "c.x".to_owned(),
+                _ => format!("{ty}(c)"),
+            };
+            let param = spelling.param.replace("{type}", spelling.ty(first));
             let head = spelling.head.replace("{name}", MEASURED);
             let head = head.replace("{type}", ty);
             let head = head.replace("{params}", &param.replace("{name}", "c"));
-            format!("{head} {{\n    return {ty}(c);\n}}\n")
+            format!("{head} {{\n    return {value};\n}}\n")
+        };
+        let param = Param {
+            name: "c".to_owned(),
+            ty: first,
         };
         Probe {
-            params: Vec::new(),
-            is_scalar,
+            params: vec![param],
+            is_scalar: result == Ty::Scalar,
             precision,
             texts: [text(&WGSL), text(&GLES)],
         }
@@ -121,7 +131,7 @@ impl Probe {
             false => "",
         };
         let language = ChainLanguage {
-            types: [spelling.scalar, spelling.rgb],
+            spelling,
             // Elements of an array in uniforms lie 16 bytes apart, or a multiple of it.
             member: "    @align(16) {name}: {type},\n",
             block: &format!(
@@ -129,6 +139,7 @@ impl Probe {
             ),
             argument: "fg_arguments[{i}].{name}",
             texture: "@group(0) @binding(3) var fg_table: texture_2d<f32>;\n@group(0) @binding(4) var fg_sampler: sampler;\n",
+            cube: "@group(0) @binding(3) var fg_table: texture_cube<f32>;\n@group(0) @binding(4) var fg_sampler: sampler;\n",
             texture_argument: "fg_table, fg_sampler",
             local: spelling.local,
             input: "{type}({value})",
@@ -150,16 +161,19 @@ impl Probe {
         let uniform = spelling
             .param
             .replace("{name}", &format!("fg_{{name}}[{BLOCKS}]"));
-        let (head, colour) = match is_old {
-            true => (OLD_HEAD, "gl_FragColor"),
-            false => (NEW_HEAD, "fg_colour"),
+        let reads_cube = self.params.iter().any(|param| param.ty == Ty::Cube);
+        let (head, colour) = match (is_old, reads_cube) {
+            (true, true) => (OLD_HEAD_WITH_CUBE, "gl_FragColor"),
+            (true, false) => (OLD_HEAD, "gl_FragColor"),
+            (false, _) => (NEW_HEAD, "fg_colour"),
         };
         let language = ChainLanguage {
-            types: [spelling.scalar, spelling.rgb],
+            spelling,
             member: &format!("uniform {uniform};\n"),
             block: "{members}",
             argument: "fg_{name}[{i}]",
             texture: "uniform highp sampler2D fg_table;\n",
+            cube: "uniform highp samplerCube fg_table;\n",
             texture_argument: "fg_table",
             local: spelling.local,
             input: "{value}",
@@ -211,4 +225,8 @@ out highp vec4 fg_colour;
 const OLD_HEAD: &str = "#version 100
 varying highp vec4 fg_in;
 #define textureLod(table, at, level) texture2D(table, at)
+";
+const OLD_HEAD_WITH_CUBE: &str = "#version 100
+varying highp vec4 fg_in;
+#define textureLod(table, at, level) textureCube(table, at)
 ";

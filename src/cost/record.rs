@@ -7,6 +7,7 @@ use std::collections::BTreeMap;
 use include_dir::{Dir, include_dir};
 use serde::Deserialize;
 
+use crate::effects::USUAL_METHOD;
 use crate::emit::FunctionForm;
 use crate::ir::Checked;
 use crate::methods::Method;
@@ -33,7 +34,9 @@ pub struct CostRecord {
 /// Which function a row of a record is about.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct FunctionKey {
-    /// The method.
+    /// The function of an effect by its name after the prefix; empty for methods.
+    pub effect: String,
+    /// The method; empty for a function of an effect that asks for no R.
     pub method: String,
     /// The material that it is specialised to; empty for the library.
     pub material: String,
@@ -48,6 +51,7 @@ pub struct FunctionKey {
 impl fmt::Display for FunctionKey {
     fn fmt(&self, to: &mut fmt::Formatter) -> fmt::Result {
         let FunctionKey {
+            effect,
             method,
             material,
             form,
@@ -55,7 +59,10 @@ impl fmt::Display for FunctionKey {
             precision,
         } = self;
         let (form, precision) = (form.name(), precision.name());
-        write!(to, "{method},{material},{form},{channels},{precision}")
+        write!(
+            to,
+            "{effect},{method},{material},{form},{channels},{precision}"
+        )
     }
 }
 
@@ -63,6 +70,7 @@ impl CostRecord {
     /// What was recorded of a library function of three channels in single precision.
     pub fn library(&self, method: &str) -> Option<CostFigures> {
         let key = FunctionKey {
+            effect: String::new(),
             method: method.to_owned(),
             material: String::new(),
             form: FunctionForm::Library,
@@ -70,6 +78,16 @@ impl CostRecord {
             precision: Precision::F32,
         };
         self.figures.get(self.functions.get(&key)?).copied()
+    }
+
+    /// What was recorded of a function of an effect, with three channels of R by the usual method where it asks for R.
+    pub fn effect(&self, function: &str) -> Option<CostFigures> {
+        let is_it = |key: &&FunctionKey| {
+            let is_usual = key.method.is_empty() || key.method == USUAL_METHOD;
+            key.effect == function && key.form == FunctionForm::Library && is_usual
+        };
+        let key = self.functions.keys().find(is_it)?;
+        self.figures.get(&self.functions[key]).copied()
     }
 }
 
@@ -100,6 +118,7 @@ const COMPILER: &str = "# compiler: ";
 /// A row of a file.
 #[derive(Deserialize)]
 struct RecordedCost {
+    effect: String,
     method: String,
     material: String,
     form: FunctionForm,
@@ -156,6 +175,7 @@ impl RecordedCost {
 
     fn key(self) -> FunctionKey {
         FunctionKey {
+            effect: self.effect,
             method: self.method,
             material: self.material,
             form: self.form,
@@ -171,8 +191,8 @@ mod tests {
 
     #[test]
     fn a_record_is_read() {
-        let head = "method,material,form,channels,precision,shader,instructions,latency,inverse_throughput,registers,net_instructions,net_latency,net_inverse_throughput";
-        let row = "schlick,,library,3,f32,0123456789abcdef,57,,28,8,9,,7";
+        let head = "effect,method,material,form,channels,precision,shader,instructions,latency,inverse_throughput,registers,net_instructions,net_latency,net_inverse_throughput";
+        let row = ",schlick,,library,3,f32,0123456789abcdef,57,,28,8,9,,7";
         let text = format!("{COMPILER}X 1.0\n{head}\n{row}\n");
         let record = parse(&text);
         assert_eq!(record.compiler, "X 1.0");

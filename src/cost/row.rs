@@ -12,8 +12,10 @@ use crate::num::Precision;
 #[derive(Clone, Debug, Serialize)]
 #[serde(into = "CostRowJson")]
 pub struct CostRow {
-    /// The method.
-    pub method: &'static str,
+    /// The function of an effect by its name after the prefix.
+    pub effect: Option<&'static str>,
+    /// The method; none for a function of an effect that asks for no R.
+    pub method: Option<&'static str>,
     /// The material that it is specialised to.
     pub material: Option<String>,
     /// What it takes and gives.
@@ -53,7 +55,8 @@ pub enum CostSource {
 /// The row in a report's JSON.
 #[derive(Serialize)]
 struct CostRowJson {
-    method: &'static str,
+    effect: Option<&'static str>,
+    method: Option<&'static str>,
     material: Option<String>,
     form: FunctionForm,
     channels: usize,
@@ -101,6 +104,7 @@ impl From<CostRow> for CostRowJson {
             net_latency: net.and_then(|counts| counts.latency),
             net_inverse_throughput: net.and_then(|counts| counts.inverse_throughput),
             reason: row.reason(),
+            effect: row.effect,
             method: row.method,
             material: row.material,
             form: row.form,
@@ -135,7 +139,8 @@ impl CostRow {
     /// Which function it is, in a record.
     pub fn key(&self) -> FunctionKey {
         FunctionKey {
-            method: self.method.to_owned(),
+            effect: self.effect.unwrap_or_default().to_owned(),
+            method: self.method.unwrap_or_default().to_owned(),
             material: self.material.clone().unwrap_or_default(),
             form: self.form,
             channels: self.channels,
@@ -143,19 +148,19 @@ impl CostRow {
         }
     }
 
-    /// The function for people: `schlick`, `schlick, one channel`, `gold: schlick, f16`.
+    /// The function for people: `schlick`, `schlick, one channel`, `gold: schlick, f16`, `refracted`, `exit_transmittance: schlick`.
     pub fn label(&self) -> String {
-        let of = self.material.as_ref().map(|name| format!("{name}: "));
-        let channel = if self.channels == 1 {
-            ", one channel"
-        } else {
-            ""
+        let of = self.material.as_deref().or(self.effect);
+        let names: Vec<&str> = of.into_iter().chain(self.method).collect();
+        let channel = match self.channels {
+            1 if self.method.is_some() => ", one channel",
+            _ => "",
         };
         let half = if self.precision.is_half() {
             ", f16"
         } else {
             ""
         };
-        format!("{}{}{channel}{half}", of.unwrap_or_default(), self.method)
+        format!("{}{channel}{half}", names.join(": "))
     }
 }

@@ -5,11 +5,12 @@ use std::collections::BTreeMap;
 use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 
+use crate::ir::Ty;
 use crate::process::{Error, Launch, Silence, Surroundings, Worker, beside};
 
 use super::family::{Dialect, Family, GpuCompiler};
 use super::figures::{CostFigures, Statistics, figures};
-use super::function::{CostedFunction, empty};
+use super::function::CostedFunction;
 use super::protocol::{CompilerRequest, CompilerResponse, FragmentShader};
 
 /// What a compiler says of a function, or why it says nothing.
@@ -47,8 +48,8 @@ pub struct CompilerSession<'a> {
     dialect: Dialect,
     limit: Duration,
     worker: &'a mut Worker,
-    /// The chains of the empty function, of one channel or not, in each precision.
-    empty: BTreeMap<(bool, bool), [Statistics; 2]>,
+    /// The chains of the empty function with these types of its argument and its result, in each precision.
+    empty: BTreeMap<(Ty, Ty, bool), [Statistics; 2]>,
     hangs: usize,
 }
 
@@ -137,11 +138,12 @@ impl<'a> CompilerSession<'a> {
     }
 
     fn empty(&mut self, function: &CostedFunction) -> Result<[Statistics; 2], Unmeasured> {
-        let kind = (function.is_scalar(), function.precision.is_half());
+        let (first, result) = function.ends();
+        let kind = (first, result, function.precision.is_half());
         if let Some(known) = self.empty.get(&kind) {
             return Ok(known.clone());
         }
-        let chains = empty(function.is_scalar(), function.precision, self.dialect);
+        let chains = function.empty_chains(self.dialect);
         let found = self.both(chains.map(FragmentShader::Text))?;
         self.empty.insert(kind, found.clone());
         Ok(found)

@@ -59,7 +59,8 @@ pub fn cost_rows(
 fn bare(family: &'static Family, function: &CostedFunction) -> CostRow {
     let dialect = family.compiler.dialect();
     CostRow {
-        method: function.method.name,
+        effect: function.effect.map(|effect| effect.name),
+        method: function.method_by_name(),
         material: function.material.clone(),
         form: function.form,
         channels: function.channels(),

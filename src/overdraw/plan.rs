@@ -97,8 +97,8 @@ impl DrawingPlan {
         let has_half = timed.iter().any(|timed| timed.emitted.precision.is_half());
         let precisions = if has_half { 2 } else { 1 };
         for precision in Precision::ALL.into_iter().take(precisions) {
-            for is_scalar in [false, true] {
-                let probe = Probe::empty(is_scalar, precision);
+            for result in [Ty::Rgb, Ty::Scalar] {
+                let probe = Probe::empty(Ty::Scalar, result, precision);
                 drawings.push(drawing(&probe, precision, evaluations));
             }
         }

@@ -1,5 +1,6 @@
 //! The tables of the README, written from the registries so that they cannot drift.
 
+use crate::cost;
 use crate::effects;
 use crate::emit::{Bounds, Naming, half_bounds, specialised_function};
 use crate::materials::{Material, Unseen, ViewingConditions};
@@ -9,29 +10,25 @@ use crate::targets;
 
 /// The effects with their functions; `...` stands for what the method of R takes.
 pub fn effects_table() -> String {
-    let rows = effects::ALL.iter().flat_map(|effect| {
-        effect
-            .functions
-            .iter()
-            .enumerate()
-            .map(|(place, function)| {
-                let mut arguments: Vec<&str> =
-                    function.arguments.iter().map(|one| one.name).collect();
-                if function.reflectance.is_used() {
-                    arguments.push("...");
-                }
-                vec![
-                    if place == 0 {
-                        format!("`{}`", effect.name)
-                    } else {
-                        String::new()
-                    },
-                    format!("`{}({})`", function.name, arguments.join(", ")),
-                    function.gives.to_owned(),
-                ]
-            })
-    });
-    markdown_table(&["effect", "function", "gives"], rows)
+    let record = cost::records("rdna2");
+    let mut rows = Vec::new();
+    for effect in effects::ALL {
+        let mut shown = format!("`{}`", effect.name);
+        for function in effect.functions {
+            let arguments = function.arguments.iter().map(|one| one.name);
+            let more = function.reflectance.is_used().then_some("...");
+            let arguments: Vec<&str> = arguments.chain(more).collect();
+            let figures = record.effect(function.name);
+            rows.push(vec![
+                std::mem::take(&mut shown),
+                format!("`{}({})`", function.name, arguments.join(", ")),
+                function.gives.to_owned(),
+                figures.map_or("?".to_owned(), |figures| format!("{:.0}", figures.cost())),
+            ]);
+        }
+    }
+    let columns = ["effect", "function", "gives", "cost on RDNA 2"];
+    markdown_table(&columns, rows.into_iter())
 }
 
 /// Every method: what it takes, its cost in scalar operations for three channels, what it promises.

@@ -33,8 +33,28 @@ pub enum Gathering {
     Points,
 }
 
-/// The photons of a row, and the picture of the back that is searched.
-const PHOTONS: u32 = 256;
+/// Photons as they are drawn.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Photons {
+    /// Of a row.
+    pub side: u32,
+    /// Rows and columns of pictures that are averaged; for each the light moves by a part of a cell.
+    pub moves: u32,
+}
+
+/// One picture of 256 x 256 photons.
+pub const ONE_PICTURE: Photons = Photons {
+    side: 256,
+    moves: 1,
+};
+
+/// Four of them.
+pub const FOUR_PICTURES: Photons = Photons {
+    side: 256,
+    moves: 2,
+};
+
+/// A side of the picture of the back that is searched.
 const BACK: u32 = 1024;
 /// Triangles are drawn finer than the window, to about so many samples a side, and at most so many times as fine.
 const FINE: u32 = 1024;
@@ -49,6 +69,7 @@ pub fn caustics(
     n: f64,
     window: &Window,
     gathering: Gathering,
+    photons: Photons,
 ) -> Result<(Vec<f64>, f64), DrawFault> {
     let row = find("caustics").expect("a row");
     let text = text(row).map_err(|fault| DrawFault::Text(fault.to_string()))?;
@@ -56,41 +77,74 @@ pub fn caustics(
         Gathering::Triangles => (FINE / window.pixels.max(1)).clamp(1, FINEST),
         Gathering::Splats | Gathering::Points => 1,
     };
-    let light = Light {
-        offscreen: device.offscreen()?,
-        text,
-        uniforms: uniforms(n, window, finer),
-    };
-    let front = light.side(PHOTONS, Depth::Nearest)?;
-    let back = light.side(BACK, Depth::Farthest)?;
-    let nothing = light.offscreen.upload([1, 1, 1], &[[0.0; 4]])?;
-    let photons = light.pair(PHOTONS)?;
-    let reads = [&nothing, &front[0], &front[1], &back[0], &back[1]];
-    let all = ("vs_cover", "fs_photon", 3);
-    light.draw(all, &reads, &[&photons[0], &photons[1]], false)?;
-    let (vertex, fragment, count) = match gathering {
-        Gathering::Triangles => ("vs_triangle", "fs_lit", (PHOTONS - 1).pow(2)),
-        Gathering::Splats => ("vs_splat", "fs_splat", PHOTONS.pow(2)),
-        Gathering::Points => ("vs_point", "fs_lit", PHOTONS.pow(2)),
-    };
-    let side = window.pixels * finer;
-    let map = light.offscreen.target(side, side)?;
-    let reads = [&nothing, &photons[0], &photons[1], &back[0], &back[1]];
-    light.draw((vertex, fragment, 6 * count), &reads, &[&map], true)?;
-    let read = |image: &Image| light.offscreen.read(image);
-    let (entered, landed) = (read(&front[0])?, read(&photons[0])?);
-    let count = |of: &[[f32; 4]]| of.iter().filter(|texel| texel[3] > 0.0).count() as f64;
-    let hits = count(&landed) / count(&entered).max(1.0);
-    Ok((means(&read(&map)?, side as usize, finer as usize), hits))
+    let mut sum = vec![0.0; (window.pixels as usize).pow(2)];
+    let mut hits = 0.0;
+    let moves = photons.moves;
+    let share = 1.0 / f64::from(moves * moves);
+    for place in 0..moves * moves {
+        let part = |i: u32| {
+            ((f64::from(i) + 0.5) / f64::from(moves) - 0.5) * 2.0 / f64::from(photons.side)
+        };
+        let light = Light {
+            offscreen: device.offscreen()?,
+            text: &text,
+            side: photons.side,
+            uniforms: uniforms(
+                n,
+                window,
+                finer,
+                photons.side,
+                [part(place % moves), part(place / moves)],
+            ),
+        };
+        let (map, landed) = light.gathered(window, gathering, finer)?;
+        for (sum, one) in sum.iter_mut().zip(map) {
+            *sum += share * one;
+        }
+        hits += share * landed;
+    }
+    Ok((sum, hits))
 }
 
-struct Light {
+struct Light<'a> {
     offscreen: Offscreen,
-    text: String,
+    text: &'a str,
+    /// The photons of a row.
+    side: u32,
     uniforms: Vec<u8>,
 }
 
-impl Light {
+impl Light<'_> {
+    /// The irradiance of each pixel, and the share of the photons on the ball that land.
+    fn gathered(
+        &self,
+        window: &Window,
+        gathering: Gathering,
+        finer: u32,
+    ) -> Result<(Vec<f64>, f64), DrawFault> {
+        let front = self.side(self.side, Depth::Nearest)?;
+        let back = self.side(BACK, Depth::Farthest)?;
+        let nothing = self.offscreen.upload([1, 1, 1], &[[0.0; 4]])?;
+        let photons = self.pair(self.side)?;
+        let reads = [&nothing, &front[0], &front[1], &back[0], &back[1]];
+        let all = ("vs_cover", "fs_photon", 3);
+        self.draw(all, &reads, &[&photons[0], &photons[1]], false)?;
+        let (vertex, fragment, count) = match gathering {
+            Gathering::Triangles => ("vs_triangle", "fs_lit", (self.side - 1).pow(2)),
+            Gathering::Splats => ("vs_splat", "fs_splat", self.side.pow(2)),
+            Gathering::Points => ("vs_point", "fs_lit", self.side.pow(2)),
+        };
+        let side = window.pixels * finer;
+        let map = self.offscreen.target(side, side)?;
+        let reads = [&nothing, &photons[0], &photons[1], &back[0], &back[1]];
+        self.draw((vertex, fragment, 6 * count), &reads, &[&map], true)?;
+        let read = |image: &Image| self.offscreen.read(image);
+        let (entered, landed) = (read(&front[0])?, read(&photons[0])?);
+        let count = |of: &[[f32; 4]]| of.iter().filter(|texel| texel[3] > 0.0).count() as f64;
+        let hits = count(&landed) / count(&entered).max(1.0);
+        Ok((means(&read(&map)?, side as usize, finer as usize), hits))
+    }
+
     fn pair(&self, side: u32) -> Result<[Image; 2], DrawFault> {
         let target = || self.offscreen.target(side, side);
         Ok([target()?, target()?])
@@ -102,7 +156,7 @@ impl Light {
         let mesh = self.offscreen.mesh(&vertices)?;
         let targets = self.pair(side)?;
         self.offscreen.draw(&Draw {
-            text: &self.text,
+            text: self.text,
             vertex: "vs_body",
             fragment: "fs_side",
             uniforms: &self.uniforms,
@@ -124,7 +178,7 @@ impl Light {
         adds: bool,
     ) -> Result<(), DrawFault> {
         self.offscreen.draw(&Draw {
-            text: &self.text,
+            text: self.text,
             vertex,
             fragment,
             uniforms: &self.uniforms,
@@ -139,17 +193,17 @@ impl Light {
     }
 }
 
-/// The frame: the light's camera sees [-1, 1]^2 from +z.
-fn uniforms(n: f64, window: &Window, finer: u32) -> Vec<u8> {
+/// The frame: the light's camera sees [-1, 1]^2 from +z, moved a little.
+fn uniforms(n: f64, window: &Window, finer: u32, photons: u32, [x, y]: [f64; 2]) -> Vec<u8> {
     let camera = DMat4::from_cols(
         DVec4::X,
         DVec4::Y,
         DVec4::new(0.0, 0.0, -0.25, 0.0),
-        DVec4::new(0.0, 0.0, 0.5, 1.0),
+        DVec4::new(-x, -y, 0.5, 1.0),
     );
     let pixel = 2.0 * window.half / f64::from(window.pixels);
     let fours = [
-        DVec4::new(window.below, window.half, f64::from(PHOTONS), 1.0),
+        DVec4::new(window.below, window.half, f64::from(photons), 1.0),
         DVec4::splat(n),
         DVec4::new(0.0, 0.0, pixel / f64::from(finer), pixel),
     ];
@@ -174,9 +228,13 @@ fn means(samples: &[[f32; 4]], side: usize, finer: usize) -> Vec<f64> {
     (0..pixels * pixels).map(pixel).collect()
 }
 
-/// Rings of the ball's disc, and places of an eighth of each.
+/// Rings of the ball's disc, and places of an eighth of each. Where rings land far apart, they are cut into parts that lie closer than so
+/// many to a pixel.
 const RINGS: usize = 8000;
 const PLACES: usize = 1024;
+const TO_A_PIXEL: f64 = 16.0;
+/// The part of a turn that repeats last.
+const GOLDEN: f64 = 0.618_033_988_749_894_9;
 
 /// The exact map: rings of light follow Snell's and Fresnel's laws to where they land.
 pub fn exact_caustics(n: f64, window: &Window) -> Vec<f64> {
@@ -184,18 +242,18 @@ pub fn exact_caustics(n: f64, window: &Window) -> Vec<f64> {
     let pixel = 2.0 * window.half / side as f64;
     let mut map = vec![0.0; side * side];
     let eighth = std::f64::consts::FRAC_PI_4;
-    let angle = |i: usize| libm::sincos((i as f64 + 0.5) / PLACES as f64 * eighth);
-    let angles: Vec<(f64, f64)> = (0..PLACES).map(angle).collect();
-    for ring in 0..RINGS {
-        let height = (ring as f64 + 0.5) / RINGS as f64;
+    for (count, (height, width)) in rings(n, window, pixel).into_iter().enumerate() {
         let Some((radius, share)) = landing(n, height, window.below) else {
             continue;
         };
-        let flux = share * 2.0 * std::f64::consts::PI * height / RINGS as f64;
+        let flux = share * 2.0 * std::f64::consts::PI * height * width;
         let each = flux / (8 * PLACES) as f64 / (pixel * pixel);
-        for (sin, cos) in &angles {
+        // Rings that lie side by side have their places at other angles.
+        let turn = (count as f64 * GOLDEN).fract();
+        for place in 0..PLACES {
+            let (sin, cos) = libm::sincos((place as f64 + turn) / PLACES as f64 * eighth);
             let place = |along: f64| ((along * radius + window.half) / pixel).floor();
-            for (x, y) in [(*cos, *sin), (*sin, *cos)] {
+            for (x, y) in [(cos, sin), (sin, cos)] {
                 for (x, y) in [(x, y), (-x, y), (x, -y), (-x, -y)] {
                     let (x, y) = (place(x), place(y));
                     if (0.0..side as f64).contains(&x) && (0.0..side as f64).contains(&y) {
@@ -206,6 +264,24 @@ pub fn exact_caustics(n: f64, window: &Window) -> Vec<f64> {
         }
     }
     map
+}
+
+/// The middle and the width of each ring of the ball's disc.
+fn rings(n: f64, window: &Window, pixel: f64) -> Vec<(f64, f64)> {
+    let mut rings = Vec::new();
+    for ring in 0..RINGS {
+        let end = |i: usize| i as f64 / RINGS as f64;
+        let radius = |height: f64| landing(n, height, window.below).map(|(radius, _)| radius);
+        let spread = match (radius(end(ring)), radius(end(ring + 1))) {
+            (Some(inner), Some(outer)) => (outer - inner).abs(),
+            _ => 0.0,
+        };
+        let parts = (spread / pixel * TO_A_PIXEL).clamp(1.0, 1024.0).ceil();
+        let width = 1.0 / RINGS as f64 / parts;
+        let middle = |part: usize| end(ring) + (part as f64 + 0.5) * width;
+        rings.extend((0..parts as usize).map(|part| (middle(part), width)));
+    }
+    rings
 }
 
 /// How far from the axis light lands that enters so far from it, and the share that is left of it.

@@ -27,7 +27,9 @@ mod window;
 pub use body::{Body, Crossing, Vertex};
 pub use camera::Camera;
 #[cfg(feature = "gpu")]
-pub use caustics::{Gathering, Window, caustic_error, caustics, exact_caustics};
+pub use caustics::{
+    FOUR_PICTURES, Gathering, ONE_PICTURE, Photons, Window, caustic_error, caustics, exact_caustics,
+};
 pub use compare::{Comparison, Difference, compare};
 #[cfg(feature = "gpu")]
 pub use draw::{DrawFault, Drawn, draw};

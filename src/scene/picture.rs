@@ -7,7 +7,7 @@ use crate::gpu::Device;
 
 use super::SAMPLES;
 use super::camera::Camera;
-use super::caustics::{Gathering, Window, caustic_error, caustics, exact_caustics};
+use super::caustics::{FOUR_PICTURES, Gathering, Window, caustic_error, caustics, exact_caustics};
 use super::compare::{Comparison, Difference, compare};
 use super::draw::{DrawFault, Drawn, draw};
 use super::environment::Environment;
@@ -174,7 +174,7 @@ fn received(
         pixels: order.size,
     };
     let n = order.glass.n.y;
-    let (drawn, hits) = caustics(device, n, &window, Gathering::Triangles)?;
+    let (drawn, hits) = caustics(device, n, &window, Gathering::Triangles, FOUR_PICTURES)?;
     let exact = exact_caustics(n, &window);
     let (l1, energy) = caustic_error(&drawn, &exact);
     let grey = |map: &[f64]| map.iter().map(|light| DVec3::splat(*light)).collect();

@@ -142,7 +142,7 @@ pub static ALL: &[RenderRow] = &[
     },
     RenderRow {
         name: "caustics",
-        summary: "Light that a ball of glass gathers on a receiver: 256 x 256 photons as triangles",
+        summary: "Light that a ball of glass gathers on a receiver: 256 x 256 photons as triangles, while the light moves",
         effects: &["interface", "interior", "water", "caustics"],
         text: include_str!("passes/caustics.wgsl"),
         passes: &[],

@@ -6,20 +6,27 @@ use std::sync::LazyLock;
 
 use fresnel_gen::app::{Materials, Request};
 use fresnel_gen::cost::{
-    CostRow, CostSource, CostedFunction, FAMILIES, cost_rows, functions, records,
+    CostRow, CostSource, CostedFunction, FAMILIES, cost_rows, functions, functions_of_effect,
+    records,
 };
+use fresnel_gen::effects::{self, USUAL_METHOD};
 use fresnel_gen::methods;
 use fresnel_gen::num::Precision;
 use fresnel_gen::report::cost::{cost_document, cost_page};
 
-/// What is recorded: all methods, the committed materials, both precisions.
+/// What is recorded: all methods, the committed materials, both precisions, and the effects.
 static FUNCTIONS: LazyLock<Vec<CostedFunction>> = LazyLock::new(|| {
     let request = Request {
         materials: Materials::Default,
         ..Request::default()
     };
     let subjects = request.subjects().unwrap().materials();
-    functions(methods::ALL, &subjects, &Precision::ALL).unwrap()
+    let mut functions = functions(methods::ALL, &subjects, &Precision::ALL).unwrap();
+    let usual = methods::find(USUAL_METHOD).unwrap();
+    for effect in effects::ALL {
+        functions.extend(functions_of_effect(effect, usual).unwrap());
+    }
+    functions
 });
 
 /// The rows of all families, from the record.
@@ -37,7 +44,8 @@ const TOO_LONG: [(&str, &str); 1] = [("gc2000", "conductor_from_f0_f82")];
 fn the_record_is_of_todays_shaders() {
     let (mut faults, mut missing) = (Vec::new(), Vec::new());
     for row in TABLE.iter().flatten() {
-        let too_long = TOO_LONG.contains(&(row.family.name, row.method)) && row.material.is_none();
+        let too_long = TOO_LONG.contains(&(row.family.name, row.method.unwrap_or_default()))
+            && row.material.is_none();
         let cannot = row.precision.is_half() && !row.family.half;
         let is_asked = row.family.compiler.dialect().is_some();
         if !is_asked || too_long || cannot || row.source == Some(CostSource::Record) {

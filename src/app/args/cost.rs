@@ -6,17 +6,18 @@ use clap::Args;
 
 use crate::command_line::CommandLine;
 use crate::cost::Family;
+use crate::effects::Effect;
 use crate::methods::Method;
 use crate::num::Precision;
 
-use super::choice::{Choice, family, family_or_all, method_or_all, precision};
+use super::choice::{Choice, effect_or_all, family, family_or_all, method_or_all, precision};
 use super::{MaterialFlags, PictureFlags, ReportFlags};
 
 /// The flags of `cost`.
 #[derive(Args, Debug)]
 #[command(
     mut_arg("out_dir", |arg| arg.help("Write a page with all figures as cost.html into this folder")),
-    after_help = "Examples:\n  fresnel-gen cost --gpu rdna2\n  fresnel-gen cost --gpu rdna2,adreno330 --method schlick,conductor_exact --material gold\n  fresnel-gen cost --check\n\nA figure is that of one evaluation: a quarter of what eight of them in a chain cost more than four, less the chain's own price. Shares are of dielectric_exact with its argument from a uniform. Where a compiler is not here, what was recorded of the same shader stands in its place. Exit codes: 0 done, 1 --check found a difference, 2 wrong input, 3 with --require-all: something could not be measured, with --check: nothing could."
+    after_help = "Examples:\n  fresnel-gen cost --gpu rdna2\n  fresnel-gen cost --gpu rdna2,adreno330 --method schlick,conductor_exact --material gold\n  fresnel-gen cost --gpu rdna2 --effect interior --method schlick_ior\n  fresnel-gen cost --check\n\nA figure is that of one evaluation: a quarter of what eight of them in a chain cost more than four, less the chain's own price. Shares are of dielectric_exact with its argument from a uniform. Where a compiler is not here, what was recorded of the same shader stands in its place. Exit codes: 0 done, 1 --check found a difference, 2 wrong input, 3 with --require-all: something could not be measured, with --check: nothing could."
 )]
 pub struct CostFlags {
     /// Family of GPUs: operations (before any compiler), gcn4, rdna1, rdna2, rdna3, adreno330, malig72 ... [default: all]
@@ -25,6 +26,9 @@ pub struct CostFlags {
     /// Method, see `fresnel-gen methods` [default: all]
     #[arg(long, value_delimiter = ',', value_name = "NAME", value_parser = method_or_all())]
     pub method: Vec<Choice<&'static Method>>,
+    /// Effect, see `fresnel-gen effects`, or all: its functions and nothing else, with R by --method [default: all where no method is named]
+    #[arg(long, value_delimiter = ',', value_name = "NAME", value_parser = effect_or_all(), conflicts_with = "material")]
+    pub effect: Vec<Choice<&'static Effect>>,
     /// Which materials.
     #[command(flatten)]
     pub materials: MaterialFlags,
@@ -60,6 +64,7 @@ impl CostFlags {
         CommandLine::new("cost")
             .list("gpu", &self.gpu)
             .list("method", &self.method)
+            .list("effect", &self.effect)
             .list("material", &self.materials.material)
             .list(
                 "precision",

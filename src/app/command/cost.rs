@@ -9,8 +9,11 @@ use crate::app::request::Request;
 use crate::app::write::{try_places_of_ours, write_report};
 use crate::cost::{
     CostFigures, CostRecord, CostRow, CostSource, CostedFunction, FAMILIES, ask_compilers,
-    cost_rows, functions, records, serve,
+    cost_rows, functions, functions_of_effect, records, serve,
 };
+use crate::effects::{self, USUAL_METHOD};
+use crate::methods;
+use crate::num::Precision;
 use crate::process::{Pool, Surroundings};
 use crate::report::Report;
 use crate::report::cost::{cost_page, cost_text};
@@ -89,11 +92,19 @@ fn requested(flags: &CostFlags) -> Result<(Vec<CostedFunction>, Vec<String>), Er
         materials: flags.materials.materials()?,
         ..Request::default()
     };
-    let methods = Choice::methods(&flags.method);
     let precisions = each_once(&flags.precision);
+    let is_of_effects = !flags.effect.is_empty();
+    let methods = match is_of_effects {
+        true => Vec::new(),
+        false => Choice::methods(&flags.method),
+    };
     let subjects = request.subjects()?;
     let left_out = subjects.left_out_lines();
-    let functions = functions(&methods, &subjects.materials(), &precisions)?;
+    let mut functions = functions(&methods, &subjects.materials(), &precisions)?;
+    let names_no_method = flags.method.is_empty();
+    if precisions.contains(&Precision::F32) && (is_of_effects || names_no_method) {
+        functions.extend(of_effects(flags)?);
+    }
     if !functions.iter().any(|function| function.is_asked) {
         return Err(RequestFault::NothingToDo {
             work: "measure",
@@ -102,6 +113,30 @@ fn requested(flags: &CostFlags) -> Result<(Vec<CostedFunction>, Vec<String>), Er
         .into());
     }
     Ok((functions, left_out))
+}
+
+/// The functions of the effects, by each method that is named.
+fn of_effects(flags: &CostFlags) -> Result<Vec<CostedFunction>, Error> {
+    let usual = methods::find(USUAL_METHOD).expect("the usual method is registered");
+    let named = match flags.method.is_empty() {
+        true => vec![usual],
+        false => Choice::methods(&flags.method),
+    };
+    let (textured, methods): (Vec<_>, Vec<_>) =
+        named.into_iter().partition(|method| method.is_textured());
+    if let ([textured, ..], []) = (textured.as_slice(), methods.as_slice()) {
+        return Err(RequestFault::textured_reflectance(textured).into());
+    }
+    let effects = Choice::chosen(&flags.effect, effects::ALL.iter().copied(), |effect| {
+        effect.name
+    });
+    let mut functions = Vec::new();
+    for effect in effects {
+        for method in &methods {
+            functions.extend(functions_of_effect(effect, method)?);
+        }
+    }
+    Ok(functions)
 }
 
 /// Fresh counts against the record: what differs, how much, and whether all that has a compiler was compared.

@@ -47,11 +47,7 @@ pub fn wanted(
     let method = match named {
         None => None,
         Some([method]) if method.is_textured() => {
-            let why = format!(
-                "method `{}` reads a texture of its own, which effects do not pass on; name another --method",
-                method.name
-            );
-            return Err(RequestFault::conflict(why).into());
+            return Err(RequestFault::textured_reflectance(method).into());
         }
         Some([method]) => Some(*method),
         Some(_) => {

@@ -33,8 +33,9 @@ same of every function, specialised ones too, and asks the compilers that are he
 /// The functions of three channels in single precision, all families side by side, and what the families are. All figures are in the
 /// record.
 pub fn cost_document(families: &[Vec<CostRow>]) -> String {
-    let library = side_by_side(families, &|row| row.material.is_none());
-    let materials = side_by_side(families, &|row| row.material.is_some());
+    let library = side_by_side(families, &|row| is_shown(row) && is_library(row));
+    let materials = side_by_side(families, &|row| is_shown(row) && row.material.is_some());
+    let effects = side_by_side(families, &|row| row.effect.is_some());
     let mut introduction = INTRODUCTION.to_owned();
     for method in ["schlick", "fitted", "f82_tint"] {
         let mark = format!("{{{method}}}");
@@ -42,13 +43,21 @@ pub fn cost_document(families: &[Vec<CostRow>]) -> String {
     }
     format!(
         "{introduction}\n## Library functions\n\nShares in per cent; `+` is a texture fetch, `?` is not measured.\n\n{library}\n\
-         ## Functions of materials\n\n{materials}\n## Families\n\n{}",
+         ## Functions of materials\n\n{materials}\n\
+         ## Functions of effects\n\nWith R by `dielectric_exact` where a function asks for it. Each evaluation has a matrix of its own here, where an application has one for \
+         all. On the Mali-G57 eight matrices are too many for the registers of uniforms, and the figures are those of loading them. \
+         A vector that comes first is three weights times the number that the chain hands on; \
+         where a function gives one number, two of these products count as its own.\n\n{effects}\n## Families\n\n{}",
         families_table(families)
     )
 }
 
 fn is_shown(row: &CostRow) -> bool {
     row.precision == Precision::F32 && row.channels == 3
+}
+
+fn is_library(row: &CostRow) -> bool {
+    row.material.is_none() && row.effect.is_none()
 }
 
 /// Shares, a column for each family of which anything is known.
@@ -60,7 +69,6 @@ fn side_by_side(families: &[Vec<CostRow>], is_wanted: &dyn Fn(&CostRow) -> bool)
         names.join(" | "),
         "---:|".repeat(names.len())
     );
-    let is_wanted = |row: &CostRow| is_shown(row) && is_wanted(row);
     for (place, row) in known[0]
         .iter()
         .enumerate()
@@ -79,7 +87,7 @@ fn range(families: &[Vec<CostRow>], method: &str) -> String {
         .iter()
         .flatten()
         .filter(|row| row.compiler.is_some() && is_shown(row));
-    let own = rows.filter(|row| row.material.is_none() && row.method == method);
+    let own = rows.filter(|row| is_library(row) && row.method == Some(method));
     let shares = own.filter_map(|row| row.share);
     let ends = shares.fold((f64::MAX, f64::MIN), |(low, high), x| {
         (low.min(x), high.max(x))
@@ -99,7 +107,7 @@ fn families_table(families: &[Vec<CostRow>]) -> String {
         let family = rows[0].family;
         let compiler = rows.iter().find_map(|row| row.compiler.as_deref());
         let is_whole = |row: &&CostRow| {
-            is_shown(row) && row.material.is_none() && row.method == "dielectric_exact"
+            is_shown(row) && is_library(row) && row.method == Some("dielectric_exact")
         };
         let whole = rows
             .iter()

@@ -1,5 +1,7 @@
 //! `cost` as users run it: names that are not there, compilers that are not there, records in their place.
 
+use std::collections::BTreeMap;
+
 use serde_json::Value;
 
 use crate::not_checked;
@@ -129,6 +131,31 @@ fn what_is_counted_today_is_what_was_recorded() {
         "{said}"
     );
     assert_eq!(said, place.done(line).out);
+}
+
+/// R by a cheaper method makes its functions cheaper, and leaves the others as they are recorded.
+#[test]
+fn functions_of_effects_are_counted_with_r_by_any_method() {
+    let place = Place::new();
+    let costs = |flags: &str| {
+        let rows = rows(&place, &format!("cost --gpu operations {flags}"));
+        let cost = |row: &Value| {
+            let name = row["effect"].as_str().unwrap().to_owned();
+            let channels = row["channels"].as_u64().unwrap();
+            ((name, channels), row["net_instructions"].as_f64().unwrap())
+        };
+        rows.iter().map(cost).collect::<BTreeMap<_, _>>()
+    };
+    let all = costs("--effect all");
+    let interface = costs("--effect interface --method schlick");
+    let reflectance = ("interface_reflectance".to_owned(), 3);
+    assert!(interface[&reflectance] < 0.6 * all[&reflectance]);
+    assert!(!interface.contains_key(&("refracted".to_owned(), 3)));
+    assert!(all.contains_key(&("refracted".to_owned(), 3)));
+    let textured = "cost --gpu operations --effect interface --method table";
+    assert!(place.run(textured).ends(2).err.contains("reads a texture"));
+    let of_material = "cost --gpu operations --effect interface --material gold";
+    place.run(of_material).ends(2);
 }
 
 #[test]
