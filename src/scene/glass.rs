@@ -92,7 +92,7 @@ impl Glass {
         }
     }
 
-    /// How light dies away along its path, of red, green and blue, per metre: 4 pi k / lambda.
+    /// The absorption coefficient of red, green and blue, per metre: 4 pi k / lambda, at a wavelength in the middle of each channel.
     pub fn absorption(&self) -> DVec3 {
         let wavelengths = DVec3::new(610.0, 550.0, 460.0) * 1e-9;
         4.0 * std::f64::consts::PI * self.k / wavelengths

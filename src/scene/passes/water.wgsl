@@ -59,7 +59,7 @@ fn is_shown(uv: vec2<f32>, bend: vec2<f32>) -> bool {
     return distance(shown, uv + bend) < distance(shown, uv);
 }
 
-// The largest share of the bend that leads to something below the water, so that shores of the mask do not show.
+// The largest share of the bend that leads to something below the water: without it the edge of the mask is seen.
 fn shown_bend(uv: vec2<f32>, bend: vec2<f32>) -> vec2<f32> {
     var least = 0.0;
     var most = 1.0;

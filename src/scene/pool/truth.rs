@@ -30,7 +30,7 @@ struct Light<'a> {
     pool: &'a Pool,
     /// The index of the water.
     n: f64,
-    /// How light dies away in it, per metre.
+    /// Its absorption coefficient, per metre.
     absorption: DVec3,
     around: Around<'a>,
 }

@@ -39,6 +39,18 @@ pub static FACTS: &[Fact] = &[
         holds: one_surface_is_upright,
     },
     Fact {
+        pictures: "*renders/dispersion_*.png",
+        says: "real glass hardly colours a grey floor; indices far apart fill it with colours",
+        holds: |shown| {
+            let read = Panels::new(shown);
+            let is_invented = shown.file.contains("invented");
+            for panel in [0, 1] {
+                let chroma = read.chroma(panel, [60, 196, 60, 120]);
+                assert_eq!(chroma > 30.0, is_invented, "{chroma}");
+            }
+        },
+    },
+    Fact {
         pictures: "*renders/complex_f0.png",
         says: "gold reflects red more than green, and green more than blue",
         holds: |shown| {
@@ -172,6 +184,14 @@ impl Panels {
     fn blueness(&self, panel: usize, part: Part) -> f64 {
         let [red, _, blue] = self.mean(panel, part);
         blue - red
+    }
+
+    /// The mean distance of the largest channel from the smallest.
+    fn chroma(&self, panel: usize, part: Part) -> f64 {
+        let colours = self.colours(panel, part);
+        let spread =
+            |[red, green, blue]: &[f64; 3]| red.max(*green).max(*blue) - red.min(*green).min(*blue);
+        colours.iter().map(spread).sum::<f64>() / colours.len() as f64
     }
 
     fn brightest(&self, panel: usize) -> f64 {
