@@ -189,9 +189,8 @@ impl Panels {
     /// The mean distance of the largest channel from the smallest.
     fn chroma(&self, panel: usize, part: Part) -> f64 {
         let colours = self.colours(panel, part);
-        let spread = |[red, green, blue]: &[f64; 3]| {
-            red.max(*green).max(*blue) - red.min(*green).min(*blue)
-        };
+        let spread =
+            |[red, green, blue]: &[f64; 3]| red.max(*green).max(*blue) - red.min(*green).min(*blue);
         colours.iter().map(spread).sum::<f64>() / colours.len() as f64
     }
 
