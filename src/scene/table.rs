@@ -114,7 +114,10 @@ pub static ALL: &[RenderRow] = &[
         name: "double_refraction",
         summary: "A ball of glass: the search of four steps finds where rays leave",
         effects: &["interface", "interior", "water"],
-        text: include_str!("passes/double_refraction.wgsl"),
+        text: concat!(
+            include_str!("passes/second_surface.wgsl"),
+            include_str!("passes/double_refraction.wgsl")
+        ),
         passes: &[SKY, BACK, THROUGH],
         wrong: "light that is reflected inside is missing; the rim",
         ..BALL
@@ -123,12 +126,38 @@ pub static ALL: &[RenderRow] = &[
         name: "double_refraction_gem",
         summary: "A brilliant of diamond, which reflects most rays totally from inside",
         effects: &["interface", "interior", "water"],
-        text: include_str!("passes/double_refraction.wgsl"),
+        text: concat!(
+            include_str!("passes/second_surface.wgsl"),
+            include_str!("passes/double_refraction.wgsl")
+        ),
         passes: &[SKY, BACK, THROUGH],
         body: BodyName::Gem,
         material: "diamond",
         eye: FROM_ABOVE,
         wrong: "rays that are reflected totally leave after one reflection; edges between facets",
+        ..BALL
+    },
+    RenderRow {
+        name: "double_refraction_normal_mapped",
+        summary: "A hammered ball of glass: a normal map turns the normals of both surfaces",
+        effects: &["interface", "interior", "water", "normal_mapping"],
+        text: concat!(
+            include_str!("passes/second_surface.wgsl"),
+            include_str!("passes/double_refraction_normal_mapped.wgsl")
+        ),
+        passes: &[
+            SKY,
+            PassRow {
+                reads: &[Slot::Relief],
+                ..BACK
+            },
+            PassRow {
+                reads: &[Slot::BackPositions, Slot::BackNormals, Slot::Relief],
+                ..FRONT
+            },
+        ],
+        is_hammered: true,
+        wrong: "light that is reflected inside is missing; dents do not hide each other, here and in the truth",
         ..BALL
     },
     RenderRow {

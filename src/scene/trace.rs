@@ -48,7 +48,7 @@ pub struct Things<'a> {
     pub glass: &'a Glass,
     /// What is around it.
     pub around: Around<'a>,
-    /// Dents of its surface, where it is a ball.
+    /// Dents of its surface, outside and inside, where it is a ball.
     pub relief: Option<&'a Relief>,
 }
 
@@ -121,8 +121,7 @@ impl Scene<'_> {
         };
         let (distance, normal) = crossing.entry;
         let place = eye + distance * direction;
-        let dented = |relief: &Relief| relief.on_ball(normal);
-        let normal = self.things.relief.map_or(normal, dented);
+        let normal = self.dented(normal);
         let cosine = (-direction.dot(normal)).clamp(0.0, 1.0);
         let mirrored = self
             .things
@@ -151,6 +150,12 @@ impl Scene<'_> {
         seen
     }
 
+    /// The normal as dents turn it.
+    fn dented(&self, normal: DVec3) -> DVec3 {
+        let relief = self.things.relief;
+        relief.map_or(normal, |relief| relief.on_ball(normal))
+    }
+
     /// What comes along a ray inside by both kinds of paths, and whether it is reflected totally at first.
     fn inside(&self, place: DVec3, direction: DVec3, n: f64) -> ([DVec3; 2], bool) {
         let goes_on = |paths: &Paths| matches!(paths, Paths::All | Paths::TwoSurfaces);
@@ -174,7 +179,8 @@ impl Scene<'_> {
             let Some(crossing) = self.things.body.crossing(place, direction) else {
                 break;
             };
-            let (distance, normal) = crossing.exit;
+            let (distance, smooth) = crossing.exit;
+            let normal = self.dented(smooth);
             place += distance * direction;
             let r = optics::dielectric(1.0 / n, direction.dot(normal).clamp(0.0, 1.0));
             let r = r.unpolarised();
@@ -191,7 +197,9 @@ impl Scene<'_> {
                 };
             }
             left *= r;
-            if left < LEAST || !self.paths.contains(&Paths::All) {
+            // A dent may send a ray out of the body where it reflects it. There it ends.
+            let is_inside = direction.dot(smooth) < 0.0;
+            if left < LEAST || !is_inside || !self.paths.contains(&Paths::All) {
                 break;
             }
         }
