@@ -118,7 +118,8 @@ fn the_image_of_a_post_hangs_from_its_water_line() {
         let foot = mean(seen, -0.02, -0.1);
         let beyond = mean(seen, -1.25 * POST_TOP, -1.5 * POST_TOP);
         println!("image {image}, at the foot {foot}, beyond {beyond}");
-        assert!(image.min_element() > 0.01 && foot.min_element() > 0.01);
+        // Stripes are red and white: both are bright in red.
+        assert!(image.x > 0.01 && foot.x > 0.01);
         assert!(image.x > 4.0 * beyond.x, "{image} {beyond}");
         assert!(
             image.x > 1.2 * image.z,
