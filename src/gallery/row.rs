@@ -5,11 +5,12 @@ use std::collections::{BTreeMap, BTreeSet};
 use serde::Serialize;
 
 use crate::effects::Reflectance;
-use crate::emit::Emitted;
+use crate::emit::{Emitted, effect_function_text};
 use crate::materials::MaterialKind;
 use crate::methods::{self, Class, Light, Method};
 use crate::reference::MaterialInMedium;
 use crate::scene::{FRAME, RenderRow, RowText};
+use crate::targets;
 
 use super::lower::{FRAGMENT_FRAME, GlesProgram, LoweringFault, STAND_IN, lowered};
 use super::orbit::Orbit;
@@ -131,7 +132,7 @@ impl GalleryRow {
                 .map(|one| one.name.clone())
                 .collect(),
             disperses: row.disperses,
-            programs: programs(&passes, &common_text(&names, row)?)?,
+            programs: programs(&passes, &common_text(row)?)?,
             passes,
             half: row.receiver.map(|[_, half]| half),
             roughness: RowText::usual(row).is_rough().then_some(ROUGHNESS),
@@ -230,14 +231,15 @@ fn method_calls(
     })
 }
 
-/// The module with a stand-in for the calls.
-fn common_text(
-    names: &[String],
-    row: &'static RenderRow,
-) -> Result<(String, Vec<String>), LoweringFault> {
-    let texts = super::functions::texts(&names.iter().cloned().collect())?;
-    let functions: String = texts.iter().map(|one| one.wgsl.as_str()).collect();
-    Ok((functions + FRAME + STAND_IN + row.text, names.to_vec()))
+/// The module with a stand-in for the calls, and the names of its functions.
+fn common_text(row: &'static RenderRow) -> Result<(String, Vec<String>), LoweringFault> {
+    let wgsl = targets::find("wgsl").expect("a target");
+    let (mut text, mut names) = (String::new(), Vec::new());
+    for function in RowText::usual(row).common_functions()? {
+        text += &effect_function_text(wgsl, &function)?;
+        names.push(function.name);
+    }
+    Ok((text + FRAME + STAND_IN + row.text, names))
 }
 
 fn programs(
