@@ -72,11 +72,15 @@ pub fn textures_of(row: &RenderRow) -> BTreeMap<Slot, PackedTexture> {
         let room = texture("Room".to_owned(), [CUBE, CUBE, 6], texels);
         all.insert(Slot::Room, room);
     }
-    if row.is_hammered {
-        let relief = Relief::hammered();
+    if let Some(slope) = row.dents {
+        let relief = Relief::hammered(slope);
         let normals = relief.texels().iter().map(|[x, y, z]| [*x, *y, *z, 1.0]);
         let side = relief.side();
-        let hammered = texture("hammered".to_owned(), [side, side, 1], halves(normals));
+        let hammered = texture(
+            format!("dents of {slope}"),
+            [side, side, 1],
+            halves(normals),
+        );
         all.insert(Slot::Relief, hammered);
     }
     let body = row.body.body();

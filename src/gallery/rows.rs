@@ -32,7 +32,7 @@ static ROUGH: RenderRow = RenderRow {
     true_paths: Paths::Mirror,
     eye: [0.0, 0.75, 2.9],
     in_room: false,
-    is_hammered: false,
+    dents: None,
     receiver: None,
     wrong: "light that bounces twice is missing",
 };

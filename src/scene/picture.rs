@@ -113,7 +113,7 @@ pub fn render(
         return received(device, order, material, (below, half));
     }
     let body = row.body.body();
-    let relief = row.is_hammered.then(Relief::hammered);
+    let relief = row.dents.map(Relief::hammered);
     let flat = order.glass.at_one_index();
     let things = Things {
         body: &body,

@@ -34,8 +34,8 @@ pub struct RenderRow {
     pub eye: [f64; 3],
     /// Whether it stands in the room, and not under the sky.
     pub in_room: bool,
-    /// Whether its surface is hammered.
-    pub is_hammered: bool,
+    /// The steepest slope of its dents, where its surface is hammered.
+    pub dents: Option<f64>,
     /// Light on a receiver in place of what an eye sees: how far that lies below the body's centre, and half its width.
     pub receiver: Option<[f64; 2]>,
     /// Where it must be wrong, in one line.

@@ -94,7 +94,7 @@ const BALL: RenderRow = RenderRow {
     true_paths: Paths::All,
     eye: FROM_THE_SIDE,
     in_room: false,
-    is_hammered: false,
+    dents: None,
     receiver: None,
     wrong: "",
 };
@@ -156,7 +156,7 @@ pub static ALL: &[RenderRow] = &[
                 ..FRONT
             },
         ],
-        is_hammered: true,
+        dents: Some(0.12),
         wrong: "light that is reflected inside is missing; dents do not hide each other, here and in the truth",
         ..BALL
     },
@@ -226,7 +226,7 @@ pub static ALL: &[RenderRow] = &[
             },
         ],
         material: "silver",
-        is_hammered: true,
+        dents: Some(0.35),
         wrong: "dents cast no shadow and do not mirror each other, here and in the truth",
         ..METAL
     },

@@ -185,7 +185,12 @@ impl Scene<'_> {
             let r = optics::dielectric(1.0 / n, direction.dot(normal).clamp(0.0, 1.0));
             let r = r.unpolarised();
             let out = refracted(direction, -normal, 1.0 / n);
-            direction = mirrored(direction, normal);
+            let bounced = mirrored(direction, normal);
+            // Where a dent would send the ray out of the body, the smooth surface keeps it inside.
+            direction = match bounced.dot(smooth) < 0.0 {
+                true => bounced,
+                false => mirrored(direction, smooth),
+            };
             if let Some(out) = out {
                 all += left * (1.0 - r) * self.things.around.radiance(place, out);
             }
@@ -197,9 +202,7 @@ impl Scene<'_> {
                 };
             }
             left *= r;
-            // A dent may send a ray out of the body where it reflects it. There it ends.
-            let is_inside = direction.dot(smooth) < 0.0;
-            if left < LEAST || !is_inside || !self.paths.contains(&Paths::All) {
+            if left < LEAST || !self.paths.contains(&Paths::All) {
                 break;
             }
         }

@@ -102,7 +102,7 @@ impl Held {
         let device = self.device.as_ref()?;
         let flat = glass.at_one_index();
         let body = row.body.body();
-        let relief = row.is_hammered.then(scene::Relief::hammered);
+        let relief = row.dents.map(scene::Relief::hammered);
         let things = Things {
             body: &body,
             glass: if row.disperses { glass } else { &flat },
