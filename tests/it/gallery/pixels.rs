@@ -24,8 +24,9 @@ const SIDE: usize = PANEL * EACH;
 const TOLERANCE: f64 = 0.02;
 /// The same where a body magnifies such differences: facets, dents, panes, and the edges of a room's squares.
 const MAGNIFIED: f64 = 0.08;
-const MAGNIFYING: [&str; 4] = [
+const MAGNIFYING: [&str; 5] = [
     "double_refraction_gem",
+    "double_refraction_normal_mapped",
     "normal_mapped",
     "parallax_corrected",
     "stained_glass",
