@@ -326,7 +326,7 @@ function tell_figures() {
   const cost = name => named(data.methods, name).costs[place];
   rows_of($("costs"), [...new Set([method, one.exact])].map(name => [name, cost(name) == null ? "not recorded" : figure(cost(name))]));
   const known = named(data.methods, method), exit = calls_of(one, method).exit;
-  $("about").textContent = `${one.summary}. Wrong by design: ${one.wrong}.`
+  $("about").textContent = `At first: ${one.summary[0].toLowerCase()}${one.summary.slice(1)}. Wrong by design: ${one.wrong}.`
     + (exit ? ` Light that leaves the body: by ${exit}, since only an index says where it is reflected totally.` : "");
   $("about-method").textContent = `${method}: ${known.summary}.` + (known.fails ? ` It fails: ${known.fails}.` : "") + ` ${known.source}`;
 }
@@ -399,8 +399,12 @@ async function begin() {
   await unpack();
   if (!row()) $("effect").selectedIndex = 0;
   fill_row();
+  // What is seen first differs from the exact law.
+  if (!wanted.has("effect") && !wanted.has("method")) fill_methods("schlick_ior");
   if (named(data.materials, wanted.get("material"))) { $("material").value = wanted.get("material"); follow_material(); }
   if (wanted.has("method")) fill_methods(wanted.get("method"));
+  const ignored = ["effect", "method", "material", "backend"].filter(id => wanted.has(id) && $(id).value !== wanted.get(id));
+  $("ignored").textContent = ignored.map(id => `The page's address asks for ${id} ${wanted.get(id)}, which is not to be had here.`).join(" ");
   fill_functions();
   await open_player();
   $("choice").addEventListener("input", event => changed(event).catch(failed));

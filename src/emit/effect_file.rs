@@ -334,14 +334,19 @@ fn header(request: &EffectRequest, command: &str) -> Vec<String> {
         String::new(),
         format!("{}: {}", effect.name, effect.summary),
     ];
-    lines.extend(request.subject.map(|subject| {
+    if let Some(subject) = request.subject {
         let (name, what) = (&subject.name, &subject.material.summary);
-        format!(
-            "For {name} ({what}). What it does not change stands in the file without a material."
-        )
-    }));
-    if request.subject.is_none() && request.unusual_method().is_some() {
-        let usual = "What another method does not change stands in the file without its name.";
+        lines.push(format!(
+            "For {name} ({what}). Functions that no material changes are without its name."
+        ));
+        let index = &subject.effective.channels;
+        let three = |values: [f64; 3]| values.map(|value| format!("{value:.5}")).join(", ");
+        lines.push(format!("n of red, green and blue: {}", three(index.n)));
+        if index.k.iter().any(|k| *k > 1e-5) {
+            lines.push(format!("k of red, green and blue: {}", three(index.k)));
+        }
+    } else if request.unusual_method().is_some() {
+        let usual = "Functions that another method does not change are without its name.";
         lines.push(usual.to_owned());
     }
     lines.extend(effect.formula.iter().map(|line| format!("    {line}")));

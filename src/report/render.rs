@@ -3,6 +3,7 @@
 use glam::DVec3;
 use png::{BitDepth, ColorType, Compression, Encoder};
 
+use crate::emit::MARK;
 use crate::scene::{Difference, Display, Picture, RenderedRow};
 use crate::spectra::srgb_byte;
 
@@ -94,7 +95,7 @@ fn encoded(pixels: &[u8], size: u32, about: &str) -> Result<Vec<u8>, png::Encodi
     encoder.set_depth(BitDepth::Eight);
     encoder.set_compression(Compression::High);
     encoder.set_source_srgb(png::SrgbRenderingIntent::Perceptual);
-    encoder.add_text_chunk("Comment".to_owned(), about.to_owned())?;
+    encoder.add_text_chunk("Comment".to_owned(), format!("{MARK}: {about}"))?;
     let mut writer = encoder.write_header()?;
     writer.write_image_data(pixels)?;
     writer.finish()?;

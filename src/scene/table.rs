@@ -166,7 +166,7 @@ pub static ALL: &[RenderRow] = &[
         effects: &["interface"],
         text: include_str!("passes/reflection_refraction.wgsl"),
         own_paths: Paths::OneSurface,
-        wrong: "the second surface is missing: the world stands upright where it should be upside down",
+        wrong: "the second surface is missing: the world is far too large, in the middle a single place",
         ..BALL
     },
     RenderRow {

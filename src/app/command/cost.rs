@@ -136,6 +136,10 @@ fn of_effects(flags: &CostFlags) -> Result<Vec<CostedFunction>, Error> {
             functions.extend(functions_of_effect(effect, method)?);
         }
     }
+    if functions.is_empty() {
+        let why = "no function of these effects asks for R; leave --method out";
+        return Err(RequestFault::conflict(why).into());
+    }
     Ok(functions)
 }
 

@@ -7,7 +7,7 @@ use crate::app::error::Error;
 use crate::app::fault::RequestFault;
 use crate::app::request::{Source, load};
 use crate::app::source;
-use crate::app::write::write_file;
+use crate::app::write::{try_places_of_ours, write_file};
 use crate::gpu::{Device, Wanted};
 use crate::materials::{Material, MaterialKind, Surface, ViewingConditions};
 use crate::report::Report;
@@ -25,6 +25,13 @@ pub fn run(flags: &RenderFlags, progress: Progress) -> Result<Output, Error> {
     check(flags)?;
     let file = flags.file();
     let is_exr = is_exr(&file)?;
+    if flags.output.is_none() && try_places_of_ours(std::slice::from_ref(&file), false).is_err() {
+        let why = format!(
+            "{} lies here, and this program did not write it; name the picture's file with -o",
+            file.display()
+        );
+        return Err(RequestFault::conflict(why).into());
+    }
     let named = flags.report.json.iter().chain([&file]);
     try_files(&named.map(|file| file.as_path()).collect::<Vec<_>>())?;
     let material = material(flags)?;

@@ -154,6 +154,8 @@ fn functions_of_effects_are_counted_with_r_by_any_method() {
     assert!(all.contains_key(&("refracted".to_owned(), 3)));
     let textured = "cost --gpu operations --effect interface --method table";
     assert!(place.run(textured).ends(2).err.contains("reads a texture"));
+    let without_r = "cost --gpu operations --effect water --method schlick";
+    assert!(place.run(without_r).ends(2).err.contains("asks for R"));
     let of_material = "cost --gpu operations --effect interface --material gold";
     place.run(of_material).ends(2);
 }

@@ -30,13 +30,13 @@ pub static FACTS: &[Fact] = &[
     },
     Fact {
         pictures: "*renders/reflection_refraction.png",
-        says: "one refraction leaves the world upright, two turn it over",
-        holds: one_surface_is_upright,
+        says: "two refractions show the whole sky below, one spreads a part of the world over the ball",
+        holds: one_surface_magnifies,
     },
     Fact {
         pictures: "*renders/dispersion.png",
-        says: "one refraction leaves the world upright, two turn it over",
-        holds: one_surface_is_upright,
+        says: "two refractions show the whole sky below, one spreads a part of the world over the ball",
+        holds: one_surface_magnifies,
     },
     Fact {
         pictures: "*renders/dispersion_*.png",
@@ -95,6 +95,26 @@ pub static FACTS: &[Fact] = &[
         },
     },
     Fact {
+        pictures: "*renders/caustics_ring.png",
+        says: "before the focus light is brightest on a ring, the fold, and on the axis",
+        holds: |shown| {
+            let read = Panels::new(shown);
+            for panel in [0, 1] {
+                let light = |from, to| read.mean(panel, [from, to, 127, 129])[0];
+                let (axis, between, fold, outside) = (
+                    light(127, 129),
+                    light(131, 133),
+                    light(135, 136),
+                    light(142, 146),
+                );
+                assert!(
+                    axis > between && fold > between && between > outside + 10.0,
+                    "{axis} {between} {fold} {outside}"
+                );
+            }
+        },
+    },
+    Fact {
         pictures: "*renders/water.png",
         says: "water takes red from light: tiles under it are blue, the stones above are not",
         holds: |shown| {
@@ -129,7 +149,7 @@ pub static FACTS: &[Fact] = &[
     },
 ];
 
-fn one_surface_is_upright(shown: &Shown) {
+fn one_surface_magnifies(shown: &Shown) {
     let read = Panels::new(shown);
     assert!(read.blueness(1, BOTTOM) > read.blueness(0, BOTTOM) + 15.0);
 }

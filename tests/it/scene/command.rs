@@ -25,6 +25,14 @@ fn a_picture_is_written_with_its_report() {
             .unwrap()
             .starts_with(&[0x76, 0x2f, 0x31, 0x01])
     );
+    // Without -o a picture of its own is drawn again, and a file of the user's stays.
+    place.done("render caustics --size 16");
+    place.done("render caustics --size 16");
+    std::fs::write(place.path("caustics.png"), "mine").unwrap();
+    place.refused(
+        "render caustics --size 16",
+        &["name the picture's file with -o"],
+    );
     // What it wrote is no environment: three panels are not twice as wide as high.
     place.refused(
         "render double_refraction --environment ball.png -o b.png",
