@@ -16,6 +16,7 @@ mod precision;
 mod renamed;
 mod render;
 mod reproduce;
+mod scene_error;
 mod stability;
 mod time;
 mod verify;
@@ -45,6 +46,7 @@ pub use precision::{PrecisionFlags, each_once};
 pub use renamed::with_names_of_today;
 pub use render::RenderFlags;
 pub use reproduce::ReproduceFlags;
+pub use scene_error::SceneErrorFlags;
 pub use stability::StabilityFlags;
 pub use time::TimeFlags;
 pub use verify::VerifyFlags;
@@ -109,6 +111,8 @@ pub enum Command {
     Reproduce(ReproduceFlags),
     /// Draw an effect with the functions that engines import, beside what a ray tracer sees, and state the difference
     Render(RenderFlags),
+    /// Measure the error of methods in pictures of an object: of the angles that a camera sees
+    SceneError(Box<SceneErrorFlags>),
 }
 
 impl Cli {
@@ -153,6 +157,11 @@ impl Cli {
                 named.inputs.extend(material.map(Path::new));
                 named.inputs.extend(flags.environment.as_deref());
                 named.write(flags.report.json.iter().chain(&flags.output));
+            }
+            Command::SceneError(flags) => {
+                named.inputs.extend(flags.mesh.as_deref());
+                named.seen(&flags.materials, &flags.medium, &flags.viewing.viewing);
+                named.write(&flags.report.json);
             }
         }
         named

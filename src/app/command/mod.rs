@@ -15,6 +15,7 @@ mod params;
 #[cfg(feature = "gpu")]
 mod render;
 mod reproduce;
+mod scene_error;
 mod search;
 mod stability;
 mod survey;
@@ -96,6 +97,7 @@ pub fn run(cli: &Cli, progress: Progress, announce: Announce) -> Result<Output, 
         Some(Command::Fit(flags)) => fit::run(flags, progress),
         Some(Command::Stability(flags)) => stability::run(flags, progress),
         Some(Command::Reproduce(flags)) => reproduce::run(flags, progress),
+        Some(Command::SceneError(flags)) => scene_error::run(flags, progress),
     }
 }
 
