@@ -266,6 +266,23 @@ pub fn effect_text(
     page(target, request, functions, "", command)
 }
 
+/// The text of one function of an effect with the comments above it, as the files of effects hold it.
+///
+/// # Errors
+/// naga refuses the text: a bug.
+pub fn effect_function_text(target: &'static Target, emitted: &Emitted) -> Result<String, Error> {
+    let lines = comment::lines(documentation(emitted));
+    let bytes = render(&PageRequest {
+        target,
+        page: &target.pages[0],
+        header: &[],
+        guard: "",
+        functions: &[(comments(target, &lines), emitted.clone())],
+        file: &emitted.name,
+    })?;
+    Ok(String::from_utf8_lossy(&bytes).into_owned())
+}
+
 fn page(
     target: &'static Target,
     request: &EffectRequest,

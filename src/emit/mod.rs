@@ -36,7 +36,9 @@ pub use comment::lines as comment_lines;
 pub use detail::{
     CatalogueDetail, Detail, FunctionDetail, FunctionsDetail, SeenDetail, TableDetail,
 };
-pub use effect_file::{EFFECTS, EffectPart, EffectRequest, effect_file, effect_text};
+pub use effect_file::{
+    EFFECTS, EffectPart, EffectRequest, effect_file, effect_function_text, effect_text,
+};
 pub use error::Error;
 pub use figures::{half_promise, promises};
 pub use file::{

@@ -7,6 +7,8 @@ pub mod cost;
 mod envelope;
 pub mod fits;
 pub mod frontier;
+#[cfg(feature = "cli")]
+pub mod gallery;
 pub mod headline;
 #[cfg(feature = "cli")]
 mod html;

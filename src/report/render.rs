@@ -45,6 +45,10 @@ pub fn render_text(row: &RenderedRow, adapter: &str) -> String {
         let light = format!("relative L1 {}, energy {}", percent(l1), percent(energy));
         lines.insert(5, ("light", light));
     }
+    if let Some(leaks) = row.leaks {
+        let samples = format!("{leaks} samples show what lies on the other side of the water");
+        lines.insert(lines.len() - 1, ("leaks", samples));
+    }
     let line = |(name, value): &(&str, String)| format!("{name:11}{value}\n");
     lines.iter().map(line).collect()
 }

@@ -1,16 +1,24 @@
-//! Convex bodies, as triangles to draw and as what a ray crosses.
+//! What pictures show: convex bodies, as triangles to draw and as what a ray crosses; a pool; a window.
 
 use glam::{DVec2, DVec3, DVec4};
 
 use super::gem::{Facets, brilliant};
+use super::pool::Pool;
+use super::row::Slot;
+use super::texels::Texels;
+use super::window::Window;
 
-/// A convex body around the origin.
+/// What a picture shows, around the origin.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Body {
     /// The ball of radius 1.
     Ball,
     /// A body with plane facets.
     Gem(Facets),
+    /// A pool: what is solid there, and its water.
+    Pool(&'static Pool),
+    /// A window of stained glass.
+    Window(&'static Window),
 }
 
 /// Where a line enters a convex body and where it leaves.
@@ -35,6 +43,15 @@ pub struct Vertex {
     pub uv: DVec2,
 }
 
+impl Vertex {
+    /// Its numbers: position, normal, tangent with the bitangent's sign, texture coordinates.
+    pub fn numbers(&self) -> [f32; 12] {
+        let (p, n, t, uv) = (self.position, self.normal, self.tangent, self.uv);
+        let all = [p.x, p.y, p.z, n.x, n.y, n.z, t.x, t.y, t.z, t.w, uv.x, uv.y];
+        all.map(|value| value as f32)
+    }
+}
+
 /// Rows of triangles from pole to pole, and half the columns around.
 const ROWS: usize = 256;
 
@@ -49,22 +66,49 @@ impl Body {
         match self {
             Body::Ball => 1.0,
             Body::Gem(facets) => facets.radius(),
+            Body::Pool(_) => Pool::RADIUS,
+            Body::Window(_) => Window::RADIUS,
         }
     }
 
-    /// Where a line crosses it, if it does; the direction is of unit length.
+    /// Where a line crosses a convex body, if it does; the direction is of unit length. Pool and window are not convex.
     pub fn crossing(&self, origin: DVec3, direction: DVec3) -> Option<Crossing> {
         match self {
             Body::Ball => ball(origin, direction),
             Body::Gem(facets) => facets.crossing(origin, direction),
+            Body::Pool(_) | Body::Window(_) => None,
         }
     }
 
     /// Its triangles.
     pub fn triangles(&self) -> Vec<[Vertex; 3]> {
         match self {
-            Body::Ball => ball_triangles(),
+            Body::Ball => ball_triangles(ROWS),
             Body::Gem(facets) => facets.triangles(),
+            Body::Pool(pool) => pool.solids(),
+            Body::Window(window) => window.triangles(),
+        }
+    }
+
+    /// The triangles of its water.
+    pub fn water(&self) -> Vec<[Vertex; 3]> {
+        match self {
+            Body::Pool(pool) => pool.surface(),
+            Body::Ball | Body::Gem(_) | Body::Window(_) => Vec::new(),
+        }
+    }
+}
+
+impl Body {
+    /// The tables that belong to it.
+    pub fn tables(&self) -> Vec<(Slot, &Texels)> {
+        match self {
+            Body::Ball | Body::Gem(_) => Vec::new(),
+            Body::Pool(pool) => vec![(Slot::Paint, &pool.paint), (Slot::Relief, &pool.normals)],
+            Body::Window(window) => vec![
+                (Slot::Paint, &window.paint),
+                (Slot::Relief, &window.normals),
+            ],
         }
     }
 }
@@ -81,11 +125,11 @@ fn ball(origin: DVec3, direction: DVec3) -> Option<Crossing> {
     })
 }
 
-/// Rectangles between circles of latitude, two triangles each.
-fn ball_triangles() -> Vec<[Vertex; 3]> {
-    let columns = 2 * ROWS;
+/// Rectangles between so many circles of latitude, two triangles each.
+pub(super) fn ball_triangles(rows: usize) -> Vec<[Vertex; 3]> {
+    let columns = 2 * rows;
     let at = |row: usize, column: usize| {
-        let uv = DVec2::new(column as f64 / columns as f64, row as f64 / ROWS as f64);
+        let uv = DVec2::new(column as f64 / columns as f64, row as f64 / rows as f64);
         let (sin_v, cos_v) = libm::sincos(std::f64::consts::PI * uv.y);
         let (sin_u, cos_u) = libm::sincos(std::f64::consts::TAU * uv.x);
         let normal = DVec3::new(sin_u * sin_v, cos_v, -cos_u * sin_v);
@@ -96,8 +140,8 @@ fn ball_triangles() -> Vec<[Vertex; 3]> {
             uv,
         }
     };
-    let mut triangles = Vec::with_capacity(2 * ROWS * columns);
-    for row in 0..ROWS {
+    let mut triangles = Vec::with_capacity(2 * rows * columns);
+    for row in 0..rows {
         for column in 0..columns {
             let corners = [
                 at(row, column),

@@ -2,14 +2,15 @@
 //!
 //! Light of irradiance 1 falls along -z on the ball of radius 1; the receiver lies square to it below.
 
-use glam::{DMat4, DVec4};
-
 use crate::gpu::{Depth, Device, Draw, Image, Offscreen};
 use crate::optics;
 
-use super::body::Body;
-use super::draw::{DrawFault, floats, text};
-use super::row::find;
+use super::body::{Body, Vertex};
+use super::draw::DrawFault;
+use super::frame::{BACK, LightBlock, PHOTONS};
+use super::glass::Glass;
+use super::table::find;
+use super::text::RowText;
 
 /// A window of the receiver.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -44,18 +45,16 @@ pub struct Photons {
 
 /// One picture of 256 x 256 photons.
 pub const ONE_PICTURE: Photons = Photons {
-    side: 256,
+    side: PHOTONS,
     moves: 1,
 };
 
 /// Four of them.
 pub const FOUR_PICTURES: Photons = Photons {
-    side: 256,
+    side: PHOTONS,
     moves: 2,
 };
 
-/// A side of the picture of the back that is searched.
-const BACK: u32 = 1024;
 /// Triangles are drawn finer than the window, to about so many samples a side, and at most so many times as fine.
 const FINE: u32 = 1024;
 const FINEST: u32 = 8;
@@ -72,7 +71,9 @@ pub fn caustics(
     photons: Photons,
 ) -> Result<(Vec<f64>, f64), DrawFault> {
     let row = find("caustics").expect("a row");
-    let text = text(row).map_err(|fault| DrawFault::Text(fault.to_string()))?;
+    let by = RowText::usual(row);
+    let text = by.module();
+    let text = text.map_err(|fault| DrawFault::Text(fault.to_string()))?;
     let finer = match gathering {
         Gathering::Triangles => (FINE / window.pixels.max(1)).clamp(1, FINEST),
         Gathering::Splats | Gathering::Points => 1,
@@ -92,9 +93,9 @@ pub fn caustics(
             uniforms: uniforms(
                 n,
                 window,
+                &by,
                 finer,
-                photons.side,
-                [part(place % moves), part(place / moves)],
+                (photons.side, [part(place % moves), part(place / moves)]),
             ),
         };
         let (map, landed) = light.gathered(window, gathering, finer)?;
@@ -152,7 +153,12 @@ impl Light<'_> {
 
     /// Places and normals of the side of the ball that is nearest to the light, or farthest.
     fn side(&self, side: u32, depth: Depth) -> Result<[Image; 2], DrawFault> {
-        let vertices: Vec<_> = Body::Ball.triangles().concat().iter().map(floats).collect();
+        let vertices: Vec<_> = Body::Ball
+            .triangles()
+            .concat()
+            .iter()
+            .map(Vertex::numbers)
+            .collect();
         let mesh = self.offscreen.mesh(&vertices)?;
         let targets = self.pair(side)?;
         self.offscreen.draw(&Draw {
@@ -193,30 +199,24 @@ impl Light<'_> {
     }
 }
 
-/// The frame: the light's camera sees [-1, 1]^2 from +z, moved a little.
-fn uniforms(n: f64, window: &Window, finer: u32, photons: u32, [x, y]: [f64; 2]) -> Vec<u8> {
-    let camera = DMat4::from_cols(
-        DVec4::X,
-        DVec4::Y,
-        DVec4::new(0.0, 0.0, -0.25, 0.0),
-        DVec4::new(-x, -y, 0.5, 1.0),
-    );
+/// The bytes of the block.
+fn uniforms(
+    n: f64,
+    window: &Window,
+    by: &RowText,
+    finer: u32,
+    (photons, shift): (u32, [f64; 2]),
+) -> Vec<u8> {
+    let glass = Glass::of_index(n);
     let pixel = 2.0 * window.half / f64::from(window.pixels);
-    let fours = [
-        DVec4::new(window.below, window.half, f64::from(photons), 1.0),
-        DVec4::splat(n),
-        DVec4::new(0.0, 0.0, pixel / f64::from(finer), pixel),
-        // There is no room.
-        DVec4::ZERO,
-        DVec4::ZERO,
-        DVec4::ZERO,
-    ];
-    let matrices = [camera, camera.inverse()].map(|matrix| matrix.to_cols_array());
-    let numbers = matrices.concat().into_iter();
-    let numbers = numbers.chain(fours.iter().flat_map(|four| four.to_array()));
-    numbers
-        .flat_map(|value| (value as f32).to_ne_bytes())
-        .collect()
+    let light = LightBlock {
+        window: [window.below, window.half],
+        widths: [pixel / f64::from(finer), pixel],
+        photons,
+        shift,
+    };
+    let block = light.numbers(&glass, by.inputs_for(&glass));
+    block.into_iter().flat_map(f32::to_ne_bytes).collect()
 }
 
 /// The mean of each pixel's samples.

@@ -1,26 +1,22 @@
 //! A row drawn on a device: the text that users import, the row's own text below it, pass after pass.
 
+use std::borrow::Cow;
 use std::collections::BTreeMap;
 
-use glam::{DMat4, DVec3};
+use crate::gpu::{Depth, Device, DeviceFault, Draw, Image, Offscreen};
 
-use crate::effects;
-use crate::emit::{self, EffectRequest, Naming, effect_text};
-use crate::gpu::{Depth, Device, DeviceFault, Draw, Image, Offscreen, VERTEX_FLOATS};
-use crate::methods;
-use crate::targets;
-
-use super::body::{Body, Vertex};
+use super::body::Vertex;
 use super::camera::Camera;
 use super::environment::Environment;
-use super::glass::Glass;
-use super::room::{CUBE_CENTRE, ROOM_MAX, ROOM_MIN, room_cube};
+use super::frame::frame;
+use super::room::room_cube;
 use super::row::{PassRow, Place, RenderRow, Slot};
+use super::texels::Texels;
+use super::text::{INPUTS, RowText};
 use super::trace::Things;
 
 /// Texels of a side of the room's cube map.
 const CUBE: usize = 1024;
-const FRAME: &str = include_str!("passes/frame.wgsl");
 
 /// A picture as the device drew it.
 #[derive(Clone, Debug, PartialEq)]
@@ -40,57 +36,79 @@ pub enum DrawFault {
     Text(String),
 }
 
-/// Draws a row, so many samples a side.
+/// What is drawn besides the passes: things, what is around them, and the tables that passes read.
+#[derive(Clone, Debug)]
+pub struct Scenery<'a> {
+    /// The body, its material, its surface.
+    pub things: Things<'a>,
+    /// The sky.
+    pub environment: &'a Environment,
+    /// The tables of the body.
+    pub tables: Vec<(Slot, Cow<'a, Texels>)>,
+    /// Texels of a side of the room's cube map.
+    pub cube: usize,
+}
+
+impl<'a> Scenery<'a> {
+    /// Everything as fine as it is.
+    pub fn of(things: Things<'a>, environment: &'a Environment) -> Scenery<'a> {
+        let tables = things.body.tables().into_iter();
+        Scenery {
+            things,
+            environment,
+            tables: tables
+                .map(|(slot, table)| (slot, Cow::Borrowed(table)))
+                .collect(),
+            cube: CUBE,
+        }
+    }
+}
+
+/// Draws a row by a method with these values of its inputs, so many samples a side.
 ///
 /// # Errors
 /// The device does not take it, or the functions cannot be written.
 pub fn draw(
     device: &Device,
-    row: &RenderRow,
-    things: Things,
-    environment: &Environment,
+    (text, inputs): (&RowText, [[f32; 4]; INPUTS]),
+    scenery: &Scenery,
     camera: &Camera,
     side: u32,
 ) -> Result<Drawn, DrawFault> {
-    let Things {
-        body,
-        glass,
-        relief,
-        ..
-    } = things;
-    let text = text(row).map_err(|fault| DrawFault::Text(fault.to_string()))?;
+    let Things { body, glass, .. } = scenery.things;
+    let row = text.row;
+    let module = text.module();
+    let module = module.map_err(|fault| DrawFault::Text(fault.to_string()))?;
     let offscreen = device.offscreen()?;
-    let [width, height] = environment.size();
-    let around = upload(&offscreen, [width, height], environment.texels())?;
-    let vertices: Vec<_> = body.triangles().concat().iter().map(floats).collect();
-    let mesh = offscreen.mesh(&vertices)?;
-    let uniforms = frame(camera, body, glass);
-    let mut slots: BTreeMap<Slot, Image> = BTreeMap::new();
-    if row.in_room {
-        let cube = offscreen.upload([CUBE as u32, CUBE as u32, 6], &room_cube(CUBE))?;
-        slots.insert(Slot::Room, cube);
-    }
-    if let Some(relief) = relief {
-        let image = upload(&offscreen, [relief.side(); 2], relief.texels())?;
-        slots.insert(Slot::Relief, image);
-    }
+    let [width, height] = scenery.environment.size();
+    let around = upload(&offscreen, [width, height], scenery.environment.texels())?;
+    let [body_mesh, water_mesh] = [body.triangles(), body.water()].map(|triangles| {
+        let vertices: Vec<_> = triangles.concat().iter().map(Vertex::numbers).collect();
+        offscreen.mesh(&vertices)
+    });
+    let (body_mesh, water_mesh) = (body_mesh?, water_mesh?);
+    let mut slots = tables(&offscreen, row, scenery)?;
     for pass in row.passes {
         let clears = !pass.writes.iter().any(|slot| slots.contains_key(slot));
         for slot in pass.writes.iter().filter(|_| clears) {
+            let side = pass.view.side(side);
             slots.insert(*slot, offscreen.target(side, side)?);
         }
         let (vertex, depth) = pass.drawn_by();
         let images: Vec<&Image> = pass.reads.iter().map(|slot| &slots[slot]).collect();
         let targets: Vec<&Image> = pass.writes.iter().map(|slot| &slots[slot]).collect();
+        let block = frame((pass.view, camera, side), body.radius(), glass, inputs);
+        let uniforms: Vec<u8> = block.into_iter().flat_map(f32::to_ne_bytes).collect();
         offscreen.draw(&Draw {
-            text: &text,
+            text: &module,
             vertex,
             fragment: pass.fragment,
             uniforms: &uniforms,
             images: &[&[&around], images.as_slice()].concat(),
             mesh: match pass.place {
                 Place::Everywhere => Err(3),
-                Place::Front | Place::Back => Ok(&mesh),
+                Place::Front | Place::Back => Ok(&body_mesh),
+                Place::Water => Ok(&water_mesh),
             },
             targets: &targets,
             clears,
@@ -100,6 +118,29 @@ pub fn draw(
     }
     let samples = offscreen.read(&slots[&Slot::Colour])?;
     Ok(Drawn { samples })
+}
+
+/// The tables that passes read.
+fn tables(
+    offscreen: &Offscreen,
+    row: &RenderRow,
+    scenery: &Scenery,
+) -> Result<BTreeMap<Slot, Image>, DeviceFault> {
+    let mut slots = BTreeMap::new();
+    if row.in_room {
+        let size = [scenery.cube as u32, scenery.cube as u32, 6];
+        let cube = offscreen.upload(size, &room_cube(scenery.cube))?;
+        slots.insert(Slot::Room, cube);
+    }
+    if let Some(relief) = scenery.things.relief {
+        let image = upload(offscreen, [relief.side(); 2], relief.texels())?;
+        slots.insert(Slot::Relief, image);
+    }
+    for (slot, table) in &scenery.tables {
+        let [width, height] = table.size().map(|texels| texels as u32);
+        slots.insert(*slot, offscreen.upload([width, height, 1], table.texels())?);
+    }
+    Ok(slots)
 }
 
 fn upload(
@@ -117,47 +158,7 @@ impl PassRow {
             Place::Everywhere => ("vs_cover", Depth::Unused),
             Place::Front => ("vs_body", Depth::Nearest),
             Place::Back => ("vs_body", Depth::Farthest),
+            Place::Water => ("vs_body", Depth::Unused),
         }
     }
-}
-
-/// The module: the functions as users import them, the frame, the row's own passes.
-pub(super) fn text(row: &RenderRow) -> Result<String, emit::Error> {
-    let wgsl = targets::find("wgsl").expect("a target");
-    let method = methods::find(row.method).expect("a row names a method");
-    let mut text = String::new();
-    for name in row.effects {
-        let request = EffectRequest {
-            effect: effects::find(name).expect("a row names effects"),
-            method,
-            subject: None,
-        };
-        let functions = request.whole(&Naming::default())?;
-        let written = effect_text(wgsl, &request, &functions, "fresnel-gen render")?;
-        text += &String::from_utf8_lossy(&written);
-    }
-    Ok(text + FRAME + row.text)
-}
-
-/// The bytes of the frame.
-fn frame(camera: &Camera, body: &Body, glass: &Glass) -> Vec<u8> {
-    let four = |v: DVec3, w: f64| [v.x as f32, v.y as f32, v.z as f32, w as f32];
-    let matrix = |m: DMat4| m.to_cols_array().map(|value| value as f32);
-    let mut numbers = Vec::new();
-    numbers.extend(matrix(camera.view_projection));
-    numbers.extend(matrix(camera.inverse));
-    numbers.extend(four(camera.eye, body.radius()));
-    numbers.extend(four(glass.n, 0.0));
-    numbers.extend(four(glass.k, 0.0));
-    for corner in [ROOM_MIN, ROOM_MAX, CUBE_CENTRE] {
-        numbers.extend(four(corner, 0.0));
-    }
-    numbers.into_iter().flat_map(f32::to_ne_bytes).collect()
-}
-
-/// A vertex as the device takes it.
-pub(super) fn floats(vertex: &Vertex) -> [f32; VERTEX_FLOATS] {
-    let (p, n, t, uv) = (vertex.position, vertex.normal, vertex.tangent, vertex.uv);
-    let all = [p.x, p.y, p.z, n.x, n.y, n.z, t.x, t.y, t.z, t.w, uv.x, uv.y];
-    all.map(|value| value as f32)
 }

@@ -97,6 +97,15 @@ impl Environment {
         }
     }
 
+    /// The same with other texels in the place of each.
+    pub fn mapped(&self, change: impl Fn([f32; 3]) -> [f32; 3]) -> Environment {
+        let texels = self.texels.iter();
+        Environment {
+            texels: texels.map(|texel| change(*texel)).collect(),
+            ..*self
+        }
+    }
+
     /// Its width and height.
     pub fn size(&self) -> [usize; 2] {
         [self.width, self.height]

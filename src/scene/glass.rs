@@ -86,6 +86,15 @@ impl Glass {
 
     /// Without dispersion, at green's index.
     pub fn at_one_index(&self) -> Glass {
-        Glass::of_index(self.n.y)
+        Glass {
+            k: self.k,
+            ..Glass::of_index(self.n.y)
+        }
+    }
+
+    /// The absorption coefficient of red, green and blue, per metre: 4 pi k / lambda, at a wavelength in the middle of each channel.
+    pub fn absorption(&self) -> DVec3 {
+        let wavelengths = DVec3::new(610.0, 550.0, 460.0) * 1e-9;
+        4.0 * std::f64::consts::PI * self.k / wavelengths
     }
 }

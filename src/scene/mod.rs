@@ -9,16 +9,22 @@ mod compare;
 #[cfg(feature = "gpu")]
 mod draw;
 mod environment;
+mod frame;
 mod gem;
 mod glass;
 #[cfg(feature = "gpu")]
 mod picture;
+mod pool;
 mod relief;
 mod room;
 mod row;
 mod sky;
+mod table;
+mod texels;
+mod text;
 mod tone;
 mod trace;
+mod window;
 
 pub use body::{Body, Crossing, Vertex};
 pub use camera::Camera;
@@ -28,15 +34,21 @@ pub use caustics::{
 };
 pub use compare::{Comparison, Difference, compare};
 #[cfg(feature = "gpu")]
-pub use draw::{DrawFault, Drawn, draw};
+pub use draw::{DrawFault, Drawn, Scenery, draw};
 pub use environment::{Environment, EnvironmentFault};
+pub use frame::{
+    ABSORPTION_AT, BACK, INDEX_AT, INPUTS_AT, LightBlock, MARGIN, PHOTONS, PIXEL_AT, frame,
+};
 pub use glass::{Glass, Ray};
 #[cfg(feature = "gpu")]
 pub use picture::{Order, Picture, RenderedRow, render};
 pub use relief::Relief;
 pub use room::{CUBE_CENTRE, ROOM_MAX, ROOM_MIN, room_cube, room_radiance};
-pub use row::{ALL, BodyName, PassRow, Place, RenderRow, Slot, find};
-pub use sky::sky;
+pub use row::{BodyName, PassRow, Place, RenderRow, Slot, View};
+pub use sky::{sky, sky_of};
+pub use table::{ALL, find};
+pub use texels::Texels;
+pub use text::{FRAME, INPUTS, RowText};
 pub use tone::{Display, TONE_CURVES, ToneCurve};
 pub use trace::{Around, Paths, Things, Traced, trace};
 

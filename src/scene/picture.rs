@@ -9,11 +9,12 @@ use super::SAMPLES;
 use super::camera::Camera;
 use super::caustics::{FOUR_PICTURES, Gathering, Window, caustic_error, caustics, exact_caustics};
 use super::compare::{Comparison, Difference, compare};
-use super::draw::{DrawFault, Drawn, draw};
+use super::draw::{DrawFault, Drawn, Scenery, draw};
 use super::environment::Environment;
 use super::glass::Glass;
 use super::relief::Relief;
 use super::row::RenderRow;
+use super::text::RowText;
 use super::tone::Display;
 use super::trace::{Around, Things, Traced, trace};
 
@@ -87,6 +88,8 @@ pub struct RenderedRow {
     pub l1: Option<f64>,
     /// Of light on a receiver: the sum, as a share of that of the truth.
     pub energy: Option<f64>,
+    /// Of water: samples whose refraction shows what is above it, or whose mirror shows what is below it.
+    pub leaks: Option<u64>,
     /// Where it must be wrong.
     pub wrong: &'static str,
 }
@@ -110,7 +113,7 @@ pub fn render(
         return received(device, order, material, (below, half));
     }
     let body = row.body.body();
-    let relief = row.is_hammered.then(Relief::hammered);
+    let relief = row.dents.map(Relief::hammered);
     let flat = order.glass.at_one_index();
     let things = Things {
         body: &body,
@@ -126,7 +129,9 @@ pub fn render(
     progress(0, 1, "drawing");
     let clamped = order.is_ldr.then(|| order.environment.clamped());
     let environment = clamped.as_ref().unwrap_or(order.environment);
-    let drawn = draw(device, row, things, environment, &camera, side)?;
+    let text = RowText::usual(row);
+    let by = (&text, text.inputs_for(things.glass));
+    let drawn = draw(device, by, &Scenery::of(things, environment), &camera, side)?;
     let mut hear = |done, whole| progress(done, whole, "tracing rays");
     let paths = [row.true_paths, row.own_paths];
     let truth = trace(things, &camera, side as usize, paths, &mut hear);
@@ -214,7 +219,8 @@ fn shares(row: &'static RenderRow, drawn: &Drawn, truth: &[Traced]) -> RenderedR
         let holds = seen.iter().filter(|(what, traced)| of(*what, traced));
         holds.count() as f64 / seen.len().max(1) as f64
     };
-    let is_total = |what: f32| what > 2.5;
+    let is_total = |what: f32| (2.5..3.5).contains(&what);
+    let leaks = seen.iter().filter(|(what, _)| *what > 3.5).count() as u64;
     let misses = share(&|what, _| (1.5..2.5).contains(&what));
     let none = Difference {
         mean: 0.0,
@@ -239,6 +245,7 @@ fn shares(row: &'static RenderRow, drawn: &Drawn, truth: &[Traced]) -> RenderedR
         missed_total: share(&|what, traced| !is_total(what) && traced.is_total),
         l1: None,
         energy: None,
+        leaks: row.has_water().then_some(leaks),
         wrong: row.wrong,
     }
 }

@@ -14,18 +14,15 @@ pub struct Relief {
 const SIDE: usize = 512;
 /// Dents around, and from pole to pole.
 const DENTS: [f64; 2] = [16.0, 8.0];
-/// The steepest slope.
-const SLOPE: f64 = 0.35;
-
 impl Relief {
-    /// The map of the pictures.
-    pub fn hammered() -> Relief {
+    /// Dents of this steepest slope.
+    pub fn hammered(slope: f64) -> Relief {
         let texel = |i: usize| {
             let at = |place: usize| (place as f64 + 0.5) / SIDE as f64;
             let wave = |place: f64, dents: f64| libm::sincos(std::f64::consts::TAU * dents * place);
             let (sin_u, cos_u) = wave(at(i % SIDE), DENTS[0]);
             let (sin_v, cos_v) = wave(at(i / SIDE), DENTS[1]);
-            let normal = DVec3::new(SLOPE * sin_u * cos_v, SLOPE * cos_u * sin_v, 1.0);
+            let normal = DVec3::new(slope * sin_u * cos_v, slope * cos_u * sin_v, 1.0);
             let rounded = normal.normalize().to_array();
             rounded.map(|value| f16::from_f64(value).to_f32())
         };

@@ -1,10 +1,12 @@
-//! The table of what is drawn: a row an effect, with its passes, what they read and write, and its scene.
+//! What a row of the table of pictures says: its passes, what they read and write, and its scene.
 
 use super::body::Body;
+use super::pool::pool;
 use super::trace::Paths;
+use super::window::window;
 
 /// A picture that is drawn.
-#[derive(Debug)]
+#[derive(Clone, Copy, Debug)]
 pub struct RenderRow {
     /// Its name on the command line.
     pub name: &'static str,
@@ -32,8 +34,8 @@ pub struct RenderRow {
     pub eye: [f64; 3],
     /// Whether it stands in the room, and not under the sky.
     pub in_room: bool,
-    /// Whether its surface is hammered.
-    pub is_hammered: bool,
+    /// The steepest slope of its dents, where its surface is hammered.
+    pub dents: Option<f64>,
     /// Light on a receiver in place of what an eye sees: how far that lies below the body's centre, and half its width.
     pub receiver: Option<[f64; 2]>,
     /// Where it must be wrong, in one line.
@@ -47,6 +49,10 @@ pub enum BodyName {
     Ball,
     /// The brilliant.
     Gem,
+    /// The pool.
+    Pool,
+    /// The window of stained glass.
+    Window,
 }
 
 impl BodyName {
@@ -55,6 +61,8 @@ impl BodyName {
         match self {
             BodyName::Ball => Body::Ball,
             BodyName::Gem => Body::gem(),
+            BodyName::Pool => Body::Pool(pool()),
+            BodyName::Window => Body::Window(window()),
         }
     }
 
@@ -63,6 +71,8 @@ impl BodyName {
         match self {
             BodyName::Ball => "ball",
             BodyName::Gem => "gem",
+            BodyName::Pool => "pool",
+            BodyName::Window => "window",
         }
     }
 }
@@ -76,10 +86,20 @@ pub enum Slot {
     BackPositions,
     /// Its normals.
     BackNormals,
+    /// What lies below the water, with 1 in alpha; 0 for what stands before it.
+    Below,
+    /// Where that is.
+    BelowPositions,
+    /// The scene above the water, mirrored in it.
+    Mirror,
+    /// Where that is, with 1 in alpha; 0 where nothing but the sky is.
+    MirrorPositions,
     /// The cube map of the room.
     Room,
     /// The normal map.
     Relief,
+    /// The radiance of solid things, by their texture coordinates; of a window the colours of glass, with 1 in alpha, and of lead and stone, with 0.
+    Paint,
 }
 
 /// What a pass draws.
@@ -91,241 +111,49 @@ pub enum Place {
     Front,
     /// The side that does not.
     Back,
+    /// The water's surface, over what is there: what stands before it is for the pass to say.
+    Water,
+}
+
+/// Where a pass is drawn from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum View {
+    /// The eye.
+    Eye,
+    /// The eye, in a picture with a margin: for look-ups beyond the edge.
+    Margin,
+    /// The eye mirrored in the plane y = 0, with that margin. What lies below the plane is clipped.
+    Mirrored,
+    /// The same without clipping, to show what clipping is for.
+    MirroredUnclipped,
 }
 
 /// A draw.
-#[derive(Debug)]
+#[derive(Clone, Copy, Debug)]
 pub struct PassRow {
     /// The entry point for pixels.
     pub fragment: &'static str,
     /// What it draws.
     pub place: Place,
+    /// Where it is drawn from.
+    pub view: View,
     /// What it writes.
     pub writes: &'static [Slot],
     /// What it reads, from binding 4 on.
     pub reads: &'static [Slot],
 }
 
-/// The sky behind all.
-const SKY: PassRow = PassRow {
-    fragment: "fs_sky",
-    place: Place::Everywhere,
-    writes: &[Slot::Colour],
-    reads: &[],
-};
-/// The back of the body, for the search.
-const BACK: PassRow = PassRow {
-    fragment: "fs_back",
-    place: Place::Back,
-    writes: &[Slot::BackPositions, Slot::BackNormals],
-    reads: &[],
-};
-/// The body over the sky, seen through its back.
-const THROUGH: PassRow = PassRow {
-    fragment: "fs_front",
-    place: Place::Front,
-    writes: &[Slot::Colour],
-    reads: &[Slot::BackPositions, Slot::BackNormals],
-};
-
-/// The body over the sky, by its front alone.
-const FRONT: PassRow = PassRow {
-    fragment: "fs_front",
-    place: Place::Front,
-    writes: &[Slot::Colour],
-    reads: &[],
-};
-
-const FROM_THE_SIDE: [f64; 3] = [0.0, 0.75, 2.9];
-const FROM_ABOVE: [f64; 3] = [0.0, 2.6, 3.0];
-
-/// The rows.
-pub static ALL: &[RenderRow] = &[
-    RenderRow {
-        name: "double_refraction",
-        summary: "A ball of glass: the search of four steps finds where rays leave",
-        effects: &["interface", "interior", "water"],
-        method: "dielectric_exact",
-        text: include_str!("passes/double_refraction.wgsl"),
-        passes: &[SKY, BACK, THROUGH],
-        body: BodyName::Ball,
-        material: "bk7",
-        disperses: false,
-        own_paths: Paths::TwoSurfaces,
-        true_paths: Paths::All,
-        eye: FROM_THE_SIDE,
-        in_room: false,
-        is_hammered: false,
-        receiver: None,
-        wrong: "light that is reflected inside is missing; the rim",
-    },
-    RenderRow {
-        name: "double_refraction_gem",
-        summary: "A brilliant of diamond, which reflects most rays totally from inside",
-        effects: &["interface", "interior", "water"],
-        method: "dielectric_exact",
-        text: include_str!("passes/double_refraction.wgsl"),
-        passes: &[SKY, BACK, THROUGH],
-        body: BodyName::Gem,
-        material: "diamond",
-        disperses: false,
-        own_paths: Paths::TwoSurfaces,
-        true_paths: Paths::All,
-        eye: FROM_ABOVE,
-        in_room: false,
-        is_hammered: false,
-        receiver: None,
-        wrong: "rays that are reflected totally leave after one reflection; edges between facets",
-    },
-    RenderRow {
-        name: "reflection_refraction",
-        summary: "A ball of glass by one look-up along the reflected ray and one along the refracted",
-        effects: &["interface"],
-        method: "dielectric_exact",
-        text: include_str!("passes/reflection_refraction.wgsl"),
-        passes: &[SKY, FRONT],
-        body: BodyName::Ball,
-        material: "bk7",
-        disperses: false,
-        own_paths: Paths::OneSurface,
-        true_paths: Paths::All,
-        eye: FROM_THE_SIDE,
-        in_room: false,
-        is_hammered: false,
-        receiver: None,
-        wrong: "the second surface is missing: the world stands upright where it should be upside down",
-    },
-    RenderRow {
-        name: "caustics",
-        summary: "Light that a ball of glass gathers on a receiver: 256 x 256 photons as triangles, while the light moves",
-        effects: &["interface", "interior", "water", "caustics"],
-        method: "dielectric_exact",
-        text: include_str!("passes/caustics.wgsl"),
-        passes: &[],
-        body: BodyName::Ball,
-        material: "bk7",
-        disperses: false,
-        own_paths: Paths::TwoSurfaces,
-        true_paths: Paths::TwoSurfaces,
-        eye: FROM_ABOVE,
-        in_room: false,
-        is_hammered: false,
-        receiver: Some([1.2, 1.0]),
-        wrong: "the edge, where photons fold over each other; light that is reflected inside",
-    },
-    RenderRow {
-        name: "dispersion",
-        summary: "A ball of dense flint glass by one refracted ray for each of red, green and blue",
-        effects: &["interface", "dispersion"],
-        method: "dielectric_exact",
-        text: include_str!("passes/dispersion.wgsl"),
-        passes: &[SKY, FRONT],
-        body: BodyName::Ball,
-        material: "sf11",
-        disperses: true,
-        own_paths: Paths::OneSurface,
-        true_paths: Paths::All,
-        eye: FROM_THE_SIDE,
-        in_room: false,
-        is_hammered: false,
-        receiver: None,
-        wrong: "the second surface is missing, and three samples of the spectrum make three edges",
-    },
-    RenderRow {
-        name: "double_refraction_dispersion",
-        summary: "A ball of dense flint glass: the search for each of eight samples of the spectrum",
-        effects: &["interface", "interior", "water", "dispersion"],
-        method: "dielectric_exact",
-        text: include_str!("passes/double_refraction_dispersion.wgsl"),
-        passes: &[SKY, BACK, THROUGH],
-        body: BodyName::Ball,
-        material: "sf11",
-        disperses: true,
-        own_paths: Paths::TwoSurfaces,
-        true_paths: Paths::All,
-        eye: FROM_THE_SIDE,
-        in_room: false,
-        is_hammered: false,
-        receiver: None,
-        wrong: "light that is reflected inside is missing; three indices stand for a spectrum",
-    },
-    RenderRow {
-        name: "complex_f0",
-        summary: "A ball of gold by Schlick's approximation, F0 from its complex index",
-        effects: &["interface", "complex_f0"],
-        method: "schlick",
-        text: include_str!("passes/complex_f0.wgsl"),
-        passes: &[SKY, FRONT],
-        body: BodyName::Ball,
-        material: "gold",
-        disperses: true,
-        own_paths: Paths::Mirror,
-        true_paths: Paths::Mirror,
-        eye: FROM_THE_SIDE,
-        in_room: false,
-        is_hammered: false,
-        receiver: None,
-        wrong: "Schlick's approximation, near the rim",
-    },
-    RenderRow {
-        name: "normal_mapped",
-        summary: "A hammered ball of silver by a normal map",
-        effects: &["interface", "normal_mapping"],
-        method: "conductor_exact",
-        text: include_str!("passes/normal_mapped.wgsl"),
-        passes: &[
-            SKY,
-            PassRow {
-                reads: &[Slot::Relief],
-                ..FRONT
-            },
-        ],
-        body: BodyName::Ball,
-        material: "silver",
-        disperses: true,
-        own_paths: Paths::Mirror,
-        true_paths: Paths::Mirror,
-        eye: FROM_THE_SIDE,
-        in_room: false,
-        is_hammered: true,
-        receiver: None,
-        wrong: "dents cast no shadow and do not mirror each other, here and in the truth",
-    },
-    RenderRow {
-        name: "parallax_corrected",
-        summary: "A ball of silver in a room, by one cube map that was taken beside it",
-        effects: &["interface", "parallax"],
-        method: "conductor_exact",
-        text: include_str!("passes/parallax_corrected.wgsl"),
-        passes: &[
-            PassRow {
-                fragment: "fs_room",
-                reads: &[Slot::Room],
-                ..SKY
-            },
-            PassRow {
-                reads: &[Slot::Room],
-                ..FRONT
-            },
-        ],
-        body: BodyName::Ball,
-        material: "silver",
-        disperses: true,
-        own_paths: Paths::Mirror,
-        true_paths: Paths::Mirror,
-        eye: FROM_THE_SIDE,
-        in_room: true,
-        is_hammered: false,
-        receiver: None,
-        wrong: "texels of the cube map; what stands in the room would be drawn on its walls",
-    },
-];
-
 impl RenderRow {
-    /// Whether it searches for the second surface in a picture of the body's back.
+    /// Whether it searches for the end of a refracted ray in a picture of what is there.
     pub fn searches(&self) -> bool {
+        let positions = [Slot::BackPositions, Slot::BelowPositions];
         let mut passes = self.passes.iter();
-        passes.any(|pass| pass.reads.contains(&Slot::BackPositions))
+        passes.any(|pass| positions.iter().any(|slot| pass.reads.contains(slot)))
+    }
+
+    /// Whether there is water in it.
+    pub fn has_water(&self) -> bool {
+        self.body == BodyName::Pool
     }
 
     /// Whether the environment is seen in it.
@@ -337,9 +165,4 @@ impl RenderRow {
     pub fn is_transparent(&self) -> bool {
         self.true_paths != Paths::Mirror
     }
-}
-
-/// The row of this name.
-pub fn find(name: &str) -> Option<&'static RenderRow> {
-    ALL.iter().find(|row| row.name == name)
 }

@@ -20,7 +20,17 @@ const POST_TOP: f64 = 0.3;
 
 /// That sky.
 pub fn sky() -> Environment {
-    Environment::baked(HEIGHT, radiance)
+    sky_of(HEIGHT)
+}
+
+/// The same sky, so many texels from pole to pole.
+pub fn sky_of(height: usize) -> Environment {
+    Environment::baked(height, radiance)
+}
+
+/// The direction of the sun's middle.
+pub(super) fn to_sun() -> DVec3 {
+    DVec3::new(-0.45, 0.62, 0.4).normalize()
 }
 
 fn radiance(direction: DVec3) -> DVec3 {
@@ -37,8 +47,7 @@ fn radiance(direction: DVec3) -> DVec3 {
         return ground(direction, horizon);
     }
     let zenith = DVec3::new(0.12, 0.28, 0.68);
-    let to_sun = DVec3::new(-0.45, 0.62, 0.4).normalize();
-    let near = direction.dot(to_sun);
+    let near = direction.dot(to_sun());
     let disc = smooth((near - SUN_OUTSIDE) / (SUN_INSIDE - SUN_OUTSIDE)) * SUN;
     let glow = 0.6 * libm::pow(near.max(0.0), 64.0);
     let blue = horizon.lerp(zenith, libm::sqrt(direction.y));

@@ -48,7 +48,7 @@ pub struct Things<'a> {
     pub glass: &'a Glass,
     /// What is around it.
     pub around: Around<'a>,
-    /// Dents of its surface, where it is a ball.
+    /// Dents of its surface, outside and inside, where it is a ball.
     pub relief: Option<&'a Relief>,
 }
 
@@ -62,7 +62,8 @@ pub enum Around<'a> {
 }
 
 impl Around<'_> {
-    fn radiance(&self, place: DVec3, direction: DVec3) -> DVec3 {
+    /// What comes to a place along a direction that points away from it.
+    pub(super) fn radiance(&self, place: DVec3, direction: DVec3) -> DVec3 {
         match self {
             Around::Far(environment) => environment.radiance(direction),
             Around::Room => room_radiance(place, direction),
@@ -99,6 +100,16 @@ pub fn trace(
 impl Scene<'_> {
     /// What a ray from the eye shows.
     fn seen(&self, eye: DVec3, direction: DVec3) -> Traced {
+        let (glass, around) = (self.things.glass, self.things.around);
+        match *self.things.body {
+            Body::Pool(pool) => pool.seen(glass, around, eye, direction),
+            Body::Window(window) => window.seen(glass, around, eye, direction),
+            Body::Ball | Body::Gem(_) => self.convex(eye, direction),
+        }
+    }
+
+    /// The same of a convex body.
+    fn convex(&self, eye: DVec3, direction: DVec3) -> Traced {
         let crossing = self.things.body.crossing(eye, direction);
         let Some(crossing) = crossing.filter(|crossing| crossing.entry.0 > 0.0) else {
             let colour = self.things.around.radiance(eye, direction);
@@ -110,8 +121,7 @@ impl Scene<'_> {
         };
         let (distance, normal) = crossing.entry;
         let place = eye + distance * direction;
-        let dented = |relief: &Relief| relief.on_ball(normal);
-        let normal = self.things.relief.map_or(normal, dented);
+        let normal = self.dented(normal);
         let cosine = (-direction.dot(normal)).clamp(0.0, 1.0);
         let mirrored = self
             .things
@@ -140,6 +150,12 @@ impl Scene<'_> {
         seen
     }
 
+    /// The normal as dents turn it.
+    fn dented(&self, normal: DVec3) -> DVec3 {
+        let relief = self.things.relief;
+        relief.map_or(normal, |relief| relief.on_ball(normal))
+    }
+
     /// What comes along a ray inside by both kinds of paths, and whether it is reflected totally at first.
     fn inside(&self, place: DVec3, direction: DVec3, n: f64) -> ([DVec3; 2], bool) {
         let goes_on = |paths: &Paths| matches!(paths, Paths::All | Paths::TwoSurfaces);
@@ -163,12 +179,18 @@ impl Scene<'_> {
             let Some(crossing) = self.things.body.crossing(place, direction) else {
                 break;
             };
-            let (distance, normal) = crossing.exit;
+            let (distance, smooth) = crossing.exit;
+            let normal = self.dented(smooth);
             place += distance * direction;
             let r = optics::dielectric(1.0 / n, direction.dot(normal).clamp(0.0, 1.0));
             let r = r.unpolarised();
             let out = refracted(direction, -normal, 1.0 / n);
-            direction = mirrored(direction, normal);
+            let bounced = mirrored(direction, normal);
+            // Where a dent would send the ray out of the body, the smooth surface keeps it inside.
+            direction = match bounced.dot(smooth) < 0.0 {
+                true => bounced,
+                false => mirrored(direction, smooth),
+            };
             if let Some(out) = out {
                 all += left * (1.0 - r) * self.things.around.radiance(place, out);
             }
@@ -189,12 +211,12 @@ impl Scene<'_> {
 }
 
 /// The mirror's law.
-fn mirrored(direction: DVec3, normal: DVec3) -> DVec3 {
+pub(super) fn mirrored(direction: DVec3, normal: DVec3) -> DVec3 {
     direction - 2.0 * direction.dot(normal) * normal
 }
 
 /// Snell's law: the part along the surface is divided by the index. None past the critical angle.
-fn refracted(direction: DVec3, normal: DVec3, eta: f64) -> Option<DVec3> {
+pub(super) fn refracted(direction: DVec3, normal: DVec3, eta: f64) -> Option<DVec3> {
     let along = (direction - direction.dot(normal) * normal) / eta;
     let rest = 1.0 - along.length_squared();
     (rest > 0.0).then(|| along - rest.sqrt() * normal)

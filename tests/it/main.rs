@@ -22,6 +22,8 @@ mod domains;
 mod effects;
 mod exhaustive;
 mod fits;
+#[cfg(all(feature = "cli", feature = "gpu"))]
+mod gallery;
 mod golden;
 #[cfg(feature = "gpu")]
 mod gpu;

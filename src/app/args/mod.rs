@@ -6,6 +6,7 @@ mod chart;
 mod choice;
 mod cost;
 mod fit;
+mod gallery;
 mod generate;
 mod listing;
 mod material;
@@ -32,6 +33,7 @@ pub use chart::ChartFlags;
 pub use choice::Choice;
 pub use cost::CostFlags;
 pub use fit::{End, FitFlags};
+pub use gallery::GalleryFlags;
 pub use generate::GenerateFlags;
 pub use listing::{
     EffectsCommand, EffectsFlags, MethodsCommand, MethodsFlags, TargetsCommand, TargetsFlags,
@@ -113,6 +115,8 @@ pub enum Command {
     Render(RenderFlags),
     /// Measure the error of methods in pictures of an object: of the angles that a camera sees
     SceneError(Box<SceneErrorFlags>),
+    /// Write a page that draws every effect live, beside the exact law, with the functions to copy
+    Gallery(GalleryFlags),
 }
 
 impl Cli {
@@ -152,6 +156,7 @@ impl Cli {
             Command::Chart(flags) => named.report(&flags.materials, &flags.report),
             Command::Stability(flags) => named.report(&flags.materials, &flags.report),
             Command::Reproduce(flags) => named.write(&flags.report.json),
+            Command::Gallery(flags) => named.inputs.extend(flags.materials.paths().map(Path::new)),
             Command::Render(flags) => {
                 let material = flags.material.iter().filter_map(MaterialName::path);
                 named.inputs.extend(material.map(Path::new));

@@ -7,6 +7,7 @@ mod chart;
 #[cfg(feature = "gpu")]
 mod cost;
 mod fit;
+mod gallery;
 mod generate;
 mod import;
 mod listing;
@@ -95,6 +96,7 @@ pub fn run(cli: &Cli, progress: Progress, announce: Announce) -> Result<Output, 
         }),
         Some(Command::Chart(flags)) => chart::run(flags, progress),
         Some(Command::Fit(flags)) => fit::run(flags, progress),
+        Some(Command::Gallery(flags)) => gallery::run(flags, progress),
         Some(Command::Stability(flags)) => stability::run(flags, progress),
         Some(Command::Reproduce(flags)) => reproduce::run(flags, progress),
         Some(Command::SceneError(flags)) => scene_error::run(flags, progress),

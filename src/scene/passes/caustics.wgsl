@@ -1,5 +1,6 @@
 // Photons along the light, through a body by the search in pictures of its front and back, onto a receiver; there as triangles, splats or
-// points. The camera is the light's; eye holds the receiver's depth, half the window's width, the photons of a row, and a step's begin.
+// points. The camera is the light's; eye holds the receiver's depth, half the window's width, the photons of a row, and a step's begin;
+// room_min.zw the widths of a sample and of a pixel.
 
 const STEPS = 8;
 const ALONG = vec3<f32>(0.0, 0.0, -1.0);
@@ -61,9 +62,9 @@ fn fs_photon(at: Cover) -> Pair {
     if (dot(out, normal_out) <= 0.0 || out.z >= -1e-3) {
         return nowhere;
     }
-    let t_entry = 1.0 - fresnel_interface_reflectance_scalar(ALONG, normal, eta);
-    let t_exit = fresnel_exit_transmittance_scalar(inside, normal_out, 1.0 / eta);
-    let energy = fresnel_photon_energy(vec3<f32>(t_entry), vec3<f32>(t_exit), cell() * cell());
+    let t_entry = 1.0 - reflectance(ALONG, normal);
+    let t_exit = transmittance_out(inside, normal_out, 1.0 / eta);
+    let energy = fresnel_photon_energy(t_entry, vec3<f32>(t_exit), cell() * cell());
     let land = exit + out * ((-frame.eye.x - exit.z) / out.z);
     return Pair(vec4<f32>(land, 1.0), vec4<f32>(energy, 1.0));
 }
@@ -97,7 +98,7 @@ fn vs_triangle(@builtin(vertex_index) index: u32) -> Lit {
         // A triangle has half of a photon's area, and the mean of three energies.
         flux += textureLoad(front_normals, texel, 0).rgb / 6.0;
     }
-    let pixel = frame.k.z;
+    let pixel = frame.room_min.z;
     let along = lands[1].xy - lands[0].xy;
     let beside = lands[2].xy - lands[0].xy;
     if (abs(along.x * beside.y - along.y * beside.x) < 2.0 * SMALLEST * pixel * pixel) {
@@ -130,7 +131,7 @@ fn vs_splat(@builtin(vertex_index) index: u32) -> Lit {
     if (land.a == 0.0) {
         return Lit(BESIDE, vec3<f32>(0.0), vec2<f32>(0.0));
     }
-    let offset = corner(index) * RADIUS * frame.k.w;
+    let offset = corner(index) * RADIUS * frame.room_min.w;
     return Lit(in_window(land.xy + offset), textureLoad(front_normals, photon(index), 0).rgb, offset);
 }
 
@@ -141,7 +142,7 @@ fn vs_point(@builtin(vertex_index) index: u32) -> Lit {
     if (land.a == 0.0) {
         return Lit(BESIDE, vec3<f32>(0.0), vec2<f32>(0.0));
     }
-    let pixel = frame.k.w;
+    let pixel = frame.room_min.w;
     let middle = (floor(land.xy / pixel) + 0.5) * pixel;
     let light = textureLoad(front_normals, photon(index), 0).rgb / (pixel * pixel);
     return Lit(in_window(middle + corner(index) * 0.5 * pixel), light, vec2<f32>(0.0));
@@ -154,5 +155,5 @@ fn fs_lit(lit: Lit) -> @location(0) vec4<f32> {
 
 @fragment
 fn fs_splat(lit: Lit) -> @location(0) vec4<f32> {
-    return vec4<f32>(lit.light * fresnel_splat_weight(lit.offset, RADIUS * frame.k.w), 1.0);
+    return vec4<f32>(lit.light * fresnel_splat_weight(lit.offset, RADIUS * frame.room_min.w), 1.0);
 }

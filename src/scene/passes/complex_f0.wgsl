@@ -4,7 +4,6 @@
 fn fs_front(front: Surface) -> @location(0) vec4<f32> {
     let incident = normalize(front.position - frame.eye.xyz);
     let normal = normalize(front.normal);
-    let f0 = fresnel_complex_f0(frame.n.xyz, frame.k.xyz);
-    let r = fresnel_interface_reflectance_schlick(incident, normal, f0);
+    let r = reflectance(incident, normal);
     return vec4<f32>(r * look_up(fresnel_reflected(incident, normal)), FOUND);
 }

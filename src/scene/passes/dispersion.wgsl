@@ -5,7 +5,7 @@ fn fs_front(front: Surface) -> @location(0) vec4<f32> {
     let incident = normalize(front.position - frame.eye.xyz);
     let normal = normalize(front.normal);
     let etas = frame.n.xyz;
-    let r = fresnel_interface_reflectance_scalar(incident, normal, etas.y);
+    let r = reflectance(incident, normal);
     let refraction = vec3<f32>(
         look_up(fresnel_refracted_red(incident, normal, etas)).r,
         look_up(fresnel_refracted_green(incident, normal, etas)).g,

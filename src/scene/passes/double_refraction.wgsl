@@ -1,14 +1,4 @@
-// A transparent body: a picture of its back, and a search in it for where each ray leaves.
-
-const STEPS = 4;
-
-@group(0) @binding(4) var positions: texture_2d<f32>;
-@group(0) @binding(5) var normals: texture_2d<f32>;
-
-struct Back {
-    @location(0) position: vec4<f32>,
-    @location(1) normal: vec4<f32>,
-}
+// A transparent body, behind the text of its second surface.
 
 @fragment
 fn fs_back(back: Surface) -> Back {
@@ -18,31 +8,5 @@ fn fs_back(back: Surface) -> Back {
 @fragment
 fn fs_front(front: Surface) -> @location(0) vec4<f32> {
     let incident = normalize(front.position - frame.eye.xyz);
-    let normal = normalize(front.normal);
-    let eta = frame.n.y;
-    let r = fresnel_interface_reflectance_scalar(incident, normal, eta);
-    let inside = fresnel_refracted(incident, normal, eta);
-    var distance = frame.eye.w;
-    for (var i = 0; i < STEPS; i += 1) {
-        distance = fresnel_interior_search_step(front.position, inside, distance, frame.view_projection, UV_SCALE_BIAS, positions, clamped);
-    }
-    let exit = front.position + inside * abs(distance);
-    let uv = fresnel_planar_uv(exit, frame.view_projection, UV_SCALE_BIAS).xy;
-    let seen = textureSampleLevel(normals, clamped, uv, 0.0);
-    var out = inside;
-    var t = 1.0;
-    var what = MISSED;
-    if (distance > 0.0 && seen.a > 0.0) {
-        let normal_out = normalize(seen.xyz);
-        out = fresnel_exit_direction(inside, normal_out, 1.0 / eta);
-        t = fresnel_exit_transmittance_scalar(inside, normal_out, 1.0 / eta);
-        what = FOUND;
-        if (dot(out, normal_out) < 0.0) {
-            // Reflected totally: all of it goes on, and is taken as outside.
-            t = 1.0;
-            what = TOTAL;
-        }
-    }
-    let reflection = look_up(fresnel_reflected(incident, normal));
-    return vec4<f32>(r * reflection + (1.0 - r) * t * look_up(out), what);
+    return seen_through(front.position, incident, normalize(front.normal));
 }

@@ -33,7 +33,7 @@ fn through(entry: vec3<f32>, inside: vec3<f32>, eta: f32) -> vec4<f32> {
     if (dot(out, normal_out) < 0.0) {
         return vec4<f32>(look_up(out), TOTAL);
     }
-    let t = fresnel_exit_transmittance_scalar(inside, normal_out, 1.0 / eta);
+    let t = transmittance_out(inside, normal_out, 1.0 / eta);
     return vec4<f32>(t * look_up(out), FOUND);
 }
 
@@ -41,7 +41,7 @@ fn through(entry: vec3<f32>, inside: vec3<f32>, eta: f32) -> vec4<f32> {
 fn fs_front(front: Surface) -> @location(0) vec4<f32> {
     let incident = normalize(front.position - frame.eye.xyz);
     let normal = normalize(front.normal);
-    let r = fresnel_interface_reflectance_scalar(incident, normal, frame.n.y);
+    let r = reflectance(incident, normal);
     var refraction = vec3<f32>(0.0);
     var what = FOUND;
     for (var i = 0; i < COUNT; i += 1) {

@@ -1,5 +1,6 @@
 // What every pass sees: the frame, the environment, the entry points for vertices.
 
+// Matrices and the eye are those of the pass's view.
 struct Frame {
     view_projection: mat4x4<f32>,
     inverse: mat4x4<f32>,
@@ -11,6 +12,13 @@ struct Frame {
     room_min: vec4<f32>,
     room_max: vec4<f32>,
     room_centre: vec4<f32>,
+    // of the eye and of the eye mirrored in y = 0, in pictures with a margin
+    margin: mat4x4<f32>,
+    mirrored: mat4x4<f32>,
+    // of the body's material, of red, green and blue, per unit of length; w: its roughness
+    absorption: vec4<f32>,
+    // of the method, in its order
+    inputs: array<vec4<f32>, 8>,
 }
 
 struct Surface {
@@ -39,6 +47,7 @@ const SKY = 0.0;
 const FOUND = 1.0;
 const MISSED = 2.0;
 const TOTAL = 3.0;
+const LEAKED = 4.0;
 
 @vertex
 fn vs_body(

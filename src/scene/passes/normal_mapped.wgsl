@@ -8,6 +8,6 @@ fn fs_front(front: Surface) -> @location(0) vec4<f32> {
     let mapped = textureSampleLevel(relief, around, front.uv, 0.0).xyz;
     let tangent = normalize(front.tangent.xyz);
     let normal = fresnel_normal_to_world(mapped, tangent, front.tangent.w, normalize(front.normal));
-    let r = fresnel_interface_reflectance_conductor_exact(incident, normal, frame.n.xyz, frame.k.xyz);
+    let r = reflectance(incident, normal);
     return vec4<f32>(r * look_up(fresnel_reflected(incident, normal)), FOUND);
 }

@@ -18,6 +18,6 @@ fn fs_room(at: Cover) -> @location(0) vec4<f32> {
 fn fs_front(front: Surface) -> @location(0) vec4<f32> {
     let incident = normalize(front.position - frame.eye.xyz);
     let normal = normalize(front.normal);
-    let r = fresnel_interface_reflectance_conductor_exact(incident, normal, frame.n.xyz, frame.k.xyz);
+    let r = reflectance(incident, normal);
     return vec4<f32>(r * seen_from(front.position, fresnel_reflected(incident, normal)), FOUND);
 }

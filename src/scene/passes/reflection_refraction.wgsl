@@ -5,7 +5,7 @@ fn fs_front(front: Surface) -> @location(0) vec4<f32> {
     let incident = normalize(front.position - frame.eye.xyz);
     let normal = normalize(front.normal);
     let eta = frame.n.y;
-    let r = fresnel_interface_reflectance_scalar(incident, normal, eta);
+    let r = reflectance(incident, normal);
     let reflection = look_up(fresnel_reflected(incident, normal));
     let refraction = look_up(fresnel_refracted(incident, normal, eta));
     return vec4<f32>(r * reflection + (1.0 - r) * refraction, FOUND);

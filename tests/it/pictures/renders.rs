@@ -39,6 +39,18 @@ pub static FACTS: &[Fact] = &[
         holds: one_surface_is_upright,
     },
     Fact {
+        pictures: "*renders/dispersion_*.png",
+        says: "real glass hardly colours a grey floor; indices far apart fill it with colours",
+        holds: |shown| {
+            let read = Panels::new(shown);
+            let is_invented = shown.file.contains("invented");
+            for panel in [0, 1] {
+                let chroma = read.chroma(panel, [60, 196, 60, 120]);
+                assert_eq!(chroma > 30.0, is_invented, "{chroma}");
+            }
+        },
+    },
+    Fact {
         pictures: "*renders/complex_f0.png",
         says: "gold reflects red more than green, and green more than blue",
         holds: |shown| {
@@ -79,6 +91,39 @@ pub static FACTS: &[Fact] = &[
                 let light = [0, 20, 40, 80, 120].map(|far| read.mean(panel, ring(far))[0]);
                 assert!(light[0] > 240.0, "{light:?}");
                 assert!(light.is_sorted_by(|near, far| near > far), "{light:?}");
+            }
+        },
+    },
+    Fact {
+        pictures: "*renders/water.png",
+        says: "water takes red from light: tiles under it are blue, the stones above are not",
+        holds: |shown| {
+            let read = Panels::new(shown);
+            for panel in [0, 1] {
+                assert!(read.blueness(panel, BOTTOM) > 50.0);
+                assert!(read.blueness(panel, [120, 130, 84, 90]) < -10.0);
+            }
+            for part in [BOTTOM, [40, 80, 190, 230], [180, 220, 190, 230]] {
+                let [drawn, truth] = [0, 1].map(|panel| read.mean(panel, part));
+                let apart = [0, 1, 2].map(|i| f64::abs(drawn[i] - truth[i]));
+                assert!(
+                    apart.iter().all(|apart| *apart < 4.0),
+                    "{drawn:?} {truth:?}"
+                );
+            }
+        },
+    },
+    Fact {
+        pictures: "*renders/stained_glass.png",
+        says: "the hub is gold, the wall lets nothing through, and where the sun stands behind the glass it is white",
+        holds: |shown| {
+            let read = Panels::new(shown);
+            for panel in [0, 1] {
+                let [red, green, blue] = read.mean(panel, [122, 134, 108, 118]);
+                assert!(red > green + 5.0 && green > blue + 30.0);
+                let corner = read.mean(panel, [0, 30, 0, 30]);
+                assert!(corner[0] < 15.0, "{corner:?}");
+                assert!(read.brightest(panel) > 240.0);
             }
         },
     },
@@ -139,6 +184,14 @@ impl Panels {
     fn blueness(&self, panel: usize, part: Part) -> f64 {
         let [red, _, blue] = self.mean(panel, part);
         blue - red
+    }
+
+    /// The mean distance of the largest channel from the smallest.
+    fn chroma(&self, panel: usize, part: Part) -> f64 {
+        let colours = self.colours(panel, part);
+        let spread =
+            |[red, green, blue]: &[f64; 3]| red.max(*green).max(*blue) - red.min(*green).min(*blue);
+        colours.iter().map(spread).sum::<f64>() / colours.len() as f64
     }
 
     fn brightest(&self, panel: usize) -> f64 {

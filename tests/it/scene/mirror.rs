@@ -45,7 +45,7 @@ fn rays_from_inside_a_room_meet_the_wall_ahead() {
 /// The normal map turns normals, and what a hammered ball shows is what its truth shows.
 #[test]
 fn dents_turn_the_mirror_and_not_the_world() {
-    let relief = Relief::hammered();
+    let relief = Relief::hammered(0.35);
     let mut most: f64 = 1.0;
     for i in 0..200 {
         let angle = f64::from(i) * 0.7;

@@ -6,6 +6,8 @@ mod glass;
 mod mirror;
 mod one_surface;
 mod recorded;
+mod water;
+mod window;
 
 use fresnel_gen::gpu::{Device, DeviceFault, Wanted};
 use fresnel_gen::scene::{
@@ -58,11 +60,22 @@ fn pictured_in(
     device: &Device,
     name: &str,
     glass: &Glass,
+    environment: (&Environment, bool),
+    size: u32,
+) -> Picture {
+    pictured_row(device, row(name), glass, environment, size)
+}
+
+/// The same of any row.
+fn pictured_row(
+    device: &Device,
+    row: &'static RenderRow,
+    glass: &Glass,
     (environment, is_ldr): (&Environment, bool),
     size: u32,
 ) -> Picture {
     let order = Order {
-        row: row(name),
+        row,
         glass,
         environment,
         is_ldr,

@@ -10,7 +10,7 @@ use super::{device, pictured};
 use crate::{bless, records};
 
 const SIZE: u32 = 128;
-const HEAD: [&str; 11] = [
+const HEAD: [&str; 12] = [
     "name",
     "n",
     "hits",
@@ -22,10 +22,11 @@ const HEAD: [&str; 11] = [
     "error_p99",
     "own_mean",
     "own_p99",
+    "leaks",
 ];
 
-/// A line of the record: a picture, its index, and the figures in the order of the head.
-type Line = (String, String, [f64; 9]);
+/// A line of the record: a picture, its index, the figures in the order of the head, and leaks where there is water.
+type Line = (String, String, [f64; 9], Option<u64>);
 
 /// Pictures with other indices beside those of their materials.
 const MORE: [(&str, f64); 4] = [
@@ -62,7 +63,7 @@ fn figures_of_pictures_are_the_recorded_ones() {
                 row.own_error.mean,
                 row.own_error.p99,
             ];
-            (name.to_owned(), format!("{:.4}", row.n), figures)
+            (name.to_owned(), format!("{:.4}", row.n), figures, row.leaks)
         })
         .collect();
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("data/records/renders.csv");
@@ -80,19 +81,20 @@ fn figures_of_pictures_are_the_recorded_ones() {
 }
 
 fn written(measured: &[Line]) -> String {
-    let cells = |(name, n, figures): &Line| -> [String; 11] {
+    let cells = |(name, n, figures, leaks): &Line| -> [String; 12] {
         let figures = figures.iter().map(|figure| format!("{figure:.4}"));
         let cells: Vec<String> = [name.clone(), n.clone()]
             .into_iter()
             .chain(figures)
+            .chain([leaks.map_or_else(String::new, |leaks| leaks.to_string())])
             .collect();
         cells.try_into().unwrap()
     };
-    let lines: Vec<[String; 11]> = measured.iter().map(cells).collect();
+    let lines: Vec<[String; 12]> = measured.iter().map(cells).collect();
     records::text(HEAD, &lines)
 }
 
-/// Shares within .003, errors within a twentieth: drivers round in their own ways.
+/// Shares within .003, errors within a twentieth: drivers round in their own ways. Leaks are counted.
 fn faults(measured: &[Line], recorded: &[Line]) -> String {
     if measured.len() != recorded.len() {
         return format!("{} pictures, {} recorded\n", measured.len(), recorded.len());
@@ -103,7 +105,7 @@ fn faults(measured: &[Line], recorded: &[Line]) -> String {
             let within = if i < 5 { 0.003 } else { 0.05 + 0.05 * was.2[i] };
             (is.2[i] - was.2[i]).abs() > within
         });
-        if (&is.0, &is.1) != (&was.0, &was.1) || differs {
+        if (&is.0, &is.1, is.3) != (&was.0, &was.1, was.3) || differs {
             faults += &format!("measured {is:?}\nrecorded {was:?}\n");
         }
     }

@@ -1,0 +1,291 @@
+//! The table of what is drawn: a row an effect, with its passes, what they read and write, and its scene.
+
+use super::row::{BodyName, PassRow, Place, RenderRow, Slot, View};
+use super::trace::Paths;
+
+/// The sky behind all.
+const SKY: PassRow = PassRow {
+    fragment: "fs_sky",
+    place: Place::Everywhere,
+    view: View::Eye,
+    writes: &[Slot::Colour],
+    reads: &[],
+};
+/// The back of the body, for the search.
+const BACK: PassRow = PassRow {
+    fragment: "fs_back",
+    place: Place::Back,
+    writes: &[Slot::BackPositions, Slot::BackNormals],
+    ..SKY
+};
+/// The body over the sky, seen through its back.
+const THROUGH: PassRow = PassRow {
+    reads: &[Slot::BackPositions, Slot::BackNormals],
+    ..FRONT
+};
+
+/// The body over the sky, by its front alone.
+const FRONT: PassRow = PassRow {
+    fragment: "fs_front",
+    place: Place::Front,
+    ..SKY
+};
+
+const FROM_THE_SIDE: [f64; 3] = [0.0, 0.75, 2.9];
+const FROM_ABOVE: [f64; 3] = [0.0, 2.6, 3.0];
+
+const OVER_THE_POOL: [f64; 3] = [0.0, 1.2, 4.0];
+const BEFORE_THE_WINDOW: [f64; 3] = [1.495, -1.3, -1.329];
+
+/// Solid things mirrored in the water under the mirrored sky; what lies below it; both as the eye sees them; the water over that.
+const WATER: [PassRow; 6] = [
+    PassRow {
+        fragment: "fs_mirror_sky",
+        view: View::Mirrored,
+        writes: &[Slot::Mirror, Slot::MirrorPositions],
+        ..SKY
+    },
+    PassRow {
+        fragment: "fs_mirror",
+        view: View::Mirrored,
+        writes: &[Slot::Mirror, Slot::MirrorPositions],
+        reads: &[Slot::Paint],
+        ..FRONT
+    },
+    PassRow {
+        fragment: "fs_below",
+        view: View::Margin,
+        writes: &[Slot::Below, Slot::BelowPositions],
+        reads: &[Slot::Paint],
+        ..FRONT
+    },
+    SKY,
+    PassRow {
+        fragment: "fs_solid",
+        reads: &[Slot::Paint],
+        ..FRONT
+    },
+    PassRow {
+        fragment: "fs_water",
+        place: Place::Water,
+        reads: &[
+            Slot::Below,
+            Slot::BelowPositions,
+            Slot::Mirror,
+            Slot::MirrorPositions,
+            Slot::Relief,
+        ],
+        ..SKY
+    },
+];
+
+/// A ball of glass under the sky, seen from the side.
+const BALL: RenderRow = RenderRow {
+    name: "",
+    summary: "",
+    effects: &[],
+    method: "dielectric_exact",
+    text: "",
+    passes: &[SKY, FRONT],
+    body: BodyName::Ball,
+    material: "bk7",
+    disperses: false,
+    own_paths: Paths::TwoSurfaces,
+    true_paths: Paths::All,
+    eye: FROM_THE_SIDE,
+    in_room: false,
+    dents: None,
+    receiver: None,
+    wrong: "",
+};
+
+/// A ball of a metal, which light does not enter.
+const METAL: RenderRow = RenderRow {
+    method: "conductor_exact",
+    disperses: true,
+    own_paths: Paths::Mirror,
+    true_paths: Paths::Mirror,
+    ..BALL
+};
+
+/// The rows.
+pub static ALL: &[RenderRow] = &[
+    RenderRow {
+        name: "double_refraction",
+        summary: "A ball of glass: the search of four steps finds where rays leave",
+        effects: &["interface", "interior", "water"],
+        text: concat!(
+            include_str!("passes/second_surface.wgsl"),
+            include_str!("passes/double_refraction.wgsl")
+        ),
+        passes: &[SKY, BACK, THROUGH],
+        wrong: "light that is reflected inside is missing; the rim",
+        ..BALL
+    },
+    RenderRow {
+        name: "double_refraction_gem",
+        summary: "A brilliant of diamond, which reflects most rays totally from inside",
+        effects: &["interface", "interior", "water"],
+        text: concat!(
+            include_str!("passes/second_surface.wgsl"),
+            include_str!("passes/double_refraction.wgsl")
+        ),
+        passes: &[SKY, BACK, THROUGH],
+        body: BodyName::Gem,
+        material: "diamond",
+        eye: FROM_ABOVE,
+        wrong: "rays that are reflected totally leave after one reflection; edges between facets",
+        ..BALL
+    },
+    RenderRow {
+        name: "double_refraction_normal_mapped",
+        summary: "A hammered ball of glass: a normal map turns the normals of both surfaces",
+        effects: &["interface", "interior", "water", "normal_mapping"],
+        text: concat!(
+            include_str!("passes/second_surface.wgsl"),
+            include_str!("passes/double_refraction_normal_mapped.wgsl")
+        ),
+        passes: &[
+            SKY,
+            PassRow {
+                reads: &[Slot::Relief],
+                ..BACK
+            },
+            PassRow {
+                reads: &[Slot::BackPositions, Slot::BackNormals, Slot::Relief],
+                ..FRONT
+            },
+        ],
+        dents: Some(0.12),
+        wrong: "light that is reflected inside is missing; dents do not hide each other, here and in the truth",
+        ..BALL
+    },
+    RenderRow {
+        name: "reflection_refraction",
+        summary: "A ball of glass by one look-up along the reflected ray and one along the refracted",
+        effects: &["interface"],
+        text: include_str!("passes/reflection_refraction.wgsl"),
+        own_paths: Paths::OneSurface,
+        wrong: "the second surface is missing: the world stands upright where it should be upside down",
+        ..BALL
+    },
+    RenderRow {
+        name: "caustics",
+        summary: "Light that a ball of glass gathers on a receiver: 256 x 256 photons as triangles, while the light moves",
+        effects: &["interface", "interior", "water", "caustics"],
+        text: include_str!("passes/caustics.wgsl"),
+        passes: &[],
+        true_paths: Paths::TwoSurfaces,
+        eye: FROM_ABOVE,
+        receiver: Some([1.2, 1.0]),
+        wrong: "the edge, where photons fold over each other; light that is reflected inside",
+        ..BALL
+    },
+    RenderRow {
+        name: "dispersion",
+        summary: "A ball of dense flint glass by one refracted ray for each of red, green and blue",
+        effects: &["interface", "dispersion"],
+        text: include_str!("passes/dispersion.wgsl"),
+        material: "sf11",
+        disperses: true,
+        own_paths: Paths::OneSurface,
+        wrong: "the second surface is missing, and three samples of the spectrum make three edges",
+        ..BALL
+    },
+    RenderRow {
+        name: "double_refraction_dispersion",
+        summary: "A ball of dense flint glass: the search for each of eight samples of the spectrum",
+        effects: &["interface", "interior", "water", "dispersion"],
+        text: include_str!("passes/double_refraction_dispersion.wgsl"),
+        passes: &[SKY, BACK, THROUGH],
+        material: "sf11",
+        disperses: true,
+        wrong: "light that is reflected inside is missing; three indices stand for a spectrum",
+        ..BALL
+    },
+    RenderRow {
+        name: "complex_f0",
+        summary: "A ball of gold by Schlick's approximation, F0 from its complex index",
+        effects: &["interface", "complex_f0"],
+        method: "schlick",
+        text: include_str!("passes/complex_f0.wgsl"),
+        material: "gold",
+        wrong: "Schlick's approximation, near the rim",
+        ..METAL
+    },
+    RenderRow {
+        name: "normal_mapped",
+        summary: "A hammered ball of silver by a normal map",
+        effects: &["interface", "normal_mapping"],
+        text: include_str!("passes/normal_mapped.wgsl"),
+        passes: &[
+            SKY,
+            PassRow {
+                reads: &[Slot::Relief],
+                ..FRONT
+            },
+        ],
+        material: "silver",
+        dents: Some(0.35),
+        wrong: "dents cast no shadow and do not mirror each other, here and in the truth",
+        ..METAL
+    },
+    RenderRow {
+        name: "parallax_corrected",
+        summary: "A ball of silver in a room, by one cube map that was taken beside it",
+        effects: &["interface", "parallax"],
+        text: include_str!("passes/parallax_corrected.wgsl"),
+        passes: &[
+            PassRow {
+                fragment: "fs_room",
+                reads: &[Slot::Room],
+                ..SKY
+            },
+            PassRow {
+                reads: &[Slot::Room],
+                ..FRONT
+            },
+        ],
+        material: "silver",
+        in_room: true,
+        wrong: "texels of the cube map; what stands in the room would be drawn on its walls",
+        ..METAL
+    },
+    RenderRow {
+        name: "water",
+        summary: "A pool with waves: a mirrored and clipped picture, and a masked one of what lies below",
+        effects: &["interface", "interior", "water", "normal_mapping"],
+        text: include_str!("passes/water.wgsl"),
+        passes: &WATER,
+        body: BodyName::Pool,
+        material: "water",
+        own_paths: Paths::OneSurface,
+        true_paths: Paths::OneSurface,
+        eye: OVER_THE_POOL,
+        wrong: "a mirrored picture bent on the screen is not what waves mirror; what that picture, or that of the floor, does not show is missing",
+        ..BALL
+    },
+    RenderRow {
+        name: "stained_glass",
+        summary: "A rose window: tinted panes with a normal map, before the sky",
+        effects: &["interface", "interior", "normal_mapping"],
+        text: include_str!("passes/stained_glass.wgsl"),
+        passes: &[
+            SKY,
+            PassRow {
+                reads: &[Slot::Paint, Slot::Relief],
+                ..FRONT
+            },
+        ],
+        body: BodyName::Window,
+        material: "soda_lime_glass",
+        eye: BEFORE_THE_WINDOW,
+        wrong: "glass has no thickness: beside leads; light that is reflected between its surfaces is missing",
+        ..BALL
+    },
+];
+
+/// The row of this name.
+pub fn find(name: &str) -> Option<&'static RenderRow> {
+    ALL.iter().find(|row| row.name == name)
+}

@@ -1,0 +1,183 @@
+//! The page in a real browser without a window, by WebGL 2 and by WebGPU.
+
+use base64::Engine as _;
+use base64::prelude::BASE64_STANDARD;
+use fresnel_gen::gallery::rows;
+use glam::DVec3;
+use serde_json::{Value, json};
+
+use super::page;
+use super::pixels::Held;
+use crate::cli::Place;
+use crate::compilers::Tool;
+
+const CHROMIUM: Tool = Tool {
+    command: "chromium",
+    package: "chromium",
+};
+
+/// Stands in the page before anything of it runs, and hears what goes wrong.
+const EARS: &str = r#"<script>
+const faults = [];
+addEventListener("error", event => faults.push(event.message));
+addEventListener("unhandledrejection", event => faults.push(String(event.reason)));
+addEventListener("securitypolicyviolation", event => faults.push("it asks for " + event.blockedURI));
+for (const kind of ["error", "warn"]) console[kind] = (...words) => faults.push(words.join(" "));
+</script><title>"#;
+const HANDS: &str = include_str!("hands.js");
+
+/// What the hands saw in the page.
+fn told(backend: &str) -> Value {
+    let place = Place::new();
+    let hands = format!("<script>{HANDS}</script></html>");
+    let page = page()
+        .replacen("<title>", EARS, 1)
+        .replace("</html>", &hands);
+    place.put("tried.html", page);
+    let profile = format!("--user-data-dir={}", place.path("profile").display());
+    let page = format!(
+        "file://{}?backend={backend}",
+        place.path("tried.html").display()
+    );
+    let dom = CHROMIUM.run([
+        "--headless",
+        "--no-sandbox",
+        "--no-first-run",
+        "--disable-quic",
+        "--disable-sync",
+        "--disable-background-networking",
+        "--disable-component-update",
+        "--use-angle=swiftshader",
+        "--enable-unsafe-swiftshader",
+        "--enable-unsafe-webgpu",
+        "--use-webgpu-adapter=swiftshader",
+        "--enable-features=Vulkan",
+        "--use-vulkan=swiftshader",
+        &profile,
+        "--dump-dom",
+        &page,
+    ]);
+    let dom = dom.expect("the page is rendered");
+    let told = dom
+        .split("<pre id=\"told\">")
+        .nth(1)
+        .expect("the script came to its end");
+    let told = told.split('<').next().unwrap();
+    serde_json::from_slice(&BASE64_STANDARD.decode(told).unwrap()).unwrap()
+}
+
+fn pixels(picture: &Value) -> Vec<DVec3> {
+    let bytes = BASE64_STANDARD.decode(picture.as_str().unwrap()).unwrap();
+    let numbers = bytes
+        .chunks_exact(4)
+        .map(|four| f32::from_le_bytes(four.try_into().unwrap()));
+    let numbers: Vec<f64> = numbers.map(f64::from).collect();
+    numbers.chunks_exact(3).map(DVec3::from_slice).collect()
+}
+
+/// What a browser drew, by the backend's name.
+#[track_caller]
+fn every_row_is_drawn(told: &Value, backend: &str) {
+    assert_eq!(told["faults"], json!([]), "{}", told["faults"]);
+    assert_eq!(told["asked"], json!([]));
+    assert_eq!(told["drawn_by"], backend);
+    let mut held = Held::new();
+    let mut faults = String::new();
+    for row in rows() {
+        let seen = &told["rows"][row.name];
+        let status = seen["status"].as_str().expect("the row was shown");
+        let (name, material, method) = (row.name, row.material, row.method);
+        let begins = format!("{name}, {material} by {method}, drawn by {backend}.");
+        assert!(status.starts_with(&begins), "{status}");
+        let is_exact = method.ends_with("_exact");
+        assert_eq!(status.ends_with("mean 0, largest 0."), is_exact, "{status}");
+        if let Some(fault) = held.fault(row, &pixels(&seen["picture"])) {
+            faults += &format!("{backend}: {name}: {fault}\n");
+        }
+    }
+    assert!(faults.is_empty(), "{faults}");
+}
+
+#[test]
+fn webgpu_draws_every_row() {
+    if CHROMIUM.is_here("the gallery by WebGPU") {
+        every_row_is_drawn(&told("webgpu"), "WebGPU");
+    }
+}
+
+#[test]
+fn webgl_draws_every_row_and_follows_the_reader() {
+    if !CHROMIUM.is_here("the gallery by WebGL 2") {
+        return;
+    }
+    let told = told("webgl2");
+    every_row_is_drawn(&told, "WebGL 2");
+    changes_are_seen(&told["changes"]);
+    figures_are_recorded(&told);
+    everything_is_reached(&told);
+}
+
+/// Each step of the reader changes pixels and what is said.
+#[track_caller]
+fn changes_are_seen(changes: &Value) {
+    let steps = [
+        "gold_schlick",
+        "gold_exact",
+        "silver_exact",
+        "own_exact",
+        "own_k",
+        "turned",
+        "raised",
+        "rough",
+        "rougher",
+    ];
+    for pair in steps.windows(2) {
+        let [one, other] = [pair[0], pair[1]].map(|name| &changes[name]);
+        assert_ne!(one["picture"], other["picture"], "{pair:?}");
+    }
+    let status = |name: &str| changes[name]["status"].as_str().unwrap().to_owned();
+    assert!(!status("gold_schlick").ends_with("largest 0."));
+    assert!(status("gold_exact").ends_with("mean 0, largest 0."));
+    assert!(status("silver_exact").contains("silver by conductor_exact"));
+    assert!(status("own_exact").contains("an index of your own"));
+}
+
+/// Errors and costs are those of the chart.
+#[track_caller]
+fn figures_are_recorded(told: &Value) {
+    let place = Place::new();
+    let ran = place.done("chart --material gold --show gold --gpu rdna2 --json -");
+    let report: Value = serde_json::from_str(&ran.out).unwrap();
+    let mut rows = report["rows"].as_array().unwrap().iter();
+    let recorded = rows.find(|row| row["method"] == "schlick" && row["inputs"] == "intended");
+    let recorded = recorded.expect("the chart has it");
+    let number = |cell: &Value| cell.as_str().unwrap().parse::<f64>().unwrap();
+    let (error, cost) = (number(&told["errors"][0]), number(&told["costs"][0]));
+    let want = recorded["value"].as_f64().unwrap();
+    assert!((error / want - 1.0).abs() < 0.005, "{error} {want}");
+    assert_eq!(cost, recorded["cost"].as_f64().unwrap());
+}
+
+/// The page is used by keyboard and read by voice.
+#[track_caller]
+fn everything_is_reached(told: &Value) {
+    assert!(told["controls"].as_u64().unwrap() > 15, "{told}");
+    assert_eq!(told["unlabelled"], json!([]));
+    assert_eq!(told["unreached"], json!([]));
+    assert_eq!(told["live"], json!(["status", "copied"]));
+    assert_eq!(told["own"], "index of the sliders");
+    assert_ne!(told["before"], told["after"]);
+    for way in ["copied", "selected"] {
+        assert_eq!(told[way][0], true, "{way}");
+        assert!(
+            told[way][1].as_str().unwrap().ends_with("is copied."),
+            "{}",
+            told[way]
+        );
+    }
+    let head = format!(" {}(", told["gles"][0].as_str().unwrap());
+    let text = told["gles"][1].as_str().unwrap();
+    assert!(text.contains(&head) && text.contains("highp"), "{text}");
+    let label = told["rows"]["complex_f0"]["label"].as_str().unwrap();
+    assert!(label.contains("Three panels: by schlick; by the exact law, conductor_exact"));
+}
