@@ -151,7 +151,7 @@ fn committed_pictures_show_what_a_physicist_knows() {
 }
 
 /// Which commands have a flag that takes a picture or a folder, and what draws them here.
-const DRAW: [(&str, &str); 10] = [
+const DRAW: [(&str, &str); 11] = [
     ("", "tables, as `bake` has them: shaders-generated/lut"),
     (
         "audit",
@@ -166,6 +166,10 @@ const DRAW: [(&str, &str); 10] = [
         "chart::every_function_stands_at_its_error_and_cost",
     ),
     ("cost", "chart::bars_are_as_long_as_what_they_stand_for"),
+    (
+        "gallery",
+        "a page without a picture of its own: the test `gallery`",
+    ),
     (
         "materials show",
         "sheet::sheets_show_what_is_known_of_materials",
