@@ -17,6 +17,9 @@ const LARGEST_SHADER: u64 = 1 << 20;
 /// A picture has at most this many bytes: 8192 x 4096 pixels of four floats fit.
 const LARGEST_PICTURE: u64 = 1 << 30;
 
+/// A mesh has at most this many bytes: three million triangles fit.
+const LARGEST_MESH: u64 = 256 << 20;
+
 /// Whether a name means a file: names of the catalogue have neither dots nor slashes.
 pub fn is_path(name: &str) -> bool {
     name.contains(['.', '/', '\\'])
@@ -27,7 +30,7 @@ pub fn is_path(name: &str) -> bool {
 /// # Errors
 /// The file is not there, not an ordinary file, too large, or not UTF-8.
 pub fn read(name: &str) -> Result<String, Error> {
-    read_within(LARGEST, name)
+    read_within(LARGEST, Path::new(name))
 }
 
 /// The text of a file with a function of a user's.
@@ -35,12 +38,20 @@ pub fn read(name: &str) -> Result<String, Error> {
 /// # Errors
 /// The file is not there, not an ordinary file, too large, or not UTF-8.
 pub fn shader(name: &str) -> Result<String, Error> {
-    let text = read_within(LARGEST_SHADER, name)?;
+    let text = read_within(LARGEST_SHADER, Path::new(name))?;
     // Some editors begin a file with a mark of its bytes' order.
     Ok(text
         .strip_prefix('\u{feff}')
         .map(str::to_owned)
         .unwrap_or(text))
+}
+
+/// The text of a mesh that a user names.
+///
+/// # Errors
+/// The file is not there, not an ordinary file, too large, or not UTF-8.
+pub fn mesh(path: &Path) -> Result<String, Error> {
+    read_within(LARGEST_MESH, path)
 }
 
 /// The bytes of a picture that a user names.
@@ -69,14 +80,14 @@ fn bytes_within(largest: u64, path: &Path) -> Result<Vec<u8>, Error> {
     fs::read(path).map_err(fail)
 }
 
-fn read_within(largest: u64, name: &str) -> Result<String, Error> {
-    let bytes = bytes_within(largest, Path::new(name))?;
+fn read_within(largest: u64, path: &Path) -> Result<String, Error> {
+    let bytes = bytes_within(largest, path)?;
     String::from_utf8(bytes).map_err(|error| {
         let good = &error.as_bytes()[..error.utf8_error().valid_up_to()];
         let line = good.iter().filter(|byte| **byte == b'\n').count() + 1;
         let column = good.iter().rev().take_while(|byte| **byte != b'\n').count() + 1;
         Error::Material(FileFault {
-            file: name.to_owned(),
+            file: path.display().to_string(),
             line,
             column,
             what: "the file is not UTF-8 text".to_owned(),

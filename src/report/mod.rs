@@ -23,6 +23,8 @@ pub mod png;
 #[cfg(all(feature = "cli", feature = "gpu"))]
 pub mod render;
 pub mod reproduce;
+#[cfg(feature = "cli")]
+pub mod scene_error;
 pub mod search;
 pub mod stability;
 pub mod survey;

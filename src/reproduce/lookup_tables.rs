@@ -1,5 +1,5 @@
-//! Tables 4 and 5, the column of the lookup table: mean relative error of the filtered lookup, by the thesis's measure
-//! of functions (section 5.2).
+//! Tables 4 and 5: the rendered rows, and below them the column of the lookup table once more: mean relative error of the
+//! filtered lookup, by the thesis's measure of functions (section 5.2).
 //!
 //! The thesis measured its tables in rendered pictures only, of a cube and of a sculpture; the smaller of the two
 //! figures stands beside ours. Both are means of relative errors, but the pictures' angles are those that a camera saw.
@@ -13,7 +13,7 @@ use crate::reference::ReferenceCurve;
 
 use super::comparison::{ComparisonRow, ComparisonVerdict, Figure};
 use super::meter::Meter;
-use super::{ThesisSection, specialised, thesis};
+use super::{ThesisSection, rendered, specialised, thesis};
 
 const METALS: &str = "table4_rendered_error_metals_percent";
 const DIELECTRICS: &str = "table5_rendered_error_dielectrics_percent";
@@ -57,7 +57,7 @@ pub fn dielectrics(angles: usize, meter: &mut Meter) -> ThesisSection {
 
 fn section(
     table: &'static str,
-    record: &str,
+    record: &'static str,
     names: [&str; 2],
     angles: usize,
     meter: &mut Meter,
@@ -65,12 +65,16 @@ fn section(
     let number = table.trim_start_matches("table");
     let mut rows = Vec::new();
     for name in names {
+        rows.extend(rendered::rows(table, record, name, meter));
+    }
+    for name in names {
         let material = ThesisMaterial::new(table, record, name);
         rows.extend(material.material_rows(angles, meter));
     }
     ThesisSection {
         title: format!(
-            "Table {number}: error of a lookup table, mean over {angles} angles and three channels"
+            "Table {number}: error in pictures, mean over pixels, frames and three channels; then error of a lookup table, mean \
+             over {angles} angles and three channels"
         ),
         rows,
     }

@@ -40,6 +40,7 @@ mod pages;
 mod physics;
 #[cfg(feature = "pictures")]
 mod pictures;
+mod raster;
 mod readme;
 mod records;
 mod reproduce;

@@ -181,6 +181,53 @@ fn tables_of_256_texels_beat_those_of_the_thesis() {
     assert!(!LOOKUPS.has_findings());
 }
 
+/// Tables 4 and 5 as pictures: the figures of a prototype that shares no code with this one.
+#[test]
+fn rendered_errors_come_out() {
+    let ours = |name: &str, column: &str| match row(&LOOKUPS, name, column).ours {
+        Figure::Number(ours, ..) => ours,
+        _ => panic!("{name}, {column}"),
+    };
+    for (name, column, cube, convex) in [
+        ("gold", "rescaled", 0.696, 1.093),
+        ("gold", "corrected", 0.624, 0.983),
+        ("platinum", "rescaled", 2.629, 4.041),
+        ("platinum", "corrected", 1.321, 2.129),
+        ("water", "schlick", 7.697, 10.681),
+        ("diamond", "schlick", 2.515, 3.566),
+    ] {
+        for (view, wanted) in [("flat cube", cube), ("density 2c", convex)] {
+            let ours = ours(&format!("{name}, {view}"), column);
+            assert!((ours - wanted).abs() < 0.02, "{name}, {view}: {ours}");
+        }
+    }
+    check(
+        &LOOKUPS,
+        "water, flat cube",
+        "schlick",
+        "7.697 %",
+        ComparisonVerdict::Agrees,
+    );
+}
+
+/// The thesis takes its 10.1 % of water for a fault of floats. No precision moves a view's figure as far as the view does.
+#[test]
+fn precision_is_not_why_water_errs_more_in_pictures() {
+    for view in ["flat cube", "relief", "density 2c"] {
+        let ours = |column: &str| match row(&LOOKUPS, &format!("water, {view}"), column).ours {
+            Figure::Number(ours, ..) => ours,
+            _ => panic!("{view}, {column}"),
+        };
+        let exact = ours("schlick");
+        assert!((ours("schlick, in f32") - exact).abs() < 0.001);
+        assert!((ours("schlick, in f16") - exact).abs() < 0.1);
+        assert!((ours("schlick, pictures of 8 bits") - exact).abs() < 1.0);
+        if view != "density 2c" {
+            assert!(ours("table, 8 bits") > 5.0 * ours("table, pictures of 8 bits"));
+        }
+    }
+}
+
 #[test]
 fn a_few_texels_are_enough_for_the_figures_of_the_thesis() {
     for (name, best, on_cos, fewest) in [
@@ -447,7 +494,7 @@ mod program {
             "{}",
             says("tabel2")
         );
-        assert!(says("other").contains("need a renderer"));
+        assert!(says("sculpture").contains("scene-error --mesh"));
         assert!(says("").contains("there is no table"));
     }
 

@@ -17,6 +17,7 @@ mod precision;
 mod renamed;
 mod render;
 mod reproduce;
+mod scene_error;
 mod stability;
 mod time;
 mod verify;
@@ -47,6 +48,7 @@ pub use precision::{PrecisionFlags, each_once};
 pub use renamed::with_names_of_today;
 pub use render::RenderFlags;
 pub use reproduce::ReproduceFlags;
+pub use scene_error::SceneErrorFlags;
 pub use stability::StabilityFlags;
 pub use time::TimeFlags;
 pub use verify::VerifyFlags;
@@ -111,6 +113,8 @@ pub enum Command {
     Reproduce(ReproduceFlags),
     /// Draw an effect with the functions that engines import, beside what a ray tracer sees, and state the difference
     Render(RenderFlags),
+    /// Measure the error of methods in pictures of an object: of the angles that a camera sees
+    SceneError(Box<SceneErrorFlags>),
     /// Write a page that draws every effect live, beside the exact law, with the functions to copy
     Gallery(GalleryFlags),
 }
@@ -158,6 +162,11 @@ impl Cli {
                 named.inputs.extend(material.map(Path::new));
                 named.inputs.extend(flags.environment.as_deref());
                 named.write(flags.report.json.iter().chain(&flags.output));
+            }
+            Command::SceneError(flags) => {
+                named.inputs.extend(flags.mesh.as_deref());
+                named.seen(&flags.materials, &flags.medium, &flags.viewing.viewing);
+                named.write(&flags.report.json);
             }
         }
         named

@@ -16,6 +16,7 @@ mod params;
 #[cfg(feature = "gpu")]
 mod render;
 mod reproduce;
+mod scene_error;
 mod search;
 mod stability;
 mod survey;
@@ -98,6 +99,7 @@ pub fn run(cli: &Cli, progress: Progress, announce: Announce) -> Result<Output, 
         Some(Command::Gallery(flags)) => gallery::run(flags, progress),
         Some(Command::Stability(flags)) => stability::run(flags, progress),
         Some(Command::Reproduce(flags)) => reproduce::run(flags, progress),
+        Some(Command::SceneError(flags)) => scene_error::run(flags, progress),
     }
 }
 

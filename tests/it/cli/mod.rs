@@ -21,6 +21,7 @@ mod hostile;
 #[cfg(unix)]
 mod killed;
 mod materials;
+mod scene_error;
 mod seen;
 mod single;
 mod stability;

@@ -51,10 +51,10 @@ const F0: [(&str, [f64; 3]); 4] = [
 const WITHIN: f64 = 5e-3;
 
 /// A picture's texels, before their scale.
-struct Texels {
-    width: usize,
-    height: usize,
-    values: Vec<[f64; 4]>,
+pub struct Texels {
+    pub width: usize,
+    pub height: usize,
+    pub values: Vec<[f64; 4]>,
 }
 
 impl Texels {
@@ -102,7 +102,7 @@ fn png_texels(bytes: &[u8]) -> Texels {
     }
 }
 
-fn exr_texels(bytes: &[u8]) -> Texels {
+pub fn exr_texels(bytes: &[u8]) -> Texels {
     use exr::prelude::*;
     let image = read()
         .no_deep_data()

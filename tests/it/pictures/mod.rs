@@ -9,6 +9,7 @@ mod headline;
 mod map;
 pub mod reader;
 mod renders;
+mod scene_error;
 mod sheet;
 mod thesis;
 
@@ -34,12 +35,13 @@ struct Shown {
     file: String,
 }
 
-static FACTS: [&[Fact]; 7] = [
+static FACTS: [&[Fact]; 8] = [
     baked::FACTS,
     chart::FACTS,
     headline::FACTS,
     map::FACTS,
     renders::FACTS,
+    scene_error::FACTS,
     sheet::FACTS,
     thesis::FACTS,
 ];
@@ -149,7 +151,7 @@ fn committed_pictures_show_what_a_physicist_knows() {
 }
 
 /// Which commands have a flag that takes a picture or a folder, and what draws them here.
-const DRAW: [(&str, &str); 9] = [
+const DRAW: [(&str, &str); 11] = [
     ("", "tables, as `bake` has them: shaders-generated/lut"),
     (
         "audit",
@@ -165,12 +167,20 @@ const DRAW: [(&str, &str); 9] = [
     ),
     ("cost", "chart::bars_are_as_long_as_what_they_stand_for"),
     (
+        "gallery",
+        "a page without a picture of its own: the test `gallery`",
+    ),
+    (
         "materials show",
         "sheet::sheets_show_what_is_known_of_materials",
     ),
     (
         "reproduce",
         "thesis::figures_show_the_law_and_what_misses_it",
+    ),
+    (
+        "scene-error",
+        "scene_error::a_sphere_shows_where_schlick_errs",
     ),
     (
         "stability",

@@ -9,7 +9,7 @@ use crate::cli::{OUT, Place, Ran};
 use crate::not_checked;
 
 /// A name in the list, and a command whose stdout is the report.
-const REPORTS: [(&str, &str); 17] = [
+const REPORTS: [(&str, &str); 18] = [
     ("methods", "methods --json -"),
     ("methods show", "methods show fitted --json -"),
     ("targets", "targets --json -"),
@@ -33,6 +33,10 @@ const REPORTS: [(&str, &str); 17] = [
     (
         "time",
         "time --method schlick --material none --precision f32 --size 32 --evaluations 2 --rounds 5 --json -",
+    ),
+    (
+        "scene-error",
+        "scene-error cube --material gold --method schlick --size 16x16 --frames 1 --json -",
     ),
     ("render", "render double_refraction --size 16 --json -"),
     (

@@ -1,0 +1,125 @@
+//! A pinhole camera, and a camera that turns about an object.
+
+use glam::DVec3;
+
+/// What a camera takes in.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Lens {
+    /// Pixels across and down.
+    pub size: [u32; 2],
+    /// The vertical field of view, in degrees.
+    pub vertical_degrees: f64,
+}
+
+/// A camera in perspective; axes are unit vectors: to the right, down and forwards.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Camera {
+    /// Where it is.
+    pub eye: DVec3,
+    /// Its axes: to the right, down, forwards.
+    pub axes: [DVec3; 3],
+    /// What it takes in.
+    pub lens: Lens,
+}
+
+impl Camera {
+    /// A camera that looks from one place at another one. Up is y, or z where it looks along y.
+    pub fn looking(eye: DVec3, at: DVec3, lens: Lens) -> Camera {
+        let forwards = (at - eye).normalize();
+        let up = if forwards.y.abs() < 0.999 {
+            DVec3::Y
+        } else {
+            DVec3::Z
+        };
+        let right = forwards.cross(up).normalize();
+        Camera {
+            eye,
+            axes: [right, forwards.cross(right), forwards],
+            lens,
+        }
+    }
+
+    /// A point relative to the camera: to the right, down, forwards.
+    pub fn relative(&self, point: DVec3) -> DVec3 {
+        self.turned(point - self.eye)
+    }
+
+    /// A direction along the camera's axes.
+    pub fn turned(&self, direction: DVec3) -> DVec3 {
+        DVec3::from_array(self.axes.map(|axis| axis.dot(direction)))
+    }
+
+    /// How many pixels a slope of 1 is.
+    pub fn pixels_a_slope(&self) -> f64 {
+        let half = (self.lens.vertical_degrees / 2.0).to_radians();
+        f64::from(self.lens.size[1]) / 2.0 / libm::tan(half)
+    }
+}
+
+/// A camera that turns about the origin, which it looks at: a turn of the same angle from frame to frame.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Turntable {
+    /// Where it starts.
+    pub start: DVec3,
+    /// What it turns about.
+    pub axis: DVec3,
+    /// The angle from frame to frame, in degrees.
+    pub step_degrees: f64,
+    /// How many frames.
+    pub frames: usize,
+    /// What it takes in.
+    pub lens: Lens,
+}
+
+impl Turntable {
+    /// The thesis's: 180 frames of one degree about (1, 1, 1) from 2 m. Resolution, field of view and start are ours: the thesis
+    /// does not state them.
+    pub const THESIS: Turntable = Turntable {
+        start: DVec3::new(0.0, 0.0, -2.0),
+        axis: DVec3::ONE,
+        step_degrees: 1.0,
+        frames: 180,
+        lens: Lens {
+            size: [640, 480],
+            vertical_degrees: 60.0,
+        },
+    };
+
+    /// The cameras of all frames.
+    pub fn cameras(&self) -> Vec<Camera> {
+        (0..self.frames).map(|frame| self.camera(frame)).collect()
+    }
+
+    fn camera(&self, frame: usize) -> Camera {
+        let first = Camera::looking(self.start, DVec3::ZERO, self.lens);
+        let angle = (frame as f64 * self.step_degrees).to_radians();
+        let turned = |vector: DVec3| rotated(vector, self.axis.normalize(), angle);
+        Camera {
+            eye: turned(first.eye),
+            axes: first.axes.map(turned),
+            lens: self.lens,
+        }
+    }
+}
+
+/// A vector turned about a unit axis, by the formula of Rodrigues.
+fn rotated(vector: DVec3, axis: DVec3, angle: f64) -> DVec3 {
+    let (sin, cos) = libm::sincos(angle);
+    cos * vector + sin * axis.cross(vector) + (1.0 - cos) * axis.dot(vector) * axis
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_turn_keeps_the_distance_and_looks_at_the_origin() {
+        for camera in Turntable::THESIS.cameras() {
+            assert!((camera.eye.length() - 2.0).abs() < 1e-12);
+            let centre = camera.relative(DVec3::ZERO);
+            assert!((centre - DVec3::new(0.0, 0.0, 2.0)).length() < 1e-12);
+            let [right, down, forwards] = camera.axes;
+            assert!((right.cross(down) - forwards).length() < 1e-12);
+        }
+    }
+}

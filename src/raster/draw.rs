@@ -1,0 +1,215 @@
+//! A frame: the nearest triangle of every pixel's centre, and the cosine between its normal and the direction to the camera.
+//!
+//! ```text
+//! r = (x, y, 1) through the centre of a pixel;  e₀ = r·(v₁ × v₂), e₁ = r·(v₂ × v₀), e₂ = r·(v₀ × v₁)
+//! inside: all e have the sign of det = v₀·(v₁ × v₂);  1/z = (e₀ + e₁ + e₂) / det;  weights of corners: eᵢ / (e₀ + e₁ + e₂)
+//! ```
+//!
+//! Corners are relative to the camera. Source: Olano, Greer, *Triangle Scan Conversion using 2D Homogeneous Coordinates*,
+//! Graphics Hardware, 1997, <https://doi.org/10.1145/258694.258723>. Nothing is clipped or divided first, so that triangles
+//! may reach behind the camera, and both triangles of an edge compute the same number with opposite signs: no pixel falls between
+//! them.
+//!
+//! A surface has two sides: a normal that points away from the side that is seen is turned round. An interpolated normal may still
+//! point away from the camera at the silhouette; its cosine is 0 there, as shaders clamp it.
+
+use glam::DVec3;
+
+use super::camera::Camera;
+use super::mesh::{Mesh, Vertex};
+
+/// Pixels by which the box of a triangle is widened, for the rounding of its corners.
+const ROUNDING: f64 = 1e-6;
+/// No triangle covers this pixel.
+const NONE: u32 = u32::MAX;
+
+/// What a frame shows.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Frame {
+    /// Pixels across and down.
+    pub size: [u32; 2],
+    /// The covered pixels in scan order: the place, row by row, and cos θ.
+    pub covered: Vec<(u32, f64)>,
+}
+
+/// Draws a frame.
+pub fn draw(mesh: &Mesh, camera: &Camera) -> Frame {
+    let screen = Screen::new(camera);
+    let corners: Vec<Corner> = mesh
+        .vertices
+        .iter()
+        .map(|vertex| screen.corner(camera.relative(vertex.position)))
+        .collect();
+    let mut depth = DepthBuffer::new(screen.size);
+    for (name, triangle) in mesh.triangles.iter().enumerate() {
+        let triangle = triangle.map(|corner| corners[corner as usize]);
+        depth.enter(&screen, name as u32, triangle);
+    }
+    let cosine = |place: usize, name: u32| {
+        let triangle = mesh.triangles[name as usize];
+        let positions = triangle.map(|corner| corners[corner as usize].position);
+        let vertices = triangle.map(|corner| mesh.vertices[corner as usize]);
+        let ray = screen.ray(place);
+        cosine(ray, positions, &vertices, camera)
+    };
+    let names = depth.names.iter().enumerate();
+    let covered = names.filter(|(_, name)| **name != NONE);
+    Frame {
+        size: screen.size,
+        covered: covered
+            .map(|(place, name)| (place as u32, cosine(place, *name)))
+            .collect(),
+    }
+}
+
+/// The grid of pixels.
+struct Screen {
+    size: [u32; 2],
+    pixels_a_slope: f64,
+}
+
+/// A corner relative to the camera, and where it is on the screen.
+#[derive(Clone, Copy)]
+struct Corner {
+    position: DVec3,
+    x: f64,
+    y: f64,
+}
+
+impl Screen {
+    fn new(camera: &Camera) -> Screen {
+        Screen {
+            size: camera.lens.size,
+            pixels_a_slope: camera.pixels_a_slope(),
+        }
+    }
+
+    fn corner(&self, position: DVec3) -> Corner {
+        let [width, height] = self.size.map(f64::from);
+        let scale = self.pixels_a_slope / position.z;
+        Corner {
+            position,
+            x: width / 2.0 + scale * position.x,
+            y: height / 2.0 + scale * position.y,
+        }
+    }
+
+    /// The slope of a column's or a row's centre.
+    fn slope(&self, axis: usize, place: usize) -> f64 {
+        (place as f64 + 0.5 - f64::from(self.size[axis]) / 2.0) / self.pixels_a_slope
+    }
+
+    fn ray(&self, place: usize) -> DVec3 {
+        let width = self.size[0] as usize;
+        let (x, y) = (self.slope(0, place % width), self.slope(1, place / width));
+        DVec3::new(x, y, 1.0)
+    }
+
+    /// The columns or rows whose centres lie between these places.
+    fn centres(&self, axis: usize, places: [f64; 3]) -> std::ops::Range<usize> {
+        let [a, b, c] = places;
+        let first = (a.min(b).min(c) - 0.5 - ROUNDING).ceil();
+        let last = (a.max(b).max(c) - 0.5 + ROUNDING).floor();
+        // A conversion of a float ends at 0 and at the largest integer.
+        first as usize..((last + 1.0) as usize).min(self.size[axis] as usize)
+    }
+
+    /// The columns and rows of a triangle's box; all of them where it reaches behind the camera.
+    fn range(&self, triangle: &[Corner; 3]) -> [std::ops::Range<usize>; 2] {
+        if triangle.iter().any(|corner| corner.position.z <= 0.0) {
+            return self.size.map(|pixels| 0..pixels as usize);
+        }
+        [
+            self.centres(0, triangle.map(|corner| corner.x)),
+            self.centres(1, triangle.map(|corner| corner.y)),
+        ]
+    }
+}
+
+/// Of every pixel the nearest triangle so far, and 1/z there.
+struct DepthBuffer {
+    nearest: Vec<f64>,
+    names: Vec<u32>,
+}
+
+impl DepthBuffer {
+    fn new([width, height]: [u32; 2]) -> DepthBuffer {
+        let pixels = width as usize * height as usize;
+        DepthBuffer {
+            nearest: vec![0.0; pixels],
+            names: vec![NONE; pixels],
+        }
+    }
+
+    fn enter(&mut self, screen: &Screen, name: u32, triangle: [Corner; 3]) {
+        let [columns, rows] = screen.range(&triangle);
+        if columns.is_empty() || rows.is_empty() {
+            return;
+        }
+        let positions = triangle.map(|corner| corner.position);
+        let det = positions[0].dot(positions[1].cross(positions[2]));
+        if det == 0.0 || !det.is_finite() {
+            return;
+        }
+        let edges = edges(positions).map(|edge| edge * det.signum());
+        let (least, most) = depths(positions);
+        let width = screen.size[0] as usize;
+        for row in rows {
+            let y = screen.slope(1, row);
+            let along = edges.map(|edge| edge.y * y + edge.z);
+            for column in columns.clone() {
+                let x = screen.slope(0, column);
+                let e = [0, 1, 2].map(|i| edges[i].x * x + along[i]);
+                if e[0] < 0.0 || e[1] < 0.0 || e[2] < 0.0 {
+                    continue;
+                }
+                let depth = ((e[0] + e[1] + e[2]) / det.abs()).clamp(least, most);
+                let place = row * width + column;
+                if depth > self.nearest[place] {
+                    self.nearest[place] = depth;
+                    self.names[place] = name;
+                }
+            }
+        }
+    }
+}
+
+/// The planes through the camera and each edge, opposite to each corner.
+fn edges([a, b, c]: [DVec3; 3]) -> [DVec3; 3] {
+    [b.cross(c), c.cross(a), a.cross(b)]
+}
+
+/// The least and the greatest 1/z of a triangle: one that is seen along its plane has a rounded determinant.
+fn depths(positions: [DVec3; 3]) -> (f64, f64) {
+    let depths = positions.map(|position| position.z.recip());
+    if depths.iter().any(|depth| *depth <= 0.0) {
+        return (0.0, f64::MAX);
+    }
+    let [a, b, c] = depths;
+    (a.min(b).min(c), a.max(b).max(c))
+}
+
+/// The cosine between the normal and the direction to the camera.
+fn cosine(ray: DVec3, positions: [DVec3; 3], vertices: &[Vertex; 3], camera: &Camera) -> f64 {
+    let weights = edges(positions).map(|edge| edge.dot(ray));
+    let whole = weights[0] + weights[1] + weights[2];
+    let normal = |i: usize| weights[i] / whole * vertices[i].normal;
+    let face = (positions[1] - positions[0]).cross(positions[2] - positions[0]);
+    let towards = if face.dot(positions[0]) < 0.0 {
+        face
+    } else {
+        -face
+    };
+    let mut normal = camera.turned(normal(0) + normal(1) + normal(2));
+    // Corners without a normal, or with opposite ones.
+    if normal.length_squared() == 0.0 || !normal.is_finite() {
+        normal = towards;
+    }
+    let cos_theta = -normal.dot(ray) / (normal.length() * ray.length());
+    let seen = if normal.dot(towards) < 0.0 {
+        -cos_theta
+    } else {
+        cos_theta
+    };
+    seen.clamp(0.0, 1.0)
+}

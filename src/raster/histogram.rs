@@ -1,0 +1,81 @@
+//! How often each cosine is seen.
+//!
+//! A bin holds its weight and the mean of its cosines, so that the mean of a smooth function over it is right to the second order
+//! of the bin's width.
+
+/// The bins between 0 and 1.
+pub const BINS: usize = 4096;
+
+/// A weighted histogram of cosines.
+#[derive(Clone, Debug, PartialEq)]
+pub struct CosineHistogram {
+    weights: Vec<f64>,
+    /// Weight times cosine, summed.
+    moments: Vec<f64>,
+}
+
+impl Default for CosineHistogram {
+    fn default() -> CosineHistogram {
+        CosineHistogram {
+            weights: vec![0.0; BINS],
+            moments: vec![0.0; BINS],
+        }
+    }
+}
+
+impl CosineHistogram {
+    /// Of these cosines, each with a weight of 1.
+    pub fn of(cosines: impl IntoIterator<Item = f64>) -> CosineHistogram {
+        let mut histogram = CosineHistogram::default();
+        for cosine in cosines {
+            histogram.add(cosine, 1.0);
+        }
+        histogram
+    }
+
+    /// What a distant camera sees of any convex body, in the mean over all directions: density 2c. The area that shows a cosine
+    /// is as large as the area of the surface times the cosine, and all directions of a normal are seen equally often.
+    pub fn of_convex_bodies() -> CosineHistogram {
+        let mut histogram = CosineHistogram::default();
+        let edge = |bin: usize| bin as f64 / BINS as f64;
+        for bin in 0..BINS {
+            let (from, to) = (edge(bin), edge(bin + 1));
+            histogram.weights[bin] = to * to - from * from;
+            histogram.moments[bin] = 2.0 / 3.0 * (to * to * to - from * from * from);
+        }
+        histogram
+    }
+
+    /// Enters a cosine from 0 to 1.
+    pub fn add(&mut self, cosine: f64, weight: f64) {
+        let bin = ((cosine * BINS as f64) as usize).min(BINS - 1);
+        self.weights[bin] += weight;
+        self.moments[bin] += weight * cosine;
+    }
+
+    /// Enters another histogram, so many times.
+    pub fn merge(&mut self, other: &CosineHistogram, times: f64) {
+        for bin in 0..BINS {
+            self.weights[bin] += times * other.weights[bin];
+            self.moments[bin] += times * other.moments[bin];
+        }
+    }
+
+    /// The sum of all weights.
+    pub fn total(&self) -> f64 {
+        self.weights.iter().sum()
+    }
+
+    /// The weights of all bins, from cosine 0 to 1.
+    pub fn weights(&self) -> &[f64] {
+        &self.weights
+    }
+
+    /// The cosines and weights of the bins that hold anything.
+    pub fn seen(&self) -> (Vec<f64>, Vec<f64>) {
+        let bins = self.weights.iter().zip(&self.moments);
+        bins.filter(|(weight, _)| **weight > 0.0)
+            .map(|(weight, moment)| ((moment / weight).clamp(0.0, 1.0), *weight))
+            .unzip()
+    }
+}

@@ -1,0 +1,133 @@
+//! Meshes of others: what is read, and what is refused with its line.
+
+use fresnel_gen::raster::{CUBE, MOST_TRIANGLES, Mesh, SPHERE, draw, mesh_of_obj};
+
+use super::camera;
+
+/// A mesh as OBJ.
+pub fn obj(mesh: &Mesh, with_normals: bool) -> String {
+    let mut text = String::from("# a mesh\no body\n");
+    for vertex in &mesh.vertices {
+        let [x, y, z] = vertex.position.to_array();
+        text += &format!("v {x} {y} {z}\n");
+    }
+    for vertex in mesh.vertices.iter().filter(|_| with_normals) {
+        let [x, y, z] = vertex.normal.to_array();
+        text += &format!("vn {x} {y} {z}\n");
+    }
+    for corners in &mesh.triangles {
+        let [a, b, c] = corners.map(|corner| corner + 1);
+        text += &match with_normals {
+            true => format!("f {a}//{a} {b}//{b} {c}//{c}\n"),
+            false => format!("f {a} {b} {c}\n"),
+        };
+    }
+    text
+}
+
+#[test]
+fn a_mesh_is_drawn_as_the_body_that_it_is() {
+    let view = camera([0.7, 1.1, -1.9], [160, 120], 60.0);
+    let cube = mesh_of_obj(&obj(&CUBE.mesh(), true))
+        .unwrap()
+        .with_extent(1.0);
+    assert_eq!(draw(&cube, &view), draw(&CUBE.mesh(), &view));
+    // Without normals a smooth surface is assumed; its faces may be wound either way.
+    let mut sphere = SPHERE.mesh();
+    for triangle in &mut sphere.triangles {
+        triangle.swap(0, 1);
+    }
+    let smooth = mesh_of_obj(&obj(&sphere, false)).unwrap().with_extent(1.0);
+    let (drawn, wanted) = (draw(&smooth, &view), draw(&SPHERE.mesh(), &view));
+    assert_eq!(drawn.covered.len(), wanted.covered.len());
+    let pairs = drawn.covered.iter().zip(&wanted.covered);
+    let apart = pairs.map(|((_, drawn), (_, wanted))| (drawn - wanted).abs());
+    let mean = apart.sum::<f64>() / drawn.covered.len() as f64;
+    assert!(mean < 5e-3, "{mean}");
+}
+
+#[test]
+fn polygons_relative_indices_and_groups_are_read() {
+    let text = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvt 0 0\ng one\nf -4/1 -3/1 -2/1 -1/1\ng two\nv 0 0 1\nf 1 2 5\nl 1 2\n";
+    let mesh = mesh_of_obj(text).unwrap();
+    assert_eq!(mesh.triangles.len(), 3);
+    assert!(mesh.vertices.iter().all(|vertex| vertex.normal.is_finite()));
+}
+
+#[test]
+fn a_face_may_stand_above_its_corners() {
+    assert!(mesh_of_obj("f 1 2 3\nv 0 0 0\nv 1 0 0\nv 0 1 0\n").is_ok());
+}
+
+#[test]
+fn what_is_broken_is_refused_with_its_line() {
+    let three = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
+    let many = format!("{three}f{}\n", " 1".repeat(MOST_TRIANGLES + 3));
+    for (text, line, says) in [
+        (String::new(), 1, "without a face"),
+        (three.to_owned(), 3, "without a face"),
+        ("v 0 0".to_owned(), 1, "has 2 numbers"),
+        ("v 0 0 nan\n".to_owned(), 1, "`nan` is no place"),
+        ("v 0 0 1e999\n".to_owned(), 1, "is no place"),
+        ("\nv 0 zero 0\n".to_owned(), 2, "`zero` is not a number"),
+        (
+            format!("{three}f 1 2 4\n"),
+            4,
+            "names place 4, and there are 3",
+        ),
+        (
+            format!("{three}f 1 2 1000000000\n"),
+            4,
+            "names place 1000000000",
+        ),
+        (format!("{three}f 0 1 2\n"), 4, "index 0 leads to nothing"),
+        (format!("{three}f -4 1 2\n"), 4, "index -4 leads to nothing"),
+        (
+            format!("{three}f 1 2 99999999999999999999\n"),
+            4,
+            "is no index",
+        ),
+        (
+            format!("{three}f 1//1 2//1 3//1\n"),
+            4,
+            "names normal 1, and there are 0",
+        ),
+        (
+            format!("{three}f 1/7 2/7 3/7\n"),
+            4,
+            "names texture coordinate 7",
+        ),
+        (format!("{three}f 1 2\n"), 4, "a face has 2 corners"),
+        (format!("{three}f 1 2 x\n"), 4, "`x` is no index"),
+        (many, 4, "more than 4000000 triangles"),
+    ] {
+        let fault = mesh_of_obj(&text).unwrap_err();
+        let head: String = text.chars().take(60).collect();
+        assert_eq!(fault.line, line, "{head}: {fault}");
+        assert!(fault.what.contains(says), "{head}: {fault}");
+    }
+}
+
+/// What a fuzzer would try, a little of it on every machine: a good file with a few bytes changed.
+#[test]
+fn changed_bytes_do_no_harm() {
+    const BYTES: &[u8] = b"0123456789-+./ \nvtfnoge#\\";
+    let good = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 1\nvt 0 1\nvn 0 0 1\nvn 0 1 1\no a\nf 1/1/1 2/1/2 3/1/1\nf -1//1 -2//2 1//1\nf 1 2 3 4\n";
+    let view = camera([0.0, 0.0, -2.0], [16, 12], 60.0);
+    let mut random = fastrand::Rng::with_seed(7);
+    let mut read = 0;
+    for _ in 0..4000 {
+        let mut bytes = good.as_bytes().to_vec();
+        for _ in 0..random.usize(1..4) {
+            let at = random.usize(..bytes.len());
+            bytes[at] = BYTES[random.usize(..BYTES.len())];
+        }
+        let Ok(mesh) = mesh_of_obj(std::str::from_utf8(&bytes).unwrap()) else {
+            continue;
+        };
+        read += 1;
+        let drawn = draw(&mesh.with_extent(1.0), &view);
+        assert!(drawn.covered.iter().all(|(_, c)| (0.0..=1.0).contains(c)));
+    }
+    assert!((400..3900).contains(&read), "{read} of 4000 are read");
+}
