@@ -74,14 +74,10 @@ pub fn textures_of(row: &RenderRow) -> BTreeMap<Slot, PackedTexture> {
     }
     if let Some(slope) = row.dents {
         let relief = Relief::hammered(slope);
-        let normals = relief.texels().iter().map(|[x, y, z]| [*x, *y, *z, 1.0]);
-        let side = relief.side();
-        let hammered = texture(
-            format!("dents of {slope}"),
-            [side, side, 1],
-            halves(normals),
-        );
-        all.insert(Slot::Relief, hammered);
+        let [width, height] = relief.normals().size();
+        let normals = halves(relief.normals().texels().iter().copied());
+        let dents = texture(format!("dents of {slope}"), [width, height, 1], normals);
+        all.insert(Slot::Relief, dents);
     }
     let body = row.body.body();
     for (slot, table) in reduced_tables(&body) {

@@ -120,8 +120,7 @@ impl GalleryRow {
             .map(|method| method_calls(row, method));
         Ok(GalleryRow {
             name: row.name,
-            // The page draws one picture of photons.
-            summary: row.summary.trim_end_matches(", while the light moves"),
+            summary: row.summary,
             wrong: row.wrong,
             exact: exact_method(row),
             method: row.method,

@@ -17,6 +17,8 @@ pub mod junit;
 pub mod markdown;
 pub mod material_sheet;
 pub mod params;
+#[cfg(feature = "cli")]
+mod pixels;
 pub mod plot;
 #[cfg(feature = "pictures")]
 pub mod png;

@@ -1,12 +1,12 @@
 //! The report of a drawn effect: what is known of it as text, and three panels as PNG or EXR: drawn, truth, error.
 
 use glam::DVec3;
-use png::{BitDepth, ColorType, Compression, Encoder};
 
 use crate::emit::MARK;
 use crate::scene::{Difference, Display, Picture, RenderedRow};
 use crate::spectra::srgb_byte;
 
+use super::pixels::rgb_png;
 use super::plot::shade_bytes;
 
 /// The brightest colour of the error map, in CIEDE2000.
@@ -85,21 +85,7 @@ pub fn panels_png(picture: &Picture, display: &Display, about: &str) -> Result<V
     ];
     let size = picture.row.size;
     let pixels = beside(&panels, size as usize).concat();
-    encoded(&pixels, size, about).map_err(|why| why.to_string())
-}
-
-fn encoded(pixels: &[u8], size: u32, about: &str) -> Result<Vec<u8>, png::EncodingError> {
-    let mut bytes = Vec::new();
-    let mut encoder = Encoder::new(&mut bytes, 3 * size, size);
-    encoder.set_color(ColorType::Rgb);
-    encoder.set_depth(BitDepth::Eight);
-    encoder.set_compression(Compression::High);
-    encoder.set_source_srgb(png::SrgbRenderingIntent::Perceptual);
-    encoder.add_text_chunk("Comment".to_owned(), format!("{MARK}: {about}"))?;
-    let mut writer = encoder.write_header()?;
-    writer.write_image_data(pixels)?;
-    writer.finish()?;
-    Ok(bytes)
+    rgb_png(&pixels, [3 * size, size], format!("{MARK}: {about}"))
 }
 
 /// The three panels side by side as OpenEXR in binary32: radiance, radiance, and the error in all three channels.

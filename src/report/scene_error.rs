@@ -1,11 +1,10 @@
 //! The report of `scene-error`: a table for people, pictures as PNG and OpenEXR.
 
-use png::{BitDepth, ColorType, Compression, Encoder};
-
 use crate::lut::{Depth, Format, Picture, TableAxis};
 use crate::raster::{Painted, SceneErrorRow};
 use crate::spectra::{Space, srgb_byte};
 
+use super::pixels::rgb_png;
 use super::table::{short_number, text_table};
 
 /// The errors, a line each.
@@ -59,25 +58,7 @@ fn cells(row: &SceneErrorRow) -> Vec<String> {
 pub fn painted_png(picture: &Painted, about: &str) -> Result<Vec<u8>, String> {
     let bytes = picture.pixels.iter().map(|pixel| pixel.map(srgb_byte));
     let bytes = bytes.collect::<Vec<_>>().concat();
-    encoded(&bytes, picture.size, about).map_err(|why| why.to_string())
-}
-
-fn encoded(
-    pixels: &[u8],
-    [width, height]: [u32; 2],
-    about: &str,
-) -> Result<Vec<u8>, png::EncodingError> {
-    let mut bytes = Vec::new();
-    let mut encoder = Encoder::new(&mut bytes, width, height);
-    encoder.set_color(ColorType::Rgb);
-    encoder.set_depth(BitDepth::Eight);
-    encoder.set_compression(Compression::High);
-    encoder.set_source_srgb(png::SrgbRenderingIntent::Perceptual);
-    encoder.add_text_chunk("Comment".to_owned(), about.to_owned())?;
-    let mut writer = encoder.write_header()?;
-    writer.write_image_data(pixels)?;
-    writer.finish()?;
-    Ok(bytes)
+    rgb_png(&bytes, picture.size, about.to_owned())
 }
 
 /// A picture as OpenEXR in binary32, linear, with the space of its channels where they are one.

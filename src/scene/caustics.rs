@@ -2,7 +2,7 @@
 //!
 //! Light of irradiance 1 falls along -z on the ball of radius 1; the receiver lies square to it below.
 
-use crate::gpu::{Depth, Device, Draw, Image, Offscreen};
+use crate::gpu::{Depth, Device, Draw, Image, Mesh, Offscreen};
 use crate::optics;
 
 use super::body::{Body, Vertex};
@@ -82,22 +82,22 @@ pub fn caustics(
     let mut hits = 0.0;
     let moves = photons.moves;
     let share = 1.0 / f64::from(moves * moves);
+    let offscreen = device.offscreen()?;
+    let triangles = Body::Ball.triangles().concat();
+    let vertices: Vec<_> = triangles.iter().map(Vertex::numbers).collect();
+    let mut light = Light {
+        ball: offscreen.mesh(&vertices)?,
+        offscreen,
+        text: &text,
+        side: photons.side,
+        uniforms: Vec::new(),
+    };
     for place in 0..moves * moves {
         let part = |i: u32| {
             ((f64::from(i) + 0.5) / f64::from(moves) - 0.5) * 2.0 / f64::from(photons.side)
         };
-        let light = Light {
-            offscreen: device.offscreen()?,
-            text: &text,
-            side: photons.side,
-            uniforms: uniforms(
-                n,
-                window,
-                &by,
-                finer,
-                (photons.side, [part(place % moves), part(place / moves)]),
-            ),
-        };
+        let shift = [part(place % moves), part(place / moves)];
+        light.uniforms = uniforms(n, window, &by, finer, (photons.side, shift));
         let (map, landed) = light.gathered(window, gathering, finer)?;
         for (sum, one) in sum.iter_mut().zip(map) {
             *sum += share * one;
@@ -109,6 +109,7 @@ pub fn caustics(
 
 struct Light<'a> {
     offscreen: Offscreen,
+    ball: Mesh,
     text: &'a str,
     /// The photons of a row.
     side: u32,
@@ -153,13 +154,6 @@ impl Light<'_> {
 
     /// Places and normals of the side of the ball that is nearest to the light, or farthest.
     fn side(&self, side: u32, depth: Depth) -> Result<[Image; 2], DrawFault> {
-        let vertices: Vec<_> = Body::Ball
-            .triangles()
-            .concat()
-            .iter()
-            .map(Vertex::numbers)
-            .collect();
-        let mesh = self.offscreen.mesh(&vertices)?;
         let targets = self.pair(side)?;
         self.offscreen.draw(&Draw {
             text: self.text,
@@ -167,7 +161,7 @@ impl Light<'_> {
             fragment: "fs_side",
             uniforms: &self.uniforms,
             images: &[],
-            mesh: Ok(&mesh),
+            mesh: Ok(&self.ball),
             targets: &[&targets[0], &targets[1]],
             clears: true,
             depth,

@@ -132,13 +132,15 @@ fn tables(
         let cube = offscreen.upload(size, &room_cube(scenery.cube))?;
         slots.insert(Slot::Room, cube);
     }
-    if let Some(relief) = scenery.things.relief {
-        let image = upload(offscreen, [relief.side(); 2], relief.texels())?;
-        slots.insert(Slot::Relief, image);
-    }
-    for (slot, table) in &scenery.tables {
+    let relief = scenery.things.relief;
+    let relief = relief.map(|relief| (Slot::Relief, relief.normals()));
+    let tables = scenery.tables.iter();
+    for (slot, table) in tables
+        .map(|(slot, table)| (*slot, table.as_ref()))
+        .chain(relief)
+    {
         let [width, height] = table.size().map(|texels| texels as u32);
-        slots.insert(*slot, offscreen.upload([width, height, 1], table.texels())?);
+        slots.insert(slot, offscreen.upload([width, height, 1], table.texels())?);
     }
     Ok(slots)
 }

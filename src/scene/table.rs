@@ -148,6 +148,7 @@ pub static ALL: &[RenderRow] = &[
         passes: &[
             SKY,
             PassRow {
+                fragment: "fs_dented_back",
                 reads: &[Slot::Relief],
                 ..BACK
             },
@@ -171,7 +172,7 @@ pub static ALL: &[RenderRow] = &[
     },
     RenderRow {
         name: "caustics",
-        summary: "Light that a ball of glass gathers on a receiver: 256 x 256 photons as triangles, while the light moves",
+        summary: "Light that a ball of glass gathers on a receiver: 256 x 256 photons as triangles",
         effects: &["interface", "interior", "water", "caustics"],
         text: include_str!("passes/caustics.wgsl"),
         passes: &[],
@@ -196,7 +197,10 @@ pub static ALL: &[RenderRow] = &[
         name: "double_refraction_dispersion",
         summary: "A ball of dense flint glass: the search for each of eight samples of the spectrum",
         effects: &["interface", "interior", "water", "dispersion"],
-        text: include_str!("passes/double_refraction_dispersion.wgsl"),
+        text: concat!(
+            include_str!("passes/second_surface.wgsl"),
+            include_str!("passes/double_refraction_dispersion.wgsl")
+        ),
         passes: &[SKY, BACK, THROUGH],
         material: "sf11",
         disperses: true,

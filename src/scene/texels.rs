@@ -67,12 +67,22 @@ impl Texels {
     /// At texture coordinates, (0, 0) in the corner of the first texel: linear between texels, and beyond the edge as at the
     /// edge.
     pub fn at(&self, uv: DVec2) -> DVec4 {
+        let last = self.width as f64 - 1.0;
+        self.linear(uv, &|x| x.clamp(0.0, last) as usize)
+    }
+
+    /// The same with rows that repeat.
+    pub fn at_around(&self, uv: DVec2) -> DVec4 {
+        let width = self.width as i64;
+        self.linear(uv, &|x| (x as i64).rem_euclid(width) as usize)
+    }
+
+    fn linear(&self, uv: DVec2, column: &dyn Fn(f64) -> usize) -> DVec4 {
         let place = uv * DVec2::new(self.width as f64, self.height as f64) - 0.5;
         let first = place.floor();
         let texel = |x: f64, y: f64| {
-            let column = x.clamp(0.0, self.width as f64 - 1.0) as usize;
             let row = y.clamp(0.0, self.height as f64 - 1.0) as usize;
-            let [a, b, c, d] = self.texels[row * self.width + column];
+            let [a, b, c, d] = self.texels[row * self.width + column(x)];
             DVec4::new(a.into(), b.into(), c.into(), d.into())
         };
         let between = place - first;

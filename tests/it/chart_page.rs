@@ -4,25 +4,13 @@ use serde_json::Value;
 
 #[cfg(feature = "gpu")]
 use crate::audit;
+use crate::browser::{self, CHROMIUM};
 use crate::cli::Place;
-use crate::compilers::Tool;
 use crate::pictures::reader::Scale;
 
-const CHROMIUM: Tool = Tool {
-    command: "chromium",
-    package: "chromium",
-};
 const MATERIALS: &str = "gold,platinum,water,diamond";
 
-/// Stands in the page before anything of it runs, and hears what goes wrong.
-const EARS: &str = r#"<script>
-const faults = [];
-addEventListener("error", event => faults.push(event.message));
-addEventListener("securitypolicyviolation", event => faults.push("it asks for " + event.blockedURI));
-for (const kind of ["error", "warn"]) console[kind] = (...words) => faults.push(words.join(" "));
-</script><title>"#;
-
-/// Stands after it, does what a reader does, and leaves in the page what was seen.
+/// Stands behind the page, does what a reader does, and leaves in the page what was seen.
 const HANDS: &str = r##"<script>
 {
   const count = () => document.querySelectorAll("#chart .point").length;
@@ -86,31 +74,8 @@ fn labels(told: &Value) -> Vec<String> {
 
 /// What the hands saw in the page.
 fn told(place: &Place) -> Value {
-    let page = place.read("chart.html").replacen("<title>", EARS, 1);
-    place.put("tried.html", page.replace("</html>", HANDS));
-    let profile = format!("--user-data-dir={}", place.path("profile").display());
-    let page = format!("file://{}", place.path("tried.html").display());
-    let dom = CHROMIUM.run([
-        "--headless",
-        "--no-sandbox",
-        "--disable-gpu",
-        "--no-first-run",
-        "--disable-quic",
-        "--disable-sync",
-        "--disable-background-networking",
-        "--disable-component-update",
-        &profile,
-        "--dump-dom",
-        &page,
-    ]);
-    let dom = dom.expect("the page is rendered");
-    let told = dom
-        .split("<pre id=\"told\">")
-        .nth(1)
-        .expect("the script came to its end");
-    let told = told.split('<').next().unwrap();
-    let bytes = base64::Engine::decode(&base64::prelude::BASE64_STANDARD, told).unwrap();
-    serde_json::from_slice(&bytes).unwrap()
+    let page = place.read("chart.html");
+    browser::told(place, &page, HANDS, "", &["--disable-gpu"])
 }
 
 /// Cost rises to the right and error upwards, as the labels say, and each point stands at its own.

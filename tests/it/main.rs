@@ -6,6 +6,8 @@
 mod audit;
 mod bless;
 mod bounds;
+#[cfg(any(feature = "pictures", all(feature = "cli", feature = "gpu")))]
+mod browser;
 mod catalogue;
 #[cfg(feature = "pictures")]
 mod chart_page;

@@ -10,7 +10,7 @@ fn turned(mapped: vec3<f32>, surface: Surface) -> vec3<f32> {
 }
 
 @fragment
-fn fs_back(back: Surface) -> Back {
+fn fs_dented_back(back: Surface) -> Back {
     let normal = turned(textureSampleLevel(back_relief, around, back.uv, 0.0).xyz, back);
     return Back(vec4<f32>(back.position, 1.0), vec4<f32>(normal, 1.0));
 }

@@ -8,62 +8,24 @@ use serde_json::{Value, json};
 
 use super::page;
 use super::pixels::Held;
+use crate::browser::{self, CHROMIUM};
 use crate::cli::Place;
-use crate::compilers::Tool;
 
-const CHROMIUM: Tool = Tool {
-    command: "chromium",
-    package: "chromium",
-};
-
-/// Stands in the page before anything of it runs, and hears what goes wrong.
-const EARS: &str = r#"<script>
-const faults = [];
-addEventListener("error", event => faults.push(event.message));
-addEventListener("unhandledrejection", event => faults.push(String(event.reason)));
-addEventListener("securitypolicyviolation", event => faults.push("it asks for " + event.blockedURI));
-for (const kind of ["error", "warn"]) console[kind] = (...words) => faults.push(words.join(" "));
-</script><title>"#;
 const HANDS: &str = include_str!("hands.js");
 
 /// What the hands saw in the page.
 fn told(backend: &str) -> Value {
-    let place = Place::new();
-    let hands = format!("<script>{HANDS}</script></html>");
-    let page = page()
-        .replacen("<title>", EARS, 1)
-        .replace("</html>", &hands);
-    place.put("tried.html", page);
-    let profile = format!("--user-data-dir={}", place.path("profile").display());
-    let page = format!(
-        "file://{}?backend={backend}",
-        place.path("tried.html").display()
-    );
-    let dom = CHROMIUM.run([
-        "--headless",
-        "--no-sandbox",
-        "--no-first-run",
-        "--disable-quic",
-        "--disable-sync",
-        "--disable-background-networking",
-        "--disable-component-update",
+    let flags = [
         "--use-angle=swiftshader",
         "--enable-unsafe-swiftshader",
         "--enable-unsafe-webgpu",
         "--use-webgpu-adapter=swiftshader",
         "--enable-features=Vulkan",
         "--use-vulkan=swiftshader",
-        &profile,
-        "--dump-dom",
-        &page,
-    ]);
-    let dom = dom.expect("the page is rendered");
-    let told = dom
-        .split("<pre id=\"told\">")
-        .nth(1)
-        .expect("the script came to its end");
-    let told = told.split('<').next().unwrap();
-    serde_json::from_slice(&BASE64_STANDARD.decode(told).unwrap()).unwrap()
+    ];
+    let hands = format!("<script>{HANDS}</script></html>");
+    let query = format!("?backend={backend}");
+    browser::told(&Place::new(), page(), &hands, &query, &flags)
 }
 
 fn pixels(picture: &Value) -> Vec<DVec3> {
