@@ -80,10 +80,13 @@ impl PixelPlace {
     }
 }
 
+/// Half vectors under which a rough surface is seen, with their weights.
+type HalfVectors = Vec<(Place, f64)>;
+
 /// The rule of the mean for the levels of roughness that occur.
 pub struct RoughRule {
     /// For each level that occurs, for each step the places and weights of half vectors.
-    points: Vec<Option<Vec<Vec<(Place, f64)>>>>,
+    points: Vec<Option<Vec<HalfVectors>>>,
 }
 
 impl RoughRule {
@@ -101,7 +104,7 @@ impl RoughRule {
     }
 }
 
-fn level_points(rule: &Ggx, level: usize) -> Vec<Vec<(Place, f64)>> {
+fn level_points(rule: &Ggx, level: usize) -> Vec<HalfVectors> {
     let roughness = level as f64 / LEVELS as f64;
     let step = |step: usize| {
         let mut points = Vec::new();
@@ -124,7 +127,7 @@ pub struct Curve {
 impl Curve {
     /// From values at [`step_cosines`].
     pub fn new(mirror: Vec<[f64; 3]>, rule: &RoughRule) -> Curve {
-        let mean = |points: &Vec<(Place, f64)>| {
+        let mean = |points: &HalfVectors| {
             let mut sum = [0.0; 3];
             for (place, weight) in points {
                 let value = place.of_table(&mirror);
@@ -132,7 +135,7 @@ impl Curve {
             }
             sum
         };
-        let level = |points: &Option<Vec<Vec<(Place, f64)>>>| {
+        let level = |points: &Option<Vec<HalfVectors>>| {
             let steps = points.as_ref()?;
             Some(steps.iter().map(mean).collect())
         };

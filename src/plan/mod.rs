@@ -17,7 +17,11 @@ mod metric;
 mod picture_error;
 mod pixels;
 mod planned;
+#[cfg(feature = "gpu")]
+mod proof;
 mod row;
+mod stub;
+pub use stub::*;
 
 pub use candidate::Candidate;
 pub use curve::{STEPS, step_cosines};
@@ -28,4 +32,6 @@ pub use planned::{
     JudgedCandidate, JudgedMaterial, Judgement, PlanFault, PlanRequest, PlanTruth, PlannedMaterial,
     plan,
 };
-pub use row::{CheaperFunction, PlanFile, PlanFileRow, PlanRow, PlanTotal, SharedFunction};
+#[cfg(feature = "gpu")]
+pub use proof::{ProofCase, prove};
+pub use row::{CheaperFunction, PlanFile, PlanFileRow, PlanRow, PlanTotal, Proof, SharedFunction};

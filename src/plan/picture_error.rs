@@ -18,8 +18,6 @@ pub struct JudgedPixels<'a> {
     screen: &'a Screen,
     /// For each exposure what the exact law shows.
     truth: Vec<(f64, Vec<DVec3>)>,
-    /// Whether the largest difference counts.
-    by_largest: bool,
 }
 
 impl<'a> JudgedPixels<'a> {
@@ -43,7 +41,6 @@ impl<'a> JudgedPixels<'a> {
             places,
             screen,
             truth: exposures.iter().map(seen).collect(),
-            by_largest: pixels.len() < PERCENTILE_FROM,
         }
     }
 
@@ -56,13 +53,17 @@ impl<'a> JudgedPixels<'a> {
                 let difference = self.screen.difference(self.screen.place(shown), *truth);
                 (difference, f64::from(pixel.coverage))
             });
-            let differences: Vec<(f64, f64)> = differences.collect();
-            match self.by_largest {
-                true => differences.iter().map(|(e, _)| *e).fold(0.0, f64::max),
-                false => quantile(differences, SHARE),
-            }
+            error_of(differences.collect())
         };
         self.truth.iter().map(of_exposure).fold(0.0, f64::max)
+    }
+}
+
+/// The error of a frame with these differences and coverages of pixels.
+pub fn error_of(differences: Vec<(f64, f64)>) -> f64 {
+    match differences.len() < PERCENTILE_FROM {
+        true => differences.iter().map(|(e, _)| *e).fold(0.0, f64::max),
+        false => quantile(differences, SHARE),
     }
 }
 

@@ -213,7 +213,7 @@ pub fn plan<E>(
 }
 
 /// The exposures of a range, in stops.
-fn exposures(range: f64) -> Vec<f64> {
+pub(super) fn exposures(range: f64) -> Vec<f64> {
     let steps = (range / STOPS).ceil() as i32;
     let at = |step: i32| match steps {
         0 => 0.0,

@@ -4,6 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::emit::FunctionForm;
 use crate::num::Precision;
+use crate::verify::Status;
 
 use super::candidate::Candidate;
 use super::choice::{Choosable, total_cost};
@@ -85,11 +86,45 @@ pub struct SharedFunction {
     pub error: f64,
 }
 
+/// What came of a function's text.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Proof {
+    /// The material, as a user types it.
+    pub material: String,
+    /// The target.
+    pub target: &'static str,
+    /// The function that was called.
+    pub function: String,
+    /// The frame, from 0.
+    pub frame: usize,
+    /// How many cosines it was run at.
+    pub points: usize,
+    /// The error of the picture, as the plan measures it.
+    pub error: Option<f64>,
+    /// The same of both pictures in codes of 8 bits; none for screens of high dynamic range.
+    pub error_8bit: Option<f64>,
+    /// The largest difference of a code of 8 bits.
+    pub codes: Option<u8>,
+    /// The largest absolute difference from what the function means in f64.
+    pub code_abs: Option<f64>,
+    /// Whether that is within what the function promises.
+    pub is_within_code_bound: Option<bool>,
+    /// Whether the picture is within the budget and the numbers within the bound.
+    pub status: Status,
+    /// Why it was not checked.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub reason: Option<String>,
+}
+
 /// A plan as a file, read back: what functions it consists of.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 pub struct PlanFile {
     /// What made it.
     pub tool: String,
+    /// `plan` and its flags.
+    pub command: String,
+    /// The space of the functions.
+    pub space: String,
     /// The functions.
     pub rows: Vec<PlanFileRow>,
 }
