@@ -20,8 +20,7 @@ mod planned;
 #[cfg(feature = "gpu")]
 mod proof;
 mod row;
-mod stub;
-pub use stub::*;
+mod view;
 
 pub use candidate::Candidate;
 pub use curve::{STEPS, step_cosines};
@@ -35,3 +34,4 @@ pub use planned::{
 #[cfg(feature = "gpu")]
 pub use proof::{ProofCase, prove};
 pub use row::{CheaperFunction, PlanFile, PlanFileRow, PlanRow, PlanTotal, Proof, SharedFunction};
+pub use view::{AngleCurve, MaterialView, ViewPicture, material_view};

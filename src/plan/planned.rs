@@ -147,6 +147,8 @@ pub struct JudgedMaterial {
     pub cost_exact: Option<f64>,
     /// What functions are held against, at [`step_cosines`].
     pub truth: Vec<[f64; 3]>,
+    /// Its mean roughness and light in all frames; white light on a mirror where no frame shows it.
+    pub mean: ScenePixel,
 }
 
 /// Why there is no plan.
@@ -259,6 +261,7 @@ impl Seen {
                 angles: CosineHistogram::default(),
                 cost_exact: prices.cost_exact(subject)?,
                 truth: request.truth.values(subject),
+                mean: MIRROR_IN_WHITE,
                 material,
             },
             most: 0,
@@ -304,8 +307,9 @@ impl Seen {
             most if most < PERCENTILE_FROM => Judgement::Largest,
             _ => Judgement::Percentile,
         };
+        self.judged.mean = self.mean();
         if self.judged.judgement == Judgement::EveryAngle {
-            let pixels = self.every_angle();
+            let pixels = every_angle(&self.judged.mean);
             let errors = errors(
                 &self.judged.truth,
                 &self.judged.candidates,
@@ -323,22 +327,39 @@ impl Seen {
         self.judged
     }
 
-    /// A pixel at each angle, under the mean light of all that were seen; under white light where none was.
-    fn every_angle(&self) -> Vec<ScenePixel> {
+    /// A pixel with the mean of all that were seen.
+    fn mean(&self) -> ScenePixel {
         let count = self.judged.pixels as f64;
-        let mean = |sum: f64, none: f64| if count > 0.0 { sum / count } else { none };
-        let [light, other] = [(self.light, 1.0), (self.other, 0.0)]
-            .map(|(sums, none)| sums.map(|sum| mean(sum, none) as f32));
-        let pixel = |cosine: &f64| ScenePixel {
-            place: 0,
-            cos_theta: *cosine as f32,
-            roughness: mean(self.roughness, 0.0) as f32,
-            coverage: 1.0,
-            light,
-            other,
-        };
-        step_cosines().iter().step_by(EVERY).map(pixel).collect()
+        if count == 0.0 {
+            return MIRROR_IN_WHITE;
+        }
+        let mean = |sums: [f64; 3]| sums.map(|sum| (sum / count) as f32);
+        ScenePixel {
+            roughness: (self.roughness / count) as f32,
+            light: mean(self.light),
+            other: mean(self.other),
+            ..MIRROR_IN_WHITE
+        }
     }
+}
+
+/// A mirror seen straight on under white light.
+const MIRROR_IN_WHITE: ScenePixel = ScenePixel {
+    place: 0,
+    cos_theta: 1.0,
+    roughness: 0.0,
+    coverage: 1.0,
+    light: [1.0; 3],
+    other: [0.0; 3],
+};
+
+/// The same pixel at each angle.
+fn every_angle(pixel: &ScenePixel) -> Vec<ScenePixel> {
+    let at = |cosine: &f64| ScenePixel {
+        cos_theta: *cosine as f32,
+        ..*pixel
+    };
+    step_cosines().iter().step_by(EVERY).map(at).collect()
 }
 
 /// The errors of candidates in some pixels of a frame.

@@ -1,29 +1,38 @@
 //! `plan`: of each material of a scene the cheapest function whose error nobody sees.
 
+use std::path::Path;
+
 use crate::app::args::{Choice, PlanFlags};
 use crate::app::error::Error;
 use crate::app::fault::RequestFault;
 use crate::app::plan_input::{PlanInput, plan_input};
+use crate::app::write::{try_places_of_ours, write_report};
 use crate::cost::{self, Family, GpuCompiler};
 use crate::materials::ViewingConditions;
 use crate::methods;
 use crate::plan::{
-    FramePixels, JudgedMaterial, PlanFault, PlanRequest, PlanRow, PlanTotal, Proof, plan,
+    FramePixels, JudgedMaterial, PlanFault, PlanRequest, PlanRow, PlanTotal, Proof, material_view,
+    plan,
 };
 #[cfg(feature = "gpu")]
 use crate::plan::{ProofCase, prove};
-use crate::report::plan::PlanReport;
+use crate::report::plan::{PlanReport, plan_page};
 use crate::scene::Display;
 
-use super::{Output, Progress, report, try_places};
+use super::{Output, Progress, not_drawn, replaced, report, try_places};
 
 /// Whose costs decide where none is named.
 const USUAL_GPU: &str = "rdna2";
 
+/// The page in the folder asked for.
+const PAGE: &str = "plan.html";
+
 /// Reads the scene, judges, chooses.
 pub fn run(flags: &PlanFlags, progress: Progress) -> Result<Output, Error> {
     check(flags)?;
-    try_places(flags.report.json(), None)?;
+    let page = flags.pictures.folder().map(|folder| folder.join(PAGE));
+    try_places(flags.report.json(), page.as_deref())?;
+    try_places_of_ours(page.as_slice(), flags.pictures.overwrite)?;
     let viewing = viewing(flags);
     let PlanInput {
         materials,
@@ -52,9 +61,35 @@ pub fn run(flags: &PlanFlags, progress: Progress) -> Result<Output, Error> {
         let (device, proofs) = proofs(&request, &judged, &mut *frame, progress)?;
         made = made.with_proofs(device, proofs);
     }
+    let paged = match &page {
+        Some(page) => paged(flags, &request, &judged, &made, &mut *frame, page)?,
+        None => Vec::new(),
+    };
     let mut output = report(made.text(), &made, flags.report.json())?;
+    output.remarks = paged;
     output.code = code.max(made.proof_code());
     Ok(output)
+}
+
+/// Writes the page, with pictures of the frames where functions are worst.
+fn paged(
+    flags: &PlanFlags,
+    request: &PlanRequest,
+    judged: &[JudgedMaterial],
+    made: &PlanReport,
+    frame: &mut dyn FnMut(usize) -> Result<FramePixels, Error>,
+    page: &Path,
+) -> Result<Vec<String>, Error> {
+    let mut views = Vec::new();
+    for (i, material) in judged.iter().enumerate() {
+        let pixels = frame(material.chosen().worst_frame)?;
+        views.push(material_view(request, material, i, &pixels));
+    }
+    let text = plan_page(made, &views).map_err(not_drawn)?;
+    let files = [(page.to_path_buf(), text.as_bytes())];
+    let old = write_report(&files, flags.pictures.overwrite)?;
+    let said = format!("{}: angles, errors, pictures and reasons", page.display());
+    Ok(replaced(&old).chain([said]).collect())
 }
 
 /// Runs the chosen functions in the frames where each is worst.

@@ -1,5 +1,7 @@
 //! A plan for people, and as JSON that `--plan` reads back.
 
+mod page;
+
 use serde::Serialize;
 
 use crate::plan::{PlanRequest, PlanRow, PlanTotal, Proof};
@@ -7,6 +9,8 @@ use crate::verify::Status;
 
 use super::envelope::Origin;
 use super::table::{short_number, text_table};
+
+pub use page::plan_page;
 
 /// A plan as JSON.
 #[derive(Debug, Serialize)]
@@ -20,6 +24,9 @@ pub struct PlanReport {
     cost_of: &'static str,
     /// What errors are measured by.
     metric: &'static str,
+    /// Its unit in words.
+    #[serde(skip)]
+    unit: &'static str,
     /// What functions are held against.
     reference: &'static str,
     /// The space of the pictures and of the functions.
@@ -60,6 +67,7 @@ impl PlanReport {
             gpu: request.family.name,
             cost_of: request.family.columns.measure,
             metric: request.metric.name(),
+            unit: request.metric.unit(),
             reference: request.truth.name(),
             space: request.space.name(),
             frames,
@@ -78,6 +86,11 @@ impl PlanReport {
             proofs,
             ..self
         }
+    }
+
+    /// The command that makes it again.
+    fn command(&self) -> &str {
+        self.origin.command()
     }
 
     /// How a run ends by its proofs: 1 where one fails, 3 where one could not be made.
