@@ -9,6 +9,10 @@
 //! Incoming light is held fixed: what is reflected twice is reflected with the exact law the first time. A rough surface takes the
 //! mean of F over the half vectors of GGX ([`crate::optics::Ggx`]) in the place of F.
 
+mod gbuffer;
+mod ids;
 mod pixels;
 
+pub use gbuffer::{GREATEST_SIDE, GbufferFault, read_gbuffer};
+pub use ids::{MaterialIds, Shown};
 pub use pixels::{FramePixels, MappedMaterial, ScenePixel};
