@@ -13,6 +13,8 @@
 mod candidate;
 mod choice;
 mod curve;
+mod gbuffer;
+mod ids;
 mod metric;
 mod picture_error;
 mod pixels;
@@ -24,6 +26,8 @@ mod view;
 
 pub use candidate::Candidate;
 pub use curve::{STEPS, step_cosines};
+pub use gbuffer::{GREATEST_SIDE, GbufferFault, read_gbuffer};
+pub use ids::{MaterialIds, Shown};
 pub use metric::{Metric, Screen};
 pub use picture_error::SHARE;
 pub use pixels::{FramePixels, MappedMaterial, ScenePixel};

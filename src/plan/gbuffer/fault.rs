@@ -1,0 +1,87 @@
+//! What is wrong with a G-buffer, and where.
+
+use thiserror::Error;
+
+use super::GREATEST_SIDE;
+
+/// Why a file is no G-buffer. The file's name is the caller's to put before it.
+#[derive(Clone, Debug, PartialEq, Eq, Error)]
+pub enum GbufferFault {
+    /// No OpenEXR file, or one that is cut short or broken.
+    #[error("not a readable OpenEXR file: {0}")]
+    Unreadable(String),
+    /// More pixels than a frame has.
+    #[error(
+        "a frame of {width} x {height} pixels; the largest has {GREATEST_SIDE} x {GREATEST_SIDE}, the smallest 1 x 1"
+    )]
+    Size {
+        /// Pixels across.
+        width: usize,
+        /// Pixels down.
+        height: usize,
+    },
+    /// A header that announces more than the file can hold.
+    #[error(
+        "its header announces {announced} bytes of pixels, which {held} bytes of file cannot hold: the file is broken or cut short"
+    )]
+    Announced {
+        /// Bytes of all pixels, uncompressed.
+        announced: u64,
+        /// Bytes of the file.
+        held: usize,
+    },
+    /// A part that is stored in a way that is not read.
+    #[error("the part with channel `{channel}` has {found}; {allowed}")]
+    Stored {
+        /// The first channel of that part which is wanted.
+        channel: &'static str,
+        /// How it is stored.
+        found: String,
+        /// What is read.
+        allowed: &'static str,
+    },
+    /// A channel that must be there.
+    #[error("channel `{channel}` is missing{offered}; the file has {present}")]
+    Missing {
+        /// The channel.
+        channel: &'static str,
+        /// The question whether a present one was meant, or nothing.
+        offered: String,
+        /// The names of channels that are there.
+        present: String,
+    },
+    /// A channel that stands twice.
+    #[error("channel `{channel}` stands in part {} and in part {} of the file; it must stand once", .parts[0] + 1, .parts[1] + 1)]
+    Twice {
+        /// The channel.
+        channel: &'static str,
+        /// Two parts that hold it, counted from 0.
+        parts: [usize; 2],
+    },
+    /// Two parts with different pixels.
+    #[error(
+        "channel `{channel}` has the data window {found}, and `{first_channel}` has {first}; all channels need the same"
+    )]
+    Windows {
+        /// A channel.
+        channel: &'static str,
+        /// Its data window.
+        found: String,
+        /// A channel before it.
+        first_channel: &'static str,
+        /// That one's data window.
+        first: String,
+    },
+    /// A value that the channel cannot have.
+    #[error("channel {channel}, pixel ({x}, {y}): {what}")]
+    Value {
+        /// The channel.
+        channel: &'static str,
+        /// The pixel's column, from 0.
+        x: usize,
+        /// The pixel's row, from 0 at the top.
+        y: usize,
+        /// What was found, and what is allowed.
+        what: String,
+    },
+}

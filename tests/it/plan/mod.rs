@@ -1,0 +1,3 @@
+//! Plans for scenes: what frames show, whoever drew them.
+
+mod gbuffer;
