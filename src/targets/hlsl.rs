@@ -69,13 +69,13 @@ pub static TARGET: Target = Target {
         Validator {
             name: "dxc -HV 2018",
             compiler: &DXC,
-            options: "-T ps_6_0 -E main -HV 2018 -Wall -Wextra -WX -Fo OUT FILE",
+            options: "-T ps_6_0 -E main -HV 2018 -Wall -Wextra -Wno-unused-parameter -WX -Fo OUT FILE",
             frame: FRAME,
         },
         Validator {
             name: "dxc -HV 2021",
             compiler: &DXC,
-            options: "-T ps_6_0 -E main -HV 2021 -Wall -Wextra -WX -Fo OUT FILE",
+            options: "-T ps_6_0 -E main -HV 2021 -Wall -Wextra -Wno-unused-parameter -WX -Fo OUT FILE",
             frame: FRAME,
         },
     ],
@@ -167,19 +167,19 @@ const HALF_VALIDATORS: &[Validator] = &[
     Validator {
         name: "dxc -HV 2018",
         compiler: &DXC,
-        options: "-T ps_6_2 -enable-16bit-types -E main -HV 2018 -Wall -Wextra -WX -Fo OUT FILE",
+        options: "-T ps_6_2 -enable-16bit-types -E main -HV 2018 -Wall -Wextra -Wno-unused-parameter -WX -Fo OUT FILE",
         frame: HALF_FRAME,
     },
     Validator {
         name: "dxc -HV 2021",
         compiler: &DXC,
-        options: "-T ps_6_2 -enable-16bit-types -E main -HV 2021 -Wall -Wextra -WX -Fo OUT FILE",
+        options: "-T ps_6_2 -enable-16bit-types -E main -HV 2021 -Wall -Wextra -Wno-unused-parameter -WX -Fo OUT FILE",
         frame: HALF_FRAME,
     },
     Validator {
         name: "dxc, 32 bits",
         compiler: &DXC,
-        options: "-T ps_6_0 -E main -HV 2021 -Wall -Wextra -WX -Fo OUT FILE",
+        options: "-T ps_6_0 -E main -HV 2021 -Wall -Wextra -Wno-unused-parameter -WX -Fo OUT FILE",
         frame: HALF_FRAME,
     },
 ];
