@@ -1,4 +1,7 @@
 //! HLSL, as FXC and DXC take it, under language versions 2018 and 2021 alike: no vector condition before `?`.
+//!
+//! Every function takes the cosine, and one that is a constant does not use it: DXC may not warn of that. Its text cannot say so, since
+//! glslang takes no `(void)` and older compilers want a name for every argument.
 
 use crate::ir::Op;
 use crate::num::Precision;
