@@ -3,6 +3,7 @@
 mod errors;
 #[cfg(feature = "meshes")]
 mod obj;
+mod surface_points;
 
 use fresnel_gen::raster::{
     Body, CUBE, Camera, CosineHistogram, Frame, Lens, Mesh, RELIEF, SPHERE, Turntable, Vertex,
