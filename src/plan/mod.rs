@@ -9,6 +9,14 @@
 //! Incoming light is held fixed: what is reflected twice is reflected with the exact law the first time. A rough surface takes the
 //! mean of F over the half vectors of GGX ([`crate::optics::Ggx`]) in the place of F.
 
+mod drawn;
+mod gltf;
 mod pixels;
+mod scene_file;
+mod sky;
 
+pub use drawn::{DrawnScene, SurfaceLook};
+pub use gltf::{GltfFault, GltfScene, GltfView, Unplanned, constant_index};
 pub use pixels::{FramePixels, MappedMaterial, ScenePixel};
+pub use scene_file::{MOST_FRAMES, ReadFile, SIDES, SceneFile};
+pub use sky::{BlurredEnvironment, SceneLight};

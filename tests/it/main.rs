@@ -42,6 +42,8 @@ mod pages;
 mod physics;
 #[cfg(feature = "pictures")]
 mod pictures;
+#[cfg(feature = "cli")]
+mod plan;
 mod raster;
 mod readme;
 mod records;

@@ -2,7 +2,7 @@
 
 mod errors;
 #[cfg(feature = "meshes")]
-mod obj;
+pub mod obj;
 mod surface_points;
 
 use fresnel_gen::raster::{
