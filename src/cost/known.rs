@@ -67,7 +67,7 @@ pub fn known_cost(
 }
 
 /// The cost of a function of which no compiler has to be asked.
-fn uncompiled_cost(function: &Checked, family: &Family) -> Option<KnownCost> {
+pub fn uncompiled_cost(function: &Checked, family: &Family) -> Option<KnownCost> {
     let basis = match family.compiler {
         GpuCompiler::None(_) => return None,
         _ if function.computes_nothing() => CostBasis::Nothing,

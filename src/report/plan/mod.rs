@@ -4,7 +4,7 @@ mod page;
 
 use serde::Serialize;
 
-use crate::plan::{PlanRequest, PlanRow, PlanTotal, Proof};
+use crate::plan::{PlanRequest, PlanRow, PlanTotal, Proof, Unplanned};
 use crate::verify::Status;
 
 use super::envelope::Origin;
@@ -40,15 +40,6 @@ pub struct PlanReport {
     #[serde(skip_serializing_if = "Vec::is_empty")]
     proofs: Vec<Proof>,
     rows: Vec<PlanRow>,
-}
-
-/// A material of the scene that gets no function.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
-pub struct Unplanned {
-    /// What the scene calls it.
-    pub name: String,
-    /// Why not.
-    pub reason: String,
 }
 
 impl PlanReport {

@@ -1,3 +1,6 @@
-//! Plans for scenes: what frames show, whoever drew them.
+//! Plans: scenes and frames as they are read, what their frames show, and what is chosen for them.
 
 mod gbuffer;
+mod gltf;
+mod scene_file;
+mod scenes;
