@@ -132,13 +132,13 @@ impl PlanReport {
             shared,
             ..
         } = &self.total;
-        let beside = |other: f64| match *cost > 0.0 {
-            true => format!(
-                "{} ({} times as much)",
-                short_number(other),
-                short_number(other / cost)
-            ),
-            false => short_number(other),
+        let beside = |other: f64| {
+            let times = short_number(other / cost);
+            match *cost > 0.0 {
+                true if times == "1" => format!("{}, as much", short_number(other)),
+                true => format!("{} ({times} times as much)", short_number(other)),
+                false => short_number(other),
+            }
         };
         let mut parts = vec![format!(
             "All together {} units × pixels of a frame",

@@ -2,5 +2,6 @@
 
 mod gbuffer;
 mod gltf;
+mod planned;
 mod scene_file;
 mod scenes;
