@@ -71,12 +71,22 @@ fn of_scene_file<'a>(file: &Path, viewing: &ViewingConditions) -> Result<PlanInp
     let (materials, places) = loaded(scene.materials(), file, viewing, &at)?;
     let drawn = scene.read(&mut |path| beside(file, path))?;
     let (count, display, frames) = (materials.len(), scene.display, scene.frames());
+    let mut is_seen = false;
+    let frame = move |index: usize| {
+        let frame = scene.frame(index, &drawn);
+        is_seen |= shows_any(&frame);
+        // Frames are asked for in their order first.
+        match is_seen || index + 1 < frames {
+            true => Ok(merged(frame, &places, count)),
+            false => Err(scene.nothing_is_seen().into()),
+        }
+    };
     Ok(PlanInput {
         materials,
         unplanned: Vec::new(),
         display,
         frames,
-        frame: Box::new(move |index| Ok(merged(scene.frame(index, &drawn), &places, count))),
+        frame: Box::new(frame),
     })
 }
 
@@ -111,13 +121,36 @@ fn of_gltf<'a>(
     };
     let (materials, places) = loaded(scene.materials(), file, viewing, &at)?;
     let (count, frames) = (materials.len(), scene.frames());
+    let unplanned = scene.unplanned.clone();
+    let mut is_seen = false;
+    let frame = move |index: usize| {
+        let frame = scene.frame(index);
+        is_seen |= shows_any(&frame);
+        match is_seen || index + 1 < frames {
+            true => Ok(merged(frame, &places, count)),
+            false => Err(Error::Usage {
+                what: nothing_planned(&name, &scene.unplanned),
+            }),
+        }
+    };
     Ok(PlanInput {
         materials,
-        unplanned: scene.unplanned.clone(),
+        unplanned,
         display: AS_IT_IS,
         frames,
-        frame: Box::new(move |index| Ok(merged(scene.frame(index), &places, count))),
+        frame: Box::new(frame),
     })
+}
+
+fn shows_any(frame: &FramePixels) -> bool {
+    frame.of_material.iter().any(|pixels| !pixels.is_empty())
+}
+
+/// What is wrong with a glTF scene in which nothing is seen that could be planned.
+fn nothing_planned(file: &str, unplanned: &[Unplanned]) -> String {
+    let reason = |one: &Unplanned| format!("; `{}`: {}", one.name, one.reason);
+    let reasons: String = unplanned.iter().map(reason).collect();
+    format!("{file}: no frame shows a material that can be planned{reasons}")
 }
 
 /// The bytes of a file that a scene's file names, relative to its folder.

@@ -19,8 +19,9 @@ mod materials;
 mod nodes;
 mod primitives;
 
-use gltf_json::Root;
-use gltf_json::validation::{Error, Validate};
+use gltf_json::mesh::Semantic;
+use gltf_json::validation::{Checked, Error, Validate};
+use gltf_json::{Accessor, Index, Root};
 
 use crate::raster::Camera;
 
@@ -128,11 +129,15 @@ fn root(container: &Container) -> Result<Root, Place> {
         let what = format!("it is {}; version 2.0 is read", root.asset.version);
         return Err(Place::new("asset.version", what));
     }
+    check_positions(&root)?;
     let mut first = None;
     root.validate(&root, gltf_json::Path::new, &mut |path, error| {
-        // Extensions have a list of ours.
-        if error != Error::Unsupported && first.is_none() {
-            first = Some((path().to_string(), error));
+        let place = path().to_string().replace("[\"", ".").replace("\"]", "");
+        // Extensions have a list of ours, and the extent of positions is not read.
+        let is_read = error != Error::Unsupported
+            && !(error == Error::Missing && place.contains(".attributes."));
+        if is_read && first.is_none() {
+            first = Some((place, error));
         }
     });
     if let Some((place, error)) = first {
@@ -144,6 +149,28 @@ fn root(container: &Container) -> Result<Root, Place> {
         };
         return Err(Place::new(place, what));
     }
+    check_extensions(&root)?;
+    Ok(root)
+}
+
+/// The crate takes the accessors of positions to be there before it holds any index against what is there.
+fn check_positions(root: &Root) -> Result<(), Place> {
+    for (i, mesh) in root.meshes.iter().enumerate() {
+        for (j, primitive) in mesh.primitives.iter().enumerate() {
+            let positions = primitive
+                .attributes
+                .get(&Checked::Valid(Semantic::Positions));
+            let is_there = |index: &Index<Accessor>| index.value() < root.accessors.len();
+            if !positions.is_none_or(is_there) {
+                let place = format!("meshes[{i}].primitives[{j}].attributes.POSITION");
+                return Err(Place::new(place, "the index leads to nothing"));
+            }
+        }
+    }
+    Ok(())
+}
+
+fn check_extensions(root: &Root) -> Result<(), Place> {
     for (i, name) in root.extensions_required.iter().enumerate() {
         // These change how surfaces look, which the catalogue's materials replace.
         let is_harmless = [
@@ -160,5 +187,5 @@ fn root(container: &Container) -> Result<Root, Place> {
             return Err(Place::new(format!("extensionsRequired[{i}]"), what));
         }
     }
-    Ok(root)
+    Ok(())
 }

@@ -116,6 +116,11 @@ impl SceneFile {
         self.cameras.len()
     }
 
+    /// Pixels across and down of its frames.
+    pub fn size(&self) -> [u32; 2] {
+        self.cameras[0].lens.size
+    }
+
     /// Its materials, in the order of [`FramePixels::of_material`].
     pub fn materials(&self) -> &[MappedMaterial] {
         &self.materials

@@ -217,3 +217,37 @@ fn what_is_no_plan_is_refused() {
     place.refused("plan", &["SCENE"]);
     place.refused("plan nowhere.toml", &["nowhere.toml"]);
 }
+
+/// Scenes in which nothing is in sight, or nothing that could be planned; a glTF whose dielectric has an index and no name.
+#[test]
+fn what_a_scene_does_not_show_is_not_planned() {
+    let place = Place::new();
+    let away = sphere("gold", "[1, 1, 1]").replace(
+        "orthographic = 2.0",
+        "vertical_degrees = 20\nat = [0, 0, 9]",
+    );
+    place.put("away.toml", away);
+    place.refused(
+        "plan away.toml",
+        &["away.toml:3:", "no frame shows anything"],
+    );
+    let numbers: Vec<u8> = [-1.0f32, -1.0, 0.0, 1.0, -1.0, 0.0, 0.0, 1.0, 0.0]
+        .into_iter()
+        .flat_map(f32::to_le_bytes)
+        .collect();
+    place.put("scene.bin", numbers);
+    let file = |metallic: u32| {
+        format!(
+            "{{\"asset\":{{\"version\":\"2.0\"}},\"nodes\":[{{\"mesh\":0}}],\"meshes\":[{{\"primitives\":[{{\"attributes\":{{\"POSITION\":0}},\"material\":0}}]}}],\"materials\":[{{\"name\":\"Paint\",\"pbrMetallicRoughness\":{{\"metallicFactor\":{metallic}}}}}],\"accessors\":[{{\"bufferView\":0,\"componentType\":5126,\"count\":3,\"type\":\"VEC3\"}}],\"bufferViews\":[{{\"buffer\":0,\"byteLength\":36}}],\"buffers\":[{{\"byteLength\":36,\"uri\":\"scene.bin\"}}]}}"
+        )
+    };
+    place.put("metal.gltf", file(1));
+    place.refused(
+        "plan metal.gltf --size 64x48",
+        &["metal.gltf: no frame shows", "`Paint`: ", "Schlick"],
+    );
+    place.put("paint.gltf", file(0));
+    let report = place.done("plan paint.gltf --size 64x48 --json -").json();
+    assert_eq!(report["frames"], 36);
+    assert_eq!(row(&report, "ior_1_5")["form"], "library");
+}
