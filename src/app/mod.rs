@@ -22,6 +22,10 @@ pub mod lock;
 pub mod manifest;
 pub mod names;
 pub mod ours;
+#[cfg(feature = "cli")]
+pub mod plan_file;
+#[cfg(feature = "cli")]
+mod plan_input;
 pub mod request;
 pub mod scope;
 pub mod source;

@@ -33,6 +33,14 @@ pub fn read(name: &str) -> Result<String, Error> {
     read_within(LARGEST, Path::new(name))
 }
 
+/// The text of a file at a path that a user names.
+///
+/// # Errors
+/// The file is not there, not an ordinary file, too large, or not UTF-8.
+pub fn text(path: &Path) -> Result<String, Error> {
+    read_within(LARGEST, path)
+}
+
 /// The text of a file with a function of a user's.
 ///
 /// # Errors

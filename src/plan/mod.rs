@@ -6,13 +6,36 @@
 //! plan: the functions within the budget with the least Σ cost × pixels + price × number of different functions
 //! ```
 //!
-//! Incoming light is held fixed: what is reflected twice is reflected with the exact law the first time. A rough surface takes the
-//! mean of F over the half vectors of GGX ([`crate::optics::Ggx`]) in the place of F.
+//! The error is that of the frame where it is worst; below 1000 pixels it is the largest difference. Incoming light is held fixed: what
+//! is reflected twice is reflected with the exact law the first time. A rough surface takes the mean of F over the half vectors of GGX
+//! ([`crate::optics::Ggx`]) in the place of F.
 
+mod candidate;
+mod choice;
+mod curve;
 mod gbuffer;
 mod ids;
+mod metric;
+mod picture_error;
 mod pixels;
+mod planned;
+#[cfg(feature = "gpu")]
+mod proof;
+mod row;
+mod view;
 
+pub use candidate::Candidate;
+pub use curve::{STEPS, step_cosines};
 pub use gbuffer::{GREATEST_SIDE, GbufferFault, read_gbuffer};
 pub use ids::{MaterialIds, Shown};
+pub use metric::{Metric, Screen};
+pub use picture_error::SHARE;
 pub use pixels::{FramePixels, MappedMaterial, ScenePixel};
+pub use planned::{
+    JudgedCandidate, JudgedMaterial, Judgement, PlanFault, PlanRequest, PlanTruth, PlannedMaterial,
+    plan,
+};
+#[cfg(feature = "gpu")]
+pub use proof::{ProofCase, prove};
+pub use row::{CheaperFunction, PlanFile, PlanFileRow, PlanRow, PlanTotal, Proof, SharedFunction};
+pub use view::{AngleCurve, MaterialView, ViewPicture, material_view};

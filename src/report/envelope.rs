@@ -27,6 +27,11 @@ impl Origin {
             command: command.into(),
         }
     }
+
+    /// The command.
+    pub fn command(&self) -> &str {
+        &self.command
+    }
 }
 
 /// A report of rows.

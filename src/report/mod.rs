@@ -19,6 +19,8 @@ pub mod material_sheet;
 pub mod params;
 #[cfg(feature = "cli")]
 mod pixels;
+#[cfg(feature = "cli")]
+pub mod plan;
 pub mod plot;
 #[cfg(feature = "pictures")]
 pub mod png;

@@ -5,6 +5,9 @@
 use glam::DVec3;
 use half::f16;
 
+#[cfg(feature = "gpu")]
+use crate::spectra::srgb_linear;
+
 /// Radiance by direction.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Environment {
@@ -78,7 +81,7 @@ impl Environment {
         }
         let linear = |value: f32| match is_linear {
             true => f64::from(value).clamp(0.0, f64::from(f16::MAX)),
-            false => decoded(f64::from(value)),
+            false => srgb_linear(f64::from(value)),
         };
         let texel = |pixel: &image::Rgb<f32>| rounded(pixel.0.map(linear));
         Ok(Environment {
@@ -143,16 +146,6 @@ fn direction(u: f64, v: f64) -> DVec3 {
 
 fn rounded(texel: [f64; 3]) -> [f32; 3] {
     texel.map(|value| f16::from_f64(value).to_f32())
-}
-
-/// A channel of sRGB, linear: IEC 61966-2-1:1999.
-#[cfg(feature = "gpu")]
-fn decoded(value: f64) -> f64 {
-    if value <= 0.040_45 {
-        value / 12.92
-    } else {
-        libm::pow((value + 0.055) / 1.055, 2.4)
-    }
 }
 
 #[cfg(test)]

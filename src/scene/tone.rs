@@ -41,8 +41,13 @@ pub struct Display {
 impl Display {
     /// What the screen shows, linear, 0 to 1.
     pub fn shown(&self, radiance: DVec3) -> DVec3 {
+        self.shown_within(radiance, 1.0)
+    }
+
+    /// What a screen shows whose brightest is this, linear; white is 1.
+    pub fn shown_within(&self, radiance: DVec3, brightest: f64) -> DVec3 {
         let exposed = radiance.max(DVec3::ZERO) * libm::exp2(self.exposure);
         let shown = exposed.to_array().map(self.curve.curve);
-        DVec3::from_array(shown).clamp(DVec3::ZERO, DVec3::ONE)
+        DVec3::from_array(shown).clamp(DVec3::ZERO, DVec3::splat(brightest))
     }
 }

@@ -111,6 +111,15 @@ pub fn srgb_byte(linear: f64) -> u8 {
     (255.0 * encoded).round() as u8
 }
 
+/// A channel as sRGB encodes it, in [0, 1], linear: the inverse of [`srgb_byte`] without its steps.
+pub fn srgb_linear(encoded: f64) -> f64 {
+    if encoded <= 0.040_45 {
+        encoded / 12.92
+    } else {
+        libm::pow((encoded + 0.055) / 1.055, 2.4)
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -128,6 +137,7 @@ mod tests {
             (7.0, 255),
         ] {
             assert_eq!(srgb_byte(linear), byte, "{linear}");
+            assert_eq!(srgb_byte(srgb_linear(f64::from(byte) / 255.0)), byte);
         }
     }
 

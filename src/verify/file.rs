@@ -106,6 +106,14 @@ fn cases<'a>(plan: &'a VerifyPlan, file: &PlannedFile, emitted: &Emitted) -> Vec
     cases
 }
 
+/// The trial of a function with a material's values.
+pub fn material_trial(subject: &MaterialInMedium, emitted: &Emitted) -> Trial {
+    match emitted.form {
+        FunctionForm::Specialised => specialised(subject, emitted).trial,
+        _ => library(subject, emitted).trial,
+    }
+}
+
 pub(super) fn specialised<'a>(subject: &'a MaterialInMedium, emitted: &Emitted) -> TrialCase<'a> {
     let bound = match &emitted.code {
         Measured::Yes(CodeBound::Ulp(bound) | CodeBound::Absolute(bound)) => Measured::Yes(*bound),

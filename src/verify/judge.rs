@@ -9,9 +9,10 @@ use super::effect_trial::EffectOutcome;
 use super::plan::{PlannedFile, ShippedPage};
 use super::row::{
     AllowedAbsolute, AllowedError, AllowedUlp, Answer, CodeErrorFigures, Emulation,
-    ModelErrorFigures, SecondOpinion, Status, VerifyRow, finite,
+    ModelErrorFigures, SecondOpinion, VerifyRow, finite,
 };
 use super::run::{ExecutionPath, RunFault};
+use super::status::Status;
 use super::{HalfError, Miss, Outcome};
 
 /// What came of running a function by one execution path.

@@ -42,6 +42,7 @@ mod points;
 mod row;
 #[cfg(feature = "gpu")]
 pub mod run;
+mod status;
 #[cfg(all(feature = "cli", feature = "gpu"))]
 mod supervise;
 #[cfg(feature = "gpu")]
@@ -66,9 +67,10 @@ pub use object::as_object;
 pub use points::{WITHIN, beyond, cosines, cosines_around, limits, share};
 #[cfg(all(feature = "cli", feature = "gpu"))]
 pub use row::{
-    AllowedError, Answer, CodeErrorFigures, Emulation, ModelErrorFigures, SecondOpinion, Status,
-    VerifyRow, WORST,
+    AllowedError, Answer, CodeErrorFigures, Emulation, ModelErrorFigures, SecondOpinion, VerifyRow,
+    WORST,
 };
+pub use status::Status;
 #[cfg(all(feature = "cli", feature = "gpu"))]
 pub use supervise::supervise;
 #[cfg(feature = "gpu")]

@@ -9,6 +9,7 @@ use crate::fit::ModelError;
 use super::compilers::Verdict;
 use super::effect_trial::EffectOutcome;
 use super::object::as_object;
+use super::status::Status;
 use super::{CodeError, HalfError};
 use crate::emit::FunctionForm;
 use crate::num::Precision;
@@ -74,29 +75,6 @@ pub struct VerifyRow {
     /// In half precision, how far it is from f16 rounded after every operation.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub emulation: Option<Emulation>,
-}
-
-/// What to think of a function.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub enum Status {
-    /// It does what it should.
-    Pass,
-    /// It does not.
-    Fail,
-    /// It was not run.
-    NotChecked,
-}
-
-impl Status {
-    /// In words.
-    pub fn words(self) -> &'static str {
-        match self {
-            Status::Pass => "pass",
-            Status::Fail => "fail",
-            Status::NotChecked => "not checked",
-        }
-    }
 }
 
 /// Whether a compiler accepts a file.

@@ -54,6 +54,9 @@ pub struct GenerateFlags {
     /// GPU family whose recorded costs --budget compares: rdna2, adreno330 ... as for `cost` [default: rdna2]
     #[arg(long, value_name = "NAME", requires = "budget", value_parser = family())]
     pub gpu: Option<&'static Family>,
+    /// Write exactly the functions of this plan, which `fresnel-gen plan --json FILE` made
+    #[arg(long, value_name = "FILE", value_parser = file_only("--plan"), conflicts_with_all = ["method", "effect", "material", "medium", "matching_angle", "precision", "force", "budget", "space", "illuminant", "observer", "adaptation", "step", "wavelengths", "extrapolate", "gamut"])]
+    pub plan: Option<PathBuf>,
     /// The folder for the generated tree.
     #[command(flatten)]
     pub tree: TreeFlags,

@@ -13,6 +13,7 @@ mod material;
 mod materials;
 mod named;
 mod output;
+mod plan;
 mod precision;
 mod renamed;
 mod render;
@@ -23,7 +24,7 @@ mod time;
 mod verify;
 mod viewing;
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use clap::{Parser, Subcommand};
 
@@ -44,6 +45,7 @@ pub use materials::{
 };
 pub use named::NamedFiles;
 pub use output::{CheckReportFlags, PictureFlags, ReportFlags, TreeFlags};
+pub use plan::PlanFlags;
 pub use precision::{PrecisionFlags, each_once};
 pub use renamed::with_names_of_today;
 pub use render::RenderFlags;
@@ -115,6 +117,8 @@ pub enum Command {
     Render(RenderFlags),
     /// Measure the error of methods in pictures of an object: of the angles that a camera sees
     SceneError(Box<SceneErrorFlags>),
+    /// Choose for each material of a scene the cheapest function whose error nobody sees in its pictures
+    Plan(Box<PlanFlags>),
     /// Write a page that draws every effect live, beside the exact law, with the functions to copy
     Gallery(GalleryFlags),
 }
@@ -126,6 +130,7 @@ impl Cli {
         let Some(command) = &self.command else {
             let flags = &self.generate;
             named.seen(&flags.materials, &flags.medium, &flags.viewing.viewing);
+            named.inputs.extend(flags.plan.as_deref());
             named.write(flags.output.iter().chain(&flags.depfile));
             return named;
         };
@@ -162,6 +167,10 @@ impl Cli {
                 named.inputs.extend(material.map(Path::new));
                 named.inputs.extend(flags.environment.as_deref());
                 named.write(flags.report.json.iter().chain(&flags.output));
+            }
+            Command::Plan(flags) => {
+                named.inputs.extend(flags.inputs().map(PathBuf::as_path));
+                named.write(&flags.report.json);
             }
             Command::SceneError(flags) => {
                 named.inputs.extend(flags.mesh.as_deref());

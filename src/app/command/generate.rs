@@ -11,6 +11,7 @@ use crate::app::fault::RequestFault;
 use crate::app::generate::{Generated, Kept, generate_beside, generate_single};
 use crate::app::lock::{Announce, Lock};
 use crate::app::manifest::{self, Manifest};
+use crate::app::plan_file::{material_paths, planned};
 use crate::app::request::{Materials, Request};
 use crate::app::tables::add_tables;
 use crate::app::tree::{TreePlan, plan};
@@ -28,7 +29,11 @@ use super::{Output, folder_or_current, refuse_within_tree};
 
 /// Generates. `announce` hears what a person should know before the run ends.
 pub fn run(flags: &GenerateFlags, announce: Announce) -> Result<Output, Error> {
-    let (request, said) = chosen(flags, request(flags)?)?;
+    let request = request(flags)?;
+    let (request, said) = match &flags.plan {
+        Some(file) => (planned(file, request)?, Vec::new()),
+        None => chosen(flags, request)?,
+    };
     let mut output = match &flags.output {
         Some(file) => single(flags, &request, file)?,
         None => tree(flags, &request, announce)?,
@@ -116,6 +121,7 @@ fn within(budget: Budget, request: Request) -> Result<(Request, Vec<String>), Er
     let chosen = |row: &BudgetRow| (row.material.clone(), row.choice.chosen.method);
     let request = Request {
         chosen: rows.iter().map(chosen).collect(),
+        methods: Vec::new(),
         ..request
     };
     Ok((request, rows.iter().flat_map(budget_remarks).collect()))
@@ -337,7 +343,11 @@ fn rule(flags: &GenerateFlags, outputs: &[String]) -> Result<Option<String>, Err
     }
     let paths = flags.materials.paths().chain(flags.medium.path());
     let paths = paths.chain(flags.viewing.viewing.path());
-    let inputs: Vec<String> = paths.map(str::to_owned).collect();
+    let mut inputs: Vec<String> = paths.map(str::to_owned).collect();
+    if let Some(plan) = &flags.plan {
+        inputs.push(plan.display().to_string());
+        inputs.extend(material_paths(plan)?);
+    }
     depfile::depfile(outputs, &inputs).map(Some)
 }
 

@@ -13,6 +13,7 @@ mod import;
 mod listing;
 mod materials;
 mod params;
+mod plan;
 #[cfg(feature = "gpu")]
 mod render;
 mod reproduce;
@@ -99,6 +100,7 @@ pub fn run(cli: &Cli, progress: Progress, announce: Announce) -> Result<Output, 
         Some(Command::Gallery(flags)) => gallery::run(flags, progress),
         Some(Command::Stability(flags)) => stability::run(flags, progress),
         Some(Command::Reproduce(flags)) => reproduce::run(flags, progress),
+        Some(Command::Plan(flags)) => plan::run(flags, progress),
         Some(Command::SceneError(flags)) => scene_error::run(flags, progress),
     }
 }

@@ -153,9 +153,7 @@ fn made(run: &Run, kept: &Kept) -> Result<Vec<Made>, Error> {
         return run.effect_files(&mut owners);
     }
     let mut files = Vec::new();
-    let mut library = written::library_methods(run.request, run.named.as_deref());
-    library.retain(|_| run.request.chosen.is_empty());
-    for method in library {
+    for method in written::library_methods(run.request, run.named.as_deref()) {
         files.extend(run.library(method, &mut owners)?);
     }
     for (index, (subject, _)) in run.subjects.iter().enumerate() {
@@ -356,9 +354,11 @@ impl<'r> Run<'r> {
                 .iter()
                 .map(|target| target.name.to_owned())
                 .collect(),
-            methods: match request.chosen.is_empty() && !is_of_effects {
-                true => self.named.as_ref().map(names),
-                false => Some(BTreeSet::new()),
+            methods: match (&self.named, request.chosen.is_empty()) {
+                _ if is_of_effects => Some(BTreeSet::new()),
+                (Some(named), _) => Some(names(named)),
+                (None, true) => None,
+                (None, false) => Some(BTreeSet::new()),
             },
             materials: subjects.map(|(subject, _)| subject.name.clone()).collect(),
             effects: artifacts.iter().filter_map(Artifact::effect_key).collect(),

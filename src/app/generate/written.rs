@@ -10,9 +10,13 @@ use super::{Kept, Run};
 
 type Named<'a> = Option<&'a [&'static Method]>;
 
-/// The methods of library files.
+/// The methods of library files: where each material's function is chosen only those that are named.
 pub fn library_methods(request: &Request, named: Named) -> Vec<&'static Method> {
-    let mut methods = named.unwrap_or(methods::ALL).to_vec();
+    let all = match request.chosen.is_empty() {
+        true => methods::ALL,
+        false => &[],
+    };
+    let mut methods = named.unwrap_or(all).to_vec();
     methods.retain(|method| request.refusal(method, true).is_none());
     methods
 }

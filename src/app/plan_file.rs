@@ -1,0 +1,123 @@
+//! A plan that `plan --json` wrote, read back: the request for exactly its functions.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::path::Path;
+
+use crate::emit::FunctionForm;
+use crate::materials::{self, FileFault};
+use crate::methods;
+use crate::num::Precision;
+use crate::plan::{PlanFile, PlanFileRow};
+use crate::spectra::Space;
+
+use super::error::Error;
+use super::names::unknown;
+use super::request::{Materials, Request, Source, load};
+use super::source;
+
+/// The beginning of the command of a plan.
+const COMMAND: &str = "plan";
+
+/// The request for a plan's functions: each material's own, and library files.
+///
+/// # Errors
+/// The file cannot be read, is no plan, or names what does not exist.
+pub fn planned(file: &Path, request: Request) -> Result<Request, Error> {
+    let plan = read(file)?;
+    let mut sources = Vec::new();
+    let mut chosen = BTreeMap::new();
+    let mut library = BTreeSet::new();
+    for row in &plan.rows {
+        let method = methods::find(&row.method);
+        let names: Vec<&str> = methods::ALL.iter().map(|method| method.name).collect();
+        let method = method.ok_or_else(|| unknown("method", &row.method, &names))?;
+        if row.form != FunctionForm::Specialised {
+            library.insert(row.method.clone());
+            continue;
+        }
+        let source = named(row)?;
+        let name = load(&source)?.material.name;
+        chosen.insert(name, method.name);
+        sources.push(source);
+    }
+    let mut viewing = request.viewing.clone();
+    viewing.integration.space = space(&plan)?;
+    Ok(Request {
+        methods: library.into_iter().collect(),
+        materials: match sources.is_empty() {
+            true => Materials::None,
+            false => Materials::These(sources),
+        },
+        chosen,
+        viewing,
+        precision: precision(file, &plan)?,
+        ..request
+    })
+}
+
+/// The paths of material files that a plan names.
+///
+/// # Errors
+/// As [`planned`].
+pub fn material_paths(file: &Path) -> Result<Vec<String>, Error> {
+    let rows = read(file)?.rows.into_iter();
+    let own = rows.filter(|row| row.form == FunctionForm::Specialised);
+    Ok(own
+        .map(|row| row.material)
+        .filter(|material| materials::source(material).is_none())
+        .collect())
+}
+
+fn read(file: &Path) -> Result<PlanFile, Error> {
+    let text = source::text(file)?;
+    let fault = |line: usize, column: usize, what: String| FileFault {
+        file: file.display().to_string(),
+        line: line.max(1),
+        column: column.max(1),
+        what,
+    };
+    let made_by = "`fresnel-gen plan --json FILE` makes one";
+    let plan: PlanFile = serde_json::from_str(&text).map_err(|error| {
+        let what = format!("this is no plan: {error}; {made_by}");
+        fault(error.line(), error.column(), what)
+    })?;
+    if plan.command.split(' ').next() != Some(COMMAND) || plan.rows.is_empty() {
+        let what = format!("this is no plan with functions; {made_by}");
+        return Err(fault(1, 1, what).into());
+    }
+    Ok(plan)
+}
+
+fn named(row: &PlanFileRow) -> Result<Source, Error> {
+    if materials::source(&row.material).is_some() {
+        return Ok(Source::Named(row.material.clone()));
+    }
+    if !source::is_path(&row.material) {
+        return Err(unknown("material", &row.material, &materials::names()));
+    }
+    Ok(Source::File {
+        text: source::read(&row.material)?,
+        file: row.material.clone(),
+    })
+}
+
+fn space(plan: &PlanFile) -> Result<Space, Error> {
+    let found = Space::ALL
+        .into_iter()
+        .find(|space| space.name() == plan.space);
+    found.ok_or_else(|| unknown("space", &plan.space, &Space::ALL.map(Space::name)))
+}
+
+/// The one precision of a plan.
+fn precision(file: &Path, plan: &PlanFile) -> Result<Precision, Error> {
+    let first = plan.rows[0].precision;
+    match plan.rows.iter().all(|row| row.precision == first) {
+        true => Ok(first),
+        false => Err(Error::Usage {
+            what: format!(
+                "{}: its functions compute in different precisions; a plan has one",
+                file.display()
+            ),
+        }),
+    }
+}

@@ -1,0 +1,248 @@
+//! The choice of a function for each material, of the least total cost. Pure.
+//!
+//! ```text
+//! total = Σ over materials of cost × pixels + price × number of different functions
+//! ```
+//!
+//! Specialised functions differ from material to material; a library function serves all materials that take it. The least total is
+//! found by branch and bound over the library functions: exact, and quick because few of them can pay for themselves.
+
+use core::cmp::Ordering;
+
+/// A function of a material, within its budget.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Choosable {
+    /// What it adds to the total for all pixels of the material, without the price of a function.
+    pub cost: f64,
+    /// Its error.
+    pub error: f64,
+    /// Its name: the last resort among equals.
+    pub name: String,
+    /// The library function that it is; none where it is the material's own.
+    pub shared: Option<usize>,
+}
+
+/// The place of the chosen function of each material, which has one at least. `price` is that of a function.
+pub fn choose(materials: &[Vec<Choosable>], price: f64) -> Vec<usize> {
+    let highest = materials
+        .iter()
+        .flatten()
+        .filter_map(|one| one.shared)
+        .max();
+    let mut search = Search {
+        materials,
+        price,
+        states: vec![State::Open; highest.map_or(0, |last| last + 1)],
+        best: None,
+    };
+    search.descend(0);
+    search.best.map(|(choice, _)| choice).unwrap_or_default()
+}
+
+/// Whether a library function is compiled.
+#[derive(Clone, Copy, PartialEq)]
+enum State {
+    Open,
+    Taken,
+    Left,
+}
+
+struct Search<'a> {
+    materials: &'a [Vec<Choosable>],
+    price: f64,
+    states: Vec<State>,
+    best: Option<(Vec<usize>, Total)>,
+}
+
+/// What a choice comes to; ties are told by the error, then by name.
+#[derive(Clone)]
+struct Total {
+    cost: f64,
+    error: f64,
+    names: Vec<String>,
+}
+
+impl Total {
+    fn order(&self, other: &Total) -> Ordering {
+        let alike = (self.cost - other.cost).abs() <= 1e-12 * self.cost.abs().max(other.cost.abs());
+        let by_cost = match alike {
+            true => Ordering::Equal,
+            false => self.cost.total_cmp(&other.cost),
+        };
+        by_cost
+            .then(self.error.total_cmp(&other.error))
+            .then_with(|| self.names.cmp(&other.names))
+    }
+}
+
+impl Search<'_> {
+    fn descend(&mut self, next: usize) {
+        if let Some((_, best)) = &self.best
+            && self.bound() > best.cost * (1.0 + 1e-12)
+        {
+            return;
+        }
+        // Without a price nothing is shared for its own sake: one pass decides.
+        if next == self.states.len() || self.price == 0.0 {
+            return self.enter();
+        }
+        for state in [State::Left, State::Taken] {
+            self.states[next] = state;
+            self.descend(next + 1);
+        }
+        self.states[next] = State::Open;
+    }
+
+    /// No choice below this node costs less.
+    fn bound(&self) -> f64 {
+        let taken = self.states.iter().filter(|state| **state == State::Taken);
+        let least = |material: &Vec<Choosable>| {
+            let costs = material.iter().filter_map(|one| self.cost(one));
+            costs.fold(f64::INFINITY, f64::min)
+        };
+        let own: f64 = self.materials.iter().map(least).sum();
+        own + taken.count() as f64 * self.price
+    }
+
+    /// What a function adds, its own price included where it is the material's own; nothing where it is left out.
+    fn cost(&self, one: &Choosable) -> Option<f64> {
+        match one.shared {
+            None => Some(one.cost + self.price),
+            Some(function) => (self.states[function] != State::Left).then_some(one.cost),
+        }
+    }
+
+    /// The best choice where every library function is decided upon.
+    fn enter(&mut self) {
+        let mut choice = Vec::new();
+        for material in self.materials {
+            let open = (0..material.len()).filter_map(|i| Some((i, self.cost(&material[i])?)));
+            let first = open.min_by(|(a, a_cost), (b, b_cost)| {
+                let [a, b] = [*a, *b].map(|i| &material[i]);
+                a_cost
+                    .total_cmp(b_cost)
+                    .then(a.error.total_cmp(&b.error))
+                    .then_with(|| a.name.cmp(&b.name))
+            });
+            let Some((first, _)) = first else { return };
+            choice.push(first);
+        }
+        let total = self.total(&choice);
+        let is_better = |(_, best): &(Vec<usize>, Total)| total.order(best) == Ordering::Less;
+        if self.best.as_ref().is_none_or(is_better) {
+            self.best = Some((choice, total));
+        }
+    }
+
+    fn total(&self, choice: &[usize]) -> Total {
+        let chosen = self.materials.iter().zip(choice);
+        let chosen: Vec<&Choosable> = chosen.map(|(material, i)| &material[*i]).collect();
+        Total {
+            cost: total_cost(chosen.iter().copied(), self.price),
+            error: chosen.iter().map(|one| one.error).sum(),
+            names: chosen.iter().map(|one| one.name.clone()).collect(),
+        }
+    }
+}
+
+/// What functions cost together.
+pub fn total_cost<'a>(chosen: impl Iterator<Item = &'a Choosable> + Clone, price: f64) -> f64 {
+    let mut shared: Vec<usize> = chosen.clone().filter_map(|one| one.shared).collect();
+    shared.sort_unstable();
+    shared.dedup();
+    let own = chosen.clone().filter(|one| one.shared.is_none()).count();
+    let sum: f64 = chosen.map(|one| one.cost).sum();
+    sum + (own + shared.len()) as f64 * price
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    fn one(cost: f64, error: f64, name: &str, shared: Option<usize>) -> Choosable {
+        Choosable {
+            cost,
+            error,
+            name: name.to_owned(),
+            shared,
+        }
+    }
+
+    #[test]
+    fn the_cheapest_is_taken_and_ties_fall_to_the_error_then_the_name() {
+        let material = vec![
+            one(12.0, 0.5, "schlick", None),
+            one(12.0, 0.4, "z", None),
+            one(12.0, 0.4, "empirical", None),
+            one(22.0, 0.1, "fitted", None),
+        ];
+        assert_eq!(choose(&[material], 0.0), [2]);
+    }
+
+    #[test]
+    fn a_library_function_is_shared_where_functions_have_a_price() {
+        let material = || {
+            vec![
+                one(10.0, 0.1, "own", None),
+                one(14.0, 0.1, "fitted", Some(0)),
+            ]
+        };
+        let two = [material(), material()];
+        assert_eq!(choose(&two, 0.0), [0, 0]);
+        assert_eq!(choose(&two, 7.0), [0, 0]);
+        assert_eq!(choose(&two, 9.0), [1, 1]);
+        let chosen = [&two[0][1], &two[1][1]];
+        assert_eq!(total_cost(chosen.into_iter(), 9.0), 37.0);
+    }
+
+    fn materials() -> impl Strategy<Value = Vec<Vec<Choosable>>> {
+        let function = (0_u8..40, 0_u8..20, prop::option::of(0_usize..4));
+        let material = prop::collection::vec(function, 1..6);
+        let named = |functions: Vec<(u8, u8, Option<usize>)>| {
+            let each = functions.into_iter().enumerate();
+            each.map(|(i, (cost, error, shared))| {
+                one(f64::from(cost), f64::from(error), &i.to_string(), shared)
+            })
+            .collect()
+        };
+        prop::collection::vec(material.prop_map(named), 1..5)
+    }
+
+    /// The least total of all choices.
+    fn least(materials: &[Vec<Choosable>], price: f64, within: f64) -> Option<f64> {
+        fn visit<'a>(
+            rest: &'a [Vec<Choosable>],
+            chosen: &mut Vec<&'a Choosable>,
+            within: f64,
+            found: &mut dyn FnMut(&[&Choosable]),
+        ) {
+            let Some((first, rest)) = rest.split_first() else {
+                return found(chosen);
+            };
+            for candidate in first.iter().filter(|one| one.error <= within) {
+                chosen.push(candidate);
+                visit(rest, chosen, within, found);
+                chosen.pop();
+            }
+        }
+        let mut best: Option<f64> = None;
+        visit(materials, &mut Vec::new(), within, &mut |chosen| {
+            let total = total_cost(chosen.iter().copied(), price);
+            best = Some(best.map_or(total, |best| best.min(total)));
+        });
+        best
+    }
+
+    proptest! {
+        #[test]
+        fn the_total_is_the_least_of_all(materials in materials(), price in 0_u8..30) {
+            let price = f64::from(price);
+            let choice = choose(&materials, price);
+            let chosen: Vec<&Choosable> = materials.iter().zip(&choice).map(|(m, i)| &m[*i]).collect();
+            let total = total_cost(chosen.iter().copied(), price);
+            let want = least(&materials, price, f64::INFINITY).unwrap();
+            prop_assert!((total - want).abs() < 1e-9, "{total} instead of {want}");
+        }
+    }
+}

@@ -1,0 +1,509 @@
+//! The plan: candidates of every material judged in every frame, and the choice among them.
+
+use crate::cost::{Family, records};
+use crate::emit;
+use crate::materials::Surface;
+use crate::methods::{Light, Method};
+use crate::num::{Precision, each_channel, in_parallel};
+use crate::raster::CosineHistogram;
+use crate::reference::{MaterialInMedium, ReferenceCurve};
+use crate::scene::Display;
+use crate::spectra::Space;
+
+use super::candidate::{Candidate, Prices, candidates};
+use super::choice::{Choosable, choose};
+use super::curve::{Curve, PixelPlace, RoughRule, step_cosines};
+use super::metric::{Metric, Screen};
+use super::picture_error::{JudgedPixels, PERCENTILE_FROM};
+use super::pixels::{FramePixels, ScenePixel};
+
+/// Errors are compared and told in so many parts of 1: what single precision rounds is far below.
+const ERROR_PARTS: f64 = 1e4;
+/// Steps between exposures of a range, in stops.
+const STOPS: f64 = 0.5;
+/// Every how manieth step of angle is looked at where every angle counts.
+const EVERY: usize = 16;
+
+/// What a plan is held to.
+#[derive(Clone, Debug)]
+pub struct PlanRequest {
+    /// The largest error.
+    pub budget: f64,
+    /// What errors are measured by.
+    pub metric: Metric,
+    /// From radiance to the screen.
+    pub display: Display,
+    /// The space of the pictures.
+    pub space: Space,
+    /// So many stops darker and brighter are looked at too.
+    pub exposure_range: f64,
+    /// A material that no frame shows on so many pixels is held to every angle.
+    pub min_pixels: usize,
+    /// What functions are held against.
+    pub truth: PlanTruth,
+    /// The GPUs whose costs decide.
+    pub family: &'static Family,
+    /// What functions compute in.
+    pub precision: Precision,
+    /// How many channels functions may give.
+    pub channels: Vec<usize>,
+    /// The methods among which it chooses.
+    pub methods: Vec<&'static Method>,
+    /// What a texture fetch costs; without it no table is taken.
+    pub fetch: Option<f64>,
+    /// What another function costs, as so many units × pixels.
+    pub price: f64,
+}
+
+/// What functions are held against.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum PlanTruth {
+    /// The exact law at each wavelength.
+    Spectrum,
+    /// The exact law with one index a channel, as the exact methods take it.
+    Exact,
+}
+
+impl PlanTruth {
+    /// Both.
+    pub const ALL: [PlanTruth; 2] = [PlanTruth::Spectrum, PlanTruth::Exact];
+
+    /// Its name on the command line.
+    pub fn name(self) -> &'static str {
+        match self {
+            PlanTruth::Spectrum => "spectrum",
+            PlanTruth::Exact => "exact",
+        }
+    }
+
+    /// Its values at [`step_cosines`].
+    fn values(self, subject: &MaterialInMedium) -> Vec<[f64; 3]> {
+        let own = &subject.reference;
+        let reference = match self {
+            PlanTruth::Spectrum => own.clone(),
+            PlanTruth::Exact => {
+                let mut surface = Surface::of_channels(&subject.effective.channels);
+                surface.gamut = own.surface.gamut;
+                ReferenceCurve::new(surface, Light::Unpolarised)
+            }
+        };
+        let cosines = step_cosines();
+        let at = |i: usize| reference.at(cosines[i]);
+        in_parallel(cosines.len(), &at, &mut |_, _| {})
+    }
+}
+
+/// A material of the scene.
+#[derive(Clone, Debug)]
+pub struct PlannedMaterial {
+    /// What a user types to name it.
+    pub argument: String,
+    /// The material.
+    pub subject: MaterialInMedium,
+    /// Whether it has no file that a function could be specialised to.
+    pub is_library_only: bool,
+}
+
+/// A candidate with its error in the frames.
+#[derive(Clone, Debug)]
+pub struct JudgedCandidate {
+    /// The function.
+    pub candidate: Candidate,
+    /// The error in the frame where it is worst.
+    pub error: f64,
+    /// That frame, from 0.
+    pub worst_frame: usize,
+}
+
+/// How a material's error was found.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Judgement {
+    /// As what holds 99.9 % of what it covers.
+    Percentile,
+    /// As the largest of its few pixels.
+    Largest,
+    /// As the largest at all angles under its mean light, since too few pixels show it.
+    EveryAngle,
+}
+
+/// What was found of a material.
+#[derive(Clone, Debug)]
+pub struct JudgedMaterial {
+    /// The material.
+    pub material: PlannedMaterial,
+    /// Its candidates.
+    pub candidates: Vec<JudgedCandidate>,
+    /// The place of the chosen one.
+    pub chosen: usize,
+    /// How errors were found.
+    pub judgement: Judgement,
+    /// Frames that show it.
+    pub frames: usize,
+    /// Its pixels in all frames.
+    pub pixels: u64,
+    /// The angles under which they show it, by coverage.
+    pub angles: CosineHistogram,
+    /// What its exact law costs.
+    pub cost_exact: Option<f64>,
+    /// What functions are held against, at [`step_cosines`].
+    pub truth: Vec<[f64; 3]>,
+    /// Its mean roughness and light in all frames; white light on a mirror where no frame shows it.
+    pub mean: ScenePixel,
+}
+
+/// Why there is no plan.
+#[derive(Debug, thiserror::Error)]
+pub enum PlanFault<E> {
+    /// A frame cannot be had.
+    #[error(transparent)]
+    Frame(E),
+    /// A function cannot be made.
+    #[error(transparent)]
+    Function(emit::Error),
+    /// A material has no function whose cost is known.
+    #[error(
+        "{material}: no function that describes it has a known cost on {gpu}; name another --gpu"
+    )]
+    NoCost {
+        /// The material.
+        material: String,
+        /// The family.
+        gpu: &'static str,
+    },
+}
+
+/// Judges and chooses. `frame` gives one frame after another; `progress` hears how many are done, of how many.
+///
+/// # Errors
+/// A frame cannot be had, or a material has no function whose cost is known.
+pub fn plan<E>(
+    request: &PlanRequest,
+    materials: Vec<PlannedMaterial>,
+    frames: usize,
+    frame: &mut dyn FnMut(usize) -> Result<FramePixels, E>,
+    progress: &mut dyn FnMut(u64, u64),
+) -> Result<Vec<JudgedMaterial>, PlanFault<E>> {
+    let screen = Screen::new(request.metric, request.display, request.space);
+    let exposures = exposures(request.exposure_range);
+    let mut seen = materials
+        .into_iter()
+        .map(|material| Seen::new(request, material).map_err(PlanFault::Function))
+        .collect::<Result<Vec<Seen>, _>>()?;
+    if let Some(without) = seen.iter().find(|seen| seen.judged.candidates.is_empty()) {
+        return Err(PlanFault::NoCost {
+            material: without.judged.material.subject.name.clone(),
+            gpu: request.family.name,
+        });
+    }
+    for index in 0..frames {
+        let pixels = frame(index).map_err(PlanFault::Frame)?;
+        for (seen, pixels) in seen.iter_mut().zip(&pixels.of_material) {
+            seen.enter(index, pixels, &screen, &exposures);
+        }
+        progress(index as u64 + 1, frames as u64);
+    }
+    let mut judged: Vec<JudgedMaterial> = seen
+        .into_iter()
+        .map(|seen| seen.judged(request, &screen, &exposures))
+        .collect();
+    let (places, functions) = choosable(&judged, request.budget, frames);
+    let choice = choose(&functions, request.price);
+    for ((material, chosen), places) in judged.iter_mut().zip(choice).zip(&places) {
+        material.chosen = places[chosen];
+    }
+    Ok(judged)
+}
+
+/// The exposures of a range, in stops.
+pub(super) fn exposures(range: f64) -> Vec<f64> {
+    let steps = (range / STOPS).ceil() as i32;
+    let at = |step: i32| match steps {
+        0 => 0.0,
+        _ => range * f64::from(step) / f64::from(steps),
+    };
+    (-steps..=steps).map(at).collect()
+}
+
+/// A material while frames are looked at.
+struct Seen {
+    judged: JudgedMaterial,
+    /// The most pixels that a frame shows.
+    most: usize,
+    /// Sums over all pixels: light, other light, roughness.
+    light: [f64; 3],
+    other: [f64; 3],
+    roughness: f64,
+}
+
+impl Seen {
+    fn new(request: &PlanRequest, material: PlannedMaterial) -> Result<Seen, emit::Error> {
+        let prices = Prices {
+            family: request.family,
+            record: records(request.family.name),
+            precision: request.precision,
+            channels: &request.channels,
+            fetch: request.fetch,
+        };
+        let subject = &material.subject;
+        let found = candidates(subject, material.is_library_only, &request.methods, &prices)?;
+        let judged = |candidate: Candidate| JudgedCandidate {
+            candidate,
+            error: 0.0,
+            worst_frame: 0,
+        };
+        Ok(Seen {
+            judged: JudgedMaterial {
+                candidates: found.into_iter().map(judged).collect(),
+                chosen: 0,
+                judgement: Judgement::Percentile,
+                frames: 0,
+                pixels: 0,
+                angles: CosineHistogram::default(),
+                cost_exact: prices.cost_exact(subject)?,
+                truth: request.truth.values(subject),
+                mean: MIRROR_IN_WHITE,
+                material,
+            },
+            most: 0,
+            light: [0.0; 3],
+            other: [0.0; 3],
+            roughness: 0.0,
+        })
+    }
+
+    /// Enters the material's pixels of a frame.
+    fn enter(&mut self, index: usize, pixels: &[ScenePixel], screen: &Screen, exposures: &[f64]) {
+        if pixels.is_empty() {
+            return;
+        }
+        self.judged.frames += 1;
+        self.judged.pixels += pixels.len() as u64;
+        self.most = self.most.max(pixels.len());
+        for pixel in pixels {
+            let cosine = f64::from(pixel.cos_theta);
+            self.judged.angles.add(cosine, f64::from(pixel.coverage));
+            self.light = each_channel(|i| self.light[i] + f64::from(pixel.light[i]));
+            self.other = each_channel(|i| self.other[i] + f64::from(pixel.other[i]));
+            self.roughness += f64::from(pixel.roughness);
+        }
+        let judged = &mut self.judged;
+        let errors = errors(&judged.truth, &judged.candidates, pixels, screen, exposures);
+        for (found, error) in judged.candidates.iter_mut().zip(errors) {
+            if error > found.error {
+                (found.error, found.worst_frame) = (error, index);
+            }
+        }
+    }
+
+    /// With what is left to say when all frames are seen.
+    fn judged(
+        mut self,
+        request: &PlanRequest,
+        screen: &Screen,
+        exposures: &[f64],
+    ) -> JudgedMaterial {
+        self.judged.judgement = match self.most {
+            most if most < request.min_pixels => Judgement::EveryAngle,
+            most if most < PERCENTILE_FROM => Judgement::Largest,
+            _ => Judgement::Percentile,
+        };
+        self.judged.mean = self.mean();
+        if self.judged.judgement == Judgement::EveryAngle {
+            let pixels = every_angle(&self.judged.mean);
+            let errors = errors(
+                &self.judged.truth,
+                &self.judged.candidates,
+                &pixels,
+                screen,
+                exposures,
+            );
+            for (found, error) in self.judged.candidates.iter_mut().zip(errors) {
+                found.error = error;
+            }
+        }
+        for found in &mut self.judged.candidates {
+            found.error = (found.error * ERROR_PARTS).round() / ERROR_PARTS;
+        }
+        self.judged
+    }
+
+    /// A pixel with the mean of all that were seen.
+    fn mean(&self) -> ScenePixel {
+        let count = self.judged.pixels as f64;
+        if count == 0.0 {
+            return MIRROR_IN_WHITE;
+        }
+        let mean = |sums: [f64; 3]| sums.map(|sum| (sum / count) as f32);
+        ScenePixel {
+            roughness: (self.roughness / count) as f32,
+            light: mean(self.light),
+            other: mean(self.other),
+            ..MIRROR_IN_WHITE
+        }
+    }
+}
+
+/// A mirror seen straight on under white light.
+const MIRROR_IN_WHITE: ScenePixel = ScenePixel {
+    place: 0,
+    cos_theta: 1.0,
+    roughness: 0.0,
+    coverage: 1.0,
+    light: [1.0; 3],
+    other: [0.0; 3],
+};
+
+/// The same pixel at each angle.
+fn every_angle(pixel: &ScenePixel) -> Vec<ScenePixel> {
+    let at = |cosine: &f64| ScenePixel {
+        cos_theta: *cosine as f32,
+        ..*pixel
+    };
+    step_cosines().iter().step_by(EVERY).map(at).collect()
+}
+
+/// The errors of candidates in some pixels of a frame.
+fn errors(
+    truth: &[[f64; 3]],
+    candidates: &[JudgedCandidate],
+    pixels: &[ScenePixel],
+    screen: &Screen,
+    exposures: &[f64],
+) -> Vec<f64> {
+    let places: Vec<PixelPlace> = pixels.iter().map(PixelPlace::of).collect();
+    let rule = RoughRule::of(places.iter());
+    let truth = Curve::new(truth.to_vec(), &rule);
+    let judged = JudgedPixels::new(pixels, &places, &truth, screen, exposures);
+    let error = |i: usize| {
+        let values = candidates[i].candidate.values.clone();
+        judged.error(&Curve::new(values, &rule))
+    };
+    in_parallel(candidates.len(), &error, &mut |_, _| {})
+}
+
+/// Of each material the places of the candidates within the budget, and what they cost; where none is, of those with the least
+/// error.
+fn choosable(
+    judged: &[JudgedMaterial],
+    budget: f64,
+    frames: usize,
+) -> (Vec<Vec<usize>>, Vec<Vec<Choosable>>) {
+    let mut shared: Vec<String> = Vec::new();
+    let mut of_material = |material: &JudgedMaterial| {
+        let pixels = material.pixels.max(1) as f64 / frames.max(1) as f64;
+        let errors = material.candidates.iter().map(|found| found.error);
+        let most = errors.fold(f64::INFINITY, f64::min).max(budget);
+        let candidates = material.candidates.iter().enumerate();
+        let within = candidates.filter(|(_, found)| found.error <= most);
+        let choosable = within.map(|(place, found)| {
+            let name = found.candidate.name();
+            let is_own = found.candidate.is_specialised();
+            let one = Choosable {
+                cost: found.candidate.cost * pixels,
+                error: found.error,
+                shared: (!is_own).then(|| place_of(&mut shared, &name)),
+                name,
+            };
+            (place, one)
+        });
+        choosable.unzip()
+    };
+    judged.iter().map(&mut of_material).unzip()
+}
+
+/// The place of a name in a list, to which it is added where it is new.
+fn place_of(names: &mut Vec<String>, name: &str) -> usize {
+    let found = names.iter().position(|known| known == name);
+    found.unwrap_or_else(|| {
+        names.push(name.to_owned());
+        names.len() - 1
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::cost;
+    use crate::materials::{self, ViewingConditions};
+    use crate::methods;
+    use crate::reference::Derivation;
+    use crate::scene::TONE_CURVES;
+
+    fn request(budget: f64) -> PlanRequest {
+        PlanRequest {
+            budget,
+            metric: Metric::De2000,
+            display: Display {
+                exposure: 0.0,
+                curve: TONE_CURVES[0],
+            },
+            space: Space::Srgb,
+            exposure_range: 0.0,
+            min_pixels: 100,
+            truth: PlanTruth::Spectrum,
+            family: cost::find("rdna2").unwrap(),
+            precision: Precision::F32,
+            channels: vec![3],
+            methods: methods::ALL.to_vec(),
+            fetch: None,
+            price: 0.0,
+        }
+    }
+
+    fn gold() -> PlannedMaterial {
+        let material = materials::find("gold").unwrap().unwrap();
+        let typed = ("gold".to_owned(), material);
+        let seen = ViewingConditions::default();
+        let subject = MaterialInMedium::new(typed, None, &seen, Derivation::default()).unwrap();
+        PlannedMaterial {
+            argument: "gold".to_owned(),
+            subject,
+            is_library_only: false,
+        }
+    }
+
+    /// A sphere that fills a square picture, seen from far away.
+    fn sphere(side: u32, light: [f32; 3]) -> FramePixels {
+        let mut frame = FramePixels::new([side, side], 1);
+        let at = |place: u32| (f64::from(place) + 0.5) * 2.0 / f64::from(side) - 1.0;
+        for place in 0..side * side {
+            let (x, y) = (at(place % side), at(place / side));
+            let square = 1.0 - x * x - y * y;
+            if square > 0.0 {
+                frame.of_material[0].push(ScenePixel {
+                    place,
+                    cos_theta: square.sqrt() as f32,
+                    roughness: 0.0,
+                    coverage: 1.0,
+                    light,
+                    other: [0.0; 3],
+                });
+            }
+        }
+        frame
+    }
+
+    fn judged(request: &PlanRequest, frame: FramePixels) -> JudgedMaterial {
+        let mut frames = |_| Ok::<_, std::convert::Infallible>(frame.clone());
+        let all = plan(request, vec![gold()], 1, &mut frames, &mut |_, _| {});
+        all.unwrap().remove(0)
+    }
+
+    fn error(judged: &JudgedMaterial, method: &str) -> f64 {
+        let is_it = |one: &&JudgedCandidate| one.candidate.name() == method;
+        judged.candidates.iter().find(is_it).unwrap().error
+    }
+
+    /// Figures of an independent prototype.
+    #[test]
+    fn gold_in_white_light_takes_the_fitted_method_and_in_dim_light_the_gaussian() {
+        let white = judged(&request(1.0), sphere(512, [1.0; 3]));
+        assert!((error(&white, "schlick_spherical_gaussian") - 1.82).abs() < 0.02);
+        assert!((error(&white, "schlick") - 1.78).abs() < 0.02);
+        assert!((error(&white, "fitted") - 0.14).abs() < 0.007);
+        assert_eq!(white.chosen().candidate.name(), "fitted");
+        let dim = judged(&request(1.0), sphere(512, [0.05, 0.04, 0.0275]));
+        assert!((error(&dim, "schlick_spherical_gaussian") - 0.61).abs() < 0.01);
+        assert_eq!(dim.chosen().candidate.name(), "schlick_spherical_gaussian");
+    }
+}

@@ -1,0 +1,209 @@
+//! What a person looks at: the angles of a material, errors over them, and its pixels in the frame where the chosen function is worst.
+
+use glam::DVec3;
+
+use crate::num::each_channel;
+use crate::raster::{BINS, MAGNIFIED};
+
+use super::curve::{Curve, PixelPlace, RoughRule, step_cosines};
+use super::metric::Screen;
+use super::picture_error::radiance;
+use super::pixels::{FramePixels, ScenePixel};
+use super::planned::{JudgedCandidate, JudgedMaterial, PlanRequest};
+
+/// Degrees of a right angle, each with its share of the material's coverage.
+const DEGREES: usize = 90;
+/// Every how manieth step of angle a curve has a point.
+const EVERY: usize = 32;
+/// Candidates beside the chosen one that are shown.
+const CHEAPER: usize = 3;
+/// Pixels a side of a picture at most.
+const SIDE: u32 = 360;
+
+/// What is shown of a material.
+#[derive(Clone, Debug, PartialEq)]
+pub struct MaterialView {
+    /// The share of each degree in what the material covers, in all frames.
+    pub angles: Vec<f64>,
+    /// The chosen function's errors, and those of the most accurate that cost less.
+    pub curves: Vec<AngleCurve>,
+    /// Pictures of the worst frame: the exact law, then of each function the picture and its difference.
+    pub pictures: Vec<ViewPicture>,
+}
+
+/// The difference that a function makes at each angle, under the material's mean light.
+#[derive(Clone, Debug, PartialEq)]
+pub struct AngleCurve {
+    /// The function.
+    pub name: String,
+    /// The angle in degrees and the difference.
+    pub points: Vec<(f64, f64)>,
+}
+
+/// A part of a frame that shows a material and nothing else.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ViewPicture {
+    /// What it shows.
+    pub title: String,
+    /// Pixels across and down.
+    pub size: [u32; 2],
+    /// What the screen shows, linear, row by row; none where the material is not.
+    pub pixels: Vec<Option<[f64; 3]>>,
+}
+
+/// What is shown of a material, with the frame where its chosen function is worst.
+pub fn material_view(
+    request: &PlanRequest,
+    judged: &JudgedMaterial,
+    material: usize,
+    frame: &FramePixels,
+) -> MaterialView {
+    let screen = Screen::new(request.metric, request.display, request.space);
+    let shown = shown_candidates(judged);
+    MaterialView {
+        angles: angles(judged),
+        curves: curves(judged, &shown, &screen),
+        pictures: pictures(
+            judged,
+            &shown,
+            &screen,
+            &frame.of_material[material],
+            frame.size,
+        ),
+    }
+}
+
+/// The chosen function, and the most accurate methods that cost less.
+fn shown_candidates(judged: &JudgedMaterial) -> Vec<&JudgedCandidate> {
+    let mut shown = vec![judged.chosen()];
+    for one in judged.cheaper() {
+        // Different forms and methods of one formula err alike.
+        let is_new = |known: &&JudgedCandidate| known.error != one.error;
+        if shown.len() <= CHEAPER && shown.iter().all(is_new) {
+            shown.push(one);
+        }
+    }
+    shown
+}
+
+fn angles(judged: &JudgedMaterial) -> Vec<f64> {
+    let mut shares = vec![0.0; DEGREES];
+    let whole = judged.angles.total();
+    for (bin, weight) in judged.angles.weights().iter().enumerate() {
+        let cosine = (bin as f64 + 0.5) / BINS as f64;
+        let degree = (libm::acos(cosine).to_degrees() as usize).min(DEGREES - 1);
+        shares[degree] += weight / whole.max(f64::MIN_POSITIVE);
+    }
+    shares
+}
+
+fn curves(judged: &JudgedMaterial, shown: &[&JudgedCandidate], screen: &Screen) -> Vec<AngleCurve> {
+    let cosines: Vec<f64> = step_cosines().into_iter().step_by(EVERY).collect();
+    let pixel = |cosine: &f64| ScenePixel {
+        cos_theta: *cosine as f32,
+        ..judged.mean
+    };
+    let pixels: Vec<ScenePixel> = cosines.iter().map(pixel).collect();
+    let places: Vec<PixelPlace> = pixels.iter().map(PixelPlace::of).collect();
+    let rule = RoughRule::of(places.iter());
+    let truth = Curve::new(judged.truth.clone(), &rule);
+    let curve = |one: &&JudgedCandidate| {
+        let curve = Curve::new(one.candidate.values.clone(), &rule);
+        let point = |i: usize| {
+            let place = |value| screen.place(screen.shown(radiance(&pixels[i], value), 0.0));
+            let [got, truth] = [curve.at(&places[i]), truth.at(&places[i])].map(place);
+            let angle = libm::acos(cosines[i]).to_degrees();
+            (angle, screen.difference(got, truth))
+        };
+        AngleCurve {
+            name: one.candidate.name(),
+            points: (0..pixels.len()).map(point).collect(),
+        }
+    };
+    shown.iter().map(curve).collect()
+}
+
+/// Where a material stands in a frame, thinned out to a picture's size.
+struct Crop {
+    from: [u32; 2],
+    every: u32,
+    size: [u32; 2],
+}
+
+impl Crop {
+    fn of(pixels: &[ScenePixel], width: u32) -> Crop {
+        let (mut least, mut most) = ([u32::MAX; 2], [0; 2]);
+        for pixel in pixels {
+            let at = [pixel.place % width, pixel.place / width];
+            for axis in 0..2 {
+                least[axis] = least[axis].min(at[axis]);
+                most[axis] = most[axis].max(at[axis]);
+            }
+        }
+        let sides = [0, 1].map(|axis| most[axis] - least[axis] + 1);
+        let every = sides[0].max(sides[1]).div_ceil(SIDE);
+        Crop {
+            from: least,
+            every,
+            size: sides.map(|side| side.div_ceil(every)),
+        }
+    }
+
+    /// The place of a pixel in the picture, if it is there.
+    fn place(&self, pixel: &ScenePixel, width: u32) -> Option<usize> {
+        let at = [pixel.place % width, pixel.place / width];
+        let at = [0, 1].map(|axis| at[axis] - self.from[axis]);
+        let is_kept = at.iter().all(|side| side % self.every == 0);
+        let [x, y] = at.map(|side| side / self.every);
+        is_kept.then_some((y * self.size[0] + x) as usize)
+    }
+}
+
+fn pictures(
+    judged: &JudgedMaterial,
+    shown: &[&JudgedCandidate],
+    screen: &Screen,
+    pixels: &[ScenePixel],
+    [width, _]: [u32; 2],
+) -> Vec<ViewPicture> {
+    if pixels.is_empty() {
+        return Vec::new();
+    }
+    let crop = Crop::of(pixels, width);
+    let places: Vec<PixelPlace> = pixels.iter().map(PixelPlace::of).collect();
+    let rule = RoughRule::of(places.iter());
+    let picture = |values: &[[f64; 3]]| -> Vec<Option<[f64; 3]>> {
+        let curve = Curve::new(values.to_vec(), &rule);
+        let mut picture = vec![None; (crop.size[0] * crop.size[1]) as usize];
+        for (pixel, place) in pixels.iter().zip(&places) {
+            if let Some(at) = crop.place(pixel, width) {
+                let seen: DVec3 = screen.shown(radiance(pixel, curve.at(place)), 0.0);
+                picture[at] = Some(seen.to_array());
+            }
+        }
+        picture
+    };
+    let titled = |title: String, pixels: Vec<Option<[f64; 3]>>| ViewPicture {
+        title,
+        size: crop.size,
+        pixels,
+    };
+    let truth = picture(&judged.truth);
+    let mut all = vec![titled("exact law".to_owned(), truth.clone())];
+    // The chosen function, and the one that would have cost less.
+    for one in shown.iter().take(2) {
+        let drawn = picture(&one.candidate.values);
+        let apart = drawn.iter().zip(&truth).map(|pair| match pair {
+            (Some(a), Some(b)) => Some(each_channel(|i| MAGNIFIED * (a[i] - b[i]).abs())),
+            _ => None,
+        });
+        let apart = apart.collect();
+        let name = one.candidate.name();
+        all.push(titled(name.clone(), drawn));
+        all.push(titled(
+            format!("{name}: difference, {MAGNIFIED} times"),
+            apart,
+        ));
+    }
+    all
+}

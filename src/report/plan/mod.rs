@@ -1,0 +1,214 @@
+//! A plan for people, and as JSON that `--plan` reads back.
+
+mod page;
+
+use serde::Serialize;
+
+use crate::plan::{PlanRequest, PlanRow, PlanTotal, Proof};
+use crate::verify::Status;
+
+use super::envelope::Origin;
+use super::table::{short_number, text_table};
+
+pub use page::plan_page;
+
+/// A plan as JSON.
+#[derive(Debug, Serialize)]
+pub struct PlanReport {
+    #[serde(flatten)]
+    origin: Origin,
+    device: Option<String>,
+    /// The GPUs whose costs decide.
+    gpu: &'static str,
+    /// What a cost counts.
+    cost_of: &'static str,
+    /// What errors are measured by.
+    metric: &'static str,
+    /// Its unit in words.
+    #[serde(skip)]
+    unit: &'static str,
+    /// What functions are held against.
+    reference: &'static str,
+    /// The space of the pictures and of the functions.
+    space: &'static str,
+    /// Frames of the scene.
+    frames: usize,
+    total: PlanTotal,
+    /// Materials that are not planned.
+    unplanned: Vec<Unplanned>,
+    /// What came of the functions' text, where that was run.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    proofs: Vec<Proof>,
+    rows: Vec<PlanRow>,
+}
+
+/// A material of the scene that gets no function.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+pub struct Unplanned {
+    /// What the scene calls it.
+    pub name: String,
+    /// Why not.
+    pub reason: String,
+}
+
+impl PlanReport {
+    /// The report that this command writes.
+    pub fn new(
+        command: String,
+        request: &PlanRequest,
+        frames: usize,
+        total: PlanTotal,
+        unplanned: Vec<Unplanned>,
+        rows: Vec<PlanRow>,
+    ) -> PlanReport {
+        PlanReport {
+            origin: Origin::new(command),
+            device: None,
+            gpu: request.family.name,
+            cost_of: request.family.columns.measure,
+            metric: request.metric.name(),
+            unit: request.metric.unit(),
+            reference: request.truth.name(),
+            space: request.space.name(),
+            frames,
+            total,
+            unplanned,
+            proofs: Vec::new(),
+            rows,
+        }
+    }
+
+    /// The same, with what came of the functions' text on a device.
+    #[must_use]
+    pub fn with_proofs(self, device: Option<String>, proofs: Vec<Proof>) -> PlanReport {
+        PlanReport {
+            device,
+            proofs,
+            ..self
+        }
+    }
+
+    /// The command that makes it again.
+    fn command(&self) -> &str {
+        self.origin.command()
+    }
+
+    /// How a run ends by its proofs: 1 where one fails, 3 where one could not be made.
+    pub fn proof_code(&self) -> u8 {
+        let has = |status| self.proofs.iter().any(|proof| proof.status == status);
+        match (has(Status::Fail), has(Status::NotChecked)) {
+            (true, _) => 1,
+            (false, true) => 3,
+            (false, false) => 0,
+        }
+    }
+
+    /// As text: the functions, why each, what they cost together.
+    pub fn text(&self) -> String {
+        let columns = [
+            "material",
+            "method",
+            "form",
+            "channels",
+            "error",
+            "cost",
+            "exact",
+            "pixels",
+            "judged by",
+        ];
+        let cells: Vec<Vec<String>> = self.rows.iter().map(cells).collect();
+        let mut lines = vec![text_table(&columns, &cells)];
+        for row in &self.rows {
+            lines.push(format!("{}: {}\n", row.material, row.why));
+        }
+        for one in &self.unplanned {
+            lines.push(format!("{}: not planned: {}\n", one.name, one.reason));
+        }
+        lines.push(self.total());
+        lines.extend(self.proofs.iter().map(proof_line));
+        lines.push(format!(
+            "Costs are {} on {}, of one evaluation. Errors are of the light that comes directly: what is reflected twice is taken as exact.\n",
+            self.cost_of, self.gpu
+        ));
+        let (cells, rest) = lines.split_at(1);
+        format!("{}\n{}", cells.concat(), rest.concat())
+    }
+
+    fn total(&self) -> String {
+        let PlanTotal {
+            cost,
+            cost_exact,
+            shared,
+            ..
+        } = &self.total;
+        let beside = |other: f64| match *cost > 0.0 {
+            true => format!(
+                "{} ({} times as much)",
+                short_number(other),
+                short_number(other / cost)
+            ),
+            false => short_number(other),
+        };
+        let mut parts = vec![format!(
+            "All together {} units × pixels of a frame",
+            short_number(*cost)
+        )];
+        parts.extend(cost_exact.map(|exact| format!("the exact laws {}", beside(exact))));
+        parts.extend(shared.as_ref().map(|shared| {
+            format!(
+                "one library function `{}` for all {}, with an error of {}",
+                shared.method,
+                beside(shared.cost),
+                short_number(shared.error)
+            )
+        }));
+        parts.join("; ") + ".\n"
+    }
+}
+
+/// What came of a function's text.
+fn proof_line(proof: &Proof) -> String {
+    let Proof {
+        material,
+        target,
+        function,
+        ..
+    } = proof;
+    let head = format!("{material}: {function} in {target}");
+    let (Some(error), Some(codes), Some(code_abs)) = (proof.error, proof.codes, proof.code_abs)
+    else {
+        let why = proof.reason.as_deref().unwrap_or_default();
+        return format!("{head}: {}: {why}\n", proof.status.words());
+    };
+    let bound = match proof.is_within_code_bound {
+        Some(true) => "within its bound",
+        _ => "beyond its bound",
+    };
+    let coded = proof.error_8bit.map_or_else(String::new, |error| {
+        format!(", {error:.4} in 8 bits, codes differ by {codes} at most")
+    });
+    format!(
+        "{head}: {}: the picture errs {error:.4}{coded}; the numbers are {code_abs:.1e} off, {bound}\n",
+        proof.status.words()
+    )
+}
+
+fn cells(row: &PlanRow) -> Vec<String> {
+    let judged = match row.judged_by {
+        "percentile" => "99.9 % of pixels",
+        "largest" => "the worst pixel",
+        _ => "every angle",
+    };
+    vec![
+        row.material.clone(),
+        row.method.to_owned(),
+        row.form.name().to_owned(),
+        row.channels.to_string(),
+        format!("{:.4}{}", row.error, if row.is_within { "" } else { " !" }),
+        short_number(row.cost),
+        row.cost_exact
+            .map_or_else(|| "not known".to_owned(), short_number),
+        format!("{:.0}", row.pixels),
+        judged.to_owned(),
+    ]
+}
