@@ -38,13 +38,12 @@ vec3 law(float cos_theta) { return what == ${CHOSEN} ? ${name}(cos_theta) : exac
 
 float masked(float alpha, float c) { return 0.5 * (sqrt(1.0 + alpha * alpha * (1.0 - c * c) / (c * c)) - 1.0); }
 
-// The mean of F over the half vectors of GGX that send light above the surface. Heitz 2014; Dupuy and Benyoub 2023.
+// What GGX reflects of light from everywhere: the mean of F G2 / G1 over visible half vectors. Heitz 2014; Dupuy and Benyoub 2023.
 vec3 mean_law(float c, float alpha) {
   if (!is_rough) return law(c);
   vec3 view = vec3(sqrt(max(0.0, 1.0 - c * c)), 0.0, max(c, 1e-3));
   vec3 flat_view = normalize(vec3(alpha * view.x, 0.0, view.z));
   vec3 sum = vec3(0.0);
-  float weights = 0.0;
   for (int i = 0; i < 128; i++) {
     float turn = 6.2831853 * fract(float(i) * 0.618033989), share = (float(i) + 0.5) / 128.0;
     float up = (1.0 - share) * (1.0 + flat_view.z) - flat_view.z;
@@ -54,9 +53,8 @@ vec3 mean_law(float c, float alpha) {
     if (leaves <= 0.0) continue;
     float weight = (1.0 + masked(alpha, view.z)) / (1.0 + masked(alpha, view.z) + masked(alpha, leaves));
     sum += weight * law(cos_h);
-    weights += weight;
   }
-  return sum / max(weights, 1e-6);
+  return sum / 128.0;
 }
 `;
 
@@ -170,7 +168,7 @@ function statue(renderer, scene) {
   place(new THREE.PlaneGeometry(9, 9), varnish, [0, -1.05, 0]).rotation.x = -Math.PI / 2;
   const camera = new THREE.PerspectiveCamera(38, 1, 0.1, 50);
   camera.position.set(0.6, 1.5, 5.2);
-  camera.lookAt(0.15, 0.05, 0);
+  camera.lookAt(0.15, 0.2, 0);
   return camera;
 }
 
@@ -193,8 +191,8 @@ function table(renderer, scene) {
   const brushed = surface("chromium", 50, { is_rough: true, roughness: 0.5 });
   place(new THREE.CylinderGeometry(2.2, 2.2, 0.12, 128), brushed, [0.1, -0.78, 0]);
   const camera = new THREE.PerspectiveCamera(32, 1, 0.1, 50);
-  camera.position.set(-0.6, 1.3, 5.6);
-  camera.lookAt(0.1, -0.15, 0);
+  camera.position.set(-0.6, 1.3, 5);
+  camera.lookAt(0.1, -0.2, 0);
   return camera;
 }
 
