@@ -4,12 +4,16 @@ use std::path::{Path, PathBuf};
 
 use crate::materials::{self, ViewingConditions};
 use crate::names::UnknownName;
-use crate::plan::{FramePixels, MappedMaterial, MaterialIds, PlannedMaterial, read_gbuffer};
-use crate::report::plan::Unplanned;
-use crate::scene::{Display, TONE_CURVES};
+use crate::plan::{
+    FramePixels, GltfScene, GltfView, MappedMaterial, MaterialIds, PlannedMaterial, SceneFile,
+    SceneLight, Unplanned, constant_index, read_gbuffer,
+};
+use crate::reference::{Derivation, MaterialInMedium};
+use crate::scene::{Display, Environment, TONE_CURVES};
 
 use super::args::PlanFlags;
 use super::error::Error;
+use super::fault::RequestFault;
 use super::request::{Materials, Request, Source};
 use super::source;
 
@@ -38,8 +42,130 @@ pub fn plan_input<'a>(
     flags: &'a PlanFlags,
     viewing: &ViewingConditions,
 ) -> Result<PlanInput<'a>, Error> {
-    of_frames(&flags.gbuffer, flags.materials.as_deref(), viewing)
+    let Some(scene) = &flags.scene else {
+        return of_frames(&flags.gbuffer, flags.materials.as_deref(), viewing);
+    };
+    let ending = scene.extension().and_then(|ending| ending.to_str());
+    let is_gltf = matches!(ending, Some("glb" | "gltf"));
+    if !is_gltf && (flags.environment.is_some() || flags.size.is_some()) {
+        let why = "--environment and --size are of glTF scenes; a scene file says both itself";
+        return Err(RequestFault::conflict(why).into());
+    }
+    match ending {
+        Some("toml") => of_scene_file(scene, viewing),
+        _ if is_gltf => of_gltf(flags, scene, viewing),
+        _ => {
+            let file = scene.display();
+            let why = format!(
+                "`{file}` is no scene by its ending: .toml, .glb or .gltf; frames of a renderer go with --gbuffer"
+            );
+            Err(RequestFault::conflict(why).into())
+        }
+    }
 }
+
+/// A scene file, drawn by our rasteriser.
+fn of_scene_file<'a>(file: &Path, viewing: &ViewingConditions) -> Result<PlanInput<'a>, Error> {
+    let scene = SceneFile::parse(&file.display().to_string(), &source::text(file)?)?;
+    let at = |index: usize, what: String| scene.material_fault(index, what).into();
+    let (materials, places) = loaded(scene.materials(), file, viewing, &at)?;
+    let drawn = scene.read(&mut |path| beside(file, path))?;
+    let (count, display, frames) = (materials.len(), scene.display, scene.frames());
+    let mut is_seen = false;
+    let frame = move |index: usize| {
+        let frame = scene.frame(index, &drawn);
+        is_seen |= shows_any(&frame);
+        // Frames are asked for in their order first.
+        match is_seen || index + 1 < frames {
+            true => Ok(merged(frame, &places, count)),
+            false => Err(scene.nothing_is_seen().into()),
+        }
+    };
+    Ok(PlanInput {
+        materials,
+        unplanned: Vec::new(),
+        display,
+        frames,
+        frame: Box::new(frame),
+    })
+}
+
+/// A glTF scene, drawn by our rasteriser.
+fn of_gltf<'a>(
+    flags: &PlanFlags,
+    file: &Path,
+    viewing: &ViewingConditions,
+) -> Result<PlanInput<'a>, Error> {
+    let light = match &flags.environment {
+        None => SceneLight::Uniform([1.0; 3]),
+        Some(path) => {
+            let environment = Environment::read(&source::picture(path)?);
+            SceneLight::of_environment(environment.map_err(|fault| Error::Usage {
+                what: format!("{}: {fault}", path.display()),
+            })?)
+        }
+    };
+    let view = GltfView {
+        size: flags.size.unwrap_or(GLTF_SIZE),
+        light,
+    };
+    let name = file.display().to_string();
+    let scene = GltfScene::read(&name, &source::picture(file)?, &view, &mut |path| {
+        beside(file, path)
+    });
+    let scene = scene.map_err(|fault| Error::Usage {
+        what: fault.to_string(),
+    })?;
+    let at = |_: usize, what: String| Error::Usage {
+        what: format!("{name}: {what}"),
+    };
+    let (materials, places) = loaded(scene.materials(), file, viewing, &at)?;
+    let (count, frames) = (materials.len(), scene.frames());
+    let unplanned = scene.unplanned.clone();
+    let mut is_seen = false;
+    let frame = move |index: usize| {
+        let frame = scene.frame(index);
+        is_seen |= shows_any(&frame);
+        match is_seen || index + 1 < frames {
+            true => Ok(merged(frame, &places, count)),
+            false => Err(Error::Usage {
+                what: nothing_planned(&name, &scene.unplanned),
+            }),
+        }
+    };
+    Ok(PlanInput {
+        materials,
+        unplanned,
+        display: AS_IT_IS,
+        frames,
+        frame: Box::new(frame),
+    })
+}
+
+fn shows_any(frame: &FramePixels) -> bool {
+    frame.of_material.iter().any(|pixels| !pixels.is_empty())
+}
+
+/// What is wrong with a glTF scene in which nothing is seen that could be planned.
+fn nothing_planned(file: &str, unplanned: &[Unplanned]) -> String {
+    let reason = |one: &Unplanned| format!("; `{}`: {}", one.name, one.reason);
+    let reasons: String = unplanned.iter().map(reason).collect();
+    format!("{file}: no frame shows a material that can be planned{reasons}")
+}
+
+/// The bytes of a file that a scene's file names, relative to its folder.
+fn beside(scene: &Path, path: &str) -> Result<Vec<u8>, String> {
+    let file = scene.parent().unwrap_or(Path::new("")).join(path);
+    source::picture(&file).map_err(|error| error.to_string())
+}
+
+/// No exposure and no tone curve.
+const AS_IT_IS: Display = Display {
+    exposure: 0.0,
+    curve: TONE_CURVES[0],
+};
+/// Pixels of a glTF scene's frames, where nothing else is asked for.
+const GLTF_SIZE: [u32; 2] = [640, 480];
 
 /// Frames of a user's renderer. Each is read when its turn comes, so that one is in memory.
 fn of_frames<'a>(
@@ -63,10 +189,7 @@ fn of_frames<'a>(
     Ok(PlanInput {
         materials,
         unplanned: Vec::new(),
-        display: Display {
-            exposure: 0.0,
-            curve: TONE_CURVES[0],
-        },
+        display: AS_IT_IS,
         frames: files.len(),
         frame: Box::new(frame),
     })
@@ -90,7 +213,7 @@ fn loaded(
         let known = planned.iter().position(|known| known.argument == word);
         places.push(known.unwrap_or(planned.len()));
         if known.is_none() {
-            if !source::is_path(&word) && materials::source(&word).is_none() {
+            if !is_known(&word) {
                 let unknown = UnknownName::new("material", &word, &materials::names());
                 return Err(fault(index, unknown.to_string()));
             }
@@ -101,6 +224,14 @@ fn loaded(
 }
 
 fn material(word: String, viewing: &ViewingConditions) -> Result<PlannedMaterial, Error> {
+    if let Some(material) = constant_index(&word) {
+        let typed = (word.clone(), material);
+        return Ok(PlannedMaterial {
+            subject: MaterialInMedium::new(typed, None, viewing, Derivation::default())?,
+            argument: word,
+            is_library_only: true,
+        });
+    }
     let source = match source::is_path(&word) {
         true => Source::File {
             text: source::read(&word)?,
@@ -119,6 +250,11 @@ fn material(word: String, viewing: &ViewingConditions) -> Result<PlannedMaterial
         subject: subjects.remove(0),
         is_library_only: false,
     })
+}
+
+/// Whether a word stands for a material: a path, a name of the catalogue, or a constant index.
+fn is_known(word: &str) -> bool {
+    source::is_path(word) || materials::source(word).is_some() || constant_index(word).is_some()
 }
 
 /// The same frame with the pixels of one material together, whatever the scene calls it.

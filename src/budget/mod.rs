@@ -154,7 +154,7 @@ impl Search<'_> {
             .map(|method| Ok((method, self.function(method, subject)?)))
             .collect::<Result<Vec<(&'static Method, Checked)>, Error>>()?;
         let own = |(_, function): &(_, Checked)| {
-            function_cost(function, self.budget.family, &self.record)
+            function_cost(function, Precision::F32, self.budget.family, &self.record)
         };
         let specialised: Option<Vec<f64>> = functions.iter().map(own).collect();
         let library = |method| library_cost(method, self.budget.family, &self.record);

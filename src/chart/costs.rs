@@ -1,4 +1,5 @@
-//! The axes of cost: what compilers count in library functions, the graph's own operations, and times.
+//! The axes of cost: what compilers count in library functions, the graph's own operations, and times. An axis in powers of ten has no
+//! 0: a function that costs nothing has no cost there, and so no point.
 
 use crate::cost::{FAMILIES, Family, GpuCompiler, library_cost, records};
 use crate::emit::FunctionForm;
@@ -12,7 +13,10 @@ pub fn axes(entries: &[ChartEntry]) -> Vec<CostAxis> {
     let mut axes = Vec::new();
     for family in FAMILIES.iter() {
         let record = records(family.name);
-        let cost = |entry: &ChartEntry| library_cost(entry.method()?, family, &record);
+        let cost = |entry: &ChartEntry| {
+            let cost = library_cost(entry.method()?, family, &record);
+            cost.filter(|cost| *cost > 0.0)
+        };
         let costs: Vec<Option<f64>> = entries.iter().map(cost).collect();
         if costs.iter().any(Option::is_some) {
             axes.push(CostAxis {

@@ -183,6 +183,11 @@ impl CostedFunction {
         self.hashes[dialect as usize].get_or_init(|| self.probe.hash(dialect))
     }
 
+    /// The shape of that shader by its hash.
+    pub fn shape(&self, dialect: Dialect) -> String {
+        self.probe.shape(dialect)
+    }
+
     /// The fragment shaders of both chains.
     pub fn chains(&self, dialect: Dialect) -> [String; 2] {
         dialect

@@ -8,6 +8,7 @@ mod figures;
 pub mod foreign;
 #[cfg(all(feature = "cli", feature = "gpu"))]
 mod function;
+mod known;
 mod pareto;
 mod probe;
 #[cfg(all(feature = "cli", feature = "gpu"))]
@@ -21,6 +22,7 @@ mod session;
 mod shapes;
 #[cfg(all(feature = "cli", feature = "gpu"))]
 mod table;
+mod text_shape;
 
 #[cfg(all(feature = "cli", feature = "gpu"))]
 pub use compilers::{FamilyAnswers, ask_compilers};
@@ -28,11 +30,12 @@ pub use family::{Dialect, FAMILIES, Family, GpuCompiler, find};
 pub use figures::{CostFigures, Counts, StatisticNames, Statistics, figures, remarked};
 #[cfg(all(feature = "cli", feature = "gpu"))]
 pub use function::{CostedFunction, functions, functions_of_effect};
+pub use known::{CostBasis, KnownCost, function_cost, known_cost, library_cost, uncompiled_cost};
 pub use pareto::{CostAndError, Multiples, TIE, pareto_frontier};
 pub use probe::{BLOCKS, ENTRY, Probe, VERTEX, WGSL_VERTEX, gles_vertex};
 #[cfg(all(feature = "cli", feature = "gpu"))]
 pub use protocol::FragmentShader;
-pub use record::{CostRecord, FunctionKey, function_cost, library_cost, records};
+pub use record::{CostRecord, FunctionKey, records};
 pub use row::{CostRow, CostSource};
 #[cfg(all(feature = "cli", feature = "gpu"))]
 pub use serve::serve;

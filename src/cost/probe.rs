@@ -15,6 +15,7 @@ use crate::targets::{GLES, Target, WGSL};
 
 use super::chain::{Chain, ChainLanguage, MEASURED, uniforms};
 use super::family::Dialect;
+use super::text_shape::without_numbers;
 
 /// Most evaluations in one shader.
 pub const BLOCKS: usize = 8;
@@ -121,6 +122,12 @@ impl Probe {
     pub fn hash(&self, dialect: Dialect) -> String {
         let text = self.text(dialect.chains()[1], dialect);
         sha256(text.as_bytes())[..16].to_owned()
+    }
+
+    /// The hash of the same text with a mark in the place of each number: what functions share that differ in constants alone.
+    pub fn shape(&self, dialect: Dialect) -> String {
+        let text = self.text(dialect.chains()[1], dialect);
+        sha256(without_numbers(&text).as_bytes())[..16].to_owned()
     }
 
     /// The fragment shader in WGSL.

@@ -9,14 +9,10 @@ use serde::Deserialize;
 
 use crate::effects::USUAL_METHOD;
 use crate::emit::FunctionForm;
-use crate::ir::Checked;
-use crate::methods::Method;
 use crate::num::Precision;
 use crate::records;
 
-use super::family::{Family, GpuCompiler};
 use super::figures::{CostFigures, Counts};
-use super::probe::Probe;
 
 static FOLDER: Dir = include_dir!("$CARGO_MANIFEST_DIR/data/records/costs");
 
@@ -29,6 +25,8 @@ pub struct CostRecord {
     pub figures: BTreeMap<String, CostFigures>,
     /// The hash of each function's shader, to tell a shader that changed from one that was never measured.
     pub functions: BTreeMap<FunctionKey, String>,
+    /// Of functions whose shaders differ in numbers alone the largest cost, by the hash of the shader without its numbers.
+    pub shapes: BTreeMap<String, f64>,
 }
 
 /// Which function a row of a record is about.
@@ -77,7 +75,12 @@ impl CostRecord {
             channels: 3,
             precision: Precision::F32,
         };
-        self.figures.get(self.functions.get(&key)?).copied()
+        self.of(&key)
+    }
+
+    /// What was recorded of a function.
+    pub fn of(&self, key: &FunctionKey) -> Option<CostFigures> {
+        self.figures.get(self.functions.get(key)?).copied()
     }
 
     /// What was recorded of a function of an effect, with three channels of R by the usual method where it asks for R.
@@ -89,27 +92,6 @@ impl CostRecord {
         let key = self.functions.keys().find(is_it)?;
         self.figures.get(&self.functions[key]).copied()
     }
-}
-
-/// What an evaluation of a method's library function, three channels, costs on a family: its operations where those are counted,
-/// else what was recorded.
-pub fn library_cost(method: &Method, family: &Family, record: &CostRecord) -> Option<f64> {
-    if family.compiler == GpuCompiler::Operations {
-        let function = method.function(false);
-        return Some(function.expect("a test builds every method").work() as f64);
-    }
-    record.library(method.name).map(|figures| figures.cost())
-}
-
-/// What an evaluation of a function of `cos_theta` costs on a family: its operations where those are counted, else what was
-/// recorded of the same shader.
-pub fn function_cost(function: &Checked, family: &Family, record: &CostRecord) -> Option<f64> {
-    if family.compiler == GpuCompiler::Operations {
-        return Some(function.work() as f64);
-    }
-    let dialect = family.compiler.dialect()?;
-    let shader = Probe::new(function, Precision::F32).hash(dialect);
-    record.figures.get(&shader).map(CostFigures::cost)
 }
 
 /// What stands before the compiler's name.
@@ -125,6 +107,7 @@ struct RecordedCost {
     channels: usize,
     precision: Precision,
     shader: String,
+    shape: String,
     instructions: f64,
     latency: Option<f64>,
     inverse_throughput: Option<f64>,
@@ -149,7 +132,11 @@ fn parse(text: &str) -> CostRecord {
         ..CostRecord::default()
     };
     for row in records::rows::<RecordedCost>(text) {
-        record.figures.insert(row.shader.clone(), row.figures());
+        let figures = row.figures();
+        let largest = record.shapes.entry(row.shape.clone());
+        let largest = largest.or_insert(figures.cost());
+        *largest = largest.max(figures.cost());
+        record.figures.insert(row.shader.clone(), figures);
         let shader = row.shader.clone();
         record.functions.insert(row.key(), shader);
     }
@@ -191,14 +178,20 @@ mod tests {
 
     #[test]
     fn a_record_is_read() {
-        let head = "effect,method,material,form,channels,precision,shader,instructions,latency,inverse_throughput,registers,net_instructions,net_latency,net_inverse_throughput";
-        let row = ",schlick,,library,3,f32,0123456789abcdef,57,,28,8,9,,7";
-        let text = format!("{COMPILER}X 1.0\n{head}\n{row}\n");
+        let head = "effect,method,material,form,channels,precision,shader,shape,instructions,latency,inverse_throughput,registers,net_instructions,net_latency,net_inverse_throughput";
+        let row = ",schlick,,library,3,f32,0123456789abcdef,00ff,57,,28,8,9,,7";
+        let others = [
+            ",schlick,gold,specialised,3,f32,01,aa,50,,28,8,9,,5",
+            ",schlick,water,specialised,3,f32,02,aa,50,,28,8,9,,6",
+        ];
+        let text = format!("{COMPILER}X 1.0\n{head}\n{row}\n{}\n", others.join("\n"));
         let record = parse(&text);
         assert_eq!(record.compiler, "X 1.0");
         let figures = record.figures["0123456789abcdef"];
         assert_eq!(figures.cost(), 7.0);
         assert_eq!(figures.shader.latency, None);
         assert_eq!(record.library("schlick"), Some(figures));
+        assert_eq!(record.shapes["00ff"], 7.0);
+        assert_eq!(record.shapes["aa"], 6.0);
     }
 }

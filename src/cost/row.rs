@@ -38,6 +38,8 @@ pub struct CostRow {
     pub share: Option<f64>,
     /// The shader by its hash.
     pub shader: Option<String>,
+    /// The shader without its numbers, by its hash.
+    pub shape: Option<String>,
 }
 
 /// Who says what a function costs.
@@ -76,6 +78,7 @@ struct CostRowJson {
     net_inverse_throughput: Option<f64>,
     share: Option<f64>,
     shader: Option<String>,
+    shape: Option<String>,
     from: Option<CostSource>,
     #[serde(skip_serializing_if = "Option::is_none")]
     reason: Option<String>,
@@ -114,6 +117,7 @@ impl From<CostRow> for CostRowJson {
             fetches: row.fetches,
             share: row.share,
             shader: row.shader,
+            shape: row.shape,
             from: row.source,
         }
     }

@@ -124,7 +124,11 @@ impl<'a> CompilerSession<'a> {
     fn figures(&mut self, function: &CostedFunction) -> Result<CostFigures, Unmeasured> {
         let empty = self.empty(function)?;
         let chains = self.both(function.chains(self.dialect).map(FragmentShader::Text))?;
-        self.net_figures(&chains, &empty)
+        let figures = self.net_figures(&chains, &empty)?;
+        Ok(match function.graph.computes_nothing() {
+            true => figures.of_nothing(),
+            false => figures,
+        })
     }
 
     fn net_figures(

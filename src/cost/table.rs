@@ -35,8 +35,8 @@ pub fn cost_rows(
                 figures: answers[place].clone(),
                 ..row
             },
-            (_, Some(FamilyAnswers::Absent(why))) => recorded(row, record, why),
-            (_, None) => recorded(row, record, "its compiler was not asked"),
+            (_, Some(FamilyAnswers::Absent(why))) => recorded(row, function, record, why),
+            (_, None) => recorded(row, function, record, "its compiler was not asked"),
         }
     };
     let all = functions.iter().enumerate();
@@ -72,6 +72,7 @@ fn bare(family: &'static Family, function: &CostedFunction) -> CostRow {
         figures: Err(String::new()),
         share: None,
         shader: dialect.map(|dialect| function.hash(dialect).to_owned()),
+        shape: dialect.map(|dialect| function.shape(dialect)),
     }
 }
 
@@ -91,7 +92,7 @@ fn counted(row: CostRow, function: &CostedFunction) -> CostRow {
     }
 }
 
-fn recorded(row: CostRow, record: &CostRecord, absent: &str) -> CostRow {
+fn recorded(row: CostRow, function: &CostedFunction, record: &CostRecord, absent: &str) -> CostRow {
     let found = row
         .shader
         .as_ref()
@@ -103,6 +104,9 @@ fn recorded(row: CostRow, record: &CostRecord, absent: &str) -> CostRow {
             figures: Ok(*figures),
             ..row
         };
+    }
+    if function.graph.computes_nothing() {
+        return counted(row, function);
     }
     let why = if record.functions.contains_key(&row.key()) {
         "what was recorded is of another shader"

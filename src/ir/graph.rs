@@ -178,6 +178,11 @@ impl Function {
             .sum()
     }
 
+    /// Whether an evaluation computes nothing and reads nothing: the result is a constant or an argument.
+    pub fn computes_nothing(&self) -> bool {
+        self.work() == 0 && self.fetches() == 0
+    }
+
     /// How many scalar operations of one kind an evaluation takes.
     pub fn count(&self, op: Op) -> usize {
         self.nodes

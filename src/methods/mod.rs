@@ -30,6 +30,7 @@ mod conductor_artistic;
 mod conductor_exact;
 mod conductor_from_f0_f82;
 mod conductor_textbook;
+mod constant;
 mod dielectric_exact;
 mod dielectric_exact_p;
 mod dielectric_exact_s;
@@ -58,6 +59,7 @@ pub static ALL: &[&Method] = &[
     &conductor_exact::METHOD,
     &conductor_from_f0_f82::METHOD,
     &conductor_textbook::METHOD,
+    &constant::METHOD,
     &dielectric_exact::METHOD,
     &dielectric_exact_p::METHOD,
     &dielectric_exact_s::METHOD,
@@ -98,6 +100,7 @@ pub fn find(name: &str) -> Option<&'static Method> {
 #[cfg(test)]
 mod tests {
     use super::{ALL, Input, find_input};
+    use crate::ir::{Op, Payload};
     use crate::num::Precision;
 
     #[test]
@@ -114,6 +117,20 @@ mod tests {
                     }
                 }
             }
+        }
+    }
+
+    /// Compilers that warn of an argument without a use are told not to, since a function may be a constant. All others use all.
+    #[test]
+    fn what_computes_something_uses_every_argument() {
+        for method in ALL {
+            let function = method.function(false).expect("it is well formed");
+            let uses = |index| {
+                let nodes = &mut function.nodes.iter();
+                nodes.any(|node| node.op == Op::Param && node.payload == Payload::Index(index))
+            };
+            let all = (0..function.params.len()).all(uses);
+            assert!(all || function.computes_nothing(), "{}", method.name);
         }
     }
 

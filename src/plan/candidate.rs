@@ -1,6 +1,8 @@
 //! The functions among which a plan chooses for a material: each method in each form whose cost is known.
 
-use crate::cost::{CostRecord, Family, FunctionKey, function_cost};
+use crate::cost::{
+    CostBasis, CostRecord, Family, FunctionKey, KnownCost, known_cost, uncompiled_cost,
+};
 use crate::emit::{Bounds, Error, FunctionForm, specialised_graph};
 use crate::fit::{arguments, table_of};
 use crate::ir::{Checked, evaluate};
@@ -33,6 +35,8 @@ pub struct Candidate {
     pub form: FunctionForm,
     /// What an evaluation costs.
     pub cost: f64,
+    /// How that is known.
+    pub basis: CostBasis,
     /// Its values at [`step_cosines`].
     pub values: Vec<[f64; 3]>,
 }
@@ -92,7 +96,7 @@ pub fn candidates(
             .into_iter()
             .filter(|form| !is_library_only || *form != FunctionForm::Specialised);
         let candidate = |form: FunctionForm| {
-            let cost = prices.cost(method, form, &function)?;
+            let KnownCost { cost, basis } = prices.cost(method, form, &function)?;
             let values = match form {
                 FunctionForm::Scalar => values.iter().map(|value| [value[1]; 3]).collect(),
                 _ => values.clone(),
@@ -101,6 +105,7 @@ pub fn candidates(
                 method,
                 form,
                 cost,
+                basis,
                 values,
             };
             prices.channels.contains(&found.channels()).then_some(found)
@@ -116,26 +121,46 @@ pub fn candidates(
 
 impl Prices<'_> {
     /// What a form of a method costs, where that is known.
-    fn cost(&self, method: &Method, form: FunctionForm, specialised: &Checked) -> Option<f64> {
-        let own = match form {
-            FunctionForm::Specialised => function_cost(specialised, self.family, &self.record),
-            _ => self.library_cost(method, form),
+    fn cost(
+        &self,
+        method: &Method,
+        form: FunctionForm,
+        specialised: &Checked,
+    ) -> Option<KnownCost> {
+        let known = match form {
+            FunctionForm::Specialised => {
+                known_cost(specialised, self.precision, self.family, &self.record)?
+            }
+            _ => self.library_cost(method, form)?,
         };
         let fetch = self.fetch.filter(|_| method.is_textured());
-        own.map(|cost| cost + fetch.unwrap_or(0.0))
+        Some(KnownCost {
+            cost: known.cost + fetch.unwrap_or(0.0),
+            ..known
+        })
     }
 
-    fn library_cost(&self, method: &Method, form: FunctionForm) -> Option<f64> {
+    fn library_cost(&self, method: &Method, form: FunctionForm) -> Option<KnownCost> {
+        let is_scalar = form == FunctionForm::Scalar;
+        if is_scalar && !method.has_scalar_form() {
+            return None;
+        }
+        let function = method.function_in(self.precision, is_scalar).ok()?;
+        if let Some(known) = uncompiled_cost(&function, self.family) {
+            return Some(known);
+        }
         let key = FunctionKey {
             effect: String::new(),
             method: method.name.to_owned(),
             material: String::new(),
             form,
-            channels: if form == FunctionForm::Scalar { 1 } else { 3 },
+            channels: if is_scalar { 1 } else { 3 },
             precision: self.precision,
         };
-        let shader = self.record.functions.get(&key)?;
-        Some(self.record.figures.get(shader)?.cost())
+        Some(KnownCost {
+            cost: self.record.of(&key)?.cost(),
+            basis: CostBasis::Function,
+        })
     }
 
     /// What the exact law of a material costs: the reference of every saving.
@@ -146,8 +171,8 @@ impl Prices<'_> {
         let method = crate::methods::find(subject.exact_method()).expect("a test names it");
         let bounds = Bounds::recorded();
         let function = specialised_graph(method, subject, self.precision, &bounds)?.function;
-        let cost = |form| self.cost(method, form, &function);
-        Ok(cost(FunctionForm::Specialised).or_else(|| cost(FunctionForm::Library)))
+        let known = |form| self.cost(method, form, &function).map(|known| known.cost);
+        Ok(known(FunctionForm::Specialised).or_else(|| known(FunctionForm::Library)))
     }
 }
 

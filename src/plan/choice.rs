@@ -22,6 +22,15 @@ pub struct Choosable {
     pub shared: Option<usize>,
 }
 
+/// The places of a material's functions within a budget; where none is, of those with the least error. The functions for a smaller budget
+/// are always among those for a larger one, so that a smaller budget never makes a plan cheaper.
+pub fn within(functions: &[Choosable], budget: f64) -> Vec<usize> {
+    let errors = functions.iter().map(|one| one.error);
+    let most = errors.fold(f64::INFINITY, f64::min).max(budget);
+    let all = 0..functions.len();
+    all.filter(|i| functions[*i].error <= most).collect()
+}
+
 /// The place of the chosen function of each material, which has one at least. `price` is that of a function.
 pub fn choose(materials: &[Vec<Choosable>], price: f64) -> Vec<usize> {
     let highest = materials
@@ -210,39 +219,54 @@ mod tests {
     }
 
     /// The least total of all choices.
-    fn least(materials: &[Vec<Choosable>], price: f64, within: f64) -> Option<f64> {
+    fn least(materials: &[Vec<Choosable>], price: f64) -> f64 {
         fn visit<'a>(
             rest: &'a [Vec<Choosable>],
             chosen: &mut Vec<&'a Choosable>,
-            within: f64,
             found: &mut dyn FnMut(&[&Choosable]),
         ) {
             let Some((first, rest)) = rest.split_first() else {
                 return found(chosen);
             };
-            for candidate in first.iter().filter(|one| one.error <= within) {
+            for candidate in first {
                 chosen.push(candidate);
-                visit(rest, chosen, within, found);
+                visit(rest, chosen, found);
                 chosen.pop();
             }
         }
-        let mut best: Option<f64> = None;
-        visit(materials, &mut Vec::new(), within, &mut |chosen| {
-            let total = total_cost(chosen.iter().copied(), price);
-            best = Some(best.map_or(total, |best| best.min(total)));
+        let mut best = f64::INFINITY;
+        visit(materials, &mut Vec::new(), &mut |chosen| {
+            best = best.min(total_cost(chosen.iter().copied(), price));
         });
         best
     }
 
+    /// What the plan for a budget costs.
+    fn planned(materials: &[Vec<Choosable>], price: f64, budget: f64) -> f64 {
+        let one = |functions: &Vec<Choosable>| -> Vec<Choosable> {
+            let places = within(functions, budget).into_iter();
+            places.map(|place| functions[place].clone()).collect()
+        };
+        let open: Vec<Vec<Choosable>> = materials.iter().map(one).collect();
+        let chosen = open.iter().zip(choose(&open, price));
+        let chosen: Vec<&Choosable> = chosen.map(|(all, i)| &all[i]).collect();
+        let total = total_cost(chosen.iter().copied(), price);
+        assert!((total - least(&open, price)).abs() < 1e-9, "{total}");
+        total
+    }
+
     proptest! {
         #[test]
-        fn the_total_is_the_least_of_all(materials in materials(), price in 0_u8..30) {
+        fn the_total_is_the_least_and_a_smaller_budget_is_never_cheaper(
+            materials in materials(),
+            price in 0_u8..30,
+            budgets in (0_u8..20, 0_u8..20),
+        ) {
             let price = f64::from(price);
-            let choice = choose(&materials, price);
-            let chosen: Vec<&Choosable> = materials.iter().zip(&choice).map(|(m, i)| &m[*i]).collect();
-            let total = total_cost(chosen.iter().copied(), price);
-            let want = least(&materials, price, f64::INFINITY).unwrap();
-            prop_assert!((total - want).abs() < 1e-9, "{total} instead of {want}");
+            let [small, large] = [budgets.0.min(budgets.1), budgets.0.max(budgets.1)];
+            let small = planned(&materials, price, f64::from(small));
+            let large = planned(&materials, price, f64::from(large));
+            prop_assert!(small >= large - 1e-9, "{small} is less than {large}");
         }
     }
 }

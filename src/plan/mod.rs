@@ -13,7 +13,9 @@
 mod candidate;
 mod choice;
 mod curve;
+mod drawn;
 mod gbuffer;
+mod gltf;
 mod ids;
 mod metric;
 mod picture_error;
@@ -22,11 +24,15 @@ mod planned;
 #[cfg(feature = "gpu")]
 mod proof;
 mod row;
+mod scene_file;
+mod sky;
 mod view;
 
 pub use candidate::Candidate;
 pub use curve::{STEPS, step_cosines};
+pub use drawn::{DrawnScene, SurfaceLook};
 pub use gbuffer::{GREATEST_SIDE, GbufferFault, read_gbuffer};
+pub use gltf::{GltfFault, GltfScene, GltfView, Unplanned, constant_index};
 pub use ids::{MaterialIds, Shown};
 pub use metric::{Metric, Screen};
 pub use picture_error::SHARE;
@@ -38,4 +44,6 @@ pub use planned::{
 #[cfg(feature = "gpu")]
 pub use proof::{ProofCase, prove};
 pub use row::{CheaperFunction, PlanFile, PlanFileRow, PlanRow, PlanTotal, Proof, SharedFunction};
+pub use scene_file::{MOST_FRAMES, ReadFile, SIDES, SceneFile};
+pub use sky::{BlurredEnvironment, SceneLight};
 pub use view::{AngleCurve, MaterialView, ViewPicture, material_view};

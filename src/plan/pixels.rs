@@ -37,7 +37,7 @@ impl FramePixels {
 }
 
 /// A material of a scene, and what stands for it in the catalogue.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub struct MappedMaterial {
     /// What the scene calls it.
     pub name: String,

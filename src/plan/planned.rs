@@ -11,7 +11,7 @@ use crate::scene::Display;
 use crate::spectra::Space;
 
 use super::candidate::{Candidate, Prices, candidates};
-use super::choice::{Choosable, choose};
+use super::choice::{Choosable, choose, within};
 use super::curve::{Curve, PixelPlace, RoughRule, step_cosines};
 use super::metric::{Metric, Screen};
 use super::picture_error::{JudgedPixels, PERCENTILE_FROM};
@@ -381,8 +381,7 @@ fn errors(
     in_parallel(candidates.len(), &error, &mut |_, _| {})
 }
 
-/// Of each material the places of the candidates within the budget, and what they cost; where none is, of those with the least
-/// error.
+/// Of each material the places of the candidates within the budget, and what they cost.
 fn choosable(
     judged: &[JudgedMaterial],
     budget: f64,
@@ -391,22 +390,20 @@ fn choosable(
     let mut shared: Vec<String> = Vec::new();
     let mut of_material = |material: &JudgedMaterial| {
         let pixels = material.pixels.max(1) as f64 / frames.max(1) as f64;
-        let errors = material.candidates.iter().map(|found| found.error);
-        let most = errors.fold(f64::INFINITY, f64::min).max(budget);
-        let candidates = material.candidates.iter().enumerate();
-        let within = candidates.filter(|(_, found)| found.error <= most);
-        let choosable = within.map(|(place, found)| {
+        let one = |found: &JudgedCandidate| {
             let name = found.candidate.name();
             let is_own = found.candidate.is_specialised();
-            let one = Choosable {
+            Choosable {
                 cost: found.candidate.cost * pixels,
                 error: found.error,
                 shared: (!is_own).then(|| place_of(&mut shared, &name)),
                 name,
-            };
-            (place, one)
-        });
-        choosable.unzip()
+            }
+        };
+        let all: Vec<Choosable> = material.candidates.iter().map(one).collect();
+        let places = within(&all, budget);
+        let open = places.iter().map(|place| all[*place].clone()).collect();
+        (places, open)
     };
     judged.iter().map(&mut of_material).unzip()
 }

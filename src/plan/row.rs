@@ -2,6 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
+use crate::cost::CostBasis;
 use crate::emit::FunctionForm;
 use crate::num::Precision;
 use crate::verify::Status;
@@ -31,6 +32,9 @@ pub struct PlanRow {
     pub is_within: bool,
     /// What an evaluation costs.
     pub cost: f64,
+    /// How the cost is known: `function` (it was compiled), `shape` (the same text with other constants was), `nothing` (it computes
+    /// nothing), `operations` (they were counted).
+    pub cost_by: CostBasis,
     /// What the exact law costs.
     pub cost_exact: Option<f64>,
     /// Pixels that show the material, in the mean of all frames.
@@ -191,6 +195,7 @@ impl JudgedMaterial {
             budget: request.budget,
             is_within: *error <= request.budget,
             cost: candidate.cost,
+            cost_by: candidate.basis,
             cost_exact: self.cost_exact,
             pixels: self.pixels as f64 / frames.max(1) as f64,
             frames: self.frames,

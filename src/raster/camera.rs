@@ -1,6 +1,9 @@
-//! A pinhole camera, and a camera that turns about an object.
+//! A pinhole camera, a distant one that stands for an orthographic camera, and a camera that turns about an object.
 
 use glam::DVec3;
+
+/// The distance of an orthographic camera, in heights of its picture: rays at the upper and the lower edge are turned by 5e-7.
+const DISTANT: f64 = 1e6;
 
 /// What a camera takes in.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -39,6 +42,20 @@ impl Camera {
         }
     }
 
+    /// A camera of this position and these axes that sees parallel rays: `height` metres fill its picture of `size` pixels. It
+    /// stands for an orthographic camera as a pinhole a million heights behind `eye`, which sees what is behind `eye` too.
+    pub fn orthographic(eye: DVec3, axes: [DVec3; 3], height: f64, size: [u32; 2]) -> Camera {
+        let half = libm::atan(0.5 / DISTANT);
+        Camera {
+            eye: eye - DISTANT * height * axes[2],
+            axes,
+            lens: Lens {
+                size,
+                vertical_degrees: 2.0 * half.to_degrees(),
+            },
+        }
+    }
+
     /// A point relative to the camera: to the right, down, forwards.
     pub fn relative(&self, point: DVec3) -> DVec3 {
         self.turned(point - self.eye)
@@ -47,6 +64,12 @@ impl Camera {
     /// A direction along the camera's axes.
     pub fn turned(&self, direction: DVec3) -> DVec3 {
         DVec3::from_array(self.axes.map(|axis| axis.dot(direction)))
+    }
+
+    /// A direction of the world from one along the camera's axes.
+    pub fn in_world(&self, direction: DVec3) -> DVec3 {
+        let [right, down, forwards] = self.axes;
+        direction.x * right + direction.y * down + direction.z * forwards
     }
 
     /// How many pixels a slope of 1 is.
@@ -103,7 +126,7 @@ impl Turntable {
 }
 
 /// A vector turned about a unit axis, by the formula of Rodrigues.
-fn rotated(vector: DVec3, axis: DVec3, angle: f64) -> DVec3 {
+pub fn rotated(vector: DVec3, axis: DVec3, angle: f64) -> DVec3 {
     let (sin, cos) = libm::sincos(angle);
     cos * vector + sin * axis.cross(vector) + (1.0 - cos) * axis.dot(vector) * axis
 }

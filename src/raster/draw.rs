@@ -32,8 +32,39 @@ pub struct Frame {
     pub covered: Vec<(u32, f64)>,
 }
 
+/// What a pixel shows of a surface.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SurfacePoint {
+    /// The pixel's place, row by row from the top left.
+    pub place: u32,
+    /// The triangle that is seen, in the mesh's order.
+    pub triangle: u32,
+    /// The cosine between the normal and the direction to the camera, clamped to [0, 1].
+    pub cos_theta: f64,
+    /// The unit normal on the side that is seen, along the axes of the world.
+    pub normal: DVec3,
+    /// The unit direction to the camera, along the axes of the world.
+    pub to_camera: DVec3,
+}
+
+impl SurfacePoint {
+    /// The unit direction that a mirror there shows: 2 (n·v) n - v.
+    pub fn mirrored(&self) -> DVec3 {
+        2.0 * self.normal.dot(self.to_camera) * self.normal - self.to_camera
+    }
+}
+
 /// Draws a frame.
 pub fn draw(mesh: &Mesh, camera: &Camera) -> Frame {
+    let points = surface_points(mesh, camera).into_iter();
+    Frame {
+        size: camera.lens.size,
+        covered: points.map(|point| (point.place, point.cos_theta)).collect(),
+    }
+}
+
+/// What each covered pixel shows, in scan order.
+pub fn surface_points(mesh: &Mesh, camera: &Camera) -> Vec<SurfacePoint> {
     let screen = Screen::new(camera);
     let corners: Vec<Corner> = mesh
         .vertices
@@ -45,21 +76,23 @@ pub fn draw(mesh: &Mesh, camera: &Camera) -> Frame {
         let triangle = triangle.map(|corner| corners[corner as usize]);
         depth.enter(&screen, name as u32, triangle);
     }
-    let cosine = |place: usize, name: u32| {
-        let triangle = mesh.triangles[name as usize];
+    let point = |(place, name): (usize, &u32)| {
+        let triangle = mesh.triangles[*name as usize];
         let positions = triangle.map(|corner| corners[corner as usize].position);
         let vertices = triangle.map(|corner| mesh.vertices[corner as usize]);
         let ray = screen.ray(place);
-        cosine(ray, positions, &vertices, camera)
+        let (normal, cos_theta) = seen_normal(ray, positions, &vertices, camera);
+        SurfacePoint {
+            place: place as u32,
+            triangle: *name,
+            cos_theta,
+            normal: camera.in_world(normal).normalize(),
+            to_camera: -camera.in_world(ray).normalize(),
+        }
     };
     let names = depth.names.iter().enumerate();
     let covered = names.filter(|(_, name)| **name != NONE);
-    Frame {
-        size: screen.size,
-        covered: covered
-            .map(|(place, name)| (place as u32, cosine(place, *name)))
-            .collect(),
-    }
+    covered.map(point).collect()
 }
 
 /// The grid of pixels.
@@ -189,8 +222,13 @@ fn depths(positions: [DVec3; 3]) -> (f64, f64) {
     (a.min(b).min(c), a.max(b).max(c))
 }
 
-/// The cosine between the normal and the direction to the camera.
-fn cosine(ray: DVec3, positions: [DVec3; 3], vertices: &[Vertex; 3], camera: &Camera) -> f64 {
+/// The normal on the side that is seen, along the camera's axes, and the cosine between it and the direction to the camera.
+fn seen_normal(
+    ray: DVec3,
+    positions: [DVec3; 3],
+    vertices: &[Vertex; 3],
+    camera: &Camera,
+) -> (DVec3, f64) {
     let weights = edges(positions).map(|edge| edge.dot(ray));
     let whole = weights[0] + weights[1] + weights[2];
     let normal = |i: usize| weights[i] / whole * vertices[i].normal;
@@ -206,10 +244,10 @@ fn cosine(ray: DVec3, positions: [DVec3; 3], vertices: &[Vertex; 3], camera: &Ca
         normal = towards;
     }
     let cos_theta = -normal.dot(ray) / (normal.length() * ray.length());
-    let seen = if normal.dot(towards) < 0.0 {
-        -cos_theta
+    let (normal, seen) = if normal.dot(towards) < 0.0 {
+        (-normal, -cos_theta)
     } else {
-        cos_theta
+        (normal, cos_theta)
     };
-    seen.clamp(0.0, 1.0)
+    (normal, seen.clamp(0.0, 1.0))
 }

@@ -24,8 +24,8 @@ mod row;
 mod shown;
 
 pub use body::{Body, CUBE, RELIEF, SPHERE};
-pub use camera::{Camera, Lens, Turntable};
-pub use draw::{Frame, draw};
+pub use camera::{Camera, Lens, Turntable, rotated};
+pub use draw::{Frame, SurfacePoint, draw, surface_points};
 pub use histogram::{BINS, CosineHistogram};
 pub use mesh::{Mesh, Vertex};
 #[cfg(feature = "meshes")]

@@ -5,7 +5,6 @@
 use glam::DVec3;
 use half::f16;
 
-#[cfg(feature = "gpu")]
 use crate::spectra::srgb_linear;
 
 /// Radiance by direction.
@@ -31,7 +30,6 @@ pub enum EnvironmentFault {
 }
 
 /// Texels of a row that a picture of a user may have.
-#[cfg(feature = "gpu")]
 const LARGEST: usize = 16384;
 
 impl Environment {
@@ -66,7 +64,6 @@ impl Environment {
     ///
     /// # Errors
     /// The picture cannot be read, or is not twice as wide as high.
-    #[cfg(feature = "gpu")]
     pub fn read(bytes: &[u8]) -> Result<Environment, EnvironmentFault> {
         let unreadable = |why: image::ImageError| EnvironmentFault::Unreadable(why.to_string());
         let picture = image::load_from_memory(bytes).map_err(unreadable)?;
@@ -88,6 +85,38 @@ impl Environment {
             width,
             height,
             texels: picture.pixels().map(texel).collect(),
+        })
+    }
+
+    /// The same with half as many rows, each texel the mean of those that it covers by solid angle; nothing below two rows.
+    pub fn halved(&self) -> Option<Environment> {
+        if self.height < 2 {
+            return None;
+        }
+        let height = self.height / 2;
+        let width = 2 * height;
+        let solid_angle =
+            |row: usize| libm::sin(std::f64::consts::PI * (row as f64 + 0.5) / self.height as f64);
+        // Of an odd number of rows, two texels share one.
+        let covered = |at: usize, all: usize, parts: usize| {
+            at * all / parts..((at + 1) * all).div_ceil(parts)
+        };
+        let texel = |row: usize, column: usize| {
+            let (mut sum, mut whole) = (DVec3::ZERO, 0.0);
+            for y in covered(row, self.height, height) {
+                for x in covered(column, self.width, width) {
+                    let texel = self.texels[y * self.width + x].map(f64::from);
+                    sum += solid_angle(y) * DVec3::from_array(texel);
+                    whole += solid_angle(y);
+                }
+            }
+            rounded((sum / whole).to_array())
+        };
+        let places = (0..height).flat_map(|row| (0..width).map(move |column| (row, column)));
+        Some(Environment {
+            width,
+            height,
+            texels: places.map(|(row, column)| texel(row, column)).collect(),
         })
     }
 
@@ -151,6 +180,29 @@ fn rounded(texel: [f64; 3]) -> [f32; 3] {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_halved_table_keeps_the_mean_over_all_directions() {
+        let mut table = Environment::baked(37, |direction| direction + DVec3::ONE);
+        while let Some(next) = table.halved() {
+            let rows = table.height as f64;
+            let solid_angle =
+                |row: usize| libm::sin(std::f64::consts::PI * (row as f64 + 0.5) / rows);
+            let (mut sum, mut whole) = (DVec3::ZERO, 0.0);
+            for (at, texel) in table.texels.iter().enumerate() {
+                let weight = solid_angle(at / table.width);
+                sum += weight * DVec3::from_array(texel.map(f64::from));
+                whole += weight;
+            }
+            let mean = sum / whole;
+            assert!(
+                (mean - DVec3::ONE).abs().max_element() < 0.02,
+                "{rows} {mean}"
+            );
+            table = next;
+        }
+        assert_eq!(table.size(), [2, 1]);
+    }
 
     #[test]
     fn a_table_gives_back_what_it_was_baked_from() {

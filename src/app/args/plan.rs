@@ -14,6 +14,7 @@ use crate::spectra::Space;
 
 use super::choice::{Choice, family, in_any_case, method_or_all, one_of, precision};
 use super::output::file_only;
+use super::scene_error::size;
 use super::{PictureFlags, ReportFlags};
 
 /// The flags of `plan`.
@@ -32,6 +33,12 @@ pub struct PlanFlags {
     /// Which id of the frames is which material: a TOML file
     #[arg(long, value_name = "FILE", requires = "gbuffer", value_parser = file_only("--materials"))]
     pub materials: Option<PathBuf>,
+    /// What is around a glTF scene: a picture twice as wide as high, HDR, EXR, PNG or JPEG [default: white]
+    #[arg(long, value_name = "FILE", value_parser = file_only("--environment"), conflicts_with = "gbuffer")]
+    pub environment: Option<PathBuf>,
+    /// Pixels across and down of a glTF scene's frames, each 16 to 2048 [default: 640x480]
+    #[arg(long, value_name = "WxH", value_parser = size, conflicts_with = "gbuffer")]
+    pub size: Option<[u32; 2]>,
     /// The largest error [default: 1; .0039 with --metric linear]
     #[arg(long, value_name = "ERR", allow_negative_numbers = true)]
     pub budget: Option<f64>,
@@ -118,6 +125,14 @@ impl PlanFlags {
             .list(
                 "materials",
                 self.materials.iter().map(|file| file.display()),
+            )
+            .list(
+                "environment",
+                self.environment.iter().map(|file| file.display()),
+            )
+            .list(
+                "size",
+                self.size.map(|[width, height]| format!("{width}x{height}")),
             )
             .list("budget", self.budget)
             .list(

@@ -104,7 +104,7 @@ fn place(word: &str) -> Result<[f64; 3], String> {
 }
 
 /// Pixels across and down.
-fn size(word: &str) -> Result<[u32; 2], String> {
+pub(super) fn size(word: &str) -> Result<[u32; 2], String> {
     const SIDES: std::ops::RangeInclusive<u32> = 16..=2048;
     let sides = word.split_once('x').map(|(width, height)| [width, height]);
     let sides = sides.map(|sides| sides.map(|side| side.parse::<u32>().ok()));

@@ -117,7 +117,7 @@ pub fn chart_svg(view: &ChartView) -> Option<String> {
 }
 
 const KEY: &str = "Blue: fitted here. Orange: published; full with the inputs that its authors meant, hollow (*) with those whose \
-largest error is least. Square: reads a texture; its cost excludes the fetch. The line: no function is both cheaper and as accurate; functions that fail inside their domain are left out of it.";
+largest error is least. Square: reads a texture; its cost excludes the fetch. The line: no function is both cheaper and as accurate; functions that fail inside their domain are left out of it. What costs nothing has no point.";
 
 /// The key, with a sentence on a user's function.
 fn key(view: &ChartView) -> String {

@@ -17,7 +17,8 @@ pub fn chart_text(view: &ChartView) -> String {
     let points = view.points();
     let rows: Vec<Vec<String>> = points.iter().map(cells).collect();
     format!(
-        "{}\nCost: {}.\n\n{}\nA star before a row: nothing is cheaper and as near, or nearer and as cheap.\n{}\n{}",
+        "{}\nCost: {}.\n\n{}\nA star before a row: nothing is cheaper and as near, or nearer and as cheap.\n\
+         A method that costs nothing has no point.\n{}\n{}",
         capital(&view.title()),
         view.cost.title,
         table::text_table(&head, &rows),

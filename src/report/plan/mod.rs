@@ -4,7 +4,7 @@ mod page;
 
 use serde::Serialize;
 
-use crate::plan::{PlanRequest, PlanRow, PlanTotal, Proof};
+use crate::plan::{PlanRequest, PlanRow, PlanTotal, Proof, Unplanned};
 use crate::verify::Status;
 
 use super::envelope::Origin;
@@ -40,15 +40,6 @@ pub struct PlanReport {
     #[serde(skip_serializing_if = "Vec::is_empty")]
     proofs: Vec<Proof>,
     rows: Vec<PlanRow>,
-}
-
-/// A material of the scene that gets no function.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
-pub struct Unplanned {
-    /// What the scene calls it.
-    pub name: String,
-    /// Why not.
-    pub reason: String,
 }
 
 impl PlanReport {
@@ -141,13 +132,13 @@ impl PlanReport {
             shared,
             ..
         } = &self.total;
-        let beside = |other: f64| match *cost > 0.0 {
-            true => format!(
-                "{} ({} times as much)",
-                short_number(other),
-                short_number(other / cost)
-            ),
-            false => short_number(other),
+        let beside = |other: f64| {
+            let times = short_number(other / cost);
+            match *cost > 0.0 {
+                true if times == "1" => format!("{}, as much", short_number(other)),
+                true => format!("{} ({times} times as much)", short_number(other)),
+                false => short_number(other),
+            }
         };
         let mut parts = vec![format!(
             "All together {} units × pixels of a frame",

@@ -21,6 +21,7 @@ mod hostile;
 #[cfg(unix)]
 mod killed;
 mod materials;
+mod plan;
 mod scene_error;
 mod seen;
 mod single;

@@ -193,7 +193,7 @@ fn what_may_be_missing_has_its_value() {
     all.retain(|(name, _)| !name.starts_with("other") && !["roughness", "coverage"].contains(name));
     let frame = read_gbuffer(&plain(all), &ids()).unwrap();
     let statue = &frame.of_material[0];
-    assert_eq!(statue.len(), (SIZE[0] * SIZE[1] + 1) / 2);
+    assert_eq!(statue.len(), (SIZE[0] * SIZE[1]).div_ceil(2));
     for pixel in statue {
         assert_eq!(
             (pixel.roughness, pixel.coverage, pixel.other),

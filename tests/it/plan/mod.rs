@@ -1,5 +1,9 @@
-//! Plans for scenes: what frames show, whoever drew them.
+//! Plans: scenes and frames as they are read, what their frames show, and what is chosen for them.
 
 mod gbuffer;
+mod gltf;
 #[cfg(any(feature = "pictures", feature = "gpu"))]
 mod other_renderers;
+mod planned;
+mod scene_file;
+mod scenes;

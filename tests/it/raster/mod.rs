@@ -2,7 +2,8 @@
 
 mod errors;
 #[cfg(feature = "meshes")]
-mod obj;
+pub mod obj;
+mod surface_points;
 
 use fresnel_gen::raster::{
     Body, CUBE, Camera, CosineHistogram, Frame, Lens, Mesh, RELIEF, SPHERE, Turntable, Vertex,

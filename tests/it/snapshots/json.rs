@@ -9,7 +9,7 @@ use crate::cli::{OUT, Place, Ran};
 use crate::not_checked;
 
 /// A name in the list, and a command whose stdout is the report.
-const REPORTS: [(&str, &str); 18] = [
+const REPORTS: [(&str, &str); 19] = [
     ("methods", "methods --json -"),
     ("methods show", "methods show fitted --json -"),
     ("targets", "targets --json -"),
@@ -39,11 +39,14 @@ const REPORTS: [(&str, &str); 18] = [
         "scene-error cube --material gold --method schlick --size 16x16 --frames 1 --json -",
     ),
     ("render", "render double_refraction --size 16 --json -"),
+    ("plan", "plan scene.toml --prove --json -"),
     (
         "audit",
         "audit mine.wgsl --function schlick --material gold --gpu rdna2 --json -",
     ),
 ];
+
+const SCENE: &str = "size = [32, 32]\n[camera]\northographic = 2.0\neye = [0, 0, 4]\n[light]\nuniform = [1, 1, 1]\n[[object]]\nbody = \"sphere\"\nextent = 2.0\nmaterial = \"gold\"\n";
 
 const MINE: &str = "fn schlick(c: f32, f0: vec3<f32>) -> vec3<f32> {\n    let m = clamp(1.0 - c, 0.0, 1.0);\n    return f0 + (1.0 - f0) * m * m * m * m * m;\n}\n";
 
@@ -107,6 +110,7 @@ fn lacks_opinion(verify: &Value) -> bool {
 fn the_keys_of_every_report_are_the_committed_ones() {
     let place = Place::new();
     place.put("mine.wgsl", MINE);
+    place.put("scene.toml", SCENE);
     let mut all = Vec::new();
     for (name, line) in REPORTS {
         let ran: Ran = place.run(line);

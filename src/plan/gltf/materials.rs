@@ -1,0 +1,294 @@
+//! What stands for the materials of a file.
+//!
+//! ```text
+//! dielectrics: other light = base colour × light from around; coverage = alpha where it blends
+//! ```
+//!
+//! What is seen through a material (KHR_materials_transmission) is taken to be as bright as what is around it, so that its share
+//! does not matter. Source of the default index: Khronos, KHR_materials_ior, 2020,
+//! <https://github.com/KhronosGroup/glTF/tree/main/extensions/2.0/Khronos/KHR_materials_ior>.
+
+use std::collections::HashMap;
+
+use gltf_json::material::AlphaMode;
+use gltf_json::validation::Checked;
+use gltf_json::{Index, Material as GltfMaterial, Root};
+use serde::Serialize;
+
+use super::super::drawn::SurfaceLook;
+use super::super::pixels::MappedMaterial;
+use super::super::sky::SceneLight;
+use super::fault::{Place, plain};
+use crate::materials::{self, Material, MaterialKind};
+use crate::names::UnknownName;
+
+/// The index of glTF's dielectrics.
+const USUAL_INDEX: f32 = 1.5;
+/// How the name of a material with a constant index begins: `ior_1_5`.
+const CONSTANT: &str = "ior_";
+/// The key in a material's extras.
+const KEY: &str = "fresnel_gen";
+/// Extensions that leave the reflection of the surface what it is. All others change it.
+const HARMLESS: [&str; 3] = [
+    "KHR_materials_volume",
+    "KHR_materials_emissive_strength",
+    "KHR_materials_variants",
+];
+
+/// A material that is seen and not planned.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+pub struct Unplanned {
+    /// What the file calls it.
+    pub name: String,
+    /// Why not.
+    pub reason: String,
+}
+
+/// A dielectric of the same index at all wavelengths, by the name that [`super::GltfScene::materials`] gives it: `ior_1_5` for 1.5.
+/// None for all other names.
+pub fn constant_index(name: &str) -> Option<Material> {
+    let index = name.strip_prefix(CONSTANT)?.replacen('_', ".", 1);
+    let is_number = index
+        .bytes()
+        .all(|byte| byte.is_ascii_digit() || byte == b'.');
+    let number: f32 = index.parse().ok().filter(|_| is_number)?;
+    if name != name_of(number) {
+        return None;
+    }
+    let text = format!(
+        "name = \"{name}\"\nsummary = \"A dielectric with an index of {index}\"\nclass = \"dielectric\"\nlicence = \"CC0-1.0\"\nreference = \"a constant\"\nlink = \"https://github.com/KhronosGroup/glTF/tree/main/extensions/2.0/Khronos/KHR_materials_ior\"\nn = [[200, {index}], [2500, {index}]]\n"
+    );
+    Material::parse(name, &text).ok()
+}
+
+fn name_of(index: f32) -> String {
+    format!("{CONSTANT}{index}").replace('.', "_")
+}
+
+/// The looks of a file's materials, found as they are seen.
+pub struct Looks<'a> {
+    pub materials: Vec<MappedMaterial>,
+    pub unplanned: Vec<Unplanned>,
+    root: &'a Root,
+    /// What all other light of a white pixel is.
+    around: [f32; 3],
+    /// By the index of the file's material; the default one has none.
+    known: HashMap<Option<usize>, Option<SurfaceLook>>,
+    default: GltfMaterial,
+}
+
+impl<'a> Looks<'a> {
+    pub fn new(root: &'a Root, light: &SceneLight) -> Looks<'a> {
+        Looks {
+            materials: Vec::new(),
+            unplanned: Vec::new(),
+            root,
+            around: light.mean(),
+            known: HashMap::new(),
+            default: GltfMaterial::default(),
+        }
+    }
+
+    /// How a primitive looks; none where it is not seen at all.
+    pub fn of(
+        &mut self,
+        material: Option<Index<GltfMaterial>>,
+    ) -> Result<Option<SurfaceLook>, Place> {
+        let key = material.map(|material| material.value());
+        if let Some(known) = self.known.get(&key) {
+            return Ok(*known);
+        }
+        let root = self.root;
+        let default = self.default.clone();
+        let material = key.map_or(&default, |key| &root.materials[key]);
+        let look = self.look(material, key)?;
+        self.known.insert(key, look);
+        Ok(look)
+    }
+
+    fn look(
+        &mut self,
+        material: &GltfMaterial,
+        key: Option<usize>,
+    ) -> Result<Option<SurfaceLook>, Place> {
+        let factors = Factors::of(material, key)?;
+        if factors.coverage == 0.0 {
+            return Ok(None);
+        }
+        let name = self.free_name(material, key);
+        let index = match stands_for(material, &factors, key)? {
+            Ok(found) => {
+                self.materials.push(MappedMaterial {
+                    name,
+                    material: found,
+                });
+                Some(self.materials.len() - 1)
+            }
+            Err(reason) => {
+                self.unplanned.push(Unplanned { name, reason });
+                None
+            }
+        };
+        let is_dielectric =
+            index.is_some_and(|index| is_dielectric(&self.materials[index].material));
+        let other = |i: usize| {
+            if is_dielectric {
+                factors.colour[i] * self.around[i]
+            } else {
+                0.0
+            }
+        };
+        Ok(Some(SurfaceLook {
+            material: index,
+            roughness: factors.roughness,
+            other: [other(0), other(1), other(2)],
+            coverage: factors.coverage,
+        }))
+    }
+
+    /// What the file calls a material, told apart from others of the same name.
+    fn free_name(&self, material: &GltfMaterial, key: Option<usize>) -> String {
+        let place = key.map_or("the default material".to_owned(), |key| {
+            format!("materials[{key}]")
+        });
+        let own = material
+            .name
+            .as_deref()
+            .map(plain)
+            .filter(|name| !name.trim().is_empty());
+        let Some(own) = own else { return place };
+        let planned = self.materials.iter().map(|known| &known.name);
+        let mut all = planned.chain(self.unplanned.iter().map(|known| &known.name));
+        match all.any(|known| *known == own) {
+            true => format!("{own} ({place})"),
+            false => own,
+        }
+    }
+}
+
+fn is_dielectric(name: &str) -> bool {
+    let found = materials::find(name)
+        .and_then(Result::ok)
+        .or_else(|| constant_index(name));
+    found.is_some_and(|material| material.kind == MaterialKind::Dielectric)
+}
+
+/// The numbers of a material.
+struct Factors {
+    roughness: f32,
+    metallic: f32,
+    colour: [f32; 3],
+    coverage: f32,
+}
+
+impl Factors {
+    fn of(material: &GltfMaterial, key: Option<usize>) -> Result<Factors, Place> {
+        let pbr = &material.pbr_metallic_roughness;
+        let check = |value: f32, what: &str| match (0.0..=1.0).contains(&value) {
+            true => Ok(value),
+            false => {
+                let place = format!(
+                    "materials[{}].pbrMetallicRoughness.{what}",
+                    key.unwrap_or(0)
+                );
+                Err(Place::new(
+                    place,
+                    format!("it is {value}; it must lie between 0 and 1"),
+                ))
+            }
+        };
+        let [red, green, blue, alpha] = pbr.base_color_factor.0;
+        for channel in [red, green, blue, alpha] {
+            check(channel, "baseColorFactor")?;
+        }
+        let cutoff = material.alpha_cutoff.unwrap_or_default().0;
+        let coverage = match material.alpha_mode {
+            Checked::Valid(AlphaMode::Blend) => alpha,
+            Checked::Valid(AlphaMode::Mask) if alpha < cutoff => 0.0,
+            _ => 1.0,
+        };
+        Ok(Factors {
+            roughness: check(pbr.roughness_factor.0, "roughnessFactor")?,
+            metallic: check(pbr.metallic_factor.0, "metallicFactor")?,
+            colour: [red, green, blue],
+            coverage,
+        })
+    }
+}
+
+/// The material that stands for one of the file's, or why none does.
+fn stands_for(
+    material: &GltfMaterial,
+    factors: &Factors,
+    key: Option<usize>,
+) -> Result<Result<String, String>, Place> {
+    if let Some(named) = named(material, key)? {
+        return Ok(Ok(named));
+    }
+    let own = material
+        .name
+        .as_deref()
+        .unwrap_or("")
+        .to_lowercase()
+        .replace(' ', "_");
+    if materials::source(&own).is_some() {
+        return Ok(Ok(own));
+    }
+    if factors.metallic > 0.0 {
+        let why = format!(
+            "glTF defines its metals by Schlick's approximation, so that there is no other truth; name a material of the catalogue in its extras: {{\"{KEY}\": \"gold\"}}"
+        );
+        return Ok(Err(why));
+    }
+    Ok(by_index(material))
+}
+
+/// The name in the extras.
+fn named(material: &GltfMaterial, key: Option<usize>) -> Result<Option<String>, Place> {
+    let Some(extras) = &material.extras else {
+        return Ok(None);
+    };
+    let extras: serde_json::Value = serde_json::from_str(extras.get()).unwrap_or_default();
+    let Some(name) = extras.get(KEY) else {
+        return Ok(None);
+    };
+    let fault = |what: String| {
+        let place = format!("materials[{}].extras.{KEY}", key.unwrap_or(0));
+        Err(Place::new(place, what))
+    };
+    match name.as_str() {
+        None => fault("it wants the name of a material of the catalogue".to_owned()),
+        Some(name) if materials::source(name).is_none() => {
+            fault(UnknownName::new("material", name, &materials::names()).to_string())
+        }
+        Some(name) => Ok(Some(name.to_owned())),
+    }
+}
+
+/// A dielectric by its index alone.
+fn by_index(material: &GltfMaterial) -> Result<String, String> {
+    let extensions = material.extensions.as_ref();
+    let changes = |name: &&String| !HARMLESS.contains(&name.as_str());
+    if let Some(name) = extensions.and_then(|all| all.others.keys().find(changes)) {
+        return Err(format!("{} changes what it reflects", plain(name)));
+    }
+    if let Some(specular) = extensions.and_then(|all| all.specular.as_ref()) {
+        let textures =
+            specular.specular_texture.is_some() || specular.specular_color_texture.is_some();
+        let is_usual =
+            specular.specular_factor.0 == 1.0 && specular.specular_color_factor.0 == [1.0; 3];
+        if textures || !is_usual {
+            return Err("KHR_materials_specular changes what it reflects head-on".to_owned());
+        }
+    }
+    let index = extensions
+        .and_then(|all| all.ior.as_ref())
+        .map_or(USUAL_INDEX, |ior| ior.ior.0);
+    let name = name_of(index);
+    match index > 1.0 && constant_index(&name).is_some() {
+        true => Ok(name),
+        false => Err(format!(
+            "an index of {index} has no reflection of a dielectric"
+        )),
+    }
+}
