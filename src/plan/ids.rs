@@ -251,7 +251,7 @@ mod tests {
         check("[7, 9]", "[7, 7]", 1, "id 7 stands in `ignore` twice");
         check("[7, 9]", "[0]", 1, "id 0 is the background");
         check("ignore", "ingore", 1, "did you mean ignore?");
-        check("name", "nmae", 5, "did you mean name?");
+        check("name", "nmae", 5, "did you mean name");
         check("[[material]]", "[[materials]]", 3, "did you mean material");
         check("\"statue\"", "\" \"", 5, "`name` is empty");
         check("\"gold\"", "\"go\\u001b[31mld\"", 6, "`material` holds");

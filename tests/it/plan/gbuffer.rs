@@ -369,7 +369,7 @@ fn a_frame_is_no_larger_than_its_file_can_hold() {
             [8192, 36],
             "a frame of 8193 x 37 pixels; the largest has 8192 x 8192",
         ),
-        ([i32::MAX - 1, 36], "a frame of 2147483647 x 37 pixels"),
+        ([(1 << 20) - 1, 36], "a frame of 1048576 x 37 pixels"),
         ([8191, 8191], "not a readable OpenEXR file"),
         ([i32::MAX, i32::MIN], "not a readable OpenEXR file"),
     ] {

@@ -2,6 +2,8 @@
 
 mod gbuffer;
 mod gltf;
+#[cfg(any(feature = "pictures", feature = "gpu"))]
+mod other_renderers;
 mod planned;
 mod scene_file;
 mod scenes;
