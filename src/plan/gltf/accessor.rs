@@ -194,7 +194,12 @@ impl<'a> Buffers<'a> {
             [replaced, size],
             place,
         )?;
+        let mut last = None;
         for (at, value) in at.elements().map(whole).zip(values.elements()) {
+            if last.is_some_and(|last| last >= at) {
+                return Err(Place::new(place, "its sparse indices do not increase"));
+            }
+            last = Some(at);
             if at as usize >= all {
                 let what = format!("it replaces element {at} of {all}");
                 return Err(Place::new(place, what));

@@ -349,7 +349,12 @@ fn sparse_accessors_replace_elements() {
     json["accessors"][0]["sparse"] = sparse(1 << 40, 2);
     let fault = read_with(&json, &buffer).unwrap_err();
     assert!(fault.what.contains("of 24 elements"), "{fault}");
+    // The bytes of .5 as indices.
     json["accessors"][0]["sparse"] = sparse(2, 0);
+    let fault = read_with(&json, &buffer).unwrap_err();
+    assert!(fault.what.contains("do not increase"), "{fault}");
+    json["accessors"][0]["sparse"] = sparse(2, 2);
+    buffer[end + 1] = 200;
     let fault = read_with(&json, &buffer).unwrap_err();
     assert!(fault.what.contains("it replaces element"), "{fault}");
 }
