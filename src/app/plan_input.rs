@@ -211,13 +211,17 @@ fn loaded(
             false => one.material.clone(),
         };
         let known = planned.iter().position(|known| known.argument == word);
-        places.push(known.unwrap_or(planned.len()));
+        let place = known.unwrap_or(planned.len());
+        places.push(place);
         if known.is_none() {
             if !is_known(&word) {
                 let unknown = UnknownName::new("material", &word, &materials::names());
                 return Err(fault(index, unknown.to_string()));
             }
             planned.push(material(word, viewing)?);
+        }
+        if !planned[place].names.contains(&one.name) {
+            planned[place].names.push(one.name.clone());
         }
     }
     Ok((planned, places))
@@ -229,6 +233,7 @@ fn material(word: String, viewing: &ViewingConditions) -> Result<PlannedMaterial
         return Ok(PlannedMaterial {
             subject: MaterialInMedium::new(typed, None, viewing, Derivation::default())?,
             argument: word,
+            names: Vec::new(),
             is_library_only: true,
         });
     }
@@ -247,6 +252,7 @@ fn material(word: String, viewing: &ViewingConditions) -> Result<PlannedMaterial
     let mut subjects = request.subjects()?.materials();
     Ok(PlannedMaterial {
         argument: word,
+        names: Vec::new(),
         subject: subjects.remove(0),
         is_library_only: false,
     })

@@ -29,7 +29,7 @@ pub struct DrawnScene {
 }
 
 impl DrawnScene {
-    /// A scene of so many materials that holds nothing yet.
+    /// A scene that holds nothing yet, of so many materials, or of more once a look names them.
     pub fn new(materials: usize, light: SceneLight) -> DrawnScene {
         DrawnScene {
             mesh: Mesh::default(),
@@ -41,6 +41,8 @@ impl DrawnScene {
 
     /// Puts triangles into the scene.
     pub fn add(&mut self, mesh: &Mesh, look: SurfaceLook) {
+        let named = look.material.map_or(0, |material| material + 1);
+        self.materials = self.materials.max(named);
         if mesh.triangles.is_empty() {
             return;
         }

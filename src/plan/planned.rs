@@ -98,6 +98,8 @@ impl PlanTruth {
 pub struct PlannedMaterial {
     /// What a user types to name it.
     pub argument: String,
+    /// What the scene calls it, each name once.
+    pub names: Vec<String>,
     /// The material.
     pub subject: MaterialInMedium,
     /// Whether it has no file that a function could be specialised to.
@@ -454,6 +456,7 @@ mod tests {
         let subject = MaterialInMedium::new(typed, None, &seen, Derivation::default()).unwrap();
         PlannedMaterial {
             argument: "gold".to_owned(),
+            names: Vec::new(),
             subject,
             is_library_only: false,
         }

@@ -16,6 +16,8 @@ use super::planned::{JudgedCandidate, JudgedMaterial, Judgement, PlanRequest};
 pub struct PlanRow {
     /// The material, as a user types it.
     pub material: String,
+    /// What the scene calls it.
+    pub names: Vec<String>,
     /// The method.
     pub method: &'static str,
     /// Its form.
@@ -187,6 +189,7 @@ impl JudgedMaterial {
         } = self.chosen();
         PlanRow {
             material: self.material.argument.clone(),
+            names: self.material.names.clone(),
             method: candidate.method.name,
             form: candidate.form,
             channels: candidate.channels(),

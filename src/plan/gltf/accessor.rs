@@ -17,6 +17,9 @@ pub const MOST_ELEMENTS: usize = 3 * MOST_TRIANGLES;
 /// One that no buffer stands behind, whose elements are 0 but for those that it replaces.
 const MOST_ZEROS: usize = 1 << 20;
 
+/// All buffers together have at most so many bytes: several may name one file.
+const MOST_BYTES: usize = 1 << 30;
+
 /// All buffers of a file.
 pub struct Buffers<'a> {
     root: &'a Root,
@@ -44,7 +47,8 @@ impl<'a> Buffers<'a> {
         container: &Container<'a>,
         read: ReadFile,
     ) -> Result<Buffers<'a>, Place> {
-        let mut bytes = Vec::new();
+        let mut bytes: Vec<Cow<[u8]>> = Vec::new();
+        let mut total = 0;
         for (i, buffer) in root.buffers.iter().enumerate() {
             let fault = |what: String| Place::new(format!("buffers[{i}].uri"), what);
             let found: Cow<[u8]> = match (&buffer.uri, container.binary) {
@@ -67,6 +71,11 @@ impl<'a> Buffers<'a> {
                 let what = format!("it says {length} bytes and has {}", found.len());
                 return Err(Place::new(format!("buffers[{i}].byteLength"), what));
             }
+            total += found.len();
+            if total > MOST_BYTES {
+                let what = format!("the buffers up to here have more than {MOST_BYTES} bytes");
+                return Err(Place::new(format!("buffers[{i}]"), what));
+            }
             bytes.push(found);
         }
         Ok(Buffers { root, bytes })
@@ -76,10 +85,10 @@ impl<'a> Buffers<'a> {
     pub fn vectors(&self, index: Index<Accessor>, place: &str) -> Result<Vec<DVec3>, Place> {
         let accessor = &self.root.accessors[index.value()];
         self.check(accessor, Type::Vec3, &[ComponentType::F32], index, place)?;
-        let mut all = vec![DVec3::ZERO; count(accessor, place)?];
-        if let Some(elements) = self.base(accessor, 12, place)? {
-            all = elements.elements().map(vector).collect();
-        }
+        let mut all: Vec<DVec3> = match self.base(accessor, 12, place)? {
+            Some(elements) => elements.elements().map(vector).collect(),
+            None => vec![DVec3::ZERO; count(accessor, place)?],
+        };
         self.replace(accessor, 12, place, &mut |at, bytes| {
             all[at] = vector(bytes)
         })?;
@@ -95,10 +104,10 @@ impl<'a> Buffers<'a> {
         let kinds = [ComponentType::U8, ComponentType::U16, ComponentType::U32];
         let component = self.check(accessor, Type::Scalar, &kinds, index, place)?;
         let size = component.size();
-        let mut all = vec![0; count(accessor, place)?];
-        if let Some(elements) = self.base(accessor, size, place)? {
-            all = elements.elements().map(whole).collect();
-        }
+        let mut all: Vec<u32> = match self.base(accessor, size, place)? {
+            Some(elements) => elements.elements().map(whole).collect(),
+            None => vec![0; count(accessor, place)?],
+        };
         self.replace(accessor, size, place, &mut |at, bytes| {
             all[at] = whole(bytes)
         })?;

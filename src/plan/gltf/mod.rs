@@ -23,7 +23,7 @@ use gltf_json::mesh::Semantic;
 use gltf_json::validation::{Checked, Error, Validate};
 use gltf_json::{Accessor, Index, Root};
 
-use crate::raster::Camera;
+use crate::raster::{Camera, Mesh};
 
 use super::drawn::DrawnScene;
 use super::pixels::{FramePixels, MappedMaterial};
@@ -77,11 +77,9 @@ impl GltfScene {
         let buffers = Buffers::read(&root, &container, read).map_err(fault)?;
         let nodes = nodes::placed(&root).map_err(fault)?;
         let mut looks = Looks::new(&root, &view.light);
-        let parts = primitives::parts(&root, &nodes, &buffers, &mut looks).map_err(fault)?;
-        let mut scene = DrawnScene::new(looks.materials.len(), view.light.clone());
-        for (mesh, look) in &parts {
-            scene.add(mesh, *look);
-        }
+        let mut scene = DrawnScene::new(0, view.light.clone());
+        let add = &mut |mesh: &Mesh, look| scene.add(mesh, look);
+        primitives::add_parts(&root, &nodes, &buffers, &mut looks, add).map_err(fault)?;
         let own = cameras(&root, &nodes, view.size).map_err(fault)?;
         Ok(GltfScene {
             has_cameras: !own.is_empty(),

@@ -15,17 +15,17 @@ use crate::raster::{MOST_TRIANGLES, Mesh, Vertex};
 /// Nothing is farther away, in metres, along each axis.
 const FARTHEST: f64 = 1e6;
 
-/// The triangles of each primitive, and how they look.
+/// Hands on the triangles of each primitive, and how they look.
 ///
 /// # Errors
 /// An accessor is not as it should be, a number is not finite or too large, or there are too many triangles.
-pub fn parts(
+pub fn add_parts(
     root: &Root,
     nodes: &[PlacedNode],
     buffers: &Buffers,
     looks: &mut Looks,
-) -> Result<Vec<(Mesh, SurfaceLook)>, Place> {
-    let mut parts = Vec::new();
+    add: &mut dyn FnMut(&Mesh, SurfaceLook),
+) -> Result<(), Place> {
     // What was read so far: triangles, and elements of accessors.
     let (mut triangles, mut elements) = (0, 0);
     for node in nodes {
@@ -41,10 +41,10 @@ pub fn parts(
                 continue;
             };
             elements += corners.elements(buffers)?;
-            if elements > 4 * MOST_ELEMENTS {
+            if elements > 2 * MOST_ELEMENTS {
                 let what = format!(
                     "the scene up to here has more than {} elements",
-                    4 * MOST_ELEMENTS
+                    2 * MOST_ELEMENTS
                 );
                 return Err(Place::new(place, what));
             }
@@ -54,12 +54,12 @@ pub fn parts(
                 let what = format!("the scene up to here has more than {MOST_TRIANGLES} triangles");
                 return Err(Place::new(place, what));
             }
-            parts.push((mesh, look));
+            add(&mesh, look);
         }
     }
     match triangles {
         0 => Err(Place::new("meshes", "the scene has no triangle")),
-        _ => Ok(parts),
+        _ => Ok(()),
     }
 }
 
@@ -129,7 +129,9 @@ impl Corners {
         let vertices: Vec<Vertex> = corners
             .map(|(position, normal)| in_world(&node.into_world, *position, *normal))
             .collect();
-        let is_near = |vertex: &Vertex| vertex.position.abs().max_element() <= FARTHEST;
+        let is_near = |vertex: &Vertex| {
+            vertex.position.is_finite() && vertex.position.abs().max_element() <= FARTHEST
+        };
         if let Some(at) = vertices.iter().position(|vertex| !is_near(vertex)) {
             let what = format!("node {} takes corner {at} beyond {FARTHEST} m", node.index);
             return Err(Place::new(place, what));

@@ -17,7 +17,7 @@
 //! body = "sphere"               # sphere, cube, relief, plane (y = at[1], without end); or mesh = "statue.obj"
 //! material = "gold"             # a name of the catalogue, or the path of a material's file
 //! # What follows may be left out:
-//! name = "statue"               # what the plan calls it: the material's name. Objects of one name and material share a function
+//! name = "statue"               # what the scene calls it: the material's name. Objects of one material share a function
 //! roughness = 0.0               # perceptual
 //! other = [0.5, 0.1, 0.05]      # all other light of its pixels, before 1 - F: black
 //! extent = 2.0                  # its longest side in metres: 1 for a body; a mesh keeps its own

@@ -97,7 +97,7 @@ fn every_scene_gets_the_function_that_it_needs() {
             let Some(place) = place else { continue };
             let (want, half) = case.errors[place];
             let error = one["error"].as_f64().unwrap();
-            let allowed = (0.05 * want).max(half);
+            let allowed = 0.05 * want + half;
             assert!(
                 (error - want).abs() <= allowed,
                 "{}: {one}: {want}",
@@ -117,7 +117,7 @@ fn functions_that_are_not_needed_have_the_known_errors_too() {
             }
             let row = row(case.scene, &["--method", method]);
             let error = row["error"].as_f64().unwrap();
-            let allowed = (0.05 * want).max(half);
+            let allowed = 0.05 * want + half;
             assert!(
                 (error - want).abs() <= allowed,
                 "{}, {method}: {error}, {want}",
