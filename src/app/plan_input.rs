@@ -26,6 +26,8 @@ pub struct PlanInput<'a> {
     pub materials: Vec<PlannedMaterial>,
     /// Materials of the scene that get no function.
     pub unplanned: Vec<Unplanned>,
+    /// What to say where no frame shows any of the materials.
+    pub nothing_is_seen: String,
     /// How the scene is shown, where nothing else is asked for.
     pub display: Display,
     /// How many frames.
@@ -71,22 +73,13 @@ fn of_scene_file<'a>(file: &Path, viewing: &ViewingConditions) -> Result<PlanInp
     let (materials, places) = loaded(scene.materials(), file, viewing, &at)?;
     let drawn = scene.read(&mut |path| beside(file, path))?;
     let (count, display, frames) = (materials.len(), scene.display, scene.frames());
-    let mut is_seen = false;
-    let frame = move |index: usize| {
-        let frame = scene.frame(index, &drawn);
-        is_seen |= shows_any(&frame);
-        // Frames are asked for in their order first.
-        match is_seen || index + 1 < frames {
-            true => Ok(merged(frame, &places, count)),
-            false => Err(scene.nothing_is_seen().into()),
-        }
-    };
     Ok(PlanInput {
         materials,
         unplanned: Vec::new(),
+        nothing_is_seen: scene.nothing_is_seen().to_string(),
         display,
         frames,
-        frame: Box::new(frame),
+        frame: Box::new(move |index| Ok(merged(scene.frame(index, &drawn), &places, count))),
     })
 }
 
@@ -121,29 +114,14 @@ fn of_gltf<'a>(
     };
     let (materials, places) = loaded(scene.materials(), file, viewing, &at)?;
     let (count, frames) = (materials.len(), scene.frames());
-    let unplanned = scene.unplanned.clone();
-    let mut is_seen = false;
-    let frame = move |index: usize| {
-        let frame = scene.frame(index);
-        is_seen |= shows_any(&frame);
-        match is_seen || index + 1 < frames {
-            true => Ok(merged(frame, &places, count)),
-            false => Err(Error::Usage {
-                what: nothing_planned(&name, &scene.unplanned),
-            }),
-        }
-    };
     Ok(PlanInput {
         materials,
-        unplanned,
+        unplanned: scene.unplanned.clone(),
+        nothing_is_seen: nothing_planned(&name, &scene.unplanned),
         display: AS_IT_IS,
         frames,
-        frame: Box::new(frame),
+        frame: Box::new(move |index| Ok(merged(scene.frame(index), &places, count))),
     })
-}
-
-fn shows_any(frame: &FramePixels) -> bool {
-    frame.of_material.iter().any(|pixels| !pixels.is_empty())
 }
 
 /// What is wrong with a glTF scene in which nothing is seen that could be planned.
@@ -189,6 +167,7 @@ fn of_frames<'a>(
     Ok(PlanInput {
         materials,
         unplanned: Vec::new(),
+        nothing_is_seen: format!("no frame shows a material of {}", map.display()),
         display: AS_IT_IS,
         frames: files.len(),
         frame: Box::new(frame),

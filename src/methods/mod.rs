@@ -30,7 +30,7 @@ mod conductor_artistic;
 mod conductor_exact;
 mod conductor_from_f0_f82;
 mod conductor_textbook;
-mod constant;
+mod constant_f0;
 mod dielectric_exact;
 mod dielectric_exact_p;
 mod dielectric_exact_s;
@@ -59,7 +59,7 @@ pub static ALL: &[&Method] = &[
     &conductor_exact::METHOD,
     &conductor_from_f0_f82::METHOD,
     &conductor_textbook::METHOD,
-    &constant::METHOD,
+    &constant_f0::METHOD,
     &dielectric_exact::METHOD,
     &dielectric_exact_p::METHOD,
     &dielectric_exact_s::METHOD,

@@ -140,7 +140,7 @@ fn a_shape_stands_for_functions_that_are_not_recorded() {
         basis: CostBasis::Nothing,
     };
     for (material, precision) in [("copper", Precision::F32), ("silver", Precision::F16)] {
-        assert_eq!(known(material, "constant", precision), Some(nothing));
+        assert_eq!(known(material, "constant_f0", precision), Some(nothing));
     }
 }
 

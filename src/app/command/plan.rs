@@ -37,6 +37,7 @@ pub fn run(flags: &PlanFlags, progress: Progress) -> Result<Output, Error> {
     let PlanInput {
         materials,
         unplanned,
+        nothing_is_seen,
         display,
         frames,
         mut frame,
@@ -52,6 +53,11 @@ pub fn run(flags: &PlanFlags, progress: Progress) -> Result<Output, Error> {
         },
     )
     .map_err(fault)?;
+    if judged.iter().all(|material| material.pixels == 0) {
+        return Err(Error::Usage {
+            what: nothing_is_seen,
+        });
+    }
     let rows: Vec<PlanRow> = judged.iter().map(|one| one.row(&request, frames)).collect();
     let code = u8::from(rows.iter().any(|row| !row.is_within));
     let total = PlanTotal::of(&judged, request.price, frames);

@@ -21,7 +21,7 @@ same of every function, specialised ones too, and asks the compilers that are he
 - **The figure** is what the compiler itself takes for the cost: RADV's inverse throughput, bundles on
   the Mali-T860, cycles of arithmetic on the Mali-G72 and of the busiest unit on the Mali-G57, instructions everywhere else. Adreno's counts
   include the nops that wait for a result; in a larger shader other work can fill them.
-- **A function that computes nothing** (`constant`) costs 0 by definition: compilers leave out a chain in which nothing depends on the cosine.
+- **A function that computes nothing** (`constant_f0`) costs 0 by definition: compilers leave out a chain in which nothing depends on the cosine.
 - **`shape`** in the record is the hash of a shader without its numbers. Functions that differ in constants alone share it, and mostly their cost.
 - **A texture fetch** costs latency and bandwidth, which instruction counts do not include: it has a column of its own.
 - **Where a count is no time:** it says nothing of memory, of the unit that divides and takes roots beside the others (on

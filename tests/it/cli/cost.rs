@@ -90,7 +90,7 @@ fn operations_are_always_there_and_powervr_never() {
 fn where_a_compiler_is_absent_the_record_serves_if_it_is_of_the_same_shader() {
     let place = Place::new();
     let line =
-        "cost --gpu rdna2 --method schlick,conductor_exact --material gold,silver --precision f32";
+        "cost --gpu rdna2 --method schlick,conductor_exact --material gold,copper --precision f32";
     let rows = read(&without_driver(&place, &format!("{line} --json -")).ends(0));
     let (known, unknown): (Vec<_>, Vec<_>) = rows.iter().partition(|row| row["from"] == "record");
     assert!(
@@ -100,7 +100,7 @@ fn where_a_compiler_is_absent_the_record_serves_if_it_is_of_the_same_shader() {
     );
     assert_eq!((known.len(), unknown.len()), (5, 2), "{rows:#?}");
     for row in &unknown {
-        assert_eq!(row["material"], "silver");
+        assert_eq!(row["material"], "copper");
         assert!(
             row["reason"].as_str().unwrap().contains("not measured"),
             "{row}"

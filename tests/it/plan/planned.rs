@@ -8,7 +8,7 @@ use serde_json::Value;
 
 use crate::cli::PROGRAM;
 
-/// A scene, its chosen method, and errors of `constant`, `schlick_spherical_gaussian`, `schlick` and the fitted method, with half a
+/// A scene, its chosen method, and errors of `constant_f0`, `schlick_spherical_gaussian`, `schlick` and the fitted method, with half a
 /// unit of their last digits.
 struct Case {
     scene: &'static str,
@@ -17,7 +17,7 @@ struct Case {
 }
 
 const METHODS: [&str; 4] = [
-    "constant",
+    "constant_f0",
     "schlick_spherical_gaussian",
     "schlick",
     "fitted",
@@ -41,12 +41,12 @@ const CASES: [Case; 8] = [
     },
     Case {
         scene: "silver",
-        chosen: "constant",
+        chosen: "constant_f0",
         errors: [(0.51, 0.005), (0.29, 0.005), (0.29, 0.005), (0.03, 0.005)],
     },
     Case {
         scene: "gold_cube",
-        chosen: "constant",
+        chosen: "constant_f0",
         errors: [
             (0.010, 0.0005),
             (0.006, 0.0005),

@@ -178,7 +178,10 @@ fn invert(function: &mut Function, id: NodeId) {
             .iter_mut()
             .for_each(|argument| *argument = shift(*argument));
     }
-    function.result = shift(function.result);
+    function.result = match function.result == id {
+        true => id + 2,
+        false => shift(function.result),
+    };
     function.nodes.insert(
         id + 1,
         node(Op::Number, &[], Payload::Number(1.0), Ty::Scalar),

@@ -14,7 +14,7 @@ use super::method::{Claim, Claims, Class, Colours, Contract, Forms, Light, Metho
 
 /// The record of this method.
 pub static METHOD: Method = Method {
-    name: "constant",
+    name: "constant_f0",
     summary: "F0 at every angle: no Fresnel at all",
     formula: &["F = F0"],
     source: Citation {
