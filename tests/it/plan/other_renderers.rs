@@ -21,6 +21,8 @@ use crate::{bless, not_checked, subjects};
 
 /// The version of three.js that drew the committed files.
 const THREE: &str = "0.187.0";
+/// Its table has what is measured here.
+const DOCUMENT: &str = include_str!("../../../docs/plan.md");
 /// Cosines of a table of the exact law.
 const TEXELS: usize = 1024;
 
@@ -246,6 +248,14 @@ fn plans_hold_in_pictures_of_other_renderers() {
                     .expect("it was asked for")
                     .error;
             }
+            let (plan, seen) = (short(error), short(row.seen));
+            let line = format!(
+                "| {} | {} | {} | {plan} | {seen} |",
+                scene.name, row.material, row.method
+            );
+            if !DOCUMENT.contains(&line) {
+                said += &format!("docs/plan.md lacks the line: {line}\n");
+            }
             let behind = chosen.iter().map(|planned| planned.error);
             let [least, mut most] = scene.holds.map(|share| share * error);
             if row.material == scene.see_through {
@@ -258,6 +268,12 @@ fn plans_hold_in_pictures_of_other_renderers() {
         }
     }
     assert!(said.is_empty(), "{said}");
+}
+
+/// Two digits behind the point, and none before it that is 0.
+fn short(error: f64) -> String {
+    let text = format!("{error:.2}");
+    text.strip_prefix('0').unwrap_or(&text).to_owned()
 }
 
 fn planned_for<'a>(
