@@ -23,6 +23,7 @@ mod pixels;
 mod planned;
 #[cfg(feature = "gpu")]
 mod proof;
+mod request;
 mod row;
 mod scene_file;
 mod sky;
@@ -37,12 +38,10 @@ pub use ids::{MaterialIds, Shown};
 pub use metric::{Metric, Screen};
 pub use picture_error::SHARE;
 pub use pixels::{FramePixels, MappedMaterial, ScenePixel};
-pub use planned::{
-    JudgedCandidate, JudgedMaterial, Judgement, PlanFault, PlanRequest, PlanTruth, PlannedMaterial,
-    plan,
-};
+pub use planned::{JudgedCandidate, JudgedMaterial, Judgement, PlanFault, PlannedMaterial, plan};
 #[cfg(feature = "gpu")]
 pub use proof::{ProofCase, prove};
+pub use request::{PlanRequest, PlanTruth};
 pub use row::{CheaperFunction, PlanFile, PlanFileRow, PlanRow, PlanTotal, Proof, SharedFunction};
 pub use scene_file::{MOST_FRAMES, ReadFile, SIDES, SceneFile};
 pub use sky::{BlurredEnvironment, SceneLight};

@@ -1,97 +1,23 @@
 //! The plan: candidates of every material judged in every frame, and the choice among them.
 
-use crate::cost::{Family, records};
+use crate::cost::records;
 use crate::emit;
-use crate::materials::Surface;
-use crate::methods::{Light, Method};
-use crate::num::{Precision, each_channel, in_parallel};
+use crate::num::{each_channel, in_parallel};
 use crate::raster::CosineHistogram;
-use crate::reference::{MaterialInMedium, ReferenceCurve};
-use crate::scene::Display;
-use crate::spectra::Space;
+use crate::reference::MaterialInMedium;
 
 use super::candidate::{Candidate, Prices, candidates};
 use super::choice::{Choosable, choose, within};
 use super::curve::{Curve, PixelPlace, RoughRule, step_cosines};
-use super::metric::{Metric, Screen};
+use super::metric::Screen;
 use super::picture_error::{JudgedPixels, PERCENTILE_FROM};
 use super::pixels::{FramePixels, ScenePixel};
+use super::request::PlanRequest;
 
 /// Errors are compared and told in so many parts of 1: what single precision rounds is far below.
 const ERROR_PARTS: f64 = 1e4;
-/// Steps between exposures of a range, in stops.
-const STOPS: f64 = 0.5;
 /// Every how manieth step of angle is looked at where every angle counts.
 const EVERY: usize = 16;
-
-/// What a plan is held to.
-#[derive(Clone, Debug)]
-pub struct PlanRequest {
-    /// The largest error.
-    pub budget: f64,
-    /// What errors are measured by.
-    pub metric: Metric,
-    /// From radiance to the screen.
-    pub display: Display,
-    /// The space of the pictures.
-    pub space: Space,
-    /// So many stops darker and brighter are looked at too.
-    pub exposure_range: f64,
-    /// A material that no frame shows on so many pixels is held to every angle.
-    pub min_pixels: usize,
-    /// What functions are held against.
-    pub truth: PlanTruth,
-    /// The GPUs whose costs decide.
-    pub family: &'static Family,
-    /// What functions compute in.
-    pub precision: Precision,
-    /// How many channels functions may give.
-    pub channels: Vec<usize>,
-    /// The methods among which it chooses.
-    pub methods: Vec<&'static Method>,
-    /// What a texture fetch costs; without it no table is taken.
-    pub fetch: Option<f64>,
-    /// What another function costs, as so many units × pixels.
-    pub price: f64,
-}
-
-/// What functions are held against.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum PlanTruth {
-    /// The exact law at each wavelength.
-    Spectrum,
-    /// The exact law with one index a channel, as the exact methods take it.
-    Exact,
-}
-
-impl PlanTruth {
-    /// Both.
-    pub const ALL: [PlanTruth; 2] = [PlanTruth::Spectrum, PlanTruth::Exact];
-
-    /// Its name on the command line.
-    pub fn name(self) -> &'static str {
-        match self {
-            PlanTruth::Spectrum => "spectrum",
-            PlanTruth::Exact => "exact",
-        }
-    }
-
-    /// Its values at [`step_cosines`].
-    fn values(self, subject: &MaterialInMedium) -> Vec<[f64; 3]> {
-        let own = &subject.reference;
-        let reference = match self {
-            PlanTruth::Spectrum => own.clone(),
-            PlanTruth::Exact => {
-                let mut surface = Surface::of_channels(&subject.effective.channels);
-                surface.gamut = own.surface.gamut;
-                ReferenceCurve::new(surface, Light::Unpolarised)
-            }
-        };
-        let cosines = step_cosines();
-        let at = |i: usize| reference.at(cosines[i]);
-        in_parallel(cosines.len(), &at, &mut |_, _| {})
-    }
-}
 
 /// A material of the scene.
 #[derive(Clone, Debug)]
@@ -186,7 +112,7 @@ pub fn plan<E>(
     progress: &mut dyn FnMut(u64, u64),
 ) -> Result<Vec<JudgedMaterial>, PlanFault<E>> {
     let screen = Screen::new(request.metric, request.display, request.space);
-    let exposures = exposures(request.exposure_range);
+    let exposures = request.exposures();
     let mut seen = materials
         .into_iter()
         .map(|material| Seen::new(request, material).map_err(PlanFault::Function))
@@ -214,16 +140,6 @@ pub fn plan<E>(
         material.chosen = places[chosen];
     }
     Ok(judged)
-}
-
-/// The exposures of a range, in stops.
-pub(super) fn exposures(range: f64) -> Vec<f64> {
-    let steps = (range / STOPS).ceil() as i32;
-    let at = |step: i32| match steps {
-        0 => 0.0,
-        _ => range * f64::from(step) / f64::from(steps),
-    };
-    (-steps..=steps).map(at).collect()
 }
 
 /// A material while frames are looked at.
@@ -421,12 +337,16 @@ fn place_of(names: &mut Vec<String>, name: &str) -> usize {
 
 #[cfg(test)]
 mod tests {
+    use super::super::metric::Metric;
+    use super::super::request::PlanTruth;
     use super::*;
     use crate::cost;
     use crate::materials::{self, ViewingConditions};
     use crate::methods;
+    use crate::num::Precision;
     use crate::reference::Derivation;
-    use crate::scene::TONE_CURVES;
+    use crate::scene::{Display, TONE_CURVES};
+    use crate::spectra::Space;
 
     fn request(budget: f64) -> PlanRequest {
         PlanRequest {

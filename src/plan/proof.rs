@@ -23,7 +23,8 @@ use super::curve::{Curve, PixelPlace, RoughRule, step_cosines};
 use super::metric::{Metric, Screen};
 use super::picture_error::{error_of, radiance};
 use super::pixels::ScenePixel;
-use super::planned::{JudgedMaterial, PlanRequest, exposures};
+use super::planned::JudgedMaterial;
+use super::request::PlanRequest;
 use super::row::Proof;
 
 /// The targets whose text is run.
@@ -233,7 +234,7 @@ impl<'a> Picture<'a> {
         Picture {
             pixels: case.pixels,
             screen: Screen::new(request.metric, request.display, request.space),
-            exposures: exposures(request.exposure_range),
+            exposures: request.exposures(),
             got: places.iter().enumerate().map(value).collect(),
             truth: Curve::new(case.judged.truth.clone(), &rule),
             places,

@@ -9,7 +9,8 @@ use crate::verify::Status;
 
 use super::candidate::Candidate;
 use super::choice::{Choosable, total_cost};
-use super::planned::{JudgedCandidate, JudgedMaterial, Judgement, PlanRequest};
+use super::planned::{JudgedCandidate, JudgedMaterial, Judgement};
+use super::request::PlanRequest;
 
 /// The function that a material gets.
 #[derive(Clone, Debug, PartialEq, Serialize)]

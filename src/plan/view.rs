@@ -9,7 +9,8 @@ use super::curve::{Curve, PixelPlace, RoughRule, step_cosines};
 use super::metric::Screen;
 use super::picture_error::radiance;
 use super::pixels::{FramePixels, ScenePixel};
-use super::planned::{JudgedCandidate, JudgedMaterial, PlanRequest};
+use super::planned::{JudgedCandidate, JudgedMaterial};
+use super::request::PlanRequest;
 
 /// Degrees of a right angle, each with its share of the material's coverage.
 const DEGREES: usize = 90;
