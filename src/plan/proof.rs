@@ -14,9 +14,8 @@ use crate::fit::Measured;
 use crate::gpu::Wanted;
 use crate::spectra::{srgb_byte, srgb_linear};
 use crate::targets::{GLES, Target, WGSL};
-use crate::verify::file::material_trial;
 use crate::verify::run::{Devices, ExecutionPath, RunFault, ShippedFunction};
-use crate::verify::{Status, Trial};
+use crate::verify::{Status, Trial, material_trial};
 
 use super::candidate::Candidate;
 use super::curve::{Curve, PixelPlace, RoughRule, step_cosines};

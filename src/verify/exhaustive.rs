@@ -8,11 +8,11 @@ use crate::verify::run::{Devices, ExecutionPath, RunFault, ShippedFunction};
 use crate::verify::{Trial, WITHIN, count, sweep};
 
 use super::error::Error;
-use super::file::specialised;
 use super::judge::{PathRun, RanFunction};
 use super::machine;
 use super::plan::{PlannedFile, VerifyPlan};
 use super::row::VerifyRow;
+use super::trial_case::specialised;
 
 /// Hears how much is done, of how much, of what.
 type Progress<'a> = &'a mut dyn FnMut(u64, u64, &str);

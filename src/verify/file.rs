@@ -2,38 +2,27 @@
 
 use std::cell::OnceCell;
 
-use crate::emit::{CodeBound, Emitted, FunctionForm};
-use crate::fit::{self, Measured, ModelError, values_for_material_in};
-use crate::ir::{Column, Ty};
-use crate::materials::Channels;
-use crate::methods::{Contract, Method};
-use crate::num::{Precision, each_channel};
-use crate::reference::{MaterialInMedium, ReferenceCurve};
+use crate::emit::Emitted;
+use crate::fit::{self, ModelError};
+use crate::ir::Column;
+use crate::num::each_channel;
+use crate::reference::ReferenceCurve;
 use crate::targets::Stack;
 use crate::verify::compilers::{self, Verdict};
 use crate::verify::run::{Devices, ExecutionPath, RunFault, Runnable, ShippedFunction};
-use crate::verify::{
-    Outcome, Trial, beyond, cosines_around, limits, nearest_half, share, worst_cases, worst_cosines,
-};
+use crate::verify::{Outcome, beyond, cosines_around, share};
 
 use super::half_run;
 use super::judge::{PathRun, RanFunction};
 use super::plan::{PlannedFile, VerifyPlan};
-use super::row::{self, VerifyRow};
+use super::row::VerifyRow;
+use super::trial_case::{TrialCase, cases};
 
 /// How a file is tried.
 #[derive(Clone, Copy, Debug)]
 pub struct VerifyEffort {
     /// Cosines for each function and material.
     pub points: usize,
-}
-
-/// A trial of a function, with what it is about.
-pub(super) struct TrialCase<'a> {
-    material: &'a str,
-    pub trial: Trial,
-    limits: Vec<f32>,
-    reference: Option<ReferenceCurve>,
 }
 
 /// The rows of a file.
@@ -85,145 +74,6 @@ fn accepts(file: &PlannedFile) -> Vec<(&'static str, Verdict)> {
         }
     }
     all
-}
-
-/// The trials of a function: a library function with each material's values, and where it was worst so far.
-fn cases<'a>(plan: &'a VerifyPlan, file: &PlannedFile, emitted: &Emitted) -> Vec<TrialCase<'a>> {
-    if let Some(index) = file.subject {
-        return vec![specialised(&plan.subjects[index], emitted)];
-    }
-    let method = emitted.method;
-    let fits = |subject: &&MaterialInMedium| subject.is_described_by(method);
-    let mut cases: Vec<TrialCase> = plan
-        .trial_subjects()
-        .iter()
-        .filter(fits)
-        .map(|subject| library(subject, emitted))
-        .collect();
-    if !emitted.precision.is_half() {
-        cases.extend(known_worst(emitted));
-    }
-    cases
-}
-
-/// The trial of a function with a material's values.
-pub fn material_trial(subject: &MaterialInMedium, emitted: &Emitted) -> Trial {
-    match emitted.form {
-        FunctionForm::Specialised => specialised(subject, emitted).trial,
-        _ => library(subject, emitted).trial,
-    }
-}
-
-pub(super) fn specialised<'a>(subject: &'a MaterialInMedium, emitted: &Emitted) -> TrialCase<'a> {
-    let bound = match &emitted.code {
-        Measured::Yes(CodeBound::Ulp(bound) | CodeBound::Absolute(bound)) => Measured::Yes(*bound),
-        Measured::No(why) => Measured::No(why.clone()),
-    };
-    let reference = subject.truth_for(emitted.method);
-    let table = fit::table_of(&emitted.function, |c| reference.at(c));
-    TrialCase {
-        material: &subject.argument,
-        trial: trial(emitted, Vec::new(), table, bound),
-        limits: limits_of(&subject.effective.channels)
-            .into_iter()
-            .chain(worst_cosines(emitted.method))
-            .collect(),
-        reference: Some(reference),
-    }
-}
-
-fn library<'a>(subject: &'a MaterialInMedium, emitted: &Emitted) -> TrialCase<'a> {
-    let values = values_for_material_in(emitted.precision, subject, emitted.method);
-    let numbers = emitted
-        .method
-        .inputs
-        .iter()
-        .filter(|input| input.ty != Ty::Texture);
-    let single = numbers.map(|input| values[input.name].map(|value| value as f32));
-    let reference = subject.truth_for(emitted.method);
-    let table = fit::table_of(&emitted.function, |c| reference.at(c));
-    TrialCase {
-        material: &subject.argument,
-        trial: trial(
-            emitted,
-            single.collect(),
-            table,
-            promised_for(emitted, &subject.effective.channels),
-        ),
-        limits: limits_of(&subject.effective.channels),
-        reference: (emitted.form == FunctionForm::Library).then_some(reference),
-    }
-}
-
-/// The worst inputs known of a method, kept for ever.
-fn known_worst(emitted: &Emitted) -> Vec<TrialCase<'static>> {
-    let case = |(values, cos_theta): (Vec<[f32; 3]>, f32)| TrialCase {
-        material: row::WORST,
-        trial: trial(emitted, values, None, promised(emitted.method)),
-        limits: vec![cos_theta],
-        reference: None,
-    };
-    worst_cases(emitted.method).map(case).collect()
-}
-
-/// What a library function promises for a material: its bound is stated over a set of media.
-fn promised_for(emitted: &Emitted, channels: &Channels) -> Measured<f64> {
-    let method = emitted.method;
-    let over = match (emitted.precision, method.half.claim()) {
-        (Precision::F32, _) => method.claims.code_over,
-        (Precision::F16, Some(claim)) => claim.over,
-        (Precision::F16, None) => {
-            let why = method.half.library_refusal().unwrap_or_default();
-            return Measured::No(why.to_owned());
-        }
-    };
-    let holds = |i: usize| over.holds(channels.n[i], channels.k[i]);
-    if !(0..3).all(holds) {
-        Measured::No(format!("its bound is stated over {}", over.text()))
-    } else if let (Precision::F16, Some(claim)) = (emitted.precision, method.half.claim()) {
-        Measured::Yes(claim.max_abs)
-    } else {
-        promised(method)
-    }
-}
-
-/// What a library function promises in ulp; a method that does not keep the contract promises nothing beyond its media.
-fn promised(method: &Method) -> Measured<f64> {
-    match method.contract {
-        Contract::Kept if !method.is_textured() => Measured::Yes(method.claims.code_ulp),
-        Contract::Kept => Measured::Yes(0.0),
-        Contract::Exempt(why) => Measured::No(why.to_owned()),
-    }
-}
-
-fn trial(
-    emitted: &Emitted,
-    values: Vec<[f32; 3]>,
-    table: Option<crate::ir::Texels>,
-    bound: Measured<f64>,
-) -> Trial {
-    // What reads a texture is as exact as its sampler, which the trial allows for.
-    let bound = if emitted.method.is_textured() {
-        Measured::Yes(0.0)
-    } else {
-        bound
-    };
-    let values = if emitted.precision.is_half() {
-        values.iter().map(|value| value.map(nearest_half)).collect()
-    } else {
-        values
-    };
-    Trial {
-        function: emitted.function.clone(),
-        values,
-        table,
-        bound,
-        is_guarded: emitted.method.contract == Contract::Kept,
-    }
-}
-
-fn limits_of(channels: &Channels) -> Vec<f32> {
-    channels.n.iter().flat_map(|n| limits(*n)).collect()
 }
 
 /// A function, and how it is run.

@@ -49,6 +49,8 @@ mod supervise;
 mod sweep;
 mod trial;
 #[cfg(all(feature = "cli", feature = "gpu"))]
+mod trial_case;
+#[cfg(all(feature = "cli", feature = "gpu"))]
 mod worker;
 mod worst;
 
@@ -76,6 +78,8 @@ pub use supervise::supervise;
 #[cfg(feature = "gpu")]
 pub use sweep::{count, sweep};
 pub use trial::{Expected, Miss, Outcome, Trial, result_range};
+#[cfg(all(feature = "cli", feature = "gpu"))]
+pub use trial_case::material_trial;
 #[cfg(all(feature = "cli", feature = "gpu"))]
 pub use worker::serve;
 pub use worst::{worst_cases, worst_cosines, worst_media};
