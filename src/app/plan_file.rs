@@ -5,9 +5,10 @@ use std::path::Path;
 
 use crate::emit::FunctionForm;
 use crate::materials::{self, FileFault};
-use crate::methods;
+use crate::methods::{self, Method};
 use crate::num::Precision;
-use crate::plan::{PlanFile, PlanFileRow};
+use crate::plan::{PlanFile, PlanFileRow, is_plannable};
+use crate::report::{SCHEMA, TOOL};
 use crate::spectra::Space;
 
 use super::error::Error;
@@ -27,17 +28,27 @@ pub fn planned(file: &Path, request: Request) -> Result<Request, Error> {
     let mut sources = Vec::new();
     let mut chosen = BTreeMap::new();
     let mut library = BTreeSet::new();
-    for row in &plan.rows {
-        let method = methods::find(&row.method);
-        let names: Vec<&str> = methods::ALL.iter().map(|method| method.name).collect();
-        let method = method.ok_or_else(|| unknown("method", &row.method, &names))?;
+    for (place, row) in plan.rows.iter().enumerate() {
+        let at_row = |error: Error| Error::Usage {
+            what: format!(
+                "{}: row {} ({}): {error}",
+                file.display(),
+                place + 1,
+                row.material
+            ),
+        };
+        let method = method(row).map_err(at_row)?;
         if row.form != FunctionForm::Specialised {
             library.insert(row.method.clone());
             continue;
         }
-        let source = named(row)?;
-        let name = load(&source)?.material.name;
-        chosen.insert(name, method.name);
+        let source = named(row).map_err(at_row)?;
+        let name = load(&source).map_err(at_row)?.material.name;
+        if chosen.insert(name, method.name).is_some() {
+            let what =
+                "another row gives this material a function; a plan has one for each".to_owned();
+            return Err(at_row(Error::Usage { what }));
+        }
         sources.push(source);
     }
     let mut viewing = request.viewing.clone();
@@ -53,6 +64,27 @@ pub fn planned(file: &Path, request: Request) -> Result<Request, Error> {
         precision: precision(file, &plan)?,
         ..request
     })
+}
+
+/// The method of a row: one that plans choose, in a form that they choose.
+fn method(row: &PlanFileRow) -> Result<&'static Method, Error> {
+    let names: Vec<&str> = methods::ALL.iter().map(|method| method.name).collect();
+    let method = methods::find(&row.method);
+    let method = method.ok_or_else(|| unknown("method", &row.method, &names))?;
+    let forms = [
+        FunctionForm::Specialised,
+        FunctionForm::Library,
+        FunctionForm::Scalar,
+    ];
+    if !is_plannable(method) || !forms.contains(&row.form) {
+        let what = format!(
+            "no plan chooses `{}` as a function that is {}",
+            method.name,
+            row.form.name()
+        );
+        return Err(Error::Usage { what });
+    }
+    Ok(method)
 }
 
 /// The paths of material files that a plan names.
@@ -78,10 +110,15 @@ fn read(file: &Path) -> Result<PlanFile, Error> {
     };
     let made_by = "`fresnel-gen plan --json FILE` makes one";
     let plan: PlanFile = serde_json::from_str(&text).map_err(|error| {
-        let what = format!("this is no plan: {error}; {made_by}");
-        fault(error.line(), error.column(), what)
+        let (line, column) = (error.line(), error.column());
+        let error = error.to_string();
+        let why = error.split(" at line ").next().unwrap_or_default();
+        let what = format!("this is no plan: {why}; {made_by}");
+        fault(line, column, what)
     })?;
-    if plan.command.split(' ').next() != Some(COMMAND) || plan.rows.is_empty() {
+    let is_ours = plan.tool == TOOL && plan.schema == SCHEMA;
+    let is_plan = plan.command.split(' ').next() == Some(COMMAND);
+    if !is_ours || !is_plan || plan.rows.is_empty() {
         let what = format!("this is no plan with functions; {made_by}");
         return Err(fault(1, 1, what).into());
     }

@@ -14,8 +14,10 @@ use crate::scene::{Display, Environment, TONE_CURVES};
 use super::args::PlanFlags;
 use super::error::Error;
 use super::fault::RequestFault;
+use super::folder::is_same_file;
 use super::request::{Materials, Request, Source};
 use super::source;
+use super::subjects::same_name;
 
 /// Gives one frame after another.
 pub type FrameOf<'a> = Box<dyn FnMut(usize) -> Result<FramePixels, Error> + 'a>;
@@ -26,6 +28,8 @@ pub struct PlanInput<'a> {
     pub materials: Vec<PlannedMaterial>,
     /// Materials of the scene that get no function.
     pub unplanned: Vec<Unplanned>,
+    /// The files that were read beside those that flags name.
+    pub read: Vec<PathBuf>,
     /// What to say where no frame shows any of the materials.
     pub nothing_is_seen: String,
     /// How the scene is shown, where nothing else is asked for.
@@ -71,11 +75,13 @@ fn of_scene_file<'a>(file: &Path, viewing: &ViewingConditions) -> Result<PlanInp
     let scene = SceneFile::parse(&file.display().to_string(), &source::text(file)?)?;
     let at = |index: usize, what: String| scene.material_fault(index, what).into();
     let (materials, places) = loaded(scene.materials(), file, viewing, &at)?;
-    let drawn = scene.read(&mut |path| beside(file, path))?;
+    let mut read = material_files(&materials);
+    let drawn = scene.read(&mut |path| beside(file, path, &mut read))?;
     let (count, display, frames) = (materials.len(), scene.display, scene.frames());
     Ok(PlanInput {
         materials,
         unplanned: Vec::new(),
+        read,
         nothing_is_seen: scene.nothing_is_seen().to_string(),
         display,
         frames,
@@ -103,8 +109,9 @@ fn of_gltf<'a>(
         light,
     };
     let name = file.display().to_string();
+    let mut read = Vec::new();
     let scene = GltfScene::read(&name, &source::picture(file)?, &view, &mut |path| {
-        beside(file, path)
+        beside(file, path, &mut read)
     });
     let scene = scene.map_err(|fault| Error::Usage {
         what: fault.to_string(),
@@ -117,6 +124,7 @@ fn of_gltf<'a>(
     Ok(PlanInput {
         materials,
         unplanned: scene.unplanned.clone(),
+        read,
         nothing_is_seen: nothing_planned(&name, &scene.unplanned),
         display: AS_IT_IS,
         frames,
@@ -131,10 +139,21 @@ fn nothing_planned(file: &str, unplanned: &[Unplanned]) -> String {
     format!("{file}: no frame shows a material that can be planned{reasons}")
 }
 
-/// The bytes of a file that a scene's file names, relative to its folder.
-fn beside(scene: &Path, path: &str) -> Result<Vec<u8>, String> {
+/// The bytes of a file that a scene's file names, relative to its folder; it is entered among those that were read.
+fn beside(scene: &Path, path: &str, read: &mut Vec<PathBuf>) -> Result<Vec<u8>, String> {
     let file = scene.parent().unwrap_or(Path::new("")).join(path);
-    source::picture(&file).map_err(|error| error.to_string())
+    let bytes = source::picture(&file).map_err(|error| error.to_string());
+    read.push(file);
+    bytes
+}
+
+/// The files that materials are read from.
+fn material_files(materials: &[PlannedMaterial]) -> Vec<PathBuf> {
+    let words = materials.iter().map(|material| &material.argument);
+    words
+        .filter(|word| source::is_path(word))
+        .map(PathBuf::from)
+        .collect()
 }
 
 /// No exposure and no tone curve.
@@ -155,7 +174,7 @@ fn of_frames<'a>(
     let ids = MaterialIds::parse(&map.display().to_string(), &source::text(map)?)?;
     let at = |index: usize, what: String| ids.fault(index, what).into();
     let (materials, places) = loaded(&ids.materials, map, viewing, &at)?;
-    let count = materials.len();
+    let (count, read) = (materials.len(), material_files(&materials));
     let frame = move |index: usize| {
         let file: &PathBuf = &files[index];
         let frame = read_gbuffer(&source::picture(file)?, &ids);
@@ -167,6 +186,7 @@ fn of_frames<'a>(
     Ok(PlanInput {
         materials,
         unplanned: Vec::new(),
+        read,
         nothing_is_seen: format!("no frame shows a material of {}", map.display()),
         display: AS_IT_IS,
         frames: files.len(),
@@ -189,7 +209,12 @@ fn loaded(
             true => folder.join(&one.material).display().to_string(),
             false => one.material.clone(),
         };
-        let known = planned.iter().position(|known| known.argument == word);
+        let is_it = |known: &PlannedMaterial| {
+            let are_paths = [&word, &known.argument].map(|word| source::is_path(word)) == [true; 2];
+            known.argument == word
+                || are_paths && is_same_file(known.argument.as_ref(), word.as_ref())
+        };
+        let known = planned.iter().position(is_it);
         let place = known.unwrap_or(planned.len());
         places.push(place);
         if known.is_none() {
@@ -197,7 +222,14 @@ fn loaded(
                 let unknown = UnknownName::new("material", &word, &materials::names());
                 return Err(fault(index, unknown.to_string()));
             }
-            planned.push(material(word, viewing)?);
+            let new = material(word, viewing)?;
+            if planned
+                .iter()
+                .any(|known| known.subject.name == new.subject.name)
+            {
+                return Err(same_name(&new.subject.name));
+            }
+            planned.push(new);
         }
         if !planned[place].names.contains(&one.name) {
             planned[place].names.push(one.name.clone());

@@ -64,6 +64,11 @@ impl Candidate {
     }
 }
 
+/// Whether plans choose a method: for unpolarised light, and one that keeps the contract.
+pub fn is_plannable(method: &Method) -> bool {
+    method.light == Light::Unpolarised && method.contract == Contract::Kept
+}
+
 /// The candidates for a material, in order of methods; `is_library_only` where a material has no file to specialise to.
 ///
 /// # Errors
@@ -75,8 +80,7 @@ pub fn candidates(
     prices: &Prices,
 ) -> Result<Vec<Candidate>, Error> {
     let is_one = |method: &&&'static Method| {
-        method.light == Light::Unpolarised
-            && method.contract == Contract::Kept
+        is_plannable(method)
             && subject.is_described_by(method)
             && (prices.fetch.is_some() || !method.is_textured())
             && !(prices.precision.is_half() && method.half.refusal().is_some())

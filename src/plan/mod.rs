@@ -29,7 +29,7 @@ mod scene_file;
 mod sky;
 mod view;
 
-pub use candidate::Candidate;
+pub use candidate::{Candidate, is_plannable};
 pub use curve::{STEPS, step_cosines};
 pub use drawn::{DrawnScene, SurfaceLook};
 pub use gbuffer::{GREATEST_SIDE, GbufferFault, read_gbuffer};

@@ -46,6 +46,15 @@ impl<'a> JudgedPixels<'a> {
 
     /// The error of a function here, under the exposure where it is worst.
     pub fn error(&self, curve: &Curve) -> f64 {
+        self.worst(curve, &error_of)
+    }
+
+    /// The largest difference that it makes here, under the exposure where it is worst.
+    pub fn largest(&self, curve: &Curve) -> f64 {
+        self.worst(curve, &|differences| largest(&differences))
+    }
+
+    fn worst(&self, curve: &Curve, error_of: &dyn Fn(Vec<(f64, f64)>) -> f64) -> f64 {
         let of_exposure = |(stops, truth): &(f64, Vec<DVec3>)| {
             let each = self.pixels.iter().zip(self.places).zip(truth);
             let differences = each.map(|((pixel, place), truth)| {
@@ -62,9 +71,14 @@ impl<'a> JudgedPixels<'a> {
 /// The error of a frame with these differences and coverages of pixels.
 pub fn error_of(differences: Vec<(f64, f64)>) -> f64 {
     match differences.len() < PERCENTILE_FROM {
-        true => differences.iter().map(|(e, _)| *e).fold(0.0, f64::max),
+        true => largest(&differences),
         false => quantile(differences, SHARE),
     }
+}
+
+/// The largest difference, whatever covers how much.
+pub fn largest(differences: &[(f64, f64)]) -> f64 {
+    differences.iter().map(|(e, _)| *e).fold(0.0, f64::max)
 }
 
 /// What reaches the camera from a pixel: F L + (1 - F) O.

@@ -2,8 +2,7 @@
 
 use crate::cost::records;
 use crate::emit;
-use crate::num::{each_channel, in_parallel};
-use crate::raster::CosineHistogram;
+use crate::num::in_parallel;
 use crate::reference::MaterialInMedium;
 
 use super::candidate::{Candidate, Prices, candidates};
@@ -16,8 +15,12 @@ use super::request::PlanRequest;
 
 /// Errors are compared and told in so many parts of 1: what single precision rounds is far below.
 const ERROR_PARTS: f64 = 1e4;
-/// Every how manieth step of angle is looked at where every angle counts.
-const EVERY: usize = 16;
+/// Every how manieth step of angle is looked at where every angle counts: .7 degrees.
+const EVERY: usize = 64;
+/// How many pixels tell the light there.
+const SAMPLED: usize = 256;
+/// The degrees of a right angle.
+pub(super) const DEGREES: usize = 90;
 
 /// A material of the scene.
 #[derive(Clone, Debug)]
@@ -50,7 +53,7 @@ pub enum Judgement {
     Percentile,
     /// As the largest of its few pixels.
     Largest,
-    /// As the largest at all angles under its mean light, since too few pixels show it.
+    /// As the largest at all angles under the light of its pixels, since too few show it.
     EveryAngle,
 }
 
@@ -69,14 +72,12 @@ pub struct JudgedMaterial {
     pub frames: usize,
     /// Its pixels in all frames.
     pub pixels: u64,
-    /// The angles under which they show it, by coverage.
-    pub angles: CosineHistogram,
+    /// How much of its coverage is seen at each degree from 0 to 90.
+    pub angles: Vec<f64>,
     /// What its exact law costs.
     pub cost_exact: Option<f64>,
     /// What functions are held against, at [`step_cosines`].
     pub truth: Vec<[f64; 3]>,
-    /// Its mean roughness and light in all frames; white light on a mirror where no frame shows it.
-    pub mean: ScenePixel,
 }
 
 /// Why there is no plan.
@@ -147,10 +148,8 @@ struct Seen {
     judged: JudgedMaterial,
     /// The most pixels that a frame shows.
     most: usize,
-    /// Sums over all pixels: light, other light, roughness.
-    light: [f64; 3],
-    other: [f64; 3],
-    roughness: f64,
+    /// Some of its pixels.
+    sample: Sample,
 }
 
 impl Seen {
@@ -176,16 +175,13 @@ impl Seen {
                 judgement: Judgement::Percentile,
                 frames: 0,
                 pixels: 0,
-                angles: CosineHistogram::default(),
+                angles: vec![0.0; DEGREES],
                 cost_exact: prices.cost_exact(subject)?,
                 truth: request.truth.values(subject),
-                mean: MIRROR_IN_WHITE,
                 material,
             },
             most: 0,
-            light: [0.0; 3],
-            other: [0.0; 3],
-            roughness: 0.0,
+            sample: Sample::default(),
         })
     }
 
@@ -198,14 +194,13 @@ impl Seen {
         self.judged.pixels += pixels.len() as u64;
         self.most = self.most.max(pixels.len());
         for pixel in pixels {
-            let cosine = f64::from(pixel.cos_theta);
-            self.judged.angles.add(cosine, f64::from(pixel.coverage));
-            self.light = each_channel(|i| self.light[i] + f64::from(pixel.light[i]));
-            self.other = each_channel(|i| self.other[i] + f64::from(pixel.other[i]));
-            self.roughness += f64::from(pixel.roughness);
+            self.judged.angles[degree_of(pixel)] += f64::from(pixel.coverage);
+            self.sample.enter(pixel);
         }
         let judged = &mut self.judged;
-        let errors = errors(&judged.truth, &judged.candidates, pixels, screen, exposures);
+        let errors = errors(judged, pixels, screen, exposures, |pixels, curve| {
+            pixels.error(curve)
+        });
         for (found, error) in judged.candidates.iter_mut().zip(errors) {
             if error > found.error {
                 (found.error, found.worst_frame) = (error, index);
@@ -225,16 +220,11 @@ impl Seen {
             most if most < PERCENTILE_FROM => Judgement::Largest,
             _ => Judgement::Percentile,
         };
-        self.judged.mean = self.mean();
         if self.judged.judgement == Judgement::EveryAngle {
-            let pixels = every_angle(&self.judged.mean);
-            let errors = errors(
-                &self.judged.truth,
-                &self.judged.candidates,
-                &pixels,
-                screen,
-                exposures,
-            );
+            let pixels = every_angle(&self.sample.pixels);
+            let errors = errors(&self.judged, &pixels, screen, exposures, |pixels, curve| {
+                pixels.largest(curve)
+            });
             for (found, error) in self.judged.candidates.iter_mut().zip(errors) {
                 found.error = error;
             }
@@ -244,19 +234,36 @@ impl Seen {
         }
         self.judged
     }
+}
 
-    /// A pixel with the mean of all that were seen.
-    fn mean(&self) -> ScenePixel {
-        let count = self.judged.pixels as f64;
-        if count == 0.0 {
-            return MIRROR_IN_WHITE;
+/// The degree of a pixel's angle, from 0 to 89.
+pub(super) fn degree_of(pixel: &ScenePixel) -> usize {
+    let angle = libm::acos(f64::from(pixel.cos_theta).clamp(0.0, 1.0));
+    (angle.to_degrees() as usize).min(DEGREES - 1)
+}
+
+/// Some of many pixels, evenly: each so-manieth.
+#[derive(Default)]
+struct Sample {
+    pixels: Vec<ScenePixel>,
+    /// How many were seen; of these every `2^halvings`th is kept.
+    seen: usize,
+    halvings: u32,
+}
+
+impl Sample {
+    fn enter(&mut self, pixel: &ScenePixel) {
+        if self.seen.is_multiple_of(1 << self.halvings) {
+            self.pixels.push(*pixel);
         }
-        let mean = |sums: [f64; 3]| sums.map(|sum| (sum / count) as f32);
-        ScenePixel {
-            roughness: (self.roughness / count) as f32,
-            light: mean(self.light),
-            other: mean(self.other),
-            ..MIRROR_IN_WHITE
+        self.seen += 1;
+        if self.pixels.len() > SAMPLED {
+            let mut place = 0;
+            self.pixels.retain(|_| {
+                place += 1;
+                place % 2 == 1
+            });
+            self.halvings += 1;
         }
     }
 }
@@ -271,32 +278,39 @@ const MIRROR_IN_WHITE: ScenePixel = ScenePixel {
     other: [0.0; 3],
 };
 
-/// The same pixel at each angle.
-fn every_angle(pixel: &ScenePixel) -> Vec<ScenePixel> {
-    let at = |cosine: &f64| ScenePixel {
-        cos_theta: *cosine as f32,
+/// Each of these pixels at each angle; a mirror in white light where there is none.
+fn every_angle(pixels: &[ScenePixel]) -> Vec<ScenePixel> {
+    let pixels = match pixels {
+        [] => &[MIRROR_IN_WHITE],
+        some => some,
+    };
+    let cosines: Vec<f64> = step_cosines().into_iter().step_by(EVERY).collect();
+    let at = |pixel: &ScenePixel, cosine: f64| ScenePixel {
+        cos_theta: cosine as f32,
         ..*pixel
     };
-    step_cosines().iter().step_by(EVERY).map(at).collect()
+    let all = pixels.iter();
+    all.flat_map(|pixel| cosines.iter().map(|cosine| at(pixel, *cosine)))
+        .collect()
 }
 
-/// The errors of candidates in some pixels of a frame.
+/// The errors of candidates in some pixels, by this measure.
 fn errors(
-    truth: &[[f64; 3]],
-    candidates: &[JudgedCandidate],
+    judged: &JudgedMaterial,
     pixels: &[ScenePixel],
     screen: &Screen,
     exposures: &[f64],
+    measure: impl Fn(&JudgedPixels, &Curve) -> f64 + Sync,
 ) -> Vec<f64> {
     let places: Vec<PixelPlace> = pixels.iter().map(PixelPlace::of).collect();
     let rule = RoughRule::of(places.iter());
-    let truth = Curve::new(truth.to_vec(), &rule);
-    let judged = JudgedPixels::new(pixels, &places, &truth, screen, exposures);
+    let truth = Curve::new(judged.truth.clone(), &rule);
+    let pixels = JudgedPixels::new(pixels, &places, &truth, screen, exposures);
     let error = |i: usize| {
-        let values = candidates[i].candidate.values.clone();
-        judged.error(&Curve::new(values, &rule))
+        let values = judged.candidates[i].candidate.values.clone();
+        measure(&pixels, &Curve::new(values, &rule))
     };
-    in_parallel(candidates.len(), &error, &mut |_, _| {})
+    in_parallel(judged.candidates.len(), &error, &mut |_, _| {})
 }
 
 /// Of each material the places of the candidates within the budget, and what they cost.
@@ -412,6 +426,18 @@ mod tests {
     fn error(judged: &JudgedMaterial, method: &str) -> f64 {
         let is_it = |one: &&JudgedCandidate| one.candidate.name() == method;
         judged.candidates.iter().find(is_it).unwrap().error
+    }
+
+    /// A sphere seen from afar shows angles with the density sin 2θ.
+    #[test]
+    fn a_sphere_shows_each_degree_as_often_as_its_ring_is_wide() {
+        let seen = judged(&request(1.0), sphere(512, [1.0; 3]));
+        let whole: f64 = seen.angles.iter().sum();
+        let inside = |degree: usize| libm::sin((degree as f64).to_radians()).powi(2);
+        for (degree, covered) in seen.angles.iter().enumerate() {
+            let ring = inside(degree + 1) - inside(degree);
+            assert!((covered / whole - ring).abs() < 1e-3, "{degree}");
+        }
     }
 
     /// Figures of an independent prototype.

@@ -12,7 +12,7 @@ use super::curve::step_cosines;
 use super::metric::Metric;
 
 /// Steps between exposures of a range, in stops.
-const STOPS: f64 = 0.5;
+const STOPS: f64 = 1.0;
 
 /// What a plan is held to.
 #[derive(Clone, Debug)]

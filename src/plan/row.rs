@@ -1,9 +1,12 @@
 //! A row of the report: the function that a material gets, and why nothing cheaper.
 
+use std::collections::BTreeMap;
+
 use serde::{Deserialize, Serialize};
 
 use crate::cost::CostBasis;
 use crate::emit::FunctionForm;
+use crate::fit::values_for_material_in;
 use crate::num::Precision;
 use crate::verify::Status;
 
@@ -27,6 +30,10 @@ pub struct PlanRow {
     pub channels: usize,
     /// What it computes in.
     pub precision: Precision,
+    /// What a library function is called with after `cos_theta`: three channels each, of a scalar function the green one. Empty where
+    /// the material's constants are folded in.
+    #[serde(skip_serializing_if = "BTreeMap::is_empty")]
+    pub values: BTreeMap<String, Vec<f64>>,
     /// Its error in the frame where it is worst.
     pub error: f64,
     /// The largest error that was asked for.
@@ -128,6 +135,8 @@ pub struct Proof {
 pub struct PlanFile {
     /// What made it.
     pub tool: String,
+    /// The version of its form.
+    pub schema: u32,
     /// `plan` and its flags.
     pub command: String,
     /// The space of the functions.
@@ -195,6 +204,7 @@ impl JudgedMaterial {
             form: candidate.form,
             channels: candidate.channels(),
             precision: request.precision,
+            values: self.values(request.precision),
             error: *error,
             budget: request.budget,
             is_within: *error <= request.budget,
@@ -214,13 +224,33 @@ impl JudgedMaterial {
         }
     }
 
+    /// What its library function is called with.
+    fn values(&self, precision: Precision) -> BTreeMap<String, Vec<f64>> {
+        let candidate = &self.chosen().candidate;
+        if candidate.is_specialised() {
+            return BTreeMap::new();
+        }
+        let values = values_for_material_in(precision, &self.material.subject, candidate.method);
+        let numbers = |value: [f64; 3]| match candidate.channels() {
+            1 => vec![value[1]],
+            _ => value.to_vec(),
+        };
+        values
+            .into_iter()
+            .map(|(name, value)| (name, numbers(value)))
+            .collect()
+    }
+
     /// Why the chosen function, in a sentence.
     fn why(&self, request: &PlanRequest) -> String {
         let chosen = self.chosen();
         let (budget, unit) = (request.budget, request.metric.unit());
         let count = self.candidates.len();
-        let angles = match self.judgement {
-            Judgement::EveryAngle => " at every angle, since too few pixels show the material",
+        let angles = match (self.judgement, self.pixels) {
+            (Judgement::EveryAngle, 0) => {
+                " at every angle under white light, since no frame shows the material"
+            }
+            (Judgement::EveryAngle, _) => " at every angle, since too few pixels show the material",
             _ => "",
         };
         let name = chosen.candidate.name();

@@ -3,19 +3,15 @@
 use glam::DVec3;
 
 use crate::num::each_channel;
-use crate::raster::{BINS, MAGNIFIED};
+use crate::raster::MAGNIFIED;
 
-use super::curve::{Curve, PixelPlace, RoughRule, step_cosines};
+use super::curve::{Curve, PixelPlace, RoughRule};
 use super::metric::Screen;
 use super::picture_error::radiance;
 use super::pixels::{FramePixels, ScenePixel};
-use super::planned::{JudgedCandidate, JudgedMaterial};
+use super::planned::{DEGREES, JudgedCandidate, JudgedMaterial, degree_of};
 use super::request::PlanRequest;
 
-/// Degrees of a right angle, each with its share of the material's coverage.
-const DEGREES: usize = 90;
-/// Every how manieth step of angle a curve has a point.
-const EVERY: usize = 32;
 /// Candidates beside the chosen one that are shown.
 const CHEAPER: usize = 3;
 /// Pixels a side of a picture at most.
@@ -32,12 +28,12 @@ pub struct MaterialView {
     pub pictures: Vec<ViewPicture>,
 }
 
-/// The difference that a function makes at each angle, under the material's mean light.
+/// The largest difference that a function makes in the pixels of each degree.
 #[derive(Clone, Debug, PartialEq)]
 pub struct AngleCurve {
     /// The function.
     pub name: String,
-    /// The angle in degrees and the difference.
+    /// The middle of each degree and the difference; NaN where no pixel shows it.
     pub points: Vec<(f64, f64)>,
 }
 
@@ -61,16 +57,13 @@ pub fn material_view(
 ) -> MaterialView {
     let screen = Screen::new(request.metric, request.display, request.space);
     let shown = shown_candidates(judged);
+    let pixels = &frame.of_material[material];
+    let whole: f64 = judged.angles.iter().sum();
+    let share = |covered: &f64| covered / whole.max(f64::MIN_POSITIVE);
     MaterialView {
-        angles: angles(judged),
-        curves: curves(judged, &shown, &screen),
-        pictures: pictures(
-            judged,
-            &shown,
-            &screen,
-            &frame.of_material[material],
-            frame.size,
-        ),
+        angles: judged.angles.iter().map(share).collect(),
+        curves: curves(judged, &shown, &screen, pixels),
+        pictures: pictures(judged, &shown, &screen, pixels, frame.size),
     }
 }
 
@@ -87,38 +80,30 @@ fn shown_candidates(judged: &JudgedMaterial) -> Vec<&JudgedCandidate> {
     shown
 }
 
-fn angles(judged: &JudgedMaterial) -> Vec<f64> {
-    let mut shares = vec![0.0; DEGREES];
-    let whole = judged.angles.total();
-    for (bin, weight) in judged.angles.weights().iter().enumerate() {
-        let cosine = (bin as f64 + 0.5) / BINS as f64;
-        let degree = (libm::acos(cosine).to_degrees() as usize).min(DEGREES - 1);
-        shares[degree] += weight / whole.max(f64::MIN_POSITIVE);
-    }
-    shares
-}
-
-fn curves(judged: &JudgedMaterial, shown: &[&JudgedCandidate], screen: &Screen) -> Vec<AngleCurve> {
-    let cosines: Vec<f64> = step_cosines().into_iter().step_by(EVERY).collect();
-    let pixel = |cosine: &f64| ScenePixel {
-        cos_theta: *cosine as f32,
-        ..judged.mean
-    };
-    let pixels: Vec<ScenePixel> = cosines.iter().map(pixel).collect();
+fn curves(
+    judged: &JudgedMaterial,
+    shown: &[&JudgedCandidate],
+    screen: &Screen,
+    pixels: &[ScenePixel],
+) -> Vec<AngleCurve> {
     let places: Vec<PixelPlace> = pixels.iter().map(PixelPlace::of).collect();
     let rule = RoughRule::of(places.iter());
     let truth = Curve::new(judged.truth.clone(), &rule);
     let curve = |one: &&JudgedCandidate| {
         let curve = Curve::new(one.candidate.values.clone(), &rule);
-        let point = |i: usize| {
-            let place = |value| screen.place(screen.shown(radiance(&pixels[i], value), 0.0));
-            let [got, truth] = [curve.at(&places[i]), truth.at(&places[i])].map(place);
-            let angle = libm::acos(cosines[i]).to_degrees();
-            (angle, screen.difference(got, truth))
-        };
+        let mut largest = [f64::NAN; DEGREES];
+        for (pixel, place) in pixels.iter().zip(&places) {
+            let seen = |value| screen.place(screen.shown(radiance(pixel, value), 0.0));
+            let [got, truth] = [curve.at(place), truth.at(place)].map(seen);
+            let most = &mut largest[degree_of(pixel)];
+            *most = most.max(screen.difference(got, truth));
+        }
+        let points = largest.into_iter().enumerate();
         AngleCurve {
             name: one.candidate.name(),
-            points: (0..pixels.len()).map(point).collect(),
+            points: points
+                .map(|(degree, most)| (degree as f64 + 0.5, most))
+                .collect(),
         }
     };
     shown.iter().map(curve).collect()
@@ -202,7 +187,7 @@ fn pictures(
         let name = one.candidate.name();
         all.push(titled(name.clone(), drawn));
         all.push(titled(
-            format!("{name}: difference, {MAGNIFIED} times"),
+            format!("{name}: its difference in linear light, {MAGNIFIED} times"),
             apart,
         ));
     }

@@ -41,6 +41,7 @@ impl CheckReportFlags {
 pub fn file_only(flag: &'static str) -> impl Fn(&str) -> Result<PathBuf, String> + Clone {
     move |word: &str| match word {
         "-" => Err(format!("{flag} takes a file, and not stdout")),
+        "" => Err(format!("{flag} takes a file, and this name is empty")),
         path => Ok(path.into()),
     }
 }

@@ -52,10 +52,20 @@ pub struct PlanFlags {
     #[arg(long, value_name = "NAME", value_parser = one_of("tone curve", TONE_CURVES, |curve| curve.name))]
     pub tone_curve: Option<ToneCurve>,
     /// Also up to so many stops darker and brighter, 0 to 8: the worst counts
-    #[arg(long, value_name = "STOPS", default_value_t = 0.0)]
+    #[arg(
+        long,
+        allow_negative_numbers = true,
+        value_name = "STOPS",
+        default_value_t = 0.0
+    )]
     pub exposure_range: f64,
     /// A material that no frame shows on so many pixels is held to the budget at every angle
-    #[arg(long, value_name = "PIXELS", default_value_t = 100)]
+    #[arg(
+        long,
+        allow_negative_numbers = true,
+        value_name = "PIXELS",
+        default_value_t = 100
+    )]
     pub min_pixels: usize,
     /// What functions are held against: spectrum (the exact law at each wavelength), exact (one index a channel)
     #[arg(long, value_name = "NAME", default_value = "spectrum", value_parser = one_of("reference", PlanTruth::ALL, PlanTruth::name))]
@@ -73,10 +83,15 @@ pub struct PlanFlags {
     #[arg(long, value_delimiter = ',', value_name = "NAME", value_parser = method_or_all())]
     pub method: Vec<Choice<&'static Method>>,
     /// What a texture fetch costs, in units of the cost: with it tables are taken too
-    #[arg(long, value_name = "UNITS")]
+    #[arg(long, allow_negative_numbers = true, value_name = "UNITS")]
     pub fetch_cost: Option<f64>,
     /// What another function in the shaders costs, in units × pixels: with it materials share library functions
-    #[arg(long, value_name = "UNITS", default_value_t = 0.0)]
+    #[arg(
+        long,
+        allow_negative_numbers = true,
+        value_name = "UNITS",
+        default_value_t = 0.0
+    )]
     pub variant_cost: f64,
     /// Working space of the pictures: srgb, p3, rec2020, acescg; all linear [default: srgb]
     #[arg(long, value_name = "NAME", value_parser = in_any_case(one_of("space", Space::ALL, Space::name)))]
@@ -97,6 +112,7 @@ impl PlanFlags {
     pub fn inputs(&self) -> impl Iterator<Item = &PathBuf> {
         self.scene
             .iter()
+            .chain(&self.environment)
             .chain(&self.gbuffer)
             .chain(&self.materials)
     }

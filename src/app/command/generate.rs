@@ -25,13 +25,18 @@ use crate::num::Precision;
 use crate::report::budget::budget_remarks;
 use crate::targets;
 
-use super::{Output, folder_or_current, refuse_within_tree};
+use super::{Output, folder_or_current, refuse_read, refuse_within_tree};
 
 /// Generates. `announce` hears what a person should know before the run ends.
 pub fn run(flags: &GenerateFlags, announce: Announce) -> Result<Output, Error> {
     let request = request(flags)?;
     let (request, said) = match &flags.plan {
-        Some(file) => (planned(file, request)?, Vec::new()),
+        Some(file) => {
+            let paths = material_paths(file)?;
+            let outputs = flags.output.iter().chain(&flags.depfile);
+            refuse_read(paths.iter().map(Path::new), outputs.map(PathBuf::as_path))?;
+            (planned(file, request)?, Vec::new())
+        }
         None => chosen(flags, request)?,
     };
     let mut output = match &flags.output {

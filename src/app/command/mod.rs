@@ -142,6 +142,18 @@ fn refuse_clashes(named: &NamedFiles) -> Result<(), Error> {
         .try_for_each(|file| refuse_listed(file))
 }
 
+/// Refuses an output in the place of a file that a run reads because an input names it.
+fn refuse_read<'a>(
+    read: impl Iterator<Item = &'a Path>,
+    outputs: impl Iterator<Item = &'a Path>,
+) -> Result<(), Error> {
+    let outputs = outputs.filter(|file| *file != Path::new("-"));
+    refuse_clashes(&NamedFiles {
+        inputs: read.collect(),
+        outputs: outputs.collect(),
+    })
+}
+
 /// Refuses a file of a generated tree, whichever run made it: the manifest in a folder above lists it, or it is the manifest.
 fn refuse_listed(named: &Path) -> Result<(), Error> {
     /// A file of a tree lies this many folders below it at most, with some to spare for tables.

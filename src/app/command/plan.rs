@@ -1,6 +1,6 @@
 //! `plan`: of each material of a scene the cheapest function whose error nobody sees.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use crate::app::args::{Choice, PlanFlags};
 use crate::app::error::Error;
@@ -19,7 +19,7 @@ use crate::plan::{ProofCase, prove};
 use crate::report::plan::{PlanReport, plan_page};
 use crate::scene::Display;
 
-use super::{Output, Progress, not_drawn, replaced, report, try_places};
+use super::{Output, Progress, not_drawn, refuse_read, replaced, report, try_places};
 
 /// Whose costs decide where none is named.
 const USUAL_GPU: &str = "rdna2";
@@ -37,11 +37,14 @@ pub fn run(flags: &PlanFlags, progress: Progress) -> Result<Output, Error> {
     let PlanInput {
         materials,
         unplanned,
+        read,
         nothing_is_seen,
         display,
         frames,
         mut frame,
     } = plan_input(flags, &viewing)?;
+    let outputs = flags.report.json().into_iter().chain(page.as_deref());
+    refuse_read(read.iter().map(PathBuf::as_path), outputs)?;
     let request = request(flags, &viewing, display)?;
     let judged = plan(
         &request,

@@ -231,7 +231,8 @@ impl FileText<'_> {
             (Some(height), None) => {
                 let height = self.number(height, "orthographic", [SMALLEST, FARTHEST])?;
                 let axes = Camera::looking(eye, at, lens(1.0)).axes;
-                Camera::orthographic(eye, axes, height, size)
+                // Where along its axis it stands does not matter to parallel rays.
+                Camera::orthographic(at, axes, height, size)
             }
             (None, Some(degrees)) => {
                 let degrees = self.number(degrees, "vertical_degrees", [0.01, 170.0])?;

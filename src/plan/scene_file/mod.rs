@@ -47,7 +47,7 @@ use raw::RawScene;
 /// A scene has at most so many frames.
 pub const MOST_FRAMES: usize = 720;
 /// Pixels along a side of a frame, least and most.
-pub const SIDES: [u32; 2] = [16, 8192];
+pub const SIDES: [u32; 2] = [16, 4096];
 
 /// A scene that we draw ourselves.
 #[derive(Clone, Debug)]

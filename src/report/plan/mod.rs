@@ -110,7 +110,10 @@ impl PlanReport {
         let cells: Vec<Vec<String>> = self.rows.iter().map(cells).collect();
         let mut lines = vec![text_table(&columns, &cells)];
         for row in &self.rows {
-            lines.push(format!("{}: {}\n", row.material, row.why));
+            lines.push(format!("{}: {}\n", named(row), row.why));
+        }
+        if self.rows.iter().any(|row| !row.is_within) {
+            lines.push("! means over the budget.\n".to_owned());
         }
         for one in &self.unplanned {
             lines.push(format!("{}: not planned: {}\n", one.name, one.reason));
@@ -118,7 +121,7 @@ impl PlanReport {
         lines.push(self.total());
         lines.extend(self.proofs.iter().map(proof_line));
         lines.push(format!(
-            "Costs are {} on {}, of one evaluation. Errors are of the light that comes directly: what is reflected twice is taken as exact.\n",
+            "Costs are {} on {}, of one evaluation. Light is taken as it comes: an error changes what a surface shows, and not what it sends to others.\n",
             self.cost_of, self.gpu
         ));
         let (cells, rest) = lines.split_at(1);
@@ -146,14 +149,30 @@ impl PlanReport {
         )];
         parts.extend(cost_exact.map(|exact| format!("the exact laws {}", beside(exact))));
         parts.extend(shared.as_ref().map(|shared| {
+            let is_beyond = self.rows.iter().any(|row| shared.error > row.budget);
             format!(
-                "one library function `{}` for all {}, with an error of {}",
+                "one library function `{}` for all {}, with an error of {}{}",
                 shared.method,
                 beside(shared.cost),
-                short_number(shared.error)
+                short_number(shared.error),
+                if is_beyond {
+                    ", which is over the budget"
+                } else {
+                    ""
+                }
             )
         }));
         parts.join("; ") + ".\n"
+    }
+}
+
+/// A material, and what the scene calls it where that is something else.
+fn named(row: &PlanRow) -> String {
+    let others = row.names.iter().filter(|name| **name != row.material);
+    let others: Vec<&str> = others.map(String::as_str).collect();
+    match others.is_empty() {
+        true => row.material.clone(),
+        false => format!("{} ({})", row.material, others.join(", ")),
     }
 }
 
@@ -191,7 +210,7 @@ fn cells(row: &PlanRow) -> Vec<String> {
         _ => "every angle",
     };
     vec![
-        row.material.clone(),
+        named(row),
         row.method.to_owned(),
         row.form.name().to_owned(),
         row.channels.to_string(),

@@ -12,7 +12,7 @@ use crate::report::plot::{ChartAxis, LineChart, Look, Mark, Series, Style, ticks
 use crate::report::table::short_number;
 use crate::spectra::srgb_byte;
 
-use super::PlanReport;
+use super::{PlanReport, named};
 
 const TEMPLATE: &str = include_str!("../../../templates/plan.html.tera");
 /// Where a picture shows nothing.
@@ -85,7 +85,7 @@ fn section(report: &PlanReport, row: &PlanRow, view: &MaterialView) -> Result<Se
         [form, short_number(one.cost), format!("{:.4}", one.error)]
     });
     Ok(Section {
-        material: row.material.clone(),
+        material: named(row),
         why: row.why.clone(),
         facts: vec![
             fact("function", format!("{}, {}", row.method, row.form.name())),
@@ -93,7 +93,7 @@ fn section(report: &PlanReport, row: &PlanRow, view: &MaterialView) -> Result<Se
             fact("cost", short_number(row.cost)),
             fact("the exact law costs", exact),
             fact("pixels of a frame", format!("{:.0}", row.pixels)),
-            fact("worst frame", row.worst_frame.to_string()),
+            fact("worst frame (the first is 0)", row.worst_frame.to_string()),
         ],
         chart: chart(report, row, view).svg(),
         pictures: view.pictures.iter().map(shown).collect::<Result<_, _>>()?,
@@ -140,9 +140,10 @@ fn chart(report: &PlanReport, row: &PlanRow, view: &MaterialView) -> LineChart {
             "{}: what is seen, and what functions err there",
             row.material
         ),
-        subtitle:
-            "difference on screen under the material's mean light; grey: how often an angle is seen"
-                .to_owned(),
+        subtitle: format!(
+            "the largest difference on screen in the pixels of each degree, frame {}; grey: how often an angle is seen in all frames",
+            row.worst_frame
+        ),
         x: ChartAxis::angle_of_incidence(),
         y: ChartAxis {
             label: format!("difference, {}", report.unit),

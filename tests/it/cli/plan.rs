@@ -192,6 +192,116 @@ fn the_chosen_text_is_run_and_holds() {
     }
 }
 
+/// Where a body is as bright as its light nobody sees its reflectance.
+#[test]
+fn what_is_as_bright_as_its_light_needs_no_fresnel() {
+    let place = Place::new();
+    let scene = sphere("bk7", "[0.4, 0.5, 0.6]") + "other = [0.4, 0.5, 0.6]\n";
+    place.put("scene.toml", scene);
+    let report = place.done("plan scene.toml --budget 0 --json -").json();
+    let chosen = row(&report, "bk7");
+    assert_eq!(
+        (&chosen["method"], &chosen["error"]),
+        (&"constant_f0".into(), &0.0.into())
+    );
+}
+
+/// On rough platinum no Fresnel is more accurate than Schlick's, and the fitted method than both.
+#[test]
+fn roughness_decides_on_platinum() {
+    let place = Place::new();
+    let scene = sphere("platinum", "[1, 1, 1]") + "roughness = 0.8\n";
+    place.put("scene.toml", scene);
+    let error = |method: &str| {
+        let line = format!("plan scene.toml --budget 100 --method {method} --json -");
+        row(&place.done(&line).json(), "platinum")["error"]
+            .as_f64()
+            .unwrap()
+    };
+    let [constant, schlick, fitted] = ["constant_f0", "schlick", "fitted"].map(error);
+    assert!(
+        fitted < 0.2 && 5.0 * fitted < constant && constant < schlick,
+        "{constant} {schlick} {fitted}"
+    );
+}
+
+/// A range of exposures never makes an error smaller.
+#[test]
+fn more_exposures_show_no_less() {
+    let place = Place::new();
+    place.put("scene.toml", sphere("gold", "[0.3, 0.3, 0.3]"));
+    let error = |range: &str| {
+        let line = format!(
+            "plan scene.toml --budget 100 --method schlick --exposure-range {range} --json -"
+        );
+        row(&place.done(&line).json(), "gold")["error"]
+            .as_f64()
+            .unwrap()
+    };
+    let errors = ["0", "1", "2", "4"].map(error);
+    assert!(errors.is_sorted() && errors[3] > errors[0], "{errors:?}");
+}
+
+/// Files that a scene or a plan names are read too: no output takes the place of one.
+#[test]
+fn what_a_scene_reads_is_not_overwritten() {
+    let place = Place::new();
+    let triangle = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+    place.put("triangle.obj", triangle);
+    place.put("mine.toml", MY_METAL);
+    let scene =
+        sphere("mine.toml", "[1, 1, 1]").replace("body = \"sphere\"", "mesh = \"triangle.obj\"");
+    place.put("scene.toml", scene);
+    for file in ["triangle.obj", "mine.toml", "scene.toml"] {
+        let line = format!("plan scene.toml --json {file}");
+        place.refused(&line, &[file, "this run reads that file"]);
+    }
+    place.done("plan scene.toml --json plan.json");
+    for file in ["mine.toml", "plan.json"] {
+        let line = format!("--plan plan.json --target gles -o {file}");
+        place.refused(&line, &[file, "this run reads that file"]);
+    }
+}
+
+/// A library function is called with values, which the plan states.
+#[test]
+fn a_shared_function_comes_with_its_values() {
+    let place = Place::new();
+    place.put("two.toml", TWO);
+    let line = "plan two.toml --method schlick --variant-cost 1e9 --budget 5 --json -";
+    let report = place.done(line).json();
+    let f0 = &row(&report, "gold")["values"]["f0"];
+    assert_eq!(f0.as_array().unwrap().len(), 3);
+    let red = f0[0].as_f64().unwrap();
+    assert!((0.99..1.1).contains(&red), "{f0}");
+    let line = "plan two.toml --json -";
+    assert!(
+        row(&place.done(line).json(), "gold")
+            .get("values")
+            .is_none()
+    );
+}
+
+/// Parallel rays see the same wherever they start.
+#[test]
+fn an_orthographic_camera_may_stand_anywhere() {
+    let place = Place::new();
+    let pixels = |eye: &str| {
+        let scene = sphere("gold", "[1, 1, 1]").replace("eye = [0, 0, 4]", eye);
+        place.put("scene.toml", scene);
+        row(
+            &place
+                .done("plan scene.toml --method fitted --json -")
+                .json(),
+            "gold",
+        )["pixels"]
+            .clone()
+    };
+    let near = pixels("eye = [0, 0, 4]");
+    assert_eq!(near, pixels("eye = [0, 0, 900000]"));
+    assert_eq!(near, pixels("eye = [0, 0, 0.5]"));
+}
+
 #[test]
 fn what_is_no_plan_is_refused() {
     let place = Place::new();
@@ -199,12 +309,49 @@ fn what_is_no_plan_is_refused() {
     place.put("broken.json", "{\"tool\": \"fresnel-gen\",\n\"rows\": [");
     place.put(
         "other.json",
-        "{\"tool\": \"fresnel-gen\", \"command\": \"cost\", \"space\": \"srgb\", \"rows\": []}",
+        "{\"tool\": \"fresnel-gen\", \"schema\": 1, \"command\": \"cost\", \"space\": \"srgb\", \"rows\": []}",
     );
     place.refused("--plan broken.json", &["broken.json:2:", "this is no plan"]);
     place.refused(
         "--plan other.json",
         &["other.json:1:1", "no plan with functions"],
+    );
+    let row = "{\"material\": \"gold\", \"method\": \"schlick\", \"form\": \"specialised\", \"precision\": \"f32\"}";
+    let plan = |rows: &str| {
+        format!(
+            "{{\"tool\": \"fresnel-gen\", \"schema\": 1, \"command\": \"plan x.toml\", \"space\": \"srgb\", \"rows\": [{rows}]}}"
+        )
+    };
+    let faults = [
+        (format!("{row}, {row}"), "row 2 (gold): another row"),
+        (
+            row.replace("\"gold\"", "\"glod\""),
+            "row 1 (glod): there is no material",
+        ),
+        (
+            row.replace("schlick", "dielectric_exact_p"),
+            "row 1 (gold): no plan chooses",
+        ),
+        (
+            row.replace("specialised", "average"),
+            "row 1 (gold): no plan chooses",
+        ),
+        (
+            row.replace("schlick", "schlock"),
+            "row 1 (gold): there is no method",
+        ),
+    ];
+    for (rows, says) in faults {
+        place.put("edited.json", plan(&rows));
+        place.refused("--plan edited.json", &["edited.json: ", says]);
+    }
+    place.put(
+        "edited.json",
+        plan(row).replace("\"schema\": 1", "\"schema\": 2"),
+    );
+    place.refused(
+        "--plan edited.json",
+        &["edited.json:1:1", "no plan with functions"],
     );
     place.refused("--plan plan.json --material gold", &["--material"]);
     place.refused("plan gold.toml --budget -1", &["--budget is -1"]);

@@ -35,9 +35,9 @@ fn each_fault_names_its_place() {
     check("material", "matreial", (9, 1), "(did you mean material");
     check("eye", "eey", (4, 1), "(did you mean eye");
     check("uniform", "uniforn", (6, 1), "(did you mean uniform");
-    check("[64, 48]", "[64, 15]", (1, 13), "sides have 16 to 8192");
-    check("[64, 48]", "[64, 8193]", (1, 13), "sides have 16 to 8192");
-    check("[64, 48]", "[-64, 48]", (1, 9), "sides have 16 to 8192");
+    check("[64, 48]", "[64, 15]", (1, 13), "sides have 16 to 4096");
+    check("[64, 48]", "[64, 4097]", (1, 13), "sides have 16 to 4096");
+    check("[64, 48]", "[-64, 48]", (1, 9), "sides have 16 to 4096");
     check("[64, 48]", "[64]", (1, 8), "");
     check("45", "nan", (3, 20), "`vertical_degrees` is NaN");
     check("45", "inf", (3, 20), "`vertical_degrees` is inf");
