@@ -268,7 +268,7 @@ fn what_a_scene_reads_is_not_overwritten() {
 fn a_shared_function_comes_with_its_values() {
     let place = Place::new();
     place.put("two.toml", TWO);
-    let line = "plan two.toml --method schlick --variant-cost 1e9 --budget 5 --json -";
+    let line = "plan two.toml --method schlick --variant-cost 1e9 --budget 50 --json -";
     let report = place.done(line).json();
     let f0 = &row(&report, "gold")["values"]["f0"];
     assert_eq!(f0.as_array().unwrap().len(), 3);
