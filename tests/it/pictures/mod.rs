@@ -7,6 +7,7 @@ mod baked;
 mod chart;
 mod headline;
 mod map;
+mod plan;
 pub mod reader;
 mod renders;
 mod scene_error;
@@ -151,7 +152,7 @@ fn committed_pictures_show_what_a_physicist_knows() {
 }
 
 /// Which commands have a flag that takes a picture or a folder, and what draws them here.
-const DRAW: [(&str, &str); 11] = [
+const DRAW: [(&str, &str); 12] = [
     ("", "tables, as `bake` has them: shaders-generated/lut"),
     (
         "audit",
@@ -173,6 +174,10 @@ const DRAW: [(&str, &str); 11] = [
     (
         "materials show",
         "sheet::sheets_show_what_is_known_of_materials",
+    ),
+    (
+        "plan",
+        "plan::gold_is_yellow_and_differs_nowhere_in_the_middle",
     ),
     (
         "reproduce",
