@@ -11,9 +11,10 @@ use crate::plan::{PlanFile, PlanFileRow, is_plannable};
 use crate::report::{SCHEMA, TOOL};
 use crate::spectra::Space;
 
+use super::args::MaterialName;
 use super::error::Error;
 use super::names::unknown;
-use super::request::{Materials, Request, Source, load};
+use super::request::{Materials, Request, load};
 use super::source;
 
 /// The beginning of the command of a plan.
@@ -42,7 +43,8 @@ pub fn planned(file: &Path, request: Request) -> Result<Request, Error> {
             library.insert(row.method.clone());
             continue;
         }
-        let source = named(row).map_err(at_row)?;
+        let material = MaterialName::parse(&row.material).map_err(Error::from);
+        let source = material.and_then(|name| name.source()).map_err(at_row)?;
         let name = load(&source).map_err(at_row)?.material.name;
         if chosen.insert(name, method.name).is_some() {
             let what =
@@ -123,19 +125,6 @@ fn read(file: &Path) -> Result<PlanFile, Error> {
         return Err(fault(1, 1, what).into());
     }
     Ok(plan)
-}
-
-fn named(row: &PlanFileRow) -> Result<Source, Error> {
-    if materials::source(&row.material).is_some() {
-        return Ok(Source::Named(row.material.clone()));
-    }
-    if !source::is_path(&row.material) {
-        return Err(unknown("material", &row.material, &materials::names()));
-    }
-    Ok(Source::File {
-        text: source::read(&row.material)?,
-        file: row.material.clone(),
-    })
 }
 
 fn space(plan: &PlanFile) -> Result<Space, Error> {

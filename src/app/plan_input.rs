@@ -2,8 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use crate::materials::{self, ViewingConditions};
-use crate::names::UnknownName;
+use crate::materials::ViewingConditions;
 use crate::plan::{
     FramePixels, GltfScene, GltfView, MappedMaterial, MaterialIds, PlannedMaterial, SceneFile,
     SceneLight, Unplanned, constant_index, read_gbuffer,
@@ -11,11 +10,11 @@ use crate::plan::{
 use crate::reference::{Derivation, MaterialInMedium};
 use crate::scene::{Display, Environment, TONE_CURVES};
 
-use super::args::PlanFlags;
+use super::args::{MaterialName, PlanFlags};
 use super::error::Error;
 use super::fault::RequestFault;
 use super::folder::is_same_file;
-use super::request::{Materials, Request, Source};
+use super::request::{Materials, Request};
 use super::source;
 use super::subjects::same_name;
 
@@ -218,11 +217,7 @@ fn loaded(
         let place = known.unwrap_or(planned.len());
         places.push(place);
         if known.is_none() {
-            if !is_known(&word) {
-                let unknown = UnknownName::new("material", &word, &materials::names());
-                return Err(fault(index, unknown.to_string()));
-            }
-            let new = material(word, viewing)?;
+            let new = material(word, viewing, &|what| fault(index, what))?;
             if planned
                 .iter()
                 .any(|known| known.subject.name == new.subject.name)
@@ -238,7 +233,12 @@ fn loaded(
     Ok((planned, places))
 }
 
-fn material(word: String, viewing: &ViewingConditions) -> Result<PlannedMaterial, Error> {
+/// A material by the word for it: a path, a name of the catalogue, or a constant index.
+fn material(
+    word: String,
+    viewing: &ViewingConditions,
+    fault: &dyn Fn(String) -> Error,
+) -> Result<PlannedMaterial, Error> {
     if let Some(material) = constant_index(&word) {
         let typed = (word.clone(), material);
         return Ok(PlannedMaterial {
@@ -248,15 +248,9 @@ fn material(word: String, viewing: &ViewingConditions) -> Result<PlannedMaterial
             is_library_only: true,
         });
     }
-    let source = match source::is_path(&word) {
-        true => Source::File {
-            text: source::read(&word)?,
-            file: word.clone(),
-        },
-        false => Source::Named(word.clone()),
-    };
+    let name = MaterialName::parse(&word).map_err(|unknown| fault(unknown.to_string()))?;
     let request = Request {
-        materials: Materials::These(vec![source]),
+        materials: Materials::These(vec![name.source()?]),
         viewing: viewing.clone(),
         ..Request::default()
     };
@@ -267,11 +261,6 @@ fn material(word: String, viewing: &ViewingConditions) -> Result<PlannedMaterial
         subject: subjects.remove(0),
         is_library_only: false,
     })
-}
-
-/// Whether a word stands for a material: a path, a name of the catalogue, or a constant index.
-fn is_known(word: &str) -> bool {
-    source::is_path(word) || materials::source(word).is_some() || constant_index(word).is_some()
 }
 
 /// The same frame with the pixels of one material together, whatever the scene calls it.

@@ -2,6 +2,7 @@
 
 use serde::Serialize;
 
+use crate::emit::FunctionForm;
 use crate::ir::Checked;
 use crate::methods::Method;
 use crate::num::Precision;
@@ -9,7 +10,7 @@ use crate::num::Precision;
 use super::family::{Family, GpuCompiler};
 use super::figures::CostFigures;
 use super::probe::Probe;
-use super::record::CostRecord;
+use super::record::{CostRecord, FunctionKey};
 
 /// What an evaluation costs, and how that is known.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
@@ -67,7 +68,7 @@ pub fn known_cost(
 }
 
 /// The cost of a function of which no compiler has to be asked.
-pub fn uncompiled_cost(function: &Checked, family: &Family) -> Option<KnownCost> {
+fn uncompiled_cost(function: &Checked, family: &Family) -> Option<KnownCost> {
     let basis = match family.compiler {
         GpuCompiler::None(_) => return None,
         _ if function.computes_nothing() => CostBasis::Nothing,
@@ -93,13 +94,38 @@ pub fn function_cost(
         .map(|known| known.cost)
 }
 
-/// What an evaluation of a method's library function, three channels, costs on a family: its operations where those are counted or
-/// where there are none, else what was recorded.
+/// What an evaluation of a method's library function, three channels in single precision, costs on a family.
 pub fn library_cost(method: &Method, family: &Family, record: &CostRecord) -> Option<f64> {
-    let function = method.function(false);
-    let function = function.expect("a test builds every method");
-    let recorded = || record.library(method.name).map(|figures| figures.cost());
-    uncompiled_cost(&function, family)
-        .map(|known| known.cost)
-        .or_else(recorded)
+    let known = known_library_cost(
+        method,
+        FunctionForm::Library,
+        Precision::F32,
+        family,
+        record,
+    );
+    known.map(|known| known.cost)
+}
+
+/// What an evaluation of a library function costs on a family, and how that is known: its operations where those are counted or where there
+/// are none, else what was recorded. `form` is that of three channels or of one.
+pub fn known_library_cost(
+    method: &Method,
+    form: FunctionForm,
+    precision: Precision,
+    family: &Family,
+    record: &CostRecord,
+) -> Option<KnownCost> {
+    let is_scalar = form == FunctionForm::Scalar;
+    if is_scalar && !method.has_scalar_form() {
+        return None;
+    }
+    let function = method.function_in(precision, is_scalar).ok()?;
+    let recorded = || {
+        let figures = record.of(&FunctionKey::library(method.name, form, precision))?;
+        Some(KnownCost {
+            cost: figures.cost(),
+            basis: CostBasis::Function,
+        })
+    };
+    uncompiled_cost(&function, family).or_else(recorded)
 }

@@ -30,7 +30,9 @@ pub use family::{Dialect, FAMILIES, Family, GpuCompiler, find};
 pub use figures::{CostFigures, Counts, StatisticNames, Statistics, figures, remarked};
 #[cfg(all(feature = "cli", feature = "gpu"))]
 pub use function::{CostedFunction, functions, functions_of_effect};
-pub use known::{CostBasis, KnownCost, function_cost, known_cost, library_cost, uncompiled_cost};
+pub use known::{
+    CostBasis, KnownCost, function_cost, known_cost, known_library_cost, library_cost,
+};
 pub use pareto::{CostAndError, Multiples, TIE, pareto_frontier};
 pub use probe::{BLOCKS, ENTRY, Probe, VERTEX, WGSL_VERTEX, gles_vertex};
 #[cfg(all(feature = "cli", feature = "gpu"))]

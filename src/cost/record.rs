@@ -46,6 +46,20 @@ pub struct FunctionKey {
     pub precision: Precision,
 }
 
+impl FunctionKey {
+    /// A library function of a method.
+    pub fn library(method: &str, form: FunctionForm, precision: Precision) -> FunctionKey {
+        FunctionKey {
+            effect: String::new(),
+            method: method.to_owned(),
+            material: String::new(),
+            form,
+            channels: if form == FunctionForm::Scalar { 1 } else { 3 },
+            precision,
+        }
+    }
+}
+
 impl fmt::Display for FunctionKey {
     fn fmt(&self, to: &mut fmt::Formatter) -> fmt::Result {
         let FunctionKey {
@@ -67,15 +81,11 @@ impl fmt::Display for FunctionKey {
 impl CostRecord {
     /// What was recorded of a library function of three channels in single precision.
     pub fn library(&self, method: &str) -> Option<CostFigures> {
-        let key = FunctionKey {
-            effect: String::new(),
-            method: method.to_owned(),
-            material: String::new(),
-            form: FunctionForm::Library,
-            channels: 3,
-            precision: Precision::F32,
-        };
-        self.of(&key)
+        self.of(&FunctionKey::library(
+            method,
+            FunctionForm::Library,
+            Precision::F32,
+        ))
     }
 
     /// What was recorded of a function.

@@ -31,6 +31,7 @@ use crate::ir::identifier_fault;
 
 use super::decimal::short;
 use super::dispersion::DispersionCurve;
+use super::file_text::FileText;
 use super::formula::{Formula, NUMBERS};
 use super::hidden::is_hidden;
 use super::material::{GREATEST, LEAST_N, Material, MaterialKind};
@@ -96,12 +97,6 @@ const N: Column = ("n", LEAST_N, GREATEST);
 const K: Column = ("k", 0.0, GREATEST);
 /// The longest formula of refractiveindex.info has 17.
 pub const MOST_COEFFICIENTS: usize = 64;
-
-/// Where in a text a fault stands: made once, so that every check is short.
-struct FileText<'a> {
-    file: &'a str,
-    text: &'a str,
-}
 
 impl Material {
     /// Reads a material file. `file` is only for messages.
@@ -391,10 +386,6 @@ impl FileText<'_> {
             what += &near.map_or(String::new(), |near| format!("; did you mean `{near}`?"));
         }
         self.fault(error.span().map_or(0, |span| span.start), what)
-    }
-
-    fn fault(&self, offset: usize, what: String) -> FileFault {
-        FileFault::at(self.file, self.text, offset, what)
     }
 }
 

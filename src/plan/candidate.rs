@@ -1,8 +1,6 @@
 //! The functions among which a plan chooses for a material: each method in each form whose cost is known.
 
-use crate::cost::{
-    CostBasis, CostRecord, Family, FunctionKey, KnownCost, known_cost, uncompiled_cost,
-};
+use crate::cost::{CostBasis, CostRecord, Family, KnownCost, known_cost, known_library_cost};
 use crate::emit::{Bounds, Error, FunctionForm, specialised_graph};
 use crate::fit::{arguments, table_of};
 use crate::ir::{Checked, evaluate};
@@ -135,35 +133,12 @@ impl Prices<'_> {
             FunctionForm::Specialised => {
                 known_cost(specialised, self.precision, self.family, &self.record)?
             }
-            _ => self.library_cost(method, form)?,
+            _ => known_library_cost(method, form, self.precision, self.family, &self.record)?,
         };
         let fetch = self.fetch.filter(|_| method.is_textured());
         Some(KnownCost {
             cost: known.cost + fetch.unwrap_or(0.0),
             ..known
-        })
-    }
-
-    fn library_cost(&self, method: &Method, form: FunctionForm) -> Option<KnownCost> {
-        let is_scalar = form == FunctionForm::Scalar;
-        if is_scalar && !method.has_scalar_form() {
-            return None;
-        }
-        let function = method.function_in(self.precision, is_scalar).ok()?;
-        if let Some(known) = uncompiled_cost(&function, self.family) {
-            return Some(known);
-        }
-        let key = FunctionKey {
-            effect: String::new(),
-            method: method.name.to_owned(),
-            material: String::new(),
-            form,
-            channels: if is_scalar { 1 } else { 3 },
-            precision: self.precision,
-        };
-        Some(KnownCost {
-            cost: self.record.of(&key)?.cost(),
-            basis: CostBasis::Function,
         })
     }
 

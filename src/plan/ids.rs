@@ -14,8 +14,7 @@ use std::collections::BTreeMap;
 use serde::Deserialize;
 use toml::Spanned;
 
-use crate::materials::{FileFault, is_hidden};
-use crate::names::{nearest_names, offered};
+use crate::materials::{FileFault, FileText, is_hidden};
 
 use super::MappedMaterial;
 
@@ -34,8 +33,6 @@ struct RawMaterial {
     name: Option<Spanned<String>>,
     material: Spanned<String>,
 }
-
-const KEYS: [&str; 5] = ["ignore", "material", "id", "name", "[[material]]"];
 
 /// What a pixel with a mapped id shows.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -57,12 +54,6 @@ pub struct MaterialIds {
     file: String,
 }
 
-/// Where in a text a fault stands.
-struct MapText<'a> {
-    file: &'a str,
-    text: &'a str,
-}
-
 impl MaterialIds {
     /// Reads a map of materials. `file` is only for messages.
     ///
@@ -77,8 +68,8 @@ impl MaterialIds {
     /// # Errors
     /// The text is not TOML, a key is missing or unknown, an id is not from 1 to 2³² - 1, or an id or a name stands twice.
     pub fn parse(file: &str, text: &str) -> Result<MaterialIds, FileFault> {
-        let place = MapText { file, text };
-        let raw: RawMap = toml::from_str(text).map_err(|error| place.syntax(&error))?;
+        let place = FileText { file, text };
+        let raw: RawMap = toml::from_str(text).map_err(|error| place.toml_fault(&error))?;
         let mut ids = MaterialIds {
             materials: Vec::new(),
             ids: BTreeMap::new(),
@@ -121,7 +112,12 @@ impl MaterialIds {
         }
     }
 
-    fn enter(&mut self, id: &Spanned<i64>, shown: Shown, place: &MapText) -> Result<(), FileFault> {
+    fn enter(
+        &mut self,
+        id: &Spanned<i64>,
+        shown: Shown,
+        place: &FileText,
+    ) -> Result<(), FileFault> {
         let number = *id.get_ref();
         let what = match u32::try_from(number) {
             Ok(0) => "id 0 is the background, which is never mapped; ids begin with 1".to_owned(),
@@ -141,10 +137,10 @@ impl MaterialIds {
         Err(place.fault(id.span().start, what))
     }
 
-    fn take(&mut self, raw: &RawMaterial, place: &MapText) -> Result<(), FileFault> {
-        place.one_line("material", &raw.material)?;
+    fn take(&mut self, raw: &RawMaterial, place: &FileText) -> Result<(), FileFault> {
+        check_one_line(place, "material", &raw.material)?;
         let name = raw.name.as_ref().unwrap_or(&raw.material);
-        place.one_line("name", name)?;
+        check_one_line(place, "name", name)?;
         let mapped = MappedMaterial {
             name: name.get_ref().clone(),
             material: raw.material.get_ref().clone(),
@@ -163,33 +159,18 @@ impl MaterialIds {
     }
 }
 
-impl MapText<'_> {
-    /// A text that is there, in one line, without what a terminal obeys.
-    fn one_line(&self, key: &str, text: &Spanned<String>) -> Result<(), FileFault> {
-        let what = if text.get_ref().trim().is_empty() {
-            format!("`{key}` is empty; it wants text")
-        } else if text.get_ref().chars().any(is_hidden) {
-            format!(
-                "`{key}` holds a line break or a control character; it wants one line of plain text"
-            )
-        } else {
-            return Ok(());
-        };
-        Err(self.fault(text.span().start, what))
-    }
-
-    fn syntax(&self, error: &toml::de::Error) -> FileFault {
-        let mut what = error.message().trim().replace('\n', "; ");
-        let unknown = what.strip_prefix("unknown field `");
-        if let Some(unknown) = unknown.and_then(|rest| rest.split('`').next()) {
-            what += &offered(&nearest_names(unknown, &KEYS));
-        }
-        self.fault(error.span().map_or(0, |span| span.start), what)
-    }
-
-    fn fault(&self, offset: usize, what: String) -> FileFault {
-        FileFault::at(self.file, self.text, offset, what)
-    }
+/// Refuses a text that is not there, is not in one line, or holds what a terminal obeys.
+fn check_one_line(place: &FileText, key: &str, text: &Spanned<String>) -> Result<(), FileFault> {
+    let what = if text.get_ref().trim().is_empty() {
+        format!("`{key}` is empty; it wants text")
+    } else if text.get_ref().chars().any(is_hidden) {
+        format!(
+            "`{key}` holds a line break or a control character; it wants one line of plain text"
+        )
+    } else {
+        return Ok(());
+    };
+    Err(place.fault(text.span().start, what))
 }
 
 #[cfg(test)]

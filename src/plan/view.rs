@@ -55,15 +55,39 @@ pub fn material_view(
     material: usize,
     frame: &FramePixels,
 ) -> MaterialView {
-    let screen = Screen::new(request.metric, request.display, request.space);
     let shown = shown_candidates(judged);
     let pixels = &frame.of_material[material];
+    let places: Vec<PixelPlace> = pixels.iter().map(PixelPlace::of).collect();
+    let seen = SeenPixels {
+        rule: RoughRule::of(places.iter()),
+        screen: Screen::new(request.metric, request.display, request.space),
+        pixels,
+        places,
+    };
     let whole: f64 = judged.angles.iter().sum();
     let share = |covered: &f64| covered / whole.max(f64::MIN_POSITIVE);
     MaterialView {
         angles: judged.angles.iter().map(share).collect(),
-        curves: curves(judged, &shown, &screen, pixels),
-        pictures: pictures(judged, &shown, &screen, pixels, frame.size),
+        curves: curves(judged, &shown, &seen),
+        pictures: pictures(judged, &shown, &seen, frame.size),
+    }
+}
+
+/// The pixels of a material in a frame, and where each looks its reflectance up.
+struct SeenPixels<'a> {
+    pixels: &'a [ScenePixel],
+    places: Vec<PixelPlace>,
+    rule: RoughRule,
+    screen: Screen,
+}
+
+impl SeenPixels<'_> {
+    /// What the screen shows of each by a function with these values.
+    fn shown(&self, values: &[[f64; 3]]) -> Vec<DVec3> {
+        let curve = Curve::new(values.to_vec(), &self.rule);
+        let each = self.pixels.iter().zip(&self.places);
+        each.map(|(pixel, place)| self.screen.shown(radiance(pixel, curve.at(place)), 0.0))
+            .collect()
     }
 }
 
@@ -83,20 +107,16 @@ fn shown_candidates(judged: &JudgedMaterial) -> Vec<&JudgedCandidate> {
 fn curves(
     judged: &JudgedMaterial,
     shown: &[&JudgedCandidate],
-    screen: &Screen,
-    pixels: &[ScenePixel],
+    seen: &SeenPixels,
 ) -> Vec<AngleCurve> {
-    let places: Vec<PixelPlace> = pixels.iter().map(PixelPlace::of).collect();
-    let rule = RoughRule::of(places.iter());
-    let truth = Curve::new(judged.truth.clone(), &rule);
+    let truth = seen.shown(&judged.truth);
     let curve = |one: &&JudgedCandidate| {
-        let curve = Curve::new(one.candidate.values.clone(), &rule);
+        let drawn = seen.shown(&one.candidate.values);
         let mut largest = [f64::NAN; DEGREES];
-        for (pixel, place) in pixels.iter().zip(&places) {
-            let seen = |value| screen.place(screen.shown(radiance(pixel, value), 0.0));
-            let [got, truth] = [curve.at(place), truth.at(place)].map(seen);
+        for ((pixel, got), truth) in seen.pixels.iter().zip(drawn).zip(&truth) {
+            let [got, truth] = [got, *truth].map(|shown| seen.screen.place(shown));
             let most = &mut largest[degree_of(pixel)];
-            *most = most.max(screen.difference(got, truth));
+            *most = most.max(seen.screen.difference(got, truth));
         }
         let points = largest.into_iter().enumerate();
         AngleCurve {
@@ -148,23 +168,18 @@ impl Crop {
 fn pictures(
     judged: &JudgedMaterial,
     shown: &[&JudgedCandidate],
-    screen: &Screen,
-    pixels: &[ScenePixel],
+    seen: &SeenPixels,
     [width, _]: [u32; 2],
 ) -> Vec<ViewPicture> {
-    if pixels.is_empty() {
+    if seen.pixels.is_empty() {
         return Vec::new();
     }
-    let crop = Crop::of(pixels, width);
-    let places: Vec<PixelPlace> = pixels.iter().map(PixelPlace::of).collect();
-    let rule = RoughRule::of(places.iter());
+    let crop = Crop::of(seen.pixels, width);
     let picture = |values: &[[f64; 3]]| -> Vec<Option<[f64; 3]>> {
-        let curve = Curve::new(values.to_vec(), &rule);
         let mut picture = vec![None; (crop.size[0] * crop.size[1]) as usize];
-        for (pixel, place) in pixels.iter().zip(&places) {
+        for (pixel, shown) in seen.pixels.iter().zip(seen.shown(values)) {
             if let Some(at) = crop.place(pixel, width) {
-                let seen: DVec3 = screen.shown(radiance(pixel, curve.at(place)), 0.0);
-                picture[at] = Some(seen.to_array());
+                picture[at] = Some(shown.to_array());
             }
         }
         picture

@@ -5,7 +5,7 @@ use std::collections::HashMap;
 use glam::DVec3;
 use toml::Spanned;
 
-use crate::materials::{self, FileFault};
+use crate::materials::{self, FileFault, FileText};
 use crate::names::UnknownName;
 use crate::raster::{Body, Camera, Lens, rotated};
 use crate::scene::{Display, TONE_CURVES, ToneCurve};
@@ -13,7 +13,7 @@ use crate::scene::{Display, TONE_CURVES, ToneCurve};
 use super::super::drawn::SurfaceLook;
 use super::super::pixels::MappedMaterial;
 use super::raw::{OneOrMany, RawCamera, RawLight, RawObject, RawScene, RawTurntable, RawVector};
-use super::{FileText, Light, MOST_FRAMES, Object, SIDES, Shape};
+use super::{Light, MOST_FRAMES, Object, SIDES, Shape};
 
 /// No place is farther away in metres, along each axis, and nothing is larger.
 pub const FARTHEST: f64 = 1e6;

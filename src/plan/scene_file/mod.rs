@@ -33,8 +33,7 @@ mod raw;
 
 use toml::Spanned;
 
-use crate::materials::FileFault;
-use crate::names::{nearest_names, offered};
+use crate::materials::{FileFault, FileText};
 use crate::raster::Camera;
 use crate::scene::Display;
 
@@ -96,7 +95,7 @@ impl SceneFile {
     /// The text is not TOML, a key is missing or unknown, a value lies outside its limits, or the catalogue has no such material.
     pub fn parse(file: &str, text: &str) -> Result<SceneFile, FileFault> {
         let place = FileText { file, text };
-        let raw: RawScene = toml::from_str(text).map_err(|error| place.syntax(&error))?;
+        let raw: RawScene = toml::from_str(text).map_err(|error| place.toml_fault(&error))?;
         let checked = Checked::of(raw, &place)?;
         Ok(SceneFile {
             display: checked.display,
@@ -144,29 +143,5 @@ impl SceneFile {
 
     fn fault(&self, offset: usize, what: String) -> FileFault {
         FileFault::at(&self.file, &self.text, offset, what)
-    }
-}
-
-/// Where in a text a fault stands.
-struct FileText<'a> {
-    file: &'a str,
-    text: &'a str,
-}
-
-impl FileText<'_> {
-    fn fault(&self, offset: usize, what: String) -> FileFault {
-        FileFault::at(self.file, self.text, offset, what)
-    }
-
-    /// What the parser says, with the nearest right key of an unknown one.
-    fn syntax(&self, error: &toml::de::Error) -> FileFault {
-        let mut what = error.message().trim().replace('\n', "; ");
-        if what.starts_with("unknown field `") {
-            let mut quoted = what.split('`').skip(1).step_by(2);
-            let unknown = quoted.next().unwrap_or("");
-            let known: Vec<&str> = quoted.collect();
-            what += &offered(&nearest_names(unknown, &known));
-        }
-        self.fault(error.span().map_or(0, |span| span.start), what)
     }
 }
