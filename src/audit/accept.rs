@@ -10,7 +10,7 @@ use super::language::Language;
 use super::protocol::ProgramCode;
 
 /// What compilers that run beside us say.
-#[derive(Debug, Serialize, Deserialize)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Accepted {
     /// Each with its verdict.
     pub verdicts: Vec<(String, Verdict)>,
@@ -33,6 +33,13 @@ pub fn accepted(language: Language, program: String) -> Accepted {
             }
         }
         Language::Hlsl => hlsl(&program),
+        Language::Slang => {
+            let made = slang(&program, "compute");
+            Accepted {
+                verdicts: vec![(SLANGC.name.to_owned(), made.clone().into())],
+                code: made.map(ProgramCode::Spirv),
+            }
+        }
     }
 }
 
@@ -69,8 +76,26 @@ fn hlsl(program: &str) -> Accepted {
 pub fn module(language: Language, text: &str) -> Result<Vec<u8>, CompilerFault> {
     match language {
         Language::Hlsl => pixel(text),
+        Language::Slang => slang(text, "fragment"),
         Language::Gles | Language::Wgsl => fragment(text),
     }
+}
+
+/// Khronos's compiler of Slang.
+pub static SLANGC: Compiler = Compiler {
+    name: "slangc",
+    command: Some("slangc"),
+    get: "https://github.com/shader-slang/slang/releases",
+};
+
+/// A shader of a stage in Slang as SPIR-V.
+///
+/// # Errors
+/// slangc is not here, or refuses it.
+fn slang(text: &str, stage: &str) -> Result<Vec<u8>, CompilerFault> {
+    let options =
+        format!("FILE -target spirv -stage {stage} -entry {ENTRY} -fvk-use-entrypoint-name -o OUT");
+    compiled(&SLANGC, &options, "shader.slang", text)
 }
 
 /// A pixel shader in HLSL as SPIR-V.

@@ -1,14 +1,12 @@
 //! What each argument of a user's function is: the cosine, a value given with `--arg`, or one that the material has.
 
-use std::collections::BTreeSet;
-
-use crate::fit::values_for_material;
-use crate::methods::{self, Class, Method, find_input};
 use crate::names::UnknownName;
 use crate::reference::MaterialInMedium;
 
-use super::error::{Error, FunctionPlace, ValueFault};
-use super::scan::{FoundFunction, NumberShape};
+use super::cosine::cosine;
+use super::error::{Error, FunctionPlace, MissingArgument, ValueFault};
+use super::quantity::{self, Quantity, meanings, plain};
+use super::scan::{FoundFunction, NumberShape, Parameter};
 
 /// A function with all that it takes.
 #[derive(Clone, Debug)]
@@ -30,8 +28,12 @@ pub struct BoundArgument {
     pub is_rgb: bool,
     /// The value of each channel.
     pub value: [f32; 3],
-    /// Whether the material's value was taken.
-    pub is_filled: bool,
+    /// The quantity whose value in the material was taken; none where numbers were given.
+    pub quantity: Option<Quantity>,
+    /// What it may stand for by its name.
+    pub meanings: Vec<Quantity>,
+    /// Whether its name alone says what it stands for.
+    pub is_by_name: bool,
 }
 
 impl Bound {
@@ -42,10 +44,47 @@ impl Bound {
 
     /// What was filled in, for people.
     pub fn filled(&self) -> Vec<String> {
-        let filled = self.arguments.iter().filter(|argument| argument.is_filled);
-        filled
-            .map(|argument| format!("{} = {}", argument.name, numbers(argument.value)))
+        self.arguments
+            .iter()
+            .filter_map(BoundArgument::filled)
             .collect()
+    }
+
+    /// Whether it gives one number.
+    pub fn is_one_channel(&self) -> bool {
+        self.function.result == NumberShape::Scalar
+    }
+
+    /// The same for the first channel alone.
+    pub fn first_channel(&self) -> Bound {
+        let mut one = self.clone();
+        for argument in one.arguments.iter_mut().filter(|argument| !argument.is_rgb) {
+            argument.value = [argument.value[0]; 3];
+        }
+        one
+    }
+
+    /// How many numbers a material takes.
+    pub fn input_numbers(&self) -> usize {
+        self.arguments.iter().map(BoundArgument::numbers).sum()
+    }
+
+    /// The same with one argument as another quantity; none where the material has no value for it.
+    pub fn with(
+        &self,
+        place: usize,
+        quantity: Quantity,
+        subject: &MaterialInMedium,
+    ) -> Option<Bound> {
+        let mut other = self.clone();
+        let argument = other.arguments.get_mut(place)?;
+        let value = quantity.value(subject)?;
+        if !(argument.is_rgb || self.is_one_channel() || same(&value)) {
+            return None;
+        }
+        argument.value = value.map(|value| value as f32);
+        argument.quantity = Some(quantity);
+        Some(other)
     }
 }
 
@@ -54,6 +93,30 @@ impl BoundArgument {
     pub fn is_split(&self) -> bool {
         let [r, g, b] = self.value;
         !self.is_rgb && (r != g || g != b)
+    }
+
+    /// What was filled in, for people.
+    fn filled(&self) -> Option<String> {
+        let quantity = self.quantity?;
+        let meaning = match plain(&self.name) == plain(quantity.name) {
+            true => String::new(),
+            false => format!(" ({})", quantity.name),
+        };
+        Some(format!("{}{meaning} = {}", self.name, numbers(self.value)))
+    }
+
+    /// What it stands for, as far as that is known.
+    pub fn meaning(&self) -> Option<Quantity> {
+        self.quantity.or(self.meanings.first().copied())
+    }
+
+    /// How many numbers a material takes for it.
+    fn numbers(&self) -> usize {
+        let known = self.meaning().map_or(1, |quantity| quantity.numbers());
+        match self.is_rgb || self.is_split() {
+            true => 3,
+            false => known,
+        }
     }
 }
 
@@ -65,11 +128,18 @@ fn numbers([r, g, b]: [f32; 3]) -> String {
     }
 }
 
-/// A value that a user gives: `name=v` or `name=v,v,v`.
+/// What a user gives for an argument: `name=v`, `name=v,v,v`, or `name=quantity`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Given {
     name: String,
-    values: Vec<f32>,
+    value: GivenValue,
+}
+
+/// Numbers, or what the material has.
+#[derive(Clone, Debug, PartialEq)]
+enum GivenValue {
+    Numbers(Vec<f32>),
+    Quantity(Quantity),
 }
 
 impl Given {
@@ -85,18 +155,34 @@ impl Given {
         let (name, list) = word
             .split_once('=')
             .ok_or_else(|| wrong(ValueFault::NoName))?;
+        let name = name.trim().to_owned();
+        if let Some(quantity) = quantity::find(list.trim()) {
+            let value = GivenValue::Quantity(quantity);
+            return Ok(Given { name, value });
+        }
         let number = |text: &str| {
             let read = text.trim().parse::<f32>().ok();
             let read = read.filter(|value| value.is_finite());
-            read.ok_or_else(|| wrong(ValueFault::NoNumber(text.to_owned())))
+            let fault = || match is_word(text) {
+                true => ValueFault::NoQuantity(quantity::unknown(text.trim())),
+                false => ValueFault::NoNumber(text.to_owned()),
+            };
+            read.ok_or_else(|| wrong(fault()))
         };
         let values: Vec<f32> = list.split(',').map(number).collect::<Result<_, _>>()?;
         if ![1, 3].contains(&values.len()) {
             return Err(wrong(ValueFault::Count(values.len())));
         }
-        let name = name.trim().to_owned();
-        Ok(Given { name, values })
+        let value = GivenValue::Numbers(values);
+        Ok(Given { name, value })
     }
+}
+
+/// Whether a word is meant as the name of a quantity and is none: it holds a letter and is no number, not even one that is not finite.
+fn is_word(text: &str) -> bool {
+    let word = text.trim();
+    let is_number = word.parse::<f32>().is_ok();
+    word.contains(char::is_alphabetic) && !is_number && quantity::find(word).is_none()
 }
 
 /// The function that is meant.
@@ -176,31 +262,57 @@ pub fn bind(
     subject: &MaterialInMedium,
 ) -> Result<Bound, Error> {
     check_names(&function, given)?;
-    let is_per_channel = function.result == NumberShape::Scalar;
     let mut values = Vec::new();
     for param in &function.params {
-        let is_rgb = param.shape == NumberShape::Rgb;
         let own = given.iter().rfind(|given| given.name == param.name);
-        let value = match own {
-            Some(given) => Some((spread(given, is_rgb || is_per_channel)?, false)),
-            None => material_value(subject, &param.name)
-                .filter(|value| is_rgb || is_per_channel || same(value))
-                .map(|value| (value.map(|v| v as f32), true)),
-        };
-        values.push(value.map(|(value, is_filled)| BoundArgument {
-            name: param.name.clone(),
-            is_rgb,
-            value,
-            is_filled,
-        }));
+        values.push(bound_argument(&function, param, own, subject)?);
     }
-    let cosine = cosine(file, &function, &values, subject)?;
+    let cosine = checked_cosine(file, &function, given, &values, subject)?;
     let arguments = values.into_iter().flatten().collect();
     Ok(Bound {
         function,
         cosine,
         arguments,
     })
+}
+
+/// An argument with its value, where there is one.
+fn bound_argument(
+    function: &FoundFunction,
+    param: &Parameter,
+    given: Option<&Given>,
+    subject: &MaterialInMedium,
+) -> Result<Option<BoundArgument>, Error> {
+    let is_rgb = param.shape == NumberShape::Rgb;
+    let may_differ = is_rgb || function.result == NumberShape::Scalar;
+    let meanings = meanings(&param.name, function);
+    let (value, quantity) = match given.map(|given| (given, &given.value)) {
+        Some((given, GivenValue::Numbers(values))) => {
+            (Some(spread(&given.name, values, may_differ)?), None)
+        }
+        Some((_, GivenValue::Quantity(quantity))) => {
+            (filled(*quantity, may_differ, subject), Some(*quantity))
+        }
+        None => {
+            let quantity = meanings.first().copied();
+            let value = quantity.and_then(|quantity| filled(quantity, may_differ, subject));
+            (value, quantity)
+        }
+    };
+    Ok(value.map(|value| BoundArgument {
+        name: param.name.clone(),
+        is_rgb,
+        value,
+        quantity,
+        meanings,
+        is_by_name: given.is_none(),
+    }))
+}
+
+/// What the material has for a quantity, where the argument can take it.
+fn filled(quantity: Quantity, may_differ: bool, subject: &MaterialInMedium) -> Option<[f32; 3]> {
+    let value = quantity.value(subject)?;
+    (may_differ || same(&value)).then(|| value.map(|value| value as f32))
 }
 
 fn check_names(function: &FoundFunction, given: &[Given]) -> Result<(), Error> {
@@ -215,13 +327,13 @@ fn check_names(function: &FoundFunction, given: &[Given]) -> Result<(), Error> {
 }
 
 /// The value of each channel.
-fn spread(given: &Given, may_differ: bool) -> Result<[f32; 3], Error> {
-    match given.values.as_slice() {
+fn spread(name: &str, values: &[f32], may_differ: bool) -> Result<[f32; 3], Error> {
+    match values {
         [one] => Ok([*one; 3]),
         [r, g, b] if may_differ => Ok([*r, *g, *b]),
         _ => Err(Error::ValueCount {
-            name: given.name.clone(),
-            given: given.values.len(),
+            name: name.to_owned(),
+            given: values.len(),
         }),
     }
 }
@@ -230,93 +342,20 @@ fn same(value: &[f64; 3]) -> bool {
     value[0] == value[1] && value[1] == value[2]
 }
 
-/// What the material has for an argument of this name: the same value that our methods take.
-fn material_value(subject: &MaterialInMedium, name: &str) -> Option<[f64; 3]> {
-    let lower = name.to_lowercase();
-    // A letter alone may be a vector of the scene: N.
-    let name = if name.len() > 1 { lower.as_str() } else { name };
-    find_input(name)?;
-    let takes = |method: &&&Method| method.inputs.iter().any(|input| input.name == name);
-    let fits = |method: &&&Method| {
-        let is_usual = !method.is_fitted() || subject.default_methods().contains(&method.name);
-        is_usual && is_given(method) && !method.is_textured() && subject.is_described_by(method)
-    };
-    let exact = methods::find(subject.exact_method()).into_iter();
-    let exact: Vec<&'static Method> = exact.collect();
-    let exact = exact.iter().filter(takes);
-    let method = exact
-        .chain(methods::ALL.iter().filter(takes).filter(fits))
-        .next()?;
-    values_for_material(subject, method).get(name).copied()
-}
-
-/// Whether a material's value of an input is the one that the method was given: others replace colours by those of an index.
-fn is_given(method: &Method) -> bool {
-    method.replacement.is_none() || method.class == Class::Dielectric
-}
-
-/// The names of all arguments that a material has a value for.
-pub fn material_inputs() -> Vec<&'static str> {
-    let given = methods::ALL.iter().filter(|method| is_given(method));
-    let inputs = given.flat_map(|method| method.inputs);
-    let own = inputs.filter(|input| input.is_of_material());
-    own.map(|input| input.name)
-        .collect::<BTreeSet<_>>()
-        .into_iter()
-        .collect()
-}
-
-/// Names that mean the cosine, in small letters without `_`.
-const COSINES: [&str; 25] = [
-    "costheta",
-    "costhetai",
-    "cosine",
-    "cosi",
-    "cos",
-    "costh",
-    "ct",
-    "c",
-    "mu",
-    "ndotv",
-    "ndotl",
-    "ndoth",
-    "vdoth",
-    "ldoth",
-    "hdotv",
-    "hdotl",
-    "vdotn",
-    "ldotn",
-    "nov",
-    "nol",
-    "voh",
-    "loh",
-    "vdoth01",
-    "dotnv",
-    "dotvh",
-];
-
-/// The place of the cosine: by its name, or what alone is left.
-fn cosine(
+/// The place of the cosine, where all others have values.
+fn checked_cosine(
     file: &str,
     function: &FoundFunction,
+    given: &[Given],
     values: &[Option<BoundArgument>],
     subject: &MaterialInMedium,
 ) -> Result<usize, Error> {
-    let plain = |name: &str| name.to_lowercase().replace('_', "");
-    let is_open = |place: &usize| {
-        values[*place].is_none() && function.params[*place].shape == NumberShape::Scalar
-    };
-    let is_named = |place: &usize| COSINES.contains(&plain(&function.params[*place].name).as_str());
-    let open: Vec<usize> = (0..values.len()).filter(is_open).collect();
-    let named: Vec<usize> = open.iter().copied().filter(is_named).collect();
-    let chosen = match (named.as_slice(), open.as_slice()) {
-        ([one], _) | ([], [one]) => Some(*one),
-        _ => None,
-    };
+    let has_value: Vec<bool> = values.iter().map(Option::is_some).collect();
+    let chosen = cosine(function, &has_value);
     let missing = |place: &usize| values[*place].is_none() && Some(*place) != chosen;
-    let missing: Vec<&str> = (0..values.len())
+    let missing: Vec<MissingArgument> = (0..values.len())
         .filter(missing)
-        .map(|place| function.params[place].name.as_str())
+        .map(|place| missing_argument(&function.params[place].name, function, given))
         .collect();
     match (chosen, missing.as_slice()) {
         (Some(place), []) => Ok(place),
@@ -326,9 +365,22 @@ fn cosine(
         (_, missing) => Err(Error::Unbound {
             place: place_of(file, function),
             material: subject.argument.clone(),
-            missing: missing.iter().map(|name| (*name).to_owned()).collect(),
+            missing: missing.to_vec(),
             has_cosine: chosen.is_some(),
         }),
+    }
+}
+
+/// An argument without a value, with what it stands for.
+fn missing_argument(name: &str, function: &FoundFunction, given: &[Given]) -> MissingArgument {
+    let own = given.iter().rfind(|given| given.name == name);
+    let quantity = match own.map(|given| &given.value) {
+        Some(GivenValue::Quantity(quantity)) => Some(*quantity),
+        _ => meanings(name, function).first().copied(),
+    };
+    MissingArgument {
+        name: name.to_owned(),
+        quantity: quantity.map(|quantity| quantity.name),
     }
 }
 
@@ -338,9 +390,12 @@ mod tests {
 
     #[test]
     fn values_are_one_number_or_three() {
-        let read = |word: &str| Given::read(word).map(|given| given.values).ok();
-        assert_eq!(read("f0=.5"), Some(vec![0.5]));
-        assert_eq!(read("f0=1.03,.73, .36"), Some(vec![1.03, 0.73, 0.36]));
+        let read = |word: &str| Given::read(word).map(|given| given.value).ok();
+        let numbers = |all: &[f32]| Some(GivenValue::Numbers(all.to_vec()));
+        assert_eq!(read("f0=.5"), numbers(&[0.5]));
+        assert_eq!(read("f0=1.03,.73, .36"), numbers(&[1.03, 0.73, 0.36]));
+        let inverse = quantity::find("1/eta").map(GivenValue::Quantity);
+        assert_eq!(read("ior=1/eta"), inverse);
         for wrong in [
             "f0",
             "f0=",

@@ -9,6 +9,17 @@ pub struct Competitor {
     pub method: &'static str,
     /// `library` or `specialised`.
     pub form: &'static str,
+    /// How many numbers a material takes by it.
+    pub inputs: usize,
+    /// Its cost on a GPU, and its largest error.
+    pub point: CostAndError,
+}
+
+/// A user's function as it is compared.
+#[derive(Clone, Copy, Debug)]
+pub struct Own {
+    /// How many numbers a material takes.
+    pub inputs: usize,
     /// Its cost on a GPU, and its largest error.
     pub point: CostAndError,
 }
@@ -20,42 +31,70 @@ pub struct Comparison {
     pub method: &'static str,
     /// `library` or `specialised`.
     pub form: &'static str,
+    /// How many numbers a material takes by it.
+    pub inputs: usize,
     /// The user's cost and error over the method's.
     pub times: Multiples,
 }
 
-/// The methods that dominate a user's function: those that are far better first.
-pub fn dominating(own: &CostAndError, competitors: &[Competitor]) -> Vec<Comparison> {
+/// The methods that dominate a user's function: those that are far better first. Which take no more numbers than it does, and which
+/// take more: these buy what they gain, and dominate nothing.
+pub fn dominating(own: &Own, competitors: &[Competitor]) -> (Vec<Comparison>, Vec<Comparison>) {
     let all = competitors.iter().map(|other| compared(own, other));
     let mut found: Vec<Comparison> = all.filter(|other| other.times.is_dominated()).collect();
     let gain = |other: &Comparison| other.times.error * other.times.cost;
     found.sort_by(|a, b| gain(b).total_cmp(&gain(a)).then(a.method.cmp(b.method)));
     found
+        .into_iter()
+        .partition(|other| other.inputs <= own.inputs)
 }
 
-fn compared(own: &CostAndError, competitor: &Competitor) -> Comparison {
+fn compared(own: &Own, competitor: &Competitor) -> Comparison {
     Comparison {
         method: competitor.method,
         form: competitor.form,
-        times: own.multiples_of(&competitor.point),
+        inputs: competitor.inputs,
+        times: own.point.multiples_of(&competitor.point),
     }
 }
 
-/// Which method dominates a user's function, or that none does.
-pub fn sentence(own: &CostAndError, competitors: &[Competitor]) -> String {
-    if let Some(best) = dominating(own, competitors).first() {
-        return format!(
-            "dominated by {}: {} error at {} cost",
-            best.method,
-            times(best.times.error),
-            times(best.times.cost)
-        );
-    }
-    let mut all = competitors.iter().map(|other| compared(own, other));
+/// Which method dominates a user's function, or that none does; and which would with more inputs.
+pub fn sentence(own: &Own, competitors: &[Competitor]) -> String {
+    let (dominating, with_more) = dominating(own, competitors);
+    let among_as_few = match dominating.first() {
+        Some(best) => format!("dominated by {}: {}", best.method, multiples(best)),
+        None => on_the_frontier(own, competitors),
+    };
+    let more = with_more.first().map(|best| {
+        let (method, inputs, own) = (best.method, best.inputs, own.inputs);
+        let multiples = multiples(best);
+        format!(
+            "; against {method}, which takes {inputs} inputs instead of {own}, it has {multiples}"
+        )
+    });
+    among_as_few + &more.unwrap_or_default()
+}
+
+/// Where no method with as few inputs dominates it.
+fn on_the_frontier(own: &Own, competitors: &[Competitor]) -> String {
+    let is_as_small = |other: &&Competitor| other.inputs <= own.inputs;
+    let mut all = competitors
+        .iter()
+        .filter(is_as_small)
+        .map(|other| compared(own, other));
     match all.find(|other| other.times.is_tie()) {
         Some(same) => format!("on the frontier, where {} is", same.method),
-        None => "on the frontier: no method of ours errs less for as little".to_owned(),
+        None => {
+            let why = "no method of ours with as few inputs errs less for as little";
+            format!("on the frontier: {why}")
+        }
     }
+}
+
+/// `9 times the error at 1.4 times the cost`.
+fn multiples(other: &Comparison) -> String {
+    let (error, cost) = (times(other.times.error), times(other.times.cost));
+    format!("{error} error at {cost} cost")
 }
 
 /// `9 times the`, `1.4 times the`, `the same`.
@@ -77,24 +116,29 @@ mod tests {
     use super::*;
 
     fn competitors() -> [Competitor; 3] {
-        let competitor = |method, error, cost| Competitor {
+        let competitor = |method, inputs, error, cost| Competitor {
             method,
-            form: "specialised",
+            form: "library",
+            inputs,
             point: CostAndError { cost, error },
         };
         [
-            competitor("exact", 1e-7, 100.0),
-            competitor("fitted", 0.01, 20.0),
-            competitor("schlick", 0.1, 10.0),
+            competitor("exact", 6, 1e-7, 100.0),
+            competitor("fitted", 12, 0.01, 20.0),
+            competitor("schlick", 3, 0.1, 10.0),
         ]
+    }
+
+    fn own(inputs: usize, error: f64, cost: f64) -> Own {
+        Own {
+            inputs,
+            point: CostAndError { cost, error },
+        }
     }
 
     #[track_caller]
     fn check(error: f64, cost: f64, expected: &str) {
-        assert_eq!(
-            sentence(&CostAndError { cost, error }, &competitors()),
-            expected
-        );
+        assert_eq!(sentence(&own(12, error, cost), &competitors()), expected);
     }
 
     #[test]
@@ -113,7 +157,7 @@ mod tests {
         check(
             0.05,
             12.0,
-            "on the frontier: no method of ours errs less for as little",
+            "on the frontier: no method of ours with as few inputs errs less for as little",
         );
         check(
             3e-7,
@@ -124,14 +168,28 @@ mod tests {
 
     #[test]
     fn all_that_dominate_are_told_the_farthest_first() {
-        let found = dominating(
-            &CostAndError {
-                cost: 40.0,
-                error: 0.2,
-            },
-            &competitors(),
-        );
+        let (found, with_more) = dominating(&own(12, 0.2, 40.0), &competitors());
+        assert!(with_more.is_empty());
         let names: Vec<&str> = found.iter().map(|other| other.method).collect();
         assert_eq!(names, ["fitted", "schlick"]);
+    }
+
+    /// Two functions that differ in how much they are told of a material are no rivals.
+    #[test]
+    fn what_takes_more_numbers_dominates_nothing_and_is_told() {
+        let few = own(3, 0.09, 28.0);
+        let (found, with_more) = dominating(&few, &competitors());
+        assert!(found.is_empty());
+        assert_eq!(with_more[0].method, "fitted");
+        assert_eq!(
+            sentence(&few, &competitors()),
+            "on the frontier: no method of ours with as few inputs errs less for as little; against fitted, which takes 12 inputs instead of 3, it has 9 times the error at 1.4 times the cost"
+        );
+        let (found, _) = dominating(&own(3, 0.2, 28.0), &competitors());
+        assert_eq!(found.len(), 1);
+        assert_eq!(
+            sentence(&own(3, 0.2, 28.0), &competitors()),
+            "dominated by schlick: 2 times the error at 2.8 times the cost; against fitted, which takes 12 inputs instead of 3, it has 20 times the error at 1.4 times the cost"
+        );
     }
 }

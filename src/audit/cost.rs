@@ -3,6 +3,7 @@
 
 use core::time::Duration;
 
+use crate::cost::foreign::ForeignFunction;
 use crate::cost::{
     CompilerSession, Dialect, ENTRY, Family, FragmentShader, GpuCompiler, Probe, foreign, launch,
     told,
@@ -74,7 +75,7 @@ fn shaders(
 ) -> Result<Result<[FragmentShader; 4], String>, Error> {
     let [short, long] = dialect.chains();
     let chain = |evaluations| shader(program, dialect, evaluations);
-    let empty = |evaluations| empty(program.language, dialect, evaluations);
+    let empty = |evaluations| empty(program, dialect, evaluations);
     let mut shaders = Vec::new();
     // A compiler that timed out once is not asked again.
     for made in [chain(short), chain(long), empty(short), empty(long)] {
@@ -126,52 +127,78 @@ fn shader(
         language,
         text: own,
         params,
+        is_scalar,
         ..
     } = program;
+    let foreign_function = |text| ForeignFunction {
+        text,
+        params,
+        is_scalar: *is_scalar,
+    };
     match (language, dialect) {
         (Language::Wgsl, _) => {
-            let probe = Probe::of_text(params.clone(), own.clone(), String::new());
+            let texts = [own.clone(), String::new()];
+            let probe = Probe::of_text(params.clone(), *is_scalar, texts);
             wgsl(&probe, dialect, evaluations)
         }
         (Language::Gles, Dialect::Wgsl) => {
             let own = format!("{PRECISION}{own}");
-            let shader = foreign::glsl(&own, params, evaluations);
+            let shader = foreign::glsl(foreign_function(&own), evaluations);
             Ok(MeasuredShader::Foreign(Language::Gles, shader))
         }
         (Language::Gles, _) => {
-            let own = format!("{PRECISION}{own}");
-            let probe = Probe::of_text(params.clone(), String::new(), own);
+            let texts = [String::new(), format!("{PRECISION}{own}")];
+            let probe = Probe::of_text(params.clone(), *is_scalar, texts);
             Ok(ready(probe.text(evaluations, dialect)))
         }
-        (Language::Hlsl, Dialect::Wgsl) => Ok(MeasuredShader::Foreign(
-            Language::Hlsl,
-            foreign::hlsl(own, params, evaluations),
+        (Language::Hlsl | Language::Slang, Dialect::Wgsl) => Ok(MeasuredShader::Foreign(
+            *language,
+            foreign::hlsl(foreign_function(own), evaluations),
         )),
-        (Language::Hlsl, _) => Err("it takes GLSL ES, which nothing here makes of HLSL".to_owned()),
+        (Language::Hlsl | Language::Slang, _) => {
+            let language = language.name().to_uppercase();
+            Err(format!(
+                "it takes GLSL ES, which nothing here makes of {language}"
+            ))
+        }
     }
 }
 
+/// What the chain itself costs: around the empty function with a result of as many channels.
 fn empty(
-    language: Language,
+    program: &AuditProgram,
     dialect: Dialect,
     evaluations: usize,
 ) -> Result<MeasuredShader, String> {
-    let probe = Probe::empty(Ty::Scalar, Ty::Rgb, Precision::F32);
+    let (language, is_scalar) = (program.language, program.is_scalar);
+    let result = if is_scalar { Ty::Scalar } else { Ty::Rgb };
+    let probe = Probe::empty(Ty::Scalar, result, Precision::F32);
     let none = [Param {
         name: "cos_theta".to_owned(),
         ty: Ty::Scalar,
     }];
+    let foreign_function = |rgb| ForeignFunction {
+        text: if is_scalar {
+            foreign::EMPTY_SCALAR
+        } else {
+            rgb
+        },
+        params: &none,
+        is_scalar,
+    };
     match (language, dialect) {
         (Language::Wgsl, _) => wgsl(&probe, dialect, evaluations),
         (Language::Gles, Dialect::Wgsl) => Ok(MeasuredShader::Foreign(
-            Language::Gles,
-            foreign::glsl(foreign::EMPTY_GLSL, &none, evaluations),
+            language,
+            foreign::glsl(foreign_function(foreign::EMPTY_GLSL), evaluations),
         )),
-        (Language::Hlsl, Dialect::Wgsl) => Ok(MeasuredShader::Foreign(
-            Language::Hlsl,
-            foreign::hlsl(foreign::EMPTY_HLSL, &none, evaluations),
+        (Language::Hlsl | Language::Slang, Dialect::Wgsl) => Ok(MeasuredShader::Foreign(
+            language,
+            foreign::hlsl(foreign_function(foreign::EMPTY_HLSL), evaluations),
         )),
-        (Language::Gles | Language::Hlsl, _) => Ok(ready(probe.text(evaluations, dialect))),
+        (Language::Gles | Language::Hlsl | Language::Slang, _) => {
+            Ok(ready(probe.text(evaluations, dialect)))
+        }
     }
 }
 

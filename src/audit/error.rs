@@ -5,7 +5,7 @@ use thiserror::Error;
 use crate::names::{UnknownName, nearest_names, offered};
 use crate::{emit, process};
 
-use super::bind::material_inputs;
+use super::quantity;
 
 /// Why a user's function cannot be audited.
 #[derive(Debug, Error)]
@@ -20,13 +20,15 @@ pub enum Error {
     #[error(transparent)]
     Emit(#[from] emit::Error),
     /// The ending of the file's name is none of a language's.
-    #[error("{file}: its ending does not tell a language; say --language wgsl, glsl or hlsl")]
+    #[error(
+        "{file}: its ending does not tell a language; say --language wgsl, glsl, hlsl or slang"
+    )]
     NoLanguage {
         /// The file.
         file: String,
     },
     /// A value that is not of the form that values have.
-    #[error("--arg {word}: {fault}; it is name=number or name=number,number,number")]
+    #[error("--arg {word}: {fault}; it is name=number, name=number,number,number or name=quantity")]
     Value {
         /// The word after `--arg`.
         word: String,
@@ -87,7 +89,7 @@ pub enum Error {
         /// The material.
         material: String,
         /// The arguments without a value.
-        missing: Vec<String>,
+        missing: Vec<MissingArgument>,
         /// Whether it is clear which argument is the cosine.
         has_cosine: bool,
     },
@@ -114,9 +116,30 @@ pub enum ValueFault {
     /// A number cannot be read.
     #[error("`{0}` is not a number")]
     NoNumber(String),
+    /// Neither a number nor a quantity.
+    #[error("{0}")]
+    NoQuantity(UnknownName),
     /// It is neither one number nor three.
     #[error("it has {0} numbers")]
     Count(usize),
+}
+
+/// An argument without a value.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct MissingArgument {
+    /// Its name.
+    pub name: String,
+    /// What it stands for, as far as that is known.
+    pub quantity: Option<&'static str>,
+}
+
+impl MissingArgument {
+    fn words(&self) -> String {
+        match self.quantity.filter(|quantity| *quantity != self.name) {
+            Some(quantity) => format!("`{}` ({quantity})", self.name),
+            None => format!("`{}`", self.name),
+        }
+    }
 }
 
 /// A function and where its name stands.
@@ -140,16 +163,22 @@ impl Error {
     }
 }
 
-fn unbound(material: &str, missing: &[String], has_cosine: bool) -> String {
-    let first = missing.first().map_or("", String::as_str);
-    let names: Vec<String> = missing.iter().map(|name| format!("`{name}`")).collect();
-    let like = offered(&nearest_names(first, &material_inputs()));
+fn unbound(material: &str, missing: &[MissingArgument], has_cosine: bool) -> String {
+    let names: Vec<String> = missing.iter().map(MissingArgument::words).collect();
+    let first = missing.first().map_or("", |argument| &argument.name);
+    let is_known = missing
+        .first()
+        .is_some_and(|first| first.quantity.is_some());
+    let like = match is_known {
+        true => String::new(),
+        false => offered(&nearest_names(first, &quantity::names())),
+    };
     let cosine = match has_cosine {
         true => "",
         false => ", and which of its arguments is the cosine is not clear: call it cos_theta",
     };
     format!(
-        "{material} has no value for {}{like}{cosine}; bind with --arg {first}=…",
+        "{material} has no value for {}{like}{cosine}; bind with --arg {first}=NUMBER or --arg {first}=QUANTITY",
         names.join(", ")
     )
 }

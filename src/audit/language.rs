@@ -6,6 +6,7 @@ use crate::emit::shader_words::{Hidden, code_alone};
 use crate::ir::Ty;
 use crate::targets::{DXC, GLES, GLSLANG, HLSL, Target, WGSL};
 
+use super::accept::SLANGC;
 use super::error::Error;
 
 /// A language of functions that users bring.
@@ -17,10 +18,12 @@ pub enum Language {
     Gles,
     /// HLSL.
     Hlsl,
+    /// Slang, run as HLSL is.
+    Slang,
 }
 
 /// Endings of files.
-const ENDINGS: [(&str, Language); 10] = [
+const ENDINGS: [(&str, Language); 11] = [
     ("wgsl", Language::Wgsl),
     ("glsl", Language::Gles),
     ("gles", Language::Gles),
@@ -31,15 +34,17 @@ const ENDINGS: [(&str, Language); 10] = [
     ("hlsl", Language::Hlsl),
     ("hlsli", Language::Hlsl),
     ("fx", Language::Hlsl),
+    ("slang", Language::Slang),
 ];
 
 impl Language {
     /// All of them by their names on the command line; one has two.
-    pub const NAMED: [(&'static str, Language); 4] = [
+    pub const NAMED: [(&'static str, Language); 5] = [
         ("wgsl", Language::Wgsl),
         ("glsl", Language::Gles),
         ("gles", Language::Gles),
         ("hlsl", Language::Hlsl),
+        ("slang", Language::Slang),
     ];
 
     /// The compiler beside us that is asked about it.
@@ -48,6 +53,7 @@ impl Language {
             Language::Wgsl => "tint",
             Language::Gles => GLSLANG.name,
             Language::Hlsl => DXC.name,
+            Language::Slang => SLANGC.name,
         }
     }
 
@@ -71,7 +77,15 @@ impl Language {
         match self {
             Language::Wgsl => &WGSL,
             Language::Gles => &GLES,
-            Language::Hlsl => &HLSL,
+            Language::Hlsl | Language::Slang => &HLSL,
+        }
+    }
+
+    /// Its name in reports: that of its target, or its own.
+    pub fn name(self) -> &'static str {
+        match self {
+            Language::Slang => "slang",
+            _ => self.target().name,
         }
     }
 
@@ -87,8 +101,8 @@ impl Language {
             (Language::Wgsl, true) => "vec3<f32>",
             (Language::Gles, false) => "highp float",
             (Language::Gles, true) => "highp vec3",
-            (Language::Hlsl, false) => "float",
-            (Language::Hlsl, true) => "float3",
+            (Language::Hlsl | Language::Slang, false) => "float",
+            (Language::Hlsl | Language::Slang, true) => "float3",
         }
     }
 }
@@ -110,6 +124,7 @@ mod tests {
         assert_eq!(of("a/b.WGSL"), Some(Language::Wgsl));
         assert_eq!(of("b.frag"), Some(Language::Gles));
         assert_eq!(of("b.fx"), Some(Language::Hlsl));
+        assert_eq!(of("b.slang"), Some(Language::Slang));
         assert_eq!(of("b.txt"), None);
         assert_eq!(of("wgsl"), None);
     }

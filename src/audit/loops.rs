@@ -44,7 +44,7 @@ pub fn counter(language: Language) -> String {
     match language {
         Language::Wgsl => "var<private> fg_turns: i32;\n".to_owned(),
         _ => {
-            let keeps = if language == Language::Hlsl {
+            let keeps = if [Language::Hlsl, Language::Slang].contains(&language) {
                 "static "
             } else {
                 ""

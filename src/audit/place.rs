@@ -37,6 +37,7 @@ fn place(line: &str) -> Option<(usize, Option<usize>)> {
         "shader.vert:",
         "shader.frag:",
         "shader.wgsl:",
+        "shader.slang:",
         "0:",
     ];
     let mark = marks
@@ -78,6 +79,7 @@ mod tests {
         let mesa = "the shader was refused: 0:3(7): error: `x' undeclared\n0:4(1): error: b";
         let dxc = "shader.hlsl:2:9: error: use of undeclared identifier 'x'\n  return x;";
         let glslang = "shader.vert\nERROR: 0:2: 'x' : undeclared identifier";
+        let slangc = "error[E30015]: undefined identifier\n --> shader.slang:3:12\n  |";
         let told = |words| placed("f.x", 5, words);
         assert_eq!(
             told(naga),
@@ -86,6 +88,10 @@ mod tests {
         assert_eq!(told(mesa), "f.x:3:7: `x' undeclared");
         assert_eq!(told(dxc), "f.x:2:9: use of undeclared identifier 'x'");
         assert_eq!(told(glslang), "f.x:2: 'x' : undeclared identifier");
+        assert_eq!(
+            told(slangc),
+            "f.x:3:12: error[E30015]: undefined identifier"
+        );
         assert_eq!(told("gone"), "f.x: gone");
         assert_eq!(
             placed("f.x", 2, dxc.replace("2:9", "7:1").as_str()),

@@ -31,6 +31,8 @@ pub struct AuditProgram {
     pub params: Vec<Param>,
     /// The values of the others.
     pub values: Vec<[f32; 3]>,
+    /// Whether our function gives one number.
+    pub is_scalar: bool,
 }
 
 impl AuditProgram {
@@ -44,7 +46,33 @@ impl AuditProgram {
         (plain, run)
     }
 
+    /// The program whose cost is counted: a function of one channel is called once, for one channel.
+    pub fn measured(language: Language, text: &str, bound: &Bound) -> AuditProgram {
+        match bound.is_one_channel() {
+            true => {
+                let wrapper = |params: &[Param]| one_channel(language, bound, params);
+                AuditProgram {
+                    is_scalar: true,
+                    ..AuditProgram::around(language, text, &bound.first_channel(), false, wrapper)
+                }
+            }
+            false => AuditProgram::new(language, text, bound, false),
+        }
+    }
+
     fn new(language: Language, text: &str, bound: &Bound, counts: bool) -> AuditProgram {
+        let wrapper = |params: &[Param]| wrapper(language, bound, params, counts);
+        AuditProgram::around(language, text, bound, counts, wrapper)
+    }
+
+    /// The text with a function of ours behind it.
+    fn around(
+        language: Language,
+        text: &str,
+        bound: &Bound,
+        counts: bool,
+        wrapper: impl Fn(&[Param]) -> String,
+    ) -> AuditProgram {
         let mut params = vec![param("cos_theta", Ty::Scalar)];
         let ty = |argument: &BoundArgument| match argument.is_rgb || argument.is_split() {
             true => Ty::Rgb,
@@ -52,14 +80,16 @@ impl AuditProgram {
         };
         let named = bound.arguments.iter().enumerate();
         params.extend(named.map(|(i, argument)| param(&format!("a{i}"), ty(argument))));
-        let wrapper = without_macros(text, language) + &wrapper(language, bound, &params, counts);
+        let wrapper = without_macros(text, language) + &wrapper(&params);
         let counter = match counts {
             true => counter(language),
             false => String::new(),
         };
         let text = match (language, counts) {
             (Language::Gles, _) => format!("{counter}{}", framed(text, &wrapper)),
-            (Language::Hlsl, true) => format!("{counter}#line 1\n{text}\n{wrapper}"),
+            (Language::Hlsl | Language::Slang, true) => {
+                format!("{counter}#line 1\n{text}\n{wrapper}")
+            }
             _ => format!("{text}\n{wrapper}{counter}"),
         };
         AuditProgram {
@@ -67,6 +97,7 @@ impl AuditProgram {
             text,
             params,
             values: bound.arguments.iter().map(|a| a.value).collect(),
+            is_scalar: false,
         }
     }
 
@@ -131,8 +162,8 @@ pub fn own_names(words: &str) -> String {
     words.replace(THEIRS, "")
 }
 
-/// Our function around theirs: the cosine, then all others in order; three numbers out.
-fn wrapper(language: Language, bound: &Bound, params: &[Param], counts: bool) -> String {
+/// The arguments of our function, as the language declares them.
+fn declared(language: Language, params: &[Param]) -> String {
     let declared = |param: &Param| {
         let (name, ty) = (format!("fg_{}", param.name), language.ty(param.ty));
         match language {
@@ -141,7 +172,22 @@ fn wrapper(language: Language, bound: &Bound, params: &[Param], counts: bool) ->
         }
     };
     let list: Vec<String> = params.iter().map(declared).collect();
-    let list = list.join(", ");
+    list.join(", ")
+}
+
+/// Our function around theirs: the cosine, then all others in order; one number out.
+fn one_channel(language: Language, bound: &Bound, params: &[Param]) -> String {
+    let (list, ty) = (declared(language, params), language.ty(Ty::Scalar));
+    let call = call(&bound.first_channel(), "x");
+    match language {
+        Language::Wgsl => format!("fn {NAME}({list}) -> {ty} {{ return {call}; }}\n"),
+        _ => format!("{ty} {NAME}({list}) {{ return {call}; }}\n"),
+    }
+}
+
+/// The same with three numbers out.
+fn wrapper(language: Language, bound: &Bound, params: &[Param], counts: bool) -> String {
+    let list = declared(language, params);
     let rgb = language.ty(Ty::Rgb);
     let constructor = rgb.trim_start_matches("highp ");
     let value = if bound.is_per_channel() {
@@ -150,7 +196,7 @@ fn wrapper(language: Language, bound: &Bound, params: &[Param], counts: bool) ->
     } else if bound.function.result == NumberShape::Scalar {
         let one = call(bound, "x");
         match language {
-            Language::Hlsl => format!("({one}).xxx"),
+            Language::Hlsl | Language::Slang => format!("({one}).xxx"),
             _ => format!("{constructor}({one})"),
         }
     } else {

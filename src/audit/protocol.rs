@@ -39,13 +39,13 @@ pub enum AuditResponse {
 }
 
 /// A program.
-#[derive(Debug, Serialize, Deserialize)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub enum ProgramCode {
     /// In WGSL.
     Wgsl(String),
     /// In GLSL ES 3.00.
     Gles(String),
-    /// A module that DXC has made.
+    /// A module that DXC or slangc has made.
     Spirv(Vec<u8>),
 }
 

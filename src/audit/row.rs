@@ -10,15 +10,17 @@ use crate::verify::{Answer, Status, as_object};
 
 use super::Audit;
 use super::bind::{Bound, BoundArgument};
-use super::comparison::{Competitor, dominating, sentence};
+use super::comparison::{Comparison, Competitor, Own, dominating, sentence};
 use super::edges::{EdgeRow, Edges};
 use super::ours::Ours;
+use super::recognised::ExactFit;
 use super::runner::Trouble;
+use super::verdict::{Checked, is_within};
 
 /// A user's function with the values of a material: who accepts it, how far it is from the law, what it costs.
 #[derive(Clone, Debug, Serialize)]
 pub struct AuditRow {
-    /// The target of its language.
+    /// The target of its language, or the language where it is no target.
     pub target: &'static str,
     /// The function, where rows of our own have a method.
     pub method: String,
@@ -32,6 +34,10 @@ pub struct AuditRow {
     pub function: String,
     /// Its file, without folders.
     pub file: String,
+    /// How many channels a call gives.
+    pub channels: usize,
+    /// How many numbers a material takes.
+    pub input_numbers: usize,
     /// Its arguments, in order.
     #[serde(serialize_with = "as_object")]
     pub arguments: Vec<(String, ArgumentValue)>,
@@ -49,6 +55,10 @@ pub struct AuditRow {
     pub model_error: Option<ModelError>,
     /// The same as it is seen.
     pub perceived: Option<PerceivedFigures>,
+    /// The method of ours that it computes, where there is one.
+    pub computes: Option<&'static str>,
+    /// An argument as another quantity, with which it computes a method of ours, where it computes none as it is bound.
+    pub fits_exactly_with: Option<ExactFit>,
     /// What each compiler says of the file.
     #[serde(serialize_with = "as_object")]
     pub accepts: Vec<(String, Answer)>,
@@ -58,14 +68,22 @@ pub struct AuditRow {
     pub beyond: Option<Vec<String>>,
     /// What it costs on each GPU.
     pub cost: Vec<AuditCost>,
-    /// The methods that dominate it.
+    /// Whether these costs are compared with ours.
+    pub is_cost_comparable: bool,
+    /// Why they are not.
+    pub cost_remark: Option<String>,
+    /// The methods that dominate it, and take no more numbers of a material.
     pub dominated_by: Vec<Dominating>,
+    /// The methods that are as accurate and as cheap, and better in one, but take more numbers of a material.
+    pub better_with_more_inputs: Vec<Dominating>,
     /// For each GPU whether a method dominates it, in words; none where the methods are not known there.
     #[serde(serialize_with = "as_object")]
     pub says: Vec<(String, Option<String>)>,
-    /// What to think of it.
+    /// What was checked.
+    pub checked: Checked,
+    /// Whether all that was checked is as it should be.
     pub status: Status,
-    /// Why it is not a pass.
+    /// Why it is not.
     pub reason: Option<String>,
 }
 
@@ -74,8 +92,10 @@ pub struct AuditRow {
 pub struct ArgumentValue {
     /// That of each channel.
     pub value: [f64; 3],
-    /// `material` or `--arg`.
+    /// `material`, or `--arg` where numbers were given.
     pub from: &'static str,
+    /// The quantity that it stands for, where the material gives it.
+    pub quantity: Option<&'static str>,
 }
 
 /// An error as it is seen.
@@ -137,8 +157,10 @@ impl From<AuditCost> for AuditCostJson {
 pub struct Dominating {
     /// The method.
     pub method: &'static str,
-    /// `library` or `specialised`.
+    /// `library`, `scalar` or `specialised`.
     pub form: &'static str,
+    /// How many numbers a material takes by it.
+    pub input_numbers: usize,
     /// The user's error over the method's.
     pub error_times: f64,
     /// The user's cost over the method's.
@@ -156,7 +178,7 @@ impl AuditRow {
 }
 
 /// What came of running a function.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub struct Ran {
     /// On what.
     pub device: String,
@@ -168,6 +190,10 @@ pub struct Ran {
     pub error: ModelError,
     /// The same, as it is seen.
     pub perceived: Perceived,
+    /// The method of ours that it computes.
+    pub computes: Option<&'static str>,
+    /// What makes it compute one.
+    pub exact_fit: Option<ExactFit>,
 }
 
 /// What is known of a function for a material.
@@ -186,6 +212,8 @@ pub struct Audited<'a> {
     pub costs: &'a [AuditCost],
     /// Our methods.
     pub ours: &'a [Ours],
+    /// Why its cost is not compared with theirs.
+    pub cost_remark: Option<String>,
 }
 
 impl Audited<'_> {
@@ -194,16 +222,19 @@ impl Audited<'_> {
         let function = &self.bound.function.name;
         let ran = self.ran.as_ref().ok();
         let (status, reasons) = self.judged();
-        let costs = self.costs.iter().enumerate();
+        let checked = Checked::new(self.verdicts, self.ran, self.audit.max_error);
+        let (dominated_by, better_with_more_inputs) = self.dominating();
         let answer = |(name, verdict): &(String, Verdict)| (name.clone(), verdict.into());
         AuditRow {
-            target: self.audit.language.target().name,
+            target: self.audit.language.name(),
             method: function.clone(),
             material: self.subject.argument.clone(),
             form: "user",
             precision: "f32",
             function: function.clone(),
             file: crate::command_line::file_name(&self.audit.file).to_owned(),
+            channels: if self.bound.is_one_channel() { 1 } else { 3 },
+            input_numbers: self.bound.input_numbers(),
             arguments: self.bound.arguments.iter().map(argument_value).collect(),
             filled: self.bound.filled(),
             device: ran.map(|ran| ran.device.clone()),
@@ -215,14 +246,18 @@ impl Audited<'_> {
                 luminance: ran.perceived.luminance,
                 de2000: ran.perceived.de2000,
             }),
+            computes: ran.and_then(|ran| ran.computes),
+            fits_exactly_with: ran.and_then(|ran| ran.exact_fit.clone()),
             accepts: self.verdicts.iter().map(answer).collect(),
             edges: ran.map(|ran| ran.edges.rows.clone()),
             beyond: ran.map(|ran| ran.edges.remarks.clone()),
             cost: self.costs.to_vec(),
-            dominated_by: costs
-                .flat_map(|(i, cost)| self.dominating(i, cost))
-                .collect(),
+            is_cost_comparable: self.cost_remark.is_none(),
+            cost_remark: self.cost_remark.clone(),
+            dominated_by,
+            better_with_more_inputs,
             says: self.sentences(),
+            checked,
             status,
             reason: (!reasons.is_empty()).then(|| reasons.join("\n")),
         }
@@ -247,6 +282,10 @@ impl Audited<'_> {
                         "{place}: it gives no number at {count} cosines, which no error counts"
                     ));
                 }
+                reasons.extend(
+                    self.above_limit(&ran.error)
+                        .map(|why| format!("{place}: {why}")),
+                );
             }
             Err(Trouble::Failed(why)) => reasons.push(format!("{place}: {why}")),
             Err(Trouble::Refused(..)) => {}
@@ -262,40 +301,69 @@ impl Audited<'_> {
         (status, reasons)
     }
 
+    /// Why an error is larger than it may be.
+    fn above_limit(&self, error: &ModelError) -> Option<String> {
+        let most = self
+            .audit
+            .max_error
+            .filter(|most| !is_within(error, *most))?;
+        let (max_abs, degrees) = (error.max_abs, libm::acos(error.worst_cos).to_degrees());
+        let material = &self.subject.argument;
+        Some(format!(
+            "its error for {material} is {max_abs:.6} at {degrees:.1} degrees, and --max-error allows {most}"
+        ))
+    }
+
+    /// Our methods on the family of this place; none where costs are not compared.
     fn competitors(&self, place: usize) -> Vec<Competitor> {
+        if self.cost_remark.is_some() {
+            return Vec::new();
+        }
         let each = self.ours.iter();
         each.filter_map(|ours| ours.competitor(place)).collect()
     }
 
     /// The cost on the family of this place and the error, where both are known.
-    fn point(&self, cost: &AuditCost) -> Option<CostAndError> {
-        Some(CostAndError {
+    fn point(&self, cost: &AuditCost) -> Option<Own> {
+        let point = CostAndError {
             error: self.ran.as_ref().ok()?.error.max_abs,
             cost: cost.figures.as_ref().ok()?.cost(),
-        })
-    }
-
-    fn dominating(&self, place: usize, cost: &AuditCost) -> Vec<Dominating> {
-        let Some(own) = self.point(cost) else {
-            return Vec::new();
         };
-        let all = dominating(&own, &self.competitors(place)).into_iter();
-        all.map(|other| Dominating {
-            method: other.method,
-            form: other.form,
-            error_times: other.times.error,
-            cost_times: other.times.cost,
-            gpu: cost.family.name,
+        Some(Own {
+            inputs: self.bound.input_numbers(),
+            point,
         })
-        .collect()
     }
 
-    /// For each GPU whether a method of ours dominates the function.
+    /// The methods that are nowhere worse on a GPU: with no more inputs, and with more.
+    fn dominating(&self) -> (Vec<Dominating>, Vec<Dominating>) {
+        let (mut as_few, mut more) = (Vec::new(), Vec::new());
+        for (place, cost) in self.costs.iter().enumerate() {
+            let Some(own) = self.point(cost) else {
+                continue;
+            };
+            let row = |other: Comparison| Dominating {
+                method: other.method,
+                form: other.form,
+                input_numbers: other.inputs,
+                error_times: other.times.error,
+                cost_times: other.times.cost,
+                gpu: cost.family.name,
+            };
+            let found = dominating(&own, &self.competitors(place));
+            as_few.extend(found.0.into_iter().map(row));
+            more.extend(found.1.into_iter().map(row));
+        }
+        (as_few, more)
+    }
+
+    /// For each GPU whether a method of ours dominates the function, or why that is not asked.
     fn sentences(&self) -> Vec<(String, Option<String>)> {
         let each = self.costs.iter().enumerate().filter_map(|(place, cost)| {
             let own = self.point(cost)?;
             let others = self.competitors(place);
             let known = (!others.is_empty()).then(|| sentence(&own, &others));
+            let known = self.cost_remark.clone().or(known);
             Some((cost.family.name.to_owned(), known))
         });
         each.collect()
@@ -305,10 +373,11 @@ impl Audited<'_> {
 fn argument_value(argument: &BoundArgument) -> (String, ArgumentValue) {
     let value = ArgumentValue {
         value: argument.value.map(f64::from),
-        from: match argument.is_filled {
-            true => "material",
-            false => "--arg",
+        from: match argument.quantity {
+            Some(_) => "material",
+            None => "--arg",
         },
+        quantity: argument.quantity.map(|quantity| quantity.name),
     };
     (argument.name.clone(), value)
 }

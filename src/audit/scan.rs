@@ -3,6 +3,7 @@
 use crate::emit::shader_words::{Token, tokens};
 
 use super::language::{Language, bare};
+use super::type_names::TypeNames;
 
 /// A function as its head tells.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -66,10 +67,23 @@ impl FoundFunction {
 pub fn functions(text: &str, language: Language) -> Vec<FoundFunction> {
     let code = bare(text, language.has_preprocessor());
     let tokens = tokens(&code);
-    let bodies = declarations(&tokens).into_iter().filter(|one| one.has_body);
-    bodies
-        .filter_map(|one| function(&tokens[one.start..one.head_end], language))
-        .collect()
+    let names = TypeNames::of_text(text, language);
+    let bodies = bodies(&tokens, &names, language);
+    bodies.map(|(found, _)| found).collect()
+}
+
+/// The functions among words, each with the words of its body.
+pub fn bodies<'t, 'a>(
+    tokens: &'t [Token<'a>],
+    names: &TypeNames,
+    language: Language,
+) -> impl Iterator<Item = (FoundFunction, &'t [Token<'a>])> {
+    let bodies = declarations(tokens).into_iter().filter(|one| one.has_body);
+    bodies.filter_map(move |one| {
+        let head = names.replaced(&tokens[one.start..one.head_end]);
+        let found = function(&head, language)?;
+        Some((found, &tokens[one.head_end..one.end]))
+    })
 }
 
 /// A text of GLSL without what makes a shader of one stage of it, its entry point, inputs and outputs; the rest keeps its place.
@@ -283,6 +297,20 @@ const QUALIFIERS: [&str; 13] = [
 fn without_qualifiers(tokens: &[Token]) -> String {
     let kept = tokens.iter().map(|token| token.text);
     kept.filter(|word| !QUALIFIERS.contains(word)).collect()
+}
+
+/// What words of types and qualifiers say: a type that is known, or qualifiers alone.
+pub type TypeShape = Option<NumberShape>;
+
+/// What words say as a type; none where one of them is no word of a type.
+pub fn type_shape(words: &[&str]) -> Option<TypeShape> {
+    let kept = words.iter().filter(|word| !QUALIFIERS.contains(word));
+    let written: String = kept.copied().collect();
+    match shape(&written) {
+        _ if written.is_empty() => Some(None),
+        NumberShape::Other(_) => None,
+        known => Some(Some(known)),
+    }
 }
 
 fn shape(written: &str) -> NumberShape {

@@ -24,10 +24,21 @@ pub fn charted_function(rows: &[AuditRow]) -> Option<ChartedFunction> {
             name: first.function.clone(),
             about,
             fails: failing.map(fault),
+            no_cost: no_cost(first),
+            input_numbers: first.input_numbers,
         },
         errors: rows.iter().map(errors).collect(),
         costs: costs(rows),
     })
+}
+
+/// Why its costs have no place beside ours: they are those of one channel, or of branches.
+fn no_cost(row: &AuditRow) -> Option<String> {
+    match (&row.cost_remark, row.channels) {
+        (Some(why), _) => Some(format!("its cost is {why}")),
+        (None, 1) => Some("its cost is that of one channel".to_owned()),
+        _ => None,
+    }
 }
 
 /// Its error on each axis; none where it was not run, or gives no number too often.
@@ -51,7 +62,8 @@ fn errors(row: &AuditRow) -> MethodErrors {
 /// are the same.
 fn costs(rows: &[AuditRow]) -> BTreeMap<String, f64> {
     let mut costs = BTreeMap::new();
-    for cost in rows.iter().flat_map(|row| &row.cost) {
+    let rows = rows.iter().filter(|row| no_cost(row).is_none());
+    for cost in rows.flat_map(|row| &row.cost) {
         let Ok(figures) = &cost.figures else { continue };
         let net = figures.cost();
         let most = costs.entry(cost.family.name.to_owned()).or_insert(net);
@@ -63,7 +75,7 @@ fn costs(rows: &[AuditRow]) -> BTreeMap<String, f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::audit::{AuditCost, PerceivedFigures};
+    use crate::audit::{AuditCost, Checked, PerceivedFigures};
     use crate::cost::{CostFigures, Counts, find};
     use crate::fit::ModelError;
 
@@ -92,6 +104,8 @@ mod tests {
             precision: "f32",
             function: "f".to_owned(),
             file: "f.wgsl".to_owned(),
+            channels: 3,
+            input_numbers: 3,
             arguments: Vec::new(),
             filled: Vec::new(),
             device: Some("a device".to_owned()),
@@ -109,12 +123,18 @@ mod tests {
                 luminance: 0.05,
                 de2000: 3.0,
             }),
+            computes: None,
+            fits_exactly_with: None,
             accepts: Vec::new(),
             edges: None,
             beyond: None,
             cost: vec![cost("rdna2", net), cost("gcn4", None)],
+            is_cost_comparable: true,
+            cost_remark: None,
             dominated_by: Vec::new(),
+            better_with_more_inputs: Vec::new(),
             says: Vec::new(),
+            checked: Checked::default(),
             status,
             reason: Some("one\ntwo".to_owned()),
         }
@@ -138,5 +158,22 @@ mod tests {
         assert_eq!(own.costs, BTreeMap::from([("rdna2".to_owned(), 22.0)]));
         assert_eq!(own.user.fails.as_deref(), Some("one; two"));
         assert!(charted_function(&[]).is_none());
+    }
+
+    #[test]
+    fn what_is_not_comparable_has_no_cost_and_says_why() {
+        let branches = AuditRow {
+            cost_remark: Some("not compared with ours: it branches".to_owned()),
+            ..row(0, Some(20.0), Status::Pass)
+        };
+        let scalar = AuditRow {
+            channels: 1,
+            ..row(0, Some(20.0), Status::Pass)
+        };
+        for (row, says) in [(branches, "it branches"), (scalar, "one channel")] {
+            let own = charted_function(&[row]).unwrap();
+            assert!(own.costs.is_empty());
+            assert!(own.user.no_cost.unwrap().contains(says));
+        }
     }
 }

@@ -11,7 +11,7 @@ mod sets;
 
 use serde::Serialize;
 
-use crate::cost::{CostAndError, pareto_frontier};
+use crate::cost::{CostAndError, input_numbers, pareto_frontier};
 use crate::fit::MethodErrors;
 use crate::methods::{Contract, Method};
 
@@ -92,6 +92,10 @@ pub struct UserFunction {
     pub about: String,
     /// What is wrong with it, if anything is.
     pub fails: Option<String>,
+    /// Why its cost has no place beside ours, if it has none.
+    pub no_cost: Option<String>,
+    /// How many numbers a material takes by it.
+    pub input_numbers: usize,
 }
 
 /// What an evaluation costs somewhere.
@@ -163,6 +167,7 @@ pub struct PointRow<'a> {
     material: &'a str,
     method: &'a str,
     inputs: &'static str,
+    input_numbers: usize,
     gpu: &'static str,
     cost: f64,
     fetches: usize,
@@ -221,15 +226,12 @@ impl<'a> ChartView<'a> {
         let rows = self.data.entries.iter().enumerate();
         let mut own = rows.filter_map(|(place, entry)| Some((place, entry.user()?)));
         let (place, user) = own.next()?;
-        let what = match (self.error_of(place), self.cost.costs[place]) {
-            (None, _) => "error",
-            (_, None) => "cost",
+        let why = match (self.error_of(place), self.cost.costs[place]) {
+            (None, _) => "its error is not known",
+            (_, None) => user.no_cost.as_deref().unwrap_or("its cost is not known"),
             _ => return None,
         };
-        Some(format!(
-            "{} has no point here: its {what} is not known.",
-            user.name
-        ))
+        Some(format!("{} has no point here: {why}.", user.name))
     }
 
     /// What the chart shows, in one line that begins with the set's title.
@@ -244,6 +246,7 @@ impl<'a> ChartView<'a> {
             material: &self.set.name,
             method: point.entry.name(),
             inputs: point.entry.inputs(),
+            input_numbers: point.entry.input_numbers(),
             gpu: self.cost.name,
             cost: point.cost,
             fetches: point.entry.fetches,
@@ -305,6 +308,14 @@ impl ChartEntry {
     /// Whether its coefficients are fitted here.
     pub fn is_fitted(&self) -> bool {
         self.method().is_some_and(Method::is_fitted)
+    }
+
+    /// How many numbers a material takes by it.
+    pub fn input_numbers(&self) -> usize {
+        match &self.function {
+            FunctionOrigin::User(user) => user.input_numbers,
+            FunctionOrigin::Method(method) => input_numbers(method),
+        }
     }
 
     /// Which inputs it has, or that it is a user's, in one word.

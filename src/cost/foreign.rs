@@ -1,7 +1,7 @@
 //! The shader that is measured around a function of a user's in HLSL or GLSL: as [`Probe`](super::Probe) has it in WGSL, for
 //! compilers that make SPIR-V of those languages.
 //!
-//! The function is `fg_measured`, with its cosine first and three channels out.
+//! The function is `fg_measured`, with its cosine first and one channel or three out.
 
 use crate::ir::Param;
 use crate::num::Precision;
@@ -14,9 +14,22 @@ use super::probe::{BLOCKS, ENTRY};
 pub const EMPTY_HLSL: &str = "float3 fg_measured(float c) { return float3(c, c, c); }\n";
 /// The same in GLSL.
 pub const EMPTY_GLSL: &str = "vec3 fg_measured(float c) { return vec3(c); }\n";
+/// The same of one channel, in both.
+pub const EMPTY_SCALAR: &str = "float fg_measured(float c) { return c; }\n";
+
+/// A function as it is measured.
+#[derive(Clone, Copy, Debug)]
+pub struct ForeignFunction<'a> {
+    /// Its text.
+    pub text: &'a str,
+    /// What it takes, the cosine first.
+    pub params: &'a [Param],
+    /// Whether it gives one number.
+    pub is_scalar: bool,
+}
 
 /// A pixel shader in HLSL.
-pub fn hlsl(text: &str, params: &[Param], evaluations: usize) -> String {
+pub fn hlsl(function: ForeignFunction, evaluations: usize) -> String {
     let block = format!(
         "struct FgArguments {{\n{{members}}}};\n[[vk::binding(0, 0)]] cbuffer FgBlock {{ FgArguments fg_arguments[{BLOCKS}]; }};\n"
     );
@@ -24,7 +37,7 @@ pub fn hlsl(text: &str, params: &[Param], evaluations: usize) -> String {
         "{{function}}
 {{arguments}}float4 {ENTRY}([[vk::location(0)]] float4 fg_in : TEXCOORD0) : SV_Target0
 {{
-{{chain}}    return float4({{last}}, 1.0);
+{{chain}}    return float4((float3){{last}}, 1.0);
 }}
 "
     );
@@ -35,11 +48,11 @@ pub fn hlsl(text: &str, params: &[Param], evaluations: usize) -> String {
         shader: &shader,
         ..C_LIKE
     };
-    chain(text, params, evaluations).shader(&language)
+    chain(function, evaluations).shader(&language)
 }
 
 /// A fragment shader in GLSL 4.50 for Vulkan.
-pub fn glsl(text: &str, params: &[Param], evaluations: usize) -> String {
+pub fn glsl(function: ForeignFunction, evaluations: usize) -> String {
     let block = format!(
         "struct FgArguments {{\n{{members}}}};\nlayout(std140, set = 0, binding = 0) uniform FgBlock {{ FgArguments fg_arguments[{BLOCKS}]; }};\n"
     );
@@ -53,12 +66,12 @@ layout(location = 0) in vec4 fg_in;
 layout(location = 0) out vec4 fg_colour;
 {arguments}void main()
 {
-{chain}    fg_colour = vec4({last}, 1.0);
+{chain}    fg_colour = vec4(vec3({last}), 1.0);
 }
 ",
         ..C_LIKE
     };
-    chain(text, params, evaluations).shader(&language)
+    chain(function, evaluations).shader(&language)
 }
 
 /// What HLSL and GLSL share. No function of a user's reads a texture. Locals have a prefix, because the text may define names
@@ -77,11 +90,11 @@ const C_LIKE: ChainLanguage = ChainLanguage {
     shader: "",
 };
 
-fn chain<'a>(function: &'a str, params: &'a [Param], evaluations: usize) -> Chain<'a> {
+fn chain(function: ForeignFunction<'_>, evaluations: usize) -> Chain<'_> {
     Chain {
-        function,
-        params,
-        is_scalar: false,
+        function: function.text,
+        params: function.params,
+        is_scalar: function.is_scalar,
         evaluations,
     }
 }
@@ -103,9 +116,19 @@ mod tests {
             param("a0", Ty::Rgb),
             param("a1", Ty::Scalar),
         ];
-        let text = hlsl("", &params, 2);
+        let function = |text, params| ForeignFunction {
+            text,
+            params,
+            is_scalar: false,
+        };
+        let text = hlsl(function("", &params), 2);
         assert!(text.contains("fg_measured(fg_c1, fg_arguments[1].a0.xyz, fg_arguments[1].a1.x)"));
         assert!(text.contains("fg_c1 = fg_r0.x * fg_r0.y - fg_r0.z + fg_w.z;"));
-        assert!(!glsl(EMPTY_GLSL, &params[..1], 2).contains("FgArguments"));
+        assert!(!glsl(function(EMPTY_GLSL, &params[..1]), 2).contains("FgArguments"));
+        let scalar = ForeignFunction {
+            is_scalar: true,
+            ..function(EMPTY_SCALAR, &params[..1])
+        };
+        assert!(hlsl(scalar, 2).contains("float fg_r1 = fg_measured(fg_c1);"));
     }
 }

@@ -8,6 +8,7 @@ mod figures;
 pub mod foreign;
 #[cfg(all(feature = "cli", feature = "gpu"))]
 mod function;
+mod inputs;
 mod known;
 mod pareto;
 mod probe;
@@ -30,6 +31,7 @@ pub use family::{Dialect, FAMILIES, Family, GpuCompiler, find};
 pub use figures::{CostFigures, Counts, StatisticNames, Statistics, figures, remarked};
 #[cfg(all(feature = "cli", feature = "gpu"))]
 pub use function::{CostedFunction, functions, functions_of_effect};
+pub use inputs::input_numbers;
 pub use known::{
     CostBasis, KnownCost, function_cost, known_cost, known_library_cost, library_cost,
 };

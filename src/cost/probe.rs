@@ -60,11 +60,11 @@ impl Probe {
     }
 
     /// A function that is there as text, under the name `fg_measured`: in WGSL, and in GLSL ES, as far as it is known. It gives
-    /// three channels.
-    pub fn of_text(params: Vec<Param>, wgsl: String, gles: String) -> Probe {
+    /// one channel, or three.
+    pub fn of_text(params: Vec<Param>, is_scalar: bool, [wgsl, gles]: [String; 2]) -> Probe {
         Probe {
             params,
-            is_scalar: false,
+            is_scalar,
             precision: Precision::F32,
             texts: [wgsl, gles],
         }

@@ -1,6 +1,6 @@
 //! What an audit found of a user's function for a material, for people.
 
-use crate::audit::{AuditCost, AuditRow};
+use crate::audit::{AuditCost, AuditRow, ExactFit};
 use crate::fit::ModelError;
 use crate::verify::Status;
 
@@ -32,11 +32,44 @@ fn lines(row: &AuditRow) -> Vec<(&'static str, String)> {
                 .iter()
                 .map(|error| ("model error", model_error(error))),
         );
+        lines.extend(computes(row).map(|words| ("computes", words)));
     }
+    lines.push(("inputs", inputs(row)));
     let costs = row.cost.iter();
     lines.extend(costs.map(|cost| ("cost", cost_line(row, cost))));
-    lines.push(("status", row.status.words().to_owned()));
+    lines.push(("checked", row.checked.words(row.status)));
     lines
+}
+
+/// What the function computes, where it is a method of ours or would be with another quantity.
+fn computes(row: &AuditRow) -> Option<String> {
+    if let Some(method) = row.computes {
+        return Some(format!("{method}, as it is bound"));
+    }
+    let fit = row.fits_exactly_with.as_ref()?;
+    let ExactFit {
+        argument,
+        quantity,
+        method,
+        max_abs,
+    } = fit;
+    Some(format!(
+        "fits exactly with {quantity} for `{argument}`: it is {method} then, with an error of {max_abs:.6} at most; bind it with --arg {argument}={quantity}"
+    ))
+}
+
+/// How much it takes, and how much it gives.
+fn inputs(row: &AuditRow) -> String {
+    let numbers = match row.input_numbers {
+        0 => "no numbers".to_owned(),
+        1 => "1 number".to_owned(),
+        count => format!("{count} numbers"),
+    };
+    let channels = match row.channels {
+        1 => "; one channel, and costs are those of one",
+        _ => "",
+    };
+    format!("{numbers} of a material{channels}")
 }
 
 fn edges(row: &AuditRow) -> String {

@@ -23,22 +23,28 @@ use super::{CheckReportFlags, GamutFlags, MaterialFlags, MediumFlags, PictureFla
 #[command(
     mut_arg("material", |arg| arg.help("Names, or paths of material files").required_unless_present("worker")),
     mut_arg("out_dir", |arg| arg.help("Write chart.svg and chart.html into this folder: `chart` of these materials, with this function as one more point")),
-    after_help = "Examples:\n  fresnel-gen audit mine.glsl --function fresnel --material gold\n  fresnel-gen audit mine.hlsl --function schlick --arg f0=1.03,.73,.36 --material gold --json -\n  fresnel-gen audit mine.wgsl --material gold,platinum --out-dir charts\n\nThe function takes the cosine and whatever --arg binds; arguments named as ours are (eta, n, k, f0, f82, lambda, c0 ...) that are not bound have the material's values. A function of single numbers is called once a channel where they differ. It runs in a process of its own, within --limit. Exit codes: 0 done, 1 a compiler refuses it, it does not end, or a result is no reflectance; 2 wrong input, 3 something is missing here. Being dominated is no finding."
+    after_help = "Examples:\n  fresnel-gen audit mine.glsl --function fresnel --material gold\n  fresnel-gen audit mine.hlsl --function schlick --arg f0=1.03,.73,.36 --material gold --json -\n  fresnel-gen audit mine.wgsl --material gold,platinum --out-dir charts\n\n  fresnel-gen audit mine.slang --arg ior=1/eta --material water,diamond --max-error 0.001\n\nThe function takes the cosine and whatever --arg binds; arguments that are not bound and have names of ours (eta, n, k, f0, f82, lambda, c0 ...) or of engines (ior, extinction, SpecularColor, edgeTint ...) have the material's values. A function of single numbers is called once a channel where they differ. It runs in a process of its own, within --limit. Exit codes: 0 done, 1 a compiler refuses it, it does not end, a result is no reflectance, or its error is above --max-error; 2 wrong input, 3 something is missing here. Being dominated is no finding."
 )]
 pub struct AuditFlags {
-    /// The file: .wgsl, .glsl (as GLSL ES 3.00) or .hlsl
+    /// The file: .wgsl, .glsl (as GLSL ES 3.00), .hlsl or .slang
     #[arg(required_unless_present = "worker")]
     pub file: Option<String>,
     /// The function; a file that holds one needs no name
     #[arg(long, value_name = "NAME")]
     pub function: Option<String>,
-    /// The language, where the file's ending does not tell it: wgsl, glsl or hlsl
+    /// The language, where the file's ending does not tell it: wgsl, glsl, hlsl or slang
     #[cfg(feature = "gpu")]
     #[arg(long, value_name = "NAME", value_parser = one_of("language", Language::NAMED, |(name, _)| name))]
     pub language: Option<(&'static str, Language)>,
-    /// An argument's value: name=number or name=number,number,number
-    #[arg(long, value_name = "NAME=V[,V,V]")]
+    /// An argument's value: name=number, name=number,number,number, or a quantity of the material, as in ior=1/eta
+    #[arg(long, value_name = "NAME=VALUE")]
     pub arg: Vec<String>,
+    /// The largest error that is no finding [default: none is]
+    #[arg(long, value_name = "ERROR")]
+    pub max_error: Option<f64>,
+    /// Compare it with methods alone that take at most so many numbers of a material (schlick 3, f82_tint 6, fitted 12)
+    #[arg(long, value_name = "NUMBER")]
+    pub max_inputs: Option<usize>,
     /// Which materials.
     #[command(flatten)]
     pub materials: MaterialFlags,
@@ -84,6 +90,8 @@ impl AuditFlags {
             .list("medium", &self.medium.medium)
             .seen_as(viewing)
             .list("gpu", &self.gpu)
+            .list("max-error", self.max_error)
+            .list("max-inputs", self.max_inputs)
     }
 }
 

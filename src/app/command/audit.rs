@@ -8,7 +8,7 @@ use crate::app::fault::RequestFault;
 use crate::app::request::{Materials, Request};
 use crate::app::source::shader;
 use crate::app::write::{try_places_of_ours, write_file};
-use crate::audit::{Audit, AuditRow, Given, Language, serve};
+use crate::audit::{Audit, AuditRow, AuditRows, Given, Language, serve};
 use crate::chart::{ChartView, CostAxis, STATISTICS, chart_data, charted_function};
 use crate::cost::{self, FAMILIES, Family};
 use crate::reference::MaterialInMedium;
@@ -34,6 +34,7 @@ pub fn run(flags: &AuditFlags, progress: Progress) -> Result<Output, Error> {
         });
     }
     check_limit(flags.limit)?;
+    check_max_error(flags.max_error)?;
     let request = request(flags)?;
     let audit = audit(flags, request.viewing.integration.space)?;
     let subjects = request.subjects()?.materials();
@@ -41,8 +42,7 @@ pub fn run(flags: &AuditFlags, progress: Progress) -> Result<Output, Error> {
     let all = flags.report.files().chain(&charts);
     try_files(&all.map(PathBuf::as_path).collect::<Vec<_>>())?;
     try_places_of_ours(&charts, flags.pictures.overwrite)?;
-    let rows = subjects.iter().map(|one| audit.audit_row(one, progress));
-    let rows: Vec<AuditRow> = rows.collect::<Result<_, _>>()?;
+    let AuditRows { rows, skipped } = audit.rows(&subjects, progress)?;
     let command = String::from(flags.command_line(&request.viewing));
     if let Some(file) = &flags.report.junit {
         let xml = audit_junit(&rows).map_err(not_drawn)?;
@@ -53,15 +53,24 @@ pub fn run(flags: &AuditFlags, progress: Progress) -> Result<Output, Error> {
     let charted = match flags.pictures.folder() {
         Some(folder) => {
             let place = (folder, flags.pictures.overwrite);
+            let subjects = audited(subjects, &rows);
             charted(place, &rows, &subjects, audit.space, command, progress)?
         }
         None => Vec::new(),
     };
     let texts: Vec<String> = rows.iter().map(audit_text).collect();
     let mut output = report(texts.join("\n"), &full, flags.report.report.json())?;
-    output.remarks = rows.iter().flat_map(audit_remarks).chain(charted).collect();
+    let skipped = skipped.iter().map(|why| format!("not audited: {why}"));
+    let remarks = rows.iter().flat_map(audit_remarks);
+    output.remarks = remarks.chain(skipped).chain(charted).collect();
     output.code = code(&rows);
     Ok(output)
+}
+
+/// The materials that have a row.
+fn audited(subjects: Vec<MaterialInMedium>, rows: &[AuditRow]) -> Vec<MaterialInMedium> {
+    let has_row = |one: &MaterialInMedium| rows.iter().any(|row| row.material == one.argument);
+    subjects.into_iter().filter(has_row).collect()
 }
 
 /// Draws the charts of these materials with the function as one more point, and says where, and what lacks. The place is a
@@ -122,12 +131,27 @@ fn audit(flags: &AuditFlags, space: Space) -> Result<Audit, Error> {
         families: families(&flags.gpu)?,
         text: shader(&file)?,
         function: flags.function.clone(),
+        max_error: flags.max_error,
+        max_inputs: flags.max_inputs,
         tools: flags.tools.clone(),
         seconds: flags.limit,
         workers: machine::cores(),
         file,
         language,
     })
+}
+
+/// Refuses a limit of errors that says nothing.
+fn check_max_error(most: Option<f64>) -> Result<(), Error> {
+    match most {
+        Some(most) if !(0.0..=1.0).contains(&most) => Err(RequestFault::OutOfRange {
+            flag: "max-error",
+            value: most.to_string(),
+            allowed: "is 0 to 1, a difference of reflectance".to_owned(),
+        }
+        .into()),
+        _ => Ok(()),
+    }
 }
 
 fn families(asked: &[Choice<&'static Family>]) -> Result<Vec<&'static Family>, Error> {

@@ -24,10 +24,12 @@ struct PageData<'a> {
 struct EntryColumns<'a> {
     label: String,
     inputs: &'static str,
+    input_numbers: usize,
     summary: &'a str,
     source: String,
     fetches: usize,
     fails: Option<&'a str>,
+    no_cost: Option<&'a str>,
 }
 
 #[derive(Serialize)]
@@ -94,10 +96,12 @@ fn entry_columns(entry: &ChartEntry) -> EntryColumns<'_> {
     EntryColumns {
         label: entry.label(),
         inputs: entry.inputs(),
+        input_numbers: entry.input_numbers(),
         summary,
         source,
         fetches: entry.fetches,
         fails: entry.fails(),
+        no_cost: entry.user().and_then(|user| user.no_cost.as_deref()),
     }
 }
 

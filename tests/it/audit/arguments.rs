@@ -19,7 +19,7 @@ fn a_wrong_argument_is_named_with_the_nearest_right_one() {
             "one number in a function that gives three",
         ),
         ("--arg sharp=1,2", "it has 2 numbers"),
-        ("--arg sharp=high", "`high` is not a number"),
+        ("--arg sharp=high", "there is no quantity `high`"),
         ("--arg sharp=nan", "`nan` is not a number"),
         ("--arg sharp", "it has no `=`"),
         (
@@ -140,4 +140,82 @@ fn names_of_the_program_around_it_do_not_collide() {
         "audit g.wgsl --material gold",
         &["g.wgsl:1:4: the name `fg_main`"],
     );
+}
+
+/// Names of engines, quantities of ours, and what is neither.
+#[test]
+fn an_argument_is_bound_to_a_quantity_by_its_name() {
+    let place = Place::new();
+    place.put(
+        "f.glsl",
+        "float f(float cosine, float strange) { return cosine * strange; }",
+    );
+    let line = "f.glsl --material water --gpu none --arg strange=1/eta --json -";
+    place.refused("audit f.glsl --material water", &["no value for `strange`"]);
+    if let Some(ran) = audit(&place, line) {
+        let row = rows(&ran.ends(0)).remove(0);
+        let strange = &row["arguments"]["strange"];
+        assert_eq!(strange["quantity"], "1/eta", "{row}");
+        assert_eq!(strange["from"], "material", "{row}");
+        let value = strange["value"][0].as_f64().unwrap();
+        assert!((value - 1.0 / 1.3313).abs() < 1e-4, "{row}");
+        assert_eq!(
+            row["filled"][0].as_str().unwrap().split(" = ").next(),
+            Some("strange (1/eta)")
+        );
+    }
+    for (flags, says) in [
+        (
+            "--arg strange=1/eto",
+            "there is no quantity `1/eto` (did you mean 1/eta",
+        ),
+        ("--arg strange=f82_tin", "(did you mean f82_tint"),
+        ("--arg strange=nan", "`nan` is not a number"),
+        ("--arg strange=1/2", "`1/2` is not a number"),
+        ("--arg strange=f82,f82,f82", "`f82` is not a number"),
+        (
+            "--arg strong=eta",
+            "there is no argument `strong` (did you mean strange",
+        ),
+    ] {
+        place.refused(&format!("audit f.glsl --material water {flags}"), &[says]);
+    }
+    place.refused(
+        "audit f.glsl --material gold --arg strange=eta",
+        &["gold has no value for `strange` (eta)"],
+    );
+}
+
+/// Macros that stand for types, as Unity's.
+#[test]
+fn macros_that_stand_for_types_are_read() {
+    let place = Place::new();
+    place.put(
+        "f.glsl",
+        "#define real float\n#define real3 vec3\n#define CONST const in highp\nreal3 f(CONST real3 f0, real u) { return f0 * u; }\n",
+    );
+    place.put(
+        "f.hlsl",
+        "#if defined(SHADER_API_MOBILE)\n#define real half\n#define real3 half3\n#else\n#define real float\n#define real3 float3\n#endif\n#define TEMPLATE inline\nTEMPLATE real3 f(real3 f0, real u) { return f0 * u; }\n",
+    );
+    place.put(
+        "typedef.hlsl",
+        "typedef float3 Colour;\nColour f(Colour f0, float u) { return f0 * u; }\n",
+    );
+    place.put(
+        "f.wgsl",
+        "alias real = f32;\nfn f(f0: vec3f, u: real) -> vec3f { return f0 * u; }\n",
+    );
+    for file in ["f.glsl", "f.hlsl", "typedef.hlsl", "f.wgsl"] {
+        let line = format!("{file} --material gold --gpu none --json -");
+        if let Some(ran) = audit(&place, &line) {
+            let row = rows(&ran.ends(0)).remove(0);
+            assert_eq!(row["input_numbers"], 3, "{row}");
+        }
+    }
+    place.put(
+        "wide.hlsl",
+        "#if WIDE\n#define real float3\n#else\n#define real float\n#endif\nreal f(real f0, float u) { return f0 * u; }\n",
+    );
+    place.refused("audit wide.hlsl --function f --material gold", &["`real`"]);
 }

@@ -2,6 +2,8 @@
 
 mod arguments;
 mod charts;
+mod compared;
+pub mod published;
 pub mod thesis;
 mod untrusted;
 
