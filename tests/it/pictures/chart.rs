@@ -345,7 +345,7 @@ fn a_users_function_stands_at_its_own_error_and_cost() {
         return;
     };
     ran.ends(0);
-    if place.read("theirs/chart.svg").contains("has no point") {
+    if place.read("theirs/chart.svg").contains("has no point here") {
         return crate::not_checked("a user's function on the chart: no compiler told its cost");
     }
     assert_eq!(check_all(&place.path("")).len(), 2);
