@@ -355,7 +355,7 @@ fn checked_cosine(
     let missing = |place: &usize| values[*place].is_none() && Some(*place) != chosen;
     let missing: Vec<MissingArgument> = (0..values.len())
         .filter(missing)
-        .map(|place| missing_argument(&function.params[place].name, function, given))
+        .map(|place| missing_argument(&function.params[place].name, function, given, subject))
         .collect();
     match (chosen, missing.as_slice()) {
         (Some(place), []) => Ok(place),
@@ -372,7 +372,12 @@ fn checked_cosine(
 }
 
 /// An argument without a value, with what it stands for.
-fn missing_argument(name: &str, function: &FoundFunction, given: &[Given]) -> MissingArgument {
+fn missing_argument(
+    name: &str,
+    function: &FoundFunction,
+    given: &[Given],
+    subject: &MaterialInMedium,
+) -> MissingArgument {
     let own = given.iter().rfind(|given| given.name == name);
     let quantity = match own.map(|given| &given.value) {
         Some(GivenValue::Quantity(quantity)) => Some(*quantity),
@@ -381,6 +386,7 @@ fn missing_argument(name: &str, function: &FoundFunction, given: &[Given]) -> Mi
     MissingArgument {
         name: name.to_owned(),
         quantity: quantity.map(|quantity| quantity.name),
+        is_one_of_three: quantity.is_some_and(|quantity| quantity.value(subject).is_some()),
     }
 }
 

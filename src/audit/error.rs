@@ -131,14 +131,19 @@ pub struct MissingArgument {
     pub name: String,
     /// What it stands for, as far as that is known.
     pub quantity: Option<&'static str>,
+    /// Whether the material has three values for it, and it takes one.
+    pub is_one_of_three: bool,
 }
 
 impl MissingArgument {
     fn words(&self) -> String {
-        match self.quantity.filter(|quantity| *quantity != self.name) {
-            Some(quantity) => format!("`{}` ({quantity})", self.name),
-            None => format!("`{}`", self.name),
-        }
+        let meaning = self.quantity.filter(|quantity| *quantity != self.name);
+        let meaning = meaning.map_or(String::new(), |quantity| format!(" ({quantity})"));
+        let why = match self.is_one_of_three {
+            true => ", which is one number here and differs between the channels",
+            false => "",
+        };
+        format!("`{}`{meaning}{why}", self.name)
     }
 }
 

@@ -182,7 +182,15 @@ fn an_argument_is_bound_to_a_quantity_by_its_name() {
     }
     place.refused(
         "audit f.glsl --material gold --arg strange=eta",
-        &["gold has no value for `strange` (eta)"],
+        &["gold has no value for `strange` (eta); bind"],
+    );
+    place.put(
+        "three.glsl",
+        "vec3 f(float cosine, float ior) { return vec3(cosine * ior); }",
+    );
+    place.refused(
+        "audit three.glsl --material water",
+        &["water has no value for `ior` (eta), which is one number here and differs between the channels; bind"],
     );
 }
 
