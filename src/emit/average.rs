@@ -11,11 +11,12 @@ use super::error::Error;
 use super::form::FunctionForm;
 use super::function::{Emitted, Naming, library_function};
 
-/// The means of a fitted method's library file: three channels, and one. None for other methods.
+/// What stands beside a method's functions and takes no cosine: the means of a fitted method, three channels and one; the
+/// coefficients that a method finds for a fitted one.
 ///
 /// # Errors
 /// A graph breaks a rule of the representation: a bug.
-pub fn average_functions(method: &'static Method, naming: &Naming) -> Result<Vec<Emitted>, Error> {
+pub fn companions(method: &'static Method, naming: &Naming) -> Result<Vec<Emitted>, Error> {
     let forms = [
         (FunctionForm::Average, false),
         (FunctionForm::AverageScalar, true),
@@ -24,7 +25,24 @@ pub fn average_functions(method: &'static Method, naming: &Naming) -> Result<Vec
         let function = method.average_in(naming.precision, is_scalar)?;
         Some(library_function(method, naming, form, function))
     });
-    functions.collect()
+    let coefficients = FunctionForm::COEFFICIENTS.into_iter().enumerate();
+    let coefficients = coefficients.filter_map(|(place, form)| {
+        let function = method.coefficient_in(naming.precision, place)?;
+        Some(library_function(method, naming, form, function))
+    });
+    functions.chain(coefficients).collect()
+}
+
+/// What the head of a file says about coefficients; nothing of other functions.
+pub(super) fn coefficients_line(emitted: &Emitted) -> Option<String> {
+    emitted.form.coefficient()?;
+    let method = emitted.method;
+    let fitted = method.coefficients?.fitted;
+    Some(format!(
+        "{m}_c0 to {m}_c3: the coefficients of {fitted}, for scenes with many lights: find them once a pixel and call {fitted} once a \
+         light. It gives the same",
+        m = method.name
+    ))
 }
 
 /// What the head of a file says about a mean; nothing of other functions.

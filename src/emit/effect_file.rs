@@ -69,7 +69,7 @@ impl EffectRequest<'_> {
     /// The functions that are written: those that another method or a material changes, or all.
     ///
     /// # Errors
-    /// The method describes dielectrics only and the material absorbs, or a graph breaks a rule of [`crate::ir::RULES`].
+    /// The method does not describe the material, or a graph breaks a rule of [`crate::ir::RULES`].
     pub fn functions(&self, naming: &Naming) -> Result<Vec<Emitted>, Error> {
         let mut functions = Vec::new();
         for function in self.effect.functions {
@@ -131,7 +131,10 @@ impl EffectRequest<'_> {
     ) -> Result<Option<Emitted>, Error> {
         let asks = part.function.reflectance.is_used();
         if asks && !subject.is_described_by(self.method) {
-            return Err(self.refused(subject, "it describes dielectrics only, and this absorbs"));
+            return Err(self.refused(
+                subject,
+                &format!("it describes {}", self.method.class.media()),
+            ));
         }
         let Some(mut values) = self.values_of_r(part.function.reflectance, subject) else {
             return Ok(None);

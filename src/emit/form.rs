@@ -16,6 +16,14 @@ pub enum FunctionForm {
     Average,
     /// The same for one channel.
     AverageScalar,
+    /// The first coefficient of a fitted method, from the inputs of a method that finds it.
+    C0,
+    /// The second.
+    C1,
+    /// The third.
+    C2,
+    /// The fourth.
+    C3,
 }
 
 impl FunctionForm {
@@ -27,6 +35,10 @@ impl FunctionForm {
             FunctionForm::Specialised => "specialised",
             FunctionForm::Average => "average",
             FunctionForm::AverageScalar => "average_scalar",
+            FunctionForm::C0 => "c0",
+            FunctionForm::C1 => "c1",
+            FunctionForm::C2 => "c2",
+            FunctionForm::C3 => "c3",
         }
     }
 
@@ -36,6 +48,21 @@ impl FunctionForm {
             FunctionForm::Library | FunctionForm::Specialised => String::new(),
             other => format!("_{}", other.name()),
         }
+    }
+
+    /// The forms that give coefficients, in their order.
+    pub const COEFFICIENTS: [FunctionForm; 4] = [
+        FunctionForm::C0,
+        FunctionForm::C1,
+        FunctionForm::C2,
+        FunctionForm::C3,
+    ];
+
+    /// Which coefficient it gives.
+    pub fn coefficient(self) -> Option<usize> {
+        FunctionForm::COEFFICIENTS
+            .iter()
+            .position(|form| *form == self)
     }
 
     /// Whether it gives the mean over the hemisphere.

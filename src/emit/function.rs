@@ -96,12 +96,21 @@ impl Emitted {
             let average = method.average_in(single, is_scalar);
             average.expect("what has a mean in half precision has it in single precision")
         };
+        let coefficient = |place| {
+            let coefficient = method.coefficient_in(single, place);
+            coefficient
+                .expect("what finds coefficients in half precision finds them in single precision")
+        };
         match self.form {
             FunctionForm::Library => method.function(false),
             FunctionForm::Scalar => method.function(true),
             FunctionForm::Specialised => method.specialise(&self.constants),
             FunctionForm::Average => average(false),
             FunctionForm::AverageScalar => average(true),
+            FunctionForm::C0 => coefficient(0),
+            FunctionForm::C1 => coefficient(1),
+            FunctionForm::C2 => coefficient(2),
+            FunctionForm::C3 => coefficient(3),
         }
     }
 }
@@ -175,7 +184,7 @@ pub struct Specialised {
 /// A method's formula specialised to a material, without what is known of its errors.
 ///
 /// # Errors
-/// The method describes dielectrics only and this absorbs, or the graph with these constants breaks a rule of
+/// The method does not describe this, or the graph with these constants breaks a rule of
 /// [`crate::ir::RULES`].
 pub fn specialised_graph(
     method: &Method,
@@ -188,8 +197,7 @@ pub fn specialised_graph(
             true => subject.fitted_method().unwrap_or("fitted_five"),
             false => subject.exact_method(),
         };
-        let what =
-            format!("it describes dielectrics only, and this absorbs (k > 0); {serves} serves it");
+        let what = format!("it describes {}; {serves} serves it", method.class.media());
         return Err(refused(method, subject, &what));
     }
     let constants = values_for_material_in(precision, subject, method);

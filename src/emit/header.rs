@@ -49,6 +49,7 @@ pub fn library(
             .map(|f| format!("{}: {}", f.name, operations(f))),
     );
     lines.extend(functions.iter().find_map(average::mean_line));
+    lines.extend(functions.iter().find_map(average::coefficients_line));
     lines.push(format!("Licence of this file: {OUTPUT_LICENCE}"));
     comment::lines(lines)
 }
@@ -119,6 +120,7 @@ pub fn pasted(
     lines.extend(half_line(target, emitted.precision));
     lines.extend(exemption(emitted.method));
     lines.extend(average::mean_line(emitted).map(|line| line + "."));
+    lines.extend(average::coefficients_line(emitted).map(|line| line + "."));
     lines.push(format!("Cost: {}.", operations(emitted)));
     lines.extend(form_line(emitted));
     lines.extend(Average::of(emitted).map(|average| average.line()));

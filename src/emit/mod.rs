@@ -25,7 +25,7 @@ pub mod shader_words;
 mod short;
 mod wgsl;
 
-pub use average::{Average, average_functions};
+pub use average::{Average, companions};
 pub use batch::{batch_entry, batch_program, places};
 pub use bounds::{Bounds, CodeBound, HalfBound, PLAIN_ULP, fingerprint, half_bounds};
 pub use catalogue::{

@@ -69,7 +69,7 @@ fn of_method(emitted: &Emitted) -> Notes {
             true => Vec::new(),
             false => promises_in(emitted.precision, method),
         },
-        mean: average::mean_line(emitted),
+        mean: average::mean_line(emitted).or_else(|| average::coefficients_line(emitted)),
         table: table_line(emitted),
         written_as: emitted.written_as.map(|method| method.name),
         stable_operations: emitted.plain_for,

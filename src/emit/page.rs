@@ -175,13 +175,15 @@ fn function(target: &Target, index: usize, doc: &[String], emitted: &Emitted) ->
     }
 }
 
-/// A module's entry points: `main` for its first function, `average` for a mean over the hemisphere, the method's name for
-/// others; an effect's are named after its functions.
+/// A module's entry points: `main` for its first function, `average` for a mean over the hemisphere, `c0` and so on for
+/// coefficients, the method's name for others; an effect's are named after its functions.
 pub fn entry_point(index: usize, emitted: &Emitted) -> String {
     match emitted.form {
         _ if emitted.effect.is_some() => batch_entry(&emitted.name),
         _ if index == 0 => "main".to_owned(),
-        FunctionForm::Average => emitted.form.name().to_owned(),
+        form if form == FunctionForm::Average || form.coefficient().is_some() => {
+            form.name().to_owned()
+        }
         _ => emitted.method.name.to_owned(),
     }
 }

@@ -7,6 +7,7 @@ use crate::num::Precision;
 use crate::reference::MaterialInMedium;
 use crate::targets::Target;
 
+use super::average::coefficients_line;
 use super::comment;
 use super::figures::{
     FILTERED, beyond_colours, code_line, half_promise, missed_line, model_line, model_promises,
@@ -31,6 +32,7 @@ pub fn library(
     lines.extend(promised(target, method, first.precision));
     lines.push(costs(functions));
     lines.extend(mean_line(functions));
+    lines.extend(functions.iter().find_map(coefficients_line));
     lines.push(source(method));
     comment::lines(lines)
 }

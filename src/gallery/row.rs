@@ -94,7 +94,10 @@ pub fn methods_of(row: &RenderRow) -> Vec<&'static Method> {
     let all = methods::ALL.iter().copied().filter(|method| {
         method.light == Light::Unpolarised
             && !method.is_textured()
-            && (row.is_transparent() || method.class == Class::Any)
+            && match row.is_transparent() {
+                true => method.class != Class::Metal,
+                false => method.class == Class::Any,
+            }
     });
     all.collect()
 }

@@ -16,6 +16,7 @@ use super::half::InHalf;
 use super::input::{Input, InputSource, Inputs};
 use super::known::{KnownSurface, each};
 use super::method::{Claim, Claims, Class, Colours, Contract, Forms, Light, Method, Over};
+use super::schlick::to_white;
 
 /// The cosines of the two angles at which the law is met: the maxima of b2 and of -b3 in a table of 1000 cosines.
 pub const BELCOUR_COSINES: [f64; 2] = [128.0 / 999.0, 432.0 / 999.0];
@@ -101,12 +102,25 @@ pub static METHOD: Method = Method {
     )
     .materials_within(0.0036),
     build,
+    for_constants: Some(for_constants),
+    coefficients: None,
     plain: None,
     replacement: None,
     shape: None,
 };
 
 fn build<'b>(x: &Inputs<'b>) -> Expr<'b> {
+    let [b1, others] = parts(x);
+    (to_white(x.get(Input::F0), b1) + others).saturate()
+}
+
+fn for_constants<'b>(x: &Inputs<'b>) -> Expr<'b> {
+    let (f0, [b1, others]) = (x.get(Input::F0), parts(x));
+    (f0 + (1.0 - f0) * b1 + others).saturate()
+}
+
+/// The weight of white, and the two curves that are weighted.
+fn parts<'b>(x: &Inputs<'b>) -> [Expr<'b>; 2] {
     let c = x.cosine();
     let m = (1.0 - c).named("m", "0 at normal incidence, 1 at grazing");
     let r = (1.0 / (1.0 + FALL * c)).named("r", "");
@@ -115,11 +129,9 @@ fn build<'b>(x: &Inputs<'b>) -> Expr<'b> {
         let curve = m * (a0 + r * (a1 + r * (a2 + r * a3)));
         curve.named(["b1", "b2", "b3"][i], "")
     };
-    let f0 = x.get(Input::F0);
-    let schlick = f0 + (1.0 - f0) * curve(0);
     let second = x.get(Input::B2_WEIGHT) * curve(1);
     let third = x.get(Input::B3_WEIGHT) * curve(2);
-    (schlick + second + third).saturate()
+    [curve(0), second + third]
 }
 
 /// The weights with which reflectance at [`BELCOUR_COSINES`] is met, for one channel: two linear equations.

@@ -97,6 +97,8 @@ pub static METHOD: Method = Method {
         "n_max = (1 + sqrt(r))^2 / (1 - r) and its square overflow where r is above 0.98, which silver is",
     ),
     build,
+    for_constants: None,
+    coefficients: None,
     plain: None,
     replacement: Some(solved),
     shape: None,

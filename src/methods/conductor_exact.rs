@@ -59,6 +59,8 @@ pub static METHOD: Method = Method {
     half: InHalf::within_but(0.0015, "for n below 1 with k near 0 see dielectric_exact")
         .ending(&[("n", 180.0), ("k", 180.0)]),
     build,
+    for_constants: None,
+    coefficients: None,
     plain: Some(plain),
     replacement: Some(clear),
     shape: None,
@@ -86,6 +88,11 @@ fn clear(values: &Values) -> Option<(&'static Method, Values)> {
             BTreeMap::from([("eta".to_owned(), values["n"])]),
         )
     })
+}
+
+/// With constants at hand the general law is as cheap, and right for any k.
+pub(super) fn as_it_is(values: &Values) -> Option<(&'static Method, Values)> {
+    Some((&METHOD, values.clone()))
 }
 
 /// This method with these constants.

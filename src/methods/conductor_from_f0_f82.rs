@@ -85,6 +85,8 @@ pub static METHOD: Method = Method {
         "n is solved from what F0 and F82 lack of 1, differences of which half precision leaves no digits",
     ),
     build,
+    for_constants: None,
+    coefficients: None,
     plain: None,
     replacement: Some(solved),
     shape: None,

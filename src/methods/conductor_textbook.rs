@@ -57,6 +57,8 @@ pub static METHOD: Method = Method {
         "differences of nearly equal numbers, and squares of squares that overflow",
     ),
     build,
+    for_constants: None,
+    coefficients: None,
     plain: None,
     replacement: None,
     shape: None,

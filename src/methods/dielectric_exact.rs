@@ -63,6 +63,8 @@ pub static METHOD: Method = Method {
     contract: Contract::Kept,
     half: InHalf::within_but(0.0015, BELOW_ONE).ending(&[("eta", 180.0)]),
     build,
+    for_constants: None,
+    coefficients: None,
     plain: Some(plain),
     replacement: None,
     shape: None,

@@ -37,6 +37,8 @@ pub static METHOD: Method = Method {
     contract: Contract::Kept,
     half: InHalf::within_but(0.0012, BELOW_ONE).ending(&[("eta", 255.0)]),
     build,
+    for_constants: None,
+    coefficients: None,
     plain: None,
     replacement: None,
     shape: None,

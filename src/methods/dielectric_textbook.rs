@@ -55,6 +55,8 @@ pub static METHOD: Method = Method {
         "1 - (sin theta / n)^2 cancels as n tends to 1, and nothing guards the root",
     ),
     build,
+    for_constants: None,
+    coefficients: None,
     plain: None,
     replacement: None,
     shape: None,

@@ -31,6 +31,9 @@ impl Input {
     ]);
 }
 
+/// 7² / 6⁶.
+const SCALE: f64 = 49.0 / 46_656.0;
+
 /// Schlick's value at cos θ = 1/7, where the weight is (6/7)⁵.
 pub fn schlick_82(f0: f64) -> f64 {
     f0 + (1.0 - f0) * 7_776.0 / 16_807.0
@@ -77,22 +80,36 @@ pub static METHOD: Method = Method {
     contract: Contract::Kept,
     half: InHalf::within(0.0016),
     build,
+    for_constants: Some(for_constants),
+    coefficients: None,
     plain: None,
     replacement: None,
     shape: None,
 };
 
 fn build<'b>(x: &Inputs<'b>) -> Expr<'b> {
-    let (c, f0, tint) = (x.cosine(), x.get(Input::F0), x.get(Input::TINT));
-    let (scale, less) = (49.0 / 46656.0, 1.0 - tint);
+    let (f0, tint) = (x.get(Input::F0), x.get(Input::TINT));
+    let m5 = grazing_weight(x);
+    let dip = dip(x, m5).named("dip", "c (1 - c)^6");
+    let of_f0 = (SCALE * 9031.0 * dip).named("of_f0", "");
+    let of_white = (SCALE * 7776.0 * dip).named("of_white", "");
+    let first = (1.0 - m5 - of_f0).named("first", "the weight of f0 where the tint is 0");
+    let second = (m5 - of_white).named("second", "the weight of white where the tint is 0");
+    let bare = f0 * (tint * of_f0 + first) + (tint * of_white + second);
+    bare.saturate()
+}
+
+fn for_constants<'b>(x: &Inputs<'b>) -> Expr<'b> {
+    let (f0, tint) = (x.get(Input::F0), x.get(Input::TINT));
+    let (scale, less) = (SCALE, 1.0 - tint);
     let b = if x.is_half() {
         less * (scale * 7776.0 + scale * 9031.0 * f0)
     } else {
         scale * less * (7776.0 + 9031.0 * f0)
     };
     let b = b.named("b", "the depth of the dip");
-    let m5 = grazing_weight(x, c);
-    let bare = (f0 + (1.0 - f0) * m5 - b * dip(c, m5)).named("bare", "Schlick less the dip");
+    let m5 = grazing_weight(x);
+    let bare = (f0 + (1.0 - f0) * m5 - b * dip(x, m5)).named("bare", "Schlick less the dip");
     bare.saturate()
 }
 

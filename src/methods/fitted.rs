@@ -70,6 +70,8 @@ pub static METHOD: Method = Method {
     contract: Contract::Kept,
     half: InHalf::within_over(0.0013, Over::Metals, FLOOR),
     build,
+    for_constants: None,
+    coefficients: None,
     plain: None,
     replacement: None,
     shape: Some(SHAPE),

@@ -50,6 +50,8 @@ pub static METHOD: Method = Method {
     contract: Contract::Kept,
     half: InHalf::within_over(0.0015, Over::Dielectrics, FLOOR),
     build,
+    for_constants: None,
+    coefficients: None,
     plain: None,
     replacement: None,
     shape: Some(SHAPE),

@@ -64,6 +64,8 @@ pub static METHOD: Method = Method {
     contract: Contract::Kept,
     half: InHalf::within_over(0.0028, Over::Metals, FLOOR).materials_within(0.0026),
     build,
+    for_constants: None,
+    coefficients: None,
     plain: None,
     replacement: None,
     shape: Some(SHAPE),

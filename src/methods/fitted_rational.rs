@@ -63,6 +63,8 @@ pub static METHOD: Method = Method {
     contract: Contract::Kept,
     half: InHalf::within_over(0.0025, Over::Metals, FLOOR).materials_within(0.003),
     build,
+    for_constants: None,
+    coefficients: None,
     plain: None,
     replacement: None,
     shape: Some(SHAPE),

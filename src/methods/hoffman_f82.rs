@@ -19,6 +19,15 @@ const PEAK: f64 = 823_543.0 / 46_656.0;
 /// (6/7)⁵, Schlick's weight at cos θ = 1/7.
 const WEIGHT_82: f64 = 7_776.0 / 16_807.0;
 
+/// Hoffman 2019.
+pub(super) const HOFFMAN_2019: Citation = Citation {
+    authors: "Hoffman",
+    title: "Fresnel Equations Considered Harmful",
+    place: "Eurographics Workshop on Material Appearance Modeling",
+    year: 2019,
+    link: "https://renderwonk.com/publications/mam2019/",
+};
+
 /// The record of this method.
 pub static METHOD: Method = Method {
     name: "hoffman_f82",
@@ -27,13 +36,7 @@ pub static METHOD: Method = Method {
         "F = F0 + (1 - F0) (1 - c)^5 - b c (1 - c)^6, limited to [0, 1]",
         "b = (823543 / 46656) (F0 + (1 - F0) 7776 / 16807 - F82)",
     ],
-    source: Citation {
-        authors: "Hoffman",
-        title: "Fresnel Equations Considered Harmful",
-        place: "Eurographics Workshop on Material Appearance Modeling",
-        year: 2019,
-        link: "https://renderwonk.com/publications/mam2019/",
-    },
+    source: HOFFMAN_2019,
     inputs: &[Input::F0, Input::F82],
     forms: Forms::Colour,
     class: Class::Any,
@@ -60,23 +63,46 @@ pub static METHOD: Method = Method {
     contract: Contract::Kept,
     half: InHalf::within(0.0017),
     build,
+    for_constants: Some(for_constants),
+    coefficients: None,
     plain: None,
     replacement: None,
     shape: None,
 };
 
 fn build<'b>(x: &Inputs<'b>) -> Expr<'b> {
-    let (c, f0, f82) = (x.cosine(), x.get(Input::F0), x.get(Input::F82));
-    let rise = (1.0 - f0).named("rise", "");
-    let b = (PEAK * (f0 + rise * WEIGHT_82 - f82)).named("b", "the depth of the dip");
-    let m5 = grazing_weight(x, c);
-    let bare = (f0 + rise * m5 - b * dip(c, m5)).named("bare", "Schlick less the dip");
+    let m5 = grazing_weight(x);
+    let b = (PEAK * dip(x, m5)).named("b", "the weight of f82: 1 at 81.79 degrees");
+    let a =
+        (m5 - WEIGHT_82 * b).named("a", "the weight of white: 1 at grazing, 0 at 81.79 degrees");
+    between(x, a, b)
+}
+
+/// `F0 (1 - a - b) + F82 b + a`, limited to [0, 1]: what is affine in F0 and F82 and leaves white white. The weights are numbers that
+/// channels share.
+pub(super) fn between<'b>(x: &Inputs<'b>, a: Expr<'b>, b: Expr<'b>) -> Expr<'b> {
+    let rest = (1.0 - a - b).named("kept", "the weight of f0");
+    let bare = x.get(Input::F0) * rest + (x.get(Input::F82) * b + a);
     bare.saturate()
 }
 
-/// `c (1-c)⁶`, from the fifth power that is there already.
-pub(super) fn dip<'b>(c: Expr<'b>, m5: Expr<'b>) -> Expr<'b> {
-    c * (m5 * (1.0 - c))
+fn for_constants<'b>(x: &Inputs<'b>) -> Expr<'b> {
+    let (f0, f82) = (x.get(Input::F0), x.get(Input::F82));
+    let rise = (1.0 - f0).named("rise", "");
+    let b = (PEAK * (f0 + rise * WEIGHT_82 - f82)).named("b", "the depth of the dip");
+    let m5 = grazing_weight(x);
+    let bare = (f0 + rise * m5 - b * dip(x, m5)).named("bare", "Schlick less the dip");
+    bare.saturate()
+}
+
+/// `c (1-c)⁶`, from the fifth power that is there already: c (1-c) is m - m².
+pub(super) fn dip<'b>(x: &Inputs<'b>, m5: Expr<'b>) -> Expr<'b> {
+    if x.is_half() {
+        let c = x.cosine();
+        return c * (m5 * (1.0 - c));
+    }
+    let m = x.grazing();
+    (m - m.squared()) * m5
 }
 
 #[cfg(test)]

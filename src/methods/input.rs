@@ -268,6 +268,22 @@ impl<'b> Inputs<'b> {
         }
     }
 
+    /// Declares these inputs alone, three channels, for what depends on no cosine.
+    pub fn without_cosine(
+        builder: &'b Builder,
+        inputs: &[Input],
+        precision: Precision,
+    ) -> Inputs<'b> {
+        let declared = inputs
+            .iter()
+            .map(|input| (input.name, builder.param(input.name, input.ty)));
+        Inputs {
+            given: declared.collect(),
+            cos_theta: builder.number(1.0),
+            precision,
+        }
+    }
+
     /// These expressions as `cos_theta` and these inputs, in their order: the formula becomes part of another function.
     pub fn given(
         cos_theta: Expr<'b>,
@@ -303,6 +319,14 @@ impl<'b> Inputs<'b> {
         self.cos_theta
             .saturate()
             .named("c", "clamp: a rounded dot product may exceed 1")
+    }
+
+    /// `1 - cos_theta` limited to [0, 1], to the last bit 1 less the limited cosine, in one step: a GPU limits a difference for nothing.
+    pub fn grazing(&self) -> Expr<'b> {
+        (1.0 - self.cos_theta).saturate().named(
+            "m",
+            "0 at normal incidence, 1 at grazing; clamp: a rounded dot product may exceed 1",
+        )
     }
 
     /// An input that the method declared.

@@ -43,6 +43,12 @@ pub struct Method {
     pub half: InHalf,
     /// Builds the formula.
     pub build: Build,
+    /// The formula that constants are folded into, where other steps are cheaper then: with F0 known, F0 + (1 - F0) w is one
+    /// multiplication and addition a channel; without it F0 (1 - w) + w is, since 1 - w is one number for three channels.
+    pub for_constants: Option<Build>,
+    /// Of a method that finds the coefficients of a fitted one from its inputs: these, as functions without a cosine, so that a shader
+    /// finds them once a pixel.
+    pub coefficients: Option<CoefficientsFromInputs>,
     /// The formula without the steps that keep it stable for every argument, if these steps cost something. A material gets
     /// this form if the record of code bounds says that its function loses no digits without them.
     pub plain: Option<Build>,
@@ -51,6 +57,15 @@ pub struct Method {
     pub replacement: Option<Better>,
     /// The shape of a fitted method: the functions that its coefficients multiply.
     pub shape: Option<Shape>,
+}
+
+/// How the coefficients of a fitted method follow from other inputs.
+#[derive(Clone, Copy, Debug)]
+pub struct CoefficientsFromInputs {
+    /// The fitted method.
+    pub fitted: &'static str,
+    /// The coefficients from the inputs.
+    pub build: for<'b> fn(&Inputs<'b>) -> [Expr<'b>; 4],
 }
 
 /// From arguments to a formula.
@@ -76,9 +91,34 @@ pub enum Forms {
 pub enum Class {
     /// k = 0.
     Dielectric,
+    /// k of a quarter of n and more.
+    Metal,
     /// Any k.
     Any,
 }
+
+impl Class {
+    /// Whether a method of this class describes a medium with this index.
+    pub fn describes(self, n: f64, k: f64) -> bool {
+        match self {
+            Class::Dielectric => k == 0.0,
+            Class::Metal => k >= LEAST_METALLIC * n,
+            Class::Any => true,
+        }
+    }
+
+    /// The media in words.
+    pub fn media(self) -> &'static str {
+        match self {
+            Class::Dielectric => "dielectrics only, and this absorbs (k > 0)",
+            Class::Metal => "metals only, with k of at least n / 4, and this has less",
+            Class::Any => "all media",
+        }
+    }
+}
+
+/// The least k of a metal, as a share of n: semiconductors have less where one sees them.
+const LEAST_METALLIC: f64 = 0.25;
 
 /// The light that a method describes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -264,6 +304,20 @@ impl Method {
         Some(check_in(precision, fold_in(precision, &whole)))
     }
 
+    /// A coefficient of a fitted method from this method's inputs as run-time arguments, three channels. None for methods that
+    /// find none.
+    pub fn coefficient_in(
+        &self,
+        precision: Precision,
+        place: usize,
+    ) -> Option<Result<Checked, BrokenRule>> {
+        let coefficients = self.coefficients?;
+        let builder = Builder::new();
+        let inputs = Inputs::without_cosine(&builder, self.inputs, precision);
+        let whole = builder.finish(self.name, (coefficients.build)(&inputs)[place]);
+        Some(check_in(precision, fold_in(precision, &whole)))
+    }
+
     /// The function with these constants folded in; inputs that have no value stay arguments.
     ///
     /// # Errors
@@ -284,7 +338,8 @@ impl Method {
         if let Some((method, values)) = self.better(values) {
             return method.specialise_in(precision, &values);
         }
-        let library: Function = (*self.function_in(precision, false)?).clone();
+        let build = self.for_constants.unwrap_or(self.build);
+        let library: Function = (*self.built(build, precision, false)?).clone();
         check_in(precision, specialise_in(precision, &library, values))
     }
 

@@ -19,7 +19,8 @@ pub use half::{HALF_AIM, HalfClaim, InHalf};
 pub use input::{Input, InputSource, Inputs, Range, find_input};
 pub use known::KnownSurface;
 pub use method::{
-    Better, Claim, Claims, Class, Colours, Contract, Forms, Light, Method, Over, Values,
+    Better, Claim, Claims, Class, CoefficientsFromInputs, Colours, Contract, Forms, Light, Method,
+    Over, Values,
 };
 pub use renamed::{RENAMED, Renamed, renamed};
 pub use shape::{Factor, Shape};
@@ -28,6 +29,7 @@ pub use shape::{Factor, Shape};
 mod belcour_decomposition;
 mod conductor_artistic;
 mod conductor_exact;
+mod conductor_exact_metal;
 mod conductor_from_f0_f82;
 mod conductor_textbook;
 mod constant_f0;
@@ -39,6 +41,9 @@ mod empirical;
 mod f82_tint;
 mod fitted;
 mod fitted_dielectric;
+mod fitted_dielectric_rational;
+mod fitted_f82;
+mod fitted_f82_metal;
 mod fitted_five;
 mod fitted_rational;
 mod hoffman_f82;
@@ -57,6 +62,7 @@ pub static ALL: &[&Method] = &[
     &belcour_decomposition::METHOD,
     &conductor_artistic::METHOD,
     &conductor_exact::METHOD,
+    &conductor_exact_metal::METHOD,
     &conductor_from_f0_f82::METHOD,
     &conductor_textbook::METHOD,
     &constant_f0::METHOD,
@@ -68,6 +74,9 @@ pub static ALL: &[&Method] = &[
     &f82_tint::METHOD,
     &fitted::METHOD,
     &fitted_dielectric::METHOD,
+    &fitted_dielectric_rational::METHOD,
+    &fitted_f82::METHOD,
+    &fitted_f82_metal::METHOD,
     &fitted_five::METHOD,
     &fitted_rational::METHOD,
     &hoffman_f82::METHOD,

@@ -53,22 +53,34 @@ pub static METHOD: Method = Method {
     contract: Contract::Kept,
     half: InHalf::within(0.0013),
     build,
+    for_constants: Some(for_constants),
+    coefficients: None,
     plain: None,
     replacement: None,
     shape: None,
 };
 
 fn build<'b>(x: &Inputs<'b>) -> Expr<'b> {
+    to_white(x.get(Input::F0), grazing_weight(x))
+}
+
+fn for_constants<'b>(x: &Inputs<'b>) -> Expr<'b> {
     let f0 = x.get(Input::F0);
-    f0 + (1.0 - f0) * grazing_weight(x, x.cosine())
+    f0 + (1.0 - f0) * grazing_weight(x)
+}
+
+/// A colour on its way to white, `F0 + (1 - F0) w`, as `F0 (1 - w) + w`: 1 - w is one number for three channels, and white stays
+/// white, since what 1 - w is rounded by is less than half a unit of 1.
+pub(super) fn to_white<'b>(f0: Expr<'b>, weight: Expr<'b>) -> Expr<'b> {
+    f0 * (1.0 - weight).named("kept", "the weight of f0") + weight
 }
 
 /// `(1 - c)⁵`: 0 at normal incidence, 1 at grazing. Three multiplications, no power.
-pub(super) fn grazing_weight<'b>(x: &Inputs<'b>, c: Expr<'b>) -> Expr<'b> {
+pub(super) fn grazing_weight<'b>(x: &Inputs<'b>) -> Expr<'b> {
     if x.is_half() {
-        return (1.0 - grazing_rest(c)).named("m5", "(1 - c)^5");
+        return (1.0 - grazing_rest(x.cosine())).named("m5", "(1 - c)^5");
     }
-    let m = (1.0 - c).named("m", "0 at normal incidence, 1 at grazing");
+    let m = x.grazing();
     let m2 = m.squared().named("m2", "");
     (m2 * m2 * m).named("m5", "")
 }

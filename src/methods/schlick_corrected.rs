@@ -84,6 +84,8 @@ pub static METHOD: Method = Method {
     contract: Contract::Kept,
     half: InHalf::within(0.0024).ending(&[("n", 180.0), ("k", 180.0)]),
     build,
+    for_constants: None,
+    coefficients: None,
     plain: None,
     replacement: None,
     shape: None,
@@ -91,7 +93,7 @@ pub static METHOD: Method = Method {
 
 fn build<'b>(x: &Inputs<'b>) -> Expr<'b> {
     let (c, n, lambda) = (x.cosine(), x.get(Input::N), x.get(Input::LAMBDA));
-    let base = rescaled(x, c).named("base", "the rescaled Schlick");
+    let base = rescaled(x).named("base", "the rescaled Schlick");
     let zero = c.builder().number(0.0);
     let fall = (1.0 - c)
         .rgb()

@@ -51,14 +51,26 @@ pub static METHOD: Method = Method {
     contract: Contract::Kept,
     half: InHalf::within(0.0013),
     build,
+    for_constants: Some(for_constants),
+    coefficients: None,
     plain: None,
     replacement: None,
     shape: None,
 };
 
 fn build<'b>(x: &Inputs<'b>) -> Expr<'b> {
+    to_f90(x, grazing_weight(x))
+}
+
+fn for_constants<'b>(x: &Inputs<'b>) -> Expr<'b> {
     let f0 = x.get(Input::F0);
-    f0 + (x.get(Input::F90) - f0) * grazing_weight(x, x.cosine())
+    f0 + (x.get(Input::F90) - f0) * grazing_weight(x)
+}
+
+/// `F0 + (F90 - F0) w` as `F0 (1 - w) + F90 w`: both factors are one number for three channels.
+pub(super) fn to_f90<'b>(x: &Inputs<'b>, weight: Expr<'b>) -> Expr<'b> {
+    let end = (x.get(Input::F90) * weight).named("end", "");
+    x.get(Input::F0) * (1.0 - weight).named("kept", "the weight of f0") + end
 }
 
 #[cfg(test)]

@@ -11,6 +11,7 @@ use crate::ir::Expr;
 use super::half::InHalf;
 use super::input::{Input, InputSource, Inputs, POWERS, POWERS_AND_BEYOND};
 use super::method::{Claim, Claims, Class, Contract, Forms, Light, Method, Over};
+use super::schlick_f90::to_f90;
 
 #[allow(missing_docs)] // each says what it is
 impl Input {
@@ -62,15 +63,25 @@ pub static METHOD: Method = Method {
     contract: Contract::Kept,
     half: InHalf::within(0.0017),
     build,
+    for_constants: Some(for_constants),
+    coefficients: None,
     plain: None,
     replacement: None,
     shape: None,
 };
 
 fn build<'b>(x: &Inputs<'b>) -> Expr<'b> {
+    to_f90(x, weight(x))
+}
+
+fn for_constants<'b>(x: &Inputs<'b>) -> Expr<'b> {
     let f0 = x.get(Input::F0);
-    let m = (1.0 - x.cosine()).named("m", "0 at normal incidence, 1 at grazing");
-    f0 + (x.get(Input::F90) - f0) * m.power(x.get(Input::EXPONENT), x.precision())
+    f0 + (x.get(Input::F90) - f0) * weight(x)
+}
+
+fn weight<'b>(x: &Inputs<'b>) -> Expr<'b> {
+    let weight = x.grazing().power(x.get(Input::EXPONENT), x.precision());
+    weight.named("weight", "1 at grazing")
 }
 
 #[cfg(test)]

@@ -9,7 +9,7 @@ use crate::ir::Expr;
 use super::half::InHalf;
 use super::input::{Input, Inputs};
 use super::method::{Claim, Claims, Class, Contract, Forms, Light, Method, Over};
-use super::schlick::{SCHLICK_1994, grazing_weight};
+use super::schlick::{SCHLICK_1994, grazing_weight, to_white};
 
 /// The record of this method.
 pub static METHOD: Method = Method {
@@ -36,6 +36,8 @@ pub static METHOD: Method = Method {
     contract: Contract::Kept,
     half: InHalf::within(0.0013).ending(&[("eta", 65504.0)]),
     build,
+    for_constants: None,
+    coefficients: None,
     plain: None,
     replacement: None,
     shape: None,
@@ -49,9 +51,9 @@ fn build<'b>(x: &Inputs<'b>) -> Expr<'b> {
         // A quotient near 1 would be off by five roundings.
         let r = (less / more).named("r", "the amplitude at normal incidence");
         let f0 = r.squared().named("f0", "");
-        return f0 + (1.0 - f0) * grazing_weight(x, x.cosine());
+        return to_white(f0, grazing_weight(x));
     }
-    ((less.squared() + 4.0 * eta * grazing_weight(x, x.cosine())) / more.squared()).saturate()
+    ((less.squared() + 4.0 * eta * grazing_weight(x)) / more.squared()).saturate()
 }
 
 #[cfg(test)]

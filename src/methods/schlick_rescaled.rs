@@ -53,25 +53,27 @@ pub static METHOD: Method = Method {
     contract: Contract::Kept,
     half: InHalf::within(0.0024).ending(&[("n", 180.0), ("k", 180.0)]),
     build,
+    for_constants: None,
+    coefficients: None,
     plain: None,
     replacement: None,
     shape: None,
 };
 
 fn build<'b>(x: &Inputs<'b>) -> Expr<'b> {
-    rescaled(x, x.cosine()).saturate()
+    rescaled(x).saturate()
 }
 
 /// Eq. 14.
-pub(super) fn rescaled<'b>(x: &Inputs<'b>, c: Expr<'b>) -> Expr<'b> {
+pub(super) fn rescaled<'b>(x: &Inputs<'b>) -> Expr<'b> {
     let (n, k) = (x.get(Input::N), x.get(Input::K));
     if x.is_half() {
-        return half(c, n, k);
+        return half(x.cosine(), n, k);
     }
     let k2 = k.squared().named("k2", "");
     let less = (n - 1.0).named("n_less", "");
     let more = (n + 1.0).named("n_more", "");
-    (less.squared() + k2 + 4.0 * n * grazing_weight(x, c)) / (more.squared() + k2)
+    (less.squared() + k2 + 4.0 * n * grazing_weight(x)) / (more.squared() + k2)
 }
 
 /// The same as 1 less what is lost: metals lose little.

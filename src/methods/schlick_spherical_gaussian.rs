@@ -11,6 +11,7 @@ use crate::ir::Expr;
 use super::half::InHalf;
 use super::input::{Input, Inputs};
 use super::method::{Claim, Claims, Class, Colours, Contract, Forms, Light, Method, Over};
+use super::schlick::to_white;
 
 /// The record of this method.
 pub static METHOD: Method = Method {
@@ -50,15 +51,26 @@ pub static METHOD: Method = Method {
     contract: Contract::Kept,
     half: InHalf::within(0.0009),
     build,
+    for_constants: Some(for_constants),
+    coefficients: None,
     plain: None,
     replacement: None,
     shape: None,
 };
 
 fn build<'b>(x: &Inputs<'b>) -> Expr<'b> {
-    let (c, f0) = (x.cosine(), x.get(Input::F0));
+    to_white(x.get(Input::F0), weight(x))
+}
+
+fn for_constants<'b>(x: &Inputs<'b>) -> Expr<'b> {
+    let f0 = x.get(Input::F0);
+    f0 + (1.0 - f0) * weight(x)
+}
+
+fn weight<'b>(x: &Inputs<'b>) -> Expr<'b> {
+    let c = x.cosine();
     let weight = ((-5.55473 * c - 6.98316) * c).exp2();
-    f0 + (1.0 - f0) * weight
+    weight.named("weight", "1 at grazing")
 }
 
 #[cfg(test)]

@@ -120,6 +120,8 @@ pub static METHOD: Method = Method {
     contract: Contract::Kept,
     half: InHalf::Refused("11 bits of a coordinate do not tell the texels of a table apart"),
     build,
+    for_constants: None,
+    coefficients: None,
     plain: None,
     replacement: None,
     shape: None,

@@ -116,7 +116,7 @@ impl LibraryMaterials {
     fn timed(&self, emitted: Emitted) -> TimedFunction {
         let material = match emitted.method.class {
             Class::Dielectric => &self.dielectric,
-            Class::Any => &self.metal,
+            Class::Metal | Class::Any => &self.metal,
         };
         timed(
             emitted.clone(),

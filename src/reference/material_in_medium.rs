@@ -1,7 +1,7 @@
 //! A material in its medium, as it is seen.
 
-use crate::materials::{Material, MaterialKind, Surface, Unseen, ViewingConditions};
-use crate::methods::{Class, Light, Method};
+use crate::materials::{Channels, Material, MaterialKind, Surface, Unseen, ViewingConditions};
+use crate::methods::{Light, Method};
 
 use super::derivation::Derivation;
 use super::effective::{Effective, effective};
@@ -79,10 +79,12 @@ impl MaterialInMedium {
         self.material.kind == MaterialKind::Dielectric && self.effective.channels.is_transparent()
     }
 
-    /// Whether a method describes it: the exact laws for dielectrics take no k. Coefficients follow a dielectric that absorbs too.
+    /// Whether a method describes it: the exact laws for dielectrics take no k, that for metals takes no small one. Coefficients
+    /// follow a dielectric that absorbs too.
     pub fn is_described_by(&self, method: &Method) -> bool {
         let is_followed = method.is_fitted() && self.material.kind == MaterialKind::Dielectric;
-        method.class == Class::Any || is_followed || self.effective.channels.is_transparent()
+        let Channels { n, k } = &self.effective.channels;
+        is_followed || (0..3).all(|i| method.class.describes(n[i], k[i]))
     }
 
     /// The exact method of its class.

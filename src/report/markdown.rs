@@ -4,7 +4,7 @@ use crate::cost;
 use crate::effects;
 use crate::emit::{Bounds, Naming, half_bounds, specialised_function};
 use crate::materials::{Material, Unseen, ViewingConditions};
-use crate::methods::{self, Contract, Method, Spread};
+use crate::methods::{self, Class, Contract, Method, Spread};
 use crate::reference::{Derivation, MaterialInMedium};
 use crate::targets;
 
@@ -201,7 +201,10 @@ fn code_cell(method: &Method) -> String {
 fn error_cell(method: &'static Method, subject: &MaterialInMedium) -> String {
     let (naming, bounds) = (Naming::default(), Bounds::default());
     let Ok(emitted) = specialised_function(method, subject, &naming, &bounds) else {
-        return "dielectrics only".to_owned();
+        return match method.class {
+            Class::Metal => "metals only".to_owned(),
+            _ => "dielectrics only".to_owned(),
+        };
     };
     match emitted.model_error {
         Some(error) if error.max_abs < 1e-9 => "exact".to_owned(),

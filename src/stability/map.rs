@@ -39,14 +39,17 @@ const ROWS: u32 = 96;
 /// Where maps over k stand: from glass, with k, to metal.
 const N: f64 = 1.5;
 
-/// The maps of a method: over eta, and over k where it describes what absorbs.
+/// The maps of a method: over eta where it describes dielectrics, and over k where it describes what absorbs.
 pub fn maps(method: &'static Method, precision: Precision) -> Vec<Map> {
     let eta = ScanAxis {
         name: "eta",
         values: logarithmic(0.3, 10.0, ROWS).collect(),
     };
-    let mut all = vec![map(method, precision, vec![eta], "k = 0")];
-    if method.class == Class::Any {
+    let mut all = Vec::new();
+    if method.class != Class::Metal {
+        all.push(map(method, precision, vec![eta], "k = 0"));
+    }
+    if method.class != Class::Dielectric {
         let n = ScanAxis {
             name: "n",
             values: vec![N],

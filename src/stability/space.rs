@@ -23,8 +23,11 @@ pub struct ScanSpace {
 
 /// The spaces of a method, with numbers of a precision.
 pub fn spaces(method: &Method, precision: Precision) -> Vec<ScanSpace> {
-    let mut all = vec![vec![index("eta", 40)]];
-    if method.class == Class::Any {
+    let mut all = Vec::new();
+    if method.class != Class::Metal {
+        all.push(vec![index("eta", 40)]);
+    }
+    if method.class != Class::Dielectric {
         all.push(vec![index("n", 12), extinction()]);
     }
     let media = all.into_iter().map(|axes| (true, axes));

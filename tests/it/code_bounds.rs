@@ -7,7 +7,7 @@ use fresnel_gen::app::request::DEFAULT_MATERIALS;
 use fresnel_gen::app::{Materials, Request};
 use fresnel_gen::emit::{Bounds, Naming, PLAIN_ULP, fingerprint, specialised_function};
 use fresnel_gen::ir::Checked;
-use fresnel_gen::methods::{self, Class, Contract, Method};
+use fresnel_gen::methods::{self, Contract, Method};
 use fresnel_gen::reference::MaterialInMedium;
 use fresnel_gen::verify::{code_error, digits_lost};
 
@@ -16,11 +16,10 @@ const POINTS: usize = 200_000;
 
 /// All methods for the materials that are committed, the usual ones for the others.
 fn methods_of(subject: &MaterialInMedium) -> Vec<&'static Method> {
-    let transparent = subject.effective.channels.is_transparent();
     let name = subject.name.trim_end_matches("_thesis");
     let committed = DEFAULT_MATERIALS.contains(&name);
     let wanted = |method: &&&Method| {
-        let fits = method.class == Class::Any || transparent;
+        let fits = subject.is_described_by(method);
         let usual = subject.default_methods().contains(&method.name);
         let numeric = method.contract == Contract::Kept && !method.is_textured();
         numeric && fits && (committed || usual)

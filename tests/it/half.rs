@@ -8,7 +8,7 @@ use std::path::Path;
 use fresnel_gen::app::{Error, Materials, Request, Source, generate};
 use fresnel_gen::emit::{Bounds, Emitted, Naming, specialised_function};
 use fresnel_gen::ir::Value;
-use fresnel_gen::methods::{self, Class, Contract, HALF_AIM, InHalf, Method};
+use fresnel_gen::methods::{self, Contract, HALF_AIM, InHalf, Method};
 use fresnel_gen::num::{Half, Num, Precision};
 use fresnel_gen::reference::MaterialInMedium;
 use fresnel_gen::verify::{HalfTrial, halves, library_half_error};
@@ -67,10 +67,8 @@ fn library_functions_keep_what_they_promise() {
 
 /// All methods that are written for a material.
 fn methods_of(subject: &MaterialInMedium) -> impl Iterator<Item = &'static Method> {
-    let transparent = subject.effective.channels.is_transparent();
-    let fits = move |method: &&&Method| {
-        method.half.refusal().is_none() && (method.class == Class::Any || transparent)
-    };
+    let fits =
+        move |method: &&&Method| method.half.refusal().is_none() && subject.is_described_by(method);
     methods::ALL.iter().filter(fits).copied()
 }
 

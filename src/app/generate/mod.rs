@@ -204,10 +204,10 @@ impl<'r> Run<'r> {
         })
     }
 
-    /// The functions of a method's library file, and its means over the hemisphere.
+    /// The functions of a method's library file, and what stands beside them.
     fn library_functions(&self, method: &'static Method) -> Result<Vec<Emitted>, Error> {
         let mut functions = emit::library_functions(method, &self.naming)?;
-        functions.extend(emit::average_functions(method, &self.naming)?);
+        functions.extend(emit::companions(method, &self.naming)?);
         Ok(functions)
     }
 

@@ -7,7 +7,7 @@ use fresnel_gen::emit::{self, Bounds, Emitted, Naming};
 use fresnel_gen::fit::{self, Measured};
 use fresnel_gen::gpu::Wanted;
 use fresnel_gen::ir::Ty;
-use fresnel_gen::methods::{self, Class, Contract, Method, find_input};
+use fresnel_gen::methods::{self, Contract, Method, find_input};
 use fresnel_gen::optics;
 use fresnel_gen::reference::MaterialInMedium;
 use fresnel_gen::targets::{self, Finish};
@@ -293,8 +293,7 @@ fn files(target: &'static targets::Target) -> Vec<(Emitted, Vec<u8>)> {
         }
     }
     for subject in subjects() {
-        let clear = subject.effective.channels.is_transparent();
-        let fits = |method: &&&'static Method| method.class == Class::Any || clear;
+        let fits = |method: &&&'static Method| subject.is_described_by(method);
         for method in methods::ALL.iter().filter(kept).filter(fits) {
             let emitted =
                 emit::specialised_function(method, &subject, &naming, &Bounds::default()).unwrap();

@@ -1,0 +1,115 @@
+//! `F = c0 + b (c1 + b (c2 + b c3))`, `b = 2^(-6.5 cos θ)`, with c1, c2 and c3 quadratic in F0 and F82, and c0 such that F(0°) = F0: the
+//! coefficients of `fitted` from two colours that a texture holds.
+//!
+//! Source: ours. The 18 numbers have the least median and 90th percentile of the largest errors that a search by linear programs found
+//! over 75 pages of metals and semiconductors: `tests/fit-f82` does it again, and says what is left without the substance.
+//! For metals and semiconductors: of water it errs by .04, where `fitted_f82` serves. Colours of no metal get a curve that no metal has.
+//! The coefficients have functions of their own, for scenes with many lights: they are found once a pixel, and `fitted` is called once a
+//! light.
+//! Domain: any F0 and F82; limited to [0, 1]. White stays white. Error: [`METHOD`]'s claims.
+
+use crate::ir::Expr;
+
+use super::half::InHalf;
+use super::hoffman_f82::HOFFMAN_2019;
+use super::input::{Input, Inputs};
+use super::method::{
+    Claim, Claims, Class, CoefficientsFromInputs, Colours, Contract, Forms, Light, Method, Over,
+};
+
+/// The record of this method.
+pub static METHOD: Method = Method {
+    name: "fitted_f82_metal",
+    summary: "the coefficients of fitted from the reflectances at 0 and 81.79 degrees of a metal (ours)",
+    formula: &[
+        "F = c0 + b (c1 + b (c2 + b c3)), b = 2^(-6.5 c), limited to [0, 1]",
+        "c1, c2, c3 quadratic in F0 and F82; c0 = F0 - e (c1 + e (c2 + e c3)), e = 2^(-6.5)",
+    ],
+    source: HOFFMAN_2019,
+    inputs: &[Input::F0, Input::F82],
+    forms: Forms::Colour,
+    class: Class::Any,
+    light: Light::Unpolarised,
+    domain: "the result is limited to [0, 1]; for metals and semiconductors: of water it errs by 0.04",
+    claims: Claims {
+        model: &[Claim {
+            over: Over::Metals,
+            max_abs: 0.05,
+            at_degrees: 81.5,
+        }],
+        code_ulp: 6.5,
+        code_over: Over::Metals,
+        colours: Colours::within(2e-6),
+        by_class: &[],
+    },
+    contract: Contract::Kept,
+    half: InHalf::Specialised("its coefficients cancel"),
+    build,
+    for_constants: None,
+    coefficients: Some(CoefficientsFromInputs {
+        fitted: "fitted",
+        build: coefficients,
+    }),
+    plain: None,
+    replacement: None,
+    shape: None,
+};
+
+/// Of c1, c2 and c3: what multiplies 1, F82, F82², F0, F0 F82 and F0².
+const QUADRATICS: [[f64; 6]; 3] = [[0.0; 6]; 3];
+
+fn build<'b>(x: &Inputs<'b>) -> Expr<'b> {
+    let [c0, c1, c2, c3] = coefficients(x);
+    let b = (-6.5 * x.cosine()).exp2();
+    let b = b.named("b", "small at normal incidence, 1 at grazing");
+    (c0 + b * (c1 + b * (c2 + b * c3))).saturate()
+}
+
+fn coefficients<'b>(x: &Inputs<'b>) -> [Expr<'b>; 4] {
+    let (f0, f82) = (x.get(Input::F0), x.get(Input::F82));
+    let quadratic = |i: usize| {
+        let [one, f82_1, f82_2, f0_1, both, f0_2] = QUADRATICS[i];
+        let sum = one + f82 * (f82_1 + f82 * f82_2) + f0 * (f0_1 + f82 * both + f0 * f0_2);
+        sum.named(["c1", "c2", "c3"][i], "")
+    };
+    let [c1, c2, c3] = [0, 1, 2].map(quadratic);
+    let e = f64::exp2(-6.5);
+    let c0 = f0 - e * (c1 + e * (c2 + e * c3));
+    [
+        c0.named("c0", "so that F is f0 at normal incidence"),
+        c1,
+        c2,
+        c3,
+    ]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::limits::{check, value};
+    use super::METHOD;
+
+    #[test]
+    fn it_meets_f0_at_normal_incidence() {
+        check(&METHOD, 1.0, &[0.6, 0.7], 0.6);
+        check(&METHOD, 1.0, &[0.95, 0.93], 0.95);
+    }
+
+    #[test]
+    fn white_stays_white() {
+        for c in [0.0, 0.01, 0.1, 0.3, 0.7, 1.0] {
+            check(&METHOD, c, &[1.0, 1.0], 1.0);
+        }
+    }
+
+    /// Within what it errs by at the 90th percentile.
+    #[test]
+    fn it_comes_near_f82_and_one() {
+        for (f0, f82) in [(0.7, 0.75), (0.95, 0.93), (0.5, 0.6)] {
+            let [at_82, at_90] = [1.0 / 7.0, 0.0].map(|c| value(&METHOD, c, &[f0, f82]));
+            assert!(
+                (at_82 - f82).abs() < 0.01 && at_90 > 0.99,
+                "{f0} {f82}: {at_82} {at_90}"
+            );
+        }
+    }
+}
