@@ -72,7 +72,7 @@ pub static METHOD: Method = Method {
                 at_degrees: 87.3,
             },
         ],
-        code_ulp: 6.5,
+        code_ulp: 5.0,
         code_over: Over::Wide,
         colours: Colours::within(6e-7),
         by_class: &[],
@@ -90,7 +90,7 @@ pub static METHOD: Method = Method {
 fn build<'b>(x: &Inputs<'b>) -> Expr<'b> {
     let (f0, tint) = (x.get(Input::F0), x.get(Input::TINT));
     let m5 = grazing_weight(x);
-    let dip = dip(x, m5).named("dip", "c (1 - c)^6");
+    let dip = dip(x.cosine(), m5).named("dip", "c (1 - c)^6");
     let of_f0 = (SCALE * 9031.0 * dip).named("of_f0", "");
     let of_white = (SCALE * 7776.0 * dip).named("of_white", "");
     let first = (1.0 - m5 - of_f0).named("first", "the weight of f0 where the tint is 0");
@@ -109,7 +109,8 @@ fn for_constants<'b>(x: &Inputs<'b>) -> Expr<'b> {
     };
     let b = b.named("b", "the depth of the dip");
     let m5 = grazing_weight(x);
-    let bare = (f0 + (1.0 - f0) * m5 - b * dip(x, m5)).named("bare", "Schlick less the dip");
+    let bare =
+        (f0 + (1.0 - f0) * m5 - b * dip(x.cosine(), m5)).named("bare", "Schlick less the dip");
     bare.saturate()
 }
 

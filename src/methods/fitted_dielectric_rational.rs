@@ -36,7 +36,7 @@ pub static METHOD: Method = Method {
             max_abs: 0.0011,
             at_degrees: 59.2,
         }],
-        code_ulp: 7.0,
+        code_ulp: 5.0,
         code_over: Over::Dielectrics,
         colours: None,
         by_class: &[ByClass::of_class(
@@ -47,7 +47,7 @@ pub static METHOD: Method = Method {
         )],
     },
     contract: Contract::Kept,
-    half: InHalf::within_over(0.0015, Over::Dielectrics, FLOOR),
+    half: InHalf::within_over(0.0025, Over::Dielectrics, FLOOR),
     build,
     for_constants: None,
     coefficients: None,

@@ -321,14 +321,6 @@ impl<'b> Inputs<'b> {
             .named("c", "clamp: a rounded dot product may exceed 1")
     }
 
-    /// `1 - cos_theta` limited to [0, 1], to the last bit 1 less the limited cosine, in one step: a GPU limits a difference for nothing.
-    pub fn grazing(&self) -> Expr<'b> {
-        (1.0 - self.cos_theta).saturate().named(
-            "m",
-            "0 at normal incidence, 1 at grazing; clamp: a rounded dot product may exceed 1",
-        )
-    }
-
     /// An input that the method declared.
     pub fn get(&self, input: Input) -> Expr<'b> {
         let found = self.given.iter().find(|(name, _)| *name == input.name);

@@ -45,7 +45,7 @@ pub static METHOD: Method = Method {
                 at_degrees: 84.5,
             },
         ],
-        code_ulp: 6.0,
+        code_ulp: 5.0,
         code_over: Over::Wide,
         colours: Colours::within(3e-7),
         by_class: &[],
@@ -80,7 +80,7 @@ pub(super) fn grazing_weight<'b>(x: &Inputs<'b>) -> Expr<'b> {
     if x.is_half() {
         return (1.0 - grazing_rest(x.cosine())).named("m5", "(1 - c)^5");
     }
-    let m = x.grazing();
+    let m = (1.0 - x.cosine()).named("m", "0 at normal incidence, 1 at grazing");
     let m2 = m.squared().named("m2", "");
     (m2 * m2 * m).named("m5", "")
 }

@@ -43,7 +43,7 @@ pub static METHOD: Method = Method {
                 at_degrees: 84.5,
             },
         ],
-        code_ulp: 6.0,
+        code_ulp: 5.0,
         code_over: Over::Wide,
         colours: Colours::within(3e-7),
         by_class: &[],

@@ -55,7 +55,7 @@ pub static METHOD: Method = Method {
                 at_degrees: 84.5,
             },
         ],
-        code_ulp: 5.0,
+        code_ulp: 0.0,
         code_over: Over::Wide,
         colours: None,
         by_class: &[],
@@ -80,7 +80,8 @@ fn for_constants<'b>(x: &Inputs<'b>) -> Expr<'b> {
 }
 
 fn weight<'b>(x: &Inputs<'b>) -> Expr<'b> {
-    let weight = x.grazing().power(x.get(Input::EXPONENT), x.precision());
+    let m = (1.0 - x.cosine()).named("m", "0 at normal incidence, 1 at grazing");
+    let weight = m.power(x.get(Input::EXPONENT), x.precision());
     weight.named("weight", "1 at grazing")
 }
 

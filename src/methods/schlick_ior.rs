@@ -34,7 +34,7 @@ pub static METHOD: Method = Method {
         by_class: &[],
     },
     contract: Contract::Kept,
-    half: InHalf::within(0.0013).ending(&[("eta", 65504.0)]),
+    half: InHalf::within(0.0014).ending(&[("eta", 65504.0)]),
     build,
     for_constants: None,
     coefficients: None,

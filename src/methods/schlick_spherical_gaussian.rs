@@ -49,7 +49,7 @@ pub static METHOD: Method = Method {
         by_class: &[],
     },
     contract: Contract::Kept,
-    half: InHalf::within(0.0009),
+    half: InHalf::within(0.0008),
     build,
     for_constants: Some(for_constants),
     coefficients: None,
