@@ -32,6 +32,8 @@ fn sheet(material: &EngineMaterial) -> Sheet {
         Body::Dielectric { ior, is_clear, .. } => {
             let mut fields = vec![Field::number("Metallic", 0.0), Field::number("IOR", ior)];
             if is_clear {
+                // Base Color tints what is transmitted; it is grey by default.
+                fields.push(Field::colour("Base Color", [1.0; 3]));
                 fields.push(Field::number("Transmission Weight", 1.0));
             }
             let node = Node {

@@ -10,7 +10,7 @@ use super::format::{Format, Notes};
 use super::head;
 use super::model::Model;
 use super::sheet::{Field, FieldValue, Node, Sheet};
-use super::subject::{Body, EngineMaterial, rounded};
+use super::subject::{Body, EngineMaterial, f0_of, rounded};
 
 /// F0 of reflectance 1.
 const REFLECTANCE_F0: f64 = 0.16;
@@ -37,7 +37,7 @@ fn sheet(material: &EngineMaterial) -> Sheet {
             (fields, material.f0)
         }
         Body::Dielectric { ior, is_clear, .. } => {
-            let whole = libm::sqrt(material.grey_f0() / REFLECTANCE_F0);
+            let whole = libm::sqrt(f0_of(ior) / REFLECTANCE_F0);
             let reflectance = rounded(whole.min(1.0));
             if whole > 1.0 {
                 remarks.push(format!(

@@ -17,7 +17,7 @@ use super::format::{Format, Notes};
 use super::head;
 use super::model::Model;
 use super::sheet::{Field, FieldValue, Node, Sheet};
-use super::subject::{Body, EngineMaterial, rounded};
+use super::subject::{Body, EngineMaterial, f0_of, rounded};
 
 /// The record of this format.
 pub static FORMAT: Format = Format {
@@ -46,7 +46,7 @@ fn sheet(material: &EngineMaterial) -> Sheet {
             abbe,
             is_clear,
         } => {
-            let grey = ((ior - 1.0) / (ior + 1.0)) * ((ior - 1.0) / (ior + 1.0));
+            let grey = f0_of(ior);
             let colour = material
                 .f0
                 .map(|f0| if grey > 0.0 { rounded(f0 / grey) } else { 1.0 });

@@ -46,6 +46,12 @@ pub fn rounded(value: f64) -> f64 {
     libm::round(value * 1e5) / 1e5 + 0.0
 }
 
+/// Reflectance at 0 degrees of one index.
+pub fn f0_of(ior: f64) -> f64 {
+    let root = (ior - 1.0) / (ior + 1.0);
+    root * root
+}
+
 impl EngineMaterial<'_> {
     /// A material in its medium as formats take it. The viewing conditions are those that it was made with, and clip.
     ///
@@ -69,11 +75,6 @@ impl EngineMaterial<'_> {
             body: body(subject)?,
             remarks: remarks(subject, viewing, unclipped),
         })
-    }
-
-    /// F0 as one number: the mean of the channels.
-    pub fn grey_f0(&self) -> f64 {
-        self.f0.iter().sum::<f64>() / 3.0
     }
 
     /// F0 as sRGB encodes it, where the space is sRGB.

@@ -11,7 +11,7 @@ use super::format::{Format, Notes};
 use super::head;
 use super::model::Model;
 use super::sheet::{Field, Node, Sheet};
-use super::subject::{Body, EngineMaterial, rounded};
+use super::subject::{Body, EngineMaterial, f0_of, rounded};
 
 /// F0 of Specular 1.
 const SPECULAR_F0: f64 = 0.08;
@@ -30,7 +30,7 @@ pub static FORMAT: Format = Format {
 fn sheet(material: &EngineMaterial) -> Sheet {
     let (lit, remark) = match material.body {
         Body::Conductor => (metal(material), None),
-        Body::Dielectric { ior, .. } => dielectric(material, ior),
+        Body::Dielectric { ior, .. } => dielectric(ior),
     };
     let slab = Node {
         name: "substrate_slab",
@@ -57,8 +57,8 @@ fn metal(material: &EngineMaterial) -> Node {
     }
 }
 
-fn dielectric(material: &EngineMaterial, ior: f64) -> (Node, Option<String>) {
-    let whole = material.grey_f0() / SPECULAR_F0;
+fn dielectric(ior: f64) -> (Node, Option<String>) {
+    let whole = f0_of(ior) / SPECULAR_F0;
     let specular = rounded(whole.min(1.0));
     let remark = format!(
         "Specular {} is limited to 1: Default Lit reflects {SPECULAR_F0} at most at 0 degrees; a Substrate slab has no such limit",
