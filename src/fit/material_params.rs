@@ -3,8 +3,12 @@
 use serde::Serialize;
 
 use crate::materials::{Material, MaterialKind, Surface, Unseen, ViewingConditions, surfaces_of};
+use crate::methods::Light;
+use crate::reference::ReferenceCurve;
+use crate::spectra::Gamut;
 
-use super::params::{BOUNCES, Params, abbe, colour_errors, ior_d, params};
+use super::grey_tint::{GreyTint, grey_tint};
+use super::params::{BOUNCES, Params, abbe_in, colour_errors, ior_in, params};
 
 /// The parameters of a material in a medium under viewing conditions.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -31,6 +35,9 @@ pub struct MaterialParams {
     pub truth: String,
     /// Beyond which wavelengths its index was held, in words, where it was.
     pub extrapolated: Option<String>,
+    /// What is to be said of the adaptation, for people.
+    #[serde(skip)]
+    pub remark: Option<&'static str>,
     /// What engines take.
     #[serde(flatten)]
     pub params: Params,
@@ -45,6 +52,8 @@ pub struct MaterialParams {
     pub colour_error: Option<ColourErrors>,
     /// How far the measurements of the substance lie apart.
     pub spread: MeasuredSpread,
+    /// The one tint of F82-tint for all channels that serves best.
+    pub grey_f82_tint: GreyTint,
 }
 
 /// Colour errors in ΔE 2000, by light and number of bounces.
@@ -108,6 +117,7 @@ pub fn material_params(
     let one_wavelength = "one wavelength a channel: no spectrum is integrated";
     let errors = colour_errors(&surface, &viewing.integration);
     let (truth, extrapolated) = (surface.seen.clone(), surface.extrapolation());
+    let grey_f82_tint = grey_tint(&clipped(surface.clone()));
     let params = params(surface, material.kind);
     Ok(MaterialParams {
         name: material.name.clone(),
@@ -121,8 +131,9 @@ pub fn material_params(
         gamut: viewing.gamut.name(),
         truth,
         extrapolated,
-        ior_d: ior_d(material),
-        abbe: abbe(material).filter(|_| material.kind == MaterialKind::Dielectric),
+        remark: integration.and_then(|by| by.adaptation_remark()),
+        ior_d: ior_in(material, None),
+        abbe: abbe_in(material, None).filter(|_| material.kind == MaterialKind::Dielectric),
         reason: (!is_spectral).then_some(one_wavelength),
         colour_error: errors.map(|errors| ColourErrors {
             bounces: BOUNCES,
@@ -136,7 +147,17 @@ pub fn material_params(
         }),
         spread: MeasuredSpread::new(params.f0, others(material, medium, &viewing, catalogue)),
         params,
+        grey_f82_tint,
     })
+}
+
+/// The reference that errors of methods are told against: a spectrum is clipped.
+fn clipped(surface: Surface) -> ReferenceCurve {
+    let gamut = match surface.channels() {
+        Some(_) => Gamut::Keep,
+        None => Gamut::Clip,
+    };
+    ReferenceCurve::new(Surface { gamut, ..surface }, Light::Unpolarised)
 }
 
 /// The other measurements of a material's substance over the whole spectrum.

@@ -10,6 +10,7 @@ mod coefficients;
 mod colours;
 mod derive;
 mod exact;
+mod grey_tint;
 mod material_params;
 mod measured;
 mod method_errors;
@@ -36,6 +37,7 @@ pub use derive::{
     values_for_material_in, values_of,
 };
 pub use exact::Exact;
+pub use grey_tint::{GreyTint, grey_tint};
 pub use material_params::{
     ColourErrorRow, ColourErrors, MaterialParams, MeasuredSpread, OtherMeasurement, material_params,
 };
@@ -46,7 +48,7 @@ pub use model_error::{
     ModelError, error_from, error_of, model_error, rounded_up, single_error, thesis_errors,
 };
 pub use over::model_error_over;
-pub use params::{Params, colour_errors};
+pub use params::{Params, abbe_in, colour_errors, ior_in};
 pub use perceived::{Perceived, perceived};
 pub use problem::{Fit, FitCurve, FitObjective, FitProblem, basis};
 pub use search::{Tried, search};

@@ -85,16 +85,21 @@ const D_NM: f64 = 587.561_8;
 const F_NM: f64 = 486.132_7;
 const C_NM: f64 = 656.272_5;
 
-/// n at the d line, where it is known.
-pub(super) fn ior_d(material: &Material) -> Option<f64> {
-    n_at(material, D_NM)
+/// n at the d line relative to the medium, where both are known.
+pub fn ior_in(material: &Material, medium: Option<&Material>) -> Option<f64> {
+    relative_n(material, medium, D_NM)
 }
 
-/// Abbe's number (n_d - 1)/(n_F - n_C), where all three are known and differ.
-pub(super) fn abbe(material: &Material) -> Option<f64> {
-    let dispersion = n_at(material, F_NM)? - n_at(material, C_NM)?;
-    let number = (n_at(material, D_NM)? - 1.0) / dispersion;
+/// Abbe's number (n_d - 1)/(n_F - n_C) of the relative index, where all three are known and differ.
+pub fn abbe_in(material: &Material, medium: Option<&Material>) -> Option<f64> {
+    let at = |nm: f64| relative_n(material, medium, nm);
+    let number = (at(D_NM)? - 1.0) / (at(F_NM)? - at(C_NM)?);
     number.is_finite().then_some(number)
+}
+
+fn relative_n(material: &Material, medium: Option<&Material>, nm: f64) -> Option<f64> {
+    let around = medium.map_or(Some(1.0), |medium| n_at(medium, nm));
+    Some(n_at(material, nm)? / around?)
 }
 
 fn n_at(material: &Material, nm: f64) -> Option<f64> {

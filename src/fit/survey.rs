@@ -3,7 +3,7 @@
 use crate::materials::{DispersionCurve, Extrapolate, Material, Page, Surface, ViewingConditions};
 use crate::optics::{COS_82, cosine};
 
-use super::params::ior_d;
+use super::params::ior_in;
 
 /// Angles at which each surface is seen: every degree from 0 to 90.
 pub const SURVEYED_ANGLES: usize = 91;
@@ -82,7 +82,7 @@ fn page_facts(page: &Page, material: &Material) -> Result<PageFacts, String> {
     material.index(0.5 * (from + to), Extrapolate::Refuse)?;
     let nd = page
         .nd
-        .and_then(|printed| Some((printed, ior_d(material)? - printed)));
+        .and_then(|printed| Some((printed, ior_in(material, None)? - printed)));
     Ok(PageFacts {
         class: material.kind.name(),
         range_nm: (from, to),

@@ -1,6 +1,6 @@
 //! The parameters of a material for people.
 
-use crate::fit::{ColourErrors, MaterialParams, MeasuredSpread};
+use crate::fit::{ColourErrors, GreyTint, MaterialParams, MeasuredSpread, rounded_up};
 use crate::materials::Material;
 
 use super::table;
@@ -36,6 +36,7 @@ pub fn params_text(
         format!("{}: {}", material.name, material.summary),
         of_material.truth.clone(),
     ];
+    lines.extend(of_material.remark.map(str::to_owned));
     lines.extend(medium.map(|medium| format!("in {}: n and k are relative to it", medium.name)));
     let held = of_material.extrapolated.iter();
     lines.extend(held.map(|held| format!("extrapolated: {held}")));
@@ -48,9 +49,20 @@ pub fn params_text(
         number(of_material.ior_d),
         number(of_material.abbe)
     ));
+    lines.push(grey_tint_line(&of_material.grey_f82_tint));
     lines.extend(of_material.colour_error.iter().flat_map(colour_error_lines));
     lines.extend(spread_lines(&of_material.spread));
     lines.join("\n") + "\n"
+}
+
+fn grey_tint_line(grey: &GreyTint) -> String {
+    format!(
+        "one F82 tint for all channels {:.5}: error at most {} (at {:.2} degrees), Schlick's {}",
+        grey.tint,
+        rounded_up(grey.max_abs),
+        libm::acos(grey.worst_cos).to_degrees(),
+        rounded_up(grey.schlick_max_abs)
+    )
 }
 
 fn channel_cells(name: &str, values: [f64; 3]) -> Vec<String> {

@@ -36,7 +36,16 @@ impl Integration {
             self.space.title(),
         )
     }
+
+    /// What is to be said of the adaptation beside colours in this space.
+    pub fn adaptation_remark(&self) -> Option<&'static str> {
+        let is_other = self.space == Space::AcesCg && self.adaptation != Adaptation::Bradford;
+        is_other.then_some(ACES_ADAPTS)
+    }
 }
+
+/// Which adaptation ACES pipelines use, where it is another.
+const ACES_ADAPTS: &str = "a mirror is made white by dividing each channel; ACES pipelines adapt by Bradford: --adaptation bradford";
 
 #[cfg(test)]
 mod tests {
@@ -55,9 +64,17 @@ mod tests {
             step: Step::Nm1,
             ..default
         };
+        assert_eq!(other.adaptation_remark(), None);
         assert_eq!(
             other.description(),
             "380-780 nm in steps of 1 nm, CIE 1931 2 degree observer, A, adapted by Bradford, linear sRGB, mirror = 1"
         );
+        let aces = |adaptation| Integration {
+            space: Space::AcesCg,
+            adaptation,
+            ..Integration::default()
+        };
+        assert!(aces(Adaptation::Scale).adaptation_remark().is_some());
+        assert_eq!(aces(Adaptation::Bradford).adaptation_remark(), None);
     }
 }

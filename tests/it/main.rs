@@ -30,6 +30,7 @@ mod golden;
 #[cfg(feature = "gpu")]
 mod gpu;
 mod graph;
+mod grey_tint;
 mod half;
 mod incidents;
 mod licences;

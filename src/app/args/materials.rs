@@ -4,6 +4,7 @@ use std::path::PathBuf;
 
 use clap::{Args, Subcommand};
 
+use crate::exchange::{self, Format};
 use crate::materials::MaterialKind;
 use crate::names::UnknownName;
 
@@ -30,7 +31,9 @@ pub enum MaterialsCommand {
     /// All that is known of one, as text, and as a picture
     Show(ShowFlags),
     /// The numbers that an engine wants: F0, F82, n and k per channel, averages, and how well they are known
-    #[command(after_help = "Example:\n  fresnel-gen materials params gold --space acescg --json -")]
+    #[command(
+        after_help = "Examples:\n  fresnel-gen materials params gold --space acescg --json -\n  fresnel-gen materials params gold --as materialx -o gold.mtlx"
+    )]
     Params(ParamsFlags),
     /// Turn a page of refractiveindex.info or a CSV table into a material file
     #[command(
@@ -66,7 +69,7 @@ pub struct FilterFlags {
 pub struct ShowFlags {
     /// Which material, and how it is looked at.
     #[command(flatten)]
-    pub of: ParamsFlags,
+    pub of: SeenFlags,
     /// Draw n, k, reflectance and colour as SVG into this file, or `-` for stdout
     #[arg(long, value_name = "FILE")]
     pub svg: Option<PathBuf>,
@@ -75,9 +78,9 @@ pub struct ShowFlags {
     pub png: Option<PathBuf>,
 }
 
-/// The flags of `materials params`.
+/// Which material, and how it is looked at.
 #[derive(Args, Debug)]
-pub struct ParamsFlags {
+pub struct SeenFlags {
     /// A name, or the path of a material file, page or table
     #[arg(value_parser = MaterialName::parse)]
     pub name: MaterialName,
@@ -87,6 +90,23 @@ pub struct ParamsFlags {
     /// How it is looked at.
     #[command(flatten)]
     pub viewing: ViewingFlags,
+}
+
+/// The flags of `materials params`.
+#[derive(Args, Debug)]
+pub struct ParamsFlags {
+    /// Which material, and how it is looked at.
+    #[command(flatten)]
+    pub of: SeenFlags,
+    /// Write the numbers for an engine or a tool: openpbr, materialx, gltf, usd, blender, unreal, filament
+    #[arg(long = "as", value_name = "FORMAT", value_parser = one_of("format", exchange::ALL.iter().copied(), |format| format.name))]
+    pub format: Option<&'static Format>,
+    /// Write that file here, or `-` for stdout [default: stdout]
+    #[arg(short = 'o', value_name = "FILE", requires = "format")]
+    pub output: Option<PathBuf>,
+    /// Also replace a file that fresnel-gen did not write
+    #[arg(long, requires = "output")]
+    pub overwrite: bool,
 }
 
 /// The flags of `materials import`.

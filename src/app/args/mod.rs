@@ -41,7 +41,8 @@ pub use listing::{
 };
 pub use material::{MaterialFlags, MaterialName, MediumFlags};
 pub use materials::{
-    FilterFlags, ImportFlags, MaterialsCommand, MaterialsFlags, ParamsFlags, ShowFlags, SurveyFlags,
+    FilterFlags, ImportFlags, MaterialsCommand, MaterialsFlags, ParamsFlags, SeenFlags, ShowFlags,
+    SurveyFlags,
 };
 pub use named::NamedFiles;
 pub use output::{CheckReportFlags, PictureFlags, ReportFlags, TreeFlags};

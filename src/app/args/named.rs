@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use super::{
-    MaterialFlags, MaterialsCommand, MaterialsFlags, MediumFlags, ParamsFlags, ReportFlags,
+    MaterialFlags, MaterialsCommand, MaterialsFlags, MediumFlags, ReportFlags, SeenFlags,
     ViewingFlags,
 };
 
@@ -35,7 +35,7 @@ impl<'a> NamedFiles<'a> {
         self.write(&report.json);
     }
 
-    fn params(&mut self, flags: &'a ParamsFlags) {
+    fn params(&mut self, flags: &'a SeenFlags) {
         let material = flags.name.path().into_iter();
         self.read(
             material
@@ -51,7 +51,10 @@ impl<'a> NamedFiles<'a> {
                 self.params(&show.of);
                 self.write(show.svg.iter().chain(&show.png));
             }
-            Some(MaterialsCommand::Params(params)) => self.params(params),
+            Some(MaterialsCommand::Params(params)) => {
+                self.params(&params.of);
+                self.write(&params.output);
+            }
             Some(MaterialsCommand::Import(import)) => {
                 self.inputs.push(Path::new(&import.page));
                 self.write(&import.output);

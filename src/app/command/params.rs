@@ -1,20 +1,26 @@
-//! `materials params`: the numbers that an engine wants of a material, and how well each is known.
+//! `materials params`: the numbers that an engine wants of a material, as a report or in an engine's own format.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use serde::Serialize;
 
-use crate::app::args::ParamsFlags;
+use crate::app::args::{ParamsFlags, SeenFlags};
 use crate::app::error::Error;
-use crate::app::request::load;
+use crate::app::fault::RequestFault;
+use crate::app::folder::is_device;
+use crate::app::request::{Loaded, load};
+use crate::app::write::{try_places_of_ours, write_file, write_report};
+use crate::command_line::CommandLine;
+use crate::exchange::{EngineMaterial, Format};
 use crate::fit::{MaterialParams, material_params};
 use crate::materials::{self, ViewingConditions};
+use crate::reference::{Derivation, MaterialInMedium};
 use crate::report::SCHEMA;
 use crate::report::params::params_text;
 use crate::spectra::Gamut;
 
 use super::materials::medium;
-use super::{Output, report};
+use super::{Output, replaced, report};
 
 #[derive(Serialize)]
 struct ParamsReport<'a> {
@@ -25,6 +31,17 @@ struct ParamsReport<'a> {
 
 /// `fresnel-gen materials params NAME`.
 pub fn run(flags: &ParamsFlags, json: Option<&Path>) -> Result<Output, Error> {
+    match flags.format {
+        None => reported(&flags.of, json),
+        Some(_) if json.is_some() => Err(RequestFault::conflict(
+            "--as writes a format of its own in place of the report; leave --json out",
+        )
+        .into()),
+        Some(format) => exported(flags, format),
+    }
+}
+
+fn reported(flags: &SeenFlags, json: Option<&Path>) -> Result<Output, Error> {
     let material = load(&flags.name.source()?)?.material;
     let medium = medium(&flags.medium)?;
     let medium = medium.as_ref().map(|medium| &medium.material);
@@ -36,4 +53,67 @@ pub fn run(flags: &ParamsFlags, json: Option<&Path>) -> Result<Output, Error> {
     let schema = SCHEMA;
     let text = params_text(params, &material, medium);
     report(text, &ParamsReport { schema, params }, json)
+}
+
+fn exported(flags: &ParamsFlags, format: &Format) -> Result<Output, Error> {
+    let file = flags
+        .output
+        .as_ref()
+        .filter(|file| **file != Path::new("-"));
+    let file = file.map(|file| (file, is_device(file)));
+    if let Some((file, false)) = file {
+        try_places_of_ours(std::slice::from_ref(file), flags.overwrite)?;
+    }
+    let loaded = load(&flags.of.name.source()?)?;
+    let medium = medium(&flags.of.medium)?;
+    let viewing = flags.of.viewing.conditions()?;
+    let command = CommandLine::new("fresnel-gen materials params")
+        .argument(&loaded.argument)
+        .list("medium", medium.as_ref().map(|medium| &medium.argument))
+        .seen_as(&viewing)
+        .list("as", [format.name]);
+    let typed = |loaded: Loaded| (loaded.argument, loaded.material);
+    let subject = MaterialInMedium::new(
+        typed(loaded),
+        medium.map(typed),
+        &viewing,
+        Derivation::default(),
+    )?;
+    let fault = |fault: crate::exchange::ExchangeFault| RequestFault::conflict(fault.to_string());
+    let material = EngineMaterial::new(&subject, &viewing).map_err(fault)?;
+    let exported = format
+        .export(&material, &String::from(command))
+        .map_err(fault)?;
+    let mut output = Output {
+        remarks: exported.remarks,
+        ..Output::default()
+    };
+    put(
+        file,
+        exported.text.into_bytes(),
+        flags.overwrite,
+        &mut output,
+    )?;
+    Ok(output)
+}
+
+/// Into a file, or to stdout. A device is written to.
+fn put(
+    file: Option<(&PathBuf, bool)>,
+    bytes: Vec<u8>,
+    overwrite: bool,
+    output: &mut Output,
+) -> Result<(), Error> {
+    match file {
+        None => {
+            output.stdout = bytes;
+            output.is_file = true;
+        }
+        Some((device, true)) => drop(write_file(device, &bytes)?),
+        Some((file, false)) => {
+            let old = write_report(&[(file.clone(), &bytes)], overwrite)?;
+            output.remarks.extend(replaced(&old));
+        }
+    }
+    Ok(())
 }

@@ -13,6 +13,7 @@ mod determinism;
 #[cfg(unix)]
 mod disk;
 mod effects;
+mod exchange;
 mod files;
 mod fit;
 mod generation;

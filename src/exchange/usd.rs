@@ -1,0 +1,73 @@
+//! USD: a UsdPreviewSurface as a text layer.
+//!
+//! Source: Pixar, "UsdPreviewSurface Specification", version 2.6, <https://openusd.org/release/spec_usdpreviewsurface.html>.
+//! A metal's F0 is `diffuseColor` with `metallic` 1. A dielectric takes F0 as `specularColor` in the specular workflow, and
+//! `opacity` 0 where it is clear, which keeps the reflection. Schlick's approximation, white at 90 degrees.
+
+use crate::spectra::Space;
+
+use super::format::{Format, Notes};
+use super::head;
+use super::model::Model;
+use super::sheet::{Field, FieldValue, Node, Sheet};
+use super::subject::{Body, EngineMaterial};
+
+/// The record of this format.
+pub static FORMAT: Format = Format {
+    name: "usd",
+    summary: "a UsdPreviewSurface, as a .usda layer",
+    spaces: &[Space::Srgb],
+    sheet,
+    text,
+};
+
+fn sheet(material: &EngineMaterial) -> Sheet {
+    let fields = match material.body {
+        Body::Conductor => vec![
+            Field::colour("diffuseColor", material.f0),
+            Field::number("metallic", 1.0),
+        ],
+        Body::Dielectric { ior, is_clear, .. } => {
+            let mut fields = vec![
+                Field::whole("useSpecularWorkflow", 1),
+                Field::colour("specularColor", material.f0),
+                Field::number("ior", ior),
+            ];
+            if is_clear {
+                fields.push(Field::number("opacity", 0.0));
+            }
+            fields
+        }
+    };
+    let node = Node {
+        name: "UsdPreviewSurface",
+        fields,
+        model: Model::schlick(material.f0),
+    };
+    Sheet {
+        nodes: vec![node],
+        remarks: Vec::new(),
+    }
+}
+
+fn text(material: &EngineMaterial, sheet: &Sheet, notes: &Notes) -> String {
+    let name = &material.subject.name;
+    let line = |field: &Field| {
+        let numbers = field.value.numbers();
+        let (ty, value) = match field.value {
+            FieldValue::Colour(_) => ("color3f", format!("({numbers})")),
+            FieldValue::Number(_) => ("float", numbers),
+            FieldValue::Whole(_) => ("int", numbers),
+        };
+        format!("        {ty} inputs:{} = {value}\n", field.name)
+    };
+    let fields = sheet.nodes.iter().flat_map(|node| &node.fields);
+    let lines: String = fields.map(line).collect();
+    // The first line must be USD's own.
+    let head = head::comments("#", &FORMAT, material, notes);
+    format!(
+        "#usda 1.0\n{head}(\n    defaultPrim = \"{name}\"\n    metersPerUnit = 1\n    upAxis = \"Y\"\n)\n\ndef Material \"{name}\"\n{{\n    \
+         token outputs:surface.connect = </{name}/surface.outputs:surface>\n\n    def Shader \"surface\"\n    {{\n        \
+         uniform token info:id = \"UsdPreviewSurface\"\n{lines}        token outputs:surface\n    }}\n}}\n"
+    )
+}

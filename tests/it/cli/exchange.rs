@@ -1,0 +1,483 @@
+//! `materials params --as`: every format written for five materials, its numbers, its errors, and read by tools that are not ours.
+
+use std::path::Path;
+use std::process::Command;
+
+use fresnel_gen::exchange;
+use serde_json::Value;
+
+use super::{Place, Ran};
+use crate::not_checked;
+
+/// A coloured metal, a white one, two dielectrics, a semiconductor.
+const MATERIALS: [&str; 5] = ["gold", "silver", "water", "bk7", "silicon"];
+
+/// The packages that read the formats, as `tests/run` installs them, and where to.
+const MATERIALX: &str = "MaterialX==1.39.5";
+const USD: &str = "usd-core==26.11";
+const GLTF: &str = "gltf-validator@2.0.0-dev.3.10";
+const FOLDER: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/target/exchange");
+
+fn written(place: &Place, material: &str, format: &str) -> Ran {
+    place.done(&format!("materials params {material} --as {format}"))
+}
+
+/// The error that a text states of a node.
+#[track_caller]
+fn stated(text: &str, node: &str) -> f64 {
+    let joined = joined(text);
+    let after = |from: &str, mark: &str| from.split_once(mark).map(|(_, rest)| rest.to_owned());
+    let rest = after(&joined, &format!("{node} computes "))
+        .and_then(|rest| after(&rest, "error at most "));
+    let rest = rest.unwrap_or_else(|| panic!("no error of {node} in {text}"));
+    let number = rest.split_whitespace().next().unwrap();
+    number
+        .parse()
+        .unwrap_or_else(|_| panic!("{number} in {text}"))
+}
+
+/// Lines of comments that were broken, as one.
+fn joined(text: &str) -> String {
+    let bare = text
+        .lines()
+        .map(|line| line.trim_start_matches(['#', '/', ' ', '"']));
+    bare.collect::<Vec<_>>().join(" ")
+}
+
+#[track_caller]
+fn near(got: f64, want: f64, within: f64) {
+    assert!((got - want).abs() <= within, "{got} is not {want}");
+}
+
+fn toml(text: &str) -> toml::Table {
+    text.parse()
+        .unwrap_or_else(|fault| panic!("{fault} in {text}"))
+}
+
+fn params(place: &Place, material: &str) -> Value {
+    place
+        .done(&format!("materials params {material} --json -"))
+        .json()
+}
+
+/// Every format of every material is written, says how, and is the same again.
+#[test]
+fn every_format_is_written_of_every_class() {
+    let place = Place::new();
+    for format in exchange::ALL {
+        for material in MATERIALS {
+            let ran = written(&place, material, format.name);
+            let text = &ran.out;
+            for says in [
+                "fresnel-gen",
+                &format!(
+                    "fresnel-gen materials params {material} --as {}",
+                    format.name
+                ),
+                material,
+                "CC0-1.0",
+                "linear sRGB",
+                "error at most",
+            ] {
+                assert!(joined(text).contains(says), "{says} is not in {ran:?}");
+            }
+            assert_eq!(written(&place, material, format.name).out, *text);
+            assert!(text.ends_with('\n') && !text.contains("NaN"), "{text}");
+        }
+    }
+}
+
+#[test]
+fn metals_have_f0_and_its_tint() {
+    let place = Place::new();
+    let silver = params(&place, "silver");
+    let green = silver["f0"][1].as_f64().unwrap();
+    let text = written(&place, "silver", "openpbr").out;
+    let surface = &toml(&text)["open_pbr_surface"];
+    near(surface["base_color"][1].as_float().unwrap(), green, 6e-6);
+    let tint = silver["f82_tint"][1].as_f64().unwrap();
+    near(
+        surface["specular_color"][1].as_float().unwrap(),
+        tint.min(1.0),
+        2e-5,
+    );
+    assert_eq!(surface["base_metalness"].as_float(), Some(1.0));
+    // Gold's red is clipped, and said to be.
+    let ran = written(&place, "gold", "gltf");
+    let gold = &ran.json()["materials"][0]["pbrMetallicRoughness"];
+    assert_eq!(gold["baseColorFactor"][0], 1.0);
+    assert_eq!(gold["baseColorFactor"][3], 1.0);
+    for text in [&ran.err, &joined(&ran.out)] {
+        assert!(
+            text.contains("F0 is (1.0") && text.contains("clipped to [0, 1]"),
+            "{ran:?}"
+        );
+    }
+    let blender = written(&place, "gold", "blender").out;
+    for line in [
+        "node.inputs[\"Metallic\"].default_value = 1.0",
+        "node.inputs[\"Specular Tint\"].default_value = (",
+        "node.fresnel_type = \"F82\"",
+        "node.inputs[\"Edge Tint\"].default_value = (",
+    ] {
+        assert!(blender.contains(line), "{blender}");
+    }
+    // #rrggbb: red is 1, and the rest as the transfer function has it.
+    assert!(joined(&blender).contains("F0 in sRGB: #ff"), "{blender}");
+    let wide = place
+        .done("materials params gold --as blender --space acescg")
+        .out;
+    assert!(!wide.contains("F0 in sRGB"), "{wide}");
+}
+
+/// BK7: n_d = 1.5168, Abbe number 64.17, F0 about .0421.
+#[test]
+fn dielectrics_have_what_each_format_makes_of_the_index() {
+    let place = Place::new();
+    let gltf = written(&place, "bk7", "gltf").json();
+    let extensions = &gltf["materials"][0]["extensions"];
+    let number = |name: &str, key: &str| extensions[name][key].as_f64().unwrap();
+    near(number("KHR_materials_ior", "ior"), 1.5168, 5e-6);
+    near(
+        number("KHR_materials_dispersion", "dispersion"),
+        20.0 / 64.17,
+        5e-5,
+    );
+    near(
+        extensions["KHR_materials_specular"]["specularColorFactor"][1]
+            .as_f64()
+            .unwrap(),
+        1.0,
+        0.01,
+    );
+    assert_eq!(gltf["extensionsUsed"].as_array().map(Vec::len), Some(5));
+    let unreal = toml(&written(&place, "bk7", "unreal").out);
+    near(
+        unreal["default_lit"]["Specular"].as_float().unwrap(),
+        0.0421 / 0.08,
+        2e-3,
+    );
+    let text = written(&place, "bk7", "filament").out;
+    let reflectance = text.split("material.reflectance = ").nth(1).unwrap();
+    let reflectance: f64 = reflectance.split(';').next().unwrap().parse().unwrap();
+    near(0.16 * reflectance * reflectance, 0.0421, 2e-4);
+    let openpbr = toml(&written(&place, "bk7", "openpbr").out);
+    let surface = &openpbr["open_pbr_surface"];
+    near(surface["specular_ior"].as_float().unwrap(), 1.5168, 5e-6);
+    near(
+        surface["transmission_dispersion_abbe_number"]
+            .as_float()
+            .unwrap(),
+        64.17,
+        0.01,
+    );
+    assert!(
+        written(&place, "bk7", "usd")
+            .out
+            .contains("int inputs:useSpecularWorkflow = 1\n")
+    );
+    // Diamond reflects more than Default Lit and Filament can say.
+    for (format, limit) in [("unreal", "Specular 2.1"), ("filament", "reflectance 1.0")] {
+        let ran = written(&place, "diamond", format);
+        assert!(
+            ran.err.contains(limit) && ran.err.contains("limited to 1"),
+            "{ran:?}"
+        );
+        assert!(joined(&ran.out).contains("limited to 1"), "{ran:?}");
+        let ran = written(&place, "bk7", format);
+        assert!(!ran.err.contains("limited"), "{ran:?}");
+    }
+}
+
+/// The errors are those that charts have of the same methods.
+#[test]
+fn errors_are_those_of_the_methods() {
+    let place = Place::new();
+    let text = |material: &str, format: &str| written(&place, material, format).out;
+    let charted = |material: &str, method: &str| {
+        let json = place
+            .done(&format!("chart --material {material} --json -"))
+            .json();
+        let rows = json["rows"].as_array().unwrap();
+        let is_it = |row: &&Value| row["method"] == method && row["inputs"] == "intended";
+        rows.iter().find(is_it).unwrap()["value"].as_f64().unwrap()
+    };
+    for (material, format, node, method) in [
+        ("gold", "gltf", "material", "schlick"),
+        ("gold", "usd", "UsdPreviewSurface", "schlick"),
+        ("gold", "filament", "material", "schlick"),
+        ("gold", "unreal", "default_lit", "schlick"),
+        ("gold", "materialx", "generalized_schlick_bsdf", "f82_tint"),
+        ("gold", "materialx", "conductor_bsdf", "conductor_exact"),
+        ("silver", "blender", "Principled BSDF", "f82_tint"),
+        ("bk7", "gltf", "material", "schlick"),
+    ] {
+        let (stated, charted) = (
+            stated(&text(material, format), node),
+            charted(material, method),
+        );
+        near(stated, charted, 4e-5);
+    }
+    near(stated(&text("gold", "gltf"), "material"), 0.0223, 6e-5);
+    near(
+        stated(&text("gold", "openpbr"), "open_pbr_surface"),
+        0.0212,
+        6e-5,
+    );
+    // One index in place of a spectrum is nearly exact.
+    assert!(stated(&text("bk7", "openpbr"), "open_pbr_surface") < 0.002);
+    assert!(stated(&text("bk7", "gltf"), "material") > 0.03);
+}
+
+/// A tint above 1: OpenPBR and Blender limit it and say what that costs; MaterialX's own node takes it.
+#[test]
+fn capped_tints_are_told() {
+    let place = Place::new();
+    let (above, below) = ("titanium_nitride", "aluminium");
+    for format in ["openpbr", "blender", "materialx"] {
+        let ran = written(&place, above, format);
+        assert!(ran.err.contains("is limited to 1: the error is"), "{ran:?}");
+        let ran = written(&place, below, format);
+        assert!(!ran.err.contains("is limited to 1"), "{ran:?}");
+    }
+    let text = written(&place, above, "materialx").out;
+    let whole = stated(&text, "generalized_schlick_bsdf");
+    let capped = stated(&text, "open_pbr_surface");
+    let ran = written(&place, above, "openpbr");
+    let told = ran.err.split("the error is ").nth(1).unwrap();
+    let mut told = told
+        .split(" in place of ")
+        .map(|words| words.split([' ', '\n']).next().unwrap());
+    let mut told = || told.next().unwrap().parse::<f64>().unwrap();
+    // A figure is rounded up in the text, and to the nearest in the remark.
+    near(told(), capped, 1.1e-5);
+    near(told(), whole, 1.1e-5);
+    assert!(capped >= whole, "{ran:?}");
+}
+
+/// ACES pipelines adapt by Bradford; with it gold is (.9150, .7855, .4018).
+#[test]
+fn acescg_says_which_adaptation_aces_has() {
+    let place = Place::new();
+    let flags = "materials params gold --space acescg";
+    for line in ["", " --as openpbr", " --as materialx"] {
+        let ran = place.done(&format!("{flags}{line}"));
+        assert!(
+            format!("{}{}", ran.out, ran.err).contains("adapt by Bradford"),
+            "{ran:?}"
+        );
+        let ran = place.done(&format!("{flags} --adaptation bradford{line}"));
+        assert!(
+            !format!("{}{}", ran.out, ran.err).contains("adapt by Bradford"),
+            "{ran:?}"
+        );
+    }
+    let text = place
+        .done(&format!("{flags} --adaptation bradford --as openpbr"))
+        .out;
+    let colour = &toml(&text)["open_pbr_surface"]["base_color"];
+    for (i, want) in [0.9150, 0.7855, 0.4018].into_iter().enumerate() {
+        near(colour[i].as_float().unwrap(), want, 6e-5);
+    }
+    let text = place.done(&format!("{flags} --as materialx")).out;
+    assert!(text.contains("colorspace=\"acescg\""), "{text}");
+}
+
+#[test]
+fn what_a_format_cannot_hold_is_refused() {
+    let place = Place::new();
+    for (line, says) in [
+        ("gold --as gtlf", "(did you mean gltf"),
+        ("gold --as gltf --json -", "leave --json out"),
+        ("gold --as gltf --space acescg", "takes colours in srgb"),
+        (
+            "gold --as materialx --space rec2020",
+            "takes colours in srgb, p3, acescg",
+        ),
+        ("gold -o gold.mtlx", "--as"),
+        ("gold --as usd --overwrite", "-o"),
+        ("water --medium diamond --as gltf", "1 or more"),
+        ("glod --as gltf", "did you mean gold"),
+    ] {
+        place.refused(&format!("materials params {line}"), &[says]);
+    }
+    let ran = place.done("materials params gold --as gltf --wavelengths 685,535,475");
+    assert!(ran.err.contains("one wavelength"), "{ran:?}");
+    let wet = place.done("materials params diamond --medium water --as openpbr");
+    let ior = toml(&wet.out)["open_pbr_surface"]["specular_ior"]
+        .as_float()
+        .unwrap();
+    near(ior, 2.4175 / 1.3334, 2e-3);
+    assert!(
+        wet.out
+            .contains("materials params diamond --medium water --as openpbr"),
+        "{wet:?}"
+    );
+}
+
+/// A file of ours is replaced and named; one of the user's is not, unless they say so.
+#[test]
+fn only_a_file_of_ours_is_replaced() {
+    let place = Place::new();
+    for format in exchange::ALL {
+        let (name, file) = (format.name, format!("mine.{}", format.name));
+        let line = |material: &str| format!("materials params {material} --as {name} -o {file}");
+        place.put(&file, "mine\n");
+        let says = [
+            file.as_str(),
+            "did not write",
+            "nothing was written",
+            "--overwrite",
+        ];
+        place.refused(&line("gold"), &says);
+        place.done(&format!("{} --overwrite", line("gold")));
+        assert_eq!(place.read(&file), written(&place, "gold", name).out);
+        let again = place.done(&line("gold"));
+        assert!(!again.err.contains("replaced: "), "{again:?}");
+        let ran = place.done(&line("silver"));
+        assert!(
+            ran.err.contains(&format!("replaced: {file}")) && ran.out.is_empty(),
+            "{ran:?}"
+        );
+        assert_eq!(place.read(&file), written(&place, "silver", name).out);
+    }
+}
+
+/// Two files of a user that begin like ours, and are not.
+#[test]
+fn what_only_begins_like_ours_is_not_ours() {
+    let place = Place::new();
+    for (format, text) in [
+        ("usd", "#usda 1.0\n(\n)\n# @generated by fresnel-gen\n"),
+        ("gltf", "{ \"asset\": { \"version\": \"2.0\" } }\n"),
+    ] {
+        place.put("mine", text);
+        place.refused(
+            &format!("materials params gold --as {format} -o mine"),
+            &["did not write"],
+        );
+    }
+}
+
+/// What `tests/run` installs is what reads the files here.
+#[test]
+fn the_tools_are_those_that_the_script_installs() {
+    let run = include_str!("../../run");
+    assert!(
+        [MATERIALX, USD, GLTF]
+            .iter()
+            .all(|package| run.contains(package))
+    );
+}
+
+/// What a tool tells of the files of a format, by material. None where the tool is not here.
+#[track_caller]
+fn told_by(
+    reader: &[&str],
+    package: &str,
+    folder: &str,
+    format: &str,
+    ending: &str,
+) -> Option<Value> {
+    if !Path::new(FOLDER).join(folder).exists() {
+        let what = format!(
+            "{format} by {package}: it is not in target/exchange, where tests/run installs it"
+        );
+        assert!(std::env::var_os("CI").is_none(), "not checked: {what}");
+        not_checked(&what);
+        return None;
+    }
+    let place = Place::new();
+    let files = MATERIALS.map(|material| format!("{material}{ending}"));
+    for (material, file) in MATERIALS.iter().zip(&files) {
+        place.done(&format!(
+            "materials params {material} --as {format} -o {file}"
+        ));
+    }
+    let [command, script] = reader else {
+        panic!("a command and its script")
+    };
+    let output = Command::new(command)
+        .arg(format!(
+            "{}/tests/reference/{script}",
+            env!("CARGO_MANIFEST_DIR")
+        ))
+        .arg(FOLDER)
+        .args(&files)
+        .current_dir(place.path(""))
+        .output()
+        .unwrap();
+    Some(Ran::new(script.to_string(), output).ends(0).json())
+}
+
+/// MaterialX validates the documents, makes shaders of them, and reads the numbers that were written.
+#[test]
+fn materialx_reads_its_documents() {
+    let reader = ["python3", "read_materialx.py"];
+    let Some(told) = told_by(&reader, MATERIALX, "MaterialX", "materialx", ".mtlx") else {
+        return;
+    };
+    let number = |path: &str| {
+        told.pointer(path)
+            .and_then(Value::as_f64)
+            .unwrap_or_else(|| panic!("no {path}: {told}"))
+    };
+    near(
+        number("/bk7.mtlx/open_pbr_surface/specular_ior"),
+        1.5168,
+        5e-6,
+    );
+    near(
+        number("/gold.mtlx/generalized_schlick_bsdf/color0/1"),
+        0.77271,
+        1e-5,
+    );
+    near(
+        number("/silver.mtlx/open_pbr_surface/base_metalness"),
+        1.0,
+        0.0,
+    );
+    assert!(number("/silicon.mtlx/conductor_bsdf/ior/1") > 3.5);
+}
+
+/// USD's own validators find no fault.
+#[test]
+fn usd_reads_its_layers() {
+    let reader = ["python3", "read_usd.py"];
+    let Some(told) = told_by(&reader, USD, "pxr", "usd", ".usda") else {
+        return;
+    };
+    let number = |path: &str| {
+        told.pointer(path)
+            .and_then(Value::as_f64)
+            .unwrap_or_else(|| panic!("no {path}: {told}"))
+    };
+    near(number("/gold.usda/diffuseColor/1"), 0.77271, 1e-5);
+    near(number("/bk7.usda/ior"), 1.5168, 5e-6);
+    assert_eq!(told["water.usda"]["useSpecularWorkflow"], 1);
+}
+
+/// Khronos's validator has nothing to say but that nothing uses the material.
+#[test]
+fn the_validator_of_gltf_finds_no_fault() {
+    let reader = ["node", "read_gltf.js"];
+    let Some(told) = told_by(
+        &reader,
+        GLTF,
+        "node_modules/gltf-validator",
+        "gltf",
+        ".gltf",
+    ) else {
+        return;
+    };
+    for material in MATERIALS {
+        let issues = &told[format!("{material}.gltf")];
+        let messages = issues["messages"].as_array().unwrap();
+        assert!(
+            messages
+                .iter()
+                .all(|message| message["code"] == "UNUSED_OBJECT"),
+            "{issues}"
+        );
+    }
+}
