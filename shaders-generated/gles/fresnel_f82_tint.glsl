@@ -9,7 +9,7 @@
 // Domain: the result is limited to [0, 1], of f0 above 1 too
 // Model error for eta 1.3 to 2.5: at most 0.0341, worst at 67.8 degrees
 // Model error for n 0.05 to 4.5, k 1.5 to 8: at most 0.0837, worst at 87.3 degrees
-// Cost: 40 scalar operations
+// Cost: 33 scalar operations
 // Source: Kutz, Hasan, Edmondson, 2021, https://helpx.adobe.com/substance-3d-general/adobe-standard-material.html
 
 #ifndef FRESNEL_F82_TINT_GLES
@@ -17,12 +17,15 @@
 
 highp vec3 fresnel_f82_tint(highp float cos_theta, highp vec3 f0, highp vec3 tint) {
     highp float c = clamp(cos_theta, 0.0, 1.0); // clamp: a rounded dot product may exceed 1
-    highp vec3 b = 0.00105024 * (1.0 - tint) * (7776.0 + 9031.0 * f0); // the depth of the dip
     highp float m = 1.0 - c; // 0 at normal incidence, 1 at grazing
     highp float m2 = m * m;
     highp float m5 = m2 * m2 * m;
-    highp vec3 bare = f0 + (1.0 - f0) * m5 - b * (c * (m5 * m)); // Schlick less the dip
-    return clamp(bare, 0.0, 1.0);
+    highp float dip = c * (m5 * m); // c (1 - c)^6
+    highp float of_f0 = 9.484718 * dip;
+    highp float of_white = 8.166667 * dip;
+    highp float first = 1.0 - m5 - of_f0; // the weight of f0 where the tint is 0
+    highp float second = m5 - of_white; // the weight of white where the tint is 0
+    return clamp(f0 * (tint * of_f0 + first) + (tint * of_white + second), 0.0, 1.0);
 }
 
 #endif

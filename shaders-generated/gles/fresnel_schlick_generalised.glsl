@@ -10,7 +10,7 @@
 // Domain: the result lies between f0 and f90, and f0 above 1 is taken as it is
 // Model error for eta 1.3 to 2.5: at most 0.0841, worst at 84.5 degrees
 // Model error for n 0.05 to 4.5, k 1.5 to 8: at most 0.278, worst at 84.5 degrees
-// Cost: 15 scalar operations, among them 2 exponentials or logarithms; fresnel_schlick_generalised_scalar 9
+// Cost: 14 scalar operations, among them 2 exponentials or logarithms; fresnel_schlick_generalised_scalar 10
 // Source: Hoffman, 2023, https://renderwonk.com/publications/gfm/
 
 #ifndef FRESNEL_SCHLICK_GENERALISED_GLES
@@ -24,7 +24,10 @@ highp vec3 fresnel_schlick_generalised(
 ) {
     highp float c = clamp(cos_theta, 0.0, 1.0); // clamp: a rounded dot product may exceed 1
     highp float m = 1.0 - c; // 0 at normal incidence, 1 at grazing
-    return f0 + (f90 - f0) * exp2(exponent * log2(max(m, 1.1754944e-38)));
+    highp float weight = exp2(exponent * log2(max(m, 1.1754944e-38))); // 1 at grazing
+    highp float end = f90 * weight;
+    highp float kept = 1.0 - weight; // the weight of f0
+    return f0 * kept + end;
 }
 
 highp float fresnel_schlick_generalised_scalar(
@@ -35,7 +38,10 @@ highp float fresnel_schlick_generalised_scalar(
 ) {
     highp float c = clamp(cos_theta, 0.0, 1.0); // clamp: a rounded dot product may exceed 1
     highp float m = 1.0 - c; // 0 at normal incidence, 1 at grazing
-    return f0 + (f90 - f0) * exp2(exponent * log2(max(m, 1.1754944e-38)));
+    highp float weight = exp2(exponent * log2(max(m, 1.1754944e-38))); // 1 at grazing
+    highp float end = f90 * weight;
+    highp float kept = 1.0 - weight; // the weight of f0
+    return f0 * kept + end;
 }
 
 #endif

@@ -17,10 +17,10 @@
 #define FRESNEL_SCHLICK_RESCALED_GLES
 
 highp vec3 fresnel_schlick_rescaled(highp float cos_theta, highp vec3 n, highp vec3 k) {
-    highp float c = clamp(cos_theta, 0.0, 1.0); // clamp: a rounded dot product may exceed 1
     highp vec3 k2 = k * k;
     highp vec3 n_less = n - 1.0;
     highp vec3 n_more = n + 1.0;
+    highp float c = clamp(cos_theta, 0.0, 1.0); // clamp: a rounded dot product may exceed 1
     highp float m = 1.0 - c; // 0 at normal incidence, 1 at grazing
     highp float m2 = m * m;
     highp float m5 = m2 * m2 * m;

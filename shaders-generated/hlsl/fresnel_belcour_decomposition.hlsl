@@ -10,7 +10,7 @@
 // Domain: weights solved for f0; limited to [0, 1]
 // Model error for eta 1.3 to 2.5: at most 0.0043, worst at 87.8 degrees
 // Model error for n 0.05 to 4.5, k 1.5 to 8: at most 0.024, worst at 87.3 degrees
-// Cost: 50 scalar operations, among them 1 division; fresnel_belcour_decomposition_scalar 34
+// Cost: 48 scalar operations, among them 1 division; fresnel_belcour_decomposition_scalar 34
 // Source: Belcour, Bati, Barla, 2020, https://blog.selfshadow.com/publications/s2020-shading-course/
 
 #ifndef FRESNEL_BELCOUR_DECOMPOSITION_HLSL
@@ -21,10 +21,11 @@ float3 fresnel_belcour_decomposition(float cos_theta, float3 f0, float3 b2_weigh
     float c = saturate(cos_theta); // clamp: a rounded dot product may exceed 1
     float m = 1.0 - c; // 0 at normal incidence, 1 at grazing
     float r = 1.0 / (1.0 + 3.0 * c);
-    float b1 = m * (-0.01361334 + r * (-0.3220094 + r * (1.603441 + r * -0.2677399)));
     float b2 = m * (-0.727217 + r * (2.665895 + r * (4.683322 + r * -6.616088)));
     float b3 = m * (6.709838 + r * (-48.35706 + r * (91.43501 + r * -49.80598)));
-    return saturate(f0 + (1.0 - f0) * b1 + b2_weight * b2 + b3_weight * b3);
+    float b1 = m * (-0.01361334 + r * (-0.3220094 + r * (1.603441 + r * -0.2677399)));
+    float kept = 1.0 - b1; // the weight of f0
+    return saturate(f0 * kept + b1 + (b2_weight * b2 + b3_weight * b3));
 }
 
 float fresnel_belcour_decomposition_scalar(float cos_theta, float f0, float b2_weight, float b3_weight)
@@ -32,10 +33,11 @@ float fresnel_belcour_decomposition_scalar(float cos_theta, float f0, float b2_w
     float c = saturate(cos_theta); // clamp: a rounded dot product may exceed 1
     float m = 1.0 - c; // 0 at normal incidence, 1 at grazing
     float r = 1.0 / (1.0 + 3.0 * c);
-    float b1 = m * (-0.01361334 + r * (-0.3220094 + r * (1.603441 + r * -0.2677399)));
     float b2 = m * (-0.727217 + r * (2.665895 + r * (4.683322 + r * -6.616088)));
     float b3 = m * (6.709838 + r * (-48.35706 + r * (91.43501 + r * -49.80598)));
-    return saturate(f0 + (1.0 - f0) * b1 + b2_weight * b2 + b3_weight * b3);
+    float b1 = m * (-0.01361334 + r * (-0.3220094 + r * (1.603441 + r * -0.2677399)));
+    float kept = 1.0 - b1; // the weight of f0
+    return saturate(f0 * kept + b1 + (b2_weight * b2 + b3_weight * b3));
 }
 
 #endif

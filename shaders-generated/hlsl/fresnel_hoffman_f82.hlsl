@@ -9,7 +9,7 @@
 // Domain: the result is limited to [0, 1], of f0 above 1 too
 // Model error for eta 1.3 to 2.5: at most 0.0341, worst at 67.8 degrees
 // Model error for n 0.05 to 4.5, k 1.5 to 8: at most 0.0837, worst at 87.3 degrees
-// Cost: 37 scalar operations
+// Cost: 27 scalar operations
 // Source: Hoffman, 2019, https://renderwonk.com/publications/mam2019/
 
 #ifndef FRESNEL_HOFFMAN_F82_HLSL
@@ -18,13 +18,13 @@
 float3 fresnel_hoffman_f82(float cos_theta, float3 f0, float3 f82)
 {
     float c = saturate(cos_theta); // clamp: a rounded dot product may exceed 1
-    float3 rise = 1.0 - f0;
-    float3 b = 17.651384 * (f0 + rise * 0.46266437 - f82); // the depth of the dip
     float m = 1.0 - c; // 0 at normal incidence, 1 at grazing
     float m2 = m * m;
     float m5 = m2 * m2 * m;
-    float3 bare = f0 + rise * m5 - b * (c * (m5 * m)); // Schlick less the dip
-    return saturate(bare);
+    float b = 17.651384 * (c * (m5 * m)); // the weight of f82: 1 at 81.79 degrees
+    float a = m5 - 0.46266437 * b; // the weight of white: 1 at grazing, 0 at 81.79 degrees
+    float kept = 1.0 - a - b; // the weight of f0
+    return saturate(f0 * kept + (f82 * b + a));
 }
 
 #endif

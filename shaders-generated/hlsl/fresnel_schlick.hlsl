@@ -10,7 +10,7 @@
 //     80 degrees
 // Model error for eta 1.3 to 2.5: at most 0.0841, worst at 84.5 degrees
 // Model error for n 0.05 to 4.5, k 1.5 to 8: at most 0.278, worst at 84.5 degrees
-// Cost: 14 scalar operations; fresnel_schlick_scalar 8
+// Cost: 12 scalar operations; fresnel_schlick_scalar 8
 // Source: Schlick, 1994, https://doi.org/10.1111/1467-8659.1330233
 
 #ifndef FRESNEL_SCHLICK_HLSL
@@ -22,7 +22,8 @@ float3 fresnel_schlick(float cos_theta, float3 f0)
     float m = 1.0 - c; // 0 at normal incidence, 1 at grazing
     float m2 = m * m;
     float m5 = m2 * m2 * m;
-    return f0 + (1.0 - f0) * m5;
+    float kept = 1.0 - m5; // the weight of f0
+    return f0 * kept + m5;
 }
 
 float fresnel_schlick_scalar(float cos_theta, float f0)
@@ -31,7 +32,8 @@ float fresnel_schlick_scalar(float cos_theta, float f0)
     float m = 1.0 - c; // 0 at normal incidence, 1 at grazing
     float m2 = m * m;
     float m5 = m2 * m2 * m;
-    return f0 + (1.0 - f0) * m5;
+    float kept = 1.0 - m5; // the weight of f0
+    return f0 * kept + m5;
 }
 
 #endif

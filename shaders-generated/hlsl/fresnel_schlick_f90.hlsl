@@ -9,7 +9,7 @@
 // Domain: the result lies between f0 and f90, and f0 above 1 is taken as it is
 // Model error for eta 1.3 to 2.5: at most 0.0841, worst at 84.5 degrees
 // Model error for n 0.05 to 4.5, k 1.5 to 8: at most 0.278, worst at 84.5 degrees
-// Cost: 14 scalar operations; fresnel_schlick_f90_scalar 8
+// Cost: 13 scalar operations; fresnel_schlick_f90_scalar 9
 // Source: Lagarde, de Rousiers, 2014,
 //     https://seblagarde.wordpress.com/2015/07/14/siggraph-2014-moving-frostbite-to-physically-based-rendering/
 
@@ -22,7 +22,9 @@ float3 fresnel_schlick_f90(float cos_theta, float3 f0, float f90)
     float m = 1.0 - c; // 0 at normal incidence, 1 at grazing
     float m2 = m * m;
     float m5 = m2 * m2 * m;
-    return f0 + (f90 - f0) * m5;
+    float end = f90 * m5;
+    float kept = 1.0 - m5; // the weight of f0
+    return f0 * kept + end;
 }
 
 float fresnel_schlick_f90_scalar(float cos_theta, float f0, float f90)
@@ -31,7 +33,9 @@ float fresnel_schlick_f90_scalar(float cos_theta, float f0, float f90)
     float m = 1.0 - c; // 0 at normal incidence, 1 at grazing
     float m2 = m * m;
     float m5 = m2 * m2 * m;
-    return f0 + (f90 - f0) * m5;
+    float end = f90 * m5;
+    float kept = 1.0 - m5; // the weight of f0
+    return f0 * kept + end;
 }
 
 #endif

@@ -18,10 +18,10 @@
 
 float3 fresnel_schlick_rescaled(float cos_theta, float3 n, float3 k)
 {
-    float c = saturate(cos_theta); // clamp: a rounded dot product may exceed 1
     float3 k2 = k * k;
     float3 n_less = n - 1.0;
     float3 n_more = n + 1.0;
+    float c = saturate(cos_theta); // clamp: a rounded dot product may exceed 1
     float m = 1.0 - c; // 0 at normal incidence, 1 at grazing
     float m2 = m * m;
     float m5 = m2 * m2 * m;

@@ -10,7 +10,7 @@
 //     f0 + 1.7e-4 (1 - f0)
 // Model error for eta 1.3 to 2.5: at most 0.0864, worst at 84.6 degrees
 // Model error for n 0.05 to 4.5, k 1.5 to 8: at most 0.279, worst at 84.5 degrees
-// Cost: 14 scalar operations, among them 1 exponential or logarithm; fresnel_schlick_spherical_gaussian_scalar 8
+// Cost: 12 scalar operations, among them 1 exponential or logarithm; fresnel_schlick_spherical_gaussian_scalar 8
 // Source: Karis, 2013, https://blog.selfshadow.com/publications/s2013-shading-course/
 
 #ifndef FRESNEL_SCHLICK_SPHERICAL_GAUSSIAN_HLSL
@@ -19,13 +19,17 @@
 float3 fresnel_schlick_spherical_gaussian(float cos_theta, float3 f0)
 {
     float c = saturate(cos_theta); // clamp: a rounded dot product may exceed 1
-    return f0 + (1.0 - f0) * exp2((-5.55473 * c - 6.98316) * c);
+    float weight = exp2((-5.55473 * c - 6.98316) * c); // 1 at grazing
+    float kept = 1.0 - weight; // the weight of f0
+    return f0 * kept + weight;
 }
 
 float fresnel_schlick_spherical_gaussian_scalar(float cos_theta, float f0)
 {
     float c = saturate(cos_theta); // clamp: a rounded dot product may exceed 1
-    return f0 + (1.0 - f0) * exp2((-5.55473 * c - 6.98316) * c);
+    float weight = exp2((-5.55473 * c - 6.98316) * c); // 1 at grazing
+    float kept = 1.0 - weight; // the weight of f0
+    return f0 * kept + weight;
 }
 
 #endif

@@ -9,15 +9,18 @@
 // Domain: the result is limited to [0, 1], of f0 above 1 too
 // Model error for eta 1.3 to 2.5: at most 0.0341, worst at 67.8 degrees
 // Model error for n 0.05 to 4.5, k 1.5 to 8: at most 0.0837, worst at 87.3 degrees
-// Cost: 40 scalar operations
+// Cost: 33 scalar operations
 // Source: Kutz, Hasan, Edmondson, 2021, https://helpx.adobe.com/substance-3d-general/adobe-standard-material.html
 
 fn fresnel_f82_tint(cos_theta: f32, f0: vec3<f32>, tint: vec3<f32>) -> vec3<f32> {
     let c = saturate(cos_theta); // clamp: a rounded dot product may exceed 1
-    let b = 0.00105024 * (1.0 - tint) * (7776.0 + 9031.0 * f0); // the depth of the dip
     let m = 1.0 - c; // 0 at normal incidence, 1 at grazing
     let m2 = m * m;
     let m5 = m2 * m2 * m;
-    let bare = f0 + (1.0 - f0) * m5 - b * (c * (m5 * m)); // Schlick less the dip
-    return saturate(bare);
+    let dip = c * (m5 * m); // c (1 - c)^6
+    let of_f0 = 9.484718 * dip;
+    let of_white = 8.166667 * dip;
+    let first = 1.0 - m5 - of_f0; // the weight of f0 where the tint is 0
+    let second = m5 - of_white; // the weight of white where the tint is 0
+    return saturate(f0 * (tint * of_f0 + first) + (tint * of_white + second));
 }

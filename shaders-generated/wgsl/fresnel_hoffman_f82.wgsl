@@ -9,16 +9,16 @@
 // Domain: the result is limited to [0, 1], of f0 above 1 too
 // Model error for eta 1.3 to 2.5: at most 0.0341, worst at 67.8 degrees
 // Model error for n 0.05 to 4.5, k 1.5 to 8: at most 0.0837, worst at 87.3 degrees
-// Cost: 37 scalar operations
+// Cost: 27 scalar operations
 // Source: Hoffman, 2019, https://renderwonk.com/publications/mam2019/
 
 fn fresnel_hoffman_f82(cos_theta: f32, f0: vec3<f32>, f82: vec3<f32>) -> vec3<f32> {
     let c = saturate(cos_theta); // clamp: a rounded dot product may exceed 1
-    let rise = 1.0 - f0;
-    let b = 17.651384 * (f0 + rise * 0.46266437 - f82); // the depth of the dip
     let m = 1.0 - c; // 0 at normal incidence, 1 at grazing
     let m2 = m * m;
     let m5 = m2 * m2 * m;
-    let bare = f0 + rise * m5 - b * (c * (m5 * m)); // Schlick less the dip
-    return saturate(bare);
+    let b = 17.651384 * (c * (m5 * m)); // the weight of f82: 1 at 81.79 degrees
+    let a = m5 - 0.46266437 * b; // the weight of white: 1 at grazing, 0 at 81.79 degrees
+    let kept = 1.0 - a - b; // the weight of f0
+    return saturate(f0 * kept + (f82 * b + a));
 }

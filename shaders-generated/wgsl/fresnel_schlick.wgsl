@@ -10,7 +10,7 @@
 //     80 degrees
 // Model error for eta 1.3 to 2.5: at most 0.0841, worst at 84.5 degrees
 // Model error for n 0.05 to 4.5, k 1.5 to 8: at most 0.278, worst at 84.5 degrees
-// Cost: 14 scalar operations; fresnel_schlick_scalar 8
+// Cost: 12 scalar operations; fresnel_schlick_scalar 8
 // Source: Schlick, 1994, https://doi.org/10.1111/1467-8659.1330233
 
 fn fresnel_schlick(cos_theta: f32, f0: vec3<f32>) -> vec3<f32> {
@@ -18,7 +18,8 @@ fn fresnel_schlick(cos_theta: f32, f0: vec3<f32>) -> vec3<f32> {
     let m = 1.0 - c; // 0 at normal incidence, 1 at grazing
     let m2 = m * m;
     let m5 = m2 * m2 * m;
-    return f0 + (1.0 - f0) * m5;
+    let kept = 1.0 - m5; // the weight of f0
+    return f0 * kept + m5;
 }
 
 fn fresnel_schlick_scalar(cos_theta: f32, f0: f32) -> f32 {
@@ -26,5 +27,6 @@ fn fresnel_schlick_scalar(cos_theta: f32, f0: f32) -> f32 {
     let m = 1.0 - c; // 0 at normal incidence, 1 at grazing
     let m2 = m * m;
     let m5 = m2 * m2 * m;
-    return f0 + (1.0 - f0) * m5;
+    let kept = 1.0 - m5; // the weight of f0
+    return f0 * kept + m5;
 }

@@ -10,17 +10,23 @@
 // Domain: the result lies between f0 and f90, and f0 above 1 is taken as it is
 // Model error for eta 1.3 to 2.5: at most 0.0841, worst at 84.5 degrees
 // Model error for n 0.05 to 4.5, k 1.5 to 8: at most 0.278, worst at 84.5 degrees
-// Cost: 15 scalar operations, among them 2 exponentials or logarithms; fresnel_schlick_generalised_scalar 9
+// Cost: 14 scalar operations, among them 2 exponentials or logarithms; fresnel_schlick_generalised_scalar 10
 // Source: Hoffman, 2023, https://renderwonk.com/publications/gfm/
 
 fn fresnel_schlick_generalised(cos_theta: f32, f0: vec3<f32>, f90: f32, exponent: f32) -> vec3<f32> {
     let c = saturate(cos_theta); // clamp: a rounded dot product may exceed 1
     let m = 1.0 - c; // 0 at normal incidence, 1 at grazing
-    return f0 + (f90 - f0) * exp2(exponent * log2(max(m, 1.1754944e-38)));
+    let weight = exp2(exponent * log2(max(m, 1.1754944e-38))); // 1 at grazing
+    let end = f90 * weight;
+    let kept = 1.0 - weight; // the weight of f0
+    return f0 * kept + end;
 }
 
 fn fresnel_schlick_generalised_scalar(cos_theta: f32, f0: f32, f90: f32, exponent: f32) -> f32 {
     let c = saturate(cos_theta); // clamp: a rounded dot product may exceed 1
     let m = 1.0 - c; // 0 at normal incidence, 1 at grazing
-    return f0 + (f90 - f0) * exp2(exponent * log2(max(m, 1.1754944e-38)));
+    let weight = exp2(exponent * log2(max(m, 1.1754944e-38))); // 1 at grazing
+    let end = f90 * weight;
+    let kept = 1.0 - weight; // the weight of f0
+    return f0 * kept + end;
 }

@@ -14,10 +14,10 @@
 // Source: Lazanyi, Szirmay-Kalos, 2005, https://hdl.handle.net/11025/11214
 
 fn fresnel_schlick_rescaled(cos_theta: f32, n: vec3<f32>, k: vec3<f32>) -> vec3<f32> {
-    let c = saturate(cos_theta); // clamp: a rounded dot product may exceed 1
     let k2 = k * k;
     let n_less = n - 1.0;
     let n_more = n + 1.0;
+    let c = saturate(cos_theta); // clamp: a rounded dot product may exceed 1
     let m = 1.0 - c; // 0 at normal incidence, 1 at grazing
     let m2 = m * m;
     let m5 = m2 * m2 * m;

@@ -52,19 +52,17 @@ pub static METHOD: Method = Method {
     shape: None,
 };
 
-/// What roots are of at the least.
-const SMALLEST: f64 = 1e-37;
-
 fn build<'b>(x: &Inputs<'b>) -> Expr<'b> {
     let (c, n, k) = (x.cosine(), x.get(Input::N), x.get(Input::K));
+    let smallest = conductor_exact::least_squared(x.precision());
     let c2 = c.squared().named("c2", "");
     let s2 = (1.0 - c2).named("s2", "sin^2 theta");
     let t = (k.squared() + s2 - n.squared()).named("t", "k^2 - n^2 + sin^2 theta");
     let twice = (2.0 * n * k).named("nk2", "");
     // Added, not compared: a GPU adds with the product. Compilers have x / sqrt(x) for a root, which is NaN at 0.
-    let r = (t.squared() + (twice.squared() + SMALLEST)).sqrt();
+    let r = (t.squared() + (twice.squared() + smallest)).sqrt();
     let r = r.named("r", "a^2 + b^2, above 0");
-    let b2 = (r + t).at_least(SMALLEST).named("b2", "2 b^2");
+    let b2 = (r + t).at_least(smallest).named("b2", "2 b^2");
     let u = std::f64::consts::SQRT_2 * c * (twice * b2.inverse_sqrt());
     let u = u.named("u", "2 a c, since a b = n k");
     let sum = (r + c2).named("sum", "");

@@ -12,6 +12,7 @@
 
 use crate::ir::Expr;
 
+use super::by_class::ByClass;
 use super::half::InHalf;
 use super::hoffman_f82::{HOFFMAN_2019, between};
 use super::input::{Input, Inputs};
@@ -47,10 +48,14 @@ pub static METHOD: Method = Method {
         code_ulp: 10.0,
         code_over: Over::Wide,
         colours: Colours::within(6e-7),
-        by_class: &[],
+        by_class: &[
+            ByClass::of_class("metal", [0.0138, 0.0210], [0.0129, 0.0573], 0.0211),
+            ByClass::of_class("semiconductor", [0.0161, 0.0217], [0.0139, 0.0293], 0.0285),
+            ByClass::of_class("dielectric", [0.0055, 0.0083], [0.0078, 0.0085], 0.0084),
+        ],
     },
     contract: Contract::Kept,
-    half: InHalf::within(0.0017),
+    half: InHalf::within(0.0018),
     build,
     for_constants: None,
     coefficients: None,
@@ -67,14 +72,15 @@ const START: f64 = -0.16;
 
 fn build<'b>(x: &Inputs<'b>) -> Expr<'b> {
     let c = x.cosine();
-    let u = (1.0 - c) / (1.0 + BEND * c);
+    let below = (1.0 + BEND * c).named("below", "");
+    let u = (1.0 - c) / below;
     let u = u.named(
         "u",
         "0 at normal incidence, 5/8 at 81.79 degrees, 1 at grazing",
     );
     let s = if x.is_half() {
         // u - u^2 would be off by a rounding of 1 where it is small.
-        u * ((1.0 + BEND) * c / (1.0 + BEND * c))
+        u * ((1.0 + BEND) * c / below)
     } else {
         u - u.squared()
     };

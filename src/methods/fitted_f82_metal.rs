@@ -10,6 +10,7 @@
 
 use crate::ir::Expr;
 
+use super::by_class::ByClass;
 use super::half::InHalf;
 use super::hoffman_f82::HOFFMAN_2019;
 use super::input::{Input, Inputs};
@@ -34,13 +35,16 @@ pub static METHOD: Method = Method {
     claims: Claims {
         model: &[Claim {
             over: Over::Metals,
-            max_abs: 0.05,
-            at_degrees: 81.5,
+            max_abs: 0.0452,
+            at_degrees: 87.5,
         }],
-        code_ulp: 6.5,
+        code_ulp: 15.0,
         code_over: Over::Metals,
-        colours: Colours::within(2e-6),
-        by_class: &[],
+        colours: Colours::within(5.5e-6),
+        by_class: &[
+            ByClass::of_class("metal", [0.0042, 0.0100], [0.0047, 0.0430], 0.0141),
+            ByClass::of_class("semiconductor", [0.0066, 0.0074], [0.0065, 0.0096], 0.0094),
+        ],
     },
     contract: Contract::Kept,
     half: InHalf::Specialised("its coefficients cancel"),
@@ -55,8 +59,15 @@ pub static METHOD: Method = Method {
     shape: None,
 };
 
-/// Of c1, c2 and c3: what multiplies 1, F82, F82², F0, F0 F82 and F0².
-const QUADRATICS: [[f64; 6]; 3] = [[0.0; 6]; 3];
+/// Where the quadratics are centred: between the colours of metals, so that little cancels.
+const CENTRE: [f64; 2] = [0.75, 0.65];
+/// Of c1, c2 and c3: what multiplies 1, y, y², x, x y and x², with x and y what F0 and F82 are above the centre. Found as the header says;
+/// four digits move no page's error by more than 5e-5.
+const QUADRATICS: [[f64; 6]; 3] = [
+    [-0.353, -0.8527, 12.4904, 0.1361, -14.1575, 5.232],
+    [-0.0256, 10.2357, -36.5052, -6.8471, 40.6873, -14.697],
+    [0.6275, -9.3554, 23.8447, 5.7256, -26.4619, 9.5095],
+];
 
 fn build<'b>(x: &Inputs<'b>) -> Expr<'b> {
     let [c0, c1, c2, c3] = coefficients(x);
@@ -66,10 +77,12 @@ fn build<'b>(x: &Inputs<'b>) -> Expr<'b> {
 }
 
 fn coefficients<'b>(x: &Inputs<'b>) -> [Expr<'b>; 4] {
-    let (f0, f82) = (x.get(Input::F0), x.get(Input::F82));
+    let f0 = x.get(Input::F0);
+    let above = (f0 - CENTRE[0]).named("x", "");
+    let above_82 = (x.get(Input::F82) - CENTRE[1]).named("y", "");
     let quadratic = |i: usize| {
-        let [one, f82_1, f82_2, f0_1, both, f0_2] = QUADRATICS[i];
-        let sum = one + f82 * (f82_1 + f82 * f82_2) + f0 * (f0_1 + f82 * both + f0 * f0_2);
+        let [one, y, yy, x, xy, xx] = QUADRATICS[i];
+        let sum = one + above_82 * (y + above_82 * yy) + above * (x + above_82 * xy + above * xx);
         sum.named(["c1", "c2", "c3"][i], "")
     };
     let [c1, c2, c3] = [0, 1, 2].map(quadratic);

@@ -23,6 +23,7 @@ mod database;
 mod domains;
 mod effects;
 mod exhaustive;
+mod f82;
 mod fits;
 #[cfg(all(feature = "cli", feature = "gpu"))]
 mod gallery;

@@ -120,7 +120,9 @@ impl Seen<'_> {
 
     /// Where f64 says what is right, and not only how many digits are left.
     fn has_value(&self) -> bool {
-        let is_index = self.index().is_none_or(|(n, _)| n >= 0.25);
+        let class = self.method.class;
+        let is_described = |(n, k): (f32, f32)| n >= 0.25 && class.describes(n.into(), k.into());
+        let is_index = self.index().is_none_or(is_described);
         is_index && !self.cos_theta.is_nan()
     }
 }
