@@ -12,10 +12,11 @@
 use crate::cite::Citation;
 use crate::ir::Expr;
 
+use super::class::Class;
 use super::half::InHalf;
 use super::input::{Input, InputSource, Inputs};
 use super::known::{KnownSurface, each};
-use super::method::{Claim, Claims, Class, Colours, Contract, Forms, Light, Method, Over};
+use super::method::{Claim, Claims, Colours, Contract, Forms, Light, Method, Over};
 use super::schlick::to_white;
 
 /// The cosines of the two angles at which the law is met: the maxima of b2 and of -b3 in a table of 1000 cosines.

@@ -13,11 +13,12 @@ use crate::ir::Expr;
 use crate::num::each_channel;
 use crate::optics;
 
+use super::class::Class;
 use super::conductor_exact::{self, conductor, least_squared, root_or_zero};
 use super::half::InHalf;
 use super::input::{Input, InputSource, Inputs, Range, SHARES, SHARES_AND_BEYOND};
 use super::known::each;
-use super::method::{Claim, Claims, Class, Colours, Contract, Forms, Light, Method, Over, Values};
+use super::method::{Claim, Claims, Colours, Contract, Forms, Light, Method, Over, Values};
 
 #[allow(missing_docs)] // each says what it is
 impl Input {

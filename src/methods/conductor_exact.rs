@@ -17,11 +17,12 @@ use std::collections::BTreeMap;
 use crate::ir::{Expr, USED_TWICE};
 use crate::num::Precision;
 
+use super::class::Class;
 use super::conductor_textbook::GLASSNER_1995;
 use super::dielectric_exact;
 use super::half::InHalf;
 use super::input::{Input, Inputs};
-use super::method::{Claim, Claims, Class, Contract, Forms, Light, Method, Over, Values};
+use super::method::{Claim, Claims, Contract, Forms, Light, Method, Over, Values};
 
 /// The record of this method.
 pub static METHOD: Method = Method {

@@ -11,11 +11,12 @@
 
 use crate::ir::Expr;
 
+use super::class::Class;
 use super::conductor_exact;
 use super::conductor_textbook::GLASSNER_1995;
 use super::half::InHalf;
 use super::input::{Input, Inputs};
-use super::method::{Claim, Claims, Class, Contract, Forms, Light, Method, Over};
+use super::method::{Claim, Claims, Contract, Forms, Light, Method, Over};
 
 /// The record of this method.
 pub static METHOD: Method = Method {

@@ -17,10 +17,11 @@ use crate::ir::Expr;
 use crate::num::each_channel;
 use crate::optics::index_from_f0_f82;
 
+use super::class::Class;
 use super::conductor_exact::{self, conductor, least_squared, root_or_zero};
 use super::half::InHalf;
 use super::input::{Input, Inputs, Range};
-use super::method::{Claim, Claims, Class, Colours, Contract, Forms, Light, Method, Over, Values};
+use super::method::{Claim, Claims, Colours, Contract, Forms, Light, Method, Over, Values};
 
 /// The record of this method.
 pub static METHOD: Method = Method {

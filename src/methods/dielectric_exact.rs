@@ -16,9 +16,10 @@ use crate::cite::Citation;
 use crate::ir::Expr;
 use crate::num::Precision;
 
+use super::class::Class;
 use super::half::InHalf;
 use super::input::{Input, Inputs};
-use super::method::{Claim, Claims, Class, Contract, Forms, Light, Method, Over};
+use super::method::{Claim, Claims, Contract, Forms, Light, Method, Over};
 
 /// Fresnel's law in the g-form.
 pub const COOK_TORRANCE_1982: Citation = Citation {

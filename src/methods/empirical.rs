@@ -9,12 +9,13 @@
 use crate::cite::Citation;
 use crate::ir::Expr;
 
+use super::class::Class;
 use super::half::InHalf;
 use super::input::{
     Input, InputSource, Inputs, POWERS, POWERS_AND_BEYOND, SHARES, SHARES_AND_BEYOND,
 };
 use super::known::{COS_60, mean};
-use super::method::{Claim, Claims, Class, Contract, Forms, Light, Method, Over};
+use super::method::{Claim, Claims, Contract, Forms, Light, Method, Over};
 
 #[allow(missing_docs)] // each says what it is
 impl Input {

@@ -10,11 +10,12 @@
 use crate::cite::Citation;
 use crate::ir::Expr;
 
+use super::class::Class;
 use super::half::InHalf;
 use super::hoffman_f82::dip;
 use super::input::{Input, InputSource, Inputs};
 use super::known::each;
-use super::method::{Claim, Claims, Class, Colours, Contract, Forms, Light, Method, Over};
+use super::method::{Claim, Claims, Colours, Contract, Forms, Light, Method, Over};
 use super::schlick::grazing_weight;
 
 #[allow(missing_docs)] // each says what it is

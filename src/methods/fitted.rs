@@ -12,9 +12,10 @@ use crate::cite::Citation;
 use crate::ir::Expr;
 
 use super::by_class::ByClass;
+use super::class::Class;
 use super::half::InHalf;
 use super::input::{Input, Inputs};
-use super::method::{Claim, Claims, Class, Contract, Forms, Light, Method, Over};
+use super::method::{Claim, Claims, Contract, Forms, Light, Method, Over};
 use super::shape::{Factor, Shape};
 
 /// Where the exchange comes from that finds the coefficients of all fitted methods.

@@ -13,10 +13,11 @@
 use crate::ir::Expr;
 
 use super::by_class::ByClass;
+use super::class::Class;
 use super::half::InHalf;
 use super::hoffman_f82::{HOFFMAN_2019, between};
 use super::input::{Input, Inputs};
-use super::method::{Claim, Claims, Class, Colours, Contract, Forms, Light, Method, Over};
+use super::method::{Claim, Claims, Colours, Contract, Forms, Light, Method, Over};
 
 /// The record of this method.
 pub static METHOD: Method = Method {

@@ -1,7 +1,8 @@
 //! `F = c0 + b (c1 + b (c2 + b c3))`, `b = 2^(-6.5 cos θ)`, with c1, c2 and c3 quadratic in F0 and F82, and c0 such that F(0°) = F0: the
 //! coefficients of `fitted` from two colours that a texture holds.
 //!
-//! Source: ours. The 18 numbers have the least median and 90th percentile of the largest errors that a search by linear programs found
+//! Source: ours; the two colours are those of Hoffman, "Fresnel Equations Considered Harmful", 2019,
+//! <https://renderwonk.com/publications/mam2019/>. The 18 numbers have the least median and 90th percentile of the largest errors that a search by linear programs found
 //! over 75 pages of metals and semiconductors: `tests/fit-f82` does it again, and says what is left without the substance.
 //! For metals and semiconductors: of water it errs by .04, where `fitted_f82` serves. Colours of no metal get a curve that no metal has.
 //! The coefficients have functions of their own, for scenes with many lights: they are found once a pixel, and `fitted` is called once a
@@ -11,11 +12,12 @@
 use crate::ir::Expr;
 
 use super::by_class::ByClass;
+use super::class::Class;
 use super::half::InHalf;
 use super::hoffman_f82::HOFFMAN_2019;
 use super::input::{Input, Inputs};
 use super::method::{
-    Claim, Claims, Class, CoefficientsFromInputs, Colours, Contract, Forms, Light, Method, Over,
+    Claim, Claims, CoefficientsFromInputs, Colours, Contract, Forms, Light, Method, Over,
 };
 
 /// The record of this method.

@@ -9,10 +9,11 @@
 use crate::ir::Expr;
 
 use super::by_class::ByClass;
+use super::class::Class;
 use super::fitted::{FLOOR, STIEFEL_1959};
 use super::half::InHalf;
 use super::input::{Input, Inputs};
-use super::method::{Claim, Claims, Class, Contract, Forms, Light, Method, Over};
+use super::method::{Claim, Claims, Contract, Forms, Light, Method, Over};
 use super::shape::{Factor, Shape};
 
 /// The shape.

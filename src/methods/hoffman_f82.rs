@@ -9,9 +9,10 @@
 use crate::cite::Citation;
 use crate::ir::Expr;
 
+use super::class::Class;
 use super::half::InHalf;
 use super::input::{Input, Inputs};
-use super::method::{Claim, Claims, Class, Colours, Contract, Forms, Light, Method, Over};
+use super::method::{Claim, Claims, Colours, Contract, Forms, Light, Method, Over};
 use super::schlick::grazing_weight;
 
 /// 7⁷/6⁶, the reciprocal of the maximum of c (1-c)⁶.

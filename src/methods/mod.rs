@@ -6,6 +6,7 @@
 //! The room knows no target.
 
 mod by_class;
+mod class;
 mod half;
 mod input;
 mod known;
@@ -15,12 +16,13 @@ mod renamed;
 mod shape;
 
 pub use by_class::{ByClass, Spread, by_class, promises_by_class};
+pub use class::Class;
 pub use half::{HALF_AIM, HalfClaim, InHalf};
 pub use input::{Input, InputSource, Inputs, Range, find_input};
 pub use known::KnownSurface;
 pub use method::{
-    Better, Claim, Claims, Class, CoefficientsFromInputs, Colours, Contract, Forms, Light, Method,
-    Over, Values,
+    Better, Claim, Claims, CoefficientsFromInputs, Colours, Contract, Forms, Light, Method, Over,
+    Values,
 };
 pub use renamed::{RENAMED, Renamed, renamed};
 pub use shape::{Factor, Shape};

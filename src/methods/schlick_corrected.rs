@@ -13,10 +13,11 @@ use crate::ir::Expr;
 use crate::num::each_channel;
 use crate::optics;
 
+use super::class::Class;
 use super::half::InHalf;
 use super::input::{Input, InputSource, Inputs};
 use super::known::KnownSurface;
-use super::method::{Claim, Claims, Class, Contract, Forms, Light, Method, Over};
+use super::method::{Claim, Claims, Contract, Forms, Light, Method, Over};
 use super::schlick_rescaled::{LAZANYI_2005, rescaled};
 
 #[allow(missing_docs)] // each says what it is

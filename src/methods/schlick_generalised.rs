@@ -8,9 +8,10 @@
 use crate::cite::Citation;
 use crate::ir::Expr;
 
+use super::class::Class;
 use super::half::InHalf;
 use super::input::{Input, InputSource, Inputs, POWERS, POWERS_AND_BEYOND};
-use super::method::{Claim, Claims, Class, Contract, Forms, Light, Method, Over};
+use super::method::{Claim, Claims, Contract, Forms, Light, Method, Over};
 use super::schlick_f90::to_f90;
 
 #[allow(missing_docs)] // each says what it is

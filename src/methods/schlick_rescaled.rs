@@ -7,9 +7,10 @@
 use crate::cite::Citation;
 use crate::ir::Expr;
 
+use super::class::Class;
 use super::half::InHalf;
 use super::input::{Input, Inputs};
-use super::method::{Claim, Claims, Class, Contract, Forms, Light, Method, Over};
+use super::method::{Claim, Claims, Contract, Forms, Light, Method, Over};
 use super::schlick::{grazing_rest, grazing_weight};
 
 /// Lazányi and Szirmay-Kalos 2005.

@@ -11,9 +11,10 @@ use crate::cite::Citation;
 use crate::ir::{Expr, Ty};
 use crate::num::Num;
 
+use super::class::Class;
 use super::half::InHalf;
 use super::input::{Input, InputSource, Inputs};
-use super::method::{Claim, Claims, Class, Contract, Forms, Light, Method, Over};
+use super::method::{Claim, Claims, Contract, Forms, Light, Method, Over};
 
 /// Texels of a table where no size is asked for. In half precision the rounding of texels is then what errs most: more
 /// texels gain nothing, fewer cost (half the size quadruples what filtering errs).
