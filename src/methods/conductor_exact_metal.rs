@@ -50,6 +50,8 @@ pub static METHOD: Method = Method {
     plain: None,
     replacement: Some(conductor_exact::as_it_is),
     shape: None,
+    affine: None,
+    average: None,
 };
 
 /// What roots are of at the least.

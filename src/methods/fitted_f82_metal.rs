@@ -53,6 +53,8 @@ pub static METHOD: Method = Method {
     plain: None,
     replacement: None,
     shape: None,
+    affine: None,
+    average: None,
 };
 
 /// Of c1, c2 and c3: what multiplies 1, F82, F82², F0, F0 F82 and F0².

@@ -9,15 +9,16 @@
 use crate::cite::Citation;
 use crate::ir::Expr;
 
+use super::affine::Affine;
 use super::half::InHalf;
 use super::input::{Input, Inputs};
 use super::method::{Claim, Claims, Class, Colours, Contract, Forms, Light, Method, Over};
-use super::schlick::grazing_weight;
+use super::schlick::{grazing_power, grazing_weight};
 
 /// 7⁷/6⁶, the reciprocal of the maximum of c (1-c)⁶.
 const PEAK: f64 = 823_543.0 / 46_656.0;
 /// (6/7)⁵, Schlick's weight at cos θ = 1/7.
-const WEIGHT_82: f64 = 7_776.0 / 16_807.0;
+pub(super) const WEIGHT_82: f64 = 7_776.0 / 16_807.0;
 
 /// Hoffman 2019.
 pub(super) const HOFFMAN_2019: Citation = Citation {
@@ -68,6 +69,12 @@ pub static METHOD: Method = Method {
     plain: None,
     replacement: None,
     shape: None,
+    affine: Some(Affine {
+        numbers: &["f0", "1 - f0", "f82 - (f0 + (1 - f0) * 7776 / 16807)"],
+        build: numbers,
+        weights: affine_weights,
+    }),
+    average: None,
 };
 
 fn build<'b>(x: &Inputs<'b>) -> Expr<'b> {
@@ -103,6 +110,19 @@ pub(super) fn dip<'b>(x: &Inputs<'b>, m5: Expr<'b>) -> Expr<'b> {
     }
     let m = x.grazing();
     (m - m.squared()) * m5
+}
+
+/// F0, the rise to white, and how far F82 lies from Schlick's value.
+fn numbers<'b>(x: &Inputs<'b>) -> Vec<Expr<'b>> {
+    let f0 = x.get(Input::F0);
+    let rise = (1.0 - f0).named("rise", "");
+    vec![f0, rise, x.get(Input::F82) - (f0 + WEIGHT_82 * rise)]
+}
+
+/// What these are multiplied by in f64; the last is 1 at 81.79 degrees.
+pub(super) fn affine_weights(c: f64) -> [f64; 4] {
+    let m5 = grazing_power(c);
+    [1.0, m5, PEAK * c * (1.0 - c) * m5, 0.0]
 }
 
 #[cfg(test)]

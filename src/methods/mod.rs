@@ -5,6 +5,7 @@
 //! Fitted methods take their place here like all others, with their coefficients as inputs.
 //! The room knows no target.
 
+mod affine;
 mod by_class;
 mod half;
 mod input;
@@ -14,6 +15,7 @@ mod method;
 mod renamed;
 mod shape;
 
+pub use affine::{Affine, Basis, FittedAverage, MOST_TERMS};
 pub use by_class::{ByClass, Spread, by_class, promises_by_class};
 pub use half::{HALF_AIM, HalfClaim, InHalf};
 pub use input::{Input, InputSource, Inputs, Range, find_input};

@@ -24,6 +24,7 @@ mod domains;
 mod effects;
 mod exhaustive;
 mod fits;
+mod furnace;
 #[cfg(all(feature = "cli", feature = "gpu"))]
 mod gallery;
 mod golden;
