@@ -201,7 +201,7 @@ mod tests {
         check_in(Precision::F32, fold_in(Precision::F32, &whole)).unwrap()
     }
 
-    /// Values of inputs for which no method here meets a limit.
+    /// Values of inputs with which hardly any method here meets its limit.
     const TRIED: [[f64; 3]; 5] = [
         [0.04, 0.4, 0.0],
         [0.3, 0.5, 0.05],
@@ -210,7 +210,7 @@ mod tests {
         [0.95, 0.9, 0.0],
     ];
 
-    /// The largest difference between the sum and the method's own graph.
+    /// The largest difference between the sum, limited to [0, 1], and the method's own graph.
     fn difference(method: &Method, affine: &Affine) -> f64 {
         let function = method.function(false).unwrap();
         let mut most = 0.0;
@@ -239,7 +239,7 @@ mod tests {
                 let want = evaluate(&function, &values).at(0)[0];
                 let weights = (affine.weights)(c);
                 let got: f64 = numbers.iter().zip(weights).map(|(one, w)| one * w).sum();
-                most = f64::max(most, (got - want).abs());
+                most = f64::max(most, (got.clamp(0.0, 1.0) - want).abs());
             }
         }
         most
