@@ -14,9 +14,9 @@ use crate::targets::Target;
 
 use picture::Baking;
 
-pub use error::Error;
+pub use error::{Error, split_sum_methods};
 pub use row::{BakeRow, SplitSumRow, TableRow};
-pub use split_sum::{SplitSumRequest, bake_split_sum};
+pub use split_sum::{SplitSumRequest, bake_split_sum, usual_method};
 pub use subject::TableMaterial;
 pub use usual::{DEFAULT_AXIS, DEFAULT_FORMATS, as_tables_are_seen, usual_request};
 pub use words::{material_words, viewing_flags};

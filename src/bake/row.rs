@@ -3,7 +3,7 @@
 use serde::Serialize;
 
 use crate::fit::ModelError;
-use crate::lut::{Format, Picture, TERMS, TableAxis};
+use crate::lut::{Format, Picture, TableAxis};
 
 use super::picture::Rounded;
 use super::subject::TableMaterial;
@@ -96,30 +96,36 @@ pub struct SplitSumRow {
     pub name: String,
     pub(super) method: &'static str,
     pub(super) formula: &'static [&'static str],
+    /// Which channel holds what: `terms`, or an engine's name.
+    pub(super) layout: &'static str,
     /// The format's name.
     pub format: &'static str,
-    /// Texels of a side.
+    /// Texels of a row.
     pub texels: usize,
     pub(super) rows: usize,
-    /// How cosines and roughness are spread.
-    pub axis: &'static str,
+    /// How cosines and roughness are spread: two names with a comma between.
+    pub axis: String,
     /// The file's path.
     pub file: String,
+    /// The file of the fourth term, where it has its own.
+    pub(super) second_file: Option<String>,
     /// value = texel × scale.
     pub scale: f64,
     /// The largest error of a term's filtered lookup.
     pub max_abs: f64,
     /// There is none: no mean is taken over angles.
     pub mean_rel: Option<f64>,
-    pub(super) term_max_abs: [f64; TERMS],
+    pub(super) term_max_abs: Vec<f64>,
     pub(super) weights: &'static str,
     pub(super) exact_weights: ExactTermWeights,
     pub(super) least_roughness: f64,
     pub(super) depth: &'static str,
     pub(super) bytes: usize,
     pub(super) channels: &'static str,
+    /// The numbers that terms are multiplied by, as formulas of the method's inputs.
+    pub(super) numbers: Vec<&'static str>,
     pub(super) averages: Vec<f64>,
-    pub(super) albedo: &'static str,
+    pub(super) albedo: String,
     pub(super) alpha: &'static str,
     pub(super) distribution: &'static str,
     pub(super) lookup: SplitSumLookup,
@@ -129,7 +135,7 @@ pub struct SplitSumRow {
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct ExactTermWeights {
     pub(super) max_abs: f64,
-    pub(super) term_max_abs: [f64; TERMS],
+    pub(super) term_max_abs: Vec<f64>,
 }
 
 /// How a split-sum table is looked up.

@@ -1,17 +1,17 @@
-//! Means over the hemisphere, `2 ∫ F c dc`: functions of coefficients beside those of a fitted method, and the constants of a
+//! Means over the hemisphere, `2 ∫ F c dc`: functions of a material's numbers beside those of a method, and the constants of a
 //! material, for what light does that is reflected more than once between microfacets.
 
 use serde::{Deserialize, Serialize};
 
 use crate::ir::{Checked, Value, evaluate};
-use crate::methods::Method;
+use crate::methods::{Basis, Method};
 use crate::num::{Legendre, each_channel};
 
 use super::error::Error;
 use super::form::FunctionForm;
 use super::function::{Emitted, Naming, library_function};
 
-/// What stands beside a method's functions and takes no cosine: the means of a fitted method, three channels and one; the
+/// What stands beside a method's functions and takes no cosine: the means, three channels and one, where the method has them; the
 /// coefficients that a method finds for a fitted one.
 ///
 /// # Errors
@@ -21,7 +21,9 @@ pub fn companions(method: &'static Method, naming: &Naming) -> Result<Vec<Emitte
         (FunctionForm::Average, false),
         (FunctionForm::AverageScalar, true),
     ];
-    let functions = forms.into_iter().filter_map(|(form, is_scalar)| {
+    let has_form = |is_scalar: bool| !is_scalar || method.has_scalar_form();
+    let forms = forms.into_iter().filter(|(_, scalar)| has_form(*scalar));
+    let functions = forms.filter_map(|(form, is_scalar)| {
         let function = method.average_in(naming.precision, is_scalar)?;
         Some(library_function(method, naming, form, function))
     });
@@ -47,19 +49,35 @@ pub(super) fn coefficients_line(emitted: &Emitted) -> Option<String> {
 
 /// What the head of a file says about a mean; nothing of other functions.
 pub(super) fn mean_line(emitted: &Emitted) -> Option<String> {
-    let shape = emitted.method.shape.filter(|_| emitted.form.is_mean())?;
-    let averages = shape.averages();
-    let term = |(i, average): (usize, &f64)| match i {
-        0 => "c0".to_owned(),
-        _ => format!("{average:.6} c{i}"),
+    let method = emitted.method;
+    let what = match (method.basis(), method.average) {
+        _ if !emitted.form.is_mean() => return None,
+        (Some(basis), _) => format!(
+            "{}, limited to [0, 1]. It is exact for F before its limit; where F meets the limit, the mean of the function differs",
+            sum(&basis)
+        ),
+        (None, Some(average)) => format!(
+            "a fit, off by at most {} for {}; {}",
+            average.max_abs, average.over, average.published
+        ),
+        (None, None) => return None,
     };
-    let terms: Vec<String> = averages.iter().enumerate().map(term).collect();
     Some(format!(
-        "{}: the mean of F over the hemisphere, twice the integral of F c dc, for compensation of multiple scattering: {}, limited \
-         to [0, 1]. It is exact for F before its limit; where F meets the limit, the mean of the function differs",
-        emitted.name,
-        terms.join(" + ")
+        "{}: the mean of F over the hemisphere, twice the integral of F c dc, for compensation of multiple scattering: {what}",
+        emitted.name
     ))
+}
+
+/// The mean as a formula.
+fn sum(basis: &Basis) -> String {
+    let numbers = basis.numbers().into_iter().zip(basis.averages());
+    let term = |(i, (number, average)): (usize, (&str, f64))| match i {
+        0 => number.to_owned(),
+        _ if number.contains(' ') => format!("{average:.6} ({number})"),
+        _ => format!("{average:.6} {number}"),
+    };
+    let terms: Vec<String> = numbers.enumerate().map(term).collect();
+    terms.join(" + ")
 }
 
 /// The mean over the hemisphere of a material's fitted function, its limit to [0, 1] included, and before that limit; none for

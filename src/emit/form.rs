@@ -12,7 +12,7 @@ pub enum FunctionForm {
     Scalar,
     /// A material's constants are folded in.
     Specialised,
-    /// The mean over the hemisphere of a fitted method, three channels.
+    /// The mean over the hemisphere, three channels.
     Average,
     /// The same for one channel.
     AverageScalar,

@@ -178,8 +178,11 @@ fn costs(functions: &[Emitted]) -> String {
 /// What a mean over the hemisphere is, where there is one among the functions.
 fn mean_line(functions: &[Emitted]) -> Option<String> {
     let mean = functions.iter().find(|emitted| emitted.form.is_mean())?;
+    let error = mean.method.average.map_or(String::new(), |average| {
+        format!("; off by at most {} for {}", average.max_abs, average.over)
+    });
     Some(format!(
-        "{}: the mean of F over the hemisphere, weighted by cosine, as compensation of multiple scattering takes it",
+        "{}: the mean of F over the hemisphere, weighted by cosine, as compensation of multiple scattering takes it{error}",
         mean.name
     ))
 }

@@ -39,7 +39,7 @@ pub enum Error {
     },
     /// A split-sum table whose terms lie beyond 1.
     #[error(
-        "the terms of this form reach beyond 1, which integers cannot hold and half precision holds poorly: fitted and fitted_dielectric stay below"
+        "the terms of this form reach beyond 4, which integers cannot hold and half precision holds poorly: fitted and fitted_dielectric stay below 1"
     )]
     Range,
     /// An encoder refused.

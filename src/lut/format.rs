@@ -75,6 +75,14 @@ impl Format {
         matches!(self, Format::C | Format::Rust | Format::Js)
     }
 
+    /// Whether its four channels reach a GPU as they are. What reads EXR and PNG may multiply or divide by alpha.
+    pub fn keeps_alpha(self) -> bool {
+        match self {
+            Format::Ktx2 | Format::C | Format::Rust | Format::Js => true,
+            Format::ExrHalf | Format::ExrFloat | Format::Png8 | Format::Png16 => false,
+        }
+    }
+
     /// The kind of number in it.
     pub fn depth(self) -> Depth {
         match self {

@@ -25,6 +25,7 @@ mod picture;
 mod png;
 mod search;
 mod split_sum;
+mod split_sum_design;
 mod table;
 mod text;
 mod thesis_measure;
@@ -36,11 +37,12 @@ pub use format::{Format, TABLES};
 pub use ktx2::KTX2_MARK;
 pub use lookup::lookup;
 pub use measure::{BetweenTexels, table_error};
-pub use picture::Picture;
+pub use picture::{Picture, TermChannels};
 pub use search::{TableKind, smallest};
 pub use split_sum::{
-    BetweenSplitSum, LEAST_ROUGHNESS, SPLIT_SUM_SIZE, SplitSum, StoredSplitSum, TERMS, check_side,
-    split_sum_cosine, split_sum_roughness, split_sum_terms,
+    BetweenSplitSum, LEAST_ROUGHNESS, MOST_TERM, SPLIT_SUM_SIZE, SplitSum, StoredSplitSum, TERMS,
+    check_side, term_range,
 };
+pub use split_sum_design::{SPLIT_SUM_AXES, SplitSumAxis, SplitSumDesign, SplitSumLayout};
 pub use table::{LEAST_TEXELS, MOST_TEXELS, Table, check_size};
 pub use thesis_measure::{ThesisMeasure, thesis_table_errors};

@@ -4,7 +4,18 @@ use crate::spectra::Space;
 
 use super::axis::TableAxis;
 use super::depth::{Depth, Stored};
-use super::split_sum::StoredSplitSum;
+use super::split_sum::{StoredSplitSum, TERMS};
+
+/// Which terms of a split-sum table a file holds.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum TermChannels {
+    /// Four, the last as alpha.
+    All,
+    /// The first three, or as many as there are.
+    FirstThree,
+    /// The fourth, in each of three channels.
+    Fourth,
+}
 
 /// One or more tables as a texture.
 #[derive(Clone, Debug, PartialEq)]
@@ -58,19 +69,25 @@ impl Picture {
     pub fn of_terms(
         name: &str,
         stored: &StoredSplitSum,
+        channels: TermChannels,
         rows: Vec<String>,
         about: Vec<String>,
     ) -> Picture {
         let texels = stored.texels.iter();
+        let colour = |[first, second, third, fourth]: &[f32; TERMS]| match channels {
+            TermChannels::Fourth => [*fourth; 3],
+            TermChannels::All | TermChannels::FirstThree => [*first, *second, *third],
+        };
+        let is_all = channels == TermChannels::All;
         Picture {
             name: name.to_owned(),
             axis: TableAxis::Cos,
             depth: stored.depth,
             scale: 1.0,
-            width: stored.size,
+            width: stored.design.width,
             rows,
-            texels: texels.clone().map(|[r, g, b, _]| [*r, *g, *b]).collect(),
-            alpha: Some(texels.map(|texel| texel[3]).collect()),
+            texels: texels.clone().map(colour).collect(),
+            alpha: is_all.then(|| texels.map(|texel| texel[3]).collect()),
             space: None,
             about,
         }

@@ -12,6 +12,7 @@
 use crate::cite::Citation;
 use crate::ir::Expr;
 
+use super::affine::Affine;
 use super::class::Class;
 use super::half::InHalf;
 use super::input::{Input, InputSource, Inputs};
@@ -108,6 +109,12 @@ pub static METHOD: Method = Method {
     plain: None,
     replacement: None,
     shape: None,
+    affine: Some(Affine {
+        numbers: &["f0", "1 - f0", "b2_weight", "b3_weight"],
+        build: numbers,
+        weights: affine_weights,
+    }),
+    average: None,
 };
 
 fn build<'b>(x: &Inputs<'b>) -> Expr<'b> {
@@ -150,6 +157,18 @@ pub fn belcour_weights(f0: f64, wanted: [f64; 2]) -> [f64; 2] {
 fn curves_at(c: f64) -> [f64; 3] {
     let r = 1.0 / (1.0 + FALL * c);
     CURVES.map(|[a0, a1, a2, a3]| (1.0 - c) * (a0 + r * (a1 + r * (a2 + r * a3))))
+}
+
+fn numbers<'b>(x: &Inputs<'b>) -> Vec<Expr<'b>> {
+    let f0 = x.get(Input::F0);
+    let [second, third] = [Input::B2_WEIGHT, Input::B3_WEIGHT].map(|weight| x.get(weight));
+    vec![f0, 1.0 - f0, second, third]
+}
+
+/// What these are multiplied by, in f64.
+fn affine_weights(c: f64) -> [f64; 4] {
+    let [b1, b2, b3] = curves_at(c);
+    [1.0, b1, b2, b3]
 }
 
 #[cfg(test)]

@@ -103,6 +103,8 @@ pub static METHOD: Method = Method {
     plain: None,
     replacement: Some(solved),
     shape: None,
+    affine: None,
+    average: None,
 };
 
 fn build<'b>(x: &Inputs<'b>) -> Expr<'b> {

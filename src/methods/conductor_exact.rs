@@ -65,6 +65,8 @@ pub static METHOD: Method = Method {
     plain: Some(plain),
     replacement: Some(clear),
     shape: None,
+    affine: None,
+    average: None,
 };
 
 fn build<'b>(x: &Inputs<'b>) -> Expr<'b> {

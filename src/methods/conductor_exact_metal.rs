@@ -51,6 +51,8 @@ pub static METHOD: Method = Method {
     plain: None,
     replacement: Some(conductor_exact::as_it_is),
     shape: None,
+    affine: None,
+    average: None,
 };
 
 fn build<'b>(x: &Inputs<'b>) -> Expr<'b> {

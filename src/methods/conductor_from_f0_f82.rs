@@ -91,6 +91,8 @@ pub static METHOD: Method = Method {
     plain: None,
     replacement: Some(solved),
     shape: None,
+    affine: None,
+    average: None,
 };
 
 /// sin² at cos θ = 1/7.

@@ -63,6 +63,8 @@ pub static METHOD: Method = Method {
     plain: None,
     replacement: None,
     shape: None,
+    affine: None,
+    average: None,
 };
 
 fn build<'b>(x: &Inputs<'b>) -> Expr<'b> {

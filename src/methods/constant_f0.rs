@@ -8,6 +8,7 @@
 use crate::cite::Citation;
 use crate::ir::Expr;
 
+use super::affine::Affine;
 use super::class::Class;
 use super::half::InHalf;
 use super::input::{Input, Inputs};
@@ -56,6 +57,12 @@ pub static METHOD: Method = Method {
     plain: None,
     replacement: None,
     shape: None,
+    affine: Some(Affine {
+        numbers: &["f0"],
+        build: |x| vec![x.get(Input::F0)],
+        weights: |_| [1.0, 0.0, 0.0, 0.0],
+    }),
+    average: None,
 };
 
 fn build<'b>(x: &Inputs<'b>) -> Expr<'b> {

@@ -10,9 +10,10 @@
 use crate::cite::Citation;
 use crate::ir::Expr;
 
+use super::affine::Affine;
 use super::class::Class;
 use super::half::InHalf;
-use super::hoffman_f82::dip;
+use super::hoffman_f82::{WEIGHT_82, affine_weights, dip};
 use super::input::{Input, InputSource, Inputs};
 use super::known::each;
 use super::method::{Claim, Claims, Colours, Contract, Forms, Light, Method, Over};
@@ -86,6 +87,16 @@ pub static METHOD: Method = Method {
     plain: None,
     replacement: None,
     shape: None,
+    affine: Some(Affine {
+        numbers: &[
+            "f0",
+            "1 - f0",
+            "(tint - 1) * (f0 + (1 - f0) * 7776 / 16807)",
+        ],
+        build: numbers,
+        weights: affine_weights,
+    }),
+    average: None,
 };
 
 fn build<'b>(x: &Inputs<'b>) -> Expr<'b> {
@@ -113,6 +124,17 @@ fn for_constants<'b>(x: &Inputs<'b>) -> Expr<'b> {
     let bare =
         (f0 + (1.0 - f0) * m5 - b * dip(x.cosine(), m5)).named("bare", "Schlick less the dip");
     bare.saturate()
+}
+
+/// F0, the rise to white, and how far the tint takes F82 from Schlick's value.
+fn numbers<'b>(x: &Inputs<'b>) -> Vec<Expr<'b>> {
+    let f0 = x.get(Input::F0);
+    let rise = (1.0 - f0).named("rise", "");
+    vec![
+        f0,
+        rise,
+        (x.get(Input::TINT) - 1.0) * (f0 + WEIGHT_82 * rise),
+    ]
 }
 
 #[cfg(test)]

@@ -76,6 +76,8 @@ pub static METHOD: Method = Method {
     plain: None,
     replacement: None,
     shape: Some(SHAPE),
+    affine: None,
+    average: None,
 };
 
 fn build<'b>(x: &Inputs<'b>) -> Expr<'b> {

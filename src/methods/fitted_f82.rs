@@ -12,6 +12,7 @@
 
 use crate::ir::Expr;
 
+use super::affine::Affine;
 use super::by_class::ByClass;
 use super::class::Class;
 use super::half::InHalf;
@@ -63,6 +64,12 @@ pub static METHOD: Method = Method {
     plain: None,
     replacement: None,
     shape: None,
+    affine: Some(Affine {
+        numbers: &["f0", "1 - f0", "f82 - (f0 + (1 - f0) * 0.4)"],
+        build: numbers,
+        weights: affine_weights,
+    }),
+    average: None,
 };
 
 /// Where u is 5/8 at cos θ = 1/7.
@@ -93,6 +100,25 @@ fn build<'b>(x: &Inputs<'b>) -> Expr<'b> {
         a.named("a", "the weight of white"),
         b.named("b", "the weight of f82"),
     )
+}
+
+/// F of black at 81.79 degrees that is taken out of F82: what is left of A, A + .4 B, is hardly below 0 anywhere.
+const BLACK_82: f64 = 0.4;
+
+/// F0, the rise to white, and how far F82 lies from a curve that is about a dielectric's.
+fn numbers<'b>(x: &Inputs<'b>) -> Vec<Expr<'b>> {
+    let f0 = x.get(Input::F0);
+    let rise = (1.0 - f0).named("rise", "");
+    vec![f0, rise, x.get(Input::F82) - (f0 + BLACK_82 * rise)]
+}
+
+/// What these are multiplied by, in f64.
+fn affine_weights(c: f64) -> [f64; 4] {
+    let u = (1.0 - c) / (1.0 + BEND * c);
+    let s = u - u * u;
+    let a = u - s * (1.0 + 8.0 / 3.0 * u);
+    let b = s * (SLOPE * u + START);
+    [1.0, a + BLACK_82 * b, b, 0.0]
 }
 
 #[cfg(test)]

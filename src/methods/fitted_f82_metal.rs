@@ -59,6 +59,8 @@ pub static METHOD: Method = Method {
     plain: None,
     replacement: None,
     shape: None,
+    affine: None,
+    average: None,
 };
 
 /// Where the quadratics are centred: between the colours of metals, so that little cancels.

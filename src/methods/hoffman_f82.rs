@@ -9,16 +9,17 @@
 use crate::cite::Citation;
 use crate::ir::Expr;
 
+use super::affine::Affine;
 use super::class::Class;
 use super::half::InHalf;
 use super::input::{Input, Inputs};
 use super::method::{Claim, Claims, Colours, Contract, Forms, Light, Method, Over};
-use super::schlick::grazing_weight;
+use super::schlick::{grazing_power, grazing_weight};
 
 /// 7⁷/6⁶, the reciprocal of the maximum of c (1-c)⁶.
 const PEAK: f64 = 823_543.0 / 46_656.0;
 /// (6/7)⁵, Schlick's weight at cos θ = 1/7.
-const WEIGHT_82: f64 = 7_776.0 / 16_807.0;
+pub(super) const WEIGHT_82: f64 = 7_776.0 / 16_807.0;
 
 /// Hoffman 2019.
 pub(super) const HOFFMAN_2019: Citation = Citation {
@@ -69,6 +70,12 @@ pub static METHOD: Method = Method {
     plain: None,
     replacement: None,
     shape: None,
+    affine: Some(Affine {
+        numbers: &["f0", "1 - f0", "f82 - (f0 + (1 - f0) * 7776 / 16807)"],
+        build: numbers,
+        weights: affine_weights,
+    }),
+    average: None,
 };
 
 fn build<'b>(x: &Inputs<'b>) -> Expr<'b> {
@@ -99,6 +106,19 @@ fn for_constants<'b>(x: &Inputs<'b>) -> Expr<'b> {
 /// `c (1-c)⁶`, from the fifth power that is there already.
 pub(super) fn dip<'b>(c: Expr<'b>, m5: Expr<'b>) -> Expr<'b> {
     c * (m5 * (1.0 - c))
+}
+
+/// F0, the rise to white, and how far F82 lies from Schlick's value.
+fn numbers<'b>(x: &Inputs<'b>) -> Vec<Expr<'b>> {
+    let f0 = x.get(Input::F0);
+    let rise = (1.0 - f0).named("rise", "");
+    vec![f0, rise, x.get(Input::F82) - (f0 + WEIGHT_82 * rise)]
+}
+
+/// What these are multiplied by in f64; the last is 1 at 81.79 degrees.
+pub(super) fn affine_weights(c: f64) -> [f64; 4] {
+    let m5 = grazing_power(c);
+    [1.0, m5, PEAK * c * (1.0 - c) * m5, 0.0]
 }
 
 #[cfg(test)]

@@ -268,15 +268,17 @@ impl<'b> Inputs<'b> {
         }
     }
 
-    /// Declares these inputs alone, three channels, for what depends on no cosine.
+    /// Declares these inputs alone, for what depends on no cosine. In the scalar form every input is a scalar.
     pub fn without_cosine(
         builder: &'b Builder,
         inputs: &[Input],
+        scalar_form: bool,
         precision: Precision,
     ) -> Inputs<'b> {
+        let ty = |input: &Input| if scalar_form { Ty::Scalar } else { input.ty };
         let declared = inputs
             .iter()
-            .map(|input| (input.name, builder.param(input.name, input.ty)));
+            .map(|input| (input.name, builder.param(input.name, ty(input))));
         Inputs {
             given: declared.collect(),
             cos_theta: builder.number(1.0),

@@ -9,6 +9,7 @@ use crate::ir::{
 };
 use crate::num::{Num, Precision};
 
+use super::affine::{Affine, FittedAverage};
 use super::by_class::ByClass;
 use super::class::Class;
 use super::half::InHalf;
@@ -58,6 +59,10 @@ pub struct Method {
     pub replacement: Option<Better>,
     /// The shape of a fitted method: the functions that its coefficients multiply.
     pub shape: Option<Shape>,
+    /// The numbers of a material that F is affine in before its limit, of a method that is not fitted.
+    pub affine: Option<Affine>,
+    /// The mean over the hemisphere, of a method for which it does not follow from [`Method::basis`].
+    pub average: Option<FittedAverage>,
 }
 
 /// How the coefficients of a fitted method follow from other inputs.
@@ -253,36 +258,6 @@ impl Method {
         let shaped = if scalar_form { result } else { result.rgb() };
         let whole = builder.finish(self.name, shaped);
         check_in(precision, fold_in(precision, &whole))
-    }
-
-    /// The mean over the hemisphere of a fitted method, with its coefficients as run-time arguments: see
-    /// [`Shape::build_average`]. None for other methods.
-    pub fn average_in(
-        &self,
-        precision: Precision,
-        scalar_form: bool,
-    ) -> Option<Result<Checked, BrokenRule>> {
-        let shape = self.shape?;
-        let builder = Builder::new();
-        let ty = if scalar_form { Ty::Scalar } else { Ty::Rgb };
-        let declare = |input: &Input| builder.param(input.name, ty);
-        let coefficients: Vec<Expr> = self.inputs.iter().map(declare).collect();
-        let whole = builder.finish(self.name, shape.build_average(&coefficients));
-        Some(check_in(precision, fold_in(precision, &whole)))
-    }
-
-    /// A coefficient of a fitted method from this method's inputs as run-time arguments, three channels. None for methods that
-    /// find none.
-    pub fn coefficient_in(
-        &self,
-        precision: Precision,
-        place: usize,
-    ) -> Option<Result<Checked, BrokenRule>> {
-        let coefficients = self.coefficients?;
-        let builder = Builder::new();
-        let inputs = Inputs::without_cosine(&builder, self.inputs, precision);
-        let whole = builder.finish(self.name, (coefficients.build)(&inputs)[place]);
-        Some(check_in(precision, fold_in(precision, &whole)))
     }
 
     /// The function with these constants folded in; inputs that have no value stay arguments.

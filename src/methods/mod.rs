@@ -5,6 +5,7 @@
 //! Fitted methods take their place here like all others, with their coefficients as inputs.
 //! The room knows no target.
 
+mod affine;
 mod by_class;
 mod class;
 mod half;
@@ -15,6 +16,7 @@ mod method;
 mod renamed;
 mod shape;
 
+pub use affine::{Affine, Basis, FittedAverage, MOST_TERMS};
 pub use by_class::{ByClass, Spread, by_class, promises_by_class};
 pub use class::Class;
 pub use half::{HALF_AIM, HalfClaim, InHalf};

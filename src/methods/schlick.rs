@@ -8,6 +8,7 @@
 use crate::cite::Citation;
 use crate::ir::Expr;
 
+use super::affine::Affine;
 use super::class::Class;
 use super::half::InHalf;
 use super::input::{Input, Inputs};
@@ -59,6 +60,8 @@ pub static METHOD: Method = Method {
     plain: None,
     replacement: None,
     shape: None,
+    affine: Some(Affine::to_white(affine_weights)),
+    average: None,
 };
 
 fn build<'b>(x: &Inputs<'b>) -> Expr<'b> {
@@ -93,6 +96,17 @@ pub(super) fn grazing_rest(c: Expr<'_>) -> Expr<'_> {
     let rest = c + c * m * (1.0 + m) * (1.0 + m.squared());
     let rest = rest.at_most(1.0);
     rest.named("rest", "1 - (1 - c)^5, without a power near 1")
+}
+
+/// What F0 and the rise to white are multiplied by, in f64.
+pub(super) fn affine_weights(c: f64) -> [f64; 4] {
+    [1.0, grazing_power(c), 0.0, 0.0]
+}
+
+/// `(1 - c)⁵` in f64.
+pub(super) fn grazing_power(c: f64) -> f64 {
+    let m2 = (1.0 - c) * (1.0 - c);
+    m2 * m2 * (1.0 - c)
 }
 
 #[cfg(test)]

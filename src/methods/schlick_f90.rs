@@ -8,11 +8,12 @@
 use crate::cite::Citation;
 use crate::ir::Expr;
 
+use super::affine::Affine;
 use super::class::Class;
 use super::half::InHalf;
 use super::input::{Input, Inputs};
 use super::method::{Claim, Claims, Colours, Contract, Forms, Light, Method, Over};
-use super::schlick::grazing_weight;
+use super::schlick::{affine_weights, grazing_weight};
 
 /// The record of this method.
 pub static METHOD: Method = Method {
@@ -57,6 +58,12 @@ pub static METHOD: Method = Method {
     plain: None,
     replacement: None,
     shape: None,
+    affine: Some(Affine {
+        numbers: &["f0", "f90 - f0"],
+        build: numbers,
+        weights: affine_weights,
+    }),
+    average: None,
 };
 
 fn build<'b>(x: &Inputs<'b>) -> Expr<'b> {
@@ -72,6 +79,11 @@ fn for_constants<'b>(x: &Inputs<'b>) -> Expr<'b> {
 pub(super) fn to_f90<'b>(x: &Inputs<'b>, weight: Expr<'b>) -> Expr<'b> {
     let end = (x.get(Input::F90) * weight).named("end", "");
     x.get(Input::F0) * (1.0 - weight).named("kept", "the weight of f0") + end
+}
+
+fn numbers<'b>(x: &Inputs<'b>) -> Vec<Expr<'b>> {
+    let f0 = x.get(Input::F0);
+    vec![f0, x.get(Input::F90) - f0]
 }
 
 #[cfg(test)]

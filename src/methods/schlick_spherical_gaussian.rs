@@ -8,6 +8,7 @@
 use crate::cite::Citation;
 use crate::ir::Expr;
 
+use super::affine::Affine;
 use super::class::Class;
 use super::half::InHalf;
 use super::input::{Input, Inputs};
@@ -57,6 +58,8 @@ pub static METHOD: Method = Method {
     plain: None,
     replacement: None,
     shape: None,
+    affine: Some(Affine::to_white(affine_weights)),
+    average: None,
 };
 
 fn build<'b>(x: &Inputs<'b>) -> Expr<'b> {
@@ -72,6 +75,10 @@ fn weight<'b>(x: &Inputs<'b>) -> Expr<'b> {
     let c = x.cosine();
     let weight = ((-5.55473 * c - 6.98316) * c).exp2();
     weight.named("weight", "1 at grazing")
+}
+
+fn affine_weights(c: f64) -> [f64; 4] {
+    [1.0, libm::exp2((-5.55473 * c - 6.98316) * c), 0.0, 0.0]
 }
 
 #[cfg(test)]

@@ -88,14 +88,6 @@ impl Shape {
         sums[0] = 1.0;
         sums
     }
-
-    /// The mean over the hemisphere of coefficients: their sum, each times its constant. It is limited to [0, 1].
-    pub fn build_average<'b>(&self, coefficients: &[Expr<'b>]) -> Expr<'b> {
-        let averages = self.averages().into_iter().skip(1);
-        let terms = coefficients[1..].iter().zip(averages);
-        let sum = terms.fold(coefficients[0], |sum, (c, average)| sum + average * *c);
-        sum.saturate()
-    }
 }
 
 impl Factor {

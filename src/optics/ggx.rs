@@ -47,8 +47,13 @@ impl Ggx {
     /// Hands over h·v, in [0, 1], and its weight for each point of the rule: E(F) is the sum of weight times F(h·v).
     /// `cos_v` is n·v in [0, 1]; α is in [0, 1], and 0 is a mirror.
     pub fn each(&self, cos_v: f64, alpha: f64, mut take: impl FnMut(f64, f64)) {
+        self.each_lit(cos_v, alpha, |cos_h, _, weight| take(cos_h, weight));
+    }
+
+    /// The same with n·l between h·v and the weight, which is in [0, 1] too.
+    pub fn each_lit(&self, cos_v: f64, alpha: f64, mut take: impl FnMut(f64, f64, f64)) {
         if alpha == 0.0 {
-            return take(cos_v, 1.0);
+            return take(cos_v, cos_v, 1.0);
         }
         let view = Viewer::new(cos_v, alpha);
         let [first, last] = view.breaks();
@@ -63,7 +68,7 @@ impl Ggx {
     }
 
     /// The points on the arc of one circle.
-    fn circle(&self, view: &Viewer, t: f64, weight: f64, take: &mut impl FnMut(f64, f64)) {
+    fn circle(&self, view: &Viewer, t: f64, weight: f64, take: &mut impl FnMut(f64, f64, f64)) {
         let circle = (libm::sin(t), libm::cos(t));
         let Some((from, to)) = view.arc(circle) else {
             return;
@@ -71,8 +76,9 @@ impl Ggx {
         // Both halves of a circle are alike: π of each stands for 2 π, and the cap's area is 2 π (1 + v'_z).
         let share = weight * circle.0 / (PI * (1.0 + view.up));
         for (azimuth, part) in self.azimuth.over(from, to) {
-            let (cos_h, shadowing) = view.seen(circle, azimuth);
-            take(cos_h.clamp(0.0, 1.0), share * part * shadowing);
+            let (cos_h, light, shadowing) = view.seen(circle, azimuth);
+            let cosines = [cos_h, light].map(|c| c.clamp(0.0, 1.0));
+            take(cosines[0], cosines[1], share * part * shadowing);
         }
     }
 }
@@ -132,8 +138,8 @@ impl Viewer {
         }
     }
 
-    /// h·v, and G2/G1.
-    fn seen(&self, (sin_t, cos_t): (f64, f64), azimuth: f64) -> (f64, f64) {
+    /// h·v, n·l and G2/G1.
+    fn seen(&self, (sin_t, cos_t): (f64, f64), azimuth: f64) -> (f64, f64, f64) {
         let (sin_a, cos_a) = libm::sincos(azimuth);
         let along = self.alpha * (sin_t * cos_a + self.along);
         let across = self.alpha * sin_t * sin_a;
@@ -141,7 +147,7 @@ impl Viewer {
         let length = (along * along + across * across + up * up).sqrt();
         let cos_h = (self.s * along + self.c * up) / length;
         let light = 2.0 * cos_h * up / length - self.c;
-        (cos_h, self.shadowing(light))
+        (cos_h, light, self.shadowing(light))
     }
 
     /// G2/G1 = (1 + Λ(v)) / (1 + Λ(v) + Λ(l)), each Λ multiplied by its cosine, which may be 0.

@@ -25,6 +25,7 @@ mod effects;
 mod exhaustive;
 mod f82;
 mod fits;
+mod furnace;
 #[cfg(all(feature = "cli", feature = "gpu"))]
 mod gallery;
 mod golden;

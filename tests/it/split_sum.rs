@@ -2,14 +2,20 @@
 
 use fresnel_gen::fit::values_for_material;
 use fresnel_gen::ir::Weights;
-use fresnel_gen::lut::{Depth, SPLIT_SUM_SIZE, SplitSum, StoredSplitSum};
+use fresnel_gen::lut::{
+    Depth, SPLIT_SUM_AXES, SPLIT_SUM_SIZE, SplitSum, SplitSumAxis, SplitSumDesign, SplitSumLayout,
+    StoredSplitSum,
+};
 use fresnel_gen::methods::{self, Input, Method, Shape};
 use fresnel_gen::optics::Ggx;
 use fresnel_gen::reference::{MaterialInMedium, reference_reflectance};
 use fresnel_gen::spectra::Gamut;
 
-/// What the table promises at every angle and roughness from .05 on, for the fitted reflectance.
-const PROMISED: f64 = 2e-3;
+/// What tables along these axes promise at every angle and roughness from .05 on, for the fitted reflectance.
+const PROMISED: [([SplitSumAxis; 2], f64); 2] = [
+    (SPLIT_SUM_AXES, 2e-3),
+    ([SplitSumAxis::FourthRoot, SplitSumAxis::Sqrt], 8e-4),
+];
 
 /// Materials with the method whose table serves them.
 const MATERIALS: [(&str, &str); 9] = [
@@ -121,31 +127,105 @@ fn compare(stored: &StoredSplitSum, all: &[Reflectance]) -> Vec<Errors> {
 
 #[test]
 fn the_albedo_is_what_direct_integration_gives() {
-    for method in ["fitted", "fitted_dielectric"] {
-        let method = methods::find(method).unwrap();
-        let own = MATERIALS.iter().filter(|(_, name)| *name == method.name);
-        let all: Vec<Reflectance> = own
-            .map(|(name, _)| Reflectance::new(name, &super::subjects(&[name])[0], method))
-            .collect();
-        let table = SplitSum::new(&method.shape.unwrap(), SPLIT_SUM_SIZE, &mut |_, _| {}).unwrap();
-        for depth in [Depth::Half, Depth::Float] {
-            let errors = compare(&table.stored(depth), &all);
+    for (axes, promised) in PROMISED {
+        let mut worst = 0.0;
+        for method in ["fitted", "fitted_dielectric"] {
+            let method = methods::find(method).unwrap();
+            let own = MATERIALS.iter().filter(|(_, name)| *name == method.name);
+            let all: Vec<Reflectance> = own
+                .map(|(name, _)| Reflectance::new(name, &super::subjects(&[name])[0], method))
+                .collect();
+            let design = SplitSumDesign::square(method.basis().unwrap(), SPLIT_SUM_SIZE, axes);
+            let table = SplitSum::new(&design, &mut |_, _| {}).unwrap();
+            let errors = compare(&table.stored(Depth::Half), &all);
             for (one, errors) in all.iter().zip(errors) {
                 let Errors { fitted, spectrum } = errors;
                 println!(
-                    "{} {depth:?}: fitted {fitted:?}, spectrum {spectrum:?}",
+                    "{} {axes:?}: fitted {fitted:?}, spectrum {spectrum:?}",
                     one.name
                 );
-                assert!(fitted.0 <= PROMISED, "{}: {fitted:?}", one.name);
-                // The model error comes on top: it is at most .0036 for these.
+                worst = f64::max(worst, fitted.0);
+                // The model error comes on top: it is at most .0036 for these, and .0061 on a rough surface.
                 assert!(
-                    spectrum.0 <= PROMISED + 0.0036,
+                    spectrum.0 <= promised + 0.0061,
                     "{}: {spectrum:?}",
                     one.name
                 );
             }
+            let again = SplitSum::new(&design, &mut |_, _| {}).unwrap();
+            assert!(
+                again.texels == table.texels,
+                "another run gives other numbers"
+            );
         }
-        let again = SplitSum::new(&method.shape.unwrap(), SPLIT_SUM_SIZE, &mut |_, _| {}).unwrap();
-        assert!(again == table, "another run gives other numbers");
+        assert!(
+            worst <= promised && worst >= 0.8 * promised,
+            "{axes:?}: {worst} for {promised}"
+        );
+    }
+}
+
+/// What an engine's texture holds, by its definition: half vectors spread by D, of each the visibility `G2 / (4 n·l n·v)` that the
+/// engine has, times `4 n·l v·h / n·h`; and the same times (1 - v·h)⁵.
+fn by_definition(layout: SplitSumLayout, cos_v: f64, roughness: f64) -> [f64; 2] {
+    const STEPS: (usize, usize) = (1500, 300);
+    let alpha = roughness * roughness;
+    let sin_v = (1.0 - cos_v * cos_v).sqrt();
+    let length = |c: f64| match layout {
+        SplitSumLayout::Unreal => c * (1.0 - alpha) + alpha,
+        _ => (c * c * (1.0 - alpha * alpha) + alpha * alpha).sqrt(),
+    };
+    let mut sums = [0.0; 2];
+    for i in 0..STEPS.0 {
+        // Even in the root of what is left of u: shares grow as its reciprocal.
+        let left = (i as f64 + 0.5) / STEPS.0 as f64;
+        let up = left / (1.0 + (alpha * alpha - 1.0) * (1.0 - left * left)).sqrt();
+        for j in 0..STEPS.1 {
+            let azimuth = std::f64::consts::PI * (j as f64 + 0.5) / STEPS.1 as f64;
+            let cos_h = sin_v * (1.0 - up * up).sqrt() * azimuth.cos() + cos_v * up;
+            let light = 2.0 * cos_h * up - cos_v;
+            if light > 0.0 {
+                let visibility = 0.5 / (light * length(cos_v) + cos_v * length(light));
+                let share = 2.0 * left * 4.0 * light * visibility * cos_h / up;
+                sums[0] += share;
+                sums[1] += share * (1.0 - cos_h).powi(5);
+            }
+        }
+    }
+    sums.map(|sum| sum / (STEPS.0 * STEPS.1) as f64)
+}
+
+/// Filament mixes from red to green by F0, `mix(dfg.x, dfg.y, f0)`; Unreal takes F0 times red, and green. Texel i of N lies at (i + 1/2)/N.
+#[test]
+fn engines_get_what_they_bind() {
+    let basis = methods::find("schlick").unwrap().basis().unwrap();
+    for (layout, height) in [
+        (SplitSumLayout::Filament, 128),
+        (SplitSumLayout::Unreal, 32),
+    ] {
+        let design = SplitSumDesign::of_engine(basis, layout);
+        assert_eq!((design.width, design.height), (128, height));
+        let table = SplitSum::new(&design, &mut |_, _| {}).unwrap();
+        let mut other_masking = 0.0;
+        for column in [0, 3, 20, 64, 127] {
+            for row in [3, height / 2, height - 1] {
+                let centre = |i: usize, of: usize| (i as f64 + 0.5) / of as f64;
+                let (cos_v, roughness) = (centre(column, 128), centre(row, height));
+                let [white, grazing] = by_definition(layout, cos_v, roughness);
+                let want = match layout {
+                    SplitSumLayout::Filament => [grazing, white],
+                    _ => [white - grazing, grazing],
+                };
+                let texel = table.texels[row * 128 + column];
+                let where_ = format!("{layout:?} {column} {row}: {texel:?} {want:?}");
+                assert!((texel[0] - want[0]).abs() < 1e-4, "{where_}");
+                assert!((texel[1] - want[1]).abs() < 1e-4, "{where_}");
+                assert_eq!(texel[2..], [0.0, 0.0]);
+                let [exact, _] = by_definition(SplitSumLayout::Filament, cos_v, roughness);
+                other_masking = f64::max(other_masking, (exact - white).abs());
+            }
+        }
+        // The two engines do not mask alike, so that one's table is not the other's with channels exchanged.
+        assert_eq!(other_masking > 0.01, layout == SplitSumLayout::Unreal);
     }
 }

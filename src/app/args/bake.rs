@@ -2,7 +2,8 @@
 
 use clap::Args;
 
-use crate::lut::{Format, TableAxis};
+use crate::bake::split_sum_methods;
+use crate::lut::{Format, SPLIT_SUM_AXES, SplitSumAxis, SplitSumLayout, TableAxis};
 use crate::methods::{self, Method};
 use crate::names::UnknownName;
 use crate::targets::{self, Finish, Target};
@@ -11,11 +12,10 @@ use super::choice::{Choice, in_any_case, one_of, one_or_all};
 use super::{GamutFlags, MaterialFlags, MediumFlags, ReportFlags, TreeFlags};
 
 /// Flags that conflict with `--dfg`.
-const NO_MATERIAL: [&str; 9] = [
+const NO_MATERIAL: [&str; 8] = [
     "material",
     "medium",
     "gamut",
-    "axis",
     "atlas",
     "budget",
     "target",
@@ -40,19 +40,24 @@ pub struct BakeFlags {
     /// How materials are looked at.
     #[command(flatten)]
     pub viewing: GamutFlags,
-    /// Bake the split-sum table of a fitted method (cos θ by roughness, one channel per coefficient) in place of material tables; one
-    /// table serves every material fitted by that method
+    /// Bake the split-sum table of a method (cos θ by roughness, one channel per number of a material) in place of material tables;
+    /// one table serves every material
     #[arg(long, conflicts_with_all = NO_MATERIAL)]
     pub dfg: bool,
-    /// Whose coefficients the split-sum table is for: fitted, fitted_dielectric
-    #[arg(long, value_name = "NAME", requires = "dfg", default_value = "fitted", value_parser = split_sum_method)]
-    pub method: &'static Method,
+    /// Whose numbers the split-sum table is for: any method that is affine in numbers of a material, such as schlick, schlick_f90,
+    /// f82_tint, hoffman_f82, fitted_f82, fitted, fitted_dielectric [default: fitted; schlick with --layout]
+    #[arg(long, value_name = "NAME", requires = "dfg", value_parser = split_sum_method)]
+    pub method: Option<&'static Method>,
+    /// What an engine binds in place of its own table: filament (128 x 128), unreal (128 x 32); of schlick
+    #[arg(long, value_name = "NAME", requires = "dfg", conflicts_with_all = ["size", "axis"], value_parser = in_any_case(one_of("layout", SplitSumLayout::ENGINES, SplitSumLayout::name)))]
+    pub layout: Option<SplitSumLayout>,
     /// Texels of a table, 2 to 16384 [default: 64; a side of --dfg, 2 to 1024: 128]
     #[arg(long, value_name = "N")]
     pub size: Option<usize>,
-    /// How cosines are spread: cos, square, sqrt, rational, steep, grazing [default: rational]
-    #[arg(long, value_name = "NAME", value_parser = in_any_case(one_of("axis", TableAxis::ALL, TableAxis::name)))]
-    pub axis: Option<TableAxis>,
+    /// How cosines are spread: cos, square, sqrt, rational, steep, grazing [default: rational]; with --dfg how cosines and roughness are
+    /// spread, COSINE,ROUGHNESS, each of linear, sqrt, fourth-root; one name is for both [default: sqrt]
+    #[arg(long, value_name = "NAME")]
+    pub axis: Option<String>,
     /// Files: exr-half, exr-float, png8, png16, ktx2, c, rust, js, all [default: exr-half, png16, ktx2]
     #[arg(long, value_delimiter = ',', value_name = "NAME", value_parser = in_any_case(one_or_all("format", Format::ALL, Format::name)))]
     pub format: Vec<Choice<Format>>,
@@ -97,9 +102,31 @@ fn target(word: &str) -> Result<Choice<&'static Target>, String> {
     parse(word).map_err(|unknown| unknown.to_string())
 }
 
-/// A method. Those that are not fitted are known, and refused with the reason when they are baked.
+/// A method. Those that are not affine are known, and refused with the reason when they are baked.
 fn split_sum_method(word: &str) -> Result<&'static Method, UnknownName> {
-    let fitted = methods::ALL.iter().filter(|method| method.is_fitted());
-    let names: Vec<&str> = fitted.map(|method| method.name).collect();
-    methods::find(word).ok_or_else(|| UnknownName::new("method", word, &names))
+    methods::find(word).ok_or_else(|| UnknownName::new("method", word, &split_sum_methods()))
+}
+
+impl BakeFlags {
+    /// The axis of tables of materials, where one is named.
+    ///
+    /// # Errors
+    /// No such axis.
+    pub fn table_axis(&self) -> Result<Option<TableAxis>, UnknownName> {
+        let parse = in_any_case(one_of("axis", TableAxis::ALL, TableAxis::name));
+        self.axis.as_deref().map(parse).transpose()
+    }
+
+    /// The axes of cosine and roughness of a split-sum table.
+    ///
+    /// # Errors
+    /// No such axis.
+    pub fn split_sum_axes(&self) -> Result<[SplitSumAxis; 2], UnknownName> {
+        let parse = in_any_case(one_of("axis", SplitSumAxis::ALL, SplitSumAxis::name));
+        let Some(words) = self.axis.as_deref() else {
+            return Ok(SPLIT_SUM_AXES);
+        };
+        let (cosine, roughness) = words.split_once(',').unwrap_or((words, words));
+        Ok([parse(cosine)?, parse(roughness)?])
+    }
 }

@@ -13,11 +13,11 @@ use crate::app::write::write;
 use crate::bake::{
     ATLAS, BakeRequest, BakeRow, Baked, DEFAULT_AXIS, DEFAULT_FORMATS, SplitSumRequest,
     TableMaterial, TableSize, as_tables_are_seen, bake, bake_split_sum, material_words,
-    viewing_flags,
+    usual_method, viewing_flags,
 };
 use crate::command_line::CommandLine;
-use crate::lut::{Format, SPLIT_SUM_SIZE, TableAxis, check_size};
-use crate::methods::{self, Method, TEXELS};
+use crate::lut::{Format, SPLIT_SUM_SIZE, SplitSumLayout, TableAxis, check_size};
+use crate::methods::TEXELS;
 use crate::report::Report;
 use crate::report::table;
 use crate::targets::{self, Finish, Target};
@@ -68,10 +68,16 @@ pub fn run(flags: &BakeFlags, progress: Progress, announce: Announce) -> Result<
 
 /// Bakes the split-sum table of a method.
 fn split_sum(flags: &BakeFlags, progress: Progress, announce: Announce) -> Result<Output, Error> {
+    let layout = flags.layout.unwrap_or(SplitSumLayout::Terms);
     let request = SplitSumRequest {
-        method: flags.method,
+        method: flags.method.unwrap_or(usual_method(layout)),
+        layout,
         size: flags.size.unwrap_or(SPLIT_SUM_SIZE),
-        formats: formats(flags),
+        axes: flags.split_sum_axes()?,
+        formats: match flags.format.is_empty() {
+            true => Vec::new(),
+            false => formats(flags),
+        },
     };
     try_places(flags.report.json(), None)?;
     let baked = bake_split_sum(&request, progress)?;
@@ -118,20 +124,19 @@ fn finished(
 }
 
 fn shape(flags: &BakeFlags) -> Result<TableSize, Error> {
+    let axis = flags.table_axis()?;
     match flags.budget {
         None => {
             let texels = flags.size.unwrap_or(TEXELS);
             check_size(texels)?;
             Ok(TableSize::Fixed {
-                axis: flags.axis.unwrap_or(DEFAULT_AXIS),
+                axis: axis.unwrap_or(DEFAULT_AXIS),
                 texels,
             })
         }
         Some(budget) if budget > 0.0 && budget.is_finite() => Ok(TableSize::Within {
             budget,
-            axes: flags
-                .axis
-                .map_or(TableAxis::ALL.to_vec(), |axis| vec![axis]),
+            axes: axis.map_or(TableAxis::ALL.to_vec(), |axis| vec![axis]),
         }),
         Some(budget) => Err(RequestFault::OutOfRange {
             flag: "budget",
@@ -164,10 +169,9 @@ fn targets(words: &[Choice<&'static Target>]) -> Vec<&'static Target> {
     text.filter(is_chosen).collect()
 }
 
-/// Whether a table of `--dfg` has this name.
+/// Whether a table of `--dfg` may have this name.
 fn is_split_sum(name: &str) -> bool {
-    let method = name.strip_prefix("dfg_").and_then(methods::find);
-    method.is_some_and(Method::is_fitted)
+    name.starts_with("dfg_")
 }
 
 /// There is something to bake, and no material bears the atlas's name.
@@ -198,8 +202,20 @@ fn check_names(subjects: &[TableMaterial], atlas: bool) -> Result<(), Error> {
 fn bake_text(rows: &[BakeRow]) -> String {
     let cells = |row: &BakeRow| {
         let (name, format, texels, axis, file) = match row {
-            BakeRow::Table(row) => (&row.name, row.format, row.texels, row.axis, &row.file),
-            BakeRow::SplitSum(row) => (&row.name, row.format, row.texels, row.axis, &row.file),
+            BakeRow::Table(row) => (
+                &row.name,
+                row.format,
+                row.texels,
+                row.axis.to_string(),
+                &row.file,
+            ),
+            BakeRow::SplitSum(row) => (
+                &row.name,
+                row.format,
+                row.texels,
+                row.axis.to_string(),
+                &row.file,
+            ),
         };
         let (scale, max_abs, mean_rel) = match row {
             BakeRow::Table(row) => (row.scale, row.max_abs, row.mean_rel),
@@ -209,7 +225,7 @@ fn bake_text(rows: &[BakeRow]) -> String {
             name.clone(),
             format.to_owned(),
             texels.to_string(),
-            axis.to_owned(),
+            axis,
             file.clone(),
             format!("{scale:?}"),
             format!("{max_abs:.6}"),

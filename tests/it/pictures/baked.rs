@@ -197,9 +197,14 @@ fn row_is_its_materials(material: &str, line: &[[f64; 3]]) {
     }
 }
 
-/// With the first term alone, which has no factor, F is 1.
+/// With the first term alone, which has no factor, F is 1. A file of the fourth term holds it in every channel.
 fn white_loses_what_masking_takes(shown: &Shown) {
     let texels = Texels::new(shown);
+    if shown.file.contains("_t3.") {
+        let grey = |texel: &[f64; 4]| texel[0] == texel[1] && texel[1] == texel[2];
+        assert!(texels.values.iter().all(grey) && texels.at(0, 0)[0] > 0.99);
+        return;
+    }
     let last = texels.width - 1;
     let white = |row: usize, column: usize| texels.at(row, column)[0];
     let all = texels.values.iter().map(|texel| texel[0]);
@@ -236,5 +241,5 @@ fn tables_hold_reflectance_from_grazing_to_normal() {
     for method in ["fitted", "fitted_dielectric"] {
         place.done(&format!("bake --dfg --method {method} --size 16 {formats}"));
     }
-    assert_eq!(check_all(&place.path("")).len(), 35);
+    assert_eq!(check_all(&place.path("")).len(), 43);
 }

@@ -9,7 +9,7 @@ use crate::cli::{OUT, Place, Ran};
 use crate::not_checked;
 
 /// A name in the list, and a command whose stdout is the report.
-const REPORTS: [(&str, &str); 19] = [
+const REPORTS: [(&str, &str); 20] = [
     ("methods", "methods --json -"),
     ("methods show", "methods show fitted --json -"),
     ("targets", "targets --json -"),
@@ -22,6 +22,10 @@ const REPORTS: [(&str, &str); 19] = [
         "fit --f0 1,.71,.29 --f82 .98,.91,.66 --json -",
     ),
     ("bake", "bake --material gold --json - --out-dir baked"),
+    (
+        "bake of a split-sum table",
+        "bake --dfg --size 8 --json - --out-dir baked",
+    ),
     ("chart", "chart --material gold --json -"),
     ("stability", "stability --method schlick --json -"),
     ("reproduce", "reproduce table3 --json -"),
