@@ -136,13 +136,14 @@ fn what_fails_is_seen() {
             failure.words()
         );
     }
-    // The exact laws fail nowhere as formulas.
+    // The exact laws fail nowhere as formulas, but for the one that is for metals alone.
     for method in methods::ALL
         .iter()
         .filter(|method| method.name.contains("_exact"))
     {
-        assert!(
-            !fails(&ROWS, method.name, Failure::Error(0.01)),
+        assert_eq!(
+            fails(&ROWS, method.name, Failure::Error(0.01)),
+            method.class == Class::Metal,
             "{}",
             method.name
         );
