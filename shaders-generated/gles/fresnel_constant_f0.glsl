@@ -9,7 +9,10 @@
 // Domain: the result is f0, also above 1 and at 90 degrees, where the law reflects everything
 // Model error for eta 1.3 to 2.5: at most 0.983, worst at 90 degrees
 // Model error for n 0.05 to 4.5, k 1.5 to 8: at most 0.714, worst at 90 degrees
-// Cost: 0 scalar operations; fresnel_constant_f0_scalar 0
+// Cost: 0 scalar operations; fresnel_constant_f0_scalar 0; fresnel_constant_f0_average 3;
+//     fresnel_constant_f0_average_scalar 1
+// fresnel_constant_f0_average: the mean of F over the hemisphere, weighted by cosine, as compensation of multiple
+//     scattering takes it
 // Source: Hoffman, 2013, https://blog.selfshadow.com/publications/s2013-shading-course/
 
 #ifndef FRESNEL_CONSTANT_F0_GLES
@@ -21,6 +24,14 @@ highp vec3 fresnel_constant_f0(highp float cos_theta, highp vec3 f0) {
 
 highp float fresnel_constant_f0_scalar(highp float cos_theta, highp float f0) {
     return f0;
+}
+
+highp vec3 fresnel_constant_f0_average(highp vec3 f0) {
+    return clamp(f0, 0.0, 1.0);
+}
+
+highp float fresnel_constant_f0_average_scalar(highp float f0) {
+    return clamp(f0, 0.0, 1.0);
 }
 
 #endif

@@ -9,7 +9,9 @@
 // Domain: the result is limited to [0, 1], of f0 above 1 too
 // Model error for eta 1.3 to 2.5: at most 0.0341, worst at 67.8 degrees
 // Model error for n 0.05 to 4.5, k 1.5 to 8: at most 0.0837, worst at 87.3 degrees
-// Cost: 33 scalar operations
+// Cost: 33 scalar operations; fresnel_f82_tint_average 30
+// fresnel_f82_tint_average: the mean of F over the hemisphere, weighted by cosine, as compensation of multiple
+//     scattering takes it
 // Source: Kutz, Hasan, Edmondson, 2021, https://helpx.adobe.com/substance-3d-general/adobe-standard-material.html
 
 #ifndef FRESNEL_F82_TINT_GLES
@@ -26,6 +28,11 @@ highp vec3 fresnel_f82_tint(highp float cos_theta, highp vec3 f0, highp vec3 tin
     highp float first = 1.0 - m5 - of_f0; // the weight of f0 where the tint is 0
     highp float second = m5 - of_white; // the weight of white where the tint is 0
     return clamp(f0 * (tint * of_f0 + first) + (tint * of_white + second), 0.0, 1.0);
+}
+
+highp vec3 fresnel_f82_tint_average(highp vec3 f0, highp vec3 tint) {
+    highp vec3 rise = 1.0 - f0;
+    return clamp(f0 + 0.04761905 * rise + 0.14009036 * ((tint - 1.0) * (f0 + 0.46266437 * rise)), 0.0, 1.0);
 }
 
 #endif

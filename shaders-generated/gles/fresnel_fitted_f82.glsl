@@ -9,7 +9,10 @@
 // Domain: the result is limited to [0, 1], of f0 above 1 too
 // Model error for eta 1.3 to 2.5: at most 0.0088, worst at 71.6 degrees
 // Model error for n 0.05 to 4.5, k 1.5 to 8: at most 0.0504, worst at 87.3 degrees
-// Cost: 31 scalar operations, among them 1 division; fresnel_fitted_f82_scalar 21
+// Cost: 31 scalar operations, among them 1 division; fresnel_fitted_f82_scalar 21; fresnel_fitted_f82_average 27;
+//     fresnel_fitted_f82_average_scalar 9
+// fresnel_fitted_f82_average: the mean of F over the hemisphere, weighted by cosine, as compensation of multiple
+//     scattering takes it
 // Source: Hoffman, 2019, https://renderwonk.com/publications/mam2019/
 
 #ifndef FRESNEL_FITTED_F82_GLES
@@ -35,6 +38,16 @@ highp float fresnel_fitted_f82_scalar(highp float cos_theta, highp float f0, hig
     highp float b = s * (7.082667 * u - 0.16); // the weight of f82
     highp float kept = 1.0 - a - b; // the weight of f0
     return clamp(f0 * kept + (f82 * b + a), 0.0, 1.0);
+}
+
+highp vec3 fresnel_fitted_f82_average(highp vec3 f0, highp vec3 f82) {
+    highp vec3 rise = 1.0 - f0;
+    return clamp(f0 + 0.04686685 * rise + 0.17492543 * (f82 - (f0 + 0.4 * rise)), 0.0, 1.0);
+}
+
+highp float fresnel_fitted_f82_average_scalar(highp float f0, highp float f82) {
+    highp float rise = 1.0 - f0;
+    return clamp(f0 + 0.04686685 * rise + 0.17492543 * (f82 - (f0 + 0.4 * rise)), 0.0, 1.0);
 }
 
 #endif

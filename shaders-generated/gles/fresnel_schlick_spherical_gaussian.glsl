@@ -10,7 +10,10 @@
 //     f0 + 1.7e-4 (1 - f0)
 // Model error for eta 1.3 to 2.5: at most 0.0864, worst at 84.6 degrees
 // Model error for n 0.05 to 4.5, k 1.5 to 8: at most 0.279, worst at 84.5 degrees
-// Cost: 12 scalar operations, among them 1 exponential or logarithm; fresnel_schlick_spherical_gaussian_scalar 8
+// Cost: 12 scalar operations, among them 1 exponential or logarithm; fresnel_schlick_spherical_gaussian_scalar 8;
+//     fresnel_schlick_spherical_gaussian_average 12; fresnel_schlick_spherical_gaussian_average_scalar 4
+// fresnel_schlick_spherical_gaussian_average: the mean of F over the hemisphere, weighted by cosine, as
+//     compensation of multiple scattering takes it
 // Source: Karis, 2013, https://blog.selfshadow.com/publications/s2013-shading-course/
 
 #ifndef FRESNEL_SCHLICK_SPHERICAL_GAUSSIAN_GLES
@@ -28,6 +31,14 @@ highp float fresnel_schlick_spherical_gaussian_scalar(highp float cos_theta, hig
     highp float weight = exp2((-5.55473 * c - 6.98316) * c); // 1 at grazing
     highp float kept = 1.0 - weight; // the weight of f0
     return f0 * kept + weight;
+}
+
+highp vec3 fresnel_schlick_spherical_gaussian_average(highp vec3 f0) {
+    return clamp(f0 + 0.04886371 * (1.0 - f0), 0.0, 1.0);
+}
+
+highp float fresnel_schlick_spherical_gaussian_average_scalar(highp float f0) {
+    return clamp(f0 + 0.04886371 * (1.0 - f0), 0.0, 1.0);
 }
 
 #endif

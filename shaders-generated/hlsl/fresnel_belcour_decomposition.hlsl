@@ -10,7 +10,10 @@
 // Domain: weights solved for f0; limited to [0, 1]
 // Model error for eta 1.3 to 2.5: at most 0.0043, worst at 87.8 degrees
 // Model error for n 0.05 to 4.5, k 1.5 to 8: at most 0.024, worst at 87.3 degrees
-// Cost: 48 scalar operations, among them 1 division; fresnel_belcour_decomposition_scalar 34
+// Cost: 48 scalar operations, among them 1 division; fresnel_belcour_decomposition_scalar 34;
+//     fresnel_belcour_decomposition_average 24; fresnel_belcour_decomposition_average_scalar 8
+// fresnel_belcour_decomposition_average: the mean of F over the hemisphere, weighted by cosine, as compensation of
+//     multiple scattering takes it
 // Source: Belcour, Bati, Barla, 2020, https://blog.selfshadow.com/publications/s2020-shading-course/
 
 #ifndef FRESNEL_BELCOUR_DECOMPOSITION_HLSL
@@ -38,6 +41,16 @@ float fresnel_belcour_decomposition_scalar(float cos_theta, float f0, float b2_w
     float b1 = m * (-0.01361334 + r * (-0.3220094 + r * (1.603441 + r * -0.2677399)));
     float kept = 1.0 - b1; // the weight of f0
     return saturate(f0 * kept + b1 + (b2_weight * b2 + b3_weight * b3));
+}
+
+float3 fresnel_belcour_decomposition_average(float3 f0, float3 b2_weight, float3 b3_weight)
+{
+    return saturate(f0 + 0.049776506 * (1.0 - f0) + 0.22725467 * b2_weight + -0.25974298 * b3_weight);
+}
+
+float fresnel_belcour_decomposition_average_scalar(float f0, float b2_weight, float b3_weight)
+{
+    return saturate(f0 + 0.049776506 * (1.0 - f0) + 0.22725467 * b2_weight + -0.25974298 * b3_weight);
 }
 
 #endif

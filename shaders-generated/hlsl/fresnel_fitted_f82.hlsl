@@ -9,7 +9,10 @@
 // Domain: the result is limited to [0, 1], of f0 above 1 too
 // Model error for eta 1.3 to 2.5: at most 0.0088, worst at 71.6 degrees
 // Model error for n 0.05 to 4.5, k 1.5 to 8: at most 0.0504, worst at 87.3 degrees
-// Cost: 31 scalar operations, among them 1 division; fresnel_fitted_f82_scalar 21
+// Cost: 31 scalar operations, among them 1 division; fresnel_fitted_f82_scalar 21; fresnel_fitted_f82_average 27;
+//     fresnel_fitted_f82_average_scalar 9
+// fresnel_fitted_f82_average: the mean of F over the hemisphere, weighted by cosine, as compensation of multiple
+//     scattering takes it
 // Source: Hoffman, 2019, https://renderwonk.com/publications/mam2019/
 
 #ifndef FRESNEL_FITTED_F82_HLSL
@@ -37,6 +40,18 @@ float fresnel_fitted_f82_scalar(float cos_theta, float f0, float f82)
     float b = s * (7.082667 * u - 0.16); // the weight of f82
     float kept = 1.0 - a - b; // the weight of f0
     return saturate(f0 * kept + (f82 * b + a));
+}
+
+float3 fresnel_fitted_f82_average(float3 f0, float3 f82)
+{
+    float3 rise = 1.0 - f0;
+    return saturate(f0 + 0.04686685 * rise + 0.17492543 * (f82 - (f0 + 0.4 * rise)));
+}
+
+float fresnel_fitted_f82_average_scalar(float f0, float f82)
+{
+    float rise = 1.0 - f0;
+    return saturate(f0 + 0.04686685 * rise + 0.17492543 * (f82 - (f0 + 0.4 * rise)));
 }
 
 #endif

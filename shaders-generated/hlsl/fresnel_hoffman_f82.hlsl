@@ -9,7 +9,9 @@
 // Domain: the result is limited to [0, 1], of f0 above 1 too
 // Model error for eta 1.3 to 2.5: at most 0.0341, worst at 67.8 degrees
 // Model error for n 0.05 to 4.5, k 1.5 to 8: at most 0.0837, worst at 87.3 degrees
-// Cost: 27 scalar operations
+// Cost: 27 scalar operations; fresnel_hoffman_f82_average 27
+// fresnel_hoffman_f82_average: the mean of F over the hemisphere, weighted by cosine, as compensation of multiple
+//     scattering takes it
 // Source: Hoffman, 2019, https://renderwonk.com/publications/mam2019/
 
 #ifndef FRESNEL_HOFFMAN_F82_HLSL
@@ -25,6 +27,12 @@ float3 fresnel_hoffman_f82(float cos_theta, float3 f0, float3 f82)
     float a = m5 - 0.46266437 * b; // the weight of white: 1 at grazing, 0 at 81.79 degrees
     float kept = 1.0 - a - b; // the weight of f0
     return saturate(f0 * kept + (f82 * b + a));
+}
+
+float3 fresnel_hoffman_f82_average(float3 f0, float3 f82)
+{
+    float3 rise = 1.0 - f0;
+    return saturate(f0 + 0.04761905 * rise + 0.14009036 * (f82 - (f0 + 0.46266437 * rise)));
 }
 
 #endif

@@ -10,7 +10,10 @@
 // Domain: weights solved for f0; limited to [0, 1]
 // Model error for eta 1.3 to 2.5: at most 0.0043, worst at 87.8 degrees
 // Model error for n 0.05 to 4.5, k 1.5 to 8: at most 0.024, worst at 87.3 degrees
-// Cost: 48 scalar operations, among them 1 division; fresnel_belcour_decomposition_scalar 34
+// Cost: 48 scalar operations, among them 1 division; fresnel_belcour_decomposition_scalar 34;
+//     fresnel_belcour_decomposition_average 24; fresnel_belcour_decomposition_average_scalar 8
+// fresnel_belcour_decomposition_average: the mean of F over the hemisphere, weighted by cosine, as compensation of
+//     multiple scattering takes it
 // Source: Belcour, Bati, Barla, 2020, https://blog.selfshadow.com/publications/s2020-shading-course/
 
 fn fresnel_belcour_decomposition(
@@ -38,4 +41,16 @@ fn fresnel_belcour_decomposition_scalar(cos_theta: f32, f0: f32, b2_weight: f32,
     let b1 = m * (-0.01361334 + r * (-0.3220094 + r * (1.603441 + r * -0.2677399)));
     let kept = 1.0 - b1; // the weight of f0
     return saturate(f0 * kept + b1 + (b2_weight * b2 + b3_weight * b3));
+}
+
+fn fresnel_belcour_decomposition_average(
+    f0: vec3<f32>,
+    b2_weight: vec3<f32>,
+    b3_weight: vec3<f32>
+) -> vec3<f32> {
+    return saturate(f0 + 0.049776506 * (1.0 - f0) + 0.22725467 * b2_weight + -0.25974298 * b3_weight);
+}
+
+fn fresnel_belcour_decomposition_average_scalar(f0: f32, b2_weight: f32, b3_weight: f32) -> f32 {
+    return saturate(f0 + 0.049776506 * (1.0 - f0) + 0.22725467 * b2_weight + -0.25974298 * b3_weight);
 }

@@ -9,7 +9,10 @@
 // Domain: the result is f0, also above 1 and at 90 degrees, where the law reflects everything
 // Model error for eta 1.3 to 2.5: at most 0.983, worst at 90 degrees
 // Model error for n 0.05 to 4.5, k 1.5 to 8: at most 0.714, worst at 90 degrees
-// Cost: 0 scalar operations; fresnel_constant_f0_scalar 0
+// Cost: 0 scalar operations; fresnel_constant_f0_scalar 0; fresnel_constant_f0_average 3;
+//     fresnel_constant_f0_average_scalar 1
+// fresnel_constant_f0_average: the mean of F over the hemisphere, weighted by cosine, as compensation of multiple
+//     scattering takes it
 // Source: Hoffman, 2013, https://blog.selfshadow.com/publications/s2013-shading-course/
 
 fn fresnel_constant_f0(cos_theta: f32, f0: vec3<f32>) -> vec3<f32> {
@@ -18,4 +21,12 @@ fn fresnel_constant_f0(cos_theta: f32, f0: vec3<f32>) -> vec3<f32> {
 
 fn fresnel_constant_f0_scalar(cos_theta: f32, f0: f32) -> f32 {
     return f0;
+}
+
+fn fresnel_constant_f0_average(f0: vec3<f32>) -> vec3<f32> {
+    return saturate(f0);
+}
+
+fn fresnel_constant_f0_average_scalar(f0: f32) -> f32 {
+    return saturate(f0);
 }

@@ -10,7 +10,10 @@
 //     values of f32 next to its cosine, where rounding decides: 0.99 or more for eta from 0.25 on. Before it the
 //     law is steep: f32 may be off by 0.01 for eta from 0.25 to 0.999
 // Model error for eta 1.3 to 2.5: none, it is the exact law
-// Cost: 58 scalar operations, among them 3 roots, 3 divisions; fresnel_dielectric_exact_scalar 22
+// Cost: 58 scalar operations, among them 3 roots, 3 divisions; fresnel_dielectric_exact_scalar 22;
+//     fresnel_dielectric_exact_average 42; fresnel_dielectric_exact_average_scalar 14
+// fresnel_dielectric_exact_average: the mean of F over the hemisphere, weighted by cosine, as compensation of
+//     multiple scattering takes it; off by at most 0.0008 for eta 1/3 to 3
 // Source: Cook, Torrance, 1982, https://doi.org/10.1145/357290.357293
 
 fn fresnel_dielectric_exact(cos_theta: f32, eta: vec3<f32>) -> vec3<f32> {
@@ -37,4 +40,24 @@ fn fresnel_dielectric_exact_scalar(cos_theta: f32, eta: f32) -> f32 {
     let g = sqrt(g2);
     let q = tau / (c * ((tau + 1.0) * (g + c) + g) + g2);
     return min((c2 * g2 + s4) * (q * q), 1.0);
+}
+
+fn fresnel_dielectric_exact_average(eta: vec3<f32>) -> vec3<f32> {
+    let thin = min(eta, 1.0 / eta); // the index below 1 of both directions
+    let s = 1.0 - thin;
+    let outside = s * (0.3109 + s * (-0.3777 + s * 0.7966)); // the mean towards the denser side
+    let inside = 1.0 - (1.0 - outside) * (thin * thin); // the mean from there
+    return vec3<f32>(
+        select(outside.r, inside.r, eta.r < 1.0),
+        select(outside.g, inside.g, eta.g < 1.0),
+        select(outside.b, inside.b, eta.b < 1.0)
+    );
+}
+
+fn fresnel_dielectric_exact_average_scalar(eta: f32) -> f32 {
+    let thin = min(eta, 1.0 / eta); // the index below 1 of both directions
+    let s = 1.0 - thin;
+    let outside = s * (0.3109 + s * (-0.3777 + s * 0.7966)); // the mean towards the denser side
+    let inside = 1.0 - (1.0 - outside) * (thin * thin); // the mean from there
+    return select(outside, inside, eta < 1.0);
 }

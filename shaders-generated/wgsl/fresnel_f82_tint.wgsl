@@ -9,7 +9,9 @@
 // Domain: the result is limited to [0, 1], of f0 above 1 too
 // Model error for eta 1.3 to 2.5: at most 0.0341, worst at 67.8 degrees
 // Model error for n 0.05 to 4.5, k 1.5 to 8: at most 0.0837, worst at 87.3 degrees
-// Cost: 33 scalar operations
+// Cost: 33 scalar operations; fresnel_f82_tint_average 30
+// fresnel_f82_tint_average: the mean of F over the hemisphere, weighted by cosine, as compensation of multiple
+//     scattering takes it
 // Source: Kutz, Hasan, Edmondson, 2021, https://helpx.adobe.com/substance-3d-general/adobe-standard-material.html
 
 fn fresnel_f82_tint(cos_theta: f32, f0: vec3<f32>, tint: vec3<f32>) -> vec3<f32> {
@@ -23,4 +25,9 @@ fn fresnel_f82_tint(cos_theta: f32, f0: vec3<f32>, tint: vec3<f32>) -> vec3<f32>
     let first = 1.0 - m5 - of_f0; // the weight of f0 where the tint is 0
     let second = m5 - of_white; // the weight of white where the tint is 0
     return saturate(f0 * (tint * of_f0 + first) + (tint * of_white + second));
+}
+
+fn fresnel_f82_tint_average(f0: vec3<f32>, tint: vec3<f32>) -> vec3<f32> {
+    let rise = 1.0 - f0;
+    return saturate(f0 + 0.04761905 * rise + 0.14009036 * ((tint - 1.0) * (f0 + 0.46266437 * rise)));
 }

@@ -10,7 +10,10 @@
 //     80 degrees
 // Model error for eta 1.3 to 2.5: at most 0.0841, worst at 84.5 degrees
 // Model error for n 0.05 to 4.5, k 1.5 to 8: at most 0.278, worst at 84.5 degrees
-// Cost: 12 scalar operations; fresnel_schlick_scalar 8
+// Cost: 12 scalar operations; fresnel_schlick_scalar 8; fresnel_schlick_average 12; fresnel_schlick_average_scalar
+//     4
+// fresnel_schlick_average: the mean of F over the hemisphere, weighted by cosine, as compensation of multiple
+//     scattering takes it
 // Source: Schlick, 1994, https://doi.org/10.1111/1467-8659.1330233
 
 fn fresnel_schlick(cos_theta: f32, f0: vec3<f32>) -> vec3<f32> {
@@ -29,4 +32,12 @@ fn fresnel_schlick_scalar(cos_theta: f32, f0: f32) -> f32 {
     let m5 = m2 * m2 * m;
     let kept = 1.0 - m5; // the weight of f0
     return f0 * kept + m5;
+}
+
+fn fresnel_schlick_average(f0: vec3<f32>) -> vec3<f32> {
+    return saturate(f0 + 0.04761905 * (1.0 - f0));
+}
+
+fn fresnel_schlick_average_scalar(f0: f32) -> f32 {
+    return saturate(f0 + 0.04761905 * (1.0 - f0));
 }

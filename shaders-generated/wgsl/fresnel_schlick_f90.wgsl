@@ -9,7 +9,10 @@
 // Domain: the result lies between f0 and f90, and f0 above 1 is taken as it is
 // Model error for eta 1.3 to 2.5: at most 0.0841, worst at 84.5 degrees
 // Model error for n 0.05 to 4.5, k 1.5 to 8: at most 0.278, worst at 84.5 degrees
-// Cost: 13 scalar operations; fresnel_schlick_f90_scalar 9
+// Cost: 13 scalar operations; fresnel_schlick_f90_scalar 9; fresnel_schlick_f90_average 12;
+//     fresnel_schlick_f90_average_scalar 4
+// fresnel_schlick_f90_average: the mean of F over the hemisphere, weighted by cosine, as compensation of multiple
+//     scattering takes it
 // Source: Lagarde, de Rousiers, 2014,
 //     https://seblagarde.wordpress.com/2015/07/14/siggraph-2014-moving-frostbite-to-physically-based-rendering/
 
@@ -31,4 +34,12 @@ fn fresnel_schlick_f90_scalar(cos_theta: f32, f0: f32, f90: f32) -> f32 {
     let end = f90 * m5;
     let kept = 1.0 - m5; // the weight of f0
     return f0 * kept + end;
+}
+
+fn fresnel_schlick_f90_average(f0: vec3<f32>, f90: f32) -> vec3<f32> {
+    return saturate(f0 + 0.04761905 * (f90 - f0));
+}
+
+fn fresnel_schlick_f90_average_scalar(f0: f32, f90: f32) -> f32 {
+    return saturate(f0 + 0.04761905 * (f90 - f0));
 }

@@ -10,7 +10,10 @@
 //     f0 + 1.7e-4 (1 - f0)
 // Model error for eta 1.3 to 2.5: at most 0.0864, worst at 84.6 degrees
 // Model error for n 0.05 to 4.5, k 1.5 to 8: at most 0.279, worst at 84.5 degrees
-// Cost: 12 scalar operations, among them 1 exponential or logarithm; fresnel_schlick_spherical_gaussian_scalar 8
+// Cost: 12 scalar operations, among them 1 exponential or logarithm; fresnel_schlick_spherical_gaussian_scalar 8;
+//     fresnel_schlick_spherical_gaussian_average 12; fresnel_schlick_spherical_gaussian_average_scalar 4
+// fresnel_schlick_spherical_gaussian_average: the mean of F over the hemisphere, weighted by cosine, as
+//     compensation of multiple scattering takes it
 // Source: Karis, 2013, https://blog.selfshadow.com/publications/s2013-shading-course/
 
 fn fresnel_schlick_spherical_gaussian(cos_theta: f32, f0: vec3<f32>) -> vec3<f32> {
@@ -25,4 +28,12 @@ fn fresnel_schlick_spherical_gaussian_scalar(cos_theta: f32, f0: f32) -> f32 {
     let weight = exp2((-5.55473 * c - 6.98316) * c); // 1 at grazing
     let kept = 1.0 - weight; // the weight of f0
     return f0 * kept + weight;
+}
+
+fn fresnel_schlick_spherical_gaussian_average(f0: vec3<f32>) -> vec3<f32> {
+    return saturate(f0 + 0.04886371 * (1.0 - f0));
+}
+
+fn fresnel_schlick_spherical_gaussian_average_scalar(f0: f32) -> f32 {
+    return saturate(f0 + 0.04886371 * (1.0 - f0));
 }
