@@ -6,6 +6,7 @@ mod audited;
 mod costs;
 mod curves;
 mod data;
+mod left_out;
 mod own;
 mod sets;
 
@@ -19,6 +20,7 @@ use crate::methods::{Contract, Method};
 pub use audited::charted_function;
 pub use curves::{Reflectances, exact_and_approximated};
 pub use data::{chart_data, cost_names};
+pub use left_out::{LeftOutErrors, left_out};
 pub use own::ChartedFunction;
 pub use sets::{STATISTICS, set_name};
 
@@ -175,6 +177,8 @@ pub struct PointRow<'a> {
     value: f64,
     is_on_frontier: bool,
     fails: Option<&'a str>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    left_out: Option<LeftOutErrors>,
 }
 
 /// What errs by less is drawn here, and is as good: no index was ever measured so well.
@@ -254,12 +258,19 @@ impl<'a> ChartView<'a> {
             value: point.error,
             is_on_frontier: point.is_on_frontier,
             fails: point.entry.fails(),
+            left_out: point.entry.left_out(self.set),
         };
         self.points().iter().map(row).collect()
     }
 }
 
 impl ChartEntry {
+    /// What a method errs with the inputs that it was meant to have, by numbers that were chosen without the substance.
+    fn left_out(&self, set: &MaterialSet) -> Option<LeftOutErrors> {
+        let method = self.method().filter(|_| !self.is_best);
+        method.and_then(|method| left_out(method, set))
+    }
+
     /// Its method, unless it is a user's.
     pub fn method(&self) -> Option<&'static Method> {
         match self.function {

@@ -10,7 +10,7 @@
 use crate::ir::{Checked, Ty, Value, evaluate};
 use crate::methods::{Input, Method, Values};
 
-use super::minimax::minimax;
+use super::minimax::{Points, minimax};
 use super::problem::FitCurve;
 
 /// Rounds after which an input moves by nothing that shows.
@@ -135,7 +135,13 @@ fn improved(start: Values, free: &[Free], trial: &dyn Fn(Values) -> TriedInputs)
     let (mut best, mut missed) = trial(start);
     let ones = vec![1.0; missed.len()];
     for _ in 0..ROUNDS {
-        let Some(step) = minimax(&slopes(&best, free, trial), &missed, &ones) else {
+        let points = Points {
+            rows: &slopes(&best, free, trial),
+            wanted: &missed,
+            weights: &ones,
+            limits: &[],
+        };
+        let Some(step) = minimax(points) else {
             break;
         };
         let before = most(&missed);

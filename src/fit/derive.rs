@@ -5,6 +5,7 @@ use crate::methods::{Input, KnownSurface, Method, Values};
 use crate::num::{Precision, each_channel};
 use crate::optics;
 use crate::reference::{Derivation, MaterialInMedium};
+use crate::spectra::Gamut;
 
 use super::problem::{FitCurve, FitObjective, FitProblem, basis};
 
@@ -43,10 +44,11 @@ pub fn values_for_material_in(
     values_of(method, &known)
 }
 
-/// The coefficients of a fitted method for a curve, as a precision holds them.
+/// The coefficients of a fitted method for a curve, as a precision holds them, for a function that ends with a limit.
 pub fn fitted_coefficients(method: &Method, precision: Precision, curve: &FitCurve) -> Values {
     let aim = FitObjective {
         precision,
+        gamut: Gamut::Keep,
         ..FitObjective::default()
     };
     let fitted = coefficients_and_error(method, curve, aim);

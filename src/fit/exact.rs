@@ -6,7 +6,7 @@
 
 use crate::num::Precision;
 
-use super::minimax::minimax;
+use super::minimax::{Limit, Points, minimax};
 
 /// At which ends, 0 and 90 degrees, a form equals the reference exactly.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -45,30 +45,44 @@ impl Exact {
 }
 
 /// Fits like [`minimax`], but only among forms that are exact at the points `ends`, given in descending order.
-pub(super) fn fit_meeting(
-    rows: &[Vec<f64>],
-    wanted: &[f64],
-    weights: &[f64],
-    ends: &[usize],
-) -> Option<Vec<f64>> {
+pub(super) fn fit_meeting(points: Points, ends: &[usize]) -> Option<Vec<f64>> {
     let Some((end, rest)) = ends.split_first() else {
-        return minimax(rows, wanted, weights).map(|found| found.coefficients);
+        return minimax(points).map(|found| found.coefficients);
     };
-    let (at, value) = (&rows[*end], wanted[*end]);
+    let (at, value) = (&points.rows[*end], points.wanted[*end]);
     let largest = (0..at.len()).max_by(|a, b| at[*a].abs().total_cmp(&at[*b].abs()))?;
-    let reduced = |row: &Vec<f64>| -> Vec<f64> {
+    // What is left of a sum of coefficients, and what the end gives of it.
+    let reduced = |row: &Vec<f64>| -> (Vec<f64>, f64) {
         let share = row[largest] / at[largest];
         let others = (0..row.len()).filter(|i| *i != largest);
-        others.map(|i| row[i] - share * at[i]).collect()
+        (
+            others.map(|i| row[i] - share * at[i]).collect(),
+            share * value,
+        )
     };
-    let left = |(row, wanted): (&Vec<f64>, &f64)| wanted - row[largest] / at[largest] * value;
-    let mut new_rows: Vec<Vec<f64>> = rows.iter().map(reduced).collect();
-    let mut new_wanted: Vec<f64> = rows.iter().zip(wanted).map(left).collect();
-    let mut new_weights = weights.to_vec();
-    new_rows.remove(*end);
-    new_wanted.remove(*end);
-    new_weights.remove(*end);
-    let mut found = fit_meeting(&new_rows, &new_wanted, &new_weights, rest)?;
+    let (mut rows, given): (Vec<_>, Vec<_>) = points.rows.iter().map(reduced).unzip();
+    let left = points.wanted.iter().zip(&given);
+    let mut wanted: Vec<f64> = left.map(|(wanted, given)| wanted - given).collect();
+    let mut weights = points.weights.to_vec();
+    rows.remove(*end);
+    wanted.remove(*end);
+    weights.remove(*end);
+    let limit = |limit: &Limit| {
+        let (row, given) = reduced(&limit.row);
+        Limit {
+            row,
+            least: limit.least - given,
+            most: limit.most - given,
+        }
+    };
+    let limits: Vec<Limit> = points.limits.iter().map(limit).collect();
+    let reduced = Points {
+        rows: &rows,
+        wanted: &wanted,
+        weights: &weights,
+        limits: &limits,
+    };
+    let mut found = fit_meeting(reduced, rest)?;
     found.insert(largest, 0.0);
     found[largest] = (value - sum(at, &found)) / at[largest];
     Some(found)
@@ -147,9 +161,15 @@ mod tests {
         let at: Vec<f64> = (0..=2000).map(|i| f64::from(i) / 2000.0).collect();
         let rows: Vec<Vec<f64>> = at.iter().map(|x| vec![1.0, *x]).collect();
         let wanted: Vec<f64> = at.iter().map(|x| x * x).collect();
-        let found = fit_meeting(&rows, &wanted, &vec![1.0; at.len()], &[2000]).expect("a line");
+        let points = Points {
+            rows: &rows,
+            wanted: &wanted,
+            weights: &vec![1.0; at.len()],
+            limits: &[],
+        };
+        let found = fit_meeting(points, &[2000]).expect("a line");
         assert!((sum(&rows[2000], &found) - 1.0).abs() < 1e-14);
-        let both = fit_meeting(&rows, &wanted, &vec![1.0; at.len()], &[2000, 0]);
+        let both = fit_meeting(points, &[2000, 0]);
         let both = both.expect("both ends say all");
         assert!(both[0].abs() < 1e-14 && (both[1] - 1.0).abs() < 1e-14);
         let error = at.iter().map(|x| (x * x - found[0] - found[1] * x).abs());

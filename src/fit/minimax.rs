@@ -3,7 +3,8 @@
 //!
 //! Source: Stiefel, "Über diskrete und lineare Tschebyscheff-Approximationen", Numerische Mathematik 1, 1959,
 //! <https://doi.org/10.1007/BF01386369>. It is the simplex method on the dual of the linear program, and its end is the
-//! optimum over the points given, not a guess.
+//! optimum over the points given, not a guess. A range that a sum of coefficients must keep is one more row of that program,
+//! with no share in the error.
 
 /// Coefficients, and the largest error that they leave at the points, weighted.
 #[derive(Clone, Debug, PartialEq)]
@@ -20,50 +21,84 @@ const MOST: usize = 400;
 const MORE: f64 = 1e-9;
 /// An error that is rounding.
 const ROUNDING: f64 = 1e-14;
+/// By how much a form may leave a range that it must keep.
+const BEYOND: f64 = 1e-11;
 
-/// The points of the reference, and on which side of the form they lie there.
-struct Reference {
-    points: Vec<usize>,
-    signs: Vec<f64>,
+/// Points with what is wanted there, and limits.
+#[derive(Clone, Copy, Debug)]
+pub struct Points<'a> {
+    /// The values of the basis' functions at each point, in an order along which the points run.
+    pub rows: &'a [Vec<f64>],
+    /// What the form should be.
+    pub wanted: &'a [f64],
+    /// How much an error counts.
+    pub weights: &'a [f64],
+    /// What the form must keep.
+    pub limits: &'a [Limit],
 }
 
-/// Fits `wanted` at some points by a basis: a row of its functions' values for each point, in an order along which the
-/// points run. None where the functions do not tell the points apart.
-pub fn minimax(rows: &[Vec<f64>], wanted: &[f64], weights: &[f64]) -> Option<Minimax> {
-    let terms = rows.first()?.len();
-    if rows.len() <= terms {
+/// A sum of coefficients that must stay in a range.
+#[derive(Clone, Debug)]
+pub struct Limit {
+    /// What each coefficient is multiplied by.
+    pub row: Vec<f64>,
+    /// The least value of the sum.
+    pub least: f64,
+    /// The largest.
+    pub most: f64,
+}
+
+/// An equation of the reference: on which side of the form what it is compared with lies, and whether it is missed by the
+/// common error, at a point, or held at the end of a range, of a limit.
+#[derive(Clone, Copy, Debug)]
+struct Entry {
+    place: usize,
+    sign: f64,
+    held: bool,
+}
+
+struct Reference(Vec<Entry>);
+
+/// Fits what is wanted at some points by a basis. None where the functions do not tell the points apart, or no form keeps the
+/// ranges.
+pub fn minimax(points: Points) -> Option<Minimax> {
+    let terms = points.rows.first()?.len();
+    if points.rows.len() <= terms {
         return None;
     }
-    let row = |point: usize| -> Vec<f64> {
-        let weighted = rows[point].iter().map(|value| value * weights[point]);
-        weighted.collect()
-    };
-    let mut reference = Reference::first(rows.len(), terms, &row)?;
+    let mut reference = Reference::first(points, terms)?;
     for _ in 0..MOST {
-        let (coefficients, level) = reference.level(&row, wanted, weights)?;
-        let missed = |point: usize| {
-            let form: f64 = rows[point]
-                .iter()
-                .zip(&coefficients)
-                .map(|(b, c)| b * c)
-                .sum();
-            (wanted[point] - form) * weights[point]
-        };
-        let (worst, error) = furthest(rows.len(), missed);
-        if error.abs() <= level * (1.0 + MORE) + ROUNDING {
+        let (coefficients, level) = reference.level(points)?;
+        let missed = |point: usize| points.missed(point, &coefficients);
+        let beyond = |limit: usize| points.limits[limit].beyond(&coefficients);
+        let (worst, error) = furthest(points.rows.len(), missed);
+        let (furthest_out, over) = furthest(points.limits.len(), beyond);
+        let enters = if over.abs() > BEYOND && over.abs() > error.abs() - level {
+            Entry {
+                place: furthest_out,
+                sign: over.signum(),
+                held: true,
+            }
+        } else if error.abs() > level * (1.0 + MORE) + ROUNDING {
+            Entry {
+                place: worst,
+                sign: error.signum(),
+                held: false,
+            }
+        } else {
             return Some(Minimax {
                 coefficients,
                 error: error.abs(),
             });
-        }
-        reference.exchange(worst, error.signum(), &row)?;
+        };
+        reference.exchange(enters, points)?;
     }
     None
 }
 
-/// The point that is missed most, and by how much.
-fn furthest(points: usize, missed: impl Fn(usize) -> f64) -> (usize, f64) {
-    let all = (0..points).map(|point| (point, missed(point)));
+/// The place where most is missed, and how much.
+fn furthest(places: usize, missed: impl Fn(usize) -> f64) -> (usize, f64) {
+    let all = (0..places).map(|place| (place, missed(place)));
     all.fold((0, 0.0), |most: (usize, f64), next| {
         if next.1.abs() > most.1.abs() {
             next
@@ -73,66 +108,100 @@ fn furthest(points: usize, missed: impl Fn(usize) -> f64) -> (usize, f64) {
     })
 }
 
-impl Reference {
-    /// Points spread as Chebyshev's are, with the signs of the combination of their rows that is nothing.
-    fn first(points: usize, terms: usize, row: &dyn Fn(usize) -> Vec<f64>) -> Option<Reference> {
-        let place = |i: usize| {
-            let share = (1.0 - libm::cos(std::f64::consts::PI * i as f64 / terms as f64)) / 2.0;
-            libm::round(share * (points - 1) as f64) as usize
-        };
-        let points: Vec<usize> = (0..=terms).map(place).collect();
-        // The first row as a combination of the others.
-        let others: Vec<Vec<f64>> = points[1..].iter().map(|point| row(*point)).collect();
-        let parts = solve(transposed(&others), row(points[0]))?;
-        let sign = |part: &f64| if *part > 0.0 { -1.0 } else { 1.0 };
-        let signs = [1.0].into_iter().chain(parts.iter().map(sign)).collect();
-        Some(Reference { points, signs })
+fn sum(row: &[f64], coefficients: &[f64]) -> f64 {
+    row.iter().zip(coefficients).map(|(b, c)| b * c).sum()
+}
+
+impl Limit {
+    /// How far the range lies above the sum: below 0 where the sum is too large.
+    fn beyond(&self, coefficients: &[f64]) -> f64 {
+        let sum = sum(&self.row, coefficients);
+        sum.clamp(self.least, self.most) - sum
+    }
+}
+
+impl Points<'_> {
+    /// How far what is wanted lies above the form, weighted.
+    fn missed(&self, point: usize, coefficients: &[f64]) -> f64 {
+        (self.wanted[point] - sum(&self.rows[point], coefficients)) * self.weights[point]
     }
 
-    /// The form that misses all points of the reference by the same, each on its side; the level is made positive.
-    fn level(
-        &mut self,
-        row: &dyn Fn(usize) -> Vec<f64>,
-        wanted: &[f64],
-        weights: &[f64],
-    ) -> Option<(Vec<f64>, f64)> {
-        let with_sign = |(point, sign): (&usize, &f64)| {
-            let mut row = row(*point);
-            row.push(*sign);
-            row
+    /// The row of an entry, and what it should sum to.
+    fn equation(&self, entry: Entry) -> (Vec<f64>, f64) {
+        if entry.held {
+            let limit = &self.limits[entry.place];
+            let end = if entry.sign > 0.0 {
+                limit.least
+            } else {
+                limit.most
+            };
+            return (limit.row.clone(), end);
+        }
+        let weight = self.weights[entry.place];
+        let row = self.rows[entry.place].iter().map(|value| value * weight);
+        (row.collect(), self.wanted[entry.place] * weight)
+    }
+}
+
+impl Reference {
+    /// Points spread as Chebyshev's are, with the signs of the combination of their rows that is nothing.
+    fn first(points: Points, terms: usize) -> Option<Reference> {
+        let entry = |i: usize| {
+            let share = (1.0 - libm::cos(std::f64::consts::PI * i as f64 / terms as f64)) / 2.0;
+            Entry {
+                place: libm::round(share * (points.rows.len() - 1) as f64) as usize,
+                sign: 1.0,
+                held: false,
+            }
         };
-        let rows = self.points.iter().zip(&self.signs).map(with_sign).collect();
-        let values = self
-            .points
-            .iter()
-            .map(|point| wanted[*point] * weights[*point]);
-        let mut solved = solve(rows, values.collect())?;
+        let mut entries: Vec<Entry> = (0..=terms).map(entry).collect();
+        let mut rows = entries.iter().map(|entry| points.equation(*entry).0);
+        // The first row as a combination of the others.
+        let first = rows.next()?;
+        let others: Vec<Vec<f64>> = rows.collect();
+        let parts = solve(transposed(&others), first)?;
+        for (entry, part) in entries[1..].iter_mut().zip(parts) {
+            entry.sign = if part > 0.0 { -1.0 } else { 1.0 };
+        }
+        Some(Reference(entries))
+    }
+
+    /// The form that misses all points of the reference by the same, each on its side, or holds them at the ends of their
+    /// ranges; the level is made positive.
+    fn level(&mut self, points: Points) -> Option<(Vec<f64>, f64)> {
+        let with_error = |entry: &Entry| {
+            let (mut row, value) = points.equation(*entry);
+            row.push(if entry.held { 0.0 } else { entry.sign });
+            (row, value)
+        };
+        let (rows, values) = self.0.iter().map(with_error).unzip();
+        let mut solved = solve(rows, values)?;
         let level = solved.pop()?;
-        if level < 0.0 {
-            self.signs.iter_mut().for_each(|sign| *sign = -*sign);
+        if level < 0.0 && self.0.iter().all(|entry| !entry.held) {
+            self.0.iter_mut().for_each(|entry| entry.sign = -entry.sign);
         }
         Some((solved, level.abs()))
     }
 
-    /// Takes a point in, and that one out without which the rest is still a reference.
-    fn exchange(&mut self, point: usize, sign: f64, row: &dyn Fn(usize) -> Vec<f64>) -> Option<()> {
-        let signed = |point: usize, sign: f64| {
-            let mut row: Vec<f64> = row(point).iter().map(|value| value * sign).collect();
-            row.push(1.0);
+    /// Takes an entry in, and that one out without which the rest is still a reference.
+    fn exchange(&mut self, enters: Entry, points: Points) -> Option<()> {
+        let signed = |entry: &Entry| {
+            let (row, _) = points.equation(*entry);
+            let mut row: Vec<f64> = row.iter().map(|value| value * entry.sign).collect();
+            row.push(if entry.held { 0.0 } else { 1.0 });
             row
         };
-        let all = self.points.iter().zip(&self.signs);
-        let rows: Vec<Vec<f64>> = all.map(|(point, sign)| signed(*point, *sign)).collect();
+        let rows: Vec<Vec<f64>> = self.0.iter().map(signed).collect();
         let columns = transposed(&rows);
         let mut nothing = vec![0.0; columns.len()];
         *nothing.last_mut()? = 1.0;
         let shares = solve(columns.clone(), nothing)?;
-        let parts = solve(columns, signed(point, sign))?;
+        let parts = solve(columns, signed(&enters))?;
         let ratios = shares.iter().zip(&parts).enumerate();
         let leaves = ratios.filter(|(_, (_, part))| **part > ROUNDING);
         let leaves = leaves.map(|(i, (share, part))| (i, share / part));
         let (leaves, _) = leaves.min_by(|a, b| a.1.total_cmp(&b.1))?;
-        (self.points[leaves], self.signs[leaves]) = (point, sign);
+        self.0[leaves] = enters;
         Some(())
     }
 }
@@ -183,6 +252,30 @@ mod tests {
         (0..=count).map(|i| i as f64 / count as f64).collect()
     }
 
+    fn fit_free(rows: &[Vec<f64>], wanted: &[f64], weights: &[f64]) -> Option<Minimax> {
+        minimax(Points {
+            rows,
+            wanted,
+            weights,
+            limits: &[],
+        })
+    }
+
+    fn fit_within(rows: &[Vec<f64>], wanted: &[f64], (least, most): (f64, f64)) -> Option<Minimax> {
+        let limit = |row: &Vec<f64>| Limit {
+            row: row.clone(),
+            least,
+            most,
+        };
+        let limits: Vec<Limit> = rows.iter().map(limit).collect();
+        minimax(Points {
+            rows,
+            wanted,
+            weights: &vec![1.0; rows.len()],
+            limits: &limits,
+        })
+    }
+
     fn fit(f: fn(f64) -> f64, powers: &[i32], count: usize) -> Minimax {
         let at = points(count);
         let rows: Vec<Vec<f64>> = at
@@ -190,7 +283,7 @@ mod tests {
             .map(|x| powers.iter().map(|p| x.powi(*p)).collect())
             .collect();
         let wanted: Vec<f64> = at.into_iter().map(f).collect();
-        minimax(&rows, &wanted, &vec![1.0; rows.len()]).expect("powers tell points apart")
+        fit_free(&rows, &wanted, &vec![1.0; rows.len()]).expect("powers tell points apart")
     }
 
     /// x² on [0, 1] by a line: x - 1/8, within 1/8. x³ by a parabola: Chebyshev's 1/32.
@@ -217,7 +310,7 @@ mod tests {
         let rows: Vec<Vec<f64>> = at.iter().map(|x| vec![1.0, *x]).collect();
         let wanted: Vec<f64> = at.iter().map(|x| x * x).collect();
         let weights: Vec<f64> = at.iter().map(|x| 1.0 + 9.0 * x).collect();
-        let found = minimax(&rows, &wanted, &weights).expect("lines tell points apart");
+        let found = fit_free(&rows, &wanted, &weights).expect("lines tell points apart");
         let missed = |x: f64| x * x - found.coefficients[0] - found.coefficients[1] * x;
         // The end that counts most is missed by no more than the rest, weighted.
         assert!(
@@ -229,10 +322,29 @@ mod tests {
         assert!((largest - found.error).abs() < 1e-12, "{found:?}");
     }
 
+    /// x² on [0, 1] by a line that stays above 0: x - 1/8 is lifted to go through a point, and 2 (√2 - 1) x is missed by as much
+    /// at 1 as in the middle.
+    #[test]
+    fn a_range_is_kept_at_the_least_cost() {
+        let at = points(10_000);
+        let rows: Vec<Vec<f64>> = at.iter().map(|x| vec![1.0, *x]).collect();
+        let wanted: Vec<f64> = at.iter().map(|x| x * x).collect();
+        let found = fit_within(&rows, &wanted, (0.0, 1.0)).expect("a line");
+        let slope = 2.0 * (2.0_f64.sqrt() - 1.0);
+        assert!(found.coefficients[0].abs() < 1e-12, "{found:?}");
+        assert!((found.coefficients[1] - slope).abs() < 1e-8, "{found:?}");
+        assert!((found.error - (1.0 - slope)).abs() < 1e-8, "{found:?}");
+        let wide = fit_within(&rows, &wanted, (-1.0, 2.0)).expect("a line");
+        assert!((wide.error - 0.125).abs() < 1e-8, "{wide:?}");
+        // A multiple of x is 0 at 0.
+        let rows: Vec<Vec<f64>> = at.iter().map(|x| vec![*x]).collect();
+        assert_eq!(fit_within(&rows, &wanted, (0.5, 1.0)), None);
+    }
+
     #[test]
     fn what_tells_nothing_apart_has_no_fit() {
         let rows = vec![vec![1.0, 1.0]; 10];
-        assert_eq!(minimax(&rows, &[0.0; 10], &[1.0; 10]), None);
-        assert_eq!(minimax(&[], &[], &[]), None);
+        assert_eq!(fit_free(&rows, &[0.0; 10], &[1.0; 10]), None);
+        assert_eq!(fit_free(&[], &[], &[]), None);
     }
 }

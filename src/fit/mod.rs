@@ -43,7 +43,6 @@ pub use material_params::{
 };
 pub use measured::Measured;
 pub use method_errors::{InputChoice, MethodErrors};
-pub use minimax::{Minimax, minimax};
 pub use model_error::{
     ModelError, error_from, error_of, model_error, rounded_up, single_error, thesis_errors,
 };

@@ -1,12 +1,18 @@
-//! The coefficients of a fitted method for what is seen of a material: those with the least largest error over all angles,
-//! without the clip to [0, 1] that comes after. Which error, and what is met exactly, is a [`FitObjective`].
+//! The coefficients of a fitted method for what is seen of a material: those with the least largest error over all angles. Which
+//! error, what is met exactly, and whether the form itself keeps to [0, 1] is a [`FitObjective`].
+//!
+//! A function ends with a limit to [0, 1]. What is linear in the coefficients has none: the integrals of image light, the mean over
+//! the hemisphere. Coefficients that serve both are those of a form that keeps the range by itself. A function of one material is
+//! fitted without: it limits, and is more accurate so.
 
+use crate::materials::Surface;
 use crate::methods::{Light, Shape, unwarped};
 use crate::num::{Precision, each_channel};
 use crate::reference::{MaterialInMedium, reference_reflectance};
 use crate::spectra::{Gamut, Space};
 
 use super::exact::{Exact, fit_meeting, rounded_coefficients};
+use super::minimax::{Limit, Points};
 use super::rounded::rounded;
 use super::weight::{Weight, luminance, shares};
 
@@ -44,6 +50,23 @@ pub struct FitObjective {
     pub precision: Precision,
     /// The space of the three channels, for measures of colours.
     pub space: Space,
+    /// Whether the form keeps to [0, 1] before the limit at its end: [`Gamut::Keep`] leaves it free.
+    pub gamut: Gamut,
+}
+
+/// What keeps a form in [0, 1]: its values at all points, and c0 alone, which a texture of unsigned numbers may hold.
+fn limits(rows: &[Vec<f64>]) -> Vec<Limit> {
+    let c0 = rows.first().map(|row| {
+        let mut alone = vec![0.0; row.len()];
+        alone[0] = 1.0;
+        alone
+    });
+    let limit = |row| Limit {
+        row,
+        least: 0.0,
+        most: 1.0,
+    };
+    rows.iter().cloned().chain(c0).map(limit).collect()
 }
 
 /// A curve with the weights of an aim, computed once for all shapes that are fitted to it.
@@ -65,14 +88,22 @@ impl FitCurve {
         }
     }
 
-    /// What coefficients are fitted to, in unpolarised light: colours as they are before they are clipped. A clipped curve has a
-    /// corner, and the function clips by itself.
+    /// What is seen of a material in unpolarised light, in its gamut.
+    pub fn of(subject: &MaterialInMedium) -> FitCurve {
+        FitCurve::of_surface(&subject.reference.surface)
+    }
+
+    /// The same before colours are clipped: a clipped curve has a corner, and a function that ends with a limit clips by itself.
     pub fn unclipped(subject: &MaterialInMedium) -> FitCurve {
         let mut surface = subject.reference.surface.clone();
         if surface.gamut == Gamut::Clip {
             surface.gamut = Gamut::Keep;
         }
-        FitCurve::new(|c| reference_reflectance(&surface, Light::Unpolarised, c))
+        FitCurve::of_surface(&surface)
+    }
+
+    fn of_surface(surface: &Surface) -> FitCurve {
+        FitCurve::new(|c| reference_reflectance(surface, Light::Unpolarised, c))
     }
 }
 
@@ -123,12 +154,7 @@ impl FitProblem<'_> {
             Precision::F32 => self.aim.exact.ends(basis.len()),
             Precision::F16 => Vec::new(),
         };
-        let channel = |i: usize| match self.aim.precision {
-            Precision::F32 => fit_meeting(basis, &self.wanted[i], &weights[i], &ends),
-            Precision::F16 => {
-                rounded(basis, &self.wanted[i], &weights[i]).map(|found| found.coefficients)
-            }
-        };
+        let channel = |i: usize| self.channel(basis, &self.wanted[i], &weights[i], &ends);
         let (red, blue) = (channel(0)?, channel(2)?);
         let green = match self.aim.weight {
             Weight::Luminance => self.green(basis, &ends, &red, &blue)?,
@@ -151,6 +177,30 @@ impl FitProblem<'_> {
         })
     }
 
+    /// The coefficients of one channel, as precise as the aim wants them: those of half precision are rounded already.
+    fn channel(
+        &self,
+        rows: &[Vec<f64>],
+        wanted: &[f64],
+        weights: &[f64],
+        ends: &[usize],
+    ) -> Option<Vec<f64>> {
+        let limits = match self.aim.gamut {
+            Gamut::Keep => Vec::new(),
+            Gamut::Clip | Gamut::Scale => limits(rows),
+        };
+        let points = Points {
+            rows,
+            wanted,
+            weights,
+            limits: &limits,
+        };
+        match self.aim.precision {
+            Precision::F32 => fit_meeting(points, ends),
+            Precision::F16 => rounded(points).map(|found| found.coefficients),
+        }
+    }
+
     /// Green such that the luminance of all three is the best form there is.
     fn green(
         &self,
@@ -159,12 +209,15 @@ impl FitProblem<'_> {
         red: &[f64],
         blue: &[f64],
     ) -> Option<Vec<f64>> {
-        let seen = self.curve.seen.iter();
-        let light: Vec<f64> = seen.map(|seen| luminance(*seen, self.aim.space)).collect();
-        let light = fit_meeting(basis, &light, &self.weights[1], ends)?;
         let share = shares(self.aim.space);
-        let rest = |term: usize| light[term] - share.x * red[term] - share.z * blue[term];
-        Some((0..light.len()).map(|term| rest(term) / share.y).collect())
+        let form =
+            |row: &[f64], found: &[f64]| -> f64 { row.iter().zip(found).map(|(b, c)| b * c).sum() };
+        let rest = |(row, seen): (&Vec<f64>, &[f64; 3])| {
+            let others = share.x * form(row, red) + share.z * form(row, blue);
+            (luminance(*seen, self.aim.space) - others) / share.y
+        };
+        let wanted: Vec<f64> = basis.iter().zip(&self.curve.seen).map(rest).collect();
+        self.channel(basis, &wanted, &self.weights[1], ends)
     }
 
     /// The largest error of these coefficients, in the measure that is minimised.

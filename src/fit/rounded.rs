@@ -8,21 +8,27 @@
 
 use crate::num::Precision;
 
-use super::minimax::{Minimax, minimax};
+use super::minimax::{Limit, Minimax, Points, minimax};
 
 /// By how much a number grows to reach its neighbour in half precision: more than half of its last place, less than one and a
 /// half, on both sides of a power of two.
 const NEIGHBOUR: f64 = 0.6 / 1024.0;
 
-/// The same as [`minimax`], of coefficients in half precision.
-pub fn rounded(rows: &[Vec<f64>], wanted: &[f64], weights: &[f64]) -> Option<Minimax> {
-    let terms = rows.first()?.len();
-    let first = |terms: usize| rows.iter().map(|row| row[..terms].to_vec()).collect();
+/// The same as [`minimax`], of coefficients in half precision. None also where no rounding that is tried keeps the ranges.
+pub fn rounded(points: Points) -> Option<Minimax> {
+    let terms = points.rows.first()?.len();
+    let first = |terms: usize| {
+        points
+            .rows
+            .iter()
+            .map(|row| row[..terms].to_vec())
+            .collect()
+    };
     let search = RoundingSearch {
         shorter: (0..=terms).map(first).collect(),
-        weights,
+        weights: points.weights,
     };
-    search.best(terms, wanted, f64::INFINITY)
+    search.best(terms, points.wanted, points.limits, f64::INFINITY)
 }
 
 /// What all paths share.
@@ -34,8 +40,8 @@ struct RoundingSearch<'a> {
 
 impl RoundingSearch<'_> {
     /// The best of the first terms for what is wanted of them. None where nothing is better than `bound`.
-    fn best(&self, terms: usize, wanted: &[f64], bound: f64) -> Option<Minimax> {
-        let free = self.free(terms, wanted)?;
+    fn best(&self, terms: usize, wanted: &[f64], limits: &[Limit], bound: f64) -> Option<Minimax> {
+        let free = self.free(terms, wanted, limits)?;
         if free.error >= bound {
             return None;
         }
@@ -46,8 +52,14 @@ impl RoundingSearch<'_> {
         for value in neighbours(*last) {
             let rows = self.shorter[terms].iter().zip(wanted);
             let left: Vec<f64> = rows.map(|(row, w)| w - row[terms - 1] * value).collect();
+            let limit = |limit: &Limit| Limit {
+                row: limit.row[..terms - 1].to_vec(),
+                least: limit.least - limit.row[terms - 1] * value,
+                most: limit.most - limit.row[terms - 1] * value,
+            };
+            let moved: Vec<Limit> = limits.iter().map(limit).collect();
             let bound = best.as_ref().map_or(bound, |best| best.error);
-            if let Some(mut found) = self.best(terms - 1, &left, bound) {
+            if let Some(mut found) = self.best(terms - 1, &left, &moved, bound) {
                 found.coefficients.push(value);
                 best = Some(found);
             }
@@ -56,9 +68,18 @@ impl RoundingSearch<'_> {
     }
 
     /// The best of the first terms, not rounded.
-    fn free(&self, terms: usize, wanted: &[f64]) -> Option<Minimax> {
+    fn free(&self, terms: usize, wanted: &[f64], limits: &[Limit]) -> Option<Minimax> {
         if terms > 0 {
-            return minimax(&self.shorter[terms], wanted, self.weights);
+            return minimax(Points {
+                rows: &self.shorter[terms],
+                wanted,
+                weights: self.weights,
+                limits,
+            });
+        }
+        let is_kept = |limit: &Limit| limit.least <= 0.0 && limit.most >= 0.0;
+        if !limits.iter().all(is_kept) {
+            return None;
         }
         let errors = wanted
             .iter()
@@ -99,8 +120,14 @@ mod tests {
         let rows: Vec<Vec<f64>> = xs.iter().map(|x| vec![1.0, *x, x * x, x * x * x]).collect();
         let wanted: Vec<f64> = xs.iter().map(|x| libm::exp(-4.0 * x)).collect();
         let weights = vec![1.0; xs.len()];
-        let free = minimax(&rows, &wanted, &weights).unwrap();
-        let found = rounded(&rows, &wanted, &weights).unwrap();
+        let points = Points {
+            rows: &rows,
+            wanted: &wanted,
+            weights: &weights,
+            limits: &[],
+        };
+        let free = minimax(points).unwrap();
+        let found = rounded(points).unwrap();
         let error = |coefficients: &[f64]| {
             let at = |row: &[f64]| {
                 row.iter()

@@ -9,6 +9,7 @@ use crate::fit::{Coefficients, FitObjective, Follows, ModelError, Weight};
 use crate::methods::Method;
 use crate::num::each_channel;
 use crate::reference::MaterialInMedium;
+use crate::spectra::Gamut;
 
 /// A fitted method and what it was fitted to.
 #[derive(Clone, Debug, Serialize)]
@@ -35,6 +36,9 @@ pub struct FitRow {
     precision: &'static str,
     #[serde(skip_serializing_if = "Option::is_none")]
     error_without_exact: Option<f64>,
+    /// The largest error where the form need not keep to [0, 1] before its limit.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    max_abs_without_gamut: Option<f64>,
     #[serde(skip_serializing_if = "Option::is_none")]
     reason: Option<String>,
     /// Whether it misses what its method promises of the material's class.
@@ -115,6 +119,7 @@ impl FitRow {
             exact: fitted.aim.exact.degrees(),
             precision: fitted.aim.precision.name(),
             error_without_exact: fitted.error_without_exact,
+            max_abs_without_gamut: None,
             reason: lacking(error.mean_rel, cost),
             misses_its_class: None,
             follows: None,
@@ -122,8 +127,14 @@ impl FitRow {
         }
     }
 
-    /// The row of a material.
-    pub fn of_material(mut self, subject: &MaterialInMedium, missed: Option<Missed>) -> FitRow {
+    /// The row of a material, with the largest error of a form that need not keep to [0, 1].
+    pub fn of_material(
+        mut self,
+        subject: &MaterialInMedium,
+        missed: Option<Missed>,
+        without_gamut: f64,
+    ) -> FitRow {
+        self.max_abs_without_gamut = (self.aim.gamut != Gamut::Keep).then_some(without_gamut);
         self.material = Some(subject.argument.clone());
         self.class = Some(subject.material.kind.name());
         self.misses_its_class = missed;
@@ -183,7 +194,7 @@ pub fn fits_text(rows: &[FitRow], gpu: &str) -> String {
 /// A column of a row's.
 type Column = (&'static str, fn(&FitRow) -> Option<f64>);
 
-/// The columns of the measure that was minimised, and of what an exact end costs.
+/// The columns of the measure that was minimised, of what the gamut and of what an exact end cost.
 fn measure_columns(aim: FitObjective) -> impl Iterator<Item = Column> {
     let title = match aim.weight {
         Weight::Absolute => "largest on paper",
@@ -194,8 +205,14 @@ fn measure_columns(aim: FitObjective) -> impl Iterator<Item = Column> {
     let error: Column = (title, |row| Some(row.error));
     let free: Column = ("the same, no end exact", |row| row.error_without_exact);
     let is_any = aim.exact.is_any();
-    let column = (is_any || aim.weight != Weight::Absolute).then_some(error);
-    column.into_iter().chain(is_any.then_some(free))
+    let without_gamut: Column = ("the same, no gamut", |row| row.max_abs_without_gamut);
+    let is_paper = is_any || aim.weight != Weight::Absolute || aim.gamut == Gamut::Keep;
+    let column = is_paper.then_some(error);
+    let columns = column.into_iter().chain(is_any.then_some(free));
+    (aim.gamut != Gamut::Keep)
+        .then_some(without_gamut)
+        .into_iter()
+        .chain(columns)
 }
 
 /// Rows of which the coefficients are printed too.

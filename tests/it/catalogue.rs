@@ -5,9 +5,7 @@ use std::path::Path;
 use fresnel_gen::app::catalogue::{add_catalogue, derived_rows};
 use fresnel_gen::app::{Artifact, Request, generate};
 use fresnel_gen::emit::{catalogue_record, recorded_catalogue};
-use fresnel_gen::fit::values_for_material;
 use fresnel_gen::methods;
-use fresnel_gen::records;
 use fresnel_gen::spectra::Gamut;
 use fresnel_gen::targets;
 use serde_json::Value;
@@ -91,18 +89,12 @@ fn it_holds_what_the_fit_gives_and_what_it_errs() {
         assert_eq!(row["method"], method);
         let subject = &super::subjects(&[name])[0];
         let method = methods::find(method).unwrap();
-        let values = values_for_material(subject, method);
+        let values = super::gamut::fitted(subject, method, Gamut::Clip);
         let inputs = method.inputs.iter().map(|input| values[input.name]);
         let expected: Vec<f32> = inputs.flatten().map(|value| value as f32).collect();
         assert_eq!(coefficients(row), expected, "{name}");
-        let recorded = include_str!("../../data/records/fits.csv");
-        type FitColumns = (String, String, f64, f64, Option<f64>);
-        let recorded: Vec<FitColumns> = records::rows(recorded);
-        let own = recorded
-            .iter()
-            .find(|row| row.0 == name && row.1 == method.name);
-        let most = own.unwrap().2;
-        assert!((row["max_abs"].as_f64().unwrap() - most).abs() < 1e-3 * most);
+        let most = super::gamut::error(subject, method, Gamut::Clip);
+        assert_eq!(row["max_abs"].as_f64().unwrap() as f32, most as f32);
     }
     let has = |name: &str| materials.iter().any(|row| row["name"] == name);
     assert!(

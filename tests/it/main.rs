@@ -28,6 +28,7 @@ mod fits;
 mod furnace;
 #[cfg(all(feature = "cli", feature = "gpu"))]
 mod gallery;
+mod gamut;
 mod golden;
 #[cfg(feature = "gpu")]
 mod gpu;

@@ -10,11 +10,12 @@ use crate::num::Precision;
 
 use super::choice::{family, one_of, precision};
 use super::viewing::numbers;
-use super::{MaterialFlags, MediumFlags, ReportFlags, ViewingFlags};
+use super::{GamutFlags, MaterialFlags, MediumFlags, ReportFlags};
 
 /// The flags of fits.
 #[derive(Args, Debug)]
 #[command(
+    mut_arg("gamut", |arg| arg.help("What reflects outside [0, 1]: clip and scale fit a form that keeps to [0, 1] by itself, as image light needs it; keep leaves it free [default: clip]")),
     mut_arg("material", |arg| arg.help("Names, paths of material files, or all [default: gold, platinum, water, diamond; all for --search]")),
     after_help = "Examples:\n  fresnel-gen fit --material gold\n  fresnel-gen fit --material all --terms 5 --json fits.json\n  fresnel-gen fit --material water --weight relative --exact 0,90\n  fresnel-gen fit --search --terms 4\n  fresnel-gen fit --f0 1.0,0.71,0.29 --f82 0.98,0.91,0.66\n\nFits forms shared by all materials, whose coefficients a shader takes as arguments (see `fresnel-gen methods show fitted`). The fit minimises the largest error over all angles. Colours are linear. A star marks what no other form of the same material beats in cost and error. `fresnel-gen --method fitted --material gold` writes the function with the coefficients in it, of least absolute error.\n\nWeights: relative is |f - F| / F. luminance fits red and blue separately, then green so that the error of luminance is least. delta-e weights each channel by its CIEDE2000 per unit at the true colour; the reported error is of all three channels."
 )]
@@ -39,10 +40,10 @@ pub struct FitFlags {
     pub precision: Option<Precision>,
     /// Search over families of short forms. List those on the Pareto frontier of operations and error, and the error of a chosen form
     /// on a substance left out of the choice
-    #[arg(long, conflicts_with_all = ["f0", "f82"])]
+    #[arg(long, conflicts_with_all = ["f0", "f82", "gamut"])]
     pub search: bool,
     /// In place of --material: reflectance at 0 degrees, three numbers from 0 to 1 (requires --f82)
-    #[arg(long, value_name = "R,G,B", value_parser = colour, requires = "f82", conflicts_with_all = ["material", "medium", "ViewingFlags"])]
+    #[arg(long, value_name = "R,G,B", value_parser = colour, requires = "f82", conflicts_with_all = ["material", "medium", "ViewingFlags", "gamut"])]
     pub f0: Option<[f64; 3]>,
     /// Reflectance at 81.79 degrees (cos θ = 1/7; requires --f0)
     #[arg(long, value_name = "R,G,B", value_parser = colour, requires = "f0")]
@@ -55,7 +56,7 @@ pub struct FitFlags {
     pub gpu: &'static Family,
     /// How materials are looked at.
     #[command(flatten)]
-    pub viewing: ViewingFlags,
+    pub gamut: GamutFlags,
     /// The report.
     #[command(flatten)]
     pub report: ReportFlags,

@@ -154,7 +154,7 @@ impl Cli {
                 named.write(flags.report.files());
             }
             Command::Fit(flags) => {
-                named.seen(&flags.materials, &flags.medium, &flags.viewing);
+                named.seen(&flags.materials, &flags.medium, &flags.gamut.viewing);
                 named.write(&flags.report.json);
             }
             Command::Cost(flags) => named.report(&flags.materials, &flags.report),

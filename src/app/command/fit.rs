@@ -15,6 +15,7 @@ use crate::num::{each_channel, in_parallel};
 use crate::reference::MaterialInMedium;
 use crate::report::Report;
 use crate::report::fits::{FitRow, fits_text};
+use crate::spectra::Gamut;
 
 use super::{Output, Progress, report, search, try_places};
 
@@ -31,7 +32,7 @@ pub fn run(flags: &FitFlags, progress: Progress) -> Result<Output, Error> {
         Some(colours) => (of_colours(colours, aim, &forms)?, Vec::new()),
     };
     let text = fits_text(&rows, flags.gpu.name);
-    let json = Report::new(flags.command_line(&flags.viewing.conditions()?), rows);
+    let json = Report::new(flags.command_line(&flags.gamut.conditions()?), rows);
     let mut output = report(text, &json, flags.report.json())?;
     output.remarks = left_out;
     Ok(output)
@@ -53,7 +54,12 @@ fn aim(flags: &FitFlags) -> Result<FitObjective, Error> {
             normal: flags.exact.contains(&End::Normal),
             grazing: flags.exact.contains(&End::Grazing),
         },
-        space: flags.viewing.space.unwrap_or_default(),
+        space: flags.gamut.viewing.space.unwrap_or_default(),
+        // Forms are compared by what they can follow. Where one is limited does not count.
+        gamut: match flags.search {
+            true => Gamut::Keep,
+            false => flags.gamut.gamut.unwrap_or_default(),
+        },
     })
 }
 
@@ -94,7 +100,7 @@ pub(super) fn subjects(flags: &FitFlags) -> Result<(Vec<MaterialInMedium>, Vec<S
     let request = Request {
         materials,
         medium: flags.medium.source()?,
-        viewing: flags.viewing.conditions()?,
+        viewing: flags.gamut.conditions()?,
         ..Request::default()
     };
     let found = request.subjects()?;
@@ -133,17 +139,26 @@ fn of_subject(
     aim: FitObjective,
     forms: &[Form],
 ) -> Vec<(Option<FitRow>, String, &'static str)> {
-    let curve = FitCurve::unclipped(subject);
-    // Promises of classes are of the usual fit.
+    let free = FitObjective {
+        gamut: Gamut::Keep,
+        ..aim
+    };
+    let (curve, before_gamut) = (FitCurve::of(subject), FitCurve::unclipped(subject));
+    // Promises of classes are of functions, whose fit is the usual one without a gamut.
     let promised = aim.weight == Weight::Absolute && !aim.exact.is_any();
-    let row = |form: &Form| {
-        let fitted = Coefficients::fit(form.method, &curve, aim)?;
-        let function = form.method.specialise(&fitted.values);
+    let error = |method: &'static Method, fitted: &Coefficients| {
+        let function = method.specialise(&fitted.values);
         let function = function.expect("a test specialises every method");
-        let error = model_error(&function, &subject.truth_for(form.method));
-        let missed = promised.then(|| missed(subject, form.method, error.max_abs));
-        let row = FitRow::new(form.method, &fitted, &error, form.cost, aim.space.name());
-        Some(row.of_material(subject, missed.flatten()))
+        model_error(&function, &subject.truth_for(method))
+    };
+    let row = |form: &Form| {
+        let method = form.method;
+        let fitted = Coefficients::fit(method, &curve, aim)?;
+        let without_gamut = error(method, &Coefficients::fit(method, &before_gamut, free)?).max_abs;
+        let missed = promised.then(|| missed(subject, method, without_gamut));
+        let error = error(method, &fitted);
+        let row = FitRow::new(method, &fitted, &error, form.cost, aim.space.name());
+        Some(row.of_material(subject, missed.flatten(), without_gamut))
     };
     let own = forms
         .iter()

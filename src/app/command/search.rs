@@ -41,7 +41,7 @@ pub(super) fn run(
         return Err(Error::Usage { what });
     }
     let rows: Vec<SearchRow> = results.iter().flat_map(SearchResult::search_rows).collect();
-    let command = flags.command_line(&flags.viewing.conditions()?);
+    let command = flags.command_line(&flags.gamut.conditions()?);
     let json = Report::new(command, rows);
     let text = search_text(&results, flags.gpu.name);
     let mut output = report(text, &json, flags.report.json())?;

@@ -4,10 +4,11 @@ mod array;
 mod json;
 mod record;
 
-use crate::fit::ModelError;
+use crate::fit::{FitCurve, FitObjective, ModelError, coefficients_and_error, model_error};
 use crate::methods::{self, Method};
 use crate::num::in_parallel;
 use crate::reference::MaterialInMedium;
+use crate::spectra::Gamut;
 
 use super::average::Average;
 use super::bounds::Bounds;
@@ -84,7 +85,9 @@ fn catalogue_row(
     naming: &Naming,
     bounds: &Bounds,
 ) -> Result<CatalogueRow, Error> {
-    let emitted = specialised_function(method, subject, naming, bounds)?;
+    let function = specialised_function(method, subject, naming, bounds)?;
+    let better = closer_fit(subject, &function, naming, bounds)?;
+    let emitted = within_gamut(subject, function);
     let value = |input: &methods::Input| emitted.constants[input.name];
     Ok(CatalogueRow {
         name: subject.name.clone(),
@@ -96,9 +99,33 @@ fn catalogue_row(
             .model_error
             .expect("a specialised function has its model error"),
         average: Average::of(&emitted).expect("a fitted method has a mean"),
-        better: closer_fit(subject, &emitted, naming, bounds)?,
+        better,
         held: subject.reference.surface.extrapolation(),
     })
+}
+
+/// A function of a material with coefficients that keep its form in [0, 1] by themselves, where colours are clipped; a function
+/// that is not fitted as it is.
+fn within_gamut(subject: &MaterialInMedium, emitted: Emitted) -> Emitted {
+    let gamut = subject.reference.surface.gamut;
+    if gamut == Gamut::Keep || !emitted.method.is_fitted() {
+        return emitted;
+    }
+    let aim = FitObjective {
+        gamut,
+        ..FitObjective::default()
+    };
+    let found = coefficients_and_error(emitted.method, &FitCurve::of(subject), aim);
+    let (constants, _) = found.expect("terms tell angles apart; a test fits them all");
+    let function = emitted.method.specialise(&constants);
+    let function = function.expect("a test specialises every method");
+    let error = model_error(&function, &subject.truth_for(emitted.method));
+    Emitted {
+        function,
+        constants,
+        model_error: Some(error),
+        ..emitted
+    }
 }
 
 /// The method that follows a material more closely than its four coefficients do: the one of its class, or what serves where the
@@ -115,7 +142,10 @@ fn closer_fit(
     let Some(method) = own.or(serves) else {
         return Ok(None);
     };
-    let closer = specialised_function(method, subject, naming, bounds)?;
+    let closer = within_gamut(
+        subject,
+        specialised_function(method, subject, naming, bounds)?,
+    );
     let fitted = method.inputs.iter().filter(|_| method.is_fitted());
     Ok(Some(CloserFit {
         method,

@@ -160,6 +160,28 @@ fn ends_are_met_and_their_price_is_told() {
 }
 
 #[test]
+fn a_form_keeps_to_what_a_surface_can_reflect_and_its_price_is_told() {
+    let place = Place::new();
+    let of = |gamut: &str| {
+        let line = format!("fit --material gold --terms 4{gamut}");
+        only(rows(&place, &line), "fitted")
+    };
+    let (kept, free) = (of(""), of(" --gamut keep"));
+    let red = |row: &serde_json::Value| channel(row, 0)[0];
+    assert!(red(&kept) <= 1.0 && red(&free) > 1.03, "{kept} {free}");
+    let price = (
+        number(&kept["max_abs"]),
+        number(&kept["max_abs_without_gamut"]),
+    );
+    assert!(price.1 < price.0 && price.0 < 0.0033, "{price:?}");
+    assert!(free["max_abs_without_gamut"].is_null(), "{free}");
+    let text = place.done("fit --material gold").out;
+    assert!(text.contains("the same, no gamut"), "{text}");
+    let refused = place.run("fit --search --gamut clip");
+    assert_eq!(refused.code, Some(2), "{}", refused.err);
+}
+
+#[test]
 fn a_search_finds_what_is_shipped_and_says_the_same_twice() {
     let place = Place::new();
     let line = "fit --search --terms 4 --material gold,silver,gold_johnson,iron --json -";
