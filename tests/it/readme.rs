@@ -79,6 +79,10 @@ fn tables_are_what_the_program_says() {
                 ("classes", classes_table()),
             ],
         ),
+        (
+            "docs/accuracy-and-cost.md",
+            vec![("published", super::audit::ranked::published_table())],
+        ),
         ("docs/half-precision.md", vec![("half", half_table())]),
         ("docs/effects.md", vec![("effects", effects_table())]),
     ];
