@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use crate::command_line::file_name;
 use crate::effects::{self, Effect};
 use crate::emit::{HeaderForm, Naming};
-use crate::materials::{self, Material, MaterialKind, ViewingConditions};
+use crate::materials::{self, ConstantIndex, Material, MaterialKind, ViewingConditions};
 use crate::methods::{self, Method};
 use crate::num::Precision;
 use crate::reference::{Derivation, MaterialInMedium};
@@ -97,7 +97,7 @@ impl Materials {
 /// Where a material comes from.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Source {
-    /// The catalogue.
+    /// The catalogue; or, of a medium, a refractive index from 1 to 10, such as `1.5`: without absorption and dispersion.
     Named(String),
     /// The catalogue, brought along by `all`: left out where it is not known over the whole spectrum.
     BroughtAlong(String),
@@ -365,12 +365,24 @@ fn argument(file: &str, page: &str) -> String {
     }
 }
 
+/// A medium that is a number.
+fn constant(word: &str) -> Result<Loaded, Error> {
+    let index = ConstantIndex::parse(word).expect("it was found to be a number");
+    let index = index.map_err(|fault| RequestFault::conflict(fault.to_string()))?;
+    Ok(Loaded {
+        material: index.material(),
+        argument: index.to_string(),
+        text: index.to_string(),
+    })
+}
+
 /// Reads a material from the catalogue, or from a text at hand.
 ///
 /// # Errors
 /// The catalogue has no material of this name, or the text is not a material.
 pub fn load(source: &Source) -> Result<Loaded, Error> {
     match source {
+        Source::Named(word) if ConstantIndex::parse(word).is_some() => constant(word),
         Source::Named(name) | Source::BroughtAlong(name) => {
             let found = materials::find(name).zip(materials::source(name));
             let (material, text) =
