@@ -2,10 +2,9 @@
 
 use std::collections::BTreeMap;
 
-use crate::command_line::file_name;
 use crate::effects::{self, Effect};
 use crate::emit::{HeaderForm, Naming};
-use crate::materials::{self, ConstantIndex, Material, MaterialKind, ViewingConditions};
+use crate::materials::{self, Material, MaterialKind, ViewingConditions};
 use crate::methods::{self, Method};
 use crate::num::Precision;
 use crate::reference::{Derivation, MaterialInMedium};
@@ -14,6 +13,7 @@ use crate::targets::{self, Target};
 
 use super::error::Error;
 use super::fault::RequestFault;
+use super::loaded::{Loaded, load};
 use super::names::unknown;
 use super::subjects::Subjects;
 
@@ -131,17 +131,6 @@ impl Source {
 
 /// The materials of a run without `--material`.
 pub const DEFAULT_MATERIALS: [&str; 4] = ["diamond", "gold", "platinum", "water"];
-
-/// A source read: the material, and what it was read from.
-#[derive(Clone, Debug)]
-pub struct Loaded {
-    /// The record.
-    pub material: Material,
-    /// What a user types to name it again.
-    pub argument: String,
-    /// Its file's text.
-    pub text: String,
-}
 
 impl Request {
     /// The targets, sorted, each once.
@@ -353,53 +342,4 @@ pub fn check_transparent(medium: &Material) -> Result<(), Error> {
         class: medium.kind.name(),
     }
     .into())
-}
-
-/// What a user types to name a file again, without the folders of this machine: its place in the database for a page that
-/// lies in one, since its name is made of that; the file's name for all others.
-fn argument(file: &str, page: &str) -> String {
-    if !page.is_empty() && file.replace('\\', "/").ends_with(page) {
-        page.to_owned()
-    } else {
-        file_name(file).to_owned()
-    }
-}
-
-/// A medium that is a number.
-fn constant(word: &str) -> Result<Loaded, Error> {
-    let index = ConstantIndex::parse(word).expect("it was found to be a number");
-    let index = index.map_err(|fault| RequestFault::conflict(fault.to_string()))?;
-    Ok(Loaded {
-        material: index.material(),
-        argument: index.to_string(),
-        text: index.to_string(),
-    })
-}
-
-/// Reads a material from the catalogue, or from a text at hand.
-///
-/// # Errors
-/// The catalogue has no material of this name, or the text is not a material.
-pub fn load(source: &Source) -> Result<Loaded, Error> {
-    match source {
-        Source::Named(word) if ConstantIndex::parse(word).is_some() => constant(word),
-        Source::Named(name) | Source::BroughtAlong(name) => {
-            let found = materials::find(name).zip(materials::source(name));
-            let (material, text) =
-                found.ok_or_else(|| unknown("material", name, &materials::names()))?;
-            Ok(Loaded {
-                material: material?,
-                argument: name.clone(),
-                text: text.to_owned(),
-            })
-        }
-        Source::File { file, text } => {
-            let material = Material::read(file, text)?;
-            Ok(Loaded {
-                argument: argument(file, &material.page),
-                material,
-                text: text.clone(),
-            })
-        }
-    }
 }

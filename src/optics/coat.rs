@@ -9,8 +9,8 @@
 //! and F82 by [`index_from_f0_f82`].
 //!
 //! Domain: F0 and F82 from 0 to 1, η from 1. A pair that no index gives takes the n of the nearest F82 that its F0 allows, and `exact`
-//! is false; so does F0 = 1, a mirror, which stays one. Error: none for one index; of a channel that stands for a spectrum the test
-//! `coat` says it.
+//! is false; so does F0 = 1, a mirror, which stays one. Error: none for one index. A channel that stands for a
+//! spectrum is off, over 75 metals and semiconductors, by .0002 in the median and .012 at most at η = 1.5 (the test `effects::coat`).
 
 use super::inverse::index_from_f0_f82;
 
