@@ -35,7 +35,7 @@ pub fn coated_text(row: &CoatedRow) -> String {
         .collect();
     if !nearest.is_empty() {
         lines.push(format!(
-            "No index gives F0 and F82 of {}: n and k are those of the nearest F82 that an F0 of at most .999999 allows.",
+            "No index gives F0 and F82 of {}: n and k are those of the nearest F82 that an F0 of at most .999999 allows, and F82 in coat follows from them.",
             nearest.join(" and ")
         ));
     }
