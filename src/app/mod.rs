@@ -18,6 +18,7 @@ pub mod folder;
 pub mod generate;
 #[cfg(feature = "cli")]
 pub mod legible;
+pub mod loaded;
 pub mod lock;
 pub mod manifest;
 pub mod names;

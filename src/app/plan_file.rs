@@ -13,8 +13,9 @@ use crate::spectra::Space;
 
 use super::args::MaterialName;
 use super::error::Error;
+use super::loaded::load;
 use super::names::unknown;
-use super::request::{Materials, Request, load};
+use super::request::{Materials, Request};
 use super::source;
 
 /// The beginning of the command of a plan.

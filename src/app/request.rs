@@ -2,7 +2,6 @@
 
 use std::collections::BTreeMap;
 
-use crate::command_line::file_name;
 use crate::effects::{self, Effect};
 use crate::emit::{HeaderForm, Naming};
 use crate::materials::{self, Material, MaterialKind, ViewingConditions};
@@ -14,6 +13,7 @@ use crate::targets::{self, Target};
 
 use super::error::Error;
 use super::fault::RequestFault;
+use super::loaded::{Loaded, load};
 use super::names::unknown;
 use super::subjects::Subjects;
 
@@ -97,7 +97,7 @@ impl Materials {
 /// Where a material comes from.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Source {
-    /// The catalogue.
+    /// The catalogue; or, of a medium, a refractive index from 1 to 10, such as `1.5`: without absorption and dispersion.
     Named(String),
     /// The catalogue, brought along by `all`: left out where it is not known over the whole spectrum.
     BroughtAlong(String),
@@ -131,17 +131,6 @@ impl Source {
 
 /// The materials of a run without `--material`.
 pub const DEFAULT_MATERIALS: [&str; 4] = ["diamond", "gold", "platinum", "water"];
-
-/// A source read: the material, and what it was read from.
-#[derive(Clone, Debug)]
-pub struct Loaded {
-    /// The record.
-    pub material: Material,
-    /// What a user types to name it again.
-    pub argument: String,
-    /// Its file's text.
-    pub text: String,
-}
 
 impl Request {
     /// The targets, sorted, each once.
@@ -353,41 +342,4 @@ pub fn check_transparent(medium: &Material) -> Result<(), Error> {
         class: medium.kind.name(),
     }
     .into())
-}
-
-/// What a user types to name a file again, without the folders of this machine: its place in the database for a page that
-/// lies in one, since its name is made of that; the file's name for all others.
-fn argument(file: &str, page: &str) -> String {
-    if !page.is_empty() && file.replace('\\', "/").ends_with(page) {
-        page.to_owned()
-    } else {
-        file_name(file).to_owned()
-    }
-}
-
-/// Reads a material from the catalogue, or from a text at hand.
-///
-/// # Errors
-/// The catalogue has no material of this name, or the text is not a material.
-pub fn load(source: &Source) -> Result<Loaded, Error> {
-    match source {
-        Source::Named(name) | Source::BroughtAlong(name) => {
-            let found = materials::find(name).zip(materials::source(name));
-            let (material, text) =
-                found.ok_or_else(|| unknown("material", name, &materials::names()))?;
-            Ok(Loaded {
-                material: material?,
-                argument: name.clone(),
-                text: text.to_owned(),
-            })
-        }
-        Source::File { file, text } => {
-            let material = Material::read(file, text)?;
-            Ok(Loaded {
-                argument: argument(file, &material.page),
-                material,
-                text: text.clone(),
-            })
-        }
-    }
 }

@@ -14,7 +14,8 @@ use crate::report::Report;
 use super::artifact::Artifact;
 use super::error::Error;
 use super::generate::Generated;
-use super::request::{Loaded, Materials, Source, check_transparent, load};
+use super::loaded::{Loaded, load};
+use super::request::{Materials, Source, check_transparent};
 use super::subjects::same_name;
 
 /// The tables that are wanted, of which materials.

@@ -13,6 +13,7 @@ pub use effect::{Argument, BuiltEffect, Domain, Effect, EffectFunction, Reflecta
 
 // BEGIN effects (written by tests/lists)
 mod caustics;
+mod coat;
 mod complex_f0;
 mod dispersion;
 mod ggx_specular;
@@ -26,6 +27,7 @@ mod water;
 #[rustfmt::skip]
 pub static ALL: &[&Effect] = &[
     &caustics::EFFECT,
+    &coat::EFFECT,
     &complex_f0::EFFECT,
     &dispersion::EFFECT,
     &ggx_specular::EFFECT,

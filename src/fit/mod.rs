@@ -6,6 +6,7 @@
 
 mod best_inputs;
 mod candidates;
+mod coated;
 mod coefficients;
 mod colours;
 mod derive;
@@ -30,6 +31,7 @@ mod weight;
 
 pub use best_inputs::{best_inputs, values_at};
 pub use candidates::{Candidate, candidates};
+pub use coated::CoatedRow;
 pub use coefficients::Coefficients;
 pub use colours::{Follows, LARGEST_SOLVED_F0};
 pub use derive::{

@@ -5,6 +5,7 @@
 
 mod catalogue;
 mod channels;
+mod constant;
 mod csv;
 mod decimal;
 mod dispersion;
@@ -22,6 +23,7 @@ mod trim;
 
 pub use catalogue::{find, list, names, source};
 pub use channels::{Channels, THESIS_NM};
+pub use constant::{ConstantIndex, IndexFault};
 pub use dispersion::{DispersionCurve, Extrapolate};
 pub use file::name_fault;
 pub use file_text::FileText;

@@ -6,10 +6,12 @@
 //! critical angle, past which the reflectance is exactly 1. At 90 degrees every reflectance is exactly 1, except
 //! that an index-matched surface (n = 1, k = 0) reflects 0 at every angle, 90 degrees included.
 
+mod coat;
 mod ggx;
 mod interface;
 mod inverse;
 
+pub use coat::{UnderCoat, under_coat};
 pub use ggx::Ggx;
 pub use interface::{brewster_cos, conductor, critical_cos, dielectric, normal_incidence};
 pub use inverse::{EffectiveIndex, LARGEST_F0, index_from_f0_f82};

@@ -3,6 +3,7 @@
 #[cfg(all(feature = "cli", feature = "gpu"))]
 pub mod audit;
 pub mod budget;
+pub mod coated;
 pub mod cost;
 mod envelope;
 pub mod fits;

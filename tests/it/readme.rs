@@ -207,15 +207,20 @@ fn lookups_are_accepted() {
     for path in pages() {
         for after in page(&path).split("```wgsl\n").skip(1) {
             let (example, _) = after.split_once("```").expect("it ends");
-            let library = ["table", "fitted"]
-                .map(|method| page(&format!("shaders-generated/wgsl/fresnel_{method}.wgsl")));
+            let library = [
+                "fresnel_table",
+                "fresnel_fitted",
+                "fresnel_schlick",
+                "effects/coat",
+            ]
+            .map(|file| page(&format!("shaders-generated/wgsl/{file}.wgsl")));
             if let Err(fault) = fresnel_gen::emit::validate_wgsl(&(library.concat() + example)) {
                 panic!("{path}: {fault}");
             }
             shown += 1;
         }
     }
-    assert_eq!(shown, 4);
+    assert_eq!(shown, 5);
     let atlas: serde_json::Value =
         serde_json::from_str(&page("shaders-generated/lut/atlas.json")).expect("it is JSON");
     let rows = atlas["rows"].as_array().expect("it has rows").iter();

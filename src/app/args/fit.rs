@@ -9,7 +9,7 @@ use crate::materials::ViewingConditions;
 use crate::num::Precision;
 
 use super::choice::{family, one_of, precision};
-use super::viewing::numbers;
+use super::viewing::colour;
 use super::{GamutFlags, MaterialFlags, MediumFlags, ReportFlags};
 
 /// The flags of fits.
@@ -105,12 +105,4 @@ fn terms(word: &str) -> Result<usize, &'static str> {
     let terms = word.parse().ok();
     let terms = terms.filter(|terms| [4, 5].contains(terms));
     terms.ok_or("no form has so many coefficients; there are forms with 4 or 5")
-}
-
-fn colour(word: &str) -> Result<[f64; 3], &'static str> {
-    let is_reflectance = |number: &f64| (0.0..=1.0).contains(number);
-    let numbers = numbers(word).unwrap_or_default();
-    let three = <[f64; 3]>::try_from(numbers).ok();
-    let three = three.filter(|numbers| numbers.iter().all(is_reflectance));
-    three.ok_or("it wants three reflectances from 0 to 1, linear: 0.9,0.6,0.3")
 }

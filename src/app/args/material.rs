@@ -3,14 +3,26 @@
 use core::fmt;
 
 use clap::Args;
+use thiserror::Error;
 
 use crate::app::error::Error;
 use crate::app::request::{Materials, Source};
 use crate::app::source::{is_path, read};
-use crate::materials;
+use crate::materials::{self, ConstantIndex, IndexFault};
 use crate::names::UnknownName;
 
 use super::choice::Choice;
+
+/// A word that is no medium.
+#[derive(Clone, Debug, PartialEq, Eq, Error)]
+pub enum NoMedium {
+    /// It is no name either.
+    #[error("{0}; a medium can be a refractive index from 1 to 10 too, such as 1.5")]
+    Unknown(#[from] UnknownName),
+    /// A number beyond its limits.
+    #[error(transparent)]
+    Index(#[from] IndexFault),
+}
 
 /// A material of the catalogue, or the path of a material file, a page or a table.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -33,6 +45,20 @@ impl MaterialName {
             word: word.to_owned(),
             is_file: !is_known,
         })
+    }
+
+    /// The parser of a medium: a material's name, or a number.
+    ///
+    /// # Errors
+    /// It is no path, the catalogue has no such material, and it is no refractive index within limits.
+    pub fn parse_medium(word: &str) -> Result<MaterialName, NoMedium> {
+        match ConstantIndex::parse(word) {
+            Some(index) => Ok(MaterialName {
+                word: index?.to_string(),
+                is_file: false,
+            }),
+            None => Ok(MaterialName::parse(word)?),
+        }
     }
 
     /// The path, of a file.
@@ -111,8 +137,8 @@ impl MaterialFlags {
 /// What the light comes from.
 #[derive(Args, Clone, Debug, Default)]
 pub struct MediumFlags {
-    /// Medium on the incident side: name or file of a transparent material [default: air]
-    #[arg(long, value_name = "NAME", value_parser = MaterialName::parse)]
+    /// Medium on the incident side: name or file of a transparent material, or a refractive index from 1 to 10, such as 1.5 [default: air]
+    #[arg(long, value_name = "NAME", value_parser = MaterialName::parse_medium, allow_negative_numbers = true)]
     pub medium: Option<MaterialName>,
 }
 

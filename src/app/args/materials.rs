@@ -5,10 +5,11 @@ use std::path::PathBuf;
 use clap::{Args, Subcommand};
 
 use crate::exchange::{self, Format};
-use crate::materials::MaterialKind;
+use crate::materials::{ConstantIndex, MaterialKind};
 use crate::names::UnknownName;
 
 use super::choice::one_of;
+use super::viewing::colour;
 use super::{MaterialName, MediumFlags, ReportFlags, ViewingFlags};
 
 /// The flags of `materials`.
@@ -35,6 +36,11 @@ pub enum MaterialsCommand {
         after_help = "Examples:\n  fresnel-gen materials params gold --space acescg --json -\n  fresnel-gen materials params gold --as materialx -o gold.mtlx"
     )]
     Params(ParamsFlags),
+    /// Colours of a metal in air, F0 and F82, turned into its colours under a clear coat
+    #[command(
+        after_help = "Example:\n  fresnel-gen materials coat --f0 1,.71,.29 --f82 .98,.91,.66 --index 1.5\n\nEach channel takes the n and k that give its F0 and F82, relative to the coat. Where no n and k give both, those of the nearest F82 are taken, and the report says so. Of a measured material `materials params gold --medium 1.5` gives the colours by its spectrum. A shader computes F0 by `--effect coat`."
+    )]
+    Coat(CoatFlags),
     /// Turn a page of refractiveindex.info or a CSV table into a material file
     #[command(
         after_help = "Example:\n  fresnel-gen materials import main/Au/nk/Johnson.yml --name my_gold -o my_gold.toml"
@@ -109,6 +115,20 @@ pub struct ParamsFlags {
     pub overwrite: bool,
 }
 
+/// The flags of `materials coat`.
+#[derive(Args, Debug)]
+pub struct CoatFlags {
+    /// Reflectance in air at 0 degrees, three numbers from 0 to 1
+    #[arg(long, value_name = "R,G,B", value_parser = colour)]
+    pub f0: [f64; 3],
+    /// Reflectance in air at 81.79 degrees (cos θ = 1/7), likewise
+    #[arg(long, value_name = "R,G,B", value_parser = colour)]
+    pub f82: [f64; 3],
+    /// The coat's refractive index, from 1 to 10
+    #[arg(long, value_name = "N", default_value = "1.5", value_parser = index, allow_negative_numbers = true)]
+    pub index: ConstantIndex,
+}
+
 /// The flags of `materials import`.
 #[derive(Args, Debug)]
 pub struct ImportFlags {
@@ -138,4 +158,11 @@ pub struct SurveyFlags {
 /// The parser of a class's name.
 fn class() -> impl Fn(&str) -> Result<MaterialKind, UnknownName> + Clone {
     one_of("class", MaterialKind::ALL, MaterialKind::name)
+}
+
+/// The parser of a coat's index.
+fn index(word: &str) -> Result<ConstantIndex, String> {
+    let wanted = || "a coat's index is a number from 1 to 10, such as 1.5".to_owned();
+    let index = ConstantIndex::parse(word).ok_or_else(wanted)?;
+    index.map_err(|_| wanted())
 }

@@ -41,8 +41,8 @@ pub use listing::{
 };
 pub use material::{MaterialFlags, MaterialName, MediumFlags};
 pub use materials::{
-    FilterFlags, ImportFlags, MaterialsCommand, MaterialsFlags, ParamsFlags, SeenFlags, ShowFlags,
-    SurveyFlags,
+    CoatFlags, FilterFlags, ImportFlags, MaterialsCommand, MaterialsFlags, ParamsFlags, SeenFlags,
+    ShowFlags, SurveyFlags,
 };
 pub use named::NamedFiles;
 pub use output::{CheckReportFlags, PictureFlags, ReportFlags, TreeFlags};

@@ -60,7 +60,7 @@ impl<'a> NamedFiles<'a> {
                 self.write(&import.output);
             }
             Some(MaterialsCommand::Survey(survey)) => self.inputs.push(&survey.folder),
-            Some(MaterialsCommand::List(_)) | None => {}
+            Some(MaterialsCommand::List(_) | MaterialsCommand::Coat(_)) | None => {}
         }
     }
 

@@ -150,6 +150,15 @@ fn wavelengths(word: &str) -> Result<[f64; 3], String> {
     }
 }
 
+/// Three reflectances with commas between them.
+pub(super) fn colour(word: &str) -> Result<[f64; 3], &'static str> {
+    let is_reflectance = |number: &f64| (0.0..=1.0).contains(number);
+    let numbers = numbers(word).unwrap_or_default();
+    let three = <[f64; 3]>::try_from(numbers).ok();
+    let three = three.filter(|numbers| numbers.iter().all(is_reflectance));
+    three.ok_or("it wants three reflectances from 0 to 1, linear: 0.9,0.6,0.3")
+}
+
 /// Numbers with commas between them.
 pub(super) fn numbers(word: &str) -> Result<Vec<f64>, String> {
     let number = |word: &str| {

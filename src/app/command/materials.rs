@@ -7,8 +7,9 @@ use serde::Serialize;
 use crate::app::args::{FilterFlags, MaterialsCommand, MaterialsFlags, MediumFlags, ShowFlags};
 use crate::app::error::Error;
 use crate::app::fault::RequestFault;
+use crate::app::loaded::{Loaded, load};
 use crate::app::names::unknown;
-use crate::app::request::{Loaded, check_transparent, load};
+use crate::app::request::check_transparent;
 use crate::app::write::write_file;
 use crate::command_line::CommandLine;
 use crate::materials::{self, Extrapolate, Material, ViewingConditions};
@@ -17,7 +18,7 @@ use crate::report::table;
 use crate::report::{Report, SCHEMA};
 use crate::spectra::{FIRST_NM, LAST_NM};
 
-use super::{Output, Progress, import, not_drawn, params, png, report, survey};
+use super::{Output, Progress, coated, import, not_drawn, params, png, report, survey};
 
 /// `fresnel-gen materials`.
 pub fn run(flags: &MaterialsFlags, progress: Progress) -> Result<Output, Error> {
@@ -27,6 +28,7 @@ pub fn run(flags: &MaterialsFlags, progress: Progress) -> Result<Output, Error> 
         Some(MaterialsCommand::List(filter)) => list(filter, json),
         Some(MaterialsCommand::Show(show)) => shown(show, json),
         Some(MaterialsCommand::Params(params)) => params::run(params, json),
+        Some(MaterialsCommand::Coat(coat)) => coated::run(coat, json),
         Some(MaterialsCommand::Import(_)) if json.is_some() => Err(RequestFault::conflict(
             "import writes a material file and no JSON; leave --json out",
         )

@@ -4,6 +4,7 @@
 mod audit;
 mod bake;
 mod chart;
+mod coated;
 #[cfg(feature = "gpu")]
 mod cost;
 mod fit;

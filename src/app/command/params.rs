@@ -8,7 +8,7 @@ use crate::app::args::{ParamsFlags, SeenFlags};
 use crate::app::error::Error;
 use crate::app::fault::RequestFault;
 use crate::app::folder::is_device;
-use crate::app::request::{Loaded, load};
+use crate::app::loaded::{Loaded, load};
 use crate::app::write::{try_places_of_ours, write_file, write_report};
 use crate::command_line::CommandLine;
 use crate::exchange::{EngineMaterial, Format};

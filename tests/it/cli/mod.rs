@@ -22,6 +22,7 @@ mod hostile;
 #[cfg(unix)]
 mod killed;
 mod materials;
+mod medium;
 mod plan;
 mod scene_error;
 mod seen;

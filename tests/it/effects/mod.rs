@@ -1,6 +1,7 @@
 //! The effects' functions against what is known of them, evaluated in f64; their text in every language.
 
 mod bounds;
+mod coat;
 mod functions;
 mod one_r;
 mod sphere;

@@ -68,6 +68,8 @@ pub struct Program {
     table: Texels,
     /// The variable that a statement sets; nothing for `return`.
     statements: Vec<(Option<String>, Vec<String>)>,
+    /// Functions that it calls, by name.
+    callees: BTreeMap<String, Program>,
 }
 
 impl Program {
@@ -106,7 +108,14 @@ impl Program {
                 .filter(|line| !line.is_empty())
                 .map(statement)
                 .collect(),
+            callees: BTreeMap::new(),
         }
+    }
+
+    /// The same, with another function that it calls.
+    pub fn calling(mut self, name: &str, callee: Program) -> Program {
+        self.callees.insert(name.to_owned(), callee);
+        self
     }
 
     /// Runs it.
@@ -125,6 +134,7 @@ impl Program {
                 known: &known,
                 precision: self.precision,
                 table: &self.table,
+                callees: &self.callees,
             };
             let value = reader.ternary();
             assert_eq!(
@@ -189,6 +199,7 @@ struct Reader<'a> {
     known: &'a BTreeMap<&'a str, Term>,
     precision: Precision,
     table: &'a Texels,
+    callees: &'a BTreeMap<String, Program>,
 }
 
 impl Reader<'_> {
@@ -271,9 +282,9 @@ impl Reader<'_> {
         }
         self.at += 1;
         match self.tokens[self.at - 1].as_str() {
-            "r" => Term::Scalar(value.colour()[0]),
-            "g" => Term::Scalar(value.colour()[1]),
-            "b" => Term::Scalar(value.colour()[2]),
+            "r" | "x" => Term::Scalar(value.colour()[0]),
+            "g" | "y" => Term::Scalar(value.colour()[1]),
+            "b" | "z" => Term::Scalar(value.colour()[2]),
             "xxx" => Term::Colour([value.scalar(); 3]),
             method => {
                 let method = method.to_owned();
@@ -336,7 +347,10 @@ impl Reader<'_> {
                 assert!(self.take(".") && self.take("rgb"));
                 sampled
             }
-            _ => call(name, arguments).rounded(self.precision),
+            _ => match self.callees.get(name) {
+                Some(callee) => callee.run(arguments),
+                None => call(name, arguments).rounded(self.precision),
+            },
         }
     }
 

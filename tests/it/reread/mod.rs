@@ -2,7 +2,7 @@
 //! in must give, bit for bit, what the graph gives in f32, or in f16 rounded after every operation. It catches a wrong precedence, spelling or literal in any
 //! target without a compiler of that language.
 
-mod language;
+pub mod language;
 
 use fresnel_gen::app::{Materials, Request, generate};
 use fresnel_gen::fit;

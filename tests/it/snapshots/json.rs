@@ -9,13 +9,17 @@ use crate::cli::{OUT, Place, Ran};
 use crate::not_checked;
 
 /// A name in the list, and a command whose stdout is the report.
-const REPORTS: [(&str, &str); 20] = [
+const REPORTS: [(&str, &str); 21] = [
     ("methods", "methods --json -"),
     ("methods show", "methods show fitted --json -"),
     ("targets", "targets --json -"),
     ("targets show", "targets show gles --json -"),
     ("materials list", "materials list --json -"),
     ("materials params", "materials params gold --json -"),
+    (
+        "materials coat",
+        "materials coat --f0 1,.71,.29 --f82 .98,.91,.66 --json -",
+    ),
     ("fit", "fit --material gold --json -"),
     (
         "fit of colours",

@@ -1,0 +1,23 @@
+//! `materials coat`: the colours of a surface under a clear coat.
+
+use std::path::Path;
+
+use crate::app::args::CoatFlags;
+use crate::app::error::Error;
+use crate::command_line::CommandLine;
+use crate::fit::CoatedRow;
+use crate::report::Report;
+use crate::report::coated::coated_text;
+
+use super::{Output, report};
+
+/// `fresnel-gen materials coat --f0 R,G,B --f82 R,G,B`.
+pub fn run(flags: &CoatFlags, json: Option<&Path>) -> Result<Output, Error> {
+    let row = CoatedRow::new(flags.f0, flags.f82, flags.index.value());
+    let command = CommandLine::new("materials coat")
+        .list("f0", flags.f0)
+        .list("f82", flags.f82)
+        .list("index", [flags.index]);
+    let text = coated_text(&row);
+    report(text, &Report::new(command, vec![row]), json)
+}

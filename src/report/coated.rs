@@ -1,0 +1,43 @@
+//! The colours of a surface under a coat, for people.
+
+use crate::fit::CoatedRow;
+
+use super::table;
+
+/// The numbers of each channel, and where no index gives the colours.
+pub fn coated_text(row: &CoatedRow) -> String {
+    let cells = |name: &str, values: [f64; 3], what: &str| {
+        let numbers = values.map(|value| format!("{value:.5}"));
+        let cells = [name.to_owned()].into_iter().chain(numbers);
+        cells.chain([what.to_owned()]).collect::<Vec<String>>()
+    };
+    let rows = [
+        cells("F0", row.f0, "in air"),
+        cells("F82", row.f82, "in air"),
+        cells("F0 in coat", row.f0_in_coat, "relative to the coat"),
+        cells(
+            "F82 in coat",
+            row.f82_in_coat,
+            "at 81.79 degrees within the coat",
+        ),
+        cells("n", row.n, "in air"),
+        cells("k", row.k, "in air"),
+    ];
+    let mut lines = vec![
+        format!("under a coat of index {}", row.index),
+        String::new(),
+        table::text_table(&["", "red", "green", "blue", ""], &rows),
+    ];
+    let channels = ["red", "green", "blue"].into_iter().zip(row.exact);
+    let nearest: Vec<&str> = channels
+        .filter(|(_, exact)| !exact)
+        .map(|(name, _)| name)
+        .collect();
+    if !nearest.is_empty() {
+        lines.push(format!(
+            "No index gives F0 and F82 of {}: n and k are those of the nearest F82 that an F0 of at most .999999 allows, and F82 in coat follows from them.",
+            nearest.join(" and ")
+        ));
+    }
+    lines.join("\n").trim_end().to_owned() + "\n"
+}
