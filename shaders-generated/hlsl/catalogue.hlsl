@@ -27,11 +27,11 @@
 #define FRESNEL_CATALOGUE_HLSL
 
 // Rows of materials: the first of four.
-#define FRESNEL_ALUMINIUM 0 // metal, at most 0.00319
-#define FRESNEL_ALUMINIUM_CHENG 4 // metal, at most 0.00298
-#define FRESNEL_ALUMINIUM_HAGEMANN 8 // metal, at most 0.00298
-#define FRESNEL_ALUMINIUM_RAKIC 12 // metal, at most 0.00298
-#define FRESNEL_ALUMINIUM_RAKIC_1995 16 // metal, at most 0.00297
+#define FRESNEL_ALUMINIUM 0 // metal, at most 0.00404
+#define FRESNEL_ALUMINIUM_CHENG 4 // metal, at most 0.00365
+#define FRESNEL_ALUMINIUM_HAGEMANN 8 // metal, at most 0.00388
+#define FRESNEL_ALUMINIUM_RAKIC 12 // metal, at most 0.00386
+#define FRESNEL_ALUMINIUM_RAKIC_1995 16 // metal, at most 0.00383
 #define FRESNEL_ARSENIC_TRISULFIDE 20 // dielectric, at most 0.00172
 #define FRESNEL_BERYLLIUM 24 // metal, at most 0.00117
 #define FRESNEL_BISMUTH 28 // metal, at most 0.00083
@@ -40,10 +40,10 @@
 #define FRESNEL_BRASS_90_10 40 // metal, at most 0.00226
 #define FRESNEL_CADMIUM_TELLURIDE 44 // semiconductor, at most 0.00141; fitted_five at most 0.00042
 #define FRESNEL_CHROMIUM 48 // metal, at most 0.00088
-#define FRESNEL_CHROMIUM_RAKIC 52 // metal, at most 0.00158
-#define FRESNEL_CHROMIUM_SYTCHKOVA 56 // metal, at most 0.00416; fitted_five at most 0.00068
-#define FRESNEL_COBALT 60 // metal, at most 0.00182
-#define FRESNEL_COBALT_WERNER 64 // metal, at most 0.00173
+#define FRESNEL_CHROMIUM_RAKIC 52 // metal, at most 0.00192
+#define FRESNEL_CHROMIUM_SYTCHKOVA 56 // metal, at most 0.00416; fitted_five at most 0.00073
+#define FRESNEL_COBALT 60 // metal, at most 0.00225
+#define FRESNEL_COBALT_WERNER 64 // metal, at most 0.00211
 #define FRESNEL_COPPER 68 // metal, at most 0.00149
 #define FRESNEL_COPPER_BABAR 72 // metal, at most 0.00184
 #define FRESNEL_COPPER_HAGEMANN 76 // metal, at most 0.00158
@@ -52,47 +52,47 @@
 #define FRESNEL_COPPER_RAKIC 88 // metal, at most 0.00186
 #define FRESNEL_ELECTRUM 92 // metal, at most 0.00238
 #define FRESNEL_GALLIUM_ARSENIDE 96 // semiconductor, at most 0.00513; fitted_five at most 0.00050
-#define FRESNEL_GALLIUM_PHOSPHIDE 100 // semiconductor, at most 0.00262; fitted_five at most 0.00022
+#define FRESNEL_GALLIUM_PHOSPHIDE 100 // semiconductor, at most 0.00262; fitted_five at most 0.00023
 #define FRESNEL_GERMANIUM 104 // semiconductor, at most 0.00910; fitted_five at most 0.00093
-#define FRESNEL_GOLD 108 // metal, at most 0.00193
+#define FRESNEL_GOLD 108 // metal, at most 0.00326
 #define FRESNEL_GOLD_BABAR 112 // metal, at most 0.00188
-#define FRESNEL_GOLD_HAGEMANN_2 116 // metal, at most 0.00209
-#define FRESNEL_GOLD_JOHNSON 120 // metal, at most 0.00210
+#define FRESNEL_GOLD_HAGEMANN_2 116 // metal, at most 0.00573
+#define FRESNEL_GOLD_JOHNSON 120 // metal, at most 0.00277
 #define FRESNEL_GOLD_MAGNOZZI 124 // metal, at most 0.00195
 #define FRESNEL_GOLD_MCPEAK 128 // metal, at most 0.00186
-#define FRESNEL_GOLD_OLMON_EV 132 // metal, at most 0.00195
-#define FRESNEL_GOLD_OLMON_SC 136 // metal, at most 0.00202
-#define FRESNEL_GOLD_RAKIC 140 // metal, at most 0.00222
+#define FRESNEL_GOLD_OLMON_EV 132 // metal, at most 0.00227
+#define FRESNEL_GOLD_OLMON_SC 136 // metal, at most 0.00351
+#define FRESNEL_GOLD_RAKIC 140 // metal, at most 0.00463
 #define FRESNEL_GRAPHITE 144 // semiconductor, at most 0.00108; fitted_five at most 0.00038
-#define FRESNEL_GRAPHITE_SONG 148 // semiconductor, at most 0.00123; fitted_five at most 0.00047
+#define FRESNEL_GRAPHITE_SONG 148 // semiconductor, at most 0.00123; fitted_five at most 0.00048
 #define FRESNEL_HEMATITE 152 // semiconductor, at most 0.00163; fitted_five at most 0.00029
 #define FRESNEL_INDIUM_PHOSPHIDE 156 // semiconductor, at most 0.00308; fitted_five at most 0.00025
-#define FRESNEL_IRIDIUM 160 // metal, at most 0.00205
-#define FRESNEL_IRIDIUM_SCHMITT_ALD 164 // metal, at most 0.00209
-#define FRESNEL_IRON 168 // metal, at most 0.00060
-#define FRESNEL_IRON_QUERRY 172 // metal, at most 0.00080
-#define FRESNEL_LEAD 176 // metal, at most 0.00188
-#define FRESNEL_LEAD_WERNER 180 // metal, at most 0.00183
+#define FRESNEL_IRIDIUM 160 // metal, at most 0.00252
+#define FRESNEL_IRIDIUM_SCHMITT_ALD 164 // metal, at most 0.00257
+#define FRESNEL_IRON 168 // metal, at most 0.00061
+#define FRESNEL_IRON_QUERRY 172 // metal, at most 0.00094
+#define FRESNEL_LEAD 176 // metal, at most 0.00231
+#define FRESNEL_LEAD_WERNER 180 // metal, at most 0.00227
 #define FRESNEL_LITHIUM 184 // metal, at most 0.00200
-#define FRESNEL_MAGNESIUM 188 // metal, at most 0.00313
-#define FRESNEL_MAGNESIUM_HAGEMANN 192 // metal, at most 0.00188
-#define FRESNEL_MANGANESE 196 // metal, at most 0.00105
-#define FRESNEL_MERCURY 200 // metal, at most 0.00293
+#define FRESNEL_MAGNESIUM 188 // metal, at most 0.00379
+#define FRESNEL_MAGNESIUM_HAGEMANN 192 // metal, at most 0.00226
+#define FRESNEL_MANGANESE 196 // metal, at most 0.00132
+#define FRESNEL_MERCURY 200 // metal, at most 0.00366
 #define FRESNEL_MOLYBDENUM 204 // metal, at most 0.00628; fitted_five at most 0.00065
 #define FRESNEL_MOLYBDENUM_WERNER 208 // metal, at most 0.00375; fitted_five at most 0.00054
-#define FRESNEL_NICKEL 212 // metal, at most 0.00196
-#define FRESNEL_NICKEL_RAKIC 216 // metal, at most 0.00141
+#define FRESNEL_NICKEL 212 // metal, at most 0.00239
+#define FRESNEL_NICKEL_RAKIC 216 // metal, at most 0.00172
 #define FRESNEL_NIOBIUM 220 // metal, at most 0.00056
-#define FRESNEL_PALLADIUM 224 // metal, at most 0.00229
-#define FRESNEL_PALLADIUM_PALM 228 // metal, at most 0.00242
-#define FRESNEL_PALLADIUM_RAKIC 232 // metal, at most 0.00216
-#define FRESNEL_PLATINUM 236 // metal, at most 0.00176
-#define FRESNEL_PLATINUM_RAKIC_LD 240 // metal, at most 0.00174
-#define FRESNEL_PLATINUM_TSELIN 244 // metal, at most 0.00259
-#define FRESNEL_PLATINUM_WERNER 248 // metal, at most 0.00248
-#define FRESNEL_POTASSIUM 252 // metal, at most 0.00247
+#define FRESNEL_PALLADIUM 224 // metal, at most 0.00277
+#define FRESNEL_PALLADIUM_PALM 228 // metal, at most 0.00298
+#define FRESNEL_PALLADIUM_RAKIC 232 // metal, at most 0.00261
+#define FRESNEL_PLATINUM 236 // metal, at most 0.00219
+#define FRESNEL_PLATINUM_RAKIC_LD 240 // metal, at most 0.00217
+#define FRESNEL_PLATINUM_TSELIN 244 // metal, at most 0.00326
+#define FRESNEL_PLATINUM_WERNER 248 // metal, at most 0.00317
+#define FRESNEL_POTASSIUM 252 // metal, at most 0.00264
 #define FRESNEL_PURPLE_GOLD 256 // metal, at most 0.00157
-#define FRESNEL_RHODIUM 260 // metal, at most 0.00278
+#define FRESNEL_RHODIUM 260 // metal, at most 0.00354
 #define FRESNEL_SILICON 264 // semiconductor, at most 0.00496; fitted_five at most 0.00047
 #define FRESNEL_SILICON_ASPNES 268 // semiconductor, at most 0.00492; fitted_five at most 0.00047
 #define FRESNEL_SILICON_GREEN_1995 272 // semiconductor, at most 0.00491; fitted_five at most 0.00047
@@ -106,22 +106,22 @@
 #define FRESNEL_SILVER_YANG 304 // metal, at most 0.00046
 #define FRESNEL_SODIUM 308 // metal, at most 0.00087
 #define FRESNEL_SODIUM_SMITH 312 // metal, at most 0.00080
-#define FRESNEL_STAINLESS_STEEL 316 // metal, at most 0.00166
-#define FRESNEL_TANTALUM 320 // metal, at most 0.00322; fitted_five at most 0.00060
-#define FRESNEL_TITANIUM 324 // metal, at most 0.00102
+#define FRESNEL_STAINLESS_STEEL 316 // metal, at most 0.00207
+#define FRESNEL_TANTALUM 320 // metal, at most 0.00392; fitted_five at most 0.00060
+#define FRESNEL_TITANIUM 324 // metal, at most 0.00119
 #define FRESNEL_TITANIUM_CARBIDE 328 // metal, at most 0.00076
 #define FRESNEL_TITANIUM_NITRIDE 332 // metal, at most 0.00264
 #define FRESNEL_TITANIUM_NITRIDE_PFLUGER 336 // metal, at most 0.00216
 #define FRESNEL_TITANIUM_NITRIDE_SHKONDIN 340 // metal, at most 0.00221
 #define FRESNEL_TITANIUM_PALM 344 // metal, at most 0.00132
-#define FRESNEL_TITANIUM_RAKIC 348 // metal, at most 0.00062
+#define FRESNEL_TITANIUM_RAKIC 348 // metal, at most 0.00077
 #define FRESNEL_TUNGSTEN 352 // metal, at most 0.00166
 #define FRESNEL_TUNGSTEN_RAKIC 356 // metal, at most 0.00174
 #define FRESNEL_TUNGSTEN_WERNER 360 // metal, at most 0.00273
 #define FRESNEL_VANADIUM 364 // metal, at most 0.00242
 #define FRESNEL_VANADIUM_NITRIDE 368 // metal, at most 0.00097
 #define FRESNEL_VANADIUM_WERNER 372 // metal, at most 0.00275
-#define FRESNEL_ZINC 376 // metal, at most 0.00307
+#define FRESNEL_ZINC 376 // metal, at most 0.00393
 #define FRESNEL_ZINC_OXIDE 380 // dielectric, at most 0.00357
 #define FRESNEL_ZINC_QUERRY 384 // metal, at most 0.05174; conductor_exact at most 0.00066
 #define FRESNEL_ZINC_SULFIDE 388 // dielectric, at most 0.00203
@@ -129,8 +129,8 @@
 #define FRESNEL_CALCITE 396 // dielectric, at most 0.00085
 #define FRESNEL_CALCITE_EXTRAORDINARY 400 // dielectric, at most 0.00056
 #define FRESNEL_CHRYSOBERYL 404 // dielectric, at most 0.00096
-#define FRESNEL_CUBIC_ZIRCONIA 408 // dielectric, at most 0.00115
-#define FRESNEL_DIAMOND 412 // dielectric, at most 0.00103
+#define FRESNEL_CUBIC_ZIRCONIA 408 // dielectric, at most 0.00116
+#define FRESNEL_DIAMOND 412 // dielectric, at most 0.00104
 #define FRESNEL_ETHANOL 416 // dielectric, at most 0.00052
 #define FRESNEL_ETHYLENE_GLYCOL 420 // dielectric, at most 0.00052
 #define FRESNEL_FLUORITE 424 // dielectric, at most 0.00052
@@ -144,15 +144,15 @@
 #define FRESNEL_SALT 456 // dielectric, at most 0.00067
 #define FRESNEL_SAPPHIRE 460 // dielectric, at most 0.00099
 #define FRESNEL_SAPPHIRE_EXTRAORDINARY 464 // dielectric, at most 0.00098
-#define FRESNEL_SF11 468 // dielectric, at most 0.00103
+#define FRESNEL_SF11 468 // dielectric, at most 0.00104
 #define FRESNEL_SILICON_NITRIDE 472 // dielectric, at most 0.00116
 #define FRESNEL_SILICONE 476 // dielectric, at most 0.00053
 #define FRESNEL_SILK 480 // dielectric, at most 0.00069
 #define FRESNEL_SODA_LIME_GLASS 484 // dielectric, at most 0.00063
 #define FRESNEL_SPINEL 488 // dielectric, at most 0.00093
-#define FRESNEL_STRONTIUM_TITANATE 492 // dielectric, at most 0.00105
+#define FRESNEL_STRONTIUM_TITANATE 492 // dielectric, at most 0.00106
 #define FRESNEL_SYLVITE 496 // dielectric, at most 0.00058
-#define FRESNEL_TITANIUM_DIOXIDE 500 // dielectric, at most 0.00105
+#define FRESNEL_TITANIUM_DIOXIDE 500 // dielectric, at most 0.00106
 #define FRESNEL_UREA 504 // dielectric, at most 0.00078
 #define FRESNEL_WATER 508 // dielectric, at most 0.00049
 #define FRESNEL_WATER_DAIMON 512 // dielectric, at most 0.00049
@@ -165,26 +165,26 @@
 // c0 to c3 of each material, three channels.
 static const float3 FRESNEL_CATALOGUE[524] =
 {
-    float3(0.91198546, 0.9214148, 0.9263255), // aluminium
-    float3(-0.2364403, -0.22770034, -0.19369005),
-    float3(0.0749954, 0.25222787, 0.350489),
-    float3(0.25264663, 0.056783628, -0.08143937),
-    float3(0.9212969, 0.92706996, 0.92654604), // aluminium_cheng
-    float3(-0.2304128, -0.20743062, -0.16925941),
-    float3(0.20074657, 0.30596924, 0.3605719),
-    float3(0.11134215, -0.023424238, -0.116806276),
-    float3(0.91369617, 0.92028135, 0.9243914), // aluminium_hagemann
-    float3(-0.20394275, -0.22607239, -0.21708786),
-    float3(-0.107316405, 0.14362732, 0.30887416),
-    float3(0.40053448, 0.16512841, -0.013792274),
-    float3(0.91752934, 0.919512, 0.9247263), // aluminium_rakic
-    float3(-0.20485082, -0.22921897, -0.21397227),
-    float3(-0.06409344, 0.16420494, 0.31691068),
-    float3(0.35439348, 0.14846638, -0.025382657),
-    float3(0.9124652, 0.9212675, 0.92702127), // aluminium_rakic_1995
-    float3(-0.1978431, -0.22244512, -0.21234249),
-    float3(-0.14941104, 0.12215841, 0.29766643),
-    float3(0.43771186, 0.18198623, -0.009968232),
+    float3(0.9130285, 0.92212486, 0.92663616), // aluminium
+    float3(-0.25500494, -0.24092713, -0.20001262),
+    float3(0.12909141, 0.29228044, 0.3707779),
+    float3(0.21288505, 0.026521834, -0.09740145),
+    float3(0.9221285, 0.92755497, 0.92669815), // aluminium_cheng
+    float3(-0.24561897, -0.21684612, -0.17257696),
+    float3(0.2462418, 0.33526117, 0.37164843),
+    float3(0.07724867, -0.045970023, -0.1257696),
+    float3(0.9148119, 0.92118204, 0.9249327), // aluminium_hagemann
+    float3(-0.22413416, -0.24227618, -0.22751369),
+    float3(-0.050023247, 0.19144382, 0.34117466),
+    float3(0.3593455, 0.12965034, -0.038593695),
+    float3(0.91861516, 0.92039216, 0.9252303), // aluminium_rakic
+    float3(-0.22430131, -0.24512786, -0.2237515),
+    float3(-0.00855191, 0.21133302, 0.34734872),
+    float3(0.31423804, 0.113402665, -0.048827533),
+    float3(0.91359097, 0.922189, 0.92756456), // aluminium_rakic_1995
+    float3(-0.21848203, -0.23895447, -0.2227801),
+    float3(-0.09119575, 0.17069931, 0.329959),
+    float3(0.3960868, 0.14606619, -0.034743484),
     float3(0.18780531, 0.20548293, 0.25018817), // arsenic_trisulfide
     float3(0.357525, 0.31639683, 0.21765225),
     float3(0.33287287, 0.32118973, 0.27803478),
@@ -193,14 +193,14 @@ static const float3 FRESNEL_CATALOGUE[524] =
     float3(-0.2516773, -0.24742158, -0.2476211),
     float3(0.27722433, 0.32914355, 0.4236678),
     float3(0.43155935, 0.38095948, 0.28644863),
-    float3(0.56460285, 0.53233963, 0.4839451), // bismuth
-    float3(-0.2499572, -0.15993899, 0.01050855),
-    float3(0.6610266, 0.7161569, 0.68662953),
-    float3(0.02501445, -0.08834749, -0.18190494),
-    float3(0.91286, 0.7770505, 0.4160212), // brass
-    float3(-0.22665979, -0.058701184, 0.43044293),
-    float3(0.50708795, 0.56348175, 0.30220693),
-    float3(-0.19253613, -0.2836895, -0.1506314),
+    float3(0.5647911, 0.5324815, 0.4839451), // bismuth
+    float3(-0.25512156, -0.16165733, 0.01050855),
+    float3(0.67573035, 0.7206147, 0.68662953),
+    float3(0.014600127, -0.09143888, -0.18190494),
+    float3(0.912888, 0.7770505, 0.4160212), // brass
+    float3(-0.22785181, -0.058701184, 0.43044293),
+    float3(0.5119297, 0.56348175, 0.30220693),
+    float3(-0.19696589, -0.2836895, -0.1506314),
     float3(0.9143778, 0.7105141, 0.41160914), // brass_85_15
     float3(-0.20559652, 0.104376994, 0.5693053),
     float3(0.5410184, 0.4255958, 0.10559707),
@@ -213,54 +213,54 @@ static const float3 FRESNEL_CATALOGUE[524] =
     float3(0.23548906, 0.22449902, 0.18673566),
     float3(0.2897922, 0.2894657, 0.27429712),
     float3(0.23055382, 0.23590682, 0.2703047),
-    float3(0.5529823, 0.55971366, 0.55739444), // chromium
-    float3(-0.265225, -0.2734021, -0.23594889),
-    float3(0.33653638, 0.38198945, 0.6679991),
-    float3(0.37483457, 0.33241814, 0.01118905),
-    float3(0.6429085, 0.657237, 0.6694568), // chromium_rakic
-    float3(-0.32779145, -0.35598698, -0.3463034),
-    float3(0.12643223, 0.40307602, 0.6961537),
-    float3(0.55747736, 0.29686198, -0.017730271),
-    float3(0.6531539, 0.68822634, 0.70726204), // chromium_sytchkova
-    float3(-0.24572146, -0.32312962, -0.3834796),
-    float3(-0.4104426, -0.049191244, 0.5162418),
-    float3(0.9988595, 0.68272036, 0.16209128),
-    float3(0.68890655, 0.6603506, 0.6193281), // cobalt
-    float3(-0.3745195, -0.34185073, -0.2512069),
-    float3(0.555097, 0.6823788, 0.7871147),
-    float3(0.1323326, 0.00056577474, -0.15459266),
-    float3(0.70213914, 0.7093356, 0.6769431), // cobalt_werner
-    float3(-0.3176479, -0.3744906, -0.3555486),
-    float3(-0.12040206, 0.3136762, 0.6891341),
-    float3(0.7345913, 0.35311365, -0.008804379),
+    float3(0.5529823, 0.5597153, 0.55758905), // chromium
+    float3(-0.265225, -0.2734989, -0.23998232),
+    float3(0.33653638, 0.3828225, 0.67966384),
+    float3(0.37483457, 0.3309611, 0.002729382),
+    float3(0.6429085, 0.65765303, 0.6698827), // chromium_rakic
+    float3(-0.32779145, -0.3638914, -0.3542668),
+    float3(0.12643223, 0.42569113, 0.72018224),
+    float3(0.55747736, 0.28054726, -0.035798136),
+    float3(0.6531539, 0.68822634, 0.70790607), // chromium_sytchkova
+    float3(-0.24572146, -0.32312962, -0.39519024),
+    float3(-0.4104426, -0.049191244, 0.5508917),
+    float3(0.9988595, 0.68272036, 0.1363925),
+    float3(0.68944484, 0.66074926, 0.6194906), // cobalt
+    float3(-0.3843896, -0.34926888, -0.25481007),
+    float3(0.5844265, 0.70468354, 0.79781663),
+    float3(0.11051825, -0.016163953, -0.1624972),
+    float3(0.70213914, 0.7099184, 0.6774029), // cobalt_werner
+    float3(-0.3176479, -0.3847732, -0.3641904),
+    float3(-0.12040206, 0.34331334, 0.715258),
+    float3(0.7345913, 0.33154145, -0.028470524),
     float3(0.9327602, 0.6216067, 0.5201305), // copper
     float3(-0.13100377, -0.044641756, 0.066218406),
     float3(0.4012881, 0.7221843, 0.66370106),
     float3(-0.20380957, -0.30063543, -0.25144506),
-    float3(1.0770637, 0.65974444, 0.5168584), // copper_babar
-    float3(-0.0685285, 0.016548384, 0.098106414),
-    float3(0.022001622, 0.5992612, 0.64544296),
-    float3(-0.03065499, -0.27739054, -0.26200435),
+    float3(1.0, 0.65974444, 0.5168584), // copper_babar
+    float3(0.0, 0.016548384, 0.098106414),
+    float3(-0.0, 0.5992612, 0.64544296),
+    float3(0.0, -0.27739054, -0.26200435),
     float3(0.9541755, 0.6380357, 0.5340798), // copper_hagemann
     float3(-0.122788966, -0.04220173, 0.07270679),
     float3(0.34893334, 0.70561314, 0.65450805),
     float3(-0.18104436, -0.30302262, -0.2628331),
-    float3(1.0471656, 0.6860405, 0.5593125), // copper_mcpeak
-    float3(-0.0656806, -0.04240759, 0.06114143),
-    float3(0.06697775, 0.6498416, 0.6599252),
-    float3(-0.04867336, -0.2951597, -0.2820859),
+    float3(1.0, 0.6860405, 0.5593125), // copper_mcpeak
+    float3(0.0, -0.04240759, 0.06114143),
+    float3(-0.0, 0.6498416, 0.6599252),
+    float3(0.0, -0.2951597, -0.2820859),
     float3(0.97242975, 0.60621536, 0.44720817), // copper_querry
     float3(-0.16144922, 0.11565843, 0.2825944),
     float3(0.38830703, 0.54015845, 0.46740764),
     float3(-0.20026828, -0.26414987, -0.19892225),
-    float3(0.96863234, 0.6880622, 0.48012725), // copper_rakic
-    float3(-0.19917527, -0.011205979, 0.12360063),
-    float3(0.41595647, 0.6159047, 0.62816274),
-    float3(-0.18527414, -0.2946193, -0.23334152),
-    float3(0.93286747, 0.89799696, 0.6174552), // electrum
-    float3(-0.13340315, -0.12785657, 0.3108876),
-    float3(0.30603448, 0.44036698, 0.23810086),
-    float3(-0.10455459, -0.21151651, -0.16881998),
+    float3(0.96863323, 0.6880622, 0.48012725), // copper_rakic
+    float3(-0.1992265, -0.011205979, 0.12360063),
+    float3(0.41628605, 0.6159047, 0.62816274),
+    float3(-0.18569277, -0.2946193, -0.23334152),
+    float3(0.9329678, 0.89799696, 0.6174552), // electrum
+    float3(-0.13584207, -0.12785657, 0.3108876),
+    float3(0.314639, 0.44036698, 0.23810086),
+    float3(-0.111764714, -0.21151651, -0.16881998),
     float3(0.34118265, 0.36504668, 0.44627583), // gallium_arsenide
     float3(0.04159827, 0.0035020104, -0.07842055),
     float3(0.0999756, 0.023092402, -0.27732483),
@@ -273,42 +273,42 @@ static const float3 FRESNEL_CATALOGUE[524] =
     float3(-0.044495516, -0.13287976, -0.14678672),
     float3(-0.7814167, -0.41668478, 0.08466791),
     float3(1.325465, 1.0304517, 0.59473956),
-    float3(1.0415795, 0.7698396, 0.3342778), // gold
-    float3(-0.22834298, 0.081663415, 0.36742333),
-    float3(0.29959092, 0.35512033, 0.42893875),
-    float3(-0.112050526, -0.20854598, -0.13217598),
-    float3(1.0620897, 0.7696074, 0.3003663), // gold_babar
-    float3(-0.23888944, 0.15854055, 0.46980885),
-    float3(0.29830727, 0.22691843, 0.33321574),
-    float3(-0.12098092, -0.15694347, -0.10506461),
-    float3(1.0357654, 0.70233905, 0.31418273), // gold_hagemann_2
-    float3(-0.27871835, 0.14910267, 0.38119414),
-    float3(0.4142809, 0.36103112, 0.4132841),
-    float3(-0.17063396, -0.21456222, -0.11015628),
-    float3(1.0407093, 0.7250527, 0.35892808), // gold_johnson
-    float3(-0.22739248, 0.103904895, 0.36453712),
-    float3(0.32089287, 0.39369488, 0.42560428),
-    float3(-0.13357054, -0.22474696, -0.15066123),
-    float3(1.0474812, 0.76892316, 0.33113718), // gold_magnozzi
-    float3(-0.22412714, 0.09925153, 0.39396107),
-    float3(0.28773835, 0.32775676, 0.40416908),
-    float3(-0.110370256, -0.19787517, -0.13085686),
-    float3(1.0557708, 0.78093225, 0.3373493), // gold_mcpeak
-    float3(-0.20894304, 0.07601751, 0.3474267),
-    float3(0.23815341, 0.34337983, 0.45027184),
-    float3(-0.084200054, -0.20218456, -0.13655023),
-    float3(1.046001, 0.7708146, 0.32847804), // gold_olmon_ev
-    float3(-0.2280803, 0.104623474, 0.40406415),
-    float3(0.29754928, 0.31589454, 0.39392257),
-    float3(-0.114747405, -0.19327416, -0.12806645),
-    float3(1.0399423, 0.75517887, 0.32112762), // gold_olmon_sc
-    float3(-0.24241436, 0.13095938, 0.43832207),
-    float3(0.3448553, 0.30111706, 0.35806945),
-    float3(-0.14181724, -0.18926927, -0.11916744),
-    float3(1.0282634, 0.71851814, 0.3331682), // gold_rakic
-    float3(-0.23305663, 0.14284419, 0.45334393),
-    float3(0.36928383, 0.34756255, 0.33248395),
-    float3(-0.16508983, -0.21113597, -0.120693624),
+    float3(0.99998474, 0.7698396, 0.3342778), // gold
+    float3(0.0021456694, 0.081663415, 0.36742333),
+    float3(-0.076393045, 0.35512033, 0.42893875),
+    float3(0.074262634, -0.20854598, -0.13217598),
+    float3(0.99989355, 0.7696074, 0.3003663), // gold_babar
+    float3(0.0008795285, 0.15854055, 0.46980885),
+    float3(-0.0021413525, 0.22691843, 0.33321574),
+    float3(0.0012740074, -0.15694347, -0.10506461),
+    float3(1.0, 0.70233905, 0.31418273), // gold_hagemann_2
+    float3(-0.028785475, 0.14910267, 0.38119414),
+    float3(-0.052862372, 0.36103112, 0.4132841),
+    float3(0.08164785, -0.21456222, -0.11015628),
+    float3(1.0, 0.7250527, 0.35892808), // gold_johnson
+    float3(-0.0006357606, 0.103904895, 0.36453712),
+    float3(-0.05100256, 0.39369488, 0.42560428),
+    float3(0.05163832, -0.22474696, -0.15066123),
+    float3(0.99934894, 0.76892316, 0.33113718), // gold_magnozzi
+    float3(0.012774507, 0.09925153, 0.39396107),
+    float3(-0.068558745, 0.32775676, 0.40416908),
+    float3(0.056435324, -0.19787517, -0.13085686),
+    float3(0.9992128, 0.78093225, 0.3373493), // gold_mcpeak
+    float3(0.007851851, 0.07601751, 0.3474267),
+    float3(-0.022717837, 0.34337983, 0.45027184),
+    float3(0.014967612, -0.20218456, -0.13655023),
+    float3(0.9996233, 0.7708146, 0.32847804), // gold_olmon_ev
+    float3(0.010035658, 0.104623474, 0.40406415),
+    float3(-0.07157301, 0.31589454, 0.39392257),
+    float3(0.06191406, -0.19327416, -0.12806645),
+    float3(1.0, 0.75517887, 0.32112762), // gold_olmon_sc
+    float3(-0.004300425, 0.13095938, 0.43832207),
+    float3(-0.062940314, 0.30111706, 0.35806945),
+    float3(0.06724074, -0.18926927, -0.11916744),
+    float3(1.0, 0.71851814, 0.3331682), // gold_rakic
+    float3(-0.02716204, 0.14284419, 0.45334393),
+    float3(-0.027558086, 0.34756255, 0.33248395),
+    float3(0.054720126, -0.21113597, -0.120693624),
     float3(0.34439555, 0.31688556, 0.28600952), // graphite
     float3(0.073212124, 0.1381255, 0.20386693),
     float3(0.39991546, 0.40432438, 0.3914032),
@@ -325,50 +325,50 @@ static const float3 FRESNEL_CATALOGUE[524] =
     float3(0.09549838, 0.062396288, -0.020299943),
     float3(0.18177728, 0.14734937, 0.011545857),
     float3(0.41046357, 0.4600563, 0.6230897),
-    float3(0.75005096, 0.7377576, 0.70678127), // iridium
-    float3(-0.32729274, -0.37350318, -0.3801938),
-    float3(-0.07818996, 0.24854387, 0.5593653),
-    float3(0.65680766, 0.38910133, 0.11609046),
-    float3(0.7501059, 0.73994225, 0.7106418), // iridium_schmitt_ald
-    float3(-0.3355969, -0.3758532, -0.38021997),
-    float3(-0.032256223, 0.27055228, 0.5751851),
-    float3(0.61922115, 0.36734337, 0.0964804),
-    float3(0.53283304, 0.51610035, 0.4963314), // iron
-    float3(-0.23634125, -0.21712534, -0.16410165),
-    float3(0.46174654, 0.4793521, 0.5867263),
-    float3(0.2423588, 0.22136126, 0.08085264),
-    float3(0.578275, 0.57035464, 0.56443334), // iron_querry
-    float3(-0.27457318, -0.24373303, -0.15803166),
-    float3(0.61173624, 0.6968868, 0.7709194),
-    float3(0.08535332, -0.022849102, -0.1776437),
-    float3(0.66207653, 0.66619253, 0.6987008), // lead
-    float3(-0.35846713, -0.36282983, -0.37061822),
-    float3(0.44769365, 0.46957892, 0.6046216),
-    float3(0.2499886, 0.2284793, 0.06917422),
-    float3(0.6303628, 0.6447813, 0.69919646), // lead_werner
-    float3(-0.3241091, -0.3489783, -0.3738102),
-    float3(0.34510598, 0.4612857, 0.51876795),
-    float3(0.34955063, 0.24407144, 0.15766773),
+    float3(0.7506426, 0.73844117, 0.7073719), // iridium
+    float3(-0.33923525, -0.38556793, -0.3910821),
+    float3(-0.045449827, 0.283248, 0.5918484),
+    float3(0.6340425, 0.3638788, 0.09186182),
+    float3(0.7507248, 0.74064237, 0.7112339), // iridium_schmitt_ald
+    float3(-0.34765524, -0.3882114, -0.39119768),
+    float3(0.0010771531, 0.30623078, 0.60803217),
+    float3(0.5958533, 0.34133828, 0.071931615),
+    float3(0.53283423, 0.51610035, 0.4963314), // iron
+    float3(-0.2364152, -0.21712534, -0.16410165),
+    float3(0.46240398, 0.4793521, 0.5867263),
+    float3(0.24117698, 0.22136126, 0.08085264),
+    float3(0.57849157, 0.570551, 0.56443334), // iron_querry
+    float3(-0.2809888, -0.2477006, -0.15803166),
+    float3(0.6298442, 0.70847, 0.7709194),
+    float3(0.072653115, -0.031320322, -0.1776437),
+    float3(0.66251725, 0.666664, 0.69923025), // lead
+    float3(-0.3662773, -0.37122008, -0.38045385),
+    float3(0.47037724, 0.4940643, 0.63408804),
+    float3(0.23338284, 0.21049179, 0.047135547),
+    float3(0.6306145, 0.6451713, 0.6997492), // lead_werner
+    float3(-0.3361162, -0.35664612, -0.38387775),
+    float3(0.3771758, 0.4832885, 0.5485737),
+    float3(0.3283259, 0.22818635, 0.13555488),
     float3(0.91605175, 0.8878709, 0.80324125), // lithium
     float3(-0.081239514, -0.004864264, 0.20469408),
     float3(0.3246279, 0.2731084, 0.08108787),
     float3(-0.16025509, -0.15771039, -0.09101267),
-    float3(0.89857256, 0.8870306, 0.8972716), // magnesium
-    float3(-0.27408537, -0.27387545, -0.20475626),
-    float3(0.2936634, 0.44515294, 0.46600625),
-    float3(0.08497346, -0.055865902, -0.15750709),
-    float3(0.95961785, 0.9560079, 0.95190614), // magnesium_hagemann
-    float3(-0.13658047, -0.1314408, -0.10595115),
-    float3(0.1472112, 0.2174023, 0.24795434),
-    float3(0.031624883, -0.040653747, -0.093427636),
-    float3(0.6104347, 0.59500617, 0.57454264), // manganese
-    float3(-0.31541067, -0.2599695, -0.14300346),
-    float3(0.6200145, 0.7368231, 0.7865655),
-    float3(0.08601043, -0.07111377, -0.21860477),
-    float3(0.7885129, 0.7861533, 0.7828983), // mercury
-    float3(-0.38036147, -0.37159666, -0.30158985),
-    float3(0.34498948, 0.5891397, 0.73386246),
-    float3(0.24978557, -0.0010694248, -0.21395376),
+    float3(0.8994027, 0.8875593, 0.8974108), // magnesium
+    float3(-0.28949973, -0.2842712, -0.20788112),
+    float3(0.34020618, 0.47764853, 0.47650445),
+    float3(0.049890846, -0.080936566, -0.16603412),
+    float3(0.9600885, 0.9562652, 0.95195353), // magnesium_hagemann
+    float3(-0.14537689, -0.13658844, -0.107113585),
+    float3(0.17398743, 0.2337601, 0.25206304),
+    float3(0.011300982, -0.053436853, -0.096903),
+    float3(0.6107589, 0.59522295, 0.57454264), // manganese
+    float3(-0.32125047, -0.2639073, -0.14300346),
+    float3(0.63725567, 0.7485543, 0.7865655),
+    float3(0.073235884, -0.07986995, -0.21860477),
+    float3(0.78941786, 0.78680915, 0.78311986), // mercury
+    float3(-0.39668822, -0.3841364, -0.30620146),
+    float3(0.39314464, 0.6274472, 0.74866754),
+    float3(0.21412571, -0.030119933, -0.22558595),
     float3(0.59092355, 0.60118425, 0.5991139), // molybdenum
     float3(-0.18815055, -0.17954695, -0.22512266),
     float3(-0.49981636, -0.5805715, -0.33447048),
@@ -377,58 +377,58 @@ static const float3 FRESNEL_CATALOGUE[524] =
     float3(-0.2361576, -0.26853624, -0.30170783),
     float3(-0.22876574, -0.14274462, 0.19358715),
     float3(0.8721676, 0.79563046, 0.5090888),
-    float3(0.7031645, 0.6450002, 0.5652055), // nickel
-    float3(-0.3781769, -0.31360483, -0.16604349),
-    float3(0.6237922, 0.73813194, 0.7748713),
-    float3(0.053179447, -0.068379566, -0.17432302),
-    float3(0.6540453, 0.6111771, 0.53464454), // nickel_rakic
-    float3(-0.34070122, -0.25406256, -0.077833004),
-    float3(0.69542426, 0.77357787, 0.7493816),
-    float3(-0.007363584, -0.13002679, -0.20685162),
-    float3(0.50289184, 0.50991553, 0.50332624), // niobium
-    float3(-0.1972487, -0.20815037, -0.18018146),
-    float3(0.48156837, 0.4831818, 0.5640753),
-    float3(0.21222907, 0.21451487, 0.11319599),
-    float3(0.73908335, 0.7020724, 0.65534675), // palladium
-    float3(-0.38115737, -0.33896828, -0.2326915),
-    float3(0.6264605, 0.7484288, 0.80032474),
-    float3(0.017901847, -0.110030614, -0.22248706),
-    float3(0.74067354, 0.7092762, 0.6660641), // palladium_palm
-    float3(-0.39010537, -0.36181965, -0.277351),
-    float3(0.51478636, 0.6902183, 0.8044363),
-    float3(0.13706206, -0.03582634, -0.1923916),
-    float3(0.7248098, 0.69513077, 0.6540248), // palladium_rakic
-    float3(-0.37832487, -0.33261055, -0.22763939),
-    float3(0.63945293, 0.7568033, 0.80088377),
-    float3(0.016216544, -0.11791799, -0.22679877),
-    float3(0.6847771, 0.6443679, 0.5864807), // platinum
-    float3(-0.37649608, -0.32838467, -0.22003342),
-    float3(0.52948034, 0.6898998, 0.7678605),
-    float3(0.16399093, -0.004602543, -0.13379498),
-    float3(0.6837179, 0.64247644, 0.5865187), // platinum_rakic_ld
-    float3(-0.37571305, -0.32696065, -0.22104622),
-    float3(0.53377026, 0.6894629, 0.7669723),
-    float3(0.15996462, -0.0037142932, -0.13192655),
-    float3(0.7681004, 0.73673975, 0.68826455), // platinum_tselin
-    float3(-0.38434964, -0.3828655, -0.32890895),
-    float3(0.34195992, 0.57950556, 0.7658024),
-    float3(0.27687818, 0.068923414, -0.12380058),
-    float3(0.77124596, 0.7369028, 0.6812189), // platinum_werner
-    float3(-0.3782591, -0.38519657, -0.33957127),
-    float3(0.25572622, 0.5379481, 0.73955786),
-    float3(0.3537666, 0.11266888, -0.07972382),
-    float3(0.9478912, 0.93563145, 0.92055786), // potassium
-    float3(0.06392365, 0.13650347, 0.26066062),
-    float3(0.009714424, -0.11247048, -0.35834205),
-    float3(-0.022234902, 0.039900396, 0.17958839),
+    float3(0.7037, 0.64531, 0.5652055), // nickel
+    float3(-0.38822708, -0.3193542, -0.16604349),
+    float3(0.65404904, 0.7554886, 0.7748713),
+    float3(0.030478045, -0.081444345, -0.17432302),
+    float3(0.65442836, 0.6113585, 0.53464454), // nickel_rakic
+    float3(-0.34785497, -0.25764447, -0.077833004),
+    float3(0.7169774, 0.7842421, 0.7493816),
+    float3(-0.023550848, -0.13795616, -0.20685162),
+    float3(0.50289184, 0.50991553, 0.50332683), // niobium
+    float3(-0.1972487, -0.20815037, -0.18021917),
+    float3(0.48156837, 0.4831818, 0.5644501),
+    float3(0.21222907, 0.21451487, 0.11244227),
+    float3(0.73967665, 0.7024365, 0.6554044), // palladium
+    float3(-0.39243537, -0.34597865, -0.23590131),
+    float3(0.66070426, 0.76995456, 0.8100259),
+    float3(-0.007945565, -0.1264124, -0.22952896),
+    float3(0.74136585, 0.7097482, 0.6662292), // palladium_palm
+    float3(-0.4029007, -0.37081602, -0.28133535),
+    float3(0.5530137, 0.7176068, 0.8164776),
+    float3(0.1085212, -0.056538995, -0.20137139),
+    float3(0.7253724, 0.69547266, 0.6540565), // palladium_rakic
+    float3(-0.38900474, -0.3391698, -0.22944118),
+    float3(0.67184335, 0.7769339, 0.8075152),
+    float3(-0.008210995, -0.1332368, -0.23213048),
+    float3(0.6853096, 0.644727, 0.5866119), // platinum
+    float3(-0.38619626, -0.335018, -0.22342825),
+    float3(0.55818987, 0.70979744, 0.77769667),
+    float3(0.14269675, -0.019506443, -0.14088032),
+    float3(0.6842457, 0.6428321, 0.58665276), // platinum_rakic_ld
+    float3(-0.38533127, -0.3335238, -0.22443031),
+    float3(0.5622452, 0.7091393, 0.7767913),
+    float3(0.13884035, -0.018447569, -0.13901372),
+    float3(0.76892596, 0.7373698, 0.68859255), // platinum_tselin
+    float3(-0.3991624, -0.3946641, -0.33520117),
+    float3(0.38544255, 0.61501986, 0.7851351),
+    float3(0.24479388, 0.04227448, -0.13852644),
+    float3(0.7720858, 0.7375631, 0.6815917), // platinum_werner
+    float3(-0.3931435, -0.3974318, -0.34667215),
+    float3(0.29898852, 0.5745455, 0.76123023),
+    float3(0.3220692, 0.0853232, -0.0961498),
+    float3(0.9478912, 0.93563145, 0.9208142), // potassium
+    float3(0.06392365, 0.13650347, 0.25422177),
+    float3(0.009714424, -0.11247048, -0.33491156),
+    float3(-0.022234902, 0.039900396, 0.15987556),
     float3(0.5034649, 0.3761339, 0.48776075), // purple_gold
     float3(0.16434959, 0.18100671, -0.10073249),
     float3(0.5960339, 0.53051466, 0.67880124),
     float3(-0.26541147, -0.088678814, -0.06622771),
-    float3(0.80376846, 0.77141327, 0.7489182), // rhodium
-    float3(-0.36130235, -0.38312, -0.37783146),
-    float3(0.20240946, 0.44164273, 0.6201978),
-    float3(0.35789594, 0.17273761, 0.011057303),
+    float3(0.80471027, 0.77220273, 0.74952155), // rhodium
+    float3(-0.37798563, -0.39755753, -0.38930467),
+    float3(0.2508497, 0.48455638, 0.6550668),
+    float3(0.32242563, 0.14079842, -0.015283668),
     float3(0.34167576, 0.3651784, 0.42226738), // silicon
     float3(0.040575676, 0.004099645, -0.05112952),
     float3(0.09062939, 0.017632687, -0.246623),
@@ -445,34 +445,34 @@ static const float3 FRESNEL_CATALOGUE[524] =
     float3(0.042321112, 0.004903741, -0.05044976),
     float3(0.09430522, 0.0195444, -0.2403843),
     float3(0.52035075, 0.60791767, 0.8647651),
-    float3(0.98992604, 0.984348, 0.97755516), // silver
-    float3(-0.030077657, -0.029961195, -0.008530268),
-    float3(0.05936313, 0.081768684, 0.07051152),
-    float3(-0.018969672, -0.036136884, -0.039899513),
-    float3(0.9913269, 0.98534274, 0.97345954), // silver_babar
-    float3(-0.025958087, -0.028387738, -0.011264331),
-    float3(0.051036395, 0.077230416, 0.08485225),
-    float3(-0.016192248, -0.034168415, -0.047462974),
-    float3(0.95044976, 0.9305159, 0.8862968), // silver_hagemann
-    float3(-0.13103536, -0.11703513, -0.02794831),
-    float3(0.26040858, 0.32449615, 0.31175596),
-    float3(-0.07883447, -0.13777135, -0.1715565),
-    float3(0.9865745, 0.98362774, 0.9674566), // silver_jiang
-    float3(-0.032575514, -0.024967862, 0.008877278),
-    float3(0.074231364, 0.07953427, 0.06537653),
-    float3(-0.02805161, -0.0383421, -0.042264853),
-    float3(0.9904853, 0.98786706, 0.9788857), // silver_mcpeak
-    float3(-0.02751086, -0.024193348, -0.008644819),
-    float3(0.054915193, 0.06465866, 0.067307),
-    float3(-0.017672956, -0.02829324, -0.03788616),
-    float3(0.9632439, 0.9493629, 0.91753465), // silver_rakic
-    float3(-0.08293035, -0.06434827, 0.013204709),
-    float3(0.19541943, 0.22097287, 0.1762816),
-    float3(-0.075361185, -0.10642165, -0.10828452),
-    float3(0.9881945, 0.9842175, 0.9717427), // silver_yang
-    float3(-0.032222442, -0.029046122, -0.008316291),
-    float3(0.06761934, 0.08222328, 0.0843709),
-    float3(-0.023369437, -0.037472, -0.048254907),
+    float3(0.9899587, 0.9843482, 0.97755516), // silver
+    float3(-0.03079603, -0.02997283, -0.008530268),
+    float3(0.061795402, 0.08182849, 0.07051152),
+    float3(-0.020958072, -0.036203865, -0.039899513),
+    float3(0.99135596, 0.9853429, 0.97345954), // silver_babar
+    float3(-0.026593532, -0.028398324, -0.011264331),
+    float3(0.053184886, 0.07728485, 0.08485225),
+    float3(-0.017947283, -0.03422946, -0.047462974),
+    float3(0.95059556, 0.9305183, 0.8862968), // silver_hagemann
+    float3(-0.13419637, -0.117170475, -0.02794831),
+    float3(0.27095044, 0.32520238, 0.31175596),
+    float3(-0.0873496, -0.1385502, -0.1715565),
+    float3(0.9865913, 0.98362774, 0.9674566), // silver_jiang
+    float3(-0.032985542, -0.024967862, 0.008877278),
+    float3(0.07570082, 0.07953427, 0.06537653),
+    float3(-0.029306578, -0.0383421, -0.042264853),
+    float3(0.99051505, 0.98786765, 0.9788857), // silver_mcpeak
+    float3(-0.028161272, -0.024222875, -0.008644819),
+    float3(0.05711001, 0.06480113, 0.067307),
+    float3(-0.019463807, -0.028445901, -0.03788616),
+    float3(0.9632737, 0.9493629, 0.91753465), // silver_rakic
+    float3(-0.083720475, -0.06434827, 0.013204709),
+    float3(0.19830629, 0.22097287, 0.1762816),
+    float3(-0.07785953, -0.10642165, -0.10828452),
+    float3(0.98822165, 0.9842175, 0.9717427), // silver_yang
+    float3(-0.03283546, -0.029046122, -0.008316291),
+    float3(0.06972838, 0.08222328, 0.0843709),
+    float3(-0.025114547, -0.037472, -0.048254907),
     float3(0.9821048, 0.9652256, 0.9222325), // sodium
     float3(-0.015822206, 0.0072643007, 0.105687134),
     float3(0.07123186, 0.07436191, -0.009098812),
@@ -481,18 +481,18 @@ static const float3 FRESNEL_CATALOGUE[524] =
     float3(-0.0153273875, 0.010827644, 0.08303564),
     float3(0.083423115, 0.07873861, 0.005675893),
     float3(-0.045403235, -0.050960768, -0.023768915),
-    float3(0.6750863, 0.64363325, 0.6010628), // stainless_steel
-    float3(-0.37230816, -0.3239409, -0.20816576),
-    float3(0.52723455, 0.70577496, 0.7863336),
-    float3(0.17164452, -0.02421732, -0.17879659),
-    float3(0.8974795, 0.84432167, 0.7579184), // tantalum
-    float3(-0.2805355, -0.33232957, -0.33170936),
-    float3(0.27974918, 0.5211848, 0.7440426),
-    float3(0.10652269, -0.030441698, -0.1687079),
-    float3(0.6232421, 0.5832159, 0.5453215), // titanium
-    float3(-0.33176062, -0.28248677, -0.21200117),
-    float3(0.45854256, 0.58170164, 0.6765107),
-    float3(0.2509899, 0.118382126, -0.009309786),
+    float3(0.675596, 0.6439792, 0.6011347), // stainless_steel
+    float3(-0.38155994, -0.33034447, -0.21215671),
+    float3(0.5545649, 0.725025, 0.79762024),
+    float3(0.15139903, -0.038659725, -0.18659826),
+    float3(0.898351, 0.84496135, 0.7582404), // tantalum
+    float3(-0.29665756, -0.34471908, -0.33818507),
+    float3(0.32827368, 0.5594287, 0.76441026),
+    float3(0.070032865, -0.059670955, -0.18446563),
+    float3(0.6235196, 0.58342516, 0.5454687), // titanium
+    float3(-0.3421439, -0.2900812, -0.21603577),
+    float3(0.48705682, 0.6028415, 0.68792),
+    float3(0.23156747, 0.10381452, -0.017352883),
     float3(0.49100342, 0.45918232, 0.44585663), // titanium_carbide
     float3(-0.18640126, -0.13359196, -0.103762046),
     float3(0.4272979, 0.44519323, 0.48268157),
@@ -513,10 +513,10 @@ static const float3 FRESNEL_CATALOGUE[524] =
     float3(0.0018694873, 0.1422334, 0.28968903),
     float3(0.6334386, 0.5686411, 0.4676712),
     float3(-0.07610384, -0.10968525, -0.11544021),
-    float3(0.5729586, 0.5706321, 0.6256181), // titanium_rakic
-    float3(-0.23486923, -0.20107523, -0.18058248),
-    float3(0.71627927, 0.75554293, 0.8088741),
-    float3(-0.053755898, -0.124653995, -0.2543987),
+    float3(0.57314473, 0.57076097, 0.6256181), // titanium_rakic
+    float3(-0.23829128, -0.20378402, -0.18058248),
+    float3(0.7263625, 0.7634306, 0.8088741),
+    float3(-0.06121602, -0.13040756, -0.2543987),
     float3(0.51753914, 0.4978353, 0.4685547), // tungsten
     float3(-0.21913159, -0.19720519, -0.15676156),
     float3(0.20289952, 0.26766983, 0.33839533),
@@ -541,10 +541,10 @@ static const float3 FRESNEL_CATALOGUE[524] =
     float3(-0.22845301, -0.22940758, -0.22779208),
     float3(0.08109886, 0.16996843, -0.018033803),
     float3(0.6095383, 0.5295344, 0.69657385),
-    float3(0.8079519, 0.850667, 0.871034), // zinc
-    float3(-0.20655826, -0.3142562, -0.30995306),
-    float3(-0.57455194, 0.093639754, 0.4728076),
-    float3(0.9713913, 0.37301135, -0.030891139),
+    float3(0.8079519, 0.85173696, 0.87172925), // zinc
+    float3(-0.20655826, -0.33317947, -0.32333726),
+    float3(-0.57455194, 0.14826788, 0.51414037),
+    float3(0.9713913, 0.33317468, -0.062532395),
     float3(0.045798175, 0.04629293, 0.051537253), // zinc_oxide
     float3(0.56040484, 0.56110007, 0.5666534),
     float3(0.5447875, 0.54215497, 0.5172778),
@@ -557,30 +557,30 @@ static const float3 FRESNEL_CATALOGUE[524] =
     float3(0.42634675, 0.4110199, 0.38035557),
     float3(0.34883904, 0.34540525, 0.3384606),
     float3(0.06524895, 0.077228814, 0.101469815),
-    float3(0.04246476, 0.043022353, 0.043968085), // bk7
-    float3(0.36409, 0.36533958, 0.36737978),
-    float3(0.51814795, 0.51570904, 0.5116476),
-    float3(0.07582288, 0.07648321, 0.077596776),
-    float3(0.0616521, 0.062630236, 0.06432883), // calcite
-    float3(0.3897736, 0.3903186, 0.39113575),
-    float3(0.45169532, 0.44908124, 0.44466898),
-    float3(0.09769645, 0.09879743, 0.100710906),
-    float3(0.0385678, 0.038979743, 0.039702084), // calcite_extraordinary
-    float3(0.35423866, 0.35537896, 0.357314),
-    float3(0.53630584, 0.5342854, 0.53081816),
-    float3(0.07103452, 0.071561664, 0.072461165),
-    float3(0.07387327, 0.074643984, 0.0759362), // chrysoberyl
-    float3(0.39289302, 0.3928482, 0.3927206),
-    float3(0.4227347, 0.42115346, 0.41855425),
-    float3(0.11143301, 0.11229497, 0.113740325),
-    float3(0.1343306, 0.13695589, 0.1416951), // cubic_zirconia
-    float3(0.34151563, 0.33793592, 0.33131355),
-    float3(0.34670594, 0.3447087, 0.34124285),
-    float3(0.17859364, 0.18154225, 0.18688355),
-    float3(0.1719484, 0.17383085, 0.17641972), // diamond
-    float3(0.2853053, 0.28228173, 0.27809927),
-    float3(0.32213795, 0.3210665, 0.3196094),
-    float3(0.22163804, 0.22384138, 0.22687781),
+    float3(0.042465005, 0.043022618, 0.04396839), // bk7
+    float3(0.36406317, 0.3653104, 0.3673462),
+    float3(0.5184154, 0.5159995, 0.5119766),
+    float3(0.075056426, 0.0756675, 0.076708786),
+    float3(0.06165386, 0.062632054, 0.06433086), // calcite
+    float3(0.38961893, 0.3901584, 0.3909571),
+    float3(0.45273435, 0.4501564, 0.44582263),
+    float3(0.09599288, 0.097053126, 0.09888942),
+    float3(0.038567845, 0.03897981, 0.039702192), // calcite_extraordinary
+    float3(0.35423353, 0.35537156, 0.3573022),
+    float3(0.53636366, 0.53436846, 0.53094333),
+    float3(0.07083495, 0.071280144, 0.07205227),
+    float3(0.07387689, 0.07464769, 0.07594009), // chrysoberyl
+    float3(0.39262876, 0.39257753, 0.39243707),
+    float3(0.42426607, 0.4227125, 0.42016238),
+    float3(0.10922828, 0.11006229, 0.111460455),
+    float3(0.13433959, 0.13696475, 0.1417037), // cubic_zirconia
+    float3(0.3410374, 0.33746386, 0.33085516),
+    float3(0.34894395, 0.3469179, 0.34339038),
+    float3(0.17567906, 0.17865348, 0.18405075),
+    float3(0.17195451, 0.17383678, 0.17642537), // diamond
+    float3(0.28497908, 0.28196543, 0.2777971),
+    float3(0.323719, 0.3226065, 0.32109094),
+    float3(0.21934743, 0.2215913, 0.2246866),
     float3(0.023276849, 0.023664204, 0.024342082), // ethanol
     float3(0.29575783, 0.2978914, 0.3015134),
     float3(0.6105795, 0.6084707, 0.60481715),
@@ -609,70 +609,70 @@ static const float3 FRESNEL_CATALOGUE[524] =
     float3(0.31287625, 0.31393176, 0.3156761),
     float3(0.5927193, 0.59154433, 0.58958256),
     float3(0.06722461, 0.06711239, 0.06694062),
-    float3(0.037449703, 0.038301833, 0.039772503), // polyvinyl_alcohol
-    float3(0.35103354, 0.35349557, 0.35750496),
-    float3(0.5418859, 0.5376179, 0.53048),
-    float3(0.06959077, 0.07069056, 0.07254581),
-    float3(0.046110664, 0.046663485, 0.047588125), // quartz
-    float3(0.37161538, 0.3726283, 0.37424728),
-    float3(0.5028561, 0.50066644, 0.49708736),
-    float3(0.080056235, 0.08068688, 0.081733614),
-    float3(0.04732048, 0.04789554, 0.048857104), // quartz_extraordinary
-    float3(0.37378803, 0.3747672, 0.37633666),
-    float3(0.4981149, 0.49591458, 0.49229932),
-    float3(0.08142974, 0.08208273, 0.08317842),
-    float3(0.045929775, 0.04681167, 0.048398357), // salt
-    float3(0.37128052, 0.3728978, 0.37560228),
-    float3(0.5035771, 0.5000843, 0.4940112),
-    float3(0.07984876, 0.080853194, 0.08265425),
-    float3(0.07753913, 0.07835892, 0.079731256), // sapphire
-    float3(0.3924701, 0.39230108, 0.39196488),
-    float3(0.4154237, 0.4138658, 0.41131032),
-    float3(0.11553135, 0.11644486, 0.11797462),
-    float3(0.07637006, 0.07717262, 0.07851471), // sapphire_extraordinary
-    float3(0.39266366, 0.39253646, 0.3922664),
-    float3(0.41769567, 0.41612965, 0.41357228),
-    float3(0.114225544, 0.11512264, 0.11661848),
-    float3(0.079198904, 0.081467226, 0.08585619), // sf11
-    float3(0.39211532, 0.391459, 0.3896767),
-    float3(0.412282, 0.40816018, 0.400709),
-    float3(0.11738095, 0.11990737, 0.12478109),
-    float3(0.11779252, 0.12015038, 0.12425967), // silicon_nitride
-    float3(0.3623167, 0.35955802, 0.35457483),
-    float3(0.36088878, 0.3586732, 0.35497725),
-    float3(0.16014543, 0.16276458, 0.16733725),
+    float3(0.037449703, 0.038301867, 0.039772615), // polyvinyl_alcohol
+    float3(0.35103354, 0.35349196, 0.35749277),
+    float3(0.5418859, 0.53765845, 0.53060925),
+    float3(0.06959077, 0.07054771, 0.07212537),
+    float3(0.04611106, 0.046663925, 0.047588594), // quartz
+    float3(0.37157232, 0.3725803, 0.374196),
+    float3(0.5032599, 0.5010937, 0.49754298),
+    float3(0.07905671, 0.07966209, 0.08067241),
+    float3(0.047320943, 0.04789602, 0.04885764), // quartz_extraordinary
+    float3(0.3737377, 0.37471485, 0.3762782),
+    float3(0.4985622, 0.49637967, 0.492801),
+    float3(0.08037916, 0.08100947, 0.08206313),
+    float3(0.045930162, 0.046812113, 0.048398852), // salt
+    float3(0.37123808, 0.3728493, 0.37554803),
+    float3(0.5039753, 0.50051594, 0.49449253),
+    float3(0.078856505, 0.07982265, 0.08156058),
+    float3(0.0775432, 0.0783631, 0.07973561), // sapphire
+    float3(0.39217347, 0.39199686, 0.39164826),
+    float3(0.41708636, 0.41555712, 0.4130482),
+    float3(0.11319697, 0.11408292, 0.115567915),
+    float3(0.07637401, 0.07717667, 0.078518905), // sapphire_extraordinary
+    float3(0.39237583, 0.3922418, 0.39196074),
+    float3(0.41932002, 0.41778183, 0.415269),
+    float3(0.111930124, 0.11279972, 0.11425137),
+    float3(0.079203196, 0.08147178, 0.08586132), // sf11
+    float3(0.3918034, 0.3911282, 0.38931113),
+    float3(0.4140023, 0.40995315, 0.40262932),
+    float3(0.11499111, 0.11744688, 0.122198224),
+    float3(0.1178017, 0.120159656, 0.12426893), // silicon_nitride
+    float3(0.3618238, 0.35906413, 0.35408202),
+    float3(0.3632163, 0.3609986, 0.35729083),
+    float3(0.1571582, 0.15977761, 0.16435821),
     float3(0.029179744, 0.029605994, 0.030444928), // silicone
     float3(0.3236618, 0.32533705, 0.32851845),
     float3(0.5802662, 0.5782378, 0.5743048),
     float3(0.0663699, 0.06629738, 0.06621166),
-    float3(0.048308752, 0.04885001, 0.04993111), // silk
-    float3(0.37545165, 0.3763261, 0.37797803),
-    float3(0.4943515, 0.49232507, 0.48838082),
-    float3(0.08255312, 0.083170235, 0.084394194),
-    float3(0.04332249, 0.04389627, 0.044842333), // soda_lime_glass
-    float3(0.365999, 0.3672282, 0.36916783),
-    float3(0.5144089, 0.51195246, 0.508001),
-    float3(0.076837204, 0.07751287, 0.078605674),
-    float3(0.06995381, 0.0708516, 0.07237551), // spinel
-    float3(0.3927096, 0.39281192, 0.39290348),
-    float3(0.43119934, 0.42920002, 0.42588818),
-    float3(0.107035846, 0.10804348, 0.1097537),
-    float3(0.167953, 0.17558427, 0.19226167), // strontium_titanate
-    float3(0.29169032, 0.27947637, 0.2519953),
-    float3(0.3244262, 0.32007545, 0.31119063),
-    float3(0.21697909, 0.22587602, 0.24528341),
-    float3(0.03893455, 0.039671924, 0.041006632), // sylvite
-    float3(0.35525945, 0.3572391, 0.3606398),
-    float3(0.5345037, 0.53095853, 0.5247106),
-    float3(0.07150176, 0.072422385, 0.07406757),
-    float3(0.16801682, 0.17605603, 0.19342218), // titanium_dioxide
-    float3(0.291592, 0.2787144, 0.2500525),
-    float3(0.32438672, 0.3198112, 0.31060544),
-    float3(0.2170528, 0.22642781, 0.24661526),
-    float3(0.054225624, 0.055471368, 0.05781109), // urea
-    float3(0.38353515, 0.38486034, 0.38703084),
-    float3(0.4736917, 0.46972016, 0.4625825),
-    float3(0.089282855, 0.090698004, 0.093351915),
+    float3(0.048309248, 0.048850548, 0.049931698), // silk
+    float3(0.3753977, 0.37626776, 0.3779139),
+    float3(0.49482992, 0.49282634, 0.4889212),
+    float3(0.08146311, 0.08205533, 0.08323319),
+    float3(0.043322764, 0.04389657, 0.044842687), // soda_lime_glass
+    float3(0.36596856, 0.3671955, 0.36912906),
+    float3(0.51471186, 0.5122775, 0.5083655),
+    float3(0.07599684, 0.07663048, 0.077662736),
+    float3(0.06995695, 0.07085482, 0.07237895), // spinel
+    float3(0.39247975, 0.39257625, 0.39265257),
+    float3(0.43258193, 0.43061343, 0.4273632),
+    float3(0.10498138, 0.10595549, 0.10760527),
+    float3(0.16795951, 0.17559002, 0.19226505), // strontium_titanate
+    float3(0.29134294, 0.2791687, 0.25181416),
+    float3(0.32609513, 0.32157952, 0.3121142),
+    float3(0.21460243, 0.22366177, 0.24380659),
+    float3(0.038934615, 0.039672032, 0.0410068), // sylvite
+    float3(0.35525236, 0.3572274, 0.36062136),
+    float3(0.53458357, 0.5310823, 0.52490556),
+    float3(0.07122944, 0.072018266, 0.07346627),
+    float3(0.16802333, 0.17606173, 0.19342536), // titanium_dioxide
+    float3(0.29124492, 0.27840915, 0.24988227),
+    float3(0.32605442, 0.32130527, 0.3114741),
+    float3(0.21467733, 0.22422384, 0.24521825),
+    float3(0.05422668, 0.055472497, 0.057812426), // urea
+    float3(0.38344163, 0.38476044, 0.38691247),
+    float3(0.47440696, 0.47048298, 0.46344668),
+    float3(0.08792473, 0.08928408, 0.09182845),
     float3(0.020263657, 0.020488584, 0.020901965), // water
     float3(0.27735028, 0.27884308, 0.28153703),
     float3(0.6275027, 0.6262105, 0.6238446),
@@ -685,10 +685,10 @@ static const float3 FRESNEL_CATALOGUE[524] =
     float3(0.27699378, 0.28084713, 0.28649506),
     float3(0.62781817, 0.62445855, 0.61937386),
     float3(0.074508235, 0.073420055, 0.071948886),
-    float3(0.0867838, 0.087977186, 0.0900618), // yag
-    float3(0.38921288, 0.38859114, 0.38741058),
-    float3(0.39922327, 0.3973342, 0.39412537),
-    float3(0.12580869, 0.12713356, 0.12945111)
+    float3(0.08678953, 0.08798331, 0.090068154), // yag
+    float3(0.38884178, 0.38821223, 0.38701776),
+    float3(0.4011625, 0.3993013, 0.39614326),
+    float3(0.123206176, 0.124503165, 0.12677082)
 };
 
 #endif
