@@ -48,6 +48,7 @@ mod physics;
 mod pictures;
 #[cfg(feature = "cli")]
 mod plan;
+mod published_costs;
 mod raster;
 mod readme;
 mod records;

@@ -81,7 +81,7 @@ fn tables_are_what_the_program_says() {
         ),
         (
             "docs/accuracy-and-cost.md",
-            vec![("published", super::audit::ranked::published_table())],
+            vec![("published", super::published_costs::published_table())],
         ),
         ("docs/half-precision.md", vec![("half", half_table())]),
         ("docs/effects.md", vec![("effects", effects_table())]),

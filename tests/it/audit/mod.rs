@@ -4,7 +4,7 @@ mod arguments;
 mod charts;
 mod compared;
 pub mod published;
-pub mod ranked;
+mod ranked;
 pub mod thesis;
 mod untrusted;
 

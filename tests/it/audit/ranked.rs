@@ -1,18 +1,12 @@
 //! Our functions cost no more than published ones of the same error, by AMD's compilers; beside the cheapest published one on every
 //! family. Formulas are transcribed by us, in the shapes in which engines have them.
 
-use std::collections::BTreeMap;
-use std::path::{Path, PathBuf};
-
-use fresnel_gen::cost::{FAMILIES, FunctionKey, records};
-use fresnel_gen::emit::FunctionForm;
-use fresnel_gen::num::Precision;
 use fresnel_gen::optics;
-use serde::Deserialize;
 
 use super::published::place;
 use super::{audit, rows};
 use crate::bless;
+use crate::published_costs::{families, own, path, recorded};
 
 /// A published function, a material, how many channels it has, and ours with no more error.
 const PAIRS: [(&str, &str, &str, usize, &str); 16] = [
@@ -76,43 +70,8 @@ const GLASS: &str = "water";
 /// Dearer than a published function, which errs more: it has no digits next to an index of 1.
 const LESS_ACCURATE: [(&str, &str); 1] = [("dielectric.hlsl", "dielectric")];
 
-/// Families with a compiler: the count of operations has none, and none of PowerVR's is available.
-fn families() -> impl Iterator<Item = &'static str> {
-    let names = FAMILIES.iter().map(|family| family.name);
-    names.filter(|name| !["operations", "powervr"].contains(name))
-}
-
 /// The families that every machine can ask.
 const AMD: [&str; 3] = ["gcn4", "rdna2", "rdna3"];
-
-/// What a published function costs on a family.
-#[derive(Clone, Debug, Deserialize)]
-pub struct PublishedCost {
-    gpu: String,
-    ours: String,
-    channels: usize,
-    function: String,
-    cost: f64,
-}
-
-fn path() -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("data/records/published-costs.csv")
-}
-
-fn recorded() -> Vec<PublishedCost> {
-    let text = std::fs::read_to_string(path()).unwrap_or_default();
-    fresnel_gen::records::rows(&text)
-}
-
-/// What ours costs there.
-fn own(gpu: &str, ours: &str, channels: usize) -> f64 {
-    let form = match channels {
-        1 => FunctionForm::Scalar,
-        _ => FunctionForm::Library,
-    };
-    let key = FunctionKey::library(ours, form, Precision::F32);
-    records(gpu).of(&key).expect("it is recorded").cost()
-}
 
 #[test]
 fn ours_cost_no_more_at_the_same_error() {
@@ -192,52 +151,4 @@ fn the_cheaper_dielectric_has_no_digits_next_to_an_index_of_1() {
         error(published(eta, u))
     );
     assert!(error(ours) < 1e-6, "{}", error(ours));
-}
-
-/// What a class of functions is called in the document: ours, and the channels.
-const COLUMNS: [(&str, usize, &str); 7] = [
-    ("schlick", 3, "`schlick`"),
-    (
-        "schlick_spherical_gaussian",
-        3,
-        "`schlick_spherical_gaussian`",
-    ),
-    ("hoffman_f82", 3, "`hoffman_f82`"),
-    ("f82_tint", 3, "`f82_tint`"),
-    ("dielectric_exact", 3, "`dielectric_exact`"),
-    ("dielectric_exact", 1, "the same, one channel"),
-    ("conductor_exact_metal", 3, "`conductor_exact_metal`"),
-];
-
-/// For each family ours, and the cheapest published function that computes the same.
-pub fn published_table() -> String {
-    let mut cheapest: BTreeMap<(String, String, usize), f64> = BTreeMap::new();
-    for row in recorded() {
-        let key = (row.gpu, row.ours, row.channels);
-        let least = cheapest.entry(key).or_insert(f64::INFINITY);
-        *least = least.min(row.cost);
-    }
-    let titles = COLUMNS.map(|(_, _, title)| title).join(" | ");
-    let mut text = format!(
-        "| family | {titles} |\n| --- |{}\n",
-        " --- |".repeat(COLUMNS.len())
-    );
-    for gpu in families() {
-        let cell = |(ours, channels, _): (&str, usize, &str)| {
-            let key = (gpu.to_owned(), ours.to_owned(), channels);
-            let theirs = cheapest.get(&key).expect("it is recorded");
-            format!("{} / {}", figure(own(gpu, ours, channels)), figure(*theirs))
-        };
-        text += &format!("| {gpu} | {} |\n", COLUMNS.map(cell).join(" | "));
-    }
-    text
-}
-
-/// Three digits.
-fn figure(cost: f64) -> String {
-    match cost {
-        c if c >= 10.0 => format!("{c:.0}"),
-        c if c >= 1.0 => format!("{c:.1}"),
-        c => format!("{c:.2}"),
-    }
 }
