@@ -203,8 +203,13 @@ fn lookups_are_accepted() {
     for path in pages() {
         for after in page(&path).split("```wgsl\n").skip(1) {
             let (example, _) = after.split_once("```").expect("it ends");
-            let library = ["table", "fitted"]
-                .map(|method| page(&format!("shaders-generated/wgsl/fresnel_{method}.wgsl")));
+            let library = [
+                "fresnel_table",
+                "fresnel_fitted",
+                "fresnel_fitted_dielectric",
+                "catalogue",
+            ]
+            .map(|file| page(&format!("shaders-generated/wgsl/{file}.wgsl")));
             if let Err(fault) = fresnel_gen::emit::validate_wgsl(&(library.concat() + example)) {
                 panic!("{path}: {fault}");
             }
