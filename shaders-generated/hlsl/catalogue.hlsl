@@ -11,8 +11,10 @@
 //     Tschebyscheff-Approximationen", Numerische Mathematik 1, 1-28, 1959. https://doi.org/10.1007/BF01386369
 // Use: fresnel_fitted(cos_theta, FRESNEL_CATALOGUE[FRESNEL_ALUMINIUM], FRESNEL_CATALOGUE[FRESNEL_ALUMINIUM + 1],
 //     FRESNEL_CATALOGUE[FRESNEL_ALUMINIUM + 2], FRESNEL_CATALOGUE[FRESNEL_ALUMINIUM + 3]), with the library
-//     function of the material's method. By a constant it costs nothing; where the material is known at run time
-//     only, put the array into a buffer: catalogue.json, of a run without flags, has the same numbers
+//     function of the material's method. By a constant it costs nothing. If the material is known at run time
+//     only, do not index the array: some compilers copy it into the memory of each invocation. Read the same
+//     numbers from a buffer (catalogue.std430.bin) or a texture (catalogue.f32.ktx2). A run without flags writes
+//     both
 // Truth: reflectance integrated over 380-780 nm in steps of 5 nm, CIE 1931 2 degree observer, D65, linear sRGB,
 //     mirror = 1, clipped to [0, 1]
 // Model error: beside each material, over all angles and channels; the largest is zinc_querry's, at most 0.05174

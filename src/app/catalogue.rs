@@ -1,25 +1,37 @@
-//! The catalogue of fitted coefficients, as JSON and as an array in each language. A run that names neither methods nor materials
-//! writes it.
+//! The catalogue of fitted coefficients: an array in each language; as JSON, as a storage buffer, and as textures. A run that names
+//! neither methods nor materials writes it; what is for no language belongs to a run without flags.
 
 use serde::Serialize;
 
 use crate::command_line::CommandLine;
 use crate::emit::{
-    self, CATALOGUE, CatalogueDetail, CatalogueMaterial, CatalogueMethod, CatalogueRow, Detail,
-    Naming, OUTPUT_LICENCE,
+    self, BufferDetail, CATALOGUE_BUFFER, COEFFICIENT_ORDER, COEFFICIENTS, CatalogueDetail,
+    CatalogueMaterial, CatalogueMethod, CatalogueRow, Detail, Naming, OUTPUT_LICENCE,
 };
+use crate::lut::{CatalogueTexture, CatalogueTextureDetail};
 use crate::reference::MaterialInMedium;
 use crate::report::{Origin, TOOL};
+use crate::spectra::Space;
 
 use super::artifact::Artifact;
 use super::error::Error;
 use super::generate::Generated;
 use super::request::{Materials, Request, Source};
 
-/// What stands for a target of the file that is for no language.
-pub const JSON: &str = "json";
+/// What stands for a target of `catalogue.json`, which is for no language.
+const JSON: &str = "json";
+/// The version of the form of `catalogue.json`. In the first one coefficients stood by channel.
+const SCHEMA: u32 = 2;
 
-/// Adds the arrays of the run's languages, and in a run without flags `catalogue.json`, and makes them the run's own.
+/// The files that are for no language, with what stands for their target.
+pub const SHARED: [(&str, &str); 4] = [
+    ("catalogue.json", JSON),
+    (CATALOGUE_BUFFER, "std430"),
+    (CatalogueTexture::Half.file(), "ktx2"),
+    (CatalogueTexture::Float.file(), "ktx2"),
+];
+
+/// Adds the arrays of the run's languages, and in a run without flags the files for no language, and makes them the run's own.
 ///
 /// # Errors
 /// A material cannot be seen as the request wants, or a language refuses a name.
@@ -39,8 +51,9 @@ pub fn add_catalogue(generated: &mut Generated, request: &Request) -> Result<(),
     if generated.scope.whole {
         generated
             .artifacts
-            .push(as_json(&rows, &reference, request)?);
-        generated.scope.targets.insert(JSON.to_owned());
+            .extend(shared(&rows, &reference, request)?);
+        let targets = SHARED.map(|(_, target)| target.to_owned());
+        generated.scope.targets.extend(targets);
     }
     generated.artifacts.sort_by(|a, b| a.path.cmp(&b.path));
     generated.scope.shared = true;
@@ -93,7 +106,7 @@ fn command(request: &Request, target: Option<&str>) -> Result<String, Error> {
         .into())
 }
 
-/// `catalogue.json`: how its materials are seen, the methods, the materials with their coefficients.
+/// `catalogue.json`: how its materials are seen, the files with the same numbers, the methods, the materials with their coefficients.
 #[derive(Serialize)]
 struct CatalogueFile<'a> {
     #[serde(flatten)]
@@ -101,32 +114,61 @@ struct CatalogueFile<'a> {
     truth: &'a str,
     space: Option<&'static str>,
     licence: &'static str,
+    order: &'static str,
+    first_dielectric: usize,
+    buffer: BufferDetail,
+    textures: [CatalogueTextureDetail; 2],
     methods: Vec<CatalogueMethod>,
     materials: Vec<CatalogueMaterial<'a>>,
 }
 
-fn as_json(rows: &[CatalogueRow], reference: &str, request: &Request) -> Result<Artifact, Error> {
+/// The files for no language; none where no fitted method follows a material.
+fn shared(
+    rows: &[CatalogueRow],
+    reference: &str,
+    request: &Request,
+) -> Result<Vec<Artifact>, Error> {
+    if rows.is_empty() {
+        return Ok(Vec::new());
+    }
     let command = command(request, None)?;
     let is_spectral = request.viewing.wavelengths_nm.is_none();
-    let file = CatalogueFile {
-        origin: Origin::new(command.clone()),
-        truth: reference,
-        space: is_spectral.then(|| request.viewing.integration.space.name()),
-        licence: OUTPUT_LICENCE,
-        methods: CatalogueMethod::all(rows),
-        materials: rows.iter().map(CatalogueMaterial::new).collect(),
-    };
-    let text = serde_json::to_string_pretty(&file).expect("a report has only text keys") + "\n";
-    let detail = Detail::Catalogue(CatalogueDetail {
-        command,
-        array: None,
-        materials: rows.len(),
-        rows: None,
-        seen: reference.to_owned(),
-        licence: OUTPUT_LICENCE,
+    let space = is_spectral.then_some(request.viewing.integration.space);
+    let files = SHARED.map(|(path, target)| {
+        let texture = CatalogueTexture::ALL.into_iter();
+        let mut texture = texture.filter(|texture| texture.file() == path);
+        let bytes = match texture.next() {
+            Some(texture) => texture.encode(rows, space),
+            None if path == CATALOGUE_BUFFER => emit::catalogue_buffer(rows),
+            None => as_json(rows, reference, space, &command).into_bytes(),
+        };
+        let detail = Detail::Catalogue(CatalogueDetail {
+            command: command.clone(),
+            array: None,
+            materials: rows.len(),
+            rows: (path == CATALOGUE_BUFFER).then_some(COEFFICIENTS * rows.len()),
+            seen: reference.to_owned(),
+            licence: OUTPUT_LICENCE,
+        });
+        artifact(path.to_owned(), bytes, target, detail)
     });
-    let path = format!("{CATALOGUE}.{JSON}");
-    Ok(artifact(path, text.into_bytes(), JSON, detail))
+    Ok(files.into())
+}
+
+fn as_json(rows: &[CatalogueRow], reference: &str, space: Option<Space>, command: &str) -> String {
+    let file = CatalogueFile {
+        origin: Origin::new(command).with_schema(SCHEMA),
+        truth: reference,
+        space: space.map(Space::name),
+        licence: OUTPUT_LICENCE,
+        order: COEFFICIENT_ORDER,
+        first_dielectric: emit::first_dielectric(rows),
+        buffer: BufferDetail::new(),
+        textures: CatalogueTexture::ALL.map(|texture| texture.detail(rows)),
+        methods: CatalogueMethod::all(rows),
+        materials: CatalogueMaterial::all(rows),
+    };
+    serde_json::to_string_pretty(&file).expect("a report has only text keys") + "\n"
 }
 
 fn artifact(path: String, bytes: Vec<u8>, target: &str, detail: Detail) -> Artifact {

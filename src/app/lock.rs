@@ -99,9 +99,10 @@ impl Lock {
         let lines: String = (self.leftovers.iter().chain(temporaries))
             .map(|name| format!("{name}\n"))
             .collect();
+        // Cut after the write, not before: a run that is killed between the two leaves no empty list.
         file.seek(SeekFrom::Start(0))?;
-        file.set_len(0)?;
-        file.write_all(lines.as_bytes())
+        file.write_all(lines.as_bytes())?;
+        file.set_len(lines.len() as u64)
     }
 
     /// Temporary files that a killed run left behind, relative to the folder.

@@ -6,17 +6,13 @@
 //! be written by anybody.
 
 use crate::digest::sha256;
-use crate::emit::{EFFECTS, MARK};
+use crate::emit::{CATALOGUE, CATALOGUE_BUFFER, EFFECTS, MARK};
 use crate::lut::{Format, KTX2_MARK, TABLES};
 use crate::num::Precision;
 use crate::targets::{self, Finish};
 
-use super::catalogue::JSON;
+use super::catalogue::SHARED;
 use super::manifest::Entry;
-
-/// The catalogue of coefficients for no language, and what such files are named after.
-const CATALOGUE_JSON: &str = "catalogue.json";
-const CATALOGUE: &str = "catalogue";
 
 /// The mark must stand within this many bytes of a file that is no text.
 const MARK_WITHIN: usize = 1024;
@@ -70,7 +66,7 @@ pub fn is_listed(entry: &Entry, bytes: &[u8]) -> bool {
 pub fn could_be_written(entry: &Entry) -> bool {
     let parts: Vec<&str> = entry.file.split('/').collect();
     match parts.as_slice() {
-        [CATALOGUE_JSON] => entry.target == JSON,
+        [name] => SHARED.contains(&(*name, entry.target.as_str())),
         [TABLES, .., name] => entry.target == TABLES && is_table(name),
         [folder, name] if *folder == entry.target => {
             let stem = stem(entry, name);
@@ -127,7 +123,9 @@ fn is_binary(path: &str) -> bool {
         target.finish == Finish::Spirv && stem.is_some_and(|stem| stem.ends_with('.'))
     };
     let mut tables = Format::ALL.into_iter().filter(|format| !format.is_text());
-    tables.any(|format| path.ends_with(format.ending())) || targets::ALL.iter().any(is_module)
+    path == CATALOGUE_BUFFER
+        || tables.any(|format| path.ends_with(format.ending()))
+        || targets::ALL.iter().any(is_module)
 }
 
 fn without_carriage_returns(bytes: &[u8]) -> Vec<u8> {

@@ -9,6 +9,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use super::artifact::{self, Artifact};
+use super::catalogue::SHARED;
 use super::error::Error;
 use super::folder;
 use super::manifest::{self, Entry, Manifest, Provenance};
@@ -294,6 +295,10 @@ fn strangers(
     folders.extend(scope.targets.iter().cloned());
     // `bake` puts tables there under any name.
     folders.remove(crate::lut::TABLES);
+    // These stand beside the targets' folders and have none.
+    for (_, target) in SHARED {
+        folders.remove(target);
+    }
     let mut present = folder::list(out_dir, &folders)?;
     present.retain(|path| {
         let is_known = expected.contains(path.as_str()) || listed.contains_key(path.as_str());

@@ -72,7 +72,7 @@ pub struct FunctionsDetail {
     pub data: Option<DataDetail>,
 }
 
-/// What the manifest says of a file of the catalogue: an array of a language, or `catalogue.json`.
+/// What the manifest says of a file of the catalogue: an array of a language, `catalogue.json`, a buffer or a texture.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct CatalogueDetail {
     /// The command that writes it.
@@ -82,7 +82,7 @@ pub struct CatalogueDetail {
     pub array: Option<String>,
     /// How many materials it has.
     pub materials: usize,
-    /// How many rows the array has.
+    /// How many rows the array or the buffer has, four a material.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub rows: Option<usize>,
     /// How the materials are seen, in words.

@@ -29,8 +29,9 @@ pub use average::{Average, companions};
 pub use batch::{batch_entry, batch_program, places};
 pub use bounds::{Bounds, CodeBound, HalfBound, PLAIN_ULP, fingerprint, half_bounds};
 pub use catalogue::{
-    CATALOGUE, CatalogueMaterial, CatalogueMethod, CatalogueRow, CloserFit, catalogue_array,
-    catalogue_record, catalogue_rows, recorded_catalogue,
+    BufferDetail, CATALOGUE, CATALOGUE_BUFFER, COEFFICIENT_ORDER, COEFFICIENTS, CatalogueMaterial,
+    CatalogueMethod, CatalogueRow, CloserFit, FOURTH, catalogue_array, catalogue_buffer,
+    catalogue_record, catalogue_rows, first_dielectric, recorded_catalogue,
 };
 pub use comment::lines as comment_lines;
 pub use detail::{

@@ -5,12 +5,15 @@
 //! that against the reference; [`smallest`] looks for the table with the fewest bytes within an error; a [`Picture`] of one
 //! or more rows becomes a file in a [`Format`]; [`lookup()`] is the function that reads it in a shader.
 //!
+//! [`CatalogueTexture`] is no table: it holds fitted coefficients, which a shader fetches by number.
+//!
 //! [`SplitSum`] is a table of another kind, by angle and roughness, of what a rough surface reflects.
 //!
 //! Rows run along x, cos θ = 0 first. Values are linear: neither sRGB nor any other curve is applied, and every format
 //! that can say so does. Pure: no disk, no terminal. EXR and PNG need the feature `cli`.
 
 mod axis;
+mod catalogue;
 mod depth;
 mod error;
 #[cfg(feature = "cli")]
@@ -31,6 +34,7 @@ mod text;
 mod thesis_measure;
 
 pub use axis::TableAxis;
+pub use catalogue::{CatalogueTexture, CatalogueTextureDetail};
 pub use depth::{Depth, Stored};
 pub use error::Error;
 pub use format::{Format, TABLES};

@@ -130,9 +130,14 @@ impl Picture {
     /// are rounded.
     pub(super) fn half_bits(&self) -> impl Iterator<Item = [u16; 4]> {
         let bits = |value: f32| half::f16::from_f32(value).to_bits();
+        self.floats().map(move |texel| texel.map(bits))
+    }
+
+    /// Red, green, blue and alpha of each texel; alpha is 1 where there is none.
+    pub(super) fn floats(&self) -> impl Iterator<Item = [f32; 4]> {
         let alpha = |i: usize| self.alpha.as_ref().map_or(1.0, |alpha| alpha[i]);
         let texels = self.texels.iter().enumerate();
-        texels.map(move |(i, [r, g, b])| [bits(*r), bits(*g), bits(*b), bits(alpha(i))])
+        texels.map(move |(i, [r, g, b])| [*r, *g, *b, alpha(i)])
     }
 
     /// The integers of a depth that has them.

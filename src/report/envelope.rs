@@ -28,6 +28,11 @@ impl Origin {
         }
     }
 
+    /// The same of a form with a version of its own.
+    pub fn with_schema(self, schema: u32) -> Origin {
+        Origin { schema, ..self }
+    }
+
     /// The command.
     pub fn command(&self) -> &str {
         &self.command

@@ -1,24 +1,32 @@
-//! The catalogue of fitted coefficients: the same numbers in JSON and in every language, to the bit, and the ones that the fit has.
+//! The catalogue of fitted coefficients: the same numbers in JSON, in every language, in the buffer and in the textures, to the bit,
+//! and the ones that the fit has.
 
 use std::path::Path;
 
 use fresnel_gen::app::catalogue::{add_catalogue, derived_rows};
 use fresnel_gen::app::{Artifact, Request, generate};
 use fresnel_gen::emit::{catalogue_record, recorded_catalogue};
+use fresnel_gen::ir::{Column, Value as Evaluated, evaluate};
 use fresnel_gen::methods;
 use fresnel_gen::spectra::Gamut;
 use fresnel_gen::targets;
 use serde_json::Value;
 
-/// `catalogue.json`, and the arrays of all languages.
-fn files() -> (Value, Vec<Artifact>) {
+/// A file for no language, of a run without flags.
+fn shared(path: &str) -> Vec<u8> {
     let request = Request::default();
     let mut generated = generate(&request).unwrap();
     assert!(generated.scope.whole);
     add_catalogue(&mut generated, &request).unwrap();
-    let whole = generated.artifacts.iter();
-    let mut whole = whole.filter(|file| file.path == "catalogue.json");
-    let json = serde_json::from_slice(&whole.next().unwrap().bytes).unwrap();
+    let mut files = generated.artifacts.into_iter();
+    files.find(|file| file.path == path).expect(path).bytes
+}
+
+/// `catalogue.json`, and the arrays of all languages.
+fn files() -> (Value, Vec<Artifact>) {
+    let request = Request::default();
+    let mut generated = generate(&request).unwrap();
+    let json = serde_json::from_slice(&shared("catalogue.json")).unwrap();
     let all = Request {
         targets: targets::ALL.iter().map(|t| t.name.to_owned()).collect(),
         ..request
@@ -31,11 +39,11 @@ fn files() -> (Value, Vec<Artifact>) {
 
 /// Coefficient by coefficient, three channels each.
 fn coefficients(material: &Value) -> Vec<f32> {
-    let channels = material["coefficients"].as_array().unwrap();
-    let one = |channel: &Value, i: usize| channel[i].as_f64().unwrap() as f32;
-    let terms = channels[0].as_array().unwrap().len();
-    let rows = (0..terms).flat_map(|i| channels.iter().map(move |channel| one(channel, i)));
-    rows.collect()
+    let terms = material["coefficients"].as_array().unwrap().iter();
+    let channels = terms.flat_map(|term| term.as_array().unwrap());
+    channels
+        .map(|number| number.as_f64().unwrap() as f32)
+        .collect()
 }
 
 /// The numbers of the array, as text has them.
@@ -102,6 +110,186 @@ fn it_holds_what_the_fit_gives_and_what_it_errs() {
         "no fitted method follows a gas"
     );
     assert!(!has("gold_thesis"), "three wavelengths are no spectrum");
+}
+
+/// Numbers of 32 bits, little endian.
+fn floats(bytes: &[u8]) -> Vec<f32> {
+    let words = bytes.chunks_exact(4);
+    words
+        .map(|word| f32::from_le_bytes(word.try_into().unwrap()))
+        .collect()
+}
+
+/// The colours among numbers that come in fours, the last of which is 1.
+#[track_caller]
+fn colours(fours: &[f32]) -> Vec<f32> {
+    assert!(fours.chunks_exact(4).all(|four| four[3] == 1.0));
+    let colours = fours.chunks_exact(4).flat_map(|four| &four[..3]);
+    colours.copied().collect()
+}
+
+/// The array of a language, in the order of its text, and the row that it gives a material.
+fn array_of_wgsl() -> (Vec<f32>, impl Fn(&str) -> usize) {
+    let (_, files) = files();
+    let file = files.into_iter().find(|file| file.path.ends_with(".wgsl"));
+    let text = String::from_utf8(file.unwrap().bytes).unwrap();
+    let numbers = numbers(&text);
+    let row = move |constant: &str| {
+        let head = format!("const FRESNEL_{}: u32 = ", constant.to_uppercase());
+        let (_, rest) = text.split_once(&head).expect("a constant");
+        rest.split('u').next().unwrap().parse().unwrap()
+    };
+    (numbers, row)
+}
+
+#[test]
+fn the_buffer_holds_the_array() {
+    let (array, _) = array_of_wgsl();
+    let bytes = shared("catalogue.std430.bin");
+    assert_eq!(bytes.len(), array.len() / 3 * 16);
+    assert_eq!(colours(&floats(&bytes)), array);
+}
+
+/// The texels of a file, as numbers of 32 bits.
+#[cfg(feature = "cli")]
+fn texels(path: &str, format: ktx2::Format) -> Vec<f32> {
+    let bytes = shared(path);
+    let reader = ktx2::Reader::new(&bytes).unwrap();
+    let header = reader.header();
+    assert_eq!(header.format, Some(format));
+    assert_eq!(header.pixel_width, 4, "c0 to c3");
+    assert_eq!((header.face_count, header.level_count), (1, 1));
+    let samples = &reader.basic_dfd().unwrap().sample_information;
+    assert_eq!(samples.len(), 4);
+    let level = reader.levels().next().unwrap();
+    let is_half = format == ktx2::Format::R16G16B16A16_SFLOAT;
+    let bits = if is_half { 16 } else { 32 };
+    assert!(samples.iter().all(|sample| sample.bit_length.get() == bits));
+    let halves = || {
+        let pairs = level.data.chunks_exact(2);
+        let half = |pair: &[u8]| half::f16::from_le_bytes(pair.try_into().unwrap()).to_f32();
+        pairs.map(half).collect()
+    };
+    let texels = if is_half {
+        halves()
+    } else {
+        floats(level.data)
+    };
+    assert_eq!(texels.len(), 16 * header.pixel_height as usize);
+    texels
+}
+
+#[cfg(feature = "cli")]
+#[test]
+fn the_textures_hold_the_array() {
+    let (array, _) = array_of_wgsl();
+    let single = texels("catalogue.f32.ktx2", ktx2::Format::R32G32B32A32_SFLOAT);
+    assert_eq!(colours(&single), array);
+    let half = texels("catalogue.f16.ktx2", ktx2::Format::R16G16B16A16_SFLOAT);
+    let nearest = |value: &f32| half::f16::from_f32(*value).to_f32();
+    let rounded: Vec<f32> = array.iter().map(nearest).collect();
+    assert_eq!(colours(&half), rounded);
+    assert_ne!(rounded, array);
+}
+
+/// The constants of the shader files, the rows and the offsets of JSON lead to the same material in every file.
+#[test]
+fn rows_are_those_of_the_constants() {
+    let (json, _) = files();
+    let (array, row_of) = array_of_wgsl();
+    let buffer = shared("catalogue.std430.bin");
+    assert_eq!(json["schema"], 2);
+    assert_eq!(json["buffer"]["stride"], 64);
+    assert_eq!(json["first_dielectric"], row_of("first_dielectric"));
+    for material in json["materials"].as_array().unwrap() {
+        let name = material["name"].as_str().unwrap();
+        let row = row_of(name);
+        assert_eq!(material["row"], row, "{name}");
+        assert_eq!(material["offset"], 16 * row, "{name}");
+        let expected = coefficients(material);
+        assert_eq!(array[3 * row..][..12], expected, "{name}");
+        let own = &buffer[16 * row..][..64];
+        assert_eq!(colours(&floats(own)), expected, "{name}");
+        let is_dielectric = row >= row_of("first_dielectric");
+        let method = ["fitted", "fitted_dielectric"][usize::from(is_dielectric)];
+        assert_eq!(material["method"], method, "{name}");
+    }
+}
+
+/// A method of a material with these coefficients, at these cosines, in f64.
+pub fn evaluated(method: &str, coefficients: &[f32], cosines: &[f64]) -> Vec<[f64; 3]> {
+    let function = methods::find(method).unwrap().function(false).unwrap();
+    let terms = coefficients.chunks_exact(3);
+    let same = |i: usize, term: &[f32]| Column::Same(f64::from(term[i]));
+    let terms = terms.map(|term| Evaluated::Rgb([0, 1, 2].map(|i| same(i, term))));
+    let arguments: Vec<Evaluated<f64>> = [Evaluated::each(cosines.to_vec())]
+        .into_iter()
+        .chain(terms)
+        .collect();
+    let values = evaluate(&function, &arguments);
+    (0..cosines.len()).map(|point| values.at(point)).collect()
+}
+
+/// The coefficients of these materials of the catalogue, with their methods and rows.
+#[cfg(all(feature = "cli", feature = "gpu"))]
+pub fn rows_named(names: &[&str]) -> Vec<(usize, String, Vec<f32>)> {
+    let (json, _) = files();
+    let materials = json["materials"].as_array().unwrap();
+    let row = |name: &&str| {
+        let row = materials.iter().find(|row| row["name"] == *name).unwrap();
+        let method = row["method"].as_str().unwrap().to_owned();
+        (
+            row["row"].as_u64().unwrap() as usize,
+            method,
+            coefficients(row),
+        )
+    };
+    names.iter().map(row).collect()
+}
+
+/// What rounding coefficients to half precision changes of F: the page states the figures.
+#[test]
+fn half_texels_err_as_the_page_says() {
+    let (json, _) = files();
+    let cosines: Vec<f64> = (0..=4096).map(|i| f64::from(i) / 4096.0).collect();
+    let changed = |material: &Value| {
+        let single = coefficients(material);
+        let nearest = |value: &f32| half::f16::from_f32(*value).to_f32();
+        let half: Vec<f32> = single.iter().map(nearest).collect();
+        let method = material["method"].as_str().unwrap();
+        let [exact, rounded] =
+            [single, half].map(|coefficients| evaluated(method, &coefficients, &cosines));
+        let pairs = exact.iter().flatten().zip(rounded.iter().flatten());
+        pairs.map(|(a, b)| (a - b).abs()).fold(0.0, f64::max)
+    };
+    let materials = json["materials"].as_array().unwrap();
+    let mut changes: Vec<(f64, &Value)> = materials.iter().map(|m| (changed(m), m)).collect();
+    changes.sort_by(|a, b| b.0.total_cmp(&a.0));
+    let most = |material: &Value| {
+        coefficients(material)
+            .into_iter()
+            .fold(0.0, |a: f32, b| a.max(b.abs()))
+    };
+    let figure = |value: f64| format!("{:.5}", (value * 1e5).ceil() / 1e5)[1..].to_owned();
+    let sentence = format!(
+        "Rounding the coefficients changes F by at most {} ({}, whose coefficients reach {:.1}), by at most {} for all others, in the \
+         median by {}.",
+        figure(changes[0].0),
+        changes[0].1["name"].as_str().unwrap(),
+        most(changes[0].1),
+        figure(changes[1].0),
+        figure(changes[changes.len() / 2].0),
+    );
+    assert!(
+        changes[0].0 < 1e-3,
+        "the page says that no material exceeds .001"
+    );
+    let page = include_str!("../../docs/shaders.md");
+    let page: Vec<&str> = page.split_whitespace().collect();
+    assert!(
+        page.join(" ").contains(&sentence),
+        "docs/shaders.md lacks: {sentence}"
+    );
 }
 
 /// The record that runs start from, derived anew; and it is taken for the default viewing conditions alone.

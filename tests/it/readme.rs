@@ -212,6 +212,8 @@ fn lookups_are_accepted() {
                 "fresnel_fitted",
                 "fresnel_schlick",
                 "effects/coat",
+                "fresnel_fitted_dielectric",
+                "catalogue",
             ]
             .map(|file| page(&format!("shaders-generated/wgsl/{file}.wgsl")));
             if let Err(fault) = fresnel_gen::emit::validate_wgsl(&(library.concat() + example)) {

@@ -6,7 +6,9 @@ use serde::Serialize;
 use crate::fit::rounded_up;
 use crate::targets::{self, Target};
 
-use super::{CATALOGUE, CatalogueRow, methods_of};
+use super::{
+    CATALOGUE, CATALOGUE_BUFFER, COEFFICIENTS, CatalogueRow, first_dielectric, methods_of,
+};
 use crate::emit::comment;
 use crate::emit::detail::{CatalogueDetail, Detail};
 use crate::emit::error::Error;
@@ -18,8 +20,6 @@ use crate::emit::page::{comments, finished, guard};
 
 /// The constant that says where the methods change.
 const DIELECTRICS: &str = "first_dielectric";
-/// Rows of the array that a material has: its coefficients.
-const ROWS: usize = 4;
 
 /// What a template sees.
 #[derive(Serialize)]
@@ -93,21 +93,20 @@ fn view(
     seen: &str,
     command: &str,
 ) -> CatalogueView {
-    let dielectrics = rows.partition_point(|row| row.method.name == rows[0].method.name);
     let is_last = |i: usize| i + 1 == rows.len();
     let all = rows.iter().enumerate();
     CatalogueView {
         header: comments(target, &header(rows, naming, seen, command)),
         guard: guard(target, &constant(naming, CATALOGUE)),
         name: constant(naming, CATALOGUE),
-        size: ROWS * rows.len(),
+        size: COEFFICIENTS * rows.len(),
         materials: all
             .map(|(i, row)| material(target, naming, i, row, is_last(i)))
             .collect(),
         dielectrics_doc: comments(target, &comment::lines(vec![where_methods_change(rows)])),
         dielectrics: PlaceView {
             constant: constant(naming, DIELECTRICS),
-            row: ROWS * dielectrics,
+            row: first_dielectric(rows),
         },
     }
 }
@@ -131,11 +130,11 @@ fn material(
         } else {
             String::new()
         },
-        is_last: is_last && i + 1 == ROWS,
+        is_last: is_last && i + 1 == COEFFICIENTS,
     };
     MaterialView {
         constant: constant(naming, &row.name),
-        row: ROWS * place,
+        row: COEFFICIENTS * place,
         remark: remark(row),
         rows: row
             .coefficients
@@ -193,8 +192,9 @@ fn header(rows: &[CatalogueRow], naming: &Naming, seen: &str, command: &str) -> 
     lines.push(source(rows[0].method));
     lines.push(format!(
         "Use: {}{}(cos_theta, {array}[{row}], {array}[{row} + 1], {array}[{row} + 2], {array}[{row} + 3]), with the library \
-         function of the material's method. By a constant it costs nothing; where the material is known at run time only, put the \
-         array into a buffer: {CATALOGUE}.json, of a run without flags, has the same numbers",
+         function of the material's method. By a constant it costs nothing. If the material is known at run time only, do not \
+         index the array: some compilers copy it into the memory of each invocation. Read the same numbers from a buffer \
+         ({CATALOGUE_BUFFER}) or a texture ({CATALOGUE}.f32.ktx2). A run without flags writes both",
         naming.prefix, rows[0].method.name
     ));
     lines.push(format!("Truth: {seen}"));

@@ -2,8 +2,7 @@
 
 use serde::Serialize;
 
-use super::{CatalogueRow, CloserFit, methods_of};
-use crate::num::each_channel;
+use super::{COEFFICIENTS, CatalogueRow, CloserFit, buffer, methods_of};
 
 /// A method of the catalogue.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -26,13 +25,19 @@ impl CatalogueMethod {
     }
 }
 
-/// A material of the catalogue: a list of coefficients for each channel.
+/// How coefficients stand in `catalogue.json`, as the file says it.
+pub const COEFFICIENT_ORDER: &str = "coefficients[i] is c_i: red, green, blue; the order of the arrays, of the buffer and of the textures";
+
+/// A material of the catalogue: its coefficients in order, three channels each; the first of its rows of the array, and where in the
+/// buffer it begins, in bytes.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct CatalogueMaterial<'a> {
     name: &'a str,
+    row: usize,
+    offset: usize,
     class: &'static str,
     method: &'static str,
-    coefficients: [Vec<f64>; 3],
+    coefficients: Vec<[f64; 3]>,
     better: Option<CloserFitDetail>,
     max_abs: f64,
     worst_cos: f64,
@@ -47,17 +52,26 @@ pub struct CatalogueMaterial<'a> {
 struct CloserFitDetail {
     method: &'static str,
     max_abs: f64,
-    coefficients: Option<[Vec<f64>; 3]>,
+    coefficients: Option<Vec<[f64; 3]>>,
 }
 
 impl CatalogueMaterial<'_> {
-    /// The material of a row.
-    pub fn new(row: &CatalogueRow) -> CatalogueMaterial<'_> {
+    /// The materials of these rows.
+    pub fn all(rows: &[CatalogueRow]) -> Vec<CatalogueMaterial<'_>> {
+        let places = rows.iter().enumerate();
+        places
+            .map(|(place, row)| CatalogueMaterial::new(place, row))
+            .collect()
+    }
+
+    fn new(place: usize, row: &CatalogueRow) -> CatalogueMaterial<'_> {
         CatalogueMaterial {
             name: &row.name,
+            row: COEFFICIENTS * place,
+            offset: buffer::offset(place),
             class: row.class,
             method: row.method.name,
-            coefficients: by_channel(&row.coefficients),
+            coefficients: in_order(&row.coefficients),
             better: row.better.as_ref().map(CloserFitDetail::new),
             max_abs: row.error.max_abs,
             worst_cos: row.error.worst_cos,
@@ -75,15 +89,13 @@ impl CloserFitDetail {
         CloserFitDetail {
             method: closer.method.name,
             max_abs: closer.max_abs,
-            coefficients: (!coefficients.is_empty()).then(|| by_channel(coefficients)),
+            coefficients: (!coefficients.is_empty()).then(|| in_order(coefficients)),
         }
     }
 }
 
-/// A list of coefficients for each channel.
-fn by_channel(coefficients: &[[f64; 3]]) -> [Vec<f64>; 3] {
-    let channel = |i: usize| coefficients.iter().map(|c| shortest(c[i])).collect();
-    each_channel(channel)
+fn in_order(coefficients: &[[f64; 3]]) -> Vec<[f64; 3]> {
+    coefficients.iter().map(|c| c.map(shortest)).collect()
 }
 
 /// The number that prints with the fewest digits of those that are the same in f32.

@@ -1,6 +1,7 @@
 //! The catalogue of fitted coefficients: those of every material that is known over the whole spectrum.
 
 mod array;
+mod buffer;
 mod json;
 mod record;
 
@@ -16,11 +17,14 @@ use super::error::Error;
 use super::function::{Emitted, Naming, specialised_function};
 
 pub use array::catalogue_array;
-pub use json::{CatalogueMaterial, CatalogueMethod};
+pub use buffer::{BufferDetail, CATALOGUE_BUFFER, FOURTH, catalogue_buffer};
+pub use json::{COEFFICIENT_ORDER, CatalogueMaterial, CatalogueMethod};
 pub use record::{catalogue_record, recorded_catalogue};
 
 /// The name of the files and of the array.
 pub const CATALOGUE: &str = "catalogue";
+/// Colours that a material has: its coefficients c0 to c3, which are rows of the array.
+pub const COEFFICIENTS: usize = 4;
 
 /// A material of the catalogue.
 #[derive(Clone, Debug)]
@@ -152,6 +156,12 @@ fn closer_fit(
         coefficients: fitted.map(|input| closer.constants[input.name]).collect(),
         max_abs: closer.model_error.map_or(0.0, |error| error.max_abs),
     }))
+}
+
+/// The row of the array from which on materials take `fitted_dielectric`; the one after the last where all take the same.
+pub fn first_dielectric(rows: &[CatalogueRow]) -> usize {
+    let first = |row: &CatalogueRow| row.method.name == rows[0].method.name;
+    COEFFICIENTS * rows.partition_point(first)
 }
 
 /// The methods of the rows, each once: rows of one stand together.

@@ -44,3 +44,49 @@ fn its_names_have_the_prefix_and_its_numbers_the_space() {
         "{text}"
     );
 }
+
+/// A file for no language: nothing in the buffer says who wrote it, so that the manifest alone proves it; textures and JSON bear a mark.
+#[test]
+fn files_of_others_stay_where_the_buffer_and_the_textures_go() {
+    for name in ["catalogue.std430.bin", "catalogue.f16.ktx2"] {
+        let place = Place::new();
+        place.put(&format!("{OUT}/{name}"), "mine");
+        place.refused("", &[name, "did not write", "nothing was written"]);
+        assert_eq!(place.read(&format!("{OUT}/{name}")), "mine");
+        // A run of one language has nothing to do with it.
+        place.done("--target gles");
+        assert_eq!(place.read(&format!("{OUT}/{name}")), "mine");
+    }
+    let place = Place::new();
+    place.done("");
+    assert_eq!(place.done("--check").out, "");
+    let buffer = place.path(&format!("{OUT}/catalogue.std430.bin"));
+    let whole = std::fs::read(&buffer).unwrap();
+    // Carriage returns count in a binary file.
+    let mut edited = whole.clone();
+    edited.extend(b"\r\n");
+    std::fs::write(&buffer, edited).unwrap();
+    let drift = place.run("--check").ends(1).out;
+    assert!(
+        drift.starts_with("binary file catalogue.std430.bin differs"),
+        "{drift}"
+    );
+    place.refused("", &["catalogue.std430.bin", "did not write"]);
+    place.done("--overwrite");
+    assert_eq!(std::fs::read(&buffer).unwrap(), whole);
+    // A run with other names replaces what the manifest lists.
+    place.done("--space acescg");
+    assert_ne!(std::fs::read(&buffer).unwrap(), whole);
+}
+
+/// A user's own folder of such a name is none of ours.
+#[test]
+fn a_folder_called_ktx2_is_not_looked_at() {
+    let place = Place::new();
+    place.put(&format!("{OUT}/ktx2/wood.ktx2"), "mine");
+    let ran = place.done("");
+    assert!(!ran.err.contains("wood"), "{}", ran.err);
+    place.put(&format!("{OUT}/gles/wood.glsl"), "mine");
+    let ran = place.done("");
+    assert!(ran.err.contains("gles/wood.glsl"), "{}", ran.err);
+}

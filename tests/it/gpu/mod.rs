@@ -3,6 +3,8 @@
 
 mod agree;
 mod bounds;
+#[cfg(feature = "cli")]
+mod catalogue;
 mod contract;
 mod faults;
 mod stream;
