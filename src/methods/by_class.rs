@@ -73,7 +73,9 @@ mod tests {
     fn every_fitted_method_promises_something_of_a_class() {
         for method in ALL {
             let promises = !method.claims.by_class.is_empty();
-            assert_eq!(promises, method.is_fitted(), "{}", method.name);
+            let is_meant_to = method.name.starts_with("fitted");
+            assert_eq!(promises, is_meant_to, "{}", method.name);
+            assert!(is_meant_to || !method.is_fitted(), "{}", method.name);
         }
     }
 }
