@@ -32,6 +32,8 @@ use super::scan::{self, FoundFunction};
 pub struct Auditor<'a> {
     audit: &'a Audit,
     function: FoundFunction,
+    /// Other functions of the same name that could be meant.
+    overloads: Vec<FoundFunction>,
     branch: Option<Branch>,
     surroundings: Surroundings,
     compilers: Compilers,
@@ -51,12 +53,17 @@ impl<'a> Auditor<'a> {
         let (file, text, language) = (&audit.file, &audit.text, audit.language);
         program::check(file, text, language)?;
         let found = scan::functions(text, language);
-        let function = bind::choose(file, found, audit.function.as_deref())?;
+        let function = bind::choose(file, found.clone(), audit.function.as_deref())?;
+        let is_other = |other: &FoundFunction| *other != function && other.name == function.name;
+        let overloads = found
+            .into_iter()
+            .filter(|other| is_other(other) && other.is_candidate());
         program::check_name(file, text, language, &function.name)?;
         let surroundings = Surroundings::new(audit.tools.as_deref())?;
         Ok(Auditor {
             audit,
             branch: branch(text, language, &function.name),
+            overloads: overloads.collect(),
             function,
             compilers: Compilers::new(audit.limit(), &surroundings),
             surroundings,
@@ -64,6 +71,22 @@ impl<'a> Auditor<'a> {
             costs: RefCell::default(),
             ours: OnceCell::new(),
         })
+    }
+
+    /// The functions of the same name that were not taken, in words.
+    pub fn not_taken(&self) -> impl Iterator<Item = String> {
+        let words = |other: &FoundFunction| {
+            let names: Vec<&str> = other
+                .params
+                .iter()
+                .map(|param| param.name.as_str())
+                .collect();
+            let (name, names) = (&other.name, names.join(", "));
+            format!(
+                "{name}({names}): another {name} stands before it in the file; leave one of them to audit it"
+            )
+        };
+        self.overloads.iter().map(words)
     }
 
     /// The row of one of these materials.

@@ -98,6 +98,7 @@ impl Audit {
     ) -> Result<AuditRows, Error> {
         let auditor = Auditor::new(self)?;
         let mut found = AuditRows::default();
+        found.skipped.extend(auditor.not_taken());
         let mut first = None;
         for subject in subjects {
             match auditor.row(subject, subjects, progress) {

@@ -11,6 +11,16 @@ pub fn coated_text(row: &CoatedRow) -> String {
         let cells = [name.to_owned()].into_iter().chain(numbers);
         cells.chain([what.to_owned()]).collect::<Vec<String>>()
     };
+    // An index that gives neither colour is no material's: JSON has it.
+    let index_cells = |name: &str, values: [f64; 3]| {
+        let mut shown = cells(name, values, "in air");
+        for (cell, exact) in shown[1..].iter_mut().zip(row.exact) {
+            if !exact {
+                *cell = "none".to_owned();
+            }
+        }
+        shown
+    };
     let rows = [
         cells("F0", row.f0, "in air"),
         cells("F82", row.f82, "in air"),
@@ -20,8 +30,8 @@ pub fn coated_text(row: &CoatedRow) -> String {
             row.f82_in_coat,
             "at 81.79 degrees within the coat",
         ),
-        cells("n", row.n, "in air"),
-        cells("k", row.k, "in air"),
+        index_cells("n", row.n),
+        index_cells("k", row.k),
     ];
     let mut lines = vec![
         format!("under a coat of index {}", row.index),
@@ -35,7 +45,7 @@ pub fn coated_text(row: &CoatedRow) -> String {
         .collect();
     if !nearest.is_empty() {
         lines.push(format!(
-            "No index gives F0 and F82 of {}: n and k are those of the nearest F82 that an F0 of at most .999999 allows, and F82 in coat follows from them.",
+            "No index gives F0 and F82 of {}: what is shown in the coat follows from the nearest F82 that an index gives with an F0 of at most .999999.",
             nearest.join(" and ")
         ));
     }

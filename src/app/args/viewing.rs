@@ -156,7 +156,7 @@ pub(super) fn colour(word: &str) -> Result<[f64; 3], &'static str> {
     let numbers = numbers(word).unwrap_or_default();
     let three = <[f64; 3]>::try_from(numbers).ok();
     let three = three.filter(|numbers| numbers.iter().all(is_reflectance));
-    three.ok_or("it wants three reflectances from 0 to 1, linear: 0.9,0.6,0.3")
+    three.ok_or("it wants three reflectances from 0 to 1, linear: 0.9,0.6,0.3; a colour outside the space is clipped to them")
 }
 
 /// Numbers with commas between them.
