@@ -333,7 +333,8 @@ fn computed(runner: &Runner, bound: &Bound, subject: &MaterialInMedium) -> Optio
     recognised(&results, bound, subject)
 }
 
-/// What a result may reach: 1, or an F0 that is given above it, as our own functions take it.
+/// What a result may reach: 1, or an F0 that is given above it, as our own functions take it; no colour of a surface has more than
+/// [`BRIGHTEST`].
 fn most(bound: &Bound) -> [f32; 3] {
     let raises = |argument: &&BoundArgument| {
         let meaning = argument.meaning();
@@ -344,6 +345,9 @@ fn most(bound: &Bound) -> [f32; 3] {
         .iter()
         .filter(raises)
         .fold([1.0; 3], |most, argument| {
-            each_channel(|i| most[i].max(argument.value[i]))
+            each_channel(|i| most[i].max(argument.value[i].min(BRIGHTEST)))
         })
 }
+
+/// The most that a channel of a metal's F0 reaches in a working space is 1.06, of gold in sRGB.
+const BRIGHTEST: f32 = 1.25;

@@ -131,7 +131,8 @@ fn numbers([r, g, b]: [f32; 3]) -> String {
 /// What a user gives for an argument: `name=v`, `name=v,v,v`, or `name=quantity`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Given {
-    name: String,
+    /// The argument's name.
+    pub name: String,
     value: GivenValue,
 }
 

@@ -90,8 +90,12 @@ pub fn capped_tint(material: &EngineMaterial, field: &str) -> ([f64; 3], Option<
     let error = |tint| Model::f82_tint(f0, tint).error(material).0;
     let (before, after) = (error(whole), error(capped));
     let [red, green, blue] = whole;
-    let remark = format!(
-        "{field}: the F82 tint ({red:?}, {green:?}, {blue:?}) is limited to 1: the error is {after:.5} in place of {before:.5}"
-    );
+    let (before, after) = (format!("{before:.5}"), format!("{after:.5}"));
+    let price = match before == after {
+        true => format!("the error stays {after}"),
+        false => format!("the error is {after} in place of {before}"),
+    };
+    let remark =
+        format!("{field}: the F82 tint ({red:?}, {green:?}, {blue:?}) is limited to 1: {price}");
     (capped, Some(remark))
 }

@@ -117,6 +117,12 @@ pub(super) fn difference(values: &Value<f64>, want: &[[f64; 3]], cosines: &[f64]
             error.include(got, want, *cos_theta, weight);
         }
     }
+    if error.undefined == cosines.len() {
+        // No number came, so that no difference is known.
+        error.max_abs = f64::INFINITY;
+        error.mean_abs = f64::INFINITY;
+        error.mean_rel = None;
+    }
     error
 }
 

@@ -125,8 +125,15 @@ fn audit(flags: &AuditFlags, space: Space) -> Result<Audit, Error> {
         None => Language::of_file(&file)?,
     };
     let given = flags.arg.iter().map(|word| Given::read(word));
+    let given = given.collect::<Result<Vec<Given>, _>>()?;
+    for (place, one) in given.iter().enumerate() {
+        if given[..place].iter().any(|other| other.name == one.name) {
+            let why = format!("--arg gives `{}` two values; leave one", one.name);
+            return Err(RequestFault::conflict(why).into());
+        }
+    }
     Ok(Audit {
-        given: given.collect::<Result<_, _>>()?,
+        given,
         space,
         families: families(&flags.gpu)?,
         text: shader(&file)?,
