@@ -1,7 +1,7 @@
 //! What methods are worth whose numbers were chosen on a class of materials: each substance judged by numbers that were chosen
 //! without it. `tests/fit-f82 --left-out` finds the figures.
 
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
 
 use crate::methods::Method;
 use crate::records::rows;
@@ -12,7 +12,7 @@ use super::{MaterialSet, STATISTICS, set_name};
 static RECORD: &str = include_str!("../../data/records/left-out.csv");
 
 /// Largest errors over angles and channels, of materials by numbers that were chosen without their substance.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct LeftOutErrors {
     /// The median, each measurement once.
     pub median: f64,
@@ -24,27 +24,23 @@ pub struct LeftOutErrors {
     pub p90_by_substance: f64,
 }
 
-#[derive(Deserialize)]
-struct Recorded {
-    method: String,
-    median: f64,
-    p90: f64,
-    median_by_substance: f64,
-    p90_by_substance: f64,
-}
+/// On how many measurements the numbers were chosen.
+const CHOSEN_ON: usize = 75;
 
-/// The errors of a method over metals and semiconductors; none for other sets, and for methods whose numbers were not chosen on them.
+/// The errors of a method over metals and semiconductors; none for sets of other materials or of fewer than the numbers were chosen on, and
+/// for methods whose numbers were not chosen on them.
 pub fn left_out(method: &Method, set: &MaterialSet) -> Option<LeftOutErrors> {
     let is_set = |statistic| set.name == set_name(MaterialClass::Metals, statistic);
-    if !STATISTICS.into_iter().any(is_set) {
+    if set.count < CHOSEN_ON || !STATISTICS.into_iter().any(is_set) {
         return None;
     }
-    let recorded: Vec<Recorded> = rows(RECORD);
-    let own = recorded.iter().find(|row| row.method == method.name)?;
+    let recorded: Vec<(String, f64, f64, f64, f64)> = rows(RECORD);
+    let own = recorded.into_iter().find(|row| row.0 == method.name)?;
+    let (_, median, p90, median_by_substance, p90_by_substance) = own;
     Some(LeftOutErrors {
-        median: own.median,
-        p90: own.p90,
-        median_by_substance: own.median_by_substance,
-        p90_by_substance: own.p90_by_substance,
+        median,
+        p90,
+        median_by_substance,
+        p90_by_substance,
     })
 }

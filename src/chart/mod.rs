@@ -120,6 +120,8 @@ pub struct MaterialSet {
     pub name: String,
     /// In words.
     pub title: String,
+    /// How many materials it holds.
+    pub count: usize,
     /// The errors of each entry; unknown where the method does not describe the material.
     pub errors: Vec<MethodErrors>,
 }
@@ -258,7 +260,10 @@ impl<'a> ChartView<'a> {
             value: point.error,
             is_on_frontier: point.is_on_frontier,
             fails: point.entry.fails(),
-            left_out: point.entry.left_out(self.set),
+            left_out: match ERRORS[self.error].name {
+                "max" => point.entry.left_out(self.set),
+                _ => None,
+            },
         };
         self.points().iter().map(row).collect()
     }
@@ -370,6 +375,7 @@ mod tests {
                 costs: vec![Some(1.0), Some(2.0)],
             }],
             sets: vec![MaterialSet {
+                count: 1,
                 name: "gold".to_owned(),
                 title: "gold".to_owned(),
                 errors: [0.1, 0.2].map(largest).to_vec(),

@@ -18,6 +18,7 @@ pub fn sets(subjects: &[MaterialInMedium], errors: &[Vec<MethodErrors>]) -> Vec<
         .iter()
         .zip(errors)
         .map(|(subject, errors)| MaterialSet {
+            count: 1,
             name: subject.argument.clone(),
             title: subject.name.replace('_', " "),
             errors: errors.clone(),
@@ -45,6 +46,7 @@ fn class_sets(
         return Vec::new();
     }
     let set = |statistic: &&str| MaterialSet {
+        count: own.len(),
         name: set_name(class, statistic),
         title: set_title(class, statistic, own.len()),
         errors: together(statistic, &own),

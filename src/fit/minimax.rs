@@ -59,8 +59,8 @@ struct Entry {
 
 struct Reference(Vec<Entry>);
 
-/// Fits what is wanted at some points by a basis. None where the functions do not tell the points apart, or no form keeps the
-/// ranges.
+/// Fits what is wanted at some points by a basis: at many more points than terms, since it begins at places spread over them. None
+/// where the functions do not tell those apart, where no form keeps the ranges, and where the exchange comes to no end.
 pub fn minimax(points: Points) -> Option<Minimax> {
     let terms = points.rows.first()?.len();
     if points.rows.len() <= terms {
@@ -167,7 +167,7 @@ impl Reference {
     }
 
     /// The form that misses all points of the reference by the same, each on its side, or holds them at the ends of their
-    /// ranges; the level is made positive.
+    /// ranges. The level is made positive at the beginning; later it is, since it grows with every exchange.
     fn level(&mut self, points: Points) -> Option<(Vec<f64>, f64)> {
         let with_error = |entry: &Entry| {
             let (mut row, value) = points.equation(*entry);

@@ -154,7 +154,10 @@ fn closer_fit(
     Ok(Some(CloserFit {
         method,
         coefficients: fitted.map(|input| closer.constants[input.name]).collect(),
-        max_abs: closer.model_error.map_or(0.0, |error| error.max_abs),
+        max_abs: closer
+            .model_error
+            .expect("a specialised function has its model error")
+            .max_abs,
     }))
 }
 
