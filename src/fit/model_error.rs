@@ -60,11 +60,51 @@ pub fn single_error(function: &Checked, reference: &ReferenceCurve) -> ModelErro
 
 /// The error of whatever gives three channels at each of some cosines.
 pub fn error_of(reference: &ReferenceCurve, values: &dyn Fn(&[f64]) -> Value<f64>) -> ModelError {
-    let run = |cosines: &[f64], want: &[[f64; 3]]| difference(&values(cosines), want, cosines);
-    let mut error = run(&cosines(ANGLES), &reference.table());
-    let mut reach = libm::acos(error.worst_cos).max(1e-3) / 8.0;
+    let (at, want) = (cosines(ANGLES), reference.table());
+    let given = values(&at);
+    let mut error = difference(&given, &want, &at);
+    let first = (error.max_abs, error.worst_cos);
+    let wide = libm::acos(first.1).max(1e-3) / 8.0;
+    error.keep_larger(refined(first, wide, reference, values));
+    if is_totally_reflecting(&at, &want) {
+        for start in worst_of_channels(&given, &want, &at) {
+            error.keep_larger(refined(start, 2.0 * BETWEEN, reference, values));
+        }
+    }
+    error
+}
+
+/// Whether something reflects all before 90 degrees: past a critical angle, which each channel has at its own place, with a cusp of its
+/// error there that may stand between the angles.
+fn is_totally_reflecting(at: &[f64], want: &[[f64; 3]]) -> bool {
+    let whole = |reflectance: &f64| *reflectance > 1.0 - 1e-9;
+    let mut points = at.iter().zip(want);
+    points.any(|(cos_theta, want)| *cos_theta > 0.01 && want.iter().any(whole))
+}
+
+/// The largest error of each channel at the angles, and where it stands.
+fn worst_of_channels(given: &Value<f64>, want: &[[f64; 3]], at: &[f64]) -> [(f64, f64); 3] {
+    each_channel(|channel| {
+        let off = |point: usize| (given.at(point)[channel] - want[point][channel]).abs();
+        let points = (0..at.len()).filter(|point| off(*point).is_finite());
+        let point = points.max_by(|a, b| off(*a).total_cmp(&off(*b)));
+        point.map_or((0.0, 1.0), |point| (off(point), at[point]))
+    })
+}
+
+/// Between two angles, in radians.
+const BETWEEN: f64 = std::f64::consts::FRAC_PI_2 / ANGLES as f64;
+
+/// The largest error in the neighbourhood of a cosine, and where it stands, searched nearer and nearer from an error that is known there
+/// and so far on both sides in radians.
+fn refined(
+    (mut most, mut worst_cos): (f64, f64),
+    mut reach: f64,
+    reference: &ReferenceCurve,
+    values: &dyn Fn(&[f64]) -> Value<f64>,
+) -> (f64, f64) {
     for _ in 0..REFINEMENTS {
-        let theta = libm::acos(error.worst_cos);
+        let theta = libm::acos(worst_cos);
         let near = |i: usize| theta + reach * (2.0 * i as f64 / STEPS as f64 - 1.0);
         let inside = |theta: &f64| (0.0..std::f64::consts::FRAC_PI_2).contains(theta);
         let close: Vec<f64> = (0..=STEPS)
@@ -73,13 +113,13 @@ pub fn error_of(reference: &ReferenceCurve, values: &dyn Fn(&[f64]) -> Value<f64
             .map(libm::cos)
             .collect();
         let want: Vec<[f64; 3]> = close.iter().map(|c| reference.at(*c)).collect();
-        let again = run(&close, &want);
-        if again.max_abs > error.max_abs {
-            (error.max_abs, error.worst_cos) = (again.max_abs, again.worst_cos);
+        let again = difference(&values(&close), &want, &close);
+        if again.max_abs > most && again.undefined < close.len() {
+            (most, worst_cos) = (again.max_abs, again.worst_cos);
         }
         reach /= STEPS as f64 / 4.0;
     }
-    error
+    (most, worst_cos)
 }
 
 /// The error of the same against whatever else is to be met, at the angles alone.
@@ -127,6 +167,12 @@ pub(super) fn difference(values: &Value<f64>, want: &[[f64; 3]], cosines: &[f64]
 }
 
 impl ModelError {
+    fn keep_larger(&mut self, (max_abs, worst_cos): (f64, f64)) {
+        if max_abs > self.max_abs {
+            (self.max_abs, self.worst_cos) = (max_abs, worst_cos);
+        }
+    }
+
     fn include(&mut self, got: f64, want: f64, cos_theta: f64, weight: f64) {
         let difference = (got - want).abs();
         self.mean_abs += weight * difference;

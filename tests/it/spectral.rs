@@ -3,10 +3,13 @@
 
 use std::collections::BTreeMap;
 
+use fresnel_gen::app::{Materials, Request, Source};
 use fresnel_gen::fit;
+use fresnel_gen::ir::{Value, evaluate};
 use fresnel_gen::materials::{
     self, Channels, Material, MaterialKind, Surface, THESIS_NM, ViewingConditions,
 };
+use fresnel_gen::methods;
 use fresnel_gen::optics::cosine;
 use fresnel_gen::reference;
 use fresnel_gen::spectra::{Adaptation, Gamut, Illuminant, Integration, Step};
@@ -211,4 +214,35 @@ fn dielectrics_hardly_absorb() {
             MaterialKind::Semiconductor => {}
         }
     }
+}
+
+/// Water seen from a medium of 1.5 reflects all from another angle on in each channel, where the error of one index a channel has a
+/// cusp: a dense scan finds no more than the model error says.
+#[test]
+fn an_error_at_a_critical_angle_is_not_missed() {
+    let request = Request {
+        materials: Materials::These(vec![Source::Named("water".to_owned())]),
+        medium: Some(Source::Named("1.5".to_owned())),
+        ..Request::default()
+    };
+    let subjects = request.subjects().expect("both are known").materials();
+    let subject = &subjects[0];
+    let method = methods::find("dielectric_exact").expect("it is a method");
+    let function = method.specialise(&fit::values_for_material(subject, method));
+    let function = function.expect("it is specialised");
+    let truth = subject.truth_for(method);
+    let error = fit::model_error(&function, &truth).max_abs;
+    let mut scanned = 0.0_f64;
+    for step in 0..6000 {
+        let c = cosine(61.0 + f64::from(step) * 5e-4);
+        let given = evaluate(&function, &[Value::<f64>::scalar(c)]).at(0);
+        let want = truth.at(c);
+        let off = (0..3).map(|i| (given[i] - want[i]).abs());
+        scanned = off.fold(scanned, f64::max);
+    }
+    println!("{error}, by a scan {scanned}");
+    assert!(
+        scanned > 0.095 && error > scanned - 1e-6,
+        "{error} {scanned}"
+    );
 }
