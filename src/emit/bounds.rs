@@ -20,7 +20,7 @@ static HALF_RECORD: &str = include_str!("../../data/code-bounds-f16.csv");
 pub enum CodeBound {
     /// In single precision: units in the last place, beside 2⁻²².
     Ulp(f64),
-    /// In half precision: the absolute difference.
+    /// In half precision, and of coefficients: the absolute difference.
     Absolute(f64),
 }
 

@@ -50,9 +50,15 @@ pub(super) fn promises_in(precision: Precision, method: &Method) -> Vec<String> 
     };
     let colours = method.claims.colours.filter(|_| !precision.is_half());
     let colours = colours.map(|colours| colours_line(method, colours));
+    let coefficients = method.coefficients.filter(|_| !precision.is_half());
+    let coefficients = coefficients.map(|finds| {
+        let (media, bound) = (method.code_media(), unfused(finds.code_abs));
+        format!("Code error of the coefficients for {media}: {bound}")
+    });
     model_promises(method)
         .chain([code])
         .chain(colours)
+        .chain(coefficients)
         .collect()
 }
 
@@ -121,10 +127,13 @@ pub(super) fn missed_line(emitted: &Emitted) -> Option<String> {
     Some(format!("Misses its class: {}.", missed.words()))
 }
 
-pub(super) fn code_line(measured: &Measured<CodeBound>) -> String {
-    match measured {
+pub(super) fn code_line(emitted: &Emitted) -> String {
+    match &emitted.code {
         Measured::Yes(CodeBound::Ulp(ulp)) => format!("Code error: {}.", bound(*ulp)),
-        Measured::Yes(CodeBound::Absolute(most)) => format!("Code error: {}.", absolute(*most)),
+        Measured::Yes(CodeBound::Absolute(most)) if emitted.precision.is_half() => {
+            format!("Code error: {}.", absolute(*most))
+        }
+        Measured::Yes(CodeBound::Absolute(most)) => format!("Code error: {}.", unfused(*most)),
         Measured::No(why) => format!("Code error: {why}."),
     }
 }
@@ -143,6 +152,11 @@ fn bound(ulp: f64) -> String {
 fn absolute(most: f64) -> String {
     let most = (most * 1e5 - 1e-6).ceil() / 1e5;
     format!("at most {most} absolute, f16 rounded after every operation, against f64")
+}
+
+/// A bound of coefficients.
+fn unfused(most: f64) -> String {
+    format!("at most {most:e} absolute, unfused f32 against f64")
 }
 
 pub(super) fn operations(emitted: &Emitted) -> String {

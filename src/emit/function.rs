@@ -152,7 +152,7 @@ pub(super) fn library_function(
         function,
         constants: Values::new(),
         model_error: None,
-        code: promised(method, naming.precision),
+        code: promised(method, form, naming.precision),
         plain_for: None,
         written_as: None,
         missed: None,
@@ -160,8 +160,12 @@ pub(super) fn library_function(
 }
 
 /// What a library function promises.
-fn promised(method: &Method, precision: Precision) -> Measured<CodeBound> {
+fn promised(method: &Method, form: FunctionForm, precision: Precision) -> Measured<CodeBound> {
     let refused = method.half.library_refusal();
+    let finds = method.coefficients.filter(|_| form.coefficient().is_some());
+    if let (Precision::F32, Some(finds)) = (precision, finds) {
+        return Measured::Yes(CodeBound::Absolute(finds.code_abs));
+    }
     match (precision, method.half.claim(), refused) {
         (Precision::F16, Some(claim), _) => Measured::Yes(CodeBound::Absolute(claim.max_abs)),
         (Precision::F16, None, why) => Measured::No(why.unwrap_or_default().to_owned()),

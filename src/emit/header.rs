@@ -96,7 +96,7 @@ pub fn specialised(emitted: &Emitted) -> Vec<String> {
     lines.extend(table_line(emitted));
     lines.extend(emitted.model_error.iter().map(model_line));
     lines.extend(missed_line(emitted));
-    lines.push(code_line(&emitted.code));
+    lines.push(code_line(emitted));
     lines.extend(Average::of(emitted).map(|average| average.line()));
     lines.push(format!("Cost: {}", operations(emitted)));
     lines.extend(form_line(emitted));
@@ -128,7 +128,7 @@ pub fn pasted(
     lines.extend(table_line(emitted));
     lines.extend(emitted.model_error.iter().map(model_line));
     lines.extend(missed_line(emitted));
-    lines.push(format!("{} {OUTPUT_LICENCE}.", code_line(&emitted.code)));
+    lines.push(format!("{} {OUTPUT_LICENCE}.", code_line(emitted)));
     comment::lines(lines)
 }
 

@@ -126,7 +126,7 @@ fn known_of(emitted: &Emitted) -> Vec<String> {
         Measured::Yes(_) => emitted.precision.is_half(),
         Measured::No(why) => why != FILTERED,
     };
-    lines.extend(is_warning.then(|| code_line(&emitted.code)));
+    lines.extend(is_warning.then(|| code_line(emitted)));
     lines.push(format!("Cost: {}", operations(emitted)));
     lines.push(source(emitted.method));
     lines

@@ -55,6 +55,7 @@ pub static METHOD: Method = Method {
     coefficients: Some(CoefficientsFromInputs {
         fitted: "fitted",
         build: coefficients,
+        code_abs: 1.2e-6,
     }),
     plain: None,
     replacement: None,

@@ -72,6 +72,9 @@ pub struct CoefficientsFromInputs {
     pub fitted: &'static str,
     /// The coefficients from the inputs.
     pub build: for<'b> fn(&Inputs<'b>) -> [Expr<'b>; 4],
+    /// The most that a coefficient in unfused f32 is off, for the media of the method's code error. It is absolute: terms that are
+    /// larger than their sum cancel. Tests hold it in both directions.
+    pub code_abs: f64,
 }
 
 /// From arguments to a formula.

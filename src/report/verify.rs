@@ -66,7 +66,10 @@ fn allowed(row: &VerifyRow) -> Option<String> {
         AllowedError::Absolute(allowed) if row.effect.is_some() => {
             allowed.max_abs.map(|most| format!("{most:.0e} abs"))
         }
-        AllowedError::Absolute(allowed) => allowed.max_abs.map(|most| format!("{most:.5} abs")),
+        AllowedError::Absolute(allowed) if row.precision.is_half() => {
+            allowed.max_abs.map(|most| format!("{most:.5} abs"))
+        }
+        AllowedError::Absolute(allowed) => allowed.max_abs.map(|most| format!("{most:.1e} abs")),
     }
 }
 

@@ -7,7 +7,7 @@ use crate::fit::values;
 use crate::ir::{Checked, Ty, Value, evaluate};
 use crate::materials::Channels;
 use crate::methods::{Class, Contract, Input, Method, Over};
-use crate::num::ulp_distance;
+use crate::num::{Precision, ulp_distance};
 use crate::reference::Derivation;
 
 use super::points::{Random, cosines};
@@ -83,14 +83,19 @@ pub fn library_code_error(method: &Method, media: usize, points: usize) -> CodeE
     let cosines: Vec<f32> = cosines(points).into_iter().filter(inside).collect();
     let mut random = Random(SEED);
     (0..media / 3).fold(CodeError::NONE, |worst, _| {
-        let over = method.claims.code_over;
-        let [a, b, c] = [0; 3].map(|_| medium(method, over, &mut random));
-        let channels = Channels {
-            n: [a.0, b.0, c.0],
-            k: [a.1, b.1, c.1],
-        };
+        let channels = random_channels(method, &mut random);
         worst.worst(library_code_error_at(method, &channels, &cosines))
     })
+}
+
+/// Three random media of those that a method's claim names.
+fn random_channels(method: &Method, random: &mut Random) -> Channels {
+    let over = method.claims.code_over;
+    let [a, b, c] = [0; 3].map(|_| medium(method, over, random));
+    Channels {
+        n: [a.0, b.0, c.0],
+        k: [a.1, b.1, c.1],
+    }
 }
 
 /// The same for one triple of media, at these cosines. The method's inputs are derived and rounded to f32.
@@ -98,10 +103,35 @@ pub fn library_code_error_at(method: &Method, channels: &Channels, cosines: &[f3
     let function = method
         .function(false)
         .expect("every method's function is well formed; a test builds all");
+    compare(
+        &function,
+        cosines,
+        &arguments(method, channels),
+        ABSOLUTE_FLOOR,
+    )
+}
+
+/// The values of a method's inputs, derived in f64 and rounded.
+fn arguments(method: &Method, channels: &Channels) -> Vec<[f32; 3]> {
     let constants = values(method, channels, &Derivation::default());
     let single = |input: &Input| constants[input.name].map(|value| value as f32);
-    let arguments: Vec<[f32; 3]> = method.inputs.iter().map(single).collect();
-    compare(&function, cosines, &arguments, ABSOLUTE_FLOOR)
+    method.inputs.iter().map(single).collect()
+}
+
+/// The largest absolute difference of the coefficients that a method finds, over so many random media. None for methods that find
+/// none.
+pub fn coefficient_code_error(method: &Method, media: usize) -> Option<f64> {
+    let function = |place| {
+        let coefficient = method.coefficient_in(Precision::F32, place)?;
+        Some(coefficient.expect("every method's function is well formed; a test builds all"))
+    };
+    let functions: Vec<Checked> = (0..4).map(function).collect::<Option<_>>()?;
+    let mut random = Random(SEED);
+    Some((0..media / 3).fold(0.0, |worst, _| {
+        let arguments = arguments(method, &random_channels(method, &mut random));
+        let off = |function: &Checked| compare(function, &[0.0], &arguments, 0.0).max_abs;
+        functions.iter().map(off).fold(worst, f64::max)
+    }))
 }
 
 /// n and k of a random medium of a set; of the wide sets' some are metals, and some absorb nothing.
@@ -125,9 +155,14 @@ fn in_domain(method: &Method, cos_theta: f32) -> bool {
 }
 
 fn compare(function: &Checked, cosines: &[f32], arguments: &[[f32; 3]], floor: f64) -> CodeError {
-    let mut single = vec![Value::each(cosines.to_vec())];
-    let mut double = vec![Value::each(cosines.iter().map(|c| f64::from(*c)).collect())];
-    for (param, argument) in function.params.iter().skip(1).zip(arguments) {
+    let (mut single, mut double) = (Vec::new(), Vec::new());
+    let mut params = function.params.iter().peekable();
+    // Coefficients and means take no cosine.
+    if params.next_if(|param| param.is_cosine()).is_some() {
+        single.push(Value::each(cosines.to_vec()));
+        double.push(Value::each(cosines.iter().map(|c| f64::from(*c)).collect()));
+    }
+    for (param, argument) in params.zip(arguments) {
         let wide = argument.map(f64::from);
         single.push(if param.ty == Ty::Rgb {
             Value::rgb(wide)

@@ -202,8 +202,16 @@ impl RanFunction<'_> {
                 (bound, CodeErrorFigures::from(&half.error))
             }
             (None, None) => {
-                let ulp = run.bound.and_then(finite);
-                let bound = AllowedError::Ulp(AllowedUlp { ulp, text });
+                let bound = match (run.bound, &self.emitted.code) {
+                    (Some(_), Measured::Yes(CodeBound::Absolute(most))) => {
+                        let max_abs = finite(*most);
+                        AllowedError::Absolute(AllowedAbsolute { max_abs, text })
+                    }
+                    _ => {
+                        let ulp = run.bound.and_then(finite);
+                        AllowedError::Ulp(AllowedUlp { ulp, text })
+                    }
+                };
                 (bound, CodeErrorFigures::from(&run.outcome.error))
             }
         };
@@ -325,6 +333,9 @@ fn bound_text(emitted: &Emitted) -> String {
             format!(
                 "{most:e} beyond what the last bits of the arguments and a sampler's weights turn"
             )
+        }
+        Measured::Yes(CodeBound::Absolute(most)) if emitted.form.coefficient().is_some() => {
+            format!("{most:e} absolute: the terms of a coefficient cancel")
         }
         Measured::Yes(CodeBound::Absolute(most)) => {
             format!("{most} absolute, and 2^-11 for what a device is free to do")

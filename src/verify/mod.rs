@@ -55,7 +55,8 @@ mod worker;
 mod worst;
 
 pub use code_error::{
-    ABSOLUTE_FLOOR, CodeError, code_error, digits_lost, library_code_error, library_code_error_at,
+    ABSOLUTE_FLOOR, CodeError, code_error, coefficient_code_error, digits_lost, library_code_error,
+    library_code_error_at,
 };
 #[cfg(all(feature = "cli", feature = "gpu"))]
 pub use error::Error;

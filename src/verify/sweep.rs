@@ -7,7 +7,7 @@
 
 use std::sync::Mutex;
 
-use super::code_error::{ABSOLUTE_FLOOR, CodeError};
+use super::code_error::CodeError;
 use super::harness;
 use super::points::{WITHIN, cosines};
 use super::run::{Devices, RunFault, ShippedFunction};
@@ -169,7 +169,7 @@ fn one(judge: &Judge, cosines: &[f32], results: &[[f32; 4]]) -> Outcome {
             largest = f64::INFINITY;
         }
     }
-    if largest <= ABSOLUTE_FLOOR {
+    if largest <= judge.trial.floor {
         return Outcome {
             error: CodeError {
                 max_abs: largest,
@@ -184,6 +184,7 @@ fn one(judge: &Judge, cosines: &[f32], results: &[[f32; 4]]) -> Outcome {
 
 #[cfg(test)]
 mod tests {
+    use super::super::code_error::ABSOLUTE_FLOOR;
     use super::*;
     use crate::methods;
 
@@ -194,6 +195,7 @@ mod tests {
             values: vec![[0.04, 0.5, 1.0]],
             table: None,
             bound: Measured::Yes(method.claims.code_ulp),
+            floor: ABSOLUTE_FLOOR,
             is_guarded: true,
         }
     }

@@ -20,6 +20,8 @@ pub struct Trial {
     /// What it promises in ulp; where it promises nothing the reason is said, and it must come near what
     /// unfused f32 gives.
     pub bound: Measured<f64>,
+    /// Differences up to this are no error, whatever they are in ulp: [`ABSOLUTE_FLOOR`], or what coefficients promise.
+    pub floor: f64,
     /// Whether it keeps the contract: it is then tried beyond [0, 1] too, and else not at 0.
     pub is_guarded: bool,
 }
@@ -105,7 +107,7 @@ impl Trial {
             Measured::Yes(ulp) => expected.bound = ulp,
             Measured::No(_) => {
                 expected.bound = self.unfused(&expected);
-                expected.floor = ROOM * ABSOLUTE_FLOOR;
+                expected.floor = ROOM * self.floor;
             }
         }
         expected
@@ -118,7 +120,7 @@ impl Trial {
             range: result_range(&cosines, &want),
             want,
             bound: f64::INFINITY,
-            floor: ABSOLUTE_FLOOR,
+            floor: self.floor,
             cosines,
         }
     }
@@ -297,6 +299,7 @@ mod tests {
             values: values.to_vec(),
             table: None,
             bound: Measured::Yes(method.claims.code_ulp),
+            floor: ABSOLUTE_FLOOR,
             is_guarded: true,
         }
     }

@@ -8,6 +8,7 @@ use crate::methods::{Contract, Method};
 use crate::num::Precision;
 use crate::reference::{MaterialInMedium, ReferenceCurve};
 
+use super::code_error::ABSOLUTE_FLOOR;
 use super::half::nearest_half;
 use super::plan::{PlannedFile, VerifyPlan};
 use super::points::limits;
@@ -131,6 +132,14 @@ fn promised_for(emitted: &Emitted, channels: &Channels) -> Measured<f64> {
     }
 }
 
+/// Up to where a difference is no error: what coefficients promise is absolute.
+fn floor(emitted: &Emitted) -> f64 {
+    match emitted.code {
+        Measured::Yes(CodeBound::Absolute(most)) if emitted.form.coefficient().is_some() => most,
+        _ => ABSOLUTE_FLOOR,
+    }
+}
+
 /// What a library function promises in ulp; a method that does not keep the contract promises nothing beyond its media.
 fn promised(method: &Method) -> Measured<f64> {
     match method.contract {
@@ -146,11 +155,12 @@ fn trial(
     table: Option<crate::ir::Texels>,
     bound: Measured<f64>,
 ) -> Trial {
-    // What reads a texture is as exact as its sampler, which the trial allows for.
-    let bound = if emitted.method.is_textured() {
-        Measured::Yes(0.0)
-    } else {
-        bound
+    // What reads a texture is as exact as its sampler, which the trial allows for; what coefficients promise is absolute.
+    let has_no_ulp = emitted.method.is_textured() || emitted.form.coefficient().is_some();
+    let bound = match bound {
+        Measured::Yes(_) if has_no_ulp => Measured::Yes(0.0),
+        Measured::No(_) if emitted.method.is_textured() => Measured::Yes(0.0),
+        bound => bound,
     };
     let values = if emitted.precision.is_half() {
         values.iter().map(|value| value.map(nearest_half)).collect()
@@ -162,6 +172,7 @@ fn trial(
         values,
         table,
         bound,
+        floor: floor(emitted),
         is_guarded: emitted.method.contract == Contract::Kept,
     }
 }

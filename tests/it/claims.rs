@@ -3,11 +3,15 @@
 
 use fresnel_gen::fit::model_error_over;
 use fresnel_gen::methods::{self, Contract};
-use fresnel_gen::verify::{library_code_error, library_code_error_at, worst_media};
+use fresnel_gen::verify::{
+    coefficient_code_error, library_code_error, library_code_error_at, worst_media,
+};
 
 /// Random media over which a library function's code error is taken, and cosines for each.
 const MEDIA: usize = 6000;
 const POINTS: usize = 800;
+/// Random media over which coefficients are taken, which have no cosine.
+const COEFFICIENT_MEDIA: usize = 300_000;
 
 /// A model error below this is rounding: the method is exact.
 const EXACT: f64 = 1e-12;
@@ -76,5 +80,21 @@ fn code_errors_are_what_methods_promise() {
         fault.map(|fault| {
             format!("{name}: {fault}: measured {measured:.2} ulp, `code_ulp` is {promised}")
         })
+    }));
+}
+
+/// Coefficients cancel, so that what they promise is absolute.
+#[test]
+fn coefficients_are_off_by_what_methods_promise() {
+    let finding = methods::ALL
+        .iter()
+        .filter_map(|method| Some((method, method.coefficients?)));
+    expect_none(finding.filter_map(|(method, finds)| {
+        let measured = coefficient_code_error(method, COEFFICIENT_MEDIA).unwrap();
+        let promised = finds.code_abs;
+        let is_kept = (SLACK[1] * promised..=promised).contains(&measured);
+        let name = method.name;
+        (!is_kept)
+            .then(|| format!("{name}: measured {measured:e} absolute, `code_abs` is {promised:e}"))
     }));
 }

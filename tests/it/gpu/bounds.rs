@@ -5,7 +5,7 @@ use fresnel_gen::emit::{self, Naming};
 use fresnel_gen::fit::Measured;
 use fresnel_gen::gpu::Wanted;
 use fresnel_gen::verify::run::{Devices, ExecutionPath, RunFault, ShippedFunction};
-use fresnel_gen::verify::{Trial, cosines};
+use fresnel_gen::verify::{ABSOLUTE_FLOOR, Trial, cosines};
 use fresnel_gen::{methods, targets};
 
 use crate::bounds::{Medium, absorbing, beside, glasses, worst};
@@ -35,6 +35,7 @@ fn check(name: &str, media: &[Medium]) {
         values: vec![media.map(|(n, _)| n), media.map(|(_, k)| k)],
         table: None,
         bound: Measured::Yes(method.claims.code_ulp),
+        floor: ABSOLUTE_FLOOR,
         is_guarded: true,
     };
     let runnable = match devices.prepare(&shown, ExecutionPath::Own, &trial(&[(1.5, 0.0); 3])) {

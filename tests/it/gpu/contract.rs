@@ -11,8 +11,8 @@ use fresnel_gen::methods::{self, Contract, Method, find_input};
 use fresnel_gen::optics;
 use fresnel_gen::reference::MaterialInMedium;
 use fresnel_gen::targets::{self, Finish};
-use fresnel_gen::verify::Trial;
 use fresnel_gen::verify::run::{Devices, ExecutionPath, RunFault, ShippedFunction};
+use fresnel_gen::verify::{ABSOLUTE_FLOOR, Trial};
 
 use crate::not_checked;
 
@@ -224,6 +224,7 @@ fn broken(
             [1.5, 1.6, 2.4].map(|n| optics::dielectric(n, c).unpolarised())
         }),
         bound: Measured::Yes(emitted.method.claims.code_ulp),
+        floor: ABSOLUTE_FLOOR,
         is_guarded: true,
     };
     let rows = rows(emitted);

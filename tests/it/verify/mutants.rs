@@ -230,6 +230,7 @@ fn trial(emitted: &Emitted, subject: &MaterialInMedium) -> Trial {
             true => Measured::Yes(emitted.method.claims.code_ulp),
             false => Measured::No("it promises nothing".to_owned()),
         },
+        floor: ABSOLUTE_FLOOR,
         is_guarded: guarded,
     }
 }
