@@ -48,6 +48,9 @@ pub enum Error {
     /// Emission refused.
     #[error(transparent)]
     Emit(#[from] emit::Error),
+    /// An adapter cannot be written.
+    #[error(transparent)]
+    Flavour(#[from] crate::flavours::Error),
     /// A table cannot be made.
     #[error(transparent)]
     Lut(#[from] lut::Error),

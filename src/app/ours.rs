@@ -7,6 +7,7 @@
 
 use crate::digest::sha256;
 use crate::emit::{CATALOGUE, CATALOGUE_BUFFER, EFFECTS, MARK};
+use crate::flavours;
 use crate::lut::{Format, KTX2_MARK, TABLES};
 use crate::num::Precision;
 use crate::targets::{self, Finish};
@@ -99,6 +100,9 @@ pub fn could_be_written(entry: &Entry) -> bool {
     match parts.as_slice() {
         [name] => SHARED.contains(&(*name, entry.target.as_str())),
         [TABLES, .., name] => entry.target == TABLES && is_table(name),
+        [folder, name] if *folder == entry.target && flavours::find(folder).is_some() => {
+            flavours::find(folder).is_some_and(|one| one.has(name, entry.material.as_deref()))
+        }
         [folder, name] if *folder == entry.target => {
             let stem = stem(entry, name);
             match (&entry.method, &entry.material) {

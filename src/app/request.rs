@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 
 use crate::effects::{self, Effect};
 use crate::emit::{HeaderForm, Naming};
+use crate::flavours::{self, Flavour};
 use crate::materials::{self, Material, MaterialKind, ViewingConditions};
 use crate::methods::{self, Method};
 use crate::num::Precision;
@@ -27,6 +28,8 @@ pub struct Request {
     /// Names of effects, or `all`: then their files are written and no others, with R by the one method that is named, specialised to
     /// the materials that are named. Empty: all in their usual form where neither methods nor materials are named, else none.
     pub effects: Vec<String>,
+    /// Names of flavours: adapters for hosts, beside the targets that are named; without named targets nothing else is written.
+    pub flavours: Vec<String>,
     /// Which materials functions are specialised to.
     pub materials: Materials,
     /// The medium that the light comes from; air where there is none.
@@ -54,6 +57,7 @@ impl Default for Request {
             targets: Vec::new(),
             methods: Vec::new(),
             effects: Vec::new(),
+            flavours: Vec::new(),
             materials: Materials::Default,
             medium: None,
             prefix: Naming::default().prefix,
@@ -133,7 +137,7 @@ impl Source {
 pub const DEFAULT_MATERIALS: [&str; 4] = ["diamond", "gold", "platinum", "water"];
 
 impl Request {
-    /// The targets, sorted, each once.
+    /// The targets, sorted, each once: those by default where neither targets nor flavours are named.
     ///
     /// # Errors
     /// A name is no target.
@@ -158,7 +162,7 @@ impl Request {
                 None => return Err(unknown("target", name, &all)),
             }
         }
-        if self.targets.is_empty() {
+        if self.targets.is_empty() && self.flavours.is_empty() {
             chosen.extend(by_default());
         }
         chosen.sort_by_key(|target| target.name);
@@ -207,6 +211,22 @@ impl Request {
         }
         chosen.sort_by_key(|effect| effect.name);
         chosen.dedup_by_key(|effect| effect.name);
+        Ok(chosen)
+    }
+
+    /// The flavours, sorted, each once.
+    ///
+    /// # Errors
+    /// A name is no flavour.
+    #[doc(hidden)]
+    pub fn resolved_flavours(&self) -> Result<Vec<&'static Flavour>, Error> {
+        let all: Vec<&str> = flavours::ALL.iter().map(|flavour| flavour.name).collect();
+        let mut chosen: Vec<&Flavour> = Vec::new();
+        for name in &self.flavours {
+            chosen.push(flavours::find(name).ok_or_else(|| unknown("flavour", name, &all))?);
+        }
+        chosen.sort_by_key(|flavour| flavour.name);
+        chosen.dedup_by_key(|flavour| flavour.name);
         Ok(chosen)
     }
 

@@ -24,6 +24,8 @@ pub struct Scope {
     pub shared: bool,
     /// The files of effects that the run makes: the effect, the material, the method where it is not the usual one.
     pub effects: BTreeSet<EffectKey>,
+    /// The flavours that the run writes.
+    pub flavours: BTreeSet<String>,
     /// What the run's functions compute in: files of the other precision are not its own.
     pub precision: Precision,
     /// None of the flags that choose was given: the run also removes orphans.
@@ -41,6 +43,9 @@ impl Scope {
             let is_usual = entry.material.is_none() && entry.method.is_none();
             return self.targets.contains(&entry.target)
                 && (self.effects.contains(&key) || self.whole && is_usual);
+        }
+        if self.flavours.contains(&entry.target) {
+            return (entry.material.as_ref()).is_none_or(|name| self.materials.contains(name));
         }
         let method = |name: &String| self.methods.as_ref().is_none_or(|all| all.contains(name));
         let named = entry.method.is_some() || entry.material.is_some();

@@ -292,7 +292,7 @@ fn strangers(
     let first = |path: &&str| path.split_once('/').map(|(first, _)| first.to_owned());
     let paths = expected.iter().chain(listed.keys());
     let mut folders: BTreeSet<String> = paths.filter_map(first).collect();
-    folders.extend(scope.targets.iter().cloned());
+    folders.extend(scope.targets.iter().chain(&scope.flavours).cloned());
     // `bake` puts tables there under any name.
     folders.remove(crate::lut::TABLES);
     // These stand beside the targets' folders and have none.

@@ -34,6 +34,8 @@ pub enum Detail {
     Catalogue(CatalogueDetail),
     /// Of a lookup table, or of its description.
     Table(TableDetail),
+    /// Of a file of a flavour.
+    Adapter(AdapterDetail),
 }
 
 impl Detail {
@@ -41,7 +43,7 @@ impl Detail {
     pub fn functions(&self) -> &[FunctionDetail] {
         match self {
             Detail::Functions(file) => &file.functions,
-            Detail::Catalogue(_) | Detail::Table(_) => &[],
+            Detail::Catalogue(_) | Detail::Table(_) | Detail::Adapter(_) => &[],
         }
     }
 
@@ -49,7 +51,7 @@ impl Detail {
     pub fn seen(&self) -> Option<&SeenDetail> {
         match self {
             Detail::Functions(file) => file.seen.as_ref(),
-            Detail::Catalogue(_) | Detail::Table(_) => None,
+            Detail::Catalogue(_) | Detail::Table(_) | Detail::Adapter(_) => None,
         }
     }
 }
@@ -98,6 +100,19 @@ pub struct TableDetail {
     pub command: String,
     /// The file that describes it.
     pub description: String,
+    /// The licence of the file.
+    pub licence: &'static str,
+}
+
+/// What the manifest says of a file of a flavour.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct AdapterDetail {
+    /// The command that writes it.
+    pub command: String,
+    /// The host, with the version that the adapter was tried in.
+    pub host: &'static str,
+    /// How the materials are seen, in words.
+    pub seen: String,
     /// The licence of the file.
     pub licence: &'static str,
 }

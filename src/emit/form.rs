@@ -65,6 +65,11 @@ impl FunctionForm {
             .position(|form| *form == self)
     }
 
+    /// Whether it is of one channel.
+    pub fn is_scalar(self) -> bool {
+        matches!(self, FunctionForm::Scalar | FunctionForm::AverageScalar)
+    }
+
     /// Whether it gives the mean over the hemisphere.
     pub fn is_mean(self) -> bool {
         matches!(self, FunctionForm::Average | FunctionForm::AverageScalar)

@@ -35,7 +35,8 @@ pub use catalogue::{
 };
 pub use comment::lines as comment_lines;
 pub use detail::{
-    CatalogueDetail, Detail, FunctionDetail, FunctionsDetail, SeenDetail, TableDetail,
+    AdapterDetail, CatalogueDetail, Detail, FunctionDetail, FunctionsDetail, SeenDetail,
+    TableDetail,
 };
 pub use effect_file::{
     EFFECTS, EffectPart, EffectRequest, effect_file, effect_function_text, effect_text,
@@ -52,6 +53,7 @@ pub use function::{
 pub use header::{MARK, OUTPUT_LICENCE};
 pub use heading::{HeaderForm, Heading};
 pub use missed::{Missed, missed};
+pub use page::{bare_text, text_of_template};
 pub use print::bare;
 pub use wgsl::{spirv_with_storage as wgsl_to_spirv, validate as validate_wgsl};
 

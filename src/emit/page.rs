@@ -79,6 +79,38 @@ pub fn render(request: &PageRequest) -> Result<Vec<u8>, Error> {
     )
 }
 
+/// The text of a template with what it sees; the file's name is for messages.
+///
+/// # Errors
+/// The template is wrong: a bug.
+pub fn text_of_template(
+    template: &str,
+    view: &impl Serialize,
+    file: &str,
+) -> Result<Vec<u8>, Error> {
+    finished(template, view, Finish::Text, file)
+}
+
+/// Functions without a head and without comments above them.
+///
+/// # Errors
+/// The language refuses the text: a bug.
+pub fn bare_text(target: &'static Target, functions: &[Emitted]) -> Result<String, Error> {
+    let plain: Vec<(Vec<String>, Emitted)> = functions
+        .iter()
+        .map(|one| (Vec::new(), one.clone()))
+        .collect();
+    let bytes = render(&PageRequest {
+        target,
+        page: &target.pages[0],
+        header: &[],
+        guard: "",
+        functions: &plain,
+        file: &functions[0].name,
+    })?;
+    Ok(String::from_utf8_lossy(&bytes).trim_start().to_owned())
+}
+
 /// A template with what it sees, and what becomes of the text; the file's name is for messages.
 pub fn finished(
     template: &str,

@@ -32,6 +32,9 @@ pub struct MaterialInMedium {
 /// A material with what a user types to get it: a name, or a file's name.
 pub type Typed = (String, Material);
 
+/// The fitted methods of four coefficients that materials have: of metals and semiconductors, and of dielectrics.
+pub const FITTED_WITH_FOUR: [&str; 2] = ["fitted", "fitted_dielectric"];
+
 impl MaterialInMedium {
     /// A material in air or in a medium, as it is seen.
     ///
@@ -101,8 +104,8 @@ impl MaterialInMedium {
     pub fn fitted_with_four(&self) -> Option<&'static str> {
         let n = self.effective.channels.n;
         match self.is_glass() {
-            false => Some("fitted"),
-            true if n.iter().all(|n| *n >= LEAST_FITTED_N) => Some("fitted_dielectric"),
+            false => Some(FITTED_WITH_FOUR[0]),
+            true if n.iter().all(|n| *n >= LEAST_FITTED_N) => Some(FITTED_WITH_FOUR[1]),
             true => None,
         }
     }

@@ -10,5 +10,5 @@ mod reference_curve;
 pub use class::MaterialClass;
 pub use derivation::{Derivation, THESIS_MATCHING_COS};
 pub use effective::{By, Effective, effective};
-pub use material_in_medium::{LEAST_FITTED_N, MaterialInMedium, Typed};
+pub use material_in_medium::{FITTED_WITH_FOUR, LEAST_FITTED_N, MaterialInMedium, Typed};
 pub use reference_curve::{ANGLES, ReferenceCurve, cosine_of_part, cosines, reference_reflectance};

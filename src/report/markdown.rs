@@ -3,6 +3,7 @@
 use crate::cost;
 use crate::effects;
 use crate::emit::{Bounds, Naming, half_bounds, specialised_function};
+use crate::flavours;
 use crate::materials::{Material, Unseen, ViewingConditions};
 use crate::methods::{self, Class, Contract, Method, Spread};
 use crate::reference::{Derivation, MaterialInMedium};
@@ -29,6 +30,25 @@ pub fn effects_table() -> String {
     }
     let columns = ["effect", "function", "gives", "cost on RDNA 2"];
     markdown_table(&columns, rows.into_iter())
+}
+
+/// The flavours: what each is for, its files as gold has them, and what was seen of it.
+pub fn flavours_table() -> String {
+    let rows = flavours::ALL.iter().map(|flavour| {
+        let names = flavour.pages.iter().map(|page| page.of("gold"));
+        let files: Vec<String> = names
+            .filter(|name| name != "README.md")
+            .map(|name| format!("`{name}`"))
+            .collect();
+        vec![
+            format!("`{}`", flavour.name),
+            format!("[{}]({})", flavour.host, flavour.source),
+            flavour.summary.to_owned(),
+            files.join(", "),
+            flavour.proof.to_owned(),
+        ]
+    });
+    markdown_table(&["flavour", "host", "what it is", "files", "proved"], rows)
 }
 
 /// Every method: what it takes, its cost in scalar operations for three channels, what it promises.

@@ -25,6 +25,8 @@ mod effects;
 mod exhaustive;
 mod f82;
 mod fits;
+#[cfg(feature = "cli")]
+mod flavours;
 mod furnace;
 #[cfg(all(feature = "cli", feature = "gpu"))]
 mod gallery;

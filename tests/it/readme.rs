@@ -12,7 +12,8 @@ use fresnel_gen::cost::records;
 use fresnel_gen::materials::{self, ViewingConditions};
 use fresnel_gen::report::headline::headline;
 use fresnel_gen::report::markdown::{
-    classes_table, effects_table, errors_table, half_table, methods_table, targets_table,
+    classes_table, effects_table, errors_table, flavours_table, half_table, methods_table,
+    targets_table,
 };
 use fresnel_gen::report::material_sheet::material_sheet;
 
@@ -85,6 +86,7 @@ fn tables_are_what_the_program_says() {
         ),
         ("docs/half-precision.md", vec![("half", half_table())]),
         ("docs/effects.md", vec![("effects", effects_table())]),
+        ("docs/engines.md", vec![("flavours", flavours_table())]),
     ];
     for (path, parts) in parts {
         let text = parts

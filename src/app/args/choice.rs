@@ -5,6 +5,7 @@ use core::fmt;
 use crate::app::fault::RequestFault;
 use crate::cost::{FAMILIES, Family};
 use crate::effects::{self, Effect};
+use crate::flavours::{self, Flavour};
 use crate::methods::{self, Method};
 use crate::names::UnknownName;
 use crate::num::Precision;
@@ -135,6 +136,13 @@ pub fn effect_or_all() -> impl Fn(&str) -> Result<Choice<&'static Effect>, Unkno
 /// The parser of a target's name, or `all`.
 pub fn target_or_all() -> impl Fn(&str) -> Result<Choice<&'static Target>, UnknownName> + Clone {
     one_or_all("target", targets::ALL.iter().copied(), |target| target.name)
+}
+
+/// The parser of a flavour's name.
+pub fn flavour() -> impl Fn(&str) -> Result<&'static Flavour, UnknownName> + Clone {
+    one_of("flavour", flavours::ALL.iter().copied(), |flavour| {
+        flavour.name
+    })
 }
 
 /// The parser of a precision's name.

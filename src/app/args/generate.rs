@@ -7,10 +7,11 @@ use clap::Args;
 use crate::cost::Family;
 use crate::effects::Effect;
 use crate::emit::HeaderForm;
+use crate::flavours::Flavour;
 use crate::methods::Method;
 use crate::targets::Target;
 
-use super::choice::{Choice, effect_or_all, family, method_or_all, one_of, target_or_all};
+use super::choice::{Choice, effect_or_all, family, flavour, method_or_all, one_of, target_or_all};
 use super::output::file_only;
 use super::{GamutFlags, MaterialFlags, MediumFlags, PrecisionFlags, TreeFlags};
 
@@ -27,6 +28,9 @@ pub struct GenerateFlags {
     /// Effect, see `fresnel-gen effects`, or all: write its functions and nothing else, with R by --method, specialised to --material [default: all where nothing is named]
     #[arg(long, value_delimiter = ',', value_name = "NAME", value_parser = effect_or_all(), conflicts_with = "budget")]
     pub effect: Vec<Choice<&'static Effect>>,
+    /// Engine or renderer: write an adapter for it and nothing else, in its own folder; --target beside it writes that too
+    #[arg(long, value_delimiter = ',', value_name = "NAME", value_parser = flavour(), conflicts_with_all = ["budget", "plan", "output"])]
+    pub flavour: Vec<&'static Flavour>,
     /// Which materials.
     #[command(flatten)]
     pub materials: MaterialFlags,

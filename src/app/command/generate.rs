@@ -140,6 +140,9 @@ fn request(flags: &GenerateFlags) -> Result<Request, Error> {
         targets: target_words(flags)?,
         methods: flags.method.iter().map(ToString::to_string).collect(),
         effects: flags.effect.iter().map(ToString::to_string).collect(),
+        flavours: (flags.flavour.iter())
+            .map(|flavour| flavour.name.to_owned())
+            .collect(),
         materials: flags.materials.materials()?,
         medium: flags.medium.source()?,
         prefix: flags.prefix.clone(),

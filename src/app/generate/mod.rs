@@ -1,6 +1,7 @@
 //! Generation: a request becomes artifacts in memory. Pure: nothing is read, nothing is written.
 
 mod effects;
+mod flavours;
 mod owners;
 mod single;
 mod written;
@@ -9,6 +10,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use crate::command_line::CommandLine;
 use crate::emit::{self, Bounds, Emitted, File, HeaderForm, Heading, NAGA_VERSION, Naming};
+use crate::flavours::Flavour;
 use crate::materials::Unseen;
 use crate::methods::{self, Method};
 use crate::num::Precision;
@@ -80,6 +82,8 @@ pub fn generate_beside(request: &Request, kept: &Kept) -> Result<Generated, Erro
         .into_iter()
         .map(|made| made.artifact)
         .collect();
+    let (adapters, without_adapters) = run.flavour_files()?;
+    artifacts.extend(adapters);
     artifacts.sort_by(|a, b| a.path.cmp(&b.path));
     Ok(Generated {
         scope: run.scope(&artifacts),
@@ -87,6 +91,7 @@ pub fn generate_beside(request: &Request, kept: &Kept) -> Result<Generated, Erro
         refused: written::refused(request, run.named.as_deref())
             .into_iter()
             .chain(run.unchanged_effects(&artifacts))
+            .chain(without_adapters)
             .collect(),
         left_out: run.left_out,
         artifacts,
@@ -149,6 +154,9 @@ pub fn generate_meant<'r>(
 
 fn made(run: &Run, kept: &Kept) -> Result<Vec<Made>, Error> {
     let mut owners = Owners::default();
+    if run.targets.is_empty() {
+        return Ok(Vec::new());
+    }
     if run.is_of_effects() {
         return run.effect_files(&mut owners);
     }
@@ -170,6 +178,7 @@ struct Run<'r> {
     /// The methods asked for by name; nothing where all are meant.
     named: Option<Vec<&'static Method>>,
     effects: WantedEffects,
+    flavours: Vec<&'static Flavour>,
     subjects: Vec<(MaterialInMedium, String)>,
     left_out: Vec<Unseen>,
     naming: Naming,
@@ -186,6 +195,8 @@ impl<'r> Run<'r> {
         let no_materials = names_others && request.materials == Materials::Default
             || request.materials == Materials::None;
         written::check(request, named.as_deref(), no_materials)?;
+        let (targets, flavours) = (request.resolved_targets()?, request.resolved_flavours()?);
+        flavours::check(request, &flavours, &targets, named.as_deref())?;
         let subjects = if no_materials {
             Subjects::default()
         } else {
@@ -193,7 +204,8 @@ impl<'r> Run<'r> {
         };
         Ok(Run {
             request,
-            targets: request.resolved_targets()?,
+            targets,
+            flavours,
             subjects: subjects.ready,
             left_out: subjects.left_out,
             effects: effects::wanted(request, named.as_deref())?,
@@ -363,8 +375,13 @@ impl<'r> Run<'r> {
             materials: subjects.map(|(subject, _)| subject.name.clone()).collect(),
             effects: artifacts.iter().filter_map(Artifact::effect_key).collect(),
             shared: false,
+            flavours: (self.flavours.iter())
+                .map(|flavour| flavour.name.to_owned())
+                .collect(),
             precision: request.precision,
-            whole: request.targets.is_empty() && request.names_nothing(),
+            whole: request.targets.is_empty()
+                && request.flavours.is_empty()
+                && request.names_nothing(),
         }
     }
 

@@ -80,10 +80,8 @@ pub fn run(targets: &[&str], materials: &[&str], method: Option<&str>) -> (Vec<A
         targets: names(targets),
         methods: method.map(|only| names(&[only])),
         materials: names(materials),
-        effects: BTreeSet::new(),
         shared: method.is_none(),
-        precision: Precision::F32,
-        whole: false,
+        ..Scope::default()
     };
     (artifacts, scope)
 }

@@ -1,0 +1,186 @@
+//! The files of flavours: adapters for hosts, with fitted coefficients of the run's materials.
+
+use crate::app::artifact::Artifact;
+use crate::app::error::Error;
+use crate::app::fault::RequestFault;
+use crate::app::request::{DEFAULT_MATERIALS, Materials, Request};
+use crate::command_line::CommandLine;
+use crate::emit::{self, AdapterDetail, CatalogueRow, Detail, OUTPUT_LICENCE};
+use crate::flavours::{self, Commands, Fitted, Flavour, FlavourFile};
+use crate::materials::ViewingConditions;
+use crate::methods::Method;
+use crate::reference::MaterialInMedium;
+use crate::targets::Target;
+
+use super::Run;
+
+/// The material that files show which a run with other materials does not change.
+const EXAMPLE: &str = "gold";
+
+/// Refuses what adapters cannot follow: their functions, names and languages are the host's.
+///
+/// # Errors
+/// A target that none of the flavours holds; flags that choose functions.
+pub fn check(
+    request: &Request,
+    flavours: &[&'static Flavour],
+    targets: &[&'static Target],
+    methods: Option<&[&'static Method]>,
+) -> Result<(), Error> {
+    if flavours.is_empty() {
+        return Ok(());
+    }
+    let names: Vec<&str> = flavours.iter().map(|flavour| flavour.name).collect();
+    let names = names.join(",");
+    let is_foreign = |target: &&&Target| {
+        let mut all = flavours.iter();
+        !all.any(|flavour| flavour.languages.contains(&target.name))
+    };
+    if let Some(target) = targets.iter().find(is_foreign) {
+        let mut languages: Vec<&str> = flavours
+            .iter()
+            .flat_map(|one| one.languages)
+            .copied()
+            .collect();
+        languages.sort_unstable();
+        languages.dedup();
+        let why = format!(
+            "--flavour {names} is written in {}, and --target is {}; leave --target out",
+            languages.join(" and "),
+            target.name
+        );
+        return Err(RequestFault::conflict(why).into());
+    }
+    let why = if methods.is_some() || !request.chosen.is_empty() {
+        "takes the fitted method of each material; leave --method, --budget and --plan out"
+    } else if !request.effects.is_empty() {
+        "writes no effects; run --effect alone"
+    } else if request.precision.is_half() {
+        "is written in single precision; leave --precision f16 out"
+    } else if request.prefix != Request::default().prefix {
+        "has names that its host knows; leave --prefix out"
+    } else if request.materials == Materials::None {
+        "is of materials; `none` leaves none"
+    } else {
+        return Ok(());
+    };
+    Err(RequestFault::conflict(format!("--flavour {names} {why}")).into())
+}
+
+impl Run<'_> {
+    /// All files of the flavours, and why materials of `all` have none.
+    ///
+    /// # Errors
+    /// No fitted form of four coefficients follows a material that was named.
+    pub fn flavour_files(&self) -> Result<(Vec<Artifact>, Vec<String>), Error> {
+        if self.flavours.is_empty() {
+            return Ok((Vec::new(), Vec::new()));
+        }
+        let (subjects, others): (Vec<MaterialInMedium>, Vec<MaterialInMedium>) =
+            (self.subjects.iter())
+                .map(|(subject, _)| subject.clone())
+                .partition(|subject| subject.fitted_with_four().is_some());
+        let without = |subject: &MaterialInMedium| {
+            let name = &subject.name;
+            format!(
+                "material `{name}` in adapters: its refractive index is too near that of the medium for a fitted form"
+            )
+        };
+        let left_out: Vec<String> = others.iter().map(without).collect();
+        if let Some(why) = left_out
+            .first()
+            .filter(|_| self.request.materials != Materials::All)
+        {
+            return Err(RequestFault::conflict(format!("{why}; leave it out")).into());
+        }
+        let rows = emit::catalogue_rows(&subjects, &self.naming)?;
+        let reference = subjects
+            .first()
+            .map(|subject| subject.reference.surface.seen.clone());
+        let reference = reference.unwrap_or_default();
+        let materials = Fitted {
+            rows: &rows,
+            reference: &reference,
+        };
+        let mut artifacts = Vec::new();
+        for flavour in &self.flavours {
+            for file in self.adapter(flavour, materials)? {
+                artifacts.push(artifact(flavour, file, &reference));
+            }
+        }
+        Ok((artifacts, left_out))
+    }
+
+    fn adapter(
+        &self,
+        flavour: &'static Flavour,
+        materials: Fitted,
+    ) -> Result<Vec<FlavourFile>, Error> {
+        let usual = ViewingConditions::default();
+        let recorded = emit::recorded_catalogue(&usual).expect("a test derives the record anew");
+        let is_example = |row: &CatalogueRow| row.name == EXAMPLE;
+        let example: Vec<CatalogueRow> = recorded.into_iter().filter(is_example).collect();
+        let example = Fitted {
+            rows: &example,
+            reference: &usual.reference_in_words(),
+        };
+        let commands = Commands {
+            all: match flavour.is_by_material() {
+                true => CommandLine::new("fresnel-gen")
+                    .list("flavour", [flavour.name])
+                    .into(),
+                false => self.adapter_command(flavour, &|_| true),
+            },
+            of_material: &|name| self.adapter_command(flavour, &|one| one.name == name),
+        };
+        Ok(flavours::files(flavour, materials, example, &commands)?)
+    }
+
+    /// The command that writes the files of some materials again.
+    fn adapter_command(
+        &self,
+        flavour: &Flavour,
+        is_meant: &dyn Fn(&MaterialInMedium) -> bool,
+    ) -> String {
+        let all = self.subjects.iter().map(|(subject, _)| subject);
+        let meant: Vec<&MaterialInMedium> = all.filter(|subject| is_meant(subject)).collect();
+        let mut names: Vec<&str> = meant
+            .iter()
+            .map(|subject| subject.argument.as_str())
+            .collect();
+        if names == DEFAULT_MATERIALS {
+            names.clear();
+        }
+        if self.request.materials == Materials::All && names.len() > 1 {
+            names = vec!["all"];
+        }
+        let first = meant.first();
+        let medium = first.and_then(|subject| subject.medium.as_ref());
+        let seen = first.map(|subject| {
+            crate::command_line::surface_flags(&self.request.viewing, &subject.reference.surface)
+        });
+        CommandLine::new("fresnel-gen")
+            .list("flavour", [flavour.name])
+            .list("material", names)
+            .list("medium", medium.map(|(argument, _)| argument))
+            .with(&seen.unwrap_or_default())
+            .into()
+    }
+}
+
+fn artifact(flavour: &Flavour, file: FlavourFile, reference: &str) -> Artifact {
+    Artifact {
+        path: format!("{}/{}", flavour.name, file.name),
+        bytes: file.bytes,
+        target: flavour.name.to_owned(),
+        effect: None,
+        method: None,
+        material: file.material,
+        detail: Detail::Adapter(AdapterDetail {
+            command: file.command,
+            host: flavour.host,
+            seen: reference.to_owned(),
+            licence: OUTPUT_LICENCE,
+        }),
+    }
+}

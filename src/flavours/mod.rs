@@ -1,0 +1,29 @@
+//! Flavours: targets dressed for one host. A flavour's files are an adapter: they replace each use of Fresnel's equations in that host,
+//! with fitted coefficients of materials.
+//!
+//! Lamps, image light and the compensation of multiple scattering take the same coefficients, which keep to [0, 1] by themselves, as those
+//! of the catalogue do.
+//!
+//! To add one, write its file with a `pub static FLAVOUR: Flavour` and its templates, and run `tests/lists`.
+
+mod adapter;
+mod flavour;
+mod view;
+
+pub use adapter::{Commands, Error, Fitted, FlavourFile, files};
+pub use flavour::{Flavour, FlavourPage};
+
+// BEGIN flavours (written by tests/lists)
+mod godot;
+
+/// Every flavour, by name.
+#[rustfmt::skip]
+pub static ALL: &[&Flavour] = &[
+    &godot::FLAVOUR,
+];
+// END flavours
+
+/// The flavour of this name.
+pub fn find(name: &str) -> Option<&'static Flavour> {
+    ALL.iter().find(|flavour| flavour.name == name).copied()
+}
