@@ -15,11 +15,15 @@ pub use flavour::{Flavour, FlavourPage};
 
 // BEGIN flavours (written by tests/lists)
 mod godot;
+mod unity;
+mod unreal;
 
 /// Every flavour, by name.
 #[rustfmt::skip]
 pub static ALL: &[&Flavour] = &[
     &godot::FLAVOUR,
+    &unity::FLAVOUR,
+    &unreal::FLAVOUR,
 ];
 // END flavours
 

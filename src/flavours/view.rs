@@ -79,6 +79,8 @@ pub(super) struct MaterialView {
     method: &'static str,
     /// The name of the function with its coefficients.
     function: String,
+    /// The library function of its method.
+    library_function: String,
     /// c0 to c3, three channels each.
     coefficients: Vec<[String; 3]>,
     /// The mean of F over the hemisphere.
@@ -126,7 +128,7 @@ pub(super) fn view(
         source: flavour.source,
         proof: flavour.proof,
         licence: OUTPUT_LICENCE,
-        reference: reference.to_owned(),
+        reference: reference.chars().filter(|c| is_plain(*c)).collect(),
         methods: methods
             .iter()
             .map(|one| method_view(one, &naming))
@@ -136,6 +138,11 @@ pub(super) fn view(
         library: library(flavour, &methods, &naming)?,
         tables: tables(flavour, &methods)?,
     })
+}
+
+/// Whether a character says the same in comments, in strings and in marked-up text: a user's own names stand in words.
+fn is_plain(c: char) -> bool {
+    c == ' ' || c.is_ascii_alphanumeric() || ".,;:-+/()[]_%".contains(c)
 }
 
 fn method_view(method: &'static Method, naming: &Naming) -> MethodView {
@@ -157,6 +164,7 @@ pub(super) fn material_view(row: &CatalogueRow, naming: &Naming) -> MaterialView
         class: row.class,
         method: row.method.name,
         function: format!("{}{}_{}", naming.prefix, row.name, row.method.name),
+        library_function: format!("{}{}", naming.prefix, row.method.name),
         coefficients: row.coefficients.iter().map(numbers).collect(),
         average: numbers(&row.average.given),
         f0: numbers(&normal_incidence(row)),

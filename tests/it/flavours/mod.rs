@@ -1,5 +1,8 @@
 //! Flavours: what a run writes and leaves alone, and each adapter in its host, one file a host.
 
+#[cfg(feature = "compilers")]
+mod compiled;
+
 use std::collections::BTreeSet;
 
 use base64::Engine as _;

@@ -20,7 +20,6 @@ use fresnel_gen::app::scope::Scope;
 use fresnel_gen::app::tree::{TreePlan, plan};
 use fresnel_gen::app::write::{self, Written};
 use fresnel_gen::emit::{Detail, FunctionsDetail, SeenDetail};
-use fresnel_gen::num::Precision;
 
 /// A run without flags: two targets with two methods, two materials and a catalogue each,
 /// a file without a comment and one that lies beside the targets' folders.
