@@ -142,7 +142,7 @@ pub(super) fn view(
 
 /// Whether a character says the same in comments, in strings and in marked-up text: a user's own names stand in words.
 fn is_plain(c: char) -> bool {
-    c == ' ' || c.is_ascii_alphanumeric() || ".,;:-+/()[]_%".contains(c)
+    c == ' ' || c.is_ascii_alphanumeric() || ".,;:-+=/()[]_%".contains(c)
 }
 
 fn method_view(method: &'static Method, naming: &Naming) -> MethodView {

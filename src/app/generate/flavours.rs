@@ -3,7 +3,7 @@
 use crate::app::artifact::Artifact;
 use crate::app::error::Error;
 use crate::app::fault::RequestFault;
-use crate::app::request::{DEFAULT_MATERIALS, Materials, Request};
+use crate::app::request::{DEFAULT_MATERIALS, Materials, Request, Source};
 use crate::command_line::CommandLine;
 use crate::emit::{self, AdapterDetail, CatalogueRow, Detail, OUTPUT_LICENCE};
 use crate::flavours::{self, Commands, Fitted, Flavour, FlavourFile};
@@ -86,12 +86,11 @@ impl Run<'_> {
                 "material `{name}` in adapters: its refractive index is too near that of the medium for a fitted form"
             )
         };
-        let left_out: Vec<String> = others.iter().map(without).collect();
-        if let Some(why) = left_out
-            .first()
-            .filter(|_| self.request.materials != Materials::All)
+        if let Some(named) = others
+            .iter()
+            .find(|subject| !self.is_brought_along(subject))
         {
-            return Err(RequestFault::conflict(format!("{why}; leave it out")).into());
+            return Err(RequestFault::conflict(format!("{}; leave it out", without(named))).into());
         }
         let rows = emit::catalogue_rows(&subjects, &self.naming)?;
         let reference = subjects
@@ -108,7 +107,7 @@ impl Run<'_> {
                 artifacts.push(artifact(flavour, file, &reference));
             }
         }
-        Ok((artifacts, left_out))
+        Ok((artifacts, others.iter().map(without).collect()))
     }
 
     fn adapter(
@@ -136,6 +135,12 @@ impl Run<'_> {
         Ok(flavours::files(flavour, materials, example, &commands)?)
     }
 
+    /// Whether `all` brought this material along.
+    fn is_brought_along(&self, subject: &MaterialInMedium) -> bool {
+        let all = self.request.materials.sources();
+        all.contains(&Source::BroughtAlong(subject.argument.clone()))
+    }
+
     /// The command that writes the files of some materials again.
     fn adapter_command(
         &self,
@@ -144,15 +149,16 @@ impl Run<'_> {
     ) -> String {
         let all = self.subjects.iter().map(|(subject, _)| subject);
         let meant: Vec<&MaterialInMedium> = all.filter(|subject| is_meant(subject)).collect();
-        let mut names: Vec<&str> = meant
-            .iter()
-            .map(|subject| subject.argument.as_str())
+        let is_all =
+            |subject: &&&MaterialInMedium| meant.len() > 1 && self.is_brought_along(subject);
+        let all = meant.iter().find(is_all).map(|_| "all");
+        let named = meant.iter().filter(|subject| !is_all(subject));
+        let mut names: Vec<&str> = all
+            .into_iter()
+            .chain(named.map(|one| one.argument.as_str()))
             .collect();
         if names == DEFAULT_MATERIALS {
             names.clear();
-        }
-        if self.request.materials == Materials::All && names.len() > 1 {
-            names = vec!["all"];
         }
         let first = meant.first();
         let medium = first.and_then(|subject| subject.medium.as_ref());
