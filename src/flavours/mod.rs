@@ -15,6 +15,7 @@ pub use flavour::{Flavour, FlavourPage};
 
 // BEGIN flavours (written by tests/lists)
 mod godot;
+mod three;
 mod unity;
 mod unreal;
 
@@ -22,6 +23,7 @@ mod unreal;
 #[rustfmt::skip]
 pub static ALL: &[&Flavour] = &[
     &godot::FLAVOUR,
+    &three::FLAVOUR,
     &unity::FLAVOUR,
     &unreal::FLAVOUR,
 ];

@@ -12,7 +12,7 @@ use crate::emit::{
 };
 use crate::fit::rounded_up;
 use crate::lut::{Depth, SplitSum, SplitSumDesign};
-use crate::methods::{self, Method};
+use crate::methods::{self, Class, Method};
 use crate::reference::FITTED_WITH_FOUR;
 use crate::targets::{self, Target};
 
@@ -58,6 +58,8 @@ pub(super) struct MethodView {
     function: String,
     /// The mean of F over the hemisphere, of the same arguments without the cosine.
     average_function: String,
+    /// Whether its materials have no diffuse light: metals and semiconductors.
+    is_opaque: bool,
     /// Its formula, line by line.
     formula: &'static [&'static str],
     /// Where its form and its coefficients come from.
@@ -150,6 +152,7 @@ fn method_view(method: &'static Method, naming: &Naming) -> MethodView {
         name: method.name,
         function: format!("{}{}", naming.prefix, method.name),
         average_function: format!("{}{}_average", naming.prefix, method.name),
+        is_opaque: method.class != Class::Dielectric,
         formula: method.formula,
         source: method.source.line(),
     }

@@ -12,6 +12,17 @@ pub const CHROMIUM: Tool = Tool {
     package: "chromium",
 };
 
+/// What each start of the browser takes: no window, no profile of anybody, no talk with hosts.
+pub const USUAL: [&str; 7] = [
+    "--headless",
+    "--no-sandbox",
+    "--no-first-run",
+    "--disable-quic",
+    "--disable-sync",
+    "--disable-background-networking",
+    "--disable-component-update",
+];
+
 /// Stands in the page before anything of it runs, and hears what goes wrong.
 const EARS: &str = r#"<script>
 const faults = [];
@@ -28,17 +39,8 @@ pub fn told(place: &Place, page: &str, hands: &str, query: &str, flags: &[&str])
     place.put("tried.html", page.replace("</html>", hands));
     let profile = format!("--user-data-dir={}", place.path("profile").display());
     let page = format!("file://{}{query}", place.path("tried.html").display());
-    let usual = [
-        "--headless",
-        "--no-sandbox",
-        "--no-first-run",
-        "--disable-quic",
-        "--disable-sync",
-        "--disable-background-networking",
-        "--disable-component-update",
-    ];
     let last = [profile.as_str(), "--dump-dom", page.as_str()];
-    let dom = CHROMIUM.run([&usual[..], flags, &last[..]].concat());
+    let dom = CHROMIUM.run([&USUAL[..], flags, &last[..]].concat());
     let dom = dom.expect("the page is rendered");
     let told = dom
         .split("<pre id=\"told\">")

@@ -2,6 +2,10 @@
 
 #[cfg(feature = "compilers")]
 mod compiled;
+#[cfg(all(feature = "cli", feature = "gpu"))]
+mod host;
+#[cfg(all(feature = "cli", feature = "gpu"))]
+mod three;
 
 use std::collections::BTreeSet;
 
@@ -203,11 +207,38 @@ fn a_file_of_somebody_else_stays() {
     }
 }
 
-/// Each table of a text, by what stands before it and behind it.
-pub fn decoded(text: &str, before: &str, behind: char) -> Vec<Vec<u8>> {
-    let parts = text.split(before).skip(1);
-    let encoded = parts.map(|part| part.split(behind).next().unwrap());
-    encoded
-        .map(|text| BASE64_STANDARD.decode(text).unwrap())
-        .collect()
+/// The first channel is the albedo of a surface that reflects everything: a mirror loses nothing, and no surface gives more than it gets.
+#[test]
+fn tables_of_a_module_hold_what_surfaces_reflect() {
+    let place = Place::new();
+    place.done("--flavour three --material gold");
+    let module = place.read(&format!("{OUT}/three/fresnel.js"));
+    let tables = module.split("table: \"").skip(1);
+    let tables: Vec<Vec<u8>> = tables
+        .map(|part| {
+            BASE64_STANDARD
+                .decode(part.split('"').next().unwrap())
+                .unwrap()
+        })
+        .collect();
+    assert_eq!(tables.len(), 2);
+    for table in tables {
+        let halves = table.chunks_exact(2);
+        let halves: Vec<f32> = halves
+            .map(|two| half::f16::from_le_bytes([two[0], two[1]]).to_f32())
+            .collect();
+        let (side, white) = (80, halves.iter().step_by(4));
+        assert_eq!(halves.len(), 4 * side * side);
+        assert!(white.clone().all(|albedo| *albedo > 0.0 && *albedo <= 1.0));
+        let mirror = &halves[..4 * side];
+        assert!(
+            mirror.iter().step_by(4).all(|albedo| *albedo == 1.0),
+            "the first row is of a mirror"
+        );
+        let rough = &halves[4 * side * (side - 1)..];
+        assert!(
+            rough.iter().step_by(4).any(|albedo| *albedo < 0.9),
+            "the last row loses light"
+        );
+    }
 }

@@ -1,0 +1,180 @@
+//! Hosts that run in a browser: their packages of npm, pages of proof, and the pages of adapters' READMEs.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use image::RgbImage;
+use serde_json::Value;
+
+use crate::browser::{self, CHROMIUM};
+use crate::cli::{OUT, Place};
+use crate::not_checked;
+
+/// A host in a browser.
+pub struct Host {
+    /// Its flavour.
+    pub flavour: &'static str,
+    /// The folder below `target` that its packages were installed in.
+    pub folder: &'static str,
+    /// Its package of npm.
+    pub package: &'static str,
+    /// The version that the adapter was made for, as `tests/run` installs it.
+    pub version: &'static str,
+    /// The page of the proof.
+    pub page: &'static str,
+    /// The scripts beside it, by name.
+    pub scripts: &'static [(&'static str, &'static str)],
+    /// The materials of the proof.
+    pub materials: &'static str,
+}
+
+/// WebGL 2 and WebGPU on the processor; modules from files.
+const FLAGS: [&str; 7] = [
+    "--use-angle=swiftshader",
+    "--enable-unsafe-swiftshader",
+    "--enable-unsafe-webgpu",
+    "--use-webgpu-adapter=swiftshader",
+    "--enable-features=Vulkan",
+    "--use-vulkan=swiftshader",
+    "--allow-file-access-from-files",
+];
+
+impl Host {
+    /// The folder of its packages, where they and a browser are.
+    #[track_caller]
+    fn packages(&self) -> Option<PathBuf> {
+        let what = format!("the flavour {} in its host", self.flavour);
+        let target = Path::new(env!("CARGO_MANIFEST_DIR")).join("target");
+        let packages = target.join(self.folder).join("node_modules");
+        let manifest = packages.join(self.package).join("package.json");
+        let manifest = fs::read_to_string(manifest).unwrap_or_default();
+        let manifest: Value = serde_json::from_str(&manifest).unwrap_or_default();
+        if manifest["version"] != self.version {
+            let remark = format!(
+                "{what}: no {package} {version}; install with: npm install --prefix target/{folder} {package}@{version}",
+                package = self.package,
+                version = self.version,
+                folder = self.folder
+            );
+            assert!(std::env::var_os("CI").is_none(), "not checked: {remark}");
+            not_checked(&remark);
+            return None;
+        }
+        CHROMIUM.is_here(&what).then_some(packages)
+    }
+
+    /// What the page of the proof tells; nothing where the host is not here.
+    #[track_caller]
+    pub fn proof(&self) -> Option<Value> {
+        let packages = self.packages()?;
+        let place = Place::new();
+        place.done(&format!(
+            "--flavour {} --material {} --out-dir .",
+            self.flavour, self.materials
+        ));
+        for (name, text) in self.scripts {
+            place.put(name, text);
+        }
+        link(&packages, &place);
+        Some(browser::told(&place, self.page, "</html>", "", &FLAGS))
+    }
+
+    /// Follows the README as a newcomer does, and draws its page. Its commands are run, but for npm, whose packages are there, and the
+    /// server, since the browser reads files.
+    #[track_caller]
+    pub fn readme_page(&self) -> Option<RgbImage> {
+        let packages = self.packages()?;
+        let place = Place::new();
+        place.done(&format!("--flavour {} --material gold", self.flavour));
+        let readme = place.read(&format!("{OUT}/{}/README.md", self.flavour));
+        let commands = block(&readme, "sh");
+        let lines: Vec<&str> = commands
+            .lines()
+            .filter(|line| !line.starts_with('#'))
+            .collect();
+        assert!(lines.len() < 10, "{commands}");
+        let ours = lines
+            .iter()
+            .find_map(|line| line.strip_prefix("fresnel-gen "));
+        place.done(ours.expect("the README runs this program"));
+        let wanted = format!("{}@{}", self.package, self.version);
+        assert!(
+            lines
+                .iter()
+                .any(|line| line.starts_with("npm install") && line.ends_with(&wanted)),
+            "{commands}"
+        );
+        place.put("index.html", block(&readme, "html"));
+        link(&packages, &place);
+        let picture = place.path("page.png");
+        let profile = format!("--user-data-dir={}", place.path("profile").display());
+        let screenshot = format!("--screenshot={}", picture.display());
+        let page = format!("file://{}", place.path("index.html").display());
+        let own = [
+            profile.as_str(),
+            screenshot.as_str(),
+            "--window-size=400,400",
+            "--virtual-time-budget=10000",
+            page.as_str(),
+        ];
+        let arguments = [&browser::USUAL[..], &FLAGS, &own].concat();
+        CHROMIUM.run(arguments).expect("the page is drawn");
+        Some(image::open(&picture).expect("a picture").to_rgb8())
+    }
+}
+
+#[cfg(unix)]
+fn link(packages: &Path, place: &Place) {
+    std::os::unix::fs::symlink(packages, place.path("node_modules")).unwrap();
+}
+
+#[cfg(not(unix))]
+fn link(_: &Path, _: &Place) {
+    unimplemented!("these pages are tried on Linux");
+}
+
+/// The first block of a language.
+fn block(text: &str, language: &str) -> String {
+    let start = format!("```{language}\n");
+    let part = text.split(&start).nth(1).expect("the README has the block");
+    part.split("\n```").next().unwrap().to_owned() + "\n"
+}
+
+/// How many of the pixels around the middle are of gold: more red than green, more green than blue; and whether the corner is not.
+#[track_caller]
+pub fn shows_a_gold_sphere(picture: &RgbImage) {
+    let (width, height) = picture.dimensions();
+    let is_gold = |x: u32, y: u32| {
+        let [r, g, b] = picture.get_pixel(x, y).0;
+        r > g && g > b && r >= b + 20
+    };
+    let (mut all, mut gold) = (0, 0);
+    for y in (height * 3 / 8)..(height * 5 / 8) {
+        for x in (width * 3 / 8)..(width * 5 / 8) {
+            all += 1;
+            gold += usize::from(is_gold(x, y));
+        }
+    }
+    assert!(10 * gold > 9 * all, "{gold} of {all} pixels are of gold");
+    assert!(!is_gold(1, 1), "the corner is of gold too");
+}
+
+/// A number of a report.
+#[track_caller]
+pub fn number(value: &Value) -> f64 {
+    value
+        .as_f64()
+        .unwrap_or_else(|| panic!("{value} is no number"))
+}
+
+/// Each number of an object of numbers is at most this.
+#[track_caller]
+pub fn at_most(told: &Value, most: f64) {
+    let all = told
+        .as_object()
+        .unwrap_or_else(|| panic!("{told} is no object"));
+    assert!(!all.is_empty());
+    for (name, value) in all {
+        assert!(number(value) <= most, "{name}: {value} is more than {most}");
+    }
+}

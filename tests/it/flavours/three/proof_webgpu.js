@@ -1,0 +1,158 @@
+// What three.js draws in WebGPU with TSL, in figures: F as a node, and patched node materials.
+
+import * as THREE from "three/webgpu";
+import { positionView, screenCoordinate, uniform, vec3, vec4 } from "three/tsl";
+import { MeshStandardMaterial } from "three";
+import { RectAreaLightTexturesLib } from "three/addons/lights/RectAreaLightTexturesLib.js";
+import { materials, patch as patchWebGL, tableSize, tableTexture } from "./three/fresnel.js";
+import { fresnel, patch, patchWith } from "./three/fresnel.tsl.js";
+
+const f32 = Math.fround;
+function reflectance({ method, coefficients }, cos, channel) {
+  const [c0, c1, c2, c3] = coefficients.map(c => f32(c[channel]));
+  const b = method === "fitted" ? 2 ** (-6.5 * cos) : 1 - cos;
+  const sum = method === "fitted" ? c0 + b * (c1 + b * (c2 + b * c3)) : c0 + b ** 3 * (c1 + b ** 4 * (c2 + b ** 7 * c3));
+  return Math.min(1, Math.max(0, sum));
+}
+
+const camera = new THREE.OrthographicCamera(-1, 1, 1, -1, 0, 10);
+async function drawn(renderer, scene, mesh, width, height) {
+  const target = new THREE.RenderTarget(width, height, { type: THREE.FloatType, depthBuffer: false });
+  mesh.frustumCulled = false;
+  scene.add(mesh);
+  renderer.setRenderTarget(target);
+  renderer.render(scene, camera);
+  const pixels = await renderer.readRenderTargetPixelsAsync(target, 0, 0, width, height);
+  renderer.setRenderTarget(null);
+  scene.remove(mesh);
+  target.dispose();
+  const row = pixels.length / height; // rows may be padded
+  return (x, channel, y = 0) => pixels[y * row + 4 * x + channel];
+}
+
+async function nodes(renderer) {
+  const width = 256, told = {};
+  for (const name of Object.keys(materials)) {
+    const material = new THREE.NodeMaterial();
+    material.fragmentNode = vec4(fresnel(name, screenCoordinate.x.sub(0.5).div(width - 1)), 1);
+    const pixel = await drawn(renderer, new THREE.Scene(), new THREE.Mesh(new THREE.PlaneGeometry(2, 2), material), width, 1);
+    let most = 0;
+    for (let x = 0; x < width; x++) for (let k = 0; k < 3; k++)
+      most = Math.max(most, Math.abs(pixel(x, k) - reflectance(materials[name], f32(x / (width - 1)), k)));
+    told[name] = most;
+  }
+  return told;
+}
+
+const WHITE = [[1, 1, 1], [0, 0, 0], [0, 0, 0], [0, 0, 0]];
+const half = h => (h & 0x7c00 ? 2 ** ((h >> 10 & 31) - 15) * (1 + (h & 1023) / 1024) : 2 ** -24 * (h & 1023)) * (h >> 15 ? -1 : 1);
+function terms(method, cos, roughness) {
+  const texels = tableTexture(method).image.data, last = tableSize - 1;
+  const x = cos ** 0.25 * last, y = roughness ** 0.5 * last;
+  const i = Math.min(last - 1, Math.floor(x)), j = Math.min(last - 1, Math.floor(y));
+  const at = (a, b, k) => half(texels[4 * ((j + b) * tableSize + i + a) + k]);
+  const mix = (a, b, t) => a + (b - a) * t;
+  return [0, 1, 2, 3].map(k => mix(mix(at(0, 0, k), at(1, 0, k), x - i), mix(at(0, 1, k), at(1, 1, k), x - i), y - j));
+}
+const weights = { fitted: [1, 0.09253325, 0.024601486, 0.010947157], fitted_dielectric: [1, 0.1, 0.027777778, 0.008333334] };
+
+// Pixels in a row, on a plane behind which or in front of which a lamp stands. The normal is the half vector, tilted.
+const WIDTH = 128;
+function pixels(height, tilt) {
+  return Array.from({ length: WIDTH }, (_, i) => {
+    const x = 2 * (i + 0.5) / WIDTH - 1, l = Math.hypot(x, height), light = [-x / l, 0, height / l];
+    const half = [light[0], 0, light[2] + 1], h = Math.hypot(half[0], half[2]);
+    const n = [half[0] / h + tilt, half[2] / h], length = Math.hypot(...n);
+    return { cos: half[2] / h, cosV: n[1] / length, cosL: (n[0] * light[0] + n[1] * light[2]) / length };
+  });
+}
+const tilted = (material, lamp, tilt) => {
+  const light = lamp.sub(positionView).normalize();
+  material.normalNode = light.add(vec3(0, 0, 1)).normalize().add(vec3(tilt, 0, 0)).normalize();
+  return material;
+};
+
+async function lighting(renderer) {
+  const told = { lamps: {}, image: {}, rectangle: {}, white_diffuse: 0, least_cos: 1 };
+  const lit = new THREE.Scene(), image = new THREE.Scene(), area = new THREE.Scene();
+  const point = new THREE.PointLight(0xffffff, 1, 0, 0), lamp = uniform(point.position);
+  lit.add(point);
+  const whiteScene = new THREE.Scene();
+  whiteScene.background = new THREE.Color(1, 1, 1);
+  image.environment = new THREE.PMREMGenerator(renderer).fromScene(whiteScene).texture;
+  THREE.RectAreaLightNode.setLTC(RectAreaLightTexturesLib.init());
+  const rectangle = new THREE.RectAreaLight(0xffffff, 1, 3, 2);
+  rectangle.position.set(0.4, 0.3, 2);
+  area.add(rectangle);
+  const roughness = 0.4, tilt = 0.05, plane = new THREE.PlaneGeometry(2, 2).translate(0, 0, -1);
+  const material = (row, color = 0) => patchWith(tilted(new THREE.MeshStandardNodeMaterial({ roughness, color }), lamp, tilt), row);
+  const seen = (scene, one) => drawn(renderer, scene, new THREE.Mesh(plane, one), WIDTH, 1);
+  for (const name of Object.keys(materials)) {
+    const row = materials[name], ours = material(row), all = material({ method: row.method, coefficients: WHITE });
+    const most = { lamps: 0, image: 0, rectangle: 0 };
+    for (const height of [0.2, -0.3]) {
+      point.position.set(0, 0, height - 1);
+      const [a, b] = [await seen(lit, ours), await seen(lit, all)];
+      const [c, d, e, g] = [await seen(image, ours), await seen(image, all), await seen(area, ours), await seen(area, all)];
+      pixels(height, tilt).forEach(({ cos, cosV, cosL }, i) => {
+        if (cos < 0.2 || cosV < 0.05 || cosL < 0.05) return;
+        told.least_cos = Math.min(told.least_cos, cos);
+        const t = terms(row.method, cosV, roughness);
+        for (let k = 0; k < 3; k++) {
+          const mean = row.coefficients.reduce((sum, one, j) => sum + one[k] * weights[row.method][j], 0);
+          const compensation = 1 + mean * (1 / t[0] - 1), reflected = row.coefficients.reduce((sum, one, j) => sum + one[k] * t[j], 0) * compensation;
+          most.lamps = Math.max(most.lamps, Math.abs(a(i, k) / b(i, k) / t[0] / compensation - reflectance(row, cos, k)));
+          most.image = Math.max(most.image, Math.abs(c(i, k) - reflected), Math.abs(d(i, k) - 1));
+          if (g(i, k) > 0) most.rectangle = Math.max(most.rectangle, Math.abs(e(i, k) / g(i, k) - c(i, k)));
+        }
+      });
+    }
+    for (const part of Object.keys(most)) told[part][name] = most[part];
+  }
+  const below = await seen(image, material(materials.water, 0xffffff));
+  pixels(-0.3, tilt).forEach((_, i) => { told.white_diffuse = Math.max(told.white_diffuse, Math.abs(below(i, 0) - 1)); });
+  // Materials of one method share a program, and an unpatched one is not changed.
+  point.position.set(0, 0, -0.8);
+  const plain = () => tilted(new THREE.MeshStandardNodeMaterial({ roughness, metalness: 1 }), lamp, tilt);
+  const one = plain(), before = await seen(lit, one);
+  const [silver, gold] = [await seen(lit, patch(plain(), "silver")), await seen(lit, patch(plain(), "gold"))];
+  const after = await seen(lit, one), all = Array.from({ length: WIDTH }, (_, i) => i);
+  told.unpatched_changed = all.filter(i => [0, 1, 2].some(k => before(i, k) !== after(i, k))).length;
+  told.blue_of_silver_and_gold = [silver(64, 2), gold(64, 2)];
+  const physical = patch(tilted(new THREE.MeshPhysicalNodeMaterial({ roughness, clearcoat: 1, anisotropy: 0.5, diffuseRoughness: 0.5 }), lamp, tilt), "gold");
+  const coated = await seen(image, physical);
+  told.physical_drawn = [0, 1, 2].every(k => Number.isFinite(coated(64, k)) && coated(64, k) > 0);
+  return told;
+}
+
+async function refusals(renderer) {
+  // three catches errors in the middle of a frame and writes them to the console.
+  const refused = async act => {
+    const said = console.error;
+    let heard = null;
+    console.error = (...words) => { heard ??= words.join(" ").split(/ "|\n/)[0]; };
+    try { await act(); } catch (fault) { heard = fault.message; } finally { console.error = said; }
+    return heard;
+  };
+  const mesh = one => drawn(renderer, new THREE.Scene().add(new THREE.PointLight()), new THREE.Mesh(new THREE.PlaneGeometry(2, 2), one), 4, 1);
+  return {
+    webgl_patch: await refused(() => mesh(patchWebGL(new MeshStandardMaterial(), "gold"))),
+    sheen: await refused(() => mesh(patch(new THREE.MeshPhysicalNodeMaterial({ sheen: 1 }), "gold"))),
+    name: await refused(() => fresnel("glod", 0.5)),
+    material: await refused(() => patch(new MeshStandardMaterial(), "gold")),
+  };
+}
+
+export async function proof() {
+  const told = {};
+  for (const forceWebGL of [false, true]) {
+    const renderer = new THREE.WebGPURenderer({ forceWebGL });
+    await renderer.init();
+    const one = told[forceWebGL ? "webgl2" : "webgpu"] = { is_webgpu: renderer.backend.isWebGPUBackend === true };
+    for (const part of [nodes, lighting, refusals]) {
+      try { one[part.name] = await part(renderer); } catch (fault) { one[part.name] = `${fault} ${fault.stack}`; }
+    }
+    renderer.dispose();
+  }
+  return told;
+}
