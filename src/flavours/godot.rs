@@ -8,9 +8,9 @@ use super::flavour::{Flavour, FlavourPage};
 pub static FLAVOUR: Flavour = Flavour {
     name: "godot",
     summary: "include files of the shading language",
-    host: "Godot 4",
+    host: "Godot 4.6",
     source: "https://docs.godotengine.org/en/stable/tutorials/shaders/shader_reference/shading_language.html",
-    proof: "compiled by glslang in a program with Godot's rules, not run",
+    proof: "run in Godot 4.6, in its Compatibility renderer",
     languages: &["glsl"],
     table: Some((32, [SplitSumAxis::Sqrt; 2])),
     pages: &[

@@ -14,7 +14,9 @@ pub use adapter::{Commands, Error, Fitted, FlavourFile, files};
 pub use flavour::{Flavour, FlavourPage};
 
 // BEGIN flavours (written by tests/lists)
+mod bevy;
 mod godot;
+mod materialx;
 mod three;
 mod unity;
 mod unreal;
@@ -22,7 +24,9 @@ mod unreal;
 /// Every flavour, by name.
 #[rustfmt::skip]
 pub static ALL: &[&Flavour] = &[
+    &bevy::FLAVOUR,
     &godot::FLAVOUR,
+    &materialx::FLAVOUR,
     &three::FLAVOUR,
     &unity::FLAVOUR,
     &unreal::FLAVOUR,

@@ -124,13 +124,18 @@ pub(super) fn view(
     let mark = comment_lines(vec![format!("{MARK}: {command}")]);
     Ok(AdapterView {
         mark: mark.concat(),
-        command: command.to_owned(),
+        command: (command.chars())
+            .filter(|c| is_plain(*c) || *c == '\'')
+            .collect(),
         flavour: flavour.name,
         host: flavour.host,
         source: flavour.source,
         proof: flavour.proof,
         licence: OUTPUT_LICENCE,
-        reference: reference.chars().filter(|c| is_plain(*c)).collect(),
+        // Two hyphens would end a comment of XML.
+        reference: (reference.replace("--", "-").chars())
+            .filter(|c| is_plain(*c))
+            .collect(),
         methods: methods
             .iter()
             .map(|one| method_view(one, &naming))

@@ -44,9 +44,12 @@ pub fn check(
             .collect();
         languages.sort_unstable();
         languages.dedup();
+        let languages = match languages.is_empty() {
+            true => "no target's language".to_owned(),
+            false => languages.join(" and "),
+        };
         let why = format!(
-            "--flavour {names} is written in {}, and --target is {}; leave --target out",
-            languages.join(" and "),
+            "--flavour {names} is written in {languages}, and --target is {}; leave --target out",
             target.name
         );
         return Err(RequestFault::conflict(why).into());

@@ -18,7 +18,7 @@ use super::not_checked;
 
 /// A device with this interface, or a word that there is none.
 #[track_caller]
-fn device(backend: Backend) -> Option<Device> {
+pub fn device(backend: Backend) -> Option<Device> {
     let wanted = Wanted {
         backend: Some(backend),
         name: None,
@@ -35,7 +35,7 @@ fn device(backend: Backend) -> Option<Device> {
     }
 }
 
-fn program<'a>(code: ShaderCode<'a>, uniforms: &'a [Uniform]) -> Program<'a> {
+pub fn program<'a>(code: ShaderCode<'a>, uniforms: &'a [Uniform]) -> Program<'a> {
     Program {
         code,
         entry: "main",

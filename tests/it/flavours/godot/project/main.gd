@@ -1,0 +1,108 @@
+# Draws F over cosines, lamps and image light, and hands the pixels to the page, which sends them to run.py.
+extends Node
+
+func _ready():
+	var told = { "engine": Engine.get_version_info().string }
+	told.sweep = await sweep()
+	var stage = make_stage()
+	told.lamps = await lamps(stage)
+	told.image = await image(stage)
+	JavaScriptBridge.get_interface("window").told(JSON.stringify(told, "", true, true))
+
+# What a viewport shows some frames after a change.
+func picture(viewport):
+	for i in 3:
+		await RenderingServer.frame_post_draw
+	return viewport.get_texture().get_image()
+
+func make_viewport(size):
+	var viewport = SubViewport.new()
+	viewport.size = size
+	viewport.own_world_3d = true
+	viewport.render_target_update_mode = SubViewport.UPDATE_ALWAYS
+	return viewport
+
+func make_material(name):
+	var material = ShaderMaterial.new()
+	material.shader = load("res://%s.gdshader" % name)
+	if material.shader.get_shader_uniform_list().is_empty():
+		push_error("%s.gdshader does not compile" % name)
+	return material
+
+# One picture a channel, as the bytes of its pixels.
+func sweep():
+	var viewport = make_viewport(Vector2i(128, 4))
+	var rect = ColorRect.new()
+	rect.size = viewport.size
+	rect.material = make_material("sweep")
+	viewport.add_child(rect)
+	add_child(viewport)
+	var pictures = []
+	for channel in 3:
+		rect.material.set_shader_parameter("channel", channel)
+		var drawn = await picture(viewport)
+		drawn.convert(Image.FORMAT_RGB8)
+		pictures.append(Array(drawn.get_data()))
+	viewport.queue_free()
+	return pictures
+
+# A camera without perspective sees a small part of a plane under one lamp. Nothing else is lit.
+func make_stage():
+	var viewport = make_viewport(Vector2i(8, 8))
+	var camera = Camera3D.new()
+	camera.projection = Camera3D.PROJECTION_ORTHOGONAL
+	camera.size = 0.1
+	camera.position = Vector3(0, 0, 4)
+	camera.environment = Environment.new()
+	camera.environment.background_mode = Environment.BG_COLOR
+	camera.environment.background_color = Color.BLACK
+	var plane = MeshInstance3D.new()
+	plane.mesh = QuadMesh.new()
+	plane.mesh.size = Vector2(2, 2)
+	var light = DirectionalLight3D.new()
+	for node in [camera, plane, light]:
+		viewport.add_child(node)
+	add_child(viewport)
+	return { "viewport": viewport, "plane": plane, "light": light }
+
+func middle(stage):
+	var pixel = (await picture(stage.viewport)).get_pixel(4, 4)
+	return [pixel.r8, pixel.g8, pixel.b8]
+
+func lamps(stage):
+	var black = GradientTexture2D.new()
+	black.gradient = Gradient.new()
+	black.gradient.colors = PackedColorArray([Color.BLACK, Color.BLACK])
+	var seen = []
+	for kind in ["readme", "schlick", "builtin"]:
+		var material = make_material(kind)
+		stage.plane.material_override = material
+		material.set_shader_parameter("table", load("res://fresnel/table_fitted.tres"))
+		material.set_shader_parameter("sky", black)
+		for roughness in [0.3, 0.6]:
+			material.set_shader_parameter("roughness", roughness)
+			stage.light.light_energy = 0.2 if roughness > 0.5 else 0.05
+			for spin in [0, 20, 40, 60]:
+				stage.plane.rotation_degrees = Vector3(0, spin, 0)
+				for height in [10, 45, 75]:
+					stage.light.rotation_degrees = Vector3(-height, 20, 0)
+					var to_light = stage.light.global_basis.z
+					seen.append({
+						"kind": kind, "roughness": roughness, "spin": spin, "energy": stage.light.light_energy,
+						"to_light": [to_light.x, to_light.y, to_light.z], "pixel": await middle(stage),
+					})
+	return seen
+
+# A white sky and no lamp.
+func image(stage):
+	stage.light.visible = false
+	var material = make_material("readme")
+	stage.plane.material_override = material
+	material.set_shader_parameter("table", load("res://fresnel/table_fitted.tres"))
+	var seen = []
+	for roughness in [0.1, 0.3, 0.6, 1.0]:
+		material.set_shader_parameter("roughness", roughness)
+		for spin in [0, 20, 40, 60, 75]:
+			stage.plane.rotation_degrees = Vector3(0, spin, 0)
+			seen.append({ "roughness": roughness, "spin": spin, "pixel": await middle(stage) })
+	return seen
