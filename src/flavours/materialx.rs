@@ -8,7 +8,7 @@ pub static FLAVOUR: Flavour = Flavour {
     summary: "nodes for F, as graphs of standard nodes",
     host: "MaterialX 1.39",
     source: "https://github.com/AcademySoftwareFoundation/MaterialX/blob/main/documents/Specification/MaterialX.Specification.md",
-    proof: "MaterialX 1.39.5 generates GLSL, ESSL and Vulkan GLSL, which glslang accepts; OSL not checked",
+    proof: "MaterialX 1.39.5 generates GLSL, ESSL and Vulkan GLSL, which glslang accepts, and F of it runs in OpenGL ES; OSL not checked",
     languages: &[],
     table: None,
     pages: &[

@@ -39,28 +39,38 @@ const FLAGS: [&str; 7] = [
     "--allow-file-access-from-files",
 ];
 
+/// The packages of npm in a folder below `target`, where this one has this version there, and a browser is here.
+#[track_caller]
+pub fn packages(what: &str, folder: &str, package: &str, version: &str) -> Option<PathBuf> {
+    let target = Path::new(env!("CARGO_MANIFEST_DIR")).join("target");
+    let packages = target.join(folder).join("node_modules");
+    let manifest = fs::read_to_string(packages.join(package).join("package.json"));
+    let manifest: Value = serde_json::from_str(&manifest.unwrap_or_default()).unwrap_or_default();
+    if manifest["version"] != version {
+        let remark =
+            format!("{what}: no {package} {version} in target/{folder}; tests/run installs it");
+        assert!(std::env::var_os("CI").is_none(), "not checked: {remark}");
+        not_checked(&remark);
+        return None;
+    }
+    CHROMIUM.is_here(what).then_some(packages)
+}
+
+/// Whether `tests/run` installs what runs here.
+#[track_caller]
+pub fn is_installed_by_the_script(package: &str, version: &str) {
+    let run = include_str!("../../run");
+    assert!(
+        run.contains(&format!("{package}@{version}")),
+        "{package}@{version}"
+    );
+}
+
 impl Host {
-    /// The folder of its packages, where they and a browser are.
     #[track_caller]
     fn packages(&self) -> Option<PathBuf> {
         let what = format!("the flavour {} in its host", self.flavour);
-        let target = Path::new(env!("CARGO_MANIFEST_DIR")).join("target");
-        let packages = target.join(self.folder).join("node_modules");
-        let manifest = packages.join(self.package).join("package.json");
-        let manifest = fs::read_to_string(manifest).unwrap_or_default();
-        let manifest: Value = serde_json::from_str(&manifest).unwrap_or_default();
-        if manifest["version"] != self.version {
-            let remark = format!(
-                "{what}: no {package} {version}; install with: npm install --prefix target/{folder} {package}@{version}",
-                package = self.package,
-                version = self.version,
-                folder = self.folder
-            );
-            assert!(std::env::var_os("CI").is_none(), "not checked: {remark}");
-            not_checked(&remark);
-            return None;
-        }
-        CHROMIUM.is_here(&what).then_some(packages)
+        packages(&what, self.folder, self.package, self.version)
     }
 
     /// What the page of the proof tells; nothing where the host is not here.

@@ -5,7 +5,11 @@ mod bevy;
 #[cfg(feature = "compilers")]
 mod compiled;
 #[cfg(all(feature = "cli", feature = "gpu"))]
+mod godot;
+#[cfg(all(feature = "cli", feature = "gpu"))]
 mod host;
+#[cfg(all(feature = "cli", feature = "gpu"))]
+mod materialx;
 #[cfg(all(feature = "cli", feature = "gpu"))]
 mod three;
 
