@@ -14,9 +14,11 @@ pub use adapter::{Commands, Error, Fitted, FlavourFile, files};
 pub use flavour::{Flavour, FlavourPage};
 
 // BEGIN flavours (written by tests/lists)
+mod babylon;
 mod bevy;
 mod godot;
 mod materialx;
+mod playcanvas;
 mod three;
 mod unity;
 mod unreal;
@@ -24,9 +26,11 @@ mod unreal;
 /// Every flavour, by name.
 #[rustfmt::skip]
 pub static ALL: &[&Flavour] = &[
+    &babylon::FLAVOUR,
     &bevy::FLAVOUR,
     &godot::FLAVOUR,
     &materialx::FLAVOUR,
+    &playcanvas::FLAVOUR,
     &three::FLAVOUR,
     &unity::FLAVOUR,
     &unreal::FLAVOUR,

@@ -2,12 +2,13 @@
 
 use std::fs;
 use std::path::{Path, PathBuf};
+use std::process::Command;
 
 use image::RgbImage;
 use serde_json::Value;
 
 use crate::browser::{self, CHROMIUM};
-use crate::cli::{OUT, Place};
+use crate::cli::{OUT, PROGRAM, Place};
 use crate::not_checked;
 
 /// A host in a browser.
@@ -24,6 +25,10 @@ pub struct Host {
     pub page: &'static str,
     /// The scripts beside it, by name.
     pub scripts: &'static [(&'static str, &'static str)],
+    /// What stands in the place of the page's end.
+    pub hands: &'static str,
+    /// The module that a bundler makes one script of, where the page takes one.
+    pub bundled: Option<&'static str>,
     /// The materials of the proof.
     pub materials: &'static str,
 }
@@ -75,7 +80,7 @@ impl Host {
 
     /// What the page of the proof tells; nothing where the host is not here.
     #[track_caller]
-    pub fn proof(&self) -> Option<Value> {
+    pub fn proof(&self, query: &str) -> Option<Value> {
         let packages = self.packages()?;
         let place = Place::new();
         place.done(&format!(
@@ -85,12 +90,29 @@ impl Host {
         for (name, text) in self.scripts {
             place.put(name, text);
         }
-        link(&packages, &place);
-        Some(browser::told(&place, self.page, "</html>", "", &FLAGS))
+        link(&packages, &place.path("node_modules"));
+        if let Some(entry) = self.bundled {
+            place.put("entry.js", entry);
+            let module = place.read(&format!("{}/fresnel.js", self.flavour));
+            place.put("fresnel.js", module);
+            let bundler = packages.join(".bin/esbuild");
+            let mut command = Command::new(bundler);
+            command.args([
+                "entry.js",
+                "--bundle",
+                "--format=iife",
+                "--outfile=bundle.js",
+            ]);
+            command
+                .args(["--log-level=error"])
+                .current_dir(place.path("."));
+            assert!(command.status().unwrap().success(), "{}", self.flavour);
+        }
+        Some(browser::told(&place, self.page, self.hands, query, &FLAGS))
     }
 
-    /// Follows the README as a newcomer does, and draws its page. Its commands are run, but for npm, whose packages are there, and the
-    /// server, since the browser reads files.
+    /// Follows the README as a newcomer does, and draws its page. Its commands are run by a shell, but for npm, whose packages are there,
+    /// and the server, since the browser reads files.
     #[track_caller]
     pub fn readme_page(&self) -> Option<RgbImage> {
         let packages = self.packages()?;
@@ -98,48 +120,64 @@ impl Host {
         place.done(&format!("--flavour {} --material gold", self.flavour));
         let readme = place.read(&format!("{OUT}/{}/README.md", self.flavour));
         let commands = block(&readme, "sh");
-        let lines: Vec<&str> = commands
-            .lines()
-            .filter(|line| !line.starts_with('#'))
-            .collect();
-        assert!(lines.len() < 10, "{commands}");
-        let ours = lines
-            .iter()
-            .find_map(|line| line.strip_prefix("fresnel-gen "));
-        place.done(ours.expect("the README runs this program"));
-        let wanted = format!("{}@{}", self.package, self.version);
-        assert!(
-            lines
-                .iter()
-                .any(|line| line.starts_with("npm install") && line.ends_with(&wanted)),
-            "{commands}"
+        self.is_short_and_pinned(&commands);
+        let script = format!(
+            "set -e\nnpm() {{ ln -s '{}' node_modules; }}\nnpx() {{ local tool=\"$1\"; shift; \"node_modules/.bin/$tool\" \"$@\"; }}\npython3() {{ :; }}\nfresnel-gen() {{ '{PROGRAM}' \"$@\"; }}\n{commands}\npwd >'{}'\n",
+            packages.display(),
+            place.path("where").display()
         );
-        place.put("index.html", block(&readme, "html"));
-        link(&packages, &place);
+        place.put("script.sh", script);
+        fs::create_dir(place.path("try")).unwrap();
+        let mut shell = Command::new("bash");
+        shell
+            .arg(place.path("script.sh"))
+            .current_dir(place.path("try"));
+        let output = shell.output().unwrap();
+        let said = String::from_utf8_lossy(&output.stderr);
+        assert!(output.status.success(), "{}: {said}", self.flavour);
+        let folder = PathBuf::from(place.read("where").trim());
+        if readme.contains("```html\n") {
+            fs::write(folder.join("index.html"), block(&readme, "html")).unwrap();
+        }
         let picture = place.path("page.png");
         let profile = format!("--user-data-dir={}", place.path("profile").display());
         let screenshot = format!("--screenshot={}", picture.display());
-        let page = format!("file://{}", place.path("index.html").display());
+        let page = format!("file://{}", folder.join("index.html").display());
         let own = [
             profile.as_str(),
             screenshot.as_str(),
             "--window-size=400,400",
-            "--virtual-time-budget=10000",
+            "--timeout=20000",
             page.as_str(),
         ];
         let arguments = [&browser::USUAL[..], &FLAGS, &own].concat();
         CHROMIUM.run(arguments).expect("the page is drawn");
         Some(image::open(&picture).expect("a picture").to_rgb8())
     }
+
+    /// Commands, texts of files in them left out: fewer than ten, and with the version of the engine that is tried here.
+    #[track_caller]
+    fn is_short_and_pinned(&self, commands: &str) {
+        let (mut count, mut inside) = (0, false);
+        for line in commands.lines().filter(|line| !line.starts_with('#')) {
+            count += usize::from(!inside);
+            inside = (inside || line.contains("<<'END'")) && line != "END";
+        }
+        assert!(count < 10, "{count} commands: {commands}");
+        assert!(commands.contains(&format!("fresnel-gen --flavour {}", self.flavour)));
+        let wanted = format!("npm install {}@{}", self.package, self.version);
+        assert!(commands.contains(&wanted), "{commands}");
+        is_installed_by_the_script(self.package, self.version);
+    }
 }
 
 #[cfg(unix)]
-fn link(packages: &Path, place: &Place) {
-    std::os::unix::fs::symlink(packages, place.path("node_modules")).unwrap();
+fn link(packages: &Path, place: &Path) {
+    std::os::unix::fs::symlink(packages, place).unwrap();
 }
 
 #[cfg(not(unix))]
-fn link(_: &Path, _: &Place) {
+fn link(_: &Path, _: &Path) {
     unimplemented!("these pages are tried on Linux");
 }
 

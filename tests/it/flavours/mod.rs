@@ -5,6 +5,8 @@ mod bevy;
 #[cfg(feature = "compilers")]
 mod compiled;
 #[cfg(all(feature = "cli", feature = "gpu"))]
+mod engines;
+#[cfg(all(feature = "cli", feature = "gpu"))]
 mod godot;
 #[cfg(all(feature = "cli", feature = "gpu"))]
 mod host;

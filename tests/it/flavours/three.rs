@@ -14,6 +14,8 @@ const THREE: Host = Host {
         ("proof.js", include_str!("three/proof.js")),
         ("proof_webgpu.js", include_str!("three/proof_webgpu.js")),
     ],
+    hands: "</html>",
+    bundled: None,
     materials: "gold,silver,diamond,water",
 };
 
@@ -26,7 +28,7 @@ fn the_page_of_the_readme_shows_a_gold_sphere() {
 
 #[test]
 fn lamps_images_and_nodes_take_our_reflectance() {
-    let Some(told) = THREE.proof() else { return };
+    let Some(told) = THREE.proof("") else { return };
     assert_eq!(told["heard"], json!([]), "{}", told["heard"]);
     let webgl = &told["webgl"];
     assert_eq!(webgl["shader_faults"], json!([]));
