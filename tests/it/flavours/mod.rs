@@ -162,7 +162,7 @@ fn what_an_adapter_cannot_follow_is_refused() {
         Place::new().refused(&format!("--flavour {flavour} {flags}"), says);
     };
     refused("--method schlick", &["leave --method"]);
-    refused("--effect interior", &["leave", "--effect"]);
+    refused("--effect interior", &["run --effect alone"]);
     refused("--precision f16", &["leave --precision f16 out"]);
     refused("--prefix my_", &["leave --prefix out"]);
     refused("--material none", &["none"]);
@@ -216,7 +216,7 @@ fn a_file_of_somebody_else_stays() {
         let file = expected(flavour, &["gold"]).into_iter().next().unwrap();
         place.put(&format!("{OUT}/{file}"), "mine\n");
         let line = format!("--flavour {} --material gold", flavour.name);
-        place.refused(&line, &["fresnel-gen did not write it", "--overwrite"]);
+        place.refused(&line, &["fresnel-gen did not write", "--overwrite"]);
         place.done(&format!("{line} --overwrite"));
     }
 }
