@@ -12,17 +12,19 @@ use indicatif::{ProgressBar, ProgressStyle};
 
 fn main() -> ExitCode {
     let (words, renamed) = with_names_of_today(std::env::args_os(), methods::RENAMED);
+    let names_nothing = words.len() < 2;
     let cli = match Cli::try_parse_from(words) {
         Ok(cli) => cli,
         Err(error) => return refused(&error),
     };
     renamed.iter().for_each(|remark| say(remark));
     let mut bar: Option<ProgressBar> = None;
-    let outcome = command::run(
-        &cli,
-        &mut |done, whole, what| show(&mut bar, done, whole, what),
-        &say,
-    );
+    let mut progress = |done, whole, what: &str| show(&mut bar, done, whole, what);
+    let help = names_nothing.then(|| command::first_help(&cli.generate));
+    let outcome = match help.flatten() {
+        Some(help) => Ok(help),
+        None => command::run(&cli, &mut progress, &say),
+    };
     if let Some(bar) = bar {
         bar.finish_and_clear();
     }

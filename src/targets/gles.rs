@@ -15,6 +15,7 @@ pub static TARGET: Target = Target {
     summary: "GLSL ES 3.00 for phones and WebGL 2",
     source: "The OpenGL ES Shading Language 3.00, Khronos, https://registry.khronos.org/OpenGL/specs/es/3.0/GLSL_ES_Specification_3.00.pdf",
     extension: "glsl",
+    other_extensions: &[],
     by_default: true,
     spelling: Spelling {
         param: "highp {type} {name}",

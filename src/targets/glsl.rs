@@ -12,6 +12,7 @@ pub static TARGET: Target = Target {
     summary: "GLSL 4.50 for desktop OpenGL and for Vulkan through glslang",
     source: "The OpenGL Shading Language 4.50, Khronos, https://registry.khronos.org/OpenGL/specs/gl/GLSLangSpec.4.50.pdf",
     extension: "glsl",
+    other_extensions: &[],
     by_default: false,
     spelling: SPELLING,
     half: HalfText {

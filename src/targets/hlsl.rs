@@ -17,6 +17,7 @@ pub static TARGET: Target = Target {
     summary: "HLSL 2018 and 2021 for Direct3D, Unity and Unreal",
     source: "HLSL reference, Microsoft, https://learn.microsoft.com/windows/win32/direct3dhlsl/dx-graphics-hlsl-reference",
     extension: "hlsl",
+    other_extensions: &["cginc", "fxh", "hlsli", "usf", "ush"],
     by_default: true,
     spelling: Spelling {
         rgb: "float3",

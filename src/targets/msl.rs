@@ -13,6 +13,7 @@ pub static TARGET: Target = Target {
     summary: "the Metal Shading Language, version 1.2 and later",
     source: "Metal Shading Language Specification, Apple, https://developer.apple.com/metal/Metal-Shading-Language-Specification.pdf",
     extension: "metal",
+    other_extensions: &[],
     by_default: false,
     spelling: Spelling {
         rgb: "metal::float3",

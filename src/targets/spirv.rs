@@ -13,6 +13,7 @@ pub static TARGET: Target = Target {
     summary: "SPIR-V 1.3 modules for Vulkan 1.1: a fragment and a compute shader per method and material",
     source: "SPIR-V Specification 1.3, Khronos, https://registry.khronos.org/SPIR-V/",
     extension: "spv",
+    other_extensions: &[],
     by_default: true,
     spelling: wgsl::SPELLING,
     half: HalfText {

@@ -15,6 +15,8 @@ pub struct Target {
     pub source: &'static str,
     /// Of its files, without the dot.
     pub extension: &'static str,
+    /// What else files of this language end in, as engines name them.
+    pub other_extensions: &'static [&'static str],
     /// Whether `--target all` and a run without `--target` write it.
     pub by_default: bool,
     /// How it writes names, types, numbers and operations.
@@ -221,6 +223,13 @@ impl Stack {
 }
 
 impl Target {
+    /// What files of this language end in.
+    pub fn endings(&self) -> impl Iterator<Item = &'static str> {
+        [self.extension]
+            .into_iter()
+            .chain(self.other_extensions.iter().copied())
+    }
+
     /// How it writes code in this precision.
     pub fn spelling_in(&self, precision: Precision) -> &Spelling {
         match precision {

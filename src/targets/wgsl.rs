@@ -14,6 +14,7 @@ pub static TARGET: Target = Target {
     summary: "WGSL for WebGPU, wgpu and Bevy",
     source: "WebGPU Shading Language, W3C, https://www.w3.org/TR/WGSL/",
     extension: "wgsl",
+    other_extensions: &[],
     by_default: true,
     spelling: SPELLING,
     half: HalfText {

@@ -54,6 +54,7 @@ mod published_costs;
 mod raster;
 mod readme;
 mod records;
+mod release;
 mod reproduce;
 mod reread;
 mod samples;

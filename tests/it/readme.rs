@@ -28,6 +28,23 @@ fn example() -> String {
     format!("```hlsl\n{text}```\n")
 }
 
+/// The examples that `tests/pipelines` holds, which the page of builds shows.
+fn builds() -> [(&'static str, String); 5] {
+    let shown = |language: &str, file: &str| {
+        let text = page(&format!("tests/pipelines/{file}"));
+        let text = text.lines().filter(|line| !line.starts_with("//!"));
+        let text: String = text.map(|line| line.to_owned() + "\n").collect();
+        format!("```{language}\n{}```\n", text.trim_start_matches('\n'))
+    };
+    [
+        ("cmake", shown("cmake", "cmake/CMakeLists.txt")),
+        ("ninja", shown("ninja", "ninja/build.ninja")),
+        ("make", shown("make", "make/Makefile")),
+        ("npm", shown("json", "npm/package.json")),
+        ("cargo", shown("rust,no_run", "cargo/src/build.rs")),
+    ]
+}
+
 /// The text with what stands between two marks replaced.
 fn replaced(text: &str, name: &str, new: &str) -> String {
     let begin = text
@@ -87,6 +104,7 @@ fn tables_are_what_the_program_says() {
         ("docs/half-precision.md", vec![("half", half_table())]),
         ("docs/effects.md", vec![("effects", effects_table())]),
         ("docs/engines.md", vec![("flavours", flavours_table())]),
+        ("docs/builds.md", builds().to_vec()),
     ];
     for (path, parts) in parts {
         let text = parts

@@ -40,15 +40,15 @@ pub struct GenerateFlags {
     /// How materials are looked at.
     #[command(flatten)]
     pub viewing: GamutFlags,
-    /// Goes before every function's name
-    #[arg(long, value_name = "TEXT", default_value = "fresnel_")]
-    pub prefix: String,
     /// What functions compute in.
     #[command(flatten)]
     pub precision: PrecisionFlags,
     /// Degrees at which the corrected Schlick meets the exact law [default: that of cosine 0.15, 81.373]
     #[arg(long, value_name = "DEGREES", allow_negative_numbers = true)]
     pub matching_angle: Option<f64>,
+    /// Goes before every function's name
+    #[arg(long, value_name = "TEXT", default_value = "fresnel_")]
+    pub prefix: String,
     /// Comments of generated files: short (what a function is, its largest error, its cost, its source, and warnings; the rest stands in manifest.json) or full
     #[arg(long, value_name = "FORM", default_value = "short", value_parser = one_of("form of comments", HeaderForm::ALL, HeaderForm::name))]
     pub header: HeaderForm,
@@ -64,7 +64,7 @@ pub struct GenerateFlags {
     /// The folder for the generated tree.
     #[command(flatten)]
     pub tree: TreeFlags,
-    /// Write the functions asked for into this one file, or `-` for stdout; one target [default: by the file's ending; wgsl for `-`]
+    /// Write the functions asked for into this one file and nothing else, or to stdout (`-`); one target [default: by the file's ending; wgsl for `-`]
     #[arg(short = 'o', value_name = "FILE", conflicts_with_all = ["check", "list", "out_dir"])]
     pub output: Option<PathBuf>,
     /// Write nothing: compare with the folder, print a diff, exit 1 where it differs
@@ -73,6 +73,9 @@ pub struct GenerateFlags {
     /// Write the run's outputs and inputs as a Makefile rule
     #[arg(long, value_name = "FILE", value_parser = file_only("--depfile"), conflicts_with = "list")]
     pub depfile: Option<PathBuf>,
+    /// What the rule of --depfile is for, as the build system names it [default: the file of -o, or all files of the folder]
+    #[arg(long, value_name = "FILE", value_parser = file_only("--depfile-target"), requires = "depfile")]
+    pub depfile_target: Option<PathBuf>,
     /// Print the names of the files that would be written, and write nothing
     #[arg(long)]
     pub list: bool,

@@ -4,10 +4,12 @@ mod audit;
 mod bake;
 mod chart;
 mod choice;
+mod completions;
 mod cost;
 mod fit;
 mod gallery;
 mod generate;
+mod groups;
 mod listing;
 mod material;
 mod materials;
@@ -32,6 +34,7 @@ pub use audit::AuditFlags;
 pub use bake::BakeFlags;
 pub use chart::ChartFlags;
 pub use choice::Choice;
+pub use completions::{CompletionsFlags, completions};
 pub use cost::CostFlags;
 pub use fit::{End, FitFlags};
 pub use gallery::GalleryFlags;
@@ -57,15 +60,20 @@ pub use time::TimeFlags;
 pub use verify::VerifyFlags;
 pub use viewing::{GamutFlags, Light, ViewingFlags};
 
+/// What stands at the end of the help, of the program's and of `generate`'s.
+const EXAMPLES: &str = "Examples:\n  fresnel-gen --target gles\n  fresnel-gen --material gold --method conductor_exact --target hlsl -o -\n  fresnel-gen --material my_metal.toml --target wgsl --out-dir shaders\n  fresnel-gen --material gold --budget 0.002 --gpu adreno330 -o -\n  fresnel-gen --check\n\nExit codes: 0 done; 1 findings (--check found a difference); 2 usage or input error; 3 something is missing on this machine.";
+
 /// Turns measured optical constants into Fresnel reflectance functions that a shader can afford.
 ///
-/// Without a subcommand it generates: shaders for every target, method and material asked for.
+/// Without a subcommand, flags are those of `generate`: it writes shaders for every target, method and material asked for.
 #[derive(Debug, Parser)]
 #[command(
     name = "fresnel-gen",
     version,
     args_conflicts_with_subcommands = true,
-    after_help = "Examples:\n  fresnel-gen --target gles\n  fresnel-gen --material gold --method conductor_exact --target hlsl -o -\n  fresnel-gen --material my_metal.toml --target wgsl --out-dir shaders\n  fresnel-gen --material gold --budget 0.002 --gpu adreno330 -o -\n  fresnel-gen --check\n\nExit codes: 0 done; 1 findings (--check found a difference); 2 usage or input error; 3 something is missing on this machine."
+    mut_args(groups::in_group),
+    mut_subcommands(groups::with_groups),
+    after_help = EXAMPLES
 )]
 pub struct Cli {
     /// What to do; generation where nothing is named.
@@ -79,6 +87,9 @@ pub struct Cli {
 /// The subcommands.
 #[derive(Debug, Subcommand)]
 pub enum Command {
+    /// Write shaders: the same as flags without a subcommand
+    #[command(after_help = EXAMPLES)]
+    Generate(Box<GenerateFlags>),
     /// List the methods, or show one with formula, source, domain and promised errors
     #[command(after_help = "Example:\n  fresnel-gen methods show schlick_corrected")]
     Methods(MethodsFlags),
@@ -99,29 +110,64 @@ pub enum Command {
     )]
     Bake(Box<BakeFlags>),
     /// Run the generated functions of every target and compare the results with f64 on the CPU
+    #[command(
+        after_help = "Examples:\n  fresnel-gen verify\n  fresnel-gen verify --target gles --material gold --json report.json --junit report.xml"
+    )]
     Verify(Box<VerifyFlags>),
     /// Show where methods fail: regions of NaN, of lost digits, and of large error against the exact law
+    #[command(
+        after_help = "Example:\n  fresnel-gen stability --method schlick,fitted --out-dir maps"
+    )]
     Stability(StabilityFlags),
     /// Show what functions cost, by Mesa's GPU compilers; recorded figures replace a missing compiler
+    #[command(
+        after_help = "Examples:\n  fresnel-gen cost --gpu rdna2 --method schlick,fitted --material gold\n  fresnel-gen cost --out-dir costs"
+    )]
     Cost(Box<CostFlags>),
     /// Measure the time of functions on this machine's device, by overdraw, and as a share of the exact law's time
+    #[command(
+        after_help = "Example:\n  fresnel-gen time --method schlick,conductor_exact --material gold --json times.json"
+    )]
     Time(TimeFlags),
     /// Fit coefficients: of materials, or of an artist's two colours
+    #[command(
+        after_help = "Examples:\n  fresnel-gen fit --material gold\n  fresnel-gen fit --f0 1,.71,.29 --f82 .98,.91,.66"
+    )]
     Fit(Box<FitFlags>),
     /// Chart error against cost: one point per method, and the Pareto frontier
+    #[command(
+        after_help = "Examples:\n  fresnel-gen chart --material gold --gpu adreno330 --error de2000\n  fresnel-gen chart --out-dir charts"
+    )]
     Chart(ChartFlags),
     /// Measure your own function (WGSL, GLSL or HLSL) against a material's exact reflectance and compare it with our methods
+    #[command(
+        after_help = "Examples:\n  fresnel-gen audit mine.glsl --function schlick --material gold\n  fresnel-gen audit mine.glsl --arg ior=1/eta --material water,diamond --max-error 0.001"
+    )]
     Audit(Box<AuditFlags>),
     /// Recompute the tables, figures and claims of the thesis (Štetić-Kozić 2014) and print both side by side
+    #[command(after_help = "Example:\n  fresnel-gen reproduce table4")]
     Reproduce(ReproduceFlags),
     /// Draw an effect with the functions that engines import, beside what a ray tracer sees, and state the difference
+    #[command(after_help = "Example:\n  fresnel-gen render double_refraction -o ball.png")]
     Render(RenderFlags),
     /// Measure the error of methods in pictures of an object: of the angles that a camera sees
+    #[command(
+        after_help = "Examples:\n  fresnel-gen scene-error cube --material gold\n  fresnel-gen scene-error --mesh statue.obj --eye 0,1,-3 --material platinum --json -"
+    )]
     SceneError(Box<SceneErrorFlags>),
     /// Choose for each material of a scene the cheapest function whose error nobody sees in its pictures
+    #[command(
+        after_help = "Examples:\n  fresnel-gen plan scene.toml\n  fresnel-gen plan --gbuffer frame1.exr,frame2.exr --materials ids.toml --json plan.json"
+    )]
     Plan(Box<PlanFlags>),
     /// Write a page that draws every effect live, beside the exact law, with the functions to copy
+    #[command(after_help = "Example:\n  fresnel-gen gallery --out-dir gallery")]
     Gallery(GalleryFlags),
+    /// Write a completion script for a shell to stdout
+    #[command(
+        after_help = "Examples:\n  fresnel-gen completions bash > ~/.local/share/bash-completion/completions/fresnel-gen\n  fresnel-gen completions fish > ~/.config/fish/completions/fresnel-gen.fish"
+    )]
+    Completions(CompletionsFlags),
 }
 
 impl Cli {
@@ -129,13 +175,12 @@ impl Cli {
     pub fn named_files(&self) -> NamedFiles<'_> {
         let mut named = NamedFiles::default();
         let Some(command) = &self.command else {
-            let flags = &self.generate;
-            named.seen(&flags.materials, &flags.medium, &flags.viewing.viewing);
-            named.inputs.extend(flags.plan.as_deref());
-            named.write(flags.output.iter().chain(&flags.depfile));
+            named.generation(&self.generate);
             return named;
         };
         match command {
+            Command::Generate(flags) => named.generation(flags),
+            Command::Completions(_) => {}
             Command::Methods(flags) => named.write(&flags.report.json),
             Command::Effects(flags) => named.write(&flags.report.json),
             Command::Targets(flags) => named.write(&flags.report.json),

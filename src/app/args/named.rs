@@ -3,8 +3,8 @@
 use std::path::Path;
 
 use super::{
-    MaterialFlags, MaterialsCommand, MaterialsFlags, MediumFlags, ReportFlags, SeenFlags,
-    ViewingFlags,
+    GenerateFlags, MaterialFlags, MaterialsCommand, MaterialsFlags, MediumFlags, ReportFlags,
+    SeenFlags, ViewingFlags,
 };
 
 /// The files of a run that stand on its command line.
@@ -33,6 +33,12 @@ impl<'a> NamedFiles<'a> {
     pub(super) fn report(&mut self, materials: &'a MaterialFlags, report: &'a ReportFlags) {
         self.read(materials.paths());
         self.write(&report.json);
+    }
+
+    pub(super) fn generation(&mut self, flags: &'a GenerateFlags) {
+        self.seen(&flags.materials, &flags.medium, &flags.viewing.viewing);
+        self.inputs.extend(flags.plan.as_deref());
+        self.write(flags.output.iter().chain(&flags.depfile));
     }
 
     fn params(&mut self, flags: &'a SeenFlags) {

@@ -1,6 +1,6 @@
 //! `fresnel-gen` without a subcommand: generate, check, list.
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 use crate::app::args::GenerateFlags;
@@ -23,8 +23,8 @@ use crate::cost;
 use crate::methods;
 use crate::num::Precision;
 use crate::report::budget::budget_remarks;
-use crate::targets;
 
+use super::language::target_words;
 use super::{Output, folder_or_current, refuse_read, refuse_within_tree};
 
 /// Generates. `announce` hears what a person should know before the run ends.
@@ -137,7 +137,7 @@ const USUAL_GPU: &str = "rdna2";
 
 fn request(flags: &GenerateFlags) -> Result<Request, Error> {
     Ok(Request {
-        targets: target_words(flags)?,
+        targets: target_words(&flags.target, flags.output.as_deref())?,
         methods: flags.method.iter().map(ToString::to_string).collect(),
         effects: flags.effect.iter().map(ToString::to_string).collect(),
         flavours: (flags.flavour.iter())
@@ -153,48 +153,6 @@ fn request(flags: &GenerateFlags) -> Result<Request, Error> {
         viewing: flags.viewing.conditions()?,
         header: flags.header,
     })
-}
-
-/// The targets as a request names them: those of `--target`, or the language of the ending of `-o`.
-fn target_words(flags: &GenerateFlags) -> Result<Vec<String>, Error> {
-    let named: Vec<String> = flags.target.iter().map(ToString::to_string).collect();
-    let file = flags
-        .output
-        .as_deref()
-        .filter(|file| *file != Path::new("-"));
-    let Some(file) = file else {
-        return Ok(named);
-    };
-    let ending = file.extension().and_then(|ending| ending.to_str());
-    let of_ending = || {
-        targets::ALL
-            .iter()
-            .filter(|target| Some(target.extension) == ending)
-    };
-    let first = of_ending()
-        .find(|target| target.by_default)
-        .or_else(|| of_ending().next());
-    let file = file.display();
-    match (first, named.as_slice()) {
-        (Some(first), []) => Ok(vec![first.name.to_owned()]),
-        (None, []) if ending.is_some() => {
-            let endings: BTreeSet<&str> = targets::ALL.iter().map(|one| one.extension).collect();
-            let endings: Vec<String> = endings.iter().map(|ending| format!(".{ending}")).collect();
-            let why = format!(
-                "`{file}` says no language by its ending; name one with --target, or end the file in {}",
-                endings.join(", ")
-            );
-            Err(RequestFault::conflict(why).into())
-        }
-        (Some(first), [one]) if one != "all" && of_ending().all(|target| target.name != one) => {
-            let why = format!(
-                "`{file}` ends as a file of {}, and --target is {one}",
-                first.name
-            );
-            Err(RequestFault::conflict(why).into())
-        }
-        _ => Ok(named),
-    }
 }
 
 fn single(flags: &GenerateFlags, request: &Request, file: &Path) -> Result<Output, Error> {
@@ -344,10 +302,18 @@ fn first_steps<'g>(generated: &'g Generated, out_dir: &Path) -> Vec<String> {
     ]
 }
 
-/// The rule of the depfile, where one is asked for: made before anything is written, since it can be refused.
+/// The rule of the depfile, where one is asked for: made before anything is written, since it can be refused. Of these
+/// outputs, unless the build system knows one of another name.
 fn rule(flags: &GenerateFlags, outputs: &[String]) -> Result<Option<String>, Error> {
     if flags.depfile.is_none() {
         return Ok(None);
+    }
+    let named = flags.depfile_target.iter();
+    let named: Vec<String> = named.map(|file| file.display().to_string()).collect();
+    let outputs = if named.is_empty() { outputs } else { &named };
+    if outputs == ["-"] {
+        let why = "--depfile with `-o -` has no file that its rule is for; name one with --depfile-target";
+        return Err(RequestFault::conflict(why).into());
     }
     let paths = flags.materials.paths().chain(flags.medium.path());
     let paths = paths.chain(flags.viewing.viewing.path());

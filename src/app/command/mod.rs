@@ -7,10 +7,12 @@ mod chart;
 mod coated;
 #[cfg(feature = "gpu")]
 mod cost;
+mod first;
 mod fit;
 mod gallery;
 mod generate;
 mod import;
+mod language;
 mod listing;
 mod materials;
 mod params;
@@ -27,6 +29,7 @@ mod time;
 #[cfg(feature = "gpu")]
 mod verify;
 
+pub use first::first_help;
 #[cfg(feature = "gpu")]
 pub(super) use generate::kept;
 
@@ -34,7 +37,7 @@ use std::path::{Path, PathBuf};
 
 use serde::Serialize;
 
-use super::args::{Cli, Command, NamedFiles};
+use super::args::{Cli, Command, NamedFiles, completions};
 use super::error::Error;
 use super::fault::RequestFault;
 use super::folder::{is_below, is_plain_file, is_same_file, read, resolved};
@@ -53,7 +56,7 @@ pub struct Output {
     pub is_file: bool,
     /// For stderr, a line each.
     pub remarks: Vec<String>,
-    /// 0 done, 1 findings.
+    /// 0 done, 1 findings, 2 help where nothing was asked for.
     pub code: u8,
 }
 
@@ -70,6 +73,12 @@ pub fn run(cli: &Cli, progress: Progress, announce: Announce) -> Result<Output, 
     refuse_clashes(&cli.named_files())?;
     match &cli.command {
         None => generate::run(&cli.generate, announce),
+        Some(Command::Generate(flags)) => generate::run(flags, announce),
+        Some(Command::Completions(flags)) => Ok(Output {
+            stdout: completions(flags.shell),
+            is_file: true,
+            ..Output::default()
+        }),
         Some(Command::Methods(listing)) => listing::methods(listing),
         Some(Command::Materials(listing)) => materials::run(listing, progress),
         Some(Command::Effects(listing)) => listing::effects(listing),

@@ -58,7 +58,7 @@ fn files_of_others_stay_where_the_buffer_and_the_textures_go() {
         assert_eq!(place.read(&format!("{OUT}/{name}")), "mine");
     }
     let place = Place::new();
-    place.done("");
+    place.done("generate");
     assert_eq!(place.done("--check").out, "");
     let buffer = place.path(&format!("{OUT}/catalogue.std430.bin"));
     let whole = std::fs::read(&buffer).unwrap();
@@ -84,9 +84,9 @@ fn files_of_others_stay_where_the_buffer_and_the_textures_go() {
 fn a_folder_called_ktx2_is_not_looked_at() {
     let place = Place::new();
     place.put(&format!("{OUT}/ktx2/wood.ktx2"), "mine");
-    let ran = place.done("");
+    let ran = place.done("generate");
     assert!(!ran.err.contains("wood"), "{}", ran.err);
     place.put(&format!("{OUT}/gles/wood.glsl"), "mine");
-    let ran = place.done("");
+    let ran = place.done("generate");
     assert!(ran.err.contains("gles/wood.glsl"), "{}", ran.err);
 }

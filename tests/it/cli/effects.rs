@@ -82,7 +82,7 @@ fn one_is_written_alone_and_stays_beside_others() {
     let text = place.read(&format!("{OUT}/wgsl/effects/dispersion_diamond.wgsl"));
     assert!(text.contains("fn fresnel_refracted_red_diamond("), "{text}");
     assert!(!text.contains("etas: vec3"), "its three indices are in it");
-    place.done("");
+    place.done("generate");
     let said = place
         .done("--effect interface,water --target wgsl --material diamond")
         .err;
@@ -113,7 +113,7 @@ fn the_whole_tree_holds_all_and_an_orphan_goes() {
         &manifest,
         edited.replace("\"effect\": \"water\"", "\"effect\": \"waves\""),
     );
-    place.done("");
+    place.done("generate");
     assert!(
         !place.path(&format!("{OUT}/{new}")).exists(),
         "no effect has this name"

@@ -26,7 +26,7 @@ fn a_run_without_flags_removes_nothing_of_others() {
     for (path, text) in &mine {
         place.put(&format!("{OUT}/{path}"), text);
     }
-    let ran = place.done("");
+    let ran = place.done("generate");
     for (path, text) in &mine {
         assert_eq!(&place.read(&format!("{OUT}/{path}")), text);
         assert!(ran.err.contains(&format!("left alone: {path}")), "{ran:?}");
@@ -178,7 +178,7 @@ fn tables_that_bake_writes_are_listed_and_stay() {
     let there = contents(&place.path(OUT)).into_keys();
     let there: BTreeSet<String> = there.filter(|path| path != "manifest.json").collect();
     assert_eq!(tables, there);
-    place.done("");
+    place.done("generate");
     let listed: BTreeSet<String> = place.listed().into_iter().collect();
     assert!(tables.is_subset(&listed));
     assert!(

@@ -42,7 +42,7 @@ fn an_empty_folder_is_filled_and_a_second_run_writes_nothing() {
 #[test]
 fn the_tree_is_the_documented_one() {
     let place = Place::new();
-    place.done("");
+    place.done("generate");
     let tables = ["atlas", "diamond", "gold", "platinum", "water"].into_iter();
     let files = tables.flat_map(|name| {
         ["exr", "json", "ktx2", "png"].map(|ending| format!("lut/{name}.{ending}"))
@@ -87,7 +87,7 @@ fn a_run_without_flags_owns_its_tables_and_leaves_others_to_bake() {
     place.put(&format!("{OUT}/lut/notes.txt"), "mine");
     let mut baked = contents(&place.path(OUT));
     baked.remove("manifest.json");
-    let ran = place.done("");
+    let ran = place.done("generate");
     assert!(
         ran.err.ends_with("written, 0 unchanged, 0 removed\n"),
         "{ran:?}"
@@ -117,9 +117,9 @@ fn a_run_without_flags_owns_its_tables_and_leaves_others_to_bake() {
 #[test]
 fn a_table_that_is_no_longer_written_stays() {
     let place = Place::new();
-    place.done("");
+    place.done("generate");
     place.list_as("lut/gold.exr", "lut/gold.float.exr", "old");
-    place.done("");
+    place.done("generate");
     assert_eq!(place.read(&format!("{OUT}/lut/gold.float.exr")), "old");
     assert!(place.listed().contains(&"lut/gold.float.exr".to_owned()));
 }
@@ -249,7 +249,7 @@ fn runs_of_other_scopes_keep_what_is_not_theirs() {
             assert!(after.get(path) == Some(file), "{line} changed {path}");
         }
     }
-    place.done("");
+    place.done("generate");
     let all = place.listed();
     assert!(expected.iter().all(|path| all.contains(path)), "{all:?}");
     place.done("--check");
@@ -336,4 +336,27 @@ fn depfile_names_outputs_and_inputs() {
     assert_eq!(place.read("d"), rule);
     place.done("--method schlick --target hlsl -o s.hlsl --depfile e");
     assert_eq!(place.read("e"), "s.hlsl:\n");
+    // The target as the build system names it, in place of all others.
+    let line = "--target gles --method schlick --depfile f --depfile-target";
+    place.done(&format!("{line} ./stamp"));
+    assert_eq!(place.read("f"), "./stamp:\n");
+    place.done("--method schlick -o - --depfile g --depfile-target out");
+    assert_eq!(place.read("g"), "out:\n");
+    for (line, says) in [
+        (
+            "--method schlick -o - --depfile h",
+            ["`-o -`", "--depfile-target"],
+        ),
+        (
+            "--target gles --depfile-target out",
+            ["--depfile <FILE>", "required"],
+        ),
+        (
+            &format!("{line} -"),
+            ["--depfile-target takes a file", "stdout"],
+        ),
+        (&format!("{line} a;b"), ["\"a;b\"", "Make and Ninja"]),
+    ] {
+        place.refused(line, &says);
+    }
 }

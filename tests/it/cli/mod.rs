@@ -6,7 +6,6 @@ mod brought;
 mod budget;
 mod catalogue;
 mod chart;
-mod cmake;
 #[cfg(feature = "gpu")]
 mod cost;
 mod determinism;
@@ -18,11 +17,14 @@ mod files;
 mod fit;
 mod generation;
 mod half;
+mod help;
+mod hooks;
 mod hostile;
 #[cfg(unix)]
 mod killed;
 mod materials;
 mod medium;
+mod pipelines;
 mod plan;
 mod scene_error;
 mod seen;

@@ -50,27 +50,68 @@ fn a_file_gets_what_stdout_gets() {
     }
 }
 
+/// An ending, the language that it means, and whether that is what all files of this language end in.
+const ENDINGS: [(&str, &str, bool); 12] = [
+    (".wgsl", "wgsl", true),
+    (".glsl", "gles", true),
+    (".hlsl", "hlsl", true),
+    (".hlsli", "hlsl", false),
+    (".fxh", "hlsl", false),
+    (".cginc", "hlsl", false),
+    (".ush", "hlsl", false),
+    (".usf", "hlsl", false),
+    (".spv", "spirv", true),
+    (".metal", "msl", true),
+    (".HLSL", "hlsl", true),
+    ("", "wgsl", true),
+];
+
 #[test]
 fn the_ending_names_the_language() {
     let place = Place::new();
-    for (file, target) in [
-        ("a.hlsl", "hlsl"),
-        ("a.glsl", "gles"),
-        ("a.metal", "msl"),
-        ("a.wgsl", "wgsl"),
-        ("a", "wgsl"),
-    ] {
-        place.done(&format!("--method schlick -o {file}"));
-        let out = place.done(&format!("--method schlick --target {target} -o -"));
-        assert_eq!(place.read(file), out.out, "{file}");
+    for (ending, target, _) in ENDINGS {
+        place.done(&format!("--method schlick -o a{ending}"));
+        place.done(&format!("--method schlick --target {target} -o b{ending}"));
+        let bytes = |name: &str| std::fs::read(place.path(&format!("{name}{ending}"))).unwrap();
+        assert_eq!(bytes("a"), bytes("b"), "{ending}");
+        let out = place.command(&["--method", "schlick", "--target", target, "-o", "-"]);
+        let out = { out }.output().unwrap().stdout;
+        assert_eq!(bytes("a"), out, "{ending}");
+        let other = if target == "hlsl" { "gles" } else { "hlsl" };
+        if !ending.is_empty() {
+            place.refused(
+                &format!("--method schlick --target {other} -o c{ending}"),
+                &[
+                    &format!("c{ending}"),
+                    target,
+                    &format!("--target is {other}"),
+                ],
+            );
+        }
     }
-    place.done("--method schlick --target glsl -o b.glsl");
-    place.done("--method schlick --target hlsl -o b.ush");
-    place.refused("--method schlick -o c.ush", &["c.ush", "--target", ".hlsl"]);
-    place.refused(
-        "--method schlick --target gles -o c.hlsl",
-        &["c.hlsl", "hlsl", "--target is gles"],
-    );
+    // Both languages of GLSL end so.
+    place.done("--method schlick --target glsl -o d.glsl");
+    assert!(place.read("d.glsl") != place.read("a.glsl"));
+    for file in ["e.vert", "e.h", "e.txt", "e."] {
+        let says = [file, "--target", ".hlsl", ".ush", ".wgsl", ".metal", ".spv"];
+        place.refused(&format!("--method schlick -o {file}"), &says);
+        place.done(&format!("--method schlick --target gles -o {file}"));
+    }
+}
+
+#[test]
+fn every_target_has_its_endings_in_the_table() {
+    for target in fresnel_gen::targets::ALL {
+        for ending in target.endings() {
+            let is_it = |row: &&(&str, &str, bool)| row.0 == format!(".{ending}");
+            let row = ENDINGS.iter().find(is_it).expect(ending);
+            assert_eq!(row.2, target.extension == ending, "{ending}");
+            assert!(
+                row.1 == target.name || target.extension == "glsl",
+                "{ending}"
+            );
+        }
+    }
 }
 
 #[test]

@@ -171,7 +171,7 @@ fn examples_use_only_the_library_for_build_scripts() {
     for example in [
         "src/lib.rs",
         "docs/builds.md",
-        "tests/build-script/src/build.rs",
+        "tests/pipelines/cargo/src/build.rs",
     ] {
         let text = fs::read_to_string(super::root().join(example)).unwrap();
         let imports: Vec<&str> = text

@@ -1,0 +1,214 @@
+//! What the program says of itself: help with examples, help where nothing is asked for, completion scripts.
+
+use std::process::Command;
+
+use clap::{CommandFactory, Parser};
+use fresnel_gen::app::args::{Cli, completions};
+
+use super::{OUT, Place};
+
+/// Lines of a help that are commands, without redirections and without what is said of them.
+fn commands(help: &str) -> Vec<&str> {
+    let lines = help.lines().filter_map(|line| line.strip_prefix("  "));
+    let commands = lines.filter(|line| line.starts_with("fresnel-gen "));
+    commands
+        .map(|line| line.split("   ").next().unwrap_or(line))
+        .map(|line| line.split(" > ").next().unwrap_or(line).trim())
+        .collect()
+}
+
+#[track_caller]
+fn is_known(line: &str) {
+    let words = line.split_whitespace();
+    if let Err(fault) = Cli::try_parse_from(words) {
+        panic!("{line}: {fault}");
+    }
+}
+
+/// Every command, and those below it, with its path.
+fn all_commands() -> Vec<(String, clap::Command)> {
+    let mut found = Vec::new();
+    let mut waiting = vec![(String::new(), Cli::command())];
+    while let Some((path, command)) = waiting.pop() {
+        for below in command.get_subcommands() {
+            waiting.push((format!("{path} {}", below.get_name()), below.clone()));
+        }
+        found.push((path, command));
+    }
+    found
+}
+
+#[test]
+fn every_command_ends_its_help_with_an_example() {
+    for (path, command) in all_commands() {
+        let help = command.get_after_help().map(ToString::to_string);
+        // What lies below a command has its examples there.
+        if path.split_whitespace().count() > 1 {
+            continue;
+        }
+        let help = help.unwrap_or_else(|| panic!("{path}: no example"));
+        let examples = commands(&help);
+        assert!(!examples.is_empty(), "{path}: {help}");
+        for example in examples {
+            assert!(
+                example.starts_with(&format!("fresnel-gen{path}")),
+                "{path}: {example}"
+            );
+            is_known(example);
+        }
+    }
+}
+
+#[test]
+fn help_stands_in_groups() {
+    let place = Place::new();
+    for line in ["--help", "generate --help"] {
+        let out = place.done(line).out;
+        let at = |heading: &str| out.find(&format!("\n{heading}:\n")).expect(heading);
+        let places = ["Everyday", "Colour", "Precision", "Output"].map(at);
+        assert!(places.is_sorted(), "{line}: {places:?}");
+        let flag = |flag: &str| out.find(&format!("      {flag}")).expect(flag);
+        assert!(
+            flag("--target") < places[1] && flag("--gamut") < places[2],
+            "{out}"
+        );
+        assert!(
+            flag("--budget") < places[3] && flag("--depfile") > places[3],
+            "{out}"
+        );
+    }
+    let verify = place.done("verify --help").out;
+    assert!(
+        verify.contains("\nColour:\n") && verify.contains("\nOptions:\n"),
+        "{verify}"
+    );
+}
+
+#[test]
+fn alone_it_helps_where_nothing_is_written_yet() {
+    let place = Place::new();
+    let ran = place.run("").ends(2);
+    assert!(ran.out.is_empty() && place.files().is_empty(), "{ran:?}");
+    let commands = commands(&ran.err);
+    assert_eq!(commands.len(), 5, "{ran:?}");
+    commands.into_iter().for_each(is_known);
+    assert!(
+        ran.err.contains("no shaders-generated/manifest.json here"),
+        "{ran:?}"
+    );
+    assert!(ran.err.contains("fresnel-gen --help"), "{ran:?}");
+    // Any flag writes, or lists.
+    assert!(
+        place
+            .done("--list")
+            .out
+            .contains("gles/fresnel_schlick.glsl")
+    );
+}
+
+#[test]
+fn alone_it_writes_where_a_tree_is() {
+    let place = Place::new();
+    place.done("generate --target gles --method schlick --material none");
+    place.done("");
+    assert!(
+        place
+            .listed()
+            .contains(&"wgsl/fresnel_fitted.wgsl".to_owned())
+    );
+    let other = Place::new();
+    other.put(&format!("{OUT}/manifest.json"), "{\"tool\": \"mine\"}");
+    other.refused("", &["manifest.json:1", "mine"]);
+}
+
+#[test]
+fn generate_takes_the_flags_of_the_program() {
+    let place = Place::new();
+    for line in [
+        "--method schlick --target hlsl -o",
+        "--list",
+        "--effect coat --target gles -o",
+    ] {
+        let line = if line.ends_with("-o") {
+            format!("{line} -")
+        } else {
+            line.to_owned()
+        };
+        assert_eq!(
+            place.done(&line).out,
+            place.done(&format!("generate {line}")).out
+        );
+    }
+    place.refused("generate --target gles -o x.hlsl", &["--target is gles"]);
+    place.refused("--quiet generate", &["generate"]);
+    let ids = |command: &clap::Command| -> Vec<String> {
+        let all = command.get_arguments();
+        all.map(|arg| arg.get_id().to_string()).collect()
+    };
+    let command = Cli::command();
+    let generate = command.find_subcommand("generate").expect("it is there");
+    assert_eq!(ids(generate), ids(&command));
+}
+
+#[test]
+fn completions_know_names() {
+    let place = Place::new();
+    for shell in ["bash", "elvish", "fish", "powershell", "zsh"] {
+        let script = place.done(&format!("completions {shell}")).out;
+        for word in [
+            "schlick_corrected",
+            "gold_johnson",
+            "audit",
+            "depfile",
+            "acescg",
+            "adreno330",
+        ] {
+            assert!(script.contains(word), "{shell}: {word}");
+        }
+    }
+    place.refused("completions tcsh", &["tcsh", "bash"]);
+}
+
+/// What bash offers for the last of these words.
+fn offered(place: &Place, words: &str) -> Vec<String> {
+    let script = format!(
+        "source script; COMP_WORDS=({words}); COMP_CWORD=$((${{#COMP_WORDS[@]}} - 1)); \
+         _fresnel-gen fresnel-gen \"${{COMP_WORDS[-1]}}\" \"${{COMP_WORDS[-2]}}\"; printf '%s\\n' \"${{COMPREPLY[@]}}\""
+    );
+    let output = Command::new("bash")
+        .args(["--norc", "-c", &script])
+        .current_dir(place.path(""))
+        .output()
+        .expect("bash runs");
+    assert!(output.status.success(), "{words}: {output:?}");
+    let text = String::from_utf8_lossy(&output.stdout).into_owned();
+    text.lines()
+        .filter(|line| !line.is_empty())
+        .map(str::to_owned)
+        .collect()
+}
+
+#[test]
+fn bash_completes_names_and_flags() {
+    let place = Place::new();
+    let shell = "bash".parse().expect("it is a shell");
+    place.put("script", completions(shell));
+    let syntax = Command::new("bash")
+        .arg("-n")
+        .arg(place.path("script"))
+        .output();
+    let syntax = syntax.expect("bash runs");
+    assert!(
+        syntax.status.success() && syntax.stderr.is_empty(),
+        "{syntax:?}"
+    );
+    for (words, expected) in [
+        ("fresnel-gen --method schlick_c", "schlick_corrected"),
+        ("fresnel-gen --depfile-t", "--depfile-target"),
+        ("fresnel-gen methods show schlick_c", "schlick_corrected"),
+        ("fresnel-gen verify --material gold_j", "gold_johnson"),
+        ("fresnel-gen repr", "reproduce"),
+    ] {
+        assert_eq!(offered(&place, words), [expected], "{words}");
+    }
+}
