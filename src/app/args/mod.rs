@@ -11,6 +11,7 @@ mod generate;
 mod listing;
 mod material;
 mod materials;
+mod merge;
 mod named;
 mod output;
 mod plan;
@@ -44,6 +45,7 @@ pub use materials::{
     CoatFlags, FilterFlags, ImportFlags, MaterialsCommand, MaterialsFlags, ParamsFlags, SeenFlags,
     ShowFlags, SurveyFlags,
 };
+pub use merge::MergeFlags;
 pub use named::NamedFiles;
 pub use output::{CheckReportFlags, PictureFlags, ReportFlags, TreeFlags};
 pub use plan::PlanFlags;
@@ -100,6 +102,8 @@ pub enum Command {
     Bake(Box<BakeFlags>),
     /// Run the generated functions of every target and compare the results with f64 on the CPU
     Verify(Box<VerifyFlags>),
+    /// Put the reports of the shards of one `verify` together, as the report of a whole run
+    Merge(MergeFlags),
     /// Show where methods fail: regions of NaN, of lost digits, and of large error against the exact law
     Stability(StabilityFlags),
     /// Show what functions cost, by Mesa's GPU compilers; recorded figures replace a missing compiler
@@ -147,6 +151,12 @@ impl Cli {
             Command::Verify(flags) => {
                 named.seen(&flags.materials, &flags.medium, &flags.viewing.viewing);
                 named.write(flags.report.files());
+            }
+            Command::Merge(flags) => {
+                named
+                    .inputs
+                    .extend(flags.reports.iter().map(PathBuf::as_path));
+                named.write(flags.json.iter().chain(&flags.junit));
             }
             Command::Audit(flags) => {
                 named.inputs.extend(flags.file.iter().map(Path::new));

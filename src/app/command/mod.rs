@@ -13,6 +13,8 @@ mod generate;
 mod import;
 mod listing;
 mod materials;
+#[cfg(feature = "gpu")]
+mod merge;
 mod params;
 mod plan;
 #[cfg(feature = "gpu")]
@@ -78,6 +80,8 @@ pub fn run(cli: &Cli, progress: Progress, announce: Announce) -> Result<Output, 
         #[cfg(feature = "gpu")]
         Some(Command::Verify(flags)) => verify::run(flags, progress),
         #[cfg(feature = "gpu")]
+        Some(Command::Merge(flags)) => merge::run(flags),
+        #[cfg(feature = "gpu")]
         Some(Command::Cost(flags)) => cost::run(flags, progress),
         #[cfg(feature = "gpu")]
         Some(Command::Time(flags)) => time::run(flags, progress),
@@ -88,6 +92,7 @@ pub fn run(cli: &Cli, progress: Progress, announce: Announce) -> Result<Output, 
         #[cfg(not(feature = "gpu"))]
         Some(
             Command::Verify(_)
+            | Command::Merge(_)
             | Command::Cost(_)
             | Command::Time(_)
             | Command::Audit(_)
