@@ -57,13 +57,7 @@ pub enum MergeFault {
         there: String,
     },
     /// Shards without a report.
-    #[error("{} of {shards} shards missing: {names}; run {}, and merge again", match count {
-        1 => "1".to_owned(),
-        more => more.to_string(),
-    }, match count {
-        1 => "it",
-        _ => "them",
-    })]
+    #[error("{count} of {shards} shards missing: {names}; run what is missing, and merge again")]
     Missing {
         /// How many.
         count: usize,
@@ -94,6 +88,7 @@ pub struct Whole {
 
 /// What every report begins with, in whatever version of the form.
 #[derive(Deserialize)]
+#[serde(expecting = "an object")]
 struct Head {
     tool: Option<Value>,
     schema: Option<Value>,
@@ -168,7 +163,7 @@ fn json_fault(file: &Path, why: &serde_json::Error) -> Error {
     let words = words.split(" at line ").next().unwrap_or_default();
     let kind = match why.is_data() {
         true => "this is no shard's report",
-        false => "this is not JSON",
+        false => "this cannot be read as JSON",
     };
     Error::Material(FileFault {
         file: file.display().to_string(),
@@ -231,38 +226,12 @@ impl Part {
     /// Whether it is another shard of the same run.
     fn is_beside(&self, other: &Part) -> Result<(), MergeFault> {
         let (own, its) = (&self.report, &other.report);
-        let yes_or_no = |is_so: bool| if is_so { "yes" } else { "no" }.to_owned();
-        let compared = [
-            (
-                "the number of shards is",
-                own.shards.to_string(),
-                its.shards.to_string(),
-            ),
-            (
-                "the command is",
-                in_code(&own.command),
-                in_code(&its.command),
-            ),
-            (
-                "--require-all was asked for:",
-                yes_or_no(own.require_all),
-                yes_or_no(its.require_all),
-            ),
-            (
-                "the hash of files and materials that were run (--out-dir, --prefix, --matching-angle and a user's own files make a \
-                 difference) is",
-                own.inputs.clone(),
-                its.inputs.clone(),
-            ),
-        ];
-        let compared = compared
-            .into_iter()
-            .map(|(what, a, b)| (what.to_owned(), a, b));
-        let machine = own.machine.difference(&its.machine);
-        let machine =
-            machine.map(|(name, here, there)| (format!("what {name} ran on is"), here, there));
-        let mut differences = compared.filter(|(_, a, b)| a != b).chain(machine);
-        if let Some((what, here, there)) = differences.next() {
+        let of_run = run_difference(own, its);
+        let of_machine = || {
+            let found = own.machine.difference(&its.machine)?;
+            Some((format!("`{}` is", found.0), found.1, found.2))
+        };
+        if let Some((what, here, there)) = of_run.or_else(of_machine) {
             return Err(MergeFault::Differs {
                 file: self.file.clone(),
                 other: other.file.clone(),
@@ -282,6 +251,30 @@ impl Part {
     }
 }
 
-fn in_code(command: &str) -> String {
-    format!("`{command}`")
+/// What tells that two shards are not of one run: its name, and what it is of each.
+fn run_difference(own: &ShardReport, its: &ShardReport) -> Option<(String, String, String)> {
+    let differ = |what: &str, here: String, there: String| Some((what.to_owned(), here, there));
+    if own.shards != its.shards {
+        let [here, there] = [own, its].map(|one| one.shards.to_string());
+        return differ("the number of shards is", here, there);
+    }
+    if own.command != its.command {
+        let [here, there] = [own, its].map(|one| format!("`{}`", one.command));
+        return differ("the command is", here, there);
+    }
+    if own.require_all != its.require_all {
+        let [here, there] = [own, its].map(|one| {
+            if one.require_all {
+                "given"
+            } else {
+                "not given"
+            }
+        });
+        return differ("--require-all is", here.to_owned(), there.to_owned());
+    }
+    if own.inputs != its.inputs {
+        let what = "files and materials differ (--out-dir and what lies there, --prefix, --matching-angle, files of your own): their hash is";
+        return differ(what, own.inputs.clone(), its.inputs.clone());
+    }
+    None
 }

@@ -10,6 +10,7 @@ use crate::verify::shard::{PlacedRow, Shard, ShardOutcome};
 
 /// The report of a shard.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(expecting = "an object")]
 pub struct ShardReport {
     /// The program.
     pub tool: String,

@@ -32,7 +32,11 @@ pub fn exhaustive_rows(
     if all.is_empty() {
         return Err(Error::NothingExhaustive);
     }
-    let (mut outcome, mut speeds) = (ShardOutcome::default(), Vec::new());
+    let mut speeds = Vec::new();
+    let mut outcome = ShardOutcome {
+        places: all.len(),
+        ..ShardOutcome::default()
+    };
     let dealt = all.into_iter().enumerate();
     for (place, (file, subject, emitted)) in dealt.filter(|(place, _)| shard.takes(*place)) {
         let (run, speed) = run(file, subject, emitted, devices, progress);
@@ -46,6 +50,7 @@ pub fn exhaustive_rows(
         };
         let rows = PlacedRow::all_at(place, vec![ran.verify_row()]);
         outcome.rows.extend(rows);
+        outcome.dealt += 1;
         let own = &[ExecutionPath::Own];
         let machine = MachineStatement::of_devices(file.target, own, devices);
         outcome.machine.add(machine);

@@ -69,6 +69,10 @@ pub struct ShardOutcome {
     pub rows: Vec<PlacedRow>,
     /// What the machine has for that work; nothing where it is a whole run.
     pub machine: MachineStatement,
+    /// How many places were dealt to it.
+    pub dealt: usize,
+    /// How many places there are.
+    pub places: usize,
 }
 
 impl ShardOutcome {
@@ -79,13 +83,16 @@ impl ShardOutcome {
 }
 
 impl VerifyPlan {
-    /// The hash of what is run: of the files with their text, and of the materials with their data. Shards of one run have the
+    /// The hash of what is run: of the files with their text, of what functions promise, and of the materials with their data. Shards of one run have the
     /// same, also where a command does not tell the difference.
     pub fn hash(&self) -> String {
         let mut all = String::new();
         for page in self.files.iter().flat_map(|file| &file.pages) {
             let hash = sha256(&page.bytes);
             all += &format!("{} {hash} {}\n", page.path, page.is_shipped);
+        }
+        for function in self.files.iter().flat_map(|file| &file.functions) {
+            all += &format!("{} {:?}\n", function.name, function.code);
         }
         for subject in self.subjects.iter().chain(&self.others) {
             all += &of_material(subject);

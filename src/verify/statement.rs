@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::fit::Measured;
 use crate::num::Precision;
-use crate::targets::{DXC, Stack, Target};
+use crate::targets::{Compiler, DXC, Stack, Target};
 
 use super::compilers;
 use super::run::{Devices, ExecutionPath};
@@ -43,11 +43,11 @@ impl MachineStatement {
         let mut stated = MachineStatement::of_devices(target, paths, devices);
         for validator in target.validators_in(precision) {
             let name = format!("{} by {}", target.name, validator.name);
-            stated.enter(name, compilers::version(validator.compiler));
+            stated.enter(name, compiler_here(validator.compiler));
         }
         if paths.contains(&ExecutionPath::NagaHlsl) {
             let name = path_name(target, ExecutionPath::NagaHlsl) + " through DXC";
-            stated.enter(name, compilers::version(&DXC));
+            stated.enter(name, compiler_here(&DXC));
         }
         stated
     }
@@ -82,6 +82,14 @@ impl MachineStatement {
     fn words(&self, name: &str) -> Option<String> {
         let lacks = || self.lacks.get(name).map(|why| format!("nothing ({why})"));
         self.has.get(name).cloned().or_else(lacks)
+    }
+}
+
+/// The version of a compiler; one that is here and does not tell it is not missing.
+fn compiler_here(compiler: &Compiler) -> Measured<String> {
+    match compilers::version(compiler) {
+        Measured::No(why) if compilers::is_here(compiler) => Measured::Yes(why),
+        version => version,
     }
 }
 

@@ -43,7 +43,11 @@ pub fn supervise(
         count += 1;
         progress(count, whole, &plan.files[request.file].run_page().path);
     })?;
-    let mut outcome = ShardOutcome::default();
+    let mut outcome = ShardOutcome {
+        dealt: requests.len(),
+        places: plan.files.len(),
+        ..ShardOutcome::default()
+    };
     for (request, answer) in requests.iter().zip(answers) {
         let rows = PlacedRow::all_at(request.file, answer.rows);
         outcome.rows.extend(rows);

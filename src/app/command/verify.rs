@@ -149,10 +149,8 @@ fn reported(
             shard_report(whole, shard, outcome, &flags.report)?
         }
     };
-    let left_out = plan.left_out.iter();
-    output
-        .remarks
-        .extend(left_out.map(|why| format!("left out: {why}")));
+    let left_out = plan.left_out.iter().map(|why| format!("left out: {why}"));
+    output.remarks.splice(0..0, left_out);
     Ok(output)
 }
 
@@ -165,10 +163,11 @@ fn shard_report(
 ) -> Result<Output, Error> {
     let rows = outcome.bare_rows();
     let code = code(&rows, whole.require_all, Some(&outcome.machine));
+    let (dealt, places) = (outcome.dealt, outcome.places);
     let full = ShardReport::new(whole, shard, outcome);
     let mut output = told(&rows, &full, files)?;
     output.remarks.push(format!(
-        "shard {} of {}; `fresnel-gen merge` puts the JSON reports of all together",
+        "shard {} of {}: {dealt} of {places} parts of the run; `fresnel-gen merge` puts the JSON reports of all shards together",
         shard.index(),
         shard.count()
     ));
