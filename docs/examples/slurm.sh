@@ -1,5 +1,5 @@
 #!/bin/bash
-# Every f32 for all methods and materials, in 64 shards, as a Slurm array:
+# Every f32 through the functions of all materials, in 64 shards, as a Slurm array:
 #
 #   sbatch slurm.sh                  all shards
 #   sbatch --array=5,17 slurm.sh     shards 5 and 17 once more
@@ -8,7 +8,7 @@
 #SBATCH --array=0-63
 #SBATCH --cpus-per-task=4
 #SBATCH --mem=4G
-#SBATCH --time=08:00:00
+#SBATCH --time=02:00:00
 #SBATCH --output=task-%a.txt
 
 # Which shard this is says SLURM_ARRAY_TASK_ID. How many there are stands here alone: in an array that is run again in part, Slurm

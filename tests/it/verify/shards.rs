@@ -373,7 +373,10 @@ const TAMPERED: [Tampered; 12] = [
     ),
     (
         "how many there are",
-        |part| part["shards"] = json!(8),
+        |part| {
+            part["shards"] = json!(8);
+            part["rows"] = json!([]);
+        },
         &["the number of shards is 8", "4"],
     ),
     (
