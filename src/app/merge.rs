@@ -20,6 +20,8 @@ use super::fault::RequestFault;
 const COMMAND: &str = "verify";
 /// As many missing shards are named.
 const NAMED: usize = 20;
+/// As many characters of what a report says are shown.
+const SHOWN: usize = 1000;
 
 /// Why reports are not the shards of one run.
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
@@ -133,7 +135,7 @@ impl Head {
         if text(&self.tool).as_deref() != Some(TOOL) {
             return Some("it is no report of fresnel-gen".to_owned());
         }
-        let command = text(&self.command).unwrap_or_default();
+        let command = shown(&text(&self.command).unwrap_or_default());
         if command.split(' ').next() != Some(COMMAND) {
             return Some(format!(
                 "it is the report of `{command}`; only reports of `{COMMAND}` have shards"
@@ -143,13 +145,21 @@ impl Head {
             return Some("it is the report of a whole run, and not of a shard".to_owned());
         }
         let own = env!("CARGO_PKG_VERSION");
-        let version = text(&self.version).unwrap_or_default();
+        let version = shown(&text(&self.version).unwrap_or_default());
         let is_same_schema = self.schema.as_ref().and_then(Value::as_u64) == Some(SCHEMA.into());
         (version != own || !is_same_schema).then(|| {
             format!(
                 "fresnel-gen {version} wrote it, and this is {own}; run that version's `merge`, or run the shard again with this one"
             )
         })
+    }
+}
+
+/// The beginning of a text, or all of it.
+fn shown(text: &str) -> String {
+    match text.char_indices().nth(SHOWN) {
+        Some((end, _)) => format!("{}…", &text[..end]),
+        None => text.to_owned(),
     }
 }
 
@@ -160,7 +170,7 @@ fn refused(file: &Path, what: String) -> Error {
 
 fn json_fault(file: &Path, why: &serde_json::Error) -> Error {
     let words = why.to_string();
-    let words = words.split(" at line ").next().unwrap_or_default();
+    let words = shown(words.split(" at line ").next().unwrap_or_default());
     let kind = match why.is_data() {
         true => "this is no shard's report",
         false => "this cannot be read as JSON",
@@ -235,9 +245,9 @@ impl Part {
             return Err(MergeFault::Differs {
                 file: self.file.clone(),
                 other: other.file.clone(),
-                what,
-                here,
-                there,
+                what: shown(&what),
+                here: shown(&here),
+                there: shown(&there),
             });
         }
         if own.shard == its.shard {

@@ -1,5 +1,5 @@
 //! The report of a shard of a verification: what the report of a whole run says of it, and what tells whether other shards are of
-//! the same run. It is the one report that this program reads again.
+//! the same run. `merge` reads it again, so that it owns its text and flattens no [`Origin`](super::Origin), which is written only.
 
 use serde::{Deserialize, Serialize};
 

@@ -487,6 +487,12 @@ fn what_is_no_report_is_refused_with_its_place() {
             &[name, says],
         );
     }
+    // Nobody reads a message of a million characters.
+    let mut long = dealt(4).remove(0);
+    long["command"] = json!(format!("cost {}", "x".repeat(1_000_000)));
+    place.put("long.json", long.to_string());
+    let ran = place.run("merge long.json").ends(2);
+    assert!(ran.err.len() < 2000 && ran.err.contains("only reports of `verify`"));
     place.put("bytes.json", [0xff, 0xfe, 0, 1]);
     place.refused("merge bytes.json", &["bytes.json:1:1", "not UTF-8"]);
     fs::create_dir(place.path("folder.json")).unwrap();
