@@ -79,7 +79,7 @@ pub enum RequestFault {
     /// Reports of shards that are not those of one run.
     #[cfg(all(feature = "cli", feature = "gpu"))]
     #[error(transparent)]
-    Merge(#[from] super::merge::MergeFault),
+    Merge(Box<super::merge::MergeFault>),
     /// A picture, a page or a report that cannot be made.
     #[error("{reason}")]
     NotDrawn {

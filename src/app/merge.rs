@@ -70,6 +70,12 @@ pub enum MergeFault {
     },
 }
 
+impl From<MergeFault> for RequestFault {
+    fn from(fault: MergeFault) -> RequestFault {
+        RequestFault::Merge(Box::new(fault))
+    }
+}
+
 /// A shard's report, and its file.
 #[derive(Clone, Debug)]
 pub struct Part {

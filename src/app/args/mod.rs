@@ -152,12 +152,7 @@ impl Cli {
                 named.seen(&flags.materials, &flags.medium, &flags.viewing.viewing);
                 named.write(flags.report.files());
             }
-            Command::Merge(flags) => {
-                named
-                    .inputs
-                    .extend(flags.reports.iter().map(PathBuf::as_path));
-                named.write(flags.json.iter().chain(&flags.junit));
-            }
+            Command::Merge(flags) => named.merge(flags),
             Command::Audit(flags) => {
                 named.inputs.extend(flags.file.iter().map(Path::new));
                 named.seen(&flags.materials, &flags.medium, &flags.viewing.viewing);

@@ -99,7 +99,8 @@ fn merged_shards_are_the_report_of_a_whole_run_to_the_byte() {
         }
         let mut all = bare_rows(&report(&place, "whole.json"));
         assert_eq!(all.iter().collect::<BTreeSet<_>>().len(), all.len());
-        (dealt.sort(), all.sort());
+        dealt.sort();
+        all.sort();
         assert_eq!(dealt, all, "{shards} shards");
         // There is work for six; a seventh has nothing to do, and that is no fault.
         let empty: Vec<&Ran> = parts
