@@ -76,6 +76,10 @@ pub enum RequestFault {
         /// What lies there, and the way out.
         why: &'static str,
     },
+    /// Reports of shards that are not those of one run.
+    #[cfg(all(feature = "cli", feature = "gpu"))]
+    #[error(transparent)]
+    Merge(Box<super::merge::MergeFault>),
     /// A picture, a page or a report that cannot be made.
     #[error("{reason}")]
     NotDrawn {

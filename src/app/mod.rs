@@ -21,6 +21,8 @@ pub mod legible;
 pub mod loaded;
 pub mod lock;
 pub mod manifest;
+#[cfg(all(feature = "cli", feature = "gpu"))]
+pub mod merge;
 pub mod names;
 pub mod ours;
 #[cfg(feature = "cli")]
@@ -29,6 +31,8 @@ pub mod plan_file;
 mod plan_input;
 pub mod request;
 pub mod scope;
+#[cfg(all(feature = "cli", feature = "gpu"))]
+pub mod shard;
 pub mod source;
 pub mod subjects;
 #[cfg(feature = "cli")]

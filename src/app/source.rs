@@ -20,6 +20,9 @@ const LARGEST_PICTURE: u64 = 1 << 30;
 /// A mesh has at most this many bytes: three million triangles fit.
 const LARGEST_MESH: u64 = 256 << 20;
 
+/// A shard's report has at most this many bytes: 10⁵ rows fit.
+const LARGEST_REPORT: u64 = 256 << 20;
+
 /// Whether a name means a file: names of the catalogue have neither dots nor slashes.
 pub fn is_path(name: &str) -> bool {
     name.contains(['.', '/', '\\'])
@@ -60,6 +63,14 @@ pub fn shader(name: &str) -> Result<String, Error> {
 /// The file is not there, not an ordinary file, too large, or not UTF-8.
 pub fn mesh(path: &Path) -> Result<String, Error> {
     read_within(LARGEST_MESH, path)
+}
+
+/// The text of a shard's report.
+///
+/// # Errors
+/// The file is not there, not an ordinary file, too large, or not UTF-8.
+pub fn report(path: &Path) -> Result<String, Error> {
+    read_within(LARGEST_REPORT, path)
 }
 
 /// The bytes of a picture that a user names.

@@ -31,6 +31,8 @@ pub mod reproduce;
 #[cfg(feature = "cli")]
 pub mod scene_error;
 pub mod search;
+#[cfg(all(feature = "cli", feature = "gpu"))]
+pub mod shard;
 pub mod stability;
 pub mod survey;
 pub mod table;

@@ -11,51 +11,76 @@ use super::error::Error;
 use super::judge::{PathRun, RanFunction};
 use super::machine;
 use super::plan::{PlannedFile, VerifyPlan};
-use super::row::VerifyRow;
+use super::shard::{PlacedRow, Shard, ShardOutcome};
+use super::statement::MachineStatement;
 use super::trial_case::specialised;
 
 /// Hears how much is done, of how much, of what.
 type Progress<'a> = &'a mut dyn FnMut(u64, u64, &str);
 
-/// The rows of all numbers, and how many points a second each took.
+/// The rows of a shard's functions at all numbers, and how many points a second each took.
 ///
 /// # Errors
 /// Nothing of the plan can be swept.
 pub fn exhaustive_rows(
     plan: &VerifyPlan,
+    shard: Shard,
     devices: &Devices,
     progress: Progress,
-) -> Result<(Vec<VerifyRow>, Vec<String>), Error> {
-    let (mut rows, mut speeds) = (Vec::new(), Vec::new());
-    for file in plan
-        .files
-        .iter()
-        .filter(|file| matches!(file.target.stack, Stack::Wgpu(_)))
-    {
+) -> Result<(ShardOutcome, Vec<String>), Error> {
+    let all = swept(plan);
+    if all.is_empty() {
+        return Err(Error::NothingExhaustive);
+    }
+    let mut speeds = Vec::new();
+    let mut outcome = ShardOutcome {
+        places: all.len(),
+        ..ShardOutcome::default()
+    };
+    let dealt = all.into_iter().enumerate();
+    for (place, (file, subject, emitted)) in dealt.filter(|(place, _)| shard.takes(*place)) {
+        let (run, speed) = run(file, subject, emitted, devices, progress);
+        let runs = [(ExecutionPath::Own, run)];
+        let ran = RanFunction {
+            file,
+            emitted,
+            material: &subject.argument,
+            accepts: &[],
+            runs: &runs,
+        };
+        let rows = PlacedRow::all_at(place, vec![ran.verify_row()]);
+        outcome.rows.extend(rows);
+        outcome.dealt += 1;
+        let own = &[ExecutionPath::Own];
+        let machine = MachineStatement::of_devices(file.target, own, devices);
+        outcome.machine.add(machine);
+        speeds.push(format!(
+            "{}: {speed:.1} million points a second",
+            emitted.name
+        ));
+    }
+    Ok((outcome, speeds))
+}
+
+/// A function that can be swept, with its file and its material.
+type Swept<'a> = (&'a PlannedFile, &'a MaterialInMedium, &'a Emitted);
+
+/// Every function of the plan that can be swept, in order.
+fn swept(plan: &VerifyPlan) -> Vec<Swept<'_>> {
+    let mut all = Vec::new();
+    for file in &plan.files {
         let Some(subject) = file.subject.map(|index| &plan.subjects[index]) else {
             continue;
         };
-        for emitted in &file.functions {
-            let (run, speed) = run(file, subject, emitted, devices, progress);
-            let runs = [(ExecutionPath::Own, run)];
-            let ran = RanFunction {
-                file,
-                emitted,
-                material: &subject.argument,
-                accepts: &[],
-                runs: &runs,
-            };
-            rows.push(ran.verify_row());
-            speeds.push(format!(
-                "{}: {speed:.1} million points a second",
-                emitted.name
-            ));
+        if matches!(file.target.stack, Stack::Wgpu(_)) {
+            all.extend(
+                file.functions
+                    .iter()
+                    .map(|emitted| (file, subject, emitted)),
+            );
         }
     }
-    if rows.is_empty() {
-        return Err(Error::NothingExhaustive);
-    }
-    Ok((rows, speeds))
+    all
 }
 
 /// A function at all numbers, and the millions of them a second.

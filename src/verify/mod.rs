@@ -42,6 +42,10 @@ mod points;
 mod row;
 #[cfg(feature = "gpu")]
 pub mod run;
+#[cfg(all(feature = "cli", feature = "gpu"))]
+pub mod shard;
+#[cfg(all(feature = "cli", feature = "gpu"))]
+mod statement;
 mod status;
 #[cfg(all(feature = "cli", feature = "gpu"))]
 mod supervise;
@@ -73,6 +77,8 @@ pub use row::{
     AllowedError, Answer, CodeErrorFigures, Emulation, ModelErrorFigures, SecondOpinion, VerifyRow,
     WORST,
 };
+#[cfg(all(feature = "cli", feature = "gpu"))]
+pub use statement::MachineStatement;
 pub use status::Status;
 #[cfg(all(feature = "cli", feature = "gpu"))]
 pub use supervise::supervise;

@@ -7,38 +7,53 @@ use crate::process::{Error, Launch, Pool, Silence, Surroundings, Task};
 
 use super::judge::unfinished;
 use super::plan::VerifyPlan;
-use super::row::VerifyRow;
-use super::worker::FileRequest;
+use super::shard::{PlacedRow, Shard, ShardOutcome};
+use super::worker::{FileAnswer, FileRequest};
 
-/// The rows of all files, in the plan's order, by the compilers in the folder of tools before all others. `progress` hears how many are done.
+/// The rows of a shard's files, in the plan's order, by the compilers in the folder of tools before all others. `progress` hears how many are done.
 ///
 /// # Errors
 /// No process can be started.
 pub fn supervise(
     plan: &VerifyPlan,
+    shard: Shard,
     pool: Pool,
     tools: Option<&Path>,
     progress: &mut dyn FnMut(u64, u64, &str),
-) -> Result<Vec<VerifyRow>, Error> {
+) -> Result<ShardOutcome, Error> {
     let surroundings = Surroundings::new(tools)?;
     let launch = Launch::with_own_words(&surroundings);
-    let requests = (0..plan.files.len()).map(|file| FileRequest { file });
+    let dealt = (0..plan.files.len()).filter(|file| shard.takes(*file));
+    let requests: Vec<FileRequest> = dealt.map(|file| FileRequest { file }).collect();
     let task = Task {
-        jobs: &requests.collect::<Vec<FileRequest>>(),
+        jobs: &requests,
         launch: &|_| launch.clone(),
         work: &|worker, request, tick| {
-            let rows = worker.ask(request, pool.limit)?;
+            let answer = worker.ask(request, pool.limit)?;
             tick();
             let file = &plan.files[request.file];
-            Ok(rows.unwrap_or_else(|silence| unfinished(file, &reason(&silence, pool.limit))))
+            Ok(answer.unwrap_or_else(|silence| FileAnswer {
+                rows: unfinished(file, &reason(&silence, pool.limit)),
+                ..FileAnswer::default()
+            }))
         },
     };
-    let (mut count, whole) = (0, plan.files.len() as u64);
-    let rows = pool.run(&task, &mut |request: &FileRequest| {
+    let (mut count, whole) = (0, requests.len() as u64);
+    let answers = pool.run(&task, &mut |request: &FileRequest| {
         count += 1;
         progress(count, whole, &plan.files[request.file].run_page().path);
     })?;
-    Ok(rows.into_iter().flatten().collect())
+    let mut outcome = ShardOutcome {
+        dealt: requests.len(),
+        places: plan.files.len(),
+        ..ShardOutcome::default()
+    };
+    for (request, answer) in requests.iter().zip(answers) {
+        let rows = PlacedRow::all_at(request.file, answer.rows);
+        outcome.rows.extend(rows);
+        outcome.machine.add(answer.machine);
+    }
+    Ok(outcome)
 }
 
 /// Why there are no rows.

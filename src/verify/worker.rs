@@ -1,5 +1,6 @@
 //! A worker: answers the numbers of files with their rows.
 
+use std::collections::BTreeMap;
 use std::io;
 
 use serde::{Deserialize, Serialize};
@@ -10,6 +11,7 @@ use super::file::{VerifyEffort, file_rows};
 use super::plan::VerifyPlan;
 use super::row::VerifyRow;
 use super::run::Devices;
+use super::statement::MachineStatement;
 
 /// What a worker is asked: the rows of the file with this place in the plan.
 #[derive(Clone, Copy, Debug, Serialize, Deserialize)]
@@ -18,7 +20,17 @@ pub struct FileRequest {
     pub file: usize,
 }
 
-/// Serves until the supervisor is gone. Only files of the plan have rows.
+/// What a worker answers.
+#[derive(Clone, Debug, Default, Serialize, Deserialize)]
+pub struct FileAnswer {
+    /// The rows of the file.
+    pub rows: Vec<VerifyRow>,
+    /// Of a shard: what is here for the file's target.
+    #[serde(default)]
+    pub machine: MachineStatement,
+}
+
+/// Serves until the supervisor is gone. Only files of the plan have rows, and only a shard says what is here.
 ///
 /// # Errors
 /// The pipe is gone.
@@ -27,10 +39,24 @@ pub fn serve(
     plan: &VerifyPlan,
     devices: &Devices,
     effort: VerifyEffort,
+    is_shard: bool,
 ) -> io::Result<()> {
-    inbox.serve(|request: FileRequest| -> Vec<VerifyRow> {
-        let file = plan.files.get(request.file);
-        file.map(|file| file_rows(plan, file, devices, effort))
-            .unwrap_or_default()
+    let mut stated: BTreeMap<&str, MachineStatement> = BTreeMap::new();
+    inbox.serve(|request: FileRequest| -> FileAnswer {
+        let Some(file) = plan.files.get(request.file) else {
+            return FileAnswer::default();
+        };
+        let mut machine = MachineStatement::default();
+        if is_shard {
+            let of_target = || MachineStatement::of_target(file.target, file.precision(), devices);
+            machine = stated
+                .entry(file.target.name)
+                .or_insert_with(of_target)
+                .clone();
+        }
+        FileAnswer {
+            rows: file_rows(plan, file, devices, effort),
+            machine,
+        }
     })
 }

@@ -13,6 +13,7 @@ mod groups;
 mod listing;
 mod material;
 mod materials;
+mod merge;
 mod named;
 mod output;
 mod plan;
@@ -47,6 +48,7 @@ pub use materials::{
     CoatFlags, FilterFlags, ImportFlags, MaterialsCommand, MaterialsFlags, ParamsFlags, SeenFlags,
     ShowFlags, SurveyFlags,
 };
+pub use merge::MergeFlags;
 pub use named::NamedFiles;
 pub use output::{CheckReportFlags, PictureFlags, ReportFlags, TreeFlags};
 pub use plan::PlanFlags;
@@ -114,6 +116,8 @@ pub enum Command {
         after_help = "Examples:\n  fresnel-gen verify\n  fresnel-gen verify --target gles --material gold --json report.json --junit report.xml"
     )]
     Verify(Box<VerifyFlags>),
+    /// Put the reports of the shards of one `verify` together, as the report of a whole run
+    Merge(MergeFlags),
     /// Show where methods fail: regions of NaN, of lost digits, and of large error against the exact law
     #[command(
         after_help = "Example:\n  fresnel-gen stability --method schlick,fitted --out-dir maps"
@@ -193,6 +197,7 @@ impl Cli {
                 named.seen(&flags.materials, &flags.medium, &flags.viewing.viewing);
                 named.write(flags.report.files());
             }
+            Command::Merge(flags) => named.merge(flags),
             Command::Audit(flags) => {
                 named.inputs.extend(flags.file.iter().map(Path::new));
                 named.seen(&flags.materials, &flags.medium, &flags.viewing.viewing);

@@ -1,10 +1,10 @@
 //! The files that a command line names: what a run reads, and what it writes by name.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use super::{
-    GenerateFlags, MaterialFlags, MaterialsCommand, MaterialsFlags, MediumFlags, ReportFlags,
-    SeenFlags, ViewingFlags,
+    GenerateFlags, MaterialFlags, MaterialsCommand, MaterialsFlags, MediumFlags, MergeFlags,
+    ReportFlags, SeenFlags, ViewingFlags,
 };
 
 /// The files of a run that stand on its command line.
@@ -68,6 +68,12 @@ impl<'a> NamedFiles<'a> {
             Some(MaterialsCommand::Survey(survey)) => self.inputs.push(&survey.folder),
             Some(MaterialsCommand::List(_) | MaterialsCommand::Coat(_)) | None => {}
         }
+    }
+
+    pub(super) fn merge(&mut self, flags: &'a MergeFlags) {
+        self.inputs
+            .extend(flags.reports.iter().map(PathBuf::as_path));
+        self.write(flags.json.iter().chain(&flags.junit));
     }
 
     pub(super) fn write<P: AsRef<Path> + 'a>(&mut self, files: impl IntoIterator<Item = &'a P>) {

@@ -24,7 +24,7 @@ use super::{CheckReportFlags, GamutFlags, MaterialFlags, MediumFlags, PrecisionF
 /// The flags of `verify`.
 #[derive(Args, Debug)]
 #[command(
-    after_help = "Examples:\n  fresnel-gen verify\n  fresnel-gen verify --target gles --material gold --junit verify.xml\n  fresnel-gen verify --exhaustive --method schlick --material gold\n\nFiles are taken from --out-dir as they lie there; what is not there is generated. Exit codes: 0 all is as promised, 1 something is not, 2 wrong input, 3 something is missing here."
+    after_help = "Examples:\n  fresnel-gen verify\n  fresnel-gen verify --target gles --material gold --junit verify.xml\n  fresnel-gen verify --exhaustive --method schlick --material gold\n  fresnel-gen verify --shards 8 --shard 3 --json part-3.json\n\nFiles are taken from --out-dir as they lie there; what is not there is generated. Exit codes: 0 all is as promised, 1 something is not, 2 wrong input, 3 something is missing here."
 )]
 pub struct VerifyFlags {
     /// Output language, see `fresnel-gen targets`; all means those written by default [default: all]
@@ -76,6 +76,12 @@ pub struct VerifyFlags {
     /// Seconds that one file may take
     #[arg(long, value_name = "SECONDS", default_value_t = 60)]
     pub limit: u64,
+    /// Run one of so many shares of the work; `fresnel-gen merge` puts their JSON reports together
+    #[arg(long, value_name = "N")]
+    pub shards: Option<usize>,
+    /// Which share, 0 to N-1 [default: SLURM_ARRAY_TASK_ID or JOB_COMPLETION_INDEX]
+    #[arg(long, value_name = "I", requires = "shards")]
+    pub shard: Option<usize>,
     /// Exit with 3 where anything could not be checked
     #[arg(long)]
     pub require_all: bool,

@@ -15,6 +15,8 @@ mod import;
 mod language;
 mod listing;
 mod materials;
+#[cfg(feature = "gpu")]
+mod merge;
 mod params;
 mod plan;
 #[cfg(feature = "gpu")]
@@ -87,6 +89,8 @@ pub fn run(cli: &Cli, progress: Progress, announce: Announce) -> Result<Output, 
         #[cfg(feature = "gpu")]
         Some(Command::Verify(flags)) => verify::run(flags, progress),
         #[cfg(feature = "gpu")]
+        Some(Command::Merge(flags)) => merge::run(flags),
+        #[cfg(feature = "gpu")]
         Some(Command::Cost(flags)) => cost::run(flags, progress),
         #[cfg(feature = "gpu")]
         Some(Command::Time(flags)) => time::run(flags, progress),
@@ -97,6 +101,7 @@ pub fn run(cli: &Cli, progress: Progress, announce: Announce) -> Result<Output, 
         #[cfg(not(feature = "gpu"))]
         Some(
             Command::Verify(_)
+            | Command::Merge(_)
             | Command::Cost(_)
             | Command::Time(_)
             | Command::Audit(_)

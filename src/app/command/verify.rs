@@ -3,21 +3,28 @@
 use core::time::Duration;
 use std::collections::BTreeSet;
 
-use crate::app::args::VerifyFlags;
+use serde::Serialize;
+
+use crate::app::args::{CheckReportFlags, VerifyFlags};
 use crate::app::error::Error;
 use crate::app::fault::RequestFault;
 use crate::app::request::Request;
+use crate::app::shard::{VARIABLES, shard_of};
 use crate::app::verify::plan_of_request;
 use crate::app::write::write_file;
 use crate::gpu::Wanted;
 use crate::process::{Inbox, Pool};
 use crate::report::Report;
 use crate::report::junit::verify_junit;
+use crate::report::shard::{ShardReport, WholeRun};
 use crate::report::verify::{devices, not_checked, verify_remarks, verify_text};
 use crate::verify::file::VerifyEffort;
 use crate::verify::plan::VerifyPlan;
 use crate::verify::run::Devices;
-use crate::verify::{Status, VerifyRow, exhaustive_rows, machine, serve, supervise};
+use crate::verify::shard::{Shard, ShardOutcome};
+use crate::verify::{
+    MachineStatement, Status, VerifyRow, exhaustive_rows, machine, serve, supervise,
+};
 
 use super::{Output, Progress, check_limit, not_drawn, refuse_place_of, report, try_places};
 
@@ -29,6 +36,7 @@ pub fn run(flags: &VerifyFlags, progress: Progress) -> Result<Output, Error> {
     // Before the work begins, so that a worker ends with its supervisor at any time.
     let inbox = flags.worker.then(Inbox::open);
     check_limit(flags.limit)?;
+    let shard = shard(flags)?;
     let request = request(flags)?;
     let wanted = Wanted {
         backend: flags.backend,
@@ -44,7 +52,8 @@ pub fn run(flags: &VerifyFlags, progress: Progress) -> Result<Output, Error> {
         .into());
     }
     if let Some(inbox) = inbox {
-        let served = serve(inbox, &plan, &Devices::new(wanted), effort);
+        let devices = Devices::new(wanted);
+        let served = serve(inbox, &plan, &devices, effort, shard.is_some());
         // The supervisor has gone: nobody is there to be told.
         return Ok(Output {
             code: u8::from(served.is_err()),
@@ -59,19 +68,18 @@ pub fn run(flags: &VerifyFlags, progress: Progress) -> Result<Output, Error> {
         refuse_place_of(&plan.places, report)?;
     }
     try_places(flags.report.report.json(), flags.report.junit.as_deref())?;
-    let (rows, speeds) = if flags.exhaustive {
-        exhaustive_rows(&plan, &Devices::new(wanted), progress)?
+    let dealt = shard.unwrap_or(Shard::WHOLE);
+    let (outcome, speeds) = if flags.exhaustive {
+        exhaustive_rows(&plan, dealt, &Devices::new(wanted), progress)?
     } else {
         let pool = Pool {
             limit: Duration::from_secs(flags.limit),
             workers: machine::cores(),
         };
-        (
-            supervise(&plan, pool, flags.tools.as_deref(), progress)?,
-            Vec::new(),
-        )
+        let tools = flags.tools.as_deref();
+        (supervise(&plan, dealt, pool, tools, progress)?, Vec::new())
     };
-    let mut output = reported(flags, &request, &plan, &rows)?;
+    let mut output = reported(flags, &request, &plan, shard, outcome)?;
     output.remarks.extend(speeds);
     if !flags.out_dir.is_dir() {
         output.remarks.push(format!(
@@ -80,6 +88,12 @@ pub fn run(flags: &VerifyFlags, progress: Progress) -> Result<Output, Error> {
         ));
     }
     Ok(output)
+}
+
+/// The shard that this run is.
+fn shard(flags: &VerifyFlags) -> Result<Option<Shard>, Error> {
+    let variables = VARIABLES.map(|name| (name, machine::variable(name)));
+    Ok(shard_of(flags.shards, flags.shard, &variables)?)
 }
 
 fn request(flags: &VerifyFlags) -> Result<Request, Error> {
@@ -117,26 +131,82 @@ fn reported(
     flags: &VerifyFlags,
     request: &Request,
     plan: &VerifyPlan,
-    rows: &[VerifyRow],
+    shard: Option<Shard>,
+    outcome: ShardOutcome,
 ) -> Result<Output, Error> {
-    if let Some(file) = &flags.report.junit {
-        let xml = verify_junit(rows).map_err(not_drawn)?;
-        write_file(file, xml.as_bytes())?;
-    }
-    let full =
-        Report::new(flags.command_line(&request.viewing), rows.to_vec()).with_device(devices(rows));
-    let mut output = report(verify_text(rows), &full, flags.report.report.json())?;
-    output
-        .remarks
-        .extend(plan.left_out.iter().map(|why| format!("left out: {why}")));
-    let is_github = machine::is_github();
-    output.remarks.extend(verify_remarks(rows, is_github));
-    output.code = code(flags, rows);
+    let command = String::from(flags.command_line(&request.viewing));
+    let mut output = match shard {
+        None => {
+            let rows = outcome.bare_rows();
+            whole_report(command, &rows, &flags.report, flags.require_all)?
+        }
+        Some(shard) => {
+            let whole = WholeRun {
+                command,
+                inputs: plan.hash(),
+                require_all: flags.require_all,
+            };
+            shard_report(whole, shard, outcome, &flags.report)?
+        }
+    };
+    let left_out = plan.left_out.iter().map(|why| format!("left out: {why}"));
+    output.remarks.splice(0..0, left_out);
     Ok(output)
 }
 
-/// 1 for findings; 3 where a target could not be run at all, or, if all is asked for, anything was not checked.
-fn code(flags: &VerifyFlags, rows: &[VerifyRow]) -> u8 {
+/// The report of a shard, and how it ends.
+fn shard_report(
+    whole: WholeRun,
+    shard: Shard,
+    outcome: ShardOutcome,
+    files: &CheckReportFlags,
+) -> Result<Output, Error> {
+    let rows = outcome.bare_rows();
+    let code = code(&rows, whole.require_all, Some(&outcome.machine));
+    let (dealt, places) = (outcome.dealt, outcome.places);
+    let full = ShardReport::new(whole, shard, outcome);
+    let mut output = told(&rows, &full, files)?;
+    output.remarks.push(format!(
+        "shard {} of {}: {dealt} of {places} parts of the run; `fresnel-gen merge` puts the JSON reports of all shards together",
+        shard.index(),
+        shard.count()
+    ));
+    output.code = code;
+    Ok(output)
+}
+
+/// The report of a whole run, and how it ends.
+pub(super) fn whole_report(
+    command: String,
+    rows: &[VerifyRow],
+    files: &CheckReportFlags,
+    require_all: bool,
+) -> Result<Output, Error> {
+    let full = Report::new(command, rows.to_vec()).with_device(devices(rows));
+    let mut output = told(rows, &full, files)?;
+    output.code = code(rows, require_all, None);
+    Ok(output)
+}
+
+/// A report in all its forms.
+fn told<T: Serialize>(
+    rows: &[VerifyRow],
+    full: &T,
+    files: &CheckReportFlags,
+) -> Result<Output, Error> {
+    if let Some(file) = &files.junit {
+        let xml = verify_junit(rows).map_err(not_drawn)?;
+        write_file(file, xml.as_bytes())?;
+    }
+    let mut output = report(verify_text(rows), full, files.report.json())?;
+    let is_github = machine::is_github();
+    output.remarks.extend(verify_remarks(rows, is_github));
+    Ok(output)
+}
+
+/// 1 for findings; 3 where a target could not be run at all, or, if all is asked for, anything was not checked. A shard has few rows of
+/// a target, and all of them may be such as are run nowhere: it ends with 3 where its machine lacks something.
+fn code(rows: &[VerifyRow], require_all: bool, shard: Option<&MachineStatement>) -> u8 {
     if rows.iter().any(|row| row.status == Status::Fail) {
         return 1;
     }
@@ -144,9 +214,10 @@ fn code(flags: &VerifyFlags, rows: &[VerifyRow]) -> u8 {
     let has_run = |target: &&str| {
         let mut own = rows.iter().filter(|row| row.target == *target);
         own.any(|row| row.status == Status::Pass)
+            || shard.is_some_and(|machine| !machine.lacks_for(target))
     };
     let lacks = !targets.iter().all(has_run);
-    if lacks || flags.require_all && !not_checked(rows).is_empty() {
+    if lacks || require_all && !not_checked(rows).is_empty() {
         3
     } else {
         0

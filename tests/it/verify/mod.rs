@@ -3,12 +3,14 @@
 mod command;
 mod effects;
 mod half;
+mod jobs;
 #[cfg(unix)]
 mod machine;
 mod mutants;
 #[cfg(target_os = "linux")]
 mod processes;
 mod recorded;
+mod shards;
 mod share;
 mod tampered;
 #[cfg(unix)]

@@ -1,0 +1,296 @@
+//! The shards of one verification put together: the rows of their reports in the order of a whole run. Whatever tells that they are
+//! not of one run is refused, since rows of two runs beside each other prove nothing.
+
+use std::path::{Path, PathBuf};
+
+use serde::Deserialize;
+use serde_json::Value;
+use thiserror::Error;
+
+use crate::materials::FileFault;
+use crate::report::shard::ShardReport;
+use crate::report::{SCHEMA, TOOL};
+use crate::verify::VerifyRow;
+use crate::verify::shard::Shard;
+
+use super::error::Error;
+use super::fault::RequestFault;
+
+/// The beginning of the command of a verification.
+const COMMAND: &str = "verify";
+/// As many missing shards are named.
+const NAMED: usize = 20;
+/// As many characters of what a report says are shown.
+const SHOWN: usize = 1000;
+
+/// Why reports are not the shards of one run.
+#[derive(Clone, Debug, PartialEq, Eq, Error)]
+pub enum MergeFault {
+    /// A file that is no shard's report, or a report that contradicts itself.
+    #[error("{}: {what}", file.display())]
+    NotAShard {
+        /// The file.
+        file: PathBuf,
+        /// What it is.
+        what: String,
+    },
+    /// Two reports of one shard.
+    #[error("{}: this is shard {shard}, and so is {}; leave one of them out", file.display(), other.display())]
+    Twice {
+        /// The file.
+        file: PathBuf,
+        /// The file before it.
+        other: PathBuf,
+        /// The shard.
+        shard: usize,
+    },
+    /// Reports of two runs.
+    #[error("{}: {what} {here}, and in {} {there}; run one of them again as the other was run", file.display(), other.display())]
+    Differs {
+        /// The file.
+        file: PathBuf,
+        /// The file that it differs from.
+        other: PathBuf,
+        /// What differs.
+        what: String,
+        /// What it is in the file.
+        here: String,
+        /// What it is in the other.
+        there: String,
+    },
+    /// Shards without a report.
+    #[error("{count} of {shards} shards missing: {names}; run what is missing, and merge again")]
+    Missing {
+        /// How many.
+        count: usize,
+        /// Of how many.
+        shards: usize,
+        /// Their numbers.
+        names: String,
+    },
+}
+
+impl From<MergeFault> for RequestFault {
+    fn from(fault: MergeFault) -> RequestFault {
+        RequestFault::Merge(Box::new(fault))
+    }
+}
+
+/// A shard's report, and its file.
+#[derive(Clone, Debug)]
+pub struct Part {
+    file: PathBuf,
+    report: ShardReport,
+}
+
+/// A whole run.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Whole {
+    /// The command.
+    pub command: String,
+    /// Whether what could not be checked ends it with 3.
+    pub require_all: bool,
+    /// The rows in their order.
+    pub rows: Vec<VerifyRow>,
+}
+
+/// What every report begins with, in whatever version of the form.
+#[derive(Deserialize)]
+#[serde(expecting = "an object")]
+struct Head {
+    tool: Option<Value>,
+    schema: Option<Value>,
+    command: Option<Value>,
+    shards: Option<Value>,
+    version: Option<Value>,
+}
+
+/// A shard's report from its text.
+///
+/// # Errors
+/// It is not JSON, or not such a report of this version of the program.
+pub fn parsed(file: &Path, text: &str) -> Result<Part, Error> {
+    let head: Head = serde_json::from_str(text).map_err(|why| json_fault(file, &why))?;
+    if let Some(what) = head.refusal() {
+        return Err(refused(file, what));
+    }
+    let report: ShardReport = serde_json::from_str(text).map_err(|why| json_fault(file, &why))?;
+    let Some(shard) = Shard::new(report.shard, report.shards) else {
+        let what = format!(
+            "it says that it is shard {} of {}, and shards are counted from 0",
+            report.shard, report.shards
+        );
+        return Err(refused(file, what));
+    };
+    if let Some(stray) = report.rows.iter().find(|row| !shard.takes(row.place)) {
+        let what = format!(
+            "it has a row of place {}, which is not dealt to shard {} of {}",
+            stray.place, report.shard, report.shards
+        );
+        return Err(refused(file, what));
+    }
+    let file = file.to_owned();
+    Ok(Part { file, report })
+}
+
+impl Head {
+    /// Why it is not the head of a shard's report that this program can read.
+    fn refusal(&self) -> Option<String> {
+        let text =
+            |value: &Option<Value>| value.as_ref().and_then(Value::as_str).map(str::to_owned);
+        if text(&self.tool).as_deref() != Some(TOOL) {
+            return Some("it is no report of fresnel-gen".to_owned());
+        }
+        let command = shown(&text(&self.command).unwrap_or_default());
+        if command.split(' ').next() != Some(COMMAND) {
+            return Some(format!(
+                "it is the report of `{command}`; only reports of `{COMMAND}` have shards"
+            ));
+        }
+        if self.shards.is_none() {
+            return Some("it is the report of a whole run, and not of a shard".to_owned());
+        }
+        let own = env!("CARGO_PKG_VERSION");
+        let version = shown(&text(&self.version).unwrap_or_default());
+        let is_same_schema = self.schema.as_ref().and_then(Value::as_u64) == Some(SCHEMA.into());
+        (version != own || !is_same_schema).then(|| {
+            format!(
+                "fresnel-gen {version} wrote it, and this is {own}; run that version's `merge`, or run the shard again with this one"
+            )
+        })
+    }
+}
+
+/// The beginning of a text, or all of it.
+fn shown(text: &str) -> String {
+    match text.char_indices().nth(SHOWN) {
+        Some((end, _)) => format!("{}…", &text[..end]),
+        None => text.to_owned(),
+    }
+}
+
+fn refused(file: &Path, what: String) -> Error {
+    let file = file.to_owned();
+    RequestFault::from(MergeFault::NotAShard { file, what }).into()
+}
+
+fn json_fault(file: &Path, why: &serde_json::Error) -> Error {
+    let words = why.to_string();
+    let words = shown(words.split(" at line ").next().unwrap_or_default());
+    let kind = match why.is_data() {
+        true => "this is no shard's report",
+        false => "this cannot be read as JSON",
+    };
+    Error::Material(FileFault {
+        file: file.display().to_string(),
+        line: why.line().max(1),
+        column: why.column().max(1),
+        what: format!(
+            "{kind}: {words}; `fresnel-gen verify --shards N --shard I --json FILE` writes one"
+        ),
+    })
+}
+
+/// The whole run that these are the shards of.
+///
+/// # Errors
+/// They are not of one run, one of them is there twice, or some are missing.
+pub fn merged(parts: Vec<Part>) -> Result<Whole, RequestFault> {
+    for (i, part) in parts.iter().enumerate() {
+        for other in &parts[..i] {
+            part.is_beside(other)?;
+        }
+    }
+    let shards = parts.first().map_or(0, |part| part.report.shards);
+    let missing = shards - parts.len();
+    if missing > 0 {
+        return Err(absent(&parts, shards, missing).into());
+    }
+    let mut rows = Vec::new();
+    let mut whole = Whole {
+        command: String::new(),
+        require_all: false,
+        rows: Vec::new(),
+    };
+    for part in parts {
+        whole.command = part.report.command;
+        whole.require_all = part.report.require_all;
+        rows.extend(part.report.rows);
+    }
+    // What came of one place stands in one report, in order.
+    rows.sort_by_key(|placed| placed.place);
+    whole.rows = rows.into_iter().map(|placed| placed.row).collect();
+    Ok(whole)
+}
+
+/// Which shards are missing.
+fn absent(parts: &[Part], shards: usize, count: usize) -> MergeFault {
+    let is_there = |shard: &usize| parts.iter().any(|part| part.report.shard == *shard);
+    let first = (0..shards).filter(|shard| !is_there(shard)).take(NAMED);
+    let mut names: Vec<String> = first.map(|shard| shard.to_string()).collect();
+    if count > names.len() {
+        names.push(format!("and {} more", count - names.len()));
+    }
+    MergeFault::Missing {
+        count,
+        shards,
+        names: names.join(", "),
+    }
+}
+
+impl Part {
+    /// Whether it is another shard of the same run.
+    fn is_beside(&self, other: &Part) -> Result<(), MergeFault> {
+        let (own, its) = (&self.report, &other.report);
+        let of_run = run_difference(own, its);
+        let of_machine = || {
+            let found = own.machine.difference(&its.machine)?;
+            Some((format!("`{}` is", found.0), found.1, found.2))
+        };
+        if let Some((what, here, there)) = of_run.or_else(of_machine) {
+            return Err(MergeFault::Differs {
+                file: self.file.clone(),
+                other: other.file.clone(),
+                what: shown(&what),
+                here: shown(&here),
+                there: shown(&there),
+            });
+        }
+        if own.shard == its.shard {
+            return Err(MergeFault::Twice {
+                file: self.file.clone(),
+                other: other.file.clone(),
+                shard: own.shard,
+            });
+        }
+        Ok(())
+    }
+}
+
+/// What tells that two shards are not of one run: its name, and what it is of each.
+fn run_difference(own: &ShardReport, its: &ShardReport) -> Option<(String, String, String)> {
+    let differ = |what: &str, here: String, there: String| Some((what.to_owned(), here, there));
+    if own.shards != its.shards {
+        let [here, there] = [own, its].map(|one| one.shards.to_string());
+        return differ("the number of shards is", here, there);
+    }
+    if own.command != its.command {
+        let [here, there] = [own, its].map(|one| format!("`{}`", one.command));
+        return differ("the command is", here, there);
+    }
+    if own.require_all != its.require_all {
+        let [here, there] = [own, its].map(|one| {
+            if one.require_all {
+                "given"
+            } else {
+                "not given"
+            }
+        });
+        return differ("--require-all is", here.to_owned(), there.to_owned());
+    }
+    if own.inputs != its.inputs {
+        let what = "files and materials differ (--out-dir and what lies there, --prefix, --matching-angle, files of your own): their hash is";
+        return differ(what, own.inputs.clone(), its.inputs.clone());
+    }
+    None
+}

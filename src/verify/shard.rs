@@ -1,0 +1,152 @@
+//! Shards: a verification dealt among machines like cards. The work has an order that all machines know, since they make the same
+//! plan from the same flags; place p goes to shard p mod N.
+//!
+//! What is dealt is a file, since one process runs it and compilers judge it as a whole; of a run over all numbers it is a function.
+
+use serde::{Deserialize, Serialize};
+
+use crate::digest::sha256;
+use crate::reference::MaterialInMedium;
+
+use super::plan::VerifyPlan;
+use super::row::VerifyRow;
+use super::statement::MachineStatement;
+
+/// A share of a verification: one of so many.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Shard {
+    index: usize,
+    count: usize,
+}
+
+impl Shard {
+    /// All of the work.
+    pub const WHOLE: Shard = Shard { index: 0, count: 1 };
+
+    /// The shard with this number, from 0, of so many; none where there are fewer.
+    pub fn new(index: usize, count: usize) -> Option<Shard> {
+        (index < count).then_some(Shard { index, count })
+    }
+
+    /// Its number, from 0.
+    pub fn index(self) -> usize {
+        self.index
+    }
+
+    /// How many there are.
+    pub fn count(self) -> usize {
+        self.count
+    }
+
+    /// Whether the work at this place is dealt to it.
+    pub fn takes(self, place: usize) -> bool {
+        place % self.count == self.index
+    }
+}
+
+/// A row, and the place in the whole run of the work that it came of.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct PlacedRow {
+    /// The place.
+    pub place: usize,
+    /// The row.
+    #[serde(flatten)]
+    pub row: VerifyRow,
+}
+
+impl PlacedRow {
+    /// The rows that came of the work at a place.
+    pub fn all_at(place: usize, rows: Vec<VerifyRow>) -> Vec<PlacedRow> {
+        let placed = |row| PlacedRow { place, row };
+        rows.into_iter().map(placed).collect()
+    }
+}
+
+/// What came of a shard's work.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct ShardOutcome {
+    /// The rows, in the order of their places.
+    pub rows: Vec<PlacedRow>,
+    /// What the machine has for that work; nothing where it is a whole run.
+    pub machine: MachineStatement,
+    /// How many places were dealt to it.
+    pub dealt: usize,
+    /// How many places there are.
+    pub places: usize,
+}
+
+impl ShardOutcome {
+    /// The rows without their places.
+    pub fn bare_rows(&self) -> Vec<VerifyRow> {
+        self.rows.iter().map(|placed| placed.row.clone()).collect()
+    }
+}
+
+impl VerifyPlan {
+    /// The hash of what is run: of the files with their text, of what functions promise, and of the materials with their data. Shards of one run have the
+    /// same, also where a command does not tell the difference.
+    pub fn hash(&self) -> String {
+        let mut all = String::new();
+        for page in self.files.iter().flat_map(|file| &file.pages) {
+            let hash = sha256(&page.bytes);
+            all += &format!("{} {hash} {}\n", page.path, page.is_shipped);
+        }
+        for function in self.files.iter().flat_map(|file| &file.functions) {
+            all += &format!("{} {:?}\n", function.name, function.code);
+        }
+        for subject in self.subjects.iter().chain(&self.others) {
+            all += &of_material(subject);
+        }
+        sha256(all.as_bytes())
+    }
+}
+
+fn of_material(subject: &MaterialInMedium) -> String {
+    let MaterialInMedium {
+        argument,
+        material,
+        medium,
+        derivation,
+        ..
+    } = subject;
+    format!("{argument} {material:?} {medium:?} {derivation:?}\n")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_place_goes_to_one_shard() {
+        for count in [1, 2, 3, 7, 64, 1000] {
+            let shards: Vec<Shard> = (0..count)
+                .map(|index| Shard::new(index, count).unwrap())
+                .collect();
+            for place in 0..200 {
+                let takers = shards.iter().filter(|shard| shard.takes(place));
+                assert_eq!(takers.count(), 1, "place {place} of {count} shards");
+            }
+        }
+    }
+
+    #[test]
+    fn shares_are_as_equal_as_can_be() {
+        for count in [2, 3, 7] {
+            let sizes = (0..count).map(|index| {
+                let shard = Shard::new(index, count).unwrap();
+                (0..100).filter(|place| shard.takes(*place)).count()
+            });
+            let sizes: Vec<usize> = sizes.collect();
+            let (least, most) = (sizes.iter().min(), sizes.iter().max());
+            assert!(most.unwrap() - least.unwrap() <= 1, "{sizes:?}");
+        }
+    }
+
+    #[test]
+    fn numbers_begin_at_0() {
+        assert!((0..100).all(|place| Shard::WHOLE.takes(place)));
+        assert_eq!(Shard::new(4, 4), None);
+        assert_eq!(Shard::new(0, 0), None);
+        assert!(Shard::new(usize::MAX - 1, usize::MAX).is_some());
+    }
+}
