@@ -13,7 +13,7 @@ fresnel-gen writes Fresnel reflectance functions for shaders. What most people w
   fresnel-gen --material gold --target hlsl -o gold.hlsl   write a material's exact function into one file
   fresnel-gen --material gold --budget 0.002 -o gold.wgsl  write the cheapest function within an error
   fresnel-gen generate                                     write the library, four materials and effects in every language
-  fresnel-gen methods                                      list the methods; `materials`, `effects` and `targets` list those
+  fresnel-gen --flavour three --material gold              write an adapter for an engine: three, unity, bevy, godot ...
   fresnel-gen audit mine.glsl --material gold              measure a function of your own
 
 `fresnel-gen --help` shows all flags and commands.";
