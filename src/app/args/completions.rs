@@ -22,11 +22,13 @@ pub struct CompletionsFlags {
 }
 
 /// The script that completes the words of a command line.
-pub fn completions(shell: Shell) -> Vec<u8> {
+pub fn completions(shell: Shell) -> String {
     let mut script = Vec::new();
     let mut command = with_names(Cli::command(), "");
     clap_complete::generate(shell, &mut command, "fresnel-gen", &mut script);
-    script
+    let script = String::from_utf8_lossy(&script);
+    // clap_complete 4.6 spells a program's hyphen in two ways, so that no subcommand is found (clap's issue 6421).
+    script.replace("fresnel__subcmd__gen", "fresnel__gen")
 }
 
 /// The command with the names that its flags take. A name is looked for in the list that the command above is named after:

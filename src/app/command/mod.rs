@@ -77,7 +77,7 @@ pub fn run(cli: &Cli, progress: Progress, announce: Announce) -> Result<Output, 
         None => generate::run(&cli.generate, announce),
         Some(Command::Generate(flags)) => generate::run(flags, announce),
         Some(Command::Completions(flags)) => Ok(Output {
-            stdout: completions(flags.shell),
+            stdout: completions(flags.shell).into_bytes(),
             is_file: true,
             ..Output::default()
         }),
