@@ -51,7 +51,7 @@ fn files_of_others_stay_where_the_buffer_and_the_textures_go() {
     for name in ["catalogue.std430.bin", "catalogue.f16.ktx2"] {
         let place = Place::new();
         place.put(&format!("{OUT}/{name}"), "mine");
-        place.refused("", &[name, "did not write", "nothing was written"]);
+        place.refused("generate", &[name, "did not write", "nothing was written"]);
         assert_eq!(place.read(&format!("{OUT}/{name}")), "mine");
         // A run of one language has nothing to do with it.
         place.done("--target gles");
