@@ -200,6 +200,7 @@ pub fn merged(parts: Vec<Part>) -> Result<Whole, RequestFault> {
         for other in &parts[..i] {
             part.is_beside(other)?;
         }
+        part.holds_its_places()?;
     }
     let shards = parts.first().map_or(0, |part| part.report.shards);
     let missing = shards - parts.len();
@@ -239,6 +240,21 @@ fn absent(parts: &[Part], shards: usize, count: usize) -> MergeFault {
 }
 
 impl Part {
+    /// Whether all rows are of places that are dealt to this shard.
+    fn holds_its_places(&self) -> Result<(), MergeFault> {
+        let (shard, shards) = (self.report.shard, self.report.shards);
+        let mut places = self.report.rows.iter().map(|placed| placed.place);
+        match places.find(|place| place.checked_rem(shards) != Some(shard)) {
+            None => Ok(()),
+            Some(place) => Err(MergeFault::NotAShard {
+                file: self.file.clone(),
+                what: format!(
+                    "place {place} is not dealt to shard {shard} of {shards}; run the shard again"
+                ),
+            }),
+        }
+    }
+
     /// Whether it is another shard of the same run.
     fn is_beside(&self, other: &Part) -> Result<(), MergeFault> {
         let (own, its) = (&self.report, &other.report);

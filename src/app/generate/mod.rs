@@ -1,5 +1,6 @@
 //! Generation: a request becomes artifacts in memory. Pure: nothing is read, nothing is written.
 
+mod again;
 mod effects;
 mod flavours;
 mod owners;
@@ -8,14 +9,12 @@ mod written;
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use crate::command_line::CommandLine;
-use crate::emit::{self, Bounds, Emitted, File, HeaderForm, Heading, NAGA_VERSION, Naming};
+use crate::emit::{self, Bounds, Emitted, File, Heading, NAGA_VERSION, Naming};
 use crate::flavours::Flavour;
 use crate::materials::Unseen;
 use crate::methods::{self, Method};
-use crate::num::Precision;
 use crate::reference::MaterialInMedium;
-use crate::targets::{Finish, Target};
+use crate::targets::Target;
 
 use super::artifact::{Artifact, sha256};
 use super::error::Error;
@@ -303,50 +302,6 @@ impl<'r> Run<'r> {
             functions.push(ready[name].clone());
         }
         Ok(functions)
-    }
-
-    /// The form of the comments of a file, named without its ending. Modules have no comments.
-    fn form(&self, target: &Target, stem: &str) -> HeaderForm {
-        let held = self.held.map(|held| &held.full_headers);
-        let is_full = held.is_some_and(|full| full.contains(&format!("{}/{stem}", target.name)));
-        match target.finish {
-            Finish::Spirv => HeaderForm::Short,
-            _ if is_full => HeaderForm::Full,
-            _ => self.request.header,
-        }
-    }
-
-    /// The command that makes a file again.
-    fn command(
-        &self,
-        target: &Target,
-        methods: Option<&[&str]>,
-        subject: Option<&MaterialInMedium>,
-        form: HeaderForm,
-    ) -> String {
-        let request = self.request;
-        let prefix = Some(&request.prefix).filter(|prefix| **prefix != Naming::default().prefix);
-        let precision =
-            Some(request.precision).filter(|precision| *precision != Precision::default());
-        let medium = subject.and_then(|subject| subject.medium.as_ref());
-        let seen = subject.map(|subject| {
-            crate::command_line::surface_flags(&request.viewing, &subject.reference.surface)
-        });
-        CommandLine::new("fresnel-gen")
-            .list("target", [target.name])
-            .list("method", methods.into_iter().flatten())
-            .list("material", subject.map(|subject| &subject.argument))
-            .list("medium", medium.map(|(argument, _)| argument))
-            .list("prefix", prefix)
-            .list("precision", precision.map(Precision::name))
-            .switch("force", request.force && request.precision.is_half())
-            .with(&seen.unwrap_or_default())
-            .list(
-                "matching-angle",
-                request.matching_angle.filter(|_| subject.is_some()),
-            )
-            .list("header", form.flag())
-            .into()
     }
 
     /// What the run owns; of effects the files that it made.

@@ -71,7 +71,7 @@ fn files_of_others_stay_where_the_buffer_and_the_textures_go() {
         drift.starts_with("binary file catalogue.std430.bin differs"),
         "{drift}"
     );
-    place.refused("", &["catalogue.std430.bin", "did not write"]);
+    place.refused("generate", &["catalogue.std430.bin", "did not write"]);
     place.done("--overwrite");
     assert_eq!(std::fs::read(&buffer).unwrap(), whole);
     // A run with other names replaces what the manifest lists.

@@ -8,7 +8,11 @@ use super::{MY_METAL, OUT, Place, contents};
 
 #[test]
 fn an_empty_folder_is_filled_and_a_second_run_writes_nothing() {
-    for line in ["--target gles", "generate", "--target all,msl,glsl --material none"] {
+    for line in [
+        "--target gles",
+        "generate",
+        "--target all,msl,glsl --material none",
+    ] {
         let place = Place::new();
         let ran = place.done(line);
         let files = place.files();

@@ -152,7 +152,7 @@ fn committed_pictures_show_what_a_physicist_knows() {
 }
 
 /// Which commands have a flag that takes a picture or a folder, and what draws them here.
-const DRAW: [(&str, &str); 12] = [
+const DRAW: [(&str, &str); 13] = [
     ("", "tables, as `bake` has them: shaders-generated/lut"),
     (
         "audit",
@@ -171,6 +171,7 @@ const DRAW: [(&str, &str); 12] = [
         "gallery",
         "a page without a picture of its own: the test `gallery`",
     ),
+    ("generate", "what the program does alone: tables"),
     (
         "materials show",
         "sheet::sheets_show_what_is_known_of_materials",

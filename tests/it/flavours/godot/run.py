@@ -36,7 +36,7 @@ import tempfile
 import threading
 import time
 
-LIMIT = 110
+LIMIT = 300
 HERE = pathlib.Path(__file__).parent
 ENGINE, FLAVOUR, CATALOGUE = map(pathlib.Path, sys.argv[1:])
 # The rows of sweep.gdshader.
