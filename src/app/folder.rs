@@ -86,6 +86,12 @@ pub fn is_same_file(one: &Path, other: &Path) -> bool {
     !is_device(one) && resolved(one) == resolved(other)
 }
 
+/// Whether a path ends in a slash, so that no file can bear it.
+pub fn is_named_as_folder(path: &Path) -> bool {
+    let last = path.to_string_lossy().chars().next_back();
+    last.is_some_and(std::path::is_separator)
+}
+
 /// Whether a path leads to a device or a pipe.
 pub fn is_device(path: &Path) -> bool {
     fs::metadata(path).is_ok_and(|found| !found.is_dir() && !found.is_file())

@@ -124,8 +124,16 @@ pub fn parsed(file: &Path, text: &str) -> Result<Part, Error> {
     };
     if let Some(stray) = report.rows.iter().find(|row| !shard.takes(row.place)) {
         let what = format!(
-            "it has a row of place {}, which is not dealt to shard {} of {}",
+            "it has a row of place {}, which is not dealt to shard {} of {}; run the shard again",
             stray.place, report.shard, report.shards
+        );
+        return Err(refused(file, what));
+    }
+    if report.rows.len() != report.row_count {
+        let what = format!(
+            "it says that it has {} rows, and {} are there; run the shard again",
+            report.row_count,
+            report.rows.len()
         );
         return Err(refused(file, what));
     }
@@ -175,7 +183,10 @@ fn refused(file: &Path, what: String) -> Error {
 }
 
 fn json_fault(file: &Path, why: &serde_json::Error) -> Error {
-    let words = why.to_string();
+    let mut words = why.to_string();
+    for rust in ["usize", "u64", "u32"] {
+        words = words.replace(&format!("expected {rust}"), "expected a whole number");
+    }
     let words = shown(words.split(" at line ").next().unwrap_or_default());
     let kind = match why.is_data() {
         true => "this is no shard's report",
@@ -200,7 +211,6 @@ pub fn merged(parts: Vec<Part>) -> Result<Whole, RequestFault> {
         for other in &parts[..i] {
             part.is_beside(other)?;
         }
-        part.holds_its_places()?;
     }
     let shards = parts.first().map_or(0, |part| part.report.shards);
     let missing = shards - parts.len();
@@ -240,21 +250,6 @@ fn absent(parts: &[Part], shards: usize, count: usize) -> MergeFault {
 }
 
 impl Part {
-    /// Whether all rows are of places that are dealt to this shard.
-    fn holds_its_places(&self) -> Result<(), MergeFault> {
-        let (shard, shards) = (self.report.shard, self.report.shards);
-        let mut places = self.report.rows.iter().map(|placed| placed.place);
-        match places.find(|place| place.checked_rem(shards) != Some(shard)) {
-            None => Ok(()),
-            Some(place) => Err(MergeFault::NotAShard {
-                file: self.file.clone(),
-                what: format!(
-                    "place {place} is not dealt to shard {shard} of {shards}; run the shard again"
-                ),
-            }),
-        }
-    }
-
     /// Whether it is another shard of the same run.
     fn is_beside(&self, other: &Part) -> Result<(), MergeFault> {
         let (own, its) = (&self.report, &other.report);
@@ -305,7 +300,7 @@ fn run_difference(own: &ShardReport, its: &ShardReport) -> Option<(String, Strin
         return differ("--require-all is", here.to_owned(), there.to_owned());
     }
     if own.inputs != its.inputs {
-        let what = "files and materials differ (--out-dir and what lies there, --prefix, --matching-angle, files of your own): their hash is";
+        let what = "files and materials differ (--out-dir and what lies there, files of your own): their hash is";
         return differ(what, own.inputs.clone(), its.inputs.clone());
     }
     None

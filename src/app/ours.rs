@@ -98,12 +98,13 @@ pub fn is_listed(entry: &Entry, bytes: &[u8]) -> bool {
 /// Could this program have written this path for this entry? The method or the material need not exist today.
 pub fn could_be_written(entry: &Entry) -> bool {
     let parts: Vec<&str> = entry.file.split('/').collect();
+    if let Some(flavour) = flavours::find(&entry.target) {
+        let material = entry.material.as_deref();
+        return matches!(parts.as_slice(), [folder, name] if *folder == flavour.name && flavour.has(name, material));
+    }
     match parts.as_slice() {
         [name] => SHARED.contains(&(*name, entry.target.as_str())),
         [TABLES, .., name] => entry.target == TABLES && is_table(name),
-        [folder, name] if *folder == entry.target && flavours::find(folder).is_some() => {
-            flavours::find(folder).is_some_and(|one| one.has(name, entry.material.as_deref()))
-        }
         [folder, name] if *folder == entry.target => {
             let stem = stem(entry, name);
             match (&entry.method, &entry.material) {

@@ -188,14 +188,8 @@ pub fn try_file(path: &Path) -> Result<(), Error> {
         return Ok(());
     };
     let mut created = Vec::new();
-    let tried = stage(
-        &place,
-        &[],
-        &folder::temporary_of(&place),
-        false,
-        &mut created,
-    )
-    .map(drop);
+    let temporary = folder::temporary_of(&place);
+    let tried = stage(&place, &[], &temporary, false, &mut created).map(drop);
     for folder in created.iter().rev() {
         let _ = fs::remove_dir(folder);
     }
@@ -205,10 +199,11 @@ pub fn try_file(path: &Path) -> Result<(), Error> {
 /// Where these bytes go; nowhere where they are already.
 fn destination(path: &Path, bytes: &[u8]) -> Result<Option<PathBuf>, Error> {
     let fault = |source| stage_fault(path, source);
+    let not_a_file = || Error::NotAFile {
+        path: path.to_path_buf(),
+    };
     match fs::metadata(path) {
-        Ok(found) if !found.is_file() => Err(Error::NotAFile {
-            path: path.to_path_buf(),
-        }),
+        Ok(found) if !found.is_file() => Err(not_a_file()),
         Ok(_) if folder::read(path)?.as_deref() == Some(bytes) => Ok(None),
         Ok(_) => fs::canonicalize(path).map(Some).map_err(fault),
         Err(missing) if missing.kind() == ErrorKind::NotFound => {
@@ -216,6 +211,7 @@ fn destination(path: &Path, bytes: &[u8]) -> Result<Option<PathBuf>, Error> {
                 // The link stays, and what it leads to is made.
                 Some(leads_to) if leads_to.parent().is_some_and(Path::is_dir) => Ok(Some(leads_to)),
                 Some(_) => Err(fault(missing)),
+                None if folder::is_named_as_folder(path) => Err(not_a_file()),
                 None => Ok(Some(path.to_path_buf())),
             }
         }

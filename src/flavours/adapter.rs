@@ -1,10 +1,10 @@
 //! The files of a flavour, in memory.
 
-use crate::emit::{self, CatalogueRow, Naming};
+use crate::emit::{self, CatalogueRow};
 use crate::lut;
 
 use super::flavour::{Flavour, FlavourPage};
-use super::view::{AdapterView, material_view, view};
+use super::view::{AdapterView, view};
 
 /// A file of a flavour, in memory.
 #[derive(Clone, Debug, PartialEq)]
@@ -69,11 +69,7 @@ pub fn files(
     }
     for row in materials.rows.iter().filter(|_| flavour.is_by_material()) {
         let command = (commands.of_material)(&row.name);
-        let rows = std::slice::from_ref(row);
-        let own = AdapterView {
-            material: Some(material_view(row, &Naming::default())),
-            ..view(flavour, rows, materials.reference, &command)?
-        };
+        let own = shared.of_material(row, materials.reference, &command);
         for page in flavour.pages.iter().filter(|page| page.is_of_material()) {
             files.push(file(flavour, page, Some(&row.name), &own)?);
         }
@@ -87,7 +83,7 @@ fn file(
     material: Option<&str>,
     view: &AdapterView,
 ) -> Result<FlavourFile, Error> {
-    let name = material.map_or_else(|| page.name.to_owned(), |material| page.of(material));
+    let name = material.map_or_else(|| page.name.to_owned(), |material| page.file_of(material));
     Ok(FlavourFile {
         bytes: emit::text_of_template(page.template, view, &format!("{}/{name}", flavour.name))?,
         name,

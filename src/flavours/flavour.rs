@@ -42,7 +42,7 @@ impl FlavourPage {
     }
 
     /// The name of the file of a material.
-    pub fn of(&self, material: &str) -> String {
+    pub fn file_of(&self, material: &str) -> String {
         self.name.replace(MATERIAL, material)
     }
 }
@@ -51,7 +51,7 @@ impl Flavour {
     /// Whether a file of this name, in the flavour's folder, is one of its files, of this material where it has one.
     pub fn has(&self, name: &str, material: Option<&str>) -> bool {
         self.pages.iter().any(|page| match material {
-            Some(material) => page.is_of_material() && page.of(material) == name,
+            Some(material) => page.is_of_material() && page.file_of(material) == name,
             None => !page.is_of_material() && page.name == name,
         })
     }

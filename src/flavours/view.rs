@@ -121,30 +121,54 @@ pub(super) fn view(
 ) -> Result<AdapterView, super::adapter::Error> {
     let methods = FITTED_WITH_FOUR.map(|name| methods::find(name).expect("a test finds it"));
     let naming = Naming::default();
-    let mark = comment_lines(vec![format!("{MARK}: {command}")]);
     Ok(AdapterView {
-        mark: mark.concat(),
-        command: (command.chars())
-            .filter(|c| is_plain(*c) || *c == '\'')
-            .collect(),
+        mark: mark(command),
+        command: plain_command(command),
         flavour: flavour.name,
         host: flavour.host,
         source: flavour.source,
         proof: flavour.proof,
         licence: OUTPUT_LICENCE,
-        // Two hyphens would end a comment of XML.
-        reference: (reference.replace("--", "-").chars())
-            .filter(|c| is_plain(*c))
-            .collect(),
+        reference: plain_reference(reference),
         methods: methods
             .iter()
             .map(|one| method_view(one, &naming))
             .collect(),
-        materials: rows.iter().map(|row| material_view(row, &naming)).collect(),
+        materials: rows.iter().map(material_view).collect(),
         material: None,
         library: library(flavour, &methods, &naming)?,
         tables: tables(flavour, &methods)?,
     })
+}
+
+impl AdapterView {
+    /// The same for a file of one material: texts of functions and tables are those of all.
+    pub(super) fn of_material(&self, row: &CatalogueRow, reference: &str, command: &str) -> Self {
+        let material = material_view(row);
+        AdapterView {
+            mark: mark(command),
+            command: plain_command(command),
+            reference: plain_reference(reference),
+            materials: vec![material.clone()],
+            material: Some(material),
+            ..self.clone()
+        }
+    }
+}
+
+fn mark(command: &str) -> String {
+    comment_lines(vec![format!("{MARK}: {command}")]).concat()
+}
+
+fn plain_command(command: &str) -> String {
+    let is_kept = |c: &char| is_plain(*c) || *c == '\'';
+    command.chars().filter(is_kept).collect()
+}
+
+/// Two hyphens would end a comment of XML.
+fn plain_reference(reference: &str) -> String {
+    let reference = reference.replace("--", "-");
+    reference.chars().filter(|c| is_plain(*c)).collect()
 }
 
 /// Whether a character says the same in comments, in strings and in marked-up text: a user's own names stand in words.
@@ -163,16 +187,16 @@ fn method_view(method: &'static Method, naming: &Naming) -> MethodView {
     }
 }
 
-/// What a template sees of a material.
-pub(super) fn material_view(row: &CatalogueRow, naming: &Naming) -> MaterialView {
+fn material_view(row: &CatalogueRow) -> MaterialView {
+    let prefix = Naming::default().prefix;
     MaterialView {
         name: row.name.clone(),
         constant: row.name.to_uppercase(),
         pascal: row.name.split('_').map(capitalised).collect(),
         class: row.class,
         method: row.method.name,
-        function: format!("{}{}_{}", naming.prefix, row.name, row.method.name),
-        library_function: format!("{}{}", naming.prefix, row.method.name),
+        function: format!("{prefix}{}_{}", row.name, row.method.name),
+        library_function: format!("{prefix}{}", row.method.name),
         coefficients: row.coefficients.iter().map(numbers).collect(),
         average: numbers(&row.average.given),
         f0: numbers(&normal_incidence(row)),

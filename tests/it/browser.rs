@@ -23,6 +23,16 @@ pub const USUAL: [&str; 7] = [
     "--disable-component-update",
 ];
 
+/// WebGL 2 and WebGPU on the processor.
+pub const SOFTWARE: [&str; 6] = [
+    "--use-angle=swiftshader",
+    "--enable-unsafe-swiftshader",
+    "--enable-unsafe-webgpu",
+    "--use-webgpu-adapter=swiftshader",
+    "--enable-features=Vulkan",
+    "--use-vulkan=swiftshader",
+];
+
 /// Stands in the page before anything of it runs, and hears what goes wrong.
 const EARS: &str = r#"<script>
 const faults = [];

@@ -8,6 +8,8 @@ use clap::Args;
 use crate::command_line::CommandLine;
 use crate::effects::Effect;
 #[cfg(feature = "gpu")]
+use crate::emit::Naming;
+#[cfg(feature = "gpu")]
 use crate::gpu::Backend;
 #[cfg(feature = "gpu")]
 use crate::materials::ViewingConditions;
@@ -99,15 +101,18 @@ impl VerifyFlags {
     pub fn command_line(&self, viewing: &ViewingConditions) -> CommandLine {
         let is_half = self.precision.precision == Some(Precision::F16);
         let points = (!self.exhaustive && !is_half).then_some(self.points);
+        let usual = Naming::default().prefix;
         CommandLine::new("verify")
             .list("target", &self.target)
             .list("effect", &self.effect)
             .list("method", &self.method)
             .list("material", &self.materials.material)
             .list("medium", &self.medium.medium)
+            .list("prefix", Some(&self.prefix).filter(|prefix| **prefix != usual))
             .seen_as(viewing)
             .list("precision", self.precision.precision.map(Precision::name))
             .switch("force", self.precision.force)
+            .list("matching-angle", self.matching_angle)
             .list("adapter", &self.adapter)
             .list("backend", self.backend.map(Backend::name))
             .switch("exhaustive", self.exhaustive)

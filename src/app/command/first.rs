@@ -1,7 +1,5 @@
 //! What `fresnel-gen` alone says in a folder that holds no tree of ours: what people want first.
 
-use std::path::Path;
-
 use crate::app::args::GenerateFlags;
 use crate::app::{folder, manifest};
 
@@ -25,14 +23,13 @@ pub fn first_help(flags: &GenerateFlags) -> Option<Output> {
     if !matches!(folder::read(&manifest), Ok(None)) {
         return None;
     }
-    let nowhere = format!("Nothing was written: there is no {} here.", said(&manifest));
+    let nowhere = format!(
+        "Nothing was written: there is no {} here.",
+        manifest.display()
+    );
     Some(Output {
         remarks: FIRST.lines().map(str::to_owned).chain([nowhere]).collect(),
         code: 2,
         ..Output::default()
     })
-}
-
-fn said(path: &Path) -> String {
-    path.display().to_string()
 }

@@ -6,13 +6,17 @@ use crate::app::args::ImportFlags;
 use crate::app::error::Error;
 use crate::app::source::read;
 use crate::app::write::write_file;
-use crate::materials::{Material, page};
+use crate::materials::{Material, name_fault, page};
 use crate::spectra::{FIRST_NM, LAST_NM, OBSERVED_NM};
 
 use super::Output;
 
 /// `fresnel-gen materials import PAGE`.
 pub fn run(flags: &ImportFlags) -> Result<Output, Error> {
+    if let Some((name, why)) = flags.name.as_ref().and_then(|name| Some((name, name_fault(name)?))) {
+        let what = format!("--name: `{name}` is no name: {why}");
+        return Err(Error::Usage { what });
+    }
     let text = read(&flags.page)?;
     let found = page(&flags.page, &text).ok_or_else(|| Error::Usage {
         what: format!("`{}` ends in neither .yml nor .csv: a page of refractiveindex.info or a table is wanted", flags.page),

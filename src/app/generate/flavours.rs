@@ -95,6 +95,7 @@ impl Run<'_> {
         {
             return Err(RequestFault::conflict(format!("{}; leave it out", without(named))).into());
         }
+        self.refuse_names_of_pages(&subjects)?;
         let rows = emit::catalogue_rows(&subjects, &self.naming)?;
         let reference = subjects
             .first()
@@ -104,9 +105,17 @@ impl Run<'_> {
             rows: &rows,
             reference: &reference,
         };
+        let usual = ViewingConditions::default();
+        let recorded = emit::recorded_catalogue(&usual).expect("a test derives the record anew");
+        let is_example = |row: &CatalogueRow| row.name == EXAMPLE;
+        let example: Vec<CatalogueRow> = recorded.into_iter().filter(is_example).collect();
+        let example = Fitted {
+            rows: &example,
+            reference: &usual.reference_in_words(),
+        };
         let mut artifacts = Vec::new();
         for flavour in &self.flavours {
-            for file in self.adapter(flavour, materials)? {
+            for file in self.adapter(flavour, materials, example)? {
                 artifacts.push(artifact(flavour, file, &reference));
             }
         }
@@ -117,15 +126,8 @@ impl Run<'_> {
         &self,
         flavour: &'static Flavour,
         materials: Fitted,
+        example: Fitted,
     ) -> Result<Vec<FlavourFile>, Error> {
-        let usual = ViewingConditions::default();
-        let recorded = emit::recorded_catalogue(&usual).expect("a test derives the record anew");
-        let is_example = |row: &CatalogueRow| row.name == EXAMPLE;
-        let example: Vec<CatalogueRow> = recorded.into_iter().filter(is_example).collect();
-        let example = Fitted {
-            rows: &example,
-            reference: &usual.reference_in_words(),
-        };
         let commands = Commands {
             all: match flavour.is_by_material() {
                 true => CommandLine::new("fresnel-gen")
@@ -136,6 +138,23 @@ impl Run<'_> {
             of_material: &|name| self.adapter_command(flavour, &|one| one.name == name),
         };
         Ok(flavours::files(flavour, materials, example, &commands)?)
+    }
+
+    /// A material's file must not have the name of a file that the flavour has for all.
+    fn refuse_names_of_pages(&self, subjects: &[MaterialInMedium]) -> Result<(), RequestFault> {
+        for flavour in &self.flavours {
+            let clash = |subject: &&MaterialInMedium| {
+                let mut own = flavour.pages.iter().filter(|page| page.is_of_material());
+                own.any(|page| flavour.has(&page.file_of(&subject.name), None))
+            };
+            if let Some(subject) = subjects.iter().find(clash) {
+                let (name, flavour) = (&subject.name, flavour.name);
+                return Err(RequestFault::conflict(format!(
+                    "material `{name}`: the flavour {flavour} has a file of this name for all materials; give the material another name"
+                )));
+            }
+        }
+        Ok(())
     }
 
     /// Whether `all` brought this material along.

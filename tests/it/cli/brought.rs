@@ -73,7 +73,7 @@ fn an_imported_page_is_a_material_file() {
     );
     place.refused(
         "materials import Johnson.yml --name Gold",
-        &["`Gold` is no name: capital letters"],
+        &["--name: `Gold` is no name: capital letters"],
     );
     place.refused(
         "materials import Johnson.yml --class metall",

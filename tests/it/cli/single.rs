@@ -140,5 +140,7 @@ fn contradictions_are_refused() {
     }
     place.put("folder/file", "");
     place.refused("-o folder", &["folder is not a file"]);
+    place.refused("-o new.hlsl/", &["new.hlsl/ is not a file"]);
+    assert!(!place.path("new.hlsl").exists());
     place.refused("-o folder/file/below", &["cannot write"]);
 }

@@ -33,16 +33,13 @@ pub struct Host {
     pub materials: &'static str,
 }
 
-/// WebGL 2 and WebGPU on the processor; modules from files.
-const FLAGS: [&str; 7] = [
-    "--use-angle=swiftshader",
-    "--enable-unsafe-swiftshader",
-    "--enable-unsafe-webgpu",
-    "--use-webgpu-adapter=swiftshader",
-    "--enable-features=Vulkan",
-    "--use-vulkan=swiftshader",
-    "--allow-file-access-from-files",
-];
+/// Pages take their modules from files.
+const FROM_FILES: &[&str] = &["--allow-file-access-from-files"];
+
+/// What the browser is started with for pages of hosts.
+fn flags() -> Vec<&'static str> {
+    [&browser::SOFTWARE[..], FROM_FILES].concat()
+}
 
 /// The packages of npm in a folder below `target`, where this one has this version there, and a browser is here.
 #[track_caller]
@@ -108,7 +105,13 @@ impl Host {
                 .current_dir(place.path("."));
             assert!(command.status().unwrap().success(), "{}", self.flavour);
         }
-        Some(browser::told(&place, self.page, self.hands, query, &FLAGS))
+        Some(browser::told(
+            &place,
+            self.page,
+            self.hands,
+            query,
+            &flags(),
+        ))
     }
 
     /// Follows the README as a newcomer does, and draws its page. Its commands are run by a shell, but for npm, whose packages are there,
@@ -150,7 +153,7 @@ impl Host {
             "--timeout=20000",
             page.as_str(),
         ];
-        let arguments = [&browser::USUAL[..], &FLAGS, &own].concat();
+        let arguments = [&browser::USUAL[..], &flags(), &own].concat();
         CHROMIUM.run(arguments).expect("the page is drawn");
         Some(image::open(&picture).expect("a picture").to_rgb8())
     }
@@ -171,14 +174,8 @@ impl Host {
     }
 }
 
-#[cfg(unix)]
 fn link(packages: &Path, place: &Path) {
     std::os::unix::fs::symlink(packages, place).unwrap();
-}
-
-#[cfg(not(unix))]
-fn link(_: &Path, _: &Path) {
-    unimplemented!("these pages are tried on Linux");
 }
 
 /// The first block of a language.

@@ -4,15 +4,15 @@
 mod bevy;
 #[cfg(feature = "compilers")]
 mod compiled;
-#[cfg(all(feature = "cli", feature = "gpu"))]
+#[cfg(all(unix, feature = "cli", feature = "gpu"))]
 mod engines;
-#[cfg(all(feature = "cli", feature = "gpu"))]
+#[cfg(all(unix, feature = "cli", feature = "gpu"))]
 mod godot;
-#[cfg(all(feature = "cli", feature = "gpu"))]
+#[cfg(all(unix, feature = "cli", feature = "gpu"))]
 mod host;
 #[cfg(all(feature = "cli", feature = "gpu"))]
 mod materialx;
-#[cfg(all(feature = "cli", feature = "gpu"))]
+#[cfg(all(unix, feature = "cli", feature = "gpu"))]
 mod three;
 
 use std::collections::BTreeSet;
@@ -37,7 +37,7 @@ fn expected(flavour: &Flavour, materials: &[&str]) -> BTreeSet<String> {
         .pages
         .iter()
         .flat_map(|page| match page.is_of_material() {
-            true => materials.iter().map(|name| page.of(name)).collect(),
+            true => materials.iter().map(|name| page.file_of(name)).collect(),
             false => vec![page.name.to_owned()],
         });
     names
@@ -207,6 +207,17 @@ fn a_users_material_and_a_medium_are_written_as_others_are() {
             assert!(texts.contains(material), "{name} lacks {material}");
         }
     }
+}
+
+#[test]
+fn a_material_does_not_take_the_place_of_a_file_for_all() {
+    let place = Place::new();
+    place.put("mine.toml", MY_METAL.replace("\"my_metal\"", "\"fresnel\""));
+    place.refused(
+        "--flavour unity --material mine.toml",
+        &["material `fresnel`", "unity", "another name"],
+    );
+    place.done("--flavour three --material mine.toml");
 }
 
 #[test]

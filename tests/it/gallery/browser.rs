@@ -15,17 +15,9 @@ const HANDS: &str = include_str!("hands.js");
 
 /// What the hands saw in the page.
 fn told(backend: &str) -> Value {
-    let flags = [
-        "--use-angle=swiftshader",
-        "--enable-unsafe-swiftshader",
-        "--enable-unsafe-webgpu",
-        "--use-webgpu-adapter=swiftshader",
-        "--enable-features=Vulkan",
-        "--use-vulkan=swiftshader",
-    ];
     let hands = format!("<script>{HANDS}</script></html>");
     let query = format!("?backend={backend}");
-    browser::told(&Place::new(), page(), &hands, &query, &flags)
+    browser::told(&Place::new(), page(), &hands, &query, &browser::SOFTWARE)
 }
 
 fn pixels(picture: &Value) -> Vec<DVec3> {

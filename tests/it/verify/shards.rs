@@ -137,6 +137,7 @@ fn dealt(shards: usize) -> Vec<Value> {
         part["shards"] = shards.into();
         let rows = part["rows"].as_array_mut().unwrap();
         rows.retain(|row| row["place"].as_u64().unwrap() as usize % shards == index);
+        part["row_count"] = rows.len().into();
         part
     };
     (0..shards).map(part).collect()
@@ -377,6 +378,7 @@ const TAMPERED: [Tampered; 12] = [
         |part| {
             part["shards"] = json!(8);
             part["rows"] = json!([]);
+            part["row_count"] = json!(0);
         },
         &["the number of shards is 8", "4"],
     ),
@@ -443,6 +445,7 @@ fn missing_shards_and_those_that_are_there_twice_are_named() {
     let mut one = dealt(1).remove(0);
     one["shards"] = json!(u64::MAX);
     one["rows"] = json!([]);
+    one["row_count"] = json!(0);
     place.put("one.json", one.to_string());
     let says = [
         "18446744073709551614 of",
@@ -461,6 +464,12 @@ fn what_is_no_report_is_refused_with_its_place() {
         .read("part-0.json")
         .replacen("\"place\":0", "\"place\":1", 1);
     let half = place.read("part-0.json");
+    let mut fewer = dealt(4).remove(0);
+    let rows = fewer["rows"].as_array_mut().unwrap();
+    rows.pop();
+    let lost = format!("says that it has {} rows, and {} are", rows.len() + 1, rows.len());
+    let fewer = fewer.to_string();
+    let words = half.replacen("\"shards\":4", "\"shards\":\"four\"", 1);
     for (name, text, says) in [
         ("empty.json", "", "empty.json:1:"),
         ("garbage.json", "not JSON", "garbage.json:1:"),
@@ -481,6 +490,8 @@ fn what_is_no_report_is_refused_with_its_place() {
             &stray,
             "place 1, which is not dealt to shard 0 of 4",
         ),
+        ("fewer.json", &fewer, &lost),
+        ("words.json", &words, "expected a whole number"),
     ] {
         place.put(name, text);
         place.refused(
