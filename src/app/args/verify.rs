@@ -108,7 +108,10 @@ impl VerifyFlags {
             .list("method", &self.method)
             .list("material", &self.materials.material)
             .list("medium", &self.medium.medium)
-            .list("prefix", Some(&self.prefix).filter(|prefix| **prefix != usual))
+            .list(
+                "prefix",
+                Some(&self.prefix).filter(|prefix| **prefix != usual),
+            )
             .seen_as(viewing)
             .list("precision", self.precision.precision.map(Precision::name))
             .switch("force", self.precision.force)

@@ -13,7 +13,8 @@ use super::Output;
 
 /// `fresnel-gen materials import PAGE`.
 pub fn run(flags: &ImportFlags) -> Result<Output, Error> {
-    if let Some((name, why)) = flags.name.as_ref().and_then(|name| Some((name, name_fault(name)?))) {
+    let name = flags.name.as_deref().unwrap_or_default();
+    if let Some(why) = name_fault(name).filter(|_| flags.name.is_some()) {
         let what = format!("--name: `{name}` is no name: {why}");
         return Err(Error::Usage { what });
     }

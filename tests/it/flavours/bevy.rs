@@ -1,5 +1,7 @@
 //! The flavour `bevy`: composed by naga_oil as Bevy up to 0.19 does it, and run through wgpu. Its WESL holds the same functions.
 
+use std::process::Command;
+
 use fresnel_gen::gpu::{Backend, ShaderCode};
 use naga::back::wgsl;
 use naga::valid::{Capabilities, ValidationFlags, Validator};
@@ -8,8 +10,11 @@ use naga_oil::compose::{
 };
 
 use crate::catalogue::{evaluated, rows_named};
-use crate::cli::{OUT, Place};
+use crate::cli::{OUT, PROGRAM, Place};
 use crate::gpu;
+
+use super::block;
+use super::host::shows_a_gold_sphere;
 
 const MATERIALS: [&str; 4] = ["diamond", "gold", "silver", "water"];
 const POINTS: u32 = 512;
@@ -159,7 +164,7 @@ fn naga_oil_composes_it_and_wgpu_runs_it() {
 }
 
 #[test]
-fn a_material_comes_twice_and_the_readme_composes() {
+fn a_material_comes_twice() {
     let place = place();
     let mut files = files(&place, ".wgsl");
     let between = |name: &str| {
@@ -171,13 +176,102 @@ fn a_material_comes_twice_and_the_readme_composes() {
     files.extend(["first_user", "second_user"].map(between));
     let top = "#import mine::first_user::first_user\n#import mine::second_user::second_user\n#import fresnel_gen::gold::fresnel_gold_fitted\n@fragment\nfn main() -> @location(0) vec4<f32> { return vec4<f32>(first_user(0.5) + second_user(0.5) + fresnel_gold_fitted(0.5), 1.0); }\n";
     valid(&composed(&files, top).unwrap_or_else(|fault| panic!("{fault}")));
+}
+
+/// Stand-ins for modules of Bevy that the README's shader imports: a lamp above and before the sphere, and an eye at z = 4.
+const BEVY: [(&str, &str); 2] = [
+    (
+        "forward_io.wgsl",
+        "#define_import_path bevy_pbr::forward_io
+struct VertexOutput {
+    @builtin(position) position: vec4<f32>,
+    @location(0) world_position: vec4<f32>,
+    @location(1) world_normal: vec3<f32>,
+}
+",
+    ),
+    (
+        "mesh_view_bindings.wgsl",
+        "#define_import_path bevy_pbr::mesh_view_bindings
+struct DirectionalLight { color: vec4<f32>, direction_to_light: vec3<f32> }
+struct Lights { directional_lights: array<DirectionalLight, 1> }
+struct View { world_position: vec3<f32>, exposure: f32 }
+const lights: Lights = Lights(array<DirectionalLight, 1>(DirectionalLight(vec4<f32>(1.0), vec3<f32>(0.40824829, 0.40824829, 0.81649658))));
+const view: View = View(vec3<f32>(0.0, 0.0, 4.0), 2.0);
+",
+    ),
+];
+
+/// The README's shader on a sphere, as its program draws it: the fragment of each point that an eye sees.
+const SPHERE: &str = "
+@group(0) @binding(1) var<storage, read> points: array<vec4<f32>>;
+@group(0) @binding(2) var<storage, read_write> results: array<vec4<f32>>;
+@compute @workgroup_size(64)
+fn main(@builtin(global_invocation_id) invocation: vec3<u32>) {
+    if invocation.x >= arrayLength(&points) {
+        return;
+    }
+    let ray = normalize(vec3<f32>(points[invocation.x].xy, -1.0));
+    let nearest = -4.0 * ray.z;
+    let under_root = nearest * nearest - 15.0;
+    var seen = vec4<f32>(0.0);
+    if under_root > 0.0 {
+        let at = vec3<f32>(0.0, 0.0, 4.0) + (nearest - sqrt(under_root)) * ray;
+        seen = fragment(VertexOutput(vec4<f32>(0.0), vec4<f32>(at, 1.0), at));
+    }
+    results[invocation.x] = seen;
+}
+";
+
+/// The README as a newcomer follows it, but for Cargo, and its shader on a sphere.
+#[test]
+fn the_readme_shows_a_gold_sphere() {
+    const SIDE: u32 = 128;
+    let place = Place::new();
+    place.done("--flavour bevy --material gold");
     let readme = place.read(&format!("{OUT}/bevy/README.md"));
-    let block = readme
-        .split("```wgsl\n")
-        .nth(1)
-        .expect("the README has WGSL");
-    let block = block.split("```").next().unwrap();
-    valid(&composed(&files, block).unwrap_or_else(|fault| panic!("{fault}")));
+    let commands = block(&readme, "sh");
+    let count = commands
+        .lines()
+        .filter(|line| !line.starts_with('#'))
+        .count();
+    assert!(count < 10, "{count} commands: {commands}");
+    let script = format!(
+        "set -e\ncargo() {{ if [ \"$1\" = new ]; then mkdir \"$2\"; fi; }}\nfresnel-gen() {{ '{PROGRAM}' \"$@\"; }}\n{commands}"
+    );
+    place.put("script.sh", script);
+    let mut shell = Command::new("bash");
+    let ran = shell.arg("script.sh").current_dir(place.path("."));
+    assert!(ran.status().unwrap().success(), "{commands}");
+    let mut files: Vec<(String, String)> = ["fresnel", "gold"]
+        .map(|name| {
+            let file = format!("sphere/assets/fresnel/{name}.wgsl");
+            (name.to_owned(), place.read(&file))
+        })
+        .into();
+    files.extend(BEVY.map(|(name, text)| (name.to_owned(), text.to_owned())));
+    let shader = block(&readme, "wgsl");
+    valid(&composed(&files, &shader).unwrap_or_else(|fault| panic!("{fault}")));
+    // An entry cannot be called.
+    let called = shader
+        .replace("@fragment\n", "")
+        .replace("@location(0) ", "");
+    let module = composed(&files, &(called + SPHERE)).unwrap_or_else(|fault| panic!("{fault}"));
+    let Some(device) = gpu::device(Backend::Vulkan) else {
+        return;
+    };
+    let across = |i: u32| 0.6 * (f64::from(i) + 0.5) / f64::from(SIDE) - 0.3;
+    let points: Vec<[f32; 4]> = (0..SIDE * SIDE)
+        .map(|i| [across(i % SIDE) as f32, -across(i / SIDE) as f32, 0.0, 0.0])
+        .collect();
+    let batch = device.prepare_batch(&gpu::program(ShaderCode::Wgsl(&valid(&module)), &[]), 1);
+    let seen = batch.unwrap().run(&points, None).unwrap();
+    let picture = image::RgbImage::from_fn(SIDE, SIDE, |x, y| {
+        let pixel = seen[(y * SIDE + x) as usize];
+        let code = |v: f32| 255.0 * f64::from(v).clamp(0.0, 1.0).powf(1.0 / 2.2);
+        image::Rgb([0, 1, 2].map(|channel| code(pixel[channel]).round() as u8))
+    });
+    shows_a_gold_sphere(&picture);
 }
 
 /// What tells the two languages apart: comments, and lines that import.

@@ -7,6 +7,8 @@ use std::process::Command;
 use crate::cli::{OUT, Place};
 use crate::not_checked;
 
+use super::block;
+
 /// How a compiler takes a program that includes files of a flavour.
 struct Way {
     flavour: &'static str,
@@ -208,13 +210,6 @@ fn includable(place: &Place, flavour: &str) -> Vec<String> {
     names.filter(is_code).collect()
 }
 
-/// The first code of a README in a language.
-fn code(readme: &str, language: &str) -> String {
-    let start = format!("```{language}\n");
-    let part = readme.split(&start).nth(1).expect("the README has code");
-    part.split("```").next().unwrap().to_owned()
-}
-
 fn compiles(way: &Way) {
     let Some(compiler) = find(way.command) else {
         let remark = format!(
@@ -252,7 +247,7 @@ fn compiles(way: &Way) {
     let (language, path) = way.readme;
     if !way.readme_use.is_empty() {
         let readme = place.read(&format!("{OUT}/{}/README.md", way.flavour));
-        let code = code(&readme, language).replace(path, "");
+        let code = block(&readme, language).replace(path, "");
         host.takes_text("the code of the README", &code, way.readme_use);
     }
 }

@@ -11,6 +11,8 @@ use crate::browser::{self, CHROMIUM};
 use crate::cli::{OUT, PROGRAM, Place};
 use crate::not_checked;
 
+use super::block;
+
 /// A host in a browser.
 pub struct Host {
     /// Its flavour.
@@ -176,13 +178,6 @@ impl Host {
 
 fn link(packages: &Path, place: &Path) {
     std::os::unix::fs::symlink(packages, place).unwrap();
-}
-
-/// The first block of a language.
-fn block(text: &str, language: &str) -> String {
-    let start = format!("```{language}\n");
-    let part = text.split(&start).nth(1).expect("the README has the block");
-    part.split("\n```").next().unwrap().to_owned() + "\n"
 }
 
 /// A tenth of the picture and more is of gold, more red than green and more green than blue; the corner is not.

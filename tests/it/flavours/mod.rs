@@ -1,6 +1,6 @@
 //! Flavours: what a run writes and leaves alone, and each adapter in its host, one file a host.
 
-#[cfg(all(feature = "cli", feature = "gpu"))]
+#[cfg(all(unix, feature = "cli", feature = "gpu"))]
 mod bevy;
 #[cfg(feature = "compilers")]
 mod compiled;
@@ -24,6 +24,16 @@ use fresnel_gen::targets;
 use serde_json::Value;
 
 use crate::cli::{MY_METAL, OUT, Place};
+
+/// The first block of a language in a README.
+pub fn block(readme: &str, language: &str) -> String {
+    let start = format!("```{language}\n");
+    let part = readme
+        .split(&start)
+        .nth(1)
+        .expect("the README has the block");
+    part.split("```").next().unwrap().to_owned()
+}
 
 /// The files of a flavour as a run writes them, by path.
 pub fn written(place: &Place, flags: &str) -> BTreeSet<String> {

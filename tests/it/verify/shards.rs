@@ -467,7 +467,11 @@ fn what_is_no_report_is_refused_with_its_place() {
     let mut fewer = dealt(4).remove(0);
     let rows = fewer["rows"].as_array_mut().unwrap();
     rows.pop();
-    let lost = format!("says that it has {} rows, and {} are", rows.len() + 1, rows.len());
+    let lost = format!(
+        "says that it has {} rows, and {} are",
+        rows.len() + 1,
+        rows.len()
+    );
     let fewer = fewer.to_string();
     let words = half.replacen("\"shards\":4", "\"shards\":\"four\"", 1);
     for (name, text, says) in [
