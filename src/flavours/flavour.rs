@@ -9,11 +9,11 @@ pub struct Flavour {
     pub name: &'static str,
     /// What it is, in one line.
     pub summary: &'static str,
-    /// The host, with the version that it was tried in.
+    /// The host, with the version that it was tried in, or that its documentation is of.
     pub host: &'static str,
     /// The host's documentation of what the adapter uses, with a link.
     pub source: &'static str,
-    /// What was seen of it, in words: run in the host, or compiled and not run.
+    /// What was seen of it, in words: run in the host, or compiled and not run. It stands in headers, its README and `docs/engines.md`.
     pub proof: &'static str,
     /// The targets whose text it holds.
     pub languages: &'static [&'static str],

@@ -1,4 +1,4 @@
-//! Flavours: what a run writes and leaves alone, and each adapter in its host, one file a host.
+//! Flavours: what a run writes and leaves alone, and each adapter in its host, or compiled where no host runs (`compiled`).
 
 #[cfg(all(unix, feature = "cli", feature = "gpu"))]
 mod bevy;
@@ -16,6 +16,8 @@ mod materialx;
 mod three;
 
 use std::collections::BTreeSet;
+use std::fs;
+use std::path::Path;
 
 use base64::Engine as _;
 use base64::prelude::BASE64_STANDARD;
@@ -53,6 +55,29 @@ fn expected(flavour: &Flavour, materials: &[&str]) -> BTreeSet<String> {
     names
         .map(|name| format!("{}/{name}", flavour.name))
         .collect()
+}
+
+#[test]
+fn each_flavour_is_tried_and_named() {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/it/flavours");
+    let files = fs::read_dir(folder)
+        .unwrap()
+        .map(|entry| entry.unwrap().path());
+    let tests = files.filter(|file| file.is_file() && !file.ends_with("mod.rs"));
+    let tests: String = tests
+        .filter_map(|file| fs::read_to_string(file).ok())
+        .collect();
+    let readme = include_str!("../../../README.md");
+    for flavour in flavours::ALL {
+        let name = flavour.name;
+        let is_tried = [format!("\"{name}\""), format!("--flavour {name} ")];
+        assert!(
+            is_tried.iter().any(|use_of_it| tests.contains(use_of_it)),
+            "{name} is not tried: add it to `WAYS` of compiled.rs, or write tests/it/flavours/{name}.rs"
+        );
+        let host = flavour.host.split(' ').next().unwrap();
+        assert!(readme.contains(host), "README.md does not name {host}");
+    }
 }
 
 #[test]
