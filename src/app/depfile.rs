@@ -1,7 +1,7 @@
 //! The depfile: which outputs depend on which inputs, in the syntax that Make and Ninja read.
 //!
 //! A path is spelt so that both read it. Some cannot be: for Make `;` begins a recipe, `=` an assignment, `|` other
-//! prerequisites, and no quoting helps; Ninja ends a name at the other signs of `UNREADABLE`, or Make takes them for patterns.
+//! prerequisites, and no quoting helps, nor for a backslash before `#` or `:`; Ninja ends a name at the other signs of `UNREADABLE`, or Make takes them for patterns.
 
 use std::collections::BTreeSet;
 
@@ -26,7 +26,11 @@ pub fn depfile(outputs: &[String], inputs: &[String]) -> Result<String, Error> {
 }
 
 fn fault(path: &str) -> Option<String> {
-    let wrong = path.chars().find(|c| UNREADABLE.contains(*c))?;
+    let letter = path.chars().find(|c| UNREADABLE.contains(*c));
+    let pair = || ["\\#", "\\:"].into_iter().find(|pair| path.contains(pair));
+    let wrong = letter
+        .map(String::from)
+        .or_else(|| pair().map(str::to_owned))?;
     Some(format!(
         "--depfile: the path {path:?} holds {wrong:?}, which Make and Ninja cannot both read in a depfile; rename it, or leave --depfile out"
     ))

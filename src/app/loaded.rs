@@ -59,11 +59,14 @@ fn constant(word: &str) -> Result<Loaded, Error> {
 }
 
 /// What a user types to name a file again, without the folders of this machine: its place in the database for a page that
-/// lies in one, since its name is made of that; the file's name for all others.
+/// lies in one, since its name is made of that; the file's name for all others, and not as a flag.
 fn argument(file: &str, page: &str) -> String {
+    let name = file_name(file);
     if !page.is_empty() && file.replace('\\', "/").ends_with(page) {
         page.to_owned()
+    } else if name.starts_with('-') {
+        format!("./{name}")
     } else {
-        file_name(file).to_owned()
+        name.to_owned()
     }
 }

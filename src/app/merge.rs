@@ -1,6 +1,7 @@
 //! The shards of one verification put together: the rows of their reports in the order of a whole run. Whatever tells that they are
 //! not of one run is refused, since rows of two runs beside each other prove nothing.
 
+use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
 use serde::Deserialize;
@@ -11,7 +12,7 @@ use crate::materials::FileFault;
 use crate::report::shard::ShardReport;
 use crate::report::{SCHEMA, TOOL};
 use crate::verify::VerifyRow;
-use crate::verify::shard::Shard;
+use crate::verify::shard::{PlacedRow, Shard};
 
 use super::error::Error;
 use super::fault::RequestFault;
@@ -122,23 +123,55 @@ pub fn parsed(file: &Path, text: &str) -> Result<Part, Error> {
         );
         return Err(refused(file, what));
     };
-    if let Some(stray) = report.rows.iter().find(|row| !shard.takes(row.place)) {
-        let what = format!(
-            "it has a row of place {}, which is not dealt to shard {} of {}; run the shard again",
-            stray.place, report.shard, report.shards
-        );
-        return Err(refused(file, what));
-    }
-    if report.rows.len() != report.row_count {
-        let what = format!(
-            "it says that it has {} rows, and {} are there; run the shard again",
-            report.row_count,
-            report.rows.len()
-        );
-        return Err(refused(file, what));
+    if let Some(what) = row_fault(&report, shard) {
+        return Err(refused(file, format!("{what}; run the shard again")));
     }
     let file = file.to_owned();
     Ok(Part { file, report })
+}
+
+/// What the rows of a whole report are not: of other places than are dealt to the shard, or fewer, or twice there.
+fn row_fault(report: &ShardReport, shard: Shard) -> Option<String> {
+    let (index, count, rows) = (shard.index(), shard.count(), &report.rows);
+    let is_own = |place: usize| shard.takes(place) && place < report.places;
+    if let Some(stray) = rows.iter().find(|row| !is_own(row.place)) {
+        let place = stray.place;
+        return Some(format!(
+            "it has a row of place {place}, which is not dealt to shard {index} of {count}"
+        ));
+    }
+    if rows.len() != report.row_count {
+        let (stated, there) = (report.row_count, rows.len());
+        return Some(format!(
+            "it says that it has {stated} rows, and {there} are there"
+        ));
+    }
+    let seen: BTreeSet<usize> = rows.iter().map(|row| row.place).collect();
+    let dealt = report.places.saturating_sub(index).div_ceil(count);
+    if seen.len() != dealt {
+        let there = seen.len();
+        return Some(format!(
+            "{dealt} places are dealt to it, and it has rows of {there}"
+        ));
+    }
+    let mut texts = BTreeSet::new();
+    let text = |row: &PlacedRow| serde_json::to_string(row).expect("it was read from JSON");
+    if let Some(twice) = rows.iter().find(|row| !texts.insert(text(row))) {
+        return Some(format!(
+            "a row of `{}` is there twice",
+            shown(&twice.row.function)
+        ));
+    }
+    let names = |row: &VerifyRow| {
+        [
+            Some(row.function.clone()),
+            row.material.clone(),
+            Some(row.method.clone()),
+        ]
+    };
+    let mut names = rows.iter().flat_map(|row| names(&row.row)).flatten();
+    let hidden = names.find(|name| name.chars().any(char::is_control))?;
+    Some(format!("the name {:?} is none", shown(&hidden)))
 }
 
 impl Head {

@@ -192,7 +192,7 @@ fn material_view(row: &CatalogueRow) -> MaterialView {
     MaterialView {
         name: row.name.clone(),
         constant: row.name.to_uppercase(),
-        pascal: row.name.split('_').map(capitalised).collect(),
+        pascal: pascal(&row.name),
         class: row.class,
         method: row.method.name,
         function: format!("{prefix}{}_{}", row.name, row.method.name),
@@ -231,9 +231,13 @@ fn numbers(values: &[f64; 3]) -> [String; 3] {
     values.map(|value| format!("{:?}", value as f32))
 }
 
-fn capitalised(word: &str) -> String {
-    let (first, rest) = word.split_at(word.len().min(1));
-    first.to_uppercase() + rest
+/// A name without underscores, `gold_babar` as `GoldBabar`. So that two names stay two, one stays before a digit and where it is doubled.
+fn pascal(name: &str) -> String {
+    let part = |part: &str| match part.chars().next() {
+        Some(first) if first.is_ascii_lowercase() => first.to_uppercase().to_string() + &part[1..],
+        _ => format!("_{part}"),
+    };
+    name.split('_').map(part).collect()
 }
 
 type Library = BTreeMap<&'static str, BTreeMap<&'static str, String>>;
@@ -295,4 +299,24 @@ fn tables(
         Ok((method.name, view))
     };
     methods.iter().map(of_method).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::pascal;
+
+    #[test]
+    fn names_in_capitals_stay_apart() {
+        for (name, capitals) in [
+            ("gold", "Gold"),
+            ("gold_babar", "GoldBabar"),
+            ("a1", "A1"),
+            ("a_1", "A_1"),
+            ("a__b", "A_B"),
+            ("ab", "Ab"),
+            ("a_b", "AB"),
+        ] {
+            assert_eq!(pascal(name), capitals);
+        }
+    }
 }

@@ -32,6 +32,8 @@ pub struct ShardReport {
     pub machine: MachineStatement,
     /// The devices of the rows.
     pub device: Option<String>,
+    /// How many places the whole run has.
+    pub places: usize,
     /// How many rows there are, so that a report that lost some is told from a whole one.
     pub row_count: usize,
     /// Its rows with their places in the whole run.
@@ -63,6 +65,7 @@ impl ShardReport {
             require_all: whole.require_all,
             device: devices(&outcome.bare_rows()),
             machine: outcome.machine,
+            places: outcome.places,
             row_count: outcome.rows.len(),
             rows: outcome.rows,
         }

@@ -15,7 +15,7 @@ use crate::app::plan_file::{material_paths, planned};
 use crate::app::request::{Materials, Request};
 use crate::app::tables::add_tables;
 use crate::app::tree::{TreePlan, plan};
-use crate::app::write::{write, write_file, write_files};
+use crate::app::write::{try_file, write, write_file, write_files};
 use crate::app::{check, depfile, folder};
 use crate::bake::as_tables_are_seen;
 use crate::budget::{Budget, BudgetRow, choose_within};
@@ -248,6 +248,9 @@ fn written(
         .collect();
     refuse_within_tree(plan, flags.depfile.as_deref())?;
     let rule = rule(flags, &outputs)?;
+    if let Some(file) = &flags.depfile {
+        try_file(file)?;
+    }
     let counts = write(plan, flags.tree.overwrite, lock)?;
     write_depfile(flags, rule)?;
     let mut output = Output::default();
@@ -321,6 +324,10 @@ fn rule(flags: &GenerateFlags, outputs: &[String]) -> Result<Option<String>, Err
     if let Some(plan) = &flags.plan {
         inputs.push(plan.display().to_string());
         inputs.extend(material_paths(plan)?);
+    }
+    if let Some(own) = outputs.iter().find(|output| inputs.contains(output)) {
+        let why = format!("--depfile-target {own} is a file that the run reads");
+        return Err(RequestFault::conflict(why).into());
     }
     depfile::depfile(outputs, &inputs).map(Some)
 }

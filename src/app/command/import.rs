@@ -7,6 +7,7 @@ use crate::app::error::Error;
 use crate::app::source::read;
 use crate::app::write::write_file;
 use crate::materials::{Material, name_fault, page};
+use crate::methods;
 use crate::spectra::{FIRST_NM, LAST_NM, OBSERVED_NM};
 
 use super::Output;
@@ -29,6 +30,13 @@ pub fn run(flags: &ImportFlags) -> Result<Output, Error> {
     };
     let mut output = Output::default();
     let material = visible(&whole, &mut output);
+    if let Some(method) = methods::find(&material.name) {
+        let what = format!(
+            "the material has the name of the method `{}`; give another with --name",
+            method.name
+        );
+        return Err(Error::Usage { what });
+    }
     let toml = material.to_toml();
     if let Some(what) = material.limits_fault() {
         let what = format!("{}: no material file can hold this: {what}", flags.page);

@@ -76,6 +76,10 @@ fn an_imported_page_is_a_material_file() {
         &["--name: `Gold` is no name: capital letters"],
     );
     place.refused(
+        "materials import Johnson.yml --name fitted",
+        &["name of the method `fitted`", "--name"],
+    );
+    place.refused(
         "materials import Johnson.yml --class metall",
         &["did you mean metal"],
     );

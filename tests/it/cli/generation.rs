@@ -344,6 +344,11 @@ fn depfile_names_outputs_and_inputs() {
     let line = "--target gles --method schlick --depfile f --depfile-target";
     place.done(&format!("{line} ./stamp"));
     assert_eq!(place.read("f"), "./stamp:\n");
+    place.put("own.toml", MY_METAL);
+    place.refused(
+        "--material own.toml --depfile f --depfile-target own.toml",
+        &["own.toml", "reads"],
+    );
     place.done("--method schlick -o - --depfile g --depfile-target out");
     assert_eq!(place.read("g"), "out:\n");
     for (line, says) in [

@@ -1,10 +1,11 @@
 //! Adapters that are compiled and not run: each file alone, each two of them in both orders and each twice, all of them together, and the code
 //! of the README.
 
+use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-use crate::cli::{OUT, Place};
+use crate::cli::{MY_METAL, OUT, Place};
 use crate::not_checked;
 
 use super::{block, written};
@@ -195,6 +196,19 @@ fn find(command: &str) -> Option<PathBuf> {
     folders.find_map(|folder| Some(folder.join(command)).filter(|file| file.is_file()))
 }
 
+/// Materials whose names would be one in capitals, or a guard's and a constant's.
+const NEAR: [&str; 5] = ["a1", "a_1", "gen", "c0", "included"];
+
+/// What is included: it ends as gold's file does.
+fn includable(written: &BTreeSet<String>) -> Vec<String> {
+    let gold = written.iter().find(|file| file.contains("/gold."));
+    let ending = gold.and_then(|file| file.split_once('.')).map(|it| it.1);
+    let ending = format!(".{}", ending.expect("gold has a file"));
+    let names = written.iter().filter_map(|file| file.split_once('/'));
+    let names = names.map(|(_, name)| name.to_owned());
+    names.filter(|name| name.ends_with(&ending)).collect()
+}
+
 fn compiles(way: &Way) {
     let Some(compiler) = find(way.command) else {
         let remark = format!(
@@ -207,21 +221,12 @@ fn compiles(way: &Way) {
     };
     let place = Place::new();
     let line = format!("--flavour {} --material diamond,gold,water", way.flavour);
-    let written = written(&place, &line);
+    let names = includable(&written(&place, &line));
     let host = Host {
         way,
         compiler,
         folder: place.path(&format!("{OUT}/{}", way.flavour)),
     };
-    // What is included ends as a material's file does.
-    let gold = written.iter().find(|file| file.contains("/gold."));
-    let ending = gold.and_then(|file| file.split_once('.')).map(|it| it.1);
-    let ending = format!(".{}", ending.expect("gold has a file"));
-    let names: Vec<&str> = (written.iter())
-        .filter_map(|file| file.split_once('/'))
-        .map(|(_, name)| name)
-        .filter(|name| name.ends_with(&ending))
-        .collect();
     let nothing = if way.command == DXC.0 {
         "return u;"
     } else {
@@ -232,7 +237,15 @@ fn compiles(way: &Way) {
             host.takes(&format!("{one}, {other}"), &[one, other], nothing);
         }
     }
-    host.takes("all files, twice", &names.repeat(2), way.gold);
+    for name in NEAR {
+        let material = MY_METAL.replace("\"my_metal\"", &format!("\"{name}\""));
+        place.put(&format!("{name}.toml"), material);
+    }
+    let near = NEAR.map(|name| format!("{name}.toml")).join(",");
+    let line = format!("--flavour {} --material {near}", way.flavour);
+    let all = includable(&written(&place, &line));
+    let all: Vec<&str> = all.iter().map(String::as_str).collect();
+    host.takes("all files, twice", &all.repeat(2), way.gold);
     let (language, path) = way.readme;
     if !way.readme_use.is_empty() {
         let readme = place.read(&format!("{OUT}/{}/README.md", way.flavour));

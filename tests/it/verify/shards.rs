@@ -379,6 +379,7 @@ const TAMPERED: [Tampered; 12] = [
             part["shards"] = json!(8);
             part["rows"] = json!([]);
             part["row_count"] = json!(0);
+            part["places"] = json!(0);
         },
         &["the number of shards is 8", "4"],
     ),
@@ -446,6 +447,7 @@ fn missing_shards_and_those_that_are_there_twice_are_named() {
     one["shards"] = json!(u64::MAX);
     one["rows"] = json!([]);
     one["row_count"] = json!(0);
+    one["places"] = json!(0);
     place.put("one.json", one.to_string());
     let says = [
         "18446744073709551614 of",
@@ -473,13 +475,24 @@ fn what_is_no_report_is_refused_with_its_place() {
         rows.len()
     );
     let fewer = fewer.to_string();
+    let tampered = |tamper: fn(&mut Vec<Value>)| {
+        let mut part = dealt(4).remove(0);
+        let rows = part["rows"].as_array_mut().unwrap();
+        tamper(rows);
+        part["row_count"] = rows.len().into();
+        part.to_string()
+    };
+    let none = tampered(Vec::clear);
+    let twice = tampered(|rows| rows.push(rows[0].clone()));
+    let beyond = tampered(|rows| rows[0]["place"] = json!(4000));
+    let hidden = tampered(|rows| rows[0]["material"] = json!("g\n::notice::x"));
     let words = half.replacen("\"shards\":4", "\"shards\":\"four\"", 1);
     for (name, text, says) in [
         ("empty.json", "", "empty.json:1:"),
         ("garbage.json", "not JSON", "garbage.json:1:"),
         ("list.json", "[1, 2]", "list.json:1:"),
         ("number.json", "7", "expected an object"),
-        ("none.json", "{}", "no report of fresnel-gen"),
+        ("empty_object.json", "{}", "no report of fresnel-gen"),
         ("null.json", "null", "null.json:1:"),
         ("deep.json", &deep, "deep.json:1:"),
         ("deep_row.json", &deep_row, "deep_row.json:1:"),
@@ -495,6 +508,10 @@ fn what_is_no_report_is_refused_with_its_place() {
             "place 1, which is not dealt to shard 0 of 4",
         ),
         ("fewer.json", &fewer, &lost),
+        ("none.json", &none, "dealt to it, and it has rows of 0"),
+        ("doubled.json", &twice, "is there twice"),
+        ("beyond.json", &beyond, "place 4000, which is not dealt"),
+        ("hidden.json", &hidden, "\\n::notice::x"),
         ("words.json", &words, "expected a whole number"),
     ] {
         place.put(name, text);
