@@ -130,7 +130,7 @@ pub fn parsed(file: &Path, text: &str) -> Result<Part, Error> {
     Ok(Part { file, report })
 }
 
-/// What the rows of a whole report are not: of other places than are dealt to the shard, or fewer, or twice there.
+/// What is wrong with the rows of a report: some are of places of other shards, some are missing, one is there twice.
 fn row_fault(report: &ShardReport, shard: Shard) -> Option<String> {
     let (index, count, rows) = (shard.index(), shard.count(), &report.rows);
     let is_own = |place: usize| shard.takes(place) && place < report.places;
@@ -171,7 +171,8 @@ fn row_fault(report: &ShardReport, shard: Shard) -> Option<String> {
     };
     let mut names = rows.iter().flat_map(|row| names(&row.row)).flatten();
     let hidden = names.find(|name| name.chars().any(char::is_control))?;
-    Some(format!("the name {:?} is none", shown(&hidden)))
+    let hidden = shown(&hidden);
+    Some(format!("the name {hidden:?} holds a control character"))
 }
 
 impl Head {

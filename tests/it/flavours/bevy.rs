@@ -197,7 +197,7 @@ struct DirectionalLight { color: vec4<f32>, direction_to_light: vec3<f32> }
 struct Lights { directional_lights: array<DirectionalLight, 1> }
 struct View { world_position: vec3<f32>, exposure: f32 }
 const lights: Lights = Lights(array<DirectionalLight, 1>(DirectionalLight(vec4<f32>(1.0), vec3<f32>(0.40824829, 0.40824829, 0.81649658))));
-const view: View = View(vec3<f32>(0.0, 0.0, 4.0), 2.0);
+const view: View = View(vec3<f32>(0.0, 0.0, 4.0), 0.8);
 ",
     ),
 ];
