@@ -97,11 +97,10 @@ pub fn derived_rows(request: &Request) -> Result<(Vec<CatalogueRow>, String), Er
 fn command(request: &Request, target: Option<&str>) -> Result<String, Error> {
     let medium = request.medium.as_ref();
     let medium = medium.map(Source::argument).transpose()?;
-    let prefix = Some(&request.prefix).filter(|prefix| **prefix != Naming::default().prefix);
     Ok(CommandLine::new(TOOL)
         .list("target", target)
         .list("medium", medium)
-        .list("prefix", prefix)
+        .list("prefix", Naming::flag_of_prefix(&request.prefix))
         .seen_as(&request.viewing)
         .into())
 }

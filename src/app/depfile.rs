@@ -1,7 +1,8 @@
 //! The depfile: which outputs depend on which inputs, in the syntax that Make and Ninja read.
 //!
 //! A path is spelt so that both read it. Some cannot be: for Make `;` begins a recipe, `=` an assignment, `|` other
-//! prerequisites, and no quoting helps, nor for a backslash before `#` or `:`; Ninja ends a name at the other signs of `UNREADABLE`, or Make takes them for patterns.
+//! prerequisites, and no quoting helps, nor does it for a backslash before `#` or `:`; Ninja ends a name at the other signs of
+//! `UNREADABLE`, or Make takes them for patterns.
 
 use std::collections::BTreeSet;
 

@@ -59,8 +59,7 @@ pub fn with_functions(
     if targets.is_empty() {
         return command;
     }
-    let own = Some(prefix).filter(|prefix| *prefix != Naming::default().prefix);
     command
         .list("target", targets.iter().map(|target| target.name))
-        .list("prefix", own)
+        .list("prefix", Naming::flag_of_prefix(prefix))
 }

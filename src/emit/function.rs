@@ -32,6 +32,11 @@ impl Default for Naming {
 }
 
 impl Naming {
+    /// The value of `--prefix` in a command that says a run again: none where it is the usual one.
+    pub(crate) fn flag_of_prefix(prefix: &str) -> Option<&str> {
+        Some(prefix).filter(|prefix| *prefix != Naming::default().prefix)
+    }
+
     /// The name of a method's function for a material: the exact law bears the material's name alone.
     pub fn specialised(&self, method: &Method, subject: &MaterialInMedium) -> String {
         if method.name == subject.exact_method() {

@@ -101,17 +101,13 @@ impl VerifyFlags {
     pub fn command_line(&self, viewing: &ViewingConditions) -> CommandLine {
         let is_half = self.precision.precision == Some(Precision::F16);
         let points = (!self.exhaustive && !is_half).then_some(self.points);
-        let usual = Naming::default().prefix;
         CommandLine::new("verify")
             .list("target", &self.target)
             .list("effect", &self.effect)
             .list("method", &self.method)
             .list("material", &self.materials.material)
             .list("medium", &self.medium.medium)
-            .list(
-                "prefix",
-                Some(&self.prefix).filter(|prefix| **prefix != usual),
-            )
+            .list("prefix", Naming::flag_of_prefix(&self.prefix))
             .seen_as(viewing)
             .list("precision", self.precision.precision.map(Precision::name))
             .switch("force", self.precision.force)

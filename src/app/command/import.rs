@@ -14,9 +14,11 @@ use super::Output;
 
 /// `fresnel-gen materials import PAGE`.
 pub fn run(flags: &ImportFlags) -> Result<Output, Error> {
-    let name = flags.name.as_deref().unwrap_or_default();
-    if let Some(why) = name_fault(name).filter(|_| flags.name.is_some()) {
-        let what = format!("--name: `{name}` is no name: {why}");
+    let fault = |name: &String| {
+        let why = name_fault(name)?;
+        Some(format!("--name: `{name}` is no name: {why}"))
+    };
+    if let Some(what) = flags.name.as_ref().and_then(fault) {
         return Err(Error::Usage { what });
     }
     let text = read(&flags.page)?;

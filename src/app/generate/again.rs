@@ -29,7 +29,6 @@ impl Run<'_> {
         form: HeaderForm,
     ) -> String {
         let request = self.request;
-        let prefix = Some(&request.prefix).filter(|prefix| **prefix != Naming::default().prefix);
         let precision =
             Some(request.precision).filter(|precision| *precision != Precision::default());
         let medium = subject.and_then(|subject| subject.medium.as_ref());
@@ -41,7 +40,7 @@ impl Run<'_> {
             .list("method", methods.into_iter().flatten())
             .list("material", subject.map(|subject| &subject.argument))
             .list("medium", medium.map(|(argument, _)| argument))
-            .list("prefix", prefix)
+            .list("prefix", Naming::flag_of_prefix(&request.prefix))
             .list("precision", precision.map(Precision::name))
             .switch("force", request.force && request.precision.is_half())
             .with(&seen.unwrap_or_default())

@@ -185,7 +185,6 @@ impl Run<'_> {
     /// The command that writes a file of an effect again.
     pub fn effect_command(&self, target: &Target, effect: &EffectRequest) -> String {
         let request = self.request;
-        let prefix = Some(&request.prefix).filter(|prefix| **prefix != Naming::default().prefix);
         let medium = effect.subject.and_then(|subject| subject.medium.as_ref());
         let seen = effect.subject.map(|subject| {
             crate::command_line::surface_flags(&request.viewing, &subject.reference.surface)
@@ -196,7 +195,7 @@ impl Run<'_> {
             .list("method", effect.unusual_method())
             .list("material", effect.subject.map(|subject| &subject.argument))
             .list("medium", medium.map(|(argument, _)| argument))
-            .list("prefix", prefix)
+            .list("prefix", Naming::flag_of_prefix(&request.prefix))
             .with(&seen.unwrap_or_default())
             .into()
     }
