@@ -17,12 +17,12 @@ use super::{GamutFlags, MaterialFlags, MediumFlags, PrecisionFlags, TreeFlags};
 
 /// The flags of generation.
 #[derive(Args, Debug)]
-#[command(mut_arg("material", |arg| arg.help("Material to specialise to: names, paths of material files, all; or none [default: gold, platinum, water, diamond]")))]
+#[command(mut_arg("material", |arg| arg.help("Material to specialise to: names, paths of material files, all; or none [default: gold, platinum, water, diamond; none with -o or --effect]")))]
 pub struct GenerateFlags {
     /// Output language, see `fresnel-gen targets`; all means those written by default [default: all]
     #[arg(long, value_delimiter = ',', value_name = "NAME", value_parser = target_or_all())]
     pub target: Vec<Choice<&'static Target>>,
-    /// Method, see `fresnel-gen methods` [default: all; for a material: exact, fitted, two Schlick variants and table]
+    /// Method, see `fresnel-gen methods` [default: all; for a material: exact, fitted, two Schlick variants and table, with -o exact alone]
     #[arg(long, value_delimiter = ',', value_name = "NAME", value_parser = method_or_all())]
     pub method: Vec<Choice<&'static Method>>,
     /// Effect, see `fresnel-gen effects`, or all: write its functions and nothing else, with R by --method, specialised to --material [default: all where nothing is named]

@@ -24,7 +24,7 @@ pub struct MethodsFlags {
 /// What is listed of methods.
 #[derive(Clone, Copy, Debug, Subcommand)]
 pub enum MethodsCommand {
-    /// Name, summary and source of each
+    /// Name and summary of each; with --json its source too
     List,
     /// All that is known of one
     Show {
@@ -49,7 +49,7 @@ pub struct EffectsFlags {
 /// What is listed of effects.
 #[derive(Clone, Copy, Debug, Subcommand)]
 pub enum EffectsCommand {
-    /// Name, summary and source of each
+    /// Name and summary of each; with --json its source too
     List,
     /// All that is known of one
     Show {
@@ -74,7 +74,7 @@ pub struct TargetsFlags {
 /// What is listed of targets.
 #[derive(Clone, Copy, Debug, Subcommand)]
 pub enum TargetsCommand {
-    /// Name, summary and source of each
+    /// Name and summary of each; with --json its source too
     List,
     /// All that is known of one
     Show {

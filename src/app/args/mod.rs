@@ -112,60 +112,30 @@ pub enum Command {
     )]
     Bake(Box<BakeFlags>),
     /// Run the generated functions of every target and compare the results with f64 on the CPU
-    #[command(
-        after_help = "Examples:\n  fresnel-gen verify\n  fresnel-gen verify --target gles --material gold --json report.json --junit report.xml"
-    )]
     Verify(Box<VerifyFlags>),
     /// Put the reports of the shards of one `verify` together, as the report of a whole run
     Merge(MergeFlags),
     /// Show where methods fail: regions of NaN, of lost digits, and of large error against the exact law
-    #[command(
-        after_help = "Example:\n  fresnel-gen stability --method schlick,fitted --out-dir maps"
-    )]
     Stability(StabilityFlags),
     /// Show what functions cost, by Mesa's GPU compilers; recorded figures replace a missing compiler
-    #[command(
-        after_help = "Examples:\n  fresnel-gen cost --gpu rdna2 --method schlick,fitted --material gold\n  fresnel-gen cost --out-dir costs"
-    )]
     Cost(Box<CostFlags>),
     /// Measure the time of functions on this machine's device, by overdraw, and as a share of the exact law's time
-    #[command(
-        after_help = "Example:\n  fresnel-gen time --method schlick,conductor_exact --material gold --json times.json"
-    )]
     Time(TimeFlags),
     /// Fit coefficients: of materials, or of an artist's two colours
-    #[command(
-        after_help = "Examples:\n  fresnel-gen fit --material gold\n  fresnel-gen fit --f0 1,.71,.29 --f82 .98,.91,.66"
-    )]
     Fit(Box<FitFlags>),
     /// Chart error against cost: one point per method, and the Pareto frontier
-    #[command(
-        after_help = "Examples:\n  fresnel-gen chart --material gold --gpu adreno330 --error de2000\n  fresnel-gen chart --out-dir charts"
-    )]
     Chart(ChartFlags),
-    /// Measure your own function (WGSL, GLSL or HLSL) against a material's exact reflectance and compare it with our methods
-    #[command(
-        after_help = "Examples:\n  fresnel-gen audit mine.glsl --function schlick --material gold\n  fresnel-gen audit mine.glsl --arg ior=1/eta --material water,diamond --max-error 0.001"
-    )]
+    /// Measure your own function (WGSL, GLSL, HLSL or Slang) against a material's exact reflectance and compare it with our methods
     Audit(Box<AuditFlags>),
     /// Recompute the tables, figures and claims of the thesis (Štetić-Kozić 2014) and print both side by side
-    #[command(after_help = "Example:\n  fresnel-gen reproduce table4")]
     Reproduce(ReproduceFlags),
     /// Draw an effect with the functions that engines import, beside what a ray tracer sees, and state the difference
-    #[command(after_help = "Example:\n  fresnel-gen render double_refraction -o ball.png")]
     Render(RenderFlags),
     /// Measure the error of methods in pictures of an object: of the angles that a camera sees
-    #[command(
-        after_help = "Examples:\n  fresnel-gen scene-error cube --material gold\n  fresnel-gen scene-error --mesh statue.obj --eye 0,1,-3 --material platinum --json -"
-    )]
     SceneError(Box<SceneErrorFlags>),
     /// Choose for each material of a scene the cheapest function whose error nobody sees in its pictures
-    #[command(
-        after_help = "Examples:\n  fresnel-gen plan scene.toml\n  fresnel-gen plan --gbuffer frame1.exr,frame2.exr --materials ids.toml --json plan.json"
-    )]
     Plan(Box<PlanFlags>),
     /// Write a page that draws every effect live, beside the exact law, with the functions to copy
-    #[command(after_help = "Example:\n  fresnel-gen gallery --out-dir gallery")]
     Gallery(GalleryFlags),
     /// Write a completion script for a shell to stdout
     #[command(

@@ -21,7 +21,7 @@ use super::{PictureFlags, ReportFlags};
 #[derive(Args, Debug)]
 #[command(
     mut_arg("out_dir", |arg| arg.help("Write a page with angles, errors, pictures and reasons as plan.html into this folder")),
-    after_help = "Examples:\n  fresnel-gen plan data/scenes/gold_dim.toml\n  fresnel-gen plan scene.glb --budget 0.5 --gpu adreno330 --json plan.json\n  fresnel-gen plan --gbuffer frame1.exr,frame2.exr --materials ids.toml --json plan.json\n  fresnel-gen --plan plan.json --target gles\n\nFor each material: the cheapest function whose error in the scene's pictures is within the budget. The error is the difference that 99.9 % of the material's pixels do not exceed, in the frame where it is worst. Exit codes: 0 done; 1 a material has nothing within the budget, and gets the function that errs least; 2 wrong input; 3 with --prove: there is no graphics stack here."
+    after_help = "Examples:\n  fresnel-gen plan data/scenes/gold_dim.toml\n  fresnel-gen plan scene.glb --budget 0.5 --gpu adreno330 --json plan.json\n  fresnel-gen plan --gbuffer frame1.exr,frame2.exr --materials ids.toml --json plan.json\n\nFor each material: the cheapest function whose error in the scene's pictures is within the budget. The error is the difference that 99.9 % of the material's pixels do not exceed, in the frame where it is worst. Exit codes: 0 done; 1 a material has nothing within the budget, and gets the function that errs least; 2 wrong input; 3 with --prove: there is no graphics stack here. `fresnel-gen --plan plan.json` writes the functions of a plan."
 )]
 pub struct PlanFlags {
     /// The scene: .toml, .glb or .gltf

@@ -69,7 +69,7 @@ pub struct VerifyFlags {
     /// Cosines for each function and material, 100 to 10000000
     #[arg(long, value_name = "N", default_value_t = 20_000)]
     pub points: usize,
-    /// Every f32, all 2^32 bit patterns, for one method and material, in WGSL
+    /// Every f32, all 2^32 bit patterns, for the methods and materials named, in WGSL
     #[arg(long, requires_all = ["method", "material"])]
     pub exhaustive: bool,
     /// Folder of compilers, searched before PATH and the folder `tools` beside this program
