@@ -10,7 +10,7 @@ fresnel-gen writes Fresnel reflectance functions for shaders. What most people w
 
   fresnel-gen --material gold --target hlsl -o gold.hlsl   write a material's exact function into one file
   fresnel-gen --material gold --budget 0.002 -o gold.wgsl  write the cheapest function within an error
-  fresnel-gen generate                                     write the library, four materials and effects in every language
+  fresnel-gen generate                                     write the library, four materials and effects in four languages
   fresnel-gen --flavour three --material gold              write an adapter for an engine: three, unity, bevy, godot ...
   fresnel-gen audit mine.glsl --material gold              measure a function of your own
 
