@@ -15,6 +15,7 @@ mod effects;
 mod exchange;
 mod files;
 mod fit;
+mod forged;
 mod generation;
 mod half;
 mod help;
@@ -83,6 +84,11 @@ impl Place {
     #[track_caller]
     pub fn read(&self, name: &str) -> String {
         fs::read_to_string(self.path(name)).unwrap_or_else(|fault| panic!("{name}: {fault}"))
+    }
+
+    #[track_caller]
+    pub fn read_bytes(&self, name: &str) -> Vec<u8> {
+        fs::read(self.path(name)).unwrap_or_else(|fault| panic!("{name}: {fault}"))
     }
 
     /// Every file with its bytes and its time of change.
