@@ -250,9 +250,13 @@ fn listed(file: &mut File) -> Vec<String> {
 /// Whether something else lies at the lock's place: a link, a folder, a pipe, or a file that lists other names than those
 /// of temporary files.
 fn is_foreign(path: &Path) -> bool {
+    /// Lists of a million names are shorter.
+    const MOST_BYTES: u64 = 64 << 20;
     let Ok(found) = fs::symlink_metadata(path) else {
         return false;
     };
     let is_ours = |line: &str| is_temporary(line) && check_path(line).is_ok();
-    !found.is_file() || fs::read_to_string(path).is_ok_and(|text| !text.lines().all(is_ours))
+    !found.is_file()
+        || found.len() > MOST_BYTES
+        || fs::read_to_string(path).is_ok_and(|text| !text.lines().all(is_ours))
 }

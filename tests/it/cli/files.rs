@@ -4,7 +4,7 @@
 use std::collections::BTreeSet;
 use std::fs;
 use std::io::{BufRead, BufReader};
-use std::process::{Child, Stdio};
+use std::process::{Child, Command, Stdio};
 
 use fresnel_gen::app::artifact::sha256;
 use fresnel_gen::app::folder;
@@ -348,34 +348,60 @@ fn a_report_says_which_files_it_replaced() {
     assert!(ran.err.contains("replaced: ./chart.html"), "{ran:?}");
 }
 
-/// What a killed run left beside an output that the user names: the next run of that output removes it. While another run holds
-/// it, the next one waits. What else lies under that name is left alone.
+/// What a killed run left beside an output that the user names: the next run of that output removes it. Nobody waits for a run that
+/// is at work, nor touches its file. What else lies under such a name is left alone.
+#[cfg(unix)]
 #[test]
 fn an_output_leaves_no_temporary_file_for_ever() {
     let place = Place::new();
-    let temporary = folder::temporary_of(&place.path("a.wgsl"));
-    place.put(&temporary, "half a function");
+    let temporary = || folder::temporary_of(&place.path("a.wgsl"));
+    let (left, other) = (temporary(), temporary());
+    assert_ne!(left, other, "nobody knows the name before");
+    place.put(&left, "half a function");
+    place.put(&other, "half a function");
     place.done("--method schlick -o a.wgsl");
-    assert!(!place.path(&temporary).exists());
-    let whole = place.read("a.wgsl");
-    assert!(whole.contains("fn fresnel_schlick("));
+    assert_eq!(place.files().keys().collect::<Vec<_>>(), ["a.wgsl"]);
 
-    let held = lock::create_held(&place.path(&temporary)).unwrap();
-    fs::remove_file(place.path("a.wgsl")).unwrap();
-    let words = ["--method", "schlick", "-o", "a.wgsl"];
-    let mut child = place.command(&words).spawn().unwrap();
-    std::thread::sleep(std::time::Duration::from_millis(1500));
-    assert!(child.try_wait().unwrap().is_none(), "it did not wait");
-    drop(held);
-    assert!(child.wait().unwrap().success());
-    assert_eq!(place.read("a.wgsl"), whole);
-    assert!(!place.path(&temporary).exists());
-
+    let (link, at_work) = (temporary(), temporary());
     place.put("mine.txt", "mine");
-    std::os::unix::fs::symlink(place.path("mine.txt"), place.path(&temporary)).unwrap();
+    std::os::unix::fs::symlink(place.path("mine.txt"), place.path(&link)).unwrap();
+    let held = lock::create_held(&place.path(&at_work)).unwrap();
+    let pipe = temporary();
+    let made = Command::new("mkfifo").arg(place.path(&pipe)).status();
+    assert!(made.unwrap().success());
+    fs::create_dir(place.path(&temporary())).unwrap();
     place.done("--method schlick_f90 -o a.wgsl");
+    assert!(place.read("a.wgsl").contains("fn fresnel_schlick_f90("));
     assert_eq!(place.read("mine.txt"), "mine");
-    assert!(place.path(&temporary).is_symlink());
+    assert!(place.path(&link).is_symlink() && place.path(&at_work).exists());
+    assert!(place.path(&pipe).exists());
+    drop(held);
+    place.done("--method schlick -o a.wgsl");
+    assert!(!place.path(&at_work).exists());
+}
+
+/// Outputs of two runs at once, crosswise: none waits for the other for ever.
+#[test]
+fn named_outputs_of_runs_at_once_are_whole() {
+    let place = Place::new();
+    let start = |at: usize| {
+        let (one, two) = if at % 2 == 0 { ("a", "b") } else { ("b", "a") };
+        let line = format!("--method schlick --target wgsl -o {one} --depfile {two}");
+        let words: Vec<&str> = line.split(' ').collect();
+        place.command(&words).spawn().unwrap()
+    };
+    let children: Vec<Child> = (0..16).map(start).collect();
+    for mut child in children {
+        assert!(child.wait().unwrap().success());
+    }
+    assert_eq!(place.files().keys().collect::<Vec<_>>(), ["a", "b"]);
+    for file in ["a", "b"] {
+        let text = place.read(file);
+        assert!(
+            text.ends_with("}\n") || text.ends_with(":\n"),
+            "{file}: {text}"
+        );
+    }
 }
 
 /// Keys of others in the manifest stay, a file listed twice is removed once and named once.

@@ -35,6 +35,8 @@ mod streams;
 #[cfg(feature = "gpu")]
 mod time;
 
+pub use pipelines::path_with_program;
+
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output, Stdio};

@@ -182,6 +182,38 @@ fn a_run_that_is_cancelled_leaves_no_process_and_no_folder() {
     }
 }
 
+/// A signal that a run was told to ignore does not end it, as `nohup` has it.
+#[test]
+fn an_ignored_signal_stays_ignored() {
+    let place = place();
+    let inner = command(&place, LINES[0], 300);
+    let words: Vec<_> = inner
+        .get_args()
+        .map(|word| word.to_str().unwrap())
+        .collect();
+    let script = format!(
+        "trap '' HUP; exec '{}' {}",
+        crate::cli::PROGRAM,
+        words.join(" ")
+    );
+    let mut outer = Command::new("sh");
+    outer.args(["-c", &script]).current_dir(place.path(""));
+    for (name, value) in inner.get_envs() {
+        outer.env(name, value.unwrap());
+    }
+    outer.stdout(Stdio::null()).stderr(Stdio::null());
+    let mut run = outer.spawn().unwrap();
+    until("a compiler is asked", || noted(&place).len() >= 2);
+    let processes = noted(&place);
+    signal("HUP", run.id());
+    sleep(Duration::from_millis(500));
+    assert!(run.try_wait().unwrap().is_none(), "it ended");
+    signal("TERM", run.id());
+    run.wait().unwrap();
+    all_end(&processes, Duration::from_secs(10));
+    assert_eq!(temporary(&place), [""; 0]);
+}
+
 #[test]
 fn workers_of_a_run_that_is_stuck_end_by_themselves() {
     let place = place();
