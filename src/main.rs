@@ -11,6 +11,7 @@ use fresnel_gen::methods;
 use indicatif::{ProgressBar, ProgressStyle};
 
 fn main() -> ExitCode {
+    outlive_file_limit();
     let (words, renamed) = with_names_of_today(std::env::args_os(), methods::RENAMED);
     let names_nothing = words.len() < 2;
     let cli = match Cli::try_parse_from(words) {
@@ -41,6 +42,17 @@ fn main() -> ExitCode {
             say(&format!("error: {error}"));
             ExitCode::from(error.exit_code())
         }
+    }
+}
+
+/// A limit on the size of files (`ulimit -f`) ends a process by a signal that says nothing. Where somebody hears the signal, the write
+/// fails instead, as on a full disk.
+fn outlive_file_limit() {
+    #[cfg(unix)]
+    {
+        let heard = std::sync::Arc::new(std::sync::atomic::AtomicBool::new(false));
+        // Who cannot be heard is ended as before.
+        let _ = signal_hook::flag::register(signal_hook::consts::SIGXFSZ, heard);
     }
 }
 

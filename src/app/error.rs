@@ -128,7 +128,7 @@ pub enum Error {
         leads_to: PathBuf,
     },
     /// A file could not be prepared: no old file was touched.
-    #[error("cannot write {}: {source}; no file was changed there. Check permissions and free space, then run again", path.display())]
+    #[error("cannot write {}: {source}; no file was changed. Check permissions and free space, then run again", path.display())]
     Stage {
         /// The file that was to be written.
         path: PathBuf,

@@ -55,15 +55,40 @@ pub fn temporary_name() -> String {
     )
 }
 
-/// The name of the temporary file of an output that the user names: the same in every run, so that what a killed run left
-/// behind is found by the next one.
+/// A new name for the temporary file of an output that the user names. Its first half is the same in every run, so that what a
+/// killed run left behind is found by the next one. Its second half is new in every run, so that nobody can take the place.
 pub fn temporary_of(output: &Path) -> String {
+    format!(
+        "{}{:08x}{TEMPORARY_SUFFIX}",
+        temporaries_of(output),
+        fastrand::u32(..)
+    )
+}
+
+/// How the names of an output's temporary files begin.
+fn temporaries_of(output: &Path) -> String {
     let name = output.file_name().unwrap_or_default();
     let hash = sha256(name.as_encoded_bytes());
-    format!(
-        "{TEMPORARY_PREFIX}{}{TEMPORARY_SUFFIX}",
-        &hash[..TEMPORARY_DIGITS]
-    )
+    format!("{TEMPORARY_PREFIX}{}", &hash[..TEMPORARY_DIGITS / 2])
+}
+
+/// The temporary files of an output that lie beside it: those of other runs. A folder that cannot be listed has none.
+pub fn temporaries_beside(output: &Path) -> Vec<PathBuf> {
+    let start = temporaries_of(output);
+    let entries = fs::read_dir(folder_of(output)).into_iter().flatten();
+    let of_output = |name: &str| name.starts_with(&start) && is_temporary(name);
+    let of_output = entries
+        .flatten()
+        .filter(|entry| entry.file_name().to_str().is_some_and(of_output));
+    of_output.map(|entry| entry.path()).collect()
+}
+
+/// The folder that a file lies in.
+pub fn folder_of(file: &Path) -> &Path {
+    match file.parent() {
+        Some(parent) if !parent.as_os_str().is_empty() => parent,
+        _ => Path::new("."),
+    }
 }
 
 /// Is this the name of a temporary file?

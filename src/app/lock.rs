@@ -4,7 +4,8 @@
 //! works, the file lists the temporary files of the run, written down before they are made: what a killed run leaves
 //! behind is known by its name, and the next run removes it. A run that ends removes the file itself. Nobody renames it.
 //!
-//! A file that the user names has no such folder: there the lock lies on its temporary file.
+//! A file that the user names has no such folder: there the lock lies on its temporary file, which has a name of its own in every run.
+//! Nobody waits for it. It only tells the next run of that output that the run lives: what nobody holds is removed.
 
 use std::fs::{self, File, OpenOptions, TryLockError};
 use std::io::{self, ErrorKind, Read, Seek, SeekFrom, Write};
@@ -13,7 +14,7 @@ use std::thread;
 use std::time::Duration;
 
 use super::artifact::check_path;
-use super::folder::{is_plain_file, is_temporary};
+use super::folder::{is_plain_file, is_temporary, temporaries_beside};
 
 /// The lock's file in the output folder.
 pub const FILE: &str = ".fresnel-gen.lock";
@@ -21,6 +22,10 @@ pub const FILE: &str = ".fresnel-gen.lock";
 /// How long a run waits before it says that it waits: so many turns of so many milliseconds.
 const SILENT_TURNS: u32 = 20;
 const TURN_MS: u64 = 50;
+
+/// How often a run that waited finds another file in the lock's place, and begins again. Without an end a file system whose files
+/// change their numbers would hold it for ever.
+const TAKING_TURNS: u32 = 1000;
 
 /// Hears what a person should know while a run goes on.
 pub type Announce<'a> = &'a dyn Fn(&str);
@@ -49,13 +54,10 @@ impl Lock {
             leftovers: Vec::new(),
             created: Vec::new(),
         };
-        loop {
+        for _ in 0..TAKING_TURNS {
             lock.create_folders(out_dir);
             if is_foreign(&lock.path) {
-                announce(&format!(
-                    "{} is not a lock of fresnel-gen, which goes on without; let no other run write there meanwhile",
-                    lock.path.display()
-                ));
+                announce(&without(&lock.path, "is not a lock of fresnel-gen"));
                 return lock;
             }
             let opened = OpenOptions::new()
@@ -64,8 +66,15 @@ impl Lock {
                 .create(true)
                 .truncate(false)
                 .open(&lock.path);
-            let Ok(mut file) = opened else {
-                return lock;
+            let mut file = match opened {
+                Ok(file) => file,
+                Err(why) => {
+                    // Where nothing lies there, the folder is read-only.
+                    if is_plain_file(&lock.path) {
+                        announce(&without(&lock.path, &format!("cannot be opened ({why})")));
+                    }
+                    return lock;
+                }
             };
             match wait(&file, &lock.path, announce) {
                 Err(why) => {
@@ -86,6 +95,8 @@ impl Lock {
                 }
             }
         }
+        announce(&without(&lock.path, "is another file at every look"));
+        lock
     }
 
     /// Writes down which temporary files are about to be made. Without a held lock nothing is written down.
@@ -147,34 +158,42 @@ impl Drop for Lock {
     }
 }
 
-/// Makes the temporary file of an output that the user names, and holds its lock. While another run writes that output, this one
-/// waits; what a killed run left there is removed.
+/// What is said where a run goes on without a lock.
+fn without(path: &Path, why: &str) -> String {
+    format!(
+        "{} {why}; fresnel-gen goes on without a lock: let no other run write there meanwhile",
+        path.display()
+    )
+}
+
+/// Makes a temporary file, and holds its lock where the file system has locks.
 ///
 /// # Errors
-/// Something else lies there, the file system has no locks, or the disk refuses.
+/// Something lies there (`AlreadyExists`), another run looks at it just now (`WouldBlock`), or the disk refuses.
 pub fn create_held(temporary: &Path) -> io::Result<File> {
-    loop {
-        let made = OpenOptions::new()
-            .write(true)
-            .create_new(true)
-            .open(temporary);
-        match made {
-            Ok(file) => {
-                file.lock()?;
-                // Another run may have taken it for a leftover before it was locked.
-                if is_at(&file, temporary) {
-                    return Ok(file);
-                }
-            }
-            Err(fault) if fault.kind() == ErrorKind::AlreadyExists && is_plain_file(temporary) => {
-                if let Ok(other) = File::open(temporary) {
-                    other.lock()?;
-                    if is_at(&other, temporary) {
-                        fs::remove_file(temporary)?;
-                    }
-                }
-            }
-            Err(fault) => return Err(fault),
+    let file = OpenOptions::new()
+        .write(true)
+        .create_new(true)
+        .open(temporary)?;
+    match file.try_lock() {
+        // Another run took it for a leftover before it was locked, and removes it.
+        Err(TryLockError::WouldBlock) => Err(ErrorKind::WouldBlock.into()),
+        Ok(()) if !is_at(&file, temporary) => Err(ErrorKind::WouldBlock.into()),
+        Ok(()) | Err(TryLockError::Error(_)) => Ok(file),
+    }
+}
+
+/// Removes the temporary files of an output that runs left behind which were killed. What another run holds, what another user
+/// owns and what is no file stays, and so does everything where the file system has no locks.
+pub fn remove_leftovers_of(output: &Path) {
+    for left in temporaries_beside(output) {
+        let open = || OpenOptions::new().read(true).write(true).open(&left);
+        if !is_plain_file(&left) {
+            continue;
+        }
+        let Ok(file) = open() else { continue };
+        if file.try_lock().is_ok() && is_at(&file, &left) {
+            let _ = fs::remove_file(&left);
         }
     }
 }
@@ -231,9 +250,13 @@ fn listed(file: &mut File) -> Vec<String> {
 /// Whether something else lies at the lock's place: a link, a folder, a pipe, or a file that lists other names than those
 /// of temporary files.
 fn is_foreign(path: &Path) -> bool {
+    /// Lists of a million names are shorter.
+    const MOST_BYTES: u64 = 64 << 20;
     let Ok(found) = fs::symlink_metadata(path) else {
         return false;
     };
     let is_ours = |line: &str| is_temporary(line) && check_path(line).is_ok();
-    !found.is_file() || fs::read_to_string(path).is_ok_and(|text| !text.lines().all(is_ours))
+    !found.is_file()
+        || found.len() > MOST_BYTES
+        || fs::read_to_string(path).is_ok_and(|text| !text.lines().all(is_ours))
 }

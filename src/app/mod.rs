@@ -34,6 +34,7 @@ pub mod scope;
 #[cfg(all(feature = "cli", feature = "gpu"))]
 pub mod shard;
 pub mod source;
+mod stage;
 pub mod subjects;
 #[cfg(feature = "cli")]
 pub mod tables;

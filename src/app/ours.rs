@@ -1,9 +1,10 @@
 //! What of an output folder is this program's own, and by what proof. Nothing else is replaced or removed.
 //!
 //! A file *bears the mark* where its head says that fresnel-gen wrote it. A file is *listed* where the folder's manifest
-//! has its path with the SHA-256 of its bytes. Either proof lets a run replace a file. A run removes a file only where
-//! it is listed and this program could have written that path for that entry: a mark can be pasted, and a manifest can
-//! be written by anybody.
+//! has its path with the SHA-256 of its bytes. A manifest can be written by anybody, so that an entry proves nothing by
+//! itself: the file must bear the mark. Formats without room for a mark need an entry that this program could have written for
+//! that path. A run replaces a file that bears the mark, listed or not. It removes a file only where all is proved
+//! ([`is_as_written`]), since a mark can be pasted.
 
 use crate::digest::sha256;
 use crate::emit::{CATALOGUE, CATALOGUE_BUFFER, EFFECTS, MARK};
@@ -95,6 +96,19 @@ pub fn is_listed(entry: &Entry, bytes: &[u8]) -> bool {
     hash == entry.sha256 || entry.was.as_ref() == Some(&hash)
 }
 
+/// Is it proved that this program wrote this file as it is, so that a run may replace or remove it?
+pub fn is_as_written(entry: &Entry, bytes: &[u8]) -> bool {
+    is_listed(entry, bytes)
+        && could_be_written(entry)
+        && (bears_mark(bytes) || has_no_room_for_mark(&entry.file))
+}
+
+/// Whether the format of this path can bear no mark: modules of SPIR-V, where tools drop what is no code, and the bare numbers
+/// of the catalogue's buffer.
+pub fn has_no_room_for_mark(path: &str) -> bool {
+    path == CATALOGUE_BUFFER || is_module(path)
+}
+
 /// Could this program have written this path for this entry? The method or the material need not exist today.
 pub fn could_be_written(entry: &Entry) -> bool {
     let parts: Vec<&str> = entry.file.split('/').collect();
@@ -155,14 +169,16 @@ fn is_table(name: &str) -> bool {
 }
 
 fn is_binary(path: &str) -> bool {
-    let is_module = |target: &&targets::Target| {
-        let stem = path.strip_suffix(target.extension);
-        target.finish == Finish::Spirv && stem.is_some_and(|stem| stem.ends_with('.'))
-    };
     let mut tables = Format::ALL.into_iter().filter(|format| !format.is_text());
-    path == CATALOGUE_BUFFER
-        || tables.any(|format| path.ends_with(format.ending()))
-        || targets::ALL.iter().any(is_module)
+    has_no_room_for_mark(path) || tables.any(|format| path.ends_with(format.ending()))
+}
+
+fn is_module(path: &str) -> bool {
+    let mut modules = (targets::ALL.iter()).filter(|target| target.finish == Finish::Spirv);
+    modules.any(|target| {
+        let stem = path.strip_suffix(target.extension);
+        stem.is_some_and(|stem| stem.ends_with('.'))
+    })
 }
 
 fn without_carriage_returns(bytes: &[u8]) -> Vec<u8> {

@@ -1,7 +1,6 @@
 //! The artifacts of a run against the output folder: what would be written, what removed. Nothing is changed here.
 //!
-//! An *orphan* is in the scope of the run, is no longer generated, and is removed: the manifest lists it, and its bytes are
-//! as listed. What else lies in the folder *stays*. Where a file that is not ours lies in the place of an artifact,
+//! An *orphan* is in the scope of the run, is no longer generated, and is removed: it is proved to be as this program wrote it. What else lies in the folder *stays*. Where a file that is not ours lies in the place of an artifact,
 //! it is an *obstacle*: the run ends before it writes anything. What is ours and by what proof: [`ours`](super::ours).
 
 use std::collections::{BTreeMap, BTreeSet};
@@ -13,7 +12,7 @@ use super::catalogue::SHARED;
 use super::error::Error;
 use super::folder;
 use super::manifest::{self, Entry, Manifest, Provenance};
-use super::ours::{bears_mark, could_be_written, is_listed, is_same, listed_hash};
+use super::ours::{bears_mark, could_be_written, is_as_written, is_listed, is_same, listed_hash};
 use super::scope::Scope;
 use crate::emit::FunctionDetail;
 use crate::num::Precision;
@@ -270,12 +269,12 @@ fn dropped(
             continue;
         }
         let is_plain = folder::is_plain_file(&path);
-        if is_plain && folder::read(&path)?.is_some_and(|bytes| is_listed(entry, &bytes)) {
+        if is_plain && folder::read(&path)?.is_some_and(|bytes| is_as_written(entry, &bytes)) {
             orphans.push(entry.clone());
         } else {
             stays.push(Stay {
                 path: entry.file.clone(),
-                why: "it is no longer generated, and was changed since it was: the manifest lists it no more",
+                why: "it is no longer generated, and is not as fresnel-gen wrote it: the manifest lists it no more",
             });
         }
     }
@@ -346,13 +345,13 @@ fn standing(
             continue;
         };
         let entry = listed.get(file.path.as_str());
-        let as_we_left_it =
-            || file.path == manifest::FILE || entry.is_some_and(|entry| is_listed(entry, old));
-        if leads_to.is_none() && as_we_left_it() {
-            continue;
-        }
+        let is_manifest = file.path == manifest::FILE;
         let path = file.path.clone();
-        if leads_to.is_none() && bears_mark(old) {
+        if leads_to.is_some() {
+            obstacles.push(Obstacle { path, leads_to });
+        } else if is_manifest || entry.is_some_and(|entry| is_as_written(entry, old)) {
+            // As we left it.
+        } else if bears_mark(old) {
             edited.push(path);
         } else {
             obstacles.push(Obstacle { path, leads_to });

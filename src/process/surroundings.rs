@@ -1,6 +1,6 @@
 //! What the processes of a run share: a folder for their temporary files, and the folder of tools that the user names.
 //!
-//! The run holds a lock in its folder, and removes the folder at its end, on SIGTERM and SIGINT too. A run that is killed leaves
+//! The run holds a lock in its folder, and removes the folder at its end, and where a signal ends it too. A run that is killed leaves
 //! its folder behind. The next run removes every such folder whose lock is free.
 
 use std::collections::BTreeSet;
@@ -183,7 +183,9 @@ mod signals {
     use std::thread::{sleep, spawn};
     use std::time::Duration;
 
-    use signal_hook::consts::{SIGINT, SIGTERM};
+    use signal_hook::consts::{
+        SIGALRM, SIGHUP, SIGINT, SIGPROF, SIGQUIT, SIGTERM, SIGUSR1, SIGUSR2, SIGVTALRM, SIGXCPU,
+    };
     use signal_hook::iterator::Signals;
     use signal_hook::low_level::emulate_default_handler;
 
@@ -191,7 +193,7 @@ mod signals {
     pub fn listen() {
         static ONCE: Once = Once::new();
         ONCE.call_once(|| {
-            let Ok(mut signals) = Signals::new([SIGINT, SIGTERM]) else {
+            let Ok(mut signals) = Signals::new(ending()) else {
                 return;
             };
             spawn(move || {
@@ -202,6 +204,31 @@ mod signals {
                 }
             });
         });
+    }
+
+    /// The signals that end this process. One that it was told to ignore, as `nohup` does, stays ignored. Where nobody knows which
+    /// these are, only those are heard that people send.
+    fn ending() -> Vec<i32> {
+        const ALL: [i32; 10] = [
+            SIGALRM, SIGHUP, SIGINT, SIGPROF, SIGQUIT, SIGTERM, SIGUSR1, SIGUSR2, SIGVTALRM,
+            SIGXCPU,
+        ];
+        match ignored() {
+            Some(mask) => ALL
+                .into_iter()
+                .filter(|signal| mask >> (signal - 1) & 1 == 0)
+                .collect(),
+            None => vec![SIGINT, SIGTERM],
+        }
+    }
+
+    /// The signals that this process ignores, as Linux says it: bit n - 1 stands for signal n.
+    fn ignored() -> Option<u64> {
+        let status = fs::read_to_string("/proc/self/status").ok()?;
+        let mask = status
+            .lines()
+            .find_map(|line| line.strip_prefix("SigIgn:"))?;
+        u64::from_str_radix(mask.trim(), 16).ok()
     }
 
     /// A worker may write while its folder is removed, so this tries a few times.

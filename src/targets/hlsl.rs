@@ -192,7 +192,7 @@ const HALF_VALIDATORS: &[Validator] = &[
 pub static DXC: Compiler = Compiler {
     name: "dxc",
     command: Some("dxc"),
-    get: "https://github.com/microsoft/DirectXShaderCompiler; in a checkout, tests/run fetches it",
+    get: "https://github.com/microsoft/DirectXShaderCompiler; in a checkout, bash tests/fetch-dxc FOLDER puts it there",
 };
 
 const FRAME: Frame = Frame {

@@ -7,7 +7,7 @@ use crate::app::error::Error;
 use crate::app::fault::RequestFault;
 use crate::app::request::{Materials, Request};
 use crate::app::source::shader;
-use crate::app::write::{try_places_of_ours, write_file};
+use crate::app::write::{OutputFile, try_places_of_ours};
 use crate::audit::{Audit, AuditRow, AuditRows, Given, Language, serve};
 use crate::chart::{ChartView, CostAxis, STATISTICS, chart_data, charted_function};
 use crate::cost::{self, FAMILIES, Family};
@@ -18,7 +18,7 @@ use crate::report::junit::audit_junit;
 use crate::spectra::Space;
 use crate::verify::{Status, machine};
 
-use super::{Output, Progress, chart, check_limit, not_drawn, report, try_files};
+use super::{Output, Progress, chart, check_limit, not_drawn, report_beside, try_files};
 
 /// The GPUs that are asked unless others are named: one of a desktop, one of a phone.
 const USUAL: [&str; 2] = ["rdna2", "adreno330"];
@@ -44,22 +44,26 @@ pub fn run(flags: &AuditFlags, progress: Progress) -> Result<Output, Error> {
     try_places_of_ours(&charts, flags.pictures.overwrite)?;
     let AuditRows { rows, skipped } = audit.rows(&subjects, progress)?;
     let command = String::from(flags.command_line(&request.viewing));
-    if let Some(file) = &flags.report.junit {
-        let xml = audit_junit(&rows).map_err(not_drawn)?;
-        write_file(file, xml.as_bytes())?;
-    }
     let device = rows.first().and_then(|row| row.device.clone());
     let full = Report::new(command.clone(), rows.clone()).with_device(device);
-    let charted = match flags.pictures.folder() {
+    let (mut files, mut charted) = match flags.pictures.folder() {
         Some(folder) => {
             let place = (folder, flags.pictures.overwrite);
             let subjects = audited(subjects, &rows);
             charted(place, &rows, &subjects, audit.space, command, progress)?
         }
-        None => Vec::new(),
+        None => (Vec::new(), Vec::new()),
     };
+    if let Some(file) = &flags.report.junit {
+        files.push(OutputFile::named(
+            file,
+            audit_junit(&rows).map_err(not_drawn)?,
+        ));
+    }
     let texts: Vec<String> = rows.iter().map(audit_text).collect();
-    let mut output = report(texts.join("\n"), &full, flags.report.report.json())?;
+    let json = flags.report.report.json();
+    let mut output = report_beside(texts.join("\n"), &full, json, files)?;
+    charted.splice(0..0, output.remarks);
     let skipped = skipped.iter().map(|why| format!("not audited: {why}"));
     let remarks = rows.iter().flat_map(audit_remarks);
     output.remarks = remarks.chain(skipped).chain(charted).collect();
@@ -73,7 +77,7 @@ fn audited(subjects: Vec<MaterialInMedium>, rows: &[AuditRow]) -> Vec<MaterialIn
     subjects.into_iter().filter(has_row).collect()
 }
 
-/// Draws the charts of these materials with the function as one more point, and says where, and what lacks. The place is a
+/// The charts of these materials with the function as one more point; and where they are, and what lacks. The place is a
 /// folder, and whether files of others are replaced there.
 fn charted(
     (folder, overwrite): (&Path, bool),
@@ -82,9 +86,9 @@ fn charted(
     space: Space,
     command: String,
     progress: Progress,
-) -> Result<Vec<String>, Error> {
+) -> Result<(Vec<OutputFile>, Vec<String>), Error> {
     let Some(own) = charted_function(rows) else {
-        return Ok(Vec::new());
+        return Ok((Vec::new(), Vec::new()));
     };
     let data = chart_data(subjects, space, Some(&own), command, progress);
     let is_known = |cost: &CostAxis| own.costs.contains_key(cost.name);
@@ -97,9 +101,10 @@ fn charted(
         cost: &data.costs[cost],
         error: 0,
     };
-    let mut remarks = chart::written(folder, overwrite, &view, [set, cost, 0])?;
+    let files = chart::drawn_files(folder, overwrite, &view, [set, cost, 0])?;
+    let mut remarks = chart::drawn_remarks(&files);
     remarks.extend(view.lacks());
-    Ok(remarks)
+    Ok((files, remarks))
 }
 
 fn request(flags: &AuditFlags) -> Result<Request, Error> {

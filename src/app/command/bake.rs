@@ -23,7 +23,7 @@ use crate::report::table;
 use crate::targets::{self, Finish, Target};
 
 use super::generate::named;
-use super::{Output, Progress, folder_or_current, refuse_within_tree, report, try_places};
+use super::{Output, Progress, folder_or_current, refuse_within_tree, reported, try_places};
 
 /// The files that a search chooses from where none are asked for: one of each depth.
 const SEARCHED_FORMATS: [Format; 4] = [
@@ -98,13 +98,13 @@ fn finished(
     let mut lock = Lock::take(out_dir, announce);
     let plan = plan(out_dir, &files, &Scope::default(), &provenance(Vec::new()))?;
     refuse_within_tree(&plan, flags.report.json())?;
-    let written = write(&plan, flags.tree.overwrite, &mut lock)?;
     let text = if flags.quiet {
         String::new()
     } else {
         bake_text(&rows)
     };
-    let mut output = report(text, &Report::new(command, rows), flags.report.json())?;
+    let (mut output, json) = reported(text, &Report::new(command, rows), flags.report.json());
+    let written = write(&plan, json.as_slice(), flags.tree.overwrite, &mut lock)?;
     output
         .remarks
         .extend(named(&plan, flags.tree.overwrite, "replaced"));

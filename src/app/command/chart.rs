@@ -7,13 +7,13 @@ use crate::app::error::Error;
 use crate::app::fault::RequestFault;
 use crate::app::names::unknown;
 use crate::app::request::{Materials, Request};
-use crate::app::write::{try_places_of_ours, write_report};
+use crate::app::write::{OutputFile, try_places_of_ours};
 use crate::chart::{ChartData, ChartView, ERRORS, chart_data, cost_names, set_name};
 use crate::reference::{MaterialClass, MaterialInMedium};
 use crate::report::Report;
 use crate::report::frontier::{chart_page, chart_svg, chart_text};
 
-use super::{Output, Progress, not_drawn, replaced, report, try_files};
+use super::{Output, Progress, not_drawn, report_beside, try_files};
 
 const PICTURE: &str = "chart.svg";
 const PAGE: &str = "chart.html";
@@ -34,7 +34,7 @@ pub fn run(flags: &ChartFlags, progress: Progress) -> Result<Output, Error> {
         ..Request::default()
     };
     let found = request.subjects()?;
-    let mut remarks = found.left_out_lines();
+    let remarks = found.left_out_lines();
     let subjects = found.materials();
     check_shown(flags, &subjects)?;
     let space = request.viewing.integration.space;
@@ -49,12 +49,13 @@ pub fn run(flags: &ChartFlags, progress: Progress) -> Result<Output, Error> {
     };
     let json = Report::new(command, view.point_rows());
     let drawn = match folder {
-        Some(folder) => written(folder, flags.pictures.overwrite, &view, [set, cost, error])?,
+        Some(folder) => drawn_files(folder, flags.pictures.overwrite, &view, [set, cost, error])?,
         None => Vec::new(),
     };
-    let mut output = report(chart_text(&view), &json, flags.report.json())?;
-    remarks.extend(drawn);
-    output.remarks = remarks;
+    let said = drawn_remarks(&drawn);
+    let mut output = report_beside(chart_text(&view), &json, flags.report.json(), drawn)?;
+    output.remarks.splice(0..0, remarks);
+    output.remarks.extend(said);
     Ok(output)
 }
 
@@ -76,16 +77,16 @@ pub(super) fn files(folder: Option<&Path>) -> Vec<PathBuf> {
     folder.into_iter().flat_map(each).collect()
 }
 
-/// Writes picture and page, both or neither, and says where.
+/// Picture and page, as files that are to be written.
 ///
 /// # Errors
-/// Nothing of the view is known, or a file cannot be written.
-pub(super) fn written(
+/// Nothing of the view is known.
+pub(super) fn drawn_files(
     folder: &Path,
     overwrite: bool,
     view: &ChartView,
     first: [usize; 3],
-) -> Result<Vec<String>, Error> {
+) -> Result<Vec<OutputFile>, Error> {
     let page = chart_page(view.data, first).map_err(not_drawn)?;
     let picture = chart_svg(view).ok_or_else(|| {
         not_drawn(format!(
@@ -93,14 +94,16 @@ pub(super) fn written(
             view.set.title, view.cost.name
         ))
     })?;
-    let files = files(Some(folder));
-    let texts = [picture.as_bytes(), page.as_bytes()];
-    let all: Vec<(PathBuf, &[u8])> = files.iter().cloned().zip(texts).collect();
-    let old = write_report(&all, overwrite)?;
+    let files = files(Some(folder)).into_iter().zip([picture, page]);
+    let file = |(path, text)| OutputFile::of_report(path, text, overwrite);
+    Ok(files.map(file).collect())
+}
+
+/// Where picture and page lie, and what they are.
+pub(super) fn drawn_remarks(files: &[OutputFile]) -> Vec<String> {
     let about = ["the picture of what is shown", "a page with all charts"];
-    let remark = |(file, about): (&PathBuf, &str)| format!("{}: {about}", file.display());
-    let written = files.iter().zip(about).map(remark);
-    Ok(replaced(&old).chain(written).collect())
+    let remark = |(file, about): (&OutputFile, &str)| format!("{}: {about}", file.path().display());
+    files.iter().zip(about).map(remark).collect()
 }
 
 /// The set that is shown unless another is asked for: the first class of which there are two, else the first material.

@@ -1,12 +1,13 @@
 //! `cost`: what compilers of real GPUs make of functions.
 
 use core::time::Duration;
+use std::path::PathBuf;
 
 use crate::app::args::{Choice, CostFlags, each_once};
 use crate::app::error::Error;
 use crate::app::fault::RequestFault;
 use crate::app::request::Request;
-use crate::app::write::{try_places_of_ours, write_report};
+use crate::app::write::{OutputFile, try_places_of_ours};
 use crate::cost::{
     CostFigures, CostRecord, CostRow, CostSource, CostedFunction, FAMILIES, ask_compilers,
     cost_rows, functions, functions_of_effect, records, serve,
@@ -19,7 +20,7 @@ use crate::report::Report;
 use crate::report::cost::{cost_page, cost_text};
 use crate::verify::machine;
 
-use super::{Output, Progress, check_limit, not_drawn, replaced, report, try_places};
+use super::{Output, Progress, check_limit, not_drawn, report_beside, try_places};
 
 /// The page in the folder asked for.
 const PAGE: &str = "cost.html";
@@ -62,10 +63,14 @@ pub fn run(flags: &CostFlags, progress: Progress) -> Result<Output, Error> {
     } else {
         (cost_text(&table), Checks::NONE)
     };
-    let paged = paged(flags, &table)?;
-    let mut output = report(text, &json, flags.report.json())?;
-    output.remarks.extend(left_out);
-    output.remarks.extend(paged);
+    let page = page.map(|page| paged(flags, &table, page)).transpose()?;
+    let said = page
+        .as_ref()
+        .map(|page| format!("{}: a page with all figures", page.path().display()));
+    let files = page.into_iter().collect();
+    let mut output = report_beside(text, &json, flags.report.json(), files)?;
+    output.remarks.splice(0..0, left_out);
+    output.remarks.extend(said);
     output.code = ending(flags, &table, &checked);
     Ok(output)
 }
@@ -250,13 +255,8 @@ fn unasked(rows: &[CostRow]) -> String {
         .unwrap_or_else(|| "its compiler is not here".to_owned())
 }
 
-fn paged(flags: &CostFlags, table: &[Vec<CostRow>]) -> Result<Vec<String>, Error> {
-    let Some(folder) = flags.pictures.folder() else {
-        return Ok(Vec::new());
-    };
+/// The page, as a file that is to be written.
+fn paged(flags: &CostFlags, table: &[Vec<CostRow>], file: PathBuf) -> Result<OutputFile, Error> {
     let page = cost_page(table, &String::from(flags.command_line())).map_err(not_drawn)?;
-    let file = folder.join(PAGE);
-    let old = write_report(&[(file.clone(), page.as_bytes())], flags.pictures.overwrite)?;
-    let said = format!("{}: a page with all figures", file.display());
-    Ok(replaced(&old).chain([said]).collect())
+    Ok(OutputFile::of_report(file, page, flags.pictures.overwrite))
 }

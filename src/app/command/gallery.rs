@@ -4,7 +4,7 @@ use crate::app::args::GalleryFlags;
 use crate::app::error::Error;
 use crate::app::fault::RequestFault;
 use crate::app::request::{Materials, Request};
-use crate::app::write::{try_places_of_ours, write_report};
+use crate::app::write::{OutputFile, try_places_of_ours, write_outputs};
 use crate::gallery::gallery;
 use crate::report::gallery::gallery_page;
 
@@ -29,7 +29,7 @@ pub fn run(flags: &GalleryFlags, progress: Progress) -> Result<Output, Error> {
     let gallery = gallery.map_err(|fault| not_drawn(fault.to_string()))?;
     let command: String = flags.command_line().into();
     let page = gallery_page(&gallery, &command).map_err(not_drawn)?;
-    let old = write_report(&[(file.clone(), page.as_bytes())], flags.overwrite)?;
+    let old = write_outputs(&[OutputFile::of_report(&file, page, flags.overwrite)])?;
     let (rows, methods, materials) = (
         gallery.rows.len(),
         gallery.methods.len(),

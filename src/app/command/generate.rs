@@ -15,7 +15,7 @@ use crate::app::plan_file::{material_paths, planned};
 use crate::app::request::{Materials, Request};
 use crate::app::tables::add_tables;
 use crate::app::tree::{TreePlan, plan};
-use crate::app::write::{try_file, write, write_file, write_files};
+use crate::app::write::{OutputFile, write, write_outputs};
 use crate::app::{check, depfile, folder};
 use crate::bake::as_tables_are_seen;
 use crate::budget::{Budget, BudgetRow, choose_within};
@@ -157,17 +157,13 @@ fn request(flags: &GenerateFlags) -> Result<Request, Error> {
 
 fn single(flags: &GenerateFlags, request: &Request, file: &Path) -> Result<Output, Error> {
     let bytes = generate_single(request)?;
-    let rule = rule(flags, &[file.display().to_string()])?;
-    let mut files: Vec<(PathBuf, &[u8])> = Vec::new();
-    if let (Some(depfile), Some(rule)) = (&flags.depfile, &rule) {
-        files.push((depfile.clone(), rule.as_bytes()));
-    }
+    let mut files = depfile(flags, &[file.display().to_string()])?;
     if file != Path::new("-") {
-        files.push((file.to_path_buf(), &bytes));
-        write_files(&files)?;
+        files.push(OutputFile::named(file, bytes));
+        write_outputs(&files)?;
         return Ok(Output::default());
     }
-    write_files(&files)?;
+    write_outputs(&files)?;
     Ok(Output {
         stdout: bytes,
         is_file: true,
@@ -247,12 +243,8 @@ fn written(
         .map(|artifact| out_dir.join(&artifact.path).display().to_string())
         .collect();
     refuse_within_tree(plan, flags.depfile.as_deref())?;
-    let rule = rule(flags, &outputs)?;
-    if let Some(file) = &flags.depfile {
-        try_file(file)?;
-    }
-    let counts = write(plan, flags.tree.overwrite, lock)?;
-    write_depfile(flags, rule)?;
+    let depfile = depfile(flags, &outputs)?;
+    let counts = write(plan, &depfile, flags.tree.overwrite, lock)?;
     let mut output = Output::default();
     for why in generated.left_out.iter().filter(|_| !flags.quiet) {
         output.remarks.push(format!("left out: {}", why.why));
@@ -305,12 +297,11 @@ fn first_steps<'g>(generated: &'g Generated, out_dir: &Path) -> Vec<String> {
     ]
 }
 
-/// The rule of the depfile, where one is asked for: made before anything is written, since it can be refused. Of these
-/// outputs, unless the build system knows one of another name.
-fn rule(flags: &GenerateFlags, outputs: &[String]) -> Result<Option<String>, Error> {
-    if flags.depfile.is_none() {
-        return Ok(None);
-    }
+/// The depfile, where one is asked for. Its rule is of these outputs, unless the build system knows one of another name.
+fn depfile(flags: &GenerateFlags, outputs: &[String]) -> Result<Vec<OutputFile>, Error> {
+    let Some(file) = &flags.depfile else {
+        return Ok(Vec::new());
+    };
     let named = flags.depfile_target.iter();
     let named: Vec<String> = named.map(|file| file.display().to_string()).collect();
     let outputs = if named.is_empty() { outputs } else { &named };
@@ -329,14 +320,8 @@ fn rule(flags: &GenerateFlags, outputs: &[String]) -> Result<Option<String>, Err
         let why = format!("--depfile-target {own} is a file that the run reads");
         return Err(RequestFault::conflict(why).into());
     }
-    depfile::depfile(outputs, &inputs).map(Some)
-}
-
-fn write_depfile(flags: &GenerateFlags, rule: Option<String>) -> Result<(), Error> {
-    if let (Some(file), Some(rule)) = (&flags.depfile, rule) {
-        write_file(file, rule.as_bytes())?;
-    }
-    Ok(())
+    let rule = depfile::depfile(outputs, &inputs)?;
+    Ok(vec![OutputFile::named(file, rule)])
 }
 
 /// The methods that the folder's material files of this precision hold, by its manifest.

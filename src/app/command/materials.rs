@@ -10,7 +10,7 @@ use crate::app::fault::RequestFault;
 use crate::app::loaded::{Loaded, load};
 use crate::app::names::unknown;
 use crate::app::request::check_transparent;
-use crate::app::write::write_file;
+use crate::app::write::{OutputFile, write_outputs};
 use crate::command_line::CommandLine;
 use crate::materials::{self, Extrapolate, Material, ViewingConditions};
 use crate::report::material_sheet::material_sheet;
@@ -18,7 +18,7 @@ use crate::report::table;
 use crate::report::{Report, SCHEMA};
 use crate::spectra::{FIRST_NM, LAST_NM};
 
-use super::{Output, Progress, coated, import, not_drawn, params, png, report, survey};
+use super::{Output, Progress, coated, import, not_drawn, params, png, report, reported, survey};
 
 /// `fresnel-gen materials`.
 pub fn run(flags: &MaterialsFlags, progress: Progress) -> Result<Output, Error> {
@@ -154,21 +154,29 @@ struct MaterialRecord<'a> {
 fn shown(flags: &ShowFlags, json: Option<&Path>) -> Result<Output, Error> {
     check_places(flags, json)?;
     let loaded = load(&flags.of.name.source()?)?;
-    let mut output = report(
-        text(&loaded.material),
-        &material_record(&loaded.material),
-        json,
-    )?;
-    drawn(flags, &loaded, &mut output)?;
+    let record = material_record(&loaded.material);
+    let (mut output, own) = reported(text(&loaded.material), &record, json);
+    let mut files: Vec<OutputFile> = own.into_iter().collect();
+    for (file, bytes) in drawn(flags, &loaded)? {
+        // What goes to stdout goes there in place of the text.
+        if file == Path::new("-") {
+            output.stdout = bytes;
+            output.is_file = true;
+        } else {
+            output.remarks.push(format!("{}: drawn", file.display()));
+            files.push(OutputFile::named(file, bytes));
+        }
+    }
+    write_outputs(&files)?;
     Ok(output)
 }
 
-/// Draws the material where that was asked for.
-fn drawn(flags: &ShowFlags, loaded: &Loaded, output: &mut Output) -> Result<(), Error> {
+/// The material drawn, where that was asked for: each picture with its place.
+fn drawn<'a>(flags: &'a ShowFlags, loaded: &Loaded) -> Result<Vec<(&'a Path, Vec<u8>)>, Error> {
     let medium = medium(&flags.of.medium)?;
     let viewing = flags.of.viewing.conditions()?;
     if flags.svg.is_none() && flags.png.is_none() {
-        return Ok(());
+        return Ok(Vec::new());
     }
     let around = medium.as_ref().map(|medium| &medium.material);
     let svg = material_sheet(
@@ -184,24 +192,10 @@ fn drawn(flags: &ShowFlags, loaded: &Loaded, output: &mut Output) -> Result<(), 
         .map(|_| png(&svg, PNG_SCALE))
         .transpose()?;
     let pictures = [(&flags.svg, Some(svg.into_bytes())), (&flags.png, bytes)];
-    for (file, bytes) in pictures {
-        if let (Some(file), Some(bytes)) = (file, bytes) {
-            put(file, bytes, output)?;
-        }
-    }
-    Ok(())
-}
-
-/// Into a file, or to stdout in place of the text.
-fn put(file: &Path, bytes: Vec<u8>, output: &mut Output) -> Result<(), Error> {
-    if file == Path::new("-") {
-        output.stdout = bytes;
-        output.is_file = true;
-    } else {
-        write_file(file, &bytes)?;
-        output.remarks.push(format!("{}: drawn", file.display()));
-    }
-    Ok(())
+    let placed = pictures
+        .into_iter()
+        .filter_map(|(file, bytes)| Some((file.as_deref()?, bytes?)));
+    Ok(placed.collect())
 }
 
 /// What goes to stdout goes there alone, and two pictures want two files.

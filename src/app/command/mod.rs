@@ -46,7 +46,7 @@ use super::folder::{is_below, is_plain_file, is_same_file, read, resolved};
 use super::lock::Announce;
 use super::manifest::{self, Manifest};
 use super::tree::TreePlan;
-use super::write::{try_file, write_file};
+use super::write::{OutputFile, try_file, write_outputs};
 use crate::materials::escaped;
 
 /// What a run leaves: text or a file for stdout, remarks for stderr, the exit code.
@@ -287,24 +287,43 @@ fn try_files(files: &[&Path]) -> Result<(), Error> {
 
 /// A report as text, or as JSON where that was asked for. JSON on stdout stands there alone.
 fn report<T: Serialize>(text: String, json: &T, file: Option<&Path>) -> Result<Output, Error> {
+    report_beside(text, json, file, Vec::new())
+}
+
+/// A report, and the other files of its run: all are written, or none. Files that a report's folder had before are named.
+fn report_beside<T: Serialize>(
+    text: String,
+    json: &T,
+    file: Option<&Path>,
+    mut files: Vec<OutputFile>,
+) -> Result<Output, Error> {
+    let (output, own) = reported(text, json, file);
+    files.extend(own);
+    let old = write_outputs(&files)?;
+    Ok(Output {
+        remarks: replaced(&old).collect(),
+        ..output
+    })
+}
+
+/// What a report prints, and its file where it has one.
+fn reported<T: Serialize>(
+    text: String,
+    json: &T,
+    file: Option<&Path>,
+) -> (Output, Option<OutputFile>) {
+    let output = |stdout: String, is_file| Output {
+        stdout: stdout.into_bytes(),
+        is_file,
+        ..Output::default()
+    };
     let Some(file) = file else {
-        return Ok(Output {
-            stdout: text.into_bytes(),
-            ..Output::default()
-        });
+        return (output(text, false), None);
     };
     let json = serde_json::to_string_pretty(json).expect("a report has only text keys") + "\n";
     let json = escaped(&json);
     if file == Path::new("-") {
-        return Ok(Output {
-            stdout: json.into_bytes(),
-            is_file: true,
-            ..Output::default()
-        });
+        return (output(json, true), None);
     }
-    write_file(file, json.as_bytes())?;
-    Ok(Output {
-        stdout: text.into_bytes(),
-        ..Output::default()
-    })
+    (output(text, false), Some(OutputFile::named(file, json)))
 }

@@ -9,7 +9,7 @@ use crate::app::error::Error;
 use crate::app::fault::RequestFault;
 use crate::app::folder::is_device;
 use crate::app::loaded::{Loaded, load};
-use crate::app::write::{try_places_of_ours, write_file, write_report};
+use crate::app::write::{OutputFile, try_places_of_ours, write_outputs};
 use crate::command_line::CommandLine;
 use crate::exchange::{EngineMaterial, Format};
 use crate::fit::{MaterialParams, material_params};
@@ -109,9 +109,9 @@ fn put(
             output.stdout = bytes;
             output.is_file = true;
         }
-        Some((device, true)) => drop(write_file(device, &bytes)?),
+        Some((device, true)) => drop(write_outputs(&[OutputFile::named(device, bytes)])?),
         Some((file, false)) => {
-            let old = write_report(&[(file.clone(), &bytes)], overwrite)?;
+            let old = write_outputs(&[OutputFile::of_report(file, bytes, overwrite)])?;
             output.remarks.extend(replaced(&old));
         }
     }

@@ -1,12 +1,12 @@
 //! `plan`: of each material of a scene the cheapest function whose error nobody sees.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use crate::app::args::{Choice, PlanFlags};
 use crate::app::error::Error;
 use crate::app::fault::RequestFault;
 use crate::app::plan_input::{PlanInput, plan_input};
-use crate::app::write::{try_places_of_ours, write_report};
+use crate::app::write::{OutputFile, try_places_of_ours};
 use crate::cost::{self, Family, GpuCompiler};
 use crate::materials::ViewingConditions;
 use crate::methods;
@@ -19,7 +19,7 @@ use crate::plan::{ProofCase, prove};
 use crate::report::plan::{PlanReport, plan_page};
 use crate::scene::Display;
 
-use super::{Output, Progress, not_drawn, refuse_read, replaced, report, try_places};
+use super::{Output, Progress, not_drawn, refuse_read, report_beside, try_places};
 
 /// Whose costs decide where none is named.
 const USUAL_GPU: &str = "rdna2";
@@ -70,35 +70,37 @@ pub fn run(flags: &PlanFlags, progress: Progress) -> Result<Output, Error> {
         let (device, proofs) = proofs(&request, &judged, &mut *frame, progress)?;
         made = made.with_proofs(device, proofs);
     }
-    let paged = match &page {
-        Some(page) => paged(flags, &request, &judged, &made, &mut *frame, page)?,
-        None => Vec::new(),
-    };
-    let mut output = report(made.text(), &made, flags.report.json())?;
-    output.remarks = paged;
+    let page = page.map(|page| paged(flags, &request, &judged, &made, &mut *frame, page));
+    let page = page.transpose()?;
+    let said = page.as_ref().map(|page| {
+        format!(
+            "{}: angles, errors, pictures and reasons",
+            page.path().display()
+        )
+    });
+    let files = page.into_iter().collect();
+    let mut output = report_beside(made.text(), &made, flags.report.json(), files)?;
+    output.remarks.extend(said);
     output.code = code.max(made.proof_code());
     Ok(output)
 }
 
-/// Writes the page, with pictures of the frames where functions are worst.
+/// The page, as a file that is to be written, with pictures of the frames where functions are worst.
 fn paged(
     flags: &PlanFlags,
     request: &PlanRequest,
     judged: &[JudgedMaterial],
     made: &PlanReport,
     frame: &mut dyn FnMut(usize) -> Result<FramePixels, Error>,
-    page: &Path,
-) -> Result<Vec<String>, Error> {
+    page: PathBuf,
+) -> Result<OutputFile, Error> {
     let mut views = Vec::new();
     for (i, material) in judged.iter().enumerate() {
         let pixels = frame(material.chosen().worst_frame)?;
         views.push(material_view(request, material, i, &pixels));
     }
     let text = plan_page(made, &views).map_err(not_drawn)?;
-    let files = [(page.to_path_buf(), text.as_bytes())];
-    let old = write_report(&files, flags.pictures.overwrite)?;
-    let said = format!("{}: angles, errors, pictures and reasons", page.display());
-    Ok(replaced(&old).chain([said]).collect())
+    Ok(OutputFile::of_report(page, text, flags.pictures.overwrite))
 }
 
 /// Runs the chosen functions in the frames where each is worst.

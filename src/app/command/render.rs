@@ -8,14 +8,14 @@ use crate::app::fault::RequestFault;
 use crate::app::loaded::load;
 use crate::app::request::Source;
 use crate::app::source;
-use crate::app::write::{try_places_of_ours, write_file};
+use crate::app::write::{OutputFile, try_places_of_ours};
 use crate::gpu::{Device, Wanted};
 use crate::materials::{Material, MaterialKind, Surface, ViewingConditions};
 use crate::report::Report;
 use crate::report::render::{panels_exr, panels_png, render_text};
 use crate::scene::{self, Display, Environment, Glass, Order};
 
-use super::{Output, Progress, not_drawn, report, try_files};
+use super::{Output, Progress, not_drawn, report_beside, try_files};
 
 /// Pixels a side that a run may ask for, and stops.
 const SIZES: std::ops::RangeInclusive<u32> = 16..=2048;
@@ -57,11 +57,11 @@ pub fn run(flags: &RenderFlags, progress: Progress) -> Result<Output, Error> {
         true => panels_exr(&picture),
         false => panels_png(&picture, &display, &command),
     };
-    write_file(&file, &bytes.map_err(not_drawn)?)?;
+    let drawn = vec![OutputFile::named(&file, bytes.map_err(not_drawn)?)];
     let adapter = device.adapter.to_string();
     let text = render_text(&picture.row, &adapter);
     let json = Report::new(command, vec![picture.row]).with_device(Some(adapter));
-    let mut output = report(text, &json, flags.report.json())?;
+    let mut output = report_beside(text, &json, flags.report.json(), drawn)?;
     output
         .remarks
         .push(format!("{}: drawn, truth, error", file.display()));

@@ -1,15 +1,13 @@
 //! `reproduce`: the thesis beside ours.
 
-use std::path::PathBuf;
-
 use crate::app::args::ReproduceFlags;
 use crate::app::error::Error;
-use crate::app::write::write_report;
+use crate::app::write::OutputFile;
 use crate::report::Report;
 use crate::report::reproduce::{figure_chart, reproduction_text};
 use crate::reproduce::{ComparisonRow, Part, Reproduction, reproduce, thesis};
 
-use super::{Output, Progress, replaced, report};
+use super::{Output, Progress, report_beside};
 
 /// Reproduces.
 pub fn run(flags: &ReproduceFlags, progress: Progress) -> Result<Output, Error> {
@@ -18,14 +16,17 @@ pub fn run(flags: &ReproduceFlags, progress: Progress) -> Result<Output, Error> 
         .as_ref()
         .map_or(Part::ALL.as_slice(), std::slice::from_ref);
     let reproduced = reproduce(parts, thesis::ANGLES, progress);
-    let drawn = draw(flags, &reproduced)?;
-    let mut output = report(
+    let drawn = figures(flags, &reproduced);
+    let (count, folder) = (drawn.len(), flags.figures.out_dir.display());
+    let said = (count > 0).then(|| format!("{folder}: {count} figures"));
+    let mut output = report_beside(
         reproduction_text(&reproduced),
         &json(&reproduced, flags.table),
         flags.report.json(),
+        drawn,
     )?;
     output.code = u8::from(reproduced.has_findings());
-    output.remarks.extend(drawn);
+    output.remarks.extend(said);
     Ok(output)
 }
 
@@ -36,17 +37,12 @@ fn json(reproduced: &Reproduction, part: Option<Part>) -> Report<ComparisonRow> 
     Report::new(command, reproduced.comparisons().cloned().collect())
 }
 
-/// Draws the figures, and says where.
-fn draw(flags: &ReproduceFlags, reproduced: &Reproduction) -> Result<Vec<String>, Error> {
-    let folder = &flags.figures.out_dir;
-    let pictures: Vec<(PathBuf, String)> = (reproduced.figures.iter())
-        .map(|figure| (folder.join(figure.file), figure_chart(figure).svg()))
-        .collect();
-    let files: Vec<(PathBuf, &[u8])> = (pictures.iter())
-        .map(|(path, text)| (path.clone(), text.as_bytes()))
-        .collect();
-    let old = write_report(&files, flags.figures.overwrite)?;
-    let count = files.len();
-    let said = (count > 0).then(|| format!("{}: {count} figures", folder.display()));
-    Ok(replaced(&old).chain(said).collect())
+/// The figures, as files that are to be written.
+fn figures(flags: &ReproduceFlags, reproduced: &Reproduction) -> Vec<OutputFile> {
+    let (folder, overwrite) = (&flags.figures.out_dir, flags.figures.overwrite);
+    let figures = reproduced.figures.iter().map(|figure| {
+        let picture = figure_chart(figure).svg();
+        OutputFile::of_report(folder.join(figure.file), picture, overwrite)
+    });
+    figures.collect()
 }

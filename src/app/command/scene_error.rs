@@ -1,6 +1,6 @@
 //! `scene-error`: the error of methods in pictures of an object.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use glam::DVec3;
 
@@ -9,7 +9,7 @@ use crate::app::error::Error;
 use crate::app::fault::RequestFault;
 use crate::app::request::{Materials, Request};
 use crate::app::source;
-use crate::app::write::{try_places_of_ours, write_report};
+use crate::app::write::{OutputFile, try_places_of_ours};
 use crate::emit::MARK;
 use crate::fit::values_for_material;
 use crate::ir::Checked;
@@ -24,7 +24,7 @@ use crate::reference::MaterialInMedium;
 use crate::report::Report;
 use crate::report::scene_error::{painted_exr, painted_png, scene_error_text};
 
-use super::{Output, Progress, not_drawn, replaced, report, try_places};
+use super::{Output, Progress, not_drawn, report_beside, try_places};
 
 /// The longest side of a mesh's box, in metres.
 const EXTENT: f64 = 1.0;
@@ -66,13 +66,15 @@ pub fn run(flags: &SceneErrorFlags, progress: Progress) -> Result<Output, Error>
     let rows = rows(flags, &viewing, &shown, &pairs, progress);
     let command: String = flags.command_line(&viewing).into();
     let drawn = match flags.pictures.folder() {
-        Some(folder) => pictures(flags, &viewing, &draw(&mesh, &cameras[0]), &pairs, folder)?,
+        Some(_) => pictures(flags, &viewing, &draw(&mesh, &cameras[0]), &pairs)?,
         None => Vec::new(),
     };
-    let text = scene_error_text(&rows);
-    let mut output = report(text, &Report::new(command, rows), flags.report.json())?;
-    output.remarks = left_out;
-    output.remarks.extend(drawn);
+    let folder = flags.pictures.folder();
+    let said = folder.map(|folder| format!("{}: {} pictures", folder.display(), drawn.len()));
+    let (text, json) = (scene_error_text(&rows), Report::new(command, rows));
+    let mut output = report_beside(text, &json, flags.report.json(), drawn)?;
+    output.remarks.splice(0..0, left_out);
+    output.remarks.extend(said);
     Ok(output)
 }
 
@@ -228,14 +230,13 @@ fn places(flags: &SceneErrorFlags, pairs: &[Pair]) -> Vec<PathBuf> {
     places
 }
 
-/// Draws the first frame into the folder, and says so.
+/// Draws the first frame.
 fn pictures(
     flags: &SceneErrorFlags,
     viewing: &ViewingConditions,
     frame: &Frame,
     pairs: &[Pair],
-    folder: &Path,
-) -> Result<Vec<String>, Error> {
+) -> Result<Vec<OutputFile>, Error> {
     let command: String = flags.command_line(viewing).into();
     let about: String = format!("{MARK}: {command}")
         .chars()
@@ -257,12 +258,8 @@ fn pictures(
     }
     let made = made.into_iter().collect::<Result<Vec<_>, String>>();
     let made = made.map_err(not_drawn)?;
-    let places = places(flags, pairs);
-    let files: Vec<(PathBuf, &[u8])> = places
-        .into_iter()
-        .zip(made.iter().map(Vec::as_slice))
-        .collect();
-    let old = write_report(&files, flags.pictures.overwrite)?;
-    let said = format!("{}: {} pictures", folder.display(), files.len());
-    Ok(replaced(&old).chain([said]).collect())
+    let places = places(flags, pairs).into_iter().zip(made);
+    let overwrite = flags.pictures.overwrite;
+    let file = |(path, bytes)| OutputFile::of_report(path, bytes, overwrite);
+    Ok(places.map(file).collect())
 }

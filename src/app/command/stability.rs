@@ -1,19 +1,19 @@
 //! `stability`: where methods fail.
 
-use std::path::PathBuf;
+use std::path::Path;
 
 use crate::app::args::{Choice, StabilityFlags};
 use crate::app::error::Error;
 use crate::app::fault::RequestFault;
 use crate::app::request::Request;
-use crate::app::write::{try_places_of_ours, write_report};
+use crate::app::write::{OutputFile, try_places_of_ours};
 use crate::methods::{self, Method};
 use crate::num::Precision;
 use crate::report::Report;
 use crate::report::stability::{heat_map, stability_page, stability_text};
 use crate::stability::{StabilityRow, Study, maps};
 
-use super::{Output, Progress, not_drawn, png, replaced, report, try_places};
+use super::{Output, Progress, not_drawn, png, report_beside, try_places};
 
 /// Pixels of a map to a unit of its drawing.
 const SCALE: f32 = 1.0;
@@ -51,10 +51,13 @@ pub fn run(flags: &StabilityFlags, progress: Progress) -> Result<Output, Error> 
         .into());
     }
     let json = Report::new(flags.command_line(), rows.clone());
-    let drawn = asked.drawn(&rows, progress)?;
-    let mut output = report(stability_text(&rows), &json, flags.report.json())?;
-    output.remarks.extend(left_out);
-    output.remarks.extend(drawn);
+    let (drawn, said) = match flags.pictures.folder() {
+        Some(folder) => asked.drawn(&rows, folder, progress)?,
+        None => (Vec::new(), None),
+    };
+    let mut output = report_beside(stability_text(&rows), &json, flags.report.json(), drawn)?;
+    output.remarks.splice(0..0, left_out);
+    output.remarks.extend(said);
     Ok(output)
 }
 
@@ -98,11 +101,13 @@ impl Asked<'_> {
         Ok(self.study.specialised_rows(&subjects, progress)?)
     }
 
-    /// Draws the maps and the page into the folder asked for.
-    fn drawn(&self, rows: &[StabilityRow], progress: Progress) -> Result<Vec<String>, Error> {
-        let Some(folder) = self.flags.pictures.folder() else {
-            return Ok(Vec::new());
-        };
+    /// The maps and the page, as files that are to be written, and what is said of them.
+    fn drawn(
+        &self,
+        rows: &[StabilityRow],
+        folder: &Path,
+        progress: Progress,
+    ) -> Result<(Vec<OutputFile>, Option<String>), Error> {
         let failed = not_drawn;
         let mut pictures = Vec::new();
         for (i, method) in self.study.methods.iter().enumerate() {
@@ -116,18 +121,17 @@ impl Asked<'_> {
             .map_err(failed)?;
         let suffix = self.study.precision.suffix();
         let path = |method: &str, over: &str| folder.join(format!("{method}_{over}{suffix}.png"));
-        let mut files: Vec<(PathBuf, &[u8])> = pictures
-            .iter()
-            .map(|(method, over, bytes)| (path(method, over), bytes.as_slice()))
-            .collect();
         let index = index(self.study.precision);
-        files.push((folder.join(&index), page.as_bytes()));
-        let old = write_report(&files, self.flags.pictures.overwrite)?;
         let said = format!(
             "{}: {} maps, and {index} that shows them",
             folder.display(),
             pictures.len()
         );
-        Ok(replaced(&old).chain([said]).collect())
+        let overwrite = self.flags.pictures.overwrite;
+        let map =
+            |(method, over, bytes)| OutputFile::of_report(path(method, over), bytes, overwrite);
+        let maps = pictures.into_iter().map(map);
+        let page = OutputFile::of_report(folder.join(&index), page, overwrite);
+        Ok((maps.chain([page]).collect(), Some(said)))
     }
 }

@@ -11,7 +11,7 @@ use crate::app::fault::RequestFault;
 use crate::app::request::Request;
 use crate::app::shard::{VARIABLES, shard_of};
 use crate::app::verify::plan_of_request;
-use crate::app::write::write_file;
+use crate::app::write::OutputFile;
 use crate::gpu::Wanted;
 use crate::process::{Inbox, Pool};
 use crate::report::Report;
@@ -26,7 +26,7 @@ use crate::verify::{
     MachineStatement, Status, VerifyRow, exhaustive_rows, machine, serve, supervise,
 };
 
-use super::{Output, Progress, check_limit, not_drawn, refuse_place_of, report, try_places};
+use super::{Output, Progress, check_limit, not_drawn, refuse_place_of, report_beside, try_places};
 
 /// Cosines that a run may ask for.
 const POINTS: std::ops::RangeInclusive<usize> = 100..=10_000_000;
@@ -194,11 +194,14 @@ fn told<T: Serialize>(
     full: &T,
     files: &CheckReportFlags,
 ) -> Result<Output, Error> {
+    let mut junit = Vec::new();
     if let Some(file) = &files.junit {
-        let xml = verify_junit(rows).map_err(not_drawn)?;
-        write_file(file, xml.as_bytes())?;
+        junit.push(OutputFile::named(
+            file,
+            verify_junit(rows).map_err(not_drawn)?,
+        ));
     }
-    let mut output = report(verify_text(rows), full, files.report.json())?;
+    let mut output = report_beside(verify_text(rows), full, files.report.json(), junit)?;
     let is_github = machine::is_github();
     output.remarks.extend(verify_remarks(rows, is_github));
     Ok(output)

@@ -4,6 +4,8 @@ use std::fs;
 use std::os::unix::fs::PermissionsExt;
 use std::process::Command;
 
+use fresnel_gen::app::{folder, lock};
+
 use crate::not_checked;
 
 use super::{OUT, PROGRAM, Place, Ran, contents};
@@ -61,8 +63,7 @@ fn a_disk_that_fills_up_leaves_the_old_tree() {
     place.done("--target gles");
     let before = place.files();
     // The manifest is larger than 128 blocks, the other files are not: all is staged before the fault.
-    let script =
-        format!("trap '' XFSZ; ulimit -f 128; exec '{PROGRAM}' --target gles,wgsl --prefix other_");
+    let script = format!("ulimit -f 128; exec '{PROGRAM}' --target gles,wgsl --prefix other_");
     let run = Command::new("sh")
         .args(["-c", &script])
         .current_dir(place.path(""))
@@ -76,6 +77,203 @@ fn a_disk_that_fills_up_leaves_the_old_tree() {
     assert!(ran.err.contains("no file was changed"), "{ran:?}");
     assert!(before == place.files(), "{ran:?} changed files");
     assert!(!place.path("shaders-generated/wgsl").exists());
+}
+
+/// The limit's signal says nothing, and would end the program: the write fails instead.
+#[test]
+fn a_limit_on_the_size_of_files_is_an_error() {
+    let place = Place::new();
+    place.put("o/old.txt", "old\n");
+    place.put("s.wgsl", "old\n");
+    for line in [
+        "--method schlick,fitted --material gold --target wgsl -o s.wgsl --depfile new/s.d",
+        "chart --material gold,platinum --out-dir o --json o/chart.json",
+        "scene-error sphere --frames 1 --size 64x64 --material gold --method schlick --out-dir o --json s.json",
+        "bake --material gold --out-dir o",
+        "methods --json new/m.json",
+        "materials show gold --svg gold.svg --png gold.png",
+    ] {
+        let before = place.files();
+        let script = format!("ulimit -f 1; exec '{PROGRAM}' {line}");
+        let run = Command::new("sh")
+            .args(["-c", &script])
+            .current_dir(place.path(""))
+            .output();
+        let ran = Ran::new(script, run.unwrap()).ends(2);
+        assert!(ran.err.contains("File too large"), "{ran:?}");
+        assert!(ran.err.contains("no file was changed"), "{ran:?}");
+        assert!(before == place.files(), "{ran:?} changed files");
+        assert!(!place.path("new").exists());
+    }
+}
+
+/// A run has several outputs, and the last of them cannot be written: none of the others is changed.
+#[test]
+fn all_outputs_are_written_or_none() {
+    let place = Place::new();
+    place.put(
+        "f.glsl",
+        "vec3 f(float c, vec3 f0) { return f0 + (1.0 - f0) * pow(1.0 - c, 5.0); }\n",
+    );
+    let mut lines = vec![
+        ("chart --material gold,platinum --out-dir o", "--json"),
+        (
+            "scene-error sphere --frames 1 --size 64x64 --material gold --method schlick --out-dir o",
+            "--json",
+        ),
+        ("stability --method schlick --out-dir o", "--json"),
+        ("reproduce figures --out-dir o", "--json"),
+        ("bake --material gold --size 16 --out-dir o", "--json"),
+        ("--target gles --method schlick --out-dir o", "--depfile"),
+        ("--target gles --method schlick -o s.glsl", "--depfile"),
+        ("materials show gold --svg gold.svg", "--json"),
+    ];
+    if cfg!(feature = "gpu") {
+        lines.push((
+            "cost --method schlick --material none --gpu gcn4 --out-dir o",
+            "--json",
+        ));
+    }
+    for (line, flag) in lines {
+        place.refused(
+            &format!("{line} {flag} /dev/full"),
+            &[
+                "cannot write /dev/full: No space left",
+                "no file was changed",
+            ],
+        );
+        assert!(!place.path("o").exists(), "{line}");
+    }
+}
+
+/// On a disk that is full after the first of a run's files.
+#[test]
+fn a_full_disk_changes_none_of_several_outputs() {
+    let place = Place::new();
+    let draw = |size| {
+        format!(
+            "scene-error sphere --frames 1 --size {size} --material gold --method schlick --out-dir o --json o/j.json"
+        )
+    };
+    let script = format!(
+        "mkdir o && mount -t tmpfs -o size=56k tmpfs o || exit 77
+        '{PROGRAM}' {} || exit 78
+        sha256sum o/* > before; '{PROGRAM}' {}; code=$?
+        ls -A o > there; sha256sum -c before >&2 || exit 79
+        exit $code",
+        draw("48x48"),
+        draw("96x96")
+    );
+    let run = Command::new("unshare")
+        .args(["--mount", "sh", "-c", &script])
+        .current_dir(place.path(""))
+        .output();
+    match run.map(|output| Ran::new(script, output)) {
+        Ok(ran) if ran.code != Some(77) && !ran.err.contains("unshare:") => {
+            let ran = ran.ends(2);
+            assert!(ran.err.contains("No space left"), "{ran:?}");
+            assert!(ran.err.contains("no file was changed"), "{ran:?}");
+            assert!(!place.read("there").contains(".tmp"), "{ran:?}");
+        }
+        other => not_checked(&format!("a full disk: none can be mounted ({other:?})")),
+    }
+}
+
+/// A file system without locks: NFS without its daemon, some of those that clouds mount.
+#[cfg(target_os = "linux")]
+#[test]
+fn without_locks_nothing_is_left_behind() {
+    let place = Place::new();
+    place.put(
+        "lib/no_locks.c",
+        "#include <errno.h>\nint flock(int f, int how) { errno = ENOLCK; return -1; }\n",
+    );
+    let built = Command::new("cc")
+        .args([
+            "-shared",
+            "-fPIC",
+            "-o",
+            "lib/no_locks.so",
+            "lib/no_locks.c",
+        ])
+        .current_dir(place.path(""))
+        .status();
+    if !built.is_ok_and(|status| status.success()) {
+        return not_checked("a file system without locks: there is no C compiler");
+    }
+    fs::create_dir(place.path("o")).unwrap();
+    for line in [
+        "--method schlick --target wgsl -o o/s.wgsl --depfile o/s.d",
+        "methods --json o/m.json",
+        "chart --material gold,platinum --out-dir o --json o/c.json",
+        "--target wgsl --method schlick --material none --out-dir o/tree --depfile o/t.d",
+    ] {
+        let words: Vec<&str> = line.split(' ').collect();
+        let mut command = place.command(&words);
+        command.env("LD_PRELOAD", place.path("lib/no_locks.so"));
+        let ran = Ran::new(line.to_owned(), command.output().unwrap()).ends(0);
+        let is_told = ran.err.contains("the file system has no locks");
+        assert_eq!(is_told, line.contains("tree"), "{ran:?}");
+    }
+    let files = contents(&place.path("o"));
+    let names: Vec<&str> = files.keys().map(String::as_str).collect();
+    assert_eq!(
+        names,
+        [
+            "c.json",
+            "chart.html",
+            "chart.svg",
+            "m.json",
+            "s.d",
+            "s.wgsl",
+            "t.d",
+            "tree/manifest.json",
+            "tree/wgsl/fresnel_schlick.wgsl"
+        ]
+    );
+}
+
+/// In a folder that users share lie files of others which nobody else may read: a leftover beside an output, a lock in a folder.
+#[test]
+fn an_unreadable_file_of_another_user_holds_nobody_up() {
+    let place = Place::new();
+    let left = folder::temporary_of(&place.path("a.wgsl"));
+    let lock = format!("out/{}", lock::FILE);
+    for file in [left.as_str(), lock.as_str()] {
+        place.put(file, "");
+        fs::set_permissions(place.path(file), fs::Permissions::from_mode(0o000)).unwrap();
+    }
+    for folder in ["", "out"] {
+        fs::set_permissions(place.path(folder), fs::Permissions::from_mode(0o777)).unwrap();
+    }
+    // Root may read all; another user stands in for it.
+    let is_root = fs::read(place.path(&left)).is_ok();
+    for (line, says) in [
+        ("--method schlick -o a.wgsl", ""),
+        (
+            "--target wgsl --method schlick --material none --out-dir out",
+            ".fresnel-gen.lock cannot be opened (Permission denied",
+        ),
+    ] {
+        let script = match is_root {
+            true => format!(
+                "setpriv --reuid=65534 --regid=65534 --clear-groups timeout 60 '{PROGRAM}' {line}"
+            ),
+            false => format!("timeout 60 '{PROGRAM}' {line}"),
+        };
+        let run = Command::new("sh")
+            .args(["-c", &script])
+            .current_dir(place.path(""))
+            .output();
+        let ran = Ran::new(script, run.unwrap());
+        if is_root && matches!(ran.code, Some(126 | 127)) {
+            return not_checked(&format!("files of another user: {}", ran.err));
+        }
+        let ran = ran.ends(0);
+        assert!(ran.err.contains(says), "{ran:?}");
+    }
+    assert!(place.path(&left).exists() && place.path(&lock).exists());
+    assert!(place.read("a.wgsl").contains("fn fresnel_schlick("));
 }
 
 #[test]

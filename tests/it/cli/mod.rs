@@ -15,6 +15,7 @@ mod effects;
 mod exchange;
 mod files;
 mod fit;
+mod forged;
 mod generation;
 mod half;
 mod help;
@@ -33,6 +34,8 @@ mod stability;
 mod streams;
 #[cfg(feature = "gpu")]
 mod time;
+
+pub use pipelines::path_with_program;
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -83,6 +86,11 @@ impl Place {
     #[track_caller]
     pub fn read(&self, name: &str) -> String {
         fs::read_to_string(self.path(name)).unwrap_or_else(|fault| panic!("{name}: {fault}"))
+    }
+
+    #[track_caller]
+    pub fn read_bytes(&self, name: &str) -> Vec<u8> {
+        fs::read(self.path(name)).unwrap_or_else(|fault| panic!("{name}: {fault}"))
     }
 
     /// Every file with its bytes and its time of change.

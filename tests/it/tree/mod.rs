@@ -38,7 +38,7 @@ pub fn whole(out: &Path) -> TreePlan {
 
 /// Writes as a run does that replaces nothing of others.
 pub fn write(plan: &TreePlan) -> Result<Written, Error> {
-    write::write(plan, false, &mut Lock::take(&plan.out_dir, &|_| ()))
+    write::write(plan, &[], false, &mut Lock::take(&plan.out_dir, &|_| ()))
 }
 
 /// `--material silver`: no library, no catalogue.

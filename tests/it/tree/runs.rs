@@ -192,7 +192,7 @@ fn a_file_of_others_stops_the_run() {
     );
     assert!(write(&whole(out)).is_err());
     let mut lock = Lock::take(out, &|_| ());
-    writer::write(&whole(out), true, &mut lock).unwrap();
+    writer::write(&whole(out), &[], true, &mut lock).unwrap();
     assert_eq!(report(&whole(out)), (String::new(), false));
 }
 

@@ -1,4 +1,5 @@
-//! The job files in `docs/examples`: their YAML and their shell parse, and their commands are those that the program takes.
+//! The job files in `docs/examples`: their YAML and their shell parse, and their commands are those that the program takes. The steps
+//! of GitHub's are run, with fewer materials.
 
 use std::fs;
 use std::path::PathBuf;
@@ -8,6 +9,7 @@ use clap::Parser;
 use fresnel_gen::app::args::{Cli, Command as Subcommand};
 use serde_json::Value;
 
+use crate::cli::{Place, Ran, path_with_program};
 use crate::not_checked;
 
 fn path(name: &str) -> PathBuf {
@@ -147,4 +149,115 @@ fn their_shell_parses() {
         let said = String::from_utf8_lossy(&output.stderr);
         assert!(output.status.success(), "{script}\n{said}");
     }
+}
+
+const GITHUB: &str = "examples/github-actions.yaml";
+
+/// The script of the step of this name in a job of GitHub's.
+fn step(job: &str, name: &str) -> String {
+    let [actions] = documents(GITHUB).try_into().unwrap();
+    let steps = actions["jobs"][job]["steps"].as_array().unwrap().clone();
+    let found = steps.into_iter().find(|step| step["name"] == name);
+    let found = found.unwrap_or_else(|| panic!("{job} has no step `{name}`"));
+    found["run"].as_str().unwrap().to_owned()
+}
+
+/// What a machine needs, by the documentation, is what the example installs.
+#[test]
+fn github_installs_what_the_documentation_names() {
+    let page = text("verification.md");
+    let installs = |text: &str| {
+        let line = text
+            .lines()
+            .find_map(|line| Some(line.split_once("apt-get install ")?.1.to_owned()));
+        let line = line.expect("a line that installs packages");
+        let words = line
+            .split_whitespace()
+            .filter(|word| !word.starts_with('-'));
+        let mut words: Vec<String> = words.map(str::to_owned).collect();
+        words.sort();
+        words
+    };
+    assert_eq!(
+        installs(&step("shard", "Install the drivers and compilers")),
+        installs(&page)
+    );
+    assert!(step("shard", "Install DXC").contains("tests/fetch-dxc"));
+    assert!(page.contains("bash tests/fetch-dxc "), "{page}");
+}
+
+/// The steps in their order, with the program of these tests in the place of one that is installed, and with one material.
+#[cfg(unix)]
+#[test]
+fn the_steps_of_github_run() {
+    let place = Place::new();
+    let tools = place.path("home/.cargo/bin/tools");
+    let root = PathBuf::from(env!("CARGO_MANIFEST_DIR"));
+    std::os::unix::fs::symlink(&root, place.path("fresnel-gen")).unwrap();
+    let fetched = fs::read_dir(root.join("target/tools"))
+        .into_iter()
+        .flatten()
+        .flatten();
+    let library = fetched.map(|file| file.path()).find(|path| {
+        path.file_name()
+            .unwrap()
+            .to_string_lossy()
+            .starts_with("libdxcompiler")
+    });
+    let Some(library) = library else {
+        return not_checked(
+            "the steps of GitHub: DXC's library, which tests/run fetches, is not here",
+        );
+    };
+    fs::create_dir_all(&tools).unwrap();
+    std::os::unix::fs::symlink(&library, tools.join(library.file_name().unwrap())).unwrap();
+    let run = |script: &str| {
+        let output = Command::new("bash")
+            .args([
+                "--noprofile",
+                "--norc",
+                "-e",
+                "-o",
+                "pipefail",
+                "-c",
+                script,
+            ])
+            .current_dir(place.path(""))
+            .env("HOME", place.path("home"))
+            .env("PATH", path_with_program())
+            .output()
+            .expect("bash runs");
+        Ran::new(script.to_owned(), output)
+    };
+    run(&step("shard", "Install DXC")).ends(0);
+    assert!(tools.join("dxc").exists());
+    let verify = step("shard", "Verify");
+    let few = verify.replace(
+        "--material all",
+        "--material gold --method schlick --points 200",
+    );
+    assert_ne!(few, verify);
+    let few = few.replace(
+        "fresnel-gen verify",
+        &format!("fresnel-gen verify --tools '{}'", tools.display()),
+    );
+    for shard in 0..8 {
+        let ran = run(&few.replace("${{ matrix.shard }}", &shard.to_string()));
+        if ran.err.contains("not checked") && ran.code == Some(1) {
+            return not_checked(&format!("the steps of GitHub: {}", ran.err));
+        }
+        ran.ends(0);
+    }
+    run(&step("merge", "Merge")).ends(0);
+    let report: Value = serde_json::from_str(&place.read("report.json")).unwrap();
+    let rows = report["rows"].as_array().unwrap();
+    for target in ["wgsl", "gles", "hlsl", "spirv"] {
+        let mut own = rows.iter().filter(|row| row["target"] == target);
+        assert!(own.clone().count() > 0, "{target}");
+        assert!(
+            own.all(|row| row["status"] == "pass"),
+            "{target}: {rows:#?}"
+        );
+    }
+    assert!(place.path("report.xml").exists());
 }

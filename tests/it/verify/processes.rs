@@ -152,15 +152,26 @@ fn a_run_that_is_killed_takes_its_processes_with_it_and_the_next_run_its_folders
 
 #[test]
 fn a_run_that_is_cancelled_leaves_no_process_and_no_folder() {
-    for line in LINES {
-        for name in ["TERM", "INT"] {
+    for (at, line) in LINES.into_iter().enumerate() {
+        // What a terminal sends that closes, a batch system before its time is over, and a limit on the processor's time.
+        let signals = match at {
+            0 => vec![
+                ("TERM", 15),
+                ("INT", 2),
+                ("HUP", 1),
+                ("QUIT", 3),
+                ("USR1", 10),
+                ("XCPU", 24),
+            ],
+            _ => vec![("TERM", 15), ("HUP", 1)],
+        };
+        for (name, number) in signals {
             let place = place();
             let (mut run, processes) = started(&place, line, 300);
             assert!(!temporary(&place).is_empty());
             signal(name, run.id());
             let status = run.wait().unwrap();
             // It ended by the signal, as whoever sent it expects.
-            let number = if name == "TERM" { 15 } else { 2 };
             assert_eq!(
                 std::os::unix::process::ExitStatusExt::signal(&status),
                 Some(number)
@@ -169,6 +180,38 @@ fn a_run_that_is_cancelled_leaves_no_process_and_no_folder() {
             assert_eq!(temporary(&place), [""; 0], "{line}, {name}");
         }
     }
+}
+
+/// A signal that a run was told to ignore does not end it, as `nohup` has it.
+#[test]
+fn an_ignored_signal_stays_ignored() {
+    let place = place();
+    let inner = command(&place, LINES[0], 300);
+    let words: Vec<_> = inner
+        .get_args()
+        .map(|word| word.to_str().unwrap())
+        .collect();
+    let script = format!(
+        "trap '' HUP; exec '{}' {}",
+        crate::cli::PROGRAM,
+        words.join(" ")
+    );
+    let mut outer = Command::new("sh");
+    outer.args(["-c", &script]).current_dir(place.path(""));
+    for (name, value) in inner.get_envs() {
+        outer.env(name, value.unwrap());
+    }
+    outer.stdout(Stdio::null()).stderr(Stdio::null());
+    let mut run = outer.spawn().unwrap();
+    until("a compiler is asked", || noted(&place).len() >= 2);
+    let processes = noted(&place);
+    signal("HUP", run.id());
+    sleep(Duration::from_millis(500));
+    assert!(run.try_wait().unwrap().is_none(), "it ended");
+    signal("TERM", run.id());
+    run.wait().unwrap();
+    all_end(&processes, Duration::from_secs(10));
+    assert_eq!(temporary(&place), [""; 0]);
 }
 
 #[test]

@@ -1,0 +1,212 @@
+//! Files that wait beside their places: written whole, and not yet renamed. In a tree the folder's lock lists their temporary names
+//! before they are made; elsewhere each is locked itself. Whatever is dropped before it is renamed leaves nothing behind.
+
+use std::fs::{self, File, OpenOptions};
+use std::io::{self, ErrorKind, Write as _};
+use std::path::{Path, PathBuf};
+
+use tempfile::TempPath;
+
+use super::error::Error;
+use super::folder::{self, folder_of};
+use super::lock::{Lock, create_held, remove_leftovers_of};
+
+/// A file ready to be renamed into place; deleted when dropped before.
+struct Staged {
+    temporary: TempPath,
+    destination: PathBuf,
+    /// The lock on the temporary file, held until it is renamed or removed.
+    _held: Option<File>,
+}
+
+/// Files ready to be renamed into place, and the folders that were made for them.
+#[derive(Default)]
+pub struct StagedFiles {
+    files: Vec<Staged>,
+    created: Vec<PathBuf>,
+}
+
+impl StagedFiles {
+    /// Stages files of a tree, under names that the folder's lock lists.
+    ///
+    /// # Errors
+    /// The disk refuses one: then none is staged.
+    pub fn in_tree(
+        pending: &[(PathBuf, &[u8])],
+        out_dir: &Path,
+        lock: &mut Lock,
+    ) -> Result<StagedFiles, Error> {
+        let beside = |(path, _): &(PathBuf, &[u8])| path.with_file_name(folder::temporary_name());
+        let temporaries: Vec<PathBuf> = pending.iter().map(beside).collect();
+        if let Some((first, _)) = pending.first() {
+            let listed: Vec<String> = temporaries
+                .iter()
+                .map(|path| inner(out_dir, path))
+                .collect();
+            lock.write_down(&listed)
+                .map_err(|source| stage_fault(first, source))?;
+        }
+        let mut temporaries = temporaries.into_iter();
+        Self::new(pending, |_| {
+            let temporary = temporaries.next().expect("there is one for each file");
+            let new = OpenOptions::new()
+                .write(true)
+                .create_new(true)
+                .open(&temporary)?;
+            // A tree has more files than some systems let a process open: they are closed, and the folder's lock holds.
+            Ok((temporary, new, false))
+        })
+    }
+
+    /// Stages files that the user names. Each temporary file is locked itself.
+    ///
+    /// # Errors
+    /// The disk refuses one: then none is staged.
+    pub fn beside_outputs(pending: &[(PathBuf, &[u8])]) -> Result<StagedFiles, Error> {
+        Self::new(pending, |path| {
+            remove_leftovers_of(path);
+            let (temporary, new) = create_beside(path)?;
+            Ok((temporary, new, true))
+        })
+    }
+
+    /// Stages files in temporary ones that `create` makes; it says too whether they are held open.
+    fn new(
+        pending: &[(PathBuf, &[u8])],
+        mut create: impl FnMut(&Path) -> io::Result<(PathBuf, File, bool)>,
+    ) -> Result<StagedFiles, Error> {
+        let mut all = StagedFiles::default();
+        for (path, bytes) in pending {
+            let mut stage = || {
+                create_folder(folder_of(path), &mut all.created)?;
+                let (temporary, file, is_held) = create(path)?;
+                filled(temporary, file, is_held, path, bytes)
+            };
+            let staged = stage().map_err(|source| stage_fault(path, source))?;
+            all.files.push(staged);
+        }
+        Ok(all)
+    }
+
+    /// How many there are.
+    pub fn count(&self) -> usize {
+        self.files.len()
+    }
+
+    /// Takes the last one out, where it is wanted.
+    pub fn split_last(&mut self, is_wanted: bool) -> StagedFiles {
+        let last = if is_wanted { self.files.pop() } else { None };
+        StagedFiles {
+            files: last.into_iter().collect(),
+            created: Vec::new(),
+        }
+    }
+
+    /// Renames all into place; the numbers are for the message: how many were replaced before, how many there are in all.
+    ///
+    /// # Errors
+    /// The system refuses one. Those before it are in place then.
+    pub fn replace(mut self, before: usize, all: usize) -> Result<(), Error> {
+        for (index, file) in self.files.drain(..).enumerate() {
+            let path = file.destination;
+            if let Err(fault) = file.temporary.persist(&path) {
+                return Err(Error::Replace {
+                    path,
+                    source: fault.error,
+                    replaced: before + index,
+                    pending: all,
+                });
+            }
+        }
+        Ok(())
+    }
+}
+
+impl Drop for StagedFiles {
+    fn drop(&mut self) {
+        self.files.clear();
+        // Where nothing was put in place they are empty; others cannot be removed so.
+        for folder in self.created.iter().rev() {
+            let _ = fs::remove_dir(folder);
+        }
+    }
+}
+
+/// A path of a tree as the lock lists it.
+fn inner(out_dir: &Path, path: &Path) -> String {
+    let inside = path.strip_prefix(out_dir).unwrap_or(path);
+    let parts: Vec<_> = inside.iter().map(|part| part.to_string_lossy()).collect();
+    parts.join("/")
+}
+
+/// Makes a temporary file beside an output, and holds its lock where there can be one.
+fn create_beside(path: &Path) -> io::Result<(PathBuf, File)> {
+    /// Names are drawn by lot: one that is taken, or that another run looks at just now, is given up.
+    const TRIES: usize = 16;
+    let create = || {
+        let temporary = folder_of(path).join(folder::temporary_of(path));
+        Ok((temporary.clone(), create_held(&temporary)?))
+    };
+    let is_taken = |made: &io::Result<_>| {
+        let kind = made.as_ref().err().map(io::Error::kind);
+        matches!(kind, Some(ErrorKind::AlreadyExists | ErrorKind::WouldBlock))
+    };
+    let mut made = create();
+    for _ in 1..TRIES {
+        if is_taken(&made) {
+            made = create();
+        }
+    }
+    made
+}
+
+/// A temporary file with its bytes.
+fn filled(
+    temporary: PathBuf,
+    mut file: File,
+    is_held: bool,
+    path: &Path,
+    bytes: &[u8],
+) -> io::Result<Staged> {
+    // From here on it is deleted when dropped.
+    let temporary = TempPath::try_from_path(temporary)?;
+    // Who may read a file is its owner's choice: a new version keeps it, where the file system can.
+    if let Some(old) = fs::symlink_metadata(path)
+        .ok()
+        .filter(fs::Metadata::is_file)
+    {
+        let _ = file.set_permissions(old.permissions());
+    }
+    file.write_all(bytes)?;
+    file.flush()?;
+    Ok(Staged {
+        temporary,
+        destination: path.to_path_buf(),
+        _held: is_held.then_some(file),
+    })
+}
+
+/// Creates a folder and those above it, and notes each that was not there.
+fn create_folder(folder: &Path, created: &mut Vec<PathBuf>) -> io::Result<()> {
+    if folder.as_os_str().is_empty() || folder.is_dir() {
+        return Ok(());
+    }
+    if let Some(parent) = folder.parent() {
+        create_folder(parent, created)?;
+    }
+    match fs::create_dir(folder) {
+        Ok(()) => created.push(folder.to_path_buf()),
+        // Made by somebody else in the meantime.
+        Err(_) if folder.is_dir() => {}
+        Err(fault) => return Err(fault),
+    }
+    Ok(())
+}
+
+/// What is said where a file cannot be prepared.
+pub fn stage_fault(path: &Path, source: io::Error) -> Error {
+    Error::Stage {
+        path: path.to_path_buf(),
+        source,
+    }
+}

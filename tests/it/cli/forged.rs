@@ -1,0 +1,206 @@
+//! A manifest that somebody else wrote: no entry of it lets a run replace or remove a file that fresnel-gen did not write.
+
+use std::fs;
+
+use fresnel_gen::app::artifact::sha256;
+use fresnel_gen::app::manifest::Entry;
+use fresnel_gen::app::ours::{bears_mark, could_be_written, has_no_room_for_mark};
+use serde_json::{Value, json};
+
+use super::{OUT, Place};
+
+const MINE: &str = "mine, by hand\n";
+
+/// A manifest with these entries, each with the hash of [`MINE`].
+fn manifest(entries: &[Value]) -> String {
+    let mut files = entries.to_vec();
+    for entry in &mut files {
+        entry["sha256"] = sha256(MINE.as_bytes()).into();
+    }
+    json!({"tool": "fresnel-gen", "version": "0.1.0", "naga": "", "inputs": [], "files": files})
+        .to_string()
+}
+
+/// Entries that name a file of the user's, some as this program would have written them.
+#[test]
+fn a_forged_entry_replaces_nothing() {
+    for (line, entry) in [
+        (
+            "--target wgsl --material silver --method schlick",
+            json!({"file": "wgsl/materials/silver.wgsl", "target": "bevy"}),
+        ),
+        (
+            "--target wgsl --material silver --method schlick",
+            json!({"file": "wgsl/materials/silver.wgsl", "target": "wgsl", "material": "silver"}),
+        ),
+        (
+            "--target gles --method schlick --material none",
+            json!({"file": "gles/fresnel_schlick.glsl", "target": "gles", "method": "schlick"}),
+        ),
+        (
+            "--flavour three",
+            json!({"file": "three/README.md", "target": "three"}),
+        ),
+        (
+            "--flavour unity --material gold",
+            json!({"file": "unity/gold.hlsl", "target": "unity", "material": "gold"}),
+        ),
+        (
+            "bake --material gold --format c",
+            json!({"file": "lut/gold.h", "target": "lut", "material": "gold"}),
+        ),
+        (
+            "bake --material gold --format png8",
+            json!({"file": "lut/gold.8bit.png", "target": "lut", "material": "gold"}),
+        ),
+        (
+            "generate",
+            json!({"file": "catalogue.json", "target": "json"}),
+        ),
+        (
+            "generate",
+            json!({"file": "catalogue.ktx2", "target": "ktx2"}),
+        ),
+        // Without room for a mark, and for another target.
+        (
+            "generate",
+            json!({"file": "catalogue.std430.bin", "target": "json"}),
+        ),
+        (
+            "--target spirv --material gold --method schlick",
+            json!({"file": "spirv/materials/gold.spv", "target": "wgsl", "material": "gold"}),
+        ),
+    ] {
+        let place = Place::new();
+        let file = entry["file"].as_str().unwrap();
+        let ours = place_of(line, file);
+        for was in [Value::Null, sha256(MINE.as_bytes()).into()] {
+            let mut entry = entry.clone();
+            entry["was"] = was;
+            place.put(&format!("{OUT}/{ours}"), MINE);
+            entry["file"] = ours.clone().into();
+            place.put(&format!("{OUT}/manifest.json"), manifest(&[entry]));
+            place.refused(line, &[&ours, "did not write", "nothing was written"]);
+        }
+        place.done(&format!("{line} --overwrite"));
+        assert_ne!(
+            place.read_bytes(&format!("{OUT}/{ours}")),
+            MINE.as_bytes(),
+            "{line}"
+        );
+    }
+}
+
+/// The file as the command names it: modules have the names of their stages.
+fn place_of(line: &str, file: &str) -> String {
+    if !file.ends_with(".spv") {
+        return file.to_owned();
+    }
+    let place = Place::new();
+    place.done(line);
+    let mut listed = place.listed().into_iter();
+    listed.find(|file| file.contains("materials/gold")).unwrap()
+}
+
+/// A file of the user's that a manifest lists as one that is no longer generated.
+#[test]
+fn a_forged_entry_removes_nothing() {
+    let place = Place::new();
+    place.put(&format!("{OUT}/wgsl/fresnel_mine.wgsl"), MINE);
+    place.put(&format!("{OUT}/wgsl/effects/mine.wgsl"), MINE);
+    let entries = [
+        json!({"file": "wgsl/fresnel_mine.wgsl", "target": "wgsl", "method": "mine"}),
+        json!({"file": "wgsl/effects/mine.wgsl", "target": "wgsl", "effect": "mine"}),
+    ];
+    for line in ["--target wgsl --material none", "generate"] {
+        place.put(&format!("{OUT}/manifest.json"), manifest(&entries));
+        let ran = place.done(line);
+        assert!(!ran.err.contains("removed: "), "{ran:?}");
+        assert_eq!(place.read(&format!("{OUT}/wgsl/fresnel_mine.wgsl")), MINE);
+        assert_eq!(place.read(&format!("{OUT}/wgsl/effects/mine.wgsl")), MINE);
+    }
+    // In a report's folder a manifest says nothing at all.
+    let place = Place::new();
+    for file in ["chart.svg", "chart.html", "index.html", "plan.html"] {
+        place.put(file, MINE);
+    }
+    let entries = ["chart.svg", "index.html"].map(|file| json!({"file": file, "target": "wgsl"}));
+    place.put("manifest.json", manifest(&entries));
+    for line in [
+        "chart --material gold,platinum --out-dir .",
+        "stability --method schlick --out-dir .",
+        "gallery --material gold --out-dir .",
+    ] {
+        place.refused(line, &["nothing was written"]);
+    }
+}
+
+/// Commands whose files are of every format that a tree has.
+const LINES: [&str; 6] = [
+    "generate",
+    "--target all,msl,glsl --material gold,water --method schlick,conductor_exact,table",
+    "--target all,msl,glsl --material gold --method schlick --precision f16",
+    "--target all,msl,glsl --effect all",
+    "--flavour babylon,bevy,godot,materialx,playcanvas,three,unity,unreal",
+    "bake --material gold,water --atlas --format exr-half,exr-float,png8,png16,ktx2,c,rust,js --target all,msl,glsl",
+];
+
+/// Each file bears the mark, unless its format has no room for one; each could have been written for its entry. Files of the user's in
+/// their places stay, though the manifest lists them all.
+#[test]
+fn every_format_proves_who_wrote_it() {
+    for line in LINES {
+        let place = Place::new();
+        place.done(line);
+        let path = format!("{OUT}/manifest.json");
+        let mut manifest = place.manifest();
+        let entries = manifest["files"].as_array_mut().unwrap();
+        assert!(entries.len() > 5, "{line}");
+        for entry in entries.iter_mut() {
+            let typed: Entry = serde_json::from_value(entry.clone()).unwrap();
+            let file = format!("{OUT}/{}", typed.file);
+            let is_marked = bears_mark(&place.read_bytes(&file));
+            assert_ne!(
+                is_marked,
+                has_no_room_for_mark(&typed.file),
+                "{line}: {file}"
+            );
+            assert!(could_be_written(&typed), "{line}: {file}");
+            place.put(&file, MINE);
+            entry["sha256"] = sha256(MINE.as_bytes()).into();
+            if !is_marked {
+                entry["target"] = "bevy".into();
+            }
+        }
+        let others = entries.len() - 1;
+        assert!(bears_mark(&place.read_bytes(&path)));
+        place.put(&path, serde_json::to_string_pretty(&manifest).unwrap());
+        place.refused(
+            line,
+            &[
+                "did not write",
+                &format!("and {others} more in other places"),
+            ],
+        );
+    }
+}
+
+/// A file without room for a mark is replaced and removed by its entry alone, as in every version before.
+#[test]
+fn a_module_is_replaced_by_its_entry() {
+    let place = Place::new();
+    place.done("--target spirv --material gold --method schlick,conductor_exact");
+    let ran = place.done("--target spirv --material gold --method schlick,conductor_exact --matching-angle 84 --prefix f_");
+    assert!(!ran.err.contains("did not write"), "{ran:?}");
+    let module = place_of(
+        "--target spirv --material gold --method schlick",
+        "gold.spv",
+    );
+    let mut bytes = place.read_bytes(&format!("{OUT}/{module}"));
+    bytes.push(0);
+    fs::write(place.path(&format!("{OUT}/{module}")), bytes).unwrap();
+    place.refused(
+        "--target spirv --material gold --method schlick,conductor_exact",
+        &[&module, "did not write"],
+    );
+}
