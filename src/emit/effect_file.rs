@@ -356,7 +356,7 @@ fn header(request: &EffectRequest, command: &str) -> Vec<String> {
     lines.push(format!("Source: {}", effect.source.line()));
     let mut functions = effect.functions.iter();
     if functions.any(|function| function.reflectance.is_used()) {
-        let source = method.source.line();
+        let source = method.source_in_full();
         lines.push(format!(
             "R by {}: {}. {source}",
             method.name, method.summary

@@ -74,14 +74,9 @@ pub(super) fn cosine_line() -> String {
     "Argument: cos_theta, cosine of the angle of incidence, dot(half, view) for a microfacet; clamped to [0, 1]".to_owned()
 }
 
-/// Where a method comes from. The forms of fitted ones are this program's own; the algorithm of the fit is published.
+/// Where a method comes from, in one line.
 pub(super) fn source(method: &Method) -> String {
-    let line = method.source.line();
-    if method.is_fitted() {
-        format!("Source: the form is fresnel-gen's; coefficients by exchange: {line}")
-    } else {
-        format!("Source: {line}")
-    }
+    format!("Source: {}", method.source_in_full())
 }
 
 /// What stands above one specialised function in a material's file.

@@ -187,11 +187,7 @@ fn mean_line(functions: &[Emitted]) -> Option<String> {
     ))
 }
 
-/// Where a method comes from, in one line. The forms of fitted ones are this program's own; the algorithm of the fit is published.
+/// Where a method comes from, in one line.
 fn source(method: &Method) -> String {
-    let source = method.source.short();
-    match method.is_fitted() {
-        true => format!("Source: the form is fresnel-gen's; algorithm of the fit: {source}"),
-        false => format!("Source: {source}"),
-    }
+    format!("Source: {}", method.source_in_short())
 }

@@ -21,7 +21,7 @@ use super::class::Class;
 use super::conductor_exact::{self, conductor, least_squared, root_or_zero};
 use super::half::InHalf;
 use super::input::{Input, Inputs, Range};
-use super::method::{Claim, Claims, Colours, Contract, Forms, Light, Method, Over, Values};
+use super::method::{Claim, Claims, Colours, Contract, Forms, Light, Method, Origin, Over, Values};
 
 /// The record of this method.
 pub static METHOD: Method = Method {
@@ -39,6 +39,7 @@ pub static METHOD: Method = Method {
         year: 2014,
         link: "https://jcgt.org/published/0003/04/03/",
     },
+    origin: Origin::Ours("all n and k of one F0"),
     inputs: &[Input::F0, Input::F82],
     forms: Forms::Colour,
     class: Class::Any,

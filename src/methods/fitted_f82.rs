@@ -18,7 +18,7 @@ use super::class::Class;
 use super::half::InHalf;
 use super::hoffman_f82::{HOFFMAN_2019, between};
 use super::input::{Input, Inputs};
-use super::method::{Claim, Claims, Colours, Contract, Forms, Light, Method, Over};
+use super::method::{Claim, Claims, Colours, Contract, Forms, Light, Method, Origin, Over};
 
 /// The record of this method.
 pub static METHOD: Method = Method {
@@ -29,6 +29,7 @@ pub static METHOD: Method = Method {
         "A = u - s (1 + 8/3 u), B = s (531.2/75 u - 0.16)",
     ],
     source: HOFFMAN_2019,
+    origin: Origin::Ours("the two colours that it takes"),
     inputs: &[Input::F0, Input::F82],
     forms: Forms::ColourAndScalar,
     class: Class::Any,
