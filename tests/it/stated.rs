@@ -436,3 +436,31 @@ fn no_page_holds_a_placeholder() {
         assert!(!page(&path).contains("OWNER"), "{path}");
     }
 }
+
+/// Whose a form is: its file, the text above a function, and the page of methods say the same.
+#[test]
+fn whose_a_form_is_is_said_everywhere() {
+    let methods_page = page("docs/methods.md");
+    for method in methods::ALL {
+        let name = method.name;
+        let file = page(&format!("src/methods/{name}.rs"));
+        let says = file.contains("//! Source: ours");
+        assert_eq!(says, method.is_ours(), "{name}: the header of its file");
+        let above = method.source_in_short();
+        assert_eq!(
+            above.contains("the form is fresnel-gen's"),
+            method.is_ours(),
+            "{name}"
+        );
+        let row = methods_page
+            .lines()
+            .find(|line| line.starts_with(&format!("| `{name}`")));
+        let row = row.expect("a row of the table");
+        assert_eq!(
+            row.contains("| fresnel-gen; "),
+            method.is_ours(),
+            "{name}: {row}"
+        );
+        assert!(method.is_ours() || !method.is_fitted(), "{name}");
+    }
+}
