@@ -4,7 +4,7 @@ use crate::materials::MaterialKind;
 
 use super::material_in_medium::{LEAST_FITTED_N, MaterialInMedium};
 
-/// A class of materials. Gases are in none, nor are dielectrics that absorb.
+/// A class of materials. Gases are in none, nor are dielectrics that absorb, nor what is known at three wavelengths alone.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum MaterialClass {
     /// Metals and alloys.
@@ -44,6 +44,9 @@ impl MaterialClass {
     /// The class that a material in its medium is in.
     pub fn containing(subject: &MaterialInMedium) -> Option<MaterialClass> {
         let channels = &subject.effective.channels;
+        if subject.material.rgb_nm.is_some() {
+            return None;
+        }
         let is_solid = channels.n.iter().all(|n| *n >= LEAST_FITTED_N);
         match subject.material.kind {
             MaterialKind::Metal => Some(MaterialClass::Metals),

@@ -50,7 +50,7 @@ pub(super) fn run(
 }
 
 /// Why a material takes no part.
-const OUTSIDE: &str = "gases, and dielectrics that absorb, are in no class that shapes are for";
+const OUTSIDE: &str = "gases, dielectrics that absorb, and what is known at three wavelengths alone are in no class that shapes are for";
 
 /// All shapes tried on the materials of a class; none where there are none.
 fn tried_shapes(
