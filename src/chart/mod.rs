@@ -9,6 +9,7 @@ mod data;
 mod left_out;
 mod own;
 mod sets;
+mod without;
 
 use serde::Serialize;
 
@@ -23,6 +24,7 @@ pub use data::{chart_data, cost_names};
 pub use left_out::{LeftOutErrors, left_out};
 pub use own::ChartedFunction;
 pub use sets::{STATISTICS, set_name};
+pub use without::without_point;
 
 /// A measure of error.
 #[derive(Clone, Copy, Debug)]
@@ -124,6 +126,8 @@ pub struct MaterialSet {
     pub count: usize,
     /// The errors of each entry; unknown where the method does not describe the material.
     pub errors: Vec<MethodErrors>,
+    /// How many of the materials the method of each entry does not describe.
+    pub undescribed: Vec<usize>,
 }
 
 /// All that the charts show.
@@ -321,9 +325,9 @@ impl ChartEntry {
         }
     }
 
-    /// Whether its coefficients are fitted here.
-    pub fn is_fitted(&self) -> bool {
-        self.method().is_some_and(Method::is_fitted)
+    /// Whether its form is ours.
+    pub fn is_ours(&self) -> bool {
+        self.method().is_some_and(Method::is_ours)
     }
 
     /// How many numbers a material takes by it.
@@ -378,6 +382,7 @@ mod tests {
                 count: 1,
                 name: "gold".to_owned(),
                 title: "gold".to_owned(),
+                undescribed: vec![0, 0],
                 errors: [0.1, 0.2].map(largest).to_vec(),
             }],
             command: String::new(),

@@ -21,6 +21,7 @@ pub fn sets(subjects: &[MaterialInMedium], errors: &[Vec<MethodErrors>]) -> Vec<
             count: 1,
             name: subject.argument.clone(),
             title: subject.name.replace('_', " "),
+            undescribed: undescribed(&[(subject, errors)]),
             errors: errors.clone(),
         });
     classes.chain(alone).collect()
@@ -50,8 +51,19 @@ fn class_sets(
         name: set_name(class, statistic),
         title: set_title(class, statistic, own.len()),
         errors: together(statistic, &own),
+        undescribed: undescribed(&own),
     };
     STATISTICS.iter().map(set).collect()
+}
+
+/// How many materials each entry has no error of, since its method does not describe them.
+fn undescribed(own: &[(&MaterialInMedium, &Vec<MethodErrors>)]) -> Vec<usize> {
+    let entries = own.first().map_or(0, |(_, errors)| errors.len());
+    let unknown = |place: usize| {
+        let errors = own.iter().map(|(_, errors)| errors[place].max_abs);
+        errors.filter(Option::is_none).count()
+    };
+    (0..entries).map(unknown).collect()
 }
 
 fn set_title(class: MaterialClass, statistic: &str, count: usize) -> String {

@@ -45,7 +45,9 @@ pub use row::{CostRow, CostSource};
 pub use serve::serve;
 #[cfg(all(feature = "cli", feature = "gpu"))]
 pub use session::{CompilerSession, launch, told};
-pub use shapes::{ChoiceRow, ChosenShape, SearchResult, SearchRow, ShapeRow};
+pub use shapes::{
+    ChoiceRow, ChosenShape, SEARCHED, SearchResult, SearchRow, SearchedClass, ShapeRow,
+};
 #[cfg(all(feature = "cli", feature = "gpu"))]
 pub use table::cost_rows;
 

@@ -4,15 +4,47 @@ use serde::Serialize;
 
 use crate::fit::{Candidate, ErrorQuantiles, LeaveOneOut, Tried, TriedShapes, Weight};
 use crate::methods::Method;
-use crate::reference::MaterialClass;
+use crate::reference::{MaterialClass, MaterialInMedium};
 
 use super::pareto::{CostAndError, pareto_frontier};
 
-/// What was found for a class of materials.
+/// The materials that shapes are searched for together.
+#[derive(Debug)]
+pub struct SearchedClass {
+    /// Its name in reports.
+    pub name: &'static str,
+    /// Its name in full.
+    pub title: &'static str,
+    classes: &'static [MaterialClass],
+}
+
+/// All of them. Metals and semiconductors share their forms.
+pub static SEARCHED: [SearchedClass; 2] = [
+    SearchedClass {
+        name: "metals",
+        title: "metals and semiconductors",
+        classes: &[MaterialClass::Metals, MaterialClass::Semiconductors],
+    },
+    SearchedClass {
+        name: "dielectrics",
+        title: "dielectrics, n of 1.2 and more",
+        classes: &[MaterialClass::Dielectrics],
+    },
+];
+
+impl SearchedClass {
+    /// Whether shapes for it are for this material.
+    pub fn holds(&self, subject: &MaterialInMedium) -> bool {
+        let class = MaterialClass::containing(subject);
+        class.is_some_and(|class| self.classes.contains(&class))
+    }
+}
+
+/// What was found for some materials.
 #[derive(Clone, Debug)]
 pub struct SearchResult {
-    /// The class.
-    pub class: MaterialClass,
+    /// Which.
+    pub class: &'static SearchedClass,
     /// How many shapes were tried.
     pub tried: usize,
     /// On how many measurements.
@@ -93,7 +125,7 @@ pub struct ChosenShape {
 impl SearchResult {
     /// What the errors of these shapes tell. `cost` is that of a method's library function, where it is recorded.
     pub fn new(
-        class: MaterialClass,
+        class: &'static SearchedClass,
         tried: &TriedShapes,
         terms: &[usize],
         weight: Weight,
@@ -124,7 +156,7 @@ impl SearchResult {
 
 /// The shapes that nothing beats in operations and 90th percentile, and those of methods, the fewest operations first.
 fn best_shapes(
-    class: MaterialClass,
+    class: &'static SearchedClass,
     tried: &TriedShapes,
     weight: Weight,
     cost: &dyn Fn(&Method) -> Option<f64>,
@@ -152,7 +184,7 @@ fn best_shapes(
 
 impl ShapeRow {
     fn new(
-        class: MaterialClass,
+        class: &'static SearchedClass,
         all: &TriedShapes,
         tried: &Tried,
         weight: Weight,
@@ -161,7 +193,7 @@ impl ShapeRow {
         let candidate = &tried.candidate;
         ShapeRow {
             row: "shape",
-            class: class.name(),
+            class: class.name,
             terms: candidate.shape.terms(),
             shape: candidate.shape.to_string(),
             family: candidate.family,
@@ -179,7 +211,7 @@ impl ShapeRow {
 }
 
 impl ChoiceRow {
-    fn new(class: MaterialClass, terms: usize, left_out: &LeaveOneOut) -> ChoiceRow {
+    fn new(class: &'static SearchedClass, terms: usize, left_out: &LeaveOneOut) -> ChoiceRow {
         let chosen = left_out.chosen.iter();
         let chosen = chosen.map(|(candidate, substances)| ChosenShape {
             shape: candidate.shape.to_string(),
@@ -188,7 +220,7 @@ impl ChoiceRow {
         });
         ChoiceRow {
             row: "choice",
-            class: class.name(),
+            class: class.name,
             terms,
             by: "p90 over the measurements of all other substances",
             shape: left_out.choice.shape.to_string(),
@@ -220,7 +252,7 @@ mod tests {
             substances: vec!["gold".to_owned()],
             tried: tried.collect(),
         };
-        let rows = best_shapes(MaterialClass::Metals, &tried, Weight::default(), &|_| None);
+        let rows = best_shapes(&SEARCHED[0], &tried, Weight::default(), &|_| None);
         assert!(rows.iter().any(|row| row.is_on_frontier));
         assert!(rows.is_sorted_by_key(|row| row.operations));
     }

@@ -46,7 +46,8 @@ pub fn best_inputs(method: &Method, intended: &Values, curve: &FitCurve) -> Opti
         inputs: method.inputs,
         curve,
     };
-    Some(rival.by_channel(rival.shared(intended.clone())))
+    let apart = rival.shared(intended.clone());
+    Some(rival.by_channel(rival.together(apart)))
 }
 
 /// What a function of `cos_theta` and these inputs gives at some cosines.
@@ -98,6 +99,28 @@ impl InputSearch<'_> {
             (best, missed)
         };
         improved(start, &free, &at_their_best)
+    }
+
+    /// Better numbers for what channels share and for each channel, all at once: where channels share a number, one step after the other
+    /// may end where no step of either kind alone gains.
+    fn together(&self, start: Values) -> Values {
+        let shared = self.free(None);
+        if shared.is_empty() {
+            return start;
+        }
+        let own = (0..3).flat_map(|channel| self.free(Some(channel)));
+        let free: Vec<Free> = own.chain(shared).collect();
+        let as_they_are = |values: Values| {
+            let missed = self.missed_by_channel(&values);
+            (values, missed)
+        };
+        improved(start, &free, &as_they_are)
+    }
+
+    /// By how much the curve is missed, channel after channel: along each of them the points run.
+    fn missed_by_channel(&self, values: &Values) -> Vec<f64> {
+        let each = (0..3).flat_map(|channel| self.missed(values, Some(channel)));
+        each.collect()
     }
 
     fn free(&self, channel: Option<usize>) -> Vec<Free> {
@@ -211,15 +234,27 @@ mod tests {
         k: [3.43, 2.35, 1.77],
     };
 
-    fn curve() -> FitCurve {
+    const PLATINUM: Channels = Channels {
+        n: [2.38, 2.08, 1.85],
+        k: [4.26, 3.63, 3.07],
+    };
+
+    fn curve_of(index: &Channels) -> FitCurve {
         FitCurve::new(|c| {
-            [0, 1, 2].map(|i| optics::conductor(GOLD.n[i], GOLD.k[i], c).unpolarised())
+            [0, 1, 2].map(|i| optics::conductor(index.n[i], index.k[i], c).unpolarised())
         })
     }
 
+    fn curve() -> FitCurve {
+        curve_of(&GOLD)
+    }
+
     fn largest(method: &Method, values: &Values) -> f64 {
+        largest_of(method, values, &curve())
+    }
+
+    fn largest_of(method: &Method, values: &Values, curve: &FitCurve) -> f64 {
         let function = method.function(false).expect("it builds");
-        let curve = curve();
         let given = values_at(&function, method.inputs, values, &curve.cosines);
         let missed = |point: usize| {
             let (given, seen) = (given.at(point), curve.seen[point]);
@@ -252,6 +287,61 @@ mod tests {
         assert!(best("schlick_f90") < best("schlick"));
         assert!(best("schlick_generalised") < 1.01 * best("schlick_f90"));
         assert!((best("schlick_rescaled") / best("schlick") - 1.0).abs() < 1e-3);
+    }
+
+    /// Of every method no input near those found is better, the others at their best with it: by any step from a thousandth to a tenth.
+    #[test]
+    fn no_inputs_near_the_best_are_better() {
+        for method in ALL
+            .iter()
+            .filter(|method| !method.is_textured() && !method.is_fitted())
+        {
+            let intended = values(method, &PLATINUM, &Derivation::default());
+            let curve = curve_of(&PLATINUM);
+            let best = best_inputs(method, &intended, &curve).expect("it has inputs");
+            let found = largest_of(method, &best, &curve);
+            let rival = InputSearch {
+                function: method.function(false).expect("it builds"),
+                inputs: method.inputs,
+                curve: &curve,
+            };
+            for input in method.inputs.iter().filter(|input| input.ty == Ty::Scalar) {
+                for step in [-0.1, -0.03, -0.01, -0.001, 0.001, 0.01, 0.03, 0.1] {
+                    let mut near = best.clone();
+                    let numbers = near.get_mut(input.name).expect("an input");
+                    numbers.iter_mut().for_each(|value| *value *= 1.0 + step);
+                    let near = largest_of(method, &rival.by_channel(near), &curve);
+                    assert!(
+                        near > found * (1.0 - 2e-3),
+                        "{}: {found}, and {near} where {} is {step} more",
+                        method.name,
+                        input.name
+                    );
+                }
+            }
+        }
+    }
+
+    /// What a search over F90 finds, F0 at its best with each: of Schlick's form with F90 for platinum.
+    #[test]
+    fn the_best_f90_is_that_of_a_search_over_all() {
+        let method = methods::find("schlick_f90").expect("it is there");
+        let intended = values(method, &PLATINUM, &Derivation::default());
+        let curve = curve_of(&PLATINUM);
+        let best = best_inputs(method, &intended, &curve).expect("it has inputs");
+        let found = largest_of(method, &best, &curve);
+        let rival = InputSearch {
+            function: method.function(false).expect("it builds"),
+            inputs: method.inputs,
+            curve: &curve,
+        };
+        let least = (700..1100).map(|f90| {
+            let mut given = intended.clone();
+            given.insert("f90".to_owned(), [f64::from(f90) / 1000.0; 3]);
+            largest_of(method, &rival.by_channel(given), &curve)
+        });
+        let least = least.fold(f64::INFINITY, f64::min);
+        assert!(found <= least + 1e-9, "{found}, and {least} is possible");
     }
 
     /// Schlick's form is linear in f0: no f0 near the one found is better, in any channel.

@@ -13,7 +13,7 @@ const EVERY: usize = 8;
 /// The largest errors over the angles, as they are seen.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Perceived {
-    /// Differences of the channels, each by its share of the space's luminance.
+    /// The difference of the space's luminance: what one channel has too much makes up for what another lacks.
     pub luminance: f64,
     /// ΔE₀₀; about 1 is the least that is seen.
     pub de2000: f64,
@@ -46,7 +46,7 @@ pub fn perceived(
 impl Perceived {
     fn include(&mut self, given: DVec3, wanted: DVec3, space: Space) {
         let to_xyz = space.rgb_to_xyz();
-        let luminance = to_xyz.row(1).dot((given - wanted).abs());
+        let luminance = to_xyz.row(1).dot(given - wanted).abs();
         self.luminance = self.luminance.max(luminance);
         let seen = ciede2000(lab(given, space), lab(wanted, space));
         self.de2000 = self.de2000.max(seen);
@@ -89,5 +89,16 @@ mod tests {
             }),
             Perceived::default()
         );
+    }
+
+    /// Red too bright and green too dark by as much luminance: none is lost. By channels taken apart .0426 would be.
+    #[test]
+    fn what_one_channel_has_too_much_makes_up_for_another() {
+        let shares = Space::Srgb.rgb_to_xyz().row(1);
+        let wanted = DVec3::new(0.9, 0.7, 0.4);
+        let given = wanted + DVec3::new(0.1, -0.1 * shares.x / shares.y, 0.0);
+        let mut found = Perceived::default();
+        found.include(given, wanted, Space::Srgb);
+        assert!(found.luminance < 1e-12 && found.de2000 > 1.0, "{found:?}");
     }
 }

@@ -17,7 +17,7 @@ use super::class::Class;
 use super::half::InHalf;
 use super::input::{Input, InputSource, Inputs};
 use super::known::{KnownSurface, each};
-use super::method::{Claim, Claims, Colours, Contract, Forms, Light, Method, Over};
+use super::method::{Claim, Claims, Colours, Contract, Forms, Light, Method, Origin, Over};
 use super::schlick::to_white;
 
 /// The cosines of the two angles at which the law is met: the maxima of b2 and of -b3 in a table of 1000 cosines.
@@ -73,6 +73,7 @@ pub static METHOD: Method = Method {
         year: 2020,
         link: "https://blog.selfshadow.com/publications/s2020-shading-course/",
     },
+    origin: Origin::Adapted("the polynomials that follow its tables are fresnel-gen's"),
     inputs: &[Input::F0, Input::B2_WEIGHT, Input::B3_WEIGHT],
     forms: Forms::ColourAndScalar,
     class: Class::Any,

@@ -21,7 +21,16 @@ impl Class {
         }
     }
 
-    /// The media in words.
+    /// What it describes, in words.
+    pub fn described(self) -> &'static str {
+        match self {
+            Class::Dielectric => "dielectrics (k = 0)",
+            Class::Metal => "metals (k of n / 4 and more)",
+            Class::Any => "all media",
+        }
+    }
+
+    /// What it describes, in words that refuse another medium.
     pub fn media(self) -> &'static str {
         match self {
             Class::Dielectric => "dielectrics only, and this absorbs (k > 0)",

@@ -18,7 +18,7 @@ use super::conductor_exact::{self, conductor, least_squared, root_or_zero};
 use super::half::InHalf;
 use super::input::{Input, InputSource, Inputs, Range, SHARES, SHARES_AND_BEYOND};
 use super::known::each;
-use super::method::{Claim, Claims, Colours, Contract, Forms, Light, Method, Over, Values};
+use super::method::{Claim, Claims, Colours, Contract, Forms, Light, Method, Origin, Over, Values};
 
 #[allow(missing_docs)] // each says what it is
 impl Input {
@@ -67,6 +67,7 @@ pub static METHOD: Method = Method {
         year: 2014,
         link: "https://jcgt.org/published/0003/04/03/",
     },
+    origin: Origin::Published,
     inputs: &[Input::REFLECTIVITY, Input::EDGE_TINT],
     forms: Forms::Colour,
     class: Class::Any,

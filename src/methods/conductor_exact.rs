@@ -22,7 +22,7 @@ use super::conductor_textbook::GLASSNER_1995;
 use super::dielectric_exact;
 use super::half::InHalf;
 use super::input::{Input, Inputs};
-use super::method::{Claim, Claims, Contract, Forms, Light, Method, Over, Values};
+use super::method::{Claim, Claims, Contract, Forms, Light, Method, Origin, Over, Values};
 
 /// The record of this method.
 pub static METHOD: Method = Method {
@@ -33,6 +33,7 @@ pub static METHOD: Method = Method {
         "R_s = (r + c^2 - u) / (r + c^2 + u), x = r c^2 + s^4, s^2 = 1 - c^2, F = R_s x / (x + u s^2)",
     ],
     source: GLASSNER_1995,
+    origin: Origin::Published,
     inputs: &[Input::N, Input::K],
     forms: Forms::Colour,
     class: Class::Any,

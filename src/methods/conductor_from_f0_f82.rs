@@ -1,7 +1,7 @@
 //! The exact law for conductors with the n and k that have reflectance F0 at normal incidence and F82 at
 //! cos θ = 1/7: two colours that an artist or a table of metals knows, and no approximation of the curve between.
 //!
-//! Source: the circle of all (n, k) with one F0 is Gulbrandsen's, "Artist Friendly Metallic Fresnel", JCGT 3(4), 2014,
+//! Source: ours; the circle of all (n, k) with one F0 is Gulbrandsen's, "Artist Friendly Metallic Fresnel", JCGT 3(4), 2014,
 //! <https://jcgt.org/published/0003/04/03/>: k² = (n - n_min)(n_max - n), n_max = (1+√F0)²/(1-F0), n_min = 1/n_max, so
 //! that F(0°) = F0 whatever n is. F82 falls strictly as n grows along it; n is found from the deficit m = 1 - F82:
 //! a guess n = n_min + u m √F0 / T(u, √F0), u = m √F0 / (1-F0), whose nine constants were fitted for the least final
@@ -21,7 +21,7 @@ use super::class::Class;
 use super::conductor_exact::{self, conductor, least_squared, root_or_zero};
 use super::half::InHalf;
 use super::input::{Input, Inputs, Range};
-use super::method::{Claim, Claims, Colours, Contract, Forms, Light, Method, Over, Values};
+use super::method::{Claim, Claims, Colours, Contract, Forms, Light, Method, Origin, Over, Values};
 
 /// The record of this method.
 pub static METHOD: Method = Method {
@@ -39,6 +39,7 @@ pub static METHOD: Method = Method {
         year: 2014,
         link: "https://jcgt.org/published/0003/04/03/",
     },
+    origin: Origin::Ours("all n and k of one F0"),
     inputs: &[Input::F0, Input::F82],
     forms: Forms::Colour,
     class: Class::Any,

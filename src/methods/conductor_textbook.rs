@@ -13,7 +13,7 @@ use crate::ir::Expr;
 use super::class::Class;
 use super::half::InHalf;
 use super::input::{Input, Inputs};
-use super::method::{Claim, Claims, Contract, Forms, Light, Method, Over};
+use super::method::{Claim, Claims, Contract, Forms, Light, Method, Origin, Over};
 
 /// Principles of Digital Image Synthesis.
 pub const GLASSNER_1995: Citation = Citation {
@@ -35,6 +35,7 @@ pub static METHOD: Method = Method {
         "F = (F_s + F_p) / 2",
     ],
     source: GLASSNER_1995,
+    origin: Origin::Published,
     inputs: &[Input::N, Input::K],
     forms: Forms::Colour,
     class: Class::Any,

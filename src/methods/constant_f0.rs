@@ -12,7 +12,7 @@ use super::affine::Affine;
 use super::class::Class;
 use super::half::InHalf;
 use super::input::{Input, Inputs};
-use super::method::{Claim, Claims, Colours, Contract, Forms, Light, Method, Over};
+use super::method::{Claim, Claims, Colours, Contract, Forms, Light, Method, Origin, Over};
 
 /// The record of this method.
 pub static METHOD: Method = Method {
@@ -26,6 +26,7 @@ pub static METHOD: Method = Method {
         year: 2013,
         link: "https://blog.selfshadow.com/publications/s2013-shading-course/",
     },
+    origin: Origin::Published,
     inputs: &[Input::F0],
     forms: Forms::ColourAndScalar,
     class: Class::Any,

@@ -20,7 +20,7 @@ use super::affine::FittedAverage;
 use super::class::Class;
 use super::half::InHalf;
 use super::input::{Input, Inputs};
-use super::method::{Claim, Claims, Contract, Forms, Light, Method, Over};
+use super::method::{Claim, Claims, Contract, Forms, Light, Method, Origin, Over};
 
 /// Fresnel's law in the g-form.
 pub const COOK_TORRANCE_1982: Citation = Citation {
@@ -44,6 +44,7 @@ pub static METHOD: Method = Method {
         "F = min((c^2 g^2 + s2^2) q^2, 1), q = t / (c (eta^2 (g + c) + g) + g^2)",
     ],
     source: COOK_TORRANCE_1982,
+    origin: Origin::Published,
     inputs: &[Input::ETA],
     forms: Forms::ColourAndScalar,
     class: Class::Dielectric,

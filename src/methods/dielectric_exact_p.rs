@@ -10,7 +10,7 @@ use super::class::Class;
 use super::dielectric_exact::{BELOW_ONE, COOK_TORRANCE_1982, steps};
 use super::half::InHalf;
 use super::input::{Input, Inputs};
-use super::method::{Claim, Claims, Contract, Forms, Light, Method, Over};
+use super::method::{Claim, Claims, Contract, Forms, Light, Method, Origin, Over};
 
 /// The record of this method.
 pub static METHOD: Method = Method {
@@ -21,6 +21,7 @@ pub static METHOD: Method = Method {
         "F = (r_s (c u - 1) / (c t / u + 1))^2; 1 where t + c^2 < 0",
     ],
     source: COOK_TORRANCE_1982,
+    origin: Origin::Published,
     inputs: &[Input::ETA],
     forms: Forms::ColourAndScalar,
     class: Class::Dielectric,

@@ -9,7 +9,7 @@ use super::class::Class;
 use super::dielectric_exact::{BELOW_ONE, COOK_TORRANCE_1982, steps};
 use super::half::InHalf;
 use super::input::{Input, Inputs};
-use super::method::{Claim, Claims, Contract, Forms, Light, Method, Over};
+use super::method::{Claim, Claims, Contract, Forms, Light, Method, Origin, Over};
 
 /// The record of this method.
 pub static METHOD: Method = Method {
@@ -19,6 +19,7 @@ pub static METHOD: Method = Method {
         "t = (eta - 1)(eta + 1), u = sqrt(t + c^2) + c, F = (t / u^2)^2; 1 where t + c^2 < 0",
     ],
     source: COOK_TORRANCE_1982,
+    origin: Origin::Published,
     inputs: &[Input::ETA],
     forms: Forms::ColourAndScalar,
     class: Class::Dielectric,

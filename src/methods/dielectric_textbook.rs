@@ -12,7 +12,7 @@ use crate::ir::Expr;
 use super::class::Class;
 use super::half::InHalf;
 use super::input::{Input, Inputs};
-use super::method::{Claim, Claims, Contract, Forms, Light, Method, Over};
+use super::method::{Claim, Claims, Contract, Forms, Light, Method, Origin, Over};
 
 /// Physically Based Rendering, second edition.
 pub const PBRT_2010: Citation = Citation {
@@ -33,6 +33,7 @@ pub static METHOD: Method = Method {
         "F = (R_s + R_p) / 2",
     ],
     source: PBRT_2010,
+    origin: Origin::Published,
     inputs: &[Input::ETA],
     forms: Forms::ColourAndScalar,
     class: Class::Dielectric,

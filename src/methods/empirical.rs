@@ -15,7 +15,7 @@ use super::input::{
     Input, InputSource, Inputs, POWERS, POWERS_AND_BEYOND, SHARES, SHARES_AND_BEYOND,
 };
 use super::known::{COS_60, mean};
-use super::method::{Claim, Claims, Contract, Forms, Light, Method, Over};
+use super::method::{Claim, Claims, Contract, Forms, Light, Method, Origin, Over};
 
 #[allow(missing_docs)] // each says what it is
 impl Input {
@@ -69,6 +69,7 @@ pub static METHOD: Method = Method {
         year: 2003,
         link: "https://developer.download.nvidia.com/CgTutorial/cg_tutorial_chapter07.html",
     },
+    origin: Origin::Published,
     inputs: &[Input::BIAS, Input::SCALE, Input::POWER],
     forms: Forms::ColourAndScalar,
     class: Class::Any,

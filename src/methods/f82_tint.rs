@@ -16,7 +16,7 @@ use super::half::InHalf;
 use super::hoffman_f82::{WEIGHT_82, affine_weights, dip};
 use super::input::{Input, InputSource, Inputs};
 use super::known::each;
-use super::method::{Claim, Claims, Colours, Contract, Forms, Light, Method, Over};
+use super::method::{Claim, Claims, Colours, Contract, Forms, Light, Method, Origin, Over};
 use super::schlick::grazing_weight;
 
 #[allow(missing_docs)] // each says what it is
@@ -56,6 +56,7 @@ pub static METHOD: Method = Method {
         year: 2021,
         link: "https://helpx.adobe.com/substance-3d-general/adobe-standard-material.html",
     },
+    origin: Origin::Published,
     inputs: &[Input::F0, Input::TINT],
     forms: Forms::Colour,
     class: Class::Any,

@@ -15,7 +15,7 @@ use super::by_class::ByClass;
 use super::class::Class;
 use super::half::InHalf;
 use super::input::{Input, Inputs};
-use super::method::{Claim, Claims, Contract, Forms, Light, Method, Over};
+use super::method::{Claim, Claims, Contract, Forms, Light, Method, Origin, Over};
 use super::shape::{Factor, Shape};
 
 /// Where the exchange comes from that finds the coefficients of all fitted methods.
@@ -41,6 +41,7 @@ pub static METHOD: Method = Method {
     summary: "four coefficients fitted to a metal or semiconductor",
     formula: &["F = c0 + b (c1 + b (c2 + b c3)), b = 2^(-6.5 c), limited to [0, 1]"],
     source: STIEFEL_1959,
+    origin: Origin::Ours("algorithm of the fit"),
     inputs: &[Input::C0, Input::C1, Input::C2, Input::C3],
     forms: Forms::ColourAndScalar,
     class: Class::Any,

@@ -13,7 +13,7 @@ use super::class::Class;
 use super::fitted::{FLOOR, STIEFEL_1959};
 use super::half::InHalf;
 use super::input::{Input, Inputs};
-use super::method::{Claim, Claims, Contract, Forms, Light, Method, Over};
+use super::method::{Claim, Claims, Contract, Forms, Light, Method, Origin, Over};
 use super::shape::{Factor, Shape};
 
 /// The shape.
@@ -27,6 +27,7 @@ pub static METHOD: Method = Method {
     summary: "four coefficients fitted to a dielectric of n 1.2 or more",
     formula: &["F = c0 + b^3 (c1 + b^4 (c2 + b^7 c3)), b = 1 - c, limited to [0, 1]"],
     source: STIEFEL_1959,
+    origin: Origin::Ours("algorithm of the fit"),
     inputs: &[Input::C0, Input::C1, Input::C2, Input::C3],
     forms: Forms::ColourAndScalar,
     class: Class::Dielectric,

@@ -12,7 +12,7 @@ use super::class::Class;
 use super::fitted::{FLOOR, STIEFEL_1959};
 use super::half::InHalf;
 use super::input::{Input, Inputs};
-use super::method::{Claim, Claims, Contract, Forms, Light, Method, Over};
+use super::method::{Claim, Claims, Contract, Forms, Light, Method, Origin, Over};
 use super::shape::{Factor, Shape};
 
 /// The shape.
@@ -26,6 +26,7 @@ pub static METHOD: Method = Method {
     summary: "four coefficients fitted to a dielectric of n 1.2 or more, with a division",
     formula: &["F = c0 + w (c1 + w (c2 + c c3)), w = (1 - c)^2 / (1 + 4 c), limited to [0, 1]"],
     source: STIEFEL_1959,
+    origin: Origin::Ours("algorithm of the fit"),
     inputs: &[Input::C0, Input::C1, Input::C2, Input::C3],
     forms: Forms::ColourAndScalar,
     class: Class::Dielectric,

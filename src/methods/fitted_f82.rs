@@ -18,17 +18,18 @@ use super::class::Class;
 use super::half::InHalf;
 use super::hoffman_f82::{HOFFMAN_2019, between};
 use super::input::{Input, Inputs};
-use super::method::{Claim, Claims, Colours, Contract, Forms, Light, Method, Over};
+use super::method::{Claim, Claims, Colours, Contract, Forms, Light, Method, Origin, Over};
 
 /// The record of this method.
 pub static METHOD: Method = Method {
     name: "fitted_f82",
-    summary: "two fitted curves between the reflectances at 0 and 81.79 degrees (ours)",
+    summary: "two fitted curves between the reflectances at 0 and 81.79 degrees",
     formula: &[
         "F = F0 (1 - A - B) + F82 B + A, limited to [0, 1], u = (1 - c) / (1 + 2.6 c), s = u - u^2",
         "A = u - s (1 + 8/3 u), B = s (531.2/75 u - 0.16)",
     ],
     source: HOFFMAN_2019,
+    origin: Origin::Ours("the two colours that it takes"),
     inputs: &[Input::F0, Input::F82],
     forms: Forms::ColourAndScalar,
     class: Class::Any,

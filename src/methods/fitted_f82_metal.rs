@@ -17,18 +17,19 @@ use super::half::InHalf;
 use super::hoffman_f82::HOFFMAN_2019;
 use super::input::{Input, Inputs};
 use super::method::{
-    Claim, Claims, CoefficientsFromInputs, Colours, Contract, Forms, Light, Method, Over,
+    Claim, Claims, CoefficientsFromInputs, Colours, Contract, Forms, Light, Method, Origin, Over,
 };
 
 /// The record of this method.
 pub static METHOD: Method = Method {
     name: "fitted_f82_metal",
-    summary: "the coefficients of fitted from the reflectances at 0 and 81.79 degrees of a metal (ours)",
+    summary: "the coefficients of fitted from the reflectances at 0 and 81.79 degrees of a metal",
     formula: &[
         "F = c0 + b (c1 + b (c2 + b c3)), b = 2^(-6.5 c), limited to [0, 1]",
         "c1, c2, c3 quadratic in F0 and F82; c0 = F0 - e (c1 + e (c2 + e c3)), e = 2^(-6.5)",
     ],
     source: HOFFMAN_2019,
+    origin: Origin::Ours("the two colours that it takes"),
     inputs: &[Input::F0, Input::F82],
     forms: Forms::Colour,
     class: Class::Any,

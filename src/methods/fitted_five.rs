@@ -13,7 +13,7 @@ use super::class::Class;
 use super::fitted::{FLOOR, STIEFEL_1959};
 use super::half::InHalf;
 use super::input::{Input, Inputs};
-use super::method::{Claim, Claims, Contract, Forms, Light, Method, Over};
+use super::method::{Claim, Claims, Contract, Forms, Light, Method, Origin, Over};
 use super::shape::{Factor, Shape};
 
 /// The shape.
@@ -35,6 +35,7 @@ pub static METHOD: Method = Method {
         "b = 2^(-11 c), q = c^2 + 0.094",
     ],
     source: STIEFEL_1959,
+    origin: Origin::Ours("algorithm of the fit"),
     inputs: &Input::COEFFICIENTS,
     forms: Forms::ColourAndScalar,
     class: Class::Any,

@@ -13,7 +13,7 @@ use super::class::Class;
 use super::fitted::{FLOOR, STIEFEL_1959};
 use super::half::InHalf;
 use super::input::{Input, Inputs};
-use super::method::{Claim, Claims, Contract, Forms, Light, Method, Over};
+use super::method::{Claim, Claims, Contract, Forms, Light, Method, Origin, Over};
 use super::shape::{Factor, Shape};
 
 /// The shape.
@@ -34,6 +34,7 @@ pub static METHOD: Method = Method {
         "r = 1 / (c + 0.144), q = sqrt(r), a = 1 / (c^2 + 0.112) - q",
     ],
     source: STIEFEL_1959,
+    origin: Origin::Ours("algorithm of the fit"),
     inputs: &[Input::C0, Input::C1, Input::C2, Input::C3],
     forms: Forms::ColourAndScalar,
     class: Class::Any,

@@ -13,7 +13,7 @@ use super::affine::Affine;
 use super::class::Class;
 use super::half::InHalf;
 use super::input::{Input, Inputs};
-use super::method::{Claim, Claims, Colours, Contract, Forms, Light, Method, Over};
+use super::method::{Claim, Claims, Colours, Contract, Forms, Light, Method, Origin, Over};
 use super::schlick::{grazing_power, grazing_weight};
 
 /// 7⁷/6⁶, the reciprocal of the maximum of c (1-c)⁶.
@@ -39,6 +39,7 @@ pub static METHOD: Method = Method {
         "b = (823543 / 46656) (F0 + (1 - F0) 7776 / 16807 - F82)",
     ],
     source: HOFFMAN_2019,
+    origin: Origin::Published,
     inputs: &[Input::F0, Input::F82],
     forms: Forms::Colour,
     class: Class::Any,

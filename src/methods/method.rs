@@ -25,8 +25,10 @@ pub struct Method {
     pub summary: &'static str,
     /// The formula, in ASCII, a line each.
     pub formula: &'static [&'static str],
-    /// Who published it.
+    /// Who published it, or what it is built on.
     pub source: Citation,
+    /// Whether its form is the source's.
+    pub origin: Origin,
     /// The arguments after `cos_theta`. Methods with the same arguments have them in the same order.
     pub inputs: &'static [Input],
     /// Which forms it has.
@@ -104,6 +106,17 @@ pub enum Light {
     S,
     /// Electric field in the plane of incidence.
     P,
+}
+
+/// Whose a method's form is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Origin {
+    /// The source's.
+    Published,
+    /// The source's but for what is said here.
+    Adapted(&'static str),
+    /// Ours. Says what the source is of.
+    Ours(&'static str),
 }
 
 /// Whether a method keeps the function contract.
@@ -356,6 +369,29 @@ impl Method {
     /// Whether the method reads a texture.
     pub fn is_textured(&self) -> bool {
         self.inputs.iter().any(|input| input.ty == Ty::Texture)
+    }
+
+    /// Whether its form is ours, and not published elsewhere.
+    pub fn is_ours(&self) -> bool {
+        matches!(self.origin, Origin::Ours(_))
+    }
+
+    /// Where it comes from: the whole citation, and what of it is ours.
+    pub fn source_in_full(&self) -> String {
+        self.with_origin(&self.source.line())
+    }
+
+    /// The same with authors, year and link.
+    pub fn source_in_short(&self) -> String {
+        self.with_origin(&self.source.short())
+    }
+
+    fn with_origin(&self, citation: &str) -> String {
+        match self.origin {
+            Origin::Published => citation.to_owned(),
+            Origin::Adapted(what) => format!("{citation}; {what}"),
+            Origin::Ours(of) => format!("the form is fresnel-gen's; {of}: {citation}"),
+        }
     }
 
     /// Whether the method's inputs are coefficients, in which it is linear: they are fitted.

@@ -23,8 +23,8 @@ pub use half::{HALF_AIM, HalfClaim, InHalf};
 pub use input::{Input, InputSource, Inputs, Range, find_input};
 pub use known::KnownSurface;
 pub use method::{
-    Better, Claim, Claims, CoefficientsFromInputs, Colours, Contract, Forms, Light, Method, Over,
-    Values,
+    Better, Claim, Claims, CoefficientsFromInputs, Colours, Contract, Forms, Light, Method, Origin,
+    Over, Values,
 };
 pub use renamed::{RENAMED, Renamed, renamed};
 pub use shape::{Factor, Shape};

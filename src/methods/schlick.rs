@@ -12,7 +12,7 @@ use super::affine::Affine;
 use super::class::Class;
 use super::half::InHalf;
 use super::input::{Input, Inputs};
-use super::method::{Claim, Claims, Colours, Contract, Forms, Light, Method, Over};
+use super::method::{Claim, Claims, Colours, Contract, Forms, Light, Method, Origin, Over};
 
 /// Schlick 1994.
 pub const SCHLICK_1994: Citation = Citation {
@@ -29,6 +29,7 @@ pub static METHOD: Method = Method {
     summary: "Schlick's approximation from F0",
     formula: &["F = F0 + (1 - F0) (1 - cos_theta)^5"],
     source: SCHLICK_1994,
+    origin: Origin::Published,
     inputs: &[Input::F0],
     forms: Forms::ColourAndScalar,
     class: Class::Any,

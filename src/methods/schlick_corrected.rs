@@ -17,7 +17,7 @@ use super::class::Class;
 use super::half::InHalf;
 use super::input::{Input, InputSource, Inputs};
 use super::known::KnownSurface;
-use super::method::{Claim, Claims, Contract, Forms, Light, Method, Over};
+use super::method::{Claim, Claims, Contract, Forms, Light, Method, Origin, Over};
 use super::schlick_rescaled::{LAZANYI_2005, rescaled};
 
 #[allow(missing_docs)] // each says what it is
@@ -66,6 +66,7 @@ pub static METHOD: Method = Method {
         "    - 2 n cos_theta (1 - cos_theta)^lambda; without the last term where lambda <= 0",
     ],
     source: LAZANYI_2005,
+    origin: Origin::Adapted("a = 2 n and the matched exponent are the thesis's"),
     inputs: &[Input::N, Input::K, Input::LAMBDA],
     forms: Forms::Colour,
     class: Class::Any,

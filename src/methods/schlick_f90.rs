@@ -12,7 +12,7 @@ use super::affine::Affine;
 use super::class::Class;
 use super::half::InHalf;
 use super::input::{Input, Inputs};
-use super::method::{Claim, Claims, Colours, Contract, Forms, Light, Method, Over};
+use super::method::{Claim, Claims, Colours, Contract, Forms, Light, Method, Origin, Over};
 use super::schlick::{affine_weights, grazing_weight};
 
 /// The record of this method.
@@ -27,6 +27,7 @@ pub static METHOD: Method = Method {
         year: 2014,
         link: "https://seblagarde.wordpress.com/2015/07/14/siggraph-2014-moving-frostbite-to-physically-based-rendering/",
     },
+    origin: Origin::Published,
     inputs: &[Input::F0, Input::F90],
     forms: Forms::ColourAndScalar,
     class: Class::Any,

@@ -1,7 +1,9 @@
 //! `F = F0 + (F90 - F0) (1 - cos θ)^exponent`: Schlick's approximation with F90 and the exponent as inputs.
 //!
-//! Source: Hoffman, "Generalization of Adobe's Fresnel Model", 2023,
-//! <https://renderwonk.com/publications/gfm/> (its first two terms, as MaterialX names it).
+//! Source: Kulla and Conty, "Revisiting Physically Based Shading at Imageworks", SIGGRAPH course, 2017,
+//! <https://blog.selfshadow.com/publications/s2017-shading-course/>, which the specification of MaterialX cites for its
+//! `generalized_schlick_bsdf` of `color0`, `color90` and `exponent`. Later that node got a term at 82 degrees (Hoffman, "Generalization of
+//! Adobe's Fresnel Model", 2023, <https://renderwonk.com/publications/gfm/>); this has none.
 //! Domain: F0 ≥ 0, F90 in [0, 1], exponent ≥ 0.2 (below, 2^(-126 exponent) shows at normal incidence). Error: that of `schlick` at exponent 5 and F90 = 1; the real power
 //! goes through exp2 and log2, whose own error the code error holds.
 
@@ -11,7 +13,7 @@ use crate::ir::Expr;
 use super::class::Class;
 use super::half::InHalf;
 use super::input::{Input, InputSource, Inputs, POWERS, POWERS_AND_BEYOND};
-use super::method::{Claim, Claims, Contract, Forms, Light, Method, Over};
+use super::method::{Claim, Claims, Contract, Forms, Light, Method, Origin, Over};
 use super::schlick_f90::to_f90;
 
 #[allow(missing_docs)] // each says what it is
@@ -32,12 +34,13 @@ pub static METHOD: Method = Method {
     summary: "Schlick's approximation with F90 and any exponent",
     formula: &["F = F0 + (F90 - F0) (1 - cos_theta)^exponent"],
     source: Citation {
-        authors: "Hoffman",
-        title: "Generalization of Adobe's Fresnel Model",
-        place: "renderwonk.com",
-        year: 2023,
-        link: "https://renderwonk.com/publications/gfm/",
+        authors: "Kulla, Conty",
+        title: "Revisiting Physically Based Shading at Imageworks",
+        place: "SIGGRAPH course",
+        year: 2017,
+        link: "https://blog.selfshadow.com/publications/s2017-shading-course/",
     },
+    origin: Origin::Published,
     inputs: &[Input::F0, Input::F90, Input::EXPONENT],
     forms: Forms::ColourAndScalar,
     class: Class::Any,

@@ -9,7 +9,7 @@ use crate::ir::Expr;
 use super::class::Class;
 use super::half::InHalf;
 use super::input::{Input, Inputs};
-use super::method::{Claim, Claims, Contract, Forms, Light, Method, Over};
+use super::method::{Claim, Claims, Contract, Forms, Light, Method, Origin, Over};
 use super::schlick::{SCHLICK_1994, grazing_weight, to_white};
 
 /// The record of this method.
@@ -18,6 +18,7 @@ pub static METHOD: Method = Method {
     summary: "Schlick's approximation from the index of refraction",
     formula: &["F = ((eta - 1)^2 + 4 eta (1 - cos_theta)^5) / (eta + 1)^2"],
     source: SCHLICK_1994,
+    origin: Origin::Published,
     inputs: &[Input::ETA],
     forms: Forms::ColourAndScalar,
     class: Class::Dielectric,

@@ -10,7 +10,7 @@ use crate::ir::Expr;
 use super::class::Class;
 use super::half::InHalf;
 use super::input::{Input, Inputs};
-use super::method::{Claim, Claims, Contract, Forms, Light, Method, Over};
+use super::method::{Claim, Claims, Contract, Forms, Light, Method, Origin, Over};
 use super::schlick::{grazing_rest, grazing_weight};
 
 /// Lazányi and Szirmay-Kalos 2005.
@@ -28,6 +28,7 @@ pub static METHOD: Method = Method {
     summary: "Schlick's approximation rescaled to n and k",
     formula: &["F = ((n - 1)^2 + 4 n (1 - cos_theta)^5 + k^2) / ((n + 1)^2 + k^2)"],
     source: LAZANYI_2005,
+    origin: Origin::Published,
     inputs: &[Input::N, Input::K],
     forms: Forms::Colour,
     class: Class::Any,

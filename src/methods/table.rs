@@ -14,7 +14,7 @@ use crate::num::Num;
 use super::class::Class;
 use super::half::InHalf;
 use super::input::{Input, InputSource, Inputs};
-use super::method::{Claim, Claims, Contract, Forms, Light, Method, Over};
+use super::method::{Claim, Claims, Contract, Forms, Light, Method, Origin, Over};
 
 /// Texels of a table where no size is asked for. In half precision the rounding of texels is then what errs most: more
 /// texels gain nothing, fewer cost (half the size quadruples what filtering errs).
@@ -88,6 +88,7 @@ pub static METHOD: Method = Method {
         year: 2005,
         link: "https://developer.nvidia.com/gpugems/gpugems2/part-iii-high-quality-rendering/chapter-24-using-lookup-tables-accelerate-color",
     },
+    origin: Origin::Adapted("the warp is fresnel-gen's"),
     inputs: &[
         Input::TABLE,
         Input::TEXELS,

@@ -5,7 +5,7 @@ use crate::effects;
 use crate::emit::{Bounds, Naming, half_bounds, specialised_function};
 use crate::flavours;
 use crate::materials::{Material, Unseen, ViewingConditions};
-use crate::methods::{self, Class, Contract, Method, Spread};
+use crate::methods::{self, Class, Contract, Method, Origin, Spread};
 use crate::reference::{Derivation, MaterialInMedium};
 use crate::targets;
 
@@ -85,9 +85,10 @@ pub fn methods_table() -> String {
 
 fn source_cell(method: &Method) -> String {
     let source = format!("{} {}", method.source.authors, method.source.year);
-    match method.is_fitted() {
-        true => format!("fresnel-gen; fit by exchange: {source}"),
-        false => source,
+    match method.origin {
+        Origin::Published => source,
+        Origin::Adapted(what) => format!("{source}; {what}"),
+        Origin::Ours(of) => format!("fresnel-gen; {of}: {source}"),
     }
 }
 

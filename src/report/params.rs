@@ -79,7 +79,7 @@ fn colour_error_lines(errors: &ColourErrors) -> [String; 4] {
     [
         String::new(),
         "Colour error, of three channels in place of a spectrum, in Delta E 2000 after 1, 2, 3 bounces under another light.".to_owned(),
-        "More accuracy than this is not worth having:".to_owned(),
+        "What RGB cannot show under that light, by any function; under the light of the functions one bounce has none, and their own error is seen:".to_owned(),
         table::text_table(&["light", "1", "2", "3"], &rows),
     ]
 }

@@ -98,9 +98,6 @@ fn choice_text(choice: &ChoiceRow) -> String {
 fn headline(result: &SearchResult) -> String {
     format!(
         "{}: {} shapes for {} measurements of {} substances",
-        result.class.title(),
-        result.tried,
-        result.materials,
-        result.substances
+        result.class.title, result.tried, result.materials, result.substances
     )
 }

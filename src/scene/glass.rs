@@ -16,7 +16,7 @@ pub struct Glass {
     pub k: DVec3,
 }
 
-/// A wavelength, or some that lie together.
+/// A wavelength.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Ray {
     /// Its index.
@@ -27,8 +27,6 @@ pub struct Ray {
 
 /// A medium with less is seen through.
 const TRANSPARENT_K: f64 = 0.1;
-/// Wavelengths of the integrator that are followed as one ray.
-const TOGETHER: usize = 5;
 
 impl Glass {
     /// Without dispersion.
@@ -43,7 +41,7 @@ impl Glass {
         }
     }
 
-    /// A material as it is seen.
+    /// A material as it is seen: a ray for each wavelength of the integrator, since the law of a mean index is not the mean of laws.
     pub fn of_surface(surface: &Surface) -> Glass {
         let weights = &surface.integrator.weights;
         let sum: DVec3 = weights.iter().sum();
@@ -53,19 +51,10 @@ impl Glass {
                 .map(|(index, weight)| of(index) * *weight / sum)
                 .sum()
         };
-        let together = surface
-            .indices
-            .chunks(TOGETHER)
-            .zip(weights.chunks(TOGETHER));
-        let rays = together.map(|(indices, weights)| {
-            let count = indices.len() as f64;
-            Ray {
-                index: Index {
-                    n: indices.iter().map(|index| index.n).sum::<f64>() / count,
-                    k: indices.iter().map(|index| index.k).sum::<f64>() / count,
-                },
-                weight: weights.iter().map(|weight| *weight / sum).sum(),
-            }
+        let rays = surface.indices.iter().zip(weights);
+        let rays = rays.map(|(index, weight)| Ray {
+            index: *index,
+            weight: *weight / sum,
         });
         let mut glass = Glass {
             rays: rays.collect(),

@@ -1,4 +1,4 @@
-//! What two colours are worth: methods of F0 and F82 over 75 measurements of metals and semiconductors, and over glasses.
+//! What two colours are worth: methods of F0 and F82 over the sample of metals and semiconductors, and over glasses.
 
 use fresnel_gen::fit::{ErrorQuantiles, error_of, values_at, values_for_material};
 use fresnel_gen::methods;
@@ -7,7 +7,8 @@ use fresnel_gen::reference::MaterialInMedium;
 
 use crate::samples;
 
-/// A method with the median and the 90th percentile of its largest errors, each measurement once, as `docs/methods.md` states them.
+/// A method with the median and the 90th percentile of its largest errors, each measurement once, as headers and `docs/methods.md` state them of the
+/// sample.
 const STATED: [(&str, f64, f64); 5] = [
     ("schlick", 0.1221, 0.2307),
     ("hoffman_f82", 0.0179, 0.0471),

@@ -7,7 +7,7 @@ use fresnel_gen::fit::{
 use fresnel_gen::materials::ViewingConditions;
 use fresnel_gen::methods::{self, Method, Values};
 use fresnel_gen::num::statistics::quantile;
-use fresnel_gen::reference::{MaterialClass, MaterialInMedium};
+use fresnel_gen::reference::MaterialInMedium;
 use fresnel_gen::spectra::Gamut;
 
 use super::fits::catalogue;
@@ -139,41 +139,4 @@ fn the_limit_costs_what_the_document_says() {
             );
         }
     }
-}
-
-/// The first sentences of README: what Schlick's errs over what `fitted` errs, the median of metals and semiconductors, and gold.
-#[test]
-fn the_headline_holds_for_functions_and_for_the_catalogue() {
-    let own = |name: &str, of: &dyn Fn(&MaterialInMedium, &Method) -> f64| -> [f64; 2] {
-        let method = methods::find(name).expect("it is a method");
-        let metals = catalogue()
-            .iter()
-            .filter(|subject| MaterialClass::containing(subject) == Some(MaterialClass::Metals));
-        let mut errors = Vec::new();
-        let mut gold = 0.0;
-        for subject in metals {
-            errors.push(of(subject, method));
-            if subject.name == "gold" {
-                gold = of(subject, method);
-            }
-        }
-        println!("{} materials", errors.len());
-        [quantile(&errors, 0.5), gold]
-    };
-    let given = |subject: &MaterialInMedium, method: &Method| {
-        let function = method.specialise(&values_for_material(subject, method));
-        model_error(
-            &function.expect("it is specialised"),
-            &subject.truth_for(method),
-        )
-        .max_abs
-    };
-    let schlick = own("schlick", &given);
-    let limited = own("fitted", &given);
-    let kept = own("fitted", &|subject, method| {
-        error(subject, method, Gamut::Clip)
-    });
-    let times = |errors: [f64; 2]| [0, 1].map(|i| (schlick[i] / errors[i]).round() as u32);
-    assert_eq!(times(limited), [69, 12]);
-    assert_eq!(times(kept), [59, 7]);
 }

@@ -67,6 +67,7 @@ mod spectral;
 mod split_sum;
 #[cfg(feature = "cli")]
 mod stability;
+mod stated;
 mod tidy;
 mod tree;
 #[cfg(all(feature = "cli", feature = "gpu"))]

@@ -14,13 +14,13 @@ use super::{MaterialFlags, PictureFlags, ReportFlags};
 #[command(
     mut_arg("material", |arg| arg.help("Materials on the page: names, paths of material files, all [default: all]")),
     mut_arg("out_dir", |arg| arg.help("Write chart.svg and chart.html into this folder")),
-    after_help = "Examples:\n  fresnel-gen chart --out-dir charts\n  fresnel-gen chart --material gold --gpu adreno330 --error de2000\n  fresnel-gen chart --show dielectrics --of worst --gpu time --json -\n\nCosts are those of library functions, one evaluation, as recorded; `fresnel-gen cost` tells and checks them. Each published method stands twice: with the inputs that its authors meant, and with those whose largest error is least. Into the folder go chart.svg, the picture of what is shown, and chart.html, a page with all of them to choose from."
+    after_help = "Examples:\n  fresnel-gen chart --out-dir charts\n  fresnel-gen chart --material gold --gpu adreno330 --error de2000\n  fresnel-gen chart --show dielectrics --of worst --gpu time --json -\n\nCosts are those of library functions, one evaluation, as recorded; `fresnel-gen cost` tells and checks them. Each method with inputs to choose stands twice: with those that it is meant to have, and with those whose largest error is least. Into the folder go chart.svg, the picture of what is shown, and chart.html, a page with all of them to choose from."
 )]
 pub struct ChartFlags {
     /// Which materials.
     #[command(flatten)]
     pub materials: MaterialFlags,
-    /// What is shown: metals (and semiconductors), dielectrics, or a material [default: the first of these that there is]
+    /// What is shown: metals, semiconductors, dielectrics, or a material [default: the first of these that there is]
     #[arg(long, value_name = "NAME")]
     pub show: Option<String>,
     /// How a class is taken together: median, p90, worst, substances (the median, each substance one vote)

@@ -26,7 +26,7 @@ pub fn methods(flags: &MethodsFlags) -> Result<Output, Error> {
     let row = |method: &&'static Method| NameRow {
         name: method.name,
         summary: method.summary,
-        source: method.source.line(),
+        source: method.source_in_full(),
     };
     listed("methods", methods::ALL.iter().map(row).collect(), file)
 }
@@ -82,7 +82,7 @@ fn method_text(method: &Method) -> String {
     ];
     lines.extend(method.formula.iter().map(|line| format!("  {line}")));
     lines.push(String::new());
-    lines.push(format!("source      {}", method.source.line()));
+    lines.push(format!("source      {}", method.source_in_full()));
     lines.push(format!("domain      {}", method.domain));
     lines.extend(
         method
@@ -152,7 +152,7 @@ impl MethodSheet {
             schema: SCHEMA,
             name: method.name,
             summary: method.summary,
-            source: method.source.line(),
+            source: method.source_in_full(),
             formula: method.formula,
             domain: method.domain,
             arguments: arguments.collect(),

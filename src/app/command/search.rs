@@ -2,7 +2,7 @@
 
 use crate::app::args::FitFlags;
 use crate::app::error::Error;
-use crate::cost::{SearchResult, SearchRow, library_cost, records};
+use crate::cost::{SEARCHED, SearchResult, SearchRow, SearchedClass, library_cost, records};
 use crate::fit::{Candidate, FitCurve, FitObjective, FitProblem, TriedShapes, candidates, search};
 use crate::materials::{Material, find};
 use crate::methods::Method;
@@ -31,7 +31,7 @@ pub(super) fn run(
     let record = records(flags.gpu.name);
     let cost = |method: &Method| library_cost(method, flags.gpu, &record);
     let mut results = Vec::new();
-    for class in MaterialClass::ALL {
+    for class in &SEARCHED {
         let tried = tried_shapes(class, &subjects, &shapes, aim, progress);
         let result = |tried| SearchResult::new(class, &tried, &terms, aim.weight, &cost);
         results.extend(tried.map(result));
@@ -50,19 +50,17 @@ pub(super) fn run(
 }
 
 /// Why a material takes no part.
-const OUTSIDE: &str = "gases, and dielectrics that absorb, are in no class that shapes are for";
+const OUTSIDE: &str = "gases, dielectrics that absorb, and what is known at three wavelengths alone are in no class that shapes are for";
 
 /// All shapes tried on the materials of a class; none where there are none.
 fn tried_shapes(
-    class: MaterialClass,
+    class: &SearchedClass,
     subjects: &[MaterialInMedium],
     shapes: &[Candidate],
     aim: FitObjective,
     progress: Progress,
 ) -> Option<TriedShapes> {
-    let own = subjects
-        .iter()
-        .filter(|subject| MaterialClass::containing(subject) == Some(class));
+    let own = subjects.iter().filter(|subject| class.holds(subject));
     let own: Vec<&MaterialInMedium> = own.collect();
     let curve = |i: usize| FitCurve::unclipped(own[i]);
     let curves: Vec<FitCurve> = in_parallel(own.len(), &curve, &mut |done, whole| {

@@ -19,7 +19,7 @@ impl CatalogueMethod {
         let about = methods.map(|method| CatalogueMethod {
             name: method.name,
             formula: method.formula,
-            source: method.source.line(),
+            source: method.source_in_full(),
         });
         about.collect()
     }

@@ -29,6 +29,8 @@ struct EntryColumns<'a> {
     source: String,
     fetches: usize,
     fails: Option<&'a str>,
+    is_ours: bool,
+    describes: Option<&'static str>,
     no_cost: Option<&'a str>,
 }
 
@@ -44,6 +46,8 @@ struct CostColumns<'a> {
 struct SetColumns<'a> {
     name: &'a str,
     title: &'a str,
+    count: usize,
+    undescribed: &'a [usize],
     errors: Vec<[Option<f64>; 4]>,
 }
 
@@ -73,6 +77,8 @@ fn page_data(data: &ChartData) -> PageData<'_> {
     let sets = data.sets.iter().map(|set| SetColumns {
         name: &set.name,
         title: &set.title,
+        count: set.count,
+        undescribed: &set.undescribed,
         errors: set.errors.iter().map(four_digits).collect(),
     });
     PageData {
@@ -90,7 +96,7 @@ fn page_data(data: &ChartData) -> PageData<'_> {
 
 fn entry_columns(entry: &ChartEntry) -> EntryColumns<'_> {
     let (summary, source) = match &entry.function {
-        FunctionOrigin::Method(method) => (method.summary, method.source.line()),
+        FunctionOrigin::Method(method) => (method.summary, method.source_in_full()),
         FunctionOrigin::User(user) => (user.about.as_str(), String::new()),
     };
     EntryColumns {
@@ -101,6 +107,8 @@ fn entry_columns(entry: &ChartEntry) -> EntryColumns<'_> {
         source,
         fetches: entry.fetches,
         fails: entry.fails(),
+        is_ours: entry.is_ours(),
+        describes: entry.method().map(|method| method.class.described()),
         no_cost: entry.user().and_then(|user| user.no_cost.as_deref()),
     }
 }

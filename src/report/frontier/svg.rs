@@ -6,7 +6,7 @@ use crate::report::plot::{
 };
 
 use super::labels::{DOT, LabelPlace, place_names};
-use crate::chart::{ChartEntry, ChartPoint, ChartView, ERRORS, drawn};
+use crate::chart::{ChartEntry, ChartPoint, ChartView, ERRORS, drawn, without_point};
 
 /// The size of the picture.
 const FRAME: PanelFrame = PanelFrame {
@@ -116,17 +116,24 @@ pub fn chart_svg(view: &ChartView) -> Option<String> {
     Some(layout.document(&title, &key))
 }
 
-const KEY: &str = "Blue: fitted here. Orange: published; full with the inputs that its authors meant, hollow (*) with those whose \
-largest error is least. Square: reads a texture; its cost excludes the fetch. The line: no function is both cheaper and as accurate; functions that fail inside their domain are left out of it. What costs nothing has no point.";
+const KEY: &str = "Blue: ours. Orange: published. Full: with the inputs that it is meant to have; hollow (*): with those whose \
+largest error is least. Square: reads a texture; its cost excludes the fetch. The line: no function is both cheaper and as accurate; functions that fail inside their domain are left out of it.";
 
-/// The key, with a sentence on a user's function.
+/// The key, with a sentence on a user's function, and the methods that have no point.
 fn key(view: &ChartView) -> String {
     let user = view.data.entries.iter().find_map(ChartEntry::user);
     let own = user.map(|user| match view.lacks() {
         None => format!(" Green diamond: {}, your own.", user.name),
         Some(lacks) => format!(" {lacks}"),
     });
-    format!("{KEY}{}", own.unwrap_or_default())
+    let without = without_point(view).into_iter();
+    let without: Vec<String> = without.map(|line| format!(" {line}")).collect();
+    let head = if without.is_empty() {
+        ""
+    } else {
+        " Without a point:"
+    };
+    format!("{KEY}{}{head}{}", own.unwrap_or_default(), without.concat())
 }
 
 /// The titles of the axes.
@@ -166,11 +173,20 @@ fn pairs(points: &[ChartPoint], plane: &Plane) -> Vec<String> {
         };
         let intended = points.iter().find(is_same)?;
         let ((across, to), (_, from)) = (plane.at(best), plane.at(intended));
+        let colour = colour(best);
         Some(format!(
-            "<path stroke=\"{THEIRS}\" stroke-opacity=\"0.5\" d=\"M{across:.2} {from:.2}V{to:.2}\"/>"
+            "<path stroke=\"{colour}\" stroke-opacity=\"0.5\" d=\"M{across:.2} {from:.2}V{to:.2}\"/>"
         ))
     };
     best.filter_map(line).collect()
+}
+
+/// Blue where the form is ours.
+fn colour(point: &ChartPoint) -> &'static str {
+    match point.entry.is_ours() {
+        true => OURS,
+        false => THEIRS,
+    }
 }
 
 fn dot(point: &ChartPoint, plane: &Plane) -> String {
@@ -178,11 +194,7 @@ fn dot(point: &ChartPoint, plane: &Plane) -> String {
     if point.entry.user().is_some() {
         return diamond(x, y);
     }
-    let colour = if point.entry.is_fitted() {
-        OURS
-    } else {
-        THEIRS
-    };
+    let colour = colour(point);
     let fill = if point.entry.is_best {
         "#ffffff"
     } else {

@@ -1,6 +1,6 @@
 //! The chart for a terminal: its points as a table, and what follows from them in a sentence each.
 
-use crate::chart::{ChartPoint, ChartView, ERRORS};
+use crate::chart::{ChartPoint, ChartView, ERRORS, without_point};
 use crate::report::plot::capital;
 use crate::report::table::{self, short_number};
 
@@ -18,13 +18,20 @@ pub fn chart_text(view: &ChartView) -> String {
     let rows: Vec<Vec<String>> = points.iter().map(cells).collect();
     format!(
         "{}\nCost: {}.\n\n{}\nA star before a row: nothing is cheaper and as near, or nearer and as cheap.\n\
-         A method that costs nothing has no point.\n{}\n{}",
+         Without a point:\n{}{}\n{}",
         capital(&view.title()),
         view.cost.title,
         table::text_table(&head, &rows),
+        absent(view),
         failing(&points),
-        fitted_gains(view)
+        gains_of_ours(view)
     )
+}
+
+/// The methods that have no point, a line a reason.
+fn absent(view: &ChartView) -> String {
+    let lines = without_point(view).into_iter();
+    lines.map(|line| format!("  {line}\n")).collect()
 }
 
 /// A remark on each method that fails: the frontier is without it.
@@ -52,20 +59,19 @@ fn cells(point: &ChartPoint) -> Vec<String> {
     ]
 }
 
-/// What a fitted method gains on a competitor with its intended inputs and with its best ones, at which part of its cost: of each
-/// fitted method against the nearest competitor that is no cheaper than it by more than a tenth.
-fn fitted_gains(view: &ChartView) -> String {
+/// What a method of ours gains on a competitor with its intended inputs and with its best ones, at which part of its cost: of each against
+/// the nearest competitor that is no cheaper than it by more than a tenth.
+fn gains_of_ours(view: &ChartView) -> String {
     let points = view.points();
-    let ours = points.iter().filter(|point| point.entry.is_fitted());
+    let ours = points
+        .iter()
+        .filter(|point| point.entry.is_ours() && !point.entry.is_best);
     ours.filter_map(|our| sentence(our, &points)).collect()
 }
 
 fn sentence(our: &ChartPoint, points: &[ChartPoint]) -> Option<String> {
     let is_competitor = |point: &&ChartPoint| {
-        let is_published = point
-            .entry
-            .method()
-            .is_some_and(|method| !method.is_fitted());
+        let is_published = point.entry.method().is_some_and(|method| !method.is_ours());
         let is_cheap = our.cost <= 1.1 * point.cost && point.cost <= 2.0 * our.cost;
         is_published && point.entry.fetches == 0 && is_cheap && our.error < point.error
     };

@@ -21,6 +21,24 @@ pub static FACTS: &[Fact] = &[
         },
     },
     Fact {
+        pictures: "*renders/double_refraction.png",
+        says: "what is reflected inside is missing: the rim is darker than in truth",
+        holds: |shown| {
+            let read = Panels::new(shown);
+            let [drawn, truth] = [0, 1].map(|panel| read.mean(panel, RIM)[1]);
+            assert!(drawn < truth - 5.0, "{drawn} {truth}");
+        },
+    },
+    Fact {
+        pictures: "*renders/double_refraction_gem.png",
+        says: "what is reflected totally leaves undimmed: the brilliant is brighter than in truth",
+        holds: |shown| {
+            let read = Panels::new(shown);
+            let [drawn, truth] = [0, 1].map(|panel| read.mean(panel, WHOLE)[1]);
+            assert!(drawn > truth, "{drawn} {truth}");
+        },
+    },
+    Fact {
         pictures: "*renders/double_refraction_ldr.png",
         says: "the sun's glint is white in truth, and not where the sky is clamped",
         holds: |shown| {
@@ -157,6 +175,8 @@ fn one_surface_magnifies(shown: &Shown) {
 /// From left, to right, from top and to bottom of a panel, in 256ths.
 type Part = [usize; 4];
 
+const WHOLE: Part = [48, 208, 48, 208];
+const RIM: Part = [24, 34, 108, 148];
 const TOP: Part = [108, 148, 30, 50];
 const MIDDLE: Part = [98, 158, 100, 150];
 const BOTTOM: Part = [108, 148, 205, 225];

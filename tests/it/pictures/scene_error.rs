@@ -45,6 +45,25 @@ pub static FACTS: &[Fact] = &[
         holds: |shown| assert!(brightest(shown) > 230),
     },
     Fact {
+        pictures: "*scene-error/platinum_schlick.png",
+        says: "Schlick's metal is brighter than the law's at oblique angles and darker nowhere",
+        holds: |shown| {
+            let reference = shown
+                .beside("docs/scene-error/platinum_reference.png")
+                .unwrap();
+            let law = Pixels::new(&reference);
+            let schlick = Pixels::new(&shown.bytes());
+            let mut brighter = 0;
+            for i in 0..law.width * law.height {
+                let at = ((i % law.width) as f64, (i / law.width) as f64);
+                let (law, schlick) = (law.at(at.0, at.1), schlick.at(at.0, at.1));
+                assert!((0..3).all(|c| schlick[c] >= law[c]), "{at:?} is darker");
+                brighter += usize::from((0..3).all(|c| schlick[c] > law[c]));
+            }
+            assert!(brighter > 20_000, "{brighter}");
+        },
+    },
+    Fact {
         pictures: "*_schlick_difference.png",
         says: "Schlick errs at oblique angles: bright bands, and most of the object dark",
         holds: |shown| {

@@ -1,6 +1,10 @@
 //! Metals: a room seen in a ball, and dents.
 
-use fresnel_gen::scene::{Glass, Picture, ROOM_MAX, ROOM_MIN, Relief, room_radiance, sky};
+use fresnel_gen::materials::{self, Surface, ViewingConditions};
+use fresnel_gen::scene::{
+    self, Around, Camera, Glass, Paths, Picture, ROOM_MAX, ROOM_MIN, Relief, Things, room_radiance,
+    sky,
+};
 use glam::DVec3;
 
 use super::one_surface::glass_of;
@@ -65,4 +69,49 @@ fn dents_turn_the_mirror_and_not_the_world() {
     let dark = super::around(|_| DVec3::ZERO);
     let black = pictured(&device, "normal_mapped", &Glass::of_index(1.5), &dark, 16);
     assert!(black.drawn.iter().all(|pixel| *pixel == DVec3::ZERO));
+}
+
+/// In a world of ones a ball shows R: the truth of every pixel is the law at each wavelength, before any gamut.
+#[test]
+fn the_truth_of_a_metal_is_the_law_at_each_wavelength() {
+    let white = super::around(|_| DVec3::ONE);
+    for name in ["gold", "silver", "copper", "platinum"] {
+        let material = materials::find(name).unwrap().unwrap();
+        let surface = Surface::new(&material, None, &ViewingConditions::default()).unwrap();
+        let (body, glass) = (
+            super::row("complex_f0").body.body(),
+            Glass::of_surface(&surface),
+        );
+        let things = Things {
+            body: &body,
+            glass: &glass,
+            around: Around::Far(&white),
+            relief: None,
+        };
+        let eye = DVec3::from_array(super::row("complex_f0").eye);
+        let camera = Camera::around(eye, body.radius());
+        let side = 64;
+        let seen = scene::trace(things, &camera, side, [Paths::Mirror; 2], &mut |_, _| {});
+        for (i, sample) in seen.iter().enumerate().filter(|(_, sample)| sample.is_body) {
+            let place = |i: usize| (i as f64 + 0.5) / side as f64;
+            let direction = camera.direction(place(i % side), place(i / side));
+            let height = (eye - eye.dot(direction) * direction).length_squared();
+            let law = surface.unpolarised((1.0 - height).max(0.0).sqrt());
+            let apart = (sample.colour - law).abs().max_element();
+            assert!(apart < 1e-5, "{name}: {} and not {law}", sample.colour);
+        }
+    }
+}
+
+/// What is stated of gold head-on: (1.0383, .7727, .3399), of which three channels know no red above 1.
+#[test]
+fn the_truth_of_gold_head_on_is_known() {
+    let glass = glass_of("gold");
+    let head_on = glass.rays.iter().map(|ray| {
+        let (n, k) = (ray.index.n, ray.index.k);
+        ray.weight * (((n - 1.0).powi(2) + k * k) / ((n + 1.0).powi(2) + k * k))
+    });
+    let head_on: DVec3 = head_on.sum();
+    let known = DVec3::new(1.0383, 0.7727, 0.3399);
+    assert!((head_on - known).abs().max_element() < 3e-4, "{head_on}");
 }
