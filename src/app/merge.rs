@@ -1,7 +1,7 @@
 //! The shards of one verification put together: the rows of their reports in the order of a whole run. Whatever tells that they are
 //! not of one run is refused, since rows of two runs beside each other prove nothing.
 
-use std::collections::BTreeSet;
+use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 use serde::Deserialize;
@@ -12,7 +12,7 @@ use crate::materials::FileFault;
 use crate::report::shard::ShardReport;
 use crate::report::{SCHEMA, TOOL};
 use crate::verify::VerifyRow;
-use crate::verify::shard::{PlacedRow, Shard};
+use crate::verify::shard::{PartStatement, Shard};
 
 use super::error::Error;
 use super::fault::RequestFault;
@@ -93,6 +93,8 @@ pub struct Whole {
     pub require_all: bool,
     /// The rows in their order.
     pub rows: Vec<VerifyRow>,
+    /// What came of each place, in order.
+    pub parts: Vec<PartStatement>,
 }
 
 /// What every report begins with, in whatever version of the form.
@@ -130,38 +132,50 @@ pub fn parsed(file: &Path, text: &str) -> Result<Part, Error> {
     Ok(Part { file, report })
 }
 
-/// What is wrong with the rows of a report: some are of places of other shards, some are missing, one is there twice.
+/// What is wrong with the rows of a report: the shard does not speak of the very places that are dealt to it, or of one of them other
+/// rows are there than it says.
 fn row_fault(report: &ShardReport, shard: Shard) -> Option<String> {
-    let (index, count, rows) = (shard.index(), shard.count(), &report.rows);
-    let is_own = |place: usize| shard.takes(place) && place < report.places;
-    if let Some(stray) = rows.iter().find(|row| !is_own(row.place)) {
-        let place = stray.place;
+    let (index, count) = (shard.index(), shard.count());
+    let mut found: BTreeMap<usize, Vec<usize>> = BTreeMap::new();
+    for row in &report.rows {
+        found.entry(row.place).or_default().push(row.number);
+    }
+    let spoken_of = report.parts.iter().map(|part| part.place);
+    let is_own = |place: &usize| shard.takes(*place) && *place < report.places;
+    let mut all = spoken_of.clone().chain(found.keys().copied());
+    if let Some(place) = all.find(|place| !is_own(place)) {
         return Some(format!(
             "it has a row of place {place}, which is not dealt to shard {index} of {count}"
         ));
     }
-    if rows.len() != report.row_count {
-        let (stated, there) = (report.row_count, rows.len());
+    let dealt = (index..report.places).step_by(count);
+    if !spoken_of.eq(dealt) {
+        return Some("`parts` does not list each place that is dealt to it once, in order".into());
+    }
+    let counted = report.parts.iter().find_map(|part| {
+        let numbers = found.get(&part.place).map_or(&[][..], Vec::as_slice);
+        part_fault(part, numbers)
+    });
+    counted.or_else(|| hidden_character(report))
+}
+
+/// What is wrong with the numbers of the rows at a place: some are missing, or there twice.
+fn part_fault(part: &PartStatement, numbers: &[usize]) -> Option<String> {
+    let PartStatement { place, rows, .. } = part;
+    let there = numbers.len();
+    if there != *rows {
         return Some(format!(
-            "it says that it has {stated} rows, and {there} are there"
+            "it says that place {place} has {rows} rows, and {there} are there"
         ));
     }
-    let seen: BTreeSet<usize> = rows.iter().map(|row| row.place).collect();
-    let dealt = report.places.saturating_sub(index).div_ceil(count);
-    if seen.len() != dealt {
-        let there = seen.len();
-        return Some(format!(
-            "{dealt} places are dealt to it, and it has rows of {there}"
-        ));
-    }
-    let mut texts = BTreeSet::new();
-    let text = |row: &PlacedRow| serde_json::to_string(row).expect("it was read from JSON");
-    if let Some(twice) = rows.iter().find(|row| !texts.insert(text(row))) {
-        return Some(format!(
-            "a row of `{}` is there twice",
-            shown(&twice.row.function)
-        ));
-    }
+    let is_right = numbers.iter().copied().eq(0..*rows);
+    (!is_right).then(|| {
+        format!("the rows of place {place} are not numbered 0, 1, 2 and so on: one is missing, is there twice, or was moved")
+    })
+}
+
+/// A control character in a name of a report.
+fn hidden_character(report: &ShardReport) -> Option<String> {
     let names = |row: &VerifyRow| {
         [
             Some(row.function.clone()),
@@ -169,8 +183,14 @@ fn row_fault(report: &ShardReport, shard: Shard) -> Option<String> {
             Some(row.method.clone()),
         ]
     };
-    let mut names = rows.iter().flat_map(|row| names(&row.row)).flatten();
-    let hidden = names.find(|name| name.chars().any(char::is_control))?;
+    let of_rows = report.rows.iter().flat_map(|row| names(&row.row)).flatten();
+    let of_parts = report.parts.iter().flat_map(|part| {
+        let reason = part.reason.clone().unwrap_or_default();
+        [part.file.clone(), reason]
+    });
+    let hidden = of_rows
+        .chain(of_parts)
+        .find(|name| name.chars().any(char::is_control))?;
     let hidden = shown(&hidden);
     Some(format!("the name {hidden:?} holds a control character"))
 }
@@ -251,20 +271,23 @@ pub fn merged(parts: Vec<Part>) -> Result<Whole, RequestFault> {
     if missing > 0 {
         return Err(absent(&parts, shards, missing).into());
     }
-    let mut rows = Vec::new();
     let mut whole = Whole {
         command: String::new(),
         require_all: false,
         rows: Vec::new(),
+        parts: Vec::new(),
     };
+    let mut rows = Vec::new();
     for part in parts {
         whole.command = part.report.command;
         whole.require_all = part.report.require_all;
+        whole.parts.extend(part.report.parts);
         rows.extend(part.report.rows);
     }
     // What came of one place stands in one report, in order.
     rows.sort_by_key(|placed| placed.place);
     whole.rows = rows.into_iter().map(|placed| placed.row).collect();
+    whole.parts.sort_by_key(|part| part.place);
     Ok(whole)
 }
 

@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 use super::envelope::{SCHEMA, TOOL};
 use super::verify::devices;
 use crate::verify::MachineStatement;
-use crate::verify::shard::{PlacedRow, Shard, ShardOutcome};
+use crate::verify::shard::{PartStatement, PlacedRow, Shard, ShardOutcome};
 
 /// The report of a shard.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -34,8 +34,8 @@ pub struct ShardReport {
     pub device: Option<String>,
     /// How many places the whole run has.
     pub places: usize,
-    /// How many rows there are, so that a report that lost some is told from a whole one.
-    pub row_count: usize,
+    /// What came of each place that was dealt to the shard, so that a report that lost rows is told from a whole one.
+    pub parts: Vec<PartStatement>,
     /// Its rows with their places in the whole run.
     pub rows: Vec<PlacedRow>,
 }
@@ -66,7 +66,7 @@ impl ShardReport {
             device: devices(&outcome.bare_rows()),
             machine: outcome.machine,
             places: outcome.places,
-            row_count: outcome.rows.len(),
+            parts: outcome.parts,
             rows: outcome.rows,
         }
     }

@@ -11,7 +11,7 @@ use super::error::Error;
 use super::judge::{PathRun, RanFunction};
 use super::machine;
 use super::plan::{PlannedFile, VerifyPlan};
-use super::shard::{PlacedRow, Shard, ShardOutcome};
+use super::shard::{Shard, ShardOutcome};
 use super::statement::MachineStatement;
 use super::trial_case::specialised;
 
@@ -48,9 +48,7 @@ pub fn exhaustive_rows(
             accepts: &[],
             runs: &runs,
         };
-        let rows = PlacedRow::all_at(place, vec![ran.verify_row()]);
-        outcome.rows.extend(rows);
-        outcome.dealt += 1;
+        outcome.add(place, file, vec![ran.verify_row()]);
         let own = &[ExecutionPath::Own];
         let machine = MachineStatement::of_devices(file.target, own, devices);
         outcome.machine.add(machine);

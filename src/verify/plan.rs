@@ -60,6 +60,14 @@ impl PlannedFile {
         self.pages.last().expect("a planned file has a page")
     }
 
+    /// Why it has no row, where it has none. A function of an effect and one of a material have one always.
+    pub fn why_no_row(&self) -> &'static str {
+        match self.functions.is_empty() {
+            true => "it holds no function that was asked for",
+            false => "its functions describe none of the materials that are run",
+        }
+    }
+
     /// Adds a page; compute modules are run, so that they come last.
     pub fn add(&mut self, page: ShippedPage) {
         self.pages.push(page);

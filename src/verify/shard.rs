@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 use crate::digest::sha256;
 use crate::reference::MaterialInMedium;
 
-use super::plan::VerifyPlan;
+use super::plan::{PlannedFile, VerifyPlan};
 use super::row::VerifyRow;
 use super::statement::MachineStatement;
 
@@ -44,22 +44,29 @@ impl Shard {
     }
 }
 
+/// What came of the work at one place of the whole run.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct PartStatement {
+    /// The place.
+    pub place: usize,
+    /// The file that was run, relative to the output folder.
+    pub file: String,
+    /// How many rows came of it.
+    pub rows: usize,
+    /// Why none did.
+    pub reason: Option<String>,
+}
+
 /// A row, and the place in the whole run of the work that it came of.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct PlacedRow {
     /// The place.
     pub place: usize,
+    /// Its number among the rows of that place, from 0.
+    pub number: usize,
     /// The row.
     #[serde(flatten)]
     pub row: VerifyRow,
-}
-
-impl PlacedRow {
-    /// The rows that came of the work at a place.
-    pub fn all_at(place: usize, rows: Vec<VerifyRow>) -> Vec<PlacedRow> {
-        let placed = |row| PlacedRow { place, row };
-        rows.into_iter().map(placed).collect()
-    }
 }
 
 /// What came of a shard's work.
@@ -69,13 +76,26 @@ pub struct ShardOutcome {
     pub rows: Vec<PlacedRow>,
     /// What the machine has for that work; nothing where it is a whole run.
     pub machine: MachineStatement,
-    /// How many places were dealt to it.
-    pub dealt: usize,
+    /// What came of each place that was dealt to it, in order.
+    pub parts: Vec<PartStatement>,
     /// How many places there are.
     pub places: usize,
 }
 
 impl ShardOutcome {
+    /// Adds what came of a file at the next place.
+    pub fn add(&mut self, place: usize, file: &PlannedFile, rows: Vec<VerifyRow>) {
+        self.parts.push(PartStatement {
+            place,
+            file: file.run_page().path.clone(),
+            rows: rows.len(),
+            reason: rows.is_empty().then(|| file.why_no_row().to_owned()),
+        });
+        let numbered = rows.into_iter().enumerate();
+        self.rows
+            .extend(numbered.map(|(number, row)| PlacedRow { place, number, row }));
+    }
+
     /// The rows without their places.
     pub fn bare_rows(&self) -> Vec<VerifyRow> {
         self.rows.iter().map(|placed| placed.row.clone()).collect()

@@ -7,7 +7,7 @@ use crate::process::{Error, Launch, Pool, Silence, Surroundings, Task};
 
 use super::judge::unfinished;
 use super::plan::VerifyPlan;
-use super::shard::{PlacedRow, Shard, ShardOutcome};
+use super::shard::{Shard, ShardOutcome};
 use super::worker::{FileAnswer, FileRequest};
 
 /// The rows of a shard's files, in the plan's order, by the compilers in the folder of tools before all others. `progress` hears how many are done.
@@ -44,13 +44,11 @@ pub fn supervise(
         progress(count, whole, &plan.files[request.file].run_page().path);
     })?;
     let mut outcome = ShardOutcome {
-        dealt: requests.len(),
         places: plan.files.len(),
         ..ShardOutcome::default()
     };
     for (request, answer) in requests.iter().zip(answers) {
-        let rows = PlacedRow::all_at(request.file, answer.rows);
-        outcome.rows.extend(rows);
+        outcome.add(request.file, &plan.files[request.file], answer.rows);
         outcome.machine.add(answer.machine);
     }
     Ok(outcome)

@@ -18,7 +18,7 @@ pub fn run(flags: &MergeFlags) -> Result<Output, Error> {
     }
     let count = reports.len();
     let whole = merged(reports)?;
-    let mut output = whole_report(whole.command, &whole.rows, &places, whole.require_all)?;
+    let mut output = whole_report(whole, &places)?;
     output.remarks.push(format!("{count} shards put together"));
     Ok(output)
 }

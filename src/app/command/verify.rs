@@ -1,13 +1,14 @@
 //! `verify`: what is generated, run on every target and held against what it means.
 
 use core::time::Duration;
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
 use serde::Serialize;
 
 use crate::app::args::{CheckReportFlags, VerifyFlags};
 use crate::app::error::Error;
 use crate::app::fault::RequestFault;
+use crate::app::merge::Whole;
 use crate::app::request::Request;
 use crate::app::shard::{VARIABLES, shard_of};
 use crate::app::verify::plan_of_request;
@@ -21,7 +22,7 @@ use crate::report::verify::{devices, not_checked, verify_remarks, verify_text};
 use crate::verify::file::VerifyEffort;
 use crate::verify::plan::VerifyPlan;
 use crate::verify::run::Devices;
-use crate::verify::shard::{Shard, ShardOutcome};
+use crate::verify::shard::{PartStatement, Shard, ShardOutcome};
 use crate::verify::{
     MachineStatement, Status, VerifyRow, exhaustive_rows, machine, serve, supervise,
 };
@@ -137,8 +138,13 @@ fn reported(
     let command = String::from(flags.command_line(&request.viewing));
     let mut output = match shard {
         None => {
-            let rows = outcome.bare_rows();
-            whole_report(command, &rows, &flags.report, flags.require_all)?
+            let whole = Whole {
+                rows: outcome.bare_rows(),
+                parts: outcome.parts,
+                require_all: flags.require_all,
+                command,
+            };
+            whole_report(whole, &flags.report)?
         }
         Some(shard) => {
             let whole = WholeRun {
@@ -163,9 +169,11 @@ fn shard_report(
 ) -> Result<Output, Error> {
     let rows = outcome.bare_rows();
     let code = code(&rows, whole.require_all, Some(&outcome.machine));
-    let (dealt, places) = (outcome.dealt, outcome.places);
+    let (dealt, places) = (outcome.parts.len(), outcome.places);
+    let unrun = remarks_on_parts_without_rows(&outcome.parts);
     let full = ShardReport::new(whole, shard, outcome);
     let mut output = told(&rows, &full, files)?;
+    output.remarks.extend(unrun);
     output.remarks.push(format!(
         "shard {} of {}: {dealt} of {places} parts of the run; `fresnel-gen merge` puts the JSON reports of all shards together",
         shard.index(),
@@ -176,16 +184,29 @@ fn shard_report(
 }
 
 /// The report of a whole run, and how it ends.
-pub(super) fn whole_report(
-    command: String,
-    rows: &[VerifyRow],
-    files: &CheckReportFlags,
-    require_all: bool,
-) -> Result<Output, Error> {
-    let full = Report::new(command, rows.to_vec()).with_device(devices(rows));
-    let mut output = told(rows, &full, files)?;
-    output.code = code(rows, require_all, None);
+pub(super) fn whole_report(whole: Whole, files: &CheckReportFlags) -> Result<Output, Error> {
+    let rows = whole.rows;
+    let full = Report::new(whole.command, rows.clone()).with_device(devices(&rows));
+    let mut output = told(&rows, &full, files)?;
+    let unrun = remarks_on_parts_without_rows(&whole.parts);
+    output.remarks.extend(unrun);
+    output.code = code(&rows, whole.require_all, None);
     Ok(output)
+}
+
+/// What people are told of files without rows: a line for each reason.
+fn remarks_on_parts_without_rows(parts: &[PartStatement]) -> Vec<String> {
+    let mut by_reason: BTreeMap<&str, Vec<&str>> = BTreeMap::new();
+    for part in parts {
+        if let Some(reason) = &part.reason {
+            by_reason.entry(reason).or_default().push(&part.file);
+        }
+    }
+    let line = |(reason, files): (&str, Vec<&str>)| {
+        let files = files.join(", ");
+        format!("not run: {reason}: {files}")
+    };
+    by_reason.into_iter().map(line).collect()
 }
 
 /// A report in all its forms.
