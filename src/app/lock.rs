@@ -54,7 +54,7 @@ impl Lock {
             if is_foreign(&lock.path) {
                 announce(&format!(
                     "{} is not a lock of fresnel-gen, which goes on without; let no other run write there meanwhile",
-                    lock.path.display()
+                    crate::foreign::path(&lock.path)
                 ));
                 return lock;
             }
@@ -72,7 +72,7 @@ impl Lock {
                     drop(file);
                     announce(&format!(
                         "{}: the file system has no locks ({why}); let no other run write there meanwhile",
-                        out_dir.display()
+                        crate::foreign::path(&out_dir)
                     ));
                     let _ = fs::remove_file(&lock.path);
                     return lock;
@@ -188,7 +188,7 @@ fn wait(file: &File, path: &Path, announce: Announce) -> io::Result<()> {
             Err(TryLockError::Error(why)) => return Err(why),
         }
     }
-    let folder = path.parent().unwrap_or(path).display();
+    let folder = crate::foreign::path(&path.parent().unwrap_or(path));
     announce(&format!(
         "{folder}: another run writes there; waiting for it to end"
     ));

@@ -129,7 +129,7 @@ pub fn write_report(files: &[(PathBuf, &[u8])], overwrite: bool) -> Result<Vec<P
 /// What lies in the place of an output.
 fn of_others(leads_to: Option<&Path>) -> String {
     match leads_to {
-        Some(leads_to) => format!("a link to {} lies there", leads_to.display()),
+        Some(leads_to) => format!("a link to {} lies there", crate::foreign::path(&leads_to)),
         None => "a file that fresnel-gen did not write lies there".to_owned(),
     }
 }

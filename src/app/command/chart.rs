@@ -98,7 +98,8 @@ pub(super) fn written(
     let all: Vec<(PathBuf, &[u8])> = files.iter().cloned().zip(texts).collect();
     let old = write_report(&all, overwrite)?;
     let about = ["the picture of what is shown", "a page with all charts"];
-    let remark = |(file, about): (&PathBuf, &str)| format!("{}: {about}", file.display());
+    let remark =
+        |(file, about): (&PathBuf, &str)| format!("{}: {about}", crate::foreign::path(&file));
     let written = files.iter().zip(about).map(remark);
     Ok(replaced(&old).chain(written).collect())
 }

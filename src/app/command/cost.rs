@@ -257,6 +257,6 @@ fn paged(flags: &CostFlags, table: &[Vec<CostRow>]) -> Result<Vec<String>, Error
     let page = cost_page(table, &String::from(flags.command_line())).map_err(not_drawn)?;
     let file = folder.join(PAGE);
     let old = write_report(&[(file.clone(), page.as_bytes())], flags.pictures.overwrite)?;
-    let said = format!("{}: a page with all figures", file.display());
+    let said = format!("{}: a page with all figures", crate::foreign::path(&file));
     Ok(replaced(&old).chain([said]).collect())
 }

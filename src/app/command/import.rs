@@ -6,6 +6,7 @@ use crate::app::args::ImportFlags;
 use crate::app::error::Error;
 use crate::app::source::read;
 use crate::app::write::write_file;
+use crate::foreign::one_line;
 use crate::materials::{Material, name_fault, page};
 use crate::methods;
 use crate::spectra::{FIRST_NM, LAST_NM, OBSERVED_NM};
@@ -47,7 +48,7 @@ pub fn run(flags: &ImportFlags) -> Result<Output, Error> {
     if !material.note.is_empty() {
         output
             .remarks
-            .push(format!("{}: {}", material.name, material.note));
+            .push(format!("{}: {}", material.name, one_line(&material.note)));
     }
     match &flags.output {
         Some(file) if file != Path::new("-") => drop(write_file(file, toml.as_bytes())?),

@@ -12,6 +12,7 @@ use crate::app::names::unknown;
 use crate::app::request::check_transparent;
 use crate::app::write::write_file;
 use crate::command_line::CommandLine;
+use crate::foreign::{Foreign, one_line};
 use crate::materials::{self, Extrapolate, Material, ViewingConditions};
 use crate::report::material_sheet::material_sheet;
 use crate::report::table;
@@ -199,7 +200,9 @@ fn put(file: &Path, bytes: Vec<u8>, output: &mut Output) -> Result<(), Error> {
         output.is_file = true;
     } else {
         write_file(file, &bytes)?;
-        output.remarks.push(format!("{}: drawn", file.display()));
+        output
+            .remarks
+            .push(format!("{}: drawn", crate::foreign::path(&file)));
     }
     Ok(())
 }
@@ -216,7 +219,7 @@ fn check_places(flags: &ShowFlags, json: Option<&Path>) -> Result<(), Error> {
         None => Ok(()),
         Some((_, place)) => Err(RequestFault::conflict(format!(
             "--svg, --png and --json want different places, and `{}` is named twice",
-            place.display()
+            crate::foreign::path(&place)
         ))
         .into()),
     }
@@ -247,10 +250,12 @@ pub fn medium(flags: &MediumFlags) -> Result<Option<Loaded>, Error> {
 
 fn text(m: &Material) -> String {
     let field = |name: &str, value: &str| {
-        let line = format!("{name:12}{value}");
+        // A note may have several lines.
+        let value: Vec<String> = value.lines().map(one_line).collect();
+        let line = format!("{name:12}{}", value.join("\n            "));
         (!value.is_empty()).then_some(line)
     };
-    let mut lines = vec![format!("{}: {}", m.name, m.summary)];
+    let mut lines = vec![format!("{}: {}", Foreign(&m.name), one_line(&m.summary))];
     let fields = [
         ("class", m.kind.name()),
         ("substance", &m.substance),

@@ -97,7 +97,10 @@ fn paged(
     let text = plan_page(made, &views).map_err(not_drawn)?;
     let files = [(page.to_path_buf(), text.as_bytes())];
     let old = write_report(&files, flags.pictures.overwrite)?;
-    let said = format!("{}: angles, errors, pictures and reasons", page.display());
+    let said = format!(
+        "{}: angles, errors, pictures and reasons",
+        crate::foreign::path(&page)
+    );
     Ok(replaced(&old).chain([said]).collect())
 }
 

@@ -47,6 +47,6 @@ fn draw(flags: &ReproduceFlags, reproduced: &Reproduction) -> Result<Vec<String>
         .collect();
     let old = write_report(&files, flags.figures.overwrite)?;
     let count = files.len();
-    let said = (count > 0).then(|| format!("{}: {count} figures", folder.display()));
+    let said = (count > 0).then(|| format!("{}: {count} figures", crate::foreign::path(&folder)));
     Ok(replaced(&old).chain(said).collect())
 }

@@ -263,6 +263,10 @@ fn pictures(
         .zip(made.iter().map(Vec::as_slice))
         .collect();
     let old = write_report(&files, flags.pictures.overwrite)?;
-    let said = format!("{}: {} pictures", folder.display(), files.len());
+    let said = format!(
+        "{}: {} pictures",
+        crate::foreign::path(&folder),
+        files.len()
+    );
     Ok(replaced(&old).chain([said]).collect())
 }

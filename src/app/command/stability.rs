@@ -125,7 +125,7 @@ impl Asked<'_> {
         let old = write_report(&files, self.flags.pictures.overwrite)?;
         let said = format!(
             "{}: {} maps, and {index} that shows them",
-            folder.display(),
+            crate::foreign::path(&folder),
             pictures.len()
         );
         Ok(replaced(&old).chain([said]).collect())
