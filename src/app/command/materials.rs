@@ -30,11 +30,7 @@ pub fn run(flags: &MaterialsFlags, progress: Progress) -> Result<Output, Error> 
         Some(MaterialsCommand::Show(show)) => shown(show, json),
         Some(MaterialsCommand::Params(params)) => params::run(params, json),
         Some(MaterialsCommand::Coat(coat)) => coated::run(coat, json),
-        Some(MaterialsCommand::Import(_)) if json.is_some() => Err(RequestFault::conflict(
-            "import writes a material file and no JSON; leave --json out",
-        )
-        .into()),
-        Some(MaterialsCommand::Import(import)) => import::run(import),
+        Some(MaterialsCommand::Import(import)) => import::run(import, json),
         Some(MaterialsCommand::Survey(survey)) => survey::run(survey, json, progress),
     }
 }
@@ -143,7 +139,7 @@ impl MaterialRow<'_> {
 
 /// A material with its data: wavelength, n and k.
 #[derive(Serialize)]
-struct MaterialRecord<'a> {
+pub(super) struct MaterialRecord<'a> {
     #[serde(flatten)]
     row: MaterialRow<'a>,
     schema: u32,
@@ -277,7 +273,7 @@ fn text(m: &Material) -> String {
     lines.join("\n")
 }
 
-fn material_record(m: &Material) -> MaterialRecord<'_> {
+pub(super) fn material_record(m: &Material) -> MaterialRecord<'_> {
     MaterialRecord {
         row: MaterialRow::new(m),
         schema: SCHEMA,
