@@ -21,7 +21,7 @@ impl CommandLine {
         CommandLine(format!("{} {}", self.0, quoted(word)))
     }
 
-    /// A flag with these words, commas between; nothing where there are none.
+    /// A flag with these words, commas between; nothing where there are none. Where a word has a comma itself, each has the flag.
     #[must_use]
     pub fn list<T: Display>(self, name: &str, words: impl IntoIterator<Item = T>) -> CommandLine {
         let words: Vec<String> = words
@@ -31,7 +31,11 @@ impl CommandLine {
         if words.is_empty() {
             return self;
         }
-        CommandLine(format!("{} --{name} {}", self.0, words.join(",")))
+        let separator = match words.iter().any(|word| word.contains(',')) {
+            true => format!(" --{name} "),
+            false => ",".to_owned(),
+        };
+        CommandLine(format!("{} --{name} {}", self.0, words.join(&separator)))
     }
 
     /// A flag with a number, which is written as it is.
@@ -68,19 +72,51 @@ impl From<CommandLine> for String {
     }
 }
 
-/// A word of a shell's command line.
-pub fn quoted(word: &str) -> String {
+/// A word of a shell's command line, in ASCII and on one line, since it stands in comments of shaders. `printf` says what is not,
+/// for POSIX has no other escape.
+fn quoted(word: &str) -> String {
     let plain = |c: char| c.is_ascii_alphanumeric() || "_-./".contains(c);
     if !word.is_empty() && word.chars().all(plain) {
         word.to_owned()
-    } else {
+    } else if word.chars().all(|c| c == ' ' || c.is_ascii_graphic()) {
         format!("'{}'", word.replace('\'', "'\\''"))
+    } else {
+        let bytes: String = word.bytes().map(printed).collect();
+        format!("\"$(printf '{bytes}')\"")
     }
 }
 
-/// A file without the folders of this machine.
-pub fn file_name(file: &str) -> &str {
-    file.rsplit(['/', '\\']).next().unwrap_or(file)
+/// A byte as the format of `printf` has it, within single quotes.
+fn printed(byte: u8) -> String {
+    match byte {
+        b'%' => "%%".to_owned(),
+        b'\\' => "\\\\".to_owned(),
+        b' ' => " ".to_owned(),
+        b'\'' => "\\047".to_owned(),
+        byte if byte.is_ascii_graphic() => char::from(byte).to_string(),
+        byte => format!("\\{byte:03o}"),
+    }
+}
+
+/// A path as a user types it again: a relative one as it was typed; of an absolute one its last part, since no output names a folder of
+/// this machine. It is no name of a list and no flag: `gold` is a material of the catalogue, and `./gold` a file.
+pub fn path_again(path: &str) -> String {
+    let is_of_windows = cfg!(windows) && (path.contains(':') || path.starts_with('\\'));
+    let typed = match path.starts_with('/') || is_of_windows {
+        true => last_part(path),
+        false => path,
+    };
+    let bare = typed.trim_start_matches("./").trim_start_matches('/');
+    let is_name = !bare.contains(['.', '/']);
+    match bare.starts_with('-') || is_name && bare != typed || is_name && typed != path {
+        true => format!("./{bare}"),
+        false => bare.to_owned(),
+    }
+}
+
+fn last_part(path: &str) -> &str {
+    let separators: &[char] = if cfg!(windows) { &['/', '\\'] } else { &['/'] };
+    path.rsplit(separators).next().unwrap_or(path)
 }
 
 /// The flags that say again how a surface was seen, each with a space before it; nothing where all is as usual. Where each
@@ -139,6 +175,43 @@ mod tests {
             String::from(command),
             "bake --material gold,'my file.toml' --size 64 --atlas"
         );
+    }
+
+    #[test]
+    fn a_word_with_a_comma_has_a_flag_of_its_own() {
+        let command = CommandLine::new("fit").list("material", ["gold", "a,b.csv"]);
+        assert_eq!(
+            String::from(command),
+            "fit --material gold --material 'a,b.csv'"
+        );
+    }
+
+    #[test]
+    fn a_relative_path_is_said_as_it_was_typed_and_names_no_other_thing() {
+        for (typed, again) in [
+            ("sub/m.toml", "sub/m.toml"),
+            ("../m.toml", "../m.toml"),
+            ("./m.toml", "m.toml"),
+            ("./gold", "./gold"),
+            ("/home/me/m.toml", "m.toml"),
+            ("/home/me/gold", "./gold"),
+            ("./-m.toml", "./-m.toml"),
+            ("/home/me/-m.toml", "./-m.toml"),
+            (".hidden", ".hidden"),
+        ] {
+            assert_eq!(path_again(typed), again, "{typed}");
+        }
+    }
+
+    #[test]
+    fn a_word_is_one_word_of_ascii() {
+        for (word, shown) in [
+            ("a'b $c.csv", "'a'\\''b $c.csv'"),
+            ("Gl\u{e4}ser.csv", "\"$(printf 'Gl\\303\\244ser.csv')\""),
+            ("a\n%\\'.csv", "\"$(printf 'a\\012%%\\\\\\047.csv')\""),
+        ] {
+            assert_eq!(quoted(word), shown);
+        }
     }
 
     #[test]

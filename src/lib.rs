@@ -55,7 +55,7 @@
 #![cfg_attr(test, allow(clippy::print_stdout, clippy::unwrap_used))]
 
 // The rooms. A room imports only rooms to its left; rooms between the same two `<` do not import each other.
-// num, cite, names, records, digest < ir, optics < spectra < materials, methods, targets < effects, reference, command_line < fit < emit < exchange, lut < flavours < gpu, process, raster < verify, cost < overdraw, stability < audit, budget, bake, reproduce < chart < scene < gallery, plan < report < app
+// foreign < num, cite, names, records, digest < ir, optics < spectra < materials, methods, targets < effects, reference, command_line < fit < emit < exchange, lut < flavours < gpu, process, raster < verify, cost < overdraw, stability < audit, budget, bake, reproduce < chart < scene < gallery, plan < report < app
 
 pub mod app;
 #[cfg(all(feature = "cli", feature = "gpu"))]
@@ -73,6 +73,7 @@ pub mod emit;
 pub mod exchange;
 pub mod fit;
 pub mod flavours;
+pub mod foreign;
 #[cfg(feature = "cli")]
 pub mod gallery;
 #[cfg(feature = "gpu")]

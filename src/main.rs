@@ -4,9 +4,12 @@ use std::io::{self, IsTerminal, Write};
 use std::process::ExitCode;
 
 use clap::Parser;
+use clap::builder::StyledStr;
+use clap::error::ContextValue;
 use fresnel_gen::app::args::{Cli, with_names_of_today};
 use fresnel_gen::app::command;
 use fresnel_gen::app::legible::legible;
+use fresnel_gen::foreign::one_line;
 use fresnel_gen::methods;
 use indicatif::{ProgressBar, ProgressStyle};
 
@@ -16,7 +19,7 @@ fn main() -> ExitCode {
     let names_nothing = words.len() < 2;
     let cli = match Cli::try_parse_from(words) {
         Ok(cli) => cli,
-        Err(error) => return refused(&error),
+        Err(error) => return refused(&with_foreign_words(error)),
     };
     renamed.iter().for_each(|remark| say(remark));
     let mut bar: Option<ProgressBar> = None;
@@ -53,6 +56,37 @@ fn outlive_file_limit() {
         let heard = std::sync::Arc::new(std::sync::atomic::AtomicBool::new(false));
         // Who cannot be heard is ended as before.
         let _ = signal_hook::flag::register(signal_hook::consts::SIGXFSZ, heard);
+    }
+}
+
+/// The same error with the words of the command line as a message may have them.
+fn with_foreign_words(mut error: clap::Error) -> clap::Error {
+    let shown = |value: &ContextValue| match value {
+        ContextValue::String(word) => ContextValue::String(one_line(word)),
+        ContextValue::Strings(words) => {
+            ContextValue::Strings(words.iter().map(|word| one_line(word)).collect())
+        }
+        ContextValue::StyledStrs(words) => {
+            ContextValue::StyledStrs(words.iter().map(styled).collect())
+        }
+        other => other.clone(),
+    };
+    let shown: Vec<_> = error
+        .context()
+        .map(|(kind, value)| (kind, shown(value)))
+        .collect();
+    for (kind, value) in shown {
+        error.insert(kind, value);
+    }
+    error
+}
+
+/// A styled word; it keeps its style where nothing in it is obeyed.
+fn styled(word: &StyledStr) -> StyledStr {
+    let plain = word.to_string();
+    match one_line(&plain) {
+        shown if shown == plain => word.clone(),
+        shown => shown.into(),
     }
 }
 

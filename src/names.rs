@@ -2,6 +2,8 @@
 
 use thiserror::Error;
 
+use crate::foreign::{Foreign, one_line};
+
 /// How alike two names must be (Jaro-Winkler, 0 to 1) before one is offered for the other.
 const ALIKE: f64 = 0.7;
 /// How many are offered at most.
@@ -11,7 +13,11 @@ const MANY: usize = 40;
 
 /// A name that does not exist.
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
-#[error("there is no {kind} `{name}`{}; there are {all}", offered(nearest))]
+#[error(
+    "there is no {kind} `{}`{}; there are {all}",
+    Foreign(name),
+    offered(nearest)
+)]
 pub struct UnknownName {
     /// What was named: `method`, `material`, `target`.
     kind: &'static str,
@@ -40,7 +46,7 @@ pub fn offered(nearest: &[String]) -> String {
     if nearest.is_empty() {
         String::new()
     } else {
-        format!(" (did you mean {}?)", nearest.join(" or "))
+        format!(" (did you mean {}?)", one_line(&nearest.join(" or ")))
     }
 }
 
@@ -54,7 +60,7 @@ fn listed(kind: &str, all: &[&str]) -> String {
         };
         format!("{} of them: see `fresnel-gen {see}s`", all.len())
     } else {
-        all.join(", ")
+        one_line(&all.join(", "))
     }
 }
 

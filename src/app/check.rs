@@ -5,6 +5,8 @@ use std::collections::BTreeMap;
 
 use similar::TextDiff;
 
+use crate::foreign::{Foreign, one_line};
+
 use super::artifact::sha256;
 use super::tree::{Planned, State, TreePlan};
 
@@ -17,7 +19,7 @@ pub fn report(plan: &TreePlan) -> (String, bool) {
         parts.insert(&file.path, report_file(file));
     }
     for orphan in &plan.orphans {
-        parts.insert(&orphan.file, format!("orphan: {}\n", orphan.file));
+        parts.insert(&orphan.file, format!("orphan: {}\n", Foreign(&orphan.file)));
     }
     let text: String = parts.into_values().collect();
     let drift = !text.is_empty();
@@ -44,9 +46,16 @@ fn difference(path: &str, old: &[u8], new: &[u8]) -> String {
 }
 
 fn text_difference(path: &str, old: &str, new: &str) -> String {
-    TextDiff::from_lines(old, new)
+    let text = TextDiff::from_lines(old, new)
         .unified_diff()
         .context_radius(CONTEXT_LINES)
         .header(&format!("a/{path}"), &format!("b/{path}"))
-        .to_string()
+        .to_string();
+    text.split_terminator('\n').map(difference_line).collect()
+}
+
+/// A line of a difference: its mark, and what a file holds there.
+fn difference_line(line: &str) -> String {
+    let (mark, held) = line.split_at(line.len().min(1));
+    format!("{mark}{}\n", one_line(held))
 }

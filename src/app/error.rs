@@ -6,6 +6,7 @@ use std::path::PathBuf;
 use thiserror::Error;
 
 use super::fault::RequestFault;
+use crate::foreign::{self, Foreign, one_line};
 use crate::names::UnknownName;
 use crate::{emit, lut, materials, overdraw, process};
 
@@ -20,13 +21,13 @@ pub enum Error {
     #[error(transparent)]
     Request(#[from] RequestFault),
     /// A request that contradicts itself or cannot be met.
-    #[error("{what}")]
+    #[error("{}", one_line(what))]
     Usage {
         /// What was wrong, and what is allowed.
         what: String,
     },
     /// Something that this takes is not here.
-    #[error("{what}")]
+    #[error("{}", one_line(what))]
     Lacking {
         /// What is missing, and how to get it.
         what: String,
@@ -35,7 +36,7 @@ pub enum Error {
     #[error(transparent)]
     Unseen(#[from] materials::Unseen),
     /// A file that the user named cannot be read.
-    #[error("cannot read {}: {source}", path.display())]
+    #[error("cannot read {}: {source}", foreign::path(path))]
     Input {
         /// The file.
         path: PathBuf,
@@ -76,7 +77,11 @@ pub enum Error {
     #[error(transparent)]
     Budget(#[from] crate::budget::Error),
     /// An artifact's path cannot be used.
-    #[error("the output path `{path}` cannot be used: {reason}")]
+    #[error(
+        "the output path `{}` cannot be used: {}",
+        Foreign(path),
+        one_line(reason)
+    )]
     Path {
         /// The path, relative to the output folder.
         path: String,
@@ -85,7 +90,9 @@ pub enum Error {
     },
     /// `manifest.json` is not JSON, or not our manifest.
     #[error(
-        "{}:{line}:{column}: {reason}; nothing was written. Restore the file, or delete it and run again, or choose another --out-dir", path.display()
+        "{}:{line}:{column}: {}; nothing was written. Restore the file, or delete it and run again, or choose another --out-dir",
+        foreign::path(path),
+        one_line(reason)
     )]
     Manifest {
         /// The manifest.
@@ -98,7 +105,10 @@ pub enum Error {
         reason: String,
     },
     /// A file or folder is there and cannot be read.
-    #[error("cannot read {}: {source}; nothing was written. Check its permissions and that each folder above it is a folder", path.display())]
+    #[error(
+        "cannot read {}: {source}; nothing was written. Check its permissions and that each folder above it is a folder",
+        foreign::path(path)
+    )]
     Read {
         /// The file or folder.
         path: PathBuf,
@@ -106,13 +116,20 @@ pub enum Error {
         source: io::Error,
     },
     /// A folder, pipe or device stands where a file is to be written.
-    #[error("{} is not a file; nothing was written. Move it away or choose another output", path.display())]
+    #[error(
+        "{} is not a file; nothing was written. Move it away or choose another output",
+        foreign::path(path)
+    )]
     NotAFile {
         /// What stands there.
         path: PathBuf,
     },
     /// A file lies where one is to be written, and nothing proves that this program wrote it.
-    #[error("{}: {what}; nothing was written. Move it away, choose another place, or replace it with --overwrite", path.display())]
+    #[error(
+        "{}: {}; nothing was written. Move it away, choose another place, or replace it with --overwrite",
+        foreign::path(path),
+        one_line(what)
+    )]
     NotOurs {
         /// The place.
         path: PathBuf,
@@ -120,7 +137,11 @@ pub enum Error {
         what: String,
     },
     /// A folder of the output is a link: what lies behind it is not this run's.
-    #[error("{} is a link to {}; nothing was written. Name the folder itself with --out-dir, or put a folder in the link's place", link.display(), leads_to.display())]
+    #[error(
+        "{} is a link to {}; nothing was written. Name the folder itself with --out-dir, or put a folder in the link's place",
+        foreign::path(link),
+        foreign::path(leads_to)
+    )]
     Linked {
         /// The link.
         link: PathBuf,
@@ -128,7 +149,10 @@ pub enum Error {
         leads_to: PathBuf,
     },
     /// A file could not be prepared: no old file was touched.
-    #[error("cannot write {}: {source}; no file was changed. Check permissions and free space, then run again", path.display())]
+    #[error(
+        "cannot write {}: {source}; no file was changed. Check permissions and free space, then run again",
+        foreign::path(path)
+    )]
     Stage {
         /// The file that was to be written.
         path: PathBuf,
@@ -136,7 +160,10 @@ pub enum Error {
         source: io::Error,
     },
     /// All files were prepared, but one could not be put in place.
-    #[error("cannot replace {}: {source}; {replaced} of {pending} files are new, the others are as before. Close whatever holds the file and run again", path.display())]
+    #[error(
+        "cannot replace {}: {source}; {replaced} of {pending} files are new, the others are as before. Close whatever holds the file and run again",
+        foreign::path(path)
+    )]
     Replace {
         /// The file that was to be replaced.
         path: PathBuf,
@@ -148,7 +175,10 @@ pub enum Error {
         pending: usize,
     },
     /// All files were written, but an orphan could not be removed.
-    #[error("cannot remove {}, which is no longer generated: {source}; all other files are written. Remove it by hand", path.display())]
+    #[error(
+        "cannot remove {}, which is no longer generated: {source}; all other files are written. Remove it by hand",
+        foreign::path(path)
+    )]
     Remove {
         /// The orphan.
         path: PathBuf,

@@ -4,14 +4,18 @@ use std::path::PathBuf;
 
 use thiserror::Error;
 
+use crate::foreign::{self, Foreign, one_line};
 use crate::methods::Method;
+
+/// How a material gets another name.
+pub const NEW_NAME: &str = "rename one in its file; a page or a table is named after its file: rename that, or let `fresnel-gen materials import FILE --name NAME -o NAME.toml` make a material file";
 
 /// What is wrong with a request.
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
 #[non_exhaustive]
 pub enum RequestFault {
     /// A flag's number beyond its limits.
-    #[error("--{flag} is {value}; it {allowed}")]
+    #[error("--{flag} is {}; it {}", Foreign(value), one_line(allowed))]
     OutOfRange {
         /// The flag.
         flag: &'static str,
@@ -21,7 +25,7 @@ pub enum RequestFault {
         allowed: String,
     },
     /// Flags, or values of one, that contradict each other.
-    #[error("{why}")]
+    #[error("{}", one_line(why))]
     Conflict {
         /// Why they do, and what to leave out.
         why: String,
@@ -41,13 +45,26 @@ pub enum RequestFault {
         why: &'static str,
     },
     /// Two materials of one name.
-    #[error("two different materials are named `{name}`; rename one in its file")]
+    #[error("two different materials are named `{}`: `{}` and `{}`; {NEW_NAME}", Foreign(name), Foreign(&words[0]), Foreign(&words[1]))]
     SameName {
         /// The name.
         name: String,
+        /// The words that name them.
+        words: [String; 2],
+    },
+    /// A file of a material in the place of another's.
+    #[error("{} was written of `{}`, and `{}` comes out with the same name; nothing was written; {NEW_NAME}", Foreign(file), Foreign(&words[0]), Foreign(&words[1]))]
+    Namesake {
+        /// The file.
+        file: String,
+        /// The words that name them, as a shell takes them.
+        words: [String; 2],
     },
     /// A material whose name means something else.
-    #[error("the material `{name}` has the name of {meaning}; choose another `name` in its file")]
+    #[error(
+        "the material `{}` has the name of {meaning}; choose another `name` in its file",
+        Foreign(name)
+    )]
     NameTaken {
         /// The name.
         name: String,
@@ -55,7 +72,10 @@ pub enum RequestFault {
         meaning: &'static str,
     },
     /// A medium that no light comes through.
-    #[error("the medium `{name}` is a {class}; a medium must be transparent: a dielectric")]
+    #[error(
+        "the medium `{}` is a {class}; a medium must be transparent: a dielectric",
+        Foreign(name)
+    )]
     OpaqueMedium {
         /// The medium.
         name: String,
@@ -63,13 +83,16 @@ pub enum RequestFault {
         class: &'static str,
     },
     /// A light's file whose name is that of a standard light.
-    #[error("the light's file is named `{name}`, as a standard light is; rename it")]
+    #[error(
+        "the light's file is named `{}`, as a standard light is; rename it",
+        Foreign(name)
+    )]
     LightNameTaken {
         /// The name.
         name: String,
     },
     /// An output that cannot lie where it should.
-    #[error("{}: {why}", place.display())]
+    #[error("{}: {why}", foreign::path(place))]
     Place {
         /// The output.
         place: PathBuf,
@@ -81,7 +104,7 @@ pub enum RequestFault {
     #[error(transparent)]
     Merge(Box<super::merge::MergeFault>),
     /// A picture, a page or a report that cannot be made.
-    #[error("{reason}")]
+    #[error("{}", one_line(reason))]
     NotDrawn {
         /// The reason of whatever makes it.
         reason: String,

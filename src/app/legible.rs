@@ -1,4 +1,5 @@
-//! Text of users as a terminal may have it: characters that move its cursor, change its title or turn its lines are shown as escapes.
+//! Text as a terminal may have it: characters that move its cursor, change its title or turn its lines are shown as escapes. It is a
+//! second fence: a message holds no such text of others, since [`foreign`](crate::foreign) cleans what is put into it.
 
 use crate::materials::is_hidden;
 

@@ -1,6 +1,8 @@
 //! A source read: a material of the catalogue, of a text at hand, or a medium that is a number.
 
-use crate::command_line::file_name;
+use std::path::Path;
+
+use crate::command_line::path_again;
 use crate::materials::{self, ConstantIndex, Material};
 
 use super::error::Error;
@@ -58,15 +60,12 @@ fn constant(word: &str) -> Result<Loaded, Error> {
     })
 }
 
-/// What a user types to name a file again, without the folders of this machine: its place in the database for a page that
-/// lies in one, since its name is made of that; the file's name for all others, and not as a flag.
+/// What a user types to name a file again. A page at an absolute path is named by its place in the database that it lies in, since its
+/// name is made of that.
 fn argument(file: &str, page: &str) -> String {
-    let name = file_name(file);
-    if !page.is_empty() && file.replace('\\', "/").ends_with(page) {
-        page.to_owned()
-    } else if name.starts_with('-') {
-        format!("./{name}")
-    } else {
-        name.to_owned()
+    let is_absolute = Path::new(file).is_absolute();
+    match is_absolute && !page.is_empty() && file.replace('\\', "/").ends_with(page) {
+        true => page.to_owned(),
+        false => path_again(file),
     }
 }

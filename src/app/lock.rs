@@ -81,7 +81,7 @@ impl Lock {
                     drop(file);
                     announce(&format!(
                         "{}: the file system has no locks ({why}); let no other run write there meanwhile",
-                        out_dir.display()
+                        crate::foreign::path(&out_dir)
                     ));
                     let _ = fs::remove_file(&lock.path);
                     return lock;
@@ -162,7 +162,7 @@ impl Drop for Lock {
 fn without(path: &Path, why: &str) -> String {
     format!(
         "{} {why}; fresnel-gen goes on without a lock: let no other run write there meanwhile",
-        path.display()
+        crate::foreign::path(path)
     )
 }
 
@@ -207,7 +207,7 @@ fn wait(file: &File, path: &Path, announce: Announce) -> io::Result<()> {
             Err(TryLockError::Error(why)) => return Err(why),
         }
     }
-    let folder = path.parent().unwrap_or(path).display();
+    let folder = crate::foreign::path(&path.parent().unwrap_or(path));
     announce(&format!(
         "{folder}: another run writes there; waiting for it to end"
     ));

@@ -8,6 +8,7 @@ use serde::Deserialize;
 use serde_json::Value;
 use thiserror::Error;
 
+use crate::foreign::{self, Foreign, one_line};
 use crate::materials::FileFault;
 use crate::report::shard::ShardReport;
 use crate::report::{SCHEMA, TOOL};
@@ -28,7 +29,7 @@ const SHOWN: usize = 1000;
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
 pub enum MergeFault {
     /// A file that is no shard's report, or a report that contradicts itself.
-    #[error("{}: {what}", file.display())]
+    #[error("{}: {}", foreign::path(file), one_line(what))]
     NotAShard {
         /// The file.
         file: PathBuf,
@@ -36,7 +37,11 @@ pub enum MergeFault {
         what: String,
     },
     /// Two reports of one shard.
-    #[error("{}: this is shard {shard}, and so is {}; leave one of them out", file.display(), other.display())]
+    #[error(
+        "{}: this is shard {shard}, and so is {}; leave one of them out",
+        foreign::path(file),
+        foreign::path(other)
+    )]
     Twice {
         /// The file.
         file: PathBuf,
@@ -46,7 +51,14 @@ pub enum MergeFault {
         shard: usize,
     },
     /// Reports of two runs.
-    #[error("{}: {what} {here}, and in {} {there}; run one of them again as the other was run", file.display(), other.display())]
+    #[error(
+        "{}: {} {}, and in {} {}; run one of them again as the other was run",
+        foreign::path(file),
+        one_line(what),
+        Foreign(here),
+        foreign::path(other),
+        Foreign(there)
+    )]
     Differs {
         /// The file.
         file: PathBuf,

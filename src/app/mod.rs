@@ -24,6 +24,7 @@ pub mod manifest;
 #[cfg(all(feature = "cli", feature = "gpu"))]
 pub mod merge;
 pub mod names;
+pub mod namesake;
 pub mod ours;
 #[cfg(feature = "cli")]
 pub mod plan_file;

@@ -1,9 +1,10 @@
 //! A plan that `plan --json` wrote, read back: the request for exactly its functions.
 
 use std::collections::{BTreeMap, BTreeSet};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use crate::emit::FunctionForm;
+use crate::foreign::Foreign;
 use crate::materials::{self, FileFault};
 use crate::methods::{self, Method};
 use crate::num::Precision;
@@ -25,7 +26,7 @@ const COMMAND: &str = "plan";
 ///
 /// # Errors
 /// The file cannot be read, is no plan, or names what does not exist.
-pub fn planned(file: &Path, request: Request) -> Result<Request, Error> {
+pub fn planned(file: &Path, allowed: &[PathBuf], request: Request) -> Result<Request, Error> {
     let plan = read(file)?;
     let mut sources = Vec::new();
     let mut chosen = BTreeMap::new();
@@ -34,9 +35,9 @@ pub fn planned(file: &Path, request: Request) -> Result<Request, Error> {
         let at_row = |error: Error| Error::Usage {
             what: format!(
                 "{}: row {} ({}): {error}",
-                file.display(),
+                crate::foreign::path(&file),
                 place + 1,
-                row.material
+                Foreign(&row.material)
             ),
         };
         let method = method(row).map_err(at_row)?;
@@ -45,7 +46,9 @@ pub fn planned(file: &Path, request: Request) -> Result<Request, Error> {
             continue;
         }
         let material = MaterialName::parse(&row.material).map_err(Error::from);
-        let source = material.and_then(|name| name.source()).map_err(at_row)?;
+        let name = material.map_err(at_row)?;
+        check_place(file, &name, allowed).map_err(at_row)?;
+        let source = name.source().map_err(at_row)?;
         let name = load(&source).map_err(at_row)?.material.name;
         if chosen.insert(name, method.name).is_some() {
             let what =
@@ -67,6 +70,15 @@ pub fn planned(file: &Path, request: Request) -> Result<Request, Error> {
         precision: precision(file, &plan)?,
         ..request
     })
+}
+
+/// Refuses a material's file that a plan must not name.
+fn check_place(plan: &Path, name: &MaterialName, allowed: &[PathBuf]) -> Result<(), Error> {
+    let Some(path) = name.path() else {
+        return Ok(());
+    };
+    let checked = source::check_below(plan, Path::new(path), allowed);
+    checked.map_err(|what| Error::Usage { what })
 }
 
 /// The method of a row: one that plans choose, in a form that they choose.
@@ -143,7 +155,7 @@ fn precision(file: &Path, plan: &PlanFile) -> Result<Precision, Error> {
         false => Err(Error::Usage {
             what: format!(
                 "{}: its functions compute in different precisions; a plan has one",
-                file.display()
+                crate::foreign::path(&file)
             ),
         }),
     }

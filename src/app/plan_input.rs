@@ -2,6 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
+use crate::foreign::Foreign;
 use crate::materials::ViewingConditions;
 use crate::plan::{
     FramePixels, GltfScene, GltfView, MappedMaterial, MaterialIds, PlannedMaterial, SceneFile,
@@ -48,7 +49,7 @@ pub fn plan_input<'a>(
     viewing: &ViewingConditions,
 ) -> Result<PlanInput<'a>, Error> {
     let Some(scene) = &flags.scene else {
-        return of_frames(&flags.gbuffer, flags.materials.as_deref(), viewing);
+        return of_frames(flags, viewing);
     };
     let ending = scene.extension().and_then(|ending| ending.to_str());
     let is_gltf = matches!(ending, Some("glb" | "gltf"));
@@ -57,10 +58,10 @@ pub fn plan_input<'a>(
         return Err(RequestFault::conflict(why).into());
     }
     match ending {
-        Some("toml") => of_scene_file(scene, viewing),
+        Some("toml") => of_scene_file(flags, scene, viewing),
         _ if is_gltf => of_gltf(flags, scene, viewing),
         _ => {
-            let file = scene.display();
+            let file = crate::foreign::path(&scene);
             let why = format!(
                 "`{file}` is no scene by its ending: .toml, .glb or .gltf; frames of a renderer go with --gbuffer"
             );
@@ -70,12 +71,17 @@ pub fn plan_input<'a>(
 }
 
 /// A scene file, drawn by our rasteriser.
-fn of_scene_file<'a>(file: &Path, viewing: &ViewingConditions) -> Result<PlanInput<'a>, Error> {
+fn of_scene_file<'a>(
+    flags: &PlanFlags,
+    file: &Path,
+    viewing: &ViewingConditions,
+) -> Result<PlanInput<'a>, Error> {
     let scene = SceneFile::parse(&file.display().to_string(), &source::text(file)?)?;
     let at = |index: usize, what: String| scene.material_fault(index, what).into();
-    let (materials, places) = loaded(scene.materials(), file, viewing, &at)?;
+    let naming = Naming::of(flags, file);
+    let (materials, places) = loaded(scene.materials(), &naming, viewing, &at)?;
     let mut read = material_files(&materials);
-    let drawn = scene.read(&mut |path| beside(file, path, &mut read))?;
+    let drawn = scene.read(&mut |path| naming.bytes(path, &mut read))?;
     let (count, display, frames) = (materials.len(), scene.display, scene.frames());
     Ok(PlanInput {
         materials,
@@ -99,7 +105,7 @@ fn of_gltf<'a>(
         Some(path) => {
             let environment = Environment::read(&source::picture(path)?);
             SceneLight::of_environment(environment.map_err(|fault| Error::Usage {
-                what: format!("{}: {fault}", path.display()),
+                what: format!("{}: {fault}", crate::foreign::path(&path)),
             })?)
         }
     };
@@ -108,9 +114,10 @@ fn of_gltf<'a>(
         light,
     };
     let name = file.display().to_string();
+    let naming = Naming::of(flags, file);
     let mut read = Vec::new();
     let scene = GltfScene::read(&name, &source::picture(file)?, &view, &mut |path| {
-        beside(file, path, &mut read)
+        naming.bytes(path, &mut read)
     });
     let scene = scene.map_err(|fault| Error::Usage {
         what: fault.to_string(),
@@ -118,7 +125,7 @@ fn of_gltf<'a>(
     let at = |_: usize, what: String| Error::Usage {
         what: format!("{name}: {what}"),
     };
-    let (materials, places) = loaded(scene.materials(), file, viewing, &at)?;
+    let (materials, places) = loaded(scene.materials(), &naming, viewing, &at)?;
     let (count, frames) = (materials.len(), scene.frames());
     Ok(PlanInput {
         materials,
@@ -138,12 +145,36 @@ fn nothing_planned(file: &str, unplanned: &[Unplanned]) -> String {
     format!("{file}: no frame shows a material that can be planned{reasons}")
 }
 
-/// The bytes of a file that a scene's file names, relative to its folder; it is entered among those that were read.
-fn beside(scene: &Path, path: &str, read: &mut Vec<PathBuf>) -> Result<Vec<u8>, String> {
-    let file = scene.parent().unwrap_or(Path::new("")).join(path);
-    let bytes = source::picture(&file).map_err(|error| error.to_string());
-    read.push(file);
-    bytes
+/// A file that names other files, by paths relative to its folder.
+struct Naming<'a> {
+    file: &'a Path,
+    /// What it may name though it lies elsewhere.
+    allowed: Vec<PathBuf>,
+}
+
+impl<'a> Naming<'a> {
+    fn of(flags: &PlanFlags, file: &'a Path) -> Naming<'a> {
+        let allowed = flags.allow.iter().chain(flags.inputs());
+        Naming {
+            file,
+            allowed: allowed.cloned().collect(),
+        }
+    }
+
+    /// A path that it names.
+    fn path(&self, path: &str) -> Result<PathBuf, String> {
+        let whole = self.file.parent().unwrap_or(Path::new("")).join(path);
+        source::check_below(self.file, &whole, &self.allowed)?;
+        Ok(whole)
+    }
+
+    /// The bytes of a file that it names; that is entered among those that were read.
+    fn bytes(&self, path: &str, read: &mut Vec<PathBuf>) -> Result<Vec<u8>, String> {
+        let whole = self.path(path)?;
+        let bytes = source::picture(&whole).map_err(|error| error.to_string());
+        read.push(whole);
+        bytes
+    }
 }
 
 /// The files that materials are read from.
@@ -165,20 +196,22 @@ const GLTF_SIZE: [u32; 2] = [640, 480];
 
 /// Frames of a user's renderer. Each is read when its turn comes, so that one is in memory.
 fn of_frames<'a>(
-    files: &'a [PathBuf],
-    map: Option<&Path>,
+    flags: &'a PlanFlags,
     viewing: &ViewingConditions,
 ) -> Result<PlanInput<'a>, Error> {
+    let files: Vec<&PathBuf> = flags.frames().collect();
+    let map = flags.materials.as_deref();
     let map = map.expect("clap asks for it beside --gbuffer");
     let ids = MaterialIds::parse(&map.display().to_string(), &source::text(map)?)?;
     let at = |index: usize, what: String| ids.fault(index, what).into();
-    let (materials, places) = loaded(&ids.materials, map, viewing, &at)?;
+    let (materials, places) = loaded(&ids.materials, &Naming::of(flags, map), viewing, &at)?;
     let (count, read) = (materials.len(), material_files(&materials));
+    let frames = files.len();
     let frame = move |index: usize| {
-        let file: &PathBuf = &files[index];
+        let file = files[index];
         let frame = read_gbuffer(&source::picture(file)?, &ids);
         let frame = frame.map_err(|fault| Error::Usage {
-            what: format!("{}: {fault}", file.display()),
+            what: format!("{}: {fault}", crate::foreign::path(&file)),
         })?;
         Ok(merged(frame, &places, count))
     };
@@ -186,26 +219,33 @@ fn of_frames<'a>(
         materials,
         unplanned: Vec::new(),
         read,
-        nothing_is_seen: format!("no frame shows a material of {}", map.display()),
+        nothing_is_seen: format!(
+            "no frame shows a material of {}",
+            crate::foreign::path(&map)
+        ),
         display: AS_IT_IS,
-        frames: files.len(),
+        frames,
         frame: Box::new(frame),
     })
 }
 
-/// Each material once, and for each that the scene names its place among them. Paths are relative to the folder of the scene's file;
-/// `fault` says where the file names a material.
+/// Each material once, and for each that the scene names its place among them. `fault`
+/// says where the file names a material.
 fn loaded(
     mapped: &[MappedMaterial],
-    file: &Path,
+    naming: &Naming,
     viewing: &ViewingConditions,
     fault: &dyn Fn(usize, String) -> Error,
 ) -> Result<(Vec<PlannedMaterial>, Vec<usize>), Error> {
-    let folder = file.parent().unwrap_or(Path::new(""));
     let (mut planned, mut places): (Vec<PlannedMaterial>, Vec<usize>) = (Vec::new(), Vec::new());
     for (index, one) in mapped.iter().enumerate() {
         let word = match source::is_path(&one.material) {
-            true => folder.join(&one.material).display().to_string(),
+            true => {
+                let path = naming.path(&one.material);
+                let path = path
+                    .map_err(|why| fault(index, format!("`{}`: {why}", Foreign(&one.material))))?;
+                path.display().to_string()
+            }
             false => one.material.clone(),
         };
         let is_it = |known: &PlannedMaterial| {
@@ -218,11 +258,10 @@ fn loaded(
         places.push(place);
         if known.is_none() {
             let new = material(word, viewing, &|what| fault(index, what))?;
-            if planned
-                .iter()
-                .any(|known| known.subject.name == new.subject.name)
-            {
-                return Err(same_name(&new.subject.name));
+            let is_namesake = |known: &&PlannedMaterial| known.subject.name == new.subject.name;
+            if let Some(other) = planned.iter().find(is_namesake) {
+                let words = [&other.argument, &new.argument].map(String::as_str);
+                return Err(same_name(&new.subject.name, words));
             }
             planned.push(new);
         }

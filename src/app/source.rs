@@ -2,11 +2,13 @@
 
 use std::fs;
 use std::io;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
+use crate::foreign;
 use crate::materials::FileFault;
 
 use super::error::Error;
+use super::folder::is_below;
 
 /// A material file has at most this many bytes: 10⁶ rows fit.
 const LARGEST: u64 = 64 << 20;
@@ -26,6 +28,39 @@ const LARGEST_REPORT: u64 = 256 << 20;
 /// Whether a name means a file: names of the catalogue have neither dots nor slashes.
 pub fn is_path(name: &str) -> bool {
     name.contains(['.', '/', '\\'])
+}
+
+/// The words of a list with commas between. A path that exists is a path, whatever commas it holds; of two the longer one.
+pub fn comma_list(list: &str) -> Vec<String> {
+    let parts: Vec<&str> = list.split(',').collect();
+    let is_file = |word: &String| is_path(word) && Path::new(word).is_file();
+    let (mut words, mut start) = (Vec::new(), 0);
+    while start < parts.len() {
+        let longer = (start + 2..=parts.len()).rev();
+        let found = longer
+            .map(|end| (end, parts[start..end].join(",")))
+            .find(|(_, word)| is_file(word));
+        let (end, word) = found.unwrap_or((start + 1, parts[start].to_owned()));
+        words.push(word);
+        start = end;
+    }
+    words
+}
+
+/// Refuses a file that another file names and that lies elsewhere: what a scene, a plan or a list of materials names lies below
+/// its own folder, links resolved, unless the command line names it, or a folder above it, with `--allow`.
+///
+/// # Errors
+/// It lies elsewhere.
+pub fn check_below(naming: &Path, named: &Path, allowed: &[PathBuf]) -> Result<(), String> {
+    let folder = naming.parent().unwrap_or(Path::new(""));
+    if is_below(folder, named) || allowed.iter().any(|one| is_below(one, named)) {
+        return Ok(());
+    }
+    Err(format!(
+        "it lies outside of the folder of `{}`; move it there, or name it, or a folder above it, with --allow",
+        foreign::path(naming)
+    ))
 }
 
 /// The text of a file that a user names.

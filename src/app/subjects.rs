@@ -1,5 +1,6 @@
 //! The materials of a request, each in its medium.
 
+use crate::foreign::one_line;
 use crate::materials::Unseen;
 use crate::reference::MaterialInMedium;
 
@@ -27,7 +28,7 @@ impl Subjects {
     /// A line for each material that is left out.
     pub fn left_out_lines(&self) -> Vec<String> {
         let each = self.left_out.iter();
-        each.map(|unseen| format!("left out: {}", unseen.why))
+        each.map(|unseen| format!("left out: {}", one_line(&unseen.why)))
             .collect()
     }
 
@@ -37,7 +38,8 @@ impl Subjects {
             pair[0].0.name == pair[1].0.name && pair[0].1 != pair[1].1
         };
         if let Some(pair) = self.ready.windows(2).find(twice) {
-            return Err(same_name(&pair[0].0.name));
+            let [one, other] = [0, 1].map(|i| pair[i].0.argument.as_str());
+            return Err(same_name(&pair[0].0.name, [one, other]));
         }
         self.ready.dedup_by(|(a, _), (b, _)| a.name == b.name);
         match self.left_out.first() {
@@ -47,10 +49,11 @@ impl Subjects {
     }
 }
 
-/// Two materials of one name.
-pub fn same_name(name: &str) -> Error {
+/// Two materials of one name, and the words that name them.
+pub fn same_name(name: &str, words: [&str; 2]) -> Error {
     RequestFault::SameName {
         name: name.to_owned(),
+        words: words.map(str::to_owned),
     }
     .into()
 }

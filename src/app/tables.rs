@@ -52,7 +52,10 @@ pub fn table_materials(wanted: &WantedTables) -> Result<(Vec<TableMaterial>, Vec
             (Err(fault), Source::BroughtAlong(_)) => left_out.push(fault.why),
             (Err(fault), _) => return Err(fault.into()),
             (Ok(found), _) => match ready.get(&found.name) {
-                Some((_, other)) if *other != text => return Err(same_name(&found.name)),
+                Some((other, its)) if *its != text => {
+                    let words = [&other.argument, &found.argument].map(String::as_str);
+                    return Err(same_name(&found.name, words));
+                }
                 _ => drop(ready.insert(found.name.clone(), (found, text))),
             },
         }

@@ -12,6 +12,7 @@ use super::catalogue::SHARED;
 use super::error::Error;
 use super::folder;
 use super::manifest::{self, Entry, Manifest, Provenance};
+use super::namesake::refuse_namesakes;
 use super::ours::{bears_mark, could_be_written, is_as_written, is_listed, is_same, listed_hash};
 use super::scope::Scope;
 use crate::emit::FunctionDetail;
@@ -105,6 +106,9 @@ pub fn plan(
         .map(|entry| (entry.file.as_str(), entry))
         .collect();
     let files = planned(out_dir, artifacts)?;
+    if let Some(old) = &old {
+        refuse_namesakes(artifacts, &files, old, provenance)?;
+    }
     let manifest = Planned {
         path: manifest::FILE.to_string(),
         old: old_text,

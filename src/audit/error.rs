@@ -2,6 +2,7 @@
 
 use thiserror::Error;
 
+use crate::foreign::{Foreign, one_line};
 use crate::names::{UnknownName, nearest_names, offered};
 use crate::{emit, process};
 
@@ -21,14 +22,18 @@ pub enum Error {
     Emit(#[from] emit::Error),
     /// The ending of the file's name is none of a language's.
     #[error(
-        "{file}: its ending does not tell a language; say --language wgsl, glsl, hlsl or slang"
+        "{}: its ending does not tell a language; say --language wgsl, glsl, hlsl or slang",
+        Foreign(file)
     )]
     NoLanguage {
         /// The file.
         file: String,
     },
     /// A value that is not of the form that values have.
-    #[error("--arg {word}: {fault}; it is name=number, name=number,number,number or name=quantity")]
+    #[error(
+        "--arg {}: {fault}; it is name=number, name=number,number,number or name=quantity",
+        Foreign(word)
+    )]
     Value {
         /// The word after `--arg`.
         word: String,
@@ -36,7 +41,10 @@ pub enum Error {
         fault: ValueFault,
     },
     /// Three values for an argument that takes one.
-    #[error("--arg {name}: it is one number in a function that gives three, and {given} are given")]
+    #[error(
+        "--arg {}: it is one number in a function that gives three, and {given} are given",
+        Foreign(name)
+    )]
     ValueCount {
         /// The argument.
         name: String,
@@ -44,21 +52,22 @@ pub enum Error {
         given: usize,
     },
     /// The text holds no function at all.
-    #[error("{file}: it holds no function")]
+    #[error("{}: it holds no function", Foreign(file))]
     NoFunction {
         /// The file.
         file: String,
     },
     /// None of its functions can be one of reflectance.
     #[error(
-        "{file}: it holds no function from a cosine to a reflectance: numbers or three of them in, the same out"
+        "{}: it holds no function from a cosine to a reflectance: numbers or three of them in, the same out",
+        Foreign(file)
     )]
     NoReflectance {
         /// The file.
         file: String,
     },
     /// Several of its functions can be one of reflectance, and none is named.
-    #[error("{file}: it holds {} functions; say which with --function: {}", names.len(), names.join(", "))]
+    #[error("{}: it holds {} functions; say which with --function: {}", Foreign(file), names.len(), one_line(&names.join(", ")))]
     SeveralFunctions {
         /// The file.
         file: String,
@@ -67,7 +76,8 @@ pub enum Error {
     },
     /// The named function cannot be one of reflectance.
     #[error(
-        "{place}: {why}; arguments and result are one number or three (float, vec3), the cosine is one"
+        "{place}: {}; arguments and result are one number or three (float, vec3), the cosine is one",
+        one_line(why)
     )]
     Unfit {
         /// The function, with its place in the file.
@@ -82,7 +92,7 @@ pub enum Error {
         place: FunctionPlace,
     },
     /// An argument without a value.
-    #[error("{place}: {}", unbound(material, missing, *has_cosine))]
+    #[error("{place}: {}", one_line(&unbound(material, missing, *has_cosine)))]
     Unbound {
         /// The function, with its place in the file.
         place: FunctionPlace,
@@ -94,7 +104,7 @@ pub enum Error {
         has_cosine: bool,
     },
     /// Something in the text that no program can be made of.
-    #[error("{file}:{line}:{column}: {what}")]
+    #[error("{}:{line}:{column}: {}", Foreign(file), one_line(what))]
     Text {
         /// The file.
         file: String,
@@ -114,7 +124,7 @@ pub enum ValueFault {
     #[error("it has no `=`")]
     NoName,
     /// A number cannot be read.
-    #[error("`{0}` is not a number")]
+    #[error("`{}` is not a number", Foreign(_0))]
     NoNumber(String),
     /// Neither a number nor a quantity.
     #[error("{0}")]
@@ -149,7 +159,7 @@ impl MissingArgument {
 
 /// A function and where its name stands.
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
-#[error("{file}:{line}:{column}: `{name}`")]
+#[error("{}:{line}:{column}: `{}`", Foreign(file), Foreign(name))]
 pub struct FunctionPlace {
     /// The file.
     pub file: String,

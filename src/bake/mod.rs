@@ -26,8 +26,8 @@ pub use words::{material_words, viewing_flags};
 pub struct BakeRequest {
     /// The materials, sorted by name.
     pub subjects: Vec<TableMaterial>,
-    /// What a user types to get all of them again: names with commas between, or `all`.
-    pub typed: String,
+    /// What a user types to get all of them again: names, or `all`.
+    pub typed: Vec<String>,
     /// The files wanted.
     pub formats: Vec<Format>,
     /// How large.

@@ -1,6 +1,6 @@
 //! One picture in all its formats: its tables in every depth, their errors, and what the heads of its files say.
 
-use crate::command_line::{CommandLine, quoted};
+use crate::command_line::CommandLine;
 use crate::emit::{MARK, comment_lines};
 use crate::fit::ModelError;
 use crate::ir::Weights;
@@ -121,11 +121,11 @@ impl<'a> Baking<'a> {
     /// The command that writes these files of the picture again. For a search, states the size and axis found.
     pub fn command(&self, formats: &[Format], targets: &[&'static Target]) -> String {
         let typed = match self.subjects {
-            [one] if self.name != ATLAS => quoted(&one.argument),
+            [one] if self.name != ATLAS => vec![one.argument.clone()],
             _ => self.request.typed.clone(),
         };
         let command = CommandLine::new("fresnel-gen bake")
-            .number("material", typed)
+            .list("material", typed)
             .with(&self.request.flags)
             .list("size", [self.texels])
             .list("axis", [self.axis.name()])

@@ -1,6 +1,6 @@
 //! A bake as a user types it.
 
-use crate::command_line::{CommandLine, quoted};
+use crate::command_line::CommandLine;
 use crate::emit::Naming;
 use crate::materials::ViewingConditions;
 use crate::spectra::Gamut;
@@ -8,10 +8,9 @@ use crate::targets::Target;
 
 use super::{BakeRequest, TableMaterial, TableSize};
 
-/// The materials as a user types them, commas between.
-pub fn material_words(subjects: &[TableMaterial]) -> String {
-    let names: Vec<String> = subjects.iter().map(|one| quoted(&one.argument)).collect();
-    names.join(",")
+/// The materials as a user types them.
+pub fn material_words(subjects: &[TableMaterial]) -> Vec<String> {
+    subjects.iter().map(|one| one.argument.clone()).collect()
 }
 
 /// The flags of the medium and the viewing conditions, each with a space before it.
@@ -30,7 +29,7 @@ impl BakeRequest {
     /// The command that reports this again, without the output's place.
     pub fn command_line(&self) -> CommandLine {
         let command = CommandLine::new("bake")
-            .number("material", &self.typed)
+            .list("material", &self.typed)
             .with(&self.flags);
         let command = match &self.shape {
             TableSize::Fixed { axis, texels } => {

@@ -1,5 +1,6 @@
 //! Why a material has no place in a format.
 
+use crate::foreign::Foreign;
 use thiserror::Error;
 
 /// Why a material has no place in a format.
@@ -7,8 +8,9 @@ use thiserror::Error;
 pub enum ExchangeFault {
     /// A dielectric that is rarer than its medium.
     #[error(
-        "`{name}` has an index of {index} relative to its medium; these formats take an index of 1 or more: choose a medium that \
-         is optically rarer"
+        "`{}` has an index of {index} relative to its medium; these formats take an index of 1 or more: choose a medium that \
+         is optically rarer",
+        Foreign(name)
     )]
     Rarer {
         /// The material.

@@ -33,8 +33,8 @@ use super::decimal::short;
 use super::dispersion::DispersionCurve;
 use super::file_text::FileText;
 use super::formula::{Formula, NUMBERS};
-use super::hidden::is_hidden;
 use super::material::{GREATEST, LEAST_N, Material, MaterialKind};
+use crate::foreign::is_hidden;
 pub use crate::spectra::FileFault;
 
 type RawRow = Spanned<Vec<Spanned<f64>>>;

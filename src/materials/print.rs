@@ -2,8 +2,8 @@
 
 use super::dispersion::DispersionCurve;
 use super::formula::Formula;
-use super::hidden::escaped;
 use super::material::Material;
+use crate::foreign::escaped;
 
 impl Material {
     /// The file's text: what [`Material::parse`] reads back as the same material.

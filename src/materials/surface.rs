@@ -68,7 +68,7 @@ pub struct Surface {
 
 /// A material that is not known where it is looked at.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("{why}{advice}")]
+#[error("{}{advice}", crate::foreign::one_line(why))]
 pub struct Unseen {
     /// Which material, where it is known, which wavelength is wanted.
     pub why: String,

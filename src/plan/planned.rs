@@ -90,7 +90,8 @@ pub enum PlanFault<E> {
     Function(emit::Error),
     /// A material has no function whose cost is known.
     #[error(
-        "{material}: no function that describes it has a known cost on {gpu}; name another --gpu"
+        "{}: no function that describes it has a known cost on {gpu}; name another --gpu",
+        crate::foreign::Foreign(material)
     )]
     NoCost {
         /// The material.

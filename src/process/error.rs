@@ -15,7 +15,8 @@ pub enum Error {
     Start(io::Error),
     /// Temporary files cannot be written.
     #[error(
-        "not checked: temporary files cannot be written in {}: {why}; create this folder, make room in it, or set {TEMPORARY} to another", place.display()
+        "not checked: temporary files cannot be written in {}: {why}; create this folder, make room in it, or set {TEMPORARY} to another",
+        crate::foreign::path(place)
     )]
     Temporary {
         /// The folder for temporary files.
@@ -24,7 +25,10 @@ pub enum Error {
         why: String,
     },
     /// The folder of tools that the user names cannot be used.
-    #[error("--tools {}: {why}; name a folder that holds compilers", folder.display())]
+    #[error(
+        "--tools {}: {why}; name a folder that holds compilers",
+        crate::foreign::path(folder)
+    )]
     Tools {
         /// The folder as it was named.
         folder: PathBuf,

@@ -21,7 +21,7 @@ const FARTHEST: f64 = 1e100;
 
 /// What is wrong with an OBJ file, and where.
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
-#[error("line {line}: {what}")]
+#[error("line {line}: {}", crate::foreign::one_line(what))]
 pub struct ObjFault {
     /// The line, from 1.
     pub line: usize,

@@ -2,13 +2,15 @@
 
 use crate::audit::{AuditCost, AuditRow, ExactFit};
 use crate::fit::ModelError;
+use crate::foreign::{Foreign, lines as lines_of, one_line};
 use crate::verify::Status;
 
 /// A row for people.
 pub fn audit_text(row: &AuditRow) -> String {
-    let mut text = format!("{} in {}, {}\n", row.function, row.file, row.material);
+    let [function, file, material] = [&row.function, &row.file, &row.material].map(Foreign);
+    let mut text = format!("{function} in {file}, {material}\n");
     for (head, line) in lines(row) {
-        text += &format!("  {head:<12} {line}\n");
+        text += &format!("  {head:<12} {}\n", lines_of(&line));
     }
     text
 }
@@ -122,5 +124,7 @@ pub fn audit_remarks(row: &AuditRow) -> Vec<String> {
         Status::Pass => "",
     };
     let reasons = row.reason.as_deref().unwrap_or_default().lines();
-    reasons.map(|reason| format!("{head}{reason}")).collect()
+    reasons
+        .map(|reason| format!("{head}{}", one_line(reason)))
+        .collect()
 }

@@ -5,6 +5,7 @@ use std::collections::BTreeMap;
 use serde::Serialize;
 
 use crate::fit::{PageFacts, PageOutcome, SURVEYED_ANGLES, SurveyedPage, VisibleColours};
+use crate::foreign::one_line;
 
 /// A page in a JSON report.
 #[derive(Clone, Debug, Serialize)]
@@ -95,6 +96,7 @@ pub fn survey_text(all: &[SurveyedPage]) -> String {
     lines.extend(extrapolated(all));
     lines.extend(refusals(all));
     lines.extend(glasses(all));
+    let lines: Vec<String> = lines.iter().map(|line| one_line(line)).collect();
     lines.join("\n") + "\n"
 }
 

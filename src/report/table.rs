@@ -1,7 +1,11 @@
 //! Tables as plain text: columns padded, numbers to the right.
 
-/// A table with a head and a line under it.
+use crate::foreign::one_line;
+
+/// A table with a head and a line under it. No cell breaks its line.
 pub fn text_table(head: &[&str], rows: &[Vec<String>]) -> String {
+    let shown = |row: &Vec<String>| row.iter().map(|cell| one_line(cell)).collect();
+    let rows: Vec<Vec<String>> = rows.iter().map(shown).collect();
     let head: Vec<String> = head.iter().map(|cell| (*cell).to_owned()).collect();
     let widths: Vec<usize> = (0..head.len())
         .map(|column| {
@@ -15,7 +19,7 @@ pub fn text_table(head: &[&str], rows: &[Vec<String>]) -> String {
     let rule: Vec<String> = widths.iter().map(|width| "-".repeat(*width)).collect();
     let lines = [&head, &rule]
         .into_iter()
-        .chain(rows)
+        .chain(&rows)
         .map(|row| line(row, &widths));
     lines.collect::<Vec<_>>().concat()
 }

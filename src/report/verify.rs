@@ -3,6 +3,7 @@
 use std::collections::BTreeSet;
 
 use super::table;
+use crate::foreign::{lines, one_line};
 use crate::num::Precision;
 use crate::verify::{AllowedError, Status, VerifyRow, WITHIN};
 
@@ -145,9 +146,12 @@ pub fn verify_remarks(rows: &[VerifyRow], is_github: bool) -> Vec<String> {
         .iter()
         .filter_map(|row| row.remark.as_deref())
         .collect();
-    remarks.extend(own.into_iter().map(|remark| format!("remark: {remark}")));
+    remarks.extend(
+        own.into_iter()
+            .map(|remark| format!("remark: {}", lines(remark))),
+    );
     let missing = not_checked(rows).into_iter();
-    remarks.extend(missing.map(|what| format!("not checked: {what}")));
+    remarks.extend(missing.map(|what| format!("not checked: {}", lines(&what))));
     let count = |status| with_status(rows, status).count();
     remarks.push(format!(
         "{} functions run: {} pass, {} fail, {} not checked",
@@ -162,13 +166,17 @@ pub fn verify_remarks(rows: &[VerifyRow], is_github: bool) -> Vec<String> {
 fn finding(row: &VerifyRow, is_github: bool) -> String {
     let reason = row.reason.as_deref().unwrap_or_default();
     if !is_github {
-        return format!("FAIL {reason}");
+        return format!("FAIL {}", lines(reason));
     }
-    let line = reason
+    let reason: Vec<String> = reason.lines().map(one_line).collect();
+    let (file, reason) = (one_line(&row.file), reason.join("\n"));
+    // As GitHub's own tool escapes a property and a message.
+    let line = reason.replace('%', "%25").replace('\n', "%0A");
+    let file = file
         .replace('%', "%25")
-        .replace('\r', "%0D")
-        .replace('\n', "%0A");
-    format!("::error file={},title=fresnel-gen verify::{line}", row.file)
+        .replace(':', "%3A")
+        .replace(',', "%2C");
+    format!("::error file={file},title=fresnel-gen verify::{line}")
 }
 
 /// The devices of all rows, each once; none where nothing ran.

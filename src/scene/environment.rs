@@ -5,6 +5,7 @@
 use glam::DVec3;
 use half::f16;
 
+use crate::foreign::Foreign;
 use crate::spectra::srgb_linear;
 
 /// Radiance by direction.
@@ -20,7 +21,7 @@ pub struct Environment {
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum EnvironmentFault {
     /// It cannot be read.
-    #[error("{0}")]
+    #[error("{}", Foreign(_0))]
     Unreadable(String),
     /// It has another shape.
     #[error(

@@ -1,8 +1,10 @@
 //! What is wrong with a user's file, and where.
 
+use crate::foreign::{Foreign, one_line};
+
 /// A fault in a file, as `file:line:column: what`.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("{file}:{line}:{column}: {what}")]
+#[error("{}:{line}:{column}: {}", Foreign(file), one_line(what))]
 pub struct FileFault {
     /// The file, as the user named it.
     pub file: String,

@@ -7,7 +7,7 @@ use clap::Args;
 #[cfg(feature = "gpu")]
 use crate::audit::Language;
 #[cfg(feature = "gpu")]
-use crate::command_line::{CommandLine, file_name};
+use crate::command_line::{CommandLine, path_again};
 use crate::cost::Family;
 #[cfg(feature = "gpu")]
 use crate::materials::ViewingConditions;
@@ -80,13 +80,13 @@ impl AuditFlags {
     pub fn command_line(&self, viewing: &ViewingConditions) -> CommandLine {
         let file = self.file.as_deref().unwrap_or_default();
         let command = CommandLine::new("audit")
-            .argument(file_name(file))
+            .argument(&path_again(file))
             .list("language", self.language.map(|(name, _)| name))
             .list("function", &self.function);
         let arguments = self.arg.iter();
         arguments
             .fold(command, |command, one| command.list("arg", [one]))
-            .list("material", &self.materials.material)
+            .list("material", self.materials.choices())
             .list("medium", &self.medium.medium)
             .seen_as(viewing)
             .list("gpu", &self.gpu)

@@ -65,7 +65,7 @@ impl CostFlags {
             .list("gpu", &self.gpu)
             .list("method", &self.method)
             .list("effect", &self.effect)
-            .list("material", &self.materials.material)
+            .list("material", self.materials.choices())
             .list(
                 "precision",
                 self.precision.iter().map(|precision| precision.name()),

@@ -68,7 +68,7 @@ impl FitFlags {
         let weight = (self.weight != Weight::default()).then_some(self.weight.name());
         CommandLine::new("fit")
             .switch("search", self.search)
-            .list("material", &self.materials.material)
+            .list("material", self.materials.choices())
             .list("terms", self.terms)
             .list("weight", weight)
             .list("exact", self.exact.iter().map(|end| end.name()))

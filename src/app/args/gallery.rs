@@ -29,6 +29,6 @@ pub struct GalleryFlags {
 impl GalleryFlags {
     /// The command that makes the page again, without places.
     pub fn command_line(&self) -> CommandLine {
-        CommandLine::new("gallery").list("material", &self.materials.material)
+        CommandLine::new("gallery").list("material", self.materials.choices())
     }
 }

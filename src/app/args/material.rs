@@ -7,7 +7,8 @@ use thiserror::Error;
 
 use crate::app::error::Error;
 use crate::app::request::{Materials, Source};
-use crate::app::source::{is_path, read};
+use crate::app::source::{comma_list, is_path, read};
+use crate::command_line::path_again;
 use crate::materials::{self, ConstantIndex, IndexFault};
 use crate::names::UnknownName;
 
@@ -82,30 +83,50 @@ impl MaterialName {
     }
 }
 
+/// As a user types it again.
 impl fmt::Display for MaterialName {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
-        f.write_str(&self.word)
+        match self.is_file {
+            true => f.write_str(&path_again(&self.word)),
+            false => f.write_str(&self.word),
+        }
     }
 }
 
+/// Materials, as one word lists them.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct MaterialList(Vec<Choice<MaterialName>>);
+
 /// The parser of a word of `--material`.
-fn choice(word: &str) -> Result<Choice<MaterialName>, UnknownName> {
-    Ok(match word {
-        "all" => Choice::All,
-        "none" => Choice::None,
-        name => Choice::One(name.to_owned(), MaterialName::parse(name)?),
-    })
+fn material_list(list: &str) -> Result<MaterialList, UnknownName> {
+    let choice = |word: String| {
+        Ok(match word.as_str() {
+            "all" => Choice::All,
+            "none" => Choice::None,
+            name => {
+                let named = MaterialName::parse(name)?;
+                Choice::One(named.to_string(), named)
+            }
+        })
+    };
+    let choices = comma_list(list).into_iter().map(choice);
+    choices.collect::<Result<_, _>>().map(MaterialList)
 }
 
 /// Which materials.
 #[derive(Args, Clone, Debug, Default)]
 pub struct MaterialFlags {
     /// Names, paths of material files, all, or none [default: gold, platinum, water, diamond]
-    #[arg(long, value_delimiter = ',', value_name = "NAME", value_parser = choice)]
-    pub material: Vec<Choice<MaterialName>>,
+    #[arg(long, value_name = "NAME", value_parser = material_list)]
+    pub material: Vec<MaterialList>,
 }
 
 impl MaterialFlags {
+    /// The words of all lists.
+    pub fn choices(&self) -> impl Iterator<Item = &Choice<MaterialName>> {
+        self.material.iter().flat_map(|list| &list.0)
+    }
+
     /// The materials, read where they are files.
     ///
     /// # Errors
@@ -114,11 +135,12 @@ impl MaterialFlags {
         if self.material.is_empty() {
             return Ok(Materials::Default);
         }
-        if Choice::is_none(&self.material, "materials")? {
+        let choices: Vec<Choice<MaterialName>> = self.choices().cloned().collect();
+        if Choice::is_none(&choices, "materials")? {
             return Ok(Materials::None);
         }
         let mut sources = Vec::new();
-        for choice in &self.material {
+        for choice in &choices {
             match choice {
                 Choice::One(_, name) => sources.push(name.source()?),
                 Choice::All | Choice::None => sources.extend(Source::catalogue()),
@@ -129,7 +151,7 @@ impl MaterialFlags {
 
     /// The paths among them.
     pub fn paths(&self) -> impl Iterator<Item = &str> {
-        let names = self.material.iter().filter_map(Choice::named);
+        let names = self.choices().filter_map(Choice::named);
         names.filter_map(MaterialName::path)
     }
 }

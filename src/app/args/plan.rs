@@ -4,7 +4,8 @@ use std::path::PathBuf;
 
 use clap::Args;
 
-use crate::command_line::CommandLine;
+use crate::app::source::comma_list;
+use crate::command_line::{CommandLine, path_again};
 use crate::cost::Family;
 use crate::methods::Method;
 use crate::num::Precision;
@@ -17,6 +18,17 @@ use super::output::file_only;
 use super::scene_error::size;
 use super::{PictureFlags, ReportFlags};
 
+/// Frames of a renderer, as one word lists them.
+#[derive(Clone, Debug)]
+pub struct Frames(Vec<PathBuf>);
+
+/// The parser of a word of `--gbuffer`.
+fn frames(list: &str) -> Result<Frames, String> {
+    let words = comma_list(list).into_iter();
+    let files = words.map(|word| file_only("--gbuffer")(&word));
+    files.collect::<Result<_, _>>().map(Frames)
+}
+
 /// The flags of `plan`.
 #[derive(Args, Debug)]
 #[command(
@@ -28,8 +40,8 @@ pub struct PlanFlags {
     #[arg(value_name = "SCENE", required_unless_present = "gbuffer", conflicts_with_all = ["gbuffer", "materials"])]
     pub scene: Option<PathBuf>,
     /// In place of a scene frames of your own renderer: EXR files with cos_theta, material_id, light and more
-    #[arg(long, value_delimiter = ',', num_args = 1.., value_name = "FILE", requires = "materials", value_parser = file_only("--gbuffer"))]
-    pub gbuffer: Vec<PathBuf>,
+    #[arg(long, num_args = 1.., value_name = "FILE", requires = "materials", value_parser = frames)]
+    pub gbuffer: Vec<Frames>,
     /// Which id of the frames is which material: a TOML file
     #[arg(long, value_name = "FILE", requires = "gbuffer", value_parser = file_only("--materials"))]
     pub materials: Option<PathBuf>,
@@ -39,6 +51,9 @@ pub struct PlanFlags {
     /// Pixels across and down of a glTF scene's frames, each 16 to 2048 [default: 640x480]
     #[arg(long, value_name = "WxH", value_parser = size, conflicts_with = "gbuffer")]
     pub size: Option<[u32; 2]>,
+    /// A file that the scene may name though it lies outside of the scene's folder, or a folder of such files
+    #[arg(long, value_name = "PATH")]
+    pub allow: Vec<PathBuf>,
     /// The largest error [default: 1; .0039 with --metric linear]
     #[arg(long, value_name = "ERR", allow_negative_numbers = true)]
     pub budget: Option<f64>,
@@ -113,8 +128,13 @@ impl PlanFlags {
         self.scene
             .iter()
             .chain(&self.environment)
-            .chain(&self.gbuffer)
+            .chain(self.frames())
             .chain(&self.materials)
+    }
+
+    /// The frames of a renderer.
+    pub fn frames(&self) -> impl Iterator<Item = &PathBuf> {
+        self.gbuffer.iter().flat_map(|frames| &frames.0)
     }
 
     /// The largest error.
@@ -124,28 +144,18 @@ impl PlanFlags {
 
     /// The command that makes this plan again, without places of outputs.
     pub fn command_line(&self) -> CommandLine {
-        let paths = |files: &[PathBuf]| -> Vec<String> {
-            files
-                .iter()
-                .map(|file| file.display().to_string())
-                .collect()
-        };
+        let again = |file: &PathBuf| path_again(&file.to_string_lossy());
         let above_0 = |value: f64| (value != 0.0).then_some(value);
         let command = CommandLine::new("plan");
         let command = match &self.scene {
-            Some(scene) => command.argument(&scene.display().to_string()),
+            Some(scene) => command.argument(&again(scene)),
             None => command,
         };
         command
-            .list("gbuffer", paths(&self.gbuffer))
-            .list(
-                "materials",
-                self.materials.iter().map(|file| file.display()),
-            )
-            .list(
-                "environment",
-                self.environment.iter().map(|file| file.display()),
-            )
+            .list("gbuffer", self.frames().map(again))
+            .list("materials", self.materials.iter().map(again))
+            .list("environment", self.environment.iter().map(again))
+            .list("allow", self.allow.iter().map(again))
             .list(
                 "size",
                 self.size.map(|[width, height]| format!("{width}x{height}")),

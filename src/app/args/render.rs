@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 
-use crate::command_line::CommandLine;
+use crate::command_line::{CommandLine, path_again};
 use crate::scene::{self, RenderRow, TONE_CURVES, ToneCurve};
 
 use super::choice::one_of;
@@ -68,7 +68,9 @@ impl RenderFlags {
             .list("material", &self.material)
             .list(
                 "environment",
-                self.environment.iter().map(|file| file.display()),
+                self.environment
+                    .iter()
+                    .map(|file| path_again(&file.to_string_lossy())),
             )
             .switch("ldr", self.ldr)
     }

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 
-use crate::command_line::CommandLine;
+use crate::command_line::{CommandLine, path_again};
 use crate::materials::ViewingConditions;
 use crate::methods::Method;
 use crate::raster::{Body, Turntable};
@@ -74,13 +74,18 @@ impl SceneErrorFlags {
             None => command,
         };
         command
-            .list("mesh", self.mesh.iter().map(|file| file.display()))
+            .list(
+                "mesh",
+                self.mesh
+                    .iter()
+                    .map(|file| path_again(&file.to_string_lossy())),
+            )
             .list("frames", frames)
             .list("eye", self.eye.iter().flatten())
             .list("size", size)
             .list("fov", fov)
             .list("method", &self.method)
-            .list("material", &self.materials.material)
+            .list("material", self.materials.choices())
             .list("medium", &self.medium.medium)
             .seen_as(viewing)
     }
@@ -113,7 +118,8 @@ pub(super) fn size(word: &str) -> Result<[u32; 2], String> {
             Ok([width, height])
         }
         _ => Err(format!(
-            "`{word}` is not two sides of 16 to 2048 pixels, such as 640x480"
+            "`{}` is not two sides of 16 to 2048 pixels, such as 640x480",
+            crate::foreign::Foreign(word)
         )),
     }
 }

@@ -39,7 +39,7 @@ impl StabilityFlags {
     pub fn command_line(&self) -> CommandLine {
         CommandLine::new("stability")
             .list("method", &self.method)
-            .list("material", &self.materials.material)
+            .list("material", self.materials.choices())
             .list("precision", self.precision.map(Precision::name))
     }
 }

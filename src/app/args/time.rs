@@ -80,7 +80,7 @@ impl TimeFlags {
     pub fn command_line(&self) -> CommandLine {
         CommandLine::new("time")
             .list("method", &self.method)
-            .list("material", &self.materials.material)
+            .list("material", self.materials.choices())
             .list(
                 "precision",
                 self.precision.iter().map(|precision| precision.name()),

@@ -5,6 +5,7 @@ use clap::Args;
 use crate::app::error::Error;
 use crate::app::fault::RequestFault;
 use crate::app::source::{is_path, read};
+use crate::foreign::Foreign;
 use crate::materials::{Extrapolate, ViewingConditions};
 use crate::names::UnknownName;
 use crate::spectra::{Adaptation, Gamut, Illuminant, Integration, Observer, Space, Step};
@@ -163,7 +164,7 @@ pub(super) fn colour(word: &str) -> Result<[f64; 3], &'static str> {
 pub(super) fn numbers(word: &str) -> Result<Vec<f64>, String> {
     let number = |word: &str| {
         word.parse()
-            .map_err(|_| format!("`{word}` is not a number"))
+            .map_err(|_| format!("`{}` is not a number", Foreign(word)))
     };
     word.split(',').map(number).collect()
 }

@@ -11,6 +11,7 @@ use crate::app::write::{OutputFile, try_places_of_ours};
 use crate::audit::{Audit, AuditRow, AuditRows, Given, Language, serve};
 use crate::chart::{ChartView, CostAxis, STATISTICS, chart_data, charted_function};
 use crate::cost::{self, FAMILIES, Family};
+use crate::foreign::lines;
 use crate::reference::MaterialInMedium;
 use crate::report::Report;
 use crate::report::audit::{audit_remarks, audit_text};
@@ -64,7 +65,9 @@ pub fn run(flags: &AuditFlags, progress: Progress) -> Result<Output, Error> {
     let json = flags.report.report.json();
     let mut output = report_beside(texts.join("\n"), &full, json, files)?;
     charted.splice(0..0, output.remarks);
-    let skipped = skipped.iter().map(|why| format!("not audited: {why}"));
+    let skipped = skipped
+        .iter()
+        .map(|why| format!("not audited: {}", lines(&why.to_string())));
     let remarks = rows.iter().flat_map(audit_remarks);
     output.remarks = remarks.chain(skipped).chain(charted).collect();
     output.code = code(&rows);

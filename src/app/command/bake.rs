@@ -48,8 +48,8 @@ pub fn run(flags: &BakeFlags, progress: Progress, announce: Announce) -> Result<
     let (subjects, left_out) = table_materials(&wanted)?;
     check_names(&subjects, flags.atlas)?;
     let request = BakeRequest {
-        typed: if flags.materials.material == [Choice::All] {
-            "all".to_owned()
+        typed: if flags.materials.choices().eq([&Choice::All]) {
+            vec!["all".to_owned()]
         } else {
             material_words(&subjects)
         },
@@ -111,12 +111,14 @@ fn finished(
     if flags.quiet {
         return Ok(output);
     }
-    output
-        .remarks
-        .extend(left_out.iter().map(|why| format!("left out: {why}")));
+    output.remarks.extend(
+        left_out
+            .iter()
+            .map(|why| format!("left out: {}", crate::foreign::one_line(&why.to_string()))),
+    );
     output.remarks.push(format!(
         "{}: {} written, {} unchanged",
-        out_dir.display(),
+        crate::foreign::path(&out_dir),
         written.written,
         written.unchanged
     ));

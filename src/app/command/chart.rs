@@ -102,7 +102,9 @@ pub(super) fn drawn_files(
 /// Where picture and page lie, and what they are.
 pub(super) fn drawn_remarks(files: &[OutputFile]) -> Vec<String> {
     let about = ["the picture of what is shown", "a page with all charts"];
-    let remark = |(file, about): (&OutputFile, &str)| format!("{}: {about}", file.path().display());
+    let remark = |(file, about): (&OutputFile, &str)| {
+        format!("{}: {about}", crate::foreign::path(file.path()))
+    };
     files.iter().zip(about).map(remark).collect()
 }
 

@@ -64,9 +64,12 @@ pub fn run(flags: &CostFlags, progress: Progress) -> Result<Output, Error> {
         (cost_text(&table), Checks::NONE)
     };
     let page = page.map(|page| paged(flags, &table, page)).transpose()?;
-    let said = page
-        .as_ref()
-        .map(|page| format!("{}: a page with all figures", page.path().display()));
+    let said = page.as_ref().map(|page| {
+        format!(
+            "{}: a page with all figures",
+            crate::foreign::path(page.path())
+        )
+    });
     let files = page.into_iter().collect();
     let mut output = report_beside(text, &json, flags.report.json(), files)?;
     output.remarks.splice(0..0, left_out);

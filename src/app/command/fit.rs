@@ -124,7 +124,10 @@ fn of_materials(
     for (row, subject, form) in found.into_iter().flatten() {
         match row {
             Some(row) => rows.push(row),
-            None => remarks.push(format!("left out: {subject} with {form}: {NO_FIT}")),
+            None => remarks.push(format!(
+                "left out: {} with {form}: {NO_FIT}",
+                crate::foreign::Foreign(subject)
+            )),
         }
     }
     Ok((rows, remarks))

@@ -38,7 +38,7 @@ pub fn run(flags: &GalleryFlags, progress: Progress) -> Result<Output, Error> {
     remarks.extend(replaced(&old));
     remarks.push(format!(
         "{}: {rows} effects, {methods} methods, {materials} materials",
-        file.display()
+        crate::foreign::path(&file)
     ));
     Ok(Output {
         remarks,

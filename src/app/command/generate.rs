@@ -20,6 +20,7 @@ use crate::app::{check, depfile, folder};
 use crate::bake::as_tables_are_seen;
 use crate::budget::{Budget, BudgetRow, choose_within};
 use crate::cost;
+use crate::foreign::{Foreign, one_line};
 use crate::methods;
 use crate::num::Precision;
 use crate::report::budget::budget_remarks;
@@ -35,7 +36,7 @@ pub fn run(flags: &GenerateFlags, announce: Announce) -> Result<Output, Error> {
             let paths = material_paths(file)?;
             let outputs = flags.output.iter().chain(&flags.depfile);
             refuse_read(paths.iter().map(Path::new), outputs.map(PathBuf::as_path))?;
-            (planned(file, request)?, Vec::new())
+            (planned(file, &flags.allow, request)?, Vec::new())
         }
         None => chosen(flags, request)?,
     };
@@ -191,9 +192,9 @@ fn checked(flags: &GenerateFlags, plan: &TreePlan) -> Output {
 /// What a person should know of files that stay, or that are not as this program left them.
 pub(super) fn named(plan: &TreePlan, overwrite: bool, replaced: &str) -> Vec<String> {
     let stays = plan.stays.iter();
-    let stays = stays.map(|stay| format!("left alone: {}: {}", stay.path, stay.why));
+    let stays = stays.map(|stay| format!("left alone: {}: {}", Foreign(&stay.path), stay.why));
     let edited = plan.edited.iter();
-    let edited = edited.map(|path| {
+    let edited = edited.map(Foreign).map(|path| {
         format!(
             "{replaced}: {path}, which was changed since fresnel-gen wrote it, or is in no manifest"
         )
@@ -201,20 +202,22 @@ pub(super) fn named(plan: &TreePlan, overwrite: bool, replaced: &str) -> Vec<Str
     let obstacles = plan.obstacles.iter().map(|obstacle| match overwrite {
         true => format!(
             "{replaced}: {}, which fresnel-gen did not write",
-            obstacle.path
+            Foreign(&obstacle.path)
         ),
         false => format!(
             "{}: fresnel-gen did not write it; a run replaces it only with --overwrite",
-            obstacle.path
+            Foreign(&obstacle.path)
         ),
     });
     let dropped = plan.dropped.iter().map(|(path, names)| {
         format!(
-            "no longer in {path}: {}, which an earlier run put there; name its method to have it",
-            names.join(", ")
+            "no longer in {}: {}, which an earlier run put there; name its method to have it",
+            Foreign(path),
+            one_line(&names.join(", "))
         )
     });
     let reseen = plan.reseen.iter().map(|(path, [old, new])| {
+        let [path, old, new] = [path, old, new].map(Foreign);
         format!("{path}: other viewing conditions, so that all of its functions change: from {old} to {new}")
     });
     stays
@@ -247,13 +250,17 @@ fn written(
     let counts = write(plan, &depfile, flags.tree.overwrite, lock)?;
     let mut output = Output::default();
     for why in generated.left_out.iter().filter(|_| !flags.quiet) {
-        output.remarks.push(format!("left out: {}", why.why));
+        output
+            .remarks
+            .push(format!("left out: {}", one_line(&why.why)));
     }
     for why in generated.refused.iter().filter(|_| !flags.quiet) {
-        output.remarks.push(format!("left out: {why}"));
+        output
+            .remarks
+            .push(format!("left out: {}", one_line(&why.to_string())));
     }
     for orphan in plan.orphans.iter().filter(|_| !flags.quiet) {
-        let file = &orphan.file;
+        let file = Foreign(&orphan.file);
         output
             .remarks
             .push(format!("removed: {file}, which is no longer generated"));
@@ -262,7 +269,7 @@ fn written(
         .remarks
         .extend(named(plan, flags.tree.overwrite, "replaced"));
     if !flags.quiet {
-        let folder = out_dir.display();
+        let folder = crate::foreign::path(&out_dir);
         output.remarks.push(format!(
             "{folder}: {} written, {} unchanged, {} removed",
             counts.written, counts.unchanged, counts.removed
@@ -286,7 +293,11 @@ fn first_steps<'g>(generated: &'g Generated, out_dir: &Path) -> Vec<String> {
     };
     let file = out_dir.join(&artifact.path);
     vec![
-        format!("for example {}: {}", file.display(), function.signature),
+        format!(
+            "for example {}: {}",
+            crate::foreign::path(&file),
+            function.signature
+        ),
         match cfg!(feature = "gpu") {
             true => {
                 "next: use it; `fresnel-gen verify` with the same flags runs it on this machine"

@@ -4,16 +4,28 @@ use std::path::Path;
 
 use crate::app::args::ImportFlags;
 use crate::app::error::Error;
+use crate::app::fault::RequestFault;
 use crate::app::source::read;
 use crate::app::write::write_file;
+use crate::foreign::one_line;
 use crate::materials::{Material, name_fault, page};
 use crate::methods;
 use crate::spectra::{FIRST_NM, LAST_NM, OBSERVED_NM};
 
-use super::Output;
+use super::materials::material_record;
+use super::{Output, report, try_places};
 
-/// `fresnel-gen materials import PAGE`.
-pub fn run(flags: &ImportFlags) -> Result<Output, Error> {
+/// `fresnel-gen materials import PAGE`. The JSON is that of `materials show`.
+pub fn run(flags: &ImportFlags, json: Option<&Path>) -> Result<Output, Error> {
+    let file = flags
+        .output
+        .as_deref()
+        .filter(|file| *file != Path::new("-"));
+    if file.is_none() && json == Some(Path::new("-")) {
+        let why = "the material file and the JSON both go to stdout; write one of them to a file, with -o or --json";
+        return Err(RequestFault::conflict(why).into());
+    }
+    try_places(json, file)?;
     let fault = |name: &String| {
         let why = name_fault(name)?;
         Some(format!("--name: `{name}` is no name: {why}"))
@@ -47,13 +59,21 @@ pub fn run(flags: &ImportFlags) -> Result<Output, Error> {
     if !material.note.is_empty() {
         output
             .remarks
-            .push(format!("{}: {}", material.name, material.note));
+            .push(format!("{}: {}", material.name, one_line(&material.note)));
     }
-    match &flags.output {
-        Some(file) if file != Path::new("-") => drop(write_file(file, toml.as_bytes())?),
-        _ => output.stdout = toml.into_bytes(),
-    }
-    Ok(output)
+    let text = match file {
+        Some(file) => {
+            write_file(file, toml.as_bytes())?;
+            String::new()
+        }
+        None => toml,
+    };
+    let reported = report(text, &material_record(&material), json)?;
+    Ok(Output {
+        stdout: reported.stdout,
+        is_file: reported.is_file,
+        ..output
+    })
 }
 
 /// Only the visible part, where the material is known over all of it.

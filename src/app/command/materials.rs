@@ -12,6 +12,7 @@ use crate::app::names::unknown;
 use crate::app::request::check_transparent;
 use crate::app::write::{OutputFile, write_outputs};
 use crate::command_line::CommandLine;
+use crate::foreign::{Foreign, one_line};
 use crate::materials::{self, Extrapolate, Material, ViewingConditions};
 use crate::report::material_sheet::material_sheet;
 use crate::report::table;
@@ -29,11 +30,7 @@ pub fn run(flags: &MaterialsFlags, progress: Progress) -> Result<Output, Error> 
         Some(MaterialsCommand::Show(show)) => shown(show, json),
         Some(MaterialsCommand::Params(params)) => params::run(params, json),
         Some(MaterialsCommand::Coat(coat)) => coated::run(coat, json),
-        Some(MaterialsCommand::Import(_)) if json.is_some() => Err(RequestFault::conflict(
-            "import writes a material file and no JSON; leave --json out",
-        )
-        .into()),
-        Some(MaterialsCommand::Import(import)) => import::run(import),
+        Some(MaterialsCommand::Import(import)) => import::run(import, json),
         Some(MaterialsCommand::Survey(survey)) => survey::run(survey, json, progress),
     }
 }
@@ -142,7 +139,7 @@ impl MaterialRow<'_> {
 
 /// A material with its data: wavelength, n and k.
 #[derive(Serialize)]
-struct MaterialRecord<'a> {
+pub(super) struct MaterialRecord<'a> {
     #[serde(flatten)]
     row: MaterialRow<'a>,
     schema: u32,
@@ -163,7 +160,9 @@ fn shown(flags: &ShowFlags, json: Option<&Path>) -> Result<Output, Error> {
             output.stdout = bytes;
             output.is_file = true;
         } else {
-            output.remarks.push(format!("{}: drawn", file.display()));
+            output
+                .remarks
+                .push(format!("{}: drawn", crate::foreign::path(file)));
             files.push(OutputFile::named(file, bytes));
         }
     }
@@ -210,7 +209,7 @@ fn check_places(flags: &ShowFlags, json: Option<&Path>) -> Result<(), Error> {
         None => Ok(()),
         Some((_, place)) => Err(RequestFault::conflict(format!(
             "--svg, --png and --json want different places, and `{}` is named twice",
-            place.display()
+            crate::foreign::path(&place)
         ))
         .into()),
     }
@@ -241,10 +240,12 @@ pub fn medium(flags: &MediumFlags) -> Result<Option<Loaded>, Error> {
 
 fn text(m: &Material) -> String {
     let field = |name: &str, value: &str| {
-        let line = format!("{name:12}{value}");
+        // A note may have several lines.
+        let value: Vec<String> = value.lines().map(one_line).collect();
+        let line = format!("{name:12}{}", value.join("\n            "));
         (!value.is_empty()).then_some(line)
     };
-    let mut lines = vec![format!("{}: {}", m.name, m.summary)];
+    let mut lines = vec![format!("{}: {}", Foreign(&m.name), one_line(&m.summary))];
     let fields = [
         ("class", m.kind.name()),
         ("substance", &m.substance),
@@ -266,7 +267,7 @@ fn text(m: &Material) -> String {
     lines.join("\n")
 }
 
-fn material_record(m: &Material) -> MaterialRecord<'_> {
+pub(super) fn material_record(m: &Material) -> MaterialRecord<'_> {
     MaterialRecord {
         row: MaterialRow::new(m),
         schema: SCHEMA,

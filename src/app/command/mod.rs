@@ -275,7 +275,7 @@ fn png(_: &str, _: f32) -> Result<Vec<u8>, Error> {
 fn replaced(files: &[PathBuf]) -> impl Iterator<Item = String> {
     files
         .iter()
-        .map(|file| format!("replaced: {}", file.display()))
+        .map(|file| format!("replaced: {}", crate::foreign::path(&file)))
 }
 
 /// Refuses files that cannot be written, and two that are one, before the work.

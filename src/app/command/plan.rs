@@ -75,7 +75,7 @@ pub fn run(flags: &PlanFlags, progress: Progress) -> Result<Output, Error> {
     let said = page.as_ref().map(|page| {
         format!(
             "{}: angles, errors, pictures and reasons",
-            page.path().display()
+            crate::foreign::path(page.path())
         )
     });
     let files = page.into_iter().collect();

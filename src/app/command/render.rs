@@ -29,7 +29,7 @@ pub fn run(flags: &RenderFlags, progress: Progress) -> Result<Output, Error> {
     if flags.output.is_none() && try_places_of_ours(std::slice::from_ref(&file), false).is_err() {
         let why = format!(
             "{} lies here, and this program did not write it; name the picture's file with -o",
-            file.display()
+            crate::foreign::path(&file)
         );
         return Err(RequestFault::conflict(why).into());
     }
@@ -62,9 +62,10 @@ pub fn run(flags: &RenderFlags, progress: Progress) -> Result<Output, Error> {
     let text = render_text(&picture.row, &adapter);
     let json = Report::new(command, vec![picture.row]).with_device(Some(adapter));
     let mut output = report_beside(text, &json, flags.report.json(), drawn)?;
-    output
-        .remarks
-        .push(format!("{}: drawn, truth, error", file.display()));
+    output.remarks.push(format!(
+        "{}: drawn, truth, error",
+        crate::foreign::path(&file)
+    ));
     Ok(output)
 }
 
@@ -101,7 +102,7 @@ fn is_exr(file: &Path) -> Result<bool, Error> {
         _ => Err(Error::Usage {
             what: format!(
                 "-o {}: the picture's name ends in .png or .exr",
-                file.display()
+                crate::foreign::path(&file)
             ),
         }),
     }
@@ -134,7 +135,7 @@ fn environment(file: Option<&Path>) -> Result<Environment, Error> {
     };
     let bytes = source::picture(file)?;
     Environment::read(&bytes).map_err(|fault| Error::Usage {
-        what: format!("{}: {fault}", file.display()),
+        what: format!("{}: {fault}", crate::foreign::path(&file)),
     })
 }
 

@@ -17,7 +17,7 @@ pub fn run(flags: &ReproduceFlags, progress: Progress) -> Result<Output, Error> 
         .map_or(Part::ALL.as_slice(), std::slice::from_ref);
     let reproduced = reproduce(parts, thesis::ANGLES, progress);
     let drawn = figures(flags, &reproduced);
-    let (count, folder) = (drawn.len(), flags.figures.out_dir.display());
+    let (count, folder) = (drawn.len(), crate::foreign::path(&flags.figures.out_dir));
     let said = (count > 0).then(|| format!("{folder}: {count} figures"));
     let mut output = report_beside(
         reproduction_text(&reproduced),

@@ -70,7 +70,8 @@ pub fn run(flags: &SceneErrorFlags, progress: Progress) -> Result<Output, Error>
         None => Vec::new(),
     };
     let folder = flags.pictures.folder();
-    let said = folder.map(|folder| format!("{}: {} pictures", folder.display(), drawn.len()));
+    let said =
+        folder.map(|folder| format!("{}: {} pictures", crate::foreign::path(folder), drawn.len()));
     let (text, json) = (scene_error_text(&rows), Report::new(command, rows));
     let mut output = report_beside(text, &json, flags.report.json(), drawn)?;
     output.remarks.splice(0..0, left_out);

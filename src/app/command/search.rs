@@ -26,7 +26,12 @@ pub(super) fn run(
     let outside = subjects
         .iter()
         .filter(|subject| MaterialClass::containing(subject).is_none());
-    remarks.extend(outside.map(|subject| format!("left out: {}: {OUTSIDE}", subject.argument)));
+    remarks.extend(outside.map(|subject| {
+        format!(
+            "left out: {}: {OUTSIDE}",
+            crate::foreign::Foreign(&subject.argument)
+        )
+    }));
     let shapes: Vec<Candidate> = terms.iter().flat_map(|terms| candidates(*terms)).collect();
     let record = records(flags.gpu.name);
     let cost = |method: &Method| library_cost(method, flags.gpu, &record);

@@ -124,7 +124,7 @@ impl Asked<'_> {
         let index = index(self.study.precision);
         let said = format!(
             "{}: {} maps, and {index} that shows them",
-            folder.display(),
+            crate::foreign::path(&folder),
             pictures.len()
         );
         let overwrite = self.flags.pictures.overwrite;

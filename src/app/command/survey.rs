@@ -23,7 +23,10 @@ pub fn run(flags: &SurveyFlags, json: Option<&Path>, progress: Progress) -> Resu
     let files = pages(&flags.folder)?;
     if files.is_empty() {
         return Err(Error::Usage {
-            what: format!("there is no page (.yml) below {}", flags.folder.display()),
+            what: format!(
+                "there is no page (.yml) below {}",
+                crate::foreign::path(&flags.folder)
+            ),
         });
     }
     let mut all: Vec<SurveyedPage> = Vec::with_capacity(files.len());

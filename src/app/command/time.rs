@@ -9,6 +9,7 @@ use crate::app::error::Error;
 use crate::app::fault::RequestFault;
 use crate::app::time_request::TimeRequest;
 use crate::cost::BLOCKS;
+use crate::foreign::{lines, one_line};
 use crate::gpu::Wanted;
 use crate::overdraw::{
     Clock, DeviceFacts, DrawingEffort, DrawingWorker, MeasuredDrawings, Stop, TimeRow,
@@ -135,12 +136,12 @@ fn remarks(
     let faults = |lacking: bool, word: &str| -> BTreeSet<String> {
         let wanted = rows.iter().filter(|row| row.is_lacking == lacking);
         let whys = wanted.filter_map(|row| row.figure.as_ref().err());
-        whys.map(|why| format!("{word}: {why}")).collect()
+        whys.map(|why| format!("{word}: {}", lines(why))).collect()
     };
     let mut remarks: Vec<String> = faults(false, "FAIL").into_iter().collect();
     remarks.extend(faults(true, "not measured"));
     let left_out = timed.left_out.iter();
-    remarks.extend(left_out.map(|why| format!("left out: {why}")));
+    remarks.extend(left_out.map(|why| format!("left out: {}", one_line(why))));
     remarks.extend(clock.map_or_else(|| chosen(measured), |_| None));
     remarks
 }

@@ -85,7 +85,7 @@ pub fn run(flags: &VerifyFlags, progress: Progress) -> Result<Output, Error> {
     if !flags.out_dir.is_dir() {
         output.remarks.push(format!(
             "there is no folder {}: what would be written was run",
-            flags.out_dir.display()
+            crate::foreign::path(&flags.out_dir)
         ));
     }
     Ok(output)
@@ -155,7 +155,10 @@ fn reported(
             shard_report(whole, shard, outcome, &flags.report)?
         }
     };
-    let left_out = plan.left_out.iter().map(|why| format!("left out: {why}"));
+    let left_out = plan
+        .left_out
+        .iter()
+        .map(|why| format!("left out: {}", crate::foreign::one_line(&why.to_string())));
     output.remarks.splice(0..0, left_out);
     Ok(output)
 }

@@ -3,6 +3,8 @@
 use super::Page;
 use crate::materials::name_fault;
 
+use deunicode::deunicode_char;
+
 /// The folders that the database's data begins with.
 const SHELVES: [&str; 5] = ["main", "organic", "glass", "other", "specs"];
 
@@ -56,14 +58,22 @@ impl Page {
     }
 }
 
-/// Small letters and digits, with one underscore between.
+/// Small letters and digits, with one underscore between. Letters outside ASCII are spelt by the nearest of ASCII.
 fn snake(text: &str) -> String {
+    let text: String = text.chars().map(spelt).collect();
     let words = text.split(|c: char| !c.is_ascii_alphanumeric());
     let words: Vec<String> = words
         .filter(|word| !word.is_empty())
         .map(str::to_ascii_lowercase)
         .collect();
     words.join("_")
+}
+
+fn spelt(c: char) -> String {
+    match c.is_ascii() {
+        true => c.to_string(),
+        false => deunicode_char(c).unwrap_or(" ").to_owned(),
+    }
 }
 
 /// The start of a name in ASCII.
@@ -124,7 +134,11 @@ mod tests {
             "m_4h_sic_x",
         );
         check("CON.yml", "", "m_con");
-        check("\u{e9}\u{3bb}.yml", "", "m");
+        check("\u{e9}\u{3bb}.yml", "", "el");
+        check("Gl\u{e4}ser.csv", "", "glaser");
+        check("\u{91d1}.csv", "", "jin");
+        check("\u{94f6}.csv", "", "yin");
+        check("\u{ffff}.csv", "", "m");
         check("", "", "m");
         let long = "x".repeat(100);
         check(&format!("{long}.yml"), "", &"x".repeat(62));

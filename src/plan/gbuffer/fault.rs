@@ -1,5 +1,6 @@
 //! What is wrong with a G-buffer, and where.
 
+use crate::foreign::{Foreign, one_line};
 use thiserror::Error;
 
 use super::GREATEST_SIDE;
@@ -8,7 +9,7 @@ use super::GREATEST_SIDE;
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
 pub enum GbufferFault {
     /// No OpenEXR file, or one that is cut short or broken.
-    #[error("not a readable OpenEXR file: {0}")]
+    #[error("not a readable OpenEXR file: {}", Foreign(_0))]
     Unreadable(String),
     /// More pixels than a frame has.
     #[error(
@@ -31,7 +32,7 @@ pub enum GbufferFault {
         held: usize,
     },
     /// A part that is stored in a way that is not read.
-    #[error("the part with channel `{channel}` has {found}; {allowed}")]
+    #[error("the part with channel `{channel}` has {}; {allowed}", Foreign(found))]
     Stored {
         /// The first channel of that part which is wanted.
         channel: &'static str,
@@ -41,7 +42,11 @@ pub enum GbufferFault {
         allowed: &'static str,
     },
     /// A channel that must be there.
-    #[error("channel `{channel}` is missing{offered}; the file has {present}")]
+    #[error(
+        "channel `{channel}` is missing{}; the file has {}",
+        one_line(offered),
+        Foreign(present)
+    )]
     Missing {
         /// The channel.
         channel: &'static str,

@@ -1,10 +1,10 @@
 //! What is wrong with a glTF file, and where in its JSON.
 
-use crate::materials::is_hidden;
+use crate::foreign::{Foreign, one_line};
 
 /// A fault of a glTF file.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("{file}: {place}: {what}")]
+#[error("{}: {}: {}", Foreign(file), Foreign(place), one_line(what))]
 pub struct GltfFault {
     /// The file, as the user named it.
     pub file: String,
@@ -32,14 +32,8 @@ impl Place {
     pub fn fault(self, file: &str) -> GltfFault {
         GltfFault {
             file: file.to_owned(),
-            place: plain(&self.place),
-            what: plain(&self.what),
+            place: self.place,
+            what: self.what,
         }
     }
-}
-
-/// A text of the file as one line that a terminal does not obey.
-pub fn plain(text: &str) -> String {
-    let shown = |c: char| if is_hidden(c) { '\u{fffd}' } else { c };
-    text.chars().map(shown).collect()
 }

@@ -18,7 +18,8 @@ use serde::Serialize;
 use super::super::drawn::SurfaceLook;
 use super::super::pixels::MappedMaterial;
 use super::super::sky::SceneLight;
-use super::fault::{Place, plain};
+use super::fault::Place;
+use crate::foreign::{Foreign, one_line};
 use crate::materials::{self, Material, MaterialKind};
 use crate::names::UnknownName;
 
@@ -154,7 +155,7 @@ impl<'a> Looks<'a> {
         let own = material
             .name
             .as_deref()
-            .map(plain)
+            .map(one_line)
             .filter(|name| !name.trim().is_empty());
         let Some(own) = own else { return place };
         let planned = self.materials.iter().map(|known| &known.name);
@@ -270,7 +271,7 @@ fn by_index(material: &GltfMaterial) -> Result<String, String> {
     let extensions = material.extensions.as_ref();
     let changes = |name: &&String| !HARMLESS.contains(&name.as_str());
     if let Some(name) = extensions.and_then(|all| all.others.keys().find(changes)) {
-        return Err(format!("{} changes what it reflects", plain(name)));
+        return Err(format!("{} changes what it reflects", Foreign(name)));
     }
     if let Some(specular) = extensions.and_then(|all| all.specular.as_ref()) {
         let textures =

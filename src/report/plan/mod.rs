@@ -4,6 +4,7 @@ mod page;
 
 use serde::Serialize;
 
+use crate::foreign::{self, Foreign, one_line};
 use crate::plan::{PlanRequest, PlanRow, PlanTotal, Proof, Unplanned};
 use crate::verify::Status;
 
@@ -110,13 +111,14 @@ impl PlanReport {
         let cells: Vec<Vec<String>> = self.rows.iter().map(cells).collect();
         let mut lines = vec![text_table(&columns, &cells)];
         for row in &self.rows {
-            lines.push(format!("{}: {}\n", named(row), row.why));
+            lines.push(one_line(&format!("{}: {}", named(row), row.why)) + "\n");
         }
         if self.rows.iter().any(|row| !row.is_within) {
             lines.push("! means over the budget.\n".to_owned());
         }
         for one in &self.unplanned {
-            lines.push(format!("{}: not planned: {}\n", one.name, one.reason));
+            let (name, reason) = (Foreign(&one.name), one_line(&one.reason));
+            lines.push(format!("{name}: not planned: {reason}\n"));
         }
         lines.push(self.total());
         lines.extend(self.proofs.iter().map(proof_line));
@@ -184,11 +186,15 @@ fn proof_line(proof: &Proof) -> String {
         function,
         ..
     } = proof;
-    let head = format!("{material}: {function} in {target}");
+    let head = format!("{}: {function} in {target}", Foreign(material));
     let (Some(error), Some(codes), Some(code_abs)) = (proof.error, proof.codes, proof.code_abs)
     else {
         let why = proof.reason.as_deref().unwrap_or_default();
-        return format!("{head}: {}: {why}\n", proof.status.words());
+        return format!(
+            "{head}: {}: {}\n",
+            proof.status.words(),
+            foreign::lines(why)
+        );
     };
     let bound = match proof.is_within_code_bound {
         Some(true) => "within its bound",

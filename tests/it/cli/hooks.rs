@@ -102,9 +102,35 @@ fn the_action_runs_its_command() {
             "{build}"
         );
     }
+    // A user's words stand in no script: they come by the environment.
+    assert!(
+        steps
+            .iter()
+            .all(|step| !step["run"].to_string().contains("${{"))
+    );
     let place = small_tree();
-    let command = format!("{command} {FLAGS}");
-    bash(&place, run, &[("COMMAND", &command)]).ends(0);
+    place.put("temp/keep", "");
+    let acts = |command: &str| {
+        let environment = [("COMMAND", command), ("RUNNER_TEMP", "temp")];
+        bash(&place, run, &environment)
+    };
+    acts(&format!("{command} {FLAGS}")).ends(0);
+    acts(&format!("{command}\n  {}\n", FLAGS.replace(" --", "\n --"))).ends(0);
+    // A pattern is a word, a quoted word is one, and nothing is run.
+    place.put("my metals/my metal.toml", super::MY_METAL);
+    place.put("a.toml", super::MY_METAL);
+    acts("--material 'my metals/my metal.toml' --method schlick -o \"my file.wgsl\"").ends(0);
+    assert!(place.path("my file.wgsl").is_file());
+    assert!(
+        acts("--material *.toml -o b.wgsl")
+            .ends(2)
+            .err
+            .contains("*.toml")
+    );
+    let attack = "--material $(touch$IFS./run) `touch run` ; touch run";
+    acts(attack).ends(2);
+    assert!(!place.path("run").exists());
+    assert_ne!(acts("--material 'gold").code, Some(0));
     let environment = [
         ("GITHUB_ACTION_PATH", env!("CARGO_MANIFEST_DIR")),
         ("GITHUB_OUTPUT", &place.path("output").display().to_string()),

@@ -1,5 +1,6 @@
 //! The real program in temporary folders: flags, exit codes, streams, files.
 
+mod again;
 mod bad_input;
 mod bake;
 mod brought;
@@ -12,6 +13,7 @@ mod determinism;
 #[cfg(unix)]
 mod disk;
 mod effects;
+mod elsewhere;
 mod exchange;
 mod files;
 mod fit;
@@ -21,6 +23,7 @@ mod half;
 mod help;
 mod hooks;
 mod hostile;
+mod injected;
 #[cfg(unix)]
 mod killed;
 mod materials;

@@ -1,0 +1,197 @@
+//! What others wrote, as it may stand in a message: names and texts of files, paths, words of a command line, words of compilers.
+//!
+//! Each such value is put into a message by one of these. It is one line then: controls, line breaks and what turns the direction of
+//! text are escapes. It is no command: build servers obey a line that begins with `::` (GitHub), or that holds `##[`, `##vso[` or
+//! `##teamcity[`. It is not longer than a person reads. What is shown already is shown as it is, so that messages may hold messages.
+
+use core::fmt::{self, Display};
+use std::path::Path;
+
+/// The first and the last of as many characters of a value are shown.
+const FIRST: usize = 400;
+const LAST: usize = 100;
+/// As many lines of a compiler are shown, and of each as many characters.
+const LINES: usize = 200;
+const WIDTH: usize = 2000;
+/// What stands before each line of a compiler.
+const MARGIN: &str = "  | ";
+
+/// Whether a character is one that a reader does not see and a terminal obeys: controls of C0 and C1, line breaks of Unicode,
+/// controls of the direction of text. Line breaks and tabs are.
+pub fn is_hidden(c: char) -> bool {
+    let turns = matches!(c, '\u{61c}' | '\u{200e}' | '\u{200f}' | '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}');
+    c.is_control() || turns || matches!(c, '\u{2028}' | '\u{2029}')
+}
+
+/// A text of JSON or TOML with these as escapes inside of its strings. Line breaks and tabs stay: a writer of either escapes
+/// them itself where they stand in a string.
+pub fn escaped(text: &str) -> String {
+    let mut safe = String::with_capacity(text.len());
+    for c in text.chars() {
+        if is_hidden(c) && !['\n', '\t'].contains(&c) {
+            safe += &format!("\\u{:04x}", u32::from(c));
+        } else {
+            safe.push(c);
+        }
+    }
+    safe
+}
+
+/// A value of others in a message.
+#[derive(Clone, Copy, Debug)]
+pub struct Foreign<T>(pub T);
+
+impl<T: Display> Display for Foreign<T> {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        f.write_str(&clipped(&one_line(&self.0.to_string())))
+    }
+}
+
+/// A path in a message.
+pub fn path<P: AsRef<Path> + ?Sized>(path: &P) -> Foreign<String> {
+    Foreign(path.as_ref().to_string_lossy().into_owned())
+}
+
+/// A message that holds values of others, as one line; all of it.
+pub fn one_line(text: &str) -> String {
+    let mut line = String::with_capacity(text.len());
+    // GitHub's runner takes blanks off before it looks for a command.
+    let begins_command = text.trim_start().starts_with("::");
+    let mut letters = text.chars().peekable();
+    let mut before = ' ';
+    let mut is_start = true;
+    while let Some(c) = letters.next() {
+        match c {
+            '\n' => line += "\\n",
+            '\r' => line += "\\r",
+            '\t' => line += "\\t",
+            c if is_hidden(c) => line += &format!("\\u{{{:x}}}", u32::from(c)),
+            ':' if is_start && begins_command => line += "\\u{3a}",
+            '#' if before == '#' && letters.peek().is_some_and(|c| opens(*c)) => line += "\\u{23}",
+            c => line.push(c),
+        }
+        is_start &= c.is_whitespace();
+        before = c;
+    }
+    line
+}
+
+/// Whether this may follow `##` in a command: a bracket, or the word before it.
+fn opens(c: char) -> bool {
+    c == '[' || c.is_ascii_alphabetic()
+}
+
+/// A message of several lines: the first is one line, those below it stand behind a margin.
+pub fn lines(text: &str) -> String {
+    match text.trim_end().split_once('\n') {
+        None => one_line(text.trim_end()),
+        Some((first, rest)) => format!("{}\n{}", one_line(first.trim_end()), said(rest)),
+    }
+}
+
+/// The words of a compiler: each line as one that nothing obeys, behind a margin.
+pub fn said(text: &str) -> String {
+    let mut lines: Vec<String> = Vec::new();
+    let mut rest = text.trim_end().lines();
+    for line in rest.by_ref().take(LINES) {
+        let line = one_line(&line.replace('\t', "    "));
+        lines.push(
+            format!("{MARGIN}{}", beginning(&line, WIDTH))
+                .trim_end()
+                .to_owned(),
+        );
+    }
+    let left = rest.count();
+    if left > 0 {
+        lines.push(format!("{MARGIN}… and {left} more lines"));
+    }
+    lines.join("\n")
+}
+
+fn beginning(text: &str, most: usize) -> &str {
+    text.char_indices()
+        .nth(most)
+        .map_or(text, |(end, _)| &text[..end])
+}
+
+fn clipped(text: &str) -> String {
+    let count = text.chars().count();
+    if count <= FIRST + LAST {
+        return text.to_owned();
+    }
+    let last = text
+        .char_indices()
+        .nth(count - LAST)
+        .map_or("", |(start, _)| &text[start..]);
+    format!("{}…{last}", beginning(text, FIRST))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_a_terminal_obeys_is_hidden_and_letters_are_not() {
+        for c in "\u{1b}\u{7}\r\n\t\u{7f}\u{85}\u{9b}\u{9d}\u{61c}\u{200e}\u{202e}\u{2028}\u{2066}"
+            .chars()
+        {
+            assert!(is_hidden(c), "{c:?}");
+        }
+        for c in "a \u{e9}\u{3bb}\u{b5}\u{a0}\u{4e2d}\u{fffd}\u{2014}".chars() {
+            assert!(!is_hidden(c), "{c:?}");
+        }
+    }
+
+    #[test]
+    fn json_keeps_its_meaning() {
+        let value = serde_json::json!({ "a": "x\u{1b}\u{7f}\u{9b}\u{202e}\n\"" });
+        let text = escaped(&serde_json::to_string_pretty(&value).expect("it has text keys"));
+        assert!(text.is_ascii(), "{text}");
+        assert_eq!(
+            serde_json::from_str::<serde_json::Value>(&text).ok(),
+            Some(value)
+        );
+    }
+
+    #[test]
+    fn a_value_is_one_line_that_nothing_obeys() {
+        for (text, shown) in [
+            (
+                "plain \u{3bb} a::b #1 ## two",
+                "plain \u{3bb} a::b #1 ## two",
+            ),
+            ("a\nb\r\nc\td", "a\\nb\\r\\nc\\td"),
+            ("\u{1b}[31mred", "\\u{1b}[31mred"),
+            (
+                "a\u{9b}\u{7f}\u{202e}\u{2028}",
+                "a\\u{9b}\\u{7f}\\u{202e}\\u{2028}",
+            ),
+            ("::error::x", "\\u{3a}:error::x"),
+            (" \u{a0}::error::x", " \u{a0}\\u{3a}:error::x"),
+            (
+                "a ##[error]b ##vso[x] ###[y]",
+                "a #\\u{23}[error]b #\\u{23}vso[x] ##\\u{23}[y]",
+            ),
+        ] {
+            assert_eq!(Foreign(text).to_string(), shown);
+            assert_eq!(Foreign(shown).to_string(), shown, "it is shown twice alike");
+        }
+    }
+
+    #[test]
+    fn a_long_value_shows_its_ends() {
+        let text = Foreign(format!("a{}z", "x".repeat(1 << 20))).to_string();
+        assert_eq!(text.chars().count(), FIRST + LAST + 1);
+        assert!(text.starts_with("ax") && text.ends_with("xz"));
+    }
+
+    #[test]
+    fn words_of_a_compiler_stand_behind_a_margin() {
+        assert_eq!(
+            said("a\n::error::b\r\n\u{1b}c\n"),
+            "  | a\n  | \\u{3a}:error::b\n  | \\u{1b}c"
+        );
+        assert_eq!(lines("f: no\n::b\n"), "f: no\n  | \\u{3a}:b");
+        assert!(said(&"x\n".repeat(500)).ends_with("  | … and 300 more lines"));
+    }
+}
