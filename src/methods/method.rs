@@ -389,7 +389,7 @@ impl Method {
     fn with_origin(&self, citation: &str) -> String {
         match self.origin {
             Origin::Published => citation.to_owned(),
-            Origin::Adapted(what) => format!("{citation}; {what}"),
+            Origin::Adapted(what) => format!("{what}; else {citation}"),
             Origin::Ours(of) => format!("the form is fresnel-gen's; {of}: {citation}"),
         }
     }
