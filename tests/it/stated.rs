@@ -152,8 +152,8 @@ fn what_is_gained_over_schlick_is_what_the_pages_say() {
     let whole = |value: f64| format!("{value:.0}");
     let best = gain(&at_best("schlick"), &of_metals("fitted"));
     let generalised = gain(&at_best("schlick_generalised"), &of_metals("fitted"));
-    let nearest = ["belcour_decomposition"; 2];
-    let nearest = [median(&of_metals(nearest[0])), median(&at_best(nearest[1]))];
+    let nearest = "belcour_decomposition";
+    let nearest = [median(&of_metals(nearest)), median(&at_best(nearest))];
     let share = units("fitted", "rdna2") / units("schlick", "rdna2");
     let readme = "README.md";
     let costs = "docs/accuracy-and-cost.md";
