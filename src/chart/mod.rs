@@ -126,8 +126,8 @@ pub struct MaterialSet {
     pub count: usize,
     /// The errors of each entry; unknown where the method does not describe the material.
     pub errors: Vec<MethodErrors>,
-    /// How many of the materials the method of each entry does not describe.
-    pub undescribed: Vec<usize>,
+    /// The materials that the method of each entry does not describe.
+    pub undescribed: Vec<Vec<String>>,
 }
 
 /// All that the charts show.
@@ -382,7 +382,7 @@ mod tests {
                 count: 1,
                 name: "gold".to_owned(),
                 title: "gold".to_owned(),
-                undescribed: vec![0, 0],
+                undescribed: vec![Vec::new(), Vec::new()],
                 errors: [0.1, 0.2].map(largest).to_vec(),
             }],
             command: String::new(),

@@ -56,12 +56,14 @@ fn class_sets(
     STATISTICS.iter().map(set).collect()
 }
 
-/// How many materials each entry has no error of, since its method does not describe them.
-fn undescribed(own: &[(&MaterialInMedium, &Vec<MethodErrors>)]) -> Vec<usize> {
+/// The materials of which each entry has no error, since its method does not describe them.
+fn undescribed(own: &[(&MaterialInMedium, &Vec<MethodErrors>)]) -> Vec<Vec<String>> {
     let entries = own.first().map_or(0, |(_, errors)| errors.len());
     let unknown = |place: usize| {
-        let errors = own.iter().map(|(_, errors)| errors[place].max_abs);
-        errors.filter(Option::is_none).count()
+        let none = own
+            .iter()
+            .filter(|(_, errors)| errors[place].max_abs.is_none());
+        none.map(|(subject, _)| subject.argument.clone()).collect()
     };
     (0..entries).map(unknown).collect()
 }
@@ -76,19 +78,33 @@ fn set_title(class: MaterialClass, statistic: &str, count: usize) -> String {
     format!("{statistic} {count} {}", class.title())
 }
 
-/// Each entry's errors, of all materials together.
+/// A method that describes all materials of a class but one in so many is shown for the others.
+const ALL_BUT: usize = 20;
+
+/// Each entry's errors, of all materials together, or of all but the few that the method does not describe.
 fn together(statistic: &str, own: &[(&MaterialInMedium, &Vec<MethodErrors>)]) -> Vec<MethodErrors> {
-    let substances = || own.iter().map(|(subject, _)| &*subject.material.substance);
-    let taken = |errors: &[f64]| match statistic {
-        "median" => median(errors),
-        "p90" => quantile(errors, 0.9),
-        "worst" => quantile(errors, 1.0),
-        _ => median(&medians(errors, substances())),
+    let taken = |described: &[(&str, MethodErrors)]| {
+        let substances = || described.iter().map(|(substance, _)| *substance);
+        let taken = |errors: &[f64]| match statistic {
+            "median" => median(errors),
+            "p90" => quantile(errors, 0.9),
+            "worst" => quantile(errors, 1.0),
+            _ => median(&medians(errors, substances())),
+        };
+        let errors: Vec<MethodErrors> = described.iter().map(|(_, errors)| *errors).collect();
+        MethodErrors::together(&errors, &taken)
     };
     let entries = own.first().map_or(0, |(_, errors)| errors.len());
     let entry = |place: usize| {
-        let all: Vec<MethodErrors> = own.iter().map(|(_, errors)| errors[place]).collect();
-        MethodErrors::together(&all, &taken)
+        let all = own
+            .iter()
+            .map(|(subject, errors)| (&*subject.material.substance, errors[place]));
+        let described = all.filter(|(_, errors)| errors.max_abs.is_some());
+        let described: Vec<(&str, MethodErrors)> = described.collect();
+        match ALL_BUT * (own.len() - described.len()) <= own.len() {
+            true => taken(&described),
+            false => MethodErrors::default(),
+        }
     };
     (0..entries).map(entry).collect()
 }

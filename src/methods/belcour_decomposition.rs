@@ -17,7 +17,8 @@ use super::class::Class;
 use super::half::InHalf;
 use super::input::{Input, InputSource, Inputs};
 use super::known::{KnownSurface, each};
-use super::method::{Claim, Claims, Colours, Contract, Forms, Light, Method, Origin, Over};
+use super::method::{Claim, Claims, Colours, Contract, Forms, Light, Method, Over};
+use super::origin::Origin;
 use super::schlick::to_white;
 
 /// The cosines of the two angles at which the law is met: the maxima of b2 and of -b3 in a table of 1000 cosines.

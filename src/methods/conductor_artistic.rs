@@ -18,7 +18,8 @@ use super::conductor_exact::{self, conductor, least_squared, root_or_zero};
 use super::half::InHalf;
 use super::input::{Input, InputSource, Inputs, Range, SHARES, SHARES_AND_BEYOND};
 use super::known::each;
-use super::method::{Claim, Claims, Colours, Contract, Forms, Light, Method, Origin, Over, Values};
+use super::method::{Claim, Claims, Colours, Contract, Forms, Light, Method, Over, Values};
+use super::origin::Origin;
 
 #[allow(missing_docs)] // each says what it is
 impl Input {

@@ -22,7 +22,8 @@ use super::conductor_textbook::GLASSNER_1995;
 use super::dielectric_exact;
 use super::half::InHalf;
 use super::input::{Input, Inputs};
-use super::method::{Claim, Claims, Contract, Forms, Light, Method, Origin, Over, Values};
+use super::method::{Claim, Claims, Contract, Forms, Light, Method, Over, Values};
+use super::origin::Origin;
 
 /// The record of this method.
 pub static METHOD: Method = Method {

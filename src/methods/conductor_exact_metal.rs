@@ -16,7 +16,8 @@ use super::conductor_exact;
 use super::conductor_textbook::GLASSNER_1995;
 use super::half::InHalf;
 use super::input::{Input, Inputs};
-use super::method::{Claim, Claims, Contract, Forms, Light, Method, Origin, Over};
+use super::method::{Claim, Claims, Contract, Forms, Light, Method, Over};
+use super::origin::Origin;
 
 /// The record of this method.
 pub static METHOD: Method = Method {

@@ -21,7 +21,8 @@ use super::class::Class;
 use super::conductor_exact::{self, conductor, least_squared, root_or_zero};
 use super::half::InHalf;
 use super::input::{Input, Inputs, Range};
-use super::method::{Claim, Claims, Colours, Contract, Forms, Light, Method, Origin, Over, Values};
+use super::method::{Claim, Claims, Colours, Contract, Forms, Light, Method, Over, Values};
+use super::origin::Origin;
 
 /// The record of this method.
 pub static METHOD: Method = Method {

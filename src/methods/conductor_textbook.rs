@@ -13,7 +13,8 @@ use crate::ir::Expr;
 use super::class::Class;
 use super::half::InHalf;
 use super::input::{Input, Inputs};
-use super::method::{Claim, Claims, Contract, Forms, Light, Method, Origin, Over};
+use super::method::{Claim, Claims, Contract, Forms, Light, Method, Over};
+use super::origin::Origin;
 
 /// Principles of Digital Image Synthesis.
 pub const GLASSNER_1995: Citation = Citation {

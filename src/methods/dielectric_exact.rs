@@ -20,7 +20,8 @@ use super::affine::FittedAverage;
 use super::class::Class;
 use super::half::InHalf;
 use super::input::{Input, Inputs};
-use super::method::{Claim, Claims, Contract, Forms, Light, Method, Origin, Over};
+use super::method::{Claim, Claims, Contract, Forms, Light, Method, Over};
+use super::origin::Origin;
 
 /// Fresnel's law in the g-form.
 pub const COOK_TORRANCE_1982: Citation = Citation {

@@ -9,7 +9,8 @@ use super::class::Class;
 use super::dielectric_exact::{BELOW_ONE, COOK_TORRANCE_1982, steps};
 use super::half::InHalf;
 use super::input::{Input, Inputs};
-use super::method::{Claim, Claims, Contract, Forms, Light, Method, Origin, Over};
+use super::method::{Claim, Claims, Contract, Forms, Light, Method, Over};
+use super::origin::Origin;
 
 /// The record of this method.
 pub static METHOD: Method = Method {

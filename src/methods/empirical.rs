@@ -15,7 +15,8 @@ use super::input::{
     Input, InputSource, Inputs, POWERS, POWERS_AND_BEYOND, SHARES, SHARES_AND_BEYOND,
 };
 use super::known::{COS_60, mean};
-use super::method::{Claim, Claims, Contract, Forms, Light, Method, Origin, Over};
+use super::method::{Claim, Claims, Contract, Forms, Light, Method, Over};
+use super::origin::Origin;
 
 #[allow(missing_docs)] // each says what it is
 impl Input {

@@ -16,7 +16,8 @@ use super::half::InHalf;
 use super::hoffman_f82::{WEIGHT_82, affine_weights, dip};
 use super::input::{Input, InputSource, Inputs};
 use super::known::each;
-use super::method::{Claim, Claims, Colours, Contract, Forms, Light, Method, Origin, Over};
+use super::method::{Claim, Claims, Colours, Contract, Forms, Light, Method, Over};
+use super::origin::Origin;
 use super::schlick::grazing_weight;
 
 #[allow(missing_docs)] // each says what it is

@@ -15,7 +15,8 @@ use super::by_class::ByClass;
 use super::class::Class;
 use super::half::InHalf;
 use super::input::{Input, Inputs};
-use super::method::{Claim, Claims, Contract, Forms, Light, Method, Origin, Over};
+use super::method::{Claim, Claims, Contract, Forms, Light, Method, Over};
+use super::origin::Origin;
 use super::shape::{Factor, Shape};
 
 /// Where the exchange comes from that finds the coefficients of all fitted methods.

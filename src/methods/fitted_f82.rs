@@ -18,7 +18,8 @@ use super::class::Class;
 use super::half::InHalf;
 use super::hoffman_f82::{HOFFMAN_2019, between};
 use super::input::{Input, Inputs};
-use super::method::{Claim, Claims, Colours, Contract, Forms, Light, Method, Origin, Over};
+use super::method::{Claim, Claims, Colours, Contract, Forms, Light, Method, Over};
+use super::origin::Origin;
 
 /// The record of this method.
 pub static METHOD: Method = Method {

@@ -17,8 +17,9 @@ use super::half::InHalf;
 use super::hoffman_f82::HOFFMAN_2019;
 use super::input::{Input, Inputs};
 use super::method::{
-    Claim, Claims, CoefficientsFromInputs, Colours, Contract, Forms, Light, Method, Origin, Over,
+    Claim, Claims, CoefficientsFromInputs, Colours, Contract, Forms, Light, Method, Over,
 };
+use super::origin::Origin;
 
 /// The record of this method.
 pub static METHOD: Method = Method {

@@ -13,7 +13,8 @@ use super::affine::Affine;
 use super::class::Class;
 use super::half::InHalf;
 use super::input::{Input, Inputs};
-use super::method::{Claim, Claims, Colours, Contract, Forms, Light, Method, Origin, Over};
+use super::method::{Claim, Claims, Colours, Contract, Forms, Light, Method, Over};
+use super::origin::Origin;
 use super::schlick::{grazing_power, grazing_weight};
 
 /// 7⁷/6⁶, the reciprocal of the maximum of c (1-c)⁶.

@@ -14,6 +14,7 @@ use super::by_class::ByClass;
 use super::class::Class;
 use super::half::InHalf;
 use super::input::{Input, Inputs, Range};
+use super::origin::Origin;
 use super::shape::Shape;
 
 /// A formula for reflectance.
@@ -106,17 +107,6 @@ pub enum Light {
     S,
     /// Electric field in the plane of incidence.
     P,
-}
-
-/// Whose a method's form is.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Origin {
-    /// The source's.
-    Published,
-    /// The source's but for what is said here.
-    Adapted(&'static str),
-    /// Ours. Says what the source is of.
-    Ours(&'static str),
 }
 
 /// Whether a method keeps the function contract.
@@ -369,29 +359,6 @@ impl Method {
     /// Whether the method reads a texture.
     pub fn is_textured(&self) -> bool {
         self.inputs.iter().any(|input| input.ty == Ty::Texture)
-    }
-
-    /// Whether its form is ours, and not published elsewhere.
-    pub fn is_ours(&self) -> bool {
-        matches!(self.origin, Origin::Ours(_))
-    }
-
-    /// Where it comes from: the whole citation, and what of it is ours.
-    pub fn source_in_full(&self) -> String {
-        self.with_origin(&self.source.line())
-    }
-
-    /// The same with authors, year and link.
-    pub fn source_in_short(&self) -> String {
-        self.with_origin(&self.source.short())
-    }
-
-    fn with_origin(&self, citation: &str) -> String {
-        match self.origin {
-            Origin::Published => citation.to_owned(),
-            Origin::Adapted(what) => format!("{citation}; {what}"),
-            Origin::Ours(of) => format!("the form is fresnel-gen's; {of}: {citation}"),
-        }
     }
 
     /// Whether the method's inputs are coefficients, in which it is linear: they are fitted.

@@ -13,6 +13,7 @@ mod input;
 mod known;
 mod limits;
 mod method;
+mod origin;
 mod renamed;
 mod shape;
 
@@ -23,9 +24,10 @@ pub use half::{HALF_AIM, HalfClaim, InHalf};
 pub use input::{Input, InputSource, Inputs, Range, find_input};
 pub use known::KnownSurface;
 pub use method::{
-    Better, Claim, Claims, CoefficientsFromInputs, Colours, Contract, Forms, Light, Method, Origin,
-    Over, Values,
+    Better, Claim, Claims, CoefficientsFromInputs, Colours, Contract, Forms, Light, Method, Over,
+    Values,
 };
+pub use origin::Origin;
 pub use renamed::{RENAMED, Renamed, renamed};
 pub use shape::{Factor, Shape};
 

@@ -17,7 +17,8 @@ use super::class::Class;
 use super::half::InHalf;
 use super::input::{Input, InputSource, Inputs};
 use super::known::KnownSurface;
-use super::method::{Claim, Claims, Contract, Forms, Light, Method, Origin, Over};
+use super::method::{Claim, Claims, Contract, Forms, Light, Method, Over};
+use super::origin::Origin;
 use super::schlick_rescaled::{LAZANYI_2005, rescaled};
 
 #[allow(missing_docs)] // each says what it is

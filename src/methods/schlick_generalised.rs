@@ -13,7 +13,8 @@ use crate::ir::Expr;
 use super::class::Class;
 use super::half::InHalf;
 use super::input::{Input, InputSource, Inputs, POWERS, POWERS_AND_BEYOND};
-use super::method::{Claim, Claims, Contract, Forms, Light, Method, Origin, Over};
+use super::method::{Claim, Claims, Contract, Forms, Light, Method, Over};
+use super::origin::Origin;
 use super::schlick_f90::to_f90;
 
 #[allow(missing_docs)] // each says what it is

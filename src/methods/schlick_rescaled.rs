@@ -10,7 +10,8 @@ use crate::ir::Expr;
 use super::class::Class;
 use super::half::InHalf;
 use super::input::{Input, Inputs};
-use super::method::{Claim, Claims, Contract, Forms, Light, Method, Origin, Over};
+use super::method::{Claim, Claims, Contract, Forms, Light, Method, Over};
+use super::origin::Origin;
 use super::schlick::{grazing_rest, grazing_weight};
 
 /// Lazányi and Szirmay-Kalos 2005.

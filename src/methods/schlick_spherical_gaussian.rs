@@ -12,7 +12,8 @@ use super::affine::Affine;
 use super::class::Class;
 use super::half::InHalf;
 use super::input::{Input, Inputs};
-use super::method::{Claim, Claims, Colours, Contract, Forms, Light, Method, Origin, Over};
+use super::method::{Claim, Claims, Colours, Contract, Forms, Light, Method, Over};
+use super::origin::Origin;
 use super::schlick::to_white;
 
 /// The record of this method.

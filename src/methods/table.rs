@@ -14,7 +14,8 @@ use crate::num::Num;
 use super::class::Class;
 use super::half::InHalf;
 use super::input::{Input, InputSource, Inputs};
-use super::method::{Claim, Claims, Contract, Forms, Light, Method, Origin, Over};
+use super::method::{Claim, Claims, Contract, Forms, Light, Method, Over};
+use super::origin::Origin;
 
 /// Texels of a table where no size is asked for. In half precision the rounding of texels is then what errs most: more
 /// texels gain nothing, fewer cost (half the size quadruples what filtering errs).

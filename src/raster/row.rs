@@ -42,7 +42,7 @@ pub struct ChannelErrors {
     pub blue: f64,
     /// Their mean.
     pub mean: f64,
-    /// Their mean by what each adds to luminance in the working space.
+    /// Their mean by what each adds to luminance in the working space: no error of luminance, in which channels make up for each other.
     pub by_luminance: f64,
 }
 

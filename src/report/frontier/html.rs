@@ -47,7 +47,7 @@ struct SetColumns<'a> {
     name: &'a str,
     title: &'a str,
     count: usize,
-    undescribed: &'a [usize],
+    undescribed: &'a [Vec<String>],
     errors: Vec<[Option<f64>; 4]>,
 }
 

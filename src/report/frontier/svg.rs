@@ -119,7 +119,7 @@ pub fn chart_svg(view: &ChartView) -> Option<String> {
 const KEY: &str = "Blue: ours. Orange: published. Full: with the inputs that it is meant to have; hollow (*): with those whose \
 largest error is least. Square: reads a texture; its cost excludes the fetch. The line: no function is both cheaper and as accurate; functions that fail inside their domain are left out of it.";
 
-/// The key, with a sentence on a user's function, and the methods that have no point.
+/// The key, with a sentence on a user's function, and what is left out.
 fn key(view: &ChartView) -> String {
     let user = view.data.entries.iter().find_map(ChartEntry::user);
     let own = user.map(|user| match view.lacks() {
@@ -128,11 +128,7 @@ fn key(view: &ChartView) -> String {
     });
     let without = without_point(view).into_iter();
     let without: Vec<String> = without.map(|line| format!(" {line}")).collect();
-    let head = if without.is_empty() {
-        ""
-    } else {
-        " Without a point:"
-    };
+    let head = if without.is_empty() { "" } else { " Left out:" };
     format!("{KEY}{}{head}{}", own.unwrap_or_default(), without.concat())
 }
 

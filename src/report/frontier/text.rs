@@ -18,7 +18,7 @@ pub fn chart_text(view: &ChartView) -> String {
     let rows: Vec<Vec<String>> = points.iter().map(cells).collect();
     format!(
         "{}\nCost: {}.\n\n{}\nA star before a row: nothing is cheaper and as near, or nearer and as cheap.\n\
-         Without a point:\n{}{}\n{}",
+         Left out:\n{}{}\n{}",
         capital(&view.title()),
         view.cost.title,
         table::text_table(&head, &rows),
@@ -28,7 +28,7 @@ pub fn chart_text(view: &ChartView) -> String {
     )
 }
 
-/// The methods that have no point, a line a reason.
+/// The methods that have no point, or one without some materials: a line a reason.
 fn absent(view: &ChartView) -> String {
     let lines = without_point(view).into_iter();
     lines.map(|line| format!("  {line}\n")).collect()

@@ -60,6 +60,66 @@ fn the_best_inputs_are_no_worse_and_the_fitted_methods_far_better() {
     assert!(10.0 * value("fitted", "fitted") < value("schlick", "best"));
 }
 
+/// Schlick's gold has a luminance of .0015 too much: red has too much, blue too, and green too little.
+#[test]
+fn an_error_of_luminance_is_of_the_colour() {
+    let place = Place::new();
+    let rows = rows(&place, "chart --material gold --error luminance");
+    let is_schlick = |row: &&Value| row["method"] == "schlick" && row["inputs"] == "intended";
+    let value = rows.iter().find(is_schlick).unwrap()["value"]
+        .as_f64()
+        .unwrap();
+    assert!((0.001_45..0.001_50).contains(&value), "{value}");
+}
+
+/// Schlick's form with F90 for platinum: .0866 is possible, and .0880 was once called the least.
+#[test]
+fn the_best_f90_of_platinum_is_the_best() {
+    let place = Place::new();
+    let rows = rows(&place, "chart --material platinum");
+    let is_best = |row: &&Value| row["method"] == "schlick_f90" && row["inputs"] == "best";
+    let value = rows.iter().find(is_best).unwrap()["value"]
+        .as_f64()
+        .unwrap();
+    assert!(value < 0.086_56, "{value}");
+}
+
+/// What has no point is named, with the reason.
+#[test]
+fn what_is_left_out_is_named() {
+    let place = Place::new();
+    for (line, says) in [
+        (
+            "gold,zinc_querry --show metals",
+            "conductor_exact_metal: only for metals (k of n / 4 and more), and 1 of these 2 are none.",
+        ),
+        (
+            "gold,silver --show metals",
+            ": only for dielectrics (k = 0), and none of these is one.",
+        ),
+        (
+            "silicon,germanium --show semiconductors",
+            "conductor_exact_metal: only for metals (k of n / 4 and more), and none of these is one.",
+        ),
+        (
+            "water",
+            "conductor_exact_metal: only for metals (k of n / 4 and more), and this is none.",
+        ),
+        (
+            "gold",
+            "constant_f0: costs nothing or is not recorded on rdna2.",
+        ),
+        (
+            "gold --error luminance",
+            "table: this error is not measured of what reads a texture.",
+        ),
+    ] {
+        let ran = place.done(&format!("chart --material {line}"));
+        let (_, left_out) = ran.out.split_once("Left out:").unwrap();
+        assert!(left_out.contains(says), "{line}: {left_out}");
+    }
+}
+
 #[test]
 fn the_picture_and_the_page_are_the_same_in_every_run() {
     let place = Place::new();
