@@ -15,6 +15,7 @@ use indicatif::{ProgressBar, ProgressStyle};
 
 fn main() -> ExitCode {
     outlive_file_limit();
+    open_many_files();
     let (words, renamed) = with_names_of_today(std::env::args_os(), methods::RENAMED);
     let names_nothing = words.len() < 2;
     let cli = match Cli::try_parse_from(words) {
@@ -87,6 +88,24 @@ fn styled(word: &StyledStr) -> StyledStr {
     match one_line(&plain) {
         shown if shown == plain => word.clone(),
         shown => shown.into(),
+    }
+}
+
+/// Files that wait to be put in place are held open, each with its lock: some thousands where pictures of all materials are wanted.
+/// Many systems let a process open 1024 or 256 unless it asks for more.
+fn open_many_files() {
+    #[cfg(unix)]
+    {
+        use rustix::process::{Resource, Rlimit, getrlimit, setrlimit};
+        /// As many as macOS allows at most.
+        const WANTED: u64 = 10_240;
+        let limit = getrlimit(Resource::Nofile);
+        let most = limit.maximum.map_or(WANTED, |maximum| maximum.min(WANTED));
+        if limit.current.is_some_and(|current| current < most) {
+            let current = Some(most);
+            // Who is refused opens as many as before, and a write that fails says so.
+            let _ = setrlimit(Resource::Nofile, Rlimit { current, ..limit });
+        }
     }
 }
 

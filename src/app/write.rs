@@ -75,21 +75,22 @@ pub fn write(
     let all = own + beside.files.count();
     interim.replace(0, all)?;
     staged.replace(0, all)?;
-    // Before the last manifest: of a run that is killed here, the one on disk still lists the orphans.
-    let mut removed = 0;
-    for orphan in &plan.orphans {
-        removed += usize::from(remove(&plan.out_dir, orphan)?);
-    }
+    // Before the last manifest: of a run that is killed here, or cannot remove one, the one on disk still lists the orphans.
+    let removed: Result<usize, Error> = (plan.orphans.iter())
+        .map(|orphan| remove(&plan.out_dir, orphan).map(usize::from))
+        .sum();
     for name in lock.leftovers() {
         remove_leftover(&plan.out_dir, name);
     }
     lock.forget_leftovers();
-    last.replace(pending.len(), all)?;
+    if removed.is_ok() {
+        last.replace(pending.len(), all)?;
+    }
     beside.files.replace(own, all)?;
     let written = pending.len() + usize::from(plan.manifest.state() != State::Unchanged);
     Ok(Written {
         written,
-        removed,
+        removed: removed?,
         unchanged: plan.all().count() - written,
     })
 }

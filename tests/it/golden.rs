@@ -50,7 +50,7 @@ mod tree_of_a_run {
         .expect("a plan");
         if crate::bless::is_on() {
             let mut lock = Lock::take(&folder, &|_| ());
-            write::write(&plan, false, &mut lock).expect("the repository can be written");
+            write::write(&plan, &[], false, &mut lock).expect("the repository can be written");
             drop(lock);
             return;
         }

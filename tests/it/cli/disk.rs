@@ -107,6 +107,21 @@ fn a_limit_on_the_size_of_files_is_an_error() {
     }
 }
 
+/// More pictures than a process may usually open files.
+#[test]
+fn many_pictures_are_written() {
+    let place = Place::new();
+    let script = format!(
+        "ulimit -S -n 64; exec '{PROGRAM}' scene-error sphere --frames 1 --size 16x16 --material all --method schlick --out-dir o"
+    );
+    let run = Command::new("sh")
+        .args(["-c", &script])
+        .current_dir(place.path(""))
+        .output();
+    Ran::new(script, run.unwrap()).ends(0);
+    assert!(contents(&place.path("o")).len() > 400);
+}
+
 /// A run has several outputs, and the last of them cannot be written: none of the others is changed.
 #[test]
 fn all_outputs_are_written_or_none() {

@@ -385,7 +385,7 @@ fn an_output_leaves_no_temporary_file_for_ever() {
 fn named_outputs_of_runs_at_once_are_whole() {
     let place = Place::new();
     let start = |at: usize| {
-        let (one, two) = if at % 2 == 0 { ("a", "b") } else { ("b", "a") };
+        let (one, two) = [("a", "b"), ("b", "a")][at % 2];
         let line = format!("--method schlick --target wgsl -o {one} --depfile {two}");
         let words: Vec<&str> = line.split(' ').collect();
         place.command(&words).spawn().unwrap()

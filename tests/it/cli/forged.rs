@@ -59,7 +59,7 @@ fn a_forged_entry_replaces_nothing() {
         ),
         (
             "generate",
-            json!({"file": "catalogue.ktx2", "target": "ktx2"}),
+            json!({"file": "catalogue.f16.ktx2", "target": "ktx2"}),
         ),
         // Without room for a mark, and for another target.
         (
