@@ -80,7 +80,8 @@ fn check(place: &Place, file: &str, text: &str, command: &str) {
 
 /// TOML's spelling of a text.
 fn toml(text: &str) -> String {
-    toml::Value::String(text.to_owned()).to_string()
+    // Its basic strings escape as JSON's do.
+    serde_json::Value::from(text).to_string()
 }
 
 fn both() -> [String; 2] {
