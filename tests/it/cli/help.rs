@@ -326,7 +326,7 @@ fn flags_that_a_command_offers_do_their_work() {
         "m.yml",
         "DATA:\n- type: tabulated nk\n  data: |\n    0.36 1 2\n    0.83 1 2\n",
     );
-    place.put("s.toml", "size = [16, 16]\n[camera]\neye = [0, 0, 3]\nat = [0, 0, 0]\n[light]\nuniform = [1, 1, 1]\n[[object]]\nbody = \"sphere\"\nmaterial = \"gold\"\n");
+    place.put("s.toml", "size = [16, 16]\n[camera]\northographic = 2.0\neye = [0, 0, 3]\nat = [0, 0, 0]\n[light]\nuniform = [1, 1, 1]\n[[object]]\nbody = \"sphere\"\nmaterial = \"gold\"\n");
     place.done("plan s.toml --json plan.json");
     let mut used: std::collections::BTreeMap<String, Vec<&str>> = Default::default();
     for (line, is_run) in USED {

@@ -167,7 +167,7 @@ fn scenes_meshes_and_maps() {
         let quoted = toml(&hostile);
         let scene = |object: &str| {
             format!(
-                "size = [16, 16]\n[camera]\neye = [0, 0, 3]\nat = [0, 0, 0]\n[light]\nuniform = [1, 1, 1]\n[[object]]\n{object}\n"
+                "size = [16, 16]\n[camera]\northographic = 2.0\neye = [0, 0, 3]\nat = [0, 0, 0]\n[light]\nuniform = [1, 1, 1]\n[[object]]\n{object}\n"
             )
         };
         for text in [
@@ -228,7 +228,7 @@ fn plans_manifests_and_shards() {
     let place = Place::new();
     place.put(
         "s.toml",
-        "size = [16, 16]\n[camera]\neye = [0, 0, 3]\nat = [0, 0, 0]\n[light]\nuniform = [1, 1, 1]\n[[object]]\nbody = \"sphere\"\nmaterial = \"gold\"\n",
+        "size = [16, 16]\n[camera]\northographic = 2.0\neye = [0, 0, 3]\nat = [0, 0, 0]\n[light]\nuniform = [1, 1, 1]\n[[object]]\nbody = \"sphere\"\nmaterial = \"gold\"\n",
     );
     place.done("plan s.toml --json plan.json");
     let plan: Value = serde_json::from_str(&place.read("plan.json")).unwrap();
