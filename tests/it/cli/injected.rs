@@ -131,7 +131,7 @@ fn materials_and_tables() {
             format!("nm,n,k\n400,{hostile},1\n"),
             format!("nm,n,k\n400,1,1\n{hostile}\n"),
         ] {
-            check(&place, "m.csv", &text, "materials import FILE");
+            check(&place, "m.csv", &text, "materials import FILE -o OUT.toml");
             check(
                 &place,
                 "m.csv",
@@ -152,7 +152,7 @@ fn materials_and_tables() {
             format!("{quoted}: 1\n"),
             format!("DATA:\n- {quoted}: 1\n"),
         ] {
-            check(&place, "p.yml", &text, "materials import FILE");
+            check(&place, "p.yml", &text, "materials import FILE -o OUT.toml");
             check(&place, "p.yml", &text, "materials show FILE");
             check(&place, "p.yml", &text, "materials survey FILE");
         }
