@@ -224,7 +224,7 @@ fn bash_completes_names_and_flags() {
 /// their own run them.
 const USED: [(&str, bool); 38] = [
     (
-        "--target gles --method schlick --effect coat --material none --out-dir a --overwrite --quiet",
+        "--target gles --method schlick_ior --effect interior --material none --out-dir a --overwrite --quiet",
         true,
     ),
     (
@@ -276,10 +276,7 @@ const USED: [(&str, bool); 38] = [
         "materials params gold --medium 1.5 --space p3 --illuminant A --observer cie2015 --adaptation scale --step 5nm --extrapolate hold --json -",
         true,
     ),
-    (
-        "materials params gold --as usd -o a.usda --overwrite --json p.json",
-        true,
-    ),
+    ("materials params gold --as usd -o a.usda --overwrite", true),
     ("materials params gold --wavelengths 600,550,450", true),
     (
         "materials coat --f0 1,.71,.29 --f82 .98,.91,.66 --index 1.4 --json -",
