@@ -7,9 +7,10 @@
 use core::fmt::{self, Display};
 use std::path::Path;
 
-/// The first and the last of as many characters of a value are shown.
-const FIRST: usize = 400;
-const LAST: usize = 100;
+/// As many characters of a value are shown, its first and its last.
+const VALUE: [usize; 2] = [400, 100];
+/// As many of a line that holds values: no list of ours is longer.
+const LINE: [usize; 2] = [5000, 1000];
 /// As many lines of a compiler are shown, and of each as many characters.
 const LINES: usize = 200;
 const WIDTH: usize = 2000;
@@ -43,7 +44,7 @@ pub struct Foreign<T>(pub T);
 
 impl<T: Display> Display for Foreign<T> {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
-        f.write_str(&clipped(&one_line(&self.0.to_string())))
+        f.write_str(&clipped(&one_line(&self.0.to_string()), VALUE))
     }
 }
 
@@ -52,8 +53,13 @@ pub fn path<P: AsRef<Path> + ?Sized>(path: &P) -> Foreign<String> {
     Foreign(path.as_ref().to_string_lossy().into_owned())
 }
 
-/// A message that holds values of others, as one line; all of it.
+/// A message that holds values of others, as one line.
 pub fn one_line(text: &str) -> String {
+    clipped(&unbroken(text), LINE)
+}
+
+/// A text without line breaks, and without what is obeyed.
+fn unbroken(text: &str) -> String {
     let mut line = String::with_capacity(text.len());
     // GitHub's runner takes blanks off before it looks for a command.
     let begins_command = text.trim_start().starts_with("::");
@@ -114,16 +120,16 @@ fn beginning(text: &str, most: usize) -> &str {
         .map_or(text, |(end, _)| &text[..end])
 }
 
-fn clipped(text: &str) -> String {
+fn clipped(text: &str, [first, last]: [usize; 2]) -> String {
     let count = text.chars().count();
-    if count <= FIRST + LAST {
+    if count <= first + last {
         return text.to_owned();
     }
-    let last = text
+    let end = text
         .char_indices()
-        .nth(count - LAST)
+        .nth(count - last)
         .map_or("", |(start, _)| &text[start..]);
-    format!("{}…{last}", beginning(text, FIRST))
+    format!("{}…{end}", beginning(text, first))
 }
 
 #[cfg(test)]
@@ -181,7 +187,7 @@ mod tests {
     #[test]
     fn a_long_value_shows_its_ends() {
         let text = Foreign(format!("a{}z", "x".repeat(1 << 20))).to_string();
-        assert_eq!(text.chars().count(), FIRST + LAST + 1);
+        assert_eq!(text.chars().count(), VALUE[0] + VALUE[1] + 1);
         assert!(text.starts_with("ax") && text.ends_with("xz"));
     }
 

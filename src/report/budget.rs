@@ -7,7 +7,7 @@ const NEGLIGIBLE: f64 = 0.1;
 
 /// The remarks on a material's choice, a line each.
 pub fn budget_remarks(row: &BudgetRow) -> Vec<String> {
-    let (name, choice) = (&row.material, &row.choice);
+    let (name, choice) = (crate::foreign::Foreign(&row.material), &row.choice);
     let mut lines = vec![format!(
         "{name}: {} is the cheapest within {}: {} ({} on {}, as a {} function)",
         choice.chosen.method,

@@ -6,6 +6,7 @@ use super::table::{self, short_number};
 use crate::cost::{CostAndError, pareto_frontier};
 use crate::emit::Missed;
 use crate::fit::{Coefficients, FitObjective, Follows, ModelError, Weight};
+use crate::foreign::Foreign;
 use crate::methods::Method;
 use crate::num::each_channel;
 use crate::reference::MaterialInMedium;
@@ -241,7 +242,7 @@ fn coefficient_lines(row: &FitRow) -> String {
         format!("  c{i} = {}\n", numbers.join(", "))
     };
     let lines: String = (0..row.terms).map(line).collect();
-    format!("\n{}, {}:\n{lines}", row.name(), row.method)
+    format!("\n{}, {}:\n{lines}", Foreign(row.name()), row.method)
 }
 
 /// What became of colours that no index has.
@@ -252,7 +253,7 @@ fn remarks(rows: &[FitRow]) -> String {
     let half = if is_half { HALF } else { "" };
     let missed = rows.iter().filter_map(|row| {
         let missed = row.misses_its_class.as_ref()?;
-        Some(format!("{}: {}\n", row.name(), missed.words()))
+        Some(format!("{}: {}\n", Foreign(row.name()), missed.words()))
     });
     let half = half.to_owned() + &missed.collect::<String>();
     let Some(follows) = rows.first().and_then(|row| row.follows) else {

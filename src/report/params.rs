@@ -1,6 +1,7 @@
 //! The parameters of a material for people.
 
 use crate::fit::{ColourErrors, GreyTint, MaterialParams, MeasuredSpread, rounded_up};
+use crate::foreign::one_line;
 use crate::materials::Material;
 
 use super::table;
@@ -33,7 +34,7 @@ pub fn params_text(
         row("k", params.k, ""),
     ];
     let mut lines = vec![
-        format!("{}: {}", material.name, material.summary),
+        format!("{}: {}", material.name, one_line(&material.summary)),
         of_material.truth.clone(),
     ];
     lines.extend(of_material.remark.map(str::to_owned));

@@ -85,7 +85,7 @@ fn request(names: &str, formats: &[Format], atlas: bool) -> BakeRequest {
     };
     BakeRequest {
         subjects: table_materials(&wanted).unwrap().0,
-        typed: names.to_owned(),
+        typed: names.split(',').map(str::to_owned).collect(),
         formats: formats.to_vec(),
         shape: TableSize::Fixed {
             axis: TableAxis::Rational,

@@ -68,6 +68,22 @@ fn files_are_short_and_named_by_an_idea() {
     }
 }
 
+/// `display()` gives a path as it is, with the controls and line breaks of its name: `foreign::path` puts it into a message.
+#[test]
+fn a_path_is_put_into_a_message_by_one_function() {
+    for (path, text) in sources("src") {
+        let text = before_tests(&text).replace(char::is_whitespace, "");
+        for (at, _) in text.match_indices(".display()") {
+            let after = &text[at + ".display()".len()..];
+            assert!(
+                after.starts_with(".to_string()"),
+                "{}: a path is put into a message by foreign::path",
+                path.display()
+            );
+        }
+    }
+}
+
 /// The length of each function in lines, by a count of braces at the indentation of `fn`.
 fn function_lengths(text: &str) -> Vec<(String, usize)> {
     let lines: Vec<&str> = before_tests(text).lines().collect();

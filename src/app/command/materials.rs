@@ -242,7 +242,7 @@ fn text(m: &Material) -> String {
     let field = |name: &str, value: &str| {
         // A note may have several lines.
         let value: Vec<String> = value.lines().map(one_line).collect();
-        let line = format!("{name:12}{}", value.join("\n            "));
+        let line = format!("{name:12}{}", value.join("\n          | "));
         (!value.is_empty()).then_some(line)
     };
     let mut lines = vec![format!("{}: {}", Foreign(&m.name), one_line(&m.summary))];

@@ -1,6 +1,7 @@
 //! A page as a material: what the page does not say, its name, class and summary, is made from what it does.
 
 use super::Page;
+use crate::foreign::is_hidden;
 use crate::materials::decimal::short;
 use crate::materials::dispersion::{DispersionCurve, Extrapolate};
 use crate::materials::{FileFault, Index, Material, MaterialKind, name_fault};
@@ -33,7 +34,8 @@ impl Page {
         let mut material = Material {
             substance: name.clone(),
             name,
-            summary: self.summary(),
+            // It is made of the file's name, and a field of one line.
+            summary: self.summary().replace(is_hidden, " "),
             kind: MaterialKind::Dielectric,
             licence: or(&self.licence, NOT_GIVEN),
             reference: or(&self.reference, NOT_GIVEN),

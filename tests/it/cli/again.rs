@@ -93,7 +93,7 @@ fn a_shell_runs_the_command_of_a_header() {
 fn no_folder_of_the_machine_is_said() {
     let place = Place::new();
     place.put("sub/m.csv", TABLE);
-    place.put("s.toml", "size = [16, 16]\n[camera]\neye = [0, 0, 3]\nat = [0, 0, 0]\n[light]\nuniform = [1, 1, 1]\n[[object]]\nbody = \"sphere\"\nmaterial = \"gold\"\n");
+    place.put("s.toml", "size = [16, 16]\n[camera]\northographic = 2.0\neye = [0, 0, 3]\nat = [0, 0, 0]\n[light]\nuniform = [1, 1, 1]\n[[object]]\nbody = \"sphere\"\nmaterial = \"gold\"\n");
     let whole = |file: &str| place.path(file).display().to_string();
     let folder = whole("");
     let material = whole("sub/m.csv");

@@ -9,7 +9,7 @@ const SECRET: &str = "hunter2";
 
 fn scene(object: &str) -> String {
     format!(
-        "size = [16, 16]\n[camera]\neye = [0, 0, 3]\nat = [0, 0, 0]\n[light]\nuniform = [1, 1, 1]\n[[object]]\n{object}\n"
+        "size = [16, 16]\n[camera]\northographic = 2.0\neye = [0, 0, 3]\nat = [0, 0, 0]\n[light]\nuniform = [1, 1, 1]\n[[object]]\n{object}\n"
     )
 }
 

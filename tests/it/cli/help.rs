@@ -219,3 +219,148 @@ fn bash_completes_names_and_flags() {
         assert_eq!(offered(&place, words), expected, "{words}");
     }
 }
+
+/// Lines in which each flag that a command offers does its work. Those of a graphics stack or of minutes are parsed only; tests of
+/// their own run them.
+const USED: [(&str, bool); 38] = [
+    (
+        "--target gles --method schlick_ior --effect interior --material none --out-dir a --overwrite --quiet",
+        true,
+    ),
+    (
+        "--material gold --method fitted --medium 1.5 --space p3 --illuminant A --observer cie2015 --adaptation scale --step 5nm --extrapolate hold --gamut keep --precision f32 --header full --prefix my_ -o - ",
+        true,
+    ),
+    (
+        "--material gold --method fitted --wavelengths 600,550,450 -o a.wgsl --depfile d --depfile-target x",
+        true,
+    ),
+    (
+        "--material gold --method schlick_corrected --matching-angle 80 --target gles --list",
+        true,
+    ),
+    (
+        "--material gold --precision f16 --force --target gles --out-dir h",
+        true,
+    ),
+    ("--material gold --budget 0.01 --gpu rdna2 -o -", true),
+    ("--flavour godot --material gold --out-dir g", true),
+    ("--plan plan.json --allow . --target gles --out-dir p", true),
+    (
+        "--plan plan.json --allow . --target gles --out-dir p --check",
+        true,
+    ),
+    ("methods --json methods.json", true),
+    ("methods list --json -", true),
+    ("methods show schlick --json -", true),
+    ("targets --json targets.json", true),
+    ("targets list --json -", true),
+    ("targets show gles --json -", true),
+    ("effects --json effects.json", true),
+    ("effects list --json -", true),
+    ("effects show coat --json -", true),
+    ("materials --json materials.json", true),
+    (
+        "materials list --class metal --substance gold --search Johnson --full --json -",
+        true,
+    ),
+    (
+        "materials show gold --medium 1.5 --space p3 --illuminant A --observer cie2015 --adaptation scale --step 5nm --extrapolate hold --svg a.svg --png a.png --json a.json",
+        true,
+    ),
+    (
+        "materials show gold --wavelengths 600,550,450 --json -",
+        true,
+    ),
+    (
+        "materials params gold --medium 1.5 --space p3 --illuminant A --observer cie2015 --adaptation scale --step 5nm --extrapolate hold --json -",
+        true,
+    ),
+    ("materials params gold --as usd -o a.usda --overwrite", true),
+    ("materials params gold --wavelengths 600,550,450", true),
+    (
+        "materials coat --f0 1,.71,.29 --f82 .98,.91,.66 --index 1.4 --json -",
+        true,
+    ),
+    (
+        "materials import m.csv --name mine --class metal -o mine.toml --json -",
+        true,
+    ),
+    ("materials import m.csv --json m.json", true),
+    (
+        "materials survey m.yml --space p3 --illuminant A --observer cie2015 --adaptation scale --step 5nm --extrapolate hold --json -",
+        true,
+    ),
+    ("materials survey m.yml --wavelengths 600,550,450", true),
+    (
+        "bake --material gold --medium 1.5 --space p3 --illuminant A --observer cie2015 --adaptation scale --step 5nm --extrapolate hold --gamut clip --size 8 --axis cos --format png8 --atlas --target gles --prefix my_ --out-dir b --overwrite --quiet --json b.json",
+        true,
+    ),
+    (
+        "bake --material gold --budget 0.01 --wavelengths 600,550,450 --out-dir c",
+        true,
+    ),
+    ("bake --dfg --method fitted --size 8 --out-dir c", true),
+    ("bake --dfg --layout unreal --out-dir c", true),
+    ("fit --f0 1,.71,.29 --f82 .98,.91,.66 --json -", true),
+    (
+        "scene-error cube --frames 1 --size 16x16 --fov 40 --method schlick --material gold --medium 1.5 --space p3 --json - --out-dir s --overwrite",
+        true,
+    ),
+    (
+        "stability --method schlick --out-dir t --overwrite --json t.json",
+        false,
+    ),
+    ("plan s.toml --json plan.json", true),
+];
+
+/// Every command that offers a flag of these groups takes it somewhere: no group brings along what always fails.
+#[test]
+fn flags_that_a_command_offers_do_their_work() {
+    let place = Place::new();
+    place.put("m.csv", "nm,n,k\n360,1,2\n830,1.5,2.5\n");
+    place.put(
+        "m.yml",
+        "DATA:\n- type: tabulated nk\n  data: |\n    0.36 1 2\n    0.83 1 2\n",
+    );
+    place.put("s.toml", "size = [16, 16]\n[camera]\northographic = 2.0\neye = [0, 0, 3]\nat = [0, 0, 0]\n[light]\nuniform = [1, 1, 1]\n[[object]]\nbody = \"sphere\"\nmaterial = \"gold\"\n");
+    place.done("plan s.toml --json plan.json");
+    let mut used: std::collections::BTreeMap<String, Vec<&str>> = Default::default();
+    for (line, is_run) in USED {
+        let words: Vec<&str> = line.split_whitespace().collect();
+        match is_run {
+            true => drop(place.done(line)),
+            false => is_known(&format!("fresnel-gen {line}")),
+        }
+        let path: String = words
+            .iter()
+            .take_while(|word| {
+                all_commands()
+                    .iter()
+                    .any(|(path, _)| path.split(' ').any(|part| part == **word))
+            })
+            .map(|word| format!(" {word}"))
+            .collect();
+        used.entry(path).or_default().extend(words);
+    }
+    for (path, command) in all_commands() {
+        let Some(words) = used.get(&path) else {
+            continue;
+        };
+        for flag in command.get_arguments().filter(|flag| !flag.is_hide_set()) {
+            let Some(name) = flag
+                .get_long()
+                .filter(|name| !["help", "version"].contains(name))
+            else {
+                continue;
+            };
+            // Fits and scenes have tests of each of their flags.
+            let is_elsewhere =
+                [" fit", " plan", " stability", " scene-error"].contains(&path.as_str());
+            assert!(
+                is_elsewhere || words.contains(&format!("--{name}").as_str()),
+                "{path}: --{name} is in no line"
+            );
+        }
+    }
+}

@@ -80,7 +80,8 @@ fn check(place: &Place, file: &str, text: &str, command: &str) {
 
 /// TOML's spelling of a text.
 fn toml(text: &str) -> String {
-    toml::Value::String(text.to_owned()).to_string()
+    // Its basic strings escape as JSON's do.
+    serde_json::Value::from(text).to_string()
 }
 
 fn both() -> [String; 2] {
@@ -130,7 +131,7 @@ fn materials_and_tables() {
             format!("nm,n,k\n400,{hostile},1\n"),
             format!("nm,n,k\n400,1,1\n{hostile}\n"),
         ] {
-            check(&place, "m.csv", &text, "materials import FILE");
+            check(&place, "m.csv", &text, "materials import FILE -o OUT.toml");
             check(
                 &place,
                 "m.csv",
@@ -151,7 +152,7 @@ fn materials_and_tables() {
             format!("{quoted}: 1\n"),
             format!("DATA:\n- {quoted}: 1\n"),
         ] {
-            check(&place, "p.yml", &text, "materials import FILE");
+            check(&place, "p.yml", &text, "materials import FILE -o OUT.toml");
             check(&place, "p.yml", &text, "materials show FILE");
             check(&place, "p.yml", &text, "materials survey FILE");
         }
@@ -166,7 +167,7 @@ fn scenes_meshes_and_maps() {
         let quoted = toml(&hostile);
         let scene = |object: &str| {
             format!(
-                "size = [16, 16]\n[camera]\neye = [0, 0, 3]\nat = [0, 0, 0]\n[light]\nuniform = [1, 1, 1]\n[[object]]\n{object}\n"
+                "size = [16, 16]\n[camera]\northographic = 2.0\neye = [0, 0, 3]\nat = [0, 0, 0]\n[light]\nuniform = [1, 1, 1]\n[[object]]\n{object}\n"
             )
         };
         for text in [
@@ -227,7 +228,7 @@ fn plans_manifests_and_shards() {
     let place = Place::new();
     place.put(
         "s.toml",
-        "size = [16, 16]\n[camera]\neye = [0, 0, 3]\nat = [0, 0, 0]\n[light]\nuniform = [1, 1, 1]\n[[object]]\nbody = \"sphere\"\nmaterial = \"gold\"\n",
+        "size = [16, 16]\n[camera]\northographic = 2.0\neye = [0, 0, 3]\nat = [0, 0, 0]\n[light]\nuniform = [1, 1, 1]\n[[object]]\nbody = \"sphere\"\nmaterial = \"gold\"\n",
     );
     place.done("plan s.toml --json plan.json");
     let plan: Value = serde_json::from_str(&place.read("plan.json")).unwrap();

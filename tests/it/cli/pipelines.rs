@@ -221,6 +221,26 @@ fn cmake_builds_what_changed() {
     }
 }
 
+/// The recipe below a folder whose name a list of materials might split, and a shell.
+#[test]
+fn cmake_builds_below_a_folder_with_a_comma() {
+    const FOLDER: &str = "a, b";
+    let Some(pipeline) = Pipeline::new("cmake", &[CMAKE, NINJA]) else {
+        return;
+    };
+    let place = Place::new();
+    for (path, (bytes, _)) in pipeline.place.files() {
+        place.put(&format!("{FOLDER}/{path}"), bytes);
+    }
+    let moved = Pipeline {
+        place,
+        folder: "a, b/cmake",
+    };
+    moved.run_with(&["cmake", "-G", "Ninja", "-S", ".", "-B", "build"]);
+    moved.run("cmake --build build");
+    assert_eq!(moved.shaders().len(), MATERIALS.len());
+}
+
 /// Its scripts always run, and write only what differs.
 #[test]
 fn npm_writes_what_changed() {
