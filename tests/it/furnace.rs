@@ -346,7 +346,7 @@ fn coloured_metals_follow_the_series_of_bounces() {
 }
 
 /// How far what adapters do may be from the bounces: their table, and the mean of white.
-const SERIES: f64 = 0.001;
+const SERIES: f64 = 0.0003;
 
 /// The other way round: what the furnace is for. Without compensation a rough white surface loses two thirds, and an image by the table
 /// of another method is another surface.
