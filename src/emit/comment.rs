@@ -38,7 +38,16 @@ fn safe(line: &str) -> String {
     };
     let spelt: String = line.chars().map(spelt).collect();
     let ascii: String = spelt.chars().map(legal).collect();
-    ascii.trim_end_matches(['\\', ' ']).to_owned()
+    without_continuation(&ascii).to_owned()
+}
+
+/// A line without what would make the next one part of it: a backslash, also as C's trigraph.
+fn without_continuation(line: &str) -> &str {
+    let shorter = line.trim_end_matches(['\\', ' ']);
+    match shorter.strip_suffix("??/") {
+        Some(rest) => without_continuation(rest),
+        None => shorter,
+    }
 }
 
 /// A character by the nearest ones of ASCII.
@@ -66,7 +75,7 @@ fn broken(line: &str) -> Vec<String> {
     // A backslash that ended up last on a broken line would swallow the next one just as well.
     lines
         .iter()
-        .map(|line| line.trim_end_matches('\\').to_owned())
+        .map(|line| without_continuation(line).to_owned())
         .collect()
 }
 
@@ -83,6 +92,7 @@ mod tests {
     fn what_could_escape_from_a_comment_cannot() {
         check("a\nb", &["a?b"]);
         check("ends in \\", &["ends in"]);
+        check("a \\ ??/\\??/", &["a"]);
         check("Štetić, 200 µm", &["Stetic, 200 um"]);
         check("", &[""]);
     }

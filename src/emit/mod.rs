@@ -24,6 +24,7 @@ mod print;
 pub mod shader_words;
 mod short;
 mod wgsl;
+mod xml;
 
 pub use average::{Average, companions};
 pub use batch::{batch_entry, batch_program, places};
@@ -56,6 +57,7 @@ pub use missed::{Missed, missed};
 pub use page::{bare_text, text_of_template};
 pub use print::bare;
 pub use wgsl::{spirv_with_storage as wgsl_to_spirv, validate as validate_wgsl};
+pub use xml::{XmlDocument, xml_comment, xml_text};
 
 /// The version of naga that lowers SPIR-V, pinned in Cargo.toml: another one gives other bytes.
 pub const NAGA_VERSION: &str = "30.0.1";

@@ -3,7 +3,8 @@
 //! Source: Blender Manual, "Principled BSDF" and "Metallic BSDF", version 4.4,
 //! <https://docs.blender.org/manual/en/4.4/render/shader_nodes/shader/principled.html>. Principled (4.0 and later): a metal is
 //! F82-tint with Base Color as F0 and Specular Tint as the tint, a dielectric the exact law of IOR. Metallic BSDF (4.3 and
-//! later) with F82: Base Color and Edge Tint. Cycles limits colours and tints of metals to [0, 1].
+//! later) with F82: Base Color and Edge Tint. Cycles limits colours and tints of metals to [0, 1]. EEVEE reads both from tables of
+//! sums, so that its F is Cycles's only about. Roughness is .5 unless it is set.
 
 use crate::spectra::Space;
 
@@ -30,7 +31,11 @@ fn sheet(material: &EngineMaterial) -> Sheet {
     match material.body {
         Body::Conductor => metal(material),
         Body::Dielectric { ior, is_clear, .. } => {
-            let mut fields = vec![Field::number("Metallic", 0.0), Field::number("IOR", ior)];
+            let mut fields = vec![
+                Field::number("Metallic", 0.0),
+                Field::number("Roughness", 0.0),
+                Field::number("IOR", ior),
+            ];
             if is_clear {
                 // Base Color tints what is transmitted; it is grey by default.
                 fields.push(Field::colour("Base Color", [1.0; 3]));
@@ -58,10 +63,18 @@ fn metal(material: &EngineMaterial) -> Sheet {
             vec![
                 f0.clone(),
                 Field::number("Metallic", 1.0),
+                Field::number("Roughness", 0.0),
                 Field::colour("Specular Tint", tint),
             ],
         ),
-        (METALLIC, vec![f0, Field::colour("Edge Tint", tint)]),
+        (
+            METALLIC,
+            vec![
+                f0,
+                Field::number("Roughness", 0.0),
+                Field::colour("Edge Tint", tint),
+            ],
+        ),
     ];
     let node = |(name, fields)| Node {
         name,
@@ -96,6 +109,7 @@ fn line(field: &Field) -> String {
     let numbers = field.value.numbers();
     let value = match field.value {
         FieldValue::Colour(_) => format!("({numbers}, 1.0)"),
+        FieldValue::Channels(_) | FieldValue::Both(_) => format!("({numbers})"),
         FieldValue::Number(_) | FieldValue::Whole(_) => numbers,
     };
     format!("node.inputs[\"{}\"].default_value = {value}\n", field.name)

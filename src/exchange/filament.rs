@@ -33,6 +33,7 @@ fn sheet(material: &EngineMaterial) -> Sheet {
             let fields = vec![
                 Field::colour("baseColor", material.f0),
                 Field::number("metallic", 1.0),
+                Field::number("roughness", 0.0),
             ];
             (fields, material.f0)
         }
@@ -47,6 +48,7 @@ fn sheet(material: &EngineMaterial) -> Sheet {
             }
             let mut fields = vec![
                 Field::number("metallic", 0.0),
+                Field::number("roughness", 0.0),
                 Field::number("reflectance", reflectance),
             ];
             if is_clear {
@@ -75,7 +77,10 @@ fn text(material: &EngineMaterial, sheet: &Sheet, notes: &Notes) -> String {
     let line = |field: &Field| {
         let numbers = field.value.numbers();
         match field.value {
-            FieldValue::Colour(_) => format!("material.{}.rgb = vec3({numbers});\n", field.name),
+            FieldValue::Colour(_) | FieldValue::Channels(_) => {
+                format!("material.{}.rgb = vec3({numbers});\n", field.name)
+            }
+            FieldValue::Both(_) => format!("material.{} = vec2({numbers});\n", field.name),
             FieldValue::Number(_) | FieldValue::Whole(_) => {
                 format!("material.{} = {numbers};\n", field.name)
             }

@@ -44,6 +44,9 @@ pub struct Exported {
     pub remarks: Vec<String>,
 }
 
+/// Formats have a roughness of their own where none is written: glTF and Filament 1, USD, Blender and Unreal .5, OpenPBR .3.
+const SMOOTH: &str = "roughness is 0, a smooth surface; set your own";
+
 impl Format {
     /// A material in this format. `command` writes the file again.
     ///
@@ -67,7 +70,11 @@ impl Format {
         let notes = Notes {
             command: command.to_owned(),
             errors: sheet.nodes.iter().map(error).collect(),
-            remarks: material.remarks().chain(sheet.remarks.clone()).collect(),
+            remarks: material
+                .remarks()
+                .chain(sheet.remarks.clone())
+                .chain([SMOOTH.to_owned()])
+                .collect(),
         };
         let text = (self.text)(material, &sheet, &notes);
         Ok(Exported {

@@ -6,7 +6,8 @@
 //! <https://github.com/KhronosGroup/glTF/tree/main/extensions/2.0/Khronos>.
 //!
 //! A metal's F0 is `baseColorFactor`. A dielectric's is that of `ior`, times `specularColorFactor`, 1 at most. All is
-//! Schlick's approximation with 1 at 90 degrees. `dispersion` is 20 over Abbe's number; it wants a volume.
+//! Schlick's approximation with 1 at 90 degrees. `dispersion` is 20 over Abbe's number; it wants a volume. `metallicFactor` and
+//! `roughnessFactor` are 1 where they are left out.
 
 use serde::Serialize;
 
@@ -38,6 +39,7 @@ fn sheet(material: &EngineMaterial) -> Sheet {
             let fields = vec![
                 Field::colour("baseColorFactor", material.f0),
                 Field::number("metallicFactor", 1.0),
+                Field::number("roughnessFactor", 0.0),
             ];
             (fields, material.f0)
         }
@@ -52,6 +54,7 @@ fn sheet(material: &EngineMaterial) -> Sheet {
                 .map(|f0| if grey > 0.0 { rounded(f0 / grey) } else { 1.0 });
             let mut fields = vec![
                 Field::number("metallicFactor", 0.0),
+                Field::number("roughnessFactor", 0.0),
                 Field::number("ior", ior),
                 Field::colour("specularColorFactor", colour),
             ];
@@ -169,6 +172,7 @@ fn value(field: &Field) -> serde_json::Value {
         FieldValue::Colour([red, green, blue]) if field.name == "baseColorFactor" => {
             vec![red, green, blue, 1.0].into()
         }
-        FieldValue::Colour(values) => values.to_vec().into(),
+        FieldValue::Colour(values) | FieldValue::Channels(values) => values.to_vec().into(),
+        FieldValue::Both(value) => vec![value, value].into(),
     }
 }

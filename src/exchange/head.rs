@@ -63,7 +63,9 @@ pub fn toml(sheet: &Sheet) -> String {
     let field = |field: &Field| {
         let numbers = field.value.numbers();
         match field.value {
-            FieldValue::Colour(_) => format!("{} = [{numbers}]\n", field.name),
+            FieldValue::Colour(_) | FieldValue::Channels(_) | FieldValue::Both(_) => {
+                format!("{} = [{numbers}]\n", field.name)
+            }
             FieldValue::Number(_) | FieldValue::Whole(_) => format!("{} = {numbers}\n", field.name),
         }
     };

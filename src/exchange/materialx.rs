@@ -3,9 +3,10 @@
 //!
 //! Source: MaterialX, "Physically Based Shading Nodes, version 1.39", 2024,
 //! <https://github.com/AcademySoftwareFoundation/MaterialX/blob/main/documents/Specification/MaterialX.PBRSpec.md>.
-//! `color0` is F0, `color82` the tint of F82-tint, `color90` the reflectance at 90 degrees.
+//! `color0` is F0, `color82` the tint of F82-tint, `color90` the reflectance at 90 degrees. `ior` and `extinction` have the type of colours
+//! and are none: the space `none` keeps them as they are. Roughness is .05 unless it is set, .3 in OpenPBR.
 
-use crate::emit::comment_lines;
+use crate::emit::{XmlDocument, comment_lines};
 use crate::spectra::Space;
 
 use super::format::{Format, Notes};
@@ -47,12 +48,17 @@ fn sheet(material: &EngineMaterial) -> Sheet {
                 Field::colour("color0", material.f0),
                 Field::colour("color82", material.tint),
                 Field::colour("color90", [1.0; 3]),
+                Field::both("roughness", 0.0),
             ],
             model: Model::f82_tint(material.f0, material.tint),
         });
         nodes.push(Node {
             name: "conductor_bsdf",
-            fields: vec![Field::colour("ior", n), Field::colour("extinction", k)],
+            fields: vec![
+                Field::channels("ior", n),
+                Field::channels("extinction", k),
+                Field::both("roughness", 0.0),
+            ],
             model: Model::conductor(n, k),
         });
     }
@@ -63,62 +69,71 @@ fn sheet(material: &EngineMaterial) -> Sheet {
 }
 
 fn text(material: &EngineMaterial, sheet: &Sheet, notes: &Notes) -> String {
-    let colorspace = material.space.map_or(String::new(), |own| {
-        format!(" colorspace=\"{}\"", space(own))
-    });
-    // A comment of XML holds no two hyphens, and a command does: it stands in an attribute.
-    let about = comment_lines(head::about(&FORMAT, material, notes));
-    let about: String = about.iter().map(|line| format!("  {line}\n")).collect();
-    let about = about.replace("--", "- -");
-    let doc = escaped(&head::regenerate(notes));
-    let name = &material.subject.name;
-    let nodes: String = sheet.nodes.iter().map(|node| shader(name, node)).collect();
-    format!(
-        "<?xml version=\"1.0\"?> <!-- {} -->\n<!--\n{about}-->\n<materialx version=\"1.39\"{colorspace} doc=\"{doc}\">\n{nodes}</materialx>\n",
-        head::mark()
-    )
+    let mut document = XmlDocument::new(head::mark());
+    document.comment(&comment_lines(head::about(&FORMAT, material, notes)));
+    // A comment holds no two hyphens, and a command does.
+    let doc = head::regenerate(notes);
+    let mut attributes = vec![("version", "1.39")];
+    attributes.extend(material.space.map(|own| ("colorspace", space(own))));
+    attributes.push(("doc", &doc));
+    document.open("materialx", &attributes);
+    for node in &sheet.nodes {
+        shader(&mut document, &material.subject.name, node);
+    }
+    document.finished()
 }
 
 /// A node with the surface around it, and the material that names it.
-fn shader(material: &str, node: &Node) -> String {
-    let kind = node.name;
-    let inputs: String = node.fields.iter().map(input).collect();
-    let (surface, body) = match kind {
-        OPEN_PBR => {
-            let surface = format!("{material}_{kind}");
-            let body = format!(
-                "  <{kind} name=\"{surface}\" type=\"surfaceshader\">\n{inputs}  </{kind}>\n"
-            );
-            (surface, body)
-        }
-        _ => {
-            let (bsdf, surface) = (
-                format!("{material}_{kind}"),
-                format!("{material}_{kind}_surface"),
-            );
-            let body = format!(
-                "  <{kind} name=\"{bsdf}\" type=\"BSDF\">\n{inputs}  </{kind}>\n  <surface name=\"{surface}\" type=\"surfaceshader\">\n    \
-                 <input name=\"bsdf\" type=\"BSDF\" nodename=\"{bsdf}\" />\n  </surface>\n"
-            );
-            (surface, body)
-        }
+fn shader(document: &mut XmlDocument, material: &str, node: &Node) {
+    let (kind, name) = (node.name, format!("{material}_{}", node.name));
+    let is_surface = kind == OPEN_PBR;
+    let ty = if is_surface { "surfaceshader" } else { "BSDF" };
+    document.open(kind, &[("name", &name), ("type", ty)]);
+    for field in &node.fields {
+        input(document, field);
+    }
+    document.close();
+    let surface = match is_surface {
+        true => name,
+        false => surface_of(document, &name),
     };
-    format!(
-        "{body}  <surfacematerial name=\"{surface}_material\" type=\"material\">\n    \
-         <input name=\"surfaceshader\" type=\"surfaceshader\" nodename=\"{surface}\" />\n  </surfacematerial>\n"
-    )
+    let of_material = format!("{surface}_material");
+    document.open(
+        "surfacematerial",
+        &[("name", &of_material), ("type", "material")],
+    );
+    connected(document, "surfaceshader", "surfaceshader", &surface);
+    document.close();
 }
 
-fn input(field: &Field) -> String {
-    let (kind, numbers) = match field.value {
-        FieldValue::Colour(_) => ("color3", field.value.numbers()),
-        FieldValue::Number(_) => ("float", field.value.numbers()),
-        FieldValue::Whole(_) => ("integer", field.value.numbers()),
+/// The surface that shows a BSDF, by its name.
+fn surface_of(document: &mut XmlDocument, bsdf: &str) -> String {
+    let surface = format!("{bsdf}_surface");
+    document.open("surface", &[("name", &surface), ("type", "surfaceshader")]);
+    connected(document, "bsdf", "BSDF", bsdf);
+    document.close();
+    surface
+}
+
+fn connected(document: &mut XmlDocument, name: &str, ty: &str, node: &str) {
+    let attributes = [("name", name), ("type", ty), ("nodename", node)];
+    document.empty("input", &attributes);
+}
+
+fn input(document: &mut XmlDocument, field: &Field) {
+    let ty = match field.value {
+        FieldValue::Colour(_) | FieldValue::Channels(_) => "color3",
+        FieldValue::Both(_) => "vector2",
+        FieldValue::Number(_) => "float",
+        FieldValue::Whole(_) => "integer",
     };
-    format!(
-        "    <input name=\"{}\" type=\"{kind}\" value=\"{numbers}\" />\n",
-        field.name
-    )
+    let numbers = field.value.numbers();
+    let mut attributes = vec![("name", field.name), ("type", ty), ("value", &numbers)];
+    if let FieldValue::Channels(_) = field.value {
+        // Else a host moves them into its working space with the colours.
+        attributes.push(("colorspace", "none"));
+    }
+    document.empty("input", &attributes);
 }
 
 /// The index of each channel as it is written.
@@ -133,10 +148,4 @@ fn conductor(material: &EngineMaterial) -> Conductor {
         n: channels.n.map(super::subject::rounded),
         k: channels.k.map(super::subject::rounded),
     }
-}
-
-/// Text of an attribute.
-fn escaped(text: &str) -> String {
-    let text = text.replace('&', "&amp;").replace('<', "&lt;");
-    text.replace('>', "&gt;").replace('"', "&quot;")
 }

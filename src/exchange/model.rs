@@ -3,6 +3,7 @@
 use serde::Serialize;
 
 use crate::fit::{error_of, rounded_up, values_at};
+use crate::ir::Checked;
 use crate::methods::{self, Method, Values};
 
 use super::sheet::Node;
@@ -27,6 +28,19 @@ pub struct NodeError {
     /// What it computes, in words.
     pub model: &'static str,
     /// The largest error of reflectance, over angles and channels.
+    pub max_abs: f64,
+    /// The angle there, in degrees.
+    pub worst_degrees: f64,
+    /// The same where the medium is a coat, which bends all light towards the normal.
+    pub below_coat: Option<CoatedError>,
+}
+
+/// The error of a node below a coat, over the angles that light has in it.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct CoatedError {
+    /// The largest angle from the normal that light has in the coat, in degrees.
+    pub steepest_degrees: f64,
+    /// The largest error of reflectance.
     pub max_abs: f64,
     /// The angle there, in degrees.
     pub worst_degrees: f64,
@@ -71,13 +85,42 @@ impl Model {
 
     /// Its largest error for a material, and the angle in degrees.
     pub fn error(&self, material: &EngineMaterial) -> (f64, f64) {
-        let function = self
-            .method
-            .function(false)
-            .expect("a test builds every method");
+        let function = self.function();
         let run = |cosines: &[f64]| values_at(&function, self.method.inputs, &self.values, cosines);
         let error = error_of(&material.subject.reference, &run);
         (error.max_abs, libm::acos(error.worst_cos).to_degrees())
+    }
+
+    /// The same where its medium is a coat of this index, in air.
+    fn error_below_coat(&self, material: &EngineMaterial, index: f64) -> CoatedError {
+        const PARTS: usize = 1024;
+        let steepest = libm::asin(1.0 / index);
+        let angles: Vec<f64> = (0..=PARTS)
+            .map(|part| steepest * part as f64 / PARTS as f64)
+            .collect();
+        let cosines: Vec<f64> = angles.iter().map(|angle| libm::cos(*angle)).collect();
+        let given = values_at(&self.function(), self.method.inputs, &self.values, &cosines);
+        let off = |part: usize| {
+            let (given, want) = (given.at(part), material.subject.reference.at(cosines[part]));
+            (0..3)
+                .map(|channel| (given[channel] - want[channel]).abs())
+                .fold(0.0, f64::max)
+        };
+        let all = (0..=PARTS).map(|part| (off(part), angles[part]));
+        let (max_abs, worst) = all.fold(
+            (0.0, 0.0),
+            |most, one| if one.0 > most.0 { one } else { most },
+        );
+        CoatedError {
+            steepest_degrees: steepest.to_degrees(),
+            max_abs,
+            worst_degrees: worst.to_degrees(),
+        }
+    }
+
+    fn function(&self) -> Checked {
+        let function = self.method.function(false);
+        function.expect("a test builds every method")
     }
 }
 
@@ -90,6 +133,9 @@ impl NodeError {
             model: node.model.words,
             max_abs,
             worst_degrees,
+            below_coat: material
+                .coat
+                .map(|index| node.model.error_below_coat(material, index)),
         }
     }
 
@@ -100,8 +146,23 @@ impl NodeError {
             model,
             max_abs,
             worst_degrees,
+            below_coat,
         } = self;
         let most = rounded_up(*max_abs);
-        format!("{node} computes {model}: error at most {most} (at {worst_degrees:.2} degrees)")
+        let coated = below_coat.map_or_else(String::new, |coat| coat.words());
+        format!(
+            "{node} computes {model}: error at most {most} (at {worst_degrees:.2} degrees){coated}"
+        )
+    }
+}
+
+impl CoatedError {
+    fn words(&self) -> String {
+        let most = rounded_up(self.max_abs);
+        format!(
+            "; where the medium is a coat, light in it is at most {:.2} degrees from the normal, and the error at most {most} (at {:.2} \
+             degrees)",
+            self.steepest_degrees, self.worst_degrees
+        )
     }
 }

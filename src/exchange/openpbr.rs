@@ -1,9 +1,10 @@
-//! OpenPBR 1.1: a metal is F82-tint with `base_color` as F0 and `specular_color` as the tint, a dielectric the exact law of
+//! OpenPBR 1.1.1: a metal is F82-tint with `base_color` as F0 and `specular_color` as the tint, a dielectric the exact law of
 //! `specular_ior`.
 //!
-//! Source: Andersson and others, "OpenPBR Surface specification, version 1.1", 2024,
+//! Source: Andersson and others, "OpenPBR Surface specification, version 1.1.1", 2025,
 //! <https://academysoftwarefoundation.github.io/OpenPBR/>, sections on the metallic and the dielectric base.
 //! `base_color` and `specular_color` lie in [0, 1]; dispersion is Abbe's number with a scale, which is 0 by default.
+//! `specular_roughness` is .3 unless it is set.
 
 use crate::spectra::Space;
 
@@ -16,7 +17,7 @@ use super::subject::{Body, EngineMaterial};
 /// The record of this format.
 pub static FORMAT: Format = Format {
     name: "openpbr",
-    summary: "parameters of OpenPBR 1.1, as TOML",
+    summary: "parameters of OpenPBR 1.1.1, as TOML",
     spaces: &Space::ALL,
     sheet,
     text,
@@ -38,6 +39,7 @@ pub fn surface(material: &EngineMaterial, name: &'static str) -> (Node, Option<S
             let fields = vec![
                 Field::colour("base_color", material.f0),
                 Field::number("base_metalness", 1.0),
+                Field::number("specular_roughness", 0.0),
                 Field::colour("specular_color", tint),
             ];
             (fields, Model::f82_tint(material.f0, tint), remark)
@@ -49,6 +51,7 @@ pub fn surface(material: &EngineMaterial, name: &'static str) -> (Node, Option<S
         } => {
             let mut fields = vec![
                 Field::number("base_metalness", 0.0),
+                Field::number("specular_roughness", 0.0),
                 Field::number("specular_ior", ior),
             ];
             if is_clear {

@@ -39,8 +39,12 @@ pub enum FieldValue {
     Number(f64),
     /// A whole number that switches something.
     Whole(i32),
-    /// Three channels.
+    /// Three channels of a colour.
     Colour([f64; 3]),
+    /// Three channels that are no colour, and stay as they are in every working space.
+    Channels([f64; 3]),
+    /// The same number along both axes of a surface.
+    Both(f64),
 }
 
 impl Field {
@@ -67,6 +71,22 @@ impl Field {
             value: FieldValue::Colour(value.map(rounded)),
         }
     }
+
+    /// Three channels that are no colour, as they are written.
+    pub fn channels(name: &'static str, value: [f64; 3]) -> Field {
+        Field {
+            name,
+            value: FieldValue::Channels(value.map(rounded)),
+        }
+    }
+
+    /// A number along both axes of a surface.
+    pub fn both(name: &'static str, value: f64) -> Field {
+        Field {
+            name,
+            value: FieldValue::Both(rounded(value)),
+        }
+    }
 }
 
 impl FieldValue {
@@ -75,7 +95,10 @@ impl FieldValue {
         match self {
             FieldValue::Number(value) => format!("{value:?}"),
             FieldValue::Whole(value) => value.to_string(),
-            FieldValue::Colour(values) => values.map(|value| format!("{value:?}")).join(", "),
+            FieldValue::Colour(values) | FieldValue::Channels(values) => {
+                values.map(|value| format!("{value:?}")).join(", ")
+            }
+            FieldValue::Both(value) => format!("{value:?}, {value:?}"),
         }
     }
 }

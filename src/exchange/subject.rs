@@ -1,7 +1,7 @@
 //! What formats take of a material: colours in [0, 1], the tint, the index at the d line, Abbe's number.
 
 use crate::fit::{abbe_in, ior_in};
-use crate::materials::{Material, MaterialKind, ViewingConditions};
+use crate::materials::{Extrapolate, Material, MaterialKind, ViewingConditions};
 use crate::methods::{Input, KnownSurface};
 use crate::reference::MaterialInMedium;
 use crate::spectra::{Gamut, Space, srgb_byte};
@@ -21,6 +21,8 @@ pub struct EngineMaterial<'a> {
     pub tint: [f64; 3],
     /// What lies below the surface.
     pub body: Body,
+    /// The index of the medium, where it is above that of air: then it may be a coat.
+    pub coat: Option<f64>,
     remarks: Vec<String>,
 }
 
@@ -73,6 +75,7 @@ impl EngineMaterial<'_> {
             f0,
             tint: tint.map(rounded),
             body: body(subject)?,
+            coat: coat(subject),
             remarks: remarks(subject, viewing, unclipped),
         })
     }
@@ -100,6 +103,15 @@ fn known(subject: &MaterialInMedium) -> KnownSurface {
         seen,
         subject.derivation.matching_cos,
     )
+}
+
+/// The medium's index at the d line, or where the eye sees best.
+fn coat(subject: &MaterialInMedium) -> Option<f64> {
+    const GREEN_NM: f64 = 555.0;
+    let (_, medium) = subject.medium.as_ref()?;
+    let at_green = || medium.n.at(GREEN_NM, Extrapolate::Hold).ok();
+    let index = ior_in(medium, None).or_else(at_green)?;
+    (index > 1.0).then_some(index)
 }
 
 fn body(subject: &MaterialInMedium) -> Result<Body, ExchangeFault> {

@@ -1,8 +1,9 @@
 //! USD: a UsdPreviewSurface as a text layer.
 //!
 //! Source: Pixar, "UsdPreviewSurface Specification", version 2.6, <https://openusd.org/release/spec_usdpreviewsurface.html>.
-//! A metal's F0 is `diffuseColor` with `metallic` 1. A dielectric takes F0 as `specularColor` in the specular workflow, and
-//! `opacity` 0 where it is clear, which keeps the reflection. Schlick's approximation, white at 90 degrees.
+//! All take the specular workflow: F0 is `specularColor`, by Schlick's approximation, white at 90 degrees. With `metallic` 1 both
+//! ends would be `diffuseColor`, so that gold would be gold at 90 degrees too. A metal's `diffuseColor` is black, which is grey unless it
+//! is set. `opacity` 0 makes a dielectric clear, and keeps the reflection. `roughness` is .5 unless it is set.
 
 use crate::spectra::Space;
 
@@ -24,13 +25,16 @@ pub static FORMAT: Format = Format {
 fn sheet(material: &EngineMaterial) -> Sheet {
     let fields = match material.body {
         Body::Conductor => vec![
-            Field::colour("diffuseColor", material.f0),
-            Field::number("metallic", 1.0),
+            Field::whole("useSpecularWorkflow", 1),
+            Field::colour("diffuseColor", [0.0; 3]),
+            Field::colour("specularColor", material.f0),
+            Field::number("roughness", 0.0),
         ],
         Body::Dielectric { ior, is_clear, .. } => {
             let mut fields = vec![
                 Field::whole("useSpecularWorkflow", 1),
                 Field::colour("specularColor", material.f0),
+                Field::number("roughness", 0.0),
                 Field::number("ior", ior),
             ];
             if is_clear {
@@ -56,6 +60,8 @@ fn text(material: &EngineMaterial, sheet: &Sheet, notes: &Notes) -> String {
         let numbers = field.value.numbers();
         let (ty, value) = match field.value {
             FieldValue::Colour(_) => ("color3f", format!("({numbers})")),
+            FieldValue::Channels(_) => ("vector3f", format!("({numbers})")),
+            FieldValue::Both(_) => ("float2", format!("({numbers})")),
             FieldValue::Number(_) => ("float", numbers),
             FieldValue::Whole(_) => ("int", numbers),
         };

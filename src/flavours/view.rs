@@ -9,9 +9,10 @@ use serde::Serialize;
 
 use crate::emit::{
     self, CatalogueRow, Emitted, MARK, Naming, OUTPUT_LICENCE, comment_lines, library_functions,
+    xml_comment,
 };
 use crate::fit::rounded_up;
-use crate::lut::{Depth, SplitSum, SplitSumDesign};
+use crate::lut::{Depth, SplitSum, SplitSumDesign, WHITE_MEAN_LOST};
 use crate::methods::{self, Class, Method};
 use crate::reference::FITTED_WITH_FOUR;
 use crate::targets::{self, Target};
@@ -47,6 +48,8 @@ pub(super) struct AdapterView {
     pub(super) library: BTreeMap<&'static str, BTreeMap<&'static str, String>>,
     /// The split-sum tables, by method.
     pub(super) tables: BTreeMap<&'static str, TableView>,
+    /// What the mean albedo of a rough white surface lacks, as a polynomial of the roughness: `lut/bounces.rs`.
+    pub(super) white_mean_lost: [String; 4],
 }
 
 /// A method that materials of an adapter have.
@@ -138,6 +141,7 @@ pub(super) fn view(
         material: None,
         library: library(flavour, &methods, &naming)?,
         tables: tables(flavour, &methods)?,
+        white_mean_lost: WHITE_MEAN_LOST.map(|value| format!("{value:?}")),
     })
 }
 
@@ -156,8 +160,10 @@ impl AdapterView {
     }
 }
 
+/// It stands in comments of Markdown too, which `>` could end.
 fn mark(command: &str) -> String {
-    comment_lines(vec![format!("{MARK}: {command}")]).concat()
+    let line = comment_lines(vec![format!("{MARK}: {command}")]).concat();
+    line.replace(['<', '>'], "?")
 }
 
 fn plain_command(command: &str) -> String {
@@ -165,10 +171,9 @@ fn plain_command(command: &str) -> String {
     command.chars().filter(is_kept).collect()
 }
 
-/// Two hyphens would end a comment of XML.
 fn plain_reference(reference: &str) -> String {
-    let reference = reference.replace("--", "-");
-    reference.chars().filter(|c| is_plain(*c)).collect()
+    let plain: String = reference.chars().filter(|c| is_plain(*c)).collect();
+    xml_comment(&plain)
 }
 
 /// Whether a character says the same in comments, in strings and in marked-up text: a user's own names stand in words.

@@ -13,7 +13,7 @@ const DARK: PassRow = PassRow {
 /// A rough ball under three lamps.
 static ROUGH: RenderRow = RenderRow {
     name: "ggx_specular",
-    summary: "A rough ball of gold under three lamps: GGX, the method at the half vector",
+    summary: "A rough ball under three lamps: GGX, the method at the half vector",
     effects: &["interface", "ggx_specular"],
     method: "schlick",
     text: include_str!("ggx_specular.wgsl"),

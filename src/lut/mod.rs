@@ -7,12 +7,14 @@
 //!
 //! [`CatalogueTexture`] is no table: it holds fitted coefficients, which a shader fetches by number.
 //!
-//! [`SplitSum`] is a table of another kind, by angle and roughness, of what a rough surface reflects.
+//! [`SplitSum`] is a table of another kind, by angle and roughness, of what a rough surface reflects; [`compensation`] is what it reflects
+//! more than once.
 //!
 //! Rows run along x, cos θ = 0 first. Values are linear: neither sRGB nor any other curve is applied, and every format
 //! that can say so does. Pure: no disk, no terminal. EXR and PNG need the feature `cli`.
 
 mod axis;
+mod bounces;
 mod catalogue;
 mod depth;
 mod error;
@@ -34,6 +36,7 @@ mod text;
 mod thesis_measure;
 
 pub use axis::TableAxis;
+pub use bounces::{WHITE_MEAN_LOST, compensation, series_of_bounces, white_mean};
 pub use catalogue::{CatalogueTexture, CatalogueTextureDetail};
 pub use depth::{Depth, Stored};
 pub use error::Error;

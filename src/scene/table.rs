@@ -209,7 +209,7 @@ pub static ALL: &[RenderRow] = &[
     },
     RenderRow {
         name: "complex_f0",
-        summary: "A ball of gold by Schlick's approximation, F0 from its complex index",
+        summary: "A ball by Schlick's approximation, F0 from its complex index",
         effects: &["interface", "complex_f0"],
         method: "schlick",
         text: include_str!("passes/complex_f0.wgsl"),

@@ -47,4 +47,7 @@ for path in sys.argv[2:]:
                 numbers[one.getName()] = value
         nodes[node.getCategory()] = numbers
     told[path] = nodes
+    told[path]["colorspaces"] = {
+        f"{node.getCategory()} {one.getName()}": one.getActiveColorSpace() for node in document.getNodes() for one in node.getInputs() if one.getType() == "color3"
+    }
 print(json.dumps(told))

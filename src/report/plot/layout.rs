@@ -1,8 +1,8 @@
 //! A layout sets text, panels and elements from the top down.
 
-use crate::emit::MARK;
+use crate::emit::{MARK, xml_text};
 
-use super::text::{Font, escape};
+use super::text::Font;
 
 /// The size of a picture or a panel, and its margins.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -116,8 +116,8 @@ impl Layout {
             width - 1.0,
             height - 1.0
         );
-        let title = format!("<title>{}</title>", escape(title));
-        let description = format!("<desc>{}</desc>", escape(description));
+        let title = format!("<title>{}</title>", xml_text(title));
+        let description = format!("<desc>{}</desc>", xml_text(description));
         let body = self.elements.join("\n");
         format!("{head}\n{title}\n{description}\n{card}\n{body}\n</svg>\n")
     }

@@ -21,6 +21,6 @@ pub(super) use palette::shade_bytes;
 pub(super) use palette::{BLUE, GREEN, INK, SHADES, VERMILION, hex_colour, shade};
 pub use palette::{Look, Style};
 pub(super) use scale::Scale;
-pub(super) use text::{AXIS, FOOT, Font, HEADING, PANEL, SUBTITLE, TICK, TITLE, capital, escape};
+pub(super) use text::{AXIS, FOOT, Font, HEADING, PANEL, SUBTITLE, TICK, TITLE, capital};
 pub use ticks::ticks;
 pub(super) use ticks::{log_ticks, plain_label, power_label};

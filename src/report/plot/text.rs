@@ -1,4 +1,6 @@
-//! Text in pictures: fonts, estimated widths, line breaks and escaping.
+//! Text in pictures: fonts, estimated widths and line breaks.
+
+use crate::emit::xml_text;
 
 /// The title of the chart.
 pub const TITLE: Font = Font::new(17.0, 23.0, "600", "#17202b");
@@ -125,28 +127,9 @@ impl Font {
             self.size,
             self.weight,
             self.fill,
-            escape(line)
+            xml_text(line)
         )
     }
-}
-
-/// Text that is safe inside an XML element or a quoted attribute.
-pub fn escape(text: &str) -> String {
-    let mut safe = String::with_capacity(text.len());
-    for letter in text.chars() {
-        match letter {
-            '&' => safe.push_str("&amp;"),
-            '<' => safe.push_str("&lt;"),
-            '>' => safe.push_str("&gt;"),
-            '"' => safe.push_str("&quot;"),
-            '\'' => safe.push_str("&apos;"),
-            // XML 1.0 cannot carry these at all, not even as references.
-            '\u{FFFE}' | '\u{FFFF}' => safe.push('\u{FFFD}'),
-            other if other.is_control() => safe.push(' '),
-            other => safe.push(other),
-        }
-    }
-    safe
 }
 
 /// Words that begin with a capital.
@@ -173,21 +156,6 @@ fn advance(letter: char) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn markup_and_forbidden_characters_are_escaped() {
-        let cases = [
-            ("plain ° text", "plain ° text"),
-            ("a < b & c > d", "a &lt; b &amp; c &gt; d"),
-            ("\"it's\"", "&quot;it&apos;s&quot;"),
-            ("&amp;", "&amp;amp;"),
-            ("a\r\nb\u{0}", "a  b "),
-            ("\u{FFFF}", "\u{FFFD}"),
-        ];
-        for (text, expected) in cases {
-            assert_eq!(escape(text), expected);
-        }
-    }
 
     #[test]
     fn lines_fit_the_room() {

@@ -1,7 +1,8 @@
 //! A map as a picture: the formula's error on the left, that of its rounding on the right, each with its colour bar.
 
+use crate::emit::xml_text;
 use crate::report::plot::{
-    Area, Axes, Font, PANEL, SHADES, SUBTITLE, Scale, TICK, Tick, escape, log_ticks, plain_label,
+    Area, Axes, Font, PANEL, SHADES, SUBTITLE, Scale, TICK, Tick, log_ticks, plain_label,
     power_label, shade,
 };
 use crate::stability::{Cell, Map};
@@ -45,7 +46,7 @@ pub fn heat_map(method: &str, map: &Map) -> String {
     let mut parts = vec![format!(
         "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {WIDTH} {HEIGHT}\" width=\"{WIDTH}\" height=\"{HEIGHT}\" \
          font-family=\"system-ui, sans-serif\"><title>{}</title><rect width=\"100%\" height=\"100%\" fill=\"#fff\"/>",
-        escape(&format!("{method} over angle and {}", map.axis.name))
+        xml_text(&format!("{method} over angle and {}", map.axis.name))
     )];
     let line = |font: &Font, text: String, top: f64| font.draw(&[text], 24.0, top, "start");
     parts.extend(line(

@@ -229,6 +229,106 @@ fn errors_are_those_of_the_methods() {
     assert!(stated(&text("bk7", "gltf"), "material") > 0.03);
 }
 
+/// UsdPreviewSurface with `metallic` 1 has its colour at 90 degrees too: gold would be .66 off there.
+#[test]
+fn metals_of_usd_are_white_at_90_degrees() {
+    let place = Place::new();
+    let text = written(&place, "gold", "usd").out;
+    for line in [
+        "int inputs:useSpecularWorkflow = 1\n",
+        "color3f inputs:diffuseColor = (0.0, 0.0, 0.0)\n",
+        "color3f inputs:specularColor = (1.0, 0.77271, ",
+    ] {
+        assert!(text.contains(line), "{line} is not in {text}");
+    }
+    assert!(!text.contains("inputs:metallic"), "{text}");
+}
+
+/// What a format does with small F0: a slab of Unreal fades F90 out by its largest channel, as Default Lit by green.
+#[test]
+fn a_slab_fades_out_what_reflects_little() {
+    let place = Place::new();
+    place.put("thin.toml", THIN);
+    let text = place.done("materials params thin.toml --as unreal").out;
+    // F0 is .0051 of an index of 1.154, so that F90 is .26 and not 1.
+    assert!(stated(&text, "substrate_slab") > 0.7, "{text}");
+    assert!(
+        joined(&text).contains("50 of the largest channel of F0"),
+        "{text}"
+    );
+}
+
+const THIN: &str = "name = \"thin\"\nclass = \"dielectric\"\nsummary = \"rare glass\"\nreference = \"none\"\nlink = \"https://example.org\"\n\
+                    licence = \"CC0-1.0\"\nn = [[360, 1.154], [830, 1.154]]\n";
+
+/// Below a coat light is never steeper than its critical angle: an error at 74 degrees cannot be seen there.
+#[test]
+fn errors_below_a_coat_are_at_angles_that_light_has_there() {
+    let place = Place::new();
+    for format in exchange::ALL {
+        let text = place
+            .done(&format!(
+                "materials params gold --medium 1.5 --as {}",
+                format.name
+            ))
+            .out;
+        let text = joined(&text);
+        let coated = text.split("light in it is at most 41.81 degrees").nth(1);
+        let coated = coated.unwrap_or_else(|| panic!("no coat in {text}"));
+        let number = |mark: &str| -> f64 {
+            let rest = coated.split_once(mark).unwrap().1;
+            rest.split_whitespace().next().unwrap().parse().unwrap()
+        };
+        assert!(number("(at ") <= 41.82, "{text}");
+        if format.name == "gltf" {
+            let (coat, medium) = (number("the error at most "), stated(&text, "material"));
+            assert!(coat < medium / 2.0, "{coat} {medium}");
+        }
+    }
+    let text = written(&place, "gold", "gltf").out;
+    assert!(!text.contains("coat"), "{text}");
+}
+
+/// Formats have a roughness of their own, 1 in glTF: glass would be frosted.
+#[test]
+fn no_format_leaves_the_roughness_to_its_default() {
+    let place = Place::new();
+    for (format, line) in [
+        (
+            "blender",
+            "node.inputs[\"Roughness\"].default_value = 0.0\n",
+        ),
+        ("filament", "material.roughness = 0.0;\n"),
+        ("gltf", "\"roughnessFactor\": 0.0"),
+        (
+            "materialx",
+            "<input name=\"specular_roughness\" type=\"float\" value=\"0.0\" />",
+        ),
+        ("openpbr", "specular_roughness = 0.0\n"),
+        ("unreal", "Roughness = 0.0\n"),
+        ("usd", "float inputs:roughness = 0.0\n"),
+    ] {
+        for material in MATERIALS {
+            let ran = written(&place, material, format);
+            let nodes = ran.out.matches("computes").count();
+            let both = ran
+                .out
+                .matches("type=\"vector2\" value=\"0.0, 0.0\"")
+                .count();
+            assert_eq!(
+                ran.out.matches(line).count() + both,
+                nodes,
+                "{format}: {}",
+                ran.out
+            );
+            assert!(
+                ran.err.contains("roughness is 0, a smooth surface"),
+                "{ran:?}"
+            );
+        }
+    }
+}
+
 /// A tint above 1: OpenPBR and Blender limit it and say what that costs; MaterialX's own node takes it.
 #[test]
 fn capped_tints_are_told() {
@@ -370,6 +470,10 @@ fn the_tools_are_those_that_the_script_installs() {
     );
 }
 
+/// A file whose name, and a text whose words, leave comments and strings of many languages.
+const HOSTILE: &str = "a--->b---]]> * '''\"\"\" \u{1b}[31m {{ x }}.toml";
+const HOSTILE_TEXT: &str = "--->  --- ]]> */ ''' </script> #endif {{ x }} ??/ \u{fffe} \\\\";
+
 /// What a tool tells of the files of a format, by material. None where the tool is not here.
 #[track_caller]
 fn told_by(
@@ -388,11 +492,25 @@ fn told_by(
         return None;
     }
     let place = Place::new();
-    let files = MATERIALS.map(|material| format!("{material}{ending}"));
-    for (material, file) in MATERIALS.iter().zip(&files) {
-        place.done(&format!(
-            "materials params {material} --as {format} -o {file}"
-        ));
+    place.put(
+        HOSTILE,
+        THIN.replace("rare glass", HOSTILE_TEXT)
+            .replace("none", HOSTILE_TEXT),
+    );
+    let materials: Vec<&str> = MATERIALS
+        .into_iter()
+        .chain(["ice", "air"])
+        .chain([HOSTILE])
+        .collect();
+    let files: Vec<String> = (materials.iter().enumerate())
+        .map(|(i, material)| match *material {
+            HOSTILE => format!("hostile{i}{ending}"),
+            material => format!("{material}{ending}"),
+        })
+        .collect();
+    for (material, file) in materials.iter().zip(&files) {
+        let words = ["materials", "params", material, "--as", format, "-o", file];
+        place.run_with(&words).ends(0);
     }
     let [command, script] = reader else {
         panic!("a command and its script")
@@ -438,6 +556,14 @@ fn materialx_reads_its_documents() {
         0.0,
     );
     assert!(number("/silicon.mtlx/conductor_bsdf/ior/1") > 3.5);
+    // An index is no colour: a host moves it into no working space.
+    let spaces = &told["gold.mtlx"]["colorspaces"];
+    assert_eq!(spaces["conductor_bsdf ior"], "none", "{told}");
+    assert_eq!(spaces["conductor_bsdf extinction"], "none", "{told}");
+    assert_eq!(
+        spaces["generalized_schlick_bsdf color0"], "lin_rec709",
+        "{told}"
+    );
 }
 
 /// USD's own validators find no fault.
@@ -452,7 +578,9 @@ fn usd_reads_its_layers() {
             .and_then(Value::as_f64)
             .unwrap_or_else(|| panic!("no {path}: {told}"))
     };
-    near(number("/gold.usda/diffuseColor/1"), 0.77271, 1e-5);
+    near(number("/gold.usda/specularColor/1"), 0.77271, 1e-5);
+    near(number("/gold.usda/diffuseColor/1"), 0.0, 0.0);
+    assert_eq!(told["gold.usda"]["useSpecularWorkflow"], 1);
     near(number("/bk7.usda/ior"), 1.5168, 5e-6);
     assert_eq!(told["water.usda"]["useSpecularWorkflow"], 1);
 }

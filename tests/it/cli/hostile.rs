@@ -5,9 +5,9 @@ use std::collections::BTreeSet;
 
 use fresnel_gen::app::generate::generate;
 use fresnel_gen::app::request::{Materials, Request, Source};
-use fresnel_gen::targets;
+use fresnel_gen::{exchange, flavours, targets};
 
-use super::{MY_METAL, OUT, Place};
+use super::{MY_METAL, OUT, Place, Ran};
 
 /// A material whose index is a formula.
 fn formula(class: &str, formula: &str) -> String {
@@ -273,4 +273,144 @@ fn a_path_that_no_depfile_can_spell_is_refused_before_anything_is_written() {
         &["--depfile: the path"],
     );
     place.done("--target gles --method schlick --out-dir a;b");
+}
+
+/// Words and a file's name that leave comments, strings and markup of many languages.
+const HOSTILE: &str = "a--->b---]]> * '''\"\"\" \u{1b}[31m ${x} {{ x }} ??.toml";
+const HOSTILE_WORDS: &str =
+    "--->  --- ]]> */ ''' </script> #endif {{ x }} | ` ${x} ??/ \u{fffe} \\\\";
+
+fn put_hostile(place: &Place) {
+    let text = MY_METAL.replace("An invented metal", HOSTILE_WORDS);
+    place.put(
+        HOSTILE,
+        text.replace("Nobody, Nothing, 2020", HOSTILE_WORDS),
+    );
+}
+
+#[track_caller]
+fn is_xml(text: &str) {
+    let options = roxmltree::ParsingOptions {
+        allow_dtd: true,
+        ..Default::default()
+    };
+    let read = roxmltree::Document::parse_with_options(text, options);
+    assert!(read.is_ok(), "{} in {text}", read.unwrap_err());
+}
+
+/// No line goes on into the next, and nothing is obeyed by who shows it.
+#[track_caller]
+fn has_plain_lines(name: &str, text: &str) {
+    for line in text.lines() {
+        assert!(
+            !line.ends_with('\\') || name.ends_with(".sh"),
+            "{name}: {line}"
+        );
+        assert!(!line.ends_with("??/"), "{name}: {line}");
+        assert!(
+            line.chars().all(|c| c == '\t' || !c.is_control()),
+            "{name}: {line}"
+        );
+    }
+}
+
+#[track_caller]
+fn is_python(text: &str) {
+    let parse = "import ast, sys; ast.parse(sys.argv[1])";
+    let output = std::process::Command::new("python3")
+        .args(["-c", parse, text])
+        .output()
+        .unwrap();
+    Ran::new("ast.parse".to_owned(), output).ends(0);
+}
+
+/// A material for engines stays a document of its format.
+#[test]
+fn no_text_leaves_a_format_of_engines() {
+    let place = Place::new();
+    put_hostile(&place);
+    for format in exchange::ALL {
+        let text = place
+            .run_with(&["materials", "params", HOSTILE, "--as", format.name])
+            .ends(0)
+            .out;
+        match format.name {
+            "materialx" => is_xml(&text),
+            "gltf" => drop(serde_json::from_str::<serde_json::Value>(&text).unwrap()),
+            "openpbr" | "unreal" => drop(text.parse::<toml::Table>().unwrap()),
+            "blender" => is_python(&text),
+            "filament" => assert!(
+                text.lines()
+                    .all(|line| line.starts_with("// ") || line.starts_with("material.")),
+                "{text}"
+            ),
+            "usd" => {
+                let head = text.lines().take_while(|line| *line != "(");
+                assert!(head.into_iter().all(|line| line.starts_with('#')), "{text}");
+            }
+            other => panic!("{other}: what reads it?"),
+        }
+        has_plain_lines(format.name, &text);
+    }
+}
+
+/// The same of files that hosts take as they are, of the languages, of arrays, pages and pictures.
+#[test]
+fn no_text_leaves_a_generated_file() {
+    let place = Place::new();
+    put_hostile(&place);
+    for flavour in flavours::ALL {
+        place
+            .run_with(&["--flavour", flavour.name, "--material", HOSTILE])
+            .ends(0);
+    }
+    place.run_with(&["--material", HOSTILE]).ends(0);
+    place
+        .run_with(&["bake", "--material", HOSTILE, "--format", "c,rust,js"])
+        .ends(0);
+    place
+        .run_with(&["chart", "--material", HOSTILE, "--out-dir", "charts"])
+        .ends(0);
+    place
+        .run_with(&["materials", "show", HOSTILE, "--svg", "sheet.svg"])
+        .ends(0);
+    let mut kinds = BTreeSet::new();
+    for (name, (bytes, _)) in place.files() {
+        let Ok(text) = std::str::from_utf8(&bytes) else {
+            continue;
+        };
+        let ending = name.rsplit('.').next().unwrap().to_owned();
+        match ending.as_str() {
+            "toml" => continue,
+            "mtlx" | "svg" => is_xml(text),
+            "json" => drop(serde_json::from_str::<serde_json::Value>(text).unwrap()),
+            "md" => {
+                let first = text.lines().next().unwrap();
+                assert!(first.find("-->") == Some(first.len() - 3), "{first}");
+            }
+            "html" => assert_eq!(
+                text.matches("</script").count(),
+                text.matches("<script").count(),
+                "{name}"
+            ),
+            _ => {}
+        }
+        has_plain_lines(&name, text);
+        kinds.insert(ending);
+    }
+    for ending in [
+        "mtlx",
+        "svg",
+        "json",
+        "md",
+        "html",
+        "js",
+        "hlsl",
+        "wgsl",
+        "gdshaderinc",
+        "h",
+        "rs",
+    ] {
+        assert!(kinds.contains(ending), "{ending} is not among {kinds:?}");
+    }
 }

@@ -33,12 +33,12 @@ struct Way {
 }
 
 const HLSL_MAIN: &str = "\nTexture2D a;\nTexture2D b;\nSamplerState s;\nfloat4 main(float4 u : TEXCOORD0) : SV_Target\n{\n{gold}\n}\n";
-const UNITY_GOLD: &str = "float3 f, i, c; half3 g, j, d; FresnelGold_float(u.x, f); FresnelGold_half((half)u.x, g); FresnelGoldImage_float(u, i, c); FresnelGoldImage_half((half4)u, j, d); return float4(f + i + c + float3(g + j + d) + fresnel_gold_fitted(u.y), 1);";
+const UNITY_GOLD: &str = "float3 f, i, c; half3 g, j, d; FresnelGold_float(u.x, f); FresnelGold_half((half)u.x, g); FresnelGoldImage_float(u, u.y, i, c); FresnelGoldImage_half((half4)u, (half)u.y, j, d); return float4(f + i + c + float3(g + j + d) + fresnel_gold_fitted(u.y), 1);";
 const UNITY_README: &str =
     "return float4(lamp(1, u.xyz, u.yzx, u.zxy, 1, u.xyz) + image(a, b, s, u.x, u.y, 1), 1);";
-const UNREAL_GOLD: &str = "return float4(fresnel_gold_fitted(u.x) + fresnel_gold_fitted_image(u) * fresnel_gold_fitted_compensation(u), 1);";
+const UNREAL_GOLD: &str = "return float4(fresnel_gold_fitted(u.x) + fresnel_gold_fitted_image(u) * fresnel_gold_fitted_compensation(u, u.y), 1);";
 const UNREAL_README: &str =
-    "return float4(Lamp(1, u.xyz, u.yzx, u.zxy, 1, u) + Image(a, b, s, u.x, u.y, 1), 1);";
+    "return float4(Lamp(1, u.xyz, u.yzx, u.zxy, 1, u, u.y) + Image(a, b, s, u.x, u.y, 1), 1);";
 const DXC: (&str, &str) = ("dxc", "of PyPI, which tests/run fetches");
 
 const fn in_unity(
@@ -117,7 +117,7 @@ const WAYS: &[Way] = &[
         // Godot's compatibility renderer writes this head. Its shading language has these names of constants.
         before: "#version 300 es\nprecision highp float;\n#define PI 3.14159265\n#define TAU 6.28318531\nout vec4 seen;\n",
         behind: "\nvoid main() { vec4 u = gl_FragCoord; {gold} }\n",
-        gold: "seen = vec4(fresnel_gold_fitted(u.x) + fresnel_gold_fitted_image(u) * fresnel_gold_fitted_compensation(u), 1.0);",
+        gold: "seen = vec4(fresnel_gold_fitted(u.x) + fresnel_gold_fitted_image(u) * fresnel_gold_fitted_compensation(u, u.y), 1.0);",
         readme: ("", ""),
         readme_use: "",
     },

@@ -4,7 +4,9 @@
 use std::collections::BTreeMap;
 
 use fresnel_gen::ir::Weights;
-use fresnel_gen::lut::{Depth, SplitSum, SplitSumAxis, SplitSumDesign, StoredSplitSum};
+use fresnel_gen::lut::{
+    Depth, SplitSum, SplitSumAxis, SplitSumDesign, StoredSplitSum, compensation,
+};
 use fresnel_gen::methods;
 use serde_json::{Value, json};
 
@@ -99,9 +101,9 @@ impl Material {
             .shape
             .unwrap()
             .averages();
+        let average = self.sum(&averages).map(|mean| mean.clamp(0.0, 1.0));
         let white = self.terms(cos, roughness)[0];
-        self.sum(&averages)
-            .map(|mean| 1.0 + mean.clamp(0.0, 1.0) * (1.0 / white - 1.0))
+        compensation(self.image(cos, roughness), white, average, roughness)
     }
 }
 

@@ -200,8 +200,15 @@ def terms(texels, c, roughness):
     return mix(mix(texels[j][i], texels[j][i + 1], x - i), mix(texels[j + 1][i], texels[j + 1][i + 1], x - i), y - j)
 
 
-def compensation(material, albedo):
-    return [1.0 + average * (1.0 / albedo - 1.0) for average in material["average"]]
+def compensation(material, once, white, roughness):
+    """The series of bounces; lost is what the mean albedo of white lacks."""
+    lost = roughness**3 * (0.20275 + roughness * (3.50269 + roughness * (-4.97845 + roughness * 1.8645)))
+    series = [mean * mean * (1.0 - lost) / (1.0 - mean * lost) for mean in material["average"]]
+    return [1.0 + (1.0 - white) * more / one for more, one in zip(series, once)]
+
+
+def reflected_once(material, part):
+    return [min(max(dot(part, channel), 0.0), part[0]) for channel in zip(*material["coefficients"])]
 
 
 def level(light):
@@ -224,14 +231,15 @@ def lamp(gold, texels, shot):
         return [0.0] * 3
     d = a2 / (dot(n, h) ** 2 * (a2 - 1.0) + 1.0) ** 2
     masking = 0.5 / (n_l * math.sqrt(n_v * n_v * (1.0 - a2) + a2) + n_v * math.sqrt(n_l * n_l * (1.0 - a2) + a2))
-    more = compensation(gold, terms(texels, n_v, roughness)[0])
+    part = terms(texels, n_v, roughness)
+    more = compensation(gold, reflected_once(gold, part), part[0], roughness)
     return [level(f * c * d * masking * n_l * shot["energy"]) for f, c in zip(reflectance(gold, dot(h, v)), more)]
 
 
 def image(gold, texels, shot):
     part = terms(texels, math.cos(math.radians(shot["spin"])), shot["roughness"])
-    sums = [clamp(dot(part, channel), part[0]) for channel in zip(*gold["coefficients"])]
-    return [level(f * c) for f, c in zip(sums, compensation(gold, part[0]))]
+    sums = reflected_once(gold, part)
+    return [level(f * c) for f, c in zip(sums, compensation(gold, sums, part[0], shot["roughness"]))]
 
 
 def apart(pairs):

@@ -32,7 +32,12 @@ function terms(method, cos, roughness) {
 }
 const weights = { fitted: [1, 0.09253325, 0.024601486, 0.010947157], fitted_dielectric: [1, 0.1, 0.027777778, 0.008333334] };
 const mean = ({ method, coefficients }, channel) => coefficients.reduce((sum, c, i) => sum + c[channel] * weights[method][i], 0);
-const compensation = (row, cos, roughness, channel) => 1 + mean(row, channel) * (1 / terms(row.method, cos, roughness)[0] - 1);
+// The series of bounces: lost is what the mean albedo of white lacks.
+function compensation(row, cos, roughness, channel) {
+  const t = terms(row.method, cos, roughness), sum = row.coefficients.reduce((sum, c, i) => sum + c[channel] * t[i], 0);
+  const m = mean(row, channel), lost = roughness ** 3 * (0.20275 + roughness * (3.50269 + roughness * (-4.97845 + roughness * 1.8645)));
+  return 1 + (1 - t[0]) * m * m * (1 - lost) / (1 - m * lost) / Math.min(t[0], Math.max(0, sum));
+}
 
 // Cells in a row of quads. A cell is { normal, light }: directions; the eye looks along -z.
 function cells(list, width) {

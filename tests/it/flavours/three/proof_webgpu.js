@@ -101,7 +101,9 @@ async function lighting(renderer) {
         const t = terms(row.method, cosV, roughness);
         for (let k = 0; k < 3; k++) {
           const mean = row.coefficients.reduce((sum, one, j) => sum + one[k] * weights[row.method][j], 0);
-          const compensation = 1 + mean * (1 / t[0] - 1), reflected = row.coefficients.reduce((sum, one, j) => sum + one[k] * t[j], 0) * compensation;
+          const once = row.coefficients.reduce((sum, one, j) => sum + one[k] * t[j], 0);
+          const lost = roughness ** 3 * (0.20275 + roughness * (3.50269 + roughness * (-4.97845 + roughness * 1.8645)));
+          const compensation = 1 + (1 - t[0]) * mean * mean * (1 - lost) / (1 - mean * lost) / once, reflected = once * compensation;
           most.lamps = Math.max(most.lamps, Math.abs(a(i, k) / b(i, k) / t[0] / compensation - reflectance(row, cos, k)));
           most.image = Math.max(most.image, Math.abs(c(i, k) - reflected), Math.abs(d(i, k) - 1));
           if (g(i, k) > 0) most.rectangle = Math.max(most.rectangle, Math.abs(e(i, k) / g(i, k) - c(i, k)));
