@@ -38,7 +38,8 @@ impl Page {
                 number: at + 1,
                 text: line,
             };
-            if line.trim().is_empty() || line.starts_with('#') {
+            // `sep=;` is for Excel.
+            if line.trim().is_empty() || line.starts_with('#') || line.starts_with("sep=") {
                 continue;
             }
             match (header(line), &mut table) {
@@ -261,6 +262,7 @@ mod tests {
         );
         check("  wavelength (nm)   n   k\n  226.1   1.5   2.0\n", &n, &k);
         check("\u{3bb} (nm),n,k,\n226.1,1.5,2,\n", &n, &k);
+        check("sep=;\nnm;n;k\n226.1;1.5;2\n", &n, &k);
         check("Wavelength in microns,n,k\n0.2261,1.5,2\n", &n, &k);
     }
 

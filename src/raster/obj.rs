@@ -106,11 +106,22 @@ fn prepared(text: &str) -> String {
                 prepared += &format!("g {group}");
             }
             Some("o" | "g") => prepared += &format!("g {group}"),
+            // An old name of faces.
+            Some("f" | "fo") => {
+                let corners: Vec<&str> = uncommented(&whole).split_whitespace().skip(1).collect();
+                prepared += &format!("f {}", corners.join(" "));
+            }
+            Some("v" | "vn" | "vt") => prepared += uncommented(&whole),
             _ => prepared += &whole,
         }
         prepared += &"\n".repeat(1 + joined);
     }
     prepared
+}
+
+/// A line without the comment that ends it.
+fn uncommented(line: &str) -> &str {
+    line.split('#').next().unwrap_or(line)
 }
 
 /// A smoothing group whose corners have normals: the file's, or those of flat faces, or of a smooth surface.
@@ -308,9 +319,10 @@ fn check_numbers<'a>(
 ) -> Result<(), String> {
     let mut count = 0;
     for word in words {
-        let number: f64 = word
-            .parse()
-            .map_err(|_| format!("`{word}` is not a number"))?;
+        let number: f64 = word.parse().map_err(|_| match word.contains(',') {
+            true => format!("`{word}` is not a number, which has a point and no comma"),
+            false => format!("`{word}` is not a number"),
+        })?;
         // NaN is within no limits.
         if !(-FARTHEST..=FARTHEST).contains(&number) {
             return Err(format!("`{word}` is no place: numbers lie within ±1e100"));

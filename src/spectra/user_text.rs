@@ -25,7 +25,8 @@ pub fn user_text(bytes: Vec<u8>) -> Result<String, TextFault> {
         Some(text) => text.to_vec(),
         None => bytes,
     };
-    String::from_utf8(bytes).map_err(|error| {
+    let text = String::from_utf8(bytes);
+    text.map(with_line_feeds).map_err(|error| {
         let good = &error.as_bytes()[..error.utf8_error().valid_up_to()];
         TextFault {
             line: good.iter().filter(|byte| **byte == b'\n').count() + 1,
@@ -43,7 +44,7 @@ pub fn mesh_text(bytes: Vec<u8>) -> Result<String, TextFault> {
     let bytes = without_mark(&bytes)?;
     match bytes.contains(&0) {
         true => Err(TextFault::here("a NUL byte: the file is not UTF-8 text")),
-        false => Ok(String::from_utf8_lossy(bytes).into_owned()),
+        false => Ok(with_line_feeds(String::from_utf8_lossy(bytes).into_owned())),
     }
 }
 
@@ -54,6 +55,14 @@ pub fn mesh_text(bytes: Vec<u8>) -> Result<String, TextFault> {
 pub fn without_mark(bytes: &[u8]) -> Result<&[u8], TextFault> {
     check_encoding(bytes)?;
     Ok(bytes.strip_prefix(MARK).unwrap_or(bytes))
+}
+
+/// Where lines end with CR alone, as Excel writes them for old Macs, LF in its place.
+fn with_line_feeds(text: String) -> String {
+    match text.contains('\n') {
+        true => text,
+        false => text.replace('\r', "\n"),
+    }
 }
 
 impl TextFault {
@@ -91,6 +100,15 @@ mod tests {
         );
         assert_eq!(without_mark(b"\xef\xbb\xbf{}"), Ok(&b"{}"[..]));
         assert_eq!(without_mark(b"{}"), Ok(&b"{}"[..]));
+    }
+
+    #[test]
+    fn lines_of_old_macs_are_lines() {
+        assert_eq!(text(b"nm,n\r400,1.5\r").as_deref(), Ok("nm,n\n400,1.5\n"));
+        assert_eq!(
+            text(b"nm,n\r\n400,1.5\r\n").as_deref(),
+            Ok("nm,n\r\n400,1.5\r\n")
+        );
     }
 
     #[test]

@@ -173,6 +173,12 @@ fn a_line_goes_on_behind_a_backslash_and_keeps_its_number() {
     assert_eq!(mesh_of_obj(&windows).unwrap().triangles.len(), 2);
     let fault = mesh_of_obj(&format!("{text}f 1 2 9\n")).unwrap_err();
     assert_eq!(fault.line, 8, "{fault}");
+    // Comments behind numbers, and the old name of a face.
+    let commented =
+        text.replace("0\n", "0 # a corner\n").replace("f 1", "fo 1") + "f 1 2 3 # half\n";
+    assert_eq!(mesh_of_obj(&commented).unwrap().triangles.len(), 3);
+    let comma = mesh_of_obj("v 0,5 0 0\n").unwrap_err();
+    assert!(comma.what.contains("a point and no comma"), "{comma}");
     // At the end of the file it continues nothing.
     assert!(mesh_of_obj(&format!("{CORNERS}{FACES}# \\")).is_ok());
 }
