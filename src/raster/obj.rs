@@ -56,9 +56,12 @@ pub fn mesh_of_obj(text: &str) -> Result<Mesh, ObjFault> {
     // Of each smoothing group the triangles of all objects, in the order in which groups begin.
     let mut groups: Vec<(String, Mesh)> = Vec::new();
     for model in models {
-        let known = groups.iter().position(|(name, _)| *name == model.name);
+        // Faces above all groups have a name of the crate's.
+        let is_ours = model.name == FLAT || model.name.starts_with(SMOOTH);
+        let name = if is_ours { &model.name } else { SMOOTH };
+        let known = groups.iter().position(|(known, _)| known == name);
         let place = known.unwrap_or_else(|| {
-            groups.push((model.name.clone(), Mesh::default()));
+            groups.push((name.to_owned(), Mesh::default()));
             groups.len() - 1
         });
         enter(&mut groups[place].1, &model.mesh);
@@ -90,7 +93,7 @@ fn prepared(text: &str) -> String {
     while let Some(line) = lines.next() {
         let mut whole = line.to_owned();
         let mut joined = 0;
-        while let Some(start) = whole.trim_end().strip_suffix('\\') {
+        while let Some(start) = continued(&whole) {
             let Some(next) = lines.next() else { break };
             whole = format!("{start} {next}");
             joined += 1;
@@ -117,6 +120,13 @@ fn prepared(text: &str) -> String {
         prepared += &"\n".repeat(1 + joined);
     }
     prepared
+}
+
+/// A line of numbers that goes on in the next one, without the `\` at its end. A comment may end with a folder's name.
+fn continued(line: &str) -> Option<&str> {
+    let first = line.split_whitespace().next()?;
+    let has_numbers = ["v", "vn", "vt", "f", "fo"].contains(&first);
+    line.trim_end().strip_suffix('\\').filter(|_| has_numbers)
 }
 
 /// A line without the comment that ends it.

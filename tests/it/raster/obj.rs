@@ -180,5 +180,8 @@ fn a_line_goes_on_behind_a_backslash_and_keeps_its_number() {
     let comma = mesh_of_obj("v 0,5 0 0\n").unwrap_err();
     assert!(comma.what.contains("a point and no comma"), "{comma}");
     // At the end of the file it continues nothing.
-    assert!(mesh_of_obj(&format!("{CORNERS}{FACES}# \\")).is_ok());
+    assert!(mesh_of_obj(&format!("{CORNERS}{FACES}f 1 2 3 \\")).is_ok());
+    // A comment goes on nowhere.
+    let folder = mesh_of_obj(&format!("# C:\\meshes\\\n{CORNERS}{FACES}")).unwrap();
+    assert_eq!(folder.vertices.len(), 8);
 }
