@@ -94,8 +94,7 @@ fn prepared(text: &str) -> String {
         let mut whole = line.to_owned();
         let mut joined = 0;
         while let Some(start) = continued(&whole) {
-            let Some(next) = lines.next() else { break };
-            whole = format!("{start} {next}");
+            whole = format!("{start} {}", lines.next().unwrap_or(""));
             joined += 1;
         }
         let mut words = whole.split_whitespace();

@@ -139,10 +139,8 @@ const FACES: &str = "f 1 4 3 2\nf 5 6 7 8\nf 1 2 6 5\nf 3 4 8 7\nf 2 3 7 6\nf 1 
 
 /// Normals along one axis.
 fn is_flat(mesh: &Mesh) -> bool {
-    let normals = mesh.vertices.iter().map(|vertex| vertex.normal);
-    normals
-        .into_iter()
-        .all(|normal| normal.abs().max_element() > 0.999)
+    let mut normals = mesh.vertices.iter().map(|vertex| vertex.normal.normalize());
+    normals.all(|normal| normal.abs().max_element() > 0.999)
 }
 
 #[test]

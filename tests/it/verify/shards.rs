@@ -125,10 +125,10 @@ fn shards_of_every_kind_of_run_are_put_together() {
         "--target msl --method all --material gold,water",
         "--target spirv --precision f16 --material water",
         "--target wgsl --effect all --material none",
-        "--target glsl --method dielectric_exact,conductor_exact --material gold,water",
+        "--target glsl --method schlick,conductor_exact --material gold,silver",
         "--target gles --method schlick --material diamond,water,gold",
         "--target glsl,msl --material water --medium water",
-        "--target glsl --method conductor_exact --material water",
+        "--target gles --method fitted --material water",
     ];
     let mut without_rows = 0;
     for (i, kind) in KINDS.iter().enumerate() {
