@@ -67,6 +67,11 @@ impl Environment {
     /// The picture cannot be read, or is not twice as wide as high.
     pub fn read(bytes: &[u8]) -> Result<Environment, EnvironmentFault> {
         let unreadable = |why: image::ImageError| EnvironmentFault::Unreadable(why.to_string());
+        // Two names of one format begin Radiance's pictures; the crate knows the first.
+        let renamed = bytes
+            .strip_prefix(b"#?RGBE")
+            .map(|rest| [b"#?RADIANCE", rest].concat());
+        let bytes = renamed.as_deref().unwrap_or(bytes);
         let picture = image::load_from_memory(bytes).map_err(unreadable)?;
         let is_linear = matches!(
             picture.color(),

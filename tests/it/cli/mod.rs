@@ -26,6 +26,7 @@ mod hostile;
 mod injected;
 #[cfg(unix)]
 mod killed;
+mod marks;
 mod materials;
 mod medium;
 mod pipelines;

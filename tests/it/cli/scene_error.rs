@@ -98,7 +98,7 @@ fn broken_meshes_are_refused_with_their_place() {
     place.put("mine.obj", b"v 0 0 0\nv \xff".as_slice());
     place.refused(
         "scene-error --mesh mine.obj",
-        &["mine.obj:2:3: the file is not UTF-8 text"],
+        &["mine.obj:2:1: `\u{fffd}` is not a number"],
     );
     place.refused("scene-error --mesh none.obj", &["cannot read none.obj"]);
 }

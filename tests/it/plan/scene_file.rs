@@ -260,7 +260,7 @@ fn a_mesh_keeps_its_place_unless_the_scene_states_another() {
         ("statue.obj", 2),
         "{fault}"
     );
-    let fault = scene.read(&mut |_| Ok(vec![0xff])).unwrap_err();
+    let fault = scene.read(&mut |_| Ok(vec![0xff, 0])).unwrap_err();
     assert!(fault.what.contains("not UTF-8"), "{fault}");
     let far = "v 0 0 0\nv 1e9 0 0\nv 0 1 0\nf 1 2 3\n";
     let fault = scene
