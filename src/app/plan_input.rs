@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use crate::materials::ViewingConditions;
 use crate::plan::{
     FramePixels, GltfScene, GltfView, MappedMaterial, MaterialIds, PlannedMaterial, SceneFile,
-    SceneLight, Unplanned, constant_index, read_gbuffer,
+    SceneLight, Unplanned, check_primaries, constant_index, read_gbuffer,
 };
 use crate::reference::{Derivation, MaterialInMedium};
 use crate::scene::{Display, Environment, TONE_CURVES};
@@ -27,6 +27,8 @@ pub struct PlanInput<'a> {
     pub materials: Vec<PlannedMaterial>,
     /// Materials of the scene that get no function.
     pub unplanned: Vec<Unplanned>,
+    /// What the scene says and is not read.
+    pub remarks: Vec<String>,
     /// The files that were read beside those that flags name.
     pub read: Vec<PathBuf>,
     /// What to say where no frame shows any of the materials.
@@ -71,7 +73,8 @@ pub fn plan_input<'a>(
 
 /// A scene file, drawn by our rasteriser.
 fn of_scene_file<'a>(file: &Path, viewing: &ViewingConditions) -> Result<PlanInput<'a>, Error> {
-    let scene = SceneFile::parse(&file.display().to_string(), &source::text(file)?)?;
+    let mut scene = SceneFile::parse(&file.display().to_string(), &source::text(file)?)?;
+    scene.space = viewing.integration.space;
     let at = |index: usize, what: String| scene.material_fault(index, what).into();
     let (materials, places) = loaded(scene.materials(), file, viewing, &at)?;
     let mut read = material_files(&materials);
@@ -80,6 +83,7 @@ fn of_scene_file<'a>(file: &Path, viewing: &ViewingConditions) -> Result<PlanInp
     Ok(PlanInput {
         materials,
         unplanned: Vec::new(),
+        remarks: Vec::new(),
         read,
         nothing_is_seen: scene.nothing_is_seen().to_string(),
         display,
@@ -97,7 +101,7 @@ fn of_gltf<'a>(
     let light = match &flags.environment {
         None => SceneLight::Uniform([1.0; 3]),
         Some(path) => {
-            let environment = Environment::read(&source::picture(path)?);
+            let environment = Environment::read(&source::picture(path)?, viewing.integration.space);
             SceneLight::of_environment(environment.map_err(|fault| Error::Usage {
                 what: format!("{}: {fault}", path.display()),
             })?)
@@ -123,6 +127,7 @@ fn of_gltf<'a>(
     Ok(PlanInput {
         materials,
         unplanned: scene.unplanned.clone(),
+        remarks: scene.remarks.clone(),
         read,
         nothing_is_seen: nothing_planned(&name, &scene.unplanned),
         display: AS_IT_IS,
@@ -174,9 +179,11 @@ fn of_frames<'a>(
     let at = |index: usize, what: String| ids.fault(index, what).into();
     let (materials, places) = loaded(&ids.materials, map, viewing, &at)?;
     let (count, read) = (materials.len(), material_files(&materials));
+    let space = viewing.integration.space;
     let frame = move |index: usize| {
         let file: &PathBuf = &files[index];
-        let frame = read_gbuffer(&source::picture(file)?, &ids);
+        let bytes = source::picture(file)?;
+        let frame = check_primaries(&bytes, space).and_then(|()| read_gbuffer(&bytes, &ids));
         let frame = frame.map_err(|fault| Error::Usage {
             what: format!("{}: {fault}", file.display()),
         })?;
@@ -185,6 +192,7 @@ fn of_frames<'a>(
     Ok(PlanInput {
         materials,
         unplanned: Vec::new(),
+        remarks: Vec::new(),
         read,
         nothing_is_seen: format!("no frame shows a material of {}", map.display()),
         display: AS_IT_IS,

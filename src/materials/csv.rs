@@ -9,7 +9,8 @@
 //! ```
 //!
 //! `wl` is in micrometres, as the site exports it. Otherwise the first column is `wavelength_nm`, `wavelength_um`, `nm`
-//! or `um`, and after it come `n`, `k`, or `n,k`. A header begins a table; semicolons and tabs do for commas.
+//! or `um`, and after it come `n`, `k`, or `n,k`. A header begins a table; semicolons and tabs do for commas. A line `sep=,`,
+//! as spreadsheets write it, is passed over.
 
 use super::decimal::{Unit, clipped};
 use super::file::FileFault;
@@ -37,7 +38,7 @@ impl Page {
                 number: at + 1,
                 text: line,
             };
-            if line.trim().is_empty() || line.starts_with('#') {
+            if line.trim().is_empty() || line.starts_with('#') || is_separator(line) {
                 continue;
             }
             match (header(line), &mut table) {
@@ -129,6 +130,13 @@ fn header(line: &str) -> Option<Header> {
     })
 }
 
+/// Whether a line tells a spreadsheet what separates the others. What does is found in the header.
+fn is_separator(line: &str) -> bool {
+    let line = bare(line).to_lowercase();
+    let sign = line.strip_prefix("sep=");
+    sign.is_some_and(|sign| sign.chars().count() <= 1 || sign == "\\t")
+}
+
 /// `"Wavelength (µm)"` as `wavelength_um`.
 fn plain(cell: &str) -> String {
     let cell = cell.to_lowercase().replace(['\u{b5}', '\u{3bc}'], "u");
@@ -208,6 +216,8 @@ mod tests {
         );
         check("nm;n;k\n226.1;1.5;2\n", &n, &k);
         check("nm\tk\n226.1\t2\n", &[], &k);
+        check("sep=,\r\nnm,n,k\r\n226.1,1.5,2\r\n", &n, &k);
+        check("\"sep=;\"\nnm;n;k\n226.1;1.5;2\n", &n, &k);
     }
 
     #[track_caller]

@@ -6,16 +6,22 @@
 //! Source of the format: Wavefront Technologies, *Advanced Visualizer Manual*, appendix B1, 1993,
 //! <https://paulbourke.net/dataformats/obj/>.
 
+use std::borrow::Cow;
 use std::collections::HashMap;
 use std::io::{self, BufRead, Read};
 
 use glam::DVec3;
 use thiserror::Error;
 
+use super::ears::{is_convex, triangles_of};
 use super::mesh::{Mesh, Vertex};
 
 /// A mesh has at most so many triangles, and as many corners.
 pub const MOST_TRIANGLES: usize = 4_000_000;
+/// A face with a corner that points inwards has at most so many.
+const MOST_CONCAVE: usize = 1024;
+/// Statements of surfaces that are no polygons, of which some would silently be missing.
+const OTHER_SURFACES: [&str; 4] = ["surf", "bsp", "bzp", "fo"];
 /// No place is farther away: its square is a number.
 const FARTHEST: f64 = 1e100;
 
@@ -35,8 +41,10 @@ pub struct ObjFault {
 /// The text is no such mesh: which line, and what is wrong there.
 pub fn mesh_of_obj(text: &str) -> Result<Mesh, ObjFault> {
     Counts::of(text)?;
+    let text = &without_polylines(text);
     let options = tobj::LoadOptions {
-        triangulate: true,
+        // The crate would cut every face as a fan, which covers more than a concave one.
+        triangulate: false,
         ignore_points: true,
         ignore_lines: true,
         single_index: true,
@@ -53,7 +61,7 @@ pub fn mesh_of_obj(text: &str) -> Result<Mesh, ObjFault> {
     })?;
     let mut mesh = Mesh::default();
     for model in models {
-        enter(&mut mesh, &model.mesh);
+        enter(&mut mesh, &model.mesh).map_err(|corners| too_many(text, corners))?;
     }
     if mesh.triangles.is_empty() {
         return Err(ObjFault {
@@ -70,8 +78,37 @@ pub fn mesh_of_obj(text: &str) -> Result<Mesh, ObjFault> {
     Ok(mesh)
 }
 
+/// The text with an empty line for each polyline, which the crate takes for a face.
+fn without_polylines(text: &str) -> Cow<'_, str> {
+    let is_polyline = |line: &str| line.split_whitespace().next() == Some("l");
+    if !text.lines().any(is_polyline) {
+        return Cow::Borrowed(text);
+    }
+    let kept = |line| if is_polyline(line) { "\n" } else { line };
+    Cow::Owned(text.split_inclusive('\n').map(kept).collect())
+}
+
+/// The line of a concave face that has too many corners.
+fn too_many(text: &str, corners: usize) -> ObjFault {
+    let count = |line: &str| match line.trim_start().strip_prefix("f ") {
+        Some(rest) => rest.split_whitespace().count(),
+        None => 0,
+    };
+    let line = text.lines().position(|line| count(line) == corners);
+    let what = format!(
+        "a face of {corners} corners, of which some point inwards; up to {MOST_CONCAVE} are read. Cut it into triangles"
+    );
+    ObjFault {
+        line: line.map_or(1, |line| line + 1),
+        what,
+    }
+}
+
 /// Enters the triangles of one object. Corners without a normal have 0 in its place.
-fn enter(mesh: &mut Mesh, object: &tobj::Mesh) {
+///
+/// # Errors
+/// A concave face has too many corners: so many.
+fn enter(mesh: &mut Mesh, object: &tobj::Mesh) -> Result<(), usize> {
     let three = |all: &[f64], at: usize| {
         let part = all.get(3 * at..3 * at + 3);
         part.map_or(DVec3::ZERO, DVec3::from_slice)
@@ -87,11 +124,28 @@ fn enter(mesh: &mut Mesh, object: &tobj::Mesh) {
         normal: three(normals, at),
     });
     mesh.vertices.extend(corners);
-    let (triangles, _) = object.indices.as_chunks::<3>();
-    let triangles = triangles
-        .iter()
-        .map(|corners| corners.map(|corner| first + corner));
-    mesh.triangles.extend(triangles);
+    let mut rest = object.indices.as_slice();
+    // Without a list of their corners, all faces are triangles.
+    let triangles = vec![3; rest.len() / 3];
+    let sizes = match object.face_arities.is_empty() {
+        true => &triangles,
+        false => &object.face_arities,
+    };
+    for size in sizes {
+        let (face, after) = rest.split_at(rest.len().min(*size as usize));
+        rest = after;
+        let places: Vec<DVec3> = face
+            .iter()
+            .map(|corner| three(&object.positions, *corner as usize))
+            .collect();
+        if face.len() > MOST_CONCAVE && !is_convex(&places) {
+            return Err(face.len());
+        }
+        let triangles = triangles_of(&places).into_iter();
+        let named = |triangle: [usize; 3]| triangle.map(|corner| first + face[corner]);
+        mesh.triangles.extend(triangles.map(named));
+    }
+    Ok(())
 }
 
 /// The same mesh with one corner a place, so that its normals are of all triangles that meet there.
@@ -163,6 +217,11 @@ impl Counts {
             }
             Some("vt") => self.textures += 1,
             Some("f") => self.face(words, number, last_use)?,
+            Some(word) if OTHER_SURFACES.contains(&word) => {
+                return Err(format!(
+                    "`{word}` is a surface that is not read; export the mesh as faces, `f`"
+                ));
+            }
             _ => {}
         }
         if self.triangles > MOST_TRIANGLES || self.places > MOST_TRIANGLES {

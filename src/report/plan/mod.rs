@@ -36,6 +36,8 @@ pub struct PlanReport {
     total: PlanTotal,
     /// Materials that are not planned.
     unplanned: Vec<Unplanned>,
+    /// What the scene says and is not read.
+    remarks: Vec<String>,
     /// What came of the functions' text, where that was run.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     proofs: Vec<Proof>,
@@ -50,6 +52,7 @@ impl PlanReport {
         frames: usize,
         total: PlanTotal,
         unplanned: Vec<Unplanned>,
+        remarks: Vec<String>,
         rows: Vec<PlanRow>,
     ) -> PlanReport {
         PlanReport {
@@ -64,6 +67,7 @@ impl PlanReport {
             frames,
             total,
             unplanned,
+            remarks,
             proofs: Vec::new(),
             rows,
         }
@@ -118,6 +122,7 @@ impl PlanReport {
         for one in &self.unplanned {
             lines.push(format!("{}: not planned: {}\n", one.name, one.reason));
         }
+        lines.extend(self.remarks.iter().map(|remark| format!("{remark}.\n")));
         lines.push(self.total());
         lines.extend(self.proofs.iter().map(proof_line));
         lines.push(format!(
