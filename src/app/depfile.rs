@@ -2,7 +2,7 @@
 //!
 //! A path is spelt so that both read it. Some cannot be: for Make `;` begins a recipe, `=` an assignment, `|` other
 //! prerequisites, and no quoting helps, nor does it for a backslash before `#` or `:`; Ninja ends a name at the other signs of
-//! `UNREADABLE`, or Make takes them for patterns.
+//! `UNREADABLE`, or Make takes them for patterns: `[` as it is means other files to Make, and `\[` another file to Ninja.
 
 use std::collections::BTreeSet;
 
@@ -38,9 +38,17 @@ fn has_empty_rule(input: &str, outputs: &[String]) -> bool {
 fn fault(path: &str) -> Option<String> {
     let letter = path.chars().find(|c| UNREADABLE.contains(*c));
     let pair = || ["\\#", "\\:"].into_iter().find(|pair| path.contains(pair));
+    // Make takes a first `~` for a home, a last `)` for the end of an archive's member, and `[` with a `]` behind it for a choice.
+    let home = || path.starts_with('~').then_some("~");
+    let member = || (path.contains('(') && path.ends_with(')')).then_some(")");
+    let choice = || {
+        let (_, rest) = path.split_once('[')?;
+        rest.contains(']').then_some("[")
+    };
+    let others = || pair().or_else(home).or_else(member).or_else(choice);
     let wrong = letter
         .map(String::from)
-        .or_else(|| pair().map(str::to_owned))?;
+        .or_else(|| others().map(str::to_owned))?;
     Some(format!(
         "--depfile: the path {path:?} holds {wrong:?}, which Make and Ninja cannot both read in a depfile; rename it, or leave --depfile out"
     ))

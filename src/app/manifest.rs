@@ -11,6 +11,7 @@ use serde_json::{Map, Value};
 
 use crate::num::Precision;
 use crate::report::TOOL;
+use crate::spectra::without_mark;
 
 use super::artifact::{Artifact, check_path};
 use super::error::Error;
@@ -97,6 +98,8 @@ impl Manifest {
     /// # Errors
     /// The text is not JSON, not a manifest of this program, or holds the marks of a merge conflict.
     pub fn parse(path: &Path, text: &[u8]) -> Result<Manifest, Error> {
+        // A UTF-16 text is no JSON, and is told so by the parser.
+        let text = without_mark(text).unwrap_or(text);
         serde_json::from_slice(text).map_err(|fault| match conflict(text) {
             Some(line) => Error::Manifest {
                 path: path.to_path_buf(),

@@ -5,6 +5,7 @@ use std::io;
 use std::path::Path;
 
 use crate::materials::FileFault;
+use crate::spectra::{TextFault, mesh_text, user_text};
 
 use super::error::Error;
 
@@ -49,20 +50,15 @@ pub fn text(path: &Path) -> Result<String, Error> {
 /// # Errors
 /// The file is not there, not an ordinary file, too large, or not UTF-8.
 pub fn shader(name: &str) -> Result<String, Error> {
-    let text = read_within(LARGEST_SHADER, Path::new(name))?;
-    // Some editors begin a file with a mark of its bytes' order.
-    Ok(text
-        .strip_prefix('\u{feff}')
-        .map(str::to_owned)
-        .unwrap_or(text))
+    read_within(LARGEST_SHADER, Path::new(name))
 }
 
 /// The text of a mesh that a user names.
 ///
 /// # Errors
-/// The file is not there, not an ordinary file, too large, or not UTF-8.
+/// The file is not there, not an ordinary file, too large, or no text.
 pub fn mesh(path: &Path) -> Result<String, Error> {
-    read_within(LARGEST_MESH, path)
+    mesh_text(bytes_within(LARGEST_MESH, path)?).map_err(|fault| no_text(path, fault))
 }
 
 /// The text of a shard's report.
@@ -100,17 +96,15 @@ fn bytes_within(largest: u64, path: &Path) -> Result<Vec<u8>, Error> {
 }
 
 fn read_within(largest: u64, path: &Path) -> Result<String, Error> {
-    let bytes = bytes_within(largest, path)?;
-    String::from_utf8(bytes).map_err(|error| {
-        let good = &error.as_bytes()[..error.utf8_error().valid_up_to()];
-        let line = good.iter().filter(|byte| **byte == b'\n').count() + 1;
-        let column = good.iter().rev().take_while(|byte| **byte != b'\n').count() + 1;
-        Error::Material(FileFault {
-            file: path.display().to_string(),
-            line,
-            column,
-            what: "the file is not UTF-8 text".to_owned(),
-        })
+    user_text(bytes_within(largest, path)?).map_err(|fault| no_text(path, fault))
+}
+
+fn no_text(path: &Path, fault: TextFault) -> Error {
+    Error::Material(FileFault {
+        file: path.display().to_string(),
+        line: fault.line,
+        column: fault.column,
+        what: fault.what.to_owned(),
     })
 }
 

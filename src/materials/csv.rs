@@ -9,8 +9,8 @@
 //! ```
 //!
 //! `wl` is in micrometres, as the site exports it. Otherwise the first column is `wavelength_nm`, `wavelength_um`, `nm`
-//! or `um`, and after it come `n`, `k`, or `n,k`. A header begins a table; semicolons and tabs do for commas. A line `sep=,`,
-//! as spreadsheets write it, is passed over.
+//! or `um`, and after it come `n`, `k`, or `n,k`. A header begins a table; semicolons, tabs and blanks do for commas, and
+//! `Wavelength (nm)` is `wavelength_nm`. So are the tables that Filmetrics and others give as `.txt` and `.tsv`.
 
 use super::decimal::{Unit, clipped};
 use super::file::FileFault;
@@ -38,7 +38,8 @@ impl Page {
                 number: at + 1,
                 text: line,
             };
-            if line.trim().is_empty() || line.starts_with('#') || is_separator(line) {
+            // `sep=;` is for Excel.
+            if line.trim().is_empty() || line.starts_with('#') || line.starts_with("sep=") {
                 continue;
             }
             match (header(line), &mut table) {
@@ -107,34 +108,60 @@ struct Header {
     separator: char,
 }
 
+/// What stands for blanks as separators.
+const BLANK: char = ' ';
+
 /// The header that a line is, if it is one.
 fn header(line: &str) -> Option<Header> {
-    let separator = [';', '\t', ','].into_iter().find(|c| line.contains(*c))?;
-    let names: Vec<String> = cells(line, separator).map(plain).collect();
-    let (first, rest) = names.split_first()?;
-    let unit = match first.as_str() {
-        "nm" | "wl_nm" | "wavelength_nm" => Unit::Nm,
-        "um" | "wl_um" | "wavelength_um" | "wl" => Unit::Um,
-        _ => return None,
+    let separators = [';', '\t', ',', BLANK];
+    separators
+        .into_iter()
+        .find_map(|separator| header_with(line, separator))
+}
+
+fn header_with(line: &str, separator: char) -> Option<Header> {
+    // Between blanks a unit in brackets would stand alone.
+    let line = match separator {
+        BLANK => line.replace(" (", "(").replace(" [", "["),
+        _ => line.to_owned(),
     };
-    let columns = match rest {
-        [n] if n == "n" => Columns::N,
-        [k] if k == "k" => Columns::K,
-        [n, k] if n == "n" && k == "k" => Columns::Nk,
+    let names: Vec<String> = cells(&line, separator).map(plain).collect();
+    let (first, rest) = names.split_first()?;
+    let columns: Vec<&str> = rest.iter().map(|name| quantity(name)).collect();
+    let columns = match columns[..] {
+        ["n"] => Columns::N,
+        ["k"] => Columns::K,
+        ["n", "k"] => Columns::Nk,
         _ => return None,
     };
     Some(Header {
         columns,
-        unit,
+        unit: unit(first)?,
         separator,
     })
 }
 
-/// Whether a line tells a spreadsheet what separates the others. What does is found in the header.
-fn is_separator(line: &str) -> bool {
-    let line = bare(line).to_lowercase();
-    let sign = line.strip_prefix("sep=");
-    sign.is_some_and(|sign| sign.chars().count() <= 1 || sign == "\\t")
+/// The unit in the name of a wavelength's column.
+fn unit(name: &str) -> Option<Unit> {
+    let bare = ["wavelength_", "lambda_", "wl_", "\u{3bb}_"]
+        .into_iter()
+        .find_map(|start| name.strip_prefix(start));
+    match bare.unwrap_or(name).trim_start_matches("in_") {
+        "nm" | "nanometers" | "nanometres" => Some(Unit::Nm),
+        "um" | "micron" | "microns" | "micrometers" | "micrometres" => Some(Unit::Um),
+        // As the site exports it.
+        "wl" if bare.is_none() => Some(Unit::Um),
+        _ => None,
+    }
+}
+
+/// n and k by the words of a header, with what stands in brackets.
+fn quantity(name: &str) -> &str {
+    match name {
+        "refractive_index" | "refractive_index_n" | "n_refractive_index" | "index" => "n",
+        "extinction_coefficient" | "extinction_coefficient_k" | "k_extinction_coefficient" => "k",
+        other => other,
+    }
 }
 
 /// `"Wavelength (µm)"` as `wavelength_um`.
@@ -145,8 +172,16 @@ fn plain(cell: &str) -> String {
     words.join("_")
 }
 
+/// The cells of a line. Blanks at its end are none, and a separator there begins none that is empty.
 fn cells(line: &str, separator: char) -> impl Iterator<Item = &str> {
-    line.trim_end().split(separator).map(bare)
+    let line = line.trim_end();
+    let line = line.strip_suffix(separator).unwrap_or(line);
+    let is_between = move |c: char| match separator {
+        BLANK => c.is_whitespace(),
+        _ => c == separator,
+    };
+    let is_cell = move |cell: &&str| separator != BLANK || !cell.is_empty();
+    line.split(is_between).filter(is_cell).map(bare)
 }
 
 fn bare(cell: &str) -> &str {
@@ -216,8 +251,19 @@ mod tests {
         );
         check("nm;n;k\n226.1;1.5;2\n", &n, &k);
         check("nm\tk\n226.1\t2\n", &[], &k);
-        check("sep=,\r\nnm,n,k\r\n226.1,1.5,2\r\n", &n, &k);
-        check("\"sep=;\"\nnm;n;k\n226.1;1.5;2\n", &n, &k);
+        // Filmetrics, the site's text with tabs, a header of words, blanks as separators, a separator at the end.
+        check("Wavelength(nm)\tn\tk\r\n226.1\t1.5\t2\r\n", &n, &k);
+        check("wl\tn\tk\n0.2261\t1.5\t2\n", &n, &k);
+        check("Wavelength, \u{b5}m\tn\tk\n0.2261\t1.5\t2\n", &n, &k);
+        check(
+            "Wavelength [nm]; Refractive index n; Extinction coefficient k\n226.1;1.5;2;\n",
+            &n,
+            &k,
+        );
+        check("  wavelength (nm)   n   k\n  226.1   1.5   2.0\n", &n, &k);
+        check("\u{3bb} (nm),n,k,\n226.1,1.5,2,\n", &n, &k);
+        check("sep=;\nnm;n;k\n226.1;1.5;2\n", &n, &k);
+        check("Wavelength in microns,n,k\n0.2261,1.5,2\n", &n, &k);
     }
 
     #[track_caller]

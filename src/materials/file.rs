@@ -208,6 +208,8 @@ fn formula_fault(formula: &Formula) -> Option<String> {
         Some(format!(
             "coefficients must be finite, and at most {MOST_COEFFICIENTS}"
         ))
+    } else if let Some(what) = formula.missing_partner() {
+        Some(what)
     } else {
         let outlier = formula.outlier(*from_nm, *to_nm, LEAST_N, GREATEST)?;
         Some(format!(

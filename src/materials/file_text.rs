@@ -27,6 +27,13 @@ impl FileText<'_> {
             let known: Vec<&str> = quoted.collect();
             what += &offered(&nearest_names(unknown, &known));
         }
-        self.fault(error.span().map_or(0, |span| span.start), what)
+        let at = error.span().map_or(0, |span| span.start);
+        // `"C:\\mine\\x.toml"`: the place is the backslash, or the letter behind it.
+        let near = self.text.get(at.saturating_sub(1)..).unwrap_or("");
+        let is_escape = what.contains("escape") && near.chars().take(2).any(|c| c == '\\');
+        if is_escape {
+            what += "; in a path write `/`, or put it in single quotes: '...'";
+        }
+        self.fault(at, what)
     }
 }

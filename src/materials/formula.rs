@@ -1,5 +1,5 @@
 //! The dispersion formulas 1 to 9 of refractiveindex.info. L is the vacuum wavelength in micrometres, a coefficient
-//! that is not given is 0.
+//! that is not given is 0; what goes with a factor must be given ([`Formula::missing_partner`]).
 //!
 //! ```text
 //! 1  n² - 1 = C1 + Σ C(2i) L² / (L² - C(2i+1)²)                      Sellmeier
@@ -127,6 +127,37 @@ impl Formula {
             }
         }
         None
+    }
+
+    /// What is missing where the last term has a factor and not all that goes with it: an exponent or a pole that is taken as 0 is
+    /// another formula.
+    pub fn missing_partner(&self) -> Option<String> {
+        let (number, count) = (self.number, self.coefficients.len());
+        let first = *self.terms().iter().rfind(|(first, _)| *first <= count)?;
+        let (first, last) = match (number, first) {
+            // Behind the terms with a place of their own all are pairs.
+            (1..=6, (pairs, 2)) => {
+                let first = pairs + (count - pairs) / 2 * 2;
+                (first, first + 1)
+            }
+            (_, (first, size)) => (first, first + size - 1),
+        };
+        (count < last && self.c(first) != 0.0).then(|| {
+            format!(
+                "formula {number} has {count} coefficients, and C{first} wants all up to C{last}, in the order of the formula; 0 is written too"
+            )
+        })
+    }
+
+    /// The terms of more than one coefficient: the first one, which is a factor, and how many there are.
+    fn terms(&self) -> &'static [(usize, usize)] {
+        match self.number {
+            4 => &[(2, 4), (6, 4), (10, 2)],
+            7 => &[],
+            8 => &[(2, 2)],
+            9 => &[(2, 2), (4, 3)],
+            _ => &[(2, 2)],
+        }
     }
 
     /// Whether the formula is one of n², and not of n.
@@ -310,6 +341,63 @@ mod tests {
             (1.0_f64 + 0.25 / 0.24 + 0.5).sqrt(),
             1e-15,
         );
+    }
+
+    #[track_caller]
+    fn misses(number: u8, count: usize, says: Option<&str>) {
+        let formula = Formula {
+            number,
+            coefficients: vec![1.0; count],
+            from_nm: 100.0,
+            to_nm: 10_000.0,
+        };
+        let found = formula.missing_partner();
+        let is_said = match (&found, says) {
+            (Some(found), Some(says)) => found.contains(says),
+            (found, says) => found.is_none() && says.is_none(),
+        };
+        assert!(is_said, "formula {number} of {count}: {found:?}");
+    }
+
+    /// All counts of the formulas that pages of the database have, and those beside them.
+    #[test]
+    fn a_factor_has_what_goes_with_it() {
+        for number in [1, 2, 3, 5, 6] {
+            for count in (1..=17).step_by(2) {
+                misses(number, count, None);
+            }
+            misses(number, 2, Some("C2 wants all up to C3"));
+            misses(number, 16, Some("C16 wants all up to C17"));
+        }
+        for count in [1, 5, 9, 11, 13, 15] {
+            misses(4, count, None);
+        }
+        for count in [2, 3, 4] {
+            misses(4, count, Some("C2 wants all up to C5"));
+        }
+        for count in [6, 7, 8] {
+            misses(4, count, Some("C6 wants all up to C9"));
+        }
+        misses(4, 10, Some("C10 wants all up to C11"));
+        misses(4, 14, Some("C14 wants all up to C15"));
+        for count in 1..=6 {
+            misses(7, count, None);
+        }
+        for (number, count) in [(8, 1), (8, 3), (8, 4), (9, 1), (9, 3), (9, 6)] {
+            misses(number, count, None);
+        }
+        misses(8, 2, Some("C2 wants all up to C3"));
+        misses(9, 2, Some("C2 wants all up to C3"));
+        misses(9, 4, Some("C4 wants all up to C6"));
+        misses(9, 5, Some("C4 wants all up to C6"));
+        // A factor of 0 adds nothing, whatever goes with it.
+        let zeros = Formula {
+            number: 4,
+            coefficients: vec![2.0, 1.0, 2.0, 0.1, 2.0, 0.0, 0.0],
+            from_nm: 100.0,
+            to_nm: 10_000.0,
+        };
+        assert_eq!(zeros.missing_partner(), None);
     }
 
     #[test]

@@ -3,8 +3,8 @@
 use super::{FileFault, Material, Page};
 
 impl Material {
-    /// Reads a file by what its name ends in: `.yml` and `.yaml` are pages of refractiveindex.info, `.csv` are tables,
-    /// all else is our own format.
+    /// Reads a file by what its name ends in: `.yml` and `.yaml` are pages of refractiveindex.info, `.csv`, `.tsv` and
+    /// `.txt` are tables, all else is our own format.
     ///
     /// # Errors
     /// The text is not what the file's name says, or not a material.
@@ -21,7 +21,7 @@ pub fn page(file: &str, text: &str) -> Option<Result<Page, FileFault>> {
     let ending = file.rsplit('.').next().unwrap_or("").to_lowercase();
     match ending.as_str() {
         "yml" | "yaml" => Some(Page::parse(file, text)),
-        "csv" => Some(Page::parse_csv(file, text)),
+        "csv" | "tsv" | "txt" => Some(Page::parse_csv(file, text)),
         _ => None,
     }
 }

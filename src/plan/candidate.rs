@@ -1,6 +1,8 @@
 //! The functions among which a plan chooses for a material: each method in each form whose cost is known.
 
-use crate::cost::{CostBasis, CostRecord, Family, KnownCost, known_cost, known_library_cost};
+use crate::cost::{
+    CostBasis, CostRecord, Family, KnownCost, known_cost, known_library_cost, records,
+};
 use crate::emit::{Bounds, Error, FunctionForm, specialised_graph};
 use crate::fit::{arguments, table_of};
 use crate::ir::{Checked, evaluate};
@@ -9,6 +11,7 @@ use crate::num::{Half, Num, Precision, each_channel, in_parallel};
 use crate::reference::MaterialInMedium;
 
 use super::curve::step_cosines;
+use super::request::PlanRequest;
 
 /// What functions cost, and which of them may be taken.
 pub struct Prices<'a> {
@@ -16,6 +19,8 @@ pub struct Prices<'a> {
     pub family: &'static Family,
     /// What is recorded of them.
     pub record: CostRecord,
+    /// The recorded bounds of functions.
+    pub bounds: Bounds,
     /// What functions compute in.
     pub precision: Precision,
     /// How many channels functions may give: 3, or 1 for all three alike.
@@ -84,10 +89,10 @@ pub fn candidates(
             && !(prices.precision.is_half() && method.half.refusal().is_some())
     };
     let methods: Vec<&'static Method> = methods.iter().filter(is_one).copied().collect();
-    let bounds = Bounds::recorded();
     let of_method = |i: usize| {
         let method = methods[i];
-        let function = specialised_graph(method, subject, prices.precision, &bounds)?.function;
+        let function =
+            specialised_graph(method, subject, prices.precision, &prices.bounds)?.function;
         let values = values(&function, subject, prices.precision);
         let forms = [
             FunctionForm::Specialised,
@@ -122,6 +127,18 @@ pub fn candidates(
 }
 
 impl Prices<'_> {
+    /// As a plan asks for them.
+    pub fn of(request: &PlanRequest) -> Prices<'_> {
+        Prices {
+            family: request.family,
+            record: records(request.family.name),
+            bounds: Bounds::recorded(),
+            precision: request.precision,
+            channels: &request.channels,
+            fetch: request.fetch,
+        }
+    }
+
     /// What a form of a method costs, where that is known.
     fn cost(
         &self,
@@ -148,8 +165,7 @@ impl Prices<'_> {
     /// It cannot be specialised to the material.
     pub fn cost_exact(&self, subject: &MaterialInMedium) -> Result<Option<f64>, Error> {
         let method = crate::methods::find(subject.exact_method()).expect("a test names it");
-        let bounds = Bounds::recorded();
-        let function = specialised_graph(method, subject, self.precision, &bounds)?.function;
+        let function = specialised_graph(method, subject, self.precision, &self.bounds)?.function;
         let known = |form| self.cost(method, form, &function).map(|known| known.cost);
         Ok(known(FunctionForm::Specialised).or_else(|| known(FunctionForm::Library)))
     }

@@ -4,7 +4,10 @@
 //! derivative in radians. The mean over GGX is linear in F, so that what its coarser table leaves out is left out of every function
 //! alike.
 
-use crate::num::each_channel;
+use std::collections::BTreeSet;
+use std::sync::OnceLock;
+
+use crate::num::{each_channel, in_parallel};
 use crate::optics::Ggx;
 use crate::reference::cosine_of_part;
 
@@ -73,76 +76,80 @@ impl PixelPlace {
         }
     }
 
-    /// The levels whose tables it reads.
-    fn levels(&self) -> impl Iterator<Item = usize> + use<> {
-        let pair = self.rough.map(|(_, level, _)| [level, level + 1]);
-        pair.into_iter().flatten().filter(|level| *level > 0)
+    /// The entries of the rough table that it reads: two steps of two levels. Level 0 is the mirror, and has none.
+    fn entries(&self) -> impl Iterator<Item = usize> + use<> {
+        let pair = self.rough.map(|(place, level, _)| {
+            let step = place.step as usize;
+            [level, level + 1].map(|level| [entry(level, step), entry(level, step + 1)])
+        });
+        pair.into_iter()
+            .flatten()
+            .flatten()
+            .filter(|entry| *entry >= ROW)
     }
+}
+
+/// Entries of a level of the rough table.
+const ROW: usize = ROUGH_STEPS + 1;
+/// All entries of the rough table, level 0 included.
+const ENTRIES: usize = (LEVELS + 1) * ROW;
+
+fn entry(level: usize, step: usize) -> usize {
+    level * ROW + step
 }
 
 /// Half vectors under which a rough surface is seen, with their weights.
 type HalfVectors = Vec<(Place, f64)>;
 
-/// The rule of the mean for the levels of roughness that occur.
+/// The rule of the mean: of each entry of a rough table the places and weights of half vectors. An entry is computed when it is first
+/// needed, and serves every function of every material in every frame.
 pub struct RoughRule {
-    /// For each level that occurs, for each step the places and weights of half vectors.
-    points: Vec<Option<Vec<HalfVectors>>>,
+    ggx: Ggx,
+    entries: Vec<OnceLock<HalfVectors>>,
 }
 
 impl RoughRule {
-    /// For the levels that these places need.
-    pub fn of<'a>(places: impl Iterator<Item = &'a PixelPlace>) -> RoughRule {
-        let mut is_needed = [false; LEVELS + 1];
-        for level in places.flat_map(PixelPlace::levels) {
-            is_needed[level] = true;
-        }
-        let rule = Ggx::default();
-        let points = |level: usize| is_needed[level].then(|| level_points(&rule, level));
+    /// Nothing is computed yet.
+    pub fn new() -> RoughRule {
         RoughRule {
-            points: (0..=LEVELS).map(points).collect(),
+            ggx: Ggx::default(),
+            entries: (0..ENTRIES).map(|_| OnceLock::new()).collect(),
         }
+    }
+
+    fn half_vectors(&self, entry: usize) -> &HalfVectors {
+        self.entries[entry].get_or_init(|| {
+            let roughness = (entry / ROW) as f64 / LEVELS as f64;
+            let cos_v = cosine_of_part(entry % ROW, ROUGH_STEPS);
+            let mut points = Vec::new();
+            self.ggx
+                .each(cos_v, roughness * roughness, |cos_h, weight| {
+                    points.push((Place::of(cos_h, STEPS), weight));
+                });
+            points
+        })
+    }
+
+    /// How many entries were computed so far.
+    #[cfg(test)]
+    pub fn computed(&self) -> usize {
+        let computed = |entry: &&OnceLock<HalfVectors>| entry.get().is_some();
+        self.entries.iter().filter(computed).count()
     }
 }
 
-fn level_points(rule: &Ggx, level: usize) -> Vec<HalfVectors> {
-    let roughness = level as f64 / LEVELS as f64;
-    let step = |step: usize| {
-        let mut points = Vec::new();
-        let cos_v = cosine_of_part(step, ROUGH_STEPS);
-        rule.each(cos_v, roughness * roughness, |cos_h, weight| {
-            points.push((Place::of(cos_h, STEPS), weight));
-        });
-        points
-    };
-    (0..=ROUGH_STEPS).map(step).collect()
-}
-
-/// A function's values over all angles and the levels of roughness that occur.
+/// A function's values over all angles, and its means over rough surfaces where pixels look them up.
 #[derive(Clone, Debug)]
 pub struct Curve {
     mirror: Vec<[f64; 3]>,
-    rough: Vec<Option<Vec<[f64; 3]>>>,
+    /// By [`entry`]; nothing stands where no pixel looks. Empty where no surface is rough.
+    rough: Vec<[f64; 3]>,
 }
 
 impl Curve {
-    /// From values at [`step_cosines`].
-    pub fn new(mirror: Vec<[f64; 3]>, rule: &RoughRule) -> Curve {
-        let mean = |points: &HalfVectors| {
-            let mut sum = [0.0; 3];
-            for (place, weight) in points {
-                let value = place.of_table(&mirror);
-                sum = each_channel(|i| sum[i] + weight * value[i]);
-            }
-            sum
-        };
-        let level = |points: &Option<Vec<HalfVectors>>| {
-            let steps = points.as_ref()?;
-            Some(steps.iter().map(mean).collect())
-        };
-        Curve {
-            rough: rule.points.iter().map(level).collect(),
-            mirror,
-        }
+    /// From values at [`step_cosines`], for pixels at these places.
+    pub fn new(mirror: Vec<[f64; 3]>, places: &[PixelPlace], rule: &RoughRule) -> Curve {
+        curves(&[&mirror], places, rule).remove(0)
     }
 
     /// The value of a pixel.
@@ -150,13 +157,97 @@ impl Curve {
         let Some((rough, level, share)) = place.rough else {
             return place.mirror.of_table(&self.mirror);
         };
-        let value = |level: usize| match self.rough.get(level).and_then(Option::as_ref) {
-            Some(table) => rough.of_table(table),
-            // Level 0 is the mirror.
-            None => place.mirror.of_table(&self.mirror),
+        let value = |level: usize| match level {
+            0 => place.mirror.of_table(&self.mirror),
+            level => rough.of_table(&self.rough[entry(level, 0)..][..ROW]),
         };
         let [one, next] = [value(level), value(level + 1)];
         each_channel(|i| one[i] + share * (next[i] - one[i]))
+    }
+}
+
+/// The curves of several functions, each from its values at [`step_cosines`]. A mean is taken once of all functions, and of channels
+/// that are equal only once: half vectors are many.
+pub fn curves(functions: &[&[[f64; 3]]], places: &[PixelPlace], rule: &RoughRule) -> Vec<Curve> {
+    let needed: BTreeSet<usize> = places.iter().flat_map(PixelPlace::entries).collect();
+    let mut rough = vec![Vec::new(); functions.len()];
+    if !needed.is_empty() {
+        let columns = Columns::of(functions);
+        rough.fill(vec![[0.0; 3]; ENTRIES]);
+        for (entry, means) in columns.means(&needed, rule) {
+            for (table, columns) in rough.iter_mut().zip(&columns.of_function) {
+                table[entry] = columns.map(|column| means[column]);
+            }
+        }
+    }
+    let curve = |(values, rough): (&&[[f64; 3]], _)| Curve {
+        mirror: values.to_vec(),
+        rough,
+    };
+    functions.iter().zip(rough).map(curve).collect()
+}
+
+/// The channels of functions, each that differs from all others once.
+struct Columns {
+    /// At each step the values of all columns.
+    rows: Vec<f64>,
+    width: usize,
+    /// Of each function the columns of its channels.
+    of_function: Vec<[usize; 3]>,
+}
+
+impl Columns {
+    fn of(functions: &[&[[f64; 3]]]) -> Columns {
+        let mut first: Vec<(usize, usize)> = Vec::new();
+        let is_equal = |one: (usize, usize), other: (usize, usize)| {
+            let mut pairs = functions[one.0].iter().zip(functions[other.0]);
+            pairs.all(|(a, b)| a[one.1].to_bits() == b[other.1].to_bits())
+        };
+        let mut column = |function: usize, channel: usize| {
+            let own = (function, channel);
+            let known = first.iter().position(|one| is_equal(*one, own));
+            known.unwrap_or_else(|| {
+                first.push(own);
+                first.len() - 1
+            })
+        };
+        let of_function = (0..functions.len())
+            .map(|function| [0, 1, 2].map(|channel| column(function, channel)))
+            .collect();
+        let row = |step: usize| first.iter().map(move |at| (step, *at));
+        let rows = (0..=STEPS).flat_map(row);
+        Columns {
+            rows: rows
+                .map(|(step, (function, channel))| functions[function][step][channel])
+                .collect(),
+            width: first.len(),
+            of_function,
+        }
+    }
+
+    /// The means of all columns at these entries.
+    fn means(&self, needed: &BTreeSet<usize>, rule: &RoughRule) -> Vec<(usize, Vec<f64>)> {
+        let of_level = |level: usize| -> Vec<(usize, Vec<f64>)> {
+            let own = needed.range(entry(level, 0)..entry(level + 1, 0));
+            own.map(|entry| (*entry, self.mean(rule.half_vectors(*entry))))
+                .collect()
+        };
+        let levels = in_parallel(LEVELS + 1, &of_level, &mut |_, _| {});
+        levels.into_iter().flatten().collect()
+    }
+
+    fn mean(&self, points: &HalfVectors) -> Vec<f64> {
+        let mut sums = vec![0.0; self.width];
+        for (place, weight) in points {
+            let first = place.step as usize * self.width;
+            let rows = &self.rows[first..first + 2 * self.width];
+            let (one, next) = rows.split_at(self.width);
+            let share = f64::from(place.share);
+            for ((sum, one), next) in sums.iter_mut().zip(one).zip(next) {
+                *sum += weight * (one + share * (next - one));
+            }
+        }
+        sums
     }
 }
 
@@ -171,7 +262,7 @@ mod tests {
 
     fn curve(places: &[PixelPlace]) -> Curve {
         let values = step_cosines().into_iter().map(schlick).collect();
-        Curve::new(values, &RoughRule::of(places.iter()))
+        Curve::new(values, places, &RoughRule::new())
     }
 
     #[test]
@@ -206,6 +297,54 @@ mod tests {
                 (got - want).abs() < 0.006,
                 "{roughness} {cos_v}: {got} {want}"
             );
+        }
+    }
+
+    /// Half vectors are the work: an entry's are found once, and only where a pixel looks.
+    #[test]
+    fn a_mean_is_taken_where_a_pixel_looks_and_its_half_vectors_are_found_once() {
+        let rule = RoughRule::new();
+        let functions: Vec<Vec<[f64; 3]>> = [schlick, |c: f64| [c; 3]]
+            .map(|function: fn(f64) -> [f64; 3]| step_cosines().into_iter().map(function).collect())
+            .to_vec();
+        let functions: Vec<&[[f64; 3]]> = functions.iter().map(Vec::as_slice).collect();
+        let one = [PixelPlace::at(0.4, 0.3)];
+        curves(&functions, &one, &rule);
+        assert_eq!(rule.computed(), 4);
+        // The same pixel shows another material, and one beside it is rougher.
+        let two = [one[0], PixelPlace::at(0.4, 0.32)];
+        curves(&functions[..1], &two, &rule);
+        assert_eq!(rule.computed(), 6);
+        // A mirror looks nothing up, and next to it there is one level only.
+        curves(&functions, &[PixelPlace::at(0.4, 0.0)], &rule);
+        assert_eq!(rule.computed(), 6);
+        curves(&functions, &[PixelPlace::at(0.4, 0.01)], &rule);
+        assert_eq!(rule.computed(), 8);
+    }
+
+    #[test]
+    fn channels_that_are_equal_are_one_column() {
+        let coloured: Vec<[f64; 3]> = step_cosines().into_iter().map(schlick).collect();
+        let green: Vec<[f64; 3]> = coloured.iter().map(|value| [value[1]; 3]).collect();
+        let columns = Columns::of(&[&coloured, &green, &coloured]);
+        assert_eq!(columns.width, 3);
+        assert_eq!(columns.of_function, [[0, 1, 2], [1, 1, 1], [0, 1, 2]]);
+    }
+
+    #[test]
+    fn a_curve_among_others_is_the_curve_alone() {
+        let places: Vec<PixelPlace> = (0..50)
+            .map(|i| PixelPlace::at(f64::from(i) / 49.0, f64::from(i * 7 % 50) / 49.0))
+            .collect();
+        let one: Vec<[f64; 3]> = step_cosines().into_iter().map(schlick).collect();
+        let other: Vec<[f64; 3]> = one.iter().map(|[r, g, b]| [*b, *r, g * g]).collect();
+        let rule = RoughRule::new();
+        let both = curves(&[&one, &other], &places, &rule);
+        for (values, curve) in [one, other].into_iter().zip(both) {
+            let alone = Curve::new(values, &places, &RoughRule::new());
+            for place in &places {
+                assert_eq!(curve.at(place), alone.at(place));
+            }
         }
     }
 }

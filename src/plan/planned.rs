@@ -1,13 +1,12 @@
 //! The plan: candidates of every material judged in every frame, and the choice among them.
 
-use crate::cost::records;
 use crate::emit;
 use crate::num::in_parallel;
 use crate::reference::MaterialInMedium;
 
 use super::candidate::{Candidate, Prices, candidates};
 use super::choice::{Choosable, choose, within};
-use super::curve::{Curve, PixelPlace, RoughRule, step_cosines};
+use super::curve::{Curve, PixelPlace, RoughRule, curves, step_cosines};
 use super::metric::Screen;
 use super::picture_error::{JudgedPixels, PERCENTILE_FROM};
 use super::pixels::{FramePixels, ScenePixel};
@@ -114,9 +113,11 @@ pub fn plan<E>(
 ) -> Result<Vec<JudgedMaterial>, PlanFault<E>> {
     let screen = Screen::new(request.metric, request.display, request.space);
     let exposures = request.exposures();
+    let prices = Prices::of(request);
+    let rule = RoughRule::new();
     let mut seen = materials
         .into_iter()
-        .map(|material| Seen::new(request, material).map_err(PlanFault::Function))
+        .map(|material| Seen::new(request, &prices, material).map_err(PlanFault::Function))
         .collect::<Result<Vec<Seen>, _>>()?;
     if let Some(without) = seen.iter().find(|seen| seen.judged.candidates.is_empty()) {
         return Err(PlanFault::NoCost {
@@ -127,13 +128,13 @@ pub fn plan<E>(
     for index in 0..frames {
         let pixels = frame(index).map_err(PlanFault::Frame)?;
         for (seen, pixels) in seen.iter_mut().zip(&pixels.of_material) {
-            seen.enter(index, pixels, &screen, &exposures);
+            seen.enter(index, pixels, &rule, &screen, &exposures);
         }
         progress(index as u64 + 1, frames as u64);
     }
     let mut judged: Vec<JudgedMaterial> = seen
         .into_iter()
-        .map(|seen| seen.judged(request, &screen, &exposures))
+        .map(|seen| seen.judged(request, &rule, &screen, &exposures))
         .collect();
     let (places, functions) = choosable(&judged, request.budget, frames);
     let choice = choose(&functions, request.price);
@@ -153,16 +154,13 @@ struct Seen {
 }
 
 impl Seen {
-    fn new(request: &PlanRequest, material: PlannedMaterial) -> Result<Seen, emit::Error> {
-        let prices = Prices {
-            family: request.family,
-            record: records(request.family.name),
-            precision: request.precision,
-            channels: &request.channels,
-            fetch: request.fetch,
-        };
+    fn new(
+        request: &PlanRequest,
+        prices: &Prices,
+        material: PlannedMaterial,
+    ) -> Result<Seen, emit::Error> {
         let subject = &material.subject;
-        let found = candidates(subject, material.is_library_only, &request.methods, &prices)?;
+        let found = candidates(subject, material.is_library_only, &request.methods, prices)?;
         let judged = |candidate: Candidate| JudgedCandidate {
             candidate,
             error: 0.0,
@@ -186,7 +184,14 @@ impl Seen {
     }
 
     /// Enters the material's pixels of a frame.
-    fn enter(&mut self, index: usize, pixels: &[ScenePixel], screen: &Screen, exposures: &[f64]) {
+    fn enter(
+        &mut self,
+        index: usize,
+        pixels: &[ScenePixel],
+        rule: &RoughRule,
+        screen: &Screen,
+        exposures: &[f64],
+    ) {
         if pixels.is_empty() {
             return;
         }
@@ -198,7 +203,7 @@ impl Seen {
             self.sample.enter(pixel);
         }
         let judged = &mut self.judged;
-        let errors = errors(judged, pixels, screen, exposures, |pixels, curve| {
+        let errors = errors(judged, pixels, rule, screen, exposures, |pixels, curve| {
             pixels.error(curve)
         });
         for (found, error) in judged.candidates.iter_mut().zip(errors) {
@@ -212,6 +217,7 @@ impl Seen {
     fn judged(
         mut self,
         request: &PlanRequest,
+        rule: &RoughRule,
         screen: &Screen,
         exposures: &[f64],
     ) -> JudgedMaterial {
@@ -222,9 +228,14 @@ impl Seen {
         };
         if self.judged.judgement == Judgement::EveryAngle {
             let pixels = every_angle(&self.sample.pixels);
-            let errors = errors(&self.judged, &pixels, screen, exposures, |pixels, curve| {
-                pixels.largest(curve)
-            });
+            let errors = errors(
+                &self.judged,
+                &pixels,
+                rule,
+                screen,
+                exposures,
+                |pixels, curve| pixels.largest(curve),
+            );
             for (found, error) in self.judged.candidates.iter_mut().zip(errors) {
                 found.error = error;
             }
@@ -294,23 +305,40 @@ fn every_angle(pixels: &[ScenePixel]) -> Vec<ScenePixel> {
         .collect()
 }
 
-/// The errors of candidates in some pixels, by this measure.
+/// The errors of candidates in some pixels, by this measure. Candidates with the same values, as a method's forms have them, err alike.
 fn errors(
     judged: &JudgedMaterial,
     pixels: &[ScenePixel],
+    rule: &RoughRule,
     screen: &Screen,
     exposures: &[f64],
     measure: impl Fn(&JudgedPixels, &Curve) -> f64 + Sync,
 ) -> Vec<f64> {
     let places: Vec<PixelPlace> = pixels.iter().map(PixelPlace::of).collect();
-    let rule = RoughRule::of(places.iter());
-    let truth = Curve::new(judged.truth.clone(), &rule);
-    let pixels = JudgedPixels::new(pixels, &places, &truth, screen, exposures);
-    let error = |i: usize| {
-        let values = judged.candidates[i].candidate.values.clone();
-        measure(&pixels, &Curve::new(values, &rule))
-    };
-    in_parallel(judged.candidates.len(), &error, &mut |_, _| {})
+    let (distinct, place_of) = distinct_values(&judged.candidates);
+    let truth = judged.truth.as_slice();
+    let functions: Vec<&[[f64; 3]]> = std::iter::once(truth).chain(distinct).collect();
+    let curves = curves(&functions, &places, rule);
+    let (truth, curves) = curves.split_first().expect("the truth is one");
+    let pixels = JudgedPixels::new(pixels, &places, truth, screen, exposures);
+    let error = |i: usize| measure(&pixels, &curves[i]);
+    let errors = in_parallel(curves.len(), &error, &mut |_, _| {});
+    place_of.iter().map(|place| errors[*place]).collect()
+}
+
+/// The values of candidates, each once, and for each candidate its place among them.
+fn distinct_values(candidates: &[JudgedCandidate]) -> (Vec<&[[f64; 3]]>, Vec<usize>) {
+    let mut distinct: Vec<&[[f64; 3]]> = Vec::new();
+    let mut places = Vec::new();
+    for one in candidates {
+        let values = one.candidate.values.as_slice();
+        let known = distinct.iter().position(|known| *known == values);
+        places.push(known.unwrap_or(distinct.len()));
+        if known.is_none() {
+            distinct.push(values);
+        }
+    }
+    (distinct, places)
 }
 
 /// Of each material the places of the candidates within the budget, and what they cost.
@@ -438,6 +466,24 @@ mod tests {
             let ring = inside(degree + 1) - inside(degree);
             assert!((covered / whole - ring).abs() < 1e-3, "{degree}");
         }
+    }
+
+    /// The forms of a method have the same values, and of one channel they have others: gold's candidates are judged by fewer curves.
+    #[test]
+    fn what_has_the_same_values_is_judged_once() {
+        let request = request(1.0);
+        let seen = Seen::new(&request, &Prices::of(&request), gold()).unwrap();
+        let candidates = &seen.judged.candidates;
+        let (distinct, places) = distinct_values(candidates);
+        for (one, place) in candidates.iter().zip(&places) {
+            assert_eq!(one.candidate.values, distinct[*place]);
+        }
+        let methods: std::collections::BTreeSet<&str> = candidates
+            .iter()
+            .map(|one| one.candidate.method.name)
+            .collect();
+        assert!(candidates.len() > distinct.len());
+        assert!(distinct.len() <= methods.len(), "{}", distinct.len());
     }
 
     /// Figures of an independent prototype.

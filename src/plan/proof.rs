@@ -222,9 +222,9 @@ impl<'a> Picture<'a> {
         pixels: &[[f32; 3]],
     ) -> Picture<'a> {
         let places: Vec<PixelPlace> = case.pixels.iter().map(PixelPlace::of).collect();
-        let rule = RoughRule::of(places.iter());
+        let rule = RoughRule::new();
         let wide = |value: &[f32; 3]| value.map(f64::from);
-        let curve = Curve::new(steps.iter().map(wide).collect(), &rule);
+        let curve = Curve::new(steps.iter().map(wide).collect(), &places, &rule);
         // A mirror takes the number of its own cosine, a rough surface the mean over half vectors.
         let value = |(i, place): (usize, &PixelPlace)| match case.pixels[i].roughness > 0.0 {
             true => curve.at(place),
@@ -235,7 +235,7 @@ impl<'a> Picture<'a> {
             screen: Screen::new(request.metric, request.display, request.space),
             exposures: request.exposures(),
             got: places.iter().enumerate().map(value).collect(),
-            truth: Curve::new(case.judged.truth.clone(), &rule),
+            truth: Curve::new(case.judged.truth.clone(), &places, &rule),
             places,
         }
     }

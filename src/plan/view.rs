@@ -59,7 +59,7 @@ pub fn material_view(
     let pixels = &frame.of_material[material];
     let places: Vec<PixelPlace> = pixels.iter().map(PixelPlace::of).collect();
     let seen = SeenPixels {
-        rule: RoughRule::of(places.iter()),
+        rule: RoughRule::new(),
         screen: Screen::new(request.metric, request.display, request.space),
         pixels,
         places,
@@ -84,7 +84,7 @@ struct SeenPixels<'a> {
 impl SeenPixels<'_> {
     /// What the screen shows of each by a function with these values.
     fn shown(&self, values: &[[f64; 3]]) -> Vec<DVec3> {
-        let curve = Curve::new(values.to_vec(), &self.rule);
+        let curve = Curve::new(values.to_vec(), &self.places, &self.rule);
         let each = self.pixels.iter().zip(&self.places);
         each.map(|(pixel, place)| self.screen.shown(radiance(pixel, curve.at(place)), 0.0))
             .collect()

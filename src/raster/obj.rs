@@ -6,7 +6,6 @@
 //! Source of the format: Wavefront Technologies, *Advanced Visualizer Manual*, appendix B1, 1993,
 //! <https://paulbourke.net/dataformats/obj/>.
 
-use std::borrow::Cow;
 use std::collections::HashMap;
 use std::io::{self, BufRead, Read};
 
@@ -21,7 +20,7 @@ pub const MOST_TRIANGLES: usize = 4_000_000;
 /// A face with a corner that points inwards has at most so many.
 const MOST_CONCAVE: usize = 1024;
 /// Statements of surfaces that are no polygons, of which some would silently be missing.
-const OTHER_SURFACES: [&str; 4] = ["surf", "bsp", "bzp", "fo"];
+const OTHER_SURFACES: [&str; 3] = ["surf", "bsp", "bzp"];
 /// No place is farther away: its square is a number.
 const FARTHEST: f64 = 1e100;
 
@@ -35,13 +34,14 @@ pub struct ObjFault {
     pub what: String,
 }
 
-/// The mesh of an OBJ text: all objects and groups together. Corners without a normal get that of a smooth surface.
+/// The mesh of an OBJ text: all objects and groups together. Corners without a normal get that of a smooth surface, or, after `s off`,
+/// that of their face; smoothing groups do not smooth each other.
 ///
 /// # Errors
 /// The text is no such mesh: which line, and what is wrong there.
 pub fn mesh_of_obj(text: &str) -> Result<Mesh, ObjFault> {
+    let text = &prepared(text);
     Counts::of(text)?;
-    let text = &without_polylines(text);
     let options = tobj::LoadOptions {
         // The crate would cut every face as a fan, which covers more than a concave one.
         triangulate: false,
@@ -59,9 +59,22 @@ pub fn mesh_of_obj(text: &str) -> Result<Mesh, ObjFault> {
         line: lines.line.max(1),
         what: fault.to_string(),
     })?;
-    let mut mesh = Mesh::default();
+    // Of each smoothing group the triangles of all objects, in the order in which groups begin.
+    let mut groups: Vec<(String, Mesh)> = Vec::new();
     for model in models {
-        enter(&mut mesh, &model.mesh).map_err(|corners| too_many(text, corners))?;
+        // Faces above all groups have a name of the crate's.
+        let is_ours = model.name == FLAT || model.name.starts_with(SMOOTH);
+        let name = if is_ours { &model.name } else { SMOOTH };
+        let known = groups.iter().position(|(known, _)| known == name);
+        let place = known.unwrap_or_else(|| {
+            groups.push((name.to_owned(), Mesh::default()));
+            groups.len() - 1
+        });
+        enter(&mut groups[place].1, &model.mesh).map_err(|corners| too_many(text, corners))?;
+    }
+    let mut mesh = Mesh::default();
+    for (name, group) in groups {
+        append(&mut mesh, with_normals(group, name == FLAT));
     }
     if mesh.triangles.is_empty() {
         return Err(ObjFault {
@@ -70,22 +83,7 @@ pub fn mesh_of_obj(text: &str) -> Result<Mesh, ObjFault> {
                 .to_owned(),
         });
     }
-    let has_normals = |vertex: &Vertex| vertex.normal != DVec3::ZERO;
-    if !mesh.vertices.iter().all(has_normals) {
-        mesh = welded(&mesh);
-        mesh.smooth();
-    }
     Ok(mesh)
-}
-
-/// The text with an empty line for each polyline, which the crate takes for a face.
-fn without_polylines(text: &str) -> Cow<'_, str> {
-    let is_polyline = |line: &str| line.split_whitespace().next() == Some("l");
-    if !text.lines().any(is_polyline) {
-        return Cow::Borrowed(text);
-    }
-    let kept = |line| if is_polyline(line) { "\n" } else { line };
-    Cow::Owned(text.split_inclusive('\n').map(kept).collect())
 }
 
 /// The line of a concave face that has too many corners.
@@ -102,6 +100,98 @@ fn too_many(text: &str, corners: usize) -> ObjFault {
         line: line.map_or(1, |line| line + 1),
         what,
     }
+}
+
+/// What the crate is told a smoothing group is called: one of flat faces, one of others.
+const FLAT: &str = "flat";
+const SMOOTH: &str = "smooth";
+
+/// The same lines as the crate reads them: what a `\` at the end of a line continues stands in that line, and in place of each object
+/// and group stands the smoothing group, which the crate does not know. Every line keeps its number.
+fn prepared(text: &str) -> String {
+    let mut prepared = String::with_capacity(text.len());
+    let mut group = SMOOTH.to_owned();
+    let mut lines = text.lines();
+    while let Some(line) = lines.next() {
+        let mut whole = line.to_owned();
+        let mut joined = 0;
+        while let Some(start) = continued(&whole) {
+            let Some(next) = lines.next() else { break };
+            whole = format!("{start} {next}");
+            joined += 1;
+        }
+        let mut words = whole.split_whitespace();
+        match words.next() {
+            Some("s") => {
+                group = match words.next() {
+                    Some("off" | "0") => FLAT.to_owned(),
+                    Some(number) => format!("{SMOOTH} {number}"),
+                    None => SMOOTH.to_owned(),
+                };
+                prepared += &format!("g {group}");
+            }
+            Some("o" | "g") => prepared += &format!("g {group}"),
+            // An old name of faces.
+            Some("f" | "fo") => {
+                let corners: Vec<&str> = uncommented(&whole).split_whitespace().skip(1).collect();
+                prepared += &format!("f {}", corners.join(" "));
+            }
+            Some("v" | "vn" | "vt") => prepared += uncommented(&whole),
+            // The crate takes a polyline for a face.
+            Some("l") => {}
+            _ => prepared += &whole,
+        }
+        prepared += &"\n".repeat(1 + joined);
+    }
+    prepared
+}
+
+/// A line of numbers that goes on in the next one, without the `\` at its end. A comment may end with a folder's name.
+fn continued(line: &str) -> Option<&str> {
+    let first = line.split_whitespace().next()?;
+    let has_numbers = ["v", "vn", "vt", "f", "fo"].contains(&first);
+    line.trim_end().strip_suffix('\\').filter(|_| has_numbers)
+}
+
+/// A line without the comment that ends it.
+fn uncommented(line: &str) -> &str {
+    line.split('#').next().unwrap_or(line)
+}
+
+/// A smoothing group whose corners have normals: the file's, or those of flat faces, or of a smooth surface.
+fn with_normals(group: Mesh, is_flat: bool) -> Mesh {
+    let has_normal = |vertex: &Vertex| vertex.normal != DVec3::ZERO;
+    if group.vertices.iter().all(has_normal) {
+        return group;
+    }
+    if is_flat {
+        return flat(&group);
+    }
+    let mut group = welded(&group);
+    group.smooth();
+    group
+}
+
+/// The same triangles, each with corners of its own that have its normal.
+fn flat(mesh: &Mesh) -> Mesh {
+    let mut flat = Mesh::default();
+    for corners in &mesh.triangles {
+        let [a, b, c] = corners.map(|corner| mesh.vertices[corner as usize].position);
+        let normal = (b - a).cross(c - a).normalize_or_zero();
+        let first = flat.vertices.len() as u32;
+        let corner = |position| Vertex { position, normal };
+        flat.vertices.extend([a, b, c].map(corner));
+        flat.triangles.push([first, first + 1, first + 2]);
+    }
+    flat
+}
+
+fn append(mesh: &mut Mesh, other: Mesh) {
+    let first = mesh.vertices.len() as u32;
+    mesh.vertices.extend(other.vertices);
+    let moved = |corners: [u32; 3]| corners.map(|corner| first + corner);
+    mesh.triangles
+        .extend(other.triangles.into_iter().map(moved));
 }
 
 /// Enters the triangles of one object. Corners without a normal have 0 in its place.
@@ -288,9 +378,10 @@ fn check_numbers<'a>(
 ) -> Result<(), String> {
     let mut count = 0;
     for word in words {
-        let number: f64 = word
-            .parse()
-            .map_err(|_| format!("`{word}` is not a number"))?;
+        let number: f64 = word.parse().map_err(|_| match word.contains(',') {
+            true => format!("`{word}` is not a number, which has a point and no comma"),
+            false => format!("`{word}` is not a number"),
+        })?;
         // NaN is within no limits.
         if !(-FARTHEST..=FARTHEST).contains(&number) {
             return Err(format!("`{word}` is no place: numbers lie within ±1e100"));

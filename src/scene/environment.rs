@@ -67,6 +67,11 @@ impl Environment {
     /// # Errors
     /// The picture cannot be read, says what is not followed, or is not twice as wide as high.
     pub fn read(bytes: &[u8], space: Space) -> Result<Environment, EnvironmentFault> {
+        // Two names of one format begin Radiance's pictures; the crate knows the first.
+        let renamed = bytes
+            .strip_prefix(b"#?RGBE")
+            .map(|rest| [b"#?RADIANCE", rest].concat());
+        let bytes = renamed.as_deref().unwrap_or(bytes);
         let file = LightFile::read(bytes, space).map_err(EnvironmentFault::Unreadable)?;
         let (width, height) = file.picture.dimensions();
         let (width, height) = (width as usize, height as usize);

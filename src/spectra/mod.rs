@@ -22,6 +22,7 @@ mod space;
 mod spectrum;
 mod table;
 mod tristimulus;
+mod user_text;
 mod wavelength;
 
 pub use adaptation::{Adaptation, bradford};
@@ -36,4 +37,5 @@ pub use observer::Observer;
 pub use space::{Space, rgb_to_xyz, srgb_byte, srgb_linear, xyz_of};
 pub use spectrum::Spectrum;
 pub use tristimulus::{weighted_sum, xyz_weights};
+pub use user_text::{TextFault, mesh_text, user_text, without_mark};
 pub use wavelength::{FIRST_NM, LAST_NM, OBSERVED_NM, Step};

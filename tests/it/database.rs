@@ -131,7 +131,6 @@ fn what_was_done_to_pages_is_said_as_often_as_it_was() {
         ("several rows that differ", 15),
         ("k was below 0", 15),
         ("n is given twice", 1),
-        ("missing partner", 0),
         ("not used", 0),
         ("the range of the formula was cut", 4),
     ] {

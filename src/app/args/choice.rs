@@ -91,6 +91,8 @@ pub fn one_of<T: Copy>(
 ) -> impl Fn(&str) -> Result<T, UnknownName> + Clone {
     let list: Vec<(&str, T)> = list.into_iter().map(|one| (name(one), one)).collect();
     move |word: &str| {
+        // Of a list in quotes, a blank after a comma.
+        let word = word.trim();
         let found = list.iter().find(|(name, _)| *name == word);
         let names = || list.iter().map(|(name, _)| *name).collect::<Vec<_>>();
         found

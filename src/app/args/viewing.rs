@@ -159,9 +159,10 @@ pub(super) fn colour(word: &str) -> Result<[f64; 3], &'static str> {
     three.ok_or("it wants three reflectances from 0 to 1, linear: 0.9,0.6,0.3; a colour outside the space is clipped to them")
 }
 
-/// Numbers with commas between them.
+/// Numbers with commas between them, and blanks beside those.
 pub(super) fn numbers(word: &str) -> Result<Vec<f64>, String> {
     let number = |word: &str| {
+        let word = word.trim();
         word.parse()
             .map_err(|_| format!("`{word}` is not a number"))
     };

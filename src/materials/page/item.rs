@@ -129,14 +129,18 @@ impl Source<'_> {
         let range = raw.wavelength_range.as_ref();
         let (from_nm, to_nm) = self.range(kind, range)?;
         let field = raw.coefficients.as_ref();
-        let mut coefficients = self.coefficients(kind, field)?;
-        let remarks = completed(number, &mut coefficients);
+        let coefficients = self.coefficients(kind, field)?;
+        let remarks = unused(number, coefficients.len());
         let formula = Formula {
             number,
             coefficients,
             from_nm,
             to_nm,
         };
+        if let Some(what) = formula.missing_partner() {
+            let at = field.map_or(kind.defined, |field| field.defined);
+            return Err(self.fault(at, what));
+        }
         let (formula, cut) = cut(formula).map_err(|what| self.fault(kind.defined, what))?;
         Ok(Item {
             n: Some(DispersionCurve::Formula(formula)),
@@ -254,22 +258,16 @@ fn shortest(mut bad: f64, mut good: f64, is_good: impl Fn(f64) -> bool) -> f64 {
     good.ceil()
 }
 
-/// Gives a coefficient that has no partner its partner 0, where they go in pairs, and says what is beyond the formula.
-fn completed(number: u8, coefficients: &mut Vec<f64>) -> Option<String> {
-    let count = coefficients.len();
-    match number {
-        1..=6 if count.is_multiple_of(2) => {
-            coefficients.push(0.0);
-            Some(format!(
-                "formula {number} has {count} coefficients: the missing partner of the last was taken as 0"
-            ))
-        }
-        7..=9 => {
-            let most = if number == 8 { 4 } else { 6 };
-            (count > most).then(|| {
-                format!("formula {number} has {most} coefficients, and {count} are given: the rest was not used")
-            })
-        }
-        _ => None,
-    }
+/// Says what is beyond the formula.
+fn unused(number: u8, count: usize) -> Option<String> {
+    let most = match number {
+        8 => 4,
+        7 | 9 => 6,
+        _ => return None,
+    };
+    (count > most).then(|| {
+        format!(
+            "formula {number} has {most} coefficients, and {count} are given: the rest was not used"
+        )
+    })
 }

@@ -240,9 +240,6 @@ PROPERTIES:
             ],
         );
         assert_eq!(page.n, curve(&[(400.0, 1.5), (500.0, 2.0)]));
-        let partner =
-            "formula 2 has 4 coefficients: the missing partner of the last was taken as 0";
-        remarks(&formula("2", "0.3 2.5", "0 1 0.01 2"), &[partner]);
         let rest = "formula 9 has 6 coefficients, and 7 are given: the rest was not used";
         remarks(&formula("9", "0.3 2.5", "2 .1 .01 .1 5 6 7"), &[rest]);
         remarks(&formula("8", "0.3 2.5", ".3 .01 .001 .001"), &[]);
@@ -448,6 +445,27 @@ PROPERTIES:
             "65 of them",
         );
         assert!(read(&formula("1", "0.3 2.5", &"0 ".repeat(63))).n.is_some());
+        refused(
+            &formula("4", "0.3 5", "1 1.04 2 0.09 2 0.9 0 9.9"),
+            5,
+            17,
+            "formula 4 has 8 coefficients, and C6 wants all up to C9",
+        );
+        refused(
+            &formula("2", "0.3 2.5", "0 1 0.01 2"),
+            5,
+            17,
+            "C4 wants all up to C5",
+        );
+    }
+
+    /// As pages were before 2024.
+    #[test]
+    fn the_range_of_the_old_schema_is_read() {
+        let new = formula("2", "0.3 2.5", "0 1.03961212 0.00600069867");
+        let old = new.replace("wavelength_range:", "range:");
+        assert_ne!(old, new);
+        assert_eq!(read(&old), read(&new));
     }
 
     #[test]

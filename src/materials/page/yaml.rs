@@ -29,6 +29,8 @@ pub struct RawItem {
     #[serde(rename = "type")]
     pub kind: Option<Spanned<String>>,
     pub data: Option<Spanned<String>>,
+    /// `range` in older releases of the database.
+    #[serde(alias = "range")]
     pub wavelength_range: Option<Spanned<String>>,
     pub coefficients: Option<Spanned<String>>,
 }

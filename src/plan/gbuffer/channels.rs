@@ -62,7 +62,13 @@ impl Places {
         let present = present_channels(parts);
         let mut places = [None; CHANNELS.len()];
         for (place, channel) in places.iter_mut().zip(&CHANNELS) {
-            let mut found = present.iter().filter(|one| one.has_name(channel.name));
+            let exact = |one: &&PresentChannel| one.has_name(channel.name);
+            let in_layer = |one: &&PresentChannel| one.has_name_in_layer(channel.name);
+            let mut found: Vec<&PresentChannel> = present.iter().filter(exact).collect();
+            if found.is_empty() {
+                found = present.iter().filter(in_layer).collect();
+            }
+            let mut found = found.into_iter();
             *place = found.next().map(|one| one.place);
             if let (Some((first, _)), Some(second)) = (*place, found.next()) {
                 return Err(GbufferFault::Twice {
@@ -102,6 +108,16 @@ impl PresentChannel {
     fn has_name(&self, name: &str) -> bool {
         self.name == name || self.long_name.as_deref() == Some(name)
     }
+
+    /// As Blender names it: the view layer stands before it, and a single value is channel `V` of its pass.
+    fn has_name_in_layer(&self, name: &str) -> bool {
+        let full = self.long_name.as_deref().unwrap_or(&self.name);
+        let is_it = |found: &str| found == name || found.strip_suffix(".V") == Some(name);
+        let behind_layer = |found: &str| found.split_once('.').is_some_and(|(_, rest)| is_it(rest));
+        [full, &self.name]
+            .iter()
+            .any(|found| is_it(found) || behind_layer(found))
+    }
 }
 
 fn present_channels(parts: &[Header]) -> Vec<PresentChannel> {
@@ -124,7 +140,9 @@ fn missing(channel: &'static str, present: &[PresentChannel]) -> GbufferFault {
     let full = |one: &PresentChannel| one.long_name.clone().unwrap_or(one.name.clone());
     let names: Vec<String> = present.iter().map(full).collect();
     // What has its own right name is not offered for another.
-    let is_free = |one: &&PresentChannel| !CHANNELS.iter().any(|known| one.has_name(known.name));
+    let is_known =
+        |one: &PresentChannel, name: &str| one.has_name(name) || one.has_name_in_layer(name);
+    let is_free = |one: &&PresentChannel| !CHANNELS.iter().any(|known| is_known(one, known.name));
     let free: Vec<String> = present.iter().filter(is_free).map(full).collect();
     let free: Vec<&str> = free.iter().map(String::as_str).collect();
     let listed = names.iter().take(LISTED).cloned().collect::<Vec<_>>();

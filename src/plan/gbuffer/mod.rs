@@ -10,7 +10,7 @@
 //! | `other.R`, `other.G`, `other.B` | all other light, before 1 - F multiplies it; linear | 0 where none is |
 //!
 //! Samples are half, float or uint, in scan lines or tiles, in one part or several. Where a part of a file is named `light`, its
-//! channel `R` is `light.R`. Pixels are counted from the top left of the data window.
+//! channel `R` is `light.R`. Blender's `ViewLayer.light.R` is `light.R`, and its `ViewLayer.cos_theta.V` is `cos_theta`. Pixels are counted from the top left of the data window.
 
 mod channels;
 mod fault;

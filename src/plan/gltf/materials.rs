@@ -29,11 +29,63 @@ const USUAL_INDEX: f32 = 1.5;
 const CONSTANT: &str = "ior_";
 /// The key in a material's extras.
 const KEY: &str = "fresnel_gen";
-/// Extensions that leave the reflection of the surface what it is. All others change it.
-const HARMLESS: [&str; 3] = [
-    "KHR_materials_volume",
-    "KHR_materials_emissive_strength",
-    "KHR_materials_variants",
+/// What a material's extension does to the reflection of its surface.
+enum Effect {
+    /// Nothing.
+    None,
+    /// Something, unless this factor, which is 0 where it is not given, is 0 in all its channels.
+    Factor(&'static str, &'static str),
+    /// Something, always.
+    Always(&'static str),
+}
+
+/// All ratified extensions of materials that are not read, and two that nobody should write any more. Those that are read are
+/// `KHR_materials_ior`, `KHR_materials_specular` and `KHR_materials_transmission`. Dispersion, by its specification, bends what is seen
+/// through a material and leaves the index of its reflection what it is.
+const EXTENSIONS: [(&str, Effect); 13] = [
+    ("KHR_materials_volume", Effect::None),
+    ("KHR_materials_volume_scatter", Effect::None),
+    ("KHR_materials_dispersion", Effect::None),
+    ("KHR_materials_diffuse_transmission", Effect::None),
+    ("KHR_materials_emissive_strength", Effect::None),
+    ("KHR_materials_variants", Effect::None),
+    (
+        "KHR_materials_clearcoat",
+        Effect::Factor(
+            "clearcoatFactor",
+            "a coat over it reflects too, and takes light from it",
+        ),
+    ),
+    (
+        "KHR_materials_iridescence",
+        Effect::Factor("iridescenceFactor", "a film on it colours what it reflects"),
+    ),
+    (
+        "KHR_materials_sheen",
+        Effect::Factor(
+            "sheenColorFactor",
+            "fibres on it reflect too, and take light from it",
+        ),
+    ),
+    (
+        "KHR_materials_anisotropy",
+        Effect::Factor(
+            "anisotropyStrength",
+            "it is rougher in one direction than in the other, and a plan knows one roughness",
+        ),
+    ),
+    (
+        "KHR_materials_unlit",
+        Effect::Always("it is not lit, so that it reflects nothing"),
+    ),
+    (
+        "KHR_materials_pbrSpecularGlossiness",
+        Effect::Always("it states the colour that it reflects head-on, and no index"),
+    ),
+    (
+        "KHR_techniques_webgl",
+        Effect::Always("a shader of its own draws it"),
+    ),
 ];
 
 /// A material that is seen and not planned.
@@ -123,6 +175,7 @@ impl<'a> Looks<'a> {
         let index = match stands_for(material, &factors, key)? {
             Ok(found) => {
                 self.remarks.extend(not_read(material, &name));
+                self.remarks.extend(left_out(material, &name, &found));
                 self.materials.push(MappedMaterial {
                     name,
                     material: found,
@@ -274,9 +327,13 @@ fn named(material: &GltfMaterial, key: Option<usize>) -> Result<Option<String>, 
 /// A dielectric by its index alone.
 fn by_index(material: &GltfMaterial) -> Result<String, String> {
     let extensions = material.extensions.as_ref();
-    let changes = |name: &&String| !HARMLESS.contains(&name.as_str());
-    if let Some(name) = extensions.and_then(|all| all.others.keys().find(changes)) {
-        return Err(format!("{} changes what it reflects", plain(name)));
+    let others = extensions.map(|all| &all.others);
+    if let Some(reason) = others
+        .into_iter()
+        .flatten()
+        .find_map(|(name, value)| change(name, value))
+    {
+        return Err(reason);
     }
     if let Some(specular) = extensions.and_then(|all| all.specular.as_ref()) {
         let textures =
@@ -299,4 +356,31 @@ fn by_index(material: &GltfMaterial) -> Result<String, String> {
         1.0 => "an index of 1 reflects nothing at any angle: F is 0, and no function is needed".to_owned(),
         _ => format!("an index of {index}: KHR_materials_ior allows 0, and 1 or more"),
     })
+}
+
+/// What the extensions of a material that stands for one of the catalogue change, since it is planned as that alone.
+fn left_out(material: &GltfMaterial, name: &str, found: &str) -> Option<String> {
+    let others = material.extensions.as_ref().map(|all| &all.others);
+    let mut others = others.into_iter().flatten();
+    let reason = others.find_map(|(extension, value)| change(extension, value))?;
+    Some(format!("{name}: planned as {found} alone; {reason}"))
+}
+
+/// What an extension changes about the reflection, in words; nothing where it changes nothing.
+fn change(name: &str, value: &serde_json::Value) -> Option<String> {
+    let known = EXTENSIONS.iter().find(|(known, _)| *known == name);
+    let is_zero = |factor: &serde_json::Value| match factor.as_array() {
+        Some(channels) => channels.iter().all(|channel| channel.as_f64() == Some(0.0)),
+        None => factor.as_f64() == Some(0.0),
+    };
+    let name = plain(name);
+    match known.map(|(_, effect)| effect) {
+        Some(Effect::None) => None,
+        Some(Effect::Factor(factor, _)) if value.get(factor).is_none_or(is_zero) => None,
+        Some(Effect::Factor(factor, why)) => {
+            Some(format!("{name}: {why}; a {factor} of 0 does nothing"))
+        }
+        Some(Effect::Always(why)) => Some(format!("{name}: {why}")),
+        None => Some(format!("{name} changes what it reflects")),
+    }
 }

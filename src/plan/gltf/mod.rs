@@ -25,6 +25,7 @@ use gltf_json::validation::{Checked, Error, Validate};
 use gltf_json::{Accessor, Index, Root};
 
 use crate::raster::{Camera, Mesh};
+use crate::spectra::without_mark;
 
 use super::drawn::DrawnScene;
 use super::pixels::{FramePixels, MappedMaterial};
@@ -126,7 +127,8 @@ impl GltfScene {
 
 /// The JSON, with every index held against what is there.
 fn root(container: &Container) -> Result<Root, Place> {
-    let root = Root::from_slice(container.json).map_err(|error| {
+    let json = without_mark(container.json).map_err(|fault| Place::new("line 1", fault.what))?;
+    let root = Root::from_slice(json).map_err(|error| {
         let place = format!("line {}, column {}", error.line(), error.column());
         Place::new(place, format!("no glTF: {error}"))
     })?;

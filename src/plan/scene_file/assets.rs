@@ -6,6 +6,7 @@ use toml::Spanned;
 use crate::materials::FileFault;
 use crate::raster::{MOST_TRIANGLES, Mesh, Vertex, mesh_of_obj};
 use crate::scene::Environment;
+use crate::spectra::mesh_text;
 
 use super::super::drawn::DrawnScene;
 use super::super::sky::SceneLight;
@@ -79,8 +80,8 @@ impl SceneFile {
             Shape::Plane => Ok(Mesh::default()),
             Shape::Mesh(path) => {
                 let bytes = self.bytes(&object.shape, path, read)?;
-                let text = String::from_utf8(bytes).map_err(|_| {
-                    let what = format!("{path}: it is not UTF-8");
+                let text = mesh_text(bytes).map_err(|fault| {
+                    let what = format!("{path}: {}", fault.what);
                     self.fault(object.shape.span().start, what)
                 })?;
                 let mesh = mesh_of_obj(&text).map_err(|fault| FileFault {

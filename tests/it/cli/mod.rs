@@ -22,6 +22,7 @@ mod hooks;
 mod hostile;
 #[cfg(unix)]
 mod killed;
+mod marks;
 mod materials;
 mod medium;
 mod pipelines;

@@ -187,6 +187,31 @@ fn several_parts_are_one_frame() {
     check_reads(&bytes, Stored::Float, "several parts");
 }
 
+/// As Blender names the passes of a view layer, which are its own outputs of shaders.
+#[test]
+fn a_view_layer_of_blender_is_read() {
+    let named = |name: &str| match name.contains('.') {
+        true => format!("ViewLayer.{name}"),
+        false => format!("ViewLayer.{name}.V"),
+    };
+    let stored = Stored::Half;
+    let blender: Vec<Channel> = channels(stored)
+        .into_iter()
+        .map(|(name, samples)| (&*named(name).leak(), samples))
+        .collect();
+    check_reads(&plain(blender), stored, "Blender");
+    // A right name counts before one in a layer; two layers are told.
+    let wrong = || samples(Stored::Float, vec![0.5; SIZE[0] * SIZE[1]]);
+    let mut both = channels(stored);
+    both.push(("ViewLayer.cos_theta.V", wrong()));
+    check_reads(&plain(both), stored, "both");
+    let mut two = channels(stored);
+    two.retain(|(name, _)| *name != "cos_theta");
+    two.push(("one.cos_theta.V", wrong()));
+    two.push(("two.cos_theta.V", wrong()));
+    check_refuses(&plain(two), "channel `cos_theta` stands in");
+}
+
 #[test]
 fn what_may_be_missing_has_its_value() {
     let mut all = channels(Stored::Float);

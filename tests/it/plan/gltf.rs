@@ -422,10 +422,69 @@ fn materials_are_mapped_by_extras_by_name_and_by_index() {
         with("KHR_materials_specular", json!({ "specularFactor": 0.5 })),
         Err("KHR_materials_specular"),
     );
-    mapped(
-        with("KHR_materials_clearcoat", json!({})),
-        Err("KHR_materials_clearcoat"),
-    );
+    // What changes no reflection.
+    for (extension, value) in [
+        ("KHR_materials_clearcoat", json!({})),
+        (
+            "KHR_materials_clearcoat",
+            json!({ "clearcoatFactor": 0, "clearcoatRoughnessFactor": 0.5 }),
+        ),
+        (
+            "KHR_materials_iridescence",
+            json!({ "iridescenceIor": 1.3 }),
+        ),
+        (
+            "KHR_materials_sheen",
+            json!({ "sheenColorFactor": [0, 0, 0], "sheenRoughnessFactor": 1 }),
+        ),
+        (
+            "KHR_materials_anisotropy",
+            json!({ "anisotropyStrength": 0.0 }),
+        ),
+        ("KHR_materials_dispersion", json!({ "dispersion": 0.33 })),
+        ("KHR_materials_volume", json!({ "thicknessFactor": 1 })),
+        (
+            "KHR_materials_diffuse_transmission",
+            json!({ "diffuseTransmissionFactor": 1 }),
+        ),
+        (
+            "KHR_materials_emissive_strength",
+            json!({ "emissiveStrength": 3 }),
+        ),
+    ] {
+        mapped(with(extension, value), Ok("ior_1_5"));
+    }
+    for (extension, value, why) in [
+        (
+            "KHR_materials_clearcoat",
+            json!({ "clearcoatFactor": 0.1 }),
+            "a coat over it",
+        ),
+        (
+            "KHR_materials_iridescence",
+            json!({ "iridescenceFactor": 1 }),
+            "a film on it",
+        ),
+        (
+            "KHR_materials_sheen",
+            json!({ "sheenColorFactor": [0, 0.1, 0] }),
+            "fibres on it",
+        ),
+        (
+            "KHR_materials_anisotropy",
+            json!({ "anisotropyStrength": 0.5 }),
+            "rougher in one direction",
+        ),
+        ("KHR_materials_unlit", json!({}), "it is not lit"),
+        ("KHR_materials_pbrSpecularGlossiness", json!({}), "no index"),
+        (
+            "EXT_materials_of_tomorrow",
+            json!({}),
+            "changes what it reflects",
+        ),
+    ] {
+        mapped(with(extension, value), Err(why));
+    }
     mapped(
         with(
             "KHR_materials_transmission",

@@ -217,12 +217,15 @@ fn what_is_not_read_is_said() {
     json["textures"] = json!([{ "source": 0 }]);
     json["materials"][0]["normalTexture"] = json!({ "index": 0 });
     json["materials"][0]["emissiveFactor"] = json!([1, 0, 0]);
+    json["materials"][0]["extensions"] =
+        json!({ "KHR_materials_clearcoat": { "clearcoatFactor": 1 } });
     json["extensionsUsed"] = json!(["KHR_lights_punctual", "KHR_materials_ior"]);
     json["cameras"][0]["perspective"]["aspectRatio"] = 2.0.into();
     json["skins"] = json!([{ "joints": [0] }]);
     let remarks = read_with(&json, &buffer).unwrap().remarks;
     let wanted = [
         "Gold: not read: normalTexture, emissiveFactor",
+        "Gold: planned as gold alone; KHR_materials_clearcoat: a coat over it",
         "not read: skins; the scene is drawn as its nodes stand",
         "the extension KHR_lights_punctual is not read",
         "a camera has an aspect of 2.000, and the frames 1.333 (--size)",

@@ -174,3 +174,57 @@ fn changed_bytes_do_no_harm() {
     }
     assert!((400..3900).contains(&read), "{read} of 4000 are read");
 }
+
+/// A cube whose faces are wound outward, without normals.
+const CORNERS: &str =
+    "v -1 -1 -1\nv 1 -1 -1\nv 1 1 -1\nv -1 1 -1\nv -1 -1 1\nv 1 -1 1\nv 1 1 1\nv -1 1 1\n";
+const FACES: &str = "f 1 4 3 2\nf 5 6 7 8\nf 1 2 6 5\nf 3 4 8 7\nf 2 3 7 6\nf 1 5 8 4\n";
+
+/// Normals along one axis.
+fn is_flat(mesh: &Mesh) -> bool {
+    let normals = mesh.vertices.iter().map(|vertex| vertex.normal);
+    normals
+        .into_iter()
+        .all(|normal| normal.abs().max_element() > 0.999)
+}
+
+#[test]
+fn faces_of_no_smoothing_group_are_flat() {
+    let off = mesh_of_obj(&format!("s off\n{CORNERS}{FACES}")).unwrap();
+    assert!(is_flat(&off));
+    assert_eq!(off.triangles.len(), 12);
+    let zero = mesh_of_obj(&format!("{CORNERS}o cube\ns 0\ng side\nusemtl a\n{FACES}")).unwrap();
+    assert!(is_flat(&zero));
+    for smooth in ["", "s 1\n", "s on\n"] {
+        let mesh = mesh_of_obj(&format!("{smooth}{CORNERS}{FACES}")).unwrap();
+        assert!(!is_flat(&mesh), "{smooth}");
+        assert_eq!(mesh.vertices.len(), 8, "{smooth}");
+    }
+    // Each face a group of its own: nothing is smoothed.
+    let mut apart = CORNERS.to_owned();
+    for (group, face) in FACES.lines().enumerate() {
+        apart += &format!("s {}\n{face}\n", group + 1);
+    }
+    assert!(is_flat(&mesh_of_obj(&apart).unwrap()));
+}
+
+#[test]
+fn a_line_goes_on_behind_a_backslash_and_keeps_its_number() {
+    let text = "v -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\nvn 0 0 1\nf 1//1 2//1 \\\n3//1 4//1\n";
+    assert_eq!(mesh_of_obj(text).unwrap().triangles.len(), 2);
+    let windows = text.replace('\n', "\r\n");
+    assert_eq!(mesh_of_obj(&windows).unwrap().triangles.len(), 2);
+    let fault = mesh_of_obj(&format!("{text}f 1 2 9\n")).unwrap_err();
+    assert_eq!(fault.line, 8, "{fault}");
+    // Comments behind numbers, and the old name of a face.
+    let commented =
+        text.replace("0\n", "0 # a corner\n").replace("f 1", "fo 1") + "f 1 2 3 # half\n";
+    assert_eq!(mesh_of_obj(&commented).unwrap().triangles.len(), 3);
+    let comma = mesh_of_obj("v 0,5 0 0\n").unwrap_err();
+    assert!(comma.what.contains("a point and no comma"), "{comma}");
+    // At the end of the file it continues nothing.
+    assert!(mesh_of_obj(&format!("{CORNERS}{FACES}f 1 2 3 \\")).is_ok());
+    // A comment goes on nowhere.
+    let folder = mesh_of_obj(&format!("# C:\\meshes\\\n{CORNERS}{FACES}")).unwrap();
+    assert_eq!(folder.vertices.len(), 8);
+}

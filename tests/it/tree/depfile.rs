@@ -63,6 +63,43 @@ fn make_and_ninja_go_on_after_an_input_was_renamed() {
     }
 }
 
+/// `a[1].toml` means `a1.toml` to Make, where that is there, and `a\[1].toml` is another file to Ninja: no spelling serves both.
+#[test]
+fn what_make_and_ninja_cannot_both_read_is_refused() {
+    let make = Tool {
+        command: "make",
+        package: "make",
+    };
+    for name in ["a[1].toml", "~/a.toml", "a(1)"] {
+        for (outputs, inputs) in [(name, "input"), ("output", name)] {
+            let strings = |name: &str| [name.to_string()];
+            let refused = depfile(&strings(outputs), &strings(inputs)).unwrap_err();
+            assert!(refused.to_string().contains("Make and Ninja"), "{refused}");
+        }
+    }
+    // A bracket that nothing closes, or one that only closes, is a letter.
+    for name in ["a[1.toml", "a1].toml", "a~/b", "a(1).toml"] {
+        assert!(
+            depfile(&[name.to_string()], &[name.to_string()]).is_ok(),
+            "{name}"
+        );
+    }
+    if !make.is_here("the depfile") {
+        return;
+    }
+    let dir = TempDir::new().unwrap();
+    let put = |file: &str, text: &str| fs::write(dir.path().join(file), text).unwrap();
+    put("a[1].toml", "");
+    put("a1.toml", "");
+    put("Makefile", "out: a[1].toml\n\t@echo $^\n");
+    let folder = dir.path().to_str().unwrap();
+    let ran = Command::new("make")
+        .args(["-s", "-C", folder])
+        .output()
+        .unwrap();
+    assert_eq!(String::from_utf8_lossy(&ran.stdout), "a1.toml\n");
+}
+
 /// Make knows the rule whose target is this name, and the one whose prerequisite is.
 fn reads_as_make(name: &str) {
     let dir = TempDir::new().unwrap();

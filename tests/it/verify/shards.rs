@@ -60,7 +60,9 @@ fn bare_rows(report: &Value) -> Vec<String> {
     let rows = report["rows"].as_array().unwrap().iter();
     let bare = rows.map(|row| {
         let mut row = row.clone();
-        row.as_object_mut().unwrap().shift_remove("place");
+        for key in ["place", "number"] {
+            row.as_object_mut().unwrap().shift_remove(key);
+        }
         row.to_string()
     });
     bare.collect()
@@ -114,6 +116,60 @@ fn merged_shards_are_the_report_of_a_whole_run_to_the_byte() {
     }
 }
 
+/// Runs of every kind: shards of each, numbered by Slurm, are the whole run. Lists are walked at different speeds, so that each value
+/// of one meets many of the others.
+#[test]
+fn shards_of_every_kind_of_run_are_put_together() {
+    const KINDS: [&str; 8] = [
+        "--target gles --material gold",
+        "--target msl --method all --material gold,water",
+        "--target spirv --precision f16 --material water",
+        "--target wgsl --effect all --material none",
+        "--target glsl --method dielectric_exact,conductor_exact --material gold,water",
+        "--target gles --method schlick --material diamond,water,gold",
+        "--target glsl,msl --material water --medium water",
+        "--target glsl --method conductor_exact --material water",
+    ];
+    let mut without_rows = 0;
+    for (i, kind) in KINDS.iter().enumerate() {
+        let shards = [2, 3, 5, 2, 7][i % 5];
+        let place = Place::new();
+        let line = format!("verify {kind} --points 100");
+        let whole = run_with(&place, &format!("{line} --json whole.json"), &[]);
+        if whole.code == Some(2) {
+            panic!("{whole:?}");
+        }
+        for index in 0..shards {
+            let sharded = format!("{line} --shards {shards} --json part-{index}.json");
+            let ran = run_with(&place, &sharded, &[(VARIABLES[0], &index.to_string())]);
+            assert_ne!(ran.code, Some(2), "{ran:?}");
+            for part in report(&place, &format!("part-{index}.json"))["parts"]
+                .as_array()
+                .unwrap()
+            {
+                // What came to nothing says why, and nothing else does.
+                assert_eq!(
+                    part["rows"] == json!(0),
+                    part["reason"].is_string(),
+                    "{part}"
+                );
+                without_rows += usize::from(part["rows"] == json!(0));
+            }
+        }
+        let ran = merge(&place, shards, "-o merged.json").ends(whole.code.unwrap());
+        assert!(
+            place.read("merged.json") == place.read("whole.json"),
+            "{kind}"
+        );
+        let unrun = |ran: &Ran| -> Vec<String> {
+            let lines = ran.err.lines().filter(|line| line.contains("not run: "));
+            lines.map(str::to_owned).collect()
+        };
+        assert_eq!(unrun(&ran), unrun(&whole));
+    }
+    assert!(without_rows > 0, "no place of any run gave no row");
+}
+
 /// A whole run of the small set, and the same as the only shard of one.
 fn only_shard() -> &'static (String, Value, i32) {
     static ONLY: OnceLock<(String, Value, i32)> = OnceLock::new();
@@ -135,9 +191,10 @@ fn dealt(shards: usize) -> Vec<Value> {
         let mut part = only.clone();
         part["shard"] = index.into();
         part["shards"] = shards.into();
-        let rows = part["rows"].as_array_mut().unwrap();
-        rows.retain(|row| row["place"].as_u64().unwrap() as usize % shards == index);
-        part["row_count"] = rows.len().into();
+        for key in ["rows", "parts"] {
+            let all = part[key].as_array_mut().unwrap();
+            all.retain(|one| one["place"].as_u64().unwrap() as usize % shards == index);
+        }
         part
     };
     (0..shards).map(part).collect()
@@ -378,7 +435,7 @@ const TAMPERED: [Tampered; 12] = [
         |part| {
             part["shards"] = json!(8);
             part["rows"] = json!([]);
-            part["row_count"] = json!(0);
+            part["parts"] = json!([]);
             part["places"] = json!(0);
         },
         &["the number of shards is 8", "4"],
@@ -446,7 +503,7 @@ fn missing_shards_and_those_that_are_there_twice_are_named() {
     let mut one = dealt(1).remove(0);
     one["shards"] = json!(u64::MAX);
     one["rows"] = json!([]);
-    one["row_count"] = json!(0);
+    one["parts"] = json!([]);
     one["places"] = json!(0);
     place.put("one.json", one.to_string());
     let says = [
@@ -462,30 +519,35 @@ fn what_is_no_report_is_refused_with_its_place() {
     let place = four();
     let deep = "[".repeat(1_000_000);
     let deep_row = format!("{{\"tool\": {deep}");
-    let stray = place
-        .read("part-0.json")
-        .replacen("\"place\":0", "\"place\":1", 1);
     let half = place.read("part-0.json");
-    let mut fewer = dealt(4).remove(0);
-    let rows = fewer["rows"].as_array_mut().unwrap();
-    rows.pop();
-    let lost = format!(
-        "says that it has {} rows, and {} are",
-        rows.len() + 1,
-        rows.len()
-    );
-    let fewer = fewer.to_string();
-    let tampered = |tamper: fn(&mut Vec<Value>)| {
+    let tampered = |tamper: fn(&mut Value)| {
         let mut part = dealt(4).remove(0);
-        let rows = part["rows"].as_array_mut().unwrap();
-        tamper(rows);
-        part["row_count"] = rows.len().into();
+        tamper(&mut part);
         part.to_string()
     };
-    let none = tampered(Vec::clear);
-    let twice = tampered(|rows| rows.push(rows[0].clone()));
-    let beyond = tampered(|rows| rows[0]["place"] = json!(4000));
-    let hidden = tampered(|rows| rows[0]["material"] = json!("g\n::notice::x"));
+    fn rows(part: &mut Value) -> &mut Vec<Value> {
+        part["rows"].as_array_mut().unwrap()
+    }
+    let stray = tampered(|part| rows(part)[0]["place"] = json!(1));
+    let fewer = tampered(|part| drop(rows(part).pop()));
+    let none = tampered(|part| rows(part).clear());
+    let twice = tampered(|part| {
+        let first = rows(part)[0].clone();
+        rows(part).push(first);
+    });
+    let replaced = tampered(|part| {
+        let first = rows(part)[0].clone();
+        rows(part)[1] = first;
+    });
+    let moved = tampered(|part| rows(part).swap(0, 1));
+    let unlisted = tampered(|part| drop(part["parts"].as_array_mut().unwrap().pop()));
+    let forgotten = tampered(|part| {
+        part["parts"].as_array_mut().unwrap().remove(0);
+        rows(part).retain(|row| row["place"] != json!(0));
+    });
+    let beyond = tampered(|part| rows(part)[0]["place"] = json!(4000));
+    let hidden = tampered(|part| rows(part)[0]["material"] = json!("g\n::notice::x"));
+    let hidden_reason = tampered(|part| part["parts"][0]["reason"] = json!("g\n::notice::x"));
     let words = half.replacen("\"shards\":4", "\"shards\":\"four\"", 1);
     for (name, text, says) in [
         ("empty.json", "", "empty.json:1:"),
@@ -507,9 +569,30 @@ fn what_is_no_report_is_refused_with_its_place() {
             &stray,
             "place 1, which is not dealt to shard 0 of 4",
         ),
-        ("fewer.json", &fewer, &lost),
-        ("none.json", &none, "dealt to it, and it has rows of 0"),
-        ("doubled.json", &twice, "is there twice"),
+        ("fewer.json", &fewer, "rows, and"),
+        ("none.json", &none, "rows, and 0 are there"),
+        ("doubled.json", &twice, "rows, and"),
+        (
+            "replaced.json",
+            &replaced,
+            "one is missing, is there twice, or was moved",
+        ),
+        (
+            "moved.json",
+            &moved,
+            "one is missing, is there twice, or was moved",
+        ),
+        (
+            "unlisted.json",
+            &unlisted,
+            "`parts` does not list each place",
+        ),
+        (
+            "forgotten.json",
+            &forgotten,
+            "`parts` does not list each place",
+        ),
+        ("hidden_reason.json", &hidden_reason, "\\n::notice::x"),
         ("beyond.json", &beyond, "place 4000, which is not dealt"),
         ("hidden.json", &hidden, "\\n::notice::x"),
         ("words.json", &words, "expected a whole number"),

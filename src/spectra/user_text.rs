@@ -1,0 +1,137 @@
+//! The text of a user's file, from its bytes: the one place that knows marks of the bytes' order and other encodings.
+//!
+//! A mark of UTF-8 (EF BB BF) before a text is no part of it. Source: The Unicode Standard 17.0, section 23.8.
+
+const MARK: &[u8] = b"\xef\xbb\xbf";
+
+/// Why bytes are no text, and where.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct TextFault {
+    /// From 1.
+    pub line: usize,
+    /// From 1, in bytes.
+    pub column: usize,
+    /// What they are, and what to do.
+    pub what: &'static str,
+}
+
+/// The text that bytes are, without a mark.
+///
+/// # Errors
+/// They are not UTF-8.
+pub fn user_text(bytes: Vec<u8>) -> Result<String, TextFault> {
+    check_encoding(&bytes)?;
+    let bytes = match bytes.strip_prefix(MARK) {
+        Some(text) => text.to_vec(),
+        None => bytes,
+    };
+    let text = String::from_utf8(bytes);
+    text.map(with_line_feeds).map_err(|error| {
+        let good = &error.as_bytes()[..error.utf8_error().valid_up_to()];
+        TextFault {
+            line: good.iter().filter(|byte| **byte == b'\n').count() + 1,
+            column: good.iter().rev().take_while(|byte| **byte != b'\n').count() + 1,
+            what: "the file is not UTF-8 text; save it as UTF-8",
+        }
+    })
+}
+
+/// The text of a mesh, whose names and comments may be in any encoding that has ASCII: what is not UTF-8 there is replaced.
+///
+/// # Errors
+/// The bytes are UTF-16, or no text.
+pub fn mesh_text(bytes: Vec<u8>) -> Result<String, TextFault> {
+    let bytes = without_mark(&bytes)?;
+    match bytes.contains(&0) {
+        true => Err(TextFault::here("a NUL byte: the file is not UTF-8 text")),
+        false => Ok(with_line_feeds(String::from_utf8_lossy(bytes).into_owned())),
+    }
+}
+
+/// The bytes of a text whose parser looks for UTF-8 itself, without a mark.
+///
+/// # Errors
+/// They are UTF-16.
+pub fn without_mark(bytes: &[u8]) -> Result<&[u8], TextFault> {
+    check_encoding(bytes)?;
+    Ok(bytes.strip_prefix(MARK).unwrap_or(bytes))
+}
+
+/// Where lines end with CR alone, as Excel writes them for old Macs, LF in its place.
+fn with_line_feeds(text: String) -> String {
+    match text.contains('\n') {
+        true => text,
+        false => text.replace('\r', "\n"),
+    }
+}
+
+impl TextFault {
+    fn here(what: &'static str) -> TextFault {
+        let (line, column) = (1, 1);
+        TextFault { line, column, what }
+    }
+}
+
+fn check_encoding(bytes: &[u8]) -> Result<(), TextFault> {
+    match bytes {
+        [0xff, 0xfe, ..] | [0xfe, 0xff, ..] => Err(TextFault::here(
+            "the file is UTF-16, and not UTF-8 text; save it as UTF-8",
+        )),
+        _ => Ok(()),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn text(bytes: &[u8]) -> Result<String, TextFault> {
+        user_text(bytes.to_vec())
+    }
+
+    #[test]
+    fn a_mark_is_no_part_of_a_text() {
+        assert_eq!(text(b"\xef\xbb\xbfv 1\n").as_deref(), Ok("v 1\n"));
+        assert_eq!(text(b"\xef\xbb\xbf").as_deref(), Ok(""));
+        // One before, and not two: the second is a letter.
+        assert_eq!(
+            text(b"\xef\xbb\xbf\xef\xbb\xbfx").as_deref(),
+            Ok("\u{feff}x")
+        );
+        assert_eq!(without_mark(b"\xef\xbb\xbf{}"), Ok(&b"{}"[..]));
+        assert_eq!(without_mark(b"{}"), Ok(&b"{}"[..]));
+    }
+
+    #[test]
+    fn lines_of_old_macs_are_lines() {
+        assert_eq!(text(b"nm,n\r400,1.5\r").as_deref(), Ok("nm,n\n400,1.5\n"));
+        assert_eq!(
+            text(b"nm,n\r\n400,1.5\r\n").as_deref(),
+            Ok("nm,n\r\n400,1.5\r\n")
+        );
+    }
+
+    #[test]
+    fn another_encoding_is_named() {
+        for bytes in [&b"\xff\xfev\0"[..], b"\xfe\xff\0v"] {
+            let says = "UTF-16, and not UTF-8 text; save it as UTF-8";
+            assert!(text(bytes).unwrap_err().what.contains(says));
+            assert!(mesh_text(bytes.to_vec()).unwrap_err().what.contains(says));
+            assert!(without_mark(bytes).unwrap_err().what.contains(says));
+        }
+        let fault = text(b"abc\n\xe9t").unwrap_err();
+        assert_eq!((fault.line, fault.column), (2, 1));
+        assert!(fault.what.contains("not UTF-8"));
+    }
+
+    #[test]
+    fn a_mesh_may_have_comments_in_latin_1() {
+        let mesh = |bytes: &[u8]| mesh_text(bytes.to_vec());
+        assert_eq!(
+            mesh(b"# \xe9t\xe9\nv 1 2 3\n").as_deref(),
+            Ok("# \u{fffd}t\u{fffd}\nv 1 2 3\n")
+        );
+        assert_eq!(mesh(b"\xef\xbb\xbfv 1\n").as_deref(), Ok("v 1\n"));
+        assert!(mesh(b"v 1\0\n").unwrap_err().what.contains("a NUL byte"));
+    }
+}
