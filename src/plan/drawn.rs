@@ -62,7 +62,9 @@ impl DrawnScene {
 
     /// Puts triangles into the scene whose other light and coverage differ from corner to corner: red, green, blue, alpha for each, linear.
     pub fn add_tinted(&mut self, mesh: &Mesh, look: SurfaceLook, tints: Vec<[f32; 4]>) {
-        self.tints.push((self.mesh.vertices.len(), tints));
+        if !mesh.triangles.is_empty() {
+            self.tints.push((self.mesh.vertices.len(), tints));
+        }
         self.add(mesh, look);
     }
 

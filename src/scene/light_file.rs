@@ -74,7 +74,8 @@ impl LightFile {
             ImageFormat::Hdr => hdr(bytes)?,
             ImageFormat::OpenExr => exr(bytes)?,
             ImageFormat::Png => png(bytes)?,
-            _ => jpeg(bytes)?,
+            ImageFormat::Jpeg => jpeg(bytes)?,
+            other => return Err(format!("it is {other:?}; EXR, HDR, PNG and JPEG are read")),
         };
         let into_space = match &numbers.primaries {
             Some(primaries) => into_space(primaries, space)?,
@@ -238,7 +239,7 @@ fn of_space(space: Space) -> Primaries {
 
 /// What the chunks of a PNG say beside iCCP; none where that counts, or where none says anything.
 fn stated_by_png(info: &png::Info) -> Result<Option<Numbers>, String> {
-    if let Some(code) = info.coding_independent_code_points {
+    if let Some(code) = &info.coding_independent_code_points {
         let curve = match code.transfer_function {
             8 => Curve::Linear,
             13 => Curve::Srgb,
@@ -268,7 +269,7 @@ fn stated_by_png(info: &png::Info) -> Result<Option<Numbers>, String> {
     if info.srgb.is_some() {
         return Ok(Some(Numbers::new(Curve::Srgb, Some(of_space(Space::Srgb)))));
     }
-    let primaries = info.chrm_chunk.map(|stated| {
+    let primaries = info.chrm_chunk.as_ref().map(|stated| {
         let place = |at: (png::ScaledFloat, png::ScaledFloat)| {
             [at.0, at.1].map(|x| f64::from(x.into_scaled()) / 1e5)
         };

@@ -48,8 +48,12 @@ where
     pub fn mean_about(&self, nm: f64, distance: f64) -> Option<V> {
         let (first, last) = self.range();
         let (from, to) = ((nm - distance).max(first), (nm + distance).min(last));
-        let inside = self.points.iter().map(|point| point.0);
-        let mut ends: Vec<f64> = inside.filter(|at| from < *at && *at < to).collect();
+        if from > to {
+            return None;
+        }
+        let start = self.points.partition_point(|point| point.0 <= from);
+        let inside = self.points[start..].iter().map(|point| point.0);
+        let mut ends: Vec<f64> = inside.take_while(|at| *at < to).collect();
         ends.extend([from, to, nm.clamp(from, to)]);
         ends.sort_by(f64::total_cmp);
         let weight = |at: f64| (1.0 - (at - nm).abs() / distance).max(0.0);

@@ -15,7 +15,7 @@ const REC2020: [[f64; 2]; 4] = [
     [0.3127, 0.329],
 ];
 /// 200, 40, 40 of Rec. 2020, in sRGB: computed apart in Python.
-const IN_SRGB: [f32; 3] = [305.7, 20.1, 37.1];
+const IN_SRGB: [f32; 3] = [305.678_6, 20.071_9, 37.095_9];
 
 fn light(bytes: &[u8], space: Space) -> [f32; 3] {
     Environment::read(bytes, space).unwrap().texels()[0]
