@@ -64,7 +64,7 @@ pub fn mesh_of_obj(text: &str) -> Result<Mesh, ObjFault> {
     for model in models {
         // Faces above all groups have a name of the crate's.
         let is_ours = model.name == FLAT || model.name.starts_with(SMOOTH);
-        let name = if is_ours { &model.name } else { SMOOTH };
+        let name = if is_ours { model.name.as_str() } else { SMOOTH };
         let known = groups.iter().position(|(known, _)| known == name);
         let place = known.unwrap_or_else(|| {
             groups.push((name.to_owned(), Mesh::default()));

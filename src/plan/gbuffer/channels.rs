@@ -113,10 +113,9 @@ impl PresentChannel {
     fn has_name_in_layer(&self, name: &str) -> bool {
         let full = self.long_name.as_deref().unwrap_or(&self.name);
         let is_it = |found: &str| found == name || found.strip_suffix(".V") == Some(name);
-        let behind_layer = |found: &str| found.split_once('.').is_some_and(|(_, rest)| is_it(rest));
-        [full, &self.name]
-            .iter()
-            .any(|found| is_it(found) || behind_layer(found))
+        // A layer's own name may hold points.
+        let mut dots = full.match_indices('.');
+        is_it(full) || is_it(&self.name) || dots.any(|(at, _)| is_it(&full[at + 1..]))
     }
 }
 
