@@ -7,16 +7,45 @@
 
 use glam::{DVec2, DVec3};
 
+/// A face with a corner that points inwards has at most so many: the effort of cutting it grows with their square, or worse.
+pub const MOST_CONCAVE: usize = 1024;
 /// Turns to the wrong side by less than this share of the whole area are rounding.
 const ROUNDING: f64 = 1e-12;
 
+/// The triangles of faces: `corners` of all of them one after the other, `sizes` of each, or none where all are triangles.
+///
+/// # Errors
+/// A concave face has too many corners: so many.
+pub fn triangles_of_faces(
+    corners: &[u32],
+    sizes: &[u32],
+    place: impl Fn(u32) -> DVec3,
+) -> Result<Vec<[u32; 3]>, usize> {
+    if sizes.is_empty() {
+        return Ok(corners.as_chunks::<3>().0.to_vec());
+    }
+    let mut triangles = Vec::with_capacity(corners.len());
+    let mut rest = corners;
+    for size in sizes {
+        let (face, after) = rest.split_at(rest.len().min(*size as usize));
+        rest = after;
+        let places: Vec<DVec3> = face.iter().map(|corner| place(*corner)).collect();
+        if face.len() > MOST_CONCAVE && !is_convex(&places) {
+            return Err(face.len());
+        }
+        let named = |triangle: [usize; 3]| triangle.map(|corner| face[corner]);
+        triangles.extend(triangles_of(&places).into_iter().map(named));
+    }
+    Ok(triangles)
+}
+
 /// Whether no corner points inwards.
-pub fn is_convex(corners: &[DVec3]) -> bool {
+fn is_convex(corners: &[DVec3]) -> bool {
     corners.len() < 4 || shadow(corners).is_none_or(|flat| flat.turns_one_way())
 }
 
-/// The triangles of a polygon, by the places of their corners. The effort grows with the square of the corners, or worse, unless it is convex.
-pub fn triangles_of(corners: &[DVec3]) -> Vec<[usize; 3]> {
+/// The triangles of a polygon, by the places of their corners.
+fn triangles_of(corners: &[DVec3]) -> Vec<[usize; 3]> {
     match shadow(corners) {
         Some(flat) if corners.len() > 3 && !flat.turns_one_way() => flat.cut(),
         _ => (2..corners.len()).map(|at| [0, at - 1, at]).collect(),

@@ -12,13 +12,11 @@ use std::io::{self, BufRead, Read};
 use glam::DVec3;
 use thiserror::Error;
 
-use super::ears::{is_convex, triangles_of};
+use super::ears::{MOST_CONCAVE, triangles_of_faces};
 use super::mesh::{Mesh, Vertex};
 
 /// A mesh has at most so many triangles, and as many corners.
 pub const MOST_TRIANGLES: usize = 4_000_000;
-/// A face with a corner that points inwards has at most so many.
-const MOST_CONCAVE: usize = 1024;
 /// Statements of surfaces that are no polygons, of which some would silently be missing.
 const OTHER_SURFACES: [&str; 3] = ["surf", "bsp", "bzp"];
 /// No place is farther away: its square is a number.
@@ -86,19 +84,14 @@ pub fn mesh_of_obj(text: &str) -> Result<Mesh, ObjFault> {
     Ok(mesh)
 }
 
-/// The line of a concave face that has too many corners.
+/// The fault of a concave face that has too many corners.
 fn too_many(text: &str, corners: usize) -> ObjFault {
-    let count = |line: &str| match line.trim_start().strip_prefix("f ") {
-        Some(rest) => rest.split_whitespace().count(),
-        None => 0,
-    };
-    let line = text.lines().position(|line| count(line) == corners);
-    let what = format!(
-        "a face of {corners} corners, of which some point inwards; up to {MOST_CONCAVE} are read. Cut it into triangles"
-    );
+    let is_it = |line: &str| line.starts_with("f ") && line.split(' ').count() == corners + 1;
     ObjFault {
-        line: line.map_or(1, |line| line + 1),
-        what,
+        line: text.lines().position(is_it).map_or(1, |line| line + 1),
+        what: format!(
+            "a face of {corners} corners, of which some point inwards; up to {MOST_CONCAVE} are read. Cut it into triangles"
+        ),
     }
 }
 
@@ -214,27 +207,11 @@ fn enter(mesh: &mut Mesh, object: &tobj::Mesh) -> Result<(), usize> {
         normal: three(normals, at),
     });
     mesh.vertices.extend(corners);
-    let mut rest = object.indices.as_slice();
-    // Without a list of their corners, all faces are triangles.
-    let triangles = vec![3; rest.len() / 3];
-    let sizes = match object.face_arities.is_empty() {
-        true => &triangles,
-        false => &object.face_arities,
-    };
-    for size in sizes {
-        let (face, after) = rest.split_at(rest.len().min(*size as usize));
-        rest = after;
-        let places: Vec<DVec3> = face
-            .iter()
-            .map(|corner| three(&object.positions, *corner as usize))
-            .collect();
-        if face.len() > MOST_CONCAVE && !is_convex(&places) {
-            return Err(face.len());
-        }
-        let triangles = triangles_of(&places).into_iter();
-        let named = |triangle: [usize; 3]| triangle.map(|corner| first + face[corner]);
-        mesh.triangles.extend(triangles.map(named));
-    }
+    let place = |corner: u32| three(&object.positions, corner as usize);
+    let triangles = triangles_of_faces(&object.indices, &object.face_arities, place)?;
+    let triangles = triangles.iter();
+    mesh.triangles
+        .extend(triangles.map(|corners| corners.map(|corner| first + corner)));
     Ok(())
 }
 
