@@ -62,7 +62,7 @@ impl Environment {
     }
 
     /// From the bytes of a picture: Radiance HDR and OpenEXR are linear, PNG and JPEG are sRGB unless they say otherwise. What the file says of its numbers
-    /// is followed ([`super::light_file`]), and light of other primaries is brought into the space.
+    /// is followed (`light_file.rs`), and light of other primaries is brought into the space.
     ///
     /// # Errors
     /// The picture cannot be read, says what is not followed, or is not twice as wide as high.

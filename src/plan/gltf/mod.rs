@@ -35,9 +35,10 @@ use accessor::Buffers;
 use cameras::cameras;
 use container::Container;
 pub use fault::GltfFault;
-use fault::Place;
+use fault::{Place, plain};
 use materials::Looks;
 pub use materials::{Unplanned, constant_index};
+use primitives::Tints;
 
 /// How a glTF scene is seen.
 #[derive(Clone, Debug)]
@@ -82,7 +83,7 @@ impl GltfScene {
         let nodes = nodes::placed(&root).map_err(fault)?;
         let mut looks = Looks::new(&root, &view.light);
         let mut scene = DrawnScene::new(0, view.light.clone());
-        let add = &mut |mesh: &Mesh, look, tints: Option<Vec<[f32; 4]>>| match tints {
+        let add = &mut |mesh: &Mesh, look, tints: Option<Tints>| match tints {
             Some(tints) => scene.add_tinted(mesh, look, tints),
             None => scene.add(mesh, look),
         };
@@ -135,6 +136,15 @@ fn root(container: &Container) -> Result<Root, Place> {
     if !root.asset.version.starts_with("2.") {
         let what = format!("it is {}; version 2.0 is read", root.asset.version);
         return Err(Place::new("asset.version", what));
+    }
+    if let Some(least) = root
+        .asset
+        .min_version
+        .as_deref()
+        .filter(|least| *least != "2.0")
+    {
+        let what = format!("it is {}; version 2.0 is read", plain(least));
+        return Err(Place::new("asset.minVersion", what));
     }
     check_positions(&root)?;
     let mut first = None;

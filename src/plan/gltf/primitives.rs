@@ -13,6 +13,9 @@ use super::materials::Looks;
 use super::nodes::PlacedNode;
 use crate::raster::{MOST_TRIANGLES, Mesh, Vertex};
 
+/// What COLOR_0 multiplies by at each corner: red, green, blue, alpha.
+pub type Tints = Vec<[f32; 4]>;
+
 /// Nothing is farther away, in metres, along each axis.
 const FARTHEST: f64 = 1e6;
 
@@ -25,7 +28,7 @@ pub fn add_parts(
     nodes: &[PlacedNode],
     buffers: &Buffers,
     looks: &mut Looks,
-    add: &mut dyn FnMut(&Mesh, SurfaceLook, Option<Vec<[f32; 4]>>),
+    add: &mut dyn FnMut(&Mesh, SurfaceLook, Option<Tints>),
 ) -> Result<(), Place> {
     // What was read so far: triangles, and elements of accessors.
     let (mut triangles, mut elements) = (0, 0);
@@ -167,7 +170,7 @@ impl Corners {
         buffers: &Buffers,
         mode: AlphaMode,
         corners: usize,
-    ) -> Result<Option<Vec<[f32; 4]>>, Place> {
+    ) -> Result<Option<Tints>, Place> {
         let Some(index) = self.colours else {
             return Ok(None);
         };

@@ -237,6 +237,18 @@ fn what_is_not_read_is_said() {
 }
 
 #[test]
+fn a_file_for_later_versions_is_refused() {
+    let (mut json, buffer) = file(&CUBE.mesh());
+    json["asset"]["minVersion"] = "2.0".into();
+    assert!(read_with(&json, &buffer).is_ok());
+    json["asset"]["minVersion"] = "2.1".into();
+    assert_eq!(
+        read_with(&json, &buffer).unwrap_err().place,
+        "asset.minVersion"
+    );
+}
+
+#[test]
 fn an_index_of_0_reflects_everything() {
     let (mut json, buffer) = file(&CUBE.mesh());
     let glass = |ior: f64| json!({ "pbrMetallicRoughness": { "metallicFactor": 0 }, "extensions": { "KHR_materials_ior": { "ior": ior } } });
