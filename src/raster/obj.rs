@@ -130,8 +130,8 @@ fn prepared(text: &str) -> String {
                 prepared += &format!("f {}", corners.join(" "));
             }
             Some("v" | "vn" | "vt") => prepared += uncommented(&whole),
-            // The crate takes a polyline for a face.
-            Some("l") => {}
+            // The crate takes a polyline for a face, and refuses a material without a name, as Blender writes it where there is none.
+            Some("l" | "usemtl") => {}
             _ => prepared += &whole,
         }
         prepared += &"\n".repeat(1 + joined);

@@ -80,6 +80,8 @@ fn a_concave_face_covers_what_lies_inside() {
     assert_eq!(pixels(&whole), pixels(&cut));
     let dart = face(&[12, 13, 14, 15]);
     assert_eq!(pixels(&dart), pixels("f 12 13 15\nf 15 13 14\n"));
+    // A material without a name is none.
+    assert_eq!(pixels(&format!("usemtl\n{dart}")), pixels(&dart));
     // A polyline of three places is no triangle.
     assert_eq!(pixels(&format!("{dart}l 1 3 5 7\n")), pixels(&dart));
     let many: String = (0..1100)
