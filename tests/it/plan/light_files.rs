@@ -175,3 +175,34 @@ fn png_says_how_it_is_encoded() {
     writer.finish().unwrap();
     check(&bytes, Space::Srgb, IN_SRGB.map(|channel| channel / 255.0));
 }
+
+/// What a fuzzer would try, a little of it on every machine.
+#[test]
+fn changed_bytes_do_no_harm() {
+    let stated = |info: &mut png::Info| {
+        info.source_gamma = Some(png::ScaledFloat::new(1.0));
+        let half = (0.3, 0.3);
+        info.source_chromaticities = Some(png::SourceChromaticities::new(
+            half,
+            (0.7, 0.3),
+            half,
+            (0.1, 0.0),
+        ));
+    };
+    let primaries = "EXPOSURE=2\nPRIMARIES=.64 .33 .29 .60 .15 .06 .333 .333\n";
+    let good = [hdr(primaries), png(png::ColorType::Rgb, stated)];
+    let mut random = fastrand::Rng::with_seed(3);
+    for bytes in good {
+        for _ in 0..3000 {
+            let mut bytes = bytes.clone();
+            for _ in 0..random.usize(1..4) {
+                let at = random.usize(..bytes.len());
+                bytes[at] = random.u8(..);
+            }
+            if let Ok(environment) = Environment::read(&bytes, Space::AcesCg) {
+                let all = environment.texels().as_flattened();
+                assert!(all.iter().all(|light| (0.0..=65504.0).contains(light)));
+            }
+        }
+    }
+}
