@@ -11,7 +11,8 @@ use super::error::Error;
 /// What no spelling brings through both programs, measured with GNU Make 4.3 and Ninja 1.11.
 const UNREADABLE: &str = "\"&'*;<=>?^`|\t\n\r";
 
-/// One rule, `out1 out2: in1 in2`, without doubles: outputs in the order given, since Ninja takes the first for its own, inputs sorted.
+/// One rule, `out1 out2: in1 in2`, without doubles: outputs in the order given, since Ninja takes the first for its own, inputs sorted. Then
+/// an empty rule for each input, as of `gcc -MP`, so that Make goes on after one was renamed or removed.
 ///
 /// # Errors
 /// A path holds a character that Make or Ninja cannot read in a depfile.
@@ -21,9 +22,17 @@ pub fn depfile(outputs: &[String], inputs: &[String]) -> Result<String, Error> {
     }
     let mut inputs = inputs.to_vec();
     inputs.sort();
+    inputs.dedup();
+    let empty = inputs.iter().filter(|input| has_empty_rule(input, outputs));
+    let empty: String = empty.map(|input| format!("{}:\n", escape(input))).collect();
     let (outputs, inputs) = (spelt(outputs, target), spelt(&inputs, escape));
     let space = if inputs.is_empty() { "" } else { " " };
-    Ok(format!("{outputs}:{space}{inputs}\n"))
+    Ok(format!("{outputs}:{space}{inputs}\n{empty}"))
+}
+
+/// With `%` it would be a pattern to Make, and with `\\%` a stranger to Ninja, which knows the targets of its edge and its inputs.
+fn has_empty_rule(input: &str, outputs: &[String]) -> bool {
+    !input.contains('%') && !outputs.iter().any(|output| output == input)
 }
 
 fn fault(path: &str) -> Option<String> {

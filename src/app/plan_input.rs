@@ -6,7 +6,7 @@ use crate::foreign::Foreign;
 use crate::materials::ViewingConditions;
 use crate::plan::{
     FramePixels, GltfScene, GltfView, MappedMaterial, MaterialIds, PlannedMaterial, SceneFile,
-    SceneLight, Unplanned, constant_index, read_gbuffer,
+    SceneLight, Unplanned, check_primaries, constant_index, read_gbuffer,
 };
 use crate::reference::{Derivation, MaterialInMedium};
 use crate::scene::{Display, Environment, TONE_CURVES};
@@ -28,6 +28,8 @@ pub struct PlanInput<'a> {
     pub materials: Vec<PlannedMaterial>,
     /// Materials of the scene that get no function.
     pub unplanned: Vec<Unplanned>,
+    /// What the scene says and is not read.
+    pub remarks: Vec<String>,
     /// The files that were read beside those that flags name.
     pub read: Vec<PathBuf>,
     /// What to say where no frame shows any of the materials.
@@ -71,12 +73,9 @@ pub fn plan_input<'a>(
 }
 
 /// A scene file, drawn by our rasteriser.
-fn of_scene_file<'a>(
-    flags: &PlanFlags,
-    file: &Path,
-    viewing: &ViewingConditions,
-) -> Result<PlanInput<'a>, Error> {
-    let scene = SceneFile::parse(&file.display().to_string(), &source::text(file)?)?;
+fn of_scene_file<'a>(file: &Path, viewing: &ViewingConditions) -> Result<PlanInput<'a>, Error> {
+    let mut scene = SceneFile::parse(&file.display().to_string(), &source::text(file)?)?;
+    scene.space = viewing.integration.space;
     let at = |index: usize, what: String| scene.material_fault(index, what).into();
     let naming = Naming::of(flags, file);
     let (materials, places) = loaded(scene.materials(), &naming, viewing, &at)?;
@@ -86,6 +85,7 @@ fn of_scene_file<'a>(
     Ok(PlanInput {
         materials,
         unplanned: Vec::new(),
+        remarks: Vec::new(),
         read,
         nothing_is_seen: scene.nothing_is_seen().to_string(),
         display,
@@ -103,7 +103,7 @@ fn of_gltf<'a>(
     let light = match &flags.environment {
         None => SceneLight::Uniform([1.0; 3]),
         Some(path) => {
-            let environment = Environment::read(&source::picture(path)?);
+            let environment = Environment::read(&source::picture(path)?, viewing.integration.space);
             SceneLight::of_environment(environment.map_err(|fault| Error::Usage {
                 what: format!("{}: {fault}", crate::foreign::path(&path)),
             })?)
@@ -130,6 +130,7 @@ fn of_gltf<'a>(
     Ok(PlanInput {
         materials,
         unplanned: scene.unplanned.clone(),
+        remarks: scene.remarks.clone(),
         read,
         nothing_is_seen: nothing_planned(&name, &scene.unplanned),
         display: AS_IT_IS,
@@ -206,10 +207,11 @@ fn of_frames<'a>(
     let at = |index: usize, what: String| ids.fault(index, what).into();
     let (materials, places) = loaded(&ids.materials, &Naming::of(flags, map), viewing, &at)?;
     let (count, read) = (materials.len(), material_files(&materials));
-    let frames = files.len();
+    let space = viewing.integration.space;
     let frame = move |index: usize| {
-        let file = files[index];
-        let frame = read_gbuffer(&source::picture(file)?, &ids);
+        let file: &PathBuf = &files[index];
+        let bytes = source::picture(file)?;
+        let frame = check_primaries(&bytes, space).and_then(|()| read_gbuffer(&bytes, &ids));
         let frame = frame.map_err(|fault| Error::Usage {
             what: format!("{}: {fault}", crate::foreign::path(&file)),
         })?;
@@ -218,6 +220,7 @@ fn of_frames<'a>(
     Ok(PlanInput {
         materials,
         unplanned: Vec::new(),
+        remarks: Vec::new(),
         read,
         nothing_is_seen: format!(
             "no frame shows a material of {}",

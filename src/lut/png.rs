@@ -1,10 +1,13 @@
 //! PNG: 8 or 16 bits, marked as linear.
 //!
 //! Source: W3C, *Portable Network Graphics (PNG) Specification (Third Edition)*, 2025, <https://www.w3.org/TR/png-3/>: the chunk
-//! gAMA says 1.0 and there is no sRGB chunk, so that whoever heeds the file applies no curve. Engines often do not ask:
+//! gAMA says 1.0 and there is no sRGB chunk, so that whoever heeds the file applies no curve; cHRM names the primaries of another space
+//! than sRGB, which is what a file without one means. Engines often do not ask:
 //! switch sRGB off where textures are imported.
 
-use png::{BitDepth, ColorType, Compression, Encoder, ScaledFloat};
+use png::{BitDepth, ColorType, Compression, Encoder, ScaledFloat, SourceChromaticities};
+
+use crate::spectra::Space;
 
 use super::depth::Depth;
 use super::picture::Picture;
@@ -30,6 +33,9 @@ fn encoded(picture: &Picture) -> Result<Vec<u8>, png::EncodingError> {
     });
     encoder.set_compression(Compression::Balanced);
     encoder.set_source_gamma(ScaledFloat::new(1.0));
+    if let Some(space) = picture.space.filter(|space| *space != Space::Srgb) {
+        encoder.set_source_chromaticities(chromaticities(space));
+    }
     encoder.add_text_chunk("Comment".to_owned(), picture.about.join("\n"))?;
     let mut writer = encoder.write_header()?;
     let data: Vec<u8> = if is_byte {
@@ -40,4 +46,10 @@ fn encoded(picture: &Picture) -> Result<Vec<u8>, png::EncodingError> {
     writer.write_image_data(&data)?;
     writer.finish()?;
     Ok(bytes)
+}
+
+fn chromaticities(space: Space) -> SourceChromaticities {
+    let place = |[x, y]: [f64; 2]| (x as f32, y as f32);
+    let [red, green, blue] = space.primaries().map(place);
+    SourceChromaticities::new(place(space.white_xy()), red, green, blue)
 }

@@ -32,7 +32,7 @@ mod view;
 pub use candidate::{Candidate, is_plannable};
 pub use curve::{STEPS, step_cosines};
 pub use drawn::{DrawnScene, SurfaceLook};
-pub use gbuffer::{GREATEST_SIDE, GbufferFault, read_gbuffer};
+pub use gbuffer::{GREATEST_SIDE, GbufferFault, check_primaries, read_gbuffer};
 pub use gltf::{GltfFault, GltfScene, GltfView, Unplanned, constant_index};
 pub use ids::{MaterialIds, Shown};
 pub use metric::{Metric, Screen};

@@ -23,9 +23,24 @@ pub struct Camera {
     pub axes: [DVec3; 3],
     /// What it takes in.
     pub lens: Lens,
+    /// Nothing is seen that is nearer along its axis, in metres.
+    pub near: f64,
+    /// Nothing is seen that is farther away along its axis, in metres.
+    pub far: f64,
 }
 
 impl Camera {
+    /// A camera of this position and these axes that sees everything before it.
+    pub fn new(eye: DVec3, axes: [DVec3; 3], lens: Lens) -> Camera {
+        Camera {
+            eye,
+            axes,
+            lens,
+            near: 0.0,
+            far: f64::INFINITY,
+        }
+    }
+
     /// A camera that looks from one place at another one. Up is y, or z where it looks along y.
     pub fn looking(eye: DVec3, at: DVec3, lens: Lens) -> Camera {
         let forwards = (at - eye).normalize();
@@ -35,24 +50,28 @@ impl Camera {
             DVec3::Z
         };
         let right = forwards.cross(up).normalize();
-        Camera {
-            eye,
-            axes: [right, forwards.cross(right), forwards],
-            lens,
-        }
+        Camera::new(eye, [right, forwards.cross(right), forwards], lens)
     }
 
     /// A camera of this position and these axes that sees parallel rays: `height` metres fill its picture of `size` pixels. It
     /// stands for an orthographic camera as a pinhole a million heights behind `eye`, which sees what is behind `eye` too.
     pub fn orthographic(eye: DVec3, axes: [DVec3; 3], height: f64, size: [u32; 2]) -> Camera {
         let half = libm::atan(0.5 / DISTANT);
+        let lens = Lens {
+            size,
+            vertical_degrees: 2.0 * half.to_degrees(),
+        };
+        Camera::new(eye - DISTANT * height * axes[2], axes, lens)
+    }
+
+    /// The same with clip planes, in metres before `eye` of [`Camera::orthographic`], where `height` is its height.
+    #[must_use]
+    pub fn clipped(self, [near, far]: [f64; 2], height: Option<f64>) -> Camera {
+        let behind = height.map_or(0.0, |height| DISTANT * height);
         Camera {
-            eye: eye - DISTANT * height * axes[2],
-            axes,
-            lens: Lens {
-                size,
-                vertical_degrees: 2.0 * half.to_degrees(),
-            },
+            near: behind + near,
+            far: behind + far,
+            ..self
         }
     }
 
@@ -117,11 +136,7 @@ impl Turntable {
         let first = Camera::looking(self.start, DVec3::ZERO, self.lens);
         let angle = (frame as f64 * self.step_degrees).to_radians();
         let turned = |vector: DVec3| rotated(vector, self.axis.normalize(), angle);
-        Camera {
-            eye: turned(first.eye),
-            axes: first.axes.map(turned),
-            lens: self.lens,
-        }
+        Camera::new(turned(first.eye), first.axes.map(turned), self.lens)
     }
 }
 

@@ -45,6 +45,8 @@ pub struct SurfacePoint {
     pub normal: DVec3,
     /// The unit direction to the camera, along the axes of the world.
     pub to_camera: DVec3,
+    /// The shares of the triangle's corners.
+    pub weights: [f64; 3],
 }
 
 impl SurfacePoint {
@@ -63,8 +65,17 @@ pub fn draw(mesh: &Mesh, camera: &Camera) -> Frame {
     }
 }
 
-/// What each covered pixel shows, in scan order.
+/// What each covered pixel shows, in scan order. Both sides of every triangle are seen.
 pub fn surface_points(mesh: &Mesh, camera: &Camera) -> Vec<SurfacePoint> {
+    surface_points_of(mesh, camera, &|_| false)
+}
+
+/// The same, where some triangles are seen from the side alone from which their corners go round counter-clockwise.
+pub fn surface_points_of(
+    mesh: &Mesh,
+    camera: &Camera,
+    is_one_sided: &dyn Fn(u32) -> bool,
+) -> Vec<SurfacePoint> {
     let screen = Screen::new(camera);
     let corners: Vec<Corner> = mesh
         .vertices
@@ -74,20 +85,23 @@ pub fn surface_points(mesh: &Mesh, camera: &Camera) -> Vec<SurfacePoint> {
     let mut depth = DepthBuffer::new(screen.size);
     for (name, triangle) in mesh.triangles.iter().enumerate() {
         let triangle = triangle.map(|corner| corners[corner as usize]);
-        depth.enter(&screen, name as u32, triangle);
+        let name = name as u32;
+        depth.enter(&screen, name, triangle, is_one_sided(name));
     }
     let point = |(place, name): (usize, &u32)| {
         let triangle = mesh.triangles[*name as usize];
         let positions = triangle.map(|corner| corners[corner as usize].position);
         let vertices = triangle.map(|corner| mesh.vertices[corner as usize]);
         let ray = screen.ray(place);
-        let (normal, cos_theta) = seen_normal(ray, positions, &vertices, camera);
+        let weights = weights(ray, positions);
+        let (normal, cos_theta) = seen_normal(ray, positions, weights, &vertices, camera);
         SurfacePoint {
             place: place as u32,
             triangle: *name,
             cos_theta,
             normal: camera.in_world(normal).normalize(),
             to_camera: -camera.in_world(ray).normalize(),
+            weights,
         }
     };
     let names = depth.names.iter().enumerate();
@@ -99,6 +113,8 @@ pub fn surface_points(mesh: &Mesh, camera: &Camera) -> Vec<SurfacePoint> {
 struct Screen {
     size: [u32; 2],
     pixels_a_slope: f64,
+    /// The least and the greatest 1/z that is seen.
+    inverse_depths: [f64; 2],
 }
 
 /// A corner relative to the camera, and where it is on the screen.
@@ -114,6 +130,7 @@ impl Screen {
         Screen {
             size: camera.lens.size,
             pixels_a_slope: camera.pixels_a_slope(),
+            inverse_depths: [camera.far.recip(), camera.near.recip()],
         }
     }
 
@@ -174,16 +191,18 @@ impl DepthBuffer {
         }
     }
 
-    fn enter(&mut self, screen: &Screen, name: u32, triangle: [Corner; 3]) {
+    fn enter(&mut self, screen: &Screen, name: u32, triangle: [Corner; 3], is_one_sided: bool) {
         let [columns, rows] = screen.range(&triangle);
         if columns.is_empty() || rows.is_empty() {
             return;
         }
         let positions = triangle.map(|corner| corner.position);
         let det = positions[0].dot(positions[1].cross(positions[2]));
-        if det == 0.0 || !det.is_finite() {
+        let is_hidden = is_one_sided && det > 0.0;
+        if det == 0.0 || !det.is_finite() || is_hidden {
             return;
         }
+        let [farthest, nearest] = screen.inverse_depths;
         let edges = edges(positions).map(|edge| edge * det.signum());
         let (least, most) = depths(positions);
         let width = screen.size[0] as usize;
@@ -198,7 +217,8 @@ impl DepthBuffer {
                 }
                 let depth = ((e[0] + e[1] + e[2]) / det.abs()).clamp(least, most);
                 let place = row * width + column;
-                if depth > self.nearest[place] {
+                let is_seen = (farthest..=nearest).contains(&depth);
+                if is_seen && depth > self.nearest[place] {
                     self.nearest[place] = depth;
                     self.names[place] = name;
                 }
@@ -222,16 +242,22 @@ fn depths(positions: [DVec3; 3]) -> (f64, f64) {
     (a.min(b).min(c), a.max(b).max(c))
 }
 
+/// The shares of a triangle's corners where a ray meets it.
+fn weights(ray: DVec3, positions: [DVec3; 3]) -> [f64; 3] {
+    let weights = edges(positions).map(|edge| edge.dot(ray));
+    let whole = weights[0] + weights[1] + weights[2];
+    weights.map(|weight| weight / whole)
+}
+
 /// The normal on the side that is seen, along the camera's axes, and the cosine between it and the direction to the camera.
 fn seen_normal(
     ray: DVec3,
     positions: [DVec3; 3],
+    weights: [f64; 3],
     vertices: &[Vertex; 3],
     camera: &Camera,
 ) -> (DVec3, f64) {
-    let weights = edges(positions).map(|edge| edge.dot(ray));
-    let whole = weights[0] + weights[1] + weights[2];
-    let normal = |i: usize| weights[i] / whole * vertices[i].normal;
+    let normal = |i: usize| weights[i] * vertices[i].normal;
     let face = (positions[1] - positions[0]).cross(positions[2] - positions[0]);
     let towards = if face.dot(positions[0]) < 0.0 {
         face

@@ -14,6 +14,8 @@
 mod body;
 mod camera;
 mod draw;
+#[cfg(feature = "meshes")]
+mod ears;
 mod histogram;
 mod mesh;
 #[cfg(feature = "meshes")]
@@ -25,7 +27,7 @@ mod shown;
 
 pub use body::{Body, CUBE, RELIEF, SPHERE};
 pub use camera::{Camera, Lens, Turntable, rotated};
-pub use draw::{Frame, SurfacePoint, draw, surface_points};
+pub use draw::{Frame, SurfacePoint, draw, surface_points, surface_points_of};
 pub use histogram::{BINS, CosineHistogram};
 pub use mesh::{Mesh, Vertex};
 #[cfg(feature = "meshes")]

@@ -12,10 +12,13 @@ use std::io::{self, BufRead, Read};
 use glam::DVec3;
 use thiserror::Error;
 
+use super::ears::{MOST_CONCAVE, triangles_of_faces};
 use super::mesh::{Mesh, Vertex};
 
 /// A mesh has at most so many triangles, and as many corners.
 pub const MOST_TRIANGLES: usize = 4_000_000;
+/// Statements of surfaces that are no polygons, of which some would silently be missing.
+const OTHER_SURFACES: [&str; 3] = ["surf", "bsp", "bzp"];
 /// No place is farther away: its square is a number.
 const FARTHEST: f64 = 1e100;
 
@@ -38,7 +41,8 @@ pub fn mesh_of_obj(text: &str) -> Result<Mesh, ObjFault> {
     let text = &prepared(text);
     Counts::of(text)?;
     let options = tobj::LoadOptions {
-        triangulate: true,
+        // The crate would cut every face as a fan, which covers more than a concave one.
+        triangulate: false,
         ignore_points: true,
         ignore_lines: true,
         single_index: true,
@@ -64,7 +68,7 @@ pub fn mesh_of_obj(text: &str) -> Result<Mesh, ObjFault> {
             groups.push((name.to_owned(), Mesh::default()));
             groups.len() - 1
         });
-        enter(&mut groups[place].1, &model.mesh);
+        enter(&mut groups[place].1, &model.mesh).map_err(|corners| too_many(text, corners))?;
     }
     let mut mesh = Mesh::default();
     for (name, group) in groups {
@@ -78,6 +82,17 @@ pub fn mesh_of_obj(text: &str) -> Result<Mesh, ObjFault> {
         });
     }
     Ok(mesh)
+}
+
+/// The fault of a concave face that has too many corners.
+fn too_many(text: &str, corners: usize) -> ObjFault {
+    let is_it = |line: &str| line.starts_with("f ") && line.split(' ').count() == corners + 1;
+    ObjFault {
+        line: text.lines().position(is_it).map_or(1, |line| line + 1),
+        what: format!(
+            "a face of {corners} corners, of which some point inwards; up to {MOST_CONCAVE} are read. Cut it into triangles"
+        ),
+    }
 }
 
 /// What the crate is told a smoothing group is called: one of flat faces, one of others.
@@ -114,6 +129,8 @@ fn prepared(text: &str) -> String {
                 prepared += &format!("f {}", corners.join(" "));
             }
             Some("v" | "vn" | "vt") => prepared += uncommented(&whole),
+            // The crate takes a polyline for a face, and refuses a material without a name, as Blender writes it where there is none.
+            Some("l" | "usemtl") => {}
             _ => prepared += &whole,
         }
         prepared += &"\n".repeat(1 + joined);
@@ -170,7 +187,10 @@ fn append(mesh: &mut Mesh, other: Mesh) {
 }
 
 /// Enters the triangles of one object. Corners without a normal have 0 in its place.
-fn enter(mesh: &mut Mesh, object: &tobj::Mesh) {
+///
+/// # Errors
+/// A concave face has too many corners: so many.
+fn enter(mesh: &mut Mesh, object: &tobj::Mesh) -> Result<(), usize> {
     let three = |all: &[f64], at: usize| {
         let part = all.get(3 * at..3 * at + 3);
         part.map_or(DVec3::ZERO, DVec3::from_slice)
@@ -186,11 +206,12 @@ fn enter(mesh: &mut Mesh, object: &tobj::Mesh) {
         normal: three(normals, at),
     });
     mesh.vertices.extend(corners);
-    let (triangles, _) = object.indices.as_chunks::<3>();
-    let triangles = triangles
-        .iter()
-        .map(|corners| corners.map(|corner| first + corner));
-    mesh.triangles.extend(triangles);
+    let place = |corner: u32| three(&object.positions, corner as usize);
+    let triangles = triangles_of_faces(&object.indices, &object.face_arities, place)?;
+    let triangles = triangles.iter();
+    mesh.triangles
+        .extend(triangles.map(|corners| corners.map(|corner| first + corner)));
+    Ok(())
 }
 
 /// The same mesh with one corner a place, so that its normals are of all triangles that meet there.
@@ -262,6 +283,11 @@ impl Counts {
             }
             Some("vt") => self.textures += 1,
             Some("f") => self.face(words, number, last_use)?,
+            Some(word) if OTHER_SURFACES.contains(&word) => {
+                return Err(format!(
+                    "`{word}` is a surface that is not read; export the mesh as faces, `f`"
+                ));
+            }
             _ => {}
         }
         if self.triangles > MOST_TRIANGLES || self.places > MOST_TRIANGLES {

@@ -5,8 +5,8 @@
 use glam::DVec3;
 use half::f16;
 
-use crate::foreign::Foreign;
-use crate::spectra::srgb_linear;
+use super::light_file::LightFile;
+use crate::spectra::Space;
 
 /// Radiance by direction.
 #[derive(Clone, Debug, PartialEq)]
@@ -61,36 +61,32 @@ impl Environment {
         }
     }
 
-    /// From the bytes of a picture: Radiance HDR and OpenEXR are linear, PNG and JPEG are sRGB.
+    /// From the bytes of a picture: Radiance HDR and OpenEXR are linear, PNG and JPEG are sRGB unless they say otherwise. What the file says of its numbers
+    /// is followed (`light_file.rs`), and light of other primaries is brought into the space.
     ///
     /// # Errors
-    /// The picture cannot be read, or is not twice as wide as high.
-    pub fn read(bytes: &[u8]) -> Result<Environment, EnvironmentFault> {
-        let unreadable = |why: image::ImageError| EnvironmentFault::Unreadable(why.to_string());
+    /// The picture cannot be read, says what is not followed, or is not twice as wide as high.
+    pub fn read(bytes: &[u8], space: Space) -> Result<Environment, EnvironmentFault> {
         // Two names of one format begin Radiance's pictures; the crate knows the first.
         let renamed = bytes
             .strip_prefix(b"#?RGBE")
             .map(|rest| [b"#?RADIANCE", rest].concat());
         let bytes = renamed.as_deref().unwrap_or(bytes);
-        let picture = image::load_from_memory(bytes).map_err(unreadable)?;
-        let is_linear = matches!(
-            picture.color(),
-            image::ColorType::Rgb32F | image::ColorType::Rgba32F
-        );
-        let picture = picture.into_rgb32f();
-        let (width, height) = (picture.width() as usize, picture.height() as usize);
+        let file = LightFile::read(bytes, space).map_err(EnvironmentFault::Unreadable)?;
+        let (width, height) = file.picture.dimensions();
+        let (width, height) = (width as usize, height as usize);
         if width != 2 * height || !(2..=LARGEST).contains(&width) {
             return Err(EnvironmentFault::Shape(width, height));
         }
-        let linear = |value: f32| match is_linear {
-            true => f64::from(value).clamp(0.0, f64::from(f16::MAX)),
-            false => srgb_linear(f64::from(value)),
+        let greatest = DVec3::splat(f64::from(f16::MAX));
+        let texel = |pixel: &image::Rgb<f32>| {
+            let light = file.light(pixel.0).max(DVec3::ZERO).min(greatest);
+            rounded(light.to_array())
         };
-        let texel = |pixel: &image::Rgb<f32>| rounded(pixel.0.map(linear));
         Ok(Environment {
             width,
             height,
-            texels: picture.pixels().map(texel).collect(),
+            texels: file.picture.pixels().map(texel).collect(),
         })
     }
 

@@ -12,6 +12,8 @@ mod environment;
 mod frame;
 mod gem;
 mod glass;
+mod icc;
+mod light_file;
 #[cfg(feature = "gpu")]
 mod picture;
 mod pool;

@@ -102,6 +102,22 @@ impl Illuminant {
         })
     }
 
+    /// Its relative power at each wavelength of a sum in equal steps (nm, ascending). A user's table with rows between them, as of a
+    /// lamp with lines, counts with the mean about each wavelength ([`Spectrum::mean_about`]), so that no line falls between two steps.
+    pub fn powers(&self, wavelengths: &[f64]) -> Vec<f64> {
+        let (Illuminant::Table { power, .. }, [first, second, ..]) = (self, wavelengths) else {
+            return wavelengths.iter().map(|nm| self.power(*nm)).collect();
+        };
+        let last = wavelengths[wavelengths.len() - 1];
+        let mut rows = power.points().iter().map(|point| point.0);
+        let stands_between = |nm: f64| (*first..=last).contains(&nm) && !wavelengths.contains(&nm);
+        if !rows.any(stands_between) {
+            return wavelengths.iter().map(|nm| self.power(*nm)).collect();
+        }
+        let about = |nm: &f64| power.mean_about(*nm, second - first).unwrap_or(0.0);
+        wavelengths.iter().map(about).collect()
+    }
+
     /// Its relative power at a wavelength in nm; 0 outside its table.
     pub fn power(&self, nm: f64) -> f64 {
         let table = match self {
@@ -140,7 +156,9 @@ fn range_fault(rows: &[SpectrumRow<2>]) -> Option<(usize, String)> {
         return Some((line, what));
     }
     let power = spectrum(rows);
-    let seen = Step::Nm1.wavelengths().into_iter();
+    let rows = rows.iter().map(|row| row.values[0]);
+    let seen = rows.filter(|nm| (FIRST_NM..=LAST_NM).contains(nm));
+    let seen = seen.chain(Step::Nm1.wavelengths());
     let brightest = seen.filter_map(|nm| power.at(nm)).fold(0.0, f64::max);
     (brightest < LEAST_POWER).then(|| {
         let what = format!(

@@ -9,8 +9,8 @@
 //! division by the mirror as in the tables of renderers since S. Lagarde, *Feeding a physically based shading model*,
 //! 2011, <https://seblagarde.wordpress.com/2011/08/17/feeding-a-physical-based-lighting-mode/>.
 //!
-//! Error: steps of 5 nm differ from 1 nm by at most 2e-4 for 86 metals under D65. A light with lines narrower than the
-//! step wants [`Step::Nm1`](super::Step::Nm1).
+//! Error: steps of 5 nm differ from 1 nm by at most 2e-4 for 86 metals under D65. The rows of a
+//! user's light that lie between the steps count too ([`super::Illuminant::powers`]): its lines are whole, and what they light is linear within a step.
 
 use glam::DVec3;
 

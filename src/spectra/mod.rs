@@ -34,7 +34,7 @@ pub use illuminant::Illuminant;
 pub use integration::Integration;
 pub use integrator::{Integrator, NoWhite};
 pub use observer::Observer;
-pub use space::{Space, srgb_byte, srgb_linear};
+pub use space::{Space, rgb_to_xyz, srgb_byte, srgb_linear, xyz_of};
 pub use spectrum::Spectrum;
 pub use tristimulus::{weighted_sum, xyz_weights};
 pub use user_text::{TextFault, mesh_text, user_text, without_mark};

@@ -24,6 +24,9 @@ pub enum Space {
     AcesCg,
 }
 
+/// Files round chromaticities to three digits.
+const ROUNDING: f64 = 1e-3;
+
 /// D65 as the standards of screens round it.
 const WHITE_D65: [f64; 2] = [0.3127, 0.3290];
 
@@ -72,6 +75,15 @@ impl Space {
         }
     }
 
+    /// Whether chromaticities (x, y) of red, green, blue and white are its own, as files round them.
+    pub fn has(self, primaries: &[[f64; 2]; 3], white: &[f64; 2]) -> bool {
+        let is_near =
+            |a: &[f64; 2], b: &[f64; 2]| (a[0] - b[0]).abs().max((a[1] - b[1]).abs()) < ROUNDING;
+        let own = self.primaries();
+        let mut pairs = primaries.iter().zip(&own);
+        pairs.all(|(a, b)| is_near(a, b)) && is_near(white, &self.white_xy())
+    }
+
     /// XYZ of white, Y = 1.
     pub fn white(self) -> DVec3 {
         xyz_of(self.white_xy())
@@ -79,9 +91,7 @@ impl Space {
 
     /// The matrix from RGB to XYZ; (1, 1, 1) becomes [`Space::white`].
     pub fn rgb_to_xyz(self) -> DMat3 {
-        let [red, green, blue] = self.primaries().map(xyz_of);
-        let primaries = DMat3::from_cols(red, green, blue);
-        primaries * DMat3::from_diagonal(primaries.inverse() * self.white())
+        rgb_to_xyz(self.primaries(), self.white_xy())
     }
 
     /// The matrix from XYZ to RGB.
@@ -90,7 +100,16 @@ impl Space {
     }
 }
 
-fn xyz_of([x, y]: [f64; 2]) -> DVec3 {
+/// The matrix from red, green and blue of these chromaticities (x, y) to XYZ; (1, 1, 1) becomes this white, Y = 1. Not finite where they span
+/// no space.
+pub fn rgb_to_xyz(primaries: [[f64; 2]; 3], white: [f64; 2]) -> DMat3 {
+    let [red, green, blue] = primaries.map(xyz_of);
+    let primaries = DMat3::from_cols(red, green, blue);
+    primaries * DMat3::from_diagonal(primaries.inverse() * xyz_of(white))
+}
+
+/// XYZ of a chromaticity (x, y), Y = 1.
+pub fn xyz_of([x, y]: [f64; 2]) -> DVec3 {
     DVec3::new(x / y, 1.0, (1.0 - x - y) / y)
 }
 

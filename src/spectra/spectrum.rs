@@ -42,6 +42,34 @@ where
         // Not for a NaN, which is past no wavelength and before none.
         (share > 0.0).then(|| low.1 + (high.1 - low.1) * share)
     }
+
+    /// The mean about a wavelength in nm, with weights that fall from 1 there to 0 at this distance on both sides: what a sum over steps of that width
+    /// takes of all that lies between its wavelengths. None where no value lies within the distance.
+    pub fn mean_about(&self, nm: f64, distance: f64) -> Option<V> {
+        let (first, last) = self.range();
+        let (from, to) = ((nm - distance).max(first), (nm + distance).min(last));
+        if from > to {
+            return None;
+        }
+        let start = self.points.partition_point(|point| point.0 <= from);
+        let inside = self.points[start..].iter().map(|point| point.0);
+        let mut ends: Vec<f64> = inside.take_while(|at| *at < to).collect();
+        ends.extend([from, to, nm.clamp(from, to)]);
+        ends.sort_by(f64::total_cmp);
+        let weight = |at: f64| (1.0 - (at - nm).abs() / distance).max(0.0);
+        // Value and weight are linear in each part, so that Simpson's rule is exact.
+        let parts = ends.windows(2).filter_map(|part| {
+            let [a, b] = [part[0], part[1]];
+            let middle = a + (b - a) / 2.0;
+            let shares = [(a, 1.0), (middle, 4.0), (b, 1.0)]
+                .map(|(at, times)| (at, times * weight(at) * (b - a)));
+            let [low, mid, high] = shares;
+            let sum = self.at(low.0)? * low.1 + self.at(mid.0)? * mid.1 + self.at(high.0)? * high.1;
+            Some((sum, low.1 + mid.1 + high.1))
+        });
+        let (sum, whole) = parts.reduce(|all, part| (all.0 + part.0, all.1 + part.1))?;
+        (whole > 0.0).then(|| sum * (1.0 / whole))
+    }
 }
 
 #[cfg(test)]
@@ -65,6 +93,28 @@ mod tests {
         for nm in [399.9, 500.1, f64::NAN, f64::INFINITY, -1.0] {
             assert_eq!(spectrum.at(nm), None, "{nm}");
         }
+    }
+
+    #[test]
+    fn the_mean_about_a_wavelength_holds_what_lies_between_steps() {
+        // A line of power 0.5 between two wavelengths of a sum in steps of 5 nm, under a level of 1.
+        let points = [
+            (380.0, 1.0),
+            (436.0, 1.0),
+            (436.5, 2.0),
+            (437.0, 1.0),
+            (780.0, 1.0),
+        ];
+        let spectrum = Spectrum::new(points.to_vec()).unwrap();
+        let steps: Vec<f64> = (0..81).map(|i| 380.0 + 5.0 * f64::from(i)).collect();
+        let means = steps
+            .iter()
+            .map(|nm| spectrum.mean_about(*nm, 5.0).unwrap());
+        let sum: f64 = means.map(|mean| 5.0 * (mean - 1.0)).sum();
+        assert!((sum - 0.5).abs() < 1e-12, "{sum}");
+        assert_eq!(spectrum.mean_about(600.0, 5.0), Some(1.0));
+        assert_eq!(spectrum.mean_about(380.0, 5.0), Some(1.0));
+        assert_eq!(spectrum.mean_about(300.0, 5.0), None);
     }
 
     #[test]

@@ -35,8 +35,12 @@ pub(super) fn rows<const N: usize>(
     let mut rows: Vec<SpectrumRow<N>> = Vec::new();
     let mut names_seen = false;
     for (index, line) in text.trim_start_matches('\u{feff}').lines().enumerate() {
-        let fields = fields(line.split('#').next().unwrap_or(""));
-        if fields.is_empty() {
+        let mut fields = fields(line.split('#').next().unwrap_or(""));
+        // Spreadsheets write a separator behind each line.
+        if fields.len() > N && fields[fields.len() - 1].text.is_empty() {
+            fields.pop();
+        }
+        if fields.is_empty() || (index == 0 && is_separator(line)) {
             continue;
         }
         if rows.is_empty() && !names_seen && fields.iter().all(|field| is_name(field.text)) {
@@ -95,6 +99,13 @@ fn fields(line: &str) -> Vec<Field<'_>> {
         offset += part.len() + 1;
     }
     fields
+}
+
+/// Whether a line tells a spreadsheet what separates the others: `sep=,`.
+fn is_separator(line: &str) -> bool {
+    let line = line.trim().trim_matches('"').to_lowercase();
+    line.strip_prefix("sep=")
+        .is_some_and(|sign| sign.chars().count() <= 1)
 }
 
 /// Whether a field can be the name of a column: it does not look like a number, not even a misspelt one.
@@ -174,6 +185,8 @@ mod tests {
             "# a lamp\nnm,power\n380,1\n# half\n780,2.5\n",
             "\u{feff}Wavelength (nm); Power (W)\n380;1\n780,2.5\n",
             "wavelength power of it\n380 1\n780 2.5\n",
+            "sep=,\r\nnm,power\r\n380,1\r\n780,2.5\r\n",
+            "sep=;\nnm;power;\n380;1;\n780;2.5;\n",
         ] {
             assert_eq!(read(text).as_ref(), Ok(&wanted), "{text:?}");
         }
@@ -192,7 +205,7 @@ mod tests {
         check("# only this\nnm,power\n", 2, 1, "no row of numbers");
         check("380,1\n780", 2, 1, "1 fields; a row is 2 numbers");
         check("380,1\n 780,2,3", 2, 2, "3 fields");
-        check("380,1,\n", 1, 1, "3 fields");
+        check("380,1,,\n", 1, 1, "3 fields");
         check("380;1\n780;2,5", 2, 5, "`2,5`, which is no number");
         check("380,1\n780,", 2, 5, "``, which is no number");
         check("38O,1\n", 1, 1, "`38O`");

@@ -1,7 +1,7 @@
 //! X, Y and Z of light: its power, weighted by an observer and summed.
 //!
 //! ```text
-//! XYZ = Σ x̄ȳz̄(λ) S(λ) R(λ) / Σ ȳ(λ) S(λ)        R: what a surface reflects; Y = 1 for a mirror
+//! XYZ = Σ x̄ȳz̄(λ) S(λ) R(λ) / Σ ȳ(λ) S(λ)        R: what a surface reflects; Y = 1 for a mirror; S: Illuminant::powers
 //! ```
 //!
 //! Source: CIE 015:2018, *Colorimetry*, 4th edition, <https://doi.org/10.25039/TR.015.2018>. A plain sum over
@@ -17,7 +17,8 @@ use super::observer::Observer;
 pub fn xyz_weights(observer: Observer, light: &Illuminant, wavelengths: &[f64]) -> Vec<DVec3> {
     let products = wavelengths
         .iter()
-        .map(|nm| observer.at(*nm) * light.power(*nm));
+        .zip(light.powers(wavelengths))
+        .map(|(nm, power)| observer.at(*nm) * power);
     let products: Vec<DVec3> = products.collect();
     let luminance: f64 = products.iter().map(|xyz| xyz.y).sum();
     products.into_iter().map(|xyz| xyz / luminance).collect()

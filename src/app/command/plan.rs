@@ -37,6 +37,7 @@ pub fn run(flags: &PlanFlags, progress: Progress) -> Result<Output, Error> {
     let PlanInput {
         materials,
         unplanned,
+        remarks,
         read,
         nothing_is_seen,
         display,
@@ -65,7 +66,7 @@ pub fn run(flags: &PlanFlags, progress: Progress) -> Result<Output, Error> {
     let code = u8::from(rows.iter().any(|row| !row.is_within));
     let total = PlanTotal::of(&judged, request.price, frames);
     let command: String = flags.command_line().into();
-    let mut made = PlanReport::new(command, &request, frames, total, unplanned, rows);
+    let mut made = PlanReport::new(command, &request, frames, total, unplanned, remarks, rows);
     if flags.prove {
         let (device, proofs) = proofs(&request, &judged, &mut *frame, progress)?;
         made = made.with_proofs(device, proofs);

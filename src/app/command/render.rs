@@ -14,6 +14,7 @@ use crate::materials::{Material, MaterialKind, Surface, ViewingConditions};
 use crate::report::Report;
 use crate::report::render::{panels_exr, panels_png, render_text};
 use crate::scene::{self, Display, Environment, Glass, Order};
+use crate::spectra::Space;
 
 use super::{Output, Progress, not_drawn, report_beside, try_files};
 
@@ -134,8 +135,8 @@ fn environment(file: Option<&Path>) -> Result<Environment, Error> {
         return Ok(scene::sky());
     };
     let bytes = source::picture(file)?;
-    Environment::read(&bytes).map_err(|fault| Error::Usage {
-        what: format!("{}: {fault}", crate::foreign::path(&file)),
+    Environment::read(&bytes, Space::Srgb).map_err(|fault| Error::Usage {
+        what: format!("{}: {fault}", file.display()),
     })
 }
 

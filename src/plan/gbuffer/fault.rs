@@ -21,6 +21,18 @@ pub enum GbufferFault {
         /// Pixels down.
         height: usize,
     },
+    /// Light of another space than the plan's.
+    #[error(
+        "its `chromaticities` are those of {stated}, and the plan's light is in {wanted}: {advice}"
+    )]
+    Primaries {
+        /// The space of the file.
+        stated: &'static str,
+        /// The space of the plan.
+        wanted: &'static str,
+        /// What to do.
+        advice: String,
+    },
     /// A header that announces more than the file can hold.
     #[error(
         "its header announces {announced} bytes of pixels, which {held} bytes of file cannot hold: the file is broken or cut short"

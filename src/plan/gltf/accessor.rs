@@ -98,6 +98,38 @@ impl<'a> Buffers<'a> {
         }
     }
 
+    /// Colours of three or four channels in [0, 1]; without a fourth it is 1. The specification wants floats clamped (section 3.7.2.1).
+    pub fn colours(&self, index: Index<Accessor>, place: &str) -> Result<Vec<[f32; 4]>, Place> {
+        let accessor = &self.root.accessors[index.value()];
+        let kinds = [ComponentType::F32, ComponentType::U8, ComponentType::U16];
+        let kind = match accessor.type_ {
+            Checked::Valid(Type::Vec4) => Type::Vec4,
+            _ => Type::Vec3,
+        };
+        let component = self.check(accessor, kind, &kinds, index, place)?;
+        if component != ComponentType::F32 && !accessor.normalized {
+            let what = format!(
+                "accessors[{}] has whole numbers that are not normalized",
+                index.value()
+            );
+            return Err(Place::new(place, what));
+        }
+        let channels = if kind == Type::Vec4 { 4 } else { 3 };
+        let size = channels * component.size();
+        let colour = |bytes: &[u8]| colour(bytes, component);
+        let mut all: Vec<[f32; 4]> = match self.base(accessor, size, place)? {
+            Some(elements) => elements.elements().map(colour).collect(),
+            None => vec![colour(&vec![0; size]); count(accessor, place)?],
+        };
+        self.replace(accessor, size, place, &mut |at, bytes| {
+            all[at] = colour(bytes)
+        })?;
+        match all.iter().flatten().any(|channel| channel.is_nan()) {
+            true => Err(Place::new(place, "a colour is no number")),
+            false => Ok(all),
+        }
+    }
+
     /// Indices of corners.
     pub fn indices(&self, index: Index<Accessor>, place: &str) -> Result<Vec<u32>, Place> {
         let accessor = &self.root.accessors[index.value()];
@@ -284,6 +316,21 @@ fn vector(bytes: &[u8]) -> DVec3 {
         f64::from(f32::from_le_bytes(four))
     };
     DVec3::new(float(0), float(1), float(2))
+}
+
+fn colour(bytes: &[u8], component: ComponentType) -> [f32; 4] {
+    let channel = |bytes: &[u8]| match component {
+        ComponentType::F32 => {
+            f32::from_le_bytes(bytes.try_into().expect("four bytes")).clamp(0.0, 1.0)
+        }
+        ComponentType::U8 => f32::from(bytes[0]) / 255.0,
+        _ => whole(bytes) as f32 / 65535.0,
+    };
+    let mut colour = [1.0; 4];
+    for (to, from) in colour.iter_mut().zip(bytes.chunks_exact(component.size())) {
+        *to = channel(from);
+    }
+    colour
 }
 
 /// A whole number of one, two or four bytes.

@@ -15,7 +15,7 @@ const FRAMES: u32 = 36;
 const ABOVE_DEGREES: f64 = 20.0;
 const VERTICAL_DEGREES: f64 = 45.0;
 
-/// A camera for each node that has one. It looks along its own -z; its +y is up.
+/// A camera for each node that has one. It looks along its own -z; its +y is up. It sees what lies between its clip planes.
 ///
 /// # Errors
 /// A field of view or a height lies outside its limits, a transform has no directions, or there are too many.
@@ -74,18 +74,36 @@ fn camera(
                 size,
                 vertical_degrees,
             };
-            Ok(Camera { eye, axes, lens })
+            let far = perspective.zfar.map_or(f64::INFINITY, f64::from);
+            let planes = planes([perspective.znear.into(), far], place, "perspective")?;
+            Ok(Camera::new(eye, axes, lens).clipped(planes, None))
         }
         (None, Some(orthographic)) => {
             let half = f64::from(orthographic.ymag);
             let half = within(half, [1e-6, 1e6], "orthographic.ymag")?;
-            Ok(Camera::orthographic(eye, axes, 2.0 * half, size))
+            let ends = [orthographic.znear, orthographic.zfar].map(f64::from);
+            let planes = planes(ends, place, "orthographic")?;
+            let height = 2.0 * half;
+            Ok(Camera::orthographic(eye, axes, height, size).clipped(planes, Some(height)))
         }
         (None, None) => Err(Place::new(
             place,
             "it is neither perspective nor orthographic",
         )),
     }
+}
+
+/// The distances between which a camera sees anything (section 3.10.3).
+fn planes([near, far]: [f64; 2], place: &str, what: &str) -> Result<[f64; 2], Place> {
+    if near < 0.0 {
+        let says = format!("it is {near}; it must not be below 0");
+        return Err(Place::new(format!("{place}.{what}.znear"), says));
+    }
+    if far <= near {
+        let says = format!("it is {far}; it must be greater than znear, {near}");
+        return Err(Place::new(format!("{place}.{what}.zfar"), says));
+    }
+    Ok([near, far])
 }
 
 /// Cameras that turn about the middle of a mesh, far enough to see all of it.

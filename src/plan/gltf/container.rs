@@ -44,8 +44,17 @@ impl<'a> Container<'a> {
         } else {
             None
         };
-        Ok(Container { json, binary })
+        Ok(Container {
+            json: without_padding(json),
+            binary,
+        })
     }
+}
+
+/// The JSON of a chunk whose end is padded with NUL, as some writers do. The specification wants spaces, which JSON passes over.
+fn without_padding(json: &[u8]) -> &[u8] {
+    let end = json.iter().rposition(|byte| *byte != 0);
+    &json[..end.map_or(0, |end| end + 1)]
 }
 
 fn number(bytes: &[u8], at: usize) -> Option<u32> {

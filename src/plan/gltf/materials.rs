@@ -18,8 +18,8 @@ use serde::Serialize;
 use super::super::drawn::SurfaceLook;
 use super::super::pixels::MappedMaterial;
 use super::super::sky::SceneLight;
-use super::fault::Place;
-use crate::foreign::{Foreign, one_line};
+use super::fault::{Place, plain};
+use super::remarks::not_read;
 use crate::materials::{self, Material, MaterialKind};
 use crate::names::UnknownName;
 
@@ -122,6 +122,8 @@ fn name_of(index: f32) -> String {
 pub struct Looks<'a> {
     pub materials: Vec<MappedMaterial>,
     pub unplanned: Vec<Unplanned>,
+    /// What of a planned material is not read though it changes what is seen.
+    pub remarks: Vec<String>,
     root: &'a Root,
     /// What all other light of a white pixel is.
     around: [f32; 3],
@@ -135,6 +137,7 @@ impl<'a> Looks<'a> {
         Looks {
             materials: Vec::new(),
             unplanned: Vec::new(),
+            remarks: Vec::new(),
             root,
             around: light.mean(),
             known: HashMap::new(),
@@ -171,6 +174,8 @@ impl<'a> Looks<'a> {
         let name = self.free_name(material, key);
         let index = match stands_for(material, &factors, key)? {
             Ok(found) => {
+                self.remarks.extend(not_read(material, &name));
+                self.remarks.extend(left_out(material, &name, &found));
                 self.materials.push(MappedMaterial {
                     name,
                     material: found,
@@ -196,6 +201,7 @@ impl<'a> Looks<'a> {
             roughness: factors.roughness,
             other: [other(0), other(1), other(2)],
             coverage: factors.coverage,
+            is_one_sided: !material.double_sided,
         }))
     }
 
@@ -342,12 +348,22 @@ fn by_index(material: &GltfMaterial) -> Result<String, String> {
         .and_then(|all| all.ior.as_ref())
         .map_or(USUAL_INDEX, |ior| ior.ior.0);
     let name = name_of(index);
-    match index > 1.0 && constant_index(&name).is_some() {
-        true => Ok(name),
-        false => Err(format!(
-            "an index of {index} has no reflection of a dielectric"
-        )),
+    if index > 1.0 && constant_index(&name).is_some() {
+        return Ok(name);
     }
+    Err(match index {
+        0.0 => "KHR_materials_ior says that an index of 0 reflects everything at every angle: F is 1, and no function is needed".to_owned(),
+        1.0 => "an index of 1 reflects nothing at any angle: F is 0, and no function is needed".to_owned(),
+        _ => format!("an index of {index}: KHR_materials_ior allows 0, and 1 or more"),
+    })
+}
+
+/// What the extensions of a material that stands for one of the catalogue change, since it is planned as that alone.
+fn left_out(material: &GltfMaterial, name: &str, found: &str) -> Option<String> {
+    let others = material.extensions.as_ref().map(|all| &all.others);
+    let mut others = others.into_iter().flatten();
+    let reason = others.find_map(|(extension, value)| change(extension, value))?;
+    Some(format!("{name}: planned as {found} alone; {reason}"))
 }
 
 /// What an extension changes about the reflection, in words; nothing where it changes nothing.

@@ -5,7 +5,7 @@
 //!
 //! What stands for a glTF material: the name in its `extras` (`{"fresnel_gen": "gold"}`), else its own name if the catalogue has it,
 //! else, for what is no metal, the constant index of KHR_materials_ior. A metal without a name is Schlick's approximation by the
-//! specification, so that there is nothing to hold functions against. Factors are read, textures are not; a metal of factor 0
+//! specification, so that there is nothing to hold functions against. Factors and vertex colours are read, textures are not, which a remark says; a metal of factor 0
 //! alone counts as none.
 //!
 //! Source: Khronos, *glTF 2.0 Specification*, 2021, <https://registry.khronos.org/glTF/specs/2.0/glTF-2.0.html>, sections 3.6 for
@@ -18,6 +18,7 @@ mod fault;
 mod materials;
 mod nodes;
 mod primitives;
+mod remarks;
 
 use gltf_json::mesh::Semantic;
 use gltf_json::validation::{Checked, Error, Validate};
@@ -34,9 +35,10 @@ use accessor::Buffers;
 use cameras::cameras;
 use container::Container;
 pub use fault::GltfFault;
-use fault::Place;
+use fault::{Place, plain};
 use materials::Looks;
 pub use materials::{Unplanned, constant_index};
+use primitives::Tints;
 
 /// How a glTF scene is seen.
 #[derive(Clone, Debug)]
@@ -54,6 +56,8 @@ pub struct GltfScene {
     pub has_cameras: bool,
     /// The materials that are seen and not planned, and why.
     pub unplanned: Vec<Unplanned>,
+    /// What the file says and is not read, though it changes what is seen.
+    pub remarks: Vec<String>,
     scene: DrawnScene,
     cameras: Vec<Camera>,
     materials: Vec<MappedMaterial>,
@@ -79,12 +83,16 @@ impl GltfScene {
         let nodes = nodes::placed(&root).map_err(fault)?;
         let mut looks = Looks::new(&root, &view.light);
         let mut scene = DrawnScene::new(0, view.light.clone());
-        let add = &mut |mesh: &Mesh, look| scene.add(mesh, look);
+        let add = &mut |mesh: &Mesh, look, tints: Option<Tints>| match tints {
+            Some(tints) => scene.add_tinted(mesh, look, tints),
+            None => scene.add(mesh, look),
+        };
         primitives::add_parts(&root, &nodes, &buffers, &mut looks, add).map_err(fault)?;
         let own = cameras(&root, &nodes, view.size).map_err(fault)?;
         Ok(GltfScene {
             has_cameras: !own.is_empty(),
             unplanned: looks.unplanned,
+            remarks: [looks.remarks, remarks::of_scene(&root, view.size)].concat(),
             cameras: match own.is_empty() {
                 true => cameras::around(scene.mesh(), view.size),
                 false => own,
@@ -128,6 +136,15 @@ fn root(container: &Container) -> Result<Root, Place> {
     if !root.asset.version.starts_with("2.") {
         let what = format!("it is {}; version 2.0 is read", root.asset.version);
         return Err(Place::new("asset.version", what));
+    }
+    if let Some(least) = root
+        .asset
+        .min_version
+        .as_deref()
+        .filter(|least| *least != "2.0")
+    {
+        let what = format!("it is {}; version 2.0 is read", plain(least));
+        return Err(Place::new("asset.minVersion", what));
     }
     check_positions(&root)?;
     let mut first = None;

@@ -1,6 +1,7 @@
 //! The triangles of all meshes, in the world.
 
 use glam::{DAffine3, DVec3};
+use gltf_json::material::AlphaMode;
 use gltf_json::mesh::{Mode, Primitive, Semantic};
 use gltf_json::validation::Checked;
 use gltf_json::{Accessor, Index, Root};
@@ -11,6 +12,9 @@ use super::fault::Place;
 use super::materials::Looks;
 use super::nodes::PlacedNode;
 use crate::raster::{MOST_TRIANGLES, Mesh, Vertex};
+
+/// What COLOR_0 multiplies by at each corner: red, green, blue, alpha.
+pub type Tints = Vec<[f32; 4]>;
 
 /// Nothing is farther away, in metres, along each axis.
 const FARTHEST: f64 = 1e6;
@@ -24,7 +28,7 @@ pub fn add_parts(
     nodes: &[PlacedNode],
     buffers: &Buffers,
     looks: &mut Looks,
-    add: &mut dyn FnMut(&Mesh, SurfaceLook),
+    add: &mut dyn FnMut(&Mesh, SurfaceLook, Option<Tints>),
 ) -> Result<(), Place> {
     // What was read so far: triangles, and elements of accessors.
     let (mut triangles, mut elements) = (0, 0);
@@ -54,12 +58,22 @@ pub fn add_parts(
                 let what = format!("the scene up to here has more than {MOST_TRIANGLES} triangles");
                 return Err(Place::new(place, what));
             }
-            add(&mesh, look);
+            let tints = corners.tints(buffers, alpha_mode(root, primitive), mesh.vertices.len())?;
+            add(&mesh, look, tints);
         }
     }
     match triangles {
         0 => Err(Place::new("meshes", "the scene has no triangle")),
         _ => Ok(()),
+    }
+}
+
+fn alpha_mode(root: &Root, primitive: &Primitive) -> AlphaMode {
+    let material = primitive.material;
+    let mode = material.map(|material| root.materials[material.value()].alpha_mode);
+    match mode {
+        Some(Checked::Valid(mode)) => mode,
+        _ => AlphaMode::Opaque,
     }
 }
 
@@ -69,6 +83,7 @@ struct Corners {
     mode: Mode,
     positions: Index<Accessor>,
     normals: Option<Index<Accessor>>,
+    colours: Option<Index<Accessor>>,
     indices: Option<Index<Accessor>>,
 }
 
@@ -88,6 +103,7 @@ impl Corners {
             mode,
             positions: attribute(Semantic::Positions).filter(|_| is_area)?,
             normals: attribute(Semantic::Normals),
+            colours: attribute(Semantic::Colors(0)),
             indices: primitive.indices,
         })
     }
@@ -101,6 +117,7 @@ impl Corners {
         let parts = [
             (Some(self.positions), "attributes.POSITION"),
             (self.normals, "attributes.NORMAL"),
+            (self.colours, "attributes.COLOR_0"),
             (self.indices, "indices"),
         ];
         let mut sum = 0;
@@ -136,11 +153,41 @@ impl Corners {
             let what = format!("node {} takes corner {at} beyond {FARTHEST} m", node.index);
             return Err(Place::new(place, what));
         }
-        let triangles = self.triangles(buffers, vertices.len())?;
+        let mut triangles = self.triangles(buffers, vertices.len())?;
+        // A mirror turns the way that corners go round (section 3.7.4).
+        if node.into_world.matrix3.determinant() < 0.0 {
+            triangles.iter_mut().for_each(|corners| corners.swap(1, 2));
+        }
         Ok(Mesh {
             vertices,
             triangles,
         })
+    }
+
+    /// What COLOR_0 multiplies the base colour by, at each corner; alpha is 1 unless the material blends.
+    fn tints(
+        &self,
+        buffers: &Buffers,
+        mode: AlphaMode,
+        corners: usize,
+    ) -> Result<Option<Tints>, Place> {
+        let Some(index) = self.colours else {
+            return Ok(None);
+        };
+        let place = self.place_of("attributes.COLOR_0");
+        let mut tints = buffers.colours(index, &place)?;
+        if tints.len() != corners {
+            let what = format!("{} colours of {corners} corners", tints.len());
+            return Err(Place::new(place, what));
+        }
+        if mode == AlphaMode::Mask && tints.iter().any(|tint| tint[3] < 1.0) {
+            let what = "its alpha cuts parts out of the surface (alphaMode MASK), which is not read; export it without";
+            return Err(Place::new(place, what));
+        }
+        if mode == AlphaMode::Opaque {
+            tints.iter_mut().for_each(|tint| tint[3] = 1.0);
+        }
+        Ok(Some(tints))
     }
 
     fn triangles(&self, buffers: &Buffers, corners: usize) -> Result<Vec<[u32; 3]>, Place> {
@@ -161,7 +208,13 @@ impl Corners {
             return Ok(Vec::new());
         };
         Ok(match self.mode {
-            Mode::TriangleStrip => order.windows(3).map(|w| [w[0], w[1], w[2]]).collect(),
+            // Each other triangle goes round the other way (section 3.7.2.1).
+            Mode::TriangleStrip => (order.windows(3).enumerate())
+                .map(|(i, w)| match i % 2 {
+                    0 => [w[0], w[1], w[2]],
+                    _ => [w[0], w[2], w[1]],
+                })
+                .collect(),
             Mode::TriangleFan => order[1..]
                 .windows(2)
                 .map(|w| [*first, w[0], w[1]])

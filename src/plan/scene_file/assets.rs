@@ -56,7 +56,7 @@ impl SceneFile {
             Light::Uniform(light) => Ok(SceneLight::Uniform(*light)),
             Light::Environment(path) => {
                 let bytes = self.bytes(path, path.get_ref(), read)?;
-                let environment = Environment::read(&bytes);
+                let environment = Environment::read(&bytes, self.space);
                 let environment = environment.map_err(|fault| {
                     let what = format!("{}: {fault}", path.get_ref());
                     self.fault(path.span().start, what)

@@ -297,6 +297,7 @@ impl FileText<'_> {
                 // The least share that eight bits of alpha tell from nothing.
                 coverage: self.or(raw.coverage.as_ref(), "coverage", [1.0 / 256.0, 1.0], 1.0)?
                     as f32,
+                is_one_sided: false,
             },
             extent: extent
                 .map(|extent| self.number(extent, "extent", [SMALLEST, FARTHEST]))
@@ -348,6 +349,6 @@ fn turned(camera: &Camera, at: DVec3, axis: DVec3, degrees: f64) -> Camera {
     Camera {
         eye: at + turn(camera.eye - at),
         axes: camera.axes.map(turn),
-        lens: camera.lens,
+        ..*camera
     }
 }

@@ -36,6 +36,7 @@ use toml::Spanned;
 use crate::materials::{FileFault, FileText};
 use crate::raster::Camera;
 use crate::scene::Display;
+use crate::spectra::Space;
 
 use super::drawn::DrawnScene;
 use super::pixels::{FramePixels, MappedMaterial};
@@ -53,6 +54,8 @@ pub const SIDES: [u32; 2] = [16, 4096];
 pub struct SceneFile {
     /// How its pictures are shown.
     pub display: Display,
+    /// The working space, into which environments are brought; sRGB unless it is changed.
+    pub space: Space,
     file: String,
     text: String,
     cameras: Vec<Camera>,
@@ -99,6 +102,7 @@ impl SceneFile {
         let checked = Checked::of(raw, &place)?;
         Ok(SceneFile {
             display: checked.display,
+            space: Space::default(),
             file: file.to_owned(),
             text: text.to_owned(),
             cameras: checked.cameras,

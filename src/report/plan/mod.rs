@@ -37,6 +37,8 @@ pub struct PlanReport {
     total: PlanTotal,
     /// Materials that are not planned.
     unplanned: Vec<Unplanned>,
+    /// What the scene says and is not read.
+    remarks: Vec<String>,
     /// What came of the functions' text, where that was run.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     proofs: Vec<Proof>,
@@ -51,6 +53,7 @@ impl PlanReport {
         frames: usize,
         total: PlanTotal,
         unplanned: Vec<Unplanned>,
+        remarks: Vec<String>,
         rows: Vec<PlanRow>,
     ) -> PlanReport {
         PlanReport {
@@ -65,6 +68,7 @@ impl PlanReport {
             frames,
             total,
             unplanned,
+            remarks,
             proofs: Vec::new(),
             rows,
         }
@@ -120,6 +124,7 @@ impl PlanReport {
             let (name, reason) = (Foreign(&one.name), one_line(&one.reason));
             lines.push(format!("{name}: not planned: {reason}\n"));
         }
+        lines.extend(self.remarks.iter().map(|remark| format!("{remark}.\n")));
         lines.push(self.total());
         lines.extend(self.proofs.iter().map(proof_line));
         lines.push(format!(

@@ -67,6 +67,7 @@ pub fn plan_page(report: &PlanReport, views: &[MaterialView]) -> Result<String, 
     let mut context = Context::new();
     context.insert("sections", &sections);
     context.insert("unplanned", &report.unplanned);
+    context.insert("remarks", &report.remarks);
     context.insert("total", &report.total());
     context.insert("cost_of", report.cost_of);
     context.insert("gpu", report.gpu);

@@ -41,6 +41,26 @@ fn files_and_report_agree() {
     assert_eq!(beside["rows"].as_array().unwrap()[..], rows[..8]);
 }
 
+/// A PNG of a wider space says so, as OpenEXR and KTX2 do; without a word it would be sRGB.
+#[test]
+fn a_png_names_the_primaries_of_a_wider_space() {
+    for (space, red) in [("srgb", None), ("p3", Some(0.68)), ("acescg", Some(0.713))] {
+        let place = Place::new();
+        place.done(&format!(
+            "bake --material gold --size 16 --space {space} --format png16"
+        ));
+        let bytes = std::fs::read(place.path(OUT).join("lut/gold.png")).unwrap();
+        let reader = png::Decoder::new(std::io::Cursor::new(bytes))
+            .read_info()
+            .unwrap();
+        let found = reader
+            .info()
+            .chrm_chunk
+            .map(|stated| stated.red.0.into_value());
+        assert_eq!(found, red, "{space}");
+    }
+}
+
 #[test]
 fn a_budget_is_met_by_the_smallest() {
     let place = Place::new();

@@ -132,14 +132,31 @@ fn the_action_runs_its_command() {
     assert!(!place.path("run").exists());
     assert_ne!(acts("--material 'gold").code, Some(0));
     let environment = [
+        ("ImageOS", ""),
         ("GITHUB_ACTION_PATH", env!("CARGO_MANIFEST_DIR")),
         ("GITHUB_OUTPUT", &place.path("output").display().to_string()),
         ("GITHUB_PATH", &place.path("path").display().to_string()),
         ("RUNNER_TEMP", "temp"),
     ];
     bash(&place, sources, &environment).ends(0);
-    let hash = place.read("output");
-    let hash = hash.strip_prefix("hash=").expect("a key").trim_end();
+    let output = place.read("output");
+    let value = |key: &str| {
+        let line = output.lines().find_map(|line| line.strip_prefix(key));
+        line.unwrap_or_else(|| panic!("{key} is not in {output}"))
+    };
+    // What the program was built against is part of the key: images of one `runner.os` have several C libraries.
+    let (hash, system) = (value("hash="), value("system="));
+    assert!(
+        system.starts_with("none-") && system.len() > 5 && !system.contains(' '),
+        "{system}"
+    );
+    let key = steps[1]["with"]["key"].as_str().unwrap();
+    for part in ["hash", "system"] {
+        assert!(
+            key.contains(&format!("steps.sources.outputs.{part}")),
+            "{key}"
+        );
+    }
     assert!(
         hash.len() == 64 && hash.chars().all(|c| c.is_ascii_hexdigit()),
         "{hash}"

@@ -156,6 +156,27 @@ fn a_user_can_bring_a_light() {
     assert_eq!(own["illuminant"], "lamp.csv");
     place.done("--material silver --illuminant lamp.csv --target gles --depfile d");
     assert!(place.read("d").contains("lamp.csv"));
+    // Lines between the steps of the sum, as a spectrometer writes them every half nanometre: they hold most of the light. Right values
+    // were computed apart, over the file's own steps.
+    let line = |nm: f64| match nm {
+        435.5 | 546.5 => 1500,
+        611.5 => 2000,
+        _ => 1,
+    };
+    let rows: String = (0..=800)
+        .map(|i| 380.0 + f64::from(i) / 2.0)
+        .map(|nm| format!("{nm},{}\n", line(nm)))
+        .collect();
+    place.put("lines.csv", &rows);
+    for step in ["5nm", "1nm"] {
+        let ran = place.done(&format!(
+            "materials params gold --illuminant lines.csv --step {step} --json -"
+        ));
+        let f0 = ran.json()["f0"].clone();
+        for (found, right) in f0.as_array().unwrap().iter().zip([0.9102, 0.8846, 0.3221]) {
+            near(found.as_f64().unwrap(), right, 2e-3);
+        }
+    }
     place.put("short.csv", "nm,power\n400,1\n700,1\n");
     place.refused(
         "--material silver --illuminant short.csv",

@@ -4,13 +4,13 @@ use fresnel_gen::plan::{GltfFault, GltfScene, GltfView, SceneFile, SceneLight, c
 use fresnel_gen::raster::{CUBE, Mesh, SPHERE};
 use serde_json::{Value, json};
 
-const VIEW: GltfView = GltfView {
+pub const VIEW: GltfView = GltfView {
     size: [64, 48],
     light: SceneLight::Uniform([1.0, 0.5, 0.25]),
 };
 
 /// A file with one mesh: its JSON, with a buffer that lies beside it, and the buffer.
-fn file(mesh: &Mesh) -> (Value, Vec<u8>) {
+pub fn file(mesh: &Mesh) -> (Value, Vec<u8>) {
     let mut bytes = Vec::new();
     let places = mesh.vertices.iter().map(|vertex| vertex.position);
     let normals = mesh.vertices.iter().map(|vertex| vertex.normal);
@@ -48,7 +48,7 @@ fn file(mesh: &Mesh) -> (Value, Vec<u8>) {
     (json, bytes)
 }
 
-fn read_with(json: &Value, buffer: &[u8]) -> Result<GltfScene, GltfFault> {
+pub fn read_with(json: &Value, buffer: &[u8]) -> Result<GltfScene, GltfFault> {
     let mut read = |path: &str| match path {
         "a body.bin" => Ok(buffer.to_vec()),
         _ => Err("it is not there".to_owned()),
@@ -61,7 +61,7 @@ fn read(json: &Value) -> Result<GltfScene, GltfFault> {
     read_with(json, &file(&CUBE.mesh()).1)
 }
 
-fn glb(json: &Value, binary: &[u8]) -> Vec<u8> {
+pub fn glb(json: &Value, binary: &[u8]) -> Vec<u8> {
     let mut text = serde_json::to_vec(json).unwrap();
     text.resize(text.len().next_multiple_of(4), b' ');
     let length = 12 + 8 + text.len() + 8 + binary.len();
@@ -77,7 +77,7 @@ fn glb(json: &Value, binary: &[u8]) -> Vec<u8> {
     bytes
 }
 
-fn no_file(path: &str) -> Result<Vec<u8>, String> {
+pub fn no_file(path: &str) -> Result<Vec<u8>, String> {
     Err(format!("{path} is not wanted"))
 }
 

@@ -2,6 +2,8 @@
 
 mod gbuffer;
 mod gltf;
+mod gltf_seen;
+mod light_files;
 #[cfg(any(feature = "pictures", feature = "gpu"))]
 mod other_renderers;
 mod planned;

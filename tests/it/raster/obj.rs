@@ -54,6 +54,46 @@ fn polygons_relative_indices_and_groups_are_read() {
     assert!(mesh.vertices.iter().all(|vertex| vertex.normal.is_finite()));
 }
 
+/// A star of one face covers what its triangles cover, and not what a fan from its first corner does; so does a dart.
+#[test]
+fn a_concave_face_covers_what_lies_inside() {
+    let point = |i: usize| {
+        let angle = std::f64::consts::PI * (0.5 + i as f64 / 5.0);
+        let radius = if i % 2 == 0 { 1.0 } else { 0.35 };
+        (radius * angle.cos(), radius * angle.sin())
+    };
+    let mut places: String = (0..10)
+        .map(|i| format!("v {} {} 0\n", point(i).0, point(i).1))
+        .collect();
+    places += "v 0 0 0\nv -0.4 -0.3 0\nv 0 0.9 0\nv 0.4 -0.3 0\nv 0 0.1 0\n";
+    let face = |corners: &[usize]| {
+        let words: Vec<String> = corners.iter().map(|corner| corner.to_string()).collect();
+        format!("f {}\n", words.join(" "))
+    };
+    let whole = face(&[1, 2, 3, 4, 5, 6, 7, 8, 9, 10]);
+    let cut: String = (1..11).map(|i| face(&[11, i, i % 10 + 1])).collect();
+    let view = camera([0.0, 0.0, 3.0], [128, 128], 45.0);
+    let pixels = |faces: &str| {
+        let mesh = mesh_of_obj(&format!("{places}{faces}")).unwrap();
+        draw(&mesh, &view).covered.len()
+    };
+    assert_eq!(pixels(&whole), pixels(&cut));
+    let dart = face(&[12, 13, 14, 15]);
+    assert_eq!(pixels(&dart), pixels("f 12 13 15\nf 15 13 14\n"));
+    // A material without a name is none.
+    assert_eq!(pixels(&format!("usemtl\n{dart}")), pixels(&dart));
+    // A polyline of three places is no triangle.
+    assert_eq!(pixels(&format!("{dart}l 1 3 5 7\n")), pixels(&dart));
+    let many: String = (0..1100)
+        .map(|i| format!("v {i} {} 0\n", i % 2))
+        .chain(["v 1099 -5 0\nv 0 -5 0\nf".to_owned()])
+        .chain((1..1103).map(|i| format!(" {i}")))
+        .collect();
+    let fault = mesh_of_obj(&many).unwrap_err();
+    assert_eq!(fault.line, 1103);
+    assert!(fault.what.contains("up to 1024"), "{fault}");
+}
+
 #[test]
 fn a_face_may_stand_above_its_corners() {
     assert!(mesh_of_obj("f 1 2 3\nv 0 0 0\nv 1 0 0\nv 0 1 0\n").is_ok());
@@ -100,6 +140,11 @@ fn what_is_broken_is_refused_with_its_line() {
         (format!("{three}f 1 2\n"), 4, "a face has 2 corners"),
         (format!("{three}f 1 2 x\n"), 4, "`x` is no index"),
         (many, 4, "more than 4000000 triangles"),
+        (
+            format!("{three}surf 0 1 0 1 1 2 3\n"),
+            4,
+            "`surf` is a surface",
+        ),
     ] {
         let fault = mesh_of_obj(&text).unwrap_err();
         let head: String = text.chars().take(60).collect();

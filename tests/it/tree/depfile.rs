@@ -31,6 +31,38 @@ fn make_and_ninja_read_what_the_depfile_spells() {
     }
 }
 
+/// An input that was renamed, or removed, is a reason to run again and no reason to end.
+#[test]
+fn make_and_ninja_go_on_after_an_input_was_renamed() {
+    let dir = TempDir::new().unwrap();
+    let put = |file: &str, text: &str| fs::write(dir.path().join(file), text).unwrap();
+    let strings = |names: &[&str]| names.iter().map(|n| n.to_string()).collect::<Vec<_>>();
+    let text = depfile(&strings(&["out"]), &strings(&["gone lamp.csv", "there"])).unwrap();
+    put("there", "");
+    put("out", "");
+    put("out.d", &text);
+    put("kept.d", &text);
+    put("Makefile", "out: there\n\techo made >out\n-include out.d\n");
+    put(
+        "build.ninja",
+        "rule make\n  command = echo made >out && cp kept.d out.d\n  depfile = out.d\nbuild out: make there\n",
+    );
+    for (command, package) in [("make", "make"), ("ninja", "ninja-build")] {
+        if !(Tool { command, package }).is_here("the depfile") {
+            continue;
+        }
+        put("out", "");
+        let folder = dir.path().to_str().unwrap();
+        let ran = Command::new(command).args(["-C", folder]).output().unwrap();
+        assert!(ran.status.success(), "{command}: {ran:?}");
+        assert_eq!(
+            fs::read_to_string(dir.path().join("out")).unwrap(),
+            "made\n",
+            "{command}"
+        );
+    }
+}
+
 /// `a[1].toml` means `a1.toml` to Make, where that is there, and `a\[1].toml` is another file to Ninja: no spelling serves both.
 #[test]
 fn what_make_and_ninja_cannot_both_read_is_refused() {
