@@ -5,8 +5,10 @@ use crate::reference::MaterialInMedium;
 
 use super::cosine::cosine;
 use super::error::{Error, FunctionPlace, MissingArgument, ValueFault};
+use super::hidden::HiddenInput;
 use super::quantity::{self, Quantity, meanings, plain};
 use super::scan::{FoundFunction, NumberShape, Parameter};
+use super::slice::Slice;
 
 /// A function with all that it takes.
 #[derive(Clone, Debug)]
@@ -15,8 +17,10 @@ pub struct Bound {
     pub function: FoundFunction,
     /// The place of the cosine among its arguments.
     pub cosine: usize,
-    /// The others, in order.
+    /// The others, in order; behind them what it reads from outside.
     pub arguments: Vec<BoundArgument>,
+    /// What it reads from outside.
+    pub hidden: Vec<HiddenInput>,
 }
 
 /// An argument with its value.
@@ -195,35 +199,70 @@ pub fn choose(
     found: Vec<FoundFunction>,
     name: Option<&str>,
 ) -> Result<FoundFunction, Error> {
-    if let Some(name) = name {
+    let named = match name {
+        None => found,
+        Some(name) => named(file, &found, name)?,
+    };
+    let fits = named.iter().filter(|found| found.is_candidate());
+    let candidates: Vec<FoundFunction> = fits.cloned().collect();
+    match (candidates.as_slice(), name) {
+        ([one], _) => Ok(one.clone()),
+        ([], Some(_)) => Err(unfit(file, &named[0])),
+        ([], None) => Err(Error::NoReflectance {
+            file: file.to_owned(),
+        }),
+        _ => Err(Error::SeveralFunctions {
+            file: file.to_owned(),
+            names: told_apart(&candidates),
+        }),
+    }
+}
+
+/// The functions of a name, or of a name and a line: `schlick:12`.
+fn named(file: &str, found: &[FoundFunction], name: &str) -> Result<Vec<FoundFunction>, Error> {
+    let (name, line) = match name.split_once(':') {
+        Some((name, line)) => (name, Some(line)),
+        None => (name, None),
+    };
+    let of_name = found.iter().filter(|found| found.name == name);
+    let of_name: Vec<FoundFunction> = of_name.cloned().collect();
+    if of_name.is_empty() {
         let mut all: Vec<&str> = found.iter().map(|found| found.name.as_str()).collect();
         all.dedup();
-        let missing = match all.is_empty() {
+        return Err(match all.is_empty() {
             true => Error::NoFunction {
                 file: file.to_owned(),
             },
             false => UnknownName::new("function", name, &all).into(),
-        };
-        let mut named = found.iter().filter(|found| found.name == name);
-        let first = named.next().cloned().ok_or(missing)?;
-        let fits = first.is_candidate().then_some(&first);
-        let fits = fits.or_else(|| named.find(|found| found.is_candidate()));
-        return fits.cloned().ok_or_else(|| unfit(file, &first));
+        });
     }
-    let candidates: Vec<FoundFunction> = found
-        .into_iter()
-        .filter(FoundFunction::is_candidate)
-        .collect();
-    match candidates.as_slice() {
-        [] => Err(Error::NoReflectance {
+    let Some(line) = line else {
+        return Ok(of_name);
+    };
+    let is_there = |found: &&FoundFunction| line.parse() == Ok(found.line);
+    let there: Vec<FoundFunction> = of_name.iter().filter(is_there).cloned().collect();
+    match there.is_empty() {
+        false => Ok(there),
+        true => Err(Error::NoFunctionInLine {
             file: file.to_owned(),
-        }),
-        [one] => Ok(one.clone()),
-        _ => Err(Error::SeveralFunctions {
-            file: file.to_owned(),
-            names: candidates.iter().map(|found| found.name.clone()).collect(),
+            name: name.to_owned(),
+            line: line.to_owned(),
+            lines: of_name.iter().map(|found| found.line.to_string()).collect(),
         }),
     }
+}
+
+/// Names of functions; those that several have with their lines and arguments.
+fn told_apart(functions: &[FoundFunction]) -> Vec<String> {
+    let words = |one: &FoundFunction| {
+        let is_other = |other: &&FoundFunction| other.name == one.name;
+        if functions.iter().filter(is_other).count() == 1 {
+            return one.name.clone();
+        }
+        let names: Vec<&str> = one.params.iter().map(|param| param.name.as_str()).collect();
+        format!("{}:{} ({})", one.name, one.line, names.join(", "))
+    };
+    functions.iter().map(words).collect()
 }
 
 /// Why a function cannot be one of reflectance.
@@ -243,7 +282,7 @@ fn unfit(file: &str, found: &FoundFunction) -> Error {
     }
 }
 
-fn place_of(file: &str, found: &FoundFunction) -> FunctionPlace {
+pub fn place_of(file: &str, found: &FoundFunction) -> FunctionPlace {
     FunctionPlace {
         file: file.to_owned(),
         line: found.line,
@@ -259,34 +298,56 @@ fn place_of(file: &str, found: &FoundFunction) -> FunctionPlace {
 pub fn bind(
     file: &str,
     function: FoundFunction,
+    slice: &Slice,
     given: &[Given],
     subject: &MaterialInMedium,
 ) -> Result<Bound, Error> {
-    check_names(&function, given)?;
+    check_names(&function, slice, given)?;
+    let hidden = slice.hidden.iter();
+    let hidden: Vec<(Parameter, &HiddenInput)> = hidden
+        .map(|input| (hidden_parameter(input), input))
+        .collect();
     let mut values = Vec::new();
-    for param in &function.params {
+    let params = function
+        .params
+        .iter()
+        .map(|param| (param, param.name.as_str()));
+    let inputs = hidden
+        .iter()
+        .map(|(param, input)| (param, input.name.as_str()));
+    for (param, meaning) in params.chain(inputs) {
         let own = given.iter().rfind(|given| given.name == param.name);
-        values.push(bound_argument(&function, param, own, subject)?);
+        values.push(bound_argument(&function, (param, meaning), own, subject)?);
     }
-    let cosine = checked_cosine(file, &function, given, &values, subject)?;
+    let cosine = checked_cosine(file, &function, (slice, given), &values, subject)?;
     let arguments = values.into_iter().flatten().collect();
     Ok(Bound {
         function,
         cosine,
         arguments,
+        hidden: slice.hidden.clone(),
     })
+}
+
+/// An input from outside as an argument.
+fn hidden_parameter(input: &HiddenInput) -> Parameter {
+    Parameter {
+        name: input.path.clone(),
+        shape: input.shape(),
+        ty: String::new(),
+    }
 }
 
 /// An argument with its value, where there is one.
 fn bound_argument(
     function: &FoundFunction,
-    param: &Parameter,
+    (param, meaning): (&Parameter, &str),
     given: Option<&Given>,
     subject: &MaterialInMedium,
 ) -> Result<Option<BoundArgument>, Error> {
     let is_rgb = param.shape == NumberShape::Rgb;
     let may_differ = is_rgb || function.result == NumberShape::Scalar;
-    let meanings = meanings(&param.name, function);
+    let meanings = meanings(meaning, function);
     let (value, quantity) = match given.map(|given| (given, &given.value)) {
         Some((given, GivenValue::Numbers(values))) => {
             (Some(spread(&given.name, values, may_differ)?), None)
@@ -316,9 +377,12 @@ fn filled(quantity: Quantity, may_differ: bool, subject: &MaterialInMedium) -> O
     (may_differ || same(&value)).then(|| value.map(|value| value as f32))
 }
 
-fn check_names(function: &FoundFunction, given: &[Given]) -> Result<(), Error> {
-    let params = function.params.iter();
-    let all: Vec<&str> = params.map(|param| param.name.as_str()).collect();
+fn check_names(function: &FoundFunction, slice: &Slice, given: &[Given]) -> Result<(), Error> {
+    let params = function.params.iter().map(|param| &param.name);
+    let hidden = slice.hidden.iter().map(|input| &input.path);
+    let initialised = slice.initialised.iter().map(|one| &one.name);
+    let all = params.chain(hidden).chain(initialised);
+    let all: Vec<&str> = all.map(String::as_str).collect();
     let wrong = given
         .iter()
         .find(|given| !all.contains(&given.name.as_str()));
@@ -347,17 +411,25 @@ fn same(value: &[f64; 3]) -> bool {
 fn checked_cosine(
     file: &str,
     function: &FoundFunction,
-    given: &[Given],
+    (slice, given): (&Slice, &[Given]),
     values: &[Option<BoundArgument>],
     subject: &MaterialInMedium,
 ) -> Result<usize, Error> {
-    let has_value: Vec<bool> = values.iter().map(Option::is_some).collect();
+    let has_value = values.iter().map(Option::is_some);
+    let has_value: Vec<bool> = has_value.take(function.params.len()).collect();
     let chosen = cosine(function, &has_value);
     let missing = |place: &usize| values[*place].is_none() && Some(*place) != chosen;
-    let missing: Vec<MissingArgument> = (0..values.len())
-        .filter(missing)
-        .map(|place| missing_argument(&function.params[place].name, function, given, subject))
-        .collect();
+    let argument = |place: usize| match function.params.get(place) {
+        Some(param) => missing_argument(&param.name, function, given, subject),
+        None => {
+            let input = &slice.hidden[place - function.params.len()];
+            MissingArgument {
+                line: Some(input.line),
+                ..missing_argument(&input.path, function, given, subject)
+            }
+        }
+    };
+    let missing: Vec<MissingArgument> = (0..values.len()).filter(missing).map(argument).collect();
     match (chosen, missing.as_slice()) {
         (Some(place), []) => Ok(place),
         (_, []) => Err(Error::NoCosine {
@@ -388,6 +460,7 @@ fn missing_argument(
         name: name.to_owned(),
         quantity: quantity.map(|quantity| quantity.name),
         is_one_of_three: quantity.is_some_and(|quantity| quantity.value(subject).is_some()),
+        line: None,
     }
 }
 

@@ -82,7 +82,7 @@ fn shaders(
         let made = match made {
             Ok(MeasuredShader::Ready(shader)) => Ok(shader),
             Ok(MeasuredShader::Foreign(language, text)) => {
-                module(compilers.module(language, text)?)
+                module(compilers.module(language, program.precision, text)?)
             }
             Err(why) => Err(why),
         };

@@ -13,8 +13,10 @@ use super::bind::{Bound, BoundArgument};
 use super::comparison::{Comparison, Competitor, Own, dominating, sentence};
 use super::edges::{EdgeRow, Edges};
 use super::ours::Ours;
+use super::preprocess::Condition;
 use super::recognised::ExactFit;
 use super::runner::Trouble;
+use super::slice::{Initialised, Slice};
 use super::verdict::{Checked, is_within};
 
 /// A user's function with the values of a material: who accepts it, how far it is from the law, what it costs.
@@ -32,6 +34,12 @@ pub struct AuditRow {
     pub precision: &'static str,
     /// The function.
     pub function: String,
+    /// The line of its name.
+    pub line: usize,
+    /// The argument that is the cosine.
+    pub cosine: String,
+    /// The conditions that it depends on, and how they were decided.
+    pub conditions: Vec<ConditionRow>,
     /// Its file, without folders.
     pub file: String,
     /// How many channels a call gives.
@@ -43,6 +51,8 @@ pub struct AuditRow {
     pub arguments: Vec<(String, ArgumentValue)>,
     /// The arguments that have the material's values, in words.
     pub filled: Vec<String>,
+    /// What it reads from outside and has the value that the file gives it, in words.
+    pub initialised: Vec<String>,
     /// On what it ran.
     pub device: Option<String>,
     /// At how many cosines.
@@ -85,6 +95,17 @@ pub struct AuditRow {
     pub status: Status,
     /// Why it is not.
     pub reason: Option<String>,
+}
+
+/// A condition of the text.
+#[derive(Clone, Debug, Serialize)]
+pub struct ConditionRow {
+    /// Its line.
+    pub line: usize,
+    /// Itself.
+    pub text: String,
+    /// Whether what stands behind it is taken.
+    pub is_taken: bool,
 }
 
 /// The value of an argument.
@@ -200,6 +221,8 @@ pub struct Ran {
 pub struct Audited<'a> {
     /// What was asked.
     pub audit: &'a Audit,
+    /// What compilers see of the text.
+    pub slice: &'a Slice,
     /// The function with its arguments.
     pub bound: &'a Bound,
     /// The material.
@@ -230,13 +253,20 @@ impl Audited<'_> {
             method: function.clone(),
             material: self.subject.argument.clone(),
             form: "user",
-            precision: "f32",
+            precision: match self.slice.half {
+                Some(_) => "f16",
+                None => "f32",
+            },
             function: function.clone(),
+            line: self.bound.function.line,
+            cosine: self.bound.function.params[self.bound.cosine].name.clone(),
+            conditions: self.slice.conditions.iter().map(condition_row).collect(),
             file: crate::command_line::file_name(&self.audit.file).to_owned(),
             channels: if self.bound.is_one_channel() { 1 } else { 3 },
             input_numbers: self.bound.input_numbers(),
             arguments: self.bound.arguments.iter().map(argument_value).collect(),
             filled: self.bound.filled(),
+            initialised: self.slice.initialised.iter().map(initialised).collect(),
             device: ran.map(|ran| ran.device.clone()),
             points: ran.map(|ran| ran.points),
             code_error: None,
@@ -288,6 +318,9 @@ impl Audited<'_> {
                 );
             }
             Err(Trouble::Failed(why)) => reasons.push(format!("{place}: {why}")),
+            Err(Trouble::Refused(_, words)) if reasons.is_empty() => {
+                return (Status::NotChecked, vec![words.clone()]);
+            }
             Err(Trouble::Refused(..)) => {}
             Err(Trouble::Absent(why)) if reasons.is_empty() => {
                 return (Status::NotChecked, vec![why.clone()]);
@@ -368,6 +401,18 @@ impl Audited<'_> {
         });
         each.collect()
     }
+}
+
+fn condition_row(condition: &Condition) -> ConditionRow {
+    ConditionRow {
+        line: condition.line,
+        text: condition.text.clone(),
+        is_taken: condition.is_taken,
+    }
+}
+
+fn initialised(one: &Initialised) -> String {
+    format!("{} = {} (line {})", one.name, one.value, one.line)
 }
 
 fn argument_value(argument: &BoundArgument) -> (String, ArgumentValue) {
