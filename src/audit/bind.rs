@@ -303,21 +303,15 @@ pub fn bind(
     subject: &MaterialInMedium,
 ) -> Result<Bound, Error> {
     check_names(&function, slice, given)?;
-    let hidden = slice.hidden.iter();
-    let hidden: Vec<(Parameter, &HiddenInput)> = hidden
-        .map(|input| (hidden_parameter(input), input))
-        .collect();
+    let hidden: Vec<Parameter> = slice.hidden.iter().map(hidden_parameter).collect();
     let mut values = Vec::new();
-    let params = function
-        .params
-        .iter()
-        .map(|param| (param, param.name.as_str()));
-    let inputs = hidden
-        .iter()
-        .map(|(param, input)| (param, input.name.as_str()));
-    for (param, meaning) in params.chain(inputs) {
+    let params = function.params.iter();
+    let params = params.map(|param| (param, meanings(&param.name, &function)));
+    // The name of an input from outside says less (`k.x`, `bias`), so that its value is asked for.
+    let inputs = hidden.iter().map(|param| (param, Vec::new()));
+    for (param, meanings) in params.chain(inputs) {
         let own = given.iter().rfind(|given| given.name == param.name);
-        values.push(bound_argument(&function, (param, meaning), own, subject)?);
+        values.push(bound_argument(&function, (param, meanings), own, subject)?);
     }
     let cosine = checked_cosine(file, &function, (slice, given), &values, subject)?;
     let arguments = values.into_iter().flatten().collect();
@@ -341,13 +335,12 @@ fn hidden_parameter(input: &HiddenInput) -> Parameter {
 /// An argument with its value, where there is one.
 fn bound_argument(
     function: &FoundFunction,
-    (param, meaning): (&Parameter, &str),
+    (param, meanings): (&Parameter, Vec<Quantity>),
     given: Option<&Given>,
     subject: &MaterialInMedium,
 ) -> Result<Option<BoundArgument>, Error> {
     let is_rgb = param.shape == NumberShape::Rgb;
     let may_differ = is_rgb || function.result == NumberShape::Scalar;
-    let meanings = meanings(meaning, function);
     let (value, quantity) = match given.map(|given| (given, &given.value)) {
         Some((given, GivenValue::Numbers(values))) => {
             (Some(spread(&given.name, values, may_differ)?), None)

@@ -17,8 +17,6 @@ pub struct HiddenInput {
     pub path: String,
     /// The line where it is declared.
     pub line: usize,
-    /// The name that says what it stands for.
-    pub name: String,
     /// Whether it is three numbers.
     pub is_rgb: bool,
     /// The type that a number is converted to, where it is none of a real number.
@@ -129,7 +127,6 @@ impl<'a> DeclaredTypes<'a> {
         let number_of = |path: String, is_rgb: bool, cast: Option<String>| HiddenInput {
             path,
             line: walk.root.line,
-            name: variable.name.clone(),
             is_rgb,
             cast,
         };

@@ -6,7 +6,7 @@ use crate::emit::shader_words::{Token, tokens};
 use super::condition::definition;
 use super::hidden::{DeclaredTypes, HiddenInput, UnreadFault, distinct, held};
 use super::language::{Language, bare};
-use super::parts::{Part, PartKind, Storage, Variable, parts};
+use super::parts::{Part, PartKind, Storage, Variable, parts, without_annotations};
 use super::preprocess::{Condition, Define, Preprocessed};
 use super::reach::{MacroBodies, Reached, Use, reached};
 use super::scan::FoundFunction;
@@ -57,6 +57,10 @@ impl<'a> SlicedText<'a> {
         defines: &'a [Define],
     ) -> SlicedText<'a> {
         let code = bare(&preprocessed.text, language.has_preprocessor());
+        let code = match language {
+            Language::Hlsl => without_annotations(&code),
+            _ => code,
+        };
         let all = format!("{}{}", definitions(defines), preprocessed.text);
         SlicedText {
             language,

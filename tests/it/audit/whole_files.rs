@@ -14,11 +14,17 @@ fn place() -> Place {
     for (file, text) in [
         ("two_branches.glsl", include_str!("cases/two_branches.glsl")),
         ("param_if.glsl", include_str!("cases/param_if.glsl")),
-        ("same_signature.hlsl", include_str!("cases/same_signature.hlsl")),
+        (
+            "same_signature.hlsl",
+            include_str!("cases/same_signature.hlsl"),
+        ),
         ("uniform.glsl", include_str!("cases/uniform.glsl")),
         ("uniform.hlsl", include_str!("cases/uniform.hlsl")),
         ("uniform.wgsl", include_str!("cases/uniform.wgsl")),
-        ("global_default.hlsl", include_str!("cases/global_default.hlsl")),
+        (
+            "global_default.hlsl",
+            include_str!("cases/global_default.hlsl"),
+        ),
         ("half.hlsl", include_str!("cases/half.hlsl")),
         ("min16.hlsl", include_str!("cases/min16.hlsl")),
         ("mediump.glsl", include_str!("cases/mediump.glsl")),
@@ -57,13 +63,17 @@ fn the_text_behind_the_preprocessor_is_audited() {
     );
     let mobile = "two_branches.glsl --material gold -D MOBILE";
     if let Some(row) = row(&place, mobile, 0) {
-        assert_eq!((&row["line"], &row["channels"]), (&4.into(), &1.into()), "{row}");
+        assert_eq!(
+            (&row["line"], &row["channels"]),
+            (&3.into(), &1.into()),
+            "{row}"
+        );
         assert_eq!(row["conditions"][0]["is_taken"], true, "{row}");
     }
     if let Some(ran) = audit(&place, "two_branches.glsl --material gold --gpu none") {
         let ran = ran.ends(0);
         for says in [
-            "mediumFresnel in two_branches.glsl (line 9), gold",
+            "mediumFresnel in two_branches.glsl (line 8), gold",
             "cosine       `VoH`",
             "line 2 `#ifdef MOBILE`: not taken",
         ] {
@@ -92,7 +102,10 @@ fn dropped_lines_hold_no_function_in_any_language() {
         let low = format!("{file} --material gold -D LOW=2");
         if let Some(row) = row(&place, &low, 0) {
             // A constant is as far from 1 as F0 is.
-            assert!(row["model_error"]["max_abs"].as_f64().unwrap() > 0.6, "{row}");
+            assert!(
+                row["model_error"]["max_abs"].as_f64().unwrap() > 0.6,
+                "{row}"
+            );
         }
     }
     for (flag, says) in [
@@ -103,19 +116,43 @@ fn dropped_lines_hold_no_function_in_any_language() {
         place.refused(&format!("audit f.glsl --material gold {flag}"), &[says]);
     }
     place.put("open.glsl", "#if 1\nfloat f(float c) { return c; }\n");
-    place.refused("audit open.glsl --material gold", &["open.glsl:1:1: this condition has no"]);
-    place.put("wrong.glsl", "#if (1\n#endif\nfloat f(float c) { return c; }\n");
-    place.refused("audit wrong.glsl --material gold", &["wrong.glsl:1:1: the condition cannot be decided"]);
-    place.put("no.glsl", "#ifndef QUALITY\n#error define QUALITY\n#endif\nfloat f(float c) { return c; }\n");
-    place.refused("audit no.glsl --material gold", &["no.glsl:2:1: #error define QUALITY"]);
-    place.put("macro.hlsl", "real3 f(real3 f0, real c) { return lerp(f0, 1, POW5(1 - c)); }\n");
-    place.refused("audit macro.hlsl --function f --material gold", &["`real3`"]);
+    place.refused(
+        "audit open.glsl --material gold",
+        &["open.glsl:1:1: this condition has no"],
+    );
+    place.put(
+        "wrong.glsl",
+        "#if (1\n#endif\nfloat f(float c) { return c; }\n",
+    );
+    place.refused(
+        "audit wrong.glsl --material gold",
+        &["wrong.glsl:1:1: the condition cannot be decided"],
+    );
+    place.put(
+        "no.glsl",
+        "#ifndef QUALITY\n#error define QUALITY\n#endif\nfloat f(float c) { return c; }\n",
+    );
+    place.refused(
+        "audit no.glsl --material gold",
+        &["no.glsl:2:1: #error define QUALITY"],
+    );
+    place.put(
+        "macro.hlsl",
+        "real3 f(real3 f0, real c) { return lerp(f0, 1, POW5(1 - c)); }\n",
+    );
+    place.refused(
+        "audit macro.hlsl --function f --material gold",
+        &["`real3`"],
+    );
 }
 
 #[test]
 fn macros_of_the_command_line_are_in_the_text() {
     let place = Place::new();
-    place.put("f.hlsl", "real3 f(real3 f0, real c) { real m = 1 - c; return f0 + (1 - f0) * pow(m, SHARP); }\n");
+    place.put(
+        "f.hlsl",
+        "real3 f(real3 f0, real c) { real m = 1 - c; return f0 + (1 - f0) * pow(m, SHARP); }\n",
+    );
     error(
         &place,
         "f.hlsl -D real=float -D real3=float3 -D SHARP=5 --material gold",
@@ -135,9 +172,15 @@ fn inputs_from_outside_need_values() {
         let line = format!("{file} --material water");
         place.refused(
             &format!("audit {line}"),
-            &[&format!("no value for `{bias}`, which it reads from outside (line"), power],
+            &[
+                &format!("no value for `{bias}`, which it reads from outside (line"),
+                power,
+            ],
         );
-        place.refused(&format!("audit {line} --arg {bias}=.02"), &[&format!("`{power}`")]);
+        place.refused(
+            &format!("audit {line} --arg {bias}=.02"),
+            &[&format!("`{power}`")],
+        );
         let given = format!("{line} --arg {bias}=f0 --arg {power}=5");
         if let Some(row) = row(&place, &given, 0) {
             let error = row["model_error"]["max_abs"].as_f64().unwrap();
@@ -165,7 +208,10 @@ fn a_value_that_the_file_gives_is_taken_and_told() {
     }
     if let Some(row) = row(&place, &format!("{line} --arg _F0=0.5"), 0) {
         assert_eq!(row["initialised"].as_array().unwrap().len(), 0, "{row}");
-        assert!(row["model_error"]["max_abs"].as_f64().unwrap() > 0.4, "{row}");
+        assert!(
+            row["model_error"]["max_abs"].as_f64().unwrap() > 0.4,
+            "{row}"
+        );
     }
     place.put("o.wgsl", "override f0 = 0.02;\nfn f(c: f32) -> f32 { let m = 1.0 - c; return f0 + (1.0 - f0) * m*m*m*m*m; }\n");
     place.put("u.glsl", "uniform float f0 = 0.02;\nfloat f(float c) { float m = 1.0 - c; return f0 + (1.0 - f0) * m*m*m*m*m; }\n");
@@ -180,31 +226,87 @@ fn a_value_that_the_file_gives_is_taken_and_told() {
 #[test]
 fn every_kind_of_input_is_named() {
     let schlick = "float m = 1.0 - c; return f + (1.0 - f) * m*m*m*m*m; }\n";
-    let c = |before: &str, f: &str| format!("{before}\nfloat g(float c) {{ float f = {f}; {schlick}");
+    let c =
+        |before: &str, f: &str| format!("{before}\nfloat g(float c) {{ float f = {f}; {schlick}");
     let wgsl = |before: &str, f: &str| {
-        format!("{before}\nfn g(c: f32) -> f32 {{ let f = {f}; let m = 1.0 - c; return f + (1.0 - f) * m*m*m*m*m; }}\n")
+        format!(
+            "{before}\nfn g(c: f32) -> f32 {{ let f = {f}; let m = 1.0 - c; return f + (1.0 - f) * m*m*m*m*m; }}\n"
+        )
     };
     let asked: [(&str, String, &str); 14] = [
         ("a.glsl", c("in float bias;", "bias"), "bias"),
         ("b.glsl", c("uniform vec4 params;", "params.y"), "params.y"),
-        ("c.glsl", c("layout(std140) uniform Block { vec3 a; float bias; } block;", "block.bias"), "block.bias"),
-        ("d.glsl", c("layout(std140) uniform Block { vec3 a; float bias; };", "bias"), "bias"),
+        (
+            "c.glsl",
+            c(
+                "layout(std140) uniform Block { vec3 a; float bias; } block;",
+                "block.bias",
+            ),
+            "block.bias",
+        ),
+        (
+            "d.glsl",
+            c(
+                "layout(std140) uniform Block { vec3 a; float bias; };",
+                "bias",
+            ),
+            "bias",
+        ),
         ("e.glsl", c("float bias;", "bias"), "bias"),
-        ("f.glsl", c("uniform int percent;", "float(percent) * 0.01"), "percent"),
-        ("g.glsl", c("struct W { float bias; vec2 k; }; uniform W w;\n#define BIAS (w.k.x)", "BIAS"), "w.k.x"),
-        ("a.hlsl", c("struct W { float bias; }; ConstantBuffer<W> w : register(b0);", "w.bias"), "w.bias"),
-        ("b.hlsl", c("CBUFFER_START(UnityPerMaterial)\nhalf4 _P; float bias;\nCBUFFER_END", "bias"), "bias"),
+        (
+            "f.glsl",
+            c("uniform int percent;", "float(percent) * 0.01"),
+            "percent",
+        ),
+        (
+            "g.glsl",
+            c(
+                "struct W { float bias; vec2 k; }; uniform W w;\n#define BIAS (w.k.x)",
+                "BIAS",
+            ),
+            "w.k.x",
+        ),
+        (
+            "a.hlsl",
+            c(
+                "struct W { float bias; }; ConstantBuffer<W> w : register(b0);",
+                "w.bias",
+            ),
+            "w.bias",
+        ),
+        (
+            "b.hlsl",
+            c(
+                "CBUFFER_START(UnityPerMaterial)\nhalf4 _P; float bias;\nCBUFFER_END",
+                "bias",
+            ),
+            "bias",
+        ),
         ("c.hlsl", c("static float bias;", "bias"), "bias"),
-        ("d.hlsl", c("cbuffer A { float4 p : packoffset(c0); };", "p.w"), "p.w"),
+        (
+            "d.hlsl",
+            c("cbuffer A { float4 p : packoffset(c0); };", "p.w"),
+            "p.w",
+        ),
         ("a.wgsl", wgsl("var<private> bias: f32;", "bias"), "bias"),
-        ("b.wgsl", wgsl("@group(1) @binding(3) var<storage, read> p: vec4<f32>;", "p.z"), "p.z"),
+        (
+            "b.wgsl",
+            wgsl(
+                "@group(1) @binding(3) var<storage, read> p: vec4<f32>;",
+                "p.z",
+            ),
+            "p.z",
+        ),
         ("c.wgsl", wgsl("override bias: f32;", "bias"), "bias"),
     ];
     let place = Place::new();
     for (file, text, name) in asked {
         place.put(file, text);
         let line = format!("{file} --function g --material water");
-        place.refused(&format!("audit {line}"), &[&format!("`{name}`, which it reads from outside")]);
+        place.refused(
+            &format!("audit {line}"),
+            &[&format!("`{name}`, which it reads from outside")],
+        );
         let value = if name == "percent" { "2" } else { "0.02" };
         if let Some(row) = row(&place, &format!("{line} --arg {name}={value}"), 0) {
             let error = row["model_error"]["max_abs"].as_f64().unwrap();
@@ -212,16 +314,45 @@ fn every_kind_of_input_is_named() {
         }
     }
     for (file, text, says) in [
-        ("t.glsl", c("uniform sampler2D map;", "texture(map, vec2(0.5)).r"), "`map` (line 1), sampler2D"),
-        ("t.hlsl", c("Texture2D<float4> map; SamplerState s;", "map.SampleLevel(s, float2(0, 0), 0).r"), "`map` (line 1)"),
-        ("t.wgsl", wgsl("@group(0) @binding(1) var map: texture_2d<f32>;", "textureLoad(map, vec2i(0), 0).r"), "`map` (line 1)"),
-        ("u.glsl", c("uniform float bias[4];", "bias[1]"), "an array of float"),
+        (
+            "t.glsl",
+            c("uniform sampler2D map;", "texture(map, vec2(0.5)).r"),
+            "`map` (line 1), sampler2D",
+        ),
+        (
+            "t.hlsl",
+            c(
+                "Texture2D<float4> map; SamplerState s;",
+                "map.SampleLevel(s, float2(0, 0), 0).r",
+            ),
+            "`map` (line 1)",
+        ),
+        (
+            "t.wgsl",
+            wgsl(
+                "@group(0) @binding(1) var map: texture_2d<f32>;",
+                "textureLoad(map, vec2i(0), 0).r",
+            ),
+            "`map` (line 1)",
+        ),
+        (
+            "u.glsl",
+            c("uniform float bias[4];", "bias[1]"),
+            "an array of float",
+        ),
         ("v.glsl", c("", "gl_FragCoord.x"), "`gl_FragCoord`"),
         ("w.glsl", c("", "fwidth(c)"), "`fwidth`"),
-        ("x.hlsl", c("float b; static const float d = 2 * b;", "d"), "`d` is computed from `b`"),
+        (
+            "x.hlsl",
+            c("float b; static const float d = 2 * b;", "d"),
+            "`d` is computed from `b`",
+        ),
     ] {
         place.put(file, text);
-        place.refused(&format!("audit {file} --function g --material water"), &[says]);
+        place.refused(
+            &format!("audit {file} --function g --material water"),
+            &[says],
+        );
     }
 }
 
@@ -249,11 +380,21 @@ fn a_function_is_cut_out_of_a_whole_shader() {
     place.put("f.hlsl", include_str!("cases/whole.hlsl"));
     place.put("f.wgsl", include_str!("cases/whole.wgsl"));
     for file in ["f.frag", "f.hlsl", "f.wgsl"] {
-        error(&place, &format!("{file} --function fresnel --material gold"), SCHLICK);
+        error(
+            &place,
+            &format!("{file} --function fresnel --material gold"),
+            SCHLICK,
+        );
     }
     // Lines keep their numbers.
-    place.put("g.frag", include_str!("cases/whole.frag").replace("return x2 * x2 * x;", "return y2 * x2 * x;"));
-    if let Some(ran) = audit(&place, "g.frag --function fresnel --material gold --gpu none") {
+    place.put(
+        "g.frag",
+        include_str!("cases/whole.frag").replace("return x2 * x2 * x;", "return y2 * x2 * x;"),
+    );
+    if let Some(ran) = audit(
+        &place,
+        "g.frag --function fresnel --material gold --gpu none",
+    ) {
         let ran = ran.ends(1);
         assert!(ran.err.contains("FAIL g.frag:15:"), "{ran:?}");
     }
@@ -270,7 +411,10 @@ fn half_precision_is_half_precision_in_every_language() {
         assert_eq!(row["precision"], "f16", "{row}");
         assert_eq!(row["checked"]["within_range"], false, "{row}");
         let reason = row["reason"].as_str().unwrap();
-        assert!(reason.contains("it gives no number at 2169 cosines"), "{reason}");
+        assert!(
+            reason.contains("it gives no number at 2169 cosines"),
+            "{reason}"
+        );
     }
 }
 
@@ -281,7 +425,10 @@ fn functions_of_one_name_are_told_apart_by_their_lines() {
         "f.glsl",
         "float f(float c, float f0) { return f0; }\nvec3 f(float c, vec3 f0) { float m = 1.0 - c; return f0 + (1.0 - f0) * (m*m*m*m*m); }\n",
     );
-    for line in ["audit f.glsl --material gold", "audit f.glsl --function f --material gold"] {
+    for line in [
+        "audit f.glsl --material gold",
+        "audit f.glsl --function f --material gold",
+    ] {
         place.refused(line, &["--function: f:1 (c, f0), f:2 (c, f0)"]);
     }
     error(&place, "f.glsl --function f:2 --material gold", SCHLICK);
@@ -294,13 +441,29 @@ fn functions_of_one_name_are_told_apart_by_their_lines() {
 #[test]
 fn a_result_that_is_an_argument_is_measured() {
     let place = place();
-    error(&place, "shadergraph.hlsl --function Rim_float --material gold", SCHLICK);
-    if let Some(row) = row(&place, "shadergraph.hlsl --function Rim_half --material gold", 0) {
+    error(
+        &place,
+        "shadergraph.hlsl --function Rim_float --material gold",
+        SCHLICK,
+    );
+    if let Some(row) = row(
+        &place,
+        "shadergraph.hlsl --function Rim_half --material gold",
+        0,
+    ) {
         let error = row["model_error"]["max_abs"].as_f64().unwrap();
         assert!((error - SCHLICK).abs() < 1e-3, "{row}");
-        assert_eq!((&row["cosine"], &row["precision"]), (&"NdotV".into(), &"f16".into()));
+        assert_eq!(
+            (&row["cosine"], &row["precision"]),
+            (&"NdotV".into(), &"f16".into())
+        );
     }
-    place.put("f.glsl", "void f(in float c, out float o) { float m = 1.0 - c; o = k + (1.0 - k) * (m*m*m*m*m); }\n".replace("k", "f0").replace("in float c,", "in float c, float f0,"));
+    place.put(
+        "f.glsl",
+        "void f(in float c, out float o) { float m = 1.0 - c; o = k + (1.0 - k) * (m*m*m*m*m); }\n"
+            .replace("k", "f0")
+            .replace("in float c,", "in float c, float f0,"),
+    );
     error(&place, "f.glsl --function f --material gold", SCHLICK);
 }
 
@@ -309,13 +472,13 @@ fn a_result_that_is_an_argument_is_measured() {
 fn a_broken_compiler_is_not_blamed_on_the_text() {
     let place = Place::new();
     let text = "float f(float c) { return c; }\n";
-    for (file, compiler) in [
-        ("f.hlsl", "dxc"),
-        ("f.slang", "slangc"),
-    ] {
+    for (file, compiler) in [("f.hlsl", "dxc"), ("f.slang", "slangc")] {
         place.put(file, text);
         for (number, (script, says)) in [
-            ("echo \"$0: error while loading shared libraries: libslang.so\" >&2; exit 1", "libslang.so"),
+            (
+                "echo \"$0: error while loading shared libraries: libslang.so\" >&2; exit 1",
+                "libslang.so",
+            ),
             ("kill -SEGV $$", "signal"),
             ("exit 1", "no word"),
             ("exit 0", "wrote nothing"),
@@ -325,10 +488,15 @@ fn a_broken_compiler_is_not_blamed_on_the_text() {
         {
             let tools = format!("tools{number}");
             put_compiler(&place, &format!("{tools}/{compiler}"), script);
-            let ran = place.run(&format!("audit {file} --material gold --gpu none --tools {tools}"));
+            let ran = place.run(&format!(
+                "audit {file} --material gold --gpu none --tools {tools}"
+            ));
             let ran = ran.ends(3);
             assert!(ran.err.contains(says), "{file}: {ran:?}");
-            assert!(ran.out.contains("not checked") && !ran.out.contains("refuses"), "{ran:?}");
+            assert!(
+                ran.out.contains("not checked") && !ran.out.contains("refuses"),
+                "{ran:?}"
+            );
         }
     }
 }
