@@ -15,9 +15,11 @@ use super::Audit;
 use super::accept::Accepted;
 use super::admission;
 use super::bind::{self, Bound, BoundArgument};
+use super::choose::choose;
 use super::compile::Compilers;
 use super::control_flow::{Branch, branch};
 use super::cost;
+use super::cost_row::AuditCost;
 use super::edges;
 use super::error::Error;
 use super::language::Language;
@@ -25,7 +27,7 @@ use super::ours::{CostedMethods, Ours};
 use super::place;
 use super::program::AuditProgram;
 use super::recognised::{self, ExactFit, recognised};
-use super::row::{AuditCost, AuditRow, Audited, Ran};
+use super::row::{AuditRow, Audited, Ran};
 use super::runner::{Runner, Trouble};
 use super::scan::FoundFunction;
 use super::slice::{Slice, SlicedText};
@@ -55,7 +57,7 @@ impl<'a> Auditor<'a> {
         let (file, text, language) = (&audit.file, &audit.text, audit.language);
         let live = admission::admitted(file, text, language, &audit.defines)?;
         let text = SlicedText::new(language, &live, &audit.defines);
-        let function = bind::choose(file, text.functions(), audit.function.as_deref())?;
+        let function = choose(file, text.functions(), audit.function.as_deref())?;
         admission::check_name(file, &live.text, language, &function.name)?;
         let given: Vec<&str> = audit
             .given

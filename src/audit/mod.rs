@@ -7,18 +7,22 @@
 
 mod accept;
 mod admission;
+mod annotations;
 mod auditor;
 mod bind;
+mod choose;
 mod comparison;
 mod compile;
 mod condition;
 mod control_flow;
 mod cosine;
 mod cost;
+mod cost_row;
 mod directives;
 mod edges;
 mod error;
 mod hidden;
+mod inputs;
 mod language;
 mod loops;
 mod ours;
@@ -36,6 +40,7 @@ mod scan;
 mod serve;
 mod slice;
 mod type_names;
+mod variables;
 mod verdict;
 
 use core::time::Duration;
@@ -46,12 +51,13 @@ use crate::reference::MaterialInMedium;
 use crate::spectra::Space;
 
 pub use bind::Given;
+pub use cost_row::AuditCost;
 pub use edges::EdgeRow;
 pub use error::{Error, FunctionPlace, MissingArgument, ValueFault};
 pub use language::Language;
 pub use preprocess::Define;
 pub use recognised::ExactFit;
-pub use row::{ArgumentValue, AuditCost, AuditRow, ConditionRow, Dominating, PerceivedFigures};
+pub use row::{ArgumentValue, AuditRow, ConditionRow, Dominating, PerceivedFigures};
 pub use serve::serve;
 pub use verdict::Checked;
 

@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-use crate::cost::{CostAndError, CostFigures, Family};
+use crate::cost::CostAndError;
 use crate::fit::{ModelError, Perceived};
 use crate::reference::MaterialInMedium;
 use crate::verify::compilers::Verdict;
@@ -11,12 +11,14 @@ use crate::verify::{Answer, Status, as_object};
 use super::Audit;
 use super::bind::{Bound, BoundArgument};
 use super::comparison::{Comparison, Competitor, Own, dominating, sentence};
+use super::cost_row::AuditCost;
 use super::edges::{EdgeRow, Edges};
+use super::inputs::Initialised;
 use super::ours::Ours;
 use super::preprocess::Condition;
 use super::recognised::ExactFit;
 use super::runner::Trouble;
-use super::slice::{Initialised, Slice};
+use super::slice::Slice;
 use super::verdict::{Checked, is_within};
 
 /// A user's function with the values of a material: who accepts it, how far it is from the law, what it costs.
@@ -126,51 +128,6 @@ pub struct PerceivedFigures {
     pub luminance: f64,
     /// CIEDE2000.
     pub de2000: f64,
-}
-
-/// What a function costs on a family of GPUs, or why that is not known.
-#[derive(Clone, Debug, Serialize)]
-#[serde(into = "AuditCostJson")]
-pub struct AuditCost {
-    /// The family.
-    pub family: &'static Family,
-    /// The compiler with its version, where one was asked.
-    pub compiler: Option<String>,
-    /// What is known, or why nothing is.
-    pub figures: Result<CostFigures, String>,
-}
-
-/// The cost in a report's JSON.
-#[derive(Serialize)]
-struct AuditCostJson {
-    gpu: &'static str,
-    compiler: Option<String>,
-    measure: &'static str,
-    instructions: Option<f64>,
-    latency: Option<f64>,
-    inverse_throughput: Option<f64>,
-    net_instructions: Option<f64>,
-    net_inverse_throughput: Option<f64>,
-    net: Option<f64>,
-    reason: Option<String>,
-}
-
-impl From<AuditCost> for AuditCostJson {
-    fn from(cost: AuditCost) -> AuditCostJson {
-        let figures = cost.figures.as_ref().ok();
-        AuditCostJson {
-            gpu: cost.family.name,
-            compiler: cost.compiler,
-            measure: cost.family.columns.measure,
-            instructions: figures.map(|figures| figures.shader.instructions),
-            latency: figures.and_then(|figures| figures.shader.latency),
-            inverse_throughput: figures.and_then(|figures| figures.shader.inverse_throughput),
-            net_instructions: figures.map(|figures| figures.net.instructions),
-            net_inverse_throughput: figures.and_then(|figures| figures.net.inverse_throughput),
-            net: figures.map(CostFigures::cost),
-            reason: cost.figures.err(),
-        }
-    }
 }
 
 /// A method of ours that errs no more and costs no more on a GPU.
