@@ -216,7 +216,7 @@ fn unbound(material: &str, missing: &[MissingArgument], has_cosine: bool) -> Str
     let first = missing.first().map_or("", |argument| &argument.name);
     let is_known = missing
         .first()
-        .is_some_and(|first| first.quantity.is_some());
+        .is_some_and(|first| first.quantity.is_some() || first.line.is_some());
     let like = match is_known {
         true => String::new(),
         false => offered(&nearest_names(first, &quantity::names())),

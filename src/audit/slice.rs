@@ -101,13 +101,14 @@ impl<'a> SlicedText<'a> {
         };
         let numbers = inputs.numbers()?;
         let (pieces, initialised) = inputs.pieces(&numbers);
-        let lines = lines_of(&reached, &parts, &words);
+        let mut lines = lines_of(&reached, &parts, &words);
+        let kept_macros = self.macro_lines(&reached);
+        lines.extend(kept_macros.iter().map(|(line, ..)| (*line, *line)));
         let conditions = self.preprocessed.conditions.iter();
         let conditions = conditions.filter(|one| {
             let is_met = |(from, to): &(usize, usize)| *from <= one.end && *to >= one.line;
             lines.iter().any(is_met)
         });
-        let kept_macros = self.macro_lines(&reached);
         let text = placed_pieces(
             pieces.into_iter().chain(kept_macros).collect(),
             self.preprocessed.text.lines().count(),
