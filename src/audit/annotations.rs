@@ -22,7 +22,7 @@ pub fn without_annotations(code: &str) -> String {
             .find(|pair| pair[0].text == ";" && pair[1].text == ">");
         spans.extend(close.map(|pair| (place, (pair[1].line, pair[1].column))));
     }
-    let is_inside = |place| {
+    let is_inside = |place: (usize, usize)| {
         spans
             .iter()
             .any(|(from, to)| (*from..=*to).contains(&place))

@@ -183,7 +183,6 @@ impl Inputs<'_> {
         };
         let last_end = last.column + last.text.chars().count();
         let lines = self
-            .slicer
             .code
             .lines()
             .skip(first.line - 1)

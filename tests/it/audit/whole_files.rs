@@ -184,7 +184,7 @@ fn inputs_from_outside_need_values() {
         let given = format!("{line} --arg {bias}=f0 --arg {power}=5");
         if let Some(row) = row(&place, &given, 0) {
             let error = row["model_error"]["max_abs"].as_f64().unwrap();
-            assert!((error - 0.0596).abs() < 1e-4, "{error}");
+            assert!((error - 0.059716).abs() < 2e-6, "{error}");
             assert_eq!(row["arguments"][bias]["quantity"], "f0", "{row}");
         }
         // A number for each channel is set before each call.
