@@ -114,7 +114,7 @@ fn pixel(precision: Precision, text: &str) -> Result<Vec<u8>, CompilerFault> {
     };
     let made = |version: usize| {
         let options = format!(
-            "-T {model} -E {ENTRY} -HV {version} -spirv -fspv-target-env=vulkan1.1 -Fo OUT FILE"
+            "-T {model} -E {ENTRY} -HV {version} -no-warnings -spirv -fspv-target-env=vulkan1.1 -Fo OUT FILE"
         );
         compiled(&DXC, &options, "shader.hlsl", text)
     };

@@ -125,7 +125,7 @@ pub fn hlsl_to_spirv_in(
         HlslVersion::V2021 => 2021,
     };
     let options = format!(
-        "-T {model} -E {entry} -HV {version} -spirv -fspv-target-env=vulkan1.1 -Fo OUT FILE"
+        "-T {model} -E {entry} -HV {version} -no-warnings -spirv -fspv-target-env=vulkan1.1 -Fo OUT FILE"
     );
     let file = CompilerInput {
         name: "shader.hlsl".to_owned(),
@@ -216,7 +216,9 @@ fn names_place(words: &str, files: &[CompilerInput]) -> bool {
     let is_module = files
         .iter()
         .any(|file| std::str::from_utf8(&file.bytes).is_err());
-    let is_fault = |line: &str| is_named(line) || is_module && line.starts_with("error");
+    let is_fault = |line: &str| {
+        is_named(line) && !line.contains(": warning:") || is_module && line.starts_with("error")
+    };
     words.lines().any(is_fault)
 }
 
@@ -268,6 +270,7 @@ mod tests {
             false,
         );
         check("error: cannot open 0-a.hlsl", false);
+        check("0-a.hlsl:1:1: warning: x\nerror: out of memory", false);
         check("10:03:05 internal error", false);
         check("ERROR: Linking vertex stage: Missing entry point", false);
         check("no word, signal: 11 (SIGSEGV)", false);
