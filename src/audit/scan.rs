@@ -186,8 +186,8 @@ pub(super) fn parts_between_commas<'t, 'a>(tokens: &'t [Token<'a>]) -> Vec<&'t [
     let (mut parts, mut start, mut depth) = (Vec::new(), 0, 0i32);
     for (at, token) in tokens.iter().enumerate() {
         match token.text {
-            "(" | "[" | "<" => depth += 1,
-            ")" | "]" | ">" => depth -= 1,
+            "(" | "[" | "{" | "<" => depth += 1,
+            ")" | "]" | "}" | ">" => depth -= 1,
             "," if depth == 0 => {
                 parts.push(&tokens[start..at]);
                 start = at + 1;
@@ -290,20 +290,19 @@ fn shape(written: &str) -> NumberShape {
     }
 }
 
+/// The functions of a text in order.
+#[cfg(test)]
+pub fn functions(text: &str, language: Language) -> Vec<FoundFunction> {
+    let code = super::language::bare(text, language.has_preprocessor());
+    let tokens = crate::emit::shader_words::tokens(&code);
+    let names = TypeNames::of_text(text, language);
+    let found = bodies(&tokens, &names, language);
+    found.map(|(found, _)| found).collect()
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::audit::language::bare;
-    use crate::emit::shader_words::tokens;
-
-    fn functions(text: &str, language: Language) -> Vec<FoundFunction> {
-        let code = bare(text, language.has_preprocessor());
-        let tokens = tokens(&code);
-        let names = TypeNames::of_text(text, language);
-        bodies(&tokens, &names, language)
-            .map(|(found, _)| found)
-            .collect()
-    }
 
     #[track_caller]
     fn check(text: &str, language: Language, expected: &[&str]) {

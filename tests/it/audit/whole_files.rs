@@ -213,7 +213,16 @@ fn a_value_that_the_file_gives_is_taken_and_told() {
             "{row}"
         );
     }
-    place.put("o.wgsl", "override f0 = 0.02;\nfn f(c: f32) -> f32 { let m = 1.0 - c; return f0 + (1.0 - f0) * m*m*m*m*m; }\n");
+    place.put(
+        "list.hlsl",
+        "float weights[2] = { 0.02, 5.0 };\nfloat f(float c) { return weights[0] + (1.0 - weights[0]) * pow(saturate(1.0 - c), weights[1]); }\n",
+    );
+    if let Some(row) = row(&place, "list.hlsl --material water", 0) {
+        let error = row["model_error"]["max_abs"].as_f64().unwrap();
+        assert!((error - 0.0596).abs() < 5e-4, "{row}");
+    }
+    place.put(
+        "o.wgsl", "override f0 = 0.02;\nfn f(c: f32) -> f32 { let m = 1.0 - c; return f0 + (1.0 - f0) * m*m*m*m*m; }\n");
     place.put("u.glsl", "uniform float f0 = 0.02;\nfloat f(float c) { float m = 1.0 - c; return f0 + (1.0 - f0) * m*m*m*m*m; }\n");
     for file in ["o.wgsl", "u.glsl"] {
         if let Some(row) = row(&place, &format!("{file} --material water"), 0) {
