@@ -2,8 +2,9 @@
 
 use serde::{Deserialize, Serialize};
 
+use crate::num::Precision;
 use crate::targets::{Compiler, DXC, GLSLANG, WGSL};
-use crate::verify::compilers::{CompilerFault, HlslVersion, Verdict, compiled, hlsl_to_spirv};
+use crate::verify::compilers::{CompilerFault, HlslVersion, Verdict, compiled, hlsl_to_spirv_in};
 use crate::verify::harness::ENTRY;
 
 use super::language::Language;
@@ -19,7 +20,7 @@ pub struct Accepted {
 }
 
 /// Asks the compilers about a whole program.
-pub fn accepted(language: Language, program: String) -> Accepted {
+pub fn accepted(language: Language, precision: Precision, program: String) -> Accepted {
     match language {
         Language::Wgsl => Accepted {
             verdicts: tint(&program).into_iter().collect(),
@@ -32,7 +33,7 @@ pub fn accepted(language: Language, program: String) -> Accepted {
                 code: Ok(ProgramCode::Gles(program)),
             }
         }
-        Language::Hlsl => hlsl(&program),
+        Language::Hlsl => hlsl(precision, &program),
         Language::Slang => {
             let made = slang(&program, "compute");
             Accepted {
@@ -55,9 +56,9 @@ fn tint(program: &str) -> Option<(String, Verdict)> {
 }
 
 /// Both versions of the language: what either accepts is run, as the older one has it where both do.
-fn hlsl(program: &str) -> Accepted {
-    let old = hlsl_to_spirv(program, ENTRY, HlslVersion::V2018);
-    let new = hlsl_to_spirv(program, ENTRY, HlslVersion::V2021);
+fn hlsl(precision: Precision, program: &str) -> Accepted {
+    let made = |version| hlsl_to_spirv_in(precision, program, ENTRY, version);
+    let (old, new) = (made(HlslVersion::V2018), made(HlslVersion::V2021));
     let verdicts = vec![
         ("dxc -HV 2018".to_owned(), old.clone().into()),
         ("dxc -HV 2021".to_owned(), new.clone().into()),
@@ -73,9 +74,13 @@ fn hlsl(program: &str) -> Accepted {
 ///
 /// # Errors
 /// The compiler is not here, or refuses it.
-pub fn module(language: Language, text: &str) -> Result<Vec<u8>, CompilerFault> {
+pub fn module(
+    language: Language,
+    precision: Precision,
+    text: &str,
+) -> Result<Vec<u8>, CompilerFault> {
     match language {
-        Language::Hlsl => pixel(text),
+        Language::Hlsl => pixel(precision, text),
         Language::Slang => slang(text, "fragment"),
         Language::Gles | Language::Wgsl => fragment(text),
     }
@@ -102,10 +107,14 @@ fn slang(text: &str, stage: &str) -> Result<Vec<u8>, CompilerFault> {
 ///
 /// # Errors
 /// DXC is not here, or refuses it.
-fn pixel(text: &str) -> Result<Vec<u8>, CompilerFault> {
+fn pixel(precision: Precision, text: &str) -> Result<Vec<u8>, CompilerFault> {
+    let model = match precision {
+        Precision::F32 => "ps_6_0",
+        Precision::F16 => "ps_6_2 -enable-16bit-types",
+    };
     let made = |version: usize| {
         let options = format!(
-            "-T ps_6_0 -E {ENTRY} -HV {version} -spirv -fspv-target-env=vulkan1.1 -Fo OUT FILE"
+            "-T {model} -E {ENTRY} -HV {version} -no-warnings -spirv -fspv-target-env=vulkan1.1 -Fo OUT FILE"
         );
         compiled(&DXC, &options, "shader.hlsl", text)
     };

@@ -13,27 +13,31 @@ use crate::verify::compilers::{CompilerFault, Verdict};
 
 use super::Audit;
 use super::accept::Accepted;
+use super::admission;
 use super::bind::{self, Bound, BoundArgument};
+use super::choose::choose;
 use super::compile::Compilers;
 use super::control_flow::{Branch, branch};
 use super::cost;
+use super::cost_row::AuditCost;
 use super::edges;
 use super::error::Error;
 use super::language::Language;
 use super::ours::{CostedMethods, Ours};
 use super::place;
-use super::program::{self, AuditProgram};
+use super::program::AuditProgram;
 use super::recognised::{self, ExactFit, recognised};
-use super::row::{AuditCost, AuditRow, Audited, Ran};
+use super::row::{AuditRow, Audited, Ran};
 use super::runner::{Runner, Trouble};
-use super::scan::{self, FoundFunction};
+use super::scan::FoundFunction;
+use super::slice::{Slice, SlicedText};
 
 /// An audit under way.
 pub struct Auditor<'a> {
     audit: &'a Audit,
     function: FoundFunction,
-    /// Other functions of the same name that could be meant.
-    overloads: Vec<FoundFunction>,
+    /// What compilers see of the text.
+    slice: Slice,
     branch: Option<Branch>,
     surroundings: Surroundings,
     compilers: Compilers,
@@ -51,42 +55,34 @@ impl<'a> Auditor<'a> {
     /// It does not hold the function, or no process can be started.
     pub fn new(audit: &'a Audit) -> Result<Auditor<'a>, Error> {
         let (file, text, language) = (&audit.file, &audit.text, audit.language);
-        program::check(file, text, language)?;
-        let found = scan::functions(text, language);
-        let function = bind::choose(file, found.clone(), audit.function.as_deref())?;
-        let is_other = |other: &FoundFunction| *other != function && other.name == function.name;
-        let overloads = found
-            .into_iter()
-            .filter(|other| is_other(other) && other.is_candidate());
-        program::check_name(file, text, language, &function.name)?;
+        let live = admission::admitted(file, text, language, &audit.defines)?;
+        let text = SlicedText::new(language, &live, &audit.defines);
+        let function = choose(file, text.functions(), audit.function.as_deref())?;
+        admission::check_name(file, &live.text, language, &function.name)?;
+        let given: Vec<&str> = audit
+            .given
+            .iter()
+            .map(|given| given.name.as_str())
+            .collect();
+        let slice = text.around(&function, &given);
+        let slice = slice.map_err(|(line, why)| Error::Unread {
+            place: bind::place_of(file, &function),
+            line,
+            why,
+        })?;
+        admission::check_needed(file, &slice.text, language)?;
         let surroundings = Surroundings::new(audit.tools.as_deref())?;
         Ok(Auditor {
             audit,
-            branch: branch(text, language, &function.name),
-            overloads: overloads.collect(),
+            branch: branch(&slice.text, language, &function.name),
             function,
+            slice,
             compilers: Compilers::new(audit.limit(), &surroundings),
             surroundings,
             accepted: RefCell::default(),
             costs: RefCell::default(),
             ours: OnceCell::new(),
         })
-    }
-
-    /// The functions of the same name that were not taken, in words.
-    pub fn not_taken(&self) -> impl Iterator<Item = String> {
-        let words = |other: &FoundFunction| {
-            let names: Vec<&str> = other
-                .params
-                .iter()
-                .map(|param| param.name.as_str())
-                .collect();
-            let (name, names) = (&other.name, names.join(", "));
-            format!(
-                "{name}({names}): another {name} stands before it in the file; leave one of them to audit it"
-            )
-        };
-        self.overloads.iter().map(words)
     }
 
     /// The row of one of these materials.
@@ -100,8 +96,14 @@ impl<'a> Auditor<'a> {
         progress: &mut dyn FnMut(u64, u64, &str),
     ) -> Result<AuditRow, Error> {
         let audit = self.audit;
-        let bound = bind::bind(&audit.file, self.function.clone(), &audit.given, subject)?;
-        let mut verdicts = self.accepted(self.program(&bound).0.harnessed())?.verdicts;
+        let bound = bind::bind(
+            &audit.file,
+            self.function.clone(),
+            &self.slice,
+            &audit.given,
+            subject,
+        )?;
+        let mut verdicts = self.accepted(&self.program(&bound).0)?.verdicts;
         let ran = match self.runner(&bound)? {
             Ok(runner) => self.ran(&runner, &bound, subject)?,
             Err(trouble) => Err(trouble),
@@ -113,6 +115,7 @@ impl<'a> Auditor<'a> {
         };
         Ok(Audited {
             audit,
+            slice: &self.slice,
             bound: &bound,
             subject,
             verdicts: &verdicts,
@@ -125,16 +128,19 @@ impl<'a> Auditor<'a> {
     }
 
     fn program(&self, bound: &Bound) -> (AuditProgram, AuditProgram) {
-        AuditProgram::pair(self.audit.language, &self.audit.text, bound)
+        AuditProgram::pair(self.audit.language, &self.slice, bound)
     }
 
     /// What the compilers of the language say of a program.
-    fn accepted(&self, program: String) -> Result<Accepted, Error> {
+    fn accepted(&self, program: &AuditProgram) -> Result<Accepted, Error> {
+        let (precision, program) = (program.precision, program.harnessed());
         if let Some(known) = self.accepted.borrow().get(&program) {
             return Ok(known.clone());
         }
         let language = self.audit.language;
-        let accepted = self.compilers.accepted(language, program.clone())?;
+        let accepted = self
+            .compilers
+            .accepted(language, precision, program.clone())?;
         let mut all = self.accepted.borrow_mut();
         all.insert(program, accepted.clone());
         Ok(accepted)
@@ -144,8 +150,8 @@ impl<'a> Auditor<'a> {
     fn runner(&self, bound: &Bound) -> Result<Result<Runner, Trouble>, Error> {
         let (program, run) = self.program(bound);
         // Only what its compilers accept as it is gets counters, or is run at all.
-        let code = match self.accepted(program.harnessed())?.code {
-            Ok(_) if run.text != program.text => self.accepted(run.harnessed())?.code,
+        let code = match self.accepted(&program)?.code {
+            Ok(_) if run.text != program.text => self.accepted(&run)?.code,
             code => code,
         };
         let uniforms: Vec<Uniform> = run.uniforms();
@@ -244,7 +250,11 @@ impl<'a> Auditor<'a> {
         };
         let verdict = match ran {
             Err(Trouble::Refused(who, _)) if who.is_empty() => None,
-            Err(Trouble::Refused(_, words)) => Some(Verdict::No(words.clone())),
+            Err(Trouble::Refused(_, words)) if place::names_place(words) => {
+                Some(Verdict::No(words.clone()))
+            }
+            // It may be a fault of the driver, or of the machine.
+            Err(Trouble::Refused(_, words)) => Some(Verdict::NotChecked(words.clone())),
             Err(Trouble::Absent(why) | Trouble::Failed(why)) => {
                 Some(Verdict::NotChecked(why.clone()))
             }
@@ -270,7 +280,7 @@ impl<'a> Auditor<'a> {
         let audit = self.audit;
         let costs = self.costs(bound)?;
         let is_known = costs.iter().any(|cost| cost.figures.is_ok());
-        let form = compared_form(bound).filter(|_| is_known && self.branch.is_none());
+        let form = compared_form(bound).filter(|_| is_known && self.cost_remark(bound).is_none());
         let Some(form) = form else {
             return Ok((costs, Vec::new()));
         };
@@ -293,7 +303,7 @@ impl<'a> Auditor<'a> {
     /// The cost of the function on each family.
     fn costs(&self, bound: &Bound) -> Result<Vec<AuditCost>, Error> {
         let audit = self.audit;
-        let program = AuditProgram::measured(audit.language, &audit.text, bound);
+        let program = AuditProgram::measured(audit.language, &self.slice, bound);
         if let Some(known) = self.costs.borrow().get(&program.text) {
             return Ok(known.clone());
         }
@@ -313,7 +323,14 @@ impl<'a> Auditor<'a> {
             let why = "not compared with ours: none of one channel is without arguments";
             compared_form(bound).is_none().then(|| why.to_owned())
         };
-        self.branch.as_ref().map(Branch::reason).or_else(alone)
+        let half = || {
+            let word = self.slice.half.as_ref()?;
+            Some(format!(
+                "not compared with ours: `{word}` has 16 bits, and ours have 32"
+            ))
+        };
+        let branch = self.branch.as_ref().map(Branch::reason);
+        branch.or_else(half).or_else(alone)
     }
 }
 

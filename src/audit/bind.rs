@@ -5,8 +5,10 @@ use crate::reference::MaterialInMedium;
 
 use super::cosine::cosine;
 use super::error::{Error, FunctionPlace, MissingArgument, ValueFault};
+use super::hidden::HiddenInput;
 use super::quantity::{self, Quantity, meanings, plain};
 use super::scan::{FoundFunction, NumberShape, Parameter};
+use super::slice::Slice;
 
 /// A function with all that it takes.
 #[derive(Clone, Debug)]
@@ -15,8 +17,10 @@ pub struct Bound {
     pub function: FoundFunction,
     /// The place of the cosine among its arguments.
     pub cosine: usize,
-    /// The others, in order.
+    /// The others, in order; behind them what it reads from outside.
     pub arguments: Vec<BoundArgument>,
+    /// What it reads from outside.
+    pub hidden: Vec<HiddenInput>,
 }
 
 /// An argument with its value.
@@ -186,64 +190,8 @@ fn is_word(text: &str) -> bool {
     word.contains(char::is_alphabetic) && !is_number && quantity::find(word).is_none()
 }
 
-/// The function that is meant.
-///
-/// # Errors
-/// There is none of that name, or several where none is named, or it is no function of reflectance.
-pub fn choose(
-    file: &str,
-    found: Vec<FoundFunction>,
-    name: Option<&str>,
-) -> Result<FoundFunction, Error> {
-    if let Some(name) = name {
-        let mut all: Vec<&str> = found.iter().map(|found| found.name.as_str()).collect();
-        all.dedup();
-        let missing = match all.is_empty() {
-            true => Error::NoFunction {
-                file: file.to_owned(),
-            },
-            false => UnknownName::new("function", name, &all).into(),
-        };
-        let mut named = found.iter().filter(|found| found.name == name);
-        let first = named.next().cloned().ok_or(missing)?;
-        let fits = first.is_candidate().then_some(&first);
-        let fits = fits.or_else(|| named.find(|found| found.is_candidate()));
-        return fits.cloned().ok_or_else(|| unfit(file, &first));
-    }
-    let candidates: Vec<FoundFunction> = found
-        .into_iter()
-        .filter(FoundFunction::is_candidate)
-        .collect();
-    match candidates.as_slice() {
-        [] => Err(Error::NoReflectance {
-            file: file.to_owned(),
-        }),
-        [one] => Ok(one.clone()),
-        _ => Err(Error::SeveralFunctions {
-            file: file.to_owned(),
-            names: candidates.iter().map(|found| found.name.clone()).collect(),
-        }),
-    }
-}
-
-/// Why a function cannot be one of reflectance.
-fn unfit(file: &str, found: &FoundFunction) -> Error {
-    let is_other = |shape: &NumberShape| matches!(shape, NumberShape::Other(_));
-    let other = found.params.iter().find(|param| is_other(&param.shape));
-    let why = if let Some(param) = other {
-        format!("its argument `{}` is `{}`", param.name, param.shape.words())
-    } else if is_other(&found.result) {
-        format!("it gives `{}`", found.result.words())
-    } else {
-        "it takes no single number, which the cosine is".to_owned()
-    };
-    Error::Unfit {
-        place: place_of(file, found),
-        why,
-    }
-}
-
-fn place_of(file: &str, found: &FoundFunction) -> FunctionPlace {
+/// The place of a function, for messages.
+pub fn place_of(file: &str, found: &FoundFunction) -> FunctionPlace {
     FunctionPlace {
         file: file.to_owned(),
         line: found.line,
@@ -259,34 +207,49 @@ fn place_of(file: &str, found: &FoundFunction) -> FunctionPlace {
 pub fn bind(
     file: &str,
     function: FoundFunction,
+    slice: &Slice,
     given: &[Given],
     subject: &MaterialInMedium,
 ) -> Result<Bound, Error> {
-    check_names(&function, given)?;
+    check_names(&function, slice, given)?;
+    let hidden: Vec<Parameter> = slice.hidden.iter().map(hidden_parameter).collect();
     let mut values = Vec::new();
-    for param in &function.params {
+    let params = function.params.iter();
+    let params = params.map(|param| (param, meanings(&param.name, &function)));
+    // The name of an input from outside says less (`k.x`, `bias`), so that its value is asked for.
+    let inputs = hidden.iter().map(|param| (param, Vec::new()));
+    for (param, meanings) in params.chain(inputs) {
         let own = given.iter().rfind(|given| given.name == param.name);
-        values.push(bound_argument(&function, param, own, subject)?);
+        values.push(bound_argument(&function, (param, meanings), own, subject)?);
     }
-    let cosine = checked_cosine(file, &function, given, &values, subject)?;
+    let cosine = checked_cosine(file, &function, (slice, given), &values, subject)?;
     let arguments = values.into_iter().flatten().collect();
     Ok(Bound {
         function,
         cosine,
         arguments,
+        hidden: slice.hidden.clone(),
     })
+}
+
+/// An input from outside as an argument.
+fn hidden_parameter(input: &HiddenInput) -> Parameter {
+    Parameter {
+        name: input.path.clone(),
+        shape: input.shape(),
+        ty: String::new(),
+    }
 }
 
 /// An argument with its value, where there is one.
 fn bound_argument(
     function: &FoundFunction,
-    param: &Parameter,
+    (param, meanings): (&Parameter, Vec<Quantity>),
     given: Option<&Given>,
     subject: &MaterialInMedium,
 ) -> Result<Option<BoundArgument>, Error> {
     let is_rgb = param.shape == NumberShape::Rgb;
     let may_differ = is_rgb || function.result == NumberShape::Scalar;
-    let meanings = meanings(&param.name, function);
     let (value, quantity) = match given.map(|given| (given, &given.value)) {
         Some((given, GivenValue::Numbers(values))) => {
             (Some(spread(&given.name, values, may_differ)?), None)
@@ -316,9 +279,12 @@ fn filled(quantity: Quantity, may_differ: bool, subject: &MaterialInMedium) -> O
     (may_differ || same(&value)).then(|| value.map(|value| value as f32))
 }
 
-fn check_names(function: &FoundFunction, given: &[Given]) -> Result<(), Error> {
-    let params = function.params.iter();
-    let all: Vec<&str> = params.map(|param| param.name.as_str()).collect();
+fn check_names(function: &FoundFunction, slice: &Slice, given: &[Given]) -> Result<(), Error> {
+    let params = function.params.iter().map(|param| &param.name);
+    let hidden = slice.hidden.iter().map(|input| &input.path);
+    let initialised = slice.initialised.iter().map(|one| &one.name);
+    let all = params.chain(hidden).chain(initialised);
+    let all: Vec<&str> = all.map(String::as_str).collect();
     let wrong = given
         .iter()
         .find(|given| !all.contains(&given.name.as_str()));
@@ -347,17 +313,25 @@ fn same(value: &[f64; 3]) -> bool {
 fn checked_cosine(
     file: &str,
     function: &FoundFunction,
-    given: &[Given],
+    (slice, given): (&Slice, &[Given]),
     values: &[Option<BoundArgument>],
     subject: &MaterialInMedium,
 ) -> Result<usize, Error> {
-    let has_value: Vec<bool> = values.iter().map(Option::is_some).collect();
+    let has_value = values.iter().map(Option::is_some);
+    let has_value: Vec<bool> = has_value.take(function.params.len()).collect();
     let chosen = cosine(function, &has_value);
     let missing = |place: &usize| values[*place].is_none() && Some(*place) != chosen;
-    let missing: Vec<MissingArgument> = (0..values.len())
-        .filter(missing)
-        .map(|place| missing_argument(&function.params[place].name, function, given, subject))
-        .collect();
+    let argument = |place: usize| match function.params.get(place) {
+        Some(param) => missing_argument(&param.name, function, given, subject),
+        None => {
+            let input = &slice.hidden[place - function.params.len()];
+            MissingArgument {
+                line: Some(input.line),
+                ..missing_argument(&input.path, function, given, subject)
+            }
+        }
+    };
+    let missing: Vec<MissingArgument> = (0..values.len()).filter(missing).map(argument).collect();
     match (chosen, missing.as_slice()) {
         (Some(place), []) => Ok(place),
         (_, []) => Err(Error::NoCosine {
@@ -388,6 +362,7 @@ fn missing_argument(
         name: name.to_owned(),
         quantity: quantity.map(|quantity| quantity.name),
         is_one_of_three: quantity.is_some_and(|quantity| quantity.value(subject).is_some()),
+        line: None,
     }
 }
 

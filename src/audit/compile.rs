@@ -3,6 +3,7 @@
 use core::cell::RefCell;
 use core::time::Duration;
 
+use crate::num::Precision;
 use crate::process::{Error, Launch, Silence, Surroundings, Worker};
 use crate::verify::compilers::{CompilerFault, Verdict};
 
@@ -32,11 +33,20 @@ impl Compilers {
     ///
     /// # Errors
     /// No process can be started.
-    pub fn accepted(&self, language: Language, program: String) -> Result<Accepted, Error> {
-        let request = AuditRequest::Accept(language, program);
+    pub fn accepted(
+        &self,
+        language: Language,
+        precision: Precision,
+        program: String,
+    ) -> Result<Accepted, Error> {
+        let request = AuditRequest::Accept(language, precision, program);
+        // No word about the text: the compiler or the machine may be at fault.
         let silent = |words: String| Accepted {
-            verdicts: vec![(language.compiler().to_owned(), Verdict::No(words.clone()))],
-            code: Err(CompilerFault::Refused(words)),
+            verdicts: vec![(
+                language.compiler().to_owned(),
+                Verdict::NotChecked(words.clone()),
+            )],
+            code: Err(CompilerFault::NotChecked(words)),
         };
         Ok(match self.ask(&request, language)? {
             Ok(AuditResponse::Accepted(accepted)) => accepted,
@@ -52,17 +62,16 @@ impl Compilers {
     pub fn module(
         &self,
         language: Language,
+        precision: Precision,
         shader: String,
     ) -> Result<Result<Vec<u8>, CompilerFault>, Error> {
-        Ok(
-            match self.ask(&AuditRequest::Module(language, shader), language)? {
-                Ok(AuditResponse::Module(made)) => made,
-                Ok(_) => Err(CompilerFault::Refused(
-                    "the process answers another question".to_owned(),
-                )),
-                Err(words) => Err(CompilerFault::Refused(words)),
-            },
-        )
+        let request = AuditRequest::Module(language, precision, shader);
+        let silent = |words: String| Err(CompilerFault::NotChecked(words));
+        Ok(match self.ask(&request, language)? {
+            Ok(AuditResponse::Module(made)) => made,
+            Ok(_) => silent("the process answers another question".to_owned()),
+            Err(words) => silent(words),
+        })
     }
 
     /// The response, or why there is none.

@@ -15,10 +15,10 @@ use crate::verify::compilers::CompilerFault;
 use crate::verify::naga_translation;
 
 use super::compile::Compilers;
+use super::cost_row::AuditCost;
 use super::language::Language;
 use super::place::placed;
 use super::program::AuditProgram;
-use super::row::AuditCost;
 
 /// Asks the compiler of a family.
 ///
@@ -82,7 +82,7 @@ fn shaders(
         let made = match made {
             Ok(MeasuredShader::Ready(shader)) => Ok(shader),
             Ok(MeasuredShader::Foreign(language, text)) => {
-                module(compilers.module(language, text)?)
+                module(compilers.module(language, program.precision, text)?)
             }
             Err(why) => Err(why),
         };

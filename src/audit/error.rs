@@ -66,13 +66,46 @@ pub enum Error {
         /// The file.
         file: String,
     },
-    /// Several of its functions can be one of reflectance, and none is named.
-    #[error("{}: it holds {} functions; say which with --function: {}", Foreign(file), names.len(), one_line(&names.join(", ")))]
+    /// Several of its functions can be one of reflectance, and none is named, or several have the name.
+    #[error("{file}: it holds {} functions; say which with --function: {}", names.len(), names.join(", "))]
     SeveralFunctions {
         /// The file.
         file: String,
         /// Their names.
         names: Vec<String>,
+    },
+    /// The line behind the function's name is another.
+    #[error(
+        "{file}: there is no function `{name}` in line `{line}`; there are {}",
+        lines_words(name, lines)
+    )]
+    NoFunctionInLine {
+        /// The file.
+        file: String,
+        /// The name.
+        name: String,
+        /// The line as it was given.
+        line: String,
+        /// The lines in which there are functions of that name.
+        lines: Vec<String>,
+    },
+    /// A name that cannot be defined.
+    #[error(
+        "-D {word}: it is NAME=VALUE, or NAME for 1: the name of letters, digits and `_`, free of `fg_` and `__` at its beginning, the value without quotes, backslashes, `#` and comments"
+    )]
+    Define {
+        /// The word behind the flag.
+        word: String,
+    },
+    /// The function reads something that no value can be given for.
+    #[error("{place}: line {line}: {why}")]
+    Unread {
+        /// The function, with its place in the file.
+        place: FunctionPlace,
+        /// The line that reads it.
+        line: usize,
+        /// What it reads.
+        why: String,
     },
     /// The named function cannot be one of reflectance.
     #[error(
@@ -143,6 +176,8 @@ pub struct MissingArgument {
     pub quantity: Option<&'static str>,
     /// Whether the material has three values for it, and it takes one.
     pub is_one_of_three: bool,
+    /// The line of its declaration, where it is no argument and is read from outside of the function.
+    pub line: Option<usize>,
 }
 
 impl MissingArgument {
@@ -153,7 +188,10 @@ impl MissingArgument {
             true => ", which is one number here and differs between the channels",
             false => "",
         };
-        format!("`{}`{meaning}{why}", self.name)
+        let from = self.line.map_or(String::new(), |line| {
+            format!(", which it reads from outside (line {line})")
+        });
+        format!("`{}`{meaning}{from}{why}", self.name)
     }
 }
 
@@ -178,12 +216,17 @@ impl Error {
     }
 }
 
+fn lines_words(name: &str, lines: &[String]) -> String {
+    let each = lines.iter().map(|line| format!("{name}:{line}"));
+    each.collect::<Vec<_>>().join(", ")
+}
+
 fn unbound(material: &str, missing: &[MissingArgument], has_cosine: bool) -> String {
     let names: Vec<String> = missing.iter().map(MissingArgument::words).collect();
     let first = missing.first().map_or("", |argument| &argument.name);
     let is_known = missing
         .first()
-        .is_some_and(|first| first.quantity.is_some());
+        .is_some_and(|first| first.quantity.is_some() || first.line.is_some());
     let like = match is_known {
         true => String::new(),
         false => offered(&nearest_names(first, &quantity::names())),

@@ -23,7 +23,7 @@ pub enum Language {
 }
 
 /// Endings of files.
-const ENDINGS: [(&str, Language); 11] = [
+const ENDINGS: [(&str, Language); 20] = [
     ("wgsl", Language::Wgsl),
     ("glsl", Language::Gles),
     ("gles", Language::Gles),
@@ -31,9 +31,18 @@ const ENDINGS: [(&str, Language); 11] = [
     ("vert", Language::Gles),
     ("fs", Language::Gles),
     ("vs", Language::Gles),
+    ("fsh", Language::Gles),
+    ("vsh", Language::Gles),
+    ("gdshader", Language::Gles),
+    ("gdshaderinc", Language::Gles),
     ("hlsl", Language::Hlsl),
     ("hlsli", Language::Hlsl),
     ("fx", Language::Hlsl),
+    ("fxh", Language::Hlsl),
+    ("cginc", Language::Hlsl),
+    ("ush", Language::Hlsl),
+    ("usf", Language::Hlsl),
+    ("effect", Language::Hlsl),
     ("slang", Language::Slang),
 ];
 
@@ -124,6 +133,8 @@ mod tests {
         assert_eq!(of("a/b.WGSL"), Some(Language::Wgsl));
         assert_eq!(of("b.frag"), Some(Language::Gles));
         assert_eq!(of("b.fx"), Some(Language::Hlsl));
+        assert_eq!(of("b.ush"), Some(Language::Hlsl));
+        assert_eq!(of("b.gdshader"), Some(Language::Gles));
         assert_eq!(of("b.slang"), Some(Language::Slang));
         assert_eq!(of("b.txt"), None);
         assert_eq!(of("wgsl"), None);

@@ -1,33 +1,46 @@
 //! Audit: a user's own function compared with the reference reflectance of a material, and with our methods.
 //!
-//! This room reads only heads of functions (`scan`) and loops (`loops`) of the text; compilers read the rest. A program of ours
-//! goes around the user's function (`program`). It runs in a worker (`runner`, `serve`), so that a function that hangs or
-//! crashes a driver is a line of the report. Compilers run in workers too (`compile`).
+//! This room decides the conditions of the text (`preprocess`), cuts out the function and what it needs (`slice`), and names what that
+//! reads from outside (`hidden`). Compilers read what is left. A program of ours goes around the user's function (`program`). It runs in a
+//! worker (`runner`, `serve`), so that a function that hangs or crashes a driver is a line of the report. Compilers run in workers too
+//! (`compile`).
 
 mod accept;
+mod admission;
+mod annotations;
 mod auditor;
 mod bind;
+mod choose;
 mod comparison;
 mod compile;
+mod condition;
 mod control_flow;
 mod cosine;
 mod cost;
+mod cost_row;
 mod directives;
 mod edges;
 mod error;
+mod hidden;
+mod inputs;
 mod language;
 mod loops;
 mod ours;
+mod parts;
 mod place;
+mod preprocess;
 mod program;
 mod protocol;
 mod quantity;
+mod reach;
 mod recognised;
 mod row;
 mod runner;
 mod scan;
 mod serve;
+mod slice;
 mod type_names;
+mod variables;
 mod verdict;
 
 use core::time::Duration;
@@ -38,11 +51,13 @@ use crate::reference::MaterialInMedium;
 use crate::spectra::Space;
 
 pub use bind::Given;
+pub use cost_row::AuditCost;
 pub use edges::EdgeRow;
 pub use error::{Error, FunctionPlace, MissingArgument, ValueFault};
 pub use language::Language;
+pub use preprocess::Define;
 pub use recognised::ExactFit;
-pub use row::{ArgumentValue, AuditCost, AuditRow, Dominating, PerceivedFigures};
+pub use row::{ArgumentValue, AuditRow, ConditionRow, Dominating, PerceivedFigures};
 pub use serve::serve;
 pub use verdict::Checked;
 
@@ -59,6 +74,8 @@ pub struct Audit {
     pub language: Language,
     /// The function; where none is named the file holds one.
     pub function: Option<String>,
+    /// Names that are defined for the preprocessor.
+    pub defines: Vec<Define>,
     /// Values of its arguments.
     pub given: Vec<Given>,
     /// The space of colours, for errors as they are seen.
@@ -98,7 +115,6 @@ impl Audit {
     ) -> Result<AuditRows, Error> {
         let auditor = Auditor::new(self)?;
         let mut found = AuditRows::default();
-        found.skipped.extend(auditor.not_taken());
         let mut first = None;
         for subject in subjects {
             match auditor.row(subject, subjects, progress) {

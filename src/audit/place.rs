@@ -29,6 +29,11 @@ pub fn placed(file: &str, lines: usize, words: &str) -> String {
     format!("{file}:{line}:{column} {said}")
 }
 
+/// Whether a compiler's words name a place in the text: others may be about the compiler, or the machine.
+pub fn names_place(words: &str) -> bool {
+    words.lines().any(|line| place(line).is_some())
+}
+
 /// The line and column that a compiler names: `shader.hlsl:3:5: error`, `0:3(5): error`, `ERROR: 0:3:`, `┌─ wgsl:3:5`.
 fn place(line: &str) -> Option<(usize, Option<usize>)> {
     let marks = [
@@ -40,9 +45,13 @@ fn place(line: &str) -> Option<(usize, Option<usize>)> {
         "shader.slang:",
         "0:",
     ];
-    let mark = marks
-        .iter()
-        .find_map(|mark| Some(line.find(mark)? + mark.len()))?;
+    // `10:03:05` is a time.
+    let is_apart = |at: usize| !line[..at].ends_with(|c: char| c.is_alphanumeric());
+    let mark = marks.iter().find_map(|mark| {
+        let mut found = line.match_indices(mark).map(|(at, _)| at);
+        let at = found.find(|at| mark.len() > 2 || is_apart(*at))?;
+        Some(at + mark.len())
+    })?;
     let rest = &line[mark..];
     let line_number = number(rest)?;
     let after = rest.trim_start_matches(|c: char| c.is_ascii_digit());
@@ -71,7 +80,7 @@ fn message(line: &str) -> &str {
 
 #[cfg(test)]
 mod tests {
-    use super::placed;
+    use super::{names_place, placed};
 
     #[test]
     fn every_compiler_s_words_get_the_user_s_place() {
@@ -93,6 +102,18 @@ mod tests {
             "f.x:3:12: error[E30015]: undefined identifier"
         );
         assert_eq!(told("gone"), "f.x: gone");
+        assert!(
+            [naga, mesa, dxc, glslang, slangc]
+                .into_iter()
+                .all(names_place)
+        );
+        for other in [
+            "gone",
+            "10:03:05 out of memory",
+            "Validation Error\n  Binding is missing",
+        ] {
+            assert!(!names_place(other), "{other}");
+        }
         assert_eq!(
             placed("f.x", 2, dxc.replace("2:9", "7:1").as_str()),
             "f.x:2: at the end of the file: use of undeclared identifier 'x'"

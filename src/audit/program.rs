@@ -1,6 +1,5 @@
 //! A user's text made a program: a function of ours around theirs, so that all that comes after knows one kind of call.
 
-use crate::emit::shader_words::tokens;
 use crate::gpu::{Argument as Value, Uniform};
 use crate::ir::{Param, Ty};
 use crate::num::Precision;
@@ -8,10 +7,10 @@ use crate::verify::harness::{self, Call};
 
 use super::bind::{Bound, BoundArgument};
 use super::directives;
-use super::error::Error;
-use super::language::{Language, bare};
-use super::loops::{MARK, TURNS, counted, counter, is_in_macro};
-use super::scan::{NumberShape, without_stage};
+use super::language::Language;
+use super::loops::{MARK, TURNS, counted, counter};
+use super::scan::NumberShape;
+use super::slice::Slice;
 
 /// What our function around theirs is called: as [`crate::cost::Probe`] calls what it measures.
 pub const NAME: &str = "fg_measured";
@@ -33,42 +32,50 @@ pub struct AuditProgram {
     pub values: Vec<[f32; 3]>,
     /// Whether our function gives one number.
     pub is_scalar: bool,
+    /// What `half` computes in.
+    pub precision: Precision,
 }
 
 impl AuditProgram {
     /// The program of a text, and the one that is run: its loops count their turns.
-    pub fn pair(language: Language, text: &str, bound: &Bound) -> (AuditProgram, AuditProgram) {
-        let plain = AuditProgram::new(language, text, bound, false);
-        let run = match counted(text, language) {
-            Some(counted) => AuditProgram::new(language, &counted, bound, true),
+    pub fn pair(language: Language, slice: &Slice, bound: &Bound) -> (AuditProgram, AuditProgram) {
+        let plain = AuditProgram::new(language, slice, bound, false);
+        let run = match counted(&slice.text, language) {
+            Some(text) => {
+                let counted = Slice {
+                    text,
+                    ..slice.clone()
+                };
+                AuditProgram::new(language, &counted, bound, true)
+            }
             None => plain.clone(),
         };
         (plain, run)
     }
 
     /// The program whose cost is counted: a function of one channel is called once, for one channel.
-    pub fn measured(language: Language, text: &str, bound: &Bound) -> AuditProgram {
+    pub fn measured(language: Language, slice: &Slice, bound: &Bound) -> AuditProgram {
         match bound.is_one_channel() {
             true => {
                 let wrapper = |params: &[Param]| one_channel(language, bound, params);
                 AuditProgram {
                     is_scalar: true,
-                    ..AuditProgram::around(language, text, &bound.first_channel(), false, wrapper)
+                    ..AuditProgram::around(language, slice, &bound.first_channel(), false, wrapper)
                 }
             }
-            false => AuditProgram::new(language, text, bound, false),
+            false => AuditProgram::new(language, slice, bound, false),
         }
     }
 
-    fn new(language: Language, text: &str, bound: &Bound, counts: bool) -> AuditProgram {
+    fn new(language: Language, slice: &Slice, bound: &Bound, counts: bool) -> AuditProgram {
         let wrapper = |params: &[Param]| wrapper(language, bound, params, counts);
-        AuditProgram::around(language, text, bound, counts, wrapper)
+        AuditProgram::around(language, slice, bound, counts, wrapper)
     }
 
     /// The text with a function of ours behind it.
     fn around(
         language: Language,
-        text: &str,
+        slice: &Slice,
         bound: &Bound,
         counts: bool,
         wrapper: impl Fn(&[Param]) -> String,
@@ -80,15 +87,16 @@ impl AuditProgram {
         };
         let named = bound.arguments.iter().enumerate();
         params.extend(named.map(|(i, argument)| param(&format!("a{i}"), ty(argument))));
-        let wrapper = without_macros(text, language) + &wrapper(&params);
+        let wrapper = without_macros(slice, language) + &wrapper(&params);
         let counter = match counts {
             true => counter(language),
             false => String::new(),
         };
-        let text = match (language, counts) {
-            (Language::Gles, _) => format!("{counter}{}", framed(text, &wrapper)),
-            (Language::Hlsl | Language::Slang, true) => {
-                format!("{counter}#line 1\n{text}\n{wrapper}")
+        let Slice { before, text, .. } = slice;
+        let text = match language {
+            Language::Gles => format!("{counter}{}", framed(slice, &wrapper)),
+            Language::Hlsl | Language::Slang if counts || !before.is_empty() => {
+                format!("{counter}{before}#line 1\n{text}\n{wrapper}")
             }
             _ => format!("{text}\n{wrapper}{counter}"),
         };
@@ -98,6 +106,10 @@ impl AuditProgram {
             params,
             values: bound.arguments.iter().map(|a| a.value).collect(),
             is_scalar: false,
+            precision: match slice.half {
+                Some(_) => Precision::F16,
+                None => Precision::F32,
+            },
         }
     }
 
@@ -136,25 +148,13 @@ fn param(name: &str, ty: Ty) -> Param {
     }
 }
 
-/// Their text in GLSL: their shader around it is left out, names that the program around it has are theirs under other names,
-/// and it has a version already.
-fn framed(text: &str, wrapper: &str) -> String {
+/// Their text in GLSL: names that the program around it has are theirs under other names.
+fn framed(slice: &Slice, wrapper: &str) -> String {
     let each = |line: fn(&str) -> String| RENAMED.map(line).concat();
     let define = each(|name| format!("#define {name} {THEIRS}{name}\n"));
     let undefine = each(|name| format!("#undef {name}\n"));
-    let text = without_stage(text);
-    let kept: Vec<&str> = text
-        .lines()
-        .map(|line| if is_head(line) { "" } else { line })
-        .collect();
-    format!("{define}#line 1\n{}\n{wrapper}{undefine}", kept.join("\n"))
-}
-
-/// Whether a line may stand at the head of a program only.
-fn is_head(line: &str) -> bool {
-    let directive = line.trim_start().strip_prefix('#').map(str::trim_start);
-    let heads = ["version", "extension"];
-    directive.is_some_and(|word| heads.iter().any(|head| word.starts_with(head)))
+    let Slice { before, text, .. } = slice;
+    format!("{define}{before}#line 1\n{text}\n{wrapper}{undefine}")
 }
 
 /// Words of compilers, with their names as they wrote them.
@@ -178,10 +178,11 @@ fn declared(language: Language, params: &[Param]) -> String {
 /// Our function around theirs: the cosine, then all others in order; one number out.
 fn one_channel(language: Language, bound: &Bound, params: &[Param]) -> String {
     let (list, ty) = (declared(language, params), language.ty(Ty::Scalar));
-    let call = call(&bound.first_channel(), "x");
+    let called = called(language, &bound.first_channel(), "x");
+    let (before, value) = (called.before, called.value);
     match language {
-        Language::Wgsl => format!("fn {NAME}({list}) -> {ty} {{ return {call}; }}\n"),
-        _ => format!("{ty} {NAME}({list}) {{ return {call}; }}\n"),
+        Language::Wgsl => format!("fn {NAME}({list}) -> {ty} {{ {before}return {value}; }}\n"),
+        _ => format!("{ty} {NAME}({list}) {{ {before}return {value}; }}\n"),
     }
 }
 
@@ -189,26 +190,40 @@ fn one_channel(language: Language, bound: &Bound, params: &[Param]) -> String {
 fn wrapper(language: Language, bound: &Bound, params: &[Param], counts: bool) -> String {
     let list = declared(language, params);
     let rgb = language.ty(Ty::Rgb);
-    let constructor = rgb.trim_start_matches("highp ");
-    let value = if bound.is_per_channel() {
-        let calls = ["x", "y", "z"].map(|channel| call(bound, channel));
-        format!("{constructor}({})", calls.join(", "))
-    } else if bound.function.result == NumberShape::Scalar {
-        let one = call(bound, "x");
-        match language {
-            Language::Hlsl | Language::Slang => format!("({one}).xxx"),
-            _ => format!("{constructor}({one})"),
+    let constructor = bare_type(rgb);
+    let (before, value) = if bound.is_per_channel() {
+        let calls = ["x", "y", "z"].map(|channel| called(language, bound, channel));
+        if bound.hidden.is_empty() && bound.function.out.is_none() {
+            let calls = calls.map(|call| call.value);
+            (
+                String::new(),
+                format!("{constructor}({})", calls.join(", ")),
+            )
+        } else {
+            // What it reads from outside is set anew before each call.
+            let kept = calls.iter().zip(["x", "y", "z"]).map(|(call, channel)| {
+                let kept = variable(language, Ty::Scalar, &format!("fg_{channel}"));
+                format!("{}{kept} = {}; ", call.before, call.value)
+            });
+            let value = format!("{constructor}(fg_x, fg_y, fg_z)");
+            (kept.collect(), value)
         }
     } else {
-        call(bound, "x")
+        let one = called(language, bound, "x");
+        let value = match (bound.function.result == NumberShape::Scalar, language) {
+            (true, Language::Hlsl | Language::Slang) => format!("({}).xxx", one.value),
+            (true, _) => format!("{constructor}({})", one.value),
+            (false, _) => one.value,
+        };
+        (one.before, value)
     };
     let body = match (counts, language) {
-        (false, _) => format!("return {value};"),
+        (false, _) => format!("{before}return {value};"),
         (true, Language::Wgsl) => format!(
-            "fg_turns = 0; let fg_r = {value}; if fg_turns > {TURNS} {{ return {rgb}({MARK:e}); }} return fg_r;"
+            "fg_turns = 0; {before}let fg_r = {value}; if fg_turns > {TURNS} {{ return {rgb}({MARK:e}); }} return fg_r;"
         ),
         (true, _) => format!(
-            "fg_turns = 0; {rgb} fg_r = {value}; if (fg_turns > {TURNS}) {{ fg_r = {constructor}({MARK:e}, {MARK:e}, {MARK:e}); }} return fg_r;"
+            "fg_turns = 0; {before}{rgb} fg_r = {value}; if (fg_turns > {TURNS}) {{ fg_r = {constructor}({MARK:e}, {MARK:e}, {MARK:e}); }} return fg_r;"
         ),
     };
     match language {
@@ -217,152 +232,81 @@ fn wrapper(language: Language, bound: &Bound, params: &[Param], counts: bool) ->
     }
 }
 
+/// A type without its precision.
+fn bare_type(ty: &str) -> &str {
+    ty.trim_start_matches("highp ")
+}
+
+/// A variable as it is declared before its value.
+fn variable(language: Language, ty: Ty, name: &str) -> String {
+    match language {
+        Language::Wgsl => format!("let {name}"),
+        _ => format!("{} {name}", language.ty(ty)),
+    }
+}
+
+/// A call of theirs.
+struct CallText {
+    /// What stands before it.
+    before: String,
+    /// What it gives.
+    value: String,
+}
+
 /// The call of theirs for a channel.
-fn call(bound: &Bound, channel: &str) -> String {
-    let mut others = bound.arguments.iter().enumerate();
-    let argument = |place: usize| {
-        if place == bound.cosine {
-            return "fg_cos_theta".to_owned();
-        }
-        let Some((i, argument)) = others.next() else {
-            return String::new();
-        };
-        match argument.is_split() {
-            true => format!("fg_a{i}.{channel}"),
-            false => format!("fg_a{i}"),
-        }
+fn called(language: Language, bound: &Bound, channel: &str) -> CallText {
+    let function = &bound.function;
+    let value = |i: usize, argument: &BoundArgument| match argument.is_split() {
+        true => format!("fg_a{i}.{channel}"),
+        false => format!("fg_a{i}"),
     };
-    let all: Vec<String> = (0..bound.function.params.len()).map(argument).collect();
-    format!("{}({})", bound.function.name, all.join(", "))
-}
-
-/// What ends a line in WGSL, and is a character like others elsewhere.
-fn is_line_end(c: char) -> bool {
-    ['\u{2028}', '\u{2029}'].contains(&c)
-}
-
-/// The line at which comments could be read in two ways, and why: what is hidden from us must be hidden from compilers.
-fn ambiguous(text: &str) -> Option<(usize, &'static str)> {
-    let code = bare(text, false);
-    let lines = text.lines().zip(code.lines()).enumerate();
-    let mut found = lines.filter_map(|(number, (line, code))| {
-        let has_comment = line.contains("/*") || line.contains("//");
-        let what = if line.trim_end().ends_with('\\') || line.contains("??/") {
-            "the line goes on behind its end: write it in one"
-        } else if has_comment && code.contains(['"', '\'']) {
-            "a comment stands beside a string: take them apart"
-        } else {
-            return None;
-        };
-        Some((number + 1, what))
-    });
-    found.next().or_else(|| nested(text))
-}
-
-/// The line at which a comment begins in another: in some languages the first end of one ends both.
-fn nested(text: &str) -> Option<(usize, &'static str)> {
-    let (mut rest, mut line) = (text, 1);
-    while let Some(start) = rest.find("/*") {
-        let begins = rest[..start].rfind('\n').map_or(0, |end| end + 1);
-        let (before, after) = rest.split_at(start);
-        line += before.matches('\n').count();
-        if before[begins..].contains("//") {
-            // It stands in a comment that ends with its line.
-            rest = after.split_once('\n').map_or("", |(_, rest)| rest);
-            line += usize::from(!rest.is_empty());
-            continue;
+    let others: Vec<String> = bound
+        .arguments
+        .iter()
+        .enumerate()
+        .map(|(i, argument)| value(i, argument))
+        .collect();
+    let mut before = String::new();
+    let inputs = bound
+        .hidden
+        .iter()
+        .zip(&others[function.params.len() - 1..]);
+    for (input, value) in inputs {
+        for (place, channel) in input.places() {
+            let value = match channel {
+                "" => value.clone(),
+                channel => format!("{value}.{channel}"),
+            };
+            before += &match &input.cast {
+                Some(ty) => format!("{place} = {ty}({value}); "),
+                None => format!("{place} = {value}; "),
+            };
         }
-        let inner = &after[2..];
-        let end = inner.find("*/").unwrap_or(inner.len());
-        if inner[..end].contains("/*") {
-            return Some((
-                line,
-                "a comment begins in a comment: let the first end before",
-            ));
-        }
-        line += inner[..end].matches('\n').count();
-        rest = inner.get(end + 2..).unwrap_or("");
     }
-    None
-}
-
-/// Refuses what no program can be made of.
-///
-/// # Errors
-/// A name that is ours, a file that asks for others, or signs that are no text.
-pub fn check(file: &str, text: &str, language: Language) -> Result<(), Error> {
-    let refuse = |line: usize, column: usize, what: String| {
-        Err(Error::Text {
-            file: file.to_owned(),
-            line,
-            column,
-            what,
-        })
+    let mut all = others[..function.params.len() - 1].to_vec();
+    all.insert(bound.cosine, "fg_cos_theta".to_owned());
+    let name = &function.name;
+    let Some(out) = &function.out else {
+        let value = format!("{name}({})", all.join(", "));
+        return CallText { before, value };
     };
-    for (number, line) in text.lines().enumerate() {
-        let control = line
-            .chars()
-            .position(|c| c.is_control() && c != '\t' || is_line_end(c));
-        if let Some(at) = control {
-            let what = "this is not text, or ends a line in some languages only";
-            return refuse(number + 1, at + 1, what.to_owned());
-        }
-    }
-    if let Some((line, what)) = language
-        .has_preprocessor()
-        .then(|| ambiguous(text))
-        .flatten()
-    {
-        return refuse(line, 1, what.to_owned());
-    }
-    if language.has_preprocessor() && is_in_macro(text) {
-        let what = "a macro holds a loop, or joins words with ##: write it out, so that its turns can be counted";
-        return refuse(1, 1, what.to_owned());
-    }
-    let code = bare(text, false);
-    let tokens = tokens(&code);
-    for token in &tokens {
-        let ours = ["fg_", "FgParameters", "FgArguments"];
-        if ours.iter().any(|name| token.text.starts_with(name)) {
-            let what = format!(
-                "the name `{}` is one of the program around it; names that begin with `fg_` are not free",
-                token.text
-            );
-            return refuse(token.line, token.column, what);
-        }
-    }
-    let found = language
-        .has_preprocessor()
-        .then(|| directives::fault(text))
-        .flatten();
-    found.map_or(Ok(()), |(line, column, what)| refuse(line, column, what))
-}
-
-/// Refuses a text in which the name of the audited function means another thing to compilers.
-///
-/// # Errors
-/// A macro has that name.
-pub fn check_name(file: &str, text: &str, language: Language, name: &str) -> Result<(), Error> {
-    let found = language
-        .has_preprocessor()
-        .then(|| directives::redefinition(text, name))
-        .flatten();
-    found.map_or(Ok(()), |(line, column, what)| {
-        Err(Error::Text {
-            file: file.to_owned(),
-            line,
-            column,
-            what,
-        })
-    })
+    let kept = format!("fg_out_{channel}");
+    all.insert(out.place, kept.clone());
+    before += &format!("{} {kept}; {name}({}); ", out.ty, all.join(", "));
+    let ty = match function.result {
+        NumberShape::Scalar => Ty::Scalar,
+        _ => Ty::Rgb,
+    };
+    let value = format!("{}({kept})", bare_type(language.ty(ty)));
+    CallText { before, value }
 }
 
 /// Takes their macros away before our text goes on: it means what it says, whatever they are named.
-fn without_macros(text: &str, language: Language) -> String {
+fn without_macros(slice: &Slice, language: Language) -> String {
     if !language.has_preprocessor() {
         return String::new();
     }
-    let names = directives::macros(text).into_iter();
+    let names = directives::macros(&format!("{}{}", slice.before, slice.text)).into_iter();
     names
         .filter(|name| !RENAMED.contains(&name.as_str()))
         .map(|name| format!("#undef {name}\n"))

@@ -3,6 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use crate::gpu::{Argument, Uniform};
+use crate::num::Precision;
 use crate::verify::compilers::CompilerFault;
 
 use super::accept::Accepted;
@@ -11,10 +12,10 @@ use super::language::Language;
 /// What a worker is asked.
 #[derive(Debug, Serialize, Deserialize)]
 pub enum AuditRequest {
-    /// To ask the compilers of a language about a whole program.
-    Accept(Language, String),
+    /// To ask the compilers of a language about a whole program whose `half` computes in this.
+    Accept(Language, Precision, String),
     /// To make SPIR-V of a shader.
-    Module(Language, String),
+    Module(Language, Precision, String),
     /// To compile a program.
     Prepare(ProgramCode, Vec<UniformBits>),
     /// To run it over cosines.

@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-use crate::cost::{CostAndError, CostFigures, Family};
+use crate::cost::CostAndError;
 use crate::fit::{ModelError, Perceived};
 use crate::reference::MaterialInMedium;
 use crate::verify::compilers::Verdict;
@@ -11,10 +11,14 @@ use crate::verify::{Answer, Status, as_object};
 use super::Audit;
 use super::bind::{Bound, BoundArgument};
 use super::comparison::{Comparison, Competitor, Own, dominating, sentence};
+use super::cost_row::AuditCost;
 use super::edges::{EdgeRow, Edges};
+use super::inputs::Initialised;
 use super::ours::Ours;
+use super::preprocess::Condition;
 use super::recognised::ExactFit;
 use super::runner::Trouble;
+use super::slice::Slice;
 use super::verdict::{Checked, is_within};
 
 /// A user's function with the values of a material: who accepts it, how far it is from the law, what it costs.
@@ -32,6 +36,12 @@ pub struct AuditRow {
     pub precision: &'static str,
     /// The function.
     pub function: String,
+    /// The line of its name.
+    pub line: usize,
+    /// The argument that is the cosine.
+    pub cosine: String,
+    /// The conditions that it depends on, and how they were decided.
+    pub conditions: Vec<ConditionRow>,
     /// Its file, without folders.
     pub file: String,
     /// How many channels a call gives.
@@ -43,6 +53,8 @@ pub struct AuditRow {
     pub arguments: Vec<(String, ArgumentValue)>,
     /// The arguments that have the material's values, in words.
     pub filled: Vec<String>,
+    /// What it reads from outside and has the value that the file gives it, in words.
+    pub initialised: Vec<String>,
     /// On what it ran.
     pub device: Option<String>,
     /// At how many cosines.
@@ -87,6 +99,17 @@ pub struct AuditRow {
     pub reason: Option<String>,
 }
 
+/// A condition of the text.
+#[derive(Clone, Debug, Serialize)]
+pub struct ConditionRow {
+    /// Its line.
+    pub line: usize,
+    /// Itself.
+    pub text: String,
+    /// Whether what stands behind it is taken.
+    pub is_taken: bool,
+}
+
 /// The value of an argument.
 #[derive(Clone, Debug, Serialize)]
 pub struct ArgumentValue {
@@ -105,51 +128,6 @@ pub struct PerceivedFigures {
     pub luminance: f64,
     /// CIEDE2000.
     pub de2000: f64,
-}
-
-/// What a function costs on a family of GPUs, or why that is not known.
-#[derive(Clone, Debug, Serialize)]
-#[serde(into = "AuditCostJson")]
-pub struct AuditCost {
-    /// The family.
-    pub family: &'static Family,
-    /// The compiler with its version, where one was asked.
-    pub compiler: Option<String>,
-    /// What is known, or why nothing is.
-    pub figures: Result<CostFigures, String>,
-}
-
-/// The cost in a report's JSON.
-#[derive(Serialize)]
-struct AuditCostJson {
-    gpu: &'static str,
-    compiler: Option<String>,
-    measure: &'static str,
-    instructions: Option<f64>,
-    latency: Option<f64>,
-    inverse_throughput: Option<f64>,
-    net_instructions: Option<f64>,
-    net_inverse_throughput: Option<f64>,
-    net: Option<f64>,
-    reason: Option<String>,
-}
-
-impl From<AuditCost> for AuditCostJson {
-    fn from(cost: AuditCost) -> AuditCostJson {
-        let figures = cost.figures.as_ref().ok();
-        AuditCostJson {
-            gpu: cost.family.name,
-            compiler: cost.compiler,
-            measure: cost.family.columns.measure,
-            instructions: figures.map(|figures| figures.shader.instructions),
-            latency: figures.and_then(|figures| figures.shader.latency),
-            inverse_throughput: figures.and_then(|figures| figures.shader.inverse_throughput),
-            net_instructions: figures.map(|figures| figures.net.instructions),
-            net_inverse_throughput: figures.and_then(|figures| figures.net.inverse_throughput),
-            net: figures.map(CostFigures::cost),
-            reason: cost.figures.err(),
-        }
-    }
 }
 
 /// A method of ours that errs no more and costs no more on a GPU.
@@ -200,6 +178,8 @@ pub struct Ran {
 pub struct Audited<'a> {
     /// What was asked.
     pub audit: &'a Audit,
+    /// What compilers see of the text.
+    pub slice: &'a Slice,
     /// The function with its arguments.
     pub bound: &'a Bound,
     /// The material.
@@ -230,13 +210,20 @@ impl Audited<'_> {
             method: function.clone(),
             material: self.subject.argument.clone(),
             form: "user",
-            precision: "f32",
+            precision: match self.slice.half {
+                Some(_) => "f16",
+                None => "f32",
+            },
             function: function.clone(),
-            file: crate::command_line::path_again(&self.audit.file),
+            line: self.bound.function.line,
+            cosine: self.bound.function.params[self.bound.cosine].name.clone(),
+            conditions: self.slice.conditions.iter().map(condition_row).collect(),
+            file: crate::command_line::file_name(&self.audit.file).to_owned(),
             channels: if self.bound.is_one_channel() { 1 } else { 3 },
             input_numbers: self.bound.input_numbers(),
             arguments: self.bound.arguments.iter().map(argument_value).collect(),
             filled: self.bound.filled(),
+            initialised: self.slice.initialised.iter().map(initialised).collect(),
             device: ran.map(|ran| ran.device.clone()),
             points: ran.map(|ran| ran.points),
             code_error: None,
@@ -288,6 +275,9 @@ impl Audited<'_> {
                 );
             }
             Err(Trouble::Failed(why)) => reasons.push(format!("{place}: {why}")),
+            Err(Trouble::Refused(_, words)) if reasons.is_empty() => {
+                return (Status::NotChecked, vec![words.clone()]);
+            }
             Err(Trouble::Refused(..)) => {}
             Err(Trouble::Absent(why)) if reasons.is_empty() => {
                 return (Status::NotChecked, vec![why.clone()]);
@@ -368,6 +358,18 @@ impl Audited<'_> {
         });
         each.collect()
     }
+}
+
+fn condition_row(condition: &Condition) -> ConditionRow {
+    ConditionRow {
+        line: condition.line,
+        text: condition.text.clone(),
+        is_taken: condition.is_taken,
+    }
+}
+
+fn initialised(one: &Initialised) -> String {
+    format!("{} = {} (line {})", one.name, one.value, one.line)
 }
 
 fn argument_value(argument: &BoundArgument) -> (String, ArgumentValue) {

@@ -52,6 +52,18 @@ fn reason(silence: &Silence, limit: Duration) -> Trouble {
     })
 }
 
+fn unprepared(silence: &Silence, limit: Duration) -> String {
+    match silence {
+        Silence::TooLong => format!(
+            "the driver's compiler did not end within {} s, which is all that --limit allows",
+            limit.as_secs()
+        ),
+        Silence::Ended(status) => {
+            format!("the process that compiles it for the driver ended ({status})")
+        }
+    }
+}
+
 impl Runner {
     /// Starts a process and has it compile a program.
     ///
@@ -74,7 +86,8 @@ impl Runner {
                 points: Cell::new(0),
             }),
             Ok(response) => Err(trouble(response)),
-            Err(silence) => Err(reason(&silence, limit)),
+            // Nothing of the function has run: its compiler, its driver or the machine may be at fault.
+            Err(silence) => Err(Trouble::Absent(unprepared(&silence, limit))),
         })
     }
 

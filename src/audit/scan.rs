@@ -1,8 +1,9 @@
 //! The functions of a user's file, by their heads. What stands in their bodies is for compilers to judge.
 
-use crate::emit::shader_words::{Token, tokens};
+use crate::emit::shader_words::Token;
 
-use super::language::{Language, bare};
+use super::language::Language;
+use super::parts::{PartKind, parts};
 use super::type_names::TypeNames;
 
 /// A function as its head tells.
@@ -18,6 +19,17 @@ pub struct FoundFunction {
     pub params: Vec<Parameter>,
     /// What it gives.
     pub result: NumberShape,
+    /// The argument that it gives its result in, where it returns nothing.
+    pub out: Option<OutArgument>,
+}
+
+/// An argument that a function gives its result in: `out float3 Out`.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct OutArgument {
+    /// Its place among all arguments.
+    pub place: usize,
+    /// Its type, as it is written.
+    pub ty: String,
 }
 
 /// What a function takes.
@@ -27,6 +39,8 @@ pub struct Parameter {
     pub name: String,
     /// Its type.
     pub shape: NumberShape,
+    /// The same as it is written.
+    pub ty: String,
 }
 
 /// A type as far as it matters here.
@@ -63,96 +77,21 @@ impl FoundFunction {
     }
 }
 
-/// The functions of a text in order.
-pub fn functions(text: &str, language: Language) -> Vec<FoundFunction> {
-    let code = bare(text, language.has_preprocessor());
-    let tokens = tokens(&code);
-    let names = TypeNames::of_text(text, language);
-    let bodies = bodies(&tokens, &names, language);
-    bodies.map(|(found, _)| found).collect()
-}
-
 /// The functions among words, each with the words of its body.
 pub fn bodies<'t, 'a>(
     tokens: &'t [Token<'a>],
     names: &TypeNames,
     language: Language,
 ) -> impl Iterator<Item = (FoundFunction, &'t [Token<'a>])> {
-    let bodies = declarations(tokens).into_iter().filter(|one| one.has_body);
-    bodies.filter_map(move |one| {
-        let head = names.replaced(&tokens[one.start..one.head_end]);
-        let found = function(&head, language)?;
-        Some((found, &tokens[one.head_end..one.end]))
+    let parts = parts(tokens, names, language).into_iter();
+    parts.filter_map(move |one| match one.kind {
+        PartKind::Function(found) => Some((found, &tokens[one.head_end..one.end])),
+        _ => None,
     })
 }
 
-/// A text of GLSL without what makes a shader of one stage of it, its entry point, inputs and outputs; the rest keeps its place.
-pub fn without_stage(text: &str) -> String {
-    let code = bare(text, true);
-    let tokens = tokens(&code);
-    let is_stage = |one: &&Declaration| {
-        let head = &tokens[one.start..one.head_end];
-        let has = |word: &str| head.iter().any(|token| token.text == word);
-        if one.has_body {
-            function(head, Language::Gles).is_some_and(|found| found.name == "main")
-        } else {
-            !has("(") && ["in", "out", "varying", "attribute"].into_iter().any(has)
-                || head.first().is_some_and(|token| token.text == "layout")
-        }
-    };
-    let place = |token: &Token| (token.line, token.column);
-    let declarations = declarations(&tokens);
-    let spans: Vec<_> = declarations
-        .iter()
-        .filter(is_stage)
-        .map(|one| place(&tokens[one.start])..=place(&tokens[one.end - 1]))
-        .collect();
-    let (mut line, mut column) = (1, 1);
-    let kept = text.chars().map(|c| {
-        let is_cut = c != '\n' && spans.iter().any(|span| span.contains(&(line, column)));
-        (line, column) = if c == '\n' {
-            (line + 1, 1)
-        } else {
-            (line, column + 1)
-        };
-        if is_cut { ' ' } else { c }
-    });
-    kept.collect()
-}
-
-/// A declaration outside all others, by places of words.
-struct Declaration {
-    start: usize,
-    /// Where its body begins, or the sign that ends it.
-    head_end: usize,
-    end: usize,
-    has_body: bool,
-}
-
-/// What ends in `;` or in a body. A block of GLSL has both, and the second is empty.
-fn declarations(tokens: &[Token]) -> Vec<Declaration> {
-    let (mut found, mut start, mut at) = (Vec::new(), 0, 0);
-    while let Some(token) = tokens.get(at) {
-        let head_end = at;
-        at = match token.text {
-            "(" | "[" | "{" => behind(tokens, at),
-            _ => at + 1,
-        };
-        if ["{", ";", "}"].contains(&token.text) {
-            found.push(Declaration {
-                start,
-                head_end,
-                end: at,
-                has_body: token.text == "{",
-            });
-            start = at;
-        }
-    }
-    found
-}
-
 /// The place behind the bracket that closes the one here.
-fn behind(tokens: &[Token], open: usize) -> usize {
+pub(super) fn behind(tokens: &[Token], open: usize) -> usize {
     let mut depth = 0usize;
     for (at, token) in tokens.iter().enumerate().skip(open) {
         match token.text {
@@ -168,7 +107,7 @@ fn behind(tokens: &[Token], open: usize) -> usize {
 }
 
 /// The function of a head, where it is one of a function.
-fn function(head: &[Token], language: Language) -> Option<FoundFunction> {
+pub(super) fn function(head: &[Token], language: Language) -> Option<FoundFunction> {
     let head = without_attributes(head);
     let name = match language {
         Language::Wgsl => head.iter().position(|token| token.text == "fn")? + 1,
@@ -180,9 +119,9 @@ fn function(head: &[Token], language: Language) -> Option<FoundFunction> {
     }
     let close = behind(head, open);
     let inside = head.get(open + 1..close - 1)?;
-    let params = parts(inside).into_iter();
+    let params = parts_between_commas(inside).into_iter();
     let params = params.filter(|part| !matches!(part, [] | [Token { text: "void", .. }]));
-    let (params, result) = match language {
+    let (mut params, mut result): (Vec<Parameter>, NumberShape) = match language {
         Language::Wgsl => (
             params.map(wgsl_parameter).collect(),
             wgsl_result(&head[close..]),
@@ -192,14 +131,37 @@ fn function(head: &[Token], language: Language) -> Option<FoundFunction> {
             shape(&without_qualifiers(&head[..name])),
         ),
     };
+    let out = out_argument(&mut params, &mut result);
     Some(FoundFunction {
         name: head[name].text.to_owned(),
         line: head[name].line,
         column: head[name].column,
         params,
         result,
+        out,
     })
 }
+
+/// The argument that a function without a result gives it in, taken from among the others.
+fn out_argument(params: &mut Vec<Parameter>, result: &mut NumberShape) -> Option<OutArgument> {
+    let written = |param: &Parameter| match &param.shape {
+        NumberShape::Other(written) => written.strip_prefix(OUT).map(str::to_owned),
+        _ => None,
+    };
+    let mut all = params.iter().enumerate();
+    let (place, ty) = all.find_map(|(place, param)| Some((place, written(param)?)))?;
+    let is_alone = *result == NumberShape::Other("void".to_owned())
+        && !params[place + 1..]
+            .iter()
+            .any(|param| written(param).is_some());
+    let known = Some(shape(&ty)).filter(|known| !matches!(known, NumberShape::Other(_)));
+    *result = known.filter(|_| is_alone)?;
+    params.remove(place);
+    Some(OutArgument { place, ty })
+}
+
+/// What goes before the type of an argument that is given back.
+const OUT: &str = "out ";
 
 /// A head without `[numthreads(1, 1, 1)]` before it.
 fn without_attributes<'t, 'a>(head: &'t [Token<'a>]) -> &'t [Token<'a>] {
@@ -220,12 +182,12 @@ fn c_name(head: &[Token]) -> Option<usize> {
 }
 
 /// What stands between commas that are in no brackets.
-fn parts<'t, 'a>(tokens: &'t [Token<'a>]) -> Vec<&'t [Token<'a>]> {
+pub(super) fn parts_between_commas<'t, 'a>(tokens: &'t [Token<'a>]) -> Vec<&'t [Token<'a>]> {
     let (mut parts, mut start, mut depth) = (Vec::new(), 0, 0i32);
     for (at, token) in tokens.iter().enumerate() {
         match token.text {
-            "(" | "[" | "<" => depth += 1,
-            ")" | "]" | ">" => depth -= 1,
+            "(" | "[" | "{" | "<" => depth += 1,
+            ")" | "]" | "}" | ">" => depth -= 1,
             "," if depth == 0 => {
                 parts.push(&tokens[start..at]);
                 start = at + 1;
@@ -246,9 +208,11 @@ fn wgsl_parameter(part: &[Token]) -> Parameter {
     let colon = part.iter().position(|token| token.text == ":");
     let colon = colon.unwrap_or(part.len());
     let name = part[..colon].last().map_or("", |token| token.text);
+    let ty = joined(part.get(colon + 1..).unwrap_or(&[]));
     Parameter {
         name: name.to_owned(),
-        shape: shape(&joined(part.get(colon + 1..).unwrap_or(&[]))),
+        shape: shape(&ty),
+        ty,
     }
 }
 
@@ -264,16 +228,21 @@ fn c_parameter(part: &[Token]) -> Parameter {
     let end = part.iter().position(|t| [":", "="].contains(&t.text));
     let part = &part[..end.unwrap_or(part.len())];
     let name = part.iter().rposition(Token::is_word).unwrap_or(0);
-    let gives = |token: &Token| ["out", "inout"].contains(&token.text);
+    let has = |word: &str| part.iter().any(|token| token.text == word);
     let is_array = name + 1 < part.len();
-    let written = if is_array || part.iter().any(gives) {
+    let written = if is_array || has("inout") {
         joined(part)
     } else {
         without_qualifiers(&part[..name.min(part.len())])
     };
+    let written = match written.strip_prefix("out") {
+        Some(ty) if has("out") => format!("{OUT}{ty}"),
+        _ => written,
+    };
     Parameter {
         name: part.get(name).map_or("", |token| token.text).to_owned(),
         shape: shape(&written),
+        ty: written,
     }
 }
 
@@ -321,6 +290,16 @@ fn shape(written: &str) -> NumberShape {
     }
 }
 
+/// The functions of a text in order.
+#[cfg(test)]
+pub fn functions(text: &str, language: Language) -> Vec<FoundFunction> {
+    let code = super::language::bare(text, language.has_preprocessor());
+    let tokens = crate::emit::shader_words::tokens(&code);
+    let names = TypeNames::of_text(text, language);
+    let found = bodies(&tokens, &names, language);
+    found.map(|(found, _)| found).collect()
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -364,7 +343,7 @@ mod tests {
             "#version 300 es\n#define F(x) { \\\n }\nlayout(std140) uniform B { vec3 a; } b;\nconst float t[2] = float[](1., 2.);\nhighp vec3 f(const in highp float c, vec3 f0, out float d)\n{\n}\nvoid main(void) {}",
             Language::Gles,
             &[
-                "6:12 f(c one number, f0 three numbers, d outfloatd) three numbers",
+                "6:12 f(c one number, f0 three numbers, d out float) three numbers",
                 "9:6 main() void",
             ],
         );
@@ -383,22 +362,21 @@ mod tests {
     }
 
     #[test]
-    fn a_shader_of_glsl_leaves_its_functions() {
-        let text = "in vec3 at; // é\nlayout(location = 0) out vec4 c;\nfloat f(in float x) { return x; }\nvoid main() {\n c = vec4(f(at.x)); }\nfloat g(float x);";
-        let kept = without_stage(text);
-        let lines: Vec<&str> = kept.lines().map(str::trim).collect();
-        assert_eq!(
-            lines,
-            [
-                "// é",
-                "",
-                "float f(in float x) { return x; }",
-                "",
-                "",
-                "float g(float x);"
-            ]
+    fn a_result_may_be_given_in_an_argument() {
+        let found = functions(
+            "void f(float c, out half3 o, float3 f0) { } void g(out float a, out float b) { } float h(out float a) { }",
+            Language::Hlsl,
         );
-        assert_eq!(without_stage("void main() {"), " ".repeat(13));
+        let out = found[0]
+            .out
+            .as_ref()
+            .map(|out| (out.place, out.ty.as_str()));
+        assert_eq!(out, Some((1, "half3")));
+        assert_eq!(
+            (found[0].params.len(), &found[0].result),
+            (2, &NumberShape::Rgb)
+        );
+        assert!(found[1].out.is_none() && found[2].out.is_none());
     }
 
     #[test]
@@ -413,7 +391,6 @@ mod tests {
         ] {
             for language in [Language::Wgsl, Language::Gles, Language::Hlsl] {
                 let _ = functions(text, language);
-                let _ = without_stage(text);
             }
         }
     }

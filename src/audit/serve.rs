@@ -19,11 +19,11 @@ pub fn serve() -> io::Result<()> {
     let (inbox, devices) = (Inbox::open(), Devices::new(Wanted::default()));
     let mut ready: Option<(Kernel, Vec<Uniform>)> = None;
     inbox.serve(|request| match request {
-        AuditRequest::Accept(language, program) => {
-            AuditResponse::Accepted(accept::accepted(language, program))
+        AuditRequest::Accept(language, precision, program) => {
+            AuditResponse::Accepted(accept::accepted(language, precision, program))
         }
-        AuditRequest::Module(language, shader) => {
-            AuditResponse::Module(accept::module(language, &shader))
+        AuditRequest::Module(language, precision, shader) => {
+            AuditResponse::Module(accept::module(language, precision, &shader))
         }
         AuditRequest::Prepare(code, values) => {
             let uniforms: Vec<Uniform> = values.iter().map(UniformBits::uniform).collect();

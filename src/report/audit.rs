@@ -1,14 +1,16 @@
 //! What an audit found of a user's function for a material, for people.
 
-use crate::audit::{AuditCost, AuditRow, ExactFit};
+use crate::audit::{AuditCost, AuditRow, ConditionRow, ExactFit};
 use crate::fit::ModelError;
 use crate::foreign::{Foreign, lines as lines_of, one_line};
 use crate::verify::Status;
 
 /// A row for people.
 pub fn audit_text(row: &AuditRow) -> String {
-    let [function, file, material] = [&row.function, &row.file, &row.material].map(Foreign);
-    let mut text = format!("{function} in {file}, {material}\n");
+    let mut text = format!(
+        "{} in {} (line {}), {}\n",
+        row.function, row.file, row.line, row.material
+    );
     for (head, line) in lines(row) {
         text += &format!("  {head:<12} {}\n", lines_of(&line));
     }
@@ -16,7 +18,18 @@ pub fn audit_text(row: &AuditRow) -> String {
 }
 
 fn lines(row: &AuditRow) -> Vec<(&'static str, String)> {
-    let mut lines = Vec::new();
+    let mut lines = vec![("cosine", format!("`{}`", row.cosine))];
+    if !row.conditions.is_empty() {
+        lines.push(("conditions", conditions(&row.conditions)));
+    }
+    if !row.initialised.is_empty() {
+        let values = row.initialised.join("; ");
+        lines.push(("initialised", format!("{values}, as the file has it")));
+    }
+    if row.precision == "f16" {
+        let words = "16 bits where its types say so";
+        lines.push(("precision", words.to_owned()));
+    }
     if !row.filled.is_empty() {
         let filled = row.filled.join("; ");
         lines.push(("filled in", format!("{filled}, as the material has it")));
@@ -41,6 +54,16 @@ fn lines(row: &AuditRow) -> Vec<(&'static str, String)> {
     lines.extend(costs.map(|cost| ("cost", cost_line(row, cost))));
     lines.push(("checked", row.checked.words(row.status)));
     lines
+}
+
+/// How the conditions around a function and in it were decided.
+fn conditions(all: &[ConditionRow]) -> String {
+    let words = |one: &ConditionRow| {
+        let taken = if one.is_taken { "taken" } else { "not taken" };
+        format!("line {} `{}`: {taken}", one.line, one.text)
+    };
+    let all: Vec<String> = all.iter().map(words).collect();
+    all.join("; ")
 }
 
 /// What the function computes, where it is a method of ours or would be with another quantity.

@@ -10,6 +10,7 @@ use fresnel_gen::app::request::DEFAULT_MATERIALS;
 use fresnel_gen::app::{Materials, Request, Source};
 use fresnel_gen::cost::records;
 use fresnel_gen::materials::{self, ViewingConditions};
+use fresnel_gen::methods;
 use fresnel_gen::report::headline::headline;
 use fresnel_gen::report::markdown::{
     classes_table, effects_table, errors_table, flavours_table, half_table, methods_table,
@@ -90,7 +91,13 @@ fn tables_are_what_the_program_says() {
     let errors = errors_table(materials).expect("all are seen");
     let parts = [
         ("README.md", vec![("example", example())]),
-        ("docs/shaders.md", vec![("targets", targets_table())]),
+        (
+            "docs/shaders.md",
+            vec![
+                ("scalar", methods_without_scalar_form()),
+                ("targets", targets_table()),
+            ],
+        ),
         (
             "docs/methods.md",
             vec![
@@ -117,9 +124,17 @@ fn tables_are_what_the_program_says() {
     }
 }
 
-/// Counts in the pages' own sentences.
-#[test]
-fn counts_are_those_of_the_catalogue() {
+/// The methods whose functions have no form of single floats, as a sentence.
+fn methods_without_scalar_form() -> String {
+    let names = methods::ALL
+        .iter()
+        .filter(|method| !method.has_scalar_form());
+    let names: Vec<String> = names.map(|method| format!("`{}`", method.name)).collect();
+    format!("These have three channels only: {}.\n", names.join(", "))
+}
+
+/// Counts in the pages' own sentences: a page, the words before and after, and the count.
+fn counts() -> [(&'static str, &'static str, &'static str, usize); 5] {
     let all = materials::names();
     let found = all.iter().filter_map(|name| materials::find(name)?.ok());
     let spectra = found.filter(|material| material.rgb_nm.is_none()).count();

@@ -29,14 +29,17 @@ pub struct AuditFlags {
     /// The file: .wgsl, .glsl (as GLSL ES 3.00), .hlsl or .slang
     #[arg(required_unless_present = "worker")]
     pub file: Option<String>,
-    /// The function; a file that holds one needs no name
+    /// The function; a file that holds one needs no name, and NAME:LINE tells two of one name apart
     #[arg(long, value_name = "NAME")]
     pub function: Option<String>,
+    /// A name for the preprocessor, as compilers take it: NAME, or NAME=VALUE
+    #[arg(short = 'D', long, value_name = "NAME=VALUE")]
+    pub define: Vec<String>,
     /// The language, where the file's ending does not tell it: wgsl, glsl, hlsl or slang
     #[cfg(feature = "gpu")]
     #[arg(long, value_name = "NAME", value_parser = one_of("language", Language::NAMED, |(name, _)| name))]
     pub language: Option<(&'static str, Language)>,
-    /// An argument's value: name=number, name=number,number,number, or a quantity of the material, as in ior=1/eta
+    /// The value of an argument, or of a uniform: name=number, name=number,number,number, or a quantity of the material, as in ior=1/eta
     #[arg(long, value_name = "NAME=VALUE")]
     pub arg: Vec<String>,
     /// The largest error that is no finding [default: none is]
@@ -84,6 +87,8 @@ impl AuditFlags {
             .list("language", self.language.map(|(name, _)| name))
             .list("function", &self.function);
         let arguments = self.arg.iter();
+        let defined = self.define.iter();
+        let command = defined.fold(command, |command, one| command.list("define", [one]));
         arguments
             .fold(command, |command, one| command.list("arg", [one]))
             .list("material", self.materials.choices())

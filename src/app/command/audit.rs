@@ -7,8 +7,8 @@ use crate::app::error::Error;
 use crate::app::fault::RequestFault;
 use crate::app::request::{Materials, Request};
 use crate::app::source::shader;
-use crate::app::write::{OutputFile, try_places_of_ours};
-use crate::audit::{Audit, AuditRow, AuditRows, Given, Language, serve};
+use crate::app::write::{try_places_of_ours, write_file};
+use crate::audit::{Audit, AuditRow, AuditRows, Define, Given, Language, serve};
 use crate::chart::{ChartView, CostAxis, STATISTICS, chart_data, charted_function};
 use crate::cost::{self, FAMILIES, Family};
 use crate::foreign::lines;
@@ -140,7 +140,9 @@ fn audit(flags: &AuditFlags, space: Space) -> Result<Audit, Error> {
             return Err(RequestFault::conflict(why).into());
         }
     }
+    let defines = flags.define.iter().map(|word| Define::read(word));
     Ok(Audit {
+        defines: defines.collect::<Result<_, _>>()?,
         given,
         space,
         families: families(&flags.gpu)?,

@@ -125,13 +125,13 @@ pub fn hlsl_to_spirv_in(
         HlslVersion::V2021 => 2021,
     };
     let options = format!(
-        "-T {model} -E {entry} -HV {version} -spirv -fspv-target-env=vulkan1.1 -Fo OUT FILE"
+        "-T {model} -E {entry} -HV {version} -no-warnings -spirv -fspv-target-env=vulkan1.1 -Fo OUT FILE"
     );
     let file = CompilerInput {
         name: "shader.hlsl".to_owned(),
         bytes: text.as_bytes().to_vec(),
     };
-    run(&DXC, &options, &[file])
+    written(&DXC, &options, run(&DXC, &options, &[file])?)
 }
 
 /// What a compiler makes of a text under this name. Its options are as a [`Validator`]'s.
@@ -148,7 +148,16 @@ pub fn compiled(
         name: name.to_owned(),
         bytes: text.as_bytes().to_vec(),
     };
-    run(compiler, options, &[file])
+    written(compiler, options, run(compiler, options, &[file])?)
+}
+
+/// What a compiler has written, where it was to write something.
+fn written(compiler: &Compiler, options: &str, made: Vec<u8>) -> Result<Vec<u8>, CompilerFault> {
+    if made.is_empty() && options.split_whitespace().any(|word| word == "OUT") {
+        let why = format!("{} ended without a fault and wrote nothing", compiler.name);
+        return Err(CompilerFault::NotChecked(why));
+    }
+    Ok(made)
 }
 
 /// Whether a compiler can be asked here.
@@ -179,7 +188,38 @@ fn run(
     if called.ok {
         return Ok(called.made);
     }
-    Err(CompilerFault::Refused(first_lines(&called.said)))
+    let words = first_lines(&called.said);
+    if names_place(&called.said, files) {
+        return Err(CompilerFault::Refused(words));
+    }
+    // What names no place may be a fault of the compiler, or of the machine.
+    let name = compiler.name;
+    let why = format!("{name} failed and named no place in the text: {words}");
+    Err(CompilerFault::NotChecked(why))
+}
+
+/// Whether a compiler's words name a place in one of its files: `a.hlsl:3:5`, `a.hlsl(3,5)`, glslang's `ERROR: 0:3:`. A file that is no
+/// text has no lines: there a fault of the module begins with `error`.
+fn names_place(words: &str, files: &[CompilerInput]) -> bool {
+    let begins_number = |rest: &str| {
+        let rest = rest.strip_prefix([':', '(']);
+        rest.is_some_and(|rest| rest.starts_with(|c: char| c.is_ascii_digit()))
+    };
+    let is_named = |line: &str| {
+        let behind = |file: &CompilerInput| {
+            line.match_indices(file.name.as_str())
+                .any(|(at, name)| begins_number(&line[at + name.len()..]))
+        };
+        let glslang = line.strip_prefix("ERROR: 0");
+        files.iter().any(behind) || glslang.is_some_and(begins_number)
+    };
+    let is_module = files
+        .iter()
+        .any(|file| std::str::from_utf8(&file.bytes).is_err());
+    let is_fault = |line: &str| {
+        is_named(line) && !line.contains(": warning:") || is_module && line.starts_with("error")
+    };
+    words.lines().any(is_fault)
 }
 
 fn called(
@@ -204,4 +244,47 @@ fn first_lines(words: &str) -> String {
     let lines = words.lines().map(str::trim_end);
     let said: Vec<&str> = lines.filter(|line| !line.is_empty()).take(LINES).collect();
     said.join("\n")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[track_caller]
+    fn check(words: &str, expected: bool) {
+        let file = CompilerInput {
+            name: "0-a.hlsl".to_owned(),
+            bytes: b"float f;".to_vec(),
+        };
+        assert_eq!(names_place(words, &[file]), expected, "{words}");
+    }
+
+    #[test]
+    fn only_words_with_a_place_are_about_the_text() {
+        check("0-a.hlsl:3:5: error: x", true);
+        check("C:\\made\\0-a.hlsl(3,5): error X3000", true);
+        check("0-a.hlsl\nERROR: 0:3: 'x' : undeclared", true);
+        check(" --> 0-a.hlsl:3:12", true);
+        check(
+            "slangc: error while loading shared libraries: libslang.so",
+            false,
+        );
+        check("error: cannot open 0-a.hlsl", false);
+        check("0-a.hlsl:1:1: warning: x\nerror: out of memory", false);
+        check("10:03:05 internal error", false);
+        check("ERROR: Linking vertex stage: Missing entry point", false);
+        check("no word, signal: 11 (SIGSEGV)", false);
+        check("stopped after 20 s\n", false);
+    }
+
+    #[test]
+    fn a_module_has_no_lines() {
+        let file = CompilerInput {
+            name: "a.spv".to_owned(),
+            bytes: vec![0x03, 0x02, 0x23, 0xFF],
+        };
+        let named = |words| names_place(words, std::slice::from_ref(&file));
+        assert!(named("error: Invalid SPIR-V magic number."));
+        assert!(!named("spirv-val: cannot load"));
+    }
 }

@@ -225,5 +225,14 @@ fn macros_that_stand_for_types_are_read() {
         "wide.hlsl",
         "#if WIDE\n#define real float3\n#else\n#define real float\n#endif\nreal f(real f0, float u) { return f0 * u; }\n",
     );
-    place.refused("audit wide.hlsl --function f --material gold", &["`real`"]);
+    for (flags, channels) in [("", 1), ("-D WIDE=1", 3)] {
+        let line = format!("wide.hlsl --material gold --gpu none --json - {flags}");
+        if let Some(ran) = audit(&place, &line) {
+            assert_eq!(
+                rows(&ran.ends(0)).remove(0)["channels"],
+                channels,
+                "{flags}"
+            );
+        }
+    }
 }

@@ -7,6 +7,7 @@ pub mod published;
 mod ranked;
 pub mod thesis;
 mod untrusted;
+mod whole_files;
 
 use serde_json::Value;
 

@@ -14,6 +14,6 @@ mod shards;
 mod share;
 mod tampered;
 #[cfg(unix)]
-mod tools;
+pub mod tools;
 
 pub use crate::subjects;

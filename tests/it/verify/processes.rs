@@ -232,7 +232,9 @@ fn a_limit_binds_compilers_too() {
         let start = Instant::now();
         let output = command(&place, line, 2).output().unwrap();
         let took = start.elapsed();
-        let ran = Ran::new(line.to_owned(), output).ends(1);
+        // Of a text that only a compiler has seen nothing is known; a file of ours that comes to no end is a fault.
+        let code = if line.starts_with("audit") { 3 } else { 1 };
+        let ran = Ran::new(line.to_owned(), output).ends(code);
         assert!(ran.err.contains("did not end within 2 s"), "{ran:?}");
         assert!(took < Duration::from_secs(15), "{line}: {took:?}");
         all_end(&noted(&place), Duration::from_secs(2));

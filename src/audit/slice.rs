@@ -1,0 +1,264 @@
+//! The part of a user's text that compilers see: the audited function, what it needs, and nothing else. Lines keep their numbers. Inputs
+//! from outside become variables that our function sets.
+
+use crate::emit::shader_words::{Token, tokens};
+
+use super::annotations::without_annotations;
+use super::condition::definition;
+use super::hidden::{HiddenInput, UnreadFault};
+use super::inputs::{Initialised, Inputs};
+use super::language::{Language, bare};
+use super::parts::{Part, PartKind, parts};
+use super::preprocess::{Condition, Define, Preprocessed};
+use super::reach::{MacroBodies, Reached, reached};
+use super::scan::FoundFunction;
+use super::type_names::TypeNames;
+
+/// What compilers see of a text.
+#[derive(Clone, Debug, Default)]
+pub struct Slice {
+    /// Definitions of the user's that stand before the first line.
+    pub before: String,
+    /// The text.
+    pub text: String,
+    /// What it reads from outside and has no value for.
+    pub hidden: Vec<HiddenInput>,
+    /// What it reads from outside that has a value in the text.
+    pub initialised: Vec<Initialised>,
+    /// The conditions that what is kept depends on.
+    pub conditions: Vec<Condition>,
+    /// Whether it computes in 16 bits: the word that says so.
+    pub half: Option<String>,
+}
+
+/// A text whose functions are known.
+pub struct SlicedText<'a> {
+    language: Language,
+    preprocessed: &'a Preprocessed,
+    defines: &'a [Define],
+    names: TypeNames,
+    code: String,
+}
+
+impl<'a> SlicedText<'a> {
+    /// A text behind the preprocessor.
+    pub fn new(
+        language: Language,
+        preprocessed: &'a Preprocessed,
+        defines: &'a [Define],
+    ) -> SlicedText<'a> {
+        let code = bare(&preprocessed.text, language.has_preprocessor());
+        let code = match language {
+            Language::Hlsl => without_annotations(&code),
+            _ => code,
+        };
+        let all = format!("{}{}", definitions(defines), preprocessed.text);
+        SlicedText {
+            language,
+            preprocessed,
+            defines,
+            names: TypeNames::of_text(&all, language),
+            code,
+        }
+    }
+
+    /// Its functions in order.
+    pub fn functions(&self) -> Vec<FoundFunction> {
+        let tokens = tokens(&self.code);
+        let parts = parts(&tokens, &self.names, self.language).into_iter();
+        let functions = parts.filter_map(|part| match part.kind {
+            PartKind::Function(found) => Some(found),
+            _ => None,
+        });
+        functions.collect()
+    }
+
+    /// What compilers see where this function is audited and these inputs are given values.
+    ///
+    /// # Errors
+    /// It needs what no number stands for.
+    pub fn around(&self, function: &FoundFunction, given: &[&str]) -> Result<Slice, UnreadFault> {
+        let words = tokens(&self.code);
+        let parts = parts(&words, &self.names, self.language);
+        let is_it =
+            |part: &Part| matches!(&part.kind, PartKind::Function(found) if found == function);
+        let Some(start) = parts.iter().position(is_it) else {
+            return Ok(Slice::default());
+        };
+        let before = definitions(self.defines);
+        let (theirs, own) = (tokens(&before), tokens(&self.preprocessed.text));
+        let macros = macro_bodies(&theirs, &own);
+        let reached = reached(start, &words, &parts, &macros, self.language);
+        check_pixel_words(&reached)?;
+        let inputs = Inputs {
+            language: self.language,
+            names: &self.names,
+            code: &self.code,
+            words: &words,
+            parts: &parts,
+            reached: &reached,
+            given,
+        };
+        let numbers = inputs.numbers()?;
+        let (pieces, initialised) = inputs.pieces(&numbers);
+        let mut lines = lines_of(&reached, &parts, &words);
+        let kept_macros = self.macro_lines(&reached);
+        lines.extend(kept_macros.iter().map(|(line, ..)| (*line, *line)));
+        let conditions = self.preprocessed.conditions.iter();
+        let conditions = conditions.filter(|one| {
+            let is_met = |(from, to): &(usize, usize)| *from <= one.end && *to >= one.line;
+            lines.iter().any(is_met)
+        });
+        let text = placed_pieces(
+            pieces.into_iter().chain(kept_macros).collect(),
+            self.preprocessed.text.lines().count(),
+        );
+        let used = self
+            .defines
+            .iter()
+            .filter(|one| reached.macros.contains(&one.name));
+        let used: Vec<Define> = used.cloned().collect();
+        Ok(Slice {
+            before: definitions(&used),
+            half: half_word(&text, &self.names, self.language),
+            text,
+            hidden: numbers,
+            initialised,
+            conditions: conditions.cloned().collect(),
+        })
+    }
+
+    /// The lines that define the macros that are reached, and take them away.
+    fn macro_lines(&self, reached: &Reached) -> Vec<Piece> {
+        let lines = self.preprocessed.text.lines().enumerate();
+        let kept = lines.filter(|(_, line)| match tokens(line).as_slice() {
+            [hash, word, name, ..] if self.language.has_preprocessor() && hash.text == "#" => {
+                ["define", "undef"].contains(&word.text) && reached.macros.contains(name.text)
+            }
+            _ => false,
+        });
+        let piece = |(number, line): (usize, &str)| (number + 1, 1, line.to_owned());
+        kept.map(piece).collect()
+    }
+}
+
+/// A piece of the text with its line and column.
+pub type Piece = (usize, usize, String);
+
+/// Pieces at their places.
+fn placed_pieces(mut pieces: Vec<Piece>, lines: usize) -> String {
+    pieces.sort();
+    let (mut out, mut line, mut column) = (String::new(), 1, 1);
+    for (at, from, text) in pieces {
+        while line < at {
+            out.push('\n');
+            (line, column) = (line + 1, 1);
+        }
+        let gap = from.saturating_sub(column).max(usize::from(column > 1));
+        out.extend(std::iter::repeat_n(' ', gap));
+        line += text.matches('\n').count();
+        column = match text.rfind('\n') {
+            Some(end) => text[end + 1..].chars().count() + 1,
+            None => column + gap + text.chars().count(),
+        };
+        out += &text;
+    }
+    out.extend(std::iter::repeat_n('\n', lines.saturating_sub(line)));
+    out
+}
+
+/// The user's definitions as lines.
+fn definitions(defines: &[Define]) -> String {
+    let line = |one: &Define| format!("#define {} {}\n", one.name, one.value);
+    defines.iter().map(line).collect()
+}
+
+/// The words of macros, of the command line and of the text.
+fn macro_bodies<'t, 'a>(theirs: &'t [Token<'a>], own: &'t [Token<'a>]) -> MacroBodies<'t, 'a> {
+    let mut found = MacroBodies::new();
+    for line in theirs
+        .chunk_by(on_one_line)
+        .chain(own.chunk_by(on_one_line))
+    {
+        let Some((_, known)) = definition(line) else {
+            continue;
+        };
+        let params = known.params.unwrap_or_default();
+        let body = line[3..].iter();
+        let body = body.filter(|token| !params.iter().any(|param| param == token.text));
+        found.entry(line[2].text).or_default().push(body.collect());
+    }
+    found
+}
+
+fn on_one_line(a: &Token, b: &Token) -> bool {
+    a.line == b.line
+}
+
+/// The first and last lines of what is kept.
+fn lines_of(reached: &Reached, parts: &[Part], words: &[Token]) -> Vec<(usize, usize)> {
+    let part = |place: &usize| {
+        let part = &parts[*place];
+        (words[part.start].line, words[part.end - 1].line)
+    };
+    let is_setting = |place: &&usize| matches!(parts[**place].kind, PartKind::Setting);
+    reached
+        .parts
+        .iter()
+        .filter(|place| !is_setting(place))
+        .map(part)
+        .collect()
+}
+
+/// Words for what only a pixel beside others has.
+const PIXEL_WORDS: [&str; 16] = [
+    "fwidth",
+    "dFdx",
+    "dFdy",
+    "ddx",
+    "ddy",
+    "dpdx",
+    "dpdy",
+    "fwidthFine",
+    "fwidthCoarse",
+    "dpdxFine",
+    "dpdxCoarse",
+    "dpdyFine",
+    "dpdyCoarse",
+    "ddx_fine",
+    "ddy_fine",
+    "discard",
+];
+
+fn check_pixel_words(reached: &Reached) -> Result<(), UnreadFault> {
+    let is_pixel = |name: &str| name.starts_with("gl_") || PIXEL_WORDS.contains(&name);
+    let found = reached.foreign.iter().find(|(name, _)| is_pixel(name));
+    found.map_or(Ok(()), |(name, line)| {
+        Err((
+            *line,
+            format!("it needs `{name}`, which a pixel of a picture has and a cosine has not: give the function what it takes from it as an argument"),
+        ))
+    })
+}
+
+/// The word by which a text computes in 16 bits.
+fn half_word(text: &str, names: &TypeNames, language: Language) -> Option<String> {
+    let code = bare(text, language.has_preprocessor());
+    let found = tokens(&code);
+    let found = names.replaced(&found);
+    let is_half = |token: &&Token| match language {
+        Language::Wgsl => false,
+        Language::Gles => ["mediump", "lowp"].contains(&token.text),
+        Language::Hlsl | Language::Slang => {
+            let kinds = ["half", "min16float", "min10float", "float16_t"];
+            let bare = token
+                .text
+                .trim_end_matches(|c: char| c.is_ascii_digit() || c == 'x');
+            kinds.contains(&token.text) || kinds.contains(&bare)
+        }
+    };
+    found
+        .iter()
+        .find(is_half)
+        .map(|token| token.text.to_owned())
+}
