@@ -225,14 +225,14 @@ impl Columns {
         let of_function = (0..functions.len())
             .map(|function| [0, 1, 2].map(|channel| column(function, channel)))
             .collect();
-        let value = |step: usize, at: Option<&(usize, usize)>| {
-            at.map_or(0.0, |(function, channel)| {
-                functions[*function][step][*channel]
-            })
-        };
         let block = |columns: &[(usize, usize)]| {
-            let row = |step: usize| std::array::from_fn(|i| value(step, columns.get(i)));
-            (0..=STEPS).map(row).collect()
+            let mut rows = vec![[0.0; BLOCK]; STEPS + 1];
+            for (i, (function, channel)) in columns.iter().enumerate() {
+                for (step, value) in functions[*function].iter().enumerate() {
+                    rows[step][i] = value[*channel];
+                }
+            }
+            rows
         };
         Columns {
             blocks: first.chunks(BLOCK).map(block).collect(),
