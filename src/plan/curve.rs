@@ -261,10 +261,6 @@ impl Columns {
 }
 
 /// The mean of the columns of a block: the innermost loop of a plan. A release build calls what `zip` and closures come to, one by one.
-#[expect(
-    clippy::needless_range_loop,
-    reason = "a release build does not inline iterators of pairs"
-)]
 fn block_mean(rows: &[[f64; BLOCK]], weights: &StepWeights) -> [f64; BLOCK] {
     let mut sums = [0.0; BLOCK];
     for (step, weight) in weights {
