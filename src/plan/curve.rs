@@ -98,14 +98,14 @@ fn entry(level: usize, step: usize) -> usize {
     level * ROW + step
 }
 
-/// Half vectors under which a rough surface is seen, with their weights.
-type HalfVectors = Vec<(Place, f64)>;
+/// The steps that a mean reads, each once, with their weights: those of all half vectors under which a rough surface is seen.
+type StepWeights = Vec<(u32, f64)>;
 
-/// The rule of the mean: of each entry of a rough table the places and weights of half vectors. An entry is computed when it is first
+/// The rule of the mean: of each entry of a rough table the weights of the mirror's steps. An entry is computed when it is first
 /// needed, and serves every function of every material in every frame.
 pub struct RoughRule {
     ggx: Ggx,
-    entries: Vec<OnceLock<HalfVectors>>,
+    entries: Vec<OnceLock<StepWeights>>,
 }
 
 impl RoughRule {
@@ -117,23 +117,32 @@ impl RoughRule {
         }
     }
 
-    fn half_vectors(&self, entry: usize) -> &HalfVectors {
+    fn step_weights(&self, entry: usize) -> &StepWeights {
         self.entries[entry].get_or_init(|| {
             let roughness = (entry / ROW) as f64 / LEVELS as f64;
             let cos_v = cosine_of_part(entry % ROW, ROUGH_STEPS);
-            let mut points = Vec::new();
+            let mut weights = vec![0.0; STEPS + 1];
             self.ggx
                 .each(cos_v, roughness * roughness, |cos_h, weight| {
-                    points.push((Place::of(cos_h, STEPS), weight));
+                    let place = Place::of(cos_h, STEPS);
+                    let (step, share) = (place.step as usize, f64::from(place.share));
+                    weights[step] += weight * (1.0 - share);
+                    weights[step + 1] += weight * share;
                 });
-            points
+            let mut steps = Vec::new();
+            for (step, weight) in weights.iter().enumerate() {
+                if *weight != 0.0 {
+                    steps.push((step as u32, *weight));
+                }
+            }
+            steps
         })
     }
 
     /// How many entries were computed so far.
     #[cfg(test)]
     pub fn computed(&self) -> usize {
-        let computed = |entry: &&OnceLock<HalfVectors>| entry.get().is_some();
+        let computed = |entry: &&OnceLock<StepWeights>| entry.get().is_some();
         self.entries.iter().filter(computed).count()
     }
 }
@@ -216,14 +225,14 @@ impl Columns {
         let of_function = (0..functions.len())
             .map(|function| [0, 1, 2].map(|channel| column(function, channel)))
             .collect();
-        let value = |step: usize, at: Option<&(usize, usize)>| {
-            at.map_or(0.0, |(function, channel)| {
-                functions[*function][step][*channel]
-            })
-        };
         let block = |columns: &[(usize, usize)]| {
-            let row = |step: usize| std::array::from_fn(|i| value(step, columns.get(i)));
-            (0..=STEPS).map(row).collect()
+            let mut rows = vec![[0.0; BLOCK]; STEPS + 1];
+            for (i, (function, channel)) in columns.iter().enumerate() {
+                for (step, value) in functions[*function].iter().enumerate() {
+                    rows[step][i] = value[*channel];
+                }
+            }
+            rows
         };
         Columns {
             blocks: first.chunks(BLOCK).map(block).collect(),
@@ -235,28 +244,29 @@ impl Columns {
     fn means(&self, needed: &BTreeSet<usize>, rule: &RoughRule) -> Vec<(usize, Vec<f64>)> {
         let of_level = |level: usize| -> Vec<(usize, Vec<f64>)> {
             let own = needed.range(entry(level, 0)..entry(level + 1, 0));
-            own.map(|entry| (*entry, self.mean(rule.half_vectors(*entry))))
+            own.map(|entry| (*entry, self.mean(rule.step_weights(*entry))))
                 .collect()
         };
         let levels = in_parallel(LEVELS + 1, &of_level, &mut |_, _| {});
         levels.into_iter().flatten().collect()
     }
 
-    fn mean(&self, points: &HalfVectors) -> Vec<f64> {
-        let sums = self.blocks.iter().flat_map(|rows| block_mean(rows, points));
+    fn mean(&self, weights: &StepWeights) -> Vec<f64> {
+        let sums = self
+            .blocks
+            .iter()
+            .flat_map(|rows| block_mean(rows, weights));
         sums.collect()
     }
 }
 
-/// The mean of the columns of a block: the innermost loop of a plan, without a closure, which a release build would call.
-fn block_mean(rows: &[[f64; BLOCK]], points: &HalfVectors) -> [f64; BLOCK] {
+/// The mean of the columns of a block: the innermost loop of a plan. A release build calls what `zip` and closures come to, one by one.
+fn block_mean(rows: &[[f64; BLOCK]], weights: &StepWeights) -> [f64; BLOCK] {
     let mut sums = [0.0; BLOCK];
-    for (place, weight) in points {
-        let step = place.step as usize;
-        let share = f64::from(place.share);
-        let pairs = rows[step].iter().zip(&rows[step + 1]);
-        for (sum, (one, next)) in sums.iter_mut().zip(pairs) {
-            *sum += weight * (one + share * (next - one));
+    for (step, weight) in weights {
+        let row = &rows[*step as usize];
+        for i in 0..BLOCK {
+            sums[i] += weight * row[i];
         }
     }
     sums

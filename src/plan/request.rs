@@ -11,6 +11,8 @@ use crate::spectra::Space;
 use super::curve::step_cosines;
 use super::metric::Metric;
 
+/// Cosines that a processor's core takes at once: handing over one takes a tenth of the law's own time.
+const TOGETHER: usize = 256;
 /// Steps between exposures of a range, in stops.
 const STOPS: f64 = 1.0;
 
@@ -78,8 +80,12 @@ impl PlanTruth {
             }
         };
         let cosines = step_cosines();
-        let at = |i: usize| reference.at(cosines[i]);
-        in_parallel(cosines.len(), &at, &mut |_, _| {})
+        let parts: Vec<&[f64]> = cosines.chunks(TOGETHER).collect();
+        let of_part = |i: usize| -> Vec<[f64; 3]> {
+            let values = parts[i].iter().map(|cosine| reference.at(*cosine));
+            values.collect()
+        };
+        in_parallel(parts.len(), &of_part, &mut |_, _| {}).concat()
     }
 }
 
