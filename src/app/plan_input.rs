@@ -73,7 +73,11 @@ pub fn plan_input<'a>(
 }
 
 /// A scene file, drawn by our rasteriser.
-fn of_scene_file<'a>(file: &Path, viewing: &ViewingConditions) -> Result<PlanInput<'a>, Error> {
+fn of_scene_file<'a>(
+    flags: &PlanFlags,
+    file: &Path,
+    viewing: &ViewingConditions,
+) -> Result<PlanInput<'a>, Error> {
     let mut scene = SceneFile::parse(&file.display().to_string(), &source::text(file)?)?;
     scene.space = viewing.integration.space;
     let at = |index: usize, what: String| scene.material_fault(index, what).into();
@@ -207,9 +211,9 @@ fn of_frames<'a>(
     let at = |index: usize, what: String| ids.fault(index, what).into();
     let (materials, places) = loaded(&ids.materials, &Naming::of(flags, map), viewing, &at)?;
     let (count, read) = (materials.len(), material_files(&materials));
-    let space = viewing.integration.space;
+    let (frames, space) = (files.len(), viewing.integration.space);
     let frame = move |index: usize| {
-        let file: &PathBuf = &files[index];
+        let file = files[index];
         let bytes = source::picture(file)?;
         let frame = check_primaries(&bytes, space).and_then(|()| read_gbuffer(&bytes, &ids));
         let frame = frame.map_err(|fault| Error::Usage {

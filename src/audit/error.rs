@@ -67,7 +67,7 @@ pub enum Error {
         file: String,
     },
     /// Several of its functions can be one of reflectance, and none is named, or several have the name.
-    #[error("{file}: it holds {} functions; say which with --function: {}", names.len(), names.join(", "))]
+    #[error("{}: it holds {} functions; say which with --function: {}", Foreign(file), names.len(), one_line(&names.join(", ")))]
     SeveralFunctions {
         /// The file.
         file: String,

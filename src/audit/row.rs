@@ -218,7 +218,7 @@ impl Audited<'_> {
             line: self.bound.function.line,
             cosine: self.bound.function.params[self.bound.cosine].name.clone(),
             conditions: self.slice.conditions.iter().map(condition_row).collect(),
-            file: crate::command_line::file_name(&self.audit.file).to_owned(),
+            file: crate::command_line::path_again(&self.audit.file),
             channels: if self.bound.is_one_channel() { 1 } else { 3 },
             input_numbers: self.bound.input_numbers(),
             arguments: self.bound.arguments.iter().map(argument_value).collect(),

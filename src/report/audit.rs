@@ -7,10 +7,8 @@ use crate::verify::Status;
 
 /// A row for people.
 pub fn audit_text(row: &AuditRow) -> String {
-    let mut text = format!(
-        "{} in {} (line {}), {}\n",
-        row.function, row.file, row.line, row.material
-    );
+    let [function, file, material] = [&row.function, &row.file, &row.material].map(Foreign);
+    let mut text = format!("{function} in {file} (line {}), {material}\n", row.line);
     for (head, line) in lines(row) {
         text += &format!("  {head:<12} {}\n", lines_of(&line));
     }

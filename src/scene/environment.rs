@@ -6,6 +6,7 @@ use glam::DVec3;
 use half::f16;
 
 use super::light_file::LightFile;
+use crate::foreign::Foreign;
 use crate::spectra::Space;
 
 /// Radiance by direction.

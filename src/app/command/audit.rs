@@ -7,7 +7,7 @@ use crate::app::error::Error;
 use crate::app::fault::RequestFault;
 use crate::app::request::{Materials, Request};
 use crate::app::source::shader;
-use crate::app::write::{try_places_of_ours, write_file};
+use crate::app::write::{OutputFile, try_places_of_ours};
 use crate::audit::{Audit, AuditRow, AuditRows, Define, Given, Language, serve};
 use crate::chart::{ChartView, CostAxis, STATISTICS, chart_data, charted_function};
 use crate::cost::{self, FAMILIES, Family};

@@ -136,7 +136,7 @@ fn environment(file: Option<&Path>) -> Result<Environment, Error> {
     };
     let bytes = source::picture(file)?;
     Environment::read(&bytes, Space::Srgb).map_err(|fault| Error::Usage {
-        what: format!("{}: {fault}", file.display()),
+        what: format!("{}: {fault}", crate::foreign::path(file)),
     })
 }
 

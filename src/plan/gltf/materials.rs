@@ -18,8 +18,9 @@ use serde::Serialize;
 use super::super::drawn::SurfaceLook;
 use super::super::pixels::MappedMaterial;
 use super::super::sky::SceneLight;
-use super::fault::{Place, plain};
+use super::fault::Place;
 use super::remarks::not_read;
+use crate::foreign::{Foreign, one_line};
 use crate::materials::{self, Material, MaterialKind};
 use crate::names::UnknownName;
 
@@ -373,7 +374,7 @@ fn change(name: &str, value: &serde_json::Value) -> Option<String> {
         Some(channels) => channels.iter().all(|channel| channel.as_f64() == Some(0.0)),
         None => factor.as_f64() == Some(0.0),
     };
-    let name = plain(name);
+    let name = Foreign(name);
     match known.map(|(_, effect)| effect) {
         Some(Effect::None) => None,
         Some(Effect::Factor(factor, _)) if value.get(factor).is_none_or(is_zero) => None,

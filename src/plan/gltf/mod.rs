@@ -31,11 +31,12 @@ use super::drawn::DrawnScene;
 use super::pixels::{FramePixels, MappedMaterial};
 use super::scene_file::ReadFile;
 use super::sky::SceneLight;
+use crate::foreign::Foreign;
 use accessor::Buffers;
 use cameras::cameras;
 use container::Container;
 pub use fault::GltfFault;
-use fault::{Place, plain};
+use fault::Place;
 use materials::Looks;
 pub use materials::{Unplanned, constant_index};
 use primitives::Tints;
@@ -143,7 +144,7 @@ fn root(container: &Container) -> Result<Root, Place> {
         .as_deref()
         .filter(|least| *least != "2.0")
     {
-        let what = format!("it is {}; version 2.0 is read", plain(least));
+        let what = format!("it is {}; version 2.0 is read", Foreign(least));
         return Err(Place::new("asset.minVersion", what));
     }
     check_positions(&root)?;

@@ -2,7 +2,7 @@
 
 use gltf_json::{Material, Root};
 
-use super::fault::plain;
+use crate::foreign::Foreign;
 
 /// Extensions that are read, or that a material's own reason names.
 const READ: [&str; 3] = ["KHR_materials_", "KHR_texture_", "EXT_texture_"];
@@ -61,7 +61,7 @@ pub fn of_scene(root: &Root, size: [u32; 2]) -> Vec<String> {
     }
     for name in &root.extensions_used {
         if !READ.iter().any(|start| name.starts_with(start)) {
-            remarks.push(format!("the extension {} is not read", plain(name)));
+            remarks.push(format!("the extension {} is not read", Foreign(name)));
         }
     }
     remarks.extend(aspect(root, f64::from(size[0]) / f64::from(size[1])));
