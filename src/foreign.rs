@@ -91,12 +91,12 @@ fn opens(c: char) -> bool {
 pub fn lines(text: &str) -> String {
     match text.trim_end().split_once('\n') {
         None => one_line(text.trim_end()),
-        Some((first, rest)) => format!("{}\n{}", one_line(first.trim_end()), said(rest)),
+        Some((first, rest)) => format!("{}\n{}", one_line(first.trim_end()), behind_margin(rest)),
     }
 }
 
-/// The words of a compiler: each line as one that nothing obeys, behind a margin.
-pub fn said(text: &str) -> String {
+/// Each line as one that nothing obeys, behind a margin.
+fn behind_margin(text: &str) -> String {
     let mut lines: Vec<String> = Vec::new();
     let mut rest = text.trim_end().lines();
     for line in rest.by_ref().take(LINES) {
@@ -194,10 +194,10 @@ mod tests {
     #[test]
     fn words_of_a_compiler_stand_behind_a_margin() {
         assert_eq!(
-            said("a\n::error::b\r\n\u{1b}c\n"),
+            behind_margin("a\n::error::b\r\n\u{1b}c\n"),
             "  | a\n  | \\u{3a}:error::b\n  | \\u{1b}c"
         );
         assert_eq!(lines("f: no\n::b\n"), "f: no\n  | \\u{3a}:b");
-        assert!(said(&"x\n".repeat(500)).ends_with("  | … and 300 more lines"));
+        assert!(behind_margin(&"x\n".repeat(500)).ends_with("  | … and 300 more lines"));
     }
 }

@@ -24,7 +24,7 @@ pub fn refuse_namesakes(
             continue;
         };
         let entry = old.files.iter().find(|entry| entry.file == artifact.path);
-        let words = entry.and_then(|entry| Some([said(entry)?, wanted(artifact)?]));
+        let words = entry.and_then(|entry| Some([listed(entry)?, wanted(artifact)?]));
         let Some(words) = words.filter(|_| file.old.is_some()) else {
             continue;
         };
@@ -47,7 +47,7 @@ pub fn refuse_namesakes(
 }
 
 /// The material in the command of an entry.
-fn said(entry: &Entry) -> Option<&str> {
+fn listed(entry: &Entry) -> Option<&str> {
     material_word(entry.detail.get("command")?.as_str()?)
 }
 

@@ -16,6 +16,7 @@ use super::decimal::{Unit, clipped};
 use super::file::FileFault;
 use super::page::{Page, check_text};
 use super::rows::{Columns, RowFault, TableReader};
+use crate::spectra::is_separator;
 
 const ALLOWED: &str =
     "allowed are wavelength_nm, wavelength_um, nm, um or wl (um), and then n, k or n,k";
@@ -39,7 +40,7 @@ impl Page {
                 text: line,
             };
             // `sep=;` is for Excel.
-            if line.trim().is_empty() || line.starts_with('#') || line.starts_with("sep=") {
+            if line.trim().is_empty() || line.starts_with('#') || is_separator(line) {
                 continue;
             }
             match (header(line), &mut table) {

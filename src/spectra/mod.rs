@@ -36,6 +36,7 @@ pub use integrator::{Integrator, NoWhite};
 pub use observer::Observer;
 pub use space::{Space, rgb_to_xyz, srgb_byte, srgb_linear, xyz_of};
 pub use spectrum::Spectrum;
+pub use table::is_separator;
 pub use tristimulus::{weighted_sum, xyz_weights};
 pub use user_text::{TextFault, mesh_text, user_text, without_mark};
 pub use wavelength::{FIRST_NM, LAST_NM, OBSERVED_NM, Step};

@@ -102,7 +102,7 @@ fn fields(line: &str) -> Vec<Field<'_>> {
 }
 
 /// Whether a line tells a spreadsheet what separates the others: `sep=,`.
-fn is_separator(line: &str) -> bool {
+pub fn is_separator(line: &str) -> bool {
     let line = line.trim().trim_matches('"').to_lowercase();
     line.strip_prefix("sep=")
         .is_some_and(|sign| sign.chars().count() <= 1)

@@ -174,20 +174,21 @@ fn a_path_that_is_there_is_a_path_whatever_commas_it_holds() {
 fn files_that_come_out_with_one_name_are_told_apart() {
     let place = Place::new();
     let table = |n: f64| TABLE.replace(",1,", &format!(",{n},"));
+    let flags = |file: &'static str| {
+        [
+            "--material",
+            file,
+            "--target",
+            "gles",
+            "--method",
+            "conductor_exact",
+        ]
+    };
     // Two that had one name before have two.
     place.put("\u{91d1}.csv", table(1.1));
     place.put("\u{94f6}.csv", table(1.2));
     for file in ["\u{91d1}.csv", "\u{94f6}.csv"] {
-        place
-            .run_with(&[
-                "--material",
-                file,
-                "--target",
-                "gles",
-                "--method",
-                "conductor_exact",
-            ])
-            .ends(0);
+        place.run_with(&flags(file)).ends(0);
     }
     let files = place.files();
     for name in ["jin", "yin"] {
@@ -201,16 +202,6 @@ fn files_that_come_out_with_one_name_are_told_apart() {
     // Two that still have one are refused, beside each other and after each other.
     place.put("Gl\u{e4}ser.csv", table(1.3));
     place.put("Glaser.csv", table(1.4));
-    let flags = |file: &'static str| {
-        [
-            "--material",
-            file,
-            "--target",
-            "gles",
-            "--method",
-            "conductor_exact",
-        ]
-    };
     place.run_with(&flags("Gl\u{e4}ser.csv")).ends(0);
     place.refused_with(
         &flags("Glaser.csv"),

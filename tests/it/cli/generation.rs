@@ -335,7 +335,7 @@ fn depfile_names_outputs_and_inputs() {
     ];
     place.run_with(&arguments).ends(0);
     let rule = format!(
-        "{OUT}/gles/materials/my_metal.glsl {OUT}/gles/fresnel_schlick.glsl: my\\ metal.toml\n"
+        "{OUT}/gles/materials/my_metal.glsl {OUT}/gles/fresnel_schlick.glsl: my\\ metal.toml\nmy\\ metal.toml:\n"
     );
     assert_eq!(place.read("d"), rule);
     place.done("--method schlick --target hlsl -o s.hlsl --depfile e");

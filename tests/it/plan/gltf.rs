@@ -543,7 +543,7 @@ fn unplanned_materials_hide_what_is_behind_them() {
         .unwrap()
         .push(json!({ "name": "\u{1b}Gold" }));
     let scene = read(&json).unwrap();
-    assert_eq!(scene.unplanned[0].name, "\u{fffd}Gold");
+    assert_eq!(scene.unplanned[0].name, "\\u{1b}Gold");
     let hidden = scene.frame(0).of_material[0].len();
     assert!(0 < hidden && hidden < all, "{hidden} {all}");
 }

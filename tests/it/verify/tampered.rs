@@ -268,11 +268,7 @@ fn false_numbers_in_the_manifest_are_seen() {
         ("\"max_abs\": 0.004", "\"max_abs\": 0.001", "`model_error`"),
         ("0.9993", "0.8993", "`average`"),
         ("b = 2^(-6.5 c)", "b = 2^(-5.5 c)", "`formula`"),
-        (
-            "coefficients by exchange",
-            "coefficients by luck",
-            "`source`",
-        ),
+        ("algorithm of the fit", "algorithm by luck", "`source`"),
         ("R. L. Olmon", "R. L. Nobody", "`data`"),
     ];
     let edit = |text: &str| all_of(text, &edits);
