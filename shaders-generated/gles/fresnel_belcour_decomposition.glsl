@@ -13,8 +13,8 @@
 //     fresnel_belcour_decomposition_average 24; fresnel_belcour_decomposition_average_scalar 8
 // fresnel_belcour_decomposition_average: the mean of F over the hemisphere, weighted by cosine, as compensation of
 //     multiple scattering takes it
-// Source: Belcour, Bati, Barla, 2020, https://blog.selfshadow.com/publications/s2020-shading-course/; the
-//     polynomials that follow its tables are fresnel-gen's
+// Source: the polynomials that follow its tables are fresnel-gen's; else Belcour, Bati, Barla, 2020,
+//     https://blog.selfshadow.com/publications/s2020-shading-course/
 
 #ifndef FRESNEL_BELCOUR_DECOMPOSITION_GLES
 #define FRESNEL_BELCOUR_DECOMPOSITION_GLES

@@ -9,8 +9,8 @@
 // Domain: clamped to [0, 1]; lambda <= 0 drops the correction
 // Model error for n 0.05 to 4.5, k 1.5 to 8: at most 0.0872, worst at 75.8 degrees
 // Cost: 67 scalar operations, among them 3 divisions, 4 exponentials or logarithms
-// Source: Lazanyi, Szirmay-Kalos, 2005, https://hdl.handle.net/11025/11214; a = 2 n and the matched exponent are
-//     the thesis's
+// Source: a = 2 n and the matched exponent are the thesis's; else Lazanyi, Szirmay-Kalos, 2005,
+//     https://hdl.handle.net/11025/11214
 
 #ifndef FRESNEL_SCHLICK_CORRECTED_GLES
 #define FRESNEL_SCHLICK_CORRECTED_GLES

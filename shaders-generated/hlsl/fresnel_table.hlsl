@@ -14,9 +14,8 @@
 // Model error for eta 1.3 to 2.5: at most 0.00027, worst at 84.3 degrees
 // Model error for n 0.05 to 4.5, k 1.5 to 8: at most 0.00045, worst at 15.2 degrees
 // Cost: 14 scalar operations, among them 3 divisions, and one texture fetch
-// Source: Selan, 2005,
-//     https://developer.nvidia.com/gpugems/gpugems2/part-iii-high-quality-rendering/chapter-24-using-lookup-tables-accelerate-color;
-//     the warp is fresnel-gen's
+// Source: the warp is fresnel-gen's; else Selan, 2005,
+//     https://developer.nvidia.com/gpugems/gpugems2/part-iii-high-quality-rendering/chapter-24-using-lookup-tables-accelerate-color
 
 #ifndef FRESNEL_TABLE_HLSL
 #define FRESNEL_TABLE_HLSL

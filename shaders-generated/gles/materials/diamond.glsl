@@ -60,8 +60,8 @@ highp vec3 fresnel_diamond_schlick_rescaled(highp float cos_theta) {
 // fresnel_diamond_schlick_corrected: the rescaled Schlick with a term that restores the minimum of metals
 // Model error: at most 0.05084 (at 87.37 degrees), 2.51 % in the mean over angles.
 // Cost: 31 scalar operations, among them 4 exponentials or logarithms
-// Source: Lazanyi, Szirmay-Kalos, 2005, https://hdl.handle.net/11025/11214; a = 2 n and the matched exponent are
-//     the thesis's
+// Source: a = 2 n and the matched exponent are the thesis's; else Lazanyi, Szirmay-Kalos, 2005,
+//     https://hdl.handle.net/11025/11214
 highp vec3 fresnel_diamond_schlick_corrected(highp float cos_theta) {
     highp float c = clamp(cos_theta, 0.0, 1.0); // clamp: a rounded dot product may exceed 1
     highp float m = 1.0 - c; // 0 at normal incidence, 1 at grazing
@@ -78,9 +78,8 @@ highp vec3 fresnel_diamond_schlick_corrected(highp float cos_theta) {
 // Table: as `fresnel-gen bake` writes it unless asked otherwise, 64 texels
 // Model error: at most 0.00025 (at 88.48 degrees), 0.03 % in the mean over angles.
 // Cost: 7 scalar operations, among them 1 division, and one texture fetch
-// Source: Selan, 2005,
-//     https://developer.nvidia.com/gpugems/gpugems2/part-iii-high-quality-rendering/chapter-24-using-lookup-tables-accelerate-color;
-//     the warp is fresnel-gen's
+// Source: the warp is fresnel-gen's; else Selan, 2005,
+//     https://developer.nvidia.com/gpugems/gpugems2/part-iii-high-quality-rendering/chapter-24-using-lookup-tables-accelerate-color
 highp vec3 fresnel_diamond_table(highp float cos_theta, highp sampler2D table) {
     highp float c = clamp(cos_theta, 0.0, 1.0); // clamp: a rounded dot product may exceed 1
     highp float w = 5.0 * c / (1.0 + 4.0 * c); // 0 at grazing, 1 at normal incidence; dense near grazing

@@ -62,8 +62,8 @@ float3 fresnel_gold_schlick_rescaled(float cos_theta)
 // fresnel_gold_schlick_corrected: the rescaled Schlick with a term that restores the minimum of metals
 // Model error: at most 0.03915 (at 87.79 degrees), 0.63 % in the mean over angles.
 // Cost: 31 scalar operations, among them 4 exponentials or logarithms
-// Source: Lazanyi, Szirmay-Kalos, 2005, https://hdl.handle.net/11025/11214; a = 2 n and the matched exponent are
-//     the thesis's
+// Source: a = 2 n and the matched exponent are the thesis's; else Lazanyi, Szirmay-Kalos, 2005,
+//     https://hdl.handle.net/11025/11214
 float3 fresnel_gold_schlick_corrected(float cos_theta)
 {
     float c = saturate(cos_theta); // clamp: a rounded dot product may exceed 1
@@ -82,9 +82,8 @@ float3 fresnel_gold_schlick_corrected(float cos_theta)
 // Table: as `fresnel-gen bake` writes it unless asked otherwise, 64 texels
 // Model error: at most 0.00046 (at 54.62 degrees), 0.01 % in the mean over angles.
 // Cost: 7 scalar operations, among them 1 division, and one texture fetch
-// Source: Selan, 2005,
-//     https://developer.nvidia.com/gpugems/gpugems2/part-iii-high-quality-rendering/chapter-24-using-lookup-tables-accelerate-color;
-//     the warp is fresnel-gen's
+// Source: the warp is fresnel-gen's; else Selan, 2005,
+//     https://developer.nvidia.com/gpugems/gpugems2/part-iii-high-quality-rendering/chapter-24-using-lookup-tables-accelerate-color
 float3 fresnel_gold_table(float cos_theta, Texture2D<float4> table, SamplerState table_sampler)
 {
     float c = saturate(cos_theta); // clamp: a rounded dot product may exceed 1

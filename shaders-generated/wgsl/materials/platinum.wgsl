@@ -58,8 +58,8 @@ fn fresnel_platinum_schlick_rescaled(cos_theta: f32) -> vec3<f32> {
 // fresnel_platinum_schlick_corrected: the rescaled Schlick with a term that restores the minimum of metals
 // Model error: at most 0.04518 (at 69.83 degrees), 2.05 % in the mean over angles.
 // Cost: 31 scalar operations, among them 4 exponentials or logarithms
-// Source: Lazanyi, Szirmay-Kalos, 2005, https://hdl.handle.net/11025/11214; a = 2 n and the matched exponent are
-//     the thesis's
+// Source: a = 2 n and the matched exponent are the thesis's; else Lazanyi, Szirmay-Kalos, 2005,
+//     https://hdl.handle.net/11025/11214
 fn fresnel_platinum_schlick_corrected(cos_theta: f32) -> vec3<f32> {
     let c = saturate(cos_theta); // clamp: a rounded dot product may exceed 1
     let m = 1.0 - c; // 0 at normal incidence, 1 at grazing
@@ -76,9 +76,8 @@ fn fresnel_platinum_schlick_corrected(cos_theta: f32) -> vec3<f32> {
 // Table: as `fresnel-gen bake` writes it unless asked otherwise, 64 texels
 // Model error: at most 0.00029 (at 79.89 degrees), 0.02 % in the mean over angles.
 // Cost: 7 scalar operations, among them 1 division, and one texture fetch
-// Source: Selan, 2005,
-//     https://developer.nvidia.com/gpugems/gpugems2/part-iii-high-quality-rendering/chapter-24-using-lookup-tables-accelerate-color;
-//     the warp is fresnel-gen's
+// Source: the warp is fresnel-gen's; else Selan, 2005,
+//     https://developer.nvidia.com/gpugems/gpugems2/part-iii-high-quality-rendering/chapter-24-using-lookup-tables-accelerate-color
 fn fresnel_platinum_table(cos_theta: f32, table: texture_2d<f32>, table_sampler: sampler) -> vec3<f32> {
     let c = saturate(cos_theta); // clamp: a rounded dot product may exceed 1
     let w = 5.0 * c / (1.0 + 4.0 * c); // 0 at grazing, 1 at normal incidence; dense near grazing
