@@ -37,7 +37,7 @@ fn all_formats(c: &mut Criterion) {
     let (subjects, _) = table_materials(&wanted).expect("the four are seen");
     let request = BakeRequest {
         subjects,
-        typed: String::new(),
+        typed: Vec::new(),
         formats: Format::ALL.to_vec(),
         shape: TableSize::Fixed {
             axis: TableAxis::Rational,

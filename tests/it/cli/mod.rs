@@ -29,7 +29,7 @@ mod killed;
 mod marks;
 mod materials;
 mod medium;
-mod pipelines;
+pub mod pipelines;
 mod plan;
 mod scene_error;
 mod seen;
@@ -38,8 +38,6 @@ mod stability;
 mod streams;
 #[cfg(feature = "gpu")]
 mod time;
-
-pub use pipelines::path_with_program;
 
 use std::fs;
 use std::path::{Path, PathBuf};

@@ -59,7 +59,7 @@ fn polygons_relative_indices_and_groups_are_read() {
 fn a_concave_face_covers_what_lies_inside() {
     let point = |i: usize| {
         let angle = std::f64::consts::PI * (0.5 + i as f64 / 5.0);
-        let radius = if i % 2 == 0 { 1.0 } else { 0.35 };
+        let radius = if i.is_multiple_of(2) { 1.0 } else { 0.35 };
         (radius * angle.cos(), radius * angle.sin())
     };
     let mut places: String = (0..10)

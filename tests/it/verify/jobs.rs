@@ -9,7 +9,8 @@ use clap::Parser;
 use fresnel_gen::app::args::{Cli, Command as Subcommand};
 use serde_json::Value;
 
-use crate::cli::{Place, Ran, path_with_program};
+use crate::cli::pipelines::path_with_program;
+use crate::cli::{Place, Ran};
 use crate::not_checked;
 
 fn path(name: &str) -> PathBuf {
