@@ -1,4 +1,4 @@
-//! The only writer. Every file is first staged beside its destination ([`stage`](super::stage)). When
+//! The only writer. Every file is first staged beside its destination (`stage.rs`). When
 //! all are staged, a manifest that lists old and new files is put in place, then the files, then orphans are removed, then
 //! the manifest that stays is put in place. Until the first of these steps a failure changes nothing. A run killed at any
 //! moment leaves each file either old or new and listed, and running it again ends its work.
