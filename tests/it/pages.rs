@@ -17,7 +17,7 @@ DATA:
         0.4 -1.5 -0.02
   - type: formula 2
     wavelength_range: 0.3 2.5
-    coefficients: 0 1.03961212 0.00600069867 0.231792344 0.0200179144
+    coefficients: 0 1.03961212 0.00600069867 0.231792344 4
 CONDITIONS:
     temperature: 293
 PROPERTIES:

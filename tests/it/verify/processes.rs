@@ -45,9 +45,18 @@ fn command(place: &Place, line: &str, limit: u64) -> Command {
     command
 }
 
-/// Starts it, and waits until a compiler hangs. What it has started is known by then.
+/// Starts it, and waits until a compiler hangs. What it has started is known by then. No signal is ignored: tests may run below `nohup`.
 fn started(place: &Place, line: &str, limit: u64) -> (Child, BTreeSet<u32>) {
-    let child = command(place, line, limit).spawn().unwrap();
+    let inner = command(place, line, limit);
+    let mut heard = Command::new("env");
+    heard.arg("--default-signal").arg(inner.get_program());
+    heard.args(inner.get_args()).current_dir(place.path(""));
+    heard.stdin(Stdio::null());
+    for (name, value) in inner.get_envs() {
+        heard.env(name, value.unwrap());
+    }
+    heard.stdout(Stdio::piped()).stderr(Stdio::piped());
+    let child = heard.spawn().unwrap();
     until("a compiler is asked", || noted(place).len() >= 2);
     let mut all = noted(place);
     all.extend(below(child.id()));
