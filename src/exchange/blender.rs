@@ -4,7 +4,7 @@
 //! <https://docs.blender.org/manual/en/4.4/render/shader_nodes/shader/principled.html>. Principled (4.0 and later): a metal is
 //! F82-tint with Base Color as F0 and Specular Tint as the tint, a dielectric the exact law of IOR. Metallic BSDF (4.3 and
 //! later) with F82: Base Color and Edge Tint. Cycles limits colours and tints of metals to [0, 1]. EEVEE reads both from tables of
-//! sums, so that its F is Cycles's only about. Roughness is .5 unless it is set.
+//! sums, so that its F is Cycles's only about: of dielectrics it is Schlick's. Roughness is .5 unless it is set.
 
 use crate::spectra::Space;
 

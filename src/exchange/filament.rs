@@ -2,7 +2,8 @@
 //!
 //! Source: Guy and Agopian, "Physically Based Rendering in Filament", 2018, <https://google.github.io/filament/Filament.html>,
 //! sections 4.8.3.2 and 4.4.3: a dielectric's F0 = .16 reflectance², a metal's is `baseColor`. Schlick's approximation with
-//! min(16.5 (R + G + B) of F0, 1) at 90 degrees. `ior` is read of materials with refraction.
+//! min(16.5 (R + G + B) of F0, 1) at 90 degrees, or 1 on phones and in images. Beside `reflectance`, `ior` is for refraction; without it, F0
+//! of lit materials is that of `ior`.
 
 use crate::spectra::Space;
 

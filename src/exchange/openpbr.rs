@@ -1,7 +1,7 @@
 //! OpenPBR 1.1.1: a metal is F82-tint with `base_color` as F0 and `specular_color` as the tint, a dielectric the exact law of
 //! `specular_ior`.
 //!
-//! Source: Andersson and others, "OpenPBR Surface specification, version 1.1.1", 2025,
+//! Source: Andersson and others, "OpenPBR Surface specification, version 1.1.1", 2026,
 //! <https://academysoftwarefoundation.github.io/OpenPBR/>, sections on the metallic and the dielectric base.
 //! `base_color` and `specular_color` lie in [0, 1]; dispersion is Abbe's number with a scale, which is 0 by default.
 //! `specular_roughness` is .3 unless it is set.

@@ -290,7 +290,8 @@ const ENGINES: [Engine; 6] = [
     }),
 ];
 
-const COLOURED: [&str; 4] = ["gold", "copper", "platinum", "titanium"];
+/// The columns of `docs/tables.md`.
+const COLOURED: [&str; 4] = ["copper", "gold", "platinum", "titanium"];
 
 /// What is apart most from the bounces, with its sign.
 fn farther(most: f64, off: f64) -> f64 {
@@ -308,7 +309,8 @@ fn coloured_metals_follow_the_series_of_bounces() {
             &gamut::fitted(material, fitted, Gamut::Clip),
         )
     };
-    let surfaces: Vec<Surface> = super::subjects(&COLOURED).iter().map(of).collect();
+    // One by one: subjects of one request come by name.
+    let surfaces = COLOURED.map(|name| of(&super::subjects(&[name])[0]));
     let rule = Ggx::default();
     let mut ours = 0.0;
     let mut engines = [[0.0; COLOURED.len()]; ENGINES.len()];
@@ -333,10 +335,12 @@ fn coloured_metals_follow_the_series_of_bounces() {
     }
     println!("ours {ours}");
     assert!(ours.abs() <= SERIES, "{ours}");
-    // What adapters had before: platinum at roughness 1 is a tenth too bright.
-    assert!(engines[2][2] > 0.1 && engines[2][0] > 0.09, "{engines:?}");
+    // What adapters had before: platinum at roughness 1 is a tenth too bright, and gold nearly as much.
+    assert!(engines[2][2] > 0.1 && engines[2][1] > 0.09, "{engines:?}");
     let page =
         std::fs::read_to_string(concat!(env!("CARGO_MANIFEST_DIR"), "/docs/tables.md")).unwrap();
+    let head = format!("| factor | {} | who |", COLOURED.join(" | "));
+    assert!(page.contains(&head), "docs/tables.md lacks: {head}");
     for ((words, _), most) in ENGINES.iter().zip(engines) {
         let cells = most.map(|off| format!("{off:+.3}").replace("0.", "."));
         let row = format!("`{words}` | {} |", cells.join(" | "));
