@@ -4,7 +4,8 @@
 //! Source: MaterialX, "Physically Based Shading Nodes, version 1.39", 2024,
 //! <https://github.com/AcademySoftwareFoundation/MaterialX/blob/main/documents/Specification/MaterialX.PBRSpec.md>.
 //! `color0` is F0, `color82` the tint of F82-tint, `color90` the reflectance at 90 degrees. `ior` and `extinction` have the type of colours
-//! and are none: the space `none` keeps them as they are. Yet F of them is a colour of the document's space. Roughness is .05 unless it is set, .3 in OpenPBR.
+//! and are none: the space `none` keeps them as they are. Yet F of them is a colour of the document's space. Roughness is .05 unless it is
+//! set, .3 in OpenPBR.
 
 use crate::emit::{XmlDocument, comment_lines};
 use crate::spectra::Space;
