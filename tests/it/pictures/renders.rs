@@ -31,7 +31,7 @@ pub static FACTS: &[Fact] = &[
     },
     Fact {
         pictures: "*renders/double_refraction_gem.png",
-        says: "what is reflected totally leaves undimmed: the brilliant is brighter than in truth",
+        says: "one reflection brings too much of the bright ground: the brilliant is brighter than in truth",
         holds: |shown| {
             let read = Panels::new(shown);
             let [drawn, truth] = [0, 1].map(|panel| read.mean(panel, WHOLE)[1]);
