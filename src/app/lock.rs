@@ -20,8 +20,10 @@ use super::folder::{is_plain_file, is_temporary, temporaries_beside};
 pub const FILE: &str = ".fresnel-gen.lock";
 
 /// How long a run waits before it says that it waits: so many turns of so many milliseconds.
-const SILENT_TURNS: u32 = 20;
+const SILENT_TURNS: u64 = 20;
 const TURN_MS: u64 = 50;
+/// How long a run waits at most.
+const MOST_WAIT_S: u64 = 120;
 
 /// How often a run that waited finds another file in the lock's place, and begins again. Without an end a file system whose files
 /// change their numbers would hold it for ever.
@@ -86,9 +88,14 @@ impl Lock {
                     let _ = fs::remove_file(&lock.path);
                     return lock;
                 }
-                // The run before this one removed the file while this one waited for it.
-                Ok(()) if !is_at(&file, &lock.path) => continue,
-                Ok(()) => {
+                Ok(false) => {
+                    let why = format!("is held for more than {MOST_WAIT_S} s");
+                    announce(&without(&lock.path, &why));
+                    return lock;
+                }
+                // The run before this one removed the file while this one waited for it, or somebody put another into its place.
+                Ok(true) if !is_at(&file, &lock.path) => continue,
+                Ok(true) => {
                     lock.leftovers = listed(&mut file);
                     lock.file = Some(file);
                     return lock;
@@ -198,25 +205,23 @@ pub fn remove_leftovers_of(output: &Path) {
     }
 }
 
-/// Waits for the lock, and says so when that takes longer than a second.
-fn wait(file: &File, path: &Path, announce: Announce) -> io::Result<()> {
-    for _ in 0..SILENT_TURNS {
+/// Waits for the lock, and says so when that takes longer than a second. False: it is held for so long that no run of ours can be
+/// at work. A run holds it while it writes, and anybody who may open the file can hold it for ever.
+fn wait(file: &File, path: &Path, announce: Announce) -> io::Result<bool> {
+    for turn in 0..MOST_WAIT_S * 1000 / TURN_MS {
         match file.try_lock() {
-            Ok(()) => return Ok(()),
+            Ok(()) => return Ok(true),
             Err(TryLockError::WouldBlock) => thread::sleep(Duration::from_millis(TURN_MS)),
             Err(TryLockError::Error(why)) => return Err(why),
         }
-    }
-    let folder = crate::foreign::path(&path.parent().unwrap_or(path));
-    announce(&format!(
-        "{folder}: another run writes there; waiting for it to end"
-    ));
-    loop {
-        match file.lock() {
-            Err(why) if why.kind() == ErrorKind::Interrupted => {}
-            other => return other,
+        if turn == SILENT_TURNS {
+            let folder = crate::foreign::path(&path.parent().unwrap_or(path));
+            announce(&format!(
+                "{folder}: another run writes there; waiting for it to end"
+            ));
         }
     }
+    Ok(false)
 }
 
 /// Whether the open file is still the one that lies at this path.
@@ -250,13 +255,29 @@ fn listed(file: &mut File) -> Vec<String> {
 /// Whether something else lies at the lock's place: a link, a folder, a pipe, or a file that lists other names than those
 /// of temporary files.
 fn is_foreign(path: &Path) -> bool {
-    /// Lists of a million names are shorter.
-    const MOST_BYTES: u64 = 64 << 20;
+    /// A list of twenty thousand names is shorter, and a tree has far fewer files.
+    const MOST_BYTES: u64 = 2 << 20;
     let Ok(found) = fs::symlink_metadata(path) else {
         return false;
     };
     let is_ours = |line: &str| is_temporary(line) && check_path(line).is_ok();
+    let is_list = |bytes: Vec<u8>| {
+        std::str::from_utf8(&bytes).is_ok_and(|text| text.lines().all(is_ours))
+    };
     !found.is_file()
+        || has_other_names(&found)
         || found.len() > MOST_BYTES
-        || fs::read_to_string(path).is_ok_and(|text| !text.lines().all(is_ours))
+        || fs::read(path).is_ok_and(|bytes| !is_list(bytes))
+}
+
+/// Whether a file lies in other places too: it would be written to there as well.
+#[cfg(unix)]
+fn has_other_names(found: &fs::Metadata) -> bool {
+    std::os::unix::fs::MetadataExt::nlink(found) > 1
+}
+
+/// Elsewhere that is not known.
+#[cfg(not(unix))]
+fn has_other_names(_found: &fs::Metadata) -> bool {
+    false
 }

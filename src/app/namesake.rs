@@ -20,27 +20,29 @@ pub fn refuse_namesakes(
     provenance: &Provenance,
 ) -> Result<(), Error> {
     for (artifact, file) in artifacts.iter().zip(files) {
-        let Some(name) = &artifact.material else {
+        let (Some(name), Some(new)) = (&artifact.material, wanted(artifact)) else {
             continue;
         };
-        let entry = old.files.iter().find(|entry| entry.file == artifact.path);
-        let words = entry.and_then(|entry| Some([listed(entry)?, wanted(artifact)?]));
-        let Some(words) = words.filter(|_| file.old.is_some()) else {
-            continue;
-        };
-        let [is_known, is_new] = [&old.inputs, &provenance.inputs]
+        let [known_data, new_data] = [&old.inputs, &provenance.inputs]
             .map(|inputs| inputs.iter().find(|input| input.name == *name));
-        // A manifest does not say what tables were made of.
-        let is_same = match (is_known, is_new) {
-            (Some(known), Some(new)) => known.sha256 == new.sha256,
-            _ => file.state() == State::Unchanged,
-        };
-        if words[0] != words[1] && words.iter().all(|word| is_named_by_file(word)) && !is_same {
-            return Err(RequestFault::Namesake {
-                file: artifact.path.clone(),
-                words: words.map(str::to_owned),
+        // Whatever of that material lies in the folder counts, in every language and format: a manifest has one hash for all of it.
+        let of_name = |entry: &&Entry| entry.material.as_ref() == Some(name);
+        for entry in old.files.iter().filter(of_name) {
+            let Some(known) = listed(entry).filter(|known| *known != new) else {
+                continue;
+            };
+            // A manifest does not say what tables were made of.
+            let is_same = match (known_data, new_data) {
+                (Some(known), Some(new)) => known.sha256 == new.sha256,
+                _ => entry.file == artifact.path && file.state() == State::Unchanged,
+            };
+            if !is_same && [known, new].into_iter().all(names_no_material_file) {
+                return Err(RequestFault::Namesake {
+                    file: entry.file.clone(),
+                    words: [known, new].map(str::to_owned),
+                }
+                .into());
             }
-            .into());
         }
     }
     Ok(())
@@ -56,19 +58,31 @@ fn wanted(artifact: &Artifact) -> Option<&str> {
     match &artifact.detail {
         Detail::Functions(detail) => material_word(&detail.command),
         Detail::Table(detail) => material_word(&detail.command),
-        Detail::Catalogue(_) | Detail::Adapter(_) => None,
+        Detail::Adapter(detail) => material_word(&detail.command),
+        Detail::Catalogue(_) => None,
     }
 }
 
+/// The word after the flag, as a shell takes it: to the first blank that is not quoted.
 fn material_word(command: &str) -> Option<&str> {
     let (_, rest) = command.split_once(" --material ")?;
-    Some(rest.split(" --").next().unwrap_or(rest))
+    let mut quote = None;
+    let end = rest.find(|c| match (quote, c) {
+        (None, '\'' | '"') => {
+            quote = Some(c);
+            false
+        }
+        (Some(open), _) => {
+            quote = quote.filter(|_| open != c);
+            false
+        }
+        (None, _) => c == ' ',
+    });
+    Some(&rest[..end.unwrap_or(rest.len())])
 }
 
-/// Whether a word, as a shell takes it, is a table or a page.
-fn is_named_by_file(word: &str) -> bool {
+/// Whether a word, as a shell takes it, is no material file: a table, a page, or a name of the catalogue.
+fn names_no_material_file(word: &str) -> bool {
     let word = word.trim_end_matches(['\'', '"', ')']).to_lowercase();
-    [".csv", ".yml", ".yaml", ".txt", ".tsv"]
-        .iter()
-        .any(|ending| word.ends_with(ending))
+    !word.ends_with(".toml")
 }

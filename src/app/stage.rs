@@ -102,6 +102,20 @@ impl StagedFiles {
         }
     }
 
+    /// Refuses places where a folder lies by now: one output of a run can lie above another (`-o a.wgsl --depfile a.wgsl/b.d`), whose
+    /// folder was made when it was staged. To be asked when all are staged, and none is renamed.
+    ///
+    /// # Errors
+    /// One is a folder.
+    pub fn refuse_folders(&self) -> Result<(), Error> {
+        match self.files.iter().find(|file| file.destination.is_dir()) {
+            Some(file) => Err(Error::NotAFile {
+                path: file.destination.clone(),
+            }),
+            None => Ok(()),
+        }
+    }
+
     /// Renames all into place; the numbers are for the message: how many were replaced before, how many there are in all.
     ///
     /// # Errors

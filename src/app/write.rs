@@ -68,11 +68,14 @@ pub fn write(
     }
     let beside = StagedOutputs::new(beside)?;
     let mut staged = StagedFiles::in_tree(&files, &plan.out_dir, lock)?;
-    beside.write_devices()?;
     let last = staged.split_last(is_new);
     let interim = staged.split_last(has_interim);
     let own = pending.len() + usize::from(is_new);
     let all = own + beside.files.count();
+    for files in [&interim, &staged, &last, &beside.files] {
+        files.refuse_folders()?;
+    }
+    beside.write_devices()?;
     interim.replace(0, all)?;
     staged.replace(0, all)?;
     // Before the last manifest: of a run that is killed here, or cannot remove one, the one on disk still lists the orphans.
@@ -239,6 +242,7 @@ impl<'a> StagedOutputs<'a> {
 /// A file of others lies in the place of a report's, a folder stands in a file's place, or the disk refuses.
 pub fn write_outputs(outputs: &[OutputFile]) -> Result<Vec<PathBuf>, Error> {
     let staged = StagedOutputs::new(outputs)?;
+    staged.files.refuse_folders()?;
     staged.write_devices()?;
     let count = staged.files.count();
     staged.files.replace(0, count)?;
@@ -286,7 +290,7 @@ fn destination(path: &Path, bytes: &[u8]) -> Result<Option<PathBuf>, Error> {
         Err(missing) if missing.kind() == ErrorKind::NotFound => {
             match folder::dangling_link(path) {
                 // The link stays, and what it leads to is made.
-                Some(leads_to) if leads_to.parent().is_some_and(Path::is_dir) => Ok(Some(leads_to)),
+                Some(leads_to) if folder::folder_of(&leads_to).is_dir() => Ok(Some(leads_to)),
                 Some(_) => Err(fault(missing)),
                 None if folder::is_named_as_folder(path) => Err(not_a_file()),
                 None => Ok(Some(path.to_path_buf())),
@@ -314,10 +318,12 @@ fn remove(out_dir: &Path, orphan: &Entry) -> Result<bool, Error> {
 /// Removes a temporary file that a killed run left behind, with the folders that it leaves empty. If it cannot be, nothing is lost.
 fn remove_leftover(out_dir: &Path, name: &str) {
     let path = out_dir.join(name);
-    if folder::is_plain_file(&path) && folder::linked_folder(out_dir, name).is_none() {
-        let _ = fs::remove_file(&path);
+    // A lock can be forged: folders are removed only above a file that was there, and never beyond a link.
+    let is_inside =
+        folder::is_plain_file(&path) && folder::linked_folder(out_dir, name).is_none();
+    if is_inside && fs::remove_file(&path).is_ok() {
+        remove_empty_folders(out_dir, &path);
     }
-    remove_empty_folders(out_dir, &path);
 }
 
 /// Removes the folders above a path, up to the output folder, as far as they are empty.

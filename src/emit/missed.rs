@@ -36,13 +36,15 @@ pub struct MissedDetail {
 impl Missed {
     /// In words, for headers and reports.
     pub fn words(&self) -> String {
+        let serves = match self.serves.name == self.method.name {
+            true => "no other errs less".to_owned(),
+            false => format!("{} errs by {}", self.serves.name, rounded_up(self.error)),
+        };
         format!(
-            "{} errs more here than for nine of ten {} ({}); {} errs by {}",
+            "{} errs more here than for nine of ten {} ({}); {serves}",
             self.method.name,
             plural(self.class),
             rounded_up(self.limit),
-            self.serves.name,
-            rounded_up(self.error)
         )
     }
 

@@ -1,9 +1,9 @@
 //! Filament: lines of a material's fragment function.
 //!
 //! Source: Guy and Agopian, "Physically Based Rendering in Filament", 2018, <https://google.github.io/filament/Filament.html>,
-//! sections 4.8.3.2 and 4.4.3: a dielectric's F0 = .16 reflectance², a metal's is `baseColor`. Schlick's approximation with
-//! min(16.5 (R + G + B) of F0, 1) at 90 degrees, or 1 on phones and in images. Beside `reflectance`, `ior` is for refraction; without it, F0
-//! of lit materials is that of `ior`.
+//! section 4.8.3.2: a metal's F0 is `baseColor`. Schlick's approximation with min(16.5 (R + G + B) of F0, 1) at 90 degrees, or 1 on
+//! phones and in images. A dielectric's F0 is .16 reflectance², which is .16 at most; where a lit material sets `ior` and no
+//! `reflectance`, it is that of `ior` (`surface_shading_lit.fs`), without a limit. So `ior` is written alone.
 
 use crate::spectra::Space;
 
@@ -11,10 +11,8 @@ use super::format::{Format, Notes};
 use super::head;
 use super::model::Model;
 use super::sheet::{Field, FieldValue, Node, Sheet};
-use super::subject::{Body, EngineMaterial, f0_of, rounded};
+use super::subject::{Body, EngineMaterial, f0_of};
 
-/// F0 of reflectance 1.
-const REFLECTANCE_F0: f64 = 0.16;
 /// F90 over the sum of F0's channels, up to 1: 50 * .33 in Filament's code.
 const F90_SHARE: f64 = 16.5;
 
@@ -28,7 +26,6 @@ pub static FORMAT: Format = Format {
 };
 
 fn sheet(material: &EngineMaterial) -> Sheet {
-    let mut remarks = Vec::new();
     let (fields, f0) = match material.body {
         Body::Conductor => {
             let fields = vec![
@@ -38,27 +35,13 @@ fn sheet(material: &EngineMaterial) -> Sheet {
             ];
             (fields, material.f0)
         }
-        Body::Dielectric { ior, is_clear, .. } => {
-            let whole = libm::sqrt(f0_of(ior) / REFLECTANCE_F0);
-            let reflectance = rounded(whole.min(1.0));
-            if whole > 1.0 {
-                remarks.push(format!(
-                    "reflectance {} is limited to 1, which is F0 = {REFLECTANCE_F0}",
-                    rounded(whole)
-                ));
-            }
-            let mut fields = vec![
+        Body::Dielectric { ior, .. } => {
+            let fields = vec![
                 Field::number("metallic", 0.0),
                 Field::number("roughness", 0.0),
-                Field::number("reflectance", reflectance),
+                Field::number("ior", ior),
             ];
-            if is_clear {
-                fields.push(Field::number("ior", ior));
-                remarks.push(
-                    "ior is for materials with refraction; leave it out elsewhere".to_owned(),
-                );
-            }
-            (fields, [REFLECTANCE_F0 * reflectance * reflectance; 3])
+            (fields, [f0_of(ior); 3])
         }
     };
     let words = "Schlick's approximation, F90 by min(16.5 (R + G + B) of F0, 1)";
@@ -68,9 +51,11 @@ fn sheet(material: &EngineMaterial) -> Sheet {
         fields,
         model: Model::schlick_f90(words, f0, f90),
     };
+    let remark = "a material that sets reflectance too takes F0 from that: leave it out";
+    let is_dielectric = material.body != Body::Conductor;
     Sheet {
         nodes: vec![node],
-        remarks,
+        remarks: is_dielectric.then(|| remark.to_owned()).into_iter().collect(),
     }
 }
 

@@ -27,7 +27,7 @@ const DEFINITION: &str = "The thesis calls it the relative colour error at 0 deg
     unclipped and not adapted. Which pages it took is inferred for aluminium and silver. Gold errs most because its red \
     lies outside sRGB, where no single wavelength can follow";
 const COLOUR: &str = "Not an error of Table 8 and not to be added to it: three channels integrated under D65, lit by another \
-    light, against the whole spectrum under that light, in Delta E 2000. It bounds how much accuracy is worth having";
+    light, against the whole spectrum under that light, in Delta E 2000. It is what no function of three channels can show";
 
 /// Table 8, and the colour error below it.
 pub fn section() -> ThesisSection {

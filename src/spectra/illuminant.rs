@@ -102,6 +102,17 @@ impl Illuminant {
         })
     }
 
+    /// The same light by another name, if it is a user's table: a standard one keeps its name.
+    pub fn named(self, name: &str) -> Illuminant {
+        match self {
+            Illuminant::Table { power, .. } => Illuminant::Table {
+                name: name.chars().filter(|c| !c.is_control()).collect(),
+                power,
+            },
+            standard => standard,
+        }
+    }
+
     /// Its relative power at each wavelength of a sum in equal steps (nm, ascending). A user's table with rows between them, as of a
     /// lamp with lines, counts with the mean about each wavelength ([`Spectrum::mean_about`]), so that no line falls between two steps.
     pub fn powers(&self, wavelengths: &[f64]) -> Vec<f64> {

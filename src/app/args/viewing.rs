@@ -5,6 +5,7 @@ use clap::Args;
 use crate::app::error::Error;
 use crate::app::fault::RequestFault;
 use crate::app::source::{is_path, read};
+use crate::command_line::path_again;
 use crate::foreign::Foreign;
 use crate::materials::{Extrapolate, ViewingConditions};
 use crate::names::UnknownName;
@@ -127,7 +128,8 @@ impl Light {
                     let name = own.name().to_owned();
                     return Err(RequestFault::LightNameTaken { name }.into());
                 }
-                Ok(own)
+                // Commands that are written down name the file as materials' files are named.
+                Ok(own.named(&path_again(path)))
             }
         }
     }

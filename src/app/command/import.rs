@@ -35,7 +35,7 @@ pub fn run(flags: &ImportFlags, json: Option<&Path>) -> Result<Output, Error> {
     }
     let text = read(&flags.page)?;
     let found = page(&flags.page, &text).ok_or_else(|| Error::Usage {
-        what: format!("`{}` ends in neither .yml nor .csv: a page of refractiveindex.info or a table is wanted", flags.page),
+        what: format!("`{}` ends in none of .yml, .csv, .tsv, .txt: a page of refractiveindex.info or a table is wanted", flags.page),
     })??;
     let own = found.material(flags.name.as_deref())?;
     let whole = Material {
