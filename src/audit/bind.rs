@@ -1,9 +1,10 @@
 //! What each argument of a user's function is: the cosine, a value given with `--arg`, or one that the material has.
 
+use crate::emit::shader_words::tokens;
 use crate::names::UnknownName;
 use crate::reference::MaterialInMedium;
 
-use super::cosine::cosine;
+use super::cosine::{CosineArgument, CosineForm, cosine, is_named};
 use super::error::{Error, FunctionPlace, MissingArgument, ValueFault};
 use super::hidden::HiddenInput;
 use super::quantity::{self, Quantity, meanings, plain};
@@ -17,10 +18,29 @@ pub struct Bound {
     pub function: FoundFunction,
     /// The place of the cosine among its arguments.
     pub cosine: usize,
+    /// What that argument is of the angle.
+    pub form: CosineForm,
+    /// How that is known, where its name alone does not say so, in words.
+    pub cosine_words: Option<String>,
+    /// The arguments that have the value that the text gives them.
+    pub defaults: Vec<DefaultArgument>,
     /// The others, in order; behind them what it reads from outside.
     pub arguments: Vec<BoundArgument>,
     /// What it reads from outside.
     pub hidden: Vec<HiddenInput>,
+}
+
+/// An argument that has the value that the text gives it where a call gives none.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct DefaultArgument {
+    /// Its place.
+    pub place: usize,
+    /// Its name.
+    pub name: String,
+    /// Its type, as it is written.
+    pub ty: String,
+    /// The value, as it is written.
+    pub value: String,
 }
 
 /// An argument with its value.
@@ -132,7 +152,7 @@ fn numbers([r, g, b]: [f32; 3]) -> String {
     }
 }
 
-/// What a user gives for an argument: `name=v`, `name=v,v,v`, or `name=quantity`.
+/// What a user gives for an argument: `name=v`, `name=v,v,v`, `name=quantity`, or `name=angle`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Given {
     /// The argument's name.
@@ -145,6 +165,7 @@ pub struct Given {
 enum GivenValue {
     Numbers(Vec<f32>),
     Quantity(Quantity),
+    Cosine(CosineForm),
 }
 
 impl Given {
@@ -163,6 +184,10 @@ impl Given {
         let name = name.trim().to_owned();
         if let Some(quantity) = quantity::find(list.trim()) {
             let value = GivenValue::Quantity(quantity);
+            return Ok(Given { name, value });
+        }
+        if let Some(form) = CosineForm::find(list.trim()) {
+            let value = GivenValue::Cosine(form);
             return Ok(Given { name, value });
         }
         let number = |text: &str| {
@@ -213,6 +238,7 @@ pub fn bind(
 ) -> Result<Bound, Error> {
     check_names(&function, slice, given)?;
     let hidden: Vec<Parameter> = slice.hidden.iter().map(hidden_parameter).collect();
+    let defaults = defaults(&function, given);
     let mut values = Vec::new();
     let params = function.params.iter();
     let params = params.map(|param| (param, meanings(&param.name, &function)));
@@ -220,16 +246,40 @@ pub fn bind(
     let inputs = hidden.iter().map(|param| (param, Vec::new()));
     for (param, meanings) in params.chain(inputs) {
         let own = given.iter().rfind(|given| given.name == param.name);
-        values.push(bound_argument(&function, (param, meanings), own, subject)?);
+        let has_default = own.is_none() && defaults.iter().any(|one| one.name == param.name);
+        values.push(match has_default {
+            true => None,
+            false => bound_argument(&function, (param, meanings), own, subject)?,
+        });
     }
-    let cosine = checked_cosine(file, &function, (slice, given), &values, subject)?;
+    let (place, form, words) =
+        checked_cosine(file, &function, (slice, given), (&values, &defaults), subject)?;
     let arguments = values.into_iter().flatten().collect();
     Ok(Bound {
         function,
-        cosine,
+        cosine: place,
+        form,
+        cosine_words: words,
+        defaults,
         arguments,
         hidden: slice.hidden.clone(),
     })
+}
+
+/// The arguments whose values the text gives. One that is named as a cosine is run over, whatever stands there.
+fn defaults(function: &FoundFunction, given: &[Given]) -> Vec<DefaultArgument> {
+    let params = function.params.iter().enumerate();
+    let is_given = |name: &str| given.iter().any(|given| given.name == name);
+    let default = |(place, param): (usize, &Parameter)| {
+        let value = param.default.clone()?;
+        (!is_given(&param.name) && !is_named(&param.name)).then(|| DefaultArgument {
+            place,
+            name: param.name.clone(),
+            ty: param.ty.clone(),
+            value,
+        })
+    };
+    params.filter_map(default).collect()
 }
 
 /// An input from outside as an argument.
@@ -238,6 +288,7 @@ fn hidden_parameter(input: &HiddenInput) -> Parameter {
         name: input.path.clone(),
         shape: input.shape(),
         ty: String::new(),
+        default: None,
     }
 }
 
@@ -257,6 +308,7 @@ fn bound_argument(
         Some((_, GivenValue::Quantity(quantity))) => {
             (filled(*quantity, may_differ, subject), Some(*quantity))
         }
+        Some((_, GivenValue::Cosine(_))) => (None, None),
         None => {
             let quantity = meanings.first().copied();
             let value = quantity.and_then(|quantity| filled(quantity, may_differ, subject));
@@ -309,18 +361,47 @@ fn same(value: &[f64; 3]) -> bool {
     value[0] == value[1] && value[1] == value[2]
 }
 
-/// The place of the cosine, where all others have values.
+/// The place of the cosine and what it is, where all others have values.
 fn checked_cosine(
     file: &str,
     function: &FoundFunction,
     (slice, given): (&Slice, &[Given]),
-    values: &[Option<BoundArgument>],
+    (values, defaults): (&[Option<BoundArgument>], &[DefaultArgument]),
     subject: &MaterialInMedium,
-) -> Result<usize, Error> {
-    let has_value = values.iter().map(Option::is_some);
-    let has_value: Vec<bool> = has_value.take(function.params.len()).collect();
-    let chosen = cosine(function, &has_value);
-    let missing = |place: &usize| values[*place].is_none() && Some(*place) != chosen;
+) -> Result<(usize, CosineForm, Option<String>), Error> {
+    let is_default = |name: &str| defaults.iter().any(|one| one.name == name);
+    let params = function.params.iter().zip(values);
+    let has_value = params.map(|(param, value)| value.is_some() || is_default(&param.name));
+    let has_value: Vec<bool> = has_value.collect();
+    let own = given.iter().rev().find_map(|given| match given.value {
+        GivenValue::Cosine(form) => Some((given, form)),
+        _ => None,
+    });
+    let found = match own {
+        Some((given, form)) => {
+            let place = function.params.iter().position(|one| one.name == given.name);
+            let is_one = |place: &usize| function.params[*place].shape == NumberShape::Scalar;
+            let place = place.filter(is_one).ok_or_else(|| Error::NoNumber {
+                place: place_of(file, function),
+                argument: given.name.clone(),
+                form: form.name(),
+            })?;
+            Some(CosineArgument {
+                place,
+                form: Some(form),
+                is_alone: false,
+            })
+        }
+        None => cosine(function, &has_value, &tokens(&slice.body)),
+    };
+    let chosen = found.map(|found| found.place);
+    let is_default = |place: usize| {
+        let param = function.params.get(place);
+        param.is_some_and(|param| is_default(&param.name))
+    };
+    let missing = |place: &usize| {
+        values[*place].is_none() && Some(*place) != chosen && !is_default(*place)
+    };
     let argument = |place: usize| match function.params.get(place) {
         Some(param) => missing_argument(&param.name, function, given, subject),
         None => {
@@ -332,8 +413,23 @@ fn checked_cosine(
         }
     };
     let missing: Vec<MissingArgument> = (0..values.len()).filter(missing).map(argument).collect();
-    match (chosen, missing.as_slice()) {
-        (Some(place), []) => Ok(place),
+    match (found, missing.as_slice()) {
+        (Some(found), []) => {
+            let name = &function.params[found.place].name;
+            let form = found.form.ok_or_else(|| Error::UnclearCosine {
+                place: place_of(file, function),
+                argument: name.clone(),
+            })?;
+            let words = (found.is_alone || form != CosineForm::Cosine || !is_named(name)).then(|| {
+                let alone = if found.is_alone {
+                    ": no other number is without a value"
+                } else {
+                    ""
+                };
+                format!("{}{alone}", form.words())
+            });
+            Ok((found.place, form, words))
+        }
         (_, []) => Err(Error::NoCosine {
             place: place_of(file, function),
         }),
@@ -341,9 +437,24 @@ fn checked_cosine(
             place: place_of(file, function),
             material: subject.argument.clone(),
             missing: missing.to_vec(),
-            has_cosine: chosen.is_some(),
+            cosine_like: match chosen {
+                Some(_) => None,
+                None => Some(likely_cosine(function, missing)),
+            },
         }),
     }
+}
+
+/// The argument without a value that the cosine may be: one that is a single number, and has no meaning else.
+fn likely_cosine(function: &FoundFunction, missing: &[MissingArgument]) -> String {
+    let is_one = |name: &str| {
+        let mut params = function.params.iter();
+        params.any(|param| param.name == name && param.shape == NumberShape::Scalar)
+    };
+    let mut all = missing.iter().filter(|one| is_one(&one.name));
+    let first = all.clone().next();
+    let likely = all.find(|one| is_named(&one.name) || one.quantity.is_none());
+    likely.or(first).map_or("NAME", |one| &one.name).to_owned()
 }
 
 /// An argument without a value, with what it stands for.

@@ -5,7 +5,7 @@ use crate::ir::{Param, Ty};
 use crate::num::Precision;
 use crate::verify::harness::{self, Call};
 
-use super::bind::{Bound, BoundArgument};
+use super::bind::{Bound, BoundArgument, DefaultArgument};
 use super::directives;
 use super::language::Language;
 use super::loops::{MARK, TURNS, counted, counter};
@@ -87,7 +87,7 @@ impl AuditProgram {
         };
         let named = bound.arguments.iter().enumerate();
         params.extend(named.map(|(i, argument)| param(&format!("a{i}"), ty(argument))));
-        let wrapper = without_macros(slice, language) + &wrapper(&params);
+        let wrapper = defaults(bound) + &without_macros(slice, language) + &wrapper(&params);
         let counter = match counts {
             true => counter(language),
             false => String::new(),
@@ -139,6 +139,14 @@ impl AuditProgram {
         })
         .collect()
     }
+}
+
+/// The values that the text gives arguments, while its macros mean what they mean.
+fn defaults(bound: &Bound) -> String {
+    let value = |one: &DefaultArgument| {
+        format!("static const {} fg_d{} = {};\n", one.ty, one.place, one.value)
+    };
+    bound.defaults.iter().map(value).collect()
 }
 
 fn param(name: &str, ty: Ty) -> Param {
@@ -267,10 +275,8 @@ fn called(language: Language, bound: &Bound, channel: &str) -> CallText {
         .map(|(i, argument)| value(i, argument))
         .collect();
     let mut before = String::new();
-    let inputs = bound
-        .hidden
-        .iter()
-        .zip(&others[function.params.len() - 1..]);
+    let (others, values) = others.split_at(others.len() - bound.hidden.len());
+    let inputs = bound.hidden.iter().zip(values);
     for (input, value) in inputs {
         for (place, channel) in input.places() {
             let value = match channel {
@@ -283,9 +289,19 @@ fn called(language: Language, bound: &Bound, channel: &str) -> CallText {
             };
         }
     }
-    let mut all = others[..function.params.len() - 1].to_vec();
-    all.insert(bound.cosine, "fg_cos_theta".to_owned());
-    let name = &function.name;
+    let default = |place: usize| {
+        let name = &function.params[place].name;
+        let mut all = bound.defaults.iter();
+        all.find(|one| one.name == *name)
+    };
+    let mut others = others.iter().cloned();
+    let argument = |place: usize| match default(place) {
+        _ if place == bound.cosine => "fg_cos_theta".to_owned(),
+        Some(one) => format!("fg_d{}", one.place),
+        None => others.next().unwrap_or_default(),
+    };
+    let mut all: Vec<String> = (0..function.params.len()).map(argument).collect();
+    let name = function.path();
     let Some(out) = &function.out else {
         let value = format!("{name}({})", all.join(", "));
         return CallText { before, value };

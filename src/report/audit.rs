@@ -16,7 +16,9 @@ pub fn audit_text(row: &AuditRow) -> String {
 }
 
 fn lines(row: &AuditRow) -> Vec<(&'static str, String)> {
-    let mut lines = vec![("cosine", format!("`{}`", row.cosine))];
+    let taken = row.cosine_words.as_ref();
+    let taken = taken.map_or(String::new(), |words| format!(", taken as {words}"));
+    let mut lines = vec![("cosine", format!("`{}`{taken}", row.cosine))];
     if !row.conditions.is_empty() {
         lines.push(("conditions", conditions(&row.conditions)));
     }
