@@ -256,7 +256,7 @@ impl<'a> Auditor<'a> {
         let own = match self.audit.language {
             Language::Wgsl => "naga",
             Language::Gles => "the OpenGL ES driver",
-            Language::Hlsl | Language::Slang => "the Vulkan driver",
+            Language::Glsl | Language::Hlsl | Language::Slang => "the Vulkan driver",
         };
         let verdict = match ran {
             Err(Trouble::Refused(who, _)) if who.is_empty() => None,

@@ -467,6 +467,8 @@ fn missing_argument(
     let own = given.iter().rfind(|given| given.name == name);
     let quantity = match own.map(|given| &given.value) {
         Some(GivenValue::Quantity(quantity)) => Some(*quantity),
+        // The name of an input from outside says less.
+        _ if !function.params.iter().any(|param| param.name == name) => None,
         _ => meanings(name, function).first().copied(),
     };
     MissingArgument {

@@ -204,7 +204,7 @@ impl Inputs<'_> {
             };
         }
         let keeps = match self.language {
-            Language::Gles => "",
+            Language::Gles | Language::Glsl => "",
             _ => "static ",
         };
         let declarator = flat(&self.source(variable.declarator));

@@ -62,6 +62,7 @@ pub use serve::serve;
 pub use verdict::Checked;
 
 use auditor::Auditor;
+use language::desktop_version;
 
 /// What is audited.
 #[derive(Clone, Debug)]
@@ -109,6 +110,42 @@ impl Audit {
     /// # Errors
     /// The file does not hold the function, or its arguments are not bound for any material.
     pub fn rows(
+        &self,
+        subjects: &[MaterialInMedium],
+        progress: &mut dyn FnMut(u64, u64, &str),
+    ) -> Result<AuditRows, Error> {
+        if self.language != Language::Gles {
+            return self.rows_in(subjects, progress);
+        }
+        if let Some(version) = desktop_version(&self.text) {
+            return self.on_the_desktop(version).rows_in(subjects, progress);
+        }
+        let found = self.rows_in(subjects, progress)?;
+        let is_refused = |row: &AuditRow| row.checked.accepted == Some(false);
+        if self.text.contains("#version") || !found.rows.iter().all(is_refused) {
+            return Ok(found);
+        }
+        // Many files of the desktop leave their version to what includes them.
+        let mut desktop = self.on_the_desktop(450).rows_in(subjects, progress)?;
+        for row in &mut desktop.rows {
+            row.language_remark = Some("GLSL 4.50: the file states no `#version`, and GLSL ES 3.00 refuses it".to_owned());
+        }
+        let is_accepted = |row: &AuditRow| row.checked.accepted == Some(true);
+        Ok(match desktop.rows.iter().all(is_accepted) {
+            true => desktop,
+            false => found,
+        })
+    }
+
+    /// The same as GLSL of the desktop, of the version that its text states.
+    fn on_the_desktop(&self, version: u32) -> Audit {
+        let mut audit = self.clone();
+        audit.language = Language::Glsl;
+        audit.defines.insert(0, Define::of("__VERSION__", version));
+        audit
+    }
+
+    fn rows_in(
         &self,
         subjects: &[MaterialInMedium],
         progress: &mut dyn FnMut(u64, u64, &str),

@@ -201,7 +201,7 @@ fn tail(tokens: &[Token], start: usize, head_end: usize, end: usize, language: L
     let goes_on = has("=")
         || language != Language::Wgsl
             && (["struct", "class", "enum"].into_iter().any(has)
-                || language == Language::Gles
+                || language.is_glsl()
                     && ["uniform", "buffer", "in", "out", "layout"]
                         .into_iter()
                         .any(has));
@@ -273,7 +273,7 @@ fn with_body(
     let is_block = ["uniform", "buffer", "in", "out"]
         .into_iter()
         .any(|word| place(word).is_some());
-    match language == Language::Gles && is_block {
+    match language.is_glsl() && is_block {
         true => {
             let instance = tokens[(close + 1).min(end)..end]
                 .iter()

@@ -94,7 +94,9 @@ impl AuditProgram {
         };
         let Slice { before, text, .. } = slice;
         let text = match language {
-            Language::Gles => format!("{counter}{}", framed(slice, &wrapper)),
+            Language::Gles | Language::Glsl => {
+                format!("{counter}{}", framed(slice, &wrapper, language))
+            }
             Language::Hlsl | Language::Slang if counts || !before.is_empty() => {
                 format!("{counter}{before}#line 1\n{text}\n{wrapper}")
             }
@@ -121,6 +123,9 @@ impl AuditProgram {
             is_scalar: false,
             precision: Precision::F32,
         };
+        if self.language == Language::Glsl {
+            return harness::desktop(&self.text, &call);
+        }
         harness::program(self.language.target(), &self.text, &call)
             .expect("users' languages are run as text")
     }
@@ -157,10 +162,18 @@ fn param(name: &str, ty: Ty) -> Param {
 }
 
 /// Their text in GLSL: names that the program around it has are theirs under other names.
-fn framed(slice: &Slice, wrapper: &str) -> String {
+fn framed(slice: &Slice, wrapper: &str, language: Language) -> String {
     let each = |line: fn(&str) -> String| RENAMED.map(line).concat();
     let define = each(|name| format!("#define {name} {THEIRS}{name}\n"));
     let undefine = each(|name| format!("#undef {name}\n"));
+    // On the desktop they mean nothing, and in Vulkan they do.
+    let (define, undefine) = match language {
+        Language::Glsl => (
+            define + "#define mediump highp\n#define lowp highp\n",
+            undefine + "#undef mediump\n#undef lowp\n",
+        ),
+        _ => (define, undefine),
+    };
     let Slice { before, text, .. } = slice;
     format!("{define}{before}#line 1\n{text}\n{wrapper}{undefine}")
 }

@@ -44,6 +44,8 @@ pub struct AuditRow {
     pub cosine_is: &'static str,
     /// The same in words, where its name does not say so.
     pub cosine_words: Option<String>,
+    /// As which version of its language it is run, where the file does not say.
+    pub language_remark: Option<String>,
     /// The conditions that it depends on, and how they were decided.
     pub conditions: Vec<ConditionRow>,
     /// Its file, without folders.
@@ -223,6 +225,7 @@ impl Audited<'_> {
             cosine: self.bound.function.params[self.bound.cosine].name.clone(),
             cosine_is: self.bound.form.name(),
             cosine_words: self.bound.cosine_words.clone(),
+            language_remark: None,
             conditions: self.slice.conditions.iter().map(condition_row).collect(),
             file: crate::command_line::path_again(&self.audit.file),
             channels: if self.bound.is_one_channel() { 1 } else { 3 },

@@ -278,7 +278,7 @@ fn half_word(text: &str, names: &TypeNames, language: Language) -> Option<String
     let found = tokens(&code);
     let found = names.replaced(&found);
     let is_half = |token: &&Token| match language {
-        Language::Wgsl => false,
+        Language::Wgsl | Language::Glsl => false,
         Language::Gles => ["mediump", "lowp"].contains(&token.text),
         Language::Hlsl | Language::Slang => {
             let kinds = ["half", "min16float", "min10float", "float16_t"];
