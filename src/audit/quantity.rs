@@ -60,6 +60,8 @@ const INDEX: &[&str] = &[
     "indexofrefraction",
     "refractiveindex",
     "refindex",
+    "refidx",
+    "refractionindex",
     "relativeior",
     "relativeeta",
     "relativeindex",
