@@ -4,7 +4,7 @@ use crate::names::UnknownName;
 
 use super::bind::place_of;
 use super::error::Error;
-use super::scan::{FoundFunction, NumberShape};
+use super::scan::{FoundFunction, NumberShape, Parameter};
 
 /// The function that is meant.
 ///
@@ -91,7 +91,8 @@ fn told_apart(functions: &[FoundFunction]) -> Vec<String> {
 /// Why a function cannot be one of reflectance.
 fn unfit(file: &str, found: &FoundFunction) -> Error {
     let is_other = |shape: &NumberShape| matches!(shape, NumberShape::Other(_));
-    let other = found.params.iter().find(|param| is_other(&param.shape));
+    let is_open = |param: &&Parameter| is_other(&param.shape) && param.default.is_none();
+    let other = found.params.iter().find(is_open);
     let why = if found.needs_object {
         let around = found.scope.last().map_or("", String::as_str);
         return Error::NeedsObject {

@@ -6,7 +6,7 @@
 use crate::emit::shader_words::Token;
 
 use super::quantity::plain;
-use super::scan::{FoundFunction, NumberShape};
+use super::scan::{FoundFunction, NumberShape, behind};
 
 /// What an argument is of the angle of incidence.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -213,12 +213,30 @@ pub fn is_named(name: &str) -> bool {
 }
 
 /// What a function's body tells of an argument: it takes the cosine of it, or one minus it.
-fn used_as(name: &str, body: &[Token]) -> Option<CosineForm> {
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Use {
+    As(CosineForm),
+    /// The cosine of what is computed from it: in degrees, or of another angle.
+    Unclear,
+}
+
+fn used_as(name: &str, body: &[Token]) -> Option<Use> {
     let is_it = |at: usize| body.get(at).is_some_and(|token| token.text == name);
     let text = |at: usize| body.get(at).map_or("", |token| token.text);
+    let call = |words: &[&str]| {
+        let is_call = |at: &usize| words.contains(&text(*at)) && text(at + 1) == "(";
+        (0..body.len()).filter(is_call).collect::<Vec<usize>>()
+    };
     let calls = |words: &[&str]| {
-        let mut all = 0..body.len();
-        all.any(|at| words.contains(&text(at)) && text(at + 1) == "(" && is_it(at + 2))
+        let is_whole = |at: &usize| is_it(at + 2) && [")", ","].contains(&text(at + 3));
+        call(words).iter().any(is_whole)
+    };
+    let angles = ["cos", "sin", "tan", "sincos"];
+    let computes = || {
+        call(&angles).iter().any(|at| {
+            let behind = behind(body, at + 1);
+            (at + 2..behind).any(is_it)
+        })
     };
     // `1`, `1.`, `1.0f`
     let number = |from: usize, to: usize| {
@@ -236,13 +254,13 @@ fn used_as(name: &str, body: &[Token]) -> Option<CosineForm> {
         })
     };
     if calls(&["radians"]) {
-        Some(Degrees)
-    } else if calls(&["cos", "sin", "tan", "sincos"]) {
-        Some(Angle)
+        Some(Use::As(Degrees))
+    } else if calls(&angles) {
+        Some(Use::As(Angle))
     } else if calls(&["acos"]) || takes_from_one() {
-        Some(Cosine)
+        Some(Use::As(Cosine))
     } else {
-        None
+        computes().then_some(Use::Unclear)
     }
 }
 
@@ -278,10 +296,11 @@ pub fn cosine(
     let used = used_as(&function.params[place].name, body);
     let form = match (meaning(&place), used) {
         // The name says a cosine, and the function takes the cosine of it.
-        (Some(NameMeaning::Is(Cosine)), Some(Angle | Degrees)) => None,
+        (Some(NameMeaning::Is(Cosine)), Some(Use::As(Angle | Degrees))) => None,
         (Some(NameMeaning::Is(form)), _) => Some(form),
-        (Some(NameMeaning::AnAngle), used) => used,
-        (None, used) => Some(used.unwrap_or(Cosine)),
+        (_, Some(Use::As(form))) => Some(form),
+        (Some(NameMeaning::AnAngle), None) | (_, Some(Use::Unclear)) => None,
+        (None, None) => Some(Cosine),
     };
     Some(CosineArgument {
         place,
@@ -339,9 +358,12 @@ mod tests {
             check(&head, &format!("pow(1.0 - {name}, 5.0)"), Some((0, Some(Cosine))));
             check(&head, &format!("1 - {name}"), Some((0, Some(Cosine))));
             check(&head, &format!("helper({name})"), Some((0, None)));
+            check(&head, &format!("cos({name} * 0.0174)"), Some((0, None)));
         }
         check("float x", "cos(x)", Some((0, Some(Angle))));
         check("float x", "x", Some((0, Some(Cosine))));
+        check("float x", "cos(PI * x / 180.0)", Some((0, None)));
+        check("float x", "sincos(x, s, c)", Some((0, Some(Angle))));
         check("float c", "cos(c)", Some((0, None)));
         check("float cosTheta, float theta", "", Some((0, Some(Cosine))));
         check("float a, float b", "", None);

@@ -60,7 +60,7 @@ pub enum Error {
     },
     /// None of its functions can be one of reflectance.
     #[error(
-        "{}: it holds no function from a cosine to a reflectance: numbers or three of them in, the same out",
+        "{}: it holds no function from a cosine to a reflectance: numbers or three of them in, the same out; --function NAME says of one why",
         Foreign(file)
     )]
     NoReflectance {

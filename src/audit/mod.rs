@@ -114,6 +114,9 @@ impl Audit {
         subjects: &[MaterialInMedium],
         progress: &mut dyn FnMut(u64, u64, &str),
     ) -> Result<AuditRows, Error> {
+        if let Some(godot) = self.in_godot() {
+            return godot.rows_in(subjects, progress);
+        }
         if self.language != Language::Gles {
             return self.rows_in(subjects, progress);
         }
@@ -134,6 +137,24 @@ impl Audit {
         Ok(match desktop.rows.iter().all(is_accepted) {
             true => desktop,
             false => found,
+        })
+    }
+
+    /// The same with the constants that Godot's shaders have, where it is one of them.
+    fn in_godot(&self) -> Option<Audit> {
+        let constants = [("PI", "3.1415926535897932"), ("TAU", "6.2831853071795864")];
+        let is_of_godot = self.file.ends_with(".gdshader") || self.file.ends_with(".gdshaderinc");
+        (is_of_godot && self.language == Language::Gles).then(|| {
+            let mut audit = self.clone();
+            let own = constants.iter().filter(|(name, _)| {
+                let defines = |one: &Define| one.name == *name;
+                !self.text.contains(&format!("define {name}")) && !self.defines.iter().any(defines)
+            });
+            audit.defines.extend(own.map(|(name, value)| Define {
+                name: (*name).to_owned(),
+                value: (*value).to_owned(),
+            }));
+            audit
         })
     }
 
