@@ -17,8 +17,8 @@ use super::admission;
 use super::bind::{self, Bound, BoundArgument};
 use super::choose::choose;
 use super::compile::Compilers;
-use super::cosine::CosineForm;
 use super::control_flow::{Branch, branch};
+use super::cosine::CosineForm;
 use super::cost;
 use super::cost_row::AuditCost;
 use super::edges;
@@ -362,7 +362,9 @@ fn computed(runner: &Runner, bound: &Bound, subject: &MaterialInMedium) -> Optio
 
 /// What else the cosine's argument may be, with which the function computes a method of ours.
 fn cosine_fit(runner: &Runner, bound: &Bound, subject: &MaterialInMedium) -> Option<ExactFit> {
-    let others = CosineForm::NAMED.iter().filter(|(_, form)| *form != bound.form);
+    let others = CosineForm::NAMED
+        .iter()
+        .filter(|(_, form)| *form != bound.form);
     others.into_iter().find_map(|(name, form)| {
         let results = runner.run_as(*form, &recognised::cosines()).ok()?;
         let method = recognised(&results, bound, subject)?;

@@ -4,10 +4,11 @@ use crate::emit::shader_words::tokens;
 use crate::names::UnknownName;
 use crate::reference::MaterialInMedium;
 
-use super::cosine::{CosineArgument, CosineForm, cosine, is_named};
-use super::error::{Error, FunctionPlace, MissingArgument, ValueFault};
+use super::cosine::{CosineForm, cosine, is_named};
+use super::error::{Error, FunctionPlace, MissingArgument};
+use super::given::{DefaultArgument, Given, GivenValue, defaults, given_cosine};
 use super::hidden::HiddenInput;
-use super::quantity::{self, Quantity, meanings, plain};
+use super::quantity::{Quantity, meanings, plain};
 use super::scan::{FoundFunction, NumberShape, Parameter};
 use super::slice::Slice;
 
@@ -28,19 +29,6 @@ pub struct Bound {
     pub arguments: Vec<BoundArgument>,
     /// What it reads from outside.
     pub hidden: Vec<HiddenInput>,
-}
-
-/// An argument that has the value that the text gives it where a call gives none.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct DefaultArgument {
-    /// Its place.
-    pub place: usize,
-    /// Its name.
-    pub name: String,
-    /// Its type, as it is written.
-    pub ty: String,
-    /// The value, as it is written.
-    pub value: String,
 }
 
 /// An argument with its value.
@@ -152,69 +140,6 @@ fn numbers([r, g, b]: [f32; 3]) -> String {
     }
 }
 
-/// What a user gives for an argument: `name=v`, `name=v,v,v`, `name=quantity`, or `name=angle`.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Given {
-    /// The argument's name.
-    pub name: String,
-    value: GivenValue,
-}
-
-/// Numbers, or what the material has.
-#[derive(Clone, Debug, PartialEq)]
-enum GivenValue {
-    Numbers(Vec<f32>),
-    Quantity(Quantity),
-    Cosine(CosineForm),
-}
-
-impl Given {
-    /// Reads one.
-    ///
-    /// # Errors
-    /// It is not of that form.
-    pub fn read(word: &str) -> Result<Given, Error> {
-        let wrong = |fault: ValueFault| Error::Value {
-            word: word.to_owned(),
-            fault,
-        };
-        let (name, list) = word
-            .split_once('=')
-            .ok_or_else(|| wrong(ValueFault::NoName))?;
-        let name = name.trim().to_owned();
-        if let Some(quantity) = quantity::find(list.trim()) {
-            let value = GivenValue::Quantity(quantity);
-            return Ok(Given { name, value });
-        }
-        if let Some(form) = CosineForm::find(list.trim()) {
-            let value = GivenValue::Cosine(form);
-            return Ok(Given { name, value });
-        }
-        let number = |text: &str| {
-            let read = text.trim().parse::<f32>().ok();
-            let read = read.filter(|value| value.is_finite());
-            let fault = || match is_word(text) {
-                true => ValueFault::NoQuantity(quantity::unknown(text.trim())),
-                false => ValueFault::NoNumber(text.to_owned()),
-            };
-            read.ok_or_else(|| wrong(fault()))
-        };
-        let values: Vec<f32> = list.split(',').map(number).collect::<Result<_, _>>()?;
-        if ![1, 3].contains(&values.len()) {
-            return Err(wrong(ValueFault::Count(values.len())));
-        }
-        let value = GivenValue::Numbers(values);
-        Ok(Given { name, value })
-    }
-}
-
-/// Whether a word is meant as the name of a quantity and is none: it holds a letter and is no number, not even one that is not finite.
-fn is_word(text: &str) -> bool {
-    let word = text.trim();
-    let is_number = word.parse::<f32>().is_ok();
-    word.contains(char::is_alphabetic) && !is_number && quantity::find(word).is_none()
-}
-
 /// The place of a function, for messages.
 pub fn place_of(file: &str, found: &FoundFunction) -> FunctionPlace {
     FunctionPlace {
@@ -252,8 +177,13 @@ pub fn bind(
             false => bound_argument(&function, (param, meanings), own, subject)?,
         });
     }
-    let (place, form, words) =
-        checked_cosine(file, &function, (slice, given), (&values, &defaults), subject)?;
+    let (place, form, words) = checked_cosine(
+        file,
+        &function,
+        (slice, given),
+        (&values, &defaults),
+        subject,
+    )?;
     let arguments = values.into_iter().flatten().collect();
     Ok(Bound {
         function,
@@ -264,22 +194,6 @@ pub fn bind(
         arguments,
         hidden: slice.hidden.clone(),
     })
-}
-
-/// The arguments whose values the text gives. One that is named as a cosine is run over, whatever stands there.
-fn defaults(function: &FoundFunction, given: &[Given]) -> Vec<DefaultArgument> {
-    let params = function.params.iter().enumerate();
-    let is_given = |name: &str| given.iter().any(|given| given.name == name);
-    let default = |(place, param): (usize, &Parameter)| {
-        let value = param.default.clone()?;
-        (!is_given(&param.name) && !is_named(&param.name)).then(|| DefaultArgument {
-            place,
-            name: param.name.clone(),
-            ty: param.ty.clone(),
-            value,
-        })
-    };
-    params.filter_map(default).collect()
 }
 
 /// An input from outside as an argument.
@@ -373,35 +287,15 @@ fn checked_cosine(
     let params = function.params.iter().zip(values);
     let has_value = params.map(|(param, value)| value.is_some() || is_default(&param.name));
     let has_value: Vec<bool> = has_value.collect();
-    let own = given.iter().rev().find_map(|given| match given.value {
-        GivenValue::Cosine(form) => Some((given, form)),
-        _ => None,
-    });
-    let found = match own {
-        Some((given, form)) => {
-            let place = function.params.iter().position(|one| one.name == given.name);
-            let is_one = |place: &usize| function.params[*place].shape == NumberShape::Scalar;
-            let place = place.filter(is_one).ok_or_else(|| Error::NoNumber {
-                place: place_of(file, function),
-                argument: given.name.clone(),
-                form: form.name(),
-            })?;
-            Some(CosineArgument {
-                place,
-                form: Some(form),
-                is_alone: false,
-            })
-        }
-        None => cosine(function, &has_value, &tokens(&slice.body)),
-    };
+    let own = given_cosine(file, function, given)?;
+    let found = own.or_else(|| cosine(function, &has_value, &tokens(&slice.body)));
     let chosen = found.map(|found| found.place);
     let is_default = |place: usize| {
         let param = function.params.get(place);
         param.is_some_and(|param| is_default(&param.name))
     };
-    let missing = |place: &usize| {
-        values[*place].is_none() && Some(*place) != chosen && !is_default(*place)
-    };
+    let missing =
+        |place: &usize| values[*place].is_none() && Some(*place) != chosen && !is_default(*place);
     let argument = |place: usize| match function.params.get(place) {
         Some(param) => missing_argument(&param.name, function, given, subject),
         None => {
@@ -420,15 +314,7 @@ fn checked_cosine(
                 place: place_of(file, function),
                 argument: name.clone(),
             })?;
-            let words = (found.is_alone || form != CosineForm::Cosine || !is_named(name)).then(|| {
-                let alone = if found.is_alone {
-                    ": no other number is without a value"
-                } else {
-                    ""
-                };
-                format!("{}{alone}", form.words())
-            });
-            Ok((found.place, form, words))
+            Ok((found.place, form, found.words(form, name)))
         }
         (_, []) => Err(Error::NoCosine {
             place: place_of(file, function),
@@ -476,31 +362,5 @@ fn missing_argument(
         quantity: quantity.map(|quantity| quantity.name),
         is_one_of_three: quantity.is_some_and(|quantity| quantity.value(subject).is_some()),
         line: None,
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn values_are_one_number_or_three() {
-        let read = |word: &str| Given::read(word).map(|given| given.value).ok();
-        let numbers = |all: &[f32]| Some(GivenValue::Numbers(all.to_vec()));
-        assert_eq!(read("f0=.5"), numbers(&[0.5]));
-        assert_eq!(read("f0=1.03,.73, .36"), numbers(&[1.03, 0.73, 0.36]));
-        let inverse = quantity::find("1/eta").map(GivenValue::Quantity);
-        assert_eq!(read("ior=1/eta"), inverse);
-        for wrong in [
-            "f0",
-            "f0=",
-            "f0=1,2",
-            "f0=red",
-            "f0=nan",
-            "f0=1e99",
-            "f0=1,2,3,4",
-        ] {
-            assert_eq!(read(wrong), None, "{wrong}");
-        }
     }
 }

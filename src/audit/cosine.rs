@@ -181,7 +181,9 @@ fn name_meaning(name: &str) -> Option<NameMeaning> {
     let square = SQUARES.iter().find_map(|end| name.strip_suffix(end));
     // `cos2theta` is as often the square.
     let squared = |word: &str| {
-        let rest = name.strip_prefix(word).and_then(|rest| rest.strip_prefix("2"));
+        let rest = name
+            .strip_prefix(word)
+            .and_then(|rest| rest.strip_prefix("2"));
         rest.is_some_and(|rest| ["theta", "thetai"].contains(&rest))
     };
     let is_degrees = ["deg", "degs", "degree", "degrees"].iter().any(|end| {
@@ -191,10 +193,12 @@ fn name_meaning(name: &str) -> Option<NameMeaning> {
     let one_minus = name.strip_prefix("oneminus").or(name.strip_prefix("om"));
     if COSINES.contains(&name) {
         Some(NameMeaning::Is(Cosine))
-    } else if one_minus.is_some_and(|rest| rest.is_empty() && name != "om" || COSINES.contains(&rest))
+    } else if one_minus
+        .is_some_and(|rest| rest.is_empty() && name != "om" || COSINES.contains(&rest))
     {
         Some(NameMeaning::Is(OneMinus))
-    } else if square.is_some_and(|rest| rest.len() > 1 && COSINES.contains(&rest)) || squared("cos") {
+    } else if square.is_some_and(|rest| rest.len() > 1 && COSINES.contains(&rest)) || squared("cos")
+    {
         Some(NameMeaning::Is(Squared))
     } else if SINES.contains(&name) {
         Some(NameMeaning::Is(Sine))
@@ -273,6 +277,18 @@ pub struct CosineArgument {
     pub form: Option<CosineForm>,
     /// Whether nothing but its being left says so.
     pub is_alone: bool,
+}
+
+impl CosineArgument {
+    /// What an argument of this name is taken as, where the name does not say so.
+    pub fn words(&self, form: CosineForm, name: &str) -> Option<String> {
+        let says = form == Cosine && !self.is_alone && is_named(name);
+        let alone = match self.is_alone {
+            true => ": no other number is without a value",
+            false => "",
+        };
+        (!says).then(|| format!("{}{alone}", form.words()))
+    }
 }
 
 /// The cosine among the arguments that have no value: by its name, or what alone is left. None where it is not clear which it is.
@@ -355,7 +371,11 @@ mod tests {
             let head = format!("float {name}");
             check(&head, &format!("cos({name})"), Some((0, Some(Angle))));
             check(&head, &format!("radians({name})"), Some((0, Some(Degrees))));
-            check(&head, &format!("pow(1.0 - {name}, 5.0)"), Some((0, Some(Cosine))));
+            check(
+                &head,
+                &format!("pow(1.0 - {name}, 5.0)"),
+                Some((0, Some(Cosine))),
+            );
             check(&head, &format!("1 - {name}"), Some((0, Some(Cosine))));
             check(&head, &format!("helper({name})"), Some((0, None)));
             check(&head, &format!("cos({name} * 0.0174)"), Some((0, None)));

@@ -122,7 +122,10 @@ pub enum Error {
     /// It is not clear whether an argument is the cosine or the angle.
     #[error(
         "{place}: whether `{}` is the cosine or the angle is not clear: say so with --arg {}=cos or --arg {}=angle (in radians); {} are other answers",
-        Foreign(argument), Foreign(argument), Foreign(argument), other_forms()
+        Foreign(argument),
+        Foreign(argument),
+        Foreign(argument),
+        other_forms()
     )]
     UnclearCosine {
         /// The function, with its place in the file.
@@ -131,7 +134,10 @@ pub enum Error {
         argument: String,
     },
     /// What is to be the cosine is no single number.
-    #[error("{place}: --arg {}={form}: it is no argument of one number", Foreign(argument))]
+    #[error(
+        "{place}: --arg {}={form}: it is no argument of one number",
+        Foreign(argument)
+    )]
     NoNumber {
         /// The function, with its place in the file.
         place: FunctionPlace,

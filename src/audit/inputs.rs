@@ -23,6 +23,13 @@ pub struct Initialised {
     pub value: String,
 }
 
+impl Initialised {
+    /// For people.
+    pub fn words(&self) -> String {
+        format!("{} = {} (line {})", self.name, self.value, self.line)
+    }
+}
+
 /// The inputs of what is reached.
 pub struct Inputs<'a> {
     /// The language.

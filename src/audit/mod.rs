@@ -21,6 +21,7 @@ mod cost_row;
 mod directives;
 mod edges;
 mod error;
+mod given;
 mod hidden;
 mod inputs;
 mod language;
@@ -50,10 +51,10 @@ use crate::cost::Family;
 use crate::reference::MaterialInMedium;
 use crate::spectra::Space;
 
-pub use bind::Given;
 pub use cost_row::AuditCost;
 pub use edges::EdgeRow;
 pub use error::{Error, FunctionPlace, MissingArgument, ValueFault};
+pub use given::Given;
 pub use language::Language;
 pub use preprocess::Define;
 pub use recognised::ExactFit;
@@ -131,7 +132,9 @@ impl Audit {
         // Many files of the desktop leave their version to what includes them.
         let mut desktop = self.on_the_desktop(450).rows_in(subjects, progress)?;
         for row in &mut desktop.rows {
-            row.language_remark = Some("GLSL 4.50: the file states no `#version`, and GLSL ES 3.00 refuses it".to_owned());
+            row.language_remark = Some(
+                "GLSL 4.50: the file states no `#version`, and GLSL ES 3.00 refuses it".to_owned(),
+            );
         }
         let is_accepted = |row: &AuditRow| row.checked.accepted == Some(true);
         Ok(match desktop.rows.iter().all(is_accepted) {

@@ -226,7 +226,9 @@ fn other_kind(
 ) -> PartKind {
     let head = &tokens[start..head_end];
     let first = head.first().map_or("", |token| token.text);
-    let is_using = first == "using" && word_at(head, 1) == "namespace";
+    // DXC knows no such line.
+    let is_using =
+        language == Language::Slang && first == "using" && word_at(head, 1) == "namespace";
     if is_using || ["precision", "enable", "requires", "diagnostic"].contains(&first) {
         return PartKind::Setting;
     }

@@ -5,8 +5,9 @@ use crate::ir::{Param, Ty};
 use crate::num::Precision;
 use crate::verify::harness::{self, Call};
 
-use super::bind::{Bound, BoundArgument, DefaultArgument};
+use super::bind::{Bound, BoundArgument};
 use super::directives;
+use super::given::DefaultArgument;
 use super::language::Language;
 use super::loops::{MARK, TURNS, counted, counter};
 use super::scan::NumberShape;
@@ -149,7 +150,10 @@ impl AuditProgram {
 /// The values that the text gives arguments, while its macros mean what they mean.
 fn defaults(bound: &Bound) -> String {
     let value = |one: &DefaultArgument| {
-        format!("static const {} fg_d{} = {};\n", one.ty, one.place, one.value)
+        format!(
+            "static const {} fg_d{} = {};\n",
+            one.ty, one.place, one.value
+        )
     };
     bound.defaults.iter().map(value).collect()
 }

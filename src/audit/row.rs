@@ -9,10 +9,11 @@ use crate::verify::compilers::Verdict;
 use crate::verify::{Answer, Status, as_object};
 
 use super::Audit;
-use super::bind::{Bound, BoundArgument, DefaultArgument};
+use super::bind::{Bound, BoundArgument};
 use super::comparison::{Comparison, Competitor, Own, dominating, sentence};
 use super::cost_row::AuditCost;
 use super::edges::{EdgeRow, Edges};
+use super::given::DefaultArgument;
 use super::inputs::Initialised;
 use super::ours::Ours;
 use super::preprocess::Condition;
@@ -261,9 +262,11 @@ impl Audited<'_> {
 
     /// What has the value that the text gives it: inputs from outside, and arguments.
     fn initialised(&self) -> Vec<String> {
-        let inputs = self.slice.initialised.iter().map(initialised);
+        let inputs = self.slice.initialised.iter().map(Initialised::words);
         let default = |one: &DefaultArgument| format!("{} = {} (its default)", one.name, one.value);
-        inputs.chain(self.bound.defaults.iter().map(default)).collect()
+        inputs
+            .chain(self.bound.defaults.iter().map(default))
+            .collect()
     }
 
     /// What to think of it, and why.
@@ -382,10 +385,6 @@ fn condition_row(condition: &Condition) -> ConditionRow {
         text: condition.text.clone(),
         is_taken: condition.is_taken,
     }
-}
-
-fn initialised(one: &Initialised) -> String {
-    format!("{} = {} (line {})", one.name, one.value, one.line)
 }
 
 fn argument_value(argument: &BoundArgument) -> (String, ArgumentValue) {

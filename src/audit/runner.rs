@@ -137,7 +137,9 @@ impl Runner {
         reference: &ReferenceCurve,
         space: Space,
     ) -> Result<Perceived, Trouble> {
-        self.measured(self.form, &|_, _| {}, |values| perceived(reference, space, values))
+        self.measured(self.form, &|_, _| {}, |values| {
+            perceived(reference, space, values)
+        })
     }
 
     /// What is measured of its values.

@@ -86,7 +86,10 @@ impl FoundFunction {
         let scalar = |param: &Parameter| param.shape == NumberShape::Scalar;
         !self.needs_object
             && known(&self.result)
-            && self.params.iter().all(|param| known(&param.shape) || param.default.is_some())
+            && self
+                .params
+                .iter()
+                .all(|param| known(&param.shape) || param.default.is_some())
             && self.params.iter().any(scalar)
     }
 }

@@ -60,9 +60,14 @@ fn what_is_no_cosine_gets_what_its_name_says() {
         let Some(row) = row(&place, "f.glsl --material water") else {
             return;
         };
-        assert_eq!((&row["cosine"], &row["cosine_is"]), (&name.into(), &is.into()));
+        assert_eq!(
+            (&row["cosine"], &row["cosine_is"]),
+            (&name.into(), &is.into())
+        );
         let error = row["model_error"]["max_abs"].as_f64().unwrap();
-        assert!(error < 1e-4, "{name}: {error}");
+        // A sine in single precision has few digits of a small cosine.
+        let most = if is.starts_with("sin") { 2e-3 } else { 1e-4 };
+        assert!(error < most, "{name}: {error}");
     }
     place.put("f.glsl", exact("theta", "cos(theta)"));
     let ran = audit(&place, "f.glsl --material water --gpu none").unwrap();
@@ -74,23 +79,42 @@ fn what_is_no_cosine_gets_what_its_name_says() {
 #[test]
 fn what_is_not_clear_is_asked_for() {
     let place = Place::new();
-    let helped = format!("float c_of(float t) {{ return cos(t); }}\n{}", exact("theta", "c_of(theta)"));
+    let helped = format!(
+        "float c_of(float t) {{ return cos(t); }}\n{}",
+        exact("theta", "c_of(theta)")
+    );
     place.put("f.glsl", helped);
     let line = "f.glsl --function fresnel --material water";
     place.refused(
         &format!("audit {line}"),
-        &["whether `theta` is the cosine or the angle is not clear", "--arg theta=angle"],
+        &[
+            "whether `theta` is the cosine or the angle is not clear",
+            "--arg theta=angle",
+        ],
     );
     error(&place, &format!("{line} --arg theta=angle"), 0.000001);
-    place.put("g.glsl", exact("c", "cos(c)"));
-    place.refused("audit g.glsl --material water", &["--arg c=cos or --arg c=angle"]);
-    error(&place, "g.glsl --material water --arg c=angle", 0.000001);
+    place.put("g.glsl", exact("ct", "cos(ct)"));
+    place.refused(
+        "audit g.glsl --material water",
+        &["--arg ct=cos or --arg ct=angle"],
+    );
+    error(&place, "g.glsl --material water --arg ct=angle", 0.000001);
     // Two numbers are left, and none is named.
     place.put("h.glsl", "float f(float a, float b) { return b; }\n");
-    place.refused("audit h.glsl --material water", &["say so with --arg a=cos"]);
-    error(&place, "h.glsl --material water --arg a=cos --arg b=1", 0.979796);
+    place.refused(
+        "audit h.glsl --material water",
+        &["say so with --arg a=cos"],
+    );
+    error(
+        &place,
+        "h.glsl --material water --arg a=cos --arg b=1",
+        0.979796,
+    );
     place.put("v.glsl", "float f(vec3 a, float b) { return b; }\n");
-    place.refused("audit v.glsl --material water --arg a=cos", &["no argument of one number"]);
+    place.refused(
+        "audit v.glsl --material water --arg a=cos",
+        &["no argument of one number"],
+    );
 }
 
 /// An argument that alone is left is taken as the cosine, and said to be something else where that fits.
@@ -105,7 +129,10 @@ fn another_meaning_of_the_cosine_that_fits_is_told() {
         return;
     };
     let fit = &row["fits_exactly_with"];
-    assert_eq!((&fit["argument"], &fit["quantity"]), (&"x".into(), &"1-cos".into()));
+    assert_eq!(
+        (&fit["argument"], &fit["quantity"]),
+        (&"x".into(), &"1-cos".into())
+    );
     error(&place, "f.glsl --material gold --arg x=1-cos", SCHLICK);
 }
 
@@ -115,7 +142,11 @@ fn defaults_of_arguments_are_taken_and_told() {
     let place = Place::new();
     let body = "{ return F0 + (F90 - F0) * pow(1.0 - saturate(VoH), Power); }\n";
     for (file, before, params) in [
-        ("f.hlsl", "", "float3 F0, float VoH, float F90 = 1.0, float Power = 5.0"),
+        (
+            "f.hlsl",
+            "",
+            "float3 F0, float VoH, float F90 = 1.0, float Power = 5.0",
+        ),
         (
             "g.hlsl",
             "#define FIVE 5.0\nstatic const float ONE = 1.0;\n",
@@ -152,7 +183,11 @@ fn glsl_of_the_desktop_runs_as_it_is() {
         let Some(row) = row(&place, "f.glsl --material gold") else {
             return;
         };
-        assert_eq!((&row["target"], &row["precision"]), (&"glsl".into(), &"f32".into()), "{row}");
+        assert_eq!(
+            (&row["target"], &row["precision"]),
+            (&"glsl".into(), &"f32".into()),
+            "{row}"
+        );
         assert_eq!(row["language_remark"], Value::Null);
         error(&place, "f.glsl --material gold", SCHLICK);
     }
@@ -168,17 +203,35 @@ fn glsl_of_the_desktop_runs_as_it_is() {
         assert!(remark.starts_with("GLSL 4.50"), "{row}");
     }
     // What neither takes is a finding, and so is what the stated version does not take.
-    for (version, says) in [("", "undeclared"), ("#version 330\n", "undeclared"), ("#version 300 es\n", "wrong operand")] {
-        let name = if version.contains("es") { "1" } else { "nothing" };
-        let text = format!("{version}vec3 f(float c, vec3 F0) {{ return F0 + (1 - F0) * {name}; }}\n");
+    for (version, says) in [
+        ("", "wrong operand"),
+        ("#version 330\n", "undeclared"),
+        ("#version 300 es\n", "wrong operand"),
+    ] {
+        let name = if version.contains("es") {
+            "1"
+        } else {
+            "nothing"
+        };
+        let text =
+            format!("{version}vec3 f(float c, vec3 F0) {{ return F0 + (1 - F0) * {name}; }}\n");
         place.put("w.glsl", text);
         if let Some(ran) = audit(&place, "w.glsl --material gold --gpu none") {
             let ran = ran.ends(1);
-            assert!(ran.err.contains("w.glsl:") && ran.err.contains(says), "{ran:?}");
+            assert!(
+                ran.err.contains("w.glsl:") && ran.err.contains(says),
+                "{ran:?}"
+            );
             assert!(!ran.err.contains("shader.comp"), "{ran:?}");
         }
     }
-    place.put("u.glsl", format!("#version 330\nuniform float bias;\n{}", body.replace("1 - min", "bias - min")));
+    place.put(
+        "u.glsl",
+        format!(
+            "#version 330\nuniform float bias;\n{}",
+            body.replace("1 - min", "bias - min")
+        ),
+    );
     place.refused("audit u.glsl --material gold", &["no value for `bias`"]);
     error(&place, "u.glsl --material gold --arg bias=1", SCHLICK);
 }
@@ -201,8 +254,6 @@ namespace brdf
     float3 F(float3 F0, float VoH) { return detail::mixed(F0, pow5(ONE - VoH + bias)); }
     float3 Wet(float3 F0, float VoH) { return wet * F(F0, VoH); }
 }
-using namespace brdf;
-float3 outer(float3 F0, float VoH) { return F(F0, VoH); }
 struct BRDF
 {
     float roughness;
@@ -218,7 +269,10 @@ float4 main(float3 c : C) : SV_Target { return float4(brdf::F(c, c.x), 1); }
         error(&place, &line, SCHLICK);
     }
     if let Some(row) = row(&place, "f.hlsl --material gold --function brdf::F") {
-        assert_eq!((&row["function"], &row["line"]), (&"brdf::F".into(), &10.into()));
+        assert_eq!(
+            (&row["function"], &row["line"]),
+            (&"brdf::F".into(), &10.into())
+        );
     }
     place.refused(
         "audit f.hlsl --material gold --function F",
@@ -226,10 +280,17 @@ float4 main(float3 c : C) : SV_Target { return float4(brdf::F(c, c.x), 1); }
     );
     place.refused(
         "audit f.hlsl --material gold --function BRDF::G",
-        &["f.hlsl:20:12", "a function of objects of `BRDF`"],
+        &["f.hlsl:18:12", "a function of objects of `BRDF`"],
     );
-    place.refused("audit f.hlsl --material gold --function brdf::Wet", &["no value for `wet`"]);
-    error(&place, "f.hlsl --material gold --function brdf::Wet --arg wet=1", SCHLICK);
+    place.refused(
+        "audit f.hlsl --material gold --function brdf::Wet",
+        &["no value for `wet`"],
+    );
+    error(
+        &place,
+        "f.hlsl --material gold --function brdf::Wet --arg wet=1",
+        SCHLICK,
+    );
 }
 
 /// A variable that may be read before it is set has no value.
@@ -237,7 +298,9 @@ float4 main(float3 c : C) : SV_Target { return float4(brdf::F(c, c.x), 1); }
 fn a_variable_that_is_read_before_it_is_set_is_asked_for() {
     let place = Place::new();
     let f = |before: &str, body: &str| {
-        format!("float g;\n{before}vec3 f(float c, vec3 f0) {{ {body} float m = clamp(1.0 - c, 0.0, 1.0); return f0 + (1.0 - f0) * m * m * m * m * m * (1.0 - g); }}\n")
+        format!(
+            "float g;\n{before}vec3 f(float c, vec3 f0) {{ {body} float m = clamp(1.0 - c, 0.0, 1.0); return f0 + (1.0 - f0) * m * m * m * m * m * (1.0 - g); }}\n"
+        )
     };
     for (before, body) in [
         ("", ""),
@@ -252,12 +315,19 @@ fn a_variable_that_is_read_before_it_is_set_is_asked_for() {
             "audit f.glsl --function f --material gold",
             &["no value for `g`, which it reads from outside (line 1); bind"],
         );
-        error(&place, "f.glsl --function f --material gold --arg g=0", SCHLICK);
+        error(
+            &place,
+            "f.glsl --function f --material gold --arg g=0",
+            SCHLICK,
+        );
     }
     for (before, body) in [
         ("", "g = 0.0;"),
         ("float h() { return g; }\n", "g = 0.0; float k = h();"),
-        ("float h() { g = 0.0; return g; }\n", "g = 0.0; float k = h();"),
+        (
+            "float h() { g = 0.0; return g; }\n",
+            "g = 0.0; float k = h();",
+        ),
     ] {
         place.put("f.glsl", f(before, body));
         error(&place, "f.glsl --function f --material gold", SCHLICK);
