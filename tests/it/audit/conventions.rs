@@ -108,7 +108,7 @@ fn what_is_not_clear_is_asked_for() {
     error(
         &place,
         "h.glsl --material water --arg a=cos --arg b=1",
-        0.979796,
+        0.979803,
     );
     place.put("v.glsl", "float f(vec3 a, float b) { return b; }\n");
     place.refused(
