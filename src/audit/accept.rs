@@ -33,6 +33,13 @@ pub fn accepted(language: Language, precision: Precision, program: String) -> Ac
                 code: Ok(ProgramCode::Gles(program)),
             }
         }
+        Language::Glsl => {
+            let made = compiled(&GLSLANG, &desktop_options(), "shader.comp", &program);
+            Accepted {
+                verdicts: vec![(GLSLANG.name.to_owned(), made.clone().into())],
+                code: made.map(ProgramCode::Spirv),
+            }
+        }
         Language::Hlsl => hlsl(precision, &program),
         Language::Slang => {
             let made = slang(&program, "compute");
@@ -82,8 +89,13 @@ pub fn module(
     match language {
         Language::Hlsl => pixel(precision, text),
         Language::Slang => slang(text, "fragment"),
-        Language::Gles | Language::Wgsl => fragment(text),
+        Language::Gles | Language::Glsl | Language::Wgsl => fragment(text),
     }
+}
+
+/// How glslang makes SPIR-V of a compute shader.
+fn desktop_options() -> String {
+    format!("-V --target-env vulkan1.1 -S comp -e {ENTRY} --source-entrypoint main -o OUT FILE")
 }
 
 /// Khronos's compiler of Slang.

@@ -119,7 +119,10 @@ fn ambiguous(text: &str) -> Option<TextFault> {
     let code = bare(text, false);
     let lines = text.lines().zip(code.lines()).enumerate();
     let mut found = lines.filter_map(|(number, (line, code))| {
-        let has_comment = line.contains("/*") || line.contains("//");
+        // Another file is refused as such: `#include "res://a"`.
+        let words = code.trim().trim_start_matches('#').trim_start();
+        let is_include = code.trim_start().starts_with('#') && words.starts_with("include");
+        let has_comment = !is_include && (line.contains("/*") || line.contains("//"));
         let is_open = line.trim_end().ends_with('\\') && line.ends_with(char::is_whitespace);
         let what = if is_open || line.contains("??/") {
             "the line may go on behind its end: write it in one, or let it end in the backslash"

@@ -18,6 +18,7 @@ use super::bind::{self, Bound, BoundArgument};
 use super::choose::choose;
 use super::compile::Compilers;
 use super::control_flow::{Branch, branch};
+use super::cosine::CosineForm;
 use super::cost;
 use super::cost_row::AuditCost;
 use super::edges;
@@ -158,7 +159,13 @@ impl<'a> Auditor<'a> {
         match code {
             Ok(code) => {
                 let limit = self.audit.limit();
-                Ok(Runner::start(code, &uniforms, limit, &self.surroundings)?)
+                Ok(Runner::start(
+                    code,
+                    &uniforms,
+                    bound.form,
+                    limit,
+                    &self.surroundings,
+                )?)
             }
             Err(CompilerFault::NotChecked(why)) => Ok(Err(Trouble::Absent(why))),
             Err(CompilerFault::Refused(words)) => Ok(Err(Trouble::Refused(String::new(), words))),
@@ -178,7 +185,10 @@ impl<'a> Auditor<'a> {
         };
         ran.computes = computed(runner, bound, subject);
         if ran.computes.is_none() {
-            ran.exact_fit = self.exact_fit(bound, subject)?;
+            ran.exact_fit = match cosine_fit(runner, bound, subject) {
+                Some(fit) => Some(fit),
+                None => self.exact_fit(bound, subject)?,
+            };
         }
         Ok(Ok(ran))
     }
@@ -246,7 +256,7 @@ impl<'a> Auditor<'a> {
         let own = match self.audit.language {
             Language::Wgsl => "naga",
             Language::Gles => "the OpenGL ES driver",
-            Language::Hlsl | Language::Slang => "the Vulkan driver",
+            Language::Glsl | Language::Hlsl | Language::Slang => "the Vulkan driver",
         };
         let verdict = match ran {
             Err(Trouble::Refused(who, _)) if who.is_empty() => None,
@@ -348,6 +358,25 @@ fn compared_form(bound: &Bound) -> Option<FunctionForm> {
 fn computed(runner: &Runner, bound: &Bound, subject: &MaterialInMedium) -> Option<&'static str> {
     let results = runner.run(&recognised::cosines()).ok()?;
     recognised(&results, bound, subject)
+}
+
+/// What else the cosine's argument may be, with which the function computes a method of ours.
+fn cosine_fit(runner: &Runner, bound: &Bound, subject: &MaterialInMedium) -> Option<ExactFit> {
+    let others = CosineForm::NAMED
+        .iter()
+        .filter(|(_, form)| *form != bound.form);
+    others.into_iter().find_map(|(name, form)| {
+        let results = runner.run_as(*form, &recognised::cosines()).ok()?;
+        let method = recognised(&results, bound, subject)?;
+        let error = runner.error_as(*form, &subject.reference).ok()?;
+        // What is constant is so of everything.
+        (method != "constant_f0").then(|| ExactFit {
+            argument: bound.function.params[bound.cosine].name.clone(),
+            quantity: name,
+            method,
+            max_abs: error.max_abs,
+        })
+    })
 }
 
 /// What a result may reach: 1, or an F0 that is given above it, as our own functions take it; no colour of a surface has more than

@@ -1,12 +1,14 @@
 //! What each argument of a user's function is: the cosine, a value given with `--arg`, or one that the material has.
 
+use crate::emit::shader_words::tokens;
 use crate::names::UnknownName;
 use crate::reference::MaterialInMedium;
 
-use super::cosine::cosine;
-use super::error::{Error, FunctionPlace, MissingArgument, ValueFault};
+use super::cosine::{CosineForm, cosine, is_named};
+use super::error::{Error, FunctionPlace, MissingArgument};
+use super::given::{DefaultArgument, Given, GivenValue, defaults, given_cosine};
 use super::hidden::HiddenInput;
-use super::quantity::{self, Quantity, meanings, plain};
+use super::quantity::{Quantity, meanings, plain};
 use super::scan::{FoundFunction, NumberShape, Parameter};
 use super::slice::Slice;
 
@@ -17,6 +19,12 @@ pub struct Bound {
     pub function: FoundFunction,
     /// The place of the cosine among its arguments.
     pub cosine: usize,
+    /// What that argument is of the angle.
+    pub form: CosineForm,
+    /// How that is known, where its name alone does not say so, in words.
+    pub cosine_words: Option<String>,
+    /// The arguments that have the value that the text gives them.
+    pub defaults: Vec<DefaultArgument>,
     /// The others, in order; behind them what it reads from outside.
     pub arguments: Vec<BoundArgument>,
     /// What it reads from outside.
@@ -132,64 +140,6 @@ fn numbers([r, g, b]: [f32; 3]) -> String {
     }
 }
 
-/// What a user gives for an argument: `name=v`, `name=v,v,v`, or `name=quantity`.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Given {
-    /// The argument's name.
-    pub name: String,
-    value: GivenValue,
-}
-
-/// Numbers, or what the material has.
-#[derive(Clone, Debug, PartialEq)]
-enum GivenValue {
-    Numbers(Vec<f32>),
-    Quantity(Quantity),
-}
-
-impl Given {
-    /// Reads one.
-    ///
-    /// # Errors
-    /// It is not of that form.
-    pub fn read(word: &str) -> Result<Given, Error> {
-        let wrong = |fault: ValueFault| Error::Value {
-            word: word.to_owned(),
-            fault,
-        };
-        let (name, list) = word
-            .split_once('=')
-            .ok_or_else(|| wrong(ValueFault::NoName))?;
-        let name = name.trim().to_owned();
-        if let Some(quantity) = quantity::find(list.trim()) {
-            let value = GivenValue::Quantity(quantity);
-            return Ok(Given { name, value });
-        }
-        let number = |text: &str| {
-            let read = text.trim().parse::<f32>().ok();
-            let read = read.filter(|value| value.is_finite());
-            let fault = || match is_word(text) {
-                true => ValueFault::NoQuantity(quantity::unknown(text.trim())),
-                false => ValueFault::NoNumber(text.to_owned()),
-            };
-            read.ok_or_else(|| wrong(fault()))
-        };
-        let values: Vec<f32> = list.split(',').map(number).collect::<Result<_, _>>()?;
-        if ![1, 3].contains(&values.len()) {
-            return Err(wrong(ValueFault::Count(values.len())));
-        }
-        let value = GivenValue::Numbers(values);
-        Ok(Given { name, value })
-    }
-}
-
-/// Whether a word is meant as the name of a quantity and is none: it holds a letter and is no number, not even one that is not finite.
-fn is_word(text: &str) -> bool {
-    let word = text.trim();
-    let is_number = word.parse::<f32>().is_ok();
-    word.contains(char::is_alphabetic) && !is_number && quantity::find(word).is_none()
-}
-
 /// The place of a function, for messages.
 pub fn place_of(file: &str, found: &FoundFunction) -> FunctionPlace {
     FunctionPlace {
@@ -213,6 +163,7 @@ pub fn bind(
 ) -> Result<Bound, Error> {
     check_names(&function, slice, given)?;
     let hidden: Vec<Parameter> = slice.hidden.iter().map(hidden_parameter).collect();
+    let defaults = defaults(&function, given);
     let mut values = Vec::new();
     let params = function.params.iter();
     let params = params.map(|param| (param, meanings(&param.name, &function)));
@@ -220,13 +171,26 @@ pub fn bind(
     let inputs = hidden.iter().map(|param| (param, Vec::new()));
     for (param, meanings) in params.chain(inputs) {
         let own = given.iter().rfind(|given| given.name == param.name);
-        values.push(bound_argument(&function, (param, meanings), own, subject)?);
+        let has_default = own.is_none() && defaults.iter().any(|one| one.name == param.name);
+        values.push(match has_default {
+            true => None,
+            false => bound_argument(&function, (param, meanings), own, subject)?,
+        });
     }
-    let cosine = checked_cosine(file, &function, (slice, given), &values, subject)?;
+    let (place, form, words) = checked_cosine(
+        file,
+        &function,
+        (slice, given),
+        (&values, &defaults),
+        subject,
+    )?;
     let arguments = values.into_iter().flatten().collect();
     Ok(Bound {
         function,
-        cosine,
+        cosine: place,
+        form,
+        cosine_words: words,
+        defaults,
         arguments,
         hidden: slice.hidden.clone(),
     })
@@ -238,6 +202,7 @@ fn hidden_parameter(input: &HiddenInput) -> Parameter {
         name: input.path.clone(),
         shape: input.shape(),
         ty: String::new(),
+        default: None,
     }
 }
 
@@ -257,6 +222,7 @@ fn bound_argument(
         Some((_, GivenValue::Quantity(quantity))) => {
             (filled(*quantity, may_differ, subject), Some(*quantity))
         }
+        Some((_, GivenValue::Cosine(_))) => (None, None),
         None => {
             let quantity = meanings.first().copied();
             let value = quantity.and_then(|quantity| filled(quantity, may_differ, subject));
@@ -309,18 +275,27 @@ fn same(value: &[f64; 3]) -> bool {
     value[0] == value[1] && value[1] == value[2]
 }
 
-/// The place of the cosine, where all others have values.
+/// The place of the cosine and what it is, where all others have values.
 fn checked_cosine(
     file: &str,
     function: &FoundFunction,
     (slice, given): (&Slice, &[Given]),
-    values: &[Option<BoundArgument>],
+    (values, defaults): (&[Option<BoundArgument>], &[DefaultArgument]),
     subject: &MaterialInMedium,
-) -> Result<usize, Error> {
-    let has_value = values.iter().map(Option::is_some);
-    let has_value: Vec<bool> = has_value.take(function.params.len()).collect();
-    let chosen = cosine(function, &has_value);
-    let missing = |place: &usize| values[*place].is_none() && Some(*place) != chosen;
+) -> Result<(usize, CosineForm, Option<String>), Error> {
+    let is_default = |name: &str| defaults.iter().any(|one| one.name == name);
+    let params = function.params.iter().zip(values);
+    let has_value = params.map(|(param, value)| value.is_some() || is_default(&param.name));
+    let has_value: Vec<bool> = has_value.collect();
+    let own = given_cosine(file, function, given)?;
+    let found = own.or_else(|| cosine(function, &has_value, &tokens(&slice.body)));
+    let chosen = found.map(|found| found.place);
+    let is_default = |place: usize| {
+        let param = function.params.get(place);
+        param.is_some_and(|param| is_default(&param.name))
+    };
+    let missing =
+        |place: &usize| values[*place].is_none() && Some(*place) != chosen && !is_default(*place);
     let argument = |place: usize| match function.params.get(place) {
         Some(param) => missing_argument(&param.name, function, given, subject),
         None => {
@@ -332,8 +307,15 @@ fn checked_cosine(
         }
     };
     let missing: Vec<MissingArgument> = (0..values.len()).filter(missing).map(argument).collect();
-    match (chosen, missing.as_slice()) {
-        (Some(place), []) => Ok(place),
+    match (found, missing.as_slice()) {
+        (Some(found), []) => {
+            let name = &function.params[found.place].name;
+            let form = found.form.ok_or_else(|| Error::UnclearCosine {
+                place: place_of(file, function),
+                argument: name.clone(),
+            })?;
+            Ok((found.place, form, found.words(form, name)))
+        }
         (_, []) => Err(Error::NoCosine {
             place: place_of(file, function),
         }),
@@ -341,9 +323,24 @@ fn checked_cosine(
             place: place_of(file, function),
             material: subject.argument.clone(),
             missing: missing.to_vec(),
-            has_cosine: chosen.is_some(),
+            cosine_like: match chosen {
+                Some(_) => None,
+                None => Some(likely_cosine(function, missing)),
+            },
         }),
     }
+}
+
+/// The argument without a value that the cosine may be: one that is a single number, and has no meaning else.
+fn likely_cosine(function: &FoundFunction, missing: &[MissingArgument]) -> String {
+    let is_one = |name: &str| {
+        let mut params = function.params.iter();
+        params.any(|param| param.name == name && param.shape == NumberShape::Scalar)
+    };
+    let mut all = missing.iter().filter(|one| is_one(&one.name));
+    let first = all.clone().next();
+    let likely = all.find(|one| is_named(&one.name) || one.quantity.is_none());
+    likely.or(first).map_or("NAME", |one| &one.name).to_owned()
 }
 
 /// An argument without a value, with what it stands for.
@@ -356,6 +353,8 @@ fn missing_argument(
     let own = given.iter().rfind(|given| given.name == name);
     let quantity = match own.map(|given| &given.value) {
         Some(GivenValue::Quantity(quantity)) => Some(*quantity),
+        // The name of an input from outside says less.
+        _ if !function.params.iter().any(|param| param.name == name) => None,
         _ => meanings(name, function).first().copied(),
     };
     MissingArgument {
@@ -363,31 +362,5 @@ fn missing_argument(
         quantity: quantity.map(|quantity| quantity.name),
         is_one_of_three: quantity.is_some_and(|quantity| quantity.value(subject).is_some()),
         line: None,
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn values_are_one_number_or_three() {
-        let read = |word: &str| Given::read(word).map(|given| given.value).ok();
-        let numbers = |all: &[f32]| Some(GivenValue::Numbers(all.to_vec()));
-        assert_eq!(read("f0=.5"), numbers(&[0.5]));
-        assert_eq!(read("f0=1.03,.73, .36"), numbers(&[1.03, 0.73, 0.36]));
-        let inverse = quantity::find("1/eta").map(GivenValue::Quantity);
-        assert_eq!(read("ior=1/eta"), inverse);
-        for wrong in [
-            "f0",
-            "f0=",
-            "f0=1,2",
-            "f0=red",
-            "f0=nan",
-            "f0=1e99",
-            "f0=1,2,3,4",
-        ] {
-            assert_eq!(read(wrong), None, "{wrong}");
-        }
     }
 }

@@ -4,7 +4,7 @@ use crate::names::UnknownName;
 
 use super::bind::place_of;
 use super::error::Error;
-use super::scan::{FoundFunction, NumberShape};
+use super::scan::{FoundFunction, NumberShape, Parameter};
 
 /// The function that is meant.
 ///
@@ -24,9 +24,12 @@ pub fn choose(
     match (candidates.as_slice(), name) {
         ([one], _) => Ok(one.clone()),
         ([], Some(_)) => Err(unfit(file, &named[0])),
-        ([], None) => Err(Error::NoReflectance {
-            file: file.to_owned(),
-        }),
+        ([], None) => match named.iter().find(|found| found.needs_object) {
+            Some(found) => Err(unfit(file, found)),
+            None => Err(Error::NoReflectance {
+                file: file.to_owned(),
+            }),
+        },
         _ => Err(Error::SeveralFunctions {
             file: file.to_owned(),
             names: told_apart(&candidates),
@@ -36,14 +39,18 @@ pub fn choose(
 
 /// The functions of a name, or of a name and a line: `schlick:12`.
 fn named(file: &str, found: &[FoundFunction], name: &str) -> Result<Vec<FoundFunction>, Error> {
-    let (name, line) = match name.split_once(':') {
-        Some((name, line)) => (name, Some(line)),
-        None => (name, None),
+    let is_number = |line: &str| line.chars().all(|c| c.is_ascii_digit());
+    let (name, line) = match name.rsplit_once(':') {
+        Some((name, line)) if is_number(line) || !name.ends_with(':') => (name, Some(line)),
+        _ => (name, None),
     };
-    let of_name = found.iter().filter(|found| found.name == name);
+    let of_name = found
+        .iter()
+        .filter(|found| found.name == name || found.path() == name);
     let of_name: Vec<FoundFunction> = of_name.cloned().collect();
     if of_name.is_empty() {
-        let mut all: Vec<&str> = found.iter().map(|found| found.name.as_str()).collect();
+        let paths: Vec<String> = found.iter().map(FoundFunction::path).collect();
+        let mut all: Vec<&str> = paths.iter().map(String::as_str).collect();
         all.dedup();
         return Err(match all.is_empty() {
             true => Error::NoFunction {
@@ -71,12 +78,12 @@ fn named(file: &str, found: &[FoundFunction], name: &str) -> Result<Vec<FoundFun
 /// Names of functions; those that several have with their lines and arguments.
 fn told_apart(functions: &[FoundFunction]) -> Vec<String> {
     let words = |one: &FoundFunction| {
-        let is_other = |other: &&FoundFunction| other.name == one.name;
+        let is_other = |other: &&FoundFunction| other.path() == one.path();
         if functions.iter().filter(is_other).count() == 1 {
-            return one.name.clone();
+            return one.path();
         }
         let names: Vec<&str> = one.params.iter().map(|param| param.name.as_str()).collect();
-        format!("{}:{} ({})", one.name, one.line, names.join(", "))
+        format!("{}:{} ({})", one.path(), one.line, names.join(", "))
     };
     functions.iter().map(words).collect()
 }
@@ -84,8 +91,15 @@ fn told_apart(functions: &[FoundFunction]) -> Vec<String> {
 /// Why a function cannot be one of reflectance.
 fn unfit(file: &str, found: &FoundFunction) -> Error {
     let is_other = |shape: &NumberShape| matches!(shape, NumberShape::Other(_));
-    let other = found.params.iter().find(|param| is_other(&param.shape));
-    let why = if let Some(param) = other {
+    let is_open = |param: &&Parameter| is_other(&param.shape) && param.default.is_none();
+    let other = found.params.iter().find(is_open);
+    let why = if found.needs_object {
+        let around = found.scope.last().map_or("", String::as_str);
+        return Error::NeedsObject {
+            place: place_of(file, found),
+            ty: around.to_owned(),
+        };
+    } else if let Some(param) = other {
         format!("its argument `{}` is `{}`", param.name, param.shape.words())
     } else if is_other(&found.result) {
         format!("it gives `{}`", found.result.words())

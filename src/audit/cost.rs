@@ -141,10 +141,10 @@ fn shader(
             let probe = Probe::of_text(params.clone(), *is_scalar, texts);
             wgsl(&probe, dialect, evaluations)
         }
-        (Language::Gles, Dialect::Wgsl) => {
+        (Language::Gles | Language::Glsl, Dialect::Wgsl) => {
             let own = format!("{PRECISION}{own}");
             let shader = foreign::glsl(foreign_function(&own), evaluations);
-            Ok(MeasuredShader::Foreign(Language::Gles, shader))
+            Ok(MeasuredShader::Foreign(*language, shader))
         }
         (Language::Gles, _) => {
             let texts = [String::new(), format!("{PRECISION}{own}")];
@@ -155,7 +155,7 @@ fn shader(
             *language,
             foreign::hlsl(foreign_function(own), evaluations),
         )),
-        (Language::Hlsl | Language::Slang, _) => {
+        (Language::Hlsl | Language::Slang | Language::Glsl, _) => {
             let language = language.name().to_uppercase();
             Err(format!(
                 "it takes GLSL ES, which nothing here makes of {language}"
@@ -188,7 +188,7 @@ fn empty(
     };
     match (language, dialect) {
         (Language::Wgsl, _) => wgsl(&probe, dialect, evaluations),
-        (Language::Gles, Dialect::Wgsl) => Ok(MeasuredShader::Foreign(
+        (Language::Gles | Language::Glsl, Dialect::Wgsl) => Ok(MeasuredShader::Foreign(
             language,
             foreign::glsl(foreign_function(foreign::EMPTY_GLSL), evaluations),
         )),
@@ -196,7 +196,7 @@ fn empty(
             language,
             foreign::hlsl(foreign_function(foreign::EMPTY_HLSL), evaluations),
         )),
-        (Language::Gles | Language::Hlsl | Language::Slang, _) => {
+        (Language::Gles | Language::Glsl | Language::Hlsl | Language::Slang, _) => {
             Ok(ready(probe.text(evaluations, dialect)))
         }
     }

@@ -6,6 +6,7 @@ use crate::foreign::{Foreign, one_line};
 use crate::names::{UnknownName, nearest_names, offered};
 use crate::{emit, process};
 
+use super::cosine::CosineForm;
 use super::quantity;
 
 /// Why a user's function cannot be audited.
@@ -31,7 +32,7 @@ pub enum Error {
     },
     /// A value that is not of the form that values have.
     #[error(
-        "--arg {}: {fault}; it is name=number, name=number,number,number or name=quantity",
+        "--arg {}: {fault}; it is name=number, name=number,number,number, name=quantity, or name=cos for the cosine",
         Foreign(word)
     )]
     Value {
@@ -59,7 +60,7 @@ pub enum Error {
     },
     /// None of its functions can be one of reflectance.
     #[error(
-        "{}: it holds no function from a cosine to a reflectance: numbers or three of them in, the same out",
+        "{}: it holds no function from a cosine to a reflectance: numbers or three of them in, the same out; --function NAME says of one why",
         Foreign(file)
     )]
     NoReflectance {
@@ -118,6 +119,44 @@ pub enum Error {
         /// What is wrong with it.
         why: String,
     },
+    /// It is not clear whether an argument is the cosine or the angle.
+    #[error(
+        "{place}: whether `{}` is the cosine or the angle is not clear: say so with --arg {}=cos or --arg {}=angle (in radians); {} are other answers",
+        Foreign(argument),
+        Foreign(argument),
+        Foreign(argument),
+        other_forms()
+    )]
+    UnclearCosine {
+        /// The function, with its place in the file.
+        place: FunctionPlace,
+        /// The argument.
+        argument: String,
+    },
+    /// What is to be the cosine is no single number.
+    #[error(
+        "{place}: --arg {}={form}: it is no argument of one number",
+        Foreign(argument)
+    )]
+    NoNumber {
+        /// The function, with its place in the file.
+        place: FunctionPlace,
+        /// The argument.
+        argument: String,
+        /// What it is to be.
+        form: &'static str,
+    },
+    /// It is a member of a type, and not a static one.
+    #[error(
+        "{place}: it is a function of objects of `{}`, which a cosine does not make: let it be `static`, or write a function that makes the object and calls it",
+        Foreign(ty)
+    )]
+    NeedsObject {
+        /// The function, with its place in the file.
+        place: FunctionPlace,
+        /// The type.
+        ty: String,
+    },
     /// All arguments have values, and one must be the cosine.
     #[error("{place}: no argument is left for the cosine; bind one fewer with --arg")]
     NoCosine {
@@ -125,7 +164,7 @@ pub enum Error {
         place: FunctionPlace,
     },
     /// An argument without a value.
-    #[error("{place}: {}", one_line(&unbound(material, missing, *has_cosine)))]
+    #[error("{place}: {}", one_line(&unbound(material, missing, cosine_like.as_deref())))]
     Unbound {
         /// The function, with its place in the file.
         place: FunctionPlace,
@@ -133,8 +172,8 @@ pub enum Error {
         material: String,
         /// The arguments without a value.
         missing: Vec<MissingArgument>,
-        /// Whether it is clear which argument is the cosine.
-        has_cosine: bool,
+        /// The argument that may be the cosine, where that is not clear.
+        cosine_like: Option<String>,
     },
     /// Something in the text that no program can be made of.
     #[error("{}:{line}:{column}: {}", Foreign(file), one_line(what))]
@@ -221,7 +260,13 @@ fn lines_words(name: &str, lines: &[String]) -> String {
     each.collect::<Vec<_>>().join(", ")
 }
 
-fn unbound(material: &str, missing: &[MissingArgument], has_cosine: bool) -> String {
+/// What `--arg` takes for an argument that stands for the cosine.
+fn other_forms() -> String {
+    let names = CosineForm::NAMED[1..].iter().map(|(name, _)| *name);
+    names.collect::<Vec<_>>().join(", ")
+}
+
+fn unbound(material: &str, missing: &[MissingArgument], cosine_like: Option<&str>) -> String {
     let names: Vec<String> = missing.iter().map(MissingArgument::words).collect();
     let first = missing.first().map_or("", |argument| &argument.name);
     let is_known = missing
@@ -231,10 +276,12 @@ fn unbound(material: &str, missing: &[MissingArgument], has_cosine: bool) -> Str
         true => String::new(),
         false => offered(&nearest_names(first, &quantity::names())),
     };
-    let cosine = match has_cosine {
-        true => "",
-        false => ", and which of its arguments is the cosine is not clear: call it cos_theta",
-    };
+    let cosine = cosine_like.map_or(String::new(), |name| {
+        format!(
+            ", and which of its arguments is the cosine is not clear: say so with --arg {name}=cos, or with {} where it is another thing",
+            other_forms()
+        )
+    });
     format!(
         "{material} has no value for {}{like}{cosine}; bind with --arg {first}=NUMBER or --arg {first}=QUANTITY",
         names.join(", ")

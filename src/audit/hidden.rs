@@ -22,6 +22,8 @@ pub struct HiddenInput {
     pub is_rgb: bool,
     /// The type that a number is converted to, where it is none of a real number.
     pub cast: Option<String>,
+    /// The namespaces that it stands in.
+    pub scope: Vec<String>,
 }
 
 impl HiddenInput {
@@ -35,11 +37,13 @@ impl HiddenInput {
 
     /// The places that it is assigned to, with the channel of the value that goes there.
     pub fn places(&self) -> Vec<(String, &'static str)> {
+        let around = self.scope.iter().filter(|name| !name.is_empty());
+        let around: String = around.map(|name| format!("{name}::")).collect();
         match self.path.strip_suffix(".rgb") {
             Some(path) if self.is_rgb => ["x", "y", "z"]
-                .map(|channel| (format!("{path}.{channel}"), channel))
+                .map(|channel| (format!("{around}{path}.{channel}"), channel))
                 .to_vec(),
-            _ => vec![(self.path.clone(), "")],
+            _ => vec![(around + &self.path, "")],
         }
     }
 }
@@ -130,6 +134,7 @@ impl<'a> DeclaredTypes<'a> {
             line: walk.root.line,
             is_rgb,
             cast,
+            scope: Vec::new(),
         };
         let is_whole = !variable.is_array;
         match number {

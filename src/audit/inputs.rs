@@ -1,5 +1,7 @@
 //! The inputs of a function from outside: which need a value, and the text in which they are variables that our function sets.
 
+use std::collections::BTreeSet;
+
 use crate::emit::shader_words::Token;
 
 use super::hidden::{DeclaredTypes, HiddenInput, UnreadFault, distinct, held};
@@ -19,6 +21,13 @@ pub struct Initialised {
     pub line: usize,
     /// The value as it is written.
     pub value: String,
+}
+
+impl Initialised {
+    /// For people.
+    pub fn words(&self) -> String {
+        format!("{} = {} (line {})", self.name, self.value, self.line)
+    }
 }
 
 /// The inputs of what is reached.
@@ -51,15 +60,40 @@ impl Inputs<'_> {
 
     /// Whether a variable has no value of its own.
     fn is_open(&self, variable: &Variable) -> bool {
-        let mut uses = self.reached.uses.iter();
         match variable.storage {
             Storage::Constant => false,
-            Storage::Own => {
-                let is_set = uses.any(|one| one.name == variable.name && one.is_assigned);
-                variable.value.is_none() && !is_set
-            }
+            Storage::Own => variable.value.is_none() && !self.is_set_first(variable),
             Storage::Input => variable.value.is_none() || self.is_given(&variable.name),
         }
+    }
+
+    /// Whether a variable is set before anything reads it: by each function that reads it, or by the audited one.
+    fn is_set_first(&self, variable: &Variable) -> bool {
+        let (uses, start) = (&self.reached.uses, self.reached.start);
+        let is_it = |one: &&Use| one.name == variable.name;
+        let first = |part: usize| uses.iter().filter(is_it).find(|one| one.part == part);
+        let sets = |one: &&Use| first(one.part).is_some_and(|first| first.is_set);
+        let readers = uses.iter().filter(is_it).filter(|one| !sets(one));
+        let mut readers: BTreeSet<usize> = readers.map(|one| one.part).collect();
+        let calls = |one: &&Use, readers: &BTreeSet<usize>| {
+            let mut names = readers.iter().flat_map(|place| self.parts[*place].names());
+            names.any(|name| name == one.name)
+        };
+        loop {
+            let callers = uses.iter().filter(|one| calls(one, &readers));
+            let callers: BTreeSet<usize> = callers.map(|one| one.part).collect();
+            if callers.is_subset(&readers) {
+                break;
+            }
+            readers.extend(callers);
+        }
+        // Its head has its own name.
+        let is_read = readers.remove(&start);
+        let mut own = uses.iter().filter(|one| one.part == start);
+        !is_read
+            || own
+                .find(|one| is_it(one) || calls(one, &readers))
+                .is_some_and(|one| is_it(&one) && one.is_set)
     }
 
     /// The numbers that are read and have no value.
@@ -72,7 +106,7 @@ impl Inputs<'_> {
         for place in &self.reached.parts {
             let part = &self.parts[*place];
             for used in &self.reached.uses {
-                let found = match &part.kind {
+                let mut found = match &part.kind {
                     PartKind::Variables(variables) | PartKind::Block(_, variables, None) => {
                         let mut variables = variables.iter();
                         match variables.find(|one| one.name == used.name && self.is_open(one)) {
@@ -86,6 +120,9 @@ impl Inputs<'_> {
                     _ => continue,
                 };
                 self.check_order(used)?;
+                for one in &mut found {
+                    one.scope.clone_from(&part.scope);
+                }
                 all.extend(found);
             }
         }
@@ -129,9 +166,16 @@ impl Inputs<'_> {
                     let members: String = members.iter().map(member).collect();
                     format!("struct {name} {{ {members}}}; {name} {instance};")
                 }
+                // It names a namespace of which nothing else may be left.
+                PartKind::Setting if first.text == "using" => {
+                    let words = &self.words[part.start + 2..part.end];
+                    let names = words.iter().filter(|word| word.is_word());
+                    let names: Vec<String> = names.map(|word| word.text.to_owned()).collect();
+                    scoped(&names, String::new()) + &self.source((part.start, part.end))
+                }
                 _ => self.source((part.start, part.end)),
             };
-            pieces.push((first.line, first.column, text));
+            pieces.push((first.line, first.column, scoped(&part.scope, text)));
         }
         let has_numbers = |one: &Initialised| {
             let is_of_it = |number: &HiddenInput| number.path.split('.').next() == Some(&one.name);
@@ -167,7 +211,7 @@ impl Inputs<'_> {
             };
         }
         let keeps = match self.language {
-            Language::Gles => "",
+            Language::Gles | Language::Glsl => "",
             _ => "static ",
         };
         let declarator = flat(&self.source(variable.declarator));
@@ -200,6 +244,12 @@ impl Inputs<'_> {
             .collect();
         cut.join("\n")
     }
+}
+
+/// A text in the namespaces that it stands in.
+fn scoped(scope: &[String], text: String) -> String {
+    let within = |text, name: &String| format!("namespace {name} {{ {text} }}");
+    scope.iter().rev().fold(text, within)
 }
 
 fn flat(text: &str) -> String {

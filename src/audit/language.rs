@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::emit::shader_words::{Hidden, code_alone};
 use crate::ir::Ty;
-use crate::targets::{DXC, GLES, GLSLANG, HLSL, Target, WGSL};
+use crate::targets::{DXC, GLES, GLSL, GLSLANG, HLSL, Target, WGSL};
 
 use super::accept::SLANGC;
 use super::error::Error;
@@ -16,6 +16,8 @@ pub enum Language {
     Wgsl,
     /// GLSL, run as GLSL ES 3.00.
     Gles,
+    /// GLSL of the desktop, run as GLSL 4.50 through SPIR-V.
+    Glsl,
     /// HLSL.
     Hlsl,
     /// Slang, run as HLSL is.
@@ -60,7 +62,7 @@ impl Language {
     pub fn compiler(self) -> &'static str {
         match self {
             Language::Wgsl => "tint",
-            Language::Gles => GLSLANG.name,
+            Language::Gles | Language::Glsl => GLSLANG.name,
             Language::Hlsl => DXC.name,
             Language::Slang => SLANGC.name,
         }
@@ -86,6 +88,7 @@ impl Language {
         match self {
             Language::Wgsl => &WGSL,
             Language::Gles => &GLES,
+            Language::Glsl => &GLSL,
             Language::Hlsl | Language::Slang => &HLSL,
         }
     }
@@ -98,6 +101,11 @@ impl Language {
         }
     }
 
+    /// Whether it is GLSL, of either kind.
+    pub fn is_glsl(self) -> bool {
+        matches!(self, Language::Gles | Language::Glsl)
+    }
+
     /// Whether lines may begin with `#`.
     pub fn has_preprocessor(self) -> bool {
         self != Language::Wgsl
@@ -108,12 +116,22 @@ impl Language {
         match (self, ty == Ty::Rgb) {
             (Language::Wgsl, false) => "f32",
             (Language::Wgsl, true) => "vec3<f32>",
-            (Language::Gles, false) => "highp float",
-            (Language::Gles, true) => "highp vec3",
+            (Language::Gles | Language::Glsl, false) => "highp float",
+            (Language::Gles | Language::Glsl, true) => "highp vec3",
             (Language::Hlsl | Language::Slang, false) => "float",
             (Language::Hlsl | Language::Slang, true) => "float3",
         }
     }
+}
+
+/// The version of GLSL that a text states, where it is one of the desktop.
+pub fn desktop_version(text: &str) -> Option<u32> {
+    let code = bare(text, false);
+    let line = code.lines().find(|line| !line.trim().is_empty())?;
+    let line = line.trim().strip_prefix('#')?.trim();
+    let mut words = line.strip_prefix("version")?.split_whitespace();
+    let version = words.next()?.parse().ok()?;
+    (version != 100 && words.next() != Some("es")).then_some(version)
 }
 
 /// A user's text without comments, and without directives where those are to be passed over. A comment in a comment is passed

@@ -21,6 +21,7 @@ mod cost_row;
 mod directives;
 mod edges;
 mod error;
+mod given;
 mod hidden;
 mod inputs;
 mod language;
@@ -50,10 +51,10 @@ use crate::cost::Family;
 use crate::reference::MaterialInMedium;
 use crate::spectra::Space;
 
-pub use bind::Given;
 pub use cost_row::AuditCost;
 pub use edges::EdgeRow;
 pub use error::{Error, FunctionPlace, MissingArgument, ValueFault};
+pub use given::Given;
 pub use language::Language;
 pub use preprocess::Define;
 pub use recognised::ExactFit;
@@ -62,6 +63,7 @@ pub use serve::serve;
 pub use verdict::Checked;
 
 use auditor::Auditor;
+use language::desktop_version;
 
 /// What is audited.
 #[derive(Clone, Debug)]
@@ -109,6 +111,65 @@ impl Audit {
     /// # Errors
     /// The file does not hold the function, or its arguments are not bound for any material.
     pub fn rows(
+        &self,
+        subjects: &[MaterialInMedium],
+        progress: &mut dyn FnMut(u64, u64, &str),
+    ) -> Result<AuditRows, Error> {
+        if let Some(godot) = self.in_godot() {
+            return godot.rows_in(subjects, progress);
+        }
+        if self.language != Language::Gles {
+            return self.rows_in(subjects, progress);
+        }
+        if let Some(version) = desktop_version(&self.text) {
+            return self.on_the_desktop(version).rows_in(subjects, progress);
+        }
+        let found = self.rows_in(subjects, progress)?;
+        let is_refused = |row: &AuditRow| row.checked.accepted == Some(false);
+        if self.text.contains("#version") || !found.rows.iter().all(is_refused) {
+            return Ok(found);
+        }
+        // Many files of the desktop leave their version to what includes them.
+        let mut desktop = self.on_the_desktop(450).rows_in(subjects, progress)?;
+        for row in &mut desktop.rows {
+            row.language_remark = Some(
+                "GLSL 4.50: the file states no `#version`, and GLSL ES 3.00 refuses it".to_owned(),
+            );
+        }
+        let is_accepted = |row: &AuditRow| row.checked.accepted == Some(true);
+        Ok(match desktop.rows.iter().all(is_accepted) {
+            true => desktop,
+            false => found,
+        })
+    }
+
+    /// The same with the constants that Godot's shaders have, where it is one of them.
+    fn in_godot(&self) -> Option<Audit> {
+        let constants = [("PI", "3.1415926535897932"), ("TAU", "6.2831853071795864")];
+        let is_of_godot = self.file.ends_with(".gdshader") || self.file.ends_with(".gdshaderinc");
+        (is_of_godot && self.language == Language::Gles).then(|| {
+            let mut audit = self.clone();
+            let own = constants.iter().filter(|(name, _)| {
+                let defines = |one: &Define| one.name == *name;
+                !self.text.contains(&format!("define {name}")) && !self.defines.iter().any(defines)
+            });
+            audit.defines.extend(own.map(|(name, value)| Define {
+                name: (*name).to_owned(),
+                value: (*value).to_owned(),
+            }));
+            audit
+        })
+    }
+
+    /// The same as GLSL of the desktop, of the version that its text states.
+    fn on_the_desktop(&self, version: u32) -> Audit {
+        let mut audit = self.clone();
+        audit.language = Language::Glsl;
+        audit.defines.insert(0, Define::of("__VERSION__", version));
+        audit
+    }
+
+    fn rows_in(
         &self,
         subjects: &[MaterialInMedium],
         progress: &mut dyn FnMut(u64, u64, &str),

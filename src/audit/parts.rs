@@ -19,6 +19,8 @@ pub struct Part {
     pub end: usize,
     /// What it is.
     pub kind: PartKind,
+    /// The namespaces around it.
+    pub scope: Vec<String>,
 }
 
 /// What a part is.
@@ -27,7 +29,7 @@ pub enum PartKind {
     /// A function with its body.
     Function(FoundFunction),
     /// The head of a function whose body stands elsewhere.
-    Prototype(String),
+    Prototype(FoundFunction),
     /// A type: its name, and its members.
     Type(String, Vec<Variable>),
     /// Variables: one declaration may have several.
@@ -44,8 +46,8 @@ impl Part {
     /// The names that it gives a meaning.
     pub fn names(&self) -> Vec<&str> {
         match &self.kind {
-            PartKind::Function(found) => vec![found.name.as_str()],
-            PartKind::Prototype(name) | PartKind::Type(name, _) => vec![name.as_str()],
+            PartKind::Function(found) | PartKind::Prototype(found) => vec![found.name.as_str()],
+            PartKind::Type(name, _) => vec![name.as_str()],
             PartKind::Variables(all) => all.iter().map(|one| one.name.as_str()).collect(),
             PartKind::Block(_, _, Some(name)) => vec![name.as_str()],
             PartKind::Block(_, members, None) => {
@@ -59,13 +61,81 @@ impl Part {
 /// The parts of a text in order.
 pub fn parts(tokens: &[Token], names: &TypeNames, language: Language) -> Vec<Part> {
     let mut found: Vec<Part> = Vec::new();
+    // The namespaces that are open: where each closes, and its names.
+    let mut open: Vec<(usize, Vec<String>)> = Vec::new();
     let mut at = 0;
     while at < tokens.len() {
-        let part = part(tokens, at, names, language);
+        if let Some((close, _)) = open.last().filter(|(close, _)| *close <= at) {
+            at += usize::from(*close == at);
+            open.pop();
+            continue;
+        }
+        if let Some((inside, names)) = namespace(tokens, at, language) {
+            open.push((behind(tokens, inside - 1) - 1, names));
+            at = inside;
+            continue;
+        }
+        let mut part = part(tokens, at, names, language);
         at = part.end;
+        part.scope = open.iter().flat_map(|(_, names)| names.clone()).collect();
+        if let PartKind::Function(found) = &mut part.kind {
+            found.scope.clone_from(&part.scope);
+        }
         found.push(part);
     }
     found
+}
+
+/// A namespace that begins here: the place behind its brace, and its names.
+fn namespace(tokens: &[Token], at: usize, language: Language) -> Option<(usize, Vec<String>)> {
+    let has_namespaces = matches!(language, Language::Hlsl | Language::Slang);
+    let is_inline = usize::from(tokens[at].text == "inline");
+    if !has_namespaces || tokens.get(at + is_inline)?.text != "namespace" {
+        return None;
+    }
+    let head = &tokens[at + is_inline + 1..];
+    let open = head.iter().position(|token| token.text == "{")?;
+    let (names, signs): (Vec<&Token>, Vec<&Token>) = head[..open].iter().partition(|t| t.is_word());
+    let is_head = signs.iter().all(|token| [":", "."].contains(&token.text));
+    let mut names: Vec<String> = names.iter().map(|name| name.text.to_owned()).collect();
+    if names.is_empty() {
+        names.push(String::new());
+    }
+    is_head.then_some((at + is_inline + open + 2, names))
+}
+
+/// The functions of a part: itself, or the members of a type.
+pub fn functions_of(
+    part: &Part,
+    tokens: &[Token],
+    names: &TypeNames,
+    language: Language,
+) -> Vec<FoundFunction> {
+    match &part.kind {
+        PartKind::Function(found) => vec![found.clone()],
+        PartKind::Type(name, _) if matches!(language, Language::Hlsl | Language::Slang) => {
+            let has_body = tokens[part.head_end].text == "{";
+            let close = behind(tokens, part.head_end) - 1;
+            let from = part.head_end + 1;
+            let inside = &tokens[from.min(close)..close];
+            let all = match has_body {
+                true => parts(inside, names, language),
+                false => Vec::new(),
+            };
+            let member = |one: Part| {
+                let head = &inside[one.start..one.head_end];
+                let is_static = head.iter().any(|token| token.text == "static");
+                let PartKind::Function(mut found) = one.kind else {
+                    return None;
+                };
+                found.scope = part.scope.iter().chain([name]).cloned().collect();
+                found.needs_object = !is_static;
+                Some(found)
+            };
+            all.into_iter().filter_map(member).collect()
+        }
+        _ => Vec::new(),
+    }
 }
 
 /// The place behind words of engines that no declaration needs: `CBUFFER_START(UnityPerMaterial)`, `CBUFFER_END`.
@@ -107,7 +177,7 @@ fn part(tokens: &[Token], start: usize, names: &TypeNames, language: Language) -
     let head = names.replaced(&tokens[start..head_end]);
     let kind = match function(&head, language) {
         Some(found) if has_body => PartKind::Function(found),
-        Some(found) if language != Language::Wgsl => PartKind::Prototype(found.name),
+        Some(found) if language != Language::Wgsl => PartKind::Prototype(found),
         _ => {
             if has_body {
                 end = tail(tokens, start, head_end, end, language);
@@ -120,6 +190,7 @@ fn part(tokens: &[Token], start: usize, names: &TypeNames, language: Language) -
         head_end,
         end,
         kind,
+        scope: Vec::new(),
     }
 }
 
@@ -130,7 +201,7 @@ fn tail(tokens: &[Token], start: usize, head_end: usize, end: usize, language: L
     let goes_on = has("=")
         || language != Language::Wgsl
             && (["struct", "class", "enum"].into_iter().any(has)
-                || language == Language::Gles
+                || language.is_glsl()
                     && ["uniform", "buffer", "in", "out", "layout"]
                         .into_iter()
                         .any(has));
@@ -155,7 +226,10 @@ fn other_kind(
 ) -> PartKind {
     let head = &tokens[start..head_end];
     let first = head.first().map_or("", |token| token.text);
-    if ["precision", "enable", "requires", "diagnostic"].contains(&first) {
+    // DXC knows no such line.
+    let is_using =
+        language == Language::Slang && first == "using" && word_at(head, 1) == "namespace";
+    if is_using || ["precision", "enable", "requires", "diagnostic"].contains(&first) {
         return PartKind::Setting;
     }
     let has_body = tokens.get(head_end).is_some_and(|token| token.text == "{");
@@ -201,7 +275,7 @@ fn with_body(
     let is_block = ["uniform", "buffer", "in", "out"]
         .into_iter()
         .any(|word| place(word).is_some());
-    match language == Language::Gles && is_block {
+    match language.is_glsl() && is_block {
         true => {
             let instance = tokens[(close + 1).min(end)..end]
                 .iter()
@@ -231,11 +305,16 @@ fn members(tokens: &[Token], from: usize, to: usize, language: Language) -> Vec<
         let each = parts_between_commas(inside).into_iter();
         return each.filter_map(wgsl_member).collect();
     }
-    let mut at = from;
     let mut found = Vec::new();
-    for member in inside.split(|token| token.text == ";") {
-        found.extend(c_variables(member, at, language, true));
-        at += member.len() + 1;
+    for one in parts(inside, &TypeNames::default(), language) {
+        let member = &inside[one.start..one.end];
+        let member = match member.split_last() {
+            Some((last, rest)) if last.text == ";" => rest,
+            _ => member,
+        };
+        if !matches!(one.kind, PartKind::Function(_) | PartKind::Prototype(_)) {
+            found.extend(c_variables(member, from + one.start, language, true));
+        }
     }
     found
 }
@@ -260,7 +339,7 @@ mod tests {
         let all = |all: &[Variable]| all.iter().map(variable).collect::<Vec<_>>().join(", ");
         let shown = |part: &Part| match &part.kind {
             PartKind::Function(found) => format!("function {}", found.name),
-            PartKind::Prototype(name) => format!("prototype {name}"),
+            PartKind::Prototype(found) => format!("prototype {}", found.name),
             PartKind::Type(name, members) => format!("type {name} {{{}}}", all(members)),
             PartKind::Variables(variables) => all(variables),
             PartKind::Block(name, members, instance) => {

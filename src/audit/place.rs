@@ -41,6 +41,7 @@ fn place(line: &str) -> Option<(usize, Option<usize>)> {
         "shader.hlsl:",
         "shader.vert:",
         "shader.frag:",
+        "shader.comp:",
         "shader.wgsl:",
         "shader.slang:",
         "0:",

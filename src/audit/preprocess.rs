@@ -21,6 +21,14 @@ pub struct Define {
 }
 
 impl Define {
+    /// A name that stands for a number.
+    pub fn of(name: &str, value: u32) -> Define {
+        Define {
+            name: name.to_owned(),
+            value: value.to_string(),
+        }
+    }
+
     /// Reads `NAME=VALUE`, or `NAME`, which stands for 1.
     ///
     /// # Errors
@@ -75,6 +83,8 @@ fn predefined(language: Language) -> &'static [(&'static str, &'static str)] {
             ("__VERSION__", "300"),
             ("GL_FRAGMENT_PRECISION_HIGH", "1"),
         ],
+        // Its version is what the text states.
+        Language::Glsl => &[("GL_core_profile", "1")],
         Language::Hlsl => &[
             ("__hlsl_dx_compiler", "1"),
             ("__HLSL_VERSION", "2018"),

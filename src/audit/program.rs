@@ -7,6 +7,7 @@ use crate::verify::harness::{self, Call};
 
 use super::bind::{Bound, BoundArgument};
 use super::directives;
+use super::given::DefaultArgument;
 use super::language::Language;
 use super::loops::{MARK, TURNS, counted, counter};
 use super::scan::NumberShape;
@@ -87,14 +88,16 @@ impl AuditProgram {
         };
         let named = bound.arguments.iter().enumerate();
         params.extend(named.map(|(i, argument)| param(&format!("a{i}"), ty(argument))));
-        let wrapper = without_macros(slice, language) + &wrapper(&params);
+        let wrapper = defaults(bound) + &without_macros(slice, language) + &wrapper(&params);
         let counter = match counts {
             true => counter(language),
             false => String::new(),
         };
         let Slice { before, text, .. } = slice;
         let text = match language {
-            Language::Gles => format!("{counter}{}", framed(slice, &wrapper)),
+            Language::Gles | Language::Glsl => {
+                format!("{counter}{}", framed(slice, &wrapper, language))
+            }
             Language::Hlsl | Language::Slang if counts || !before.is_empty() => {
                 format!("{counter}{before}#line 1\n{text}\n{wrapper}")
             }
@@ -121,6 +124,9 @@ impl AuditProgram {
             is_scalar: false,
             precision: Precision::F32,
         };
+        if self.language == Language::Glsl {
+            return harness::desktop(&self.text, &call);
+        }
         harness::program(self.language.target(), &self.text, &call)
             .expect("users' languages are run as text")
     }
@@ -141,6 +147,17 @@ impl AuditProgram {
     }
 }
 
+/// The values that the text gives arguments, while its macros mean what they mean.
+fn defaults(bound: &Bound) -> String {
+    let value = |one: &DefaultArgument| {
+        format!(
+            "static const {} fg_d{} = {};\n",
+            one.ty, one.place, one.value
+        )
+    };
+    bound.defaults.iter().map(value).collect()
+}
+
 fn param(name: &str, ty: Ty) -> Param {
     Param {
         name: name.to_owned(),
@@ -149,10 +166,18 @@ fn param(name: &str, ty: Ty) -> Param {
 }
 
 /// Their text in GLSL: names that the program around it has are theirs under other names.
-fn framed(slice: &Slice, wrapper: &str) -> String {
+fn framed(slice: &Slice, wrapper: &str, language: Language) -> String {
     let each = |line: fn(&str) -> String| RENAMED.map(line).concat();
     let define = each(|name| format!("#define {name} {THEIRS}{name}\n"));
     let undefine = each(|name| format!("#undef {name}\n"));
+    // On the desktop they mean nothing, and in Vulkan they do.
+    let (define, undefine) = match language {
+        Language::Glsl => (
+            define + "#define mediump highp\n#define lowp highp\n",
+            undefine + "#undef mediump\n#undef lowp\n",
+        ),
+        _ => (define, undefine),
+    };
     let Slice { before, text, .. } = slice;
     format!("{define}{before}#line 1\n{text}\n{wrapper}{undefine}")
 }
@@ -267,10 +292,8 @@ fn called(language: Language, bound: &Bound, channel: &str) -> CallText {
         .map(|(i, argument)| value(i, argument))
         .collect();
     let mut before = String::new();
-    let inputs = bound
-        .hidden
-        .iter()
-        .zip(&others[function.params.len() - 1..]);
+    let (others, values) = others.split_at(others.len() - bound.hidden.len());
+    let inputs = bound.hidden.iter().zip(values);
     for (input, value) in inputs {
         for (place, channel) in input.places() {
             let value = match channel {
@@ -283,9 +306,19 @@ fn called(language: Language, bound: &Bound, channel: &str) -> CallText {
             };
         }
     }
-    let mut all = others[..function.params.len() - 1].to_vec();
-    all.insert(bound.cosine, "fg_cos_theta".to_owned());
-    let name = &function.name;
+    let default = |place: usize| {
+        let name = &function.params[place].name;
+        let mut all = bound.defaults.iter();
+        all.find(|one| one.name == *name)
+    };
+    let mut others = others.iter().cloned();
+    let argument = |place: usize| match default(place) {
+        _ if place == bound.cosine => "fg_cos_theta".to_owned(),
+        Some(one) => format!("fg_d{}", one.place),
+        None => others.next().unwrap_or_default(),
+    };
+    let mut all: Vec<String> = (0..function.params.len()).map(argument).collect();
+    let name = function.path();
     let Some(out) = &function.out else {
         let value = format!("{name}({})", all.join(", "));
         return CallText { before, value };

@@ -60,9 +60,14 @@ const INDEX: &[&str] = &[
     "indexofrefraction",
     "refractiveindex",
     "refindex",
+    "refidx",
+    "refractionindex",
     "relativeior",
     "relativeeta",
     "relativeindex",
+    "relindex",
+    "relior",
+    "releta",
     "etatoveretai",
     "etatoetai",
     "etatetai",
@@ -246,11 +251,15 @@ impl Quantity {
     }
 }
 
+/// Inputs that follow from an index, also in a method that replaces colours by those of one.
+const OF_INDEX: [&str; 2] = ["reflectivity", "edge_tint"];
+
 fn input_value(subject: &MaterialInMedium, name: &str) -> Option<[f64; 3]> {
     let takes = |method: &&&Method| method.inputs.iter().any(|input| input.name == name);
     let fits = |method: &&&Method| {
+        let is_given = is_given(method) || OF_INDEX.contains(&name);
         let is_usual = !method.is_fitted() || subject.default_methods().contains(&method.name);
-        is_usual && is_given(method) && !method.is_textured() && subject.is_described_by(method)
+        is_usual && is_given && !method.is_textured() && subject.is_described_by(method)
     };
     let exact = methods::find(subject.exact_method()).into_iter();
     let exact: Vec<&'static Method> = exact.collect();

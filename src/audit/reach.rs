@@ -13,6 +13,8 @@ pub type MacroBodies<'t, 'a> = BTreeMap<&'a str, Vec<Vec<&'t Token<'a>>>>;
 /// What is reached.
 #[derive(Debug, Default)]
 pub struct Reached {
+    /// The part that all is reached from.
+    pub start: usize,
     /// The parts, by their places.
     pub parts: BTreeSet<usize>,
     /// The macros.
@@ -34,8 +36,10 @@ pub struct Use {
     pub line: usize,
     /// Whether an element of an array follows.
     pub is_indexed: bool,
-    /// Whether it gets a value there.
-    pub is_assigned: bool,
+    /// Whether all of it gets a value there, whatever holds.
+    pub is_set: bool,
+    /// The part that it stands in.
+    pub part: usize,
     /// The part outside of functions that reads it, where one does.
     pub by_global: Option<usize>,
 }
@@ -54,7 +58,10 @@ pub fn reached(
             by_name.entry(name).or_default().push(place);
         }
     }
-    let mut reached = Reached::default();
+    let mut reached = Reached {
+        start,
+        ..Reached::default()
+    };
     let settings = parts.iter().enumerate();
     let settings = settings.filter(|(_, part)| matches!(part.kind, PartKind::Setting));
     let mut open: Vec<usize> = settings.map(|(place, _)| place).chain([start]).collect();
@@ -64,14 +71,25 @@ pub fn reached(
         }
         let part = &parts[place];
         let words: Vec<&Token> = tokens[part.start..part.end].iter().collect();
-        let own: BTreeSet<&str> = match &part.kind {
-            PartKind::Function(_) => locals(&words, language),
-            _ => part.names().into_iter().collect(),
+        // A type has functions among its members, but in GLSL and WGSL.
+        let has_members = matches!(language, Language::Hlsl | Language::Slang);
+        let has_code = match &part.kind {
+            PartKind::Function(_) => true,
+            PartKind::Type(..) => has_members,
+            _ => false,
         };
+        let mut own: BTreeSet<&str> = match has_code {
+            true => locals(&words, language),
+            false => BTreeSet::new(),
+        };
+        if !matches!(part.kind, PartKind::Function(_)) {
+            own.extend(part.names());
+        }
         let context = Context {
             own: &own,
-            by_global: (!matches!(part.kind, PartKind::Function(_))).then_some(place),
-            counts_uses: matches!(part.kind, PartKind::Function(_) | PartKind::Variables(_)),
+            part: place,
+            by_global: (!has_code).then_some(place),
+            counts_uses: has_code || matches!(part.kind, PartKind::Variables(_)),
         };
         visit(&words, &context, &by_name, macros, &mut reached, &mut open);
     }
@@ -83,6 +101,7 @@ pub fn reached(
 struct Context<'a> {
     /// Names that mean something else there.
     own: &'a BTreeSet<&'a str>,
+    part: usize,
     by_global: Option<usize>,
     counts_uses: bool,
 }
@@ -118,12 +137,12 @@ fn visit(
         };
         open.extend(places);
         if context.counts_uses {
-            reached.uses.push(use_of(words, at, context.by_global));
+            reached.uses.push(use_of(words, at, context));
         }
     }
 }
 
-fn use_of(words: &[&Token], at: usize, by_global: Option<usize>) -> Use {
+fn use_of(words: &[&Token], at: usize, context: &Context) -> Use {
     let (mut path, mut next) = (Vec::new(), at + 1);
     while let [dot, member, ..] = words.get(next..).unwrap_or(&[]) {
         if dot.text != "." || !member.is_word() {
@@ -133,15 +152,24 @@ fn use_of(words: &[&Token], at: usize, by_global: Option<usize>) -> Use {
         next += 2;
     }
     let sign = |at: usize| words.get(at).map_or("", |token| token.text);
-    let is_compound = "+-*/".contains(sign(next)) && !sign(next).is_empty();
-    let equals = next + usize::from(is_compound);
+    let is_assigned = sign(next) == "=" && sign(next + 1) != "=" && path.is_empty();
+    // A statement of the body itself, behind no condition.
+    let depth = words[..at]
+        .iter()
+        .fold(0i32, |depth, word| match word.text {
+            "{" | "(" => depth + 1,
+            "}" | ")" => depth - 1,
+            _ => depth,
+        });
+    let begins = at > 0 && ["{", ";", "}"].contains(&words[at - 1].text);
     Use {
         name: words[at].text.to_owned(),
         path,
         line: words[at].line,
         is_indexed: sign(next) == "[",
-        is_assigned: sign(equals) == "=" && sign(equals + 1) != "=",
-        by_global,
+        is_set: is_assigned && begins && depth == 1,
+        part: context.part,
+        by_global: context.by_global,
     }
 }
 

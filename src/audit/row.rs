@@ -13,6 +13,7 @@ use super::bind::{Bound, BoundArgument};
 use super::comparison::{Comparison, Competitor, Own, dominating, sentence};
 use super::cost_row::AuditCost;
 use super::edges::{EdgeRow, Edges};
+use super::given::DefaultArgument;
 use super::inputs::Initialised;
 use super::ours::Ours;
 use super::preprocess::Condition;
@@ -40,6 +41,12 @@ pub struct AuditRow {
     pub line: usize,
     /// The argument that is the cosine.
     pub cosine: String,
+    /// What that argument is of the angle of incidence, as `--arg` takes it: `cos`, `angle` …
+    pub cosine_is: &'static str,
+    /// The same in words, where its name does not say so.
+    pub cosine_words: Option<String>,
+    /// As which version of its language it is run, where the file does not say.
+    pub language_remark: Option<String>,
     /// The conditions that it depends on, and how they were decided.
     pub conditions: Vec<ConditionRow>,
     /// Its file, without folders.
@@ -214,16 +221,19 @@ impl Audited<'_> {
                 Some(_) => "f16",
                 None => "f32",
             },
-            function: function.clone(),
+            function: self.bound.function.path(),
             line: self.bound.function.line,
             cosine: self.bound.function.params[self.bound.cosine].name.clone(),
+            cosine_is: self.bound.form.name(),
+            cosine_words: self.bound.cosine_words.clone(),
+            language_remark: None,
             conditions: self.slice.conditions.iter().map(condition_row).collect(),
             file: crate::command_line::path_again(&self.audit.file),
             channels: if self.bound.is_one_channel() { 1 } else { 3 },
             input_numbers: self.bound.input_numbers(),
             arguments: self.bound.arguments.iter().map(argument_value).collect(),
             filled: self.bound.filled(),
-            initialised: self.slice.initialised.iter().map(initialised).collect(),
+            initialised: self.initialised(),
             device: ran.map(|ran| ran.device.clone()),
             points: ran.map(|ran| ran.points),
             code_error: None,
@@ -248,6 +258,15 @@ impl Audited<'_> {
             status,
             reason: (!reasons.is_empty()).then(|| reasons.join("\n")),
         }
+    }
+
+    /// What has the value that the text gives it: inputs from outside, and arguments.
+    fn initialised(&self) -> Vec<String> {
+        let inputs = self.slice.initialised.iter().map(Initialised::words);
+        let default = |one: &DefaultArgument| format!("{} = {} (its default)", one.name, one.value);
+        inputs
+            .chain(self.bound.defaults.iter().map(default))
+            .collect()
     }
 
     /// What to think of it, and why.
@@ -366,10 +385,6 @@ fn condition_row(condition: &Condition) -> ConditionRow {
         text: condition.text.clone(),
         is_taken: condition.is_taken,
     }
-}
-
-fn initialised(one: &Initialised) -> String {
-    format!("{} = {} (line {})", one.name, one.value, one.line)
 }
 
 fn argument_value(argument: &BoundArgument) -> (String, ArgumentValue) {

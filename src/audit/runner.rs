@@ -11,6 +11,7 @@ use crate::process::{Error, Launch, Silence, Surroundings, Worker};
 use crate::reference::ReferenceCurve;
 use crate::spectra::Space;
 
+use super::cosine::CosineForm;
 use super::loops::{MARK, TURNS};
 use super::protocol::{AuditRequest, AuditResponse, ProgramCode, UniformBits};
 
@@ -32,6 +33,8 @@ pub enum Trouble {
 pub struct Runner {
     worker: RefCell<Worker>,
     limit: Duration,
+    /// What the function takes for a cosine.
+    form: CosineForm,
     /// On what it runs.
     pub device: String,
     /// At how many cosines it has run.
@@ -72,6 +75,7 @@ impl Runner {
     pub fn start(
         code: ProgramCode,
         uniforms: &[Uniform],
+        form: CosineForm,
         limit: Duration,
         surroundings: &Surroundings,
     ) -> Result<Result<Runner, Trouble>, Error> {
@@ -82,6 +86,7 @@ impl Runner {
             Ok(AuditResponse::Ready(device)) => Ok(Runner {
                 worker: RefCell::new(worker),
                 limit,
+                form,
                 device,
                 points: Cell::new(0),
             }),
@@ -93,7 +98,13 @@ impl Runner {
 
     /// The results at these cosines.
     pub fn run(&self, cosines: &[f32]) -> Result<Vec<[f32; 3]>, Trouble> {
-        let request = AuditRequest::Run(cosines.iter().map(|c| c.to_bits()).collect());
+        self.run_as(self.form, cosines)
+    }
+
+    /// The same where the function takes this for a cosine.
+    pub fn run_as(&self, form: CosineForm, cosines: &[f32]) -> Result<Vec<[f32; 3]>, Trouble> {
+        let taken = cosines.iter().map(|c| form.of(*c).to_bits());
+        let request = AuditRequest::Run(taken.collect());
         let response = self.worker.borrow_mut().ask(&request, self.limit);
         let response = response.map_err(|error| Trouble::Failed(error.to_string()))?;
         match response.map_err(|silence| reason(&silence, self.limit))? {
@@ -108,7 +119,16 @@ impl Runner {
 
     /// The error against the reference. `look` sees every cosine with its result.
     pub fn error(&self, reference: &ReferenceCurve, look: Look) -> Result<ModelError, Trouble> {
-        self.measured(look, |values| error_of(reference, values))
+        self.measured(self.form, look, |values| error_of(reference, values))
+    }
+
+    /// The same where the function takes this for a cosine.
+    pub fn error_as(
+        &self,
+        form: CosineForm,
+        reference: &ReferenceCurve,
+    ) -> Result<ModelError, Trouble> {
+        self.measured(form, &|_, _| {}, |values| error_of(reference, values))
     }
 
     /// The error as it is seen.
@@ -117,12 +137,15 @@ impl Runner {
         reference: &ReferenceCurve,
         space: Space,
     ) -> Result<Perceived, Trouble> {
-        self.measured(&|_, _| {}, |values| perceived(reference, space, values))
+        self.measured(self.form, &|_, _| {}, |values| {
+            perceived(reference, space, values)
+        })
     }
 
     /// What is measured of its values.
     fn measured<T>(
         &self,
+        form: CosineForm,
         look: Look,
         measure: impl FnOnce(&dyn Fn(&[f64]) -> Value<f64>) -> T,
     ) -> Result<T, Trouble> {
@@ -133,7 +156,7 @@ impl Runner {
             // What has failed once is not asked again: each wait takes its time.
             let got = match failed.get() {
                 Some(_) => nothing(),
-                None => self.run(&single).unwrap_or_else(|trouble| {
+                None => self.run_as(form, &single).unwrap_or_else(|trouble| {
                     let _ = failed.set(trouble);
                     nothing()
                 }),

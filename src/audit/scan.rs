@@ -3,7 +3,7 @@
 use crate::emit::shader_words::Token;
 
 use super::language::Language;
-use super::parts::{PartKind, parts};
+use super::parts::{functions_of, parts};
 use super::type_names::TypeNames;
 
 /// A function as its head tells.
@@ -21,6 +21,10 @@ pub struct FoundFunction {
     pub result: NumberShape,
     /// The argument that it gives its result in, where it returns nothing.
     pub out: Option<OutArgument>,
+    /// The namespaces and types around it.
+    pub scope: Vec<String>,
+    /// Whether it needs an object of the type around it.
+    pub needs_object: bool,
 }
 
 /// An argument that a function gives its result in: `out float3 Out`.
@@ -41,6 +45,8 @@ pub struct Parameter {
     pub shape: NumberShape,
     /// The same as it is written.
     pub ty: String,
+    /// The value that the text gives it where a call gives none.
+    pub default: Option<String>,
 }
 
 /// A type as far as it matters here.
@@ -67,12 +73,23 @@ impl NumberShape {
 }
 
 impl FoundFunction {
+    /// Its name with what stands around it: `brdf::schlick`.
+    pub fn path(&self) -> String {
+        let around = self.scope.iter().filter(|name| !name.is_empty());
+        let around: String = around.map(|name| format!("{name}::")).collect();
+        around + &self.name
+    }
+
     /// Whether it can be one of reflectance: numbers in, numbers out, one of them the cosine.
     pub fn is_candidate(&self) -> bool {
         let known = |shape: &NumberShape| !matches!(shape, NumberShape::Other(_));
         let scalar = |param: &Parameter| param.shape == NumberShape::Scalar;
-        known(&self.result)
-            && self.params.iter().all(|param| known(&param.shape))
+        !self.needs_object
+            && known(&self.result)
+            && self
+                .params
+                .iter()
+                .all(|param| known(&param.shape) || param.default.is_some())
             && self.params.iter().any(scalar)
     }
 }
@@ -84,9 +101,10 @@ pub fn bodies<'t, 'a>(
     language: Language,
 ) -> impl Iterator<Item = (FoundFunction, &'t [Token<'a>])> {
     let parts = parts(tokens, names, language).into_iter();
-    parts.filter_map(move |one| match one.kind {
-        PartKind::Function(found) => Some((found, &tokens[one.head_end..one.end])),
-        _ => None,
+    parts.flat_map(move |one| {
+        let body = &tokens[one.head_end..one.end];
+        let found = functions_of(&one, tokens, names, language).into_iter();
+        found.map(move |found| (found, body))
     })
 }
 
@@ -139,6 +157,8 @@ pub(super) fn function(head: &[Token], language: Language) -> Option<FoundFuncti
         params,
         result,
         out,
+        scope: Vec::new(),
+        needs_object: false,
     })
 }
 
@@ -213,6 +233,7 @@ fn wgsl_parameter(part: &[Token]) -> Parameter {
         name: name.to_owned(),
         shape: shape(&ty),
         ty,
+        default: None,
     }
 }
 
@@ -226,6 +247,8 @@ fn wgsl_result(after: &[Token]) -> NumberShape {
 /// `type name`, qualifiers before it, a meaning or a value behind it.
 fn c_parameter(part: &[Token]) -> Parameter {
     let end = part.iter().position(|t| [":", "="].contains(&t.text));
+    let equals = part.iter().position(|token| token.text == "=");
+    let default = equals.map(|equals| spaced(&part[equals + 1..]));
     let part = &part[..end.unwrap_or(part.len())];
     let name = part.iter().rposition(Token::is_word).unwrap_or(0);
     let has = |word: &str| part.iter().any(|token| token.text == word);
@@ -243,11 +266,25 @@ fn c_parameter(part: &[Token]) -> Parameter {
         name: part.get(name).map_or("", |token| token.text).to_owned(),
         shape: shape(&written),
         ty: written,
+        default,
     }
 }
 
+/// Words as they stand: a space where two would become one.
+fn spaced(tokens: &[Token]) -> String {
+    let mut all = String::new();
+    for (at, token) in tokens.iter().enumerate() {
+        let is_behind_word = at > 0 && tokens[at - 1].is_word();
+        if is_behind_word && token.is_word() {
+            all.push(' ');
+        }
+        all += token.text;
+    }
+    all
+}
+
 /// Words that say nothing of a type.
-const QUALIFIERS: [&str; 13] = [
+const QUALIFIERS: [&str; 18] = [
     "const",
     "in",
     "highp",
@@ -261,6 +298,11 @@ const QUALIFIERS: [&str; 13] = [
     "export",
     "nointerpolation",
     "linear",
+    "public",
+    "private",
+    "internal",
+    "constexpr",
+    "noinline",
 ];
 
 fn without_qualifiers(tokens: &[Token]) -> String {

@@ -8,7 +8,7 @@ use super::condition::definition;
 use super::hidden::{HiddenInput, UnreadFault};
 use super::inputs::{Initialised, Inputs};
 use super::language::{Language, bare};
-use super::parts::{Part, PartKind, parts};
+use super::parts::{Part, PartKind, functions_of, parts};
 use super::preprocess::{Condition, Define, Preprocessed};
 use super::reach::{MacroBodies, Reached, reached};
 use super::scan::FoundFunction;
@@ -21,6 +21,8 @@ pub struct Slice {
     pub before: String,
     /// The text.
     pub text: String,
+    /// The audited function's own text.
+    pub body: String,
     /// What it reads from outside and has no value for.
     pub hidden: Vec<HiddenInput>,
     /// What it reads from outside that has a value in the text.
@@ -65,11 +67,31 @@ impl<'a> SlicedText<'a> {
     /// Its functions in order.
     pub fn functions(&self) -> Vec<FoundFunction> {
         let tokens = tokens(&self.code);
-        let parts = parts(&tokens, &self.names, self.language).into_iter();
-        let functions = parts.filter_map(|part| match part.kind {
-            PartKind::Function(found) => Some(found),
+        let parts = parts(&tokens, &self.names, self.language);
+        let heads = parts.iter().filter_map(|part| match &part.kind {
+            PartKind::Prototype(head) => Some(head),
             _ => None,
         });
+        let heads: Vec<&FoundFunction> = heads.collect();
+        let functions = parts.iter();
+        let functions = functions
+            .flat_map(|part| functions_of(part, &tokens, &self.names, self.language))
+            .map(|mut found| {
+                // HLSL lets the head that stands before the function say its defaults.
+                let is_head = |head: &&&FoundFunction| {
+                    let types = |one: &FoundFunction| {
+                        let each = one.params.iter();
+                        each.map(|param| param.ty.clone()).collect::<Vec<_>>()
+                    };
+                    head.name == found.name && types(head) == types(&found)
+                };
+                if let Some(head) = heads.iter().find(is_head) {
+                    for (own, stated) in found.params.iter_mut().zip(&head.params) {
+                        own.default = own.default.take().or(stated.default.clone());
+                    }
+                }
+                found
+            });
         functions.collect()
     }
 
@@ -80,8 +102,11 @@ impl<'a> SlicedText<'a> {
     pub fn around(&self, function: &FoundFunction, given: &[&str]) -> Result<Slice, UnreadFault> {
         let words = tokens(&self.code);
         let parts = parts(&words, &self.names, self.language);
-        let is_it =
-            |part: &Part| matches!(&part.kind, PartKind::Function(found) if found == function);
+        let place = (function.line, function.column);
+        let is_it = |part: &Part| {
+            let mut inside = words[part.start..part.end].iter();
+            inside.any(|word| (word.line, word.column) == place)
+        };
         let Some(start) = parts.iter().position(is_it) else {
             return Ok(Slice::default());
         };
@@ -99,6 +124,11 @@ impl<'a> SlicedText<'a> {
             reached: &reached,
             given,
         };
+        let body: Vec<&str> = words[parts[start].start..parts[start].end]
+            .iter()
+            .map(|word| word.text)
+            .collect();
+        let body = body.join(" ");
         let numbers = inputs.numbers()?;
         let (pieces, initialised) = inputs.pieces(&numbers);
         let mut lines = lines_of(&reached, &parts, &words);
@@ -122,6 +152,7 @@ impl<'a> SlicedText<'a> {
             before: definitions(&used),
             half: half_word(&text, &self.names, self.language),
             text,
+            body,
             hidden: numbers,
             initialised,
             conditions: conditions.cloned().collect(),
@@ -247,7 +278,7 @@ fn half_word(text: &str, names: &TypeNames, language: Language) -> Option<String
     let found = tokens(&code);
     let found = names.replaced(&found);
     let is_half = |token: &&Token| match language {
-        Language::Wgsl => false,
+        Language::Wgsl | Language::Glsl => false,
         Language::Gles => ["mediump", "lowp"].contains(&token.text),
         Language::Hlsl | Language::Slang => {
             let kinds = ["half", "min16float", "min10float", "float16_t"];

@@ -177,7 +177,7 @@ fn c_storage(qualifiers: &[&str], language: Language) -> Storage {
         "inout",
         "extern",
     ];
-    if language == Language::Gles {
+    if language.is_glsl() {
         return match (inputs.iter().any(has), qualifiers.contains(&"const")) {
             (true, _) => Storage::Input,
             (_, true) => Storage::Constant,

@@ -16,7 +16,12 @@ pub fn audit_text(row: &AuditRow) -> String {
 }
 
 fn lines(row: &AuditRow) -> Vec<(&'static str, String)> {
-    let mut lines = vec![("cosine", format!("`{}`", row.cosine))];
+    let taken = row.cosine_words.as_ref();
+    let taken = taken.map_or(String::new(), |words| format!(", taken as {words}"));
+    let mut lines = vec![("cosine", format!("`{}`{taken}", row.cosine))];
+    if let Some(words) = &row.language_remark {
+        lines.push(("run as", words.clone()));
+    }
     if !row.conditions.is_empty() {
         lines.push(("conditions", conditions(&row.conditions)));
     }

@@ -69,7 +69,7 @@ void main() {
 ",
 };
 
-static BATCH: Batch = Batch {
+pub(super) static BATCH: Batch = Batch {
     input: "in highp vec4 fg_{at};\n",
     place: "fg_{at}",
     matrix: "{type}({columns})",

@@ -4,7 +4,7 @@ use crate::ir::Op;
 use crate::num::Precision;
 
 use super::spelling::{C_FAMILY, Form, Spelling};
-use super::target::{Finish, Frame, GLSLANG, HalfText, Page, Stack, Target, Validator};
+use super::target::{Finish, Frame, GLSLANG, HalfText, Harness, Page, Stack, Target, Validator};
 
 /// The record of this target.
 pub static TARGET: Target = Target {
@@ -32,6 +32,35 @@ pub static TARGET: Target = Target {
     validators: VALIDATORS,
     nests_comments: false,
     stack: Stack::None,
+};
+
+/// What runs a user's GLSL of the desktop, once glslang has made SPIR-V of it.
+pub static DESKTOP: Harness = Harness {
+    before: "#version 450\n",
+    member: "    layout(offset = {offset}) {type} {name};\n",
+    block: "layout(std140, set = 0, binding = 0) uniform FgParameters\n{\n{members}} fg_parameters;\n",
+    argument: "fg_parameters.{name}",
+    uniform: "{name}",
+    texture: "",
+    texture_argument: "",
+    cosines: "",
+    count: "",
+    cosine: "fg_cosines[gl_GlobalInvocationID.x]",
+    splat: "vec3({value})",
+    converts: false,
+    batch: &super::gles::BATCH,
+    after: "
+{block}layout(std430, set = 0, binding = 1) readonly buffer FgCosines { float fg_cosines[]; };
+layout(std430, set = 0, binding = 2) buffer FgReflectances { vec4 fg_reflectances[]; };
+layout(local_size_x = 64) in;
+void main()
+{
+    if (gl_GlobalInvocationID.x < uint(fg_cosines.length()))
+    {
+        fg_reflectances[gl_GlobalInvocationID.x] = vec4({value}, 1.0);
+    }
+}
+",
 };
 
 const VALIDATORS: &[Validator] = &[Validator {

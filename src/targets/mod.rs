@@ -9,6 +9,7 @@ mod spelling;
 mod target;
 
 pub use gles::TARGET as GLES;
+pub use glsl::{DESKTOP, TARGET as GLSL};
 pub use hlsl::{DXC, TARGET as HLSL};
 pub use spelling::{Form, Spelling, precedence};
 pub use target::{

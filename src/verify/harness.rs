@@ -4,7 +4,7 @@
 use crate::emit::{Emitted, uniform_offsets};
 use crate::ir::{Param, Ty};
 use crate::num::Precision;
-use crate::targets::{Harness, STREAM, Target, WGSL};
+use crate::targets::{DESKTOP, GLSL, Harness, STREAM, Target, WGSL};
 
 use super::naga_translation::Gles;
 
@@ -73,6 +73,11 @@ impl Call<'_> {
 pub fn program(target: &Target, file: &str, call: &Call) -> Option<String> {
     let harness = target.stack.harness()?;
     Some(program_in(harness, target, file, call))
+}
+
+/// The same around GLSL of the desktop, which no target runs as text.
+pub fn desktop(file: &str, call: &Call) -> String {
+    program_in(&DESKTOP, &GLSL, file, call)
 }
 
 /// The same around WGSL where the cosines are all f32 from a first one on.

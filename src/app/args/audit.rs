@@ -26,7 +26,7 @@ use super::{CheckReportFlags, GamutFlags, MaterialFlags, MediumFlags, PictureFla
     after_help = "Examples:\n  fresnel-gen audit mine.glsl --function fresnel --material gold\n  fresnel-gen audit mine.hlsl --function schlick --arg f0=1.03,.73,.36 --material gold --json -\n  fresnel-gen audit mine.wgsl --material gold,platinum --out-dir charts\n  fresnel-gen audit mine.slang --arg ior=1/eta --material water,diamond --max-error 0.001\n\nThe function takes the cosine and whatever --arg binds; arguments that are not bound and have names of ours (eta, n, k, f0, f82, lambda, c0 ...) or of engines (ior, extinction, SpecularColor, edgeTint ...) have the material's values. A function of single numbers is called once a channel where they differ. It runs in a process of its own, within --limit. Exit codes: 0 done, 1 a compiler refuses it, it does not end, a result is no reflectance, or its error is above --max-error; 2 wrong input, 3 something is missing here. Being dominated is no finding."
 )]
 pub struct AuditFlags {
-    /// The file: .wgsl, .glsl (as GLSL ES 3.00), .hlsl or .slang
+    /// The file: .wgsl, .glsl (as GLSL ES 3.00, or of the desktop where it says so), .hlsl or .slang
     #[arg(required_unless_present = "worker")]
     pub file: Option<String>,
     /// The function; a file that holds one needs no name, and NAME:LINE tells two of one name apart
@@ -39,7 +39,7 @@ pub struct AuditFlags {
     #[cfg(feature = "gpu")]
     #[arg(long, value_name = "NAME", value_parser = one_of("language", Language::NAMED, |(name, _)| name))]
     pub language: Option<(&'static str, Language)>,
-    /// The value of an argument, or of a uniform: name=number, name=number,number,number, or a quantity of the material, as in ior=1/eta
+    /// The value of an argument, or of a uniform: name=number, name=number,number,number, a quantity of the material, as in ior=1/eta, or what it is of the angle: cos, 1-cos, cos^2, sin, sin^2, angle, degrees
     #[arg(long, value_name = "NAME=VALUE")]
     pub arg: Vec<String>,
     /// The largest error that is no finding [default: none is]

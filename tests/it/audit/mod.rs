@@ -3,6 +3,7 @@
 mod arguments;
 mod charts;
 mod compared;
+mod conventions;
 pub mod published;
 mod ranked;
 pub mod thesis;
