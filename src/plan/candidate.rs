@@ -1,5 +1,7 @@
 //! The functions among which a plan chooses for a material: each method in each form whose cost is known.
 
+use std::sync::Arc;
+
 use crate::cost::{
     CostBasis, CostRecord, Family, KnownCost, known_cost, known_library_cost, records,
 };
@@ -40,8 +42,8 @@ pub struct Candidate {
     pub cost: f64,
     /// How that is known.
     pub basis: CostBasis,
-    /// Its values at [`step_cosines`].
-    pub values: Vec<[f64; 3]>,
+    /// Its values at [`step_cosines`]; forms of a method share them.
+    pub values: Arc<[[f64; 3]]>,
 }
 
 impl Candidate {
@@ -93,7 +95,7 @@ pub fn candidates(
         let method = methods[i];
         let function =
             specialised_graph(method, subject, prices.precision, &prices.bounds)?.function;
-        let values = values(&function, subject, prices.precision);
+        let values: Arc<[_]> = values(&function, subject, prices.precision).into();
         let forms = [
             FunctionForm::Specialised,
             FunctionForm::Library,
@@ -106,7 +108,7 @@ pub fn candidates(
             let KnownCost { cost, basis } = prices.cost(method, form, &function)?;
             let values = match form {
                 FunctionForm::Scalar => values.iter().map(|value| [value[1]; 3]).collect(),
-                _ => values.clone(),
+                _ => Arc::clone(&values),
             };
             let found = Candidate {
                 method,

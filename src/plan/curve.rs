@@ -149,25 +149,25 @@ impl RoughRule {
 
 /// A function's values over all angles, and its means over rough surfaces where pixels look them up.
 #[derive(Clone, Debug)]
-pub struct Curve {
-    mirror: Vec<[f64; 3]>,
+pub struct Curve<'a> {
+    mirror: &'a [[f64; 3]],
     /// By [`entry`]; nothing stands where no pixel looks. Empty where no surface is rough.
     rough: Vec<[f64; 3]>,
 }
 
-impl Curve {
+impl<'a> Curve<'a> {
     /// From values at [`step_cosines`], for pixels at these places.
-    pub fn new(mirror: Vec<[f64; 3]>, places: &[PixelPlace], rule: &RoughRule) -> Curve {
-        curves(&[&mirror], places, rule).remove(0)
+    pub fn new(mirror: &'a [[f64; 3]], places: &[PixelPlace], rule: &RoughRule) -> Curve<'a> {
+        curves(&[mirror], places, rule).remove(0)
     }
 
     /// The value of a pixel.
     pub fn at(&self, place: &PixelPlace) -> [f64; 3] {
         let Some((rough, level, share)) = place.rough else {
-            return place.mirror.of_table(&self.mirror);
+            return place.mirror.of_table(self.mirror);
         };
         let value = |level: usize| match level {
-            0 => place.mirror.of_table(&self.mirror),
+            0 => place.mirror.of_table(self.mirror),
             level => rough.of_table(&self.rough[entry(level, 0)..][..ROW]),
         };
         let [one, next] = [value(level), value(level + 1)];
@@ -177,7 +177,11 @@ impl Curve {
 
 /// The curves of several functions, each from its values at [`step_cosines`]. A mean is taken once of all functions, and of channels
 /// that are equal only once: half vectors are many.
-pub fn curves(functions: &[&[[f64; 3]]], places: &[PixelPlace], rule: &RoughRule) -> Vec<Curve> {
+pub fn curves<'a>(
+    functions: &[&'a [[f64; 3]]],
+    places: &[PixelPlace],
+    rule: &RoughRule,
+) -> Vec<Curve<'a>> {
     let needed: BTreeSet<usize> = places.iter().flat_map(PixelPlace::entries).collect();
     let mut rough = vec![Vec::new(); functions.len()];
     if !needed.is_empty() {
@@ -189,10 +193,7 @@ pub fn curves(functions: &[&[[f64; 3]]], places: &[PixelPlace], rule: &RoughRule
             }
         }
     }
-    let curve = |(values, rough): (&&[[f64; 3]], _)| Curve {
-        mirror: values.to_vec(),
-        rough,
-    };
+    let curve = |(mirror, rough): (&&'a [[f64; 3]], _)| Curve { mirror, rough };
     functions.iter().zip(rough).map(curve).collect()
 }
 
@@ -281,14 +282,14 @@ mod tests {
         [0.0, 0.04, 0.5].map(|f0| f0 + (1.0 - f0) * x.powi(5))
     }
 
-    fn curve(places: &[PixelPlace]) -> Curve {
-        let values = step_cosines().into_iter().map(schlick).collect();
-        Curve::new(values, places, &RoughRule::new())
+    fn values() -> Vec<[f64; 3]> {
+        step_cosines().into_iter().map(schlick).collect()
     }
 
     #[test]
     fn a_table_is_the_function() {
-        let curve = curve(&[]);
+        let values = values();
+        let curve = Curve::new(&values, &[], &RoughRule::new());
         for i in 0..=1000 {
             let c = f64::from(i) / 1000.0;
             let got = curve.at(&PixelPlace::at(c, 0.0));
@@ -303,7 +304,8 @@ mod tests {
             .iter()
             .flat_map(|r| [0.0, 0.1, 0.5, 0.9, 1.0].map(|c| PixelPlace::at(c, *r)))
             .collect();
-        let curve = curve(&places);
+        let values = values();
+        let curve = Curve::new(&values, &places, &RoughRule::new());
         let rule = Ggx::default();
         for (i, place) in places.iter().enumerate() {
             let roughness = [0.05, 0.3, 0.5, 0.77, 1.0][i / 5];
@@ -363,7 +365,7 @@ mod tests {
         let other: Vec<[f64; 3]> = one.iter().map(|[r, g, b]| [*b, *r, g * g]).collect();
         let rule = RoughRule::new();
         let both = curves(&[&one, &other], &places, &rule);
-        for (values, curve) in [one, other].into_iter().zip(both) {
+        for (values, curve) in [&one, &other].into_iter().zip(both) {
             let alone = Curve::new(values, &places, &RoughRule::new());
             for place in &places {
                 assert_eq!(curve.at(place), alone.at(place));

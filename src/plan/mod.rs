@@ -17,6 +17,7 @@ mod drawn;
 mod gbuffer;
 mod gltf;
 mod ids;
+mod in_turn;
 mod metric;
 mod picture_error;
 mod pixels;

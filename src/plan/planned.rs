@@ -1,14 +1,14 @@
 //! The plan: candidates of every material judged in every frame, and the choice among them.
 
 use crate::emit;
-use crate::num::in_parallel;
 use crate::reference::MaterialInMedium;
 
 use super::candidate::{Candidate, Prices, candidates};
 use super::choice::{Choosable, choose, within};
-use super::curve::{Curve, PixelPlace, RoughRule, curves, step_cosines};
+use super::curve::{RoughRule, step_cosines};
+use super::in_turn::Judge;
 use super::metric::Screen;
-use super::picture_error::{JudgedPixels, PERCENTILE_FROM};
+use super::picture_error::PERCENTILE_FROM;
 use super::pixels::{FramePixels, ScenePixel};
 use super::request::PlanRequest;
 
@@ -39,7 +39,7 @@ pub struct PlannedMaterial {
 pub struct JudgedCandidate {
     /// The function.
     pub candidate: Candidate,
-    /// The error in the frame where it is worst.
+    /// The error in the frame where it is worst; infinite where something that costs less is within the budget, and nobody looked.
     pub error: f64,
     /// That frame, from 0.
     pub worst_frame: usize,
@@ -112,10 +112,12 @@ pub fn plan<E>(
     frame: &mut dyn FnMut(usize) -> Result<FramePixels, E>,
     progress: &mut dyn FnMut(u64, u64),
 ) -> Result<Vec<JudgedMaterial>, PlanFault<E>> {
-    let screen = Screen::new(request.metric, request.display, request.space);
-    let exposures = request.exposures();
+    let judge = Judge {
+        rule: RoughRule::new(),
+        screen: Screen::new(request.metric, request.display, request.space),
+        exposures: request.exposures(),
+    };
     let prices = Prices::of(request);
-    let rule = RoughRule::new();
     let mut seen = materials
         .into_iter()
         .map(|material| Seen::new(request, &prices, material).map_err(PlanFault::Function))
@@ -129,13 +131,13 @@ pub fn plan<E>(
     for index in 0..frames {
         let pixels = frame(index).map_err(PlanFault::Frame)?;
         for (seen, pixels) in seen.iter_mut().zip(&pixels.of_material) {
-            seen.enter(index, pixels, &rule, &screen, &exposures);
+            seen.enter(request, [index, frames], pixels, &judge);
         }
         progress(index as u64 + 1, frames as u64);
     }
     let mut judged: Vec<JudgedMaterial> = seen
         .into_iter()
-        .map(|seen| seen.judged(request, &rule, &screen, &exposures))
+        .map(|seen| seen.judged(request, &judge))
         .collect();
     let (places, functions) = choosable(&judged, request.budget, frames);
     let choice = choose(&functions, request.price);
@@ -184,14 +186,13 @@ impl Seen {
         })
     }
 
-    /// Enters the material's pixels of a frame.
+    /// Enters the material's pixels of a frame, the so-manieth of so many.
     fn enter(
         &mut self,
-        index: usize,
+        request: &PlanRequest,
+        [index, frames]: [usize; 2],
         pixels: &[ScenePixel],
-        rule: &RoughRule,
-        screen: &Screen,
-        exposures: &[f64],
+        judge: &Judge,
     ) {
         if pixels.is_empty() {
             return;
@@ -203,8 +204,17 @@ impl Seen {
             self.judged.angles[degree_of(pixel)] += f64::from(pixel.coverage);
             self.sample.enter(pixel);
         }
+        let is_by_angles = self.most < request.min_pixels;
+        // Errors at every angle take the place of these, which tell only the worst of several frames.
+        if is_by_angles && frames == 1 {
+            return;
+        }
         let judged = &mut self.judged;
-        let errors = errors(judged, pixels, rule, screen, exposures, |pixels, curve| {
+        let is_last = index + 1 == frames && !is_by_angles;
+        let is_enough = |found: &JudgedCandidate, error: f64| {
+            is_last && request.is_enough(error.max(found.error))
+        };
+        let errors = judge.errors(judged, pixels, &is_enough, |pixels, curve| {
             pixels.error(curve)
         });
         for (found, error) in judged.candidates.iter_mut().zip(errors) {
@@ -215,13 +225,7 @@ impl Seen {
     }
 
     /// With what is left to say when all frames are seen.
-    fn judged(
-        mut self,
-        request: &PlanRequest,
-        rule: &RoughRule,
-        screen: &Screen,
-        exposures: &[f64],
-    ) -> JudgedMaterial {
+    fn judged(mut self, request: &PlanRequest, judge: &Judge) -> JudgedMaterial {
         self.judged.judgement = match self.most {
             most if most < request.min_pixels => Judgement::EveryAngle,
             most if most < PERCENTILE_FROM => Judgement::Largest,
@@ -229,22 +233,31 @@ impl Seen {
         };
         if self.judged.judgement == Judgement::EveryAngle {
             let pixels = every_angle(&self.sample.pixels);
-            let errors = errors(
-                &self.judged,
-                &pixels,
-                rule,
-                screen,
-                exposures,
-                |pixels, curve| pixels.largest(curve),
-            );
+            let is_enough = |_: &JudgedCandidate, error: f64| request.is_enough(error);
+            let errors = judge.errors(&self.judged, &pixels, &is_enough, |pixels, curve| {
+                pixels.largest(curve)
+            });
             for (found, error) in self.judged.candidates.iter_mut().zip(errors) {
                 found.error = error;
             }
         }
         for found in &mut self.judged.candidates {
-            found.error = (found.error * ERROR_PARTS).round() / ERROR_PARTS;
+            found.error = told(found.error);
         }
         self.judged
+    }
+}
+
+/// An error as it is compared and told.
+fn told(error: f64) -> f64 {
+    (error * ERROR_PARTS).round() / ERROR_PARTS
+}
+
+impl PlanRequest {
+    /// Whether a candidate with this error leaves nothing to look for in those that cost more. Where functions have a price, one that
+    /// costs more may be shared.
+    fn is_enough(&self, error: f64) -> bool {
+        self.price == 0.0 && told(error) <= self.budget
     }
 }
 
@@ -306,42 +319,6 @@ fn every_angle(pixels: &[ScenePixel]) -> Vec<ScenePixel> {
         .collect()
 }
 
-/// The errors of candidates in some pixels, by this measure. Candidates with the same values, as a method's forms have them, err alike.
-fn errors(
-    judged: &JudgedMaterial,
-    pixels: &[ScenePixel],
-    rule: &RoughRule,
-    screen: &Screen,
-    exposures: &[f64],
-    measure: impl Fn(&JudgedPixels, &Curve) -> f64 + Sync,
-) -> Vec<f64> {
-    let places: Vec<PixelPlace> = pixels.iter().map(PixelPlace::of).collect();
-    let (distinct, place_of) = distinct_values(&judged.candidates);
-    let truth = judged.truth.as_slice();
-    let functions: Vec<&[[f64; 3]]> = std::iter::once(truth).chain(distinct).collect();
-    let curves = curves(&functions, &places, rule);
-    let (truth, curves) = curves.split_first().expect("the truth is one");
-    let pixels = JudgedPixels::new(pixels, &places, truth, screen, exposures);
-    let error = |i: usize| measure(&pixels, &curves[i]);
-    let errors = in_parallel(curves.len(), &error, &mut |_, _| {});
-    place_of.iter().map(|place| errors[*place]).collect()
-}
-
-/// The values of candidates, each once, and for each candidate its place among them.
-fn distinct_values(candidates: &[JudgedCandidate]) -> (Vec<&[[f64; 3]]>, Vec<usize>) {
-    let mut distinct: Vec<&[[f64; 3]]> = Vec::new();
-    let mut places = Vec::new();
-    for one in candidates {
-        let values = one.candidate.values.as_slice();
-        let known = distinct.iter().position(|known| *known == values);
-        places.push(known.unwrap_or(distinct.len()));
-        if known.is_none() {
-            distinct.push(values);
-        }
-    }
-    (distinct, places)
-}
-
 /// Of each material the places of the candidates within the budget, and what they cost.
 fn choosable(
     judged: &[JudgedMaterial],
@@ -380,6 +357,7 @@ fn place_of(names: &mut Vec<String>, name: &str) -> usize {
 
 #[cfg(test)]
 mod tests {
+    use super::super::in_turn::distinct_values;
     use super::super::metric::Metric;
     use super::super::request::PlanTruth;
     use super::*;
@@ -477,7 +455,7 @@ mod tests {
         let candidates = &seen.judged.candidates;
         let (distinct, places) = distinct_values(candidates);
         for (one, place) in candidates.iter().zip(&places) {
-            assert_eq!(one.candidate.values, distinct[*place]);
+            assert_eq!(*one.candidate.values, *distinct[*place]);
         }
         let methods: std::collections::BTreeSet<&str> = candidates
             .iter()
@@ -498,5 +476,40 @@ mod tests {
         let dim = judged(&request(1.0), sphere(512, [0.05, 0.04, 0.0275]));
         assert!((error(&dim, "schlick_spherical_gaussian") - 0.61).abs() < 0.01);
         assert_eq!(dim.chosen().candidate.name(), "schlick_spherical_gaussian");
+    }
+
+    /// What costs more than the cheapest within the budget is not judged, and nothing that is told changes. A price so small that it
+    /// changes no sum has all of them judged.
+    #[test]
+    fn what_cannot_be_chosen_is_not_judged() {
+        let few = || {
+            let mut frame = FramePixels::new([64, 64], 1);
+            let all = sphere(64, [1.0; 3]).of_material.remove(0);
+            let some = all.into_iter().step_by(60).enumerate();
+            frame.of_material[0] = some
+                .map(|(i, pixel)| ScenePixel {
+                    roughness: i as f32 / 60.0,
+                    ..pixel
+                })
+                .collect();
+            frame
+        };
+        for frame in [few(), sphere(128, [1.0; 3])] {
+            for budget in [0.05, 1.0, 1e-9] {
+                let quick = judged(&request(budget), frame.clone());
+                let all = PlanRequest {
+                    price: f64::MIN_POSITIVE,
+                    ..request(budget)
+                };
+                let whole = judged(&all, frame.clone());
+                let count = |judged: &JudgedMaterial| {
+                    let all = judged.candidates.iter();
+                    all.filter(|one| one.error.is_finite()).count()
+                };
+                assert_eq!(count(&whole), whole.candidates.len());
+                assert!(budget != 1.0 || count(&quick) < count(&whole));
+                assert_eq!(quick.row(&all, 1), whole.row(&all, 1), "{budget}");
+            }
+        }
     }
 }

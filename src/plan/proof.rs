@@ -209,7 +209,7 @@ struct Picture<'a> {
     screen: Screen,
     exposures: Vec<f64>,
     places: Vec<PixelPlace>,
-    truth: Curve,
+    truth: Curve<'a>,
     /// The reflectance of every pixel, as the device computed it.
     got: Vec<[f64; 3]>,
 }
@@ -224,7 +224,8 @@ impl<'a> Picture<'a> {
         let places: Vec<PixelPlace> = case.pixels.iter().map(PixelPlace::of).collect();
         let rule = RoughRule::new();
         let wide = |value: &[f32; 3]| value.map(f64::from);
-        let curve = Curve::new(steps.iter().map(wide).collect(), &places, &rule);
+        let steps: Vec<[f64; 3]> = steps.iter().map(wide).collect();
+        let curve = Curve::new(&steps, &places, &rule);
         // A mirror takes the number of its own cosine, a rough surface the mean over half vectors.
         let value = |(i, place): (usize, &PixelPlace)| match case.pixels[i].roughness > 0.0 {
             true => curve.at(place),
@@ -235,7 +236,7 @@ impl<'a> Picture<'a> {
             screen: Screen::new(request.metric, request.display, request.space),
             exposures: request.exposures(),
             got: places.iter().enumerate().map(value).collect(),
-            truth: Curve::new(case.judged.truth.clone(), &places, &rule),
+            truth: Curve::new(&case.judged.truth, &places, &rule),
             places,
         }
     }

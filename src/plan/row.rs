@@ -323,6 +323,11 @@ fn shared_place(judged: &[JudgedMaterial], candidate: &Candidate) -> usize {
     judged.iter().position(takes).unwrap_or(0)
 }
 
+/// Whether it is the library function that a plan is held against.
+pub(super) fn is_shared(candidate: &Candidate) -> bool {
+    candidate.method.name == SHARED && candidate.form == FunctionForm::Library
+}
+
 impl SharedFunction {
     fn of(
         judged: &[JudgedMaterial],
@@ -335,10 +340,8 @@ impl SharedFunction {
             error: 0.0,
         };
         for material in judged {
-            let is_it = |one: &&JudgedCandidate| {
-                one.candidate.method.name == SHARED && one.candidate.form == FunctionForm::Library
-            };
-            let one = material.candidates.iter().find(is_it)?;
+            let mut all = material.candidates.iter();
+            let one = all.find(|one| is_shared(&one.candidate))?;
             shared.cost += one.candidate.cost * pixels(material);
             shared.error = shared.error.max(one.error);
         }

@@ -84,7 +84,7 @@ struct SeenPixels<'a> {
 impl SeenPixels<'_> {
     /// What the screen shows of each by a function with these values.
     fn shown(&self, values: &[[f64; 3]]) -> Vec<DVec3> {
-        let curve = Curve::new(values.to_vec(), &self.places, &self.rule);
+        let curve = Curve::new(values, &self.places, &self.rule);
         let each = self.pixels.iter().zip(&self.places);
         each.map(|(pixel, place)| self.screen.shown(radiance(pixel, curve.at(place)), 0.0))
             .collect()
