@@ -261,9 +261,8 @@ fn is_foreign(path: &Path) -> bool {
         return false;
     };
     let is_ours = |line: &str| is_temporary(line) && check_path(line).is_ok();
-    let is_list = |bytes: Vec<u8>| {
-        std::str::from_utf8(&bytes).is_ok_and(|text| text.lines().all(is_ours))
-    };
+    let is_list =
+        |bytes: Vec<u8>| std::str::from_utf8(&bytes).is_ok_and(|text| text.lines().all(is_ours));
     !found.is_file()
         || has_other_names(&found)
         || found.len() > MOST_BYTES

@@ -319,8 +319,7 @@ fn remove(out_dir: &Path, orphan: &Entry) -> Result<bool, Error> {
 fn remove_leftover(out_dir: &Path, name: &str) {
     let path = out_dir.join(name);
     // A lock can be forged: folders are removed only above a file that was there, and never beyond a link.
-    let is_inside =
-        folder::is_plain_file(&path) && folder::linked_folder(out_dir, name).is_none();
+    let is_inside = folder::is_plain_file(&path) && folder::linked_folder(out_dir, name).is_none();
     if is_inside && fs::remove_file(&path).is_ok() {
         remove_empty_folders(out_dir, &path);
     }

@@ -55,7 +55,10 @@ fn sheet(material: &EngineMaterial) -> Sheet {
     let is_dielectric = material.body != Body::Conductor;
     Sheet {
         nodes: vec![node],
-        remarks: is_dielectric.then(|| remark.to_owned()).into_iter().collect(),
+        remarks: is_dielectric
+            .then(|| remark.to_owned())
+            .into_iter()
+            .collect(),
     }
 }
 

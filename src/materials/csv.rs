@@ -160,7 +160,10 @@ fn unit(name: &str) -> Option<Unit> {
 fn quantity(name: &str) -> &str {
     match name {
         "refractive_index" | "refractive_index_n" | "n_refractive_index" | "index" => "n",
-        "extinction_coefficient" | "extinction_coefficient_k" | "k_extinction_coefficient" => "k",
+        "extinction_coefficient"
+        | "extinction_coefficient_k"
+        | "k_extinction_coefficient"
+        | "kappa" => "k",
         other => other,
     }
 }
@@ -203,7 +206,14 @@ struct Line<'a> {
 impl Line<'_> {
     fn no_header(&self) -> FileFault {
         let found = clipped(self.text.trim());
-        let what = format!("`{found}` stands before any header, which names the unit; {ALLOWED}");
+        let is_row = self
+            .text
+            .trim_start_matches(['"', ' ', '+', '-', '.'])
+            .starts_with(|c: char| c.is_ascii_digit());
+        let what = match is_row {
+            true => format!("`{found}` stands before any header, which names the unit; {ALLOWED}"),
+            false => format!("`{found}` is no header that is understood; {ALLOWED}"),
+        };
         self.fault(0, what)
     }
 
@@ -288,7 +298,7 @@ mod tests {
             "wavelength,n\n400,1.5\n",
             1,
             1,
-            "`wavelength,n` stands before any header",
+            "`wavelength,n` is no header that is understood; allowed are",
         );
         refused("ev,n\n4,1.5\n", 1, 1, "before any header");
         refused("nm,n\n", 1, 1, "has no rows");

@@ -202,11 +202,16 @@ fn three_in_words([red, green, blue]: [f64; 3]) -> String {
     format!("reflectance at {red}, {green} and {blue} nm for red, green and blue")
 }
 
+/// Of a measurement that lies wholly outside: none of its values says how the material looks.
+const UNSEEN: &str = "; it holds nothing of what is seen, so take another measurement";
+
 /// What to do about a material, or a medium, that is not known everywhere: nothing where the fault lies elsewhere.
 fn advice(extrapolated: (Option<f64>, Option<f64>), three: bool) -> String {
     let hold = "to hold the last value beyond what was measured, add --extrapolate hold";
     match (extrapolated, three) {
         ((None, None), _) => String::new(),
+        ((Some(from), _), _) if from >= LAST_NM => UNSEEN.to_owned(),
+        ((_, Some(to)), _) if to <= FIRST_NM => UNSEEN.to_owned(),
         (_, true) => format!("; {hold}"),
         (_, false) => format!(
             ". The whole spectrum means {FIRST_NM} to {LAST_NM} nm; {hold}; to take three wavelengths instead, add \

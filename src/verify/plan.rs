@@ -19,6 +19,8 @@ pub struct VerifyPlan {
     pub others: Vec<MaterialInMedium>,
     /// Why some are left out.
     pub left_out: Vec<String>,
+    /// Files of functions that the folder's manifest lists and a run that names nothing leaves out: other materials', methods', precisions'.
+    pub unasked: Vec<String>,
     /// The files that are read or listed in the folder: no report may take the place of one.
     pub places: Vec<PathBuf>,
 }

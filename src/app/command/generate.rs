@@ -275,14 +275,16 @@ fn written(
             counts.written, counts.unchanged, counts.removed
         ));
         if plan.manifest.old.is_none() {
-            output.remarks.extend(first_steps(generated, out_dir));
+            output
+                .remarks
+                .extend(first_steps(flags, generated, out_dir));
         }
     }
     Ok(output)
 }
 
 /// After the first run in a folder: one of the functions, and what to do next.
-fn first_steps<'g>(generated: &'g Generated, out_dir: &Path) -> Vec<String> {
+fn first_steps<'g>(flags: &GenerateFlags, generated: &'g Generated, out_dir: &Path) -> Vec<String> {
     let first = |artifact: &'g Artifact| Some((artifact, artifact.detail.functions().first()?));
     let mut functions = generated.artifacts.iter().filter_map(first);
     let of_material = functions
@@ -298,11 +300,11 @@ fn first_steps<'g>(generated: &'g Generated, out_dir: &Path) -> Vec<String> {
             crate::foreign::path(&file),
             function.signature
         ),
-        match cfg!(feature = "gpu") {
-            true => {
-                "next: use it; `fresnel-gen verify` with the same flags runs it on this machine"
-            }
-            false => "next: use it",
+        // What chose the function is no flag of `verify`.
+        match (cfg!(feature = "gpu"), flags.plan.is_some() || flags.budget.is_some()) {
+            (true, false) => "next: use it; `fresnel-gen verify` with the same flags, but without --header, runs it on this machine",
+            (true, true) => "next: use it; `fresnel-gen verify` with its --target, --material and --method runs it on this machine",
+            (false, _) => "next: use it",
         }
         .to_owned(),
     ]

@@ -5,9 +5,10 @@ use std::path::Path;
 use crate::app::args::ImportFlags;
 use crate::app::error::Error;
 use crate::app::fault::RequestFault;
+use crate::app::folder;
 use crate::app::source::read;
 use crate::app::write::write_file;
-use crate::foreign::one_line;
+use crate::foreign::{self, one_line};
 use crate::materials::{Material, name_fault, page};
 use crate::methods;
 use crate::spectra::{FIRST_NM, LAST_NM, OBSERVED_NM};
@@ -63,6 +64,16 @@ pub fn run(flags: &ImportFlags, json: Option<&Path>) -> Result<Output, Error> {
     }
     let text = match file {
         Some(file) => {
+            // It is there to be edited: what somebody wrote into it is not in the page.
+            if folder::is_plain_file(file)
+                && folder::read(file)?.is_some_and(|old| old != toml.as_bytes())
+            {
+                let what = format!(
+                    "{} is there, and is not what this page comes to; remove it, or choose another -o",
+                    foreign::path(&file)
+                );
+                return Err(Error::Usage { what });
+            }
             write_file(file, toml.as_bytes())?;
             String::new()
         }

@@ -8,11 +8,13 @@ use serde::Serialize;
 use crate::app::args::{CheckReportFlags, VerifyFlags};
 use crate::app::error::Error;
 use crate::app::fault::RequestFault;
+use crate::app::manifest;
 use crate::app::merge::Whole;
 use crate::app::request::Request;
 use crate::app::shard::{VARIABLES, shard_of};
 use crate::app::verify::plan_of_request;
 use crate::app::write::OutputFile;
+use crate::foreign::one_line;
 use crate::gpu::Wanted;
 use crate::process::{Inbox, Pool};
 use crate::report::Report;
@@ -160,7 +162,32 @@ fn reported(
         .iter()
         .map(|why| format!("left out: {}", crate::foreign::one_line(&why.to_string())));
     output.remarks.splice(0..0, left_out);
+    if !plan.unasked.is_empty() {
+        output.remarks.push(unasked_words(&plan.unasked));
+        if flags.require_all && output.code == 0 {
+            output.code = 3;
+        }
+    }
     Ok(output)
+}
+
+/// What is said of files that the run leaves out.
+fn unasked_words(files: &[String]) -> String {
+    const NAMED: usize = 3;
+    let names: Vec<String> = files
+        .iter()
+        .take(NAMED)
+        .map(|file| one_line(file))
+        .collect();
+    let more = match files.len().saturating_sub(NAMED) {
+        0 => String::new(),
+        more => format!(" and {more} more"),
+    };
+    format!(
+        "not run: {}{more}, which {} lists: name what they hold, with --material, --method, --effect or --precision",
+        names.join(", "),
+        manifest::FILE
+    )
 }
 
 /// The report of a shard, and how it ends.

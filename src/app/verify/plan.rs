@@ -47,11 +47,18 @@ pub fn plan_of_request(request: &Request, folder: &Path) -> Result<VerifyPlan, E
     } else {
         Vec::new()
     };
-    let pages = files.iter().flat_map(|file| &file.pages);
+    let pages: BTreeSet<&str> = (files.iter().flat_map(|file| &file.pages))
+        .map(|page| page.path.as_str())
+        .collect();
     let mut places = shipped.files();
-    places.extend(pages.map(|page| folder.join(&page.path)));
+    places.extend(pages.iter().map(|page| folder.join(page)));
+    let unasked = match request.names_nothing() {
+        true => shipped.others(&request.targets, &pages),
+        false => Vec::new(),
+    };
     Ok(VerifyPlan {
         places,
+        unasked,
         files,
         others,
         subjects: meant.subjects,

@@ -1,5 +1,6 @@
 //! A file as it lies in the folder, against what would be written today and against what the manifest says of it.
 
+use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
 use crate::app::error::Error;
@@ -69,6 +70,24 @@ impl Folder<'_> {
             .flat_map(|(manifest, _)| &manifest.files);
         let listed = listed.map(|entry| self.path.join(&entry.file));
         listed.chain([self.path.join(manifest::FILE)]).collect()
+    }
+
+    /// The files of functions that the manifest lists for these targets, or for any where none is named, besides these pages.
+    pub fn others(&self, targets: &[String], pages: &BTreeSet<&str>) -> Vec<String> {
+        let listed = self
+            .manifest
+            .iter()
+            .flat_map(|(manifest, _)| &manifest.files);
+        let is_wanted = |target: &str| {
+            targets::find(target).is_some()
+                && (targets.is_empty() || targets.iter().any(|own| own == target))
+        };
+        let others = listed.filter(|entry| {
+            is_wanted(&entry.target)
+                && entry.function_names().next().is_some()
+                && !pages.contains(entry.file.as_str())
+        });
+        others.map(|entry| entry.file.clone()).collect()
     }
 
     /// The names of the functions that stand in a file of the folder; of a module all its names.

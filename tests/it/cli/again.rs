@@ -218,6 +218,26 @@ fn files_that_come_out_with_one_name_are_told_apart() {
         &["bake", "--material", "Glaser.csv"],
         &["Glaser.csv", "--name"],
     );
+    // In another language, another format and an adapter too, and whatever stands in a name.
+    place.refused_with(
+        &["--target", "gles", "--material", "Glaser.csv"],
+        &["glaser", "Glaser.csv", "--name"],
+    );
+    place.refused_with(
+        &["bake", "--format", "ktx2", "--material", "Glaser.csv"],
+        &["glaser", "Glaser.csv", "--name"],
+    );
+    place.refused_with(
+        &["--flavour", "godot", "--material", "Glaser.csv"],
+        &["glaser", "Glaser.csv", "--name"],
+    );
+    place.put("a --b.csv", table(1.3));
+    place.put("a __b.csv", table(1.4));
+    place.run_with(&flags("a --b.csv")).ends(0);
+    place.refused_with(&flags("a __b.csv"), &["a_b", "a __b.csv", "--name"]);
+    place.put("gold.csv", table(1.3));
+    place.run_with(&flags("gold")).ends(0);
+    place.refused_with(&flags("gold.csv"), &["gold.csv", "--name"]);
     // A newer measurement in the same file is none of another's.
     place.put("Gl\u{e4}ser.csv", table(1.5));
     place.run_with(&flags("Gl\u{e4}ser.csv")).ends(0);

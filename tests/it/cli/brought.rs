@@ -69,7 +69,7 @@ fn an_imported_page_is_a_material_file() {
     assert_eq!(page, file);
     place.refused(
         "materials import my_gold.toml",
-        &["ends in neither .yml nor .csv"],
+        &["ends in none of .yml, .csv, .tsv, .txt"],
     );
     place.refused(
         "materials import Johnson.yml --name Gold",

@@ -159,7 +159,10 @@ fn dielectrics_have_what_each_format_makes_of_the_index() {
     );
     let text = written(&place, "bk7", "filament").out;
     // Beside `reflectance`, `ior` would not count.
-    assert!(text.contains("material.ior = 1.5168;") && !text.contains("material.reflectance"), "{text}");
+    assert!(
+        text.contains("material.ior = 1.5168;") && !text.contains("material.reflectance"),
+        "{text}"
+    );
     let openpbr = toml(&written(&place, "bk7", "openpbr").out);
     let surface = &openpbr["open_pbr_surface"];
     near(surface["specular_ior"].as_float().unwrap(), 1.5168, 5e-6);
