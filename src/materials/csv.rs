@@ -300,7 +300,7 @@ mod tests {
             1,
             "`wavelength,n` is no header that is understood; allowed are",
         );
-        refused("ev,n\n4,1.5\n", 1, 1, "before any header");
+        refused("ev,n\n4,1.5\n", 1, 1, "no header that is understood");
         refused("nm,n\n", 1, 1, "has no rows");
         refused("nm,n\nnm,k\n400,1", 1, 1, "has no rows");
         refused("nm,n\n400,1.5\n\n500,x\n", 4, 5, "`x` is no number");

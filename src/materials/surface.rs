@@ -203,7 +203,7 @@ fn three_in_words([red, green, blue]: [f64; 3]) -> String {
 }
 
 /// Of a measurement that lies wholly outside: none of its values says how the material looks.
-const UNSEEN: &str = "; it holds nothing of what is seen, so take another measurement";
+const UNSEEN: &str = "; it holds nothing of what is seen: take another measurement, or, to take its nearest value all the same, add --extrapolate hold";
 
 /// What to do about a material, or a medium, that is not known everywhere: nothing where the fault lies elsewhere.
 fn advice(extrapolated: (Option<f64>, Option<f64>), three: bool) -> String {
