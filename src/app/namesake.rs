@@ -66,17 +66,17 @@ fn wanted(artifact: &Artifact) -> Option<&str> {
 /// The word after the flag, as a shell takes it: to the first blank that is not quoted.
 fn material_word(command: &str) -> Option<&str> {
     let (_, rest) = command.split_once(" --material ")?;
-    let mut quote = None;
-    let end = rest.find(|c| match (quote, c) {
-        (None, '\'' | '"') => {
-            quote = Some(c);
-            false
+    let (mut quote, mut is_escaped) = (None, false);
+    let end = rest.find(|c| {
+        match (quote, c) {
+            _ if is_escaped => is_escaped = false,
+            (None | Some('"'), '\\') => is_escaped = true,
+            (None, '\'' | '"') => quote = Some(c),
+            (None, ' ') => return true,
+            (Some(open), _) if open == c => quote = None,
+            _ => {}
         }
-        (Some(open), _) => {
-            quote = quote.filter(|_| open != c);
-            false
-        }
-        (None, _) => c == ' ',
+        false
     });
     Some(&rest[..end.unwrap_or(rest.len())])
 }

@@ -32,8 +32,8 @@ const PNG: &[u8] = b"\x89PNG\r\n\x1a\n";
 const EXR: [&[u8]; 2] = [b"\x76\x2f\x31\x01", b"comments\0string\0"];
 
 const SPIRV: [u8; 4] = 0x0723_0203_u32.to_le_bytes();
-/// naga's number in the registry of generators, 28.
-const NAGA: [u8; 4] = (28_u32 << 16).to_le_bytes();
+/// The word of the generator as naga writes it.
+const NAGA: [u8; 4] = 28_u32.to_le_bytes();
 /// A material's row in the catalogue's buffer: four floats.
 const ROW_BYTES: u64 = 16;
 
