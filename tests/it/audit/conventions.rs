@@ -110,6 +110,17 @@ fn what_is_not_clear_is_asked_for() {
         "h.glsl --material water --arg a=cos --arg b=1",
         0.979803,
     );
+    place.put(
+        "w.glsl",
+        "vec3 f(vec3 N, vec3 V, float ior) { return N * V * ior; }\n",
+    );
+    place.refused(
+        "audit w.glsl --material water --function f",
+        &[
+            "no value for `N`, `V`",
+            "write a function of the cosine that calls it",
+        ],
+    );
     place.put("v.glsl", "float f(vec3 a, float b) { return b; }\n");
     place.refused(
         "audit v.glsl --material water --arg a=cos",
