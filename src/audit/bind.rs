@@ -337,12 +337,11 @@ fn likely_cosine(function: &FoundFunction, missing: &[MissingArgument]) -> Missi
         let mut params = function.params.iter();
         params.any(|param| param.name == name && param.shape == NumberShape::Scalar)
     };
-    let all = (0u32..).zip(missing);
-    let mut all = all.filter(|(_, one)| is_one(&one.name));
-    let first = all.clone().next();
-    let likely = all.find(|(_, one)| is_named(&one.name) || one.quantity.is_none());
-    let likely = likely.or(first);
-    likely.map_or(MissingCosine::Absent, |(place, _)| {
+    let is_likely = |one: &MissingArgument| {
+        is_one(&one.name) && (is_named(&one.name) || one.quantity.is_none())
+    };
+    let found = (0u32..).zip(missing).find(|(_, one)| is_likely(one));
+    found.map_or(MissingCosine::Absent, |(place, _)| {
         MissingCosine::Likely(place)
     })
 }
