@@ -5,7 +5,7 @@ use crate::names::UnknownName;
 use crate::reference::MaterialInMedium;
 
 use super::cosine::{CosineForm, cosine, is_named};
-use super::error::{Error, FunctionPlace, MissingArgument};
+use super::error::{Error, FunctionPlace, MissingArgument, MissingCosine};
 use super::given::{DefaultArgument, Given, GivenValue, defaults, given_cosine};
 use super::hidden::HiddenInput;
 use super::quantity::{Quantity, meanings, plain};
@@ -323,24 +323,27 @@ fn checked_cosine(
             place: place_of(file, function),
             material: subject.argument.clone(),
             missing: missing.to_vec(),
-            cosine_like: match chosen {
-                Some(_) => None,
-                None => Some(likely_cosine(function, missing)),
+            cosine: match chosen {
+                Some(_) => MissingCosine::Known,
+                None => likely_cosine(function, missing),
             },
         }),
     }
 }
 
 /// The argument without a value that the cosine may be: one that is a single number, and has no meaning else.
-fn likely_cosine(function: &FoundFunction, missing: &[MissingArgument]) -> String {
+fn likely_cosine(function: &FoundFunction, missing: &[MissingArgument]) -> MissingCosine {
     let is_one = |name: &str| {
         let mut params = function.params.iter();
         params.any(|param| param.name == name && param.shape == NumberShape::Scalar)
     };
-    let mut all = missing.iter().filter(|one| is_one(&one.name));
-    let first = all.clone().next();
-    let likely = all.find(|one| is_named(&one.name) || one.quantity.is_none());
-    likely.or(first).map_or("NAME", |one| &one.name).to_owned()
+    let is_likely = |one: &MissingArgument| {
+        is_one(&one.name) && (is_named(&one.name) || one.quantity.is_none())
+    };
+    let found = (0u32..).zip(missing).find(|(_, one)| is_likely(one));
+    found.map_or(MissingCosine::Absent, |(place, _)| {
+        MissingCosine::Likely(place)
+    })
 }
 
 /// An argument without a value, with what it stands for.

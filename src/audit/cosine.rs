@@ -5,7 +5,7 @@
 
 use crate::emit::shader_words::Token;
 
-use super::quantity::plain;
+use super::quantity::{meanings, plain};
 use super::scan::{FoundFunction, NumberShape, behind};
 
 /// What an argument is of the angle of incidence.
@@ -300,7 +300,12 @@ pub fn cosine(
     let is_open =
         |place: &usize| !has_value[*place] && function.params[*place].shape == NumberShape::Scalar;
     let meaning = |place: &usize| name_meaning(&function.params[*place].name);
-    let open: Vec<usize> = (0..has_value.len()).filter(is_open).collect();
+    // What is named as something else of the material is asked for.
+    let may_be = |place: &usize| {
+        meaning(place).is_some() || meanings(&function.params[*place].name, function).is_empty()
+    };
+    let open = (0..has_value.len()).filter(is_open);
+    let open: Vec<usize> = open.filter(may_be).collect();
     let is = |place: &&usize| meaning(place) == Some(NameMeaning::Is(Cosine));
     let cosines: Vec<usize> = open.iter().filter(is).copied().collect();
     let named = open.iter().filter(|place| meaning(place).is_some());
@@ -387,6 +392,7 @@ mod tests {
         check("float c", "cos(c)", Some((0, None)));
         check("float cosTheta, float theta", "", Some((0, Some(Cosine))));
         check("float a, float b", "", None);
+        check("vec3 f0, float ior", "", None);
         check("float theta, float sinTheta", "", None);
     }
 

@@ -164,7 +164,7 @@ pub enum Error {
         place: FunctionPlace,
     },
     /// An argument without a value.
-    #[error("{place}: {}", one_line(&unbound(material, missing, cosine_like.as_deref())))]
+    #[error("{place}: {}", one_line(&unbound(material, missing, *cosine)))]
     Unbound {
         /// The function, with its place in the file.
         place: FunctionPlace,
@@ -172,8 +172,8 @@ pub enum Error {
         material: String,
         /// The arguments without a value.
         missing: Vec<MissingArgument>,
-        /// The argument that may be the cosine, where that is not clear.
-        cosine_like: Option<String>,
+        /// Which argument is the cosine.
+        cosine: MissingCosine,
     },
     /// Something in the text that no program can be made of.
     #[error("{}:{line}:{column}: {}", Foreign(file), one_line(what))]
@@ -204,6 +204,17 @@ pub enum ValueFault {
     /// It is neither one number nor three.
     #[error("it has {0} numbers")]
     Count(usize),
+}
+
+/// Which argument is the cosine, where others have no value.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum MissingCosine {
+    /// It is known.
+    Known,
+    /// It may be the one of this place among those without a value.
+    Likely(u32),
+    /// None can be.
+    Absent,
 }
 
 /// An argument without a value.
@@ -266,7 +277,7 @@ fn other_forms() -> String {
     names.collect::<Vec<_>>().join(", ")
 }
 
-fn unbound(material: &str, missing: &[MissingArgument], cosine_like: Option<&str>) -> String {
+fn unbound(material: &str, missing: &[MissingArgument], cosine: MissingCosine) -> String {
     let names: Vec<String> = missing.iter().map(MissingArgument::words).collect();
     let first = missing.first().map_or("", |argument| &argument.name);
     let is_known = missing
@@ -276,12 +287,15 @@ fn unbound(material: &str, missing: &[MissingArgument], cosine_like: Option<&str
         true => String::new(),
         false => offered(&nearest_names(first, &quantity::names())),
     };
-    let cosine = cosine_like.map_or(String::new(), |name| {
-        format!(
-            ", and which of its arguments is the cosine is not clear: say so with --arg {name}=cos, or with {} where it is another thing",
+    let cosine = match cosine {
+        MissingCosine::Known => String::new(),
+        MissingCosine::Likely(place) => format!(
+            ", and which of its arguments is the cosine is not clear: say so with --arg {}=cos, or with {} where it is another thing",
+            missing.get(place as usize).map_or("NAME", |one| &one.name),
             other_forms()
-        )
-    });
+        ),
+        MissingCosine::Absent => ", and no single number is left for the cosine: write a function of the cosine that calls it".to_owned(),
+    };
     format!(
         "{material} has no value for {}{like}{cosine}; bind with --arg {first}=NUMBER or --arg {first}=QUANTITY",
         names.join(", ")

@@ -110,6 +110,25 @@ fn what_is_not_clear_is_asked_for() {
         "h.glsl --material water --arg a=cos --arg b=1",
         0.979803,
     );
+    place.put(
+        "w.glsl",
+        "vec3 f(vec3 N, vec3 V, float ior) { return N * V * ior; }\n",
+    );
+    place.refused(
+        "audit w.glsl --material water --function f",
+        &[
+            "no value for `N`, `V`",
+            "write a function of the cosine that calls it",
+        ],
+    );
+    place.put(
+        "i.glsl",
+        "vec3 f(vec3 f0, float ior) { return f0 * ior; }\n",
+    );
+    place.refused(
+        "audit i.glsl --material water",
+        &["no value for `ior` (eta)"],
+    );
     place.put("v.glsl", "float f(vec3 a, float b) { return b; }\n");
     place.refused(
         "audit v.glsl --material water --arg a=cos",
