@@ -65,13 +65,13 @@ pub fn files(
     let shared = view(flavour, shown.rows, shown.reference, &commands.all)?;
     let mut files = Vec::new();
     for page in flavour.pages.iter().filter(|page| !page.is_of_material()) {
-        files.push(file(flavour, page, None, &shared)?);
+        files.push(file(flavour, page, (None, &commands.all), &shared)?);
     }
     for row in materials.rows.iter().filter(|_| flavour.is_by_material()) {
         let command = (commands.of_material)(&row.name);
         let own = shared.of_material(row, materials.reference, &command);
         for page in flavour.pages.iter().filter(|page| page.is_of_material()) {
-            files.push(file(flavour, page, Some(&row.name), &own)?);
+            files.push(file(flavour, page, (Some(&row.name), &command), &own)?);
         }
     }
     Ok(files)
@@ -80,7 +80,7 @@ pub fn files(
 fn file(
     flavour: &Flavour,
     page: &FlavourPage,
-    material: Option<&str>,
+    (material, command): (Option<&str>, &str),
     view: &AdapterView,
 ) -> Result<FlavourFile, Error> {
     let name = material.map_or_else(|| page.name.to_owned(), |material| page.file_of(material));
@@ -88,6 +88,6 @@ fn file(
         bytes: emit::text_of_template(page.template, view, &format!("{}/{name}", flavour.name))?,
         name,
         material: material.map(str::to_owned),
-        command: view.command.clone(),
+        command: command.to_owned(),
     })
 }
