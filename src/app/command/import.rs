@@ -64,17 +64,7 @@ pub fn run(flags: &ImportFlags, json: Option<&Path>) -> Result<Output, Error> {
     }
     let text = match file {
         Some(file) => {
-            // It is there to be edited: what somebody wrote into it is not in the page.
-            if folder::is_plain_file(file)
-                && folder::read(file)?.is_some_and(|old| old != toml.as_bytes())
-            {
-                let what = format!(
-                    "{} is there, and is not what this page comes to; remove it, or choose another -o",
-                    foreign::path(&file)
-                );
-                return Err(Error::Usage { what });
-            }
-            write_file(file, toml.as_bytes())?;
+            write_material(file, &toml)?;
             String::new()
         }
         None => toml,
@@ -85,6 +75,19 @@ pub fn run(flags: &ImportFlags, json: Option<&Path>) -> Result<Output, Error> {
         is_file: reported.is_file,
         ..output
     })
+}
+
+/// Writes the material file. It is there to be edited: what somebody wrote into it is not in the page, and stays.
+fn write_material(file: &Path, toml: &str) -> Result<(), Error> {
+    if folder::is_plain_file(file) && folder::read(file)?.is_some_and(|old| old != toml.as_bytes())
+    {
+        let what = format!(
+            "{} is there, and is not what this page comes to; remove it, or choose another -o",
+            foreign::path(&file)
+        );
+        return Err(Error::Usage { what });
+    }
+    write_file(file, toml.as_bytes()).map(drop)
 }
 
 /// Only the visible part, where the material is known over all of it.
