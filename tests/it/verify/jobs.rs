@@ -94,11 +94,11 @@ fn their_commands_are_taken() {
 #[test]
 fn an_array_has_as_many_tasks_as_there_are_shards() {
     let slurm = text("examples/slurm.sh");
-    assert!(slurm.contains("#SBATCH --array=0-63\n"));
+    assert!(slurm.contains("#SBATCH --array=0-60\n"));
     let [shards, merge] = documents("examples/kubernetes.yaml").try_into().unwrap();
     assert_eq!(shards["kind"], "Job");
     assert_eq!(shards["spec"]["completionMode"], "Indexed");
-    assert_eq!(shards["spec"]["completions"], 64);
+    assert_eq!(shards["spec"]["completions"], 61);
     assert_eq!(merge["spec"]["suspend"], true);
     let [actions] = documents("examples/github-actions.yaml")
         .try_into()
