@@ -8,7 +8,6 @@ use serde::Deserialize;
 use serde_json::Value;
 use thiserror::Error;
 
-use crate::digest::sha256;
 use crate::foreign::{self, Foreign, one_line};
 use crate::materials::FileFault;
 use crate::report::shard::ShardReport;
@@ -384,7 +383,7 @@ fn run_difference(own: &ShardReport, its: &ShardReport) -> Option<(String, Strin
         return differ("--require-all is", here.to_owned(), there.to_owned());
     }
     if own.plan != its.plan {
-        let [here, there] = [own, its].map(|one| plan_words(&one.plan));
+        let [here, there] = [own, its].map(|one| PlannedRows::words(&one.plan));
         return differ("the planned rows differ: there are", here, there);
     }
     if own.inputs != its.inputs {
@@ -392,15 +391,4 @@ fn run_difference(own: &ShardReport, its: &ShardReport) -> Option<(String, Strin
         return differ(what, own.inputs.clone(), its.inputs.clone());
     }
     None
-}
-
-/// A plan in few words, which differ where plans do.
-fn plan_words(plan: &[PlannedRows]) -> String {
-    let hashes = plan.iter().flat_map(|one| [&one.rows, &one.unfinished]);
-    let all: Vec<&str> = hashes.map(String::as_str).collect();
-    format!(
-        "{} places of hash {}",
-        plan.len(),
-        sha256(all.concat().as_bytes())
-    )
 }

@@ -79,6 +79,14 @@ impl PlannedRows {
         }
     }
 
+    /// A plan in few words, which differ where plans do.
+    pub fn words(plan: &[PlannedRows]) -> String {
+        let hashes = plan.iter().flat_map(|one| [&one.rows, &one.unfinished]);
+        let all: Vec<&str> = hashes.map(String::as_str).collect();
+        let hash = sha256(all.concat().as_bytes());
+        format!("{} places of hash {hash}", plan.len())
+    }
+
     /// Whether these rows of a file are the planned ones.
     pub fn are(&self, file: &str, rows: &[&VerifyRow]) -> bool {
         let named = rows.iter();
