@@ -13,7 +13,7 @@ use crate::materials::FileFault;
 use crate::report::shard::ShardReport;
 use crate::report::{SCHEMA, TOOL};
 use crate::verify::VerifyRow;
-use crate::verify::shard::{PartStatement, Shard};
+use crate::verify::shard::{PartStatement, PlacedRow, PlannedRows, Shard};
 
 use super::error::Error;
 use super::fault::RequestFault;
@@ -148,9 +148,16 @@ pub fn parsed(file: &Path, text: &str) -> Result<Part, Error> {
 /// rows are there than it says.
 fn row_fault(report: &ShardReport, shard: Shard) -> Option<String> {
     let (index, count) = (shard.index(), shard.count());
-    let mut found: BTreeMap<usize, Vec<usize>> = BTreeMap::new();
+    if report.plan.len() != report.places {
+        return Some(format!(
+            "it says that the run has {} places, and plans rows of {}",
+            report.places,
+            report.plan.len()
+        ));
+    }
+    let mut found: BTreeMap<usize, Vec<&PlacedRow>> = BTreeMap::new();
     for row in &report.rows {
-        found.entry(row.place).or_default().push(row.number);
+        found.entry(row.place).or_default().push(row);
     }
     let spoken_of = report.parts.iter().map(|part| part.place);
     let is_own = |place: &usize| shard.takes(*place) && *place < report.places;
@@ -165,24 +172,31 @@ fn row_fault(report: &ShardReport, shard: Shard) -> Option<String> {
         return Some("`parts` does not list each place that is dealt to it once, in order".into());
     }
     let counted = report.parts.iter().find_map(|part| {
-        let numbers = found.get(&part.place).map_or(&[][..], Vec::as_slice);
-        part_fault(part, numbers)
+        let rows = found.get(&part.place).map_or(&[][..], Vec::as_slice);
+        part_fault(part, &report.plan[part.place], rows)
     });
-    counted.or_else(|| hidden_character(report))
+    hidden_character(report).or(counted)
 }
 
-/// What is wrong with the numbers of the rows at a place: some are missing, or there twice.
-fn part_fault(part: &PartStatement, numbers: &[usize]) -> Option<String> {
-    let PartStatement { place, rows, .. } = part;
-    let there = numbers.len();
+/// What is wrong with the rows at a place: some are missing, or there twice, or others than were planned.
+fn part_fault(part: &PartStatement, planned: &PlannedRows, found: &[&PlacedRow]) -> Option<String> {
+    let PartStatement {
+        place, file, rows, ..
+    } = part;
+    let there = found.len();
     if there != *rows {
         return Some(format!(
             "it says that place {place} has {rows} rows, and {there} are there"
         ));
     }
-    let is_right = numbers.iter().copied().eq(0..*rows);
-    (!is_right).then(|| {
-        format!("the rows of place {place} are not numbered 0, 1, 2 and so on: one is missing, is there twice, or was moved")
+    if !found.iter().map(|row| row.number).eq(0..*rows) {
+        return Some(format!(
+            "the rows of place {place} are not numbered 0, 1, 2 and so on: one is missing, is there twice, or was moved"
+        ));
+    }
+    let bare: Vec<&VerifyRow> = found.iter().map(|placed| &placed.row).collect();
+    (!planned.are(file, &bare)).then(|| {
+        format!("the rows of place {place} are not those that its `plan` has: other functions or materials, or fewer")
     })
 }
 
@@ -367,6 +381,10 @@ fn run_difference(own: &ShardReport, its: &ShardReport) -> Option<(String, Strin
             }
         });
         return differ("--require-all is", here.to_owned(), there.to_owned());
+    }
+    if own.plan != its.plan {
+        let [here, there] = [own, its].map(|one| PlannedRows::words(&one.plan));
+        return differ("the planned rows differ: there are", here, there);
     }
     if own.inputs != its.inputs {
         let what = "files and materials differ (--out-dir and what lies there, files of your own): their hash is";

@@ -382,7 +382,7 @@ fn documentation(emitted: &Emitted) -> Vec<String> {
     lines.extend(params.map(|param| format!("  {}: {}", param.name, meaning(param))));
     let error = match &emitted.code {
         Measured::Yes(bound) => format!(
-            "at most {:e}, relative where the result is above 1, besides what a change of an argument's last bit does",
+            "at most {:e}, relative where the result is above 1, besides what a change of each argument by 2^-22 of itself and 2^-23 does",
             bound.value()
         ),
         Measured::No(why) => format!("not stated: {why}"),

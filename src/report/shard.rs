@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 use super::envelope::{SCHEMA, TOOL};
 use super::verify::devices;
 use crate::verify::MachineStatement;
-use crate::verify::shard::{PartStatement, PlacedRow, Shard, ShardOutcome};
+use crate::verify::shard::{PartStatement, PlacedRow, PlannedRows, Shard, ShardOutcome};
 
 /// The report of a shard.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -34,6 +34,8 @@ pub struct ShardReport {
     pub device: Option<String>,
     /// How many places the whole run has.
     pub places: usize,
+    /// The rows of each of them.
+    pub plan: Vec<PlannedRows>,
     /// What came of each place that was dealt to the shard, so that a report that lost rows is told from a whole one.
     pub parts: Vec<PartStatement>,
     /// Its rows with their places in the whole run.
@@ -65,7 +67,8 @@ impl ShardReport {
             require_all: whole.require_all,
             device: devices(&outcome.bare_rows()),
             machine: outcome.machine,
-            places: outcome.places,
+            places: outcome.plan.len(),
+            plan: outcome.plan,
             parts: outcome.parts,
             rows: outcome.rows,
         }

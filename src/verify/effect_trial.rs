@@ -18,7 +18,8 @@ use super::effect_points::{
 const POINTS: usize = 2048;
 /// How often arguments are disturbed.
 const DISTURBED: usize = 16;
-/// By how much: two units in the last place of f32, of the argument, and one of numbers near 1.
+/// By how much: a share of the argument, which is two to four units in its last place of f32, and a unit of numbers from 1 to 2.
+/// Headers of effects state both.
 const RELATIVE: f64 = 1.0 / (1 << 22) as f64;
 const ABSOLUTE: f64 = 1.0 / (1 << 23) as f64;
 /// Where nothing is promised: how many times as far off as f32 here a result may be, and how far at least.

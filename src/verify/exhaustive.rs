@@ -11,7 +11,7 @@ use super::error::Error;
 use super::judge::{PathRun, RanFunction};
 use super::machine;
 use super::plan::{PlannedFile, VerifyPlan};
-use super::shard::{Shard, ShardOutcome};
+use super::shard::{PlannedRows, Shard, ShardOutcome};
 use super::statement::MachineStatement;
 use super::trial_case::specialised;
 
@@ -33,8 +33,12 @@ pub fn exhaustive_rows(
         return Err(Error::NothingExhaustive);
     }
     let mut speeds = Vec::new();
+    let planned = all.iter().map(|(file, subject, emitted)| {
+        let row = (emitted.name.as_str(), Some(subject.argument.as_str()));
+        PlannedRows::new(file, &[row])
+    });
     let mut outcome = ShardOutcome {
-        places: all.len(),
+        plan: planned.collect(),
         ..ShardOutcome::default()
     };
     let dealt = all.into_iter().enumerate();

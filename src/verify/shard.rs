@@ -11,6 +11,7 @@ use crate::reference::MaterialInMedium;
 use super::plan::{PlannedFile, VerifyPlan};
 use super::row::VerifyRow;
 use super::statement::MachineStatement;
+use super::trial_case::case_materials;
 
 /// A share of a verification: one of so many.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -57,6 +58,52 @@ pub struct PartStatement {
     pub reason: Option<String>,
 }
 
+/// The rows that the whole run has at a place, as all its shards know them before it: hashes, since there are many.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(expecting = "an object")]
+pub struct PlannedRows {
+    /// The hash of the rows.
+    pub rows: String,
+    /// Of those that there are where the run of the file comes to no end: one of each function.
+    pub unfinished: String,
+}
+
+impl PlannedRows {
+    /// Of a file: these functions with their materials.
+    pub fn new(file: &PlannedFile, rows: &[(&str, Option<&str>)]) -> PlannedRows {
+        let path = &file.run_page().path;
+        let functions = file.functions.iter();
+        PlannedRows {
+            rows: hash_of_rows(path, rows.iter().copied()),
+            unfinished: hash_of_rows(path, functions.map(|one| (one.name.as_str(), None))),
+        }
+    }
+
+    /// A plan in few words, which differ where plans do.
+    pub fn words(plan: &[PlannedRows]) -> String {
+        let hashes = plan.iter().flat_map(|one| [&one.rows, &one.unfinished]);
+        let all: Vec<&str> = hashes.map(String::as_str).collect();
+        let hash = sha256(all.concat().as_bytes());
+        format!("{} places of hash {hash}", plan.len())
+    }
+
+    /// Whether these rows of a file are the planned ones.
+    pub fn are(&self, file: &str, rows: &[&VerifyRow]) -> bool {
+        let named = rows.iter();
+        let named = named.map(|row| (row.function.as_str(), row.material.as_deref()));
+        let hash = hash_of_rows(file, named);
+        hash == self.rows || hash == self.unfinished
+    }
+}
+
+fn hash_of_rows<'a>(file: &str, rows: impl Iterator<Item = (&'a str, Option<&'a str>)>) -> String {
+    let mut all = format!("{file}\n");
+    for row in rows {
+        all += &format!("{row:?}\n");
+    }
+    sha256(all.as_bytes())
+}
+
 /// A row, and the place in the whole run of the work that it came of.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct PlacedRow {
@@ -78,8 +125,8 @@ pub struct ShardOutcome {
     pub machine: MachineStatement,
     /// What came of each place that was dealt to it, in order.
     pub parts: Vec<PartStatement>,
-    /// How many places there are.
-    pub places: usize,
+    /// What each place of the whole run has.
+    pub plan: Vec<PlannedRows>,
 }
 
 impl ShardOutcome {
@@ -103,6 +150,23 @@ impl ShardOutcome {
 }
 
 impl VerifyPlan {
+    /// The rows of each file.
+    pub fn planned_rows(&self) -> Vec<PlannedRows> {
+        let of_file = |file: &PlannedFile| {
+            let mut rows = Vec::new();
+            for emitted in &file.functions {
+                if emitted.effect.is_some() {
+                    rows.push((emitted.name.as_str(), None));
+                    continue;
+                }
+                let materials = case_materials(self, file, emitted).into_iter();
+                rows.extend(materials.map(|material| (emitted.name.as_str(), Some(material))));
+            }
+            PlannedRows::new(file, &rows)
+        };
+        self.files.iter().map(of_file).collect()
+    }
+
     /// The hash of what is run: of the files with their text, of what functions promise, and of the materials with their data. Shards of one run have the
     /// same, also where a command does not tell the difference.
     pub fn hash(&self) -> String {

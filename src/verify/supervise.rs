@@ -44,7 +44,7 @@ pub fn supervise(
         progress(count, whole, &plan.files[request.file].run_page().path);
     })?;
     let mut outcome = ShardOutcome {
-        places: plan.files.len(),
+        plan: plan.planned_rows(),
         ..ShardOutcome::default()
     };
     for (request, answer) in requests.iter().zip(answers) {

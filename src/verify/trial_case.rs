@@ -51,6 +51,24 @@ pub fn cases<'a>(
     cases
 }
 
+/// What [`cases`] are about, without the trials.
+pub fn case_materials<'a>(
+    plan: &'a VerifyPlan,
+    file: &PlannedFile,
+    emitted: &Emitted,
+) -> Vec<&'a str> {
+    if let Some(index) = file.subject {
+        return vec![&plan.subjects[index].argument];
+    }
+    let fits = |subject: &&MaterialInMedium| subject.is_described_by(emitted.method);
+    let described = plan.trial_subjects().iter().filter(fits);
+    let mut materials: Vec<&str> = described.map(|subject| subject.argument.as_str()).collect();
+    if !emitted.precision.is_half() {
+        materials.extend(worst_cases(emitted.method).map(|_| row::WORST));
+    }
+    materials
+}
+
 /// The trial of a function with a material's values.
 pub fn material_trial(subject: &MaterialInMedium, emitted: &Emitted) -> Trial {
     match emitted.form {

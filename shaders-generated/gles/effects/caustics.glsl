@@ -21,8 +21,8 @@
 //   t_entry: the transmitted share 1 - R at the first surface
 //   t_exit: the same at the second; for a caustic by reflection 1, with R in the place of t_entry
 //   area: of the photon's share of the light's cross-section, in square units of the world
-// Code error: at most 2e-7, relative where the result is above 1, besides what a change of an argument's last bit
-//     does. Cost: 6 operations
+// Code error: at most 2e-7, relative where the result is above 1, besides what a change of each argument by 2^-22
+//     of itself and 2^-23 does. Cost: 6 operations
 highp vec3 fresnel_photon_energy(highp vec3 t_entry, highp vec3 t_exit, highp float area) {
     return t_entry * t_exit * area;
 }
@@ -32,8 +32,8 @@ highp vec3 fresnel_photon_energy(highp vec3 t_entry, highp vec3 t_exit, highp fl
 //   a: where the first photon lands, in the world
 //   b: where the second lands
 //   c: where the third lands
-// Code error: at most 2e-7, relative where the result is above 1, besides what a change of an argument's last bit
-//     does. Cost: 30 operations
+// Code error: at most 2e-7, relative where the result is above 1, besides what a change of each argument by 2^-22
+//     of itself and 2^-23 does. Cost: 30 operations
 highp vec3 fresnel_triangle_irradiance(highp vec3 flux, highp vec3 a, highp vec3 b, highp vec3 c) {
     highp vec3 along_b = b - a;
     highp vec3 along_c = c - a;
@@ -50,8 +50,8 @@ highp vec3 fresnel_triangle_irradiance(highp vec3 flux, highp vec3 a, highp vec3
 // fresnel_splat_weight: the share of a photon's flux per square unit at an offset from where it lands
 //   offset: from the splat's centre, in units of the world
 //   radius: of the splat, above 0
-// Code error: at most 2e-7, relative where the result is above 1, besides what a change of an argument's last bit
-//     does. Cost: 9 operations
+// Code error: at most 2e-7, relative where the result is above 1, besides what a change of each argument by 2^-22
+//     of itself and 2^-23 does. Cost: 9 operations
 highp float fresnel_splat_weight(highp vec2 offset, highp float radius) {
     highp float squared = radius * radius;
     return 0.63661975 / squared * max(1.0 - (offset.x * offset.x + offset.y * offset.y) / squared, 0.0);

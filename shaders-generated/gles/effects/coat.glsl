@@ -29,8 +29,8 @@
 // fresnel_coated_metal_f0: F0 of a metal under a coat of index 1.5, 0 to 1
 //   f0: the metal's reflectance in air at normal incidence
 //   f82: the metal's reflectance in air at 81.79 degrees
-// Code error: at most 2e-7, relative where the result is above 1, besides what a change of an argument's last bit
-//     does. Cost: 39 operations
+// Code error: at most 2e-7, relative where the result is above 1, besides what a change of each argument by 2^-22
+//     of itself and 2^-23 does. Cost: 39 operations
 highp vec3 fresnel_coated_metal_f0(highp vec3 f0, highp vec3 f82) {
     return clamp(f0 + (1.0 - f0) * (f0 * -0.5128 + 0.3513) + (1.0 - f82) * (f0 * 0.8608 + f82 * -0.5326 - 0.5512), 0.0, 1.0);
 }
@@ -39,8 +39,8 @@ highp vec3 fresnel_coated_metal_f0(highp vec3 f0, highp vec3 f82) {
 //     and 0 past the critical angle
 //   cos_i: cosine of the angle of incidence, on the side that the light comes from
 //   eta: n_t / n_i, the index behind the interface by that before it, above 0
-// Code error: at most 2e-7, relative where the result is above 1, besides what a change of an argument's last bit
-//     does. Cost: 25 operations
+// Code error: at most 2e-7, relative where the result is above 1, besides what a change of each argument by 2^-22
+//     of itself and 2^-23 does. Cost: 25 operations
 highp vec3 fresnel_interface_and_cosine(highp float cos_i, highp float eta) {
     highp float c = clamp(cos_i, 0.0, 1.0); // clamp: a rounded dot product may exceed 1
     highp float c2 = c * c;
@@ -57,8 +57,8 @@ highp vec3 fresnel_interface_and_cosine(highp float cos_i, highp float eta) {
 // fresnel_coated_reflectance: R of coat and base together, all reflections between them summed
 //   coat_r: R of the coat's interface, at the cosine outside
 //   base_r: R of the base under the coat, at the refracted cosine
-// Code error: at most 2e-7, relative where the result is above 1, besides what a change of an argument's last bit
-//     does. Cost: 20 operations
+// Code error: at most 2e-7, relative where the result is above 1, besides what a change of each argument by 2^-22
+//     of itself and 2^-23 does. Cost: 20 operations
 highp vec3 fresnel_coated_reflectance(highp float coat_r, highp vec3 base_r) {
     highp float enters = 1.0 - coat_r; // 1 - R1
     return base_r * (enters * enters) / max(1.0 - base_r * coat_r, 1.0e-12) + coat_r;
@@ -66,8 +66,8 @@ highp vec3 fresnel_coated_reflectance(highp float coat_r, highp vec3 base_r) {
 
 // fresnel_slab_reflectance: R of both interfaces of a slab, a window pane for example
 //   r: R of one interface of the slab
-// Code error: at most 2e-7, relative where the result is above 1, besides what a change of an argument's last bit
-//     does. Cost: 9 operations
+// Code error: at most 2e-7, relative where the result is above 1, besides what a change of each argument by 2^-22
+//     of itself and 2^-23 does. Cost: 9 operations
 highp vec3 fresnel_slab_reflectance(highp vec3 r) {
     return r * 2.0 / (r + 1.0);
 }

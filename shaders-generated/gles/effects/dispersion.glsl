@@ -21,8 +21,8 @@
 //   incident: direction of travel, of unit length, toward the surface
 //   normal: of unit length, on the side that the light comes from; the function never flips it
 //   etas: n_t / n_i for red, green and blue, each above 0; GLSL's refract takes the inverse
-// Code error: at most 2e-7, relative where the result is above 1, besides what a change of an argument's last bit
-//     does. Cost: 39 operations
+// Code error: at most 2e-7, relative where the result is above 1, besides what a change of each argument by 2^-22
+//     of itself and 2^-23 does. Cost: 39 operations
 highp vec3 fresnel_refracted_red(highp vec3 incident, highp vec3 normal, highp vec3 etas) {
     highp float c = clamp(-dot(incident, normal), 0.0, 1.0); // clamp: a rounded dot product may exceed 1
     highp float r = 1.0 / etas.x; // sin theta_t = r sin theta_i
@@ -38,8 +38,8 @@ highp vec3 fresnel_refracted_red(highp vec3 incident, highp vec3 normal, highp v
 //   incident: direction of travel, of unit length, toward the surface
 //   normal: of unit length, on the side that the light comes from; the function never flips it
 //   etas: n_t / n_i for red, green and blue, each above 0; GLSL's refract takes the inverse
-// Code error: at most 2e-7, relative where the result is above 1, besides what a change of an argument's last bit
-//     does. Cost: 39 operations
+// Code error: at most 2e-7, relative where the result is above 1, besides what a change of each argument by 2^-22
+//     of itself and 2^-23 does. Cost: 39 operations
 highp vec3 fresnel_refracted_green(highp vec3 incident, highp vec3 normal, highp vec3 etas) {
     highp float c = clamp(-dot(incident, normal), 0.0, 1.0); // clamp: a rounded dot product may exceed 1
     highp float r = 1.0 / etas.y; // sin theta_t = r sin theta_i
@@ -55,8 +55,8 @@ highp vec3 fresnel_refracted_green(highp vec3 incident, highp vec3 normal, highp
 //   incident: direction of travel, of unit length, toward the surface
 //   normal: of unit length, on the side that the light comes from; the function never flips it
 //   etas: n_t / n_i for red, green and blue, each above 0; GLSL's refract takes the inverse
-// Code error: at most 2e-7, relative where the result is above 1, besides what a change of an argument's last bit
-//     does. Cost: 39 operations
+// Code error: at most 2e-7, relative where the result is above 1, besides what a change of each argument by 2^-22
+//     of itself and 2^-23 does. Cost: 39 operations
 highp vec3 fresnel_refracted_blue(highp vec3 incident, highp vec3 normal, highp vec3 etas) {
     highp float c = clamp(-dot(incident, normal), 0.0, 1.0); // clamp: a rounded dot product may exceed 1
     highp float r = 1.0 / etas.z; // sin theta_t = r sin theta_i
@@ -71,8 +71,8 @@ highp vec3 fresnel_refracted_blue(highp vec3 incident, highp vec3 normal, highp 
 // fresnel_spectral_weight: the weight of a sample in red, green and blue; over all samples each sums to 1
 //   index: which sample, 0 to count - 1, from red to blue
 //   count: how many samples, 1 or more: as many as red and blue lie pixels apart are enough
-// Code error: at most 2e-7, relative where the result is above 1, besides what a change of an argument's last bit
-//     does. Cost: 16 operations
+// Code error: at most 2e-7, relative where the result is above 1, besides what a change of each argument by 2^-22
+//     of itself and 2^-23 does. Cost: 16 operations
 highp vec3 fresnel_spectral_weight(highp float index, highp float count) {
     highp float t = (index + 0.5) / count; // the middle of the sample's share of the spectrum
     highp float rest = 1.0 - t;

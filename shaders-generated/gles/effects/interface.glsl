@@ -22,8 +22,8 @@
 // fresnel_reflected: the direction of the reflected ray; zero where the incident ray or the normal is zero
 //   incident: direction of travel, of unit length, toward the surface
 //   normal: of unit length, on the side that the light comes from; the function never flips it
-// Code error: at most 2e-7, relative where the result is above 1, besides what a change of an argument's last bit
-//     does. Cost: 24 operations
+// Code error: at most 2e-7, relative where the result is above 1, besides what a change of each argument by 2^-22
+//     of itself and 2^-23 does. Cost: 24 operations
 highp vec3 fresnel_reflected(highp vec3 incident, highp vec3 normal) {
     highp float present = 0.5 < dot(normal, normal) ? 1.0 : 0.0; // a zero normal gives zero
     return (incident - normal * (2.0 * dot(incident, normal))) * present;
@@ -34,8 +34,8 @@ highp vec3 fresnel_reflected(highp vec3 incident, highp vec3 normal) {
 //   incident: direction of travel, of unit length, toward the surface
 //   normal: of unit length, on the side that the light comes from; the function never flips it
 //   eta: n_t / n_i, the index behind the surface by that before it, above 0; GLSL's refract takes the inverse
-// Code error: at most 2e-7, relative where the result is above 1, besides what a change of an argument's last bit
-//     does. Cost: 39 operations
+// Code error: at most 2e-7, relative where the result is above 1, besides what a change of each argument by 2^-22
+//     of itself and 2^-23 does. Cost: 39 operations
 highp vec3 fresnel_refracted(highp vec3 incident, highp vec3 normal, highp float eta) {
     highp float c = clamp(-dot(incident, normal), 0.0, 1.0); // clamp: a rounded dot product may exceed 1
     highp float r = 1.0 / eta; // sin theta_t = r sin theta_i
@@ -51,8 +51,8 @@ highp vec3 fresnel_refracted(highp vec3 incident, highp vec3 normal, highp float
 //   incident: direction of travel, of unit length, toward the surface
 //   normal: of unit length, on the side that the light comes from; the function never flips it
 //   eta: relative index of refraction, transmitted over incident (n_t / n_i)
-// Code error: at most 6e-7, relative where the result is above 1, besides what a change of an argument's last bit
-//     does. Cost: 65 operations
+// Code error: at most 6e-7, relative where the result is above 1, besides what a change of each argument by 2^-22
+//     of itself and 2^-23 does. Cost: 65 operations
 highp vec3 fresnel_interface_reflectance(highp vec3 incident, highp vec3 normal, highp vec3 eta) {
     highp float c = clamp(-dot(incident, normal), 0.0, 1.0); // clamp: a rounded dot product may exceed 1
     highp float c2 = c * c;
@@ -70,8 +70,8 @@ highp vec3 fresnel_interface_reflectance(highp vec3 incident, highp vec3 normal,
 //   incident: direction of travel, of unit length, toward the surface
 //   normal: of unit length, on the side that the light comes from; the function never flips it
 //   eta: relative index of refraction, transmitted over incident (n_t / n_i)
-// Code error: at most 6e-7, relative where the result is above 1, besides what a change of an argument's last bit
-//     does. Cost: 29 operations
+// Code error: at most 6e-7, relative where the result is above 1, besides what a change of each argument by 2^-22
+//     of itself and 2^-23 does. Cost: 29 operations
 highp float fresnel_interface_reflectance_scalar(highp vec3 incident, highp vec3 normal, highp float eta) {
     highp float c = clamp(-dot(incident, normal), 0.0, 1.0); // clamp: a rounded dot product may exceed 1
     highp float c2 = c * c;

@@ -38,8 +38,8 @@
 //       points down
 //   positions: places of the back as that camera sees them, in the world, with 1 in alpha; all 0 where it sees
 //       nothing
-// Code error: at most 2e-7, relative where the result is above 1, besides what a change of an argument's last bit
-//     does. Cost: 50 operations
+// Code error: at most 2e-7, relative where the result is above 1, besides what a change of each argument by 2^-22
+//     of itself and 2^-23 does. Cost: 50 operations
 highp float fresnel_interior_search_step(
     highp vec3 entry,
     highp vec3 direction,
@@ -65,8 +65,8 @@ highp float fresnel_interior_search_step(
 //   direction: of the ray, of unit length
 //   normal_out: of unit length, out of the body
 //   eta: n_t / n_i, the index behind the surface by that before it, above 0; GLSL's refract takes the inverse
-// Code error: at most 2e-7, relative where the result is above 1, besides what a change of an argument's last bit
-//     does. Cost: 56 operations
+// Code error: at most 2e-7, relative where the result is above 1, besides what a change of each argument by 2^-22
+//     of itself and 2^-23 does. Cost: 56 operations
 highp vec3 fresnel_exit_direction(highp vec3 direction, highp vec3 normal_out, highp float eta) {
     highp vec3 normal = -normal_out; // on the side that the light comes from
     highp float facing = dot(direction, normal); // minus the cosine
@@ -85,8 +85,8 @@ highp vec3 fresnel_exit_direction(highp vec3 direction, highp vec3 normal_out, h
 //   direction: of the ray, of unit length
 //   normal_out: of unit length, out of the body
 //   eta: relative index of refraction, transmitted over incident (n_t / n_i)
-// Code error: at most 6e-7, relative where the result is above 1, besides what a change of an argument's last bit
-//     does. Cost: 67 operations
+// Code error: at most 6e-7, relative where the result is above 1, besides what a change of each argument by 2^-22
+//     of itself and 2^-23 does. Cost: 67 operations
 highp vec3 fresnel_exit_transmittance(highp vec3 direction, highp vec3 normal_out, highp vec3 eta) {
     highp float c = clamp(dot(direction, normal_out), 0.0, 1.0); // clamp: a rounded dot product may exceed 1
     highp float c2 = c * c;
@@ -104,8 +104,8 @@ highp vec3 fresnel_exit_transmittance(highp vec3 direction, highp vec3 normal_ou
 //   direction: of the ray, of unit length
 //   normal_out: of unit length, out of the body
 //   eta: relative index of refraction, transmitted over incident (n_t / n_i)
-// Code error: at most 6e-7, relative where the result is above 1, besides what a change of an argument's last bit
-//     does. Cost: 29 operations
+// Code error: at most 6e-7, relative where the result is above 1, besides what a change of each argument by 2^-22
+//     of itself and 2^-23 does. Cost: 29 operations
 highp float fresnel_exit_transmittance_scalar(highp vec3 direction, highp vec3 normal_out, highp float eta) {
     highp float c = clamp(dot(direction, normal_out), 0.0, 1.0); // clamp: a rounded dot product may exceed 1
     highp float c2 = c * c;

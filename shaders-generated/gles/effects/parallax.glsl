@@ -23,8 +23,8 @@
 //   box_min: the room's corner with the smallest coordinates
 //   box_max: the room's corner with the largest coordinates
 //   cube_centre: where the cube map was taken
-// Code error: at most 2e-7, relative where the result is above 1, besides what a change of an argument's last bit
-//     does. Cost: 46 operations
+// Code error: at most 2e-7, relative where the result is above 1, besides what a change of each argument by 2^-22
+//     of itself and 2^-23 does. Cost: 46 operations
 highp vec3 fresnel_box_parallax(
     highp vec3 position,
     highp vec3 direction,
@@ -51,8 +51,8 @@ highp vec3 fresnel_box_parallax(
 //   distance: the estimate so far, in units of the world: begin with the room's size
 //   cube_centre: where the cube map was taken
 //   distance_cube: the distance from cube_centre to the room in each direction, in red
-// Code error: at most 2e-7, relative where the result is above 1, besides what a change of an argument's last bit
-//     does. Cost: 36 operations
+// Code error: at most 2e-7, relative where the result is above 1, besides what a change of each argument by 2^-22
+//     of itself and 2^-23 does. Cost: 36 operations
 highp float fresnel_cube_search_step(
     highp vec3 position,
     highp vec3 direction,

@@ -21,8 +21,8 @@
 //   view_projection: from world to clip space, applied to columns
 //   uv_scale_bias: uv = ndc.xy * this.xy + this.zw: (.5, .5, .5, .5) where v points up, (.5, -.5, .5, .5) where it
 //       points down
-// Code error: at most 2e-7, relative where the result is above 1, besides what a change of an argument's last bit
-//     does. Cost: 26 operations
+// Code error: at most 2e-7, relative where the result is above 1, besides what a change of each argument by 2^-22
+//     of itself and 2^-23 does. Cost: 26 operations
 highp vec3 fresnel_planar_uv(highp vec3 position, highp mat4 view_projection, highp vec4 uv_scale_bias) {
     highp float w = (view_projection * vec4(position, 1.0)).w; // 0 or less is behind the camera
     highp float size = max(abs(w), 1.0e-20); // never 0, so that nothing is NaN
@@ -37,8 +37,8 @@ highp vec3 fresnel_planar_uv(highp vec3 position, highp mat4 view_projection, hi
 //   uv: of the pixel in the picture
 //   distortion: by how much the waves bend it, in texture coordinates
 //   map: the picture of what lies below the water, with 1 in alpha; what stands before the water has 0 there
-// Code error: at most 2e-7, relative where the result is above 1, besides what a change of an argument's last bit
-//     does. Cost: 8 operations
+// Code error: at most 2e-7, relative where the result is above 1, besides what a change of each argument by 2^-22
+//     of itself and 2^-23 does. Cost: 8 operations
 highp vec3 fresnel_water_refraction(highp vec2 uv, highp vec2 distortion, highp sampler2D map) {
     highp float u = uv.x + distortion.x; // where the waves bend it to
     highp float v = uv.y + distortion.y;

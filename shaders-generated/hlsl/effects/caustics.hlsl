@@ -21,8 +21,8 @@
 //   t_entry: the transmitted share 1 - R at the first surface
 //   t_exit: the same at the second; for a caustic by reflection 1, with R in the place of t_entry
 //   area: of the photon's share of the light's cross-section, in square units of the world
-// Code error: at most 2e-7, relative where the result is above 1, besides what a change of an argument's last bit
-//     does. Cost: 6 operations
+// Code error: at most 2e-7, relative where the result is above 1, besides what a change of each argument by 2^-22
+//     of itself and 2^-23 does. Cost: 6 operations
 float3 fresnel_photon_energy(float3 t_entry, float3 t_exit, float area)
 {
     return t_entry * t_exit * area;
@@ -33,8 +33,8 @@ float3 fresnel_photon_energy(float3 t_entry, float3 t_exit, float area)
 //   a: where the first photon lands, in the world
 //   b: where the second lands
 //   c: where the third lands
-// Code error: at most 2e-7, relative where the result is above 1, besides what a change of an argument's last bit
-//     does. Cost: 30 operations
+// Code error: at most 2e-7, relative where the result is above 1, besides what a change of each argument by 2^-22
+//     of itself and 2^-23 does. Cost: 30 operations
 float3 fresnel_triangle_irradiance(float3 flux, float3 a, float3 b, float3 c)
 {
     float3 along_b = b - a;
@@ -52,8 +52,8 @@ float3 fresnel_triangle_irradiance(float3 flux, float3 a, float3 b, float3 c)
 // fresnel_splat_weight: the share of a photon's flux per square unit at an offset from where it lands
 //   offset: from the splat's centre, in units of the world
 //   radius: of the splat, above 0
-// Code error: at most 2e-7, relative where the result is above 1, besides what a change of an argument's last bit
-//     does. Cost: 9 operations
+// Code error: at most 2e-7, relative where the result is above 1, besides what a change of each argument by 2^-22
+//     of itself and 2^-23 does. Cost: 9 operations
 float fresnel_splat_weight(float2 offset, float radius)
 {
     float squared = radius * radius;

@@ -16,8 +16,8 @@
 // fresnel_complex_f0: F0 of each channel, 0 to 1
 //   n: refractive index, relative to the medium before the surface
 //   k: extinction coefficient, relative likewise
-// Code error: at most 2e-7, relative where the result is above 1, besides what a change of an argument's last bit
-//     does. Cost: 24 operations
+// Code error: at most 2e-7, relative where the result is above 1, besides what a change of each argument by 2^-22
+//     of itself and 2^-23 does. Cost: 24 operations
 float3 fresnel_complex_f0(float3 n, float3 k)
 {
     float3 below = n - 1.0;

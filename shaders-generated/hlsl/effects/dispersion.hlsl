@@ -21,8 +21,8 @@
 //   incident: direction of travel, of unit length, toward the surface
 //   normal: of unit length, on the side that the light comes from; the function never flips it
 //   etas: n_t / n_i for red, green and blue, each above 0; GLSL's refract takes the inverse
-// Code error: at most 2e-7, relative where the result is above 1, besides what a change of an argument's last bit
-//     does. Cost: 39 operations
+// Code error: at most 2e-7, relative where the result is above 1, besides what a change of each argument by 2^-22
+//     of itself and 2^-23 does. Cost: 39 operations
 float3 fresnel_refracted_red(float3 incident, float3 normal, float3 etas)
 {
     float c = saturate(-dot(incident, normal)); // clamp: a rounded dot product may exceed 1
@@ -38,8 +38,8 @@ float3 fresnel_refracted_red(float3 incident, float3 normal, float3 etas)
 //   incident: direction of travel, of unit length, toward the surface
 //   normal: of unit length, on the side that the light comes from; the function never flips it
 //   etas: n_t / n_i for red, green and blue, each above 0; GLSL's refract takes the inverse
-// Code error: at most 2e-7, relative where the result is above 1, besides what a change of an argument's last bit
-//     does. Cost: 39 operations
+// Code error: at most 2e-7, relative where the result is above 1, besides what a change of each argument by 2^-22
+//     of itself and 2^-23 does. Cost: 39 operations
 float3 fresnel_refracted_green(float3 incident, float3 normal, float3 etas)
 {
     float c = saturate(-dot(incident, normal)); // clamp: a rounded dot product may exceed 1
@@ -55,8 +55,8 @@ float3 fresnel_refracted_green(float3 incident, float3 normal, float3 etas)
 //   incident: direction of travel, of unit length, toward the surface
 //   normal: of unit length, on the side that the light comes from; the function never flips it
 //   etas: n_t / n_i for red, green and blue, each above 0; GLSL's refract takes the inverse
-// Code error: at most 2e-7, relative where the result is above 1, besides what a change of an argument's last bit
-//     does. Cost: 39 operations
+// Code error: at most 2e-7, relative where the result is above 1, besides what a change of each argument by 2^-22
+//     of itself and 2^-23 does. Cost: 39 operations
 float3 fresnel_refracted_blue(float3 incident, float3 normal, float3 etas)
 {
     float c = saturate(-dot(incident, normal)); // clamp: a rounded dot product may exceed 1
@@ -71,8 +71,8 @@ float3 fresnel_refracted_blue(float3 incident, float3 normal, float3 etas)
 // fresnel_spectral_weight: the weight of a sample in red, green and blue; over all samples each sums to 1
 //   index: which sample, 0 to count - 1, from red to blue
 //   count: how many samples, 1 or more: as many as red and blue lie pixels apart are enough
-// Code error: at most 2e-7, relative where the result is above 1, besides what a change of an argument's last bit
-//     does. Cost: 16 operations
+// Code error: at most 2e-7, relative where the result is above 1, besides what a change of each argument by 2^-22
+//     of itself and 2^-23 does. Cost: 16 operations
 float3 fresnel_spectral_weight(float index, float count)
 {
     float t = (index + 0.5) / count; // the middle of the sample's share of the spectrum

@@ -22,8 +22,8 @@
 // fresnel_reflected: the direction of the reflected ray; zero where the incident ray or the normal is zero
 //   incident: direction of travel, of unit length, toward the surface
 //   normal: of unit length, on the side that the light comes from; the function never flips it
-// Code error: at most 2e-7, relative where the result is above 1, besides what a change of an argument's last bit
-//     does. Cost: 24 operations
+// Code error: at most 2e-7, relative where the result is above 1, besides what a change of each argument by 2^-22
+//     of itself and 2^-23 does. Cost: 24 operations
 float3 fresnel_reflected(float3 incident, float3 normal)
 {
     float present = 0.5 < dot(normal, normal) ? 1.0 : 0.0; // a zero normal gives zero
@@ -35,8 +35,8 @@ float3 fresnel_reflected(float3 incident, float3 normal)
 //   incident: direction of travel, of unit length, toward the surface
 //   normal: of unit length, on the side that the light comes from; the function never flips it
 //   eta: n_t / n_i, the index behind the surface by that before it, above 0; GLSL's refract takes the inverse
-// Code error: at most 2e-7, relative where the result is above 1, besides what a change of an argument's last bit
-//     does. Cost: 39 operations
+// Code error: at most 2e-7, relative where the result is above 1, besides what a change of each argument by 2^-22
+//     of itself and 2^-23 does. Cost: 39 operations
 float3 fresnel_refracted(float3 incident, float3 normal, float eta)
 {
     float c = saturate(-dot(incident, normal)); // clamp: a rounded dot product may exceed 1
@@ -52,8 +52,8 @@ float3 fresnel_refracted(float3 incident, float3 normal, float eta)
 //   incident: direction of travel, of unit length, toward the surface
 //   normal: of unit length, on the side that the light comes from; the function never flips it
 //   eta: relative index of refraction, transmitted over incident (n_t / n_i)
-// Code error: at most 6e-7, relative where the result is above 1, besides what a change of an argument's last bit
-//     does. Cost: 65 operations
+// Code error: at most 6e-7, relative where the result is above 1, besides what a change of each argument by 2^-22
+//     of itself and 2^-23 does. Cost: 65 operations
 float3 fresnel_interface_reflectance(float3 incident, float3 normal, float3 eta)
 {
     float c = saturate(-dot(incident, normal)); // clamp: a rounded dot product may exceed 1
@@ -72,8 +72,8 @@ float3 fresnel_interface_reflectance(float3 incident, float3 normal, float3 eta)
 //   incident: direction of travel, of unit length, toward the surface
 //   normal: of unit length, on the side that the light comes from; the function never flips it
 //   eta: relative index of refraction, transmitted over incident (n_t / n_i)
-// Code error: at most 6e-7, relative where the result is above 1, besides what a change of an argument's last bit
-//     does. Cost: 29 operations
+// Code error: at most 6e-7, relative where the result is above 1, besides what a change of each argument by 2^-22
+//     of itself and 2^-23 does. Cost: 29 operations
 float fresnel_interface_reflectance_scalar(float3 incident, float3 normal, float eta)
 {
     float c = saturate(-dot(incident, normal)); // clamp: a rounded dot product may exceed 1

@@ -38,8 +38,8 @@
 //       points down
 //   positions: places of the back as that camera sees them, in the world, with 1 in alpha; all 0 where it sees
 //       nothing
-// Code error: at most 2e-7, relative where the result is above 1, besides what a change of an argument's last bit
-//     does. Cost: 50 operations
+// Code error: at most 2e-7, relative where the result is above 1, besides what a change of each argument by 2^-22
+//     of itself and 2^-23 does. Cost: 50 operations
 float fresnel_interior_search_step(
     float3 entry,
     float3 direction,
@@ -68,8 +68,8 @@ float fresnel_interior_search_step(
 //   direction: of the ray, of unit length
 //   normal_out: of unit length, out of the body
 //   eta: n_t / n_i, the index behind the surface by that before it, above 0; GLSL's refract takes the inverse
-// Code error: at most 2e-7, relative where the result is above 1, besides what a change of an argument's last bit
-//     does. Cost: 56 operations
+// Code error: at most 2e-7, relative where the result is above 1, besides what a change of each argument by 2^-22
+//     of itself and 2^-23 does. Cost: 56 operations
 float3 fresnel_exit_direction(float3 direction, float3 normal_out, float eta)
 {
     float3 normal = -normal_out; // on the side that the light comes from
@@ -88,8 +88,8 @@ float3 fresnel_exit_direction(float3 direction, float3 normal_out, float eta)
 //   direction: of the ray, of unit length
 //   normal_out: of unit length, out of the body
 //   eta: relative index of refraction, transmitted over incident (n_t / n_i)
-// Code error: at most 6e-7, relative where the result is above 1, besides what a change of an argument's last bit
-//     does. Cost: 67 operations
+// Code error: at most 6e-7, relative where the result is above 1, besides what a change of each argument by 2^-22
+//     of itself and 2^-23 does. Cost: 67 operations
 float3 fresnel_exit_transmittance(float3 direction, float3 normal_out, float3 eta)
 {
     float c = saturate(dot(direction, normal_out)); // clamp: a rounded dot product may exceed 1
@@ -108,8 +108,8 @@ float3 fresnel_exit_transmittance(float3 direction, float3 normal_out, float3 et
 //   direction: of the ray, of unit length
 //   normal_out: of unit length, out of the body
 //   eta: relative index of refraction, transmitted over incident (n_t / n_i)
-// Code error: at most 6e-7, relative where the result is above 1, besides what a change of an argument's last bit
-//     does. Cost: 29 operations
+// Code error: at most 6e-7, relative where the result is above 1, besides what a change of each argument by 2^-22
+//     of itself and 2^-23 does. Cost: 29 operations
 float fresnel_exit_transmittance_scalar(float3 direction, float3 normal_out, float eta)
 {
     float c = saturate(dot(direction, normal_out)); // clamp: a rounded dot product may exceed 1

@@ -19,8 +19,8 @@
 //   tangent: of unit length, along growing u
 //   bitangent_sign: 1, or -1 where the texture is mirrored: bitangent = sign cross(normal, tangent)
 //   normal: of unit length, on the side that the light comes from; the function never flips it
-// Code error: at most 2e-7, relative where the result is above 1, besides what a change of an argument's last bit
-//     does. Cost: 38 operations
+// Code error: at most 2e-7, relative where the result is above 1, besides what a change of each argument by 2^-22
+//     of itself and 2^-23 does. Cost: 38 operations
 float3 fresnel_normal_to_world(float3 tangent_normal, float3 tangent, float bitangent_sign, float3 normal)
 {
     float square_x = normal.y * tangent.z - normal.z * tangent.y;

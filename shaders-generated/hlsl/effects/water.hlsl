@@ -21,8 +21,8 @@
 //   view_projection: from world to clip space, applied to columns
 //   uv_scale_bias: uv = ndc.xy * this.xy + this.zw: (.5, .5, .5, .5) where v points up, (.5, -.5, .5, .5) where it
 //       points down
-// Code error: at most 2e-7, relative where the result is above 1, besides what a change of an argument's last bit
-//     does. Cost: 26 operations
+// Code error: at most 2e-7, relative where the result is above 1, besides what a change of each argument by 2^-22
+//     of itself and 2^-23 does. Cost: 26 operations
 float3 fresnel_planar_uv(float3 position, float4x4 view_projection, float4 uv_scale_bias)
 {
     float w = mul(view_projection, float4(position, 1.0)).w; // 0 or less is behind the camera
@@ -38,8 +38,8 @@ float3 fresnel_planar_uv(float3 position, float4x4 view_projection, float4 uv_sc
 //   uv: of the pixel in the picture
 //   distortion: by how much the waves bend it, in texture coordinates
 //   map: the picture of what lies below the water, with 1 in alpha; what stands before the water has 0 there
-// Code error: at most 2e-7, relative where the result is above 1, besides what a change of an argument's last bit
-//     does. Cost: 8 operations
+// Code error: at most 2e-7, relative where the result is above 1, besides what a change of each argument by 2^-22
+//     of itself and 2^-23 does. Cost: 8 operations
 float3 fresnel_water_refraction(float2 uv, float2 distortion, Texture2D<float4> map, SamplerState map_sampler)
 {
     float u = uv.x + distortion.x; // where the waves bend it to

@@ -18,8 +18,8 @@
 //   t_entry: the transmitted share 1 - R at the first surface
 //   t_exit: the same at the second; for a caustic by reflection 1, with R in the place of t_entry
 //   area: of the photon's share of the light's cross-section, in square units of the world
-// Code error: at most 2e-7, relative where the result is above 1, besides what a change of an argument's last bit
-//     does. Cost: 6 operations
+// Code error: at most 2e-7, relative where the result is above 1, besides what a change of each argument by 2^-22
+//     of itself and 2^-23 does. Cost: 6 operations
 fn fresnel_photon_energy(t_entry: vec3<f32>, t_exit: vec3<f32>, area: f32) -> vec3<f32> {
     return t_entry * t_exit * area;
 }
@@ -29,8 +29,8 @@ fn fresnel_photon_energy(t_entry: vec3<f32>, t_exit: vec3<f32>, area: f32) -> ve
 //   a: where the first photon lands, in the world
 //   b: where the second lands
 //   c: where the third lands
-// Code error: at most 2e-7, relative where the result is above 1, besides what a change of an argument's last bit
-//     does. Cost: 30 operations
+// Code error: at most 2e-7, relative where the result is above 1, besides what a change of each argument by 2^-22
+//     of itself and 2^-23 does. Cost: 30 operations
 fn fresnel_triangle_irradiance(flux: vec3<f32>, a: vec3<f32>, b: vec3<f32>, c: vec3<f32>) -> vec3<f32> {
     let along_b = b - a;
     let along_c = c - a;
@@ -47,8 +47,8 @@ fn fresnel_triangle_irradiance(flux: vec3<f32>, a: vec3<f32>, b: vec3<f32>, c: v
 // fresnel_splat_weight: the share of a photon's flux per square unit at an offset from where it lands
 //   offset: from the splat's centre, in units of the world
 //   radius: of the splat, above 0
-// Code error: at most 2e-7, relative where the result is above 1, besides what a change of an argument's last bit
-//     does. Cost: 9 operations
+// Code error: at most 2e-7, relative where the result is above 1, besides what a change of each argument by 2^-22
+//     of itself and 2^-23 does. Cost: 9 operations
 fn fresnel_splat_weight(offset: vec2<f32>, radius: f32) -> f32 {
     let squared = radius * radius;
     return 0.63661975 / squared * max(1.0 - (offset.x * offset.x + offset.y * offset.y) / squared, 0.0);

@@ -26,8 +26,8 @@
 // fresnel_coated_metal_f0: F0 of a metal under a coat of index 1.5, 0 to 1
 //   f0: the metal's reflectance in air at normal incidence
 //   f82: the metal's reflectance in air at 81.79 degrees
-// Code error: at most 2e-7, relative where the result is above 1, besides what a change of an argument's last bit
-//     does. Cost: 39 operations
+// Code error: at most 2e-7, relative where the result is above 1, besides what a change of each argument by 2^-22
+//     of itself and 2^-23 does. Cost: 39 operations
 fn fresnel_coated_metal_f0(f0: vec3<f32>, f82: vec3<f32>) -> vec3<f32> {
     return saturate(
         f0 + (1.0 - f0) * (f0 * -0.5128 + 0.3513) + (1.0 - f82) * (f0 * 0.8608 + f82 * -0.5326 - 0.5512)
@@ -38,8 +38,8 @@ fn fresnel_coated_metal_f0(f0: vec3<f32>, f82: vec3<f32>) -> vec3<f32> {
 //     and 0 past the critical angle
 //   cos_i: cosine of the angle of incidence, on the side that the light comes from
 //   eta: n_t / n_i, the index behind the interface by that before it, above 0
-// Code error: at most 2e-7, relative where the result is above 1, besides what a change of an argument's last bit
-//     does. Cost: 25 operations
+// Code error: at most 2e-7, relative where the result is above 1, besides what a change of each argument by 2^-22
+//     of itself and 2^-23 does. Cost: 25 operations
 fn fresnel_interface_and_cosine(cos_i: f32, eta: f32) -> vec3<f32> {
     let c = saturate(cos_i); // clamp: a rounded dot product may exceed 1
     let c2 = c * c;
@@ -56,8 +56,8 @@ fn fresnel_interface_and_cosine(cos_i: f32, eta: f32) -> vec3<f32> {
 // fresnel_coated_reflectance: R of coat and base together, all reflections between them summed
 //   coat_r: R of the coat's interface, at the cosine outside
 //   base_r: R of the base under the coat, at the refracted cosine
-// Code error: at most 2e-7, relative where the result is above 1, besides what a change of an argument's last bit
-//     does. Cost: 20 operations
+// Code error: at most 2e-7, relative where the result is above 1, besides what a change of each argument by 2^-22
+//     of itself and 2^-23 does. Cost: 20 operations
 fn fresnel_coated_reflectance(coat_r: f32, base_r: vec3<f32>) -> vec3<f32> {
     let enters = 1.0 - coat_r; // 1 - R1
     return base_r * (enters * enters) / max(1.0 - base_r * coat_r, vec3<f32>(1.0e-12)) + coat_r;
@@ -65,8 +65,8 @@ fn fresnel_coated_reflectance(coat_r: f32, base_r: vec3<f32>) -> vec3<f32> {
 
 // fresnel_slab_reflectance: R of both interfaces of a slab, a window pane for example
 //   r: R of one interface of the slab
-// Code error: at most 2e-7, relative where the result is above 1, besides what a change of an argument's last bit
-//     does. Cost: 9 operations
+// Code error: at most 2e-7, relative where the result is above 1, besides what a change of each argument by 2^-22
+//     of itself and 2^-23 does. Cost: 9 operations
 fn fresnel_slab_reflectance(r: vec3<f32>) -> vec3<f32> {
     return r * 2.0 / (r + 1.0);
 }

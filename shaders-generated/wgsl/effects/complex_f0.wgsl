@@ -13,8 +13,8 @@
 // fresnel_complex_f0: F0 of each channel, 0 to 1
 //   n: refractive index, relative to the medium before the surface
 //   k: extinction coefficient, relative likewise
-// Code error: at most 2e-7, relative where the result is above 1, besides what a change of an argument's last bit
-//     does. Cost: 24 operations
+// Code error: at most 2e-7, relative where the result is above 1, besides what a change of each argument by 2^-22
+//     of itself and 2^-23 does. Cost: 24 operations
 fn fresnel_complex_f0(n: vec3<f32>, k: vec3<f32>) -> vec3<f32> {
     let below = n - 1.0;
     let above = n + 1.0;

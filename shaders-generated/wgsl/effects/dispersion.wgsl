@@ -18,8 +18,8 @@
 //   incident: direction of travel, of unit length, toward the surface
 //   normal: of unit length, on the side that the light comes from; the function never flips it
 //   etas: n_t / n_i for red, green and blue, each above 0; GLSL's refract takes the inverse
-// Code error: at most 2e-7, relative where the result is above 1, besides what a change of an argument's last bit
-//     does. Cost: 39 operations
+// Code error: at most 2e-7, relative where the result is above 1, besides what a change of each argument by 2^-22
+//     of itself and 2^-23 does. Cost: 39 operations
 fn fresnel_refracted_red(incident: vec3<f32>, normal: vec3<f32>, etas: vec3<f32>) -> vec3<f32> {
     let c = saturate(-dot(incident, normal)); // clamp: a rounded dot product may exceed 1
     let r = 1.0 / etas.x; // sin theta_t = r sin theta_i
@@ -35,8 +35,8 @@ fn fresnel_refracted_red(incident: vec3<f32>, normal: vec3<f32>, etas: vec3<f32>
 //   incident: direction of travel, of unit length, toward the surface
 //   normal: of unit length, on the side that the light comes from; the function never flips it
 //   etas: n_t / n_i for red, green and blue, each above 0; GLSL's refract takes the inverse
-// Code error: at most 2e-7, relative where the result is above 1, besides what a change of an argument's last bit
-//     does. Cost: 39 operations
+// Code error: at most 2e-7, relative where the result is above 1, besides what a change of each argument by 2^-22
+//     of itself and 2^-23 does. Cost: 39 operations
 fn fresnel_refracted_green(incident: vec3<f32>, normal: vec3<f32>, etas: vec3<f32>) -> vec3<f32> {
     let c = saturate(-dot(incident, normal)); // clamp: a rounded dot product may exceed 1
     let r = 1.0 / etas.y; // sin theta_t = r sin theta_i
@@ -52,8 +52,8 @@ fn fresnel_refracted_green(incident: vec3<f32>, normal: vec3<f32>, etas: vec3<f3
 //   incident: direction of travel, of unit length, toward the surface
 //   normal: of unit length, on the side that the light comes from; the function never flips it
 //   etas: n_t / n_i for red, green and blue, each above 0; GLSL's refract takes the inverse
-// Code error: at most 2e-7, relative where the result is above 1, besides what a change of an argument's last bit
-//     does. Cost: 39 operations
+// Code error: at most 2e-7, relative where the result is above 1, besides what a change of each argument by 2^-22
+//     of itself and 2^-23 does. Cost: 39 operations
 fn fresnel_refracted_blue(incident: vec3<f32>, normal: vec3<f32>, etas: vec3<f32>) -> vec3<f32> {
     let c = saturate(-dot(incident, normal)); // clamp: a rounded dot product may exceed 1
     let r = 1.0 / etas.z; // sin theta_t = r sin theta_i
@@ -68,8 +68,8 @@ fn fresnel_refracted_blue(incident: vec3<f32>, normal: vec3<f32>, etas: vec3<f32
 // fresnel_spectral_weight: the weight of a sample in red, green and blue; over all samples each sums to 1
 //   index: which sample, 0 to count - 1, from red to blue
 //   count: how many samples, 1 or more: as many as red and blue lie pixels apart are enough
-// Code error: at most 2e-7, relative where the result is above 1, besides what a change of an argument's last bit
-//     does. Cost: 16 operations
+// Code error: at most 2e-7, relative where the result is above 1, besides what a change of each argument by 2^-22
+//     of itself and 2^-23 does. Cost: 16 operations
 fn fresnel_spectral_weight(index: f32, count: f32) -> vec3<f32> {
     let t = (index + 0.5) / count; // the middle of the sample's share of the spectrum
     let rest = 1.0 - t;

@@ -19,8 +19,8 @@
 // fresnel_reflected: the direction of the reflected ray; zero where the incident ray or the normal is zero
 //   incident: direction of travel, of unit length, toward the surface
 //   normal: of unit length, on the side that the light comes from; the function never flips it
-// Code error: at most 2e-7, relative where the result is above 1, besides what a change of an argument's last bit
-//     does. Cost: 24 operations
+// Code error: at most 2e-7, relative where the result is above 1, besides what a change of each argument by 2^-22
+//     of itself and 2^-23 does. Cost: 24 operations
 fn fresnel_reflected(incident: vec3<f32>, normal: vec3<f32>) -> vec3<f32> {
     let present = select(0.0, 1.0, 0.5 < dot(normal, normal)); // a zero normal gives zero
     return (incident - normal * (2.0 * dot(incident, normal))) * present;
@@ -31,8 +31,8 @@ fn fresnel_reflected(incident: vec3<f32>, normal: vec3<f32>) -> vec3<f32> {
 //   incident: direction of travel, of unit length, toward the surface
 //   normal: of unit length, on the side that the light comes from; the function never flips it
 //   eta: n_t / n_i, the index behind the surface by that before it, above 0; GLSL's refract takes the inverse
-// Code error: at most 2e-7, relative where the result is above 1, besides what a change of an argument's last bit
-//     does. Cost: 39 operations
+// Code error: at most 2e-7, relative where the result is above 1, besides what a change of each argument by 2^-22
+//     of itself and 2^-23 does. Cost: 39 operations
 fn fresnel_refracted(incident: vec3<f32>, normal: vec3<f32>, eta: f32) -> vec3<f32> {
     let c = saturate(-dot(incident, normal)); // clamp: a rounded dot product may exceed 1
     let r = 1.0 / eta; // sin theta_t = r sin theta_i
@@ -48,8 +48,8 @@ fn fresnel_refracted(incident: vec3<f32>, normal: vec3<f32>, eta: f32) -> vec3<f
 //   incident: direction of travel, of unit length, toward the surface
 //   normal: of unit length, on the side that the light comes from; the function never flips it
 //   eta: relative index of refraction, transmitted over incident (n_t / n_i)
-// Code error: at most 6e-7, relative where the result is above 1, besides what a change of an argument's last bit
-//     does. Cost: 65 operations
+// Code error: at most 6e-7, relative where the result is above 1, besides what a change of each argument by 2^-22
+//     of itself and 2^-23 does. Cost: 65 operations
 fn fresnel_interface_reflectance(incident: vec3<f32>, normal: vec3<f32>, eta: vec3<f32>) -> vec3<f32> {
     let c = saturate(-dot(incident, normal)); // clamp: a rounded dot product may exceed 1
     let c2 = c * c;
@@ -67,8 +67,8 @@ fn fresnel_interface_reflectance(incident: vec3<f32>, normal: vec3<f32>, eta: ve
 //   incident: direction of travel, of unit length, toward the surface
 //   normal: of unit length, on the side that the light comes from; the function never flips it
 //   eta: relative index of refraction, transmitted over incident (n_t / n_i)
-// Code error: at most 6e-7, relative where the result is above 1, besides what a change of an argument's last bit
-//     does. Cost: 29 operations
+// Code error: at most 6e-7, relative where the result is above 1, besides what a change of each argument by 2^-22
+//     of itself and 2^-23 does. Cost: 29 operations
 fn fresnel_interface_reflectance_scalar(incident: vec3<f32>, normal: vec3<f32>, eta: f32) -> f32 {
     let c = saturate(-dot(incident, normal)); // clamp: a rounded dot product may exceed 1
     let c2 = c * c;

@@ -35,8 +35,8 @@
 //       points down
 //   positions: places of the back as that camera sees them, in the world, with 1 in alpha; all 0 where it sees
 //       nothing
-// Code error: at most 2e-7, relative where the result is above 1, besides what a change of an argument's last bit
-//     does. Cost: 50 operations
+// Code error: at most 2e-7, relative where the result is above 1, besides what a change of each argument by 2^-22
+//     of itself and 2^-23 does. Cost: 50 operations
 fn fresnel_interior_search_step(
     entry: vec3<f32>,
     direction: vec3<f32>,
@@ -64,8 +64,8 @@ fn fresnel_interior_search_step(
 //   direction: of the ray, of unit length
 //   normal_out: of unit length, out of the body
 //   eta: n_t / n_i, the index behind the surface by that before it, above 0; GLSL's refract takes the inverse
-// Code error: at most 2e-7, relative where the result is above 1, besides what a change of an argument's last bit
-//     does. Cost: 56 operations
+// Code error: at most 2e-7, relative where the result is above 1, besides what a change of each argument by 2^-22
+//     of itself and 2^-23 does. Cost: 56 operations
 fn fresnel_exit_direction(direction: vec3<f32>, normal_out: vec3<f32>, eta: f32) -> vec3<f32> {
     let normal = -normal_out; // on the side that the light comes from
     let facing = dot(direction, normal); // minus the cosine
@@ -84,8 +84,8 @@ fn fresnel_exit_direction(direction: vec3<f32>, normal_out: vec3<f32>, eta: f32)
 //   direction: of the ray, of unit length
 //   normal_out: of unit length, out of the body
 //   eta: relative index of refraction, transmitted over incident (n_t / n_i)
-// Code error: at most 6e-7, relative where the result is above 1, besides what a change of an argument's last bit
-//     does. Cost: 67 operations
+// Code error: at most 6e-7, relative where the result is above 1, besides what a change of each argument by 2^-22
+//     of itself and 2^-23 does. Cost: 67 operations
 fn fresnel_exit_transmittance(direction: vec3<f32>, normal_out: vec3<f32>, eta: vec3<f32>) -> vec3<f32> {
     let c = saturate(dot(direction, normal_out)); // clamp: a rounded dot product may exceed 1
     let c2 = c * c;
@@ -103,8 +103,8 @@ fn fresnel_exit_transmittance(direction: vec3<f32>, normal_out: vec3<f32>, eta: 
 //   direction: of the ray, of unit length
 //   normal_out: of unit length, out of the body
 //   eta: relative index of refraction, transmitted over incident (n_t / n_i)
-// Code error: at most 6e-7, relative where the result is above 1, besides what a change of an argument's last bit
-//     does. Cost: 29 operations
+// Code error: at most 6e-7, relative where the result is above 1, besides what a change of each argument by 2^-22
+//     of itself and 2^-23 does. Cost: 29 operations
 fn fresnel_exit_transmittance_scalar(direction: vec3<f32>, normal_out: vec3<f32>, eta: f32) -> f32 {
     let c = saturate(dot(direction, normal_out)); // clamp: a rounded dot product may exceed 1
     let c2 = c * c;

@@ -18,8 +18,8 @@
 //   view_projection: from world to clip space, applied to columns
 //   uv_scale_bias: uv = ndc.xy * this.xy + this.zw: (.5, .5, .5, .5) where v points up, (.5, -.5, .5, .5) where it
 //       points down
-// Code error: at most 2e-7, relative where the result is above 1, besides what a change of an argument's last bit
-//     does. Cost: 26 operations
+// Code error: at most 2e-7, relative where the result is above 1, besides what a change of each argument by 2^-22
+//     of itself and 2^-23 does. Cost: 26 operations
 fn fresnel_planar_uv(position: vec3<f32>, view_projection: mat4x4<f32>, uv_scale_bias: vec4<f32>) -> vec3<f32> {
     let w = (view_projection * vec4<f32>(position, 1.0)).w; // 0 or less is behind the camera
     let size = max(abs(w), 1.0e-20); // never 0, so that nothing is NaN
@@ -34,8 +34,8 @@ fn fresnel_planar_uv(position: vec3<f32>, view_projection: mat4x4<f32>, uv_scale
 //   uv: of the pixel in the picture
 //   distortion: by how much the waves bend it, in texture coordinates
 //   map: the picture of what lies below the water, with 1 in alpha; what stands before the water has 0 there
-// Code error: at most 2e-7, relative where the result is above 1, besides what a change of an argument's last bit
-//     does. Cost: 8 operations
+// Code error: at most 2e-7, relative where the result is above 1, besides what a change of each argument by 2^-22
+//     of itself and 2^-23 does. Cost: 8 operations
 fn fresnel_water_refraction(
     uv: vec2<f32>,
     distortion: vec2<f32>,

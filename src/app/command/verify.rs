@@ -199,7 +199,7 @@ fn shard_report(
 ) -> Result<Output, Error> {
     let rows = outcome.bare_rows();
     let code = code(&rows, whole.require_all, Some(&outcome.machine));
-    let (dealt, places) = (outcome.parts.len(), outcome.places);
+    let (dealt, places) = (outcome.parts.len(), outcome.plan.len());
     let unrun = remarks_on_parts_without_rows(&outcome.parts);
     let full = ShardReport::new(whole, shard, outcome);
     let mut output = told(&rows, &full, files)?;

@@ -101,11 +101,6 @@ impl<'a> Listed<'a> {
         missing.map(finding).collect()
     }
 
-    /// Whether the file has the listed hash.
-    pub fn is_of(&self, bytes: &[u8]) -> bool {
-        is_listed(self.entry, bytes)
-    }
-
     fn claims(&self, name: &str, function: &Value, right: &Value) -> Vec<String> {
         let claims = function.as_object().into_iter().flatten();
         let is_false = |(claim, said): &(&String, &Value)| right.get(claim.as_str()) != Some(said);

@@ -222,7 +222,7 @@ fn bash_completes_names_and_flags() {
 
 /// Lines in which each flag that a command offers does its work. Those of a graphics stack or of minutes are parsed only; tests of
 /// their own run them.
-const USED: [(&str, bool); 38] = [
+const USED: [(&str, bool); 52] = [
     (
         "--target gles --method schlick_ior --effect interior --material none --out-dir a --overwrite --quiet",
         true,
@@ -312,6 +312,44 @@ const USED: [(&str, bool); 38] = [
         false,
     ),
     ("plan s.toml --json plan.json", true),
+    (
+        "verify --target gles --method schlick --effect coat --material gold --medium 1.5 --space p3 --illuminant A --observer cie2015 --adaptation scale --step 5nm --extrapolate hold --gamut clip --prefix my_ --matching-angle 80 --precision f16 --force --points 500 --out-dir o --adapter a --backend vulkan --tools t --limit 9 --shards 3 --shard 1 --require-all --json v.json --junit v.xml",
+        false,
+    ),
+    (
+        "verify --exhaustive --target wgsl --method schlick --material gold --wavelengths 600,550,450",
+        false,
+    ),
+    (
+        "cost --gpu rdna2 --precision f16 --method schlick --material gold --out-dir o --overwrite --tools t --limit 9 --require-all --json c.json",
+        false,
+    ),
+    ("cost --effect coat --check", false),
+    (
+        "time --method schlick --material gold --precision f16 --adapter a --backend vulkan --clock gpu --size 64 --evaluations 2 --rounds 3 --limit 9 --require-all --json t.json",
+        false,
+    ),
+    ("time --hardware", false),
+    (
+        "audit m.glsl --function f -D A=1 --define B=2 --language glsl --arg f0=.5 --max-error .1 --max-inputs 3 --tools t --limit 9 --material gold --medium 1.5 --space p3 --illuminant A --observer cie2015 --adaptation scale --step 5nm --extrapolate hold --gamut clip --gpu rdna2 --out-dir o --overwrite --json a.json --junit a.xml",
+        false,
+    ),
+    (
+        "audit m.glsl --material gold --wavelengths 600,550,450",
+        false,
+    ),
+    (
+        "render caustics --material gold --size 64 --exposure 1 --tone-curve aces --environment e.hdr --ldr -o r.png --json r.json",
+        false,
+    ),
+    (
+        "chart --show metals --of worst --error de2000 --gpu rdna2 --out-dir o --overwrite --json c.json",
+        false,
+    ),
+    ("chart --material gold", false),
+    ("merge a.json b.json --json m.json --junit m.xml", false),
+    ("gallery --material gold --out-dir o --overwrite", false),
+    ("reproduce --out-dir o --overwrite --json r.json", false),
 ];
 
 /// Every command that offers a flag of these groups takes it somewhere: no group brings along what always fails.

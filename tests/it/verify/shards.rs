@@ -4,8 +4,11 @@ use std::collections::BTreeSet;
 use std::fs::{self, File};
 use std::path::PathBuf;
 use std::sync::OnceLock;
+use std::sync::atomic::{AtomicUsize, Ordering};
 
 use fresnel_gen::app::merge::{merged, parsed};
+use proptest::prelude::*;
+use proptest::test_runner::RngSeed;
 use serde_json::{Value, json};
 
 use crate::cli::{OUT, Place, Ran};
@@ -116,58 +119,105 @@ fn merged_shards_are_the_report_of_a_whole_run_to_the_byte() {
     }
 }
 
-/// Runs of every kind: shards of each, numbered by Slurm, are the whole run. Lists are walked at different speeds, so that each value
-/// of one meets many of the others.
+/// Some of these, each once.
+fn some_of(
+    names: &'static [&'static str],
+    count: impl Into<prop::sample::SizeRange>,
+) -> impl Strategy<Value = String> {
+    prop::sample::subsequence(names.to_vec(), count).prop_map(|some| some.join(","))
+}
+
+/// A run of few functions: `verify` with its flags. Some are refused.
+fn small_run() -> impl Strategy<Value = String> {
+    const METHODS: [&str; 8] = [
+        "schlick",
+        "schlick_f90",
+        "fitted",
+        "fitted_dielectric",
+        "dielectric_exact",
+        "conductor_exact",
+        "conductor_exact_metal",
+        "table",
+    ];
+    const MATERIALS: [&str; 6] = ["none", "gold", "water", "diamond", "silver", "bk7"];
+    let target = some_of(&["gles", "glsl", "msl", "spirv", "wgsl"], 1..=2);
+    let what = prop_oneof![
+        4 => some_of(&METHODS, 1..=2).prop_map(|names| format!("--method {names}")),
+        1 => some_of(&["coat", "interface", "dispersion"], 1..=2)
+            .prop_map(|names| format!("--effect {names}")),
+    ];
+    let materials = prop_oneof![
+        1 => Just("none".to_owned()),
+        5 => some_of(&MATERIALS[1..], 1..=3),
+    ];
+    let precision = prop::sample::select(vec!["f32", "f32", "f32", "f16"]);
+    let medium = prop::sample::select(vec!["", "", "", " --medium water", " --medium 1.5"]);
+    (target, what, materials, precision, medium, 100..400_usize).prop_map(
+        |(target, what, materials, precision, medium, points)| {
+            format!("verify --target {target} {what} --material {materials} --precision {precision}{medium} --points {points}")
+        },
+    )
+}
+
+/// Places of all runs that gave no row.
+static WITHOUT_ROWS: AtomicUsize = AtomicUsize::new(0);
+
+/// Holds a run in shards, numbered by Slurm, against the whole run.
+fn check_shards(line: &str, shards: usize) {
+    let place = Place::new();
+    let whole = run_with(&place, &format!("{line} --json whole.json"), &[]);
+    for index in 0..shards {
+        let sharded = format!("{line} --shards {shards} --json part-{index}.json");
+        let ran = run_with(&place, &sharded, &[(VARIABLES[0], &index.to_string())]);
+        assert_eq!(ran.code == Some(2), whole.code == Some(2), "{ran:?}");
+        if whole.code == Some(2) {
+            assert_eq!(ran.err, whole.err);
+            continue;
+        }
+        let part = report(&place, &format!("part-{index}.json"));
+        for part in part["parts"].as_array().unwrap() {
+            // What came to nothing says why, and nothing else does.
+            let is_without = part["rows"] == json!(0);
+            assert_eq!(is_without, part["reason"].is_string(), "{part}");
+            WITHOUT_ROWS.fetch_add(usize::from(is_without), Ordering::Relaxed);
+        }
+    }
+    if whole.code == Some(2) {
+        return;
+    }
+    let ran = merge(&place, shards, "-o merged.json").ends(whole.code.unwrap());
+    assert!(place.read("merged.json") == place.read("whole.json"));
+    assert_eq!(ran.out, whole.out);
+    let unrun = |ran: &Ran| -> Vec<String> {
+        let lines = ran.err.lines().filter(|line| line.contains("not run: "));
+        lines.map(str::to_owned).collect()
+    };
+    assert_eq!(unrun(&ran), unrun(&whole));
+}
+
+/// A failure prints the command and the number of shards, shrunk; the seed is a constant.
 #[test]
 fn shards_of_every_kind_of_run_are_put_together() {
-    const KINDS: [&str; 8] = [
-        "--target gles --material gold",
-        "--target msl --method all --material gold,water",
-        "--target spirv --precision f16 --material water",
-        "--target wgsl --effect all --material none",
-        "--target glsl --method schlick,conductor_exact --material gold,silver",
-        "--target gles --method schlick --material diamond,water,gold",
-        "--target glsl,msl --material water --medium water",
-        "--target gles --method fitted --material water",
-    ];
-    let mut without_rows = 0;
-    for (i, kind) in KINDS.iter().enumerate() {
-        let shards = [2, 3, 5, 2, 7][i % 5];
-        let place = Place::new();
-        let line = format!("verify {kind} --points 100");
-        let whole = run_with(&place, &format!("{line} --json whole.json"), &[]);
-        if whole.code == Some(2) {
-            panic!("{whole:?}");
-        }
-        for index in 0..shards {
-            let sharded = format!("{line} --shards {shards} --json part-{index}.json");
-            let ran = run_with(&place, &sharded, &[(VARIABLES[0], &index.to_string())]);
-            assert_ne!(ran.code, Some(2), "{ran:?}");
-            for part in report(&place, &format!("part-{index}.json"))["parts"]
-                .as_array()
-                .unwrap()
-            {
-                // What came to nothing says why, and nothing else does.
-                assert_eq!(
-                    part["rows"] == json!(0),
-                    part["reason"].is_string(),
-                    "{part}"
-                );
-                without_rows += usize::from(part["rows"] == json!(0));
-            }
-        }
-        let ran = merge(&place, shards, "-o merged.json").ends(whole.code.unwrap());
-        assert!(
-            place.read("merged.json") == place.read("whole.json"),
-            "{kind}"
-        );
-        let unrun = |ran: &Ran| -> Vec<String> {
-            let lines = ran.err.lines().filter(|line| line.contains("not run: "));
-            lines.map(str::to_owned).collect()
-        };
-        assert_eq!(unrun(&ran), unrun(&whole));
-    }
-    assert!(without_rows > 0, "no place of any run gave no row");
+    let config = ProptestConfig {
+        cases: 16,
+        rng_seed: RngSeed::Fixed(1),
+        failure_persistence: None,
+        max_shrink_iters: 20,
+        ..ProptestConfig::default()
+    };
+    proptest!(config, |(line in small_run(), shards in 1..6_usize)| {
+        check_shards(&line, shards);
+    });
+    // Places without rows, and the kinds of run that the draw may miss.
+    check_shards("verify --target gles --material gold --points 100", 2);
+    check_shards(
+        "verify --target glsl,msl --material water --medium water --points 100",
+        3,
+    );
+    assert!(
+        WITHOUT_ROWS.load(Ordering::Relaxed) > 0,
+        "no place of any run gave no row"
+    );
 }
 
 /// A whole run of the small set, and the same as the only shard of one.
@@ -366,7 +416,7 @@ fn what_was_not_checked_ends_with_3_where_all_is_asked_for() {
 /// What is done to the second of four reports, and what is said of it.
 type Tampered = (&'static str, fn(&mut Value), &'static [&'static str]);
 
-const TAMPERED: [Tampered; 12] = [
+const TAMPERED: [Tampered; 15] = [
     (
         "the version of the program",
         |part| part["version"] = json!("0.0.9"),
@@ -437,8 +487,34 @@ const TAMPERED: [Tampered; 12] = [
             part["rows"] = json!([]);
             part["parts"] = json!([]);
             part["places"] = json!(0);
+            part["plan"] = json!([]);
         },
         &["the number of shards is 8", "4"],
+    ),
+    (
+        "fewer places",
+        |part| {
+            part["places"] = json!(5);
+            part["plan"].as_array_mut().unwrap().pop();
+            for key in ["rows", "parts"] {
+                let all = part[key].as_array_mut().unwrap();
+                all.retain(|one| one["place"] != json!(5));
+            }
+        },
+        &["planned rows differ: there are 5 places", "6 places"],
+    ),
+    (
+        "another row and its plan",
+        |part| {
+            part["rows"][0]["material"] = json!("gold");
+            part["plan"][1]["rows"] = json!("0");
+        },
+        &["the rows of place 1 are not those that its `plan` has"],
+    ),
+    (
+        "the plan",
+        |part| part["plan"][0]["rows"] = json!("0"),
+        &["planned rows differ"],
     ),
     (
         "a shard beyond",
@@ -505,6 +581,7 @@ fn missing_shards_and_those_that_are_there_twice_are_named() {
     one["rows"] = json!([]);
     one["parts"] = json!([]);
     one["places"] = json!(0);
+    one["plan"] = json!([]);
     place.put("one.json", one.to_string());
     let says = [
         "18446744073709551614 of",
@@ -546,6 +623,23 @@ fn what_is_no_report_is_refused_with_its_place() {
         rows(part).retain(|row| row["place"] != json!(0));
     });
     let beyond = tampered(|part| rows(part)[0]["place"] = json!(4000));
+    // What is left is numbered again, and `parts` agrees.
+    let renumbered = tampered(|part| {
+        let first = part["parts"][0]["place"].clone();
+        let at = rows(part).iter().position(|row| row["place"] == first);
+        rows(part).remove(at.unwrap());
+        let left = rows(part).iter_mut().filter(|row| row["place"] == first);
+        let mut count = 0;
+        for row in left {
+            row["number"] = json!(count);
+            count += 1;
+        }
+        part["parts"][0]["rows"] = json!(count);
+        if count == 0 {
+            part["parts"][0]["reason"] = json!("it holds no function that was asked for");
+        }
+    });
+    let renamed = tampered(|part| rows(part)[0]["function"] = json!("fresnel_other"));
     let hidden = tampered(|part| rows(part)[0]["material"] = json!("g\n::notice::x"));
     let hidden_reason = tampered(|part| part["parts"][0]["reason"] = json!("g\n::notice::x"));
     let words = half.replacen("\"shards\":4", "\"shards\":\"four\"", 1);
@@ -596,6 +690,16 @@ fn what_is_no_report_is_refused_with_its_place() {
         ("beyond.json", &beyond, "place 4000, which is not dealt"),
         ("hidden.json", &hidden, "\\n::notice::x"),
         ("words.json", &words, "expected a whole number"),
+        (
+            "renumbered.json",
+            &renumbered,
+            "the rows of place 0 are not those that its `plan` has",
+        ),
+        (
+            "renamed.json",
+            &renamed,
+            "the rows of place 0 are not those that its `plan` has",
+        ),
     ] {
         place.put(name, text);
         place.refused(

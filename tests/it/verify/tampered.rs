@@ -3,6 +3,7 @@
 
 use std::fs;
 
+use fresnel_gen::app::artifact::sha256;
 use serde_json::Value;
 
 use super::command::verify;
@@ -367,19 +368,28 @@ fn a_changed_interface_of_a_module_is_seen() {
     fails(ran, &["spirv/fresnel_schlick.comp.spv", "binding"]);
 }
 
-/// Of modules only those of compute shaders are run: a fragment module that is neither today's nor the listed one fails.
+/// Of modules only those of compute shaders are run: a fragment module that is not today's fails, also one that the manifest lists.
 #[test]
 fn a_swapped_fragment_module_is_seen() {
     let place = Place::new();
     let line = "--target spirv --material gold,platinum --method conductor_exact";
     place.done(line);
     let file = |name: &str| place.path(&format!("{OUT}/spirv/materials/{name}.frag.spv"));
+    let hash = |name: &str| sha256(&fs::read(file(name)).unwrap());
+    let [gold, platinum] = ["gold", "platinum"].map(hash);
     fs::copy(file("platinum"), file("gold")).unwrap();
-    let ran = verify(&place, &format!("{line} --points 500 --json -"));
-    fails(
-        ran,
-        &["spirv/materials/gold.frag.spv: it is neither what would be written today"],
-    );
+    let manifest = format!("{OUT}/manifest.json");
+    let listed = place.read(&manifest).replace(&gold, &platinum);
+    for is_listed in [false, true] {
+        if is_listed {
+            place.put(&manifest, &listed);
+        }
+        let ran = verify(&place, &format!("{line} --points 500 --json -"));
+        fails(
+            ran,
+            &["spirv/materials/gold.frag.spv: it is not what would be written today"],
+        );
+    }
 }
 
 /// Words that state something false: terms, labels, a bound that nobody gives, fewer bits.
