@@ -336,6 +336,7 @@ mod tests {
     use super::super::scan::functions;
     use super::*;
     use crate::emit::shader_words::tokens;
+    use core::f32::consts::FRAC_PI_3;
 
     #[track_caller]
     fn check(head: &str, body: &str, expected: Option<(usize, Option<CosineForm>)>) {
@@ -403,7 +404,7 @@ mod tests {
         assert_eq!(at(Squared), 0.25);
         assert_eq!(at(SineSquared), 0.75);
         assert!((at(Sine) - 0.866_025_4).abs() < 1e-7);
-        assert!((at(Angle) - 1.047_197_6).abs() < 1e-7);
+        assert!((at(Angle) - FRAC_PI_3).abs() < 1e-7);
         assert!((at(Degrees) - 60.0).abs() < 1e-5);
         assert!(Angle.of(f32::NAN).is_nan() && Cosine.of(2.0) == 2.0 && Sine.of(2.0) == 0.0);
     }
