@@ -41,15 +41,7 @@ pub fn write(
     overwrite: bool,
     lock: &mut Lock,
 ) -> Result<Written, Error> {
-    if let Some((link, leads_to)) = &plan.linked {
-        return Err(Error::Linked {
-            link: link.clone(),
-            leads_to: leads_to.clone(),
-        });
-    }
-    if let (Some(obstacle), false) = (plan.obstacles.first(), overwrite) {
-        return Err(not_ours(&plan.out_dir, obstacle, plan.obstacles.len() - 1));
-    }
+    refuse_others(plan, overwrite)?;
     let pending: Vec<&Planned> = (plan.files.iter())
         .filter(|file| file.state() != State::Unchanged)
         .collect();
@@ -96,6 +88,22 @@ pub fn write(
         removed: removed?,
         unchanged: plan.all().count() - written,
     })
+}
+
+/// Refuses a tree in whose places others' files or links lie.
+fn refuse_others(plan: &TreePlan, overwrite: bool) -> Result<(), Error> {
+    if let Some((link, leads_to)) = &plan.linked {
+        return Err(Error::Linked {
+            link: link.clone(),
+            leads_to: leads_to.clone(),
+        });
+    }
+    match plan.obstacles.first() {
+        Some(obstacle) if !overwrite => {
+            Err(not_ours(&plan.out_dir, obstacle, plan.obstacles.len() - 1))
+        }
+        _ => Ok(()),
+    }
 }
 
 /// Refuses these places of a report where files lie that do not bear our mark.
