@@ -8,11 +8,12 @@ use super::manifest::{Entry, Manifest, Provenance};
 use super::tree::{Planned, State};
 use crate::emit::Detail;
 
-/// Refuses to write the functions of a table or page in the place of another's: both are named after their files, and their data differ.
+/// Refuses to write what is made of a table or page beside what is made of another, or of a material of the catalogue with its name: a table
+/// and a page are named after their files, and the data differ.
 /// A material file says its name itself, and is taken to be a newer one of that name.
 ///
 /// # Errors
-/// Such a file of another's lies there.
+/// The manifest lists something of another's.
 pub fn refuse_namesakes(
     artifacts: &[Artifact],
     files: &[Planned],

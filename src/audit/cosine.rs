@@ -67,7 +67,7 @@ impl CosineForm {
     }
 
     /// What it is for a cosine. What lies above 1 has no angle, so that only cosines themselves go beyond.
-    pub fn of(self, cosine: f32) -> f32 {
+    pub fn value_at(self, cosine: f32) -> f32 {
         if self == Cosine {
             return cosine;
         }
@@ -399,13 +399,17 @@ mod tests {
 
     #[test]
     fn each_form_has_its_value() {
-        let at = |form: CosineForm| form.of(0.5);
+        let at = |form: CosineForm| form.value_at(0.5);
         assert_eq!(at(OneMinus), 0.5);
         assert_eq!(at(Squared), 0.25);
         assert_eq!(at(SineSquared), 0.75);
         assert!((at(Sine) - 0.866_025_4).abs() < 1e-7);
         assert!((at(Angle) - FRAC_PI_3).abs() < 1e-7);
         assert!((at(Degrees) - 60.0).abs() < 1e-5);
-        assert!(Angle.of(f32::NAN).is_nan() && Cosine.of(2.0) == 2.0 && Sine.of(2.0) == 0.0);
+        assert!(
+            Angle.value_at(f32::NAN).is_nan()
+                && Cosine.value_at(2.0) == 2.0
+                && Sine.value_at(2.0) == 0.0
+        );
     }
 }

@@ -103,7 +103,7 @@ impl Runner {
 
     /// The same where the function takes this for a cosine.
     pub fn run_as(&self, form: CosineForm, cosines: &[f32]) -> Result<Vec<[f32; 3]>, Trouble> {
-        let taken = cosines.iter().map(|c| form.of(*c).to_bits());
+        let taken = cosines.iter().map(|c| form.value_at(*c).to_bits());
         let request = AuditRequest::Run(taken.collect());
         let response = self.worker.borrow_mut().ask(&request, self.limit);
         let response = response.map_err(|error| Trouble::Failed(error.to_string()))?;

@@ -242,14 +242,14 @@ impl Seen {
             }
         }
         for found in &mut self.judged.candidates {
-            found.error = told(found.error);
+            found.error = rounded_error(found.error);
         }
         self.judged
     }
 }
 
 /// An error as it is compared and told.
-fn told(error: f64) -> f64 {
+fn rounded_error(error: f64) -> f64 {
     (error * ERROR_PARTS).round() / ERROR_PARTS
 }
 
@@ -257,7 +257,7 @@ impl PlanRequest {
     /// Whether a candidate with this error leaves nothing to look for in those that cost more. Where functions have a price, one that
     /// costs more may be shared.
     fn is_enough(&self, error: f64) -> bool {
-        self.price == 0.0 && told(error) <= self.budget
+        self.price == 0.0 && rounded_error(error) <= self.budget
     }
 }
 

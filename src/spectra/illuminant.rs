@@ -97,7 +97,7 @@ impl Illuminant {
         }
         let name = file.rsplit(['/', '\\']).next().unwrap_or(file);
         Ok(Illuminant::Table {
-            name: name.chars().filter(|c| !c.is_control()).collect(),
+            name: without_controls(name),
             power: spectrum(&rows),
         })
     }
@@ -106,7 +106,7 @@ impl Illuminant {
     pub fn named(self, name: &str) -> Illuminant {
         match self {
             Illuminant::Table { power, .. } => Illuminant::Table {
-                name: name.chars().filter(|c| !c.is_control()).collect(),
+                name: without_controls(name),
                 power,
             },
             standard => standard,
@@ -189,6 +189,11 @@ fn spectrum(rows: &[SpectrumRow<2>]) -> Spectrum<f64> {
 
 fn embedded(text: &str) -> Spectrum<f64> {
     spectrum(&rows("an embedded table", text, COLUMNS).expect("a test reads it"))
+}
+
+/// A name as headers and reports can hold it.
+fn without_controls(name: &str) -> String {
+    name.chars().filter(|c| !c.is_control()).collect()
 }
 
 #[cfg(test)]

@@ -37,12 +37,7 @@ pub fn cases<'a>(
     if let Some(index) = file.subject {
         return vec![specialised(&plan.subjects[index], emitted)];
     }
-    let method = emitted.method;
-    let fits = |subject: &&MaterialInMedium| subject.is_described_by(method);
-    let mut cases: Vec<TrialCase> = plan
-        .trial_subjects()
-        .iter()
-        .filter(fits)
+    let mut cases: Vec<TrialCase> = described(plan, emitted)
         .map(|subject| library(subject, emitted))
         .collect();
     if !emitted.precision.is_half() {
@@ -60,13 +55,23 @@ pub fn case_materials<'a>(
     if let Some(index) = file.subject {
         return vec![&plan.subjects[index].argument];
     }
-    let fits = |subject: &&MaterialInMedium| subject.is_described_by(emitted.method);
-    let described = plan.trial_subjects().iter().filter(fits);
-    let mut materials: Vec<&str> = described.map(|subject| subject.argument.as_str()).collect();
+    let mut materials: Vec<&str> = described(plan, emitted)
+        .map(|subject| subject.argument.as_str())
+        .collect();
     if !emitted.precision.is_half() {
         materials.extend(worst_cases(emitted.method).map(|_| row::WORST));
     }
     materials
+}
+
+/// The materials with whose values a library function is run.
+fn described<'a>(
+    plan: &'a VerifyPlan,
+    emitted: &Emitted,
+) -> impl Iterator<Item = &'a MaterialInMedium> {
+    let method = emitted.method;
+    let all = plan.trial_subjects().iter();
+    all.filter(move |subject| subject.is_described_by(method))
 }
 
 /// The trial of a function with a material's values.

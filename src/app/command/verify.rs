@@ -160,7 +160,7 @@ fn reported(
     let left_out = plan
         .left_out
         .iter()
-        .map(|why| format!("left out: {}", crate::foreign::one_line(&why.to_string())));
+        .map(|why| format!("left out: {}", one_line(&why.to_string())));
     output.remarks.splice(0..0, left_out);
     if !plan.unasked.is_empty() {
         output.remarks.push(unasked_words(&plan.unasked));
