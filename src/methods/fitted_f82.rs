@@ -1,5 +1,5 @@
-//! `F = F0 (1 - A - B) + F82 B + A`, `u = (1-c)/(1+2.6c)`, `A = u - (u-u²)(1 + 8u/3)`, `B = (u-u²)(531.2u/75 - .16)`: two colours that
-//! a texture holds, and two curves that all materials share.
+//! `F = F0 (1 - A - B) + F82 B + A`, `w = 3.6c/(1+2.6c)`, `u = 1 - w`, `A = u - uw (1 + 8u/3)`, `B = uw (531.2u/75 - .16)`: two colours
+//! that a texture holds, and two curves that all materials share.
 //!
 //! Source: ours, of the kind of Hoffman, "Fresnel Equations Considered Harmful", 2019, <https://renderwonk.com/publications/mam2019/>,
 //! who shares Schlick's curve and one more. It is affine in F0 and F82, so that one split-sum table of three numbers serves every
@@ -26,8 +26,8 @@ pub static METHOD: Method = Method {
     name: "fitted_f82",
     summary: "two fitted curves between the reflectances at 0 and 81.79 degrees",
     formula: &[
-        "F = F0 (1 - A - B) + F82 B + A, limited to [0, 1], u = (1 - c) / (1 + 2.6 c), s = u - u^2",
-        "A = u - s (1 + 8/3 u), B = s (531.2/75 u - 0.16)",
+        "F = F0 (1 - A - B) + F82 B + A, limited to [0, 1], u = (1 - c) / (1 + 2.6 c), w = 1 - u = 3.6 c / (1 + 2.6 c)",
+        "A = u - u w (1 + 8/3 u), B = u w (531.2/75 u - 0.16)",
     ],
     source: HOFFMAN_2019,
     origin: Origin::Ours("the two colours that it takes"),
@@ -49,7 +49,7 @@ pub static METHOD: Method = Method {
                 at_degrees: 87.3,
             },
         ],
-        code_ulp: 10.0,
+        code_ulp: 0.0,
         code_over: Over::Wide,
         colours: Colours::within(6e-7),
         by_class: &[
@@ -82,21 +82,13 @@ const START: f64 = -0.16;
 
 fn build<'b>(x: &Inputs<'b>) -> Expr<'b> {
     let c = x.cosine();
-    let below = (1.0 + BEND * c).named("below", "");
-    let u = (1.0 - c) / below;
-    let u = u.named(
-        "u",
-        "0 at normal incidence, 5/8 at 81.79 degrees, 1 at grazing",
-    );
-    let s = if x.is_half() {
-        // u - u^2 would be off by a rounding of 1 where it is small.
-        u * ((1.0 + BEND) * c / below)
-    } else {
-        u - u.squared()
-    };
-    let s = s.named("s", "");
-    let a = u - s * (1.0 + 8.0 / 3.0 * u);
-    let b = s * (SLOPE * u + START);
+    let w = c / (1.0 / (1.0 + BEND) + BEND / (1.0 + BEND) * c);
+    let w = w.named("w", "1 at normal incidence, 0 at grazing");
+    // From w, which is accurate where it is small: 1 - u would lose at grazing what (1 - c) / (1 + 2.6 c) rounds.
+    let u = (1.0 - w).named("u", "5/8 at 81.79 degrees");
+    let s = (u * w).named("s", "");
+    let a = u - s * (11.0 / 3.0 - 8.0 / 3.0 * w);
+    let b = s * (SLOPE + START - SLOPE * w);
     between(
         x,
         a.named("a", "the weight of white"),

@@ -1,10 +1,12 @@
 //! Is each claim kept, and not slack? A promise is broken where the measured error exceeds it, and slack where it falls
 //! below nine tenths of it.
 
+mod search;
+
 use fresnel_gen::fit::model_error_over;
 use fresnel_gen::methods::{self, Contract};
 use fresnel_gen::verify::{
-    coefficient_code_error, library_code_error, library_code_error_at, worst_media,
+    coefficient_code_error, cosines, library_code_error, library_code_error_at, worst_media,
 };
 
 /// Random media over which a library function's code error is taken, and cosines for each.
