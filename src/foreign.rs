@@ -53,9 +53,21 @@ pub fn path<P: AsRef<Path> + ?Sized>(path: &P) -> Foreign<String> {
     Foreign(path.as_ref().to_string_lossy().into_owned())
 }
 
-/// A message that holds values of others, as one line.
+/// A message that holds values of others, as one line. A word of it is no longer than a value.
 pub fn one_line(text: &str) -> String {
+    clipped(&words_clipped(&unbroken(text)), LINE)
+}
+
+/// A line of a file, as one line. What is compared may differ anywhere in a long word.
+pub fn line_of_file(text: &str) -> String {
     clipped(&unbroken(text), LINE)
+}
+
+/// A text whose words, what stands between blanks, are not longer than a person reads.
+fn words_clipped(text: &str) -> String {
+    text.split_inclusive(char::is_whitespace)
+        .map(|word| clipped(word, VALUE))
+        .collect()
 }
 
 /// A text without line breaks, and without what is obeyed.
@@ -189,6 +201,16 @@ mod tests {
         let text = Foreign(format!("a{}z", "x".repeat(1 << 20))).to_string();
         assert_eq!(text.chars().count(), VALUE[0] + VALUE[1] + 1);
         assert!(text.starts_with("ax") && text.ends_with("xz"));
+    }
+
+    #[test]
+    fn a_long_word_of_a_message_shows_its_ends() {
+        let long = "x".repeat(1 << 20);
+        let text = one_line(&format!("no value for `{long}`; bind it with {long}=1"));
+        assert!(text.chars().count() < 1100, "{text}");
+        assert!(text.starts_with("no value for `x") && text.ends_with("xx=1"));
+        assert_eq!(one_line(&text), text);
+        assert_eq!(line_of_file(&long).chars().count(), LINE[0] + LINE[1] + 1);
     }
 
     #[test]

@@ -5,12 +5,13 @@ use std::process::ExitCode;
 
 use clap::Parser;
 use clap::builder::StyledStr;
-use clap::error::ContextValue;
+use clap::error::{ContextKind, ContextValue};
 use fresnel_gen::app::args::{Cli, with_names_of_today};
 use fresnel_gen::app::command;
 use fresnel_gen::app::legible::legible;
 use fresnel_gen::foreign::one_line;
 use fresnel_gen::methods;
+use fresnel_gen::num::{POINT_NOT_COMMA, has_decimal_commas};
 use indicatif::{ProgressBar, ProgressStyle};
 
 fn main() -> ExitCode {
@@ -78,6 +79,16 @@ fn with_foreign_words(mut error: clap::Error) -> clap::Error {
         .collect();
     for (kind, value) in shown {
         error.insert(kind, value);
+    }
+    with_decimal_commas(error)
+}
+
+/// The same error with a word about the comma, where the value that it refuses has one for a decimal point.
+fn with_decimal_commas(mut error: clap::Error) -> clap::Error {
+    let is_refused = |value: &ContextValue| matches!(value, ContextValue::String(word) if has_decimal_commas(word));
+    if error.get(ContextKind::InvalidValue).is_some_and(is_refused) {
+        let said = vec![POINT_NOT_COMMA.into()];
+        error.insert(ContextKind::Suggested, ContextValue::StyledStrs(said));
     }
     error
 }

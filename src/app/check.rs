@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 
 use similar::TextDiff;
 
-use crate::foreign::{Foreign, one_line};
+use crate::foreign::{Foreign, line_of_file};
 
 use super::artifact::sha256;
 use super::tree::{Planned, State, TreePlan};
@@ -57,5 +57,5 @@ fn text_difference(path: &str, old: &str, new: &str) -> String {
 /// A line of a difference: its mark, and what a file holds there.
 fn difference_line(line: &str) -> String {
     let (mark, held) = line.split_at(line.len().min(1));
-    format!("{mark}{}\n", one_line(held))
+    format!("{mark}{}\n", line_of_file(held))
 }

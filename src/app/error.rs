@@ -148,6 +148,15 @@ pub enum Error {
         /// Where it leads.
         leads_to: PathBuf,
     },
+    /// An output leads over a link that another user may have put there.
+    #[error(
+        "{} is a link of another user in a folder that users share; nothing was written. Name another place, or remove the link",
+        foreign::path(link)
+    )]
+    Planted {
+        /// The link.
+        link: PathBuf,
+    },
     /// A file could not be prepared: no old file was touched.
     #[error(
         "cannot write {}: {source}; no file was changed. Check permissions and free space, then run again",

@@ -133,11 +133,44 @@ const LINKS: u32 = 40;
 /// A path without links and without `..`, whether or not it is there: a run makes the folders that are missing, so that `new/..`
 /// is where `new` will lie, and a link that leads to nothing leads to what will be made.
 pub fn resolved(path: &Path) -> PathBuf {
-    let whole = resolved_within(path, LINKS);
+    let whole = resolved_within(path, LINKS, &mut |_, _| {});
     fs::canonicalize(&whole).unwrap_or(whole)
 }
 
-fn resolved_within(path: &Path, links: u32) -> PathBuf {
+/// The first link on the way to a path that another user may have put there: see [`is_planted`].
+pub fn planted_link(path: &Path) -> Option<PathBuf> {
+    let mut first = None;
+    resolved_within(path, LINKS, &mut |folder, link| {
+        if first.is_none() && is_planted(folder, link) {
+            first = Some(link.to_path_buf());
+        }
+    });
+    first
+}
+
+/// Whether a link lies in a folder that several users write to, such as `/tmp`, and belongs to none of these: the user who runs this, root, the owner of
+/// the folder. The rule is that of Linux (`fs.protected_symlinks`), which other systems lack and an administrator can turn off.
+#[cfg(all(unix, any(feature = "cli", feature = "gpu")))]
+fn is_planted(folder: &Path, link: &Path) -> bool {
+    use std::os::unix::fs::MetadataExt;
+    const STICKY: u32 = 0o1000;
+    const WRITABLE_TO_OTHERS: u32 = 0o022;
+    let (Ok(folder), Ok(link)) = (fs::metadata(folder), fs::symlink_metadata(link)) else {
+        return false;
+    };
+    let is_shared = folder.mode() & STICKY != 0 && folder.mode() & WRITABLE_TO_OTHERS != 0;
+    let user = rustix::process::geteuid().as_raw();
+    is_shared && ![user, 0, folder.uid()].contains(&link.uid())
+}
+
+/// Elsewhere folders have no such bit. In a build script nobody else writes.
+#[cfg(not(all(unix, any(feature = "cli", feature = "gpu"))))]
+fn is_planted(_folder: &Path, _link: &Path) -> bool {
+    false
+}
+
+/// `on_link` hears of each link that is followed: its folder, without links, and the link.
+fn resolved_within(path: &Path, links: u32, on_link: &mut dyn FnMut(&Path, &Path)) -> PathBuf {
     let mut whole = match path.is_absolute() {
         true => PathBuf::new(),
         false => fs::canonicalize(".").unwrap_or_default(),
@@ -152,7 +185,10 @@ fn resolved_within(path: &Path, links: u32) -> PathBuf {
             Component::Normal(name) => {
                 let next = whole.join(name);
                 whole = match fs::read_link(&next) {
-                    Ok(leads_to) if links > 0 => resolved_within(&whole.join(leads_to), links - 1),
+                    Ok(leads_to) if links > 0 => {
+                        on_link(&whole, &next);
+                        resolved_within(&whole.join(leads_to), links - 1, on_link)
+                    }
                     _ => next,
                 };
             }

@@ -14,7 +14,7 @@ use std::thread;
 use std::time::Duration;
 
 use super::artifact::check_path;
-use super::folder::{is_plain_file, is_temporary, temporaries_beside};
+use super::folder::{is_plain_file, is_temporary, planted_link, temporaries_beside};
 
 /// The lock's file in the output folder.
 pub const FILE: &str = ".fresnel-gen.lock";
@@ -56,20 +56,20 @@ impl Lock {
             leftovers: Vec::new(),
             created: Vec::new(),
         };
+        // The write that follows is refused.
+        if planted_link(out_dir).is_some() {
+            return lock;
+        }
         for _ in 0..TAKING_TURNS {
             lock.create_folders(out_dir);
             if is_foreign(&lock.path) {
                 announce(&without(&lock.path, "is not a lock of fresnel-gen"));
                 return lock;
             }
-            let opened = OpenOptions::new()
-                .read(true)
-                .write(true)
-                .create(true)
-                .truncate(false)
-                .open(&lock.path);
-            let mut file = match opened {
+            let mut file = match open(&lock.path) {
                 Ok(file) => file,
+                // Another run made it, or somebody put a link there: the next turn looks again.
+                Err(why) if why.kind() == ErrorKind::AlreadyExists => continue,
                 Err(why) => {
                     // Where nothing lies there, the folder is read-only.
                     if is_plain_file(&lock.path) {
@@ -162,6 +162,16 @@ impl Drop for Lock {
         for folder in self.created.iter().rev() {
             let _ = fs::remove_dir(folder);
         }
+    }
+}
+
+/// Opens the lock's file, and makes it where it is missing. A link that leads to nothing makes no file elsewhere.
+fn open(path: &Path) -> io::Result<File> {
+    let mut way = OpenOptions::new();
+    way.read(true).write(true);
+    match way.open(path) {
+        Err(missing) if missing.kind() == ErrorKind::NotFound => way.create_new(true).open(path),
+        opened => opened,
     }
 }
 

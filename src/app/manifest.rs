@@ -176,6 +176,13 @@ impl Entry {
         functions.filter_map(|function| function["method"].as_str())
     }
 
+    /// The materials of an atlas, in the order of its rows.
+    pub fn row_materials(&self) -> Vec<&str> {
+        let rows = self.detail.get("row_materials").and_then(Value::as_array);
+        let rows = rows.map_or(&[][..], Vec::as_slice).iter();
+        rows.filter_map(Value::as_str).collect()
+    }
+
     /// How its material is seen, in words.
     pub fn reference(&self) -> Option<&str> {
         self.detail.get("seen")?["truth"].as_str()

@@ -7,6 +7,7 @@
 #[cfg(feature = "cli")]
 pub mod args;
 pub mod artifact;
+pub mod atlas_rows;
 pub mod catalogue;
 pub mod check;
 #[cfg(feature = "cli")]

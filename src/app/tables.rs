@@ -98,6 +98,7 @@ pub fn add_tables(
 /// The files of a picture as a manifest lists them, and a description of all beside them.
 pub fn artifacts(baked: Baked) -> Vec<Artifact> {
     let description = format!("{TABLES}/{}.json", baked.name);
+    let row_materials = baked.row_materials();
     let text = pretty(&Report::new(&baked.command, baked.rows));
     let mut files = baked.files;
     files.push((description.clone(), text.into_bytes()));
@@ -110,6 +111,7 @@ pub fn artifacts(baked: Baked) -> Vec<Artifact> {
         material: baked.material.clone(),
         detail: Detail::Table(TableDetail {
             command: baked.command.clone(),
+            row_materials: row_materials.clone(),
             description: description.clone(),
             licence: OUTPUT_LICENCE,
         }),

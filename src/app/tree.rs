@@ -8,6 +8,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use super::artifact::{self, Artifact};
+use super::atlas_rows::{ChangedRows, changed_rows};
 use super::catalogue::SHARED;
 use super::error::Error;
 use super::folder;
@@ -41,6 +42,8 @@ pub struct TreePlan {
     pub dropped: Vec<(String, Vec<String>)>,
     /// Files whose functions are written for other viewing conditions than before: the file, and both in words; to be named.
     pub reseen: Vec<(String, [String; 2])>,
+    /// Atlases whose rows are other materials than before: to be named.
+    pub rows: Vec<ChangedRows>,
     /// The first folder of the tree that is a link, and where it leads.
     pub linked: Option<(PathBuf, PathBuf)>,
 }
@@ -140,6 +143,7 @@ pub fn plan(
         edited,
         dropped: dropped_functions(artifacts, &listed),
         reseen: reseen(artifacts, &listed),
+        rows: changed_rows(artifacts, &listed),
         linked,
     })
 }

@@ -92,6 +92,7 @@ pub fn write(
 
 /// Refuses a tree in whose places others' files or links lie.
 fn refuse_others(plan: &TreePlan, overwrite: bool) -> Result<(), Error> {
+    refuse_planted(&plan.out_dir)?;
     if let Some((link, leads_to)) = &plan.linked {
         return Err(Error::Linked {
             link: link.clone(),
@@ -103,6 +104,14 @@ fn refuse_others(plan: &TreePlan, overwrite: bool) -> Result<(), Error> {
             Err(not_ours(&plan.out_dir, obstacle, plan.obstacles.len() - 1))
         }
         _ => Ok(()),
+    }
+}
+
+/// Refuses a path that leads over a link which another user may have put there.
+fn refuse_planted(path: &Path) -> Result<(), Error> {
+    match folder::planted_link(path) {
+        Some(link) => Err(Error::Planted { link }),
+        None => Ok(()),
     }
 }
 
@@ -205,6 +214,11 @@ impl<'a> StagedOutputs<'a> {
         for output in outputs {
             let (path, bytes) = (&output.path, output.bytes.as_slice());
             match output.place {
+                OutputPlace::Named => refuse_planted(path)?,
+                // The file itself is not followed.
+                OutputPlace::OfReport { .. } => refuse_planted(folder::folder_of(path))?,
+            }
+            match output.place {
                 OutputPlace::Named if folder::is_device(path) => devices.push(output),
                 OutputPlace::Named => {
                     pending.extend(destination(path, bytes)?.map(|path| (path, bytes)));
@@ -276,6 +290,7 @@ pub fn write_file(path: &Path, bytes: &[u8]) -> Result<bool, Error> {
 /// # Errors
 /// It cannot be.
 pub fn try_file(path: &Path) -> Result<(), Error> {
+    refuse_planted(path)?;
     if folder::is_device(path) {
         return Ok(());
     }

@@ -58,7 +58,7 @@ impl<'a> Auditor<'a> {
         let (file, text, language) = (&audit.file, &audit.text, audit.language);
         let live = admission::admitted(file, text, language, &audit.defines)?;
         let text = SlicedText::new(language, &live, &audit.defines);
-        let function = choose(file, text.functions(), audit.function.as_deref())?;
+        let function = choose(file, text.functions(), audit.function.as_deref(), language)?;
         admission::check_name(file, &live.text, language, &function.name)?;
         let given: Vec<&str> = audit
             .given

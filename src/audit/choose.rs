@@ -4,6 +4,7 @@ use crate::names::UnknownName;
 
 use super::bind::place_of;
 use super::error::Error;
+use super::language::Language;
 use super::scan::{FoundFunction, NumberShape, Parameter};
 
 /// The function that is meant.
@@ -14,6 +15,7 @@ pub fn choose(
     file: &str,
     found: Vec<FoundFunction>,
     name: Option<&str>,
+    language: Language,
 ) -> Result<FoundFunction, Error> {
     let named = match name {
         None => found,
@@ -32,7 +34,7 @@ pub fn choose(
         },
         _ => Err(Error::SeveralFunctions {
             file: file.to_owned(),
-            names: told_apart(&candidates),
+            names: told_apart(&candidates, language),
         }),
     }
 }
@@ -75,17 +77,29 @@ fn named(file: &str, found: &[FoundFunction], name: &str) -> Result<Vec<FoundFun
     }
 }
 
-/// Names of functions; those that several have with their lines and arguments.
-fn told_apart(functions: &[FoundFunction]) -> Vec<String> {
+/// Names of functions; those that several have with their lines and arguments with types.
+fn told_apart(functions: &[FoundFunction], language: Language) -> Vec<String> {
     let words = |one: &FoundFunction| {
         let is_other = |other: &&FoundFunction| other.path() == one.path();
         if functions.iter().filter(is_other).count() == 1 {
             return one.path();
         }
-        let names: Vec<&str> = one.params.iter().map(|param| param.name.as_str()).collect();
-        format!("{}:{} ({})", one.path(), one.line, names.join(", "))
+        let params: Vec<String> = one
+            .params
+            .iter()
+            .map(|param| typed(param, language))
+            .collect();
+        format!("{}:{} ({})", one.path(), one.line, params.join(", "))
     };
     functions.iter().map(words).collect()
+}
+
+/// An argument as a head of this language has it.
+fn typed(param: &Parameter, language: Language) -> String {
+    match language {
+        Language::Wgsl => format!("{}: {}", param.name, param.ty),
+        _ => format!("{} {}", param.ty, param.name),
+    }
 }
 
 /// Why a function cannot be one of reflectance.

@@ -4,6 +4,7 @@ use thiserror::Error;
 
 use crate::foreign::{Foreign, one_line};
 use crate::names::{UnknownName, nearest_names, offered};
+use crate::num::{POINT_NOT_COMMA, has_decimal_commas};
 use crate::{emit, process};
 
 use super::cosine::CosineForm;
@@ -32,8 +33,9 @@ pub enum Error {
     },
     /// A value that is not of the form that values have.
     #[error(
-        "--arg {}: {fault}; it is name=number, name=number,number,number, name=quantity, or name=cos for the cosine",
-        Foreign(word)
+        "--arg {}: {fault}; it is name=number, name=number,number,number, name=quantity, or name=cos for the cosine{}",
+        Foreign(word),
+        of_commas(word)
     )]
     Value {
         /// The word after `--arg`.
@@ -77,8 +79,11 @@ pub enum Error {
     },
     /// The line behind the function's name is another.
     #[error(
-        "{file}: there is no function `{name}` in line `{line}`; there are {}",
-        lines_words(name, lines)
+        "{}: there is no function `{}` in line `{}`; there are {}",
+        Foreign(file),
+        Foreign(name),
+        Foreign(line),
+        one_line(&lines_words(name, lines))
     )]
     NoFunctionInLine {
         /// The file.
@@ -92,14 +97,15 @@ pub enum Error {
     },
     /// A name that cannot be defined.
     #[error(
-        "-D {word}: it is NAME=VALUE, or NAME for 1: the name of letters, digits and `_`, free of `fg_` and `__` at its beginning, the value without quotes, backslashes, `#` and comments"
+        "-D {}: it is NAME=VALUE, or NAME for 1: the name of letters, digits and `_`, free of `fg_` and `__` at its beginning, the value without quotes, backslashes, `#` and comments",
+        Foreign(word)
     )]
     Define {
         /// The word behind the flag.
         word: String,
     },
     /// The function reads something that no value can be given for.
-    #[error("{place}: line {line}: {why}")]
+    #[error("{place}: line {line}: {}", one_line(why))]
     Unread {
         /// The function, with its place in the file.
         place: FunctionPlace,
@@ -263,6 +269,14 @@ impl Error {
     /// Whether the machine lacks something; otherwise the user's words or text are at fault.
     pub fn is_lacking(&self) -> bool {
         matches!(self, Error::Process(error) if error.is_lacking())
+    }
+}
+
+fn of_commas(word: &str) -> String {
+    let value = word.split_once('=').map_or("", |(_, value)| value.trim());
+    match has_decimal_commas(value) {
+        true => format!("; {POINT_NOT_COMMA}"),
+        false => String::new(),
     }
 }
 

@@ -5,6 +5,7 @@
 //! lines that begin with `#` are read as those of naga_oil, which Bevy uses.
 
 use crate::emit::shader_words::{Token, tokens};
+use crate::foreign::Foreign;
 
 use super::condition::{Macros, condition_value, definition, plain_macro, words};
 use super::directives::{self, TextFault};
@@ -210,7 +211,7 @@ impl Reader {
                 self.macros.remove(rest.get(1).map_or("", |name| name.text));
                 return Ok(Some(line.to_owned()));
             }
-            "error" => return Err(self.fault(line.trim())),
+            "error" => return Err(self.fault(&Foreign(line.trim()).to_string())),
             "line" | "pragma" => {}
             _ => return Ok(Some(line.to_owned())),
         }

@@ -78,6 +78,22 @@ pub struct Baked {
     pub rows: Vec<BakeRow>,
 }
 
+impl Baked {
+    /// The materials of an atlas, in the order of its rows; of other pictures none.
+    pub fn row_materials(&self) -> Vec<String> {
+        let rows = self.rows.iter().filter(|_| self.name == ATLAS);
+        let rows = rows.filter_map(|row| match row {
+            BakeRow::Table(row) => Some(row),
+            BakeRow::SplitSum(_) => None,
+        });
+        // A row of the report for each format: those of the first file are all.
+        let first = rows.clone().next().map(|row| &row.file);
+        rows.filter(|row| Some(&row.file) == first)
+            .map(|row| row.name.clone())
+            .collect()
+    }
+}
+
 /// The name of the picture of all.
 pub const ATLAS: &str = "atlas";
 

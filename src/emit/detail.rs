@@ -47,6 +47,14 @@ impl Detail {
         }
     }
 
+    /// The materials of an atlas, in the order of its rows; of other files none.
+    pub fn row_materials(&self) -> &[String] {
+        match self {
+            Detail::Table(file) => &file.row_materials,
+            Detail::Functions(_) | Detail::Catalogue(_) | Detail::Adapter(_) => &[],
+        }
+    }
+
     /// How the material of a file of functions is seen.
     pub fn seen(&self) -> Option<&SeenDetail> {
         match self {
@@ -98,6 +106,9 @@ pub struct CatalogueDetail {
 pub struct TableDetail {
     /// The command that writes it.
     pub command: String,
+    /// Of an atlas the materials, one a row, the first at row 0.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub row_materials: Vec<String>,
     /// The file that describes it.
     pub description: String,
     /// The licence of the file.

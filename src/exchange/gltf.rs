@@ -33,7 +33,10 @@ pub static FORMAT: Format = Format {
 const DISPERSION: f64 = 20.0;
 
 fn sheet(material: &EngineMaterial) -> Sheet {
-    let mut remarks = Vec::new();
+    let mut remarks = vec![
+        "the asset holds a material and no mesh: put it among the `materials` of a file with meshes of your own"
+            .to_owned(),
+    ];
     let (fields, f0) = match material.body {
         Body::Conductor => {
             let fields = vec![

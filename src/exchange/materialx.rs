@@ -41,6 +41,7 @@ fn space(space: Space) -> &'static str {
 fn sheet(material: &EngineMaterial) -> Sheet {
     let (surface, remark) = openpbr::surface(material, OPEN_PBR);
     let mut nodes = vec![surface];
+    let mut remarks: Vec<String> = remark.into_iter().collect();
     if material.body == Body::Conductor {
         let Conductor { n, k } = conductor(material);
         nodes.push(Node {
@@ -62,11 +63,17 @@ fn sheet(material: &EngineMaterial) -> Sheet {
             ],
             model: Model::conductor(n, k),
         });
+        remarks.extend(of_conductor(material));
     }
-    Sheet {
-        nodes,
-        remarks: remark.into_iter().collect(),
-    }
+    Sheet { nodes, remarks }
+}
+
+/// What is to be said of n and k: no host moves them to another space.
+fn of_conductor(material: &EngineMaterial) -> Option<String> {
+    let space = space(material.space?);
+    Some(format!(
+        "conductor_bsdf: n and k are no colours, and a host leaves them as they are (colorspace none); they belong to {space}: for a host that computes in another space write the file in that one"
+    ))
 }
 
 fn text(material: &EngineMaterial, sheet: &Sheet, notes: &Notes) -> String {

@@ -3,6 +3,8 @@
 //!
 //! Source: Andersson and others, "OpenPBR Surface specification, version 1.1.1", 2026,
 //! <https://academysoftwarefoundation.github.io/OpenPBR/>, sections on the metallic and the dielectric base.
+//! Parameters have no space beside them: a host takes their colours in its working space, for which OpenPBR recommends ACEScg. The file is
+//! in the space of the run, and says so where that is another.
 //! `base_color` and `specular_color` lie in [0, 1]; dispersion is Abbe's number with a scale, which is 0 by default.
 //! `specular_roughness` is .3 unless it is set.
 
@@ -27,8 +29,20 @@ fn sheet(material: &EngineMaterial) -> Sheet {
     let (node, remark) = surface(material, "open_pbr_surface");
     Sheet {
         nodes: vec![node],
-        remarks: remark.into_iter().collect(),
+        remarks: remark.into_iter().chain(of_space(material)).collect(),
     }
+}
+
+/// What is to be said of the space of colours, where it is not the one that OpenPBR takes.
+fn of_space(material: &EngineMaterial) -> Option<String> {
+    let has_colours = material.body == Body::Conductor;
+    let space = material
+        .space
+        .filter(|space| has_colours && *space != Space::AcesCg)?;
+    Some(format!(
+        "colours are in {}; OpenPBR takes ACEScg where nothing else is said: name the space where you set them, or write them in acescg",
+        space.title()
+    ))
 }
 
 /// The parameters, and what was limited.

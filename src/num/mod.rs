@@ -6,6 +6,7 @@
 
 mod complex;
 mod dd;
+mod decimal_comma;
 mod half;
 mod interval;
 mod legendre;
@@ -18,6 +19,7 @@ mod vulkan_tolerance;
 
 pub use complex::Complex;
 pub use dd::Dd;
+pub use decimal_comma::{POINT_NOT_COMMA, has_decimal_commas};
 pub use half::Half;
 pub use interval::Interval;
 pub use legendre::Legendre;

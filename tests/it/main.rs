@@ -72,6 +72,7 @@ mod tidy;
 mod tree;
 #[cfg(all(feature = "cli", feature = "gpu"))]
 mod verify;
+mod working_spaces;
 
 use fresnel_gen::app::{Materials, Request, Source};
 use fresnel_gen::reference::MaterialInMedium;

@@ -94,7 +94,7 @@ fn at_best(name: &str) -> Vec<f64> {
 }
 
 /// A reflectance as pages write it: so many digits, without the 0.
-fn short(value: f64, digits: usize) -> String {
+pub fn short(value: f64, digits: usize) -> String {
     let text = format!("{value:.digits$}");
     text.strip_prefix('0').map_or(text.clone(), str::to_owned)
 }
@@ -186,6 +186,19 @@ fn what_is_gained_over_schlick_is_what_the_pages_say() {
         ),
         stated(readme, "times less (gold ", ")", whole(own.gold)),
         stated(readme, "over the catalogue's ", " metals", count),
+        stated(readme, "costs ", ", `fitted` ", units_of_gold("schlick")),
+        stated(
+            readme,
+            ", `fitted` ",
+            " and `conductor_exact`",
+            units_of_gold("fitted"),
+        ),
+        stated(
+            readme,
+            " and `conductor_exact` ",
+            ". Files of materials",
+            units_of_gold("conductor_exact"),
+        ),
         stated(
             costs,
             "largest errors over the catalogue's ",
@@ -267,7 +280,7 @@ fn which_table() -> String {
         )
     };
     [
-        "| method | largest error (median of the catalogue's metals) | cost on RDNA 2 | use it |\n|---|---:|---:|---|\n".to_owned(),
+        "| method | largest error (median of the catalogue's metals) | cost on RDNA 2, its numbers known at run time only | use it |\n|---|---:|---:|---|\n".to_owned(),
         row("schlick", 3, "if you know only F0, the reflectance at normal incidence"),
         row("fitted_f82", 4, "for textures of F0 and F82, of metals and dielectrics"),
         row("fitted", 4, "for metals"),

@@ -22,8 +22,8 @@ use super::{GamutFlags, MaterialFlags, MediumFlags, PictureFlags, ReportFlags};
     after_help = "Examples:\n  fresnel-gen scene-error cube --material gold\n  fresnel-gen scene-error relief --method schlick,fitted --out-dir pictures\n  fresnel-gen scene-error --mesh statue.obj --eye 0,1,-3 --material platinum --json -\n\nThe error of a picture is the mean over its pixels and three channels of |f - F| / F, then over frames with equal weight. Pixels count whose centre lies in the silhouette. Objects: cube (flat faces), relief (a sphere with bumps), sphere; each 1 m wide, and a mesh is scaled to that."
 )]
 pub struct SceneErrorFlags {
-    /// The object: cube, relief or sphere
-    #[arg(value_name = "OBJECT", value_parser = one_of("object", Body::ALL, |body: &Body| body.name), required_unless_present = "mesh", conflicts_with = "mesh")]
+    /// The object: cube, relief or sphere; or a mesh with --mesh
+    #[arg(value_name = "OBJECT", value_parser = one_of("object", Body::ALL, |body: &Body| body.name), conflicts_with = "mesh")]
     pub object: Option<&'static Body>,
     /// In place of an object a mesh: an OBJ file of up to 4000000 triangles
     #[arg(long, value_name = "FILE", value_parser = file_only("--mesh"))]

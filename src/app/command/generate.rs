@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 
 use crate::app::args::GenerateFlags;
 use crate::app::artifact::Artifact;
+use crate::app::atlas_rows::ChangedRows;
 use crate::app::catalogue::add_catalogue;
 use crate::app::error::Error;
 use crate::app::fault::RequestFault;
@@ -220,11 +221,13 @@ pub(super) fn named(plan: &TreePlan, overwrite: bool, replaced: &str) -> Vec<Str
         let [path, old, new] = [path, old, new].map(Foreign);
         format!("{path}: other viewing conditions, so that all of its functions change: from {old} to {new}")
     });
+    let rows = plan.rows.iter().map(ChangedRows::words);
     stays
         .chain(edited)
         .chain(obstacles)
         .chain(dropped)
         .chain(reseen)
+        .chain(rows)
         .collect()
 }
 
@@ -283,8 +286,29 @@ fn written(
     Ok(output)
 }
 
-/// After the first run in a folder: one of the functions, and what to do next.
-fn first_steps<'g>(flags: &GenerateFlags, generated: &'g Generated, out_dir: &Path) -> Vec<String> {
+/// After the first run in a folder: what to do next with adapters, and one of the functions.
+fn first_steps(flags: &GenerateFlags, generated: &Generated, out_dir: &Path) -> Vec<String> {
+    let artifacts = generated.artifacts.iter();
+    let pages = artifacts.filter(|artifact| artifact.path.ends_with("/README.md"));
+    let pages = pages.map(|page| {
+        let page = out_dir.join(&page.path);
+        format!(
+            "next: {} says how the host takes the files, with an example",
+            crate::foreign::path(&page)
+        )
+    });
+    // What an adapter's folder holds is no function for `verify`.
+    let is_of_functions = flags.flavour.is_empty() || !flags.target.is_empty();
+    let functions = is_of_functions.then(|| first_function(flags, generated, out_dir));
+    pages.chain(functions.into_iter().flatten()).collect()
+}
+
+/// One of the functions, and what to do next with it.
+fn first_function<'g>(
+    flags: &GenerateFlags,
+    generated: &'g Generated,
+    out_dir: &Path,
+) -> Vec<String> {
     let first = |artifact: &'g Artifact| Some((artifact, artifact.detail.functions().first()?));
     let mut functions = generated.artifacts.iter().filter_map(first);
     let of_material = functions

@@ -17,7 +17,7 @@ use crate::materials::{FileFault, ViewingConditions};
 use crate::methods::Method;
 use crate::num::in_parallel;
 use crate::raster::{
-    Camera, Frame, Lens, Mesh, Painted, SceneErrorRow, Shown, Turntable, draw, mesh_of_obj,
+    Body, Camera, Frame, Lens, Mesh, Painted, SceneErrorRow, Shown, Turntable, draw, mesh_of_obj,
     rendered_error, shown,
 };
 use crate::reference::MaterialInMedium;
@@ -85,6 +85,14 @@ fn check(flags: &SceneErrorFlags) -> Result<(), Error> {
         value,
         allowed: allowed.to_owned(),
     };
+    if flags.object.is_none() && flags.mesh.is_none() {
+        let names: Vec<&str> = Body::ALL.iter().map(|body| body.name).collect();
+        let what = format!(
+            "name the object that is drawn: {}, or an OBJ file with --mesh FILE; `fresnel-gen scene-error --help` has an example",
+            names.join(", ")
+        );
+        return Err(Error::Usage { what });
+    }
     if !FRAMES.contains(&flags.frames) {
         return Err(out_of_range("frames", flags.frames.to_string(), "is 1 to 720").into());
     }

@@ -1,6 +1,7 @@
 //! The plan of a verification from a request and from what an output folder holds. All that needs neither stands in
 //! [`crate::verify`].
 
+mod difference;
 mod listed;
 mod plan;
 mod shipped;

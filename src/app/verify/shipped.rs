@@ -8,13 +8,18 @@ use crate::app::folder;
 use crate::app::generate::Made;
 use crate::app::manifest::{self, Manifest};
 use crate::emit::HeaderForm;
+use crate::foreign::Foreign;
 use crate::targets;
 use crate::verify::drift;
 use crate::verify::module;
 use crate::verify::outline::{Item, Outline, outline};
 use crate::verify::plan::ShippedPage;
 
+use super::difference;
 use super::listed::Listed;
+
+/// The version of this program.
+const VERSION: &str = env!("CARGO_PKG_VERSION");
 
 fn loop_found(found: &Item) -> String {
     match found.line {
@@ -141,6 +146,18 @@ impl Folder<'_> {
             return Ok(page);
         };
         today.compare(&mut page, bytes, listed.as_ref());
+        let version = self
+            .manifest
+            .as_ref()
+            .map(|(manifest, _)| &manifest.version);
+        if let (Some(remark), Some(version)) = (&mut page.remark, version)
+            && version != VERSION
+        {
+            *remark += &format!(
+                "; version {} wrote the folder last, and this is {VERSION}",
+                Foreign(version)
+            );
+        }
         Ok(page)
     }
 }
@@ -203,8 +220,9 @@ impl<'a> Today<'a> {
         // A manifest that lists what lies there proves nothing: anybody can write one.
         if self.is_module() && !page.is_run() {
             page.findings.push(format!(
-                "{}: it is not what would be written today, and only compute modules are run; write it again, and look at the difference",
-                page.path
+                "{}: it is not what would be written today ({}), and only compute modules are run; write it again, and look at the difference",
+                page.path,
+                self.difference(&bytes)
             ));
         }
         let lacks: Vec<String> = self
@@ -221,11 +239,12 @@ impl<'a> Today<'a> {
             return;
         }
         page.holds_loop = found.loops.first().map(loop_found);
-        page.bytes = bytes;
         page.remark = Some(format!(
-            "{}: it is not what would be written today",
-            page.path
+            "{}: it is not what would be written today: {}",
+            page.path,
+            self.difference(&bytes)
         ));
+        page.bytes = bytes;
     }
 
     /// Functions by the name that stands in the file: of a module the entry point.
@@ -257,6 +276,18 @@ impl<'a> Today<'a> {
         let today = &self.made.artifact.bytes;
         let text = |bytes: &[u8]| String::from_utf8_lossy(bytes).replace("\r\n", "\n");
         bytes == today || !self.is_module() && text(bytes) == text(today)
+    }
+
+    /// In what the bytes differ from today's.
+    fn difference(&self, bytes: &[u8]) -> String {
+        let today = &self.made.artifact.bytes;
+        if self.is_module() {
+            return difference::of_modules(bytes, today).to_owned();
+        }
+        difference::of_texts(
+            &String::from_utf8_lossy(bytes),
+            &String::from_utf8_lossy(today),
+        )
     }
 
     fn outline(&self, bytes: &[u8]) -> Outline {

@@ -68,11 +68,11 @@ pub enum GbufferFault {
         present: String,
     },
     /// A channel that stands twice.
-    #[error("channel `{channel}` stands in part {} and in part {} of the file; it must stand once", .parts[0] + 1, .parts[1] + 1)]
+    #[error("channel `{channel}` stands twice, {}; it must stand once", twice_in(*parts))]
     Twice {
         /// The channel.
         channel: &'static str,
-        /// Two parts that hold it, counted from 0.
+        /// The parts that hold it, counted from 0: two, or one twice.
         parts: [usize; 2],
     },
     /// Two parts with different pixels.
@@ -101,4 +101,12 @@ pub enum GbufferFault {
         /// What was found, and what is allowed.
         what: String,
     },
+}
+
+/// Where a channel stands twice, counted from 1.
+fn twice_in([first, second]: [usize; 2]) -> String {
+    match first == second {
+        true => format!("both times in part {}", first + 1),
+        false => format!("in part {} and in part {}", first + 1, second + 1),
+    }
 }

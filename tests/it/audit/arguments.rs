@@ -19,6 +19,7 @@ fn a_wrong_argument_is_named_with_the_nearest_right_one() {
             "one number in a function that gives three",
         ),
         ("--arg sharp=1,2", "it has 2 numbers"),
+        ("--arg sharp=1,5", "a point, not a comma: 1.5, not 1,5"),
         ("--arg sharp=high", "there is no quantity `high`"),
         ("--arg sharp=nan", "`nan` is not a number"),
         ("--arg sharp", "it has no `=`"),

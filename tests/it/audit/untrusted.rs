@@ -291,3 +291,78 @@ fn text_that_can_be_read_in_two_ways_is_refused() {
         ran.ends(0);
     }
 }
+
+/// Words of a user's text are cut wherever a message shows them.
+#[test]
+fn a_name_of_a_hundred_thousand_letters_is_cut() {
+    let place = Place::new();
+    let long = "a".repeat(100_000);
+    for (file, text, flags) in [
+        (
+            "a.wgsl",
+            "fn f(c: f32, LONG: f32) -> f32 { return LONG; }",
+            "",
+        ),
+        (
+            "b.wgsl",
+            "fn LONG(c: f32) -> f32 { return c; }\nfn g(c: f32) -> f32 { return c; }",
+            "",
+        ),
+        (
+            "c.wgsl",
+            "fn LONG(c: f32) -> f32 { return c; }",
+            "--function f",
+        ),
+        (
+            "d.wgsl",
+            "fn f(c: f32, x: LONG) -> f32 { return c; }",
+            "--function f",
+        ),
+        (
+            "e.glsl",
+            "uniform sampler2D LONG;\nfloat f(float c) { return texture(LONG, vec2(0.0)).r; }",
+            "",
+        ),
+        (
+            "f.glsl",
+            "uniform float LONG;\nfloat f(float c) { return LONG; }",
+            "",
+        ),
+        ("g.glsl", "#LONG\nfloat f(float c) { return c; }", ""),
+        (
+            "h.glsl",
+            "#error LONG a a a a LONG\nfloat f(float c) { return c; }",
+            "",
+        ),
+        (
+            "i.glsl",
+            "#if LONG(\n#endif\nfloat f(float c) { return c; }",
+            "",
+        ),
+        ("j.glsl", "#pragma LONG\nfloat f(float c) { return c; }", ""),
+        (
+            "k.hlsl",
+            "float f(float c, float LONG) { return c; }\nfloat f(float c, float3 LONG) { return c; }",
+            "",
+        ),
+        (
+            "l.hlsl",
+            "struct LONG { float x; float f(float c) { return x; } };",
+            "",
+        ),
+        (
+            "m.glsl",
+            "#define f LONG\nfloat f(float c) { return LONG; }",
+            "--function f:7",
+        ),
+        ("n.glsl", "float f(float c) { return LONG; }", ""),
+    ] {
+        place.put(file, text.replace("LONG", &long));
+        let ran = place.run(&format!("audit {file} --material gold {flags}"));
+        assert!(!ran.err.contains("panicked"), "{file}");
+        let all = ran.err + &ran.out;
+        assert!(!all.is_empty(), "{file} says nothing");
+        let longest = all.split(|c| c != 'a').map(str::len).max();
+        assert!(longest <= Some(500), "{file}: {longest:?} letters in a row");
+    }
+}

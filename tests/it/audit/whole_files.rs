@@ -438,7 +438,10 @@ fn functions_of_one_name_are_told_apart_by_their_lines() {
         "audit f.glsl --material gold",
         "audit f.glsl --function f --material gold",
     ] {
-        place.refused(line, &["--function: f:1 (c, f0), f:2 (c, f0)"]);
+        place.refused(
+            line,
+            &["--function: f:1 (float c, float f0), f:2 (float c, vec3 f0)"],
+        );
     }
     error(&place, "f.glsl --function f:2 --material gold", SCHLICK);
     place.refused(

@@ -153,3 +153,31 @@ fn a_medium_must_be_transparent() {
     );
     assert!(text.contains("--medium water_thesis"), "{text}");
 }
+
+/// A decimal comma where a point must stand.
+#[test]
+fn a_decimal_comma_is_named() {
+    let place = Place::new();
+    for line in [
+        "materials coat --f0 0,9,0,8,0,7 --f82 1,1,1",
+        "materials coat --f0 1,1,1 --f82 0,9",
+        "materials coat --f0 1,1,1 --f82 1,1,1 --index 1,5",
+        "fit --f0 1,5 --f82 1,1,1",
+        "--method schlick --medium 1,33",
+        "--material gold --wavelengths 685,5,535,5,475,5",
+        "bake --material gold --budget 0,001",
+        "scene-error cube --eye 0,5",
+    ] {
+        place.refused(
+            line,
+            &["decimals stand behind a point, not a comma: 1.5, not 1,5"],
+        );
+    }
+    let ran = place.run("materials coat --f0 1,1 --f82 1,1,1,1").ends(2);
+    assert!(
+        ran.err.contains("not a comma"),
+        "two numbers may be one: {ran:?}"
+    );
+    let ran = place.run("materials coat --f0 1,1,1 --f82 0.9,0.8").ends(2);
+    assert!(!ran.err.contains("not a comma"), "{ran:?}");
+}

@@ -450,3 +450,25 @@ fn what_has_no_split_sum_table_is_refused() {
     place.refused("bake --dfg --material gold", &["--dfg", "--material"]);
     place.refused("bake --method fitted", &["--dfg"]);
 }
+
+/// An atlas that lies there loses rows, or its rows get other numbers: the run says so.
+#[test]
+fn rows_that_leave_an_atlas_are_named() {
+    let place = Place::new();
+    let line = |names: &str| format!("bake --material {names} --atlas --size 16 --format png8");
+    let first = place.done(&line("gold,silver,water"));
+    assert!(!first.err.contains("atlas"), "{first:?}");
+    let again = place.done(&line("gold,silver,water"));
+    assert!(!again.err.contains("atlas"), "{again:?}");
+    let fewer = place.done(&line("silver,water"));
+    let says = "lut/atlas.json, lut/atlas.png: rows that an earlier run put there leave it: gold; its rows are 0 silver, 1 water. --out-dir";
+    assert!(fewer.err.contains(says), "{fewer:?}");
+    let more = place.done(&line("copper,silver,water"));
+    let says = "lut/atlas.png: its rows have other numbers than before; its rows are 0 copper, 1 silver, 2 water.";
+    assert!(more.err.contains(says), "{more:?}");
+    let quiet = place.done(&(line("water") + " --quiet"));
+    assert!(quiet.err.contains("leave it: copper, silver;"), "{quiet:?}");
+    // A run without flags writes its own atlas there.
+    let usual = place.done("generate");
+    assert!(usual.err.contains("lut/atlas.json"), "{usual:?}");
+}

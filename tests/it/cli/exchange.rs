@@ -611,3 +611,34 @@ fn the_validator_of_gltf_finds_no_fault() {
         );
     }
 }
+
+/// What a reader of the file would miss: no mesh, the space of colours that have none beside them, numbers that no host moves.
+#[test]
+fn what_a_format_leaves_open_is_a_remark() {
+    let place = Place::new();
+    let says = |line: &str, words: &str| {
+        let ran = place.done(&format!("materials params {line}"));
+        let in_text = joined(&ran.out).contains(words);
+        assert_eq!(in_text, ran.err.contains(words), "{ran:?}");
+        in_text
+    };
+    for material in ["gold", "bk7"] {
+        let line = format!("{material} --as gltf");
+        assert!(says(&line, "holds a material and no mesh"), "{line}");
+    }
+    let words = "OpenPBR takes ACEScg where nothing else is said";
+    assert!(says("gold --as openpbr", words));
+    assert!(says(
+        "gold --as openpbr --space p3",
+        "colours are in linear Display P3"
+    ));
+    assert!(!says("gold --as openpbr --space acescg", words));
+    assert!(!says("bk7 --as openpbr", words), "an index is no colour");
+    let words = "conductor_bsdf: n and k are no colours";
+    assert!(says("gold --as materialx", words));
+    assert!(says(
+        "gold --as materialx --space acescg",
+        "they belong to acescg"
+    ));
+    assert!(!says("water --as materialx", words));
+}

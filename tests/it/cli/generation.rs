@@ -370,3 +370,23 @@ fn depfile_names_outputs_and_inputs() {
         place.refused(line, &says);
     }
 }
+
+/// After the first run of an adapter: the page that says how its host takes it.
+#[test]
+fn a_first_run_of_an_adapter_names_its_page() {
+    let place = Place::new();
+    let ran = place.done("--flavour three --material gold");
+    let says = format!("next: {OUT}/three/README.md says how the host takes the files");
+    assert!(ran.err.contains(&says), "{ran:?}");
+    assert!(!ran.err.contains("fresnel-gen verify"), "{ran:?}");
+    assert!(
+        !place
+            .done("--flavour three --material gold")
+            .err
+            .contains("next:")
+    );
+    let place = Place::new();
+    let ran = place.done("--flavour three --target wgsl --material gold");
+    assert!(ran.err.contains(&says), "{ran:?}");
+    assert!(ran.err.contains("next: use it;"), "{ran:?}");
+}

@@ -33,6 +33,8 @@ pub mod pipelines;
 mod plan;
 mod scene_error;
 mod seen;
+#[cfg(unix)]
+mod shared_folders;
 mod single;
 mod stability;
 mod streams;

@@ -108,7 +108,10 @@ fn flags_that_cannot_be_met_are_refused() {
     let place = Place::new();
     for (line, says) in [
         ("scene-error cubes", "did you mean cube"),
-        ("scene-error", "required"),
+        (
+            "scene-error",
+            "name the object that is drawn: cube, relief, sphere, or an OBJ file with --mesh FILE",
+        ),
         ("scene-error cube --mesh a.obj", "cannot be used with"),
         (
             "scene-error cube --frames 0",

@@ -348,7 +348,26 @@ fn a_wrong_set_of_channels_is_named() {
         part(Some("one"), channels(Stored::Half), stored, SIZE),
         part(Some("two"), again, stored, SIZE),
     ]);
-    check_refuses(&bytes, "channel `light.R` stands in part 1 and in part 2");
+    check_refuses(
+        &bytes,
+        "channel `light.R` stands twice, in part 1 and in part 2; it must stand once",
+    );
+}
+
+/// The library writes no such file: a channel of another name gets its name afterwards.
+#[test]
+fn a_channel_that_stands_twice_in_a_part_is_named() {
+    let mut all = channels(Stored::Float);
+    let again = samples(Stored::Float, vec![0.0; SIZE[0] * SIZE[1]]);
+    all.push(("light.S", again));
+    let mut bytes = plain(all);
+    let name = b"light.S\0";
+    let at = bytes.windows(name.len()).position(|held| held == name);
+    bytes[at.unwrap() + name.len() - 2] = b'R';
+    check_refuses(
+        &bytes,
+        "channel `light.R` stands twice, both times in part 1; it must stand once",
+    );
 }
 
 #[test]

@@ -323,7 +323,11 @@ fn what_differs_and_is_right_is_a_remark() {
         file,
         edit,
     );
-    passes(ran, file, Some("is not what would be written today"));
+    passes(
+        ran,
+        file,
+        Some("is not what would be written today: its code differs, first in line "),
+    );
 }
 
 #[test]
@@ -503,7 +507,11 @@ fn comments_are_no_code_and_reports_replace_no_shader() {
     let comment = |text: &str| format!("{text}/* for a fn fresnel_other() {{}} */\n// while\n");
     let file = "wgsl/fresnel_schlick.wgsl";
     let ran = edited(&format!("--target wgsl {LIBRARY}"), file, comment);
-    passes(ran, file, Some("not what would be written today"));
+    passes(
+        ran,
+        file,
+        Some("not what would be written today: its comments differ, first in line "),
+    );
     let place = Place::new();
     place.done(&format!("--target wgsl {LIBRARY}"));
     for taken in [file, "manifest.json"] {
