@@ -17,6 +17,7 @@ use fresnel_gen::records;
 use fresnel_gen::reference::{Derivation, MaterialInMedium};
 
 use super::samples::{self, Misses};
+use super::stated::{check_stated, short, stated};
 
 /// Below this n a dielectric is a gas.
 const LEAST_N: f64 = 1.2;
@@ -133,6 +134,25 @@ fn classes_are_followed_as_promised() {
         }
     }
     assert!(faults.is_empty(), "{faults}");
+}
+
+/// Metals and semiconductors that had no part in the choice of a form of F0 and F82.
+#[test]
+fn two_colours_follow_what_is_outside_as_the_page_says() {
+    let Some(outside) = outside() else { return };
+    let method = methods::find("fitted_f82").expect("it is a method");
+    let absorbs = outside.iter().filter(|(class, _)| *class != "dielectric");
+    let errors: Vec<f64> = absorbs
+        .map(|(_, subject)| error(subject, method).max_abs)
+        .collect();
+    let [median, ninth] = [0.5, 0.9].map(|share| short(quantile(&errors, share), 4));
+    let page = "docs/methods.md";
+    let (before, outside) = ("\n- On ", " pages outside the catalogue");
+    check_stated(vec![
+        stated(page, before, outside, errors.len()),
+        stated(page, "outside.csv)) `fitted_f82` errs by ", " and ", median),
+        stated(page, " and ", ": alkali metals", ninth),
+    ]);
 }
 
 /// Caesium, which no fitted method follows, and germanium, which four coefficients do not.

@@ -8,13 +8,16 @@ use fresnel_gen::app::request::{Materials, Source};
 use fresnel_gen::app::tables::{WantedTables, artifacts, table_materials};
 use fresnel_gen::bake::{BakeRequest, TableMaterial, TableSize, bake};
 use fresnel_gen::ir::Weights;
-use fresnel_gen::lut::{BetweenTexels, Depth, Format, Stored, Table, TableAxis, table_error};
+use fresnel_gen::lut::{
+    BetweenTexels, Depth, Format, Stored, Table, TableAxis, smallest, table_error,
+};
 use fresnel_gen::materials::{self, Surface, ViewingConditions};
 use fresnel_gen::methods::Light;
 use fresnel_gen::reference::ReferenceCurve;
 use fresnel_gen::spectra::Gamut;
 
 use crate::not_checked;
+use crate::stated::{check_stated, stated};
 
 fn reference(name: &str) -> Option<ReferenceCurve> {
     let viewing = ViewingConditions {
@@ -55,6 +58,52 @@ fn every_material_has_a_table_of_64_texels() {
 
 /// Materials that need more texels, and why.
 const MORE_THAN_64: [&str; 0] = [];
+
+/// Texels of the smallest table within .001, over all axes and depths that `bake --budget` tries.
+#[test]
+fn a_thousandth_takes_as_many_texels_as_the_page_says() {
+    let depths = [Depth::Unorm8, Depth::Half, Depth::Unorm16, Depth::Float];
+    let texels = |name: &str| {
+        let reference = reference(name).unwrap();
+        smallest(&[&reference], 1e-3, &TableAxis::ALL, &depths)
+            .unwrap()
+            .texels
+    };
+    let most = texels("zinc_querry");
+    let page = "docs/tables.md";
+    check_stated(vec![
+        stated(
+            page,
+            "within .001 gold takes ",
+            " texels, water ",
+            texels("gold"),
+        ),
+        stated(
+            page,
+            " texels, water ",
+            ", and no\nmaterial",
+            texels("water"),
+        ),
+        stated(page, "material more than ", " `--axis cos`", most),
+    ]);
+    // The point that ends the sentence is replaced with the figure. Half a step of 8 bits is more than .001, so that every table has 8 bytes a texel, or more.
+    assert!(0.5 / 255.0 > 1e-3);
+    for name in materials::names()
+        .into_iter()
+        .filter(|name| *name != "zinc_querry")
+    {
+        let Some(reference) = reference(name) else {
+            continue;
+        };
+        let is_met = TableAxis::ALL.into_iter().any(|axis| {
+            let table = Table::new("", &reference, axis, most - 1).unwrap();
+            let between = BetweenTexels::new(&reference, axis, most - 1);
+            let stored = Stored::new(&table, Depth::Unorm16);
+            table_error(&stored, Weights::Steps256, &reference, &between).max_abs <= 1e-3
+        });
+        assert!(is_met, "{name}: {} texels are too few", most - 1);
+    }
+}
 
 #[test]
 fn filtering_is_exact_at_both_ends() {

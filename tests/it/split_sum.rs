@@ -17,6 +17,9 @@ const PROMISED: [([SplitSumAxis; 2], f64); 2] = [
     ([SplitSumAxis::FourthRoot, SplitSumAxis::Sqrt], 8e-4),
 ];
 
+/// What both are worth against the spectrum, with the model error of the fitted reflectance.
+const AGAINST_SPECTRA: f64 = 0.0050;
+
 /// Materials with the method whose table serves them.
 const MATERIALS: [(&str, &str); 9] = [
     ("gold", "fitted"),
@@ -128,7 +131,7 @@ fn compare(stored: &StoredSplitSum, all: &[Reflectance]) -> Vec<Errors> {
 #[test]
 fn the_albedo_is_what_direct_integration_gives() {
     for (axes, promised) in PROMISED {
-        let mut worst = 0.0;
+        let (mut worst, mut worst_spectrum) = (0.0, 0.0);
         for method in ["fitted", "fitted_dielectric"] {
             let method = methods::find(method).unwrap();
             let own = MATERIALS.iter().filter(|(_, name)| *name == method.name);
@@ -145,12 +148,7 @@ fn the_albedo_is_what_direct_integration_gives() {
                     one.name
                 );
                 worst = f64::max(worst, fitted.0);
-                // The model error comes on top: it is at most .0036 for these, and .0061 on a rough surface.
-                assert!(
-                    spectrum.0 <= promised + 0.0061,
-                    "{}: {spectrum:?}",
-                    one.name
-                );
+                worst_spectrum = f64::max(worst_spectrum, spectrum.0);
             }
             let again = SplitSum::new(&design, &mut |_, _| {}).unwrap();
             assert!(
@@ -158,6 +156,11 @@ fn the_albedo_is_what_direct_integration_gives() {
                 "another run gives other numbers"
             );
         }
+        // The model error comes on top: `docs/tables.md` says so, and silicon is the worst.
+        assert!(
+            (0.9 * AGAINST_SPECTRA..=AGAINST_SPECTRA).contains(&worst_spectrum),
+            "{axes:?}: {worst_spectrum} against spectra"
+        );
         assert!(
             worst <= promised && worst >= 0.8 * promised,
             "{axes:?}: {worst} for {promised}"

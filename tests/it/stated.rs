@@ -7,13 +7,13 @@ use std::sync::OnceLock;
 
 use fresnel_gen::cost::{FunctionKey, records};
 use fresnel_gen::emit::FunctionForm;
-use fresnel_gen::fit::{FitCurve, InputChoice, MethodErrors};
+use fresnel_gen::fit::{FitCurve, InputChoice, MethodErrors, colour_errors};
 use fresnel_gen::materials::{ConstantIndex, MaterialKind, Surface, ViewingConditions};
 use fresnel_gen::methods;
 use fresnel_gen::num::Precision;
 use fresnel_gen::num::statistics::{median, quantile};
 use fresnel_gen::reference::{MaterialClass, MaterialInMedium};
-use fresnel_gen::spectra::{Gamut, Space};
+use fresnel_gen::spectra::{Gamut, Illuminant, Space};
 use glam::DVec3;
 
 use super::fits::catalogue;
@@ -414,6 +414,37 @@ fn what_schlick_errs_under_a_coat_is_what_the_page_says() {
             "\n",
             " there. Where that counts",
             short(most, 4),
+        ),
+    ]);
+}
+
+/// What three channels in place of a spectrum are off by under an incandescent lamp.
+#[test]
+fn colour_errors_under_illuminant_a_are_what_the_page_says() {
+    let viewing = ViewingConditions::default();
+    let error = |name: &str| {
+        let material = fresnel_gen::materials::find(name).expect("it is there");
+        let material = material.expect("it is good");
+        let surface = Surface::new(&material, None, &viewing).expect("it is known");
+        let errors = colour_errors(&surface, &viewing.integration).expect("a spectrum");
+        let under_a = errors.iter().find(|(light, _)| *light == Illuminant::A);
+        format!("{:.1}", under_a.expect("a named light").1[0])
+    };
+    let page = "docs/verification.md";
+    check_stated(vec![
+        stated(
+            page,
+            "`gold_johnson` is off by ΔE₀₀ ",
+            ",",
+            error("gold_johnson"),
+        ),
+        stated(page, "`brass` by ", ", `aluminium", error("brass")),
+        // The point that ends the sentence is replaced with the figure.
+        stated(
+            page,
+            "`aluminium_rakic` by ",
+            " `materials",
+            error("aluminium_rakic") + ".",
         ),
     ]);
 }

@@ -98,6 +98,27 @@ fn an_interface_gives_the_law_and_snells_cosine() {
     }
 }
 
+/// Within a coat light is reflected totally from asin(1/η) on, and not before.
+#[test]
+fn total_reflection_within_a_coat_starts_at_the_critical_angle() {
+    for eta in [1.001, 1.333, 1.5, 1.8, 2.42, 4.0] {
+        let critical = f64::asin(1.0 / eta);
+        let within = |share: f64| {
+            let cos_i = (share * critical).cos();
+            let arguments = [Value::scalar(cos_i), Value::scalar(1.0 / eta)];
+            at_once("interface_and_cosine", &arguments)
+        };
+        for share in [0.0, 0.5, 0.99, 1.0 - 1e-6] {
+            let [r, passes, cos_t] = within(share);
+            assert!(r < 1.0 && passes > 0.0 && cos_t > 0.0, "{eta} {share}");
+        }
+        let last = std::f64::consts::FRAC_PI_2 / critical;
+        for share in [1.0 + 1e-6, 1.01, 0.5 + 0.5 * last, last] {
+            assert_eq!(within(share), [1.0, 0.0, 0.0], "{eta} {share}");
+        }
+    }
+}
+
 #[test]
 fn cosines_under_a_coat_are_745_thousandths_and_more() {
     let at = |cos_i: f64| {

@@ -90,6 +90,61 @@ fn the_share_is_that_of_the_law_and_of_any_method() {
     assert!((got.at(0)[2] - want).abs() < 1e-12);
 }
 
+/// The transmitted share of the power by the amplitudes of transmission (Born, Wolf, section 1.5.2, equations 20 and 35), which know
+/// nothing of R: `η cos θt / cos θi |t|²`, the mean of both polarisations.
+fn transmitted(eta: f64, cos_i: f64, cos_t: f64) -> f64 {
+    let across = 2.0 * cos_i / (cos_i + eta * cos_t);
+    let within = 2.0 * cos_i / (eta * cos_i + cos_t);
+    eta * cos_t / cos_i * (across * across + within * within) / 2.0
+}
+
+/// Light that is reflected and light that is refracted are all light, from both sides and beyond total reflection, with the refracted
+/// ray that the effect gives.
+#[test]
+fn reflection_and_refraction_share_all_light() {
+    for eta in [1.0001, 1.333, 1.5, 2.42, 4.0]
+        .into_iter()
+        .flat_map(|eta| [eta, 1.0 / eta])
+    {
+        let rays: Vec<[f64; 3]> = (0..900)
+            .map(|i| arriving((f64::from(i) / 10.0).to_radians()))
+            .collect();
+        let values = [vectors(&rays), vector(UP), Value::scalar(eta)];
+        let [reflected, shares, refracted] =
+            ["reflected", "interface_reflectance_scalar", "refracted"].map(|name| {
+                let count = if name == "reflected" { 2 } else { 3 };
+                evaluate(&function(name), &values[..count])
+            });
+        let leaves = evaluate(
+            &function("exit_transmittance_scalar"),
+            &[vectors(&rays), vector([0.0, 0.0, -1.0]), Value::scalar(eta)],
+        );
+        for (i, ray) in rays.iter().enumerate() {
+            let (cos_i, share): (f64, f64) = (-ray[2], shares.at(i)[0]);
+            assert!(
+                (dot(reflected.at(i), UP) - cos_i).abs() < 1e-12,
+                "{eta} {ray:?}"
+            );
+            let out: [f64; 3] = refracted.at(i);
+            let is_total = ray[0] > eta;
+            assert_eq!(out == [0.0; 3], is_total, "{eta} {ray:?}");
+            let passes = match is_total {
+                true => 0.0,
+                false => transmitted(eta, cos_i, -out[2]),
+            };
+            assert!(
+                (share + passes - 1.0).abs() < 1e-7,
+                "{eta} {ray:?}: {share} and {passes}"
+            );
+            let leaves: f64 = leaves.at(i)[0];
+            assert!(
+                (share + leaves - 1.0).abs() < 1e-12,
+                "{eta} {ray:?}: {share} and {leaves}"
+            );
+        }
+    }
+}
+
 /// A ball: light is turned by 2 (theta_i - theta_t), and rays near the axis meet it at n R / (2 (n - 1)).
 #[test]
 fn a_ball_turns_and_gathers_light_as_it_must() {

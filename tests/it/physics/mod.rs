@@ -2,6 +2,8 @@
 //! compute: bounds, limits, Brewster's zero, total reflection, reciprocity, k → 0. Here over grids of hard values, in
 //! `random` over random ones.
 
+mod catalogue;
+mod dips;
 mod random;
 
 use fresnel_gen::fit::texels;

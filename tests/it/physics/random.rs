@@ -27,7 +27,7 @@ static KEPT: LazyLock<Vec<&'static Method>> = LazyLock::new(|| {
 /// What unfused f32 may be off.
 const ULP: f64 = 16.0;
 
-fn config(cases: u32) -> ProptestConfig {
+pub fn config(cases: u32) -> ProptestConfig {
     ProptestConfig {
         cases,
         rng_seed: RngSeed::Fixed(1),

@@ -3,6 +3,7 @@
 mod caustics;
 mod command;
 mod glass;
+mod lost;
 mod mirror;
 mod one_surface;
 mod recorded;

@@ -39,6 +39,29 @@ fn one_look_up_is_the_first_surface_and_not_a_ball() {
     assert!(apart > 0.1, "{apart}");
 }
 
+/// In a white world one look-up along each ray is white everywhere: the shares are R and 1 - R. A ball of air in glass too, which
+/// reflects totally toward its rim.
+#[test]
+fn one_look_up_each_loses_no_light() {
+    let Some(device) = device() else { return };
+    let white = around(|_| DVec3::ONE);
+    for n in [1.5, 2.42, 1.0 / 1.5] {
+        let picture = pictured(
+            &device,
+            "reflection_refraction",
+            &Glass::of_index(n),
+            &white,
+            32,
+        );
+        for seen in &picture.drawn {
+            assert!(
+                (*seen - DVec3::ONE).abs().max_element() < 1e-3,
+                "{n}: {seen}"
+            );
+        }
+    }
+}
+
 /// Blue is bent more than red, drawn and in truth: across an edge between dark and light they part.
 #[test]
 fn blue_is_bent_more_than_red() {
