@@ -149,7 +149,7 @@ fn what_hosts_compute_is_what_the_page_says() {
         ),
     );
     // F90 = min(16.5 (R + G + B) of F0, 1) of a grey F0.
-    let whole = (1e4 / (3.0 * 16.5)).ceil() / 1e4;
+    let whole = (1e4_f64 / (3.0 * 16.5)).ceil() / 1e4;
     says(
         &text,
         &format!("which is 1 from an F0 of {} on", short(whole, 4)),

@@ -3,6 +3,7 @@
 
 mod search;
 
+use fresnel_gen::app::{Materials, Request};
 use fresnel_gen::fit::model_error_over;
 use fresnel_gen::methods::{self, Contract};
 use fresnel_gen::verify::{
@@ -81,6 +82,39 @@ fn code_errors_are_what_methods_promise() {
         let name = method.name;
         fault.map(|fault| {
             format!("{name}: {fault}: measured {measured:.2} ulp, `code_ulp` is {promised}")
+        })
+    }));
+}
+
+/// Cosines for each channel of the catalogue's materials, which a search by random media does not meet.
+const CATALOGUE_POINTS: usize = 2000;
+
+/// What people run first is the catalogue.
+#[test]
+fn code_errors_over_the_catalogue_are_within_promises() {
+    let all = Request {
+        materials: Materials::All,
+        ..Request::default()
+    };
+    let subjects = all.subjects().unwrap().materials();
+    let cosines = cosines(CATALOGUE_POINTS);
+    let numeric = methods::ALL.iter().filter(|method| !method.is_textured());
+    let each = numeric.flat_map(|method| subjects.iter().map(move |subject| (method, subject)));
+    expect_none(each.filter_map(|(method, subject)| {
+        let channels = &subject.effective.channels;
+        let over = method.claims.code_over;
+        let is_promised = subject.is_described_by(method)
+            && (0..3).all(|i| over.holds(channels.n[i], channels.k[i]));
+        if !is_promised {
+            return None;
+        }
+        let (name, promised) = (method.name, method.claims.code_ulp);
+        let measured = library_code_error_at(method, channels, &cosines).max_ulp;
+        (measured > promised).then(|| {
+            format!(
+                "{name}: {} is {measured:.2} ulp off, `code_ulp` is {promised}",
+                subject.material.name
+            )
         })
     }));
 }

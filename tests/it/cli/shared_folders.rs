@@ -62,7 +62,6 @@ fn links_of_another_user_in_a_shared_folder_are_not_followed() {
             "materials params gold --as gltf -o shared/way/gold.gltf",
             "shared/way",
         ),
-        ("none.csv",),
     ] {
         place.refused(line, &[link]);
     }
