@@ -75,10 +75,11 @@ pub(super) fn rescaled<'b>(x: &Inputs<'b>) -> Expr<'b> {
     if x.is_half() {
         return half(x.cosine(), n, k);
     }
-    let k2 = k.squared().named("k2", "");
+    // (n+1)² is (n-1)² + 4n: so written, an error of the first term is in both and leaves the quotient almost alone.
     let less = (n - 1.0).named("n_less", "");
-    let more = (n + 1.0).named("n_more", "");
-    (less.squared() + k2 + 4.0 * n * grazing_weight(x)) / (more.squared() + k2)
+    let least = (less.squared() + k.squared()).named("least", "(n - 1)^2 + k^2");
+    let n4 = (4.0 * n).named("n4", "");
+    (least + n4 * grazing_weight(x)) / (least + n4)
 }
 
 /// The same as 1 less what is lost: metals lose little.
