@@ -93,7 +93,7 @@ pub static METHOD: Method = Method {
                 at_degrees: 87.3,
             },
         ],
-        code_ulp: 9.5,
+        code_ulp: 11.5,
         code_over: Over::Metals,
         colours: Colours::within(8e-6),
         by_class: &[],

@@ -53,7 +53,7 @@ pub static METHOD: Method = Method {
                 at_degrees: 0.0,
             },
         ],
-        code_ulp: 5.5,
+        code_ulp: 7.5,
         code_over: Over::Wide,
         colours: None,
         by_class: &[],

@@ -59,7 +59,7 @@ pub static METHOD: Method = Method {
                 at_degrees: 72.5,
             },
         ],
-        code_ulp: 5.5,
+        code_ulp: 10.5,
         code_over: Over::Metals,
         colours: Some(Colours {
             max_abs: 5e-4,

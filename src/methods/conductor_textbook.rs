@@ -48,7 +48,7 @@ pub static METHOD: Method = Method {
             max_abs: 0.0,
             at_degrees: 0.0,
         }],
-        code_ulp: 6700.0,
+        code_ulp: 7000.0,
         code_over: Over::Wide,
         colours: None,
         by_class: &[],

@@ -59,7 +59,7 @@ pub static METHOD: Method = Method {
             max_abs: 0.0,
             at_degrees: 0.0,
         }],
-        code_ulp: 6.6,
+        code_ulp: 10.0,
         code_over: Over::Wide,
         colours: None,
         by_class: &[],

@@ -35,7 +35,7 @@ pub static METHOD: Method = Method {
             max_abs: 0.0,
             at_degrees: 0.0,
         }],
-        code_ulp: 13.5,
+        code_ulp: 14.5,
         code_over: Over::Wide,
         colours: None,
         by_class: &[],

@@ -89,7 +89,7 @@ pub static METHOD: Method = Method {
                 at_degrees: 0.0,
             },
         ],
-        code_ulp: 9.0,
+        code_ulp: 15.0,
         code_over: Over::Wide,
         colours: None,
         by_class: &[],

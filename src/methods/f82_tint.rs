@@ -76,7 +76,7 @@ pub static METHOD: Method = Method {
                 at_degrees: 87.3,
             },
         ],
-        code_ulp: 5.0,
+        code_ulp: 6.0,
         code_over: Over::Wide,
         colours: Colours::within(6e-7),
         by_class: &[],

@@ -40,7 +40,7 @@ pub static METHOD: Method = Method {
             max_abs: 0.0012,
             at_degrees: 48.4,
         }],
-        code_ulp: 7.0,
+        code_ulp: 7.5,
         code_over: Over::Dielectrics,
         colours: None,
         by_class: &[ByClass::of_class(

@@ -39,7 +39,7 @@ pub static METHOD: Method = Method {
             max_abs: 0.0011,
             at_degrees: 59.2,
         }],
-        code_ulp: 5.0,
+        code_ulp: 7.0,
         code_over: Over::Dielectrics,
         colours: None,
         by_class: &[ByClass::of_class(

@@ -42,7 +42,7 @@ pub static METHOD: Method = Method {
             max_abs: 0.0452,
             at_degrees: 87.5,
         }],
-        code_ulp: 11.0,
+        code_ulp: 14.0,
         code_over: Over::Metals,
         colours: Colours::within(5.5e-6),
         by_class: &[
@@ -57,7 +57,7 @@ pub static METHOD: Method = Method {
     coefficients: Some(CoefficientsFromInputs {
         fitted: "fitted",
         build: coefficients,
-        code_abs: 1.2e-6,
+        code_abs: 7e-7,
     }),
     plain: None,
     replacement: None,

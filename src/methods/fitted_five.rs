@@ -55,7 +55,7 @@ pub static METHOD: Method = Method {
                 at_degrees: 23.8,
             },
         ],
-        code_ulp: 6.0,
+        code_ulp: 8.0,
         code_over: Over::Metals,
         colours: None,
         by_class: &[

@@ -54,7 +54,7 @@ pub static METHOD: Method = Method {
                 at_degrees: 64.8,
             },
         ],
-        code_ulp: 6.0,
+        code_ulp: 8.5,
         code_over: Over::Metals,
         colours: None,
         by_class: &[

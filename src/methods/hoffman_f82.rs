@@ -59,7 +59,7 @@ pub static METHOD: Method = Method {
                 at_degrees: 87.3,
             },
         ],
-        code_ulp: 5.0,
+        code_ulp: 6.0,
         code_over: Over::Wide,
         colours: Colours::within(5e-7),
         by_class: &[],

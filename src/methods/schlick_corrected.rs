@@ -79,7 +79,7 @@ pub static METHOD: Method = Method {
             max_abs: 0.0872,
             at_degrees: 75.8,
         }],
-        code_ulp: 15.5,
+        code_ulp: 16.0,
         code_over: Over::Wide,
         colours: None,
         by_class: &[],

@@ -48,7 +48,7 @@ pub static METHOD: Method = Method {
                 at_degrees: 84.5,
             },
         ],
-        code_ulp: 10.5,
+        code_ulp: 8.0,
         code_over: Over::Wide,
         colours: None,
         by_class: &[],

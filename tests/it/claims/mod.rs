@@ -5,7 +5,7 @@ mod search;
 
 use fresnel_gen::app::{Materials, Request};
 use fresnel_gen::fit::model_error_over;
-use fresnel_gen::methods::{self, Contract};
+use fresnel_gen::methods::{self, Contract, Method};
 use fresnel_gen::verify::{
     coefficient_code_error, cosines, library_code_error, library_code_error_at, worst_media,
 };
@@ -98,7 +98,9 @@ fn code_errors_over_the_catalogue_are_within_promises() {
     };
     let subjects = all.subjects().unwrap().materials();
     let cosines = cosines(CATALOGUE_POINTS);
-    let numeric = methods::ALL.iter().filter(|method| !method.is_textured());
+    // Beside 90 degrees a textbook form promises nothing.
+    let kept = |method: &&Method| !method.is_textured() && method.contract == Contract::Kept;
+    let numeric = methods::ALL.iter().filter(kept);
     let each = numeric.flat_map(|method| subjects.iter().map(move |subject| (method, subject)));
     expect_none(each.filter_map(|(method, subject)| {
         let channels = &subject.effective.channels;
