@@ -59,7 +59,7 @@ pub static METHOD: Method = Method {
         ],
     },
     contract: Contract::Kept,
-    half: InHalf::within(0.0018),
+    half: InHalf::within(0.0015),
     build,
     for_constants: None,
     coefficients: None,

@@ -44,7 +44,7 @@ pub static METHOD: Method = Method {
         }],
         code_ulp: 14.0,
         code_over: Over::Metals,
-        colours: Colours::within(5.5e-6),
+        colours: Colours::within(8.5e-6),
         by_class: &[
             ByClass::of_class("metal", [0.0042, 0.0100], [0.0047, 0.0430], 0.0141),
             ByClass::of_class("semiconductor", [0.0066, 0.0074], [0.0065, 0.0096], 0.0094),

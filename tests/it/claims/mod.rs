@@ -99,8 +99,8 @@ fn code_errors_over_the_catalogue_are_within_promises() {
     let subjects = all.subjects().unwrap().materials();
     let cosines = cosines(CATALOGUE_POINTS);
     // Beside 90 degrees a textbook form promises nothing.
-    let kept = |method: &&Method| !method.is_textured() && method.contract == Contract::Kept;
-    let numeric = methods::ALL.iter().filter(kept);
+    let kept = |method: &Method| !method.is_textured() && method.contract == Contract::Kept;
+    let numeric = methods::ALL.iter().filter(|method| kept(method));
     let each = numeric.flat_map(|method| subjects.iter().map(move |subject| (method, subject)));
     expect_none(each.filter_map(|(method, subject)| {
         let channels = &subject.effective.channels;
