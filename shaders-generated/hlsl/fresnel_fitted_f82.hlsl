@@ -8,7 +8,7 @@
 // Domain: the result is limited to [0, 1], of f0 above 1 too
 // Model error for eta 1.3 to 2.5: at most 0.0088, worst at 71.6 degrees
 // Model error for n 0.05 to 4.5, k 1.5 to 8: at most 0.0504, worst at 87.3 degrees
-// Cost: 31 scalar operations, among them 1 division; fresnel_fitted_f82_scalar 21; fresnel_fitted_f82_average 27;
+// Cost: 30 scalar operations, among them 1 division; fresnel_fitted_f82_scalar 20; fresnel_fitted_f82_average 27;
 //     fresnel_fitted_f82_average_scalar 9
 // fresnel_fitted_f82_average: the mean of F over the hemisphere, weighted by cosine, as compensation of multiple
 //     scattering takes it
@@ -21,11 +21,11 @@
 float3 fresnel_fitted_f82(float cos_theta, float3 f0, float3 f82)
 {
     float c = saturate(cos_theta); // clamp: a rounded dot product may exceed 1
-    float below = 1.0 + 2.6 * c;
-    float u = (1.0 - c) / below; // 0 at normal incidence, 5/8 at 81.79 degrees, 1 at grazing
-    float s = u - u * u;
-    float a = u - s * (1.0 + 2.6666667 * u); // the weight of white
-    float b = s * (7.082667 * u - 0.16); // the weight of f82
+    float w = c / (0.2777778 + 0.7222222 * c); // 1 at normal incidence, 0 at grazing
+    float u = 1.0 - w; // 5/8 at 81.79 degrees
+    float s = u * w;
+    float a = u - s * (3.6666667 - 2.6666667 * w); // the weight of white
+    float b = s * (6.9226665 - 7.082667 * w); // the weight of f82
     float kept = 1.0 - a - b; // the weight of f0
     return saturate(f0 * kept + (f82 * b + a));
 }
@@ -33,11 +33,11 @@ float3 fresnel_fitted_f82(float cos_theta, float3 f0, float3 f82)
 float fresnel_fitted_f82_scalar(float cos_theta, float f0, float f82)
 {
     float c = saturate(cos_theta); // clamp: a rounded dot product may exceed 1
-    float below = 1.0 + 2.6 * c;
-    float u = (1.0 - c) / below; // 0 at normal incidence, 5/8 at 81.79 degrees, 1 at grazing
-    float s = u - u * u;
-    float a = u - s * (1.0 + 2.6666667 * u); // the weight of white
-    float b = s * (7.082667 * u - 0.16); // the weight of f82
+    float w = c / (0.2777778 + 0.7222222 * c); // 1 at normal incidence, 0 at grazing
+    float u = 1.0 - w; // 5/8 at 81.79 degrees
+    float s = u * w;
+    float a = u - s * (3.6666667 - 2.6666667 * w); // the weight of white
+    float b = s * (6.9226665 - 7.082667 * w); // the weight of f82
     float kept = 1.0 - a - b; // the weight of f0
     return saturate(f0 * kept + (f82 * b + a));
 }

@@ -19,11 +19,11 @@
 
 float3 fresnel_fitted_f82_metal(float cos_theta, float3 f0, float3 f82)
 {
-    float3 x = f0 - 0.75;
-    float3 y = f82 - 0.65;
-    float3 c1 = -0.353 + y * (-0.8527 + y * 12.4904) + x * (0.1361 + y * -14.1575 + x * 5.232);
-    float3 c2 = -0.0256 + y * (10.2357 + y * -36.5052) + x * (-6.8471 + y * 40.6873 + x * -14.697);
-    float3 c3 = 0.6275 + y * (-9.3554 + y * 23.8447) + x * (5.7256 + y * -26.4619 + x * 9.5095);
+    float3 x = f0 - 0.6;
+    float3 z = f82 - f0;
+    float3 c1 = -0.28801525 + z * (0.021885 + z * 12.4904) + x * (-0.70374 + z * 10.8233 + x * 3.5649);
+    float3 c2 = 0.37288925 + z * (7.783125 + z * -36.5052) + x * (3.31076 + z * -32.3231 + x * -10.5149);
+    float3 c3 = 0.31154126 + z * (-7.770585 + z * 23.8447) + x * (-3.57474 + z * 21.2275 + x * 6.8923);
     // so that F is f0 at normal incidence
     float3 c0 = f0 - 0.011048543 * (c1 + 0.011048543 * (c2 + 0.011048543 * c3));
     float c = saturate(cos_theta); // clamp: a rounded dot product may exceed 1
@@ -33,33 +33,33 @@ float3 fresnel_fitted_f82_metal(float cos_theta, float3 f0, float3 f82)
 
 float3 fresnel_fitted_f82_metal_c0(float3 f0, float3 f82)
 {
-    float3 x = f0 - 0.75;
-    float3 y = f82 - 0.65;
-    float3 c1 = -0.353 + y * (-0.8527 + y * 12.4904) + x * (0.1361 + y * -14.1575 + x * 5.232);
-    float3 c2 = -0.0256 + y * (10.2357 + y * -36.5052) + x * (-6.8471 + y * 40.6873 + x * -14.697);
-    float3 c3 = 0.6275 + y * (-9.3554 + y * 23.8447) + x * (5.7256 + y * -26.4619 + x * 9.5095);
+    float3 x = f0 - 0.6;
+    float3 z = f82 - f0;
+    float3 c1 = -0.28801525 + z * (0.021885 + z * 12.4904) + x * (-0.70374 + z * 10.8233 + x * 3.5649);
+    float3 c2 = 0.37288925 + z * (7.783125 + z * -36.5052) + x * (3.31076 + z * -32.3231 + x * -10.5149);
+    float3 c3 = 0.31154126 + z * (-7.770585 + z * 23.8447) + x * (-3.57474 + z * 21.2275 + x * 6.8923);
     return f0 - 0.011048543 * (c1 + 0.011048543 * (c2 + 0.011048543 * c3)); // so that F is f0 at normal incidence
 }
 
 float3 fresnel_fitted_f82_metal_c1(float3 f0, float3 f82)
 {
-    float3 x = f0 - 0.75;
-    float3 y = f82 - 0.65;
-    return -0.353 + y * (-0.8527 + y * 12.4904) + x * (0.1361 + y * -14.1575 + x * 5.232);
+    float3 x = f0 - 0.6;
+    float3 z = f82 - f0;
+    return -0.28801525 + z * (0.021885 + z * 12.4904) + x * (-0.70374 + z * 10.8233 + x * 3.5649);
 }
 
 float3 fresnel_fitted_f82_metal_c2(float3 f0, float3 f82)
 {
-    float3 x = f0 - 0.75;
-    float3 y = f82 - 0.65;
-    return -0.0256 + y * (10.2357 + y * -36.5052) + x * (-6.8471 + y * 40.6873 + x * -14.697);
+    float3 x = f0 - 0.6;
+    float3 z = f82 - f0;
+    return 0.37288925 + z * (7.783125 + z * -36.5052) + x * (3.31076 + z * -32.3231 + x * -10.5149);
 }
 
 float3 fresnel_fitted_f82_metal_c3(float3 f0, float3 f82)
 {
-    float3 x = f0 - 0.75;
-    float3 y = f82 - 0.65;
-    return 0.6275 + y * (-9.3554 + y * 23.8447) + x * (5.7256 + y * -26.4619 + x * 9.5095);
+    float3 x = f0 - 0.6;
+    float3 z = f82 - f0;
+    return 0.31154126 + z * (-7.770585 + z * 23.8447) + x * (-3.57474 + z * 21.2275 + x * 6.8923);
 }
 
 #endif

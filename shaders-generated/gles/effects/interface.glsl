@@ -51,7 +51,7 @@ highp vec3 fresnel_refracted(highp vec3 incident, highp vec3 normal, highp float
 //   incident: direction of travel, of unit length, toward the surface
 //   normal: of unit length, on the side that the light comes from; the function never flips it
 //   eta: relative index of refraction, transmitted over incident (n_t / n_i)
-// Code error: at most 6e-7, relative where the result is above 1, besides what a change of each argument by 2^-22
+// Code error: at most 8e-7, relative where the result is above 1, besides what a change of each argument by 2^-22
 //     of itself and 2^-23 does. Cost: 65 operations
 highp vec3 fresnel_interface_reflectance(highp vec3 incident, highp vec3 normal, highp vec3 eta) {
     highp float c = clamp(-dot(incident, normal), 0.0, 1.0); // clamp: a rounded dot product may exceed 1
@@ -70,7 +70,7 @@ highp vec3 fresnel_interface_reflectance(highp vec3 incident, highp vec3 normal,
 //   incident: direction of travel, of unit length, toward the surface
 //   normal: of unit length, on the side that the light comes from; the function never flips it
 //   eta: relative index of refraction, transmitted over incident (n_t / n_i)
-// Code error: at most 6e-7, relative where the result is above 1, besides what a change of each argument by 2^-22
+// Code error: at most 8e-7, relative where the result is above 1, besides what a change of each argument by 2^-22
 //     of itself and 2^-23 does. Cost: 29 operations
 highp float fresnel_interface_reflectance_scalar(highp vec3 incident, highp vec3 normal, highp float eta) {
     highp float c = clamp(-dot(incident, normal), 0.0, 1.0); // clamp: a rounded dot product may exceed 1

@@ -85,7 +85,7 @@ highp vec3 fresnel_exit_direction(highp vec3 direction, highp vec3 normal_out, h
 //   direction: of the ray, of unit length
 //   normal_out: of unit length, out of the body
 //   eta: relative index of refraction, transmitted over incident (n_t / n_i)
-// Code error: at most 6e-7, relative where the result is above 1, besides what a change of each argument by 2^-22
+// Code error: at most 8e-7, relative where the result is above 1, besides what a change of each argument by 2^-22
 //     of itself and 2^-23 does. Cost: 67 operations
 highp vec3 fresnel_exit_transmittance(highp vec3 direction, highp vec3 normal_out, highp vec3 eta) {
     highp float c = clamp(dot(direction, normal_out), 0.0, 1.0); // clamp: a rounded dot product may exceed 1
@@ -104,7 +104,7 @@ highp vec3 fresnel_exit_transmittance(highp vec3 direction, highp vec3 normal_ou
 //   direction: of the ray, of unit length
 //   normal_out: of unit length, out of the body
 //   eta: relative index of refraction, transmitted over incident (n_t / n_i)
-// Code error: at most 6e-7, relative where the result is above 1, besides what a change of each argument by 2^-22
+// Code error: at most 8e-7, relative where the result is above 1, besides what a change of each argument by 2^-22
 //     of itself and 2^-23 does. Cost: 29 operations
 highp float fresnel_exit_transmittance_scalar(highp vec3 direction, highp vec3 normal_out, highp float eta) {
     highp float c = clamp(dot(direction, normal_out), 0.0, 1.0); // clamp: a rounded dot product may exceed 1

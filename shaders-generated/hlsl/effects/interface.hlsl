@@ -52,7 +52,7 @@ float3 fresnel_refracted(float3 incident, float3 normal, float eta)
 //   incident: direction of travel, of unit length, toward the surface
 //   normal: of unit length, on the side that the light comes from; the function never flips it
 //   eta: relative index of refraction, transmitted over incident (n_t / n_i)
-// Code error: at most 6e-7, relative where the result is above 1, besides what a change of each argument by 2^-22
+// Code error: at most 8e-7, relative where the result is above 1, besides what a change of each argument by 2^-22
 //     of itself and 2^-23 does. Cost: 65 operations
 float3 fresnel_interface_reflectance(float3 incident, float3 normal, float3 eta)
 {
@@ -72,7 +72,7 @@ float3 fresnel_interface_reflectance(float3 incident, float3 normal, float3 eta)
 //   incident: direction of travel, of unit length, toward the surface
 //   normal: of unit length, on the side that the light comes from; the function never flips it
 //   eta: relative index of refraction, transmitted over incident (n_t / n_i)
-// Code error: at most 6e-7, relative where the result is above 1, besides what a change of each argument by 2^-22
+// Code error: at most 8e-7, relative where the result is above 1, besides what a change of each argument by 2^-22
 //     of itself and 2^-23 does. Cost: 29 operations
 float fresnel_interface_reflectance_scalar(float3 incident, float3 normal, float eta)
 {

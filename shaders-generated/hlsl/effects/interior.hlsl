@@ -88,7 +88,7 @@ float3 fresnel_exit_direction(float3 direction, float3 normal_out, float eta)
 //   direction: of the ray, of unit length
 //   normal_out: of unit length, out of the body
 //   eta: relative index of refraction, transmitted over incident (n_t / n_i)
-// Code error: at most 6e-7, relative where the result is above 1, besides what a change of each argument by 2^-22
+// Code error: at most 8e-7, relative where the result is above 1, besides what a change of each argument by 2^-22
 //     of itself and 2^-23 does. Cost: 67 operations
 float3 fresnel_exit_transmittance(float3 direction, float3 normal_out, float3 eta)
 {
@@ -108,7 +108,7 @@ float3 fresnel_exit_transmittance(float3 direction, float3 normal_out, float3 et
 //   direction: of the ray, of unit length
 //   normal_out: of unit length, out of the body
 //   eta: relative index of refraction, transmitted over incident (n_t / n_i)
-// Code error: at most 6e-7, relative where the result is above 1, besides what a change of each argument by 2^-22
+// Code error: at most 8e-7, relative where the result is above 1, besides what a change of each argument by 2^-22
 //     of itself and 2^-23 does. Cost: 29 operations
 float fresnel_exit_transmittance_scalar(float3 direction, float3 normal_out, float eta)
 {

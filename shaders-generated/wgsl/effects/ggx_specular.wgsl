@@ -22,7 +22,7 @@
 //   v_dot_h: cosine between view and half vector: the angle that F is taken at
 //   alpha: roughness squared; below .001 it counts as .001
 //   eta: relative index of refraction, transmitted over incident (n_t / n_i)
-// Code error: at most 6e-7, relative where the result is above 1, besides what a change of each argument by 2^-22
+// Code error: at most 8e-7, relative where the result is above 1, besides what a change of each argument by 2^-22
 //     of itself and 2^-23 does. Cost: 94 operations
 fn fresnel_ggx_specular(
     n_dot_v: f32,
@@ -63,7 +63,7 @@ fn fresnel_ggx_specular(
 //   v_dot_h: cosine between view and half vector: the angle that F is taken at
 //   alpha: roughness squared; below .001 it counts as .001
 //   eta: relative index of refraction, transmitted over incident (n_t / n_i)
-// Code error: at most 6e-7, relative where the result is above 1, besides what a change of each argument by 2^-22
+// Code error: at most 8e-7, relative where the result is above 1, besides what a change of each argument by 2^-22
 //     of itself and 2^-23 does. Cost: 56 operations
 fn fresnel_ggx_specular_scalar(
     n_dot_v: f32,

@@ -48,7 +48,7 @@ fn fresnel_refracted(incident: vec3<f32>, normal: vec3<f32>, eta: f32) -> vec3<f
 //   incident: direction of travel, of unit length, toward the surface
 //   normal: of unit length, on the side that the light comes from; the function never flips it
 //   eta: relative index of refraction, transmitted over incident (n_t / n_i)
-// Code error: at most 6e-7, relative where the result is above 1, besides what a change of each argument by 2^-22
+// Code error: at most 8e-7, relative where the result is above 1, besides what a change of each argument by 2^-22
 //     of itself and 2^-23 does. Cost: 65 operations
 fn fresnel_interface_reflectance(incident: vec3<f32>, normal: vec3<f32>, eta: vec3<f32>) -> vec3<f32> {
     let c = saturate(-dot(incident, normal)); // clamp: a rounded dot product may exceed 1
@@ -67,7 +67,7 @@ fn fresnel_interface_reflectance(incident: vec3<f32>, normal: vec3<f32>, eta: ve
 //   incident: direction of travel, of unit length, toward the surface
 //   normal: of unit length, on the side that the light comes from; the function never flips it
 //   eta: relative index of refraction, transmitted over incident (n_t / n_i)
-// Code error: at most 6e-7, relative where the result is above 1, besides what a change of each argument by 2^-22
+// Code error: at most 8e-7, relative where the result is above 1, besides what a change of each argument by 2^-22
 //     of itself and 2^-23 does. Cost: 29 operations
 fn fresnel_interface_reflectance_scalar(incident: vec3<f32>, normal: vec3<f32>, eta: f32) -> f32 {
     let c = saturate(-dot(incident, normal)); // clamp: a rounded dot product may exceed 1

@@ -84,7 +84,7 @@ fn fresnel_exit_direction(direction: vec3<f32>, normal_out: vec3<f32>, eta: f32)
 //   direction: of the ray, of unit length
 //   normal_out: of unit length, out of the body
 //   eta: relative index of refraction, transmitted over incident (n_t / n_i)
-// Code error: at most 6e-7, relative where the result is above 1, besides what a change of each argument by 2^-22
+// Code error: at most 8e-7, relative where the result is above 1, besides what a change of each argument by 2^-22
 //     of itself and 2^-23 does. Cost: 67 operations
 fn fresnel_exit_transmittance(direction: vec3<f32>, normal_out: vec3<f32>, eta: vec3<f32>) -> vec3<f32> {
     let c = saturate(dot(direction, normal_out)); // clamp: a rounded dot product may exceed 1
@@ -103,7 +103,7 @@ fn fresnel_exit_transmittance(direction: vec3<f32>, normal_out: vec3<f32>, eta: 
 //   direction: of the ray, of unit length
 //   normal_out: of unit length, out of the body
 //   eta: relative index of refraction, transmitted over incident (n_t / n_i)
-// Code error: at most 6e-7, relative where the result is above 1, besides what a change of each argument by 2^-22
+// Code error: at most 8e-7, relative where the result is above 1, besides what a change of each argument by 2^-22
 //     of itself and 2^-23 does. Cost: 29 operations
 fn fresnel_exit_transmittance_scalar(direction: vec3<f32>, normal_out: vec3<f32>, eta: f32) -> f32 {
     let c = saturate(dot(direction, normal_out)); // clamp: a rounded dot product may exceed 1
