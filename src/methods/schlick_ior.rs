@@ -12,6 +12,7 @@ use super::input::{Input, Inputs};
 use super::method::{Claim, Claims, Contract, Forms, Light, Method, Over};
 use super::origin::Origin;
 use super::schlick::{SCHLICK_1994, grazing_weight, to_white};
+use super::schlick_rescaled::from_least;
 
 /// The record of this method.
 pub static METHOD: Method = Method {
@@ -51,14 +52,15 @@ pub static METHOD: Method = Method {
 fn build<'b>(x: &Inputs<'b>) -> Expr<'b> {
     let eta = x.get(Input::ETA);
     let less = (eta - 1.0).named("eta_less", "");
-    let more = (eta + 1.0).named("eta_more", "");
     if x.is_half() {
         // A quotient near 1 would be off by five roundings.
+        let more = (eta + 1.0).named("eta_more", "");
         let r = (less / more).named("r", "the amplitude at normal incidence");
         let f0 = r.squared().named("f0", "");
         return to_white(f0, grazing_weight(x));
     }
-    ((less.squared() + 4.0 * eta * grazing_weight(x)) / more.squared()).saturate()
+    let least = less.squared().named("least", "(eta - 1)^2");
+    from_least(x, least, eta).saturate()
 }
 
 #[cfg(test)]

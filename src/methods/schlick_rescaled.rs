@@ -75,9 +75,14 @@ pub(super) fn rescaled<'b>(x: &Inputs<'b>) -> Expr<'b> {
     if x.is_half() {
         return half(x.cosine(), n, k);
     }
-    // (n+1)² is (n-1)² + 4n: so written, an error of the first term is in both and leaves the quotient almost alone.
     let less = (n - 1.0).named("n_less", "");
     let least = (less.squared() + k.squared()).named("least", "(n - 1)^2 + k^2");
+    from_least(x, least, n)
+}
+
+/// `((n-1)² + k² + 4n (1-c)⁵) / ((n+1)² + k²)` from `least`, (n-1)² + k². The divisor is `least` and 4n: an error of `least` is in both
+/// terms and leaves the quotient almost alone, and at grazing both are the same number.
+pub(super) fn from_least<'b>(x: &Inputs<'b>, least: Expr<'b>, n: Expr<'b>) -> Expr<'b> {
     let n4 = (4.0 * n).named("n4", "");
     (least + n4 * grazing_weight(x)) / (least + n4)
 }

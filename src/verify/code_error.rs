@@ -91,7 +91,7 @@ pub fn library_code_error(method: &Method, media: usize, points: usize) -> CodeE
 /// Three random media of those that a method's claim names.
 fn random_channels(method: &Method, random: &mut Random) -> Channels {
     let over = method.claims.code_over;
-    let [a, b, c] = [0; 3].map(|_| medium(method, over, random));
+    let [a, b, c] = [0; 3].map(|_| random_medium(method, over, random));
     Channels {
         n: [a.0, b.0, c.0],
         k: [a.1, b.1, c.1],
@@ -135,7 +135,7 @@ pub fn coefficient_code_error(method: &Method, media: usize) -> Option<f64> {
 }
 
 /// n and k of a random medium of a set; of the wide sets' some are metals, and some absorb nothing.
-pub(super) fn medium(method: &Method, over: Over, random: &mut Random) -> (f64, f64) {
+pub fn random_medium(method: &Method, over: Over, random: &mut Random) -> (f64, f64) {
     let glass = method.class == Class::Dielectric;
     if over == Over::Metals || !glass && random.unit() < METALS {
         return Over::Metals.medium(random.unit(), random.unit());

@@ -9,7 +9,7 @@ use crate::methods::Method;
 use crate::num::{Half, Num, Precision};
 use crate::reference::Derivation;
 
-use super::code_error::medium;
+use super::code_error::random_medium;
 use super::points::Random;
 
 /// How far half precision is from what is meant.
@@ -140,7 +140,7 @@ pub fn library_half_error(method: &Method, media: usize) -> HalfError {
     };
     let (cosines, mut random) = (halves(), Random(SEED));
     (0..media / 3).fold(HalfError::NONE, |worst, _| {
-        let [a, b, c] = [0; 3].map(|_| medium(method, claim.over, &mut random));
+        let [a, b, c] = [0; 3].map(|_| random_medium(method, claim.over, &mut random));
         let channels = Channels {
             n: [a.0, b.0, c.0],
             k: [a.1, b.1, c.1],

@@ -60,7 +60,7 @@ mod worst;
 
 pub use code_error::{
     ABSOLUTE_FLOOR, CodeError, code_error, coefficient_code_error, digits_lost, library_code_error,
-    library_code_error_at,
+    library_code_error_at, random_medium,
 };
 #[cfg(all(feature = "cli", feature = "gpu"))]
 pub use error::Error;
@@ -71,7 +71,7 @@ pub use half::{
     nearest_half,
 };
 pub use object::as_object;
-pub use points::{WITHIN, beyond, cosines, cosines_around, limits, share};
+pub use points::{Random, WITHIN, beyond, cosines, cosines_around, limits, share};
 #[cfg(all(feature = "cli", feature = "gpu"))]
 pub use row::{
     AllowedError, Answer, CodeErrorFigures, Emulation, ModelErrorFigures, SecondOpinion, VerifyRow,

@@ -81,7 +81,7 @@ fn around(x: f32) -> impl Iterator<Item = f32> {
 
 /// SplitMix64 (Steele, Lea, Flood, "Fast splittable pseudorandom number generators", OOPSLA, 2014,
 /// <https://doi.org/10.1145/2660193.2660195>): small, seeded, the same everywhere.
-pub(super) struct Random(pub u64);
+pub struct Random(pub u64);
 
 impl Random {
     fn next(&mut self) -> u64 {

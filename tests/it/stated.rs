@@ -193,11 +193,12 @@ fn what_is_gained_over_schlick_is_what_the_pages_say() {
             " and `conductor_exact`",
             units_of_gold("fitted"),
         ),
+        // The point that ends the sentence is replaced with the figure.
         stated(
             readme,
             " and `conductor_exact` ",
-            ". Files of materials",
-            units_of_gold("conductor_exact"),
+            " Files of materials",
+            format!("{}.", units_of_gold("conductor_exact")),
         ),
         stated(
             costs,

@@ -7,8 +7,8 @@
 
 use fresnel_gen::app::{Materials, Request};
 use fresnel_gen::materials::Channels;
-use fresnel_gen::methods::{self, Class, Contract, Method, Over};
-use fresnel_gen::verify::library_code_error_at;
+use fresnel_gen::methods::{self, Class, Contract, Method};
+use fresnel_gen::verify::{Random, library_code_error_at, random_medium};
 
 /// Random media, and cosines for each: other ones each time.
 const MEDIA: usize = 12_000;
@@ -20,28 +20,13 @@ const STARTS: usize = 48;
 const STEPS: usize = 400;
 /// Cosines tried in each step.
 const NEAR: usize = 96;
-/// The share of metals among the media of [`Over::Wide`], and of those without absorption.
-const METALS: f64 = 0.3;
-const CLEAR: f64 = 0.2;
 /// Beside 90 degrees a textbook form promises nothing.
 const TEXTBOOK_FROM: f64 = 1.000_000_1e-6;
 
-/// Random numbers by xorshift64*, Marsaglia 2003 and Vigna 2016.
-struct Random(u64);
-
-impl Random {
-    fn unit(&mut self) -> f64 {
-        self.0 ^= self.0 >> 12;
-        self.0 ^= self.0 << 25;
-        self.0 ^= self.0 >> 27;
-        (self.0.wrapping_mul(0x2545_F491_4F6C_DD1D) >> 11) as f64 / (1u64 << 53) as f64
-    }
-
-    /// A number near this one: next to it, or up to a tenth away.
-    fn near(&mut self, x: f64) -> f64 {
-        let scale = libm::exp10(-1.0 - 6.0 * self.unit());
-        x * (1.0 + scale * (2.0 * self.unit() - 1.0))
-    }
+/// A number near this one: next to it, or up to a tenth away.
+fn near(x: f64, random: &mut Random) -> f64 {
+    let scale = libm::exp10(-1.0 - 6.0 * random.unit());
+    x * (1.0 + scale * (2.0 * random.unit() - 1.0))
 }
 
 /// A medium and a cosine, and the error there in ulp.
@@ -87,21 +72,10 @@ fn cosines(method: &Method, count: usize, random: &mut Random) -> Vec<f32> {
     (0..count).map(one).collect()
 }
 
-fn medium(method: &Method, random: &mut Random) -> (f64, f64) {
-    let over = method.claims.code_over;
-    let glass = method.class == Class::Dielectric;
-    if over == Over::Metals || !glass && random.unit() < METALS {
-        return Over::Metals.medium(random.unit(), random.unit());
-    }
-    let n_share = random.unit();
-    let is_clear = glass || random.unit() < CLEAR;
-    over.medium(n_share, if is_clear { 0.0 } else { random.unit() })
-}
-
 /// The worst of random media.
 fn random_cases(method: &Method, random: &mut Random) -> Vec<Case> {
     let one = |_| {
-        let (n, k) = medium(method, random);
+        let (n, k) = random_medium(method, method.claims.code_over, random);
         case(method, n, k, &cosines(method, COSINES, random))
     };
     worst((0..MEDIA).map(one).collect())
@@ -139,14 +113,14 @@ fn climb(method: &Method, start: Case, random: &mut Random) -> Case {
     (0..STEPS).fold(start, |now, step| {
         let (mut n, mut k) = (now.n, now.k);
         if step % 3 != 0 {
-            n = 1.0 + random.near(now.n - 1.0);
-            k = if glass { 0.0 } else { random.near(now.k) };
+            n = 1.0 + near(now.n - 1.0, random);
+            k = if glass { 0.0 } else { near(now.k, random) };
         }
         if !method.claims.code_over.holds(n, k) {
             return now;
         }
-        let near = (0..NEAR).map(|_| within(method, random.near(f64::from(now.cos_theta))));
-        let tried = case(method, n, k, &near.collect::<Vec<_>>());
+        let beside = (0..NEAR).map(|_| within(method, near(f64::from(now.cos_theta), random)));
+        let tried = case(method, n, k, &beside.collect::<Vec<_>>());
         if tried.ulp > now.ulp { tried } else { now }
     })
 }

@@ -26,7 +26,7 @@ fn dip_of_method(eta: f64) -> f64 {
 }
 
 fn cosines() -> impl Iterator<Item = f64> {
-    (0..=2000).map(|i| f64::from(i) / 2000.0)
+    (0..=20_000).map(|i| f64::from(i) / 20_000.0)
 }
 
 fn below(f0: f64, curve: impl Iterator<Item = f64>) -> f64 {

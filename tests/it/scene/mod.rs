@@ -3,7 +3,6 @@
 mod caustics;
 mod command;
 mod glass;
-mod lost;
 mod mirror;
 mod one_surface;
 mod recorded;

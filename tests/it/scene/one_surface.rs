@@ -62,6 +62,24 @@ fn one_look_up_each_loses_no_light() {
     }
 }
 
+/// In a white world a gem is white but for light that its picture stops following: of a picture that it fills by half less than a
+/// hundredth. No pixel is brighter than the world, and what is drawn follows less than the truth.
+#[test]
+fn a_gem_makes_no_light() {
+    let Some(device) = device() else { return };
+    let (name, white) = ("double_refraction_gem", around(|_| DVec3::ONE));
+    let picture = pictured(&device, name, &glass_of(row(name).material), &white, 64);
+    let [drawn, truth] = [&picture.drawn, &picture.truth].map(|seen| {
+        assert!(seen.iter().all(|one| one.max_element() < 1.001), "{name}");
+        let count = seen.len() as f64;
+        1.0 - seen.iter().map(|one| one.x).sum::<f64>() / count
+    });
+    assert!(
+        0.0 < truth && truth < drawn && drawn < 0.01,
+        "{drawn} {truth}"
+    );
+}
+
 /// Blue is bent more than red, drawn and in truth: across an edge between dark and light they part.
 #[test]
 fn blue_is_bent_more_than_red() {
