@@ -32,7 +32,7 @@ pub static METHOD: Method = Method {
             max_abs: 0.0841,
             at_degrees: 84.5,
         }],
-        code_ulp: 10.5,
+        code_ulp: 7.0,
         code_over: Over::Wide,
         colours: None,
         by_class: &[],
