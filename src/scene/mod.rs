@@ -38,6 +38,7 @@ pub use compare::{Comparison, Difference, compare};
 #[cfg(feature = "gpu")]
 pub use draw::{DrawFault, Drawn, Scenery, draw};
 pub use environment::{Environment, EnvironmentFault};
+pub use light_file::is_deep;
 pub use frame::{
     ABSORPTION_AT, BACK, INDEX_AT, INPUTS_AT, LightBlock, MARGIN, PHOTONS, PIXEL_AT, frame,
 };
