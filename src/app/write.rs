@@ -14,7 +14,6 @@ use super::error::Error;
 use super::folder;
 use super::held::Before;
 use super::lock::Lock;
-use super::manifest;
 use super::ours::bears_mark;
 use super::removal::{remove, remove_leftover};
 use super::stage::{Pending, StagedFiles, stage_fault};

@@ -13,7 +13,7 @@ pub fn scene_error_text(rows: &[SceneErrorRow]) -> String {
     let Some(first) = rows.first() else {
         return String::new();
     };
-    let [object, view] = [&first.object, &first.view].map(Foreign);
+    let (object, view) = (Foreign(&first.object), first.view);
     let head = format!(
         "{object}, {view}: {} frames, {} pixels. Mean relative error against the exact law in per cent, over pixels, then frames\n\n",
         first.frames, first.pixels
