@@ -141,15 +141,12 @@ fn a_forged_entry_removes_no_copy() {
         for line in [&format!("{LINE} --target spirv"), "generate"] {
             let ran = place.done(line);
             assert!(!ran.err.contains("removed: "), "{ran:?}");
-            assert!(
-                ran.err.contains(&format!("left alone: {name}")),
-                "{name}: {ran:?}"
-            );
+            // Effects are another run's, unless it is a whole one. What is named has left the manifest, where the method is known.
+            let is_named = ran.err.contains(&format!("left alone: {name}"));
+            let is_whole = line == "generate";
+            let wanted = if key == "effect" { is_whole } else { true };
+            assert_eq!(is_named, wanted, "{name}: {ran:?}");
             assert_eq!(place.read_bytes(&format!("{OUT}/{name}")), copy, "{name}");
-            if key == "method" && method == "schlick" {
-                // It leaves the manifest.
-                break;
-            }
         }
     }
 }
