@@ -175,10 +175,9 @@ fn refuse_meeting_names(artifacts: &[Artifact], merged: &Manifest) -> Result<(),
         .iter()
         .map(|artifact| artifact.path.as_str())
         .collect();
-    let others = merged
-        .files
-        .iter()
-        .filter(|entry| !made.contains(entry.file.as_str()));
+    // What this program could not have written is not its own, whatever a manifest says of it.
+    let is_other = |entry: &&Entry| !made.contains(entry.file.as_str()) && could_be_written(entry);
+    let others = merged.files.iter().filter(is_other);
     let mut owners: BTreeMap<(&str, &str), &str> = BTreeMap::new();
     for entry in others {
         for name in entry.function_names() {
