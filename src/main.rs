@@ -144,7 +144,11 @@ fn refused(error: &clap::Error) -> ExitCode {
     let text = error.render().to_string();
     if legible(&text) == text {
         let is_for_stdout = !error.use_stderr();
-        let open = if is_for_stdout { stdout::check() } else { Ok(()) };
+        let open = if is_for_stdout {
+            stdout::check()
+        } else {
+            Ok(())
+        };
         let printed = open.and_then(|()| error.print());
         let printed = printed.and_then(|()| io::stdout().flush());
         if is_failure(&printed) {

@@ -105,7 +105,14 @@ mod tests {
         let placing = put(temporary, &place, &before);
         assert_eq!(matches!(placing, Placing::Done), is_put, "{placing:?}");
         let left = fs::read_to_string(&place).expect("a file");
-        assert_eq!(left, if is_put { "new" } else { now.unwrap_or_default() });
+        assert_eq!(
+            left,
+            if is_put {
+                "new"
+            } else {
+                now.unwrap_or_default()
+            }
+        );
         let count = fs::read_dir(dir.path()).expect("a folder").count();
         assert_eq!(count, 1, "nothing else is left");
     }

@@ -195,10 +195,8 @@ pub fn could_be_written(entry: &Entry) -> bool {
 
 /// Whether each name that an entry has of a method or an effect is one that this program writes, or that an earlier version wrote.
 fn is_known(entry: &Entry) -> bool {
-    let is_method =
-        |name: &str| methods::find(name).is_some() || methods::FORMER.contains(&name);
-    let is_effect =
-        |name: &str| effects::find(name).is_some() || effects::FORMER.contains(&name);
+    let is_method = |name: &str| methods::find(name).is_some() || methods::FORMER.contains(&name);
+    let is_effect = |name: &str| effects::find(name).is_some() || effects::FORMER.contains(&name);
     entry.method.as_deref().is_none_or(is_method) && entry.effect.as_deref().is_none_or(is_effect)
 }
 

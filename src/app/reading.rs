@@ -20,15 +20,14 @@ pub fn bytes(path: &Path, largest: u64) -> io::Result<Vec<u8>> {
     bytes
         .try_reserve(usize::try_from(said.len()).unwrap_or(usize::MAX))
         .map_err(|_| ErrorKind::OutOfMemory)?;
-    match file
-        .take(largest.saturating_add(1))
-        .read_to_end(&mut bytes)
-    {
-        Ok(count) if count as u64 > largest => Err(too_large(format!("more than {largest}"), largest)),
-        Ok(_) => Ok(bytes),
-        Err(fault) if fault.kind() == ErrorKind::WouldBlock => {
-            Err(io::Error::other("it is not an ordinary file: it gives nothing, and does not end"))
+    match file.take(largest.saturating_add(1)).read_to_end(&mut bytes) {
+        Ok(count) if count as u64 > largest => {
+            Err(too_large(format!("more than {largest}"), largest))
         }
+        Ok(_) => Ok(bytes),
+        Err(fault) if fault.kind() == ErrorKind::WouldBlock => Err(io::Error::other(
+            "it is not an ordinary file: it gives nothing, and does not end",
+        )),
         Err(fault) => Err(fault),
     }
 }

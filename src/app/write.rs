@@ -341,11 +341,7 @@ pub fn try_file(path: &Path) -> Result<(), Error> {
 }
 
 /// A file that the user names; none where it is right already.
-fn named<'a>(
-    path: &Path,
-    bytes: &'a [u8],
-    before: Before,
-) -> Result<Option<Pending<'a>>, Error> {
+fn named<'a>(path: &Path, bytes: &'a [u8], before: Before) -> Result<Option<Pending<'a>>, Error> {
     let place = destination(path, bytes)?;
     Ok(place.map(|path| Pending {
         path,

@@ -272,7 +272,8 @@ impl Audited<'_> {
 
     /// What to think of it, and why.
     fn judged(&self) -> (Status, Vec<String>) {
-        let place = format!("{}: {}", Foreign(&self.audit.file), self.bound.function.name);
+        let (file, name) = (Foreign(&self.audit.file), &self.bound.function.name);
+        let place = format!("{file}: {name}");
         let mut reasons: Vec<String> = Vec::new();
         for (name, verdict) in self.verdicts {
             if let Verdict::No(words) = verdict {

@@ -24,10 +24,7 @@ mod at_start {
 
     #[used]
     #[cfg_attr(target_os = "linux", unsafe(link_section = ".init_array"))]
-    #[cfg_attr(
-        target_os = "macos",
-        unsafe(link_section = "__DATA,__mod_init_func")
-    )]
+    #[cfg_attr(target_os = "macos", unsafe(link_section = "__DATA,__mod_init_func"))]
     static LOOK: extern "C" fn() = look;
 
     /// Asks the system alone: nothing of the runtime is there yet.

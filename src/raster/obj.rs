@@ -361,7 +361,8 @@ fn check_numbers<'a>(
         // NaN is within no limits.
         if !(-FARTHEST..=FARTHEST).contains(&number) {
             // Behind a place a weight may stand, or a colour.
-            let meant = ["no place", "neither a weight nor a part of a colour"][usize::from(at > 2)];
+            let meant =
+                ["no place", "neither a weight nor a part of a colour"][usize::from(at > 2)];
             return Err(format!("`{word}` is {meant}: numbers lie within ±1e100"));
         }
         count += 1;

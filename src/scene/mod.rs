@@ -38,11 +38,11 @@ pub use compare::{Comparison, Difference, compare};
 #[cfg(feature = "gpu")]
 pub use draw::{DrawFault, Drawn, Scenery, draw};
 pub use environment::{Environment, EnvironmentFault};
-pub use light_file::is_deep;
 pub use frame::{
     ABSORPTION_AT, BACK, INDEX_AT, INPUTS_AT, LightBlock, MARGIN, PHOTONS, PIXEL_AT, frame,
 };
 pub use glass::{Glass, Ray};
+pub use light_file::is_deep;
 #[cfg(feature = "gpu")]
 pub use picture::{Order, Picture, RenderedRow, render};
 pub use relief::Relief;

@@ -56,7 +56,10 @@ fn what_appears_while_a_run_writes_stays() {
             "{fault}"
         );
         let left = snapshot(dir.path());
-        let left: Vec<&String> = left.keys().filter(|name| !name.ends_with(".lock")).collect();
+        let left: Vec<&String> = left
+            .keys()
+            .filter(|name| !name.ends_with(".lock"))
+            .collect();
         assert_eq!(left, [path], "nothing else is there");
     }
     let dir = TempDir::new().unwrap();
