@@ -1,7 +1,9 @@
 //! The program: parses the command line, runs it, prints. The only place that touches the terminal.
 
 use std::io::{self, IsTerminal, Write};
+use std::panic::resume_unwind;
 use std::process::ExitCode;
+use std::thread;
 
 use clap::Parser;
 use clap::builder::StyledStr;
@@ -14,7 +16,24 @@ use fresnel_gen::methods;
 use fresnel_gen::num::{POINT_NOT_COMMA, has_decimal_commas};
 use indicatif::{ProgressBar, ProgressStyle};
 
+#[path = "main/stdout.rs"]
+mod stdout;
+
+/// The work has a stack of its own size: that of the first thread is the shell's to choose (`ulimit -s`), and too small on some systems.
+const STACK_BYTES: usize = 8 << 20;
+
 fn main() -> ExitCode {
+    let thread = thread::Builder::new()
+        .name("main".to_owned())
+        .stack_size(STACK_BYTES);
+    match thread.spawn(work) {
+        Ok(working) => working.join().unwrap_or_else(|panic| resume_unwind(panic)),
+        // No room for a thread: the first one's stack has to do.
+        Err(_) => work(),
+    }
+}
+
+fn work() -> ExitCode {
     outlive_file_limit();
     open_many_files();
     let (words, renamed) = with_names_of_today(std::env::args_os(), methods::RENAMED);
@@ -124,12 +143,15 @@ fn open_many_files() {
 fn refused(error: &clap::Error) -> ExitCode {
     let text = error.render().to_string();
     if legible(&text) == text {
-        let printed = error.print().and_then(|()| io::stdout().flush());
-        let failed = printed
-            .err()
-            .filter(|why| why.kind() != io::ErrorKind::BrokenPipe);
-        if let Some(why) = failed {
-            say(&format!("error: cannot write to stdout: {why}"));
+        let is_for_stdout = !error.use_stderr();
+        let open = if is_for_stdout {
+            stdout::check()
+        } else {
+            Ok(())
+        };
+        let printed = open.and_then(|()| error.print());
+        let printed = printed.and_then(|()| io::stdout().flush());
+        if is_failure(&printed) {
             return ExitCode::from(2);
         }
     } else {
@@ -145,13 +167,25 @@ fn say(line: &str) {
 
 /// Writes to stdout. A reader that has seen enough closes the pipe, and that is no error.
 fn printed(bytes: &[u8], code: u8) -> u8 {
-    let mut stdout = io::stdout().lock();
-    match stdout.write_all(bytes).and_then(|()| stdout.flush()) {
-        Err(error) if error.kind() != io::ErrorKind::BrokenPipe => {
-            say(&format!("error: cannot write to stdout: {error}"));
-            2
+    if bytes.is_empty() {
+        return code;
+    }
+    let mut out = io::stdout().lock();
+    let open = stdout::check().and_then(|()| out.write_all(bytes));
+    match is_failure(&open.and_then(|()| out.flush())) {
+        true => 2,
+        false => code,
+    }
+}
+
+/// Whether stdout could not be written to, which is said then.
+fn is_failure(printed: &io::Result<()>) -> bool {
+    match printed {
+        Err(why) if why.kind() != io::ErrorKind::BrokenPipe => {
+            say(&format!("error: cannot write to stdout: {why}"));
+            true
         }
-        _ => code,
+        _ => false,
     }
 }
 

@@ -8,6 +8,8 @@ use crate::foreign::{Foreign, one_line};
 const ALIKE: f64 = 0.7;
 /// How many are offered at most.
 const OFFERED: usize = 3;
+/// No name is longer. What is longer is like none, and comparing it takes its time.
+const LONGEST: usize = 200;
 /// More names than this are not listed.
 const MANY: usize = 40;
 
@@ -67,6 +69,9 @@ fn listed(kind: &str, all: &[&str]) -> String {
 /// The names most like this one, best first: all that are alike, or that hold the name. Of a short list where none is, the best
 /// that shares a letter with it.
 pub fn nearest_names(name: &str, all: &[&str]) -> Vec<String> {
+    if name.len() > LONGEST {
+        return Vec::new();
+    }
     let name = name.to_lowercase();
     let score = |other: &str| {
         let other = other.to_lowercase();
@@ -114,5 +119,6 @@ mod tests {
     fn what_is_like_nothing_is_answered_with_nothing() {
         check("", &["gles", "wgsl"], &[]);
         check("zzz", &["gold", "silver"], &[]);
+        check(&"gold".repeat(LONGEST), &["gold", "silver"], &[]);
     }
 }

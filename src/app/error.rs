@@ -183,6 +183,19 @@ pub enum Error {
         /// How many files were to be replaced.
         pending: usize,
     },
+    /// All files were prepared, and something has appeared in the place of one.
+    #[error(
+        "{}: what lies there appeared or changed while this run wrote, and stays; {replaced} of {pending} files are new, the others are as before. Move it away, or replace it with --overwrite, and run again",
+        foreign::path(path)
+    )]
+    Taken {
+        /// The place.
+        path: PathBuf,
+        /// How many files were replaced before this one.
+        replaced: usize,
+        /// How many files were to be replaced.
+        pending: usize,
+    },
     /// All files were written, but an orphan could not be removed.
     #[error(
         "cannot remove {}, which is no longer generated: {source}; all other files are written. Remove it by hand",

@@ -6,6 +6,7 @@ use std::io::{self, ErrorKind};
 use std::path::{Component, Path, PathBuf};
 
 use super::error::Error;
+use super::reading;
 use crate::digest::sha256;
 
 /// The beginning of a temporary file's name.
@@ -40,7 +41,10 @@ pub fn read(path: &Path) -> Result<Option<Vec<u8>>, Error> {
         Ok(found) if !found.is_file() => Err(Error::NotAFile {
             path: path.to_path_buf(),
         }),
-        Ok(_) => fs::read(path).map(Some).map_err(|e| read_fault(path, e)),
+        Ok(_) => match reading::bytes(path, u64::MAX) {
+            Ok(bytes) => Ok(Some(bytes)),
+            Err(fault) => Err(read_fault(path, fault)),
+        },
         Err(fault) if fault.kind() == ErrorKind::NotFound => Ok(None),
         Err(fault) => Err(read_fault(path, fault)),
     }

@@ -17,6 +17,7 @@ pub mod error;
 pub mod fault;
 pub mod folder;
 pub mod generate;
+mod held;
 #[cfg(feature = "cli")]
 pub mod legible;
 pub mod loaded;
@@ -31,12 +32,15 @@ pub mod ours;
 pub mod plan_file;
 #[cfg(feature = "cli")]
 mod plan_input;
+mod reading;
+mod removal;
 pub mod request;
 pub mod scope;
 #[cfg(all(feature = "cli", feature = "gpu"))]
 pub mod shard;
 pub mod source;
 mod stage;
+mod stays;
 pub mod subjects;
 #[cfg(feature = "cli")]
 pub mod tables;

@@ -7,9 +7,11 @@
 //! ([`is_as_written`]), since a mark can be pasted.
 
 use crate::digest::sha256;
+use crate::effects;
 use crate::emit::{CATALOGUE, CATALOGUE_BUFFER, EFFECTS, MARK};
 use crate::flavours;
 use crate::lut::{Format, KTX2_MARK, TABLES};
+use crate::methods;
 use crate::num::Precision;
 use crate::targets::{self, Finish};
 
@@ -121,7 +123,20 @@ pub fn is_listed(entry: &Entry, bytes: &[u8]) -> bool {
 pub fn is_as_written(entry: &Entry, bytes: &[u8]) -> bool {
     is_listed(entry, bytes)
         && could_be_written(entry)
-        && (bears_mark(bytes) || has_form_without_mark(entry, bytes))
+        && (bears_mark(bytes) && names_itself(entry, bytes) || has_form_without_mark(entry, bytes))
+}
+
+/// Whether a library's file holds the name that it bears, as its functions do: a copy that somebody renamed holds another.
+fn names_itself(entry: &Entry, bytes: &[u8]) -> bool {
+    let name = match entry.file.split('/').collect::<Vec<_>>().as_slice() {
+        [folder, name] if *folder == entry.target && entry.method.is_some() => stem(entry, name),
+        _ => None,
+    };
+    let holds = |name: &str| {
+        let mut parts = bytes.windows(name.len().max(1));
+        parts.any(|part| part == name.as_bytes())
+    };
+    name.is_none_or(holds)
 }
 
 /// Whether bytes of a format that can bear no mark are what this program writes there: a module that naga made, or floats of as many rows as
@@ -142,8 +157,12 @@ pub fn has_no_room_for_mark(path: &str) -> bool {
     path == CATALOGUE_BUFFER || is_module(path)
 }
 
-/// Could this program have written this path for this entry? The method or the material need not exist today.
+/// Could this program have written this path for this entry? It must know the method and the effect, from today or from an earlier version;
+/// a material may be a user's own.
 pub fn could_be_written(entry: &Entry) -> bool {
+    if !is_known(entry) {
+        return false;
+    }
     let parts: Vec<&str> = entry.file.split('/').collect();
     if let Some(flavour) = flavours::find(&entry.target) {
         let material = entry.material.as_deref();
@@ -172,6 +191,13 @@ pub fn could_be_written(entry: &Entry) -> bool {
             .is_some_and(|material| stem(entry, name) == Some(material)),
         _ => false,
     }
+}
+
+/// Whether each name that an entry has of a method or an effect is one that this program writes, or that an earlier version wrote.
+fn is_known(entry: &Entry) -> bool {
+    let is_method = |name: &str| methods::find(name).is_some() || methods::FORMER.contains(&name);
+    let is_effect = |name: &str| effects::find(name).is_some() || effects::FORMER.contains(&name);
+    entry.method.as_deref().is_none_or(is_method) && entry.effect.as_deref().is_none_or(is_effect)
 }
 
 /// The name of a target's file without its ending and without the suffix of its precision, where these are right.

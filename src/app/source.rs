@@ -10,6 +10,7 @@ use crate::spectra::{TextFault, mesh_text, user_text};
 
 use super::error::Error;
 use super::folder::is_below;
+use super::reading;
 
 /// A material file has at most this many bytes: 10⁶ rows fit.
 const LARGEST: u64 = 64 << 20;
@@ -117,17 +118,7 @@ fn bytes_within(largest: u64, path: &Path) -> Result<Vec<u8>, Error> {
         path: path.to_owned(),
         source,
     };
-    let about = fs::metadata(path).map_err(fail)?;
-    if !about.is_file() {
-        return Err(fail(io::Error::other("it is not an ordinary file")));
-    }
-    if about.len() > largest {
-        return Err(fail(io::Error::other(format!(
-            "it has {} bytes; at most {largest} are read",
-            about.len()
-        ))));
-    }
-    fs::read(path).map_err(fail)
+    reading::bytes(path, largest).map_err(fail)
 }
 
 fn read_within(largest: u64, path: &Path) -> Result<String, Error> {

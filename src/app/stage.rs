@@ -9,12 +9,24 @@ use tempfile::TempPath;
 
 use super::error::Error;
 use super::folder::{self, folder_of};
+use super::held::{Before, Placing, put};
 use super::lock::{Lock, create_held, remove_leftovers_of};
+
+/// A file to be staged.
+pub struct Pending<'a> {
+    /// Its place.
+    pub path: PathBuf,
+    /// What it is to hold.
+    pub bytes: &'a [u8],
+    /// What may lie there when it takes its place.
+    pub before: Before,
+}
 
 /// A file ready to be renamed into place; deleted when dropped before.
 struct Staged {
     temporary: TempPath,
     destination: PathBuf,
+    before: Before,
     /// The lock on the temporary file, held until it is renamed or removed.
     _held: Option<File>,
 }
@@ -32,13 +44,13 @@ impl StagedFiles {
     /// # Errors
     /// The disk refuses one: then none is staged.
     pub fn in_tree(
-        pending: &[(PathBuf, &[u8])],
+        pending: &[Pending],
         out_dir: &Path,
         lock: &mut Lock,
     ) -> Result<StagedFiles, Error> {
-        let beside = |(path, _): &(PathBuf, &[u8])| path.with_file_name(folder::temporary_name());
+        let beside = |one: &Pending| one.path.with_file_name(folder::temporary_name());
         let temporaries: Vec<PathBuf> = pending.iter().map(beside).collect();
-        if let Some((first, _)) = pending.first() {
+        if let Some(Pending { path: first, .. }) = pending.first() {
             let listed: Vec<String> = temporaries
                 .iter()
                 .map(|path| inner(out_dir, path))
@@ -62,7 +74,7 @@ impl StagedFiles {
     ///
     /// # Errors
     /// The disk refuses one: then none is staged.
-    pub fn beside_outputs(pending: &[(PathBuf, &[u8])]) -> Result<StagedFiles, Error> {
+    pub fn beside_outputs(pending: &[Pending]) -> Result<StagedFiles, Error> {
         Self::new(pending, |path| {
             remove_leftovers_of(path);
             let (temporary, new) = create_beside(path)?;
@@ -72,15 +84,16 @@ impl StagedFiles {
 
     /// Stages files in temporary ones that `create` makes; it says too whether they are held open.
     fn new(
-        pending: &[(PathBuf, &[u8])],
+        pending: &[Pending],
         mut create: impl FnMut(&Path) -> io::Result<(PathBuf, File, bool)>,
     ) -> Result<StagedFiles, Error> {
         let mut all = StagedFiles::default();
-        for (path, bytes) in pending {
+        for one in pending {
+            let path = &one.path;
             let mut stage = || {
                 create_folder(folder_of(path), &mut all.created)?;
                 let (temporary, file, is_held) = create(path)?;
-                filled(temporary, file, is_held, path, bytes)
+                filled(temporary, file, is_held, one)
             };
             let staged = stage().map_err(|source| stage_fault(path, source))?;
             all.files.push(staged);
@@ -116,20 +129,45 @@ impl StagedFiles {
         }
     }
 
+    /// Refuses places where something lies by now that was not there when the run looked: to be asked before the first is renamed.
+    ///
+    /// # Errors
+    /// One is taken.
+    pub fn refuse_taken(&self) -> Result<(), Error> {
+        let is_taken = |file: &&Staged| !file.before.allows(&file.destination);
+        match self.files.iter().find(is_taken) {
+            Some(file) => Err(Error::NotOurs {
+                path: file.destination.clone(),
+                what: "what lies there appeared or changed while this run wrote".to_owned(),
+            }),
+            None => Ok(()),
+        }
+    }
+
     /// Renames all into place; the numbers are for the message: how many were replaced before, how many there are in all.
     ///
     /// # Errors
-    /// The system refuses one. Those before it are in place then.
-    pub fn replace(mut self, before: usize, all: usize) -> Result<(), Error> {
+    /// The system refuses one, or something has appeared in its place. Those before it are in place then.
+    pub fn replace(mut self, before: usize, pending: usize) -> Result<(), Error> {
         for (index, file) in self.files.drain(..).enumerate() {
-            let path = file.destination;
-            if let Err(fault) = file.temporary.persist(&path) {
-                return Err(Error::Replace {
-                    path,
-                    source: fault.error,
-                    replaced: before + index,
-                    pending: all,
-                });
+            let (path, replaced) = (file.destination, before + index);
+            match put(file.temporary, &path, &file.before) {
+                Placing::Done => {}
+                Placing::Taken => {
+                    return Err(Error::Taken {
+                        path,
+                        replaced,
+                        pending,
+                    });
+                }
+                Placing::Refused(source) => {
+                    return Err(Error::Replace {
+                        path,
+                        source,
+                        replaced,
+                        pending,
+                    });
+                }
             }
         }
         Ok(())
@@ -179,9 +217,9 @@ fn filled(
     temporary: PathBuf,
     mut file: File,
     is_held: bool,
-    path: &Path,
-    bytes: &[u8],
+    pending: &Pending,
 ) -> io::Result<Staged> {
+    let path = &pending.path;
     // From here on it is deleted when dropped.
     let temporary = TempPath::try_from_path(temporary)?;
     // Who may read a file is its owner's choice: a new version keeps it, where the file system can.
@@ -191,11 +229,12 @@ fn filled(
     {
         let _ = file.set_permissions(old.permissions());
     }
-    file.write_all(bytes)?;
+    file.write_all(pending.bytes)?;
     file.flush()?;
     Ok(Staged {
         temporary,
-        destination: path.to_path_buf(),
+        destination: path.clone(),
+        before: pending.before.clone(),
         _held: is_held.then_some(file),
     })
 }

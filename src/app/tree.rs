@@ -9,15 +9,16 @@ use std::path::{Path, PathBuf};
 
 use super::artifact::{self, Artifact};
 use super::atlas_rows::{ChangedRows, changed_rows};
-use super::catalogue::SHARED;
 use super::error::Error;
 use super::folder;
 use super::manifest::{self, Entry, Manifest, Provenance};
 use super::namesake::refuse_namesakes;
 use super::ours::{bears_mark, could_be_written, is_as_written, is_listed, is_same, listed_hash};
 use super::scope::Scope;
+use super::stays::{strangers, unknown};
 use crate::emit::FunctionDetail;
-use crate::num::Precision;
+
+pub use super::stays::Stay;
 
 /// The difference between the artifacts and the folder.
 #[derive(Clone, Debug, PartialEq)]
@@ -57,15 +58,6 @@ pub struct Planned {
     pub old: Option<Vec<u8>>,
     /// The bytes that it should have.
     pub new: Vec<u8>,
-}
-
-/// A file that a run leaves where it is, and says so.
-#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub struct Stay {
-    /// The path, relative to the output folder.
-    pub path: String,
-    /// Why it is not removed.
-    pub why: &'static str,
 }
 
 /// What lies where an artifact is to be written, and is not this program's to replace.
@@ -121,10 +113,11 @@ pub fn plan(
         .chain([manifest::FILE])
         .collect();
     let (orphans, mut stays) = dropped(out_dir, old_entries, &expected)?;
+    stays.extend(unknown(out_dir, old_entries, &files, scope));
     if scope.whole {
         stays.extend(strangers(out_dir, &expected, &listed, scope)?);
-        stays.sort();
     }
+    stays.sort();
     let (obstacles, edited) = standing(out_dir, &files, &manifest, &listed);
     let mut written = files.iter().map(|file| file.path.as_str());
     let mut linked = written.find_map(|path| folder::linked_folder(out_dir, path));
@@ -182,10 +175,9 @@ fn refuse_meeting_names(artifacts: &[Artifact], merged: &Manifest) -> Result<(),
         .iter()
         .map(|artifact| artifact.path.as_str())
         .collect();
-    let others = merged
-        .files
-        .iter()
-        .filter(|entry| !made.contains(entry.file.as_str()));
+    // What this program could not have written is not its own, whatever a manifest says of it.
+    let is_other = |entry: &&Entry| !made.contains(entry.file.as_str()) && could_be_written(entry);
+    let others = merged.files.iter().filter(is_other);
     let mut owners: BTreeMap<(&str, &str), &str> = BTreeMap::new();
     for entry in others {
         for name in entry.function_names() {
@@ -287,48 +279,6 @@ fn dropped(
         }
     }
     Ok((orphans, stays))
-}
-
-/// Files in the targets' folders that nothing lists: a run without flags names them.
-fn strangers(
-    out_dir: &Path,
-    expected: &BTreeSet<&str>,
-    listed: &BTreeMap<&str, &Entry>,
-    scope: &Scope,
-) -> Result<Vec<Stay>, Error> {
-    let first = |path: &&str| path.split_once('/').map(|(first, _)| first.to_owned());
-    let paths = expected.iter().chain(listed.keys());
-    let mut folders: BTreeSet<String> = paths.filter_map(first).collect();
-    folders.extend(scope.targets.iter().chain(&scope.flavours).cloned());
-    // `bake` puts tables there under any name.
-    folders.remove(crate::lut::TABLES);
-    // These stand beside the targets' folders and have none.
-    for (_, target) in SHARED {
-        folders.remove(target);
-    }
-    let mut present = folder::list(out_dir, &folders)?;
-    present.retain(|path| {
-        let is_known = expected.contains(path.as_str()) || listed.contains_key(path.as_str());
-        path.contains('/') && !is_known && !is_hidden(path) && is_of_precision(path, scope)
-    });
-    let stay = |path| Stay {
-        path,
-        why: "fresnel-gen did not write it, or no manifest lists it",
-    };
-    Ok(present.into_iter().map(stay).collect())
-}
-
-/// Has a file the name of this run's precision? Those of the other are not its own.
-fn is_of_precision(path: &str, scope: &Scope) -> bool {
-    let name = path.rsplit('/').next().unwrap_or(path);
-    let stem = name.split('.').next().unwrap_or(name);
-    let half = Precision::F16.suffix();
-    stem.ends_with(half) == (scope.precision.suffix() == half)
-}
-
-/// Desktops and version control leave such files anywhere.
-fn is_hidden(path: &str) -> bool {
-    path.split('/').any(|part| part.starts_with('.'))
 }
 
 /// Of the files that differ from what they should be: those of others, and those of ours that were changed.

@@ -12,10 +12,11 @@ use std::path::{Path, PathBuf};
 
 use super::error::Error;
 use super::folder;
+use super::held::Before;
 use super::lock::Lock;
-use super::manifest::{self, Entry};
-use super::ours::{bears_mark, is_as_written};
-use super::stage::{StagedFiles, stage_fault};
+use super::ours::bears_mark;
+use super::removal::{remove, remove_leftover};
+use super::stage::{Pending, StagedFiles, stage_fault};
 use super::tree::{Obstacle, Planned, State, TreePlan};
 
 /// What a write did, in files, the manifest included.
@@ -47,16 +48,16 @@ pub fn write(
         .collect();
     let has_interim = !pending.is_empty() || !plan.orphans.is_empty();
     let is_new = plan.manifest.state() != State::Unchanged || has_interim;
-    let mut files: Vec<(PathBuf, &[u8])> = pending
+    let mut files: Vec<Pending> = pending
         .iter()
-        .map(|file| (plan.out_dir.join(&file.path), file.new.as_slice()))
+        .map(|file| staged_file(plan, file, &file.new, overwrite))
         .collect();
-    let manifest = plan.out_dir.join(manifest::FILE);
     if has_interim {
-        files.push((manifest.clone(), &plan.interim));
+        files.push(staged_file(plan, &plan.manifest, &plan.interim, overwrite));
     }
     if is_new {
-        files.push((manifest, &plan.manifest.new));
+        let new = &plan.manifest.new;
+        files.push(staged_file(plan, &plan.manifest, new, overwrite));
     }
     let beside = StagedOutputs::new(beside)?;
     let mut staged = StagedFiles::in_tree(&files, &plan.out_dir, lock)?;
@@ -66,6 +67,7 @@ pub fn write(
     let all = own + beside.files.count();
     for files in [&interim, &staged, &last, &beside.files] {
         files.refuse_folders()?;
+        files.refuse_taken()?;
     }
     beside.write_devices()?;
     interim.replace(0, all)?;
@@ -88,6 +90,23 @@ pub fn write(
         removed: removed?,
         unchanged: plan.all().count() - written,
     })
+}
+
+/// A file of a tree with these bytes. Its place must be as the plan found it, unless all is to be overwritten.
+fn staged_file<'a>(
+    plan: &TreePlan,
+    file: &Planned,
+    bytes: &'a [u8],
+    overwrite: bool,
+) -> Pending<'a> {
+    Pending {
+        path: plan.out_dir.join(&file.path),
+        bytes,
+        before: match overwrite {
+            true => Before::Anything,
+            false => Before::seen(file.old.as_deref()),
+        },
+    }
 }
 
 /// Refuses a tree in whose places others' files or links lie.
@@ -165,6 +184,8 @@ enum OutputPlace {
     /// The user named the file: it is replaced, whatever lies there. Links are followed, and devices are written to, because
     /// renaming would destroy them.
     Named,
+    /// The user named the file, which is theirs once it is there: it is made, and replaces nothing.
+    New,
     /// The user named the folder of a report: a file there replaces only what bears our mark, unless all is to be overwritten.
     /// Links are not followed: what lies behind one is not the report's.
     OfReport { overwrite: bool },
@@ -177,6 +198,15 @@ impl OutputFile {
             path: path.into(),
             bytes: bytes.into(),
             place: OutputPlace::Named,
+        }
+    }
+
+    /// A file that the user names, where nothing is replaced.
+    pub fn new(path: impl Into<PathBuf>, bytes: impl Into<Vec<u8>>) -> OutputFile {
+        OutputFile {
+            path: path.into(),
+            bytes: bytes.into(),
+            place: OutputPlace::New,
         }
     }
 
@@ -214,15 +244,16 @@ impl<'a> StagedOutputs<'a> {
         for output in outputs {
             let (path, bytes) = (&output.path, output.bytes.as_slice());
             match output.place {
-                OutputPlace::Named => refuse_planted(path)?,
+                OutputPlace::Named | OutputPlace::New => refuse_planted(path)?,
                 // The file itself is not followed.
                 OutputPlace::OfReport { .. } => refuse_planted(folder::folder_of(path))?,
             }
             match output.place {
-                OutputPlace::Named if folder::is_device(path) => devices.push(output),
-                OutputPlace::Named => {
-                    pending.extend(destination(path, bytes)?.map(|path| (path, bytes)));
+                OutputPlace::Named | OutputPlace::New if folder::is_device(path) => {
+                    devices.push(output);
                 }
+                OutputPlace::Named => pending.extend(named(path, bytes, Before::Anything)?),
+                OutputPlace::New => pending.extend(named(path, bytes, Before::Free)?),
                 OutputPlace::OfReport { overwrite } => {
                     let old = folder::read(path)?;
                     if old.as_deref() == Some(bytes) {
@@ -232,7 +263,16 @@ impl<'a> StagedOutputs<'a> {
                         try_places_of_ours(std::slice::from_ref(path), overwrite)?;
                         replaced.push(path.clone());
                     }
-                    pending.push((path.clone(), bytes));
+                    let before = match overwrite {
+                        true => Before::Anything,
+                        false => Before::seen(old.as_deref()),
+                    };
+                    let path = path.clone();
+                    pending.push(Pending {
+                        path,
+                        bytes,
+                        before,
+                    });
                 }
             }
         }
@@ -265,6 +305,7 @@ impl<'a> StagedOutputs<'a> {
 pub fn write_outputs(outputs: &[OutputFile]) -> Result<Vec<PathBuf>, Error> {
     let staged = StagedOutputs::new(outputs)?;
     staged.files.refuse_folders()?;
+    staged.files.refuse_taken()?;
     staged.write_devices()?;
     let count = staged.files.count();
     staged.files.replace(0, count)?;
@@ -295,9 +336,18 @@ pub fn try_file(path: &Path) -> Result<(), Error> {
         return Ok(());
     }
     // No file of ours holds this alone.
-    let place = destination(path, &[0])?;
-    let pending = place.map(|place| (place, &[][..]));
+    let pending = named(path, &[0], Before::Anything)?;
     StagedFiles::beside_outputs(pending.as_slice()).map(drop)
+}
+
+/// A file that the user names; none where it is right already.
+fn named<'a>(path: &Path, bytes: &'a [u8], before: Before) -> Result<Option<Pending<'a>>, Error> {
+    let place = destination(path, bytes)?;
+    Ok(place.map(|path| Pending {
+        path,
+        bytes,
+        before,
+    }))
 }
 
 /// Where these bytes go; nowhere where they are already.
@@ -320,40 +370,5 @@ fn destination(path: &Path, bytes: &[u8]) -> Result<Option<PathBuf>, Error> {
             }
         }
         Err(other) => Err(fault(other)),
-    }
-}
-
-/// Removes an orphan and the folders that it leaves empty. False: it is gone, or no longer what the manifest lists.
-fn remove(out_dir: &Path, orphan: &Entry) -> Result<bool, Error> {
-    let path = out_dir.join(&orphan.file);
-    let is_ours = |bytes: Vec<u8>| is_as_written(orphan, &bytes);
-    if !folder::is_plain_file(&path) || !folder::read(&path)?.is_some_and(is_ours) {
-        return Ok(false);
-    }
-    fs::remove_file(&path).map_err(|source| Error::Remove {
-        path: path.clone(),
-        source,
-    })?;
-    remove_empty_folders(out_dir, &path);
-    Ok(true)
-}
-
-/// Removes a temporary file that a killed run left behind, with the folders that it leaves empty. If it cannot be, nothing is lost.
-fn remove_leftover(out_dir: &Path, name: &str) {
-    let path = out_dir.join(name);
-    // A lock can be forged: folders are removed only above a file that was there, and never beyond a link.
-    let is_inside = folder::is_plain_file(&path) && folder::linked_folder(out_dir, name).is_none();
-    if is_inside && fs::remove_file(&path).is_ok() {
-        remove_empty_folders(out_dir, &path);
-    }
-}
-
-/// Removes the folders above a path, up to the output folder, as far as they are empty.
-fn remove_empty_folders(out_dir: &Path, path: &Path) {
-    let above = path.ancestors().skip(1);
-    for folder in above.take_while(|folder| *folder != out_dir) {
-        if fs::remove_dir(folder).is_err() {
-            break;
-        }
     }
 }

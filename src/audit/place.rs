@@ -1,10 +1,11 @@
 //! Messages of compilers, with the place in the user's file before them.
 
 use super::program::own_names;
+use crate::foreign::Foreign;
 
 /// A compiler's message with the place of its first fault before it: `FILE:LINE:COL: what`.
 pub fn placed(file: &str, lines: usize, words: &str) -> String {
-    let words = own_names(words);
+    let (file, words) = (Foreign(file), own_names(words));
     let first = words.lines().enumerate().find_map(|(i, line)| {
         let (line_number, column) = place(line)?;
         Some((i, line_number, column))
@@ -82,6 +83,21 @@ fn message(line: &str) -> &str {
 #[cfg(test)]
 mod tests {
     use super::{names_place, placed};
+
+    #[test]
+    fn a_name_of_a_file_makes_no_line() {
+        let (name, shown) = ("f\n::error::x.glsl", "f\\n::error::x.glsl");
+        for (words, said) in [
+            ("gone", format!("{shown}: gone")),
+            ("0:3(7): error: a", format!("{shown}:3:7: a")),
+            (
+                "0:9(1): error: a",
+                format!("{shown}:5: at the end of the file: a"),
+            ),
+        ] {
+            assert_eq!(placed(name, 5, words), said);
+        }
+    }
 
     #[test]
     fn every_compiler_s_words_get_the_user_s_place() {

@@ -4,6 +4,7 @@ use serde::Serialize;
 
 use crate::cost::CostAndError;
 use crate::fit::{ModelError, Perceived};
+use crate::foreign::Foreign;
 use crate::reference::MaterialInMedium;
 use crate::verify::compilers::Verdict;
 use crate::verify::{Answer, Status, as_object};
@@ -271,7 +272,8 @@ impl Audited<'_> {
 
     /// What to think of it, and why.
     fn judged(&self) -> (Status, Vec<String>) {
-        let place = format!("{}: {}", self.audit.file, self.bound.function.name);
+        let (file, name) = (Foreign(&self.audit.file), &self.bound.function.name);
+        let place = format!("{file}: {name}");
         let mut reasons: Vec<String> = Vec::new();
         for (name, verdict) in self.verdicts {
             if let Verdict::No(words) = verdict {
@@ -288,10 +290,8 @@ impl Audited<'_> {
                         "{place}: it gives no number at {count} cosines, which no error counts"
                     ));
                 }
-                reasons.extend(
-                    self.above_limit(&ran.error)
-                        .map(|why| format!("{place}: {why}")),
-                );
+                let above = self.above_limit(&ran.error);
+                reasons.extend(above.map(|why| format!("{place}: {why}")));
             }
             Err(Trouble::Failed(why)) => reasons.push(format!("{place}: {why}")),
             Err(Trouble::Refused(_, words)) if reasons.is_empty() => {

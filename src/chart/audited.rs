@@ -5,6 +5,7 @@ use std::collections::BTreeMap;
 use super::{ChartedFunction, UserFunction};
 use crate::audit::AuditRow;
 use crate::fit::MethodErrors;
+use crate::foreign::Foreign;
 use crate::verify::Status;
 
 /// Errors leave out cosines at which it gives no number. Above this share they are no longer those of the function.
@@ -13,9 +14,10 @@ const MOST_UNDEFINED: f64 = 0.01;
 /// The point, from the rows of all materials; none where there are no rows.
 pub fn charted_function(rows: &[AuditRow]) -> Option<ChartedFunction> {
     let first = rows.first()?;
+    let file = Foreign(&first.file);
     let about = match &first.device {
-        Some(device) => format!("From {}, run on {device}", first.file),
-        None => format!("From {}", first.file),
+        Some(device) => format!("From {file}, run on {device}"),
+        None => format!("From {file}"),
     };
     let failing = rows.iter().find(|row| row.status == Status::Fail);
     let fault = |row: &AuditRow| row.reason.clone().unwrap_or_default().replace('\n', "; ");

@@ -44,6 +44,10 @@ pub fn find(name: &str) -> Option<&'static Effect> {
     ALL.iter().find(|effect| effect.name == name).copied()
 }
 
+/// Every name that a version of this program wrote files of effects under and that is no effect's today: a run without flags removes
+/// these files.
+pub const FORMER: &[&str] = &[];
+
 /// What R is computed by unless asked otherwise: both sides of a surface, total reflection included.
 pub const USUAL_METHOD: &str = "dielectric_exact";
 

@@ -28,7 +28,7 @@ pub use method::{
     Values,
 };
 pub use origin::Origin;
-pub use renamed::{RENAMED, Renamed, renamed};
+pub use renamed::{FORMER, RENAMED, Renamed, renamed};
 pub use shape::{Factor, Shape};
 
 // BEGIN methods (written by tests/lists)

@@ -16,6 +16,10 @@ pub struct Renamed {
 /// Every old name that still works. A test fails when one has expired.
 pub const RENAMED: &[Renamed] = &[];
 
+/// Every name that a version of this program wrote files under and that is no method's today, those of renamed methods too. A run
+/// without flags removes such files; under a name that stands nowhere it removes none.
+pub const FORMER: &[&str] = &[];
+
 /// The name of today for one that was renamed.
 pub fn renamed(name: &str, all: &[Renamed]) -> Option<Renamed> {
     all.iter().find(|renamed| renamed.old == name).copied()
@@ -59,6 +63,11 @@ mod tests {
             let is_taken = methods::ALL.iter().any(|method| method.name == one.old);
             assert!(!is_taken, "{one:?}: a method has the old name");
             assert!(!one.has_expired(version), "{one:?}: remove this line");
+            assert!(FORMER.contains(&one.old), "{one:?}: FORMER lacks it");
+        }
+        for name in FORMER {
+            let is_taken = methods::ALL.iter().any(|method| method.name == *name);
+            assert!(!is_taken, "{name}: a method has the former name");
         }
     }
 

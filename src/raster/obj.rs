@@ -353,14 +353,17 @@ fn check_numbers<'a>(
     least: usize,
 ) -> Result<(), String> {
     let mut count = 0;
-    for word in words {
+    for (at, word) in words.enumerate() {
         let number: f64 = word.parse().map_err(|_| match word.contains(',') {
             true => format!("`{word}` is not a number, which has a point and no comma"),
             false => format!("`{word}` is not a number"),
         })?;
         // NaN is within no limits.
         if !(-FARTHEST..=FARTHEST).contains(&number) {
-            return Err(format!("`{word}` is no place: numbers lie within ±1e100"));
+            // Behind a place a weight may stand, or a colour.
+            let meant =
+                ["no place", "neither a weight nor a part of a colour"][usize::from(at > 2)];
+            return Err(format!("`{word}` is {meant}: numbers lie within ±1e100"));
         }
         count += 1;
     }

@@ -3,6 +3,7 @@
 use quick_junit::{NonSuccessKind, Report, TestCase, TestCaseStatus, TestSuite};
 
 use crate::audit::AuditRow;
+use crate::foreign::{Foreign, one_line};
 use crate::verify::{Status, VerifyRow};
 
 /// A row as a case of JUnit's.
@@ -75,17 +76,18 @@ fn junit<'a>(name: &str, cases: impl Iterator<Item = JunitCase<'a>>) -> Result<S
 }
 
 fn test_case(case: &JunitCase) -> TestCase {
-    let material = case.material.unwrap_or(NONE);
-    let name = format!("{} ({material}, {})", case.function, case.form);
+    let [function, material] = [case.function, case.material.unwrap_or(NONE)].map(Foreign);
+    let name = format!("{function} ({material}, {})", case.form);
     let mut status = match case.status {
         Status::Pass => TestCaseStatus::success(),
         Status::NotChecked => TestCaseStatus::skipped(),
         Status::Fail => TestCaseStatus::non_success(NonSuccessKind::Failure),
     };
     if let Some(reason) = case.reason {
-        status.set_message(reason);
+        let lines: Vec<String> = reason.lines().map(one_line).collect();
+        status.set_message(lines.join("\n"));
     }
     let mut test = TestCase::new(name, status);
-    test.set_classname(format!("{}.{}", case.target, case.method));
+    test.set_classname(format!("{}.{}", case.target, Foreign(case.method)));
     test
 }

@@ -1,5 +1,6 @@
 //! The report of `scene-error`: a table for people, pictures as PNG and OpenEXR.
 
+use crate::foreign::Foreign;
 use crate::lut::{Depth, Format, Picture, TableAxis};
 use crate::raster::{Painted, SceneErrorRow};
 use crate::spectra::{Space, srgb_byte};
@@ -12,9 +13,10 @@ pub fn scene_error_text(rows: &[SceneErrorRow]) -> String {
     let Some(first) = rows.first() else {
         return String::new();
     };
+    let (object, view) = (Foreign(&first.object), first.view);
     let head = format!(
-        "{}, {}: {} frames, {} pixels. Mean relative error against the exact law in per cent, over pixels, then frames\n\n",
-        first.object, first.view, first.frames, first.pixels
+        "{object}, {view}: {} frames, {} pixels. Mean relative error against the exact law in per cent, over pixels, then frames\n\n",
+        first.frames, first.pixels
     );
     let columns = [
         "material",

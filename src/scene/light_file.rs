@@ -165,7 +165,17 @@ fn numbers_of_hdr(header: &HdrMetadata) -> Result<Numbers, String> {
     })
 }
 
+/// Whether an OpenEXR file says in its version that it holds deep pixels. The crate does not look there.
+pub fn is_deep(bytes: &[u8]) -> bool {
+    /// Bit 11 of the word behind the magic number, as the second byte of it has it.
+    const DEEP: u8 = 1 << 3;
+    bytes.get(5).is_some_and(|flags| flags & DEEP != 0)
+}
+
 fn exr(bytes: &[u8]) -> Result<(DynamicImage, Numbers), String> {
+    if is_deep(bytes) {
+        return Err("it holds deep pixels; flat ones are read".to_owned());
+    }
     let picture =
         image::load_from_memory_with_format(bytes, ImageFormat::OpenExr).map_err(in_words)?;
     let meta = MetaData::read_from_buffered(Cursor::new(bytes), false);

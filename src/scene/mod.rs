@@ -42,6 +42,7 @@ pub use frame::{
     ABSORPTION_AT, BACK, INDEX_AT, INPUTS_AT, LightBlock, MARGIN, PHOTONS, PIXEL_AT, frame,
 };
 pub use glass::{Glass, Ray};
+pub use light_file::is_deep;
 #[cfg(feature = "gpu")]
 pub use picture::{Order, Picture, RenderedRow, render};
 pub use relief::Relief;

@@ -63,7 +63,7 @@ pub use verify::VerifyFlags;
 pub use viewing::{GamutFlags, Light, ViewingFlags};
 
 /// What stands at the end of the help, of the program's and of `generate`'s.
-const EXAMPLES: &str = "Examples:\n  fresnel-gen --target gles\n  fresnel-gen --material gold --method conductor_exact --target hlsl -o -\n  fresnel-gen --material my_metal.toml --target wgsl --out-dir shaders\n  fresnel-gen --material gold --budget 0.002 --gpu adreno330 -o -\n  fresnel-gen --check\n\nExit codes: 0 done; 1 findings (--check found a difference); 2 usage or input error; 3 something is missing on this machine.";
+const EXAMPLES: &str = "Examples:\n  fresnel-gen --target gles\n  fresnel-gen --material gold --method conductor_exact --target hlsl -o -\n  fresnel-gen --material my_metal.toml --target wgsl --out-dir shaders\n  fresnel-gen --material gold --budget 0.002 --gpu adreno330 -o -\n  fresnel-gen --check\n\nExit codes: 0 done; 1 findings (--check found a difference); 2 usage or input error; 3 a check could not be made on this machine (a driver or a compiler is missing, or failed).";
 
 /// Turns measured optical constants into Fresnel reflectance functions that a shader can afford.
 ///

@@ -26,7 +26,7 @@ use super::{CheckReportFlags, GamutFlags, MaterialFlags, MediumFlags, PrecisionF
 /// The flags of `verify`.
 #[derive(Args, Debug)]
 #[command(
-    after_help = "Examples:\n  fresnel-gen verify\n  fresnel-gen verify --target gles --material gold --junit verify.xml\n  fresnel-gen verify --exhaustive --method schlick --material gold\n  fresnel-gen verify --shards 8 --shard 3 --json part-3.json\n\nFiles are taken from --out-dir as they lie there; what is not there is generated. Exit codes: 0 all is as promised, 1 something is not, 2 wrong input, 3 something is missing here."
+    after_help = "Examples:\n  fresnel-gen verify\n  fresnel-gen verify --target gles --material gold --junit verify.xml\n  fresnel-gen verify --exhaustive --method schlick --material gold\n  fresnel-gen verify --shards 8 --shard 3 --json part-3.json\n\nFiles are taken from --out-dir as they lie there; what is not there is generated. Exit codes: 0 all is as promised, 1 something is not, 2 wrong input, 3 a compiler or a driver is missing here, or failed without a word about the files."
 )]
 pub struct VerifyFlags {
     /// Output language, see `fresnel-gen targets`; all means those written by default [default: all]

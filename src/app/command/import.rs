@@ -7,7 +7,7 @@ use crate::app::error::Error;
 use crate::app::fault::RequestFault;
 use crate::app::folder;
 use crate::app::source::read;
-use crate::app::write::write_file;
+use crate::app::write::{OutputFile, write_outputs};
 use crate::foreign::{self, one_line};
 use crate::materials::{Material, name_fault, page};
 use crate::methods;
@@ -87,7 +87,7 @@ fn write_material(file: &Path, toml: &str) -> Result<(), Error> {
         );
         return Err(Error::Usage { what });
     }
-    write_file(file, toml.as_bytes()).map(drop)
+    write_outputs(&[OutputFile::new(file, toml)]).map(drop)
 }
 
 /// Only the visible part, where the material is known over all of it.

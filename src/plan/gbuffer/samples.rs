@@ -15,6 +15,7 @@ use exr::prelude::{Compression, SampleType, Vec2, f16};
 
 use super::channels::{CHANNELS, Places};
 use super::{GREATEST_SIDE, GbufferFault};
+use crate::scene::is_deep;
 
 /// A file whose headers are read.
 pub type Opened<'a> = Reader<Cursor<&'a [u8]>>;
@@ -22,6 +23,10 @@ pub type Opened<'a> = Reader<Cursor<&'a [u8]>>;
 /// # Errors
 /// It does not begin as OpenEXR files do, or its headers contradict themselves.
 pub fn opened(bytes: &[u8]) -> Result<Opened<'_>, GbufferFault> {
+    if is_deep(bytes) {
+        let what = "it holds deep pixels; flat ones are read";
+        return Err(GbufferFault::Unreadable(what.to_owned()));
+    }
     exr::block::read(Cursor::new(bytes), false).map_err(|why| unreadable(&why))
 }
 

@@ -207,6 +207,7 @@ impl Corners {
         let [first, ..] = order.as_slice() else {
             return Ok(Vec::new());
         };
+        self.check_whole(order.len())?;
         Ok(match self.mode {
             // Each other triangle goes round the other way (section 3.7.2.1).
             Mode::TriangleStrip => (order.windows(3).enumerate())
@@ -221,6 +222,29 @@ impl Corners {
                 .collect(),
             _ => order.as_chunks::<3>().0.to_vec(),
         })
+    }
+}
+
+impl Corners {
+    /// Refuses corners, or indices of them, that are too few or too many for whole triangles (section 3.7.2.1).
+    fn check_whole(&self, count: usize) -> Result<(), Place> {
+        let is_whole = match self.mode {
+            Mode::Triangles => count.is_multiple_of(3),
+            _ => count >= 3,
+        };
+        if is_whole {
+            return Ok(());
+        }
+        let (what, place) = match self.indices {
+            Some(_) => ("indices", "indices"),
+            None => ("corners", "attributes.POSITION"),
+        };
+        let wanted = match self.mode {
+            Mode::Triangles => "three for each triangle",
+            _ => "three at least",
+        };
+        let what = format!("{count} {what} make no whole triangles; there must be {wanted}");
+        Err(Place::new(self.place_of(place), what))
     }
 }
 

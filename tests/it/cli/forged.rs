@@ -110,6 +110,47 @@ fn place_of(line: &str, file: &str) -> String {
     listed.find(|file| file.contains("materials/gold")).unwrap()
 }
 
+/// A copy of a generated file that the user renamed and changed: it bears the mark, and a manifest lists it as it is.
+#[test]
+fn a_forged_entry_removes_no_copy() {
+    const LINE: &str = "--target wgsl --material none";
+    for (name, key, method) in [
+        ("wgsl/fresnel_mine.wgsl", "method", "mine"),
+        ("wgsl/my_schlick.wgsl", "method", "schlick"),
+        ("wgsl/effects/mine.wgsl", "effect", "mine"),
+        ("spirv/fresnel_mine.spv", "method", "mine"),
+    ] {
+        let place = Place::new();
+        place.done(&format!("{LINE} --target spirv"));
+        let own = match name.starts_with("spirv") {
+            true => place
+                .listed()
+                .into_iter()
+                .find(|file| file.starts_with("spirv/fresnel_schlick"))
+                .unwrap(),
+            false => "wgsl/fresnel_schlick.wgsl".to_owned(),
+        };
+        let copy = place.read_bytes(&format!("{OUT}/{own}"));
+        place.put(&format!("{OUT}/{name}"), &copy);
+        let mut manifest = place.manifest();
+        let target = name.split('/').next().unwrap();
+        let mut entry = json!({"file": name, "target": target, "sha256": sha256(&copy)});
+        entry[key] = method.into();
+        manifest["files"].as_array_mut().unwrap().push(entry);
+        place.put(&format!("{OUT}/manifest.json"), manifest.to_string());
+        for line in [&format!("{LINE} --target spirv"), "generate"] {
+            let ran = place.done(line);
+            assert!(!ran.err.contains("removed: "), "{ran:?}");
+            // Effects are another run's, unless it is a whole one. What is named has left the manifest, where the method is known.
+            let is_named = ran.err.contains(&format!("left alone: {name}"));
+            let is_whole = line == "generate";
+            let wanted = is_whole || key != "effect";
+            assert_eq!(is_named, wanted, "{name}: {ran:?}");
+            assert_eq!(place.read_bytes(&format!("{OUT}/{name}")), copy, "{name}");
+        }
+    }
+}
+
 /// A file of the user's that a manifest lists as one that is no longer generated.
 #[test]
 fn a_forged_entry_removes_nothing() {

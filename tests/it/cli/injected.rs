@@ -473,3 +473,62 @@ fn heads_and_reports() {
     let ran = place.run_with(&depfile).ends(2);
     is_clean("a depfile", &ran.err);
 }
+
+/// Reports of files whose names break lines, where the run succeeds or finds something: text, stderr, JUnit, SVG, HTML.
+#[test]
+fn reports_name_files_on_one_line() {
+    const NAME: &str = "h\n::error::INJECTED\u{1b}[31m";
+    let place = Place::new();
+    let file = |ending: &str, text: &str| {
+        let name = format!("{NAME}.{ending}");
+        std::fs::write(place.path(&name), text).unwrap();
+        name
+    };
+    let table = file("csv", "nm,n,k\n360,1,2\n830,1,2\n");
+    let mesh = file(
+        "obj",
+        "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 2 3\nf 1 3 4\nf 1 4 2\nf 2 3 4\n",
+    );
+    let shader = file(
+        "wgsl",
+        "fn schlick(c: f32, f0: vec3<f32>) -> vec3<f32> { return 2.0 * f0 * pow(1.0 - c, 5.0); }\n",
+    );
+    let broken = file("glsl", "vec3 f(float c, vec3 f0) { return zz * f0; }\n");
+    let [table, mesh, shader, broken] = [&table, &mesh, &shader, &broken].map(String::as_str);
+    let mut runs: Vec<Vec<&str>> = vec![vec![
+        "scene-error",
+        "--mesh",
+        mesh,
+        "--eye",
+        "0,1,-3",
+        "--material",
+        table,
+        "--size",
+        "16x16",
+        "--out-dir",
+        "scene",
+    ]];
+    if cfg!(feature = "gpu") {
+        let junit = ["--junit", "j.xml", "--out-dir", "charts"];
+        for file in [shader, broken] {
+            runs.push([&["audit", file, "--material", table], &junit[..]].concat());
+        }
+        let verify = ["verify", "--material", table, "--target", "gles"];
+        runs.push([&verify[..], &["--method", "schlick"], &junit[..2]].concat());
+    }
+    for words in runs {
+        let ran = place.run_with(&words);
+        assert!(matches!(ran.code, Some(0 | 1 | 3)), "{ran:?}");
+        is_clean(&format!("{words:?}"), &ran.out);
+        is_clean(&format!("{words:?}"), &ran.err);
+        for file in ["j.xml", "charts/chart.svg"] {
+            if place.path(file).exists() {
+                let text = place.read(file);
+                let is_clean = text
+                    .lines()
+                    .all(|line| !line.trim_start().starts_with("::") && !line.contains('\u{1b}'));
+                assert!(is_clean, "{words:?}: {file}: {text:.4000}");
+            }
+        }
+    }
+}

@@ -175,6 +175,18 @@ fn a_pipe_does_not_make_it_wait() {
     );
 }
 
+/// A file that says it is ordinary and empty, and has no end or gives nothing.
+#[cfg(target_os = "linux")]
+#[test]
+fn a_file_without_an_end_does_not_make_it_wait() {
+    let place = Place::new();
+    for file in ["/proc/kmsg", "/proc/kpagecount", "/dev/zero"] {
+        for command in ["materials import", "materials show", "--material"] {
+            place.refused(&format!("{command} {file}"), &[]);
+        }
+    }
+}
+
 #[test]
 fn two_materials_of_one_name_are_refused() {
     let place = Place::new();

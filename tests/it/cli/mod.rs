@@ -108,13 +108,13 @@ impl Place {
     }
 
     /// Puts a file into the usual output folder, and lists it as if an earlier version had written it: the entry is that
-    /// of `like`, of a method named `old` where `like` has a method.
+    /// of `like`, of the method `schlick` where `like` has a method.
     pub fn list_as(&self, like: &str, file: &str, text: &str) {
         let mut manifest = self.manifest();
         let entries = manifest["files"].as_array_mut().unwrap();
         let mut entry = entries.iter().find(|e| e["file"] == like).unwrap().clone();
         if entry["material"].is_null() {
-            entry["method"] = "old".into();
+            entry["method"] = "schlick".into();
         }
         entry["file"] = file.into();
         entry["sha256"] = sha256(text.as_bytes()).into();

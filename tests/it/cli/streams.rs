@@ -156,3 +156,55 @@ fn a_reader_that_leaves_early_is_no_error() {
         );
     }
 }
+
+/// Whoever asks for data on stdout is told where nothing takes it: a stream that is closed from the beginning, and a full one.
+#[cfg(target_os = "linux")]
+#[test]
+fn a_stdout_that_takes_nothing_is_an_error() {
+    let place = Place::new();
+    for line in [
+        "--material none --target wgsl --method schlick -o -",
+        "methods --json -",
+        "materials params gold --as usd",
+        "completions bash",
+        "--list",
+        "--help",
+    ] {
+        for (to, why) in [(">&-", "it is closed"), (">/dev/full", "No space")] {
+            let ran = shell(&place, &format!("\"$0\" {line} {to}"));
+            let says = format!("error: cannot write to stdout: {why}");
+            assert!(ran.code == Some(2) && ran.err.contains(&says), "{ran:?}");
+        }
+        // A device that takes all, as other programs open it too.
+        for to in [">/dev/null", "1<>/dev/null"] {
+            shell(&place, &format!("\"$0\" {line} {to}")).ends(0);
+        }
+    }
+    // What prints nothing needs no stdout.
+    shell(
+        &place,
+        "\"$0\" --target gles --method schlick --material none >&-",
+    )
+    .ends(0);
+}
+
+/// The first thread's stack is the shell's to choose.
+#[cfg(target_os = "linux")]
+#[test]
+fn a_small_stack_is_enough() {
+    let place = Place::new();
+    for line in ["--help", "--target all --material gold --out-dir o"] {
+        shell(&place, &format!("ulimit -s 64 && exec \"$0\" {line}")).ends(0);
+    }
+}
+
+#[cfg(target_os = "linux")]
+fn shell(place: &Place, line: &str) -> Ran {
+    let output = std::process::Command::new("sh")
+        .args(["-c", line, super::PROGRAM])
+        .current_dir(place.path(""))
+        .stdin(Stdio::null())
+        .output()
+        .unwrap();
+    Ran::new(line.to_owned(), output)
+}

@@ -394,6 +394,9 @@ fn what_is_stored_otherwise_is_refused() {
         );
         check_refuses(&file(vec![one]), &says);
     }
+    let mut deep = plain(channels(Stored::Float));
+    deep[5] |= 8;
+    check_refuses(&deep, "deep pixels");
     check_refuses(b"", "not a readable OpenEXR file");
     check_refuses(b"\x89PNG\r\n\x1a\n", "not a readable OpenEXR file");
 }

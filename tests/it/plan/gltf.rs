@@ -191,6 +191,17 @@ fn each_fault_names_its_place() {
         indices,
         "another type",
     );
+    for (mode, count, says) in [
+        (4, 4, "4 indices make no whole triangles"),
+        (5, 2, "three at least"),
+    ] {
+        let mut json = file(&CUBE.mesh()).0;
+        json["accessors"][2]["count"] = count.into();
+        json["meshes"][0]["primitives"][0]["mode"] = mode.into();
+        let fault = read(&json).expect_err("a fault");
+        assert_eq!(fault.place, indices, "{fault}");
+        assert!(fault.what.contains(says), "{fault}");
+    }
     check(
         "/accessors/2/bufferView",
         json!(0),

@@ -109,6 +109,11 @@ fn what_is_broken_is_refused_with_its_line() {
         ("v 0 0".to_owned(), 1, "has 2 numbers"),
         ("v 0 0 nan\n".to_owned(), 1, "`nan` is no place"),
         ("v 0 0 1e999\n".to_owned(), 1, "is no place"),
+        (
+            "v 0 0 0 1 nan 1\n".to_owned(),
+            1,
+            "`nan` is neither a weight nor a part of a colour",
+        ),
         ("\nv 0 zero 0\n".to_owned(), 2, "`zero` is not a number"),
         (
             format!("{three}f 1 2 4\n"),

@@ -55,7 +55,7 @@ pub fn run(targets: &[&str], materials: &[&str], method: Option<&str>) -> (Vec<A
     let mut artifacts = Vec::new();
     for target in targets {
         let extension = if *target == "gles" { "glsl" } else { target };
-        for name in ["exact", "schlick"] {
+        for name in ["dielectric_exact", "schlick"] {
             if method.is_none_or(|only| only == name) {
                 let path = format!("{target}/fresnel_{name}.{extension}");
                 artifacts.push(artifact(&path, target, 1));
@@ -89,8 +89,8 @@ pub fn run(targets: &[&str], materials: &[&str], method: Option<&str>) -> (Vec<A
 pub fn big_tree(edition: usize, bytes: usize) -> (Vec<Artifact>, Scope) {
     let count = if edition == 1 { 60 } else { 54 };
     let artifacts = (0..count).map(|at| {
-        let mut artifact = artifact(&format!("gles/fresnel_m{at}.glsl"), "gles", edition);
-        artifact.method = Some(format!("m{at}"));
+        let mut artifact = artifact(&format!("gles/m{at}_schlick.glsl"), "gles", edition);
+        artifact.method = Some("schlick".to_string());
         artifact.bytes.resize(bytes, b'0' + edition as u8);
         artifact
     });
