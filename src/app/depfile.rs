@@ -30,6 +30,14 @@ pub fn depfile(outputs: &[String], inputs: &[String]) -> Result<String, Error> {
     Ok(format!("{outputs}:{space}{inputs}\n{empty}"))
 }
 
+/// The path of this program, an input of all that it writes: another version writes other text. None where no depfile can hold the path,
+/// since nobody chose it for this run.
+pub fn own_program() -> Option<String> {
+    let program = std::env::current_exe().ok()?;
+    let path = program.to_str()?;
+    fault(path).is_none().then(|| path.to_owned())
+}
+
 /// With `%` it would be a pattern to Make, and with `\\%` a stranger to Ninja, which knows the targets of its edge and its inputs.
 fn has_empty_rule(input: &str, outputs: &[String]) -> bool {
     !input.contains('%') && !outputs.iter().any(|output| output == input)

@@ -22,6 +22,8 @@ pub struct Own {
     pub inputs: usize,
     /// Its cost on a GPU, and its largest error.
     pub point: CostAndError,
+    /// Whether a check fails: it is not fit for use then, wherever it stands.
+    pub fails: bool,
 }
 
 /// A user's function against a method of ours.
@@ -33,8 +35,18 @@ pub struct Comparison {
     pub form: &'static str,
     /// How many numbers a material takes by it.
     pub inputs: usize,
-    /// The user's cost and error over the method's.
+    /// The user's cost and error over the method's, where a cost below the least that a compiler reports counts as the least.
     pub times: Multiples,
+    /// The user's cost, where the method costs nothing: there is no ratio then.
+    cost_beside_none: Option<f64>,
+}
+
+impl Comparison {
+    /// The user's cost over the method's; none where that costs nothing.
+    pub fn cost_times(&self) -> Option<f64> {
+        let has_ratio = self.cost_beside_none.is_none();
+        has_ratio.then_some(self.times.cost)
+    }
 }
 
 /// The methods that dominate a user's function: those that are far better first. Which take no more numbers than it does, and which
@@ -55,6 +67,7 @@ fn compared(own: &Own, competitor: &Competitor) -> Comparison {
         form: competitor.form,
         inputs: competitor.inputs,
         times: own.point.multiples_of(&competitor.point),
+        cost_beside_none: competitor.point.costs_nothing().then_some(own.point.cost),
     }
 }
 
@@ -62,14 +75,18 @@ fn compared(own: &Own, competitor: &Competitor) -> Comparison {
 pub fn sentence(own: &Own, competitors: &[Competitor]) -> String {
     let (dominating, with_more) = dominating(own, competitors);
     let among_as_few = match dominating.first() {
-        Some(best) => format!("dominated by {}: {}", best.method, multiples(best)),
+        Some(best) => {
+            let (error, cost) = multiples(best);
+            let method = best.method;
+            format!("dominated by {method}: this function errs {error} and costs {cost}")
+        }
         None => on_the_frontier(own, competitors),
     };
     let more = with_more.first().map(|best| {
         let (method, inputs, own) = (best.method, best.inputs, own.inputs);
-        let multiples = multiples(best);
+        let (error, cost) = multiples(best);
         format!(
-            "; against {method}, which takes {inputs} inputs instead of {own}, it has {multiples}"
+            "; beside {method} it errs {error} and costs {cost}, but {method} takes {inputs} inputs instead of {own}"
         )
     });
     among_as_few + &more.unwrap_or_default()
@@ -82,25 +99,29 @@ fn on_the_frontier(own: &Own, competitors: &[Competitor]) -> String {
         .iter()
         .filter(is_as_small)
         .map(|other| compared(own, other));
-    match all.find(|other| other.times.is_tie()) {
-        Some(same) => format!("on the frontier, where {} is", same.method),
-        None => {
-            let why = "no method of ours with as few inputs errs less for as little";
-            format!("on the frontier: {why}")
-        }
+    let why = match all.find(|other| other.times.is_tie()) {
+        Some(same) => format!("it errs and costs as much as {}", same.method),
+        None => "every method of ours with as few inputs errs more or costs more".to_owned(),
+    };
+    match own.fails {
+        true => format!("on the frontier by error and cost alone, for a check fails: {why}"),
+        false => format!("on the frontier: {why}"),
     }
 }
 
-/// `9 times the error at 1.4 times the cost`.
-fn multiples(other: &Comparison) -> String {
-    let (error, cost) = (times(other.times.error), times(other.times.cost));
-    format!("{error} error at {cost} cost")
+/// `9 times as much`, of errors and of costs; a cost stands alone where the other function has none.
+fn multiples(other: &Comparison) -> (String, String) {
+    let cost = match other.cost_beside_none {
+        Some(cost) => format!("{cost}, where that costs nothing"),
+        None => times(other.times.cost),
+    };
+    (times(other.times.error), cost)
 }
 
-/// `9 times the`, `1.4 times the`, `the same`.
+/// `9 times as much`, `as much`.
 fn times(share: f64) -> String {
     if (share - 1.0).abs() <= TIE {
-        return "the same".to_owned();
+        return "as much".to_owned();
     }
     let text = match share {
         share if share < 1.1 => format!("{share:.2}"),
@@ -108,7 +129,7 @@ fn times(share: f64) -> String {
         share => format!("{share:.0}"),
     };
     let short = text.strip_suffix(".0").unwrap_or(&text);
-    format!("{short} times the")
+    format!("{short} times as much")
 }
 
 #[cfg(test)]
@@ -133,6 +154,7 @@ mod tests {
         Own {
             inputs,
             point: CostAndError { cost, error },
+            fails: false,
         }
     }
 
@@ -146,23 +168,58 @@ mod tests {
         check(
             0.09,
             28.0,
-            "dominated by fitted: 9 times the error at 1.4 times the cost",
+            "dominated by fitted: this function errs 9 times as much and costs 1.4 times as much",
         );
         check(
             0.1,
             12.0,
-            "dominated by schlick: the same error at 1.2 times the cost",
+            "dominated by schlick: this function errs as much and costs 1.2 times as much",
         );
-        check(0.01, 20.0, "on the frontier, where fitted is");
+        check(0.01, 20.0, "on the frontier: it errs and costs as much as fitted");
         check(
             0.05,
             12.0,
-            "on the frontier: no method of ours with as few inputs errs less for as little",
+            "on the frontier: every method of ours with as few inputs errs more or costs more",
         );
         check(
             3e-7,
             130.0,
-            "dominated by exact: the same error at 1.3 times the cost",
+            "dominated by exact: this function errs as much and costs 1.3 times as much",
+        );
+    }
+
+    /// `constant_f0` costs nothing, and 44 is no multiple of that.
+    #[test]
+    fn beside_what_costs_nothing_a_cost_has_no_ratio() {
+        let free = Competitor {
+            method: "constant_f0",
+            form: "library",
+            inputs: 3,
+            point: CostAndError {
+                cost: 0.0,
+                error: 0.66,
+            },
+        };
+        let own = own(3, 0.66, 44.0);
+        assert_eq!(
+            sentence(&own, std::slice::from_ref(&free)),
+            "dominated by constant_f0: this function errs as much and costs 44, where that costs nothing"
+        );
+        let (found, _) = dominating(&own, &[free]);
+        assert_eq!(found[0].cost_times(), None);
+    }
+
+    /// A function that gives no reflectance somewhere is recommended by no place on the frontier.
+    #[test]
+    fn the_frontier_says_that_a_check_fails() {
+        let failing = Own {
+            fails: true,
+            ..own(12, 0.05, 12.0)
+        };
+        let says = sentence(&failing, &competitors());
+        assert!(
+            says.starts_with("on the frontier by error and cost alone, for a check fails: every"),
+            "{says}"
         );
     }
 
@@ -183,13 +240,13 @@ mod tests {
         assert_eq!(with_more[0].method, "fitted");
         assert_eq!(
             sentence(&few, &competitors()),
-            "on the frontier: no method of ours with as few inputs errs less for as little; against fitted, which takes 12 inputs instead of 3, it has 9 times the error at 1.4 times the cost"
+            "on the frontier: every method of ours with as few inputs errs more or costs more; beside fitted it errs 9 times as much and costs 1.4 times as much, but fitted takes 12 inputs instead of 3"
         );
         let (found, _) = dominating(&own(3, 0.2, 28.0), &competitors());
         assert_eq!(found.len(), 1);
         assert_eq!(
             sentence(&own(3, 0.2, 28.0), &competitors()),
-            "dominated by schlick: 2 times the error at 2.8 times the cost; against fitted, which takes 12 inputs instead of 3, it has 20 times the error at 1.4 times the cost"
+            "dominated by schlick: this function errs 2 times as much and costs 2.8 times as much; beside fitted it errs 20 times as much and costs 1.4 times as much, but fitted takes 12 inputs instead of 3"
         );
     }
 }

@@ -149,8 +149,8 @@ pub struct Dominating {
     pub input_numbers: usize,
     /// The user's error over the method's.
     pub error_times: f64,
-    /// The user's cost over the method's.
-    pub cost_times: f64,
+    /// The user's cost over the method's; none where that costs nothing.
+    pub cost_times: Option<f64>,
     /// The family of GPUs.
     pub gpu: &'static str,
 }
@@ -334,13 +334,13 @@ impl Audited<'_> {
 
     /// The cost on the family of this place and the error, where both are known.
     fn point(&self, cost: &AuditCost) -> Option<Own> {
-        let point = CostAndError {
-            error: self.ran.as_ref().ok()?.error.max_abs,
-            cost: cost.figures.as_ref().ok()?.cost(),
-        };
         Some(Own {
             inputs: self.bound.input_numbers(),
-            point,
+            point: CostAndError {
+                error: self.ran.as_ref().ok()?.error.max_abs,
+                cost: cost.figures.as_ref().ok()?.cost(),
+            },
+            fails: self.judged().0 == Status::Fail,
         })
     }
 
@@ -356,7 +356,7 @@ impl Audited<'_> {
                 form: other.form,
                 input_numbers: other.inputs,
                 error_times: other.times.error,
-                cost_times: other.times.cost,
+                cost_times: other.cost_times(),
                 gpu: cost.family.name,
             };
             let found = dominating(&own, &self.competitors(place));

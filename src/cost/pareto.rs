@@ -31,6 +31,11 @@ impl CostAndError {
         self.error.total_cmp(&other.error).then_with(costs)
     }
 
+    /// Whether it costs less than the least that a compiler reports: nothing is a multiple of that.
+    pub fn costs_nothing(&self) -> bool {
+        self.cost < LEAST_COST
+    }
+
     /// This function's cost and error as multiples of another's.
     pub fn multiples_of(&self, other: &CostAndError) -> Multiples {
         let ratio = |own: f64, other: f64, least: f64| own.max(least) / other.max(least);

@@ -1,7 +1,6 @@
 //! The full form of a header: how to make the file again, what it is, where it holds, how wrong it is, its licence.
 //! No date, no path, no version: nothing that changes when the content does not.
 
-use crate::materials::Material;
 use crate::methods::{Contract, Method, TEXELS};
 use crate::num::Precision;
 use crate::reference::{By, MaterialInMedium};
@@ -170,8 +169,8 @@ fn about(subject: &MaterialInMedium) -> Vec<String> {
     let material = &subject.material;
     let mut lines = vec![
         format!("{}: {}", subject.name, material.summary),
-        data_line(material),
     ];
+    lines.extend(material.data_line());
     if !material.conditions.is_empty() {
         lines.push(format!("Conditions: {}", material.conditions));
     }
@@ -184,14 +183,6 @@ fn about(subject: &MaterialInMedium) -> Vec<String> {
     ));
     lines.extend(how_found(subject));
     lines
-}
-
-/// Where a material's indices come from.
-pub(super) fn data_line(material: &Material) -> String {
-    format!(
-        "Data: {}. {}. Licence {}",
-        material.reference, material.link, material.licence
-    )
 }
 
 /// What the reference is that model errors are held against.

@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-use crate::fit::{model_error, rounded_up};
+use crate::fit::{ModelError, model_error, rounded_up};
 use crate::methods::{self, ALL, Method, by_class};
 use crate::num::Precision;
 
@@ -81,7 +81,7 @@ pub fn missed(subject: &MaterialInMedium, method: &'static Method, max_abs: f64)
     let described = fitted.filter(|other| subject.is_described_by(other));
     let errors: Vec<(&'static Method, f64)> = described
         .chain(exact)
-        .filter_map(|other| Some((other, error(subject, other)?)))
+        .filter_map(|other| Some((other, fitted_error(subject, other)?.max_abs)))
         .collect();
     let holds = errors.iter().find(|(_, error)| *error <= limit);
     let least = errors.iter().min_by(|a, b| a.1.total_cmp(&b.1));
@@ -95,8 +95,8 @@ pub fn missed(subject: &MaterialInMedium, method: &'static Method, max_abs: f64)
     })
 }
 
-/// What a method errs for a material.
-fn error(subject: &MaterialInMedium, method: &'static Method) -> Option<f64> {
+/// What a method errs for a material, with the coefficients of its specialised function.
+pub fn fitted_error(subject: &MaterialInMedium, method: &'static Method) -> Option<ModelError> {
     let made = specialised_graph(method, subject, Precision::F32, &Bounds::default()).ok()?;
-    Some(model_error(&made.function, &subject.truth_for(method)).max_abs)
+    Some(model_error(&made.function, &subject.truth_for(method)))
 }

@@ -53,7 +53,7 @@ pub use function::{
 };
 pub use header::{MARK, OUTPUT_LICENCE};
 pub use heading::{HeaderForm, Heading};
-pub use missed::{Missed, missed};
+pub use missed::{Missed, fitted_error, missed};
 pub use page::{bare_text, text_of_template};
 pub use print::bare;
 pub use wgsl::{spirv_with_storage as wgsl_to_spirv, validate as validate_wgsl};

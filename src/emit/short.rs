@@ -15,7 +15,7 @@ use super::figures::{
 };
 use super::function::Emitted;
 use super::header::{
-    MARK, OUTPUT_LICENCE, cosine_line, data_line, exemption, extrapolated, half_line, table_line,
+    MARK, OUTPUT_LICENCE, cosine_line, exemption, extrapolated, half_line, table_line,
     viewing_conditions,
 };
 
@@ -46,7 +46,7 @@ pub fn material(
 ) -> Vec<String> {
     let mut lines = banner(command);
     lines.push(format!("{}: {}", subject.name, subject.material.summary));
-    lines.push(data_line(&subject.material));
+    lines.extend(subject.material.data_line());
     lines.extend(medium_line(subject));
     lines.extend(viewing_conditions(subject));
     lines.extend(half_line(target, precision));

@@ -26,13 +26,12 @@ pub fn about(format: &Format, material: &EngineMaterial, notes: &Notes) -> Vec<S
     let mut lines = vec![
         format!("Licence of this file: {OUTPUT_LICENCE}"),
         format!("{}{around}: {}", own.name, own.summary),
-        format!(
-            "Data: {}. {}. Licence {}",
-            own.reference, own.link, own.licence
-        ),
+    ];
+    lines.extend(own.data_line());
+    lines.extend([
         format!("Format: {}", format.summary),
         format!("Colours: {}", material.subject.reference.surface.seen),
-    ];
+    ]);
     lines.extend(material.hex().map(|hex| format!("F0 in sRGB: {hex}")));
     lines.extend(
         notes

@@ -6,6 +6,7 @@
 mod catalogue;
 mod channels;
 mod constant;
+mod credit;
 mod csv;
 mod decimal;
 mod dispersion;

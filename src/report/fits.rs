@@ -167,11 +167,16 @@ fn lacking(mean_rel: Option<f64>, cost: Option<f64>) -> Option<String> {
     (!lacking.is_empty()).then(|| lacking.join("; "))
 }
 
+/// What the first column means.
+const STAR: &str = "A star marks the frontier of a material: what errs less costs more, and what costs less errs more.";
+
 /// The rows for a terminal; a star where no other of the same material is cheaper and as near.
 pub fn fits_text(rows: &[FitRow], gpu: &str) -> String {
     let aim = rows.first().map_or(FitObjective::default(), |row| row.aim);
     let mut head = vec!["", "material", "method", "terms", "largest error"];
-    head.extend(measure_columns(aim).map(|(title, _)| title));
+    let known = |column: &Column| rows.iter().any(|row| column.1(row).is_some());
+    let columns: Vec<Column> = measure_columns(aim).filter(known).collect();
+    head.extend(columns.iter().map(|(title, _)| *title));
     head.extend(["mean relative, %", gpu]);
     let mut lines = Vec::new();
     for alike in rows.chunk_by(|a, b| a.material == b.material) {
@@ -184,12 +189,12 @@ pub fn fits_text(rows: &[FitRow], gpu: &str) -> String {
             .collect();
         let best = pareto_frontier(&points);
         let starred = alike.iter().enumerate();
-        lines.extend(starred.map(|(place, row)| cells(row, best.contains(&place))));
+        lines.extend(starred.map(|(place, row)| cells(row, best.contains(&place), &columns)));
     }
     let table = table::text_table(&head, &lines);
     let few = rows.len() <= SHOWN;
     let coefficients: String = rows.iter().filter(|_| few).map(coefficient_lines).collect();
-    format!("{table}\n{coefficients}{}", remarks(rows))
+    format!("{table}\n{STAR}\n{coefficients}{}", remarks(rows))
 }
 
 /// A column of a row's.
@@ -204,9 +209,9 @@ fn measure_columns(aim: FitObjective) -> impl Iterator<Item = Column> {
         Weight::DeltaE => "largest CIEDE2000",
     };
     let error: Column = (title, |row| Some(row.error));
-    let free: Column = ("the same, no end exact", |row| row.error_without_exact);
+    let free: Column = ("the same, not exact at an end", |row| row.error_without_exact);
     let is_any = aim.exact.is_any();
-    let without_gamut: Column = ("the same, no gamut", |row| row.max_abs_without_gamut);
+    let without_gamut: Column = ("the same, not kept to [0, 1]", |row| row.max_abs_without_gamut);
     let is_paper = is_any || aim.weight != Weight::Absolute || aim.gamut == Gamut::Keep;
     let column = is_paper.then_some(error);
     let columns = column.into_iter().chain(is_any.then_some(free));
@@ -219,7 +224,7 @@ fn measure_columns(aim: FitObjective) -> impl Iterator<Item = Column> {
 /// Rows of which the coefficients are printed too.
 const SHOWN: usize = 6;
 
-fn cells(row: &FitRow, is_best: bool) -> Vec<String> {
+fn cells(row: &FitRow, is_best: bool, columns: &[Column]) -> Vec<String> {
     let shown = |value: Option<f64>| value.map_or_else(String::new, short_number);
     let mut cells = vec![
         if is_best { "*" } else { "" }.to_owned(),
@@ -228,7 +233,7 @@ fn cells(row: &FitRow, is_best: bool) -> Vec<String> {
         row.terms.to_string(),
         short_number(row.max_abs),
     ];
-    cells.extend(measure_columns(row.aim).map(|(_, value)| shown(value(row))));
+    cells.extend(columns.iter().map(|(_, value)| shown(value(row))));
     cells.push(shown(row.mean_rel.map(|share| 100.0 * share)));
     cells.push(shown(row.cost));
     cells
@@ -263,7 +268,7 @@ fn remarks(rows: &[FitRow]) -> String {
     let remark = |(channel, follows): (&str, FollowedCurve)| match follows {
         FollowedCurve::Law { n, k } => format!("{channel}: n {n:.4}, k {k:.4}\n"),
         FollowedCurve::F82Tint { tint, .. } => format!(
-            "{channel}: no index below an F0 of .985 has these colours; it follows f82_tint with a tint of {tint:.4}\n"
+            "{channel}: no n and k with an F0 of at most .985 give both colours, so it follows f82_tint with a tint of {tint:.4}\n"
         ),
     };
     half + "\n" + &channels.map(remark).collect::<String>()

@@ -79,8 +79,8 @@ fn colour_error_lines(errors: &ColourErrors) -> [String; 4] {
     let rows: Vec<Vec<String>> = rows.collect();
     [
         String::new(),
-        "Colour error, of three channels in place of a spectrum, in Delta E 2000 after 1, 2, 3 bounces under another light.".to_owned(),
-        "What RGB cannot show under that light, by any function; under the light of the functions one bounce has none, and their own error is seen:".to_owned(),
+        "Colour error of three channels in place of a spectrum: Delta E 2000 after 1, 2 and 3 bounces under another light.".to_owned(),
+        "No function of three channels avoids it. Under the light that the functions are made for, one bounce has no colour error: only the model error is seen.".to_owned(),
         table::text_table(&["light", "1", "2", "3"], &rows),
     ]
 }

@@ -22,8 +22,12 @@ pub fn search_text(results: &[SearchResult], gpu: &str) -> String {
             choices.collect::<String>()
         )
     };
-    results.iter().map(one).collect::<Vec<_>>().join("\n")
+    let texts: Vec<String> = results.iter().map(one).collect();
+    format!("{}\n{STAR}\n", texts.join("\n"))
 }
+
+/// What the first column means.
+const STAR: &str = "A star marks the frontier: no shape with as few operations has as small a 90th percentile.";
 
 fn shapes_text(shapes: &[ShapeRow], gpu: &str) -> String {
     let head = [

@@ -26,8 +26,8 @@ pub struct FitFlags {
     /// Only forms with so many coefficients: 4 or 5
     #[arg(long, value_name = "N", value_parser = terms)]
     pub terms: Option<usize>,
-    /// Only forms shared by all materials (no effect today)
-    #[arg(long)]
+    /// Without effect: all forms are shared by all materials
+    #[arg(long, hide = true)]
     pub shared: bool,
     /// What is minimised, at its largest over all angles: absolute, relative, luminance or delta-e
     #[arg(long, value_name = "NAME", default_value = "absolute", value_parser = one_of("weight", Weight::ALL, Weight::name))]

@@ -21,12 +21,14 @@ use crate::app::{check, depfile, folder};
 use crate::bake::as_tables_are_seen;
 use crate::budget::{Budget, BudgetRow, choose_within};
 use crate::cost;
+use crate::emit::HeaderForm;
 use crate::foreign::{Foreign, one_line};
 use crate::methods;
 use crate::num::Precision;
 use crate::report::budget::budget_remarks;
 
 use super::language::target_words;
+use super::unsuited::unsuited;
 use super::{Output, folder_or_current, refuse_read, refuse_within_tree};
 
 /// Generates. `announce` hears what a person should know before the run ends.
@@ -41,12 +43,16 @@ pub fn run(flags: &GenerateFlags, announce: Announce) -> Result<Output, Error> {
         }
         None => chosen(flags, request)?,
     };
+    let unsuited = match flags.quiet {
+        true => Vec::new(),
+        false => unsuited(&request)?,
+    };
     let mut output = match &flags.output {
         Some(file) => single(flags, &request, file)?,
         None => tree(flags, &request, announce)?,
     };
     let said = said.into_iter().filter(|_| !flags.quiet);
-    output.remarks = said.chain(output.remarks).collect();
+    output.remarks = said.chain(unsuited).chain(output.remarks).collect();
     Ok(output)
 }
 
@@ -324,14 +330,22 @@ fn first_function<'g>(
             crate::foreign::path(&file),
             function.signature
         ),
-        // What chose the function is no flag of `verify`.
-        match (cfg!(feature = "gpu"), flags.plan.is_some() || flags.budget.is_some()) {
-            (true, false) => "next: use it; `fresnel-gen verify` with the same flags, but without --header, runs it on this machine",
-            (true, true) => "next: use it; `fresnel-gen verify` with its --target, --material and --method runs it on this machine",
-            (false, _) => "next: use it",
-        }
-        .to_owned(),
+        next_step(flags),
     ]
+}
+
+/// What runs the functions. What chose them, or gave the header's form, is no flag of `verify`.
+fn next_step(flags: &GenerateFlags) -> String {
+    let is_chosen = flags.plan.is_some() || flags.budget.is_some();
+    let run = match (cfg!(feature = "gpu"), is_chosen) {
+        (false, _) => return "next: use it".to_owned(),
+        (true, true) => "with its --target, --material and --method",
+        (true, false) if flags.header != HeaderForm::default() => {
+            "with the same flags, but without --header,"
+        }
+        (true, false) => "with the same flags",
+    };
+    format!("next: use it; `fresnel-gen verify` {run} runs it on this machine")
 }
 
 /// The depfile, where one is asked for. Its rule is of these outputs, unless the build system knows one of another name.
@@ -357,6 +371,7 @@ fn depfile(flags: &GenerateFlags, outputs: &[String]) -> Result<Vec<OutputFile>,
         let why = format!("--depfile-target {own} is a file that the run reads");
         return Err(RequestFault::conflict(why).into());
     }
+    inputs.extend(depfile::own_program());
     let rule = depfile::depfile(outputs, &inputs)?;
     Ok(vec![OutputFile::named(file, rule)])
 }

@@ -178,19 +178,20 @@ fn drawn<'a>(flags: &'a ShowFlags, loaded: &Loaded) -> Result<Vec<(&'a Path, Vec
         return Ok(Vec::new());
     }
     let around = medium.as_ref().map(|medium| &medium.material);
-    let svg = material_sheet(
-        &loaded.material,
-        around,
-        &viewing,
-        &command(loaded, medium.as_ref(), &viewing),
-    )
-    .map_err(not_drawn)?;
+    let sheet = |picture| {
+        let command = command(loaded, medium.as_ref(), &viewing, picture);
+        material_sheet(&loaded.material, around, &viewing, &command).map_err(not_drawn)
+    };
+    let svg = flags.svg.as_ref().map(|_| sheet("svg")).transpose()?;
     let bytes = flags
         .png
         .as_ref()
-        .map(|_| png(&svg, PNG_SCALE))
+        .map(|_| png(&sheet("png")?, PNG_SCALE))
         .transpose()?;
-    let pictures = [(&flags.svg, Some(svg.into_bytes())), (&flags.png, bytes)];
+    let pictures = [
+        (&flags.svg, svg.map(String::into_bytes)),
+        (&flags.png, bytes),
+    ];
     let placed = pictures
         .into_iter()
         .filter_map(|(file, bytes)| Some((file.as_deref()?, bytes?)));
@@ -218,13 +219,18 @@ fn check_places(flags: &ShowFlags, json: Option<&Path>) -> Result<(), Error> {
 /// Pixels of a PNG for one of the SVG: sharp on today's screens.
 const PNG_SCALE: f32 = 2.0;
 
-/// The command that draws it again, without the output's place.
-fn command(loaded: &Loaded, medium: Option<&Loaded>, viewing: &ViewingConditions) -> String {
+/// The command that draws it again as `svg` or `png`, without the output's place.
+fn command(
+    loaded: &Loaded,
+    medium: Option<&Loaded>,
+    viewing: &ViewingConditions,
+    picture: &str,
+) -> String {
     CommandLine::new("fresnel-gen materials show")
         .argument(&loaded.argument)
         .list("medium", medium.map(|medium| &medium.argument))
         .seen_as(viewing)
-        .list("svg", [format!("{}.svg", loaded.material.name)])
+        .list(picture, [format!("{}.{picture}", loaded.material.name)])
         .into()
 }
 

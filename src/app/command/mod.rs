@@ -28,6 +28,7 @@ mod stability;
 mod survey;
 #[cfg(feature = "gpu")]
 mod time;
+mod unsuited;
 #[cfg(feature = "gpu")]
 mod verify;
 

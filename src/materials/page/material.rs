@@ -2,6 +2,7 @@
 
 use super::Page;
 use crate::foreign::is_hidden;
+use crate::materials::credit::NOT_GIVEN;
 use crate::materials::decimal::short;
 use crate::materials::dispersion::{DispersionCurve, Extrapolate};
 use crate::materials::{FileFault, Index, Material, MaterialKind, name_fault};
@@ -12,9 +13,6 @@ pub(super) const GUESS_NM: f64 = 580.0;
 /// A k from which a medium that is no metal is taken for a semiconductor rather than a dielectric: a wave of visible
 /// light loses a factor e in some 50 micrometres of it.
 const ABSORBING_K: f64 = 1e-3;
-
-/// What a material's file says of what its source does not.
-const NOT_GIVEN: &str = "not given";
 
 impl Page {
     /// The material of this page, under a name of yours or else [`Page::default_name`]. The fields are public: what you

@@ -17,7 +17,7 @@ pub fn chart_text(view: &ChartView) -> String {
     let points = view.points();
     let rows: Vec<Vec<String>> = points.iter().map(cells).collect();
     format!(
-        "{}\nCost: {}.\n\n{}\nA star before a row: nothing is cheaper and as near, or nearer and as cheap.\n\
+        "{}\nCost: {}.\n\n{}\nA star marks the frontier: what errs less costs more, and what costs less errs more.\n\
          Left out:\n{}{}\n{}",
         capital(&view.title()),
         view.cost.title,

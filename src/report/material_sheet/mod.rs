@@ -108,23 +108,23 @@ impl DrawnMaterial<'_> {
         };
         let medium = self.medium.map(|medium| {
             let Material { name, summary, .. } = medium;
-            format!(
-                "Medium: {name}, {summary}. {} {}",
-                medium.reference, medium.link
-            )
+            let source = medium.source_words(" ").unwrap_or_default();
+            format!("Medium: {name}, {summary}. {source}")
+                .trim_end()
+                .to_owned()
         });
-        let own = [
-            format!("{} {}", material.reference, material.link),
-            format!(
-                "{}{}{}, known {}. Licence of the numbers: {}.",
-                labelled("Page", &material.page),
-                labelled("Conditions", &material.conditions),
-                capital(material.kind.name()),
-                window::words(material.range_nm()),
-                material.licence
-            ),
-        ];
-        own.into_iter().chain(medium).collect()
+        let licence = material.licence_words();
+        let licence = licence.map(|licence| format!(" Licence of the numbers: {licence}."));
+        let known = format!(
+            "{}{}{}, known {}.{}",
+            labelled("Page", &material.page),
+            labelled("Conditions", &material.conditions),
+            capital(material.kind.name()),
+            window::words(material.range_nm()),
+            licence.unwrap_or_default()
+        );
+        let source = material.source_words(" ");
+        source.into_iter().chain([known]).chain(medium).collect()
     }
 
     /// What is seen, in a sentence.

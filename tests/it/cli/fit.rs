@@ -156,7 +156,7 @@ fn ends_are_met_and_their_price_is_told() {
         assert!(free < error && error < 4.0 * free, "{row}");
     }
     let text = place.done("fit --material plain.toml --exact 90").out;
-    assert!(text.contains("the same, no end exact"), "{text}");
+    assert!(text.contains("the same, not exact at an end"), "{text}");
 }
 
 #[test]
@@ -176,7 +176,13 @@ fn a_form_keeps_to_what_a_surface_can_reflect_and_its_price_is_told() {
     assert!(price.1 < price.0 && price.0 < 0.0033, "{price:?}");
     assert!(free["max_abs_without_gamut"].is_null(), "{free}");
     let text = place.done("fit --material gold").out;
-    assert!(text.contains("the same, no gamut"), "{text}");
+    assert!(text.contains("the same, not kept to [0, 1]"), "{text}");
+    // Two colours have no gamut, and no empty column for it.
+    let two = place.done("fit --f0 1,.71,.29 --f82 .98,.91,.66").out;
+    assert!(!two.contains("kept to [0, 1]"), "{two}");
+    for table in [text, two] {
+        assert!(table.contains("A star marks the frontier"), "{table}");
+    }
     let refused = place.run("fit --search --gamut clip");
     assert_eq!(refused.code, Some(2), "{}", refused.err);
 }
