@@ -175,7 +175,11 @@ mod tests {
             12.0,
             "dominated by schlick: this function errs as much and costs 1.2 times as much",
         );
-        check(0.01, 20.0, "on the frontier: it errs and costs as much as fitted");
+        check(
+            0.01,
+            20.0,
+            "on the frontier: it errs and costs as much as fitted",
+        );
         check(
             0.05,
             12.0,

@@ -167,9 +167,7 @@ pub(super) fn formula(method: &Method) -> impl Iterator<Item = String> {
 
 fn about(subject: &MaterialInMedium) -> Vec<String> {
     let material = &subject.material;
-    let mut lines = vec![
-        format!("{}: {}", subject.name, material.summary),
-    ];
+    let mut lines = vec![format!("{}: {}", subject.name, material.summary)];
     lines.extend(material.data_line());
     if !material.conditions.is_empty() {
         lines.push(format!("Conditions: {}", material.conditions));

@@ -72,7 +72,7 @@ fn sheet(material: &EngineMaterial) -> Sheet {
 fn of_conductor(material: &EngineMaterial) -> Option<String> {
     let space = space(material.space?);
     Some(format!(
-        "conductor_bsdf: n and k are no colours, and a host leaves them as they are (colorspace none); they belong to {space}: for a host that computes in another space write the file in that one"
+        "conductor_bsdf: n and k are no colours, and a host leaves them as they are (colorspace none); they belong to {space}: for a host with another working space write the file in that one"
     ))
 }
 

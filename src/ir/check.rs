@@ -151,7 +151,11 @@ fn check_whole(function: &Function) -> Result<(), Broken> {
     let mut seen = BTreeSet::new();
     for name in params.chain(labels) {
         ensure(identifier_fault(name).is_none(), 5, || name.clone())?;
-        ensure(seen.insert(name), 6, || name.clone())?;
+        ensure(seen.insert(name), 6, || {
+            format!(
+                "two of its arguments and steps, those of a method in it included, are called {name}"
+            )
+        })?;
     }
     ensure(identifier_fault(&function.name).is_none(), 5, || {
         function.name.clone()

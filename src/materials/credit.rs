@@ -60,10 +60,7 @@ mod tests {
             ["A. Author", "not given", "MIT"],
             Some("Data: A. Author. Licence MIT"),
         );
-        check(
-            ["not given", "not given", "MIT"],
-            Some("Data: Licence MIT"),
-        );
+        check(["not given", "not given", "MIT"], Some("Data: Licence MIT"));
         check(["not given", "not given", "not given"], None);
     }
 }

@@ -209,9 +209,13 @@ fn measure_columns(aim: FitObjective) -> impl Iterator<Item = Column> {
         Weight::DeltaE => "largest CIEDE2000",
     };
     let error: Column = (title, |row| Some(row.error));
-    let free: Column = ("the same, not exact at an end", |row| row.error_without_exact);
+    let free: Column = ("the same, not exact at an end", |row| {
+        row.error_without_exact
+    });
     let is_any = aim.exact.is_any();
-    let without_gamut: Column = ("the same, not kept to [0, 1]", |row| row.max_abs_without_gamut);
+    let without_gamut: Column = ("the same, not kept to [0, 1]", |row| {
+        row.max_abs_without_gamut
+    });
     let is_paper = is_any || aim.weight != Weight::Absolute || aim.gamut == Gamut::Keep;
     let column = is_paper.then_some(error);
     let columns = column.into_iter().chain(is_any.then_some(free));

@@ -27,7 +27,8 @@ pub fn search_text(results: &[SearchResult], gpu: &str) -> String {
 }
 
 /// What the first column means.
-const STAR: &str = "A star marks the frontier: no shape with as few operations has as small a 90th percentile.";
+const STAR: &str =
+    "A star marks the frontier: no shape with as few operations has as small a 90th percentile.";
 
 fn shapes_text(shapes: &[ShapeRow], gpu: &str) -> String {
     let head = [

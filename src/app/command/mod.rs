@@ -59,7 +59,7 @@ pub struct Output {
     pub is_file: bool,
     /// For stderr, a line each.
     pub remarks: Vec<String>,
-    /// 0 done, 1 findings, 2 help where nothing was asked for.
+    /// 0 done, 1 findings, 2 help where nothing was asked for, 3 a check was not made. That of a fault: `Error::exit_code`.
     pub code: u8,
 }
 

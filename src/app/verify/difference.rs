@@ -19,16 +19,16 @@ pub fn of_texts(found: &str, today: &str) -> String {
         first_difference(found, today, false),
     );
     match (code, comments) {
-        (Some(line), _) => format!("its code differs, first in line {line}"),
-        (None, Some(line)) => {
-            format!("its comments differ, first in line {line}, and its code does not")
+        (Some(place), _) => format!("its code differs, first {place}"),
+        (None, Some(place)) => {
+            format!("its comments differ, first {place}, and its code does not")
         }
         (None, None) => "its blanks and empty lines differ".to_owned(),
     }
 }
 
-/// The first line of a text that is another in the other one: of its comments, or of its code. From 1.
-fn first_difference(found: &str, today: &str, of_comments: bool) -> Option<usize> {
+/// The first line of a text that is another in the other one: of its comments, or of its code. Lines count from 1.
+fn first_difference(found: &str, today: &str, of_comments: bool) -> Option<String> {
     let lines = |text: &'_ str| -> Vec<(usize, String)> {
         let all = text
             .lines()
@@ -41,10 +41,10 @@ fn first_difference(found: &str, today: &str, of_comments: bool) -> Option<usize
     let (found_lines, today_lines) = (lines(found), lines(today));
     let pairs = found_lines.iter().zip(&today_lines);
     let same = pairs.take_while(|((_, a), (_, b))| a == b).count();
-    match found_lines.get(same) {
-        Some((line, _)) => Some(*line),
-        None if same < today_lines.len() => Some(found.lines().count()),
-        None => None,
+    match (found_lines.get(same), today_lines.get(same)) {
+        (Some((line, _)), _) => Some(format!("in line {line}")),
+        (None, Some((line, _))) => Some(format!("by today's line {line}, which it lacks")),
+        (None, None) => None,
     }
 }
 
@@ -62,7 +62,7 @@ mod tests {
             ),
             (
                 "// head\n\nfn f() {\n    a\n}\n",
-                "its comments differ, first in line 6, and its code does not",
+                "its comments differ, first by today's line 2, which it lacks, and its code does not",
             ),
             (
                 "// other\nfn f() {\n    b\n}\n",
@@ -70,7 +70,7 @@ mod tests {
             ),
             (
                 "// head\n// error .1\nfn f() {\n",
-                "its code differs, first in line 3",
+                "its code differs, first by today's line 5, which it lacks",
             ),
             (
                 "// head\n// error .1\nfn f() {\n  a\n}\n",

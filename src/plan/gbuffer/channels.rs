@@ -68,12 +68,12 @@ impl Places {
             if found.is_empty() {
                 found = present.iter().filter(in_layer).collect();
             }
-            let mut found = found.into_iter();
-            *place = found.next().map(|one| one.place);
-            if let (Some((first, _)), Some(second)) = (*place, found.next()) {
+            *place = found.first().map(|one| one.place);
+            if let [first, second, ..] = found[..] {
                 return Err(GbufferFault::Twice {
                     channel: channel.name,
-                    parts: [first, second.place.0],
+                    names: [first, second].map(|one| one.name.clone()),
+                    parts: [first, second].map(|one| one.place.0),
                 });
             }
         }

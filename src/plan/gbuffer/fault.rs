@@ -68,10 +68,15 @@ pub enum GbufferFault {
         present: String,
     },
     /// A channel that stands twice.
-    #[error("channel `{channel}` stands twice, {}; it must stand once", twice_in(*parts))]
+    #[error(
+        "channel `{channel}` stands twice, {}; it must stand once",
+        twice_in(names, *parts)
+    )]
     Twice {
         /// The channel.
         channel: &'static str,
+        /// Its names in the file, with the layers that they stand in.
+        names: [String; 2],
         /// The parts that hold it, counted from 0: two, or one twice.
         parts: [usize; 2],
     },
@@ -103,8 +108,11 @@ pub enum GbufferFault {
     },
 }
 
-/// Where a channel stands twice, counted from 1.
-fn twice_in([first, second]: [usize; 2]) -> String {
+/// Where a channel stands twice: by its names where they differ, else by the parts, counted from 1.
+fn twice_in([name, other]: &[String; 2], [first, second]: [usize; 2]) -> String {
+    if name != other {
+        return format!("as `{}` and as `{}`", Foreign(name), Foreign(other));
+    }
     match first == second {
         true => format!("both times in part {}", first + 1),
         false => format!("in part {} and in part {}", first + 1, second + 1),

@@ -402,7 +402,11 @@ fn a_method_of_another_class_is_told() {
         assert_eq!(place.done(&line).err, "", "{line}");
     }
     let told = place.run("--material all --method fitted --target wgsl --check");
-    assert!(told.err.contains(" more of these materials"), "{}", told.err);
+    assert!(
+        told.err.contains(" more of these materials"),
+        "{}",
+        told.err
+    );
 }
 
 /// After the first run of an adapter: the page that says how its host takes it.

@@ -57,7 +57,7 @@ fn links_of_another_user_in_a_shared_folder_are_not_followed() {
         ),
         ("bake --material gold --out-dir shared/way", "shared/way"),
         ("chart --material gold --out-dir shared/way", "shared/way"),
-        ("fit gold --json shared/file", "shared/file"),
+        ("fit --material gold --json shared/file", "shared/file"),
         (
             "materials params gold --as gltf -o shared/way/gold.gltf",
             "shared/way",

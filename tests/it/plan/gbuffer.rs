@@ -209,7 +209,10 @@ fn a_view_layer_of_blender_is_read() {
     two.retain(|(name, _)| *name != "cos_theta");
     two.push(("one.cos_theta.V", wrong()));
     two.push(("two.cos_theta.V", wrong()));
-    check_refuses(&plain(two), "channel `cos_theta` stands in");
+    check_refuses(
+        &plain(two),
+        "channel `cos_theta` stands twice, as `one.cos_theta.V` and as `two.cos_theta.V`",
+    );
 }
 
 #[test]
