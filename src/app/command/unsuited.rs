@@ -1,11 +1,11 @@
-//! Fitted methods that were asked for by name, for materials of a class that they promise nothing of: `fitted` for water.
+//! Fitted methods that were asked for by name, for materials that the one of their own class follows far better: `fitted` for water.
 
 use crate::app::error::Error;
 use crate::app::request::{Materials, Request};
 use crate::emit::fitted_error;
 use crate::fit::{ModelError, rounded_up};
 use crate::foreign::Foreign;
-use crate::methods::{self, Method, by_class};
+use crate::methods::{self, Method};
 use crate::reference::MaterialInMedium;
 
 /// How many times the error of the class's own method is told.
@@ -35,9 +35,9 @@ pub fn unsuited(request: &Request) -> Result<Vec<String>, Error> {
 /// What is said of a method and the materials that want another.
 fn sentence(method: &'static Method, subjects: &[MaterialInMedium]) -> Option<String> {
     let other = |subject: &MaterialInMedium| {
-        let is_unsuited = by_class(method, subject.material.kind.name()).is_none();
-        let other = methods::find(subject.fitted_method()?)?;
-        (is_unsuited && other.name != method.name).then_some(other)
+        // With as many coefficients, and so at about the same cost.
+        let other = methods::find(subject.fitted_with_four()?)?;
+        (other.class != method.class).then_some(other)
     };
     let mut unsuited = subjects
         .iter()
@@ -54,7 +54,7 @@ fn sentence(method: &'static Method, subjects: &[MaterialInMedium]) -> Option<St
     };
     let (name, class) = (Foreign(&subject.name), subject.material.kind.name());
     Some(format!(
-        "{} is not meant for a {class}: for {name} it errs by {}, and {} by {}{more}",
+        "for {name}, a {class}, {} errs by {}, and {} by {}{more}",
         method.name,
         words(&own),
         other.name,

@@ -130,7 +130,7 @@ fn a_fitted_method_is_better_than_schlick_with_more_inputs() {
     }
     let says = row["says"]["rdna2"].as_str().unwrap();
     assert!(
-        says.contains("against fitted, which takes 12 inputs instead of 3"),
+        says.contains("but fitted takes 12 inputs instead of 3"),
         "{says}"
     );
     let first = &row["better_with_more_inputs"][0];

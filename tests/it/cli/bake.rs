@@ -464,7 +464,7 @@ fn rows_that_leave_an_atlas_are_named() {
     let says = "lut/atlas.8bit.png, lut/atlas.json: rows that an earlier run put there leave it: gold; its rows are 0 silver, 1 water. --out-dir";
     assert!(fewer.err.contains(says), "{fewer:?}");
     let more = place.done(&line("copper,silver,water"));
-    let says = "lut/atlas.8bit.png: its rows have other numbers than before; its rows are 0 copper, 1 silver, 2 water.";
+    let says = "lut/atlas.8bit.png, lut/atlas.json: its rows have other numbers than before; its rows are 0 copper, 1 silver, 2 water.";
     assert!(more.err.contains(says), "{more:?}");
     let quiet = place.done(&(line("water") + " --quiet"));
     assert!(quiet.err.contains("leave it: copper, silver;"), "{quiet:?}");
