@@ -62,7 +62,8 @@ impl Inputs<'_> {
     fn is_open(&self, variable: &Variable) -> bool {
         match variable.storage {
             Storage::Constant => false,
-            Storage::Own => variable.value.is_none() && !self.is_set_first(variable),
+            Storage::Own if variable.value.is_some() => self.is_given(&variable.name),
+            Storage::Own => !self.is_set_first(variable),
             Storage::Input => variable.value.is_none() || self.is_given(&variable.name),
         }
     }
@@ -150,10 +151,12 @@ impl Inputs<'_> {
         for place in &self.reached.parts {
             let part = &self.parts[*place];
             let first = &self.words[part.start];
+            if let PartKind::Variables(all) | PartKind::Block(_, all, None) = &part.kind {
+                initialised.extend(all.iter().filter_map(|one| self.initialised(one)));
+            }
             let text = match &part.kind {
-                PartKind::Variables(all) if all.iter().any(|one| one.storage == Storage::Input) => {
+                PartKind::Variables(all) if all.iter().any(|one| self.is_rewritten(one)) => {
                     let used = all.iter().filter(|one| self.is_used(&one.name));
-                    initialised.extend(used.clone().filter_map(|one| self.initialised(one)));
                     used.map(|one| self.declaration(one)).collect()
                 }
                 PartKind::Block(_, members, None) => {
@@ -189,7 +192,22 @@ impl Inputs<'_> {
         self.reached.uses.iter().any(|one| one.name == name)
     }
 
+    /// Whether its declaration is not left as it stands: something else sets it, or a value is given for it.
+    fn is_rewritten(&self, variable: &Variable) -> bool {
+        let is_given = variable.value.is_some() && self.is_open(variable);
+        variable.storage == Storage::Input || is_given
+    }
+
+    /// The value of a variable that other code can set, where it is read before the function sets it.
     fn initialised(&self, variable: &Variable) -> Option<Initialised> {
+        let is_taken = match variable.storage {
+            Storage::Constant => false,
+            Storage::Own => !self.is_set_first(variable),
+            Storage::Input => true,
+        };
+        if !is_taken || !self.is_used(&variable.name) {
+            return None;
+        }
         Some(Initialised {
             name: variable.name.clone(),
             line: variable.line,

@@ -38,6 +38,8 @@ pub enum PartKind {
     Block(String, Vec<Variable>, Option<String>),
     /// What holds for all that follows: `precision highp float;`, `enable f16;`.
     Setting,
+    /// A macro's name with what it is given: it may stand for functions and variables.
+    MacroCall(Vec<String>),
     /// Something else.
     Other,
 }
@@ -53,6 +55,7 @@ impl Part {
             PartKind::Block(_, members, None) => {
                 members.iter().map(|one| one.name.as_str()).collect()
             }
+            PartKind::MacroCall(given) => given.iter().map(String::as_str).collect(),
             PartKind::Setting | PartKind::Other => Vec::new(),
         }
     }
@@ -154,12 +157,43 @@ fn behind_marks(tokens: &[Token], start: usize) -> usize {
     at
 }
 
+/// `NAME(a, b)` with a declaration or `;` behind it, which no language but a macro's has: its words, and the place behind it.
+fn macro_call(tokens: &[Token], start: usize, language: Language) -> Option<(Vec<String>, usize)> {
+    let has_macros = language.has_preprocessor();
+    let name = tokens
+        .get(start)
+        .filter(|name| has_macros && name.is_word())?;
+    let open = tokens.get(start + 1)?;
+    let close = behind(tokens, start + 1);
+    if name.text == "layout" || open.text != "(" {
+        return None;
+    }
+    let given = tokens[start + 2..close]
+        .iter()
+        .filter(|word| word.is_word());
+    let given = given.map(|word| word.text.to_owned()).collect();
+    match tokens.get(close) {
+        Some(next) if next.text == ";" => Some((given, close + 1)),
+        Some(next) => next.is_word().then_some((given, close)),
+        None => Some((given, close)),
+    }
+}
+
 /// The part that begins here.
 fn part(tokens: &[Token], start: usize, names: &TypeNames, language: Language) -> Part {
     let start = match language {
         Language::Hlsl => behind_marks(tokens, start),
         _ => start,
     };
+    if let Some((given, end)) = macro_call(tokens, start, language) {
+        return Part {
+            start,
+            head_end: end,
+            end,
+            kind: PartKind::MacroCall(given),
+            scope: Vec::new(),
+        };
+    }
     let mut head_end = start;
     while let Some(token) = tokens.get(head_end) {
         match token.text {
@@ -346,6 +380,7 @@ mod tests {
                 format!("block {name} {{{}}} {instance:?}", all(members))
             }
             PartKind::Setting => "setting".to_owned(),
+            PartKind::MacroCall(given) => format!("macro of {}", given.join(", ")),
             PartKind::Other => "other".to_owned(),
         };
         let found = parts(&tokens, &TypeNames::default(), language);
@@ -369,6 +404,21 @@ mod tests {
                 "prototype f",
                 "function f",
                 "other",
+            ],
+        );
+    }
+
+    #[test]
+    fn calls_of_macros_are_parts() {
+        check(
+            Language::Gles,
+            "DEF(p5)\nvec3 f(float c) { } DEF(a, b); layout(std140) uniform B { vec3 c; }; OF(x)",
+            &[
+                "macro of p5",
+                "function f",
+                "macro of a, b",
+                "block B {Input vec3 c} None",
+                "macro of x",
             ],
         );
     }

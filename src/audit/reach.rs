@@ -54,6 +54,11 @@ pub fn reached(
 ) -> Reached {
     let mut by_name: BTreeMap<&str, Vec<usize>> = BTreeMap::new();
     for (place, part) in parts.iter().enumerate() {
+        // A macro of an engine, which this text does not define, is none of its parts.
+        let is_macro = matches!(part.kind, PartKind::MacroCall(_));
+        if is_macro && !macros.contains_key(tokens[part.start].text) {
+            continue;
+        }
         for name in part.names() {
             by_name.entry(name).or_default().push(place);
         }
@@ -62,9 +67,8 @@ pub fn reached(
         start,
         ..Reached::default()
     };
-    let settings = parts.iter().enumerate();
-    let settings = settings.filter(|(_, part)| matches!(part.kind, PartKind::Setting));
-    let mut open: Vec<usize> = settings.map(|(place, _)| place).chain([start]).collect();
+    let mut open = settings(tokens, parts, macros);
+    open.push(start);
     while let Some(place) = open.pop() {
         if !reached.parts.insert(place) {
             continue;
@@ -74,16 +78,16 @@ pub fn reached(
         // A type has functions among its members, but in GLSL and WGSL.
         let has_members = matches!(language, Language::Hlsl | Language::Slang);
         let has_code = match &part.kind {
-            PartKind::Function(_) => true,
+            PartKind::Function(_) | PartKind::MacroCall(_) => true,
             PartKind::Type(..) => has_members,
             _ => false,
         };
-        let mut own: BTreeSet<&str> = match has_code {
+        let mut own: Vec<Own> = match has_code {
             true => locals(&words, language),
-            false => BTreeSet::new(),
+            false => Vec::new(),
         };
-        if !matches!(part.kind, PartKind::Function(_)) {
-            own.extend(part.names());
+        if !matches!(part.kind, PartKind::Function(_) | PartKind::MacroCall(_)) {
+            own.extend(part.names().into_iter().map(Own::everywhere));
         }
         let context = Context {
             own: &own,
@@ -96,11 +100,28 @@ pub fn reached(
     reached
 }
 
+/// The parts that all others may need. What a macro names by `##` nobody knows here.
+fn settings(tokens: &[Token], parts: &[Part], macros: &MacroBodies) -> Vec<usize> {
+    let pastes = |part: &Part| {
+        let bodies = macros.get(tokens[part.start].text);
+        let mut words = bodies.into_iter().flatten().flatten();
+        words.any(|word| word.text == "#")
+    };
+    let is_setting = |part: &Part| match part.kind {
+        PartKind::Setting => true,
+        PartKind::MacroCall(_) => pastes(part),
+        _ => false,
+    };
+    let all = parts.iter().enumerate();
+    let all = all.filter(|(_, part)| is_setting(part));
+    all.map(|(place, _)| place).collect()
+}
+
 /// Where words stand.
 #[derive(Clone, Copy)]
 struct Context<'a> {
     /// Names that mean something else there.
-    own: &'a BTreeSet<&'a str>,
+    own: &'a [Own<'a>],
     part: usize,
     by_global: Option<usize>,
     counts_uses: bool,
@@ -116,13 +137,14 @@ fn visit(
 ) {
     for (at, token) in words.iter().enumerate() {
         let is_member = at > 0 && words[at - 1].text == ".";
-        if !token.is_word() || is_member || context.own.contains(token.text) {
+        let is_own = |own: &Own| own.name == token.text && (own.from..own.to).contains(&at);
+        if !token.is_word() || is_member || context.own.iter().any(is_own) {
             continue;
         }
         if let Some(bodies) = macros.get(token.text) {
             if reached.macros.insert(token.text.to_owned()) {
                 let anywhere = Context {
-                    own: &BTreeSet::new(),
+                    own: &[],
                     ..*context
                 };
                 for body in bodies {
@@ -173,9 +195,41 @@ fn use_of(words: &[&Token], at: usize, context: &Context) -> Use {
     }
 }
 
+/// A name that means something else than outside, and the words between which it does.
+struct Own<'a> {
+    name: &'a str,
+    from: usize,
+    to: usize,
+}
+
+impl<'a> Own<'a> {
+    fn everywhere(name: &'a str) -> Own<'a> {
+        Own {
+            name,
+            from: 0,
+            to: usize::MAX,
+        }
+    }
+
+    /// The name at this place, from its declaration to the end of the block.
+    fn declared(words: &[&Token<'a>], at: usize, language: Language) -> Own<'a> {
+        // The value of `float x = x + 1.0;` reads the outer x in GLSL and WGSL, and its own in HLSL and Slang.
+        let is_own_in_value = matches!(language, Language::Hlsl | Language::Slang);
+        let from = match is_own_in_value {
+            true => at,
+            false => value_end(words, at),
+        };
+        Own {
+            name: words[at].text,
+            from,
+            to: scope_end(words, at),
+        }
+    }
+}
+
 /// The names that a function gives a meaning of its own: its arguments, and its variables.
-fn locals<'a>(words: &[&Token<'a>], language: Language) -> BTreeSet<&'a str> {
-    let mut found = BTreeSet::new();
+fn locals<'a>(words: &[&Token<'a>], language: Language) -> Vec<Own<'a>> {
+    let mut found = Vec::new();
     let text = |at: usize| words.get(at).map_or("", |token| token.text);
     for at in 1..words.len() {
         if !words[at].is_word() {
@@ -195,34 +249,67 @@ fn locals<'a>(words: &[&Token<'a>], language: Language) -> BTreeSet<&'a str> {
             }
         };
         if is_declared {
-            found.insert(words[at].text);
-            if language != Language::Wgsl {
-                found.extend(further(&words[at + 1..]));
-            }
+            let more = match language {
+                Language::Wgsl => Vec::new(),
+                _ => further(words, at + 1),
+            };
+            let all = [at].into_iter().chain(more);
+            found.extend(all.map(|at| Own::declared(words, at, language)));
         }
     }
     found
 }
 
-/// The names behind the first of a declaration: `= 1.0, b, c;`.
-fn further<'a>(words: &[&Token<'a>]) -> Vec<&'a str> {
-    let (mut found, mut depth) = (Vec::new(), 0i32);
-    for (at, token) in words.iter().enumerate() {
+/// How much deeper in brackets a word leads.
+fn step(token: &Token) -> i32 {
+    match token.text {
+        "(" | "[" | "{" => 1,
+        ")" | "]" | "}" => -1,
+        _ => 0,
+    }
+}
+
+/// The place behind the value of what is declared here: its own `,` or `;`, or the bracket that closes around it.
+fn value_end(words: &[&Token], at: usize) -> usize {
+    let mut depth = 0;
+    for (place, token) in words.iter().enumerate().skip(at) {
+        depth += step(token);
+        if depth < 0 || depth == 0 && [",", ";"].contains(&token.text) {
+            return place;
+        }
+    }
+    words.len()
+}
+
+/// The place at which a name that is declared here loses its meaning: the end of its block; of an argument, or a variable in the head of
+/// a loop, the end of what follows the head.
+fn scope_end(words: &[&Token], at: usize) -> usize {
+    let (mut depth, mut is_in_head) = (0, false);
+    for (place, token) in words.iter().enumerate().skip(at) {
+        depth += step(token);
         match token.text {
-            "(" | "[" | "{" => depth += 1,
-            ")" | "]" | "}" => depth -= 1,
+            "}" if depth < 0 => return place,
+            ")" if depth < 0 => (depth, is_in_head) = (0, true),
+            "}" | ";" if is_in_head && depth == 0 => return place + 1,
             _ => {}
         }
+    }
+    words.len()
+}
+
+/// The places of the names behind the first of a declaration: `= 1.0, b, c;`.
+fn further(words: &[&Token], from: usize) -> Vec<usize> {
+    let (mut found, mut depth) = (Vec::new(), 0i32);
+    for (at, token) in words.iter().enumerate().skip(from) {
+        depth += step(token);
         if depth < 0 || token.text == ";" && depth == 0 {
             break;
         }
         // A type and a name are another argument.
         let is_name = |at: usize| words.get(at).is_some_and(|word| word.is_word());
-        let next = words
-            .get(at + 1)
-            .filter(|_| is_name(at + 1) && !is_name(at + 2));
-        if let Some(next) = next.filter(|_| token.text == "," && depth == 0) {
-            found.push(next.text);
+        let is_next = is_name(at + 1) && !is_name(at + 2);
+        if is_next && token.text == "," && depth == 0 {
+            found.push(at + 1);
         }
     }
     found

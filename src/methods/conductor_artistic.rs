@@ -97,7 +97,7 @@ pub static METHOD: Method = Method {
     },
     contract: Contract::Kept,
     half: InHalf::Specialised(
-        "n_max = (1 + sqrt(r))^2 / (1 - r) and its square overflow where r is above 0.98, which silver is",
+        "the square of n_max = (1 + sqrt(r))^2 / (1 - r) overflows where r is above 0.984, as silver's red is",
     ),
     build,
     for_constants: None,

@@ -180,11 +180,11 @@ fn what_is_gained_over_schlick_is_what_the_pages_say() {
         ),
         stated(
             costs,
-            "is ",
-            " times smaller than Schlick's",
+            " metals is ",
+            " times smaller with `fitted`",
             whole(own.medians),
         ),
-        stated(costs, "at ", " times its cost", format!("{share:.1}")),
+        stated(costs, "which costs ", " times less", format!("{share:.1}")),
         stated(
             costs,
             "without a clamp, and err ",

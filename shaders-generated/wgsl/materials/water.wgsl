@@ -4,7 +4,7 @@
 //
 // water: Water, liquid, Hale and Querry
 // Data: G. M. Hale and M. R. Querry. Optical constants of water in the 200-nm to 200-um wavelength region. Appl.
-//     Opt. 12, 555-563 (1973) See also Segelstein 1981 for more recent data from the same group..
+//     Opt. 12, 555-563 (1973) See also Segelstein 1981 for more recent data from the same group.
 //     https://doi.org/10.1364/AO.12.000555. Licence CC0-1.0
 // Truth: reflectance integrated over 380-780 nm in steps of 5 nm, CIE 1931 2 degree observer, D65, linear sRGB,
 //     mirror = 1, clipped to [0, 1]

@@ -6,6 +6,7 @@ mod compared;
 mod conventions;
 pub mod published;
 mod ranked;
+mod scopes;
 pub mod thesis;
 mod untrusted;
 mod whole_files;
