@@ -148,9 +148,9 @@ pub enum Error {
         /// Where it leads.
         leads_to: PathBuf,
     },
-    /// An output leads over a link that another user may have put there.
+    /// An output leads over a link, or into a pipe, that another user may have put there.
     #[error(
-        "{} is a link of another user in a folder that users share; nothing was written. Name another place, or remove the link",
+        "{} is a link or a pipe of another user in a folder that users share; nothing was written. Name another place, or remove it",
         foreign::path(link)
     )]
     Planted {

@@ -141,9 +141,13 @@ pub fn resolved(path: &Path) -> PathBuf {
     fs::canonicalize(&whole).unwrap_or(whole)
 }
 
-/// The first link on the way to a path that another user may have put there: see [`is_planted`].
-pub fn planted_link(path: &Path) -> Option<PathBuf> {
+/// The first link on the way to a path that another user may have put there, or a pipe in its place: see [`is_planted`].
+pub fn planted(path: &Path) -> Option<PathBuf> {
     let mut first = None;
+    // To open a pipe waits for who reads it, and what is written goes to them.
+    if is_device(path) && is_planted(folder_of(path), path) {
+        return Some(path.to_path_buf());
+    }
     resolved_within(path, LINKS, &mut |folder, link| {
         if first.is_none() && is_planted(folder, link) {
             first = Some(link.to_path_buf());
@@ -152,7 +156,7 @@ pub fn planted_link(path: &Path) -> Option<PathBuf> {
     first
 }
 
-/// Whether a link lies in a folder that several users write to, such as `/tmp`, and belongs to none of these: the user who runs this, root, the owner of
+/// Whether this lies in a folder that several users write to, such as `/tmp`, and belongs to none of these: the user who runs this, root, the owner of
 /// the folder. The rule is that of Linux (`fs.protected_symlinks`), which other systems lack and an administrator can turn off.
 #[cfg(all(unix, any(feature = "cli", feature = "gpu")))]
 fn is_planted(folder: &Path, link: &Path) -> bool {

@@ -14,7 +14,7 @@ use std::thread;
 use std::time::Duration;
 
 use super::artifact::check_path;
-use super::folder::{is_plain_file, is_temporary, planted_link, temporaries_beside};
+use super::folder::{is_plain_file, is_temporary, planted, temporaries_beside};
 
 /// The lock's file in the output folder.
 pub const FILE: &str = ".fresnel-gen.lock";
@@ -57,7 +57,7 @@ impl Lock {
             created: Vec::new(),
         };
         // The write that follows is refused.
-        if planted_link(out_dir).is_some() {
+        if planted(out_dir).is_some() {
             return lock;
         }
         for _ in 0..TAKING_TURNS {

@@ -67,8 +67,9 @@ pub fn reached(
         start,
         ..Reached::default()
     };
-    let mut open = settings(tokens, parts, macros);
-    open.push(start);
+    let settings = parts.iter().enumerate();
+    let settings = settings.filter(|(_, part)| matches!(part.kind, PartKind::Setting));
+    let mut open: Vec<usize> = settings.map(|(place, _)| place).chain([start]).collect();
     while let Some(place) = open.pop() {
         if !reached.parts.insert(place) {
             continue;
@@ -100,23 +101,6 @@ pub fn reached(
     reached
 }
 
-/// The parts that all others may need. What a macro names by `##` nobody knows here.
-fn settings(tokens: &[Token], parts: &[Part], macros: &MacroBodies) -> Vec<usize> {
-    let pastes = |part: &Part| {
-        let bodies = macros.get(tokens[part.start].text);
-        let mut words = bodies.into_iter().flatten().flatten();
-        words.any(|word| word.text == "#")
-    };
-    let is_setting = |part: &Part| match part.kind {
-        PartKind::Setting => true,
-        PartKind::MacroCall(_) => pastes(part),
-        _ => false,
-    };
-    let all = parts.iter().enumerate();
-    let all = all.filter(|(_, part)| is_setting(part));
-    all.map(|(place, _)| place).collect()
-}
-
 /// Where words stand.
 #[derive(Clone, Copy)]
 struct Context<'a> {
@@ -137,7 +121,7 @@ fn visit(
 ) {
     for (at, token) in words.iter().enumerate() {
         let is_member = at > 0 && words[at - 1].text == ".";
-        let is_own = |own: &Own| own.name == token.text && (own.from..own.to).contains(&at);
+        let is_own = |own: &Own| own.name == token.text && own.holds(at);
         if !token.is_word() || is_member || context.own.iter().any(is_own) {
             continue;
         }
@@ -198,6 +182,8 @@ fn use_of(words: &[&Token], at: usize, context: &Context) -> Use {
 /// A name that means something else than outside, and the words between which it does.
 struct Own<'a> {
     name: &'a str,
+    /// Its declaration.
+    at: usize,
     from: usize,
     to: usize,
 }
@@ -206,9 +192,14 @@ impl<'a> Own<'a> {
     fn everywhere(name: &'a str) -> Own<'a> {
         Own {
             name,
+            at: 0,
             from: 0,
             to: usize::MAX,
         }
+    }
+
+    fn holds(&self, place: usize) -> bool {
+        place == self.at || (self.from..self.to).contains(&place)
     }
 
     /// The name at this place, from its declaration to the end of the block.
@@ -221,6 +212,7 @@ impl<'a> Own<'a> {
         };
         Own {
             name: words[at].text,
+            at,
             from,
             to: scope_end(words, at),
         }

@@ -81,8 +81,17 @@ impl LightFile {
             Some(primaries) => into_space(primaries, space)?,
             None => None,
         };
+        let picture = picture.into_rgb32f();
+        let is_light = |sample: &f32| sample.is_finite() && *sample >= 0.0;
+        let mut pixels = picture.enumerate_pixels();
+        if let Some((x, y, pixel)) = pixels.find(|(.., pixel)| !pixel.0.iter().all(is_light)) {
+            let [red, green, blue] = pixel.0;
+            return Err(format!(
+                "its pixel {x}, {y} is ({red}, {green}, {blue}); light must be finite and not negative"
+            ));
+        }
         Ok(LightFile {
-            picture: picture.into_rgb32f(),
+            picture,
             numbers,
             into_space,
         })

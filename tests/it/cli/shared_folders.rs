@@ -67,9 +67,26 @@ fn links_of_another_user_in_a_shared_folder_are_not_followed() {
     }
     place.refused(
         "--method schlick --target wgsl -o shared/file",
-        &["shared/file is a link of another user in a folder that users share; nothing was written"],
+        &["shared/file is a link or a pipe of another user in a folder that users share; nothing was written"],
     );
     assert_eq!(place.read("mine.wgsl"), "mine");
+}
+
+/// A pipe of another user: to open it would wait for whoever reads it, and write to them.
+#[test]
+fn pipes_of_another_user_in_a_shared_folder_are_not_opened() {
+    let Some(place) = shared(STICKY) else { return };
+    let pipe = place.path("shared/pipe");
+    let made = std::process::Command::new("mkfifo").arg(&pipe).status();
+    assert!(made.unwrap().success());
+    lchown(&pipe, Some(OTHER), None).unwrap();
+    for line in [
+        "--method schlick --target wgsl -o shared/pipe",
+        "--method schlick --target wgsl -o a.wgsl --depfile shared/pipe",
+        "fit --material gold --json shared/pipe",
+    ] {
+        place.refused(line, &["shared/pipe", "a link or a pipe of another user"]);
+    }
 }
 
 /// Links of the folder's owner, of root and of the user are followed, and so are all in a folder that is nobody else's.

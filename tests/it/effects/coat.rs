@@ -137,7 +137,6 @@ fn cosines_under_a_coat_are_745_thousandths_and_more() {
 
 /// F0 and F82 in air and F0 in a medium, as spectra give them, within [0, 1].
 struct Measured {
-    name: &'static str,
     f0: [f64; 3],
     f82: [f64; 3],
     under: [f64; 3],
@@ -155,7 +154,6 @@ fn measured(subject: &'static MaterialInMedium, index: f64) -> Measured {
     let medium = index.expect("a number").expect("within limits").material();
     let air = surface(None);
     Measured {
-        name: &subject.name,
         f0: within(air.unpolarised(1.0)),
         f82: within(air.unpolarised(optics::COS_82)),
         under: within(surface(Some(&medium)).unpolarised(1.0)),

@@ -83,34 +83,50 @@ fn radiance_divides_by_exposure_and_knows_its_primaries() {
     refused(turned.as_bytes(), "rientation");
 }
 
+/// Two pixels of OpenEXR.
+fn exr(light: [f32; 3], primaries: Option<[[f64; 2]; 4]>) -> Vec<u8> {
+    let [red, green, blue] = light;
+    let channels = SpecificChannels::rgb(move |_: Vec2<usize>| (red, green, blue));
+    let layer = Layer::new(
+        (2, 1),
+        LayerAttributes::default(),
+        Encoding::UNCOMPRESSED,
+        channels,
+    );
+    let mut image = Image::from_layer(layer);
+    image.attributes.chromaticities = primaries.map(|all| {
+        let [red, green, blue, white] = all.map(|[x, y]| Vec2(x as f32, y as f32));
+        Chromaticities {
+            red,
+            green,
+            blue,
+            white,
+        }
+    });
+    let mut bytes = std::io::Cursor::new(Vec::new());
+    image
+        .write()
+        .non_parallel()
+        .to_buffered(&mut bytes)
+        .unwrap();
+    bytes.into_inner()
+}
+
+/// A plan would take it for darkness, in which no error shows.
+#[test]
+fn what_is_no_light_is_refused_with_its_pixel() {
+    for (green, says) in [
+        (f32::NAN, "its pixel 0, 0 is (200, NaN, 40)"),
+        (f32::INFINITY, "(200, inf, 40)"),
+        (-1.0, "(200, -1, 40); light must be finite and not negative"),
+    ] {
+        refused(&exr([200.0, green, 40.0], None), says);
+    }
+}
+
 #[test]
 fn exr_knows_its_primaries() {
-    let of = |primaries: Option<[[f64; 2]; 4]>| {
-        let channels = SpecificChannels::rgb(|_: Vec2<usize>| (200f32, 40f32, 40f32));
-        let layer = Layer::new(
-            (2, 1),
-            LayerAttributes::default(),
-            Encoding::UNCOMPRESSED,
-            channels,
-        );
-        let mut image = Image::from_layer(layer);
-        image.attributes.chromaticities = primaries.map(|all| {
-            let [red, green, blue, white] = all.map(|[x, y]| Vec2(x as f32, y as f32));
-            Chromaticities {
-                red,
-                green,
-                blue,
-                white,
-            }
-        });
-        let mut bytes = std::io::Cursor::new(Vec::new());
-        image
-            .write()
-            .non_parallel()
-            .to_buffered(&mut bytes)
-            .unwrap();
-        bytes.into_inner()
-    };
+    let of = |primaries| exr([200.0, 40.0, 40.0], primaries);
     check(&of(None), Space::Rec2020, [200.0, 40.0, 40.0]);
     check(&of(Some(REC2020)), Space::Rec2020, [200.0, 40.0, 40.0]);
     check(&of(Some(REC2020)), Space::Srgb, IN_SRGB);
