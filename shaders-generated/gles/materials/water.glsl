@@ -48,7 +48,6 @@ highp vec3 fresnel_water_fitted_dielectric(highp float cos_theta) {
 
 // fresnel_water_schlick_rescaled: Schlick's approximation rescaled to n and k
 // Model error: at most 0.05960 (at 83.80 degrees), 8.67 % in the mean over angles.
-// Code error: not measured for this material.
 // Cost: 14 scalar operations
 // Source: Lazanyi, Szirmay-Kalos, 2005, https://hdl.handle.net/11025/11214
 highp vec3 fresnel_water_schlick_rescaled(highp float cos_theta) {
@@ -61,7 +60,6 @@ highp vec3 fresnel_water_schlick_rescaled(highp float cos_theta) {
 
 // fresnel_water_schlick_corrected: the rescaled Schlick with a term that restores the minimum of metals
 // Model error: at most 0.02562 (at 87.21 degrees), 7.03 % in the mean over angles.
-// Code error: not measured for this material.
 // Cost: 31 scalar operations, among them 4 exponentials or logarithms
 // Source: a = 2 n and the matched exponent are the thesis's; else Lazanyi, Szirmay-Kalos, 2005,
 //     https://hdl.handle.net/11025/11214
