@@ -42,7 +42,7 @@ pub static METHOD: Method = Method {
             max_abs: 0.0452,
             at_degrees: 87.5,
         }],
-        code_ulp: 17.0,
+        code_ulp: 16.0,
         code_over: Over::Metals,
         colours: Colours::within(8.5e-6),
         by_class: &[
