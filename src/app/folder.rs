@@ -141,7 +141,7 @@ pub fn resolved(path: &Path) -> PathBuf {
     fs::canonicalize(&whole).unwrap_or(whole)
 }
 
-/// The first link on the way to a path that another user may have put there, or a pipe in its place: in a folder that users share, of none who must be trusted there.
+/// What another user may have put on the way to a path: the first such link, or a pipe in its place.
 pub fn planted(path: &Path) -> Option<PathBuf> {
     let mut first = None;
     // To open a pipe waits for who reads it, and what is written goes to them.

@@ -126,7 +126,7 @@ fn refuse_others(plan: &TreePlan, overwrite: bool) -> Result<(), Error> {
     }
 }
 
-/// Refuses a path that leads over a link which another user may have put there.
+/// Refuses a path that leads over a link, or into a pipe, which another user may have put there.
 fn refuse_planted(path: &Path) -> Result<(), Error> {
     match folder::planted(path) {
         Some(link) => Err(Error::Planted { link }),

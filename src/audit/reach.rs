@@ -160,13 +160,7 @@ fn use_of(words: &[&Token], at: usize, context: &Context) -> Use {
     let sign = |at: usize| words.get(at).map_or("", |token| token.text);
     let is_assigned = sign(next) == "=" && sign(next + 1) != "=" && path.is_empty();
     // A statement of the body itself, behind no condition.
-    let depth = words[..at]
-        .iter()
-        .fold(0i32, |depth, word| match word.text {
-            "{" | "(" => depth + 1,
-            "}" | ")" => depth - 1,
-            _ => depth,
-        });
+    let depth: i32 = words[..at].iter().map(|word| step(word)).sum();
     let begins = at > 0 && ["{", ";", "}"].contains(&words[at - 1].text);
     Use {
         name: words[at].text.to_owned(),

@@ -86,7 +86,9 @@ fn a_thousandth_takes_as_many_texels_as_the_page_says() {
         ),
         stated(page, "material more than ", " of them. `--axis cos`", most),
     ]);
-    // Half a step of 8 bits, .00196, is more than .001, so that every table has 8 bytes a texel, or more.
+    // Half a step of 8 bits is more than .001, so that every table has 8 bytes a texel, or more.
+    let half_step = 0.5 / f64::from(u8::MAX);
+    assert!(half_step > 1e-3);
     for name in materials::names()
         .into_iter()
         .filter(|name| *name != "zinc_querry")

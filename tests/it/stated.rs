@@ -184,7 +184,12 @@ fn what_is_gained_over_schlick_is_what_the_pages_say() {
             " times smaller with `fitted`",
             whole(own.medians),
         ),
-        stated(costs, "which costs ", " times less", format!("{share:.1}")),
+        stated(
+            costs,
+            "Schlick's costs ",
+            " times less",
+            format!("{share:.1}"),
+        ),
         stated(
             costs,
             "without a clamp, and err ",
