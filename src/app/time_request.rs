@@ -23,8 +23,8 @@ pub struct TimeRequest {
     pub materials: Materials,
     /// What functions compute in.
     pub precisions: Vec<Precision>,
-    /// Evaluations in a draw.
-    pub evaluations: usize,
+    /// Operations in a long chain.
+    pub operations: usize,
 }
 
 impl TimeRequest {
@@ -52,7 +52,7 @@ impl TimeRequest {
             &self.precisions,
             &library,
             &subjects.materials(),
-            self.evaluations,
+            self.operations,
         )?;
         if timed.functions.is_empty() {
             return Err(RequestFault::NothingToDo {

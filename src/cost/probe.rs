@@ -5,7 +5,7 @@
 //! arguments is shared. The chain's own price is that of the [empty](Probe::empty) function in it.
 //!
 //! Interface: location 0 holds weights and the first cosine; group 0 has the arguments at binding 0 (one block for each
-//! evaluation, [`BLOCKS`] in all), a texture at 3 and its sampler at 4, as in our SPIR-V modules.
+//! evaluation, [`BLOCKS`] or more in all), a texture at 3 and its sampler at 4, as in our SPIR-V modules.
 
 use crate::digest::sha256;
 use crate::emit::bare;
@@ -17,7 +17,7 @@ use super::chain::{Chain, ChainLanguage, MEASURED, uniforms};
 use super::family::Dialect;
 use super::text_shape::without_numbers;
 
-/// Most evaluations in one shader.
+/// Blocks of arguments in a shader of no more evaluations; a longer chain has one for each.
 pub const BLOCKS: usize = 8;
 /// The entry point of the fragment shader.
 pub const ENTRY: &str = "fg_main";
@@ -142,7 +142,8 @@ impl Probe {
             // Elements of an array in uniforms lie 16 bytes apart, or a multiple of it.
             member: "    @align(16) {name}: {type},\n",
             block: &format!(
-                "struct FgArguments {{\n{{members}}}}\n@group(0) @binding(0) var<uniform> fg_arguments: array<FgArguments, {BLOCKS}>;\n"
+                "struct FgArguments {{\n{{members}}}}\n@group(0) @binding(0) var<uniform> fg_arguments: array<FgArguments, {}>;\n",
+                evaluations.max(BLOCKS)
             ),
             argument: "fg_arguments[{i}].{name}",
             texture: "@group(0) @binding(3) var fg_table: texture_2d<f32>;\n@group(0) @binding(4) var fg_sampler: sampler;\n",

@@ -5,10 +5,12 @@ use serde::Serialize;
 use crate::num::statistics::{interval, median, quantile, resamples, spread};
 
 use super::measure::{Clock, MeasuredDrawings};
-use super::plan::DrawingPlan;
+use super::plan::{DrawingPlan, DrawnChain};
 
 /// Interference only lengthens a reading, so we take the 10th percentile: the very quickest reading is a matter of luck.
 const QUICK: f64 = 0.1;
+/// How many times as long as an empty draw a chain must take at least, where a device does both at once.
+const CLEAR: f64 = 1.2;
 /// Fewest rounds from which others are drawn anew: with 29 the chance is 95 % that one of them is among the quickest tenth,
 /// 1 - 0.9^29.
 const FEWEST: usize = 29;
@@ -18,9 +20,9 @@ const FEWEST: usize = 29;
 pub struct OverdrawFigure {
     /// Nanoseconds a pixel of a draw that evaluates it once: the empty draw, and one evaluation.
     pub ns_per_pixel: f64,
-    /// Nanoseconds a pixel of one evaluation.
+    /// Nanoseconds a pixel of one evaluation, without what leads to the next one.
     pub net_ns_per_pixel: f64,
-    /// Nanoseconds a pixel of the empty draw that belongs to it.
+    /// Nanoseconds a pixel of a draw that evaluates nothing.
     pub empty_ns_per_pixel: f64,
     /// As `ns_per_pixel`, by the device's timestamps; NaN where it has none.
     pub gpu_ns_per_pixel: f64,
@@ -32,8 +34,10 @@ pub struct OverdrawFigure {
     pub spread: f64,
     /// 95 % confidence interval of the share, where there are rounds enough.
     pub interval: Option<(f64, f64)>,
-    /// Draws in a reading.
+    /// Draws of its long chain in a reading.
     pub draws: u32,
+    /// Evaluations in that chain.
+    pub evaluations: usize,
 }
 
 /// How much the time of one shader varies from reading to reading.
@@ -64,6 +68,8 @@ struct Costs {
     net: f64,
     reference: f64,
     empty: f64,
+    /// How many times as long as the empty draw the shorter of its chains takes.
+    room: f64,
 }
 
 impl Costs {
@@ -99,7 +105,7 @@ impl MeasuredDrawings {
                 .collect(),
             anew: anew.iter().map(|r| self.times(self.clock, r)).collect(),
         };
-        let functions = 0..plan.places().len();
+        let functions = 0..plan.chains().len();
         functions
             .map(|function| self.figure(plan, function, pixels, &times))
             .collect()
@@ -112,19 +118,16 @@ impl MeasuredDrawings {
         pixels: u64,
         times: &Times,
     ) -> Result<OverdrawFigure, String> {
-        let (own, empty) = plan.places()[function];
-        for needed in [
-            DrawingPlan::HEAVY,
-            own,
-            empty,
-            DrawingPlan::REFERENCE,
-            DrawingPlan::EMPTY,
-        ] {
-            if let Some(why) = &self.failed[needed] {
+        let [own, empty] = plan.chains()[function];
+        let held = [own, empty, plan.reference, plan.empty];
+        let chains = held.map(|chain| [chain.short, chain.long()]);
+        let fixed = [DrawingPlan::HEAVY, DrawingPlan::BARE];
+        for needed in fixed.iter().chain(chains.iter().flatten()) {
+            if let Some(why) = &self.failed[*needed] {
                 return Err(why.clone());
             }
         }
-        let costs = |times: &Vec<f64>| self.costs(plan, times, (own, empty), pixels);
+        let costs = |times: &Vec<f64>| self.costs(plan, times, [own, empty], pixels);
         let [gpu, wall] = [&times.gpu, &times.wall].map(costs);
         let anew: Vec<Costs> = times.anew.iter().map(costs).collect();
         let middle = |one: fn(&Costs) -> f64| median(&anew.iter().map(one).collect::<Vec<f64>>());
@@ -134,6 +137,10 @@ impl MeasuredDrawings {
         let (net, empty, share) = (middle(|c| c.net), middle(|c| c.empty), middle(Costs::share));
         if !share.is_finite() || middle(|c| c.reference) <= 0.0 {
             let why = "dielectric_exact is not told apart from the empty shader: noise; take more --rounds or a larger --size";
+            return Err(why.to_owned());
+        }
+        if middle(|c| c.room) < CLEAR {
+            let why = "the cost of the draw itself hides the function's: take more --operations";
             return Err(why.to_owned());
         }
         Ok(OverdrawFigure {
@@ -149,14 +156,15 @@ impl MeasuredDrawings {
                 f64::NAN
             },
             interval: (self.rounds.len() >= FEWEST).then(|| interval(&shares(&times.anew))),
-            draws: self.draws[own],
+            draws: self.draws[own.long()],
+            evaluations: 2 * own.evaluations,
         })
     }
 
     /// The noise of the heavy shader alone, and of the empty one over it.
     pub fn noise(&self) -> [Noise; 2] {
         let rounds: Vec<usize> = (0..self.rounds.len()).collect();
-        [DrawingPlan::HEAVY, DrawingPlan::EMPTY].map(|drawing| {
+        [DrawingPlan::HEAVY, DrawingPlan::BARE].map(|drawing| {
             let readings = self.readings(self.clock, drawing, &rounds);
             Noise::from_readings(&readings)
         })
@@ -180,18 +188,21 @@ impl MeasuredDrawings {
         &self,
         plan: &DrawingPlan,
         times: &[f64],
-        (own, empty): (usize, usize),
+        [own, empty]: [DrawnChain; 2],
         pixels: u64,
     ) -> Costs {
         let draw = |drawing: usize| {
             let draws = f64::from(self.draws[drawing]) * pixels as f64;
             (times[drawing] - times[DrawingPlan::HEAVY]) / draws
         };
-        let net = |own: usize, empty: usize| (draw(own) - draw(empty)) / plan.evaluations as f64;
+        let each = |chain: DrawnChain| {
+            (draw(chain.long()) - draw(chain.short)) / chain.evaluations as f64
+        };
         Costs {
-            net: net(own, empty),
-            reference: net(DrawingPlan::REFERENCE, DrawingPlan::EMPTY),
-            empty: draw(empty),
+            net: each(own) - each(empty),
+            reference: each(plan.reference) - each(plan.empty),
+            empty: draw(DrawingPlan::BARE),
+            room: draw(own.short).min(draw(empty.short)) / draw(DrawingPlan::BARE),
         }
     }
 }

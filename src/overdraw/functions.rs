@@ -41,11 +41,11 @@ impl TimedFunctions {
         precisions: &[Precision],
         library: &LibraryMaterials,
         materials: &[MaterialInMedium],
-        evaluations: usize,
+        operations: usize,
     ) -> Result<TimedFunctions, Error> {
         let mut timed = TimedFunctions {
             functions: Vec::new(),
-            plan: library.plan(&[], evaluations)?,
+            plan: library.plan(&[], operations)?,
             left_out: Vec::new(),
         };
         for precision in precisions.iter().copied() {
@@ -54,7 +54,7 @@ impl TimedFunctions {
                 timed.add_material(methods, precision, material)?;
             }
         }
-        timed.plan = library.plan(&timed.functions, evaluations)?;
+        timed.plan = library.plan(&timed.functions, operations)?;
         Ok(timed)
     }
 
@@ -125,13 +125,13 @@ impl LibraryMaterials {
         )
     }
 
-    fn plan(&self, functions: &[TimedFunction], evaluations: usize) -> Result<DrawingPlan, Error> {
+    fn plan(&self, functions: &[TimedFunction], operations: usize) -> Result<DrawingPlan, Error> {
         let [heavy, reference] = [HEAVY, REFERENCE].map(|name| self.single(name));
         Ok(DrawingPlan::new(
             &heavy?,
             &reference?,
             functions,
-            evaluations,
+            operations,
         ))
     }
 

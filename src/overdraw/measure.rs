@@ -19,7 +19,7 @@ const ABOVE_NOISE: f64 = 20.0;
 const TOO_LONG: f64 = 16e6;
 /// Most draws in a reading.
 const MOST_DRAWS: u32 = 4096;
-/// Shaders between two readings of the reference shaders.
+/// Functions between two readings of the reference shaders.
 const STRIDE: usize = 6;
 
 /// Nanoseconds that a drawing took.
@@ -276,19 +276,20 @@ impl DrawingSession<'_> {
         }
     }
 
-    /// A round: every drawing once. The drawing that all are compared with comes again after every few of them, so that a machine that
+    /// A round: every drawing once. Those that all are compared with come again after every few of them, so that a machine that
     /// is busy for a while slows both.
     fn round(&mut self, round: usize, told: &mut dyn FnMut(usize)) -> Result<Round, Stop> {
         let (count, fixed) = (self.plan.drawings.len(), self.plan.fixed());
         let mut all: Round = vec![Vec::new(); count];
-        let functions = count - fixed.end;
+        // Each function has two drawings, one after the other.
+        let functions = (count - fixed.end) / 2;
         for (done, place) in order(functions, round).enumerate() {
             if done % STRIDE == 0 {
                 self.read_into(&mut all, fixed.clone())?;
             }
-            let drawing = fixed.end + place;
-            self.read_into(&mut all, drawing..drawing + 1)?;
-            told(done);
+            let short = fixed.end + 2 * place;
+            self.read_into(&mut all, short..short + 2)?;
+            told(2 * done);
         }
         if functions == 0 {
             self.read_into(&mut all, fixed)?;

@@ -2,11 +2,13 @@
 //! over it N times; the difference divided by N is the cost of a draw. The heavy shader keeps the device busy, so that both
 //! times contain the fixed cost of a frame.
 //!
-//! The measured shader is blended, so that the device cannot skip a draw. On a large device the cost of the draw itself,
-//! mostly blending, would hide the cost of a cheap function. So each draw evaluates the function several times, each from the
-//! result before ([`Probe`](crate::cost::Probe)), and the cost of the empty shader, which evaluates nothing, is subtracted:
+//! The measured shader is blended, so that the device cannot skip a draw. A graphics card rasterises and blends while it computes,
+//! and a draw takes as long as the slower of both: a few evaluations of a cheap function take no time at all there. So a cost is a slope. Each draw
+//! evaluates the function many times, each from the result before ([`Probe`](crate::cost::Probe)), in a chain that
+//! takes longer than anything else of the draw, and in one twice as long; and the same of the empty shader, which evaluates nothing, is subtracted:
 //!
-//! `net = ((T(heavy + N draws) - T(heavy)) / N - the same of the empty shader) / evaluations`.
+//! `draw = (T(heavy + N draws) - T(heavy)) / N`,
+//! `net = (draw(2 n evaluations) - draw(n evaluations)) / n - the same of the empty shader`.
 //!
 //! Every round draws all shaders once, in an order that changes. The reference shaders are drawn again after every few of
 //! them, so that other load on the machine affects both. Interference only lengthens a reading, so a shader's time is the
@@ -43,7 +45,7 @@ pub use error::Error;
 pub use figure::{Noise, OverdrawFigure};
 pub use functions::{LibraryMaterials, TimedFunctions};
 pub use measure::{Clock, Draw, DrawingEffort, MeasuredDrawings, Reading, Round, Stop, measure};
-pub use plan::{Drawing, DrawingPlan, TimedFunction};
+pub use plan::{Drawing, DrawingPlan, DrawnChain, TimedFunction};
 #[cfg(feature = "gpu")]
 pub use row::{TimeRow, time_rows};
 #[cfg(all(feature = "cli", feature = "gpu"))]

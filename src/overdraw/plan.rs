@@ -38,28 +38,50 @@ pub struct Drawing {
     pub blends: bool,
 }
 
+/// A chain of evaluations in a draw, and one of half as many: what the longer one takes more is the evaluations' alone, whatever the
+/// draw itself costs.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct DrawnChain {
+    /// The place of the shorter one among the drawings; the longer one is the next.
+    pub short: usize,
+    /// Evaluations in the shorter one; twice as many are in the longer one.
+    pub evaluations: usize,
+}
+
 /// Everything that is drawn: what functions are held against first, then the functions.
 #[derive(Clone, Debug)]
 pub struct DrawingPlan {
     /// All of it.
     pub drawings: Vec<Drawing>,
-    /// How often a draw evaluates its function.
-    pub evaluations: usize,
+    /// Operations in a long chain, about.
+    pub operations: usize,
+    /// The chain of the function whose cost is 1.
+    pub reference: DrawnChain,
+    /// That of the empty shader of three channels in single precision.
+    pub empty: DrawnChain,
     /// How many drawings stand before the functions.
     fixed: usize,
-    /// The place of each function among the drawings, and of the empty shader that belongs to it.
-    places: Vec<(usize, usize)>,
+    /// Of each function its chain, and the empty one that belongs to it.
+    chains: Vec<[DrawnChain; 2]>,
 }
+
+/// Most evaluations in a long chain: with an argument for each a block of uniforms is no longer than every device takes.
+const MOST_EVALUATIONS: usize = 1000;
 
 impl TimedFunction {
     fn drawing(&self, evaluations: usize) -> Drawing {
         let probe = Probe::new(&self.emitted.function, self.emitted.precision);
         Drawing {
             name: self.emitted.name.clone(),
-            uniforms: uniforms(&probe, &self.values, self.emitted.precision),
+            uniforms: uniforms(&probe, &self.values, self.emitted.precision, evaluations),
             table: self.table.clone(),
             ..drawing(&probe, self.emitted.precision, evaluations)
         }
+    }
+
+    /// Evaluations in the shorter of its chains.
+    fn evaluations(&self, operations: usize) -> usize {
+        half_chain(operations, self.emitted.function.work(), self.is_scalar())
     }
 
     fn is_scalar(&self) -> bool {
@@ -74,52 +96,75 @@ impl Drawing {
     pub const FRAGMENT: &str = ENTRY;
 }
 
+impl DrawnChain {
+    /// The place of the longer one among the drawings.
+    pub fn long(self) -> usize {
+        self.short + 1
+    }
+}
+
 impl DrawingPlan {
     /// The heavy shader's place among the drawings.
     pub const HEAVY: usize = 0;
-    /// That of the function whose cost is 1.
-    pub const REFERENCE: usize = 1;
-    /// That of the empty shader of three channels in single precision.
-    pub const EMPTY: usize = 2;
+    /// That of a draw without a function: the empty one, once.
+    pub const BARE: usize = 1;
 
-    /// What is drawn for these functions: `reference` is what shares are of, `heavy` lies below all.
+    /// What is drawn for these functions in chains of so many operations: `reference` is what shares are of, `heavy` lies below all.
     pub fn new(
         heavy: &TimedFunction,
         reference: &TimedFunction,
         timed: &[TimedFunction],
-        evaluations: usize,
+        operations: usize,
     ) -> DrawingPlan {
         let heavy = Drawing {
             blends: false,
             ..heavy.drawing(1)
         };
-        let mut drawings = vec![heavy, reference.drawing(evaluations)];
+        let empty = |result: Ty, precision: Precision, evaluations: usize| {
+            let probe = Probe::empty(Ty::Scalar, result, precision);
+            drawing(&probe, precision, evaluations)
+        };
+        let mut drawings = vec![heavy, empty(Ty::Rgb, Precision::F32, 1)];
+        let mut add = |evaluations: usize, of: &dyn Fn(usize) -> Drawing| {
+            drawings.extend([of(evaluations), of(2 * evaluations)]);
+            DrawnChain {
+                short: drawings.len() - 2,
+                evaluations,
+            }
+        };
+        let own = |timed: &TimedFunction| timed.evaluations(operations);
+        let reference_chain = add(own(reference), &|n| reference.drawing(n));
         let has_half = timed.iter().any(|timed| timed.emitted.precision.is_half());
         let precisions = if has_half { 2 } else { 1 };
+        let mut empties = Vec::new();
         for precision in Precision::ALL.into_iter().take(precisions) {
             for result in [Ty::Rgb, Ty::Scalar] {
-                let probe = Probe::empty(Ty::Scalar, result, precision);
-                drawings.push(drawing(&probe, precision, evaluations));
+                let evaluations = half_chain(operations, 0, result == Ty::Scalar);
+                empties.push(add(evaluations, &|n| empty(result, precision, n)));
             }
         }
-        let fixed = drawings.len();
-        let mut places = Vec::new();
-        for timed in timed {
+        let fixed = empties[empties.len() - 1].long() + 1;
+        let mut chain = |timed: &TimedFunction| {
             let half = usize::from(timed.emitted.precision.is_half());
-            let empty = DrawingPlan::EMPTY + 2 * half + usize::from(timed.is_scalar());
-            let own = timed.drawing(evaluations);
-            if own == drawings[DrawingPlan::REFERENCE] {
-                places.push((DrawingPlan::REFERENCE, empty));
+            let empty = empties[2 * half + usize::from(timed.is_scalar())];
+            let own = if timed.emitted.function.work() == 0 {
+                // What computes nothing costs 0: a compiler leaves out a chain in which nothing depends on the cosine.
+                empty
+            } else if timed.drawing(1) == reference.drawing(1) {
+                reference_chain
             } else {
-                places.push((drawings.len(), empty));
-                drawings.push(own);
-            }
-        }
+                add(own(timed), &|n| timed.drawing(n))
+            };
+            [own, empty]
+        };
+        let chains = timed.iter().map(&mut chain).collect();
         DrawingPlan {
             drawings,
-            evaluations,
+            operations,
+            reference: reference_chain,
+            empty: empties[0],
             fixed,
-            places,
+            chains,
         }
     }
 
@@ -128,10 +173,17 @@ impl DrawingPlan {
         0..self.fixed
     }
 
-    /// The places of each function and of its empty shader.
-    pub fn places(&self) -> &[(usize, usize)] {
-        &self.places
+    /// Of each function its chain, and the empty one that belongs to it.
+    pub fn chains(&self) -> &[[DrawnChain; 2]] {
+        &self.chains
     }
+}
+
+/// Evaluations in the shorter chain of a function of so much work: half of the operations, with those that lead from one evaluation
+/// to the next.
+fn half_chain(operations: usize, work: usize, is_scalar: bool) -> usize {
+    let link = if is_scalar { 1 } else { 2 };
+    (operations / 2 / (work + link)).clamp(1, MOST_EVALUATIONS / 2)
 }
 
 fn drawing(probe: &Probe, precision: Precision, evaluations: usize) -> Drawing {
@@ -146,7 +198,12 @@ fn drawing(probe: &Probe, precision: Precision, evaluations: usize) -> Drawing {
 }
 
 /// A block of arguments for each evaluation: each argument begins at a multiple of 16 bytes and is no longer.
-fn uniforms(probe: &Probe, values: &Values, precision: Precision) -> Vec<u8> {
+fn uniforms(
+    probe: &Probe,
+    values: &Values,
+    precision: Precision,
+    evaluations: usize,
+) -> Vec<u8> {
     let member = |param: &Param| {
         let value = values.get(&param.name).copied().unwrap_or_default();
         let channels = if param.ty == Ty::Rgb { 3 } else { 1 };
@@ -159,5 +216,5 @@ fn uniforms(probe: &Probe, values: &Values, precision: Precision) -> Vec<u8> {
         bytes
     };
     let block: Vec<u8> = probe.uniforms().flat_map(member).collect();
-    block.repeat(BLOCKS)
+    block.repeat(evaluations.max(BLOCKS))
 }

@@ -32,8 +32,6 @@ pub struct TimeRow {
     pub is_lacking: bool,
     /// What the time was taken by.
     pub clock: Clock,
-    /// Evaluations in a draw.
-    pub evaluations: usize,
     /// Rounds in which it was drawn.
     pub rounds: usize,
 }
@@ -63,7 +61,6 @@ pub fn time_rows(
             },
             is_lacking,
             clock: measured.clock,
-            evaluations: timed.plan.evaluations,
             rounds: measured.rounds.len(),
         }
     };
@@ -89,7 +86,7 @@ struct TimeRowJson {
     wall_ns_per_pixel: Option<f64>,
     clock: Clock,
     draws: Option<u32>,
-    evaluations: usize,
+    evaluations: Option<usize>,
     rounds: usize,
     reason: Option<String>,
 }
@@ -112,7 +109,7 @@ impl From<TimeRow> for TimeRowJson {
             wall_ns_per_pixel: number(|f| f.wall_ns_per_pixel),
             clock: row.clock,
             draws: figure.map(|f| f.draws),
-            evaluations: row.evaluations,
+            evaluations: figure.map(|f| f.evaluations),
             rounds: row.rounds,
             reason: row.reason(),
             method: row.method,

@@ -22,7 +22,7 @@ pub struct TimeReport<'a> {
     left_out: &'a [String],
     rows: &'a [TimeRow],
     #[serde(skip)]
-    evaluations: usize,
+    operations: usize,
     #[serde(skip)]
     rounds: usize,
 }
@@ -55,7 +55,7 @@ impl<'a> TimeReport<'a> {
             noise: NoiseOfShaders { heavy, empty },
             left_out: &timed.left_out,
             rows,
-            evaluations: timed.plan.evaluations,
+            operations: timed.plan.operations,
             rounds: measured.rounds.len(),
         }
     }
@@ -80,10 +80,11 @@ impl<'a> TimeReport<'a> {
             Clock::Wall => "wall time",
         };
         format!(
-            "{}\n{} pixels, {} evaluations a draw, {} rounds, by {clock}\nnoise of this machine:\n  {}\n  {}\n\n",
+            "{}\n{} pixels, chains of about {} and {} operations, {} rounds, by {clock}\nnoise of this machine:\n  {}\n  {}\n\n",
             self.device,
             self.pixels,
-            self.evaluations,
+            self.operations / 2,
+            self.operations,
             self.rounds,
             noise_text("the heavy shader alone", &self.noise.heavy),
             noise_text("the empty shader over it", &self.noise.empty),

@@ -6,14 +6,22 @@ use fresnel_gen::emit::validate_wgsl;
 use fresnel_gen::methods::{ALL, find};
 use fresnel_gen::num::Precision;
 use fresnel_gen::overdraw::{
-    Clock, Draw, DrawingEffort, DrawingPlan, MeasuredDrawings, Reading, Stop, TimedFunctions,
+    Clock, Draw, DrawingEffort, DrawingPlan, DrawnChain, MeasuredDrawings, Reading, Stop, TimedFunctions,
     measure,
 };
 
 /// Pixels of the target that is made up here.
 const PIXELS: u64 = 1000;
 
+/// Nanoseconds of the draw itself, which a card does while it computes, and of what leads from one evaluation to the next.
+const DRAW: f64 = 1e3;
+const LINK: f64 = 10.0;
+
 fn timed_functions(methods: &[&str]) -> TimedFunctions {
+    in_chains(methods, 2000)
+}
+
+fn in_chains(methods: &[&str], operations: usize) -> TimedFunctions {
     let named = methods.iter().filter_map(|name| find(name));
     let request = TimeRequest {
         methods: match methods {
@@ -22,9 +30,14 @@ fn timed_functions(methods: &[&str]) -> TimedFunctions {
         },
         materials: Materials::Default,
         precisions: Precision::ALL.to_vec(),
-        evaluations: 4,
+        operations,
     };
     request.timed_functions().unwrap()
+}
+
+/// Nanoseconds of an evaluation that are made up: more for a function that comes later.
+fn cost(chain: DrawnChain) -> f64 {
+    10.0 * chain.short as f64
 }
 
 /// A device whose every draw takes what it should, but for a machine that is at times busy with something else.
@@ -38,15 +51,24 @@ struct MadeUp {
 }
 
 impl MadeUp {
-    /// An evaluation takes a hundred nanoseconds times the drawing's number, an empty draw a thousand.
+    /// A draw takes as long as its evaluations, but no less than a draw without any.
     fn new(plan: &DrawingPlan) -> MadeUp {
-        let cost = |i: usize| match i {
-            DrawingPlan::HEAVY => 1e6,
-            i if plan.drawings[i].name == "the empty shader" => 1e3,
-            i => 1e3 + 100.0 * i as f64 * plan.evaluations as f64,
-        };
+        let mut costs = vec![DRAW; plan.drawings.len()];
+        costs[DrawingPlan::HEAVY] = 1e6;
+        for [own, empty] in plan.chains() {
+            let chains = [(own, cost(*own)), (empty, 0.0)];
+            for (chain, evaluation) in chains.into_iter().chain([
+                (&plan.reference, cost(plan.reference)),
+                (&plan.empty, 0.0),
+            ]) {
+                for (place, times) in [(chain.short, 1.0), (chain.long(), 2.0)] {
+                    let computed = times * chain.evaluations as f64 * (LINK + evaluation);
+                    costs[place] = computed.max(DRAW);
+                }
+            }
+        }
         MadeUp {
-            costs: (0..plan.drawings.len()).map(cost).collect(),
+            costs,
             has_clock: true,
             hangs: None,
             calls: 0,
@@ -112,7 +134,7 @@ fn everything_that_is_drawn_is_valid() {
             drawing.name
         );
     }
-    assert_eq!(timed.plan.places().len(), timed.functions.len());
+    assert_eq!(timed.plan.chains().len(), timed.functions.len());
 }
 
 #[test]
@@ -123,15 +145,15 @@ fn shares_are_found_again_through_noise() {
         let measured = measured(plan, &mut MadeUp::new(plan), Some(clock)).unwrap();
         assert_eq!(measured.clock, clock);
         let figures = measured.figures(plan, PIXELS);
-        for ((own, _), figure) in plan.places().iter().zip(figures) {
+        for ([own, _], figure) in plan.chains().iter().zip(figures) {
             let figure = figure.unwrap();
-            let share = *own as f64 / DrawingPlan::REFERENCE as f64;
+            let share = cost(*own) / cost(plan.reference);
             assert!(
                 (figure.share / share - 1.0).abs() < 1e-9,
                 "{own}: {figure:?}"
             );
             let longer = if clock == Clock::Cpu { 1.5 } else { 1.0 };
-            let net = 0.1 * longer * *own as f64;
+            let net = longer * cost(*own) / PIXELS as f64;
             assert!(
                 (figure.net_ns_per_pixel - net).abs() < 1e-9,
                 "{own}: {figure:?}"
@@ -143,6 +165,19 @@ fn shares_are_found_again_through_noise() {
             let (low, high) = figure.interval.unwrap();
             assert!(low <= figure.share && figure.share <= high, "{figure:?}");
         }
+    }
+}
+
+/// A card rasterises and blends while it computes: what is computed in less time takes none.
+#[test]
+fn a_draw_that_hides_its_evaluations_gives_no_figure() {
+    let timed = in_chains(&["schlick", "conductor_from_f0_f82"], 100);
+    let plan = &timed.plan;
+    let measured = measured(plan, &mut MadeUp::new(plan), None).unwrap();
+    let figures = measured.figures(plan, PIXELS);
+    assert!(!figures.is_empty());
+    for figure in figures {
+        assert!(figure.unwrap_err().contains("take more --operations"));
     }
 }
 
@@ -171,7 +206,7 @@ fn a_shader_that_hangs_takes_only_what_needs_it_along() {
         assert!(failed.iter().all(|why| why.contains("it never ends")));
         failed.len()
     };
-    assert_eq!(failing(plan.places()[0].0), 1);
-    assert_eq!(failing(DrawingPlan::REFERENCE), plan.places().len());
-    assert_eq!(failing(DrawingPlan::HEAVY), plan.places().len());
+    assert_eq!(failing(plan.chains()[0][0].long()), 1);
+    assert_eq!(failing(plan.reference.short), plan.chains().len());
+    assert_eq!(failing(DrawingPlan::HEAVY), plan.chains().len());
 }

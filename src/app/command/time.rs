@@ -8,7 +8,6 @@ use crate::app::args::{Choice, TimeFlags, each_once};
 use crate::app::error::Error;
 use crate::app::fault::RequestFault;
 use crate::app::time_request::TimeRequest;
-use crate::cost::BLOCKS;
 use crate::foreign::{lines, one_line};
 use crate::gpu::Wanted;
 use crate::overdraw::{
@@ -20,8 +19,9 @@ use crate::report::time::TimeReport;
 
 use super::{Output, Progress, report, try_places};
 
-/// Pixels a side that a run may ask for, rounds, and seconds of a submission.
+/// Pixels a side that a run may ask for, operations in a chain, rounds, and seconds of a submission.
 const SIZES: std::ops::RangeInclusive<u32> = 16..=8192;
+const OPERATIONS: std::ops::RangeInclusive<usize> = 100..=20_000;
 const ROUNDS: std::ops::RangeInclusive<usize> = 1..=1000;
 const SECONDS: std::ops::RangeInclusive<f64> = 1e-6..=3600.0;
 
@@ -38,7 +38,7 @@ pub fn run(flags: &TimeFlags, progress: Progress) -> Result<Output, Error> {
         methods: Choice::methods(&flags.method),
         materials: flags.materials.materials()?,
         precisions: each_once(&flags.precision),
-        evaluations: flags.evaluations,
+        operations: flags.operations,
     };
     let timed = request.timed_functions()?;
     if let Some(inbox) = inbox {
@@ -93,9 +93,8 @@ fn check(flags: &TimeFlags) -> Result<(), Error> {
     if !ROUNDS.contains(&flags.rounds) {
         return out_of_range("rounds", flags.rounds, "is 1 to 1000");
     }
-    if !(1..=BLOCKS).contains(&flags.evaluations) {
-        let allowed = format!("is 1 to {BLOCKS}");
-        return out_of_range("evaluations", flags.evaluations, &allowed);
+    if !OPERATIONS.contains(&flags.operations) {
+        return out_of_range("operations", flags.operations, "is 100 to 20000");
     }
     if !SECONDS.contains(&flags.limit) {
         return out_of_range("limit", flags.limit, "is 0.000001 to 3600 seconds");

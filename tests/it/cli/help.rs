@@ -326,7 +326,7 @@ const USED: [(&str, bool); 52] = [
     ),
     ("cost --effect coat --check", false),
     (
-        "time --method schlick --material gold --precision f16 --adapter a --backend vulkan --clock gpu --size 64 --evaluations 2 --rounds 3 --limit 9 --require-all --json t.json",
+        "time --method schlick --material gold --precision f16 --adapter a --backend vulkan --clock gpu --size 64 --operations 200 --rounds 3 --limit 9 --require-all --json t.json",
         false,
     ),
     ("time --hardware", false),

@@ -7,7 +7,7 @@ use super::{Place, Ran};
 use crate::not_checked;
 
 /// Small enough for a test.
-const QUICK: &str = "--size 32 --rounds 29 --evaluations 2";
+const QUICK: &str = "--size 32 --rounds 29 --operations 1000";
 
 /// The keys of a row.
 const KEYS: [&str; 19] = [
@@ -60,7 +60,7 @@ fn rows_say_what_each_form_costs() {
         return;
     };
     let report = ran.ends(0).json();
-    let command = "time --method dielectric_exact,schlick,table --precision f32 --size 32 --evaluations 2 --rounds 29";
+    let command = "time --method dielectric_exact,schlick,table --precision f32 --size 32 --operations 1000 --rounds 29";
     assert_eq!(report["command"], command);
     assert!(report["device"].is_string() && report["driver"].is_string());
     for shader in ["heavy", "empty"] {
@@ -111,7 +111,7 @@ fn the_table_tells_device_noise_and_clock() {
     };
     let ran = ran.ends(0);
     for says in [
-        "1024 pixels, 2 evaluations",
+        "1024 pixels, chains of about 500 and 1000 operations",
         "wall time",
         "noise",
         "the empty shader",

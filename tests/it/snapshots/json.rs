@@ -44,7 +44,7 @@ const REPORTS: [(&str, &str); 22] = [
     ),
     (
         "time",
-        "time --method schlick --material none --precision f32 --size 32 --evaluations 2 --rounds 5 --json -",
+        "time --method schlick --material none --precision f32 --size 32 --operations 1000 --rounds 5 --json -",
     ),
     (
         "scene-error",
