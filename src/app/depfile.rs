@@ -15,9 +15,12 @@ const UNREADABLE: &str = "\"&'*;<=>?^`|\t\n\r";
 /// an empty rule for each input, as of `gcc -MP`, so that Make goes on after one was renamed or removed.
 ///
 /// # Errors
-/// A path holds a character that Make or Ninja cannot read in a depfile.
+/// A path holds a character that Make or Ninja cannot read in a depfile; a target with `%` is a pattern to Make, and with `\\%` a stranger
+/// to Ninja.
 pub fn depfile(outputs: &[String], inputs: &[String]) -> Result<String, Error> {
-    if let Some(what) = outputs.iter().chain(inputs).find_map(|path| fault(path)) {
+    let pattern = outputs.iter().filter(|path| path.contains('%'));
+    let pattern = pattern.map(|path| unreadable(path, "%")).next();
+    if let Some(what) = outputs.iter().chain(inputs).find_map(|path| fault(path)).or(pattern) {
         return Err(Error::Usage { what });
     }
     let mut inputs = inputs.to_vec();
@@ -25,7 +28,7 @@ pub fn depfile(outputs: &[String], inputs: &[String]) -> Result<String, Error> {
     inputs.dedup();
     let empty = inputs.iter().filter(|input| has_empty_rule(input, outputs));
     let empty: String = empty.map(|input| format!("{}:\n", escape(input))).collect();
-    let (outputs, inputs) = (spelt(outputs, target), spelt(&inputs, escape));
+    let (outputs, inputs) = (spelt(outputs, escape), spelt(&inputs, escape));
     let space = if inputs.is_empty() { "" } else { " " };
     Ok(format!("{outputs}:{space}{inputs}\n{empty}"))
 }
@@ -57,20 +60,19 @@ fn fault(path: &str) -> Option<String> {
     let wrong = letter
         .map(String::from)
         .or_else(|| others().map(str::to_owned))?;
-    Some(format!(
+    Some(unreadable(path, &wrong))
+}
+
+fn unreadable(path: &str, wrong: &str) -> String {
+    format!(
         "--depfile: the path {path:?} holds {wrong:?}, which Make and Ninja cannot both read in a depfile; rename it, or leave --depfile out"
-    ))
+    )
 }
 
 fn spelt(paths: &[String], spell: impl Fn(&str) -> String) -> String {
     let mut seen = BTreeSet::new();
     let paths = paths.iter().filter(|path| seen.insert(*path));
     paths.map(|path| spell(path)).collect::<Vec<_>>().join(" ")
-}
-
-/// A target with `%` would be a pattern to Make; Ninja takes the first target for its own output, however it is spelt.
-fn target(path: &str) -> String {
-    escape(path).replace('%', "\\%")
 }
 
 /// Make's quoting, as GCC 10 writes it and Ninja reads it: backslashes stand for themselves,

@@ -32,6 +32,8 @@ pub enum PartKind {
     Prototype(FoundFunction),
     /// A type: its name, and its members.
     Type(String, Vec<Variable>),
+    /// A type with constants in the same declaration, `const struct T { … } K = …;`, or the names of an `enum`: all of these names.
+    TypeWithConstants(String, Vec<Variable>, Vec<String>),
     /// Variables: one declaration may have several.
     Variables(Vec<Variable>),
     /// Inputs in a block of this name: its members, and the name that they are read by, where there is one.
@@ -50,6 +52,10 @@ impl Part {
         match &self.kind {
             PartKind::Function(found) | PartKind::Prototype(found) => vec![found.name.as_str()],
             PartKind::Type(name, _) => vec![name.as_str()],
+            PartKind::TypeWithConstants(name, _, constants) => {
+                let constants = constants.iter().map(String::as_str);
+                constants.chain([name.as_str()]).collect()
+            }
             PartKind::Variables(all) => all.iter().map(|one| one.name.as_str()).collect(),
             PartKind::Block(_, _, Some(name)) => vec![name.as_str()],
             PartKind::Block(_, members, None) => {
@@ -301,7 +307,12 @@ fn with_body(
         .into_iter()
         .find_map(place)
     {
-        return PartKind::Type(word_at(head, at + 1), inside());
+        let name = word_at(head, at + 1);
+        let constants = constants(tokens, (head_end, end), head, language);
+        return match constants.is_empty() {
+            true => PartKind::Type(name, inside()),
+            false => PartKind::TypeWithConstants(name, inside(), constants),
+        };
     }
     if let Some(at) = ["cbuffer", "tbuffer"].into_iter().find_map(place) {
         return PartKind::Block(word_at(head, at + 1), inside(), None);
@@ -318,6 +329,35 @@ fn with_body(
             PartKind::Block(last_word(head), inside(), instance)
         }
         false => PartKind::Other,
+    }
+}
+
+/// The constants in the declaration of a type: the names of an `enum`, unless it is one of its own scope, and what has a value behind
+/// the body. Of HLSL's constants that are not static a pipeline sets the value.
+fn constants(
+    tokens: &[Token],
+    (head_end, end): (usize, usize),
+    head: &[Token],
+    language: Language,
+) -> Vec<String> {
+    let has = |word: &str| head.iter().any(|token| token.text == word);
+    let close = behind(tokens, head_end) - 1;
+    let first_words = |from: usize, to: usize| -> Vec<String> {
+        let named = parts_between_commas(&tokens[from.min(to)..to]);
+        let words = named.into_iter().filter_map(|part| {
+            let word = part.first().filter(|token| token.is_word())?;
+            Some(word.text.to_owned())
+        });
+        words.collect()
+    };
+    let behind_it = (close + 1).min(end)..end.saturating_sub(1).max(close + 1).min(end);
+    let has_value = tokens[behind_it.clone()].iter().any(|token| token.text == "=");
+    if has("enum") && !has("class") && !has("struct") {
+        first_words((head_end + 1).min(close), close)
+    } else if has("const") && has_value && (language.is_glsl() || has("static")) {
+        first_words(behind_it.start, behind_it.end)
+    } else {
+        Vec::new()
     }
 }
 

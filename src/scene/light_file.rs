@@ -4,7 +4,7 @@
 //! light = M curve(sample) / divisor        M: from the primaries that the file states to the working space, white to white by Bradford
 //! ```
 //!
-//! A file that states no primaries is taken for the working space. What is stated and cannot be followed is refused.
+//! A file that states no primaries is taken for the working space. What is stated and cannot be followed is refused, as is an OpenEXR file that is cropped.
 //!
 //! | format | curve | divisor | primaries |
 //! |---|---|---|---|
@@ -19,6 +19,7 @@
 use std::io::Cursor;
 
 use exr::meta::MetaData;
+use exr::meta::header::Header;
 use glam::{DMat3, DVec3};
 use image::codecs::hdr::{HdrDecoder, HdrMetadata};
 use image::codecs::jpeg::JpegDecoder;
@@ -189,6 +190,11 @@ fn exr(bytes: &[u8]) -> Result<(DynamicImage, Numbers), String> {
         image::load_from_memory_with_format(bytes, ImageFormat::OpenExr).map_err(in_words)?;
     let meta = MetaData::read_from_buffered(Cursor::new(bytes), false);
     let meta = meta.map_err(|why| why.to_string())?;
+    // What is cropped or goes on beyond the edges is no whole sphere.
+    let is_whole = |header: &Header| header.data_window() == header.shared_attributes.display_window;
+    if !meta.headers.first().is_none_or(is_whole) {
+        return Err("its data window is not its display window, so that the picture is cropped or has overscan; save it whole".to_owned());
+    }
     let stated = meta
         .headers
         .first()

@@ -117,7 +117,7 @@ pub fn chart_svg(view: &ChartView) -> Option<String> {
 }
 
 const KEY: &str = "Blue: ours. Orange: published. Full: with the inputs that it is meant to have; hollow (*): with those whose \
-largest error is least. Square: reads a texture; its cost excludes the fetch. The line: no function is both cheaper and as accurate; functions that fail inside their domain are left out of it.";
+largest error is least. Square: reads a texture; its cost excludes the fetch. The line: of functions that read no texture none is both cheaper and as accurate; those that fail inside their domain are left out of it.";
 
 /// The key, with a sentence on a user's function, and what is left out.
 fn key(view: &ChartView) -> String {

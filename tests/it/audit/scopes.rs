@@ -54,6 +54,22 @@ fn a_local_name_hides_another_only_in_its_block() {
     );
 }
 
+/// A type and a constant of it may stand in one declaration, and an enumeration's names are constants.
+#[test]
+fn constants_in_the_declaration_of_a_type_are_taken_along() {
+    let hlsl = |before: &str, power: &str| {
+        format!(
+            "{before}\nfloat3 F(float c, float3 f0) {{ c = saturate(c); return f0 + (1.0 - f0) * pow(1.0 - c, {power}); }}\n"
+        )
+    };
+    is_schlick(
+        "s.glsl",
+        "const struct T { float e; } K = T(5.0);\nvec3 F(float c, vec3 f0) { c = clamp(c, 0.0, 1.0); return f0 + (1.0 - f0) * pow(1.0 - c, K.e); }\n",
+    );
+    is_schlick("s.hlsl", &hlsl("static const struct { float e; } K = { 5.0 };", "K.e"));
+    is_schlick("s.hlsl", &hlsl("enum K { A = 1, E = 5 };", "E"));
+}
+
 /// What the file gives a value that other code may change: it is taken, told, and can be given.
 #[test]
 fn a_value_that_other_code_can_set_is_told() {
