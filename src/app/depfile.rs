@@ -2,31 +2,28 @@
 //!
 //! A path is spelt so that both read it. Some cannot be: for Make `;` begins a recipe, `=` an assignment, `|` other
 //! prerequisites, and no quoting helps, nor does it for a backslash before `#` or `:`; Ninja ends a name at the other signs of
-//! `UNREADABLE`, or Make takes them for patterns: `[` as it is means other files to Make, and `\[` another file to Ninja.
+//! `UNREADABLE`, or Make takes them for patterns: `%` in a target, which `\\%` mends for Make alone; `[` as it is means other files to Make, and `\[` another file to Ninja.
 
 use std::collections::BTreeSet;
 
 use super::error::Error;
 
 /// What no spelling brings through both programs, measured with GNU Make 4.3 and Ninja 1.11.
-const UNREADABLE: &str = "\"&'*;<=>?^`|\t\n\r";
+const UNREADABLE: &str = "\"%&'*;<=>?^`|\t\n\r";
 
 /// One rule, `out1 out2: in1 in2`, without doubles: outputs in the order given, since Ninja takes the first for its own, inputs sorted. Then
 /// an empty rule for each input, as of `gcc -MP`, so that Make goes on after one was renamed or removed.
 ///
 /// # Errors
-/// A path holds a character that Make or Ninja cannot read in a depfile; a target with `%` is a pattern to Make, and with `\\%` a stranger
-/// to Ninja.
+/// A path holds a character that Make or Ninja cannot read in a depfile.
 pub fn depfile(outputs: &[String], inputs: &[String]) -> Result<String, Error> {
-    let pattern = outputs.iter().filter(|path| path.contains('%'));
-    let pattern = pattern.map(|path| unreadable(path, "%")).next();
-    if let Some(what) = outputs.iter().chain(inputs).find_map(|path| fault(path)).or(pattern) {
+    if let Some(what) = outputs.iter().chain(inputs).find_map(|path| fault(path)) {
         return Err(Error::Usage { what });
     }
     let mut inputs = inputs.to_vec();
     inputs.sort();
     inputs.dedup();
-    let empty = inputs.iter().filter(|input| has_empty_rule(input, outputs));
+    let empty = inputs.iter().filter(|input| !outputs.contains(input));
     let empty: String = empty.map(|input| format!("{}:\n", escape(input))).collect();
     let (outputs, inputs) = (spelt(outputs, escape), spelt(&inputs, escape));
     let space = if inputs.is_empty() { "" } else { " " };
@@ -39,11 +36,6 @@ pub fn own_program() -> Option<String> {
     let program = std::env::current_exe().ok()?;
     let path = program.to_str()?;
     fault(path).is_none().then(|| path.to_owned())
-}
-
-/// With `%` it would be a pattern to Make, and with `\\%` a stranger to Ninja, which knows the targets of its edge and its inputs.
-fn has_empty_rule(input: &str, outputs: &[String]) -> bool {
-    !input.contains('%') && !outputs.iter().any(|output| output == input)
 }
 
 fn fault(path: &str) -> Option<String> {
@@ -60,13 +52,9 @@ fn fault(path: &str) -> Option<String> {
     let wrong = letter
         .map(String::from)
         .or_else(|| others().map(str::to_owned))?;
-    Some(unreadable(path, &wrong))
-}
-
-fn unreadable(path: &str, wrong: &str) -> String {
-    format!(
+    Some(format!(
         "--depfile: the path {path:?} holds {wrong:?}, which Make and Ninja cannot both read in a depfile; rename it, or leave --depfile out"
-    )
+    ))
 }
 
 fn spelt(paths: &[String], spell: impl Fn(&str) -> String) -> String {

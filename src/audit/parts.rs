@@ -351,7 +351,9 @@ fn constants(
         words.collect()
     };
     let behind_it = (close + 1).min(end)..end.saturating_sub(1).max(close + 1).min(end);
-    let has_value = tokens[behind_it.clone()].iter().any(|token| token.text == "=");
+    let has_value = tokens[behind_it.clone()]
+        .iter()
+        .any(|token| token.text == "=");
     if has("enum") && !has("class") && !has("struct") {
         first_words((head_end + 1).min(close), close)
     } else if has("const") && has_value && (language.is_glsl() || has("static")) {
@@ -415,6 +417,9 @@ mod tests {
             PartKind::Function(found) => format!("function {}", found.name),
             PartKind::Prototype(found) => format!("prototype {}", found.name),
             PartKind::Type(name, members) => format!("type {name} {{{}}}", all(members)),
+            PartKind::TypeWithConstants(name, members, constants) => {
+                format!("type {name} {{{}}} {}", all(members), constants.join(", "))
+            }
             PartKind::Variables(variables) => all(variables),
             PartKind::Block(name, members, instance) => {
                 format!("block {name} {{{}}} {instance:?}", all(members))

@@ -195,9 +195,8 @@ impl MeasuredDrawings {
             let draws = f64::from(self.draws[drawing]) * pixels as f64;
             (times[drawing] - times[DrawingPlan::HEAVY]) / draws
         };
-        let each = |chain: DrawnChain| {
-            (draw(chain.long()) - draw(chain.short)) / chain.evaluations as f64
-        };
+        let each =
+            |chain: DrawnChain| (draw(chain.long()) - draw(chain.short)) / chain.evaluations as f64;
         Costs {
             net: each(own) - each(empty),
             reference: each(plan.reference) - each(plan.empty),

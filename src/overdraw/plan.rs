@@ -198,12 +198,7 @@ fn drawing(probe: &Probe, precision: Precision, evaluations: usize) -> Drawing {
 }
 
 /// A block of arguments for each evaluation: each argument begins at a multiple of 16 bytes and is no longer.
-fn uniforms(
-    probe: &Probe,
-    values: &Values,
-    precision: Precision,
-    evaluations: usize,
-) -> Vec<u8> {
+fn uniforms(probe: &Probe, values: &Values, precision: Precision, evaluations: usize) -> Vec<u8> {
     let member = |param: &Param| {
         let value = values.get(&param.name).copied().unwrap_or_default();
         let channels = if param.ty == Ty::Rgb { 3 } else { 1 };

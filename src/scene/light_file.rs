@@ -191,7 +191,8 @@ fn exr(bytes: &[u8]) -> Result<(DynamicImage, Numbers), String> {
     let meta = MetaData::read_from_buffered(Cursor::new(bytes), false);
     let meta = meta.map_err(|why| why.to_string())?;
     // What is cropped or goes on beyond the edges is no whole sphere.
-    let is_whole = |header: &Header| header.data_window() == header.shared_attributes.display_window;
+    let is_whole =
+        |header: &Header| header.data_window() == header.shared_attributes.display_window;
     if !meta.headers.first().is_none_or(is_whole) {
         return Err("its data window is not its display window, so that the picture is cropped or has overscan; save it whole".to_owned());
     }

@@ -6,8 +6,8 @@ use fresnel_gen::emit::validate_wgsl;
 use fresnel_gen::methods::{ALL, find};
 use fresnel_gen::num::Precision;
 use fresnel_gen::overdraw::{
-    Clock, Draw, DrawingEffort, DrawingPlan, DrawnChain, MeasuredDrawings, Reading, Stop, TimedFunctions,
-    measure,
+    Clock, Draw, DrawingEffort, DrawingPlan, DrawnChain, MeasuredDrawings, Reading, Stop,
+    TimedFunctions, measure,
 };
 
 /// Pixels of the target that is made up here.
@@ -57,10 +57,10 @@ impl MadeUp {
         costs[DrawingPlan::HEAVY] = 1e6;
         for [own, empty] in plan.chains() {
             let chains = [(own, cost(*own)), (empty, 0.0)];
-            for (chain, evaluation) in chains.into_iter().chain([
-                (&plan.reference, cost(plan.reference)),
-                (&plan.empty, 0.0),
-            ]) {
+            for (chain, evaluation) in chains
+                .into_iter()
+                .chain([(&plan.reference, cost(plan.reference)), (&plan.empty, 0.0)])
+            {
                 for (place, times) in [(chain.short, 1.0), (chain.long(), 2.0)] {
                     let computed = times * chain.evaluations as f64 * (LINK + evaluation);
                     costs[place] = computed.max(DRAW);
@@ -150,17 +150,17 @@ fn shares_are_found_again_through_noise() {
             let share = cost(*own) / cost(plan.reference);
             assert!(
                 (figure.share / share - 1.0).abs() < 1e-9,
-                "{own}: {figure:?}"
+                "{own:?}: {figure:?}"
             );
             let longer = if clock == Clock::Cpu { 1.5 } else { 1.0 };
             let net = longer * cost(*own) / PIXELS as f64;
             assert!(
                 (figure.net_ns_per_pixel - net).abs() < 1e-9,
-                "{own}: {figure:?}"
+                "{own:?}: {figure:?}"
             );
             assert!(
                 (figure.empty_ns_per_pixel - longer).abs() < 1e-9,
-                "{own}: {figure:?}"
+                "{own:?}: {figure:?}"
             );
             let (low, high) = figure.interval.unwrap();
             assert!(low <= figure.share && figure.share <= high, "{figure:?}");

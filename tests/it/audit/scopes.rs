@@ -66,7 +66,10 @@ fn constants_in_the_declaration_of_a_type_are_taken_along() {
         "s.glsl",
         "const struct T { float e; } K = T(5.0);\nvec3 F(float c, vec3 f0) { c = clamp(c, 0.0, 1.0); return f0 + (1.0 - f0) * pow(1.0 - c, K.e); }\n",
     );
-    is_schlick("s.hlsl", &hlsl("static const struct { float e; } K = { 5.0 };", "K.e"));
+    is_schlick(
+        "s.hlsl",
+        &hlsl("static const struct { float e; } K = { 5.0 };", "K.e"),
+    );
     is_schlick("s.hlsl", &hlsl("enum K { A = 1, E = 5 };", "E"));
 }
 

@@ -124,6 +124,20 @@ fn what_is_no_light_is_refused_with_its_pixel() {
     }
 }
 
+/// A picture of a part of the sphere would be stretched over all of it.
+#[test]
+fn a_cropped_exr_is_refused() {
+    let whole = exr([200.0, 40.0, 40.0], None);
+    let name = b"displayWindow\0box2i\0";
+    let at = whole.windows(name.len()).position(|bytes| bytes == name);
+    // Behind the name and the length: the first pixel, and the last.
+    let last_y = at.unwrap() + name.len() + 4 + 12;
+    let mut cropped = whole.clone();
+    assert_eq!(cropped[last_y..last_y + 4], [0, 0, 0, 0]);
+    cropped[last_y] = 1;
+    refused(&cropped, "its data window is not its display window");
+}
+
 #[test]
 fn exr_knows_its_primaries() {
     let of = |primaries| exr([200.0, 40.0, 40.0], primaries);
