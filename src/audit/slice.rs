@@ -115,6 +115,9 @@ impl<'a> SlicedText<'a> {
         let macros = macro_bodies(&theirs, &own);
         let reached = reached(start, &words, &parts, &macros, self.language);
         check_pixel_words(&reached)?;
+        if self.language == Language::Hlsl {
+            check_enumerations(&reached, &parts, &words)?;
+        }
         let inputs = Inputs {
             language: self.language,
             names: &self.names,
@@ -270,6 +273,23 @@ fn check_pixel_words(reached: &Reached) -> Result<(), UnreadFault> {
             format!("it needs `{name}`, which a pixel of a picture has and a cosine has not: give the function what it takes from it as an argument"),
         ))
     })
+}
+
+/// DXC makes another number of an enumeration's name in SPIR-V, which is what runs here: `float(E)` with E = 5 is 7e-45.
+fn check_enumerations(
+    reached: &Reached,
+    parts: &[Part],
+    words: &[Token],
+) -> Result<(), UnreadFault> {
+    let of_part = |place: &usize| words[parts[*place].start..parts[*place].end].iter();
+    let mut all = reached.parts.iter().flat_map(of_part);
+    match all.find(|word| word.text == "enum") {
+        None => Ok(()),
+        Some(word) => Err((
+            word.line,
+            "it needs an `enum`, of whose numbers DXC makes others in SPIR-V, which runs here: write them as `static const int`".to_owned(),
+        )),
+    }
 }
 
 /// The word by which a text computes in 16 bits.

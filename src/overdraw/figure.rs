@@ -135,12 +135,12 @@ impl MeasuredDrawings {
             all.iter().map(|times| costs(times).share()).collect()
         };
         let (net, empty, share) = (middle(|c| c.net), middle(|c| c.empty), middle(Costs::share));
-        if !share.is_finite() || middle(|c| c.reference) <= 0.0 {
-            let why = "dielectric_exact is not told apart from the empty shader: noise; take more --rounds or a larger --size";
-            return Err(why.to_owned());
-        }
         if middle(|c| c.room) < CLEAR {
             let why = "the cost of the draw itself hides the function's: take more --operations";
+            return Err(why.to_owned());
+        }
+        if !share.is_finite() || middle(|c| c.reference) <= 0.0 {
+            let why = "dielectric_exact is not told apart from the empty shader: noise; take more --rounds or a larger --size";
             return Err(why.to_owned());
         }
         Ok(OverdrawFigure {
@@ -197,11 +197,16 @@ impl MeasuredDrawings {
         };
         let each =
             |chain: DrawnChain| (draw(chain.long()) - draw(chain.short)) / chain.evaluations as f64;
+        let held = [own, empty, plan.reference, plan.empty];
+        let shortest = held
+            .map(|chain| draw(chain.short))
+            .into_iter()
+            .fold(f64::INFINITY, f64::min);
         Costs {
             net: each(own) - each(empty),
             reference: each(plan.reference) - each(plan.empty),
             empty: draw(DrawingPlan::BARE),
-            room: draw(own.short).min(draw(empty.short)) / draw(DrawingPlan::BARE),
+            room: shortest / draw(DrawingPlan::BARE),
         }
     }
 }

@@ -37,7 +37,7 @@ fn in_chains(methods: &[&str], operations: usize) -> TimedFunctions {
 
 /// Nanoseconds of an evaluation that are made up: more for a function that comes later.
 fn cost(chain: DrawnChain) -> f64 {
-    10.0 * chain.short as f64
+    100.0 * chain.short as f64
 }
 
 /// A device whose every draw takes what it should, but for a machine that is at times busy with something else.

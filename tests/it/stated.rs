@@ -165,12 +165,11 @@ fn what_is_gained_over_schlick_is_what_the_pages_say() {
             " and `conductor_exact`",
             units_of_gold("fitted"),
         ),
-        // The point that ends the sentence is replaced with the figure.
         stated(
             readme,
             " and `conductor_exact` ",
-            " Files of materials",
-            format!("{}.", units_of_gold("conductor_exact")),
+            "; `fresnel-gen cost --gpu rdna2",
+            units_of_gold("conductor_exact"),
         ),
         stated(
             costs,
