@@ -115,9 +115,7 @@ impl<'a> SlicedText<'a> {
         let macros = macro_bodies(&theirs, &own);
         let reached = reached(start, &words, &parts, &macros, self.language);
         check_pixel_words(&reached)?;
-        if self.language == Language::Hlsl {
-            check_enumerations(&reached, &parts, &words)?;
-        }
+        check_enumerations(self.language, &reached, &parts, &words)?;
         let inputs = Inputs {
             language: self.language,
             names: &self.names,
@@ -277,13 +275,14 @@ fn check_pixel_words(reached: &Reached) -> Result<(), UnreadFault> {
 
 /// DXC makes another number of an enumeration's name in SPIR-V, which is what runs here: `float(E)` with E = 5 is 7e-45.
 fn check_enumerations(
+    language: Language,
     reached: &Reached,
     parts: &[Part],
     words: &[Token],
 ) -> Result<(), UnreadFault> {
     let of_part = |place: &usize| words[parts[*place].start..parts[*place].end].iter();
     let mut all = reached.parts.iter().flat_map(of_part);
-    match all.find(|word| word.text == "enum") {
+    match all.find(|word| language == Language::Hlsl && word.text == "enum") {
         None => Ok(()),
         Some(word) => Err((
             word.line,

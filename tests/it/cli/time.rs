@@ -210,7 +210,7 @@ fn bad_input_is_told_with_what_is_allowed() {
         ("--clock sun", "gpu, cpu, wall"),
         ("--size 8", "16 to 8192"),
         ("--rounds 0", "1 to 1000"),
-        ("--evaluations 9", "1 to 8"),
+        ("--operations 99", "100 to 20000"),
         ("--limit 0", "0.000001 to 3600"),
         ("--limit nan", "0.000001 to 3600"),
         (
