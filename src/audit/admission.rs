@@ -7,7 +7,7 @@ use super::directives::{self, TextFault};
 use super::error::Error;
 use super::language::{Language, bare};
 use super::loops::is_in_macro;
-use super::preprocess::{Define, Preprocessed, joined_lines, preprocessed};
+use super::preprocess::{Define, Preprocessed, joined_comments, joined_lines, preprocessed};
 
 /// The text as compilers would see it: behind the preprocessor, without comments.
 ///
@@ -24,7 +24,7 @@ pub fn admitted(
     let joined = match language.has_preprocessor() {
         true => {
             told(ambiguous(text))?;
-            joined_lines(text)
+            joined_comments(&joined_lines(text))
         }
         false => text.to_owned(),
     };

@@ -246,7 +246,21 @@ impl Expression<'_> {
     }
 }
 
+/// What two numbers come to. GLSL's compilers compute in 32 bits and others in 64: where that could decide, nothing is decided.
 fn combined(operator: &str, a: i64, b: i64) -> Result<i64, String> {
+    let is_wide = |x: i64| i32::try_from(x).is_err();
+    let compares = ["<", ">", "<=", ">="].contains(&operator);
+    let computes = ["<<", ">>", "+", "-", "*", "/", "%"].contains(&operator);
+    let value = combined_in_64(operator, a, b)?;
+    if compares && (is_wide(a) || is_wide(b)) || computes && (is_wide(a) || is_wide(value)) {
+        return Err(
+            "it takes a number beyond 32 bits, of which compilers make different ones".to_owned(),
+        );
+    }
+    Ok(value)
+}
+
+fn combined_in_64(operator: &str, a: i64, b: i64) -> Result<i64, String> {
     let by_zero = || "it divides by 0".to_owned();
     let bits = u32::try_from(b.clamp(0, 63)).unwrap_or(0);
     Ok(match operator {
@@ -327,6 +341,12 @@ mod tests {
             let value = condition_value(&words(&tokens(text)), &Macros::new());
             assert!(value.is_err(), "{text}");
         }
+        // GLSL's compilers take the first for less than 0, and C's do not.
+        for text in ["(1 << 31) < 0", "0x80000000 < 0", "65536 * 65536"] {
+            let value = condition_value(&words(&tokens(text)), &Macros::new());
+            assert!(value.unwrap_err().contains("beyond 32 bits"), "{text}");
+        }
+        check("0x80000000 & 0x80000000", 0x8000_0000);
         let deep = "(".repeat(100_000);
         assert!(condition_value(&words(&tokens(&deep)), &Macros::new()).is_err());
         let mut macros = Macros::new();

@@ -122,6 +122,43 @@ pub fn joined_lines(text: &str) -> String {
     out
 }
 
+/// A comment that goes on over lines of a directive stands in one line, with empty lines behind it: a compiler takes out comments before it
+/// looks where a directive ends.
+pub fn joined_comments(text: &str) -> String {
+    let mut out = String::with_capacity(text.len());
+    let mut lines = text.split_inclusive('\n');
+    while let Some(line) = lines.next() {
+        let (mut whole, mut owed) = (line.to_owned(), 0);
+        while line.trim_start().starts_with('#') && has_open_comment(&whole) {
+            let Some(next) = lines.next() else { break };
+            whole.truncate(whole.trim_end_matches(['\n', '\r']).len());
+            whole += next;
+            owed += 1;
+        }
+        out += &whole;
+        out.extend(std::iter::repeat_n('\n', owed));
+    }
+    out
+}
+
+/// Whether a comment begins in a line that does not end in it.
+fn has_open_comment(line: &str) -> bool {
+    let mut rest = line;
+    loop {
+        let Some(at) = rest.find('/') else {
+            return false;
+        };
+        rest = match rest.as_bytes().get(at + 1) {
+            Some(b'/') => return false,
+            Some(b'*') => match rest[at + 2..].find("*/") {
+                None => return true,
+                Some(end) => &rest[at + 2 + end + 2..],
+            },
+            _ => &rest[at + 1..],
+        };
+    }
+}
+
 /// Decides the conditions of a text that holds no comments.
 ///
 /// # Errors
@@ -414,5 +451,8 @@ mod tests {
             "#define A  b  c\n\n\nd\n"
         );
         assert_eq!(joined_lines("a\\\r\nb"), "ab\n");
+        let text = "#define A /* one\ntwo */ 5.0\nb /* c\n */ d\n#if X // /*\n";
+        let joined = "#define A /* onetwo */ 5.0\n\nb /* c\n */ d\n#if X // /*\n";
+        assert_eq!(joined_comments(text), joined);
     }
 }

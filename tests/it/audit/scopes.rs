@@ -76,7 +76,7 @@ fn constants_in_the_declaration_of_a_type_are_taken_along() {
         ("enum class K { E = 5 };", "float(K::E)"),
     ] {
         let place = Place::new();
-        place.put("s.hlsl", &hlsl(before, name));
+        place.put("s.hlsl", hlsl(before, name));
         let ran = place.run("audit s.hlsl --function F --material gold");
         assert!(
             ran.code != Some(0) && ran.err.contains("it needs an `enum`"),
