@@ -640,6 +640,11 @@ fn what_is_no_report_is_refused_with_its_place() {
         }
     });
     let renamed = tampered(|part| rows(part)[0]["function"] = json!("fresnel_other"));
+    let contradicts = tampered(|part| {
+        let passes = |row: &&mut Value| row["status"] == "pass";
+        let row = rows(part).iter_mut().find(passes);
+        row.unwrap()["accepts"] = json!({ "glslang": "no" });
+    });
     let hidden = tampered(|part| rows(part)[0]["material"] = json!("g\n::notice::x"));
     let hidden_reason = tampered(|part| part["parts"][0]["reason"] = json!("g\n::notice::x"));
     let words = half.replacen("\"shards\":4", "\"shards\":\"four\"", 1);
@@ -685,6 +690,11 @@ fn what_is_no_report_is_refused_with_its_place() {
             "forgotten.json",
             &forgotten,
             "`parts` does not list each place",
+        ),
+        (
+            "contradicts.json",
+            &contradicts,
+            "passes, and that a compiler refuses its file",
         ),
         ("hidden_reason.json", &hidden_reason, "\\n::notice::x"),
         ("beyond.json", &beyond, "place 4000, which is not dealt"),
