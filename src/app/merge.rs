@@ -12,8 +12,8 @@ use crate::foreign::{self, Foreign, one_line};
 use crate::materials::FileFault;
 use crate::report::shard::ShardReport;
 use crate::report::{SCHEMA, TOOL};
+use crate::verify::VerifyRow;
 use crate::verify::shard::{PartStatement, PlacedRow, PlannedRows, Shard};
-use crate::verify::{Answer, Status, VerifyRow};
 
 use super::error::Error;
 use super::fault::RequestFault;
@@ -195,14 +195,10 @@ fn part_fault(part: &PartStatement, planned: &PlannedRows, found: &[&PlacedRow])
         ));
     }
     let bare: Vec<&VerifyRow> = found.iter().map(|placed| &placed.row).collect();
-    let is_refused = |row: &&VerifyRow| {
-        let mut answers = row.accepts.iter().flatten();
-        row.status == Status::Pass && answers.any(|(_, answer)| *answer == Answer::No)
-    };
-    if let Some(row) = bare.iter().copied().find(is_refused) {
-        let name = shown(&row.function);
+    if let Some(row) = bare.iter().find(|row| row.contradicts_itself()) {
         return Some(format!(
-            "place {place} says that {name} passes, and that a compiler refuses its file"
+            "{} passes, and a compiler refuses its file",
+            shown(&row.function)
         ));
     }
     (!planned.are(file, &bare)).then(|| {

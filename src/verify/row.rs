@@ -77,6 +77,14 @@ pub struct VerifyRow {
     pub emulation: Option<Emulation>,
 }
 
+impl VerifyRow {
+    /// Whether it passes though a compiler refuses its file.
+    pub fn contradicts_itself(&self) -> bool {
+        let mut answers = self.accepts.iter().flatten();
+        self.status == Status::Pass && answers.any(|(_, answer)| *answer == Answer::No)
+    }
+}
+
 /// Whether a compiler accepts a file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]

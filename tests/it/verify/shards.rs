@@ -694,7 +694,7 @@ fn what_is_no_report_is_refused_with_its_place() {
         (
             "contradicts.json",
             &contradicts,
-            "passes, and that a compiler refuses its file",
+            "passes, and a compiler refuses its file",
         ),
         ("hidden_reason.json", &hidden_reason, "\\n::notice::x"),
         ("beyond.json", &beyond, "place 4000, which is not dealt"),
