@@ -62,9 +62,7 @@ impl<'a> DeclaredTypes<'a> {
     /// Those among parts.
     pub fn new(parts: &'a [Part], names: &'a TypeNames) -> DeclaredTypes<'a> {
         let types = parts.iter().filter_map(|part| match &part.kind {
-            PartKind::Type(name, members) | PartKind::TypeWithConstants(name, members, _)
-                if !members.is_empty() =>
-            {
+            PartKind::Type(name, members, _) if !members.is_empty() => {
                 Some((name.as_str(), members.as_slice()))
             }
             _ => None,

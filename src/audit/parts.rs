@@ -30,10 +30,8 @@ pub enum PartKind {
     Function(FoundFunction),
     /// The head of a function whose body stands elsewhere.
     Prototype(FoundFunction),
-    /// A type: its name, and its members.
-    Type(String, Vec<Variable>),
-    /// A type with constants in the same declaration, `const struct T { … } K = …;`, or the names of an `enum`: all of these names.
-    TypeWithConstants(String, Vec<Variable>, Vec<String>),
+    /// A type: its name, its members, and constants in the same declaration: `K` of `const struct T { … } K = …;`, the names of an `enum`.
+    Type(String, Vec<Variable>, Vec<String>),
     /// Variables: one declaration may have several.
     Variables(Vec<Variable>),
     /// Inputs in a block of this name: its members, and the name that they are read by, where there is one.
@@ -51,8 +49,7 @@ impl Part {
     pub fn names(&self) -> Vec<&str> {
         match &self.kind {
             PartKind::Function(found) | PartKind::Prototype(found) => vec![found.name.as_str()],
-            PartKind::Type(name, _) => vec![name.as_str()],
-            PartKind::TypeWithConstants(name, _, constants) => {
+            PartKind::Type(name, _, constants) => {
                 let constants = constants.iter().map(String::as_str);
                 constants.chain([name.as_str()]).collect()
             }
@@ -122,7 +119,7 @@ pub fn functions_of(
 ) -> Vec<FoundFunction> {
     match &part.kind {
         PartKind::Function(found) => vec![found.clone()],
-        PartKind::Type(name, _) if matches!(language, Language::Hlsl | Language::Slang) => {
+        PartKind::Type(name, _, _) if matches!(language, Language::Hlsl | Language::Slang) => {
             let has_body = tokens[part.head_end].text == "{";
             let close = behind(tokens, part.head_end) - 1;
             let from = part.head_end + 1;
@@ -279,8 +276,8 @@ fn other_kind(
     }
     let all = &tokens[start..end.saturating_sub(1).max(start)];
     match first {
-        "typedef" => PartKind::Type(last_word(all), Vec::new()),
-        "alias" => PartKind::Type(word_at(all, 1), Vec::new()),
+        "typedef" => PartKind::Type(last_word(all), Vec::new(), Vec::new()),
+        "alias" => PartKind::Type(word_at(all, 1), Vec::new(), Vec::new()),
         "" | "import" | "using" | "const_assert" => PartKind::Other,
         _ if language == Language::Wgsl => match wgsl_variable(all, start) {
             Some(variable) => PartKind::Variables(vec![variable]),
@@ -309,10 +306,7 @@ fn with_body(
     {
         let name = word_at(head, at + 1);
         let constants = constants(tokens, (head_end, end), head, language);
-        return match constants.is_empty() {
-            true => PartKind::Type(name, inside()),
-            false => PartKind::TypeWithConstants(name, inside(), constants),
-        };
+        return PartKind::Type(name, inside(), constants);
     }
     if let Some(at) = ["cbuffer", "tbuffer"].into_iter().find_map(place) {
         return PartKind::Block(word_at(head, at + 1), inside(), None);
@@ -416,9 +410,13 @@ mod tests {
         let shown = |part: &Part| match &part.kind {
             PartKind::Function(found) => format!("function {}", found.name),
             PartKind::Prototype(found) => format!("prototype {}", found.name),
-            PartKind::Type(name, members) => format!("type {name} {{{}}}", all(members)),
-            PartKind::TypeWithConstants(name, members, constants) => {
-                format!("type {name} {{{}}} {}", all(members), constants.join(", "))
+            PartKind::Type(name, members, constants) => {
+                let constants = constants.iter().map(|name| format!(" {name}"));
+                format!(
+                    "type {name} {{{}}}{}",
+                    all(members),
+                    constants.collect::<String>()
+                )
             }
             PartKind::Variables(variables) => all(variables),
             PartKind::Block(name, members, instance) => {

@@ -80,7 +80,7 @@ pub fn reached(
         let has_members = matches!(language, Language::Hlsl | Language::Slang);
         let has_code = match &part.kind {
             PartKind::Function(_) | PartKind::MacroCall(_) => true,
-            PartKind::Type(..) | PartKind::TypeWithConstants(..) => has_members,
+            PartKind::Type(..) => has_members,
             _ => false,
         };
         let mut own: Vec<Own> = match has_code {

@@ -118,8 +118,8 @@ impl MeasuredDrawings {
         pixels: u64,
         times: &Times,
     ) -> Result<OverdrawFigure, String> {
-        let [own, empty] = plan.chains()[function];
-        let held = [own, empty, plan.reference, plan.empty];
+        let held = plan.held(function);
+        let [own, ..] = held;
         let chains = held.map(|chain| [chain.short, chain.long()]);
         let fixed = [DrawingPlan::HEAVY, DrawingPlan::BARE];
         for needed in fixed.iter().chain(chains.iter().flatten()) {
@@ -127,7 +127,7 @@ impl MeasuredDrawings {
                 return Err(why.clone());
             }
         }
-        let costs = |times: &Vec<f64>| self.costs(plan, times, [own, empty], pixels);
+        let costs = |times: &Vec<f64>| self.costs(times, held, pixels);
         let [gpu, wall] = [&times.gpu, &times.wall].map(costs);
         let anew: Vec<Costs> = times.anew.iter().map(costs).collect();
         let middle = |one: fn(&Costs) -> f64| median(&anew.iter().map(one).collect::<Vec<f64>>());
@@ -184,27 +184,21 @@ impl MeasuredDrawings {
         (0..self.draws.len()).map(time).collect()
     }
 
-    fn costs(
-        &self,
-        plan: &DrawingPlan,
-        times: &[f64],
-        [own, empty]: [DrawnChain; 2],
-        pixels: u64,
-    ) -> Costs {
+    fn costs(&self, times: &[f64], held: [DrawnChain; 4], pixels: u64) -> Costs {
         let draw = |drawing: usize| {
             let draws = f64::from(self.draws[drawing]) * pixels as f64;
             (times[drawing] - times[DrawingPlan::HEAVY]) / draws
         };
         let each =
             |chain: DrawnChain| (draw(chain.long()) - draw(chain.short)) / chain.evaluations as f64;
-        let held = [own, empty, plan.reference, plan.empty];
+        let [own, empty, reference, reference_empty] = held;
         let shortest = held
             .map(|chain| draw(chain.short))
             .into_iter()
             .fold(f64::INFINITY, f64::min);
         Costs {
             net: each(own) - each(empty),
-            reference: each(plan.reference) - each(plan.empty),
+            reference: each(reference) - each(reference_empty),
             empty: draw(DrawingPlan::BARE),
             room: shortest / draw(DrawingPlan::BARE),
         }

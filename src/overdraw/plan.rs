@@ -133,6 +133,7 @@ impl DrawingPlan {
             }
         };
         let own = |timed: &TimedFunction| timed.evaluations(operations);
+        let reference_once = reference.drawing(1);
         let reference_chain = add(own(reference), &|n| reference.drawing(n));
         let has_half = timed.iter().any(|timed| timed.emitted.precision.is_half());
         let precisions = if has_half { 2 } else { 1 };
@@ -150,7 +151,7 @@ impl DrawingPlan {
             let own = if timed.emitted.function.work() == 0 {
                 // What computes nothing costs 0: a compiler leaves out a chain in which nothing depends on the cosine.
                 empty
-            } else if timed.drawing(1) == reference.drawing(1) {
+            } else if timed.drawing(1) == reference_once {
                 reference_chain
             } else {
                 add(own(timed), &|n| timed.drawing(n))
@@ -176,6 +177,12 @@ impl DrawingPlan {
     /// Of each function its chain, and the empty one that belongs to it.
     pub fn chains(&self) -> &[[DrawnChain; 2]] {
         &self.chains
+    }
+
+    /// All chains that a function's figure is made of: these two, and the same two of the function whose cost is 1.
+    pub fn held(&self, function: usize) -> [DrawnChain; 4] {
+        let [own, empty] = self.chains[function];
+        [own, empty, self.reference, self.empty]
     }
 }
 
