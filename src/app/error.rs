@@ -185,7 +185,7 @@ pub enum Error {
     },
     /// All files were prepared, and something has appeared in the place of one.
     #[error(
-        "{}: what lies there appeared or changed while this run wrote, and stays; {replaced} of {pending} files are new, the others are as before. Move it away, or replace it with --overwrite, and run again",
+        "{}: what lies there appeared or changed while this run wrote, or cannot be read, and stays; {replaced} of {pending} files are new, the others are as before. Move it away, or replace it with --overwrite, and run again",
         foreign::path(path)
     )]
     Taken {

@@ -158,7 +158,6 @@ pub fn pages(folder: &Path) -> Result<Vec<String>, Error> {
                 continue;
             };
             let kind = entry.file_type().map_err(fail)?;
-            let is_file = kind.is_file() || kind.is_symlink() && entry.path().is_file();
             let place = if below.is_empty() {
                 name.clone()
             } else {
@@ -166,7 +165,7 @@ pub fn pages(folder: &Path) -> Result<Vec<String>, Error> {
             };
             if kind.is_dir() {
                 waiting.push(place);
-            } else if is_file && is_page(&name) {
+            } else if is_page(&name) && !entry.path().is_dir() {
                 found.push(place);
             }
         }

@@ -146,6 +146,9 @@ pub(super) struct MaterialRecord<'a> {
     conditions: &'a str,
     note: &'a str,
     data: Vec<[f64; 3]>,
+    /// Why rows of the measurement are not among these.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    left_out: Vec<String>,
 }
 
 fn shown(flags: &ShowFlags, json: Option<&Path>) -> Result<Output, Error> {
@@ -265,35 +268,43 @@ fn text(m: &Material) -> String {
     ];
     lines.extend(fields.iter().filter_map(|(name, value)| field(name, value)));
     lines.push(String::new());
-    let rows: Vec<Vec<String>> = samples(m)
+    let (samples, left_out) = samples(m);
+    let rows: Vec<Vec<String>> = samples
         .into_iter()
         .map(|sample| sample.map(|value| value.to_string()).to_vec())
         .collect();
     lines.push(table::text_table(&["nm", "n", "k"], &rows));
+    lines.extend(left_out.iter().map(|why| format!("left out: {}", one_line(why))));
     lines.join("\n")
 }
 
 pub(super) fn material_record(m: &Material) -> MaterialRecord<'_> {
+    let (data, left_out) = samples(m);
     MaterialRecord {
         row: MaterialRow::new(m),
         schema: SCHEMA,
         conditions: &m.conditions,
         note: &m.note,
-        data: samples(m),
+        data,
+        left_out,
     }
 }
 
-/// Wavelength, n and k wherever one of them was measured; every 10 nm of the visible range for a formula.
-fn samples(m: &Material) -> Vec<[f64; 3]> {
+/// Wavelength, n and k wherever one of them was measured; every 10 nm of the visible range for a formula. Where both are known and one
+/// cannot be, it says so.
+fn samples(m: &Material) -> (Vec<[f64; 3]>, Vec<String>) {
+    let (from, to) = m.range_nm();
     let mut places: Vec<f64> = m.measured_nm();
     if places.is_empty() {
-        let (from, to) = m.range_nm();
-        let tens = (36..=83).map(|tens| f64::from(tens) * 10.0);
-        places = tens.filter(|nm| (from..=to).contains(nm)).collect();
+        places = (36..=83).map(|tens| f64::from(tens) * 10.0).collect();
     }
-    let sample = |nm: f64| {
-        let index = m.index(nm, Extrapolate::Refuse).ok()?;
-        Some([nm, index.n, index.k])
-    };
-    places.into_iter().filter_map(sample).collect()
+    places.retain(|nm| (from..=to).contains(nm));
+    let (mut known, mut left_out) = (Vec::new(), Vec::new());
+    for nm in places {
+        match m.index(nm, Extrapolate::Refuse) {
+            Ok(index) => known.push([nm, index.n, index.k]),
+            Err(why) => left_out.push(why),
+        }
+    }
+    (known, left_out)
 }

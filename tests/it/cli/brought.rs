@@ -137,6 +137,18 @@ fn rows_in_disorder_are_mended_and_said() {
 }
 
 #[test]
+fn rows_that_cannot_be_are_named() {
+    let place = Place::new();
+    place.put("page.csv", "um,n,k\n.3,1,2\n.4,-1,2\n.5,.5,2\n.8,.3,4.5\n");
+    let shown = place.done("materials show page.csv --json -");
+    let text = place.done("materials show page.csv").out;
+    let why = "n is -1 at 400 nm; it must lie between 0.001 and 10000";
+    assert!(text.contains(&format!("left out: material `page`: {why}")), "{text}");
+    assert!(shown.json()["left_out"][0].as_str().unwrap().ends_with(why));
+    assert_eq!(shown.json()["data"].as_array().unwrap().len(), 3);
+}
+
+#[test]
 fn a_survey_tells_of_every_page() {
     let place = Place::new();
     place.put("db/main/Au/nk/Johnson.yml", PAGE);
@@ -173,6 +185,13 @@ fn a_survey_tells_of_every_page() {
     let held = place.done("materials survey db --extrapolate hold").out;
     assert!(held.contains("of these 1 are extrapolated"), "{held}");
     place.done("materials survey db/main/Au/nk/Johnson.yml");
+    #[cfg(unix)]
+    {
+        // What cannot be read is refused by name.
+        std::os::unix::fs::symlink("nowhere", place.path("db/main/Au/nk/Link.yml")).unwrap();
+        let text = place.done("materials survey db").out;
+        assert!(text.contains("main/Au/nk/Link.yml") && text.contains("cannot read it"), "{text}");
+    }
     place.refused("materials survey nowhere", &["cannot read nowhere"]);
     place.put("empty/about.yml", "");
     place.refused(

@@ -7,11 +7,14 @@ use fresnel_gen::ir::Weights;
 use fresnel_gen::lut::{
     Depth, SplitSum, SplitSumAxis, SplitSumDesign, StoredSplitSum, compensation,
 };
+use fresnel_gen::materials::{ConstantIndex, Surface, ViewingConditions};
 use fresnel_gen::methods;
+use fresnel_gen::optics;
 use serde_json::{Value, json};
 
 use super::host::{Host, number, shows_a_gold_sphere};
 use crate::catalogue::{evaluated, rows_named};
+use crate::samples;
 
 const PLAYCANVAS: Host = Host {
     flavour: "playcanvas",
@@ -184,7 +187,11 @@ fn held(told: &Value) -> BTreeMap<String, usize> {
         .iter()
         .map(Reading::new)
         .collect();
-    let is_lit = |reading: &&Reading| !reading.is("is_furnace") && !reading.is("is_variant");
+    let is_lit = |reading: &&Reading| {
+        !["is_furnace", "is_variant", "is_coated"]
+            .iter()
+            .any(|flag| reading.is(flag))
+    };
     let white: BTreeMap<String, [f64; 3]> = readings
         .iter()
         .filter(|reading| reading.name == "white" && is_lit(reading))
@@ -207,6 +214,8 @@ fn held(told: &Value) -> BTreeMap<String, usize> {
                     0.0
                 },
             )
+        } else if reading.is("is_coated") {
+            ("coated", 0.0)
         } else if reading.is("plain") {
             // The engine's own F is another one: a patch that does nothing would be seen.
             let seen = ratio(reading.rgb, white[&reading.key()]);
@@ -297,6 +306,9 @@ fn is_shown(host: &Host, backend: &str, kinds: &[&str], refused: &[&str]) {
     }
     refuses(&told, refused);
     assert_eq!(told["again"], true);
+    if host.flavour == "babylon" {
+        coats_are_better(&told);
+    }
 }
 
 const KINDS_OF_PLAYCANVAS: [&str; 6] = [
@@ -344,6 +356,33 @@ fn playcanvas_by_webgpu() {
 #[test]
 fn babylon_by_webgl() {
     is_shown(&BABYLON, "webgl2", &KINDS_OF_BABYLON, &REFUSED_BY_BABYLON);
+}
+
+/// What gold reflects below a smooth clear coat of index 1.5 in light from everywhere: what passes the coat, once and more often.
+fn gold_below_a_coat(cos: f64) -> [f64; 3] {
+    let index = ConstantIndex::parse("1.5").expect("a number");
+    let coat = index.expect("within limits").material();
+    let gold = samples::subject("gold");
+    let surface = Surface::new(&gold.material, Some(&coat), &ViewingConditions::default());
+    let below = (1.0 - (1.0 - cos * cos) / 2.25).sqrt();
+    let base = surface.expect("a spectrum").unpolarised(below).to_array();
+    let lost = optics::dielectric(1.5, cos).unpolarised();
+    base.map(|f| lost + (1.0 - lost).powi(2) * f / (1.0 - lost * f))
+}
+
+/// Below a clear coat the patch is nearer to the truth than the engine alone is.
+#[track_caller]
+fn coats_are_better(told: &Value) {
+    let (mut patched, mut plain) = (0.0, 0.0);
+    for told in told["readings"].as_array().unwrap() {
+        let reading = Reading::new(told);
+        if reading.is("is_coated") {
+            let off = apart(reading.rgb, gold_below_a_coat(reading.cos));
+            let most = if reading.is("plain") { &mut plain } else { &mut patched };
+            *most = f64::max(*most, off);
+        }
+    }
+    assert!(patched < 0.05 && plain > 2.0 * patched, "{patched} {plain}");
 }
 
 #[test]

@@ -140,10 +140,17 @@
     for (const degree of degrees) {
       await record({ name: "gold", kind: "directional", angle: degree * Math.PI / 180, roughness: 0.5, energy: false, plain: true });
     }
+    for (const degree of degrees) {
+      const angle = degree * Math.PI / 180, set = { clearCoat: { isEnabled: true } };
+      for (const plain of [false, true]) {
+        await record({ name: "gold", kind: "image", angle, roughness: 0, energy: false, set, plain, is_coated: true });
+      }
+    }
     // Variants of the shader that must compile: their colours are Babylon.js' own in part.
     const on = values => ({ isEnabled: true, ...values });
     const variants = [
-      { clearCoat: on() }, { iridescence: on({ intensity: 0.5 }) }, { sheen: on() }, { anisotropy: on({ intensity: 0.5 }), iridescence: on() },
+      { clearCoat: on() }, { clearCoat: on({ intensity: 0.5, indexOfRefraction: 1.7 }), iridescence: on(), anisotropy: on() },
+      { clearCoat: on({ remapF0OnInterfaceChange: false }) }, { iridescence: on({ intensity: 0.5 }) }, { sheen: on() }, { anisotropy: on({ intensity: 0.5 }), iridescence: on() },
       { subSurface: { isRefractionEnabled: true } }, { subSurface: { isTranslucencyEnabled: true } },
       { own: { environmentBRDFTexture: null } },
       { brdf: { useSmithVisibilityHeightCorrelated: false } }, { own: { useRadianceOcclusion: false, useHorizonOcclusion: false } },
