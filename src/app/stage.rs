@@ -138,7 +138,8 @@ impl StagedFiles {
         match self.files.iter().find(is_taken) {
             Some(file) => Err(Error::NotOurs {
                 path: file.destination.clone(),
-                what: "what lies there appeared or changed while this run wrote, or cannot be read".to_owned(),
+                what: "what lies there appeared or changed while this run wrote, or cannot be read"
+                    .to_owned(),
             }),
             None => Ok(()),
         }

@@ -65,8 +65,8 @@ pub struct DrawingPlan {
     chains: Vec<[DrawnChain; 2]>,
 }
 
-/// Most evaluations in a long chain: with an argument for each a block of uniforms is no longer than every device takes.
-const MOST_EVALUATIONS: usize = 1000;
+/// Most arguments of a long chain's evaluations, all together, at 16 bytes each: OpenGL takes 16 KiB of uniforms everywhere.
+const MOST_ARGUMENTS: usize = 1000;
 
 impl TimedFunction {
     fn drawing(&self, evaluations: usize) -> Drawing {
@@ -81,7 +81,11 @@ impl TimedFunction {
 
     /// Evaluations in the shorter of its chains.
     fn evaluations(&self, operations: usize) -> usize {
-        half_chain(operations, self.emitted.function.work(), self.is_scalar())
+        let function = &self.emitted.function;
+        let arguments = Probe::new(function, self.emitted.precision)
+            .uniforms()
+            .count();
+        half_chain(operations, function.work(), arguments, self.is_scalar())
     }
 
     fn is_scalar(&self) -> bool {
@@ -140,7 +144,7 @@ impl DrawingPlan {
         let mut empties = Vec::new();
         for precision in Precision::ALL.into_iter().take(precisions) {
             for result in [Ty::Rgb, Ty::Scalar] {
-                let evaluations = half_chain(operations, 0, result == Ty::Scalar);
+                let evaluations = half_chain(operations, 0, 0, result == Ty::Scalar);
                 empties.push(add(evaluations, &|n| empty(result, precision, n)));
             }
         }
@@ -186,11 +190,11 @@ impl DrawingPlan {
     }
 }
 
-/// Evaluations in the shorter chain of a function of so much work: half of the operations, with those that lead from one evaluation
+/// Evaluations in the shorter chain of a function of so much work and so many arguments: half of the operations, with those that lead from one evaluation
 /// to the next.
-fn half_chain(operations: usize, work: usize, is_scalar: bool) -> usize {
+fn half_chain(operations: usize, work: usize, arguments: usize, is_scalar: bool) -> usize {
     let link = if is_scalar { 1 } else { 2 };
-    (operations / 2 / (work + link)).clamp(1, MOST_EVALUATIONS / 2)
+    (operations / 2 / (work + link)).clamp(1, MOST_ARGUMENTS / 2 / arguments.max(1))
 }
 
 fn drawing(probe: &Probe, precision: Precision, evaluations: usize) -> Drawing {

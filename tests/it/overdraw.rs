@@ -35,6 +35,16 @@ fn in_chains(methods: &[&str], operations: usize) -> TimedFunctions {
     request.timed_functions().unwrap()
 }
 
+#[test]
+fn uniforms_are_no_longer_than_opengl_takes() {
+    for operations in [100, 2000, 20_000] {
+        for drawing in in_chains(&[], operations).plan.drawings {
+            let bytes = drawing.uniforms.len();
+            assert!(bytes <= 16_384, "{}, {operations}: {bytes}", drawing.name);
+        }
+    }
+}
+
 /// Nanoseconds of an evaluation that are made up: more for a function that comes later.
 fn cost(chain: DrawnChain) -> f64 {
     100.0 * chain.short as f64

@@ -274,7 +274,11 @@ fn text(m: &Material) -> String {
         .map(|sample| sample.map(|value| value.to_string()).to_vec())
         .collect();
     lines.push(table::text_table(&["nm", "n", "k"], &rows));
-    lines.extend(left_out.iter().map(|why| format!("left out: {}", one_line(why))));
+    lines.extend(
+        left_out
+            .iter()
+            .map(|why| format!("left out: {}", one_line(why))),
+    );
     lines.join("\n")
 }
 

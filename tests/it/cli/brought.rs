@@ -143,7 +143,10 @@ fn rows_that_cannot_be_are_named() {
     let shown = place.done("materials show page.csv --json -");
     let text = place.done("materials show page.csv").out;
     let why = "n is -1 at 400 nm; it must lie between 0.001 and 10000";
-    assert!(text.contains(&format!("left out: material `page`: {why}")), "{text}");
+    assert!(
+        text.contains(&format!("left out: material `page`: {why}")),
+        "{text}"
+    );
     assert!(shown.json()["left_out"][0].as_str().unwrap().ends_with(why));
     assert_eq!(shown.json()["data"].as_array().unwrap().len(), 3);
 }
@@ -190,7 +193,10 @@ fn a_survey_tells_of_every_page() {
         // What cannot be read is refused by name.
         std::os::unix::fs::symlink("nowhere", place.path("db/main/Au/nk/Link.yml")).unwrap();
         let text = place.done("materials survey db").out;
-        assert!(text.contains("main/Au/nk/Link.yml") && text.contains("cannot read it"), "{text}");
+        assert!(
+            text.contains("main/Au/nk/Link.yml") && text.contains("cannot read it"),
+            "{text}"
+        );
     }
     place.refused("materials survey nowhere", &["cannot read nowhere"]);
     place.put("empty/about.yml", "");

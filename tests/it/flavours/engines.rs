@@ -378,7 +378,11 @@ fn coats_are_better(told: &Value) {
         let reading = Reading::new(told);
         if reading.is("is_coated") {
             let off = apart(reading.rgb, gold_below_a_coat(reading.cos));
-            let most = if reading.is("plain") { &mut plain } else { &mut patched };
+            let most = if reading.is("plain") {
+                &mut plain
+            } else {
+                &mut patched
+            };
             *most = f64::max(*most, off);
         }
     }

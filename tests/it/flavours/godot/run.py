@@ -66,6 +66,12 @@ def project():
     readme = (FLAVOUR / "README.md").read_text(encoding="utf-8")
     shader = re.search(r"```glsl\n(.*?)```", readme, re.DOTALL)[1]
     files["readme.gdshader"] = shader.encode()
+    # What the README says of dielectrics, with white diffuse light.
+    water = shader.replace("gold", "water").replace("water_fitted", "water_fitted_dielectric")
+    water = replaced(water, r"METALLIC = 1\.0;", "METALLIC = 0.0;")
+    water = replaced(water, r"ALBEDO = .*;", "ALBEDO = encoded(vec3(1.0));")
+    water = replaced(water, r"(?<=ATTENUATION \* SPECULAR_AMOUNT;)", "\n" + re.search(r"`(DIFFUSE_LIGHT .*;)`", readme)[1])
+    files["water.gdshader"] = water.encode()
     shader = replaced(shader, r"vec3 f = .*;", "vec3 f = FRESNEL_GOLD_F0 + (1.0 - FRESNEL_GOLD_F0) * pow(1.0 - dot(h, VIEW), 5.0);")
     shader = replaced(shader, r"float v = .*;", "float v = 0.5 / mix(2.0 * n_l * n_v, n_l + n_v, ROUGHNESS * ROUGHNESS);")
     files["schlick.gdshader"] = shader.encode()
@@ -233,7 +239,9 @@ def lamp(gold, texels, shot):
     masking = 0.5 / (n_l * math.sqrt(n_v * n_v * (1.0 - a2) + a2) + n_v * math.sqrt(n_l * n_l * (1.0 - a2) + a2))
     part = terms(texels, n_v, roughness)
     more = compensation(gold, reflected_once(gold, part), part[0], roughness)
-    return [level(f * c * d * masking * n_l * shot["energy"]) for f, c in zip(reflectance(gold, dot(h, v)), more)]
+    reflected = [f * c for f, c in zip(reflectance(gold, dot(h, v)), more)]
+    scattered = [1.0 - f if gold["method"] == "fitted_dielectric" else 0.0 for f in reflected]
+    return [level((f * d * masking + s) * n_l * shot["energy"]) for f, s in zip(reflected, scattered)]
 
 
 def image(gold, texels, shot):
@@ -255,14 +263,18 @@ def figures(report):
         want = [reflectance(rows[name], i / (COSINES - 1))[channel] for name in MATERIALS for i in range(COSINES)]
         assert len(seen) == len(want)
         swept.append((seen, want))
-    shots = {kind: [shot for shot in report["lamps"] if shot["kind"] == kind] for kind in ("readme", "schlick", "builtin")}
+    water, texels_of_water = rows["water"], table(FLAVOUR / "table_fitted_dielectric.tres")
+    shots = {kind: [shot for shot in report["lamps"] if shot["kind"] == kind] for kind in ("readme", "water", "schlick", "builtin")}
     pixels = {kind: [shot["pixel"] for shot in shots[kind]] for kind in shots}
     return {
         "reflectance": apart(swept),
         "lamps": apart((shot["pixel"], lamp(gold, texels, shot)) for shot in shots["readme"]),
         "lamps_schlick": apart(zip(pixels["schlick"], pixels["builtin"])),
+        "lamps_of_water": apart((shot["pixel"], lamp(water, texels_of_water, shot)) for shot in shots["water"]),
         "lamps_most": max(map(max, pixels["builtin"])),
         "image": apart((shot["pixel"], image(gold, texels, shot)) for shot in report["image"]),
+        "finite": all(max(pixel) < 255 for pixel in report["smooth"]),
+        "sky": [[max(range(3), key=pixel.__getitem__) for pixel in shot] for shot in report["sky"]],
     }
 
 

@@ -7,6 +7,8 @@ func _ready():
 	var stage = make_stage()
 	told.lamps = await lamps(stage)
 	told.image = await image(stage)
+	told.smooth = await smooth(stage)
+	told.sky = await sky(stage)
 	JavaScriptBridge.get_interface("window").told(JSON.stringify(told, "", true, true))
 
 # What a viewport shows some frames after a change.
@@ -53,17 +55,18 @@ func make_stage():
 	camera.projection = Camera3D.PROJECTION_ORTHOGONAL
 	camera.size = 0.1
 	camera.position = Vector3(0, 0, 4)
-	camera.environment = Environment.new()
-	camera.environment.background_mode = Environment.BG_COLOR
-	camera.environment.background_color = Color.BLACK
+	var world = WorldEnvironment.new()
+	world.environment = Environment.new()
+	world.environment.background_mode = Environment.BG_COLOR
+	world.environment.background_color = Color.BLACK
 	var plane = MeshInstance3D.new()
 	plane.mesh = QuadMesh.new()
 	plane.mesh.size = Vector2(2, 2)
 	var light = DirectionalLight3D.new()
-	for node in [camera, plane, light]:
+	for node in [camera, world, plane, light]:
 		viewport.add_child(node)
 	add_child(viewport)
-	return { "viewport": viewport, "plane": plane, "light": light }
+	return { "viewport": viewport, "plane": plane, "light": light, "environment": world.environment }
 
 func middle(stage):
 	var pixel = (await picture(stage.viewport)).get_pixel(4, 4)
@@ -74,10 +77,11 @@ func lamps(stage):
 	black.gradient = Gradient.new()
 	black.gradient.colors = PackedColorArray([Color.BLACK, Color.BLACK])
 	var seen = []
-	for kind in ["readme", "schlick", "builtin"]:
+	for kind in ["readme", "water", "schlick", "builtin"]:
 		var material = make_material(kind)
 		stage.plane.material_override = material
-		material.set_shader_parameter("table", load("res://fresnel/table_fitted.tres"))
+		var table = "table_fitted_dielectric" if kind == "water" else "table_fitted"
+		material.set_shader_parameter("table", load("res://fresnel/%s.tres" % table))
 		material.set_shader_parameter("sky", black)
 		for roughness in [0.3, 0.6]:
 			material.set_shader_parameter("roughness", roughness)
@@ -93,16 +97,76 @@ func lamps(stage):
 					})
 	return seen
 
-# A white sky and no lamp.
+# A picture of one light everywhere, in floats.
+func panorama(paint):
+	var picture = Image.create(64, 32, true, Image.FORMAT_RGBF)
+	for x in 64:
+		for y in 32:
+			picture.set_pixel(x, y, paint.call(x))
+	picture.generate_mipmaps()
+	return ImageTexture.create_from_image(picture)
+
+func gold():
+	var material = make_material("readme")
+	material.set_shader_parameter("table", load("res://fresnel/table_fitted.tres"))
+	return material
+
+# A sky of one light and no lamp. The exposure keeps the pixel within its bits.
 func image(stage):
 	stage.light.visible = false
-	var material = make_material("readme")
+	var material = gold()
 	stage.plane.material_override = material
-	material.set_shader_parameter("table", load("res://fresnel/table_fitted.tres"))
 	var seen = []
-	for roughness in [0.1, 0.3, 0.6, 1.0]:
-		material.set_shader_parameter("roughness", roughness)
-		for spin in [0, 20, 40, 60, 75]:
+	for light in [0.01, 0.3, 1.0, 40.0]:
+		material.set_shader_parameter("sky", panorama(func(_x): return Color(light, light, light)))
+		stage.environment.tonemap_exposure = 1.0 / light
+		for roughness in [0.1, 0.3, 0.6, 1.0]:
+			material.set_shader_parameter("roughness", roughness)
+			for spin in [0, 20, 40, 60, 75]:
+				stage.plane.rotation_degrees = Vector3(0, spin, 0)
+				seen.append({ "roughness": roughness, "spin": spin, "pixel": await middle(stage) })
+	stage.environment.tonemap_exposure = 1.0
+	return seen
+
+# Roughness 0, where the lamp shines on the back.
+func smooth(stage):
+	var material = gold()
+	stage.plane.material_override = material
+	material.set_shader_parameter("sky", panorama(func(_x): return Color.BLACK))
+	material.set_shader_parameter("roughness", 0.0)
+	stage.plane.rotation_degrees = Vector3(0, 60, 0)
+	stage.light.visible = true
+	stage.light.light_energy = 1.0
+	var seen = []
+	for turn in [-60, -90, -120]:
+		stage.light.rotation_degrees = Vector3(0, turn, 0)
+		seen.append(await middle(stage))
+	stage.light.visible = false
+	return seen
+
+# Four quarters, each of a colour, as this material and as Godot's own mirror reflect them.
+func sky(stage):
+	var colours = [Color.RED, Color.GREEN, Color.BLUE, Color.GREEN]
+	var quarters = panorama(func(x): return colours[int(x / 16.0)])
+	var environment = stage.environment
+	environment.background_mode = Environment.BG_SKY
+	environment.sky = Sky.new()
+	environment.sky.sky_material = PanoramaSkyMaterial.new()
+	environment.sky.sky_material.panorama = quarters
+	environment.reflected_light_source = Environment.REFLECTION_SOURCE_SKY
+	var ours = gold()
+	ours.set_shader_parameter("sky", quarters)
+	ours.set_shader_parameter("roughness", 0.05)
+	var mirror = StandardMaterial3D.new()
+	mirror.metallic = 1.0
+	mirror.roughness = 0.0
+	var seen = []
+	for material in [ours, mirror]:
+		stage.plane.material_override = material
+		var row = []
+		for spin in [-60, -20, 20, 60]:
 			stage.plane.rotation_degrees = Vector3(0, spin, 0)
-			seen.append({ "roughness": roughness, "spin": spin, "pixel": await middle(stage) })
+			await picture(stage.viewport)
+			row.append(await middle(stage))
+		seen.append(row)
 	return seen
