@@ -274,6 +274,8 @@ def figures(report):
         "lamps_most": max(map(max, pixels["builtin"])),
         "image": apart((shot["pixel"], image(gold, texels, shot)) for shot in report["image"]),
         "finite": all(max(pixel) < 255 for pixel in report["smooth"]),
+        # Three sizes of one panorama, eight pixels each.
+        "widths": max(apart(zip(report["widths"][:8], report["widths"][at : at + 8])) for at in (8, 16)),
         "sky": [[max(range(3), key=pixel.__getitem__) for pixel in shot] for shot in report["sky"]],
     }
 

@@ -9,6 +9,7 @@ func _ready():
 	told.image = await image(stage)
 	told.smooth = await smooth(stage)
 	told.sky = await sky(stage)
+	told.widths = await widths(stage)
 	JavaScriptBridge.get_interface("window").told(JSON.stringify(told, "", true, true))
 
 # What a viewport shows some frames after a change.
@@ -98,11 +99,11 @@ func lamps(stage):
 	return seen
 
 # A picture of one light everywhere, in floats.
-func panorama(paint):
-	var picture = Image.create(64, 32, true, Image.FORMAT_RGBF)
-	for x in 64:
-		for y in 32:
-			picture.set_pixel(x, y, paint.call(x))
+func panorama(paint, width = 64):
+	var picture = Image.create(width, width / 2, true, Image.FORMAT_RGBF)
+	for x in width:
+		for y in width / 2:
+			picture.set_pixel(x, y, paint.call(64.0 * x / width))
 	picture.generate_mipmaps()
 	return ImageTexture.create_from_image(picture)
 
@@ -169,4 +170,18 @@ func sky(stage):
 			await picture(stage.viewport)
 			row.append(await middle(stage))
 		seen.append(row)
+	return seen
+
+# A rough mirror of one half that is lit, by panoramas of several sizes.
+func widths(stage):
+	var material = gold()
+	stage.plane.material_override = material
+	var seen = []
+	for width in [64, 256, 1024]:
+		material.set_shader_parameter("sky", panorama(func(x): return Color.WHITE if x < 32 else Color.BLACK, width))
+		for roughness in [0.5, 0.8]:
+			material.set_shader_parameter("roughness", roughness)
+			for spin in [-50, -20, 20, 50]:
+				stage.plane.rotation_degrees = Vector3(0, spin, 0)
+				seen.append(await middle(stage))
 	return seen
