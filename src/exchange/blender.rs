@@ -90,7 +90,7 @@ fn metal(material: &EngineMaterial) -> Sheet {
 fn text(material: &EngineMaterial, sheet: &Sheet, notes: &Notes) -> String {
     let mut text = head::comments("#", &FORMAT, material, notes);
     text += &format!(
-        "import bpy\n\nmaterial = bpy.data.materials.new(\"{}\")\nmaterial.use_nodes = True\nnodes = material.node_tree.nodes\n",
+        "import bpy\n\nmaterial = bpy.data.materials.new(\"{}\")\nmaterial.use_fake_user = True  # it is saved, though no object has it yet\nif not material.node_tree:\n    material.use_nodes = True\nnodes = material.node_tree.nodes\n",
         material.subject.name
     );
     for node in &sheet.nodes {

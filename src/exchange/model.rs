@@ -160,7 +160,7 @@ impl CoatedError {
     fn words(&self) -> String {
         let most = rounded_up(self.max_abs);
         format!(
-            "; where the medium is a coat, light in it is at most {:.2} degrees from the normal, and the error at most {most} (at {:.2} \
+            "; where the medium is a coat of a host that bends light, light in it is at most {:.2} degrees from the normal, and the error at most {most} (at {:.2} \
              degrees)",
             self.steepest_degrees, self.worst_degrees
         )

@@ -2,6 +2,7 @@
 
 use super::model::Model;
 use super::subject::{EngineMaterial, rounded};
+use crate::fit::rounded_up;
 
 /// All that a format holds of a material.
 #[derive(Clone, Debug)]
@@ -113,7 +114,7 @@ pub fn capped_tint(material: &EngineMaterial, field: &str) -> ([f64; 3], Option<
     let error = |tint| Model::f82_tint(f0, tint).error(material).0;
     let (before, after) = (error(whole), error(capped));
     let [red, green, blue] = whole;
-    let (before, after) = (format!("{before:.5}"), format!("{after:.5}"));
+    let (before, after) = (rounded_up(before), rounded_up(after));
     let price = match before == after {
         true => format!("the error stays {after}"),
         false => format!("the error is {after} in place of {before}"),

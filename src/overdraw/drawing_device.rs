@@ -43,7 +43,7 @@ impl DeviceFacts {
 }
 
 /// The device that is wanted. OpenGL draws as well as the others, so it is taken where nothing else is there.
-fn open(wanted: &Wanted) -> Result<Device, DeviceFault> {
+pub fn open(wanted: &Wanted) -> Result<Device, DeviceFault> {
     let opengl = Wanted {
         backend: Some(Backend::OpenGl),
         ..wanted.clone()
@@ -64,19 +64,19 @@ pub struct DrawingDevice<'a> {
 }
 
 impl<'a> DrawingDevice<'a> {
-    /// Opens the device that is wanted, with a target of so many pixels a side.
+    /// The device with a target of so many pixels a side.
     ///
     /// # Errors
-    /// There is none, or it draws no such target.
-    pub fn open(
+    /// It draws no such target.
+    pub fn new(
         plan: &'a DrawingPlan,
-        wanted: &Wanted,
+        device: &Device,
         size: Option<u32>,
     ) -> Result<DrawingDevice<'a>, DeviceFault> {
-        let device = open(wanted)?;
-        let usual = match device.adapter.kind {
-            AdapterKind::Software => ON_A_PROCESSOR,
-            _ => ON_A_CARD,
+        let usual = if device.adapter.kind == AdapterKind::Software {
+            ON_A_PROCESSOR
+        } else {
+            ON_A_CARD
         };
         Ok(DrawingDevice {
             plan,

@@ -21,37 +21,44 @@ const GRACE: Duration = Duration::from_secs(2);
 const ONE_THREAD: [(&str, &str); 1] = [("LP_NUM_THREADS", "1")];
 
 /// The process, and what it knows.
-pub struct DrawingWorker<'a> {
-    plan: &'a DrawingPlan,
+pub struct DrawingWorker {
     worker: Worker,
     /// Removed after the process.
     _surroundings: Surroundings,
     limit: Duration,
     /// What it draws on.
     pub device: DeviceFacts,
+    /// Whether each drawing computes in half precision.
+    in_half: Vec<bool>,
     /// What it has compiled.
     compiled: BTreeSet<usize>,
 }
 
-impl<'a> DrawingWorker<'a> {
-    /// Starts it; one submission may take so long.
+impl DrawingWorker {
+    /// Starts it; one submission may take so long. What it draws is said by [`DrawingWorker::takes`].
     ///
     /// # Errors
     /// There is no device, or it cannot be opened.
-    pub fn start(plan: &'a DrawingPlan, limit: Duration) -> Result<DrawingWorker<'a>, Error> {
+    pub fn start(limit: Duration) -> Result<DrawingWorker, Error> {
         let surroundings = Surroundings::new(None)?;
         let environment = ONE_THREAD.map(|(name, value)| (name.to_owned(), value.into()));
         let launch = Launch::with_own_words(&surroundings);
         let mut worker = Worker::new(launch.with_environment(environment.into()));
         let device = facts(&mut worker)?;
         Ok(DrawingWorker {
-            plan,
             worker,
             _surroundings: surroundings,
             limit,
             device,
+            in_half: Vec::new(),
             compiled: BTreeSet::new(),
         })
+    }
+
+    /// The plan whose drawings it draws.
+    pub fn takes(&mut self, plan: &DrawingPlan) {
+        let drawings = plan.drawings.iter();
+        self.in_half = drawings.map(|one| one.precision.is_half()).collect();
     }
 
     /// Another process in place of one that is lost.
@@ -70,9 +77,9 @@ impl<'a> DrawingWorker<'a> {
     }
 }
 
-impl Draw for DrawingWorker<'_> {
+impl Draw for DrawingWorker {
     fn draw(&mut self, drawing: usize, draws: u32) -> Result<Reading, Stop> {
-        if self.plan.drawings[drawing].precision.is_half() && !self.device.has_half {
+        if self.in_half[drawing] && !self.device.has_half {
             return Err(Stop::One(self.device.no_half()));
         }
         let patience = if self.compiled.contains(&drawing) {

@@ -45,7 +45,7 @@ pub use error::Error;
 pub use figure::{Noise, OverdrawFigure};
 pub use functions::{LibraryMaterials, TimedFunctions};
 pub use measure::{Clock, Draw, DrawingEffort, MeasuredDrawings, Reading, Round, Stop, measure};
-pub use plan::{Drawing, DrawingPlan, DrawnChain, TimedFunction};
+pub use plan::{Drawing, DrawingPlan, DrawnChain, TimedFunction, usual_operations};
 #[cfg(feature = "gpu")]
 pub use row::{TimeRow, time_rows};
 #[cfg(all(feature = "cli", feature = "gpu"))]

@@ -65,6 +65,11 @@ pub struct DrawingPlan {
     chains: Vec<[DrawnChain; 2]>,
 }
 
+/// Operations in a long chain where nothing is said. A card hides what is cheap behind the draw; a processor does one after the other.
+pub const fn usual_operations(is_software: bool) -> usize {
+    if is_software { 400 } else { 2000 }
+}
+
 /// Most arguments of a long chain's evaluations, all together, at 16 bytes each: OpenGL takes 16 KiB of uniforms everywhere.
 const MOST_ARGUMENTS: usize = 1000;
 

@@ -2,24 +2,30 @@
 
 use std::io;
 
-use crate::gpu::Wanted;
+use crate::gpu::{AdapterKind, Wanted};
 use crate::process::Inbox;
 
-use super::drawing_device::DrawingDevice;
+use super::drawing_device::{DrawingDevice, open};
 use super::plan::DrawingPlan;
 use super::protocol::{DrawRequest, DrawResponse};
 
-/// Serves until the supervisor is gone. Only drawings of the plan are drawn.
+/// Serves until the supervisor is gone. Only drawings of the plan are drawn; what is planned depends on whether the device is software.
 ///
 /// # Errors
 /// The pipe is gone.
 pub fn serve(
     inbox: Inbox,
-    plan: &DrawingPlan,
+    plan: &dyn Fn(bool) -> DrawingPlan,
     wanted: &Wanted,
     size: Option<u32>,
 ) -> io::Result<()> {
-    let mut device = DrawingDevice::open(plan, wanted, size);
+    let opened = open(wanted);
+    let plan = &plan(
+        opened
+            .as_ref()
+            .is_ok_and(|device| device.adapter.kind == AdapterKind::Software),
+    );
+    let mut device = opened.and_then(|device| DrawingDevice::new(plan, &device, size));
     inbox.serve(|request| match (&mut device, request) {
         (Err(fault), _) => fault.clone().into(),
         (Ok(device), DrawRequest::Device) => DrawResponse::Device(device.facts()),

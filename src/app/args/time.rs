@@ -54,9 +54,9 @@ pub struct TimeFlags {
     /// Pixels a side of the square target, 16 to 8192 [default: 256 in software, else 1024]
     #[arg(long, value_name = "PIXELS")]
     pub size: Option<u32>,
-    /// Operations in a draw, 100 to 20000, about: evaluations of a function, each from the result before, and of half as many. More where the cost of the draw itself hides a function
-    #[arg(long, value_name = "N", default_value_t = 2000)]
-    pub operations: usize,
+    /// Operations in a draw, 100 to 20000, about: evaluations of a function, each from the result before, and of half as many. More where the cost of the draw itself hides a function [default: 400 in software, else 2000]
+    #[arg(long, value_name = "N")]
+    pub operations: Option<usize>,
     /// Rounds, 1 to 1000. Each draws every shader once, and the reference shader beside every sixth
     #[arg(long, value_name = "N", default_value_t = 75)]
     pub rounds: usize,
@@ -90,7 +90,7 @@ impl TimeFlags {
             .switch("hardware", self.hardware)
             .list("clock", self.clock.map(Clock::name))
             .list("size", self.size)
-            .number("operations", self.operations)
+            .list("operations", self.operations)
             .number("rounds", self.rounds)
     }
 }

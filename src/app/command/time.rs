@@ -12,7 +12,7 @@ use crate::foreign::{lines, one_line};
 use crate::gpu::Wanted;
 use crate::overdraw::{
     Clock, DeviceFacts, DrawingEffort, DrawingWorker, MeasuredDrawings, Stop, TimeRow,
-    TimedFunctions, measure, serve, time_rows,
+    TimedFunctions, measure, serve, time_rows, usual_operations,
 };
 use crate::process::Inbox;
 use crate::report::time::TimeReport;
@@ -34,15 +34,13 @@ pub fn run(flags: &TimeFlags, progress: Progress) -> Result<Output, Error> {
         backend: flags.backend,
         name: flags.adapter.clone(),
     };
-    let request = TimeRequest {
-        methods: Choice::methods(&flags.method),
-        materials: flags.materials.materials()?,
-        precisions: each_once(&flags.precision),
-        operations: flags.operations,
-    };
-    let timed = request.timed_functions()?;
+    let mut timed = timed_functions(flags, false)?;
     if let Some(inbox) = inbox {
-        let served = serve(inbox, &timed.plan, &wanted, flags.size);
+        let plan = |is_software| {
+            let again = timed_functions(flags, is_software);
+            again.map_or_else(|_| timed.plan.clone(), |timed| timed.plan)
+        };
+        let served = serve(inbox, &plan, &wanted, flags.size);
         // The supervisor has gone: nobody is there to be told.
         return Ok(Output {
             code: u8::from(served.is_err()),
@@ -51,16 +49,12 @@ pub fn run(flags: &TimeFlags, progress: Progress) -> Result<Output, Error> {
     }
     try_places(flags.report.json(), None)?;
     let limit = Duration::from_secs_f64(flags.limit);
-    let mut worker = DrawingWorker::start(&timed.plan, limit)?;
-    if flags.hardware && worker.device.is_software {
-        return Err(no_hardware(&worker.device, &wanted));
+    let mut worker = DrawingWorker::start(limit)?;
+    check_device(flags, &worker.device, &wanted)?;
+    if worker.device.is_software {
+        timed = timed_functions(flags, true)?;
     }
-    if flags.clock == Some(Clock::Cpu) && !worker.device.is_software {
-        let device = &worker.device.device;
-        let why =
-            format!("--clock cpu is for software; {device} does not compute on the processor");
-        return Err(RequestFault::conflict(why).into());
-    }
+    worker.takes(&timed.plan);
     let effort = DrawingEffort {
         rounds: flags.rounds,
         clock: flags.clock,
@@ -86,6 +80,31 @@ pub fn run(flags: &TimeFlags, progress: Progress) -> Result<Output, Error> {
     Ok(output)
 }
 
+/// What is drawn; in software chains are shorter where nothing is said.
+fn timed_functions(flags: &TimeFlags, is_software: bool) -> Result<TimedFunctions, Error> {
+    let usual = usual_operations(is_software);
+    let request = TimeRequest {
+        methods: Choice::methods(&flags.method),
+        materials: flags.materials.materials()?,
+        precisions: each_once(&flags.precision),
+        operations: flags.operations.unwrap_or(usual),
+    };
+    request.timed_functions()
+}
+
+fn check_device(flags: &TimeFlags, facts: &DeviceFacts, wanted: &Wanted) -> Result<(), Error> {
+    if flags.hardware && facts.is_software {
+        return Err(no_hardware(facts, wanted));
+    }
+    if flags.clock == Some(Clock::Cpu) && !facts.is_software {
+        let device = &facts.device;
+        let why =
+            format!("--clock cpu is for software; {device} does not compute on the processor");
+        return Err(RequestFault::conflict(why).into());
+    }
+    Ok(())
+}
+
 fn check(flags: &TimeFlags) -> Result<(), Error> {
     if let Some(size) = flags.size.filter(|size| !SIZES.contains(size)) {
         return out_of_range("size", size, "is 16 to 8192 pixels a side");
@@ -93,8 +112,8 @@ fn check(flags: &TimeFlags) -> Result<(), Error> {
     if !ROUNDS.contains(&flags.rounds) {
         return out_of_range("rounds", flags.rounds, "is 1 to 1000");
     }
-    if !OPERATIONS.contains(&flags.operations) {
-        return out_of_range("operations", flags.operations, "is 100 to 20000");
+    if let Some(operations) = flags.operations.filter(|one| !OPERATIONS.contains(one)) {
+        return out_of_range("operations", operations, "is 100 to 20000");
     }
     if !SECONDS.contains(&flags.limit) {
         return out_of_range("limit", flags.limit, "is 0.000001 to 3600 seconds");

@@ -45,7 +45,13 @@ fn lamps_and_images_take_our_reflectance() {
     assert!(number(&told["widths"]) <= 8.0, "{told}");
     // A picture of the sky stands as Godot's own does, and all of it is seen.
     let [ours, own] = [&told["sky"][0], &told["sky"][1]];
-    assert!(ours == own && [0, 1, 2].iter().all(|one| ours.as_array().unwrap().contains(&json!(one))), "{told}");
+    assert!(
+        ours == own
+            && [0, 1, 2]
+                .iter()
+                .all(|one| ours.as_array().unwrap().contains(&json!(one))),
+        "{told}"
+    );
 }
 
 /// What `tests/run` installs is what runs here.
