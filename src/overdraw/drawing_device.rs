@@ -3,8 +3,8 @@
 use serde::{Deserialize, Serialize};
 
 use crate::gpu::{
-    AdapterKind, Backend, Canvas, Device, DeviceFault, Layer, Shader, Texture, TextureFilter,
-    TextureFormat, TextureShape, Wanted, Wrap,
+    AdapterKind, Canvas, Device, DeviceFault, Layer, Shader, Texture, TextureFilter, TextureFormat,
+    TextureShape, Wrap,
 };
 
 use super::clock::timed;
@@ -39,20 +39,6 @@ impl DeviceFacts {
             "{} has no 16-bit arithmetic in shaders (shader-f16, shaderFloat16)",
             self.device
         )
-    }
-}
-
-/// The device that is wanted. OpenGL draws as well as the others, so it is taken where nothing else is there.
-pub fn open(wanted: &Wanted) -> Result<Device, DeviceFault> {
-    let opengl = Wanted {
-        backend: Some(Backend::OpenGl),
-        ..wanted.clone()
-    };
-    match Device::open(wanted) {
-        Err(fault @ DeviceFault::Absent { .. }) if wanted.backend.is_none() => {
-            Device::open(&opengl).map_err(|_| fault)
-        }
-        opened => opened,
     }
 }
 

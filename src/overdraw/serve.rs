@@ -2,10 +2,10 @@
 
 use std::io;
 
-use crate::gpu::{AdapterKind, Wanted};
+use crate::gpu::{AdapterKind, Backend, Device, DeviceFault, Wanted};
 use crate::process::Inbox;
 
-use super::drawing_device::{DrawingDevice, open};
+use super::drawing_device::DrawingDevice;
 use super::plan::DrawingPlan;
 use super::protocol::{DrawRequest, DrawResponse};
 
@@ -36,4 +36,18 @@ pub fn serve(
             .draw(drawing, draws)
             .map_or_else(DrawResponse::from, DrawResponse::Reading),
     })
+}
+
+/// The device that is wanted. OpenGL draws as well as the others, so it is taken where nothing else is there.
+fn open(wanted: &Wanted) -> Result<Device, DeviceFault> {
+    let opengl = Wanted {
+        backend: Some(Backend::OpenGl),
+        ..wanted.clone()
+    };
+    match Device::open(wanted) {
+        Err(fault @ DeviceFault::Absent { .. }) if wanted.backend.is_none() => {
+            Device::open(&opengl).map_err(|_| fault)
+        }
+        opened => opened,
+    }
 }
