@@ -4,11 +4,11 @@
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 use fresnel_gen::app::request::Materials;
 use fresnel_gen::app::tables::{WantedTables, table_materials};
-use fresnel_gen::bake::{BakeRequest, TableSize, bake};
-use fresnel_gen::lut::{Depth, Format, Table, TableAxis, smallest};
-use fresnel_gen::materials::{Surface, ViewingConditions, find};
-use fresnel_gen::methods::Light;
-use fresnel_gen::reference::ReferenceCurve;
+use fresnel_gen::generator::bake::{BakeRequest, TableSize, bake};
+use fresnel_gen::generator::lut::{Depth, Format, Table, TableAxis, smallest};
+use fresnel_gen::generator::reference::ReferenceCurve;
+use fresnel_gen::language::methods::Light;
+use fresnel_gen::physics::materials::{Surface, ViewingConditions, find};
 
 fn gold() -> ReferenceCurve {
     let gold = find("gold")

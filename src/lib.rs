@@ -49,8 +49,8 @@
 //!
 //! # Inside
 //!
-//! One description of each method ([`methods`]), an intermediate representation ([`ir`]) and a table per language
-//! ([`targets`]) give WGSL, GLSL ES 3.00, HLSL, SPIR-V, MSL and GLSL 450. The exact laws ([`optics`]) are written a
+//! One description of each method ([`language::methods`]), an intermediate representation ([`language::ir`]) and a table per language
+//! ([`language::targets`]) give WGSL, GLSL ES 3.00, HLSL, SPIR-V, MSL and GLSL 450. The exact laws ([`physics::optics`]) are written a
 //! second time without the IR, and all else is held against them. ARCHITECTURE.md says more.
 #![cfg_attr(test, allow(clippy::print_stdout, clippy::unwrap_used))]
 
@@ -58,48 +58,12 @@
 // foreign < num, cite, names, records, digest < ir, optics < spectra < materials, methods, targets < effects, reference, command_line < fit < emit < exchange, lut < flavours < gpu, process, raster < verify, cost < overdraw, stability < audit, budget, bake, reproduce < chart < scene < gallery, plan < report < app
 
 pub mod app;
-#[cfg(all(feature = "cli", feature = "gpu"))]
-pub mod audit;
-#[cfg(feature = "cli")]
-pub mod bake;
-pub mod budget;
-pub mod chart;
-pub mod cite;
-pub mod command_line;
-pub mod cost;
-pub mod digest;
-pub mod effects;
-pub mod emit;
-pub mod exchange;
-pub mod fit;
-pub mod flavours;
-pub mod foreign;
-#[cfg(feature = "cli")]
-pub mod gallery;
-#[cfg(feature = "gpu")]
-pub mod gpu;
-pub mod ir;
-pub mod lut;
-pub mod materials;
-pub mod methods;
-pub mod names;
-pub mod num;
-pub mod optics;
-pub mod overdraw;
-#[cfg(feature = "cli")]
-pub mod plan;
-pub mod process;
-pub mod raster;
-pub mod records;
-pub mod reference;
+pub mod generator;
+pub mod lab;
+pub mod language;
+pub mod physics;
+pub mod pictures;
 pub mod report;
-pub mod reproduce;
-#[cfg(feature = "cli")]
-pub mod scene;
-pub mod spectra;
-pub mod stability;
-pub mod targets;
-pub mod verify;
 
 // What build scripts use. The test `snapshots::api` lists it.
 pub use app::artifact::Artifact;
@@ -107,7 +71,7 @@ pub use app::error::Error;
 pub use app::generate::{Generated, generate, generate_single};
 pub use app::request::{Materials, Request, Source};
 pub use app::write::write_file;
-pub use num::Precision;
+pub use physics::num::Precision;
 
 /// The documents' Rust is compiled as a test.
 #[cfg(doctest)]

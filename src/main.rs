@@ -11,9 +11,9 @@ use clap::error::{ContextKind, ContextValue};
 use fresnel_gen::app::args::{Cli, with_names_of_today};
 use fresnel_gen::app::command;
 use fresnel_gen::app::legible::legible;
-use fresnel_gen::foreign::one_line;
-use fresnel_gen::methods;
-use fresnel_gen::num::{POINT_NOT_COMMA, has_decimal_commas};
+use fresnel_gen::language::methods;
+use fresnel_gen::physics::foreign::one_line;
+use fresnel_gen::physics::num::{POINT_NOT_COMMA, has_decimal_commas};
 use indicatif::{ProgressBar, ProgressStyle};
 
 #[path = "main/stdout.rs"]

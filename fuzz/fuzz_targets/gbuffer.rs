@@ -3,7 +3,7 @@
 
 use std::sync::LazyLock;
 
-use fresnel_gen::plan::{MaterialIds, read_gbuffer};
+use fresnel_gen::pictures::plan::{MaterialIds, read_gbuffer};
 use libfuzzer_sys::fuzz_target;
 
 const MAP: &str = "ignore = [2]\n[[material]]\nid = 1\nmaterial = \"gold\"\n";

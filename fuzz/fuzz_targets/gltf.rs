@@ -1,7 +1,7 @@
 //! Any bytes as glTF: no panic, no memory for what the file cannot hold, and what is read can be drawn.
 #![no_main]
 
-use fresnel_gen::plan::{GltfScene, GltfView, SceneLight};
+use fresnel_gen::pictures::plan::{GltfScene, GltfView, SceneLight};
 use libfuzzer_sys::fuzz_target;
 
 const VIEW: GltfView = GltfView {

@@ -1,7 +1,7 @@
 //! Any text as a material's file: no panic, and what is read is written and read again as the same.
 #![no_main]
 
-use fresnel_gen::materials::Material;
+use fresnel_gen::physics::materials::Material;
 use libfuzzer_sys::fuzz_target;
 
 fuzz_target!(|text: &str| {

@@ -1,7 +1,7 @@
 //! Any text as an OBJ file: no panic, and what is read can be drawn.
 #![no_main]
 
-use fresnel_gen::raster::{Turntable, draw, mesh_of_obj};
+use fresnel_gen::lab::raster::{Turntable, draw, mesh_of_obj};
 use libfuzzer_sys::fuzz_target;
 
 fuzz_target!(|text: &str| {

@@ -1,7 +1,7 @@
 //! Any text as a page and as a table: no panic, and what is read is written and read again as the same material.
 #![no_main]
 
-use fresnel_gen::materials::{Extrapolate, Material, Page};
+use fresnel_gen::physics::materials::{Extrapolate, Material, Page};
 use libfuzzer_sys::fuzz_target;
 
 fuzz_target!(|text: &str| {

@@ -1,8 +1,8 @@
 //! Any text as a scene file: no panic, and what is read of small frames can be drawn.
 #![no_main]
 
-use fresnel_gen::plan::SceneFile;
-use fresnel_gen::raster::{CUBE, SPHERE};
+use fresnel_gen::lab::raster::{CUBE, SPHERE};
+use fresnel_gen::pictures::plan::SceneFile;
 use libfuzzer_sys::fuzz_target;
 
 /// Pixels of a frame that is drawn here.

@@ -2,13 +2,13 @@
 
 use std::collections::BTreeSet;
 
-use crate::emit::Detail;
+use crate::generator::emit::Detail;
 
 use super::error::Error;
 use super::manifest;
 use super::scope::EffectKey;
 
-pub use crate::digest::sha256;
+pub use crate::physics::digest::sha256;
 
 /// One output file, and what the manifest says about it.
 #[derive(Clone, Debug, PartialEq)]

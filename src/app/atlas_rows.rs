@@ -3,7 +3,7 @@
 
 use std::collections::BTreeMap;
 
-use crate::foreign::{Foreign, one_line};
+use crate::physics::foreign::{Foreign, one_line};
 
 use super::artifact::Artifact;
 use super::manifest::Entry;

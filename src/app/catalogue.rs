@@ -3,15 +3,15 @@
 
 use serde::Serialize;
 
-use crate::command_line::CommandLine;
-use crate::emit::{
+use crate::generator::command_line::CommandLine;
+use crate::generator::emit::{
     self, BufferDetail, CATALOGUE_BUFFER, COEFFICIENT_ORDER, COEFFICIENTS, CatalogueDetail,
     CatalogueMaterial, CatalogueMethod, CatalogueRow, Detail, Naming, OUTPUT_LICENCE,
 };
-use crate::lut::{CatalogueTexture, CatalogueTextureDetail};
-use crate::reference::MaterialInMedium;
+use crate::generator::lut::{CatalogueTexture, CatalogueTextureDetail};
+use crate::generator::reference::MaterialInMedium;
+use crate::physics::spectra::Space;
 use crate::report::{Origin, TOOL};
-use crate::spectra::Space;
 
 use super::artifact::Artifact;
 use super::error::Error;
@@ -214,7 +214,7 @@ mod tests {
         );
         assert!(
             !Request {
-                precision: crate::num::Precision::F16,
+                precision: crate::physics::num::Precision::F16,
                 ..usual
             }
             .names_nothing()

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 
 use similar::TextDiff;
 
-use crate::foreign::{Foreign, line_of_file};
+use crate::physics::foreign::{Foreign, line_of_file};
 
 use super::artifact::sha256;
 use super::tree::{Planned, State, TreePlan};

@@ -6,9 +6,13 @@ use std::path::PathBuf;
 use thiserror::Error;
 
 use super::fault::RequestFault;
-use crate::foreign::{self, Foreign, one_line};
-use crate::names::UnknownName;
-use crate::{emit, lut, materials, overdraw, process};
+use crate::generator::emit;
+use crate::generator::lut;
+use crate::lab::overdraw;
+use crate::lab::process;
+use crate::physics::foreign::{self, Foreign, one_line};
+use crate::physics::materials;
+use crate::physics::names::UnknownName;
 
 /// A fault of the output folder, or of what was to be put there.
 #[derive(Debug, Error)]
@@ -51,18 +55,18 @@ pub enum Error {
     Emit(#[from] emit::Error),
     /// An adapter cannot be written.
     #[error(transparent)]
-    Flavour(#[from] crate::flavours::Error),
+    Flavour(#[from] crate::generator::flavours::Error),
     /// A table cannot be made.
     #[error(transparent)]
     Lut(#[from] lut::Error),
     /// A user's function cannot be audited.
     #[cfg(all(feature = "cli", feature = "gpu"))]
     #[error(transparent)]
-    Audit(#[from] crate::audit::Error),
+    Audit(#[from] crate::lab::audit::Error),
     /// Nothing can be verified as it was asked for.
     #[cfg(all(feature = "cli", feature = "gpu"))]
     #[error(transparent)]
-    Verify(#[from] crate::verify::Error),
+    Verify(#[from] crate::lab::verify::Error),
     /// The processes of a run cannot be started.
     #[error(transparent)]
     Process(#[from] process::Error),
@@ -72,10 +76,10 @@ pub enum Error {
     /// A table cannot be baked.
     #[cfg(feature = "cli")]
     #[error(transparent)]
-    Bake(#[from] crate::bake::Error),
+    Bake(#[from] crate::generator::bake::Error),
     /// No function can be chosen within a budget.
     #[error(transparent)]
-    Budget(#[from] crate::budget::Error),
+    Budget(#[from] crate::lab::budget::Error),
     /// An artifact's path cannot be used.
     #[error(
         "the output path `{}` cannot be used: {}",

@@ -4,8 +4,8 @@ use std::path::PathBuf;
 
 use thiserror::Error;
 
-use crate::foreign::{self, Foreign, one_line};
-use crate::methods::Method;
+use crate::language::methods::Method;
+use crate::physics::foreign::{self, Foreign, one_line};
 
 /// How a material gets another name.
 pub const NEW_NAME: &str = "rename one in its file; a page or a table is named after its file: rename that, or let `fresnel-gen materials import FILE --name NAME -o NAME.toml` make a material file";

@@ -7,7 +7,7 @@ use std::path::{Component, Path, PathBuf};
 
 use super::error::Error;
 use super::reading;
-use crate::digest::sha256;
+use crate::physics::digest::sha256;
 
 /// The beginning of a temporary file's name.
 const TEMPORARY_PREFIX: &str = ".fresnel-gen-";

@@ -9,7 +9,7 @@ use tempfile::TempPath;
 
 use super::folder;
 use super::ours::bears_mark;
-use crate::digest::sha256;
+use crate::physics::digest::sha256;
 
 /// What may lie in a place at the moment of renaming.
 #[derive(Clone, Debug, PartialEq, Eq)]

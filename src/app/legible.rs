@@ -1,7 +1,7 @@
 //! Text as a terminal may have it: characters that move its cursor, change its title or turn its lines are shown as escapes. It is a
-//! second fence: a message holds no such text of others, since [`foreign`](crate::foreign) cleans what is put into it.
+//! second fence: a message holds no such text of others, since [`foreign`](crate::physics::foreign) cleans what is put into it.
 
-use crate::materials::is_hidden;
+use crate::physics::materials::is_hidden;
 
 /// The text with such characters as `\u{1b}`. Line breaks and tabs stay.
 pub fn legible(text: &str) -> String {

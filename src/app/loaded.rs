@@ -2,8 +2,8 @@
 
 use std::path::Path;
 
-use crate::command_line::path_again;
-use crate::materials::{self, ConstantIndex, Material};
+use crate::generator::command_line::path_again;
+use crate::physics::materials::{self, ConstantIndex, Material};
 
 use super::error::Error;
 use super::fault::RequestFault;

@@ -83,7 +83,7 @@ impl Lock {
                     drop(file);
                     announce(&format!(
                         "{}: the file system has no locks ({why}); let no other run write there meanwhile",
-                        crate::foreign::path(&out_dir)
+                        crate::physics::foreign::path(&out_dir)
                     ));
                     let _ = fs::remove_file(&lock.path);
                     return lock;
@@ -179,7 +179,7 @@ fn open(path: &Path) -> io::Result<File> {
 fn without(path: &Path, why: &str) -> String {
     format!(
         "{} {why}; fresnel-gen goes on without a lock: let no other run write there meanwhile",
-        crate::foreign::path(path)
+        crate::physics::foreign::path(path)
     )
 }
 
@@ -225,7 +225,7 @@ fn wait(file: &File, path: &Path, announce: Announce) -> io::Result<bool> {
             Err(TryLockError::Error(why)) => return Err(why),
         }
         if turn == SILENT_TURNS {
-            let folder = crate::foreign::path(&path.parent().unwrap_or(path));
+            let folder = crate::physics::foreign::path(&path.parent().unwrap_or(path));
             announce(&format!(
                 "{folder}: another run writes there; waiting for it to end"
             ));

@@ -9,9 +9,9 @@ use serde::de::Error as _;
 use serde::{Deserialize, Deserializer, Serialize};
 use serde_json::{Map, Value};
 
-use crate::num::Precision;
+use crate::physics::num::Precision;
+use crate::physics::spectra::without_mark;
 use crate::report::TOOL;
-use crate::spectra::without_mark;
 
 use super::artifact::{Artifact, check_path};
 use super::error::Error;
@@ -76,7 +76,7 @@ pub struct Entry {
     /// killed leaves no file unlisted.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub was: Option<String>,
-    /// Functions, parameters, errors: [`Detail`](crate::emit::Detail), or what another version wrote, which stays.
+    /// Functions, parameters, errors: [`Detail`](crate::generator::emit::Detail), or what another version wrote, which stays.
     #[serde(flatten)]
     pub detail: Map<String, Value>,
 }

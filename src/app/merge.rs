@@ -8,12 +8,12 @@ use serde::Deserialize;
 use serde_json::Value;
 use thiserror::Error;
 
-use crate::foreign::{self, Foreign, one_line};
-use crate::materials::FileFault;
+use crate::lab::verify::VerifyRow;
+use crate::lab::verify::shard::{PartStatement, PlacedRow, PlannedRows, Shard};
+use crate::physics::foreign::{self, Foreign, one_line};
+use crate::physics::materials::FileFault;
 use crate::report::shard::ShardReport;
 use crate::report::{SCHEMA, TOOL};
-use crate::verify::VerifyRow;
-use crate::verify::shard::{PartStatement, PlacedRow, PlannedRows, Shard};
 
 use super::error::Error;
 use super::fault::RequestFault;

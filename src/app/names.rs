@@ -1,6 +1,6 @@
 //! Names on the command line that are not there, as errors of this program.
 
-use crate::names::UnknownName;
+use crate::physics::names::UnknownName;
 
 use super::error::Error;
 

@@ -6,7 +6,7 @@ use super::error::Error;
 use super::fault::RequestFault;
 use super::manifest::{Entry, Manifest, Provenance};
 use super::tree::{Planned, State};
-use crate::emit::Detail;
+use crate::generator::emit::Detail;
 
 /// Refuses to write what is made of a table or page beside what is made of another, or of a material of the catalogue with its name: a table
 /// and a page are named after their files, and the data differ.

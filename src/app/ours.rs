@@ -6,14 +6,14 @@
 //! that path. A run replaces a file that bears the mark, listed or not. It removes a file only where all is proved
 //! ([`is_as_written`]), since a mark can be pasted.
 
-use crate::digest::sha256;
-use crate::effects;
-use crate::emit::{CATALOGUE, CATALOGUE_BUFFER, EFFECTS, MARK};
-use crate::flavours;
-use crate::lut::{Format, KTX2_MARK, TABLES};
-use crate::methods;
-use crate::num::Precision;
-use crate::targets::{self, Finish};
+use crate::generator::emit::{CATALOGUE, CATALOGUE_BUFFER, EFFECTS, MARK};
+use crate::generator::flavours;
+use crate::generator::lut::{Format, KTX2_MARK, TABLES};
+use crate::language::effects;
+use crate::language::methods;
+use crate::language::targets::{self, Finish};
+use crate::physics::digest::sha256;
+use crate::physics::num::Precision;
 
 use super::catalogue::SHARED;
 use super::manifest::Entry;

@@ -3,14 +3,14 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 
-use crate::emit::FunctionForm;
-use crate::foreign::Foreign;
-use crate::materials::{self, FileFault};
-use crate::methods::{self, Method};
-use crate::num::Precision;
-use crate::plan::{PlanFile, PlanFileRow, is_plannable};
+use crate::generator::emit::FunctionForm;
+use crate::language::methods::{self, Method};
+use crate::physics::foreign::Foreign;
+use crate::physics::materials::{self, FileFault};
+use crate::physics::num::Precision;
+use crate::physics::spectra::Space;
+use crate::pictures::plan::{PlanFile, PlanFileRow, is_plannable};
 use crate::report::{SCHEMA, TOOL};
-use crate::spectra::Space;
 
 use super::args::MaterialName;
 use super::error::Error;
@@ -35,7 +35,7 @@ pub fn planned(file: &Path, allowed: &[PathBuf], request: Request) -> Result<Req
         let at_row = |error: Error| Error::Usage {
             what: format!(
                 "{}: row {} ({}): {error}",
-                crate::foreign::path(&file),
+                crate::physics::foreign::path(&file),
                 place + 1,
                 Foreign(&row.material)
             ),
@@ -155,7 +155,7 @@ fn precision(file: &Path, plan: &PlanFile) -> Result<Precision, Error> {
         false => Err(Error::Usage {
             what: format!(
                 "{}: its functions compute in different precisions; a plan has one",
-                crate::foreign::path(&file)
+                crate::physics::foreign::path(&file)
             ),
         }),
     }

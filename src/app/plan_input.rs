@@ -2,14 +2,14 @@
 
 use std::path::{Path, PathBuf};
 
-use crate::foreign::Foreign;
-use crate::materials::ViewingConditions;
-use crate::plan::{
+use crate::generator::reference::{Derivation, MaterialInMedium};
+use crate::physics::foreign::Foreign;
+use crate::physics::materials::ViewingConditions;
+use crate::pictures::plan::{
     FramePixels, GltfScene, GltfView, MappedMaterial, MaterialIds, PlannedMaterial, SceneFile,
     SceneLight, Unplanned, check_primaries, constant_index, read_gbuffer,
 };
-use crate::reference::{Derivation, MaterialInMedium};
-use crate::scene::{Display, Environment, TONE_CURVES};
+use crate::pictures::scene::{Display, Environment, TONE_CURVES};
 
 use super::args::{MaterialName, PlanFlags};
 use super::error::Error;
@@ -63,7 +63,7 @@ pub fn plan_input<'a>(
         Some("toml") => of_scene_file(flags, scene, viewing),
         _ if is_gltf => of_gltf(flags, scene, viewing),
         _ => {
-            let file = crate::foreign::path(&scene);
+            let file = crate::physics::foreign::path(&scene);
             let why = format!(
                 "`{file}` is no scene by its ending: .toml, .glb or .gltf; frames of a renderer go with --gbuffer"
             );
@@ -109,7 +109,7 @@ fn of_gltf<'a>(
         Some(path) => {
             let environment = Environment::read(&source::picture(path)?, viewing.integration.space);
             SceneLight::of_environment(environment.map_err(|fault| Error::Usage {
-                what: format!("{}: {fault}", crate::foreign::path(&path)),
+                what: format!("{}: {fault}", crate::physics::foreign::path(&path)),
             })?)
         }
     };
@@ -217,7 +217,7 @@ fn of_frames<'a>(
         let bytes = source::picture(file)?;
         let frame = check_primaries(&bytes, space).and_then(|()| read_gbuffer(&bytes, &ids));
         let frame = frame.map_err(|fault| Error::Usage {
-            what: format!("{}: {fault}", crate::foreign::path(&file)),
+            what: format!("{}: {fault}", crate::physics::foreign::path(&file)),
         })?;
         Ok(merged(frame, &places, count))
     };
@@ -228,7 +228,7 @@ fn of_frames<'a>(
         read,
         nothing_is_seen: format!(
             "no frame shows a material of {}",
-            crate::foreign::path(&map)
+            crate::physics::foreign::path(&map)
         ),
         display: AS_IT_IS,
         frames,

@@ -2,15 +2,15 @@
 
 use std::collections::BTreeMap;
 
-use crate::effects::{self, Effect};
-use crate::emit::{HeaderForm, Naming};
-use crate::flavours::{self, Flavour};
-use crate::materials::{self, Material, MaterialKind, ViewingConditions};
-use crate::methods::{self, Method};
-use crate::num::Precision;
-use crate::reference::{Derivation, MaterialInMedium};
-use crate::spectra::Illuminant;
-use crate::targets::{self, Target};
+use crate::generator::emit::{HeaderForm, Naming};
+use crate::generator::flavours::{self, Flavour};
+use crate::generator::reference::{Derivation, MaterialInMedium};
+use crate::language::effects::{self, Effect};
+use crate::language::methods::{self, Method};
+use crate::language::targets::{self, Target};
+use crate::physics::materials::{self, Material, MaterialKind, ViewingConditions};
+use crate::physics::num::Precision;
+use crate::physics::spectra::Illuminant;
 
 use super::error::Error;
 use super::fault::RequestFault;

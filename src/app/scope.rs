@@ -4,7 +4,7 @@
 
 use std::collections::BTreeSet;
 
-use crate::num::Precision;
+use crate::physics::num::Precision;
 
 use super::manifest::Entry;
 

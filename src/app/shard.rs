@@ -1,7 +1,7 @@
 //! Which shard a run is: by `--shard`, or by what a scheduler says to each task. How many shards there are only the command line
 //! says: in an array that is run again in part, a scheduler counts the tasks of that part.
 
-use crate::verify::shard::Shard;
+use crate::lab::verify::shard::Shard;
 
 use super::fault::RequestFault;
 

@@ -4,9 +4,9 @@ use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 
-use crate::foreign;
-use crate::materials::FileFault;
-use crate::spectra::{TextFault, mesh_text, user_text};
+use crate::physics::foreign;
+use crate::physics::materials::FileFault;
+use crate::physics::spectra::{TextFault, mesh_text, user_text};
 
 use super::error::Error;
 use super::folder::is_below;

@@ -11,7 +11,7 @@ use super::manifest::Entry;
 use super::ours::could_be_written;
 use super::scope::Scope;
 use super::tree::Planned;
-use crate::num::Precision;
+use crate::physics::num::Precision;
 
 /// A file that a run leaves where it is, and says so.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -55,7 +55,7 @@ pub fn strangers(
     let mut folders: BTreeSet<String> = paths.filter_map(first).collect();
     folders.extend(scope.targets.iter().chain(&scope.flavours).cloned());
     // `bake` puts tables there under any name.
-    folders.remove(crate::lut::TABLES);
+    folders.remove(crate::generator::lut::TABLES);
     // These stand beside the targets' folders and have none.
     for (_, target) in SHARED {
         folders.remove(target);

@@ -1,8 +1,8 @@
 //! The materials of a request, each in its medium.
 
-use crate::foreign::one_line;
-use crate::materials::Unseen;
-use crate::reference::MaterialInMedium;
+use crate::generator::reference::MaterialInMedium;
+use crate::physics::foreign::one_line;
+use crate::physics::materials::Unseen;
 
 use super::error::Error;
 use super::fault::RequestFault;

@@ -4,11 +4,11 @@ use std::collections::BTreeMap;
 
 use serde::Serialize;
 
-use crate::bake::{self, Baked, TableMaterial, usual_request};
-use crate::emit::{Detail, OUTPUT_LICENCE, TableDetail};
-use crate::lut::TABLES;
-use crate::materials::ViewingConditions;
-use crate::reference::Typed;
+use crate::generator::bake::{self, Baked, TableMaterial, usual_request};
+use crate::generator::emit::{Detail, OUTPUT_LICENCE, TableDetail};
+use crate::generator::lut::TABLES;
+use crate::generator::reference::Typed;
+use crate::physics::materials::ViewingConditions;
 use crate::report::Report;
 
 use super::artifact::Artifact;

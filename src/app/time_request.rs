@@ -1,9 +1,9 @@
 //! What `time` is asked for: from the names of methods and materials to the functions that are drawn.
 
-use crate::methods::Method;
-use crate::num::Precision;
-use crate::overdraw::{LibraryMaterials, TimedFunctions};
-use crate::reference::MaterialInMedium;
+use crate::generator::reference::MaterialInMedium;
+use crate::lab::overdraw::{LibraryMaterials, TimedFunctions};
+use crate::language::methods::Method;
+use crate::physics::num::Precision;
 
 use super::error::Error;
 use super::fault::RequestFault;

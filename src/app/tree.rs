@@ -16,7 +16,7 @@ use super::namesake::refuse_namesakes;
 use super::ours::{bears_mark, could_be_written, is_as_written, is_listed, is_same, listed_hash};
 use super::scope::Scope;
 use super::stays::{strangers, unknown};
-use crate::emit::FunctionDetail;
+use crate::generator::emit::FunctionDetail;
 
 pub use super::stays::Stay;
 

@@ -154,7 +154,10 @@ pub fn try_places_of_ours(files: &[PathBuf], overwrite: bool) -> Result<(), Erro
 /// What lies in the place of an output.
 fn of_others(leads_to: Option<&Path>) -> String {
     match leads_to {
-        Some(leads_to) => format!("a link to {} lies there", crate::foreign::path(&leads_to)),
+        Some(leads_to) => format!(
+            "a link to {} lies there",
+            crate::physics::foreign::path(&leads_to)
+        ),
         None => "a file that fresnel-gen did not write lies there".to_owned(),
     }
 }

@@ -1,9 +1,9 @@
 //! What an audit found of a user's function for a material, for people.
 
-use crate::audit::{AuditCost, AuditRow, ConditionRow, ExactFit};
-use crate::fit::ModelError;
-use crate::foreign::{Foreign, lines as lines_of, one_line};
-use crate::verify::Status;
+use crate::generator::fit::ModelError;
+use crate::lab::audit::{AuditCost, AuditRow, ConditionRow, ExactFit};
+use crate::lab::verify::Status;
+use crate::physics::foreign::{Foreign, lines as lines_of, one_line};
 
 /// A row for people.
 pub fn audit_text(row: &AuditRow) -> String {

@@ -1,13 +1,13 @@
 //! What a budget chose for people: which function and why, what cheaper ones would err by, and whether a smaller error would matter.
 
-use crate::budget::{BudgetCandidate, BudgetRow, Spread, rounded_error};
+use crate::lab::budget::{BudgetCandidate, BudgetRow, Spread, rounded_error};
 
 /// A smaller error does not matter below this share of the difference between published measurements.
 const NEGLIGIBLE: f64 = 0.1;
 
 /// The remarks on a material's choice, a line each.
 pub fn budget_remarks(row: &BudgetRow) -> Vec<String> {
-    let (name, choice) = (crate::foreign::Foreign(&row.material), &row.choice);
+    let (name, choice) = (crate::physics::foreign::Foreign(&row.material), &row.choice);
     let mut lines = vec![format!(
         "{name}: {} is the cheapest within {}: {} ({} on {}, as a {} function)",
         choice.chosen.method,

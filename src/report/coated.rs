@@ -1,6 +1,6 @@
 //! The colours of a surface under a coat, for people.
 
-use crate::fit::CoatedRow;
+use crate::generator::fit::CoatedRow;
 
 use super::table;
 

@@ -3,14 +3,14 @@
 use serde::{Serialize, Serializer};
 
 use super::table::{self, short_number};
-use crate::cost::{CostAndError, pareto_frontier};
-use crate::emit::Missed;
-use crate::fit::{Coefficients, FitObjective, Follows, ModelError, Weight};
-use crate::foreign::Foreign;
-use crate::methods::Method;
-use crate::num::each_channel;
-use crate::reference::MaterialInMedium;
-use crate::spectra::Gamut;
+use crate::generator::emit::Missed;
+use crate::generator::fit::{Coefficients, FitObjective, Follows, ModelError, Weight};
+use crate::generator::reference::MaterialInMedium;
+use crate::lab::cost::{CostAndError, pareto_frontier};
+use crate::language::methods::Method;
+use crate::physics::foreign::Foreign;
+use crate::physics::num::each_channel;
+use crate::physics::spectra::Gamut;
 
 /// A fitted method and what it was fitted to.
 #[derive(Clone, Debug, Serialize)]

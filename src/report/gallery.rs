@@ -2,7 +2,7 @@
 
 use tera::Context;
 
-use crate::gallery::Gallery;
+use crate::pictures::gallery::Gallery;
 use crate::report::html;
 
 static TEMPLATE: &str = include_str!("../../templates/gallery.html.tera");

@@ -4,7 +4,7 @@
 //! A sphere is seen from afar in a room that is white everywhere, so that a pixel's colour is the reflectance at its angle:
 //! at r of the radius sin θ = r. The right half of a sphere shows the error in place of the colour.
 
-use crate::chart::exact_and_approximated;
+use crate::lab::chart::exact_and_approximated;
 
 use super::plot::{
     ChartAxis, FOOT, HEADING, Layout, LineChart, PANEL, PanelFrame, SUBTITLE, Series, Style, TICK,

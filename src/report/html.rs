@@ -2,7 +2,7 @@
 
 use tera::{Context, Tera};
 
-use crate::materials::is_hidden;
+use crate::physics::materials::is_hidden;
 
 /// A page, or why it cannot be made. What is put in is escaped, and holds no character that a reader does not see.
 pub fn fill(template: &str, context: &Context) -> Result<String, String> {

@@ -2,9 +2,9 @@
 
 use quick_junit::{NonSuccessKind, Report, TestCase, TestCaseStatus, TestSuite};
 
-use crate::audit::AuditRow;
-use crate::foreign::{Foreign, one_line};
-use crate::verify::{Status, VerifyRow};
+use crate::lab::audit::AuditRow;
+use crate::lab::verify::{Status, VerifyRow};
+use crate::physics::foreign::{Foreign, one_line};
 
 /// A row as a case of JUnit's.
 struct JunitCase<'a> {

@@ -1,13 +1,13 @@
 //! The tables of the README, written from the registries so that they cannot drift.
 
-use crate::cost;
-use crate::effects;
-use crate::emit::{Bounds, Naming, half_bounds, specialised_function};
-use crate::flavours;
-use crate::materials::{Material, Unseen, ViewingConditions};
-use crate::methods::{self, Class, Contract, Method, Origin, Spread};
-use crate::reference::{Derivation, MaterialInMedium};
-use crate::targets;
+use crate::generator::emit::{Bounds, Naming, half_bounds, specialised_function};
+use crate::generator::flavours;
+use crate::generator::reference::{Derivation, MaterialInMedium};
+use crate::lab::cost;
+use crate::language::effects;
+use crate::language::methods::{self, Class, Contract, Method, Origin, Spread};
+use crate::language::targets;
+use crate::physics::materials::{Material, Unseen, ViewingConditions};
 
 /// The effects with their functions; `...` stands for what the method of R takes.
 pub fn effects_table() -> String {

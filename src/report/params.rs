@@ -1,8 +1,8 @@
 //! The parameters of a material for people.
 
-use crate::fit::{ColourErrors, GreyTint, MaterialParams, MeasuredSpread, rounded_up};
-use crate::foreign::one_line;
-use crate::materials::Material;
+use crate::generator::fit::{ColourErrors, GreyTint, MaterialParams, MeasuredSpread, rounded_up};
+use crate::physics::foreign::one_line;
+use crate::physics::materials::Material;
 
 use super::table;
 

@@ -8,7 +8,7 @@ use std::sync::Arc;
 use resvg::tiny_skia::{Color, Pixmap, Transform};
 use resvg::usvg::{ImageHrefResolver, Options, Tree, fontdb};
 
-use crate::emit::MARK;
+use crate::generator::emit::MARK;
 
 /// Regular first: it has letters that the bold one lacks, and is asked for these next.
 const FONTS: [&[u8]; 2] = [

@@ -2,9 +2,9 @@
 
 use glam::DVec3;
 
-use crate::emit::MARK;
-use crate::scene::{Difference, Display, Picture, RenderedRow};
-use crate::spectra::srgb_byte;
+use crate::generator::emit::MARK;
+use crate::physics::spectra::srgb_byte;
+use crate::pictures::scene::{Difference, Display, Picture, RenderedRow};
 
 use super::pixels::rgb_png;
 use super::plot::shade_bytes;

@@ -1,9 +1,9 @@
 //! The report of `scene-error`: a table for people, pictures as PNG and OpenEXR.
 
-use crate::foreign::Foreign;
-use crate::lut::{Depth, Format, Picture, TableAxis};
-use crate::raster::{Painted, SceneErrorRow};
-use crate::spectra::{Space, srgb_byte};
+use crate::generator::lut::{Depth, Format, Picture, TableAxis};
+use crate::lab::raster::{Painted, SceneErrorRow};
+use crate::physics::foreign::Foreign;
+use crate::physics::spectra::{Space, srgb_byte};
 
 use super::pixels::rgb_png;
 use super::table::{short_number, text_table};

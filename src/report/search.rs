@@ -1,7 +1,7 @@
 //! A search of shapes for people.
 
-use crate::cost::{ChoiceRow, SearchResult, ShapeRow};
-use crate::fit::ErrorQuantiles;
+use crate::generator::fit::ErrorQuantiles;
+use crate::lab::cost::{ChoiceRow, SearchResult, ShapeRow};
 
 use super::table::{self, short_number};
 

@@ -5,8 +5,8 @@ use serde::{Deserialize, Serialize};
 
 use super::envelope::{SCHEMA, TOOL};
 use super::verify::devices;
-use crate::verify::MachineStatement;
-use crate::verify::shard::{PartStatement, PlacedRow, PlannedRows, Shard, ShardOutcome};
+use crate::lab::verify::MachineStatement;
+use crate::lab::verify::shard::{PartStatement, PlacedRow, PlannedRows, Shard, ShardOutcome};
 
 /// The report of a shard.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]

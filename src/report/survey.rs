@@ -4,8 +4,10 @@ use std::collections::BTreeMap;
 
 use serde::Serialize;
 
-use crate::fit::{PageFacts, PageOutcome, SURVEYED_ANGLES, SurveyedPage, VisibleColours};
-use crate::foreign::one_line;
+use crate::generator::fit::{
+    PageFacts, PageOutcome, SURVEYED_ANGLES, SurveyedPage, VisibleColours,
+};
+use crate::physics::foreign::one_line;
 
 /// A page in a JSON report.
 #[derive(Clone, Debug, Serialize)]

@@ -1,6 +1,6 @@
 //! Tables as plain text: columns padded, numbers to the right.
 
-use crate::foreign::one_line;
+use crate::physics::foreign::one_line;
 
 /// A table with a head and a line under it. No cell breaks its line.
 pub fn text_table(head: &[&str], rows: &[Vec<String>]) -> String {

@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-use crate::overdraw::{Clock, DeviceFacts, MeasuredDrawings, Noise, TimeRow, TimedFunctions};
+use crate::lab::overdraw::{Clock, DeviceFacts, MeasuredDrawings, Noise, TimeRow, TimedFunctions};
 
 use super::Origin;
 use super::table;

@@ -3,9 +3,9 @@
 use std::collections::BTreeSet;
 
 use super::table;
-use crate::foreign::{lines, one_line};
-use crate::num::Precision;
-use crate::verify::{AllowedError, Status, VerifyRow, WITHIN};
+use crate::lab::verify::{AllowedError, Status, VerifyRow, WITHIN};
+use crate::physics::foreign::{lines, one_line};
+use crate::physics::num::Precision;
 
 /// How many findings are shown in full; the JSON has all.
 const SHOWN: usize = 20;

@@ -5,11 +5,11 @@ use std::path::Path;
 
 use fresnel_gen::app::catalogue::{add_catalogue, derived_rows};
 use fresnel_gen::app::{Artifact, Request, generate};
-use fresnel_gen::emit::{catalogue_record, recorded_catalogue};
-use fresnel_gen::ir::{Column, Value as Evaluated, evaluate};
-use fresnel_gen::methods;
-use fresnel_gen::spectra::Gamut;
-use fresnel_gen::targets;
+use fresnel_gen::generator::emit::{catalogue_record, recorded_catalogue};
+use fresnel_gen::language::ir::{Column, Value as Evaluated, evaluate};
+use fresnel_gen::language::methods;
+use fresnel_gen::language::targets;
+use fresnel_gen::physics::spectra::Gamut;
 use serde_json::Value;
 
 /// A file for no language, of a run without flags.

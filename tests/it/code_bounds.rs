@@ -5,11 +5,11 @@ use std::path::Path;
 
 use fresnel_gen::app::request::DEFAULT_MATERIALS;
 use fresnel_gen::app::{Materials, Request};
-use fresnel_gen::emit::{Bounds, Naming, PLAIN_ULP, fingerprint, specialised_function};
-use fresnel_gen::ir::Checked;
-use fresnel_gen::methods::{self, Contract, Method};
-use fresnel_gen::reference::MaterialInMedium;
-use fresnel_gen::verify::{code_error, digits_lost};
+use fresnel_gen::generator::emit::{Bounds, Naming, PLAIN_ULP, fingerprint, specialised_function};
+use fresnel_gen::generator::reference::MaterialInMedium;
+use fresnel_gen::lab::verify::{code_error, digits_lost};
+use fresnel_gen::language::ir::Checked;
+use fresnel_gen::language::methods::{self, Contract, Method};
 
 /// Cosines tried for each function.
 const POINTS: usize = 200_000;

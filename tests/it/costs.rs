@@ -6,13 +6,13 @@ use std::path::Path;
 use std::sync::LazyLock;
 
 use fresnel_gen::app::{Materials, Request, Source};
-use fresnel_gen::cost::{
+use fresnel_gen::lab::cost::{
     CostBasis, CostFigures, CostRow, CostSource, CostedFunction, FAMILIES, KnownCost, cost_rows,
     find, functions, functions_of_effect, known_cost, records,
 };
-use fresnel_gen::effects::{self, USUAL_METHOD};
-use fresnel_gen::methods;
-use fresnel_gen::num::Precision;
+use fresnel_gen::language::effects::{self, USUAL_METHOD};
+use fresnel_gen::language::methods;
+use fresnel_gen::physics::num::Precision;
 use fresnel_gen::report::cost::{cost_document, cost_page};
 
 /// The materials whose functions are recorded: those that `tests/costs` names.

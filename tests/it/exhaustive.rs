@@ -2,7 +2,7 @@
 
 use std::sync::LazyLock;
 
-use fresnel_gen::records;
+use fresnel_gen::physics::records;
 use serde::Deserialize;
 
 static RECORD: LazyLock<Vec<Line>> =

@@ -1,9 +1,9 @@
 //! What two colours are worth: methods of F0 and F82 over the sample of metals and semiconductors, and over glasses.
 
-use fresnel_gen::fit::{ErrorQuantiles, error_of, values_at, values_for_material};
-use fresnel_gen::methods;
-use fresnel_gen::optics;
-use fresnel_gen::reference::MaterialInMedium;
+use fresnel_gen::generator::fit::{ErrorQuantiles, error_of, values_at, values_for_material};
+use fresnel_gen::generator::reference::MaterialInMedium;
+use fresnel_gen::language::methods;
+use fresnel_gen::physics::optics;
 
 use crate::samples;
 
@@ -60,8 +60,8 @@ fn two_fitted_curves_serve_glasses_too() {
         let (f0, f82) = (law(1.0), law(optics::COS_82));
         for i in 0..=2000 {
             let c = f64::from(i) / 2000.0;
-            let values = [c, f0, f82].map(fresnel_gen::ir::Value::<f64>::scalar);
-            let given = fresnel_gen::ir::evaluate(&function, &values).at(0)[0];
+            let values = [c, f0, f82].map(fresnel_gen::language::ir::Value::<f64>::scalar);
+            let given = fresnel_gen::language::ir::evaluate(&function, &values).at(0)[0];
             worst = worst.max((given - law(c)).abs());
         }
     }

@@ -5,16 +5,16 @@ use std::path::Path;
 use std::sync::OnceLock;
 
 use fresnel_gen::app::{Materials, Request};
-use fresnel_gen::cost;
-use fresnel_gen::emit::{Bounds, Naming, missed, specialised_function};
-use fresnel_gen::fit::{ModelError, model_error, values_for_material};
-use fresnel_gen::ir::{Value, evaluate};
-use fresnel_gen::materials::{Material, MaterialKind, ViewingConditions};
-use fresnel_gen::methods::{self, Method};
-use fresnel_gen::num::statistics::quantile;
-use fresnel_gen::num::{Legendre, Precision};
-use fresnel_gen::records;
-use fresnel_gen::reference::{Derivation, MaterialInMedium};
+use fresnel_gen::generator::emit::{Bounds, Naming, missed, specialised_function};
+use fresnel_gen::generator::fit::{ModelError, model_error, values_for_material};
+use fresnel_gen::generator::reference::{Derivation, MaterialInMedium};
+use fresnel_gen::lab::cost;
+use fresnel_gen::language::ir::{Value, evaluate};
+use fresnel_gen::language::methods::{self, Method};
+use fresnel_gen::physics::materials::{Material, MaterialKind, ViewingConditions};
+use fresnel_gen::physics::num::statistics::quantile;
+use fresnel_gen::physics::num::{Legendre, Precision};
+use fresnel_gen::physics::records;
 
 use super::samples::{self, Misses};
 use super::stated::{check_stated, short, stated};

@@ -2,17 +2,17 @@
 //! reflected more than once, all with one F. Nothing reflects more than 1, what reflects everything reflects 1, and coloured metals
 //! reflect what their bounces add up to.
 
-use fresnel_gen::fit::values_for_material;
-use fresnel_gen::ir::{Value, Weights, evaluate};
-use fresnel_gen::lut::{
+use fresnel_gen::generator::fit::values_for_material;
+use fresnel_gen::generator::lut::{
     Depth, SPLIT_SUM_AXES, SPLIT_SUM_SIZE, SplitSum, SplitSumDesign, StoredSplitSum, compensation,
     series_of_bounces,
 };
-use fresnel_gen::methods::{self, Method, Values};
-use fresnel_gen::num::{Legendre, Precision};
-use fresnel_gen::optics::Ggx;
-use fresnel_gen::reference::MaterialInMedium;
-use fresnel_gen::spectra::Gamut;
+use fresnel_gen::generator::reference::MaterialInMedium;
+use fresnel_gen::language::ir::{Value, Weights, evaluate};
+use fresnel_gen::language::methods::{self, Method, Values};
+use fresnel_gen::physics::num::{Legendre, Precision};
+use fresnel_gen::physics::optics::Ggx;
+use fresnel_gen::physics::spectra::Gamut;
 
 use super::gamut;
 

@@ -1,14 +1,14 @@
 //! Coefficients that serve lamps and image light: their form keeps to [0, 1] by itself, and what that costs.
 
-use fresnel_gen::emit::recorded_catalogue;
-use fresnel_gen::fit::{
+use fresnel_gen::generator::emit::recorded_catalogue;
+use fresnel_gen::generator::fit::{
     FitCurve, FitObjective, basis, coefficients_and_error, model_error, values_for_material,
 };
-use fresnel_gen::materials::ViewingConditions;
-use fresnel_gen::methods::{self, Method, Values};
-use fresnel_gen::num::statistics::quantile;
-use fresnel_gen::reference::MaterialInMedium;
-use fresnel_gen::spectra::Gamut;
+use fresnel_gen::generator::reference::MaterialInMedium;
+use fresnel_gen::language::methods::{self, Method, Values};
+use fresnel_gen::physics::materials::ViewingConditions;
+use fresnel_gen::physics::num::statistics::quantile;
+use fresnel_gen::physics::spectra::Gamut;
 
 use super::fits::catalogue;
 use super::samples;

@@ -1,9 +1,9 @@
 //! Is `shaders-generated/` what the program writes today? The set of files, orphans included.
 
 use fresnel_gen::app::{Artifact, Request, generate};
-use fresnel_gen::emit::HeaderForm;
-use fresnel_gen::methods;
-use fresnel_gen::num::Precision;
+use fresnel_gen::generator::emit::HeaderForm;
+use fresnel_gen::language::methods;
+use fresnel_gen::physics::num::Precision;
 
 /// The tree as a whole. The library alone bakes no tables.
 #[cfg(feature = "cli")]
@@ -15,7 +15,7 @@ mod tree_of_a_run {
     use fresnel_gen::app::lock::Lock;
     use fresnel_gen::app::tables::add_tables;
     use fresnel_gen::app::{Request, check, generate, tree, write};
-    use fresnel_gen::bake::as_tables_are_seen;
+    use fresnel_gen::generator::bake::as_tables_are_seen;
 
     /// All files below a folder, as paths in it.
     fn files(folder: &Path, below: &str, found: &mut BTreeSet<String>) {
@@ -242,7 +242,7 @@ fn heads_of_effects_say_what_they_must() {
     let mut of_effects = all
         .iter()
         .filter(|one| one.effect.is_some() && !one.path.ends_with(".spv"));
-    assert!(of_effects.clone().count() >= 5 * fresnel_gen::effects::ALL.len());
+    assert!(of_effects.clone().count() >= 5 * fresnel_gen::language::effects::ALL.len());
     for artifact in &mut of_effects {
         let (path, text) = (&artifact.path, String::from_utf8_lossy(&artifact.bytes));
         let command = "Regenerate: fresnel-gen --target ";
@@ -276,7 +276,7 @@ fn in_both_precisions(header: HeaderForm) -> Vec<Artifact> {
 }
 
 fn all() -> Vec<String> {
-    fresnel_gen::targets::ALL
+    fresnel_gen::language::targets::ALL
         .iter()
         .map(|target| target.name.to_owned())
         .collect()

@@ -1,11 +1,11 @@
 //! The graph, over all methods: its text form, its checker, its meaning in every kind of number.
 
-use fresnel_gen::fit;
-use fresnel_gen::ir::{
+use fresnel_gen::generator::fit;
+use fresnel_gen::language::ir::{
     BrokenRule, Checked, Function, Label, Op, Payload, Ty, Value, check, evaluate, parse, print,
 };
-use fresnel_gen::methods;
-use fresnel_gen::num::{Dd, Half, Num, Precision};
+use fresnel_gen::language::methods;
+use fresnel_gen::physics::num::{Dd, Half, Num, Precision};
 
 fn all_functions() -> Vec<Checked> {
     let colour = methods::ALL
@@ -34,7 +34,7 @@ fn the_text_form_prints_and_parses() {
 fn each_point_of_many_is_what_it_is_alone() {
     let cosines: Vec<f64> = (0..2500).map(|i| f64::from(i) / 2499.0).collect();
     for function in all_functions() {
-        let values = |param: &fresnel_gen::ir::Param| match param.ty {
+        let values = |param: &fresnel_gen::language::ir::Param| match param.ty {
             Ty::Scalar => Value::scalar(0.4),
             Ty::Rgb => Value::rgb([0.3, 0.7, 1.2]),
             _ => Value::Texture(None),
@@ -157,7 +157,7 @@ fn each_rule_of_the_checker_can_be_broken() {
             });
         }),
         (7, |f| {
-            f.params.push(fresnel_gen::ir::Param {
+            f.params.push(fresnel_gen::language::ir::Param {
                 name: "z".into(),
                 ty: Ty::Bool,
             })
@@ -168,7 +168,7 @@ fn each_rule_of_the_checker_can_be_broken() {
             f.nodes[add].label = None;
         }),
     ];
-    assert_eq!(rules.len(), fresnel_gen::ir::RULES.len());
+    assert_eq!(rules.len(), fresnel_gen::language::ir::RULES.len());
     for (rule, change) in rules {
         assert_eq!(mutated(change).rule, rule, "{}", mutated(change));
     }

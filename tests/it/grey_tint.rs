@@ -1,7 +1,7 @@
 //! The one tint of F82-tint for all three channels: what it is worth over the catalogue.
 
-use fresnel_gen::fit::{GreyTint, grey_tint};
-use fresnel_gen::num::statistics::quantile;
+use fresnel_gen::generator::fit::{GreyTint, grey_tint};
+use fresnel_gen::physics::num::statistics::quantile;
 
 use crate::{samples, subjects};
 
@@ -38,8 +38,8 @@ fn one_tint_serves_metals_and_semiconductors() {
 /// No tint of a dense grid errs less.
 #[test]
 fn the_grey_tint_is_the_best() {
-    use fresnel_gen::fit::{error_of, values_at};
-    use fresnel_gen::methods;
+    use fresnel_gen::generator::fit::{error_of, values_at};
+    use fresnel_gen::language::methods;
     let method = methods::find("f82_tint").unwrap();
     let function = method.function(false).unwrap();
     for subject in subjects(&["gold", "copper", "silicon", "water"]) {

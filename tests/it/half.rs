@@ -6,12 +6,12 @@ use std::fmt::Write;
 use std::path::Path;
 
 use fresnel_gen::app::{Error, Materials, Request, Source, generate};
-use fresnel_gen::emit::{Bounds, Emitted, Naming, specialised_function};
-use fresnel_gen::ir::Value;
-use fresnel_gen::methods::{self, Contract, HALF_AIM, InHalf, Method};
-use fresnel_gen::num::{Half, Num, Precision};
-use fresnel_gen::reference::MaterialInMedium;
-use fresnel_gen::verify::{HalfTrial, halves, library_half_error};
+use fresnel_gen::generator::emit::{Bounds, Emitted, Naming, specialised_function};
+use fresnel_gen::generator::reference::MaterialInMedium;
+use fresnel_gen::lab::verify::{HalfTrial, halves, library_half_error};
+use fresnel_gen::language::ir::Value;
+use fresnel_gen::language::methods::{self, Contract, HALF_AIM, InHalf, Method};
+use fresnel_gen::physics::num::{Half, Num, Precision};
 
 /// Random media over which a library function's error is taken.
 const MEDIA: usize = 120;
@@ -97,7 +97,7 @@ fn measured(emitted: &Emitted, subject: &MaterialInMedium, cosines: &[f32]) -> R
         table: None,
     };
     let error = trial.error(cosines);
-    let mark = fresnel_gen::emit::fingerprint(&emitted.function);
+    let mark = fresnel_gen::generator::emit::fingerprint(&emitted.function);
     let (material, method, max_abs) = (&subject.name, emitted.method.name, error.max_abs);
     let promised = promised(emitted.method);
     Row {

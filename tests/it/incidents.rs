@@ -4,8 +4,8 @@
 //! Not here, because they are no faults of a Fresnel formula: the NaN of smooth metals in half precision in Godot
 //! (godotengine/godot #110207, roughness 0), a² of GGX below the smallest half (mrdoob/three.js #8349).
 
-use fresnel_gen::num::{Half, Num};
-use fresnel_gen::optics;
+use fresnel_gen::physics::num::{Half, Num};
+use fresnel_gen::physics::optics;
 
 use crate::physics::{function, run};
 

@@ -6,15 +6,15 @@ use std::process::Command;
 use fresnel_gen::app::args::Cli;
 use fresnel_gen::app::request::{Materials, Source};
 use fresnel_gen::app::tables::{WantedTables, artifacts, table_materials};
-use fresnel_gen::bake::{BakeRequest, TableMaterial, TableSize, bake};
-use fresnel_gen::ir::Weights;
-use fresnel_gen::lut::{
+use fresnel_gen::generator::bake::{BakeRequest, TableMaterial, TableSize, bake};
+use fresnel_gen::generator::lut::{
     BetweenTexels, Depth, Format, Stored, Table, TableAxis, smallest, table_error,
 };
-use fresnel_gen::materials::{self, Surface, ViewingConditions};
-use fresnel_gen::methods::Light;
-use fresnel_gen::reference::ReferenceCurve;
-use fresnel_gen::spectra::Gamut;
+use fresnel_gen::generator::reference::ReferenceCurve;
+use fresnel_gen::language::ir::Weights;
+use fresnel_gen::language::methods::Light;
+use fresnel_gen::physics::materials::{self, Surface, ViewingConditions};
+use fresnel_gen::physics::spectra::Gamut;
 
 use crate::not_checked;
 use crate::stated::{check_stated, stated};

@@ -75,7 +75,7 @@ mod verify;
 mod working_spaces;
 
 use fresnel_gen::app::{Materials, Request, Source};
-use fresnel_gen::reference::MaterialInMedium;
+use fresnel_gen::generator::reference::MaterialInMedium;
 
 /// Materials of the catalogue, seen as they are unless asked otherwise.
 pub fn subjects(names: &[&str]) -> Vec<MaterialInMedium> {

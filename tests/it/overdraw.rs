@@ -2,13 +2,13 @@
 
 use fresnel_gen::app::Materials;
 use fresnel_gen::app::time_request::TimeRequest;
-use fresnel_gen::emit::validate_wgsl;
-use fresnel_gen::methods::{ALL, find};
-use fresnel_gen::num::Precision;
-use fresnel_gen::overdraw::{
+use fresnel_gen::generator::emit::validate_wgsl;
+use fresnel_gen::lab::overdraw::{
     Clock, Draw, DrawingEffort, DrawingPlan, DrawnChain, MeasuredDrawings, Reading, Stop,
     TimedFunctions, measure,
 };
+use fresnel_gen::language::methods::{ALL, find};
+use fresnel_gen::physics::num::Precision;
 
 /// Pixels of the target that is made up here.
 const PIXELS: u64 = 1000;

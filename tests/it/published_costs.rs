@@ -3,9 +3,9 @@
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
-use fresnel_gen::cost::{FAMILIES, FunctionKey, records};
-use fresnel_gen::emit::FunctionForm;
-use fresnel_gen::num::Precision;
+use fresnel_gen::generator::emit::FunctionForm;
+use fresnel_gen::lab::cost::{FAMILIES, FunctionKey, records};
+use fresnel_gen::physics::num::Precision;
 use serde::Deserialize;
 
 /// Families with a compiler: the count of operations has none, and none of PowerVR's is available.
@@ -38,7 +38,7 @@ pub fn path() -> PathBuf {
 /// Its rows.
 pub fn recorded() -> Vec<PublishedCost> {
     let text = std::fs::read_to_string(path()).unwrap_or_default();
-    fresnel_gen::records::rows(&text)
+    fresnel_gen::physics::records::rows(&text)
 }
 
 /// What ours costs there.

@@ -8,9 +8,9 @@ use std::path::Path;
 use fresnel_gen::app::generate::generate_single;
 use fresnel_gen::app::request::DEFAULT_MATERIALS;
 use fresnel_gen::app::{Materials, Request, Source};
-use fresnel_gen::cost::records;
-use fresnel_gen::materials::{self, ViewingConditions};
-use fresnel_gen::methods;
+use fresnel_gen::lab::cost::records;
+use fresnel_gen::language::methods;
+use fresnel_gen::physics::materials::{self, ViewingConditions};
 use fresnel_gen::report::headline::headline;
 use fresnel_gen::report::markdown::{
     classes_table, effects_table, errors_table, flavours_table, half_table, methods_table,
@@ -230,7 +230,9 @@ fn lookups_are_accepted() {
                 "catalogue",
             ]
             .map(|file| page(&format!("shaders-generated/wgsl/{file}.wgsl")));
-            if let Err(fault) = fresnel_gen::emit::validate_wgsl(&(library.concat() + example)) {
+            if let Err(fault) =
+                fresnel_gen::generator::emit::validate_wgsl(&(library.concat() + example))
+            {
                 panic!("{path}: {fault}");
             }
             shown += 1;

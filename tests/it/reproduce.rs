@@ -6,10 +6,10 @@
 use std::path::Path;
 use std::sync::LazyLock;
 
-use fresnel_gen::report::reproduce::figure_chart;
-use fresnel_gen::reproduce::{
+use fresnel_gen::lab::reproduce::{
     ComparisonRow, ComparisonVerdict, Figure, Part, Reproduction, reproduce, thesis,
 };
+use fresnel_gen::report::reproduce::figure_chart;
 
 /// The thesis's million angles: the figures must come out to its printed digit.
 static TABLES: LazyLock<Reproduction> =

@@ -7,7 +7,7 @@ use std::fmt::Write;
 use std::path::{Path, PathBuf};
 use std::sync::OnceLock;
 
-use fresnel_gen::reference::MaterialInMedium;
+use fresnel_gen::generator::reference::MaterialInMedium;
 
 use super::fits::catalogue;
 

@@ -4,11 +4,11 @@
 use std::collections::BTreeSet;
 use std::path::Path;
 
-use fresnel_gen::fit::{
+use fresnel_gen::generator::fit::{
     Candidate, ErrorQuantiles, Exact, FitCurve, FitObjective, FitProblem, Tried, TriedShapes,
     candidates, search,
 };
-use fresnel_gen::spectra::Gamut;
+use fresnel_gen::physics::spectra::Gamut;
 
 use super::samples;
 

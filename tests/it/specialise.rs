@@ -1,12 +1,12 @@
 //! The specialiser changes rounding and nothing else: a specialised function against the library function with the same
 //! values, over hard media, in f64 where rounding does not hide a wrong branch, and in f32 where it must stay small.
 
-use fresnel_gen::fit::{self, values, values_for_material};
-use fresnel_gen::ir::{Op, Texels, Value, evaluate};
-use fresnel_gen::materials::Channels;
-use fresnel_gen::methods::{self, Contract, Method, Values};
-use fresnel_gen::num::Num;
-use fresnel_gen::reference::Derivation;
+use fresnel_gen::generator::fit::{self, values, values_for_material};
+use fresnel_gen::generator::reference::Derivation;
+use fresnel_gen::language::ir::{Op, Texels, Value, evaluate};
+use fresnel_gen::language::methods::{self, Contract, Method, Values};
+use fresnel_gen::physics::materials::Channels;
+use fresnel_gen::physics::num::Num;
 
 /// Channels on both sides of every branch, equal and unequal, matched, barely absorbing, far from any material.
 const MEDIA: [([f64; 3], [f64; 3]); 12] = [

@@ -4,15 +4,15 @@
 use std::collections::BTreeMap;
 
 use fresnel_gen::app::{Materials, Request, Source};
-use fresnel_gen::fit;
-use fresnel_gen::ir::{Value, evaluate};
-use fresnel_gen::materials::{
+use fresnel_gen::generator::fit;
+use fresnel_gen::generator::reference;
+use fresnel_gen::language::ir::{Value, evaluate};
+use fresnel_gen::language::methods;
+use fresnel_gen::physics::materials::{
     self, Channels, Material, MaterialKind, Surface, THESIS_NM, ViewingConditions,
 };
-use fresnel_gen::methods;
-use fresnel_gen::optics::cosine;
-use fresnel_gen::reference;
-use fresnel_gen::spectra::{Adaptation, Gamut, Illuminant, Integration, Step};
+use fresnel_gen::physics::optics::cosine;
+use fresnel_gen::physics::spectra::{Adaptation, Gamut, Illuminant, Integration, Step};
 
 /// The catalogue by page, without `.yml`.
 fn by_page() -> BTreeMap<String, Material> {
@@ -170,8 +170,10 @@ fn the_index_per_channel_stands_for_the_spectrum() {
         let Ok(surface) = Surface::new(&material, None, &ViewingConditions::default()) else {
             continue;
         };
-        let truth =
-            reference::ReferenceCurve::new(surface, fresnel_gen::methods::Light::Unpolarised);
+        let truth = reference::ReferenceCurve::new(
+            surface,
+            fresnel_gen::language::methods::Light::Unpolarised,
+        );
         let effective = reference::effective(&truth, material.kind);
         let known = fit::known(&effective.channels, &reference::Derivation::default());
         let seen = truth.at(1.0);

@@ -1,15 +1,15 @@
 //! The split-sum table: the albedo of a rough surface by it, filtered as GPUs do, against direct integration over GGX.
 
-use fresnel_gen::fit::values_for_material;
-use fresnel_gen::ir::Weights;
-use fresnel_gen::lut::{
+use fresnel_gen::generator::fit::values_for_material;
+use fresnel_gen::generator::lut::{
     Depth, SPLIT_SUM_AXES, SPLIT_SUM_SIZE, SplitSum, SplitSumAxis, SplitSumDesign, SplitSumLayout,
     StoredSplitSum,
 };
-use fresnel_gen::methods::{self, Input, Method, Shape};
-use fresnel_gen::optics::Ggx;
-use fresnel_gen::reference::{MaterialInMedium, reference_reflectance};
-use fresnel_gen::spectra::Gamut;
+use fresnel_gen::generator::reference::{MaterialInMedium, reference_reflectance};
+use fresnel_gen::language::ir::Weights;
+use fresnel_gen::language::methods::{self, Input, Method, Shape};
+use fresnel_gen::physics::optics::Ggx;
+use fresnel_gen::physics::spectra::Gamut;
 
 /// What tables along these axes promise at every angle and roughness from .05 on, for the fitted reflectance.
 const PROMISED: [([SplitSumAxis; 2], f64); 2] = [

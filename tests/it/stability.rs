@@ -4,11 +4,11 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::LazyLock;
 
-use fresnel_gen::methods::{self, Class, Contract, Method, Over};
-use fresnel_gen::num::Precision;
-use fresnel_gen::records;
+use fresnel_gen::lab::stability::{Failure, StabilityRow, scan};
+use fresnel_gen::language::methods::{self, Class, Contract, Method, Over};
+use fresnel_gen::physics::num::Precision;
+use fresnel_gen::physics::records;
 use fresnel_gen::report::stability::stability_document;
-use fresnel_gen::stability::{Failure, StabilityRow, scan};
 use serde::Deserialize;
 
 /// All methods scanned, once for all tests.
@@ -49,9 +49,9 @@ fn the_document_is_what_the_scan_says() {
 #[cfg(feature = "pictures")]
 #[test]
 fn the_maps_of_the_document_are_what_is_drawn() {
+    use fresnel_gen::lab::stability::maps;
     use fresnel_gen::report::png::png;
     use fresnel_gen::report::stability::heat_map;
-    use fresnel_gen::stability::maps;
 
     for (method, over) in [("schlick", "eta"), ("dielectric_textbook", "eta")] {
         let maps = maps(methods::find(method).unwrap(), Precision::F32);
@@ -216,10 +216,10 @@ fn worst_input(row: &StabilityRow) -> Option<WorstInput> {
 
 /// What was known to fail may be mended; what keeps the contract stays a reflectance there.
 fn check_known(row: &WorstInput) {
-    use fresnel_gen::fit::values;
-    use fresnel_gen::ir::{Value, evaluate};
-    use fresnel_gen::materials::Channels;
-    use fresnel_gen::reference::Derivation;
+    use fresnel_gen::generator::fit::values;
+    use fresnel_gen::generator::reference::Derivation;
+    use fresnel_gen::language::ir::{Value, evaluate};
+    use fresnel_gen::physics::materials::Channels;
     let method = methods::find(&row.method).unwrap();
     let (n, k, cos_theta) = (row.n, row.k, row.cos_theta);
     if method.contract != Contract::Kept || method.class == Class::Dielectric && k > 0.0 {

@@ -5,15 +5,15 @@ use std::collections::BTreeMap;
 use std::path::Path;
 use std::sync::OnceLock;
 
-use fresnel_gen::cost::{FunctionKey, records};
-use fresnel_gen::emit::FunctionForm;
-use fresnel_gen::fit::{FitCurve, InputChoice, MethodErrors, colour_errors};
-use fresnel_gen::materials::{ConstantIndex, MaterialKind, Surface, ViewingConditions};
-use fresnel_gen::methods;
-use fresnel_gen::num::Precision;
-use fresnel_gen::num::statistics::{median, quantile};
-use fresnel_gen::reference::{MaterialClass, MaterialInMedium};
-use fresnel_gen::spectra::{Gamut, Illuminant, Space};
+use fresnel_gen::generator::emit::FunctionForm;
+use fresnel_gen::generator::fit::{FitCurve, InputChoice, MethodErrors, colour_errors};
+use fresnel_gen::generator::reference::{MaterialClass, MaterialInMedium};
+use fresnel_gen::lab::cost::{FunctionKey, records};
+use fresnel_gen::language::methods;
+use fresnel_gen::physics::materials::{ConstantIndex, MaterialKind, Surface, ViewingConditions};
+use fresnel_gen::physics::num::Precision;
+use fresnel_gen::physics::num::statistics::{median, quantile};
+use fresnel_gen::physics::spectra::{Gamut, Illuminant, Space};
 use glam::DVec3;
 
 use super::fits::catalogue;
@@ -386,7 +386,7 @@ fn counts_of_the_catalogue_are_what_the_pages_say() {
 /// Under a coat of 1.5 only cosines of .745 and more occur at the base.
 #[test]
 fn what_schlick_errs_under_a_coat_is_what_the_page_says() {
-    let gold = fresnel_gen::materials::find("gold")
+    let gold = fresnel_gen::physics::materials::find("gold")
         .expect("it is there")
         .expect("it is good");
     let medium = ConstantIndex::parse("1.5")
@@ -428,7 +428,7 @@ fn what_schlick_errs_under_a_coat_is_what_the_page_says() {
 fn colour_errors_under_illuminant_a_are_what_the_page_says() {
     let viewing = ViewingConditions::default();
     let error = |name: &str| {
-        let material = fresnel_gen::materials::find(name).expect("it is there");
+        let material = fresnel_gen::physics::materials::find(name).expect("it is there");
         let material = material.expect("it is good");
         let surface = Surface::new(&material, None, &viewing).expect("it is known");
         let errors = colour_errors(&surface, &viewing.integration).expect("a spectrum");

@@ -5,13 +5,13 @@ use std::path::PathBuf;
 use clap::Args;
 
 #[cfg(feature = "gpu")]
-use crate::audit::Language;
+use crate::generator::command_line::{CommandLine, path_again};
 #[cfg(feature = "gpu")]
-use crate::command_line::{CommandLine, path_again};
-use crate::cost::Family;
+use crate::lab::audit::Language;
+use crate::lab::cost::Family;
 #[cfg(feature = "gpu")]
-use crate::materials::ViewingConditions;
-use crate::names::UnknownName;
+use crate::physics::materials::ViewingConditions;
+use crate::physics::names::UnknownName;
 
 #[cfg(feature = "gpu")]
 use super::choice::one_of;

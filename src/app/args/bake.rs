@@ -2,11 +2,11 @@
 
 use clap::Args;
 
-use crate::bake::split_sum_methods;
-use crate::lut::{Format, SPLIT_SUM_AXES, SplitSumAxis, SplitSumLayout, TableAxis};
-use crate::methods::{self, Method};
-use crate::names::UnknownName;
-use crate::targets::{self, Finish, Target};
+use crate::generator::bake::split_sum_methods;
+use crate::generator::lut::{Format, SPLIT_SUM_AXES, SplitSumAxis, SplitSumLayout, TableAxis};
+use crate::language::methods::{self, Method};
+use crate::language::targets::{self, Finish, Target};
+use crate::physics::names::UnknownName;
 
 use super::choice::{Choice, in_any_case, one_of, one_or_all};
 use super::{GamutFlags, MaterialFlags, MediumFlags, ReportFlags, TreeFlags};

@@ -2,9 +2,9 @@
 
 use clap::Args;
 
-use crate::chart::{ERRORS, ErrorAxis, STATISTICS, cost_names};
-use crate::command_line::CommandLine;
-use crate::names::UnknownName;
+use crate::generator::command_line::CommandLine;
+use crate::lab::chart::{ERRORS, ErrorAxis, STATISTICS, cost_names};
+use crate::physics::names::UnknownName;
 
 use super::choice::one_of;
 use super::{MaterialFlags, PictureFlags, ReportFlags};

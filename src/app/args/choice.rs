@@ -3,13 +3,13 @@
 use core::fmt;
 
 use crate::app::fault::RequestFault;
-use crate::cost::{FAMILIES, Family};
-use crate::effects::{self, Effect};
-use crate::flavours::{self, Flavour};
-use crate::methods::{self, Method};
-use crate::names::UnknownName;
-use crate::num::Precision;
-use crate::targets::{self, Target};
+use crate::generator::flavours::{self, Flavour};
+use crate::lab::cost::{FAMILIES, Family};
+use crate::language::effects::{self, Effect};
+use crate::language::methods::{self, Method};
+use crate::language::targets::{self, Target};
+use crate::physics::names::UnknownName;
+use crate::physics::num::Precision;
 
 /// A word of a list of names.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -165,8 +165,8 @@ pub fn family_or_all() -> impl Fn(&str) -> Result<Choice<&'static Family>, Unkno
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::lut::{Format, TableAxis};
-    use crate::spectra::{Gamut, Observer, Space};
+    use crate::generator::lut::{Format, TableAxis};
+    use crate::physics::spectra::{Gamut, Observer, Space};
 
     #[track_caller]
     fn check<T: Copy + PartialEq + fmt::Debug, const N: usize>(

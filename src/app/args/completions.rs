@@ -4,12 +4,14 @@ use clap::builder::PossibleValuesParser;
 use clap::{Args, Command, CommandFactory};
 use clap_complete::Shell;
 
-use crate::cost::FAMILIES;
-use crate::emit::HeaderForm;
-use crate::materials::{self, Extrapolate};
-use crate::num::Precision;
-use crate::spectra::{Adaptation, Gamut, Illuminant, Observer, Space, Step};
-use crate::{effects, methods, targets};
+use crate::generator::emit::HeaderForm;
+use crate::lab::cost::FAMILIES;
+use crate::language::effects;
+use crate::language::methods;
+use crate::language::targets;
+use crate::physics::materials::{self, Extrapolate};
+use crate::physics::num::Precision;
+use crate::physics::spectra::{Adaptation, Gamut, Illuminant, Observer, Space, Step};
 
 use super::Cli;
 

@@ -4,11 +4,11 @@ use std::path::PathBuf;
 
 use clap::Args;
 
-use crate::command_line::CommandLine;
-use crate::cost::Family;
-use crate::effects::Effect;
-use crate::methods::Method;
-use crate::num::Precision;
+use crate::generator::command_line::CommandLine;
+use crate::lab::cost::Family;
+use crate::language::effects::Effect;
+use crate::language::methods::Method;
+use crate::physics::num::Precision;
 
 use super::choice::{Choice, effect_or_all, family, family_or_all, method_or_all, precision};
 use super::{MaterialFlags, PictureFlags, ReportFlags};

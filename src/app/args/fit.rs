@@ -2,11 +2,11 @@
 
 use clap::Args;
 
-use crate::command_line::CommandLine;
-use crate::cost::Family;
-use crate::fit::Weight;
-use crate::materials::ViewingConditions;
-use crate::num::Precision;
+use crate::generator::command_line::CommandLine;
+use crate::generator::fit::Weight;
+use crate::lab::cost::Family;
+use crate::physics::materials::ViewingConditions;
+use crate::physics::num::Precision;
 
 use super::choice::{family, one_of, precision};
 use super::viewing::colour;

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 
-use crate::command_line::CommandLine;
+use crate::generator::command_line::CommandLine;
 
 use super::MaterialFlags;
 

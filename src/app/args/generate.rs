@@ -4,12 +4,12 @@ use std::path::PathBuf;
 
 use clap::Args;
 
-use crate::cost::Family;
-use crate::effects::Effect;
-use crate::emit::HeaderForm;
-use crate::flavours::Flavour;
-use crate::methods::Method;
-use crate::targets::Target;
+use crate::generator::emit::HeaderForm;
+use crate::generator::flavours::Flavour;
+use crate::lab::cost::Family;
+use crate::language::effects::Effect;
+use crate::language::methods::Method;
+use crate::language::targets::Target;
 
 use super::choice::{Choice, effect_or_all, family, flavour, method_or_all, one_of, target_or_all};
 use super::output::file_only;

@@ -2,9 +2,9 @@
 
 use clap::{Args, Subcommand};
 
-use crate::effects::{self, Effect};
-use crate::methods::{self, Method};
-use crate::targets::{self, Target};
+use crate::language::effects::{self, Effect};
+use crate::language::methods::{self, Method};
+use crate::language::targets::{self, Target};
 
 use super::ReportFlags;
 use super::choice::one_of;

@@ -8,9 +8,9 @@ use thiserror::Error;
 use crate::app::error::Error;
 use crate::app::request::{Materials, Source};
 use crate::app::source::{comma_list, is_path, read};
-use crate::command_line::path_again;
-use crate::materials::{self, ConstantIndex, IndexFault};
-use crate::names::UnknownName;
+use crate::generator::command_line::path_again;
+use crate::physics::materials::{self, ConstantIndex, IndexFault};
+use crate::physics::names::UnknownName;
 
 use super::choice::Choice;
 

@@ -4,9 +4,9 @@ use std::path::PathBuf;
 
 use clap::{Args, Subcommand};
 
-use crate::exchange::{self, Format};
-use crate::materials::{ConstantIndex, MaterialKind};
-use crate::names::UnknownName;
+use crate::generator::exchange::{self, Format};
+use crate::physics::materials::{ConstantIndex, MaterialKind};
+use crate::physics::names::UnknownName;
 
 use super::choice::one_of;
 use super::viewing::colour;

@@ -5,13 +5,13 @@ use std::path::PathBuf;
 use clap::Args;
 
 use crate::app::source::comma_list;
-use crate::command_line::{CommandLine, path_again};
-use crate::cost::Family;
-use crate::methods::Method;
-use crate::num::Precision;
-use crate::plan::{Metric, PlanTruth};
-use crate::scene::{TONE_CURVES, ToneCurve};
-use crate::spectra::Space;
+use crate::generator::command_line::{CommandLine, path_again};
+use crate::lab::cost::Family;
+use crate::language::methods::Method;
+use crate::physics::num::Precision;
+use crate::physics::spectra::Space;
+use crate::pictures::plan::{Metric, PlanTruth};
+use crate::pictures::scene::{TONE_CURVES, ToneCurve};
 
 use super::choice::{Choice, family, in_any_case, method_or_all, one_of, precision};
 use super::output::file_only;

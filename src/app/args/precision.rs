@@ -2,7 +2,7 @@
 
 use clap::Args;
 
-use crate::num::Precision;
+use crate::physics::num::Precision;
 
 use super::choice::precision;
 

@@ -2,7 +2,7 @@
 
 use std::ffi::OsString;
 
-use crate::methods::{Renamed, renamed};
+use crate::language::methods::{Renamed, renamed};
 
 /// The words of a command line with the names that methods have today, and a remark for each old one.
 pub fn with_names_of_today(

@@ -4,8 +4,8 @@ use std::path::PathBuf;
 
 use clap::Args;
 
-use crate::command_line::{CommandLine, path_again};
-use crate::scene::{self, RenderRow, TONE_CURVES, ToneCurve};
+use crate::generator::command_line::{CommandLine, path_again};
+use crate::pictures::scene::{self, RenderRow, TONE_CURVES, ToneCurve};
 
 use super::choice::one_of;
 use super::output::file_only;

@@ -2,8 +2,8 @@
 
 use clap::Args;
 
-use crate::names::UnknownName;
-use crate::reproduce::{NOT_MEASURED, Part};
+use crate::lab::reproduce::{NOT_MEASURED, Part};
+use crate::physics::names::UnknownName;
 
 use super::{ReportFlags, TreeFlags};
 

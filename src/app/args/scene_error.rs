@@ -4,10 +4,10 @@ use std::path::PathBuf;
 
 use clap::Args;
 
-use crate::command_line::{CommandLine, path_again};
-use crate::materials::ViewingConditions;
-use crate::methods::Method;
-use crate::raster::{Body, Turntable};
+use crate::generator::command_line::{CommandLine, path_again};
+use crate::lab::raster::{Body, Turntable};
+use crate::language::methods::Method;
+use crate::physics::materials::ViewingConditions;
 
 use super::choice::{Choice, method_or_all, one_of};
 use super::output::file_only;
@@ -119,7 +119,7 @@ pub(super) fn size(word: &str) -> Result<[u32; 2], String> {
         }
         _ => Err(format!(
             "`{}` is not two sides of 16 to 2048 pixels, such as 640x480",
-            crate::foreign::Foreign(word)
+            crate::physics::foreign::Foreign(word)
         )),
     }
 }

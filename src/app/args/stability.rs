@@ -2,9 +2,9 @@
 
 use clap::Args;
 
-use crate::command_line::CommandLine;
-use crate::methods::{self, Method};
-use crate::num::Precision;
+use crate::generator::command_line::CommandLine;
+use crate::language::methods::{self, Method};
+use crate::physics::num::Precision;
 
 use super::choice::{Choice, one_or_all, precision};
 use super::{MaterialFlags, PictureFlags, ReportFlags};

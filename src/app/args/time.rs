@@ -3,12 +3,12 @@
 use clap::Args;
 
 #[cfg(feature = "gpu")]
-use crate::command_line::CommandLine;
+use crate::generator::command_line::CommandLine;
 #[cfg(feature = "gpu")]
-use crate::gpu::Backend;
-use crate::methods::Method;
-use crate::num::Precision;
-use crate::overdraw::Clock;
+use crate::lab::gpu::Backend;
+use crate::lab::overdraw::Clock;
+use crate::language::methods::Method;
+use crate::physics::num::Precision;
 
 use super::choice::{Choice, method_or_all, one_of, precision};
 use super::{MaterialFlags, ReportFlags};

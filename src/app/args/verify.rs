@@ -5,18 +5,18 @@ use std::path::PathBuf;
 use clap::Args;
 
 #[cfg(feature = "gpu")]
-use crate::command_line::CommandLine;
-use crate::effects::Effect;
+use crate::generator::command_line::CommandLine;
 #[cfg(feature = "gpu")]
-use crate::emit::Naming;
+use crate::generator::emit::Naming;
 #[cfg(feature = "gpu")]
-use crate::gpu::Backend;
+use crate::lab::gpu::Backend;
+use crate::language::effects::Effect;
+use crate::language::methods::Method;
+use crate::language::targets::Target;
 #[cfg(feature = "gpu")]
-use crate::materials::ViewingConditions;
-use crate::methods::Method;
+use crate::physics::materials::ViewingConditions;
 #[cfg(feature = "gpu")]
-use crate::num::Precision;
-use crate::targets::Target;
+use crate::physics::num::Precision;
 
 #[cfg(feature = "gpu")]
 use super::choice::one_of;

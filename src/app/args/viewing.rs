@@ -5,11 +5,11 @@ use clap::Args;
 use crate::app::error::Error;
 use crate::app::fault::RequestFault;
 use crate::app::source::{is_path, read};
-use crate::command_line::path_again;
-use crate::foreign::Foreign;
-use crate::materials::{Extrapolate, ViewingConditions};
-use crate::names::UnknownName;
-use crate::spectra::{Adaptation, Gamut, Illuminant, Integration, Observer, Space, Step};
+use crate::generator::command_line::path_again;
+use crate::physics::foreign::Foreign;
+use crate::physics::materials::{Extrapolate, ViewingConditions};
+use crate::physics::names::UnknownName;
+use crate::physics::spectra::{Adaptation, Gamut, Illuminant, Integration, Observer, Space, Step};
 
 use super::choice::{in_any_case, one_of};
 

@@ -8,16 +8,16 @@ use crate::app::fault::RequestFault;
 use crate::app::request::{Materials, Request};
 use crate::app::source::shader;
 use crate::app::write::{OutputFile, try_places_of_ours};
-use crate::audit::{Audit, AuditRow, AuditRows, Define, Given, Language, serve};
-use crate::chart::{ChartView, CostAxis, STATISTICS, chart_data, charted_function};
-use crate::cost::{self, FAMILIES, Family};
-use crate::foreign::lines;
-use crate::reference::MaterialInMedium;
+use crate::generator::reference::MaterialInMedium;
+use crate::lab::audit::{Audit, AuditRow, AuditRows, Define, Given, Language, serve};
+use crate::lab::chart::{ChartView, CostAxis, STATISTICS, chart_data, charted_function};
+use crate::lab::cost::{self, FAMILIES, Family};
+use crate::lab::verify::{Status, machine};
+use crate::physics::foreign::lines;
+use crate::physics::spectra::Space;
 use crate::report::Report;
 use crate::report::audit::{audit_remarks, audit_text};
 use crate::report::junit::audit_junit;
-use crate::spectra::Space;
-use crate::verify::{Status, machine};
 
 use super::{Output, Progress, chart, check_limit, not_drawn, report_beside, try_files};
 

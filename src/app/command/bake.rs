@@ -10,17 +10,17 @@ use crate::app::scope::Scope;
 use crate::app::tables::{WantedTables, artifacts, table_materials};
 use crate::app::tree::plan;
 use crate::app::write::write;
-use crate::bake::{
+use crate::generator::bake::{
     ATLAS, BakeRequest, BakeRow, Baked, DEFAULT_AXIS, DEFAULT_FORMATS, SplitSumRequest,
     TableMaterial, TableSize, as_tables_are_seen, bake, bake_split_sum, material_words,
     usual_method, viewing_flags,
 };
-use crate::command_line::CommandLine;
-use crate::lut::{Format, SPLIT_SUM_SIZE, SplitSumLayout, TableAxis, check_size};
-use crate::methods::TEXELS;
+use crate::generator::command_line::CommandLine;
+use crate::generator::lut::{Format, SPLIT_SUM_SIZE, SplitSumLayout, TableAxis, check_size};
+use crate::language::methods::TEXELS;
+use crate::language::targets::{self, Finish, Target};
 use crate::report::Report;
 use crate::report::table;
-use crate::targets::{self, Finish, Target};
 
 use super::generate::named;
 use super::{Output, Progress, folder_or_current, refuse_within_tree, reported, try_places};
@@ -111,14 +111,15 @@ fn finished(
     if flags.quiet {
         return Ok(output);
     }
-    output.remarks.extend(
-        left_out
-            .iter()
-            .map(|why| format!("left out: {}", crate::foreign::one_line(&why.to_string()))),
-    );
+    output.remarks.extend(left_out.iter().map(|why| {
+        format!(
+            "left out: {}",
+            crate::physics::foreign::one_line(&why.to_string())
+        )
+    }));
     output.remarks.push(format!(
         "{}: {} written, {} unchanged",
-        crate::foreign::path(&out_dir),
+        crate::physics::foreign::path(&out_dir),
         written.written,
         written.unchanged
     ));

@@ -8,8 +8,8 @@ use crate::app::fault::RequestFault;
 use crate::app::names::unknown;
 use crate::app::request::{Materials, Request};
 use crate::app::write::{OutputFile, try_places_of_ours};
-use crate::chart::{ChartData, ChartView, ERRORS, chart_data, cost_names, set_name};
-use crate::reference::{MaterialClass, MaterialInMedium};
+use crate::generator::reference::{MaterialClass, MaterialInMedium};
+use crate::lab::chart::{ChartData, ChartView, ERRORS, chart_data, cost_names, set_name};
 use crate::report::Report;
 use crate::report::frontier::{chart_page, chart_svg, chart_text};
 
@@ -103,7 +103,7 @@ pub(super) fn drawn_files(
 pub(super) fn drawn_remarks(files: &[OutputFile]) -> Vec<String> {
     let about = ["the picture of what is shown", "a page with all charts"];
     let remark = |(file, about): (&OutputFile, &str)| {
-        format!("{}: {about}", crate::foreign::path(file.path()))
+        format!("{}: {about}", crate::physics::foreign::path(file.path()))
     };
     files.iter().zip(about).map(remark).collect()
 }

@@ -4,8 +4,8 @@ use std::path::Path;
 
 use crate::app::args::CoatFlags;
 use crate::app::error::Error;
-use crate::command_line::CommandLine;
-use crate::fit::CoatedRow;
+use crate::generator::command_line::CommandLine;
+use crate::generator::fit::CoatedRow;
 use crate::report::Report;
 use crate::report::coated::coated_text;
 

@@ -8,17 +8,17 @@ use crate::app::error::Error;
 use crate::app::fault::RequestFault;
 use crate::app::request::Request;
 use crate::app::write::{OutputFile, try_places_of_ours};
-use crate::cost::{
+use crate::lab::cost::{
     CostFigures, CostRecord, CostRow, CostSource, CostedFunction, FAMILIES, ask_compilers,
     cost_rows, functions, functions_of_effect, records, serve,
 };
-use crate::effects::{self, USUAL_METHOD};
-use crate::methods;
-use crate::num::Precision;
-use crate::process::{Pool, Surroundings};
+use crate::lab::process::{Pool, Surroundings};
+use crate::lab::verify::machine;
+use crate::language::effects::{self, USUAL_METHOD};
+use crate::language::methods;
+use crate::physics::num::Precision;
 use crate::report::Report;
 use crate::report::cost::{cost_page, cost_text};
-use crate::verify::machine;
 
 use super::{Output, Progress, check_limit, not_drawn, report_beside, try_places};
 
@@ -67,7 +67,7 @@ pub fn run(flags: &CostFlags, progress: Progress) -> Result<Output, Error> {
     let said = page.as_ref().map(|page| {
         format!(
             "{}: a page with all figures",
-            crate::foreign::path(page.path())
+            crate::physics::foreign::path(page.path())
         )
     });
     let files = page.into_iter().collect();

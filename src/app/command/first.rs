@@ -25,7 +25,7 @@ pub fn first_help(flags: &GenerateFlags) -> Option<Output> {
     }
     let nowhere = format!(
         "Nothing was written: there is no {} here.",
-        crate::foreign::path(&manifest)
+        crate::physics::foreign::path(&manifest)
     );
     Some(Output {
         remarks: FIRST.lines().map(str::to_owned).chain([nowhere]).collect(),

@@ -4,18 +4,18 @@ use crate::app::args::{End, FitFlags};
 use crate::app::error::Error;
 use crate::app::fault::RequestFault;
 use crate::app::request::{Materials, Request};
-use crate::cost::{library_cost, records};
-use crate::emit::missed;
-use crate::fit::{
+use crate::generator::emit::missed;
+use crate::generator::fit::{
     Coefficients, Exact, FitCurve, FitObjective, Follows, Weight, error_from, model_error,
     values_at,
 };
-use crate::methods::{ALL, Class, Method};
-use crate::num::{each_channel, in_parallel};
-use crate::reference::MaterialInMedium;
+use crate::generator::reference::MaterialInMedium;
+use crate::lab::cost::{library_cost, records};
+use crate::language::methods::{ALL, Class, Method};
+use crate::physics::num::{each_channel, in_parallel};
+use crate::physics::spectra::Gamut;
 use crate::report::Report;
 use crate::report::fits::{FitRow, fits_text};
-use crate::spectra::Gamut;
 
 use super::{Output, Progress, report, search, try_places};
 
@@ -126,7 +126,7 @@ fn of_materials(
             Some(row) => rows.push(row),
             None => remarks.push(format!(
                 "left out: {} with {form}: {NO_FIT}",
-                crate::foreign::Foreign(subject)
+                crate::physics::foreign::Foreign(subject)
             )),
         }
     }

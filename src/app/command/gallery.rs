@@ -5,7 +5,7 @@ use crate::app::error::Error;
 use crate::app::fault::RequestFault;
 use crate::app::request::{Materials, Request};
 use crate::app::write::{OutputFile, try_places_of_ours, write_outputs};
-use crate::gallery::gallery;
+use crate::pictures::gallery::gallery;
 use crate::report::gallery::gallery_page;
 
 use super::{Output, Progress, folder_or_current, not_drawn, replaced, try_files};
@@ -38,7 +38,7 @@ pub fn run(flags: &GalleryFlags, progress: Progress) -> Result<Output, Error> {
     remarks.extend(replaced(&old));
     remarks.push(format!(
         "{}: {rows} effects, {methods} methods, {materials} materials",
-        crate::foreign::path(&file)
+        crate::physics::foreign::path(&file)
     ));
     Ok(Output {
         remarks,

@@ -18,13 +18,13 @@ use crate::app::tables::add_tables;
 use crate::app::tree::{TreePlan, plan};
 use crate::app::write::{OutputFile, write, write_outputs};
 use crate::app::{check, depfile, folder};
-use crate::bake::as_tables_are_seen;
-use crate::budget::{Budget, BudgetRow, choose_within};
-use crate::cost;
-use crate::emit::HeaderForm;
-use crate::foreign::{Foreign, one_line};
-use crate::methods;
-use crate::num::Precision;
+use crate::generator::bake::as_tables_are_seen;
+use crate::generator::emit::HeaderForm;
+use crate::lab::budget::{Budget, BudgetRow, choose_within};
+use crate::lab::cost;
+use crate::language::methods;
+use crate::physics::foreign::{Foreign, one_line};
+use crate::physics::num::Precision;
 use crate::report::budget::budget_remarks;
 
 use super::language::target_words;
@@ -278,7 +278,7 @@ fn written(
         .remarks
         .extend(named(plan, flags.tree.overwrite, "replaced"));
     if !flags.quiet {
-        let folder = crate::foreign::path(&out_dir);
+        let folder = crate::physics::foreign::path(&out_dir);
         output.remarks.push(format!(
             "{folder}: {} written, {} unchanged, {} removed",
             counts.written, counts.unchanged, counts.removed
@@ -300,7 +300,7 @@ fn first_steps(flags: &GenerateFlags, generated: &Generated, out_dir: &Path) -> 
         let page = out_dir.join(&page.path);
         format!(
             "next: {} says how the host takes the files, with an example",
-            crate::foreign::path(&page)
+            crate::physics::foreign::path(&page)
         )
     });
     // What an adapter's folder holds is no function for `verify`.
@@ -327,7 +327,7 @@ fn first_function<'g>(
     vec![
         format!(
             "for example {}: {}",
-            crate::foreign::path(&file),
+            crate::physics::foreign::path(&file),
             function.signature
         ),
         next_step(flags),

@@ -8,10 +8,10 @@ use crate::app::fault::RequestFault;
 use crate::app::folder;
 use crate::app::source::read;
 use crate::app::write::{OutputFile, write_outputs};
-use crate::foreign::{self, one_line};
-use crate::materials::{Material, name_fault, page};
-use crate::methods;
-use crate::spectra::{FIRST_NM, LAST_NM, OBSERVED_NM};
+use crate::language::methods;
+use crate::physics::foreign::{self, one_line};
+use crate::physics::materials::{Material, name_fault, page};
+use crate::physics::spectra::{FIRST_NM, LAST_NM, OBSERVED_NM};
 
 use super::materials::material_record;
 use super::{Output, report, try_places};

@@ -6,7 +6,7 @@ use std::path::Path;
 use crate::app::args::Choice;
 use crate::app::error::Error;
 use crate::app::fault::RequestFault;
-use crate::targets::{self, Target};
+use crate::language::targets::{self, Target};
 
 /// The targets as a request names them: those of `--target`, or the one of the file's ending. None where neither says one.
 ///
@@ -29,7 +29,7 @@ pub fn target_words(
         (Some(first), []) => Ok(vec![first.name.to_owned()]),
         (None, []) if ending.is_some() => Err(no_language(file).into()),
         (Some(first), [one]) if one != "all" && of_ending.iter().all(|it| it.name != one) => {
-            let (file, language) = (crate::foreign::path(&file), first.name);
+            let (file, language) = (crate::physics::foreign::path(&file), first.name);
             let why = format!("`{file}` ends as a file of {language}, and --target is {one}");
             Err(RequestFault::conflict(why).into())
         }
@@ -49,7 +49,7 @@ fn no_language(file: &Path) -> RequestFault {
     let endings: Vec<String> = endings.iter().map(|ending| format!(".{ending}")).collect();
     RequestFault::conflict(format!(
         "`{}` says no language by its ending; name one with --target, or end the file in {}",
-        crate::foreign::path(&file),
+        crate::physics::foreign::path(&file),
         endings.join(", ")
     ))
 }

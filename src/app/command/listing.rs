@@ -8,12 +8,12 @@ use crate::app::args::{
     EffectsCommand, EffectsFlags, MethodsCommand, MethodsFlags, TargetsCommand, TargetsFlags,
 };
 use crate::app::error::Error;
-use crate::effects::{self, Effect, EffectFunction};
-use crate::emit;
-use crate::methods::{self, Contract, Method};
+use crate::generator::emit;
+use crate::language::effects::{self, Effect, EffectFunction};
+use crate::language::methods::{self, Contract, Method};
+use crate::language::targets::{self, Target};
 use crate::report::table;
 use crate::report::{Report, SCHEMA};
-use crate::targets::{self, Target};
 
 use super::{Output, report};
 

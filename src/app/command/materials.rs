@@ -11,13 +11,13 @@ use crate::app::loaded::{Loaded, load};
 use crate::app::names::unknown;
 use crate::app::request::check_transparent;
 use crate::app::write::{OutputFile, write_outputs};
-use crate::command_line::CommandLine;
-use crate::foreign::{Foreign, one_line};
-use crate::materials::{self, Extrapolate, Material, ViewingConditions};
+use crate::generator::command_line::CommandLine;
+use crate::physics::foreign::{Foreign, one_line};
+use crate::physics::materials::{self, Extrapolate, Material, ViewingConditions};
+use crate::physics::spectra::{FIRST_NM, LAST_NM};
 use crate::report::material_sheet::material_sheet;
 use crate::report::table;
 use crate::report::{Report, SCHEMA};
-use crate::spectra::{FIRST_NM, LAST_NM};
 
 use super::{Output, Progress, coated, import, not_drawn, params, png, report, reported, survey};
 
@@ -165,7 +165,7 @@ fn shown(flags: &ShowFlags, json: Option<&Path>) -> Result<Output, Error> {
         } else {
             output
                 .remarks
-                .push(format!("{}: drawn", crate::foreign::path(file)));
+                .push(format!("{}: drawn", crate::physics::foreign::path(file)));
             files.push(OutputFile::named(file, bytes));
         }
     }
@@ -213,7 +213,7 @@ fn check_places(flags: &ShowFlags, json: Option<&Path>) -> Result<(), Error> {
         None => Ok(()),
         Some((_, place)) => Err(RequestFault::conflict(format!(
             "--svg, --png and --json want different places, and `{}` is named twice",
-            crate::foreign::path(&place)
+            crate::physics::foreign::path(&place)
         ))
         .into()),
     }

@@ -48,7 +48,7 @@ use super::lock::Announce;
 use super::manifest::{self, Manifest};
 use super::tree::TreePlan;
 use super::write::{OutputFile, try_file, write_outputs};
-use crate::materials::escaped;
+use crate::physics::materials::escaped;
 
 /// What a run leaves: text or a file for stdout, remarks for stderr, the exit code.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -276,7 +276,7 @@ fn png(_: &str, _: f32) -> Result<Vec<u8>, Error> {
 fn replaced(files: &[PathBuf]) -> impl Iterator<Item = String> {
     files
         .iter()
-        .map(|file| format!("replaced: {}", crate::foreign::path(&file)))
+        .map(|file| format!("replaced: {}", crate::physics::foreign::path(&file)))
 }
 
 /// Refuses files that cannot be written, and two that are one, before the work.

@@ -10,14 +10,14 @@ use crate::app::fault::RequestFault;
 use crate::app::folder::is_device;
 use crate::app::loaded::{Loaded, load};
 use crate::app::write::{OutputFile, try_places_of_ours, write_outputs};
-use crate::command_line::CommandLine;
-use crate::exchange::{EngineMaterial, Format};
-use crate::fit::{MaterialParams, material_params};
-use crate::materials::{self, ViewingConditions};
-use crate::reference::{Derivation, MaterialInMedium};
+use crate::generator::command_line::CommandLine;
+use crate::generator::exchange::{EngineMaterial, Format};
+use crate::generator::fit::{MaterialParams, material_params};
+use crate::generator::reference::{Derivation, MaterialInMedium};
+use crate::physics::materials::{self, ViewingConditions};
+use crate::physics::spectra::Gamut;
 use crate::report::SCHEMA;
 use crate::report::params::params_text;
-use crate::spectra::Gamut;
 
 use super::materials::medium;
 use super::{Output, replaced, report};
@@ -79,7 +79,9 @@ fn exported(flags: &ParamsFlags, format: &Format) -> Result<Output, Error> {
         &viewing,
         Derivation::default(),
     )?;
-    let fault = |fault: crate::exchange::ExchangeFault| RequestFault::conflict(fault.to_string());
+    let fault = |fault: crate::generator::exchange::ExchangeFault| {
+        RequestFault::conflict(fault.to_string())
+    };
     let material = EngineMaterial::new(&subject, &viewing).map_err(fault)?;
     let exported = format
         .export(&material, &String::from(command))

@@ -7,17 +7,17 @@ use crate::app::error::Error;
 use crate::app::fault::RequestFault;
 use crate::app::plan_input::{PlanInput, plan_input};
 use crate::app::write::{OutputFile, try_places_of_ours};
-use crate::cost::{self, Family, GpuCompiler};
-use crate::materials::ViewingConditions;
-use crate::methods;
-use crate::plan::{
+use crate::lab::cost::{self, Family, GpuCompiler};
+use crate::language::methods;
+use crate::physics::materials::ViewingConditions;
+use crate::pictures::plan::{
     FramePixels, JudgedMaterial, PlanFault, PlanRequest, PlanRow, PlanTotal, Proof, material_view,
     plan,
 };
 #[cfg(feature = "gpu")]
-use crate::plan::{ProofCase, prove};
+use crate::pictures::plan::{ProofCase, prove};
+use crate::pictures::scene::Display;
 use crate::report::plan::{PlanReport, plan_page};
-use crate::scene::Display;
 
 use super::{Output, Progress, not_drawn, refuse_read, report_beside, try_places};
 
@@ -76,7 +76,7 @@ pub fn run(flags: &PlanFlags, progress: Progress) -> Result<Output, Error> {
     let said = page.as_ref().map(|page| {
         format!(
             "{}: angles, errors, pictures and reasons",
-            crate::foreign::path(page.path())
+            crate::physics::foreign::path(page.path())
         )
     });
     let files = page.into_iter().collect();
@@ -209,7 +209,7 @@ fn family(flags: &PlanFlags) -> Result<&'static Family, Error> {
     let family = flags.gpu.unwrap_or_else(usual);
     if let GpuCompiler::None(reason) = family.compiler {
         let gpu = family.name;
-        return Err(crate::budget::Error::NoCosts { gpu, reason }.into());
+        return Err(crate::lab::budget::Error::NoCosts { gpu, reason }.into());
     }
     Ok(family)
 }

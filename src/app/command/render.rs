@@ -9,12 +9,12 @@ use crate::app::loaded::load;
 use crate::app::request::Source;
 use crate::app::source;
 use crate::app::write::{OutputFile, try_places_of_ours};
-use crate::gpu::{Device, Wanted};
-use crate::materials::{Material, MaterialKind, Surface, ViewingConditions};
+use crate::lab::gpu::{Device, Wanted};
+use crate::physics::materials::{Material, MaterialKind, Surface, ViewingConditions};
+use crate::physics::spectra::Space;
+use crate::pictures::scene::{self, Display, Environment, Glass, Order};
 use crate::report::Report;
 use crate::report::render::{panels_exr, panels_png, render_text};
-use crate::scene::{self, Display, Environment, Glass, Order};
-use crate::spectra::Space;
 
 use super::{Output, Progress, not_drawn, report_beside, try_files};
 
@@ -30,7 +30,7 @@ pub fn run(flags: &RenderFlags, progress: Progress) -> Result<Output, Error> {
     if flags.output.is_none() && try_places_of_ours(std::slice::from_ref(&file), false).is_err() {
         let why = format!(
             "{} lies here, and this program did not write it; name the picture's file with -o",
-            crate::foreign::path(&file)
+            crate::physics::foreign::path(&file)
         );
         return Err(RequestFault::conflict(why).into());
     }
@@ -65,7 +65,7 @@ pub fn run(flags: &RenderFlags, progress: Progress) -> Result<Output, Error> {
     let mut output = report_beside(text, &json, flags.report.json(), drawn)?;
     output.remarks.push(format!(
         "{}: drawn, truth, error",
-        crate::foreign::path(&file)
+        crate::physics::foreign::path(&file)
     ));
     Ok(output)
 }
@@ -103,7 +103,7 @@ fn is_exr(file: &Path) -> Result<bool, Error> {
         _ => Err(Error::Usage {
             what: format!(
                 "-o {}: the picture's name ends in .png or .exr",
-                crate::foreign::path(&file)
+                crate::physics::foreign::path(&file)
             ),
         }),
     }
@@ -136,7 +136,7 @@ fn environment(file: Option<&Path>) -> Result<Environment, Error> {
     };
     let bytes = source::picture(file)?;
     Environment::read(&bytes, Space::Srgb).map_err(|fault| Error::Usage {
-        what: format!("{}: {fault}", crate::foreign::path(file)),
+        what: format!("{}: {fault}", crate::physics::foreign::path(file)),
     })
 }
 

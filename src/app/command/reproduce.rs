@@ -3,9 +3,9 @@
 use crate::app::args::ReproduceFlags;
 use crate::app::error::Error;
 use crate::app::write::OutputFile;
+use crate::lab::reproduce::{ComparisonRow, Part, Reproduction, reproduce, thesis};
 use crate::report::Report;
 use crate::report::reproduce::{figure_chart, reproduction_text};
-use crate::reproduce::{ComparisonRow, Part, Reproduction, reproduce, thesis};
 
 use super::{Output, Progress, report_beside};
 
@@ -17,7 +17,10 @@ pub fn run(flags: &ReproduceFlags, progress: Progress) -> Result<Output, Error> 
         .map_or(Part::ALL.as_slice(), std::slice::from_ref);
     let reproduced = reproduce(parts, thesis::ANGLES, progress);
     let drawn = figures(flags, &reproduced);
-    let (count, folder) = (drawn.len(), crate::foreign::path(&flags.figures.out_dir));
+    let (count, folder) = (
+        drawn.len(),
+        crate::physics::foreign::path(&flags.figures.out_dir),
+    );
     let said = (count > 0).then(|| format!("{folder}: {count} figures"));
     let mut output = report_beside(
         reproduction_text(&reproduced),

@@ -10,17 +10,17 @@ use crate::app::fault::RequestFault;
 use crate::app::request::{Materials, Request};
 use crate::app::source;
 use crate::app::write::{OutputFile, try_places_of_ours};
-use crate::emit::MARK;
-use crate::fit::values_for_material;
-use crate::ir::Checked;
-use crate::materials::{FileFault, ViewingConditions};
-use crate::methods::Method;
-use crate::num::in_parallel;
-use crate::raster::{
+use crate::generator::emit::MARK;
+use crate::generator::fit::values_for_material;
+use crate::generator::reference::MaterialInMedium;
+use crate::lab::raster::{
     Body, Camera, Frame, Lens, Mesh, Painted, SceneErrorRow, Shown, Turntable, draw, mesh_of_obj,
     rendered_error, shown,
 };
-use crate::reference::MaterialInMedium;
+use crate::language::ir::Checked;
+use crate::language::methods::Method;
+use crate::physics::materials::{FileFault, ViewingConditions};
+use crate::physics::num::in_parallel;
 use crate::report::Report;
 use crate::report::scene_error::{painted_exr, painted_png, scene_error_text};
 
@@ -70,8 +70,13 @@ pub fn run(flags: &SceneErrorFlags, progress: Progress) -> Result<Output, Error>
         None => Vec::new(),
     };
     let folder = flags.pictures.folder();
-    let said =
-        folder.map(|folder| format!("{}: {} pictures", crate::foreign::path(folder), drawn.len()));
+    let said = folder.map(|folder| {
+        format!(
+            "{}: {} pictures",
+            crate::physics::foreign::path(folder),
+            drawn.len()
+        )
+    });
     let (text, json) = (scene_error_text(&rows), Report::new(command, rows));
     let mut output = report_beside(text, &json, flags.report.json(), drawn)?;
     output.remarks.splice(0..0, left_out);
@@ -150,7 +155,7 @@ fn pairs<'a>(
 fn methods(flags: &SceneErrorFlags, subject: &MaterialInMedium) -> Vec<&'static Method> {
     if flags.method.is_empty() {
         let names = subject.default_methods().into_iter();
-        return names.filter_map(crate::methods::find).collect();
+        return names.filter_map(crate::language::methods::find).collect();
     }
     Choice::methods(&flags.method)
 }

@@ -2,12 +2,14 @@
 
 use crate::app::args::FitFlags;
 use crate::app::error::Error;
-use crate::cost::{SEARCHED, SearchResult, SearchRow, SearchedClass, library_cost, records};
-use crate::fit::{Candidate, FitCurve, FitObjective, FitProblem, TriedShapes, candidates, search};
-use crate::materials::{Material, find};
-use crate::methods::Method;
-use crate::num::in_parallel;
-use crate::reference::{MaterialClass, MaterialInMedium};
+use crate::generator::fit::{
+    Candidate, FitCurve, FitObjective, FitProblem, TriedShapes, candidates, search,
+};
+use crate::generator::reference::{MaterialClass, MaterialInMedium};
+use crate::lab::cost::{SEARCHED, SearchResult, SearchRow, SearchedClass, library_cost, records};
+use crate::language::methods::Method;
+use crate::physics::materials::{Material, find};
+use crate::physics::num::in_parallel;
 use crate::report::Report;
 use crate::report::search::search_text;
 
@@ -29,7 +31,7 @@ pub(super) fn run(
     remarks.extend(outside.map(|subject| {
         format!(
             "left out: {}: {OUTSIDE}",
-            crate::foreign::Foreign(&subject.argument)
+            crate::physics::foreign::Foreign(&subject.argument)
         )
     }));
     let shapes: Vec<Candidate> = terms.iter().flat_map(|terms| candidates(*terms)).collect();

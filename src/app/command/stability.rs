@@ -7,11 +7,11 @@ use crate::app::error::Error;
 use crate::app::fault::RequestFault;
 use crate::app::request::Request;
 use crate::app::write::{OutputFile, try_places_of_ours};
-use crate::methods::{self, Method};
-use crate::num::Precision;
+use crate::lab::stability::{StabilityRow, Study, maps};
+use crate::language::methods::{self, Method};
+use crate::physics::num::Precision;
 use crate::report::Report;
 use crate::report::stability::{heat_map, stability_page, stability_text};
-use crate::stability::{StabilityRow, Study, maps};
 
 use super::{Output, Progress, not_drawn, png, report_beside, try_places};
 
@@ -124,7 +124,7 @@ impl Asked<'_> {
         let index = index(self.study.precision);
         let said = format!(
             "{}: {} maps, and {index} that shows them",
-            crate::foreign::path(&folder),
+            crate::physics::foreign::path(&folder),
             pictures.len()
         );
         let overwrite = self.flags.pictures.overwrite;

@@ -5,12 +5,12 @@ use std::path::Path;
 use crate::app::args::SurveyFlags;
 use crate::app::error::Error;
 use crate::app::source::{pages, read};
-use crate::command_line::CommandLine;
-use crate::fit::{PageOutcome, SurveyedPage, survey_page};
-use crate::materials::ViewingConditions;
+use crate::generator::command_line::CommandLine;
+use crate::generator::fit::{PageOutcome, SurveyedPage, survey_page};
+use crate::physics::materials::ViewingConditions;
+use crate::physics::spectra::Gamut;
 use crate::report::Report;
 use crate::report::survey::{SurveyRow, survey_text};
-use crate::spectra::Gamut;
 
 use super::{Output, Progress, report};
 
@@ -25,7 +25,7 @@ pub fn run(flags: &SurveyFlags, json: Option<&Path>, progress: Progress) -> Resu
         return Err(Error::Usage {
             what: format!(
                 "there is no page (.yml) below {}",
-                crate::foreign::path(&flags.folder)
+                crate::physics::foreign::path(&flags.folder)
             ),
         });
     }

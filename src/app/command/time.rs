@@ -8,13 +8,13 @@ use crate::app::args::{Choice, TimeFlags, each_once};
 use crate::app::error::Error;
 use crate::app::fault::RequestFault;
 use crate::app::time_request::TimeRequest;
-use crate::foreign::{lines, one_line};
-use crate::gpu::Wanted;
-use crate::overdraw::{
+use crate::lab::gpu::Wanted;
+use crate::lab::overdraw::{
     Clock, DeviceFacts, DrawingEffort, DrawingWorker, MeasuredDrawings, Stop, TimeRow,
     TimedFunctions, measure, serve, time_rows, usual_operations,
 };
-use crate::process::Inbox;
+use crate::lab::process::Inbox;
+use crate::physics::foreign::{lines, one_line};
 use crate::report::time::TimeReport;
 
 use super::{Output, Progress, report, try_places};

@@ -2,11 +2,11 @@
 
 use crate::app::error::Error;
 use crate::app::request::{Materials, Request};
-use crate::emit::fitted_error;
-use crate::fit::{ModelError, rounded_up};
-use crate::foreign::Foreign;
-use crate::methods::{self, Method};
-use crate::reference::MaterialInMedium;
+use crate::generator::emit::fitted_error;
+use crate::generator::fit::{ModelError, rounded_up};
+use crate::generator::reference::MaterialInMedium;
+use crate::language::methods::{self, Method};
+use crate::physics::foreign::Foreign;
 
 /// How many times the error of the class's own method is told.
 const FAR: f64 = 2.0;

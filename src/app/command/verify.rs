@@ -14,20 +14,20 @@ use crate::app::request::Request;
 use crate::app::shard::{VARIABLES, shard_of};
 use crate::app::verify::plan_of_request;
 use crate::app::write::OutputFile;
-use crate::foreign::one_line;
-use crate::gpu::Wanted;
-use crate::process::{Inbox, Pool};
+use crate::lab::gpu::Wanted;
+use crate::lab::process::{Inbox, Pool};
+use crate::lab::verify::file::VerifyEffort;
+use crate::lab::verify::plan::VerifyPlan;
+use crate::lab::verify::run::Devices;
+use crate::lab::verify::shard::{PartStatement, Shard, ShardOutcome};
+use crate::lab::verify::{
+    MachineStatement, Status, VerifyRow, exhaustive_rows, machine, serve, supervise,
+};
+use crate::physics::foreign::one_line;
 use crate::report::Report;
 use crate::report::junit::verify_junit;
 use crate::report::shard::{ShardReport, WholeRun};
 use crate::report::verify::{devices, not_checked, verify_remarks, verify_text};
-use crate::verify::file::VerifyEffort;
-use crate::verify::plan::VerifyPlan;
-use crate::verify::run::Devices;
-use crate::verify::shard::{PartStatement, Shard, ShardOutcome};
-use crate::verify::{
-    MachineStatement, Status, VerifyRow, exhaustive_rows, machine, serve, supervise,
-};
 
 use super::{Output, Progress, check_limit, not_drawn, refuse_place_of, report_beside, try_places};
 
@@ -87,7 +87,7 @@ pub fn run(flags: &VerifyFlags, progress: Progress) -> Result<Output, Error> {
     if !flags.out_dir.is_dir() {
         output.remarks.push(format!(
             "there is no folder {}: what would be written was run",
-            crate::foreign::path(&flags.out_dir)
+            crate::physics::foreign::path(&flags.out_dir)
         ));
     }
     Ok(output)

@@ -1,10 +1,10 @@
 //! The command that makes a file again, and the form of its comments.
 
-use crate::command_line::CommandLine;
-use crate::emit::{HeaderForm, Naming};
-use crate::num::Precision;
-use crate::reference::MaterialInMedium;
-use crate::targets::{Finish, Target};
+use crate::generator::command_line::CommandLine;
+use crate::generator::emit::{HeaderForm, Naming};
+use crate::generator::reference::MaterialInMedium;
+use crate::language::targets::{Finish, Target};
+use crate::physics::num::Precision;
 
 use super::Run;
 
@@ -33,7 +33,10 @@ impl Run<'_> {
             Some(request.precision).filter(|precision| *precision != Precision::default());
         let medium = subject.and_then(|subject| subject.medium.as_ref());
         let seen = subject.map(|subject| {
-            crate::command_line::surface_flags(&request.viewing, &subject.reference.surface)
+            crate::generator::command_line::surface_flags(
+                &request.viewing,
+                &subject.reference.surface,
+            )
         });
         CommandLine::new("fresnel-gen")
             .list("target", [target.name])

@@ -4,12 +4,12 @@ use crate::app::artifact::Artifact;
 use crate::app::error::Error;
 use crate::app::fault::RequestFault;
 use crate::app::request::Request;
-use crate::command_line::CommandLine;
-use crate::effects::{self, Effect, USUAL_METHOD};
-use crate::emit::{self, EffectRequest, Emitted, Naming};
-use crate::methods::{self, Method};
-use crate::reference::MaterialInMedium;
-use crate::targets::Target;
+use crate::generator::command_line::CommandLine;
+use crate::generator::emit::{self, EffectRequest, Emitted, Naming};
+use crate::generator::reference::MaterialInMedium;
+use crate::language::effects::{self, Effect, USUAL_METHOD};
+use crate::language::methods::{self, Method};
+use crate::language::targets::Target;
 
 use super::owners::Owners;
 use super::{Made, Run};
@@ -187,7 +187,10 @@ impl Run<'_> {
         let request = self.request;
         let medium = effect.subject.and_then(|subject| subject.medium.as_ref());
         let seen = effect.subject.map(|subject| {
-            crate::command_line::surface_flags(&request.viewing, &subject.reference.surface)
+            crate::generator::command_line::surface_flags(
+                &request.viewing,
+                &subject.reference.surface,
+            )
         });
         CommandLine::new("fresnel-gen")
             .list("target", [target.name])

@@ -4,13 +4,13 @@ use crate::app::artifact::Artifact;
 use crate::app::error::Error;
 use crate::app::fault::RequestFault;
 use crate::app::request::{DEFAULT_MATERIALS, Materials, Request, Source};
-use crate::command_line::CommandLine;
-use crate::emit::{self, AdapterDetail, CatalogueRow, Detail, OUTPUT_LICENCE};
-use crate::flavours::{self, Commands, Fitted, Flavour, FlavourFile};
-use crate::materials::ViewingConditions;
-use crate::methods::Method;
-use crate::reference::MaterialInMedium;
-use crate::targets::Target;
+use crate::generator::command_line::CommandLine;
+use crate::generator::emit::{self, AdapterDetail, CatalogueRow, Detail, OUTPUT_LICENCE};
+use crate::generator::flavours::{self, Commands, Fitted, Flavour, FlavourFile};
+use crate::generator::reference::MaterialInMedium;
+use crate::language::methods::Method;
+use crate::language::targets::Target;
+use crate::physics::materials::ViewingConditions;
 
 use super::Run;
 
@@ -192,7 +192,10 @@ impl Run<'_> {
         let first = meant.first();
         let medium = first.and_then(|subject| subject.medium.as_ref());
         let seen = first.map(|subject| {
-            crate::command_line::surface_flags(&self.request.viewing, &subject.reference.surface)
+            crate::generator::command_line::surface_flags(
+                &self.request.viewing,
+                &subject.reference.surface,
+            )
         });
         CommandLine::new("fresnel-gen")
             .list("flavour", [flavour.name])

@@ -9,12 +9,12 @@ mod written;
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use crate::emit::{self, Bounds, Emitted, File, Heading, NAGA_VERSION, Naming};
-use crate::flavours::Flavour;
-use crate::materials::Unseen;
-use crate::methods::{self, Method};
-use crate::reference::MaterialInMedium;
-use crate::targets::Target;
+use crate::generator::emit::{self, Bounds, Emitted, File, Heading, NAGA_VERSION, Naming};
+use crate::generator::flavours::Flavour;
+use crate::generator::reference::MaterialInMedium;
+use crate::language::methods::{self, Method};
+use crate::language::targets::Target;
+use crate::physics::materials::Unseen;
 
 use super::artifact::{Artifact, sha256};
 use super::error::Error;

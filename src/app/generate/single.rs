@@ -5,8 +5,8 @@ use std::collections::BTreeMap;
 use crate::app::error::Error;
 use crate::app::fault::RequestFault;
 use crate::app::request::{Materials, Request};
-use crate::emit::{self, Heading, PlaceInFile};
-use crate::targets::{Finish, Target};
+use crate::generator::emit::{self, Heading, PlaceInFile};
+use crate::language::targets::{Finish, Target};
 
 use super::owners::Owners;
 use super::{Run, written};

@@ -2,9 +2,9 @@
 
 use crate::app::error::Error;
 use crate::app::request::Request;
-use crate::methods::{self, InHalf, Method};
-use crate::reference::MaterialInMedium;
-use crate::targets::Target;
+use crate::generator::reference::MaterialInMedium;
+use crate::language::methods::{self, InHalf, Method};
+use crate::language::targets::Target;
 
 use super::{Kept, Run};
 

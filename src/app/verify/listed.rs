@@ -5,7 +5,7 @@ use serde_json::{Value, json};
 use crate::app::artifact::Artifact;
 use crate::app::manifest::{self, Entry, Manifest};
 use crate::app::ours::is_listed;
-use crate::emit::Detail;
+use crate::generator::emit::Detail;
 
 /// The manifest's entry of a file.
 pub(super) struct Listed<'a> {

@@ -1,5 +1,5 @@
 //! The plan of a verification from a request and from what an output folder holds. All that needs neither stands in
-//! [`crate::verify`].
+//! [`crate::lab::verify`].
 
 mod difference;
 mod listed;

@@ -7,11 +7,11 @@ use crate::app::command::kept;
 use crate::app::error::Error;
 use crate::app::generate::{Held, Kept, Made, Meant, generate_meant};
 use crate::app::request::{Materials, Request};
-use crate::emit::{Emitted, HeaderForm};
-use crate::methods;
-use crate::reference::MaterialInMedium;
-use crate::targets;
-use crate::verify::plan::{PlannedFile, ShippedPage, VerifyPlan};
+use crate::generator::emit::{Emitted, HeaderForm};
+use crate::generator::reference::MaterialInMedium;
+use crate::lab::verify::plan::{PlannedFile, ShippedPage, VerifyPlan};
+use crate::language::methods;
+use crate::language::targets;
 
 use super::shipped::{Folder, replace_with_today};
 

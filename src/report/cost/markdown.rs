@@ -3,8 +3,8 @@
 use std::fmt::Write;
 
 use super::{percent, short};
-use crate::cost::CostRow;
-use crate::num::Precision;
+use crate::lab::cost::CostRow;
+use crate::physics::num::Precision;
 
 const INTRODUCTION: &str = "\
 # What methods cost

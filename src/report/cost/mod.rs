@@ -5,7 +5,7 @@ mod markdown;
 mod page;
 mod text;
 
-use crate::cost::CostRow;
+use crate::lab::cost::CostRow;
 
 pub use markdown::cost_document;
 #[cfg(feature = "cli")]

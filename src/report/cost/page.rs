@@ -4,7 +4,7 @@ use serde::Serialize;
 use tera::Context;
 
 use super::short;
-use crate::cost::CostRow;
+use crate::lab::cost::CostRow;
 use crate::report::html;
 
 static TEMPLATE: &str = include_str!("../../../templates/cost.html.tera");

@@ -1,7 +1,7 @@
 //! The report for a terminal: one family with all its figures, or several side by side.
 
 use super::{percent, short};
-use crate::cost::{CostRow, CostSource};
+use crate::lab::cost::{CostRow, CostSource};
 use crate::report::table;
 
 /// The rows of each family, all of the same functions in the same order.

@@ -3,8 +3,8 @@
 use serde::Serialize;
 use tera::Context;
 
-use crate::chart::{ChartData, ChartEntry, ERRORS, FunctionOrigin, LEAST_ERROR};
-use crate::fit::MethodErrors;
+use crate::generator::fit::MethodErrors;
+use crate::lab::chart::{ChartData, ChartEntry, ERRORS, FunctionOrigin, LEAST_ERROR};
 use crate::report::html;
 
 static TEMPLATE: &str = include_str!("../../../templates/chart.html.tera");
@@ -83,7 +83,7 @@ fn page_data(data: &ChartData) -> PageData<'_> {
     });
     PageData {
         least_error: LEAST_ERROR,
-        as_near: crate::cost::TIE,
+        as_near: crate::lab::cost::TIE,
         entries: data.entries.iter().map(entry_columns).collect(),
         errors: ERRORS
             .iter()

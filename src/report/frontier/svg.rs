@@ -6,7 +6,7 @@ use crate::report::plot::{
 };
 
 use super::labels::{DOT, LabelPlace, place_names};
-use crate::chart::{ChartEntry, ChartPoint, ChartView, ERRORS, drawn, without_point};
+use crate::lab::chart::{ChartEntry, ChartPoint, ChartView, ERRORS, drawn, without_point};
 
 /// The size of the picture.
 const FRAME: PanelFrame = PanelFrame {

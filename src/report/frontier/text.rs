@@ -1,6 +1,6 @@
 //! The chart for a terminal: its points as a table, and what follows from them in a sentence each.
 
-use crate::chart::{ChartPoint, ChartView, ERRORS, without_point};
+use crate::lab::chart::{ChartPoint, ChartView, ERRORS, without_point};
 use crate::report::plot::capital;
 use crate::report::table::{self, short_number};
 

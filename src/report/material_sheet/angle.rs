@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-pub use crate::optics::cosine;
+pub use crate::physics::optics::cosine;
 use crate::report::plot::{ChartAxis, GREEN, LineChart, Look, Series, Style};
 
 use super::{DrawnMaterial, axis};

@@ -1,6 +1,6 @@
 //! n and k against wavelength, as measured.
 
-use crate::materials::{DispersionCurve, Extrapolate};
+use crate::physics::materials::{DispersionCurve, Extrapolate};
 use crate::report::plot::{BLUE, LineChart, Look, Series, Style, VERMILION};
 
 use super::{DrawnMaterial, axis, window};

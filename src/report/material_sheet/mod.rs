@@ -11,8 +11,8 @@ mod spectrum;
 mod swatches;
 mod window;
 
-use crate::materials::{Material, Surface, ViewingConditions};
-use crate::spectra::Gamut;
+use crate::physics::materials::{Material, Surface, ViewingConditions};
+use crate::physics::spectra::Gamut;
 
 use super::plot::{FOOT, HEADING, Layout, PanelFrame, SUBTITLE, capital};
 
@@ -145,7 +145,7 @@ impl DrawnMaterial<'_> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::materials::{DispersionCurve, Extrapolate, MaterialKind, find};
+    use crate::physics::materials::{DispersionCurve, Extrapolate, MaterialKind, find};
 
     fn table(points: impl IntoIterator<Item = (f64, f64)>) -> DispersionCurve {
         DispersionCurve::table(points.into_iter().collect()).expect("they ascend")

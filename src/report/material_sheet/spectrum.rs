@@ -1,7 +1,7 @@
 //! Reflectance against wavelength, at a few angles.
 
-use crate::materials::{Extrapolate, Index, Material};
-use crate::optics;
+use crate::physics::materials::{Extrapolate, Index, Material};
+use crate::physics::optics;
 use crate::report::plot::{BLUE, INK, LineChart, Look, Series, Style, VERMILION};
 
 use super::angle::cosine;

@@ -2,8 +2,8 @@
 
 use glam::DVec3;
 
+use crate::physics::spectra::{Space, bradford};
 use crate::report::plot::{Area, Font, Layout, PANEL, PanelFrame, SUBTITLE, TICK, hex_colour};
-use crate::spectra::{Space, bradford};
 
 use super::DrawnMaterial;
 use super::angle::cosine;

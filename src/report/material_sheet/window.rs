@@ -1,8 +1,8 @@
 //! The wavelengths that a material sheet shows: the measured part of 360 to 830 nm, what an eye can see.
 
-use crate::materials::{DispersionCurve, Material};
+use crate::physics::materials::{DispersionCurve, Material};
+use crate::physics::spectra::OBSERVED_NM;
 use crate::report::plot::{ChartAxis, ticks};
-use crate::spectra::OBSERVED_NM;
 
 /// Beside points that stand alone.
 const BESIDE_NM: f64 = 20.0;

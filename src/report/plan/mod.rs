@@ -4,9 +4,9 @@ mod page;
 
 use serde::Serialize;
 
-use crate::foreign::{self, Foreign, one_line};
-use crate::plan::{PlanRequest, PlanRow, PlanTotal, Proof, Unplanned};
-use crate::verify::Status;
+use crate::lab::verify::Status;
+use crate::physics::foreign::{self, Foreign, one_line};
+use crate::pictures::plan::{PlanRequest, PlanRow, PlanTotal, Proof, Unplanned};
 
 use super::envelope::Origin;
 use super::table::{short_number, text_table};

@@ -5,12 +5,12 @@ use base64::prelude::BASE64_STANDARD;
 use serde::Serialize;
 use tera::Context;
 
-use crate::plan::{AngleCurve, MaterialView, PlanRow, ViewPicture};
+use crate::physics::spectra::srgb_byte;
+use crate::pictures::plan::{AngleCurve, MaterialView, PlanRow, ViewPicture};
 use crate::report::html;
 use crate::report::pixels::rgb_png;
 use crate::report::plot::{ChartAxis, LineChart, Look, Mark, Series, Style, ticks};
 use crate::report::table::short_number;
-use crate::spectra::srgb_byte;
 
 use super::{PlanReport, named};
 

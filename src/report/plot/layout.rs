@@ -1,6 +1,6 @@
 //! A layout sets text, panels and elements from the top down.
 
-use crate::emit::{MARK, xml_text};
+use crate::generator::emit::{MARK, xml_text};
 
 use super::text::Font;
 

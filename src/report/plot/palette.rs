@@ -1,6 +1,6 @@
 //! Colours and dashes.
 
-use crate::spectra::srgb_byte;
+use crate::physics::spectra::srgb_byte;
 
 /// What text and the exact law are drawn in.
 pub const INK: &str = "#17202b";

@@ -1,6 +1,6 @@
 //! Text in pictures: fonts, estimated widths and line breaks.
 
-use crate::emit::xml_text;
+use crate::generator::emit::xml_text;
 
 /// The title of the chart.
 pub const TITLE: Font = Font::new(17.0, 23.0, "600", "#17202b");

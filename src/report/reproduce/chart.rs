@@ -1,7 +1,7 @@
 //! A figure of the thesis as a chart.
 
+use crate::lab::reproduce::{DrawnCurve, FIGURE_POINTS, ThesisFigure};
 use crate::report::plot::{ChartAxis, LineChart, Mark, Series, Style, ticks};
-use crate::reproduce::{DrawnCurve, FIGURE_POINTS, ThesisFigure};
 
 /// The chart of a figure.
 pub fn figure_chart(figure: &ThesisFigure) -> LineChart {

@@ -1,8 +1,10 @@
 //! The report for a terminal: claims in words as paragraphs, then figures beside the thesis's, then figures that
 //! the thesis does not give, then notes.
 
+use crate::lab::reproduce::{
+    ComparisonRow, Figure, NOT_MEASURED, Part, Reproduction, ThesisSection,
+};
 use crate::report::table;
-use crate::reproduce::{ComparisonRow, Figure, NOT_MEASURED, Part, Reproduction, ThesisSection};
 
 /// How wide a paragraph is.
 const WIDTH: usize = 110;

@@ -1,11 +1,11 @@
 //! A map as a picture: the formula's error on the left, that of its rounding on the right, each with its colour bar.
 
-use crate::emit::xml_text;
+use crate::generator::emit::xml_text;
+use crate::lab::stability::{Cell, Map};
 use crate::report::plot::{
     Area, Axes, Font, PANEL, SHADES, SUBTITLE, Scale, TICK, Tick, log_ticks, plain_label,
     power_label, shade,
 };
-use crate::stability::{Cell, Map};
 
 const WIDTH: f64 = 920.0;
 const HEIGHT: f64 = 366.0;

@@ -4,8 +4,8 @@ use std::collections::BTreeSet;
 use std::mem::{Discriminant, discriminant};
 
 use super::{percent, worst};
+use crate::lab::stability::{Failure, Finding, StabilityRow};
 use crate::report::markdown::markdown_table;
-use crate::stability::{Failure, Finding, StabilityRow};
 
 const HEAD: &str = "# Where methods fail
 
@@ -123,7 +123,7 @@ fn line(method: &str, findings: &[&Finding]) -> Vec<String> {
 }
 
 fn exempt(method: &str) -> &'static str {
-    use crate::methods::{Contract, find};
+    use crate::language::methods::{Contract, find};
     match find(method).map(|method| method.contract) {
         Some(Contract::Exempt(_)) => " (exempt)",
         _ => "",

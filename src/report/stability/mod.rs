@@ -6,7 +6,7 @@ mod markdown;
 mod page;
 
 use super::table;
-use crate::stability::{Failure, Finding, StabilityRow, short};
+use crate::lab::stability::{Failure, Finding, StabilityRow, short};
 
 pub use heat::heat_map;
 pub use markdown::stability_document;

@@ -6,8 +6,8 @@ use serde::Serialize;
 use tera::Context;
 
 use super::{percent, worst};
+use crate::lab::stability::{Finding, StabilityRow};
 use crate::report::html;
-use crate::stability::{Finding, StabilityRow};
 
 static TEMPLATE: &str = include_str!("../../../templates/stability.html.tera");
 
@@ -70,7 +70,7 @@ fn section(
     let own = pictures.iter().filter(|(of, _, _)| *of == method);
     MethodSection {
         method,
-        summary: crate::methods::find(method).map_or("", |method| method.summary),
+        summary: crate::language::methods::find(method).map_or("", |method| method.summary),
         formula: sentences(|finding| finding.is_media && finding.failure.is_of_the_model()),
         rounding: sentences(|finding| finding.is_media && !finding.failure.is_of_the_model()),
         arguments: sentences(|finding| !finding.is_media),

@@ -1,7 +1,7 @@
 //! Our functions cost no more than published ones of the same error, by AMD's compilers; beside the cheapest published one on every
 //! family. Formulas are transcribed by us, in the shapes in which engines have them.
 
-use fresnel_gen::optics;
+use fresnel_gen::physics::optics;
 
 use super::published::place;
 use super::{audit, rows};
@@ -138,11 +138,11 @@ fn the_cheaper_dielectric_has_no_digits_next_to_an_index_of_1() {
         let b = ((g + u) * u - 1.0) / ((g - u) * u + 1.0);
         0.5 * a * a * (1.0 + b * b)
     };
-    let method = fresnel_gen::methods::find("dielectric_exact").expect("it is a method");
+    let method = fresnel_gen::language::methods::find("dielectric_exact").expect("it is a method");
     let function = method.function(true).expect("it is built");
     let (eta, u) = (1.001_f32, 0.7_f32);
-    let values = [u, eta].map(|x| fresnel_gen::ir::Value::<f32>::scalar(f64::from(x)));
-    let ours = fresnel_gen::ir::evaluate(&function, &values).at(0)[0];
+    let values = [u, eta].map(|x| fresnel_gen::language::ir::Value::<f32>::scalar(f64::from(x)));
+    let ours = fresnel_gen::language::ir::evaluate(&function, &values).at(0)[0];
     let law = optics::dielectric(f64::from(eta), f64::from(u)).unpolarised();
     let error = |given: f32| (f64::from(given) / law - 1.0).abs();
     assert!(

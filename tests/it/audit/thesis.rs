@@ -1,8 +1,8 @@
 //! The formulas of the thesis, written by hand in each language, have the errors that our methods have.
 
-use fresnel_gen::fit::{ModelError, model_error, values_for_material};
-use fresnel_gen::methods;
-use fresnel_gen::reference::MaterialInMedium;
+use fresnel_gen::generator::fit::{ModelError, model_error, values_for_material};
+use fresnel_gen::generator::reference::MaterialInMedium;
+use fresnel_gen::language::methods;
 
 use super::{audit, rows};
 use crate::cli::Place;

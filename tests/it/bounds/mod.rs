@@ -5,11 +5,11 @@
 mod published;
 mod recorded;
 
-use fresnel_gen::ir::{Checked, Value, evaluate};
-use fresnel_gen::methods;
-use fresnel_gen::num::{Dd, Num, ulp_distance, ulp_of};
-use fresnel_gen::optics;
-use fresnel_gen::verify::cosines;
+use fresnel_gen::lab::verify::cosines;
+use fresnel_gen::language::ir::{Checked, Value, evaluate};
+use fresnel_gen::language::methods;
+use fresnel_gen::physics::num::{Dd, Num, ulp_distance, ulp_of};
+use fresnel_gen::physics::optics;
 
 /// What unfused f32 may be off, in ulp.
 const ULP: f64 = 16.0;

@@ -1,7 +1,7 @@
 //! Our stable forms beside the best that are published, at the same inputs: where an engine would change to ours it must
 //! not lose digits.
 
-use fresnel_gen::num::ulp_distance;
+use fresnel_gen::physics::num::ulp_distance;
 
 use super::{Medium, double, exact, unfused};
 use crate::subjects;

@@ -1,8 +1,8 @@
 //! What is recorded of digits: the bounds of specialised functions, and the worst inputs found so far.
 
-use fresnel_gen::methods::{self, Method};
+use fresnel_gen::language::methods::{self, Method};
 
-use fresnel_gen::records;
+use fresnel_gen::physics::records;
 use serde::Deserialize;
 
 use super::{Medium, exact, unfused, worst};

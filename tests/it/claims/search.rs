@@ -6,9 +6,9 @@
 //! In place of `all` stand names of methods, with commas between them. It takes a quarter of an hour for all.
 
 use fresnel_gen::app::{Materials, Request};
-use fresnel_gen::materials::Channels;
-use fresnel_gen::methods::{self, Class, Contract, Method};
-use fresnel_gen::verify::{Random, library_code_error_at, random_medium};
+use fresnel_gen::lab::verify::{Random, library_code_error_at, random_medium};
+use fresnel_gen::language::methods::{self, Class, Contract, Method};
+use fresnel_gen::physics::materials::Channels;
 
 /// Random media, and cosines for each: other ones each time.
 const MEDIA: usize = 12_000;

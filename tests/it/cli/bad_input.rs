@@ -5,7 +5,7 @@ use super::Place;
 #[test]
 fn an_unknown_name_is_answered_with_the_nearest() {
     let place = Place::new();
-    let all = fresnel_gen::materials::names().len();
+    let all = fresnel_gen::physics::materials::names().len();
     let there_are =
         format!("there is no material `zzz`; there are {all} of them: see `fresnel-gen materials`");
     for (line, says) in [
@@ -112,7 +112,7 @@ fn choices_that_exclude_each_other_are_refused() {
 #[test]
 fn two_functions_of_one_name_are_refused() {
     let place = Place::new();
-    let gold = fresnel_gen::materials::source("gold_thesis").unwrap();
+    let gold = fresnel_gen::physics::materials::source("gold_thesis").unwrap();
     let name = "gold_thesis_schlick_rescaled";
     std::fs::write(place.path("m.toml"), gold.replacen("gold_thesis", name, 1)).unwrap();
     place.refused(

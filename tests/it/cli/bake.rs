@@ -1,6 +1,6 @@
 //! `bake` on the command line: files, report, bad input.
 
-use fresnel_gen::targets::{self, Finish};
+use fresnel_gen::language::targets::{self, Finish};
 
 use super::{OUT, Place, contents};
 

@@ -21,7 +21,7 @@ fn listed(place: &Place) -> Vec<(String, Vec<String>)> {
 fn they_are_listed_and_shown() {
     let place = Place::new();
     let all = place.done("effects").out;
-    for effect in fresnel_gen::effects::ALL {
+    for effect in fresnel_gen::language::effects::ALL {
         assert!(all.contains(effect.summary), "{all}");
         let shown = place.done(&format!("effects show {}", effect.name)).out;
         for line in effect.formula.iter().chain(effect.fails) {
@@ -103,7 +103,10 @@ fn one_is_written_alone_and_stays_beside_others() {
 fn the_whole_tree_holds_all_and_what_is_no_effect_stays() {
     let place = Place::new();
     place.done("--target gles");
-    assert_eq!(listed(&place).len(), fresnel_gen::effects::ALL.len());
+    assert_eq!(
+        listed(&place).len(),
+        fresnel_gen::language::effects::ALL.len()
+    );
     let manifest = format!("{OUT}/manifest.json");
     let (old, new) = ("gles/effects/water.glsl", "gles/effects/waves.glsl");
     let bytes = place.read(&format!("{OUT}/{old}"));
@@ -127,7 +130,7 @@ fn one_can_be_pasted() {
         let text = place
             .done(&format!("--effect all --target {target} -o -"))
             .out;
-        for effect in fresnel_gen::effects::ALL {
+        for effect in fresnel_gen::language::effects::ALL {
             for function in effect.functions {
                 assert!(
                     text.contains(&format!(" fresnel_{}(", function.name)),

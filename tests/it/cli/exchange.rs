@@ -3,7 +3,7 @@
 use std::path::Path;
 use std::process::Command;
 
-use fresnel_gen::exchange;
+use fresnel_gen::generator::exchange;
 use serde_json::Value;
 
 use super::{Place, Ran};

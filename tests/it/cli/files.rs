@@ -9,7 +9,7 @@ use std::process::{Child, Command, Stdio};
 use fresnel_gen::app::artifact::sha256;
 use fresnel_gen::app::folder;
 use fresnel_gen::app::lock::{self, Lock};
-use fresnel_gen::methods;
+use fresnel_gen::language::methods;
 
 use super::{MY_METAL, OUT, Place, contents};
 

@@ -97,7 +97,7 @@ fn names_and_numbers_that_make_no_sense_are_refused() {
 fn largest_relative(row: &Value) -> f64 {
     let own = channel(row, 1);
     let at = |i: i32| f64::from(i) / 500.0;
-    let law = |c: f64| fresnel_gen::optics::conductor(1.3345, 0.0, c).unpolarised();
+    let law = |c: f64| fresnel_gen::physics::optics::conductor(1.3345, 0.0, c).unpolarised();
     let off = |c: f64| (powers(&own, c) / law(c) - 1.0).abs();
     (0..=500).map(|i| off(at(i))).fold(0.0, f64::max)
 }
@@ -137,7 +137,7 @@ fn a_weight_changes_what_is_least() {
 #[test]
 fn ends_are_met_and_their_price_is_told() {
     let place = Place::new();
-    let law = |c: f64| fresnel_gen::optics::conductor(1.5, 0.0, c).unpolarised();
+    let law = |c: f64| fresnel_gen::physics::optics::conductor(1.5, 0.0, c).unpolarised();
     place.put(
         "plain.toml",
         super::MY_METAL

@@ -3,7 +3,9 @@
 use std::fs;
 
 use fresnel_gen::app::depfile::depfile;
-use fresnel_gen::{effects, methods, targets};
+use fresnel_gen::language::effects;
+use fresnel_gen::language::methods;
+use fresnel_gen::language::targets;
 
 use super::{MY_METAL, OUT, PROGRAM, Place, contents};
 

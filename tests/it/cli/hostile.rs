@@ -5,7 +5,9 @@ use std::collections::BTreeSet;
 
 use fresnel_gen::app::generate::generate;
 use fresnel_gen::app::request::{Materials, Request, Source};
-use fresnel_gen::{exchange, flavours, targets};
+use fresnel_gen::generator::exchange;
+use fresnel_gen::generator::flavours;
+use fresnel_gen::language::targets;
 
 use super::{MY_METAL, OUT, Place, Ran};
 

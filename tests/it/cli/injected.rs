@@ -6,7 +6,7 @@ use std::path::Path;
 use clap::Parser;
 use fresnel_gen::app::args::Cli;
 use fresnel_gen::app::command;
-use fresnel_gen::foreign::is_hidden;
+use fresnel_gen::physics::foreign::is_hidden;
 use serde_json::{Value, json};
 
 use super::{MY_METAL, OUT, Place};

@@ -2,7 +2,7 @@
 
 use std::fs::File;
 
-use fresnel_gen::materials;
+use fresnel_gen::physics::materials;
 
 use super::{MY_METAL, OUT, Place};
 

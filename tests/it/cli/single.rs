@@ -101,7 +101,7 @@ fn the_ending_names_the_language() {
 
 #[test]
 fn every_target_has_its_endings_in_the_table() {
-    for target in fresnel_gen::targets::ALL {
+    for target in fresnel_gen::language::targets::ALL {
         for ending in target.endings() {
             let is_it = |row: &&(&str, &str, bool)| row.0 == format!(".{ending}");
             let row = ENDINGS.iter().find(is_it).expect(ending);

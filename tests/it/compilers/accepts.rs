@@ -5,9 +5,9 @@ use std::collections::BTreeMap;
 
 use fresnel_gen::app::generate::generate_single;
 use fresnel_gen::app::{Materials, Request, Source};
-use fresnel_gen::num::Precision;
-use fresnel_gen::targets::{self, Finish, Target, Validator};
-use fresnel_gen::verify::compilers::{Verdict, accepts, calls, is_here, verdict, version};
+use fresnel_gen::lab::verify::compilers::{Verdict, accepts, calls, is_here, verdict, version};
+use fresnel_gen::language::targets::{self, Finish, Target, Validator};
+use fresnel_gen::physics::num::Precision;
 
 use super::{Judgement, accepted, files, joined, precision, text, tree};
 use crate::not_checked;

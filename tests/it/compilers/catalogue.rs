@@ -3,8 +3,8 @@
 
 use fresnel_gen::app::catalogue::add_catalogue;
 use fresnel_gen::app::{Materials, Request, generate};
-use fresnel_gen::targets::{self, Finish};
-use fresnel_gen::verify::compilers::{is_here, verdict};
+use fresnel_gen::lab::verify::compilers::{is_here, verdict};
+use fresnel_gen::language::targets::{self, Finish};
 
 use super::{Verdict, accepted, msl};
 

@@ -13,12 +13,15 @@ use std::sync::{LazyLock, Mutex};
 
 use fresnel_gen::app::request::DEFAULT_MATERIALS;
 use fresnel_gen::app::{Artifact, Materials, Request, Source, generate};
-use fresnel_gen::emit::Detail;
-use fresnel_gen::lut::{self, TableAxis};
-use fresnel_gen::num::Precision;
-use fresnel_gen::targets::Target;
-use fresnel_gen::verify::compilers::Verdict;
-use fresnel_gen::{effects, emit, methods, targets};
+use fresnel_gen::generator::emit;
+use fresnel_gen::generator::emit::Detail;
+use fresnel_gen::generator::lut::{self, TableAxis};
+use fresnel_gen::lab::verify::compilers::Verdict;
+use fresnel_gen::language::effects;
+use fresnel_gen::language::methods;
+use fresnel_gen::language::targets;
+use fresnel_gen::language::targets::Target;
+use fresnel_gen::physics::num::Precision;
 use serde_json::json;
 
 use crate::not_checked;

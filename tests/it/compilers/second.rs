@@ -3,9 +3,11 @@
 use std::fs;
 
 use fresnel_gen::app::Artifact;
-use fresnel_gen::targets;
-use fresnel_gen::verify::compilers::{CompilerFault, HlslVersion, Verdict, accepts, hlsl_to_spirv};
-use fresnel_gen::verify::naga_translation::{to_gles, to_hlsl};
+use fresnel_gen::lab::verify::compilers::{
+    CompilerFault, HlslVersion, Verdict, accepts, hlsl_to_spirv,
+};
+use fresnel_gen::lab::verify::naga_translation::{to_gles, to_hlsl};
+use fresnel_gen::language::targets;
 use tempfile::TempDir;
 
 use super::{Judgement, Tool, accepted, text, tree};

@@ -3,7 +3,7 @@
 
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
-use fresnel_gen::num::{Num, Truth};
+use fresnel_gen::physics::num::{Num, Truth};
 
 /// As it is written.
 pub const UNFUSED: u8 = 0;

@@ -1,9 +1,9 @@
 //! Where half precision overflows: up to the ends that headers state it is as near as it promises, and beyond it is not.
 
-use fresnel_gen::ir::{Ty, Value, evaluate};
-use fresnel_gen::methods::{Input, InputSource, Method};
-use fresnel_gen::num::{Half, Num, Precision};
-use fresnel_gen::verify::nearest_half;
+use fresnel_gen::lab::verify::nearest_half;
+use fresnel_gen::language::ir::{Ty, Value, evaluate};
+use fresnel_gen::language::methods::{Input, InputSource, Method};
+use fresnel_gen::physics::num::{Half, Num, Precision};
 
 use super::{library, numeric};
 

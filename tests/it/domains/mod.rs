@@ -4,12 +4,12 @@
 mod arithmetic;
 mod halves;
 
-use fresnel_gen::emit::{self, HeaderForm, Heading, Naming};
-use fresnel_gen::ir::{Checked, Ty, Value, evaluate};
-use fresnel_gen::methods::{self, Colours, Contract, Input, Method, Range};
-use fresnel_gen::num::{Num, Precision};
-use fresnel_gen::targets;
-use fresnel_gen::verify::cosines;
+use fresnel_gen::generator::emit::{self, HeaderForm, Heading, Naming};
+use fresnel_gen::lab::verify::cosines;
+use fresnel_gen::language::ir::{Checked, Ty, Value, evaluate};
+use fresnel_gen::language::methods::{self, Colours, Contract, Input, Method, Range};
+use fresnel_gen::language::targets;
+use fresnel_gen::physics::num::{Num, Precision};
 
 use arithmetic::{FUSED_LEFT, FUSED_RIGHT, Fast, RECIPROCAL, UNFUSED};
 

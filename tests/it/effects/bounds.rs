@@ -1,11 +1,11 @@
 //! What each function states of its error, in both directions, and that it gives numbers at the ends of its domain.
 
-use fresnel_gen::effects;
-use fresnel_gen::emit::{EffectRequest, Emitted, Naming};
-use fresnel_gen::fit::Measured;
-use fresnel_gen::ir::{Checked, Function, NodeId, Op, Payload, check};
-use fresnel_gen::methods;
-use fresnel_gen::verify::effect_trial::EffectTrial;
+use fresnel_gen::generator::emit::{EffectRequest, Emitted, Naming};
+use fresnel_gen::generator::fit::Measured;
+use fresnel_gen::lab::verify::effect_trial::EffectTrial;
+use fresnel_gen::language::effects;
+use fresnel_gen::language::ir::{Checked, Function, NodeId, Op, Payload, check};
+use fresnel_gen::language::methods;
 
 /// Every function of every effect in its usual form.
 fn functions() -> Vec<Emitted> {

@@ -2,12 +2,12 @@
 
 use std::sync::LazyLock;
 
-use fresnel_gen::ir::{Texels, Value};
-use fresnel_gen::materials::{Material, Surface, ViewingConditions};
-use fresnel_gen::num::Precision;
-use fresnel_gen::num::statistics::quantile;
-use fresnel_gen::optics::{self, Reflectance};
-use fresnel_gen::reference::MaterialInMedium;
+use fresnel_gen::generator::reference::MaterialInMedium;
+use fresnel_gen::language::ir::{Texels, Value};
+use fresnel_gen::physics::materials::{Material, Surface, ViewingConditions};
+use fresnel_gen::physics::num::Precision;
+use fresnel_gen::physics::num::statistics::quantile;
+use fresnel_gen::physics::optics::{self, Reflectance};
 use fresnel_gen::{Materials, Request, generate_single};
 
 use super::{at_once, vector};
@@ -150,7 +150,7 @@ fn measured(subject: &'static MaterialInMedium, index: f64) -> Measured {
     let surface = |medium: Option<&Material>| {
         Surface::new(&subject.material, medium, &ViewingConditions::default()).expect("a spectrum")
     };
-    let index = fresnel_gen::materials::ConstantIndex::parse(&index.to_string());
+    let index = fresnel_gen::physics::materials::ConstantIndex::parse(&index.to_string());
     let medium = index.expect("a number").expect("within limits").material();
     let air = surface(None);
     Measured {
@@ -246,7 +246,7 @@ fn f0_under_a_coat_is_as_exact_as_is_stated() {
 fn other_measurements_follow_too() {
     let all = crate::fits::catalogue().iter();
     let is_metal = |one: &&MaterialInMedium| {
-        one.material.kind != fresnel_gen::materials::MaterialKind::Dielectric
+        one.material.kind != fresnel_gen::physics::materials::MaterialKind::Dielectric
     };
     // A new material is in no sample, and changes none of the figures that the head states.
     let is_other =

@@ -2,8 +2,8 @@
 
 use std::f64::consts::PI;
 
-use fresnel_gen::ir::{CubeTexels, Filter, Texels, Value, evaluate};
-use fresnel_gen::optics;
+use fresnel_gen::language::ir::{CubeTexels, Filter, Texels, Value, evaluate};
+use fresnel_gen::physics::optics;
 
 use super::{add, at_once, dot, function, function_by, many, numbers, unit, vector, vectors};
 
@@ -512,9 +512,9 @@ fn a_rough_mirror_keeps_nearly_all_light_and_never_gains() {
 #[test]
 fn an_exit_from_a_material_reflects_totally() {
     let subjects = crate::subjects(&["diamond"]);
-    let request = fresnel_gen::emit::EffectRequest {
-        effect: fresnel_gen::effects::find("interior").expect("an effect"),
-        method: fresnel_gen::methods::find("dielectric_exact").expect("a method"),
+    let request = fresnel_gen::generator::emit::EffectRequest {
+        effect: fresnel_gen::language::effects::find("interior").expect("an effect"),
+        method: fresnel_gen::language::methods::find("dielectric_exact").expect("a method"),
         subject: Some(&subjects[0]),
     };
     let functions = request.functions(&Default::default()).expect("well formed");

@@ -7,9 +7,9 @@ mod one_r;
 mod sphere;
 mod text;
 
-use fresnel_gen::effects;
-use fresnel_gen::ir::{Checked, Column, Ty, Value, evaluate};
-use fresnel_gen::methods;
+use fresnel_gen::language::effects;
+use fresnel_gen::language::ir::{Checked, Column, Ty, Value, evaluate};
+use fresnel_gen::language::methods;
 
 /// A function of an effect by its name, R by the exact law.
 pub fn function(name: &str) -> Checked {

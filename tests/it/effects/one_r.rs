@@ -1,6 +1,6 @@
 //! One R for all channels: right for real media, wrong for invented ones.
 
-use fresnel_gen::ir::evaluate;
+use fresnel_gen::language::ir::evaluate;
 
 use super::{function, numbers, vector, vectors};
 use crate::subjects;

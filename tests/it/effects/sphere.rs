@@ -1,6 +1,6 @@
 //! A ball of radius 1 as a camera sees it: how well the search finds where rays leave it, and where they then go.
 
-use fresnel_gen::ir::{Filter, Texels, Value, evaluate};
+use fresnel_gen::language::ir::{Filter, Texels, Value, evaluate};
 
 use super::{add, dot, function, many, numbers, unit, vector, vectors};
 
@@ -112,7 +112,7 @@ impl View {
         };
         let normal = |i: usize| {
             let [u, v, _] = uv.at(i);
-            unit(back.sample(fresnel_gen::ir::Weights::Exact, u, v))
+            unit(back.sample(fresnel_gen::language::ir::Weights::Exact, u, v))
         };
         let normals: Vec<[f64; 3]> = (0..found.len()).map(normal).collect();
         let arguments = [

@@ -1,7 +1,9 @@
 //! The files of effects in every language.
 
-use fresnel_gen::emit::{self, EffectRequest, Naming};
-use fresnel_gen::{effects, methods, targets};
+use fresnel_gen::generator::emit::{self, EffectRequest, Naming};
+use fresnel_gen::language::effects;
+use fresnel_gen::language::methods;
+use fresnel_gen::language::targets;
 
 /// WGSL and SPIR-V are parsed and validated by naga; the other languages have validators of their own.
 #[test]

@@ -2,7 +2,7 @@
 
 use std::process::Command;
 
-use fresnel_gen::gpu::{Backend, ShaderCode};
+use fresnel_gen::lab::gpu::{Backend, ShaderCode};
 use naga::back::wgsl;
 use naga::valid::{Capabilities, ValidationFlags, Validator};
 use naga_oil::compose::{

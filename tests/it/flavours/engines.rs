@@ -3,13 +3,13 @@
 
 use std::collections::BTreeMap;
 
-use fresnel_gen::ir::Weights;
-use fresnel_gen::lut::{
+use fresnel_gen::generator::lut::{
     Depth, SplitSum, SplitSumAxis, SplitSumDesign, StoredSplitSum, compensation,
 };
-use fresnel_gen::materials::{self, ConstantIndex, Surface, ViewingConditions};
-use fresnel_gen::methods;
-use fresnel_gen::optics;
+use fresnel_gen::language::ir::Weights;
+use fresnel_gen::language::methods;
+use fresnel_gen::physics::materials::{self, ConstantIndex, Surface, ViewingConditions};
+use fresnel_gen::physics::optics;
 use serde_json::{Value, json};
 
 use super::host::{Host, number, shows_a_gold_sphere};

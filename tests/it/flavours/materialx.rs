@@ -4,8 +4,8 @@ use std::ffi::OsStr;
 use std::path::Path;
 use std::process::Command;
 
-use fresnel_gen::gpu::{Argument, Backend, Device, ShaderCode, Uniform};
-use fresnel_gen::verify::cosines;
+use fresnel_gen::lab::gpu::{Argument, Backend, Device, ShaderCode, Uniform};
+use fresnel_gen::lab::verify::cosines;
 use serde_json::Value;
 
 use crate::catalogue::{evaluated, rows_named};

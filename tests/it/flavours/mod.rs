@@ -21,8 +21,8 @@ use std::path::Path;
 
 use base64::Engine as _;
 use base64::prelude::BASE64_STANDARD;
-use fresnel_gen::flavours::{self, Flavour};
-use fresnel_gen::targets;
+use fresnel_gen::generator::flavours::{self, Flavour};
+use fresnel_gen::language::targets;
 use serde_json::Value;
 
 use crate::cli::{MY_METAL, OUT, Place};

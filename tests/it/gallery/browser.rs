@@ -2,7 +2,7 @@
 
 use base64::Engine as _;
 use base64::prelude::BASE64_STANDARD;
-use fresnel_gen::gallery::rows;
+use fresnel_gen::pictures::gallery::rows;
 use glam::DVec3;
 use serde_json::{Value, json};
 

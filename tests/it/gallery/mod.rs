@@ -8,8 +8,9 @@ mod texts;
 
 use std::sync::OnceLock;
 
+use fresnel_gen::Materials;
 use fresnel_gen::app::request::{Request, Source};
-use fresnel_gen::{Materials, reference::MaterialInMedium};
+use fresnel_gen::generator::reference::MaterialInMedium;
 
 use crate::cli::Place;
 

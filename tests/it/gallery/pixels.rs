@@ -1,10 +1,10 @@
 //! What the pixels of the page are held against: the same row by this program's own device; a rough ball in f64; the exact map of caustics.
 
-use fresnel_gen::fit::values_for_material;
-use fresnel_gen::gallery::{CUBE, reduced_tables, unpacked_environment};
-use fresnel_gen::gpu::{Device, DeviceFault, Wanted};
-use fresnel_gen::reference::MaterialInMedium;
-use fresnel_gen::scene::{
+use fresnel_gen::generator::fit::values_for_material;
+use fresnel_gen::generator::reference::MaterialInMedium;
+use fresnel_gen::lab::gpu::{Device, DeviceFault, Wanted};
+use fresnel_gen::pictures::gallery::{CUBE, reduced_tables, unpacked_environment};
+use fresnel_gen::pictures::scene::{
     self, Around, Body, Camera, Environment, Glass, RenderRow, RowText, Scenery, Things, Window,
 };
 use glam::DVec3;
@@ -156,7 +156,7 @@ const LAMPS: [[[f64; 3]; 2]; 3] = [
 /// A rough ball in f64: GGX with Smith's correlated masking (Heitz 2014) and Schlick's approximation.
 fn rough(row: &RenderRow, subject: &MaterialInMedium) -> Vec<DVec3> {
     let camera = Camera::around(DVec3::from_array(row.eye), 1.0);
-    let schlick = fresnel_gen::methods::find("schlick").expect("a method");
+    let schlick = fresnel_gen::language::methods::find("schlick").expect("a method");
     let f0 = DVec3::from_array(values_for_material(subject, schlick)["f0"]);
     let sample = |i: usize| {
         let place = |at: usize| (at as f64 + 0.5) / SIDE as f64;

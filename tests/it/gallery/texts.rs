@@ -3,10 +3,10 @@
 use std::collections::BTreeMap;
 use std::path::Path;
 
-use fresnel_gen::emit::validate_wgsl;
-use fresnel_gen::gallery::{Gallery, find, gallery, methods_of};
-use fresnel_gen::scene::RowText;
-use fresnel_gen::spectra::Space;
+use fresnel_gen::generator::emit::validate_wgsl;
+use fresnel_gen::physics::spectra::Space;
+use fresnel_gen::pictures::gallery::{Gallery, find, gallery, methods_of};
+use fresnel_gen::pictures::scene::RowText;
 
 use super::subjects;
 
@@ -18,7 +18,7 @@ fn made() -> Gallery {
 #[test]
 fn functions_stand_in_programs_byte_for_byte() {
     let gallery = made();
-    let of = |language: fn(&fresnel_gen::gallery::FunctionTexts) -> String| {
+    let of = |language: fn(&fresnel_gen::pictures::gallery::FunctionTexts) -> String| {
         let all = gallery.functions.iter();
         all.map(|one| (one.name.clone(), language(one)))
             .collect::<BTreeMap<_, _>>()

@@ -4,12 +4,12 @@ use std::fs;
 use std::path::Path;
 
 use fresnel_gen::app::{Materials, Request, request};
-use fresnel_gen::emit::{self, Bounds, Naming};
-use fresnel_gen::gpu::{Argument, Backend, ShaderCode, Uniform};
-use fresnel_gen::ir::{Checked, Value, evaluate};
-use fresnel_gen::methods;
-use fresnel_gen::num::ulp_distance;
-use fresnel_gen::verify::{ABSOLUTE_FLOOR, cosines};
+use fresnel_gen::generator::emit::{self, Bounds, Naming};
+use fresnel_gen::lab::gpu::{Argument, Backend, ShaderCode, Uniform};
+use fresnel_gen::lab::verify::{ABSOLUTE_FLOOR, cosines};
+use fresnel_gen::language::ir::{Checked, Value, evaluate};
+use fresnel_gen::language::methods;
+use fresnel_gen::physics::num::ulp_distance;
 
 use super::{device, gles, program, wgsl};
 

@@ -1,12 +1,13 @@
 //! The digits of the stable forms on a real graphics stack: the WGSL of the library, as shipped, over the media that `bounds`
 //! has.
 
-use fresnel_gen::emit::{self, Naming};
-use fresnel_gen::fit::Measured;
-use fresnel_gen::gpu::Wanted;
-use fresnel_gen::verify::run::{Devices, ExecutionPath, RunFault, ShippedFunction};
-use fresnel_gen::verify::{ABSOLUTE_FLOOR, Trial, cosines};
-use fresnel_gen::{methods, targets};
+use fresnel_gen::generator::emit::{self, Naming};
+use fresnel_gen::generator::fit::Measured;
+use fresnel_gen::lab::gpu::Wanted;
+use fresnel_gen::lab::verify::run::{Devices, ExecutionPath, RunFault, ShippedFunction};
+use fresnel_gen::lab::verify::{ABSOLUTE_FLOOR, Trial, cosines};
+use fresnel_gen::language::methods;
+use fresnel_gen::language::targets;
 
 use crate::bounds::{Medium, absorbing, beside, glasses, worst};
 use crate::not_checked;

@@ -1,7 +1,7 @@
 //! The catalogue from a storage buffer and from a texture: the functions that `docs/shaders.md` shows, on real stacks with the
 //! committed files, against an evaluation on the CPU.
 
-use fresnel_gen::gpu::{
+use fresnel_gen::lab::gpu::{
     Argument, Backend, DeviceFault, Program, ShaderCode, Texture, TextureFilter, TextureFormat,
     TextureShape, Uniform, Wrap,
 };

@@ -3,16 +3,16 @@
 //! promise that each file's reader relies on.
 
 use fresnel_gen::app::{Materials, Request, Source};
-use fresnel_gen::emit::{self, Bounds, Emitted, Naming};
-use fresnel_gen::fit::{self, Measured};
-use fresnel_gen::gpu::Wanted;
-use fresnel_gen::ir::Ty;
-use fresnel_gen::methods::{self, Contract, Method, find_input};
-use fresnel_gen::optics;
-use fresnel_gen::reference::MaterialInMedium;
-use fresnel_gen::targets::{self, Finish};
-use fresnel_gen::verify::run::{Devices, ExecutionPath, RunFault, ShippedFunction};
-use fresnel_gen::verify::{ABSOLUTE_FLOOR, Trial};
+use fresnel_gen::generator::emit::{self, Bounds, Emitted, Naming};
+use fresnel_gen::generator::fit::{self, Measured};
+use fresnel_gen::generator::reference::MaterialInMedium;
+use fresnel_gen::lab::gpu::Wanted;
+use fresnel_gen::lab::verify::run::{Devices, ExecutionPath, RunFault, ShippedFunction};
+use fresnel_gen::lab::verify::{ABSOLUTE_FLOOR, Trial};
+use fresnel_gen::language::ir::Ty;
+use fresnel_gen::language::methods::{self, Contract, Method, find_input};
+use fresnel_gen::language::targets::{self, Finish};
+use fresnel_gen::physics::optics;
 
 use crate::not_checked;
 

@@ -12,7 +12,7 @@ mod stream;
 mod table;
 mod texture;
 
-use fresnel_gen::gpu::{Backend, Device, DeviceFault, Program, ShaderCode, Uniform, Wanted};
+use fresnel_gen::lab::gpu::{Backend, Device, DeviceFault, Program, ShaderCode, Uniform, Wanted};
 
 use super::not_checked;
 

@@ -1,6 +1,6 @@
 //! A stream gives each number of a range once, in order.
 
-use fresnel_gen::gpu::{Backend, ShaderCode};
+use fresnel_gen::lab::gpu::{Backend, ShaderCode};
 
 use super::{device, program};
 

@@ -3,18 +3,18 @@
 
 use fresnel_gen::app::request::Materials;
 use fresnel_gen::app::tables::{WantedTables, table_materials};
-use fresnel_gen::bake::TableMaterial;
-use fresnel_gen::emit::{self, Emitted, Naming};
-use fresnel_gen::gpu::{
+use fresnel_gen::generator::bake::TableMaterial;
+use fresnel_gen::generator::emit::{self, Emitted, Naming};
+use fresnel_gen::generator::lut::{Depth, Stored, Table, TableAxis};
+use fresnel_gen::lab::gpu::{
     Argument, Backend, DeviceFault, Program, ShaderCode, Texture, TextureFilter, TextureFormat,
     TextureShape, Uniform, Wrap,
 };
-use fresnel_gen::ir::Weights;
-use fresnel_gen::lut::{Depth, Stored, Table, TableAxis};
-use fresnel_gen::materials::ViewingConditions;
-use fresnel_gen::methods;
-use fresnel_gen::targets;
-use fresnel_gen::verify::{cosines, harness};
+use fresnel_gen::lab::verify::{cosines, harness};
+use fresnel_gen::language::ir::Weights;
+use fresnel_gen::language::methods;
+use fresnel_gen::language::targets;
+use fresnel_gen::physics::materials::ViewingConditions;
 
 use super::device;
 

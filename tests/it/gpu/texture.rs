@@ -1,6 +1,6 @@
 //! A texture is sampled as the filter of the tables says: linear between the centres of texels.
 
-use fresnel_gen::gpu::{
+use fresnel_gen::lab::gpu::{
     Backend, DeviceFault, Program, ShaderCode, Texture, TextureFilter, TextureFormat, TextureShape,
     Wrap,
 };

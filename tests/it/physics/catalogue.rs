@@ -1,9 +1,9 @@
 //! What every method that keeps the contract promises, with the inputs of every material of the catalogue that it describes: a
 //! reflectance, and where its form has that, all light at 90 degrees.
 
-use fresnel_gen::fit::values_for_material;
-use fresnel_gen::ir::{Value, evaluate};
-use fresnel_gen::methods::{self, Contract, Method};
+use fresnel_gen::generator::fit::values_for_material;
+use fresnel_gen::language::ir::{Value, evaluate};
+use fresnel_gen::language::methods::{self, Contract, Method};
 
 use super::{cosines, function};
 use crate::fits::catalogue;

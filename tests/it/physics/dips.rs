@@ -3,8 +3,8 @@
 //! Near normal incidence the terms of R_s and R_p in θ² cancel, and that of their mean in θ⁴ has the sign of `4 η - 1 - η²`. So F of a
 //! dielectric falls first where η is above 2 + √3 = 3.732, or below 2 - √3, which is the same surface from within.
 
-use fresnel_gen::ir::{Value, evaluate};
-use fresnel_gen::optics;
+use fresnel_gen::language::ir::{Value, evaluate};
+use fresnel_gen::physics::optics;
 use proptest::prelude::*;
 
 use super::function;

@@ -6,11 +6,11 @@ mod catalogue;
 mod dips;
 mod random;
 
-use fresnel_gen::fit::texels;
-use fresnel_gen::ir::{Checked, Ty, Value, evaluate};
-use fresnel_gen::methods::{self, Class, Contract, Method};
-use fresnel_gen::num::Num;
-use fresnel_gen::optics;
+use fresnel_gen::generator::fit::texels;
+use fresnel_gen::language::ir::{Checked, Ty, Value, evaluate};
+use fresnel_gen::language::methods::{self, Class, Contract, Method};
+use fresnel_gen::physics::num::Num;
+use fresnel_gen::physics::optics;
 
 const EXACT: [&str; 4] = [
     "conductor_exact",

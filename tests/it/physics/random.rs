@@ -3,10 +3,10 @@
 use std::collections::BTreeMap;
 use std::sync::LazyLock;
 
-use fresnel_gen::ir::Checked;
-use fresnel_gen::methods::{self, Contract, Input, Method};
-use fresnel_gen::num::ulp_distance;
-use fresnel_gen::optics;
+use fresnel_gen::language::ir::Checked;
+use fresnel_gen::language::methods::{self, Contract, Input, Method};
+use fresnel_gen::physics::num::ulp_distance;
+use fresnel_gen::physics::optics;
 use proptest::prelude::*;
 use proptest::test_runner::RngSeed;
 

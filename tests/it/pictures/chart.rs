@@ -204,7 +204,7 @@ fn functions_stand_at_their_numbers(svg: &str, report: &Value) {
     let rows = report["rows"].as_array().unwrap();
     assert_eq!(rows.len(), chart.marks.len());
     for row in rows {
-        let method = fresnel_gen::methods::find(row["method"].as_str().unwrap()).unwrap();
+        let method = fresnel_gen::language::methods::find(row["method"].as_str().unwrap()).unwrap();
         let colour = if method.is_ours() { OURS } else { THEIRS };
         let [cost, error] = ["cost", "value"].map(|key| row[key].as_f64().unwrap());
         let mark = chart.find(colour, cost, error.max(1e-5));

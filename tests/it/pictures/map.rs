@@ -2,15 +2,15 @@
 
 use std::fs;
 
-use fresnel_gen::fit::values;
-use fresnel_gen::ir::{Value, evaluate};
-use fresnel_gen::materials::Channels;
-use fresnel_gen::methods::{self, Class, Contract, Light, Method};
-use fresnel_gen::num::Precision;
-use fresnel_gen::reference::Derivation;
+use fresnel_gen::generator::fit::values;
+use fresnel_gen::generator::reference::Derivation;
+use fresnel_gen::lab::stability::{Cell, Map, ScanAxis, maps};
+use fresnel_gen::language::ir::{Value, evaluate};
+use fresnel_gen::language::methods::{self, Class, Contract, Light, Method};
+use fresnel_gen::physics::materials::Channels;
+use fresnel_gen::physics::num::Precision;
 use fresnel_gen::report::png::png;
 use fresnel_gen::report::stability::heat_map;
-use fresnel_gen::stability::{Cell, Map, ScanAxis, maps};
 use roxmltree::Document;
 use tempfile::TempDir;
 

@@ -6,7 +6,9 @@ use exr::prelude::{
     AnyChannel, AnyChannels, Blocks, Compression, Encoding, FlatSamples, Image, ImageAttributes,
     IntegerBounds, Layer, LayerAttributes, LineOrder, Text, Vec2, WritableImage, f16,
 };
-use fresnel_gen::plan::{FramePixels, GbufferFault, MaterialIds, ScenePixel, read_gbuffer};
+use fresnel_gen::pictures::plan::{
+    FramePixels, GbufferFault, MaterialIds, ScenePixel, read_gbuffer,
+};
 
 /// The map of all files here.
 const MAP: &str = "ignore = [7]\n[[material]]\nid = 1\nname = \"statue\"\nmaterial = \"gold\"\n[[material]]\nid = 4294967295\nmaterial = \"water\"\n";

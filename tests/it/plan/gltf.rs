@@ -1,7 +1,9 @@
 //! glTF: what is read of it, and what is refused with its place.
 
-use fresnel_gen::plan::{GltfFault, GltfScene, GltfView, SceneFile, SceneLight, constant_index};
-use fresnel_gen::raster::{CUBE, Mesh, SPHERE};
+use fresnel_gen::lab::raster::{CUBE, Mesh, SPHERE};
+use fresnel_gen::pictures::plan::{
+    GltfFault, GltfScene, GltfView, SceneFile, SceneLight, constant_index,
+};
 use serde_json::{Value, json};
 
 pub const VIEW: GltfView = GltfView {
@@ -512,7 +514,7 @@ fn constant_indices_have_names() {
         assert_eq!(material.name, name);
         for nm in [380.0, 550.0, 780.0] {
             let index = material
-                .index(nm, fresnel_gen::materials::Extrapolate::Refuse)
+                .index(nm, fresnel_gen::physics::materials::Extrapolate::Refuse)
                 .unwrap();
             assert_eq!((index.n, index.k), (n, 0.0));
         }

@@ -1,7 +1,7 @@
 //! glTF: what changes what a camera sees beside triangles: sides, clip planes, vertex colours, and what is not read and said.
 
-use fresnel_gen::plan::GltfScene;
-use fresnel_gen::raster::{CUBE, Mesh, SPHERE};
+use fresnel_gen::lab::raster::{CUBE, Mesh, SPHERE};
+use fresnel_gen::pictures::plan::GltfScene;
 use serde_json::{Value, json};
 
 use super::gltf::{VIEW, file, glb, no_file, read_with};
@@ -41,7 +41,7 @@ fn back_faces_are_seen_of_double_sided_materials_alone() {
     assert_eq!(near.of_material[0].len(), all);
     let (json, buffer) = file(&SPHERE.mesh());
     let usual = read_with(&json, &buffer).unwrap().frame(0);
-    let cosines = |frame: &fresnel_gen::plan::FramePixels| -> f32 {
+    let cosines = |frame: &fresnel_gen::pictures::plan::FramePixels| -> f32 {
         frame.of_material[0]
             .iter()
             .map(|pixel| pixel.cos_theta)
@@ -54,7 +54,7 @@ fn back_faces_are_seen_of_double_sided_materials_alone() {
 fn each_other_triangle_of_a_strip_goes_round_the_other_way() {
     let mesh = Mesh {
         vertices: [[-1.0, -1.0], [1.0, -1.0], [-1.0, 1.0], [1.0, 1.0]]
-            .map(|[x, y]| fresnel_gen::raster::Vertex {
+            .map(|[x, y]| fresnel_gen::lab::raster::Vertex {
                 position: [x, y, 0.0].into(),
                 normal: [0.0, 0.0, 1.0].into(),
             })

@@ -4,9 +4,9 @@ use exr::meta::attribute::Chromaticities;
 use exr::prelude::{
     Encoding, Image, Layer, LayerAttributes, SpecificChannels, Vec2, WritableImage,
 };
-use fresnel_gen::plan::check_primaries;
-use fresnel_gen::scene::Environment;
-use fresnel_gen::spectra::Space;
+use fresnel_gen::physics::spectra::Space;
+use fresnel_gen::pictures::plan::check_primaries;
+use fresnel_gen::pictures::scene::Environment;
 
 const REC2020: [[f64; 2]; 4] = [
     [0.708, 0.292],

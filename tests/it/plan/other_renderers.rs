@@ -10,8 +10,8 @@ use std::path::PathBuf;
 use base64::Engine as _;
 use base64::prelude::BASE64_STANDARD;
 use exr::prelude::read_all_flat_layers_from_file;
-use fresnel_gen::plan::{FramePixels, MaterialIds, ScenePixel, read_gbuffer};
-use fresnel_gen::spectra::{Lab, Space, ciede2000};
+use fresnel_gen::physics::spectra::{Lab, Space, ciede2000};
+use fresnel_gen::pictures::plan::{FramePixels, MaterialIds, ScenePixel, read_gbuffer};
 use glam::DVec3;
 use serde_json::{Value, json};
 

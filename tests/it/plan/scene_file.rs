@@ -1,7 +1,7 @@
 //! Scene files: what is read, what is drawn, and what is refused with its place.
 
-use fresnel_gen::plan::{MappedMaterial, SceneFile};
-use fresnel_gen::raster::CUBE;
+use fresnel_gen::lab::raster::CUBE;
+use fresnel_gen::pictures::plan::{MappedMaterial, SceneFile};
 use glam::DVec3;
 
 const GOOD: &str = "size = [64, 48]
@@ -15,7 +15,7 @@ body = \"sphere\"
 material = \"gold\"
 ";
 
-fn read(text: &str) -> Result<SceneFile, fresnel_gen::materials::FileFault> {
+fn read(text: &str) -> Result<SceneFile, fresnel_gen::physics::materials::FileFault> {
     SceneFile::parse("s.toml", text)
 }
 

@@ -4,13 +4,13 @@
 use std::fs;
 use std::path::Path;
 
-use fresnel_gen::fit;
-use fresnel_gen::ir::{Value, evaluate};
-use fresnel_gen::methods;
-use fresnel_gen::num::in_parallel;
-use fresnel_gen::plan::{FramePixels, SceneFile, ScenePixel};
-use fresnel_gen::reference::MaterialInMedium;
-use fresnel_gen::spectra::{Lab, Space, ciede2000};
+use fresnel_gen::generator::fit;
+use fresnel_gen::generator::reference::MaterialInMedium;
+use fresnel_gen::language::ir::{Value, evaluate};
+use fresnel_gen::language::methods;
+use fresnel_gen::physics::num::in_parallel;
+use fresnel_gen::physics::spectra::{Lab, Space, ciede2000};
+use fresnel_gen::pictures::plan::{FramePixels, SceneFile, ScenePixel};
 use glam::DVec3;
 
 use crate::subjects;

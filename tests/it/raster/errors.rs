@@ -1,13 +1,13 @@
 //! Errors over the angles that pictures show.
 
-use fresnel_gen::fit;
-use fresnel_gen::materials::{self, Channels, Surface, THESIS_NM};
-use fresnel_gen::methods::{self, Light};
-use fresnel_gen::raster::{
+use fresnel_gen::generator::fit;
+use fresnel_gen::generator::reference::{Derivation, ReferenceCurve};
+use fresnel_gen::lab::raster::{
     CUBE, CosineHistogram, Frame, Lens, RELIEF, RelativeErrors, Turntable, draw, drawn_errors,
     rendered_error, shown,
 };
-use fresnel_gen::reference::{Derivation, ReferenceCurve};
+use fresnel_gen::language::methods::{self, Light};
+use fresnel_gen::physics::materials::{self, Channels, Surface, THESIS_NM};
 
 use glam::DVec3;
 
@@ -26,7 +26,7 @@ fn reference(material: &str) -> ReferenceCurve {
     )
 }
 
-fn function(material: &str, method: &str) -> fresnel_gen::ir::Checked {
+fn function(material: &str, method: &str) -> fresnel_gen::language::ir::Checked {
     let method = methods::find(method).unwrap();
     let values = fit::values(method, &channels(material), &Derivation::default());
     method.specialise(&values).unwrap()

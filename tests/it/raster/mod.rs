@@ -5,7 +5,7 @@ mod errors;
 pub mod obj;
 mod surface_points;
 
-use fresnel_gen::raster::{
+use fresnel_gen::lab::raster::{
     Body, CUBE, Camera, CosineHistogram, Frame, Lens, Mesh, RELIEF, SPHERE, Turntable, Vertex,
     draw, shown,
 };

@@ -1,6 +1,6 @@
 //! Meshes of others: what is read, and what is refused with its line.
 
-use fresnel_gen::raster::{CUBE, MOST_TRIANGLES, Mesh, SPHERE, draw, mesh_of_obj};
+use fresnel_gen::lab::raster::{CUBE, MOST_TRIANGLES, Mesh, SPHERE, draw, mesh_of_obj};
 
 use super::camera;
 

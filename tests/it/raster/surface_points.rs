@@ -1,6 +1,6 @@
 //! What pixels show of a surface: normals, directions, and the camera that stands for an orthographic one.
 
-use fresnel_gen::raster::{CUBE, Camera, RELIEF, SPHERE, draw, rotated, surface_points};
+use fresnel_gen::lab::raster::{CUBE, Camera, RELIEF, SPHERE, draw, rotated, surface_points};
 use glam::DVec3;
 
 use super::{camera, few_cameras};

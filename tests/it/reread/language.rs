@@ -3,8 +3,8 @@
 
 use std::collections::BTreeMap;
 
-use fresnel_gen::ir::{Texels, Weights};
-use fresnel_gen::num::Precision;
+use fresnel_gen::language::ir::{Texels, Weights};
+use fresnel_gen::physics::num::Precision;
 
 /// A value while a program runs.
 #[derive(Clone, Copy, Debug)]

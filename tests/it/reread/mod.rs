@@ -5,11 +5,14 @@
 pub mod language;
 
 use fresnel_gen::app::{Materials, Request, generate};
-use fresnel_gen::fit;
-use fresnel_gen::ir::{Checked, Texels, Ty, Value, evaluate};
-use fresnel_gen::num::{Half, Num, Precision};
-use fresnel_gen::verify::nearest_half;
-use fresnel_gen::{emit, lut, methods, targets};
+use fresnel_gen::generator::emit;
+use fresnel_gen::generator::fit;
+use fresnel_gen::generator::lut;
+use fresnel_gen::lab::verify::nearest_half;
+use fresnel_gen::language::ir::{Checked, Texels, Ty, Value, evaluate};
+use fresnel_gen::language::methods;
+use fresnel_gen::language::targets;
+use fresnel_gen::physics::num::{Half, Num, Precision};
 use language::{Program, Term};
 
 const COSINES: [f32; 9] = [-0.5, 0.0, 1e-6, 0.1, 1.0 / 7.0, 0.5, 0.9, 1.0, 1.5];

@@ -1,6 +1,6 @@
 //! Light that a ball gathers, against the exact map of rings.
 
-use fresnel_gen::scene::{
+use fresnel_gen::pictures::scene::{
     Gathering, ONE_PICTURE, Photons, Window, caustic_error, caustics, exact_caustics,
 };
 

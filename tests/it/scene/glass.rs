@@ -1,7 +1,7 @@
 //! Transparent bodies.
 
-use fresnel_gen::optics;
-use fresnel_gen::scene::{self, Camera, Glass, Paths};
+use fresnel_gen::physics::optics;
+use fresnel_gen::pictures::scene::{self, Camera, Glass, Paths};
 use glam::DVec3;
 
 use super::{around, at, device, pictured, pictured_in, plain, row, traced};

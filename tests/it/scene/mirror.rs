@@ -1,7 +1,7 @@
 //! Metals: a room seen in a ball, and dents.
 
-use fresnel_gen::materials::{self, Surface, ViewingConditions};
-use fresnel_gen::scene::{
+use fresnel_gen::physics::materials::{self, Surface, ViewingConditions};
+use fresnel_gen::pictures::scene::{
     self, Around, Camera, Glass, Paths, Picture, ROOM_MAX, ROOM_MIN, Relief, Things, room_radiance,
     sky,
 };

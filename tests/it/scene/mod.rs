@@ -9,8 +9,8 @@ mod recorded;
 mod water;
 mod window;
 
-use fresnel_gen::gpu::{Device, DeviceFault, Wanted};
-use fresnel_gen::scene::{
+use fresnel_gen::lab::gpu::{Device, DeviceFault, Wanted};
+use fresnel_gen::pictures::scene::{
     self, Around, Camera, Display, Environment, Glass, Order, Paths, Picture, RenderRow,
     TONE_CURVES, Things,
 };

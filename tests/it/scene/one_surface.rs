@@ -1,8 +1,8 @@
 //! What one look-up shows, and metals.
 
-use fresnel_gen::materials::{self, Surface, ViewingConditions};
-use fresnel_gen::optics;
-use fresnel_gen::scene::{Glass, Paths};
+use fresnel_gen::physics::materials::{self, Surface, ViewingConditions};
+use fresnel_gen::physics::optics;
+use fresnel_gen::pictures::scene::{Glass, Paths};
 use glam::DVec3;
 
 use super::{around, at, device, pictured, row, traced};

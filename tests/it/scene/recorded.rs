@@ -2,12 +2,13 @@
 
 use std::path::Path;
 
-use fresnel_gen::materials::{self, Surface, ViewingConditions};
-use fresnel_gen::records::rows;
-use fresnel_gen::scene::{self, Glass, RenderRow, sky};
+use fresnel_gen::physics::materials::{self, Surface, ViewingConditions};
+use fresnel_gen::physics::records::rows;
+use fresnel_gen::pictures::scene::{self, Glass, RenderRow, sky};
 
 use super::{device, pictured};
-use crate::{bless, records};
+use crate::bless;
+use crate::records;
 
 const SIZE: u32 = 128;
 const HEAD: [&str; 12] = [

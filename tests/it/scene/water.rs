@@ -1,8 +1,8 @@
 //! Water: nothing leaks through its surface, and it reflects and refracts as physics says.
 
-use fresnel_gen::gpu::Device;
-use fresnel_gen::optics;
-use fresnel_gen::scene::{Camera, Environment, Glass, PassRow, RenderRow, View};
+use fresnel_gen::lab::gpu::Device;
+use fresnel_gen::physics::optics;
+use fresnel_gen::pictures::scene::{Camera, Environment, Glass, PassRow, RenderRow, View};
 use glam::DVec3;
 
 use super::{around, at, device, pictured, pictured_row, row};

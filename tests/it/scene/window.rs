@@ -1,7 +1,7 @@
 //! Stained glass: what it lets through.
 
-use fresnel_gen::optics;
-use fresnel_gen::scene::{Body, Camera, Glass, Picture};
+use fresnel_gen::physics::optics;
+use fresnel_gen::pictures::scene::{Body, Camera, Glass, Picture};
 use glam::{DVec2, DVec3};
 
 use super::{around, device, pictured, row};

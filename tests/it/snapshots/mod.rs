@@ -10,7 +10,7 @@ mod signatures;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use fresnel_gen::digest::sha256;
+use fresnel_gen::physics::digest::sha256;
 
 /// Digits of a hash that are written in CHANGELOG.md.
 const DIGITS: usize = 12;

@@ -191,7 +191,11 @@ fn a_full_disk_stops_the_run() {
     let fault = plan(&out, &large, &scope, &provenance()).and_then(|plan| write(&plan));
     let after = snapshot(dir.path());
     // Lazily: a process that another test has just forked may hold a file of this disk for a moment.
-    let unmounted = Command::new("umount").arg("--lazy").arg(dir.path()).status().unwrap();
+    let unmounted = Command::new("umount")
+        .arg("--lazy")
+        .arg(dir.path())
+        .status()
+        .unwrap();
     assert!(unmounted.success(), "{unmounted}");
     assert!(wrote.is_ok(), "{wrote:?}");
     assert!(matches!(fault, Err(Error::Stage { .. })), "{fault:?}");

@@ -19,7 +19,7 @@ use fresnel_gen::app::manifest::{Input, Provenance};
 use fresnel_gen::app::scope::Scope;
 use fresnel_gen::app::tree::{TreePlan, plan};
 use fresnel_gen::app::write::{self, Written};
-use fresnel_gen::emit::{Detail, FunctionsDetail, SeenDetail};
+use fresnel_gen::generator::emit::{Detail, FunctionsDetail, SeenDetail};
 
 /// A run without flags: two targets with two methods, two materials and a catalogue each,
 /// a file without a comment and one that lies beside the targets' folders.

@@ -11,7 +11,7 @@ fn every_function_runs_on_every_target() {
         return;
     };
     let rows = rows(&ran.ends(0));
-    let functions = fresnel_gen::effects::ALL
+    let functions = fresnel_gen::language::effects::ALL
         .iter()
         .map(|one| one.functions.len());
     let functions: usize = functions.sum();

@@ -1,6 +1,6 @@
 //! Half precision as it runs: within its bound of f64, and how far from the emulation that rounds after every operation.
 
-use fresnel_gen::verify::{halves, halves_beyond};
+use fresnel_gen::lab::verify::{halves, halves_beyond};
 use serde_json::Value;
 
 use super::command::verify;

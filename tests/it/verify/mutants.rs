@@ -1,15 +1,15 @@
 //! Mutants: functions with one thing wrong, written in every language and run. All must be caught, on every target; one
 //! that cannot be is named below, with the reason.
 
-use fresnel_gen::emit::{self, Emitted, Naming};
-use fresnel_gen::fit::{self, Measured, values_for_material};
-use fresnel_gen::gpu::Wanted;
-use fresnel_gen::ir::{Checked, Function, Label, Node, NodeId, Op, Payload, Ty, check};
-use fresnel_gen::methods::{self, Class, Contract, Method};
-use fresnel_gen::reference::MaterialInMedium;
-use fresnel_gen::targets;
-use fresnel_gen::verify::run::{Devices, ExecutionPath, RunFault, ShippedFunction};
-use fresnel_gen::verify::{ABSOLUTE_FLOOR, Trial, beyond, cosines_around};
+use fresnel_gen::generator::emit::{self, Emitted, Naming};
+use fresnel_gen::generator::fit::{self, Measured, values_for_material};
+use fresnel_gen::generator::reference::MaterialInMedium;
+use fresnel_gen::lab::gpu::Wanted;
+use fresnel_gen::lab::verify::run::{Devices, ExecutionPath, RunFault, ShippedFunction};
+use fresnel_gen::lab::verify::{ABSOLUTE_FLOOR, Trial, beyond, cosines_around};
+use fresnel_gen::language::ir::{Checked, Function, Label, Node, NodeId, Op, Payload, Ty, check};
+use fresnel_gen::language::methods::{self, Class, Contract, Method};
+use fresnel_gen::language::targets;
 
 use super::subjects;
 use crate::not_checked;

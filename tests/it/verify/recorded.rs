@@ -3,11 +3,13 @@
 use std::process::Command;
 
 use fresnel_gen::app::request::DEFAULT_MATERIALS as MATERIALS;
-use fresnel_gen::emit::{Bounds, CodeBound, Emitted, Naming, fingerprint, specialised_function};
-use fresnel_gen::fit::Measured;
-use fresnel_gen::ir::Op;
-use fresnel_gen::methods::{self, Class, Contract, Method};
-use fresnel_gen::reference::MaterialInMedium;
+use fresnel_gen::generator::emit::{
+    Bounds, CodeBound, Emitted, Naming, fingerprint, specialised_function,
+};
+use fresnel_gen::generator::fit::Measured;
+use fresnel_gen::generator::reference::MaterialInMedium;
+use fresnel_gen::language::ir::Op;
+use fresnel_gen::language::methods::{self, Class, Contract, Method};
 
 use super::subjects;
 use crate::exhaustive::{Line, lines};

@@ -1,0 +1,172 @@
+//! One picture in all its formats: its tables in every depth, their errors, and what the heads of its files say.
+
+use crate::generator::command_line::CommandLine;
+use crate::generator::emit::{MARK, comment_lines};
+use crate::generator::fit::ModelError;
+use crate::generator::lut::{
+    BetweenTexels, Depth, Format, Picture, Stored, TABLES, Table, TableAxis, table_error,
+};
+use crate::language::ir::Weights;
+use crate::language::targets::Target;
+
+use super::words::with_functions;
+use super::{ATLAS, BakeRequest, Error, TableMaterial, depths, row};
+
+/// A picture while it is baked.
+pub struct Baking<'a> {
+    /// The run that it belongs to.
+    pub request: &'a BakeRequest,
+    /// Its name, a material's or [`ATLAS`].
+    pub name: &'a str,
+    /// Its rows.
+    pub subjects: &'a [TableMaterial],
+    /// How cosines are spread.
+    pub axis: TableAxis,
+    /// Texels in a row.
+    pub texels: usize,
+    /// Its files.
+    pub formats: Vec<Format>,
+    rounded: Vec<Rounded>,
+}
+
+/// A kind of number with the tables in it, and how wrong each is.
+pub struct Rounded {
+    depth: Depth,
+    tables: Vec<Stored>,
+    /// With weights in steps, and with exact ones.
+    pub errors: Vec<[ModelError; 2]>,
+}
+
+impl<'a> Baking<'a> {
+    /// Computes the tables and their errors.
+    pub fn new(
+        request: &'a BakeRequest,
+        name: &'a str,
+        subjects: &'a [TableMaterial],
+        (axis, texels): (TableAxis, usize),
+        formats: Vec<Format>,
+    ) -> Result<Baking<'a>, Error> {
+        let tables = subjects
+            .iter()
+            .map(|subject| Table::new(&subject.name, &subject.reference, axis, texels))
+            .collect::<Result<Vec<_>, _>>()?;
+        Ok(Baking {
+            rounded: rounded(subjects, &tables, &formats, texels),
+            request,
+            name,
+            subjects,
+            axis,
+            texels,
+            formats,
+        })
+    }
+
+    /// The formats, each with its tables.
+    pub fn each(&self) -> impl Iterator<Item = (Format, &Rounded)> {
+        self.formats.iter().filter_map(|format| {
+            let mut all = self.rounded.iter();
+            let own = all.find(|rounded| rounded.depth == format.depth())?;
+            Some((*format, own))
+        })
+    }
+
+    /// The kinds of number, each with the names of its files.
+    pub fn by_depth(&self) -> impl Iterator<Item = (String, &Rounded)> {
+        self.rounded.iter().map(|rounded| {
+            let formats = self.formats.iter();
+            let own = formats.filter(|format| format.depth() == rounded.depth);
+            let names: Vec<String> = own
+                .map(|format| format!("{}{}", self.name, format.ending()))
+                .collect();
+            (names.join(", "), rounded)
+        })
+    }
+
+    /// The path of a file.
+    pub fn file(&self, format: Format) -> String {
+        format!("{TABLES}/{}{}", self.name, format.ending())
+    }
+
+    /// The tables of a format as a picture that says what it is.
+    pub fn picture(&self, format: Format, rounded: &Rounded) -> Picture {
+        let names = self.subjects.iter().map(|subject| subject.name.as_str());
+        let rows: Vec<(&str, &Stored)> = names.zip(&rounded.tables).collect();
+        let space = self.subjects.first().and_then(|first| first.space);
+        let mut picture = Picture::new(self.name, &rows, space);
+        picture.about = self.about(&[format], &[], &picture);
+        picture.about.extend(picture.scaling());
+        let errors = row::error_line(&rounded.errors);
+        picture.about.push(format!("{errors} CC0-1.0."));
+        picture.about = comment_lines(picture.about);
+        picture
+    }
+
+    /// What every file of the picture begins with: how to make it again, what it shows, how to look it up.
+    pub fn about(
+        &self,
+        formats: &[Format],
+        targets: &[&'static Target],
+        picture: &Picture,
+    ) -> Vec<String> {
+        let command = self.command(formats, targets);
+        let seen = self.subjects.first().map_or("", |first| first.seen());
+        let mut lines = vec![
+            format!("{MARK}: {command}"),
+            format!("{} by cos theta: {seen}", picture.rows.join(", ")),
+        ];
+        lines.extend(picture.lookup());
+        lines
+    }
+
+    /// The command that writes these files of the picture again. For a search, states the size and axis found.
+    pub fn command(&self, formats: &[Format], targets: &[&'static Target]) -> String {
+        let typed = match self.subjects {
+            [one] if self.name != ATLAS => vec![one.argument.clone()],
+            _ => self.request.typed.clone(),
+        };
+        let command = CommandLine::new("fresnel-gen bake")
+            .list("material", typed)
+            .with(&self.request.flags)
+            .list("size", [self.texels])
+            .list("axis", [self.axis.name()])
+            .list("format", formats.iter().map(|format| format.name()))
+            .switch("atlas", self.name == ATLAS);
+        with_functions(command, targets, &self.request.prefix).into()
+    }
+}
+
+impl Rounded {
+    /// value = texel × scale: one for all tables of a picture.
+    pub fn scale(&self) -> f32 {
+        self.tables.first().map_or(1.0, |table| table.scale)
+    }
+}
+
+/// The tables in every depth that the formats have. Those of one picture share a scale.
+fn rounded(
+    subjects: &[TableMaterial],
+    tables: &[Table],
+    formats: &[Format],
+    texels: usize,
+) -> Vec<Rounded> {
+    let axis = tables.first().map_or(TableAxis::Cos, |table| table.axis);
+    let between = |subject: &TableMaterial| BetweenTexels::new(&subject.reference, axis, texels);
+    let between: Vec<BetweenTexels> = subjects.iter().map(between).collect();
+    let all: Vec<&Table> = tables.iter().collect();
+    let in_depth = |depth: Depth| {
+        let scale = depth.scale(&all);
+        let stored = |table| Stored::scaled(table, depth, scale);
+        let tables: Vec<Stored> = tables.iter().map(stored).collect();
+        let error = |((stored, subject), between): ((&Stored, &TableMaterial), &BetweenTexels)| {
+            [Weights::Steps256, Weights::Exact]
+                .map(|weights| table_error(stored, weights, &subject.reference, between))
+        };
+        let errors = tables.iter().zip(subjects).zip(&between).map(error);
+        Rounded {
+            depth,
+            errors: errors.collect(),
+            tables,
+        }
+    };
+    depths(formats).into_iter().map(in_depth).collect()
+}

@@ -1,0 +1,237 @@
+//! The rows of the report: what a file is, how to look it up, and the error of the lookup.
+
+use serde::Serialize;
+
+use crate::generator::fit::ModelError;
+use crate::generator::lut::{Format, Picture, TableAxis};
+
+use super::picture::Rounded;
+use super::subject::TableMaterial;
+
+/// How sampled values are mixed where errors are given.
+pub const WEIGHTS: &str = "steps of 1/256, as GPUs filter";
+
+/// A row of the report.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[serde(untagged)]
+pub enum BakeRow {
+    /// A material in a file.
+    Table(Box<TableRow>),
+    /// A split-sum table in a file.
+    SplitSum(Box<SplitSumRow>),
+}
+
+/// A material in a file.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct TableRow {
+    material: String,
+    medium: String,
+    /// The format's name.
+    pub format: &'static str,
+    /// Texels in a row.
+    pub texels: usize,
+    /// How cosines are spread.
+    pub axis: &'static str,
+    /// The file's path.
+    pub file: String,
+    row: usize,
+    rows: usize,
+    /// value = texel × scale.
+    pub scale: f64,
+    /// The largest error of the filtered lookup.
+    pub max_abs: f64,
+    /// The mean relative error; none where a channel reflects nothing.
+    pub mean_rel: Option<f64>,
+    mean_abs: f64,
+    worst_cos: f64,
+    exact_weights: ExactWeights,
+    depth: &'static str,
+    bytes: usize,
+    channels: &'static str,
+    texel_centres: &'static str,
+    lookup: TableLookup,
+    /// The material's name, with the medium's.
+    pub name: String,
+    space: Option<&'static str>,
+    gamut: &'static str,
+    truth: String,
+    extrapolated: Option<String>,
+    weights: &'static str,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    reason: Option<&'static str>,
+}
+
+/// The errors where a sampler mixes exactly.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+struct ExactWeights {
+    max_abs: f64,
+    mean_rel: Option<f64>,
+    mean_abs: f64,
+    worst_cos: f64,
+}
+
+/// How a table is looked up.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+struct TableLookup {
+    c: &'static str,
+    w: &'static str,
+    u: String,
+    v: &'static str,
+    wrap: &'static str,
+    filter: &'static str,
+    level: u32,
+    warp: Option<f64>,
+    functions: Vec<String>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    reason: Option<&'static str>,
+}
+
+/// A split-sum table in a file.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct SplitSumRow {
+    pub(super) material: Option<&'static str>,
+    pub(super) medium: Option<&'static str>,
+    pub(super) reason: &'static str,
+    /// The table's name.
+    pub name: String,
+    pub(super) method: &'static str,
+    pub(super) formula: &'static [&'static str],
+    /// Which channel holds what: `terms`, or an engine's name.
+    pub(super) layout: &'static str,
+    /// The format's name.
+    pub format: &'static str,
+    /// Texels of a row.
+    pub texels: usize,
+    pub(super) rows: usize,
+    /// How cosines and roughness are spread: two names with a comma between.
+    pub axis: String,
+    /// The file's path.
+    pub file: String,
+    /// The file of the fourth term, where it has its own.
+    pub(super) second_file: Option<String>,
+    /// value = texel × scale.
+    pub scale: f64,
+    /// The largest error of a term's filtered lookup.
+    pub max_abs: f64,
+    /// There is none: no mean is taken over angles.
+    pub mean_rel: Option<f64>,
+    pub(super) term_max_abs: Vec<f64>,
+    pub(super) weights: &'static str,
+    pub(super) exact_weights: ExactTermWeights,
+    pub(super) least_roughness: f64,
+    pub(super) depth: &'static str,
+    pub(super) bytes: usize,
+    pub(super) channels: &'static str,
+    /// The numbers that terms are multiplied by, as formulas of the method's inputs.
+    pub(super) numbers: Vec<&'static str>,
+    pub(super) averages: Vec<f64>,
+    pub(super) albedo: String,
+    pub(super) alpha: &'static str,
+    pub(super) distribution: &'static str,
+    pub(super) lookup: SplitSumLookup,
+}
+
+/// The errors of terms where a sampler mixes exactly.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct ExactTermWeights {
+    pub(super) max_abs: f64,
+    pub(super) term_max_abs: Vec<f64>,
+}
+
+/// How a split-sum table is looked up.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct SplitSumLookup {
+    pub(super) u: String,
+    pub(super) v: String,
+    pub(super) wrap: &'static str,
+    pub(super) filter: &'static str,
+    pub(super) level: u32,
+    pub(super) functions: Vec<String>,
+}
+
+/// A row for each material of a picture, which lies in this file, with the functions that read it.
+pub fn table_rows<'a>(
+    subjects: &'a [TableMaterial],
+    rounded: &'a Rounded,
+    picture: &'a Picture,
+    (format, file): (Format, &'a str),
+    functions: &'a [String],
+) -> impl Iterator<Item = TableRow> + 'a {
+    let all = subjects.iter().zip(&rounded.errors).enumerate();
+    all.map(move |(row, (subject, [steps, exact]))| {
+        let surface = &subject.reference.surface;
+        TableRow {
+            material: subject.argument.clone(),
+            medium: subject.medium.clone().unwrap_or_else(|| "air".to_owned()),
+            format: format.name(),
+            texels: picture.width,
+            axis: picture.axis.name(),
+            file: file.to_owned(),
+            row,
+            rows: picture.height(),
+            scale: f64::from(picture.scale),
+            max_abs: steps.max_abs,
+            mean_rel: steps.mean_rel,
+            mean_abs: steps.mean_abs,
+            worst_cos: steps.worst_cos,
+            exact_weights: ExactWeights::new(exact),
+            depth: picture.depth.name(),
+            bytes: picture.width * picture.depth.bytes(),
+            channels: "linear red, green, blue",
+            texel_centres: "the first at cos_theta = 0, the last at 1",
+            lookup: TableLookup::new(picture, functions),
+            name: subject.name.clone(),
+            space: subject.space.map(|space| space.name()),
+            gamut: surface.gamut.name(),
+            truth: surface.seen.clone(),
+            extrapolated: surface.extrapolation(),
+            weights: WEIGHTS,
+            reason: steps.mean_rel.is_none().then_some(
+                "a channel reflects nothing at some angle, so that no relative error can be taken there",
+            ),
+        }
+    })
+}
+
+impl ExactWeights {
+    fn new(error: &ModelError) -> ExactWeights {
+        ExactWeights {
+            max_abs: error.max_abs,
+            mean_rel: error.mean_rel,
+            mean_abs: error.mean_abs,
+            worst_cos: error.worst_cos,
+        }
+    }
+}
+
+impl TableLookup {
+    fn new(picture: &Picture, functions: &[String]) -> TableLookup {
+        let (scale, offset) = TableAxis::half_texel(picture.width);
+        let warp = picture.axis.constant();
+        TableLookup {
+            c: "clamp(cos_theta, 0.0, 1.0)",
+            w: picture.axis.formula(),
+            u: format!("w * {scale:?} + {offset:?}"),
+            v: "(row + 0.5) / rows",
+            wrap: "clamp to edge",
+            filter: "linear",
+            level: 0,
+            warp,
+            functions: functions.to_vec(),
+            reason: warp.is_none().then_some(
+                "the library's fresnel_table warps by (1 + warp) c / (1 + warp c), and this axis is no such: take the functions of --target",
+            ),
+        }
+    }
+}
+
+/// The errors of all rows in one line, for the file itself.
+pub fn error_line(errors: &[[ModelError; 2]]) -> String {
+    let all = errors.iter().map(|[steps, _]| steps);
+    let most = |value: fn(&ModelError) -> f64| all.clone().map(value).fold(0.0, f64::max);
+    format!(
+        "Error of the filtered lookup, weights in steps of 1/256: at most {:.6}; in the mean over angles at most {:.4} %.",
+        most(|error| error.max_abs),
+        100.0 * most(|error| error.mean_rel.unwrap_or(0.0))
+    )
+}

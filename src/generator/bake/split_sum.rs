@@ -1,0 +1,362 @@
+//! The split-sum table of a method: its files and their rows.
+//!
+//! A fourth term lies in alpha only where a file goes to a GPU as it is: KTX2 and arrays. Readers of PNG and EXR may multiply colours
+//! by alpha (`createImageBitmap` of browsers unless asked otherwise, Core Graphics always), or divide by it, since OpenEXR takes
+//! colours for multiplied ones; so there it gets a file of its own.
+
+use crate::generator::command_line::CommandLine;
+use crate::generator::emit::{MARK, comment_lines};
+use crate::generator::lut::{
+    BetweenSplitSum, Format, LEAST_ROUGHNESS, Picture, SPLIT_SUM_AXES, SplitSum, SplitSumAxis,
+    SplitSumDesign, SplitSumLayout, StoredSplitSum, TABLES, TermChannels, check_side, term_range,
+};
+use crate::language::ir::Weights;
+use crate::language::methods::{self, Basis, Method};
+
+use super::row::{BakeRow, ExactTermWeights, SplitSumLookup, SplitSumRow, WEIGHTS};
+use super::usual::DEFAULT_FORMATS;
+use super::{Baked, Error, depths};
+
+/// What is baked.
+#[derive(Clone, Debug)]
+pub struct SplitSumRequest {
+    /// The method whose numbers the table is for.
+    pub method: &'static Method,
+    /// Which channel holds what: an engine's has the engine's size and axes.
+    pub layout: SplitSumLayout,
+    /// Texels of a side.
+    pub size: usize,
+    /// The axes of cosine and roughness.
+    pub axes: [SplitSumAxis; 2],
+    /// The files wanted; the usual ones where none are named.
+    pub formats: Vec<Format>,
+}
+
+/// The least that a term may be in an integer format, which gives 0 for it.
+const LEAST_OF_INTEGERS: f64 = -0.002;
+
+impl SplitSumRequest {
+    /// The command that writes the files again, from `bake` on.
+    pub fn command_line(&self) -> CommandLine {
+        self.command_for(&self.formats())
+    }
+
+    fn command_for(&self, formats: &[Format]) -> CommandLine {
+        let line = CommandLine::new("bake --dfg").list("method", [self.method.name]);
+        let line = match self.layout {
+            SplitSumLayout::Terms => line
+                .list("size", [self.size])
+                .list("axis", self.axes.map(SplitSumAxis::name)),
+            engine => line.list("layout", [engine.name()]),
+        };
+        line.list("format", formats.iter().map(|format| format.name()))
+    }
+
+    /// Its files bear the method's name, unless they are an engine's; axes that are not the usual ones are told.
+    fn name(&self) -> String {
+        match self.layout {
+            SplitSumLayout::Terms if self.axes == SPLIT_SUM_AXES => {
+                format!("dfg_{}", self.method.name)
+            }
+            SplitSumLayout::Terms => {
+                let axes = self.axes.map(|axis| axis.name().replace('-', "_"));
+                format!("dfg_{}_{}", self.method.name, axes.join("_"))
+            }
+            engine => format!("dfg_{}", engine.name()),
+        }
+    }
+
+    /// The files wanted: of terms below 0 those that hold them, unless others are named.
+    fn formats(&self) -> Vec<Format> {
+        let usual = || {
+            let formats = DEFAULT_FORMATS.into_iter();
+            formats.filter(|format| self.refusal(*format).is_none())
+        };
+        match self.formats.is_empty() {
+            true => usual().collect(),
+            false => self.formats.clone(),
+        }
+    }
+
+    /// Why a format does not hold the terms: integers end at 0 and 1.
+    fn refusal(&self, format: Format) -> Option<Error> {
+        let [least, most] = term_range(&self.method.basis()?);
+        let is_held = least >= LEAST_OF_INTEGERS && most <= 1.0;
+        let is_refused = format.depth().largest().is_some() && !is_held;
+        is_refused.then(|| Error::Integers {
+            method: self.method.name,
+            format: format.name(),
+        })
+    }
+
+    fn design(&self, basis: Basis) -> SplitSumDesign {
+        match self.layout {
+            SplitSumLayout::Terms => SplitSumDesign::square(basis, self.size, self.axes),
+            engine => SplitSumDesign::of_engine(basis, engine),
+        }
+    }
+}
+
+/// A table with what its files say of it.
+struct Told<'a> {
+    request: &'a SplitSumRequest,
+    design: SplitSumDesign,
+    name: String,
+}
+
+/// Bakes. `progress` gets the number of finished rows (of texels and of places between them), and of all rows.
+///
+/// # Errors
+/// A method that is not affine, or of more numbers than a texture has channels; a size that no texture has; a format that does not
+/// hold the terms.
+pub fn bake_split_sum(
+    request: &SplitSumRequest,
+    progress: &mut dyn FnMut(u64, u64, &str),
+) -> Result<Baked, Error> {
+    let name = request.name();
+    check_side(request.size)?;
+    let method = request.method;
+    let fault = Error::NotAffine {
+        method: method.name,
+    };
+    let basis = method.basis().ok_or(fault)?;
+    if request.layout != SplitSumLayout::Terms && method.name != ENGINES_METHOD {
+        return Err(Error::EnginesMethod {
+            layout: request.layout.name(),
+            method: method.name,
+        });
+    }
+    let formats = request.formats();
+    if let Some(fault) = formats.iter().find_map(|format| request.refusal(*format)) {
+        return Err(fault);
+    }
+    let design = request.design(basis);
+    let lines = design.height as u64;
+    let all = 3 * lines - 1;
+    let table = SplitSum::new(&design, &mut |done, _| {
+        progress(done, all, &name);
+    })?;
+    let between = BetweenSplitSum::new(&design, &mut |done, _| {
+        progress(lines + done, all, &name);
+    });
+    let told = Told {
+        request,
+        design,
+        name,
+    };
+    let (mut rows, mut files) = (Vec::new(), Vec::new());
+    for depth in depths(&formats) {
+        let stored = table.stored(depth);
+        let errors = [Weights::Steps256, Weights::Exact]
+            .map(|w| between.errors(&stored, w)[..design.channels()].to_vec());
+        for format in formats.iter().filter(|format| format.depth() == depth) {
+            rows.push(told.row(*format, &errors));
+            for channels in told.parts(*format).iter().copied() {
+                let picture = told.picture(*format, &stored, &errors, channels);
+                files.push((told.file(*format, channels), format.encode(&picture)?));
+            }
+        }
+    }
+    Ok(Baked {
+        name: told.name,
+        method: method.name,
+        material: None,
+        command: format!("fresnel-gen {}", String::from(request.command_line())),
+        files,
+        rows,
+    })
+}
+
+/// The method whose terms engines bind.
+const ENGINES_METHOD: &str = "schlick";
+
+/// The method unless another is named.
+pub fn usual_method(layout: SplitSumLayout) -> &'static Method {
+    let name = match layout {
+        SplitSumLayout::Terms => "fitted",
+        SplitSumLayout::Filament | SplitSumLayout::Unreal => ENGINES_METHOD,
+    };
+    methods::find(name).expect("it is in the list of methods")
+}
+
+/// The largest of some errors.
+fn most(errors: &[f64]) -> f64 {
+    errors.iter().copied().fold(0.0, f64::max)
+}
+
+impl Told<'_> {
+    /// What each file of a format holds.
+    fn parts(&self, format: Format) -> &'static [TermChannels] {
+        match (self.design.channels() == 4, format.keeps_alpha()) {
+            (true, true) => &[TermChannels::All],
+            (true, false) => &[TermChannels::FirstThree, TermChannels::Fourth],
+            (false, _) => &[TermChannels::FirstThree],
+        }
+    }
+
+    fn file(&self, format: Format, channels: TermChannels) -> String {
+        let part = match channels {
+            TermChannels::Fourth => "_t3",
+            TermChannels::All | TermChannels::FirstThree => "",
+        };
+        format!("{TABLES}/{}{part}{}", self.name, format.ending())
+    }
+
+    /// What the texels of a format's files hold.
+    fn channels(&self, format: Format) -> &'static str {
+        match (self.request.layout, self.design.channels()) {
+            (SplitSumLayout::Filament, _) => {
+                "red the mean of w, green the mean of 1, w = (1 - h.v)^5; blue nothing"
+            }
+            (SplitSumLayout::Unreal, _) => {
+                "red the mean of 1 - w, green the mean of w, w = (1 - h.v)^5; blue nothing"
+            }
+            (_, 1) => "red T0; the others nothing",
+            (_, 2) => "red T0, green T1; blue nothing",
+            (_, 3) => "red T0, green T1, blue T2",
+            _ if format.keeps_alpha() => {
+                "red T0, green T1, blue T2, alpha T3: no colours, and no opacity"
+            }
+            _ => "red T0, green T1, blue T2; the file _t3 holds T3 in every channel",
+        }
+    }
+
+    /// The albedo as a sum of what is looked up.
+    fn albedo(&self) -> String {
+        match self.request.layout {
+            SplitSumLayout::Filament => "mix(red, green, f0)".to_owned(),
+            SplitSumLayout::Unreal => "f0 red + green".to_owned(),
+            SplitSumLayout::Terms => {
+                let numbers = self.design.basis.numbers().into_iter().enumerate();
+                let term = |(i, number): (usize, &str)| match number.contains(' ') {
+                    true => format!("({number}) T{i}"),
+                    false => format!("{number} T{i}"),
+                };
+                numbers.map(term).collect::<Vec<_>>().join(" + ")
+            }
+        }
+    }
+
+    /// Where a number lies along a side.
+    fn place(&self, axis: SplitSumAxis, number: &str, texels: usize) -> String {
+        match self.design.half_texel(texels) {
+            (1.0, _) => axis.formula(number),
+            (scale, offset) => format!("{} * {scale:?} + {offset:?}", axis.formula(number)),
+        }
+    }
+
+    fn places(&self) -> [String; 2] {
+        let design = &self.design;
+        [
+            self.place(design.cosine, "cos_theta_v", design.width),
+            self.place(design.roughness, "roughness", design.height),
+        ]
+    }
+
+    fn masking(&self) -> &'static str {
+        match self.request.layout {
+            SplitSumLayout::Unreal => {
+                "GGX, height-correlated Smith masking with c (1 - alpha) + alpha in place of roots"
+            }
+            SplitSumLayout::Terms | SplitSumLayout::Filament => {
+                "GGX, height-correlated Smith masking"
+            }
+        }
+    }
+
+    fn picture(
+        &self,
+        format: Format,
+        stored: &StoredSplitSum,
+        [steps, _]: &[Vec<f64>; 2],
+        channels: TermChannels,
+    ) -> Picture {
+        let [u, v] = self.places();
+        let about = vec![
+            format!(
+                "{MARK}: fresnel-gen {}",
+                String::from(self.request.command_for(&[format]))
+            ),
+            format!(
+                "The split-sum table of {}: the directional albedo of a rough surface of any material is {}. {}, alpha = roughness^2.",
+                self.request.method.name,
+                self.albedo(),
+                self.masking()
+            ),
+            format!(
+                "Channels: {}. Linear, not sRGB, not premultiplied.",
+                self.channels(format)
+            ),
+            format!(
+                "Lookup: u = {u}, v = {v}; the first row is the smoothest; filter: linear; wrap: clamp to edge; no mipmaps, level 0."
+            ),
+            format!(
+                "Error of a channel's filtered lookup, weights in steps of 1/256, from roughness {LEAST_ROUGHNESS} on: at most {:.6}. CC0-1.0.",
+                most(steps)
+            ),
+        ];
+        let rows = (0..self.design.height).map(|j| {
+            let (_, roughness) = self.design.at(0.0, j as f64);
+            format!("roughness {roughness:.6}")
+        });
+        let name = match channels {
+            TermChannels::Fourth => format!("{}_t3", self.name),
+            TermChannels::All | TermChannels::FirstThree => self.name.clone(),
+        };
+        Picture::of_terms(
+            &name,
+            stored,
+            channels,
+            rows.collect(),
+            comment_lines(about),
+        )
+    }
+
+    fn row(&self, format: Format, [steps, exact]: &[Vec<f64>; 2]) -> BakeRow {
+        let [u, v] = self.places();
+        let design = &self.design;
+        let parts = self.parts(format);
+        let second = parts.contains(&TermChannels::Fourth);
+        BakeRow::SplitSum(Box::new(SplitSumRow {
+            material: None,
+            medium: None,
+            reason: "one table serves every material; no mean is taken over angles",
+            name: self.name.clone(),
+            method: self.request.method.name,
+            formula: self.request.method.formula,
+            layout: self.request.layout.name(),
+            format: format.name(),
+            texels: design.width,
+            rows: design.height,
+            axis: format!("{},{}", design.cosine.name(), design.roughness.name()),
+            file: self.file(format, parts[0]),
+            second_file: second.then(|| self.file(format, TermChannels::Fourth)),
+            scale: 1.0,
+            max_abs: most(steps),
+            mean_rel: None,
+            term_max_abs: steps.clone(),
+            weights: WEIGHTS,
+            exact_weights: ExactTermWeights {
+                max_abs: most(exact),
+                term_max_abs: exact.clone(),
+            },
+            least_roughness: LEAST_ROUGHNESS,
+            depth: format.depth().name(),
+            bytes: design.width * design.height * format.depth().bytes() * parts.len(),
+            channels: self.channels(format),
+            numbers: design.basis.numbers(),
+            averages: design.basis.averages(),
+            albedo: self.albedo(),
+            alpha: "roughness^2",
+            distribution: self.masking(),
+            lookup: SplitSumLookup {
+                u,
+                v,
+                wrap: "clamp to edge",
+                filter: "linear",
+                level: 0,
+                functions: Vec::new(),
+            },
+        }))
+    }
+}

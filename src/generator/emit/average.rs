@@ -1,0 +1,156 @@
+//! Means over the hemisphere, `2 ∫ F c dc`: functions of a material's numbers beside those of a method, and the constants of a
+//! material, for what light does that is reflected more than once between microfacets.
+
+use serde::{Deserialize, Serialize};
+
+use crate::language::ir::{Checked, Value, evaluate};
+use crate::language::methods::{Basis, Method};
+use crate::physics::num::{Legendre, each_channel};
+
+use super::error::Error;
+use super::form::FunctionForm;
+use super::function::{Emitted, Naming, library_function};
+
+/// What stands beside a method's functions and takes no cosine: the means, three channels and one, where the method has them; the
+/// coefficients that a method finds for a fitted one.
+///
+/// # Errors
+/// A graph breaks a rule of the representation: a bug.
+pub fn companions(method: &'static Method, naming: &Naming) -> Result<Vec<Emitted>, Error> {
+    let forms = [
+        (FunctionForm::Average, false),
+        (FunctionForm::AverageScalar, true),
+    ];
+    let has_form = |is_scalar: bool| !is_scalar || method.has_scalar_form();
+    let forms = forms.into_iter().filter(|(_, scalar)| has_form(*scalar));
+    let functions = forms.filter_map(|(form, is_scalar)| {
+        let function = method.average_in(naming.precision, is_scalar)?;
+        Some(library_function(method, naming, form, function))
+    });
+    let coefficients = FunctionForm::COEFFICIENTS.into_iter().enumerate();
+    let coefficients = coefficients.filter_map(|(place, form)| {
+        let function = method.coefficient_in(naming.precision, place)?;
+        Some(library_function(method, naming, form, function))
+    });
+    functions.chain(coefficients).collect()
+}
+
+/// What the head of a file says about coefficients; nothing of other functions.
+pub(super) fn coefficients_line(emitted: &Emitted) -> Option<String> {
+    emitted.form.coefficient()?;
+    let method = emitted.method;
+    let fitted = method.coefficients?.fitted;
+    Some(format!(
+        "{m}_c0 to {m}_c3: the coefficients of {fitted}, for scenes with many lights: find them once a pixel and call {fitted} once a \
+         light. It gives the same",
+        m = method.name
+    ))
+}
+
+/// What the head of a file says about a mean; nothing of other functions.
+pub(super) fn mean_line(emitted: &Emitted) -> Option<String> {
+    let method = emitted.method;
+    let what = match (method.basis(), method.average) {
+        _ if !emitted.form.is_mean() => return None,
+        (Some(basis), _) => format!(
+            "{}, limited to [0, 1]. It is exact for F before its limit; where F meets the limit, the mean of the function differs",
+            sum(&basis)
+        ),
+        (None, Some(average)) => format!(
+            "a fit, off by at most {} for {}; {}",
+            average.max_abs, average.over, average.published
+        ),
+        (None, None) => return None,
+    };
+    Some(format!(
+        "{}: the mean of F over the hemisphere, twice the integral of F c dc, for compensation of multiple scattering: {what}",
+        emitted.name
+    ))
+}
+
+/// The mean as a formula.
+fn sum(basis: &Basis) -> String {
+    let numbers = basis.numbers().into_iter().zip(basis.averages());
+    let term = |(i, (number, average)): (usize, (&str, f64))| match i {
+        0 => number.to_owned(),
+        _ if number.contains(' ') => format!("{average:.6} ({number})"),
+        _ => format!("{average:.6} {number}"),
+    };
+    let terms: Vec<String> = numbers.enumerate().map(term).collect();
+    terms.join(" + ")
+}
+
+/// The mean over the hemisphere of a material's fitted function, its limit to [0, 1] included, and before that limit; none for
+/// other functions.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Average {
+    /// Of what the function gives.
+    pub given: [f64; 3],
+    /// Of the form before its limit, in closed form.
+    pub unlimited: [f64; 3],
+}
+
+/// Pieces of [0, 1], each with a rule of so many points: a corner where the limit sets in is integrated within 1e-7.
+const PIECES: usize = 256;
+const POINTS: usize = 8;
+
+impl Average {
+    /// Of a specialised function.
+    pub fn of(emitted: &Emitted) -> Option<Average> {
+        let shape = emitted.method.shape?;
+        let own = |name: &str| emitted.constants.get(name);
+        let names = emitted.method.inputs.iter().map(|input| input.name);
+        let coefficients: Vec<[f64; 3]> = names
+            .map(|name| own(name).copied())
+            .collect::<Option<_>>()?;
+        let averages = shape.averages();
+        let sum = |channel: usize| {
+            let terms = coefficients.iter().zip(&averages);
+            terms.map(|(c, average)| c[channel] * average).sum()
+        };
+        Some(Average {
+            given: hemispherical(&emitted.function),
+            unlimited: each_channel(sum),
+        })
+    }
+
+    /// The furthest that the limit brings them apart.
+    fn difference(&self) -> f64 {
+        let pairs = self.given.iter().zip(self.unlimited);
+        pairs.fold(0.0, |most, (a, b)| f64::max(most, (a - b).abs()))
+    }
+
+    /// What stands above a specialised function.
+    pub(super) fn line(&self) -> String {
+        let triple = |values: [f64; 3]| {
+            let [red, green, blue] = values.map(|value| format!("{}", (value * 1e6).round() / 1e6));
+            format!("({red}, {green}, {blue})")
+        };
+        let before = if self.difference() > TOLD {
+            format!("; before the limit to [0, 1] {}", triple(self.unlimited))
+        } else {
+            String::new()
+        };
+        format!(
+            "Average over the hemisphere, weighted by cosine: {}{before}.",
+            triple(self.given)
+        )
+    }
+}
+
+/// Differences that are told.
+const TOLD: f64 = 1e-6;
+
+/// `2 ∫ F c dc` over c from 0 to 1 of a function of `cos_theta` alone.
+fn hemispherical(function: &Checked) -> [f64; 3] {
+    let rule = Legendre::new(POINTS);
+    let end = |i: usize| i as f64 / PIECES as f64;
+    let piece = |i: usize| rule.over(end(i), end(i + 1));
+    let (cosines, weights): (Vec<f64>, Vec<f64>) = (0..PIECES).flat_map(piece).unzip();
+    let values = evaluate(function, &[Value::each(cosines.clone())]);
+    let weighed = cosines.iter().zip(weights).enumerate();
+    weighed.fold([0.0; 3], |sum, (i, (c, weight))| {
+        let value = values.at(i);
+        each_channel(|channel| sum[channel] + 2.0 * c * weight * value[channel])
+    })
+}

@@ -1,0 +1,88 @@
+//! A program that calls functions at many points, whose arguments stand in a buffer: four numbers a place, each argument from a place
+//! of its own, a matrix in four, column by column. Such a program is a module of an effect, and runs effects when they are verified.
+
+use crate::language::ir::{Param, Ty};
+use crate::language::targets::{Batch, Spelling, Target};
+
+use super::function::Emitted;
+
+/// How many places of four numbers an argument takes.
+fn places_of(ty: Ty) -> usize {
+    match ty {
+        Ty::Texture | Ty::Cube => 0,
+        Ty::Mat4 => 4,
+        _ => 1,
+    }
+}
+
+/// How many places of four numbers the arguments of a function take; one that nobody reads where there are none.
+pub fn places(params: &[Param]) -> usize {
+    let places: usize = params.iter().map(|param| places_of(param.ty)).sum();
+    places.max(1)
+}
+
+/// The program around the text of a file, with an entry point a function; nothing for a language that nothing runs. In GLSL the
+/// entry point is `main`, so that there can be one function only.
+pub fn batch_program(target: &Target, file: &str, functions: &[&Emitted]) -> Option<String> {
+    let harness = target.stack.harness()?;
+    let batch = harness.batch;
+    let params = || functions.iter().flat_map(|one| &one.function.params);
+    let texture = match params().find(|param| places_of(param.ty) == 0) {
+        None => "",
+        Some(param) if param.ty == Ty::Cube => batch.cube,
+        Some(_) => harness.texture,
+    };
+    let most = functions.iter().map(|one| places(&one.function.params));
+    let inputs: String = (0..most.max().unwrap_or(0))
+        .map(|at| batch.input.replace("{at}", &at.to_string()))
+        .collect();
+    let entries: String = functions
+        .iter()
+        .map(|one| {
+            let value = value(batch, &target.spelling, harness.texture_argument, one);
+            let value = match one.function.ty() {
+                Ty::Scalar => harness.splat.replace("{value}", &value),
+                _ => value,
+            };
+            let entry = batch.entry.replace("{entry}", &batch_entry(&one.name));
+            entry.replace("{value}", &value)
+        })
+        .collect();
+    let declarations = batch.declarations.replace("{inputs}", &inputs);
+    let declarations = declarations.replace("{texture}", texture);
+    Some(format!("{}{file}{declarations}{entries}", harness.before))
+}
+
+/// The entry point that calls a function of this name.
+pub fn batch_entry(function: &str) -> String {
+    format!("run_{function}")
+}
+
+fn value(batch: &Batch, spelling: &Spelling, texture: &str, emitted: &Emitted) -> String {
+    let params = &emitted.function.params;
+    let stride = places(params).to_string();
+    let place = |at: usize| {
+        let place = batch.place.replace("{stride}", &stride);
+        place.replace("{at}", &at.to_string())
+    };
+    let mut next = 0;
+    let mut argument = |param: &Param| {
+        let at = next;
+        next += places_of(param.ty);
+        match param.ty {
+            Ty::Texture => texture.to_owned(),
+            Ty::Cube => batch.cube_argument.to_owned(),
+            Ty::Mat4 => {
+                let columns: Vec<String> = (at..at + 4).map(place).collect();
+                let matrix = batch.matrix.replace("{type}", spelling.mat4);
+                matrix.replace("{columns}", &columns.join(", "))
+            }
+            Ty::Vec4 => place(at),
+            Ty::Rgb => place(at) + ".xyz",
+            Ty::Vec2 => place(at) + ".xy",
+            Ty::Scalar | Ty::Bool => place(at) + ".x",
+        }
+    };
+    let arguments: Vec<String> = params.iter().map(&mut argument).collect();
+    format!("{}({})", emitted.name, arguments.join(", "))
+}

@@ -1,0 +1,237 @@
+//! The fitted coefficients of many materials as one constant array of a language, with the row of each by name: what the
+//! library functions `fitted` and `fitted_dielectric` take, four colours a material.
+
+use serde::Serialize;
+
+use crate::generator::fit::rounded_up;
+use crate::language::targets::{self, Target};
+
+use super::{
+    CATALOGUE, CATALOGUE_BUFFER, COEFFICIENTS, CatalogueRow, first_dielectric, methods_of,
+};
+use crate::generator::emit::comment;
+use crate::generator::emit::detail::{CatalogueDetail, Detail};
+use crate::generator::emit::error::Error;
+use crate::generator::emit::figures::at_most;
+use crate::generator::emit::file::File;
+use crate::generator::emit::function::Naming;
+use crate::generator::emit::header::{OUTPUT_LICENCE, formula, source, start};
+use crate::generator::emit::page::{comments, finished, guard};
+
+/// The constant that says where the methods change.
+const DIELECTRICS: &str = "first_dielectric";
+
+/// What a template sees.
+#[derive(Serialize)]
+struct CatalogueView {
+    header: Vec<String>,
+    guard: String,
+    name: String,
+    size: usize,
+    materials: Vec<MaterialView>,
+    dielectrics_doc: Vec<String>,
+    dielectrics: PlaceView,
+}
+
+#[derive(Serialize)]
+struct PlaceView {
+    constant: String,
+    row: usize,
+}
+
+#[derive(Serialize)]
+struct MaterialView {
+    constant: String,
+    row: usize,
+    remark: String,
+    rows: Vec<RowView>,
+}
+
+#[derive(Serialize)]
+struct RowView {
+    colour: String,
+    remark: String,
+    is_last: bool,
+}
+
+/// The file of a target; none where it has no constants, or there is no material. The rows of one method stand together; `seen`
+/// says what the reference is.
+///
+/// # Errors
+/// A name is a word of the language, or a text is refused by it.
+pub fn catalogue_array(
+    target: &'static Target,
+    rows: &[CatalogueRow],
+    naming: &Naming,
+    seen: &str,
+    command: &str,
+) -> Result<Option<File>, Error> {
+    let Some(template) = target.catalogue.filter(|_| !rows.is_empty()) else {
+        return Ok(None);
+    };
+    let view = view(target, rows, naming, seen, command);
+    check_names(&view)?;
+    let name = format!("{CATALOGUE}.{}", target.extension);
+    Ok(Some(File {
+        bytes: finished(template, &view, target.finish, &name)?,
+        name,
+        detail: Detail::Catalogue(CatalogueDetail {
+            command: command.to_owned(),
+            array: Some(view.name),
+            materials: rows.len(),
+            rows: Some(view.size),
+            seen: seen.to_owned(),
+            licence: OUTPUT_LICENCE,
+        }),
+    }))
+}
+
+fn view(
+    target: &Target,
+    rows: &[CatalogueRow],
+    naming: &Naming,
+    seen: &str,
+    command: &str,
+) -> CatalogueView {
+    let is_last = |i: usize| i + 1 == rows.len();
+    let all = rows.iter().enumerate();
+    CatalogueView {
+        header: comments(target, &header(rows, naming, seen, command)),
+        guard: guard(target, &constant(naming, CATALOGUE)),
+        name: constant(naming, CATALOGUE),
+        size: COEFFICIENTS * rows.len(),
+        materials: all
+            .map(|(i, row)| material(target, naming, i, row, is_last(i)))
+            .collect(),
+        dielectrics_doc: comments(target, &comment::lines(vec![where_methods_change(rows)])),
+        dielectrics: PlaceView {
+            constant: constant(naming, DIELECTRICS),
+            row: first_dielectric(rows),
+        },
+    }
+}
+
+/// A name in capitals, as constants have it.
+fn constant(naming: &Naming, of: &str) -> String {
+    format!("{}{of}", naming.prefix).to_uppercase()
+}
+
+fn material(
+    target: &Target,
+    naming: &Naming,
+    place: usize,
+    row: &CatalogueRow,
+    is_last: bool,
+) -> MaterialView {
+    let coefficient = |(i, values): (usize, &[f64; 3])| RowView {
+        colour: colour(target, *values),
+        remark: if i == 0 {
+            row.name.clone()
+        } else {
+            String::new()
+        },
+        is_last: is_last && i + 1 == COEFFICIENTS,
+    };
+    MaterialView {
+        constant: constant(naming, &row.name),
+        row: COEFFICIENTS * place,
+        remark: remark(row),
+        rows: row
+            .coefficients
+            .iter()
+            .enumerate()
+            .map(coefficient)
+            .collect(),
+    }
+}
+
+fn remark(row: &CatalogueRow) -> String {
+    let held = row
+        .held
+        .iter()
+        .map(|held| format!("; extrapolated: {held}"));
+    let held: String = held.collect();
+    let better = row.better.iter().map(|better| {
+        let most = rounded_up(better.max_abs);
+        format!("; {} at most {most}", better.method.name)
+    });
+    let better: String = better.collect();
+    format!("{}, {}{better}{held}", row.class, at_most(&row.error))
+}
+
+/// A colour with the shortest digits that give the same f32 back.
+fn colour(target: &Target, values: [f64; 3]) -> String {
+    let spelling = &target.spelling;
+    let numbers = values.map(|value| spelling.number(value));
+    format!("{}({})", spelling.rgb, numbers.join(", "))
+}
+
+fn where_methods_change(rows: &[CatalogueRow]) -> String {
+    match methods_of(rows).as_slice() {
+        [first, then, ..] => format!(
+            "From this row on the method is {}, before it {}.",
+            then.name, first.name
+        ),
+        _ => "The row after the last: all materials have one method.".to_owned(),
+    }
+}
+
+fn header(rows: &[CatalogueRow], naming: &Naming, seen: &str, command: &str) -> Vec<String> {
+    let mut lines = start(command);
+    let array = constant(naming, CATALOGUE);
+    let row = constant(naming, &rows[0].name);
+    lines.push(format!(
+        "{CATALOGUE}: coefficients fitted to {} materials, four rows of {array} each, c0 to c3",
+        rows.len()
+    ));
+    for method in methods_of(rows) {
+        let of = rows.iter().filter(|row| row.method.name == method.name);
+        lines.push(format!("{}: {} of them", method.name, of.count()));
+        lines.extend(formula(method));
+    }
+    lines.push(source(rows[0].method));
+    lines.push(format!(
+        "Use: {}{}(cos_theta, {array}[{row}], {array}[{row} + 1], {array}[{row} + 2], {array}[{row} + 3]), with the library \
+         function of the material's method. By a constant it costs nothing. If the material is known at run time only, do not \
+         index the array: some compilers copy it into the memory of each invocation. Read the same numbers from a buffer \
+         ({CATALOGUE_BUFFER}) or a texture ({CATALOGUE}.f32.ktx2). A run without flags writes both",
+        naming.prefix, rows[0].method.name
+    ));
+    lines.push(format!("Truth: {seen}"));
+    lines.push(worst(rows));
+    lines.push(
+        "Where another method stands beside a material it follows it more closely: semiconductors need the five coefficients of \
+         fitted_five, and some metals miss what fitted promises of metals"
+            .to_owned(),
+    );
+    lines.push("Code error: that of the library functions".to_owned());
+    lines.push(format!(
+        "Data: CC0-1.0, each with its reference: `fresnel-gen materials show {}`",
+        rows[0].argument
+    ));
+    lines.push(format!("Licence of this file: {OUTPUT_LICENCE}"));
+    comment::lines(lines)
+}
+
+/// The model error of the worst, and where each one's stands.
+fn worst(rows: &[CatalogueRow]) -> String {
+    let by_error =
+        |a: &&CatalogueRow, b: &&CatalogueRow| a.error.max_abs.total_cmp(&b.error.max_abs);
+    let worst = rows.iter().max_by(by_error).expect("there are rows");
+    let degrees = libm::acos(worst.error.worst_cos).to_degrees();
+    format!(
+        "Model error: beside each material, over all angles and channels; the largest is {}'s, {} (at {degrees:.2} degrees)",
+        worst.name,
+        at_most(&worst.error)
+    )
+}
+
+/// A constant must be free in every language, as functions are.
+fn check_names(view: &CatalogueView) -> Result<(), Error> {
+    let materials = view.materials.iter().map(|material| &material.constant);
+    let mut names = materials.chain([&view.name, &view.dielectrics.constant]);
+    match names.find_map(|name| targets::name_fault(name)) {
+        Some(what) => Err(Error::Name { what }),
+        None => Ok(()),
+    }
+}

@@ -1,0 +1,177 @@
+//! The catalogue of fitted coefficients: those of every material that is known over the whole spectrum.
+
+mod array;
+mod buffer;
+mod json;
+mod record;
+
+use crate::generator::fit::{
+    FitCurve, FitObjective, ModelError, coefficients_and_error, model_error,
+};
+use crate::generator::reference::MaterialInMedium;
+use crate::language::methods::{self, Method};
+use crate::physics::num::in_parallel;
+use crate::physics::spectra::Gamut;
+
+use super::average::Average;
+use super::bounds::Bounds;
+use super::error::Error;
+use super::function::{Emitted, Naming, specialised_function};
+
+pub use array::catalogue_array;
+pub use buffer::{BufferDetail, CATALOGUE_BUFFER, FOURTH, catalogue_buffer};
+pub use json::{COEFFICIENT_ORDER, CatalogueMaterial, CatalogueMethod};
+pub use record::{catalogue_record, recorded_catalogue};
+
+/// The name of the files and of the array.
+pub const CATALOGUE: &str = "catalogue";
+/// Colours that a material has: its coefficients c0 to c3, which are rows of the array.
+pub const COEFFICIENTS: usize = 4;
+
+/// A material of the catalogue.
+#[derive(Clone, Debug)]
+pub struct CatalogueRow {
+    /// Its name, with the medium's.
+    pub name: String,
+    /// What a user types to get it again.
+    pub argument: String,
+    /// `metal`, `semiconductor` or `dielectric`.
+    pub class: &'static str,
+    /// The fitted method of its class.
+    pub method: &'static Method,
+    /// Its coefficients in order, three channels each, as f32 holds them.
+    pub coefficients: Vec<[f64; 3]>,
+    /// How far the function with these coefficients is from the exact law.
+    pub error: ModelError,
+    /// The mean of that function over the hemisphere.
+    pub average: Average,
+    /// A method that follows it more closely, of a semiconductor, or where the fit misses its class.
+    pub better: Option<CloserFit>,
+    /// Beyond which wavelengths its index was held, in words, where it was.
+    pub held: Option<String>,
+}
+
+/// A method that follows a material of the catalogue more closely than its four coefficients do.
+#[derive(Clone, Debug)]
+pub struct CloserFit {
+    /// The method.
+    pub method: &'static Method,
+    /// Its coefficients in order, three channels each; none of the exact law.
+    pub coefficients: Vec<[f64; 3]>,
+    /// The largest error.
+    pub max_abs: f64,
+}
+
+/// The rows of those that a fitted method follows: first those of `fitted`, then those of `fitted_dielectric`, each by name.
+///
+/// # Errors
+/// As [`specialised_function`].
+pub fn catalogue_rows(
+    subjects: &[MaterialInMedium],
+    naming: &Naming,
+) -> Result<Vec<CatalogueRow>, Error> {
+    let bounds = Bounds::recorded();
+    let row = |i: usize| {
+        let subject = &subjects[i];
+        let method = methods::find(subject.fitted_with_four()?)?;
+        Some(catalogue_row(subject, method, naming, &bounds))
+    };
+    let found = in_parallel(subjects.len(), &row, &mut |_, _| {});
+    let mut rows = found
+        .into_iter()
+        .flatten()
+        .collect::<Result<Vec<_>, Error>>()?;
+    rows.sort_by(|a, b| (a.method.name, &a.name).cmp(&(b.method.name, &b.name)));
+    Ok(rows)
+}
+
+fn catalogue_row(
+    subject: &MaterialInMedium,
+    method: &'static Method,
+    naming: &Naming,
+    bounds: &Bounds,
+) -> Result<CatalogueRow, Error> {
+    let function = specialised_function(method, subject, naming, bounds)?;
+    let better = closer_fit(subject, &function, naming, bounds)?;
+    let emitted = within_gamut(subject, function);
+    let value = |input: &methods::Input| emitted.constants[input.name];
+    Ok(CatalogueRow {
+        name: subject.name.clone(),
+        argument: subject.argument.clone(),
+        class: subject.material.kind.name(),
+        method,
+        coefficients: method.inputs.iter().map(value).collect(),
+        error: emitted
+            .model_error
+            .expect("a specialised function has its model error"),
+        average: Average::of(&emitted).expect("a fitted method has a mean"),
+        better,
+        held: subject.reference.surface.extrapolation(),
+    })
+}
+
+/// A function of a material with coefficients that keep its form in [0, 1] by themselves, where colours are clipped; a function
+/// that is not fitted as it is.
+fn within_gamut(subject: &MaterialInMedium, emitted: Emitted) -> Emitted {
+    let gamut = subject.reference.surface.gamut;
+    if gamut == Gamut::Keep || !emitted.method.is_fitted() {
+        return emitted;
+    }
+    let aim = FitObjective {
+        gamut,
+        ..FitObjective::default()
+    };
+    let found = coefficients_and_error(emitted.method, &FitCurve::of(subject), aim);
+    let (constants, _) = found.expect("terms tell angles apart; a test fits them all");
+    let function = emitted.method.specialise(&constants);
+    let function = function.expect("a test specialises every method");
+    let error = model_error(&function, &subject.truth_for(emitted.method));
+    Emitted {
+        function,
+        constants,
+        model_error: Some(error),
+        ..emitted
+    }
+}
+
+/// The method that follows a material more closely than its four coefficients do: the one of its class, or what serves where the
+/// fit misses its class.
+fn closer_fit(
+    subject: &MaterialInMedium,
+    emitted: &Emitted,
+    naming: &Naming,
+    bounds: &Bounds,
+) -> Result<Option<CloserFit>, Error> {
+    let own = subject.fitted_method().and_then(methods::find);
+    let own = own.filter(|own| own.name != emitted.method.name);
+    let serves = emitted.missed.as_ref().map(|missed| missed.serves);
+    let Some(method) = own.or(serves) else {
+        return Ok(None);
+    };
+    let closer = within_gamut(
+        subject,
+        specialised_function(method, subject, naming, bounds)?,
+    );
+    let fitted = method.inputs.iter().filter(|_| method.is_fitted());
+    Ok(Some(CloserFit {
+        method,
+        coefficients: fitted.map(|input| closer.constants[input.name]).collect(),
+        max_abs: closer
+            .model_error
+            .expect("a specialised function has its model error")
+            .max_abs,
+    }))
+}
+
+/// The row of the array from which on materials take `fitted_dielectric`; the one after the last where all take the same.
+pub fn first_dielectric(rows: &[CatalogueRow]) -> usize {
+    let first = |row: &CatalogueRow| row.method.name == rows[0].method.name;
+    COEFFICIENTS * rows.partition_point(first)
+}
+
+/// The methods of the rows, each once: rows of one stand together.
+fn methods_of(rows: &[CatalogueRow]) -> Vec<&'static Method> {
+    let mut methods: Vec<&'static Method> = rows.iter().map(|row| row.method).collect();
+    methods.dedup_by_key(|method| method.name);
+    methods
+}

@@ -1,0 +1,389 @@
+//! What the manifest says of a file: its command, its functions, and of a material how it is seen. Typed rows: the manifest alone
+//! is JSON.
+
+use std::collections::BTreeMap;
+
+use serde::Serialize;
+
+use crate::generator::fit::{Measured, ModelError};
+use crate::generator::reference::{By, MaterialInMedium};
+use crate::language::ir::{Param, Ty};
+use crate::language::methods::Input;
+use crate::language::targets::{Finish, Target};
+use crate::physics::materials::Material;
+
+use super::average::Average;
+use super::bounds::CodeBound;
+use super::effect_file::EffectPart;
+use super::file::{is_number, uniform_offsets};
+use super::form::FunctionForm;
+use super::function::Emitted;
+use super::header::OUTPUT_LICENCE;
+use super::missed::MissedDetail;
+use super::notes::Notes;
+use super::page::entry_point;
+use super::print;
+
+/// What the manifest says of a file.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[serde(untagged)]
+pub enum Detail {
+    /// Of a file of functions.
+    Functions(Box<FunctionsDetail>),
+    /// Of a file of the catalogue.
+    Catalogue(CatalogueDetail),
+    /// Of a lookup table, or of its description.
+    Table(TableDetail),
+    /// Of a file of a flavour.
+    Adapter(AdapterDetail),
+}
+
+impl Detail {
+    /// The functions of the file.
+    pub fn functions(&self) -> &[FunctionDetail] {
+        match self {
+            Detail::Functions(file) => &file.functions,
+            Detail::Catalogue(_) | Detail::Table(_) | Detail::Adapter(_) => &[],
+        }
+    }
+
+    /// The materials of an atlas, in the order of its rows; of other files none.
+    pub fn row_materials(&self) -> &[String] {
+        match self {
+            Detail::Table(file) => &file.row_materials,
+            Detail::Functions(_) | Detail::Catalogue(_) | Detail::Adapter(_) => &[],
+        }
+    }
+
+    /// How the material of a file of functions is seen.
+    pub fn seen(&self) -> Option<&SeenDetail> {
+        match self {
+            Detail::Functions(file) => file.seen.as_ref(),
+            Detail::Catalogue(_) | Detail::Table(_) | Detail::Adapter(_) => None,
+        }
+    }
+}
+
+/// What the manifest says of a file of functions.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct FunctionsDetail {
+    /// The command that writes it.
+    pub command: String,
+    /// Its functions in order.
+    pub functions: Vec<FunctionDetail>,
+    /// What they compute in; nothing for single precision.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub precision: Option<&'static str>,
+    /// How the material is seen.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub seen: Option<SeenDetail>,
+    /// Where the material's indices come from.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub data: Option<DataDetail>,
+}
+
+/// What the manifest says of a file of the catalogue: an array of a language, `catalogue.json`, a buffer or a texture.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct CatalogueDetail {
+    /// The command that writes it.
+    pub command: String,
+    /// The array's name.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub array: Option<String>,
+    /// How many materials it has.
+    pub materials: usize,
+    /// How many rows the array or the buffer has, four a material.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub rows: Option<usize>,
+    /// How the materials are seen, in words.
+    pub seen: String,
+    /// The licence of the file.
+    pub licence: &'static str,
+}
+
+/// What the manifest says of a lookup table.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct TableDetail {
+    /// The command that writes it.
+    pub command: String,
+    /// Of an atlas the materials, one a row, the first at row 0.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub row_materials: Vec<String>,
+    /// The file that describes it.
+    pub description: String,
+    /// The licence of the file.
+    pub licence: &'static str,
+}
+
+/// What the manifest says of a file of a flavour.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct AdapterDetail {
+    /// The command that writes it.
+    pub command: String,
+    /// The host, with the version that the adapter was tried in.
+    pub host: &'static str,
+    /// How the materials are seen, in words.
+    pub seen: String,
+    /// The licence of the file.
+    pub licence: &'static str,
+}
+
+/// How a material is seen: its modules have no head to say it in.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct SeenDetail {
+    /// What the reference reflectance is, in words.
+    pub truth: String,
+    /// Beyond which wavelengths its index was held, in words, where it was.
+    pub extrapolated: Option<String>,
+    /// The effective n of each channel.
+    pub n: [f64; 3],
+    /// The effective k of each channel.
+    pub k: [f64; 3],
+    /// How they were found.
+    pub nk_by: [&'static str; 3],
+}
+
+/// Where a material's indices come from.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct DataDetail {
+    /// The publication.
+    pub reference: String,
+    /// Where it is found.
+    pub link: String,
+    /// The licence of the data.
+    pub licence: String,
+    /// How it was measured.
+    pub conditions: String,
+}
+
+/// What the manifest says of a function.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct FunctionDetail {
+    /// Its name.
+    pub name: String,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    method: Option<&'static str>,
+    form: FunctionForm,
+    /// Its head, as the file has it.
+    pub signature: String,
+    parameters: Parameters,
+    operations: usize,
+    fetches: usize,
+    code_error: CodeErrorDetail,
+    licence: &'static str,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    model_error: Option<ModelErrorDetail>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    misses_its_class: Option<MissedDetail>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    average: Option<[f64; 3]>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    average_unlimited: Option<[f64; 3]>,
+    /// Of a function of a module: its entry point.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub entry_point: Option<String>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    uniforms: Option<Vec<UniformDetail>>,
+    #[serde(flatten)]
+    notes: Notes,
+}
+
+/// A library function's run-time arguments; or a specialised one's constants per channel, null where a channel has none (gold's
+/// green has no lambda).
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[serde(untagged)]
+enum Parameters {
+    Arguments(Vec<ArgumentDetail>),
+    Constants(BTreeMap<String, [Option<f64>; 3]>),
+}
+
+#[derive(Clone, Debug, PartialEq, Serialize)]
+struct ArgumentDetail {
+    name: &'static str,
+    meaning: &'static str,
+    domain: String,
+}
+
+/// A code error, or null with the reason why there is none.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[serde(untagged)]
+enum CodeErrorDetail {
+    Ulp { max_ulp: f64 },
+    Absolute { max_abs: f64 },
+    NoUlp { max_ulp: (), reason: String },
+    NoAbsolute { max_abs: (), reason: String },
+}
+
+#[derive(Clone, Debug, PartialEq, Serialize)]
+struct ModelErrorDetail {
+    #[serde(flatten)]
+    error: ModelError,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    reason: Option<&'static str>,
+}
+
+/// A run-time argument in the uniform block of a module, with its offset in bytes.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+struct UniformDetail {
+    name: String,
+    #[serde(rename = "type")]
+    ty: &'static str,
+    offset: usize,
+}
+
+/// What the manifest says of a file of these functions.
+pub(super) fn functions_detail(
+    target: &Target,
+    functions: &[&Emitted],
+    command: &str,
+) -> FunctionsDetail {
+    let precision = functions[0].precision;
+    FunctionsDetail {
+        command: command.to_owned(),
+        functions: functions
+            .iter()
+            .enumerate()
+            .map(|(i, emitted)| function_detail(target, i, emitted))
+            .collect(),
+        precision: precision.is_half().then(|| precision.name()),
+        seen: None,
+        data: None,
+    }
+}
+
+impl FunctionsDetail {
+    /// The same of a material's file.
+    pub(super) fn of_material(self, subject: &MaterialInMedium) -> FunctionsDetail {
+        FunctionsDetail {
+            seen: Some(seen_detail(subject)),
+            data: Some(data_detail(&subject.material)),
+            ..self
+        }
+    }
+}
+
+fn seen_detail(subject: &MaterialInMedium) -> SeenDetail {
+    let surface = &subject.reference.surface;
+    let effective = &subject.effective;
+    SeenDetail {
+        truth: surface.seen.clone(),
+        extrapolated: surface.extrapolation(),
+        n: effective.channels.n,
+        k: effective.channels.k,
+        nk_by: effective.by.map(By::text),
+    }
+}
+
+fn data_detail(material: &Material) -> DataDetail {
+    DataDetail {
+        reference: material.reference.clone(),
+        link: material.link.clone(),
+        licence: material.licence.clone(),
+        conditions: material.conditions.clone(),
+    }
+}
+
+fn function_detail(target: &Target, index: usize, emitted: &Emitted) -> FunctionDetail {
+    let average = match emitted.effect {
+        None => Average::of(emitted),
+        Some(_) => None,
+    };
+    let is_module = target.finish == Finish::Spirv;
+    FunctionDetail {
+        name: emitted.name.clone(),
+        method: match emitted.effect {
+            Some(part) if !part.function.reflectance.is_used() => None,
+            _ => Some(emitted.method.name),
+        },
+        form: emitted.form,
+        signature: print::head(
+            &emitted.function,
+            &emitted.name,
+            target.spelling_in(emitted.precision),
+        ),
+        parameters: parameters(emitted),
+        operations: emitted.function.work(),
+        fetches: emitted.function.fetches(),
+        code_error: code_error(emitted),
+        licence: OUTPUT_LICENCE,
+        model_error: emitted.model_error.map(model_error),
+        misses_its_class: emitted.missed.as_ref().map(|missed| missed.detail()),
+        average: average.map(|average| average.given),
+        average_unlimited: average.map(|average| average.unlimited),
+        entry_point: is_module.then(|| entry_point(index, emitted)),
+        uniforms: (is_module && emitted.effect.is_none()).then(|| uniforms(emitted)),
+        notes: Notes::of(emitted),
+    }
+}
+
+fn code_error(emitted: &Emitted) -> CodeErrorDetail {
+    match &emitted.code {
+        Measured::Yes(CodeBound::Ulp(ulp)) => CodeErrorDetail::Ulp { max_ulp: *ulp },
+        Measured::Yes(CodeBound::Absolute(most)) => CodeErrorDetail::Absolute { max_abs: *most },
+        Measured::No(reason) if emitted.precision.is_half() => CodeErrorDetail::NoAbsolute {
+            max_abs: (),
+            reason: reason.clone(),
+        },
+        Measured::No(reason) => CodeErrorDetail::NoUlp {
+            max_ulp: (),
+            reason: reason.clone(),
+        },
+    }
+}
+
+fn model_error(error: ModelError) -> ModelErrorDetail {
+    let undefined = "a channel reflects nothing, so that no relative error is defined";
+    ModelErrorDetail {
+        reason: error.mean_rel.is_none().then_some(undefined),
+        error,
+    }
+}
+
+fn parameters(emitted: &Emitted) -> Parameters {
+    if let Some(part) = emitted.effect {
+        return Parameters::Arguments(arguments_of_effect(part, emitted));
+    }
+    if emitted.constants.is_empty() {
+        let argument = |input: &Input| ArgumentDetail {
+            name: input.name,
+            meaning: input.meaning,
+            domain: emitted.method.range(input, emitted.precision).words(),
+        };
+        return Parameters::Arguments(emitted.method.inputs.iter().map(argument).collect());
+    }
+    let row = |input: &Input| {
+        let values = emitted.constants.get(input.name)?;
+        let present = values.map(|value| input.present(value));
+        Some((input.name.to_owned(), present))
+    };
+    Parameters::Constants(emitted.method.inputs.iter().filter_map(row).collect())
+}
+
+/// The arguments of an effect's function, as many as are left at run time.
+fn arguments_of_effect(part: EffectPart, emitted: &Emitted) -> Vec<ArgumentDetail> {
+    let own = part.function.arguments.iter().map(|one| ArgumentDetail {
+        name: one.name,
+        meaning: one.meaning,
+        domain: one.domain.words(),
+    });
+    let inputs = emitted.method.inputs.iter().map(|input| ArgumentDetail {
+        name: input.name,
+        meaning: input.meaning,
+        domain: input.range.words(),
+    });
+    let params = &emitted.function.params;
+    let is_left = |one: &ArgumentDetail| params.iter().any(|param| param.name == one.name);
+    own.chain(inputs).filter(is_left).collect()
+}
+
+/// The uniform block of a module: name, type and offset in bytes of each run-time argument.
+fn uniforms(emitted: &Emitted) -> Vec<UniformDetail> {
+    let params = &emitted.function.params;
+    let numbers = params.iter().filter(|param| is_number(param));
+    let row = |(param, offset): (&Param, usize)| UniformDetail {
+        name: param.name.clone(),
+        ty: if param.ty == Ty::Rgb { "vec3" } else { "float" },
+        offset,
+    };
+    numbers.zip(uniform_offsets(params)).map(row).collect()
+}

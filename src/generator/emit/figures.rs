@@ -1,0 +1,194 @@
+//! Errors and costs as headers word them: what methods promise, and what is known of one function.
+
+use crate::generator::fit::{Measured, ModelError, rounded_up};
+use crate::language::ir::Op;
+use crate::language::methods::{Colours, Input, Method};
+use crate::physics::num::Precision;
+
+use super::bounds::CodeBound;
+use super::function::Emitted;
+
+/// The code error of what reads a texture: a sampler may round its weights to the nearest of 256, or down.
+pub const FILTERED: &str = "at most 1/256 of the difference of two neighbouring texels, as samplers weigh them in so many steps";
+
+/// What a method promises, a line each.
+pub fn promises(method: &Method) -> Vec<String> {
+    promises_in(Precision::F32, method)
+}
+
+/// What a method promises in half precision, or why it is not written so.
+pub fn half_promise(method: &Method) -> String {
+    match (method.half.claim(), method.half.refusal()) {
+        (Some(claim), _) => {
+            let media = method.media(claim.over);
+            let beyond = match claim.beyond {
+                "" => String::new(),
+                beyond => format!("; {beyond}"),
+            };
+            format!(
+                "Code error for {media}: {}{beyond}",
+                absolute(claim.max_abs)
+            )
+        }
+        (None, Some(why)) => format!("Code error: nothing is promised; {why}"),
+        (None, None) => format!(
+            "Code error: nothing is promised but for materials; {}",
+            method.half.library_refusal().unwrap_or_default()
+        ),
+    }
+}
+
+/// The same in a precision.
+pub(super) fn promises_in(precision: Precision, method: &Method) -> Vec<String> {
+    let code = if precision.is_half() {
+        half_promise(method)
+    } else if method.is_textured() {
+        format!("Code error: {FILTERED}")
+    } else {
+        let bound = bound(method.claims.code_ulp);
+        format!("Code error for {}: {bound}", method.code_media())
+    };
+    let colours = method.claims.colours.filter(|_| !precision.is_half());
+    let colours = colours.map(|colours| colours_line(method, colours));
+    let coefficients = method.coefficients.filter(|_| !precision.is_half());
+    let coefficients = coefficients.map(|finds| {
+        let (media, bound) = (method.code_media(), unfused(finds.code_abs));
+        format!("Code error of the coefficients for {media}: {bound}")
+    });
+    model_promises(method)
+        .chain([code])
+        .chain(colours)
+        .chain(coefficients)
+        .collect()
+}
+
+/// What a method promises of its model error, a line for each set of media.
+pub(super) fn model_promises(method: &Method) -> impl Iterator<Item = String> {
+    method.claims.model.iter().map(|claim| {
+        let error = match claim.max_abs {
+            0.0 => "none, it is the exact law".to_owned(),
+            most => format!("at most {most}, worst at {} degrees", claim.at_degrees),
+        };
+        format!("Model error for {}: {error}", claim.over.text())
+    })
+}
+
+/// What a method promises to artists, where colours beyond may be far off.
+pub(super) fn beyond_colours(method: &Method) -> Option<String> {
+    let colours = method
+        .claims
+        .colours
+        .filter(|colours| !colours.beyond.is_empty())?;
+    Some(colours_line(method, colours))
+}
+
+/// What a method promises to artists.
+fn colours_line(method: &Method, colours: Colours) -> String {
+    let range = |input: &Input| format!("{} {}", input.name, colours.range(input).words());
+    let ranges: Vec<String> = method.inputs.iter().map(range).collect();
+    let beyond = match colours.beyond {
+        "" => String::new(),
+        beyond => format!("; {beyond}"),
+    };
+    format!(
+        "Code error for colours with {}: at most {:e} absolute, unfused or fused{beyond}",
+        ranges.join(", "),
+        colours.max_abs
+    )
+}
+
+/// The largest error as "at most" has it: rounded up.
+pub(super) fn at_most(error: &ModelError) -> String {
+    format!("at most {}", rounded_up(error.max_abs))
+}
+
+pub(super) fn model_line(error: &ModelError) -> String {
+    let undefined = match error.undefined {
+        0 => String::new(),
+        _ => "; where it gives no number it is not counted".to_owned(),
+    };
+    if error.max_abs < 1e-9 {
+        return format!("Model error: none, it is the exact law{undefined}.");
+    }
+    let most = at_most(error);
+    let degrees = libm::acos(error.worst_cos).to_degrees();
+    let mean = match error.mean_rel {
+        // Of a reflectance next to 0 any error is large.
+        Some(mean) if mean > 100.0 => "above 10000 % in the mean over angles".to_owned(),
+        Some(mean) => format!("{:.2} % in the mean over angles", 100.0 * mean),
+        None => "no relative mean, as a channel reflects nothing".to_owned(),
+    };
+    format!("Model error: {most} (at {degrees:.2} degrees), {mean}{undefined}.")
+}
+
+/// That a fit misses its class, and what serves.
+pub(super) fn missed_line(emitted: &Emitted) -> Option<String> {
+    let missed = emitted.missed.as_ref()?;
+    Some(format!("Misses its class: {}.", missed.words()))
+}
+
+pub(super) fn code_line(emitted: &Emitted) -> String {
+    match &emitted.code {
+        Measured::Yes(CodeBound::Ulp(ulp)) => format!("Code error: {}.", bound(*ulp)),
+        Measured::Yes(CodeBound::Absolute(most)) if emitted.precision.is_half() => {
+            format!("Code error: {}.", absolute(*most))
+        }
+        Measured::Yes(CodeBound::Absolute(most)) => format!("Code error: {}.", unfused(*most)),
+        Measured::No(why) => format!("Code error: {why}."),
+    }
+}
+
+/// A bound in ulp, beside the absolute one that holds near zeros.
+fn bound(ulp: f64) -> String {
+    let ulp = if ulp > 0.0 {
+        format!("{ulp} ulp or ")
+    } else {
+        String::new()
+    };
+    format!("at most {ulp}2^-22, unfused f32 against f64")
+}
+
+/// A bound in half precision. Rounded up: it says "at most".
+fn absolute(most: f64) -> String {
+    let most = (most * 1e5 - 1e-6).ceil() / 1e5;
+    format!("at most {most} absolute, f16 rounded after every operation, against f64")
+}
+
+/// A bound of coefficients.
+fn unfused(most: f64) -> String {
+    format!("at most {most:e} absolute, unfused f32 against f64")
+}
+
+pub(super) fn operations(emitted: &Emitted) -> String {
+    let count = |ops: &[Op]| {
+        ops.iter()
+            .map(|op| emitted.function.count(*op))
+            .sum::<usize>()
+    };
+    let counted = [
+        (count(&[Op::Sqrt, Op::InverseSqrt]), "root", "roots"),
+        (count(&[Op::Div]), "division", "divisions"),
+        (
+            count(&[Op::Exp2, Op::Log2]),
+            "exponential or logarithm",
+            "exponentials or logarithms",
+        ),
+    ];
+    let named = counted.iter().filter(|(count, ..)| *count > 0);
+    let parts: Vec<String> = named
+        .map(|(count, one, many)| format!("{count} {}", if *count == 1 { one } else { many }))
+        .collect();
+    let among = if parts.is_empty() {
+        String::new()
+    } else {
+        format!(", among them {}", parts.join(", "))
+    };
+    let fetches = match emitted.function.fetches() {
+        0 => "",
+        _ => ", and one texture fetch",
+    };
+    format!(
+        "{} scalar operations{among}{fetches}",
+        emitted.function.work()
+    )
+}

@@ -1,0 +1,241 @@
+//! The page around functions: a template of the target, rendered. Numbers reach it as text.
+
+use std::collections::BTreeSet;
+
+use serde::Serialize;
+use tera::{Context, Tera};
+
+use crate::language::ir::{Param, Ty};
+use crate::language::targets::{Finish, Page, Target};
+use crate::physics::num::Precision;
+
+use super::batch::batch_entry;
+use super::error::Error;
+use super::form::FunctionForm;
+use super::function::Emitted;
+use super::{print, wgsl};
+
+/// What a template sees.
+#[derive(Serialize)]
+pub(super) struct PageView<'a> {
+    /// Lines of the head.
+    pub(super) header: &'a [String],
+    /// The include guard's name, or nothing.
+    pub(super) guard: &'a str,
+    /// What must stand before all code.
+    pub(super) directive: &'a str,
+    /// The functions in their order.
+    pub(super) functions: Vec<FunctionView>,
+    /// The numbers that a library method takes after `cos_theta`.
+    pub(super) parameters: Vec<ParameterView>,
+    /// The textures that the functions read.
+    pub(super) textures: Vec<String>,
+}
+
+#[derive(Serialize)]
+pub(super) struct FunctionView {
+    /// Comments above it.
+    pub(super) doc: Vec<String>,
+    /// Its head, without a brace.
+    pub(super) head: String,
+    /// The lines of its body.
+    pub(super) body: Vec<String>,
+    /// The entry point of a module that calls it.
+    pub(super) entry: String,
+    /// How a module calls it: `cos_theta` and what its block holds are f32, and so is the result.
+    pub(super) call: String,
+}
+
+#[derive(Serialize)]
+pub(super) struct ParameterView {
+    name: String,
+    ty: &'static str,
+}
+
+/// A page to render.
+pub struct PageRequest<'a> {
+    /// The language.
+    pub target: &'static Target,
+    /// Which of its pages.
+    pub page: &'static Page,
+    /// Lines of the head.
+    pub header: &'a [String],
+    /// The include guard's name, or nothing.
+    pub guard: &'a str,
+    /// The functions, each with the comments above it.
+    pub functions: &'a [(Vec<String>, Emitted)],
+    /// The name of the file, for messages.
+    pub file: &'a str,
+}
+
+/// The bytes of a file.
+pub fn render(request: &PageRequest) -> Result<Vec<u8>, Error> {
+    let template = request.page.template;
+    finished(
+        template,
+        &view(request),
+        request.target.finish,
+        request.file,
+    )
+}
+
+/// The text of a template with what it sees; the file's name is for messages.
+///
+/// # Errors
+/// The template is wrong: a bug.
+pub fn text_of_template(
+    template: &str,
+    view: &impl Serialize,
+    file: &str,
+) -> Result<Vec<u8>, Error> {
+    finished(template, view, Finish::Text, file)
+}
+
+/// Functions without a head and without comments above them.
+///
+/// # Errors
+/// The language refuses the text: a bug.
+pub fn bare_text(target: &'static Target, functions: &[Emitted]) -> Result<String, Error> {
+    let plain: Vec<(Vec<String>, Emitted)> = functions
+        .iter()
+        .map(|one| (Vec::new(), one.clone()))
+        .collect();
+    let bytes = render(&PageRequest {
+        target,
+        page: &target.pages[0],
+        header: &[],
+        guard: "",
+        functions: &plain,
+        file: &functions[0].name,
+    })?;
+    Ok(String::from_utf8_lossy(&bytes).trim_start().to_owned())
+}
+
+/// A template with what it sees, and what becomes of the text; the file's name is for messages.
+pub fn finished(
+    template: &str,
+    view: &impl Serialize,
+    finish: Finish,
+    file: &str,
+) -> Result<Vec<u8>, Error> {
+    let wrong = |what: String| Error::Generated {
+        file: file.to_owned(),
+        what,
+    };
+    let mut tera = Tera::new();
+    tera.add_raw_template("page", template)
+        .map_err(|error| wrong(error.to_string()))?;
+    let context = Context::from_serialize(view).map_err(|error| wrong(error.to_string()))?;
+    let text = tera
+        .render("page", &context)
+        .map_err(|error| wrong(error.to_string()))?;
+    let text = text.trim_end().to_owned() + "\n";
+    match finish {
+        Finish::Text => Ok(text.into_bytes()),
+        Finish::ValidWgsl => wgsl::validate(&text)
+            .map(|_| text.into_bytes())
+            .map_err(wrong),
+        Finish::Spirv => wgsl::spirv(&text).map_err(wrong),
+    }
+}
+
+fn view<'a>(request: &'a PageRequest) -> PageView<'a> {
+    let functions = request.functions.iter().enumerate();
+    let first = &request.functions[0].1.function;
+    let is_number = |param: &&Param| !is_texture(param) && !param.is_cosine();
+    let numbers = first.params.iter().filter(is_number);
+    PageView {
+        header: request.header,
+        guard: request.guard,
+        directive: request
+            .target
+            .directive_in(request.functions[0].1.precision),
+        functions: functions
+            .map(|(i, (doc, emitted))| function(request.target, i, doc, emitted))
+            .collect(),
+        textures: textures(request),
+        parameters: numbers
+            .map(|param| ParameterView {
+                name: param.name.clone(),
+                ty: request.target.spelling.ty(param.ty),
+            })
+            .collect(),
+    }
+}
+
+fn is_texture(param: &Param) -> bool {
+    param.ty == Ty::Texture
+}
+
+/// The names of the textures of a file, each once.
+fn textures(request: &PageRequest) -> Vec<String> {
+    let functions = request.functions.iter();
+    let params = functions.flat_map(|(_, emitted)| &emitted.function.params);
+    let names = params.filter(|param| is_texture(param));
+    let sorted: BTreeSet<String> = names.map(|param| param.name.clone()).collect();
+    sorted.into_iter().collect()
+}
+
+/// How a module's entry point calls a function: numbers stand in its block, textures and samplers beside it.
+fn call(target: &Target, emitted: &Emitted) -> String {
+    let narrow = |ty: Ty, value: String| match emitted.precision {
+        Precision::F32 => value,
+        Precision::F16 => format!("{}({value})", target.half.spelling.ty(ty)),
+    };
+    let argument = |param: &Param| match param.ty {
+        Ty::Texture => format!("{0}_texture, {0}_filter", param.name),
+        ty if param.is_cosine() => narrow(ty, param.name.clone()),
+        ty => narrow(ty, format!("parameters.{}", param.name)),
+    };
+    let params = emitted.function.params.iter();
+    let arguments: Vec<String> = params.map(argument).collect();
+    let call = format!("{}({})", emitted.name, arguments.join(", "));
+    match emitted.precision {
+        Precision::F32 => call,
+        Precision::F16 => format!("{}({call})", target.spelling.ty(emitted.function.ty())),
+    }
+}
+
+fn function(target: &Target, index: usize, doc: &[String], emitted: &Emitted) -> FunctionView {
+    let spelling = target.spelling_in(emitted.precision);
+    FunctionView {
+        doc: doc.to_vec(),
+        head: print::shown_head(&emitted.function, &emitted.name, spelling),
+        body: print::body(&emitted.function, spelling),
+        entry: entry_point(index, emitted),
+        call: call(target, emitted),
+    }
+}
+
+/// A module's entry points: `main` for its first function, `average` for a mean over the hemisphere, `c0` and so on for
+/// coefficients, the method's name for others; an effect's are named after its functions.
+pub fn entry_point(index: usize, emitted: &Emitted) -> String {
+    match emitted.form {
+        _ if emitted.effect.is_some() => batch_entry(&emitted.name),
+        _ if index == 0 => "main".to_owned(),
+        form if form == FunctionForm::Average || form.coefficient().is_some() => {
+            form.name().to_owned()
+        }
+        _ => emitted.method.name.to_owned(),
+    }
+}
+
+/// The head of a file as comment lines of a language.
+pub fn comments(target: &Target, lines: &[String]) -> Vec<String> {
+    lines
+        .iter()
+        .map(|line| {
+            format!("{} {line}", target.spelling.comment)
+                .trim_end()
+                .to_owned()
+        })
+        .collect()
+}
+
+/// The include guard of a file, where the language has a preprocessor.
+pub fn guard(target: &Target, stem: &str) -> String {
+    if !target.spelling.guard {
+        return String::new();
+    }
+    format!("{stem}_{}", target.name).to_uppercase()
+}

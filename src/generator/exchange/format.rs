@@ -1,0 +1,86 @@
+//! What a format is: a plain record in a static table.
+
+use crate::physics::spectra::Space;
+
+use super::fault::ExchangeFault;
+use super::model::NodeError;
+use super::sheet::Sheet;
+use super::subject::EngineMaterial;
+
+/// A format that engines or tools read.
+#[derive(Debug)]
+pub struct Format {
+    /// Its one name: file, `--as`, row of the table in `docs/materials.md`.
+    pub name: &'static str,
+    /// What it is, in one line.
+    pub summary: &'static str,
+    /// The spaces that its colours may be in.
+    pub spaces: &'static [Space],
+    /// The format's nodes with their numbers, and what was limited.
+    pub sheet: fn(&EngineMaterial) -> Sheet,
+    /// The text of the file.
+    pub text: fn(&EngineMaterial, &Sheet, &Notes) -> String,
+}
+
+/// What the text says beside the numbers.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Notes {
+    /// The command that writes the file again.
+    pub command: String,
+    /// The error of each node.
+    pub errors: Vec<NodeError>,
+    /// What was limited or left out.
+    pub remarks: Vec<String>,
+}
+
+/// A material in a format.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Exported {
+    /// The text of the file.
+    pub text: String,
+    /// The error of each node, in the order of the file.
+    pub errors: Vec<NodeError>,
+    /// What was limited or left out; it stands in the text too.
+    pub remarks: Vec<String>,
+}
+
+/// Formats have a roughness of their own where none is written: glTF and Filament 1, USD, Blender and Unreal .5, OpenPBR .3.
+const SMOOTH: &str = "roughness is 0, a smooth surface; set your own";
+
+impl Format {
+    /// A material in this format. `command` writes the file again.
+    ///
+    /// # Errors
+    /// The format takes no colours of this space.
+    pub fn export(
+        &self,
+        material: &EngineMaterial,
+        command: &str,
+    ) -> Result<Exported, ExchangeFault> {
+        if let Some(space) = material.space.filter(|space| !self.spaces.contains(space)) {
+            let allowed: Vec<&str> = self.spaces.iter().map(|space| space.name()).collect();
+            return Err(ExchangeFault::Space {
+                format: self.name,
+                space: space.name(),
+                allowed: allowed.join(", "),
+            });
+        }
+        let sheet = (self.sheet)(material);
+        let error = |node| NodeError::of(node, material);
+        let notes = Notes {
+            command: command.to_owned(),
+            errors: sheet.nodes.iter().map(error).collect(),
+            remarks: material
+                .remarks()
+                .chain(sheet.remarks.clone())
+                .chain([SMOOTH.to_owned()])
+                .collect(),
+        };
+        let text = (self.text)(material, &sheet, &notes);
+        Ok(Exported {
+            text,
+            errors: notes.errors,
+            remarks: notes.remarks,
+        })
+    }
+}

@@ -1,0 +1,181 @@
+//! glTF 2.0: an asset with one material.
+//!
+//! Source: Khronos Group, "glTF 2.0 Specification", version 2.0.1, 2021,
+//! <https://registry.khronos.org/glTF/specs/2.0/glTF-2.0.html>, appendix B, and the extensions KHR_materials_ior,
+//! KHR_materials_specular, KHR_materials_transmission, KHR_materials_volume and KHR_materials_dispersion of the Khronos Group,
+//! <https://github.com/KhronosGroup/glTF/tree/main/extensions/2.0/Khronos>.
+//!
+//! A metal's F0 is `baseColorFactor`. A dielectric's is that of `ior`, times `specularColorFactor`, 1 at most. All is
+//! Schlick's approximation with 1 at 90 degrees. `dispersion` is 20 over Abbe's number; it wants a volume. `metallicFactor` and
+//! `roughnessFactor` are 1 where they are left out.
+
+use serde::Serialize;
+
+use crate::physics::materials::escaped;
+use crate::physics::spectra::Space;
+
+use super::format::{Format, Notes};
+use super::head;
+use super::model::Model;
+use super::sheet::{Field, FieldValue, Node, Sheet};
+use super::subject::{Body, EngineMaterial, f0_of, rounded};
+
+/// The record of this format.
+pub static FORMAT: Format = Format {
+    name: "gltf",
+    summary: "a material of glTF 2.0, as a whole asset",
+    spaces: &[Space::Srgb],
+    sheet,
+    text,
+};
+
+/// `dispersion` times Abbe's number.
+const DISPERSION: f64 = 20.0;
+
+fn sheet(material: &EngineMaterial) -> Sheet {
+    let mut remarks = vec![
+        "the asset holds a material and no mesh: put it among the `materials` of a file with meshes of your own"
+            .to_owned(),
+    ];
+    let (fields, f0) = match material.body {
+        Body::Conductor => {
+            let fields = vec![
+                Field::colour("baseColorFactor", material.f0),
+                Field::number("metallicFactor", 1.0),
+                Field::number("roughnessFactor", 0.0),
+            ];
+            (fields, material.f0)
+        }
+        Body::Dielectric {
+            ior,
+            abbe,
+            is_clear,
+        } => {
+            let grey = f0_of(ior);
+            let colour = material
+                .f0
+                .map(|f0| if grey > 0.0 { rounded(f0 / grey) } else { 1.0 });
+            let mut fields = vec![
+                Field::number("metallicFactor", 0.0),
+                Field::number("roughnessFactor", 0.0),
+                Field::number("ior", ior),
+                Field::colour("specularColorFactor", colour),
+            ];
+            if is_clear {
+                fields.push(Field::number("transmissionFactor", 1.0));
+                fields.push(Field::number("thicknessFactor", 1.0));
+                remarks.push(
+                    "thicknessFactor 1 is for closed bodies, in units of the mesh; set your own"
+                        .to_owned(),
+                );
+            }
+            if let Some(abbe) = abbe.filter(|_| is_clear) {
+                fields.push(Field::number("dispersion", DISPERSION / abbe));
+            }
+            (fields, colour.map(|colour| (colour * grey).min(1.0)))
+        }
+    };
+    let node = Node {
+        name: "material",
+        fields,
+        model: Model::schlick(f0),
+    };
+    Sheet {
+        nodes: vec![node],
+        remarks,
+    }
+}
+
+/// The extensions that hold a field; all others belong to `pbrMetallicRoughness`.
+const EXTENSIONS: [(&str, &str); 5] = [
+    ("ior", "KHR_materials_ior"),
+    ("specularColorFactor", "KHR_materials_specular"),
+    ("transmissionFactor", "KHR_materials_transmission"),
+    ("thicknessFactor", "KHR_materials_volume"),
+    ("dispersion", "KHR_materials_dispersion"),
+];
+
+type Object = serde_json::Map<String, serde_json::Value>;
+
+#[derive(Serialize)]
+#[serde(rename_all = "camelCase")]
+struct Asset<'a> {
+    asset: AssetHead<'a>,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    extensions_used: Vec<&'static str>,
+    materials: [Material<'a>; 1],
+}
+
+#[derive(Serialize)]
+struct AssetHead<'a> {
+    version: &'static str,
+    generator: &'static str,
+    extras: Extras<'a>,
+}
+
+/// What other formats say in comments. The key `tool` is the mark of our JSON.
+#[derive(Serialize)]
+struct Extras<'a> {
+    tool: &'static str,
+    command: &'a str,
+    about: Vec<String>,
+}
+
+#[derive(Serialize)]
+#[serde(rename_all = "camelCase")]
+struct Material<'a> {
+    name: &'a str,
+    pbr_metallic_roughness: Object,
+    #[serde(skip_serializing_if = "Object::is_empty")]
+    extensions: Object,
+}
+
+fn text(material: &EngineMaterial, sheet: &Sheet, notes: &Notes) -> String {
+    let (mut core, mut extensions, mut used) = (Object::new(), Object::new(), Vec::new());
+    for field in sheet.nodes.iter().flat_map(|node| &node.fields) {
+        let extension = EXTENSIONS.iter().find(|(name, _)| *name == field.name);
+        match extension {
+            None => drop(core.insert(field.name.to_owned(), value(field))),
+            Some((_, extension)) => {
+                used.push(*extension);
+                let own = Object::from_iter([(field.name.to_owned(), value(field))]);
+                extensions.insert((*extension).to_owned(), own.into());
+            }
+        }
+    }
+    let asset = Asset {
+        asset: AssetHead {
+            version: "2.0",
+            generator: TOOL,
+            extras: Extras {
+                tool: TOOL,
+                command: &notes.command,
+                about: head::about(&FORMAT, material, notes),
+            },
+        },
+        extensions_used: used,
+        materials: [Material {
+            name: &material.subject.name,
+            pbr_metallic_roughness: core,
+            extensions,
+        }],
+    };
+    let json = serde_json::to_string_pretty(&asset).expect("an asset has only text keys");
+    escaped(&json) + "\n"
+}
+
+/// The name of the program.
+const TOOL: &str = "fresnel-gen";
+
+/// A field's value; the base colour has an alpha.
+fn value(field: &Field) -> serde_json::Value {
+    match field.value {
+        FieldValue::Number(value) => value.into(),
+        FieldValue::Whole(value) => value.into(),
+        FieldValue::Colour([red, green, blue]) if field.name == "baseColorFactor" => {
+            vec![red, green, blue, 1.0].into()
+        }
+        FieldValue::Colour(values) | FieldValue::Channels(values) => values.to_vec().into(),
+        FieldValue::Both(value) => vec![value, value].into(),
+    }
+}

@@ -1,0 +1,159 @@
+//! MaterialX 1.39: `open_pbr_surface`, and for metals two nodes that hold more: `generalized_schlick_bsdf`, whose tint may lie
+//! above 1, and `conductor_bsdf`, which takes n and k.
+//!
+//! Source: MaterialX, "Physically Based Shading Nodes, version 1.39", 2024,
+//! <https://github.com/AcademySoftwareFoundation/MaterialX/blob/main/documents/Specification/MaterialX.PBRSpec.md>.
+//! `color0` is F0, `color82` the tint of F82-tint, `color90` the reflectance at 90 degrees. `ior` and `extinction` have the type of colours
+//! and are none: the space `none` keeps them as they are. Yet F of them is a colour of the document's space. Roughness is .05 unless it is
+//! set, .3 in OpenPBR.
+
+use crate::generator::emit::{XmlDocument, comment_lines};
+use crate::physics::spectra::Space;
+
+use super::format::{Format, Notes};
+use super::head;
+use super::model::Model;
+use super::openpbr;
+use super::sheet::{Field, FieldValue, Node, Sheet};
+use super::subject::{Body, EngineMaterial};
+
+/// The record of this format.
+pub static FORMAT: Format = Format {
+    name: "materialx",
+    summary: "a document of MaterialX 1.39, .mtlx",
+    spaces: &[Space::Srgb, Space::P3, Space::AcesCg],
+    sheet,
+    text,
+};
+
+const OPEN_PBR: &str = "open_pbr_surface";
+
+/// The name of a space in MaterialX.
+fn space(space: Space) -> &'static str {
+    match space {
+        Space::Srgb => "lin_rec709",
+        Space::P3 => "lin_displayp3",
+        Space::AcesCg => "acescg",
+        Space::Rec2020 => "lin_rec2020",
+    }
+}
+
+fn sheet(material: &EngineMaterial) -> Sheet {
+    let (surface, remark) = openpbr::surface(material, OPEN_PBR);
+    let mut nodes = vec![surface];
+    let mut remarks: Vec<String> = remark.into_iter().collect();
+    if material.body == Body::Conductor {
+        let Conductor { n, k } = conductor(material);
+        nodes.push(Node {
+            name: "generalized_schlick_bsdf",
+            fields: vec![
+                Field::colour("color0", material.f0),
+                Field::colour("color82", material.tint),
+                Field::colour("color90", [1.0; 3]),
+                Field::both("roughness", 0.0),
+            ],
+            model: Model::f82_tint(material.f0, material.tint),
+        });
+        nodes.push(Node {
+            name: "conductor_bsdf",
+            fields: vec![
+                Field::channels("ior", n),
+                Field::channels("extinction", k),
+                Field::both("roughness", 0.0),
+            ],
+            model: Model::conductor(n, k),
+        });
+        remarks.extend(of_conductor(material));
+    }
+    Sheet { nodes, remarks }
+}
+
+/// What is to be said of n and k: no host moves them to another space.
+fn of_conductor(material: &EngineMaterial) -> Option<String> {
+    let space = space(material.space?);
+    Some(format!(
+        "conductor_bsdf: n and k are no colours, and a host leaves them as they are (colorspace none); they belong to {space}: for a host with another working space write the file in that one"
+    ))
+}
+
+fn text(material: &EngineMaterial, sheet: &Sheet, notes: &Notes) -> String {
+    let mut document = XmlDocument::new(head::mark());
+    document.comment(&comment_lines(head::about(&FORMAT, material, notes)));
+    // A comment holds no two hyphens, and a command does.
+    let doc = head::regenerate(notes);
+    let mut attributes = vec![("version", "1.39")];
+    attributes.extend(material.space.map(|own| ("colorspace", space(own))));
+    attributes.push(("doc", &doc));
+    document.open("materialx", &attributes);
+    for node in &sheet.nodes {
+        shader(&mut document, &material.subject.name, node);
+    }
+    document.finished()
+}
+
+/// A node with the surface around it, and the material that names it.
+fn shader(document: &mut XmlDocument, material: &str, node: &Node) {
+    let (kind, name) = (node.name, format!("{material}_{}", node.name));
+    let is_surface = kind == OPEN_PBR;
+    let ty = if is_surface { "surfaceshader" } else { "BSDF" };
+    document.open(kind, &[("name", &name), ("type", ty)]);
+    for field in &node.fields {
+        input(document, field);
+    }
+    document.close();
+    let surface = match is_surface {
+        true => name,
+        false => surface_of(document, &name),
+    };
+    let of_material = format!("{surface}_material");
+    document.open(
+        "surfacematerial",
+        &[("name", &of_material), ("type", "material")],
+    );
+    connected(document, "surfaceshader", "surfaceshader", &surface);
+    document.close();
+}
+
+/// The surface that shows a BSDF, by its name.
+fn surface_of(document: &mut XmlDocument, bsdf: &str) -> String {
+    let surface = format!("{bsdf}_surface");
+    document.open("surface", &[("name", &surface), ("type", "surfaceshader")]);
+    connected(document, "bsdf", "BSDF", bsdf);
+    document.close();
+    surface
+}
+
+fn connected(document: &mut XmlDocument, name: &str, ty: &str, node: &str) {
+    let attributes = [("name", name), ("type", ty), ("nodename", node)];
+    document.empty("input", &attributes);
+}
+
+fn input(document: &mut XmlDocument, field: &Field) {
+    let ty = match field.value {
+        FieldValue::Colour(_) | FieldValue::Channels(_) => "color3",
+        FieldValue::Both(_) => "vector2",
+        FieldValue::Number(_) => "float",
+        FieldValue::Whole(_) => "integer",
+    };
+    let numbers = field.value.numbers();
+    let mut attributes = vec![("name", field.name), ("type", ty), ("value", &numbers)];
+    if let FieldValue::Channels(_) = field.value {
+        // Else a host moves them into its working space with the colours.
+        attributes.push(("colorspace", "none"));
+    }
+    document.empty("input", &attributes);
+}
+
+/// The index of each channel as it is written.
+struct Conductor {
+    n: [f64; 3],
+    k: [f64; 3],
+}
+
+fn conductor(material: &EngineMaterial) -> Conductor {
+    let channels = &material.subject.effective.channels;
+    Conductor {
+        n: channels.n.map(super::subject::rounded),
+        k: channels.k.map(super::subject::rounded),
+    }
+}

@@ -1,0 +1,168 @@
+//! The model of reflectance that a node of a format computes, and its error for a material.
+
+use serde::Serialize;
+
+use crate::generator::fit::{error_of, rounded_up, values_at};
+use crate::language::ir::Checked;
+use crate::language::methods::{self, Method, Values};
+
+use super::sheet::Node;
+use super::subject::EngineMaterial;
+
+/// One of our methods with the numbers that a format gives it.
+#[derive(Clone, Debug)]
+pub struct Model {
+    /// What the format computes, in words.
+    pub words: &'static str,
+    /// The method that is the same formula.
+    pub method: &'static Method,
+    /// The values of its inputs; a scalar input uses the first number.
+    pub values: Values,
+}
+
+/// The error of a node against the spectrum.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct NodeError {
+    /// The node.
+    pub node: &'static str,
+    /// What it computes, in words.
+    pub model: &'static str,
+    /// The largest error of reflectance, over angles and channels.
+    pub max_abs: f64,
+    /// The angle there, in degrees.
+    pub worst_degrees: f64,
+    /// The same where the medium is a coat, which bends all light towards the normal.
+    pub below_coat: Option<CoatedError>,
+}
+
+/// The error of a node below a coat, over the angles that light has in it.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct CoatedError {
+    /// The largest angle from the normal that light has in the coat, in degrees.
+    pub steepest_degrees: f64,
+    /// The largest error of reflectance.
+    pub max_abs: f64,
+    /// The angle there, in degrees.
+    pub worst_degrees: f64,
+}
+
+impl Model {
+    fn new(words: &'static str, method: &str, values: &[(&str, [f64; 3])]) -> Model {
+        let values = values.iter().map(|(name, value)| ((*name).into(), *value));
+        Model {
+            words,
+            method: methods::find(method).expect("a test finds every model"),
+            values: values.collect(),
+        }
+    }
+
+    /// Schlick's approximation, 1 at 90 degrees.
+    pub fn schlick(f0: [f64; 3]) -> Model {
+        Model::new("Schlick's approximation", "schlick", &[("f0", f0)])
+    }
+
+    /// Schlick's approximation with a smaller reflectance at 90 degrees where F0 is small.
+    pub fn schlick_f90(words: &'static str, f0: [f64; 3], f90: f64) -> Model {
+        Model::new(words, "schlick_f90", &[("f0", f0), ("f90", [f90; 3])])
+    }
+
+    /// F82-tint.
+    pub fn f82_tint(f0: [f64; 3], tint: [f64; 3]) -> Model {
+        Model::new("F82-tint", "f82_tint", &[("f0", f0), ("tint", tint)])
+    }
+
+    /// The exact law for one index.
+    pub fn dielectric(ior: f64) -> Model {
+        let words = "Fresnel's equations with one index";
+        Model::new(words, "dielectric_exact", &[("eta", [ior; 3])])
+    }
+
+    /// The exact law for a complex index a channel.
+    pub fn conductor(n: [f64; 3], k: [f64; 3]) -> Model {
+        let words = "Fresnel's equations with n and k of each channel";
+        Model::new(words, "conductor_exact", &[("n", n), ("k", k)])
+    }
+
+    /// Its largest error for a material, and the angle in degrees.
+    pub fn error(&self, material: &EngineMaterial) -> (f64, f64) {
+        let function = self.function();
+        let run = |cosines: &[f64]| values_at(&function, self.method.inputs, &self.values, cosines);
+        let error = error_of(&material.subject.reference, &run);
+        (error.max_abs, libm::acos(error.worst_cos).to_degrees())
+    }
+
+    /// The same where its medium is a coat of this index, in air.
+    fn error_below_coat(&self, material: &EngineMaterial, index: f64) -> CoatedError {
+        const PARTS: usize = 1024;
+        let steepest = libm::asin(1.0 / index);
+        let angles: Vec<f64> = (0..=PARTS)
+            .map(|part| steepest * part as f64 / PARTS as f64)
+            .collect();
+        let cosines: Vec<f64> = angles.iter().map(|angle| libm::cos(*angle)).collect();
+        let given = values_at(&self.function(), self.method.inputs, &self.values, &cosines);
+        let off = |part: usize| {
+            let (given, want) = (given.at(part), material.subject.reference.at(cosines[part]));
+            (0..3)
+                .map(|channel| (given[channel] - want[channel]).abs())
+                .fold(0.0, f64::max)
+        };
+        let all = (0..=PARTS).map(|part| (off(part), angles[part]));
+        let (max_abs, worst) = all.fold(
+            (0.0, 0.0),
+            |most, one| if one.0 > most.0 { one } else { most },
+        );
+        CoatedError {
+            steepest_degrees: steepest.to_degrees(),
+            max_abs,
+            worst_degrees: worst.to_degrees(),
+        }
+    }
+
+    fn function(&self) -> Checked {
+        let function = self.method.function(false);
+        function.expect("a test builds every method")
+    }
+}
+
+impl NodeError {
+    /// The error of a node for a material.
+    pub fn of(node: &Node, material: &EngineMaterial) -> NodeError {
+        let (max_abs, worst_degrees) = node.model.error(material);
+        NodeError {
+            node: node.name,
+            model: node.model.words,
+            max_abs,
+            worst_degrees,
+            below_coat: material
+                .coat
+                .map(|index| node.model.error_below_coat(material, index)),
+        }
+    }
+
+    /// In a line.
+    pub fn line(&self) -> String {
+        let NodeError {
+            node,
+            model,
+            max_abs,
+            worst_degrees,
+            below_coat,
+        } = self;
+        let most = rounded_up(*max_abs);
+        let coated = below_coat.map_or_else(String::new, |coat| coat.words());
+        format!(
+            "{node} computes {model}: error at most {most} (at {worst_degrees:.2} degrees){coated}"
+        )
+    }
+}
+
+impl CoatedError {
+    fn words(&self) -> String {
+        let most = rounded_up(self.max_abs);
+        format!(
+            "; where the medium is a coat of a host that bends light, light in it is at most {:.2} degrees from the normal, and the error at most {most} (at {:.2} \
+             degrees)",
+            self.steepest_degrees, self.worst_degrees
+        )
+    }
+}

@@ -1,0 +1,125 @@
+//! What a format holds of a material: nodes with named numbers.
+
+use super::model::Model;
+use super::subject::{EngineMaterial, rounded};
+use crate::generator::fit::rounded_up;
+
+/// All that a format holds of a material.
+#[derive(Clone, Debug)]
+pub struct Sheet {
+    /// The nodes: shaders or materials, each whole by itself.
+    pub nodes: Vec<Node>,
+    /// What was limited or left out.
+    pub remarks: Vec<String>,
+}
+
+/// A shader or a material of a format.
+#[derive(Clone, Debug)]
+pub struct Node {
+    /// Its name in the format.
+    pub name: &'static str,
+    /// Its numbers, by their names in the format.
+    pub fields: Vec<Field>,
+    /// What it computes with them.
+    pub model: Model,
+}
+
+/// A named number.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Field {
+    /// Its name in the format.
+    pub name: &'static str,
+    /// Its value.
+    pub value: FieldValue,
+}
+
+/// A number or a colour.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum FieldValue {
+    /// One number.
+    Number(f64),
+    /// A whole number that switches something.
+    Whole(i32),
+    /// Three channels of a colour.
+    Colour([f64; 3]),
+    /// Three channels that are no colour, and stay as they are in every working space.
+    Channels([f64; 3]),
+    /// The same number along both axes of a surface.
+    Both(f64),
+}
+
+impl Field {
+    /// A number, as it is written.
+    pub fn number(name: &'static str, value: f64) -> Field {
+        Field {
+            name,
+            value: FieldValue::Number(rounded(value)),
+        }
+    }
+
+    /// A whole number.
+    pub fn whole(name: &'static str, value: i32) -> Field {
+        Field {
+            name,
+            value: FieldValue::Whole(value),
+        }
+    }
+
+    /// A colour, as it is written.
+    pub fn colour(name: &'static str, value: [f64; 3]) -> Field {
+        Field {
+            name,
+            value: FieldValue::Colour(value.map(rounded)),
+        }
+    }
+
+    /// Three channels that are no colour, as they are written.
+    pub fn channels(name: &'static str, value: [f64; 3]) -> Field {
+        Field {
+            name,
+            value: FieldValue::Channels(value.map(rounded)),
+        }
+    }
+
+    /// A number along both axes of a surface.
+    pub fn both(name: &'static str, value: f64) -> Field {
+        Field {
+            name,
+            value: FieldValue::Both(rounded(value)),
+        }
+    }
+}
+
+impl FieldValue {
+    /// The numbers with a point, separated by commas.
+    pub fn numbers(&self) -> String {
+        match self {
+            FieldValue::Number(value) => format!("{value:?}"),
+            FieldValue::Whole(value) => value.to_string(),
+            FieldValue::Colour(values) | FieldValue::Channels(values) => {
+                values.map(|value| format!("{value:?}")).join(", ")
+            }
+            FieldValue::Both(value) => format!("{value:?}, {value:?}"),
+        }
+    }
+}
+
+/// The tint of F82-tint where a format takes none above 1, and what that costs.
+pub fn capped_tint(material: &EngineMaterial, field: &str) -> ([f64; 3], Option<String>) {
+    let (f0, whole) = (material.f0, material.tint);
+    let capped = whole.map(|tint| tint.min(1.0));
+    if capped == whole {
+        return (capped, None);
+    }
+    let error = |tint| Model::f82_tint(f0, tint).error(material).0;
+    let (before, after) = (error(whole), error(capped));
+    let [red, green, blue] = whole;
+    let (before, after) = (rounded_up(before), rounded_up(after));
+    let price = match before == after {
+        true => format!("the error stays {after}"),
+        false => format!("the error is {after} in place of {before}"),
+    };
+    let remark =
+        format!("{field}: the F82 tint ({red:?}, {green:?}, {blue:?}) is limited to 1: {price}");
+    (capped, Some(remark))
+}

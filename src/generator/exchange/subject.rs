@@ -1,0 +1,163 @@
+//! What formats take of a material: colours in [0, 1], the tint, the index at the d line, Abbe's number.
+
+use crate::generator::fit::{abbe_in, ior_in};
+use crate::generator::reference::MaterialInMedium;
+use crate::language::methods::{Input, KnownSurface};
+use crate::physics::materials::{Extrapolate, Material, MaterialKind, ViewingConditions};
+use crate::physics::spectra::{Gamut, Space, srgb_byte};
+
+use super::fault::ExchangeFault;
+
+/// A material as formats take it.
+#[derive(Clone, Debug)]
+pub struct EngineMaterial<'a> {
+    /// The material in its medium; its reference is clipped to [0, 1].
+    pub subject: &'a MaterialInMedium,
+    /// The working space; none where each channel is one wavelength.
+    pub space: Option<Space>,
+    /// Reflectance at 0 degrees, limited to [0, 1], as it is written.
+    pub f0: [f64; 3],
+    /// F82 over Schlick's value there, as it is written; it may lie above 1.
+    pub tint: [f64; 3],
+    /// What lies below the surface.
+    pub body: Body,
+    /// The index of the medium, where it is above that of air: then it may be a coat.
+    pub coat: Option<f64>,
+    remarks: Vec<String>,
+}
+
+/// What lies below the surface.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Body {
+    /// A metal or a semiconductor: nothing comes out again.
+    Conductor,
+    /// A dielectric.
+    Dielectric {
+        /// The index at the d line, as it is written.
+        ior: f64,
+        /// Abbe's number, where it is known.
+        abbe: Option<f64>,
+        /// Whether light passes.
+        is_clear: bool,
+    },
+}
+
+/// A number as it is written: five digits behind the point.
+pub fn rounded(value: f64) -> f64 {
+    // Adding 0 makes 0 of -0.
+    libm::round(value * 1e5) / 1e5 + 0.0
+}
+
+/// Reflectance at 0 degrees of one index.
+pub fn f0_of(ior: f64) -> f64 {
+    let root = (ior - 1.0) / (ior + 1.0);
+    root * root
+}
+
+impl EngineMaterial<'_> {
+    /// A material in its medium as formats take it. The viewing conditions are those that it was made with, and clip.
+    ///
+    /// # Errors
+    /// It is a dielectric that is rarer than its medium.
+    pub fn new<'a>(
+        subject: &'a MaterialInMedium,
+        viewing: &ViewingConditions,
+    ) -> Result<EngineMaterial<'a>, ExchangeFault> {
+        let is_spectral = subject.reference.surface.channels().is_none();
+        let space = is_spectral.then_some(viewing.integration.space);
+        let known = known(subject);
+        let unclipped = subject.reference.clone().before_gamut().at(1.0);
+        let f0 = known.f0.map(|value| rounded(value.clamp(0.0, 1.0)));
+        let tint = Input::TINT.value(&known).expect("a surface gives it");
+        Ok(EngineMaterial {
+            subject,
+            space,
+            f0,
+            tint: tint.map(rounded),
+            body: body(subject)?,
+            coat: coat(subject),
+            remarks: remarks(subject, viewing, unclipped),
+        })
+    }
+
+    /// F0 as sRGB encodes it, where the space is sRGB.
+    pub fn hex(&self) -> Option<String> {
+        let [red, green, blue] = self.f0.map(srgb_byte);
+        let hex = format!("#{red:02x}{green:02x}{blue:02x}");
+        (self.space == Some(Space::Srgb)).then_some(hex)
+    }
+
+    /// What is to be said in every format.
+    pub fn remarks(&self) -> impl Iterator<Item = String> {
+        self.remarks.clone().into_iter()
+    }
+}
+
+/// What is known of the surface as it is seen, clipped.
+fn known(subject: &MaterialInMedium) -> KnownSurface {
+    let channels = subject.effective.channels;
+    let seen = |cos_theta| subject.reference.at(cos_theta);
+    KnownSurface::with(
+        channels.n,
+        channels.k,
+        seen,
+        subject.derivation.matching_cos,
+    )
+}
+
+/// The medium's index at the d line, or where the eye sees best.
+fn coat(subject: &MaterialInMedium) -> Option<f64> {
+    const GREEN_NM: f64 = 555.0;
+    let (_, medium) = subject.medium.as_ref()?;
+    let at_green = || medium.n.at(GREEN_NM, Extrapolate::Hold).ok();
+    let index = ior_in(medium, None).or_else(at_green)?;
+    (index > 1.0).then_some(index)
+}
+
+fn body(subject: &MaterialInMedium) -> Result<Body, ExchangeFault> {
+    if subject.material.kind != MaterialKind::Dielectric {
+        return Ok(Body::Conductor);
+    }
+    let medium: Option<&Material> = subject.medium.as_ref().map(|(_, medium)| medium);
+    let middle = subject.effective.channels.n[1];
+    let ior = rounded(ior_in(&subject.material, medium).unwrap_or(middle));
+    if ior < 1.0 {
+        return Err(ExchangeFault::Rarer {
+            name: subject.name.clone(),
+            index: format!("{ior}"),
+        });
+    }
+    Ok(Body::Dielectric {
+        ior,
+        abbe: abbe_in(&subject.material, medium).filter(|abbe| *abbe > 0.0),
+        is_clear: subject.effective.channels.is_transparent(),
+    })
+}
+
+fn remarks(
+    subject: &MaterialInMedium,
+    viewing: &ViewingConditions,
+    unclipped: [f64; 3],
+) -> Vec<String> {
+    let mut remarks = Vec::new();
+    let surface = &subject.reference.surface;
+    let written = unclipped.map(rounded);
+    if surface.gamut == Gamut::Clip && written.iter().any(|value| !(0.0..=1.0).contains(value)) {
+        let [red, green, blue] = written;
+        remarks.push(format!(
+            "F0 is ({red:?}, {green:?}, {blue:?}), and is clipped to [0, 1]; the error is told against the clipped spectrum"
+        ));
+    }
+    if surface.channels().is_some() {
+        remarks
+            .push("each channel is one wavelength: the colours are in no colour space".to_owned());
+    } else {
+        remarks.extend(viewing.integration.adaptation_remark().map(str::to_owned));
+    }
+    remarks.extend(
+        surface
+            .extrapolation()
+            .map(|held| format!("extrapolated: {held}")),
+    );
+    remarks
+}

@@ -1,0 +1,364 @@
+//! A method at its best: the inputs with which its largest error is least, whatever they were meant to be. A rival is charted
+//! so too, beside its intended inputs, or a comparison would only show that its inputs were not chosen for it.
+//!
+//! Each round puts a straight form in place of the method, by its derivatives, takes the exchange's step ([`minimax`]), and
+//! halves it until the largest error falls. Where a method is linear in its inputs the first step ends it at the optimum.
+//!
+//! Source: Osborne, Watson, "An algorithm for minimax approximation in the nonlinear case", The Computer Journal 12(1),
+//! 1969, 63-68, <https://doi.org/10.1093/comjnl/12.1.63>. Where a method is not linear, a local optimum is what it finds.
+
+use crate::language::ir::{Checked, Ty, Value, evaluate};
+use crate::language::methods::{Input, Method, Values};
+
+use super::minimax::{Points, minimax};
+use super::problem::FitCurve;
+
+/// Rounds after which an input moves by nothing that shows.
+const ROUNDS: usize = 40;
+/// How often a step is halved.
+const HALVINGS: usize = 16;
+/// The step of a derivative, by the size of the input.
+const STEP: f64 = 1e-5;
+/// What a round must gain, as a share of the error.
+const GAIN: f64 = 1e-6;
+
+/// A method whose inputs are sought, for a curve.
+struct InputSearch<'a> {
+    function: Checked,
+    inputs: &'static [Input],
+    curve: &'a FitCurve,
+}
+
+/// One number that may move: a channel of an input, or all its channels together.
+#[derive(Clone, Copy)]
+struct Free {
+    name: &'static str,
+    channel: Option<usize>,
+}
+
+/// The inputs, near the intended ones, with which the largest error is least. None for a method that reads a texture.
+pub fn best_inputs(method: &Method, intended: &Values, curve: &FitCurve) -> Option<Values> {
+    if method.is_textured() {
+        return None;
+    }
+    let rival = InputSearch {
+        function: method.function(false).ok()?,
+        inputs: method.inputs,
+        curve,
+    };
+    let apart = rival.shared(intended.clone());
+    Some(rival.by_channel(rival.together(apart)))
+}
+
+/// What a function of `cos_theta` and these inputs gives at some cosines.
+pub fn values_at(
+    function: &Checked,
+    inputs: &[Input],
+    values: &Values,
+    cosines: &[f64],
+) -> Value<f64> {
+    let argument = |input: &Input| match input.ty {
+        Ty::Scalar => Value::scalar(values[input.name][0]),
+        _ => Value::rgb(values[input.name]),
+    };
+    let cosines = [Value::each(cosines.to_vec())].into_iter();
+    let arguments: Vec<Value<f64>> = cosines.chain(inputs.iter().map(argument)).collect();
+    evaluate(function, &arguments)
+}
+
+/// Inputs, and by how much a curve is missed with them at each point.
+type TriedInputs = (Values, Vec<f64>);
+
+impl InputSearch<'_> {
+    /// Better inputs of each channel for itself.
+    fn by_channel(&self, start: Values) -> Values {
+        (0..3).fold(start, |best, channel| self.of_channel(best, channel))
+    }
+
+    /// Better inputs of one channel. Where they do not tell angles apart together, one moves after the other.
+    fn of_channel(&self, start: Values, channel: usize) -> Values {
+        let free = self.free(Some(channel));
+        let as_they_are = |values: Values| {
+            let missed = self.missed(&values, Some(channel));
+            (values, missed)
+        };
+        let together = improved(start, &free, &as_they_are);
+        let alone = |best: Values, one: &Free| improved(best, &[*one], &as_they_are);
+        free.iter().fold(together, alone)
+    }
+
+    /// Better numbers for what channels share, each channel at its best with them.
+    fn shared(&self, start: Values) -> Values {
+        let free = self.free(None);
+        if free.is_empty() {
+            return start;
+        }
+        let at_their_best = |values: Values| {
+            let best = self.by_channel(values);
+            let missed = self.missed(&best, None);
+            (best, missed)
+        };
+        improved(start, &free, &at_their_best)
+    }
+
+    /// Better numbers for what channels share and for each channel, all at once: where channels share a number, one step after the other
+    /// may end where no step of either kind alone gains.
+    fn together(&self, start: Values) -> Values {
+        let shared = self.free(None);
+        if shared.is_empty() {
+            return start;
+        }
+        let own = (0..3).flat_map(|channel| self.free(Some(channel)));
+        let free: Vec<Free> = own.chain(shared).collect();
+        let as_they_are = |values: Values| {
+            let missed = self.missed_by_channel(&values);
+            (values, missed)
+        };
+        improved(start, &free, &as_they_are)
+    }
+
+    /// By how much the curve is missed, channel after channel: along each of them the points run.
+    fn missed_by_channel(&self, values: &Values) -> Vec<f64> {
+        let each = (0..3).flat_map(|channel| self.missed(values, Some(channel)));
+        each.collect()
+    }
+
+    fn free(&self, channel: Option<usize>) -> Vec<Free> {
+        let place = |input: &Input| -> Option<Option<usize>> {
+            match (input.ty, channel) {
+                (Ty::Rgb, Some(channel)) => Some(Some(channel)),
+                (Ty::Scalar, None) => Some(None),
+                _ => None,
+            }
+        };
+        let name = |input: &'static Input| {
+            place(input).map(|channel| Free {
+                name: input.name,
+                channel,
+            })
+        };
+        self.inputs.iter().filter_map(name).collect()
+    }
+
+    /// By how much the curve is missed at each point: of one channel, or of all, point by point.
+    fn missed(&self, values: &Values, channel: Option<usize>) -> Vec<f64> {
+        let given = values_at(&self.function, self.inputs, values, &self.curve.cosines);
+        let channels = channel.map_or(0..3, |channel| channel..channel + 1);
+        let mut missed = Vec::with_capacity(self.curve.seen.len() * channels.len());
+        for (point, seen) in self.curve.seen.iter().enumerate() {
+            let given = given.at(point);
+            missed.extend(channels.clone().map(|i| seen[i] - given[i]));
+        }
+        missed
+    }
+}
+
+/// Better values of some numbers: rounds of the exchange on what derivatives tell, until none gains.
+fn improved(start: Values, free: &[Free], trial: &dyn Fn(Values) -> TriedInputs) -> Values {
+    let (mut best, mut missed) = trial(start);
+    let ones = vec![1.0; missed.len()];
+    for _ in 0..ROUNDS {
+        let points = Points {
+            rows: &slopes(&best, free, trial),
+            wanted: &missed,
+            weights: &ones,
+            limits: &[],
+        };
+        let Some(step) = minimax(points) else {
+            break;
+        };
+        let before = most(&missed);
+        let halved = (0..HALVINGS).map(|times| libm::exp2(-(times as f64)));
+        let mut tried = halved.map(|share| trial(moved(&best, free, &step.coefficients, share)));
+        let better = tried.find(|(_, missed)| most(missed) < before * (1.0 - GAIN));
+        let Some(better) = better else {
+            break;
+        };
+        (best, missed) = better;
+    }
+    best
+}
+
+/// What each number that may move does to each point, by central differences.
+fn slopes(values: &Values, free: &[Free], trial: &dyn Fn(Values) -> TriedInputs) -> Vec<Vec<f64>> {
+    let column = |one: &Free| -> Vec<f64> {
+        let step = STEP * (1.0 + values[one.name][one.channel.unwrap_or(0)].abs());
+        let at = |sign: f64| trial(moved(values, &[*one], &[sign * step], 1.0)).1;
+        let (above, below) = (at(1.0), at(-1.0));
+        let pairs = above.iter().zip(&below);
+        pairs.map(|(a, b)| (b - a) / (2.0 * step)).collect()
+    };
+    let columns: Vec<Vec<f64>> = free.iter().map(column).collect();
+    let points = columns.first().map_or(0, Vec::len);
+    let row = |point: usize| columns.iter().map(|column| column[point]).collect();
+    (0..points).map(row).collect()
+}
+
+/// The values with a share of this step taken.
+fn moved(values: &Values, free: &[Free], step: &[f64], share: f64) -> Values {
+    let mut moved = values.clone();
+    for (one, step) in free.iter().zip(step) {
+        if let Some(numbers) = moved.get_mut(one.name) {
+            let channels = one.channel.map_or(0..3, |channel| channel..channel + 1);
+            numbers[channels]
+                .iter_mut()
+                .for_each(|value| *value += share * step);
+        }
+    }
+    moved
+}
+
+/// The largest, NaN counted as larger than any.
+fn most(missed: &[f64]) -> f64 {
+    let larger = |most: f64, next: &f64| {
+        if next.is_nan() {
+            f64::INFINITY
+        } else {
+            most.max(next.abs())
+        }
+    };
+    missed.iter().fold(0.0, larger)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::generator::fit::values;
+    use crate::generator::reference::Derivation;
+    use crate::language::methods::{self, ALL};
+    use crate::physics::materials::Channels;
+    use crate::physics::optics;
+
+    const GOLD: Channels = Channels {
+        n: [0.18, 0.42, 1.37],
+        k: [3.43, 2.35, 1.77],
+    };
+
+    const PLATINUM: Channels = Channels {
+        n: [2.38, 2.08, 1.85],
+        k: [4.26, 3.63, 3.07],
+    };
+
+    fn curve_of(index: &Channels) -> FitCurve {
+        FitCurve::new(|c| {
+            [0, 1, 2].map(|i| optics::conductor(index.n[i], index.k[i], c).unpolarised())
+        })
+    }
+
+    fn curve() -> FitCurve {
+        curve_of(&GOLD)
+    }
+
+    fn largest(method: &Method, values: &Values) -> f64 {
+        largest_of(method, values, &curve())
+    }
+
+    fn largest_of(method: &Method, values: &Values, curve: &FitCurve) -> f64 {
+        let function = method.function(false).expect("it builds");
+        let given = values_at(&function, method.inputs, values, &curve.cosines);
+        let missed = |point: usize| {
+            let (given, seen) = (given.at(point), curve.seen[point]);
+            (0..3).map(move |i| (given[i] - seen[i]).abs())
+        };
+        (0..curve.cosines.len())
+            .flat_map(missed)
+            .fold(0.0, f64::max)
+    }
+
+    #[test]
+    fn no_method_is_worse_for_it() {
+        for method in ALL.iter().filter(|method| !method.is_textured()) {
+            let intended = values(method, &GOLD, &Derivation::default());
+            let best = best_inputs(method, &intended, &curve()).expect("it has inputs");
+            let (before, after) = (largest(method, &intended), largest(method, &best));
+            assert!(after <= before, "{}: {before} became {after}", method.name);
+        }
+    }
+
+    /// What can do all that another can is no worse.
+    #[test]
+    fn more_numbers_do_no_harm() {
+        let best = |name: &str| {
+            let method = methods::find(name).expect("it is there");
+            let intended = values(method, &GOLD, &Derivation::default());
+            let best = best_inputs(method, &intended, &curve()).expect("it has inputs");
+            largest(method, &best)
+        };
+        assert!(best("schlick_f90") < best("schlick"));
+        assert!(best("schlick_generalised") < 1.01 * best("schlick_f90"));
+        assert!((best("schlick_rescaled") / best("schlick") - 1.0).abs() < 1e-3);
+    }
+
+    /// Of every method no input near those found is better, the others at their best with it: by any step from a thousandth to a tenth.
+    #[test]
+    fn no_inputs_near_the_best_are_better() {
+        for method in ALL
+            .iter()
+            .filter(|method| !method.is_textured() && !method.is_fitted())
+        {
+            let intended = values(method, &PLATINUM, &Derivation::default());
+            let curve = curve_of(&PLATINUM);
+            let best = best_inputs(method, &intended, &curve).expect("it has inputs");
+            let found = largest_of(method, &best, &curve);
+            let rival = InputSearch {
+                function: method.function(false).expect("it builds"),
+                inputs: method.inputs,
+                curve: &curve,
+            };
+            for input in method.inputs.iter().filter(|input| input.ty == Ty::Scalar) {
+                for step in [-0.1, -0.03, -0.01, -0.001, 0.001, 0.01, 0.03, 0.1] {
+                    let mut near = best.clone();
+                    let numbers = near.get_mut(input.name).expect("an input");
+                    numbers.iter_mut().for_each(|value| *value *= 1.0 + step);
+                    let near = largest_of(method, &rival.by_channel(near), &curve);
+                    assert!(
+                        near > found * (1.0 - 2e-3),
+                        "{}: {found}, and {near} where {} is {step} more",
+                        method.name,
+                        input.name
+                    );
+                }
+            }
+        }
+    }
+
+    /// What a search over F90 finds, F0 at its best with each: of Schlick's form with F90 for platinum.
+    #[test]
+    fn the_best_f90_is_that_of_a_search_over_all() {
+        let method = methods::find("schlick_f90").expect("it is there");
+        let intended = values(method, &PLATINUM, &Derivation::default());
+        let curve = curve_of(&PLATINUM);
+        let best = best_inputs(method, &intended, &curve).expect("it has inputs");
+        let found = largest_of(method, &best, &curve);
+        let rival = InputSearch {
+            function: method.function(false).expect("it builds"),
+            inputs: method.inputs,
+            curve: &curve,
+        };
+        let least = (700..1100).map(|f90| {
+            let mut given = intended.clone();
+            given.insert("f90".to_owned(), [f64::from(f90) / 1000.0; 3]);
+            largest_of(method, &rival.by_channel(given), &curve)
+        });
+        let least = least.fold(f64::INFINITY, f64::min);
+        assert!(found <= least + 1e-9, "{found}, and {least} is possible");
+    }
+
+    /// Schlick's form is linear in f0: no f0 near the one found is better, in any channel.
+    #[test]
+    fn the_best_f0_is_the_optimum() {
+        let schlick = methods::find("schlick").expect("it is there");
+        let intended = values(schlick, &GOLD, &Derivation::default());
+        let best = best_inputs(schlick, &intended, &curve()).expect("it has inputs");
+        let found = largest(schlick, &best);
+        assert!(found < 0.7 * largest(schlick, &intended));
+        for channel in 0..3 {
+            let near = [-1e-4, 1e-4].map(|by| {
+                let mut near = best.clone();
+                near.get_mut("f0").expect("it is an input")[channel] += by;
+                largest(schlick, &near)
+            });
+            assert!(near.into_iter().all(|near| near >= found - 1e-9));
+        }
+    }
+}

@@ -1,0 +1,112 @@
+//! What a method's inputs are for a material: those of fitted methods by a fit, all others as each input says.
+
+use crate::generator::reference::{Derivation, MaterialInMedium};
+use crate::language::methods::{Input, KnownSurface, Method, Values};
+use crate::physics::materials::Channels;
+use crate::physics::num::{Precision, each_channel};
+use crate::physics::optics;
+use crate::physics::spectra::Gamut;
+
+use super::problem::{FitCurve, FitObjective, FitProblem, basis};
+
+/// What is known of a surface by its channels alone.
+pub fn known(channels: &Channels, derivation: &Derivation) -> KnownSurface {
+    KnownSurface::of_index(channels.n, channels.k, derivation.matching_cos)
+}
+
+/// The values of all inputs of a method for a surface known by its channels alone.
+pub fn values(method: &Method, channels: &Channels, derivation: &Derivation) -> Values {
+    if method.is_fitted() {
+        let Channels { n, k } = *channels;
+        let curve = FitCurve::new(|c| each_channel(|i| exact(n[i], k[i], c)));
+        return fitted_coefficients(method, Precision::F32, &curve);
+    }
+    values_of(method, &known(channels, derivation))
+}
+
+/// What a method's inputs are for a material as it is seen.
+pub fn values_for_material(subject: &MaterialInMedium, method: &Method) -> Values {
+    values_for_material_in(Precision::F32, subject, method)
+}
+
+/// The same, with coefficients that are fitted as this precision holds them.
+pub fn values_for_material_in(
+    precision: Precision,
+    subject: &MaterialInMedium,
+    method: &Method,
+) -> Values {
+    if method.is_fitted() {
+        return fitted_coefficients(method, precision, &FitCurve::unclipped(subject));
+    }
+    let seen = |cos_theta| subject.reference.at(cos_theta);
+    let Channels { n, k } = subject.effective.channels;
+    let known = KnownSurface::with(n, k, seen, subject.derivation.matching_cos);
+    values_of(method, &known)
+}
+
+/// The coefficients of a fitted method for a curve, as a precision holds them, for a function that ends with a limit.
+pub fn fitted_coefficients(method: &Method, precision: Precision, curve: &FitCurve) -> Values {
+    let aim = FitObjective {
+        precision,
+        gamut: Gamut::Keep,
+        ..FitObjective::default()
+    };
+    let fitted = coefficients_and_error(method, curve, aim);
+    let fitted = fitted.expect("a fitted method's terms tell angles apart; a test fits them all");
+    fitted.0
+}
+
+/// The coefficients of a fitted method for a curve with an aim, and the largest error in its measure on paper. None where the
+/// method is not fitted, or its terms do not tell angles apart under such weights.
+pub fn coefficients_and_error(
+    method: &Method,
+    curve: &FitCurve,
+    aim: FitObjective,
+) -> Option<(Values, f64)> {
+    let fit = FitProblem::new(curve, aim).fit(&basis(&method.shape?))?;
+    let names = Input::COEFFICIENTS.map(|input| input.name.to_owned());
+    Some((names.into_iter().zip(fit.coefficients).collect(), fit.error))
+}
+
+/// The values of all inputs of a method but a texture. A method that solves its colours for an index gets colours that an index
+/// has.
+pub fn values_of(method: &Method, surface: &KnownSurface) -> Values {
+    assert!(!method.is_fitted(), "coefficients come of a fit: a bug");
+    let solvable;
+    let surface = if method.replacement.is_some() {
+        solvable = KnownSurface::of_index(surface.n, surface.k, surface.matching_cos);
+        &solvable
+    } else {
+        surface
+    };
+    let value = |input: &Input| Some((input.name.to_owned(), input.value(surface)?));
+    method.inputs.iter().filter_map(value).collect()
+}
+
+fn exact(n: f64, k: f64, cos_theta: f64) -> f64 {
+    optics::conductor(n, k, cos_theta).unpolarised()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::language::methods::ALL;
+
+    #[test]
+    fn every_input_of_every_method_has_a_derivation() {
+        let channels = Channels {
+            n: [0.23, 0.57, 1.39],
+            k: [3.94, 2.18, 1.72],
+        };
+        for method in ALL {
+            let values = values(method, &channels, &Derivation::default());
+            let textures = usize::from(method.is_textured());
+            assert_eq!(values.len() + textures, method.inputs.len());
+            assert!(
+                values.values().flatten().all(|value| value.is_finite()),
+                "{}: {values:?}",
+                method.name
+            );
+        }
+    }
+}

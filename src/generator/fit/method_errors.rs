@@ -1,0 +1,93 @@
+//! The errors of a method for a material, by every measure that is charted.
+
+use crate::generator::reference::MaterialInMedium;
+use crate::language::ir::{Checked, Value};
+use crate::language::methods::{Method, Values};
+use crate::physics::spectra::Space;
+
+use super::best_inputs::{best_inputs, values_at};
+use super::derive::values_for_material;
+use super::model_error::{error_of, model_error};
+use super::perceived::perceived;
+use super::problem::FitCurve;
+
+/// Errors over all angles; each is none where it is not known.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct MethodErrors {
+    /// The largest of reflectance.
+    pub max_abs: Option<f64>,
+    /// The mean relative one.
+    pub mean_rel: Option<f64>,
+    /// The largest of luminance.
+    pub luminance: Option<f64>,
+    /// The largest difference of colour, by CIEDE2000.
+    pub de2000: Option<f64>,
+}
+
+/// With which inputs a method is measured.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum InputChoice {
+    /// Those that its authors meant.
+    Intended,
+    /// Those whose largest error is least.
+    Best,
+}
+
+const BUILT: &str = "a test builds every method";
+
+impl MethodErrors {
+    /// The errors of a method's library function. Angles at which it gives no number are left out. `curve` is the reference
+    /// reflectance of the material.
+    pub fn new(
+        method: &Method,
+        inputs: InputChoice,
+        subject: &MaterialInMedium,
+        curve: &FitCurve,
+        space: Space,
+    ) -> MethodErrors {
+        let values = values_for_material(subject, method);
+        if method.is_textured() {
+            return MethodErrors::of_texture(method, &values, subject);
+        }
+        let best = || best_inputs(method, &values, curve);
+        let best = (inputs == InputChoice::Best).then(best).flatten();
+        let values = best.unwrap_or(values);
+        let function: Checked = method.function(false).expect(BUILT);
+        let run = |cosines: &[f64]| -> Value<f64> {
+            values_at(&function, method.inputs, &values, cosines)
+        };
+        let error = error_of(&subject.reference, &run);
+        let perceived = perceived(&subject.reference, space, &run);
+        MethodErrors {
+            max_abs: Some(error.max_abs),
+            mean_rel: error.mean_rel,
+            luminance: Some(perceived.luminance),
+            de2000: Some(perceived.de2000),
+        }
+    }
+
+    /// What is seen of a function that reads a texture is not measured.
+    fn of_texture(method: &Method, values: &Values, subject: &MaterialInMedium) -> MethodErrors {
+        let function = method.specialise(values).expect(BUILT);
+        let error = model_error(&function, &subject.truth_for(method));
+        MethodErrors {
+            max_abs: Some(error.max_abs),
+            mean_rel: error.mean_rel,
+            ..MethodErrors::default()
+        }
+    }
+
+    /// The errors of many materials taken together, each measure by the same statistic; none where one of them is not known.
+    pub fn together(all: &[MethodErrors], statistic: &dyn Fn(&[f64]) -> f64) -> MethodErrors {
+        let take = |measure: fn(&MethodErrors) -> Option<f64>| {
+            let known: Option<Vec<f64>> = all.iter().map(measure).collect();
+            known.map(|known| statistic(&known))
+        };
+        MethodErrors {
+            max_abs: take(|errors| errors.max_abs),
+            mean_rel: take(|errors| errors.mean_rel),
+            luminance: take(|errors| errors.luminance),
+            de2000: take(|errors| errors.de2000),
+        }
+    }
+}

@@ -1,0 +1,233 @@
+//! Model error: a method against the exact law, over all angles. Never to be added to code error.
+
+use serde::{Deserialize, Serialize};
+
+use crate::generator::reference::{
+    ANGLES, ReferenceCurve, cosine_of_part, cosines, reference_reflectance,
+};
+use crate::language::ir::{Checked, Column, Value, evaluate};
+use crate::language::methods::Light;
+use crate::physics::materials::{Channels, Surface};
+use crate::physics::num::each_channel;
+
+use super::texels::{arguments, table_of};
+
+/// How wrong a method is for a material, whatever computes it.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct ModelError {
+    /// Largest absolute difference, over angles and channels.
+    pub max_abs: f64,
+    /// Mean absolute difference, even in angle, mean of the channels.
+    pub mean_abs: f64,
+    /// Mean relative difference, even in angle, mean of the channels, as the thesis measures; none where a channel
+    /// reflects nothing and the method says otherwise.
+    pub mean_rel: Option<f64>,
+    /// The cosine at which the largest difference stands.
+    pub worst_cos: f64,
+    /// At how many of the angles the method gave no number; they are left out of the figures above.
+    pub undefined: usize,
+}
+
+/// An error with five digits behind the point that it does not exceed.
+pub fn rounded_up(error: f64) -> String {
+    format!("{:.5}", (error * 1e5).ceil() / 1e5)
+}
+
+/// How often the neighbourhood of the worst angle is searched again, and in how many steps: a maximum is found to 1e-9
+/// of its place, cusps at the critical angle included.
+const REFINEMENTS: usize = 6;
+const STEPS: usize = 32;
+
+/// The model error of a function of `cos_theta` alone, or with the table that it reads.
+pub fn model_error(function: &Checked, reference: &ReferenceCurve) -> ModelError {
+    let table = table_of(function, |cos_theta| reference.at(cos_theta));
+    error_of(reference, &|cosines| {
+        evaluate(function, &arguments(cosines.to_vec(), table.as_ref()))
+    })
+}
+
+/// The same of the function as f32 computes it, each operation rounded.
+pub fn single_error(function: &Checked, reference: &ReferenceCurve) -> ModelError {
+    let table = table_of(function, |cos_theta| reference.at(cos_theta));
+    error_of(reference, &|cosines| {
+        let single: Vec<f32> = cosines.iter().map(|c| *c as f32).collect();
+        let got = evaluate(function, &arguments(single, table.as_ref()));
+        let channel = |i: usize| {
+            let values = (0..cosines.len()).map(|point| f64::from(got.at(point)[i]));
+            Column::Each(values.collect())
+        };
+        Value::Rgb(each_channel(channel))
+    })
+}
+
+/// The error of whatever gives three channels at each of some cosines.
+pub fn error_of(reference: &ReferenceCurve, values: &dyn Fn(&[f64]) -> Value<f64>) -> ModelError {
+    let (at, want) = (cosines(ANGLES), reference.table());
+    let given = values(&at);
+    let mut error = difference(&given, &want, &at);
+    let first = (error.max_abs, error.worst_cos);
+    let wide = libm::acos(first.1).max(1e-3) / 8.0;
+    error.keep_larger(refined(first, wide, reference, values));
+    if is_totally_reflecting(&at, &want) {
+        for start in worst_of_channels(&given, &want, &at) {
+            error.keep_larger(refined(start, 2.0 * BETWEEN, reference, values));
+        }
+    }
+    error
+}
+
+/// Whether something reflects all before 90 degrees: past a critical angle, which each channel has at its own place, with a cusp of its
+/// error there that may stand between the angles.
+fn is_totally_reflecting(at: &[f64], want: &[[f64; 3]]) -> bool {
+    let whole = |reflectance: &f64| *reflectance > 1.0 - 1e-9;
+    let mut points = at.iter().zip(want);
+    points.any(|(cos_theta, want)| *cos_theta > 0.01 && want.iter().any(whole))
+}
+
+/// The largest error of each channel at the angles, and where it stands.
+fn worst_of_channels(given: &Value<f64>, want: &[[f64; 3]], at: &[f64]) -> [(f64, f64); 3] {
+    each_channel(|channel| {
+        let off = |point: usize| (given.at(point)[channel] - want[point][channel]).abs();
+        let points = (0..at.len()).filter(|point| off(*point).is_finite());
+        let point = points.max_by(|a, b| off(*a).total_cmp(&off(*b)));
+        point.map_or((0.0, 1.0), |point| (off(point), at[point]))
+    })
+}
+
+/// Between two angles, in radians.
+const BETWEEN: f64 = std::f64::consts::FRAC_PI_2 / ANGLES as f64;
+
+/// The largest error in the neighbourhood of a cosine, and where it stands, searched nearer and nearer from an error that is known there
+/// and so far on both sides in radians.
+fn refined(
+    (mut most, mut worst_cos): (f64, f64),
+    mut reach: f64,
+    reference: &ReferenceCurve,
+    values: &dyn Fn(&[f64]) -> Value<f64>,
+) -> (f64, f64) {
+    for _ in 0..REFINEMENTS {
+        let theta = libm::acos(worst_cos);
+        let near = |i: usize| theta + reach * (2.0 * i as f64 / STEPS as f64 - 1.0);
+        let inside = |theta: &f64| (0.0..std::f64::consts::FRAC_PI_2).contains(theta);
+        let close: Vec<f64> = (0..=STEPS)
+            .map(near)
+            .filter(inside)
+            .map(libm::cos)
+            .collect();
+        let want: Vec<[f64; 3]> = close.iter().map(|c| reference.at(*c)).collect();
+        let again = difference(&values(&close), &want, &close);
+        if again.max_abs > most && again.undefined < close.len() {
+            (most, worst_cos) = (again.max_abs, again.worst_cos);
+        }
+        reach /= STEPS as f64 / 4.0;
+    }
+    (most, worst_cos)
+}
+
+/// The error of the same against whatever else is to be met, at the angles alone.
+pub fn error_from(
+    seen: impl Fn(f64) -> [f64; 3],
+    values: &dyn Fn(&[f64]) -> Value<f64>,
+) -> ModelError {
+    let at = cosines(ANGLES);
+    let want: Vec<[f64; 3]> = at.iter().map(|c| seen(*c)).collect();
+    difference(&values(&at), &want, &at)
+}
+
+/// Values at these cosines against the exact law; means are over the first [`ANGLES`], or all where there are fewer.
+pub(super) fn difference(values: &Value<f64>, want: &[[f64; 3]], cosines: &[f64]) -> ModelError {
+    let mut error = ModelError {
+        max_abs: 0.0,
+        mean_abs: 0.0,
+        mean_rel: Some(0.0),
+        worst_cos: 1.0,
+        undefined: 0,
+    };
+    let counted = cosines.len().min(ANGLES);
+    for (point, cos_theta) in cosines.iter().enumerate() {
+        let weight = if point < counted {
+            1.0 / (3 * counted) as f64
+        } else {
+            0.0
+        };
+        let (got, want) = (values.at(point), want[point]);
+        if got.iter().any(|got| got.is_nan()) {
+            error.undefined += 1;
+            continue;
+        }
+        for (got, want) in got.into_iter().zip(want) {
+            error.include(got, want, *cos_theta, weight);
+        }
+    }
+    if error.undefined == cosines.len() {
+        // No number came, so that no difference is known.
+        error.max_abs = f64::INFINITY;
+        error.mean_abs = f64::INFINITY;
+        error.mean_rel = None;
+    }
+    error
+}
+
+impl ModelError {
+    fn keep_larger(&mut self, (max_abs, worst_cos): (f64, f64)) {
+        if max_abs > self.max_abs {
+            (self.max_abs, self.worst_cos) = (max_abs, worst_cos);
+        }
+    }
+
+    fn include(&mut self, got: f64, want: f64, cos_theta: f64, weight: f64) {
+        let difference = (got - want).abs();
+        self.mean_abs += weight * difference;
+        if difference > 0.0 {
+            let relative = Some(difference / want).filter(|relative| relative.is_finite());
+            self.mean_rel = self
+                .mean_rel
+                .zip(relative)
+                .map(|(mean, relative)| mean + weight * relative);
+        }
+        if difference > self.max_abs {
+            (self.max_abs, self.worst_cos) = (difference, cos_theta);
+        }
+    }
+}
+
+/// The thesis's measure: mean relative difference per channel at `angles` angles, uniform from 0 to 90 degrees
+/// (middles of equal steps), of several functions of `cos_theta` alone for one material: the exact law, which costs the
+/// most, is computed once. `progress` hears how many angles are done.
+pub fn thesis_errors(
+    functions: &[&Checked],
+    channels: &Channels,
+    angles: usize,
+    progress: &mut dyn FnMut(usize),
+) -> Vec<[f64; 3]> {
+    const CHUNK: usize = 4096;
+    let surface = Surface::of_channels(channels);
+    let mut sums = vec![[0.0; 3]; functions.len()];
+    for start in (0..angles).step_by(CHUNK) {
+        let cosines: Vec<f64> = (start..(start + CHUNK).min(angles))
+            .map(|i| cosine_of_part(2 * i + 1, 2 * angles))
+            .collect();
+        let want: Vec<[f64; 3]> = cosines
+            .iter()
+            .map(|c| reference_reflectance(&surface, Light::Unpolarised, *c))
+            .collect();
+        let points = cosines.len();
+        let arguments = [Value::each(cosines)];
+        for (function, sums) in functions.iter().zip(&mut sums) {
+            add_differences(&evaluate(function, &arguments), &want, sums);
+        }
+        progress(points);
+    }
+    let mean = |sums: [f64; 3]| sums.map(|sum| sum / angles as f64);
+    sums.into_iter().map(mean).collect()
+}
+
+/// Adds the relative differences, point by point.
+fn add_differences(got: &Value<f64>, want: &[[f64; 3]], sums: &mut [f64; 3]) {
+    for (i, sum) in sums.iter_mut().enumerate() {
+        let got = got.channel(i);
+        for (point, want) in want.iter().enumerate() {
+            *sum += (got.at(point) - want[i]).abs() / want[i];
+        }
+    }
+}

@@ -1,0 +1,164 @@
+//! Coefficients that half precision holds, rounded in the optimisation: when one is rounded, those that are not yet make up
+//! for it.
+//!
+//! The last coefficient goes to one of its two neighbours in half precision, the others are fitted anew to what is left, and so on
+//! to the first; all paths are tried but those that cannot become the best, for a form with free coefficients is never worse
+//! than one with rounded ones. Land and Doig, "An Automatic Method of Solving Discrete Programming Problems", Econometrica 28, 1960,
+//! <https://doi.org/10.2307/1910129>, with two branches a coefficient.
+
+use crate::physics::num::Precision;
+
+use super::minimax::{Limit, Minimax, Points, minimax};
+
+/// By how much a number grows to reach its neighbour in half precision: more than half of its last place, less than one and a
+/// half, on both sides of a power of two.
+const NEIGHBOUR: f64 = 0.6 / 1024.0;
+
+/// The same as [`minimax`], of coefficients in half precision. None also where no rounding that is tried keeps the ranges.
+pub fn rounded(points: Points) -> Option<Minimax> {
+    let terms = points.rows.first()?.len();
+    let first = |terms: usize| {
+        points
+            .rows
+            .iter()
+            .map(|row| row[..terms].to_vec())
+            .collect()
+    };
+    let search = RoundingSearch {
+        shorter: (0..=terms).map(first).collect(),
+        weights: points.weights,
+    };
+    search.best(terms, points.wanted, points.limits, f64::INFINITY)
+}
+
+/// What all paths share.
+struct RoundingSearch<'a> {
+    /// The rows with no term, with the first one, and so on.
+    shorter: Vec<Vec<Vec<f64>>>,
+    weights: &'a [f64],
+}
+
+impl RoundingSearch<'_> {
+    /// The best of the first terms for what is wanted of them. None where nothing is better than `bound`.
+    fn best(&self, terms: usize, wanted: &[f64], limits: &[Limit], bound: f64) -> Option<Minimax> {
+        let free = self.free(terms, wanted, limits)?;
+        if free.error >= bound {
+            return None;
+        }
+        let Some(last) = free.coefficients.last() else {
+            return Some(free);
+        };
+        let mut best: Option<Minimax> = None;
+        for value in neighbours(*last) {
+            let rows = self.shorter[terms].iter().zip(wanted);
+            let left: Vec<f64> = rows.map(|(row, w)| w - row[terms - 1] * value).collect();
+            let limit = |limit: &Limit| Limit {
+                row: limit.row[..terms - 1].to_vec(),
+                least: limit.least - limit.row[terms - 1] * value,
+                most: limit.most - limit.row[terms - 1] * value,
+            };
+            let moved: Vec<Limit> = limits.iter().map(limit).collect();
+            let bound = best.as_ref().map_or(bound, |best| best.error);
+            if let Some(mut found) = self.best(terms - 1, &left, &moved, bound) {
+                found.coefficients.push(value);
+                best = Some(found);
+            }
+        }
+        best
+    }
+
+    /// The best of the first terms, not rounded.
+    fn free(&self, terms: usize, wanted: &[f64], limits: &[Limit]) -> Option<Minimax> {
+        if terms > 0 {
+            return minimax(Points {
+                rows: &self.shorter[terms],
+                wanted,
+                weights: self.weights,
+                limits,
+            });
+        }
+        let is_kept = |limit: &Limit| limit.least <= 0.0 && limit.most >= 0.0;
+        if !limits.iter().all(is_kept) {
+            return None;
+        }
+        let errors = wanted
+            .iter()
+            .zip(self.weights)
+            .map(|(w, weight)| w.abs() * weight);
+        Some(Minimax {
+            coefficients: Vec::new(),
+            error: errors.fold(0.0, f64::max),
+        })
+    }
+}
+
+/// The numbers of half precision on both sides, the nearest first.
+fn neighbours(x: f64) -> [f64; 2] {
+    let nearest = Precision::F16.rounded(x);
+    let step = NEIGHBOUR * nearest.abs();
+    let beyond = if x < nearest { -step } else { step };
+    [nearest, Precision::F16.rounded(nearest + beyond)]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn neighbours_are_next_to_each_other() {
+        let last = 1.0 / 1024.0;
+        assert_eq!(neighbours(1.0 + 0.2 * last), [1.0, 1.0 + last]);
+        assert_eq!(neighbours(1.0 - 0.1 * last), [1.0, 1.0 - last / 2.0]);
+        assert_eq!(neighbours(2.0 - 0.9 * last), [2.0 - last, 2.0]);
+        assert_eq!(neighbours(-1.0 - 0.9 * last), [-1.0 - last, -1.0]);
+    }
+
+    /// A cubic of large coefficients that cancel: rounding each to the nearest costs many times more.
+    #[test]
+    fn others_make_up_for_what_is_rounded() {
+        let xs: Vec<f64> = (0..=64).map(|i| f64::from(i) / 64.0).collect();
+        let rows: Vec<Vec<f64>> = xs.iter().map(|x| vec![1.0, *x, x * x, x * x * x]).collect();
+        let wanted: Vec<f64> = xs.iter().map(|x| libm::exp(-4.0 * x)).collect();
+        let weights = vec![1.0; xs.len()];
+        let points = Points {
+            rows: &rows,
+            wanted: &wanted,
+            weights: &weights,
+            limits: &[],
+        };
+        let free = minimax(points).unwrap();
+        let found = rounded(points).unwrap();
+        let error = |coefficients: &[f64]| {
+            let at = |row: &[f64]| {
+                row.iter()
+                    .zip(coefficients)
+                    .map(|(b, c)| b * c)
+                    .sum::<f64>()
+            };
+            let each = rows
+                .iter()
+                .zip(&wanted)
+                .map(|(row, wanted)| (at(row) - wanted).abs());
+            each.fold(0.0, f64::max)
+        };
+        let naive: Vec<f64> = free
+            .coefficients
+            .iter()
+            .map(|c| Precision::F16.rounded(*c))
+            .collect();
+        assert!(
+            found
+                .coefficients
+                .iter()
+                .all(|c| Precision::F16.rounded(*c) == *c)
+        );
+        assert!((error(&found.coefficients) - found.error).abs() < 1e-12);
+        let lost = |error: f64| error - free.error;
+        assert!(
+            lost(found.error) < 0.5 * lost(error(&naive)),
+            "{} {}",
+            lost(found.error),
+            lost(error(&naive))
+        );
+    }
+}

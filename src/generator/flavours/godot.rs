@@ -1,0 +1,40 @@
+//! Godot 4: functions for its shading language, as files to be included.
+
+use crate::generator::lut::SplitSumAxis;
+
+use super::flavour::{Flavour, FlavourPage};
+
+/// The record of this flavour.
+pub static FLAVOUR: Flavour = Flavour {
+    name: "godot",
+    summary: "include files of the shading language",
+    host: "Godot 4.6",
+    source: "https://docs.godotengine.org/en/stable/tutorials/shaders/shader_reference/shading_language.html",
+    proof: "run in Godot 4.6, in its Compatibility renderer",
+    languages: &["glsl"],
+    table: Some((32, [SplitSumAxis::Sqrt; 2])),
+    pages: &[
+        FlavourPage {
+            name: "README.md",
+            template: include_str!("../../../templates/flavours/godot/README.md.tera"),
+        },
+        FlavourPage {
+            name: "fresnel.gdshaderinc",
+            template: include_str!("../../../templates/flavours/godot/fresnel.gdshaderinc.tera"),
+        },
+        FlavourPage {
+            name: "table_fitted.tres",
+            template: include_str!("../../../templates/flavours/godot/table_fitted.tres.tera"),
+        },
+        FlavourPage {
+            name: "table_fitted_dielectric.tres",
+            template: include_str!(
+                "../../../templates/flavours/godot/table_fitted_dielectric.tres.tera"
+            ),
+        },
+        FlavourPage {
+            name: "{material}.gdshaderinc",
+            template: include_str!("../../../templates/flavours/godot/material.gdshaderinc.tera"),
+        },
+    ],
+};

@@ -1,0 +1,31 @@
+//! three.js: a module that patches materials of `WebGLRenderer`, and one of nodes for `WebGPURenderer`.
+
+use crate::generator::lut::SplitSumAxis;
+
+use super::flavour::{Flavour, FlavourPage};
+
+/// The record of this flavour.
+pub static FLAVOUR: Flavour = Flavour {
+    name: "three",
+    summary: "modules that patch standard and physical materials",
+    host: "three.js r187",
+    source: "https://threejs.org/docs/#Material.onBeforeCompile",
+    proof: "run in three.js r187, by WebGL 2 and by WebGPU",
+    languages: &["gles", "wgsl"],
+    // The split sum errs by less than .0014 (the report of `bake --dfg`), which a white furnace can show.
+    table: Some((80, [SplitSumAxis::FourthRoot, SplitSumAxis::Sqrt])),
+    pages: &[
+        FlavourPage {
+            name: "README.md",
+            template: include_str!("../../../templates/flavours/three/README.md.tera"),
+        },
+        FlavourPage {
+            name: "fresnel.js",
+            template: include_str!("../../../templates/flavours/three/fresnel.js.tera"),
+        },
+        FlavourPage {
+            name: "fresnel.tsl.js",
+            template: include_str!("../../../templates/flavours/three/fresnel.tsl.js.tera"),
+        },
+    ],
+};

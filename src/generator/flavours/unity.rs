@@ -1,0 +1,28 @@
+//! Unity: HLSL for the node Custom Function of Shader Graph, and for lighting functions of one's own.
+
+use super::flavour::{Flavour, FlavourPage};
+
+/// The record of this flavour.
+pub static FLAVOUR: Flavour = Flavour {
+    name: "unity",
+    summary: "HLSL for Shader Graph's node Custom Function",
+    host: "Unity 6",
+    source: "https://docs.unity3d.com/Packages/com.unity.shadergraph@17.0/manual/Custom-Function-Node.html",
+    proof: "compiled by DXC with Unity's macros, not run",
+    languages: &["hlsl"],
+    table: None,
+    pages: &[
+        FlavourPage {
+            name: "README.md",
+            template: include_str!("../../../templates/flavours/unity/README.md.tera"),
+        },
+        FlavourPage {
+            name: "fresnel.hlsl",
+            template: include_str!("../../../templates/flavours/unity/fresnel.hlsl.tera"),
+        },
+        FlavourPage {
+            name: "{material}.hlsl",
+            template: include_str!("../../../templates/flavours/unity/material.hlsl.tera"),
+        },
+    ],
+};

@@ -1,0 +1,28 @@
+//! Unreal Engine 5: shader headers for the node Custom of materials, and for shaders of one's own.
+
+use super::flavour::{Flavour, FlavourPage};
+
+/// The record of this flavour.
+pub static FLAVOUR: Flavour = Flavour {
+    name: "unreal",
+    summary: "shader headers for the node Custom of materials",
+    host: "Unreal Engine 5",
+    source: "https://dev.epicgames.com/documentation/en-us/unreal-engine/custom-material-expressions-in-unreal-engine",
+    proof: "compiled by DXC as HLSL 2021, not run",
+    languages: &["hlsl"],
+    table: None,
+    pages: &[
+        FlavourPage {
+            name: "README.md",
+            template: include_str!("../../../templates/flavours/unreal/README.md.tera"),
+        },
+        FlavourPage {
+            name: "fresnel.ush",
+            template: include_str!("../../../templates/flavours/unreal/fresnel.ush.tera"),
+        },
+        FlavourPage {
+            name: "{material}.ush",
+            template: include_str!("../../../templates/flavours/unreal/material.ush.tera"),
+        },
+    ],
+};

@@ -1,0 +1,90 @@
+//! The catalogue of fitted coefficients as a texture: a row a material, four texels c0 to c3, which a shader fetches by number.
+
+use serde::Serialize;
+
+use crate::generator::emit::{COEFFICIENTS, CatalogueRow, FOURTH};
+use crate::physics::spectra::Space;
+
+use super::axis::TableAxis;
+use super::depth::Depth;
+use super::ktx2::ktx2;
+use super::picture::Picture;
+
+/// The kind of number that the catalogue's texels hold.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum CatalogueTexture {
+    /// binary16: coefficients rounded to the nearest.
+    Half,
+    /// binary32: the numbers of the array.
+    Float,
+}
+
+/// What `catalogue.json` says of a texture's file.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct CatalogueTextureDetail {
+    file: &'static str,
+    format: &'static str,
+    width: usize,
+    height: usize,
+    texel: &'static str,
+    alpha: f32,
+}
+
+impl CatalogueTexture {
+    /// Both, the smaller first.
+    pub const ALL: [CatalogueTexture; 2] = [CatalogueTexture::Half, CatalogueTexture::Float];
+
+    /// The file's name.
+    pub const fn file(self) -> &'static str {
+        match self {
+            CatalogueTexture::Half => "catalogue.f16.ktx2",
+            CatalogueTexture::Float => "catalogue.f32.ktx2",
+        }
+    }
+
+    /// The depth of its texels.
+    pub fn depth(self) -> Depth {
+        match self {
+            CatalogueTexture::Half => Depth::Half,
+            CatalogueTexture::Float => Depth::Float,
+        }
+    }
+
+    fn format(self) -> &'static str {
+        match self {
+            CatalogueTexture::Half => "R16G16B16A16_SFLOAT",
+            CatalogueTexture::Float => "R32G32B32A32_SFLOAT",
+        }
+    }
+
+    /// What is said of its file.
+    pub fn detail(self, rows: &[CatalogueRow]) -> CatalogueTextureDetail {
+        CatalogueTextureDetail {
+            file: self.file(),
+            format: self.format(),
+            width: COEFFICIENTS,
+            height: rows.len(),
+            texel: "x is i of c_i, y is row / 4; fetch, do not filter",
+            alpha: FOURTH,
+        }
+    }
+
+    /// Its file. `space` is that of the colours.
+    pub fn encode(self, rows: &[CatalogueRow], space: Option<Space>) -> Vec<u8> {
+        let depth = self.depth();
+        let colours = rows.iter().flat_map(|row| &row.coefficients);
+        let texels = colours.map(|colour| colour.map(|value| depth.nearest(value)));
+        ktx2(&Picture {
+            name: String::new(),
+            axis: TableAxis::Cos,
+            depth,
+            scale: 1.0,
+            width: COEFFICIENTS,
+            rows: rows.iter().map(|row| row.name.clone()).collect(),
+            texels: texels.collect(),
+            alpha: Some(vec![FOURTH; COEFFICIENTS * rows.len()]),
+            space,
+            about: Vec::new(),
+        })
+    }
+}

@@ -1,0 +1,161 @@
+//! KTX 2.0: RGBA of binary16, or of binary32 where that is the picture's depth; one level, no supercompression.
+//!
+//! Source: Khronos, *KTX File Format Specification, version 2.0*, 2021,
+//! <https://registry.khronos.org/KTX/specs/2.0/ktxspec.v2.html>; the data format descriptor by Khronos, *Data Format
+//! Specification 1.3*, 2019, <https://registry.khronos.org/DataFormat/specs/1.3/dataformat.1.3.html>. GPUs have no three
+//! channels of 16 bits that all can filter, so that there is an alpha of 1. The transfer function is linear, the
+//! orientation `rd`: the first row is the top one.
+
+use crate::physics::spectra::Space;
+
+use super::depth::Depth;
+use super::picture::Picture;
+
+const IDENTIFIER: [u8; 12] = [
+    0xAB, b'K', b'T', b'X', b' ', b'2', b'0', 0xBB, b'\r', b'\n', 0x1A, b'\n',
+];
+/// How a file begins, and what its head says where this program wrote it.
+pub const KTX2_MARK: (&[u8], &[u8]) = (b"\xABKTX 20", b"KTXwriter\0fresnel-gen\0");
+
+/// The kind of number that a file holds.
+struct Channel {
+    /// The number of Vulkan's format of four such channels.
+    format: u32,
+    /// The bytes of one.
+    bytes: usize,
+}
+
+/// VK_FORMAT_R16G16B16A16_SFLOAT.
+const HALF: Channel = Channel {
+    format: 97,
+    bytes: 2,
+};
+/// VK_FORMAT_R32G32B32A32_SFLOAT.
+const FLOAT: Channel = Channel {
+    format: 109,
+    bytes: 4,
+};
+
+impl Channel {
+    fn of(depth: Depth) -> Channel {
+        match depth {
+            Depth::Float => FLOAT,
+            Depth::Half | Depth::Unorm8 | Depth::Unorm16 => HALF,
+        }
+    }
+
+    /// The first byte of the level lies at a multiple of a texel's bytes.
+    fn texel(&self) -> usize {
+        4 * self.bytes
+    }
+}
+
+/// Where the header with its index and the one entry of the level index end: 12 + 9·4 + 4·4 + 2·8, and 3·8.
+const HEADER: u32 = 80 + 24;
+/// Words of the descriptor: its length, the basic block's head of six, four samples of four.
+const DESCRIPTOR: u32 = 4 * (1 + 6 + 4 * 4);
+
+/// The file. Its numbers are binary32 where the picture's are, else binary16.
+pub fn ktx2(picture: &Picture) -> Vec<u8> {
+    let channel = Channel::of(picture.depth);
+    let pairs = key_values();
+    let before = HEADER as usize + DESCRIPTOR as usize + pairs.len();
+    let start = before.next_multiple_of(channel.texel());
+    let data = level(picture);
+    let mut bytes = IDENTIFIER.to_vec();
+    for word in head(picture, &channel, pairs.len() as u32) {
+        bytes.extend(word.to_le_bytes());
+    }
+    // Supercompression data: none. Then the level: place, length, length when uncompressed.
+    for word in [0, 0, start, data.len(), data.len()] {
+        bytes.extend((word as u64).to_le_bytes());
+    }
+    for word in descriptor(picture.space, &channel) {
+        bytes.extend(word.to_le_bytes());
+    }
+    bytes.extend(pairs);
+    bytes.resize(start, 0);
+    bytes.extend(data);
+    bytes
+}
+
+fn level(picture: &Picture) -> Vec<u8> {
+    match picture.depth {
+        Depth::Float => picture
+            .floats()
+            .flatten()
+            .flat_map(f32::to_le_bytes)
+            .collect(),
+        Depth::Half | Depth::Unorm8 | Depth::Unorm16 => picture
+            .half_bits()
+            .flatten()
+            .flat_map(u16::to_le_bytes)
+            .collect(),
+    }
+}
+
+/// The words of the header and of the index up to the supercompression data.
+fn head(picture: &Picture, channel: &Channel, pairs: u32) -> [u32; 13] {
+    let (depth, layers, faces, levels, supercompression) = (0, 0, 1, 1, 0);
+    [
+        channel.format,
+        channel.bytes as u32,
+        picture.width as u32,
+        picture.height() as u32,
+        depth,
+        layers,
+        faces,
+        levels,
+        supercompression,
+        HEADER,
+        DESCRIPTOR,
+        HEADER + DESCRIPTOR,
+        pairs,
+    ]
+}
+
+/// The data format descriptor: one basic block.
+fn descriptor(space: Option<Space>, channel: &Channel) -> Vec<u32> {
+    const VERSION: u32 = 2;
+    const RGBSDA: u32 = 1;
+    const LINEAR: u32 = 1;
+    const SIGNED_FLOAT: u32 = 0xC0;
+    let mut words = vec![
+        DESCRIPTOR,
+        0,
+        VERSION | ((DESCRIPTOR - 4) << 16),
+        RGBSDA | (primaries(space) << 8) | (LINEAR << 16),
+        0,
+        channel.texel() as u32,
+        0,
+    ];
+    let bits = 8 * channel.bytes as u32;
+    for (i, name) in [0, 1, 2, 15].into_iter().enumerate() {
+        words.push((bits * i as u32) | ((bits - 1) << 16) | ((name | SIGNED_FLOAT) << 24));
+        words.extend([0, (-1f32).to_bits(), 1f32.to_bits()]);
+    }
+    words
+}
+
+/// The specification's numbers of primaries; 0 where channels are single wavelengths.
+fn primaries(space: Option<Space>) -> u32 {
+    match space {
+        None => 0,
+        Some(Space::Srgb) => 1,
+        Some(Space::Rec2020) => 4,
+        Some(Space::AcesCg) => 6,
+        Some(Space::P3) => 10,
+    }
+}
+
+/// Keys and values, sorted, each padded to four bytes.
+fn key_values() -> Vec<u8> {
+    let mut bytes = Vec::new();
+    for (key, value) in [("KTXorientation", "rd"), ("KTXwriter", "fresnel-gen")] {
+        let pair = format!("{key}\0{value}\0");
+        bytes.extend((pair.len() as u32).to_le_bytes());
+        bytes.extend(pair.as_bytes());
+        bytes.resize(bytes.len().next_multiple_of(4), 0);
+    }
+    bytes
+}

@@ -1,0 +1,153 @@
+//! A picture: tables of one size, axis and depth as the rows of a texture, with what a file says about them.
+
+use crate::physics::spectra::Space;
+
+use super::axis::TableAxis;
+use super::depth::{Depth, Stored};
+use super::split_sum::{StoredSplitSum, TERMS};
+
+/// Which terms of a split-sum table a file holds.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum TermChannels {
+    /// Four, the last as alpha.
+    All,
+    /// The first three, or as many as there are.
+    FirstThree,
+    /// The fourth, in each of three channels.
+    Fourth,
+}
+
+/// One or more tables as a texture.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Picture {
+    /// Its name, which is that of its file and of the array in a text form: a material's, or `atlas`.
+    pub name: String,
+    /// How cosines are spread along x.
+    pub axis: TableAxis,
+    /// The kind of number.
+    pub depth: Depth,
+    /// value = texel × scale.
+    pub scale: f32,
+    /// Texels in a row.
+    pub width: usize,
+    /// The rows' names, the top one first.
+    pub rows: Vec<String>,
+    /// The rows one after the other, as a sampler gives them back.
+    pub texels: Vec<[f32; 3]>,
+    /// The fourth channel of each texel, where there is one.
+    pub alpha: Option<Vec<f32>>,
+    /// The working space, where the channels are one.
+    pub space: Option<Space>,
+    /// What the file says about itself: ASCII, a line each.
+    pub about: Vec<String>,
+}
+
+impl Picture {
+    /// Tables, named, one below the other. They have one axis, depth, scale and size: those of the first.
+    pub fn new(name: &str, rows: &[(&str, &Stored)], space: Option<Space>) -> Picture {
+        let first = rows.first().map(|(_, stored)| *stored);
+        let width = first.map_or(0, |stored| stored.texels.len());
+        let texels = rows.iter().flat_map(|(_, stored)| {
+            let texel = |i: usize| stored.texels.get(i).copied().unwrap_or_default();
+            (0..width).map(texel)
+        });
+        Picture {
+            name: name.to_owned(),
+            axis: first.map_or(TableAxis::Cos, |stored| stored.axis),
+            depth: first.map_or(Depth::Float, |stored| stored.depth),
+            scale: first.map_or(1.0, |stored| stored.scale),
+            width,
+            rows: rows.iter().map(|(name, _)| (*name).to_owned()).collect(),
+            texels: texels.collect(),
+            alpha: None,
+            space,
+            about: Vec::new(),
+        }
+    }
+
+    /// A split-sum table, with its rows' names and what it says about itself. Its axis says nothing of how it is looked up.
+    pub fn of_terms(
+        name: &str,
+        stored: &StoredSplitSum,
+        channels: TermChannels,
+        rows: Vec<String>,
+        about: Vec<String>,
+    ) -> Picture {
+        let texels = stored.texels.iter();
+        let colour = |[first, second, third, fourth]: &[f32; TERMS]| match channels {
+            TermChannels::Fourth => [*fourth; 3],
+            TermChannels::All | TermChannels::FirstThree => [*first, *second, *third],
+        };
+        let is_all = channels == TermChannels::All;
+        Picture {
+            name: name.to_owned(),
+            axis: TableAxis::Cos,
+            depth: stored.depth,
+            scale: 1.0,
+            width: stored.design.width,
+            rows,
+            texels: texels.clone().map(colour).collect(),
+            alpha: is_all.then(|| texels.map(|texel| texel[3]).collect()),
+            space: None,
+            about,
+        }
+    }
+
+    /// How many rows.
+    pub fn height(&self) -> usize {
+        self.rows.len()
+    }
+
+    /// How a shader looks a cosine up, in words and formulas, but for the scale.
+    pub fn lookup(&self) -> Vec<String> {
+        let (scale, offset) = TableAxis::half_texel(self.width);
+        let mut lines = vec![
+            format!(
+                "Row of {} texels by cos theta, 0 first; linear; wrap: clamp to edge; filter: linear; no mipmaps, level 0.",
+                self.width
+            ),
+            format!(
+                "Lookup: c = clamp(cos_theta, 0, 1), w = {}, u = w * {scale:?} + {offset:?}.",
+                self.axis.formula()
+            ),
+        ];
+        if self.height() > 1 {
+            lines.push(format!(
+                "Row i of {}, the top one being 0: v = (i + 0.5) / {}.",
+                self.height(),
+                self.height()
+            ));
+        }
+        lines
+    }
+
+    /// What a texel is multiplied by, where that is not 1.
+    pub fn scaling(&self) -> Option<String> {
+        (self.scale != 1.0).then(|| format!("Reflectance = texel * {:?}.", self.scale))
+    }
+
+    /// The bits of binary16 of each texel, red, green, blue and alpha, which is 1 where there is none. Values of other depths
+    /// are rounded.
+    pub(super) fn half_bits(&self) -> impl Iterator<Item = [u16; 4]> {
+        let bits = |value: f32| half::f16::from_f32(value).to_bits();
+        self.floats().map(move |texel| texel.map(bits))
+    }
+
+    /// Red, green, blue and alpha of each texel; alpha is 1 where there is none.
+    pub(super) fn floats(&self) -> impl Iterator<Item = [f32; 4]> {
+        let alpha = |i: usize| self.alpha.as_ref().map_or(1.0, |alpha| alpha[i]);
+        let texels = self.texels.iter().enumerate();
+        texels.map(move |(i, [r, g, b])| [*r, *g, *b, alpha(i)])
+    }
+
+    /// The integers of a depth that has them.
+    #[cfg(feature = "cli")]
+    pub(super) fn integers(&self) -> impl Iterator<Item = u16> {
+        let largest = self.depth.largest().unwrap_or(0.0);
+        let channels = self.texels.iter().enumerate().flat_map(|(i, texel)| {
+            let alpha = self.alpha.as_ref().map(|alpha| alpha[i]);
+            texel.iter().copied().chain(alpha)
+        });
+        channels.map(move |value| (value * largest).round() as u16)
+    }
+}

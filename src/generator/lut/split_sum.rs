@@ -1,0 +1,267 @@
+//! The split-sum table: what a rough surface reflects of light from everywhere, for every material of one shape at once.
+//!
+//! ```text
+//! E(cos θ_v, roughness) = Σ c_i T_i(cos θ_v, α),   T_i = ∫ b_i(h·v) D G2 / (4 (n·v) (n·l)) (n·l) dl,   α = roughness²
+//! ```
+//!
+//! The c_i are numbers that a material has, and F = Σ c_i b_i: coefficients of a fitted method, or F0 and others of a method that is
+//! affine in them ([`Basis`]). The terms T_i hold no material: one texture serves all. T_0 is the albedo of what reflects everything. The
+//! microfacets are GGX with height-correlated Smith masking ([`Ggx`]). The limit of F to [0, 1] is left out: it acts for colours outside
+//! the working space only.
+//!
+//! Source: the split of lighting and surface, and its table for Schlick's two terms, of Karis, "Real Shading in Unreal Engine 4",
+//! SIGGRAPH course, 2013, <https://blog.selfshadow.com/publications/s2013-shading-course/>.
+//!
+//! The valley where masking takes most lies at cos θ_v ≈ α: along ∜c and √roughness it runs along the diagonal, and is as many texels
+//! wide everywhere but at the very corner. Largest error of the lookup of T_0 at roughness .05 and above, which is that of a material
+//! with c_0 = 1, half precision and weights in steps of 1/256:
+//!
+//! | axes | 64² | 128² |
+//! |---|---:|---:|
+//! | c, roughness | .0746 | .0748 |
+//! | √c, roughness | .0086 | .0026 |
+//! | √c, √roughness | .0060 | .0018 |
+//! | √c, ∜roughness | .0056 | .0017 |
+//! | ∜c, roughness | .0064 | .0019 |
+//! | ∜c, √roughness | .0024 | .0007 |
+//! | ∜c, ∜roughness | .0022 | .0007 |
+
+use crate::language::ir::Weights;
+use crate::language::methods::{Basis, MOST_TERMS};
+use crate::physics::num::in_parallel;
+use crate::physics::optics::Ggx;
+
+use super::depth::Depth;
+use super::error::Error;
+use super::split_sum_design::SplitSumDesign;
+use super::table::LEAST_TEXELS;
+
+/// Terms of a table at the most: the channels of a texture.
+pub const TERMS: usize = MOST_TERMS;
+/// Texels of a side where nothing else is asked for.
+pub const SPLIT_SUM_SIZE: usize = 128;
+/// The most texels of a side: the errors fall with the square of the size, and are those of half precision from 256 on.
+pub const MOST_SIDE: usize = 1024;
+/// The roughness from which on the lookup's error is measured: below it the valley lies between the first texels.
+pub const LEAST_ROUGHNESS: f64 = 0.05;
+
+/// The terms T_i at the centres of texels: rows by roughness, 0 first, in each a texel by cos θ_v, 0 first.
+#[derive(Clone, Debug)]
+pub struct SplitSum {
+    /// How it is laid out.
+    pub design: SplitSumDesign,
+    /// The texels, row by row.
+    pub texels: Vec<[f64; TERMS]>,
+}
+
+/// The same as a GPU has it.
+#[derive(Clone, Debug)]
+pub struct StoredSplitSum {
+    /// How it is laid out.
+    pub design: SplitSumDesign,
+    /// The kind of number.
+    pub depth: Depth,
+    /// What a sampler gives back for each texel.
+    pub texels: Vec<[f32; TERMS]>,
+}
+
+/// How much of a run is done: rows, of how many.
+pub type RowProgress<'a> = &'a mut dyn FnMut(u64, u64);
+
+impl SplitSum {
+    /// The table of a design. Rows are shared among threads; the bytes are the same for any number of them.
+    ///
+    /// # Errors
+    /// More terms than a texture has channels, terms that no texture holds well, a size that no texture has.
+    pub fn new(design: &SplitSumDesign, progress: RowProgress) -> Result<SplitSum, Error> {
+        check_side(design.width)?;
+        check_side(design.height)?;
+        check_terms(&design.basis)?;
+        let rule = Ggx::default();
+        let row = |j: usize| -> Vec<[f64; TERMS]> {
+            let texel = |i: usize| {
+                let (cos_v, roughness) = design.at(i as f64, j as f64);
+                design.channels_at(&rule, cos_v, roughness)
+            };
+            (0..design.width).map(texel).collect()
+        };
+        let texels = in_parallel(design.height, &row, progress).concat();
+        Ok(SplitSum {
+            design: *design,
+            texels,
+        })
+    }
+
+    /// The table in a depth, which holds 0 to 1.
+    pub fn stored(&self, depth: Depth) -> StoredSplitSum {
+        let rounded = |texel: &[f64; TERMS]| texel.map(|value| depth.nearest(value));
+        StoredSplitSum {
+            design: self.design,
+            depth,
+            texels: self.texels.iter().map(rounded).collect(),
+        }
+    }
+}
+
+/// Refuses a side that a table cannot have.
+///
+/// # Errors
+/// Fewer than [`LEAST_TEXELS`], or more than a texture may have.
+pub fn check_side(size: usize) -> Result<(), Error> {
+    if (LEAST_TEXELS..=MOST_SIDE).contains(&size) {
+        Ok(())
+    } else {
+        Err(Error::Side { size })
+    }
+}
+
+/// The largest that a term may be in half precision, which has 11 digits: above 4 it is off by .002.
+pub const MOST_TERM: f64 = 4.0;
+
+/// Refuses more terms than a texture has channels, and terms that half precision holds poorly.
+fn check_terms(basis: &Basis) -> Result<(), Error> {
+    let terms = basis.terms();
+    if terms > TERMS {
+        return Err(Error::Terms { terms });
+    }
+    match term_range(basis)[1] <= MOST_TERM {
+        true => Ok(()),
+        false => Err(Error::Range),
+    }
+}
+
+/// The least and the largest value of all that numbers are multiplied by, over all angles: terms, being means, lie between.
+pub fn term_range(basis: &Basis) -> [f64; 2] {
+    const STEPS: usize = 1000;
+    let mut range = [0.0, 1.0];
+    for step in 0..=STEPS {
+        let mut values = [0.0; TERMS];
+        let terms = basis.terms().min(TERMS);
+        basis.add(step as f64 / STEPS as f64, 1.0, &mut values[..terms]);
+        for value in values {
+            range = [f64::min(range[0], value), f64::max(range[1], value)];
+        }
+    }
+    range
+}
+
+impl StoredSplitSum {
+    /// The bilinear lookup at a cosine and a roughness, clamped to [0, 1].
+    pub fn lookup(&self, weights: Weights, cos_v: f64, roughness: f64) -> [f64; TERMS] {
+        let (width, height) = (self.design.width, self.design.height);
+        let (column, row) = self.design.texel(cos_v, roughness);
+        let (left, x) = neighbours(weights, column, width);
+        let (top, y) = neighbours(weights, row, height);
+        let texel = |i: usize, j: usize| self.texels[j * width + i].map(f64::from);
+        let mixed = |j: usize| mix(texel(left, j), texel(left + 1, j), x);
+        mix(mixed(top), mixed(top + 1), y)
+    }
+}
+
+/// The texel before a place, and the weight of the next.
+fn neighbours(weights: Weights, at: f64, texels: usize) -> (usize, f64) {
+    let before = (at.floor() as usize).min(texels - 2);
+    let share = at - before as f64;
+    match weights {
+        Weights::Exact => (before, share),
+        Weights::Steps256 => (before, (share * 256.0).floor() / 256.0),
+    }
+}
+
+fn mix(a: [f64; TERMS], b: [f64; TERMS], share: f64) -> [f64; TERMS] {
+    let mut mixed = a;
+    for (mixed, b) in mixed.iter_mut().zip(b) {
+        *mixed += share * (b - *mixed);
+    }
+    mixed
+}
+
+/// Places between the texels of a table at which its channels are known: filtering errs most there.
+#[derive(Clone, Debug, PartialEq)]
+pub struct BetweenSplitSum {
+    /// Cosine, roughness, channels.
+    points: Vec<(f64, f64, [f64; TERMS])>,
+}
+
+impl BetweenSplitSum {
+    /// The middles of all cells and of their sides, from [`LEAST_ROUGHNESS`] on.
+    pub fn new(design: &SplitSumDesign, progress: RowProgress) -> BetweenSplitSum {
+        let rule = Ggx::default();
+        let halves = |texels: usize| 2 * texels - 1;
+        let row = |j: usize| -> Vec<(f64, f64, [f64; TERMS])> {
+            let columns = (0..halves(design.width)).filter(|i| i % 2 == 1 || j % 2 == 1);
+            let places = columns.map(|i| design.at(0.5 * i as f64, 0.5 * j as f64));
+            let places = places.filter(|(_, roughness)| *roughness >= LEAST_ROUGHNESS);
+            let point = |(cos_v, roughness)| {
+                let channels = design.channels_at(&rule, cos_v, roughness);
+                (cos_v, roughness, channels)
+            };
+            places.map(point).collect()
+        };
+        BetweenSplitSum {
+            points: in_parallel(halves(design.height), &row, progress).concat(),
+        }
+    }
+
+    /// The largest error of each channel's lookup.
+    pub fn errors(&self, stored: &StoredSplitSum, weights: Weights) -> [f64; TERMS] {
+        let mut most = [0.0; TERMS];
+        for (cos_v, roughness, terms) in &self.points {
+            let got = stored.lookup(weights, *cos_v, *roughness);
+            for (most, (got, want)) in most.iter_mut().zip(got.iter().zip(terms)) {
+                *most = f64::max(*most, (got - want).abs());
+            }
+        }
+        most
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::split_sum_design::SplitSumAxis;
+    use super::*;
+    use crate::language::methods::find;
+
+    fn basis(name: &str) -> Basis {
+        find(name).and_then(|method| method.basis()).unwrap()
+    }
+
+    #[test]
+    fn corners_are_what_they_must_be() {
+        for axes in [
+            [SplitSumAxis::FourthRoot, SplitSumAxis::Sqrt],
+            [SplitSumAxis::Sqrt, SplitSumAxis::Linear],
+        ] {
+            let design = SplitSumDesign::square(basis("fitted_dielectric"), 9, axes);
+            let mut last = 0;
+            let table = SplitSum::new(&design, &mut |done, of| {
+                assert_eq!((done, of), (last + 1, 9));
+                last = done;
+            });
+            let table = table.unwrap();
+            // A mirror at 90 degrees, and from above.
+            assert_eq!(table.texels[0], [1.0; TERMS]);
+            assert_eq!(table.texels[8], [1.0, 0.0, 0.0, 0.0]);
+            // The roughest from above: T_0 is 1 - ln 2.
+            assert!((table.texels[80][0] - 0.306_853).abs() < 1e-5);
+            let stored = table.stored(Depth::Float);
+            for (i, texel) in table.texels.iter().enumerate() {
+                let (c, r) = design.at((i % 9) as f64, (i / 9) as f64);
+                for (got, want) in stored.lookup(Weights::Exact, c, r).iter().zip(texel) {
+                    assert!((got - want).abs() < 1e-6, "{c} {r}: {got} {want}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn what_no_texture_holds_is_refused() {
+        let refusal = |name: &str| {
+            let design = SplitSumDesign::square(basis(name), 9, [SplitSumAxis::Linear; 2]);
+            SplitSum::new(&design, &mut |_, _| {}).err()
+        };
+        assert_eq!(refusal("fitted_five"), Some(Error::Terms { terms: 5 }));
+        assert_eq!(refusal("fitted_rational"), Some(Error::Range));
+        assert_eq!(refusal("fitted_f82"), None);
+    }
+}

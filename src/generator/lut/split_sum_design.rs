@@ -1,0 +1,264 @@
+//! How a split-sum table is laid out: its axes, its size, its masking, and which channel holds what; and what engines bind.
+//!
+//! Two engines are written down from what they read. Both take n·v along u and roughness along v, both linear, with texel i of N
+//! at (i + 1/2)/N and the smoothest row first, and two terms of Schlick's approximation, w = (1 - h·v)⁵:
+//!
+//! | engine | red | green | texels | masking |
+//! |---|---|---|---|---|
+//! | Filament | ∫ w | ∫ 1 | 128 × 128 | height-correlated Smith |
+//! | Unreal | ∫ (1 - w) | ∫ w | 128 × 32 | the same with roots replaced by lines: Λ is linear in α |
+//!
+//! Sources: Guy and Agopian, "Physically Based Rendering in Filament", 2018, <https://google.github.io/filament/Filament.html>, and
+//! its `cmgen --ibl-dfg-multiscatter`, whose own rows lie one texel further: it integrates row i at (i + 3/2)/N. Karis, "Real
+//! Shading in Unreal Engine 4", 2013, <https://blog.selfshadow.com/publications/s2013-shading-course/>, `PreIntegratedGF` and
+//! `Vis_SmithJointApprox`.
+
+use crate::language::methods::{Basis, MOST_TERMS};
+use crate::physics::optics::Ggx;
+
+/// How a number from 0 to 1 is spread over a side.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum SplitSumAxis {
+    /// As it is.
+    Linear,
+    /// By its square root.
+    Sqrt,
+    /// By its fourth root.
+    FourthRoot,
+}
+
+impl SplitSumAxis {
+    /// All of them, the cheapest first.
+    pub const ALL: [SplitSumAxis; 3] = [
+        SplitSumAxis::Linear,
+        SplitSumAxis::Sqrt,
+        SplitSumAxis::FourthRoot,
+    ];
+
+    /// The name on the command line.
+    pub fn name(self) -> &'static str {
+        match self {
+            SplitSumAxis::Linear => "linear",
+            SplitSumAxis::Sqrt => "sqrt",
+            SplitSumAxis::FourthRoot => "fourth-root",
+        }
+    }
+
+    /// The place of a number, both from 0 to 1.
+    pub fn place(self, value: f64) -> f64 {
+        match self {
+            SplitSumAxis::Linear => value,
+            SplitSumAxis::Sqrt => value.sqrt(),
+            SplitSumAxis::FourthRoot => value.sqrt().sqrt(),
+        }
+    }
+
+    /// The number at a place.
+    pub fn value(self, place: f64) -> f64 {
+        match self {
+            SplitSumAxis::Linear => place,
+            SplitSumAxis::Sqrt => place * place,
+            SplitSumAxis::FourthRoot => place * place * place * place,
+        }
+    }
+
+    /// The place of a number as shading languages write it.
+    pub fn formula(self, number: &str) -> String {
+        match self {
+            SplitSumAxis::Linear => format!("clamp({number}, 0.0, 1.0)"),
+            SplitSumAxis::Sqrt => format!("sqrt(clamp({number}, 0.0, 1.0))"),
+            SplitSumAxis::FourthRoot => format!("sqrt(sqrt(clamp({number}, 0.0, 1.0)))"),
+        }
+    }
+}
+
+/// Which channel holds what.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum SplitSumLayout {
+    /// A term a channel: what each number is multiplied by.
+    Terms,
+    /// What Filament binds.
+    Filament,
+    /// What Unreal Engine binds.
+    Unreal,
+}
+
+impl SplitSumLayout {
+    /// Those of engines.
+    pub const ENGINES: [SplitSumLayout; 2] = [SplitSumLayout::Filament, SplitSumLayout::Unreal];
+
+    /// The name on the command line.
+    pub fn name(self) -> &'static str {
+        match self {
+            SplitSumLayout::Terms => "terms",
+            SplitSumLayout::Filament => "filament",
+            SplitSumLayout::Unreal => "unreal",
+        }
+    }
+
+    /// The channels from the terms T0, of 1, and T1, of w.
+    fn arranged(self, [white, grazing, third, fourth]: [f64; MOST_TERMS]) -> [f64; MOST_TERMS] {
+        match self {
+            SplitSumLayout::Terms => [white, grazing, third, fourth],
+            SplitSumLayout::Filament => [grazing, white, 0.0, 0.0],
+            SplitSumLayout::Unreal => [white - grazing, grazing, 0.0, 0.0],
+        }
+    }
+}
+
+/// How a split-sum table is made.
+#[derive(Clone, Copy, Debug)]
+pub struct SplitSumDesign {
+    /// What is integrated.
+    pub basis: Basis,
+    /// Which channel holds what; of an engine's, also how masking is computed and where texels lie.
+    pub layout: SplitSumLayout,
+    /// Texels along n·v.
+    pub width: usize,
+    /// Texels along roughness.
+    pub height: usize,
+    /// How cosines are spread.
+    pub cosine: SplitSumAxis,
+    /// How roughness is spread.
+    pub roughness: SplitSumAxis,
+}
+
+/// The axes unless others are asked for: `sqrt(vec2(cos_v, roughness))` in a shader, within .002 with 128 texels a side.
+pub const SPLIT_SUM_AXES: [SplitSumAxis; 2] = [SplitSumAxis::Sqrt; 2];
+
+impl SplitSumDesign {
+    /// A square table of all terms, along these axes of cosine and roughness.
+    pub fn square(basis: Basis, size: usize, [cosine, roughness]: [SplitSumAxis; 2]) -> Self {
+        SplitSumDesign {
+            basis,
+            layout: SplitSumLayout::Terms,
+            width: size,
+            height: size,
+            cosine,
+            roughness,
+        }
+    }
+
+    /// What an engine binds, of a basis whose terms are 1 and (1 - c)⁵.
+    pub fn of_engine(basis: Basis, layout: SplitSumLayout) -> Self {
+        let height = match layout {
+            SplitSumLayout::Unreal => 32,
+            SplitSumLayout::Filament | SplitSumLayout::Terms => 128,
+        };
+        SplitSumDesign {
+            basis,
+            layout,
+            width: 128,
+            height,
+            cosine: SplitSumAxis::Linear,
+            roughness: SplitSumAxis::Linear,
+        }
+    }
+
+    /// How many channels are used.
+    pub fn channels(&self) -> usize {
+        match self.layout {
+            SplitSumLayout::Terms => self.basis.terms(),
+            SplitSumLayout::Filament | SplitSumLayout::Unreal => 2,
+        }
+    }
+
+    /// Whether the ends of a side are 0 and 1; an engine's texel i of N is at (i + 1/2)/N.
+    fn ends_are_centres(&self) -> bool {
+        self.layout == SplitSumLayout::Terms
+    }
+
+    /// What turns the place on an axis of so many texels into u: u = scale place + offset.
+    pub fn half_texel(&self, texels: usize) -> (f64, f64) {
+        match self.ends_are_centres() {
+            true => super::axis::TableAxis::half_texel(texels),
+            false => (1.0, 0.0),
+        }
+    }
+
+    /// The cosine and the roughness at a texel, or between some.
+    pub fn at(&self, column: f64, row: f64) -> (f64, f64) {
+        let place = |texel: f64, texels: usize| match self.ends_are_centres() {
+            true => texel / (texels - 1) as f64,
+            false => (texel + 0.5) / texels as f64,
+        };
+        (
+            self.cosine.value(place(column, self.width)),
+            self.roughness.value(place(row, self.height)),
+        )
+    }
+
+    /// The column and the row of a cosine and a roughness, both clamped to [0, 1]; texels are clamped to the edge.
+    pub fn texel(&self, cos_v: f64, roughness: f64) -> (f64, f64) {
+        let texel = |place: f64, texels: usize| {
+            let last = (texels - 1) as f64;
+            match self.ends_are_centres() {
+                true => place * last,
+                false => (place * texels as f64 - 0.5).clamp(0.0, last),
+            }
+        };
+        (
+            texel(self.cosine.place(cos_v.clamp(0.0, 1.0)), self.width),
+            texel(self.roughness.place(roughness.clamp(0.0, 1.0)), self.height),
+        )
+    }
+
+    /// What the channels hold at a cosine and a roughness, both in [0, 1]; α is roughness².
+    pub fn channels_at(&self, rule: &Ggx, cos_v: f64, roughness: f64) -> [f64; MOST_TERMS] {
+        let (mut sums, terms) = ([0.0; MOST_TERMS], self.basis.terms());
+        let alpha = roughness * roughness;
+        rule.each_lit(cos_v, alpha, |cos_h, light, weight| {
+            let weight = match self.layout {
+                SplitSumLayout::Unreal => weight * lines_for_roots(cos_v, light, alpha),
+                SplitSumLayout::Terms | SplitSumLayout::Filament => weight,
+            };
+            self.basis.add(cos_h, weight, &mut sums[..terms]);
+        });
+        self.layout.arranged(sums)
+    }
+}
+
+/// The quotient of Unreal's masking and the exact one: `√(c² + α² (1 - c²))` there is `c (1 - α) + α`.
+fn lines_for_roots(cos_v: f64, light: f64, alpha: f64) -> f64 {
+    let root = |c: f64| (c * c + alpha * alpha * (1.0 - c * c).max(0.0)).sqrt();
+    let line = |c: f64| c * (1.0 - alpha) + alpha;
+    let with = |of: &dyn Fn(f64) -> f64| light * of(cos_v) + cos_v * of(light);
+    let own = with(&line);
+    if own > 0.0 { with(&root) / own } else { 1.0 }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::language::methods::find;
+
+    #[test]
+    fn places_are_undone() {
+        for axis in SplitSumAxis::ALL {
+            assert_eq!((axis.place(0.0), axis.place(1.0)), (0.0, 1.0));
+            for step in 0..=100 {
+                let value = f64::from(step) / 100.0;
+                assert!((axis.value(axis.place(value)) - value).abs() < 1e-12);
+            }
+        }
+    }
+
+    #[test]
+    fn texels_are_found_again() {
+        let basis = find("schlick").and_then(|method| method.basis()).unwrap();
+        let axes = [SplitSumAxis::FourthRoot, SplitSumAxis::Sqrt];
+        let engines = SplitSumLayout::ENGINES.map(|one| SplitSumDesign::of_engine(basis, one));
+        for design in [
+            &engines[0],
+            &engines[1],
+            &SplitSumDesign::square(basis, 9, axes),
+        ] {
+            for (column, row) in [(0.0, 0.0), (3.5, 2.0), (8.0, 7.25)] {
+                let (cos_v, roughness) = design.at(column, row);
+                let (x, y) = design.texel(cos_v, roughness);
+                assert!((x - column).abs() < 1e-9 && (y - row).abs() < 1e-9);
+            }
+        }
+        assert_eq!(engines[1].at(0.0, 0.0), (0.5 / 128.0, 0.5 / 32.0));
+    }
+}

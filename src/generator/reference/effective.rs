@@ -1,0 +1,278 @@
+//! The index per channel that stands for a whole spectrum: n and k that give the channel's F0 and F82, or, where no
+//! index does, those whose curve comes nearest over all angles.
+//!
+//! No index has an F0 above 1 (the red of saturated gold), and the mean of several dielectrics is not quite a
+//! dielectric. There the largest absolute difference over the angles is minimised. A dielectric keeps k = 0, so that the cheaper exact law serves it.
+
+use crate::language::methods::Light;
+use crate::physics::materials::{Channels, Index, MaterialKind};
+use crate::physics::num::each_channel;
+use crate::physics::optics::{self, COS_82, index_from_f0_f82};
+
+use super::reference_curve::{ReferenceCurve, reference_reflectance};
+
+/// The index per channel, and how it was come by.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Effective {
+    /// n and k per channel.
+    pub channels: Channels,
+    /// How each channel's index stands for what is seen.
+    pub by: [By; 3],
+}
+
+/// How an index stands for a channel.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum By {
+    /// It is the index itself: the channel is one wavelength.
+    Itself,
+    /// It has the channel's F0 and F82.
+    F0AndF82,
+    /// No index has: its curve is the nearest.
+    Nearest,
+}
+
+impl By {
+    /// In words.
+    pub fn text(self) -> &'static str {
+        match self {
+            By::Itself => "one wavelength",
+            By::F0AndF82 => "f0 and f82",
+            By::Nearest => "nearest curve",
+        }
+    }
+}
+
+/// Below this n the exact law loses digits in f32.
+const LEAST_N: f64 = 1e-3;
+/// The box that is searched: n up to here in steps of equal ratio, k up to here, denser near 0.
+const MOST_N: f64 = 20.0;
+const MOST_K: f64 = 60.0;
+/// A dielectric that reflects more has an n that no medium has.
+const MOST_F0: f64 = 0.9;
+/// A dielectric whose k stays below this is taken as transparent: k² adds 4 n k²/(n + 1)⁴ to its F0, 2.5e-5 at most.
+const FAINT_K: f64 = 0.01;
+/// Even steps of angle at which curves are compared, 0 and nearly 90 degrees included.
+const ANGLES: usize = 60;
+/// As many where k is 0, so that n alone is searched: past a critical angle there is a cusp to be met.
+const FINE: usize = 720;
+/// Cosines close to grazing, besides: 2⁻ⁱ, where a large k has its minimum.
+const GRAZING: i32 = 14;
+/// Even steps of n and of k before a golden section, its sections, and its ratio: (√5 - 1)/2.
+const STEPS_N: usize = 20;
+const STEPS_K: usize = 48;
+const SECTIONS: usize = 24;
+const GOLDEN: f64 = 0.618_033_988_749_894_9;
+
+/// The index per channel for what is seen of a surface in unpolarised light.
+pub fn effective(reference: &ReferenceCurve, kind: MaterialKind) -> Effective {
+    if let Some(channels) = reference.surface.channels() {
+        return Effective {
+            channels,
+            by: [By::Itself; 3],
+        };
+    }
+    let transparent = kind == MaterialKind::Dielectric && reference.surface.most_k() < FAINT_K;
+    let curve = curve(reference, if transparent { FINE } else { ANGLES });
+    let at = |c: f64| reference_reflectance(&reference.surface, Light::Unpolarised, c);
+    let (f0, f82) = (at(1.0), at(COS_82));
+    let each = each_channel(|i| {
+        let found = index_from_f0_f82(f0[i], f82[i]);
+        if !transparent && found.exact && found.n >= LEAST_N {
+            let index = Index {
+                n: found.n,
+                k: found.k,
+            };
+            (index, By::F0AndF82)
+        } else {
+            let channel: Vec<(f64, f64)> = curve.iter().map(|(c, r)| (*c, r[i])).collect();
+            if transparent {
+                (nearest_transparent(&channel), By::Nearest)
+            } else {
+                (nearest(&channel), By::Nearest)
+            }
+        }
+    });
+    Effective {
+        channels: Channels::of(each.map(|(index, _)| index)),
+        by: each.map(|(_, by)| by),
+    }
+}
+
+/// Cosines and what is seen there, between 0 and 1: no index reflects more than all, so that of saturated gold's red the
+/// part below 1 is what an index can follow.
+fn curve(reference: &ReferenceCurve, angles: usize) -> Vec<(f64, [f64; 3])> {
+    let even = (0..angles).map(|i| i as f64 / angles as f64 * std::f64::consts::FRAC_PI_2);
+    let grazing = (2..GRAZING).map(|i| libm::exp2(-f64::from(i)));
+    let cosines = even.map(libm::cos).chain(grazing);
+    cosines
+        .map(|c| (c, reference.at(c).map(|r| r.clamp(0.0, 1.0))))
+        .collect()
+}
+
+/// The index whose curve is nearest, by largest absolute difference: for each k the best n, and of these the best.
+/// The valley is long, narrow and not smooth, so that each is searched by itself.
+fn nearest(curve: &[(f64, f64)]) -> Index {
+    let of = |k: f64, n: f64| Index {
+        n: LEAST_N * libm::pow(MOST_N / LEAST_N, n),
+        k: MOST_K * k * k,
+    };
+    let best_n = |k: f64| least(STEPS_N, |n, limit| distance(of(k, n), curve, limit));
+    let (k, _) = least(STEPS_K, |k, _| best_n(k).1);
+    of(k, best_n(k).0)
+}
+
+/// The nearest index without k, on the side of 1 that serves better: in the square root q of F0 around that of the
+/// curve, n = (1 + q) / (1 - q), up to twice or half of it.
+fn nearest_transparent(curve: &[(f64, f64)]) -> Index {
+    let root = curve[0].1.clamp(0.0, MOST_F0).sqrt();
+    let q = |share: f64| (root * libm::exp2(2.0 * share - 1.0)).min(MOST_F0);
+    let above = |share: f64| (1.0 + q(share)) / (1.0 - q(share));
+    let error = |n: f64, limit: f64| distance(Index { n, k: 0.0 }, curve, limit);
+    let (glass, glass_error) = least(STEPS_N, |share, limit| error(above(share), limit));
+    let (gas, gas_error) = least(STEPS_N, |share, limit| error(1.0 / above(share), limit));
+    let n = if gas_error < glass_error {
+        1.0 / above(gas)
+    } else {
+        above(glass)
+    };
+    Index { n, k: 0.0 }
+}
+
+/// Where in [0, 1] a function is least, and its value: the best of even steps, then a golden section between its
+/// neighbours. The function also takes a limit: where its value is above it, it may return any number above it.
+fn least(steps: usize, f: impl Fn(f64, f64) -> f64) -> (f64, f64) {
+    let at = |i: usize| i as f64 / steps as f64;
+    let (mut best, mut value) = (0, f64::INFINITY);
+    for i in 0..=steps {
+        let here = f(at(i), value);
+        if here < value {
+            (best, value) = (i, here);
+        }
+    }
+    let (mut low, mut high) = (at(best.saturating_sub(1)), at((best + 1).min(steps)));
+    for _ in 0..SECTIONS {
+        let [left, right] = [high - GOLDEN * (high - low), low + GOLDEN * (high - low)];
+        let left_value = f(left, f64::INFINITY);
+        if left_value <= f(right, left_value) {
+            high = right;
+        } else {
+            low = left;
+        }
+    }
+    let middle = 0.5 * (low + high);
+    let found = (middle, f(middle, value));
+    if found.1 <= value {
+        found
+    } else {
+        (at(best), value)
+    }
+}
+
+/// The largest difference between an index's curve and this one, or the first that is above the limit.
+fn distance(index: Index, curve: &[(f64, f64)], limit: f64) -> f64 {
+    let mut largest: f64 = 0.0;
+    for (cos_theta, reflectance) in curve {
+        let law = optics::conductor(index.n, index.k, *cos_theta).unpolarised();
+        largest = largest.max((law - reflectance).abs());
+        if largest > limit {
+            break;
+        }
+    }
+    largest
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::physics::materials::{self, Surface, ViewingConditions};
+
+    fn reference(name: &str) -> (ReferenceCurve, MaterialKind) {
+        let material = materials::find(name)
+            .expect("it is there")
+            .expect("it is good");
+        let surface =
+            Surface::new(&material, None, &ViewingConditions::default()).expect("it is full");
+        (
+            ReferenceCurve::new(surface, Light::Unpolarised),
+            material.kind,
+        )
+    }
+
+    /// No index of a dense grid around, and of a coarse one over the whole box, comes nearer.
+    #[test]
+    fn the_nearest_index_is_the_nearest() {
+        for (name, channel) in [
+            ("gold", 0),
+            ("gold_mcpeak", 0),
+            ("copper_babar", 0),
+            ("water", 1),
+        ] {
+            let (reference, kind) = reference(name);
+            let found = effective(&reference, kind);
+            assert_eq!(found.by[channel], By::Nearest, "{name}");
+            let curve: Vec<(f64, f64)> = curve(&reference, ANGLES)
+                .iter()
+                .map(|(c, r)| (*c, r[channel]))
+                .collect();
+            let (n, k) = (found.channels.n[channel], found.channels.k[channel]);
+            let error = distance(Index { n, k }, &curve, f64::INFINITY);
+            let glass = kind == MaterialKind::Dielectric;
+            for i in -50..=50 {
+                for j in -50..=50 {
+                    let near = Index {
+                        n: n * (1.0 + f64::from(i) * 2e-4),
+                        k: k * (1.0 + f64::from(j) * 2e-4),
+                    };
+                    let far = Index {
+                        n: 0.002 * libm::pow(2e3, f64::from(i + 50) / 100.0),
+                        k: if glass { 0.0 } else { 0.6 * f64::from(j + 51) },
+                    };
+                    let least = distance(near, &curve, f64::INFINITY).min(distance(
+                        far,
+                        &curve,
+                        f64::INFINITY,
+                    ));
+                    assert!(least > error - 1e-5, "{name}: {least} is less than {error}");
+                }
+            }
+        }
+    }
+
+    /// An index that is one comes back.
+    #[test]
+    fn grey_media_come_back() {
+        for (n, k, kind) in [
+            (1.5, 0.0, MaterialKind::Dielectric),
+            (0.2, 3.5, MaterialKind::Metal),
+            (4.0, 0.1, MaterialKind::Semiconductor),
+        ] {
+            let (mut reference, _) = reference("silver");
+            reference
+                .surface
+                .indices
+                .iter_mut()
+                .for_each(|index| *index = Index { n, k });
+            let reference = ReferenceCurve::new(reference.surface, Light::Unpolarised);
+            let found = effective(&reference, kind);
+            for i in 0..3 {
+                let apart = (found.channels.n[i] - n).abs() / n + (found.channels.k[i] - k).abs();
+                assert!(apart < 1e-6, "{found:?}");
+            }
+        }
+    }
+
+    /// 2 ∫ R cos θ d(cos θ): 1 for a mirror, and known in closed form for glass (Walsh 1926; n = 1.5: .0918).
+    #[test]
+    fn averages_are_hemispherical() {
+        let (reference, _) = reference("silver");
+        let of = |index: Index| {
+            let mut surface = reference.surface.clone();
+            surface.indices.iter_mut().for_each(|own| *own = index);
+            ReferenceCurve::new(surface, Light::Unpolarised).average()[1]
+        };
+        let mirror = of(Index { n: 1.0, k: 1e9 });
+        assert!((mirror - 1.0).abs() < 1e-6, "{mirror}");
+        let glass = of(Index { n: 1.5, k: 0.0 });
+        assert!((glass - 0.0918).abs() < 5e-5, "{glass}");
+    }
+}

@@ -1,0 +1,256 @@
+//! Whether a method of ours has no larger error and costs no more than a user's function, and the sentence that says so.
+
+use crate::lab::cost::{CostAndError, Multiples, TIE};
+
+/// A method of ours for the same material.
+#[derive(Clone, Debug)]
+pub struct Competitor {
+    /// Its name.
+    pub method: &'static str,
+    /// `library` or `specialised`.
+    pub form: &'static str,
+    /// How many numbers a material takes by it.
+    pub inputs: usize,
+    /// Its cost on a GPU, and its largest error.
+    pub point: CostAndError,
+}
+
+/// A user's function as it is compared.
+#[derive(Clone, Copy, Debug)]
+pub struct Own {
+    /// How many numbers a material takes.
+    pub inputs: usize,
+    /// Its cost on a GPU, and its largest error.
+    pub point: CostAndError,
+    /// Whether a check fails: it is not fit for use then, wherever it stands.
+    pub fails: bool,
+}
+
+/// A user's function against a method of ours.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Comparison {
+    /// The method.
+    pub method: &'static str,
+    /// `library` or `specialised`.
+    pub form: &'static str,
+    /// How many numbers a material takes by it.
+    pub inputs: usize,
+    /// The user's cost and error over the method's, where a cost below the least that a compiler reports counts as the least.
+    pub times: Multiples,
+    /// The user's cost, where the method costs nothing: there is no ratio then.
+    cost_beside_none: Option<f64>,
+}
+
+impl Comparison {
+    /// The user's cost over the method's; none where that costs nothing.
+    pub fn cost_times(&self) -> Option<f64> {
+        let has_ratio = self.cost_beside_none.is_none();
+        has_ratio.then_some(self.times.cost)
+    }
+}
+
+/// The methods that dominate a user's function: those that are far better first. Which take no more numbers than it does, and which
+/// take more: these buy what they gain, and dominate nothing.
+pub fn dominating(own: &Own, competitors: &[Competitor]) -> (Vec<Comparison>, Vec<Comparison>) {
+    let all = competitors.iter().map(|other| compared(own, other));
+    let mut found: Vec<Comparison> = all.filter(|other| other.times.is_dominated()).collect();
+    let gain = |other: &Comparison| other.times.error * other.times.cost;
+    found.sort_by(|a, b| gain(b).total_cmp(&gain(a)).then(a.method.cmp(b.method)));
+    found
+        .into_iter()
+        .partition(|other| other.inputs <= own.inputs)
+}
+
+fn compared(own: &Own, competitor: &Competitor) -> Comparison {
+    Comparison {
+        method: competitor.method,
+        form: competitor.form,
+        inputs: competitor.inputs,
+        times: own.point.multiples_of(&competitor.point),
+        cost_beside_none: competitor.point.costs_nothing().then_some(own.point.cost),
+    }
+}
+
+/// Which method dominates a user's function, or that none does; and which would with more inputs.
+pub fn sentence(own: &Own, competitors: &[Competitor]) -> String {
+    let (dominating, with_more) = dominating(own, competitors);
+    let among_as_few = match dominating.first() {
+        Some(best) => {
+            let (error, cost) = multiples(best);
+            let method = best.method;
+            format!("dominated by {method}: this function errs {error} and costs {cost}")
+        }
+        None => on_the_frontier(own, competitors),
+    };
+    let more = with_more.first().map(|best| {
+        let (method, inputs, own) = (best.method, best.inputs, own.inputs);
+        let (error, cost) = multiples(best);
+        format!(
+            "; beside {method} it errs {error} and costs {cost}, but {method} takes {inputs} inputs instead of {own}"
+        )
+    });
+    among_as_few + &more.unwrap_or_default()
+}
+
+/// Where no method with as few inputs dominates it.
+fn on_the_frontier(own: &Own, competitors: &[Competitor]) -> String {
+    let is_as_small = |other: &&Competitor| other.inputs <= own.inputs;
+    let mut all = competitors
+        .iter()
+        .filter(is_as_small)
+        .map(|other| compared(own, other));
+    let why = match all.find(|other| other.times.is_tie()) {
+        Some(same) => format!("it errs and costs as much as {}", same.method),
+        None => "every method of ours with as few inputs errs more or costs more".to_owned(),
+    };
+    match own.fails {
+        true => format!("on the frontier by error and cost alone, for a check fails: {why}"),
+        false => format!("on the frontier: {why}"),
+    }
+}
+
+/// `9 times as much`, of errors and of costs; a cost stands alone where the other function has none.
+fn multiples(other: &Comparison) -> (String, String) {
+    let cost = match other.cost_beside_none {
+        Some(cost) => format!("{cost}, where that costs nothing"),
+        None => times(other.times.cost),
+    };
+    (times(other.times.error), cost)
+}
+
+/// `9 times as much`, `as much`.
+fn times(share: f64) -> String {
+    if (share - 1.0).abs() <= TIE {
+        return "as much".to_owned();
+    }
+    let text = match share {
+        share if share < 1.1 => format!("{share:.2}"),
+        share if share < 9.95 => format!("{share:.1}"),
+        share => format!("{share:.0}"),
+    };
+    let short = text.strip_suffix(".0").unwrap_or(&text);
+    format!("{short} times as much")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn competitors() -> [Competitor; 3] {
+        let competitor = |method, inputs, error, cost| Competitor {
+            method,
+            form: "library",
+            inputs,
+            point: CostAndError { cost, error },
+        };
+        [
+            competitor("exact", 6, 1e-7, 100.0),
+            competitor("fitted", 12, 0.01, 20.0),
+            competitor("schlick", 3, 0.1, 10.0),
+        ]
+    }
+
+    fn own(inputs: usize, error: f64, cost: f64) -> Own {
+        Own {
+            inputs,
+            point: CostAndError { cost, error },
+            fails: false,
+        }
+    }
+
+    #[track_caller]
+    fn check(error: f64, cost: f64, expected: &str) {
+        assert_eq!(sentence(&own(12, error, cost), &competitors()), expected);
+    }
+
+    #[test]
+    fn the_sentence_says_by_how_much() {
+        check(
+            0.09,
+            28.0,
+            "dominated by fitted: this function errs 9 times as much and costs 1.4 times as much",
+        );
+        check(
+            0.1,
+            12.0,
+            "dominated by schlick: this function errs as much and costs 1.2 times as much",
+        );
+        check(
+            0.01,
+            20.0,
+            "on the frontier: it errs and costs as much as fitted",
+        );
+        check(
+            0.05,
+            12.0,
+            "on the frontier: every method of ours with as few inputs errs more or costs more",
+        );
+        check(
+            3e-7,
+            130.0,
+            "dominated by exact: this function errs as much and costs 1.3 times as much",
+        );
+    }
+
+    /// `constant_f0` costs nothing, and 44 is no multiple of that.
+    #[test]
+    fn beside_what_costs_nothing_a_cost_has_no_ratio() {
+        let free = Competitor {
+            method: "constant_f0",
+            form: "library",
+            inputs: 3,
+            point: CostAndError {
+                cost: 0.0,
+                error: 0.66,
+            },
+        };
+        let own = own(3, 0.66, 44.0);
+        assert_eq!(
+            sentence(&own, std::slice::from_ref(&free)),
+            "dominated by constant_f0: this function errs as much and costs 44, where that costs nothing"
+        );
+        let (found, _) = dominating(&own, &[free]);
+        assert_eq!(found[0].cost_times(), None);
+    }
+
+    /// A function that gives no reflectance somewhere is recommended by no place on the frontier.
+    #[test]
+    fn the_frontier_says_that_a_check_fails() {
+        let failing = Own {
+            fails: true,
+            ..own(12, 0.05, 12.0)
+        };
+        let says = sentence(&failing, &competitors());
+        assert!(
+            says.starts_with("on the frontier by error and cost alone, for a check fails: every"),
+            "{says}"
+        );
+    }
+
+    #[test]
+    fn all_that_dominate_are_told_the_farthest_first() {
+        let (found, with_more) = dominating(&own(12, 0.2, 40.0), &competitors());
+        assert!(with_more.is_empty());
+        let names: Vec<&str> = found.iter().map(|other| other.method).collect();
+        assert_eq!(names, ["fitted", "schlick"]);
+    }
+
+    /// Two functions that differ in how much they are told of a material are no rivals.
+    #[test]
+    fn what_takes_more_numbers_dominates_nothing_and_is_told() {
+        let few = own(3, 0.09, 28.0);
+        let (found, with_more) = dominating(&few, &competitors());
+        assert!(found.is_empty());
+        assert_eq!(with_more[0].method, "fitted");
+        assert_eq!(
+            sentence(&few, &competitors()),
+            "on the frontier: every method of ours with as few inputs errs more or costs more; beside fitted it errs 9 times as much and costs 1.4 times as much, but fitted takes 12 inputs instead of 3"
+        );
+        let (found, _) = dominating(&own(3, 0.2, 28.0), &competitors());
+        assert_eq!(found.len(), 1);
+        assert_eq!(
+            sentence(&own(3, 0.2, 28.0), &competitors()),
+            "dominated by schlick: this function errs 2 times as much and costs 2.8 times as much; beside fitted it errs 20 times as much and costs 1.4 times as much, but fitted takes 12 inputs instead of 3"
+        );
+    }
+}

@@ -1,0 +1,97 @@
+//! The compilers of a user's text, run by a worker: ending the worker ends a compiler that hangs.
+
+use core::cell::RefCell;
+use core::time::Duration;
+
+use crate::lab::process::{Error, Launch, Silence, Surroundings, Worker};
+use crate::lab::verify::compilers::{CompilerFault, Verdict};
+use crate::physics::num::Precision;
+
+use super::accept::Accepted;
+use super::language::Language;
+use super::protocol::{AuditRequest, AuditResponse};
+
+/// The process that asks them.
+pub struct Compilers {
+    limit: Duration,
+    worker: RefCell<Worker>,
+}
+
+impl Compilers {
+    /// Each step may take so long, however many compilers it asks.
+    pub fn new(limit: Duration, surroundings: &Surroundings) -> Compilers {
+        Compilers {
+            limit,
+            worker: RefCell::new(Worker::new(Launch::new(
+                &["audit", "--worker"],
+                surroundings,
+            ))),
+        }
+    }
+
+    /// What the compilers of a language say of a whole program.
+    ///
+    /// # Errors
+    /// No process can be started.
+    pub fn accepted(
+        &self,
+        language: Language,
+        precision: Precision,
+        program: String,
+    ) -> Result<Accepted, Error> {
+        let request = AuditRequest::Accept(language, precision, program);
+        // No word about the text: the compiler or the machine may be at fault.
+        let silent = |words: String| Accepted {
+            verdicts: vec![(
+                language.compiler().to_owned(),
+                Verdict::NotChecked(words.clone()),
+            )],
+            code: Err(CompilerFault::NotChecked(words)),
+        };
+        Ok(match self.ask(&request, language)? {
+            Ok(AuditResponse::Accepted(accepted)) => accepted,
+            Ok(_) => silent("the process answers another question".to_owned()),
+            Err(words) => silent(words),
+        })
+    }
+
+    /// A shader of a language as SPIR-V.
+    ///
+    /// # Errors
+    /// No process can be started.
+    pub fn module(
+        &self,
+        language: Language,
+        precision: Precision,
+        shader: String,
+    ) -> Result<Result<Vec<u8>, CompilerFault>, Error> {
+        let request = AuditRequest::Module(language, precision, shader);
+        let silent = |words: String| Err(CompilerFault::NotChecked(words));
+        Ok(match self.ask(&request, language)? {
+            Ok(AuditResponse::Module(made)) => made,
+            Ok(_) => silent("the process answers another question".to_owned()),
+            Err(words) => silent(words),
+        })
+    }
+
+    /// The response, or why there is none.
+    fn ask(
+        &self,
+        request: &AuditRequest,
+        language: Language,
+    ) -> Result<Result<AuditResponse, String>, Error> {
+        let response = self.worker.borrow_mut().ask(request, self.limit)?;
+        Ok(response.map_err(|silence| reason(&silence, self.limit, language)))
+    }
+}
+
+fn reason(silence: &Silence, limit: Duration, language: Language) -> String {
+    let compiler = language.compiler();
+    match silence {
+        Silence::TooLong => format!(
+            "{compiler} did not end within {} s, which is all that --limit allows",
+            limit.as_secs()
+        ),
+        Silence::Ended(status) => format!("the process that asks {compiler} ended ({status})"),
+    }
+}

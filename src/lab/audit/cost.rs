@@ -1,0 +1,241 @@
+//! What a user's function costs by the compilers of GPUs, measured as for our functions: what further evaluations in a chain
+//! add, less what they add for the empty function.
+
+use core::time::Duration;
+
+use crate::lab::cost::foreign::ForeignFunction;
+use crate::lab::cost::{
+    CompilerSession, Dialect, ENTRY, Family, FragmentShader, GpuCompiler, Probe, foreign, launch,
+    told,
+};
+use crate::lab::process::{Error, Surroundings, Worker};
+use crate::lab::verify::compilers::CompilerFault;
+use crate::lab::verify::naga_translation;
+use crate::language::ir::{Param, Ty};
+use crate::physics::num::Precision;
+
+use super::compile::Compilers;
+use super::cost_row::AuditCost;
+use super::language::Language;
+use super::place::placed;
+use super::program::AuditProgram;
+
+/// Asks the compiler of a family.
+///
+/// # Errors
+/// No process can be started.
+pub fn cost(
+    program: &AuditProgram,
+    family: &'static Family,
+    compilers: &Compilers,
+    limit: Duration,
+    surroundings: &Surroundings,
+) -> Result<AuditCost, Error> {
+    let unknown = |why: String| AuditCost {
+        family,
+        compiler: None,
+        figures: Err(why),
+    };
+    let (Some(dialect), Ok(launch)) = (family.compiler.dialect(), launch(family, surroundings))
+    else {
+        return Ok(unknown(absent(family, surroundings)));
+    };
+    let shaders = match shaders(program, dialect, compilers)? {
+        Ok(shaders) => shaders,
+        Err(why) => return Ok(unknown(why)),
+    };
+    let mut worker = Worker::new(launch);
+    let mut session = CompilerSession::new(family, dialect, limit, &mut worker);
+    let compiler = match told(session.compiler())? {
+        Ok(name) => name,
+        Err(why) => return Ok(unknown(why)),
+    };
+    Ok(AuditCost {
+        family,
+        compiler: Some(compiler),
+        figures: told(session.figures_of_shaders(shaders))?,
+    })
+}
+
+fn absent(family: &Family, surroundings: &Surroundings) -> String {
+    match family.compiler {
+        GpuCompiler::Operations => {
+            "operations are counted in formulas, and this is text".to_owned()
+        }
+        GpuCompiler::None(why) => why.to_owned(),
+        _ => launch(family, surroundings).err().unwrap_or_default(),
+    }
+}
+
+/// The shaders with both chains of the function and of the empty one, as the worker takes them.
+fn shaders(
+    program: &AuditProgram,
+    dialect: Dialect,
+    compilers: &Compilers,
+) -> Result<Result<[FragmentShader; 4], String>, Error> {
+    let [short, long] = dialect.chains();
+    let chain = |evaluations| shader(program, dialect, evaluations);
+    let empty = |evaluations| empty(program, dialect, evaluations);
+    let mut shaders = Vec::new();
+    // A compiler that timed out once is not asked again.
+    for made in [chain(short), chain(long), empty(short), empty(long)] {
+        let made = match made {
+            Ok(MeasuredShader::Ready(shader)) => Ok(shader),
+            Ok(MeasuredShader::Foreign(language, text)) => {
+                module(compilers.module(language, program.precision, text)?)
+            }
+            Err(why) => Err(why),
+        };
+        match made {
+            Ok(shader) => shaders.push(shader),
+            Err(why) => return Ok(Err(why)),
+        }
+    }
+    Ok(Ok(shaders.try_into().expect("there are four")))
+}
+
+/// A shader that is measured.
+enum MeasuredShader {
+    /// As the worker takes it.
+    Ready(FragmentShader),
+    /// As a compiler makes a module of it.
+    Foreign(Language, String),
+}
+
+fn ready(shader: String) -> MeasuredShader {
+    MeasuredShader::Ready(FragmentShader::Text(shader))
+}
+
+/// A module, or why there is none.
+fn module(made: Result<Vec<u8>, CompilerFault>) -> Result<FragmentShader, String> {
+    let module = made.map_err(|fault| match fault {
+        CompilerFault::NotChecked(why) => why,
+        CompilerFault::Refused(words) => placed("the shader that is measured", usize::MAX, &words),
+    })?;
+    Ok(FragmentShader::Module(module))
+}
+
+/// What stands before GLSL ES that may leave precision to the program around it.
+const PRECISION: &str = "precision highp float;\n";
+
+fn shader(
+    program: &AuditProgram,
+    dialect: Dialect,
+    evaluations: usize,
+) -> Result<MeasuredShader, String> {
+    let AuditProgram {
+        language,
+        text: own,
+        params,
+        is_scalar,
+        ..
+    } = program;
+    let foreign_function = |text| ForeignFunction {
+        text,
+        params,
+        is_scalar: *is_scalar,
+    };
+    match (language, dialect) {
+        (Language::Wgsl, _) => {
+            let texts = [own.clone(), String::new()];
+            let probe = Probe::of_text(params.clone(), *is_scalar, texts);
+            wgsl(&probe, dialect, evaluations)
+        }
+        (Language::Gles | Language::Glsl, Dialect::Wgsl) => {
+            let own = format!("{PRECISION}{own}");
+            let shader = foreign::glsl(foreign_function(&own), evaluations);
+            Ok(MeasuredShader::Foreign(*language, shader))
+        }
+        (Language::Gles, _) => {
+            let texts = [String::new(), format!("{PRECISION}{own}")];
+            let probe = Probe::of_text(params.clone(), *is_scalar, texts);
+            Ok(ready(probe.text(evaluations, dialect)))
+        }
+        (Language::Hlsl | Language::Slang, Dialect::Wgsl) => Ok(MeasuredShader::Foreign(
+            *language,
+            foreign::hlsl(foreign_function(own), evaluations),
+        )),
+        (Language::Hlsl | Language::Slang | Language::Glsl, _) => {
+            let language = language.name().to_uppercase();
+            Err(format!(
+                "it takes GLSL ES, which nothing here makes of {language}"
+            ))
+        }
+    }
+}
+
+/// What the chain itself costs: around the empty function with a result of as many channels.
+fn empty(
+    program: &AuditProgram,
+    dialect: Dialect,
+    evaluations: usize,
+) -> Result<MeasuredShader, String> {
+    let (language, is_scalar) = (program.language, program.is_scalar);
+    let result = if is_scalar { Ty::Scalar } else { Ty::Rgb };
+    let probe = Probe::empty(Ty::Scalar, result, Precision::F32);
+    let none = [Param {
+        name: "cos_theta".to_owned(),
+        ty: Ty::Scalar,
+    }];
+    let foreign_function = |rgb| ForeignFunction {
+        text: if is_scalar {
+            foreign::EMPTY_SCALAR
+        } else {
+            rgb
+        },
+        params: &none,
+        is_scalar,
+    };
+    match (language, dialect) {
+        (Language::Wgsl, _) => wgsl(&probe, dialect, evaluations),
+        (Language::Gles | Language::Glsl, Dialect::Wgsl) => Ok(MeasuredShader::Foreign(
+            language,
+            foreign::glsl(foreign_function(foreign::EMPTY_GLSL), evaluations),
+        )),
+        (Language::Hlsl | Language::Slang, Dialect::Wgsl) => Ok(MeasuredShader::Foreign(
+            language,
+            foreign::hlsl(foreign_function(foreign::EMPTY_HLSL), evaluations),
+        )),
+        (Language::Gles | Language::Glsl | Language::Hlsl | Language::Slang, _) => {
+            Ok(ready(probe.text(evaluations, dialect)))
+        }
+    }
+}
+
+/// WGSL itself, or naga's GLSL ES of it.
+fn wgsl(probe: &Probe, dialect: Dialect, evaluations: usize) -> Result<MeasuredShader, String> {
+    let own = probe.text(evaluations, Dialect::Wgsl);
+    match dialect {
+        Dialect::Wgsl => Ok(ready(own)),
+        Dialect::Es100 => Err("it takes GLSL ES 1.00, which nothing here makes of WGSL".to_owned()),
+        Dialect::Es300 => {
+            let made = naga_translation::to_gles(&own, ENTRY).map_err(|fault| fault.to_string())?;
+            let input = made.inputs.get(&0).map_or("fg_in", String::as_str);
+            Ok(ready(unblocked(&made.text.replace(input, "fg_in"))))
+        }
+    }
+}
+
+/// Arguments as our own shaders have them: naga puts them in a block, which is read from memory.
+fn unblocked(text: &str) -> String {
+    let line = |line: &str| {
+        let inside = line
+            .strip_prefix("layout(std140) uniform ")
+            .and_then(|rest| rest.split_once('{'))
+            .and_then(|(_, rest)| rest.split_once('}'));
+        inside.map_or_else(|| line.to_owned(), |(inside, _)| format!("uniform{inside}"))
+    };
+    let lines: Vec<String> = text.lines().map(line).collect();
+    lines.join("\n") + "\n"
+}
+
+#[cfg(test)]
+mod tests {
+    use super::unblocked;
+
+    #[test]
+    fn a_block_becomes_a_uniform() {
+        let text = "layout(std140) uniform B_block_0Fragment { B _group_0[8]; };\nvoid main() {}\n";
+        assert_eq!(unblocked(text), "uniform B _group_0[8]; \nvoid main() {}\n");
+    }
+}

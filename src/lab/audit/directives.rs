@@ -1,0 +1,236 @@
+//! The preprocessor in a user's text: which directives it may hold, and which macros. What could read another file, or give the
+//! audited function another meaning, is refused before any compiler sees it.
+//!
+//! Comments are passed over before this, and lines that go on behind their end are refused before it. So a directive is what
+//! begins a line with `#`, and a `#` anywhere else is refused.
+
+use crate::generator::emit::shader_words::{Token, tokens};
+
+use super::language::bare;
+
+/// Directives that read no file. Includes, imports, embeds and what else a compiler knows are not among them.
+const ALLOWED: [&str; 13] = [
+    "define",
+    "undef",
+    "if",
+    "ifdef",
+    "ifndef",
+    "elif",
+    "else",
+    "endif",
+    "error",
+    "line",
+    "pragma",
+    "version",
+    "extension",
+];
+
+/// Pragmas that read no file and run nothing: of GLSL, and of HLSL.
+const PRAGMAS: [&str; 8] = [
+    "optimize",
+    "debug",
+    "STDGL",
+    "invariant",
+    "once",
+    "pack_matrix",
+    "warning",
+    "def",
+];
+
+/// A fault in a text: line, column, what.
+pub type TextFault = (usize, usize, String);
+
+/// The first thing in a text that could read another file, or be read in two ways.
+pub fn fault(text: &str) -> Option<TextFault> {
+    let code = bare(text, false);
+    let tokens = tokens(&code);
+    each_line(&tokens).find_map(|line| directive(line).or_else(|| line.windows(2).find_map(pair)))
+}
+
+/// The directive that gives or takes a meaning of this name.
+pub fn redefinition(text: &str, name: &str) -> Option<TextFault> {
+    let code = bare(text, false);
+    let tokens = tokens(&code);
+    each_line(&tokens).find_map(|line| {
+        let [first, second, third, ..] = line else {
+            return None;
+        };
+        let defines = first.text == "#" && ["define", "undef"].contains(&second.text);
+        let what = || {
+            format!("a macro is named `{name}`, as the audited function is: compilers would call the macro; rename one of them")
+        };
+        (defines && third.text == name).then(|| (third.line, third.column, what()))
+    })
+}
+
+/// The names of all macros that a text defines, in order, each once.
+pub fn macros(text: &str) -> Vec<String> {
+    let code = bare(text, false);
+    let tokens = tokens(&code);
+    let mut names: Vec<String> = each_line(&tokens)
+        .filter_map(|line| match line {
+            [first, second, name, ..] if first.text == "#" && second.text == "define" => {
+                Some(name.text.to_owned())
+            }
+            _ => None,
+        })
+        .collect();
+    names.sort_unstable();
+    names.dedup();
+    names
+}
+
+/// The tokens of each line that has any.
+fn each_line<'t, 'a>(tokens: &'t [Token<'a>]) -> impl Iterator<Item = &'t [Token<'a>]> {
+    tokens.chunk_by(|a, b| a.line == b.line)
+}
+
+/// What is wrong with a line as a directive.
+fn directive(line: &[Token]) -> Option<TextFault> {
+    let found = |token: &Token, what: String| Some((token.line, token.column, what));
+    let [first, rest @ ..] = line else {
+        return None;
+    };
+    if first.text != "#" {
+        let sign = line.iter().find(|token| token.text == "#")?;
+        let what = "a `#` that begins no line: it could be a directive to a compiler";
+        return found(sign, what.to_owned());
+    }
+    if let Some(sign) = rest.iter().find(|token| token.text == "#") {
+        return found(
+            sign,
+            "a second `#` in a directive: write the text out".to_owned(),
+        );
+    }
+    match rest {
+        [] => None,
+        [name, ..] if !ALLOWED.contains(&name.text) => found(
+            name,
+            format!(
+                "`#{}` is not allowed: one file alone is audited, so paste what it needs; allowed are {}",
+                name.text,
+                ALLOWED.join(", ")
+            ),
+        ),
+        [name, pragma, ..] if name.text == "pragma" && !PRAGMAS.contains(&pragma.text) => found(
+            pragma,
+            format!(
+                "`#pragma {}` is not allowed; allowed are {}",
+                pragma.text,
+                PRAGMAS.join(", ")
+            ),
+        ),
+        _ => None,
+    }
+}
+
+/// What is wrong with two neighbours, or with the first of them: signs that compilers read as others, and questions about files.
+fn pair(pair: &[Token]) -> Option<TextFault> {
+    let [first, second] = pair else { return None };
+    let together = first.column + first.text.chars().count() == second.column;
+    let asks = |token: &&Token| {
+        let word = token.text;
+        word.starts_with("__has_") || ["_Pragma", "__pragma", "__import__"].contains(&word)
+    };
+    if let Some(word) = [first, second].into_iter().find(asks) {
+        let what = format!(
+            "`{}` is not allowed: it asks about what lies outside of the file",
+            word.text
+        );
+        return Some((word.line, word.column, what));
+    }
+    if let Some(sign) = [first, second].into_iter().find(|token| token.text == "\\") {
+        let what = "a backslash outside of comments: it can hide what a name is";
+        return Some((sign.line, sign.column, what.to_owned()));
+    }
+    let signs = [
+        ("%", ":"),
+        ("<", "%"),
+        ("%", ">"),
+        ("<", ":"),
+        (":", ">"),
+        ("?", "?"),
+    ];
+    let is_digraph = together && signs.contains(&(first.text, second.text));
+    let is_raw = together && first.text.ends_with('R') && second.text == "\"";
+    let what = if is_digraph {
+        "some compilers read these two signs as another one: put a space between them"
+    } else if is_raw {
+        "a raw string: what it hides is not read; write it as a plain one"
+    } else {
+        return None;
+    };
+    Some((first.line, first.column, what.to_owned()))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[track_caller]
+    fn refused(text: &str, line: usize, column: usize, says: &str) {
+        let (at, from, what) = fault(text).expect("a fault");
+        assert!(what.contains(says), "{what}");
+        assert_eq!((at, from), (line, column), "{text}: {what}");
+    }
+
+    #[test]
+    fn what_could_read_a_file_is_refused() {
+        refused("\n#include \"a\"\n", 2, 2, "`#include` is not allowed");
+        refused("# /* b */ include <a>", 1, 11, "`#include`");
+        refused("/* a */ #\tinclude_next <a>", 1, 11, "`#include_next`");
+        refused("#import \"a\"", 1, 2, "`#import`");
+        refused("#embed \"a\"", 1, 2, "`#embed`");
+        refused(
+            "#if __has_include(\"/etc/passwd\")\n#endif",
+            1,
+            5,
+            "`__has_include`",
+        );
+        refused("#if 1 == __has_embed(\"a\")", 1, 10, "`__has_embed`");
+        refused("float a = __has_include(<a>);", 1, 11, "`__has_include`");
+        refused("#pragma GCC dependency \"a\"", 1, 9, "`#pragma GCC`");
+        refused(
+            "#pragma include_alias(\"a\", \"b\")",
+            1,
+            9,
+            "`#pragma include_alias`",
+        );
+        refused("_Pragma(\"a\")", 1, 1, "`_Pragma`");
+        refused("%:include \"a\"", 1, 1, "read these two signs");
+        refused("??=include \"a\"", 1, 1, "read these two signs");
+        refused("float f() <% return 1.0; %>", 1, 11, "read these two signs");
+        refused("\u{200b}#include \"a\"", 1, 2, "begins no line");
+        refused("#define A #x", 1, 11, "a second `#`");
+        refused("x = R\"(\n/*\n)\";", 1, 5, "a raw string");
+        refused("float \\u0066;", 1, 7, "a backslash");
+    }
+
+    #[test]
+    fn what_reads_none_is_free() {
+        for text in [
+            "",
+            "#",
+            "#version 300 es\n#extension GL_OES_standard_derivatives : enable\n",
+            "#ifdef A\n#define B(x) (x % 2 ? x : 1)\n#elif defined(C)\n#undef B\n#else\n#error no\n#endif\n",
+            "#pragma once\n#pragma pack_matrix(row_major)\n#line 3\n",
+            "// #include \"a\"\n/* __has_include(a) %: */ float a = b < c ? 1.0 : 2.0;\n",
+        ] {
+            assert_eq!(fault(text), None, "{text}");
+        }
+    }
+
+    #[test]
+    fn a_macro_with_the_functions_name_is_found() {
+        let text = "float f(float c) { return 5.0; }\n# /* a */ define f(x) 0.5\n";
+        let (line, column, what) = redefinition(text, "f").expect("it is found");
+        assert_eq!((line, column), (2, 18));
+        assert!(what.contains("a macro is named `f`"), "{what}");
+        assert!(redefinition("#undef f\n", "f").is_some());
+        assert!(redefinition("#define f2 f\n// #define f\n", "f").is_none());
+        assert_eq!(
+            macros("#define B 1\n#define A(x) x\n#define B 2\n#undef A\n"),
+            ["A", "B"]
+        );
+    }
+}

@@ -1,0 +1,318 @@
+//! Why a user's function cannot be audited: each message names the file or the flag, the fault, and what is allowed.
+
+use thiserror::Error;
+
+use crate::generator::emit;
+use crate::lab::process;
+use crate::physics::foreign::{Foreign, one_line};
+use crate::physics::names::{UnknownName, nearest_names, offered};
+use crate::physics::num::{POINT_NOT_COMMA, has_decimal_commas};
+
+use super::cosine::CosineForm;
+use super::quantity;
+
+/// Why a user's function cannot be audited.
+#[derive(Debug, Error)]
+pub enum Error {
+    /// A language, a function or an argument that does not exist.
+    #[error(transparent)]
+    Unknown(#[from] UnknownName),
+    /// The processes of a run cannot be started.
+    #[error(transparent)]
+    Process(#[from] process::Error),
+    /// A function of ours cannot be written.
+    #[error(transparent)]
+    Emit(#[from] emit::Error),
+    /// The ending of the file's name is none of a language's.
+    #[error(
+        "{}: its ending does not tell a language; say --language wgsl, glsl, hlsl or slang",
+        Foreign(file)
+    )]
+    NoLanguage {
+        /// The file.
+        file: String,
+    },
+    /// A value that is not of the form that values have.
+    #[error(
+        "--arg {}: {fault}; it is name=number, name=number,number,number, name=quantity, or name=cos for the cosine{}",
+        Foreign(word),
+        of_commas(word)
+    )]
+    Value {
+        /// The word after `--arg`.
+        word: String,
+        /// What is wrong with it.
+        fault: ValueFault,
+    },
+    /// Three values for an argument that takes one.
+    #[error(
+        "--arg {}: it is one number in a function that gives three, and {given} are given",
+        Foreign(name)
+    )]
+    ValueCount {
+        /// The argument.
+        name: String,
+        /// How many are given.
+        given: usize,
+    },
+    /// The text holds no function at all.
+    #[error("{}: it holds no function", Foreign(file))]
+    NoFunction {
+        /// The file.
+        file: String,
+    },
+    /// None of its functions can be one of reflectance.
+    #[error(
+        "{}: it holds no function from a cosine to a reflectance: numbers or three of them in, the same out; --function NAME says of one why",
+        Foreign(file)
+    )]
+    NoReflectance {
+        /// The file.
+        file: String,
+    },
+    /// Several of its functions can be one of reflectance, and none is named, or several have the name.
+    #[error("{}: it holds {} functions; say which with --function: {}", Foreign(file), names.len(), one_line(&names.join(", ")))]
+    SeveralFunctions {
+        /// The file.
+        file: String,
+        /// Their names.
+        names: Vec<String>,
+    },
+    /// The line behind the function's name is another.
+    #[error(
+        "{}: there is no function `{}` in line `{}`; there are {}",
+        Foreign(file),
+        Foreign(name),
+        Foreign(line),
+        one_line(&lines_words(name, lines))
+    )]
+    NoFunctionInLine {
+        /// The file.
+        file: String,
+        /// The name.
+        name: String,
+        /// The line as it was given.
+        line: String,
+        /// The lines in which there are functions of that name.
+        lines: Vec<String>,
+    },
+    /// A name that cannot be defined.
+    #[error(
+        "-D {}: it is NAME=VALUE, or NAME for 1: the name of letters, digits and `_`, free of `fg_` and `__` at its beginning, the value without quotes, backslashes, `#` and comments",
+        Foreign(word)
+    )]
+    Define {
+        /// The word behind the flag.
+        word: String,
+    },
+    /// The function reads something that no value can be given for.
+    #[error("{place}: line {line}: {}", one_line(why))]
+    Unread {
+        /// The function, with its place in the file.
+        place: FunctionPlace,
+        /// The line that reads it.
+        line: usize,
+        /// What it reads.
+        why: String,
+    },
+    /// The named function cannot be one of reflectance.
+    #[error(
+        "{place}: {}; arguments and result are one number or three (float, vec3), the cosine is one",
+        one_line(why)
+    )]
+    Unfit {
+        /// The function, with its place in the file.
+        place: FunctionPlace,
+        /// What is wrong with it.
+        why: String,
+    },
+    /// It is not clear whether an argument is the cosine or the angle.
+    #[error(
+        "{place}: whether `{}` is the cosine or the angle is not clear: say so with --arg {}=cos or --arg {}=angle (in radians); {} are other answers",
+        Foreign(argument),
+        Foreign(argument),
+        Foreign(argument),
+        other_forms()
+    )]
+    UnclearCosine {
+        /// The function, with its place in the file.
+        place: FunctionPlace,
+        /// The argument.
+        argument: String,
+    },
+    /// What is to be the cosine is no single number.
+    #[error(
+        "{place}: --arg {}={form}: it is no argument of one number",
+        Foreign(argument)
+    )]
+    NoNumber {
+        /// The function, with its place in the file.
+        place: FunctionPlace,
+        /// The argument.
+        argument: String,
+        /// What it is to be.
+        form: &'static str,
+    },
+    /// It is a member of a type, and not a static one.
+    #[error(
+        "{place}: it is a function of objects of `{}`, which a cosine does not make: let it be `static`, or write a function that makes the object and calls it",
+        Foreign(ty)
+    )]
+    NeedsObject {
+        /// The function, with its place in the file.
+        place: FunctionPlace,
+        /// The type.
+        ty: String,
+    },
+    /// All arguments have values, and one must be the cosine.
+    #[error("{place}: no argument is left for the cosine; bind one fewer with --arg")]
+    NoCosine {
+        /// The function, with its place in the file.
+        place: FunctionPlace,
+    },
+    /// An argument without a value.
+    #[error("{place}: {}", one_line(&unbound(material, missing, *cosine)))]
+    Unbound {
+        /// The function, with its place in the file.
+        place: FunctionPlace,
+        /// The material.
+        material: String,
+        /// The arguments without a value.
+        missing: Vec<MissingArgument>,
+        /// Which argument is the cosine.
+        cosine: MissingCosine,
+    },
+    /// Something in the text that no program can be made of.
+    #[error("{}:{line}:{column}: {}", Foreign(file), one_line(what))]
+    Text {
+        /// The file.
+        file: String,
+        /// The line, from 1.
+        line: usize,
+        /// The column, from 1.
+        column: usize,
+        /// What stands there, and what is allowed.
+        what: String,
+    },
+}
+
+/// What is wrong with a value.
+#[derive(Clone, Debug, PartialEq, Eq, Error)]
+pub enum ValueFault {
+    /// Nothing tells the name from the value.
+    #[error("it has no `=`")]
+    NoName,
+    /// A number cannot be read.
+    #[error("`{}` is not a number", Foreign(_0))]
+    NoNumber(String),
+    /// Neither a number nor a quantity.
+    #[error("{0}")]
+    NoQuantity(UnknownName),
+    /// It is neither one number nor three.
+    #[error("it has {0} numbers")]
+    Count(usize),
+}
+
+/// Which argument is the cosine, where others have no value.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum MissingCosine {
+    /// It is known.
+    Known,
+    /// It may be the one of this place among those without a value.
+    Likely(u32),
+    /// None can be.
+    Absent,
+}
+
+/// An argument without a value.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct MissingArgument {
+    /// Its name.
+    pub name: String,
+    /// What it stands for, as far as that is known.
+    pub quantity: Option<&'static str>,
+    /// Whether the material has three values for it, and it takes one.
+    pub is_one_of_three: bool,
+    /// The line of its declaration, where it is no argument and is read from outside of the function.
+    pub line: Option<usize>,
+}
+
+impl MissingArgument {
+    fn words(&self) -> String {
+        let meaning = self.quantity.filter(|quantity| *quantity != self.name);
+        let meaning = meaning.map_or(String::new(), |quantity| format!(" ({quantity})"));
+        let why = match self.is_one_of_three {
+            true => ", which is one number here and differs between the channels",
+            false => "",
+        };
+        let from = self.line.map_or(String::new(), |line| {
+            format!(", which it reads from outside (line {line})")
+        });
+        format!("`{}`{meaning}{from}{why}", self.name)
+    }
+}
+
+/// A function and where its name stands.
+#[derive(Clone, Debug, PartialEq, Eq, Error)]
+#[error("{}:{line}:{column}: `{}`", Foreign(file), Foreign(name))]
+pub struct FunctionPlace {
+    /// The file.
+    pub file: String,
+    /// The line, from 1.
+    pub line: usize,
+    /// The column, from 1.
+    pub column: usize,
+    /// The function.
+    pub name: String,
+}
+
+impl Error {
+    /// Whether the machine lacks something; otherwise the user's words or text are at fault.
+    pub fn is_lacking(&self) -> bool {
+        matches!(self, Error::Process(error) if error.is_lacking())
+    }
+}
+
+fn of_commas(word: &str) -> String {
+    let value = word.split_once('=').map_or("", |(_, value)| value.trim());
+    match has_decimal_commas(value) {
+        true => format!("; {POINT_NOT_COMMA}"),
+        false => String::new(),
+    }
+}
+
+fn lines_words(name: &str, lines: &[String]) -> String {
+    let each = lines.iter().map(|line| format!("{name}:{line}"));
+    each.collect::<Vec<_>>().join(", ")
+}
+
+/// What `--arg` takes for an argument that stands for the cosine.
+fn other_forms() -> String {
+    let names = CosineForm::NAMED[1..].iter().map(|(name, _)| *name);
+    names.collect::<Vec<_>>().join(", ")
+}
+
+fn unbound(material: &str, missing: &[MissingArgument], cosine: MissingCosine) -> String {
+    let names: Vec<String> = missing.iter().map(MissingArgument::words).collect();
+    let first = missing.first().map_or("", |argument| &argument.name);
+    let is_known = missing
+        .first()
+        .is_some_and(|first| first.quantity.is_some() || first.line.is_some());
+    let like = match is_known {
+        true => String::new(),
+        false => offered(&nearest_names(first, &quantity::names())),
+    };
+    let cosine = match cosine {
+        MissingCosine::Known => String::new(),
+        MissingCosine::Likely(place) => format!(
+            ", and which of its arguments is the cosine is not clear: say so with --arg {}=cos, or with {} where it is another thing",
+            missing.get(place as usize).map_or("NAME", |one| &one.name),
+            other_forms()
+        ),
+        MissingCosine::Absent => ", and no single number is left for the cosine: write a function of the cosine that calls it".to_owned(),
+    };
+    format!(
+        "{material} has no value for {}{like}{cosine}; bind with --arg {first}=NUMBER or --arg {first}=QUANTITY",
+        names.join(", ")
+    )
+}

@@ -1,0 +1,272 @@
+//! What a function takes that is no argument: uniforms, members of blocks, variables that the shader's other stages or its host set.
+//! Each number among them needs a value, as an argument does; what no number stands for is named and refused.
+
+use std::collections::BTreeMap;
+
+use crate::generator::emit::shader_words::tokens;
+
+use super::parts::{Part, PartKind};
+use super::reach::Use;
+use super::scan::{NumberShape, type_shape};
+use super::type_names::TypeNames;
+use super::variables::Variable;
+
+/// A number, or three, that a function reads from outside of itself.
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub struct HiddenInput {
+    /// How the text names it: `water.bias`, `params.x`.
+    pub path: String,
+    /// The line where it is declared.
+    pub line: usize,
+    /// Whether it is three numbers.
+    pub is_rgb: bool,
+    /// The type that a number is converted to, where it is none of a real number.
+    pub cast: Option<String>,
+    /// The namespaces that it stands in.
+    pub scope: Vec<String>,
+}
+
+impl HiddenInput {
+    /// How many numbers it is.
+    pub fn shape(&self) -> NumberShape {
+        match self.is_rgb {
+            true => NumberShape::Rgb,
+            false => NumberShape::Scalar,
+        }
+    }
+
+    /// The places that it is assigned to, with the channel of the value that goes there.
+    pub fn places(&self) -> Vec<(String, &'static str)> {
+        let around = self.scope.iter().filter(|name| !name.is_empty());
+        let around: String = around.map(|name| format!("{name}::")).collect();
+        match self.path.strip_suffix(".rgb") {
+            Some(path) if self.is_rgb => ["x", "y", "z"]
+                .map(|channel| (format!("{around}{path}.{channel}"), channel))
+                .to_vec(),
+            _ => vec![(around + &self.path, "")],
+        }
+    }
+}
+
+/// Why there is no number for what is read, with the line of that.
+pub type UnreadFault = (usize, String);
+
+/// The types that a text declares.
+pub struct DeclaredTypes<'a> {
+    /// Their members.
+    members: BTreeMap<&'a str, &'a [Variable]>,
+    names: &'a TypeNames,
+}
+
+impl<'a> DeclaredTypes<'a> {
+    /// Those among parts.
+    pub fn new(parts: &'a [Part], names: &'a TypeNames) -> DeclaredTypes<'a> {
+        let types = parts.iter().filter_map(|part| match &part.kind {
+            PartKind::Type(name, members, _) if !members.is_empty() => {
+                Some((name.as_str(), members.as_slice()))
+            }
+            _ => None,
+        });
+        DeclaredTypes {
+            members: types.collect(),
+            names,
+        }
+    }
+
+    /// The numbers of a variable that a use of it takes.
+    ///
+    /// # Errors
+    /// What it takes is no number.
+    pub fn numbers(
+        &self,
+        variable: &Variable,
+        used: &Use,
+    ) -> Result<Vec<HiddenInput>, UnreadFault> {
+        let mut found = Vec::new();
+        let walk = Walk {
+            root: variable,
+            line: used.line,
+            is_indexed: used.is_indexed,
+        };
+        self.enter(&walk, &variable.name, variable, &used.path, &mut found)?;
+        Ok(found)
+    }
+
+    /// The numbers of the members of a block that is read by a name.
+    ///
+    /// # Errors
+    /// What is read is no number.
+    pub fn numbers_of_members(
+        &self,
+        members: &[Variable],
+        used: &Use,
+    ) -> Result<Vec<HiddenInput>, UnreadFault> {
+        let (first, rest) = match used.path.split_first() {
+            Some((first, rest)) => (Some(first), rest),
+            None => (None, &[][..]),
+        };
+        let mut found = Vec::new();
+        for member in members {
+            if first.is_none_or(|first| *first == member.name) {
+                let walk = Walk {
+                    root: member,
+                    line: used.line,
+                    is_indexed: used.is_indexed,
+                };
+                let path = format!("{}.{}", used.name, member.name);
+                self.enter(&walk, &path, member, rest, &mut found)?;
+            }
+        }
+        Ok(found)
+    }
+
+    fn enter(
+        &self,
+        walk: &Walk,
+        path: &str,
+        variable: &Variable,
+        rest: &[String],
+        found: &mut Vec<HiddenInput>,
+    ) -> Result<(), UnreadFault> {
+        let (ty, number) = self.number_type(&variable.ty);
+        let number_of = |path: String, is_rgb: bool, cast: Option<String>| HiddenInput {
+            path,
+            line: walk.root.line,
+            is_rgb,
+            cast,
+            scope: Vec::new(),
+        };
+        let is_whole = !variable.is_array;
+        match number {
+            Some(number) if is_whole && (!walk.is_indexed || !rest.is_empty()) => {
+                found.extend(match number {
+                    NumberType::One(cast) => vec![number_of(path.to_owned(), false, cast)],
+                    NumberType::Three => vec![number_of(path.to_owned(), true, None)],
+                    NumberType::Components(count) => {
+                        let letters = components(count, rest.first().map(String::as_str));
+                        let each = letters.into_iter();
+                        each.map(|one| number_of(format!("{path}.{one}"), one == "rgb", None))
+                            .collect()
+                    }
+                });
+                Ok(())
+            }
+            None if is_whole && self.members.contains_key(ty.as_str()) && path.len() < LONGEST => {
+                let members = self.members[ty.as_str()];
+                let (first, rest) = match rest.split_first() {
+                    Some((first, rest)) => (Some(first), rest),
+                    None => (None, &[][..]),
+                };
+                for member in members {
+                    if first.is_none_or(|first| *first == member.name) {
+                        let path = format!("{path}.{}", member.name);
+                        self.enter(walk, &path, member, rest, found)?;
+                    }
+                }
+                Ok(())
+            }
+            _ => {
+                let what = match variable.is_array {
+                    true => format!("an array of {ty}"),
+                    false => ty,
+                };
+                Err((
+                    walk.line,
+                    format!(
+                        "it reads `{path}` (line {}), {what}, which no number stands for: give the function what it takes from it as an argument",
+                        walk.root.line
+                    ),
+                ))
+            }
+        }
+    }
+
+    /// A type without its precision, and what numbers it is.
+    fn number_type(&self, written: &str) -> (String, Option<NumberType>) {
+        let written = tokens(held(written));
+        let words = self.names.replaced(&written);
+        let precisions = ["highp", "mediump", "lowp"];
+        let words = words.iter().map(|token| token.text);
+        let words: Vec<&str> = words.filter(|word| !precisions.contains(word)).collect();
+        let ty = words.concat();
+        let number = match ty.as_str() {
+            "int" | "uint" | "bool" | "i32" | "u32" | "min16int" | "min16uint" | "int16_t" => {
+                Some(NumberType::One(Some(ty.clone())))
+            }
+            "vec2" | "float2" | "half2" | "min16float2" | "vec2f" | "vec2<f32>" => {
+                Some(NumberType::Components(2))
+            }
+            "vec4" | "float4" | "half4" | "min16float4" | "vec4f" | "vec4<f32>" => {
+                Some(NumberType::Components(4))
+            }
+            _ => match type_shape(&words) {
+                Some(Some(NumberShape::Scalar)) => Some(NumberType::One(None)),
+                Some(Some(NumberShape::Rgb)) => Some(NumberType::Three),
+                _ => None,
+            },
+        };
+        (ty, number)
+    }
+}
+
+/// What a type of a buffer holds: `ConstantBuffer < T >`.
+pub fn held(ty: &str) -> &str {
+    let inside = ["ConstantBuffer", "ParameterBlock"]
+        .iter()
+        .find_map(|name| ty.strip_prefix(name))
+        .and_then(|rest| rest.trim().strip_prefix('<'))
+        .and_then(|rest| rest.strip_suffix('>'));
+    inside.map_or(ty, str::trim)
+}
+
+/// Longer names of members than this are those of types that hold themselves.
+const LONGEST: usize = 400;
+
+/// A variable on the way to its numbers.
+struct Walk<'a> {
+    root: &'a Variable,
+    line: usize,
+    is_indexed: bool,
+}
+
+/// What numbers a type is.
+enum NumberType {
+    /// One; with the type that it is converted to.
+    One(Option<String>),
+    Three,
+    /// Two or four, each by itself; the first three of four may be a colour.
+    Components(usize),
+}
+
+/// The components of a vector that a swizzle takes.
+fn components(count: usize, swizzle: Option<&str>) -> Vec<&'static str> {
+    const LETTERS: [(&str, &str); 4] = [("x", "r"), ("y", "g"), ("z", "b"), ("w", "a")];
+    match (swizzle, count) {
+        (Some("rgb" | "xyz"), 4) => vec!["rgb"],
+        (None, 4) => vec!["rgb", "w"],
+        (None, _) => vec!["x", "y"],
+        (Some(swizzle), _) => {
+            let is_taken =
+                |(x, r): &&(&'static str, &str)| swizzle.contains(x) || swizzle.contains(r);
+            LETTERS.iter().filter(is_taken).map(|(x, _)| *x).collect()
+        }
+    }
+}
+
+/// Numbers in order, each once: a colour stands for its components.
+pub fn distinct(mut all: Vec<HiddenInput>) -> Vec<HiddenInput> {
+    all.sort_by(|a, b| (a.line, &a.path).cmp(&(b.line, &b.path)));
+    all.dedup();
+    let colours: Vec<String> = all
+        .iter()
+        .filter_map(|one| one.path.strip_suffix(".rgb").map(str::to_owned))
+        .collect();
+    let is_part = |one: &HiddenInput| {
+        let split = one.path.rsplit_once('.');
+        split.is_some_and(|(path, letter)| {
+            ["x", "y", "z"].contains(&letter) && colours.iter().any(|colour| colour == path)
+        })
+    };
+    all.retain(|one| !is_part(one));
+    all
+}

@@ -1,0 +1,189 @@
+//! Adds a counter to the loops of a user's text: it counts iterations, so that an infinite loop terminates and is reported. A device
+//! could hang in one, and a software driver leaves it after a number of iterations without a message, with a result that means nothing.
+
+use crate::generator::emit::shader_words::{Token, tokens};
+
+use super::language::{Language, bare};
+
+/// Turns that all loops of one evaluation may take together.
+pub const TURNS: usize = 10_000;
+/// What our function gives where they took more: no reflectance is near it.
+pub const MARK: f32 = 1e30;
+
+/// The text with loops that count, where it holds any. Its lines keep their numbers.
+pub fn counted(text: &str, language: Language) -> Option<String> {
+    let code = bare(text, language.has_preprocessor());
+    let tokens = tokens(&code);
+    let mut marks: Vec<(usize, usize, &str)> = Vec::new();
+    for at in 0..tokens.len() {
+        match language {
+            Language::Wgsl => marks.extend(in_body(&tokens, at)),
+            _ => marks.extend(in_condition(&tokens, at).into_iter().flatten()),
+        }
+    }
+    if marks.is_empty() {
+        return None;
+    }
+    Some(inserted(text, &marks))
+}
+
+/// Whether a macro holds a loop, or makes words that might be one: no turn of it is counted.
+pub fn is_in_macro(text: &str) -> bool {
+    let count = |text: &str| {
+        let words = ["for", "while", "do", "loop"];
+        let tokens = tokens(text);
+        let loops = tokens.iter().filter(|token| words.contains(&token.text));
+        loops.count()
+    };
+    let (whole, code) = (bare(text, false), bare(text, true));
+    count(&whole) > count(&code) || whole.contains("##")
+}
+
+/// The counter, and what counts: before the text where the language wants it declared before it is used.
+pub fn counter(language: Language) -> String {
+    match language {
+        Language::Wgsl => "var<private> fg_turns: i32;\n".to_owned(),
+        _ => {
+            let keeps = if [Language::Hlsl, Language::Slang].contains(&language) {
+                "static "
+            } else {
+                ""
+            };
+            format!(
+                "{keeps}int fg_turns = 0; bool fg_turn(bool fg_goes) {{ fg_turns += 1; return fg_goes && fg_turns <= {TURNS}; }}\n"
+            )
+        }
+    }
+}
+
+/// In WGSL every body has braces.
+const IN_BODY: &str = " fg_turns += 1; if fg_turns > 10000 { break; }";
+
+fn in_body<'a>(tokens: &[Token], at: usize) -> Option<(usize, usize, &'a str)> {
+    if !["loop", "while", "for"].contains(&tokens[at].text) {
+        return None;
+    }
+    let body = tokens[at..].iter().find(|token| token.text == "{")?;
+    Some((body.line, body.column + 1, IN_BODY))
+}
+
+/// `while (fg_turn(…))`, `for (…; fg_turn(…); …)`. What is to be unrolled has an end, or is refused.
+fn in_condition<'a>(tokens: &[Token], at: usize) -> Option<Vec<(usize, usize, &'a str)>> {
+    let is_for = tokens[at].text == "for";
+    let mut before = tokens[..at].iter().rev();
+    let is_unrolled = before.next().is_some_and(|token| token.text == "]")
+        && before
+            .take_while(|token| token.text != "[")
+            .any(|token| token.text == "unroll");
+    if !is_for && tokens[at].text != "while" || is_unrolled {
+        return None;
+    }
+    let open = at + 1;
+    let close = closing(tokens, open)?;
+    let (first, last) = if is_for {
+        let mut ends = (open..close).filter(|i| tokens[*i].text == ";");
+        (ends.next()?, ends.next()?)
+    } else {
+        (open, close)
+    };
+    let (from, to) = (&tokens[first], &tokens[last]);
+    let whole = (from.line, from.column + 1, " fg_turn(0 == 0) ");
+    Some(if last == first + 1 {
+        vec![whole]
+    } else {
+        vec![
+            (from.line, from.column + 1, " fg_turn("),
+            (to.line, to.column, ") "),
+        ]
+    })
+}
+
+/// The place of the parenthesis that closes the one here.
+fn closing(tokens: &[Token], open: usize) -> Option<usize> {
+    let mut depth = 0usize;
+    for (at, token) in tokens.iter().enumerate().skip(open) {
+        match (token.text, depth) {
+            ("(", _) => depth += 1,
+            (")", 1) => return Some(at),
+            (")", 2..) => depth -= 1,
+            (_, 0) => return None,
+            _ => {}
+        }
+    }
+    None
+}
+
+/// A text with words put in before these places.
+fn inserted(text: &str, marks: &[(usize, usize, &str)]) -> String {
+    let mut lines: Vec<Vec<char>> = text
+        .split('\n')
+        .map(|line| line.chars().collect())
+        .collect();
+    let mut marks = marks.to_vec();
+    marks.sort_unstable();
+    for (line, column, word) in marks.into_iter().rev() {
+        if let Some(line) = lines.get_mut(line - 1) {
+            let at = (column - 1).min(line.len());
+            line.splice(at..at, word.chars());
+        }
+    }
+    let lines: Vec<String> = lines.into_iter().map(String::from_iter).collect();
+    lines.join("\n")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[track_caller]
+    fn check(language: Language, text: &str, expected: &str) {
+        let counted = counted(text, language).unwrap_or_default();
+        assert!(counted.ends_with(expected), "{counted}");
+        assert_eq!(counted.lines().count(), text.lines().count());
+    }
+
+    #[test]
+    fn every_loop_counts() {
+        check(
+            Language::Wgsl,
+            "fn f() { loop { while a {} } }",
+            "fn f() { loop { fg_turns += 1; if fg_turns > 10000 { break; } while a { fg_turns += 1; if fg_turns > 10000 { break; }} } }",
+        );
+        check(
+            Language::Gles,
+            "f() {\n for (;;) g(); // for\n do { } while (a(b)); }",
+            "f() {\n for (; fg_turn(0 == 0) ;) g(); // for\n do { } while ( fg_turn(a(b)) ); }",
+        );
+        check(
+            Language::Hlsl,
+            "for (int i = 0; i < 3; i++) {}",
+            "for (int i = 0; fg_turn( i < 3) ; i++) {}",
+        );
+        assert!(IN_BODY.contains(&TURNS.to_string()));
+    }
+
+    #[test]
+    fn loops_in_macros_are_seen() {
+        assert!(is_in_macro("#define EVER for (;;)\nfloat f() { EVER; }"));
+        assert!(is_in_macro("#define GO(a) wh##a\n"));
+        assert!(!is_in_macro(
+            "#define PI 3.1 // for all\nfloat f() { for (;;) {} }"
+        ));
+    }
+
+    #[test]
+    fn what_holds_no_loop_is_left_alone() {
+        for text in [
+            "",
+            "float f() { return format; }",
+            "[unroll] for (;;) {}",
+            "while",
+            "for (",
+            "for (;",
+            "while ) for )",
+        ] {
+            assert_eq!(counted(text, Language::Hlsl), None, "{text}");
+        }
+        assert_eq!(counted("loop", Language::Wgsl), None);
+    }
+}

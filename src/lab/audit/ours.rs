@@ -1,0 +1,161 @@
+//! Our methods for the same material: their errors in single precision, and their costs.
+
+use crate::generator::emit::FunctionForm;
+use crate::generator::fit::{error_of, values_for_material};
+use crate::generator::reference::MaterialInMedium;
+use crate::lab::cost::{
+    CostAndError, CostFigures, CostedFunction, Family, FamilyAnswers, ask_compilers, cost_rows,
+    functions, input_numbers, records,
+};
+use crate::lab::process::{Pool, Surroundings};
+use crate::language::ir::{Checked, Column, Value, evaluate};
+use crate::language::methods::{self, Contract, Light, Method};
+use crate::physics::num::{Precision, each_channel};
+
+use super::comparison::Competitor;
+use super::error::Error;
+
+/// A method with its error, and its cost on each family where it is known.
+#[derive(Clone, Debug)]
+pub struct Ours {
+    method: &'static str,
+    form: &'static str,
+    inputs: usize,
+    error: f64,
+    costs: Vec<Option<f64>>,
+}
+
+impl Ours {
+    /// As it stands against a function on the family of this place.
+    pub fn competitor(&self, place: usize) -> Option<Competitor> {
+        let (cost, error) = (self.costs[place]?, self.error);
+        Some(Competitor {
+            method: self.method,
+            form: self.form,
+            inputs: self.inputs,
+            point: CostAndError { cost, error },
+        })
+    }
+}
+
+/// The methods that can replace a user's function, with their costs, for all materials.
+///
+/// Methods that read a texture are left out, because counts do not include the fetch; so are those for one polarisation,
+/// because they compute something else.
+#[derive(Debug)]
+pub struct CostedMethods {
+    form: FunctionForm,
+    functions: Vec<CostedFunction>,
+    /// For each family the cost of each function that was asked for.
+    costs: Vec<Vec<Option<f64>>>,
+}
+
+impl CostedMethods {
+    /// Their functions of this form; those that are specialised, to these materials.
+    ///
+    /// # Errors
+    /// No process can be started.
+    pub fn ask(
+        form: FunctionForm,
+        subjects: &[MaterialInMedium],
+        families: &[&'static Family],
+        pool: Pool,
+        surroundings: &Surroundings,
+        progress: &mut dyn FnMut(u64, u64, &str),
+    ) -> Result<CostedMethods, Error> {
+        let methods: Vec<&'static Method> =
+            methods::ALL.iter().copied().filter(can_replace).collect();
+        let subjects = match form {
+            FunctionForm::Specialised => subjects,
+            _ => &[],
+        };
+        let mut all = functions(&methods, subjects, &[Precision::F32])?;
+        all.retain(|function| {
+            function.is_asked && function.form == form || function.is_reference()
+        });
+        let answers = ask_compilers(families, &all, pool, surroundings, progress)?;
+        let each = families.iter().zip(&answers);
+        let costs = each
+            .map(|(family, answers)| costs(family, answers.as_ref(), &all))
+            .collect();
+        all.retain(|function| function.is_asked);
+        Ok(CostedMethods {
+            form,
+            functions: all,
+            costs,
+        })
+    }
+
+    /// Those for a material that take so many numbers at most.
+    pub fn for_material(&self, subject: &MaterialInMedium, max_inputs: Option<usize>) -> Vec<Ours> {
+        let is_of = |function: &CostedFunction| match &function.material {
+            Some(material) => *material == subject.argument,
+            None => subject.is_described_by(function.method),
+        };
+        let is_allowed = |inputs: usize| max_inputs.is_none_or(|most| inputs <= most);
+        let each = self.functions.iter().enumerate();
+        each.filter(|(_, function)| function.form == self.form && is_of(function))
+            .filter(|(_, function)| is_allowed(inputs(function)))
+            .map(|(place, function)| Ours {
+                method: function.method.name,
+                form: self.form.name(),
+                inputs: inputs(function),
+                error: error(function, subject),
+                costs: self.costs.iter().map(|column| column[place]).collect(),
+            })
+            .collect()
+    }
+}
+
+/// How many numbers a call takes: of a specialised function none.
+fn inputs(function: &CostedFunction) -> usize {
+    match function.form {
+        FunctionForm::Specialised => 0,
+        _ => input_numbers(function.method),
+    }
+}
+
+fn can_replace(method: &&'static Method) -> bool {
+    method.light == Light::Unpolarised && method.contract == Contract::Kept && !method.is_textured()
+}
+
+/// The cost of each function that was asked for, in order.
+fn costs(
+    family: &'static Family,
+    answers: Option<&FamilyAnswers>,
+    functions: &[CostedFunction],
+) -> Vec<Option<f64>> {
+    let rows = cost_rows(family, answers, &records(family.name), functions);
+    let cost = |figures: Result<CostFigures, String>| figures.ok().map(|figures| figures.cost());
+    rows.into_iter().map(|row| cost(row.figures)).collect()
+}
+
+/// The largest error in single precision, as a user's function has it. A form of one channel is evaluated for each.
+fn error(function: &CostedFunction, subject: &MaterialInMedium) -> f64 {
+    let method = function.method;
+    let (graph, others): (Checked, Vec<Value<f32>>) = match function.form {
+        FunctionForm::Specialised => (function.graph.clone(), Vec::new()),
+        _ => (
+            method.function(false).expect("a test builds every method"),
+            method.arguments(&values_for_material(subject, method), None),
+        ),
+    };
+    let error = error_of(&subject.reference, &|cosines| {
+        let single = cosines.iter().map(|c| *c as f32).collect();
+        let arguments: Vec<Value<f32>> = [Value::each(single)]
+            .into_iter()
+            .chain(others.clone())
+            .collect();
+        let got = evaluate(&graph, &arguments);
+        let channel = |i: usize| {
+            let column = got.channel(i);
+            Column::Each(
+                (0..cosines.len())
+                    .map(|point| f64::from(column.at(point)))
+                    .collect(),
+            )
+        };
+        Value::Rgb(each_channel(channel))
+    });
+    error.max_abs
+}

@@ -1,0 +1,347 @@
+//! A user's text made a program: a function of ours around theirs, so that all that comes after knows one kind of call.
+
+use crate::lab::gpu::{Argument as Value, Uniform};
+use crate::lab::verify::harness::{self, Call};
+use crate::language::ir::{Param, Ty};
+use crate::physics::num::Precision;
+
+use super::bind::{Bound, BoundArgument};
+use super::directives;
+use super::given::DefaultArgument;
+use super::language::Language;
+use super::loops::{MARK, TURNS, counted, counter};
+use super::scan::NumberShape;
+use super::slice::Slice;
+
+/// What our function around theirs is called: as [`crate::lab::cost::Probe`] calls what it measures.
+pub const NAME: &str = "fg_measured";
+/// Names of the program around it that GLSL cannot keep apart: theirs are renamed while their text is read.
+const RENAMED: [&str; 3] = ["main", "cos_theta", "reflectance"];
+/// What goes before them.
+const THEIRS: &str = "fg_their_";
+
+/// A text with our function behind it.
+#[derive(Clone, Debug)]
+pub struct AuditProgram {
+    /// Its language.
+    pub language: Language,
+    /// The text. The lines of theirs keep their numbers.
+    pub text: String,
+    /// What our function takes, the cosine first.
+    pub params: Vec<Param>,
+    /// The values of the others.
+    pub values: Vec<[f32; 3]>,
+    /// Whether our function gives one number.
+    pub is_scalar: bool,
+    /// What `half` computes in.
+    pub precision: Precision,
+}
+
+impl AuditProgram {
+    /// The program of a text, and the one that is run: its loops count their turns.
+    pub fn pair(language: Language, slice: &Slice, bound: &Bound) -> (AuditProgram, AuditProgram) {
+        let plain = AuditProgram::new(language, slice, bound, false);
+        let run = match counted(&slice.text, language) {
+            Some(text) => {
+                let counted = Slice {
+                    text,
+                    ..slice.clone()
+                };
+                AuditProgram::new(language, &counted, bound, true)
+            }
+            None => plain.clone(),
+        };
+        (plain, run)
+    }
+
+    /// The program whose cost is counted: a function of one channel is called once, for one channel.
+    pub fn measured(language: Language, slice: &Slice, bound: &Bound) -> AuditProgram {
+        match bound.is_one_channel() {
+            true => {
+                let wrapper = |params: &[Param]| one_channel(language, bound, params);
+                AuditProgram {
+                    is_scalar: true,
+                    ..AuditProgram::around(language, slice, &bound.first_channel(), false, wrapper)
+                }
+            }
+            false => AuditProgram::new(language, slice, bound, false),
+        }
+    }
+
+    fn new(language: Language, slice: &Slice, bound: &Bound, counts: bool) -> AuditProgram {
+        let wrapper = |params: &[Param]| wrapper(language, bound, params, counts);
+        AuditProgram::around(language, slice, bound, counts, wrapper)
+    }
+
+    /// The text with a function of ours behind it.
+    fn around(
+        language: Language,
+        slice: &Slice,
+        bound: &Bound,
+        counts: bool,
+        wrapper: impl Fn(&[Param]) -> String,
+    ) -> AuditProgram {
+        let mut params = vec![param("cos_theta", Ty::Scalar)];
+        let ty = |argument: &BoundArgument| match argument.is_rgb || argument.is_split() {
+            true => Ty::Rgb,
+            false => Ty::Scalar,
+        };
+        let named = bound.arguments.iter().enumerate();
+        params.extend(named.map(|(i, argument)| param(&format!("a{i}"), ty(argument))));
+        let wrapper = defaults(bound) + &without_macros(slice, language) + &wrapper(&params);
+        let counter = match counts {
+            true => counter(language),
+            false => String::new(),
+        };
+        let Slice { before, text, .. } = slice;
+        let text = match language {
+            Language::Gles | Language::Glsl => {
+                format!("{counter}{}", framed(slice, &wrapper, language))
+            }
+            Language::Hlsl | Language::Slang if counts || !before.is_empty() => {
+                format!("{counter}{before}#line 1\n{text}\n{wrapper}")
+            }
+            _ => format!("{text}\n{wrapper}{counter}"),
+        };
+        AuditProgram {
+            language,
+            text,
+            params,
+            values: bound.arguments.iter().map(|a| a.value).collect(),
+            is_scalar: false,
+            precision: match slice.half {
+                Some(_) => Precision::F16,
+                None => Precision::F32,
+            },
+        }
+    }
+
+    /// The whole program that is run over cosines.
+    pub fn harnessed(&self) -> String {
+        let call = Call {
+            name: NAME,
+            params: &self.params,
+            is_scalar: false,
+            precision: Precision::F32,
+        };
+        if self.language == Language::Glsl {
+            return harness::desktop(&self.text, &call);
+        }
+        harness::program(self.language.target(), &self.text, &call)
+            .expect("users' languages are run as text")
+    }
+
+    /// The arguments as the harness binds them.
+    pub fn uniforms(&self) -> Vec<Uniform> {
+        let harness = self.language.target().stack.harness();
+        let named = harness.map_or("{name}", |harness| harness.uniform);
+        let each = self.params[1..].iter().zip(&self.values);
+        each.map(|(param, value)| Uniform {
+            name: named.replace("{name}", &param.name),
+            value: match param.ty {
+                Ty::Rgb => Value::Rgb(*value),
+                _ => Value::Scalar(value[0]),
+            },
+        })
+        .collect()
+    }
+}
+
+/// The values that the text gives arguments, while its macros mean what they mean.
+fn defaults(bound: &Bound) -> String {
+    let value = |one: &DefaultArgument| {
+        format!(
+            "static const {} fg_d{} = {};\n",
+            one.ty, one.place, one.value
+        )
+    };
+    bound.defaults.iter().map(value).collect()
+}
+
+fn param(name: &str, ty: Ty) -> Param {
+    Param {
+        name: name.to_owned(),
+        ty,
+    }
+}
+
+/// Their text in GLSL: names that the program around it has are theirs under other names.
+fn framed(slice: &Slice, wrapper: &str, language: Language) -> String {
+    let each = |line: fn(&str) -> String| RENAMED.map(line).concat();
+    let define = each(|name| format!("#define {name} {THEIRS}{name}\n"));
+    let undefine = each(|name| format!("#undef {name}\n"));
+    // On the desktop they mean nothing, and in Vulkan they do.
+    let (define, undefine) = match language {
+        Language::Glsl => (
+            define + "#define mediump highp\n#define lowp highp\n",
+            undefine + "#undef mediump\n#undef lowp\n",
+        ),
+        _ => (define, undefine),
+    };
+    let Slice { before, text, .. } = slice;
+    format!("{define}{before}#line 1\n{text}\n{wrapper}{undefine}")
+}
+
+/// Words of compilers, with their names as they wrote them.
+pub fn own_names(words: &str) -> String {
+    words.replace(THEIRS, "")
+}
+
+/// The arguments of our function, as the language declares them.
+fn declared(language: Language, params: &[Param]) -> String {
+    let declared = |param: &Param| {
+        let (name, ty) = (format!("fg_{}", param.name), language.ty(param.ty));
+        match language {
+            Language::Wgsl => format!("{name}: {ty}"),
+            _ => format!("{ty} {name}"),
+        }
+    };
+    let list: Vec<String> = params.iter().map(declared).collect();
+    list.join(", ")
+}
+
+/// Our function around theirs: the cosine, then all others in order; one number out.
+fn one_channel(language: Language, bound: &Bound, params: &[Param]) -> String {
+    let (list, ty) = (declared(language, params), language.ty(Ty::Scalar));
+    let called = called(language, &bound.first_channel(), "x");
+    let (before, value) = (called.before, called.value);
+    match language {
+        Language::Wgsl => format!("fn {NAME}({list}) -> {ty} {{ {before}return {value}; }}\n"),
+        _ => format!("{ty} {NAME}({list}) {{ {before}return {value}; }}\n"),
+    }
+}
+
+/// The same with three numbers out.
+fn wrapper(language: Language, bound: &Bound, params: &[Param], counts: bool) -> String {
+    let list = declared(language, params);
+    let rgb = language.ty(Ty::Rgb);
+    let constructor = bare_type(rgb);
+    let (before, value) = if bound.is_per_channel() {
+        let calls = ["x", "y", "z"].map(|channel| called(language, bound, channel));
+        if bound.hidden.is_empty() && bound.function.out.is_none() {
+            let calls = calls.map(|call| call.value);
+            (
+                String::new(),
+                format!("{constructor}({})", calls.join(", ")),
+            )
+        } else {
+            // What it reads from outside is set anew before each call.
+            let kept = calls.iter().zip(["x", "y", "z"]).map(|(call, channel)| {
+                let kept = variable(language, Ty::Scalar, &format!("fg_{channel}"));
+                format!("{}{kept} = {}; ", call.before, call.value)
+            });
+            let value = format!("{constructor}(fg_x, fg_y, fg_z)");
+            (kept.collect(), value)
+        }
+    } else {
+        let one = called(language, bound, "x");
+        let value = match (bound.function.result == NumberShape::Scalar, language) {
+            (true, Language::Hlsl | Language::Slang) => format!("({}).xxx", one.value),
+            (true, _) => format!("{constructor}({})", one.value),
+            (false, _) => one.value,
+        };
+        (one.before, value)
+    };
+    let body = match (counts, language) {
+        (false, _) => format!("{before}return {value};"),
+        (true, Language::Wgsl) => format!(
+            "fg_turns = 0; {before}let fg_r = {value}; if fg_turns > {TURNS} {{ return {rgb}({MARK:e}); }} return fg_r;"
+        ),
+        (true, _) => format!(
+            "fg_turns = 0; {before}{rgb} fg_r = {value}; if (fg_turns > {TURNS}) {{ fg_r = {constructor}({MARK:e}, {MARK:e}, {MARK:e}); }} return fg_r;"
+        ),
+    };
+    match language {
+        Language::Wgsl => format!("fn {NAME}({list}) -> {rgb} {{ {body} }}\n"),
+        _ => format!("{rgb} {NAME}({list}) {{ {body} }}\n"),
+    }
+}
+
+/// A type without its precision.
+fn bare_type(ty: &str) -> &str {
+    ty.trim_start_matches("highp ")
+}
+
+/// A variable as it is declared before its value.
+fn variable(language: Language, ty: Ty, name: &str) -> String {
+    match language {
+        Language::Wgsl => format!("let {name}"),
+        _ => format!("{} {name}", language.ty(ty)),
+    }
+}
+
+/// A call of theirs.
+struct CallText {
+    /// What stands before it.
+    before: String,
+    /// What it gives.
+    value: String,
+}
+
+/// The call of theirs for a channel.
+fn called(language: Language, bound: &Bound, channel: &str) -> CallText {
+    let function = &bound.function;
+    let value = |i: usize, argument: &BoundArgument| match argument.is_split() {
+        true => format!("fg_a{i}.{channel}"),
+        false => format!("fg_a{i}"),
+    };
+    let others: Vec<String> = bound
+        .arguments
+        .iter()
+        .enumerate()
+        .map(|(i, argument)| value(i, argument))
+        .collect();
+    let mut before = String::new();
+    let (others, values) = others.split_at(others.len() - bound.hidden.len());
+    let inputs = bound.hidden.iter().zip(values);
+    for (input, value) in inputs {
+        for (place, channel) in input.places() {
+            let value = match channel {
+                "" => value.clone(),
+                channel => format!("{value}.{channel}"),
+            };
+            before += &match &input.cast {
+                Some(ty) => format!("{place} = {ty}({value}); "),
+                None => format!("{place} = {value}; "),
+            };
+        }
+    }
+    let default = |place: usize| {
+        let name = &function.params[place].name;
+        let mut all = bound.defaults.iter();
+        all.find(|one| one.name == *name)
+    };
+    let mut others = others.iter().cloned();
+    let argument = |place: usize| match default(place) {
+        _ if place == bound.cosine => "fg_cos_theta".to_owned(),
+        Some(one) => format!("fg_d{}", one.place),
+        None => others.next().unwrap_or_default(),
+    };
+    let mut all: Vec<String> = (0..function.params.len()).map(argument).collect();
+    let name = function.path();
+    let Some(out) = &function.out else {
+        let value = format!("{name}({})", all.join(", "));
+        return CallText { before, value };
+    };
+    let kept = format!("fg_out_{channel}");
+    all.insert(out.place, kept.clone());
+    before += &format!("{} {kept}; {name}({}); ", out.ty, all.join(", "));
+    let ty = match function.result {
+        NumberShape::Scalar => Ty::Scalar,
+        _ => Ty::Rgb,
+    };
+    let value = format!("{}({kept})", bare_type(language.ty(ty)));
+    CallText { before, value }
+}
+
+/// Takes their macros away before our text goes on: it means what it says, whatever they are named.
+fn without_macros(slice: &Slice, language: Language) -> String {
+    if !language.has_preprocessor() {
+        return String::new();
+    }
+    let names = directives::macros(&format!("{}{}", slice.before, slice.text)).into_iter();
+    names
+        .filter(|name| !RENAMED.contains(&name.as_str()))
+        .map(|name| format!("#undef {name}\n"))
+        .collect()
+}

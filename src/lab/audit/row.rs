@@ -1,0 +1,400 @@
+//! The row of the report: a user's function for a material.
+
+use serde::Serialize;
+
+use crate::generator::fit::{ModelError, Perceived};
+use crate::generator::reference::MaterialInMedium;
+use crate::lab::cost::CostAndError;
+use crate::lab::verify::compilers::Verdict;
+use crate::lab::verify::{Answer, Status, as_object};
+use crate::physics::foreign::Foreign;
+
+use super::Audit;
+use super::bind::{Bound, BoundArgument};
+use super::comparison::{Comparison, Competitor, Own, dominating, sentence};
+use super::cost_row::AuditCost;
+use super::edges::{EdgeRow, Edges};
+use super::given::DefaultArgument;
+use super::inputs::Initialised;
+use super::ours::Ours;
+use super::preprocess::Condition;
+use super::recognised::ExactFit;
+use super::runner::Trouble;
+use super::slice::Slice;
+use super::verdict::{Checked, is_within};
+
+/// A user's function with the values of a material: who accepts it, how far it is from the law, what it costs.
+#[derive(Clone, Debug, Serialize)]
+pub struct AuditRow {
+    /// The target of its language, or the language where it is no target.
+    pub target: &'static str,
+    /// The function, where rows of our own have a method.
+    pub method: String,
+    /// The material, as a user types it.
+    pub material: String,
+    /// Always `user`.
+    pub form: &'static str,
+    /// What it computes in.
+    pub precision: &'static str,
+    /// The function.
+    pub function: String,
+    /// The line of its name.
+    pub line: usize,
+    /// The argument that is the cosine.
+    pub cosine: String,
+    /// What that argument is of the angle of incidence, as `--arg` takes it: `cos`, `angle` …
+    pub cosine_is: &'static str,
+    /// The same in words, where its name does not say so.
+    pub cosine_words: Option<String>,
+    /// As which version of its language it is run, where the file does not say.
+    pub language_remark: Option<String>,
+    /// The conditions that it depends on, and how they were decided.
+    pub conditions: Vec<ConditionRow>,
+    /// Its file, without folders.
+    pub file: String,
+    /// How many channels a call gives.
+    pub channels: usize,
+    /// How many numbers a material takes.
+    pub input_numbers: usize,
+    /// Its arguments, in order.
+    #[serde(serialize_with = "as_object")]
+    pub arguments: Vec<(String, ArgumentValue)>,
+    /// The arguments that have the material's values, in words.
+    pub filled: Vec<String>,
+    /// What it reads from outside and has the value that the file gives it, in words.
+    pub initialised: Vec<String>,
+    /// On what it ran.
+    pub device: Option<String>,
+    /// At how many cosines.
+    pub points: Option<usize>,
+    /// Always none.
+    pub code_error: Option<f64>,
+    /// Why there is no code error.
+    pub code_error_reason: &'static str,
+    /// Its distance from the law.
+    pub model_error: Option<ModelError>,
+    /// The same as it is seen.
+    pub perceived: Option<PerceivedFigures>,
+    /// The method of ours that it computes, where there is one.
+    pub computes: Option<&'static str>,
+    /// An argument as another quantity, with which it computes a method of ours, where it computes none as it is bound.
+    pub fits_exactly_with: Option<ExactFit>,
+    /// What each compiler says of the file.
+    #[serde(serialize_with = "as_object")]
+    pub accepts: Vec<(String, Answer)>,
+    /// What came at the ends of the domain.
+    pub edges: Option<Vec<EdgeRow>>,
+    /// What came beyond the domain, where it is no reflectance, in words.
+    pub beyond: Option<Vec<String>>,
+    /// What it costs on each GPU.
+    pub cost: Vec<AuditCost>,
+    /// Whether these costs are compared with ours.
+    pub is_cost_comparable: bool,
+    /// Why they are not.
+    pub cost_remark: Option<String>,
+    /// The methods that dominate it, and take no more numbers of a material.
+    pub dominated_by: Vec<Dominating>,
+    /// The methods that are as accurate and as cheap, and better in one, but take more numbers of a material.
+    pub better_with_more_inputs: Vec<Dominating>,
+    /// For each GPU whether a method dominates it, in words; none where the methods are not known there.
+    #[serde(serialize_with = "as_object")]
+    pub says: Vec<(String, Option<String>)>,
+    /// What was checked.
+    pub checked: Checked,
+    /// Whether all that was checked is as it should be.
+    pub status: Status,
+    /// Why it is not.
+    pub reason: Option<String>,
+}
+
+/// A condition of the text.
+#[derive(Clone, Debug, Serialize)]
+pub struct ConditionRow {
+    /// Its line.
+    pub line: usize,
+    /// Itself.
+    pub text: String,
+    /// Whether what stands behind it is taken.
+    pub is_taken: bool,
+}
+
+/// The value of an argument.
+#[derive(Clone, Debug, Serialize)]
+pub struct ArgumentValue {
+    /// That of each channel.
+    pub value: [f64; 3],
+    /// `material`, or `--arg` where numbers were given.
+    pub from: &'static str,
+    /// The quantity that it stands for, where the material gives it.
+    pub quantity: Option<&'static str>,
+}
+
+/// An error as it is seen.
+#[derive(Clone, Copy, Debug, Serialize)]
+pub struct PerceivedFigures {
+    /// Of luminance.
+    pub luminance: f64,
+    /// CIEDE2000.
+    pub de2000: f64,
+}
+
+/// A method of ours that errs no more and costs no more on a GPU.
+#[derive(Clone, Debug, Serialize)]
+pub struct Dominating {
+    /// The method.
+    pub method: &'static str,
+    /// `library`, `scalar` or `specialised`.
+    pub form: &'static str,
+    /// How many numbers a material takes by it.
+    pub input_numbers: usize,
+    /// The user's error over the method's.
+    pub error_times: f64,
+    /// The user's cost over the method's; none where that costs nothing.
+    pub cost_times: Option<f64>,
+    /// The family of GPUs.
+    pub gpu: &'static str,
+}
+
+impl AuditRow {
+    /// What is said of its cost on a GPU.
+    pub fn sentence_on(&self, gpu: &str) -> Option<&str> {
+        let (_, sentence) = self.says.iter().find(|(name, _)| name == gpu)?;
+        sentence.as_deref()
+    }
+}
+
+/// What came of running a function.
+#[derive(Clone, Debug)]
+pub struct Ran {
+    /// On what.
+    pub device: String,
+    /// At how many cosines.
+    pub points: usize,
+    /// The ends of the domain.
+    pub edges: Edges,
+    /// Against the reference.
+    pub error: ModelError,
+    /// The same, as it is seen.
+    pub perceived: Perceived,
+    /// The method of ours that it computes.
+    pub computes: Option<&'static str>,
+    /// What makes it compute one.
+    pub exact_fit: Option<ExactFit>,
+}
+
+/// What is known of a function for a material.
+pub struct Audited<'a> {
+    /// What was asked.
+    pub audit: &'a Audit,
+    /// What compilers see of the text.
+    pub slice: &'a Slice,
+    /// The function with its arguments.
+    pub bound: &'a Bound,
+    /// The material.
+    pub subject: &'a MaterialInMedium,
+    /// What compilers say.
+    pub verdicts: &'a [(String, Verdict)],
+    /// What came of running it.
+    pub ran: &'a Result<Ran, Trouble>,
+    /// What it costs.
+    pub costs: &'a [AuditCost],
+    /// Our methods.
+    pub ours: &'a [Ours],
+    /// Why its cost is not compared with theirs.
+    pub cost_remark: Option<String>,
+}
+
+impl Audited<'_> {
+    /// The row.
+    pub fn audit_row(&self) -> AuditRow {
+        let function = &self.bound.function.name;
+        let ran = self.ran.as_ref().ok();
+        let (status, reasons) = self.judged();
+        let checked = Checked::new(self.verdicts, self.ran, self.audit.max_error);
+        let (dominated_by, better_with_more_inputs) = self.dominating();
+        let answer = |(name, verdict): &(String, Verdict)| (name.clone(), verdict.into());
+        AuditRow {
+            target: self.audit.language.name(),
+            method: function.clone(),
+            material: self.subject.argument.clone(),
+            form: "user",
+            precision: match self.slice.half {
+                Some(_) => "f16",
+                None => "f32",
+            },
+            function: self.bound.function.path(),
+            line: self.bound.function.line,
+            cosine: self.bound.function.params[self.bound.cosine].name.clone(),
+            cosine_is: self.bound.form.name(),
+            cosine_words: self.bound.cosine_words.clone(),
+            language_remark: None,
+            conditions: self.slice.conditions.iter().map(condition_row).collect(),
+            file: crate::generator::command_line::path_again(&self.audit.file),
+            channels: if self.bound.is_one_channel() { 1 } else { 3 },
+            input_numbers: self.bound.input_numbers(),
+            arguments: self.bound.arguments.iter().map(argument_value).collect(),
+            filled: self.bound.filled(),
+            initialised: self.initialised(),
+            device: ran.map(|ran| ran.device.clone()),
+            points: ran.map(|ran| ran.points),
+            code_error: None,
+            code_error_reason: "there is no formula to hold it against but its own text",
+            model_error: ran.map(|ran| ran.error),
+            perceived: ran.map(|ran| PerceivedFigures {
+                luminance: ran.perceived.luminance,
+                de2000: ran.perceived.de2000,
+            }),
+            computes: ran.and_then(|ran| ran.computes),
+            fits_exactly_with: ran.and_then(|ran| ran.exact_fit.clone()),
+            accepts: self.verdicts.iter().map(answer).collect(),
+            edges: ran.map(|ran| ran.edges.rows.clone()),
+            beyond: ran.map(|ran| ran.edges.remarks.clone()),
+            cost: self.costs.to_vec(),
+            is_cost_comparable: self.cost_remark.is_none(),
+            cost_remark: self.cost_remark.clone(),
+            dominated_by,
+            better_with_more_inputs,
+            says: self.sentences(),
+            checked,
+            status,
+            reason: (!reasons.is_empty()).then(|| reasons.join("\n")),
+        }
+    }
+
+    /// What has the value that the text gives it: inputs from outside, and arguments.
+    fn initialised(&self) -> Vec<String> {
+        let inputs = self.slice.initialised.iter().map(Initialised::words);
+        let default = |one: &DefaultArgument| format!("{} = {} (its default)", one.name, one.value);
+        inputs
+            .chain(self.bound.defaults.iter().map(default))
+            .collect()
+    }
+
+    /// What to think of it, and why.
+    fn judged(&self) -> (Status, Vec<String>) {
+        let (file, name) = (Foreign(&self.audit.file), &self.bound.function.name);
+        let place = format!("{file}: {name}");
+        let mut reasons: Vec<String> = Vec::new();
+        for (name, verdict) in self.verdicts {
+            if let Verdict::No(words) = verdict {
+                reasons.push(format!("{words} ({name})"));
+            }
+        }
+        match self.ran {
+            Ok(ran) => {
+                let findings = ran.edges.findings.iter();
+                reasons.extend(findings.map(|finding| format!("{place}: {finding}")));
+                if ran.error.undefined > 0 {
+                    let count = ran.error.undefined;
+                    reasons.push(format!(
+                        "{place}: it gives no number at {count} cosines, which no error counts"
+                    ));
+                }
+                let above = self.above_limit(&ran.error);
+                reasons.extend(above.map(|why| format!("{place}: {why}")));
+            }
+            Err(Trouble::Failed(why)) => reasons.push(format!("{place}: {why}")),
+            Err(Trouble::Refused(_, words)) if reasons.is_empty() => {
+                return (Status::NotChecked, vec![words.clone()]);
+            }
+            Err(Trouble::Refused(..)) => {}
+            Err(Trouble::Absent(why)) if reasons.is_empty() => {
+                return (Status::NotChecked, vec![why.clone()]);
+            }
+            Err(Trouble::Absent(_)) => {}
+        }
+        let status = match reasons.is_empty() {
+            true => Status::Pass,
+            false => Status::Fail,
+        };
+        (status, reasons)
+    }
+
+    /// Why an error is larger than it may be.
+    fn above_limit(&self, error: &ModelError) -> Option<String> {
+        let most = self
+            .audit
+            .max_error
+            .filter(|most| !is_within(error, *most))?;
+        let (max_abs, degrees) = (error.max_abs, libm::acos(error.worst_cos).to_degrees());
+        let material = &self.subject.argument;
+        Some(format!(
+            "its error for {material} is {max_abs:.6} at {degrees:.1} degrees, and --max-error allows {most}"
+        ))
+    }
+
+    /// Our methods on the family of this place; none where costs are not compared.
+    fn competitors(&self, place: usize) -> Vec<Competitor> {
+        if self.cost_remark.is_some() {
+            return Vec::new();
+        }
+        let each = self.ours.iter();
+        each.filter_map(|ours| ours.competitor(place)).collect()
+    }
+
+    /// The cost on the family of this place and the error, where both are known.
+    fn point(&self, cost: &AuditCost) -> Option<Own> {
+        Some(Own {
+            inputs: self.bound.input_numbers(),
+            point: CostAndError {
+                error: self.ran.as_ref().ok()?.error.max_abs,
+                cost: cost.figures.as_ref().ok()?.cost(),
+            },
+            fails: self.judged().0 == Status::Fail,
+        })
+    }
+
+    /// The methods that are nowhere worse on a GPU: with no more inputs, and with more.
+    fn dominating(&self) -> (Vec<Dominating>, Vec<Dominating>) {
+        let (mut as_few, mut more) = (Vec::new(), Vec::new());
+        for (place, cost) in self.costs.iter().enumerate() {
+            let Some(own) = self.point(cost) else {
+                continue;
+            };
+            let row = |other: Comparison| Dominating {
+                method: other.method,
+                form: other.form,
+                input_numbers: other.inputs,
+                error_times: other.times.error,
+                cost_times: other.cost_times(),
+                gpu: cost.family.name,
+            };
+            let found = dominating(&own, &self.competitors(place));
+            as_few.extend(found.0.into_iter().map(row));
+            more.extend(found.1.into_iter().map(row));
+        }
+        (as_few, more)
+    }
+
+    /// For each GPU whether a method of ours dominates the function, or why that is not asked.
+    fn sentences(&self) -> Vec<(String, Option<String>)> {
+        let each = self.costs.iter().enumerate().filter_map(|(place, cost)| {
+            let own = self.point(cost)?;
+            let others = self.competitors(place);
+            let known = (!others.is_empty()).then(|| sentence(&own, &others));
+            let known = self.cost_remark.clone().or(known);
+            Some((cost.family.name.to_owned(), known))
+        });
+        each.collect()
+    }
+}
+
+fn condition_row(condition: &Condition) -> ConditionRow {
+    ConditionRow {
+        line: condition.line,
+        text: condition.text.clone(),
+        is_taken: condition.is_taken,
+    }
+}
+
+fn argument_value(argument: &BoundArgument) -> (String, ArgumentValue) {
+    let value = ArgumentValue {
+        value: argument.value.map(f64::from),
+        from: match argument.quantity {
+            Some(_) => "material",
+            None => "--arg",
+        },
+        quantity: argument.quantity.map(|quantity| quantity.name),
+    };
+    (argument.name.clone(), value)
+}

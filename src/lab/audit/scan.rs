@@ -1,0 +1,439 @@
+//! The functions of a user's file, by their heads. What stands in their bodies is for compilers to judge.
+
+use crate::generator::emit::shader_words::Token;
+
+use super::language::Language;
+use super::parts::{functions_of, parts};
+use super::type_names::TypeNames;
+
+/// A function as its head tells.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct FoundFunction {
+    /// Its name.
+    pub name: String,
+    /// The line of its name, from 1.
+    pub line: usize,
+    /// The column of its name, from 1.
+    pub column: usize,
+    /// What it takes.
+    pub params: Vec<Parameter>,
+    /// What it gives.
+    pub result: NumberShape,
+    /// The argument that it gives its result in, where it returns nothing.
+    pub out: Option<OutArgument>,
+    /// The namespaces and types around it.
+    pub scope: Vec<String>,
+    /// Whether it needs an object of the type around it.
+    pub needs_object: bool,
+}
+
+/// An argument that a function gives its result in: `out float3 Out`.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct OutArgument {
+    /// Its place among all arguments.
+    pub place: usize,
+    /// Its type, as it is written.
+    pub ty: String,
+}
+
+/// What a function takes.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Parameter {
+    /// Its name.
+    pub name: String,
+    /// Its type.
+    pub shape: NumberShape,
+    /// The same as it is written.
+    pub ty: String,
+    /// The value that the text gives it where a call gives none.
+    pub default: Option<String>,
+}
+
+/// A type as far as it matters here.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum NumberShape {
+    /// One number.
+    Scalar,
+    /// Three.
+    Rgb,
+    /// Another, as it is written.
+    Other(String),
+}
+
+impl NumberShape {
+    /// For messages.
+    pub fn words(&self) -> &str {
+        match self {
+            NumberShape::Scalar => "one number",
+            NumberShape::Rgb => "three numbers",
+            NumberShape::Other(written) if written.is_empty() => "nothing",
+            NumberShape::Other(written) => written,
+        }
+    }
+}
+
+impl FoundFunction {
+    /// Its name with what stands around it: `brdf::schlick`.
+    pub fn path(&self) -> String {
+        let around = self.scope.iter().filter(|name| !name.is_empty());
+        let around: String = around.map(|name| format!("{name}::")).collect();
+        around + &self.name
+    }
+
+    /// Whether it can be one of reflectance: numbers in, numbers out, one of them the cosine.
+    pub fn is_candidate(&self) -> bool {
+        let known = |shape: &NumberShape| !matches!(shape, NumberShape::Other(_));
+        let scalar = |param: &Parameter| param.shape == NumberShape::Scalar;
+        !self.needs_object
+            && known(&self.result)
+            && self
+                .params
+                .iter()
+                .all(|param| known(&param.shape) || param.default.is_some())
+            && self.params.iter().any(scalar)
+    }
+}
+
+/// The functions among words, each with the words of its body.
+pub fn bodies<'t, 'a>(
+    tokens: &'t [Token<'a>],
+    names: &TypeNames,
+    language: Language,
+) -> impl Iterator<Item = (FoundFunction, &'t [Token<'a>])> {
+    let parts = parts(tokens, names, language).into_iter();
+    parts.flat_map(move |one| {
+        let body = &tokens[one.head_end..one.end];
+        let found = functions_of(&one, tokens, names, language).into_iter();
+        found.map(move |found| (found, body))
+    })
+}
+
+/// The place behind the bracket that closes the one here.
+pub(super) fn behind(tokens: &[Token], open: usize) -> usize {
+    let mut depth = 0usize;
+    for (at, token) in tokens.iter().enumerate().skip(open) {
+        match token.text {
+            "(" | "[" | "{" => depth += 1,
+            ")" | "]" | "}" => depth -= 1,
+            _ => {}
+        }
+        if depth == 0 {
+            return at + 1;
+        }
+    }
+    tokens.len()
+}
+
+/// The function of a head, where it is one of a function.
+pub(super) fn function(head: &[Token], language: Language) -> Option<FoundFunction> {
+    let head = without_attributes(head);
+    let name = match language {
+        Language::Wgsl => head.iter().position(|token| token.text == "fn")? + 1,
+        _ => c_name(head)?,
+    };
+    let open = name + 1;
+    if head.get(open)?.text != "(" || !head[name].is_word() {
+        return None;
+    }
+    let close = behind(head, open);
+    let inside = head.get(open + 1..close - 1)?;
+    let params = parts_between_commas(inside).into_iter();
+    let params = params.filter(|part| !matches!(part, [] | [Token { text: "void", .. }]));
+    let (mut params, mut result): (Vec<Parameter>, NumberShape) = match language {
+        Language::Wgsl => (
+            params.map(wgsl_parameter).collect(),
+            wgsl_result(&head[close..]),
+        ),
+        _ => (
+            params.map(c_parameter).collect(),
+            shape(&without_qualifiers(&head[..name])),
+        ),
+    };
+    let out = out_argument(&mut params, &mut result);
+    Some(FoundFunction {
+        name: head[name].text.to_owned(),
+        line: head[name].line,
+        column: head[name].column,
+        params,
+        result,
+        out,
+        scope: Vec::new(),
+        needs_object: false,
+    })
+}
+
+/// The argument that a function without a result gives it in, taken from among the others.
+fn out_argument(params: &mut Vec<Parameter>, result: &mut NumberShape) -> Option<OutArgument> {
+    let written = |param: &Parameter| match &param.shape {
+        NumberShape::Other(written) => written.strip_prefix(OUT).map(str::to_owned),
+        _ => None,
+    };
+    let mut all = params.iter().enumerate();
+    let (place, ty) = all.find_map(|(place, param)| Some((place, written(param)?)))?;
+    let is_alone = *result == NumberShape::Other("void".to_owned())
+        && !params[place + 1..]
+            .iter()
+            .any(|param| written(param).is_some());
+    let known = Some(shape(&ty)).filter(|known| !matches!(known, NumberShape::Other(_)));
+    *result = known.filter(|_| is_alone)?;
+    params.remove(place);
+    Some(OutArgument { place, ty })
+}
+
+/// What goes before the type of an argument that is given back.
+const OUT: &str = "out ";
+
+/// A head without `[numthreads(1, 1, 1)]` before it.
+fn without_attributes<'t, 'a>(head: &'t [Token<'a>]) -> &'t [Token<'a>] {
+    let mut at = 0;
+    while head.get(at).is_some_and(|token| token.text == "[") {
+        at = behind(head, at);
+    }
+    &head[at..]
+}
+
+/// The place of a function's name in the languages of C's family: before the first parenthesis, behind a type.
+fn c_name(head: &[Token]) -> Option<usize> {
+    let open = head.iter().position(|token| token.text == "(")?;
+    // `t[] = f(`, `cbuffer B : register(`
+    let is_other = |token: &Token| ["=", ":"].contains(&token.text);
+    let is_head = open >= 2 && !head[..open].iter().any(is_other);
+    is_head.then(|| open - 1)
+}
+
+/// What stands between commas that are in no brackets.
+pub(super) fn parts_between_commas<'t, 'a>(tokens: &'t [Token<'a>]) -> Vec<&'t [Token<'a>]> {
+    let (mut parts, mut start, mut depth) = (Vec::new(), 0, 0i32);
+    for (at, token) in tokens.iter().enumerate() {
+        match token.text {
+            "(" | "[" | "{" | "<" => depth += 1,
+            ")" | "]" | "}" | ">" => depth -= 1,
+            "," if depth == 0 => {
+                parts.push(&tokens[start..at]);
+                start = at + 1;
+            }
+            _ => {}
+        }
+    }
+    parts.push(&tokens[start..]);
+    parts
+}
+
+fn joined(tokens: &[Token]) -> String {
+    tokens.iter().map(|token| token.text).collect()
+}
+
+/// `name: type`, attributes before it.
+fn wgsl_parameter(part: &[Token]) -> Parameter {
+    let colon = part.iter().position(|token| token.text == ":");
+    let colon = colon.unwrap_or(part.len());
+    let name = part[..colon].last().map_or("", |token| token.text);
+    let ty = joined(part.get(colon + 1..).unwrap_or(&[]));
+    Parameter {
+        name: name.to_owned(),
+        shape: shape(&ty),
+        ty,
+        default: None,
+    }
+}
+
+/// `-> type`, attributes before it.
+fn wgsl_result(after: &[Token]) -> NumberShape {
+    let arrow = after.iter().position(|token| token.text == ">");
+    let written = arrow.map_or(&[][..], |arrow| &after[arrow + 1..]);
+    shape(&joined(written))
+}
+
+/// `type name`, qualifiers before it, a meaning or a value behind it.
+fn c_parameter(part: &[Token]) -> Parameter {
+    let end = part.iter().position(|t| [":", "="].contains(&t.text));
+    let equals = part.iter().position(|token| token.text == "=");
+    let default = equals.map(|equals| spaced(&part[equals + 1..]));
+    let part = &part[..end.unwrap_or(part.len())];
+    let name = part.iter().rposition(Token::is_word).unwrap_or(0);
+    let has = |word: &str| part.iter().any(|token| token.text == word);
+    let is_array = name + 1 < part.len();
+    let written = if is_array || has("inout") {
+        joined(part)
+    } else {
+        without_qualifiers(&part[..name.min(part.len())])
+    };
+    let written = match written.strip_prefix("out") {
+        Some(ty) if has("out") => format!("{OUT}{ty}"),
+        _ => written,
+    };
+    Parameter {
+        name: part.get(name).map_or("", |token| token.text).to_owned(),
+        shape: shape(&written),
+        ty: written,
+        default,
+    }
+}
+
+/// Words as they stand: a space where two would become one.
+fn spaced(tokens: &[Token]) -> String {
+    let mut all = String::new();
+    for (at, token) in tokens.iter().enumerate() {
+        let is_behind_word = at > 0 && tokens[at - 1].is_word();
+        if is_behind_word && token.is_word() {
+            all.push(' ');
+        }
+        all += token.text;
+    }
+    all
+}
+
+/// Words that say nothing of a type.
+const QUALIFIERS: [&str; 18] = [
+    "const",
+    "in",
+    "highp",
+    "mediump",
+    "lowp",
+    "precise",
+    "invariant",
+    "static",
+    "inline",
+    "uniform",
+    "export",
+    "nointerpolation",
+    "linear",
+    "public",
+    "private",
+    "internal",
+    "constexpr",
+    "noinline",
+];
+
+fn without_qualifiers(tokens: &[Token]) -> String {
+    let kept = tokens.iter().map(|token| token.text);
+    kept.filter(|word| !QUALIFIERS.contains(word)).collect()
+}
+
+/// What words of types and qualifiers say: a type that is known, or qualifiers alone.
+pub type TypeShape = Option<NumberShape>;
+
+/// What words say as a type; none where one of them is no word of a type.
+pub fn type_shape(words: &[&str]) -> Option<TypeShape> {
+    let kept = words.iter().filter(|word| !QUALIFIERS.contains(word));
+    let written: String = kept.copied().collect();
+    match shape(&written) {
+        _ if written.is_empty() => Some(None),
+        NumberShape::Other(_) => None,
+        known => Some(Some(known)),
+    }
+}
+
+fn shape(written: &str) -> NumberShape {
+    match written {
+        "f32" | "float" | "half" | "min16float" => NumberShape::Scalar,
+        "vec3<f32>" | "vec3f" | "vec3" | "float3" | "half3" | "min16float3" => NumberShape::Rgb,
+        other => NumberShape::Other(other.to_owned()),
+    }
+}
+
+/// The functions of a text in order.
+#[cfg(test)]
+pub fn functions(text: &str, language: Language) -> Vec<FoundFunction> {
+    let code = super::language::bare(text, language.has_preprocessor());
+    let tokens = crate::generator::emit::shader_words::tokens(&code);
+    let names = TypeNames::of_text(text, language);
+    let found = bodies(&tokens, &names, language);
+    found.map(|(found, _)| found).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[track_caller]
+    fn check(text: &str, language: Language, expected: &[&str]) {
+        let shown = |found: &FoundFunction| {
+            let params: Vec<String> = found
+                .params
+                .iter()
+                .map(|param| format!("{} {}", param.name, param.shape.words()))
+                .collect();
+            format!(
+                "{}:{} {}({}) {}",
+                found.line,
+                found.column,
+                found.name,
+                params.join(", "),
+                found.result.words()
+            )
+        };
+        let found: Vec<String> = functions(text, language).iter().map(shown).collect();
+        assert_eq!(found, expected, "{text}");
+    }
+
+    #[test]
+    fn heads_of_wgsl_are_read() {
+        check(
+            "const a = array<f32, 2>(1.0, 2.0);\nstruct S { x: f32 }\n@must_use fn f(\n  c: f32, // c\n f0: vec3<f32>,\n) -> vec3f { if c > 0. { } return f0; }\nfn g() {}",
+            Language::Wgsl,
+            &[
+                "3:14 f(c one number, f0 three numbers) three numbers",
+                "7:4 g() nothing",
+            ],
+        );
+    }
+
+    #[test]
+    fn heads_of_glsl_are_read() {
+        check(
+            "#version 300 es\n#define F(x) { \\\n }\nlayout(std140) uniform B { vec3 a; } b;\nconst float t[2] = float[](1., 2.);\nhighp vec3 f(const in highp float c, vec3 f0, out float d)\n{\n}\nvoid main(void) {}",
+            Language::Gles,
+            &[
+                "6:12 f(c one number, f0 three numbers, d out float) three numbers",
+                "9:6 main() void",
+            ],
+        );
+    }
+
+    #[test]
+    fn heads_of_hlsl_are_read() {
+        check(
+            "static const float t[2] = { 1, 2 };\ncbuffer B : register(b0) { float3 a; };\n[numthreads(1, 1, 1)] void k() {}\nfloat3 f(float c : A, half3 f0 = 1, float x[2]) : SV_Target { }\nfloat g(float c);",
+            Language::Hlsl,
+            &[
+                "3:28 k() void",
+                "4:8 f(c one number, f0 three numbers, x floatx[2]) three numbers",
+            ],
+        );
+    }
+
+    #[test]
+    fn a_result_may_be_given_in_an_argument() {
+        let found = functions(
+            "void f(float c, out half3 o, float3 f0) { } void g(out float a, out float b) { } float h(out float a) { }",
+            Language::Hlsl,
+        );
+        let out = found[0]
+            .out
+            .as_ref()
+            .map(|out| (out.place, out.ty.as_str()));
+        assert_eq!(out, Some((1, "half3")));
+        assert_eq!(
+            (found[0].params.len(), &found[0].result),
+            (2, &NumberShape::Rgb)
+        );
+        assert!(found[1].out.is_none() && found[2].out.is_none());
+    }
+
+    #[test]
+    fn what_is_broken_ends() {
+        for text in [
+            "fn",
+            "fn f(",
+            "}}}{{{",
+            "fn (a: f32) {",
+            "float f( {",
+            "[[[",
+        ] {
+            for language in [Language::Wgsl, Language::Gles, Language::Hlsl] {
+                let _ = functions(text, language);
+            }
+        }
+    }
+}

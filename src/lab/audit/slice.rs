@@ -1,0 +1,314 @@
+//! The part of a user's text that compilers see: the audited function, what it needs, and nothing else. Lines keep their numbers. Inputs
+//! from outside become variables that our function sets.
+
+use crate::generator::emit::shader_words::{Token, tokens};
+
+use super::annotations::without_annotations;
+use super::condition::definition;
+use super::hidden::{HiddenInput, UnreadFault};
+use super::inputs::{Initialised, Inputs};
+use super::language::{Language, bare};
+use super::parts::{Part, PartKind, functions_of, parts};
+use super::preprocess::{Condition, Define, Preprocessed};
+use super::reach::{MacroBodies, Reached, reached};
+use super::scan::FoundFunction;
+use super::type_names::TypeNames;
+
+/// What compilers see of a text.
+#[derive(Clone, Debug, Default)]
+pub struct Slice {
+    /// Definitions of the user's that stand before the first line.
+    pub before: String,
+    /// The text.
+    pub text: String,
+    /// The audited function's own text.
+    pub body: String,
+    /// What it reads from outside and has no value for.
+    pub hidden: Vec<HiddenInput>,
+    /// What it reads from outside that has a value in the text.
+    pub initialised: Vec<Initialised>,
+    /// The conditions that what is kept depends on.
+    pub conditions: Vec<Condition>,
+    /// Whether it computes in 16 bits: the word that says so.
+    pub half: Option<String>,
+}
+
+/// A text whose functions are known.
+pub struct SlicedText<'a> {
+    language: Language,
+    preprocessed: &'a Preprocessed,
+    defines: &'a [Define],
+    names: TypeNames,
+    code: String,
+}
+
+impl<'a> SlicedText<'a> {
+    /// A text behind the preprocessor.
+    pub fn new(
+        language: Language,
+        preprocessed: &'a Preprocessed,
+        defines: &'a [Define],
+    ) -> SlicedText<'a> {
+        let code = bare(&preprocessed.text, language.has_preprocessor());
+        let code = match language {
+            Language::Hlsl => without_annotations(&code),
+            _ => code,
+        };
+        let all = format!("{}{}", definitions(defines), preprocessed.text);
+        SlicedText {
+            language,
+            preprocessed,
+            defines,
+            names: TypeNames::of_text(&all, language),
+            code,
+        }
+    }
+
+    /// Its functions in order.
+    pub fn functions(&self) -> Vec<FoundFunction> {
+        let tokens = tokens(&self.code);
+        let parts = parts(&tokens, &self.names, self.language);
+        let heads = parts.iter().filter_map(|part| match &part.kind {
+            PartKind::Prototype(head) => Some(head),
+            _ => None,
+        });
+        let heads: Vec<&FoundFunction> = heads.collect();
+        let functions = parts.iter();
+        let functions = functions
+            .flat_map(|part| functions_of(part, &tokens, &self.names, self.language))
+            .map(|mut found| {
+                // HLSL lets the head that stands before the function say its defaults.
+                let is_head = |head: &&&FoundFunction| {
+                    let types = |one: &FoundFunction| {
+                        let each = one.params.iter();
+                        each.map(|param| param.ty.clone()).collect::<Vec<_>>()
+                    };
+                    head.name == found.name && types(head) == types(&found)
+                };
+                if let Some(head) = heads.iter().find(is_head) {
+                    for (own, stated) in found.params.iter_mut().zip(&head.params) {
+                        own.default = own.default.take().or(stated.default.clone());
+                    }
+                }
+                found
+            });
+        functions.collect()
+    }
+
+    /// What compilers see where this function is audited and these inputs are given values.
+    ///
+    /// # Errors
+    /// It needs what no number stands for.
+    pub fn around(&self, function: &FoundFunction, given: &[&str]) -> Result<Slice, UnreadFault> {
+        let words = tokens(&self.code);
+        let parts = parts(&words, &self.names, self.language);
+        let place = (function.line, function.column);
+        let is_it = |part: &Part| {
+            let mut inside = words[part.start..part.end].iter();
+            inside.any(|word| (word.line, word.column) == place)
+        };
+        let Some(start) = parts.iter().position(is_it) else {
+            return Ok(Slice::default());
+        };
+        let before = definitions(self.defines);
+        let (theirs, own) = (tokens(&before), tokens(&self.preprocessed.text));
+        let macros = macro_bodies(&theirs, &own);
+        let reached = reached(start, &words, &parts, &macros, self.language);
+        check_pixel_words(&reached)?;
+        check_enumerations(self.language, &reached, &parts, &words)?;
+        let inputs = Inputs {
+            language: self.language,
+            names: &self.names,
+            code: &self.code,
+            words: &words,
+            parts: &parts,
+            reached: &reached,
+            given,
+        };
+        let body: Vec<&str> = words[parts[start].start..parts[start].end]
+            .iter()
+            .map(|word| word.text)
+            .collect();
+        let body = body.join(" ");
+        let numbers = inputs.numbers()?;
+        let (pieces, initialised) = inputs.pieces(&numbers);
+        let mut lines = lines_of(&reached, &parts, &words);
+        let kept_macros = self.macro_lines(&reached);
+        lines.extend(kept_macros.iter().map(|(line, ..)| (*line, *line)));
+        let conditions = self.preprocessed.conditions.iter();
+        let conditions = conditions.filter(|one| {
+            let is_met = |(from, to): &(usize, usize)| *from <= one.end && *to >= one.line;
+            lines.iter().any(is_met)
+        });
+        let text = placed_pieces(
+            pieces.into_iter().chain(kept_macros).collect(),
+            self.preprocessed.text.lines().count(),
+        );
+        let used = self
+            .defines
+            .iter()
+            .filter(|one| reached.macros.contains(&one.name));
+        let used: Vec<Define> = used.cloned().collect();
+        Ok(Slice {
+            before: definitions(&used),
+            half: half_word(&text, &self.names, self.language),
+            text,
+            body,
+            hidden: numbers,
+            initialised,
+            conditions: conditions.cloned().collect(),
+        })
+    }
+
+    /// The lines that define the macros that are reached, and take them away.
+    fn macro_lines(&self, reached: &Reached) -> Vec<Piece> {
+        let lines = self.preprocessed.text.lines().enumerate();
+        let kept = lines.filter(|(_, line)| match tokens(line).as_slice() {
+            [hash, word, name, ..] if self.language.has_preprocessor() && hash.text == "#" => {
+                ["define", "undef"].contains(&word.text) && reached.macros.contains(name.text)
+            }
+            _ => false,
+        });
+        let piece = |(number, line): (usize, &str)| (number + 1, 1, line.to_owned());
+        kept.map(piece).collect()
+    }
+}
+
+/// A piece of the text with its line and column.
+pub type Piece = (usize, usize, String);
+
+/// Pieces at their places.
+fn placed_pieces(mut pieces: Vec<Piece>, lines: usize) -> String {
+    pieces.sort();
+    let (mut out, mut line, mut column) = (String::new(), 1, 1);
+    for (at, from, text) in pieces {
+        while line < at {
+            out.push('\n');
+            (line, column) = (line + 1, 1);
+        }
+        let gap = from.saturating_sub(column).max(usize::from(column > 1));
+        out.extend(std::iter::repeat_n(' ', gap));
+        line += text.matches('\n').count();
+        column = match text.rfind('\n') {
+            Some(end) => text[end + 1..].chars().count() + 1,
+            None => column + gap + text.chars().count(),
+        };
+        out += &text;
+    }
+    out.extend(std::iter::repeat_n('\n', lines.saturating_sub(line)));
+    out
+}
+
+/// The user's definitions as lines.
+fn definitions(defines: &[Define]) -> String {
+    let line = |one: &Define| format!("#define {} {}\n", one.name, one.value);
+    defines.iter().map(line).collect()
+}
+
+/// The words of macros, of the command line and of the text.
+fn macro_bodies<'t, 'a>(theirs: &'t [Token<'a>], own: &'t [Token<'a>]) -> MacroBodies<'t, 'a> {
+    let mut found = MacroBodies::new();
+    for line in theirs
+        .chunk_by(on_one_line)
+        .chain(own.chunk_by(on_one_line))
+    {
+        let Some((_, known)) = definition(line) else {
+            continue;
+        };
+        let params = known.params.unwrap_or_default();
+        let body = line[3..].iter();
+        let body = body.filter(|token| !params.iter().any(|param| param == token.text));
+        found.entry(line[2].text).or_default().push(body.collect());
+    }
+    found
+}
+
+fn on_one_line(a: &Token, b: &Token) -> bool {
+    a.line == b.line
+}
+
+/// The first and last lines of what is kept.
+fn lines_of(reached: &Reached, parts: &[Part], words: &[Token]) -> Vec<(usize, usize)> {
+    let part = |place: &usize| {
+        let part = &parts[*place];
+        (words[part.start].line, words[part.end - 1].line)
+    };
+    let is_setting = |place: &&usize| matches!(parts[**place].kind, PartKind::Setting);
+    reached
+        .parts
+        .iter()
+        .filter(|place| !is_setting(place))
+        .map(part)
+        .collect()
+}
+
+/// Words for what only a pixel beside others has.
+const PIXEL_WORDS: [&str; 16] = [
+    "fwidth",
+    "dFdx",
+    "dFdy",
+    "ddx",
+    "ddy",
+    "dpdx",
+    "dpdy",
+    "fwidthFine",
+    "fwidthCoarse",
+    "dpdxFine",
+    "dpdxCoarse",
+    "dpdyFine",
+    "dpdyCoarse",
+    "ddx_fine",
+    "ddy_fine",
+    "discard",
+];
+
+fn check_pixel_words(reached: &Reached) -> Result<(), UnreadFault> {
+    let is_pixel = |name: &str| name.starts_with("gl_") || PIXEL_WORDS.contains(&name);
+    let found = reached.foreign.iter().find(|(name, _)| is_pixel(name));
+    found.map_or(Ok(()), |(name, line)| {
+        Err((
+            *line,
+            format!("it needs `{name}`, which a pixel of a picture has and a cosine has not: give the function what it takes from it as an argument"),
+        ))
+    })
+}
+
+/// DXC makes another number of an enumeration's name in SPIR-V, which is what runs here: `float(E)` with E = 5 is 7e-45.
+fn check_enumerations(
+    language: Language,
+    reached: &Reached,
+    parts: &[Part],
+    words: &[Token],
+) -> Result<(), UnreadFault> {
+    let of_part = |place: &usize| words[parts[*place].start..parts[*place].end].iter();
+    let mut all = reached.parts.iter().flat_map(of_part);
+    match all.find(|word| language == Language::Hlsl && word.text == "enum") {
+        None => Ok(()),
+        Some(word) => Err((
+            word.line,
+            "it needs an `enum`, of whose numbers DXC makes others in SPIR-V, which runs here: write them as `static const int`".to_owned(),
+        )),
+    }
+}
+
+/// The word by which a text computes in 16 bits.
+fn half_word(text: &str, names: &TypeNames, language: Language) -> Option<String> {
+    let code = bare(text, language.has_preprocessor());
+    let found = tokens(&code);
+    let found = names.replaced(&found);
+    let is_half = |token: &&Token| match language {
+        Language::Wgsl | Language::Glsl => false,
+        Language::Gles => ["mediump", "lowp"].contains(&token.text),
+        Language::Hlsl | Language::Slang => {
+            let kinds = ["half", "min16float", "min10float", "float16_t"];
+            let bare = token
+                .text
+                .trim_end_matches(|c: char| c.is_ascii_digit() || c == 'x');
+            kinds.contains(&token.text) || kinds.contains(&bare)
+        }
+    };
+    found
+        .iter()
+        .find(is_half)
+        .map(|token| token.text.to_owned())
+}

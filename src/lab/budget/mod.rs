@@ -1,0 +1,195 @@
+//! The budget: for each material the cheapest function whose error is within a limit, by the recorded costs of a family of GPUs.
+//! Pure: nothing is measured here.
+
+mod choice;
+mod error;
+mod spread;
+
+use crate::generator::emit::FunctionForm;
+use crate::generator::emit::{Bounds, specialised_graph};
+use crate::generator::fit::single_error;
+use crate::generator::reference::MaterialInMedium;
+use crate::lab::cost::{
+    CostAndError, CostRecord, Family, GpuCompiler, function_cost, library_cost, records,
+};
+use crate::language::ir::Checked;
+use crate::language::methods::{Contract, Light, Method};
+use crate::physics::materials::{self, Material, ViewingConditions};
+use crate::physics::num::{Precision, in_parallel};
+
+use choice::{cheapest, most_accurate};
+use spread::spread;
+
+pub use choice::{BudgetCandidate, CheapestFunction};
+pub use error::{Error, NoFunction, rounded_error};
+pub use spread::Spread;
+
+/// What is asked for.
+#[derive(Clone, Copy, Debug)]
+pub struct Budget {
+    /// The largest error of reflectance, over angles and channels.
+    pub most: f64,
+    /// The GPUs whose recorded costs decide.
+    pub family: &'static Family,
+}
+
+impl Budget {
+    /// A budget of this error on these GPUs.
+    ///
+    /// # Errors
+    /// The error is no error of reflectance, or no costs are recorded of these GPUs.
+    pub fn new(most: f64, family: &'static Family) -> Result<Budget, Error> {
+        if !(most > 0.0 && most.is_finite()) {
+            return Err(Error::OutOfRange { most });
+        }
+        if let GpuCompiler::None(reason) = family.compiler {
+            let gpu = family.name;
+            return Err(Error::NoCosts { gpu, reason });
+        }
+        Ok(Budget { most, family })
+    }
+}
+
+/// The function that is chosen for a material.
+#[derive(Clone, Debug)]
+pub struct BudgetRow {
+    /// The material's name.
+    pub material: String,
+    /// What was asked for.
+    pub budget: Budget,
+    /// The function, and what stands beside it.
+    pub choice: CheapestFunction,
+    /// The form whose costs decided: `specialised`, or `library` where the record lacks a specialised function of the material.
+    pub form: FunctionForm,
+    /// How far published measurements of the material differ, where that is known.
+    pub spread: Option<Spread>,
+}
+
+/// Chooses one of these methods for each material.
+///
+/// # Errors
+/// None of the methods is for unpolarised light and keeps the contract, or a material has no function within the budget.
+pub fn choose_within(
+    budget: Budget,
+    methods: Vec<&'static Method>,
+    subjects: &[MaterialInMedium],
+    viewing: &ViewingConditions,
+) -> Result<Vec<BudgetRow>, Error> {
+    let search = Search {
+        methods: candidate_methods(methods)?,
+        catalogue: materials::list().map_err(Error::Material)?,
+        record: records(budget.family.name),
+        bounds: Bounds::recorded(),
+        viewing,
+        budget,
+    };
+    let choose = |i: usize| search.choice_for(&subjects[i]);
+    let found = in_parallel(subjects.len(), &choose, &mut |_, _| {});
+    let (mut rows, mut faults) = (Vec::new(), Vec::new());
+    for row in found {
+        match row? {
+            Ok(row) => rows.push(row),
+            Err(fault) => faults.push(fault),
+        }
+    }
+    if faults.is_empty() {
+        return Ok(rows);
+    }
+    let most = budget.most;
+    Err(Error::NothingWithin { most, faults })
+}
+
+/// The methods among which a budget chooses: those for unpolarised light that keep the contract.
+fn candidate_methods(mut methods: Vec<&'static Method>) -> Result<Vec<&'static Method>, Error> {
+    methods
+        .retain(|method| method.light == Light::Unpolarised && method.contract == Contract::Kept);
+    match methods.is_empty() {
+        true => Err(Error::NoMethod),
+        false => Ok(methods),
+    }
+}
+
+/// What is the same for all materials.
+struct Search<'a> {
+    viewing: &'a ViewingConditions,
+    budget: Budget,
+    methods: Vec<&'static Method>,
+    catalogue: Vec<Material>,
+    record: CostRecord,
+    bounds: Bounds,
+}
+
+impl Search<'_> {
+    fn choice_for(
+        &self,
+        subject: &MaterialInMedium,
+    ) -> Result<Result<BudgetRow, NoFunction>, Error> {
+        let (candidates, form) = self.candidates(subject)?;
+        let material = subject.name.clone();
+        let Some(choice) = cheapest(&candidates, self.budget.most) else {
+            return Ok(Err(NoFunction {
+                material,
+                gpu: self.budget.family.name,
+                best: most_accurate(candidates.iter()),
+            }));
+        };
+        Ok(Ok(BudgetRow {
+            material,
+            budget: self.budget,
+            choice,
+            form,
+            spread: spread(subject, &self.catalogue, self.viewing),
+        }))
+    }
+
+    /// The functions that could be taken, and the form whose costs are theirs: the specialised one's where all are recorded, else
+    /// the library's, since costs of two forms cannot be compared.
+    fn candidates(
+        &self,
+        subject: &MaterialInMedium,
+    ) -> Result<(Vec<BudgetCandidate>, FunctionForm), Error> {
+        let methods = self.methods.iter().copied();
+        let functions = methods
+            .filter(|method| subject.is_described_by(method))
+            .map(|method| Ok((method, self.function(method, subject)?)))
+            .collect::<Result<Vec<(&'static Method, Checked)>, Error>>()?;
+        let own = |(_, function): &(_, Checked)| {
+            function_cost(function, Precision::F32, self.budget.family, &self.record)
+        };
+        let specialised: Option<Vec<f64>> = functions.iter().map(own).collect();
+        let library = |method| library_cost(method, self.budget.family, &self.record);
+        let (costs, form): (Vec<Option<f64>>, _) = match specialised {
+            Some(costs) => (
+                costs.into_iter().map(Some).collect(),
+                FunctionForm::Specialised,
+            ),
+            None => (
+                functions
+                    .iter()
+                    .map(|(method, _)| library(method))
+                    .collect(),
+                FunctionForm::Library,
+            ),
+        };
+        let candidate = |((method, function), cost): (&(&'static Method, Checked), Option<f64>)| {
+            let error = single_error(function, &subject.truth_for(method));
+            Some(BudgetCandidate {
+                method: method.name,
+                point: CostAndError {
+                    cost: cost.filter(|_| error.undefined == 0)?,
+                    error: error.max_abs,
+                },
+                is_textured: method.is_textured(),
+            })
+        };
+        Ok((
+            functions.iter().zip(costs).filter_map(candidate).collect(),
+            form,
+        ))
+    }
+
+    fn function(&self, method: &Method, subject: &MaterialInMedium) -> Result<Checked, Error> {
+        let made = specialised_graph(method, subject, Precision::F32, &self.bounds)?;
+        Ok(made.function)
+    }
+}

@@ -1,0 +1,188 @@
+//! A user's function as a point of charts, from its rows.
+
+use std::collections::BTreeMap;
+
+use super::{ChartedFunction, UserFunction};
+use crate::generator::fit::MethodErrors;
+use crate::lab::audit::AuditRow;
+use crate::lab::verify::Status;
+use crate::physics::foreign::Foreign;
+
+/// Errors leave out cosines at which it gives no number. Above this share they are no longer those of the function.
+const MOST_UNDEFINED: f64 = 0.01;
+
+/// The point, from the rows of all materials; none where there are no rows.
+pub fn charted_function(rows: &[AuditRow]) -> Option<ChartedFunction> {
+    let first = rows.first()?;
+    let file = Foreign(&first.file);
+    let about = match &first.device {
+        Some(device) => format!("From {file}, run on {device}"),
+        None => format!("From {file}"),
+    };
+    let failing = rows.iter().find(|row| row.status == Status::Fail);
+    let fault = |row: &AuditRow| row.reason.clone().unwrap_or_default().replace('\n', "; ");
+    Some(ChartedFunction {
+        user: UserFunction {
+            name: first.function.clone(),
+            about,
+            fails: failing.map(fault),
+            no_cost: no_cost(first),
+            input_numbers: first.input_numbers,
+        },
+        errors: rows.iter().map(errors).collect(),
+        costs: costs(rows),
+    })
+}
+
+/// Why its costs have no place beside ours: they are those of one channel, or of branches.
+fn no_cost(row: &AuditRow) -> Option<String> {
+    match (&row.cost_remark, row.channels) {
+        (Some(why), _) => Some(format!("its cost is {why}")),
+        (None, 1) => Some("its cost is that of one channel".to_owned()),
+        _ => None,
+    }
+}
+
+/// Its error on each axis; none where it was not run, or gives no number too often.
+fn errors(row: &AuditRow) -> MethodErrors {
+    let (Some(error), Some(perceived)) = (&row.model_error, &row.perceived) else {
+        return MethodErrors::default();
+    };
+    if error.undefined as f64 > MOST_UNDEFINED * row.points.unwrap_or(0) as f64 {
+        return MethodErrors::default();
+    }
+    let known = |figure: f64| Some(figure).filter(|figure| figure.is_finite());
+    MethodErrors {
+        max_abs: known(error.max_abs),
+        mean_rel: error.mean_rel.and_then(known),
+        luminance: known(perceived.luminance),
+        de2000: known(perceived.de2000),
+    }
+}
+
+/// The cost on each family where it is known: of materials, the most. A function of single numbers is called once where channels
+/// are the same.
+fn costs(rows: &[AuditRow]) -> BTreeMap<String, f64> {
+    let mut costs = BTreeMap::new();
+    let rows = rows.iter().filter(|row| no_cost(row).is_none());
+    for cost in rows.flat_map(|row| &row.cost) {
+        let Ok(figures) = &cost.figures else { continue };
+        let net = figures.cost();
+        let most = costs.entry(cost.family.name.to_owned()).or_insert(net);
+        *most = net.max(*most);
+    }
+    costs
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::generator::fit::ModelError;
+    use crate::lab::audit::{AuditCost, Checked, PerceivedFigures};
+    use crate::lab::cost::{CostFigures, Counts, find};
+
+    fn cost(gpu: &str, net: Option<f64>) -> AuditCost {
+        let counts = |instructions| Counts {
+            instructions,
+            ..Counts::default()
+        };
+        let figures = |net| CostFigures {
+            net: counts(net),
+            ..CostFigures::default()
+        };
+        AuditCost {
+            family: find(gpu).unwrap(),
+            compiler: None,
+            figures: net.map(figures).ok_or_else(String::new),
+        }
+    }
+
+    fn row(undefined: usize, net: Option<f64>, status: Status) -> AuditRow {
+        AuditRow {
+            target: "wgsl",
+            method: "f".to_owned(),
+            material: "gold".to_owned(),
+            form: "user",
+            precision: "f32",
+            function: "f".to_owned(),
+            line: 1,
+            cosine: "c".to_owned(),
+            cosine_is: "cos",
+            cosine_words: None,
+            language_remark: None,
+            conditions: Vec::new(),
+            file: "f.wgsl".to_owned(),
+            channels: 3,
+            input_numbers: 3,
+            arguments: Vec::new(),
+            filled: Vec::new(),
+            initialised: Vec::new(),
+            device: Some("a device".to_owned()),
+            points: Some(2000),
+            code_error: None,
+            code_error_reason: "",
+            model_error: Some(ModelError {
+                max_abs: 0.1,
+                mean_abs: 0.0,
+                mean_rel: None,
+                worst_cos: 0.0,
+                undefined,
+            }),
+            perceived: Some(PerceivedFigures {
+                luminance: 0.05,
+                de2000: 3.0,
+            }),
+            computes: None,
+            fits_exactly_with: None,
+            accepts: Vec::new(),
+            edges: None,
+            beyond: None,
+            cost: vec![cost("rdna2", net), cost("gcn4", None)],
+            is_cost_comparable: true,
+            cost_remark: None,
+            dominated_by: Vec::new(),
+            better_with_more_inputs: Vec::new(),
+            says: Vec::new(),
+            checked: Checked::default(),
+            status,
+            reason: Some("one\ntwo".to_owned()),
+        }
+    }
+
+    #[test]
+    fn a_point_is_read_from_rows() {
+        let known = MethodErrors {
+            max_abs: Some(0.1),
+            mean_rel: None,
+            luminance: Some(0.05),
+            de2000: Some(3.0),
+        };
+        let rows = [
+            row(0, Some(20.0), Status::Pass),
+            row(1, Some(22.0), Status::Fail),
+            row(1000, None, Status::Pass),
+        ];
+        let own = charted_function(&rows).unwrap();
+        assert_eq!(own.errors, [known, known, MethodErrors::default()]);
+        assert_eq!(own.costs, BTreeMap::from([("rdna2".to_owned(), 22.0)]));
+        assert_eq!(own.user.fails.as_deref(), Some("one; two"));
+        assert!(charted_function(&[]).is_none());
+    }
+
+    #[test]
+    fn what_is_not_comparable_has_no_cost_and_says_why() {
+        let branches = AuditRow {
+            cost_remark: Some("not compared with ours: it branches".to_owned()),
+            ..row(0, Some(20.0), Status::Pass)
+        };
+        let scalar = AuditRow {
+            channels: 1,
+            ..row(0, Some(20.0), Status::Pass)
+        };
+        for (row, says) in [(branches, "it branches"), (scalar, "one channel")] {
+            let own = charted_function(&[row]).unwrap();
+            assert!(own.costs.is_empty());
+            assert!(own.user.no_cost.unwrap().contains(says));
+        }
+    }
+}

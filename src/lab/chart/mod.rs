@@ -1,0 +1,406 @@
+//! Error against cost as data: every method a point, and a user's function where there is one, and the frontier of those that nothing
+//! beats in both. Pages and pictures of it stand in `report/frontier/`.
+
+#[cfg(all(feature = "cli", feature = "gpu"))]
+mod audited;
+mod costs;
+mod curves;
+mod data;
+mod left_out;
+mod own;
+mod sets;
+mod without;
+
+use serde::Serialize;
+
+use crate::generator::fit::MethodErrors;
+use crate::lab::cost::{CostAndError, input_numbers, pareto_frontier};
+use crate::language::methods::{Contract, Method};
+
+#[cfg(all(feature = "cli", feature = "gpu"))]
+pub use audited::charted_function;
+pub use curves::{Reflectances, exact_and_approximated};
+pub use data::{chart_data, cost_names};
+pub use left_out::{LeftOutErrors, left_out};
+pub use own::ChartedFunction;
+pub use sets::{STATISTICS, set_name};
+pub use without::without_point;
+
+/// A measure of error.
+#[derive(Clone, Copy, Debug)]
+pub struct ErrorAxis {
+    /// Its name on the command line and in reports.
+    pub name: &'static str,
+    /// What stands along the axis.
+    pub short: &'static str,
+    /// What it is, in full.
+    pub title: &'static str,
+    /// The error by this measure, where it is known.
+    pub value: fn(&MethodErrors) -> Option<f64>,
+}
+
+/// All of them; the first is the default.
+pub static ERRORS: [ErrorAxis; 4] = [
+    ErrorAxis {
+        name: "max",
+        short: "largest error",
+        title: "largest error of reflectance, over angles and channels",
+        value: |errors| errors.max_abs,
+    },
+    ErrorAxis {
+        name: "mean-rel",
+        short: "mean relative error",
+        title: "mean relative error, over angles and channels, as the thesis measures",
+        value: |errors| errors.mean_rel,
+    },
+    ErrorAxis {
+        name: "luminance",
+        short: "largest error of luminance",
+        title: "largest error of luminance, over angles",
+        value: |errors| errors.luminance,
+    },
+    ErrorAxis {
+        name: "de2000",
+        short: "largest difference, CIEDE2000",
+        title: "largest difference of colour, CIEDE2000, over angles",
+        value: |errors| errors.de2000,
+    },
+];
+
+/// A function on the chart: a method with its intended inputs, or with those whose largest error is least; or a user's own.
+#[derive(Clone, Debug)]
+pub struct ChartEntry {
+    /// Whose it is.
+    pub function: FunctionOrigin,
+    /// Whether its inputs are the best ones, not those that it was meant to have.
+    pub is_best: bool,
+    /// Texture fetches, which instruction counts do not include.
+    pub fetches: usize,
+}
+
+/// Whose a function is.
+#[derive(Clone, Debug)]
+pub enum FunctionOrigin {
+    /// A method's.
+    Method(&'static Method),
+    /// A user's.
+    User(UserFunction),
+}
+
+/// A user's function.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct UserFunction {
+    /// Its name.
+    pub name: String,
+    /// What it is, in a sentence without its full stop.
+    pub about: String,
+    /// What is wrong with it, if anything is.
+    pub fails: Option<String>,
+    /// Why its cost has no place beside ours, if it has none.
+    pub no_cost: Option<String>,
+    /// How many numbers a material takes by it.
+    pub input_numbers: usize,
+}
+
+/// What an evaluation costs somewhere.
+#[derive(Clone, Debug)]
+pub struct CostAxis {
+    /// Its name on the command line: a family of GPUs, or `time`.
+    pub name: &'static str,
+    /// What stands along the axis.
+    pub title: String,
+    /// Whether the figure holds what a texture fetch costs.
+    pub holds_fetches: bool,
+    /// The cost of each entry's function; none where it is not known.
+    pub costs: Vec<Option<f64>>,
+}
+
+/// A material, or many of them taken together.
+#[derive(Clone, Debug)]
+pub struct MaterialSet {
+    /// Its name on the page: a material's, or a class with how it is taken together.
+    pub name: String,
+    /// In words.
+    pub title: String,
+    /// How many materials it holds.
+    pub count: usize,
+    /// The errors of each entry; unknown where the method does not describe the material.
+    pub errors: Vec<MethodErrors>,
+    /// The materials that the method of each entry does not describe.
+    pub undescribed: Vec<Vec<String>>,
+}
+
+/// All that the charts show.
+#[derive(Clone, Debug)]
+pub struct ChartData {
+    /// The functions.
+    pub entries: Vec<ChartEntry>,
+    /// The axes of cost.
+    pub costs: Vec<CostAxis>,
+    /// What errors are of.
+    pub sets: Vec<MaterialSet>,
+    /// The command that makes it.
+    pub command: String,
+}
+
+/// One chart of them: which set, by which cost, by which error.
+#[derive(Clone, Copy, Debug)]
+pub struct ChartView<'a> {
+    /// All data.
+    pub data: &'a ChartData,
+    /// The set.
+    pub set: &'a MaterialSet,
+    /// The cost.
+    pub cost: &'a CostAxis,
+    /// Which of [`ERRORS`].
+    pub error: usize,
+}
+
+/// A point of a chart.
+#[derive(Clone, Copy, Debug)]
+pub struct ChartPoint<'a> {
+    /// The function.
+    pub entry: &'a ChartEntry,
+    /// Its cost.
+    pub cost: f64,
+    /// Its error.
+    pub error: f64,
+    /// Whether nothing is better in one and as good in the other.
+    pub is_on_frontier: bool,
+}
+
+/// A point in a JSON report.
+#[derive(Clone, Copy, Debug, Serialize)]
+pub struct PointRow<'a> {
+    material: &'a str,
+    method: &'a str,
+    inputs: &'static str,
+    input_numbers: usize,
+    gpu: &'static str,
+    cost: f64,
+    fetches: usize,
+    error: &'static str,
+    value: f64,
+    is_on_frontier: bool,
+    fails: Option<&'a str>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    left_out: Option<LeftOutErrors>,
+}
+
+/// What errs by less is drawn here, and is as good: no index was ever measured so well.
+pub const LEAST_ERROR: f64 = 1e-5;
+
+impl<'a> ChartView<'a> {
+    /// The points, by cost, then by error. Where the figure does not hold what a fetch costs, what reads a texture is not on
+    /// the frontier, and keeps nothing from it; nor does a method that fails inside its domain.
+    pub fn points(&self) -> Vec<ChartPoint<'a>> {
+        let rows = self.data.entries.iter().enumerate();
+        let known = rows.filter_map(|(place, entry)| {
+            let error = self.error_of(place)?;
+            Some((entry, self.cost.costs[place]?, error))
+        });
+        let mut known: Vec<(&'a ChartEntry, f64, f64)> = known.collect();
+        known.sort_by(|a, b| {
+            let order = a.1.total_cmp(&b.1).then(a.2.total_cmp(&b.2));
+            order.then(a.0.label().cmp(&b.0.label()))
+        });
+        let compared: Vec<Option<CostAndError>> = known
+            .iter()
+            .map(|(entry, cost, error)| {
+                let (cost, error) = (*cost, drawn(*error));
+                self.compares(entry).then_some(CostAndError { cost, error })
+            })
+            .collect();
+        let best = pareto_frontier(&compared);
+        let point =
+            |(place, (entry, cost, error)): (usize, &(&'a ChartEntry, f64, f64))| ChartPoint {
+                entry,
+                cost: *cost,
+                error: *error,
+                is_on_frontier: best.contains(&place),
+            };
+        known.iter().enumerate().map(point).collect()
+    }
+
+    /// The error of an entry by the measure that is shown.
+    fn error_of(&self, place: usize) -> Option<f64> {
+        (ERRORS[self.error].value)(&self.set.errors[place])
+    }
+
+    fn compares(&self, entry: &ChartEntry) -> bool {
+        (entry.fetches == 0 || self.cost.holds_fetches) && entry.fails().is_none()
+    }
+
+    /// What a user's function lacks for a point of this chart: its error or its cost.
+    pub fn lacks(&self) -> Option<String> {
+        let rows = self.data.entries.iter().enumerate();
+        let mut own = rows.filter_map(|(place, entry)| Some((place, entry.user()?)));
+        let (place, user) = own.next()?;
+        let why = match (self.error_of(place), self.cost.costs[place]) {
+            (None, _) => "its error is not known",
+            (_, None) => user.no_cost.as_deref().unwrap_or("its cost is not known"),
+            _ => return None,
+        };
+        Some(format!("{} has no point here: {why}.", user.name))
+    }
+
+    /// What the chart shows, in one line that begins with the set's title.
+    pub fn title(&self) -> String {
+        let (set, error) = (&self.set.title, ERRORS[self.error].title);
+        format!("{set}: {error}, against cost")
+    }
+
+    /// A row of the report for each point.
+    pub fn point_rows(&self) -> Vec<PointRow<'a>> {
+        let row = |point: &ChartPoint<'a>| PointRow {
+            material: &self.set.name,
+            method: point.entry.name(),
+            inputs: point.entry.inputs(),
+            input_numbers: point.entry.input_numbers(),
+            gpu: self.cost.name,
+            cost: point.cost,
+            fetches: point.entry.fetches,
+            error: ERRORS[self.error].name,
+            value: point.error,
+            is_on_frontier: point.is_on_frontier,
+            fails: point.entry.fails(),
+            left_out: match ERRORS[self.error].name {
+                "max" => point.entry.left_out(self.set),
+                _ => None,
+            },
+        };
+        self.points().iter().map(row).collect()
+    }
+}
+
+impl ChartEntry {
+    /// What a method errs with the inputs that it was meant to have, by numbers that were chosen without the substance.
+    fn left_out(&self, set: &MaterialSet) -> Option<LeftOutErrors> {
+        let method = self.method().filter(|_| !self.is_best);
+        method.and_then(|method| left_out(method, set))
+    }
+
+    /// Its method, unless it is a user's.
+    pub fn method(&self) -> Option<&'static Method> {
+        match self.function {
+            FunctionOrigin::Method(method) => Some(method),
+            FunctionOrigin::User(_) => None,
+        }
+    }
+
+    /// What is known of it as a user's, if it is one.
+    pub fn user(&self) -> Option<&UserFunction> {
+        match &self.function {
+            FunctionOrigin::Method(_) => None,
+            FunctionOrigin::User(user) => Some(user),
+        }
+    }
+
+    /// The name of its method, or its own.
+    pub fn name(&self) -> &str {
+        match &self.function {
+            FunctionOrigin::Method(method) => method.name,
+            FunctionOrigin::User(user) => &user.name,
+        }
+    }
+
+    /// Its name on charts: a star where its inputs are the best ones, a word where it is a user's.
+    pub fn label(&self) -> String {
+        let mark = match (&self.function, self.is_best) {
+            (FunctionOrigin::User(_), _) => " (yours)",
+            (_, true) => "*",
+            (_, false) => "",
+        };
+        format!("{}{mark}", self.name())
+    }
+
+    /// Where it fails, if it breaks the contract of functions.
+    pub fn fails(&self) -> Option<&str> {
+        match &self.function {
+            FunctionOrigin::User(user) => user.fails.as_deref(),
+            FunctionOrigin::Method(method) => match method.contract {
+                Contract::Kept => None,
+                Contract::Exempt(why) => Some(why),
+            },
+        }
+    }
+
+    /// Whether its form is ours.
+    pub fn is_ours(&self) -> bool {
+        self.method().is_some_and(Method::is_ours)
+    }
+
+    /// How many numbers a material takes by it.
+    pub fn input_numbers(&self) -> usize {
+        match &self.function {
+            FunctionOrigin::User(user) => user.input_numbers,
+            FunctionOrigin::Method(method) => input_numbers(method),
+        }
+    }
+
+    /// Which inputs it has, or that it is a user's, in one word.
+    pub fn inputs(&self) -> &'static str {
+        match (&self.function, self.is_best) {
+            (FunctionOrigin::User(_), _) => "yours",
+            (FunctionOrigin::Method(method), _) if method.is_fitted() => "fitted",
+            (_, true) => "best",
+            (_, false) => "intended",
+        }
+    }
+}
+
+/// Where an error is drawn.
+pub fn drawn(error: f64) -> f64 {
+    error.max(LEAST_ERROR)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_texture_is_compared_only_where_its_fetch_is_counted() {
+        let method = |name| crate::language::methods::find(name).expect("it is there");
+        let entry = |name, fetches| ChartEntry {
+            function: FunctionOrigin::Method(method(name)),
+            is_best: false,
+            fetches,
+        };
+        let largest = |error| MethodErrors {
+            max_abs: Some(error),
+            ..MethodErrors::default()
+        };
+        let mut data = ChartData {
+            entries: vec![entry("table", 1), entry("schlick", 0)],
+            costs: vec![CostAxis {
+                name: "rdna2",
+                title: String::new(),
+                holds_fetches: false,
+                costs: vec![Some(1.0), Some(2.0)],
+            }],
+            sets: vec![MaterialSet {
+                count: 1,
+                name: "gold".to_owned(),
+                title: "gold".to_owned(),
+                undescribed: vec![Vec::new(), Vec::new()],
+                errors: [0.1, 0.2].map(largest).to_vec(),
+            }],
+            command: String::new(),
+        };
+        let best = |data: &ChartData| -> Vec<String> {
+            let (set, cost) = (&data.sets[0], &data.costs[0]);
+            let view = ChartView {
+                data,
+                set,
+                cost,
+                error: 0,
+            };
+            let points = view.points().into_iter();
+            let best = points.filter(|point| point.is_on_frontier);
+            best.map(|point| point.entry.label()).collect()
+        };
+        assert_eq!(best(&data), ["schlick"]);
+        data.costs[0].holds_fetches = true;
+        assert_eq!(best(&data), ["table"]);
+    }
+}

@@ -1,0 +1,225 @@
+//! The compilers of families asked about functions, each in processes of its own.
+
+use std::collections::BTreeMap;
+
+use crate::lab::process::{Error, Launch, Pool, Surroundings, Task, Worker};
+
+use super::family::{Dialect, Family};
+use super::function::CostedFunction;
+use super::session::{CompilerFigures, CompilerSession, launch, told};
+
+/// What came of asking a family's compiler.
+#[derive(Clone, Debug)]
+pub enum FamilyAnswers {
+    /// It is here: its name and version, and an answer for each function.
+    Fresh(String, Vec<CompilerFigures>),
+    /// It is not, and why.
+    Absent(String),
+}
+
+/// A part of the work: a family, and some of the functions.
+struct Job {
+    family: usize,
+    launch: Launch,
+    functions: std::ops::Range<usize>,
+}
+
+/// What is asked of whom.
+struct Questions<'a> {
+    families: &'a [&'static Family],
+    functions: &'a [&'a CostedFunction],
+}
+
+/// Functions of one job: enough that starting a process, which takes as long as ten functions, does not count, and few
+/// enough that all workers have some.
+fn job_size(functions: usize, workers: usize) -> usize {
+    functions.div_ceil(workers.max(1)).clamp(60, 400)
+}
+
+/// Asks the compilers of families about functions; nothing comes of a family that has none. `progress` hears how many answers
+/// are there.
+///
+/// # Errors
+/// No process can be started.
+pub fn ask_compilers(
+    families: &[&'static Family],
+    functions: &[CostedFunction],
+    pool: Pool,
+    surroundings: &Surroundings,
+    progress: &mut dyn FnMut(u64, u64, &str),
+) -> Result<Vec<Option<FamilyAnswers>>, Error> {
+    let has_compiler = |family: &&'static Family| family.compiler.dialect().is_some();
+    let (functions, places) = once_each(functions);
+    let questions = Questions {
+        families: &families
+            .iter()
+            .copied()
+            .filter(has_compiler)
+            .collect::<Vec<_>>(),
+        functions: &functions,
+    };
+    let answers = questions.ask(pool, surroundings, progress)?;
+    let mut answers = answers.into_iter().map(|answers| answers.at(&places));
+    let of_family = |family| has_compiler(family).then(|| answers.next()).flatten();
+    Ok(families.iter().map(of_family).collect())
+}
+
+impl Questions<'_> {
+    fn ask(
+        &self,
+        pool: Pool,
+        surroundings: &Surroundings,
+        progress: &mut dyn FnMut(u64, u64, &str),
+    ) -> Result<Vec<FamilyAnswers>, Error> {
+        let launches = self.families.iter();
+        let launches: Vec<_> = launches
+            .map(|family| launch(family, surroundings))
+            .collect();
+        let size = job_size(self.functions.len(), pool.workers);
+        let jobs = jobs(&launches, self.functions.len(), size);
+        let task = Task {
+            jobs: &jobs,
+            launch: &|job: &Job| job.launch.clone(),
+            work: &|worker, job, tick| self.job(pool, job, worker, tick),
+        };
+        let (mut count, whole) = (0, (self.families.len() * self.functions.len()) as u64);
+        let done = pool.run(&task, &mut |job: &Job| {
+            count += 1;
+            progress(count, whole, self.families[job.family].name);
+        })?;
+        Ok(gathered(&launches, self.functions.len(), &jobs, done))
+    }
+
+    /// Asks about the functions of a job.
+    fn job(
+        &self,
+        pool: Pool,
+        job: &Job,
+        worker: &mut Worker,
+        tick: &dyn Fn(),
+    ) -> Result<FamilyAnswers, Error> {
+        let family = self.families[job.family];
+        let Some(dialect) = family.compiler.dialect() else {
+            return Ok(FamilyAnswers::Absent("it has no compiler".to_owned()));
+        };
+        let mut session = CompilerSession::new(family, dialect, pool.limit, worker);
+        let compiler = match told(session.compiler())? {
+            Ok(name) => name,
+            Err(why) => return Ok(FamilyAnswers::Absent(why)),
+        };
+        let mut answers = Vec::new();
+        for function in &self.functions[job.functions.clone()] {
+            answers.push(session.answer(function)?);
+            tick();
+        }
+        Ok(FamilyAnswers::Fresh(compiler, answers))
+    }
+}
+
+/// Functions whose shaders are different, and for each function which of them is its own.
+fn once_each(functions: &[CostedFunction]) -> (Vec<&CostedFunction>, Vec<usize>) {
+    let mut known: BTreeMap<&str, usize> = BTreeMap::new();
+    let mut different = Vec::new();
+    let mut places = Vec::new();
+    for function in functions {
+        let place = known
+            .entry(function.hash(Dialect::Wgsl))
+            .or_insert_with(|| {
+                different.push(function);
+                different.len() - 1
+            });
+        places.push(*place);
+    }
+    (different, places)
+}
+
+impl FamilyAnswers {
+    /// The same with the answers of these places.
+    fn at(self, places: &[usize]) -> FamilyAnswers {
+        match self {
+            FamilyAnswers::Fresh(compiler, answers) => {
+                let answers = places.iter().map(|place| answers[*place].clone());
+                FamilyAnswers::Fresh(compiler, answers.collect())
+            }
+            absent => absent,
+        }
+    }
+}
+
+/// The jobs of all families whose compilers can be started.
+fn jobs(launches: &[Result<Launch, String>], functions: usize, size: usize) -> Vec<Job> {
+    let started = launches.iter().enumerate();
+    let started = started.filter_map(|(family, launch)| Some((family, launch.as_ref().ok()?)));
+    let parts = |(family, launch): (usize, &Launch)| {
+        let launch = launch.clone();
+        (0..functions).step_by(size).map(move |start| Job {
+            family,
+            launch: launch.clone(),
+            functions: start..functions.min(start + size),
+        })
+    };
+    started.flat_map(parts).collect()
+}
+
+/// The answers of each family, in the functions' order. Where one process could not start and others could, the functions
+/// of that one have its reason.
+fn gathered(
+    launches: &[Result<Launch, String>],
+    count: usize,
+    jobs: &[Job],
+    done: Vec<FamilyAnswers>,
+) -> Vec<FamilyAnswers> {
+    let unknown = |launch: &Result<Launch, String>| {
+        let why = launch.as_ref().err().cloned();
+        Err(why.unwrap_or_else(|| "it was not asked".to_owned()))
+    };
+    let mut compilers: Vec<Option<String>> = vec![None; launches.len()];
+    let mut answers: Vec<Vec<CompilerFigures>> = launches
+        .iter()
+        .map(|launch| vec![unknown(launch); count])
+        .collect();
+    for (job, done) in jobs.iter().zip(done) {
+        let slots = &mut answers[job.family][job.functions.clone()];
+        match done {
+            FamilyAnswers::Fresh(compiler, fresh) => {
+                compilers[job.family] = Some(compiler);
+                slots.clone_from_slice(&fresh);
+            }
+            FamilyAnswers::Absent(why) => slots.fill(Err(why)),
+        }
+    }
+    let families = compilers.into_iter().zip(answers);
+    families
+        .map(|(compiler, answers)| match (compiler, answers.first()) {
+            (Some(compiler), _) => FamilyAnswers::Fresh(compiler, answers),
+            (None, Some(Err(why))) => FamilyAnswers::Absent(why.clone()),
+            (None, _) => FamilyAnswers::Absent("it was not asked".to_owned()),
+        })
+        .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::lab::cost::CostFigures;
+
+    const JOB: usize = 60;
+
+    #[test]
+    fn a_process_that_did_not_start_takes_nothing_from_others() {
+        let launches = [Ok(Launch::default()), Err("elsewhere".to_owned())];
+        let jobs: Vec<Job> = jobs(&launches, 2 * JOB + 5, JOB);
+        let fresh =
+            |count| FamilyAnswers::Fresh("X".to_owned(), vec![Ok(CostFigures::default()); count]);
+        let absent = FamilyAnswers::Absent("gone".to_owned());
+        let done = vec![fresh(JOB), absent, fresh(5)];
+        let all = gathered(&launches, 2 * JOB + 5, &jobs, done);
+        let [FamilyAnswers::Fresh(_, answers), FamilyAnswers::Absent(why)] = all.as_slice() else {
+            panic!("{all:?}");
+        };
+        assert!(answers[..JOB].iter().all(Result::is_ok));
+        assert!(answers[JOB..2 * JOB].iter().all(Result::is_err));
+        assert!(answers[2 * JOB..].iter().all(Result::is_ok));
+        assert_eq!(why, "elsewhere");
+    }
+}

@@ -1,0 +1,206 @@
+//! What is measured: library functions with arguments from uniforms, specialised ones with their constants folded in.
+
+use std::sync::OnceLock;
+
+use crate::generator::emit::{
+    Bounds, EffectRequest, Emitted, Error, FunctionForm, Naming, library_functions,
+    specialised_graph,
+};
+use crate::generator::reference::MaterialInMedium;
+use crate::lab::cost::{Dialect, Probe, REFERENCE};
+use crate::language::effects::{Effect, EffectFunction};
+use crate::language::ir::{Checked, Ty};
+use crate::language::methods::{self, Method};
+use crate::physics::num::Precision;
+
+/// A function as it is measured.
+#[derive(Clone, Debug)]
+pub struct CostedFunction {
+    /// Whether it was asked for, or is here as the reference only.
+    pub is_asked: bool,
+    /// The function of an effect that it is.
+    pub effect: Option<&'static EffectFunction>,
+    /// The material that it is specialised to.
+    pub material: Option<String>,
+    /// Its method; of a function of an effect the one that R is by.
+    pub method: &'static Method,
+    /// What it takes and gives.
+    pub form: FunctionForm,
+    /// What it computes in.
+    pub precision: Precision,
+    /// The graph.
+    pub graph: Checked,
+    probe: Probe,
+    /// The hash for each language, once it was asked for.
+    hashes: [OnceLock<String>; 3],
+}
+
+/// The functions of these methods: library and scalar forms, and specialised ones for each material that they describe,
+/// in each precision that they are written in.
+///
+/// # Errors
+/// A function cannot be made.
+pub fn functions(
+    methods: &[&'static Method],
+    subjects: &[MaterialInMedium],
+    precisions: &[Precision],
+) -> Result<Vec<CostedFunction>, Error> {
+    let bounds = Bounds::recorded();
+    let mut found = Vec::new();
+    for precision in precisions.iter().copied() {
+        let naming = Naming {
+            precision,
+            ..Naming::default()
+        };
+        for method in methods.iter().copied() {
+            if !(precision.is_half() && method.half.library_refusal().is_some()) {
+                let library = library_functions(method, &naming)?;
+                found.extend(library.into_iter().map(CostedFunction::library));
+            }
+        }
+        for subject in subjects {
+            for method in methods.iter().copied() {
+                let refused = precision.is_half() && method.half.refusal().is_some();
+                if subject.is_described_by(method) && !refused {
+                    let made = specialised_graph(method, subject, precision, &bounds)?;
+                    found.push(CostedFunction {
+                        material: Some(subject.argument.clone()),
+                        ..CostedFunction::new(
+                            method,
+                            FunctionForm::Specialised,
+                            precision,
+                            made.function,
+                        )
+                    });
+                }
+            }
+        }
+    }
+    if !found.iter().any(CostedFunction::is_reference) {
+        found.push(reference()?);
+    }
+    Ok(found)
+}
+
+/// The functions of an effect for any material, with R by a method: all, or by an unusual method those that ask for R.
+///
+/// # Errors
+/// A function cannot be made.
+pub fn functions_of_effect(
+    effect: &'static Effect,
+    method: &'static Method,
+) -> Result<Vec<CostedFunction>, Error> {
+    let request = EffectRequest {
+        effect,
+        method,
+        subject: None,
+    };
+    let functions = request.functions(&Naming::default())?;
+    let costed = |emitted: Emitted| CostedFunction {
+        effect: emitted.effect.map(|part| part.function),
+        ..CostedFunction::library(emitted)
+    };
+    Ok(functions.into_iter().map(costed).collect())
+}
+
+/// The function with which others are compared, where nobody asked for it.
+fn reference() -> Result<CostedFunction, Error> {
+    let method = methods::find(REFERENCE).expect("a test asks for its cost");
+    let functions = library_functions(method, &Naming::default())?;
+    let emitted = functions
+        .into_iter()
+        .next()
+        .expect("it has a form of three channels");
+    Ok(CostedFunction {
+        is_asked: false,
+        ..CostedFunction::library(emitted)
+    })
+}
+
+impl CostedFunction {
+    fn library(emitted: Emitted) -> CostedFunction {
+        CostedFunction::new(
+            emitted.method,
+            emitted.form,
+            emitted.precision,
+            emitted.function,
+        )
+    }
+
+    fn new(
+        method: &'static Method,
+        form: FunctionForm,
+        precision: Precision,
+        graph: Checked,
+    ) -> CostedFunction {
+        CostedFunction {
+            is_asked: true,
+            effect: None,
+            material: None,
+            probe: Probe::new(&graph, precision),
+            hashes: Default::default(),
+            method,
+            form,
+            precision,
+            graph,
+        }
+    }
+
+    /// The function with which others are compared: the exact law for dielectrics, its arguments from uniforms.
+    pub fn is_reference(&self) -> bool {
+        self.effect.is_none()
+            && self.method.name == REFERENCE
+            && self.form == FunctionForm::Library
+            && !self.precision.is_half()
+    }
+
+    /// How many channels it gives.
+    pub fn channels(&self) -> usize {
+        if self.is_scalar() { 1 } else { 3 }
+    }
+
+    /// Whether it gives one channel.
+    pub fn is_scalar(&self) -> bool {
+        self.graph.ty() == Ty::Scalar
+    }
+
+    /// The types of its first argument and of its result.
+    pub fn ends(&self) -> (Ty, Ty) {
+        let first = self.graph.params.first();
+        (first.map_or(Ty::Scalar, |param| param.ty), self.graph.ty())
+    }
+
+    /// The method, where it is part of the function.
+    pub fn method_by_name(&self) -> Option<&'static str> {
+        let has_method = self
+            .effect
+            .is_none_or(|effect| effect.reflectance.is_used());
+        has_method.then_some(self.method.name)
+    }
+
+    /// The shader of the longer chain by its hash: what a record belongs to.
+    pub fn hash(&self, dialect: Dialect) -> &str {
+        self.hashes[dialect as usize].get_or_init(|| self.probe.hash(dialect))
+    }
+
+    /// The shape of that shader by its hash.
+    pub fn shape(&self, dialect: Dialect) -> String {
+        self.probe.shape(dialect)
+    }
+
+    /// The fragment shaders of both chains.
+    pub fn chains(&self, dialect: Dialect) -> [String; 2] {
+        dialect
+            .chains()
+            .map(|evaluations| self.probe.text(evaluations, dialect))
+    }
+
+    /// The same of the empty function in its place.
+    pub fn empty_chains(&self, dialect: Dialect) -> [String; 2] {
+        let (first, result) = self.ends();
+        let probe = Probe::empty(first, result, self.precision);
+        dialect
+            .chains()
+            .map(|evaluations| probe.text(evaluations, dialect))
+    }
+}

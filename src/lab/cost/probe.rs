@@ -1,0 +1,240 @@
+//! The shaders that are measured: a function in a fragment shader, evaluated once or several times in a chain.
+//!
+//! Each evaluation takes its first argument from the result before it, `r g - b` and what comes from the vertices, so that no channel
+//! can be left out, no compiler can make it simpler, and cosines stay spread where the shader is run; and each has arguments of its own, so that nothing computed from
+//! arguments is shared. The chain's own price is that of the [empty](Probe::empty) function in it.
+//!
+//! Interface: location 0 holds weights and the first cosine; group 0 has the arguments at binding 0 (one block for each
+//! evaluation, [`BLOCKS`] or more in all), a texture at 3 and its sampler at 4, as in our SPIR-V modules.
+
+use crate::generator::emit::bare;
+use crate::language::ir::{Checked, Param, Ty};
+use crate::language::targets::{GLES, Target, WGSL};
+use crate::physics::digest::sha256;
+use crate::physics::num::Precision;
+
+use super::chain::{Chain, ChainLanguage, MEASURED, uniforms};
+use super::family::Dialect;
+use super::text_shape::without_numbers;
+
+/// Blocks of arguments in a shader of no more evaluations; a longer chain has one for each.
+pub const BLOCKS: usize = 8;
+/// The entry point of the fragment shader.
+pub const ENTRY: &str = "fg_main";
+/// The entry point of the vertex shader.
+pub const VERTEX: &str = "fg_vertex";
+
+/// A function as it is measured.
+#[derive(Clone, Debug)]
+pub struct Probe {
+    params: Vec<Param>,
+    is_scalar: bool,
+    precision: Precision,
+    /// In WGSL and in GLSL ES.
+    texts: [String; 2],
+}
+
+/// A full-screen triangle in WGSL whose location 0 runs over (0, 1) and is no constant.
+pub const WGSL_VERTEX: &str = "
+struct FgVertex {
+    @builtin(position) fg_position: vec4<f32>,
+    @location(0) fg_in: vec4<f32>,
+}
+@vertex
+fn fg_vertex(@builtin(vertex_index) i: u32) -> FgVertex {
+    let at = vec2<f32>(f32(i & 1u), f32(i >> 1u));
+    return FgVertex(vec4<f32>(at * 4.0 - 1.0, 0.0, 1.0), vec4<f32>(at, 1.0 - 0.5 * at.x, at.x + 0.25 * at.y));
+}
+";
+
+impl Probe {
+    /// A function with its arguments, if it has any, from uniforms.
+    pub fn new(function: &Checked, precision: Precision) -> Probe {
+        let text = |target: &Target| bare(function, MEASURED, target.spelling_in(precision));
+        Probe {
+            params: function.params.clone(),
+            is_scalar: function.ty() == Ty::Scalar,
+            precision,
+            texts: [text(&WGSL), text(&GLES)],
+        }
+    }
+
+    /// A function that is there as text, under the name `fg_measured`: in WGSL, and in GLSL ES, as far as it is known. It gives
+    /// one channel, or three.
+    pub fn of_text(params: Vec<Param>, is_scalar: bool, [wgsl, gles]: [String; 2]) -> Probe {
+        Probe {
+            params,
+            is_scalar,
+            precision: Precision::F32,
+            texts: [wgsl, gles],
+        }
+    }
+
+    /// What a chain costs where nothing is evaluated in it: of functions with such a first argument and such a result.
+    pub fn empty(first: Ty, result: Ty, precision: Precision) -> Probe {
+        let text = |target: &Target| {
+            let spelling = target.spelling_in(precision);
+            let ty = spelling.ty(result);
+            let value = match (first, result) {
+                (Ty::Rgb, Ty::Rgb) => "c".to_owned(),
+                (Ty::Vec2, Ty::Rgb) => "c.xyx".to_owned(),
+                (Ty::Rgb | Ty::Vec2, _) => "c.x".to_owned(),
+                _ => format!("{ty}(c)"),
+            };
+            let param = spelling.param.replace("{type}", spelling.ty(first));
+            let head = spelling.head.replace("{name}", MEASURED);
+            let head = head.replace("{type}", ty);
+            let head = head.replace("{params}", &param.replace("{name}", "c"));
+            format!("{head} {{\n    return {value};\n}}\n")
+        };
+        let param = Param {
+            name: "c".to_owned(),
+            ty: first,
+        };
+        Probe {
+            params: vec![param],
+            is_scalar: result == Ty::Scalar,
+            precision,
+            texts: [text(&WGSL), text(&GLES)],
+        }
+    }
+
+    /// The arguments that it takes from uniforms, in order.
+    pub fn uniforms(&self) -> impl Iterator<Item = &Param> {
+        uniforms(&self.params)
+    }
+
+    /// Whether it reads a texture.
+    pub fn is_textured(&self) -> bool {
+        self.params.iter().any(|param| param.ty == Ty::Texture)
+    }
+
+    /// The fragment shader in a compiler's language.
+    pub fn text(&self, evaluations: usize, dialect: Dialect) -> String {
+        match dialect {
+            Dialect::Wgsl => self.wgsl(evaluations),
+            Dialect::Es300 => self.gles(evaluations, false),
+            Dialect::Es100 => self.gles(evaluations, true),
+        }
+    }
+
+    /// The shader of the longer chain by its hash: what a record belongs to.
+    pub fn hash(&self, dialect: Dialect) -> String {
+        let text = self.text(dialect.chains()[1], dialect);
+        sha256(text.as_bytes())[..16].to_owned()
+    }
+
+    /// The hash of the same text with a mark in the place of each number: what functions share that differ in constants alone.
+    pub fn shape(&self, dialect: Dialect) -> String {
+        let text = self.text(dialect.chains()[1], dialect);
+        sha256(without_numbers(&text).as_bytes())[..16].to_owned()
+    }
+
+    /// The fragment shader in WGSL.
+    pub fn wgsl(&self, evaluations: usize) -> String {
+        let spelling = WGSL.spelling_in(self.precision);
+        let enable = match self.precision.is_half() {
+            true => "enable f16;\n",
+            false => "",
+        };
+        let language = ChainLanguage {
+            spelling,
+            // Elements of an array in uniforms lie 16 bytes apart, or a multiple of it.
+            member: "    @align(16) {name}: {type},\n",
+            block: &format!(
+                "struct FgArguments {{\n{{members}}}}\n@group(0) @binding(0) var<uniform> fg_arguments: array<FgArguments, {}>;\n",
+                evaluations.max(BLOCKS)
+            ),
+            argument: "fg_arguments[{i}].{name}",
+            texture: "@group(0) @binding(3) var fg_table: texture_2d<f32>;\n@group(0) @binding(4) var fg_sampler: sampler;\n",
+            cube: "@group(0) @binding(3) var fg_table: texture_cube<f32>;\n@group(0) @binding(4) var fg_sampler: sampler;\n",
+            texture_argument: "fg_table, fg_sampler",
+            local: spelling.local,
+            input: "{type}({value})",
+            prefix: "",
+            shader: &format!(
+                "{enable}{{function}}{{arguments}}@fragment fn {ENTRY}(@location(0) fg_in: vec4<f32>) -> @location(0) vec4<f32> {{
+{{chain}}    return vec4<f32>(vec3<f32>({}({{last}})), 1.0);
+}}
+",
+                spelling.rgb
+            ),
+        };
+        self.chain(0, evaluations).shader(&language)
+    }
+
+    /// The fragment shader in GLSL ES 3.00, or in GLSL ES 1.00 for compilers that support no other: only names differ.
+    fn gles(&self, evaluations: usize, is_old: bool) -> String {
+        let spelling = GLES.spelling_in(self.precision);
+        let uniform = spelling
+            .param
+            .replace("{name}", &format!("fg_{{name}}[{BLOCKS}]"));
+        let reads_cube = self.params.iter().any(|param| param.ty == Ty::Cube);
+        let (head, colour) = match (is_old, reads_cube) {
+            (true, true) => (OLD_HEAD_WITH_CUBE, "gl_FragColor"),
+            (true, false) => (OLD_HEAD, "gl_FragColor"),
+            (false, _) => (NEW_HEAD, "fg_colour"),
+        };
+        let language = ChainLanguage {
+            spelling,
+            member: &format!("uniform {uniform};\n"),
+            block: "{members}",
+            argument: "fg_{name}[{i}]",
+            texture: "uniform highp sampler2D fg_table;\n",
+            cube: "uniform highp samplerCube fg_table;\n",
+            texture_argument: "fg_table",
+            local: spelling.local,
+            input: "{value}",
+            prefix: "",
+            shader: &format!(
+                "{head}{{function}}{{arguments}}void main() {{
+{{chain}}    {colour} = vec4(vec3({{last}}), 1.0);
+}}
+"
+            ),
+        };
+        self.chain(1, evaluations).shader(&language)
+    }
+
+    fn chain(&self, text: usize, evaluations: usize) -> Chain<'_> {
+        Chain {
+            function: &self.texts[text],
+            params: &self.params,
+            is_scalar: self.is_scalar,
+            evaluations,
+        }
+    }
+}
+
+/// The vertex shader that belongs to the fragment shaders in GLSL ES.
+pub fn gles_vertex(dialect: Dialect) -> String {
+    let (version, input, output) = if dialect == Dialect::Es100 {
+        ("100", "attribute", "varying")
+    } else {
+        ("300 es", "in", "out")
+    };
+    format!(
+        "#version {version}
+{input} highp vec4 fg_corner;
+{output} highp vec4 fg_in;
+void main() {{
+    fg_in = fg_corner;
+    gl_Position = vec4(fg_corner.xy, 0.0, 1.0);
+}}
+"
+    )
+}
+
+const NEW_HEAD: &str = "#version 300 es
+in highp vec4 fg_in;
+out highp vec4 fg_colour;
+";
+/// Without a level there is only the base one: what is read here has no other.
+const OLD_HEAD: &str = "#version 100
+varying highp vec4 fg_in;
+#define textureLod(table, at, level) texture2D(table, at)
+";
+const OLD_HEAD_WITH_CUBE: &str = "#version 100
+varying highp vec4 fg_in;
+#define textureLod(table, at, level) textureCube(table, at)
+";

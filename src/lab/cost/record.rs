@@ -1,0 +1,207 @@
+//! What compilers said, kept in `data/records/costs/`, a file for each family, keyed by the hash of the shader: it serves
+//! where a compiler is absent.
+
+use core::fmt;
+use std::collections::BTreeMap;
+
+use include_dir::{Dir, include_dir};
+use serde::Deserialize;
+
+use crate::generator::emit::FunctionForm;
+use crate::language::effects::USUAL_METHOD;
+use crate::physics::num::Precision;
+use crate::physics::records;
+
+use super::figures::{CostFigures, Counts};
+
+static FOLDER: Dir = include_dir!("$CARGO_MANIFEST_DIR/data/records/costs");
+
+/// What was recorded of a family.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct CostRecord {
+    /// The compiler with its version.
+    pub compiler: String,
+    /// The figures of each shader by its hash.
+    pub figures: BTreeMap<String, CostFigures>,
+    /// The hash of each function's shader, to tell a shader that changed from one that was never measured.
+    pub functions: BTreeMap<FunctionKey, String>,
+    /// Of functions whose shaders differ in numbers alone the largest cost, by the hash of the shader without its numbers.
+    pub shapes: BTreeMap<String, f64>,
+}
+
+/// Which function a row of a record is about.
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub struct FunctionKey {
+    /// The function of an effect by its name after the prefix; empty for methods.
+    pub effect: String,
+    /// The method; empty for a function of an effect that asks for no R.
+    pub method: String,
+    /// The material that it is specialised to; empty for the library.
+    pub material: String,
+    /// What it takes and gives.
+    pub form: FunctionForm,
+    /// How many channels it gives.
+    pub channels: usize,
+    /// What it computes in.
+    pub precision: Precision,
+}
+
+impl FunctionKey {
+    /// A library function of a method.
+    pub fn library(method: &str, form: FunctionForm, precision: Precision) -> FunctionKey {
+        FunctionKey {
+            effect: String::new(),
+            method: method.to_owned(),
+            material: String::new(),
+            form,
+            channels: if form == FunctionForm::Scalar { 1 } else { 3 },
+            precision,
+        }
+    }
+}
+
+impl fmt::Display for FunctionKey {
+    fn fmt(&self, to: &mut fmt::Formatter) -> fmt::Result {
+        let FunctionKey {
+            effect,
+            method,
+            material,
+            form,
+            channels,
+            precision,
+        } = self;
+        let (form, precision) = (form.name(), precision.name());
+        write!(
+            to,
+            "{effect},{method},{material},{form},{channels},{precision}"
+        )
+    }
+}
+
+impl CostRecord {
+    /// What was recorded of a library function of three channels in single precision.
+    pub fn library(&self, method: &str) -> Option<CostFigures> {
+        self.of(&FunctionKey::library(
+            method,
+            FunctionForm::Library,
+            Precision::F32,
+        ))
+    }
+
+    /// What was recorded of a function.
+    pub fn of(&self, key: &FunctionKey) -> Option<CostFigures> {
+        self.figures.get(self.functions.get(key)?).copied()
+    }
+
+    /// What was recorded of a function of an effect, with three channels of R by the usual method where it asks for R.
+    pub fn effect(&self, function: &str) -> Option<CostFigures> {
+        let is_it = |key: &&FunctionKey| {
+            let is_usual = key.method.is_empty() || key.method == USUAL_METHOD;
+            key.effect == function && key.form == FunctionForm::Library && is_usual
+        };
+        let key = self.functions.keys().find(is_it)?;
+        self.figures.get(&self.functions[key]).copied()
+    }
+}
+
+/// What stands before the compiler's name.
+const COMPILER: &str = "# compiler: ";
+
+/// A row of a file.
+#[derive(Deserialize)]
+struct RecordedCost {
+    effect: String,
+    method: String,
+    material: String,
+    form: FunctionForm,
+    channels: usize,
+    precision: Precision,
+    shader: String,
+    shape: String,
+    instructions: f64,
+    latency: Option<f64>,
+    inverse_throughput: Option<f64>,
+    registers: Option<f64>,
+    net_instructions: f64,
+    net_latency: Option<f64>,
+    net_inverse_throughput: Option<f64>,
+}
+
+/// The record of a family, empty where there is none.
+pub fn records(family: &str) -> CostRecord {
+    let file = FOLDER.get_file(format!("{family}.csv"));
+    let text = file.and_then(|file| file.contents_utf8());
+    text.map(parse).unwrap_or_default()
+}
+
+/// A file as [`CostRecord`].
+fn parse(text: &str) -> CostRecord {
+    let compiler = text.lines().find_map(|line| line.strip_prefix(COMPILER));
+    let mut record = CostRecord {
+        compiler: compiler.unwrap_or_default().to_owned(),
+        ..CostRecord::default()
+    };
+    for row in records::rows::<RecordedCost>(text) {
+        let figures = row.figures();
+        let largest = record.shapes.entry(row.shape.clone());
+        let largest = largest.or_insert(figures.cost());
+        *largest = largest.max(figures.cost());
+        record.figures.insert(row.shader.clone(), figures);
+        let shader = row.shader.clone();
+        record.functions.insert(row.key(), shader);
+    }
+    record
+}
+
+impl RecordedCost {
+    fn figures(&self) -> CostFigures {
+        CostFigures {
+            shader: Counts {
+                instructions: self.instructions,
+                latency: self.latency,
+                inverse_throughput: self.inverse_throughput,
+            },
+            registers: self.registers,
+            net: Counts {
+                instructions: self.net_instructions,
+                latency: self.net_latency,
+                inverse_throughput: self.net_inverse_throughput,
+            },
+        }
+    }
+
+    fn key(self) -> FunctionKey {
+        FunctionKey {
+            effect: self.effect,
+            method: self.method,
+            material: self.material,
+            form: self.form,
+            channels: self.channels,
+            precision: self.precision,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_record_is_read() {
+        let head = "effect,method,material,form,channels,precision,shader,shape,instructions,latency,inverse_throughput,registers,net_instructions,net_latency,net_inverse_throughput";
+        let row = ",schlick,,library,3,f32,0123456789abcdef,00ff,57,,28,8,9,,7";
+        let others = [
+            ",schlick,gold,specialised,3,f32,01,aa,50,,28,8,9,,5",
+            ",schlick,water,specialised,3,f32,02,aa,50,,28,8,9,,6",
+        ];
+        let text = format!("{COMPILER}X 1.0\n{head}\n{row}\n{}\n", others.join("\n"));
+        let record = parse(&text);
+        assert_eq!(record.compiler, "X 1.0");
+        let figures = record.figures["0123456789abcdef"];
+        assert_eq!(figures.cost(), 7.0);
+        assert_eq!(figures.shader.latency, None);
+        assert_eq!(record.library("schlick"), Some(figures));
+        assert_eq!(record.shapes["00ff"], 7.0);
+        assert_eq!(record.shapes["aa"], 6.0);
+    }
+}

@@ -1,0 +1,170 @@
+//! What a function costs on a family of GPUs, as a row of reports.
+
+use serde::Serialize;
+
+use super::family::Family;
+use super::figures::{CostFigures, Counts};
+use super::record::FunctionKey;
+use crate::generator::emit::FunctionForm;
+use crate::physics::num::Precision;
+
+/// A function on a family.
+#[derive(Clone, Debug, Serialize)]
+#[serde(into = "CostRowJson")]
+pub struct CostRow {
+    /// The function of an effect by its name after the prefix.
+    pub effect: Option<&'static str>,
+    /// The method; none for a function of an effect that asks for no R.
+    pub method: Option<&'static str>,
+    /// The material that it is specialised to.
+    pub material: Option<String>,
+    /// What it takes and gives.
+    pub form: FunctionForm,
+    /// How many channels it gives.
+    pub channels: usize,
+    /// What it computes in.
+    pub precision: Precision,
+    /// Texture fetches.
+    pub fetches: usize,
+    /// The family.
+    pub family: &'static Family,
+    /// The compiler with its version, where one spoke.
+    pub compiler: Option<String>,
+    /// Who says it; nobody where nothing is known.
+    pub source: Option<CostSource>,
+    /// What is known, or why nothing is.
+    pub figures: Result<CostFigures, String>,
+    /// The cost over that of the reference.
+    pub share: Option<f64>,
+    /// The shader by its hash.
+    pub shader: Option<String>,
+    /// The shader without its numbers, by its hash.
+    pub shape: Option<String>,
+}
+
+/// Who says what a function costs.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum CostSource {
+    /// The compiler, now.
+    Compiler,
+    /// The compiler, when it was recorded.
+    Record,
+    /// The graph.
+    Graph,
+}
+
+/// The row in a report's JSON.
+#[derive(Serialize)]
+struct CostRowJson {
+    effect: Option<&'static str>,
+    method: Option<&'static str>,
+    material: Option<String>,
+    form: FunctionForm,
+    channels: usize,
+    precision: Precision,
+    constants: &'static str,
+    gpu: &'static str,
+    vendor: &'static str,
+    compiler: Option<String>,
+    measure: &'static str,
+    instructions: Option<f64>,
+    latency: Option<f64>,
+    inverse_throughput: Option<f64>,
+    registers: Option<f64>,
+    fetches: usize,
+    net_instructions: Option<f64>,
+    net_latency: Option<f64>,
+    net_inverse_throughput: Option<f64>,
+    share: Option<f64>,
+    shader: Option<String>,
+    shape: Option<String>,
+    from: Option<CostSource>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    reason: Option<String>,
+}
+
+impl From<CostRow> for CostRowJson {
+    fn from(row: CostRow) -> CostRowJson {
+        let figures = row.figures.as_ref().ok();
+        let shader = figures.map(|figures| figures.shader);
+        let net = figures.map(|figures| figures.net);
+        let instructions = |counts: Counts| counts.instructions;
+        CostRowJson {
+            constants: if row.material.is_some() {
+                "folded"
+            } else {
+                "uniform"
+            },
+            gpu: row.family.name,
+            vendor: row.family.vendor,
+            measure: row.family.columns.measure,
+            instructions: shader.map(instructions),
+            latency: shader.and_then(|counts| counts.latency),
+            inverse_throughput: shader.and_then(|counts| counts.inverse_throughput),
+            registers: figures.and_then(|figures| figures.registers),
+            net_instructions: net.map(instructions),
+            net_latency: net.and_then(|counts| counts.latency),
+            net_inverse_throughput: net.and_then(|counts| counts.inverse_throughput),
+            reason: row.reason(),
+            effect: row.effect,
+            method: row.method,
+            material: row.material,
+            form: row.form,
+            channels: row.channels,
+            precision: row.precision,
+            compiler: row.compiler,
+            fetches: row.fetches,
+            share: row.share,
+            shader: row.shader,
+            shape: row.shape,
+            from: row.source,
+        }
+    }
+}
+
+impl CostRow {
+    /// Why nothing is known, or which figures this compiler does not tell.
+    fn reason(&self) -> Option<String> {
+        let figures = match &self.figures {
+            Err(why) => return Some(why.clone()),
+            Ok(figures) => figures,
+        };
+        let columns = [
+            ("latency", figures.shader.latency),
+            ("inverse_throughput", figures.shader.inverse_throughput),
+            ("registers", figures.registers),
+        ];
+        let missing = columns.into_iter().filter(|(_, figure)| figure.is_none());
+        let missing: Vec<&str> = missing.map(|(name, _)| name).collect();
+        (!missing.is_empty()).then(|| format!("not told here: {}", missing.join(", ")))
+    }
+
+    /// Which function it is, in a record.
+    pub fn key(&self) -> FunctionKey {
+        FunctionKey {
+            effect: self.effect.unwrap_or_default().to_owned(),
+            method: self.method.unwrap_or_default().to_owned(),
+            material: self.material.clone().unwrap_or_default(),
+            form: self.form,
+            channels: self.channels,
+            precision: self.precision,
+        }
+    }
+
+    /// The function for people: `schlick`, `schlick, one channel`, `gold: schlick, f16`, `refracted`, `exit_transmittance: schlick`.
+    pub fn label(&self) -> String {
+        let of = self.material.as_deref().or(self.effect);
+        let names: Vec<&str> = of.into_iter().chain(self.method).collect();
+        let channel = match self.channels {
+            1 if self.method.is_some() => ", one channel",
+            _ => "",
+        };
+        let half = if self.precision.is_half() {
+            ", f16"
+        } else {
+            ""
+        };
+        format!("{}{channel}{half}", names.join(": "))
+    }
+}

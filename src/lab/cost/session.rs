@@ -1,0 +1,216 @@
+//! A family's compiler in a process of its own: how it starts, what it is asked, and what it says.
+
+use core::time::Duration;
+use std::collections::BTreeMap;
+use std::ffi::OsString;
+use std::path::{Path, PathBuf};
+
+use crate::lab::process::{Error, Launch, Silence, Surroundings, Worker, beside};
+use crate::language::ir::Ty;
+
+use super::family::{Dialect, Family, GpuCompiler};
+use super::figures::{CostFigures, Statistics, figures};
+use super::function::CostedFunction;
+use super::protocol::{CompilerRequest, CompilerResponse, FragmentShader};
+
+/// What a compiler says of a function, or why it says nothing.
+pub type CompilerFigures = Result<CostFigures, String>;
+
+/// Why there is nothing that a compiler says.
+#[derive(Debug, thiserror::Error)]
+pub enum Unmeasured {
+    /// No process can be started.
+    #[error(transparent)]
+    Process(#[from] Error),
+    /// The compiler is absent, hangs, fails or refuses the shader.
+    #[error("{0}")]
+    Compiler(String),
+}
+
+/// What a compiler told, or why it told nothing.
+///
+/// # Errors
+/// No process can be started.
+pub fn told<T>(asked: Result<T, Unmeasured>) -> Result<Result<T, String>, Error> {
+    match asked {
+        Ok(told) => Ok(Ok(told)),
+        Err(Unmeasured::Compiler(why)) => Ok(Err(why)),
+        Err(Unmeasured::Process(error)) => Err(error),
+    }
+}
+
+/// Hangs after which a compiler is asked no more.
+const HANGS: usize = 3;
+
+/// A compiler at work.
+pub struct CompilerSession<'a> {
+    family: &'static Family,
+    dialect: Dialect,
+    limit: Duration,
+    worker: &'a mut Worker,
+    /// The chains of the empty function with these types of its argument and its result, in each precision.
+    empty: BTreeMap<(Ty, Ty, bool), [Statistics; 2]>,
+    hangs: usize,
+}
+
+impl<'a> CompilerSession<'a> {
+    /// A session with the compiler of a family that has one.
+    pub fn new(
+        family: &'static Family,
+        dialect: Dialect,
+        limit: Duration,
+        worker: &'a mut Worker,
+    ) -> CompilerSession<'a> {
+        CompilerSession {
+            family,
+            dialect,
+            limit,
+            worker,
+            empty: BTreeMap::new(),
+            hangs: 0,
+        }
+    }
+
+    /// The compiler's name and version.
+    ///
+    /// # Errors
+    /// It is absent.
+    pub fn compiler(&mut self) -> Result<String, Unmeasured> {
+        let response = self.ask(&CompilerRequest::Name)?;
+        response.name().map_err(Unmeasured::Compiler)
+    }
+
+    /// What the compiler says of a function.
+    ///
+    /// # Errors
+    /// No process can be started.
+    pub fn answer(&mut self, function: &CostedFunction) -> Result<CompilerFigures, Error> {
+        if self.hangs >= HANGS {
+            let why = format!("not asked: the compiler hung {HANGS} times before");
+            return Ok(Err(why));
+        }
+        if function.precision.is_half() && !self.family.half {
+            return Ok(Err("it has no 16-bit arithmetic".to_owned()));
+        }
+        told(self.figures(function))
+    }
+
+    /// What the compiler says of shaders with the shorter and the longer chain of a function, then of the empty function.
+    ///
+    /// # Errors
+    /// It says nothing of one of them.
+    pub fn figures_of_shaders(
+        &mut self,
+        [short, long, empty_short, empty_long]: [FragmentShader; 4],
+    ) -> Result<CostFigures, Unmeasured> {
+        let chains = self.both([short, long])?;
+        let empty = self.both([empty_short, empty_long])?;
+        self.net_figures(&chains, &empty)
+    }
+
+    fn statistics(&mut self, shader: FragmentShader) -> Result<Statistics, Unmeasured> {
+        let response = self.ask(&CompilerRequest::Measure(shader))?;
+        response.statistics().map_err(Unmeasured::Compiler)
+    }
+
+    fn ask(&mut self, request: &CompilerRequest) -> Result<CompilerResponse, Unmeasured> {
+        let response = self.worker.ask(request, self.limit)?;
+        response.map_err(|silence| {
+            self.hangs += usize::from(silence == Silence::TooLong);
+            Unmeasured::Compiler(reason(&silence, self.limit))
+        })
+    }
+
+    fn figures(&mut self, function: &CostedFunction) -> Result<CostFigures, Unmeasured> {
+        let empty = self.empty(function)?;
+        let chains = self.both(function.chains(self.dialect).map(FragmentShader::Text))?;
+        let figures = self.net_figures(&chains, &empty)?;
+        Ok(match function.graph.computes_nothing() {
+            true => figures.of_nothing(),
+            false => figures,
+        })
+    }
+
+    fn net_figures(
+        &self,
+        chains: &[Statistics; 2],
+        empty: &[Statistics; 2],
+    ) -> Result<CostFigures, Unmeasured> {
+        let figures = figures(&self.family.columns, self.dialect.chains(), chains, empty);
+        let silent = "the compiler does not tell instructions";
+        figures.ok_or_else(|| Unmeasured::Compiler(silent.to_owned()))
+    }
+
+    fn empty(&mut self, function: &CostedFunction) -> Result<[Statistics; 2], Unmeasured> {
+        let (first, result) = function.ends();
+        let kind = (first, result, function.precision.is_half());
+        if let Some(known) = self.empty.get(&kind) {
+            return Ok(known.clone());
+        }
+        let chains = function.empty_chains(self.dialect);
+        let found = self.both(chains.map(FragmentShader::Text))?;
+        self.empty.insert(kind, found.clone());
+        Ok(found)
+    }
+
+    fn both(&mut self, [short, long]: [FragmentShader; 2]) -> Result<[Statistics; 2], Unmeasured> {
+        Ok([self.statistics(short)?, self.statistics(long)?])
+    }
+}
+
+/// Why a compiler gave no answer.
+fn reason(silence: &Silence, limit: Duration) -> String {
+    match silence {
+        Silence::TooLong => format!("the compiler did not end within {} s", limit.as_secs()),
+        Silence::Ended(status) => format!("the process with the compiler ended ({status})"),
+    }
+}
+
+/// How the process with a family's compiler is started, or why there is none.
+///
+/// # Errors
+/// The family's compiler was not built here.
+pub fn launch(family: &Family, surroundings: &Surroundings) -> Result<Launch, String> {
+    let launch = Launch::new(&["cost", "--worker", family.name], surroundings);
+    Ok(launch.with_environment(environment(family, surroundings)?))
+}
+
+/// The folder of a file among what tests/mesa-compilers builds: in the folder of tools that the user names, or beside this
+/// program.
+fn built(file: &str, tools: Option<&Path>) -> Option<PathBuf> {
+    let own = beside();
+    let places = tools.into_iter().chain(own.iter().map(PathBuf::as_path));
+    let mut folders = places.map(|place| place.join("mesa"));
+    folders.find(|folder| folder.join(file).is_file())
+}
+
+/// What a process needs in its environment to be that compiler, or why it cannot be.
+fn environment(
+    family: &Family,
+    surroundings: &Surroundings,
+) -> Result<Vec<(String, OsString)>, String> {
+    let pair = |name: &str, value: OsString| (name.to_owned(), value);
+    let mut all = vec![
+        pair("MESA_SHADER_CACHE_DISABLE", "true".into()),
+        // A driver with a thread of its own remarks nothing.
+        pair("GALLIUM_THREAD", "0".into()),
+    ];
+    match family.compiler {
+        GpuCompiler::Radv(chip) => all.push(pair("RADV_FORCE_FAMILY", chip.into())),
+        GpuCompiler::Mesa {
+            shim, environment, ..
+        } => {
+            let shim = format!("lib{shim}_noop_drm_shim.so");
+            let Some(folder) = built(&shim, surroundings.tools.as_deref()) else {
+                return Err("its compiler is not here; tests/mesa-compilers builds it".to_owned());
+            };
+            all.push(pair("LD_PRELOAD", folder.join(shim).into()));
+            all.push(pair("LIBGL_DRIVERS_PATH", folder.join("dri").into()));
+            all.push(pair("LD_LIBRARY_PATH", folder.into()));
+            let own = environment.iter();
+            all.extend(own.map(|(name, value)| pair(name, value.into())));
+        }
+        GpuCompiler::Operations | GpuCompiler::None(_) => {}
+    }
+    Ok(all)
+}

@@ -1,0 +1,259 @@
+//! The shapes that a search tried, beside what they cost, and what a choice among them is worth.
+
+use serde::Serialize;
+
+use crate::generator::fit::{Candidate, ErrorQuantiles, LeaveOneOut, Tried, TriedShapes, Weight};
+use crate::generator::reference::{MaterialClass, MaterialInMedium};
+use crate::language::methods::Method;
+
+use super::pareto::{CostAndError, pareto_frontier};
+
+/// The materials that shapes are searched for together.
+#[derive(Debug)]
+pub struct SearchedClass {
+    /// Its name in reports.
+    pub name: &'static str,
+    /// Its name in full.
+    pub title: &'static str,
+    classes: &'static [MaterialClass],
+}
+
+/// All of them. Metals and semiconductors share their forms.
+pub static SEARCHED: [SearchedClass; 2] = [
+    SearchedClass {
+        name: "metals",
+        title: "metals and semiconductors",
+        classes: &[MaterialClass::Metals, MaterialClass::Semiconductors],
+    },
+    SearchedClass {
+        name: "dielectrics",
+        title: "dielectrics, n of 1.2 and more",
+        classes: &[MaterialClass::Dielectrics],
+    },
+];
+
+impl SearchedClass {
+    /// Whether shapes for it are for this material.
+    pub fn holds(&self, subject: &MaterialInMedium) -> bool {
+        let class = MaterialClass::containing(subject);
+        class.is_some_and(|class| self.classes.contains(&class))
+    }
+}
+
+/// What was found for some materials.
+#[derive(Clone, Debug)]
+pub struct SearchResult {
+    /// Which.
+    pub class: &'static SearchedClass,
+    /// How many shapes were tried.
+    pub tried: usize,
+    /// On how many measurements.
+    pub materials: usize,
+    /// Of how many substances.
+    pub substances: usize,
+    /// The shapes that nothing beats, and those of methods.
+    pub shapes: Vec<ShapeRow>,
+    /// For each number of coefficients; none where there is nothing to choose by.
+    pub choices: Vec<(usize, Option<ChoiceRow>)>,
+}
+
+/// A row of the JSON report.
+#[derive(Clone, Debug, Serialize)]
+#[serde(untagged)]
+pub enum SearchRow {
+    /// A shape.
+    Shape(ShapeRow),
+    /// A choice among shapes.
+    Choice(ChoiceRow),
+}
+
+/// A shape, how far it misses, and what it costs.
+#[derive(Clone, Debug, Serialize)]
+pub struct ShapeRow {
+    row: &'static str,
+    class: &'static str,
+    /// Its number of coefficients.
+    pub terms: usize,
+    /// The shape in symbols.
+    pub shape: String,
+    family: &'static str,
+    /// The method that has this shape.
+    pub method: Option<&'static str>,
+    weight: &'static str,
+    materials: usize,
+    substances: usize,
+    /// The operations of its graph.
+    pub operations: usize,
+    /// What its method's library function costs, where that is recorded.
+    pub cost: Option<f64>,
+    /// Whether no shape of fewer operations is as accurate.
+    pub is_on_frontier: bool,
+    /// Its errors over all measurements.
+    pub errors: ErrorQuantiles,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    reason: Option<&'static str>,
+}
+
+/// The shape that is chosen among those with so many coefficients, and what the choice is worth.
+#[derive(Clone, Debug, Serialize)]
+pub struct ChoiceRow {
+    row: &'static str,
+    class: &'static str,
+    /// The number of coefficients.
+    pub terms: usize,
+    by: &'static str,
+    shape: String,
+    method: Option<&'static str>,
+    /// Its errors on the measurements by which it was chosen.
+    pub errors: ErrorQuantiles,
+    /// The errors on each substance of the shape that was chosen without it.
+    pub errors_left_out: ErrorQuantiles,
+    /// The shapes that were chosen so.
+    pub chosen: Vec<ChosenShape>,
+}
+
+/// A shape that is chosen for so many substances, each time without them.
+#[derive(Clone, Debug, Serialize)]
+pub struct ChosenShape {
+    /// The shape in symbols.
+    pub shape: String,
+    method: Option<&'static str>,
+    /// For how many substances it was chosen.
+    pub substances: usize,
+}
+
+impl SearchResult {
+    /// What the errors of these shapes tell. `cost` is that of a method's library function, where it is recorded.
+    pub fn new(
+        class: &'static SearchedClass,
+        tried: &TriedShapes,
+        terms: &[usize],
+        weight: Weight,
+        cost: &dyn Fn(&Method) -> Option<f64>,
+    ) -> SearchResult {
+        let choice = |terms: &usize| {
+            let left_out = tried.leave_one_out(*terms);
+            let choice = left_out.map(|left_out| ChoiceRow::new(class, *terms, &left_out));
+            (*terms, choice)
+        };
+        SearchResult {
+            class,
+            tried: tried.tried.len(),
+            materials: tried.substances.len(),
+            substances: tried.substance_count(),
+            shapes: best_shapes(class, tried, weight, cost),
+            choices: terms.iter().map(choice).collect(),
+        }
+    }
+
+    /// The rows of the JSON report: shapes first, choices after.
+    pub fn search_rows(&self) -> impl Iterator<Item = SearchRow> {
+        let choices = self.choices.iter().filter_map(|(_, choice)| choice.clone());
+        let shapes = self.shapes.iter().cloned().map(SearchRow::Shape);
+        shapes.chain(choices.map(SearchRow::Choice))
+    }
+}
+
+/// The shapes that nothing beats in operations and 90th percentile, and those of methods, the fewest operations first.
+fn best_shapes(
+    class: &'static SearchedClass,
+    tried: &TriedShapes,
+    weight: Weight,
+    cost: &dyn Fn(&Method) -> Option<f64>,
+) -> Vec<ShapeRow> {
+    let row = |shape: &Tried| {
+        let cost = shape.candidate.method.and_then(cost);
+        ShapeRow::new(class, tried, shape, weight, cost)
+    };
+    let mut rows: Vec<ShapeRow> = tried.tried.iter().map(row).collect();
+    let point = |row: &ShapeRow| {
+        Some(CostAndError {
+            cost: row.operations as f64,
+            error: row.errors.p90,
+        })
+    };
+    let points: Vec<_> = rows.iter().map(point).collect();
+    for place in pareto_frontier(&points) {
+        rows[place].is_on_frontier = true;
+    }
+    rows.retain(|row| row.is_on_frontier || row.method.is_some());
+    let order = |a: &ShapeRow, b: &ShapeRow| a.errors.p90.total_cmp(&b.errors.p90);
+    rows.sort_by(|a, b| a.operations.cmp(&b.operations).then(order(a, b)));
+    rows
+}
+
+impl ShapeRow {
+    fn new(
+        class: &'static SearchedClass,
+        all: &TriedShapes,
+        tried: &Tried,
+        weight: Weight,
+        cost: Option<f64>,
+    ) -> ShapeRow {
+        let candidate = &tried.candidate;
+        ShapeRow {
+            row: "shape",
+            class: class.name,
+            terms: candidate.shape.terms(),
+            shape: candidate.shape.to_string(),
+            family: candidate.family,
+            method: method_name(candidate),
+            weight: weight.name(),
+            materials: all.substances.len(),
+            substances: all.substance_count(),
+            operations: candidate.operations(),
+            cost,
+            is_on_frontier: false,
+            errors: ErrorQuantiles::new(&tried.errors, &all.substances),
+            reason: cost.is_none().then_some("its cost is not recorded there"),
+        }
+    }
+}
+
+impl ChoiceRow {
+    fn new(class: &'static SearchedClass, terms: usize, left_out: &LeaveOneOut) -> ChoiceRow {
+        let chosen = left_out.chosen.iter();
+        let chosen = chosen.map(|(candidate, substances)| ChosenShape {
+            shape: candidate.shape.to_string(),
+            method: method_name(candidate),
+            substances: *substances,
+        });
+        ChoiceRow {
+            row: "choice",
+            class: class.name,
+            terms,
+            by: "p90 over the measurements of all other substances",
+            shape: left_out.choice.shape.to_string(),
+            method: method_name(&left_out.choice),
+            errors: left_out.seen,
+            errors_left_out: left_out.unseen,
+            chosen: chosen.collect(),
+        }
+    }
+}
+
+fn method_name(candidate: &Candidate) -> Option<&'static str> {
+    candidate.method.map(|method| method.name)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::generator::fit::candidates;
+
+    #[test]
+    fn what_is_beaten_is_left_out_unless_it_is_shipped() {
+        let tried = candidates(4).into_iter().zip([1.0, 2.0]);
+        let tried = tried.map(|(candidate, error)| Tried {
+            candidate,
+            errors: vec![error],
+        });
+        let tried = TriedShapes {
+            substances: vec!["gold".to_owned()],
+            tried: tried.collect(),
+        };
+        let rows = best_shapes(&SEARCHED[0], &tried, Weight::default(), &|_| None);
+        assert!(rows.iter().any(|row| row.is_on_frontier));
+        assert!(rows.is_sorted_by_key(|row| row.operations));
+    }
+}

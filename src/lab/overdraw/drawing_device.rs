@@ -1,0 +1,139 @@
+//! A device that draws: its target, and every shader compiled when it is first drawn.
+
+use serde::{Deserialize, Serialize};
+
+use crate::lab::gpu::{
+    AdapterKind, Canvas, Device, DeviceFault, Layer, Shader, Texture, TextureFilter, TextureFormat,
+    TextureShape, Wrap,
+};
+
+use super::clock::timed;
+use super::measure::Reading;
+use super::plan::{Drawing, DrawingPlan};
+
+/// Pixels a side where nothing is said: a processor is busy with little, a card is not.
+const ON_A_PROCESSOR: u32 = 256;
+const ON_A_CARD: u32 = 1024;
+
+/// What the device is.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct DeviceFacts {
+    /// The device with its driver.
+    pub device: String,
+    /// Its name alone.
+    pub name: String,
+    /// Its driver alone.
+    pub driver: String,
+    /// Whether it is software.
+    pub is_software: bool,
+    /// Whether it computes in 16 bits.
+    pub has_half: bool,
+    /// Pixels of the target.
+    pub pixels: u64,
+}
+
+impl DeviceFacts {
+    /// That it does not compute in 16 bits, in words.
+    pub fn no_half(&self) -> String {
+        format!(
+            "{} has no 16-bit arithmetic in shaders (shader-f16, shaderFloat16)",
+            self.device
+        )
+    }
+}
+
+/// A device that draws a plan.
+pub struct DrawingDevice<'a> {
+    plan: &'a DrawingPlan,
+    canvas: Canvas,
+    layers: Vec<Option<Layer>>,
+}
+
+impl<'a> DrawingDevice<'a> {
+    /// The device with a target of so many pixels a side.
+    ///
+    /// # Errors
+    /// It draws no such target.
+    pub fn new(
+        plan: &'a DrawingPlan,
+        device: &Device,
+        size: Option<u32>,
+    ) -> Result<DrawingDevice<'a>, DeviceFault> {
+        let usual = if device.adapter.kind == AdapterKind::Software {
+            ON_A_PROCESSOR
+        } else {
+            ON_A_CARD
+        };
+        Ok(DrawingDevice {
+            plan,
+            canvas: device.canvas(size.unwrap_or(usual))?,
+            layers: plan.drawings.iter().map(|_| None).collect(),
+        })
+    }
+
+    /// What it draws on.
+    pub fn facts(&self) -> DeviceFacts {
+        let adapter = self.canvas.adapter();
+        DeviceFacts {
+            device: adapter.to_string(),
+            name: adapter.name.clone(),
+            driver: adapter.driver.clone(),
+            is_software: adapter.kind == AdapterKind::Software,
+            has_half: self.canvas.has_half(),
+            pixels: self.canvas.pixels(),
+        }
+    }
+
+    /// Draws the heavy shader, and over it a drawing so many times.
+    ///
+    /// # Errors
+    /// The device does not take it, or is lost.
+    pub fn draw(&mut self, drawing: usize, draws: u32) -> Result<Reading, DeviceFault> {
+        self.compile(DrawingPlan::HEAVY)?;
+        self.compile(drawing)?;
+        let layer = |place: usize| self.layers[place].as_ref();
+        let over = layer(drawing).filter(|_| drawing != DrawingPlan::HEAVY);
+        let below = layer(DrawingPlan::HEAVY).map(|heavy| (heavy, 1));
+        let layers: Vec<(&Layer, u32)> =
+            below.into_iter().chain(over.map(|l| (l, draws))).collect();
+        let recorded = self.canvas.record(&layers)?;
+        let (drawn, spent) = timed(|| self.canvas.draw(recorded));
+        drawn?;
+        Ok(Reading {
+            gpu: self.canvas.nanoseconds()?,
+            cpu: spent.processor,
+            wall: spent.wall,
+        })
+    }
+
+    fn compile(&mut self, place: usize) -> Result<(), DeviceFault> {
+        if self.layers[place].is_none() {
+            self.layers[place] = Some(layer(&self.canvas, &self.plan.drawings[place])?);
+        }
+        Ok(())
+    }
+}
+
+fn layer(canvas: &Canvas, drawing: &Drawing) -> Result<Layer, DeviceFault> {
+    let texels: Option<Vec<[f32; 4]>> = drawing.table.as_ref().map(|table| {
+        let texels = table.texels.iter();
+        texels.map(|[r, g, b]| [*r, *g, *b, 1.0]).collect()
+    });
+    let tables = texels.as_ref().zip(drawing.table.as_ref());
+    let texture = tables.map(|(texels, table)| Texture {
+        width: table.width,
+        texels,
+        format: TextureFormat::Half,
+        wrap: Wrap::Clamp,
+        shape: TextureShape::Flat,
+        filter: TextureFilter::Linear,
+    });
+    canvas.layer(&Shader {
+        text: &drawing.text,
+        vertex: Drawing::VERTEX,
+        fragment: Drawing::FRAGMENT,
+        uniforms: &drawing.uniforms,
+        texture: texture.as_ref(),
+        blends: drawing.blends,
+    })
+}

@@ -1,0 +1,129 @@
+//! Who draws for the measurement: a process of its own, and a new one whenever it hangs or falls over.
+
+use core::time::Duration;
+use std::collections::BTreeSet;
+
+use crate::lab::process::{Launch, Silence, Surroundings, Worker};
+
+use super::drawing_device::DeviceFacts;
+use super::error::Error;
+use super::measure::{Draw, Reading, Stop};
+use super::plan::DrawingPlan;
+use super::protocol::{DrawRequest, DrawResponse};
+
+/// How long opening a device and compiling a shader may take: both are seconds where they are slow.
+const PATIENCE: Duration = Duration::from_secs(30);
+/// How much longer than it says a drawing may take before its process is ended: it need not hang, it may be late.
+const GRACE: Duration = Duration::from_secs(2);
+
+/// Mesa's llvmpipe draws on one thread. Two of them share what the processor's cores share, each slows the other at times,
+/// and shares that repeat within 2 % differ by 15.
+const ONE_THREAD: [(&str, &str); 1] = [("LP_NUM_THREADS", "1")];
+
+/// The process, and what it knows.
+pub struct DrawingWorker {
+    worker: Worker,
+    /// Removed after the process.
+    _surroundings: Surroundings,
+    limit: Duration,
+    /// What it draws on.
+    pub device: DeviceFacts,
+    /// Whether each drawing computes in half precision.
+    in_half: Vec<bool>,
+    /// What it has compiled.
+    compiled: BTreeSet<usize>,
+}
+
+impl DrawingWorker {
+    /// Starts it; one submission may take so long. What it draws is said by [`DrawingWorker::takes`].
+    ///
+    /// # Errors
+    /// There is no device, or it cannot be opened.
+    pub fn start(limit: Duration) -> Result<DrawingWorker, Error> {
+        let surroundings = Surroundings::new(None)?;
+        let environment = ONE_THREAD.map(|(name, value)| (name.to_owned(), value.into()));
+        let launch = Launch::with_own_words(&surroundings);
+        let mut worker = Worker::new(launch.with_environment(environment.into()));
+        let device = facts(&mut worker)?;
+        Ok(DrawingWorker {
+            worker,
+            _surroundings: surroundings,
+            limit,
+            device,
+            in_half: Vec::new(),
+            compiled: BTreeSet::new(),
+        })
+    }
+
+    /// The plan whose drawings it draws.
+    pub fn takes(&mut self, plan: &DrawingPlan) {
+        let drawings = plan.drawings.iter();
+        self.in_half = drawings.map(|one| one.precision.is_half()).collect();
+    }
+
+    /// Another process in place of one that is lost.
+    fn restart(&mut self) -> Result<(), Stop> {
+        self.worker.end();
+        self.compiled.clear();
+        let facts = facts(&mut self.worker);
+        facts.map(drop).map_err(|why| Stop::All(why.to_string()))
+    }
+
+    fn too_long(&self, seconds: f64) -> Stop {
+        let limit = self.limit.as_secs_f64();
+        Stop::One(format!(
+            "a submission took {seconds:.3} s, and --limit allows {limit} s"
+        ))
+    }
+}
+
+impl Draw for DrawingWorker {
+    fn draw(&mut self, drawing: usize, draws: u32) -> Result<Reading, Stop> {
+        if self.in_half[drawing] && !self.device.has_half {
+            return Err(Stop::One(self.device.no_half()));
+        }
+        let patience = if self.compiled.contains(&drawing) {
+            self.limit + GRACE
+        } else {
+            self.limit + GRACE + PATIENCE
+        };
+        let request = DrawRequest::Draw { drawing, draws };
+        let response = self.worker.ask(&request, patience);
+        let response = match response.map_err(|why| Stop::All(why.to_string()))? {
+            Ok(response) => response,
+            Err(Silence::TooLong) => {
+                self.restart()?;
+                return Err(self.too_long(patience.as_secs_f64()));
+            }
+            Err(Silence::Ended(status)) => {
+                self.restart()?;
+                let why = format!("the process that drew it ended ({status}): its driver failed");
+                return Err(Stop::One(why));
+            }
+        };
+        self.compiled.insert(drawing);
+        match response {
+            DrawResponse::Reading(reading) if reading.wall > self.limit.as_nanos() as f64 => {
+                Err(self.too_long(reading.wall / 1e9))
+            }
+            DrawResponse::Reading(reading) => Ok(reading),
+            DrawResponse::Failed(why) | DrawResponse::Absent(why) => {
+                // A device that is lost draws nothing more.
+                self.restart()?;
+                Err(Stop::One(why))
+            }
+            DrawResponse::Device(_) => Err(Stop::All("a process that only greets".to_owned())),
+        }
+    }
+}
+
+/// What the process draws on.
+fn facts(worker: &mut Worker) -> Result<DeviceFacts, Error> {
+    match worker.ask(&DrawRequest::Device, PATIENCE)? {
+        Ok(DrawResponse::Device(device)) => Ok(device),
+        Ok(DrawResponse::Absent(why) | DrawResponse::Failed(why)) => Err(Error::Device(why)),
+        Ok(DrawResponse::Reading(_)) => Err(Error::Protocol),
+        Err(Silence::TooLong) => Err(Error::Hangs(PATIENCE.as_secs())),
+        Err(Silence::Ended(status)) => Err(Error::Ended(status)),
+    }
+}

@@ -1,0 +1,53 @@
+//! The cost of a function, measured by overdraw. A heavy full-screen shader is drawn alone, then with the measured shader
+//! over it N times; the difference divided by N is the cost of a draw. The heavy shader keeps the device busy, so that both
+//! times contain the fixed cost of a frame.
+//!
+//! The measured shader is blended, so that the device cannot skip a draw. A graphics card rasterises and blends while it computes,
+//! and a draw takes as long as the slower of both: a few evaluations of a cheap function take no time at all there. So a cost is a slope. Each draw
+//! evaluates the function many times, each from the result before ([`Probe`](crate::lab::cost::Probe)), in a chain that
+//! takes longer than anything else of the draw, and in one twice as long; and the same of the empty shader, which evaluates nothing, is subtracted:
+//!
+//! `draw = (T(heavy + N draws) - T(heavy)) / N`,
+//! `net = (draw(2 n evaluations) - draw(n evaluations)) / n - the same of the empty shader`.
+//!
+//! Every round draws all shaders once, in an order that changes. The reference shaders are drawn again after every few of
+//! them, so that other load on the machine affects both. Interference only lengthens a reading, so a shader's time is the
+//! 10th percentile of its readings over all rounds. The share of `dielectric_exact` is a bootstrap estimate: rounds are drawn
+//! with replacement, the share is the median of the results, and the limits contain 95 % of them.
+//!
+//! A software device shares the processor with all other programs. There the clock is the processor time of the process,
+//! which does not include other programs: with four busy programs on two cores, shares by timestamps are wrong by half.
+
+#[cfg(feature = "gpu")]
+mod clock;
+#[cfg(feature = "gpu")]
+mod drawing_device;
+#[cfg(all(feature = "cli", feature = "gpu"))]
+mod drawing_worker;
+mod error;
+mod figure;
+mod functions;
+mod measure;
+mod plan;
+#[cfg(all(feature = "cli", feature = "gpu"))]
+mod protocol;
+#[cfg(feature = "gpu")]
+mod row;
+#[cfg(all(feature = "cli", feature = "gpu"))]
+mod serve;
+mod times;
+
+#[cfg(feature = "gpu")]
+pub use drawing_device::{DeviceFacts, DrawingDevice};
+#[cfg(all(feature = "cli", feature = "gpu"))]
+pub use drawing_worker::DrawingWorker;
+pub use error::Error;
+pub use figure::{Noise, OverdrawFigure};
+pub use functions::{LibraryMaterials, TimedFunctions};
+pub use measure::{Clock, Draw, DrawingEffort, MeasuredDrawings, Reading, Round, Stop, measure};
+pub use plan::{Drawing, DrawingPlan, DrawnChain, TimedFunction, usual_operations};
+#[cfg(feature = "gpu")]
+pub use row::{TimeRow, time_rows};
+#[cfg(all(feature = "cli", feature = "gpu"))]
+pub use serve::serve;
+pub use times::{Time, times};

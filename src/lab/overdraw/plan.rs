@@ -1,0 +1,231 @@
+//! What is drawn: the functions that are measured, and what they are held against.
+
+use half::f16;
+
+use crate::generator::emit::Emitted;
+use crate::lab::cost::{BLOCKS, ENTRY, Probe, VERTEX, WGSL_VERTEX};
+use crate::language::ir::{Param, Texels, Ty};
+use crate::language::methods::Values;
+use crate::physics::num::Precision;
+
+/// A function that is to be timed.
+#[derive(Clone, Debug)]
+pub struct TimedFunction {
+    /// The function.
+    pub emitted: Emitted,
+    /// The material that it is specialised to, as a user types it.
+    pub material: Option<String>,
+    /// What its arguments are; a specialised function has none.
+    pub values: Values,
+    /// The table that it reads, where it reads one.
+    pub table: Option<Texels>,
+}
+
+/// A shader ready to be compiled.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Drawing {
+    /// What it is, for messages.
+    pub name: String,
+    /// The module in WGSL with both entry points, [`Drawing::VERTEX`] and [`Drawing::FRAGMENT`].
+    pub text: String,
+    /// The bytes at binding 0.
+    pub uniforms: Vec<u8>,
+    /// The texture at binding 3.
+    pub table: Option<Texels>,
+    /// What it computes in.
+    pub precision: Precision,
+    /// Whether it is added to what lies below.
+    pub blends: bool,
+}
+
+/// A chain of evaluations in a draw, and one of half as many: what the longer one takes more is the evaluations' alone, whatever the
+/// draw itself costs.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct DrawnChain {
+    /// The place of the shorter one among the drawings; the longer one is the next.
+    pub short: usize,
+    /// Evaluations in the shorter one; twice as many are in the longer one.
+    pub evaluations: usize,
+}
+
+/// Everything that is drawn: what functions are held against first, then the functions.
+#[derive(Clone, Debug)]
+pub struct DrawingPlan {
+    /// All of it.
+    pub drawings: Vec<Drawing>,
+    /// Operations in a long chain, about.
+    pub operations: usize,
+    /// The chain of the function whose cost is 1.
+    pub reference: DrawnChain,
+    /// That of the empty shader of three channels in single precision.
+    pub empty: DrawnChain,
+    /// How many drawings stand before the functions.
+    fixed: usize,
+    /// Of each function its chain, and the empty one that belongs to it.
+    chains: Vec<[DrawnChain; 2]>,
+}
+
+/// Operations in a long chain where nothing is said. A card hides what is cheap behind the draw; a processor does one after the other.
+pub const fn usual_operations(is_software: bool) -> usize {
+    if is_software { 400 } else { 2000 }
+}
+
+/// Most arguments of a long chain's evaluations, all together, at 16 bytes each: OpenGL takes 16 KiB of uniforms everywhere.
+const MOST_ARGUMENTS: usize = 1000;
+
+impl TimedFunction {
+    fn drawing(&self, evaluations: usize) -> Drawing {
+        let probe = Probe::new(&self.emitted.function, self.emitted.precision);
+        Drawing {
+            name: self.emitted.name.clone(),
+            uniforms: uniforms(&probe, &self.values, self.emitted.precision, evaluations),
+            table: self.table.clone(),
+            ..drawing(&probe, self.emitted.precision, evaluations)
+        }
+    }
+
+    /// Evaluations in the shorter of its chains.
+    fn evaluations(&self, operations: usize) -> usize {
+        let function = &self.emitted.function;
+        let arguments = Probe::new(function, self.emitted.precision)
+            .uniforms()
+            .count();
+        half_chain(operations, function.work(), arguments, self.is_scalar())
+    }
+
+    fn is_scalar(&self) -> bool {
+        self.emitted.function.ty() == Ty::Scalar
+    }
+}
+
+impl Drawing {
+    /// The entry point for vertices.
+    pub const VERTEX: &str = VERTEX;
+    /// The entry point for pixels.
+    pub const FRAGMENT: &str = ENTRY;
+}
+
+impl DrawnChain {
+    /// The place of the longer one among the drawings.
+    pub fn long(self) -> usize {
+        self.short + 1
+    }
+}
+
+impl DrawingPlan {
+    /// The heavy shader's place among the drawings.
+    pub const HEAVY: usize = 0;
+    /// That of a draw without a function: the empty one, once.
+    pub const BARE: usize = 1;
+
+    /// What is drawn for these functions in chains of so many operations: `reference` is what shares are of, `heavy` lies below all.
+    pub fn new(
+        heavy: &TimedFunction,
+        reference: &TimedFunction,
+        timed: &[TimedFunction],
+        operations: usize,
+    ) -> DrawingPlan {
+        let heavy = Drawing {
+            blends: false,
+            ..heavy.drawing(1)
+        };
+        let empty = |result: Ty, precision: Precision, evaluations: usize| {
+            let probe = Probe::empty(Ty::Scalar, result, precision);
+            drawing(&probe, precision, evaluations)
+        };
+        let mut drawings = vec![heavy, empty(Ty::Rgb, Precision::F32, 1)];
+        let mut add = |evaluations: usize, of: &dyn Fn(usize) -> Drawing| {
+            drawings.extend([of(evaluations), of(2 * evaluations)]);
+            DrawnChain {
+                short: drawings.len() - 2,
+                evaluations,
+            }
+        };
+        let own = |timed: &TimedFunction| timed.evaluations(operations);
+        let reference_once = reference.drawing(1);
+        let reference_chain = add(own(reference), &|n| reference.drawing(n));
+        let has_half = timed.iter().any(|timed| timed.emitted.precision.is_half());
+        let precisions = if has_half { 2 } else { 1 };
+        let mut empties = Vec::new();
+        for precision in Precision::ALL.into_iter().take(precisions) {
+            for result in [Ty::Rgb, Ty::Scalar] {
+                let evaluations = half_chain(operations, 0, 0, result == Ty::Scalar);
+                empties.push(add(evaluations, &|n| empty(result, precision, n)));
+            }
+        }
+        let fixed = empties[empties.len() - 1].long() + 1;
+        let mut chain = |timed: &TimedFunction| {
+            let half = usize::from(timed.emitted.precision.is_half());
+            let empty = empties[2 * half + usize::from(timed.is_scalar())];
+            let own = if timed.emitted.function.work() == 0 {
+                // What computes nothing costs 0: a compiler leaves out a chain in which nothing depends on the cosine.
+                empty
+            } else if timed.drawing(1) == reference_once {
+                reference_chain
+            } else {
+                add(own(timed), &|n| timed.drawing(n))
+            };
+            [own, empty]
+        };
+        let chains = timed.iter().map(&mut chain).collect();
+        DrawingPlan {
+            drawings,
+            operations,
+            reference: reference_chain,
+            empty: empties[0],
+            fixed,
+            chains,
+        }
+    }
+
+    /// The places of what functions are held against.
+    pub fn fixed(&self) -> std::ops::Range<usize> {
+        0..self.fixed
+    }
+
+    /// Of each function its chain, and the empty one that belongs to it.
+    pub fn chains(&self) -> &[[DrawnChain; 2]] {
+        &self.chains
+    }
+
+    /// All chains that a function's figure is made of: these two, and the same two of the function whose cost is 1.
+    pub fn held(&self, function: usize) -> [DrawnChain; 4] {
+        let [own, empty] = self.chains[function];
+        [own, empty, self.reference, self.empty]
+    }
+}
+
+/// Evaluations in the shorter chain of a function of so much work and so many arguments: half of the operations, with those that lead from one evaluation
+/// to the next.
+fn half_chain(operations: usize, work: usize, arguments: usize, is_scalar: bool) -> usize {
+    let link = if is_scalar { 1 } else { 2 };
+    (operations / 2 / (work + link)).clamp(1, MOST_ARGUMENTS / 2 / arguments.max(1))
+}
+
+fn drawing(probe: &Probe, precision: Precision, evaluations: usize) -> Drawing {
+    Drawing {
+        name: "the empty shader".to_owned(),
+        text: probe.wgsl(evaluations) + WGSL_VERTEX,
+        uniforms: Vec::new(),
+        table: None,
+        precision,
+        blends: true,
+    }
+}
+
+/// A block of arguments for each evaluation: each argument begins at a multiple of 16 bytes and is no longer.
+fn uniforms(probe: &Probe, values: &Values, precision: Precision, evaluations: usize) -> Vec<u8> {
+    let member = |param: &Param| {
+        let value = values.get(&param.name).copied().unwrap_or_default();
+        let channels = if param.ty == Ty::Rgb { 3 } else { 1 };
+        let number = |value: &f64| match precision {
+            Precision::F32 => (*value as f32).to_ne_bytes().to_vec(),
+            Precision::F16 => f16::from_f64(*value).to_ne_bytes().to_vec(),
+        };
+        let mut bytes: Vec<u8> = value[..channels].iter().flat_map(number).collect();
+        bytes.resize(16, 0);
+        bytes
+    };
+    let block: Vec<u8> = probe.uniforms().flat_map(member).collect();
+    block.repeat(evaluations.max(BLOCKS))
+}

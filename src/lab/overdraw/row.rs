@@ -1,0 +1,135 @@
+//! What a function costs by overdraw, as a row of reports.
+
+use serde::Serialize;
+
+use crate::generator::emit::FunctionForm;
+use crate::language::ir::Ty;
+use crate::physics::num::Precision;
+
+use super::drawing_device::DeviceFacts;
+use super::figure::OverdrawFigure;
+use super::functions::TimedFunctions;
+use super::measure::{Clock, MeasuredDrawings};
+use super::plan::TimedFunction;
+
+/// A function and what it costs.
+#[derive(Clone, Debug, Serialize)]
+#[serde(into = "TimeRowJson")]
+pub struct TimeRow {
+    /// The method.
+    pub method: &'static str,
+    /// The material that it is specialised to, as a user types it.
+    pub material: Option<String>,
+    /// What it takes and gives.
+    pub form: FunctionForm,
+    /// 1 or 3.
+    pub channels: u8,
+    /// What it computes in.
+    pub precision: Precision,
+    /// What it costs, or why that is not known.
+    pub figure: Result<OverdrawFigure, String>,
+    /// Whether this machine cannot do it at all.
+    pub is_lacking: bool,
+    /// What the time was taken by.
+    pub clock: Clock,
+    /// Rounds in which it was drawn.
+    pub rounds: usize,
+}
+
+/// The rows of functions that were measured on a device, in the order of the plan.
+pub fn time_rows(
+    timed: &TimedFunctions,
+    device: &DeviceFacts,
+    measured: &MeasuredDrawings,
+) -> Vec<TimeRow> {
+    let figures = measured.figures(&timed.plan, device.pixels);
+    let functions = timed.functions.iter().zip(figures);
+    let time_row = |(function, figure): (&TimedFunction, _)| {
+        let emitted = &function.emitted;
+        let is_lacking = emitted.precision.is_half() && !device.has_half;
+        let is_scalar = emitted.function.ty() == Ty::Scalar;
+        TimeRow {
+            method: emitted.method.name,
+            material: function.material.clone(),
+            form: emitted.form,
+            channels: if is_scalar { 1 } else { 3 },
+            precision: emitted.precision,
+            figure: if is_lacking {
+                Err(device.no_half())
+            } else {
+                figure
+            },
+            is_lacking,
+            clock: measured.clock,
+            rounds: measured.rounds.len(),
+        }
+    };
+    functions.map(time_row).collect()
+}
+
+/// The row in a report's JSON.
+#[derive(Serialize)]
+struct TimeRowJson {
+    method: &'static str,
+    material: Option<String>,
+    form: FunctionForm,
+    channels: u8,
+    precision: Precision,
+    ns_per_pixel: Option<f64>,
+    share: Option<f64>,
+    spread: Option<f64>,
+    low: Option<f64>,
+    high: Option<f64>,
+    net_ns_per_pixel: Option<f64>,
+    empty_ns_per_pixel: Option<f64>,
+    gpu_ns_per_pixel: Option<f64>,
+    wall_ns_per_pixel: Option<f64>,
+    clock: Clock,
+    draws: Option<u32>,
+    evaluations: Option<usize>,
+    rounds: usize,
+    reason: Option<String>,
+}
+
+impl From<TimeRow> for TimeRowJson {
+    fn from(row: TimeRow) -> TimeRowJson {
+        let figure = row.figure.as_ref().ok();
+        let number =
+            |one: fn(&OverdrawFigure) -> f64| figure.map(one).filter(|value| value.is_finite());
+        let interval = figure.and_then(|figure| figure.interval);
+        TimeRowJson {
+            ns_per_pixel: number(|f| f.ns_per_pixel),
+            share: number(|f| f.share),
+            spread: number(|f| f.spread),
+            low: interval.map(|(low, _)| low),
+            high: interval.map(|(_, high)| high),
+            net_ns_per_pixel: number(|f| f.net_ns_per_pixel),
+            empty_ns_per_pixel: number(|f| f.empty_ns_per_pixel),
+            gpu_ns_per_pixel: number(|f| f.gpu_ns_per_pixel),
+            wall_ns_per_pixel: number(|f| f.wall_ns_per_pixel),
+            clock: row.clock,
+            draws: figure.map(|f| f.draws),
+            evaluations: figure.map(|f| f.evaluations),
+            rounds: row.rounds,
+            reason: row.reason(),
+            method: row.method,
+            material: row.material,
+            form: row.form,
+            channels: row.channels,
+            precision: row.precision,
+        }
+    }
+}
+
+impl TimeRow {
+    /// Why there is no figure, or no interval.
+    fn reason(&self) -> Option<String> {
+        match &self.figure {
+            Err(why) => Some(why.clone()),
+            Ok(figure) if figure.interval.is_none() => {
+                Some("an interval takes 29 rounds".to_owned())
+            }
+            Ok(_) => None,
+        }
+    }
+}

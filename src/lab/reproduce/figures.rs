@@ -1,0 +1,303 @@
+//! The reflectance curves of figures 6 and 9 to 16: the exact law and what approximates it.
+
+use crate::generator::fit;
+use crate::generator::reference::Derivation;
+use crate::language::methods::lambda;
+
+use super::angle::{cosine, exact, lowest};
+use super::comparison::{ComparisonRow, Figure};
+use super::{ThesisSection, specialised};
+
+/// Angles drawn: a point each quarter of a degree.
+pub const POINTS: u32 = 361;
+
+/// A figure of the thesis.
+struct FigurePlan {
+    number: u32,
+    file: &'static str,
+    /// What the thesis's caption names.
+    subject: &'static str,
+    index: [f64; 2],
+    /// Methods, and what the legend calls them.
+    methods: &'static [(&'static str, &'static str)],
+    /// Lowest reflectance on the axis, in per cent.
+    low: f64,
+    marks: &'static [(f64, &'static str)],
+    /// Whether the minimum of the exact law is marked too.
+    shows_minimum: bool,
+    /// What a reader should know besides.
+    note: &'static str,
+}
+
+/// A figure of the thesis, computed.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ThesisFigure {
+    /// Its number in the thesis.
+    pub number: u32,
+    /// The name of its file.
+    pub file: &'static str,
+    /// What the thesis's caption names.
+    pub subject: &'static str,
+    /// The exact law.
+    pub exact: DrawnCurve,
+    /// What approximates it.
+    pub curves: Vec<DrawnCurve>,
+    /// Lowest reflectance on the axis, in per cent.
+    pub low: f64,
+    /// Marked angles, in degrees, and their labels.
+    pub marks: Vec<(f64, String)>,
+    /// What was derived from n and k, for methods that need more than these, in words.
+    pub derived: String,
+    /// What a reader should know besides.
+    pub note: &'static str,
+}
+
+const SCHLICK: (&str, &str) = ("schlick_ior", "Schlick (eq. 7)");
+const RESCALED: (&str, &str) = ("schlick_rescaled", "rescaled Schlick (eq. 14)");
+const EXACT_ALONE: &str = "The thesis draws the exact law alone.";
+
+/// The nine. n and k are those of the captions and of Table 1; platinum's are those of 685 nm.
+const PLANS: [FigurePlan; 9] = [
+    FigurePlan {
+        number: 6,
+        file: "figure-06-water.svg",
+        subject: "water, n = 1.33",
+        index: [1.33, 0.0],
+        methods: &[SCHLICK],
+        low: 0.0,
+        marks: &[],
+        shows_minimum: false,
+        note: EXACT_ALONE,
+    },
+    FigurePlan {
+        number: 9,
+        file: "figure-09-gold-685nm.svg",
+        subject: "gold at 685 nm, n = 0.23, k = 3.94",
+        index: [0.23, 3.94],
+        methods: &[RESCALED],
+        low: 92.0,
+        marks: &[(77.0, "77° in the text")],
+        shows_minimum: true,
+        note: EXACT_ALONE,
+    },
+    FigurePlan {
+        number: 10,
+        file: "figure-10-gold-475nm.svg",
+        subject: "gold at 475 nm, n = 1.39, k = 1.72",
+        index: [1.39, 1.72],
+        methods: &[RESCALED],
+        low: 0.0,
+        marks: &[],
+        shows_minimum: false,
+        note: EXACT_ALONE,
+    },
+    FigurePlan {
+        number: 11,
+        file: "figure-11-water-empirical.svg",
+        subject: "water, n = 1.33",
+        index: [1.33, 0.0],
+        methods: &[("empirical", "NVIDIA's empirical term (eq. 6)")],
+        low: 0.0,
+        marks: &[(60.0, "60°")],
+        shows_minimum: false,
+        note: "",
+    },
+    FigurePlan {
+        number: 12,
+        file: "figure-12-hydrogen.svg",
+        subject: "hydrogen, n = 1.001",
+        index: [1.001, 0.0],
+        methods: &[SCHLICK],
+        low: 0.0,
+        marks: &[],
+        shows_minimum: false,
+        note: "",
+    },
+    FigurePlan {
+        number: 13,
+        file: "figure-13-arsenic-trisulphide.svg",
+        subject: "arsenic trisulphide, n = 2.04",
+        index: [2.04, 0.0],
+        methods: &[SCHLICK],
+        low: 0.0,
+        marks: &[],
+        shows_minimum: false,
+        note: "",
+    },
+    FigurePlan {
+        number: 14,
+        file: "figure-14-germanium.svg",
+        subject: "germanium, n = 4.01",
+        index: [4.01, 0.0],
+        methods: &[SCHLICK],
+        low: 0.0,
+        marks: &[],
+        shows_minimum: false,
+        note: "",
+    },
+    FigurePlan {
+        number: 15,
+        file: "figure-15-platinum-schlick.svg",
+        subject: "platinum at 685 nm, n = 2.49, k = 4.44",
+        index: [2.49, 4.44],
+        methods: &[
+            ("schlick", "Schlick from F0 (eq. 13)"),
+            ("schlick_ior", "Schlick from n alone (eq. 7)"),
+        ],
+        low: 0.0,
+        marks: &[],
+        shows_minimum: false,
+        note: "",
+    },
+    FigurePlan {
+        number: 16,
+        file: "figure-16-platinum-corrected.svg",
+        subject: "platinum at 685 nm, n = 2.49, k = 4.44",
+        index: [2.49, 4.44],
+        methods: &[
+            RESCALED,
+            ("schlick_corrected", "corrected Schlick (eq. 15)"),
+        ],
+        low: 50.0,
+        marks: &[(81.37, "81.37°: λ matched")],
+        shows_minimum: true,
+        note: "",
+    },
+];
+
+/// One curve of a figure.
+#[derive(Clone, Debug, PartialEq)]
+pub struct DrawnCurve {
+    /// What the legend calls it.
+    pub name: &'static str,
+    /// Reflectance in per cent, angle by angle.
+    pub points: Vec<(f64, f64)>,
+}
+
+/// What is drawn, in numbers.
+pub fn section() -> ThesisSection {
+    ThesisSection {
+        title: format!("Figures: reflectance at {POINTS} angles, exact and approximate"),
+        rows: PLANS.iter().flat_map(FigurePlan::figure_rows).collect(),
+    }
+}
+
+/// The figures.
+pub fn figures() -> Vec<ThesisFigure> {
+    PLANS.iter().map(FigurePlan::figure).collect()
+}
+
+impl FigurePlan {
+    fn exact(&self) -> DrawnCurve {
+        let reflectance = |degrees| 100.0 * exact(self.index, degrees).unpolarised();
+        DrawnCurve {
+            name: "exact law",
+            points: degrees().map(|at| (at, reflectance(at))).collect(),
+        }
+    }
+
+    fn curves(&self) -> Vec<DrawnCurve> {
+        let channels = specialised::grey(self.index);
+        let curve = |(method, name): &(&str, &'static str)| {
+            let function = specialised::function(method, &channels, &Derivation::default());
+            let values = specialised::curve(&function, degrees().map(cosine).collect());
+            let percent = values.into_iter().map(|value| 100.0 * value);
+            DrawnCurve {
+                name,
+                points: degrees().zip(percent).collect(),
+            }
+        };
+        self.methods.iter().map(curve).collect()
+    }
+
+    fn figure_rows(&self) -> Vec<ComparisonRow> {
+        let exact = self.exact();
+        let pairs = self.curves().into_iter().zip(self.methods);
+        pairs
+            .flat_map(|(curve, (method, _))| self.curve_rows(&curve, &exact, method))
+            .collect()
+    }
+
+    fn curve_rows(
+        &self,
+        curve: &DrawnCurve,
+        exact: &DrawnCurve,
+        method: &str,
+    ) -> [ComparisonRow; 2] {
+        let (at, apart) = curve.largest_difference(exact);
+        let name = format!("figure {}, {method}", self.number);
+        [
+            ("largest difference", Figure::Number(apart / 100.0, 4, "")),
+            ("its angle", Figure::Number(at, 2, "°")),
+        ]
+        .map(|(column, ours)| {
+            let mut row = ComparisonRow::new("figures", &name, column).ours(ours);
+            row.file = Some(self.file.to_owned());
+            row
+        })
+    }
+
+    fn figure(&self) -> ThesisFigure {
+        ThesisFigure {
+            number: self.number,
+            file: self.file,
+            subject: self.subject,
+            exact: self.exact(),
+            curves: self.curves(),
+            low: self.low,
+            marks: self.marks(),
+            derived: self.derived(),
+            note: self.note,
+        }
+    }
+
+    /// What was derived from n and k, for methods that need more than these.
+    fn derived(&self) -> String {
+        let channels = specialised::grey(self.index);
+        let has = |name: &str| self.methods.iter().any(|(method, _)| *method == name);
+        if has("empirical") {
+            let values = fit::values(
+                specialised::method("empirical"),
+                &channels,
+                &Derivation::default(),
+            );
+            let [bias, scale, power] = ["bias", "scale", "power"].map(|name| values[name][0]);
+            return format!(
+                "Bias {bias:.4} is F0, scale {scale:.4} the rest, power {power:.3} meets the exact law at 60°."
+            );
+        }
+        let matching = Derivation::default().matching_cos;
+        match lambda(self.index[0], self.index[1], matching) {
+            Some(lambda) if has("schlick_corrected") => {
+                format!(
+                    "λ = {lambda:.3} meets the exact law at 81.37°, with the factor cos θ that eq. 15 lost in print."
+                )
+            }
+            _ => String::new(),
+        }
+    }
+
+    fn marks(&self) -> Vec<(f64, String)> {
+        let fixed = self.marks.iter();
+        let fixed = fixed.map(|(at, label)| (*at, (*label).to_owned()));
+        let (at, _) = lowest(|degrees| exact(self.index, degrees).unpolarised());
+        let minimum = (at, format!("minimum {at:.2}°"));
+        fixed.chain(self.shows_minimum.then_some(minimum)).collect()
+    }
+}
+
+fn degrees() -> impl Iterator<Item = f64> {
+    (0..POINTS).map(|i| 90.0 * f64::from(i) / f64::from(POINTS - 1))
+}
+
+impl DrawnCurve {
+    /// Where it is furthest from the exact law, and by how many percentage points.
+    pub fn largest_difference(&self, exact: &DrawnCurve) -> (f64, f64) {
+        let pairs = self.points.iter().zip(&exact.points);
+        let differences = pairs.map(|((at, value), (_, exact))| (*at, (value - exact).abs()));
+        differences.fold(
+            (0.0, 0.0),
+            |most, one| if one.1 > most.1 { one } else { most },
+        )
+    }
+}

@@ -1,0 +1,57 @@
+//! Methods specialised to the thesis's materials, or to one index of refraction.
+
+use crate::generator::fit;
+use crate::generator::reference::Derivation;
+use crate::language::ir::{Checked, Value, evaluate};
+use crate::language::methods::{self, Method};
+use crate::physics::materials::{self, Channels, Material, THESIS_NM};
+
+/// A method of the registry.
+pub fn method(name: &str) -> &'static Method {
+    methods::find(name).expect("the names are constants, and a test reproduces every part")
+}
+
+/// A material of the catalogue.
+pub fn material(name: &str) -> Material {
+    let found = materials::find(name).and_then(Result::ok);
+    found.expect("the names are constants, and a test reproduces every part")
+}
+
+/// The channels of a material as the thesis rounds them.
+pub fn channels(name: &str) -> Channels {
+    unrounded(&format!("{name}_thesis"))
+}
+
+/// The channels of a material of the catalogue at the thesis's wavelengths, with all digits.
+pub fn unrounded(name: &str) -> Channels {
+    let channels = material(name).channels(THESIS_NM);
+    channels.expect("what is reproduced is known at the thesis's wavelengths")
+}
+
+/// The same index in all three channels.
+pub fn grey([n, k]: [f64; 2]) -> Channels {
+    Channels {
+        n: [n; 3],
+        k: [k; 3],
+    }
+}
+
+/// A method with a material's constants folded in, a function of `cos_theta` alone.
+pub fn function(name: &str, channels: &Channels, derivation: &Derivation) -> Checked {
+    let method = method(name);
+    let specialised = method.specialise(&fit::values(method, channels, derivation));
+    specialised
+        .expect("every method takes the thesis's materials, and a test tries each that is used")
+}
+
+/// The first channel of a function at these cosines.
+pub fn curve(function: &Checked, cosines: Vec<f64>) -> Vec<f64> {
+    let points = cosines.len();
+    let values = evaluate(function, &[Value::each(cosines)]);
+    (0..points).map(|point| values.at(point)[0]).collect()
+}
+
+/// A method's reflectance for one index at one cosine.
+pub fn at(function: &Checked, cos_theta: f64) -> f64 {
+    evaluate(function, &[Value::scalar(cos_theta)]).at(0)[0]
+}

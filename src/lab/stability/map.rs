@@ -1,0 +1,119 @@
+//! Maps: how wrong a method is over the angle and an index.
+
+use crate::language::methods::{Class, Method};
+use crate::physics::num::Precision;
+
+use super::axis::{ScanAxis, logarithmic};
+use super::failure::{Failure, ResultPoint};
+use super::scan::{Scan, ScannedFunction};
+use super::space::{ScanSpace, law};
+
+/// Errors over angle and index.
+#[derive(Clone, Debug)]
+pub struct Map {
+    /// What varies besides the angle, and its values in order.
+    pub axis: ScanAxis,
+    /// What functions compute in.
+    pub precision: Precision,
+    /// What is held.
+    pub held: &'static str,
+    /// The angles, in degrees.
+    pub degrees: Vec<f64>,
+    /// For each value of the axis a cell for each angle.
+    pub cells: Vec<Cell>,
+}
+
+/// What comes at an angle and an index.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Cell {
+    /// How far the formula is from the law.
+    pub error: f64,
+    /// How many last places the result is from what the formula means.
+    pub digits: f64,
+    /// Whether it is no reflectance at all: not a number, infinite, below 0 or above 1.
+    pub is_broken: bool,
+}
+
+/// Values of an axis.
+const ROWS: u32 = 96;
+/// Where maps over k stand: from glass, with k, to metal.
+const N: f64 = 1.5;
+
+/// The maps of a method: over eta where it describes dielectrics, and over k where it describes what absorbs.
+pub fn maps(method: &'static Method, precision: Precision) -> Vec<Map> {
+    let eta = ScanAxis {
+        name: "eta",
+        values: logarithmic(0.3, 10.0, ROWS).collect(),
+    };
+    let mut all = Vec::new();
+    if method.class != Class::Metal {
+        all.push(map(method, precision, vec![eta], "k = 0"));
+    }
+    if method.class != Class::Dielectric {
+        let n = ScanAxis {
+            name: "n",
+            values: vec![N],
+        };
+        let k = ScanAxis {
+            name: "k",
+            values: logarithmic(1e-6, 100.0, ROWS).collect(),
+        };
+        all.push(map(method, precision, vec![n, k], "n = 1.5"));
+    }
+    all
+}
+
+fn map(
+    method: &'static Method,
+    precision: Precision,
+    axes: Vec<ScanAxis>,
+    held: &'static str,
+) -> Map {
+    let rounded = |axis: ScanAxis| axis.each_rounded(precision);
+    let axes: Vec<ScanAxis> = axes.into_iter().map(rounded).collect();
+    let code = ScannedFunction::library(method, precision);
+    let degrees: Vec<f64> = (0..=90).map(f64::from).collect();
+    let cosines = degrees
+        .iter()
+        .map(|degree| crate::physics::optics::cosine(*degree))
+        .collect();
+    let space = ScanSpace {
+        is_media: true,
+        axes,
+        cosines: ScanAxis {
+            name: "cos_theta",
+            values: cosines,
+        }
+        .each_rounded(precision),
+    };
+    let scan = Scan {
+        code: &code,
+        channel: 0,
+        space: &space,
+        point: &|index| space.point(method, index, precision),
+        law: &|given, c| Some(law(method, given.medium?, c)),
+    };
+    // Cosines stand as angles do, from 0 degrees on.
+    let row = |index| scan.curve(index).into_iter().map(|point| cell(&point));
+    Map {
+        cells: (0..space.count()).flat_map(row).collect(),
+        axis: space.axes.last().expect("a map has an axis").clone(),
+        precision,
+        held,
+        degrees,
+    }
+}
+
+fn cell(point: &ResultPoint) -> Cell {
+    let broken = [
+        Failure::NotANumber,
+        Failure::Infinite,
+        Failure::Negative,
+        Failure::AboveOne,
+    ];
+    Cell {
+        error: point.error(),
+        digits: point.digits(),
+        is_broken: broken.iter().any(|failure| point.amount(*failure) > 0.0),
+    }
+}

@@ -1,0 +1,251 @@
+//! One file: every function of it run, and every compiler asked.
+
+use std::cell::OnceCell;
+
+use crate::generator::emit::Emitted;
+use crate::generator::fit::{self, ModelError};
+use crate::generator::reference::ReferenceCurve;
+use crate::lab::verify::compilers::{self, Verdict};
+use crate::lab::verify::run::{Devices, ExecutionPath, RunFault, Runnable, ShippedFunction};
+use crate::lab::verify::{Outcome, beyond, cosines_around, share};
+use crate::language::ir::Column;
+use crate::language::targets::Stack;
+use crate::physics::num::each_channel;
+
+use super::half_run;
+use super::judge::{PathRun, RanFunction};
+use super::plan::{PlannedFile, VerifyPlan};
+use super::row::VerifyRow;
+use super::trial_case::{TrialCase, cases};
+
+/// How a file is tried.
+#[derive(Clone, Copy, Debug)]
+pub struct VerifyEffort {
+    /// Cosines for each function and material.
+    pub points: usize,
+}
+
+/// The rows of a file.
+pub fn file_rows(
+    plan: &VerifyPlan,
+    file: &PlannedFile,
+    devices: &Devices,
+    effort: VerifyEffort,
+) -> Vec<VerifyRow> {
+    let accepts = accepts(file);
+    let mut rows = Vec::new();
+    for (index, emitted) in file.functions.iter().enumerate() {
+        if let Some(part) = emitted.effect {
+            let tried = FileTrial::new(file, index, emitted, devices, effort);
+            rows.push(tried.effect_row(plan, part, &accepts));
+            continue;
+        }
+        let cases = cases(plan, file, emitted);
+        let tried = FileTrial::new(file, index, emitted, devices, effort);
+        for (place, case) in cases.iter().enumerate() {
+            rows.push(tried.case_row(case, &accepts, place == 0));
+        }
+    }
+    rows
+}
+
+/// What compilers say of all pages of a file: a refusal of one is a refusal, and says which page it is; without one a page that could
+/// not be checked leaves the file unchecked.
+fn accepts(file: &PlannedFile) -> Vec<(&'static str, Verdict)> {
+    let mut all: Vec<(&'static str, Verdict)> = Vec::new();
+    for page in &file.pages {
+        for (name, verdict) in
+            compilers::accepts_in(file.precision(), file.target, &page.path, &page.bytes)
+        {
+            let verdict = match verdict {
+                Verdict::No(words) => {
+                    Verdict::No(format!("{}: {name} refuses it: {words}", page.path))
+                }
+                other => other,
+            };
+            match all.iter_mut().find(|(other, _)| *other == name) {
+                Some((_, Verdict::No(_))) => {}
+                Some((_, known)) if *known == Verdict::Yes || matches!(verdict, Verdict::No(_)) => {
+                    *known = verdict
+                }
+                Some(_) => {}
+                None => all.push((name, verdict)),
+            }
+        }
+    }
+    all
+}
+
+/// A function, and how it is run.
+pub(super) struct FileTrial<'a> {
+    pub file: &'a PlannedFile,
+    pub emitted: &'a Emitted,
+    entry: &'a str,
+    pub devices: &'a Devices,
+    effort: VerifyEffort,
+    /// The text compiled for running, once for all cases.
+    own: OnceCell<Result<Runnable, RunFault>>,
+}
+
+impl<'a> FileTrial<'a> {
+    fn new(
+        file: &'a PlannedFile,
+        index: usize,
+        emitted: &'a Emitted,
+        devices: &'a Devices,
+        effort: VerifyEffort,
+    ) -> FileTrial<'a> {
+        let entry = file
+            .run_page()
+            .entries
+            .get(index)
+            .map_or("main", String::as_str);
+        FileTrial {
+            file,
+            emitted,
+            entry,
+            devices,
+            effort,
+            own: OnceCell::new(),
+        }
+    }
+
+    fn case_row(
+        &self,
+        case: &TrialCase,
+        accepts: &[(&'static str, Verdict)],
+        is_first: bool,
+    ) -> VerifyRow {
+        let paths = ExecutionPath::all_for(self.file.target, self.emitted.precision);
+        // Other paths are second opinions on the text: one material tells.
+        let paths = if is_first { paths } else { &paths[..1] };
+        let runs: Vec<(ExecutionPath, Result<PathRun, RunFault>)> = paths
+            .iter()
+            .map(|path| (*path, self.run(case, *path)))
+            .collect();
+        RanFunction {
+            file: self.file,
+            emitted: self.emitted,
+            material: case.material,
+            accepts,
+            runs: &runs,
+        }
+        .verify_row()
+    }
+
+    /// The function as it may be run: a module that is not ours, and a text that holds a loop, may not.
+    pub(super) fn shown_safely(
+        &self,
+        path: ExecutionPath,
+    ) -> Result<ShippedFunction<'_>, RunFault> {
+        let page = self.file.run_page();
+        if let (Some(fault), true) = (self.untrusted(), path == ExecutionPath::Own) {
+            return Err(fault);
+        }
+        if let Some(holds_loop) = &page.holds_loop {
+            let why = format!("{holds_loop}, which no function of ours does, and is not run");
+            return Err(RunFault::Failed(why));
+        }
+        Ok(ShippedFunction {
+            target: self.file.target,
+            bytes: &page.bytes,
+            function: self.emitted,
+            entry: self.entry,
+        })
+    }
+
+    fn run(&self, case: &TrialCase, path: ExecutionPath) -> Result<PathRun, RunFault> {
+        let shown = self.shown_safely(path)?;
+        let other;
+        let runnable = if path == ExecutionPath::Own {
+            let compiled = || self.devices.prepare(&shown, path, &case.trial);
+            let own = self.own.get_or_init(compiled);
+            own.as_ref().map_err(RunFault::clone)?
+        } else {
+            other = self.devices.prepare(&shown, path, &case.trial)?;
+            &other
+        };
+        if self.emitted.precision.is_half() {
+            let ran = half_run::run_in_half(runnable, &shown, &case.trial)?;
+            let device = self
+                .devices
+                .device_for(shown.target, path)?
+                .adapter
+                .to_string();
+            return Ok(PathRun { device, ..ran });
+        }
+        let mut points = cosines_around(self.effort.points, &case.limits);
+        points.extend(beyond());
+        let expected = case.trial.expected(&points);
+        let got = runnable.run(&case.trial, &expected.cosines)?;
+        let outcome: Outcome = expected.judge(&got);
+        let model_error = match (&case.reference, path) {
+            (Some(reference), ExecutionPath::Own) => {
+                Some(self.model_error(runnable, case, reference)?)
+            }
+            _ => None,
+        };
+        Ok(PathRun {
+            points: expected.cosines.len(),
+            share: share(&expected.cosines),
+            bound: Some(expected.bound),
+            outcome,
+            half: None,
+            effect: None,
+            model_error,
+            device: self
+                .devices
+                .device_for(shown.target, path)?
+                .adapter
+                .to_string(),
+        })
+    }
+
+    /// A module that is not ours may do anything to a driver, unless a validator has looked at it.
+    fn untrusted(&self) -> Option<RunFault> {
+        let page = self.file.run_page();
+        if !matches!(self.file.target.stack, Stack::SpirvModule)
+            || page.is_current
+            || !page.is_shipped
+        {
+            return None;
+        }
+        let verdicts = compilers::accepts_in(
+            self.file.precision(),
+            self.file.target,
+            &page.path,
+            &page.bytes,
+        );
+        let refusal = verdicts
+            .iter()
+            .find(|(_, verdict)| *verdict != Verdict::Yes)?;
+        Some(match refusal {
+            (name, Verdict::No(words)) => RunFault::Failed(format!("{name}: {words}")),
+            (name, _) => RunFault::Absent(format!(
+                "it is not what would be written today, and no {name} is here to say that it is safe to run"
+            )),
+        })
+    }
+
+    /// The error of the method as it runs, against the reference.
+    fn model_error(
+        &self,
+        runnable: &Runnable,
+        case: &TrialCase,
+        reference: &ReferenceCurve,
+    ) -> Result<ModelError, RunFault> {
+        let fault = OnceCell::new();
+        let error = fit::error_of(reference, &|cosines| {
+            let single: Vec<f32> = cosines.iter().map(|c| *c as f32).collect();
+            let got = runnable.run(&case.trial, &single);
+            let got = got.unwrap_or_else(|why| {
+                let _ = fault.set(why);
+                vec![[f32::NAN; 3]; single.len()]
+            });
+            let channel =
+                |i: usize| Column::Each(got.iter().map(|rgb| f64::from(rgb[i])).collect());
+            crate::language::ir::Value::Rgb(each_channel(channel))
+        });
+        fault.into_inner().map_or(Ok(error), Err)
+    }
+}

@@ -1,0 +1,178 @@
+//! Harnesses: what is put around the text of a file so that one of its functions can be run over cosines. The text itself
+//! stays as it is, to the byte. What each language puts around it stands in its target's [`Harness`].
+
+use crate::generator::emit::{Emitted, uniform_offsets};
+use crate::language::ir::{Param, Ty};
+use crate::language::targets::{DESKTOP, GLSL, Harness, STREAM, Target, WGSL};
+use crate::physics::num::Precision;
+
+use super::naga_translation::Gles;
+
+/// A function as a harness calls it.
+#[derive(Clone, Copy, Debug)]
+pub struct Call<'a> {
+    /// Its name.
+    pub name: &'a str,
+    /// Its arguments, `cos_theta` first where it depends on it.
+    pub params: &'a [Param],
+    /// Whether it gives one channel.
+    pub is_scalar: bool,
+    /// What it computes in; what goes in and comes out is f32 all the same.
+    pub precision: Precision,
+}
+
+/// The entry point of every harness.
+pub const ENTRY: &str = "fg_main";
+
+impl Call<'_> {
+    /// The call of a function.
+    pub fn to_emitted(emitted: &Emitted) -> Call<'_> {
+        Call {
+            name: &emitted.name,
+            params: &emitted.function.params,
+            is_scalar: emitted.function.ty() == Ty::Scalar,
+            precision: emitted.precision,
+        }
+    }
+
+    fn numbers(&self) -> impl Iterator<Item = &Param> {
+        let params = self.params.iter();
+        params.filter(|param| param.ty != Ty::Texture && !param.is_cosine())
+    }
+
+    fn ty(&self) -> Ty {
+        match self.is_scalar {
+            true => Ty::Scalar,
+            false => Ty::Rgb,
+        }
+    }
+
+    /// Whether it reads a texture.
+    pub fn is_textured(&self) -> bool {
+        self.params.iter().any(|param| param.ty == Ty::Texture)
+    }
+
+    /// The call, with each argument as this language has it.
+    fn call_text(
+        &self,
+        cos_theta: &str,
+        texture: &str,
+        number: impl Fn(&Param) -> String,
+    ) -> String {
+        let argument = |param: &Param| match param.ty {
+            Ty::Texture => texture.to_owned(),
+            _ if param.is_cosine() => cos_theta.to_owned(),
+            _ => number(param),
+        };
+        let arguments: Vec<String> = self.params.iter().map(argument).collect();
+        format!("{}({})", self.name, arguments.join(", "))
+    }
+}
+
+/// A program around the text of a file of a target that is run as text: the text calls one function for each cosine.
+pub fn program(target: &Target, file: &str, call: &Call) -> Option<String> {
+    let harness = target.stack.harness()?;
+    Some(program_in(harness, target, file, call))
+}
+
+/// The same around GLSL of the desktop, which no target runs as text.
+pub fn desktop(file: &str, call: &Call) -> String {
+    program_in(&DESKTOP, &GLSL, file, call)
+}
+
+/// The same around WGSL where the cosines are all f32 from a first one on.
+pub fn stream(file: &str, call: &Call) -> String {
+    program_in(&STREAM, &WGSL, file, call)
+}
+
+fn program_in(harness: &Harness, target: &Target, file: &str, call: &Call) -> String {
+    let spelling = &target.spelling;
+    let offsets = uniform_offsets(call.params);
+    let members: String = call
+        .numbers()
+        .zip(offsets)
+        .map(|(param, offset)| {
+            let member = harness.member.replace("{type}", spelling.ty(param.ty));
+            let member = member.replace("{offset}", &offset.to_string());
+            member.replace("{name}", &param.name)
+        })
+        .collect();
+    let block = match members.is_empty() {
+        true => String::new(),
+        false => harness.block.replace("{members}", &members),
+    };
+    let texture = match call.is_textured() {
+        true => harness.texture,
+        false => "",
+    };
+    let converted = |ty: Ty, value: String, precision: Precision| match call.precision {
+        Precision::F16 if harness.converts => {
+            format!("{}({value})", target.spelling_in(precision).ty(ty))
+        }
+        _ => value,
+    };
+    let cosine = converted(Ty::Scalar, harness.cosine.to_owned(), Precision::F16);
+    let value = call.call_text(&cosine, harness.texture_argument, |param| {
+        let value = harness.argument.replace("{name}", &param.name);
+        converted(param.ty, value, Precision::F16)
+    });
+    let value = converted(call.ty(), value, Precision::F32);
+    let value = match call.is_scalar {
+        true => harness.splat.replace("{value}", &value),
+        false => value,
+    };
+    let after = harness.after.replace("{block}", &block);
+    let after = after
+        .replace("{texture}", texture)
+        .replace("{cosines}", harness.cosines)
+        .replace("{count}", harness.count)
+        .replace("{value}", &value);
+    format!("{}{file}{after}", harness.before)
+}
+
+/// A vertex shader of a WGSL file, with the values of the arguments in it: naga makes GLSL ES of that.
+pub fn wgsl_vertex(file: &str, call: &Call, values: &[[f32; 3]]) -> String {
+    let texture = match call.is_textured() {
+        true => STREAM.texture,
+        false => "",
+    };
+    let value = call.call_text("fg_cosine", "fg_table, fg_sampler", |param| {
+        let place = call.numbers().position(|other| other.name == param.name);
+        let [r, g, b] = place
+            .and_then(|i| values.get(i))
+            .copied()
+            .unwrap_or_default();
+        if param.ty == Ty::Rgb {
+            format!("vec3<f32>({r:?}f, {g:?}f, {b:?}f)")
+        } else {
+            format!("{r:?}f")
+        }
+    });
+    format!(
+        "{file}
+{texture}struct FgResult {{
+    @builtin(position) fg_position: vec4<f32>,
+    @location(0) fg_value: vec3<f32>,
+}}
+@vertex
+fn {ENTRY}(@location(0) fg_cosine: f32) -> FgResult {{
+    return FgResult(vec4<f32>(), vec3<f32>({value}));
+}}
+"
+    )
+}
+
+/// naga's GLSL ES with the names that are bound here.
+pub fn renamed(made: &Gles) -> String {
+    let pairs = [
+        (made.inputs.get(&0), "cos_theta"),
+        (made.outputs.get(&0), "reflectance"),
+        (made.textures.get(&(0, 3)), "table"),
+    ];
+    pairs
+        .iter()
+        .fold(made.text.clone(), |text, (from, to)| match from {
+            Some(from) => text.replace(from.as_str(), to),
+            None => text,
+        })
+}

@@ -1,0 +1,399 @@
+//! What came of running a function, and what to think of it: both errors, never added, and who accepts its file.
+
+use crate::generator::emit::{CodeBound, Emitted, fingerprint};
+use crate::generator::fit::{Measured, ModelError};
+use crate::physics::num::Precision;
+
+use super::compilers::Verdict;
+use super::effect_trial::EffectOutcome;
+use super::plan::{PlannedFile, ShippedPage};
+use super::row::{
+    AllowedAbsolute, AllowedError, AllowedUlp, Answer, CodeErrorFigures, Emulation,
+    ModelErrorFigures, SecondOpinion, VerifyRow, finite,
+};
+use super::run::{ExecutionPath, RunFault};
+use super::status::Status;
+use super::{HalfError, Miss, Outcome};
+
+/// What came of running a function by one execution path.
+#[derive(Clone, Debug)]
+pub struct PathRun {
+    /// At how many cosines.
+    pub points: usize,
+    /// What share of all numbers from 0 to 1 they are.
+    pub share: f64,
+    /// What it may differ by, in ulp; none where nothing is promised.
+    pub bound: Option<f64>,
+    /// What came of it.
+    pub outcome: Outcome,
+    /// In half precision: what came of it.
+    pub half: Option<HalfRun>,
+    /// Of an effect's function: what came of it.
+    pub effect: Option<EffectRun>,
+    /// Against the reference, where there is one.
+    pub model_error: Option<ModelError>,
+    /// On what.
+    pub device: String,
+}
+
+/// What came of running an effect's function.
+#[derive(Clone, Debug)]
+pub struct EffectRun {
+    /// The device against f64.
+    pub outcome: EffectOutcome,
+    /// The allowed error.
+    pub allowed: f64,
+}
+
+/// What came of running a function in half precision.
+#[derive(Clone, Copy, Debug)]
+pub struct HalfRun {
+    /// The device against f64.
+    pub error: HalfError,
+    /// The device against f16 rounded after every operation.
+    pub emulation: HalfError,
+    /// The allowed difference from f64; without a promise it is twice the error of the emulation.
+    pub allowed: f64,
+}
+
+impl HalfRun {
+    /// The precision in which the device computes. A result nearer to f64 than f16 can be was computed in f32. If no result
+    /// was rounded, the precision is not known.
+    fn computes_in(&self) -> Option<Precision> {
+        const NEARER: f64 = 1e-5;
+        let rounds = self.error.max_abs.max(self.emulation.max_abs) > 0.0;
+        rounds.then_some(if self.error.max_abs < NEARER {
+            Precision::F32
+        } else {
+            Precision::F16
+        })
+    }
+
+    fn emulation(&self) -> Emulation {
+        Emulation {
+            max_abs: finite(self.emulation.max_abs),
+            worst_cos: finite(self.emulation.worst_cos),
+            device_computes_in: self
+                .computes_in()
+                .map(|precision| precision.name().to_owned()),
+        }
+    }
+}
+
+/// A function of a file, run.
+pub struct RanFunction<'a> {
+    /// The file.
+    pub file: &'a PlannedFile,
+    /// The function.
+    pub emitted: &'a Emitted,
+    /// The material, as a user types it.
+    pub material: &'a str,
+    /// What compilers say of the file.
+    pub accepts: &'a [(&'static str, Verdict)],
+    /// Each execution path: its own first.
+    pub runs: &'a [(ExecutionPath, Result<PathRun, RunFault>)],
+}
+
+/// What a run came to.
+struct Judged {
+    status: Status,
+    reasons: Vec<String>,
+    figures: Option<RunFigures>,
+}
+
+/// What was measured in a run.
+struct RunFigures {
+    device: String,
+    points: usize,
+    share: f64,
+    bound: AllowedError,
+    code_error: CodeErrorFigures,
+    model_error: Option<ModelErrorFigures>,
+    emulation: Option<Emulation>,
+}
+
+impl RanFunction<'_> {
+    /// The row.
+    pub fn verify_row(&self) -> VerifyRow {
+        let (path, own) = &self.runs[0];
+        let own = self.judged(*path, own);
+        let (mut status, mut reasons) = (own.status, own.reasons);
+        let mut row = row_without_run(self.file, self.emitted);
+        row.material = Some(self.material.to_owned()).filter(|name| !name.is_empty());
+        if let Some(figures) = own.figures {
+            row.device = Some(figures.device);
+            row.points = Some(figures.points);
+            row.share = finite(figures.share);
+            row.bound = Some(figures.bound);
+            row.code_error = Some(figures.code_error);
+            row.model_error = figures.model_error;
+            row.emulation = figures.emulation;
+        }
+        for (path, run) in &self.runs[1..] {
+            let judged = self.judged(*path, run);
+            row.second_opinions.push(second_opinion(*path, &judged));
+            if judged.status == Status::Fail {
+                status = Status::Fail;
+                reasons.extend(judged.reasons);
+            }
+        }
+        let refusals = self
+            .accepts
+            .iter()
+            .filter_map(|(_, verdict)| match verdict {
+                Verdict::No(words) => Some(words),
+                Verdict::Yes | Verdict::NotChecked(_) => None,
+            });
+        let findings = self.file.pages.iter().flat_map(|page| &page.findings);
+        let faults: Vec<&String> = refusals.chain(findings).collect();
+        if !faults.is_empty() {
+            status = Status::Fail;
+            reasons.extend(faults.into_iter().cloned());
+        }
+        row.accepts = Some(answers(self.accepts));
+        row.not_asked = not_asked(self.accepts);
+        row.status = status;
+        row.reason = (!reasons.is_empty()).then(|| reasons.join("\n"));
+        row
+    }
+
+    /// A run, and what to think of it.
+    fn judged(&self, path: ExecutionPath, run: &Result<PathRun, RunFault>) -> Judged {
+        let run = match run {
+            Err(RunFault::Absent(why)) => {
+                return Judged::without_figures(Status::NotChecked, why.clone());
+            }
+            Err(RunFault::Failed(why)) => {
+                let why = format!("{}: {}: {why}", self.page().path, self.emitted.name);
+                return Judged::without_figures(Status::Fail, why);
+            }
+            Ok(run) => run,
+        };
+        let fault = match (&run.half, &run.effect) {
+            (_, Some(effect)) => self.fault_of_effect(path, effect),
+            (Some(half), _) => self.fault_in_half(half),
+            (None, None) => run
+                .outcome
+                .miss
+                .as_ref()
+                .map(|miss| self.missed(path, miss)),
+        };
+        Judged {
+            status: match fault {
+                None => Status::Pass,
+                Some(_) => Status::Fail,
+            },
+            reasons: fault.into_iter().collect(),
+            figures: Some(self.figures(run)),
+        }
+    }
+
+    fn figures(&self, run: &PathRun) -> RunFigures {
+        let text = bound_text(self.emitted);
+        let (bound, code_error) = match (&run.half, &run.effect) {
+            (_, Some(effect)) => {
+                let max_abs = finite(effect.allowed);
+                let bound = AllowedError::Absolute(AllowedAbsolute { max_abs, text });
+                (bound, CodeErrorFigures::from(&effect.outcome))
+            }
+            (Some(half), _) => {
+                let max_abs = finite(half.allowed);
+                let bound = AllowedError::Absolute(AllowedAbsolute { max_abs, text });
+                (bound, CodeErrorFigures::from(&half.error))
+            }
+            (None, None) => {
+                let bound = match (run.bound, &self.emitted.code) {
+                    (Some(_), Measured::Yes(CodeBound::Absolute(most))) => {
+                        let max_abs = finite(*most);
+                        AllowedError::Absolute(AllowedAbsolute { max_abs, text })
+                    }
+                    _ => {
+                        let ulp = run.bound.and_then(finite);
+                        AllowedError::Ulp(AllowedUlp { ulp, text })
+                    }
+                };
+                (bound, CodeErrorFigures::from(&run.outcome.error))
+            }
+        };
+        RunFigures {
+            device: run.device.clone(),
+            points: run.points,
+            share: run.share,
+            bound,
+            code_error,
+            model_error: run.model_error.as_ref().map(ModelErrorFigures::from),
+            emulation: run.half.as_ref().map(HalfRun::emulation),
+        }
+    }
+
+    fn page(&self) -> &ShippedPage {
+        self.file.run_page()
+    }
+
+    /// What is wrong in half precision.
+    fn fault_in_half(&self, half: &HalfRun) -> Option<String> {
+        // A device that gives NaN has an infinite error, or one that is no number.
+        let is_right = half.error.max_abs <= half.allowed;
+        (!is_right).then(|| {
+            format!(
+                "{}: {}, {}: at cos_theta = {} it is {} off, and {} is allowed",
+                self.page().path,
+                self.emitted.name,
+                self.material,
+                half.error.worst_cos,
+                half.error.max_abs,
+                half.allowed
+            )
+        })
+    }
+
+    /// What is wrong with an effect's function.
+    fn fault_of_effect(&self, path: ExecutionPath, effect: &EffectRun) -> Option<String> {
+        let EffectRun { outcome, allowed } = effect;
+        let is_right = outcome.max_abs <= *allowed;
+        let path = match path {
+            ExecutionPath::Own => String::new(),
+            path => format!(", by {}", path.name()),
+        };
+        (!is_right).then(|| {
+            format!(
+                "{}: {}{path}: {}: {:e} off, and {allowed:e} is allowed",
+                self.page().path,
+                self.emitted.name,
+                outcome.worst,
+                outcome.max_abs,
+            )
+        })
+    }
+
+    /// A miss as people and editors read it.
+    fn missed(&self, path: ExecutionPath, miss: &Miss) -> String {
+        let channel = ["red", "green", "blue"][miss.channel];
+        let path = if path == ExecutionPath::Own {
+            String::new()
+        } else {
+            format!(", by {}", path.name())
+        };
+        let edited = if self.page().is_current {
+            ""
+        } else {
+            " The file is not what would be written today."
+        };
+        let expected = if miss.cos_theta.is_nan() {
+            "expected any reflectance, since the cosine is NaN".to_owned()
+        } else {
+            format!("expected {:?}: {:.1} ulp off", miss.expected, miss.ulp)
+        };
+        format!(
+            "{}: {}, {}{path}: at cos_theta = {:?} (0x{:08x}) {channel} is {:?} (0x{:08x}), {expected}.{edited}",
+            self.page().path,
+            self.emitted.name,
+            self.material,
+            miss.cos_theta,
+            miss.cos_theta.to_bits(),
+            miss.got,
+            miss.got.to_bits(),
+        )
+    }
+}
+
+impl Judged {
+    fn without_figures(status: Status, reason: String) -> Judged {
+        Judged {
+            status,
+            reasons: vec![reason],
+            figures: None,
+        }
+    }
+}
+
+fn second_opinion(path: ExecutionPath, judged: &Judged) -> SecondOpinion {
+    let figures = judged.figures.as_ref();
+    SecondOpinion {
+        execution_path: path.name().to_owned(),
+        device: figures.map(|one| one.device.clone()),
+        points: figures.map(|one| one.points),
+        share: figures.and_then(|one| finite(one.share)),
+        bound: figures.map(|one| one.bound.clone()),
+        code_error: figures.map(|one| one.code_error.clone()),
+        emulation: figures.and_then(|one| one.emulation.clone()),
+        model_error: figures.and_then(|one| one.model_error.clone()),
+        status: judged.status,
+        reason: judged.reasons.first().cloned(),
+    }
+}
+
+/// What a function promises, in words.
+fn bound_text(emitted: &Emitted) -> String {
+    match &emitted.code {
+        Measured::Yes(CodeBound::Ulp(ulp)) => {
+            format!("{ulp} ulp or 2^-22; powers as Vulkan allows exp2 and log2")
+        }
+        Measured::Yes(CodeBound::Absolute(most)) if emitted.effect.is_some() => {
+            format!(
+                "{most:e} beyond what the last bits of the arguments and a sampler's weights turn"
+            )
+        }
+        Measured::Yes(CodeBound::Absolute(most)) if emitted.form.coefficient().is_some() => {
+            format!("{most:e} absolute: the terms of a coefficient cancel")
+        }
+        Measured::Yes(CodeBound::Absolute(most)) => {
+            format!("{most} absolute, and 2^-11 for what a device is free to do")
+        }
+        Measured::No(why) => why.clone(),
+    }
+}
+
+fn answers(verdicts: &[(&'static str, Verdict)]) -> Vec<(String, Answer)> {
+    let answer = |(name, verdict): &(&'static str, Verdict)| ((*name).to_owned(), verdict.into());
+    verdicts.iter().map(answer).collect()
+}
+
+/// Why compilers were not asked.
+fn not_asked(verdicts: &[(&'static str, Verdict)]) -> Vec<(String, String)> {
+    let reason = |(name, verdict): &(&'static str, Verdict)| match verdict {
+        Verdict::NotChecked(why) => Some(((*name).to_owned(), why.clone())),
+        Verdict::Yes | Verdict::No(_) => None,
+    };
+    verdicts.iter().filter_map(reason).collect()
+}
+
+/// What is known of a function before it is run.
+fn row_without_run(file: &PlannedFile, emitted: &Emitted) -> VerifyRow {
+    let page = file.run_page();
+    VerifyRow {
+        target: file.target.name.to_owned(),
+        effect: emitted.effect.map(|part| part.effect.name.to_owned()),
+        method: emitted.method.name.to_owned(),
+        material: None,
+        form: emitted.form,
+        precision: emitted.precision,
+        function: emitted.name.clone(),
+        file: page.path.clone(),
+        fingerprint: fingerprint(&emitted.function),
+        shipped: page.is_shipped,
+        current: page.is_current,
+        device: None,
+        points: None,
+        share: None,
+        bound: None,
+        code_error: None,
+        model_error: None,
+        accepts: None,
+        not_asked: Vec::new(),
+        second_opinions: Vec::new(),
+        status: Status::Fail,
+        reason: None,
+        remark: file.pages.iter().find_map(|page| page.remark.clone()),
+        emulation: None,
+    }
+}
+
+/// The rows of a file whose run came to no end.
+pub fn unfinished(file: &PlannedFile, why: &str) -> Vec<VerifyRow> {
+    let row = |emitted: &Emitted| VerifyRow {
+        reason: Some(format!("{}: {}: {why}", file.run_page().path, emitted.name)),
+        ..row_without_run(file, emitted)
+    };
+    file.functions.iter().map(row).collect()
+}

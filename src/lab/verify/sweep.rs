@@ -1,0 +1,267 @@
+//! A sweep: every f32 there is through WGSL as it runs, all 2³² bit patterns, each held against f64. Nothing is a sample.
+//! Beyond [0, 1] a function is constant, so that one evaluation in f64 serves all equal results there.
+//!
+//! The device makes its own cosines and is read where it writes, block by block, so that memory stays small. A block is
+//! cut into pieces that fit a processor's cache; of each piece the graph is evaluated in f64 over whole columns, and
+//! only pieces with a difference that counts are looked at point by point.
+
+use std::sync::Mutex;
+
+use super::code_error::CodeError;
+use super::harness;
+use super::points::{WITHIN, cosines};
+use super::run::{Devices, RunFault, ShippedFunction};
+use super::trial::{Outcome, TEXTBOOK_FROM, Trial, result_range};
+use crate::generator::fit::Measured;
+use crate::lab::gpu::{Program, ShaderCode};
+use crate::language::ir::Value;
+
+/// How many bit patterns there are.
+const ALL: u64 = 1 << 32;
+/// Points evaluated at once: columns of f64 that a cache holds.
+const PIECE: usize = 512;
+
+/// Runs a function of a WGSL file at all numbers. `progress` hears how many are done.
+///
+/// # Errors
+/// There is no device, or it fails, or the text is refused.
+pub fn sweep(
+    devices: &Devices,
+    shown: &ShippedFunction,
+    trial: &Trial,
+    progress: &mut dyn FnMut(u64),
+) -> Result<Outcome, RunFault> {
+    let text = std::str::from_utf8(shown.bytes).map_err(|why| RunFault::Failed(why.to_string()))?;
+    let call = harness::Call::to_emitted(shown.function);
+    let stream = devices.compute()?.prepare_stream(&Program {
+        code: ShaderCode::Wgsl(&harness::stream(text, &call)),
+        entry: harness::ENTRY,
+        uniforms: &[],
+        texture: None,
+    })?;
+    let bound = match trial.bound {
+        Measured::Yes(ulp) => ulp,
+        Measured::No(_) => f64::INFINITY,
+    };
+    let first = if trial.is_guarded {
+        0
+    } else {
+        TEXTBOOK_FROM.to_bits()
+    };
+    let judge = Judge::new(trial, bound);
+    let mut outcome = Outcome::NONE;
+    let mut done = 0;
+    stream.run(first, count(trial), &[], None, |first, results| {
+        outcome = outcome.worst(block(&judge, first, results));
+        done += results.len() as u64;
+        progress(done);
+    })?;
+    Ok(outcome)
+}
+
+/// How many numbers a trial is swept over: a textbook form promises nothing next to 0 and beyond 1.
+pub fn count(trial: &Trial) -> u64 {
+    if trial.is_guarded {
+        ALL
+    } else {
+        WITHIN - u64::from(TEXTBOOK_FROM.to_bits())
+    }
+}
+
+/// What results are held against.
+struct Judge<'a> {
+    trial: &'a Trial,
+    /// In ulp.
+    bound: f64,
+    /// The smallest and the largest result: what a cosine that is NaN may give.
+    range: [f64; 2],
+}
+
+/// Points at which a function's range is looked for.
+const RANGE_POINTS: usize = 1000;
+
+impl Judge<'_> {
+    fn new(trial: &Trial, bound: f64) -> Judge<'_> {
+        let cosines = cosines(RANGE_POINTS);
+        let range = result_range(&cosines, &trial.run::<f64>(&cosines));
+        Judge {
+            trial,
+            bound,
+            range,
+        }
+    }
+
+    fn judge(&self, cosines: &[f32], want: Value<f64>, got: &[[f32; 3]]) -> Outcome {
+        let mut expected = self.trial.expected_of(cosines.to_vec(), want);
+        expected.bound = self.bound;
+        expected.range = self.range;
+        expected.judge(got)
+    }
+}
+
+/// A block, shared among the processor's cores.
+fn block(judge: &Judge, first: u32, results: &[[f32; 4]]) -> Outcome {
+    let cores = std::thread::available_parallelism().map_or(1, usize::from);
+    let share = results.len().div_ceil(cores).next_multiple_of(PIECE);
+    let worst = Mutex::new(Outcome::NONE);
+    std::thread::scope(|scope| {
+        for (i, part) in results.chunks(share).enumerate() {
+            let (worst, first) = (&worst, first + (i * share) as u32);
+            scope.spawn(move || {
+                let outcome = part_of(judge, first, part);
+                if let Ok(mut worst) = worst.lock() {
+                    *worst = worst.worst(outcome);
+                }
+            });
+        }
+    });
+    worst.into_inner().unwrap_or(Outcome::NONE)
+}
+
+/// Consecutive numbers: those from 0 to 1 piece by piece, the others by what tells them apart.
+fn part_of(judge: &Judge, first: u32, results: &[[f32; 4]]) -> Outcome {
+    let within = (WITHIN.saturating_sub(u64::from(first)) as usize).min(results.len());
+    let (within, beyond) = results.split_at(within);
+    let mut outcome = self::beyond(judge, first.wrapping_add(within.len() as u32), beyond);
+    for (i, piece) in within.chunks(PIECE).enumerate() {
+        let first = first + (i * PIECE) as u32;
+        let bits = 0..piece.len() as u32;
+        let cosines: Vec<f32> = bits.map(|i| f32::from_bits(first + i)).collect();
+        outcome = outcome.worst(one(judge, &cosines, piece));
+    }
+    outcome
+}
+
+/// Numbers beyond [0, 1]: of a run of equal results on one side one is judged.
+fn beyond(judge: &Judge, first: u32, results: &[[f32; 4]]) -> Outcome {
+    if results.is_empty() {
+        return Outcome::NONE;
+    }
+    let side = |cos_theta: f32| (cos_theta.is_nan(), cos_theta < 0.0);
+    let bits = |result: &[f32; 4]| result.map(f32::to_bits);
+    let (mut cosines, mut got, mut last) = (Vec::new(), Vec::new(), None);
+    for (i, result) in results.iter().enumerate() {
+        let cos_theta = f32::from_bits(first + i as u32);
+        let this = Some((side(cos_theta), bits(result)));
+        if this != last {
+            cosines.push(cos_theta);
+            got.push([result[0], result[1], result[2]]);
+            last = this;
+        }
+    }
+    let want = judge.trial.run::<f64>(&cosines);
+    judge.judge(&cosines, want, &got)
+}
+
+fn one(judge: &Judge, cosines: &[f32], results: &[[f32; 4]]) -> Outcome {
+    let want = judge.trial.run::<f64>(cosines);
+    let mut largest = 0.0f64;
+    for channel in 0..3 {
+        let column = want.channel(channel);
+        let mut total = 0.0;
+        for (i, result) in results.iter().enumerate() {
+            let difference = (f64::from(result[channel]) - column.at(i)).abs();
+            largest = largest.max(difference);
+            // `max` passes over a NaN, a sum does not.
+            total += difference;
+        }
+        if !total.is_finite() {
+            largest = f64::INFINITY;
+        }
+    }
+    if largest <= judge.trial.floor {
+        return Outcome {
+            error: CodeError {
+                max_abs: largest,
+                ..CodeError::NONE
+            },
+            miss: None,
+        };
+    }
+    let got: Vec<[f32; 3]> = results.iter().map(|[r, g, b, _]| [*r, *g, *b]).collect();
+    judge.judge(cosines, want, &got)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::code_error::ABSOLUTE_FLOOR;
+    use super::*;
+    use crate::language::methods;
+
+    fn trial() -> Trial {
+        let method = methods::find("schlick").unwrap();
+        Trial {
+            function: method.function(false).unwrap(),
+            values: vec![[0.04, 0.5, 1.0]],
+            table: None,
+            bound: Measured::Yes(method.claims.code_ulp),
+            floor: ABSOLUTE_FLOOR,
+            is_guarded: true,
+        }
+    }
+
+    /// What comes of numbers from these bits on, with one result changed.
+    fn changed(first: u32, at: usize, result: [f32; 4]) -> Outcome {
+        let trial = trial();
+        let bits: Vec<f32> = (0..2000).map(|i| f32::from_bits(first + i)).collect();
+        let got = trial.run::<f32>(&bits);
+        let mut results: Vec<[f32; 4]> = (0..bits.len())
+            .map(|i| {
+                let [r, g, b] = if bits[i].is_nan() {
+                    [0.5; 3]
+                } else {
+                    got.at(i)
+                };
+                [r, g, b, 1.0]
+            })
+            .collect();
+        results[at] = result;
+        block(&Judge::new(&trial, 6.0), first, &results)
+    }
+
+    #[test]
+    fn all_numbers_are_swept() {
+        assert_eq!(count(&trial()), 1 << 32);
+        let textbook = Trial {
+            is_guarded: false,
+            ..trial()
+        };
+        assert!(count(&textbook) < WITHIN);
+    }
+
+    #[test]
+    fn one_wrong_result_is_found_wherever_it_stands() {
+        // About 1, 2, infinity, the smallest negative number, negative infinity, and the last numbers there are.
+        for first in [
+            1f32.to_bits() - 1000,
+            0x4000_0000,
+            0x7F7F_FC18,
+            0x8000_0000,
+            0xFF7F_FC18,
+            u32::MAX - 1999,
+        ] {
+            let right = [0.3, 0.5, 1.0, 1.0];
+            assert!(
+                changed(first, 1500, [0.3, 0.5, f32::NAN, 1.0])
+                    .miss
+                    .is_some(),
+                "{first:x}"
+            );
+            let wrong = changed(first, 999, right).miss;
+            let is_nan = f32::from_bits(first + 999).is_nan();
+            assert_eq!(
+                wrong.is_none(),
+                is_nan,
+                "{first:x}: any reflectance is right for NaN only"
+            );
+        }
+    }
+
+    #[test]
+    fn what_is_right_passes() {
+        let last = (1.0 - 0.04f32).mul_add(0.0, 0.04);
+        for first in [0x4000_0000, 0x7F7F_FC18] {
+            assert_eq!(changed(first, 0, [last, 0.5, 1.0, 1.0]).miss, None);
+        }
+    }
+}

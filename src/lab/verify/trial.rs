@@ -1,0 +1,341 @@
+//! A trial: a function with the values of its arguments, held against what it means in f64 at the very same inputs.
+
+use serde::Serialize;
+
+use crate::generator::fit::Measured;
+use crate::language::ir::{Checked, Column, Op, Param, Texels, Ty, Value, evaluate};
+use crate::physics::num::{Num, VulkanTolerance, each_channel, ulp_distance};
+
+use super::code_error::{ABSOLUTE_FLOOR, CodeError};
+
+/// A function to try, and what it promises.
+#[derive(Clone, Debug)]
+pub struct Trial {
+    /// What its text means.
+    pub function: Checked,
+    /// The values of its arguments after `cos_theta`, without the texture; a scalar is the first number.
+    pub values: Vec<[f32; 3]>,
+    /// The texture that it reads.
+    pub table: Option<Texels>,
+    /// What it promises in ulp; where it promises nothing the reason is said, and it must come near what
+    /// unfused f32 gives.
+    pub bound: Measured<f64>,
+    /// Differences up to this are no error, whatever they are in ulp: [`ABSOLUTE_FLOOR`], or what coefficients promise.
+    pub floor: f64,
+    /// Whether it keeps the contract: it is then tried beyond [0, 1] too, and else not at 0.
+    pub is_guarded: bool,
+}
+
+/// What is expected at some cosines.
+#[derive(Clone, Debug)]
+pub struct Expected {
+    /// The cosines.
+    pub cosines: Vec<f32>,
+    /// The results in f64.
+    want: Value<f64>,
+    /// By how much each may be off whatever it promises in ulp: what a sampler's weights or a GPU's powers are allowed.
+    slack: Option<Value<f64>>,
+    /// The promise in ulp.
+    pub bound: f64,
+    /// Differences up to this are no error, whatever they are in ulp.
+    floor: f64,
+    /// The smallest and the largest of these results, with 0 and 1: for a cosine that is NaN any value between is right.
+    pub(super) range: [f64; 2],
+}
+
+/// A result that is too far off.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Miss {
+    /// The input.
+    pub cos_theta: f32,
+    /// 0 for red, 1 for green, 2 for blue.
+    pub channel: usize,
+    /// What came.
+    pub got: f32,
+    /// What should have come.
+    pub expected: f64,
+    /// How far apart they are.
+    pub ulp: f64,
+}
+
+/// What came of a trial.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Outcome {
+    /// The largest differences.
+    pub error: CodeError,
+    /// The result that is furthest beyond what is allowed.
+    pub miss: Option<Miss>,
+}
+
+/// Where nothing is promised a result may be so many times as far off as in unfused f32 here, and as where something is
+/// promised: a formula that loses digits loses others with another root or another order.
+const ROOM: f64 = 2.0;
+/// The steps of a sampler's weights.
+const WEIGHTS: f64 = 256.0;
+/// Below this cosine a textbook form promises nothing.
+pub(super) const TEXTBOOK_FROM: f32 = 1e-6;
+
+impl Trial {
+    /// The arguments in any kind of number.
+    fn arguments<N: Num>(&self, cosines: &[f32], table: Option<&Texels>) -> Vec<Value<N>> {
+        let number = |c: &f32| N::from_f64(f64::from(*c));
+        let mut values = self.values.iter();
+        let mut value = |param: &Param| match param.ty {
+            Ty::Texture => Value::Texture(table.cloned()),
+            Ty::Rgb => Value::rgb(values.next().copied().unwrap_or_default().map(f64::from)),
+            _ if param.is_cosine() => Value::each(cosines.iter().map(number).collect()),
+            _ => Value::scalar(f64::from(values.next().map_or(0.0, |value| value[0]))),
+        };
+        self.function.params.iter().map(&mut value).collect()
+    }
+
+    /// What the function means at these cosines, in any kind of number.
+    pub fn run<N: Num>(&self, cosines: &[f32]) -> Value<N> {
+        evaluate(
+            &self.function,
+            &self.arguments(cosines, self.table.as_ref()),
+        )
+    }
+
+    /// What is expected at these cosines; those are left out at which nothing is promised.
+    pub fn expected(&self, cosines: &[f32]) -> Expected {
+        let is_inside = |c: &f32| self.is_guarded || (TEXTBOOK_FROM..=1.0).contains(c);
+        let cosines: Vec<f32> = cosines.iter().copied().filter(is_inside).collect();
+        let want = self.run::<f64>(&cosines);
+        let mut expected = self.expected_of(cosines, want);
+        match self.bound {
+            Measured::Yes(ulp) => expected.bound = ulp,
+            Measured::No(_) => {
+                expected.bound = self.unfused(&expected);
+                expected.floor = ROOM * self.floor;
+            }
+        }
+        expected
+    }
+
+    /// What is expected where the results in f64 are known; there is no bound in ulp yet.
+    pub(super) fn expected_of(&self, cosines: Vec<f32>, want: Value<f64>) -> Expected {
+        Expected {
+            slack: self.slack(&cosines, &want),
+            range: result_range(&cosines, &want),
+            want,
+            bound: f64::INFINITY,
+            floor: self.floor,
+            cosines,
+        }
+    }
+
+    /// The error of unfused f32 at these points, with some room. Beyond [0, 1] it is that of the ends.
+    fn unfused(&self, expected: &Expected) -> f64 {
+        let mut error = CodeError::NONE;
+        let got = self.run::<f32>(&expected.cosines);
+        for (point, cos_theta) in expected.cosines.iter().enumerate() {
+            if (0.0..=1.0).contains(cos_theta) {
+                for (got, want) in got.at(point).into_iter().zip(expected.want.at(point)) {
+                    error.include(got, want, *cos_theta, ABSOLUTE_FLOOR);
+                }
+            }
+        }
+        ROOM * error.max_ulp
+    }
+
+    fn slack(&self, cosines: &[f32], want: &Value<f64>) -> Option<Value<f64>> {
+        if let Some(table) = &self.table {
+            let steps = evaluate(
+                &self.function,
+                &self.arguments(cosines, Some(&steps(table))),
+            );
+            return Some(each(cosines.len(), |i| {
+                steps.at(i).map(|step: f64| step / WEIGHTS)
+            }));
+        }
+        let has_power = [Op::Exp2, Op::Log2]
+            .iter()
+            .any(|op| self.function.count(*op) > 0);
+        has_power.then(|| {
+            let off = [
+                self.off::<VulkanTolerance<1, 1>>(cosines, want),
+                self.off::<VulkanTolerance<1, -1>>(cosines, want),
+                self.off::<VulkanTolerance<-1, 1>>(cosines, want),
+                self.off::<VulkanTolerance<-1, -1>>(cosines, want),
+            ];
+            each(cosines.len(), |i| {
+                off.iter().fold([0.0; 3], |most, off| {
+                    each_channel(|channel| f64::max(most[channel], off[i][channel]))
+                })
+            })
+        })
+    }
+
+    /// How far this kind of number comes to lie.
+    fn off<N: Num>(&self, cosines: &[f32], want: &Value<f64>) -> Vec<[f64; 3]> {
+        let got = self.run::<N>(cosines);
+        let off = |i: usize| {
+            let (got, want) = (got.at(i), want.at(i));
+            each_channel(|channel| (got[channel].to_f64() - want[channel]).abs())
+        };
+        (0..cosines.len()).map(off).collect()
+    }
+}
+
+/// For each texel the largest difference to a neighbour: what a table's weights may be off by is a share of it.
+fn steps(table: &Texels) -> Texels {
+    let texel = |row: usize, i: usize| table.texels[row * table.width + i.min(table.width - 1)];
+    let step = |at: usize| {
+        let (row, i) = (at / table.width, at % table.width);
+        let (here, before, after) = (texel(row, i), texel(row, i.max(1) - 1), texel(row, i + 1));
+        each_channel(|c: usize| (here[c] - before[c]).abs().max((here[c] - after[c]).abs()))
+    };
+    Texels {
+        width: table.width,
+        texels: (0..table.texels.len()).map(step).collect(),
+        alpha: None,
+        filter: table.filter,
+    }
+}
+
+fn each(points: usize, at: impl Fn(usize) -> [f64; 3]) -> Value<f64> {
+    let values: Vec<[f64; 3]> = (0..points).map(at).collect();
+    let channel = |i: usize| Column::Each(values.iter().map(|value| value[i]).collect());
+    Value::Rgb(each_channel(channel))
+}
+
+impl Expected {
+    /// Judges results, one for each cosine.
+    pub fn judge(&self, got: &[[f32; 3]]) -> Outcome {
+        let mut outcome = Outcome::NONE;
+        for (point, (cos_theta, got)) in self.cosines.iter().zip(got).enumerate() {
+            let want = self.want.at(point);
+            let slack = self
+                .slack
+                .as_ref()
+                .map_or([0.0; 3], |slack| slack.at(point));
+            for channel in 0..3 {
+                let (got, want) = (
+                    got[channel],
+                    self.expected_value(*cos_theta, got[channel], want[channel]),
+                );
+                outcome.error.include(got, want, *cos_theta, ABSOLUTE_FLOOR);
+                if !self.allows(got, want, slack[channel]) {
+                    outcome.add(Miss {
+                        cos_theta: *cos_theta,
+                        channel,
+                        got,
+                        expected: want,
+                        ulp: ulp_distance(got, want),
+                    });
+                }
+            }
+        }
+        outcome
+    }
+
+    /// The expected value. For a cosine that is NaN every value of the range is right, and the nearest one is expected.
+    fn expected_value(&self, cos_theta: f32, got: f32, want: f64) -> f64 {
+        let [least, most] = self.range;
+        match (cos_theta.is_nan(), got.is_nan()) {
+            (false, _) => want,
+            (true, true) => least,
+            (true, false) => f64::from(got).clamp(least, most),
+        }
+    }
+
+    fn allows(&self, got: f32, want: f64, slack: f64) -> bool {
+        let difference = (f64::from(got) - want).abs();
+        let has_no_bound = self.bound == f64::INFINITY;
+        has_no_bound || difference <= self.floor + slack || ulp_distance(got, want) <= self.bound
+    }
+}
+
+/// The smallest and the largest result at cosines that are numbers, with 0 and 1.
+pub fn result_range(cosines: &[f32], want: &Value<f64>) -> [f64; 2] {
+    let points = (0..cosines.len()).filter(|i| !cosines[*i].is_nan());
+    let results = points.flat_map(|i| want.at(i));
+    results.fold([0.0, 1.0], |[least, most], result| {
+        [least.min(result), most.max(result)]
+    })
+}
+
+impl Outcome {
+    /// Nothing was different.
+    pub const NONE: Outcome = Outcome {
+        error: CodeError::NONE,
+        miss: None,
+    };
+
+    /// What came of two.
+    pub fn worst(self, other: Outcome) -> Outcome {
+        let mut both = Outcome {
+            error: self.error.worst(other.error),
+            miss: self.miss,
+        };
+        if let Some(miss) = other.miss {
+            both.add(miss);
+        }
+        both
+    }
+
+    /// Keeps the miss that is further off in absolute terms: that is what a person sees.
+    fn add(&mut self, miss: Miss) {
+        let size = |miss: &Miss| {
+            let off = (f64::from(miss.got) - miss.expected).abs();
+            if off.is_nan() { f64::INFINITY } else { off }
+        };
+        if self.miss.is_none_or(|known| size(&miss) > size(&known)) {
+            self.miss = Some(miss);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::language::methods;
+
+    fn trial(name: &str, values: &[[f32; 3]]) -> Trial {
+        let method = methods::find(name).unwrap();
+        Trial {
+            function: method.function(false).unwrap(),
+            values: values.to_vec(),
+            table: None,
+            bound: Measured::Yes(method.claims.code_ulp),
+            floor: ABSOLUTE_FLOOR,
+            is_guarded: true,
+        }
+    }
+
+    #[test]
+    fn what_f32_gives_passes_and_what_is_off_is_a_miss() {
+        let trial = trial("schlick", &[[0.04, 0.5, 1.0]]);
+        let expected = trial.expected(&[-1.0, 0.0, 0.3, 1.0, 1.5]);
+        let got = trial.run::<f32>(&expected.cosines);
+        let mut got: Vec<[f32; 3]> = (0..5).map(|i| got.at(i)).collect();
+        assert_eq!(expected.judge(&got).miss, None);
+        got[2][1] *= 1.001;
+        let miss = expected.judge(&got).miss.unwrap();
+        assert_eq!((miss.cos_theta, miss.channel), (0.3, 1));
+        got[4][2] = f32::NAN;
+        assert!(expected.judge(&got).miss.unwrap().got.is_nan());
+    }
+
+    #[test]
+    fn for_nan_any_reflectance_is_right_and_nan_is_not() {
+        let trial = trial("schlick", &[[0.04, 0.5, 1.2]]);
+        let expected = trial.expected(&[f32::NAN, 0.0, 1.0, f32::INFINITY]);
+        let ends = [[1.0, 1.0, 1.0], [0.04, 0.5, 1.2], [0.04, 0.5, 1.2]];
+        let judge = |first: [f32; 3]| expected.judge(&[&[first], &ends[..]].concat()).miss;
+        assert_eq!(judge([0.0, 0.7, 1.2]), None);
+        assert_eq!(judge([0.0, 1.3, 1.0]).unwrap().channel, 1);
+        assert!(judge([0.0, 0.5, f32::NAN]).unwrap().got.is_nan());
+        assert_eq!(judge([-0.1, 0.5, 1.0]).unwrap().channel, 0);
+    }
+
+    #[test]
+    fn powers_get_what_vulkan_allows_and_no_more() {
+        let trial = trial("schlick_generalised", &[[0.04; 3], [1.0; 3], [5.0; 3]]);
+        let expected = trial.expected(&[0.5]);
+        // 5 · 2⁻²¹ of log2 near 1 and 3 + 2·5 ulp of exp2, in a term of 0.03.
+        let slack = expected.slack.as_ref().unwrap().at(0)[0];
+        assert!(slack > 2e-8 && slack < 2e-7, "{slack}");
+    }
+}

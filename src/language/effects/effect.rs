@@ -1,0 +1,284 @@
+//! What an effect is: a plain record in a static table, with its functions.
+
+use crate::language::ir::{
+    BrokenRule, Builder, Checked, Expr, Letters, Ty, check, identifier_fault, specialise,
+};
+use crate::language::methods::{Forms, Inputs, Method, Values};
+use crate::physics::cite::Citation;
+use crate::physics::num::Precision;
+
+/// Something that Fresnel's equations make visible, as functions that an application calls.
+#[derive(Debug)]
+pub struct Effect {
+    /// Its one name: file, `--effect`, row in every report.
+    pub name: &'static str,
+    /// One line.
+    pub summary: &'static str,
+    /// The formulas, in ASCII, a line each.
+    pub formula: &'static [&'static str],
+    /// Who published it.
+    pub source: Citation,
+    /// What its arguments mean beyond what each says of itself, and what is left to the application, a line each.
+    pub conventions: &'static [&'static str],
+    /// Where it must be wrong, a line each.
+    pub fails: &'static [&'static str],
+    /// Its functions. Each gives one result.
+    pub functions: &'static [EffectFunction],
+}
+
+/// One function of an effect.
+#[derive(Debug)]
+pub struct EffectFunction {
+    /// Its name after the prefix.
+    pub name: &'static str,
+    /// What it gives.
+    pub gives: &'static str,
+    /// Its arguments; those of the Fresnel method come after them.
+    pub arguments: &'static [Argument],
+    /// Whether it asks for the reflectance, so that a Fresnel method is part of it.
+    pub reflectance: Reflectance,
+    /// How far single precision may be from f64, of results above 1 as a share of them, beyond what a last bit of the arguments turns, and
+    /// without what the method of R adds. Tests hold it in both directions.
+    pub code_abs: f64,
+    /// Whether its numbers are colours, or places and directions.
+    pub letters: Letters,
+    /// Builds the formula.
+    pub build: for<'b> fn(&Arguments<'b>) -> Expr<'b>,
+}
+
+/// The reflectance that a function asks for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Reflectance {
+    /// None.
+    Unused,
+    /// One for each channel; where the method has a scalar form there is a second function with one for all.
+    EachChannel,
+    /// The same, of light that leaves a body: a material's index counts inverted.
+    FromWithin,
+}
+
+impl Reflectance {
+    /// Whether a Fresnel method is part of the function.
+    pub fn is_used(self) -> bool {
+        self != Reflectance::Unused
+    }
+}
+
+/// An argument of an effect's function.
+#[derive(Clone, Copy, Debug)]
+pub struct Argument {
+    /// Its name, the same in every language.
+    pub name: &'static str,
+    /// What it means, with its unit.
+    pub meaning: &'static str,
+    /// Its type.
+    pub ty: Ty,
+    /// Where the function's error is stated.
+    pub domain: Domain,
+}
+
+/// The values of an argument for which a function states its error. It gives numbers for others too.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Domain {
+    /// Vectors of length 1.
+    UnitLength,
+    /// From the first number to the second, each component.
+    Within(f64, f64),
+    /// A camera's matrix, the map to texture coordinates, a texture: what the argument means.
+    Whole,
+}
+
+impl Domain {
+    /// In words.
+    pub fn words(self) -> String {
+        match self {
+            Domain::UnitLength => "of unit length".to_owned(),
+            Domain::Within(least, most) => format!("{least} to {most}"),
+            Domain::Whole => "any".to_owned(),
+        }
+    }
+}
+
+impl Argument {
+    /// A number from the first to the second.
+    pub const fn scalar(
+        name: &'static str,
+        meaning: &'static str,
+        least: f64,
+        most: f64,
+    ) -> Argument {
+        let domain = Domain::Within(least, most);
+        Argument {
+            name,
+            meaning,
+            ty: Ty::Scalar,
+            domain,
+        }
+    }
+
+    /// A place or a colour, with components from the first number to the second.
+    pub const fn vector(
+        name: &'static str,
+        meaning: &'static str,
+        least: f64,
+        most: f64,
+    ) -> Argument {
+        let domain = Domain::Within(least, most);
+        Argument {
+            name,
+            meaning,
+            ty: Ty::Rgb,
+            domain,
+        }
+    }
+
+    /// A direction.
+    pub const fn direction(name: &'static str, meaning: &'static str) -> Argument {
+        let domain = Domain::UnitLength;
+        Argument {
+            name,
+            meaning,
+            ty: Ty::Rgb,
+            domain,
+        }
+    }
+
+    /// Two numbers from the first to the second.
+    pub const fn pair(
+        name: &'static str,
+        meaning: &'static str,
+        least: f64,
+        most: f64,
+    ) -> Argument {
+        let domain = Domain::Within(least, most);
+        Argument {
+            name,
+            meaning,
+            ty: Ty::Vec2,
+            domain,
+        }
+    }
+
+    /// A matrix, a map of texture coordinates or a texture.
+    pub const fn whole(name: &'static str, meaning: &'static str, ty: Ty) -> Argument {
+        Argument {
+            name,
+            meaning,
+            ty,
+            domain: Domain::Whole,
+        }
+    }
+}
+
+/// The arguments of a function while it is built.
+#[derive(Debug)]
+pub struct Arguments<'b> {
+    builder: &'b Builder,
+    given: Vec<(&'static str, Expr<'b>)>,
+    fresnel: Option<(&'static Method, Vec<Expr<'b>>)>,
+}
+
+impl<'b> Arguments<'b> {
+    /// An argument that the function declares.
+    pub fn get(&self, argument: Argument) -> Expr<'b> {
+        let found = self.given.iter().find(|(name, _)| *name == argument.name);
+        let found = found.expect("a function asks only for arguments that it declares");
+        found.1
+    }
+
+    /// A constant.
+    pub fn number(&self, value: f64) -> Expr<'b> {
+        self.builder.number(value)
+    }
+
+    /// A place or a direction from three numbers.
+    pub fn vector(&self, x: Expr<'b>, y: Expr<'b>, z: Expr<'b>) -> Expr<'b> {
+        self.builder.compose(x, y, z)
+    }
+
+    /// The reflectance by the chosen method at the cosine of an angle of incidence.
+    pub fn fresnel(&self, cos_theta: Expr<'b>) -> Expr<'b> {
+        let (method, inputs) = self.fresnel.as_ref().expect("the function asks for it");
+        let inputs = Inputs::given(cos_theta, method.inputs, inputs, Precision::F32);
+        (method.build)(&inputs)
+    }
+}
+
+/// A function of an effect, made for a Fresnel method and a number of channels.
+#[derive(Clone, Debug)]
+pub struct BuiltEffect {
+    /// Its name after the prefix.
+    pub name: String,
+    /// What it was made from.
+    pub record: &'static EffectFunction,
+    /// The graph.
+    pub function: Checked,
+}
+
+impl EffectFunction {
+    /// This function in each form that it has with this method: one, or one for three channels and one for one.
+    ///
+    /// # Errors
+    /// The graph breaks a rule of [`crate::language::ir::RULES`]; tests hold that none does.
+    pub fn built(&'static self, method: &'static Method) -> Result<Vec<BuiltEffect>, BrokenRule> {
+        let has_scalar_form = self.reflectance.is_used() && method.forms == Forms::ColourAndScalar;
+        let forms = [(false, ""), (true, "_scalar")];
+        let forms = forms
+            .into_iter()
+            .filter(|(is_scalar, _)| !is_scalar || has_scalar_form);
+        forms
+            .map(|(is_scalar, suffix)| {
+                Ok(BuiltEffect {
+                    name: format!("{}{suffix}", self.name),
+                    record: self,
+                    function: self.graph(method, is_scalar, &Values::new())?,
+                })
+            })
+            .collect()
+    }
+
+    /// This function with the arguments that have a value fixed; nothing where it has none of them.
+    ///
+    /// # Errors
+    /// With these constants the graph breaks a rule of [`crate::language::ir::RULES`]: one is not finite in single precision, for example.
+    pub fn specialised(
+        &self,
+        method: &'static Method,
+        values: &Values,
+    ) -> Option<Result<Checked, BrokenRule>> {
+        let own = self.arguments.iter().map(|argument| argument.name);
+        let inputs = method.inputs.iter().map(|input| input.name);
+        let inputs = inputs.filter(|_| self.reflectance.is_used());
+        let mut names = own.chain(inputs);
+        let has_one = names.any(|name| values.contains_key(name));
+        has_one.then(|| self.graph(method, false, values))
+    }
+
+    fn graph(
+        &self,
+        method: &'static Method,
+        is_scalar: bool,
+        values: &Values,
+    ) -> Result<Checked, BrokenRule> {
+        let builder = Builder::with_letters(self.letters);
+        let declare = |argument: &Argument| {
+            debug_assert_eq!(identifier_fault(argument.name), None);
+            (argument.name, builder.param(argument.name, argument.ty))
+        };
+        let given = self.arguments.iter().map(declare).collect();
+        let fresnel = (self.reflectance.is_used()).then(|| {
+            let ty = |ty: Ty| if is_scalar { Ty::Scalar } else { ty };
+            let declare =
+                |input: &crate::language::methods::Input| builder.param(input.name, ty(input.ty));
+            (method, method.inputs.iter().map(declare).collect())
+        });
+        let arguments = Arguments {
+            builder: &builder,
+            given,
+            fresnel,
+        };
+        let result = (self.build)(&arguments);
+        let whole = builder.finish(self.name, result);
+        check(specialise(&whole, values))
+    }
+}

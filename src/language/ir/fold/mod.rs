@@ -1,0 +1,272 @@
+//! Constant folding and specialising: what a material's constants leave of a method.
+//!
+//! A function is rebuilt node by node until nothing changes. Each node is, in this order: computed in f64 where
+//! its arguments are constants; dropped where the *range* of its arguments decides it (a comparison that always
+//! holds, a guard that never acts), ranges being intervals from an evaluation of the whole function; or
+//! rewritten by an identity of `identity`. Equal nodes are shared by the builder.
+//!
+//! The only algebra is what constants make trivial. `0 x = 0` is used: no formula here relies on infinities.
+//!
+//! For half precision ranges must lie further apart, and constants below its smallest normal number, which hardware may
+//! take for 0, are 0.
+
+use std::collections::BTreeMap;
+
+mod identity;
+mod range;
+
+use super::build::{Builder, Expr};
+use super::check::wants_name;
+use super::evaluate::{Value, apply};
+use super::graph::{Function, Label, Node, NodeId, Ty};
+use super::op::{Op, Payload};
+use crate::physics::num::Precision;
+use identity::{identity, merged, spread, value_of};
+use range::{decided, ranges};
+
+/// The function with these arguments fixed (a scalar argument takes the first number), folded.
+/// Arguments that are not named stay.
+pub fn specialise(function: &Function, constants: &BTreeMap<String, [f64; 3]>) -> Function {
+    specialise_in(Precision::F32, function, constants)
+}
+
+/// The same for code in this precision; constants are folded in f64 all the same.
+pub fn specialise_in(
+    precision: Precision,
+    function: &Function,
+    constants: &BTreeMap<String, [f64; 3]>,
+) -> Function {
+    let builder = Builder::with_letters(function.letters);
+    let arguments: Vec<Expr> = function
+        .params
+        .iter()
+        .map(|param| match (constants.get(&param.name), param.ty) {
+            (Some(value), Ty::Rgb) => builder.colour(*value),
+            (Some(value), _) => builder.number(value[0]),
+            (None, ty) => builder.param(&param.name, ty),
+        })
+        .collect();
+    let fixed = rebuild(function, &builder, &arguments, |_, _, _| None);
+    name_shared(without_needless_names(fold_in(precision, &fixed)))
+}
+
+/// The reason of a step that has a name only because it is used twice. Where constants leave one use the name goes.
+pub const USED_TWICE: &str = "used twice";
+
+fn without_needless_names(mut function: Function) -> Function {
+    let uses = function.uses();
+    for (node, uses) in function.nodes.iter_mut().zip(uses) {
+        let is_needless = |label: &Label| uses < 2 && label.why == USED_TWICE;
+        if node.label.as_ref().is_some_and(is_needless) {
+            node.label = None;
+        }
+    }
+    function
+}
+
+/// Names what constants have made shared: two steps that were different and now are one.
+fn name_shared(mut function: Function) -> Function {
+    let uses = function.uses();
+    let unnamed: Vec<NodeId> = (0..function.nodes.len())
+        .filter(|id| wants_name(&function, *id, uses[*id]))
+        .collect();
+    for (count, id) in unnamed.into_iter().enumerate() {
+        function.nodes[id].label = Some(Label {
+            name: format!("part_{}", count + 1),
+            why: String::new(),
+        });
+    }
+    function
+}
+
+/// The function with all that is constant or decided taken out.
+pub fn fold(function: &Function) -> Function {
+    fold_in(Precision::F32, function)
+}
+
+/// The same for code in this precision.
+pub fn fold_in(precision: Precision, function: &Function) -> Function {
+    let mut current = function.compact();
+    loop {
+        let next = pass(precision, &current);
+        if next != current {
+            current = next;
+        } else if !flush(precision, &mut current) {
+            return current;
+        }
+    }
+}
+
+/// Makes constants 0 that half precision has no normal number for; whether there were any.
+fn flush(precision: Precision, function: &mut Function) -> bool {
+    let mut found = false;
+    for node in function.nodes.iter_mut().filter(|_| precision.is_half()) {
+        if let Payload::Number(value) = &mut node.payload {
+            let is_small = *value != 0.0 && value.abs() < precision.smallest();
+            if is_small {
+                (*value, found) = (0.0, true);
+            }
+        }
+    }
+    found
+}
+
+fn pass(precision: Precision, function: &Function) -> Function {
+    let ranges = ranges(function);
+    let uses = function.uses();
+    let builder = Builder::with_letters(function.letters);
+    let params: Vec<Expr> = function
+        .params
+        .iter()
+        .map(|param| builder.param(&param.name, param.ty))
+        .collect();
+    rebuild(function, &builder, &params, |id, node, args| {
+        constant(&builder, node, args)
+            .or_else(|| decided(precision, function, node, args, &ranges))
+            .or_else(|| identity(&builder, node, args))
+            .or_else(|| spread(&builder, node, args))
+            .or_else(|| merged(&builder, function, &uses, id, args))
+    })
+}
+
+/// Copies a function into a builder. `rewrite` may offer another expression for a node.
+fn rebuild<'b>(
+    function: &Function,
+    builder: &'b Builder,
+    arguments: &[Expr<'b>],
+    rewrite: impl Fn(NodeId, &Node, &[Expr<'b>]) -> Option<Expr<'b>>,
+) -> Function {
+    let mut exprs: Vec<Expr<'b>> = Vec::new();
+    for (id, node) in function.nodes.iter().enumerate() {
+        let args: Vec<Expr<'b>> = node.args.iter().map(|a| exprs[*a]).collect();
+        let expr = match (node.op, node.payload) {
+            (Op::Param, Payload::Index(index)) => arguments[index],
+            _ => rewrite(id, node, &args).unwrap_or_else(|| copy(builder, node, &args)),
+        };
+        if let Some(label) = &node.label {
+            name(builder, expr, label, node.op);
+        }
+        exprs.push(expr);
+    }
+    builder.finish(&function.name, exprs[function.result])
+}
+
+/// Gives a step its name. Where the channels have become equal the name goes to the scalar that is left of them; a
+/// constant that is one number needs none. What is left of a choice bears the choice's name: its own speaks of branches that
+/// are gone.
+fn name(builder: &Builder, expr: Expr, label: &Label, op: Op) {
+    let node = builder.node(expr.id());
+    let scalar = if node.op == Op::Splat {
+        builder.expr(node.args[0])
+    } else {
+        expr
+    };
+    let left = builder.node(scalar.id());
+    if left.is_leaf() {
+        return;
+    }
+    // A choice stands for all channels, or is made for each of them.
+    if matches!(op, Op::Select | Op::Compose) && left.op != op {
+        scalar.renamed(label.clone());
+    } else {
+        scalar.named(&label.name, &label.why);
+    }
+}
+
+fn copy<'b>(builder: &'b Builder, node: &Node, args: &[Expr<'b>]) -> Expr<'b> {
+    let ids: Vec<NodeId> = args.iter().map(|arg| arg.id()).collect();
+    builder.push(node.op, &ids, node.payload)
+}
+
+fn constant<'b>(builder: &'b Builder, node: &Node, args: &[Expr<'b>]) -> Option<Expr<'b>> {
+    // Compose and splat of numbers *are* how a constant colour is written.
+    if node.is_leaf() || matches!(node.op, Op::Compose | Op::Splat | Op::Less) {
+        return None;
+    }
+    if node.op == Op::Select {
+        return None;
+    }
+    let values: Vec<Value<f64>> = args
+        .iter()
+        .map(|arg| value_of(builder, arg.id()))
+        .collect::<Option<_>>()?;
+    let same = node.args.len() == 2 && node.args[0] == node.args[1];
+    let places = if same {
+        vec![0, 0]
+    } else {
+        (0..node.args.len()).collect()
+    };
+    let value = apply(
+        &Node {
+            args: places,
+            ..node.clone()
+        },
+        &values,
+        &[],
+    );
+    let channels = value.at(0);
+    if !channels.iter().all(|channel| channel.is_finite()) {
+        return None;
+    }
+    Some(if node.ty == Ty::Rgb {
+        builder.colour(channels)
+    } else {
+        builder.number(channels[0])
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::text::{parse, print};
+    use super::*;
+
+    #[track_caller]
+    fn check(input: &str, expected: &str) {
+        let function = parse(input).expect("the case parses");
+        assert_eq!(print(&fold(&function)).trim(), expected.trim());
+    }
+
+    #[test]
+    fn constants_are_computed() {
+        check(
+            "fn f(x: scalar) -> scalar\n  a = mul 2 3\n  b = add a x\n  return b",
+            "fn f(x: scalar) -> scalar\n  b = add 6 x\n  return b",
+        );
+    }
+
+    #[test]
+    fn a_comparison_that_always_holds_is_dropped_and_its_choice_gives_the_name() {
+        check(
+            "fn f(x: scalar) -> scalar\n  c = saturate x\n  t = sub c 2\n  l = less t 0\n  s = select l c t\n  return s",
+            "fn f(x: scalar) -> scalar\n  s = saturate x\n  return s",
+        );
+    }
+
+    #[test]
+    fn a_guard_that_never_acts_is_dropped_and_one_that_may_stays() {
+        check(
+            "fn f(x: scalar) -> scalar\n  c = saturate x\n  t = add c 1\n  g = max t 1e-30\n  q = div c g\n  return q",
+            "fn f(x: scalar) -> scalar\n  c = saturate x\n  t = add c 1\n  q = div c t\n  return q",
+        );
+        check(
+            "fn f(x: scalar) -> scalar\n  c = saturate x\n  g = max c 1e-30\n  q = div 1 g\n  return q",
+            "fn f(x: scalar) -> scalar\n  c = saturate x\n  g = max c 1e-30\n  q = div 1 g\n  return q",
+        );
+    }
+
+    #[test]
+    fn constants_merge_through_a_sum() {
+        check(
+            "fn f(x: scalar) -> scalar\n  a = mul 3 x\n  b = add 2 a\n  c = div b 4\n  return c",
+            "fn f(x: scalar) -> scalar\n  %0 = mul 0.75 x\n  c = add 0.5 %0\n  return c",
+        );
+    }
+
+    #[test]
+    fn three_channels_of_one_colour_are_the_colour() {
+        check(
+            "fn f(x: rgb) -> rgb\n  r = channel 0 x\n  g = channel 1 x\n  b = channel 2 x\n  y = compose r g b\n  z = mul y 2\n  return z",
+            "fn f(x: rgb) -> rgb\n  z = mul x 2\n  return z",
+        );
+    }
+}

@@ -1,0 +1,333 @@
+//! The inputs of methods: one vocabulary with units, domain, where their values come from, and the values that they are
+//! tried with. One that a single method takes stands in that method's file.
+
+use crate::language::ir::{Builder, COSINE, Expr, Ty};
+use crate::physics::num::Precision;
+
+use super::known::KnownSurface;
+
+/// An argument that a method takes after `cos_theta`.
+#[derive(Clone, Copy, Debug)]
+pub struct Input {
+    /// Its name in every language.
+    pub name: &'static str,
+    /// Scalar, a value per channel, or a texture.
+    pub ty: Ty,
+    /// What it is, and its unit.
+    pub meaning: &'static str,
+    /// Where it lies in single precision.
+    pub range: Range,
+    /// Where its value comes from.
+    pub source: InputSource,
+    /// Whether a result may reach its value where that exceeds 1: F0 of a colour beyond the gamut. Other results end at 1.
+    pub raises_limit: bool,
+    /// Values within reason that tests try, in all combinations with those of other inputs: a usual one first, then the
+    /// ends of what people give and what is hard.
+    pub tried: &'static [f64],
+    /// Values within its range and past it, ascending, where the scan for failures looks.
+    pub scanned: &'static [f64],
+}
+
+/// Where the value of an input comes from.
+#[derive(Clone, Copy, Debug)]
+pub enum InputSource {
+    /// The material: its index, or what it reflects.
+    Material(fn(&KnownSurface) -> [f64; 3]),
+    /// The material, in channels that have a value; 0 stands for none.
+    MaterialOrNone(fn(&KnownSurface) -> [Option<f64>; 3]),
+    /// The artist. Functions of materials take this value.
+    Artist(f64),
+    /// A fit to the material's reflectance over all angles.
+    Fit,
+    /// The texture of a lookup table, which is no number.
+    Texture,
+    /// The layout of that texture. This is what `bake` writes unless asked otherwise.
+    TextureLayout(f64),
+}
+
+/// Where an argument lies, both ends included. Within its arguments' ranges a function gives a number.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Range {
+    /// The least value.
+    pub least: f64,
+    /// The largest value.
+    pub most: f64,
+}
+
+impl Range {
+    /// In words: `0.001 to 1e9`.
+    pub fn words(self) -> String {
+        format!("{} to {}", figure(self.least), figure(self.most))
+    }
+}
+
+/// A number as a person writes it.
+fn figure(value: f64) -> String {
+    if value.abs() < 1e5 {
+        value.to_string()
+    } else {
+        format!("{value:e}")
+    }
+}
+
+impl Input {
+    /// A value per channel.
+    pub(super) const fn rgb(
+        name: &'static str,
+        meaning: &'static str,
+        [least, most]: [f64; 2],
+        source: InputSource,
+    ) -> Input {
+        Input {
+            name,
+            ty: Ty::Rgb,
+            meaning,
+            range: Range { least, most },
+            source,
+            raises_limit: false,
+            tried: &[0.0, 1.0],
+            scanned: &[0.0, 1.0],
+        }
+    }
+
+    /// One value for all channels.
+    pub(super) const fn scalar(
+        name: &'static str,
+        meaning: &'static str,
+        range: [f64; 2],
+        source: InputSource,
+    ) -> Input {
+        Input {
+            ty: Ty::Scalar,
+            ..Input::rgb(name, meaning, range, source)
+        }
+    }
+
+    /// Its value for a surface; none where the surface alone does not give one.
+    pub fn value(&self, surface: &KnownSurface) -> Option<[f64; 3]> {
+        match self.source {
+            InputSource::Material(derived) => Some(derived(surface)),
+            InputSource::MaterialOrNone(derived) => {
+                Some(derived(surface).map(|value| value.unwrap_or(0.0)))
+            }
+            InputSource::Artist(value) | InputSource::TextureLayout(value) => Some([value; 3]),
+            InputSource::Fit | InputSource::Texture => None,
+        }
+    }
+
+    /// Whether a material has a value of its own for it.
+    pub fn is_of_material(&self) -> bool {
+        use InputSource::{Material, MaterialOrNone};
+        matches!(self.source, Material(_) | MaterialOrNone(_))
+    }
+
+    /// A value of a channel; none where 0 stands for none.
+    pub fn present(&self, value: f64) -> Option<f64> {
+        let may_lack = matches!(self.source, InputSource::MaterialOrNone(_));
+        (!may_lack || value > 0.0).then_some(value)
+    }
+
+    pub(super) const fn tried(self, tried: &'static [f64]) -> Input {
+        Input { tried, ..self }
+    }
+
+    pub(super) const fn scanned(self, scanned: &'static [f64]) -> Input {
+        Input { scanned, ..self }
+    }
+}
+
+/// Indices of anything: of what is thinner than its medium, of what is nearly matched, of glass, diamond and lead telluride.
+const INDICES: &[f64] = &[
+    1.5,
+    1e-3,
+    0.05,
+    0.7,
+    0.999_999_9,
+    1.0,
+    1.000_000_1,
+    1.0001,
+    2.4,
+    12.0,
+    1e3,
+];
+/// Reflectances, and what gold's red is in sRGB.
+const REFLECTANCES: &[f64] = &[0.04, 0.0, 1e-6, 0.5, 0.98, 1.0, 1.06];
+/// Reflectances, and what nothing reflects.
+const REFLECTANCES_AND_BEYOND: &[f64] = &[
+    -1.0, -0.1, -1e-9, 0.0, 1e-9, 1e-4, 0.02, 0.04, 0.1, 0.3, 0.5, 0.8, 0.95, 0.99, 0.9999, 1.0,
+    1.0001, 1.06, 1.5, 4.0, 100.0,
+];
+/// Shares, and what lies beyond them.
+pub(super) const SHARES_AND_BEYOND: &[f64] = &[
+    -0.5, -1e-6, 0.0, 1e-6, 0.04, 0.3, 0.5, 0.9, 1.0, 1.0001, 1.5,
+];
+/// Exponents of 1 - c.
+pub(super) const POWERS: &[f64] = &[5.0, 0.2, 1.0, 40.0];
+/// Exponents, and what no curve has.
+pub(super) const POWERS_AND_BEYOND: &[f64] =
+    &[0.0, 0.2, 0.5, 1.0, 2.0, 4.0, 5.0, 8.0, 20.0, 100.0, 1000.0];
+/// Shares.
+pub(super) const SHARES: &[f64] = &[1.0, 0.0, 0.3];
+
+/// The inputs that several methods take. Those of a single method stand in its file.
+#[allow(missing_docs)] // each says what it is
+impl Input {
+    pub const ETA: Input = Input::rgb(
+        "eta",
+        "relative index of refraction, transmitted over incident (n_t / n_i)",
+        [0.001, 1e12],
+        InputSource::Material(|known| known.n),
+    )
+    .tried(INDICES)
+    .scanned(&[0.0, 1e-30, 1e4, 1e6]);
+
+    pub const N: Input = Input::rgb(
+        "n",
+        "real part of the relative index of refraction",
+        [0.001, 1e9],
+        InputSource::Material(|known| known.n),
+    )
+    .tried(INDICES)
+    .scanned(&[0.0, 1e-30, 1e4, 1e6]);
+
+    pub const K: Input = Input::rgb(
+        "k",
+        "extinction coefficient, the imaginary part of the relative index",
+        [0.0, 1e9],
+        InputSource::Material(|known| known.k),
+    )
+    .tried(&[1.0, 0.0, 1e-41, 1e-20, 1e-3, 4.0, 13.0, 1e4])
+    .scanned(&[0.0, 1e-41, 1.0, 1e4, 1e6]);
+
+    pub const F0: Input = Input {
+        raises_limit: true,
+        ..Input::rgb(
+            "f0",
+            "reflectance at normal incidence, linear",
+            [0.0, 1.0],
+            InputSource::Material(|known| known.f0),
+        )
+        .tried(REFLECTANCES)
+        .scanned(REFLECTANCES_AND_BEYOND)
+    };
+
+    pub const F82: Input = Input::rgb(
+        "f82",
+        "reflectance at cos_theta = 1/7 (81.79 degrees), linear",
+        [0.0, 1.0],
+        InputSource::Material(|known| known.f82),
+    )
+    .tried(REFLECTANCES)
+    .scanned(REFLECTANCES_AND_BEYOND);
+
+    pub const F90: Input = Input::scalar(
+        "f90",
+        "reflectance at 90 degrees",
+        [0.0, 1.0],
+        InputSource::Artist(1.0),
+    )
+    .tried(SHARES)
+    .scanned(SHARES_AND_BEYOND);
+}
+
+/// The input of this name, of whichever method takes it.
+pub fn find_input(name: &str) -> Option<&'static Input> {
+    let mut inputs = super::ALL.iter().flat_map(|method| method.inputs);
+    inputs.find(|input| input.name == name)
+}
+
+/// The arguments of a method while it is built.
+#[derive(Debug)]
+pub struct Inputs<'b> {
+    cos_theta: Expr<'b>,
+    given: Vec<(&'static str, Expr<'b>)>,
+    precision: Precision,
+}
+
+impl<'b> Inputs<'b> {
+    /// Declares `cos_theta` and these inputs as arguments. In the scalar form every input is a scalar.
+    pub fn declare(
+        builder: &'b Builder,
+        inputs: &[Input],
+        scalar_form: bool,
+        precision: Precision,
+    ) -> Inputs<'b> {
+        let cos_theta = builder.param(COSINE, Ty::Scalar);
+        let ty = |input: &Input| match input.ty {
+            Ty::Rgb if scalar_form => Ty::Scalar,
+            ty => ty,
+        };
+        let given = inputs
+            .iter()
+            .map(|input| (input.name, builder.param(input.name, ty(input))))
+            .collect();
+        Inputs {
+            cos_theta,
+            given,
+            precision,
+        }
+    }
+
+    /// Declares these inputs alone, for what depends on no cosine. In the scalar form every input is a scalar.
+    pub fn without_cosine(
+        builder: &'b Builder,
+        inputs: &[Input],
+        scalar_form: bool,
+        precision: Precision,
+    ) -> Inputs<'b> {
+        let ty = |input: &Input| if scalar_form { Ty::Scalar } else { input.ty };
+        let declared = inputs
+            .iter()
+            .map(|input| (input.name, builder.param(input.name, ty(input))));
+        Inputs {
+            given: declared.collect(),
+            cos_theta: builder.number(1.0),
+            precision,
+        }
+    }
+
+    /// These expressions as `cos_theta` and these inputs, in their order: the formula becomes part of another function.
+    pub fn given(
+        cos_theta: Expr<'b>,
+        inputs: &[Input],
+        values: &[Expr<'b>],
+        precision: Precision,
+    ) -> Inputs<'b> {
+        let names = inputs.iter().map(|input| input.name);
+        Inputs {
+            cos_theta,
+            given: names.zip(values.iter().copied()).collect(),
+            precision,
+        }
+    }
+
+    /// What the formula is computed in: one that overflows or cancels in half precision is built otherwise there.
+    pub fn precision(&self) -> Precision {
+        self.precision
+    }
+
+    /// Whether the formula is computed in half precision.
+    pub fn is_half(&self) -> bool {
+        self.precision.is_half()
+    }
+
+    /// `cos_theta` as it came. Only methods that are exempt from the contract use it so.
+    pub fn raw_cosine(&self) -> Expr<'b> {
+        self.cos_theta
+    }
+
+    /// `cos_theta` limited to [0, 1]: a rounded dot product may be 1 + 1 ulp, and a power of 1 - c would be NaN.
+    pub fn cosine(&self) -> Expr<'b> {
+        self.cos_theta
+            .saturate()
+            .named("c", "clamp: a rounded dot product may exceed 1")
+    }
+
+    /// An input that the method declared.
+    pub fn get(&self, input: Input) -> Expr<'b> {
+        let found = self.given.iter().find(|(name, _)| *name == input.name);
+        found
+            .expect("a method asks only for inputs that it declares; its first test would fail")
+            .1
+    }
+}

@@ -1,0 +1,40 @@
+//! The check that methods' limit tests share: one evaluation in f64 against an expected value.
+#![cfg(test)]
+
+use crate::language::ir::{Value, evaluate};
+
+use super::method::Method;
+
+/// What the library function gives in f64; each argument is the same in all channels.
+pub fn value(method: &Method, cos_theta: f64, arguments: &[f64]) -> f64 {
+    let function = method.function(false);
+    let function = function.unwrap_or_else(|fault| panic!("{fault}"));
+    let mut values = vec![Value::<f64>::scalar(cos_theta)];
+    for (param, argument) in function.params.iter().skip(1).zip(arguments) {
+        let colour = param.ty.channels() == 3;
+        values.push(if colour {
+            Value::rgb([*argument; 3])
+        } else {
+            Value::scalar(*argument)
+        });
+    }
+    assert_eq!(
+        values.len(),
+        function.params.len(),
+        "{}: arguments",
+        method.name
+    );
+    evaluate(&function, &values).at(0)[0]
+}
+
+/// Checks one value to 1e-12.
+#[track_caller]
+pub fn check(method: &Method, cos_theta: f64, arguments: &[f64], expected: f64) {
+    let got = value(method, cos_theta, arguments);
+    let close = (got - expected).abs() <= 1e-12;
+    assert!(
+        close,
+        "{}({cos_theta}, {arguments:?}) = {got:.17}, expected {expected:.17}",
+        method.name
+    );
+}

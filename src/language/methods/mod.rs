@@ -1,0 +1,175 @@
+//! The methods, one file each: a formula for reflectance with its source, inputs, domain and promised errors.
+//!
+//! To add one, write its file: a `//!` header with formula and source, a `pub static METHOD: Method`, a `build`
+//! function and its limit tests. Then run `tests/lists`, which writes the list below. ARCHITECTURE.md says the next steps.
+//! Fitted methods take their place here like all others, with their coefficients as inputs.
+//! The room knows no target.
+
+mod affine;
+mod by_class;
+mod class;
+mod half;
+mod input;
+mod known;
+mod limits;
+mod method;
+mod origin;
+mod renamed;
+mod shape;
+
+pub use affine::{Affine, Basis, FittedAverage, MOST_TERMS};
+pub use by_class::{ByClass, Spread, by_class, promises_by_class};
+pub use class::Class;
+pub use half::{HALF_AIM, HalfClaim, InHalf};
+pub use input::{Input, InputSource, Inputs, Range, find_input};
+pub use known::KnownSurface;
+pub use method::{
+    Better, Claim, Claims, CoefficientsFromInputs, Colours, Contract, Forms, Light, Method, Over,
+    Values,
+};
+pub use origin::Origin;
+pub use renamed::{FORMER, RENAMED, Renamed, renamed};
+pub use shape::{Factor, Shape};
+
+// BEGIN methods (written by tests/lists)
+mod belcour_decomposition;
+mod conductor_artistic;
+mod conductor_exact;
+mod conductor_exact_metal;
+mod conductor_from_f0_f82;
+mod conductor_textbook;
+mod constant_f0;
+mod dielectric_exact;
+mod dielectric_exact_p;
+mod dielectric_exact_s;
+mod dielectric_textbook;
+mod empirical;
+mod f82_tint;
+mod fitted;
+mod fitted_dielectric;
+mod fitted_dielectric_rational;
+mod fitted_f82;
+mod fitted_f82_metal;
+mod fitted_five;
+mod fitted_rational;
+mod hoffman_f82;
+mod schlick;
+mod schlick_corrected;
+mod schlick_f90;
+mod schlick_generalised;
+mod schlick_ior;
+mod schlick_rescaled;
+mod schlick_spherical_gaussian;
+mod table;
+
+/// Every method, by name.
+#[rustfmt::skip]
+pub static ALL: &[&Method] = &[
+    &belcour_decomposition::METHOD,
+    &conductor_artistic::METHOD,
+    &conductor_exact::METHOD,
+    &conductor_exact_metal::METHOD,
+    &conductor_from_f0_f82::METHOD,
+    &conductor_textbook::METHOD,
+    &constant_f0::METHOD,
+    &dielectric_exact::METHOD,
+    &dielectric_exact_p::METHOD,
+    &dielectric_exact_s::METHOD,
+    &dielectric_textbook::METHOD,
+    &empirical::METHOD,
+    &f82_tint::METHOD,
+    &fitted::METHOD,
+    &fitted_dielectric::METHOD,
+    &fitted_dielectric_rational::METHOD,
+    &fitted_f82::METHOD,
+    &fitted_f82_metal::METHOD,
+    &fitted_five::METHOD,
+    &fitted_rational::METHOD,
+    &hoffman_f82::METHOD,
+    &schlick::METHOD,
+    &schlick_corrected::METHOD,
+    &schlick_f90::METHOD,
+    &schlick_generalised::METHOD,
+    &schlick_ior::METHOD,
+    &schlick_rescaled::METHOD,
+    &schlick_spherical_gaussian::METHOD,
+    &table::METHOD,
+];
+// END methods
+
+pub use f82_tint::schlick_82;
+pub use schlick_corrected::lambda;
+pub use table::{ONLY_ROW, TEXELS, WARP, fetch, unwarped, warped, warped_step};
+
+/// The method of this name, or of this old name.
+///
+/// ```
+/// let schlick = fresnel_gen::language::methods::find("schlick").expect("it is a method");
+/// assert_eq!(schlick.source.year, 1994);
+/// ```
+pub fn find(name: &str) -> Option<&'static Method> {
+    let found = ALL.iter().find(|method| method.name == name).copied();
+    found.or_else(|| renamed::find_renamed(name))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{ALL, Input, find_input};
+    use crate::language::ir::{Op, Payload};
+    use crate::physics::num::Precision;
+
+    #[test]
+    fn every_form_of_every_method_is_well_formed() {
+        for method in ALL {
+            for scalar_form in
+                [false, true]
+                    .into_iter()
+                    .take(if method.has_scalar_form() { 2 } else { 1 })
+            {
+                for precision in Precision::ALL {
+                    if let Err(fault) = method.function_in(precision, scalar_form) {
+                        panic!("{fault}");
+                    }
+                }
+            }
+        }
+    }
+
+    /// Compilers that warn of an argument without a use are told not to, since a function may be a constant. All others use all.
+    #[test]
+    fn what_computes_something_uses_every_argument() {
+        for method in ALL {
+            let function = method.function(false).expect("it is well formed");
+            let uses = |index| {
+                let nodes = &mut function.nodes.iter();
+                nodes.any(|node| node.op == Op::Param && node.payload == Payload::Index(index))
+            };
+            let all = (0..function.params.len()).all(uses);
+            assert!(all || function.computes_nothing(), "{}", method.name);
+        }
+    }
+
+    /// A name means one thing: inputs of one name are one input, and stand in one order wherever they meet.
+    #[test]
+    fn inputs_of_one_name_are_one() {
+        for method in ALL {
+            for input in method.inputs {
+                let first = find_input(input.name).expect("a method takes it");
+                assert_eq!((first.meaning, first.range), (input.meaning, input.range));
+                assert!(input.scanned.is_sorted_by(|a, b| a <= b), "{}", input.name);
+                let usual = input.tried.first().expect("a usual value");
+                assert!((input.range.least..=input.range.most).contains(usual));
+            }
+            for other in ALL {
+                let place =
+                    |input: &&Input| other.inputs.iter().position(|own| own.name == input.name);
+                let places: Vec<usize> = method
+                    .inputs
+                    .iter()
+                    .filter_map(|input| place(&input))
+                    .collect();
+                assert!(places.is_sorted(), "{} and {}", method.name, other.name);
+            }
+        }
+    }
+}

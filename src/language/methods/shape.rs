@@ -1,0 +1,292 @@
+//! The shapes of fitted methods: short forms in cos θ that are linear in their coefficients, so that coefficients can be
+//! blended, filtered and integrated over a spectrum.
+//!
+//! `F = c0 + f1 (c1 + f2 (c2 + ...))`: each factor f is a function of c = cos θ alone, shared between channels, and a coefficient
+//! costs one multiplication and one addition a channel.
+//!
+//! The mean over the hemisphere, `2 ∫ F c dc`, is linear too: what multiplies a coefficient is a constant of the shape
+//! ([`Shape::averages`]). Kulla and Conty, "Revisiting Physically Based Shading at Imageworks", SIGGRAPH course, 2017,
+//! <https://blog.selfshadow.com/publications/s2017-shading-course/>, and Turquin, "Practical multiple scattering compensation for
+//! microfacet models", 2019, <https://blog.selfshadow.com/publications/turquin/ms_comp_final.pdf>, ask for it.
+
+use std::fmt;
+use std::sync::LazyLock;
+
+use crate::language::ir::Expr;
+use crate::physics::num::Legendre;
+
+use super::input::{Input, InputSource, Inputs};
+
+/// A factor, for a cosine c in [0, 1].
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Factor {
+    /// `(1 - c)^p`.
+    Grazing(u32),
+    /// `2^(-a c)`.
+    Exponential(f64),
+    /// `c`.
+    Cosine,
+    /// `c² + e`.
+    Square(f64),
+    /// `c + p`: a part of the following.
+    Shifted(f64),
+    /// `1 / (c + p)`.
+    Reciprocal(f64),
+    /// `1 / √(c + p)`.
+    Root(f64),
+    /// `1 / (c² + e) - 1 / √(c + p)`, as (e, p).
+    Peak(f64, f64),
+    /// `(1 - c)² / (1 + a c)`.
+    Bent(f64),
+}
+
+/// A shape.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Shape {
+    /// What stands before each bracket, the outermost first.
+    pub factors: &'static [Factor],
+}
+
+/// The rule for means: factors are smooth, and more points change nothing.
+static RULE: LazyLock<Legendre> = LazyLock::new(|| Legendre::new(64));
+
+impl Shape {
+    /// The formula, for a method whose inputs are its coefficients. It is limited to [0, 1], which costs nothing on a GPU.
+    pub fn build<'b>(&self, x: &Inputs<'b>) -> Expr<'b> {
+        let mut made = Made::of(x);
+        let mut sum = x.get(Input::COEFFICIENTS[self.factors.len()]);
+        let terms = Input::COEFFICIENTS[..self.factors.len()].iter().rev();
+        for (factor, input) in self.factors.iter().rev().zip(terms) {
+            sum = x.get(*input) + made.factor(*factor) * sum;
+            sum = sum.named(&input.name.replace('c', "sum"), "");
+        }
+        sum.saturate()
+    }
+
+    /// How many coefficients it has.
+    pub fn terms(&self) -> usize {
+        self.factors.len() + 1
+    }
+
+    /// Adds to each of these sums, one a coefficient, a weight times what that coefficient multiplies at a cosine in [0, 1].
+    pub fn add(&self, c: f64, weight: f64, sums: &mut [f64]) {
+        let mut term = weight;
+        sums[0] += term;
+        for (factor, sum) in self.factors.iter().zip(&mut sums[1..]) {
+            term *= factor.at(c);
+            *sum += term;
+        }
+    }
+
+    /// What multiplies each coefficient in the mean over the hemisphere, of the form before its limit: twice the integral of its
+    /// factors times c, over c from 0 to 1, by Gauss's rule, within 1e-14.
+    pub fn averages(&self) -> Vec<f64> {
+        let mut sums = vec![0.0; self.terms()];
+        for (c, weight) in RULE.over(0.0, 1.0) {
+            self.add(c, 2.0 * c * weight, &mut sums);
+        }
+        sums[0] = 1.0;
+        sums
+    }
+}
+
+impl Factor {
+    /// Its value at a cosine in [0, 1].
+    fn at(self, c: f64) -> f64 {
+        match self {
+            Factor::Grazing(power) => (0..power).fold(1.0, |whole, _| whole * (1.0 - c)),
+            Factor::Exponential(a) => libm::exp2(-a * c),
+            Factor::Cosine => c,
+            Factor::Square(e) => c * c + e,
+            Factor::Shifted(p) => c + p,
+            Factor::Reciprocal(p) => 1.0 / (c + p),
+            Factor::Root(p) => 1.0 / (c + p).sqrt(),
+            Factor::Peak(e, p) => 1.0 / (c * c + e) - Factor::Root(p).at(c),
+            Factor::Bent(a) => (1.0 - c) * (1.0 - c) / (1.0 + a * c),
+        }
+    }
+}
+
+/// A factor as formulas have it.
+impl fmt::Display for Factor {
+    fn fmt(&self, out: &mut fmt::Formatter) -> fmt::Result {
+        match self {
+            Factor::Grazing(1) => write!(out, "(1 - c)"),
+            Factor::Grazing(power) => write!(out, "(1 - c)^{power}"),
+            Factor::Exponential(a) => write!(out, "2^(-{a} c)"),
+            Factor::Cosine => write!(out, "c"),
+            Factor::Square(e) => write!(out, "(c^2 + {e})"),
+            Factor::Shifted(p) => write!(out, "(c + {p})"),
+            Factor::Reciprocal(p) => write!(out, "1/(c + {p})"),
+            Factor::Root(p) => write!(out, "1/sqrt(c + {p})"),
+            Factor::Peak(e, p) => write!(out, "(1/(c^2 + {e}) - 1/sqrt(c + {p}))"),
+            Factor::Bent(a) => write!(out, "(1 - c)^2/(1 + {a} c)"),
+        }
+    }
+}
+
+/// A shape as a formula in c.
+impl fmt::Display for Shape {
+    fn fmt(&self, out: &mut fmt::Formatter) -> fmt::Result {
+        let last = self.factors.len();
+        for (i, factor) in self.factors.iter().enumerate() {
+            let bracket = if i + 1 < last { "(" } else { "" };
+            write!(out, "c{i} + {factor} {bracket}")?;
+        }
+        write!(out, "c{last}{}", ")".repeat(last.saturating_sub(1)))
+    }
+}
+
+/// Factors as steps of a graph, each made once.
+struct Made<'b> {
+    c: Expr<'b>,
+    is_half: bool,
+    known: Vec<(Factor, Expr<'b>)>,
+}
+
+impl<'b> Made<'b> {
+    fn of(x: &Inputs<'b>) -> Made<'b> {
+        Made {
+            c: x.cosine(),
+            is_half: x.is_half(),
+            known: Vec::new(),
+        }
+    }
+
+    fn factor(&mut self, factor: Factor) -> Expr<'b> {
+        let known = self.known.iter().find(|(other, _)| *other == factor);
+        if let Some((_, made)) = known {
+            return *made;
+        }
+        let made = self.make(factor);
+        self.known.push((factor, made));
+        made
+    }
+
+    fn make(&mut self, factor: Factor) -> Expr<'b> {
+        let c = self.c;
+        match factor {
+            Factor::Grazing(1) => (1.0 - c).named("b", "0 at normal incidence, 1 at grazing"),
+            Factor::Grazing(p) if self.is_half => power_in_half(c, p),
+            Factor::Grazing(p) => power(self.factor(Factor::Grazing(1)), p),
+            Factor::Exponential(a) => {
+                let b = (-a * c).exp2();
+                b.named("b", "small at normal incidence, 1 at grazing")
+            }
+            Factor::Cosine => c,
+            Factor::Square(e) => (c * c + e).named("q", ""),
+            Factor::Shifted(p) => (c + p).named("l", ""),
+            Factor::Reciprocal(p) => (1.0 / self.factor(Factor::Shifted(p))).named("r", ""),
+            Factor::Root(p) => {
+                let root = self.factor(Factor::Shifted(p)).inverse_sqrt();
+                root.named("q", "")
+            }
+            Factor::Peak(e, p) => {
+                let root = self.factor(Factor::Root(p));
+                (1.0 / (c * c + e) - root).named("a", "large at grazing")
+            }
+            Factor::Bent(a) => {
+                let bent = self.factor(Factor::Grazing(2)) / (1.0 + a * c);
+                bent.named("w", "0 at normal incidence, 1 at grazing")
+            }
+        }
+    }
+}
+
+/// A whole power by products, the lower factors first, so that powers share what they can.
+fn product<'b>(
+    b: Expr<'b>,
+    exponent: u32,
+    times: fn(Expr<'b>, Expr<'b>, u32) -> Expr<'b>,
+) -> Option<Expr<'b>> {
+    let (mut whole, mut reached) = (None::<Expr<'b>>, 0);
+    let (mut square, mut place) = (b, 1);
+    while place <= exponent {
+        if exponent & place != 0 {
+            reached += place;
+            whole = Some(whole.map_or(square, |whole| times(whole, square, reached)));
+        }
+        place *= 2;
+        if place <= exponent {
+            square = times(square, square, place);
+        }
+    }
+    whole
+}
+
+fn power(b: Expr<'_>, exponent: u32) -> Expr<'_> {
+    fn times<'b>(one: Expr<'b>, other: Expr<'b>, reached: u32) -> Expr<'b> {
+        (one * other).named(&format!("b{reached}"), "")
+    }
+    product(b, exponent, times).unwrap_or_else(|| b.builder().number(1.0))
+}
+
+/// `(1 - c)^p` in half precision: 1 less what is small at grazing, where a rounded 1 - c would be as many roundings off as the
+/// power says. `1 - (1 - x) (1 - y) = x + y - x y`.
+fn power_in_half(c: Expr<'_>, exponent: u32) -> Expr<'_> {
+    fn times<'b>(one: Expr<'b>, other: Expr<'b>, reached: u32) -> Expr<'b> {
+        let both = one + other - one * other;
+        both.named(&format!("less{reached}"), "1 - (1 - c)^p, small at grazing")
+    }
+    let less = product(c, exponent, times);
+    let less = less.unwrap_or_else(|| c.builder().number(0.0));
+    (1.0 - less).named(&format!("b{exponent}"), "")
+}
+
+#[allow(missing_docs)] // each says what it is
+impl Input {
+    pub const C0: Input = coefficient("c0", "coefficient of 1");
+    pub const C1: Input = coefficient("c1", "coefficient of the first term");
+    pub const C2: Input = coefficient("c2", "coefficient of the second term");
+    pub const C3: Input = coefficient("c3", "coefficient of the third term");
+    pub const C4: Input = coefficient("c4", "coefficient of the fourth term");
+    pub const COEFFICIENTS: [Input; 5] = [Input::C0, Input::C1, Input::C2, Input::C3, Input::C4];
+}
+
+const fn coefficient(name: &'static str, meaning: &'static str) -> Input {
+    Input::rgb(name, meaning, [-1000.0, 1000.0], InputSource::Fit).tried(&[0.3, -2.0, 1.0])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::language::methods::ALL;
+
+    fn close(one: &[f64], other: &[f64]) {
+        assert_eq!(one.len(), other.len());
+        for (one, other) in one.iter().zip(other) {
+            assert!((one - other).abs() < 1e-14, "{one} {other}");
+        }
+    }
+
+    /// Of (1 - c)^p, Euler's beta function: 2 / ((p + 1) (p + 2)). Of e^(-k c), k = a p ln 2, in parts:
+    /// 2 (1 - (1 + k) e^(-k)) / k². Of c e^(-k c) in parts again: 2 (2 - (2 + 2 k + k²) e^(-k)) / k³.
+    #[test]
+    fn averages_are_the_closed_forms() {
+        let powers = Shape {
+            factors: &[Factor::Grazing(3), Factor::Grazing(4)],
+        };
+        close(&powers.averages(), &[1.0, 2.0 / 20.0, 2.0 / 72.0]);
+        let exponential = Shape {
+            factors: &[Factor::Exponential(6.5), Factor::Cosine],
+        };
+        let k = 6.5 * std::f64::consts::LN_2;
+        let end = libm::exp2(-6.5);
+        let once = 2.0 * (1.0 - (1.0 + k) * end) / (k * k);
+        let twice = 2.0 * (2.0 - (2.0 + 2.0 * k + k * k) * end) / (k * k * k);
+        close(&exponential.averages(), &[1.0, once, twice]);
+    }
+
+    /// A rule of fewer points gives the same: none of the factors is too steep for it.
+    #[test]
+    fn averages_of_all_shapes_are_the_integrals() {
+        let shapes = ALL.iter().filter_map(|method| method.shape);
+        for shape in shapes {
+            let mut sums = vec![0.0; shape.terms()];
+            for (c, weight) in Legendre::new(40).over(0.0, 1.0) {
+                shape.add(c, 2.0 * c * weight, &mut sums);
+            }
+            close(&shape.averages(), &sums);
+        }
+    }
+}

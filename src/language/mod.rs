@@ -1,0 +1,6 @@
+//! What functions are written in: the graph, the methods, the effects, and the targets that print them.
+
+pub mod effects;
+pub mod ir;
+pub mod methods;
+pub mod targets;

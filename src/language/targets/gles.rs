@@ -1,0 +1,100 @@
+//! GLSL ES 3.00, as OpenGL ES 3.0 and WebGL 2 take it.
+//!
+//! Everything is declared `highp`, in half precision `mediump`: the exact forms need it, and the default precision is the
+//! including shader's.
+
+use super::glsl;
+use super::spelling::Spelling;
+use super::target::{
+    Batch, Finish, Frame, GLSLANG, HalfText, Harness, Page, Stack, Target, Validator,
+};
+
+/// The record of this target.
+pub static TARGET: Target = Target {
+    name: "gles",
+    summary: "GLSL ES 3.00 for phones and WebGL 2",
+    source: "The OpenGL ES Shading Language 3.00, Khronos, https://registry.khronos.org/OpenGL/specs/es/3.0/GLSL_ES_Specification_3.00.pdf",
+    extension: "glsl",
+    other_extensions: &[],
+    by_default: true,
+    spelling: Spelling {
+        param: "highp {type} {name}",
+        texture: "highp sampler2D {name}",
+        cube: "highp samplerCube {name}",
+        local: "highp {type} {name} = {value};",
+        head: "highp {type} {name}({params})",
+        ..glsl::SPELLING
+    },
+    half: HalfText {
+        spelling: glsl::HALF_SPELLING,
+        directive: "",
+        remark: "mediump: 16 bits on most phones, 32 on desktops, which ignore it.",
+        validators: VALIDATORS,
+    },
+    reserved: &[glsl::RESERVED],
+    reserved_prefixes: &["gl_"],
+    pages: &[Page {
+        suffix: "",
+        template: include_str!("../../../templates/glsl.tera"),
+    }],
+    catalogue: Some(include_str!("../../../templates/catalogue.gles.tera")),
+    finish: Finish::Text,
+    validators: VALIDATORS,
+    nests_comments: false,
+    stack: Stack::OpenGlEs(&HARNESS),
+};
+
+/// OpenGL ES 3.0 has no compute shaders: a vertex shader gives its result to transform feedback, exact to the last bit.
+static HARNESS: Harness = Harness {
+    before: "#version 300 es\nprecision highp float;\n",
+    member: "uniform highp {type} fg_{name};\n",
+    block: "{members}",
+    argument: "fg_{name}",
+    uniform: "fg_{name}",
+    texture: "uniform highp sampler2D table;\n",
+    texture_argument: "table",
+    cosines: "",
+    count: "",
+    cosine: "cos_theta",
+    splat: "{value}",
+    converts: false,
+    batch: &BATCH,
+    after: "
+in highp float cos_theta;
+{block}{texture}out highp vec3 reflectance;
+void main() {
+    reflectance = vec3({value});
+    gl_Position = vec4(0.0);
+}
+",
+};
+
+pub(super) static BATCH: Batch = Batch {
+    input: "in highp vec4 fg_{at};\n",
+    place: "fg_{at}",
+    matrix: "{type}({columns})",
+    cube: "uniform highp samplerCube fg_cube;\n",
+    cube_argument: "fg_cube",
+    declarations: "\n{inputs}{texture}out highp vec3 reflectance;\n",
+    entry: "
+void main() {
+    reflectance = vec3({value});
+    gl_Position = vec4(0.0);
+}
+",
+};
+
+const VALIDATORS: &[Validator] = &[Validator {
+    name: "glslang",
+    compiler: &GLSLANG,
+    options: "-S frag FILE",
+    frame: Frame {
+        // All declarations say their precision, so that a shader without a default one can include them.
+        beginnings: &[
+            "#version 300 es\nprecision highp float;\n#line 1\n",
+            "#version 300 es\nprecision mediump float;\n#line 1\n",
+            "#version 300 es\n#line 1\n",
+        ],
+        ending: glsl::ENDING,
+    },
+}];

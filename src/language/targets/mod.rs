@@ -1,0 +1,60 @@
+//! The targets, one file each: how a language spells the operations, which words it reserves, how a page of it
+//! looks, who validates it.
+//!
+//! To add one, write its file and its templates, then run `tests/lists`, which writes the list below. ARCHITECTURE.md says the
+//! next steps.
+//! The room knows no method.
+
+mod spelling;
+mod target;
+
+pub use gles::TARGET as GLES;
+pub use glsl::{DESKTOP, TARGET as GLSL};
+pub use hlsl::{DXC, TARGET as HLSL};
+pub use spelling::{Form, Spelling, precedence};
+pub use target::{
+    Batch, Compiler, Finish, Frame, GLSLANG, HalfText, Harness, Page, Stack, Target, Validator,
+};
+pub use wgsl::{STREAM, TARGET as WGSL};
+
+// BEGIN targets (written by tests/lists)
+mod gles;
+mod glsl;
+mod hlsl;
+mod msl;
+mod spirv;
+mod wgsl;
+
+/// Every target, by name.
+#[rustfmt::skip]
+pub static ALL: &[&Target] = &[
+    &gles::TARGET,
+    &glsl::TARGET,
+    &hlsl::TARGET,
+    &msl::TARGET,
+    &spirv::TARGET,
+    &wgsl::TARGET,
+];
+// END targets
+
+/// Why a name cannot be used in one of the languages, if it cannot.
+///
+/// ```
+/// use fresnel_gen::language::targets::name_fault;
+///
+/// assert_eq!(name_fault("fresnel_brass"), None);
+/// assert!(name_fault("while").is_some());
+/// ```
+pub fn name_fault(name: &str) -> Option<String> {
+    ALL.iter().find_map(|target| target.name_fault(name))
+}
+
+/// The target of this name.
+///
+/// ```
+/// let target = fresnel_gen::language::targets::find("gles").expect("it is a target");
+/// assert_eq!(target.name, "gles");
+/// ```
+pub fn find(name: &str) -> Option<&'static Target> {
+    ALL.iter().find(|target| target.name == name).copied()
+}

@@ -1,0 +1,271 @@
+//! What a target is: a plain record in a static table.
+
+use crate::physics::num::Precision;
+
+use super::spelling::Spelling;
+
+/// An output language.
+#[derive(Debug)]
+pub struct Target {
+    /// Its one name: `--target`, folder, row in reports.
+    pub name: &'static str,
+    /// One line.
+    pub summary: &'static str,
+    /// The specification, with a link.
+    pub source: &'static str,
+    /// Of its files, without the dot.
+    pub extension: &'static str,
+    /// What else files of this language end in, as engines name them.
+    pub other_extensions: &'static [&'static str],
+    /// Whether `--target all` and a run without `--target` write it.
+    pub by_default: bool,
+    /// How it writes names, types, numbers and operations.
+    pub spelling: Spelling,
+    /// How it writes half precision.
+    pub half: HalfText,
+    /// Words that no name may be.
+    pub reserved: &'static [&'static [&'static str]],
+    /// Beginnings that no name may have.
+    pub reserved_prefixes: &'static [&'static str],
+    /// The page around the functions; a binary target may have several.
+    pub pages: &'static [Page],
+    /// The template of the catalogue's array of coefficients; none where constants alone are no file.
+    pub catalogue: Option<&'static str>,
+    /// What becomes of the rendered page.
+    pub finish: Finish,
+    /// Compilers that are not ours and can judge it.
+    pub validators: &'static [Validator],
+    /// Whether a comment may stand in a comment: the first end then ends the inner one only.
+    pub nests_comments: bool,
+    /// What runs its files on this machine.
+    pub stack: Stack,
+}
+
+/// What runs the files of a target. Text runs in a program around it.
+#[derive(Clone, Copy, Debug)]
+pub enum Stack {
+    /// wgpu, as a compute shader in WGSL.
+    Wgpu(&'static Harness),
+    /// OpenGL ES 3.0, as a vertex shader whose result transform feedback reads.
+    OpenGlEs(&'static Harness),
+    /// Vulkan, once DXC has made SPIR-V of a compute shader in HLSL.
+    DxcToVulkan(&'static Harness),
+    /// Vulkan, which takes the module as it is.
+    SpirvModule,
+    /// Nothing: its files are read again and compiled only.
+    None,
+}
+
+/// The text around a file that runs one of its functions over cosines.
+///
+/// All have one interface, that of our SPIR-V compute modules: group 0 with the run-time arguments in a uniform block at
+/// binding 0, cosines at 1, reflectances at 2, a texture and its sampler at 3 and 4. The entry point is `fg_main`, or `main`
+/// where the language has no other.
+#[derive(Debug)]
+pub struct Harness {
+    /// What stands before the file.
+    pub before: &'static str,
+    /// The declaration of a run-time argument: `{type}`, `{name}`, and its `{offset}` in the block.
+    pub member: &'static str,
+    /// The block of all `{members}`, where there are any.
+    pub block: &'static str,
+    /// The value of a run-time argument: `{name}`.
+    pub argument: &'static str,
+    /// The name by which a run-time argument is bound: `{name}`.
+    pub uniform: &'static str,
+    /// The declaration of a texture, where the function reads one.
+    pub texture: &'static str,
+    /// The texture as an argument.
+    pub texture_argument: &'static str,
+    /// The declaration of the cosines.
+    pub cosines: &'static str,
+    /// How many cosines there are.
+    pub count: &'static str,
+    /// The cosine of this invocation.
+    pub cosine: &'static str,
+    /// Three numbers of the `{value}` of a function that gives one.
+    pub splat: &'static str,
+    /// Whether a number of one precision must be converted to another in so many words.
+    pub converts: bool,
+    /// How functions of many arguments are called.
+    pub batch: &'static Batch,
+    /// What stands behind the file: `{block}`, `{texture}`, `{cosines}`, `{count}`, and the function's `{value}`.
+    pub after: &'static str,
+}
+
+/// The text behind a file that calls its functions at points, whose arguments stand in a buffer of four numbers a place. The bindings
+/// are those of [`Harness`], with places in the place of cosines; in GLSL ES places are attributes.
+#[derive(Debug)]
+pub struct Batch {
+    /// The declaration of a place as an attribute: `{at}`; nothing where there is a buffer.
+    pub input: &'static str,
+    /// A place of the point at hand: `{at}` of `{stride}`.
+    pub place: &'static str,
+    /// A matrix of `{type}` from its four `{columns}`.
+    pub matrix: &'static str,
+    /// The declaration of a cube of textures.
+    pub cube: &'static str,
+    /// The cube as an argument.
+    pub cube_argument: &'static str,
+    /// All declarations: `{inputs}` and the `{texture}`.
+    pub declarations: &'static str,
+    /// An entry point: its name `{entry}` and the `{value}`, three numbers.
+    pub entry: &'static str,
+}
+
+/// How a target writes half precision.
+#[derive(Debug)]
+pub struct HalfText {
+    /// Names, types, numbers and operations.
+    pub spelling: Spelling,
+    /// What must stand before all code of a file.
+    pub directive: &'static str,
+    /// What makes it half precision, or not, for the head of a file.
+    pub remark: &'static str,
+    /// Compilers that can judge it, as [`Target::validators`].
+    pub validators: &'static [Validator],
+}
+
+/// A kind of file that a target writes for each method or material.
+#[derive(Debug)]
+pub struct Page {
+    /// Goes between the name and the extension, with its dot: `.frag`, or nothing.
+    pub suffix: &'static str,
+    /// Its template, in Tera's language.
+    pub template: &'static str,
+}
+
+/// What becomes of a rendered page.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Finish {
+    /// It is the file.
+    Text,
+    /// It is the file, once naga has parsed and validated it.
+    ValidWgsl,
+    /// It is WGSL that naga lowers to a SPIR-V module.
+    Spirv,
+}
+
+/// A compiler that is not ours.
+#[derive(Debug)]
+pub struct Compiler {
+    /// Its name.
+    pub name: &'static str,
+    /// Its command; none where it is part of this program.
+    pub command: Option<&'static str>,
+    /// Where to get it.
+    pub get: &'static str,
+}
+
+/// How a compiler judges a target's files.
+#[derive(Debug)]
+pub struct Validator {
+    /// The compiler's name, and what tells its ways apart.
+    pub name: &'static str,
+    /// Who judges.
+    pub compiler: &'static Compiler,
+    /// What the command is called with: `FILE` stands for the file, `OUT` for what it writes.
+    pub options: &'static str,
+    /// What makes a program of a file.
+    pub frame: Frame,
+}
+
+/// The text around a file of functions that makes a program of it.
+#[derive(Clone, Copy, Debug)]
+pub struct Frame {
+    /// What may stand before the file: a program for each.
+    pub beginnings: &'static [&'static str],
+    /// What stands after it. The line `CALLS` becomes a call of each function, added to `sum`: so nothing is dead code.
+    /// Their arguments are `at` and `at.x`, `a_texture` and `a_sampler`.
+    pub ending: &'static str,
+}
+
+impl Frame {
+    /// The file is judged as it is.
+    pub const NONE: Frame = Frame {
+        beginnings: &[""],
+        ending: "",
+    };
+}
+
+/// Khronos's reference compiler of GLSL, which reads HLSL too.
+pub static GLSLANG: Compiler = Compiler {
+    name: "glslang",
+    command: Some("glslangValidator"),
+    get: "Debian package glslang-tools",
+};
+
+impl Validator {
+    /// How it judges, for people.
+    pub fn command(&self) -> String {
+        let Some(command) = self.compiler.command else {
+            return "in process".to_owned();
+        };
+        let frame = if self.frame.ending.is_empty() {
+            ""
+        } else {
+            ", FILE in a program that calls its functions"
+        };
+        format!("{command} {}{frame}", self.options)
+    }
+}
+
+impl Stack {
+    /// The program around a file, where text is run.
+    pub fn harness(self) -> Option<&'static Harness> {
+        match self {
+            Stack::Wgpu(harness) | Stack::OpenGlEs(harness) | Stack::DxcToVulkan(harness) => {
+                Some(harness)
+            }
+            Stack::SpirvModule | Stack::None => None,
+        }
+    }
+}
+
+impl Target {
+    /// What files of this language end in.
+    pub fn endings(&self) -> impl Iterator<Item = &'static str> {
+        [self.extension]
+            .into_iter()
+            .chain(self.other_extensions.iter().copied())
+    }
+
+    /// How it writes code in this precision.
+    pub fn spelling_in(&self, precision: Precision) -> &Spelling {
+        match precision {
+            Precision::F32 => &self.spelling,
+            Precision::F16 => &self.half.spelling,
+        }
+    }
+
+    /// Compilers that can judge code in this precision.
+    pub fn validators_in(&self, precision: Precision) -> &'static [Validator] {
+        match precision {
+            Precision::F32 => self.validators,
+            Precision::F16 => self.half.validators,
+        }
+    }
+
+    /// What must stand before all code of a file in this precision, or nothing.
+    pub fn directive_in(&self, precision: Precision) -> &'static str {
+        match precision {
+            Precision::F32 => "",
+            Precision::F16 => self.half.directive,
+        }
+    }
+
+    /// Why a name cannot be used in this language, if it cannot.
+    pub fn name_fault(&self, name: &str) -> Option<String> {
+        if self.reserved.iter().any(|words| words.contains(&name)) {
+            return Some(format!("`{name}` is a reserved word of {}", self.name));
+        }
+        let prefix = self
+            .reserved_prefixes
+            .iter()
+            .find(|prefix| name.starts_with(**prefix))?;
+        Some(format!(
+            "names that begin with `{prefix}` are reserved in {}",
+            self.name
+        ))
+    }
+}

@@ -1,0 +1,180 @@
+//! A material: its names and sources, and its index of refraction at any wavelength that was measured.
+
+use serde::Deserialize;
+
+use super::decimal::short;
+use super::dispersion::{DispersionCurve, Extrapolate};
+
+/// The least n. Below it the exact forms lose their last digits in f32.
+pub const LEAST_N: f64 = 1e-3;
+/// The greatest n and k: no index measured between 1 nm and 1 mm comes near it.
+pub const GREATEST: f64 = 1e4;
+
+/// A material as its file tells it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Material {
+    /// Its one name.
+    pub name: String,
+    /// One line.
+    pub summary: String,
+    /// Metal, semiconductor or dielectric.
+    pub kind: MaterialKind,
+    /// What it is whoever measured it: alternatives share it, and the recommended one bears it as its name.
+    pub substance: String,
+    /// The licence of the numbers.
+    pub licence: String,
+    /// Who measured it.
+    pub reference: String,
+    /// Where to read about it.
+    pub link: String,
+    /// The page of refractiveindex.info that it was taken from; may be empty.
+    pub page: String,
+    /// Temperature, film thickness and the like; may be empty.
+    pub conditions: String,
+    /// What a user should know: why it is recommended, what was done to the numbers; may be empty.
+    pub note: String,
+    /// Red, green and blue where it is known at these wavelengths only, as in the thesis.
+    pub rgb_nm: Option<[f64; 3]>,
+    /// Refractive index by wavelength.
+    pub n: DispersionCurve,
+    /// Extinction coefficient by wavelength; 0 where there is none.
+    pub k: Option<DispersionCurve>,
+}
+
+/// The class of a material.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum MaterialKind {
+    /// It conducts, and k is large.
+    Metal,
+    /// In between.
+    Semiconductor,
+    /// It is transparent, k is 0 or nearly.
+    Dielectric,
+}
+
+impl MaterialKind {
+    /// All classes.
+    pub const ALL: [MaterialKind; 3] = [
+        MaterialKind::Metal,
+        MaterialKind::Semiconductor,
+        MaterialKind::Dielectric,
+    ];
+
+    /// The name in files and reports.
+    pub fn name(self) -> &'static str {
+        match self {
+            MaterialKind::Metal => "metal",
+            MaterialKind::Semiconductor => "semiconductor",
+            MaterialKind::Dielectric => "dielectric",
+        }
+    }
+}
+
+/// The index of refraction at one wavelength: n + ik.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Index {
+    /// Real part.
+    pub n: f64,
+    /// Extinction coefficient.
+    pub k: f64,
+}
+
+impl Index {
+    /// The index seen from a medium: the complex quotient. From a medium that absorbs more than the material, its k
+    /// would be below 0; the law reflects as much for m and its conjugate, so that |k| stands for it.
+    pub fn relative_to(self, medium: Index) -> Index {
+        let square = medium.n * medium.n + medium.k * medium.k;
+        Index {
+            n: (self.n * medium.n + self.k * medium.k) / square,
+            k: ((self.k * medium.n - self.n * medium.k) / square).abs(),
+        }
+    }
+}
+
+impl Material {
+    /// The index at a wavelength, or why there is none, with the material's name.
+    ///
+    /// # Errors
+    /// The wavelength lies outside the measured range and may not be extrapolated, or n or k lies outside its limits.
+    pub fn index(&self, nm: f64, beyond: Extrapolate) -> Result<Index, String> {
+        let value = |curve: &DispersionCurve, letter: &str| {
+            let named = |why: String| format!("material `{}`: {letter} {why}", self.name);
+            curve.at(nm, beyond).map_err(named)
+        };
+        // A page's table can hold rows beyond these limits: of a fit gone wrong, or of a metamaterial.
+        let within = |value: f64, letter: &str, least: f64| match value {
+            value if (least..=GREATEST).contains(&value) => Ok(value),
+            _ => Err(format!(
+                "material `{}`: {letter} is {} at {nm} nm; it must lie between {least} and {GREATEST}",
+                self.name,
+                short(value)
+            )),
+        };
+        let n = within(value(&self.n, "n")?, "n", LEAST_N)?;
+        let k = self.k.as_ref().map(|k| value(k, "k")).transpose()?;
+        let k = k.map_or(Ok(0.0), |k| within(k, "k", 0.0))?;
+        Ok(Index { n, k })
+    }
+
+    /// The wavelengths at which both n and k are known, in nanometres; the first is above the second where there is none.
+    pub fn range_nm(&self) -> (f64, f64) {
+        let (from, to) = self.n.range_nm();
+        match self.k.as_ref().map(DispersionCurve::range_nm) {
+            Some((k_from, k_to)) => (from.max(k_from), to.min(k_to)),
+            None => (from, to),
+        }
+    }
+
+    /// Whether n and k are known over a range of wavelengths.
+    pub fn covers(&self, from_nm: f64, to_nm: f64) -> bool {
+        let whole = |curve: &DispersionCurve| curve.covers(from_nm) && curve.covers(to_nm);
+        whole(&self.n) && self.k.as_ref().is_none_or(whole)
+    }
+
+    /// The wavelengths at which n or k was measured, ascending; none for formulas.
+    pub fn measured_nm(&self) -> Vec<f64> {
+        let curves = [Some(&self.n), self.k.as_ref()].into_iter().flatten();
+        let mut places: Vec<f64> = curves.flat_map(DispersionCurve::measured_nm).collect();
+        places.sort_by(f64::total_cmp);
+        places.dedup();
+        places
+    }
+
+    /// Whether it is a spectrum of this substance.
+    pub fn is_spectrum_of(&self, substance: &str) -> bool {
+        self.substance == substance && self.rgb_nm.is_none()
+    }
+
+    /// Whether it is the one to take of all measurements of its substance.
+    pub fn is_recommended(&self) -> bool {
+        self.name == self.substance
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::physics::optics;
+
+    #[test]
+    fn relative_index_is_the_complex_quotient() {
+        let gold = Index { n: 0.23, k: 3.94 };
+        let water = Index { n: 1.33, k: 0.0 };
+        assert_eq!(
+            gold.relative_to(water),
+            Index {
+                n: 0.23 * 1.33 / (1.33 * 1.33),
+                k: 3.94 * 1.33 / (1.33 * 1.33)
+            }
+        );
+        let murky = Index { n: 1.33, k: 1e-3 };
+        let glass = Index { n: 1.5, k: 0.0 };
+        let seen = glass.relative_to(murky);
+        let (n, k) = (1.5 - 1.33, 1e-3);
+        let by_hand = (n * n + k * k) / ((1.5 + 1.33) * (1.5 + 1.33) + k * k);
+        assert!((optics::normal_incidence(seen.n, seen.k) - by_hand).abs() < 1e-16);
+        let same = murky.relative_to(murky);
+        assert!((same.n - 1.0).abs() < 1e-15 && same.k == 0.0);
+    }
+}

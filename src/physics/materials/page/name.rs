@@ -1,0 +1,148 @@
+//! The names that a page's path gives: of the page in its database, and of the material.
+
+use super::Page;
+use crate::physics::materials::name_fault;
+
+use deunicode::deunicode_char;
+
+/// The folders that the database's data begins with.
+const SHELVES: [&str; 5] = ["main", "organic", "glass", "other", "specs"];
+
+/// Bytes of a material's name.
+const LONGEST: usize = 64;
+
+impl Page {
+    /// The page's path in the database, from its shelf on (`main/Au/nk/Johnson.yml`), where the file's path has one.
+    pub fn path(&self) -> String {
+        let parts: Vec<&str> = self.file.split(['/', '\\']).collect();
+        let shelf = parts.iter().rposition(|part| SHELVES.contains(part));
+        // Below a shelf there are a book and the page, or more.
+        match shelf {
+            Some(at) if parts.len() >= at + 3 => parts[at..].join("/"),
+            _ => String::new(),
+        }
+    }
+
+    /// The page's folder and name in words: the book, or the maker of a glass, and what the file is named.
+    pub fn book_and_title(&self) -> (String, String) {
+        let path = self.path();
+        let file = self.file.rsplit(['/', '\\']).next().unwrap_or("");
+        let title = file.rsplit_once('.').map_or(file, |(stem, _)| stem);
+        let parts: Vec<&str> = path.split('/').collect();
+        let book = match parts[..] {
+            ["specs", maker, ..] => maker,
+            [.., book, "nk" | "n2", _] => book,
+            [_, .., book, _] => book,
+            _ => "",
+        };
+        (book.to_owned(), title.to_owned())
+    }
+
+    /// The name that a material of this page has by default: `main/Au/nk/Olmon-ts.yml` is `au_olmon_ts`. It is a name
+    /// that [`name_fault`] allows, whatever the file's name is; two pages can come out the same.
+    pub fn default_name(&self) -> String {
+        let (book, title) = self.book_and_title();
+        let title = cut(&snake(&title), LONGEST - 2).to_owned();
+        let book = snake(&book);
+        let book = cut(&book, (LONGEST - 3).saturating_sub(title.len())).to_owned();
+        let parts: Vec<String> = [book, title]
+            .into_iter()
+            .filter(|part| !part.is_empty())
+            .collect();
+        let name = parts.join("_");
+        if name_fault(&name).is_none() {
+            name
+        } else {
+            format!("m_{name}").trim_end_matches('_').to_owned()
+        }
+    }
+}
+
+/// Small letters and digits, with one underscore between. Letters outside ASCII are spelt by the nearest of ASCII.
+fn snake(text: &str) -> String {
+    let text: String = text.chars().map(spelt).collect();
+    let words = text.split(|c: char| !c.is_ascii_alphanumeric());
+    let words: Vec<String> = words
+        .filter(|word| !word.is_empty())
+        .map(str::to_ascii_lowercase)
+        .collect();
+    words.join("_")
+}
+
+fn spelt(c: char) -> String {
+    match c.is_ascii() {
+        true => c.to_string(),
+        false => deunicode_char(c).unwrap_or(" ").to_owned(),
+    }
+}
+
+/// The start of a name in ASCII.
+fn cut(name: &str, most: usize) -> &str {
+    name[..name.len().min(most)].trim_end_matches('_')
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[track_caller]
+    fn check(file: &str, path: &str, name: &str) {
+        let page = Page {
+            file: file.to_owned(),
+            ..Page::default()
+        };
+        assert_eq!(
+            (page.path().as_str(), page.default_name().as_str()),
+            (path, name)
+        );
+        assert_eq!(name_fault(name), None);
+    }
+
+    #[test]
+    fn a_path_gives_the_page_and_a_legal_name() {
+        check(
+            "/a/main/data/main/Au/nk/Olmon-ts.yml",
+            "main/Au/nk/Olmon-ts.yml",
+            "au_olmon_ts",
+        );
+        check(
+            "data\\main\\Au\\nk\\Johnson.yml",
+            "main/Au/nk/Johnson.yml",
+            "au_johnson",
+        );
+        check(
+            "organic/(C5H8O2)n - poly(methyl methacrylate)/nk/Beadie.yml",
+            "organic/(C5H8O2)n - poly(methyl methacrylate)/nk/Beadie.yml",
+            "c5h8o2_n_poly_methyl_methacrylate_beadie",
+        );
+        check(
+            "specs/schott/optical/N-BK7.yml",
+            "specs/schott/optical/N-BK7.yml",
+            "schott_n_bk7",
+        );
+        check(
+            "other/alloys/Au-Ag/nk/Rioux.yml",
+            "other/alloys/Au-Ag/nk/Rioux.yml",
+            "au_ag_rioux",
+        );
+        check("mine/My Gold.v2.yml", "", "my_gold_v2");
+        check("main.yml", "", "main");
+        check("main/x.yml", "", "x");
+        check(
+            "other/4H-SiC/nk/x.yml",
+            "other/4H-SiC/nk/x.yml",
+            "m_4h_sic_x",
+        );
+        check("CON.yml", "", "m_con");
+        check("\u{e9}\u{3bb}.yml", "", "el");
+        check("Gl\u{e4}ser.csv", "", "glaser");
+        check("\u{91d1}.csv", "", "jin");
+        check("\u{94f6}.csv", "", "yin");
+        check("\u{ffff}.csv", "", "m");
+        check("", "", "m");
+        let long = "x".repeat(100);
+        check(&format!("{long}.yml"), "", &"x".repeat(62));
+        let folder = format!("main/{long}/nk/Kumar.yml");
+        check(&folder, &folder, &format!("{}_kumar", "x".repeat(56)));
+    }
+}

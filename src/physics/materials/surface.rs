@@ -1,0 +1,255 @@
+//! A material as an observer sees it: its index at some wavelengths, and how these make three channels.
+//!
+//! ```text
+//! R_c(θ) = Σ w_c(λ) R(λ, θ) / Σ w_c(λ)      R(λ, θ) by the exact law, from n(λ) and k(λ) relative to the medium
+//! ```
+//!
+//! With one wavelength a channel this is the thesis's way; with the observer's curves times the illuminant it is the
+//! colour of the reflected light where a perfect mirror is (1, 1, 1).
+
+use glam::DVec3;
+
+use super::channels::Channels;
+use super::dispersion::Extrapolate;
+use super::material::{Index, Material};
+use crate::physics::num::each_channel;
+use crate::physics::optics::{self, Reflectance};
+use crate::physics::spectra::{FIRST_NM, Gamut, Integration, Integrator, LAST_NM};
+
+/// How materials are looked at.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ViewingConditions {
+    /// Observer, illuminant, working space, adaptation, step.
+    pub integration: Integration,
+    /// What becomes of colours outside the working space.
+    pub gamut: Gamut,
+    /// Red, green and blue at one wavelength each, in place of the whole spectrum.
+    pub wavelengths_nm: Option<[f64; 3]>,
+    /// Beyond the measured range.
+    pub beyond: Extrapolate,
+}
+
+impl Default for ViewingConditions {
+    fn default() -> ViewingConditions {
+        ViewingConditions {
+            integration: Integration::default(),
+            gamut: Gamut::Clip,
+            wavelengths_nm: None,
+            beyond: Extrapolate::Refuse,
+        }
+    }
+}
+
+impl ViewingConditions {
+    /// What is seen of a spectrum, in words.
+    pub fn reference_in_words(&self) -> String {
+        format!(
+            "reflectance integrated over {}{}",
+            self.integration.description(),
+            in_gamut(self.gamut)
+        )
+    }
+}
+
+/// The surface of a material in its medium, seen.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Surface {
+    /// The relative index at each of the integrator's wavelengths.
+    pub indices: Vec<Index>,
+    /// From a spectrum to three channels.
+    pub integrator: Integrator,
+    /// What becomes of colours outside the working space.
+    pub gamut: Gamut,
+    /// What is seen, in words.
+    pub seen: String,
+    /// Wavelengths in nanometres beyond which the nearest measured index was held: lowest and highest, where so.
+    pub extrapolated_nm: (Option<f64>, Option<f64>),
+}
+
+/// A material that is not known where it is looked at.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("{}{advice}", crate::physics::foreign::one_line(why))]
+pub struct Unseen {
+    /// Which material, where it is known, which wavelength is wanted.
+    pub why: String,
+    /// What can be done.
+    pub advice: String,
+}
+
+impl Surface {
+    /// The surface of a material in air or in a medium. Where either is known at three wavelengths only, these are taken.
+    ///
+    /// # Errors
+    /// The material or the medium was not measured at a wavelength of these conditions, or the light has no white in the space.
+    pub fn new(
+        material: &Material,
+        medium: Option<&Material>,
+        viewing: &ViewingConditions,
+    ) -> Result<Surface, Unseen> {
+        let three = viewing
+            .wavelengths_nm
+            .or(material.rgb_nm)
+            .or(medium.and_then(|medium| medium.rgb_nm));
+        let integrator = match three {
+            Some(rgb) => Integrator::three_wavelengths(rgb),
+            None => Integrator::new(&viewing.integration).map_err(|fault| Unseen {
+                why: fault.to_string(),
+                advice: String::new(),
+            })?,
+        };
+        let index = |nm: &f64| {
+            let own = material.index(*nm, viewing.beyond)?;
+            let around = medium
+                .map(|medium| medium.index(*nm, viewing.beyond))
+                .transpose()?;
+            Ok(around.map_or(own, |around| own.relative_to(around)))
+        };
+        let indices = integrator
+            .wavelengths
+            .iter()
+            .map(index)
+            .collect::<Result<_, String>>();
+        let extrapolated_nm = extrapolated_beyond(material, medium, &integrator.wavelengths);
+        let gamut = if three.is_some() {
+            Gamut::Keep
+        } else {
+            viewing.gamut
+        };
+        Ok(Surface {
+            indices: indices.map_err(|why| Unseen {
+                why,
+                advice: advice(extrapolated_nm, three.is_some()),
+            })?,
+            extrapolated_nm,
+            integrator,
+            gamut,
+            seen: match three {
+                Some(rgb) => three_in_words(rgb),
+                None => viewing.reference_in_words(),
+            },
+        })
+    }
+
+    /// A surface that is known by its channels alone.
+    pub fn of_channels(channels: &Channels) -> Surface {
+        let index = |i: usize| Index {
+            n: channels.n[i],
+            k: channels.k[i],
+        };
+        Surface {
+            indices: each_channel(index).to_vec(),
+            integrator: Integrator::three_wavelengths(super::THESIS_NM),
+            gamut: Gamut::Keep,
+            seen: "one index a channel".to_owned(),
+            extrapolated_nm: (None, None),
+        }
+    }
+
+    /// The channels, where each is one wavelength.
+    pub fn channels(&self) -> Option<Channels> {
+        let indices: [Index; 3] = self.indices.as_slice().try_into().ok()?;
+        Some(Channels::of(indices))
+    }
+
+    /// The reflected share of each channel in both polarisations, colours outside the working space left as they are.
+    pub fn reflectance(&self, cos_theta: f64) -> Reflectance<DVec3> {
+        let each = self
+            .indices
+            .iter()
+            .map(|index| optics::conductor(index.n, index.k, cos_theta));
+        let both: Vec<Reflectance<f64>> = each.collect();
+        let colour = |part: fn(&Reflectance<f64>) -> f64| {
+            self.integrator
+                .colour(&both.iter().map(part).collect::<Vec<f64>>())
+        };
+        Reflectance {
+            s: colour(|r| r.s),
+            p: colour(|r| r.p),
+        }
+    }
+
+    /// The reflected share of unpolarised light, colours outside the working space left as they are.
+    pub fn unpolarised(&self, cos_theta: f64) -> DVec3 {
+        let law = |index: &Index| optics::conductor(index.n, index.k, cos_theta).unpolarised();
+        self.integrator
+            .colour(&self.indices.iter().map(law).collect::<Vec<f64>>())
+    }
+
+    /// The wavelengths at which an index is extrapolated, in words; none if there are none.
+    pub fn extrapolation(&self) -> Option<String> {
+        let below = self.extrapolated_nm.0.map(|nm| format!("below {nm} nm"));
+        let above = self.extrapolated_nm.1.map(|nm| format!("above {nm} nm"));
+        let ends: Vec<String> = below.into_iter().chain(above).collect();
+        (!ends.is_empty())
+            .then(|| format!("{} the last measured index is held", ends.join(" and ")))
+    }
+
+    /// The largest k at any of the wavelengths.
+    pub fn most_k(&self) -> f64 {
+        self.indices.iter().map(|index| index.k).fold(0.0, f64::max)
+    }
+}
+
+fn in_gamut(gamut: Gamut) -> &'static str {
+    match gamut {
+        Gamut::Keep => "",
+        Gamut::Clip => ", clipped to [0, 1]",
+        Gamut::Scale => ", scaled into [0, 1]",
+    }
+}
+
+fn three_in_words([red, green, blue]: [f64; 3]) -> String {
+    format!("reflectance at {red}, {green} and {blue} nm for red, green and blue")
+}
+
+/// Of a measurement that lies wholly outside: none of its values says how the material looks.
+const UNSEEN: &str = "; it holds nothing of what is seen: take another measurement, or, to take its nearest value all the same, add --extrapolate hold";
+
+/// What to do about a material, or a medium, that is not known everywhere: nothing where the fault lies elsewhere.
+fn advice(extrapolated: (Option<f64>, Option<f64>), three: bool) -> String {
+    let hold = "to hold the last value beyond what was measured, add --extrapolate hold";
+    match (extrapolated, three) {
+        ((None, None), _) => String::new(),
+        ((Some(from), _), _) if from >= LAST_NM => UNSEEN.to_owned(),
+        ((_, Some(to)), _) if to <= FIRST_NM => UNSEEN.to_owned(),
+        (_, true) => format!("; {hold}"),
+        (_, false) => format!(
+            ". The whole spectrum means {FIRST_NM} to {LAST_NM} nm; {hold}; to take three wavelengths instead, add \
+             --wavelengths 685,535,475 or others inside"
+        ),
+    }
+}
+
+/// The ends of the measured range beyond which an index is extrapolated.
+fn extrapolated_beyond(
+    material: &Material,
+    medium: Option<&Material>,
+    wavelengths: &[f64],
+) -> (Option<f64>, Option<f64>) {
+    let all = || [Some(material), medium].into_iter().flatten();
+    let inside = |nm: f64| all().all(|material| material.covers(nm, nm));
+    let (from, to) = all()
+        .map(Material::range_nm)
+        .fold((0.0, f64::INFINITY), |(low, high), (from, to)| {
+            (f64::max(low, from), f64::min(high, to))
+        });
+    let outside = |end: f64, beyond: &dyn Fn(f64) -> bool| {
+        wavelengths
+            .iter()
+            .any(|nm| beyond(*nm) && !inside(*nm))
+            .then_some(end)
+    };
+    (outside(from, &|nm| nm < from), outside(to, &|nm| nm > to))
+}
+/// The materials that are spectra of this substance and can be seen so, each with its surface.
+pub fn surfaces_of<'a>(
+    substance: &'a str,
+    catalogue: &'a [Material],
+    medium: Option<&'a Material>,
+    viewing: &'a ViewingConditions,
+) -> impl Iterator<Item = (&'a Material, Surface)> {
+    let same = catalogue
+        .iter()
+        .filter(|other| other.is_spectrum_of(substance));
+    same.filter_map(move |other| Some((other, Surface::new(other, medium, viewing).ok()?)))
+}

@@ -1,0 +1,217 @@
+//! Colour spaces of renderers: linear red, green and blue by their primaries and white.
+//!
+//! ```text
+//! XYZ = P diag(P⁻¹ w) RGB      P: the primaries, w: the white, as columns (x/y, 1, (1 − x − y)/y)
+//! ```
+//!
+//! Source: SMPTE RP 177-1993, *Derivation of Basic Television Color Equations*,
+//! <https://doi.org/10.5594/SMPTE.RP177.1993>. The matrices are computed in f64 from the chromaticities, not taken from
+//! the rounded ones of the standards, which move a white by up to 1e-4.
+
+use glam::{DMat3, DVec3};
+
+/// A linear space of red, green and blue.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Space {
+    /// sRGB, and Rec. 709: IEC 61966-2-1:1999.
+    #[default]
+    Srgb,
+    /// Display P3: the primaries of SMPTE EG 432-1:2010 with the white of sRGB.
+    P3,
+    /// Rec. 2020: ITU-R BT.2020-2 (2015), table 3.
+    Rec2020,
+    /// ACEScg: the primaries AP1 of the Academy's S-2014-004 (2016) with the white of ACES, near D60.
+    AcesCg,
+}
+
+/// Files round chromaticities to three digits.
+const ROUNDING: f64 = 1e-3;
+
+/// D65 as the standards of screens round it.
+const WHITE_D65: [f64; 2] = [0.3127, 0.3290];
+
+/// The white of ACES: Academy TB-2018-001, *Derivation of the ACES White Point CIE Chromaticity Coordinates*.
+const WHITE_ACES: [f64; 2] = [0.32168, 0.33767];
+
+impl Space {
+    /// All of them.
+    pub const ALL: [Space; 4] = [Space::Srgb, Space::P3, Space::Rec2020, Space::AcesCg];
+
+    /// The name on the command line.
+    pub fn name(self) -> &'static str {
+        match self {
+            Space::Srgb => "srgb",
+            Space::P3 => "p3",
+            Space::Rec2020 => "rec2020",
+            Space::AcesCg => "acescg",
+        }
+    }
+
+    /// In words, for headers of files.
+    pub fn title(self) -> &'static str {
+        match self {
+            Space::Srgb => "linear sRGB",
+            Space::P3 => "linear Display P3",
+            Space::Rec2020 => "linear Rec. 2020",
+            Space::AcesCg => "ACEScg",
+        }
+    }
+
+    /// Chromaticities (x, y) of red, green and blue.
+    pub fn primaries(self) -> [[f64; 2]; 3] {
+        match self {
+            Space::Srgb => [[0.64, 0.33], [0.30, 0.60], [0.15, 0.06]],
+            Space::P3 => [[0.680, 0.320], [0.265, 0.690], [0.150, 0.060]],
+            Space::Rec2020 => [[0.708, 0.292], [0.170, 0.797], [0.131, 0.046]],
+            Space::AcesCg => [[0.713, 0.293], [0.165, 0.830], [0.128, 0.044]],
+        }
+    }
+
+    /// Chromaticity (x, y) of white.
+    pub fn white_xy(self) -> [f64; 2] {
+        match self {
+            Space::Srgb | Space::P3 | Space::Rec2020 => WHITE_D65,
+            Space::AcesCg => WHITE_ACES,
+        }
+    }
+
+    /// Whether chromaticities (x, y) of red, green, blue and white are its own, as files round them.
+    pub fn has(self, primaries: &[[f64; 2]; 3], white: &[f64; 2]) -> bool {
+        let is_near =
+            |a: &[f64; 2], b: &[f64; 2]| (a[0] - b[0]).abs().max((a[1] - b[1]).abs()) < ROUNDING;
+        let own = self.primaries();
+        let mut pairs = primaries.iter().zip(&own);
+        pairs.all(|(a, b)| is_near(a, b)) && is_near(white, &self.white_xy())
+    }
+
+    /// XYZ of white, Y = 1.
+    pub fn white(self) -> DVec3 {
+        xyz_of(self.white_xy())
+    }
+
+    /// The matrix from RGB to XYZ; (1, 1, 1) becomes [`Space::white`].
+    pub fn rgb_to_xyz(self) -> DMat3 {
+        rgb_to_xyz(self.primaries(), self.white_xy())
+    }
+
+    /// The matrix from XYZ to RGB.
+    pub fn xyz_to_rgb(self) -> DMat3 {
+        self.rgb_to_xyz().inverse()
+    }
+}
+
+/// The matrix from red, green and blue of these chromaticities (x, y) to XYZ; (1, 1, 1) becomes this white, Y = 1. Not finite where they span
+/// no space.
+pub fn rgb_to_xyz(primaries: [[f64; 2]; 3], white: [f64; 2]) -> DMat3 {
+    let [red, green, blue] = primaries.map(xyz_of);
+    let primaries = DMat3::from_cols(red, green, blue);
+    primaries * DMat3::from_diagonal(primaries.inverse() * xyz_of(white))
+}
+
+/// XYZ of a chromaticity (x, y), Y = 1.
+pub fn xyz_of([x, y]: [f64; 2]) -> DVec3 {
+    DVec3::new(x / y, 1.0, (1.0 - x - y) / y)
+}
+
+/// A linear channel, limited to [0, 1], as a byte of sRGB: IEC 61966-2-1:1999.
+///
+/// ```
+/// use fresnel_gen::physics::spectra::srgb_byte;
+///
+/// assert_eq!([0.0, 0.214, 1.0].map(srgb_byte), [0, 127, 255]);
+/// ```
+pub fn srgb_byte(linear: f64) -> u8 {
+    let linear = linear.clamp(0.0, 1.0);
+    let encoded = if linear <= 0.003_130_8 {
+        12.92 * linear
+    } else {
+        1.055 * libm::pow(linear, 1.0 / 2.4) - 0.055
+    };
+    (255.0 * encoded).round() as u8
+}
+
+/// A channel as sRGB encodes it, in [0, 1], linear: the inverse of [`srgb_byte`] without its steps.
+pub fn srgb_linear(encoded: f64) -> f64 {
+    if encoded <= 0.040_45 {
+        encoded / 12.92
+    } else {
+        libm::pow((encoded + 0.055) / 1.055, 2.4)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn encoding_is_that_of_the_standard() {
+        for (linear, byte) in [
+            (0.0, 0),
+            (-1.0, 0),
+            (f64::NAN, 0),
+            (0.0025, 8),
+            (0.215_860_5, 128),
+            (0.5, 188),
+            (1.0, 255),
+            (7.0, 255),
+        ] {
+            assert_eq!(srgb_byte(linear), byte, "{linear}");
+            assert_eq!(srgb_byte(srgb_linear(f64::from(byte) / 255.0)), byte);
+        }
+    }
+
+    #[test]
+    fn white_is_one_one_one() {
+        for space in Space::ALL {
+            assert!(
+                (space.rgb_to_xyz() * DVec3::ONE).abs_diff_eq(space.white(), 1e-15),
+                "{space:?}"
+            );
+            assert!(
+                (space.xyz_to_rgb() * space.white()).abs_diff_eq(DVec3::ONE, 1e-14),
+                "{space:?}"
+            );
+        }
+    }
+
+    /// The matrices that the standards print, row by row, to the digits that they print.
+    #[test]
+    fn the_matrices_are_the_printed_ones() {
+        for (space, rows, digits) in [
+            (
+                Space::Srgb,
+                [
+                    [0.4124, 0.3576, 0.1805],
+                    [0.2126, 0.7152, 0.0722],
+                    [0.0193, 0.1192, 0.9505],
+                ],
+                1e-4,
+            ),
+            (
+                Space::Rec2020,
+                [
+                    [0.6370, 0.1446, 0.1689],
+                    [0.2627, 0.6780, 0.0593],
+                    [0.0, 0.0281, 1.0610],
+                ],
+                1e-4,
+            ),
+            (
+                Space::AcesCg,
+                [
+                    [0.662_454_181_1, 0.134_004_206_5, 0.156_187_687_0],
+                    [0.272_228_716_8, 0.674_081_765_8, 0.053_689_517_4],
+                    [-0.005_574_649_5, 0.004_060_733_5, 1.010_339_100_3],
+                ],
+                1e-10,
+            ),
+        ] {
+            let wanted = DMat3::from_cols_array_2d(&rows).transpose();
+            assert!(
+                space.rgb_to_xyz().abs_diff_eq(wanted, digits),
+                "{space:?} {}",
+                space.rgb_to_xyz()
+            );
+        }
+    }
+}

@@ -1,0 +1,200 @@
+//! Passes in GLSL ES 3.00: naga translates what is around our functions, and our own text takes the place of its translation of them.
+
+use naga::back::glsl;
+use naga::compact::{KeepUnused, compact};
+use naga::proc::BoundsCheckPolicies;
+use naga::valid::{Capabilities, ModuleInfo, ValidationFlags, Validator};
+use naga::{GlobalVariable, Handle, Module, ShaderStage};
+use serde::Serialize;
+
+use crate::generator::emit::validate_wgsl;
+
+/// What could not be translated: a bug.
+#[derive(Clone, Debug, thiserror::Error)]
+#[error("{0}")]
+pub struct LoweringFault(pub String);
+
+/// A vertex or fragment shader without the functions of users: they are named, and what is before and after them is given.
+#[derive(Clone, Debug, Serialize)]
+pub struct GlesProgram {
+    /// The text before the first function.
+    pub before: String,
+    /// The functions that it calls itself, in their order.
+    pub functions: Vec<String>,
+    /// Whether the calls of the method come behind these.
+    pub calls: bool,
+    /// The text behind them.
+    pub after: String,
+    /// The name of the frame's block, if it reads it.
+    pub block: Option<String>,
+    /// Its textures.
+    pub textures: Vec<LoweredTexture>,
+}
+
+/// A texture with the sampler that it is read by.
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize)]
+pub struct LoweredTexture {
+    /// Its name.
+    pub name: String,
+    /// The binding of the texture in the WGSL.
+    pub texture: u32,
+    /// The binding of the sampler, if there is one.
+    pub sampler: Option<u32>,
+}
+
+/// What calls the frame's block in fragment shaders.
+pub const FRAGMENT_FRAME: &str = "_group_0_binding_0_fs";
+
+/// What stands for the calls of a method until one is chosen. It reads the frame, as they do.
+pub const STAND_IN: &str = "
+fn reflectance(incident: vec3<f32>, normal: vec3<f32>) -> vec3<f32> {
+    return incident * normal + frame.inputs[0].xyz;
+}
+
+fn transmittance_out(direction: vec3<f32>, normal_out: vec3<f32>, eta: f32) -> f32 {
+    return dot(direction, normal_out) + eta + frame.inputs[0].x;
+}
+
+fn specular(n_dot_v: f32, n_dot_l: f32, n_dot_h: f32, v_dot_h: f32, alpha: f32) -> vec3<f32> {
+    return n_dot_v * n_dot_l * n_dot_h * v_dot_h * alpha * frame.inputs[0].xyz;
+}
+";
+const CALLS: [&str; 3] = ["reflectance", "transmittance_out", "specular"];
+
+/// The entry point of a module in GLSL ES, without the functions of these names and without the calls. Off screen, rows of a picture are
+/// counted from the top, as in WebGPU.
+///
+/// # Errors
+/// naga refuses the text, or writes it in a way that this does not know.
+pub fn lowered(
+    wgsl: &str,
+    entry: &str,
+    functions: &[String],
+    is_off_screen: bool,
+) -> Result<GlesProgram, LoweringFault> {
+    let (mut module, _) = validate_wgsl(wgsl).map_err(LoweringFault)?;
+    // naga writes functions that nobody calls, too.
+    module.entry_points.retain(|point| point.name == entry);
+    compact(&mut module, KeepUnused::No);
+    let mut validator = Validator::new(ValidationFlags::all(), Capabilities::empty());
+    let info = validator.validate(&module);
+    let info = info.map_err(|fault| LoweringFault(format!("{entry}: {fault}")))?;
+    let (text, names) = translated(&module, &info, entry, is_off_screen)?;
+    let text = own_names(text, functions);
+    let mut rest = text.as_str();
+    let mut program = GlesProgram {
+        before: String::new(),
+        functions: Vec::new(),
+        calls: false,
+        after: String::new(),
+        block: block(&module, &names),
+        textures: textures(&module, &names),
+    };
+    let mut kept = String::new();
+    let all: Vec<&str> = functions.iter().map(String::as_str).chain(CALLS).collect();
+    let mut first = None;
+    while let Some((from, to, name)) = next_function(rest, &all) {
+        kept += &rest[..from];
+        first.get_or_insert(kept.len());
+        rest = &rest[to..];
+        match CALLS.contains(&name) {
+            true => program.calls = true,
+            false => program.functions.push(name.to_owned()),
+        }
+    }
+    kept += rest;
+    let (before, after) = kept.split_at(first.unwrap_or(kept.len()));
+    (program.before, program.after) = (before.to_owned(), after.to_owned());
+    let knows_frame = program.before.contains(&format!(" {FRAGMENT_FRAME};"));
+    match program.calls && !knows_frame {
+        true => Err(LoweringFault(format!(
+            "{entry} calls a method, and has no {FRAGMENT_FRAME}"
+        ))),
+        false => Ok(program),
+    }
+}
+
+fn translated(
+    module: &Module,
+    info: &ModuleInfo,
+    entry: &str,
+    is_off_screen: bool,
+) -> Result<(String, glsl::ReflectionInfo), LoweringFault> {
+    let mut points = module.entry_points.iter();
+    let stage = points
+        .find(|point| point.name == entry)
+        .map(|point| point.stage);
+    let stage = stage.ok_or_else(|| LoweringFault(format!("the module has no {entry}")))?;
+    debug_assert!(stage == ShaderStage::Vertex || stage == ShaderStage::Fragment);
+    let flags = match is_off_screen {
+        true => glsl::WriterFlags::ADJUST_COORDINATE_SPACE,
+        false => glsl::WriterFlags::empty(),
+    };
+    let options = glsl::Options {
+        version: glsl::Version::new_gles(300),
+        writer_flags: flags,
+        ..Default::default()
+    };
+    let pipeline = glsl::PipelineOptions {
+        shader_stage: stage,
+        entry_point: entry.to_owned(),
+        multiview: None,
+    };
+    let refused = |fault: glsl::Error| LoweringFault(format!("{entry}: {fault}"));
+    let (mut text, checks) = (String::new(), BoundsCheckPolicies::default());
+    let names = glsl::Writer::new(&mut text, module, info, &options, &pipeline, checks)
+        .and_then(|mut writer| writer.write())
+        .map_err(refused)?;
+    Ok((text, names))
+}
+
+/// naga puts a `_` behind a name that ends in a digit.
+fn own_names(mut text: String, functions: &[String]) -> String {
+    for name in functions {
+        text = text.replace(&format!(" {name}_("), &format!(" {name}("));
+    }
+    text
+}
+
+/// The first function of these: where it begins, where the text goes on, and its name.
+fn next_function<'a>(text: &str, names: &[&'a str]) -> Option<(usize, usize, &'a str)> {
+    let mut at = 0;
+    for line in text.split_inclusive('\n') {
+        let is_head = !line.starts_with([' ', '}', '#']) && line.ends_with(") {\n");
+        let name = line
+            .split_once('(')
+            .and_then(|(head, _)| head.split(' ').next_back());
+        let known = names.iter().find(|known| Some(**known) == name);
+        if let (true, Some(known)) = (is_head, known) {
+            let end = text[at..].find("\n}\n")? + at + "\n}\n".len();
+            return Some((at, end, known));
+        }
+        at += line.len();
+    }
+    None
+}
+
+fn binding(module: &Module, variable: Handle<GlobalVariable>) -> Option<u32> {
+    let bound = module.global_variables[variable].binding;
+    bound.map(|bound| bound.binding)
+}
+
+/// The name of the block itself; its instance is called otherwise.
+fn block(module: &Module, names: &glsl::ReflectionInfo) -> Option<String> {
+    let mut blocks = names.uniforms.iter();
+    let found = blocks.find(|(variable, _)| binding(module, **variable) == Some(0));
+    found.map(|(_, name)| name.clone())
+}
+
+fn textures(module: &Module, names: &glsl::ReflectionInfo) -> Vec<LoweredTexture> {
+    let mapped = names.texture_mapping.iter().filter_map(|(name, mapping)| {
+        Some(LoweredTexture {
+            name: name.clone(),
+            texture: binding(module, mapping.texture)?,
+            sampler: mapping.sampler.and_then(|sampler| binding(module, sampler)),
+        })
+    });
+    let mut all: Vec<LoweredTexture> = mapped.collect();
+    all.sort();
+    all
+}

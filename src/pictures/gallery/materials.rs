@@ -1,0 +1,178 @@
+//! Materials as numbers: the index, the values of each method's inputs, and what is recorded of errors and costs.
+
+use std::collections::BTreeMap;
+
+use serde::Serialize;
+
+use crate::generator::fit::{values, values_for_material};
+use crate::generator::reference::{Derivation, MaterialInMedium};
+use crate::lab::chart::{ChartData, ChartEntry, ERRORS, MaterialSet};
+use crate::language::methods::{Class, Light, Method, Values};
+use crate::physics::materials::Channels;
+use crate::physics::num::in_parallel;
+use crate::pictures::scene::Glass;
+
+use super::packed::Packed;
+
+/// A material.
+#[derive(Clone, Debug, Serialize)]
+pub struct MaterialNumbers {
+    /// Its name.
+    pub name: String,
+    /// What it is, in one line.
+    pub summary: String,
+    /// n of red, green and blue.
+    pub n: [f32; 3],
+    /// k of red, green and blue.
+    pub k: [f32; 3],
+    /// How light dies away in it.
+    pub absorption: [f32; 3],
+    /// The values of each method's inputs, in their order.
+    pub inputs: BTreeMap<&'static str, Vec<[f32; 3]>>,
+    /// The errors of each method by each measure.
+    pub errors: BTreeMap<&'static str, [Option<f64>; 4]>,
+}
+
+/// A method.
+#[derive(Clone, Debug, Serialize)]
+pub struct MethodNumbers {
+    /// Its name.
+    pub name: &'static str,
+    /// One line.
+    pub summary: &'static str,
+    /// Who published it.
+    pub source: String,
+    /// Its inputs.
+    pub inputs: Vec<&'static str>,
+    /// Where it breaks the function contract.
+    pub fails: Option<String>,
+    /// What an evaluation costs on each axis.
+    pub costs: Vec<Option<f64>>,
+}
+
+/// The values of inputs for an index that a reader chooses, the same for all channels.
+#[derive(Clone, Debug, Serialize)]
+pub struct OwnIndex {
+    /// Whether light passes through such bodies.
+    pub transparent: bool,
+    /// The first n, the step, how many.
+    pub n: [f64; 3],
+    /// The first k, the step, how many.
+    pub k: [f64; 3],
+    /// How many values of each method there are for an index, and the values: of each n those of each k.
+    pub inputs: BTreeMap<&'static str, (usize, Packed)>,
+}
+
+/// The methods that the gallery shows.
+fn shown() -> impl Iterator<Item = &'static Method> {
+    let all = crate::language::methods::ALL.iter().copied();
+    all.filter(|method| method.light == Light::Unpolarised && !method.is_textured())
+}
+
+/// The methods with their costs.
+pub fn method_numbers(data: &ChartData) -> Vec<MethodNumbers> {
+    let numbers = |method: &'static Method| {
+        let place = entry(data, method);
+        let costs = data.costs.iter();
+        MethodNumbers {
+            name: method.name,
+            summary: method.summary,
+            source: method.source.line(),
+            inputs: method.inputs.iter().map(|input| input.name).collect(),
+            fails: place.and_then(|place| data.entries[place].fails().map(str::to_owned)),
+            costs: costs.map(|axis| axis.costs[place?]).collect(),
+        }
+    };
+    shown().map(numbers).collect()
+}
+
+/// Where charts have a method with its intended inputs.
+fn entry(data: &ChartData, method: &Method) -> Option<usize> {
+    let is_own = |entry: &ChartEntry| !entry.is_best && entry.name() == method.name;
+    data.entries.iter().position(is_own)
+}
+
+/// The materials.
+pub fn numbers(subjects: &[MaterialInMedium], data: &ChartData) -> Vec<MaterialNumbers> {
+    let one = |i: usize| material(&subjects[i], data);
+    in_parallel(subjects.len(), &one, &mut |_, _| {})
+}
+
+fn material(subject: &MaterialInMedium, data: &ChartData) -> MaterialNumbers {
+    let glass = Glass::of_surface(&subject.reference.surface);
+    let single = |numbers: glam::DVec3| numbers.to_array().map(|value| value as f32);
+    let set = data.sets.iter().find(|set| set.name == subject.argument);
+    let (mut inputs, mut errors) = (BTreeMap::new(), BTreeMap::new());
+    for method in shown().filter(|method| subject.is_described_by(method)) {
+        let found = values_for_material(subject, method);
+        inputs.insert(method.name, in_order(method, &found));
+        errors.insert(method.name, errors_in(set, entry(data, method)));
+    }
+    MaterialNumbers {
+        name: subject.name.clone(),
+        summary: subject.material.summary.clone(),
+        n: single(glass.n),
+        k: single(glass.k),
+        absorption: single(glass.absorption()),
+        inputs,
+        errors,
+    }
+}
+
+/// Errors with four digits.
+fn errors_in(set: Option<&MaterialSet>, entry: Option<usize>) -> [Option<f64>; 4] {
+    ERRORS.map(|axis| {
+        let error = (axis.value)(set?.errors.get(entry?)?)?;
+        format!("{error:.3e}").parse().ok()
+    })
+}
+
+fn in_order(method: &Method, values: &Values) -> Vec<[f32; 3]> {
+    let inputs = method.inputs.iter();
+    let found = inputs.map(|input| values.get(input.name).copied().unwrap_or([0.0; 3]));
+    found.map(|value| value.map(|x| x as f32)).collect()
+}
+
+/// The indices of a reader's choice: of glasses, and of metals without the methods that need a fit.
+pub fn own_indices() -> Vec<OwnIndex> {
+    let glasses = [1.02, 0.02, 100.0];
+    let metals = ([0.1, 0.1, 45.0], [0.5, 0.25, 31.0]);
+    vec![
+        own_index(true, glasses, [0.0, 0.0, 1.0]),
+        own_index(false, metals.0, metals.1),
+    ]
+}
+
+fn own_index(transparent: bool, n: [f64; 3], k: [f64; 3]) -> OwnIndex {
+    let describes = |method: &&Method| match transparent {
+        true => method.class != Class::Metal,
+        false => method.class == Class::Any && !method.is_fitted(),
+    };
+    let methods: Vec<&Method> = shown().filter(describes).collect();
+    let at = |[first, step, _]: [f64; 3], i: usize| first + step * i as f64;
+    let one = |i: usize| {
+        let mut numbers = Vec::new();
+        for a in 0..n[2] as usize {
+            for b in 0..k[2] as usize {
+                let channels = Channels {
+                    n: [at(n, a); 3],
+                    k: [at(k, b); 3],
+                };
+                let found = values(methods[i], &channels, &Derivation::default());
+                numbers.extend(in_order(methods[i], &found).iter().map(|value| value[0]));
+            }
+        }
+        (
+            methods[i].name,
+            (methods[i].inputs.len(), Packed::floats(&numbers)),
+        )
+    };
+    OwnIndex {
+        transparent,
+        n,
+        k,
+        inputs: in_parallel(methods.len(), &one, &mut |_, _| {})
+            .into_iter()
+            .collect(),
+    }
+}

@@ -1,0 +1,152 @@
+//! The gallery as data: every row of the scene with its texts in WGSL and GLSL ES, the numbers of materials, and what is drawn with
+//! them. A page plays it without this program; the page stands in `report/gallery.rs`.
+//!
+//! A program is put together from parts, as the page does it: the functions that users import, the calls of the chosen method, the row's
+//! passes. In GLSL ES the passes are naga's translation, and the functions are our own text.
+
+mod functions;
+mod lower;
+mod materials;
+mod orbit;
+mod packed;
+mod passes;
+mod row;
+mod rows;
+mod show;
+
+use std::collections::BTreeMap;
+
+use serde::Serialize;
+
+use crate::generator::emit;
+use crate::generator::reference::MaterialInMedium;
+use crate::lab::chart::{ChartData, chart_data};
+use crate::physics::spectra::Space;
+use crate::pictures::scene::{
+    self, ABSORPTION_AT, FRAME, INDEX_AT, INPUTS, INPUTS_AT, MARGIN, PIXEL_AT,
+};
+
+pub use functions::FunctionTexts;
+pub use lower::{GlesProgram, LoweredTexture, LoweringFault, lowered};
+pub use materials::{MaterialNumbers, MethodNumbers, OwnIndex};
+pub use orbit::{AZIMUTHS, Orbit, eye_at};
+use packed::{SKY, textures_of};
+
+pub use packed::{CUBE, Packed, PackedMesh, PackedTexture, reduced_tables, unpacked_environment};
+pub use passes::GalleryPass;
+pub use row::{GalleryRow, MethodCalls, ProgramPair, exact_method, methods_of};
+pub use rows::{find, rows};
+pub use show::{SHOW, ShowPrograms};
+
+/// All that the page holds.
+#[derive(Debug, Serialize)]
+pub struct Gallery {
+    /// The rows.
+    pub rows: Vec<GalleryRow>,
+    /// Methods with their costs.
+    pub methods: Vec<MethodNumbers>,
+    /// Materials with the values of inputs and the errors of each method.
+    pub materials: Vec<MaterialNumbers>,
+    /// The values of inputs for an index that the reader chooses.
+    pub own: Vec<OwnIndex>,
+    /// The axes of cost: name and title.
+    pub costs: Vec<[String; 2]>,
+    /// The measures of error: name and title.
+    pub errors: Vec<[&'static str; 2]>,
+    /// The text of every function.
+    pub functions: Vec<FunctionTexts>,
+    /// The frame's text in WGSL.
+    pub frame: &'static str,
+    /// Where the numbers of the reader's choice stand in the frame's block.
+    pub layout: Layout,
+    /// The views of the camera.
+    pub orbits: Vec<Orbit>,
+    /// What the passes read: the sky, the room, the relief.
+    pub textures: Vec<PackedTexture>,
+    /// The bodies.
+    pub meshes: Vec<PackedMesh>,
+    /// What puts the panels side by side.
+    pub show: ShowPrograms,
+    /// Samples of a pixel along each side.
+    pub samples: u32,
+    /// A margin is this part of a picture's side.
+    pub margin: u32,
+}
+
+/// Places in the frame's block, in numbers.
+#[derive(Clone, Copy, Debug, Serialize)]
+pub struct Layout {
+    index: usize,
+    absorption: usize,
+    inputs: usize,
+    roughness: usize,
+    pixel: usize,
+    size: usize,
+}
+
+/// The gallery with these materials. `progress` hears how many are done.
+///
+/// # Errors
+/// A text cannot be written or translated: a bug.
+pub fn gallery(
+    subjects: &[MaterialInMedium],
+    space: Space,
+    progress: &mut dyn FnMut(u64, u64, &str),
+) -> Result<Gallery, LoweringFault> {
+    let data: ChartData = chart_data(subjects, space, None, String::new(), progress);
+    let (mut orbits, mut played) = (Vec::new(), Vec::new());
+    let mut textures = BTreeMap::from([(SKY.to_owned(), packed::sky_texture())]);
+    let mut meshes = BTreeMap::new();
+    for row in rows::rows() {
+        let mut images = BTreeMap::from([(SKY.to_owned(), SKY.to_owned())]);
+        for (slot, texture) in textures_of(row) {
+            images.insert(format!("{slot:?}"), texture.name.clone());
+            textures.entry(texture.name.clone()).or_insert(texture);
+        }
+        meshes
+            .entry((row.body.name(), false))
+            .or_insert_with(|| PackedMesh::solid(row.body));
+        if row.has_water() {
+            let water = || PackedMesh::water(row.body);
+            meshes.entry((row.body.name(), true)).or_insert_with(water);
+        }
+        played.push(GalleryRow::new(row, subjects, (&mut orbits, images))?);
+    }
+    let all = played.iter().flat_map(GalleryRow::function_names);
+    let functions = functions::texts(&all.collect())?;
+    let errors = crate::lab::chart::ERRORS.iter();
+    Ok(Gallery {
+        methods: materials::method_numbers(&data),
+        materials: materials::numbers(subjects, &data),
+        own: materials::own_indices(),
+        costs: data
+            .costs
+            .iter()
+            .map(|cost| [cost.name.to_owned(), cost.title.clone()])
+            .collect(),
+        errors: errors.map(|error| [error.name, error.title]).collect(),
+        functions,
+        frame: FRAME,
+        layout: Layout {
+            index: INDEX_AT,
+            absorption: ABSORPTION_AT,
+            inputs: INPUTS_AT,
+            roughness: ABSORPTION_AT + 3,
+            pixel: PIXEL_AT,
+            size: INPUTS_AT + 4 * INPUTS,
+        },
+        orbits,
+        textures: textures.into_values().collect(),
+        meshes: meshes.into_values().collect(),
+        show: show::programs()?,
+        samples: scene::SAMPLES,
+        margin: MARGIN,
+        rows: played,
+    })
+}
+
+impl From<emit::Error> for LoweringFault {
+    fn from(fault: emit::Error) -> LoweringFault {
+        LoweringFault(fault.to_string())
+    }
+}

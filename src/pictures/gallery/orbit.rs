@@ -1,0 +1,140 @@
+//! The places that a reader may look from: the frame's block for each, so that a page computes no camera.
+
+use glam::DVec3;
+use serde::Serialize;
+
+use crate::pictures::scene::{
+    Camera, Glass, INPUTS, INPUTS_AT, LightBlock, PHOTONS, RenderRow, View, frame,
+};
+
+use super::packed::Packed;
+
+/// Places around the body: every 5 degrees.
+pub const AZIMUTHS: usize = 72;
+/// Elevations beside the row's own, in degrees.
+const STEPS: [f64; 7] = [-30.0, -20.0, -10.0, 0.0, 10.0, 20.0, 30.0];
+/// The row's own elevation among them.
+const OWN: usize = 3;
+/// Samples a side of the picture: any number of which a margin is a whole part.
+const SIDE: u32 = 100;
+/// How high the eye stands, in degrees.
+const LOWEST: f64 = 4.0;
+const HIGHEST: f64 = 80.0;
+
+/// The views of a row's camera.
+#[derive(Clone, Debug, Serialize)]
+pub struct Orbit {
+    /// Where the eye stands first.
+    pub eye: [f64; 3],
+    /// The body's size.
+    pub size: f64,
+    /// Places around the body.
+    pub azimuths: usize,
+    /// Elevations in degrees.
+    pub elevations: Vec<f64>,
+    /// The row's own elevation among them.
+    pub first: usize,
+    /// Blocks without inputs: of each view, elevation and azimuth.
+    pub blocks: Packed,
+    /// Numbers of such a block.
+    pub numbers: usize,
+    /// The views, by their place.
+    #[serde(skip)]
+    views: Vec<View>,
+}
+
+impl Orbit {
+    /// The place of a row's orbit among these, entered where it is new.
+    pub fn of(row: &RenderRow, orbits: &mut Vec<Orbit>) -> usize {
+        if let Some(receiver) = row.receiver {
+            orbits.push(Orbit::of_light(row, receiver));
+            return orbits.len() - 1;
+        }
+        let size = row.body.body().radius();
+        let mut views = Vec::new();
+        for pass in row.passes {
+            if !views.contains(&pass.view) {
+                views.push(pass.view);
+            }
+        }
+        let is_same =
+            |orbit: &Orbit| (orbit.eye, orbit.size, &orbit.views) == (row.eye, size, &views);
+        if let Some(place) = orbits.iter().position(is_same) {
+            return place;
+        }
+        orbits.push(Orbit::new(row.eye, size, views));
+        orbits.len() - 1
+    }
+
+    /// The light's own view: no eye is turned.
+    fn of_light(row: &RenderRow, receiver: [f64; 2]) -> Orbit {
+        let nothing = Glass::of_index(0.0);
+        let light = LightBlock {
+            window: receiver,
+            widths: [0.0; 2],
+            photons: PHOTONS,
+            shift: [0.0; 2],
+        };
+        let block = light.numbers(&nothing, [[0.0; 4]; INPUTS]);
+        Orbit {
+            eye: row.eye,
+            size: 1.0,
+            azimuths: 1,
+            elevations: vec![0.0],
+            first: 0,
+            blocks: Packed::floats(&block[..INPUTS_AT]),
+            numbers: INPUTS_AT,
+            views: Vec::new(),
+        }
+    }
+
+    fn new(eye: [f64; 3], size: f64, views: Vec<View>) -> Orbit {
+        let nothing = Glass::of_index(0.0);
+        let mut numbers = Vec::new();
+        for view in &views {
+            for step in 0..STEPS.len() {
+                for azimuth in 0..AZIMUTHS {
+                    let camera = Camera::around(eye_at(eye, step, azimuth), size);
+                    let block = frame((*view, &camera, SIDE), size, &nothing, [[0.0; 4]; INPUTS]);
+                    numbers.extend(&block[..INPUTS_AT]);
+                }
+            }
+        }
+        Orbit {
+            eye,
+            size,
+            azimuths: AZIMUTHS,
+            elevations: (0..STEPS.len())
+                .map(|step| elevation(eye, step).round())
+                .collect(),
+            first: OWN,
+            blocks: Packed::floats(&numbers),
+            numbers: INPUTS_AT,
+            views,
+        }
+    }
+
+    /// The place of a view.
+    pub fn view(&self, view: View) -> usize {
+        let place = self.views.iter().position(|other| *other == view);
+        place.expect("an orbit has the views of its rows")
+    }
+}
+
+fn elevation(eye: [f64; 3], step: usize) -> f64 {
+    let own = libm::asin(eye[1] / DVec3::from_array(eye).length()).to_degrees();
+    // One that looks up from below stays where it is.
+    (own + STEPS[step]).clamp(own.min(LOWEST), HIGHEST)
+}
+
+/// The eye at a place of the orbit of this one.
+pub fn eye_at(eye: [f64; 3], step: usize, azimuth: usize) -> DVec3 {
+    let own = DVec3::from_array(eye);
+    if (step, azimuth) == (OWN, 0) {
+        return own;
+    }
+    let turned = std::f64::consts::TAU * azimuth as f64 / AZIMUTHS as f64;
+    let (sin_a, cos_a) = libm::sincos(libm::atan2(own.x, own.z) + turned);
+    let (sin_e, cos_e) = libm::sincos(elevation(eye, step).to_radians());
+    own.length() * DVec3::new(sin_a * cos_e, sin_e, cos_a * cos_e)
+}

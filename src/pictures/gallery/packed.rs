@@ -1,0 +1,272 @@
+//! Textures and meshes as text: little-endian numbers, deflated, in base 64.
+
+use std::borrow::Cow;
+use std::collections::BTreeMap;
+
+use base64::Engine as _;
+use base64::prelude::BASE64_STANDARD;
+use half::f16;
+use serde::Serialize;
+
+use crate::pictures::scene::{
+    Body, BodyName, Environment, Relief, RenderRow, Slot, Texels, Vertex, room_cube, sky_of,
+};
+
+/// Bytes as a page holds them.
+#[derive(Clone, Debug, Serialize)]
+#[serde(transparent)]
+pub struct Packed(String);
+
+impl Packed {
+    /// Deflates bytes.
+    pub fn new(bytes: &[u8]) -> Packed {
+        let deflated = miniz_oxide::deflate::compress_to_vec_zlib(bytes, LEVEL);
+        Packed(BASE64_STANDARD.encode(deflated))
+    }
+
+    /// Deflates numbers.
+    pub fn floats(numbers: &[f32]) -> Packed {
+        let bytes: Vec<u8> = numbers.iter().flat_map(|x| x.to_le_bytes()).collect();
+        Packed::new(&bytes)
+    }
+}
+
+/// How hard the encoder tries.
+const LEVEL: u8 = 9;
+
+/// A texture of a page.
+#[derive(Clone, Debug, Serialize)]
+pub struct PackedTexture {
+    /// Its name.
+    pub name: String,
+    /// Width, height, layers: six are a cube.
+    pub size: [usize; 3],
+    /// The format by its name in WebGPU.
+    pub format: &'static str,
+    /// Its texels, less those of the row above.
+    pub texels: Packed,
+}
+
+/// The sky's name among textures.
+pub const SKY: &str = "Sky";
+/// Texels from pole to pole, and of a side of the room's cube map: fewer than in pictures, since every reader loads them.
+const SKY_HEIGHT: usize = 1024;
+/// Of a side of the room's cube map.
+pub const CUBE: usize = 512;
+/// Tables of bodies are reduced until they are at most so wide: colours, and others, which deflate badly.
+const WIDEST: [usize; 2] = [512, 320];
+
+/// The sky as a texture.
+pub fn sky_texture() -> PackedTexture {
+    let environment = environment();
+    let [width, height] = environment.size();
+    let texels = environment.texels();
+    shared(SKY.to_owned(), [width, height], texels.iter().copied())
+}
+
+/// What a row reads besides what it draws: by slot.
+pub fn textures_of(row: &RenderRow) -> BTreeMap<Slot, PackedTexture> {
+    let mut all = BTreeMap::new();
+    if row.in_room {
+        let texels = halves(room_cube(CUBE).into_iter());
+        let room = texture("Room".to_owned(), [CUBE, CUBE, 6], texels);
+        all.insert(Slot::Room, room);
+    }
+    if let Some(slope) = row.dents {
+        let relief = Relief::hammered(slope);
+        let [width, height] = relief.normals().size();
+        let normals = halves(relief.normals().texels().iter().copied());
+        let dents = texture(format!("dents of {slope}"), [width, height, 1], normals);
+        all.insert(Slot::Relief, dents);
+    }
+    let body = row.body.body();
+    for (slot, table) in reduced_tables(&body) {
+        let name = format!("{} {slot:?}", row.body.name());
+        let [width, height] = table.size();
+        let packed = match is_opaque(&table) {
+            true => {
+                let colours = table.texels().iter().map(|[r, g, b, _]| [*r, *g, *b]);
+                shared(name, [width, height], colours)
+            }
+            false => texture(
+                name,
+                [width, height, 1],
+                halves(table.texels().iter().copied()),
+            ),
+        };
+        all.insert(slot, packed);
+    }
+    all
+}
+
+/// The tables of a body as the page has them.
+pub fn reduced_tables(body: &Body) -> Vec<(Slot, Cow<'_, Texels>)> {
+    let reduced = |(slot, table): (Slot, &Texels)| {
+        let [colours, others] = WIDEST;
+        let is_opaque = is_opaque(table);
+        let widest = if is_opaque { colours } else { others };
+        let table = table.reduced(table.size()[0].div_ceil(widest));
+        let coarse = match is_opaque {
+            true => table.mapped(|[r, g, b, _]| {
+                let [r, g, b] = from_shared_exponent(shared_exponent([r, g, b]));
+                [r, g, b, 1.0]
+            }),
+            false => table.mapped(|texel| texel.map(coarse)),
+        };
+        (slot, Cow::Owned(coarse))
+    };
+    body.tables().into_iter().map(reduced).collect()
+}
+
+/// Whether a table holds colours alone.
+fn is_opaque(table: &Texels) -> bool {
+    let is_colour = |[r, g, b, a]: &[f32; 4]| *a == 1.0 && r.min(*g).min(*b) >= 0.0;
+    table.texels().iter().all(is_colour)
+}
+
+/// A number with 7 bits that count: what is finer deflates badly, and turns a normal by less than a part in a hundred of its slope.
+fn coarse(value: f32) -> f32 {
+    const DROPPED: u32 = 23 - 6;
+    let half = 1 << (DROPPED - 1);
+    f32::from_bits((value.to_bits() + half) >> DROPPED << DROPPED)
+}
+
+fn shared(
+    name: String,
+    [width, height]: [usize; 2],
+    texels: impl Iterator<Item = [f32; 3]>,
+) -> PackedTexture {
+    let bytes: Vec<u8> = texels
+        .map(shared_exponent)
+        .flat_map(u32::to_le_bytes)
+        .collect();
+    PackedTexture {
+        name,
+        size: [width, height, 1],
+        format: "rgb9e5ufloat",
+        texels: packed_rows(&bytes, 4 * width),
+    }
+}
+
+fn texture(name: String, size: [usize; 3], halves: Vec<u8>) -> PackedTexture {
+    PackedTexture {
+        name,
+        size,
+        format: "rgba16float",
+        texels: packed_rows(&halves, 8 * size[0]),
+    }
+}
+
+fn halves(texels: impl Iterator<Item = [f32; 4]>) -> Vec<u8> {
+    let numbers = texels.flatten();
+    numbers
+        .flat_map(|x| f16::from_f32(x).to_le_bytes())
+        .collect()
+}
+
+/// Each byte less the one above it: rows are alike, so that they deflate well.
+fn packed_rows(bytes: &[u8], row: usize) -> Packed {
+    let above = |i: usize| i.checked_sub(row).map_or(0, |i| bytes[i]);
+    let less: Vec<u8> = (0..bytes.len())
+        .map(|i| bytes[i].wrapping_sub(above(i)))
+        .collect();
+    Packed::new(&less)
+}
+
+/// The sky as the page has it: fewer texels than in pictures, each as three numbers of 9 bits with a shared exponent.
+pub fn environment() -> Environment {
+    sky_of(SKY_HEIGHT)
+}
+
+/// That sky after a texture has held it.
+pub fn unpacked_environment() -> Environment {
+    let whole = environment();
+    whole.mapped(|texel| from_shared_exponent(shared_exponent(texel)))
+}
+
+/// Bits of a number, the bias of the exponent: OpenGL ES 3.0, section 3.8.3.2.
+const BITS: i32 = 9;
+const BIAS: i32 = 15;
+
+/// A colour as three numbers of 9 bits with a shared exponent.
+fn shared_exponent(texel: [f32; 3]) -> u32 {
+    let most = texel.into_iter().fold(0.0_f32, f32::max);
+    let exponent = |of: f32| (of.log2().floor() as i32).max(-BIAS - 1) + 1 + BIAS;
+    let unit = |exponent: i32| libm::exp2f((exponent - BIAS - BITS) as f32);
+    let mut shared = exponent(most);
+    if (most / unit(shared)).round() >= 512.0 {
+        shared += 1;
+    }
+    let part = |value: f32| ((value / unit(shared)).round() as u32).min(511);
+    let [r, g, b] = texel.map(part);
+    r | g << 9 | b << 18 | (shared as u32) << 27
+}
+
+fn from_shared_exponent(packed: u32) -> [f32; 3] {
+    let unit = libm::exp2f(((packed >> 27) as i32 - BIAS - BITS) as f32);
+    [0, 9, 18].map(|at| (packed >> at & 511) as f32 * unit)
+}
+
+/// A body of a page.
+#[derive(Clone, Debug, Serialize)]
+pub struct PackedMesh {
+    /// Its name.
+    pub name: String,
+    /// Of a ball of radius 1 the rows from pole to pole; the page makes its vertices.
+    pub ball: Option<usize>,
+    /// Vertices of triangles, twelve numbers each.
+    pub vertices: Option<Packed>,
+}
+
+/// Rows of the ball: half of those in pictures.
+pub const ROWS: usize = 128;
+
+impl PackedMesh {
+    /// A body.
+    pub fn solid(name: BodyName) -> PackedMesh {
+        if name == BodyName::Ball {
+            return PackedMesh {
+                name: name.name().to_owned(),
+                ball: Some(ROWS),
+                vertices: None,
+            };
+        }
+        PackedMesh::new(name.name().to_owned(), &name.body().triangles())
+    }
+
+    /// A body's water.
+    pub fn water(name: BodyName) -> PackedMesh {
+        PackedMesh::new(format!("{} water", name.name()), &name.body().water())
+    }
+
+    fn new(name: String, triangles: &[[Vertex; 3]]) -> PackedMesh {
+        let vertices = triangles.iter().flatten();
+        let numbers: Vec<f32> = vertices.flat_map(Vertex::numbers).collect();
+        PackedMesh {
+            name,
+            ball: None,
+            vertices: Some(Packed::floats(&numbers)),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_shared_exponent_keeps_a_colour_to_a_part_in_five_hundred() {
+        for texel in [
+            [0.0, 0.0, 0.0],
+            [1.0, 0.5, 0.25],
+            [60.0, 55.8, 48.0],
+            [0.999_9, 0.01, 0.3],
+        ] {
+            let got = from_shared_exponent(shared_exponent(texel));
+            let most = texel.into_iter().fold(0.0_f32, f32::max);
+            for (got, want) in got.into_iter().zip(texel) {
+                assert!((got - want).abs() <= most / 500.0, "{got} {want}");
+            }
+        }
+    }
+}

@@ -1,0 +1,121 @@
+//! The passes of a row, as a page draws them.
+
+use serde::Serialize;
+
+use crate::pictures::scene::{BACK, PHOTONS, PassRow, Place, RenderRow, Slot};
+
+use super::orbit::Orbit;
+use super::packed::SKY;
+
+/// A pass.
+#[derive(Clone, Debug, Serialize)]
+pub struct GalleryPass {
+    /// The entry point for vertices.
+    pub vertex: &'static str,
+    /// The entry point for pixels.
+    pub fragment: &'static str,
+    /// What is drawn; a triangle that covers the target where nothing is named.
+    pub mesh: Option<String>,
+    /// Vertices that the entry point makes itself, where there is no mesh.
+    pub count: u32,
+    /// Whether it is added to what is there.
+    pub adds: bool,
+    /// Whether its picture has a margin.
+    pub margin: bool,
+    /// Pixels a side of its picture, where these are not the panel's.
+    pub side: Option<u32>,
+    /// Which surface is seen: none is hidden, the nearest, the farthest.
+    pub depth: &'static str,
+    /// The place of its view in the orbit.
+    pub view: usize,
+    /// What it writes.
+    pub writes: Vec<String>,
+    /// What it reads, from binding 3 on.
+    pub reads: Vec<String>,
+}
+
+/// The passes of a row, whose orbit this is.
+pub fn passes_of(row: &RenderRow, orbit: &Orbit) -> Vec<GalleryPass> {
+    match row.receiver {
+        Some(_) => light_passes(row),
+        None => row
+            .passes
+            .iter()
+            .map(|pass| seen_pass(row, pass, orbit))
+            .collect(),
+    }
+}
+
+/// Light through a body onto a receiver: both sides of the body, photons, and the triangles between these.
+fn light_passes(row: &RenderRow) -> Vec<GalleryPass> {
+    let names = |names: &[&str]| names.iter().map(|name| (*name).to_owned()).collect();
+    let side = |depth, side, writes: [&str; 2]| GalleryPass {
+        vertex: "vs_body",
+        fragment: "fs_side",
+        mesh: Some(row.body.name().to_owned()),
+        count: 0,
+        adds: false,
+        depth,
+        view: 0,
+        margin: false,
+        side: Some(side),
+        writes: names(&writes),
+        reads: names(&[SKY]),
+    };
+    let (front, back) = (
+        ["FrontPositions", "FrontNormals"],
+        ["BackPositions", "BackNormals"],
+    );
+    let photons = ["PhotonPlaces", "PhotonEnergies"];
+    let drawn = |vertex, fragment, count, of: [&str; 2]| GalleryPass {
+        vertex,
+        fragment,
+        mesh: None,
+        count,
+        reads: names(&[SKY, of[0], of[1], back[0], back[1]]),
+        ..side("none", PHOTONS, photons)
+    };
+    vec![
+        side("nearest", PHOTONS, front),
+        side("farthest", BACK, back),
+        drawn("vs_cover", "fs_photon", 3, front),
+        GalleryPass {
+            adds: true,
+            side: None,
+            writes: names(&["Colour"]),
+            ..drawn("vs_triangle", "fs_lit", 6 * (PHOTONS - 1).pow(2), photons)
+        },
+    ]
+}
+
+fn seen_pass(row: &RenderRow, pass: &PassRow, orbit: &Orbit) -> GalleryPass {
+    let reads = pass.reads.iter().map(slot);
+    GalleryPass {
+        vertex: match pass.place {
+            Place::Everywhere => "vs_cover",
+            Place::Front | Place::Back | Place::Water => "vs_body",
+        },
+        fragment: pass.fragment,
+        mesh: match pass.place {
+            Place::Everywhere => None,
+            Place::Front | Place::Back => Some(row.body.name().to_owned()),
+            Place::Water => Some(format!("{} water", row.body.name())),
+        },
+        count: 3,
+        adds: false,
+        margin: pass.view.has_margin(),
+        side: None,
+        depth: match pass.place {
+            Place::Everywhere | Place::Water => "none",
+            Place::Front => "nearest",
+            Place::Back => "farthest",
+        },
+        view: orbit.view(pass.view),
+        writes: pass.writes.iter().map(slot).collect(),
+        reads: [SKY.to_owned()].into_iter().chain(reads).collect(),
+    }
+}
+
+fn slot(slot: &Slot) -> String {
+    format!("{slot:?}")
+}

@@ -1,0 +1,136 @@
+//! Scenes that we draw ourselves: triangles of several materials in one depth buffer, under light from all around.
+
+use crate::lab::raster::{Camera, Mesh, SurfacePoint, surface_points_of};
+
+use super::pixels::{FramePixels, ScenePixel};
+use super::sky::SceneLight;
+
+/// How a part of a scene looks.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SurfaceLook {
+    /// Its material, by the order of the scene's materials. What has none hides what is behind it, and nothing is planned for it.
+    pub material: Option<usize>,
+    /// Perceptual roughness in [0, 1].
+    pub roughness: f32,
+    /// All other light of its pixels, before 1 - F multiplies it: in the working space, linear.
+    pub other: [f32; 3],
+    /// How much of a pixel it covers, above 0 to 1.
+    pub coverage: f32,
+    /// Whether it is seen from the side alone from which the corners of its triangles go round counter-clockwise.
+    pub is_one_sided: bool,
+}
+
+/// A scene, ready to be drawn.
+#[derive(Clone, Debug, PartialEq)]
+pub struct DrawnScene {
+    mesh: Mesh,
+    /// The first triangle of each part that has triangles, in ascending order, and its look.
+    parts: Vec<(u32, SurfaceLook)>,
+    /// What the other light and the coverage of a part are multiplied by at each of its corners, after the place of its first corner. In the
+    /// order of corners; parts without are not among them.
+    tints: Vec<(usize, Vec<[f32; 4]>)>,
+    materials: usize,
+    light: SceneLight,
+}
+
+impl DrawnScene {
+    /// A scene that holds nothing yet, of so many materials, or of more once a look names them.
+    pub fn new(materials: usize, light: SceneLight) -> DrawnScene {
+        DrawnScene {
+            mesh: Mesh::default(),
+            parts: Vec::new(),
+            tints: Vec::new(),
+            materials,
+            light,
+        }
+    }
+
+    /// Puts triangles into the scene.
+    pub fn add(&mut self, mesh: &Mesh, look: SurfaceLook) {
+        let named = look.material.map_or(0, |material| material + 1);
+        self.materials = self.materials.max(named);
+        if mesh.triangles.is_empty() {
+            return;
+        }
+        let corners = self.mesh.vertices.len() as u32;
+        self.parts.push((self.mesh.triangles.len() as u32, look));
+        self.mesh.vertices.extend_from_slice(&mesh.vertices);
+        let moved = mesh.triangles.iter();
+        let moved = moved.map(|triangle| triangle.map(|corner| corners + corner));
+        self.mesh.triangles.extend(moved);
+    }
+
+    /// Puts triangles into the scene whose other light and coverage differ from corner to corner: red, green, blue, alpha for each, linear.
+    pub fn add_tinted(&mut self, mesh: &Mesh, look: SurfaceLook, tints: Vec<[f32; 4]>) {
+        if !mesh.triangles.is_empty() {
+            self.tints.push((self.mesh.vertices.len(), tints));
+        }
+        self.add(mesh, look);
+    }
+
+    /// How many triangles it holds.
+    pub fn triangles(&self) -> usize {
+        self.mesh.triangles.len()
+    }
+
+    /// All of its triangles.
+    pub fn mesh(&self) -> &Mesh {
+        &self.mesh
+    }
+
+    /// What a camera sees. A pixel shows what its centre shows.
+    pub fn frame(&self, camera: &Camera) -> FramePixels {
+        let mut frame = FramePixels::new(camera.lens.size, self.materials);
+        let is_one_sided = |triangle| self.look(triangle).is_one_sided;
+        for point in surface_points_of(&self.mesh, camera, &is_one_sided) {
+            let look = self.look(point.triangle);
+            let Some(material) = look.material else {
+                continue;
+            };
+            let [red, green, blue, alpha] = self.tint(&point);
+            let coverage = look.coverage * alpha;
+            if coverage <= 0.0 {
+                continue;
+            }
+            let [r, g, b] = look.other;
+            frame.of_material[material].push(ScenePixel {
+                place: point.place,
+                cos_theta: point.cos_theta as f32,
+                roughness: look.roughness,
+                coverage,
+                light: self
+                    .light
+                    .along(point.mirrored(), f64::from(look.roughness)),
+                other: [r * red, g * green, b * blue],
+            });
+        }
+        frame
+    }
+
+    fn look(&self, triangle: u32) -> &SurfaceLook {
+        let after = self.parts.partition_point(|(first, _)| *first <= triangle);
+        &self.parts[after - 1].1
+    }
+
+    /// What the corners of a triangle say of a point on it; 1 where they say nothing.
+    fn tint(&self, point: &SurfacePoint) -> [f32; 4] {
+        let corners = self.mesh.triangles[point.triangle as usize].map(|corner| corner as usize);
+        let after = self
+            .tints
+            .partition_point(|(first, _)| *first <= corners[0]);
+        let of_part = after.checked_sub(1).map(|part| &self.tints[part]);
+        let of_corner = |corner: usize| {
+            let (first, tints) = of_part?;
+            tints.get(corner - first)
+        };
+        let [Some(a), Some(b), Some(c)] = corners.map(of_corner) else {
+            return [1.0; 4];
+        };
+        let mixed = |i: usize| {
+            let all = [a[i], b[i], c[i]].map(f64::from);
+            (all[0] * point.weights[0] + all[1] * point.weights[1] + all[2] * point.weights[2])
+                as f32
+        };
+        [0, 1, 2, 3].map(|i| mixed(i).clamp(0.0, 1.0))
+    }
+}

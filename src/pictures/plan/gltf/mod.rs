@@ -1,0 +1,209 @@
+//! Scenes of others: glTF 2.0, as `.gltf` with its buffers, or as one `.glb`.
+//!
+//! The crate `gltf-json` reads the JSON and holds every index against what is there. What buffers hold is read here ([`accessor`]),
+//! after lengths, strides and counts are checked, so that a file cannot announce more than it has.
+//!
+//! What stands for a glTF material: the name in its `extras` (`{"fresnel_gen": "gold"}`), else its own name if the catalogue has it,
+//! else, for what is no metal, the constant index of KHR_materials_ior. A metal without a name is Schlick's approximation by the
+//! specification, so that there is nothing to hold functions against. Factors and vertex colours are read, textures are not, which a remark says; a metal of factor 0
+//! alone counts as none.
+//!
+//! Source: Khronos, *glTF 2.0 Specification*, 2021, <https://registry.khronos.org/glTF/specs/2.0/glTF-2.0.html>, sections 3.6 for
+//! buffers, 3.7 for meshes, 3.9 and appendix B for materials, 3.10 for cameras.
+
+mod accessor;
+mod cameras;
+mod container;
+mod fault;
+mod materials;
+mod nodes;
+mod primitives;
+mod remarks;
+
+use gltf_json::mesh::Semantic;
+use gltf_json::validation::{Checked, Error, Validate};
+use gltf_json::{Accessor, Index, Root};
+
+use crate::lab::raster::{Camera, Mesh};
+use crate::physics::spectra::without_mark;
+
+use super::drawn::DrawnScene;
+use super::pixels::{FramePixels, MappedMaterial};
+use super::scene_file::ReadFile;
+use super::sky::SceneLight;
+use crate::physics::foreign::Foreign;
+use accessor::Buffers;
+use cameras::cameras;
+use container::Container;
+pub use fault::GltfFault;
+use fault::Place;
+use materials::Looks;
+pub use materials::{Unplanned, constant_index};
+use primitives::Tints;
+
+/// How a glTF scene is seen.
+#[derive(Clone, Debug)]
+pub struct GltfView {
+    /// Pixels across and down. The vertical field of view is a camera's own.
+    pub size: [u32; 2],
+    /// What comes from around.
+    pub light: SceneLight,
+}
+
+/// A glTF scene, ready to be drawn.
+#[derive(Clone, Debug)]
+pub struct GltfScene {
+    /// Whether the cameras are the file's own. If it has none, 36 turn about its middle ([`GltfScene::view`]).
+    pub has_cameras: bool,
+    /// The materials that are seen and not planned, and why.
+    pub unplanned: Vec<Unplanned>,
+    /// What the file says and is not read, though it changes what is seen.
+    pub remarks: Vec<String>,
+    scene: DrawnScene,
+    cameras: Vec<Camera>,
+    materials: Vec<MappedMaterial>,
+}
+
+impl GltfScene {
+    /// Reads a `.gltf` or `.glb`. `file` is only for messages; `read` gets the path of a buffer that lies in a file of its own, as
+    /// the glTF file has it.
+    ///
+    /// # Errors
+    /// It is no glTF 2.0, an index leads to nothing, a buffer is shorter than it should be, a number is not finite, it needs an
+    /// extension that changes its triangles, or it has too many: with the place in its JSON.
+    pub fn read(
+        file: &str,
+        bytes: &[u8],
+        view: &GltfView,
+        read: ReadFile,
+    ) -> Result<GltfScene, GltfFault> {
+        let fault = |place: Place| place.fault(file);
+        let container = Container::of(bytes).map_err(fault)?;
+        let root = root(&container).map_err(fault)?;
+        let buffers = Buffers::read(&root, &container, read).map_err(fault)?;
+        let nodes = nodes::placed(&root).map_err(fault)?;
+        let mut looks = Looks::new(&root, &view.light);
+        let mut scene = DrawnScene::new(0, view.light.clone());
+        let add = &mut |mesh: &Mesh, look, tints: Option<Tints>| match tints {
+            Some(tints) => scene.add_tinted(mesh, look, tints),
+            None => scene.add(mesh, look),
+        };
+        primitives::add_parts(&root, &nodes, &buffers, &mut looks, add).map_err(fault)?;
+        let own = cameras(&root, &nodes, view.size).map_err(fault)?;
+        Ok(GltfScene {
+            has_cameras: !own.is_empty(),
+            unplanned: looks.unplanned,
+            remarks: [looks.remarks, remarks::of_scene(&root, view.size)].concat(),
+            cameras: match own.is_empty() {
+                true => cameras::around(scene.mesh(), view.size),
+                false => own,
+            },
+            scene,
+            materials: looks.materials,
+        })
+    }
+
+    /// How many frames it has.
+    pub fn frames(&self) -> usize {
+        self.cameras.len()
+    }
+
+    /// What it is seen by, in words.
+    pub fn view(&self) -> String {
+        match self.has_cameras {
+            true => "the file's cameras".to_owned(),
+            false => cameras::AROUND_IN_WORDS.to_owned(),
+        }
+    }
+
+    /// Its materials that can be planned, in the order of [`FramePixels::of_material`].
+    pub fn materials(&self) -> &[MappedMaterial] {
+        &self.materials
+    }
+
+    /// A frame, from 0.
+    pub fn frame(&self, index: usize) -> FramePixels {
+        self.scene.frame(&self.cameras[index])
+    }
+}
+
+/// The JSON, with every index held against what is there.
+fn root(container: &Container) -> Result<Root, Place> {
+    let json = without_mark(container.json).map_err(|fault| Place::new("line 1", fault.what))?;
+    let root = Root::from_slice(json).map_err(|error| {
+        let place = format!("line {}, column {}", error.line(), error.column());
+        Place::new(place, format!("no glTF: {error}"))
+    })?;
+    if !root.asset.version.starts_with("2.") {
+        let what = format!("it is {}; version 2.0 is read", root.asset.version);
+        return Err(Place::new("asset.version", what));
+    }
+    if let Some(least) = root
+        .asset
+        .min_version
+        .as_deref()
+        .filter(|least| *least != "2.0")
+    {
+        let what = format!("it is {}; version 2.0 is read", Foreign(least));
+        return Err(Place::new("asset.minVersion", what));
+    }
+    check_positions(&root)?;
+    let mut first = None;
+    root.validate(&root, gltf_json::Path::new, &mut |path, error| {
+        let place = path().to_string().replace("[\"", ".").replace("\"]", "");
+        // Extensions have a list of ours, and the extent of positions is not read.
+        let is_read = error != Error::Unsupported
+            && !(error == Error::Missing && place.contains(".attributes."));
+        if is_read && first.is_none() {
+            first = Some((place, error));
+        }
+    });
+    if let Some((place, error)) = first {
+        let what = match error {
+            Error::IndexOutOfBounds => "the index leads to nothing",
+            Error::Missing => "it is missing",
+            Error::Oversize => "it is too large for this machine",
+            Error::Invalid | Error::Unsupported => "the specification does not allow this value",
+        };
+        return Err(Place::new(place, what));
+    }
+    check_extensions(&root)?;
+    Ok(root)
+}
+
+/// The crate takes the accessors of positions to be there before it holds any index against what is there.
+fn check_positions(root: &Root) -> Result<(), Place> {
+    for (i, mesh) in root.meshes.iter().enumerate() {
+        for (j, primitive) in mesh.primitives.iter().enumerate() {
+            let positions = primitive
+                .attributes
+                .get(&Checked::Valid(Semantic::Positions));
+            let is_there = |index: &Index<Accessor>| index.value() < root.accessors.len();
+            if !positions.is_none_or(is_there) {
+                let place = format!("meshes[{i}].primitives[{j}].attributes.POSITION");
+                return Err(Place::new(place, "the index leads to nothing"));
+            }
+        }
+    }
+    Ok(())
+}
+
+fn check_extensions(root: &Root) -> Result<(), Place> {
+    for (i, name) in root.extensions_required.iter().enumerate() {
+        // These change how surfaces look, which the catalogue's materials replace.
+        let is_harmless = [
+            "KHR_materials_",
+            "KHR_texture_",
+            "EXT_texture_",
+            "MSFT_texture_",
+            "KHR_lights_",
+        ];
+        if !is_harmless.iter().any(|start| name.starts_with(start)) {
+            let what = format!(
+                "the file needs the extension `{name}`, which is not read; export it without"
+            );
+            return Err(Place::new(format!("extensionsRequired[{i}]"), what));
+        }
+    }
+    Ok(())
+}

@@ -1,0 +1,205 @@
+//! How far apart two pixels look on a screen.
+//!
+//! | metric | difference | on screen |
+//! |---|---|---|
+//! | `de2000` | ΔE₀₀ ([`crate::physics::spectra::ciede2000`]) beside the white of the working space | at most white |
+//! | `code8` | the largest difference of three 8-bit codes of sRGB | at most white |
+//! | `linear` | the largest difference of three linear channels | at most white |
+//! | `itp` | 720 √(ΔI² + ΔT² + ΔP²), a difference of 1 is just visible | 1 is 203 cd/m², at most 10 000 cd/m² |
+//!
+//! Sources: I, T and P: Recommendation ITU-R BT.2124-0, *Objective metric for the assessment of the potential visibility of colour
+//! differences in television*, 2019, annex 1; the curve PQ and the matrices: ITU-R BT.2100-2, 2018, tables 4 and 7; 203 cd/m² for
+//! diffuse white: Report ITU-R BT.2408-7, 2023.
+
+use glam::{DMat3, DVec3};
+
+use crate::physics::spectra::{Lab, Space, ciede2000, srgb_byte};
+use crate::pictures::scene::Display;
+
+/// A measure of what is seen.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Metric {
+    /// CIEDE2000.
+    De2000,
+    /// Codes of 8 bits.
+    Code8,
+    /// ΔE ITP, for screens of high dynamic range.
+    Itp,
+    /// Linear channels.
+    Linear,
+}
+
+/// The luminance of white, and the most that a screen of high dynamic range shows, in cd/m².
+const WHITE: f64 = 203.0;
+const PEAK: f64 = 10_000.0;
+
+impl Metric {
+    /// All of them.
+    pub const ALL: [Metric; 4] = [Metric::De2000, Metric::Code8, Metric::Itp, Metric::Linear];
+
+    /// Its name on the command line and in reports.
+    pub fn name(self) -> &'static str {
+        match self {
+            Metric::De2000 => "de2000",
+            Metric::Code8 => "code8",
+            Metric::Itp => "itp",
+            Metric::Linear => "linear",
+        }
+    }
+
+    /// Its unit in words.
+    pub fn unit(self) -> &'static str {
+        match self {
+            Metric::De2000 => "ΔE₀₀",
+            Metric::Code8 => "codes of 255",
+            Metric::Itp => "ΔE ITP",
+            Metric::Linear => "of linear white",
+        }
+    }
+
+    /// The budget where none is named: what is just not seen.
+    pub fn usual_budget(self) -> f64 {
+        match self {
+            Metric::De2000 | Metric::Code8 | Metric::Itp => 1.0,
+            Metric::Linear => 1.0 / 255.0,
+        }
+    }
+}
+
+/// A screen, and what differences on it are measured by.
+#[derive(Clone, Debug)]
+pub struct Screen {
+    metric: Metric,
+    display: Display,
+    /// The brightest that it shows; white is 1.
+    peak: f64,
+    to_xyz: DMat3,
+    white: DVec3,
+    to_lms: DMat3,
+}
+
+impl Screen {
+    /// A screen that shows pictures in this space.
+    pub fn new(metric: Metric, display: Display, space: Space) -> Screen {
+        // Rows of BT.2100's table 7, in 4096ths.
+        let lms = DMat3::from_cols(
+            DVec3::new(1688.0, 683.0, 99.0),
+            DVec3::new(2146.0, 2951.0, 309.0),
+            DVec3::new(262.0, 462.0, 3688.0),
+        ) * (1.0 / 4096.0);
+        let peak = match metric {
+            Metric::Itp => PEAK / WHITE,
+            _ => 1.0,
+        };
+        Screen {
+            metric,
+            display,
+            peak,
+            to_xyz: space.rgb_to_xyz(),
+            white: space.white(),
+            to_lms: lms * Space::Rec2020.xyz_to_rgb() * space.rgb_to_xyz(),
+        }
+    }
+
+    /// What it shows of radiance, linear.
+    pub fn shown(&self, radiance: DVec3, stops: f64) -> DVec3 {
+        let brighter = Display {
+            exposure: self.display.exposure + stops,
+            ..self.display
+        };
+        brighter.shown_within(radiance, self.peak)
+    }
+
+    /// Where what is shown lies among all colours: [`Screen::difference`] tells two places apart.
+    pub fn place(&self, shown: DVec3) -> DVec3 {
+        match self.metric {
+            Metric::De2000 => {
+                let lab = Lab::from_xyz(self.to_xyz * shown, self.white);
+                DVec3::new(lab.l, lab.a, lab.b)
+            }
+            Metric::Code8 => DVec3::from_array(shown.to_array().map(|x| f64::from(srgb_byte(x)))),
+            Metric::Itp => itp(self.to_lms * shown),
+            Metric::Linear => shown,
+        }
+    }
+
+    /// How far apart two places are.
+    pub fn difference(&self, one: DVec3, other: DVec3) -> f64 {
+        let lab = |place: DVec3| Lab {
+            l: place.x,
+            a: place.y,
+            b: place.z,
+        };
+        match self.metric {
+            Metric::De2000 => ciede2000(lab(one), lab(other)),
+            Metric::Code8 | Metric::Linear => (one - other).abs().max_element(),
+            Metric::Itp => 720.0 * (one - other).length(),
+        }
+    }
+}
+
+/// I, T and P of the eye's three signals, where white is 1.
+fn itp(lms: DVec3) -> DVec3 {
+    let [l, m, s] = lms.to_array().map(pq);
+    DVec3::new(
+        0.5 * (l + m),
+        0.5 * (6610.0 * l - 13613.0 * m + 7003.0 * s) / 4096.0,
+        (17933.0 * l - 17390.0 * m - 543.0 * s) / 4096.0,
+    )
+}
+
+/// The curve PQ: from luminance to a signal in [0, 1].
+fn pq(relative: f64) -> f64 {
+    let y = (relative.max(0.0) * WHITE / PEAK).min(1.0);
+    let power = libm::pow(y, 2610.0 / 16384.0);
+    let ratio = (3424.0 / 4096.0 + 2413.0 / 128.0 * power) / (1.0 + 2392.0 / 128.0 * power);
+    libm::pow(ratio, 2523.0 / 32.0)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::pictures::scene::TONE_CURVES;
+
+    fn screen(metric: Metric) -> Screen {
+        let display = Display {
+            exposure: 0.0,
+            curve: TONE_CURVES[0],
+        };
+        Screen::new(metric, display, Space::Srgb)
+    }
+
+    fn apart(metric: Metric, one: [f64; 3], other: [f64; 3]) -> f64 {
+        let screen = screen(metric);
+        let [one, other] =
+            [one, other].map(|rgb| screen.place(screen.shown(DVec3::from(rgb), 0.0)));
+        screen.difference(one, other)
+    }
+
+    /// BT.2408 gives .58 of the signal for 203 cd/m²; a grey has no T and P.
+    #[test]
+    fn the_curve_of_high_dynamic_range_is_that_of_the_standard() {
+        assert!((pq(1.0) - 0.5807).abs() < 1e-4, "{}", pq(1.0));
+        assert!((pq(100.0 / 203.0) - 0.5081).abs() < 1e-4);
+        assert!((pq(PEAK / WHITE) - 1.0).abs() < 1e-12);
+        let grey = screen(Metric::Itp).place(DVec3::splat(0.3));
+        assert!(grey.y.abs() < 1e-3 && grey.z.abs() < 1e-3, "{grey}");
+    }
+
+    #[test]
+    fn what_is_brighter_than_white_looks_the_same_where_white_is_the_most() {
+        let (one, other) = ([1.0; 3], [1.5; 3]);
+        for metric in [Metric::De2000, Metric::Code8, Metric::Linear] {
+            assert_eq!(apart(metric, one, other), 0.0, "{}", metric.name());
+        }
+        assert!(apart(Metric::Itp, one, other) > 10.0);
+    }
+
+    #[test]
+    fn differences_by_hand() {
+        assert_eq!(apart(Metric::Code8, [0.5; 3], [0.5, 0.5, 0.215_86]), 60.0);
+        assert!((apart(Metric::Linear, [0.5; 3], [0.25, 0.5, 0.5]) - 0.25).abs() < 1e-12);
+        // L* of .5 and .52 is 76.069 and 77.279; see CIEDE2000's lightness weight.
+        assert!((apart(Metric::De2000, [0.5; 3], [0.52; 3]) - 0.864).abs() < 0.01);
+    }
+}

@@ -1,0 +1,49 @@
+//! The cheapest function of each material whose error nobody sees in pictures of a scene.
+//!
+//! ```text
+//! pixel = F L + (1 - F) O        L: light that comes along the mirrored direction; O: all other light of the pixel
+//! error of a function: the least e so that pixels with difference(pixel with f, pixel with F) <= e hold 99.9 % of the coverage
+//! plan: the functions within the budget with the least Σ cost × pixels + price × number of different functions
+//! ```
+//!
+//! The error is that of the frame where it is worst; below 1000 pixels it is the largest difference. Incoming light is held fixed: what
+//! is reflected twice is reflected with the exact law the first time. A rough surface takes the mean of F over the half vectors of GGX
+//! ([`crate::physics::optics::Ggx`]) in the place of F.
+
+mod candidate;
+mod choice;
+mod curve;
+mod drawn;
+mod gbuffer;
+mod gltf;
+mod ids;
+mod in_turn;
+mod metric;
+mod picture_error;
+mod pixels;
+mod planned;
+#[cfg(feature = "gpu")]
+mod proof;
+mod request;
+mod row;
+mod scene_file;
+mod sky;
+mod view;
+
+pub use candidate::{Candidate, is_plannable};
+pub use curve::{STEPS, step_cosines};
+pub use drawn::{DrawnScene, SurfaceLook};
+pub use gbuffer::{GREATEST_SIDE, GbufferFault, check_primaries, read_gbuffer};
+pub use gltf::{GltfFault, GltfScene, GltfView, Unplanned, constant_index};
+pub use ids::{MaterialIds, Shown};
+pub use metric::{Metric, Screen};
+pub use picture_error::SHARE;
+pub use pixels::{FramePixels, MappedMaterial, ScenePixel};
+pub use planned::{JudgedCandidate, JudgedMaterial, Judgement, PlanFault, PlannedMaterial, plan};
+#[cfg(feature = "gpu")]
+pub use proof::{ProofCase, prove};
+pub use request::{PlanRequest, PlanTruth};
+pub use row::{CheaperFunction, PlanFile, PlanFileRow, PlanRow, PlanTotal, Proof, SharedFunction};
+pub use scene_file::{MOST_FRAMES, ReadFile, SIDES, SceneFile};
+pub use sky::{BlurredEnvironment, SceneLight};
+pub use view::{AngleCurve, MaterialView, ViewPicture, material_view};

@@ -1,0 +1,515 @@
+//! The plan: candidates of every material judged in every frame, and the choice among them.
+
+use crate::generator::emit;
+use crate::generator::reference::MaterialInMedium;
+
+use super::candidate::{Candidate, Prices, candidates};
+use super::choice::{Choosable, choose, within};
+use super::curve::{RoughRule, step_cosines};
+use super::in_turn::Judge;
+use super::metric::Screen;
+use super::picture_error::PERCENTILE_FROM;
+use super::pixels::{FramePixels, ScenePixel};
+use super::request::PlanRequest;
+
+/// Errors are compared and told in so many parts of 1: what single precision rounds is far below.
+const ERROR_PARTS: f64 = 1e4;
+/// Every how manieth step of angle is looked at where every angle counts: .7 degrees.
+const EVERY: usize = 64;
+/// How many pixels tell the light there.
+const SAMPLED: usize = 256;
+/// The degrees of a right angle.
+pub(super) const DEGREES: usize = 90;
+
+/// A material of the scene.
+#[derive(Clone, Debug)]
+pub struct PlannedMaterial {
+    /// What a user types to name it.
+    pub argument: String,
+    /// What the scene calls it, each name once.
+    pub names: Vec<String>,
+    /// The material.
+    pub subject: MaterialInMedium,
+    /// Whether it has no file that a function could be specialised to.
+    pub is_library_only: bool,
+}
+
+/// A candidate with its error in the frames.
+#[derive(Clone, Debug)]
+pub struct JudgedCandidate {
+    /// The function.
+    pub candidate: Candidate,
+    /// The error in the frame where it is worst; infinite where something that costs less is within the budget, and nobody looked.
+    pub error: f64,
+    /// That frame, from 0.
+    pub worst_frame: usize,
+}
+
+/// How a material's error was found.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Judgement {
+    /// As what holds 99.9 % of what it covers.
+    Percentile,
+    /// As the largest of its few pixels.
+    Largest,
+    /// As the largest at all angles under the light of its pixels, since too few show it.
+    EveryAngle,
+}
+
+/// What was found of a material.
+#[derive(Clone, Debug)]
+pub struct JudgedMaterial {
+    /// The material.
+    pub material: PlannedMaterial,
+    /// Its candidates.
+    pub candidates: Vec<JudgedCandidate>,
+    /// The place of the chosen one.
+    pub chosen: usize,
+    /// How errors were found.
+    pub judgement: Judgement,
+    /// Frames that show it.
+    pub frames: usize,
+    /// Its pixels in all frames.
+    pub pixels: u64,
+    /// How much of its coverage is seen at each degree from 0 to 90.
+    pub angles: Vec<f64>,
+    /// What its exact law costs.
+    pub cost_exact: Option<f64>,
+    /// What functions are held against, at [`step_cosines`].
+    pub truth: Vec<[f64; 3]>,
+}
+
+/// Why there is no plan.
+#[derive(Debug, thiserror::Error)]
+pub enum PlanFault<E> {
+    /// A frame cannot be had.
+    #[error(transparent)]
+    Frame(E),
+    /// A function cannot be made.
+    #[error(transparent)]
+    Function(emit::Error),
+    /// A material has no function whose cost is known.
+    #[error(
+        "{}: no function that describes it has a known cost on {gpu}; name another --gpu",
+        crate::physics::foreign::Foreign(material)
+    )]
+    NoCost {
+        /// The material.
+        material: String,
+        /// The family.
+        gpu: &'static str,
+    },
+}
+
+/// Judges and chooses. `frame` gives one frame after another; `progress` hears how many are done, of how many.
+///
+/// # Errors
+/// A frame cannot be had, or a material has no function whose cost is known.
+pub fn plan<E>(
+    request: &PlanRequest,
+    materials: Vec<PlannedMaterial>,
+    frames: usize,
+    frame: &mut dyn FnMut(usize) -> Result<FramePixels, E>,
+    progress: &mut dyn FnMut(u64, u64),
+) -> Result<Vec<JudgedMaterial>, PlanFault<E>> {
+    let judge = Judge {
+        rule: RoughRule::new(),
+        screen: Screen::new(request.metric, request.display, request.space),
+        exposures: request.exposures(),
+    };
+    let prices = Prices::of(request);
+    let mut seen = materials
+        .into_iter()
+        .map(|material| Seen::new(request, &prices, material).map_err(PlanFault::Function))
+        .collect::<Result<Vec<Seen>, _>>()?;
+    if let Some(without) = seen.iter().find(|seen| seen.judged.candidates.is_empty()) {
+        return Err(PlanFault::NoCost {
+            material: without.judged.material.subject.name.clone(),
+            gpu: request.family.name,
+        });
+    }
+    for index in 0..frames {
+        let pixels = frame(index).map_err(PlanFault::Frame)?;
+        for (seen, pixels) in seen.iter_mut().zip(&pixels.of_material) {
+            seen.enter(request, [index, frames], pixels, &judge);
+        }
+        progress(index as u64 + 1, frames as u64);
+    }
+    let mut judged: Vec<JudgedMaterial> = seen
+        .into_iter()
+        .map(|seen| seen.judged(request, &judge))
+        .collect();
+    let (places, functions) = choosable(&judged, request.budget, frames);
+    let choice = choose(&functions, request.price);
+    for ((material, chosen), places) in judged.iter_mut().zip(choice).zip(&places) {
+        material.chosen = places[chosen];
+    }
+    Ok(judged)
+}
+
+/// A material while frames are looked at.
+struct Seen {
+    judged: JudgedMaterial,
+    /// The most pixels that a frame shows.
+    most: usize,
+    /// Some of its pixels.
+    sample: Sample,
+}
+
+impl Seen {
+    fn new(
+        request: &PlanRequest,
+        prices: &Prices,
+        material: PlannedMaterial,
+    ) -> Result<Seen, emit::Error> {
+        let subject = &material.subject;
+        let found = candidates(subject, material.is_library_only, &request.methods, prices)?;
+        let judged = |candidate: Candidate| JudgedCandidate {
+            candidate,
+            error: 0.0,
+            worst_frame: 0,
+        };
+        Ok(Seen {
+            judged: JudgedMaterial {
+                candidates: found.into_iter().map(judged).collect(),
+                chosen: 0,
+                judgement: Judgement::Percentile,
+                frames: 0,
+                pixels: 0,
+                angles: vec![0.0; DEGREES],
+                cost_exact: prices.cost_exact(subject)?,
+                truth: request.truth.values(subject),
+                material,
+            },
+            most: 0,
+            sample: Sample::default(),
+        })
+    }
+
+    /// Enters the material's pixels of a frame, the so-manieth of so many.
+    fn enter(
+        &mut self,
+        request: &PlanRequest,
+        [index, frames]: [usize; 2],
+        pixels: &[ScenePixel],
+        judge: &Judge,
+    ) {
+        if pixels.is_empty() {
+            return;
+        }
+        self.judged.frames += 1;
+        self.judged.pixels += pixels.len() as u64;
+        self.most = self.most.max(pixels.len());
+        for pixel in pixels {
+            self.judged.angles[degree_of(pixel)] += f64::from(pixel.coverage);
+            self.sample.enter(pixel);
+        }
+        let is_by_angles = self.most < request.min_pixels;
+        // Errors at every angle take the place of these, which tell only the worst of several frames.
+        if is_by_angles && frames == 1 {
+            return;
+        }
+        let judged = &mut self.judged;
+        let is_last = index + 1 == frames && !is_by_angles;
+        let is_enough = |found: &JudgedCandidate, error: f64| {
+            is_last && request.is_enough(error.max(found.error))
+        };
+        let errors = judge.errors(judged, pixels, &is_enough, |pixels, curve| {
+            pixels.error(curve)
+        });
+        for (found, error) in judged.candidates.iter_mut().zip(errors) {
+            if error > found.error {
+                (found.error, found.worst_frame) = (error, index);
+            }
+        }
+    }
+
+    /// With what is left to say when all frames are seen.
+    fn judged(mut self, request: &PlanRequest, judge: &Judge) -> JudgedMaterial {
+        self.judged.judgement = match self.most {
+            most if most < request.min_pixels => Judgement::EveryAngle,
+            most if most < PERCENTILE_FROM => Judgement::Largest,
+            _ => Judgement::Percentile,
+        };
+        if self.judged.judgement == Judgement::EveryAngle {
+            let pixels = every_angle(&self.sample.pixels);
+            let is_enough = |_: &JudgedCandidate, error: f64| request.is_enough(error);
+            let errors = judge.errors(&self.judged, &pixels, &is_enough, |pixels, curve| {
+                pixels.largest(curve)
+            });
+            for (found, error) in self.judged.candidates.iter_mut().zip(errors) {
+                found.error = error;
+            }
+        }
+        for found in &mut self.judged.candidates {
+            found.error = rounded_error(found.error);
+        }
+        self.judged
+    }
+}
+
+/// An error as it is compared and told.
+fn rounded_error(error: f64) -> f64 {
+    (error * ERROR_PARTS).round() / ERROR_PARTS
+}
+
+impl PlanRequest {
+    /// Whether a candidate with this error leaves nothing to look for in those that cost more. Where functions have a price, one that
+    /// costs more may be shared.
+    fn is_enough(&self, error: f64) -> bool {
+        self.price == 0.0 && rounded_error(error) <= self.budget
+    }
+}
+
+/// The degree of a pixel's angle, from 0 to 89.
+pub(super) fn degree_of(pixel: &ScenePixel) -> usize {
+    let angle = libm::acos(f64::from(pixel.cos_theta).clamp(0.0, 1.0));
+    (angle.to_degrees() as usize).min(DEGREES - 1)
+}
+
+/// Some of many pixels, evenly: each so-manieth.
+#[derive(Default)]
+struct Sample {
+    pixels: Vec<ScenePixel>,
+    /// How many were seen; of these every `2^halvings`th is kept.
+    seen: usize,
+    halvings: u32,
+}
+
+impl Sample {
+    fn enter(&mut self, pixel: &ScenePixel) {
+        if self.seen.is_multiple_of(1 << self.halvings) {
+            self.pixels.push(*pixel);
+        }
+        self.seen += 1;
+        if self.pixels.len() > SAMPLED {
+            let mut place = 0;
+            self.pixels.retain(|_| {
+                place += 1;
+                place % 2 == 1
+            });
+            self.halvings += 1;
+        }
+    }
+}
+
+/// A mirror seen straight on under white light.
+const MIRROR_IN_WHITE: ScenePixel = ScenePixel {
+    place: 0,
+    cos_theta: 1.0,
+    roughness: 0.0,
+    coverage: 1.0,
+    light: [1.0; 3],
+    other: [0.0; 3],
+};
+
+/// Each of these pixels at each angle; a mirror in white light where there is none.
+fn every_angle(pixels: &[ScenePixel]) -> Vec<ScenePixel> {
+    let pixels = match pixels {
+        [] => &[MIRROR_IN_WHITE],
+        some => some,
+    };
+    let cosines: Vec<f64> = step_cosines().into_iter().step_by(EVERY).collect();
+    let at = |pixel: &ScenePixel, cosine: f64| ScenePixel {
+        cos_theta: cosine as f32,
+        ..*pixel
+    };
+    let all = pixels.iter();
+    all.flat_map(|pixel| cosines.iter().map(|cosine| at(pixel, *cosine)))
+        .collect()
+}
+
+/// Of each material the places of the candidates within the budget, and what they cost.
+fn choosable(
+    judged: &[JudgedMaterial],
+    budget: f64,
+    frames: usize,
+) -> (Vec<Vec<usize>>, Vec<Vec<Choosable>>) {
+    let mut shared: Vec<String> = Vec::new();
+    let mut of_material = |material: &JudgedMaterial| {
+        let pixels = material.pixels.max(1) as f64 / frames.max(1) as f64;
+        let one = |found: &JudgedCandidate| {
+            let name = found.candidate.name();
+            let is_own = found.candidate.is_specialised();
+            Choosable {
+                cost: found.candidate.cost * pixels,
+                error: found.error,
+                shared: (!is_own).then(|| place_of(&mut shared, &name)),
+                name,
+            }
+        };
+        let all: Vec<Choosable> = material.candidates.iter().map(one).collect();
+        let places = within(&all, budget);
+        let open = places.iter().map(|place| all[*place].clone()).collect();
+        (places, open)
+    };
+    judged.iter().map(&mut of_material).unzip()
+}
+
+/// The place of a name in a list, to which it is added where it is new.
+fn place_of(names: &mut Vec<String>, name: &str) -> usize {
+    let found = names.iter().position(|known| known == name);
+    found.unwrap_or_else(|| {
+        names.push(name.to_owned());
+        names.len() - 1
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::in_turn::distinct_values;
+    use super::super::metric::Metric;
+    use super::super::request::PlanTruth;
+    use super::*;
+    use crate::generator::reference::Derivation;
+    use crate::lab::cost;
+    use crate::language::methods;
+    use crate::physics::materials::{self, ViewingConditions};
+    use crate::physics::num::Precision;
+    use crate::physics::spectra::Space;
+    use crate::pictures::scene::{Display, TONE_CURVES};
+
+    fn request(budget: f64) -> PlanRequest {
+        PlanRequest {
+            budget,
+            metric: Metric::De2000,
+            display: Display {
+                exposure: 0.0,
+                curve: TONE_CURVES[0],
+            },
+            space: Space::Srgb,
+            exposure_range: 0.0,
+            min_pixels: 100,
+            truth: PlanTruth::Spectrum,
+            family: cost::find("rdna2").unwrap(),
+            precision: Precision::F32,
+            channels: vec![3],
+            methods: methods::ALL.to_vec(),
+            fetch: None,
+            price: 0.0,
+        }
+    }
+
+    fn gold() -> PlannedMaterial {
+        let material = materials::find("gold").unwrap().unwrap();
+        let typed = ("gold".to_owned(), material);
+        let seen = ViewingConditions::default();
+        let subject = MaterialInMedium::new(typed, None, &seen, Derivation::default()).unwrap();
+        PlannedMaterial {
+            argument: "gold".to_owned(),
+            names: Vec::new(),
+            subject,
+            is_library_only: false,
+        }
+    }
+
+    /// A sphere that fills a square picture, seen from far away.
+    fn sphere(side: u32, light: [f32; 3]) -> FramePixels {
+        let mut frame = FramePixels::new([side, side], 1);
+        let at = |place: u32| (f64::from(place) + 0.5) * 2.0 / f64::from(side) - 1.0;
+        for place in 0..side * side {
+            let (x, y) = (at(place % side), at(place / side));
+            let square = 1.0 - x * x - y * y;
+            if square > 0.0 {
+                frame.of_material[0].push(ScenePixel {
+                    place,
+                    cos_theta: square.sqrt() as f32,
+                    roughness: 0.0,
+                    coverage: 1.0,
+                    light,
+                    other: [0.0; 3],
+                });
+            }
+        }
+        frame
+    }
+
+    fn judged(request: &PlanRequest, frame: FramePixels) -> JudgedMaterial {
+        let mut frames = |_| Ok::<_, std::convert::Infallible>(frame.clone());
+        let all = plan(request, vec![gold()], 1, &mut frames, &mut |_, _| {});
+        all.unwrap().remove(0)
+    }
+
+    fn error(judged: &JudgedMaterial, method: &str) -> f64 {
+        let is_it = |one: &&JudgedCandidate| one.candidate.name() == method;
+        judged.candidates.iter().find(is_it).unwrap().error
+    }
+
+    /// A sphere seen from afar shows angles with the density sin 2θ.
+    #[test]
+    fn a_sphere_shows_each_degree_as_often_as_its_ring_is_wide() {
+        let seen = judged(&request(1.0), sphere(512, [1.0; 3]));
+        let whole: f64 = seen.angles.iter().sum();
+        let inside = |degree: usize| libm::sin((degree as f64).to_radians()).powi(2);
+        for (degree, covered) in seen.angles.iter().enumerate() {
+            let ring = inside(degree + 1) - inside(degree);
+            assert!((covered / whole - ring).abs() < 1e-3, "{degree}");
+        }
+    }
+
+    /// The forms of a method have the same values, and of one channel they have others: gold's candidates are judged by fewer curves.
+    #[test]
+    fn what_has_the_same_values_is_judged_once() {
+        let request = request(1.0);
+        let seen = Seen::new(&request, &Prices::of(&request), gold()).unwrap();
+        let candidates = &seen.judged.candidates;
+        let (distinct, places) = distinct_values(candidates);
+        for (one, place) in candidates.iter().zip(&places) {
+            assert_eq!(*one.candidate.values, *distinct[*place]);
+        }
+        let methods: std::collections::BTreeSet<&str> = candidates
+            .iter()
+            .map(|one| one.candidate.method.name)
+            .collect();
+        assert!(candidates.len() > distinct.len());
+        assert!(distinct.len() <= methods.len(), "{}", distinct.len());
+    }
+
+    /// Figures of an independent prototype.
+    #[test]
+    fn gold_in_white_light_takes_the_fitted_method_and_in_dim_light_the_gaussian() {
+        let white = judged(&request(1.0), sphere(512, [1.0; 3]));
+        assert!((error(&white, "schlick_spherical_gaussian") - 1.82).abs() < 0.02);
+        assert!((error(&white, "schlick") - 1.78).abs() < 0.02);
+        assert!((error(&white, "fitted") - 0.14).abs() < 0.007);
+        assert_eq!(white.chosen().candidate.name(), "fitted");
+        let dim = judged(&request(1.0), sphere(512, [0.05, 0.04, 0.0275]));
+        assert!((error(&dim, "schlick_spherical_gaussian") - 0.61).abs() < 0.01);
+        assert_eq!(dim.chosen().candidate.name(), "schlick_spherical_gaussian");
+    }
+
+    /// What costs more than the cheapest within the budget is not judged, and nothing that is told changes. A price so small that it
+    /// changes no sum has all of them judged.
+    #[test]
+    fn what_cannot_be_chosen_is_not_judged() {
+        let few = || {
+            let mut frame = FramePixels::new([64, 64], 1);
+            let all = sphere(64, [1.0; 3]).of_material.remove(0);
+            let some = all.into_iter().step_by(60).enumerate();
+            frame.of_material[0] = some
+                .map(|(i, pixel)| ScenePixel {
+                    roughness: i as f32 / 60.0,
+                    ..pixel
+                })
+                .collect();
+            frame
+        };
+        for frame in [few(), sphere(128, [1.0; 3])] {
+            for budget in [0.05, 1.0, 1e-9] {
+                let quick = judged(&request(budget), frame.clone());
+                let all = PlanRequest {
+                    price: f64::MIN_POSITIVE,
+                    ..request(budget)
+                };
+                let whole = judged(&all, frame.clone());
+                let count = |judged: &JudgedMaterial| {
+                    let all = judged.candidates.iter();
+                    all.filter(|one| one.error.is_finite()).count()
+                };
+                assert_eq!(count(&whole), whole.candidates.len());
+                assert!(budget != 1.0 || count(&quick) < count(&whole));
+                assert_eq!(quick.row(&all, 1), whole.row(&all, 1), "{budget}");
+            }
+        }
+    }
+}

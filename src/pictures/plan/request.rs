@@ -1,0 +1,103 @@
+//! What a plan is asked for.
+
+use crate::generator::reference::{MaterialInMedium, ReferenceCurve};
+use crate::lab::cost::Family;
+use crate::language::methods::{Light, Method};
+use crate::physics::materials::Surface;
+use crate::physics::num::{Precision, in_parallel};
+use crate::physics::spectra::Space;
+use crate::pictures::scene::Display;
+
+use super::curve::step_cosines;
+use super::metric::Metric;
+
+/// Cosines that a processor's core takes at once: handing over one takes a tenth of the law's own time.
+const TOGETHER: usize = 256;
+/// Steps between exposures of a range, in stops.
+const STOPS: f64 = 1.0;
+
+/// What a plan is held to.
+#[derive(Clone, Debug)]
+pub struct PlanRequest {
+    /// The largest error.
+    pub budget: f64,
+    /// What errors are measured by.
+    pub metric: Metric,
+    /// From radiance to the screen.
+    pub display: Display,
+    /// The space of the pictures.
+    pub space: Space,
+    /// So many stops darker and brighter are looked at too.
+    pub exposure_range: f64,
+    /// A material that no frame shows on so many pixels is held to every angle.
+    pub min_pixels: usize,
+    /// What functions are held against.
+    pub truth: PlanTruth,
+    /// The GPUs whose costs decide.
+    pub family: &'static Family,
+    /// What functions compute in.
+    pub precision: Precision,
+    /// How many channels functions may give.
+    pub channels: Vec<usize>,
+    /// The methods among which it chooses.
+    pub methods: Vec<&'static Method>,
+    /// What a texture fetch costs; without it no table is taken.
+    pub fetch: Option<f64>,
+    /// What another function costs, as so many units × pixels.
+    pub price: f64,
+}
+
+/// What functions are held against.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum PlanTruth {
+    /// The exact law at each wavelength.
+    Spectrum,
+    /// The exact law with one index a channel, as the exact methods take it.
+    Exact,
+}
+
+impl PlanTruth {
+    /// Both.
+    pub const ALL: [PlanTruth; 2] = [PlanTruth::Spectrum, PlanTruth::Exact];
+
+    /// Its name on the command line.
+    pub fn name(self) -> &'static str {
+        match self {
+            PlanTruth::Spectrum => "spectrum",
+            PlanTruth::Exact => "exact",
+        }
+    }
+
+    /// Its values at [`step_cosines`].
+    pub(super) fn values(self, subject: &MaterialInMedium) -> Vec<[f64; 3]> {
+        let own = &subject.reference;
+        let reference = match self {
+            PlanTruth::Spectrum => own.clone(),
+            PlanTruth::Exact => {
+                let mut surface = Surface::of_channels(&subject.effective.channels);
+                surface.gamut = own.surface.gamut;
+                ReferenceCurve::new(surface, Light::Unpolarised)
+            }
+        };
+        let cosines = step_cosines();
+        let parts: Vec<&[f64]> = cosines.chunks(TOGETHER).collect();
+        let of_part = |i: usize| -> Vec<[f64; 3]> {
+            let values = parts[i].iter().map(|cosine| reference.at(*cosine));
+            values.collect()
+        };
+        in_parallel(parts.len(), &of_part, &mut |_, _| {}).concat()
+    }
+}
+
+impl PlanRequest {
+    /// The exposures that are looked at, in stops.
+    pub(super) fn exposures(&self) -> Vec<f64> {
+        let range = self.exposure_range;
+        let steps = (range / STOPS).ceil() as i32;
+        let at = |step: i32| match steps {
+            0 => 0.0,
+            _ => range * f64::from(step) / f64::from(steps),
+        };
+        (-steps..=steps).map(at).collect()
+    }
+}

@@ -1,0 +1,354 @@
+//! The values of a scene file within their limits.
+
+use std::collections::HashMap;
+
+use glam::DVec3;
+use toml::Spanned;
+
+use crate::lab::raster::{Body, Camera, Lens, rotated};
+use crate::physics::materials::{self, FileFault, FileText};
+use crate::physics::names::UnknownName;
+use crate::pictures::scene::{Display, TONE_CURVES, ToneCurve};
+
+use super::super::drawn::SurfaceLook;
+use super::super::pixels::MappedMaterial;
+use super::raw::{OneOrMany, RawCamera, RawLight, RawObject, RawScene, RawTurntable, RawVector};
+use super::{Light, MOST_FRAMES, Object, SIDES, Shape};
+
+/// No place is farther away in metres, along each axis, and nothing is larger.
+pub const FARTHEST: f64 = 1e6;
+/// Nothing is smaller, in metres.
+const SMALLEST: f64 = 1e-6;
+/// The largest finite number of binary16, which environments hold.
+const BRIGHTEST: f64 = 65504.0;
+/// Pixels of a frame that does not state its size.
+const USUAL_SIZE: [u32; 2] = [512, 512];
+/// The name of a plane among the bodies.
+const PLANE: &str = "plane";
+
+/// What a scene file says.
+pub struct Checked {
+    pub display: Display,
+    pub cameras: Vec<Camera>,
+    pub camera_at: usize,
+    pub light: Light,
+    pub objects: Vec<Object>,
+    pub materials: Vec<MappedMaterial>,
+    pub materials_at: Vec<usize>,
+}
+
+type Read<T> = Result<T, FileFault>;
+
+impl Checked {
+    pub fn of(raw: RawScene, place: &FileText) -> Read<Checked> {
+        let size = place.size(raw.size.as_ref())?;
+        let mut checked = Checked {
+            display: Display {
+                exposure: place.or(raw.exposure.as_ref(), "exposure", [-64.0, 64.0], 0.0)?,
+                curve: place.tone(raw.tone.as_ref())?,
+            },
+            cameras: Vec::new(),
+            camera_at: first_place(&raw.camera),
+            light: place.light(&raw.light)?,
+            objects: Vec::new(),
+            materials: Vec::new(),
+            materials_at: Vec::new(),
+        };
+        for camera in &raw.camera.0 {
+            let cameras = place.cameras(camera, size)?;
+            checked.cameras.extend(cameras);
+            if checked.cameras.len() > MOST_FRAMES {
+                let what = format!("the cameras up to here have more than {MOST_FRAMES} frames");
+                return Err(place.fault(camera.span().start, what));
+            }
+        }
+        let mut known = HashMap::new();
+        for object in &raw.object.0 {
+            let material = checked.material(object.get_ref(), &mut known, place)?;
+            checked.objects.push(place.object(object, material)?);
+        }
+        for (is_empty, key) in [
+            (checked.cameras.is_empty(), "camera"),
+            (checked.objects.is_empty(), "object"),
+        ] {
+            if is_empty {
+                return Err(place.fault(0, format!("`{key}` is empty; a scene has one or more")));
+            }
+        }
+        Ok(checked)
+    }
+
+    /// The place of an object's material among all, which it enters if it is new.
+    fn material(
+        &mut self,
+        object: &RawObject,
+        known: &mut HashMap<MappedMaterial, usize>,
+        place: &FileText,
+    ) -> Read<usize> {
+        let material = object.material.get_ref();
+        let is_path = material.contains(['.', '/', '\\']);
+        if !is_path && materials::source(material).is_none() {
+            let unknown = UnknownName::new("material", material, &materials::names());
+            return Err(place.fault(object.material.span().start, unknown.to_string()));
+        }
+        place.legible("material", &object.material)?;
+        if let Some(name) = &object.name {
+            place.legible("name", name)?;
+        }
+        let name = object.name.as_ref().unwrap_or(&object.material);
+        let mapped = MappedMaterial {
+            name: name.get_ref().clone(),
+            material: material.clone(),
+        };
+        let next = self.materials.len();
+        let index = *known.entry(mapped.clone()).or_insert(next);
+        if index == next {
+            self.materials.push(mapped);
+            self.materials_at.push(object.material.span().start);
+        }
+        Ok(index)
+    }
+}
+
+fn first_place(cameras: &OneOrMany<RawCamera>) -> usize {
+    cameras.0.first().map_or(0, |camera| camera.span().start)
+}
+
+impl FileText<'_> {
+    fn number(&self, value: &Spanned<f64>, key: &str, [low, high]: [f64; 2]) -> Read<f64> {
+        let number = *value.get_ref();
+        // NaN lies within no limits.
+        if (low..=high).contains(&number) {
+            return Ok(number);
+        }
+        let what = format!("`{key}` is {number}; it must lie between {low} and {high}");
+        Err(self.fault(value.span().start, what))
+    }
+
+    fn or(
+        &self,
+        value: Option<&Spanned<f64>>,
+        key: &str,
+        limits: [f64; 2],
+        usual: f64,
+    ) -> Read<f64> {
+        value.map_or(Ok(usual), |value| self.number(value, key, limits))
+    }
+
+    fn vector(&self, value: &RawVector, key: &str, limits: [f64; 2]) -> Read<DVec3> {
+        let mut numbers = [0.0; 3];
+        for (number, value) in numbers.iter_mut().zip(value) {
+            *number = self.number(value, key, limits)?;
+        }
+        Ok(DVec3::from_array(numbers))
+    }
+
+    fn position(&self, value: &RawVector, key: &str) -> Read<DVec3> {
+        self.vector(value, key, [-FARTHEST, FARTHEST])
+    }
+
+    fn colour(&self, value: &RawVector, key: &str) -> Read<[f32; 3]> {
+        let colour = self.vector(value, key, [0.0, BRIGHTEST])?;
+        Ok(colour.to_array().map(|channel| channel as f32))
+    }
+
+    /// A text that names something: not empty, without what a terminal obeys.
+    fn legible(&self, key: &str, text: &Spanned<String>) -> Read<()> {
+        let is_legible =
+            !text.get_ref().trim().is_empty() && !text.get_ref().chars().any(materials::is_hidden);
+        let what = || {
+            format!("`{key}` is empty or holds a control character; it wants a line of plain text")
+        };
+        match is_legible {
+            true => Ok(()),
+            false => Err(self.fault(text.span().start, what())),
+        }
+    }
+
+    fn size(&self, raw: Option<&[Spanned<i64>; 2]>) -> Read<[u32; 2]> {
+        let mut size = USUAL_SIZE;
+        let [low, high] = SIDES;
+        for (side, value) in size.iter_mut().zip(raw.into_iter().flatten()) {
+            let within = |number: i64| {
+                (low..=high)
+                    .contains(&u32::try_from(number).ok()?)
+                    .then_some(number)
+            };
+            let Some(number) = within(*value.get_ref()) else {
+                let what = format!(
+                    "`size` has a side of {} pixels; sides have {low} to {high}",
+                    value.get_ref()
+                );
+                return Err(self.fault(value.span().start, what));
+            };
+            *side = number as u32;
+        }
+        Ok(size)
+    }
+
+    fn tone(&self, raw: Option<&Spanned<String>>) -> Read<ToneCurve> {
+        let Some(raw) = raw else {
+            return Ok(TONE_CURVES[0]);
+        };
+        let found = TONE_CURVES.iter().find(|curve| curve.name == raw.get_ref());
+        let names = TONE_CURVES.map(|curve| curve.name);
+        let unknown = || UnknownName::new("tone curve", raw.get_ref(), &names).to_string();
+        found
+            .copied()
+            .ok_or_else(|| self.fault(raw.span().start, unknown()))
+    }
+
+    fn light(&self, raw: &Spanned<RawLight>) -> Read<Light> {
+        match (&raw.get_ref().uniform, &raw.get_ref().environment) {
+            (Some(colour), None) => Ok(Light::Uniform(self.colour(colour, "uniform")?)),
+            (None, Some(path)) => {
+                self.legible("environment", path)?;
+                Ok(Light::Environment(path.clone()))
+            }
+            _ => {
+                let what = "`light` wants one of `uniform` and `environment`";
+                Err(self.fault(raw.span().start, what.to_owned()))
+            }
+        }
+    }
+
+    fn cameras(&self, spanned: &Spanned<RawCamera>, size: [u32; 2]) -> Read<Vec<Camera>> {
+        let raw = spanned.get_ref();
+        let eye = self.position(&raw.eye, "eye")?;
+        let at = raw
+            .at
+            .as_ref()
+            .map_or(Ok(DVec3::ZERO), |at| self.position(at, "at"))?;
+        if (eye - at).length() < SMALLEST {
+            let what = format!("`eye` and `at` are less than {SMALLEST} m apart");
+            return Err(self.fault(raw.eye[0].span().start, what));
+        }
+        let lens = |vertical_degrees| Lens {
+            size,
+            vertical_degrees,
+        };
+        let camera = match (&raw.orthographic, &raw.vertical_degrees) {
+            (Some(height), None) => {
+                let height = self.number(height, "orthographic", [SMALLEST, FARTHEST])?;
+                let axes = Camera::looking(eye, at, lens(1.0)).axes;
+                // Where along its axis it stands does not matter to parallel rays.
+                Camera::orthographic(at, axes, height, size)
+            }
+            (None, Some(degrees)) => {
+                let degrees = self.number(degrees, "vertical_degrees", [0.01, 170.0])?;
+                Camera::looking(eye, at, lens(degrees))
+            }
+            _ => {
+                let what = "`camera` wants one of `orthographic` and `vertical_degrees`";
+                return Err(self.fault(spanned.span().start, what.to_owned()));
+            }
+        };
+        match &raw.turntable {
+            None => Ok(vec![camera]),
+            Some(turntable) => self.turned(turntable, &camera, at),
+        }
+    }
+
+    /// The frames of a camera that turns about a place.
+    fn turned(&self, raw: &Spanned<RawTurntable>, camera: &Camera, at: DVec3) -> Read<Vec<Camera>> {
+        let raw = raw.get_ref();
+        let frames = *raw.frames.get_ref();
+        if !(1..=MOST_FRAMES as i64).contains(&frames) {
+            let what = format!("`frames` is {frames}; it must lie between 1 and {MOST_FRAMES}");
+            return Err(self.fault(raw.frames.span().start, what));
+        }
+        let axis = match &raw.axis {
+            None => DVec3::Y,
+            Some(axis) => {
+                let vector = self.position(axis, "axis")?;
+                let unit = vector.try_normalize();
+                let what = || "`axis` has no direction".to_owned();
+                unit.ok_or_else(|| self.fault(axis[0].span().start, what()))?
+            }
+        };
+        let whole = 360.0 / frames as f64;
+        let step = self.or(
+            raw.step_degrees.as_ref(),
+            "step_degrees",
+            [-360.0, 360.0],
+            whole,
+        )?;
+        let turn = |frame: i64| turned(camera, at, axis, frame as f64 * step);
+        Ok((0..frames).map(turn).collect())
+    }
+
+    fn object(&self, spanned: &Spanned<RawObject>, material: usize) -> Read<Object> {
+        let raw = spanned.get_ref();
+        let shape = self.shape(spanned)?;
+        if let (Shape::Plane, Some(extent)) = (shape.get_ref(), &raw.extent) {
+            let what = "a plane has no end, so that it has no `extent`";
+            return Err(self.fault(extent.span().start, what.to_owned()));
+        }
+        let extent = raw.extent.as_ref();
+        let at = raw.at.as_ref();
+        let other = raw.other.as_ref();
+        let unit = [0.0, 1.0];
+        Ok(Object {
+            shape,
+            look: SurfaceLook {
+                material: Some(material),
+                roughness: self.or(raw.roughness.as_ref(), "roughness", unit, 0.0)? as f32,
+                other: other.map_or(Ok([0.0; 3]), |other| self.colour(other, "other"))?,
+                // The least share that eight bits of alpha tell from nothing.
+                coverage: self.or(raw.coverage.as_ref(), "coverage", [1.0 / 256.0, 1.0], 1.0)?
+                    as f32,
+                is_one_sided: false,
+            },
+            extent: extent
+                .map(|extent| self.number(extent, "extent", [SMALLEST, FARTHEST]))
+                .transpose()?,
+            at: at.map(|at| self.position(at, "at")).transpose()?,
+        })
+    }
+
+    fn shape(&self, spanned: &Spanned<RawObject>) -> Read<Spanned<Shape>> {
+        let raw = spanned.get_ref();
+        match (&raw.body, &raw.mesh) {
+            (Some(body), None) => {
+                let found = Body::ALL
+                    .into_iter()
+                    .find(|known| known.name == body.get_ref());
+                let names: Vec<&str> = Body::ALL
+                    .iter()
+                    .map(|body| body.name)
+                    .chain([PLANE])
+                    .collect();
+                let shape = match found {
+                    Some(found) => Shape::Body(found),
+                    None if body.get_ref() == PLANE => Shape::Plane,
+                    None => {
+                        let unknown = UnknownName::new("body", body.get_ref(), &names);
+                        return Err(self.fault(body.span().start, unknown.to_string()));
+                    }
+                };
+                Ok(Spanned::new(body.span(), shape))
+            }
+            (None, Some(path)) => {
+                self.legible("mesh", path)?;
+                Ok(Spanned::new(
+                    path.span(),
+                    Shape::Mesh(path.get_ref().clone()),
+                ))
+            }
+            _ => {
+                let what = "an object wants one of `body` and `mesh`";
+                Err(self.fault(spanned.span().start, what.to_owned()))
+            }
+        }
+    }
+}
+
+/// A camera turned about a place by an angle.
+fn turned(camera: &Camera, at: DVec3, axis: DVec3, degrees: f64) -> Camera {
+    let turn = |vector| rotated(vector, axis, degrees.to_radians());
+    Camera {
+        eye: at + turn(camera.eye - at),
+        axes: camera.axes.map(turn),
+        ..*camera
+    }
+}

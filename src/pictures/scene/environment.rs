@@ -1,0 +1,219 @@
+//! What surrounds a scene: radiance by direction, in a table that both the tracer and the device look up.
+//!
+//! Longitude lies along the rows, -z in the middle and +x to the right of it; latitude along the columns, +y on top.
+
+use glam::DVec3;
+use half::f16;
+
+use super::light_file::LightFile;
+use crate::physics::foreign::Foreign;
+use crate::physics::spectra::Space;
+
+/// Radiance by direction.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Environment {
+    width: usize,
+    height: usize,
+    /// Rounded to binary16, as the device holds them.
+    texels: Vec<[f32; 3]>,
+}
+
+/// Why a picture is no environment.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum EnvironmentFault {
+    /// It cannot be read.
+    #[error("{}", Foreign(_0))]
+    Unreadable(String),
+    /// It has another shape.
+    #[error(
+        "it has {0} x {1} pixels; an environment is twice as wide as high, 2 to 16384 pixels wide"
+    )]
+    Shape(usize, usize),
+}
+
+/// Texels of a row that a picture of a user may have.
+const LARGEST: usize = 16384;
+
+impl Environment {
+    /// From a function of the direction, so many texels high and twice as many wide.
+    pub fn baked(height: usize, radiance: impl Fn(DVec3) -> DVec3 + Sync) -> Environment {
+        let width = 2 * height;
+        // Four samples a texel: edges are as smooth as the table is fine.
+        let at = |row: usize, column: usize, (down, right): (f64, f64)| {
+            let v = (row as f64 + down) / height as f64;
+            radiance(direction((column as f64 + right) / width as f64, v))
+        };
+        let places = [(0.25, 0.25), (0.25, 0.75), (0.75, 0.25), (0.75, 0.75)];
+        let row = |row: usize| -> Vec<[f32; 3]> {
+            let mean = |column| {
+                places
+                    .map(|place| at(row, column, place))
+                    .iter()
+                    .sum::<DVec3>()
+            };
+            let texel = |column| rounded((mean(column) / 4.0).to_array());
+            (0..width).map(texel).collect()
+        };
+        let rows = crate::physics::num::in_parallel(height, &row, &mut |_, _| {});
+        Environment {
+            width,
+            height,
+            texels: rows.concat(),
+        }
+    }
+
+    /// From the bytes of a picture: Radiance HDR and OpenEXR are linear, PNG and JPEG are sRGB unless they say otherwise. What the file says of its numbers
+    /// is followed (`light_file.rs`), and light of other primaries is brought into the space.
+    ///
+    /// # Errors
+    /// The picture cannot be read, says what is not followed, or is not twice as wide as high.
+    pub fn read(bytes: &[u8], space: Space) -> Result<Environment, EnvironmentFault> {
+        // Two names of one format begin Radiance's pictures; the crate knows the first.
+        let renamed = bytes
+            .strip_prefix(b"#?RGBE")
+            .map(|rest| [b"#?RADIANCE", rest].concat());
+        let bytes = renamed.as_deref().unwrap_or(bytes);
+        let file = LightFile::read(bytes, space).map_err(EnvironmentFault::Unreadable)?;
+        let (width, height) = file.picture.dimensions();
+        let (width, height) = (width as usize, height as usize);
+        if width != 2 * height || !(2..=LARGEST).contains(&width) {
+            return Err(EnvironmentFault::Shape(width, height));
+        }
+        let greatest = DVec3::splat(f64::from(f16::MAX));
+        let texel = |pixel: &image::Rgb<f32>| {
+            let light = file.light(pixel.0).max(DVec3::ZERO).min(greatest);
+            rounded(light.to_array())
+        };
+        Ok(Environment {
+            width,
+            height,
+            texels: file.picture.pixels().map(texel).collect(),
+        })
+    }
+
+    /// The same with half as many rows, each texel the mean of those that it covers by solid angle; nothing below two rows.
+    pub fn halved(&self) -> Option<Environment> {
+        if self.height < 2 {
+            return None;
+        }
+        let height = self.height / 2;
+        let width = 2 * height;
+        let solid_angle =
+            |row: usize| libm::sin(std::f64::consts::PI * (row as f64 + 0.5) / self.height as f64);
+        // Of an odd number of rows, two texels share one.
+        let covered = |at: usize, all: usize, parts: usize| {
+            at * all / parts..((at + 1) * all).div_ceil(parts)
+        };
+        let texel = |row: usize, column: usize| {
+            let (mut sum, mut whole) = (DVec3::ZERO, 0.0);
+            for y in covered(row, self.height, height) {
+                for x in covered(column, self.width, width) {
+                    let texel = self.texels[y * self.width + x].map(f64::from);
+                    sum += solid_angle(y) * DVec3::from_array(texel);
+                    whole += solid_angle(y);
+                }
+            }
+            rounded((sum / whole).to_array())
+        };
+        let places = (0..height).flat_map(|row| (0..width).map(move |column| (row, column)));
+        Some(Environment {
+            width,
+            height,
+            texels: places.map(|(row, column)| texel(row, column)).collect(),
+        })
+    }
+
+    /// The same as a picture of 8 bits holds it: nothing is brighter than white.
+    pub fn clamped(&self) -> Environment {
+        let texels = self.texels.iter();
+        Environment {
+            texels: texels.map(|texel| texel.map(|x| x.min(1.0))).collect(),
+            ..*self
+        }
+    }
+
+    /// The same with other texels in the place of each.
+    pub fn mapped(&self, change: impl Fn([f32; 3]) -> [f32; 3]) -> Environment {
+        let texels = self.texels.iter();
+        Environment {
+            texels: texels.map(|texel| change(*texel)).collect(),
+            ..*self
+        }
+    }
+
+    /// Its width and height.
+    pub fn size(&self) -> [usize; 2] {
+        [self.width, self.height]
+    }
+
+    /// Its texels, row after row.
+    pub fn texels(&self) -> &[[f32; 3]] {
+        &self.texels
+    }
+
+    /// The radiance from a direction of any length: linear between texels.
+    pub fn radiance(&self, direction: DVec3) -> DVec3 {
+        let direction = direction.normalize_or_zero();
+        let u = libm::atan2(direction.x, -direction.z) / std::f64::consts::TAU + 0.5;
+        let v = libm::acos(direction.y.clamp(-1.0, 1.0)) / std::f64::consts::PI;
+        let (x, y) = (u * self.width as f64 - 0.5, v * self.height as f64 - 0.5);
+        let (left, top) = (x.floor(), y.floor());
+        let column = |x: f64| (x as i64).rem_euclid(self.width as i64) as usize;
+        let row = |y: f64| y.clamp(0.0, self.height as f64 - 1.0) as usize;
+        let texel = |x: f64, y: f64| {
+            let [r, g, b] = self.texels[row(y) * self.width + column(x)];
+            DVec3::new(r.into(), g.into(), b.into())
+        };
+        let along = |y: f64| texel(left, y).lerp(texel(left + 1.0, y), x - left);
+        along(top).lerp(along(top + 1.0), y - top)
+    }
+}
+
+/// The direction of texture coordinates.
+fn direction(u: f64, v: f64) -> DVec3 {
+    let (sin_u, cos_u) = libm::sincos(std::f64::consts::TAU * (u - 0.5));
+    let (sin_v, cos_v) = libm::sincos(std::f64::consts::PI * v);
+    DVec3::new(sin_u * sin_v, cos_v, -cos_u * sin_v)
+}
+
+fn rounded(texel: [f64; 3]) -> [f32; 3] {
+    texel.map(|value| f16::from_f64(value).to_f32())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_halved_table_keeps_the_mean_over_all_directions() {
+        let mut table = Environment::baked(37, |direction| direction + DVec3::ONE);
+        while let Some(next) = table.halved() {
+            let rows = table.height as f64;
+            let solid_angle =
+                |row: usize| libm::sin(std::f64::consts::PI * (row as f64 + 0.5) / rows);
+            let (mut sum, mut whole) = (DVec3::ZERO, 0.0);
+            for (at, texel) in table.texels.iter().enumerate() {
+                let weight = solid_angle(at / table.width);
+                sum += weight * DVec3::from_array(texel.map(f64::from));
+                whole += weight;
+            }
+            let mean = sum / whole;
+            assert!(
+                (mean - DVec3::ONE).abs().max_element() < 0.02,
+                "{rows} {mean}"
+            );
+            table = next;
+        }
+        assert_eq!(table.size(), [2, 1]);
+    }
+
+    #[test]
+    fn a_table_gives_back_what_it_was_baked_from() {
+        let environment = Environment::baked(64, |direction| direction.abs());
+        for direction in [DVec3::X, DVec3::NEG_Z, DVec3::Z, DVec3::new(0.3, -0.8, 0.2)] {
+            let direction = direction.normalize();
+            let error = environment.radiance(direction) - direction.abs();
+            assert!(error.length() < 0.05, "{direction} {error}");
+        }
+    }
+}

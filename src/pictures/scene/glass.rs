@@ -1,0 +1,89 @@
+//! What a scene's material is to light: its index at some wavelengths, and what each of these is of three channels.
+
+use glam::DVec3;
+
+use crate::physics::materials::{Index, Surface};
+use crate::physics::optics::{COS_82, index_from_f0_f82};
+
+/// A material as a tracer takes it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Glass {
+    /// Red to blue or the other way; their weights sum to (1, 1, 1).
+    pub rays: Vec<Ray>,
+    /// The index of each channel: the mean over its weights.
+    pub n: DVec3,
+    /// The extinction coefficient of each channel.
+    pub k: DVec3,
+}
+
+/// A wavelength.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Ray {
+    /// Its index.
+    pub index: Index,
+    /// Its share of red, green and blue.
+    pub weight: DVec3,
+}
+
+/// A medium with less is seen through.
+const TRANSPARENT_K: f64 = 0.1;
+
+impl Glass {
+    /// Without dispersion.
+    pub fn of_index(n: f64) -> Glass {
+        Glass {
+            rays: vec![Ray {
+                index: Index { n, k: 0.0 },
+                weight: DVec3::ONE,
+            }],
+            n: DVec3::splat(n),
+            k: DVec3::ZERO,
+        }
+    }
+
+    /// A material as it is seen: a ray for each wavelength of the integrator, since the law of a mean index is not the mean of laws.
+    pub fn of_surface(surface: &Surface) -> Glass {
+        let weights = &surface.integrator.weights;
+        let sum: DVec3 = weights.iter().sum();
+        let mean = |of: fn(&Index) -> f64| -> DVec3 {
+            let weighted = surface.indices.iter().zip(weights);
+            weighted
+                .map(|(index, weight)| of(index) * *weight / sum)
+                .sum()
+        };
+        let rays = surface.indices.iter().zip(weights);
+        let rays = rays.map(|(index, weight)| Ray {
+            index: *index,
+            weight: *weight / sum,
+        });
+        let mut glass = Glass {
+            rays: rays.collect(),
+            n: mean(|index| index.n),
+            k: mean(|index| index.k),
+        };
+        if surface.most_k() > TRANSPARENT_K {
+            // The index whose colours are the metal's own at two angles: means of a curved spectrum have others.
+            let colours = [1.0, COS_82]
+                .map(|cosine| surface.unpolarised(cosine).clamp(DVec3::ZERO, DVec3::ONE));
+            let pairs = colours[0].to_array().into_iter().zip(colours[1].to_array());
+            let found: Vec<_> = pairs.map(|(f0, f82)| index_from_f0_f82(f0, f82)).collect();
+            glass.n = DVec3::new(found[0].n, found[1].n, found[2].n);
+            glass.k = DVec3::new(found[0].k, found[1].k, found[2].k);
+        }
+        glass
+    }
+
+    /// Without dispersion, at green's index.
+    pub fn at_one_index(&self) -> Glass {
+        Glass {
+            k: self.k,
+            ..Glass::of_index(self.n.y)
+        }
+    }
+
+    /// The absorption coefficient of red, green and blue, per metre: 4 pi k / lambda, at a wavelength in the middle of each channel.
+    pub fn absorption(&self) -> DVec3 {
+        let wavelengths = DVec3::new(610.0, 550.0, 460.0) * 1e-9;
+        4.0 * std::f64::consts::PI * self.k / wavelengths
+    }
+}

@@ -1,0 +1,263 @@
+//! A row as a picture beside its truth, with what is known of both.
+
+use glam::DVec3;
+use serde::Serialize;
+
+use crate::lab::gpu::Device;
+
+use super::SAMPLES;
+use super::camera::Camera;
+use super::caustics::{FOUR_PICTURES, Gathering, Window, caustic_error, caustics, exact_caustics};
+use super::compare::{Comparison, Difference, compare};
+use super::draw::{DrawFault, Drawn, Scenery, draw};
+use super::environment::Environment;
+use super::glass::Glass;
+use super::relief::Relief;
+use super::row::RenderRow;
+use super::text::RowText;
+use super::tone::Display;
+use super::trace::{Around, Things, Traced, trace};
+
+/// What is to be drawn.
+#[derive(Clone, Copy, Debug)]
+pub struct Order<'a> {
+    /// The effect.
+    pub row: &'static RenderRow,
+    /// What the body is made of.
+    pub glass: &'a Glass,
+    /// What is around it.
+    pub environment: &'a Environment,
+    /// Whether the effect is drawn with that clamped to white, as a picture of 8 bits is.
+    pub is_ldr: bool,
+    /// Pixels a side.
+    pub size: u32,
+    /// How radiance is shown.
+    pub display: Display,
+}
+
+/// A picture with its truth, of `size` pixels a side.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Picture {
+    /// As the effect draws it.
+    pub drawn: Vec<DVec3>,
+    /// As light goes.
+    pub truth: Vec<DVec3>,
+    /// The difference of each pixel.
+    pub map: Vec<f64>,
+    /// What is known of it.
+    pub row: RenderedRow,
+}
+
+/// What a report says of a picture. Shares are of the samples that show the body.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct RenderedRow {
+    /// Which.
+    pub effect: &'static str,
+    /// What is drawn.
+    pub body: &'static str,
+    /// Of what it is made.
+    pub material: String,
+    /// The index that the passes take for green.
+    pub n: f64,
+    /// Pixels a side.
+    pub size: u32,
+    /// Samples of a pixel.
+    pub samples: u32,
+    /// The measure of errors.
+    pub metric: &'static str,
+    /// Against the truth.
+    pub error: Difference,
+    /// Against light that goes only as far as the effect follows it.
+    pub own_error: Difference,
+    /// Whether rays are searched for in a picture of the body's back, so that the shares below mean something.
+    #[serde(skip)]
+    pub searches: bool,
+    /// Rays whose search ended on the body.
+    pub hits: f64,
+    /// Rays whose search ended beside it.
+    pub misses: f64,
+    /// Rays that are reflected totally where they first meet the surface from inside, as drawn.
+    pub total: f64,
+    /// The same in truth.
+    pub true_total: f64,
+    /// Rays that are drawn as reflected totally and are not.
+    pub false_total: f64,
+    /// Rays that are reflected totally and are not drawn so.
+    pub missed_total: f64,
+    /// Of light on a receiver: the sum of absolute differences, as a share of the sum of the truth.
+    pub l1: Option<f64>,
+    /// Of light on a receiver: the sum, as a share of that of the truth.
+    pub energy: Option<f64>,
+    /// Of water: samples whose refraction shows what is above it, or whose mirror shows what is below it.
+    pub leaks: Option<u64>,
+    /// Where it must be wrong.
+    pub wrong: &'static str,
+}
+
+/// The measure of errors, as reports name it.
+const METRIC: &str = "CIEDE2000 over the pixels that show the body";
+
+/// Draws and traces. `progress` hears how much is done of how much.
+///
+/// # Errors
+/// The device does not draw it.
+pub fn render(
+    device: &Device,
+    order: &Order,
+    material: &str,
+    progress: &mut dyn FnMut(u64, u64, &str),
+) -> Result<Picture, DrawFault> {
+    let row = order.row;
+    if let Some([below, half]) = row.receiver {
+        progress(0, 1, "drawing");
+        return received(device, order, material, (below, half));
+    }
+    let body = row.body.body();
+    let relief = row.dents.map(Relief::hammered);
+    let flat = order.glass.at_one_index();
+    let things = Things {
+        body: &body,
+        glass: if row.disperses { order.glass } else { &flat },
+        around: match row.in_room {
+            true => Around::Room,
+            false => Around::Far(order.environment),
+        },
+        relief: relief.as_ref(),
+    };
+    let camera = Camera::around(DVec3::from_array(row.eye), body.radius());
+    let side = order.size * SAMPLES;
+    progress(0, 1, "drawing");
+    let clamped = order.is_ldr.then(|| order.environment.clamped());
+    let environment = clamped.as_ref().unwrap_or(order.environment);
+    let text = RowText::usual(row);
+    let by = (&text, text.inputs_for(things.glass));
+    let drawn = draw(device, by, &Scenery::of(things, environment), &camera, side)?;
+    let mut hear = |done, whole| progress(done, whole, "tracing rays");
+    let paths = [row.true_paths, row.own_paths];
+    let truth = trace(things, &camera, side as usize, paths, &mut hear);
+    let pixels = |samples: Vec<DVec3>| averaged(&samples, side as usize);
+    let colour = |of: fn(&Traced) -> DVec3| pixels(truth.iter().map(of).collect());
+    let (true_colours, own_colours) = (colour(|one| one.colour), colour(|one| one.own));
+    let shown = pixels(drawn.samples.iter().map(radiance).collect());
+    let is_body = |one: &Traced| DVec3::splat(f64::from(u8::from(one.is_body)));
+    let shares_of_body = pixels(truth.iter().map(is_body).collect());
+    let counts: Vec<bool> = shares_of_body.iter().map(|share| share.x > 0.0).collect();
+    let against = |other: &[DVec3]| compare(&shown, other, &counts, &order.display);
+    let Comparison { map, difference } = against(&true_colours);
+    Ok(Picture {
+        row: RenderedRow {
+            n: order.glass.n.y,
+            material: material.to_owned(),
+            size: order.size,
+            error: difference,
+            own_error: against(&own_colours).difference,
+            ..shares(row, &drawn, &truth)
+        },
+        truth: true_colours,
+        drawn: shown,
+        map,
+    })
+}
+
+/// A sample without what it says of itself.
+fn radiance([red, green, blue, _]: &[f32; 4]) -> DVec3 {
+    DVec3::new((*red).into(), (*green).into(), (*blue).into())
+}
+
+/// Light on a receiver beside the exact map.
+fn received(
+    device: &Device,
+    order: &Order,
+    material: &str,
+    (below, half): (f64, f64),
+) -> Result<Picture, DrawFault> {
+    let window = Window {
+        below,
+        half,
+        pixels: order.size,
+    };
+    let n = order.glass.n.y;
+    let (drawn, hits) = caustics(device, n, &window, Gathering::Triangles, FOUR_PICTURES)?;
+    let exact = exact_caustics(n, &window);
+    let (l1, energy) = caustic_error(&drawn, &exact);
+    let grey = |map: &[f64]| map.iter().map(|light| DVec3::splat(*light)).collect();
+    let (drawn, truth): (Vec<DVec3>, Vec<DVec3>) = (grey(&drawn), grey(&exact));
+    let all = vec![true; exact.len()];
+    let Comparison { map, difference } = compare(&drawn, &truth, &all, &order.display);
+    let nothing = Drawn {
+        samples: Vec::new(),
+    };
+    Ok(Picture {
+        row: RenderedRow {
+            n,
+            material: material.to_owned(),
+            size: order.size,
+            samples: 1,
+            metric: "CIEDE2000 over all pixels",
+            error: difference,
+            own_error: difference,
+            hits,
+            misses: 1.0 - hits,
+            l1: Some(l1),
+            energy: Some(energy),
+            ..shares(order.row, &nothing, &[])
+        },
+        drawn,
+        truth,
+        map,
+    })
+}
+
+/// The row with its shares, the rest empty.
+fn shares(row: &'static RenderRow, drawn: &Drawn, truth: &[Traced]) -> RenderedRow {
+    let seen = drawn.samples.iter().zip(truth);
+    let seen: Vec<(f32, &Traced)> = seen
+        .map(|(sample, traced)| (sample[3], traced))
+        .filter(|(what, traced)| *what > 0.0 && traced.is_body)
+        .collect();
+    let share = |of: &dyn Fn(f32, &Traced) -> bool| {
+        let holds = seen.iter().filter(|(what, traced)| of(*what, traced));
+        holds.count() as f64 / seen.len().max(1) as f64
+    };
+    let is_total = |what: f32| (2.5..3.5).contains(&what);
+    let leaks = seen.iter().filter(|(what, _)| *what > 3.5).count() as u64;
+    let misses = share(&|what, _| (1.5..2.5).contains(&what));
+    let none = Difference {
+        mean: 0.0,
+        p99: 0.0,
+    };
+    RenderedRow {
+        effect: row.name,
+        body: row.body.name(),
+        material: String::new(),
+        n: 0.0,
+        size: 0,
+        samples: SAMPLES * SAMPLES,
+        metric: METRIC,
+        error: none,
+        own_error: none,
+        searches: row.searches(),
+        hits: 1.0 - misses,
+        misses,
+        total: share(&|what, _| is_total(what)),
+        true_total: share(&|_, traced| traced.is_total),
+        false_total: share(&|what, traced| is_total(what) && !traced.is_total),
+        missed_total: share(&|what, traced| !is_total(what) && traced.is_total),
+        l1: None,
+        energy: None,
+        leaks: row.has_water().then_some(leaks),
+        wrong: row.wrong,
+    }
+}
+
+/// The means of the samples of each pixel.
+fn averaged(samples: &[DVec3], side: usize) -> Vec<DVec3> {
+    let each = SAMPLES as usize;
+    let pixels = side / each;
+    let pixel = |i: usize| {
+        let (x, y) = (i % pixels * each, i / pixels * each);
+        let rows = (y..y + each).flat_map(|y| samples[y * side + x..][..each].iter());
+        rows.sum::<DVec3>() / (each * each) as f64
+    };
+    (0..pixels * pixels).map(pixel).collect()
+}

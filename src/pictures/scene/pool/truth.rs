@@ -1,0 +1,176 @@
+//! The pool as light goes, in f64: from the eye to the water, and from there along the mirrored and along the refracted ray to what they
+//! meet. It follows the waves as a surface with its heights, and a second time as a plane with their normals.
+
+use glam::{DVec2, DVec3};
+
+use crate::physics::optics;
+use crate::pictures::scene::glass::Glass;
+use crate::pictures::scene::trace::{Around, Traced, mirrored, refracted};
+
+use super::solids::{Hit, hit};
+use super::{BASIN_MAX, BASIN_MIN, Pool};
+
+/// Places along a ray between the highest crest and the lowest trough that are tried, and steps of the search between two of them.
+const TRIES: usize = 12;
+const STEPS: usize = 6;
+/// A ray is mirrored so often at most.
+const MOST_REFLECTIONS: usize = 3;
+
+/// The surface of the water.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Surface {
+    /// With the heights of its waves.
+    Waves,
+    /// The plane, with the normals of its waves.
+    Plane,
+}
+
+/// What light meets.
+struct Light<'a> {
+    pool: &'a Pool,
+    /// The index of the water.
+    n: f64,
+    /// Its absorption coefficient, per metre.
+    absorption: DVec3,
+    around: Around<'a>,
+}
+
+impl Pool {
+    /// What a ray from the eye shows: by the waves' heights, and by their normals alone.
+    pub fn seen(&self, water: &Glass, around: Around, eye: DVec3, direction: DVec3) -> Traced {
+        let light = Light {
+            pool: self,
+            n: water.n.y,
+            absorption: water.absorption(),
+            around,
+        };
+        let solid = hit(eye, direction);
+        let nearest = solid.map_or(f64::INFINITY, |solid| solid.distance);
+        let by = |surface: Surface| match light.meets(surface, eye, direction) {
+            Some(distance) if distance < nearest => {
+                let place = eye + distance * direction;
+                Some(light.at_water(surface, place, direction, MOST_REFLECTIONS))
+            }
+            _ => None,
+        };
+        let without = light.without_water(solid, eye, direction);
+        let (waves, plane) = (by(Surface::Waves), by(Surface::Plane));
+        Traced {
+            colour: waves.unwrap_or(without),
+            own: plane.unwrap_or(without),
+            is_body: waves.is_some() && plane.is_some(),
+            is_total: false,
+        }
+    }
+}
+
+impl Light<'_> {
+    fn without_water(&self, solid: Option<Hit>, place: DVec3, direction: DVec3) -> DVec3 {
+        match solid {
+            Some(hit) => self.pool.paint.at(hit.part.uv(hit.at)).truncate(),
+            None => self.around.radiance(place, direction),
+        }
+    }
+
+    /// What comes along a ray above the water that is mirrored so often at most.
+    fn above(&self, surface: Surface, place: DVec3, direction: DVec3, left: usize) -> DVec3 {
+        let solid = hit(place, direction);
+        let nearest = solid.map_or(f64::INFINITY, |solid| solid.distance);
+        match self.meets(surface, place, direction) {
+            Some(distance) if distance < nearest && left > 0 => {
+                self.at_water(surface, place + distance * direction, direction, left)
+            }
+            _ => self.without_water(solid, place, direction),
+        }
+    }
+
+    /// What a place of the surface shows along a ray from above.
+    fn at_water(&self, surface: Surface, place: DVec3, direction: DVec3, left: usize) -> DVec3 {
+        let normal = self.normal(surface, place);
+        let cosine = (-direction.dot(normal)).clamp(0.0, 1.0);
+        let r = optics::dielectric(self.n, cosine).unpolarised();
+        let up = mirrored(direction, normal);
+        let reflection = self.above(surface, place + 1e-6 * normal, up, left - 1);
+        let refraction = match refracted(direction, normal, self.n) {
+            Some(down) => self.below(place - 1e-6 * normal, down),
+            None => DVec3::ZERO,
+        };
+        r * reflection + (1.0 - r) * refraction
+    }
+
+    fn below(&self, place: DVec3, direction: DVec3) -> DVec3 {
+        let Some(hit) = hit(place, direction) else {
+            return DVec3::ZERO;
+        };
+        let dimmed = (-self.absorption * hit.distance).exp();
+        dimmed * self.pool.paint.at(hit.part.uv(hit.at)).truncate()
+    }
+
+    fn normal(&self, surface: Surface, place: DVec3) -> DVec3 {
+        let place = DVec2::new(place.x, place.z);
+        match surface {
+            Surface::Waves => self.pool.waves.normal(place),
+            Surface::Plane => {
+                let (min, max) = (BASIN_MIN, BASIN_MAX);
+                let size = DVec2::new(max.x - min.x, max.z - min.z);
+                let uv = (place - DVec2::new(min.x, min.z)) / size;
+                let mapped = self.pool.normals.at(uv);
+                DVec3::new(mapped.x, mapped.z, mapped.y).normalize()
+            }
+        }
+    }
+
+    /// How far it is to the water, for rays that go down.
+    fn meets(&self, surface: Surface, origin: DVec3, direction: DVec3) -> Option<f64> {
+        if direction.y >= 0.0 {
+            return None;
+        }
+        let distance = match surface {
+            Surface::Plane => Some(-origin.y / direction.y).filter(|distance| *distance > 1e-5),
+            Surface::Waves => self.meets_waves(origin, direction),
+        }?;
+        let place = origin + distance * direction;
+        let is_within = (BASIN_MIN.x..BASIN_MAX.x).contains(&place.x)
+            && (BASIN_MIN.z..BASIN_MAX.z).contains(&place.z);
+        is_within.then_some(distance)
+    }
+
+    /// The first of some places that lies below the surface, and a search between it and the one before.
+    fn meets_waves(&self, origin: DVec3, direction: DVec3) -> Option<f64> {
+        let waves = &self.pool.waves;
+        let to_height = |height: f64| ((height - origin.y) / direction.y).max(0.0);
+        let (first, last) = (to_height(waves.highest), to_height(-waves.highest));
+        let above = |distance: f64| {
+            let place = origin + distance * direction;
+            place.y - waves.height(DVec2::new(place.x, place.z))
+        };
+        let mut before = (first, above(first));
+        if before.1 <= 0.0 {
+            return Some(first);
+        }
+        for i in 1..=TRIES {
+            let distance = first + (last - first) * i as f64 / TRIES as f64;
+            let after = (distance, above(distance));
+            if after.1 <= 0.0 {
+                return Some(between(before, after, above));
+            }
+            before = after;
+        }
+        None
+    }
+}
+
+/// Where a function is 0 between two places, by the secant.
+fn between(mut before: (f64, f64), mut after: (f64, f64), of: impl Fn(f64) -> f64) -> f64 {
+    for _ in 0..STEPS {
+        let share = before.1 / (before.1 - after.1);
+        let distance = before.0 + share.clamp(0.05, 0.95) * (after.0 - before.0);
+        let value = of(distance);
+        if value > 0.0 {
+            before = (distance, value);
+        } else {
+            after = (distance, value);
+        }
+    }
+    before.0 + (after.0 - before.0) * before.1 / (before.1 - after.1)
+}

@@ -1,0 +1,113 @@
+//! Tables of four channels, rounded to binary16 as the device holds them: the tracer and the device look up the same.
+
+use glam::{DVec2, DVec4};
+use half::f16;
+
+use crate::physics::num::in_parallel;
+
+/// A table of texels, row after row.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Texels {
+    width: usize,
+    height: usize,
+    texels: Vec<[f32; 4]>,
+}
+
+impl Texels {
+    /// From a function of column and row.
+    pub fn baked(
+        [width, height]: [usize; 2],
+        texel: impl Fn(usize, usize) -> DVec4 + Sync,
+    ) -> Texels {
+        let row = |row: usize| -> Vec<[f32; 4]> {
+            let at = |column| texel(column, row).to_array();
+            let rounded = |value| f16::from_f64(value).to_f32();
+            (0..width).map(|column| at(column).map(rounded)).collect()
+        };
+        Texels {
+            width,
+            height,
+            texels: in_parallel(height, &row, &mut |_, _| {}).concat(),
+        }
+    }
+
+    /// Its width and height.
+    pub fn size(&self) -> [usize; 2] {
+        [self.width, self.height]
+    }
+
+    /// The texels.
+    pub fn texels(&self) -> &[[f32; 4]] {
+        &self.texels
+    }
+
+    /// The same with other texels in the place of each.
+    pub fn mapped(&self, change: impl Fn([f32; 4]) -> [f32; 4]) -> Texels {
+        let texels = self.texels.iter();
+        Texels {
+            texels: texels.map(|texel| change(*texel)).collect(),
+            ..*self
+        }
+    }
+
+    /// The means of squares of so many texels a side, rounded to binary16.
+    pub fn reduced(&self, by: usize) -> Texels {
+        Texels::baked([self.width / by, self.height / by], |column, row| {
+            let mut sum = DVec4::ZERO;
+            for y in row * by..(row + 1) * by {
+                for x in column * by..(column + 1) * by {
+                    let [a, b, c, d] = self.texels[y * self.width + x];
+                    sum += DVec4::new(a.into(), b.into(), c.into(), d.into());
+                }
+            }
+            sum / (by * by) as f64
+        })
+    }
+
+    /// At texture coordinates, (0, 0) in the corner of the first texel: linear between texels, and beyond the edge as at the
+    /// edge.
+    pub fn at(&self, uv: DVec2) -> DVec4 {
+        let last = self.width as f64 - 1.0;
+        self.linear(uv, &|x| x.clamp(0.0, last) as usize)
+    }
+
+    /// The same with rows that repeat.
+    pub fn at_around(&self, uv: DVec2) -> DVec4 {
+        let width = self.width as i64;
+        self.linear(uv, &|x| (x as i64).rem_euclid(width) as usize)
+    }
+
+    fn linear(&self, uv: DVec2, column: &dyn Fn(f64) -> usize) -> DVec4 {
+        let place = uv * DVec2::new(self.width as f64, self.height as f64) - 0.5;
+        let first = place.floor();
+        let texel = |x: f64, y: f64| {
+            let row = y.clamp(0.0, self.height as f64 - 1.0) as usize;
+            let [a, b, c, d] = self.texels[row * self.width + column(x)];
+            DVec4::new(a.into(), b.into(), c.into(), d.into())
+        };
+        let between = place - first;
+        let along = |y: f64| texel(first.x, y).lerp(texel(first.x + 1.0, y), between.x);
+        along(first.y).lerp(along(first.y + 1.0), between.y)
+    }
+}
+
+/// A number from 0 to 1 that looks random, and is always the same for the same pair: the mixing steps of SplitMix64 (Steele, Lea,
+/// Flood, *Fast Splittable Pseudorandom Number Generators*, OOPSLA 2014, <https://doi.org/10.1145/2660193.2660195>).
+pub fn scattered(a: i64, b: i64) -> f64 {
+    let mut z = (a as u64)
+        .wrapping_mul(0x9e37_79b9_7f4a_7c15)
+        .wrapping_add((b as u64).wrapping_mul(0xd1b5_4a32_d192_ed03));
+    z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+    z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+    (z ^ (z >> 31)) as f64 / u64::MAX as f64
+}
+
+/// [`scattered`], smooth between whole numbers.
+pub fn smooth_noise(place: DVec2) -> f64 {
+    let first = place.floor();
+    let between = place - first;
+    let share = between * between * (3.0 - 2.0 * between);
+    let at = |x: f64, y: f64| scattered((first.x + x) as i64, (first.y + y) as i64);
+    let along = |y: f64| at(0.0, y) + share.x * (at(1.0, y) - at(0.0, y));
+    along(0.0) + share.y * (along(1.0) - along(0.0))
+}

@@ -1,0 +1,309 @@
+//! The text of a row: the functions that users import, the calls of its method, the frame, the row's own passes.
+//!
+//! Passes know no method. They call `reflectance` and `transmittance_out`, whose text is made here from the method's inputs; the values of
+//! these stand in the frame's block, so that one text serves every material.
+
+use crate::generator::emit::{
+    self, EffectRequest, Emitted, FunctionForm, Naming, effect_function_text,
+};
+use crate::generator::fit::values;
+use crate::generator::reference::Derivation;
+use crate::language::effects::{self, Reflectance, USUAL_METHOD};
+use crate::language::ir::Ty;
+use crate::language::methods::{self, Forms, Input, Method, Values};
+use crate::language::targets;
+use crate::physics::materials::Channels;
+
+use super::glass::Glass;
+use super::row::RenderRow;
+
+/// Inputs that the frame's block has room for.
+pub const INPUTS: usize = 8;
+
+/// What every pass sees.
+pub const FRAME: &str = include_str!("passes/frame.wgsl");
+
+/// The words of a language that calls are written in.
+#[derive(Clone, Copy, Debug)]
+struct Words {
+    scalar: &'static str,
+    vector: &'static str,
+    /// Whether types stand before names.
+    type_first: bool,
+}
+
+const WGSL: Words = Words {
+    scalar: "f32",
+    vector: "vec3<f32>",
+    type_first: false,
+};
+const GLES: Words = Words {
+    scalar: "float",
+    vector: "vec3",
+    type_first: true,
+};
+
+impl Words {
+    fn head(&self, name: &str, arguments: &[(&str, &str)], result: &str) -> String {
+        let each = |(name, ty): &(&str, &str)| match self.type_first {
+            true => format!("{ty} {name}"),
+            false => format!("{name}: {ty}"),
+        };
+        let arguments: Vec<String> = arguments.iter().map(each).collect();
+        let arguments = arguments.join(", ");
+        match self.type_first {
+            true => format!("{result} {name}({arguments})"),
+            false => format!("fn {name}({arguments}) -> {result}"),
+        }
+    }
+}
+
+/// A row drawn by a method: which functions it needs, and what it calls.
+#[derive(Clone, Copy, Debug)]
+pub struct RowText {
+    /// The row.
+    pub row: &'static RenderRow,
+    /// What computes R.
+    pub method: &'static Method,
+}
+
+impl RowText {
+    /// The row by its own method.
+    pub fn usual(row: &'static RenderRow) -> RowText {
+        let method = methods::find(row.method).expect("a row names a method");
+        RowText { row, method }
+    }
+
+    /// The functions of the row's effects in their usual form, the same for every method.
+    ///
+    /// # Errors
+    /// A graph breaks a rule: a bug.
+    pub fn common_functions(&self) -> Result<Vec<Emitted>, emit::Error> {
+        let mut all = Vec::new();
+        for name in self.row.effects {
+            all.extend(request(name, usual_method()).functions(&Naming::default())?);
+        }
+        Ok(all)
+    }
+
+    /// The functions that the method's calls need, the usual ones among them.
+    ///
+    /// # Errors
+    /// A graph breaks a rule: a bug.
+    pub fn called_functions(&self) -> Result<Vec<Emitted>, emit::Error> {
+        let mut called = vec![self.entry_function()?];
+        if self.leaves_a_body() {
+            called.push(self.exit_function()?);
+        }
+        if self.is_rough() {
+            called.insert(0, self.rough_function()?);
+        }
+        Ok(called)
+    }
+
+    /// Whether rays leave the body, so that passes ask what is transmitted there.
+    fn leaves_a_body(&self) -> bool {
+        self.row.effects.contains(&"interior")
+    }
+
+    /// Whether light is reflected by a rough surface, so that passes ask for its BRDF.
+    pub fn is_rough(&self) -> bool {
+        self.row.effects.contains(&"ggx_specular")
+    }
+
+    fn rough_function(&self) -> Result<Emitted, emit::Error> {
+        let each = Reflectance::EachChannel;
+        function("ggx_specular", self.method, each, self.is_scalar())
+    }
+
+    /// Whether the method has one number for all channels where light passes through the body.
+    fn is_scalar(&self) -> bool {
+        self.row.is_transparent() && self.method.forms == Forms::ColourAndScalar
+    }
+
+    /// What R is computed by where light leaves the body: of all inputs only an index says which side it comes from, and where it is
+    /// reflected totally.
+    pub fn exit_method(&self) -> &'static Method {
+        let takes_index_alone = matches!(self.method.inputs, [input] if input.name == "eta");
+        match takes_index_alone && self.is_scalar() {
+            true => self.method,
+            false => usual_method(),
+        }
+    }
+
+    /// The function of R where light enters.
+    ///
+    /// # Errors
+    /// A graph breaks a rule: a bug.
+    pub fn entry_function(&self) -> Result<Emitted, emit::Error> {
+        function(
+            "interface",
+            self.method,
+            Reflectance::EachChannel,
+            self.is_scalar(),
+        )
+    }
+
+    fn exit_function(&self) -> Result<Emitted, emit::Error> {
+        function(
+            "interior",
+            self.exit_method(),
+            Reflectance::FromWithin,
+            true,
+        )
+    }
+
+    /// The text of `reflectance` and `transmittance_out` in WGSL.
+    ///
+    /// # Errors
+    /// A graph breaks a rule: a bug.
+    pub fn calls(&self) -> Result<String, emit::Error> {
+        self.calls_in(&WGSL, "frame")
+    }
+
+    /// The same in GLSL ES, where the frame's block has this name.
+    ///
+    /// # Errors
+    /// A graph breaks a rule: a bug.
+    pub fn calls_in_gles(&self, frame: &str) -> Result<String, emit::Error> {
+        self.calls_in(&GLES, frame)
+    }
+
+    fn calls_in(&self, words: &Words, frame: &str) -> Result<String, emit::Error> {
+        let Words { scalar, vector, .. } = *words;
+        let rays = [("incident", vector), ("normal", vector)];
+        let head = words.head("reflectance", &rays, vector);
+        let call = self.call(words, frame, &self.entry_function()?, &rays);
+        let mut text = format!(
+            "\n// R by {}\n{head} {{\n    return {call};\n}}\n",
+            self.method.name
+        );
+        if self.leaves_a_body() {
+            let takes = [
+                ("direction", vector),
+                ("normal_out", vector),
+                ("eta", scalar),
+            ];
+            let head = words.head("transmittance_out", &takes, scalar);
+            let name = self.exit_function()?.name;
+            text += &format!(
+                "\n// T where light leaves, by {}\n{head} {{\n    return {name}(direction, normal_out, eta);\n}}\n",
+                self.exit_method().name
+            );
+        }
+        if self.is_rough() {
+            let takes = ["n_dot_v", "n_dot_l", "n_dot_h", "v_dot_h", "alpha"];
+            let takes = takes.map(|name| (name, scalar));
+            let head = words.head("specular", &takes, vector);
+            let call = self.call(words, frame, &self.rough_function()?, &takes);
+            text += &format!("\n{head} {{\n    return {call};\n}}\n");
+        }
+        Ok(text)
+    }
+
+    /// The call of a function that asks for R: its own arguments, then the method's inputs. One number stands for all channels where it
+    /// gives one.
+    fn call(&self, words: &Words, frame: &str, function: &Emitted, own: &[(&str, &str)]) -> String {
+        let own = own.iter().map(|(name, _)| (*name).to_owned());
+        let places = self.method.inputs.iter().enumerate();
+        let inputs = places.map(|(place, input)| self.argument(frame, place, input));
+        let arguments: Vec<String> = own.chain(inputs).collect();
+        let call = format!("{}({})", function.name, arguments.join(", "));
+        match function.function.ty() {
+            Ty::Scalar => format!("{}({call})", words.vector),
+            _ => call,
+        }
+    }
+
+    /// Where a call reads an input: in the frame's block, green's value where one R stands for all channels. A row of the effect that
+    /// computes F0 computes it in the shader.
+    fn argument(&self, frame: &str, place: usize, input: &Input) -> String {
+        if input.name == "f0" && self.row.effects.contains(&"complex_f0") {
+            return format!("fresnel_complex_f0({frame}.n.xyz, {frame}.k.xyz)");
+        }
+        let part = match input.ty {
+            Ty::Scalar => "x",
+            _ if self.is_scalar() => "y",
+            _ if self.row.is_transparent() => "yyy",
+            _ => "xyz",
+        };
+        format!("{frame}.inputs[{place}].{part}")
+    }
+
+    /// The module: functions as users import them, the frame, the calls, the row's own passes.
+    ///
+    /// # Errors
+    /// A function cannot be written: a bug.
+    pub fn module(&self) -> Result<String, emit::Error> {
+        let mut functions = self.common_functions()?;
+        for called in self.called_functions()? {
+            if functions.iter().all(|other| other.name != called.name) {
+                functions.push(called);
+            }
+        }
+        let wgsl = targets::find("wgsl").expect("a target");
+        let mut text = String::new();
+        for function in &functions {
+            text += &effect_function_text(wgsl, function)?;
+        }
+        Ok(text + FRAME + &self.calls()? + self.row.text)
+    }
+
+    /// The values of the method's inputs, as the block holds them.
+    pub fn inputs(&self, values: &Values) -> [[f32; 4]; INPUTS] {
+        let mut block = [[0.0; 4]; INPUTS];
+        for (place, input) in block.iter_mut().zip(self.method.inputs) {
+            let [r, g, b] = values.get(input.name).copied().unwrap_or([0.0; 3]);
+            *place = [r as f32, g as f32, b as f32, 0.0];
+        }
+        block
+    }
+
+    /// The same, for a body of this index.
+    pub fn inputs_for(&self, glass: &Glass) -> [[f32; 4]; INPUTS] {
+        let channels = Channels {
+            n: glass.n.to_array(),
+            k: glass.k.to_array(),
+        };
+        self.inputs(&values(self.method, &channels, &Derivation::default()))
+    }
+}
+
+fn usual_method() -> &'static Method {
+    methods::find(USUAL_METHOD).expect("the usual method is registered")
+}
+
+fn request(effect: &str, method: &'static Method) -> EffectRequest<'static> {
+    EffectRequest {
+        effect: effects::find(effect).expect("a row names effects"),
+        method,
+        subject: None,
+    }
+}
+
+/// The function of an effect that asks for R in this way, by a method.
+fn function(
+    effect: &str,
+    method: &'static Method,
+    asked: Reflectance,
+    is_scalar: bool,
+) -> Result<Emitted, emit::Error> {
+    let functions = request(effect, method).functions(&Naming::default())?;
+    let mut found = functions.into_iter().filter(|emitted| {
+        let own = emitted.effect.map(|part| part.function.reflectance);
+        own == Some(asked) && (emitted.form == FunctionForm::Scalar) == is_scalar
+    });
+    Ok(found.next().expect("every method has this form"))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_block_has_room_for_the_inputs_of_every_method() {
+        for method in methods::ALL {
+            assert!(method.inputs.len() <= INPUTS, "{}", method.name);
+        }
+    }
+}

@@ -1,0 +1,223 @@
+//! The truth: rays followed through a body in f64, by Snell's and Fresnel's laws alone. Nothing here is generated, and no graph is
+//! evaluated: what the effects are held against is written a second time.
+
+use glam::DVec3;
+
+use crate::physics::num::in_parallel;
+use crate::physics::optics;
+
+use super::body::Body;
+use super::camera::Camera;
+use super::environment::Environment;
+use super::glass::Glass;
+use super::relief::Relief;
+use super::room::room_radiance;
+
+/// How far light is followed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Paths {
+    /// Until a ten-thousandth is left, or 64 reflections inside.
+    All,
+    /// What is refracted once is taken as outside.
+    OneSurface,
+    /// What meets the second surface is refracted, or where it is reflected totally taken as outside after that.
+    TwoSurfaces,
+    /// What is reflected outside; nothing enters.
+    Mirror,
+}
+
+/// What a sample shows.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Traced {
+    /// Radiance by the first of both kinds of paths.
+    pub colour: DVec3,
+    /// By the second.
+    pub own: DVec3,
+    /// Whether it shows the body.
+    pub is_body: bool,
+    /// Whether the middle one of the rays inside is reflected totally where it first meets the surface.
+    pub is_total: bool,
+}
+
+/// What there is.
+#[derive(Clone, Copy, Debug)]
+pub struct Things<'a> {
+    /// The body.
+    pub body: &'a Body,
+    /// What it is made of.
+    pub glass: &'a Glass,
+    /// What is around it.
+    pub around: Around<'a>,
+    /// Dents of its surface, outside and inside, where it is a ball.
+    pub relief: Option<&'a Relief>,
+}
+
+/// What is around a body.
+#[derive(Clone, Copy, Debug)]
+pub enum Around<'a> {
+    /// Radiance by direction alone.
+    Far(&'a Environment),
+    /// The room.
+    Room,
+}
+
+impl Around<'_> {
+    /// What comes to a place along a direction that points away from it.
+    pub(super) fn radiance(&self, place: DVec3, direction: DVec3) -> DVec3 {
+        match self {
+            Around::Far(environment) => environment.radiance(direction),
+            Around::Room => room_radiance(place, direction),
+        }
+    }
+}
+
+/// What is seen of it.
+struct Scene<'a> {
+    things: Things<'a>,
+    paths: [Paths; 2],
+}
+
+const MOST_REFLECTIONS: usize = 64;
+const LEAST: f64 = 1e-4;
+
+/// A square picture of so many samples a side, row after row, by two kinds of paths at once. `progress` hears how many rows are done.
+pub fn trace(
+    things: Things,
+    camera: &Camera,
+    side: usize,
+    paths: [Paths; 2],
+    progress: &mut dyn FnMut(u64, u64),
+) -> Vec<Traced> {
+    let scene = Scene { things, paths };
+    let at = |i: usize| (i as f64 + 0.5) / side as f64;
+    let row = |row: usize| -> Vec<Traced> {
+        let sample = |column| scene.seen(camera.eye, camera.direction(at(column), at(row)));
+        (0..side).map(sample).collect()
+    };
+    in_parallel(side, &row, progress).concat()
+}
+
+impl Scene<'_> {
+    /// What a ray from the eye shows.
+    fn seen(&self, eye: DVec3, direction: DVec3) -> Traced {
+        let (glass, around) = (self.things.glass, self.things.around);
+        match *self.things.body {
+            Body::Pool(pool) => pool.seen(glass, around, eye, direction),
+            Body::Window(window) => window.seen(glass, around, eye, direction),
+            Body::Ball | Body::Gem(_) => self.convex(eye, direction),
+        }
+    }
+
+    /// The same of a convex body.
+    fn convex(&self, eye: DVec3, direction: DVec3) -> Traced {
+        let crossing = self.things.body.crossing(eye, direction);
+        let Some(crossing) = crossing.filter(|crossing| crossing.entry.0 > 0.0) else {
+            let colour = self.things.around.radiance(eye, direction);
+            return Traced {
+                colour,
+                own: colour,
+                ..Traced::default()
+            };
+        };
+        let (distance, normal) = crossing.entry;
+        let place = eye + distance * direction;
+        let normal = self.dented(normal);
+        let cosine = (-direction.dot(normal)).clamp(0.0, 1.0);
+        let mirrored = self
+            .things
+            .around
+            .radiance(place, mirrored(direction, normal));
+        let mut seen = Traced {
+            is_body: true,
+            ..Traced::default()
+        };
+        let middle = self.things.glass.rays.len() / 2;
+        for (i, ray) in self.things.glass.rays.iter().enumerate() {
+            let r = optics::conductor(ray.index.n, ray.index.k, cosine).unpolarised();
+            let mut colours = [r * mirrored; 2];
+            if self.paths != [Paths::Mirror; 2] {
+                let bent = refracted(direction, normal, ray.index.n);
+                let (inside, is_total) = bent.map_or(([DVec3::ZERO; 2], false), |inside| {
+                    self.inside(place, inside, ray.index.n)
+                });
+                let all = colours.iter_mut().zip(inside);
+                all.for_each(|(colour, inside)| *colour += (1.0 - r) * inside);
+                seen.is_total |= i == middle && is_total;
+            }
+            seen.colour += ray.weight * colours[0];
+            seen.own += ray.weight * colours[1];
+        }
+        seen
+    }
+
+    /// The normal as dents turn it.
+    fn dented(&self, normal: DVec3) -> DVec3 {
+        let relief = self.things.relief;
+        relief.map_or(normal, |relief| relief.on_ball(normal))
+    }
+
+    /// What comes along a ray inside by both kinds of paths, and whether it is reflected totally at first.
+    fn inside(&self, place: DVec3, direction: DVec3, n: f64) -> ([DVec3; 2], bool) {
+        let goes_on = |paths: &Paths| matches!(paths, Paths::All | Paths::TwoSurfaces);
+        let (two, all, is_total) = match self.paths.iter().any(goes_on) {
+            true => self.beyond(place, direction, n),
+            false => (DVec3::ZERO, DVec3::ZERO, false),
+        };
+        let by = |paths: Paths| match paths {
+            Paths::All => all,
+            Paths::TwoSurfaces => two,
+            Paths::OneSurface => self.things.around.radiance(place, direction),
+            Paths::Mirror => DVec3::ZERO,
+        };
+        (self.paths.map(by), is_total)
+    }
+
+    /// What comes through the second surface alone, what comes through all, and whether the ray is reflected totally at the second.
+    fn beyond(&self, mut place: DVec3, mut direction: DVec3, n: f64) -> (DVec3, DVec3, bool) {
+        let (mut two, mut all, mut left, mut is_total) = (DVec3::ZERO, DVec3::ZERO, 1.0, false);
+        for turn in 0..MOST_REFLECTIONS {
+            let Some(crossing) = self.things.body.crossing(place, direction) else {
+                break;
+            };
+            let (distance, smooth) = crossing.exit;
+            let normal = self.dented(smooth);
+            place += distance * direction;
+            let r = optics::dielectric(1.0 / n, direction.dot(normal).clamp(0.0, 1.0));
+            let r = r.unpolarised();
+            let out = refracted(direction, -normal, 1.0 / n);
+            let bounced = mirrored(direction, normal);
+            // Where a dent would send the ray out of the body, the smooth surface keeps it inside.
+            direction = match bounced.dot(smooth) < 0.0 {
+                true => bounced,
+                false => mirrored(direction, smooth),
+            };
+            if let Some(out) = out {
+                all += left * (1.0 - r) * self.things.around.radiance(place, out);
+            }
+            if turn == 0 {
+                is_total = out.is_none();
+                two = match is_total {
+                    true => self.things.around.radiance(place, direction),
+                    false => all,
+                };
+            }
+            left *= r;
+            if left < LEAST || !self.paths.contains(&Paths::All) {
+                break;
+            }
+        }
+        (two, all, is_total)
+    }
+}
+
+/// The mirror's law.
+pub(super) fn mirrored(direction: DVec3, normal: DVec3) -> DVec3 {
+    direction - 2.0 * direction.dot(normal) * normal
+}
+
+/// Snell's law: the part along the surface is divided by the index. None past the critical angle.
+pub(super) fn refracted(direction: DVec3, normal: DVec3, eta: f64) -> Option<DVec3> {
+    let along = (direction - direction.dot(normal) * normal) / eta;
+    let rest = 1.0 - along.length_squared();
+    (rest > 0.0).then(|| along - rest.sqrt() * normal)
+}
